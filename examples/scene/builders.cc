@@ -17,23 +17,22 @@ void Dress(const Material& material, Surface* surface) {
 
 }  // namespace
 
-Surface Ellipsoid(double cx, double cy, double cd, double rx, double ry, double rd,
-                  const Material& material) {
+Surface Ellipsoid(const Position& centre, const Radii& radii, const Material& material) {
   Surface surface;
   surface.shape = Shape::kEllipsoid;
-  surface.cx = cx;
-  surface.cy = cy;
-  surface.cd = cd;
-  surface.rx = rx;
-  surface.ry = ry;
-  surface.rd = rd;
+  surface.cx = centre.x;
+  surface.cy = centre.y;
+  surface.cd = centre.d;
+  surface.rx = radii.x;
+  surface.ry = radii.y;
+  surface.rd = radii.d;
   Dress(material, &surface);
   return surface;
 }
 
-Surface Piece(Outline outline, double cx, double cy, double cd, double rx, double ry,
+Surface Piece(Outline outline, const Position& centre, const Radii& radii,
               const Material& material) {
-  Surface surface = Ellipsoid(cx, cy, cd, rx, ry, 0, material);
+  Surface surface = Ellipsoid(centre, radii, material);
   surface.shape = Shape::kPlane;
   surface.outline = outline;
   return surface;
@@ -46,19 +45,19 @@ Surface Turned(Surface surface, double dx, double dy) {
   return surface;
 }
 
-Surface Wire(double x0, double y0, double d0, double x1, double y1, double d1, double radius,
-             const Material& material) {
-  const double dx = x1 - x0, dy = y1 - y0, square = dx * dx + dy * dy;
-  Surface wire = Piece(Outline::kBox, 0.5 * (x0 + x1), 0.5 * (y0 + y1), 0.5 * (d0 + d1),
-                       0.5 * std::sqrt(square), radius, material);
-  wire.slope_x = (d1 - d0) * dx / square;
-  wire.slope_y = (d1 - d0) * dy / square;
+Surface Wire(const Position& from, const Position& to, double radius, const Material& material) {
+  const double dx = to.x - from.x, dy = to.y - from.y, square = dx * dx + dy * dy;
+  const Position middle = {0.5 * (from.x + to.x), 0.5 * (from.y + to.y), 0.5 * (from.d + to.d)};
+  Surface wire = Piece(Outline::kBox, middle, {0.5 * std::sqrt(square), radius}, material);
+  wire.slope_x = (to.d - from.d) * dx / square;
+  wire.slope_y = (to.d - from.d) * dy / square;
   return Turned(wire, dx, dy);
 }
 
-Surface Leaf(double cx, double cy, double cd, double dx, double dy, double length, double width,
+Surface Leaf(const Position& centre, const Point& direction, double length, double width,
              double rise, const Material& material) {
-  Surface leaf = Turned(Piece(Outline::kLeaf, cx, cy, cd, length, width, material), dx, dy);
+  Surface leaf =
+      Turned(Piece(Outline::kLeaf, centre, {length, width}, material), direction.x, direction.y);
   leaf.slope_x = rise / length * leaf.ax;
   leaf.slope_y = rise / length * leaf.ay;
   return leaf;

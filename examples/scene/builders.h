@@ -14,22 +14,30 @@ struct Material {
   uint32_t seed = 0;
 };
 
-Surface Ellipsoid(double cx, double cy, double cd, double rx, double ry, double rd,
-                  const Material& material);
+// A position: scene x and y, and disparity.
+struct Position {
+  double x, y, d;
+};
+
+// Radii along the axes of a Position.
+struct Radii {
+  double x, y, d = 0;
+};
+
+Surface Ellipsoid(const Position& centre, const Radii& radii, const Material& material);
 
 // A plane piece; for Outline::kNone the radii do not matter.
-Surface Piece(Outline outline, double cx, double cy, double cd, double rx, double ry,
+Surface Piece(Outline outline, const Position& centre, const Radii& radii,
               const Material& material);
 
 // Turns the local x axis towards (dx, dy), which need not be a unit vector.
 Surface Turned(Surface surface, double dx, double dy);
 
-// A flat wire of half width `radius` from (x0, y0, d0) to (x1, y1, d1).
-Surface Wire(double x0, double y0, double d0, double x1, double y1, double d1, double radius,
-             const Material& material);
+// A flat wire of half width `radius` from one position to another.
+Surface Wire(const Position& from, const Position& to, double radius, const Material& material);
 
-// A leaf with its tip in the direction (dx, dy) from its middle; d grows by `rise` to the tip.
-Surface Leaf(double cx, double cy, double cd, double dx, double dy, double length, double width,
+// A leaf with its tip in `direction` from its middle; d grows by `rise` to the tip.
+Surface Leaf(const Position& centre, const Point& direction, double length, double width,
              double rise, const Material& material);
 
 // Strands as one surface.

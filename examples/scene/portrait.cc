@@ -16,13 +16,13 @@ void AddHead(LayeredDepth* out) {
   const Material skin = {PaintSkin, {244, 188, 156}, {226, 160, 128}, 1, 12};
   const Material neck = {PaintSkin, {170, 116, 92}, {146, 92, 72}, 1, 17};
   const Material hair = {PaintHair, {58, 28, 16}, {186, 104, 50}, 1, 13};
-  out->push_back(Ellipsoid(kX, 112, 4.6, 60, 100, 1.2, neck));
-  out->push_back(Ellipsoid(kX, -38, 6, 104, 134, 2.2, face));
-  out->push_back(Ellipsoid(kX, -10, 7.7, 17, 30, 0.95, skin));
+  out->push_back(Ellipsoid({kX, 112, 4.6}, {60, 100, 1.2}, neck));
+  out->push_back(Ellipsoid({kX, -38, 6}, {104, 134, 2.2}, face));
+  out->push_back(Ellipsoid({kX, -10, 7.7}, {17, 30, 0.95}, skin));
   for (double side : {-1.0, 1.0}) {
-    out->push_back(Ellipsoid(kX + side * 92, -4, 5.7, 38, 122, 1.5, hair));
-    out->push_back(Ellipsoid(kX + side * 104, 70, 5.5, 34, 84, 1.3, hair));
-    out->push_back(Ellipsoid(kX + side * 13, 10, 7.75, 11, 9, 0.6, skin));
+    out->push_back(Ellipsoid({kX + side * 92, -4, 5.7}, {38, 122, 1.5}, hair));
+    out->push_back(Ellipsoid({kX + side * 104, 70, 5.5}, {34, 84, 1.3}, hair));
+    out->push_back(Ellipsoid({kX + side * 13, 10, 7.75}, {11, 9, 0.6}, skin));
   }
 }
 
@@ -32,14 +32,14 @@ void AddEyes(LayeredDepth* out) {
   const Material rim = {PaintTwist, {46, 24, 18}, {150, 84, 40}, 0.6, 16};
   for (double side : {-1.0, 1.0}) {
     const double x = kX + side * 41;
-    out->push_back(Ellipsoid(x, -40, 7.55, 20, 15, 0.55, eye));
-    out->push_back(Turned(Ellipsoid(x, -76, 7.6, 27, 6.5, 0.5, brow), 1, side * 0.16));
-    Surface ring = Piece(Outline::kRing, x, -38, 8.45, 36, 33, rim);
+    out->push_back(Ellipsoid({x, -40, 7.55}, {20, 15, 0.55}, eye));
+    out->push_back(Turned(Ellipsoid({x, -76, 7.6}, {27, 6.5, 0.5}, brow), 1, side * 0.16));
+    Surface ring = Piece(Outline::kRing, {x, -38, 8.45}, {36, 33}, rim);
     ring.thickness = 4;
     out->push_back(ring);
-    out->push_back(Wire(x + side * 34, -44, 8.45, x + side * 62, -48, 6.4, 2.6, rim));
+    out->push_back(Wire({x + side * 34, -44, 8.45}, {x + side * 62, -48, 6.4}, 2.6, rim));
   }
-  out->push_back(Wire(kX - 7, -44, 8.46, kX + 7, -44, 8.46, 2.4, rim));
+  out->push_back(Wire({kX - 7, -44, 8.46}, {kX + 7, -44, 8.46}, 2.4, rim));
 }
 
 void AddClothes(LayeredDepth* out) {
@@ -49,23 +49,23 @@ void AddClothes(LayeredDepth* out) {
   const Material coat = {PaintTweed, {70, 72, 84}, {148, 146, 146}, 1.1, 24};
   const Material scarf = {PaintKnit, {44, 104, 116}, {224, 172, 66}, 1.25, 25};
   const Material button = {PaintMatter, {96, 56, 30}, {170, 112, 64}, 0.8, 26};
-  out->push_back(Ellipsoid(kX, -142, 5.9, 116, 112, 2.35, hat));
-  out->push_back(Ellipsoid(kX, -116, 6.1, 120, 36, 2.5, brim));
-  out->push_back(Ellipsoid(kX + 6, -268, 5.9, 46, 44, 1.3, pompom));
-  out->push_back(Ellipsoid(kX, 420, 5.2, 290, 250, 2.6, coat));
-  out->push_back(Ellipsoid(kX - 190, 400, 5, 110, 190, 2.2, coat));
-  out->push_back(Ellipsoid(kX + 190, 400, 5, 110, 190, 2.2, coat));
-  out->push_back(Turned(Ellipsoid(kX, 158, 6, 132, 44, 2.1, scarf), 1, 0.06));
-  out->push_back(Turned(Ellipsoid(kX, 190, 6.2, 118, 36, 2.1, scarf), 1, -0.1));
-  out->push_back(Turned(Ellipsoid(kX + 66, 292, 6.9, 44, 118, 1.6, scarf), 1, 0.12));
+  out->push_back(Ellipsoid({kX, -142, 5.9}, {116, 112, 2.35}, hat));
+  out->push_back(Ellipsoid({kX, -116, 6.1}, {120, 36, 2.5}, brim));
+  out->push_back(Ellipsoid({kX + 6, -268, 5.9}, {46, 44, 1.3}, pompom));
+  out->push_back(Ellipsoid({kX, 420, 5.2}, {290, 250, 2.6}, coat));
+  out->push_back(Ellipsoid({kX - 190, 400, 5}, {110, 190, 2.2}, coat));
+  out->push_back(Ellipsoid({kX + 190, 400, 5}, {110, 190, 2.2}, coat));
+  out->push_back(Turned(Ellipsoid({kX, 158, 6}, {132, 44, 2.1}, scarf), 1, 0.06));
+  out->push_back(Turned(Ellipsoid({kX, 190, 6.2}, {118, 36, 2.1}, scarf), 1, -0.1));
+  out->push_back(Turned(Ellipsoid({kX + 66, 292, 6.9}, {44, 118, 1.6}, scarf), 1, 0.12));
   for (double y : {262.0, 330.0}) {
-    out->push_back(Ellipsoid(kX - 24, y, 7.5, 13, 13, 0.5, button));
+    out->push_back(Ellipsoid({kX - 24, y, 7.5}, {13, 13, 0.5}, button));
   }
 }
 
 void AddTable(LayeredDepth* out) {
   const Material wood = {PaintWood, {142, 88, 48}, {88, 48, 24}, 1, 31};
-  Surface table = Piece(Outline::kBox, 0, 430, 5.2, 3000, 210, wood);
+  Surface table = Piece(Outline::kBox, {0, 430, 5.2}, {3000, 210}, wood);
   table.slope_y = 0.05;
   out->push_back(table);
 }
@@ -76,11 +76,11 @@ void AddPlant(LayeredDepth* out) {
   const Material stem = {PaintTwist, {60, 92, 40}, {96, 134, 58}, 2, 43};
   const double x = 268, d = -0.6;
   const Material mat = {PaintMatter, {62, 26, 22}, {112, 52, 38}, 0.7, 44};
-  Surface coaster = Piece(Outline::kEllipse, x + 8, 304, -1.05, 104, 24, mat);
+  Surface coaster = Piece(Outline::kEllipse, {x + 8, 304, -1.05}, {104, 24}, mat);
   coaster.slope_y = 0.05;
   out->push_back(coaster);
-  out->push_back(Ellipsoid(x, 232, d, 84, 80, 1.7, pot));
-  out->push_back(Ellipsoid(x, 158, d, 62, 13, 1.2, rim));
+  out->push_back(Ellipsoid({x, 232, d}, {84, 80, 1.7}, pot));
+  out->push_back(Ellipsoid({x, 158, d}, {62, 13, 1.2}, rim));
   struct Branch {
     double x, y, rise, length, width;
     Color color;
@@ -95,10 +95,11 @@ void AddPlant(LayeredDepth* out) {
   for (const Branch& branch : branches) {
     const double tip = d + branch.rise;
     const Material leaf = {PaintLeaf, branch.color, {192, 214, 132}, 1, seed++};
-    out->push_back(Wire(x + 0.1 * branch.x, 156, d, x + 0.7 * branch.x, 96 + 0.62 * branch.y,
-                        d + 0.5 * branch.rise, 2.6, stem));
-    out->push_back(Leaf(x + branch.x, 60 + branch.y, tip, branch.x, branch.y - 50, branch.length,
-                        branch.width, 0.5, leaf));
+    out->push_back(Wire({x + 0.1 * branch.x, 156, d},
+                        {x + 0.7 * branch.x, 96 + 0.62 * branch.y, d + 0.5 * branch.rise}, 2.6,
+                        stem));
+    out->push_back(Leaf({x + branch.x, 60 + branch.y, tip}, {branch.x, branch.y - 50},
+                        branch.length, branch.width, 0.5, leaf));
   }
 }
 
@@ -115,25 +116,25 @@ void AddBooks(LayeredDepth* out) {
   uint32_t seed = 70;
   for (const Book& book : books) {
     const Material cover = {PaintBook, book.color, book.letters, 1, seed++};
-    out->push_back(
-        Piece(Outline::kBox, book.x, bottom - book.height, -1.2, book.width, book.height, cover));
+    out->push_back(Piece(Outline::kBox, {book.x, bottom - book.height, -1.2},
+                         {book.width, book.height}, cover));
     bottom -= 2 * book.height + 1;
   }
   const Material apple = {PaintMatter, {196, 48, 40}, {226, 168, 70}, 3, 80};
-  out->push_back(Ellipsoid(-436, bottom - 36, -1.3, 40, 38, 1.1, apple));
-  out->push_back(Wire(-436, bottom - 66, -0.9, -428, bottom - 92, -0.7, 2.6,
+  out->push_back(Ellipsoid({-436, bottom - 36, -1.3}, {40, 38, 1.1}, apple));
+  out->push_back(Wire({-436, bottom - 66, -0.9}, {-428, bottom - 92, -0.7}, 2.6,
                       {PaintTwist, {70, 44, 24}, {110, 76, 40}, 1, 81}));
 }
 
 void AddWall(LayeredDepth* out) {
   const Material paper = {PaintWallpaper, {34, 62, 74}, {112, 132, 112}, 1, 90};
-  Surface wall = Piece(Outline::kNone, 0, 0, kWall, 0, 0, paper);
+  Surface wall = Piece(Outline::kNone, {0, 0, kWall}, {0, 0}, paper);
   wall.slope_x = 0.0008;
   out->push_back(wall);
   const Material picture = {PaintLandscape, {120, 82, 34}, {222, 178, 92}, 1, 91};
   const Material second = {PaintLandscape, {64, 42, 28}, {150, 104, 66}, 1, 95};
-  out->push_back(Piece(Outline::kBox, 190, -205, kWall + 0.4, 104, 82, picture));
-  out->push_back(Piece(Outline::kBox, -420, -60, kWall + 0.3, 66, 84, second));
+  out->push_back(Piece(Outline::kBox, {190, -205, kWall + 0.4}, {104, 82}, picture));
+  out->push_back(Piece(Outline::kBox, {-420, -60, kWall + 0.3}, {66, 84}, second));
 }
 
 // Fairy lights on a sagging cord; out of focus they become discs of the aperture's shape.
@@ -146,9 +147,9 @@ void AddLights(LayeredDepth* out) {
     const double next_x = -560 + 52 * i;
     const double sag = (i % 11) / 11.0;
     const double next_y = -300 + 250 * sag * (1 - sag) - 20 * (i / 11);
-    out->push_back(Wire(x, y, d, next_x, next_y, d, 1.8, cord));
+    out->push_back(Wire({x, y, d}, {next_x, next_y, d}, 1.8, cord));
     const Material bulb = {PaintBulb, colors[i % 4], {}, 1, 110u + uint32_t(i)};
-    out->push_back(Ellipsoid(next_x, next_y + 12, d + 0.05, 9, 11, 0.2, bulb));
+    out->push_back(Ellipsoid({next_x, next_y + 12, d + 0.05}, {9, 11, 0.2}, bulb));
     x = next_x;
     y = next_y;
   }

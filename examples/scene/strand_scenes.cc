@@ -79,9 +79,9 @@ Scene MakeHair(uint32_t seed) {
   scene.description = "900 strands 0.5 to 1.5 units thick, on a ball before a far wall";
   scene.seeded = true;
   std::vector<Surface>* out = &scene.surfaces;
-  out->push_back(Piece(Outline::kNone, 0, 0, -11.4, 0, 0,
+  out->push_back(Piece(Outline::kNone, {0, 0, -11.4}, {0, 0},
                        {PaintClouds, {196, 220, 230}, {168, 142, 156}, 3.4, 501}));
-  out->push_back(Ellipsoid(kHead.x, kHead.y, 9, kHeadRadius, kHeadRadius, 5.5,
+  out->push_back(Ellipsoid({kHead.x, kHead.y, 9}, {kHeadRadius, kHeadRadius, 5.5},
                            {PaintChecker, {224, 158, 120}, {150, 92, 70}, 0.9, 502}));
   out->back().foreground = true;
   std::vector<Strand> strands;
@@ -98,12 +98,12 @@ Scene MakeGrass(uint32_t seed) {
   scene.description = "600 blades 1 to 4 units thick, dense on the left, before a far wall";
   scene.seeded = true;
   std::vector<Surface>* out = &scene.surfaces;
-  Surface wall = Piece(Outline::kNone, 0, 0, -9, 0, 0,
+  Surface wall = Piece(Outline::kNone, {0, 0, -9}, {0, 0},
                        {PaintMatter, {120, 146, 190}, {232, 228, 214}, 6, 601});
   wall.slope_y = 0.003;
   out->push_back(wall);
-  out->push_back(
-      Ellipsoid(330, 300, 8.5, 100, 80, 3, {PaintMatter, {150, 140, 128}, {84, 80, 78}, 1.5, 602}));
+  out->push_back(Ellipsoid({330, 300, 8.5}, {100, 80, 3},
+                           {PaintMatter, {150, 140, 128}, {84, 80, 78}, 1.5, 602}));
   out->back().foreground = true;
   std::vector<Strand> strands;
   for (int i = 0; i < 600; ++i) strands.push_back(Blade(i, Dice(i, seed)));

@@ -175,7 +175,7 @@ TEST_CASE("scene: tiny pictures and every pixel finite") {
 }
 
 TEST_CASE("scene: rays meet planes and ellipsoids where algebra says") {
-  Surface plane = Piece(Outline::kNone, 10, 20, 3, 0, 0, {});
+  Surface plane = Piece(Outline::kNone, {10, 20, 3}, {0, 0}, {});
   plane.slope_x = 0.1;
   plane.slope_y = -0.2;
   const Ray ray = {4, -7, 0.6, -0.8};
@@ -185,7 +185,7 @@ TEST_CASE("scene: rays meet planes and ellipsoids where algebra says") {
   CHECK(hit.x == doctest::Approx(4 + 0.6 * hit.d));
   CHECK(hit.y == doctest::Approx(-7 - 0.8 * hit.d));
 
-  const Surface ball = Turned(Ellipsoid(1, 2, 4, 30, 20, 5, {}), 3, 4);
+  const Surface ball = Turned(Ellipsoid({1, 2, 4}, {30, 20, 5}, {}), 3, 4);
   REQUIRE(Intersect(ball, {1, 2, 0, 0}, &hit));
   CHECK(hit.d == doctest::Approx(9));
   CHECK(hit.nz == doctest::Approx(1));

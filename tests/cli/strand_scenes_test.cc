@@ -145,7 +145,7 @@ TEST_CASE("strand scenes: coverage agrees with the map") {
 TEST_CASE("strand scenes: coverage is the area of a half plane") {
   Scene scene;
   // A bar with its left rim at x = 0.3 canvas units: here pixels.
-  scene.surfaces.push_back(Piece(Outline::kBox, 100.3, 0, 5, 100, 1000, {}));
+  scene.surfaces.push_back(Piece(Outline::kBox, {100.3, 0, 5}, {100, 1000}, {}));
   scene.surfaces.back().foreground = true;
   ThreadRunner runner(1);
   const RayTracer tracer(scene, 1024, 768, SF_TRANSFER_NONE, &runner);

@@ -182,8 +182,7 @@ Error Run(const ViewOptions& options) {
   if (!error) error = ChooseLenses(capture, stats, &aperture, &contents);
   if (error) return error;
   stats.invalid = known.invalid;  // of the map as it is; its holes are filled
-  error = RefocusEach(options.input.path, light_field, stats, TransferOf(options.input.path),
-                      threads, contents.lenses,
+  error = RefocusEach(options.input.path, light_field, stats, threads, contents.lenses,
                       [&](size_t i, const Image& picture, const std::vector<sf_block>& blocks) {
                         return ShowPicture(i, picture, blocks, &contents);
                       });

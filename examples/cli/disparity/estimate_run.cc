@@ -36,11 +36,18 @@ struct Maker {
 
 using Bytes = std::vector<uint8_t>;
 
-// Estimates the map, or repairs the given one unless that is null. `confidence` and `coverage` may
-// be null; there may be no coverage.
+// Where a map goes. `confidence` and `coverage` may be null; there may be no coverage.
+struct MadeMap {
+  FloatMap* map;
+  Bytes* confidence;
+  Bytes* coverage;
+};
+
+// Estimates the map, or repairs the given one unless that is null.
 Error MakeMap(const std::string& where, const Images& views, const FloatMap* given,
-              const DisparityRange& range, Maker* maker, FloatMap* map, Bytes* confidence,
-              Bytes* coverage = nullptr) {
+              const DisparityRange& range, Maker* maker, const MadeMap& made) {
+  FloatMap* const map = made.map;
+  Bytes *const confidence = made.confidence, *const coverage = made.coverage;
   const Image& centre = views[0];
   const char* task = given == nullptr ? "estimate its disparities" : "repair its disparities";
   sf_depth_config config;
@@ -147,7 +154,8 @@ Error FindRange(const std::string& where, const LightField& light_field, int thr
   Maker maker(threads, "looking for the disparities");
   FloatMap map;
   Bytes confidence;
-  if (Error error = MakeMap(where, small, nullptr, {-most, most}, &maker, &map, &confidence))
+  if (Error error =
+          MakeMap(where, small, nullptr, {-most, most}, &maker, {&map, &confidence, nullptr}))
     return error;
   std::vector<float> sure;
   for (size_t i = 0; i < map.values.size(); ++i) {
@@ -168,7 +176,8 @@ Error EstimateDisparity(const std::string& where, const LightField& light_field,
   const Images views = StarOf(light_field);
   Maker maker(threads, "estimating disparities");
   Bytes confidence;
-  const Error error = MakeMap(where, views, nullptr, range, &maker, &estimate->map, &confidence);
+  const MadeMap made = {&estimate->map, &confidence, nullptr};
+  const Error error = MakeMap(where, views, nullptr, range, &maker, made);
   if (!error) estimate->confidence = DrawLevels(confidence, views[0]);
   return error;
 }
@@ -192,10 +201,9 @@ Error RepairDisparity(const std::string& where, int threads, bool covers, LightF
   Maker maker(threads, "repairing disparities");
   FloatMap map;
   Bytes sure;
-  if (Error error = MakeMap(where, StarOf(*light_field), &given, range, &maker, &map,
-                            confidence == nullptr ? nullptr : &sure,
-                            covers ? &light_field->coverage : nullptr))
-    return error;
+  const MadeMap made = {&map, confidence == nullptr ? nullptr : &sure,
+                        covers ? &light_field->coverage : nullptr};
+  if (Error error = MakeMap(where, StarOf(*light_field), &given, range, &maker, made)) return error;
   if (confidence != nullptr) *confidence = DrawLevels(sure, light_field->views[0]);
   light_field->disparity = std::move(map);
   return {};

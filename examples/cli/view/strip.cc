@@ -73,10 +73,10 @@ std::string TransferOf(const std::string& folder) {
 
 Error RefocusEach(
     const std::string& where, const LightField& light_field, const sf_disparity_stats& stats,
-    const std::string& transfer, int threads, const std::vector<LensAt>& lenses,
+    int threads, const std::vector<LensAt>& lenses,
     const std::function<Error(size_t, const Image&, const std::vector<sf_block>&)>& show) {
   LensOptions options;
-  options.transfer = transfer;
+  options.transfer = TransferOf(where);
   LensPlan plan;
   double max_blur = 1;
   if (Error error = PlanLens(options, &plan)) return error;

@@ -38,11 +38,11 @@ std::vector<TruthFile> FindTruths(const std::string& folder);
 // "none" where the folder's meta.txt says that pictures average codes, else "srgb".
 std::string TransferOf(const std::string& folder);
 
-// Refocuses by each of the lenses, whose blur is at most SF_MAX_BLUR, and shows the result with its
-// blocks.
+// Refocuses the light field of a folder or photo by each of the lenses, whose blur is at most
+// SF_MAX_BLUR, and shows the result with its blocks.
 Error RefocusEach(
     const std::string& where, const LightField& light_field, const sf_disparity_stats& stats,
-    const std::string& transfer, int threads, const std::vector<LensAt>& lenses,
+    int threads, const std::vector<LensAt>& lenses,
     const std::function<Error(size_t, const Image&, const std::vector<sf_block>&)>& show);
 
 }  // namespace starfocus

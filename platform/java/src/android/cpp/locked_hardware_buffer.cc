@@ -40,8 +40,7 @@ jobject BufferOf(JNIEnv* env, const AHardwareBuffer_Plane& plane, jlong width, j
 }  // namespace
 
 extern "C" JNIEXPORT jint JNICALL Java_dev_starfocus_android_LockedHardwareBuffer_lock(
-    JNIEnv* env, jclass, jobject object, jboolean written, jobjectArray buffers, jintArray strides,
-    jintArray format_and_pixel_stride) {
+    JNIEnv* env, jclass, jobject object, jboolean written, jobjectArray buffers, jintArray layout) {
   AHardwareBuffer* const buffer =
       object == nullptr ? nullptr : AHardwareBuffer_fromHardwareBuffer(env, object);
   AHardwareBuffer_Desc desc = {};
@@ -71,12 +70,12 @@ extern "C" JNIEXPORT jint JNICALL Java_dev_starfocus_android_LockedHardwareBuffe
         BufferOf(env, planes.planes[i], (jlong(desc.width) + half) >> half,
                  (jlong(desc.height) + half) >> half, half ? 1 : kind.pixel_bytes);
     const jint stride = static_cast<jint>(planes.planes[i].rowStride);
-    env->SetIntArrayRegion(strides, static_cast<jsize>(i), 1, &stride);
+    env->SetIntArrayRegion(layout, static_cast<jsize>(i), 1, &stride);
     env->SetObjectArrayElement(buffers, static_cast<jsize>(i), plane);
   }
   const jint described[] = {kind.format,
                             static_cast<jint>(planes.planes[is_yuv ? 1 : 0].pixelStride)};
-  env->SetIntArrayRegion(format_and_pixel_stride, 0, 2, described);
+  env->SetIntArrayRegion(layout, 3, 2, described);
   return static_cast<jint>(planes.planeCount);
 }
 

@@ -24,11 +24,10 @@ public final class LockedHardwareBuffer implements AutoCloseable {
   /** To be written where `written` is true, else to be read. */
   public LockedHardwareBuffer(HardwareBuffer buffer, boolean written) {
     final ByteBuffer[] planes = new ByteBuffer[3];
-    final int[] strides = new int[3], formatAndPixelStride = new int[2];
-    final int count = lock(buffer, written, planes, strides, formatAndPixelStride);
-    image = new Image(
-        formatAndPixelStride[0], Arrays.copyOf(planes, count), Arrays.copyOf(strides, count));
-    image.pixelStride = formatAndPixelStride[1];
+    final int[] layout = new int[5];
+    final int count = lock(buffer, written, planes, layout);
+    image = new Image(layout[3], Arrays.copyOf(planes, count), Arrays.copyOf(layout, count));
+    image.pixelStride = layout[4];
     image.range = Image.FULL;
     this.buffer = buffer;
   }
@@ -44,8 +43,9 @@ public final class LockedHardwareBuffer implements AutoCloseable {
     buffer = null;
   }
 
-  private static native int lock(HardwareBuffer buffer, boolean written, ByteBuffer[] planes,
-      int[] strides, int[] formatAndPixelStride);
+  /** Returns how many planes there are. `layout` becomes three strides, format and pixel stride. */
+  private static native int lock(
+      HardwareBuffer buffer, boolean written, ByteBuffer[] planes, int[] layout);
 
   private static native void unlock(HardwareBuffer buffer);
 }
