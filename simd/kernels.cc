@@ -21,7 +21,7 @@
 #include "simd/slices-inl.h"
 #include "simd/slope-inl.h"
 #include "simd/spans-inl.h"
-#include "simd/tiles-inl.h"
+#include "simd/strips-inl.h"
 
 #define STARFOCUS_LIST STARFOCUS_KERNELS
 #include "simd/table-inl.h"

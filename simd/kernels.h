@@ -22,7 +22,7 @@
 #include "simd/slices.h"
 #include "simd/slope.h"
 #include "simd/spans.h"
-#include "simd/tiles.h"
+#include "simd/strips.h"
 
 // All kernels. A kernel has one name: of its entry in the table, its reference, its vector code and
 // its test case. What this list names must exist under that name everywhere, or nothing compiles.

@@ -10,9 +10,9 @@
 namespace starfocus {
 namespace {
 
-constexpr int32_t kChunk = static_cast<int32_t>(simd::kSliceLanes);  // columns of a tile
+constexpr int32_t kChunk = static_cast<int32_t>(simd::kSliceLanes);  // columns of a strip
 
-// A rectangle, the slices of its cut under way, and where its picture goes: what sections share.
+// A rectangle, the slices of its tile under way, and where its picture goes: what sections share.
 struct Rectangle {
   const RenderJob* job;
   const SliceStack* stack;
@@ -27,7 +27,7 @@ int16_t* CentreRow(uint32_t* accumulators, int32_t width) {
   return reinterpret_cast<int16_t*>(accumulators) + 3 * static_cast<size_t>(width);
 }
 
-// A part of a cut of which slices are in memory.
+// A part of a tile of which slices are in memory.
 class Section {
  public:
   Section(const Rectangle& all, const Rect& rect)
@@ -35,17 +35,17 @@ class Section {
 
   // Returns the pixels that are rendered in each view, over all slices.
   uint64_t Refocus() {
-    int16_t* const tile_memory = PlaceSlices();
+    int16_t* const strip_memory = PlaceSlices();
     const uint64_t pixels = FindParts();
-    const TileJob job = {job_.kernels, &stack_,       planes_,    scratch_.weights,
-                         tile_memory,  scratch_.sums, job_.cancel};
+    const StripJob job = {job_.kernels, &stack_,       planes_,    scratch_.weights,
+                          strip_memory, scratch_.sums, job_.cancel};
     const SectionPart *part = scratch_.parts, *last = part + parts_;
     for (int32_t x = 0; x < rect_.width && GoesOn(job_.cancel, 0); x += kChunk) {
-      TileParts tile = {x, part, part};
-      while (tile.end < last && tile.end->x == x) ++tile.end;
-      part = tile.end;
-      if (tile.first < tile.end) CompositeTile(job, tile);
-      FinishTile(tile);
+      StripParts strip = {x, part, part};
+      while (strip.end < last && strip.end->x == x) ++strip.end;
+      part = strip.end;
+      if (strip.first < strip.end) CompositeStrip(job, strip);
+      FinishStrip(strip);
     }
     return pixels;
   }
@@ -114,14 +114,14 @@ class Section {
     return {cover.some & chunks, cover.all == chunks ? uint64_t{1} : 0};
   }
 
-  void FinishTile(const TileParts& tile) {
+  void FinishStrip(const StripParts& strip) {
     int32_t row = 0;
-    for (const SectionPart* part = tile.first; part < tile.end; ++part) {
-      ClearRows(tile.x, row, part->y);
+    for (const SectionPart* part = strip.first; part < strip.end; ++part) {
+      ClearRows(strip.x, row, part->y);
       row = part->y + part->rows;
-      FinishRows(tile.x, part->y, row);
+      FinishRows(strip.x, part->y, row);
     }
-    ClearRows(tile.x, row, rect_.height);
+    ClearRows(strip.x, row, rect_.height);
   }
 
   // Gives what no slice covers the colour of what covers the rest. A pixel that hardly any view
@@ -184,12 +184,13 @@ Rect LoadSurfaces(const RenderJob& job, CompositorScratch* scratch, uint32_t* ac
   return inner;
 }
 
-// Finds the slices of a cut, in pixels of the rectangle.
-void FindStack(const RenderJob& job, const Rect& cut, CompositorScratch* scratch,
+// Finds the slices of a tile, in pixels of the rectangle.
+void FindStack(const RenderJob& job, const Rect& tile, CompositorScratch* scratch,
                SliceStack* stack) {
   SliceRule rule = job.is_benchmark ? kFineSlices : kSlices;
   rule.area = MostSliceArea(job.r_max);
-  const Rect in_surfaces = {stack->inner.x + cut.x, stack->inner.y + cut.y, cut.width, cut.height};
+  const Rect in_surfaces = {stack->inner.x + tile.x, stack->inner.y + tile.y, tile.width,
+                            tile.height};
   const SliceJob slice_job = {job.kernels, &scratch->surfaces, job.grid,           rule,
                               in_surfaces, scratch->bins,      scratch->least_blur};
   stack->count = FindSlices(slice_job, stack->slices, &stack->bands);
@@ -205,23 +206,23 @@ int32_t RoundUp(int32_t size, int32_t least) { return (size + least - 1) / least
 // Bytes that sections of that size take of the pool.
 size_t PoolBytes(const SliceStack& stack, int32_t columns, int32_t rows) {
   const auto width = static_cast<size_t>(columns), height = static_cast<size_t>(rows);
-  size_t slices = 0, tiles = 0, filtered = 0;
+  size_t slices = 0, strips = 0, filtered = 0;
   for (int32_t k = 0; k < stack.count; ++k) {
     SlicePlane placed;
     PlaceSlice(*stack.grid, stack.slices[k].disparity, {0, 0, 0, 0}, &placed);
     const auto reach = static_cast<size_t>(placed.reach);
     slices += SliceBytes(width, height, reach);
-    tiles += TileBytes(height, reach);
+    strips += StripBytes(height, reach);
     const size_t plane = FilteredBytes(width, height, reach);
     if (plane > filtered) filtered = plane;
   }
-  return slices + (filtered > tiles ? filtered : tiles);
+  return slices + (filtered > strips ? filtered : strips);
 }
 
 // Returns the size of sections of which all slices fit into the pool: as wide as possible, and then
 // as high as possible.
-Rect ChooseSection(const SliceStack& stack, const Rect& cut, size_t pool_bytes) {
-  int32_t width = RoundUp(cut.width, kLeastColumns), height = RoundUp(cut.height, kLeastRows);
+Rect ChooseSection(const SliceStack& stack, const Rect& tile, size_t pool_bytes) {
+  int32_t width = RoundUp(tile.width, kLeastColumns), height = RoundUp(tile.height, kLeastRows);
   while (width > kLeastColumns && PoolBytes(stack, width, kLeastRows) > pool_bytes) {
     width -= kLeastColumns;
   }
@@ -229,15 +230,15 @@ Rect ChooseSection(const SliceStack& stack, const Rect& cut, size_t pool_bytes) 
   return {0, 0, width, height};
 }
 
-// Composites a cut by its slices. Returns the pixels that are rendered in each view, over all
+// Composites a tile by its slices. Returns the pixels that are rendered in each view, over all
 // slices.
-uint64_t CompositeCut(const Rectangle& all, const Rect& cut) {
-  const Rect largest = ChooseSection(*all.stack, cut, all.scratch->pool_bytes);
+uint64_t CompositeTile(const Rectangle& all, const Rect& tile) {
+  const Rect largest = ChooseSection(*all.stack, tile, all.scratch->pool_bytes);
   uint64_t pixels = 0;
-  for (int32_t y = 0; y < cut.height; y += largest.height) {
-    for (int32_t x = 0; x < cut.width && GoesOn(all.job->cancel, 0); x += largest.width) {
-      const Rect section = {cut.x + x, cut.y + y, Min(largest.width, cut.width - x),
-                            Min(largest.height, cut.height - y)};
+  for (int32_t y = 0; y < tile.height; y += largest.height) {
+    for (int32_t x = 0; x < tile.width && GoesOn(all.job->cancel, 0); x += largest.width) {
+      const Rect section = {tile.x + x, tile.y + y, Min(largest.width, tile.width - x),
+                            Min(largest.height, tile.height - y)};
       pixels += Section(all, section).Refocus();
     }
   }
@@ -254,14 +255,14 @@ uint64_t CompositeRectangle(const RenderJob& job, void* scratch, uint32_t* accum
   stack.inner = LoadSurfaces(job, memory, accumulators);
   const Rectangle all = {&job, &stack, memory, accumulators};
   uint64_t pixels = 0;
-  Rect cut = {0, 0, 0, 0};
-  for (; cut.y < job.rect.height; cut.y += cut.height) {
-    cut.height = SideOfCut(job.rect.height - cut.y);
-    for (cut.x = 0; cut.x < job.rect.width; cut.x += cut.width) {
-      cut.width = SideOfCut(job.rect.width - cut.x);
+  Rect tile = {0, 0, 0, 0};
+  for (; tile.y < job.rect.height; tile.y += tile.height) {
+    tile.height = SideOfTile(job.rect.height - tile.y);
+    for (tile.x = 0; tile.x < job.rect.width; tile.x += tile.width) {
+      tile.width = SideOfTile(job.rect.width - tile.x);
       if (!GoesOn(job.cancel, 0)) return 3 * pixels;
-      FindStack(job, cut, memory, &stack);
-      pixels += CompositeCut(all, cut);
+      FindStack(job, tile, memory, &stack);
+      pixels += CompositeTile(all, tile);
     }
   }
   return 3 * pixels;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The primitive of subapertures: one rectangle of the picture refocused, cut by cut, as a stack of
-// slices, which each view of the aperture shows moved against each other, the nearer in front of
+// The primitive of subapertures: one rectangle of the picture refocused, tile by tile, as a stack
+// of slices, which each view of the aperture shows moved against each other, the nearer in front of
 // the farther.
 #ifndef STARFOCUS_LIB_SLICES_COMPOSITOR_H_
 #define STARFOCUS_LIB_SLICES_COMPOSITOR_H_
@@ -12,14 +12,14 @@
 #include "lib/slices/depth_slices.h"
 #include "lib/slices/hidden_fill.h"
 #include "lib/slices/slice_plane.h"
-#include "lib/slices/tile.h"
+#include "lib/slices/strip.h"
 
 namespace starfocus {
 
 // Memory of one worker. E: largest side of an extended rectangle; N; G: the smaller of 2 N + 1 and
 // kGroupViews. What slices are cut from is made of the field, and they are made of surfaces when
 // the field is no longer needed: the pool may share its memory. So may `bins` and `least_blur`,
-// which each cut makes anew when the slices of the one before are no longer needed.
+// which each tile makes anew when the slices of the one before are no longer needed.
 struct CompositorScratch {
   int16_t* field_rgb;          // light: E rows of RgbStride(E)
   int16_t* field_disparity;    // E^2
@@ -29,37 +29,37 @@ struct CompositorScratch {
   int32_t* least_blur;         // E
   simd::SliceOffset* offsets;  // kMaxSlices (2 N + 1)
   int16_t* weights;            // G
-  SectionPart* parts;          // of a cut
-  uint32_t* sums;              // kPixelSums of the pixels of a tile
+  SectionPart* parts;          // of a tile
+  uint32_t* sums;              // kPixelSums of the pixels of a strip
   uint8_t* pool;               // slices of a section, their covers, and what LeastPool says
   size_t pool_bytes;           // at least LeastPool; with more, sections are larger
 };
 
-// The most bytes that a slice of the least section and its tile take for each pixel of SliceArea.
+// The most bytes that a slice of the least section and its strip take for each pixel of SliceArea.
 inline constexpr size_t kAreaBytes = 33;
 
-// The least bytes of a pool: slices of the least section and their tiles, for blur radii up to
-// `max_blur`. A plane is filtered where the tiles are afterwards, and may take more than the tile
+// The least bytes of a pool: slices of the least section and their strips, for blur radii up to
+// `max_blur`. A plane is filtered where the strips are afterwards, and may take more than the strip
 // of one slice.
 constexpr size_t LeastPool(double max_blur) {
   const auto reach = static_cast<size_t>(LargestSliceReach(max_blur));
   const size_t filtered = FilteredBytes(kLeastColumns, kLeastRows, reach);
-  const size_t tile = TileBytes(kLeastRows, reach);
+  const size_t strip = StripBytes(kLeastRows, reach);
   return kAreaBytes * static_cast<size_t>(MostSliceArea(max_blur)) +
-         (filtered > tile ? filtered - tile : 0);
+         (filtered > strip ? filtered - strip : 0);
 }
 
-// How many parts the largest cut of rectangles up to `side` has.
+// How many parts the largest tile of rectangles up to `side` has.
 constexpr size_t SectionParts(int32_t side) {
   constexpr size_t kRows = kLeastRows;
-  const auto rows = static_cast<size_t>(LargestCut(side));
+  const auto rows = static_cast<size_t>(LargestTile(side));
   return (rows + kRows - 1) / kRows * (simd::SliceSamples(rows) / simd::kSliceLanes);
 }
 
 // Fractional bits of what CompositeRectangle sums.
 inline constexpr int kCompositeBits = kMaxLightBits + kLightBits;
 
-// Renderer::render of slices: each cut of the rectangle has slices of its own, and the samples of
+// Renderer::render of slices: each tile of the rectangle has slices of its own, and the samples of
 // all slices count. `scratch`: a CompositorScratch.
 uint64_t CompositeRectangle(const RenderJob& job, void* scratch, uint32_t* accumulators);
 

@@ -52,21 +52,21 @@ class SliceFinder {
     bins_ = (range >> bin_bits_) + 1;
   }
 
-  // Finds what of the surfaces slices of the cut may be made of, from the first pixel of a band and
-  // of a chunk on.
+  // Finds what of the surfaces slices of the tile may be made of, from the first pixel of a band
+  // and of a chunk on.
   void FindAround() {
     const int64_t move = grid_.Move(grid_.n());
     const int32_t rim =
         Max(Abs(grid_.Shift(move, surfaces_.low)), Abs(grid_.Shift(move, surfaces_.high)));
     const int32_t reach = SliceReach(rim, kWidestSubaperture) + 1;
-    const Rect& cut = job_.cut;
-    around_.x = Max(cut.x - reach, 0) / kChunk * kChunk;
-    around_.y = Max(cut.y - reach, 0) / kBandRows * kBandRows;
-    around_.width = Min(cut.x + cut.width + reach, surfaces_.width) - around_.x;
-    around_.height = Min(cut.y + cut.height + reach, surfaces_.height) - around_.y;
+    const Rect& tile = job_.tile;
+    around_.x = Max(tile.x - reach, 0) / kChunk * kChunk;
+    around_.y = Max(tile.y - reach, 0) / kBandRows * kBandRows;
+    around_.width = Min(tile.x + tile.width + reach, surfaces_.width) - around_.x;
+    around_.height = Min(tile.y + tile.height + reach, surfaces_.height) - around_.y;
   }
 
-  // Marks the bins of a surface's pixels that may splat into the cut, at most a band at a time.
+  // Marks the bins of a surface's pixels that may splat into the tile, at most a band at a time.
   // Rows that hide nothing have no surface but the first.
   void Mark(int surface) {
     const auto has = [&](int32_t y) { return surface == 0 || surfaces_.hiding[y] != 0; };
@@ -97,7 +97,7 @@ class SliceFinder {
       const int32_t least = job_.least_blur[Beyond(pixels)];
       if (least == 0) {
         MarkPixels(surface, pixels, range.low, range.high);
-      } else {  // what is too sharp does not reach the cut
+      } else {  // what is too sharp does not reach the tile
         MarkPixels(surface, pixels, range.low, Min(range.high, grid_.focus - least));
         MarkPixels(surface, pixels, Max(range.low, grid_.focus + least), range.high);
       }
@@ -123,9 +123,9 @@ class SliceFinder {
     uint8_t* const bins = job_.bins;
     const int32_t* const least_blur = job_.least_blur;
     const int32_t base = base_, bits = bin_bits_, focus = grid_.focus;
-    const int32_t left = job_.cut.x - pixels.x, right = left + job_.cut.width - 1;
+    const int32_t left = job_.tile.x - pixels.x, right = left + job_.tile.width - 1;
     for (int32_t y = 0; y < pixels.height; ++y, disparity += surfaces_.stride) {
-      const int32_t in_column = Beyond({job_.cut.x, pixels.y + y, 1, 1});
+      const int32_t in_column = Beyond({job_.tile.x, pixels.y + y, 1, 1});
       ForEachBit(within[y], [=](int32_t k) {
         uint8_t& mark = bins[(disparity[k] - base) >> bits];
         if (mark != 0) return;
@@ -142,13 +142,13 @@ class SliceFinder {
 
   int32_t BinOf(int32_t disparity) const { return (disparity - base_) >> bin_bits_; }
 
-  // Returns how far the nearest of the pixels lies beyond the cut.
+  // Returns how far the nearest of the pixels lies beyond the tile.
   int32_t Beyond(const Rect& pixels) const {
-    const Rect& cut = job_.cut;
+    const Rect& tile = job_.tile;
     const int32_t x =
-        Max(cut.x - (pixels.x + pixels.width - 1), pixels.x - (cut.x + cut.width - 1));
+        Max(tile.x - (pixels.x + pixels.width - 1), pixels.x - (tile.x + tile.width - 1));
     const int32_t y =
-        Max(cut.y - (pixels.y + pixels.height - 1), pixels.y - (cut.y + cut.height - 1));
+        Max(tile.y - (pixels.y + pixels.height - 1), pixels.y - (tile.y + tile.height - 1));
     return Max(Max(x, y), 0);
   }
 
@@ -183,7 +183,7 @@ class SliceFinder {
           static_cast<int16_t>(Min(high + (span << bin_bits_) / kOverlapParts, INT16_MAX));
       slice.disparity = static_cast<int16_t>(low + (slice.high - low) / 2);
       SlicePlane placed;
-      PlaceSlice(grid_, slice.disparity, job_.cut, &placed);
+      PlaceSlice(grid_, slice.disparity, job_.tile, &placed);
       area += SliceArea(placed.reach);
       if (area > job_.rule.area) return 0;
     }

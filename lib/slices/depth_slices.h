@@ -21,13 +21,13 @@ struct SliceJob {
   const LayeredDepth* surfaces;
   const ViewGrid* grid;
   SliceRule rule;
-  Rect cut;             // in pixels of the surfaces
+  Rect tile;            // in pixels of the surfaces
   uint8_t* bins;        // kSliceBins
   int32_t* least_blur;  // largest side of surfaces: scratch
 };
 
 // Finds the slices, the nearest first, that hold all pixels of the surfaces that may splat into a
-// cut, and the disparities of the bands of the surfaces that FillSlice reads for it. Returns how
+// tile, and the disparities of the bands of the surfaces that FillSlice reads for it. Returns how
 // many slices, at most job.rule.most.
 int32_t FindSlices(const SliceJob& job, Slice* slices, SurfaceBands* bands);
 

@@ -54,7 +54,7 @@ struct LayeredDepth {
 // Rows of surfaces whose disparities are looked at together.
 inline constexpr int32_t kBandRows = 8;
 
-// The disparities of all surfaces of each band, around a cut.
+// The disparities of all surfaces of each band, around a tile.
 struct SurfaceBands {
   static constexpr int32_t kMost = kMaxChunks * static_cast<int32_t>(simd::kSliceLanes) / kBandRows;
   simd::DisparityRange ranges[kMost];

@@ -11,7 +11,7 @@
 
 namespace starfocus {
 
-// Number and thickness of the slices of a cut. Slices get coarser until both limits hold.
+// Number and thickness of the slices of a tile. Slices get coarser until both limits hold.
 struct SliceRule {
   int32_t most;  // number of slices
   // Pixels of the layer that a slice's disparities may lie apart at the aperture's rim, kShiftBits;
@@ -24,20 +24,22 @@ inline constexpr SliceRule kSlices = {16, 3 * kShiftOne / 8};
 inline constexpr SliceRule kFineSlices = {32, kShiftOne / 8};  // of the benchmark mode
 inline constexpr int32_t kMaxSlices = simd::kMaxSeen;
 
-// A cut is a part of a rectangle that has slices of its own. A whole large block has more
-// disparities than SliceRule::most slices are thin enough for. Cuts are kCutSide wide and high, but
-// the last one takes what is left up to kMaxCut: the 68 pixels that a layer has of a block, with
-// its margin, are one cut and not 64 and 4 pixels.
-inline constexpr int32_t kCutSide = 64;
-inline constexpr int32_t kMaxCut = 80;
+// A tile is a part of a rectangle that has slices of its own. A whole large block has more
+// disparities than SliceRule::most slices are thin enough for. Tiles are kSliceTile wide and high,
+// but the last one takes what is left up to kMostSliceTile: the 68 pixels that a layer has of a
+// block, with its margin, are one tile and not 64 and 4 pixels.
+inline constexpr int32_t kSliceTile = 64;
+inline constexpr int32_t kMostSliceTile = 80;
 
-// The side of the next cut of a rectangle of which `rest` pixels are left.
-constexpr int32_t SideOfCut(int32_t rest) { return rest <= kMaxCut ? rest : kCutSide; }
+// The side of the next tile of a rectangle of which `rest` pixels are left.
+constexpr int32_t SideOfTile(int32_t rest) { return rest <= kMostSliceTile ? rest : kSliceTile; }
 
-// The side of the largest cut of rectangles up to `side`.
-constexpr int32_t LargestCut(int32_t side) { return side < kMaxCut ? side : kMaxCut; }
+// The side of the largest tile of rectangles up to `side`.
+constexpr int32_t LargestTile(int32_t side) {
+  return side < kMostSliceTile ? side : kMostSliceTile;
+}
 
-// The least section of a cut that slices are made of.
+// The least section of a tile that slices are made of.
 inline constexpr int32_t kLeastColumns = static_cast<int32_t>(simd::kSliceLanes);
 inline constexpr int32_t kLeastRows = 8;
 

@@ -186,7 +186,7 @@ void FillSlice(const SliceInput& input, const Slice& slice, const Rect& rect, in
   if (placed.subaperture > kBoxSubaperture) Spread(input.kernels, filtered, placed);
 }
 
-void PlaceTile(const SlicePlane& placed, int32_t x, const RowRange& seen, ShiftedSlice* shifted) {
+void PlaceStrip(const SlicePlane& placed, int32_t x, const RowRange& seen, ShiftedSlice* shifted) {
   const uint64_t chunks = ChunksOf(placed, x);
   const int32_t top = seen.first, last_row = seen.last + 2 * placed.reach;
   const auto empty = [&](int32_t row) { return (placed.cover[row].some & chunks) == 0; };

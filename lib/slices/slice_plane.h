@@ -46,10 +46,10 @@ constexpr int32_t LargestSliceReach(double max_blur) {
 }
 
 // The area that a slice counts for, where `reach` is the pixels that it reaches beyond a small
-// section of a cut. It stands for the memory and the time that the slice takes.
+// section of a tile. It stands for the memory and the time that the slice takes.
 constexpr int32_t SliceArea(int32_t reach) { return (reach + 16) * (reach + 16); }
 
-// The most that SliceArea of all slices of a cut may sum to, for a lens with blur radii up to
+// The most that SliceArea of all slices of a tile may sum to, for a lens with blur radii up to
 // `blur` pixels: five slices with that blur, or with one of 32 pixels. It decides how finely a
 // picture is cut, and so its bytes. It follows from the lens alone, not from the memory there is or
 // from how slices are stored.
@@ -76,7 +76,7 @@ constexpr size_t SliceSize(size_t width, size_t height, size_t reach) {
   return 4 * (height + 2 * reach) * PlaneSamples(width, reach) + 2 * simd::kSliceLanes;
 }
 
-// Rows of it in a tile, with those that are read beyond the last.
+// Rows of it in a strip, with those that are read beyond the last.
 constexpr size_t ShiftedRows(size_t height, size_t reach) {
   return height + 2 * reach + simd::kRowsAhead;
 }
@@ -87,7 +87,7 @@ constexpr size_t CoverBytes(size_t rows) {
   return (rows + kAligned - 1) / kAligned * kAligned * sizeof(simd::SliceCover);
 }
 
-// Bytes of it and its covers, and of it in a tile with the marks of its rows.
+// Bytes of it and its covers, and of it in a strip with the marks of its rows.
 constexpr size_t SliceBytes(size_t width, size_t height, size_t reach) {
   return SliceSize(width, height, reach) * sizeof(int16_t) + CoverBytes(height + 2 * reach);
 }
@@ -95,7 +95,7 @@ constexpr size_t SliceBytes(size_t width, size_t height, size_t reach) {
 constexpr size_t FilteredBytes(size_t width, size_t height, size_t reach) {
   return (height + 2 * reach) * PlaneSamples(width, reach) * sizeof(int16_t);
 }
-constexpr size_t TileBytes(size_t height, size_t reach) {
+constexpr size_t StripBytes(size_t height, size_t reach) {
   return ShiftedRows(height, reach) * (4 * simd::kSliceLanes * sizeof(int16_t) + 1);
 }
 
@@ -120,9 +120,9 @@ struct SliceInput {
 void FillSlice(const SliceInput& input, const Slice& slice, const Rect& rect, int16_t* filtered,
                const SlicePlane& placed);
 
-// Rows of a slice in a tile, kSliceLanes columns of the rectangle, as a column of views shows them:
-// four planes, `plane` samples apart, and the mark of each row; kRowsAhead marks lie before the
-// first.
+// Rows of a slice in a strip, kSliceLanes columns of the rectangle, as a column of views shows
+// them: four planes, `plane` samples apart, and the mark of each row; kRowsAhead marks lie before
+// the first.
 struct ShiftedSlice {
   int16_t* samples = nullptr;
   int8_t* near = nullptr;
@@ -130,16 +130,16 @@ struct ShiftedSlice {
   RowRange filled = {0, 0};  // rows outside of these are empty in all views
 };
 
-// Chunks of a row (bits of SliceCover) that some view shows in the tile at column `x`.
+// Chunks of a row (bits of SliceCover) that some view shows in the strip at column `x`.
 constexpr uint64_t ChunksOf(const SlicePlane& placed, int32_t x) {
   constexpr auto kChunk = static_cast<int32_t>(simd::kSliceLanes);
   const int32_t first = x / kChunk, last = (x + kChunk - 1 + 2 * placed.reach) / kChunk;
   return (uint64_t{2} << last) - (uint64_t{1} << first);
 }
 
-// Finds the rows of the tile at column `x` of the rectangle that views show in its rows `seen`, and
-// writes the others that are read for these. The memory must be set.
-void PlaceTile(const SlicePlane& placed, int32_t x, const RowRange& seen, ShiftedSlice* shifted);
+// Finds the rows of the strip at column `x` of the rectangle that views show in its rows `seen`,
+// and writes the others that are read for these. The memory must be set.
+void PlaceStrip(const SlicePlane& placed, int32_t x, const RowRange& seen, ShiftedSlice* shifted);
 
 // Writes those of `rows` that are filled, moved by `offset`.
 void ShiftSlice(const simd::Kernels& kernels, const SlicePlane& placed,

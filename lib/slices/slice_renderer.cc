@@ -29,7 +29,7 @@ BlockWork MeasureWork(const Rect& rect, const Border& border, const ViewWeights&
   return work;
 }
 
-// Takes the memory of what is found of a field before slices of a cut are made. Its surfaces are
+// Takes the memory of what is found of a field before slices of a tile are made. Its surfaces are
 // filled when the field is no longer needed.
 void TakeField(size_t extended, Arena* arena, CompositorScratch* stack) {
   CompositorScratch& scratch = *stack;
@@ -76,14 +76,14 @@ void TakeScratch(const sf_config& config, size_t extended, size_t max_n, Arena* 
   scratch.offsets = arena->Take<simd::SliceOffset>(kMaxSlices * (2 * max_n + 1));
   scratch.weights = arena->Take<int16_t>(Min(2 * max_n + 1, size_t{kGroupViews}));
   scratch.parts = arena->Take<SectionPart>(SectionParts(config.largest_block));
-  const auto rows = static_cast<size_t>(LargestCut(config.largest_block));
+  const auto rows = static_cast<size_t>(LargestTile(config.largest_block));
   scratch.sums = arena->Take<uint32_t>(kPixelSums * simd::kSliceLanes * rows);
   const size_t field = arena->Mark();
   TakeField(extended, arena, &scratch);
   arena->Reuse(field);
-  // Wider sections take less time: cuts of 64 pixels take 1.7 % fewer instructions.
-  const auto cut = static_cast<size_t>(Min(config.largest_block, kCutSide));
-  const size_t pool = Max(LeastPool(config.max_blur), 119 * cut * cut);
+  // Wider sections take less time: tiles of 64 pixels take 1.7 % fewer instructions.
+  const auto tile = static_cast<size_t>(Min(config.largest_block, kSliceTile));
+  const size_t pool = Max(LeastPool(config.max_blur), 119 * tile * tile);
   scratch.pool_bytes = Max(pool, arena->Shared());
   scratch.pool = arena->Take<uint8_t>(scratch.pool_bytes);
 }

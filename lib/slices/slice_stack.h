@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The slices of a cut, as all views of the aperture show them.
+// The slices of a tile, as all views of the aperture show them.
 #ifndef STARFOCUS_LIB_SLICES_SLICE_STACK_H_
 #define STARFOCUS_LIB_SLICES_SLICE_STACK_H_
 
@@ -66,7 +66,7 @@ ScaledWeights ScaleWeights(const ViewWeights& aperture);
 struct SliceStack {
   const ViewGrid* grid;
   ScaledWeights weights;
-  Rect inner;  // the rectangle that the cut is a part of, in pixels of its surfaces
+  Rect inner;  // the rectangle that the tile is a part of, in pixels of its surfaces
   int32_t count;
   Slice slices[kMaxSlices];
   SurfaceBands bands;                // of the surfaces that they are cut from

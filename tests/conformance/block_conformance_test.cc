@@ -212,8 +212,8 @@ TEST_CASE("block conformance: more slices than fit, widest subapertures") {
   all.Print("many slices and wide subapertures");
 }
 
-// Three cuts across, the last of them 72 pixels wide, and two down, which see few slices and many.
-TEST_CASE("block conformance: cuts of large blocks have slices of their own") {
+// Three tiles across, the last of them 72 pixels wide, and two down, which see few slices and many.
+TEST_CASE("block conformance: tiles of large blocks have slices of their own") {
   test::Random random(55);
   Distance all;
   for (const float range : {4.0F, 24.0F}) {
@@ -231,7 +231,7 @@ TEST_CASE("block conformance: cuts of large blocks have slices of their own") {
       CHECK(covered.longest == 200);
     }
   }
-  all.Print("cuts of large blocks");
+  all.Print("tiles of large blocks");
   CHECK(all.mean() < kMeanLimit);
 }
 

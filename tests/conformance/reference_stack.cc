@@ -297,33 +297,33 @@ class Stack {
 
 // The part of a rectangle that slices are cut for from a pixel on: 64 pixels, or what is left of
 // the rectangle up to 80, of which the rest lies in its border.
-Rectangle CutAt(const Rectangle& rectangle, int x, int y) {
+Rectangle TileAt(const Rectangle& rectangle, int x, int y) {
   const auto side = [](int rest) { return rest <= 80 ? rest : 64; };
-  Rectangle cut = rectangle;
-  cut.x += x;
-  cut.y += y;
-  cut.width = side(rectangle.width - x);
-  cut.height = side(rectangle.height - y);
-  cut.left += x;
-  cut.top += y;
-  cut.right += rectangle.width - x - cut.width;
-  cut.bottom += rectangle.height - y - cut.height;
-  return cut;
+  Rectangle tile = rectangle;
+  tile.x += x;
+  tile.y += y;
+  tile.width = side(rectangle.width - x);
+  tile.height = side(rectangle.height - y);
+  tile.left += x;
+  tile.top += y;
+  tile.right += rectangle.width - x - tile.width;
+  tile.bottom += rectangle.height - y - tile.height;
+  return tile;
 }
 
-// Composites a cut at (left, top) of the picture, by slices of its own.
-void CompositeCut(const SurfaceMap& map, const Picture& extended, const Lens& lens,
-                  const Rectangle& cut, const Slicing& slicing, int left, int top,
-                  Picture* picture) {
-  const std::vector<Range> ranges = RangeFinder(map, lens, cut, slicing).Find();
-  Stack stack(map, ranges, lens, cut);
+// Composites a tile at (left, top) of the picture, by slices of its own.
+void CompositeTile(const SurfaceMap& map, const Picture& extended, const Lens& lens,
+                   const Rectangle& tile, const Slicing& slicing, int left, int top,
+                   Picture* picture) {
+  const std::vector<Range> ranges = RangeFinder(map, lens, tile, slicing).Find();
+  Stack stack(map, ranges, lens, tile);
   const Plane& sum = stack.AddViews();
-  for (int y = 0; y < cut.height; ++y) {
-    for (int x = 0; x < cut.width; ++x) {
+  for (int y = 0; y < tile.height; ++y) {
+    for (int x = 0; x < tile.width; ++x) {
       // Where slices cover less than a quarter of all light, the pixel is that of the centre view.
       const Light& light = sum.At(x, y);
       Colour& colour = picture->colours[picture->At(left + x, top + y)];
-      colour = extended.colours[extended.At(x + cut.left, y + cut.top)];
+      colour = extended.colours[extended.At(x + tile.left, y + tile.top)];
       if (4 * light[3] < stack.total()) continue;
       for (size_t c = 0; c < 3; ++c) colour[c] = std::min(255.0, light[c] / light[3]);
     }
@@ -339,11 +339,11 @@ Picture CompositeRectangle(const LightField& field, const Picture& centre, const
   const SurfaceMap map = FindLayeredDepth(field, extended, lens, rectangle.x - rectangle.left,
                                           rectangle.y - rectangle.top);
   Picture picture(rectangle.width, rectangle.height);
-  Rectangle cut = {};
-  for (int y = 0; y < picture.height; y += cut.height) {
-    for (int x = 0; x < picture.width; x += cut.width) {
-      cut = CutAt(rectangle, x, y);
-      CompositeCut(map, extended, lens, cut, slicing, x, y, &picture);
+  Rectangle tile = {};
+  for (int y = 0; y < picture.height; y += tile.height) {
+    for (int x = 0; x < picture.width; x += tile.width) {
+      tile = TileAt(rectangle, x, y);
+      CompositeTile(map, extended, lens, tile, slicing, x, y, &picture);
     }
   }
   return picture;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reference's rectangle by the rule of subapertures: one block, cut by cut, as a stack of
+// The reference's rectangle by the rule of subapertures: one block, tile by tile, as a stack of
 // slices, which each view shows moved against each other.
 #ifndef STARFOCUS_TESTS_CONFORMANCE_REFERENCE_STACK_H_
 #define STARFOCUS_TESTS_CONFORMANCE_REFERENCE_STACK_H_

@@ -142,8 +142,8 @@ TEST_CASE("stack: slices made section by section give the same picture") {
   REQUIRE(engine.status() == SF_OK);
   size_t& pool = test::PoolBytes(engine.get());
   const auto reach = size_t(starfocus::SliceReach(16 * starfocus::kShiftOne, starfocus::kShiftOne));
-  const size_t whole = starfocus::SliceBytes(64, 64, reach) + starfocus::TileBytes(64, reach);
-  const size_t least = starfocus::SliceBytes(16, 8, reach) + starfocus::TileBytes(8, reach);
+  const size_t whole = starfocus::SliceBytes(64, 64, reach) + starfocus::StripBytes(64, reach);
+  const size_t least = starfocus::SliceBytes(16, 8, reach) + starfocus::StripBytes(8, reach);
   REQUIRE(pool > 2 * whole);
   for (const double focus : {0.0, 6.0}) {
     const sf_params params = test::Params(focus, 1, SF_MODE_BENCHMARK);
@@ -166,7 +166,7 @@ int ranges_found = 0;
 // Says no once slices are looked for.
 int SayNo(void*, int32_t, int32_t) { return ranges_found > 0 ? 1 : 0; }
 
-TEST_CASE("stack: once the caller says no, no other cut is made") {
+TEST_CASE("stack: once the caller says no, no other tile is made") {
   const test::Scene scene = test::RandomScene(256, 256, 5, -3, 9, 8);
   sf_config config = test::ConfigFor(scene, 32);
   config.largest_block = 256;
@@ -187,7 +187,7 @@ TEST_CASE("stack: once the caller says no, no other cut is made") {
   params.progress = SayNo;
   CHECK(test::Refocus(&engine, params, scene, &out) == SF_ERROR_CANCELLED);
   CHECK(ranges_found > 0);
-  CHECK(ranges_found < all / 8);  // of sixteen cuts
+  CHECK(ranges_found < all / 8);  // of sixteen tiles
 }
 
 // But for red zones, between which nothing is shared.

@@ -168,7 +168,7 @@ TEST_CASE("slices: a slice takes no more memory than its area says") {
   for (int reach = 0; reach <= starfocus::LargestSliceReach(SF_MAX_BLUR); ++reach) {
     CAPTURE(reach);
     CHECK(starfocus::SliceBytes(starfocus::kLeastColumns, starfocus::kLeastRows, size_t(reach)) +
-              starfocus::TileBytes(starfocus::kLeastRows, size_t(reach)) <=
+              starfocus::StripBytes(starfocus::kLeastRows, size_t(reach)) <=
           starfocus::kAreaBytes * size_t(starfocus::SliceArea(reach)));
   }
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Kernels that composite slices, front to back, into the views of a tile: a column of kSliceLanes
+// Kernels that composite slices, front to back, into the views of a strip: a column of kSliceLanes
 // pixels whose rows follow each other in memory.
-#ifndef STARFOCUS_SIMD_TILES_H_
-#define STARFOCUS_SIMD_TILES_H_
+#ifndef STARFOCUS_SIMD_STRIPS_H_
+#define STARFOCUS_SIMD_STRIPS_H_
 
 #include <cstddef>
 #include <cstdint>
@@ -27,17 +27,17 @@ struct SliceFraction {
   int16_t inside, edge, third, fourth;
 };
 
-// Rows of a tile that Composite may read beyond the last one it adds.
+// Rows of a strip that Composite may read beyond the last one it adds.
 inline constexpr size_t kRowsAhead = 6;
 
-// The mark of a row of a tile: how many rows, from it on, show nothing of a slice, at most
+// The mark of a row of a strip: how many rows, from it on, show nothing of a slice, at most
 // kNothingNear; or kCoveredNear where all pixels of it and of the kRowsAhead rows after it are
 // covered all over.
 inline constexpr int8_t kNothingNear = kRowsAhead + 1;
 inline constexpr int8_t kCoveredNear = -1;
 
-// A slice in a tile. Its four planes lie `plane` samples apart; a row is kSliceLanes samples.
-struct TileSlice {
+// A slice in a strip. Its four planes lie `plane` samples apart; a row is kSliceLanes samples.
+struct StripSlice {
   const int16_t* samples;  // the row that an unmoved view shows first
   const int8_t* near;      // the marks of rows from there on
   size_t plane;
@@ -58,12 +58,12 @@ struct SliceOffset {
 // Slices that a view can show.
 inline constexpr size_t kMaxSeen = 32;
 
-// The views of a tile, which see the slices moved along its column.
+// The views of a strip, which see the slices moved along its column.
 struct SliceViews {
   const int16_t* weights;      // of the views: each in [0, 2^14), 58000 at most together
   const SliceOffset* offsets;  // offsets[view * count + k]: where a view shows slice k
   size_t views;
-  const TileSlice* slices;
+  const StripSlice* slices;
   size_t count;          // of the slices
   const uint8_t* shown;  // the slices that are seen, the nearest first
   size_t shown_count;    // kMaxSeen at most
@@ -73,7 +73,7 @@ struct SliceViews {
 
 namespace reference {
 
-// Moves rows of a slice along the row by a fraction of a sample, into a tile whose planes lie
+// Moves rows of a slice along the row by a fraction of a sample, into a strip whose planes lie
 // `plane` samples apart: out[n] is what is seen of in[n] and the samples after it, and each product
 // is rounded halves up. near[row] is the mark of a row, and kRowsAhead marks lie before the first:
 // all of them must be kNothingNear or more before. Those of rows that show something, or lie up to
@@ -81,7 +81,7 @@ namespace reference {
 void ShiftSlice(const SlicePlanes& in, const SliceFraction& fraction, size_t rows, size_t plane,
                 int16_t* out, int8_t* near);
 
-// Adds the views of a tile to sums[(4 row + c) kSliceLanes + n], where c is the plane. A slice
+// Adds the views of a strip to sums[(4 row + c) kSliceLanes + n], where c is the plane. A slice
 // takes as much of the view's light as it covers, and gives as much of its colours. Of the last
 // light it gives the share that is left (up to a ninth of the weight too much), as if slices beside
 // each other covered different parts of a pixel. What is seen of rows is defined as for ShiftSlice.
@@ -92,4 +92,4 @@ void Composite(const SliceViews& views, size_t rows, uint32_t* sums);
 }  // namespace reference
 }  // namespace starfocus::simd
 
-#endif  // STARFOCUS_SIMD_TILES_H_
+#endif  // STARFOCUS_SIMD_STRIPS_H_

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cases of the kernels of simd/tiles.h.
+// Cases of the kernels of simd/strips.h.
 #include <algorithm>
 
 #include "tests/simd/kernel_cases.h"
@@ -16,7 +16,7 @@ using starfocus::simd::SliceFraction;
 using starfocus::simd::SliceOffset;
 using starfocus::simd::SlicePlanes;
 using starfocus::simd::SliceViews;
-using starfocus::simd::TileSlice;
+using starfocus::simd::StripSlice;
 
 // Where views lie: on whole samples, between two that weigh the same at edges and inside or not, or
 // on three or four of them.
@@ -84,8 +84,8 @@ void ShiftSlice(Draw* draw, KernelCall* call) {
 
 namespace {
 
-// The marks of a tile's rows, given how many samples of each are covered. A row that is covered all
-// over may be marked as one that shows something.
+// The marks of a strip's rows, given how many samples of each are covered. A row that is covered
+// all over may be marked as one that shows something.
 std::vector<int8_t> NearOf(const std::vector<int>& covered, bool full) {
   std::vector<int8_t> near(covered.size() - kRowsAhead);
   for (size_t row = 0; row < near.size(); ++row) {
@@ -96,8 +96,9 @@ std::vector<int8_t> NearOf(const std::vector<int>& covered, bool full) {
   return near;
 }
 
-// A slice in a tile, of which some rows are empty. TileSlice is that `before` rows from its first.
-TileSlice MakeTile(size_t rows, size_t before, Draw* draw, KernelCall* call, Met* met) {
+// A slice in a strip, of which some rows are empty. StripSlice is that `before` rows from its
+// first.
+StripSlice MakeTile(size_t rows, size_t before, Draw* draw, KernelCall* call, Met* met) {
   const bool full = draw->Int(0, 1) == 0;
   const auto in = Planes(rows, kSliceLanes, full ? kFull : draw->Int(5, 100), draw);
   const size_t plane = kSliceLanes * rows;
@@ -122,7 +123,7 @@ constexpr size_t kSkipped = 1, kMost = 4;
 
 SliceViews MakeViews(size_t rows, Draw* draw, KernelCall* call, Met* met) {
   const size_t count = draw->Size(1, 6, 2), view_count = draw->Size(1, 9, 5);
-  std::vector<TileSlice> slices;
+  std::vector<StripSlice> slices;
   for (size_t k = 0; k < count; ++k) {
     slices.push_back(
         MakeTile(kMost + kSkipped + rows + kMost + kRowsAhead, kMost, draw, call, met));

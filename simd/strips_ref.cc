@@ -3,7 +3,7 @@
 #include <cstring>
 
 #include "simd/arithmetic_ref.h"
-#include "simd/tiles.h"
+#include "simd/strips.h"
 
 namespace starfocus::simd::reference {
 namespace {
@@ -65,7 +65,7 @@ void Composite(const SliceViews& views, size_t rows, uint32_t* sums) {
         const int16_t weight = views.weights[view];
         int16_t light = kSliceOne;
         for (size_t k = 0; k < views.shown_count; ++k) {
-          const TileSlice& slice = views.slices[views.shown[k]];
+          const StripSlice& slice = views.slices[views.shown[k]];
           const SliceOffset& offset = views.offsets[view * views.count + views.shown[k]];
           const ptrdiff_t moved = static_cast<ptrdiff_t>(row) + offset.whole;
           if (slice.near[moved] == kNothingNear) continue;

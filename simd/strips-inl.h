@@ -1,30 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vector code of tiles.h. Included once per target.
-#if defined(STARFOCUS_SIMD_TILES_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef STARFOCUS_SIMD_TILES_INL_H_
-#undef STARFOCUS_SIMD_TILES_INL_H_
+// Vector code of strips.h. Included once per target.
+#if defined(STARFOCUS_SIMD_STRIPS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef STARFOCUS_SIMD_STRIPS_INL_H_
+#undef STARFOCUS_SIMD_STRIPS_INL_H_
 #else
-#define STARFOCUS_SIMD_TILES_INL_H_
+#define STARFOCUS_SIMD_STRIPS_INL_H_
 #endif
 
 #include <cstring>
 #include <type_traits>
 
 #include "simd/chunk-inl.h"
-#include "simd/tiles.h"
+#include "simd/strips.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
-// Rows of a tile follow each other in memory, so that the widest vectors hold two of them.
+// Rows of a strip follow each other in memory, so that the widest vectors hold two of them.
 #undef STARFOCUS_WIDE_TILES
 #if HWY_TARGET != HWY_SCALAR && HWY_MAX_BYTES >= 64
 #define STARFOCUS_WIDE_TILES 1
-using TileTag = hn::CappedTag<int16_t, 2 * kSliceLanes>;
+using StripTag = hn::CappedTag<int16_t, 2 * kSliceLanes>;
 #else
 #define STARFOCUS_WIDE_TILES 0
-using TileTag = ChunkTag;
+using StripTag = ChunkTag;
 #endif
 
 // Whether Composite has a way of its own for rows that are covered all over. With narrower vectors
@@ -36,7 +36,7 @@ constexpr bool kCoveredApart = HWY_MAX_BYTES >= 32;
 // There it goes by the marks of rows alone, which on ARM take 3 to 5 % more instructions.
 constexpr bool kLooksFirst = !HWY_ARCH_X86;
 
-// Returns how many rows of a tile a vector holds: 1 also if it holds a part of one.
+// Returns how many rows of a strip a vector holds: 1 also if it holds a part of one.
 template <class D>
 HWY_INLINE size_t RowsOf(D d) {
   return hn::Lanes(d) > kSliceLanes ? hn::Lanes(d) / kSliceLanes : 1;
@@ -121,20 +121,20 @@ inline void ShiftSlice(const SlicePlanes& in, const SliceFraction& fraction, siz
   }
 }
 
-using SliceVec = hn::Vec<TileTag>;
+using SliceVec = hn::Vec<StripTag>;
 
 // Returns sums of 16 bits divided by 2^bits, rounded halves up.
 HWY_INLINE SliceVec DividedSums(SliceVec value, int bits) {
-  const TileTag d;
-  const hn::RebindToUnsigned<TileTag> d16;
+  const StripTag d;
+  const hn::RebindToUnsigned<StripTag> d16;
   const auto half = hn::Set(d16, static_cast<uint16_t>(1 << bits >> 1));
   return hn::BitCast(d, hn::ShiftRightSame(hn::Add(hn::BitCast(d16, value), half), bits));
 }
 
 // Adds values of 16 bits to sums of 32 bits, of `rows` at most.
 HWY_INLINE void AddSums(SliceVec value, size_t rows, uint32_t* HWY_RESTRICT sums) {
-  const TileTag d;
-  const hn::RebindToUnsigned<TileTag> d16;
+  const StripTag d;
+  const hn::RebindToUnsigned<StripTag> d16;
   const hn::CappedTag<uint32_t, kSliceLanes> d32;
   const hn::Rebind<uint16_t, decltype(d32)> part;
   const size_t each = hn::Lanes(d) / RowsOf(d);
@@ -151,7 +151,7 @@ HWY_INLINE void AddSums(SliceVec value, size_t rows, uint32_t* HWY_RESTRICT sums
 
 // Returns light / covered where that is less than one; the reference's SliceShare tells how.
 HWY_INLINE SliceVec ShareOfLight(SliceVec covered, SliceVec light, SliceVec excess) {
-  const TileTag d16;
+  const StripTag d16;
   const auto one = hn::Set(d16, kSliceOne);
   const auto open = hn::Sub(one, covered);
   const auto first = hn::MulFixedPoint15(excess, open);
@@ -180,7 +180,7 @@ struct ViewSums {
 template <Known kKnown>
 HWY_INLINE void TakeLight(SliceVec weight, const ViewSums& slice, SliceVec excess, SliceVec& light,
                           const ViewSums& sums) {
-  const TileTag d16;
+  const StripTag d16;
   const auto taken = hn::Sub(slice.covered, excess);
   if (kKnown == Known::kNothing &&
       !(kLooksFirst && hn::AllTrue(d16, hn::Eq(excess, hn::Zero(d16))))) {
@@ -207,7 +207,7 @@ template <int kTaps, Known kKnown>
 HWY_INLINE void TakeRows(const SliceFraction& fraction, size_t plane,
                          const int16_t* HWY_RESTRICT at, SliceVec weight, SliceVec& light,
                          const ViewSums& sums) {
-  const TileTag d16;
+  const StripTag d16;
   constexpr bool kCovered = kKnown == Known::kCovered;
   const auto load = [&](const int16_t* from) HWY_ATTR { return hn::LoadU(d16, from); };
   const int16_t* HWY_RESTRICT cover = at + 3 * plane;
@@ -249,7 +249,7 @@ HWY_INLINE void AddLight(const ViewSums& view, size_t rows, uint32_t* HWY_RESTRI
 
 // A slice that is seen, and where the first view shows it.
 struct SeenSlice {
-  TileSlice slice;
+  StripSlice slice;
   const SliceOffset* offsets;
 };
 
@@ -265,10 +265,10 @@ HWY_INLINE void TakeByTaps(int taps, const Take& take) {
   }
 }
 
-// Composites two vectors of rows of a tile.
+// Composites two vectors of rows of a strip.
 HWY_INLINE void CompositeRows(const SliceViews& views, const SeenSlice* seen, size_t row, size_t n,
                               size_t rows, uint32_t* HWY_RESTRICT sums) {
-  const TileTag d16;
+  const StripTag d16;
   const size_t step = RowsOf(d16), second = step * kSliceLanes;
   const int vector_rows = static_cast<int>(step);
   const auto zero = hn::Zero(d16), one = hn::Set(d16, kSliceOne);
@@ -279,7 +279,7 @@ HWY_INLINE void CompositeRows(const SliceViews& views, const SeenSlice* seen, si
     auto light0 = one, light1 = one;
     bool taken = false;
     for (const SeenSlice* k = seen; k != end; ++k) {
-      const TileSlice& slice = k->slice;
+      const StripSlice& slice = k->slice;
       const SliceOffset& offset = k->offsets[first];
       const ptrdiff_t moved = static_cast<ptrdiff_t>(row) + offset.whole;
       const int8_t* near = slice.near + moved;
@@ -324,7 +324,7 @@ HWY_INLINE void CompositeRows(const SliceViews& views, const SeenSlice* seen, si
 }
 
 inline void Composite(const SliceViews& views, size_t rows, uint32_t* HWY_RESTRICT sums) {
-  const TileTag d;
+  const StripTag d;
   const size_t step = 2 * RowsOf(d);
   SeenSlice seen[kMaxSeen];
   for (size_t k = 0; k < views.shown_count; ++k) {

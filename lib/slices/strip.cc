@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/slices/tile.h"
+#include "lib/slices/strip.h"
 
 #include <cstring>
 
@@ -9,9 +9,10 @@ namespace {
 constexpr int32_t kChunk = static_cast<int32_t>(simd::kSliceLanes);
 constexpr int32_t kRowsAhead = static_cast<int32_t>(simd::kRowsAhead);
 
-class Tile {
+class Strip {
  public:
-  Tile(const TileJob& job, const TileParts& parts) : job_(job), stack_(*job.stack), parts_(parts) {}
+  Strip(const StripJob& job, const StripParts& parts)
+      : job_(job), stack_(*job.stack), parts_(parts) {}
 
   // Composites column by column of views.
   void Composite() {
@@ -42,7 +43,7 @@ class Tile {
     }
   }
 
-  // Places the seen slices one behind the other in the tile's memory; the marks of their rows
+  // Places the seen slices one behind the other in the strip's memory; the marks of their rows
   // follow all samples.
   void PlaceSlices() {
     size_t rows = 0;
@@ -57,7 +58,7 @@ class Tile {
       ShiftedSlice& shifted = shifted_[k];
       shifted.samples = samples;
       shifted.near = near;
-      PlaceTile(placed, parts_.x, rows_[k], &shifted);
+      PlaceStrip(placed, parts_.x, rows_[k], &shifted);
       shown_[k] = {samples + placed.reach * kChunk, near + placed.reach, shifted.plane};
       samples += 4 * shifted.plane;
       near += shifted.plane / kChunk;
@@ -84,7 +85,7 @@ class Tile {
     }
   }
 
-  // Moves the rows of slice k that views (i, -last) to (i, last) show into the tile.
+  // Moves the rows of slice k that views (i, -last) to (i, last) show into the strip.
   void MoveSlice(int32_t k, int32_t i, int32_t last) {
     const SlicePlane& placed = job_.planes[k];
     const RowRange& seen = rows_[k];
@@ -120,19 +121,19 @@ class Tile {
     }
   }
 
-  const TileJob& job_;
+  const StripJob& job_;
   const SliceStack& stack_;
-  const TileParts& parts_;
+  const StripParts& parts_;
   int64_t samples_ = 0;  // of a view, of all slices
   int32_t seen_ = 0;
   int32_t seen_slices_[kMaxSlices];
-  RowRange rows_[kMaxSlices];          // of the section, of the parts that see a slice
-  ShiftedSlice shifted_[kMaxSlices];   // as the column of views under way shows them
-  simd::TileSlice shown_[kMaxSlices];  // the same, for the kernel
+  RowRange rows_[kMaxSlices];           // of the section, of the parts that see a slice
+  ShiftedSlice shifted_[kMaxSlices];    // as the column of views under way shows them
+  simd::StripSlice shown_[kMaxSlices];  // the same, for the kernel
 };
 
 }  // namespace
 
-void CompositeTile(const TileJob& job, const TileParts& parts) { Tile(job, parts).Composite(); }
+void CompositeStrip(const StripJob& job, const StripParts& parts) { Strip(job, parts).Composite(); }
 
 }  // namespace starfocus

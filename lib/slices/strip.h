@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// A tile: kSliceLanes columns of a section, all views of which are composited while its slices are
+// A strip: kSliceLanes columns of a section, all views of which are composited while its slices are
 // in the nearest cache.
-#ifndef STARFOCUS_LIB_SLICES_TILE_H_
-#define STARFOCUS_LIB_SLICES_TILE_H_
+#ifndef STARFOCUS_LIB_SLICES_STRIP_H_
+#define STARFOCUS_LIB_SLICES_STRIP_H_
 
 #include <cstddef>
 #include <cstdint>
@@ -24,25 +24,25 @@ struct SectionPart {
 // A pixel of light has sums of R, G, B and of what is covered.
 inline constexpr size_t kPixelSums = 4;
 
-// What all tiles of a section share. G: the smaller of 2 N + 1 and kGroupViews.
-struct TileJob {
+// What all strips of a section share. G: the smaller of 2 N + 1 and kGroupViews.
+struct StripJob {
   const simd::Kernels* kernels;
   const SliceStack* stack;
   const SlicePlane* planes;  // of each slice, filled for the section
   int16_t* weights;          // G: of a group of views
-  int16_t* memory;           // TileBytes of each slice
-  uint32_t* sums;            // kPixelSums of each pixel of the tile: output, by rows of the section
-  CancelToken* cancel;       // null: it goes on to the end
+  int16_t* memory;           // StripBytes of each slice
+  uint32_t* sums;       // kPixelSums of each pixel of the strip: output, by rows of the section
+  CancelToken* cancel;  // null: it goes on to the end
 };
 
 // The parts [first, end) of a section that lie at column x, at least one.
-struct TileParts {
+struct StripParts {
   int32_t x;
   const SectionPart *first, *end;
 };
 
 // Sums all views of the parts into job.sums.
-void CompositeTile(const TileJob& job, const TileParts& parts);
+void CompositeStrip(const StripJob& job, const StripParts& parts);
 
 // The sums of a row of the section.
 inline uint32_t* SumsOfRow(uint32_t* sums, int32_t row) {
@@ -51,4 +51,4 @@ inline uint32_t* SumsOfRow(uint32_t* sums, int32_t row) {
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_SLICES_TILE_H_
+#endif  // STARFOCUS_LIB_SLICES_STRIP_H_
