@@ -108,7 +108,7 @@ std::vector<std::string> FindWide(const std::string& code, size_t limit) {
   return found;
 }
 
-// Functions that still have more parameters: those of the public API, and the rest.
+// Functions of the public API that still have more parameters.
 const std::set<std::string> kWide = {
     "Refocus",
     "RefocusAfter",
@@ -128,10 +128,6 @@ const std::set<std::string> kWide = {
     "sf_repair_disparity",
     "sf_stream_pull",
     "sf_stream_pull_images",
-    ")",
-    "ReadImageField",
-    "ReadPlane",
-    "ReadTask",
 };
 
 }  // namespace

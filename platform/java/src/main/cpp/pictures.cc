@@ -66,15 +66,21 @@ void* AddressOf(JNIEnv* env, jobject buffer, const char* what, PlaneSize size, i
   return address;
 }
 
-bool ReadPlane(JNIEnv* env, jobject object, const char* what, jobjectArray planes, int plane,
-               PlaneSize size, sf_image* image) {
-  const auto strides = static_cast<jintArray>(ReadObject(env, object, "strides", "[I"));
+// An Image, and what it is called in errors.
+struct NamedImage {
+  jobject object;
+  const char* what;
+  jobjectArray planes;
+};
+
+bool ReadPlane(JNIEnv* env, const NamedImage& from, int plane, PlaneSize size, sf_image* image) {
+  const auto strides = static_cast<jintArray>(ReadObject(env, from.object, "strides", "[I"));
   if (strides == nullptr) return false;
   jint stride = 0;
   env->GetIntArrayRegion(strides, plane, 1, &stride);
-  const jobject buffer = env->GetObjectArrayElement(planes, plane);
+  const jobject buffer = env->GetObjectArrayElement(from.planes, plane);
   char name[60];
-  std::snprintf(name, sizeof name, "%s, plane %d", what, plane);
+  std::snprintf(name, sizeof name, "%s, plane %d", from.what, plane);
   void* const address = AddressOf(env, buffer, name, size, stride);
   image->planes[plane] = static_cast<const uint8_t*>(address);
   image->strides[plane] = static_cast<size_t>(stride);
@@ -121,7 +127,7 @@ bool ReadImage(JNIEnv* env, jobject object, const char* what, int32_t width, int
   }
   for (int i = 0; i < expected; ++i) {
     const PlaneSize size = SizeOf(*image, i, width, height);
-    if (!ReadPlane(env, object, what, planes, i, size, image)) return false;
+    if (!ReadPlane(env, {object, what, planes}, i, size, image)) return false;
   }
   env->DeleteLocalRef(planes);
   return true;
@@ -159,10 +165,15 @@ bool ReadDepthMap(JNIEnv* env, jobject object, sf_depth_map* map) {
   return map->data != nullptr;
 }
 
-bool ReadImageField(JNIEnv* env, jobjectArray views, jobject depth, int32_t count, int32_t width,
-                    int32_t height, sf_image_field* field) {
+bool ReadImageField(JNIEnv* env, jobject light_field, const sf_config& config,
+                    sf_image_field* field) {
   *field = {};
-  const int32_t found = env->GetArrayLength(views);
+  const auto views =
+      static_cast<jobjectArray>(ReadObject(env, light_field, "views", "[Ldev/starfocus/Image;"));
+  if (views == nullptr) return false;
+  const jobject depth = ReadObject(env, light_field, "depth", "Ldev/starfocus/DepthMap;");
+  if (env->ExceptionCheck()) return false;
+  const int32_t count = config.views, found = env->GetArrayLength(views);
   if (found != count) {
     ThrowArgument(env, "views: expected %d, found %d", count, found);
     return false;
@@ -171,7 +182,7 @@ bool ReadImageField(JNIEnv* env, jobjectArray views, jobject depth, int32_t coun
     const jobject view = env->GetObjectArrayElement(views, i);
     char what[20];
     std::snprintf(what, sizeof what, "view %d", i);
-    if (!ReadImage(env, view, what, width, height, &field->views[i])) return false;
+    if (!ReadImage(env, view, what, config.width, config.height, &field->views[i])) return false;
     env->DeleteLocalRef(view);
   }
   return ReadDepthMap(env, depth, &field->depth);

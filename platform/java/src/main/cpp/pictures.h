@@ -21,9 +21,9 @@ bool ReadImageOut(JNIEnv* env, jobject object, int32_t width, int32_t height, sf
 // A DepthMap.
 bool ReadDepthMap(JNIEnv* env, jobject object, sf_depth_map* map);
 
-// As many views as the configuration has, and a DepthMap.
-bool ReadImageField(JNIEnv* env, jobjectArray views, jobject depth, int32_t count, int32_t width,
-                    int32_t height, sf_image_field* field);
+// A LightField with the views of the configuration.
+bool ReadImageField(JNIEnv* env, jobject light_field, const sf_config& config,
+                    sf_image_field* field);
 
 }  // namespace starfocus
 

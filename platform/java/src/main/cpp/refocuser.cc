@@ -109,9 +109,17 @@ int32_t Reduced(int32_t first, int32_t count, int32_t shift) {
   return static_cast<int32_t>(((int64_t{first} + count - 1) >> shift) - (first >> shift) + 1);
 }
 
-// What to render, at 1 / 2^shift of the size, and where to; false with an exception pending.
-bool ReadTask(JNIEnv* env, Session* session, int32_t shift, jobject parameters, jobject out,
-              sf_params* params, sf_image_out* image) {
+// What to render, at 1 / 2^shift of the size, and where to.
+struct JavaTask {
+  int32_t shift;
+  jobject parameters, out;
+};
+
+// Reads a task; false with an exception pending.
+bool ReadTask(JNIEnv* env, Session* session, const JavaTask& task, sf_params* params,
+              sf_image_out* image) {
+  const int32_t shift = task.shift;
+  const jobject parameters = task.parameters, out = task.out;
   sf_params_init(params);
   if (!ReadFields(env, parameters, kParamsFields, std::size(kParamsFields), params)) return false;
   params->progress = Tell;
@@ -201,15 +209,13 @@ STARFOCUS_NATIVE(jlong, create)(JNIEnv* env, jclass, jobject configuration) {
 STARFOCUS_NATIVE(void, destroy)(JNIEnv*, jclass, jlong handle) { End(From(handle)); }
 
 STARFOCUS_NATIVE(void, refocus)
-(JNIEnv* env, jclass, jlong handle, jobjectArray views, jobject depth, jobject parameters,
- jobject out) {
+(JNIEnv* env, jclass, jlong handle, jobject light_field, jobject parameters, jobject out) {
   Session* const session = From(handle);
   sf_image_field field;
   sf_params params;
   sf_image_out image;
-  if (!ReadImageField(env, views, depth, session->config.views, session->config.width,
-                      session->config.height, &field) ||
-      !ReadTask(env, session, 0, parameters, out, &params, &image)) {
+  if (!ReadImageField(env, light_field, session->config, &field) ||
+      !ReadTask(env, session, {0, parameters, out}, &params, &image)) {
     return;
   }
   Begin(session);
@@ -221,11 +227,10 @@ STARFOCUS_NATIVE(void, refocus)
 }
 
 STARFOCUS_NATIVE(void, prepare)
-(JNIEnv* env, jclass, jlong handle, jobjectArray views, jobject depth) {
+(JNIEnv* env, jclass, jlong handle, jobject light_field) {
   Session* const session = From(handle);
   sf_image_field field;
-  if (ReadImageField(env, views, depth, session->config.views, session->config.width,
-                     session->config.height, &field)) {
+  if (ReadImageField(env, light_field, session->config, &field)) {
     ThrowStatus(env, Prepare(session, field), sf_engine_problem(session->engine));
   }
 }
@@ -235,7 +240,7 @@ STARFOCUS_NATIVE(void, refocusPrepared)
   Session* const session = From(handle);
   sf_params params;
   sf_image_out image;
-  if (!ReadTask(env, session, 0, parameters, out, &params, &image)) return;
+  if (!ReadTask(env, session, {0, parameters, out}, &params, &image)) return;
   Begin(session);
   ThrowStatus(env,
               sf_refocus_prepared_images(session->engine, &params, session->prepared, &image,
@@ -249,7 +254,7 @@ STARFOCUS_NATIVE(void, preview)
   Session* const session = From(handle);
   sf_params params;
   sf_image_out image;
-  if (!ReadTask(env, session, shift, parameters, out, &params, &image)) return;
+  if (!ReadTask(env, session, {shift, parameters, out}, &params, &image)) return;
   Begin(session);
   ThrowStatus(env,
               sf_refocus_preview_images(session->engine, &params, session->prepared, shift, &image,

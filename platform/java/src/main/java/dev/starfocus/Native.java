@@ -18,9 +18,9 @@ final class Native {
   static native void destroy(long session);
 
   static native void refocus(
-      long session, Image[] views, DepthMap depth, Parameters parameters, Image out);
+      long session, LightField lightField, Parameters parameters, Image out);
 
-  static native void prepare(long session, Image[] views, DepthMap depth);
+  static native void prepare(long session, LightField lightField);
 
   static native void refocusPrepared(long session, Parameters parameters, Image out);
 

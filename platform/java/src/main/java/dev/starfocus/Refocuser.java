@@ -28,13 +28,13 @@ public final class Refocuser implements AutoCloseable {
   public synchronized void refocus(LightField field, Parameters parameters, Image out) {
     Objects.requireNonNull(parameters, "parameters");
     out.checkWritable();
-    Native.refocus(open(), field.views, field.depth, parameters, out);
+    Native.refocus(open(), Objects.requireNonNull(field, "field"), parameters, out);
   }
 
   /** Does once what is the same for every lens; what the light field's buffers hold must stay. */
   public synchronized void prepare(LightField field) {
     prepared = null;
-    Native.prepare(open(), field.views, field.depth);
+    Native.prepare(open(), Objects.requireNonNull(field, "field"));
     prepared = field;
   }
 
