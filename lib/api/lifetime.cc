@@ -15,7 +15,7 @@ using starfocus::EngineState;
 namespace starfocus {
 namespace {
 
-// The configuration with a largest block in place of 0. Wide pictures are up to an eighth faster in
+// The configuration with a superblock in place of 0. Wide pictures are up to an eighth faster in
 // blocks of 128, which share what lies around them, and leave enough blocks for all workers; a
 // worker takes four times the memory then.
 sf_config Choose(const sf_config& config) {

@@ -51,7 +51,7 @@ sf_status LoadRows(const RowSource& source, const RowRange& rows, const Plane<in
 sf_status CopyRow(const RowSource& source, int32_t y, EngineState* engine);
 
 // Returns the rows of the stripes that the lens's region needs; a stripe's first row is a multiple
-// of the largest block.
+// of the superblock.
 RowRange StripeRows(const EngineState& engine);
 
 // Returns part `index` of `parts` of the rows, of which none has more than one more than another.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which largest blocks depend on pixels that differ between two light fields.
+// Which superblocks depend on pixels that differ between two light fields.
 #ifndef STARFOCUS_LIB_ENGINE_FRAME_DIFF_H_
 #define STARFOCUS_LIB_ENGINE_FRAME_DIFF_H_
 
@@ -18,8 +18,8 @@ struct FrameDiff {
   bool active = false;  // there is something to compare with
   const sf_light_field *before, *now;
   int32_t views;                     // that matter
-  int32_t width, height, side;       // of the picture and its largest blocks
-  int32_t columns;                   // of largest blocks
+  int32_t width, height, side;       // of the picture and its superblocks
+  int32_t columns;                   // of superblocks
   int32_t centre_reach, side_reach;  // pixels around a block that it may depend on
   bool fills;                        // whether unknown disparities are filled along their row
   int32_t rows;                      // compared so far
@@ -39,7 +39,7 @@ void StartFrameDiff(int32_t y, FrameDiff* changes);
 // on. Returns SF_OK or SF_ERROR_CANCELLED.
 sf_status CompareRows(int32_t y, CancelToken* cancel, FrameDiff* changes);
 
-// Whether a largest block that has pixels in `rect`, or less than a stripe away from those last
+// Whether a superblock that has pixels in `rect`, or less than a stripe away from those last
 // compared, has changed.
 bool HasChanged(const FrameDiff& changes, const Rect& rect);
 

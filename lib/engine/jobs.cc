@@ -8,7 +8,7 @@ namespace starfocus {
 
 int32_t MaxJobs(const sf_config& config) {
   const int32_t side = config.largest_block;
-  // Sets of jobs go by blocks of a stripe, by columns of largest blocks, or in deblocking by rows
+  // Sets of jobs go by blocks of a stripe, by columns of superblocks, or in deblocking by rows
   // of units of one stripe and of what waits above. There are no more columns than blocks.
   return Max(Columns(config) * MaxBlocks(side), side / kSmallestBlock + 1);
 }

@@ -8,7 +8,7 @@
 namespace starfocus {
 namespace {
 
-// Takes the memory that a column of largest blocks is subsampled in.
+// Takes the memory that a column of superblocks is subsampled in.
 void TakeResample(const sf_config& config, Arena* arena, ResampleScratch* resample) {
   // The last column has what a layer has beyond the picture, a pixel or two.
   const auto side = config.largest_block;

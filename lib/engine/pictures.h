@@ -20,7 +20,7 @@ struct Pictures {
   PlaneViews planes;  // what the windows read, if all views are rows of codes in memory
   Window windows[SF_LAYERS];
   LayerPlane layers[SF_LAYERS];  // layers 1 and 2, around a stripe
-  uint8_t* needed[SF_LAYERS];    // per column of largest blocks: ColumnNeed of its layer 1, 2
+  uint8_t* needed[SF_LAYERS];    // per column of superblocks: ColumnNeed of its layer 1, 2
   Plane<int16_t> disparity;      // ring of converted rows
   bool prepared;                 // disparities and layers of the windows are a prepared field's
 };

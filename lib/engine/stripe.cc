@@ -27,10 +27,10 @@ void RefocusOneBlock(const RefocusJob& job, int32_t index, Worker* worker) {
 }
 
 // Joins blocks of different layers. Between rows, job `index` joins the boundaries of a column of
-// largest blocks; between columns, those in the next kSmallestBlock of the rows that are finished.
+// superblocks; between columns, those in the next kSmallestBlock of the rows that are finished.
 struct JoinJob {
   DeblockJob deblock;
-  int32_t units;  // columns of units of a largest block
+  int32_t units;  // columns of units of a superblock
   RowRange finished;
 };
 

@@ -23,7 +23,7 @@ int32_t FinishedRows(const sf_config& config, int32_t y);
 Plane<uint8_t> BufferRows(const EngineState& engine, int32_t y);
 
 // Refocuses what the lens's region needs of the stripe that starts at row y, a multiple of the
-// largest block, into BufferRows; stripes come one after the other. All rows within reach are in
+// superblock, into BufferRows; stripes come one after the other. All rows within reach are in
 // the windows. After SF_ERROR_RUNNER and SF_ERROR_CANCELLED the rows are half made and the engine
 // is as it was, so that a stripe of a stream can be refocused again.
 sf_status RefocusStripe(EngineState* engine, int32_t y, const Runner& runner);

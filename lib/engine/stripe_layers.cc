@@ -6,7 +6,7 @@
 namespace starfocus {
 namespace {
 
-// Subsamples columns of largest blocks into the layers: job `index` has that column.
+// Subsamples columns of superblocks into the layers: job `index` has that column.
 struct LayerJob {
   const sf_config* config;
   const simd::Kernels* kernels;

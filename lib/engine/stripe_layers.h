@@ -12,7 +12,7 @@
 
 namespace starfocus {
 
-// Begins the stripe's marks of the columns of largest blocks in which layers are needed: none are,
+// Begins the stripe's marks of the columns of superblocks in which layers are needed: none are,
 // and those of the stripe before were.
 void ClearLayerColumns(const sf_config& config, Pictures* pictures);
 

@@ -9,18 +9,18 @@
 namespace starfocus {
 namespace {
 
-// Measures the cells of columns of largest blocks: job `index` has that column.
+// Measures the cells of columns of superblocks: job `index` has that column.
 struct MeasureJob {
   const simd::Kernels* kernels;
   const Window* window;  // at layer 0
   BlurScale scale;
-  int32_t per_block;  // columns of cells of a largest block
+  int32_t per_block;  // columns of cells of a superblock
   int32_t first_row;  // the first row of cells that no stripe before has measured
   const uint8_t* measured;
   CellGrid cells;  // output
 };
 
-// Splits largest blocks: job `index` has that column.
+// Splits superblocks: job `index` has that column.
 struct PlanJob {
   const sf_config* config;
   const simd::Kernels* kernels;
@@ -32,10 +32,10 @@ struct PlanJob {
   StripePlan plan;  // blocks, counts and gathered cells are the output
 };
 
-// Whether the picture decides how largest blocks are split.
+// Whether the picture decides how superblocks are split.
 bool IsPartitioned(const Lens& lens) { return IsBlockMode(lens) && !IsPinhole(lens); }
 
-// Returns the side of the largest blocks. Cat's eyes are those of a block's middle, and change
+// Returns the side of the superblocks. Cat's eyes are those of a block's middle, and change
 // towards its corners.
 int32_t LargestSide(const PlanJob& job) {
   constexpr int32_t kCatsEyeSide = 32;

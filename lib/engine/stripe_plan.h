@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The plan of a stripe: which largest blocks it needs, what their cells know, and the blocks each
+// The plan of a stripe: which superblocks it needs, what their cells know, and the blocks each
 // is split into.
 #ifndef STARFOCUS_LIB_ENGINE_STRIPE_PLAN_H_
 #define STARFOCUS_LIB_ENGINE_STRIPE_PLAN_H_
@@ -16,7 +16,7 @@ namespace starfocus {
 // Returns whether there are any.
 bool ChooseColumns(const Stripe& rows, EngineState* engine);
 
-// Measures cells, splits the largest blocks, drops blocks that nothing asked for depends on, and
+// Measures cells, splits the superblocks, drops blocks that nothing asked for depends on, and
 // tells the caller of the others. Returns SF_OK, SF_ERROR_RUNNER or
 // SF_ERROR_CANCELLED.
 sf_status PlanStripe(const Stripe& rows, const Runner& runner, EngineState* engine);

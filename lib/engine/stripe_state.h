@@ -14,20 +14,20 @@
 
 namespace starfocus {
 
-// A stripe of largest blocks: rows [y, y + height) of the picture.
+// A stripe of superblocks: rows [y, y + height) of the picture.
 struct Stripe {
   int32_t y, height;
 };
 
-// The blocks of a stripe. Each largest block is planned into memory of its own; those that are to
+// The blocks of a stripe. Each superblock is planned into memory of its own; those that are to
 // be refocused then lie one behind the other at the beginning.
 struct StripePlan {
-  int32_t side;        // of largest blocks, pixels
-  int32_t columns;     // of largest blocks
-  uint8_t* wanted;     // per largest block: some of its pixels are needed
-  uint8_t* measured;   // per largest block: its cells are needed
+  int32_t side;        // of superblocks, pixels
+  int32_t columns;     // of superblocks
+  uint8_t* wanted;     // per superblock: some of its pixels are needed
+  uint8_t* measured;   // per superblock: its cells are needed
   bool all_measured;   // whether the stripe before needed the cells of every column
-  Block* blocks;       // MaxBlocks per largest block
+  Block* blocks;       // MaxBlocks per superblock
   int32_t* counts;     // how many blocks each was split into
   int32_t used;        // how many blocks are to be refocused
   GatherMap gathered;  // which cells are gathered, in block mode

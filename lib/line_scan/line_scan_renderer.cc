@@ -28,7 +28,7 @@ BlockWork MeasureWork(const Rect& rect, const Border& border, const ViewWeights&
   return work;
 }
 
-// E and R of LineScanScratch are `extended` and the side of the largest blocks.
+// E and R of LineScanScratch are `extended` and the side of the superblocks.
 void TakeScratch(const sf_config& config, size_t extended, size_t max_n, Arena* arena,
                  void* memory) {
   LineScanScratch counted;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Timing-based quadtree partition of a largest block (paper, V-B).
+// Timing-based quadtree partition of a superblock (paper, V-B).
 #ifndef STARFOCUS_LIB_PLAN_PARTITION_H_
 #define STARFOCUS_LIB_PLAN_PARTITION_H_
 
@@ -51,19 +51,19 @@ struct PartitionNode {
   uint64_t gather[SF_LAYERS];   // predicted time of that
 };
 
-// Blocks a largest block can split into.
+// Blocks a superblock can split into.
 constexpr int32_t MaxBlocks(int32_t largest_block) {
   return (largest_block / kSmallestBlock) * (largest_block / kSmallestBlock);
 }
 
-// Nodes of the quadtree of a largest block.
+// Nodes of the quadtree of a superblock.
 constexpr int32_t PartitionNodes(int32_t largest_block) {
   int32_t nodes = 0;
   for (int32_t side = largest_block / kSmallestBlock; side > 0; side /= 2) nodes += side * side;
   return nodes;
 }
 
-// Memory for a largest block: PartitionNodes of it, SurroundingSamples of its cells.
+// Memory for a superblock: PartitionNodes of it, SurroundingSamples of its cells.
 struct PartitionScratch {
   PartitionNode* nodes;
   int16_t* cells;
@@ -77,9 +77,9 @@ struct PlanInput {
   int32_t around;  // how many cells away a pixel may splat from
 };
 
-// Splits the largest block at (x, y), multiples of largest_block, into the blocks of least
+// Splits the superblock at (x, y), multiples of largest_block, into the blocks of least
 // predicted time. Writes at most MaxBlocks blocks in z-order, and what of `gathered` belongs to the
-// largest block; returns the number of blocks.
+// superblock; returns the number of blocks.
 int32_t PartitionBlock(const PlanInput& input, int32_t x, int32_t y,
                        const PartitionScratch& scratch, Block* blocks, const GatherMap& gathered);
 

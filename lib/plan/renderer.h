@@ -39,7 +39,7 @@ struct RenderJob {
 struct Renderer {
   int32_t index;           // of its tables and scratch memory in an engine
   bool gathers;            // block mode gathers smooth cells instead of rendering them
-  int32_t benchmark_side;  // side of the largest blocks of the benchmark mode, pixels
+  int32_t benchmark_side;  // side of the superblocks of the benchmark mode, pixels
 
   // Returns N for a blur radius in pixels.
   int32_t (*view_count)(double r_max, Demand demand);

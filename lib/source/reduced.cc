@@ -7,7 +7,7 @@
 namespace starfocus {
 namespace {
 
-// Reduces the columns of a largest block.
+// Reduces the columns of a superblock.
 struct ReduceJob {
   const EngineState* engine;
   Plane<int16_t> disparity;

@@ -274,7 +274,7 @@ TEST_CASE("configuration: limits are legal") {
   }
 }
 
-TEST_CASE("configuration: a largest block of 0 is 128 from a width of 1536 on, else 64") {
+TEST_CASE("configuration: a superblock of 0 is 128 from a width of 1536 on, else 64") {
   for (const int width : {1, 1535, 1536, 1700}) {
     CAPTURE(width);
     const test::Scene scene = test::RandomScene(width, 3, 1, -2, 2, 9);

@@ -144,7 +144,7 @@ TEST_CASE("region: costs its share of the picture and its surroundings") {
     int told = 0;
     params.on_block_data = &told;
     params.on_block = [](void* data, const sf_block*) { ++*static_cast<int*>(data); };
-    params.region = {326, 326, 20, 20};  // inside one largest block
+    params.region = {326, 326, 20, 20};  // inside one superblock
     REQUIRE(test::Refocus(&engine, params, scene, &out, nullptr, nullptr, &part) == SF_OK);
     CHECK(BlocksOf(part) == uint64_t(told));
     CHECK(BlocksOf(part) <= 4);

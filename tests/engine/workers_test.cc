@@ -103,7 +103,7 @@ struct NotingRunner {
 };
 
 TEST_CASE("workers: each block is a job, those of the most predicted time come first") {
-  // A column of largest blocks is split where what is flat and blurred begins.
+  // A column of superblocks is split where what is flat and blurred begins.
   constexpr int kColumns = 3, kSide = 128;
   test::Scene scene = test::RandomScene(kColumns * kSide, kSide, 5, -9, 9, 31);
   for (int y = 0; y < kSide; ++y) {

@@ -153,7 +153,7 @@ struct Scratch {
   const starfocus::ResampleScratch memory;
 };
 
-// Layers 1 and 2 of a picture as a stripe of largest blocks makes them.
+// Layers 1 and 2 of a picture as a stripe of superblocks makes them.
 struct Layers {
   Layers(const std::vector<uint8_t>& picture, int width, int height, int largest_block,
          const starfocus::simd::Kernels& kernels)

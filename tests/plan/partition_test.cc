@@ -102,7 +102,7 @@ uint64_t Sum(const std::vector<Block>& blocks) {
   return sum;
 }
 
-// Checks every largest block of a picture; the number of blocks.
+// Checks every superblock of a picture; the number of blocks.
 size_t CheckPicture(const Plan& plan) {
   size_t count = 0;
   const int side = plan.config.largest_block;
@@ -223,7 +223,7 @@ TEST_CASE("partition: the rules on flat pictures, at and beside their thresholds
   }
 }
 
-// Rows of a layer that the blocks of the largest block at row y read beyond it, or of the picture
+// Rows of a layer that the blocks of the superblock at row y read beyond it, or of the picture
 // at layer 0: 0 where none does. Rows outside the picture are not read.
 void AddRowsBeyond(const Plan& plan, int y, const std::vector<Block>& blocks, int (*most)[3]) {
   for (const Block& block : blocks) {

@@ -159,7 +159,7 @@ TEST_CASE("timing: linear in work and in coefficients") {
   }
 }
 
-TEST_CASE("timing: a largest block with the largest coefficients, and all it splits into") {
+TEST_CASE("timing: a superblock with the largest coefficients, and all it splits into") {
   const sf_timing most = EqualTiming(SF_MAX_TIMING);
   const auto exact = [&](const BlockWork& work) {
     long double sum = 1;

@@ -73,7 +73,7 @@ Json TrafficJson(const EngineTask& task, const sf_report& report) {
   return json;
 }
 
-// Largest blocks of the picture or region.
+// Superblocks of the picture or region.
 uint64_t LargestBlocks(const EngineTask& task, int side) {
   const sf_config& config = task.config;
   const sf_region& region = task.params.region;

@@ -335,7 +335,7 @@ typedef struct sf_skipped {
   uint64_t copied_blocks; /**< no rendered view moves a pixel: copied from the centre view */
   uint64_t copied_pixels; /**< picture pixels they cover */
   uint64_t filled_blocks, filled_pixels; /**< always 0: blocks of one colour are rendered */
-  uint64_t layer_columns; /**< layers, columns of largest blocks and stripes that no block reads */
+  uint64_t layer_columns; /**< layers, columns of superblocks and stripes that no block reads */
   uint64_t boundaries;    /**< always 0: stripes of one layer are deblocked like others */
 } sf_skipped;
 
@@ -344,7 +344,7 @@ typedef struct sf_report {
   double r_max;           /**< largest blur radius the configured disparity range allows, pixels */
   int32_t n;              /**< views along the aperture radius, N; the largest of any block */
   int32_t rendered_views; /**< views of i^2 + j^2 <= N^2 for that N */
-  int32_t largest_block;  /**< side of the largest blocks in pixels: the configured one, or what 0
+  int32_t largest_block;  /**< side of the superblocks in pixels: the configured one, or what 0
                                chose */
   uint64_t rendered_samples; /**< R, G, B samples of all rendered views, summed over the layers */
   sf_layer_report layers[SF_LAYERS]; /**< by L; frame modes use L = 0 only */
@@ -357,7 +357,7 @@ typedef struct sf_report {
   uint64_t side_bytes;      /**< read of the views beside the centre, counted every time: in holes,
                                  beside depth edges and beyond the edges of the picture only */
   uint64_t gathered_pixels; /**< by sf_config.gather: blurred as a whole, no view is rendered */
-  uint64_t reused_blocks;   /**< sf_refocus_after: largest blocks of which nothing was refocused */
+  uint64_t reused_blocks;   /**< sf_refocus_after: superblocks of which nothing was refocused */
   uint64_t unknown_pixels;  /**< values that sf_config.fill_unknown filled, in the rows of the map
                                  that were read; none of a prepared light field */
 } sf_report;
@@ -425,7 +425,7 @@ typedef struct sf_previous {
   size_t out_stride;  /**< bytes from row to row */
 } sf_previous;
 
-/** As sf_refocus, with the same bytes, of the frame after another: largest blocks that depend on no
+/** As sf_refocus, with the same bytes, of the frame after another: superblocks that depend on no
  *  pixel that changed are copied from its picture. `out` must overlap nothing of `previous`. */
 SF_API sf_status sf_refocus_after(sf_engine* engine, const sf_params* params,
                                   const sf_light_field* light_field, const sf_previous* previous,
