@@ -114,7 +114,7 @@ void AddOptions(CLI::App* app, Options* options) {
       ->check(CLI::Range(2, SF_MAX_WORKERS));
   app->add_option("--repetitions", settings.repetitions, "Of every task")
       ->check(CLI::Range(1, 1000));
-  app->add_option("--cancel", settings.cancel, "Seconds per task before repetitions are cut");
+  app->add_option("--patience", settings.patience, "Seconds per task before repetitions are cut");
   app->add_flag("!--no-rivals", settings.rivals, "Leave the rivals out");
   app->add_option("--sweep", options->sweep, "Light field of the sweeps of radii and sizes");
   app->add_option("--largest-radius", choice.largest_radius, "Of that sweep, pixels; 0: none");

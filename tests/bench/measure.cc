@@ -48,13 +48,13 @@ void Note(const Elapsed& elapsed, Run* run) {
 }
 
 // A first run warms up and tells how many more there is time for; one that takes longer than the
-// cancel counts itself.
+// patience counts itself.
 Error WarmUp(const Field& field, const Settings& settings, Run* run) {
   Elapsed elapsed;
   const Error error = Once(field, run, &elapsed);
-  const double fit = settings.cancel / std::max(elapsed.wall, 1e-9);
+  const double fit = settings.patience / std::max(elapsed.wall, 1e-9);
   run->wanted = size_t(std::clamp(fit, 1.0, double(settings.repetitions)));
-  if (elapsed.wall > settings.cancel) Note(elapsed, run);
+  if (elapsed.wall > settings.patience) Note(elapsed, run);
   return error;
 }
 

@@ -14,8 +14,8 @@ namespace starfocus::bench {
 
 struct Settings {
   int repetitions = 5;
-  double cancel = 3;   // seconds per task beyond which repetitions are dropped
-  std::string folder;  // for the files of other programs
+  double patience = 3;  // seconds per task beyond which repetitions are dropped
+  std::string folder;   // for the files of other programs
   bool rivals = true;
 };
 

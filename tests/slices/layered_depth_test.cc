@@ -51,7 +51,7 @@ TEST_CASE("surfaces: behind a near square lies what captured views see beside it
 }
 
 TEST_CASE(
-    "surfaces: a pair occlusion_views behind the edges on one side, on the others the background "
+    "surfaces: a pair looks behind the edges on one side, on the others the background "
     "goes on") {
   Scene scene(17);
   test::SetPositions({{1, 0}}, &scene.window);
