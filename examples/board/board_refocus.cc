@@ -4,6 +4,7 @@
 // runs, for a scope or a power meter.
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,80 +24,40 @@ namespace {
 using namespace starfocus;
 
 struct Options {
-  std::string folder, chip = "gpiochip0", encoder, aperture, shutter, busy;
-  std::string debounce = "10", active = "low", bias = "pull-up";
-  std::string focus, step, mode = "block", threads = "1", pictures = "0";
-  std::string out, framebuffer;
-  bool list = false;
-};
-
-struct Plan {
-  PanelLines lines;
-  int busy = -1;
-  int debounce = 10;  // milliseconds
+  std::string folder, chip = "gpiochip0", out, framebuffer;
+  std::optional<Pixel> encoder;
+  std::optional<int> aperture, shutter, busy;  // lines
+  int debounce = 10;                           // milliseconds
+  bool active_high = false;
   GpioBias bias = GpioBias::kPullUp;
-  bool focus_given = false;
-  double focus = 0, step = 0;  // step 0: a fortieth of the scene
+  std::optional<double> focus, step;
+  sf_mode mode = SF_MODE_BLOCK;
   int threads = 1, pictures = 0;
+  bool list = false;
 };
 
 constexpr int kLastLine = 100000;
 
-Error ParseLine(const std::string& option, const std::string& text, int* line) {
-  return text.empty() ? Error() : ParseWhole(option, text, 0, kLastLine, line);
-}
-
-Error PlanLines(const Options& options, Plan* plan) {
-  Error error;
-  PanelLines& lines = plan->lines;
-  if (!options.encoder.empty()) {
-    error = ParsePair("--encoder", options.encoder, ',', &lines.encoder_a, &lines.encoder_b);
+// Everything that can be refused before the light field is read.
+Error PlanLines(const Options& options, PanelLines* lines) {
+  if (options.encoder) {
+    lines->encoder_a = options.encoder->x;
+    lines->encoder_b = options.encoder->y;
   }
-  if (!error) error = ParseLine("--aperture-button", options.aperture, &lines.aperture);
-  if (!error) error = ParseLine("--shutter", options.shutter, &lines.shutter);
-  if (!error) error = ParseLine("--busy", options.busy, &plan->busy);
-  if (error) return error;
-  if (lines.shutter < 0) return Error::Usage("--shutter", "the line of the shutter button", "none");
-  std::vector<int> all = lines.All();
-  if (plan->busy >= 0) all.push_back(plan->busy);
+  lines->aperture = options.aperture.value_or(-1);
+  lines->shutter = options.shutter.value_or(-1);
+  if (!options.out.empty()) {
+    if (Error error = CheckImageOutput(options.out)) return error;
+  } else if (options.framebuffer.empty()) {
+    return Error::Usage("--out", "a picture file to write, or --framebuffer", "neither");
+  }
+  if (!options.shutter) return Error::Usage("--shutter", "the line of the shutter button", "none");
+  std::vector<int> all = lines->All();
+  if (options.busy) all.push_back(*options.busy);
   std::sort(all.begin(), all.end());
   const auto twice = std::adjacent_find(all.begin(), all.end());
   if (twice == all.end()) return {};
   return Error::Usage("lines", "a line for each control", std::to_string(*twice) + " twice");
-}
-
-// Everything that can be refused before the light field is read.
-Error MakePlan(const Options& options, Plan* plan) {
-  Error error = PlanLines(options, plan);
-  if (!error) {
-    error = ParseWhole("--debounce", options.debounce, 0, 1000, &plan->debounce);
-  }
-  if (!error && !options.focus.empty()) {
-    error = ParseNumber("--focus", options.focus, &plan->focus);
-    plan->focus_given = true;
-  }
-  if (!error && !options.step.empty()) {
-    error = ParseNumber("--step", options.step, &plan->step);
-  }
-  if (!error) {
-    error = ParseWhole("--threads", options.threads, 1, SF_MAX_WORKERS, &plan->threads);
-  }
-  if (!error) error = ParseWhole("--pictures", options.pictures, 0, 1000000, &plan->pictures);
-  if (!error && !options.out.empty()) error = CheckImageOutput(options.out);
-  if (error) return error;
-  if (options.out.empty() && options.framebuffer.empty()) {
-    return Error::Usage("--out", "a picture file to write, or --framebuffer", "neither");
-  }
-  if (options.active != "low" && options.active != "high") {
-    return Error::Usage("--active", "low or high", "'" + options.active + "'");
-  }
-  if (options.mode != "block" && options.mode != "frame") {
-    return Error::Usage("--mode", "block or frame", "'" + options.mode + "'");
-  }
-  if (options.bias == "none") plan->bias = GpioBias::kAsIs;
-  if (options.bias == "pull-down") plan->bias = GpioBias::kPullDown;
-  if (options.bias == "pull-up" || plan->bias != GpioBias::kPullUp) return {};
-  return Error::Usage("--bias", "pull-up, pull-down or none", "'" + options.bias + "'");
 }
 
 int64_t Nanoseconds() { return static_cast<int64_t>(Seconds() * 1e9); }
@@ -109,28 +70,25 @@ std::string Numbered(const std::string& path, int number) {
 
 class Board {
  public:
-  Board(const Options& options, const Plan& plan)
-      : options_(options), plan_(plan), camera_(plan.threads) {}
+  Board(const Options& options, const PanelLines& lines)
+      : options_(options), lines_(lines), camera_(options.threads) {}
 
   // The lines are taken before the light field is read: their absence is known sooner.
   Error Open() {
-    Error error = inputs_.Open(options_.chip, plan_.lines.All(), plan_.bias);
-    if (!error && plan_.busy >= 0) error = busy_.Open(options_.chip, plan_.busy);
-    if (!error) {
-      error =
-          camera_.Load(options_.folder, options_.mode == "block" ? SF_MODE_BLOCK : SF_MODE_FRAME);
-    }
+    Error error = inputs_.Open(options_.chip, lines_.All(), options_.bias);
+    if (!error && options_.busy) error = busy_.Open(options_.chip, *options_.busy);
+    if (!error) error = camera_.Load(options_.folder, options_.mode);
     if (error) return error;
-    step_ = plan_.step != 0 ? plan_.step : (camera_.nearest() - camera_.farthest()) / 40;
+    step_ = options_.step.value_or((camera_.nearest() - camera_.farthest()) / 40);
     focus_ = 0.5 * (camera_.nearest() + camera_.farthest());
-    if (plan_.focus_given) {
-      if (plan_.focus < camera_.farthest() || plan_.focus > camera_.nearest()) {
+    if (options_.focus) {
+      if (*options_.focus < camera_.farthest() || *options_.focus > camera_.nearest()) {
         return Error::Usage("--focus",
                             "a disparity of the scene, " + Short(camera_.farthest()) + " to " +
                                 Short(camera_.nearest()),
-                            Short(plan_.focus));
+                            Short(*options_.focus));
       }
-      focus_ = plan_.focus;
+      focus_ = *options_.focus;
     }
     std::printf("ready: focus %g (%g to %g), aperture %g, workspace %zu bytes, %s\n", focus_,
                 camera_.farthest(), camera_.nearest(), aperture(), camera_.workspace_bytes(),
@@ -142,11 +100,11 @@ class Board {
   Error Run() {
     bool a = true, b = true;
     Error error;
-    if (plan_.lines.encoder_a >= 0) {
-      error = inputs_.Read(plan_.lines.encoder_a, &a);
-      if (!error) error = inputs_.Read(plan_.lines.encoder_b, &b);
+    if (lines_.encoder_a >= 0) {
+      error = inputs_.Read(lines_.encoder_a, &a);
+      if (!error) error = inputs_.Read(lines_.encoder_b, &b);
     }
-    Panel panel(plan_.lines, options_.active == "low", int64_t{plan_.debounce} * 1000000, a, b);
+    Panel panel(lines_, !options_.active_high, int64_t{options_.debounce} * 1000000, a, b);
     std::vector<GpioEdge> edges;
     while (!error && !Finished()) {
       const int64_t wait = panel.Wait(Nanoseconds());
@@ -161,7 +119,7 @@ class Board {
 
  private:
   double aperture() const { return camera_.apertures()[aperture_]; }
-  bool Finished() const { return plan_.pictures != 0 && taken_ >= plan_.pictures; }
+  bool Finished() const { return options_.pictures != 0 && taken_ >= options_.pictures; }
 
   Error Act(const PanelActions& actions) {
     if (!actions.any()) return {};
@@ -174,7 +132,7 @@ class Board {
   }
 
   Error SetBusy(bool high, bool* read_back) {
-    if (plan_.busy < 0) return {};
+    if (!options_.busy) return {};
     if (Error error = busy_.Set(high)) return error;
     return busy_.Read(read_back);
   }
@@ -192,7 +150,7 @@ class Board {
     ++taken_;
     std::printf("picture %d: focus %g, aperture %g, %.3f ms", taken_, focus_, aperture(),
                 1e3 * seconds);
-    if (plan_.busy >= 0) std::printf(", busy line read back %d, then %d", during, after);
+    if (options_.busy) std::printf(", busy line read back %d, then %d", during, after);
     std::printf("\n");
     Keep();
     return {};
@@ -213,7 +171,7 @@ class Board {
   }
 
   const Options& options_;
-  const Plan& plan_;
+  const PanelLines& lines_;
   GpioInputs inputs_;
   GpioOutput busy_;
   Camera camera_;
@@ -234,12 +192,11 @@ Error List() {
 Error Run(const Options& options) {
   if (options.list) return List();
   if (options.folder.empty()) return Error::Usage("DIR", "a light-field folder", "nothing");
-  Plan plan;
-  Error error = MakePlan(options, &plan);
-  Board board(options, plan);
-  if (!error) error = board.Open();
-  if (!error) error = board.Run();
-  return error;
+  PanelLines lines;
+  if (Error error = PlanLines(options, &lines)) return error;
+  Board board(options, lines);
+  if (Error error = board.Open()) return error;
+  return board.Run();
 }
 
 Error Main(int argc, char** argv) {
@@ -252,21 +209,34 @@ Error Main(int argc, char** argv) {
            {"DIR", "TEXT", "Light-field folder", &options.folder},
            {"--list", nullptr, "List the GPIO chips and end", &options.list},
            {"--chip", "TEXT", "GPIO chip: gpiochip0, 0 or a path", &options.chip, Use::kDefault},
-           {"--encoder", "TEXT", "Lines A,B of the rotary encoder for the focus", &options.encoder},
-           {"--aperture-button", "TEXT", "Line of the button for the aperture", &options.aperture},
-           {"--shutter", "TEXT", "Line of the button that takes a picture", &options.shutter},
-           {"--busy", "TEXT", "Output line, high exactly while the engine runs", &options.busy},
-           {"--debounce", "TEXT", "Milliseconds a button may bounce", &options.debounce,
+           {"--encoder", "TEXT", "Lines A,B of the rotary encoder for the focus",
+            Pair(',', &options.encoder)},
+           {"--aperture-button", "TEXT", "Line of the button for the aperture",
+            Whole(0, kLastLine, &options.aperture)},
+           {"--shutter", "TEXT", "Line of the button that takes a picture",
+            Whole(0, kLastLine, &options.shutter)},
+           {"--busy", "TEXT", "Output line, high exactly while the engine runs",
+            Whole(0, kLastLine, &options.busy)},
+           {"--debounce", "TEXT", "Milliseconds a button may bounce",
+            Whole(0, 1000, &options.debounce), Use::kDefault},
+           {"--active", "TEXT", "Level of a pressed button: low or high",
+            Choice<bool>({{"low", false}, {"high", true}}, &options.active_high), Use::kDefault},
+           {"--bias", "TEXT", "Bias of the inputs: pull-up, pull-down or none",
+            Choice<GpioBias>({{"pull-up", GpioBias::kPullUp},
+                              {"pull-down", GpioBias::kPullDown},
+                              {"none", GpioBias::kAsIs}},
+                             &options.bias),
             Use::kDefault},
-           {"--active", "TEXT", "Level of a pressed button: low or high", &options.active,
+           {"--focus", "TEXT", "Disparity to begin with; default: the middle",
+            Number(&options.focus)},
+           {"--step", "TEXT", "Disparity of an encoder step; default: 1/40 of all",
+            Number(&options.step)},
+           {"--mode", "TEXT", "block or frame",
+            Choice<sf_mode>({{"block", SF_MODE_BLOCK}, {"frame", SF_MODE_FRAME}}, &options.mode),
             Use::kDefault},
-           {"--bias", "TEXT", "Bias of the inputs: pull-up, pull-down or none", &options.bias,
-            Use::kDefault},
-           {"--focus", "TEXT", "Disparity to begin with; default: the middle", &options.focus},
-           {"--step", "TEXT", "Disparity of an encoder step; default: 1/40 of all", &options.step},
-           {"--mode", "TEXT", "block or frame", &options.mode, Use::kDefault},
-           {"--threads", "TEXT", "1 to 64", &options.threads, Use::kDefault},
-           {"--pictures", "TEXT", "End after so many; 0: never", &options.pictures, Use::kDefault},
+           {"--threads", "TEXT", "1 to 64", Threads(&options.threads), Use::kDefault},
+           {"--pictures", "TEXT", "End after so many; 0: never",
+            Whole(0, 1000000, &options.pictures), Use::kDefault},
            {"--out", "TEXT", "Picture file (.png, .ppm, .jpg); a number is added", &options.out},
            {"--framebuffer", "TEXT", "Linux framebuffer, such as /dev/fb0", &options.framebuffer},
        },

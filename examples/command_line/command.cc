@@ -31,7 +31,8 @@ bool IsPositional(const Option& option) { return option.names[0] != '-'; }
 
 std::string DefaultOf(const Option& option) {
   if (option.default_text != nullptr) return option.default_text;
-  return option.use == Use::kDefault ? *option.target.value : "";
+  if (option.use != Use::kDefault) return "";
+  return option.target.text != nullptr ? *option.target.text : option.target.shown;
 }
 
 }  // namespace starfocus

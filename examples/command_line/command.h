@@ -7,23 +7,31 @@
 #include <functional>
 #include <initializer_list>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "platform/result.h"
 
 namespace starfocus {
 
-// The variable that an option sets: of a flag, of one value, or of several values. None for --help
-// and --version.
+// Reads a text into a variable, and returns what was expected: empty where the text is that.
+using Reader = std::function<std::string(const std::string& text)>;
+
+// The variable that an option sets: of a flag, of one text, of several texts, or of a value that is
+// read (options.h). None for --help and --version.
 struct Target {
-  constexpr Target() = default;
-  constexpr Target(bool* target) : flag(target) {}                        // NOLINT: for tables
-  constexpr Target(std::string* target) : value(target) {}                // NOLINT: for tables
-  constexpr Target(std::vector<std::string>* target) : values(target) {}  // NOLINT: for tables
+  Target() = default;
+  Target(bool* target) : flag(target) {}                       // NOLINT: for tables
+  Target(std::string* target) : text(target) {}                // NOLINT: for tables
+  Target(std::vector<std::string>* target) : texts(target) {}  // NOLINT: for tables
+  explicit Target(Reader reader, std::string shown_default = "")
+      : read(std::move(reader)), shown(std::move(shown_default)) {}
 
   bool* flag = nullptr;
-  std::string* value = nullptr;
-  std::vector<std::string>* values = nullptr;
+  std::string* text = nullptr;
+  std::vector<std::string>* texts = nullptr;
+  Reader read = nullptr;
+  std::string shown = "";  // the default, if `read` has one
 };
 
 enum class Use {
@@ -43,9 +51,8 @@ struct Option {
   const char* default_text = nullptr;  // what the help shows as the default of kOptional
 };
 
-inline constexpr Option kHelpOption = {
-    "-h,--help", nullptr, "Print this help message and exit", {}};
-inline constexpr Option kVersionOption = {"--version", nullptr, "Print the version and end", {}};
+inline const Option kHelpOption = {"-h,--help", nullptr, "Print this help message and exit", {}};
+inline const Option kVersionOption = {"--version", nullptr, "Print the version and end", {}};
 
 struct Command {
   const char* name;

@@ -1,52 +1,79 @@
 // SPDX-License-Identifier: Apache-2.0
-// Values of command-line options. The errors name the option.
+// What options take, for their tables: numbers, choices and others, each read into a variable whose
+// value is the default.
 #ifndef STARFOCUS_EXAMPLES_COMMAND_LINE_OPTIONS_H_
 #define STARFOCUS_EXAMPLES_COMMAND_LINE_OPTIONS_H_
 
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "examples/command_line/command.h"
-#include "platform/result.h"
 #include "platform/view_files.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
 
-// A finite number, all of `text`.
-Error ParseNumber(const std::string& option, const std::string& text, double* value);
-
 // A whole number in [low, high].
-Error ParseWhole(const std::string& option, const std::string& text, int low, int high, int* value);
+Target Whole(int low, int high, int* value);
+Target Whole(int low, int high, std::optional<int>* value);
+Target Threads(int* value);  // 1 to 64
 
-// Two whole numbers from 0 to 65535 with `separator` between them.
-Error ParsePair(const std::string& option, const std::string& text, char separator, int* first,
-                int* second);
+// A finite number; those in [low, high] are what is `expected`.
+Target Number(double* value);
+Target Number(std::optional<double>* value);
+Target Number(double low, double high, const std::string& expected, double* value);
+Target Number(double low, double high, const std::string& expected, std::optional<double>* value);
+
+// One of several words, each with its value.
+template <class T>
+using Words = std::vector<std::pair<const char*, T>>;
+template <class T>
+Target Choice(const Words<T>& words, T* value);
+Target Transfer(sf_transfer* value);
+
+// Two whole numbers from 0 to 65535.
+struct Pixel {
+  int x = 0, y = 0;
+};
+Target Pair(char separator, Pixel* value);
+Target Pair(char separator, std::optional<Pixel>* value);
 
 // X,Y,W,H: a rectangle of whole numbers, neither side 0.
-Error ParseRegion(const std::string& option, const std::string& text, sf_region* region);
-
-// A radius above 0 and at most 1.
-Error ParseAperture(const std::string& option, const std::string& text, double* value);
-
-// A number from 0 to 100.
-Error ParsePercentage(const std::string& option, const std::string& text, double* value);
-
-// A factor from SF_MIN_N_SCALE to SF_MAX_N_SCALE.
-Error ParseScale(const std::string& option, const std::string& text, double* value);
+Target Region(sf_region* value);
 
 // 17, 9, 5 or 1: those of the star, or U,V:U,V and so on: views at those positions, the first one
 // at 0,0, all within +-1, rounded to four decimals as names of files are.
-Error ParseViews(const std::string& option, const std::string& text, Positions* positions);
+Target Views(Positions* positions);
 
-// A factor from 1 to SF_MAX_HIGHLIGHTS.
-Error ParseHighlights(const std::string& option, const std::string& text, double* value);
-
-// srgb or none.
-Error ParseTransfer(const std::string& option, const std::string& text, sf_transfer* value);
-void AddTransferOption(Command* command, const char* help, std::string* text);
+// Finite numbers with `separator` between them; none where one is none.
+std::vector<double> ReadNumbers(const std::string& text, char separator);
 
 // `value` with %g.
 std::string Short(double value);
+
+// "a, b or c".
+std::string OneOf(const std::vector<std::string>& words);
+
+template <class T>
+Target Choice(const Words<T>& words, T* value) {
+  std::vector<std::string> names;
+  std::string shown;
+  for (const auto& [name, its] : words) {
+    names.push_back(name);
+    if (its == *value) shown = name;
+  }
+  const auto read = [words, expected = OneOf(names), value](const std::string& text) {
+    for (const auto& [name, its] : words) {
+      if (text != name) continue;
+      *value = its;
+      return std::string();
+    }
+    return expected;
+  };
+  return Target(read, shown);
+}
 
 }  // namespace starfocus
 

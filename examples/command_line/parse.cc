@@ -15,11 +15,24 @@
 namespace starfocus {
 namespace {
 
-void AddOption(const Option& option, CLI::App* app) {
+// Reads the value of an option, of which `wrong` tells where it is none.
+CLI::callback_t ReaderOf(const Option& option, Error* wrong) {
+  return [read = option.target.read, name = NamesOf(option).back(),
+          wrong](const CLI::results_t& texts) {
+    const std::string expected = read(texts[0]);
+    if (!expected.empty()) {
+      *wrong = Error::Usage(name, expected, "'" + texts[0].substr(0, 60) + "'");
+    }
+    return expected.empty();
+  };
+}
+
+void AddOption(const Option& option, Error* wrong, CLI::App* app) {
   const Target& target = option.target;
-  CLI::Option* added = target.flag != nullptr    ? app->add_flag(option.names, *target.flag)
-                       : target.value != nullptr ? app->add_option(option.names, *target.value)
-                                                 : app->add_option(option.names, *target.values);
+  CLI::Option* added = target.flag != nullptr   ? app->add_flag(option.names, *target.flag)
+                       : target.text != nullptr ? app->add_option(option.names, *target.text)
+                       : target.read ? app->add_option(option.names, ReaderOf(option, wrong))
+                                     : app->add_option(option.names, *target.texts);
   added->description(option.help);
   if (option.type != nullptr) added->type_name(option.type);
   added->required(option.use == Use::kRequired);
@@ -28,22 +41,22 @@ void AddOption(const Option& option, CLI::App* app) {
   if (option.excludes != nullptr) added->excludes(app->get_option(option.excludes));
 }
 
-void AddCommandOptions(const Command& command, CLI::App* app) {
+void AddCommandOptions(const Command& command, Error* wrong, CLI::App* app) {
   app->set_help_flag(kHelpOption.names, kHelpOption.help);
-  for (const Option& option : command.options) AddOption(option, app);
+  for (const Option& option : command.options) AddOption(option, wrong, app);
 }
 
-// CLI11's form of a program.
-void Translate(const Program& program, CLI::App* app) {
+// CLI11's form of a program. `wrong` is the error of a value that an option does not take.
+void Translate(const Program& program, Error* wrong, CLI::App* app) {
   app->name(program.main.name);
   app->description(program.main.help);
-  AddCommandOptions(program.main, app);
+  AddCommandOptions(program.main, wrong, app);
   app->set_version_flag(kVersionOption.names, VersionText(program.main.name), kVersionOption.help);
   // With at least one, CLI11 would report a missing subcommand in place of a wrong argument.
   if (!program.commands.empty()) app->require_subcommand(0, 1);
   for (const Command& command : program.commands) {
     CLI::App* added = app->add_subcommand(command.name, command.help);
-    AddCommandOptions(command, added);
+    AddCommandOptions(command, wrong, added);
     added->footer(command.footer);
   }
   app->footer(kExitCodes);
@@ -111,8 +124,8 @@ Error Unexpected(CLI::App* app, const std::string& argument) {
   return Error::Usage("command line", "no other argument of " + name, "'" + argument + "'");
 }
 
-// Names the argument that is unknown, missing or in excess.
-Error WrongLine(CLI::App* app, const CLI::ParseError& wrong) {
+// Names the argument that is unknown, missing or in excess, or the wrong `value`.
+Error WrongLine(CLI::App* app, const CLI::ParseError& wrong, const Error& value) {
   const std::vector<std::string> others = app->remaining(true);
   const auto is_option = [](const std::string& text) { return text.size() > 1 && text[0] == '-'; };
   const bool no_command = Chosen(app) == app && !app->get_subcommands({}).empty();
@@ -120,6 +133,7 @@ Error WrongLine(CLI::App* app, const CLI::ParseError& wrong) {
   const auto option = std::find_if(others.begin(), others.end(), is_option);
   if (option != others.end()) return Unexpected(app, *option);
   if (!others.empty()) return Unexpected(app, others[0]);
+  if (value) return value;
   const std::string text = wrong.what();
   for (const CLI::Option* its : Chosen(app)->get_options()) {
     const std::string name = its->get_name();
@@ -153,7 +167,8 @@ Error RunCommandLine(const Program& program, int argc, char** argv) {
   const std::string first = arguments.empty() ? "" : arguments[0];
   if (Error error = CheckSeparators(arguments, CommandOf(program, first).options)) return error;
   CLI::App app;
-  Translate(program, &app);
+  Error wrong_value;
+  Translate(program, &wrong_value, &app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
@@ -163,7 +178,7 @@ Error RunCommandLine(const Program& program, int argc, char** argv) {
     std::printf("%s\n", version.what());
     return {};
   } catch (const CLI::ParseError& wrong) {
-    return WrongLine(&app, wrong);
+    return WrongLine(&app, wrong, wrong_value);
   }
   const Command& chosen = CommandOf(program, Chosen(&app)->get_name());
   if (Error error = CheckValues(app)) return error;
@@ -180,7 +195,8 @@ Error RunCommandLine(const Program& program, int argc, char** argv) {
 
 std::string HelpText(const Program& program, const Command& command) {
   CLI::App app;
-  Translate(program, &app);
+  Error unused;
+  Translate(program, &unused, &app);
   const std::string name = app.get_name();
   return &command == &program.main ? app.help() : app.get_subcommand(command.name)->help(name);
 }

@@ -18,19 +18,6 @@ Error ShapeError(const std::string& text) {
                       "'" + text.substr(0, 60) + "'");
 }
 
-// The numbers behind the colon, or nothing where one is none.
-std::vector<double> Numbers(const std::string& text) {
-  std::vector<double> numbers;
-  for (size_t begin = 0; begin <= text.size();) {
-    const size_t end = std::min(text.find(',', begin), text.size());
-    double number = 0;
-    if (ParseNumber("", text.substr(begin, end - begin), &number)) return {};
-    numbers.push_back(number);
-    begin = end + 1;
-  }
-  return numbers;
-}
-
 bool SetPolygon(const std::vector<double>& numbers, sf_config* config) {
   if (numbers.empty() || numbers.size() > 3) return false;
   const double blades = numbers[0], rotation = numbers.size() > 1 ? numbers[1] : 0;
@@ -58,7 +45,7 @@ bool SetShape(const std::string& text, sf_config* config) {
     config->aperture_shape = name == "disc" ? SF_SHAPE_DISC : SF_SHAPE_FALL_OFF;
     return name == "disc" || name == "fall-off";
   }
-  const std::vector<double> numbers = Numbers(text.substr(colon + 1));
+  const std::vector<double> numbers = ReadNumbers(text.substr(colon + 1), ',');
   if (name == "polygon") return SetPolygon(numbers, config);
   return name == "ring" && SetRing(numbers, config);
 }
@@ -75,34 +62,25 @@ void AddShapeOptions(Command* command, ShapeOptions* options) {
            "to 0.9 of its radius",
            &options->shape, Use::kDefault},
           {"--theta", "T", "0.05 to 0.45: the angle of the fall-off, as a part of pi",
-           &options->theta, Use::kDefault},
+           Number(0.05, 0.45, "a part of pi from 0.05 to 0.45", &options->theta), Use::kDefault},
           {"--cats-eye", "X",
            "0 to 1: how far a second rim moves into the opening towards the corners, in "
            "radii",
-           &options->cats_eye, Use::kDefault},
+           Number(0, 1, "a number from 0 to 1", &options->cats_eye), Use::kDefault},
       },
       command);
 }
 
 Error ParseShape(const ShapeOptions& options, sf_config* config) {
   if (!SetShape(options.shape, config)) return ShapeError(options.shape);
-  double theta = 0, cats_eye = 0;
-  if (Error error = ParseNumber("--theta", options.theta, &theta)) return error;
-  if (theta < 0.05 || theta > 0.45) {
-    return Error::Usage("--theta", "a part of pi from 0.05 to 0.45", "'" + options.theta + "'");
-  }
   if (config->aperture_shape != SF_SHAPE_FALL_OFF && options.theta != ShapeOptions().theta) {
     return Error::Usage("--theta", "--shape fall-off beside it", "'" + options.shape + "'");
   }
   // The ends of the range and the default are the library's to the last digit.
-  config->theta = theta * kPi;
+  config->theta = options.theta * kPi;
   if (config->theta < SF_MIN_THETA) config->theta = SF_MIN_THETA;
   if (config->theta > SF_MAX_THETA) config->theta = SF_MAX_THETA;
-  if (Error error = ParseNumber("--cats-eye", options.cats_eye, &cats_eye)) return error;
-  if (cats_eye < 0 || cats_eye > 1) {
-    return Error::Usage("--cats-eye", "a number from 0 to 1", "'" + options.cats_eye + "'");
-  }
-  config->cats_eye = static_cast<float>(cats_eye);
+  config->cats_eye = static_cast<float>(options.cats_eye);
   return {};
 }
 
@@ -110,8 +88,8 @@ std::string ShapeSuffix(const ShapeOptions& options) {
   const ShapeOptions defaults;
   std::string suffix;
   if (options.shape != defaults.shape) suffix += "_" + options.shape;
-  if (options.theta != defaults.theta) suffix += "_theta" + options.theta;
-  if (options.cats_eye != defaults.cats_eye) suffix += "_cats-eye" + options.cats_eye;
+  if (options.theta != defaults.theta) suffix += "_theta" + Short(options.theta);
+  if (options.cats_eye != defaults.cats_eye) suffix += "_cats-eye" + Short(options.cats_eye);
   for (char& c : suffix) {
     if (c == ':' || c == ',') c = '-';
   }

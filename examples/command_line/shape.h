@@ -11,9 +11,9 @@
 
 namespace starfocus {
 
-// As typed.
 struct ShapeOptions {
-  std::string shape = "fall-off", theta = "0.26", cats_eye = "0";
+  std::string shape = "fall-off";  // as typed
+  double theta = 0.26, cats_eye = 0;
 };
 
 void AddShapeOptions(Command* command, ShapeOptions* options);

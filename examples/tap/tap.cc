@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,38 +26,15 @@ namespace {
 constexpr double kBlur = 32;  // pixels: how far the lens may blur, whatever is tapped
 
 struct Options {
-  std::string folder, size = "4000x3000", first, second, out;
-  std::string shift = "2", frames = "12", threads;
+  std::string folder, out;
+  Pixel size = {4000, 3000};  // of the scene that is traced without a folder
+  std::optional<Pixel> first, second;
+  int shift = 2, frames = 12, threads = sf_pool_cores();
 };
-
-struct Point {
-  int x = 0, y = 0;
-};
-
-struct Plan {
-  int width = 0, height = 0;  // of the scene that is traced without a folder
-  int shift = 0, frames = 0, threads = 0;
-};
-
-Error MakePlan(const Options& options, Plan* plan) {
-  Error error = ParsePair("--size", options.size, 'x', &plan->width, &plan->height);
-  if (!error && (plan->width < 1 || plan->height < 1)) {
-    error = Error::Usage("--size", "WxH", "'" + options.size + "'");
-  }
-  if (!error) {
-    error = ParseWhole("--preview", options.shift, 1, SF_MAX_PREVIEW, &plan->shift);
-  }
-  if (!error) error = ParseWhole("--frames", options.frames, 1, 1000, &plan->frames);
-  plan->threads = sf_pool_cores();
-  if (!error && !options.threads.empty()) {
-    error = ParseWhole("--threads", options.threads, 1, SF_MAX_WORKERS, &plan->threads);
-  }
-  return error;
-}
 
 // The light field of a folder, or the portrait traced; and where to tap if nobody says.
-Error Open(const Options& options, const Plan& plan, ThreadRunner* runner, LightField* field,
-           Point* first, Point* second) {
+Error Open(const Options& options, ThreadRunner* runner, LightField* field, Pixel* first,
+           Pixel* second) {
   if (!options.folder.empty()) {
     const Error error = LoadLightField(options.folder, {}, field);
     *first = {field->width() / 2, field->height() / 2};
@@ -64,8 +42,8 @@ Error Open(const Options& options, const Plan& plan, ThreadRunner* runner, Light
     return error;
   }
   const Scene scene = MakePortrait();
-  const RayTracer renderer(scene, plan.width, plan.height, SF_TRANSFER_SRGB, runner);
-  Progress progress("tracing", int64_t{5} * plan.height);
+  const RayTracer renderer(scene, options.size.x, options.size.y, SF_TRANSFER_SRGB, runner);
+  Progress progress("tracing", int64_t{5} * options.size.y);
   for (int view = 0; view < 5; ++view) {
     double u = 0, v = 0;
     sf_view_position(view, &u, &v);
@@ -77,26 +55,25 @@ Error Open(const Options& options, const Plan& plan, ThreadRunner* runner, Light
   return {};
 }
 
-Error ParseTap(const std::string& option, const std::string& text, const LightField& field,
-               Point* point) {
-  if (text.empty()) return {};
-  if (Error error = ParsePair(option, text, ',', &point->x, &point->y)) return error;
+Error TakeTap(const std::string& option, const std::optional<Pixel>& tapped,
+              const LightField& field, Pixel* point) {
+  if (!tapped) return {};
+  *point = *tapped;
   if (point->x < field.width() && point->y < field.height()) return {};
   return Error::Usage(
       option, "a pixel of " + std::to_string(field.width()) + "x" + std::to_string(field.height()),
-      "'" + text + "'");
+      "'" + std::to_string(point->x) + "," + std::to_string(point->y) + "'");
 }
 
 class Session {
  public:
-  Session(const LightField& field, const Plan& plan, std::string out, ThreadRunner* runner)
-      : plan_(plan),
-        out_(std::move(out)),
+  Session(const LightField& field, const Options& options, ThreadRunner* runner)
+      : options_(options),
         runner_(runner),
         map_(field.disparity),
         full_(field.width(), field.height()),
-        preview_((field.width() - 1) / (1 << plan.shift) + 1,
-                 (field.height() - 1) / (1 << plan.shift) + 1) {
+        preview_((field.width() - 1) / (1 << options.shift) + 1,
+                 (field.height() - 1) / (1 << options.shift) + 1) {
     for (size_t k = 0; k < field.views.size(); ++k) {
       field_.views[k] = {field.views[k].pixels.data(), field.views[k].stride()};
     }
@@ -118,7 +95,7 @@ class Session {
     config.max_blur = kBlur;
     config.fill_unknown = 1;
     config.max_workers = runner_->workers();
-    config.previews = plan_.shift;
+    config.previews = options_.shift;
     const double range = double(stats.max) - double(stats.min);
     params_.aperture = std::min(1.0, kBlur / std::max(range, 1e-9));
     const double start = Seconds();
@@ -130,7 +107,7 @@ class Session {
     return error;
   }
 
-  Error FocusAt(const Point& point, double* focus) {
+  Error FocusAt(const Pixel& point, double* focus) {
     const double start = Seconds();
     const Error error = Outcome(engine_.FocusAt(field_, point.x, point.y, focus));
     const std::string tap = std::to_string(point.x) + "," + std::to_string(point.y);
@@ -142,10 +119,10 @@ class Session {
     params_.focus = focus;
     const double start = Seconds();
     if (Error error =
-            Outcome(engine_.RefocusPreview(params_, plan_.shift, preview_.pixels.data(),
+            Outcome(engine_.RefocusPreview(params_, options_.shift, preview_.pixels.data(),
                                            preview_.stride(), ThreadRunner::Run, runner_)))
       return error;
-    Say(what + ", 1/" + std::to_string(1 << plan_.shift) + " of the size", start);
+    Say(what + ", 1/" + std::to_string(1 << options_.shift) + " of the size", start);
     return Keep(preview_);
   }
 
@@ -162,21 +139,21 @@ class Session {
   // Of the same focus, both made last.
   void SayNearness() const {
     std::printf("%8.1f dB  PSNR of the preview against the full picture reduced\n",
-                PreviewPsnr(preview_, full_, plan_.shift));
+                PreviewPsnr(preview_, full_, options_.shift));
   }
 
   // Both ends are shown already, or will be in full.
   Error Pull(double from, double to) {
     const double start = Seconds();
-    for (int k = 1; k <= plan_.frames; ++k) {
-      const double share = double(k) / plan_.frames;
+    for (int k = 1; k <= options_.frames; ++k) {
+      const double share = double(k) / options_.frames;
       const std::string what =
-          "focus pull " + std::to_string(k) + " of " + std::to_string(plan_.frames);
+          "focus pull " + std::to_string(k) + " of " + std::to_string(options_.frames);
       if (Error error = Preview(from + share * (to - from), what)) return error;
     }
-    if (out_.empty()) {
+    if (options_.out.empty()) {
       std::printf("%8.1f pictures a second in the focus pull\n",
-                  plan_.frames / std::max(Seconds() - start, 1e-9));
+                  options_.frames / std::max(Seconds() - start, 1e-9));
     }
     return {};
   }
@@ -197,14 +174,13 @@ class Session {
   }
 
   Error Keep(const Image& picture) {
-    if (out_.empty()) return {};
+    if (options_.out.empty()) return {};
     char name[32];
     std::snprintf(name, sizeof(name), "frame_%04d.png", kept_++);
-    return WriteImage((std::filesystem::path(out_) / name).string(), picture);
+    return WriteImage((std::filesystem::path(options_.out) / name).string(), picture);
   }
 
-  const Plan& plan_;
-  const std::string out_;
+  const Options& options_;
   ThreadRunner* const runner_;
   const FloatMap& map_;
   sf_light_field field_ = {};
@@ -215,18 +191,17 @@ class Session {
 };
 
 Error Tap(const Options& options) {
-  Plan plan;
-  if (Error error = MakePlan(options, &plan)) return error;
-  ThreadRunner runner(plan.threads);
+  if (options.size.x < 1 || options.size.y < 1) return Error::Usage("--size", "WxH", "0");
+  ThreadRunner runner(options.threads);
   LightField field;
-  Point first, second;
-  if (Error error = Open(options, plan, &runner, &field, &first, &second)) return error;
-  if (Error error = ParseTap("--first", options.first, field, &first)) return error;
-  if (Error error = ParseTap("--second", options.second, field, &second)) return error;
+  Pixel first, second;
+  if (Error error = Open(options, &runner, &field, &first, &second)) return error;
+  if (Error error = TakeTap("--first", options.first, field, &first)) return error;
+  if (Error error = TakeTap("--second", options.second, field, &second)) return error;
   if (!options.out.empty()) std::filesystem::create_directories(options.out);
   std::printf("%d x %d, %zu views, %d threads\n", field.width(), field.height(), field.views.size(),
               runner.workers());
-  Session session(field, plan, options.out, &runner);
+  Session session(field, options, &runner);
   double from = 0, to = 0;
   Error error = session.Prepare();
   if (!error) error = session.FocusAt(first, &from);
@@ -246,13 +221,15 @@ Error Main(int argc, char** argv) {
        "Tap to focus: previews, a focus pull and full pictures, with their times.",
        {
            {"DIR", "DIR", "Light-field folder; default: a traced portrait", &options.folder},
-           {"--size", "WxH", "Of the portrait, WxH", &options.size, Use::kDefault},
-           {"--first", "X,Y", "Pixel X,Y that is tapped first", &options.first},
-           {"--second", "X,Y", "Pixel X,Y that the focus is then pulled to", &options.second},
+           {"--size", "WxH", "Of the portrait, WxH", Pair('x', &options.size), Use::kDefault},
+           {"--first", "X,Y", "Pixel X,Y that is tapped first", Pair(',', &options.first)},
+           {"--second", "X,Y", "Pixel X,Y that the focus is then pulled to",
+            Pair(',', &options.second)},
            {"--preview", "1|2|3", "1, 2 or 3: previews are 1/2, 1/4 or 1/8 of the size",
-            &options.shift, Use::kDefault},
-           {"--frames", "N", "Previews of the focus pull", &options.frames, Use::kDefault},
-           {"--threads", "N", "1 to 64; default: all of the machine", &options.threads},
+            Whole(1, SF_MAX_PREVIEW, &options.shift), Use::kDefault},
+           {"--frames", "N", "Previews of the focus pull", Whole(1, 1000, &options.frames),
+            Use::kDefault},
+           {"--threads", "N", "1 to 64; default: all of the machine", Threads(&options.threads)},
            {"--out", "DIR", "Folder for all pictures, as frame_0000.png and so on", &options.out},
        },
        [&options] { return Tap(options); }},

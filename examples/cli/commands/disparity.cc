@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "examples/cli/commands.h"
@@ -19,31 +20,27 @@ namespace starfocus {
 namespace {
 
 struct DisparityOptions {
-  std::string folder, out, confidence, coverage, range, views, threads = "1";
+  std::string folder, out, confidence, coverage;
+  std::optional<DisparityRange> range;
+  Positions views;
+  int threads = 1;
   bool repair = false;
 };
 
 struct Plan {
   std::string map, picture;
-  bool has_range = false;
   DisparityRange range;
-  Positions views;
-  int threads = 1;
 };
 
 // MIN:MAX.
-Error ParseRange(const std::string& text, DisparityRange* range) {
-  const size_t colon = text.find(':');
-  double low = 0, high = 0;
-  const bool numbers = colon != std::string::npos &&
-                       !ParseNumber("", text.substr(0, colon), &low) &&
-                       !ParseNumber("", text.substr(colon + 1), &high);
-  if (!numbers || !(low >= -SF_MAX_DISPARITY && low <= high && high <= SF_MAX_DISPARITY)) {
-    return Error::Usage("--range", "MIN:MAX, disparities within +-" + Short(SF_MAX_DISPARITY),
-                        "'" + text.substr(0, 60) + "'");
+std::string ReadRange(const std::string& text, std::optional<DisparityRange>* range) {
+  const std::vector<double> ends = ReadNumbers(text, ':');
+  if (ends.size() != 2 || ends[0] < -SF_MAX_DISPARITY || ends[0] > ends[1] ||
+      ends[1] > SF_MAX_DISPARITY) {
+    return "MIN:MAX, disparities within +-" + Short(SF_MAX_DISPARITY);
   }
-  *range = {static_cast<float>(low), static_cast<float>(high)};
-  return {};
+  *range = {static_cast<float>(ends[0]), static_cast<float>(ends[1])};
+  return "";
 }
 
 // The pictures that were asked for.
@@ -63,8 +60,8 @@ Error PlanOutputs(const DisparityOptions& options, Plan* plan) {
   if (options.repair && options.out.empty()) {
     return Error::Usage("--repair", "another map to write, by --output", "none");
   }
-  if (options.repair && !options.range.empty()) {
-    return Error::Usage("--repair", "no --range: the map has one", options.range.substr(0, 60));
+  if (options.repair && options.range) {
+    return Error::Usage("--repair", "no --range: the map has one", "both");
   }
   if (!options.repair && !options.coverage.empty()) {
     return Error::Usage("--coverage", "--repair, which finds coverage", "none");
@@ -84,35 +81,30 @@ Error PlanOutputs(const DisparityOptions& options, Plan* plan) {
 }
 
 Error MakePlan(const DisparityOptions& options, Plan* plan) {
-  Error error = ParseWhole("--threads", options.threads, 1, SF_MAX_WORKERS, &plan->threads);
-  if (!error && !options.views.empty()) {
-    error = ParseViews("--views", options.views, &plan->views);
-    if (!error && StarWithin(plan->views) == 1 && !options.repair) {
-      error =
-          Error::Usage("--views", "17, 9 or 5: other views show no disparity here", options.views);
-    }
+  if (!options.views.empty() && StarWithin(options.views) == 1 && !options.repair) {
+    return Error::Usage("--views", "17, 9 or 5: other views show no disparity here",
+                        std::to_string(options.views.size()));
   }
-  plan->has_range = !options.range.empty();
-  if (!error && plan->has_range) error = ParseRange(options.range, &plan->range);
-  return error ? error : PlanOutputs(options, plan);
+  if (options.range) plan->range = *options.range;
+  return PlanOutputs(options, plan);
 }
 
 // Estimates the map of a folder; says what was looked for.
 Error EstimateFolder(const DisparityOptions& options, Plan* plan, const LightField& light_field,
                      DisparityEstimate* estimate) {
   Error error = CheckStar(options.folder, light_field);
-  if (!error && !plan->has_range) {
-    error = FindRange(options.folder, light_field, plan->threads, &plan->range);
+  if (!error && !options.range) {
+    error = FindRange(options.folder, light_field, options.threads, &plan->range);
   }
   if (error) return error;
-  return EstimateDisparity(options.folder, light_field, plan->range, plan->threads, estimate);
+  return EstimateDisparity(options.folder, light_field, plan->range, options.threads, estimate);
 }
 
 // Repairs the map of a folder.
 Error RepairFolder(const DisparityOptions& options, Plan* plan, LightField* light_field,
                    DisparityEstimate* estimate) {
   Image* confidence = options.confidence.empty() ? nullptr : &estimate->confidence;
-  if (Error error = RepairDisparity(DisparityPath(options.folder), plan->threads,
+  if (Error error = RepairDisparity(DisparityPath(options.folder), options.threads,
                                     !options.coverage.empty(), light_field, confidence))
     return error;
   if (!options.coverage.empty() && light_field->coverage.empty()) {
@@ -144,10 +136,10 @@ Error Run(const DisparityOptions& options) {
   Plan plan;
   LightField light_field;
   if (Error error = MakePlan(options, &plan)) return error;
-  ThreadRunner runner(plan.threads);
+  ThreadRunner runner(options.threads);
   if (Error error = options.repair
-                        ? LoadLightField(options.folder, plan.views, &light_field, &runner)
-                        : LoadCaptured(options.folder, plan.views, &light_field, &runner))
+                        ? LoadLightField(options.folder, options.views, &light_field, &runner)
+                        : LoadCaptured(options.folder, options.views, &light_field, &runner))
     return error;
   const double start = Seconds();
   DisparityEstimate estimate;
@@ -192,10 +184,12 @@ Command DisparityCommand() {
           {"--range", "MIN:MAX",
            "MIN:MAX, the disparities to look for; default: those found in small "
            "pictures, up to an eighth of the width",
-           &options->range},
+           Target([range = &options->range](const std::string& text) {
+             return ReadRange(text, range);
+           })},
           {"--views", "17|9|5|1|U,V:U,V",
-           "17, 9 or 5, 1 as well of a repair; default: all of the folder", &options->views},
-          {"--threads", "N", "1 to 64", &options->threads, Use::kDefault},
+           "17, 9 or 5, 1 as well of a repair; default: all of the folder", Views(&options->views)},
+          {"--threads", "N", "1 to 64", Threads(&options->threads), Use::kDefault},
       },
       [options] { return Run(*options); }};
 }

@@ -17,7 +17,9 @@ namespace {
 struct ImportOptions {
   InputOptions input;
   MapOptions map;
-  std::string folder, views, threads = "1";
+  std::string folder;
+  Positions views;
+  int threads = 1;
 };
 
 // A folder that has a light field, or a part of one, would become a mixture.
@@ -43,22 +45,14 @@ void Tell(const ImportOptions& options, const Capture& capture) {
 }
 
 Error Run(const ImportOptions& options) {
-  int threads = 1;
-  Positions views;
-  if (Error error = ParseWhole("--threads", options.threads, 1, SF_MAX_WORKERS, &threads)) {
-    return error;
-  }
-  if (!options.views.empty()) {
-    if (Error error = ParseViews("--views", options.views, &views)) return error;
-  }
   if (Error error = CheckFolderApart({"DIR", options.folder}, {options.input.path})) return error;
   if (Error error = CheckFolderOutput(options.folder)) return error;
   if (Error error = CheckFolder(options.folder)) return error;
   Capture capture;
   if (Error error = OpenInput(options.input, &capture)) return error;
-  ThreadRunner runner(threads);
-  if (Error error = LoadCapture(views, &capture, &runner)) return error;
-  if (Error error = CareForMap(options.map, threads, &capture)) return error;
+  ThreadRunner runner(options.threads);
+  if (Error error = LoadCapture(options.views, &capture, &runner)) return error;
+  if (Error error = CareForMap(options.map, options.threads, &capture)) return error;
   if (Error error = SaveLightField(options.folder, capture.light_field, &runner)) return error;
   Tell(options, capture);
   return {};
@@ -82,8 +76,9 @@ Command ImportCommand() {
   AddOptions(
       {
           {"--views", "17|9|5|1|U,V:U,V",
-           "17, 9, 5 or 1, or positions U,V:U,V, the first one 0,0; default: all", &options->views},
-          {"--threads", "N", "1 to 64", &options->threads, Use::kDefault},
+           "17, 9, 5 or 1, or positions U,V:U,V, the first one 0,0; default: all",
+           Views(&options->views)},
+          {"--threads", "N", "1 to 64", Threads(&options->threads), Use::kDefault},
       },
       &command);
   return command;

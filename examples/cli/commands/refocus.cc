@@ -28,7 +28,10 @@ constexpr int kMostPictures = 1000;  // of a sweep: three digits
 struct RefocusOptions {
   std::vector<std::string> inputs;
   InputOptions input;  // the one of them that is refocused
-  std::string report, map, region, sweep, jobs = "1";
+  std::string report, map;
+  sf_region region = {};      // all 0: the whole picture
+  std::vector<double> sweep;  // foci; none: no sweep
+  int jobs = 1;
   OutputOptions output;
   LensOptions lens;
   MapOptions disparities;
@@ -41,16 +44,15 @@ struct Loaded {
   double max_blur = 0;
 };
 
-std::vector<Output> ListOutputs(const RefocusOptions& options, const LensPlan& plan) {
-  std::vector<Output> outputs =
-      ListPictures(options.output, options.sweep.empty() ? 0 : plan.foci.size());
+std::vector<Output> ListOutputs(const RefocusOptions& options) {
+  std::vector<Output> outputs = ListPictures(options.output, options.sweep.size());
   if (!options.map.empty()) outputs.push_back({"--map", options.map});
   if (!options.report.empty()) outputs.push_back({"--report", options.report});
   return outputs;
 }
 
-Error CheckOutputs(const RefocusOptions& options, const LensPlan& plan) {
-  const std::vector<Output> outputs = ListOutputs(options, plan);
+Error CheckOutputs(const RefocusOptions& options) {
+  const std::vector<Output> outputs = ListOutputs(options);
   Error error = CheckImageOutput(options.output.out);
   for (size_t i = 0; i < outputs.size() && !error; ++i) {
     error = outputs[i].option == "--report" ? CheckOutputPath(outputs[i].path)
@@ -63,25 +65,20 @@ Error CheckOutputs(const RefocusOptions& options, const LensPlan& plan) {
 }
 
 // D0:D1:N.
-Error ParseSweep(const std::string& text, std::vector<double>* foci) {
-  const size_t first = text.find(':'), second = text.find(':', first + 1);
-  double from = 0, to = 0;
-  int count = 0;
-  if (first == std::string::npos || second == std::string::npos ||
-      ParseNumber("", text.substr(0, first), &from) ||
-      ParseNumber("", text.substr(first + 1, second - first - 1), &to) ||
-      ParseWhole("", text.substr(second + 1), 2, kMostPictures, &count)) {
-    return Error::Usage(
-        "--sweep",
-        "D0:D1:N, two disparities and 2 to " + std::to_string(kMostPictures) + " pictures",
-        "'" + text.substr(0, 60) + "'");
+std::string ReadSweep(const std::string& text, std::vector<double>* foci) {
+  const std::vector<double> numbers = ReadNumbers(text, ':');
+  const double count = numbers.size() == 3 ? numbers[2] : 0;
+  if (count < 2 || count > kMostPictures || count != std::floor(count)) {
+    return "D0:D1:N, two disparities and 2 to " + std::to_string(kMostPictures) + " pictures";
   }
-  for (int i = 0; i < count; ++i) foci->push_back(from + (to - from) * i / (count - 1));
-  return {};
+  for (int i = 0; i < int(count); ++i) {
+    foci->push_back(numbers[0] + (numbers[1] - numbers[0]) * i / (count - 1));
+  }
+  return "";
 }
 
 Error PlanFoci(const RefocusOptions& options, LensPlan* plan) {
-  const bool focus = !options.lens.focus.empty(), pixel = !options.lens.focus_at.empty();
+  const bool focus = bool(options.lens.focus), pixel = bool(options.lens.focus_at);
   if (options.sweep.empty()) return PlanFocus(options.lens, plan);
   if (focus || pixel || options.stream || !options.map.empty()) {
     return Error::Usage("--sweep", "no other focus, no --stream and no --map",
@@ -91,41 +88,39 @@ Error PlanFoci(const RefocusOptions& options, LensPlan* plan) {
                                          : "--map");
   }
   plan->focus_option = "--sweep";
-  return ParseSweep(options.sweep, &plan->foci);
-}
-
-Error PlanRegion(const RefocusOptions& options, LensPlan* plan) {
-  if (options.region.empty()) return {};
-  if (options.stream) return Error::Usage("--region", "whole pictures in memory", "--stream");
-  return ParseRegion("--region", options.region, &plan->region);
+  plan->foci = options.sweep;
+  return {};
 }
 
 // Everything that can be refused before a file is read.
 Error MakePlan(const RefocusOptions& options, LensPlan* plan, PictureOptions* how) {
-  Error error = PlanFoci(options, plan);
-  if (!error) {
-    error =
-        PlanOutput(options.output, !options.sweep.empty(), !options.region.empty(), &how->quality);
-  }
+  const bool region = options.region.width > 0;
+  if (Error error = PlanFoci(options, plan)) return error;
+  if (Error error = PlanOutput(options.output, !options.sweep.empty(), region)) return error;
+  how->quality = options.output.quality;
   if (options.output.small_png) how->png_size = PngSize::kSmall;
-  if (!error) error = CheckOutputs(options, *plan);
-  if (!error) error = PlanRegion(options, plan);
-  return error ? error : PlanLens(options.lens, plan);
+  if (Error error = CheckOutputs(options)) return error;
+  if (region && options.stream) {
+    return Error::Usage("--region", "whole pictures in memory", "--stream");
+  }
+  plan->region = options.region;
+  return PlanLens(options.lens, plan);
 }
 
-Error CheckRegion(const Image& picture, const RefocusOptions& options, const sf_region& region) {
+Error CheckRegion(const Image& picture, const sf_region& region) {
   if (region.x + region.width <= picture.width && region.y + region.height <= picture.height)
     return {};
   return Error::Usage("--region",
                       "pixels of the picture, " + std::to_string(picture.width) + "x" +
                           std::to_string(picture.height),
-                      options.region);
+                      std::to_string(region.width) + "x" + std::to_string(region.height) + " at " +
+                          std::to_string(region.x) + "," + std::to_string(region.y));
 }
 
 Error Open(const RefocusOptions& options, LensPlan* plan, Capture* capture) {
   Error error = OpenInput(options.input, capture);
   if (!error) {
-    error = CheckApart(ListOutputs(options, *plan),
+    error = CheckApart(ListOutputs(options),
                        {{}, CaptureFiles(*capture), GridsOf(options.input, *capture)});
   }
   return error ? error : PlanAperture(options.lens.aperture, *capture, &plan->aperture);
@@ -135,7 +130,7 @@ Error Open(const RefocusOptions& options, LensPlan* plan, Capture* capture) {
 Error Foresee(const RefocusOptions& options, const Capture& capture, LensPlan* plan) {
   const LightField& light_field = capture.light_field;
   if (Error error = CheckRule(capture.path, *plan, light_field.positions)) return error;
-  if (Error error = CheckRegion(light_field.views[0], options, plan->region)) return error;
+  if (Error error = CheckRegion(light_field.views[0], plan->region)) return error;
   if (plan->focus_option.empty()) {
     const DefaultFocus focus = FindDefaultFocus(capture);
     TellFocus(capture.path, focus);
@@ -149,9 +144,9 @@ Error Load(const RefocusOptions& options, LensPlan* plan, Loaded* loaded) {
   const FloatMap& map = capture->light_field.disparity;
   Error error = Open(options, plan, capture);
   if (!error && capture->photo) error = Foresee(options, *capture, plan);
-  if (!error) error = LoadInput(plan->views, plan->threads, capture);
+  if (!error) error = LoadInput(plan->options.views, plan->options.threads, capture);
   if (!error && !capture->photo) error = Foresee(options, *capture, plan);
-  if (!error) error = CareForMap(options.disparities, plan->threads, capture);
+  if (!error) error = CareForMap(options.disparities, plan->options.threads, capture);
   if (!error) error = PrepareDisparity(MapName(*capture), map, &loaded->stats);
   if (!error) error = ChooseFocus(map, plan);
   if (!error) error = ChooseBlur(loaded->stats, plan, &loaded->max_blur);
@@ -221,18 +216,15 @@ Error RunInput(const RefocusOptions& options) {
 }
 
 Error RunInputs(const RefocusOptions& options) {
-  for (const auto& [name, value] :
-       {std::pair<const char*, const std::string&>{"--map", options.map},
-        {"--report", options.report},
-        {"--coverage", options.input.coverage},
-        {"--sweep", options.sweep}}) {
-    if (!value.empty()) return Error::Usage(name, "one input and a file for --output", "several");
+  for (const auto& [name, typed] : {std::pair{"--map", !options.map.empty()},
+                                    {"--report", !options.report.empty()},
+                                    {"--coverage", !options.input.coverage.empty()},
+                                    {"--sweep", !options.sweep.empty()}}) {
+    if (typed) return Error::Usage(name, "one input and a file for --output", "several");
   }
-  int jobs = 0;
   std::vector<BatchItem> items;
-  if (Error error = ParseWhole("--jobs", options.jobs, 1, SF_MAX_WORKERS, &jobs)) return error;
   if (Error error = PlanBatch(options.inputs, options.output.out, &items)) return error;
-  return RunBatch(items, jobs, [&options](const BatchItem& item) {
+  return RunBatch(items, options.jobs, [&options](const BatchItem& item) {
     RefocusOptions one = options;
     one.input.path = item.input;
     one.output.out = item.output;
@@ -260,7 +252,7 @@ Command RefocusCommand() {
   AddOptions(
       {
           {"--jobs", "N", "1 to 64: how many of several inputs at a time, each on --threads",
-           &options->jobs, Use::kDefault},
+           Threads(&options->jobs), Use::kDefault},
       },
       &command);
   AddLensOptions(&command, &options->lens);
@@ -269,9 +261,12 @@ Command RefocusCommand() {
           {"--sweep", "D0:D1:N",
            "D0:D1:N: N pictures focused from D0 to D1, of -o out.png out_000.png, "
            "out_001.png, ..., or of -o out.webp one animation",
-           &options->sweep},
+           Target([foci = &options->sweep](const std::string& text) {
+             return ReadSweep(text, foci);
+           })},
           {"--region", "X,Y,W,H",
-           "X,Y,W,H: only that part of the picture, at its share of the time", &options->region},
+           "X,Y,W,H: only that part of the picture, at its share of the time",
+           Region(&options->region)},
           {"--stream", nullptr, "Row by row instead of whole pictures", &options->stream},
       },
       &command);

@@ -122,10 +122,10 @@ Error FocusFirst(const std::string& folder, const FloatMap& map, LensPlan* plan)
   return ChooseFocus(map, plan);
 }
 
-// OcclusionViews at all frames: their views and disparities.
+// Looks at all frames: their views and disparities.
 Error Scan(const VideoOptions& options, LensPlan* plan, Video* video) {
   std::vector<ViewFile> files;
-  if (Error error = ChooseViewFiles(video->folders[0], plan->views, &files)) return error;
+  if (Error error = ChooseViewFiles(video->folders[0], plan->options.views, &files)) return error;
   for (const ViewFile& file : files) video->views.push_back(file.position);
   if (Error error = CheckRule(video->folders[0], *plan, video->views)) return error;
   for (size_t i = 0; i < video->folders.size(); ++i) {
@@ -159,7 +159,7 @@ Error LoadFrame(const VideoOptions& options, const Video& video, size_t index,
 
 Error RefocusFrames(const VideoOptions& options, const LensPlan& plan, const Video& video,
                     SeriesReport* report) {
-  EngineRun run(plan.threads, static_cast<int>(video.folders.size()));
+  EngineRun run(plan.options.threads, static_cast<int>(video.folders.size()));
   LightField now, before;
   Image picture;
   for (size_t i = 0; i < video.folders.size(); ++i) {

@@ -30,7 +30,8 @@ constexpr int kWhite = 32;                  // difference that is white in an er
 struct ViewOptions {
   InputOptions input;
   ApertureOptions aperture;
-  std::string out, threads;
+  std::string out;
+  int threads = sf_pool_cores();
 };
 
 // What is shown, in the order in which it is made.
@@ -144,13 +145,8 @@ Error ForeseeAperture(const Capture& capture, ApertureChoice* aperture) {
   return error;
 }
 
-Error Open(const ViewOptions& options, int* threads, ApertureChoice* aperture, Capture* capture) {
-  *threads = sf_pool_cores();
-  Error error;
-  if (!options.threads.empty()) {
-    error = ParseWhole("--threads", options.threads, 1, SF_MAX_WORKERS, threads);
-  }
-  if (!error) error = CheckOutputPath(options.out);
+Error Open(const ViewOptions& options, ApertureChoice* aperture, Capture* capture) {
+  Error error = CheckOutputPath(options.out);
   if (!error) {
     std::vector<std::string> files = {options.input.path, options.input.depth};
     for (const TruthFile& truth : FindTruths(options.input.path)) files.push_back(truth.path);
@@ -160,15 +156,14 @@ Error Open(const ViewOptions& options, int* threads, ApertureChoice* aperture, C
   if (!error) error = CheckApart({{"--output", options.out}}, {{}, CaptureFiles(*capture)});
   if (!error) error = PlanAperture(options.aperture, *capture, aperture);
   if (!error && capture->photo) error = ForeseeAperture(*capture, aperture);
-  if (!error) error = LoadInput({}, *threads, capture);
+  if (!error) error = LoadInput({}, options.threads, capture);
   return !error && !capture->photo ? ForeseeAperture(*capture, aperture) : error;
 }
 
 Error Run(const ViewOptions& options) {
-  int threads = 1;
   Capture capture;
   ApertureChoice aperture;
-  if (Error error = Open(options, &threads, &aperture, &capture)) return error;
+  if (Error error = Open(options, &aperture, &capture)) return error;
   sf_disparity_stats stats = {}, known = {};
   const LightField& light_field = capture.light_field;
   const FloatMap& map = light_field.disparity;
@@ -176,13 +171,13 @@ Error Run(const ViewOptions& options) {
                        &known);
   MapOptions care;
   care.fill = known.invalid > 0;
-  Error error = CareForMap(care, threads, &capture);
+  Error error = CareForMap(care, options.threads, &capture);
   if (!error) error = PrepareDisparity(MapName(capture), map, &stats);
   Contents contents;
   if (!error) error = ChooseLenses(capture, stats, &aperture, &contents);
   if (error) return error;
   stats.invalid = known.invalid;  // of the map as it is; its holes are filled
-  error = RefocusEach(options.input.path, light_field, stats, threads, contents.lenses,
+  error = RefocusEach(options.input.path, light_field, stats, options.threads, contents.lenses,
                       [&](size_t i, const Image& picture, const std::vector<sf_block>& blocks) {
                         return ShowPicture(i, picture, blocks, &contents);
                       });
@@ -208,7 +203,7 @@ Command ViewCommand() {
   AddApertureOptions(&command, &options->aperture);
   AddOptions(
       {
-          {"--threads", "N", "1 to 64; default: all of the machine", &options->threads},
+          {"--threads", "N", "1 to 64; default: all of the machine", Threads(&options->threads)},
       },
       &command);
   return command;

@@ -14,75 +14,34 @@
 namespace starfocus {
 namespace {
 
-Error ParseNear(const std::string& text, Near* near) {
-  if (text.empty()) return {};
-  if (text != "white" && text != "black") {
-    return Error::Usage("--near", "white or black", "'" + text + "'");
-  }
-  *near = text == "white" ? Near::kWhite : Near::kBlack;
-  return {};
-}
-
-Error ParseUnit(const std::string& text, DepthUnit* unit) {
-  if (text.empty()) return {};
-  if (text != "m" && text != "mm" && text != "disparity") {
-    return Error::Usage("--depth-unit", "m, mm or disparity", "'" + text + "'");
-  }
-  *unit = text == "m"    ? DepthUnit::kMetres
-          : text == "mm" ? DepthUnit::kMillimetres
-                         : DepthUnit::kDisparity;
-  return {};
-}
-
-Error ParseOrientation(const std::string& text, DepthOrientation* orientation) {
-  if (text.empty()) return {};
-  if (text != "photo" && text != "upright") {
-    return Error::Usage("--depth-orientation", "photo or upright", "'" + text + "'");
-  }
-  *orientation = text == "photo" ? DepthOrientation::kPhoto : DepthOrientation::kUpright;
-  return {};
-}
-
 // none, or numbers with commas between them.
-Error ParseUnknown(const std::string& text, DepthOptions* options) {
-  if (text.empty()) return {};
+std::string ReadUnknown(const std::string& text, DepthOptions* options) {
   options->has_unknown = true;
   options->use_alpha = text != "none";
-  if (!options->use_alpha) return {};
-  for (size_t at = 0; at <= text.size();) {
-    const size_t end = std::min(text.find(',', at), text.size());
-    double value = 0;
-    if (ParseNumber("", text.substr(at, end - at), &value)) {
-      return Error::Usage("--unknown", "none, or values V,V,... of the depth picture",
-                          "'" + text.substr(0, 60) + "'");
-    }
-    options->unknown.push_back(value);
-    at = end + 1;
-  }
-  return {};
+  if (options->use_alpha) options->unknown = ReadNumbers(text, ',');
+  return options->use_alpha && options->unknown.empty()
+             ? "none, or values V,V,... of the depth picture"
+             : "";
 }
 
-Error ParseDepthOptions(const InputOptions& typed, DepthOptions* options) {
-  Error error = ParseNear(typed.near, &options->near);
-  if (!error) error = ParseUnit(typed.depth_unit, &options->unit);
-  if (!error) error = ParseOrientation(typed.depth_orientation, &options->orientation);
-  if (!error) error = ParseUnknown(typed.unknown, options);
-  if (error || options->unit == DepthUnit::kNone) return error;
-  const bool disparity = options->unit == DepthUnit::kDisparity;
-  if (options->near != (disparity ? Near::kBlack : Near::kWhite)) return {};
-  return Error::Usage(
-      "--near",
-      (disparity ? "white for --depth-unit " : "black for --depth-unit ") + typed.depth_unit,
-      typed.near);
+Error CheckNear(const DepthOptions& options) {
+  if (options.unit == DepthUnit::kNone) return {};
+  const bool disparity = options.unit == DepthUnit::kDisparity;
+  if (options.near != (disparity ? Near::kBlack : Near::kWhite)) return {};
+  return Error::Usage("--near",
+                      disparity ? "white for --depth-unit disparity"
+                                : std::string("black for --depth-unit ") +
+                                      (options.unit == DepthUnit::kMetres ? "m" : "mm"),
+                      disparity ? "black" : "white");
 }
 
 // The option about a depth picture that is typed first in the help; null if there is none.
 const char* DepthOption(const InputOptions& options) {
   if (!options.depth.empty()) return "--depth";
-  if (!options.near.empty()) return "--near";
-  if (!options.depth_unit.empty()) return "--depth-unit";
-  if (!options.depth_orientation.empty()) return "--depth-orientation";
-  return options.unknown.empty() ? nullptr : "--unknown";
+  if (options.map.near != Near::kUnknown) return "--near";
+  if (options.map.unit != DepthUnit::kNone) return "--depth-unit";
+  if (options.map.orientation != DepthOrientation::kUnknown) return "--depth-orientation";
+  return options.map.has_unknown ? "--unknown" : nullptr;
 }
 
 // A map from the views that are loaded.
@@ -132,20 +91,26 @@ void AddInputOptions(Command* command, InputOptions* options, std::vector<std::s
           {"--near", "white|black",
            "What is near in a depth picture; default: guessed from what is low in it, "
            "white in a .pfm file",
-           &options->near},
+           Choice<Near>({{"white", Near::kWhite}, {"black", Near::kBlack}}, &options->map.near)},
           {"--depth-unit", "m|mm|disparity",
            "What the values of a depth picture are: distances, or disparities in pixels of "
            "the photo; default: an order without a unit",
-           &options->depth_unit},
+           Choice<DepthUnit>({{"m", DepthUnit::kMetres},
+                              {"mm", DepthUnit::kMillimetres},
+                              {"disparity", DepthUnit::kDisparity}},
+                             &options->map.unit)},
           {"--depth-orientation", "photo|upright",
            "Whether a depth picture is turned by the photo's EXIF or stands upright "
            "already; default: by proportions and edges",
-           &options->depth_orientation},
+           Choice<DepthOrientation>(
+               {{"photo", DepthOrientation::kPhoto}, {"upright", DepthOrientation::kUpright}},
+               &options->map.orientation)},
           {"--unknown", "none|V,V,...",
            "Values of a depth picture that stand for an unknown depth; none: transparent "
            "pixels are known, too; default: 0 and 65535 of 16 bits, unless other values "
            "show that they are depths",
-           &options->unknown},
+           Target(
+               [map = &options->map](const std::string& text) { return ReadUnknown(text, map); })},
       },
       command);
 }
@@ -178,7 +143,8 @@ Error OpenInput(const InputOptions& options, Capture* capture) {
   CaptureOptions wanted;
   wanted.depth = options.depth;
   wanted.small_map = true;
-  Error error = ParseDepthOptions(options, &wanted.map);
+  wanted.map = options.map;
+  Error error = CheckNear(options.map);
   std::error_code ignored;
   const char* option = DepthOption(options);
   if (!error && option != nullptr && options.path != "-" &&

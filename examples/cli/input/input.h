@@ -13,9 +13,9 @@
 
 namespace starfocus {
 
-// As typed.
 struct InputOptions {
-  std::string path, depth, coverage, near, depth_unit, depth_orientation, unknown;
+  std::string path, depth, coverage;
+  DepthOptions map = {};
 };
 
 // What is typed of a map's care: nothing is what the format needs.

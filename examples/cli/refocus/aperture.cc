@@ -12,31 +12,14 @@
 namespace starfocus {
 namespace {
 
-// --f-stop and --widest.
-Error ParseFStop(const ApertureOptions& options, ApertureChoice* aperture) {
-  double f_stop = 0;
-  Error error;
-  if (!options.widest.empty()) error = ParseNumber("--widest", options.widest, &aperture->widest);
-  if (!error && aperture->widest <= 0) {
-    error = Error::Usage("--widest", "an f-stop above 0", "'" + options.widest + "'");
-  }
-  if (!error) error = ParseNumber("--f-stop", options.f_stop, &f_stop);
-  if (error || sf_aperture_of_f_stop(f_stop, aperture->widest, &aperture->radius) == SF_OK) {
-    return error;
-  }
-  return Error::Usage("--f-stop", "an f-stop from the widest on, " + Short(aperture->widest),
-                      "'" + options.f_stop + "'");
-}
-
 // Names the option that the user chose the radius by. A strength alone chooses it, too.
 void NameOption(const ApertureOptions& options, ApertureChoice* aperture) {
-  for (const auto& [name, value] :
-       {std::pair<const char*, const std::string&>{"--f-stop", options.f_stop},
-        {"--aperture", options.aperture},
-        {"--strength", options.strength}}) {
-    if (value.empty()) continue;
+  for (const auto& [name, value] : {std::pair{"--f-stop", options.f_stop},
+                                    {"--aperture", options.aperture},
+                                    {"--strength", options.strength}}) {
+    if (!value) continue;
     aperture->option = name;
-    aperture->value = value;
+    aperture->value = Short(*value);
     return;
   }
 }
@@ -94,28 +77,26 @@ std::string WhatFits(double range, const ApertureChoice& aperture) {
 
 Error PlanAperture(const ApertureOptions& options, const Capture& capture,
                    ApertureChoice* aperture) {
-  if (!options.aperture.empty() && !options.f_stop.empty()) {
+  if (options.aperture && options.f_stop) {
     return Error::Usage("--f-stop", "either --aperture U or --f-stop N", "both");
   }
-  if (!options.widest.empty() && options.f_stop.empty()) {
+  if (options.widest && !options.f_stop) {
     return Error::Usage("--widest", "--f-stop N beside it", "none");
   }
-  Error error;
   *aperture = {};
   if (capture.widest > 0) aperture->widest = capture.widest;
   if (capture.f_stop > 0) aperture->radius = capture.widest / capture.f_stop;
-  if (!options.aperture.empty()) {
-    error = ParseAperture("--aperture", options.aperture, &aperture->radius);
+  if (options.aperture) aperture->radius = *options.aperture;
+  if (options.widest) aperture->widest = *options.widest;
+  if (options.f_stop &&
+      sf_aperture_of_f_stop(*options.f_stop, aperture->widest, &aperture->radius) != SF_OK) {
+    return Error::Usage("--f-stop", "an f-stop from the widest on, " + Short(aperture->widest),
+                        Short(*options.f_stop));
   }
-  if (!options.f_stop.empty()) error = ParseFStop(options, aperture);
-  double percentage = 100;
-  if (!error && !options.strength.empty()) {
-    error = ParsePercentage("--strength", options.strength, &percentage);
-  }
-  aperture->strength = percentage / 100;
+  aperture->strength = options.strength.value_or(100) / 100;
   aperture->radius *= aperture->strength;
   NameOption(options, aperture);
-  return error;
+  return {};
 }
 
 double FarthestFromFocus(const sf_disparity_stats& stats, const std::vector<double>& foci) {

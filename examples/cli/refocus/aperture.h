@@ -4,6 +4,7 @@
 #ifndef STARFOCUS_EXAMPLES_CLI_REFOCUS_APERTURE_H_
 #define STARFOCUS_EXAMPLES_CLI_REFOCUS_APERTURE_H_
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,9 +14,9 @@
 
 namespace starfocus {
 
-// As typed; empty: not typed.
+// What is typed.
 struct ApertureOptions {
-  std::string aperture, f_stop, widest, strength;
+  std::optional<double> aperture, f_stop, widest, strength;
 };
 
 struct ApertureChoice {

@@ -52,7 +52,8 @@ void AddOutputOptions(Command* command, OutputOptions* options) {
            "Picture to write: .png, .ppm, .jpg or .webp; - or jpg:-, ...: standard output; "
            "a folder for the pictures of several inputs",
            &options->out, Use::kRequired},
-          {"--quality", "N", "1 to 100, of JPEG and WebP", &options->quality, Use::kDefault},
+          {"--quality", "N", "1 to 100, of JPEG and WebP", Whole(1, 100, &options->quality),
+           Use::kDefault},
           {"--small-png", nullptr,
            "PNG files about 7 % smaller, which take about 17 times as long to compress",
            &options->small_png},
@@ -84,8 +85,7 @@ std::vector<Output> ListPictures(const OutputOptions& options, size_t pictures) 
   return outputs;
 }
 
-Error PlanOutput(const OutputOptions& options, bool sweep, bool region, int* quality) {
-  if (Error error = ParseWhole("--quality", options.quality, 1, 100, quality)) return error;
+Error PlanOutput(const OutputOptions& options, bool sweep, bool region) {
   if (sweep && IsStandardStream(options.out) && FormatExtension(options.out) != kAnimation) {
     return Error::Usage("--sweep", "a file, or webp:- for one animation on standard output",
                         options.out);

@@ -19,7 +19,8 @@ namespace starfocus {
 
 // As typed.
 struct OutputOptions {
-  std::string out, quality = "95", all_in_focus, focus_index;
+  std::string out, all_in_focus, focus_index;
+  int quality = 95;
   bool depth_photo = false, small_png = false;
 };
 
@@ -30,7 +31,7 @@ std::vector<Output> ListPictures(const OutputOptions& options, size_t pictures);
 
 // What can be refused before a file is read, but for the files themselves. `region`: whether only a
 // part of the picture is made.
-Error PlanOutput(const OutputOptions& options, bool sweep, bool region, int* quality);
+Error PlanOutput(const OutputOptions& options, bool sweep, bool region);
 
 // Writes the picture of a task as its options have it. `widest`: the f-stop of aperture radius 1.
 Error WriteRefocused(const OutputOptions& options, const PictureOptions& how, double widest,

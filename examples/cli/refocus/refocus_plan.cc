@@ -3,55 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
+#include <limits>
 
 #include "examples/cli/disparity/estimate_run.h"
 #include "examples/cli/engine/timing_file.h"
-#include "examples/cli/refocus/refocus_report.h"
 #include "examples/command_line/options.h"
 #include "platform/clock.h"
 #include "platform/file.h"
 
 namespace starfocus {
 namespace {
-
-Error ParseMode(const std::string& text, sf_mode* mode) {
-  for (size_t i = 0; i < std::size(kModeNames); ++i) {
-    if (text != kModeNames[i]) continue;
-    *mode = static_cast<sf_mode>(i);
-    return {};
-  }
-  return Error::Usage("--mode", "block, frame, benchmark or blur", "'" + text + "'");
-}
-
-Error ParseRule(const std::string& text, sf_rule* rule) {
-  if (text.empty()) return {};
-  if (text != "paper" && text != "subaperture") {
-    return Error::Usage("--rule", "paper or subaperture", "'" + text + "'");
-  }
-  *rule = text == "paper" ? SF_RULE_PAPER : SF_RULE_SUBAPERTURE;
-  return {};
-}
-
-Error ParseLargestBlock(const std::string& text, int* side) {
-  if (text.empty()) return {};
-  const Error range = ParseWhole("--largest-block", text, 32, 256, side);
-  if (!range && (*side & (*side - 1)) == 0) return {};
-  return Error::Usage("--largest-block", "32, 64, 128 or 256", "'" + text + "'");
-}
-
-// Sets what block mode adds to the plan.
-Error PlanBlocks(const LensOptions& options, LensPlan* plan) {
-  if (Error error = ParseLargestBlock(options.largest_block, &plan->largest_block)) return error;
-  if (Error error =
-          ParseWhole("--max-layer", options.max_layer, 0, SF_LAYERS - 1, &plan->max_layer))
-    return error;
-  if (Error error = ParseWhole("--deblocking", options.deblocking, 0, 255, &plan->deblocking))
-    return error;
-  if (!options.timing.empty()) return ReadTiming(options.timing, &plan->timing);
-  plan->timing = plan->config.timing;
-  return {};
-}
 
 std::string FirstInvalid(const FloatMap& map, int64_t count) {
   for (int y = 0; y < map.height; ++y) {
@@ -71,11 +32,11 @@ void AddOpticsOptions(Command* command, LensOptions* options) {
           {"--focus", "D",
            "Disparity in focus; default: the subject in EXIF, the focus in the file, or the "
            "nearest large surface near the centre",
-           &options->focus},
+           Number(&options->focus)},
           {"--focus-at", "X,Y",
            "X,Y: the disparity of what is at that pixel, the median of its surface "
            "there",
-           &options->focus_at},
+           Pair(',', &options->focus_at)},
       },
       command);
   AddApertureOptions(command, &options->aperture);
@@ -117,17 +78,20 @@ void AddApertureOptions(Command* command, ApertureOptions* options) {
           {"--aperture", "U",
            "Radius, above 0 up to 1; default: 1, of a photo that of f/1.8, and less where that "
            "blurs by more than 128 pixels",
-           &options->aperture},
+           Number(std::numeric_limits<double>::min(), 1, "an aperture above 0 and at most 1",
+                  &options->aperture)},
           {"--f-stop", "N", "The same as an f-stop, from the widest on: radius --widest / N",
-           &options->f_stop},
+           Number(&options->f_stop)},
           {"--widest", "W",
            "F-stop of radius 1: focal length over twice the distance of view (1, 0) from "
            "the centre; default: what the input knows of itself, else 1, for f-stops "
            "relative to that "
            "radius",
-           &options->widest},
+           Number(std::numeric_limits<double>::min(), std::numeric_limits<double>::max(),
+                  "an f-stop above 0", &options->widest)},
           {"--strength", "S", "0 to 100 percent of that radius; 0: the centre view to the byte",
-           &options->strength, Use::kOptional, nullptr, "100"},
+           Number(0, 100, "a percentage from 0 to 100", &options->strength), Use::kOptional,
+           nullptr, "100"},
       },
       command);
 }
@@ -139,40 +103,52 @@ void AddLensOptions(Command* command, LensOptions* options) {
           {"--mode", "block|frame|benchmark|blur",
            "In blocks of their own number of views, with one number for the whole frame, "
            "as a benchmark of twice the views that blur can show, or by blurring the "
-           "centre view alone: this occlusion_views like a quick preview of the others but takes "
+           "centre view alone: this looks like a quick preview of the others but takes "
            "about ten times as long as block",
-           &options->mode, Use::kDefault},
+           Choice<sf_mode>({{"block", SF_MODE_BLOCK},
+                            {"frame", SF_MODE_FRAME},
+                            {"benchmark", SF_MODE_BENCHMARK},
+                            {"blur", SF_MODE_BLUR}},
+                           &options->mode),
+           Use::kDefault},
       },
       command);
-  AddTransferOption(command,
-                    "What codes of the pictures stand for: light coded as sRGB, which a lens adds, "
-                    "or values to be averaged as they are",
-                    &options->transfer);
   AddOptions(
       {
+          {"--transfer", "srgb|none",
+           "What codes of the pictures stand for: light coded as sRGB, which a lens adds, "
+           "or values to be averaged as they are",
+           Transfer(&options->transfer), Use::kDefault},
           {"--highlights", "X",
            "1 to 64: how many times white the lamps are that the pictures clip",
-           &options->highlights, Use::kDefault},
+           Number(1, SF_MAX_HIGHLIGHTS, "a factor from 1 to " + Short(SF_MAX_HIGHLIGHTS),
+                  &options->highlights),
+           Use::kDefault},
           {"--views", "17|9|5|1|U,V:U,V",
            "17, 9, 5 or 1, or positions U,V:U,V, the first one 0,0; default: all of the folder",
-           &options->views},
-          {"--threads", "N", "1 to 64", &options->threads, Use::kDefault},
+           Views(&options->views)},
+          {"--threads", "N", "1 to 64", Threads(&options->threads), Use::kDefault},
           {"--largest-block", "32|64|128|256",
            "32, 64, 128 or 256; default: 64, for pictures from 1536 pixels wide on 128",
-           &options->largest_block},
+           Choice<int>({{"32", 32}, {"64", 64}, {"128", 128}, {"256", 256}},
+                       &options->largest_block)},
           {"--rule", "paper|subaperture",
            "How many views a blur needs, and whether they are rendered line by line (paper) "
            "or show slices; default: paper in frame mode of 5 or more views, else subaperture",
-           &options->rule},
+           Choice<sf_rule>({{"paper", SF_RULE_PAPER}, {"subaperture", SF_RULE_SUBAPERTURE}},
+                           &options->rule)},
           {"--n-scale", "X",
            "0.5 to 2: multiplies the rule's views along the radius; fewer are faster, more "
            "closer to the benchmark",
-           &options->n_scale, Use::kDefault},
-          {"--max-layer", "0|1|2", "0, 1 or 2: may subsample by 2^L", &options->max_layer,
+           Number(SF_MIN_N_SCALE, SF_MAX_N_SCALE,
+                  "a factor from " + Short(SF_MIN_N_SCALE) + " to " + Short(SF_MAX_N_SCALE),
+                  &options->n_scale),
            Use::kDefault},
+          {"--max-layer", "0|1|2", "0, 1 or 2: may subsample by 2^L",
+           Whole(0, SF_LAYERS - 1, &options->max_layer), Use::kDefault},
           {"--deblocking", "N",
            "0 to 255 grey levels: the largest step smoothed between layers; 0: off",
-           &options->deblocking, Use::kDefault},
+           Whole(0, 255, &options->deblocking), Use::kDefault},
           {"--timing", "FILE", "JSON file that starfocus-lab calibrate wrote; default: built in",
            &options->timing},
       },
@@ -180,36 +156,25 @@ void AddLensOptions(Command* command, LensOptions* options) {
 }
 
 Error PlanLens(const LensOptions& options, LensPlan* plan) {
+  plan->options = options;
   sf_config_init(&plan->config);
-  Error error = ParseShape(options.shape, &plan->config);
-  if (!error) {
-    error = ParseWhole("--threads", options.threads, 1, SF_MAX_WORKERS, &plan->threads);
-  }
-  if (!error && !options.views.empty()) {
-    error = ParseViews("--views", options.views, &plan->views);
-  }
-  if (!error) error = ParseMode(options.mode, &plan->mode);
-  if (!error) error = ParseRule(options.rule, &plan->rule);
-  if (!error) error = ParseTransfer("--transfer", options.transfer, &plan->transfer);
-  if (!error) {
-    error = ParseHighlights("--highlights", options.highlights, &plan->highlights);
-  }
-  if (!error) error = ParseScale("--n-scale", options.n_scale, &plan->n_scale);
-  return error ? error : PlanBlocks(options, plan);
+  if (Error error = ParseShape(options.shape, &plan->config)) return error;
+  return options.timing.empty() ? Error() : ReadTiming(options.timing, &plan->config.timing);
 }
 
 Error PlanFocus(const LensOptions& options, LensPlan* plan) {
-  if (!options.focus.empty() && !options.focus_at.empty()) {
+  if (options.focus && options.focus_at) {
     return Error::Usage("--focus", "either --focus D or --focus-at X,Y", "both");
   }
-  if (!options.focus_at.empty()) {
+  if (options.focus_at) {
     plan->focus_option = "--focus-at";
-    return ParsePair("--focus-at", options.focus_at, ',', &plan->x, &plan->y);
+    plan->x = options.focus_at->x;
+    plan->y = options.focus_at->y;
+  } else if (options.focus) {
+    plan->focus_option = "--focus";
+    plan->foci = {*options.focus};
   }
-  if (options.focus.empty()) return {};
-  plan->focus_option = "--focus";
-  plan->foci.resize(1);
-  return ParseNumber("--focus", options.focus, &plan->foci[0]);
+  return {};
 }
 
 void UseFocus(const DefaultFocus& focus, LensPlan* plan) {
@@ -220,7 +185,7 @@ void UseFocus(const DefaultFocus& focus, LensPlan* plan) {
 }
 
 Error CheckRule(const std::string& where, const LensPlan& plan, const Positions& views) {
-  if (plan.rule != SF_RULE_PAPER || plan.mode == SF_MODE_BLUR || AreStar(views)) {
+  if (plan.options.rule != SF_RULE_PAPER || plan.options.mode == SF_MODE_BLUR || AreStar(views)) {
     return {};
   }
   return Error::Usage("--rule", "subaperture, as paper needs a star of 1, 5, 9 or 17 views",
@@ -299,21 +264,20 @@ EngineTask MakeTask(const LensPlan& plan, const LightField& light_field,
   task.config.disparity_min = stats.min;
   task.config.disparity_max = stats.max;
   task.config.max_blur = max_blur;
-  task.config.largest_block = plan.largest_block;
-  task.config.max_layer = plan.max_layer;
-  task.config.deblocking = plan.deblocking;
-  task.config.timing = plan.timing;
-  task.config.n_scale = plan.n_scale;
-  task.config.transfer = plan.transfer;
-  task.config.highlights = static_cast<float>(plan.highlights);
+  task.config.largest_block = plan.options.largest_block;
+  task.config.max_layer = plan.options.max_layer;
+  task.config.deblocking = plan.options.deblocking;
+  task.config.n_scale = plan.options.n_scale;
+  task.config.transfer = plan.options.transfer;
+  task.config.highlights = static_cast<float>(plan.options.highlights);
   sf_params_init(&task.params);
-  task.params.mode = plan.mode;
-  task.params.rule = plan.rule;
+  task.params.mode = plan.options.mode;
+  task.params.rule = plan.options.rule;
   task.params.focus = plan.foci[0];
   task.params.aperture = plan.aperture.radius;
   task.params.region = plan.region;
   if (reported) task.params.clock = ThreadNanoseconds;
-  task.threads = plan.threads;
+  task.threads = plan.options.threads;
   return task;
 }
 

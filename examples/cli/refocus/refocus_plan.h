@@ -4,6 +4,7 @@
 #ifndef STARFOCUS_EXAMPLES_CLI_REFOCUS_REFOCUS_PLAN_H_
 #define STARFOCUS_EXAMPLES_CLI_REFOCUS_REFOCUS_PLAN_H_
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "examples/cli/refocus/aperture.h"
 #include "examples/cli/refocus/default_focus.h"
 #include "examples/command_line/command.h"
+#include "examples/command_line/options.h"
 #include "examples/command_line/shape.h"
 #include "platform/readers/capture.h"
 #include "platform/result.h"
@@ -18,13 +20,19 @@
 
 namespace starfocus {
 
-// As typed.
 struct LensOptions {
-  std::string focus, focus_at;
+  std::optional<double> focus;
+  std::optional<Pixel> focus_at;
   ApertureOptions aperture;
-  std::string mode = "block", rule, views, threads = "1";
-  std::string largest_block, max_layer = "2", deblocking = "35", n_scale = "1", timing;
-  std::string transfer = "srgb", highlights = "1";
+  sf_mode mode = SF_MODE_BLOCK;
+  sf_rule rule = SF_RULE_DEFAULT;
+  Positions views;  // none: all there are
+  int threads = 1;
+  int largest_block = 0;  // 0: the library chooses
+  int max_layer = 2, deblocking = 35;
+  double n_scale = 1, highlights = 1;
+  sf_transfer transfer = SF_TRANSFER_SRGB;
+  std::string timing;
   ShapeOptions shape;
 };
 
@@ -33,22 +41,13 @@ void AddLensOptions(Command* command, LensOptions* options);
 void AddApertureOptions(Command* command, ApertureOptions* options);
 
 struct LensPlan {
+  LensOptions options;
   std::string focus_option;  // that the foci come from; empty: none is set yet
   std::vector<double> foci;  // one, or those of a sweep; none while they depend on a pixel
   int x = 0, y = 0;          // that pixel
   ApertureChoice aperture;
   sf_region region = {};  // all 0: the whole picture
-  sf_mode mode = SF_MODE_BLOCK;
-  sf_rule rule = SF_RULE_DEFAULT;
-  Positions views;  // none: all there are
-  int threads = 1;
-  int largest_block = 0;  // 0: the library chooses
-  int max_layer = 0, deblocking = 0;
-  double n_scale = 1;
-  sf_transfer transfer = SF_TRANSFER_SRGB;
-  double highlights = 1;
-  sf_timing timing = {};
-  sf_config config = {};  // the shape of the aperture, and defaults
+  sf_config config = {};  // the shape of the aperture, the timing, and defaults
 };
 
 // All that can be refused before a light field is read, but for the aperture and the focus.

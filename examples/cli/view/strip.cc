@@ -26,6 +26,14 @@ bool ParseTruthName(const fs::path& name, LensAt* lens) {
          std::fabs(lens->focus) <= SF_MAX_FOCUS && lens->aperture > 0 && lens->aperture <= 1;
 }
 
+// Whether the folder's meta.txt says that pictures average codes.
+sf_transfer TransferOf(const std::string& folder) {
+  Bytes bytes;
+  if (ReadSmallFile((fs::path(folder) / "meta.txt").string(), &bytes)) return SF_TRANSFER_SRGB;
+  const std::string text(bytes.begin(), bytes.end());
+  return text.find("transfer: none\n") != std::string::npos ? SF_TRANSFER_NONE : SF_TRANSFER_SRGB;
+}
+
 }  // namespace
 
 std::vector<double> StripFoci(const FloatMap& map, int count) {
@@ -62,13 +70,6 @@ std::vector<TruthFile> FindTruths(const std::string& folder) {
   std::sort(truths.begin(), truths.end(),
             [](const TruthFile& a, const TruthFile& b) { return a.path < b.path; });
   return truths;
-}
-
-std::string TransferOf(const std::string& folder) {
-  Bytes bytes;
-  if (ReadSmallFile((fs::path(folder) / "meta.txt").string(), &bytes)) return "srgb";
-  const std::string text(bytes.begin(), bytes.end());
-  return text.find("transfer: none\n") != std::string::npos ? "none" : "srgb";
 }
 
 Error RefocusEach(

@@ -35,9 +35,6 @@ struct TruthFile {
 // In the order of their names.
 std::vector<TruthFile> FindTruths(const std::string& folder);
 
-// "none" where the folder's meta.txt says that pictures average codes, else "srgb".
-std::string TransferOf(const std::string& folder);
-
 // Refocuses the light field of a folder or photo by each of the lenses, whose blur is at most
 // SF_MAX_BLUR, and shows the result with its blocks.
 Error RefocusEach(

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 struct AnalyzeOptions {
   std::string folder;
-  std::string max_blur = "40";
+  int max_blur = 40;
 };
 
 Error WriteText(const fs::path& path, const std::string& text) {
@@ -36,15 +36,13 @@ Error Write(const fs::path& folder, const Figure& figure, bool draw) {
 }
 
 Error Run(const AnalyzeOptions& options) {
-  int max_blur = 0;
-  if (Error error = ParseWhole("--max-blur", options.max_blur, 1, 128, &max_blur)) return error;
   if (!options.folder.empty()) {
     if (Error error = MakeFolder(options.folder)) return error;
   }
   constexpr int kEngineBlur = 40;  // larger radii take hours
   std::vector<Figure> figures = {AnalyseTableOne(), AnalyseViewNumber(),
-                                 AnalyseSubapertures(max_blur)};
-  const Result<Figure> engine = AnalyseEngine(std::min(max_blur, kEngineBlur));
+                                 AnalyseSubapertures(options.max_blur)};
+  const Result<Figure> engine = AnalyseEngine(std::min(options.max_blur, kEngineBlur));
   if (!engine || options.folder.empty()) return engine.error();
   figures.push_back(*engine);
   figures.push_back(DrawViewKernels());
@@ -75,7 +73,7 @@ Command AnalyzeCommand() {
           {"--max-blur", "N",
            "Largest blur radius of the rule for subapertures, 1 to 128 (default 40; 128 takes "
            "minutes), and of the engine's kernels, which end at 40",
-           &options->max_blur},
+           Whole(1, 128, &options->max_blur)},
       },
       [options] { return Run(*options); }};
 }

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // starfocus-lab scene: a ray-traced light field with exact disparity and ground truth.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "examples/command_line/options.h"
@@ -26,47 +28,45 @@ constexpr int kMostSeed = 1000000;
 constexpr char kSceneNames[] = "portrait, wires, ramp, lamps, hair or grass";
 constexpr char kCoverageFile[] = "coverage.png";
 
-struct SceneOptions {
-  std::string folder, name = "portrait", size = "1024x768", views = "17", transfer = "srgb",
-                      threads, seed;
-  std::vector<std::string> truths;
-  ShapeOptions shape;
-};
-
 struct Truth {
   double focus, aperture;
 };
 
+struct SceneOptions {
+  std::string folder, name = "portrait";
+  Pixel size = {1024, 768};
+  Positions views = StarPositions(17);
+  sf_transfer transfer = SF_TRANSFER_SRGB;
+  int threads = sf_pool_cores();
+  std::optional<int> seed;
+  std::vector<std::string> truths;
+  ShapeOptions shape;
+};
+
 struct Plan {
   Scene scene;
-  int width = 0, height = 0, threads = 0;
-  Positions views;
-  sf_transfer transfer = SF_TRANSFER_SRGB;
   std::vector<Truth> truths;
   sf_config shape;  // of the lens of the truths
 };
 
 Error ParseTruth(const std::string& text, Truth* truth) {
-  const size_t comma = text.find(',');
-  if (comma == std::string::npos) {
-    return Error::Usage("--truth", "D,U: disparity in focus and aperture", "'" + text + "'");
+  const std::vector<double> numbers = ReadNumbers(text, ',');
+  if (numbers.size() != 2 || std::fabs(numbers[0]) > SF_MAX_DISPARITY || !(numbers[1] > 0) ||
+      numbers[1] > 1) {
+    return Error::Usage("--truth",
+                        "D,U: disparity in focus within +-" + Short(SF_MAX_DISPARITY) +
+                            " and aperture above 0 and at most 1",
+                        "'" + text + "'");
   }
-  if (Error error = ParseNumber("--truth", text.substr(0, comma), &truth->focus)) return error;
-  if (truth->focus < -SF_MAX_DISPARITY || truth->focus > SF_MAX_DISPARITY) {
-    return Error::Usage("--truth", "a disparity within +-500", "'" + text + "'");
-  }
-  return ParseAperture("--truth", text.substr(comma + 1), &truth->aperture);
+  *truth = {numbers[0], numbers[1]};
+  return {};
 }
 
 Error ChooseScene(const SceneOptions& options, Scene* scene) {
-  int seed = kSceneSeed;
-  if (!options.seed.empty()) {
-    if (Error error = ParseWhole("--seed", options.seed, 0, kMostSeed, &seed)) return error;
-  }
-  if (!MakeScene(options.name, scene, uint32_t(seed))) {
+  if (!MakeScene(options.name, scene, uint32_t(options.seed.value_or(kSceneSeed)))) {
     return Error::Usage("--name", kSceneNames, "'" + options.name + "'");
   }
-  if (!options.seed.empty() && !scene->seeded) {
+  if (options.seed && !scene->seeded) {
     return Error::Usage("--seed", "the scene hair or grass", "'" + options.name + "'");
   }
   return {};
@@ -74,18 +74,10 @@ Error ChooseScene(const SceneOptions& options, Scene* scene) {
 
 Error MakePlan(const SceneOptions& options, Plan* plan) {
   if (Error error = ChooseScene(options, &plan->scene)) return error;
-  if (Error error = ParsePair("--size", options.size, 'x', &plan->width, &plan->height))
-    return error;
-  if (plan->width < 1 || plan->height < 1 || int64_t(plan->width) * plan->height > kMostPixels) {
+  const auto& [width, height] = options.size;
+  if (width < 1 || height < 1 || int64_t(width) * height > kMostPixels) {
     return Error::Usage("--size", "WxH from 1x1 to " + std::to_string(kMostPixels) + " pixels",
-                        "'" + options.size + "'");
-  }
-  if (Error error = ParseViews("--views", options.views, &plan->views)) return error;
-  if (Error error = ParseTransfer("--transfer", options.transfer, &plan->transfer)) return error;
-  plan->threads = sf_pool_cores();
-  if (!options.threads.empty()) {
-    if (Error error = ParseWhole("--threads", options.threads, 1, SF_MAX_WORKERS, &plan->threads))
-      return error;
+                        "'" + std::to_string(width) + "x" + std::to_string(height) + "'");
   }
   for (const std::string& text : options.truths) {
     plan->truths.emplace_back();
@@ -97,8 +89,9 @@ Error MakePlan(const SceneOptions& options, Plan* plan) {
 
 // Views of an earlier, larger set or in another format would mix with the new ones, and so would
 // the coverage of another scene.
-Error CheckFolder(const std::string& folder, const Plan& plan) {
-  const Positions& views = plan.views;
+Error CheckFolder(const SceneOptions& options, const Plan& plan) {
+  const std::string& folder = options.folder;
+  const Positions& views = options.views;
   std::error_code failure;
   if (Error error = CheckFolderOutput(folder)) return error;
   for (const auto& entry : fs::directory_iterator(folder, failure)) {
@@ -119,9 +112,10 @@ Error CheckFolder(const std::string& folder, const Plan& plan) {
 std::string MetaText(const SceneOptions& options, const Plan& plan, const RayTracer& renderer,
                      const FloatMap& disparity) {
   std::string text = "scene: " + plan.scene.name + ", " + plan.scene.description + "\n";
-  text += "size: " + std::to_string(plan.width) + "x" + std::to_string(plan.height) + "\n";
-  text += "views: " + std::to_string(plan.views.size()) + "\n";
-  text += std::string("transfer: ") + (plan.transfer == SF_TRANSFER_NONE ? "none" : "srgb") + "\n";
+  text += "size: " + std::to_string(options.size.x) + "x" + std::to_string(options.size.y) + "\n";
+  text += "views: " + std::to_string(options.views.size()) + "\n";
+  text +=
+      std::string("transfer: ") + (options.transfer == SF_TRANSFER_NONE ? "none" : "srgb") + "\n";
   for (const NamedPoint& point : plan.scene.points) {
     int x, y;
     renderer.ToPixel(point.x, point.y, &x, &y);
@@ -129,7 +123,7 @@ std::string MetaText(const SceneOptions& options, const Plan& plan, const RayTra
             " disparity " + Short(disparity.at(x, y)) + "\n";
   }
   if (plan.scene.seeded) {
-    text += "seed: " + (options.seed.empty() ? std::to_string(kSceneSeed) : options.seed) + "\n";
+    text += "seed: " + std::to_string(options.seed.value_or(kSceneSeed)) + "\n";
   }
   if (plan.scene.HasForeground()) {
     text +=
@@ -144,9 +138,9 @@ std::string MetaText(const SceneOptions& options, const Plan& plan, const RayTra
       "truth_dt<D>_ut<U>" +
       ShapeSuffix(options.shape) + ".png: thin-lens ground truth, " +
       (plan.shape.aperture_shape == SF_SHAPE_FALL_OFF
-           ? "aperture density (3) with theta " + options.shape.theta + " pi"
+           ? "aperture density (3) with theta " + Short(options.shape.theta) + " pi"
            : "aperture " + options.shape.shape) +
-      (plan.shape.cats_eye > 0 ? ", cat's eyes " + options.shape.cats_eye : "") + "\n";
+      (plan.shape.cats_eye > 0 ? ", cat's eyes " + Short(options.shape.cats_eye) : "") + "\n";
   return text;
 }
 
@@ -156,15 +150,15 @@ struct Pictures {
   std::vector<Image> truths;
 };
 
-Pictures Render(const Plan& plan, const RayTracer& renderer) {
+Pictures Render(const SceneOptions& options, const Plan& plan, const RayTracer& renderer) {
   const SceneOpening opening(plan.shape);
   const bool covers = plan.scene.HasForeground();
-  const int64_t costs = int64_t(plan.views.size()) + (covers ? RayTracer::kCoverageCost : 0) +
+  const int64_t costs = int64_t(options.views.size()) + (covers ? RayTracer::kCoverageCost : 0) +
                         RayTracer::kTruthCost * int64_t(plan.truths.size());
-  Progress progress("rendering", plan.height * costs);
+  Progress progress("rendering", options.size.y * costs);
   Pictures pictures;
-  pictures.light_field.positions = plan.views;
-  for (const sf_position& view : plan.views) {
+  pictures.light_field.positions = options.views;
+  for (const sf_position& view : options.views) {
     pictures.light_field.views.push_back(renderer.View(view.u, view.v, &progress));
   }
   pictures.light_field.disparity = renderer.Disparity();
@@ -185,10 +179,10 @@ Error SaveCoverage(const std::string& folder, const GreyImage& coverage) {
 Error Run(const SceneOptions& options) {
   Plan plan;
   if (Error error = MakePlan(options, &plan)) return error;
-  if (Error error = CheckFolder(options.folder, plan)) return error;
-  ThreadRunner runner(plan.threads);
-  const RayTracer renderer(plan.scene, plan.width, plan.height, plan.transfer, &runner);
-  const Pictures pictures = Render(plan, renderer);
+  if (Error error = CheckFolder(options, plan)) return error;
+  ThreadRunner runner(options.threads);
+  const RayTracer renderer(plan.scene, options.size.x, options.size.y, options.transfer, &runner);
+  const Pictures pictures = Render(options, plan, renderer);
   Error error = SaveLightField(options.folder, pictures.light_field, &runner);
   if (!error && plan.scene.HasForeground()) {
     error = SaveCoverage(options.folder, pictures.coverage);
@@ -218,22 +212,22 @@ Command SceneCommand() {
           {"--name", "portrait|wires|ramp|lamps|hair|grass", kSceneNames, &options->name,
            Use::kDefault},
           {"--seed", "N", "Where the strands of hair and grass lie, 0 to 1000000; default: 1",
-           &options->seed},
-          {"--size", "WxH", "Width and height, WxH", &options->size, Use::kDefault},
+           Whole(0, kMostSeed, &options->seed)},
+          {"--size", "WxH", "Width and height, WxH", Pair('x', &options->size), Use::kDefault},
           {"--views", "17|9|5|1|U,V:U,V", "17, 9, 5 or 1, or positions U,V:U,V, the first one 0,0",
-           &options->views, Use::kDefault},
+           Views(&options->views), Use::kDefault},
           {"--truth", "D,U ...",
            "D,U: also the picture of a lens of aperture U focused at disparity D; "
            "may be repeated",
            &options->truths},
+          {"--transfer", "srgb|none", "Average light, coded as sRGB, or the values as they are",
+           Transfer(&options->transfer), Use::kDefault},
       },
       &command);
-  AddTransferOption(&command, "Average light, coded as sRGB, or the values as they are",
-                    &options->transfer);
   AddShapeOptions(&command, &options->shape);
   AddOptions(
       {
-          {"--threads", "N", "1 to 64; default: all of the machine", &options->threads},
+          {"--threads", "N", "1 to 64; default: all of the machine", Threads(&options->threads)},
       },
       &command);
   return command;

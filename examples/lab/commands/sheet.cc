@@ -17,7 +17,8 @@ namespace {
 constexpr int kGap = 8;
 
 struct SheetOptions {
-  std::string out, width = "1600";
+  std::string out;
+  int width = 1600;
   std::vector<std::string> pictures, labels;
 };
 
@@ -45,12 +46,10 @@ Error Run(const SheetOptions& options) {
   if (Error error = CheckImageOutput(options.out)) return error;
   if (Error error = CheckApart({{"--output", options.out}}, {{}, options.pictures})) return error;
   const int count = static_cast<int>(options.pictures.size());
-  int width = 0;
-  if (Error error = ParseWhole("--width", options.width, 16, 16384, &width)) return error;
-  const int cell_width = (width - kGap) / count - kGap;
+  const int cell_width = (options.width - kGap) / count - kGap;
   if (cell_width < 1) {
     return Error::Usage("--width", "at least " + std::to_string(count * (kGap + 1) + kGap),
-                        options.width);
+                        std::to_string(options.width));
   }
   if (!options.labels.empty() && options.labels.size() != options.pictures.size()) {
     return Error::Usage("--labels", std::to_string(count) + " labels, one for each picture",
@@ -77,7 +76,8 @@ Command SheetCommand() {
               {"IMG", "FILE", "Pictures, from left to right", &options->pictures, Use::kRequired},
               {"--labels", "A,B,...", "A,B,...: text below each picture", &options->labels,
                Use::kCommaSeparated},
-              {"--width", "N", "Largest width of the sheet", &options->width, Use::kDefault},
+              {"--width", "N", "Largest width of the sheet", Whole(16, 16384, &options->width),
+               Use::kDefault},
           },
           [options] { return Run(*options); }};
 }

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cinttypes>
 #include <cstdio>
+#include <cstdlib>
 #include <memory>
+#include <optional>
 
 #include "examples/command_line/options.h"
 #include "examples/lab/commands.h"
@@ -17,7 +19,10 @@ namespace starfocus {
 namespace {
 
 struct StressOptions {
-  std::string seconds = "10", seed = "1", family, number;
+  double seconds = 10;
+  uint64_t seed = 1;
+  std::optional<uint64_t> number;
+  std::string family;
 };
 
 std::string Names() {
@@ -35,18 +40,19 @@ const stress::Family* Find(const std::string& name) {
   return nullptr;
 }
 
-Error ParseCount(const std::string& option, const std::string& text, uint64_t* value) {
-  *value = 0;
-  if (text.empty() || text.size() > 19 || text.find_first_not_of("0123456789") < text.size()) {
-    return Error::Usage(option, "a whole number", text);
-  }
-  for (const char digit : text) *value = *value * 10 + static_cast<uint64_t>(digit - '0');
-  return {};
+template <class T>
+Target Count(T* value, const std::string& shown) {
+  const auto read = [value](const std::string& text) -> std::string {
+    if (text.empty() || text.size() > 19 || text.find_first_not_of("0123456789") < text.size()) {
+      return "a whole number";
+    }
+    *value = std::strtoull(text.c_str(), nullptr, 10);
+    return "";
+  };
+  return Target(read, shown);
 }
 
-Error RepeatCase(const stress::Family& family, const std::string& text) {
-  uint64_t number = 0;
-  if (Error error = ParseCount("--case", text, &number)) return error;
+Error RepeatCase(const stress::Family& family, uint64_t number) {
   const stress::Outcome outcome = stress::RunCase(family, number);
   if (!outcome.failure.empty()) return Error(ErrorKind::kInput, outcome.failure);
   std::printf("%s %" PRIu64 ": %g %s\n", family.name, number, outcome.error, family.measures);
@@ -84,16 +90,13 @@ stress::Report Try(stress::Options* wanted) {
 Error Run(const StressOptions& options) {
   stress::Options wanted;
   const stress::Family* family = Find(options.family);
-  if (family == nullptr && !(options.family.empty() && options.number.empty())) {
+  if (family == nullptr && (!options.family.empty() || options.number)) {
     return Error::Usage("--family", "one of " + Names(),
                         options.family.empty() ? "none" : options.family);
   }
-  if (!options.number.empty()) return RepeatCase(*family, options.number);
-  Error error = ParseNumber("--seconds", options.seconds, &wanted.seconds);
-  uint64_t seed = 0;
-  if (!error) error = ParseCount("--seed", options.seed, &seed);
-  if (error) return error;
-  wanted.seed = seed;
+  if (options.number) return RepeatCase(*family, *options.number);
+  wanted.seconds = options.seconds;
+  wanted.seed = options.seed;
   wanted.family = options.family;
   const stress::Report report = Try(&wanted);
   Print(report);
@@ -109,11 +112,11 @@ Command StressCommand() {
   return {"stress",
           "Try to break the engine with random refocusings whose result is known or bounded",
           {
-              {"--seconds", "S", "How long to try", &options->seconds, Use::kDefault},
-              {"--seed", "N", "Which cases to try: others with every seed", &options->seed,
-               Use::kDefault},
+              {"--seconds", "S", "How long to try", Number(&options->seconds), Use::kDefault},
+              {"--seed", "N", "Which cases to try: others with every seed",
+               Count(&options->seed, std::to_string(options->seed)), Use::kDefault},
               {"--family", "FAMILY", family_help.c_str(), &options->family},
-              {"--case", "N", "Repeat one case of --family", &options->number},
+              {"--case", "N", "Repeat one case of --family", Count(&options->number, "")},
           },
           [options] { return Run(*options); }};
 }
