@@ -49,6 +49,12 @@ Error Camera::Load(const std::string& folder, sf_mode mode) {
     workspace_.reset(::operator new (bytes_, std::align_val_t{SF_ALIGNMENT}));
     status = sf_init(&config, workspace_.get(), bytes_, &engine_);
   }
+  if (status == SF_OK) {
+    sf_callbacks callbacks = {};
+    callbacks.runner = ThreadRunner::Run;
+    callbacks.runner_data = &runner_;
+    status = sf_set_callbacks(engine_, &callbacks);
+  }
   if (status != SF_OK) {
     return Expected(folder, "a light field that the engine refocuses",
                     Describe(status, &problem).text);
@@ -69,8 +75,7 @@ sf_status Camera::Take(double focus, double aperture) {
   params.mode = mode_;
   params.focus = focus;
   params.aperture = aperture;
-  return sf_refocus(engine_, &params, &rows_, picture_.pixels.data(), picture_.stride(),
-                    ThreadRunner::Run, &runner_, nullptr);
+  return sf_refocus(engine_, &params, &rows_, picture_.pixels.data(), picture_.stride(), nullptr);
 }
 
 }  // namespace starfocus

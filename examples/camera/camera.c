@@ -26,7 +26,9 @@ static double Seconds(void) {
 }
 
 static sf_status MakeEngine(sf_pool* pool, sf_engine** engine) {
+  sf_callbacks callbacks = {0};
   sf_config config;
+  sf_status status;
   sf_config_init(&config);
   config.width = kWidth, config.height = kHeight, config.views = kCameras;
   config.disparity_min = kWall, config.disparity_max = kBall, config.max_blur = kBall - kWall;
@@ -34,7 +36,9 @@ static sf_status MakeEngine(sf_pool* pool, sf_engine** engine) {
   config.largest_block =
       64; /* wide pictures would get 128, and four times the memory of a worker */
   config.max_workers = sf_pool_workers(pool);
-  return sf_create(&config, NULL, engine);
+  callbacks.runner = sf_pool_run, callbacks.runner_data = pool;
+  status = sf_create(&config, NULL, engine);
+  return status == SF_OK ? sf_set_callbacks(*engine, &callbacks) : status;
 }
 
 /* What the sensors have delivered from row `first` of these rows on, with the depth of the picture.
@@ -56,7 +60,7 @@ static sf_image_field FieldFrom(int first) {
 }
 
 /* Rows go in as they come, as far as there is room, and out as they are finished. */
-static sf_status Stream(sf_engine* engine, sf_pool* pool, FILE* file, double* sensor_seconds) {
+static sf_status Stream(sf_engine* engine, FILE* file, double* sensor_seconds) {
   int delivered = 0, taken = 0, written = 0;
   sf_status status = SF_OK;
   while (status == SF_OK && written < kHeight) {
@@ -78,7 +82,7 @@ static sf_status Stream(sf_engine* engine, sf_pool* pool, FILE* file, double* se
     if (status == SF_OK) {
       const int rows = kHeight - written < kRows ? kHeight - written : kRows;
       int32_t i;
-      status = sf_stream_pull(engine, out, kWidth * 3, rows, sf_pool_run, pool, &count, NULL);
+      status = sf_stream_pull(engine, out, kWidth * 3, rows, &count, NULL);
       for (i = 0; i < count * kWidth * 3; ++i) checksum = (checksum ^ out[i]) * 16777619u;
       if (fwrite(out, kWidth * 3, (size_t)count, file) != (size_t)count) break;
       written += count;
@@ -96,7 +100,7 @@ static sf_status Refocus(sf_pool* pool, FILE* file, double* sensor_seconds) {
   if (status == SF_OK) status = sf_stream_begin(engine, &params);
   fprintf(file, "P6\n%d %d\n255\n", kWidth, kHeight);
   SensorDepth(depth);
-  if (status == SF_OK) status = Stream(engine, pool, file, sensor_seconds);
+  if (status == SF_OK) status = Stream(engine, file, sensor_seconds);
   sf_destroy(engine);
   return status;
 }

@@ -23,7 +23,7 @@ int main(void) {
   sf_params params; /* focus 0: the middle column; aperture 1 */
   sf_params_init(&params);
   sf_light_field field = {{{view, W * 3}}, disparity, W * sizeof(float), NULL, 0};
-  if (!status) status = sf_refocus(engine, &params, &field, out, W * 3, NULL, NULL, NULL);
+  if (!status) status = sf_refocus(engine, &params, &field, out, W * 3, NULL);
   FILE* file = status ? NULL : fopen("minimal.ppm", "wb");
   if (file) fprintf(file, "P6 %d %d 255\n", W, H), fwrite(out, 3, W * H, file), fclose(file);
   free(memory);

@@ -40,7 +40,7 @@ int main(void) {
   sf_params params; /* what is a metre away is in focus */
   sf_params_init(&params);
   params.focus = 8;
-  if (!status) status = sf_refocus_images(engine, &params, &field, &out, NULL, NULL, NULL);
+  if (!status) status = sf_refocus_images(engine, &params, &field, &out, NULL);
   FILE* file = status ? NULL : fopen("yuv.pgm", "wb");
   if (file) fprintf(file, "P5 %d %d 255\n", W, H), fwrite(out_luma, 1, W * H, file), fclose(file);
   free(memory);

@@ -100,9 +100,13 @@ class Session {
     params_.aperture = std::min(1.0, kBlur / std::max(range, 1e-9));
     const double start = Seconds();
     if (Error error = Outcome(engine_.Init(config))) return error;
+    sf_callbacks callbacks = {};
+    callbacks.runner = ThreadRunner::Run;
+    callbacks.runner_data = runner_;
+    if (Error error = Outcome(engine_.SetCallbacks(callbacks))) return error;
     Say("make an engine", start);
     const double begin = Seconds();
-    Error error = Outcome(engine_.Prepare(field_, ThreadRunner::Run, runner_));
+    Error error = Outcome(engine_.Prepare(field_));
     if (!error) Say("prepare the light field", begin);
     return error;
   }
@@ -118,9 +122,8 @@ class Session {
   Error Preview(double focus, const std::string& what) {
     params_.focus = focus;
     const double start = Seconds();
-    if (Error error =
-            Outcome(engine_.RefocusPreview(params_, options_.shift, preview_.pixels.data(),
-                                           preview_.stride(), ThreadRunner::Run, runner_)))
+    if (Error error = Outcome(engine_.RefocusPreview(params_, options_.shift,
+                                                     preview_.pixels.data(), preview_.stride())))
       return error;
     Say(what + ", 1/" + std::to_string(1 << options_.shift) + " of the size", start);
     return Keep(preview_);
@@ -129,8 +132,8 @@ class Session {
   Error Full(double focus) {
     params_.focus = focus;
     const double start = Seconds();
-    if (Error error = Outcome(engine_.RefocusPrepared(params_, full_.pixels.data(), full_.stride(),
-                                                      ThreadRunner::Run, runner_)))
+    if (Error error =
+            Outcome(engine_.RefocusPrepared(params_, full_.pixels.data(), full_.stride())))
       return error;
     Say("full picture", start);
     return Keep(full_);

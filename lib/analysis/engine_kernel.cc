@@ -81,8 +81,7 @@ class Engine {
     field.disparity = impulse.disparity.data();
     field.disparity_stride = side * sizeof(float);
     out_.resize(impulse.rgb.size());
-    const sf_status status =
-        sf_refocus(engine_, &params, &field, out_.data(), 3 * side, nullptr, nullptr, nullptr);
+    const sf_status status = sf_refocus(engine_, &params, &field, out_.data(), 3 * side, nullptr);
     if (status != SF_OK) return status;
     return state().stripe.plan.used == 1 ? SF_OK : SF_ERROR_STATE;
   }

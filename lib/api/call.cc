@@ -48,13 +48,12 @@ Extents MemoryOf(const EngineState& engine, const Prepared* prepared) {
 sf_status RunCall(const Call& call, EngineState* engine, sf_report* report) {
   const sf_params& params = call.params;
   engine->stream.active = false;
-  engine->crew.jobs.watch.Begin(params.progress, params.progress_data, 0,
-                                RegionOf(engine->config, params).height);
+  engine->crew.jobs.watch.Begin(0, RegionOf(engine->config, params).height);
   sf_status status = SetLens(params, engine);
   if (status != SF_OK) return status;
   if (call.prepared != nullptr) UsePrepared(*call.prepared, engine);
   if (call.before != nullptr) CompareWith(call, engine);
-  status = RefocusRows(call.source, call.sink, call.runner, engine);
+  status = RefocusRows(call.source, call.sink, engine);
   if (status == SF_OK && report != nullptr) *report = engine->report;
   return status;
 }

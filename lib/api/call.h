@@ -14,7 +14,6 @@ struct Call {
   const sf_params& params;
   RowSource source;
   RowSink sink;
-  Runner runner;
   const Prepared* prepared = nullptr;                      // null: there is none
   const sf_light_field *before = nullptr, *now = nullptr;  // null: nothing to compare with
 };

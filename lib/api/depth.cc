@@ -161,10 +161,13 @@ sf_status CheckCall(const DepthCall& call, bool repairs, const sf_map& map) {
   return status == SF_OK && repairs ? CheckGiven(config, light_field) : status;
 }
 
-// Makes a map under the watch of the caller's progress function.
+// Makes a map with the caller's runner and progress function.
 template <class Make>
-sf_status Watched(const sf_depth_config& config, Watch* watch, const Make& make) {
-  watch->Begin(config.progress, config.progress_data, 0, config.height);
+sf_status Watched(const sf_depth_config& config, JobSet* jobs, const Make& make) {
+  jobs->runner = {config.runner, config.runner_data};
+  Watch* const watch = &jobs->watch;
+  watch->SetProgress(config.progress, config.progress_data);
+  watch->Begin(0, config.height);
   const sf_status status = make();
   if (status != SF_OK) return status;
   watch->SetRows(config.height);
@@ -172,35 +175,32 @@ sf_status Watched(const sf_depth_config& config, Watch* watch, const Make& make)
 }
 
 // Repairs by colour. Says whether there is coverage.
-sf_status RepairOneView(const DepthCall& call, const MapOutput& output, const Runner& runner,
-                        int32_t* has_coverage) {
+sf_status RepairOneView(const DepthCall& call, const MapOutput& output, int32_t* has_coverage) {
   const EstimatePlan plan = PlanOf(*call.config, true);
   ColourMemory* memory = nullptr;
   LayOutColourRepair(plan, call.config->max_workers, call.workspace, &memory);
-  const sf_status status = Watched(*call.config, &memory->jobs.watch, [&] {
-    return RepairByColour(plan, *call.light_field, simd::BestDepthKernels(), runner, output,
-                          memory);
+  const sf_status status = Watched(*call.config, &memory->jobs, [&] {
+    return RepairByColour(plan, *call.light_field, simd::BestDepthKernels(), output, memory);
   });
   *has_coverage = status == SF_OK && memory->has_coverage ? 1 : 0;
   return status;
 }
 
 // Estimates, or repairs by all views.
-sf_status SweepViews(const DepthCall& call, bool repairs, const MapOutput& output,
-                     const Runner& runner) {
+sf_status SweepViews(const DepthCall& call, bool repairs, const MapOutput& output) {
   const EstimatePlan plan = PlanOf(*call.config, repairs);
   const simd::DepthKernels& kernels = simd::BestDepthKernels();
   EstimateMemory* memory = nullptr;
   LayOutEstimate(plan, call.config->max_workers, call.workspace, &memory);
   const EstimateZones zones(plan, call.config->max_workers, call.workspace);
-  return Watched(*call.config, &memory->jobs.watch, [&] {
-    return repairs ? Repair(plan, *call.light_field, kernels, runner, output, memory)
-                   : Estimate(plan, *call.light_field, kernels, runner, output, memory);
+  return Watched(*call.config, &memory->jobs, [&] {
+    return repairs ? Repair(plan, *call.light_field, kernels, output, memory)
+                   : Estimate(plan, *call.light_field, kernels, output, memory);
   });
 }
 
 // Checks a call and does it.
-sf_status RunCall(const DepthCall& call, bool repairs, const Runner& runner, sf_map* map) {
+sf_status RunCall(const DepthCall& call, bool repairs, sf_map* map) {
   sf_status status =
       EnterConfig(call.config,
                   {{"light_field", call.light_field}, {"map", map}, {"workspace", call.workspace}});
@@ -215,8 +215,8 @@ sf_status RunCall(const DepthCall& call, bool repairs, const Runner& runner, sf_
                             map->confidence_stride,
                             map->coverage,
                             map->coverage_stride};
-  return call.config->views == 1 ? RepairOneView(call, output, runner, &map->has_coverage)
-                                 : SweepViews(call, repairs, output, runner);
+  return call.config->views == 1 ? RepairOneView(call, output, &map->has_coverage)
+                                 : SweepViews(call, repairs, output);
 }
 
 }  // namespace
@@ -239,15 +239,11 @@ sf_status sf_repair_size(const sf_depth_config* config, size_t* bytes) {
 }
 
 sf_status sf_estimate_disparity(const sf_depth_config* config, const sf_light_field* light_field,
-                                sf_map* map, void* workspace, size_t bytes, sf_runner runner,
-                                void* runner_data) {
-  return starfocus::RunCall({config, light_field, workspace, bytes}, false, {runner, runner_data},
-                            map);
+                                sf_map* map, void* workspace, size_t bytes) {
+  return starfocus::RunCall({config, light_field, workspace, bytes}, false, map);
 }
 
 sf_status sf_repair_disparity(const sf_depth_config* config, const sf_light_field* light_field,
-                              sf_map* map, void* workspace, size_t bytes, sf_runner runner,
-                              void* runner_data) {
-  return starfocus::RunCall({config, light_field, workspace, bytes}, true, {runner, runner_data},
-                            map);
+                              sf_map* map, void* workspace, size_t bytes) {
+  return starfocus::RunCall({config, light_field, workspace, bytes}, true, map);
 }

@@ -52,8 +52,7 @@ sf_status sf_stream_push_images(sf_engine* engine, const sf_image_field* field, 
 }
 
 sf_status sf_stream_pull_images(sf_engine* engine, const sf_image_out* out, int32_t rows,
-                                sf_runner runner, void* runner_data, int32_t* written,
-                                sf_report* report) {
+                                int32_t* written, sf_report* report) {
   if (written != nullptr) *written = 0;
   sf_status status = starfocus::EnterEngine(engine, {{"out", out}, {"written", written}});
   if (status != SF_OK) return status;
@@ -79,7 +78,7 @@ sf_status sf_stream_pull_images(sf_engine* engine, const sf_image_out* out, int3
                                          starfocus::PlanesOf(*out),
                                          {0, first, e.config.width, left},
                                          {{alpha.data, alpha.stride, alpha.rows, 0}, 1}};
-  status = starfocus::PullRows(starfocus::SinkOf(output), most, {runner, runner_data}, &e, written);
+  status = starfocus::PullRows(starfocus::SinkOf(output), most, &e, written);
   if (status == SF_OK && report != nullptr) *report = e.report;
   return status;
 }

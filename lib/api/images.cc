@@ -18,8 +18,7 @@ struct Request {
   const sf_image_out& out;
 };
 
-sf_status Refocus(const Request& request, const Runner& runner, EngineState* engine,
-                  sf_report* report) {
+sf_status Refocus(const Request& request, EngineState* engine, sf_report* report) {
   const sf_config& config = engine->config;
   sf_status status = NeedImages(config);
   if (status == SF_OK) status = CheckCall(config, request.params, request.prepared);
@@ -34,7 +33,7 @@ sf_status Refocus(const Request& request, const Runner& runner, EngineState* eng
   MakeImageField(request.field, 0, engine, &field);
   UseImageField(field, engine);
   const ImageOutput out = {field.kernels, PlanesOf(request.out), rect, AlphaOf(field.views[0])};
-  Call call = {request.params, SourceOf(field), SinkOf(out), runner, request.prepared};
+  Call call = {request.params, SourceOf(field), SinkOf(out), request.prepared};
   if (request.prepared != nullptr) call.source.map = nullptr;
   return RunCall(call, engine, report);
 }
@@ -45,18 +44,17 @@ sf_status Refocus(const Request& request, const Runner& runner, EngineState* eng
 using starfocus::EngineState;
 
 sf_status sf_refocus_images(sf_engine* engine, const sf_params* params, const sf_image_field* field,
-                            const sf_image_out* out, sf_runner runner, void* runner_data,
-                            sf_report* report) {
+                            const sf_image_out* out, sf_report* report) {
   const sf_status status =
       starfocus::EnterEngine(engine, {{"params", params}, {"field", field}, {"out", out}});
   if (status != SF_OK) return status;
-  return starfocus::Refocus({*params, *field, nullptr, *out}, {runner, runner_data},
+  return starfocus::Refocus({*params, *field, nullptr, *out},
                             reinterpret_cast<EngineState*>(engine), report);
 }
 
 sf_status sf_refocus_prepared_images(sf_engine* engine, const sf_params* params,
                                      const sf_prepared* prepared, const sf_image_out* out,
-                                     sf_runner runner, void* runner_data, sf_report* report) {
+                                     sf_report* report) {
   const sf_status status =
       starfocus::EnterEngine(engine, {{"params", params}, {"prepared", prepared}, {"out", out}});
   if (status != SF_OK) return status;
@@ -65,6 +63,6 @@ sf_status sf_refocus_prepared_images(sf_engine* engine, const sf_params* params,
     return starfocus::Refuse(SF_ERROR_PREPARED, {"prepared"}, {"of sf_prepare_images"},
                              &reinterpret_cast<EngineState*>(engine)->problem);
   }
-  return starfocus::Refocus({*params, *p->images, p, *out}, {runner, runner_data},
-                            reinterpret_cast<EngineState*>(engine), report);
+  return starfocus::Refocus({*params, *p->images, p, *out}, reinterpret_cast<EngineState*>(engine),
+                            report);
 }

@@ -53,7 +53,8 @@ size_t sf_struct_size(const char* name) {
       SIZE_OF(sf_problem),         SIZE_OF(sf_position),     SIZE_OF(sf_previous),
       SIZE_OF(sf_region),          SIZE_OF(sf_report),       SIZE_OF(sf_skipped),
       SIZE_OF(sf_timing),          SIZE_OF(sf_image),        SIZE_OF(sf_image_out),
-      SIZE_OF(sf_image_field),     SIZE_OF(sf_depth_map),    SIZE_OF(sf_map)};
+      SIZE_OF(sf_image_field),     SIZE_OF(sf_depth_map),    SIZE_OF(sf_map),
+      SIZE_OF(sf_callbacks)};
 #undef SIZE_OF
   if (name == nullptr) return 0;
   for (const Entry& entry : kSizes) {
@@ -133,6 +134,18 @@ sf_status sf_init(const sf_config* config, void* workspace, size_t bytes, sf_eng
 
 const sf_problem* sf_engine_problem(const sf_engine* engine) {
   return engine == nullptr ? nullptr : &reinterpret_cast<const EngineState*>(engine)->problem;
+}
+
+sf_status sf_set_callbacks(sf_engine* engine, const sf_callbacks* callbacks) {
+  const sf_status status = starfocus::EnterEngine(engine, {{"callbacks", callbacks}});
+  if (status != SF_OK) return status;
+  EngineState& e = *reinterpret_cast<EngineState*>(engine);
+  e.crew.jobs.runner = {callbacks->runner, callbacks->runner_data};
+  e.crew.jobs.watch.SetProgress(callbacks->progress, callbacks->progress_data);
+  e.clock = callbacks->clock;
+  e.on_block = callbacks->on_block;
+  e.on_block_data = callbacks->on_block_data;
+  return SF_OK;
 }
 
 const char* sf_simd_target(void) { return starfocus::simd::BestKernels().name; }

@@ -45,8 +45,7 @@ const sf_previous* ComparableOf(const Request& request) {
   return same ? request.previous : nullptr;
 }
 
-sf_status Refocus(const Request& request, const Runner& runner, EngineState* engine,
-                  sf_report* report) {
+sf_status Refocus(const Request& request, EngineState* engine, sf_report* report) {
   const sf_config& config = engine->config;
   sf_status status = CheckCall(config, request.params, request.prepared);
   if (status == SF_OK) status = CheckLightField(config, request.light_field);
@@ -61,7 +60,7 @@ sf_status Refocus(const Request& request, const Runner& runner, EngineState* eng
   rows.Use(engine);
   const sf_previous* const previous = ComparableOf(request);
   const Picture picture = {request.out, request.out_stride, rect, previous};
-  Call call = {request.params, {}, SinkOf(picture), runner, request.prepared};
+  Call call = {request.params, {}, SinkOf(picture), request.prepared};
   if (request.prepared == nullptr) call.source = rows.Source();
   if (previous != nullptr) {
     call.before = &previous->light_field;
@@ -76,29 +75,27 @@ sf_status Refocus(const Request& request, const Runner& runner, EngineState* eng
 using starfocus::EngineState;
 
 sf_status sf_refocus(sf_engine* engine, const sf_params* params, const sf_light_field* light_field,
-                     uint8_t* out, size_t out_stride, sf_runner runner, void* runner_data,
-                     sf_report* report) {
+                     uint8_t* out, size_t out_stride, sf_report* report) {
   const sf_status status =
       starfocus::EnterEngine(engine, {{"params", params}, {"light_field", light_field}});
   if (status != SF_OK) return status;
   return starfocus::Refocus({*params, *light_field, nullptr, nullptr, out, out_stride},
-                            {runner, runner_data}, reinterpret_cast<EngineState*>(engine), report);
+                            reinterpret_cast<EngineState*>(engine), report);
 }
 
 sf_status sf_refocus_after(sf_engine* engine, const sf_params* params,
                            const sf_light_field* light_field, const sf_previous* previous,
-                           uint8_t* out, size_t out_stride, sf_runner runner, void* runner_data,
-                           sf_report* report) {
+                           uint8_t* out, size_t out_stride, sf_report* report) {
   const sf_status status = starfocus::EnterEngine(
       engine, {{"params", params}, {"light_field", light_field}, {"previous", previous}});
   if (status != SF_OK) return status;
   return starfocus::Refocus({*params, *light_field, nullptr, previous, out, out_stride},
-                            {runner, runner_data}, reinterpret_cast<EngineState*>(engine), report);
+                            reinterpret_cast<EngineState*>(engine), report);
 }
 
 sf_status sf_refocus_prepared(sf_engine* engine, const sf_params* params,
                               const sf_prepared* prepared, uint8_t* out, size_t out_stride,
-                              sf_runner runner, void* runner_data, sf_report* report) {
+                              sf_report* report) {
   const sf_status status =
       starfocus::EnterEngine(engine, {{"params", params}, {"prepared", prepared}});
   if (status != SF_OK) return status;
@@ -108,5 +105,5 @@ sf_status sf_refocus_prepared(sf_engine* engine, const sf_params* params,
                              &reinterpret_cast<EngineState*>(engine)->problem);
   }
   return starfocus::Refocus({*params, p->light_field, p, nullptr, out, out_stride},
-                            {runner, runner_data}, reinterpret_cast<EngineState*>(engine), report);
+                            reinterpret_cast<EngineState*>(engine), report);
 }

@@ -38,15 +38,13 @@ sf_status sf_prepared_size(const sf_config* config, size_t* bytes) {
 }
 
 sf_status sf_prepare(sf_engine* engine, const sf_light_field* light_field, void* memory,
-                     size_t bytes, sf_progress progress, void* progress_data, sf_runner runner,
-                     void* runner_data, sf_prepared** prepared) {
+                     size_t bytes, sf_prepared** prepared) {
   if (prepared != nullptr) *prepared = nullptr;
   sf_status status =
       starfocus::EnterEngine(engine, {{"light_field", light_field}, {"prepared", prepared}});
   if (status != SF_OK) return status;
   EngineState& e = *reinterpret_cast<EngineState*>(engine);
-  const starfocus::PrepareCall call = {
-      memory, bytes, progress, progress_data, {runner, runner_data}};
+  const starfocus::PrepareCall call = {memory, bytes};
   status = starfocus::CheckLightField(e.config, *light_field);
   if (status != SF_OK) return status;
   starfocus::Extents read;

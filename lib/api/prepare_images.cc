@@ -8,14 +8,12 @@
 #include "starfocus/image.h"
 
 sf_status sf_prepare_images(sf_engine* engine, const sf_image_field* field, void* memory,
-                            size_t bytes, sf_progress progress, void* progress_data,
-                            sf_runner runner, void* runner_data, sf_prepared** prepared) {
+                            size_t bytes, sf_prepared** prepared) {
   if (prepared != nullptr) *prepared = nullptr;
   sf_status status = starfocus::EnterEngine(engine, {{"field", field}, {"prepared", prepared}});
   if (status != SF_OK) return status;
   auto& e = *reinterpret_cast<starfocus::EngineState*>(engine);
-  const starfocus::PrepareCall call = {
-      memory, bytes, progress, progress_data, {runner, runner_data}};
+  const starfocus::PrepareCall call = {memory, bytes};
   status = starfocus::NeedImages(e.config);
   if (status == SF_OK) status = starfocus::CheckImageField(e.config, *field);
   if (status != SF_OK) return status;

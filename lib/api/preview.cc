@@ -69,20 +69,19 @@ Rect PreviewRect(const PreviewRequest& request, const EngineState& engine) {
   return ReducedRect(RegionOf(engine.config, request.params), request.shift);
 }
 
-sf_status RefocusPreview(const PreviewRequest& request, const RowSink& sink, const Runner& runner,
-                         EngineState* engine, sf_report* report) {
+sf_status RefocusPreview(const PreviewRequest& request, const RowSink& sink, EngineState* engine,
+                         sf_report* report) {
   const sf_params params = ReducedParams(request, PreviewRect(request, *engine));
   const Reduction reduction(request.shift, engine);
   UseReduced(request.prepared, request.shift, engine);
-  return RunCall({params, {}, sink, runner}, engine, report);
+  return RunCall({params, {}, sink}, engine, report);
 }
 
 }  // namespace starfocus
 
 sf_status sf_refocus_preview(sf_engine* engine, const sf_params* params,
                              const sf_prepared* prepared, int32_t shift, uint8_t* out,
-                             size_t out_stride, sf_runner runner, void* runner_data,
-                             sf_report* report) {
+                             size_t out_stride, sf_report* report) {
   sf_status status = starfocus::EnterEngine(engine, {{"params", params}, {"prepared", prepared}});
   if (status != SF_OK) return status;
   auto& e = *reinterpret_cast<starfocus::EngineState*>(engine);
@@ -93,6 +92,5 @@ sf_status sf_refocus_preview(sf_engine* engine, const sf_params* params,
   const starfocus::Picture picture = {out, out_stride, starfocus::PreviewRect(request, e)};
   status = starfocus::CheckPicture(picture, request, e);
   if (status != SF_OK) return status;
-  return starfocus::RefocusPreview(request, starfocus::SinkOf(picture), {runner, runner_data}, &e,
-                                   report);
+  return starfocus::RefocusPreview(request, starfocus::SinkOf(picture), &e, report);
 }

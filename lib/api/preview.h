@@ -22,8 +22,8 @@ sf_status CheckPreview(const PreviewRequest& request, const EngineState& engine)
 Rect PreviewRect(const PreviewRequest& request, const EngineState& engine);
 
 // Refocuses what CheckPreview has passed into `sink`.
-sf_status RefocusPreview(const PreviewRequest& request, const RowSink& sink, const Runner& runner,
-                         EngineState* engine, sf_report* report);
+sf_status RefocusPreview(const PreviewRequest& request, const RowSink& sink, EngineState* engine,
+                         sf_report* report);
 
 }  // namespace starfocus
 

@@ -9,8 +9,7 @@
 
 sf_status sf_refocus_preview_images(sf_engine* engine, const sf_params* params,
                                     const sf_prepared* prepared, int32_t shift,
-                                    const sf_image_out* out, sf_runner runner, void* runner_data,
-                                    sf_report* report) {
+                                    const sf_image_out* out, sf_report* report) {
   sf_status status =
       starfocus::EnterEngine(engine, {{"params", params}, {"prepared", prepared}, {"out", out}});
   if (status != SF_OK) return status;
@@ -27,6 +26,5 @@ sf_status sf_refocus_preview_images(sf_engine* engine, const sf_params* params,
   if (status != SF_OK) return status;
   const starfocus::ImageOutput output = {
       &starfocus::simd::BestImageKernels(), starfocus::PlanesOf(*out), rect, {{}, 1}};
-  return starfocus::RefocusPreview(request, starfocus::SinkOf(output), {runner, runner_data}, &e,
-                                   report);
+  return starfocus::RefocusPreview(request, starfocus::SinkOf(output), &e, report);
 }

@@ -20,12 +20,11 @@ int32_t NeededRows(const EngineState& engine) {
 }
 
 // Refocuses the next stripe, whose rows must have been pushed.
-sf_status RefocusNext(EngineState* engine, const Runner& runner) {
+sf_status RefocusNext(EngineState* engine) {
   Stream& stream = engine->stream;
-  const sf_params& params = engine->lens.params;
   Watch& watch = engine->crew.jobs.watch;
-  watch.Begin(params.progress, params.progress_data, stream.finished, engine->config.height);
-  const sf_status status = RefocusStripe(engine, stream.next, runner);
+  watch.Begin(stream.finished, engine->config.height);
+  const sf_status status = RefocusStripe(engine, stream.next);
   if (status != SF_OK) return status;
   stream.finished = FinishedRows(engine->config, stream.next);
   stream.next += engine->config.largest_block;
@@ -80,19 +79,18 @@ sf_status PushRows(const RowSource& source, int32_t rows, int32_t unit, EngineSt
   return SF_OK;
 }
 
-sf_status PullRows(const RowSink& sink, int32_t rows, const Runner& runner, EngineState* engine,
-                   int32_t* written) {
+sf_status PullRows(const RowSink& sink, int32_t rows, EngineState* engine, int32_t* written) {
   Stream& stream = engine->stream;
   while (*written < rows && stream.written < engine->config.height) {
     if (stream.written == stream.finished) {
       if (stream.pushed < NeededRows(*engine)) break;
-      const sf_status status = RefocusNext(engine, runner);
+      const sf_status status = RefocusNext(engine);
       if (status != SF_OK) return status;
     }
     const int32_t some = Min(rows - *written, stream.finished - stream.written);
     const sf_status status =
         sink.store(sink.self, {stream.written, stream.written + some},
-                   BufferRows(*engine, stream.next - engine->config.largest_block), runner, engine);
+                   BufferRows(*engine, stream.next - engine->config.largest_block), engine);
     if (status != SF_OK) return status;
     stream.written += some;
     *written += some;
@@ -115,7 +113,7 @@ sf_status sf_stream_begin(sf_engine* engine, const sf_params* params) {
   check.Need(starfocus::IsWhole(params->region), SF_ERROR_RANGE, {"region"}, {"all 0"});
   if (check.status() != SF_OK) return check.status();
   e.stream = starfocus::Stream();
-  e.crew.jobs.watch.Begin(params->progress, params->progress_data, 0, e.config.height);
+  e.crew.jobs.watch.Begin(0, e.config.height);
   status = starfocus::SetLens(*params, &e);
   if (status != SF_OK) return status;
   starfocus::SetPlanes(e.config, *e.kernels, e.rings, &e.pictures);
@@ -138,7 +136,7 @@ sf_status sf_stream_push(sf_engine* engine, const sf_light_field* light_field, i
 }
 
 sf_status sf_stream_pull(sf_engine* engine, uint8_t* out, size_t out_stride, int32_t rows,
-                         sf_runner runner, void* runner_data, int32_t* written, sf_report* report) {
+                         int32_t* written, sf_report* report) {
   if (written != nullptr) *written = 0;
   sf_status status = starfocus::EnterEngine(engine, {{"written", written}});
   if (status != SF_OK) return status;
@@ -155,8 +153,7 @@ sf_status sf_stream_pull(sf_engine* engine, uint8_t* out, size_t out_stride, int
       starfocus::MemoryOf(e, nullptr), "out", &e.problem);
   if (status != SF_OK) return status;
   const starfocus::Picture picture = {out, out_stride, {0, e.stream.written, width, left}};
-  status =
-      starfocus::PullRows(starfocus::SinkOf(picture), rows, {runner, runner_data}, &e, written);
+  status = starfocus::PullRows(starfocus::SinkOf(picture), rows, &e, written);
   if (status == SF_OK && report != nullptr) *report = e.report;
   return status;
 }

@@ -19,8 +19,7 @@ sf_status PushRows(const RowSource& source, int32_t rows, int32_t unit, EngineSt
 
 // Stores up to `rows` next rows, and refocuses the stripes that these need and whose rows are
 // there. *written counts the rows.
-sf_status PullRows(const RowSink& sink, int32_t rows, const Runner& runner, EngineState* engine,
-                   int32_t* written);
+sf_status PullRows(const RowSink& sink, int32_t rows, EngineState* engine, int32_t* written);
 
 }  // namespace starfocus
 

@@ -61,13 +61,12 @@ bool Close(JobSet* set) {
 
 }  // namespace
 
-sf_status RunJobSet(JobFunction function, const void* data, int32_t count, const Runner& runner,
-                    JobSet* set) {
+sf_status RunJobSet(JobFunction function, const void* data, int32_t count, JobSet* set) {
   set->function = function;
   set->data = data;
   set->count = count;
   set->watch.BeginJobs(count);
-  if (runner.run == nullptr) {
+  if (set->runner.run == nullptr) {
     for (int32_t index = 0; index < count; ++index) RunJob(index, 0, set);
     return set->watch.IsCancelled() ? SF_ERROR_CANCELLED : SF_OK;
   }
@@ -76,7 +75,7 @@ sf_status RunJobSet(JobFunction function, const void* data, int32_t count, const
   }
   set->misused.store(0);
   set->open.store(1);
-  const int result = runner.run(runner.data, CallJob, set, count);
+  const int result = set->runner.run(set->runner.data, CallJob, set, count);
   const bool all = Close(set);
   // A runner may have left jobs out because it knows.
   if (set->watch.IsCancelled()) return SF_ERROR_CANCELLED;

@@ -3,9 +3,7 @@
 
 namespace starfocus {
 
-void Watch::Begin(sf_progress progress, void* data, int32_t done, int32_t rows) {
-  progress_ = progress;
-  data_ = data;
+void Watch::Begin(int32_t done, int32_t rows) {
   rows_ = rows;
   cancelled_.store(0);
   SetRows(done);

@@ -14,9 +14,15 @@ namespace starfocus {
 // workspace, for one call after the other.
 class Watch {
  public:
-  // Begins a call that makes `rows` rows, of which the first `done` are there. A null function:
-  // nobody is asked. No job may be running, here and in SetRows and SetPart.
-  void Begin(sf_progress progress, void* data, int32_t done, int32_t rows);
+  // Sets the function of the calls that follow; null: nobody is asked.
+  void SetProgress(sf_progress progress, void* data) {
+    progress_ = progress;
+    data_ = data;
+  }
+
+  // Begins a call that makes `rows` rows, of which the first `done` are there. No job may be
+  // running, here and in SetRows and SetPart.
+  void Begin(int32_t done, int32_t rows);
 
   // Says that the rows up to `done` are made.
   void SetRows(int32_t done);

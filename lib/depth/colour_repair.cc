@@ -355,12 +355,12 @@ size_t LayOutColourRepair(const EstimatePlan& plan, int32_t max_workers, void* b
 }
 
 sf_status RepairByColour(const EstimatePlan& plan, const sf_light_field& light_field,
-                         const simd::DepthKernels& kernels, const Runner& runner,
-                         const MapOutput& output, ColourMemory* memory) {
+                         const simd::DepthKernels& kernels, const MapOutput& output,
+                         ColourMemory* memory) {
   ReadMap(plan, light_field, memory->maps[0]);
   const ColourMap given = {plan, light_field, memory->maps[0]};
   const int32_t before = output.coverage == nullptr ? 0 : kHairPhases;
-  Phases phases(plan, runner, before + kColourPhases, &memory->jobs);
+  Phases phases(plan, before + kColourPhases, &memory->jobs);
   memory->has_coverage = false;
   if (before != 0) {
     const sf_status status = FindHairCoverage(given, output, memory->hair_cells, memory->hair,

@@ -57,8 +57,8 @@ size_t LayOutColourRepair(const EstimatePlan& plan, int32_t max_workers, void* b
 // has closed the outline of hair, the coverage of hair is written, memory->has_coverage is set, and
 // disparities of hair stay (hair_coverage.h). Returns SF_OK, SF_ERROR_CANCELLED or SF_ERROR_RUNNER.
 sf_status RepairByColour(const EstimatePlan& plan, const sf_light_field& light_field,
-                         const simd::DepthKernels& kernels, const Runner& runner,
-                         const MapOutput& output, ColourMemory* memory);
+                         const simd::DepthKernels& kernels, const MapOutput& output,
+                         ColourMemory* memory);
 
 }  // namespace starfocus
 

@@ -13,7 +13,7 @@ namespace starfocus {
 
 // SF_OK, or SF_ERROR_RUNNER.
 sf_status Estimate(const EstimatePlan& plan, const sf_light_field& light_field,
-                   const simd::DepthKernels& kernels, const Runner& runner, const MapOutput& output,
+                   const simd::DepthKernels& kernels, const MapOutput& output,
                    EstimateMemory* memory);
 
 }  // namespace starfocus

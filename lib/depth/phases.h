@@ -12,8 +12,8 @@ namespace starfocus {
 class Phases {
  public:
   // `count` is the number of phases of the whole call, for its progress function.
-  Phases(const EstimatePlan& plan, const Runner& runner, int32_t count, JobSet* jobs)
-      : tiles_(plan.columns * plan.rows), count_(count), runner_(runner), jobs_(jobs) {}
+  Phases(const EstimatePlan& plan, int32_t count, JobSet* jobs)
+      : tiles_(plan.columns * plan.rows), count_(count), jobs_(jobs) {}
 
   // Counts the next phase as done without running it.
   void Skip() { ++done_; }
@@ -21,12 +21,11 @@ class Phases {
   // Returns SF_OK, SF_ERROR_CANCELLED or SF_ERROR_RUNNER (RunJobSet).
   sf_status Run(JobFunction function, const void* data) {
     jobs_->watch.SetPart(done_++, count_);
-    return RunJobSet(function, data, tiles_, runner_, jobs_);
+    return RunJobSet(function, data, tiles_, jobs_);
   }
 
  private:
   int32_t tiles_, count_, done_ = 0;
-  const Runner& runner_;
   JobSet* jobs_;
 };
 

@@ -132,13 +132,13 @@ void WriteTile(const void* data, int32_t index, int32_t) {
 }  // namespace
 
 sf_status Repair(const EstimatePlan& plan, const sf_light_field& light_field,
-                 const simd::DepthKernels& kernels, const Runner& runner, const MapOutput& output,
+                 const simd::DepthKernels& kernels, const MapOutput& output,
                  EstimateMemory* memory) {
   const RepairJob job = {{plan, light_field, kernels, memory, output.confidence != nullptr},
                          output};
   constexpr JobFunction kPhases[] = {ReadTile,    TrustTile, MarkTile, SweepFirst,
                                      SweepSecond, ValueTile, WriteTile};
-  Phases phases(plan, runner, sizeof kPhases / sizeof *kPhases, &memory->jobs);
+  Phases phases(plan, sizeof kPhases / sizeof *kPhases, &memory->jobs);
   for (const JobFunction phase : kPhases) {
     if (phase == WriteTile) JudgeMaps(job.sweep);
     const sf_status status = phases.Run(phase, &job);

@@ -12,7 +12,7 @@ namespace starfocus {
 // gainsays keep their disparity to the bit, unknown ones (NaN, infinite) get one. SF_OK, or
 // SF_ERROR_RUNNER.
 sf_status Repair(const EstimatePlan& plan, const sf_light_field& light_field,
-                 const simd::DepthKernels& kernels, const Runner& runner, const MapOutput& output,
+                 const simd::DepthKernels& kernels, const MapOutput& output,
                  EstimateMemory* memory);
 
 }  // namespace starfocus

@@ -72,8 +72,8 @@ sf_status StatusOf(uint32_t flags, const sf_config& config) {
 }
 
 template <void (*kJob)(const RowsJob&, int32_t, Worker*)>
-sf_status RunRows(const RowsJob& job, const Runner& runner, EngineState* engine) {
-  const sf_status status = RunJobs<RowsJob, kJob>(job, job.jobs, runner, &engine->crew);
+sf_status RunRows(const RowsJob& job, EngineState* engine) {
+  const sf_status status = RunJobs<RowsJob, kJob>(job, job.jobs, &engine->crew);
   uint32_t flags = 0;
   for (int32_t worker = 0; worker < engine->config.max_workers; ++worker) {
     flags |= engine->crew.workers[worker].counts.depth_flags;
@@ -98,19 +98,18 @@ RowRange PartOf(const RowRange& rows, int32_t index, int32_t parts) {
           rows.first + static_cast<int32_t>(count * (index + 1) / parts)};
 }
 
-sf_status CheckRows(const RowSource& source, const RowRange& rows, const Runner& runner,
-                    EngineState* engine) {
+sf_status CheckRows(const RowSource& source, const RowRange& rows, EngineState* engine) {
   if (source.map == nullptr) return SF_OK;
   const Plane<int16_t>& ring = engine->pictures.disparity;
   const int32_t jobs = Min(Min(MaxJobs(engine->config), ring.rows), rows.last - rows.first);
-  return RunRows<CheckPart>({&source, engine, rows, jobs, ring}, runner, engine);
+  return RunRows<CheckPart>({&source, engine, rows, jobs, ring}, engine);
 }
 
 sf_status LoadRows(const RowSource& source, const RowRange& rows, const Plane<int16_t>& disparity,
-                   const Runner& runner, EngineState* engine) {
+                   EngineState* engine) {
   if (rows.first >= rows.last || (source.map == nullptr && !source.converts_centre)) return SF_OK;
   const int32_t jobs = Min(MaxJobs(engine->config), rows.last - rows.first);
-  return RunRows<LoadPart>({&source, engine, rows, jobs, disparity}, runner, engine);
+  return RunRows<LoadPart>({&source, engine, rows, jobs, disparity}, engine);
 }
 
 sf_status CopyRow(const RowSource& source, int32_t y, EngineState* engine) {
@@ -136,8 +135,7 @@ sf_status CopyRow(const RowSource& source, int32_t y, EngineState* engine) {
   return SF_OK;
 }
 
-sf_status RefocusRows(const RowSource& source, const RowSink& sink, const Runner& runner,
-                      EngineState* engine) {
+sf_status RefocusRows(const RowSource& source, const RowSink& sink, EngineState* engine) {
   const sf_config& config = engine->config;
   const Lens& lens = engine->lens;
   const int32_t side = config.largest_block, reach = lens.borders.centre, top = lens.region.y;
@@ -146,21 +144,21 @@ sf_status RefocusRows(const RowSource& source, const RowSink& sink, const Runner
   RowRange rows = {Max(0, stripes.first - reach), 0};
   const int32_t last = (stripes.last - 1) / side * side;  // stripe
   rows.last = Min(config.height, last + side + reach);
-  sf_status status = CheckRows(source, rows, runner, engine);
+  sf_status status = CheckRows(source, rows, engine);
   for (int32_t y = stripes.first; y <= last && status == SF_OK; y += side) {
     rows.last = Min(config.height, y + side + reach);
-    status = LoadRows(source, rows, engine->pictures.disparity, runner, engine);
+    status = LoadRows(source, rows, engine->pictures.disparity, engine);
     rows.first = rows.last;
     if (status == SF_OK && engine->stripe.changes.active) {
       status = CompareRows(y, &engine->crew.workers[0].cancel, &engine->stripe.changes);
     }
-    if (status == SF_OK) status = RefocusStripe(engine, y, runner);
+    if (status == SF_OK) status = RefocusStripe(engine, y);
     if (status != SF_OK) break;
     // The stripe after the last one changes nothing of the region.
     const int32_t end = y == last ? bottom : Min(FinishedRows(config, y), bottom);
     const RowRange finished = {Max(y - kDeblockRows, top), end};
     if (finished.first < end) {
-      status = sink.store(sink.self, finished, BufferRows(*engine, y), runner, engine);
+      status = sink.store(sink.self, finished, BufferRows(*engine, y), engine);
     }
     if (status == SF_OK) engine->crew.jobs.watch.SetRows(Max(0, end - top));
   }

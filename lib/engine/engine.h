@@ -36,8 +36,8 @@ struct ImageMemory {
 
 struct EngineState {
   // For the engine's life:
-  sf_config config;                 // whose problem is the engine's own
-  sf_problem problem = {};          // of the last call
+  sf_config config;         // whose problem is the engine's own
+  sf_problem problem = {};  // of the last call
   const simd::Kernels* kernels;
   Tables tables;
   sf_allocator allocator = {};      // of the memory; without functions: the caller's own
@@ -45,6 +45,11 @@ struct EngineState {
   Crew crew;                        // the workers' memory
   Plane<uint8_t> rings[kMaxViews];  // with streaming: rows that were pushed
   ImageMemory images;               // and rings[0]: of images
+
+  // Until the next sf_set_callbacks, beside the runner and progress function in crew.jobs:
+  sf_clock clock = nullptr;
+  sf_block_visitor on_block = nullptr;
+  void* on_block_data = nullptr;
 
   // For one refocusing:
   Lens lens;

@@ -23,7 +23,7 @@ int32_t MaxJobs(const sf_config& config);
 // Runs kJob(data, index, memory of a worker) for all indices as RunJobSet does: its data are its
 // input and say where its output goes.
 template <class Data, void (*kJob)(const Data&, int32_t, Worker*)>
-sf_status RunJobs(const Data& data, int32_t count, const Runner& runner, Crew* crew) {
+sf_status RunJobs(const Data& data, int32_t count, Crew* crew) {
   struct Set {
     const Data& data;
     Worker* workers;
@@ -33,7 +33,7 @@ sf_status RunJobs(const Data& data, int32_t count, const Runner& runner, Crew* c
     const Set& jobs = *static_cast<const Set*>(of);
     kJob(jobs.data, index, &jobs.workers[worker]);
   };
-  return RunJobSet(function, &set, count, runner, &crew->jobs);
+  return RunJobSet(function, &set, count, &crew->jobs);
 }
 
 }  // namespace starfocus

@@ -247,7 +247,7 @@ void BlurBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>& 
 
 void RefocusBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>& out,
                   Worker* worker) {
-  const sf_clock clock = in.lens->params.clock;
+  const sf_clock clock = in.clock;
   const uint64_t start = clock != nullptr ? clock() : 0;
   Rendered rendered = {1, 0};  // the centre, of a block gathered whole
   if (IsPinhole(*in.lens)) {

@@ -24,6 +24,7 @@ struct BlockInputs {
   const Window* windows;  // of each layer
   const CellGrid* cells;
   const GatherMap* gathered;
+  sf_clock clock;  // null: blocks are not timed
 };
 
 // Writes the block's rectangle of the picture into `out` and counts it in worker->counts.

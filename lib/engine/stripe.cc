@@ -44,8 +44,7 @@ void DeblockColumnBoundaries(const JoinJob& job, int32_t index, Worker*) {
   DeblockColumns(job.deblock, first, Min(first + kSmallestBlock, job.finished.last));
 }
 
-sf_status Deblock(const Stripe& stripe, const Plane<uint8_t>& out, const Runner& runner,
-                  EngineState* engine) {
+sf_status Deblock(const Stripe& stripe, const Plane<uint8_t>& out, EngineState* engine) {
   const sf_config& config = engine->config;
   const Transfer* transfer = engine->pictures.windows[0].transfer;
   const JoinJob job = {{&engine->stripe.map, out, config.width, config.height, stripe.y,
@@ -53,22 +52,21 @@ sf_status Deblock(const Stripe& stripe, const Plane<uint8_t>& out, const Runner&
                        config.largest_block / kSmallestBlock,
                        {Max(0, stripe.y - kDeblockRows), FinishedRows(config, stripe.y)}};
   const sf_status status =
-      RunJobs<JoinJob, DeblockRowBoundaries>(job, Columns(config), runner, &engine->crew);
+      RunJobs<JoinJob, DeblockRowBoundaries>(job, Columns(config), &engine->crew);
   const int32_t rows = job.finished.last - job.finished.first;
   if (status != SF_OK || rows <= 0) return status;
   return RunJobs<JoinJob, DeblockColumnBoundaries>(
-      job, (rows + kSmallestBlock - 1) / kSmallestBlock, runner, &engine->crew);
+      job, (rows + kSmallestBlock - 1) / kSmallestBlock, &engine->crew);
 }
 
-sf_status RefocusPhases(const Stripe& stripe, const Plane<uint8_t>& out, const Runner& runner,
-                        EngineState* engine) {
+sf_status RefocusPhases(const Stripe& stripe, const Plane<uint8_t>& out, EngineState* engine) {
   const sf_config& config = engine->config;
   const Lens& lens = engine->lens;
-  sf_status status = FindCoverage(stripe, runner, engine);
-  if (status == SF_OK) status = PlanStripe(stripe, runner, engine);
+  sf_status status = FindCoverage(stripe, engine);
+  if (status == SF_OK) status = PlanStripe(stripe, engine);
   if (status == SF_OK && IsBlockMode(lens) && !engine->pictures.prepared) {
     PlaceLayers({stripe.y, stripe.y + stripe.height}, lens.borders, &engine->pictures);
-    status = FillLayers(config, *engine->kernels, runner, &engine->crew, &engine->pictures);
+    status = FillLayers(config, *engine->kernels, &engine->crew, &engine->pictures);
   }
   if (status != SF_OK) return status;
   const StripePlan& plan = engine->stripe.plan;
@@ -78,10 +76,10 @@ sf_status RefocusPhases(const Stripe& stripe, const Plane<uint8_t>& out, const R
             [](const Block& a, const Block& b) { return a.cost > b.cost; });
   const RefocusJob job = {InputsOf(*engine), plan.blocks, out};
   if (plan.used > 0) {
-    status = RunJobs<RefocusJob, RefocusOneBlock>(job, plan.used, runner, &engine->crew);
+    status = RunJobs<RefocusJob, RefocusOneBlock>(job, plan.used, &engine->crew);
   }
   if (status != SF_OK || !IsDeblocking(config, lens)) return status;
-  return Deblock(stripe, out, runner, engine);
+  return Deblock(stripe, out, engine);
 }
 
 // Keeps what the next stripe takes over from this one.
@@ -109,7 +107,8 @@ BlockInputs InputsOf(const EngineState& engine) {
           &engine.lens,
           engine.pictures.windows,
           &engine.stripe.cells,
-          &engine.stripe.plan.gathered};
+          &engine.stripe.plan.gathered,
+          engine.clock};
 }
 
 int32_t FinishedRows(const sf_config& config, int32_t y) {
@@ -121,7 +120,7 @@ Plane<uint8_t> BufferRows(const EngineState& engine, int32_t y) {
   return {engine.stripe.out, 3 * static_cast<size_t>(engine.config.width), 0, y - kDeblockRows};
 }
 
-sf_status RefocusStripe(EngineState* engine, int32_t y, const Runner& runner) {
+sf_status RefocusStripe(EngineState* engine, int32_t y) {
   const RedZones zones(engine);
   const sf_config& config = engine->config;
   const Stripe stripe = {y, Min(config.largest_block, config.height - y)};
@@ -137,7 +136,7 @@ sf_status RefocusStripe(EngineState* engine, int32_t y, const Runner& runner) {
     ForgetStripe(&engine->stripe);  // nothing for the next stripe to join
     return SF_OK;
   }
-  const sf_status status = RefocusPhases(stripe, rows, runner, engine);
+  const sf_status status = RefocusPhases(stripe, rows, engine);
   if (status != SF_OK) {
     WithdrawStripe(report, engine);
     return status;

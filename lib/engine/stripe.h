@@ -26,7 +26,7 @@ Plane<uint8_t> BufferRows(const EngineState& engine, int32_t y);
 // superblock, into BufferRows; stripes come one after the other. All rows within reach are in
 // the windows. After SF_ERROR_RUNNER and SF_ERROR_CANCELLED the rows are half made and the engine
 // is as it was, so that a stripe of a stream can be refocused again.
-sf_status RefocusStripe(EngineState* engine, int32_t y, const Runner& runner);
+sf_status RefocusStripe(EngineState* engine, int32_t y);
 
 }  // namespace starfocus
 

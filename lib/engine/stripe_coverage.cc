@@ -51,7 +51,7 @@ bool FindsCoverage(const EngineState& engine) {
 }
 
 // Does all passes up to the one before last in row `end` of tiles.
-sf_status RunPasses(int32_t top, int32_t end, const Runner& runner, EngineState* engine) {
+sf_status RunPasses(int32_t top, int32_t end, EngineState* engine) {
   CoverageState& state = engine->stripe.coverage;
   for (int pass = 0; pass < kCoveragePasses; ++pass) {
     const int32_t ahead = TilesAhead(engine->config, pass);
@@ -65,7 +65,7 @@ sf_status RunPasses(int32_t top, int32_t end, const Runner& runner, EngineState*
                            rows,
                            TilesOfSuperblock(engine->config)};
       const sf_status status =
-          RunJobs<PassJob, RunPassJob>(job, Columns(engine->config), runner, &engine->crew);
+          RunJobs<PassJob, RunPassJob>(job, Columns(engine->config), &engine->crew);
       if (status != SF_OK) return status;
     }
     done = Max(rows.first, rows.last);
@@ -98,7 +98,7 @@ void TakeCoverage(const sf_config& config, int32_t border, Arena* arena, Coverag
   }
 }
 
-sf_status FindCoverage(const Stripe& stripe, const Runner& runner, EngineState* engine) {
+sf_status FindCoverage(const Stripe& stripe, EngineState* engine) {
   CoverageState& state = engine->stripe.coverage;
   const bool finds = FindsCoverage(*engine);
   for (Window& window : engine->pictures.windows) window.coverage = finds ? &state.map : nullptr;
@@ -113,7 +113,7 @@ sf_status FindCoverage(const Stripe& stripe, const Runner& runner, EngineState* 
   sf_status status = SF_OK;
   while (status == SF_OK && state.done[kUnmixAgain] < end) {
     const int32_t from = Max(top, state.done[kUnmixAgain]);
-    status = RunPasses(top, Min(from + TilesOfSuperblock(engine->config), end), runner, engine);
+    status = RunPasses(top, Min(from + TilesOfSuperblock(engine->config), end), engine);
   }
   return status;
 }

@@ -15,7 +15,7 @@ namespace starfocus {
 void TakeCoverage(const sf_config& config, int32_t border, Arena* arena, CoverageState* state);
 
 // Finds the coverage of the rows that the stripe's blocks read.
-sf_status FindCoverage(const Stripe& stripe, const Runner& runner, EngineState* engine);
+sf_status FindCoverage(const Stripe& stripe, EngineState* engine);
 
 }  // namespace starfocus
 

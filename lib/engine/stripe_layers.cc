@@ -97,15 +97,15 @@ void PlaceLayers(const RowRange& of_picture, const Borders& borders, Pictures* p
   }
 }
 
-sf_status FillLayers(const sf_config& config, const simd::Kernels& kernels, const Runner& runner,
-                     Crew* crew, Pictures* pictures) {
+sf_status FillLayers(const sf_config& config, const simd::Kernels& kernels, Crew* crew,
+                     Pictures* pictures) {
   const int32_t columns = Columns(config);
   if (!AnyColumn(pictures->needed[1], columns) && !AnyColumn(pictures->needed[2], columns)) {
     return SF_OK;
   }
   const LayerJob job = {&config, &kernels, &pictures->windows[0], pictures->needed,
                         pictures->layers};
-  return RunJobs<LayerJob, DownsampleColumn>(job, columns, runner, crew);
+  return RunJobs<LayerJob, DownsampleColumn>(job, columns, crew);
 }
 
 }  // namespace starfocus

@@ -190,11 +190,10 @@ void ReportBlock(const Block& block, EngineState* engine) {
     report.n = block.n;
     report.rendered_views = WeightsOf(engine->lens, block.n).views;
   }
-  const sf_params& params = engine->lens.params;
-  if (params.on_block == nullptr) return;
+  if (engine->on_block == nullptr) return;
   const sf_block told = {block.rect.x,      block.rect.y, block.rect.width,
                          block.rect.height, block.layer,  block.n};
-  params.on_block(params.on_block_data, &told);
+  engine->on_block(engine->on_block_data, &told);
 }
 
 // Keeps the blocks that something asked for depends on, and finds what they mean for the phases
@@ -251,7 +250,7 @@ bool ChooseColumns(const Stripe& rows, EngineState* engine) {
   return any;
 }
 
-sf_status PlanStripe(const Stripe& rows, const Runner& runner, EngineState* engine) {
+sf_status PlanStripe(const Stripe& rows, EngineState* engine) {
   const Lens& lens = engine->lens;
   StripeState& state = engine->stripe;
   const int32_t columns = state.plan.columns;
@@ -261,8 +260,7 @@ sf_status PlanStripe(const Stripe& rows, const Runner& runner, EngineState* engi
     const MeasureJob job = {
         engine->kernels, &engine->pictures.windows[0], lens.scale, state.plan.side / kCellSize,
         first_row,       state.plan.measured,          state.cells};
-    const sf_status status =
-        RunJobs<MeasureJob, MeasureColumn>(job, columns, runner, &engine->crew);
+    const sf_status status = RunJobs<MeasureJob, MeasureColumn>(job, columns, &engine->crew);
     if (status != SF_OK) return status;
   }
   const PlanJob job = {&engine->config,
@@ -273,7 +271,7 @@ sf_status PlanStripe(const Stripe& rows, const Runner& runner, EngineState* engi
                        &engine->pictures.windows[0],
                        rows,
                        state.plan};
-  const sf_status status = RunJobs<PlanJob, PlanBlocks>(job, columns, runner, &engine->crew);
+  const sf_status status = RunJobs<PlanJob, PlanBlocks>(job, columns, &engine->crew);
   if (status != SF_OK) return status;
   ReadPlan(rows, engine);
   if (IsBlockMode(lens)) CountSpared(engine);

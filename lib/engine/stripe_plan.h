@@ -19,7 +19,7 @@ bool ChooseColumns(const Stripe& rows, EngineState* engine);
 // Measures cells, splits the superblocks, drops blocks that nothing asked for depends on, and
 // tells the caller of the others. Returns SF_OK, SF_ERROR_RUNNER or
 // SF_ERROR_CANCELLED.
-sf_status PlanStripe(const Stripe& rows, const Runner& runner, EngineState* engine);
+sf_status PlanStripe(const Stripe& rows, EngineState* engine);
 
 }  // namespace starfocus
 

@@ -46,13 +46,13 @@ void WritePairs(const PairsJob& job, int32_t index, Worker* worker) {
 }
 
 sf_status Store(const void* self, const RowRange& rows, const Plane<uint8_t>& from,
-                const Runner& runner, EngineState* engine) {
+                EngineState* engine) {
   const auto& out = *static_cast<const ImageOutput*>(self);
   const RowRange inside = {rows.first - out.rect.y, rows.last - out.rect.y};
   const int32_t pairs = (inside.last + 1) / 2 - inside.first / 2;
   const int32_t jobs = Min(MaxJobs(engine->config), pairs);
   const PairsJob job = {&out, from, engine->images.odd_row, inside, jobs};
-  const sf_status status = RunJobs<PairsJob, WritePairs>(job, jobs, runner, &engine->crew);
+  const sf_status status = RunJobs<PairsJob, WritePairs>(job, jobs, &engine->crew);
   if (inside.last % 2 != 0 && inside.last < out.rect.height) {
     std::memcpy(engine->images.odd_row, RowOf(job, inside.last - 1),
                 3 * static_cast<size_t>(out.rect.width));

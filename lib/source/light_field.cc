@@ -32,7 +32,7 @@ void CopyFrameDiff(const Picture& picture, const Plane<uint8_t>& from, int32_t y
   }
 }
 
-sf_status Store(const void* self, const RowRange& rows, const Plane<uint8_t>& from, const Runner&,
+sf_status Store(const void* self, const RowRange& rows, const Plane<uint8_t>& from,
                 EngineState* engine) {
   const auto& picture = *static_cast<const Picture*>(self);
   const Rect& rect = picture.rect;

@@ -12,8 +12,7 @@ namespace starfocus {
 namespace {
 
 // Makes the layers and reduced light fields in the planes of `prepared`, and converts the map.
-sf_status MakeLayers(const Prepared& prepared, const RowSource& source, const Runner& runner,
-                     EngineState* engine) {
+sf_status MakeLayers(const Prepared& prepared, const RowSource& source, EngineState* engine) {
   LayerPlane own[SF_LAYERS];
   for (int layer = 0; layer < SF_LAYERS; ++layer) own[layer] = engine->pictures.layers[layer];
   const int32_t height = engine->config.height, side = engine->config.largest_block;
@@ -34,12 +33,12 @@ sf_status MakeLayers(const Prepared& prepared, const RowSource& source, const Ru
     engine->crew.jobs.watch.SetRows(y);
     // The filters' taps reach as far below the stripe.
     read = {read.last, Min(height, y + side + kBeyond)};
-    status = LoadRows(source, read, prepared.disparity, runner, engine);
+    status = LoadRows(source, read, prepared.disparity, engine);
     if (status != SF_OK) break;
-    status = FillLayers(engine->config, *engine->kernels, runner, &engine->crew, &engine->pictures);
+    status = FillLayers(engine->config, *engine->kernels, &engine->crew, &engine->pictures);
     if (status != SF_OK) break;
     status = ReduceRows(prepared.disparity, {y, Min(y + side, height)}, prepared.config.previews,
-                        prepared.reduced, runner, engine);
+                        prepared.reduced, engine);
   }
   for (int layer = 0; layer < SF_LAYERS; ++layer) engine->pictures.layers[layer] = own[layer];
   ForgetLayers(engine->config, &engine->pictures);
@@ -74,15 +73,15 @@ sf_status Prepare(const PrepareCall& call, const RowSource& source, EngineState*
   const int32_t height = engine->config.height;
   Watch& watch = engine->crew.jobs.watch;
   engine->stream.active = false;
-  watch.Begin(call.progress, call.progress_data, 0, height);
-  sf_status status = CheckRows(source, {0, height}, call.runner, engine);
+  watch.Begin(0, height);
+  sf_status status = CheckRows(source, {0, height}, engine);
   if (status != SF_OK) return status;
   new (call.memory) Prepared();
   Prepared* made = nullptr;
   LayOutPrepared(engine->config, call.memory, &made);
   made->config = engine->config;
   made->covers = engine->pictures.windows[0].given_coverage.data != nullptr;
-  status = MakeLayers(*made, source, call.runner, engine);
+  status = MakeLayers(*made, source, engine);
   if (status != SF_OK) return status;
   watch.SetRows(height);
   if (!watch.Ask()) return SF_ERROR_CANCELLED;

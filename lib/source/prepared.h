@@ -32,9 +32,6 @@ size_t LayOutPrepared(const sf_config& config, void* base, Prepared** prepared);
 struct PrepareCall {
   void* memory;
   size_t bytes;
-  sf_progress progress;
-  void* progress_data;
-  Runner runner;
 };
 
 // Prepares the light field that the engine's views show and `source` gives: checks and converts the

@@ -148,10 +148,10 @@ void TakeReduced(const sf_config& config, int shift, Arena* arena, ReducedField*
 }
 
 sf_status ReduceRows(const Plane<int16_t>& disparity, const RowRange& rows, int32_t previews,
-                     const ReducedField* fields, const Runner& runner, EngineState* engine) {
+                     const ReducedField* fields, EngineState* engine) {
   if (previews == 0) return SF_OK;
   const ReduceJob job = {engine, disparity, rows, previews, fields};
-  return RunJobs<ReduceJob, ReduceColumn>(job, Columns(engine->config), runner, &engine->crew);
+  return RunJobs<ReduceJob, ReduceColumn>(job, Columns(engine->config), &engine->crew);
 }
 
 }  // namespace starfocus

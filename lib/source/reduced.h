@@ -27,7 +27,7 @@ void TakeReduced(const sf_config& config, int shift, Arena* arena, ReducedField*
 // shifts from 1 to `previews` into fields[shift]; disparities are those of `disparity`. The first
 // row is a multiple of the superblock, and so is the last one but at the picture's end.
 sf_status ReduceRows(const Plane<int16_t>& disparity, const RowRange& rows, int32_t previews,
-                     const ReducedField* fields, const Runner& runner, EngineState* engine);
+                     const ReducedField* fields, EngineState* engine);
 
 }  // namespace starfocus
 

@@ -26,8 +26,7 @@ struct Fixture {
     return sf_stream_push(engine, &field, rows, consumed);
   }
   sf_status Pull(sf_engine* engine, int rows, int32_t* written) {
-    return sf_stream_pull(engine, out.bytes.data(), out.stride, rows, nullptr, nullptr, written,
-                          nullptr);
+    return sf_stream_pull(engine, out.bytes.data(), out.stride, rows, written, nullptr);
   }
 };
 
@@ -120,7 +119,7 @@ TEST_CASE("stream: pull refuses null pointers, short strides, wrong counts and o
   REQUIRE(count > 0);
   uint8_t* out = f.out.bytes.data();
   const auto pull = [&](sf_engine* e, uint8_t* o, size_t stride, int rows, int32_t* written) {
-    return sf_stream_pull(e, o, stride, rows, nullptr, nullptr, written, nullptr);
+    return sf_stream_pull(e, o, stride, rows, written, nullptr);
   };
   CHECK(pull(nullptr, out, f.out.stride, 1, &count) == SF_ERROR_NULL);
   CHECK(pull(engine.get(), nullptr, f.out.stride, 1, &count) == SF_ERROR_NULL);
@@ -175,8 +174,7 @@ TEST_CASE("stream: a row with a bad disparity is refused, the rows before it are
           REQUIRE(f.Push(engine.get(), f.scene.Field(pushed), kHeight - pushed, &took) == SF_OK);
         }
         REQUIRE(sf_stream_pull(engine.get(), out.bytes.data() + out.stride * size_t(pulled),
-                               out.stride, kHeight - pulled, nullptr, nullptr, &gave,
-                               nullptr) == SF_OK);
+                               out.stride, kHeight - pulled, &gave, nullptr) == SF_OK);
         REQUIRE(took + gave > 0);
         pushed += took;
         pulled += gave;

@@ -184,8 +184,7 @@ struct Fixture {
     return out.Untouched() && std::memcmp(&report, &report_before, sizeof report) == 0;
   }
   sf_status Refocus(sf_engine* engine) {
-    return sf_refocus(engine, &params, &field, out.bytes.data(), out.stride, nullptr, nullptr,
-                      &report);
+    return sf_refocus(engine, &params, &field, out.bytes.data(), out.stride, &report);
   }
 };
 
@@ -357,7 +356,7 @@ TEST_CASE("refocus: null pointers and output stride") {
   uint8_t* out = f.out.bytes.data();
   const size_t stride = f.out.stride;
   const auto run = [&](sf_engine* e, const sf_params* p, const sf_light_field* l, uint8_t* o,
-                       size_t s) { return sf_refocus(e, p, l, o, s, nullptr, nullptr, nullptr); };
+                       size_t s) { return sf_refocus(e, p, l, o, s, nullptr); };
   CHECK(run(nullptr, &f.params, &f.field, out, stride) == SF_ERROR_NULL);
   CHECK(run(engine.get(), nullptr, &f.field, out, stride) == SF_ERROR_NULL);
   CHECK(run(engine.get(), &f.params, nullptr, out, stride) == SF_ERROR_NULL);
@@ -400,7 +399,7 @@ TEST_CASE("refocus: output may overlap neither the inputs nor the workspace") {
   const size_t stride = 3 * kWidth;
   const auto run = [&](void* out) {
     return sf_refocus(engine.get(), &f.params, &f.field, static_cast<uint8_t*>(out), stride,
-                      nullptr, nullptr, nullptr);
+                      nullptr);
   };
   const test::Scene before = f.scene;
   CHECK(run(f.scene.pictures[0].data()) == SF_ERROR_OVERLAP);
@@ -452,8 +451,10 @@ TEST_CASE("refocus: a runner's failure is reported, in whichever phase of a stri
     CAPTURE(mode);
     f.params = test::Params(9.75, 1, mode);
     const auto run = [&](Failing* failing) {
+      const sf_callbacks callbacks = test::RunBy(Failing::Run, failing);
+      REQUIRE(sf_set_callbacks(engine.get(), &callbacks) == SF_OK);
       return sf_refocus(engine.get(), &f.params, &f.field, f.out.bytes.data(), f.out.stride,
-                        Failing::Run, failing, nullptr);
+                        nullptr);
     };
     Failing never = {0, 1000};
     REQUIRE(run(&never) == SF_OK);

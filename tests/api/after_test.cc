@@ -24,7 +24,7 @@ sf_status After(test::Engine* engine, const sf_params& params, const test::Scene
   const sf_light_field field = scene.Field();
   const sf_previous previous = {before.Field(), before_out.bytes.data(), before_out.stride};
   return sf_refocus_after(engine->get(), &params, &field, &previous, out->bytes.data(), out->stride,
-                          nullptr, nullptr, report);
+                          report);
 }
 
 int LargestBlocks(const test::Scene& scene, int side) {
@@ -243,8 +243,7 @@ TEST_CASE("after: bad input") {
   test::Output out(50, 40), before(50, 40);
   const sf_previous good = {field, before.bytes.data(), before.stride};
   const auto run = [&](const sf_light_field* f, const sf_previous* previous, uint8_t* to) {
-    return sf_refocus_after(engine.get(), &params, f, previous, to, out.stride, nullptr, nullptr,
-                            nullptr);
+    return sf_refocus_after(engine.get(), &params, f, previous, to, out.stride, nullptr);
   };
   uint8_t* to = out.bytes.data();
   CHECK(run(nullptr, &good, to) == SF_ERROR_NULL);

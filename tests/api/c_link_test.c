@@ -38,7 +38,7 @@ static int Run(const sf_config* config, void* workspace, size_t bytes) {
   if (status != SF_OK) return Fail("sf_init", status);
   sf_params_init(&params);
   params.focus = -1.0;
-  status = sf_refocus(engine, &params, &field, out, 3 * kWidth, NULL, NULL, NULL);
+  status = sf_refocus(engine, &params, &field, out, 3 * kWidth, NULL);
   if (status != SF_OK) return Fail("sf_refocus", status);
   for (i = 0; i < sizeof out; ++i) {
     if (out[i] != kLevel) {

@@ -86,9 +86,6 @@ TEST_CASE("defaults are those that the header tells") {
   CHECK(params.rule == SF_RULE_DEFAULT);
   CHECK(params.aperture == 1);
   CHECK(params.focus == 0);
-  CHECK(!params.clock);
-  CHECK(!params.on_block);
-  CHECK(!params.progress);
   CHECK(params.region.width == 0);
   for (uint32_t reserved : params.reserved) CHECK(reserved == 0);
 }

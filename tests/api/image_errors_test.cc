@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is refused of images and depth maps, with the field that is told, before anything is written.
+// What is refused of images and depth maps, with the field that is told, before anything is
+// written.
 #include <doctest/doctest.h>
 
 #include <limits>
@@ -124,8 +125,7 @@ TEST_CASE("images: bad ones are refused, with nothing written") {
     ImageMemory image(kWidth, kHeight, i420), before = image;
     Call call = {field.Field(), image.Out()};
     one.spoil(&call);
-    CHECK(sf_refocus_images(engine.get(), &params, &call.field, &call.out, nullptr, nullptr,
-                            nullptr) == one.status);
+    CHECK(sf_refocus_images(engine.get(), &params, &call.field, &call.out, nullptr) == one.status);
     CHECK(std::string(sf_engine_problem(engine.get())->field) == one.field);
     const bool untouched = image == before;
     CHECK(untouched == (one.status != SF_OK));
@@ -144,39 +144,32 @@ TEST_CASE("images: engines without them, no pointers, the workspace, bad paramet
   const sf_image_field images = field.Field();
   sf_image_out out = image.Out();
   sf_engine* e = engine.get();
-  CHECK(sf_refocus_images(nullptr, &params, &images, &out, nullptr, nullptr, nullptr) ==
-        SF_ERROR_NULL);
-  CHECK(sf_refocus_images(e, nullptr, &images, &out, nullptr, nullptr, nullptr) == SF_ERROR_NULL);
-  CHECK(sf_refocus_images(e, &params, nullptr, &out, nullptr, nullptr, nullptr) == SF_ERROR_NULL);
-  CHECK(sf_refocus_images(e, &params, &images, nullptr, nullptr, nullptr, nullptr) ==
-        SF_ERROR_NULL);
-  CHECK(sf_refocus_prepared_images(e, &params, nullptr, &out, nullptr, nullptr, nullptr) ==
-        SF_ERROR_NULL);
-  CHECK(sf_prepare_images(e, &images, nullptr, 0, nullptr, nullptr, nullptr, nullptr, nullptr) ==
-        SF_ERROR_NULL);
+  CHECK(sf_refocus_images(nullptr, &params, &images, &out, nullptr) == SF_ERROR_NULL);
+  CHECK(sf_refocus_images(e, nullptr, &images, &out, nullptr) == SF_ERROR_NULL);
+  CHECK(sf_refocus_images(e, &params, nullptr, &out, nullptr) == SF_ERROR_NULL);
+  CHECK(sf_refocus_images(e, &params, &images, nullptr, nullptr) == SF_ERROR_NULL);
+  CHECK(sf_refocus_prepared_images(e, &params, nullptr, &out, nullptr) == SF_ERROR_NULL);
+  CHECK(sf_prepare_images(e, &images, nullptr, 0, nullptr) == SF_ERROR_NULL);
   out.planes[0] = engine.workspace();
-  CHECK(sf_refocus_images(e, &params, &images, &out, nullptr, nullptr, nullptr) ==
-        SF_ERROR_OVERLAP);
+  CHECK(sf_refocus_images(e, &params, &images, &out, nullptr) == SF_ERROR_OVERLAP);
   out = image.Out();
   params.region = {0, 0, kWidth + 1, 1};
-  CHECK(sf_refocus_images(e, &params, &images, &out, nullptr, nullptr, nullptr) == SF_ERROR_RANGE);
+  CHECK(sf_refocus_images(e, &params, &images, &out, nullptr) == SF_ERROR_RANGE);
   params.region = {};
   params.mode = 9;
-  CHECK(sf_refocus_images(e, &params, &images, &out, nullptr, nullptr, nullptr) == SF_ERROR_RANGE);
+  CHECK(sf_refocus_images(e, &params, &images, &out, nullptr) == SF_ERROR_RANGE);
   params.mode = SF_MODE_BLOCK;
   config.images = 0;
   config.streaming = 1;
   test::Engine without(config);
   sf_prepared* prepared = nullptr;
   int32_t rows = 0;
-  CHECK(sf_refocus_images(without.get(), &params, &images, &out, nullptr, nullptr, nullptr) ==
+  CHECK(sf_refocus_images(without.get(), &params, &images, &out, nullptr) == SF_ERROR_FEATURE);
+  CHECK(sf_prepare_images(without.get(), &images, engine.workspace(), 1 << 20, &prepared) ==
         SF_ERROR_FEATURE);
-  CHECK(sf_prepare_images(without.get(), &images, engine.workspace(), 1 << 20, nullptr, nullptr,
-                          nullptr, nullptr, &prepared) == SF_ERROR_FEATURE);
   REQUIRE(sf_stream_begin(without.get(), &params) == SF_OK);
   CHECK(sf_stream_push_images(without.get(), &images, 1, &rows) == SF_ERROR_FEATURE);
-  CHECK(sf_stream_pull_images(without.get(), &out, 1, nullptr, nullptr, &rows, nullptr) ==
-        SF_ERROR_FEATURE);
+  CHECK(sf_stream_pull_images(without.get(), &out, 1, &rows, nullptr) == SF_ERROR_FEATURE);
 }
 
 }  // namespace

@@ -33,8 +33,7 @@ ImageMemory Refocused(test::Engine* engine, const ImageField& field, const sf_pa
   ImageMemory image(field.converted.width, field.converted.height, kind);
   const sf_image_field images = field.Field();
   const sf_image_out out = image.Out();
-  REQUIRE(sf_refocus_images(engine->get(), &params, &images, &out, nullptr, nullptr, report) ==
-          SF_OK);
+  REQUIRE(sf_refocus_images(engine->get(), &params, &images, &out, report) == SF_OK);
   return image;
 }
 
@@ -54,7 +53,7 @@ sf_status StreamImages(test::Engine* engine, const ImageField& field, const sf_p
     }
     const sf_image_out out = image->Out(pulled);
     status = sf_stream_pull_images(engine->get(), &out, std::min(pull_rows, height - pulled),
-                                   nullptr, nullptr, &written, report);
+                                   &written, report);
     pushed += consumed;
     pulled += written;
     if (status == SF_OK && consumed == 0 && written == 0) return SF_ERROR_STATE;
@@ -114,13 +113,12 @@ TEST_CASE("image streams: rows of R, G, B may be pushed, and pulled") {
     REQUIRE(sf_stream_begin(engine.get(), &params) == SF_OK);
     REQUIRE(sf_stream_push_images(engine.get(), &images, 90, &rows) == SF_OK);
     REQUIRE(rows == 90);
-    REQUIRE(sf_stream_pull(engine.get(), got.bytes.data(), got.stride, 90, nullptr, nullptr, &rows,
-                           nullptr) == SF_OK);
+    REQUIRE(sf_stream_pull(engine.get(), got.bytes.data(), got.stride, 90, &rows, nullptr) ==
+            SF_OK);
     CHECK(got.bytes == expected.bytes);
     REQUIRE(sf_stream_begin(engine.get(), &params) == SF_OK);
     REQUIRE(sf_stream_push(engine.get(), &converted, 90, &rows) == SF_OK);
-    REQUIRE(sf_stream_pull_images(engine.get(), &out, 90, nullptr, nullptr, &rows, nullptr) ==
-            SF_OK);
+    REQUIRE(sf_stream_pull_images(engine.get(), &out, 90, &rows, nullptr) == SF_OK);
     const bool same = image == opaque;
     CHECK(same);
   }
@@ -176,12 +174,11 @@ TEST_CASE("image streams: half of a pair of rows is refused, and a bad depth wit
   CHECK(sf_stream_push_images(engine.get(), &images, 52, &rows) == SF_ERROR_RANGE);
   CHECK(sf_stream_push_images(engine.get(), &images, 51, &rows) == SF_OK);
   CHECK(rows == 51);
-  CHECK(sf_stream_pull_images(engine.get(), &out, 3, nullptr, nullptr, &rows, nullptr) ==
-        SF_ERROR_RANGE);
-  CHECK(sf_stream_pull_images(engine.get(), &out, 50, nullptr, nullptr, &rows, nullptr) == SF_OK);
+  CHECK(sf_stream_pull_images(engine.get(), &out, 3, &rows, nullptr) == SF_ERROR_RANGE);
+  CHECK(sf_stream_pull_images(engine.get(), &out, 50, &rows, nullptr) == SF_OK);
   CHECK(rows == 50);
   out = image.Out(50);
-  CHECK(sf_stream_pull_images(engine.get(), &out, 9, nullptr, nullptr, &rows, nullptr) == SF_OK);
+  CHECK(sf_stream_pull_images(engine.get(), &out, 9, &rows, nullptr) == SF_OK);
   CHECK(rows == 1);
   // The map's last row: pairs before it are taken.
   field.depth.Put(3, field.depth.map.height - 1, 1e-3);
@@ -223,8 +220,8 @@ TEST_CASE("prepared images: the bytes of whole images, for many lenses and regio
     sf_prepared* prepared = nullptr;
     {
       const sf_image_field images = field.Field();  // need not stay
-      REQUIRE(sf_prepare_images(engine.get(), &images, memory.get(), memory.bytes, nullptr, nullptr,
-                                nullptr, nullptr, &prepared) == SF_OK);
+      REQUIRE(sf_prepare_images(engine.get(), &images, memory.get(), memory.bytes, &prepared) ==
+              SF_OK);
     }
     for (int lens = 0; lens < 4; ++lens) {
       sf_params params = test::Params(random.Real(-9, 9), 1, SF_MODE_BLOCK);
@@ -234,8 +231,7 @@ TEST_CASE("prepared images: the bytes of whole images, for many lenses and regio
       const ImageMemory expected = Refocused(&engine, field, params, kind, &report);
       ImageMemory got(width, height, kind);
       const sf_image_out out = got.Out();
-      REQUIRE(sf_refocus_prepared_images(engine.get(), &params, prepared, &out, nullptr, nullptr,
-                                         &report) == SF_OK);
+      REQUIRE(sf_refocus_prepared_images(engine.get(), &params, prepared, &out, &report) == SF_OK);
       const bool same = got == expected;
       CHECK(same);
       CHECK(report.disparity_bytes == 0);
@@ -256,10 +252,8 @@ TEST_CASE("prepared images: disparities and layers are those of the converted pi
     sf_prepared *got = nullptr, *expected = nullptr;
     const sf_image_field images = field.Field();
     const sf_light_field pictures = field.converted.Field();
-    REQUIRE(sf_prepare_images(engine.get(), &images, memory.get(), memory.bytes, nullptr, nullptr,
-                              nullptr, nullptr, &got) == SF_OK);
-    REQUIRE(sf_prepare(engine.get(), &pictures, other.get(), other.bytes, nullptr, nullptr, nullptr,
-                       nullptr, &expected) == SF_OK);
+    REQUIRE(sf_prepare_images(engine.get(), &images, memory.get(), memory.bytes, &got) == SF_OK);
+    REQUIRE(sf_prepare(engine.get(), &pictures, other.get(), other.bytes, &expected) == SF_OK);
     const auto& a = *reinterpret_cast<const starfocus::Prepared*>(got);
     const auto& b = *reinterpret_cast<const starfocus::Prepared*>(expected);
     const auto same = [](const auto& one, const auto& two, int rows) {
@@ -281,27 +275,26 @@ TEST_CASE("prepared images: neither kind is taken for the other") {
   sf_prepared *of_images = nullptr, *of_pictures = nullptr;
   const sf_image_field images = field.Field();
   const sf_light_field pictures = field.converted.Field();
-  REQUIRE(sf_prepare_images(engine.get(), &images, memory.get(), memory.bytes, nullptr, nullptr,
-                            nullptr, nullptr, &of_images) == SF_OK);
-  REQUIRE(sf_prepare(engine.get(), &pictures, other.get(), other.bytes, nullptr, nullptr, nullptr,
-                     nullptr, &of_pictures) == SF_OK);
+  REQUIRE(sf_prepare_images(engine.get(), &images, memory.get(), memory.bytes, &of_images) ==
+          SF_OK);
+  REQUIRE(sf_prepare(engine.get(), &pictures, other.get(), other.bytes, &of_pictures) == SF_OK);
   const sf_params params = test::Params(1, 1, SF_MODE_BLOCK);
   test::Output out(60, 50);
   ImageMemory image(60, 50, test::AnyKind(SF_FORMAT_NV12, &random));
   const sf_image_out to = image.Out();
-  CHECK(sf_refocus_prepared(engine.get(), &params, of_images, out.bytes.data(), out.stride, nullptr,
-                            nullptr, nullptr) == SF_ERROR_PREPARED);
-  CHECK(sf_refocus_prepared_images(engine.get(), &params, of_pictures, &to, nullptr, nullptr,
-                                   nullptr) == SF_ERROR_PREPARED);
+  CHECK(sf_refocus_prepared(engine.get(), &params, of_images, out.bytes.data(), out.stride,
+                            nullptr) == SF_ERROR_PREPARED);
+  CHECK(sf_refocus_prepared_images(engine.get(), &params, of_pictures, &to, nullptr) ==
+        SF_ERROR_PREPARED);
   // A light field may not be prepared into its own memory.
   sf_image_field own = images;
   own.depth.data = memory.get();
   own.depth.stride = 4096;
-  CHECK(sf_prepare_images(engine.get(), &own, memory.get(), memory.bytes, nullptr, nullptr, nullptr,
-                          nullptr, &of_images) == SF_ERROR_OVERLAP);
+  CHECK(sf_prepare_images(engine.get(), &own, memory.get(), memory.bytes, &of_images) ==
+        SF_ERROR_OVERLAP);
   CHECK(of_images == nullptr);
-  CHECK(sf_prepare_images(engine.get(), &images, other.get(), other.bytes - 1, nullptr, nullptr,
-                          nullptr, nullptr, &of_images) == SF_ERROR_WORKSPACE);
+  CHECK(sf_prepare_images(engine.get(), &images, other.get(), other.bytes - 1, &of_images) ==
+        SF_ERROR_WORKSPACE);
 }
 
 TEST_CASE("images: calls are watched, and cancelled wherever they ask") {
@@ -312,11 +305,15 @@ TEST_CASE("images: calls are watched, and cancelled wherever they ask") {
   config.largest_block = 32;
   test::Engine engine(config);
   const ImageKind kind = test::AnyKind(SF_FORMAT_NV21, &random);
-  sf_params params = test::Params(1, 1, SF_MODE_BLOCK);
+  const sf_params params = test::Params(1, 1, SF_MODE_BLOCK);
   const ImageMemory expected = Refocused(&engine, field, params, kind, nullptr);
   test::Watch watch;
-  params.progress = test::Watch::Progress;
-  params.progress_data = &watch;
+  const auto tell = [&](test::Watch* to) {
+    const sf_callbacks callbacks =
+        test::ToldTo(to != nullptr ? test::Watch::Progress : nullptr, to);
+    REQUIRE(sf_set_callbacks(engine.get(), &callbacks) == SF_OK);
+  };
+  tell(&watch);
   CHECK((Refocused(&engine, field, params, kind, nullptr) == expected));
   CHECK(watch.Ended());
   CHECK(watch.rows == 150);
@@ -326,18 +323,17 @@ TEST_CASE("images: calls are watched, and cancelled wherever they ask") {
   // What a call has worked since it last asked counts for the next call, which may ask once less.
   for (int stop = 0; stop + 1 < watch.calls; stop += 3) {
     test::Watch stops(stop);
-    params.progress_data = &stops;
+    tell(&stops);
     ImageMemory image(200, 150, kind);
     const sf_image_out out = image.Out();
-    CHECK(sf_refocus_images(engine.get(), &params, &images, &out, nullptr, nullptr, nullptr) ==
-          SF_ERROR_CANCELLED);
+    CHECK(sf_refocus_images(engine.get(), &params, &images, &out, nullptr) == SF_ERROR_CANCELLED);
     CHECK(stops.Good());
     test::Watch first(stop % 4);
-    CHECK(sf_prepare_images(engine.get(), &images, memory.get(), memory.bytes,
-                            test::Watch::Progress, &first, nullptr, nullptr,
-                            &prepared) == SF_ERROR_CANCELLED);
+    tell(&first);
+    CHECK(sf_prepare_images(engine.get(), &images, memory.get(), memory.bytes, &prepared) ==
+          SF_ERROR_CANCELLED);
   }
-  params.progress = nullptr;
+  tell(nullptr);
   CHECK((Refocused(&engine, field, params, kind, nullptr) == expected));
 }
 

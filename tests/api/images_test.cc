@@ -52,11 +52,12 @@ void CheckSame(const ImageField& field, const sf_config& config, const sf_params
   const sf_image_field images = field.Field();
   const sf_image_out out = got.Out();
   sf_report report = {}, expected_report = {};
-  REQUIRE(sf_refocus_images(engine.get(), &params, &images, &out, runner, nullptr, &report) ==
-          SF_OK);
+  const sf_callbacks callbacks = test::RunBy(runner);
+  REQUIRE(sf_set_callbacks(engine.get(), &callbacks) == SF_OK);
+  REQUIRE(sf_refocus_images(engine.get(), &params, &images, &out, &report) == SF_OK);
   test::Output expected(width, height);
-  REQUIRE(test::Refocus(&engine, params, field.converted, &expected, runner, nullptr,
-                        &expected_report) == SF_OK);
+  REQUIRE(test::Refocus(&engine, params, field.converted, &expected, callbacks, &expected_report) ==
+          SF_OK);
   const bool same = got == field.Converted(expected, kind, r.x, r.y);
   CHECK(same);
   CHECK(report.unknown_pixels == expected_report.unknown_pixels);
@@ -177,8 +178,7 @@ TEST_CASE("images: depth of every type, meaning and size; unknown depths") {
     ImageMemory out(130, 97, test::AnyKind(SF_FORMAT_RGB, &random)), before = out;
     const sf_image_field images = field.Field();
     const sf_image_out to = out.Out();
-    const sf_status status =
-        sf_refocus_images(engine.get(), &params, &images, &to, nullptr, nullptr, nullptr);
+    const sf_status status = sf_refocus_images(engine.get(), &params, &images, &to, nullptr);
     CHECK(status == (unknown ? SF_ERROR_NOT_FINITE : SF_OK));
     const bool untouched = out == before;
     CHECK(untouched == unknown);
@@ -199,8 +199,7 @@ TEST_CASE("images: a depth outside the configured range is refused before anythi
   const sf_image_field images = field.Field();
   const sf_image_out to = out.Out();
   const sf_params params = test::Params(2, 1, SF_MODE_BLOCK);
-  CHECK(sf_refocus_images(engine.get(), &params, &images, &to, nullptr, nullptr, nullptr) ==
-        SF_ERROR_DISPARITY);
+  CHECK(sf_refocus_images(engine.get(), &params, &images, &to, nullptr) == SF_ERROR_DISPARITY);
   const bool untouched = out == before;
   CHECK(untouched);
 }

@@ -56,10 +56,9 @@ sf_status Prepared(test::Engine* engine, const sf_config& config, const sf_param
       memory.data() + SF_ALIGNMENT - reinterpret_cast<uintptr_t>(memory.data()) % SF_ALIGNMENT;
   const sf_light_field field = scene.Field();
   sf_prepared* prepared = nullptr;
-  REQUIRE(sf_prepare(engine->get(), &field, aligned, bytes, nullptr, nullptr, nullptr, nullptr,
-                     &prepared) == SF_OK);
+  REQUIRE(sf_prepare(engine->get(), &field, aligned, bytes, &prepared) == SF_OK);
   return sf_refocus_prepared(engine->get(), &params, prepared, out->bytes.data(), out->stride,
-                             nullptr, nullptr, nullptr);
+                             nullptr);
 }
 
 // The frame after one that differs in a patch of every view and of the map.
@@ -73,7 +72,7 @@ sf_status After(test::Engine* engine, const sf_params& params, const test::Scene
   const sf_light_field field = scene.Field();
   const sf_previous previous = {before.Field(), before_out.bytes.data(), before_out.stride};
   return sf_refocus_after(engine->get(), &params, &field, &previous, out->bytes.data(), out->stride,
-                          nullptr, nullptr, nullptr);
+                          nullptr);
 }
 
 TEST_CASE("pinhole: the centre view to the byte, by every mode, rule and way in") {

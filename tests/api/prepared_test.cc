@@ -36,8 +36,7 @@ class Memory {
 sf_prepared* Prepare(test::Engine* engine, const test::Scene& scene, Memory* memory) {
   const sf_light_field field = scene.Field();
   sf_prepared* prepared = nullptr;
-  REQUIRE(sf_prepare(engine->get(), &field, memory->get(), memory->bytes, nullptr, nullptr, nullptr,
-                     nullptr, &prepared) == SF_OK);
+  REQUIRE(sf_prepare(engine->get(), &field, memory->get(), memory->bytes, &prepared) == SF_OK);
   return prepared;
 }
 
@@ -50,7 +49,7 @@ void CheckSame(test::Engine* engine, const sf_prepared* prepared, const test::Sc
   test::Output expected(width, height, 3), got(width, height, 3);
   sf_report report = {}, prepared_report = {};
   REQUIRE(sf_refocus_prepared(engine->get(), &params, prepared, got.bytes.data(), got.stride,
-                              nullptr, nullptr, &prepared_report) == SF_OK);
+                              &prepared_report) == SF_OK);
   REQUIRE(test::Refocus(engine, params, scene, &expected, nullptr, nullptr, &report) == SF_OK);
   const bool same = got.bytes == expected.bytes;
   CHECK(same);
@@ -140,8 +139,7 @@ TEST_CASE("prepared: bad input") {
   none.disparity = nullptr;
   const auto prepare = [&](sf_engine* e, const sf_light_field* f, void* at, size_t size) {
     sf_prepared* prepared = reinterpret_cast<sf_prepared*>(&scene);
-    const sf_status status =
-        sf_prepare(e, f, at, size, nullptr, nullptr, nullptr, nullptr, &prepared);
+    const sf_status status = sf_prepare(e, f, at, size, &prepared);
     CHECK((prepared == nullptr) == (status != SF_OK));
     return status;
   };
@@ -150,8 +148,7 @@ TEST_CASE("prepared: bad input") {
   CHECK(prepare(engine.get(), nullptr, at, memory.bytes) == SF_ERROR_NULL);
   CHECK(prepare(engine.get(), &none, at, memory.bytes) == SF_ERROR_NULL);
   CHECK(prepare(engine.get(), &field, nullptr, memory.bytes) == SF_ERROR_NULL);
-  CHECK(sf_prepare(engine.get(), &field, at, memory.bytes, nullptr, nullptr, nullptr, nullptr,
-                   nullptr) == SF_ERROR_NULL);
+  CHECK(sf_prepare(engine.get(), &field, at, memory.bytes, nullptr) == SF_ERROR_NULL);
   CHECK(prepare(engine.get(), &field, at, memory.bytes - 1) == SF_ERROR_WORKSPACE);
   CHECK(prepare(engine.get(), &field, at + 8, memory.bytes) == SF_ERROR_WORKSPACE);
   CHECK(prepare(engine.get(), &field, engine.workspace(), memory.bytes) == SF_ERROR_OVERLAP);
@@ -173,8 +170,7 @@ TEST_CASE("prepared: refocusing refuses what sf_refocus refuses, and another con
   const sf_prepared* prepared = Prepare(&engine, scene, &memory);
   test::Output out(50, 40);
   const auto run = [&](sf_engine* e, const sf_params& params, const sf_prepared* p, void* to) {
-    return sf_refocus_prepared(e, &params, p, static_cast<uint8_t*>(to), out.stride, nullptr,
-                               nullptr, nullptr);
+    return sf_refocus_prepared(e, &params, p, static_cast<uint8_t*>(to), out.stride, nullptr);
   };
   const sf_params params = test::Params(1);
   CHECK(run(nullptr, params, prepared, out.bytes.data()) == SF_ERROR_NULL);
@@ -209,11 +205,13 @@ TEST_CASE("prepared: a runner's failure is reported") {
   Memory memory(config);
   const sf_light_field field = scene.Field();
   sf_prepared* prepared = nullptr;
-  const sf_runner fail = [](void*, sf_job, void*, int32_t) { return 1; };
-  CHECK(sf_prepare(engine.get(), &field, memory.get(), memory.bytes, nullptr, nullptr, fail,
-                   nullptr, &prepared) == SF_ERROR_RUNNER);
+  const sf_callbacks fails = test::RunBy([](void*, sf_job, void*, int32_t) { return 1; });
+  const sf_callbacks none = {};
+  REQUIRE(sf_set_callbacks(engine.get(), &fails) == SF_OK);
+  CHECK(sf_prepare(engine.get(), &field, memory.get(), memory.bytes, &prepared) == SF_ERROR_RUNNER);
   CHECK(prepared == nullptr);
   // The engine goes on as before.
+  REQUIRE(sf_set_callbacks(engine.get(), &none) == SF_OK);
   const sf_prepared* again = Prepare(&engine, scene, &memory);
   CheckSame(&engine, again, scene, test::Params(-4, 1, SF_MODE_BLOCK));
 }
@@ -231,9 +229,8 @@ TEST_CASE("prepared: a bad map is refused before anything is written") {
       scene.Disparity(49, row) = bad;
       const sf_light_field field = scene.Field();
       sf_prepared* prepared = nullptr;
-      CHECK(sf_prepare(engine.get(), &field, memory.get(), memory.bytes, nullptr, nullptr, nullptr,
-                       nullptr,
-                       &prepared) == (bad == bad ? SF_ERROR_DISPARITY : SF_ERROR_NOT_FINITE));
+      CHECK(sf_prepare(engine.get(), &field, memory.get(), memory.bytes, &prepared) ==
+            (bad == bad ? SF_ERROR_DISPARITY : SF_ERROR_NOT_FINITE));
       CHECK(std::equal(before.begin(), before.end(), memory.get()));
     }
     scene.Disparity(49, row) = good;

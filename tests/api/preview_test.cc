@@ -116,23 +116,26 @@ class Prepared {
     const uintptr_t address = reinterpret_cast<uintptr_t>(memory_.data());
     at = memory_.data() + (SF_ALIGNMENT - address % SF_ALIGNMENT) % SF_ALIGNMENT;
     const sf_light_field field = scene.Field();
-    REQUIRE(sf_prepare(engine.get(), &field, at, bytes, nullptr, nullptr, runner, nullptr,
-                       &field_) == SF_OK);
+    const sf_callbacks callbacks = test::RunBy(runner);
+    REQUIRE(sf_set_callbacks(engine.get(), &callbacks) == SF_OK);
+    REQUIRE(sf_prepare(engine.get(), &field, at, bytes, &field_) == SF_OK);
   }
 
   sf_status Preview(const sf_params& params, int shift, test::Output* out,
-                    sf_runner runner = nullptr, sf_report* report = nullptr) {
+                    const sf_callbacks& callbacks = {}, sf_report* report = nullptr) {
+    const sf_status status = sf_set_callbacks(engine.get(), &callbacks);
+    if (status != SF_OK) return status;
     return sf_refocus_preview(engine.get(), &params, field_, shift, out->bytes.data(), out->stride,
-                              runner, nullptr, report);
+                              report);
   }
   // The preview of the whole picture or the params' region.
-  test::Output Preview(const sf_params& params, int shift, sf_runner runner = nullptr,
+  test::Output Preview(const sf_params& params, int shift, const sf_callbacks& callbacks = {},
                        sf_report* report = nullptr) {
     const sf_region region = ReducedRegion(params.region, shift);
     const bool whole = region.width == 0;
     test::Output out(whole ? Ceil(scene_.width, shift) : region.width,
                      whole ? Ceil(scene_.height, shift) : region.height, 3);
-    REQUIRE(Preview(params, shift, &out, runner, report) == SF_OK);
+    REQUIRE(Preview(params, shift, &out, callbacks, report) == SF_OK);
     return out;
   }
   const sf_prepared* field() const { return field_; }
@@ -167,7 +170,7 @@ double Psnr(const test::Output& got, const test::Output& full, int shift, int32_
 bool IsOfReduced(Prepared* prepared, sf_params params, int shift, const sf_config& config,
                  const test::Scene& reduced) {
   sf_report report = {};
-  const test::Output got = prepared->Preview(params, shift, RunOnTwo, &report);
+  const test::Output got = prepared->Preview(params, shift, test::RunBy(RunOnTwo), &report);
   test::Engine small(ReducedConfig(config, shift, report.largest_block));
   REQUIRE(small.status() == SF_OK);
   params.focus /= 1 << shift;
@@ -258,8 +261,7 @@ TEST_CASE("preview: of images, into images") {
     uint8_t* at = memory.data() + (SF_ALIGNMENT - address % SF_ALIGNMENT) % SF_ALIGNMENT;
     const sf_image_field images = field.Field();
     sf_prepared* prepared = nullptr;
-    REQUIRE(sf_prepare_images(engine.get(), &images, at, expected.bytes, nullptr, nullptr, nullptr,
-                              nullptr, &prepared) == SF_OK);
+    REQUIRE(sf_prepare_images(engine.get(), &images, at, expected.bytes, &prepared) == SF_OK);
     const sf_params params = test::Params(2, 1, SF_MODE_BLOCK);
     for (int shift = 1; shift <= 2; ++shift) {
       const test::Output wanted = expected.Preview(params, shift);
@@ -269,8 +271,8 @@ TEST_CASE("preview: of images, into images") {
       test::PutPicture(
           wanted.bytes.data(), wanted.stride, [](int, int) { return uint8_t{255}; }, &image);
       const sf_image_out out = got.Out();
-      REQUIRE(sf_refocus_preview_images(engine.get(), &params, prepared, shift, &out, nullptr,
-                                        nullptr, nullptr) == SF_OK);
+      REQUIRE(sf_refocus_preview_images(engine.get(), &params, prepared, shift, &out, nullptr) ==
+              SF_OK);
       const bool same = got == image;
       CHECK(same);
     }
@@ -298,8 +300,8 @@ TEST_CASE("preview: the engine is what it was, and the workspace no larger") {
   const test::Output again = prepared.Preview(test::Params(5, 1, SF_MODE_BLOCK), 2);
   CHECK(again.bytes == first.bytes);
   int32_t written = 0;
-  CHECK(sf_stream_pull(prepared.engine.get(), streamed.bytes.data(), streamed.stride, 1, nullptr,
-                       nullptr, &written, nullptr) == SF_ERROR_STATE);
+  CHECK(sf_stream_pull(prepared.engine.get(), streamed.bytes.data(), streamed.stride, 1, &written,
+                       nullptr) == SF_ERROR_STATE);
   REQUIRE(test::Stream(&prepared.engine, params, scene, &streamed, 9, 9) == SF_OK);
   CHECK(streamed.bytes == before.bytes);
 }
@@ -377,7 +379,7 @@ TEST_CASE("preview: bad input") {
   }
   const auto run = [&](sf_engine* e, const sf_params* p, const sf_prepared* of, uint8_t* to,
                        size_t stride) {
-    return sf_refocus_preview(e, p, of, 1, to, stride, nullptr, nullptr, nullptr);
+    return sf_refocus_preview(e, p, of, 1, to, stride, nullptr);
   };
   sf_engine* e = prepared.engine.get();
   uint8_t* to = out.bytes.data();
@@ -418,8 +420,7 @@ TEST_CASE("preview: images refuse what pictures do") {
   out.planes[0] = rgb.data();
   out.strides[0] = 75;
   const auto run = [&](Prepared* of, int shift, const sf_image_out* to) {
-    return sf_refocus_preview_images(of->engine.get(), &params, of->field(), shift, to, nullptr,
-                                     nullptr, nullptr);
+    return sf_refocus_preview_images(of->engine.get(), &params, of->field(), shift, to, nullptr);
   };
   CHECK(run(&without, 1, &out) == SF_ERROR_FEATURE);
   CHECK(run(&prepared, 1, nullptr) == SF_ERROR_NULL);
@@ -443,20 +444,16 @@ TEST_CASE("preview: progress is told of the preview's rows, and calls it off") {
   sf_params params = test::Params(-4, 1, SF_MODE_BLOCK);
   const test::Output expected = prepared.Preview(params, 1);
   test::Watch watch;
-  params.progress = test::Watch::Progress;
-  params.progress_data = &watch;
-  prepared.Preview(params, 1);
+  prepared.Preview(params, 1, test::ToldTo(test::Watch::Progress, &watch));
   CHECK(watch.Ended());
   CHECK(watch.rows == 130);
   for (int stop = 0; stop < watch.calls; stop += 1 + watch.calls / 5) {
     test::Watch cancels(stop);
-    params.progress_data = &cancels;
     test::Output out(150, 130);
-    CHECK(prepared.Preview(params, 1, &out) == SF_ERROR_CANCELLED);
+    CHECK(prepared.Preview(params, 1, &out, test::ToldTo(test::Watch::Progress, &cancels)) ==
+          SF_ERROR_CANCELLED);
     CHECK(cancels.Good());
-    params.progress = nullptr;
     CHECK(prepared.Preview(params, 1).bytes == expected.bytes);
-    params.progress = test::Watch::Progress;
   }
 }
 
@@ -469,8 +466,11 @@ TEST_CASE("preview: making one is told of and called off as preparing is, and a 
   const sf_light_field field = scene.Field();
   const auto prepare = [&](test::Watch* watch, sf_runner runner) {
     sf_prepared* made = nullptr;
-    const sf_status status = sf_prepare(prepared.engine.get(), &field, prepared.at, prepared.bytes,
-                                        test::Watch::Progress, watch, runner, nullptr, &made);
+    sf_callbacks callbacks = test::ToldTo(test::Watch::Progress, watch);
+    callbacks.runner = runner;
+    REQUIRE(sf_set_callbacks(prepared.engine.get(), &callbacks) == SF_OK);
+    const sf_status status =
+        sf_prepare(prepared.engine.get(), &field, prepared.at, prepared.bytes, &made);
     CHECK((made == nullptr) == (status != SF_OK));
     return status;
   };

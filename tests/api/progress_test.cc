@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// sf_params.progress: what it is told, and that a call it cancels leaves the engine as it was,
+// sf_callbacks.progress: what it is told, and that a call it cancels leaves the engine as it was,
 // whenever it does.
 #include <doctest/doctest.h>
 
@@ -83,6 +83,17 @@ struct Fixture {
   }
 };
 
+// Callbacks with a watch, which may be null, and a runner.
+sf_callbacks Watched(Watch* watch, sf_runner runner = nullptr) {
+  sf_callbacks callbacks = test::ToldTo(watch != nullptr ? Watch::Progress : nullptr, watch);
+  callbacks.runner = runner;
+  return callbacks;
+}
+
+void SetCallbacks(test::Engine* engine, const sf_callbacks& callbacks) {
+  REQUIRE(sf_set_callbacks(engine->get(), &callbacks) == SF_OK);
+}
+
 // The memory of a prepared light field.
 struct Prepared {
   std::vector<uint8_t> memory;
@@ -99,20 +110,13 @@ struct Prepared {
   }
   sf_status Prepare(const Fixture& f, test::Engine* engine, Watch* watch, sf_runner runner) {
     const sf_light_field field = f.scene.Field();
-    return sf_prepare(engine->get(), &field, At(), bytes,
-                      watch != nullptr ? Watch::Progress : nullptr, watch, runner, nullptr,
-                      &prepared);
+    SetCallbacks(engine, Watched(watch, runner));
+    return sf_prepare(engine->get(), &field, At(), bytes, &prepared);
   }
 };
 
 // A way to ask for the whole picture of the scene. The watch is null where nobody is to be asked.
 using Entry = std::function<sf_status(test::Engine*, Watch*, test::Output*)>;
-
-sf_params Watched(sf_params params, Watch* watch) {
-  params.progress = watch != nullptr ? Watch::Progress : nullptr;
-  params.progress_data = watch;
-  return params;
-}
 
 // Cancels at every call there is (of slow builds at the first ones and some of the others), after
 // each of which the same engine must make the picture of a fresh one. Returns the calls of the
@@ -148,7 +152,7 @@ TEST_CASE("progress: cancelled at any call, in every mode, the engine is as befo
     for (const sf_runner runner : {sf_runner(nullptr), sf_runner(RunOnTwo)}) {
       CAPTURE(runner == nullptr);
       const int calls = CheckEntry(f, [&](test::Engine* engine, Watch* watch, test::Output* out) {
-        return test::Refocus(engine, Watched(f.params, watch), f.scene, out, runner);
+        return test::Refocus(engine, f.params, f.scene, out, Watched(watch, runner));
       });
       // Three columns of three stripes, and the end.
       CHECK(calls >= 10);
@@ -162,21 +166,21 @@ TEST_CASE("progress: cancelled frames after others, prepared light fields and st
     const Fixture f(of);
     const sf_light_field field = f.scene.Field();
     CheckEntry(f, [&](test::Engine* engine, Watch* watch, test::Output* out) {
-      const sf_params params = Watched(f.params, watch);
+      SetCallbacks(engine, Watched(watch));
       const sf_previous previous = {f.before.Field(), f.previous.bytes.data(), f.previous.stride};
-      return sf_refocus_after(engine->get(), &params, &field, &previous, out->bytes.data(),
-                              out->stride, nullptr, nullptr, nullptr);
+      return sf_refocus_after(engine->get(), &f.params, &field, &previous, out->bytes.data(),
+                              out->stride, nullptr);
     });
     Prepared prepared(f.config);
     test::Engine maker(f.config);
     REQUIRE(prepared.Prepare(f, &maker, nullptr, nullptr) == SF_OK);
     CheckEntry(f, [&](test::Engine* engine, Watch* watch, test::Output* out) {
-      const sf_params params = Watched(f.params, watch);
-      return sf_refocus_prepared(engine->get(), &params, prepared.prepared, out->bytes.data(),
-                                 out->stride, RunOnTwo, nullptr, nullptr);
+      SetCallbacks(engine, Watched(watch, RunOnTwo));
+      return sf_refocus_prepared(engine->get(), &f.params, prepared.prepared, out->bytes.data(),
+                                 out->stride, nullptr);
     });
     CheckEntry(f, [&](test::Engine* engine, Watch* watch, test::Output* out) {
-      return test::Stream(engine, Watched(f.params, watch), f.scene, out, 9, 7);
+      return test::Stream(engine, f.params, f.scene, out, 9, 7, Watched(watch));
     });
   }
 }
@@ -196,8 +200,9 @@ TEST_CASE("progress: a preparation that is cancelled gives nothing, and harms no
       CHECK(watch.Ended());
       CHECK(watch.rows == kHeight);
       CHECK(stop >= 7);
+      SetCallbacks(&engine, {});
       CHECK(sf_refocus_prepared(engine.get(), &f.params, prepared.prepared, out.bytes.data(),
-                                out.stride, nullptr, nullptr, nullptr) == SF_OK);
+                                out.stride, nullptr) == SF_OK);
       CHECK(out.bytes == f.expected.bytes);
       break;
     }
@@ -216,15 +221,13 @@ TEST_CASE("progress: of a region its rows are told") {
   sf_params params = f.params;
   params.region = region;
   REQUIRE(test::Refocus(&engine, params, f.scene, &out) == SF_OK);  // makes the kernels
-  params = Watched(params, &watch);
-  REQUIRE(test::Refocus(&engine, params, f.scene, &out) == SF_OK);
+  REQUIRE(test::Refocus(&engine, params, f.scene, &out, Watched(&watch)) == SF_OK);
   CHECK(watch.Ended());
   CHECK(watch.rows == 41);
   // What a call has worked since it last asked counts for the next call, which may ask once less.
   for (int stop = 0; stop + 1 < watch.calls; ++stop) {
     Watch cancels(stop);
-    params.progress_data = &cancels;
-    CHECK(test::Refocus(&engine, params, f.scene, &out) == SF_ERROR_CANCELLED);
+    CHECK(test::Refocus(&engine, params, f.scene, &out, Watched(&cancels)) == SF_ERROR_CANCELLED);
     CHECK(cancels.Good());
   }
 }
@@ -233,8 +236,8 @@ TEST_CASE("progress: of a region its rows are told") {
 int PullOn(const Fixture& f, int every, sf_report* report, test::Output* out) {
   test::Engine engine(f.config);
   Watch watch;
-  const sf_params params = Watched(f.params, &watch);
-  REQUIRE(sf_stream_begin(engine.get(), &params) == SF_OK);
+  SetCallbacks(&engine, Watched(&watch));
+  REQUIRE(sf_stream_begin(engine.get(), &f.params) == SF_OK);
   int pushed = 0, pulled = 0, cancelled = 0;
   while (pulled < kHeight) {
     const sf_light_field field = f.scene.Field(pushed);
@@ -245,7 +248,7 @@ int PullOn(const Fixture& f, int every, sf_report* report, test::Output* out) {
     watch.stop = cancelled % 2 == 0 ? watch.calls + every : Watch::kNever;
     const sf_status status =
         sf_stream_pull(engine.get(), out->bytes.data() + size_t(pulled) * out->stride, out->stride,
-                       kHeight - pulled, nullptr, nullptr, &written, report);
+                       kHeight - pulled, &written, report);
     pushed += consumed;
     pulled += written;
     if (status == SF_ERROR_CANCELLED) {
@@ -284,8 +287,8 @@ TEST_CASE("progress: a stream that is cancelled as it begins has not begun") {
   Fixture f(kCases[8]);  // its kernels are made then
   test::Engine engine(f.config);
   Watch watch(0);
-  const sf_params params = Watched(f.params, &watch);
-  CHECK(sf_stream_begin(engine.get(), &params) == SF_ERROR_CANCELLED);
+  SetCallbacks(&engine, Watched(&watch));
+  CHECK(sf_stream_begin(engine.get(), &f.params) == SF_ERROR_CANCELLED);
   const sf_light_field field = f.scene.Field();
   int32_t consumed = 0;
   CHECK(sf_stream_push(engine.get(), &field, 1, &consumed) == SF_ERROR_STATE);
@@ -315,8 +318,7 @@ TEST_CASE("progress: whatever a block takes, a million samples are too many to w
     REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
     Watch watch;
     sf_report report = {};
-    params = Watched(params, &watch);
-    REQUIRE(test::Refocus(&engine, params, scene, &out, nullptr, nullptr, &report) == SF_OK);
+    REQUIRE(test::Refocus(&engine, params, scene, &out, Watched(&watch), &report) == SF_OK);
     CHECK(watch.Ended());
     double samples =
         double(report.rendered_samples) + 3.0 * size * size * double(report.gathered_pixels);

@@ -142,10 +142,10 @@ TEST_CASE("region: costs its share of the picture and its surroundings") {
     sf_report report = {}, part = {};
     REQUIRE(test::Refocus(&engine, params, scene, &whole, nullptr, nullptr, &report) == SF_OK);
     int told = 0;
-    params.on_block_data = &told;
-    params.on_block = [](void* data, const sf_block*) { ++*static_cast<int*>(data); };
+    const sf_callbacks counts =
+        test::VisitedBy([](void* data, const sf_block*) { ++*static_cast<int*>(data); }, &told);
     params.region = {326, 326, 20, 20};  // inside one superblock
-    REQUIRE(test::Refocus(&engine, params, scene, &out, nullptr, nullptr, &part) == SF_OK);
+    REQUIRE(test::Refocus(&engine, params, scene, &out, counts, &part) == SF_OK);
     CHECK(BlocksOf(part) == uint64_t(told));
     CHECK(BlocksOf(part) <= 4);
     CHECK(part.rendered_samples * 100 < report.rendered_samples);
@@ -245,7 +245,7 @@ TEST_CASE("region: output as large as the region, and no larger") {
   params.region = {3, 4, 5, 6};
   std::vector<uint8_t> out(15 * 6);
   const auto run = [&](uint8_t* to, size_t stride) {
-    return sf_refocus(engine.get(), &params, &field, to, stride, nullptr, nullptr, nullptr);
+    return sf_refocus(engine.get(), &params, &field, to, stride, nullptr);
   };
   CHECK(run(out.data(), 14) == SF_ERROR_STRIDE);
   CHECK(run(out.data(), 15) == SF_OK);

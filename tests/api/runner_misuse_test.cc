@@ -145,8 +145,9 @@ TEST_CASE("runner: sf_prepare refuses a runner that skips a job") {
   const sf_light_field field = f.scene.Field();
   Runner bad = {kMisuses[2].run, 1};
   sf_prepared* prepared = reinterpret_cast<sf_prepared*>(aligned);
-  CHECK(sf_prepare(engine.get(), &field, aligned, bytes, nullptr, nullptr, Runner::Run, &bad,
-                   &prepared) == SF_ERROR_RUNNER);
+  const sf_callbacks callbacks = test::RunBy(Runner::Run, &bad);
+  REQUIRE(sf_set_callbacks(engine.get(), &callbacks) == SF_OK);
+  CHECK(sf_prepare(engine.get(), &field, aligned, bytes, &prepared) == SF_ERROR_RUNNER);
   CHECK(prepared == nullptr);
 }
 
@@ -162,19 +163,20 @@ TEST_CASE("runner: a worker that is busy gets no second job") {
   test::Engine engine(f.config);
   test::Output out(kWidth, kHeight);
   running.nested = false;
-  f.params.clock = []() -> uint64_t {
+  sf_callbacks callbacks = {};
+  callbacks.clock = []() -> uint64_t {
     // As if another thread had the same worker at the same time.
     if (!running.nested) running.job(running.data, 2, 0);
     running.nested = true;
     return 0;
   };
-  const sf_runner runner = [](void*, sf_job job, void* data, int32_t count) {
+  callbacks.runner = [](void*, sf_job job, void* data, int32_t count) {
     running.job = job;
     running.data = data;
     for (int32_t i = 0; i < count; ++i) job(data, i, 0);
     return 0;
   };
-  CHECK(test::Refocus(&engine, f.params, f.scene, &out, runner) == SF_ERROR_RUNNER);
+  CHECK(test::Refocus(&engine, f.params, f.scene, &out, callbacks) == SF_ERROR_RUNNER);
   CHECK(running.nested);
 }
 

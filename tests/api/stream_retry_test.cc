@@ -41,6 +41,8 @@ Streamed Stream(const sf_config& config, const sf_params& params, const test::Sc
   Streamed result;
   test::Engine engine(config);
   REQUIRE(engine.status() == SF_OK);
+  const sf_callbacks callbacks = test::RunBy(Failing::Run, failing);
+  REQUIRE(sf_set_callbacks(engine.get(), &callbacks) == SF_OK);
   REQUIRE(sf_stream_begin(engine.get(), &params) == SF_OK);
   int pushed = 0, pulled = 0;
   while (pulled < kHeight) {
@@ -52,7 +54,7 @@ Streamed Stream(const sf_config& config, const sf_params& params, const test::Sc
     uint8_t* const rows = result.out.bytes.data() + size_t(pulled) * result.out.stride;
     const sf_status status =
         sf_stream_pull(engine.get(), rows, result.out.stride, std::min(chunk, kHeight - pulled),
-                       Failing::Run, failing, &written, &result.report);
+                       &written, &result.report);
     pushed += consumed;
     pulled += written;
     if (status == SF_ERROR_RUNNER) {

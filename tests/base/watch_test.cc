@@ -26,7 +26,8 @@ TEST_CASE("cancel: work is counted, however it is cut up, and asked after half a
     CAPTURE(at_once);
     Caller caller;
     Watch watch;
-    watch.Begin(Caller::Progress, &caller, 0, 10);
+    watch.SetProgress(Caller::Progress, &caller);
+    watch.Begin(0, 10);
     CancelToken cancel(&watch);
     constexpr int64_t kWork = 1 << 26;
     for (int64_t work = 0; work < kWork; work += at_once) {
@@ -44,7 +45,8 @@ TEST_CASE("cancel: no is no for all of a call, and forgotten in the next") {
   Caller caller;
   caller.answer = 1;
   Watch watch;
-  watch.Begin(Caller::Progress, &caller, 0, 10);
+  watch.SetProgress(Caller::Progress, &caller);
+  watch.Begin(0, 10);
   CancelToken one(&watch), other(&watch);
   CHECK(one.Spend(1));
   CHECK(!one.Spend(1 << 20));
@@ -54,7 +56,8 @@ TEST_CASE("cancel: no is no for all of a call, and forgotten in the next") {
   CHECK(watch.IsCancelled());
   CHECK(caller.done.size() == 1);
   caller.answer = 0;
-  watch.Begin(Caller::Progress, &caller, 0, 10);
+  watch.SetProgress(Caller::Progress, &caller);
+  watch.Begin(0, 10);
   CHECK(!watch.IsCancelled());
   CHECK(one.Spend(0));
   CHECK(other.Spend(1 << 20));
@@ -87,7 +90,8 @@ struct Nested {
 TEST_CASE("watch: while a thread asks, others go on without asking") {
   Watch watch;
   Nested nested{&watch};
-  watch.Begin(Nested::Progress, &nested, 0, 10);
+  watch.SetProgress(Nested::Progress, &nested);
+  watch.Begin(0, 10);
   CHECK(watch.Ask());
   CHECK(nested.other);
   CHECK(nested.calls == 1);
@@ -98,7 +102,8 @@ TEST_CASE("watch: while a thread asks, others go on without asking") {
 TEST_CASE("watch: rows of parts are made as the jobs of their set are") {
   Caller caller;
   Watch watch;
-  watch.Begin(Caller::Progress, &caller, 0, 100);
+  watch.SetProgress(Caller::Progress, &caller);
+  watch.Begin(0, 100);
   for (int part = 0; part < 3; ++part) {
     watch.SetPart(part, 3);
     watch.BeginJobs(4);

@@ -73,7 +73,6 @@ starfocus::Error Load(const std::string& folder, int views, Field* field) {
 starfocus::Error RefocusOnce(const Field& field, const starfocus::bench::Task& task, double focus) {
   starfocus::bench::TimedEngine timed;
   const starfocus::Error error = Prepare(field, task, focus, 1, &timed);
-  timed.params.clock = nullptr;  // asking the time costs instructions
   starfocus::bench::Elapsed ignored;
   return error ? error : RunOnce(field, task, &timed, &ignored);
 }
@@ -82,6 +81,7 @@ starfocus::Error RefocusOnce(const Field& field, const starfocus::bench::Task& t
 
 int main(int argc, char** argv) {
   starfocus::bench::Task task;
+  task.timed = false;
   task.views = argc == 4 ? std::atoi(argv[3]) : kViews;
   if (argc > 1) task.mode = argv[1];
   if ((argc != 2 && argc != 4) || starfocus::bench::ModeOf(task.mode) < 0) {

@@ -122,9 +122,9 @@ void WholePicture(const std::string& mode, const std::string& target, benchmark:
   task.mode = mode;
   task.views = 1;
   task.target = target;
+  task.timed = false;
   TimedEngine timed;
   Error error = Prepare(field, task, 0, 1, &timed);
-  timed.params.clock = nullptr;
   Elapsed ignored;
   for (auto _ : state) {
     if (!error) error = RunOnce(field, task, &timed, &ignored);

@@ -21,6 +21,7 @@ struct Task {
   double n_scale = 1;          // of the rule's N
   std::string target;          // SIMD target; empty: the best one
   int workers = 1;
+  bool timed = true;  // blocks, with a clock, which costs instructions
 };
 
 inline constexpr double kNone = NAN;  // not measured

@@ -61,8 +61,12 @@ Error Prepare(const Field& field, const Task& task, double focus, double apertur
   timed->params.rule = task.rule;
   timed->params.focus = focus;
   timed->params.aperture = aperture;
-  timed->params.clock = Nanoseconds;
   timed->picture = Image(config.width, config.height);
+  sf_callbacks callbacks = {};
+  if (timed->pool != nullptr) callbacks.runner = ThreadRunner::Run;
+  callbacks.runner_data = timed->pool.get();
+  if (task.timed) callbacks.clock = Nanoseconds;
+  sf_set_callbacks(timed->engine, &callbacks);
   return UseTarget(task.target, timed->engine);
 }
 
@@ -70,9 +74,8 @@ Error RunOnce(const Field& field, const Task& task, TimedEngine* timed, Elapsed*
   const sf_light_field rows = Rows(field.data, task.views);
   Image& out = timed->picture;
   const Stopwatch stopwatch;
-  const sf_runner runner = timed->pool == nullptr ? nullptr : ThreadRunner::Run;
   const sf_status status = sf_refocus(timed->engine, &timed->params, &rows, out.pixels.data(),
-                                      out.stride(), runner, timed->pool.get(), &timed->report);
+                                      out.stride(), &timed->report);
   *elapsed = stopwatch.Get();
   if (status == SF_OK) return {};
   return Expected(field.name, "a light field that the engine refocuses", sf_status_string(status));

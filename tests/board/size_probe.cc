@@ -54,8 +54,8 @@ void* RunCalls(void* data) {
     calls->status = sf_init(&calls->config, calls->workspace, calls->bytes, &engine);
   }
   if (calls->status == SF_OK && calls->config.streaming == 0) {
-    calls->status = sf_refocus(engine, &calls->params, &calls->field, calls->out, calls->out_stride,
-                               nullptr, nullptr, nullptr);
+    calls->status =
+        sf_refocus(engine, &calls->params, &calls->field, calls->out, calls->out_stride, nullptr);
   } else if (calls->status == SF_OK) {
     int32_t consumed = 0, written = 0;
     calls->status = sf_stream_begin(engine, &calls->params);
@@ -64,7 +64,7 @@ void* RunCalls(void* data) {
     }
     if (calls->status == SF_OK) {
       calls->status = sf_stream_pull(engine, calls->out, calls->out_stride, calls->config.height,
-                                     nullptr, nullptr, &written, nullptr);
+                                     &written, nullptr);
     }
   }
   return nullptr;

@@ -64,11 +64,9 @@ EngineResult RunEngine(const test::Scene& scene, const sf_params& params,
   EngineResult result;
   test::UseKernels(&kernels, engine->get());
   Visit visit = {engine->get(), &result.blocks};
-  sf_params told = params;
-  told.on_block = Visit::Add;
-  told.on_block_data = &visit;
   test::Output out(scene.width, scene.height);
-  result.status = test::Refocus(engine, told, scene, &out, nullptr, nullptr, &result.report);
+  result.status = test::Refocus(engine, params, scene, &out, test::VisitedBy(Visit::Add, &visit),
+                                &result.report);
   result.bytes = out.Tight();
   return result;
 }

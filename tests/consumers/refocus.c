@@ -23,8 +23,7 @@ int main(void) {
   sf_config config;
   sf_params params;
   sf_engine* engine = NULL;
-  sf_runner runner = NULL;
-  void* runner_data = NULL;
+  sf_callbacks callbacks = {0};
   sf_status status;
   size_t bytes = 0, i;
   char* memory;
@@ -34,8 +33,8 @@ int main(void) {
   sf_pool* const pool = sf_pool_create(3);
   if (!pool) return 1;
   config.max_workers = sf_pool_workers(pool);
-  runner = sf_pool_run;
-  runner_data = pool;
+  callbacks.runner = sf_pool_run;
+  callbacks.runner_data = pool;
 #endif
   status = sf_workspace_size(&config, &bytes);
   memory = (char*)malloc(bytes + SF_ALIGNMENT);
@@ -44,10 +43,11 @@ int main(void) {
     status = sf_init(&config, memory + (SF_ALIGNMENT - (uintptr_t)memory % SF_ALIGNMENT), bytes,
                      &engine);
   }
+  if (status == SF_OK) status = sf_set_callbacks(engine, &callbacks);
   sf_params_init(&params);
   for (i = 0; status == SF_OK && i < sizeof foci / sizeof *foci; ++i) {
     params.focus = foci[i];
-    status = sf_refocus(engine, &params, &field, out, kStride, runner, runner_data, NULL);
+    status = sf_refocus(engine, &params, &field, out, kStride, NULL);
     if (status == SF_OK) printf("%08x\n", (unsigned)Checksum(out, sizeof out));
   }
   free(memory);

@@ -72,10 +72,10 @@ Repaired Repair(const Photo& photo, int workers = 1,
   field.disparity = photo.map.data();
   field.disparity_stride = width * sizeof(float);
   Repaired result = {std::vector<float>(photo.map.size()), std::vector<uint8_t>(photo.map.size())};
-  const starfocus::Runner runner = {workers > 1 ? RunBackwards : nullptr, nullptr};
+  memory->jobs.runner = {workers > 1 ? RunBackwards : nullptr, nullptr};
   const starfocus::MapOutput output = {result.map.data(),        width, -500,    500,
                                        result.confidence.data(), width, nullptr, 0};
-  CHECK(RepairByColour(plan, field, kernels, runner, output, memory) == SF_OK);
+  CHECK(RepairByColour(plan, field, kernels, output, memory) == SF_OK);
   ::operator delete(base, std::align_val_t(SF_ALIGNMENT));
   return result;
 }

@@ -39,6 +39,7 @@ struct Maps {
   }
 
   sf_status Make(test::Memory* memory, Watch* watch, sf_runner runner, std::vector<float>* map) {
+    config.runner = runner;
     config.progress = watch != nullptr ? Watch::Progress : nullptr;
     config.progress_data = watch;
     sf_light_field field = views.Get();
@@ -50,7 +51,7 @@ struct Maps {
     map->assign(given.size(), -1);
     sf_map out = {map->data(), stride, nullptr, 0, nullptr, 0, 0};
     const auto make = repairs ? sf_repair_disparity : sf_estimate_disparity;
-    return make(&config, &field, &out, memory->data, memory->bytes, runner, nullptr);
+    return make(&config, &field, &out, memory->data, memory->bytes);
   }
 };
 

@@ -30,8 +30,9 @@ struct Estimated {
   std::vector<uint8_t> confidence;
 };
 
-Estimated EstimateField(const PlaneField& field, const sf_depth_config& config,
+Estimated EstimateField(const PlaneField& field, sf_depth_config config,
                         sf_runner runner = nullptr) {
+  config.runner = runner;
   size_t bytes = 0;
   REQUIRE(sf_estimate_size(&config, &bytes) == SF_OK);
   const Memory memory(bytes);
@@ -45,8 +46,7 @@ Estimated EstimateField(const PlaneField& field, const sf_depth_config& config,
                 nullptr,
                 0,
                 0};
-  REQUIRE(sf_estimate_disparity(&config, &light_field, &map, memory.data, memory.bytes, runner,
-                                nullptr) == SF_OK);
+  REQUIRE(sf_estimate_disparity(&config, &light_field, &map, memory.data, memory.bytes) == SF_OK);
   return result;
 }
 
@@ -151,8 +151,7 @@ TEST_CASE("estimate: the same bytes on every SIMD target") {
     starfocus::LayOutEstimate(plan, 1, memory.data, &laid_out);
     std::vector<float> disparity(best.disparity.size());
     const starfocus::MapOutput output = {disparity.data(), 70, -4, 6, nullptr, 0, nullptr, 0};
-    REQUIRE(starfocus::Estimate(plan, field.Get(), *kernels, {nullptr, nullptr}, output,
-                                laid_out) == SF_OK);
+    REQUIRE(starfocus::Estimate(plan, field.Get(), *kernels, output, laid_out) == SF_OK);
     CAPTURE(kernels->name);
     CHECK(disparity == best.disparity);
   }
@@ -214,7 +213,7 @@ TEST_CASE("estimate: bad memory has its errors, and nothing is written") {
   const auto status = [&](float* to, size_t stride, uint8_t* sure, size_t sure_stride, void* at,
                           size_t size) {
     sf_map out = {to, stride, sure, sure_stride, nullptr, 0, 0};
-    return sf_estimate_disparity(&config, &views, &out, at, size, nullptr, nullptr);
+    return sf_estimate_disparity(&config, &views, &out, at, size);
   };
   float* const to = map.data();
   uint8_t* const sure = confidence.data();
@@ -226,8 +225,7 @@ TEST_CASE("estimate: bad memory has its errors, and nothing is written") {
   CHECK(status(to, row + 2, sure, width, at, bytes) == SF_ERROR_STRIDE);
   CHECK(status(to, row, sure, width - 1, at, bytes) == SF_ERROR_STRIDE);
   CHECK(status(to, row, sure, width, at, bytes - 1) == SF_ERROR_WORKSPACE);
-  CHECK(status(to, row, sure, width, static_cast<char*>(at) + 4, bytes) ==
-        SF_ERROR_WORKSPACE);
+  CHECK(status(to, row, sure, width, static_cast<char*>(at) + 4, bytes) == SF_ERROR_WORKSPACE);
   CHECK(status(static_cast<float*>(at), row, sure, width, at, bytes) == SF_ERROR_OVERLAP);
   CHECK(status(to, row, reinterpret_cast<uint8_t*>(to) + 7, width, at, bytes) == SF_ERROR_OVERLAP);
   CHECK(status(to, row, const_cast<uint8_t*>(field.views[16].data()), width, at, bytes) ==
@@ -241,11 +239,10 @@ TEST_CASE("estimate: bad memory has its errors, and nothing is written") {
   for (const uint8_t value : confidence) REQUIRE(value == 42);
   views = whole;
   sf_map out = {to, row, nullptr, 0, nullptr, 0, 0};
-  CHECK(sf_estimate_disparity(
-            &config, &views, &out, at, bytes, [](void*, sf_job, void*, int32_t) { return 0; },
-            nullptr) == SF_ERROR_RUNNER);
-  CHECK(sf_estimate_disparity(&config, &views, nullptr, at, bytes, nullptr, nullptr) ==
-        SF_ERROR_NULL);
+  sf_depth_config fails = config;
+  fails.runner = [](void*, sf_job, void*, int32_t) { return 0; };
+  CHECK(sf_estimate_disparity(&fails, &views, &out, at, bytes) == SF_ERROR_RUNNER);
+  CHECK(sf_estimate_disparity(&config, &views, nullptr, at, bytes) == SF_ERROR_NULL);
 }
 
 }  // namespace

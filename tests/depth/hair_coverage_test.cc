@@ -45,6 +45,7 @@ Found Repair(const Portrait& portrait, const Call& call = {}) {
   config.disparity_min = -12;
   config.disparity_max = 12;
   config.max_workers = call.runner != nullptr ? 2 : 1;
+  config.runner = call.runner;
   config.progress_data = call.calls;
   if (call.calls != nullptr) {
     config.progress = [](void* data, int32_t, int32_t) -> int {
@@ -68,8 +69,7 @@ Found Repair(const Portrait& portrait, const Call& call = {}) {
                 call.covers ? found.coverage.data() : nullptr,
                 width,
                 -1};
-  found.status =
-      sf_repair_disparity(&config, &field, &map, memory.data, bytes, call.runner, nullptr);
+  found.status = sf_repair_disparity(&config, &field, &map, memory.data, bytes);
   found.has_coverage = map.has_coverage;
   return found;
 }
@@ -208,8 +208,7 @@ TEST_CASE("hair coverage: bad planes have their errors, and nothing is written")
   std::vector<uint8_t> sure(to.size(), 42), coverage(to.size(), 42);
   const auto status = [&](uint8_t* covers, size_t stride) {
     sf_map map = {to.data(), sizeof(float) * width, sure.data(), width, covers, stride, -1};
-    const sf_status got =
-        sf_repair_disparity(&config, &field, &map, memory.data, bytes, nullptr, nullptr);
+    const sf_status got = sf_repair_disparity(&config, &field, &map, memory.data, bytes);
     CHECK(map.has_coverage == -1);
     return got;
   };
@@ -218,8 +217,7 @@ TEST_CASE("hair coverage: bad planes have their errors, and nothing is written")
   CHECK(status(reinterpret_cast<uint8_t*>(to.data()), width) == SF_ERROR_OVERLAP);
   CHECK(status(const_cast<uint8_t*>(portrait.rgb.data()), width) == SF_ERROR_OVERLAP);
   CHECK(status(static_cast<uint8_t*>(memory.data), width) == SF_ERROR_OVERLAP);
-  CHECK(sf_repair_disparity(&config, &field, nullptr, memory.data, bytes, nullptr, nullptr) ==
-        SF_ERROR_NULL);
+  CHECK(sf_repair_disparity(&config, &field, nullptr, memory.data, bytes) == SF_ERROR_NULL);
   for (const float value : to) REQUIRE(value == 42);
   for (const uint8_t value : sure) REQUIRE(value == 42);
 }

@@ -32,7 +32,8 @@ struct Repaired {
 };
 
 Repaired RepairField(const PlaneField& field, const std::vector<float>& given,
-                     const sf_depth_config& config, sf_runner runner = nullptr) {
+                     sf_depth_config config, sf_runner runner = nullptr) {
+  config.runner = runner;
   size_t bytes = 0;
   REQUIRE(sf_repair_size(&config, &bytes) == SF_OK);
   const Memory memory(bytes);
@@ -48,8 +49,7 @@ Repaired RepairField(const PlaneField& field, const std::vector<float>& given,
                 nullptr,
                 0,
                 0};
-  REQUIRE(sf_repair_disparity(&config, &light_field, &map, memory.data, memory.bytes, runner,
-                              nullptr) == SF_OK);
+  REQUIRE(sf_repair_disparity(&config, &light_field, &map, memory.data, memory.bytes) == SF_OK);
   return result;
 }
 
@@ -306,8 +306,7 @@ TEST_CASE("repair: the same bytes on every SIMD target") {
     starfocus::LayOutEstimate(plan, 1, memory.data, &laid_out);
     std::vector<float> disparity(best.disparity.size());
     const starfocus::MapOutput output = {disparity.data(), 70, kLow, kHigh, nullptr, 0, nullptr, 0};
-    REQUIRE(starfocus::Repair(plan, light_field, *kernels, {nullptr, nullptr}, output, laid_out) ==
-            SF_OK);
+    REQUIRE(starfocus::Repair(plan, light_field, *kernels, output, laid_out) == SF_OK);
     CAPTURE(kernels->name);
     CHECK(disparity == best.disparity);
   }
@@ -351,8 +350,7 @@ TEST_CASE("repair: a noisy map of one view stays in its range") {
   field.disparity = given.data();
   field.disparity_stride = sizeof(float) * kSide;
   sf_map map = {found.data(), sizeof(float) * kSide, nullptr, 0, nullptr, 0, 0};
-  REQUIRE(sf_repair_disparity(&config, &field, &map, memory.data, bytes, nullptr, nullptr) ==
-          SF_OK);
+  REQUIRE(sf_repair_disparity(&config, &field, &map, memory.data, bytes) == SF_OK);
   CHECK(found != given);
   for (const float value : found) REQUIRE((value >= low && value <= high));
 }
@@ -373,7 +371,7 @@ TEST_CASE("repair: bad maps have their errors, and nothing is written") {
     light_field.disparity = from;
     light_field.disparity_stride = stride;
     sf_map to = {map.data(), row, nullptr, 0, nullptr, 0, 0};
-    return sf_repair_disparity(&config, &light_field, &to, memory.data, size, nullptr, nullptr);
+    return sf_repair_disparity(&config, &light_field, &to, memory.data, size);
   };
   CHECK(status(nullptr, row, bytes) == SF_ERROR_NULL);
   CHECK(status(given.data(), row - 4, bytes) == SF_ERROR_STRIDE);

@@ -292,9 +292,8 @@ TEST_CASE("block: the blocks told of tile the picture once and are those of the 
     REQUIRE(engine.status() == SF_OK);
     Told told = {scene.width, scene.height, {}, 0, 0, 0, s.rule != SF_RULE_PAPER};
     told.covered.assign(size_t(scene.width) * size_t(scene.height), 0);
-    sf_params params = s.Params();
-    params.on_block_data = &told;
-    params.on_block = [](void* data, const sf_block* block) {
+    const sf_params params = s.Params();
+    const sf_block_visitor visitor = [](void* data, const sf_block* block) {
       Told& to = *static_cast<Told*>(data);
       for (int y = block->y; y < block->y + block->height; ++y) {
         for (int x = block->x; x < block->x + block->width; ++x) {
@@ -313,7 +312,8 @@ TEST_CASE("block: the blocks told of tile the picture once and are those of the 
     };
     test::Output out(scene.width, scene.height);
     sf_report report = {};
-    REQUIRE(test::Refocus(&engine, params, scene, &out, nullptr, nullptr, &report) == SF_OK);
+    REQUIRE(test::Refocus(&engine, params, scene, &out, test::VisitedBy(visitor, &told), &report) ==
+            SF_OK);
     CAPTURE(Text(s, scene));
     CHECK(std::all_of(told.covered.begin(), told.covered.end(), [](int n) { return n == 1; }));
     CHECK(told.blocks == BlocksOf(report));
@@ -396,9 +396,8 @@ TEST_CASE("block: deblocking does to the picture at once what it does to stripes
     test::Engine engine(config);
     REQUIRE(engine.status() == SF_OK);
     test::LayeredPicture picture(scene.width, scene.height);
-    sf_params params = s.Params();
-    params.on_block_data = &picture;
-    params.on_block = [](void* data, const sf_block* block) {
+    const sf_params params = s.Params();
+    const sf_block_visitor visitor = [](void* data, const sf_block* block) {
       auto* to = static_cast<test::LayeredPicture*>(data);
       for (int y = block->y; y < block->y + block->height; y += test::kUnit) {
         for (int x = block->x; x < block->x + block->width; x += test::kUnit) {
@@ -407,7 +406,8 @@ TEST_CASE("block: deblocking does to the picture at once what it does to stripes
       }
     };
     test::Output out(scene.width, scene.height);
-    REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
+    REQUIRE(test::Refocus(&engine, params, scene, &out, test::VisitedBy(visitor, &picture)) ==
+            SF_OK);
     for (const int beta : {35, 255}) {
       picture.rgb = out.bytes;
       test::DeblockPicture(&picture, beta, config.transfer);

@@ -93,11 +93,10 @@ TEST_CASE("fill unknown: streams and prepared light fields fill alike") {
   uint8_t* const aligned = memory.data() + (SF_ALIGNMENT - address % SF_ALIGNMENT) % SF_ALIGNMENT;
   const sf_light_field field = scene.Field();
   sf_prepared* prepared = nullptr;
-  REQUIRE(sf_prepare(engine.get(), &field, aligned, bytes, nullptr, nullptr, nullptr, nullptr,
-                     &prepared) == SF_OK);
+  REQUIRE(sf_prepare(engine.get(), &field, aligned, bytes, &prepared) == SF_OK);
   test::Output of_prepared(scene.width, scene.height);
   REQUIRE(sf_refocus_prepared(engine.get(), &params, prepared, of_prepared.bytes.data(),
-                              of_prepared.stride, nullptr, nullptr, &report) == SF_OK);
+                              of_prepared.stride, &report) == SF_OK);
   CHECK(of_prepared.bytes == whole.bytes);
   CHECK(report.unknown_pixels == 0);
 }

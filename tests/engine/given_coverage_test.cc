@@ -155,8 +155,7 @@ TEST_CASE("given coverage: regions, streams, images and prepared fields give the
     sf_image_out image = {};
     image.planes[0] = out.bytes.data();
     image.strides[0] = out.stride;
-    REQUIRE(sf_refocus_images(engine.get(), &params, &field, &image, nullptr, nullptr, nullptr) ==
-            SF_OK);
+    REQUIRE(sf_refocus_images(engine.get(), &params, &field, &image, nullptr) == SF_OK);
     CHECK((out.bytes == whole.bytes));
 
     const sf_region region = {33, 100, 90, 41};
@@ -197,11 +196,11 @@ TEST_CASE("given coverage: previews have its means") {
   const sf_light_field field = doubled.Field();
   sf_prepared* prepared = nullptr;
   REQUIRE(sf_prepare(engine.get(), &field, memory.data() + SF_ALIGNMENT - address % SF_ALIGNMENT,
-                     bytes, nullptr, nullptr, nullptr, nullptr, &prepared) == SF_OK);
+                     bytes, &prepared) == SF_OK);
   sf_params params = test::Params(2 * kFar, 1, SF_MODE_BLOCK);
   test::Output preview(kWidth, kHeight);
   REQUIRE(sf_refocus_preview(engine.get(), &params, prepared, 1, preview.bytes.data(),
-                             preview.stride, nullptr, nullptr, nullptr) == SF_OK);
+                             preview.stride, nullptr) == SF_OK);
   params.focus = kFar;
   CHECK((preview.bytes == Refocused(scene, CombConfig(scene), params).bytes));
   CHECK((preview.bytes != Refocused(Without(scene), CombConfig(scene), params).bytes));
@@ -220,7 +219,7 @@ TEST_CASE("given coverage: a frame after another one sees what changed of it") {
     const sf_light_field field = now.Field();
     const sf_previous previous = {before.Field(), first.bytes.data(), first.stride};
     REQUIRE(sf_refocus_after(engine.get(), &params, &field, &previous, out.bytes.data(), out.stride,
-                             nullptr, nullptr, nullptr) == SF_OK);
+                             nullptr) == SF_OK);
     CHECK((out.bytes == Refocused(now, config, params).bytes));
   }
 }
@@ -270,12 +269,12 @@ TEST_CASE("given coverage: without the feature it is not looked at, and bad inpu
   field = scene.Field();
   test::Output out(kWidth, kHeight);
   field.coverage_stride = kWidth - 1;
-  CHECK(sf_refocus(engine.get(), &params, &field, out.bytes.data(), out.stride, nullptr, nullptr,
-                   nullptr) == SF_ERROR_STRIDE);
+  CHECK(sf_refocus(engine.get(), &params, &field, out.bytes.data(), out.stride, nullptr) ==
+        SF_ERROR_STRIDE);
   field.coverage = out.bytes.data();
   field.coverage_stride = kWidth;
-  CHECK(sf_refocus(engine.get(), &params, &field, out.bytes.data(), out.stride, nullptr, nullptr,
-                   nullptr) == SF_ERROR_OVERLAP);
+  CHECK(sf_refocus(engine.get(), &params, &field, out.bytes.data(), out.stride, nullptr) ==
+        SF_ERROR_OVERLAP);
   config.features &= ~SF_FEATURE_COVERAGE;
   CHECK(
       (Refocused(scene, config, params).bytes == Refocused(Without(scene), config, params).bytes));

@@ -137,10 +137,10 @@ TEST_CASE("no heap call in size query, init, refocusing and streaming") {
       const sf_params params = test::Params(1.25, 0.9, mode);
       const sf_light_field field = scene.Field();
       test::Output out(70, 50);
-      const sf_runner runner = [](void*, sf_job job, void* data, int32_t count) {
+      const sf_callbacks callbacks = test::RunBy([](void*, sf_job job, void* data, int32_t count) {
         for (int32_t i = count - 1; i >= 0; --i) job(data, i, 0);
         return 0;
-      };
+      });
 
       HeapWatch watch;
       size_t bytes = 0;
@@ -148,17 +148,18 @@ TEST_CASE("no heap call in size query, init, refocusing and streaming") {
       sf_report report;
       const sf_status sized = sf_workspace_size(&config, &bytes);
       const sf_status made = sf_init(&config, holder.workspace(), bytes, &engine);
-      const sf_status refocused = sf_refocus(engine, &params, &field, out.bytes.data(), out.stride,
-                                             runner, nullptr, &report);
+      const sf_status set = sf_set_callbacks(engine, &callbacks);
+      const sf_status refocused =
+          sf_refocus(engine, &params, &field, out.bytes.data(), out.stride, &report);
       const sf_status streamed = test::Stream(&holder, params, scene, &out, 13, 7);
-      const sf_status refused =
-          sf_refocus(engine, &params, &field, nullptr, 0, nullptr, nullptr, nullptr);
+      const sf_status refused = sf_refocus(engine, &params, &field, nullptr, 0, nullptr);
       sf_status_string(refused);
       sf_simd_target();
       const int counted = watch.Stop();
 
       CHECK(sized == SF_OK);
       CHECK(made == SF_OK);
+      CHECK(set == SF_OK);
       CHECK(refocused == SF_OK);
       CHECK(streamed == SF_OK);
       CHECK(refused == SF_ERROR_NULL);
@@ -183,12 +184,10 @@ TEST_CASE("no heap call of images") {
   const sf_params params = test::Params(1.25, 0.9, SF_MODE_BLOCK);
   int32_t taken = 0, given = 0;
   HeapWatch watch;
-  const sf_status refocused =
-      sf_refocus_images(engine.get(), &params, &images, &out, nullptr, nullptr, nullptr);
+  const sf_status refocused = sf_refocus_images(engine.get(), &params, &images, &out, nullptr);
   const sf_status begun = sf_stream_begin(engine.get(), &params);
   const sf_status pushed = sf_stream_push_images(engine.get(), &images, 50, &taken);
-  const sf_status pulled =
-      sf_stream_pull_images(engine.get(), &out, 50, nullptr, nullptr, &given, nullptr);
+  const sf_status pulled = sf_stream_pull_images(engine.get(), &out, 50, &given, nullptr);
   const int counted = watch.Stop();
   CHECK(refocused == SF_OK);
   CHECK(begun == SF_OK);
@@ -212,11 +211,11 @@ TEST_CASE("no heap call in block mode with all layers, deblocking, visitor and c
   config.gather = 0;            // all three layers
   test::Engine holder(config);  // only its memory is used
   REQUIRE(holder.status() == SF_OK);
-  sf_params params = test::Params(0, 1, SF_MODE_BLOCK);
-  params.clock = []() -> uint64_t { return 7; };
+  const sf_params params = test::Params(0, 1, SF_MODE_BLOCK);
   int told = 0;
-  params.on_block_data = &told;
-  params.on_block = [](void* data, const sf_block*) { ++*static_cast<int*>(data); };
+  sf_callbacks callbacks =
+      test::VisitedBy([](void* data, const sf_block*) { ++*static_cast<int*>(data); }, &told);
+  callbacks.clock = []() -> uint64_t { return 7; };
   const sf_light_field field = scene.Field();
   test::Output out(scene.width, scene.height);
 
@@ -224,12 +223,14 @@ TEST_CASE("no heap call in block mode with all layers, deblocking, visitor and c
   sf_engine* engine = nullptr;
   sf_report report;
   const sf_status made = sf_init(&config, holder.workspace(), holder.bytes(), &engine);
+  const sf_status set = sf_set_callbacks(engine, &callbacks);
   const sf_status refocused =
-      sf_refocus(engine, &params, &field, out.bytes.data(), out.stride, nullptr, nullptr, &report);
+      sf_refocus(engine, &params, &field, out.bytes.data(), out.stride, &report);
   const sf_status streamed = test::Stream(&holder, params, scene, &out, 13, 7);
   const int counted = watch.Stop();
 
   CHECK(made == SF_OK);
+  CHECK(set == SF_OK);
   CHECK(refocused == SF_OK);
   CHECK(streamed == SF_OK);
   CHECK(counted == 0);
@@ -245,22 +246,25 @@ TEST_CASE(
   const sf_allocator allocator = {holder.workspace(),
                                   [](void* memory, size_t, size_t) { return memory; },
                                   [](void*, void*, size_t) {}};
-  sf_params params = test::Params(0, 1, SF_MODE_BLOCK);
-  params.progress = [](void* data, int32_t, int32_t) { return ++*static_cast<int*>(data) / 30; };
+  const sf_params params = test::Params(0, 1, SF_MODE_BLOCK);
   int progress_calls = 0;
-  params.progress_data = &progress_calls;
+  const sf_callbacks callbacks =
+      test::ToldTo([](void* data, int32_t, int32_t) { return ++*static_cast<int*>(data) / 30; },
+                   &progress_calls);
   const sf_light_field field = scene.Field();
   test::Output out(160, 96);
 
   HeapWatch watch;
   sf_engine* engine = nullptr;
   const sf_status made = sf_create(&config, &allocator, &engine);
+  const sf_status set = sf_set_callbacks(engine, &callbacks);
   const sf_status cancelled =
-      sf_refocus(engine, &params, &field, out.bytes.data(), out.stride, nullptr, nullptr, nullptr);
+      sf_refocus(engine, &params, &field, out.bytes.data(), out.stride, nullptr);
   sf_destroy(engine);
   const int counted = watch.Stop();
 
   CHECK(made == SF_OK);
+  CHECK(set == SF_OK);
   CHECK(cancelled == SF_ERROR_CANCELLED);
   CHECK(progress_calls == 30);
   CHECK(counted == 0);
@@ -280,12 +284,12 @@ TEST_CASE("no heap call in preparing, regions and refocusing what is prepared") 
 
   HeapWatch watch;
   sf_prepared* prepared = nullptr;
-  const sf_status made = sf_prepare(holder.get(), &field, memory.workspace(), memory.bytes(),
-                                    nullptr, nullptr, nullptr, nullptr, &prepared);
-  const sf_status again = sf_refocus_prepared(holder.get(), &params, prepared, out.bytes.data(),
-                                              out.stride, nullptr, nullptr, nullptr);
-  const sf_status part = sf_refocus(holder.get(), &params, &field, out.bytes.data(), out.stride,
-                                    nullptr, nullptr, nullptr);
+  const sf_status made =
+      sf_prepare(holder.get(), &field, memory.workspace(), memory.bytes(), &prepared);
+  const sf_status again =
+      sf_refocus_prepared(holder.get(), &params, prepared, out.bytes.data(), out.stride, nullptr);
+  const sf_status part =
+      sf_refocus(holder.get(), &params, &field, out.bytes.data(), out.stride, nullptr);
   const int counted = watch.Stop();
 
   CHECK(made == SF_OK);

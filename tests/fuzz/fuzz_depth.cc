@@ -37,7 +37,9 @@ sf_depth_config MakeConfig(Input* input) {
   }
   static int32_t left;  // calls of progress before the one that cancels
   left = input->Int(0, 20);
-  config.progress = nullptr;  // the only bytes that must be right
+  config.problem = nullptr;  // these pointers are the only bytes that must be right
+  config.runner = nullptr;
+  config.progress = nullptr;
   config.progress_data = &left;
   if (input->Rarely()) {
     config.progress = [](void* data, int32_t, int32_t) -> int {
@@ -152,7 +154,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
                 -1};
   if (input.Rarely()) out.confidence = nullptr;
   if (input.Rarely()) out.coverage = nullptr;
-  const sf_status status = make(&config, &field, &out, workspace, bytes, nullptr, nullptr);
+  const sf_status status = make(&config, &field, &out, workspace, bytes);
   if (status == SF_OK) CheckMap(config, map);
   const bool may_cover = repairs && config.views == 1 && out.coverage != nullptr;
   if (status == SF_OK && out.has_coverage != 0 && (out.has_coverage != 1 || !may_cover)) {

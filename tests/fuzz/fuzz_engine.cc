@@ -105,15 +105,21 @@ sf_params MakeParams(const sf_config& config, Input* input) {
                      input->Int(0, config.width), input->Int(0, config.height)};
   }
   if (input->Rarely()) params.reserved[input->Int(0, 3)] = input->Value<uint32_t>();
+  return params;
+}
+
+// Sets a progress function that cancels, or none.
+void SetProgress(sf_engine* engine, Input* input) {
+  sf_callbacks callbacks = {};
   if (input->Rarely()) {
     static int32_t left;  // calls of progress before the one that cancels
     left = input->Int(0, 100);
-    params.progress = [](void* data, int32_t, int32_t) -> int {
+    callbacks.progress = [](void* data, int32_t, int32_t) -> int {
       return (*static_cast<int32_t*>(data))-- == 0;
     };
-    params.progress_data = &left;
+    callbacks.progress_data = &left;
   }
-  return params;
+  if (sf_set_callbacks(engine, &callbacks) != SF_OK) std::abort();
 }
 
 struct Pictures {
@@ -236,8 +242,7 @@ void Stream(sf_engine* engine, const sf_config& config, const sf_params& params,
     }
     uint8_t* rest = out + static_cast<size_t>(pulled) * stride;
     const int count = RowCount(config.height - pulled, input);
-    const sf_status status =
-        sf_stream_pull(engine, rest, stride, count, nullptr, nullptr, &moved, nullptr);
+    const sf_status status = sf_stream_pull(engine, rest, stride, count, &moved, nullptr);
     if (status != SF_OK && status != SF_ERROR_CANCELLED) return;
     pulled += moved;  // a stream that was cancelled goes on
     if (!input->Rarely()) continue;
@@ -251,7 +256,7 @@ void Refocus(sf_engine* engine, const sf_config& config, const sf_params& params
              const Pictures& pictures, uint8_t* out, size_t stride, Input* input) {
   sf_report report;
   if (!input->Rarely()) {
-    sf_refocus(engine, &params, &pictures.field, out, stride, nullptr, nullptr, &report);
+    sf_refocus(engine, &params, &pictures.field, out, stride, &report);
     return;
   }
   if (input->Int(0, 1) == 0) {
@@ -260,8 +265,7 @@ void Refocus(sf_engine* engine, const sf_config& config, const sf_params& params
     const std::unique_ptr<uint8_t[]> picture(new uint8_t[bytes]());
     const sf_previous previous = {input->Int(0, 1) == 0 ? before.field : pictures.field,
                                   picture.get(), stride};
-    sf_refocus_after(engine, &params, &pictures.field, &previous, out, stride, nullptr, nullptr,
-                     &report);
+    sf_refocus_after(engine, &params, &pictures.field, &previous, out, stride, &report);
     return;
   }
   size_t bytes = 0;
@@ -270,13 +274,11 @@ void Refocus(sf_engine* engine, const sf_config& config, const sf_params& params
   if (posix_memalign(&memory, SF_ALIGNMENT, bytes) != 0) return;
   const std::unique_ptr<void, void (*)(void*)> owner(memory, std::free);
   sf_prepared* prepared = nullptr;
-  const sf_status status = sf_prepare(engine, &pictures.field, memory, bytes, nullptr, nullptr,
-                                      nullptr, nullptr, &prepared);
+  const sf_status status = sf_prepare(engine, &pictures.field, memory, bytes, &prepared);
   if (status != SF_OK) return;
   // A preview is no larger than the picture, and leaves the engine as it was.
-  sf_refocus_preview(engine, &params, prepared, config.previews, out, stride, nullptr, nullptr,
-                     &report);
-  sf_refocus_prepared(engine, &params, prepared, out, stride, nullptr, nullptr, &report);
+  sf_refocus_preview(engine, &params, prepared, config.previews, out, stride, &report);
+  sf_refocus_prepared(engine, &params, prepared, out, stride, &report);
 }
 
 }  // namespace
@@ -299,6 +301,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const std::unique_ptr<uint8_t[]> out(new uint8_t[Needed(stride, config.height, row)]);
   for (int round = 0; round < 2; ++round) {
     const sf_params params = MakeParams(config, &input);
+    SetProgress(engine, &input);
     const double scale = params.mode == SF_MODE_BENCHMARK ? 2 : config.n_scale;
     const bool frame = params.mode == SF_MODE_FRAME;
     const bool by_default = params.mode == SF_MODE_BLOCK || (frame && config.views == 1);

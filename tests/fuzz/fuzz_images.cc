@@ -98,7 +98,7 @@ sf_status StreamAll(sf_engine* engine, const sf_params& params, const sf_image_f
   if (status != SF_OK) return status;
   status = sf_stream_push_images(engine, &field, size.height, &consumed);
   if (status != SF_OK) return status;
-  return sf_stream_pull_images(engine, &out, size.height, nullptr, nullptr, &written, nullptr);
+  return sf_stream_pull_images(engine, &out, size.height, &written, nullptr);
 }
 
 // What well-formed images may still be refused for.
@@ -139,9 +139,9 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   }
   field.depth = MakeDepth(picture, &input, &planes);
   const sf_image_out out = MakeImage(picture, &input, &planes);
-  const sf_status status = config.streaming != 0 ? StreamAll(engine, params, field, out, picture)
-                                                 : sf_refocus_images(engine, &params, &field, &out,
-                                                                     nullptr, nullptr, nullptr);
+  const sf_status status = config.streaming != 0
+                               ? StreamAll(engine, params, field, out, picture)
+                               : sf_refocus_images(engine, &params, &field, &out, nullptr);
   if (!MayBe(status)) std::abort();
   return 0;
 }

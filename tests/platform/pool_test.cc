@@ -115,10 +115,11 @@ TEST_CASE("pool: an engine's runner, whose progress is told by one thread at a t
   for (const int stop : {test::Watch::kNever, 20, 0, 5, test::Watch::kNever}) {
     CAPTURE(stop);
     test::Watch watch(stop);
-    params.progress = test::Watch::Progress;
-    params.progress_data = &watch;
+    sf_callbacks callbacks = test::ToldTo(test::Watch::Progress, &watch);
+    callbacks.runner = sf_pool_run;
+    callbacks.runner_data = pool;
     test::Output out(300, 120);
-    const sf_status status = test::Refocus(&engine, params, scene, &out, sf_pool_run, pool);
+    const sf_status status = test::Refocus(&engine, params, scene, &out, callbacks);
     CHECK(watch.Good());
     CHECK(status == (stop == test::Watch::kNever ? SF_OK : SF_ERROR_CANCELLED));
     if (status != SF_OK) continue;

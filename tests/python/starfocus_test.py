@@ -416,7 +416,7 @@ class Headers(unittest.TestCase):
     """The package repeats what the C headers say."""
 
     text = "\n".join((HEADERS / name).read_text(encoding="utf-8")
-                     for name in ("status.h", "tuning.h", "starfocus.h", "depth.h", "image.h"))
+                     for name in ("status.h", "tuning.h", "callbacks.h", "starfocus.h", "depth.h", "image.h"))
     text = re.sub(r"/\*.*?\*/", "", text, flags=re.S)
 
     def values(self, name: str) -> dict:

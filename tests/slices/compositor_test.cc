@@ -184,8 +184,7 @@ TEST_CASE("stack: once the caller says no, no other tile is made") {
   REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
   const int all = ranges_found;
   ranges_found = 0;
-  params.progress = SayNo;
-  CHECK(test::Refocus(&engine, params, scene, &out) == SF_ERROR_CANCELLED);
+  CHECK(test::Refocus(&engine, params, scene, &out, test::ToldTo(SayNo)) == SF_ERROR_CANCELLED);
   CHECK(ranges_found > 0);
   CHECK(ranges_found < all / 8);  // of sixteen tiles
 }

@@ -69,16 +69,16 @@ void Distract(const Asked& asked, Rig* rig, test::Random* random) {
   test::Output out(setup.scene.width, setup.scene.height);
   const int what = random->Int(0, 5);
   if (what == 1) params.region = RandomRegion(setup.scene, random);
+  rig->SetCallbacks();
   if (what <= 1) {
-    sf_refocus(rig->get(), &params, &field, out.bytes.data(), out.stride, rig->runner(),
-               rig->runner_data(), nullptr);
+    sf_refocus(rig->get(), &params, &field, out.bytes.data(), out.stride, nullptr);
   }
   if (what == 2 && rig->config().streaming != 0) {
     int32_t moved = 0;
     sf_stream_begin(rig->get(), &params);
     sf_stream_push(rig->get(), &field, random->Int(0, setup.scene.height), &moved);
     sf_stream_pull(rig->get(), out.bytes.data(), out.stride, random->Int(0, setup.scene.height),
-                   rig->runner(), rig->runner_data(), &moved, nullptr);
+                   &moved, nullptr);
   }
   if (what == 3) rig->Restart();
 }
@@ -88,8 +88,7 @@ std::string Whole(const Asked& asked, test::Random* random) {
   Distract(asked, &rig, random);
   test::Output out(asked.setup.scene.width, asked.setup.scene.height, random->Int(0, 5));
   const sf_status status = Retried(&rig, random, [&] {
-    return test::Refocus(&rig, asked.setup.params, asked.setup.scene, &out, rig.runner(),
-                         rig.runner_data());
+    return test::Refocus(&rig, asked.setup.params, asked.setup.scene, &out, rig.callbacks());
   });
   return Verdict(rig, status, asked.picture, out);
 }
@@ -101,7 +100,7 @@ std::string Region(const Asked& asked, test::Random* random) {
   params.region = RandomRegion(asked.setup.scene, random);
   test::Output out(params.region.width, params.region.height, random->Int(0, 5));
   const sf_status status = Retried(&rig, random, [&] {
-    return test::Refocus(&rig, params, asked.setup.scene, &out, rig.runner(), rig.runner_data());
+    return test::Refocus(&rig, params, asked.setup.scene, &out, rig.callbacks());
   });
   return Verdict(rig, status, Crop(asked, params.region), out);
 }
@@ -118,8 +117,7 @@ std::string Refused(const Asked& asked, test::Random* random) {
   const bool nan = random->Int(0, 1) == 0;
   setup.scene.Disparity(x, y) = nan ? std::numeric_limits<float>::quiet_NaN() : 1000.0f;
   test::Output out(region.width, region.height);
-  const sf_status status =
-      test::Refocus(&rig, setup.params, setup.scene, &out, rig.runner(), rig.runner_data());
+  const sf_status status = test::Refocus(&rig, setup.params, setup.scene, &out, rig.callbacks());
   if (status == SF_OK && part) return Verdict(rig, status, Crop(asked, region), out);
   if (status != (nan ? SF_ERROR_NOT_FINITE : SF_ERROR_DISPARITY)) {
     return "bad value at " + std::to_string(x) + "," + std::to_string(y) +
@@ -143,8 +141,8 @@ std::string Prepared(const Asked& asked, test::Random* random) {
   sf_prepared* prepared = nullptr;
   const sf_light_field field = asked.setup.scene.Field();
   status = Retried(&maker, random, [&] {
-    return sf_prepare(maker.get(), &field, memory.get(), bytes, nullptr, nullptr, maker.runner(),
-                      maker.runner_data(), &prepared);
+    maker.SetCallbacks();
+    return sf_prepare(maker.get(), &field, memory.get(), bytes, &prepared);
   });
   if (status != SF_OK) return std::string("preparing: ") + sf_status_string(status);
   const bool part = random->Int(0, 1) == 0;
@@ -158,14 +156,15 @@ std::string Prepared(const Asked& asked, test::Random* random) {
     // After a preview the engine is what it was.
     test::Output preview(region.width, region.height);
     status = Retried(&rig, random, [&] {
+      rig.SetCallbacks();
       return sf_refocus_preview(rig.get(), &params, prepared, config.previews, preview.bytes.data(),
-                                preview.stride, rig.runner(), rig.runner_data(), nullptr);
+                                preview.stride, nullptr);
     });
     if (status != SF_OK) return std::string("preview: ") + sf_status_string(status);
   }
   status = Retried(&rig, random, [&] {
-    return sf_refocus_prepared(rig.get(), &params, prepared, out.bytes.data(), out.stride,
-                               rig.runner(), rig.runner_data(), nullptr);
+    rig.SetCallbacks();
+    return sf_refocus_prepared(rig.get(), &params, prepared, out.bytes.data(), out.stride, nullptr);
   });
   return Verdict(rig, status, Crop(asked, region), out);
 }

@@ -94,8 +94,9 @@ std::string After(const Asked& asked, test::Random* random) {
     const sf_previous previous = {before.Field(), last.data(), 3 * size_t(region.width)};
     test::Output out(region.width, region.height, random->Int(0, 5));
     const sf_status status = Retried(&rig, random, [&] {
+      rig.SetCallbacks();
       return sf_refocus_after(rig.get(), &params, &field, &previous, out.bytes.data(), out.stride,
-                              rig.runner(), rig.runner_data(), nullptr);
+                              nullptr);
     });
     failure = Verdict(rig, status, Crop(now, region), out);
     if (!failure.empty()) return failure;

@@ -55,10 +55,11 @@ struct Streaming {
     const int rows = random->Int(0, std::min(most, height() - pulled));
     const bool fails = random->Int(0, 15) == 0;
     if (fails) rig->FailAfter(random->Int(0, 8));
+    rig->SetCallbacks();
     int32_t written = -1;
     const sf_status status =
         sf_stream_pull(rig->get(), out.bytes.data() + size_t(pulled) * out.stride, out.stride, rows,
-                       rig->runner(), rig->runner_data(), &written, nullptr);
+                       &written, nullptr);
     const bool failed = fails && rig->Mend();
     if (status != (failed ? SF_ERROR_RUNNER : SF_OK) || written < 0 || written > rows) {
       failure = std::string("pull: ") + sf_status_string(status) + ", " + std::to_string(written) +

@@ -57,6 +57,7 @@ Map Make(const Question& question, sf_runner runner, test::Random* random) {
   config.disparity_min = -kMost;
   config.disparity_max = kMost;
   config.max_workers = runner == nullptr ? 1 : 3;
+  config.runner = runner;
   size_t bytes = 0;
   Map map;
   map.status = (question.repairs ? sf_repair_size : sf_estimate_size)(&config, &bytes);
@@ -69,7 +70,7 @@ Map Make(const Question& question, sf_runner runner, test::Random* random) {
   const auto make = question.repairs ? sf_repair_disparity : sf_estimate_disparity;
   sf_map out = {
       map.disparity.data(), sizeof(float) * width, map.confidence.data(), width, nullptr, 0, 0};
-  map.status = make(&config, &field, &out, memory.get(), bytes, runner, nullptr);
+  map.status = make(&config, &field, &out, memory.get(), bytes);
   return map;
 }
 

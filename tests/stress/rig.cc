@@ -121,9 +121,8 @@ std::vector<uint8_t> Refocused(const Setup& setup, const Variant& variant, std::
   if (status == SF_OK) {
     status = variant.stream
                  ? test::Stream(&rig, setup.params, setup.scene, &out, variant.push_rows,
-                                variant.pull_rows, rig.runner(), rig.runner_data(), report)
-                 : test::Refocus(&rig, setup.params, setup.scene, &out, rig.runner(),
-                                 rig.runner_data(), report);
+                                variant.pull_rows, rig.callbacks(), report)
+                 : test::Refocus(&rig, setup.params, setup.scene, &out, rig.callbacks(), report);
   }
   if (status != SF_OK) {
     *failure = std::string(sf_status_string(status)) + " (" + variant.Text() + ")";

@@ -60,9 +60,15 @@ class Rig {
   const sf_config& config() const { return config_; }
   const Variant& variant() const { return variant_; }
 
-  // Null when the engine is to run the jobs by itself.
-  sf_runner runner() const { return variant_.order == 0 && jobs_left_ < 0 ? nullptr : Run; }
-  void* runner_data() { return this; }
+  // Without a runner when the engine is to run the jobs by itself.
+  sf_callbacks callbacks() {
+    return test::RunBy(variant_.order == 0 && jobs_left_ < 0 ? nullptr : Run, this);
+  }
+  // Sets these for the next call.
+  void SetCallbacks() {
+    const sf_callbacks set = callbacks();
+    sf_set_callbacks(engine_, &set);
+  }
 
   // The runner does so many jobs well, then one of them wrong in some way or not at all.
   void FailAfter(int32_t jobs) {

@@ -307,23 +307,52 @@ inline bool IsPartOf(const Output& part, const Output& whole, const sf_region& r
   return true;
 }
 
+// Callbacks with a runner alone, and with a progress function alone.
+inline sf_callbacks RunBy(sf_runner runner, void* data = nullptr) {
+  sf_callbacks callbacks = {};
+  callbacks.runner = runner;
+  callbacks.runner_data = data;
+  return callbacks;
+}
+inline sf_callbacks ToldTo(sf_progress progress, void* data = nullptr) {
+  sf_callbacks callbacks = {};
+  callbacks.progress = progress;
+  callbacks.progress_data = data;
+  return callbacks;
+}
+// Callbacks with a block visitor alone.
+inline sf_callbacks VisitedBy(sf_block_visitor visitor, void* data = nullptr) {
+  sf_callbacks callbacks = {};
+  callbacks.on_block = visitor;
+  callbacks.on_block_data = data;
+  return callbacks;
+}
+
 // AnyEngine has get(), as Engine.
+template <class AnyEngine>
+sf_status Refocus(AnyEngine* engine, const sf_params& params, const Scene& scene, Output* out,
+                  const sf_callbacks& callbacks, sf_report* report = nullptr) {
+  const sf_status status = sf_set_callbacks(engine->get(), &callbacks);
+  if (status != SF_OK) return status;
+  const sf_light_field field = scene.Field();
+  return sf_refocus(engine->get(), &params, &field, out->bytes.data(), out->stride, report);
+}
+
 template <class AnyEngine>
 sf_status Refocus(AnyEngine* engine, const sf_params& params, const Scene& scene, Output* out,
                   sf_runner runner = nullptr, void* runner_data = nullptr,
                   sf_report* report = nullptr) {
-  const sf_light_field field = scene.Field();
-  return sf_refocus(engine->get(), &params, &field, out->bytes.data(), out->stride, runner,
-                    runner_data, report);
+  return Refocus(engine, params, scene, out, RunBy(runner, runner_data), report);
 }
 
 // Pushes and pulls at most `push_rows` and `pull_rows` rows at a time until all rows are out.
 // SF_ERROR_STATE when neither side moves.
 template <class AnyEngine>
 sf_status Stream(AnyEngine* engine, const sf_params& params, const Scene& scene, Output* out,
-                 int push_rows, int pull_rows, sf_runner runner = nullptr,
-                 void* runner_data = nullptr, sf_report* report = nullptr) {
-  sf_status status = sf_stream_begin(engine->get(), &params);
+                 int push_rows, int pull_rows, const sf_callbacks& callbacks,
+                 sf_report* report = nullptr) {
+  sf_status status = sf_set_callbacks(engine->get(), &callbacks);
+  if (status == SF_OK) status = sf_stream_begin(engine->get(), &params);
   int pushed = 0, pulled = 0;
   while (status == SF_OK && pulled < scene.height) {
     int32_t consumed = 0, written = 0;
@@ -336,12 +365,20 @@ sf_status Stream(AnyEngine* engine, const sf_params& params, const Scene& scene,
     const int rows_out = std::min(pull_rows, scene.height - pulled);
     status =
         sf_stream_pull(engine->get(), out->bytes.data() + static_cast<size_t>(pulled) * out->stride,
-                       out->stride, rows_out, runner, runner_data, &written, report);
+                       out->stride, rows_out, &written, report);
     pushed += consumed;
     pulled += written;
     if (status == SF_OK && consumed == 0 && written == 0) status = SF_ERROR_STATE;
   }
   return status;
+}
+
+template <class AnyEngine>
+sf_status Stream(AnyEngine* engine, const sf_params& params, const Scene& scene, Output* out,
+                 int push_rows, int pull_rows, sf_runner runner = nullptr,
+                 void* runner_data = nullptr, sf_report* report = nullptr) {
+  return Stream(engine, params, scene, out, push_rows, pull_rows, RunBy(runner, runner_data),
+                report);
 }
 
 #ifdef STARFOCUS_DATA_DIR

@@ -163,8 +163,8 @@ Error RunOne(const RefocusOptions& options, const PictureOptions& how, double wi
   EngineTask task = one;
   std::vector<sf_block> blocks;
   if (!options.map.empty()) {
-    task.params.on_block = CollectBlock;
-    task.params.on_block_data = &blocks;
+    task.callbacks.on_block = CollectBlock;
+    task.callbacks.on_block_data = &blocks;
   }
   task.stream = options.stream;
   EngineRun run(task.threads, 1);

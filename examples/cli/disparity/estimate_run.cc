@@ -60,6 +60,8 @@ Error MakeMap(const std::string& where, const Images& views, const FloatMap* giv
   config.disparity_min = range.min;
   config.disparity_max = range.max;
   config.max_workers = maker->pool.workers();
+  config.runner = ThreadRunner::Run;
+  config.runner_data = &maker->pool;
   config.progress = PictureProgress::Tell;
   config.progress_data = &maker->progress;
   size_t bytes = 0;
@@ -90,8 +92,7 @@ Error MakeMap(const std::string& where, const Images& views, const FloatMap* giv
       light_field.disparity_stride = sizeof(float) * width;
     }
     const auto make = given == nullptr ? sf_estimate_disparity : sf_repair_disparity;
-    status =
-        make(&config, &light_field, &out, workspace.get(), bytes, ThreadRunner::Run, &maker->pool);
+    status = make(&config, &light_field, &out, workspace.get(), bytes);
     if (coverage != nullptr && out.has_coverage == 0) coverage->clear();
   }
   if (status == SF_OK) return {};

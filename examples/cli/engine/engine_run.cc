@@ -82,9 +82,10 @@ Error EngineRun::Prepare(const std::string& where, const EngineTask& task) {
   } catch (const std::bad_alloc&) {
     return NoMemory(where, prepared_bytes_);
   }
+  status = SetCallbacks(task, false);
+  if (status != SF_OK) return Outcome(where, status, sf_engine_problem(engine_));
   const sf_light_field rows = Rows(*task.light_field, 0);
-  status = sf_prepare(engine_, &rows, prepared_memory_.get(), prepared_bytes_, nullptr, nullptr,
-                      ThreadRunner::Run, &runner_, &prepared_);
+  status = sf_prepare(engine_, &rows, prepared_memory_.get(), prepared_bytes_, &prepared_);
   return Outcome(where, status, sf_engine_problem(engine_));
 }
 
@@ -99,10 +100,20 @@ Error EngineRun::RefocusAfter(const std::string& where, const EngineTask& task,
   return Run(where, task, &previous, result);
 }
 
-sf_status EngineRun::RunStream(const EngineTask& task, const sf_params& params,
-                               EngineResult* result) {
+sf_status EngineRun::SetCallbacks(const EngineTask& task, bool is_picture) {
+  sf_callbacks callbacks = task.callbacks;
+  callbacks.runner = ThreadRunner::Run;
+  callbacks.runner_data = &runner_;
+  if (is_picture) {
+    callbacks.progress = PictureProgress::Tell;
+    callbacks.progress_data = &progress_;
+  }
+  return sf_set_callbacks(engine_, &callbacks);
+}
+
+sf_status EngineRun::RunStream(const EngineTask& task, EngineResult* result) {
   Image* out = &result->picture;
-  sf_status status = sf_stream_begin(engine_, &params);
+  sf_status status = sf_stream_begin(engine_, &task.params);
   int pushed = 0, pulled = 0;
   while (status == SF_OK && pulled < out->height) {
     int32_t consumed = 0, written = 0;
@@ -114,8 +125,7 @@ sf_status EngineRun::RunStream(const EngineTask& task, const sf_params& params,
     }
     if (status != SF_OK) break;
     status = sf_stream_pull(engine_, out->row(pulled), out->stride(),
-                            std::min(kStreamRows, out->height - pulled), ThreadRunner::Run,
-                            &runner_, &written, &result->report);
+                            std::min(kStreamRows, out->height - pulled), &written, &result->report);
     pulled += written;
     if (status == SF_OK && consumed == 0 && written == 0) return SF_ERROR_STATE;
   }
@@ -131,22 +141,20 @@ Error EngineRun::Run(const std::string& where, const EngineTask& task, const sf_
   result->workspace_bytes = workspace_bytes_;
   result->prepared_bytes = prepared_bytes_;
   const sf_light_field rows = Rows(*task.light_field, 0);
-  sf_params params = task.params;
-  params.progress = PictureProgress::Tell;
-  params.progress_data = &progress_;
+  sf_status status = SetCallbacks(task, true);
+  if (status != SF_OK) return Outcome(where, status, sf_engine_problem(engine_));
   const double start = Seconds();
-  sf_status status = SF_OK;
   if (task.stream) {
-    status = RunStream(task, params, result);
+    status = RunStream(task, result);
   } else if (previous != nullptr) {
-    status = sf_refocus_after(engine_, &params, &rows, previous, out.pixels.data(), out.stride(),
-                              ThreadRunner::Run, &runner_, &result->report);
+    status = sf_refocus_after(engine_, &task.params, &rows, previous, out.pixels.data(),
+                              out.stride(), &result->report);
   } else if (prepared_ != nullptr) {
-    status = sf_refocus_prepared(engine_, &params, prepared_, out.pixels.data(), out.stride(),
-                                 ThreadRunner::Run, &runner_, &result->report);
+    status = sf_refocus_prepared(engine_, &task.params, prepared_, out.pixels.data(), out.stride(),
+                                 &result->report);
   } else {
-    status = sf_refocus(engine_, &params, &rows, out.pixels.data(), out.stride(), ThreadRunner::Run,
-                        &runner_, &result->report);
+    status =
+        sf_refocus(engine_, &task.params, &rows, out.pixels.data(), out.stride(), &result->report);
   }
   result->seconds = Seconds() - start;
   return Outcome(where, status, sf_engine_problem(engine_));

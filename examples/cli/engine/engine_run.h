@@ -29,6 +29,7 @@ struct EngineTask {
   const LightField* light_field = nullptr;
   sf_config config;  // version, sizes, views, disparity range and max_blur filled in
   sf_params params;
+  sf_callbacks callbacks = {};  // clock and on_block; EngineRun sets the others
   int threads = 1;
   bool stream = false;  // rows in, rows out instead of whole pictures
 };
@@ -63,7 +64,9 @@ class EngineRun {
   ThreadRunner* runner() { return &runner_; }
 
  private:
-  sf_status RunStream(const EngineTask& task, const sf_params& params, EngineResult* result);
+  // The task's callbacks, with the threads and, for a picture, the progress line.
+  sf_status SetCallbacks(const EngineTask& task, bool is_picture);
+  sf_status RunStream(const EngineTask& task, EngineResult* result);
   Error Run(const std::string& where, const EngineTask& task, const sf_previous* previous,
             EngineResult* result);
 

@@ -276,7 +276,7 @@ EngineTask MakeTask(const LensPlan& plan, const LightField& light_field,
   task.params.focus = plan.foci[0];
   task.params.aperture = plan.aperture.radius;
   task.params.region = plan.region;
-  if (reported) task.params.clock = ThreadNanoseconds;
+  if (reported) task.callbacks.clock = ThreadNanoseconds;
   task.threads = plan.options.threads;
   return task;
 }

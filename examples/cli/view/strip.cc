@@ -88,8 +88,8 @@ Error RefocusEach(
   EngineTask task = MakeTask(plan, light_field, stats, max_blur, false);
   std::vector<sf_block> blocks;
   task.threads = threads;
-  task.params.on_block = CollectBlock;
-  task.params.on_block_data = &blocks;
+  task.callbacks.on_block = CollectBlock;
+  task.callbacks.on_block_data = &blocks;
   EngineRun run(threads, static_cast<int>(lenses.size()));
   Error error = run.Start(where, task);
   if (!error) error = run.Prepare(where, task);

@@ -27,10 +27,12 @@ typedef struct sf_depth_config {
                              a pixel or more, 128 at most, if the range is wider than 64; between
                              two steps what fits best is found */
   int32_t max_workers;  /**< workers the runner may use, [1, SF_MAX_WORKERS]; default 1 */
+  sf_runner runner;     /**< runs the jobs; null, the default: the calling thread runs them */
+  void* runner_data;    /**< passed to runner */
   sf_progress progress; /**< of the rows of the map, by all that they take; null, the default:
-                           nobody is asked. As in sf_params, but asked between tiles of the picture
-                           alone, which take longer; after SF_ERROR_CANCELLED the outputs and the
-                             workspace are unspecified */
+                             nobody is asked. It is asked between tiles of the picture alone, which
+                             take longer than those of an engine; after SF_ERROR_CANCELLED the
+                             outputs and the workspace are unspecified */
   void* progress_data;  /**< passed to progress */
   sf_problem* problem;  /**< where a call tells what it refuses; null, the default: nowhere */
   uint32_t reserved[8]; /**< zero */
@@ -46,8 +48,8 @@ typedef struct sf_map {
   uint8_t* coverage;        /**< sf_repair_disparity of one view: coverage of hair, as
                                  sf_light_field.coverage; null: not wanted */
   size_t coverage_stride;   /**< bytes from row to row, >= width */
-  int32_t has_coverage;     /**< output: 1 if coverage was found and belongs to the map; 0: the bytes
-                                 of `coverage` are unspecified */
+  int32_t has_coverage; /**< output: 1 if coverage was found and belongs to the map; 0: the bytes
+                             of `coverage` are unspecified */
 } sf_map;
 
 SF_API void sf_depth_config_init(sf_depth_config* config);
@@ -62,12 +64,10 @@ SF_API sf_status sf_estimate_size(const sf_depth_config* config, size_t* bytes);
  *  light_field->disparity is not read. The views and the workspace must not change during the call.
  *  Confidence is the cost of the best disparity that differs by a step or more, minus the cost of
  *  the result, in quarters of a gray level, summed over the three colours: 0 if another disparity
- *  is as good (a wall of one colour, pixels that hardly any view sees), 255 if none is. runner as
- *  in sf_refocus. */
+ *  is as good (a wall of one colour, pixels that hardly any view sees), 255 if none is. */
 SF_API sf_status sf_estimate_disparity(const sf_depth_config* config,
                                        const sf_light_field* light_field, sf_map* map,
-                                       void* workspace, size_t bytes, sf_runner runner,
-                                       void* runner_data);
+                                       void* workspace, size_t bytes);
 
 /** Bytes of workspace of sf_repair_disparity into *bytes: 12 for each pixel of the picture, and for
  *  each worker about as much as sf_estimate_size has. */
@@ -89,11 +89,11 @@ SF_API sf_status sf_repair_size(const sf_depth_config* config, size_t* bytes);
  *  Maps of monocular networks have hair as one closed outline, which no disparities can repair. If
  *  map->coverage is not null and the only view shows such hair, its coverage is found by colour.
  *  There, known disparities keep their bits, and confidence is 255 minus the difference between the
- *  coverage and the 0 or 255 that the map alone would mean. Elsewhere, coverage is that 0 or 255. */
+ *  coverage and the 0 or 255 that the map alone would mean. Elsewhere, coverage is that 0 or 255.
+ */
 SF_API sf_status sf_repair_disparity(const sf_depth_config* config,
                                      const sf_light_field* light_field, sf_map* map,
-                                     void* workspace, size_t bytes, sf_runner runner,
-                                     void* runner_data);
+                                     void* workspace, size_t bytes);
 
 #ifdef __cplusplus
 }

@@ -150,25 +150,23 @@ typedef struct sf_image_field {
  * read, which is beside depth edges and beyond the picture's edges only. */
 SF_API sf_status sf_refocus_images(sf_engine* engine, const sf_params* params,
                                    const sf_image_field* field, const sf_image_out* out,
-                                   sf_runner runner, void* runner_data, sf_report* report);
+                                   sf_report* report);
 
 /** As sf_prepare, of images; sf_prepared_size has the bytes. sf_refocus_prepared_images alone
  *  takes what it makes. The structure `field` need not stay, what it points to must. */
 SF_API sf_status sf_prepare_images(sf_engine* engine, const sf_image_field* field, void* memory,
-                                   size_t bytes, sf_progress progress, void* progress_data,
-                                   sf_runner runner, void* runner_data, sf_prepared** prepared);
+                                   size_t bytes, sf_prepared** prepared);
 
 /** As sf_refocus_images, with the same bytes, of what sf_prepare_images made. */
 SF_API sf_status sf_refocus_prepared_images(sf_engine* engine, const sf_params* params,
                                             const sf_prepared* prepared, const sf_image_out* out,
-                                            sf_runner runner, void* runner_data, sf_report* report);
+                                            sf_report* report);
 
 /** As sf_refocus_preview, into an image: of what sf_prepare or sf_prepare_images made. Alpha of
  * `out` is 255. Chroma is that of the preview's own 2 x 2 pixels. */
 SF_API sf_status sf_refocus_preview_images(sf_engine* engine, const sf_params* params,
                                            const sf_prepared* prepared, int32_t shift,
-                                           const sf_image_out* out, sf_runner runner,
-                                           void* runner_data, sf_report* report);
+                                           const sf_image_out* out, sf_report* report);
 
 /** As sf_stream_push, of images: planes point to the next rows. The depth map is the whole one,
  *  the same in all calls; coverage is rows like the views. Rows that share chroma come together:
@@ -181,8 +179,7 @@ SF_API sf_status sf_stream_push_images(sf_engine* engine, const sf_image_field* 
 /** As sf_stream_pull, into an image whose planes point to the next rows; `rows` is even where they
  *  share chroma, but at the picture's end. Rows pushed by either call may be pulled by either. */
 SF_API sf_status sf_stream_pull_images(sf_engine* engine, const sf_image_out* out, int32_t rows,
-                                       sf_runner runner, void* runner_data, int32_t* written,
-                                       sf_report* report);
+                                       int32_t* written, sf_report* report);
 
 #ifdef __cplusplus
 }

@@ -22,9 +22,9 @@
  * interleaved R, G, B bytes; strides are in bytes and may exceed the row length.
  *
  * Threads: an engine is used by one call at a time; several engines are independent. The engine
- * starts no threads; it hands jobs to the caller's runner, for which starfocus/pool.h is one.
- * Output bytes depend on neither the runner, the number of workers, the SIMD target nor the way the
- * rows come in.
+ * starts no threads; it hands jobs to the runner of sf_set_callbacks, for which starfocus/pool.h is
+ * one. Output bytes depend on neither the runner, the number of workers, the SIMD target nor the
+ * way the rows come in.
  *
  * Errors: every function checks all its arguments before it writes anything but its own state. It
  * returns an sf_status, which says what kind of error it is. An sf_problem says which field or
@@ -38,6 +38,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "starfocus/callbacks.h"
 #include "starfocus/status.h"
 #include "starfocus/tuning.h"
 #include "starfocus/version.h"
@@ -201,6 +202,10 @@ SF_API sf_status sf_init(const sf_config* config, void* workspace, size_t bytes,
  *  with the engine overwrites it. */
 SF_API const sf_problem* sf_engine_problem(const sf_engine* engine);
 
+/** Sets the functions that all later calls with this engine use, in place of those set before; also
+ *  between the calls of a stream. An engine starts without any. The structure need not stay. */
+SF_API sf_status sf_set_callbacks(sf_engine* engine, const sf_callbacks* callbacks);
+
 /** Where sf_create takes memory from. */
 typedef struct sf_allocator {
   void* data; /**< passed to both */
@@ -243,30 +248,6 @@ typedef enum sf_rule {
                          slices of the scene */
 } sf_rule;
 
-/** A block of SF_MODE_BLOCK as it was refocused. */
-typedef struct sf_block {
-  int32_t x, y;   /**< top left corner in the picture, pixels */
-  int32_t width;  /**< pixels; less than the side at the right edge of the picture */
-  int32_t height; /**< pixels; less than the side at the bottom edge of the picture */
-  int32_t layer;  /**< L: rendered at 1 / 2^L of the size */
-  int32_t n;      /**< N; 0: no views but the centre */
-} sf_block;
-
-/** Is told of each block, by the thread of the call, before the block is refocused. */
-typedef void (*sf_block_visitor)(void* data, const sf_block* block);
-
-/** A clock in nanoseconds, from any start; called from the runner's threads. */
-typedef uint64_t (*sf_clock)(void);
-
-/** Receives the number of finished rows, of `rows`. Returns 0 to continue, anything else to cancel:
- * the call then returns SF_ERROR_CANCELLED as soon as all of its threads have stopped, and the
- * function is not called again. The output is unspecified then; the engine is as before the call
- * (of streams see sf_stream_pull). Within a call rows_done never decreases and ends at `rows`. The
- * function is called at every job and after approximately every 500,000 samples, a fraction of a
- * millisecond on a desktop: by the thread of the call or, with a runner, by any thread that runs a
- * job, but never by two at a time. It must not call anything with the same engine or memory. */
-typedef int (*sf_progress)(void* data, int32_t rows_done, int32_t rows);
-
 /** A rectangle inside the picture, in pixels; all 0: the whole picture. */
 typedef struct sf_region {
   int32_t x, y, width, height; /**< its left and top pixel, >= 0, and its size, >= 1 */
@@ -274,18 +255,13 @@ typedef struct sf_region {
 
 /** What to render. Call sf_params_init first. */
 typedef struct sf_params {
-  uint32_t version;          /**< SF_ABI_VERSION, set by sf_params_init */
-  int32_t mode;              /**< sf_mode; default SF_MODE_BLOCK */
-  double focus;              /**< disparity d_t in focus, finite, |d_t| <= SF_MAX_FOCUS */
-  double aperture;           /**< radius u_t, [0, 1]; 0: the centre view to the byte; default 1 */
-  int32_t rule;              /**< sf_rule; SF_MODE_BLUR ignores it; default SF_RULE_DEFAULT */
-  sf_clock clock;            /**< fills the report's times; null: they stay 0 */
-  sf_block_visitor on_block; /**< null: nobody is told */
-  void* on_block_data;       /**< passed to on_block */
-  sf_region region;          /**< what sf_refocus writes; streaming: all 0; default all 0 */
-  sf_progress progress;      /**< of the rows of the picture or region; null: nobody is asked */
-  void* progress_data;       /**< passed to progress */
-  uint32_t reserved[4];      /**< zero */
+  uint32_t version;     /**< SF_ABI_VERSION, set by sf_params_init */
+  int32_t mode;         /**< sf_mode; default SF_MODE_BLOCK */
+  double focus;         /**< disparity d_t in focus, finite, |d_t| <= SF_MAX_FOCUS */
+  double aperture;      /**< radius u_t, [0, 1]; 0: the centre view to the byte; default 1 */
+  int32_t rule;         /**< sf_rule; SF_MODE_BLUR ignores it; default SF_RULE_DEFAULT */
+  sf_region region;     /**< what sf_refocus writes; streaming: all 0; default all 0 */
+  uint32_t reserved[4]; /**< zero */
 } sf_params;
 
 SF_API void sf_params_init(sf_params* params);
@@ -309,16 +285,6 @@ typedef struct sf_light_field {
   size_t coverage_stride; /**< bytes from row to row, >= width */
 } sf_light_field;
 
-/** A job of the engine: call it with every index in [0, count) exactly once. `worker` is in
- *  [0, max_workers); two jobs that run at the same time must have different workers. A call that
- *  breaks this does nothing, and the engine's call then returns SF_ERROR_RUNNER. */
-typedef void (*sf_job)(void* job_data, int32_t index, int32_t worker);
-
-/** Runs a set of jobs, in any order (the longest come first), and returns when all are done; 0 for
- *  success. Never called with count 0. Jobs that it has left running are waited for, and those it
- *  has left out are no longer run: both are SF_ERROR_RUNNER. */
-typedef int (*sf_runner)(void* runner_data, sf_job job, void* job_data, int32_t count);
-
 /** What the blocks of one layer did. */
 typedef struct sf_layer_report {
   uint64_t blocks; /**< number of blocks */
@@ -327,7 +293,7 @@ typedef struct sf_layer_report {
                         whole */
   uint64_t rendered_samples; /**< R, G, B samples of those views, by slices in each of them */
   uint64_t predicted_ps;     /**< by the timing model, picoseconds */
-  uint64_t measured_ns;      /**< by sf_params.clock, summed over workers; 0 without one */
+  uint64_t measured_ns;      /**< by sf_callbacks.clock, summed over workers; 0 without one */
 } sf_layer_report;
 
 /** Work that was left out because its result is known; all 0 with sf_config.skips = 0. */
@@ -366,11 +332,11 @@ typedef struct sf_report {
  * the bytes are those of the whole picture there. Of a region, only the blocks of the whole picture
  * that its pixels depend on are refocused, and only the disparity rows that these can read are
  * checked. The light field is only read, during the call; `out` (`out_stride` bytes from row to
- * row, >= 3 * the width of the picture or region) must overlap neither it nor the workspace. runner
- * may be null: the jobs then run one after the other as worker 0. report may be null. */
+ * row, >= 3 * the width of the picture or region) must overlap neither it nor the workspace. report
+ * may be null. */
 SF_API sf_status sf_refocus(sf_engine* engine, const sf_params* params,
                             const sf_light_field* light_field, uint8_t* out, size_t out_stride,
-                            sf_runner runner, void* runner_data, sf_report* report);
+                            sf_report* report);
 
 /** What is made of a light field for every lens alike; it lives inside the caller's memory. */
 typedef struct sf_prepared sf_prepared;
@@ -384,19 +350,17 @@ SF_API sf_status sf_prepared_size(const sf_config* config, size_t* bytes);
  * in `memory` (`bytes` long, aligned to SF_ALIGNMENT), which stays the caller's. The refocusings
  * read the pictures of the light field again: what light_field points to must stay as it is until
  * the last one, the structure itself need not. `memory` must overlap neither it nor the workspace.
- *  progress (null: nobody is asked) and its data as in sf_params, runner as in sf_refocus.
  * *prepared is null on error; `memory` is unspecified after SF_ERROR_CANCELLED and SF_ERROR_RUNNER.
  */
 SF_API sf_status sf_prepare(sf_engine* engine, const sf_light_field* light_field, void* memory,
-                            size_t bytes, sf_progress progress, void* progress_data,
-                            sf_runner runner, void* runner_data, sf_prepared** prepared);
+                            size_t bytes, sf_prepared** prepared);
 
 /** As sf_refocus, with the same bytes, of a prepared light field; of this engine or of any of the
  *  same size, views and positions, disparity range, max_layer and transfer (else
  *  SF_ERROR_PREPARED). Several engines may use one at a time. */
 SF_API sf_status sf_refocus_prepared(sf_engine* engine, const sf_params* params,
                                      const sf_prepared* prepared, uint8_t* out, size_t out_stride,
-                                     sf_runner runner, void* runner_data, sf_report* report);
+                                     sf_report* report);
 
 /** Refocuses a prepared light field at 1 / S of its size, S = 2^shift, in about 1 / S^2 of the
  * time; `params` are in pixels of the full size as ever. `out` has the pixels that have a part of
@@ -414,11 +378,9 @@ SF_API sf_status sf_refocus_prepared(sf_engine* engine, const sf_params* params,
  * prepared for that shift; else errors are those of sf_refocus_prepared. */
 SF_API sf_status sf_refocus_preview(sf_engine* engine, const sf_params* params,
                                     const sf_prepared* prepared, int32_t shift, uint8_t* out,
-                                    size_t out_stride, sf_runner runner, void* runner_data,
-                                    sf_report* report);
+                                    size_t out_stride, sf_report* report);
 
-/** A light field of the same configuration and what was made of it with the same params (but for
- *  their clock, visitor and progress). */
+/** A light field of the same configuration and what was made of it with the same params. */
 typedef struct sf_previous {
   sf_light_field light_field; /**< only compared */
   const uint8_t* out; /**< the picture, or region, that sf_refocus or sf_refocus_after wrote */
@@ -429,8 +391,7 @@ typedef struct sf_previous {
  *  pixel that changed are copied from its picture. `out` must overlap nothing of `previous`. */
 SF_API sf_status sf_refocus_after(sf_engine* engine, const sf_params* params,
                                   const sf_light_field* light_field, const sf_previous* previous,
-                                  uint8_t* out, size_t out_stride, sf_runner runner,
-                                  void* runner_data, sf_report* report);
+                                  uint8_t* out, size_t out_stride, sf_report* report);
 
 /** Starts (or restarts) a streamed refocusing; the engine must be configured with streaming = 1. */
 SF_API sf_status sf_stream_begin(sf_engine* engine, const sf_params* params);
@@ -443,16 +404,15 @@ SF_API sf_status sf_stream_push(sf_engine* engine, const sf_light_field* light_f
                                 int32_t* consumed);
 
 /** Writes up to `rows` next finished rows to out; *written may be 0 until more rows are pushed.
- *  runner as in sf_refocus. report may be null; it is complete once the last row is written. After
+ *  report may be null; it is complete once the last row is written. After
  *  SF_ERROR_RUNNER and SF_ERROR_CANCELLED the rows counted by *written are good, and the stream
  *  stays: the next pull goes on behind them, sf_stream_begin and every other call with the engine
- *  end it. That pull tells sf_params.on_block again of blocks that had been left half done, but the
- *  report counts them once (only centre_bytes may grow: what was read in vain is read again).
- *  sf_params.progress is told of the rows that are made, also by the pulls before, of the whole
+ * but sf_set_callbacks end it. That pull tells on_block again of blocks that had been left half
+ * done, but the report counts them once (only centre_bytes may grow: what was read in vain is read
+ * again). progress is told of the rows that are made, also by the pulls before, of the whole
  *  picture's, and only by pulls that make any. */
 SF_API sf_status sf_stream_pull(sf_engine* engine, uint8_t* out, size_t out_stride, int32_t rows,
-                                sf_runner runner, void* runner_data, int32_t* written,
-                                sf_report* report);
+                                int32_t* written, sf_report* report);
 
 /** What sf_measure_disparity finds in a disparity map. */
 typedef struct sf_disparity_stats {

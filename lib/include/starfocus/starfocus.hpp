@@ -43,18 +43,20 @@ class Engine {
     return SF_OK;
   }
 
+  // Functions of the caller for all further calls. Init forgets them.
+  sf_status SetCallbacks(const sf_callbacks& callbacks) {
+    return sf_set_callbacks(get(), &callbacks);
+  }
+
   sf_status Refocus(const sf_params& params, const sf_light_field& light_field, uint8_t* out,
-                    size_t out_stride, sf_runner runner = nullptr, void* runner_data = nullptr,
-                    sf_report* report = nullptr) {
-    return sf_refocus(get(), &params, &light_field, out, out_stride, runner, runner_data, report);
+                    size_t out_stride, sf_report* report = nullptr) {
+    return sf_refocus(get(), &params, &light_field, out, out_stride, report);
   }
 
   sf_status RefocusAfter(const sf_params& params, const sf_light_field& light_field,
                          const sf_previous& previous, uint8_t* out, size_t out_stride,
-                         sf_runner runner = nullptr, void* runner_data = nullptr,
                          sf_report* report = nullptr) {
-    return sf_refocus_after(get(), &params, &light_field, &previous, out, out_stride, runner,
-                            runner_data, report);
+    return sf_refocus_after(get(), &params, &light_field, &previous, out, out_stride, report);
   }
 
   // What the last call refused; null before Init. That of Init is where config.problem points to.
@@ -63,9 +65,7 @@ class Engine {
   // Allocates the memory of a prepared light field and prepares it; SF_ERROR_MEMORY when memory is
   // short. One prepared before is freed first, so that there are never two: after an error there is
   // none, and RefocusPrepared returns SF_ERROR_NULL.
-  sf_status Prepare(const sf_light_field& light_field, sf_runner runner = nullptr,
-                    void* runner_data = nullptr, sf_progress progress = nullptr,
-                    void* progress_data = nullptr) {
+  sf_status Prepare(const sf_light_field& light_field) {
     prepared_ = Owned<sf_prepared>();
     if (get() == nullptr) return SF_ERROR_NULL;
     size_t bytes = 0;
@@ -73,25 +73,20 @@ class Engine {
     if (status != SF_OK) return status;
     Owned<sf_prepared> fresh(bytes);
     if (fresh.memory == nullptr) return SF_ERROR_MEMORY;
-    status = sf_prepare(get(), &light_field, fresh.memory.get(), bytes, progress, progress_data,
-                        runner, runner_data, &fresh.handle);
+    status = sf_prepare(get(), &light_field, fresh.memory.get(), bytes, &fresh.handle);
     if (status == SF_OK) prepared_ = std::move(fresh);
     return status;
   }
 
   sf_status RefocusPrepared(const sf_params& params, uint8_t* out, size_t out_stride,
-                            sf_runner runner = nullptr, void* runner_data = nullptr,
                             sf_report* report = nullptr) {
-    return sf_refocus_prepared(get(), &params, prepared_.handle, out, out_stride, runner,
-                               runner_data, report);
+    return sf_refocus_prepared(get(), &params, prepared_.handle, out, out_stride, report);
   }
 
   // Of what Prepare made, with config.previews of `shift` at least.
   sf_status RefocusPreview(const sf_params& params, int32_t shift, uint8_t* out, size_t out_stride,
-                           sf_runner runner = nullptr, void* runner_data = nullptr,
                            sf_report* report = nullptr) {
-    return sf_refocus_preview(get(), &params, prepared_.handle, shift, out, out_stride, runner,
-                              runner_data, report);
+    return sf_refocus_preview(get(), &params, prepared_.handle, shift, out, out_stride, report);
   }
 
   sf_status StreamBegin(const sf_params& params) { return sf_stream_begin(get(), &params); }
@@ -101,9 +96,8 @@ class Engine {
   }
 
   sf_status StreamPull(uint8_t* out, size_t out_stride, int32_t rows, int32_t* written,
-                       sf_runner runner = nullptr, void* runner_data = nullptr,
                        sf_report* report = nullptr) {
-    return sf_stream_pull(get(), out, out_stride, rows, runner, runner_data, written, report);
+    return sf_stream_pull(get(), out, out_stride, rows, written, report);
   }
 
   // sf_focus_at of a light field of the configured size.

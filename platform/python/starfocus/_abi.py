@@ -65,9 +65,16 @@ class Params(Structure):
 
     _fields_ = [
         ("version", c_uint32), ("mode", c_int32), ("focus", c_double), ("aperture", c_double),
-        ("rule", c_int32), ("clock", c_void_p), ("on_block", c_void_p), ("on_block_data", c_void_p),
-        ("region", Region), ("progress", Progress), ("progress_data", c_void_p),
-        ("reserved", c_uint32 * 4),
+        ("rule", c_int32), ("region", Region), ("reserved", c_uint32 * 4),
+    ]
+
+
+class Callbacks(Structure):
+    """sf_callbacks"""
+
+    _fields_ = [
+        ("runner", c_void_p), ("runner_data", c_void_p), ("progress", Progress), ("progress_data", c_void_p),
+        ("clock", c_void_p), ("on_block", c_void_p), ("on_block_data", c_void_p),
     ]
 
 
@@ -121,7 +128,8 @@ class DepthConfig(Structure):
     _fields_ = [
         ("version", c_uint32), ("width", c_int32), ("height", c_int32), ("views", c_int32),
         ("disparity_min", c_float), ("disparity_max", c_float), ("max_workers", c_int32),
-        ("progress", Progress), ("progress_data", c_void_p), ("problem", c_void_p), ("reserved", c_uint32 * 8),
+        ("runner", c_void_p), ("runner_data", c_void_p), ("progress", Progress), ("progress_data", c_void_p),
+        ("problem", c_void_p), ("reserved", c_uint32 * 8),
     ]
 
 
@@ -166,20 +174,19 @@ STRUCTURES = {
     "sf_plane": Plane, "sf_light_field": LightField, "sf_layer_report": LayerReport,
     "sf_skipped": Skipped, "sf_report": Report, "sf_disparity_stats": DisparityStats,
     "sf_depth_config": DepthConfig, "sf_image": Image, "sf_image_out": Image,
-    "sf_depth_map": DepthMap, "sf_image_field": ImageField, "sf_map": Map,
+    "sf_depth_map": DepthMap, "sf_image_field": ImageField, "sf_map": Map, "sf_callbacks": Callbacks,
 }
 
-_RUN = (c_void_p, c_void_p)  # a runner and its data
 _ENGINE_CALLS = {
     "sf_create": (POINTER(Config), c_void_p, POINTER(c_void_p)),
+    "sf_set_callbacks": (c_void_p, POINTER(Callbacks)),
     "sf_prepared_size": (POINTER(Config), POINTER(c_size_t)),
-    "sf_refocus": (c_void_p, POINTER(Params), POINTER(LightField), c_void_p, c_size_t, *_RUN, POINTER(Report)),
-    "sf_prepare": (c_void_p, POINTER(LightField), c_void_p, c_size_t, Progress, c_void_p, *_RUN,
-                   POINTER(c_void_p)),
-    "sf_refocus_prepared": (c_void_p, POINTER(Params), c_void_p, c_void_p, c_size_t, *_RUN, POINTER(Report)),
-    "sf_refocus_preview": (c_void_p, POINTER(Params), c_void_p, c_int32, c_void_p, c_size_t, *_RUN,
+    "sf_refocus": (c_void_p, POINTER(Params), POINTER(LightField), c_void_p, c_size_t, POINTER(Report)),
+    "sf_prepare": (c_void_p, POINTER(LightField), c_void_p, c_size_t, POINTER(c_void_p)),
+    "sf_refocus_prepared": (c_void_p, POINTER(Params), c_void_p, c_void_p, c_size_t, POINTER(Report)),
+    "sf_refocus_preview": (c_void_p, POINTER(Params), c_void_p, c_int32, c_void_p, c_size_t,
                            POINTER(Report)),
-    "sf_refocus_images": (c_void_p, POINTER(Params), POINTER(ImageField), POINTER(Image), *_RUN,
+    "sf_refocus_images": (c_void_p, POINTER(Params), POINTER(ImageField), POINTER(Image),
                           POINTER(Report)),
 }
 _MAP_CALLS = {
@@ -189,9 +196,8 @@ _MAP_CALLS = {
     "sf_aperture_of_f_stop": (c_double, c_double, POINTER(c_double)),
     "sf_estimate_size": (POINTER(DepthConfig), POINTER(c_size_t)),
     "sf_repair_size": (POINTER(DepthConfig), POINTER(c_size_t)),
-    "sf_estimate_disparity": (POINTER(DepthConfig), POINTER(LightField), POINTER(Map), c_void_p, c_size_t,
-                              *_RUN),
-    "sf_repair_disparity": (POINTER(DepthConfig), POINTER(LightField), POINTER(Map), c_void_p, c_size_t, *_RUN),
+    "sf_estimate_disparity": (POINTER(DepthConfig), POINTER(LightField), POINTER(Map), c_void_p, c_size_t),
+    "sf_repair_disparity": (POINTER(DepthConfig), POINTER(LightField), POINTER(Map), c_void_p, c_size_t),
     "sf_view_position": (c_int32, POINTER(c_double), POINTER(c_double)),
 }
 _OTHERS = {

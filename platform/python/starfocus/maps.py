@@ -109,6 +109,7 @@ def _make_map(size_of: Any, make: Any, views: Views, given: Optional[np.ndarray]
         set_field(config, name, value)
     config.disparity_min, config.disparity_max = span
     config.max_workers, config.progress = pool.workers, watch.function
+    config.runner, config.runner_data = pool.runner, pool.handle
     check(size_of(byref(config), byref(size)), problem)
     field, kept = light_field(views, given, len(views), height, width)
     memory = aligned(size.value)
@@ -117,7 +118,7 @@ def _make_map(size_of: Any, make: Any, views: Views, given: Optional[np.ndarray]
     for name, plane in (("disparity", disparity), ("confidence", confidence), ("coverage", coverage)):
         setattr(made, name, plane.ctypes.data)
         setattr(made, name + "_stride", stride_of(plane))
-    status = make(byref(config), byref(field), byref(made), pointer(memory), size.value, pool.runner, pool.handle)
+    status = make(byref(config), byref(field), byref(made), pointer(memory), size.value)
     del kept
     watch.check(status, problem)
     return DisparityMap(disparity, confidence, coverage if made.has_coverage else None)

@@ -136,7 +136,7 @@ class Refocuser:
         *_, width, height = part_of(region, self.width, self.height)
         target = out.as_structure(width, height, "out", written=True)
         watch = Watch(progress)
-        params = self._params(focus, aperture, mode, rule, region, watch)
+        params = self._params(focus, aperture, mode, rule, region)
         self._call(watch, library.sf_refocus_images, byref(params), byref(field), byref(target))
         del kept
         return out
@@ -147,28 +147,35 @@ class Refocuser:
                  keep: List[np.ndarray]) -> np.ndarray:
         """The picture by sf_refocus or its like, of the scene, which reads the arrays to `keep`."""
         watch = Watch(progress)
-        params = self._params(focus, aperture, mode, rule, region, watch)
+        params = self._params(focus, aperture, mode, rule, region)
         self._call(watch, function, byref(params), *scene, pointer(picture), stride_of(picture))
         del keep
         return picture
 
     def _params(self, focus: float, aperture: float, mode: Mode, rule: Rule,
-                region: Optional[RegionOfPicture], watch: Watch) -> _abi.Params:
+                region: Optional[RegionOfPicture]) -> _abi.Params:
         params = _abi.Params()
         library.sf_params_init(byref(params))
         for name, value in (("focus", focus), ("aperture", aperture), ("mode", mode), ("rule", rule)):
             set_field(params, name, value)
-        params.progress = watch.function
         if region is not None:
             set_field(params, "region", tuple(region))
         return params
 
     def _call(self, watch: Watch, function: Any, *arguments: Any) -> None:
+        """Calls the function with the engine, the arguments and a report."""
         report = _abi.Report()
-        with self._lock:
-            status = function(self._engine, *arguments, self._pool.runner, self._pool.handle, byref(report))
-        watch.check(status, library.sf_engine_problem(self._engine).contents)
+        self._run(watch, function, *arguments, byref(report))
         self.report = _as_dict(report)
+
+    def _run(self, watch: Watch, function: Any, *arguments: Any) -> None:
+        """Calls the function with the engine and the arguments; the watch receives its progress."""
+        callbacks = _abi.Callbacks(self._pool.runner, self._pool.handle, watch.function)
+        with self._lock:
+            status = library.sf_set_callbacks(self._engine, byref(callbacks))
+            if status == Status.OK:
+                status = function(self._engine, *arguments)
+        watch.check(status, library.sf_engine_problem(self._engine).contents)
 
 
 class Prepared:
@@ -178,7 +185,7 @@ class Prepared:
     def __init__(self, refocuser: Refocuser, views: Views, disparity: np.ndarray,
                  progress: Optional[ProgressFunction], coverage: Optional[np.ndarray] = None):
         # pylint: disable=protected-access
-        config, pool = refocuser._config, refocuser._pool
+        config = refocuser._config
         self._refocuser = refocuser
         field, self._kept = light_field(views, disparity, config.views, config.height, config.width)
         self._kept += set_coverage(field, coverage, config.height, config.width)
@@ -186,11 +193,8 @@ class Prepared:
         check(library.sf_prepared_size(byref(config), byref(size)))
         self._memory = aligned(size.value)
         self._handle = ctypes.c_void_p()
-        watch = Watch(progress)
-        with refocuser._lock:
-            status = library.sf_prepare(refocuser._engine, byref(field), pointer(self._memory), size.value,
-                                        watch.function, None, pool.runner, pool.handle, byref(self._handle))
-        watch.check(status, library.sf_engine_problem(refocuser._engine).contents)
+        refocuser._run(Watch(progress), library.sf_prepare, byref(field), pointer(self._memory), size.value,
+                       byref(self._handle))
 
     def refocus(self, *, focus: float, aperture: float = 1.0, mode: Mode = Mode.BLOCK,
                 rule: Rule = Rule.DEFAULT, region: Optional[RegionOfPicture] = None,

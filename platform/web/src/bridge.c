@@ -64,7 +64,12 @@ static void KeepBlock(void* data, const sf_block* block) {
   if (block_count < MAX_BLOCKS) blocks[block_count++] = *block;
 }
 
-static sf_runner Runner(void) { return workers > 1 ? RunOnWorkers : NULL; }
+/* Sets the functions of the engine, if there is one; `on_block` may be null. */
+static void SetCallbacks(sf_block_visitor on_block) {
+  const sf_callbacks callbacks = {
+      .runner = workers > 1 ? RunOnWorkers : NULL, .progress = Progress, .on_block = on_block};
+  sf_set_callbacks(engine, &callbacks);
+}
 
 /* Where a name of a field is written, ended by 0; at most 63 bytes. */
 EXPORT(text) char* Text(void) { return text; }
@@ -171,7 +176,10 @@ EXPORT(make_engine) sf_status MakeEngine(void) {
   engine = NULL;
   top = field_end;
   void* const workspace = Allocate(bytes);
-  return workspace == NULL ? SF_ERROR_MEMORY : sf_init(&config, workspace, bytes, &engine);
+  if (workspace == NULL) return SF_ERROR_MEMORY;
+  const sf_status made = sf_init(&config, workspace, bytes, &engine);
+  if (made == SF_OK) SetCallbacks(NULL);
+  return made;
 }
 
 /* What the last call refused; null when it was a call without a problem. */
@@ -180,8 +188,7 @@ EXPORT(problem) const sf_problem* Problem(void) { return refused; }
 /* Prepares the light field whose pixels are in their places. */
 EXPORT(prepare) sf_status Prepare(void) {
   refused = sf_engine_problem(engine);
-  return sf_prepare_images(engine, &field, prepared_memory, prepared_bytes, Progress, NULL,
-                           Runner(), NULL, &prepared);
+  return sf_prepare_images(engine, &field, prepared_memory, prepared_bytes, &prepared);
 }
 
 /* Begins a call of that number. */
@@ -190,14 +197,14 @@ EXPORT(aim) void Aim(int32_t number) {
   shared.rows_done = shared.rows = 0;
   block_count = 0;
   sf_params_init(&params);
-  params.progress = Progress;
+  SetCallbacks(NULL);
 }
 
 /* Returns whether sf_params has the field whose name is in the text. */
 EXPORT(set) int Set(double value) { return SetParamsField(&params, text, value); }
 
 /* Has the next refocusings note the blocks. */
-EXPORT(watch) void WatchBlocks(void) { params.on_block = KeepBlock; }
+EXPORT(watch) void WatchBlocks(void) { SetCallbacks(KeepBlock); }
 
 /* Pixels of the picture, of those of [start, start + size), at 1 / 2^shift of the size. */
 static int32_t Reduced(int64_t start, int64_t size, int32_t shift) {
@@ -215,9 +222,9 @@ EXPORT(refocus) sf_status Refocus(int32_t shift) {
   const sf_image_out out = {
       .format = SF_FORMAT_RGBX, .planes = {picture}, .strides = {4 * (size_t)width}};
   if (shift == 0) {
-    return sf_refocus_prepared_images(engine, &params, prepared, &out, Runner(), NULL, NULL);
+    return sf_refocus_prepared_images(engine, &params, prepared, &out, NULL);
   }
-  return sf_refocus_preview_images(engine, &params, prepared, shift, &out, Runner(), NULL, NULL);
+  return sf_refocus_preview_images(engine, &params, prepared, shift, &out, NULL);
 }
 
 EXPORT(picture_width) int32_t PictureWidth(void) { return width; }

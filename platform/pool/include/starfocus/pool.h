@@ -5,7 +5,10 @@
  *   sf_pool* pool = sf_pool_create(0);
  *   config.max_workers = sf_pool_workers(pool);
  *   ...
- *   sf_refocus(engine, &params, &light_field, out, stride, sf_pool_run, pool, NULL);
+ *   callbacks.runner = sf_pool_run;
+ *   callbacks.runner_data = pool;
+ *   sf_set_callbacks(engine, &callbacks);
+ *   sf_refocus(engine, &params, &light_field, out, stride, NULL);
  *   sf_pool_destroy(pool);
  */
 #ifndef STARFOCUS_POOL_H_

@@ -122,8 +122,6 @@ bool ReadTask(JNIEnv* env, Session* session, const JavaTask& task, sf_params* pa
   const jobject parameters = task.parameters, out = task.out;
   sf_params_init(params);
   if (!ReadFields(env, parameters, kParamsFields, std::size(kParamsFields), params)) return false;
-  params->progress = Tell;
-  params->progress_data = session;
   const sf_region& region = params->region;
   const bool whole = region.width == 0 && region.height == 0;
   // The library has looked at neither the region, without pixels of which no buffer is needed, nor
@@ -144,7 +142,14 @@ sf_status Start(Session* session) {
     if (session->pool == nullptr) return SF_ERROR_MEMORY;
     config->max_workers = sf_pool_workers(session->pool);
   }
-  return sf_create(config, nullptr, &session->engine);
+  const sf_status status = sf_create(config, nullptr, &session->engine);
+  if (status != SF_OK) return status;
+  sf_callbacks callbacks = {};
+  callbacks.runner = session->pool != nullptr ? sf_pool_run : nullptr;
+  callbacks.runner_data = session->pool;
+  callbacks.progress = Tell;
+  callbacks.progress_data = session;
+  return sf_set_callbacks(session->engine, &callbacks);
 }
 
 sf_status Prepare(Session* session, const sf_image_field& field) {
@@ -157,8 +162,7 @@ sf_status Prepare(Session* session, const sf_image_field& field) {
     return SF_ERROR_MEMORY;
   }
   Begin(session);
-  return sf_prepare_images(session->engine, &field, session->prepared_memory, bytes, Tell, session,
-                           session->pool != nullptr ? sf_pool_run : nullptr, session->pool,
+  return sf_prepare_images(session->engine, &field, session->prepared_memory, bytes,
                            &session->prepared);
 }
 
@@ -219,11 +223,8 @@ STARFOCUS_NATIVE(void, refocus)
     return;
   }
   Begin(session);
-  ThrowStatus(
-      env,
-      sf_refocus_images(session->engine, &params, &field, &image,
-                        session->pool != nullptr ? sf_pool_run : nullptr, session->pool, nullptr),
-      sf_engine_problem(session->engine));
+  ThrowStatus(env, sf_refocus_images(session->engine, &params, &field, &image, nullptr),
+              sf_engine_problem(session->engine));
 }
 
 STARFOCUS_NATIVE(void, prepare)
@@ -242,11 +243,9 @@ STARFOCUS_NATIVE(void, refocusPrepared)
   sf_image_out image;
   if (!ReadTask(env, session, {0, parameters, out}, &params, &image)) return;
   Begin(session);
-  ThrowStatus(env,
-              sf_refocus_prepared_images(session->engine, &params, session->prepared, &image,
-                                         session->pool != nullptr ? sf_pool_run : nullptr,
-                                         session->pool, nullptr),
-              sf_engine_problem(session->engine));
+  ThrowStatus(
+      env, sf_refocus_prepared_images(session->engine, &params, session->prepared, &image, nullptr),
+      sf_engine_problem(session->engine));
 }
 
 STARFOCUS_NATIVE(void, preview)
@@ -258,8 +257,7 @@ STARFOCUS_NATIVE(void, preview)
   Begin(session);
   ThrowStatus(env,
               sf_refocus_preview_images(session->engine, &params, session->prepared, shift, &image,
-                                        session->pool != nullptr ? sf_pool_run : nullptr,
-                                        session->pool, nullptr),
+                                        nullptr),
               sf_engine_problem(session->engine));
 }
 

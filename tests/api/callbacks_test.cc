@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+// sf_set_callbacks: how long the functions of the caller are in force.
+#include <doctest/doctest.h>
+
+#include <vector>
+
+#include "starfocus/starfocus.h"
+#include "tests/support/test_scene.h"
+
+namespace callbacks_test {
+namespace {
+
+constexpr int kWidth = 70, kHeight = 75;
+
+// Counts the calls of each function.
+struct Calls {
+  int runner = 0, progress = 0, blocks = 0;
+
+  static int Run(void* self, sf_job job, void* data, int32_t count) {
+    ++static_cast<Calls*>(self)->runner;
+    for (int32_t i = 0; i < count; ++i) job(data, i, 0);
+    return 0;
+  }
+  static int Tell(void* self, int32_t, int32_t) {
+    ++static_cast<Calls*>(self)->progress;
+    return 0;
+  }
+  static void Visit(void* self, const sf_block*) { ++static_cast<Calls*>(self)->blocks; }
+
+  sf_callbacks All() {
+    return {Run, this, Tell, this, [] { return uint64_t{0}; }, Visit, this};
+  }
+  // Returns whether all functions were called, and forgets the calls.
+  bool Take() {
+    const bool all = runner > 0 && progress > 0 && blocks > 0;
+    *this = Calls();
+    return all;
+  }
+  bool None() const { return runner == 0 && progress == 0 && blocks == 0; }
+};
+
+struct Fixture {
+  test::Scene scene = test::RandomScene(kWidth, kHeight, 5, -3, 9, 8);
+  sf_params params = test::Params(-3, 1, SF_MODE_BLOCK);
+  sf_light_field field = scene.Field();
+  test::Output out{kWidth, kHeight};
+  Calls calls;
+
+  sf_config Config() const {
+    sf_config config = test::ConfigFor(scene, 12);
+    config.largest_block = 32;
+    config.streaming = 1;
+    config.previews = 1;
+    return config;
+  }
+  sf_status Refocus(test::Engine* engine) {
+    return sf_refocus(engine->get(), &params, &field, out.bytes.data(), out.stride, nullptr);
+  }
+};
+
+TEST_CASE("callbacks: functions stay for all calls until others are set") {
+  Fixture f;
+  test::Engine engine(f.Config());
+  sf_callbacks callbacks = f.calls.All();
+  REQUIRE(sf_set_callbacks(engine.get(), &callbacks) == SF_OK);
+  callbacks = {};  // the engine has a copy
+  for (int round = 0; round < 2; ++round) {
+    REQUIRE(f.Refocus(&engine) == SF_OK);
+    CHECK(f.calls.Take());
+  }
+  size_t bytes = 0;
+  const sf_config config = f.Config();
+  REQUIRE(sf_prepared_size(&config, &bytes) == SF_OK);
+  std::vector<uint8_t> memory(bytes + SF_ALIGNMENT);
+  uint8_t* aligned = memory.data();
+  while (reinterpret_cast<uintptr_t>(aligned) % SF_ALIGNMENT != 0) ++aligned;
+  sf_prepared* prepared = nullptr;
+  REQUIRE(sf_prepare(engine.get(), &f.field, aligned, bytes, &prepared) == SF_OK);
+  CHECK(f.calls.runner > 0);
+  CHECK(f.calls.progress > 0);
+  test::Output preview((kWidth + 1) / 2, (kHeight + 1) / 2);
+  REQUIRE(sf_refocus_preview(engine.get(), &f.params, prepared, 1, preview.bytes.data(),
+                             preview.stride, nullptr) == SF_OK);
+  CHECK(f.calls.Take());
+  REQUIRE(sf_refocus_prepared(engine.get(), &f.params, prepared, f.out.bytes.data(), f.out.stride,
+                              nullptr) == SF_OK);
+  CHECK(f.calls.Take());
+  REQUIRE(sf_set_callbacks(engine.get(), &callbacks) == SF_OK);
+  REQUIRE(f.Refocus(&engine) == SF_OK);
+  CHECK(f.calls.None());
+}
+
+TEST_CASE("callbacks: null pointers are refused, and the functions set before stay") {
+  Fixture f;
+  test::Engine engine(f.Config());
+  const sf_callbacks callbacks = f.calls.All();
+  CHECK(sf_set_callbacks(nullptr, &callbacks) == SF_ERROR_NULL);
+  REQUIRE(sf_set_callbacks(engine.get(), &callbacks) == SF_OK);
+  CHECK(sf_set_callbacks(engine.get(), nullptr) == SF_ERROR_NULL);
+  REQUIRE(f.Refocus(&engine) == SF_OK);
+  CHECK(f.calls.Take());
+}
+
+TEST_CASE("callbacks: those of a stream may change between two pulls") {
+  Fixture f;
+  test::Output expected(kWidth, kHeight);
+  test::Engine engine(f.Config());
+  REQUIRE(test::Refocus(&engine, f.params, f.scene, &expected) == SF_OK);
+  REQUIRE(sf_stream_begin(engine.get(), &f.params) == SF_OK);
+  int pushed = 0, pulled = 0;
+  for (int round = 0; pulled < kHeight; ++round) {
+    const sf_callbacks callbacks = round % 2 == 0 ? f.calls.All() : sf_callbacks();
+    REQUIRE(sf_set_callbacks(engine.get(), &callbacks) == SF_OK);
+    const sf_light_field rows = f.scene.Field(pushed);
+    int32_t consumed = 0, written = 0;
+    if (pushed < kHeight) {
+      REQUIRE(sf_stream_push(engine.get(), &rows, kHeight - pushed, &consumed) == SF_OK);
+    }
+    REQUIRE(sf_stream_pull(engine.get(), f.out.bytes.data() + size_t(pulled) * f.out.stride,
+                           f.out.stride, kHeight, &written, nullptr) == SF_OK);
+    CHECK(f.calls.None() == (round % 2 != 0));
+    f.calls = Calls();
+    pushed += consumed;
+    pulled += written;
+  }
+  CHECK(f.out.bytes == expected.bytes);
+}
+
+}  // namespace
+}  // namespace callbacks_test
