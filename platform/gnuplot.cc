@@ -46,12 +46,9 @@ Bytes ReadAll(std::FILE* file) {
 
 }  // namespace
 
-bool HasGnuplot() {
-  Bytes ignored;
-  return !RunGnuplot("gnuplot", "set terminal svg\n", &ignored);
-}
+bool HasGnuplot() { return bool(RunGnuplot("gnuplot", "set terminal svg\n")); }
 
-Error RunGnuplot(const std::string& what, const std::string& script, Bytes* picture) {
+Result<Bytes> RunGnuplot(const std::string& what, const std::string& script) {
   const TempFile in(std::tmpfile()), out(std::tmpfile()), err(std::tmpfile());
   if (!in || !out || !err) return Expected(what, "room for temporary files", "none");
   const bool written = std::fwrite(script.data(), 1, script.size(), in.get()) == script.size();
@@ -63,8 +60,7 @@ Error RunGnuplot(const std::string& what, const std::string& script, Bytes* pict
     return Expected(what, "gnuplot to draw it",
                     code < 0 ? "no gnuplot" : std::string(words.begin(), words.end()));
   }
-  *picture = ReadAll(out.get());
-  return {};
+  return ReadAll(out.get());
 }
 
 }  // namespace starfocus

@@ -15,7 +15,7 @@ bool HasGnuplot();
 
 // Runs gnuplot on `script`, whose data are inline and whose output goes to stdout, into *picture.
 // No shell and no file name is involved. Errors name `what`.
-Error RunGnuplot(const std::string& what, const std::string& script, Bytes* picture);
+Result<Bytes> RunGnuplot(const std::string& what, const std::string& script);
 
 }  // namespace starfocus
 

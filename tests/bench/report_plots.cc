@@ -68,11 +68,10 @@ std::string Draw(Drawing drawing) {
                               [](const Curve& curve) { return curve.points.empty(); }),
                curves.end());
   if (curves.empty()) return "";
-  Bytes svg;
-  const Error error = RunGnuplot(drawing.title, Script(drawing), &svg);
-  std::string text(svg.begin(), svg.end());
+  const Result<Bytes> svg = RunGnuplot(drawing.title, Script(drawing));
+  std::string text(svg->begin(), svg->end());
   text.erase(0, std::min(text.find("<svg"), text.size()));
-  if (error) text = "<p>No drawing: " + Escape(error.line()) + "</p>";
+  if (!svg) text = "<p>No drawing: " + Escape(svg.error().line()) + "</p>";
   return "<figure>" + text + "<figcaption>" + drawing.caption + "</figcaption></figure>\n";
 }
 
@@ -228,11 +227,9 @@ std::string LayerPlot(const Rows& rows) {
     script += time + "\n" + pixels + "\n";
   }
   script += "END\nplot for [i=2:4] $data using i:xtic(1) title 'L = '.(i-2)\n";
-  Bytes svg;
-  if (Error error = RunGnuplot("layers", script, &svg)) {
-    return "<p>No drawing: " + Escape(error.line()) + "</p>";
-  }
-  const std::string text(svg.begin(), svg.end());
+  const Result<Bytes> svg = RunGnuplot("layers", script);
+  if (!svg) return "<p>No drawing: " + Escape(svg.error().line()) + "</p>";
+  const std::string text(svg->begin(), svg->end());
   return "<figure>" + text.substr(std::min(text.find("<svg"), text.size())) + "</figure>\n";
 }
 

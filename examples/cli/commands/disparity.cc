@@ -90,20 +90,22 @@ Error MakePlan(const DisparityOptions& options, Plan* plan) {
 }
 
 // Estimates the map of a folder; says what was looked for.
-Error EstimateFolder(const DisparityOptions& options, Plan* plan, const LightField& light_field,
-                     DisparityEstimate* estimate) {
-  Error error = CheckStar(options.folder, light_field);
-  if (!error && !options.range) {
-    error = FindRange(options.folder, light_field, options.threads, &plan->range);
+Result<DisparityEstimate> EstimateFolder(const DisparityOptions& options, Plan* plan,
+                                         const LightField& light_field) {
+  if (Error error = CheckStar(options.folder, light_field)) return error;
+  if (!options.range) {
+    const Result<DisparityRange> range = FindRange(options.folder, light_field, options.threads);
+    if (!range) return range.error();
+    plan->range = *range;
   }
-  if (error) return error;
-  return EstimateDisparity(options.folder, light_field, plan->range, options.threads, estimate);
+  return EstimateDisparity(options.folder, light_field, plan->range, options.threads);
 }
 
 // Repairs the map of a folder.
-Error RepairFolder(const DisparityOptions& options, Plan* plan, LightField* light_field,
-                   DisparityEstimate* estimate) {
-  Image* confidence = options.confidence.empty() ? nullptr : &estimate->confidence;
+Result<DisparityEstimate> RepairFolder(const DisparityOptions& options, Plan* plan,
+                                       LightField* light_field) {
+  DisparityEstimate estimate;
+  Image* confidence = options.confidence.empty() ? nullptr : &estimate.confidence;
   if (Error error = RepairDisparity(DisparityPath(options.folder), options.threads,
                                     !options.coverage.empty(), light_field, confidence))
     return error;
@@ -112,12 +114,12 @@ Error RepairFolder(const DisparityOptions& options, Plan* plan, LightField* ligh
                  light_field->views.size() > 1 ? "only a repair with one view (--views 1) finds it"
                                                : "found no hair with a closed outline");
   } else if (!options.coverage.empty()) {
-    estimate->coverage = DrawLevels(light_field->coverage, light_field->views[0]);
+    estimate.coverage = DrawLevels(light_field->coverage, light_field->views[0]);
   }
-  estimate->map = std::move(light_field->disparity);
-  const auto ends = std::minmax_element(estimate->map.values.begin(), estimate->map.values.end());
+  estimate.map = std::move(light_field->disparity);
+  const auto ends = std::minmax_element(estimate.map.values.begin(), estimate.map.values.end());
   plan->range = {*ends.first, *ends.second};
-  return {};
+  return estimate;
 }
 
 Error WriteMap(const DisparityOptions& options, const Plan& plan,
@@ -142,13 +144,13 @@ Error Run(const DisparityOptions& options) {
                         : LoadCaptured(options.folder, options.views, &light_field, &runner))
     return error;
   const double start = Seconds();
-  DisparityEstimate estimate;
-  Error error = options.repair ? RepairFolder(options, &plan, &light_field, &estimate)
-                               : EstimateFolder(options, &plan, light_field, &estimate);
+  const Result<DisparityEstimate> estimate = options.repair
+                                                 ? RepairFolder(options, &plan, &light_field)
+                                                 : EstimateFolder(options, &plan, light_field);
+  if (!estimate) return estimate.error();
   const double seconds = Seconds() - start;
-  if (!error) error = WriteMap(options, plan, estimate);
-  if (error) return error;
-  const double megapixels = 1e-6 * estimate.map.width * estimate.map.height;
+  if (Error error = WriteMap(options, plan, *estimate)) return error;
+  const double megapixels = 1e-6 * estimate->map.width * estimate->map.height;
   const int count = StarWithin(light_field.positions);
   std::printf("%s: %s to %s %s %d view%s, %.1f s, %.1f s per megapixel\n", plan.map.c_str(),
               Short(plan.range.min).c_str(), Short(plan.range.max).c_str(),

@@ -144,8 +144,8 @@ Error CheckStar(const std::string& where, const LightField& light_field) {
                   views == 1 ? "one, which shows none" : std::to_string(views) + " others");
 }
 
-Error FindRange(const std::string& where, const LightField& light_field, int threads,
-                DisparityRange* range) {
+Result<DisparityRange> FindRange(const std::string& where, const LightField& light_field,
+                                 int threads) {
   const Images views = StarOf(light_field);
   const int factor = (views[0].width + kSmallWidth - 1) / kSmallWidth;
   std::vector<Image> small;
@@ -168,19 +168,20 @@ Error FindRange(const std::string& where, const LightField& light_field, int thr
   // A pixel more at either end, of the small pictures: what strays may be has its neighbours there.
   const float low = std::max(sure[strays] - 1, -most);
   const float high = std::min(sure[sure.size() - 1 - strays] + 1, most);
-  *range = {low * static_cast<float>(factor), high * static_cast<float>(factor)};
-  return {};
+  return DisparityRange{low * static_cast<float>(factor), high * static_cast<float>(factor)};
 }
 
-Error EstimateDisparity(const std::string& where, const LightField& light_field,
-                        const DisparityRange& range, int threads, DisparityEstimate* estimate) {
+Result<DisparityEstimate> EstimateDisparity(const std::string& where, const LightField& light_field,
+                                            const DisparityRange& range, int threads) {
   const Images views = StarOf(light_field);
   Maker maker(threads, "estimating disparities");
   Bytes confidence;
-  const MadeMap made = {&estimate->map, &confidence, nullptr};
+  DisparityEstimate estimate;
+  const MadeMap made = {&estimate.map, &confidence, nullptr};
   const Error error = MakeMap(where, views, nullptr, range, &maker, made);
-  if (!error) estimate->confidence = DrawLevels(confidence, views[0]);
-  return error;
+  if (error) return error;
+  estimate.confidence = DrawLevels(confidence, views[0]);
+  return estimate;
 }
 
 Error RepairDisparity(const std::string& where, int threads, bool covers, LightField* light_field,

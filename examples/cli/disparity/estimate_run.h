@@ -38,12 +38,12 @@ Error CheckStar(const std::string& where, const LightField& light_field);
 
 // Finds the range of disparities of 5, 9 or 17 views, as far as an eighth of the picture's width:
 // that of an estimate of small pictures, and a little more.
-Error FindRange(const std::string& where, const LightField& light_field, int threads,
-                DisparityRange* range);
+Result<DisparityRange> FindRange(const std::string& where, const LightField& light_field,
+                                 int threads);
 
 // Estimates the map, with a progress line. Errors are about `where`.
-Error EstimateDisparity(const std::string& where, const LightField& light_field,
-                        const DisparityRange& range, int threads, DisparityEstimate* estimate);
+Result<DisparityEstimate> EstimateDisparity(const std::string& where, const LightField& light_field,
+                                            const DisparityRange& range, int threads);
 
 // Repairs the map of a light field by the star among its views, which may be the centre alone. If
 // `covers`, its coverage becomes what the repair finds, which may be none. `confidence` may be

@@ -55,14 +55,15 @@ Error Estimate(int threads, Capture* capture) {
                         : "a disparity map: it is estimated from 5, 9 or 17 views of a star only",
                     "no file");
   }
-  DisparityRange range;
-  if (Error error = FindRange(capture->path, *light_field, threads, &range)) return error;
+  const Result<DisparityRange> range = FindRange(capture->path, *light_field, threads);
+  if (!range) return range.error();
   std::fprintf(stderr, "%s: no map: disparities from %s to %s are estimated from %d views\n",
-               MapName(*capture).c_str(), Short(range.min).c_str(), Short(range.max).c_str(), star);
-  DisparityEstimate estimate;
-  Error error = EstimateDisparity(capture->path, *light_field, range, threads, &estimate);
-  if (!error) light_field->disparity = std::move(estimate.map);
-  return error;
+               MapName(*capture).c_str(), Short(range->min).c_str(), Short(range->max).c_str(),
+               star);
+  Result<DisparityEstimate> estimate =
+      EstimateDisparity(capture->path, *light_field, *range, threads);
+  if (estimate) light_field->disparity = std::move(estimate->map);
+  return estimate.error();
 }
 
 }  // namespace

@@ -30,9 +30,9 @@ Error Write(const fs::path& folder, const Figure& figure, bool draw) {
     if (Error error = WriteText(folder / (table.name() + ".csv"), table.Csv())) return error;
   }
   if (!draw || figure.name.empty()) return {};
-  Bytes picture;
-  if (Error error = RunGnuplot(figure.name + ".svg", figure.Script(), &picture)) return error;
-  return WriteFile((folder / (figure.name + ".svg")).string(), picture);
+  const Result<Bytes> picture = RunGnuplot(figure.name + ".svg", figure.Script());
+  if (!picture) return picture.error();
+  return WriteFile((folder / (figure.name + ".svg")).string(), *picture);
 }
 
 Error Run(const AnalyzeOptions& options) {
