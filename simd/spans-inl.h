@@ -69,12 +69,18 @@ HWY_INLINE void BlendSpan(const Span& span, int16_t* HWY_RESTRICT line) {
   const int16_t* HWY_RESTRICT source = span.source;
   const int16_t* HWY_RESTRICT neighbour = source + span.neighbour_offset;
   int16_t* HWY_RESTRICT target = line + span.target;
-  const bool done = ForVectors(span.samples, hn::Lanes(d16), [&](size_t n) HWY_ATTR {
+  const auto blended = [&](size_t n) HWY_ATTR {
     const auto value = hn::LoadU(d16, source + n);
     const auto more = hn::Sub(hn::LoadU(d16, neighbour + n), value);
-    hn::StoreU(hn::Add(value, hn::MulFixedPoint15(more, weight)), d16, target + n);
-  });
-  if (!done) reference::Blend(&span, 1, line);
+    return hn::Add(value, hn::MulFixedPoint15(more, weight));
+  };
+  const bool done = ForVectors(span.samples, hn::Lanes(d16),
+                               [&](size_t n) HWY_ATTR { hn::StoreU(blended(n), d16, target + n); });
+  if (done) return;
+  // Most spans of line scans are shorter than a vector: the reference takes longer.
+  int16_t whole[HWY_MAX_BYTES / sizeof(int16_t)];
+  hn::StoreU(blended(0), d16, whole);
+  std::memcpy(target, whole, span.samples * sizeof(*target));
 }
 
 inline void Blend(const Span* HWY_RESTRICT spans, size_t count, int16_t* HWY_RESTRICT line) {

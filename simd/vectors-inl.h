@@ -4,7 +4,8 @@
 // - Rows that the contract pads to whole groups of kSliceLanes have no remainder.
 // - All other kernels store with ForVectors, whose last vector overlaps the one before it and
 // stores
-//   the same values again. If there are fewer samples than lanes, they call their reference.
+//   the same values again. If there are fewer samples than lanes, they call their reference. Blend
+//   alone stores a part of a vector: most of its spans are short.
 // - Kernels that add to accumulators must add each sample once. They mask the last vector
 //   (`AddSpan` in spans-inl.h).
 #if defined(STARFOCUS_SIMD_VECTORS_INL_H_) == defined(HWY_TARGET_TOGGLE)

@@ -312,13 +312,13 @@ class LineScan {
 // Scans a line. next(k) makes the sink ready for view k and returns its move.
 template <class Sink, class Next>
 void ScanLine(const ScanTask& task, const ViewGrid& grid, Sink* sink, const Next& next) {
-  const auto scan_views = [&](auto scan) {
-    for (int32_t k = task.first_view; k <= task.last_view; ++k) scan.Scan(next(k));
-  };
+  const int32_t first = task.first_view, last = task.last_view;
   if (task.direction == Direction::kRightToLeft) {
-    scan_views(LineScan<Direction::kRightToLeft, Sink>(task, grid, sink));
+    LineScan<Direction::kRightToLeft, Sink> scan(task, grid, sink);
+    for (int32_t k = first; k <= last; ++k) scan.Scan(next(k));
   } else {
-    scan_views(LineScan<Direction::kLeftToRight, Sink>(task, grid, sink));
+    LineScan<Direction::kLeftToRight, Sink> scan(task, grid, sink);
+    for (int32_t k = first; k <= last; ++k) scan.Scan(next(k));
   }
 }
 
