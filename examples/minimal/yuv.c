@@ -35,8 +35,7 @@ int main(void) {
                                .scale = 8000,
                                .has_invalid = 1,
                                .invalid = 0};
-  sf_image_out out = {
-      .format = SF_FORMAT_NV12, .planes = {out_luma, out_chroma}, .strides = {W, W}};
+  sf_image out = {.format = SF_FORMAT_NV12, .planes = {out_luma, out_chroma}, .strides = {W, W}};
   sf_params params; /* what is a metre away is in focus */
   sf_params_init(&params);
   params.focus = 8;

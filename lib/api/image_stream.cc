@@ -51,7 +51,7 @@ sf_status sf_stream_push_images(sf_engine* engine, const sf_image_field* field, 
   return starfocus::PushRows(starfocus::SourceOf(images), rows, 2, &e, consumed);
 }
 
-sf_status sf_stream_pull_images(sf_engine* engine, const sf_image_out* out, int32_t rows,
+sf_status sf_stream_pull_images(sf_engine* engine, const sf_image* out, int32_t rows,
                                 int32_t* written, sf_report* report) {
   if (written != nullptr) *written = 0;
   sf_status status = starfocus::EnterEngine(engine, {{"out", out}, {"written", written}});
@@ -62,8 +62,7 @@ sf_status sf_stream_pull_images(sf_engine* engine, const sf_image_out* out, int3
   if (status != SF_OK) return status;
   const int32_t first = e.stream.written, left = e.config.height - first;
   const int32_t most = starfocus::Min(rows, left);
-  const sf_image image = starfocus::AsImage(*out);
-  status = starfocus::CheckImage(image, {0, 0, e.config.width, e.config.height}, &e.problem);
+  status = starfocus::CheckImage(*out, {0, 0, e.config.width, e.config.height}, &e.problem);
   if (status == SF_OK) {
     status = starfocus::CheckPairs(e.config, starfocus::IsYuv(out->format), first, most);
   }
@@ -71,11 +70,11 @@ sf_status sf_stream_pull_images(sf_engine* engine, const sf_image_out* out, int3
   starfocus::Extents memory;
   memory.Add(starfocus::Workspace(e));
   if (most > 0)
-    status = starfocus::CheckImageOutput(image, {0, 0, e.config.width, most}, memory, &e.problem);
+    status = starfocus::CheckImageOutput(*out, {0, 0, e.config.width, most}, memory, &e.problem);
   if (status != SF_OK) return status;
   const starfocus::Plane<uint8_t>& alpha = e.images.alpha;
   const starfocus::ImageOutput output = {&starfocus::simd::BestImageKernels(),
-                                         starfocus::PlanesOf(*out),
+                                         starfocus::PlanesOf<uint8_t>(*out),
                                          {0, first, e.config.width, left},
                                          {{alpha.data, alpha.stride, alpha.rows, 0}, 1}};
   status = starfocus::PullRows(starfocus::SinkOf(output), most, &e, written);

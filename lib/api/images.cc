@@ -15,7 +15,7 @@ struct Request {
   const sf_params& params;
   const sf_image_field& field;
   const Prepared* prepared;
-  const sf_image_out& out;
+  const sf_image& out;
 };
 
 sf_status Refocus(const Request& request, EngineState* engine, sf_report* report) {
@@ -27,12 +27,13 @@ sf_status Refocus(const Request& request, EngineState* engine, sf_report* report
   const Rect rect = RegionOf(config, request.params);
   Extents read = MemoryOf(*engine, request.prepared);
   AddImageField(config, request.field, &read);
-  status = CheckImageOutput(AsImage(request.out), rect, read, config.problem);
+  status = CheckImageOutput(request.out, rect, read, config.problem);
   if (status != SF_OK) return status;
   ImageField field;
   MakeImageField(request.field, 0, engine, &field);
   UseImageField(field, engine);
-  const ImageOutput out = {field.kernels, PlanesOf(request.out), rect, AlphaOf(field.views[0])};
+  const ImageOutput out = {field.kernels, PlanesOf<uint8_t>(request.out), rect,
+                           AlphaOf(field.views[0])};
   Call call = {request.params, SourceOf(field), SinkOf(out), request.prepared};
   if (request.prepared != nullptr) call.source.map = nullptr;
   return RunCall(call, engine, report);
@@ -44,7 +45,7 @@ sf_status Refocus(const Request& request, EngineState* engine, sf_report* report
 using starfocus::EngineState;
 
 sf_status sf_refocus_images(sf_engine* engine, const sf_params* params, const sf_image_field* field,
-                            const sf_image_out* out, sf_report* report) {
+                            const sf_image* out, sf_report* report) {
   const sf_status status =
       starfocus::EnterEngine(engine, {{"params", params}, {"field", field}, {"out", out}});
   if (status != SF_OK) return status;
@@ -53,7 +54,7 @@ sf_status sf_refocus_images(sf_engine* engine, const sf_params* params, const sf
 }
 
 sf_status sf_refocus_prepared_images(sf_engine* engine, const sf_params* params,
-                                     const sf_prepared* prepared, const sf_image_out* out,
+                                     const sf_prepared* prepared, const sf_image* out,
                                      sf_report* report) {
   const sf_status status =
       starfocus::EnterEngine(engine, {{"params", params}, {"prepared", prepared}, {"out", out}});

@@ -52,9 +52,8 @@ size_t sf_struct_size(const char* name) {
       SIZE_OF(sf_disparity_stats), SIZE_OF(sf_params),       SIZE_OF(sf_plane),
       SIZE_OF(sf_problem),         SIZE_OF(sf_position),     SIZE_OF(sf_previous),
       SIZE_OF(sf_region),          SIZE_OF(sf_report),       SIZE_OF(sf_skipped),
-      SIZE_OF(sf_timing),          SIZE_OF(sf_image),        SIZE_OF(sf_image_out),
-      SIZE_OF(sf_image_field),     SIZE_OF(sf_depth_map),    SIZE_OF(sf_map),
-      SIZE_OF(sf_callbacks)};
+      SIZE_OF(sf_timing),          SIZE_OF(sf_image),        SIZE_OF(sf_image_field),
+      SIZE_OF(sf_depth_map),       SIZE_OF(sf_map),          SIZE_OF(sf_callbacks)};
 #undef SIZE_OF
   if (name == nullptr) return 0;
   for (const Entry& entry : kSizes) {

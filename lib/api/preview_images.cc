@@ -8,8 +8,8 @@
 #include "starfocus/image.h"
 
 sf_status sf_refocus_preview_images(sf_engine* engine, const sf_params* params,
-                                    const sf_prepared* prepared, int32_t shift,
-                                    const sf_image_out* out, sf_report* report) {
+                                    const sf_prepared* prepared, int32_t shift, const sf_image* out,
+                                    sf_report* report) {
   sf_status status =
       starfocus::EnterEngine(engine, {{"params", params}, {"prepared", prepared}, {"out", out}});
   if (status != SF_OK) return status;
@@ -21,10 +21,10 @@ sf_status sf_refocus_preview_images(sf_engine* engine, const sf_params* params,
   status = starfocus::CheckPreview(request, e);
   if (status != SF_OK) return status;
   const starfocus::Rect rect = starfocus::PreviewRect(request, e);
-  status = starfocus::CheckImageOutput(starfocus::AsImage(*out), rect,
-                                       starfocus::MemoryOf(e, &request.prepared), e.config.problem);
+  status = starfocus::CheckImageOutput(*out, rect, starfocus::MemoryOf(e, &request.prepared),
+                                       e.config.problem);
   if (status != SF_OK) return status;
   const starfocus::ImageOutput output = {
-      &starfocus::simd::BestImageKernels(), starfocus::PlanesOf(*out), rect, {{}, 1}};
+      &starfocus::simd::BestImageKernels(), starfocus::PlanesOf<uint8_t>(*out), rect, {{}, 1}};
   return starfocus::RefocusPreview(request, starfocus::SinkOf(output), &e, report);
 }

@@ -98,15 +98,6 @@ sf_status CheckImageField(const sf_config& config, const sf_image_field& field) 
   return status == SF_OK ? CheckDepthMap(config, field.depth) : status;
 }
 
-sf_image AsImage(const sf_image_out& out) {
-  return {out.format,
-          out.matrix,
-          out.range,
-          out.pixel_stride,
-          {out.planes[0], out.planes[1], out.planes[2]},
-          {out.strides[0], out.strides[1], out.strides[2]}};
-}
-
 void AddImageField(const sf_config& config, const sf_image_field& field, Extents* extents) {
   const sf_depth_map& map = field.depth;
   extents->AddRows(map.data, map.stride, map.height,

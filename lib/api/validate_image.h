@@ -18,9 +18,6 @@ sf_status CheckImage(const sf_image& image, const Rect& size, sf_problem* proble
 // Checks the views and the depth map for pictures of `config`.
 sf_status CheckImageField(const sf_config& config, const sf_image_field& field);
 
-// An output as an image that is read.
-sf_image AsImage(const sf_image_out& out);
-
 // Adds the images and the depth map of a field.
 void AddImageField(const sf_config& config, const sf_image_field& field, Extents* extents);
 

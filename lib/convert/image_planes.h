@@ -5,7 +5,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <type_traits>
 
 #include "lib/convert/yuv_matrix.h"
 #include "starfocus/image.h"
@@ -52,10 +51,10 @@ constexpr int32_t LeastStep(int32_t format) {
   return IsPaired(format) ? 2 : 1;
 }
 
-// Returns the planes of an sf_image or sf_image_out that has been checked.
-template <class Image>
-auto PlanesOf(const Image& image) {
-  ImagePlanes<std::remove_pointer_t<std::decay_t<decltype(image.planes[0])>>> of = {};
+// Returns the planes of an image that has been checked. Byte is const for images that are read.
+template <class Byte>
+ImagePlanes<Byte> PlanesOf(const sf_image& image) {
+  ImagePlanes<Byte> of = {};
   const int32_t format = image.format;
   of.is_yuv = IsYuv(format);
   of.blue_first = format == SF_FORMAT_BGR || format == SF_FORMAT_BGRX;
@@ -63,13 +62,14 @@ auto PlanesOf(const Image& image) {
   of.step = static_cast<size_t>(image.pixel_stride != 0 ? image.pixel_stride : LeastStep(format));
   if (of.is_yuv) of.matrix = &kYuvMatrices[image.matrix][image.range];
   for (int plane = 0; plane < 3; ++plane) {
-    of.planes[plane] = image.planes[plane];
+    of.planes[plane] = static_cast<Byte*>(image.planes[plane]);
     of.strides[plane] = image.strides[plane];
   }
   if (IsPaired(format)) {
     const int u = format == SF_FORMAT_NV12 ? 0 : 1;
-    of.planes[1] = image.planes[1] + u;
-    of.planes[2] = image.planes[1] + 1 - u;
+    Byte* const chroma = of.planes[1];
+    of.planes[1] = chroma + u;
+    of.planes[2] = chroma + 1 - u;
     of.strides[2] = of.strides[1];
   }
   return of;

@@ -60,7 +60,7 @@ void MakeImageField(const sf_image_field& images, int32_t first, EngineState* en
                     ImageField* field) {
   field->kernels = &simd::BestImageKernels();
   for (int view = 0; view < engine->config.views; ++view) {
-    field->views[view] = PlanesOf(images.views[view]);
+    field->views[view] = PlanesOf<const uint8_t>(images.views[view]);
   }
   field->first = first;
   ImageMemory& memory = engine->images;

@@ -32,7 +32,7 @@ ImageMemory Refocused(test::Engine* engine, const ImageField& field, const sf_pa
                       const ImageKind& kind, sf_report* report) {
   ImageMemory image(field.converted.width, field.converted.height, kind);
   const sf_image_field images = field.Field();
-  const sf_image_out out = image.Out();
+  const sf_image out = image.Out();
   REQUIRE(sf_refocus_images(engine->get(), &params, &images, &out, report) == SF_OK);
   return image;
 }
@@ -51,7 +51,7 @@ sf_status StreamImages(test::Engine* engine, const ImageField& field, const sf_p
       if (status != SF_OK) return status;
       CHECK((consumed % 2 == 0 || pushed + consumed == height));
     }
-    const sf_image_out out = image->Out(pulled);
+    const sf_image out = image->Out(pulled);
     status = sf_stream_pull_images(engine->get(), &out, std::min(pull_rows, height - pulled),
                                    &written, report);
     pushed += consumed;
@@ -104,7 +104,7 @@ TEST_CASE("image streams: rows of R, G, B may be pushed, and pulled") {
   ImageMemory image(100, 90, kind), opaque(100, 90, kind);
   test::PutPicture(
       expected.bytes.data(), expected.stride, [](int, int) { return uint8_t{255}; }, &opaque);
-  const sf_image_out out = image.Out();
+  const sf_image out = image.Out();
   const sf_image_field images = field.Field();
   const sf_light_field converted = field.converted.Field();
   int32_t rows = 0;
@@ -165,7 +165,7 @@ TEST_CASE("image streams: half of a pair of rows is refused, and a bad depth wit
   const sf_params params = test::Params(1, 1, SF_MODE_BLOCK);
   sf_image_field images = field.Field();
   ImageMemory image(60, 51, test::AnyKind(SF_FORMAT_I420, &random));
-  sf_image_out out = image.Out();
+  sf_image out = image.Out();
   int32_t rows = 7;
   CHECK(sf_stream_push_images(engine.get(), &images, 2, &rows) == SF_ERROR_STATE);
   CHECK(rows == 0);
@@ -230,7 +230,7 @@ TEST_CASE("prepared images: the bytes of whole images, for many lenses and regio
       sf_report report = {};
       const ImageMemory expected = Refocused(&engine, field, params, kind, &report);
       ImageMemory got(width, height, kind);
-      const sf_image_out out = got.Out();
+      const sf_image out = got.Out();
       REQUIRE(sf_refocus_prepared_images(engine.get(), &params, prepared, &out, &report) == SF_OK);
       const bool same = got == expected;
       CHECK(same);
@@ -281,7 +281,7 @@ TEST_CASE("prepared images: neither kind is taken for the other") {
   const sf_params params = test::Params(1, 1, SF_MODE_BLOCK);
   test::Output out(60, 50);
   ImageMemory image(60, 50, test::AnyKind(SF_FORMAT_NV12, &random));
-  const sf_image_out to = image.Out();
+  const sf_image to = image.Out();
   CHECK(sf_refocus_prepared(engine.get(), &params, of_images, out.bytes.data(), out.stride,
                             nullptr) == SF_ERROR_PREPARED);
   CHECK(sf_refocus_prepared_images(engine.get(), &params, of_pictures, &to, nullptr) ==
@@ -325,7 +325,7 @@ TEST_CASE("images: calls are watched, and cancelled wherever they ask") {
     test::Watch stops(stop);
     tell(&stops);
     ImageMemory image(200, 150, kind);
-    const sf_image_out out = image.Out();
+    const sf_image out = image.Out();
     CHECK(sf_refocus_images(engine.get(), &params, &images, &out, nullptr) == SF_ERROR_CANCELLED);
     CHECK(stops.Good());
     test::Watch first(stop % 4);

@@ -50,7 +50,7 @@ void CheckSame(const ImageField& field, const sf_config& config, const sf_params
   const int height = r.height > 0 ? r.height : config.height;
   ImageMemory got(width, height, kind);
   const sf_image_field images = field.Field();
-  const sf_image_out out = got.Out();
+  const sf_image out = got.Out();
   sf_report report = {}, expected_report = {};
   const sf_callbacks callbacks = test::RunBy(runner);
   REQUIRE(sf_set_callbacks(engine.get(), &callbacks) == SF_OK);
@@ -177,7 +177,7 @@ TEST_CASE("images: depth of every type, meaning and size; unknown depths") {
     test::Engine engine(config);
     ImageMemory out(130, 97, test::AnyKind(SF_FORMAT_RGB, &random)), before = out;
     const sf_image_field images = field.Field();
-    const sf_image_out to = out.Out();
+    const sf_image to = out.Out();
     const sf_status status = sf_refocus_images(engine.get(), &params, &images, &to, nullptr);
     CHECK(status == (unknown ? SF_ERROR_NOT_FINITE : SF_OK));
     const bool untouched = out == before;
@@ -197,7 +197,7 @@ TEST_CASE("images: a depth outside the configured range is refused before anythi
   test::Engine engine(config);
   ImageMemory out(70, 60, test::AnyKind(SF_FORMAT_NV12, &random)), before = out;
   const sf_image_field images = field.Field();
-  const sf_image_out to = out.Out();
+  const sf_image to = out.Out();
   const sf_params params = test::Params(2, 1, SF_MODE_BLOCK);
   CHECK(sf_refocus_images(engine.get(), &params, &images, &to, nullptr) == SF_ERROR_DISPARITY);
   const bool untouched = out == before;

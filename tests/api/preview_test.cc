@@ -270,7 +270,7 @@ TEST_CASE("preview: of images, into images") {
       test::ImageMemory image(wanted.width, wanted.height, kind);
       test::PutPicture(
           wanted.bytes.data(), wanted.stride, [](int, int) { return uint8_t{255}; }, &image);
-      const sf_image_out out = got.Out();
+      const sf_image out = got.Out();
       REQUIRE(sf_refocus_preview_images(engine.get(), &params, prepared, shift, &out, nullptr) ==
               SF_OK);
       const bool same = got == image;
@@ -416,10 +416,10 @@ TEST_CASE("preview: images refuse what pictures do") {
   Prepared prepared(scene, config);
   const sf_params params = test::Params(1);
   std::vector<uint8_t> rgb(3 * 25 * 20);
-  sf_image_out out = {};
+  sf_image out = {};
   out.planes[0] = rgb.data();
   out.strides[0] = 75;
-  const auto run = [&](Prepared* of, int shift, const sf_image_out* to) {
+  const auto run = [&](Prepared* of, int shift, const sf_image* to) {
     return sf_refocus_preview_images(of->engine.get(), &params, of->field(), shift, to, nullptr);
   };
   CHECK(run(&without, 1, &out) == SF_ERROR_FEATURE);

@@ -143,7 +143,7 @@ TEST_CASE("given coverage: regions, streams, images and prepared fields give the
 
     const sf_light_field rows = scene.Field();
     sf_image_field field = {};
-    field.views[0].planes[0] = rows.views[0].data;
+    field.views[0].planes[0] = const_cast<uint8_t*>(rows.views[0].data);
     field.views[0].strides[0] = rows.views[0].stride;
     field.depth.data = rows.disparity;
     field.depth.stride = rows.disparity_stride;
@@ -152,7 +152,7 @@ TEST_CASE("given coverage: regions, streams, images and prepared fields give the
     field.depth.scale = 1;
     field.coverage = rows.coverage;
     field.coverage_stride = rows.coverage_stride;
-    sf_image_out image = {};
+    sf_image image = {};
     image.planes[0] = out.bytes.data();
     image.strides[0] = out.stride;
     REQUIRE(sf_refocus_images(engine.get(), &params, &field, &image, nullptr) == SF_OK);

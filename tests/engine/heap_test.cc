@@ -180,7 +180,7 @@ TEST_CASE("no heap call of images") {
   test::Engine engine(config);
   test::ImageMemory image(70, 50, nv12);
   const sf_image_field images = field.Field();
-  const sf_image_out out = image.Out();
+  const sf_image out = image.Out();
   const sf_params params = test::Params(1.25, 0.9, SF_MODE_BLOCK);
   int32_t taken = 0, given = 0;
   HeapWatch watch;

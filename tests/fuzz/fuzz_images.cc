@@ -33,8 +33,8 @@ uint8_t* TakePlane(int32_t rows, size_t row_bytes, Input* input, size_t* stride,
   return planes->back().get();
 }
 
-sf_image_out MakeImage(const Size& size, Input* input, Planes* planes) {
-  sf_image_out image = {};
+sf_image MakeImage(const Size& size, Input* input, Planes* planes) {
+  sf_image image = {};
   image.format = input->Int(SF_FORMAT_RGB, SF_FORMAT_YUV_420_888);
   image.matrix = input->Int(0, 1);
   image.range = input->Int(0, 1);
@@ -57,15 +57,6 @@ sf_image_out MakeImage(const Size& size, Input* input, Planes* planes) {
     image.planes[plane] = TakePlane(rows, row_bytes, input, &image.strides[plane], planes);
   }
   return image;
-}
-
-sf_image AsImage(const sf_image_out& out) {
-  return {out.format,
-          out.matrix,
-          out.range,
-          out.pixel_stride,
-          {out.planes[0], out.planes[1], out.planes[2]},
-          {out.strides[0], out.strides[1], out.strides[2]}};
 }
 
 // Values of any bytes: most maps have unknown ones, and ones outside of the range.
@@ -92,7 +83,7 @@ sf_depth_map MakeDepth(const Size& size, Input* input, Planes* planes) {
 }
 
 sf_status StreamAll(sf_engine* engine, const sf_params& params, const sf_image_field& field,
-                    const sf_image_out& out, const Size& size) {
+                    const sf_image& out, const Size& size) {
   int32_t consumed = 0, written = 0;
   sf_status status = sf_stream_begin(engine, &params);
   if (status != SF_OK) return status;
@@ -135,10 +126,10 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   Planes planes;
   sf_image_field field = {};
   for (int view = 0; view < config.views; ++view) {
-    field.views[view] = AsImage(MakeImage(picture, &input, &planes));
+    field.views[view] = MakeImage(picture, &input, &planes);
   }
   field.depth = MakeDepth(picture, &input, &planes);
-  const sf_image_out out = MakeImage(picture, &input, &planes);
+  const sf_image out = MakeImage(picture, &input, &planes);
   const sf_status status = config.streaming != 0
                                ? StreamAll(engine, params, field, out, picture)
                                : sf_refocus_images(engine, &params, &field, &out, nullptr);

@@ -68,8 +68,8 @@ class ImageMemory {
   const ImageKind& kind() const { return kind_; }
 
   // The image from an even row on.
-  sf_image_out Out(int row = 0) {
-    sf_image_out out = {kind_.format, kind_.matrix, kind_.range, kind_.pixel_stride, {}, {}};
+  sf_image Out(int row = 0) {
+    sf_image out = {kind_.format, kind_.matrix, kind_.range, kind_.pixel_stride, {}, {}};
     for (int plane = 0; plane < 3; ++plane) {
       if (bytes_[plane].empty()) continue;
       const size_t first = size_t(plane == 0 ? row : row / 2) * strides_[plane];
@@ -77,21 +77,13 @@ class ImageMemory {
       out.strides[plane] = strides_[plane];
     }
     if (kind_.format == SF_FORMAT_YUV_420_888 && out.planes[2] == nullptr) {
-      out.planes[2] = out.planes[1] + 1;
+      out.planes[2] = static_cast<uint8_t*>(out.planes[1]) + 1;
       out.strides[2] = out.strides[1];
       if (kind_.layout == 1) std::swap(out.planes[1], out.planes[2]);
     }
     return out;
   }
-  sf_image In(int row = 0) const {
-    const sf_image_out o = const_cast<ImageMemory*>(this)->Out(row);
-    return {o.format,
-            o.matrix,
-            o.range,
-            o.pixel_stride,
-            {o.planes[0], o.planes[1], o.planes[2]},
-            {o.strides[0], o.strides[1], o.strides[2]}};
-  }
+  sf_image In(int row = 0) const { return const_cast<ImageMemory*>(this)->Out(row); }
 
   // Colours 0, 1, 2: R, G, B; 3: alpha.
   uint8_t* Colour(int x, int y, int colour) {

@@ -53,7 +53,9 @@ typedef enum sf_range {
   SF_RANGE_FULL = 1     /**< Y = Y'; U, V = 128 + U', V': what JPEG and Android's cameras have */
 } sf_range;
 
-/** A picture that is read. All zero but for planes and strides it is one of R, G, B.
+/** A picture that is read or written. Calls do not write the pictures that they read; of an output
+ *  they write the bytes of its pixels alone. All zero but for planes and strides it is one of
+ *  R, G, B.
  *
  *  Conversion is in integers, the same on every machine. P(a, c) is (a c + 2^14) >> 15 (arithmetic
  *  shifts round down) and [x] is x rounded to the nearest integer, halves away from 0.
@@ -78,19 +80,9 @@ typedef struct sf_image {
                              most SF_MAX_PIXEL_STRIDE; or from sample to sample of chroma: 1 or
                              2 of YUV_420_888, else what the format says. 0: the least that the
                              format allows */
-  const uint8_t* planes[3]; /**< first bytes; those that the format has not are not looked at */
-  size_t strides[3];        /**< bytes from row to row of each, as long as a row at least */
+  void* planes[3];      /**< first bytes; those that the format has not are not looked at */
+  size_t strides[3];    /**< bytes from row to row of each, as long as a row at least */
 } sf_image;
-
-/** A picture that is written; only bytes of its pixels are. Its fields are those of sf_image. */
-typedef struct sf_image_out {
-  int32_t format;
-  int32_t matrix;
-  int32_t range;
-  int32_t pixel_stride;
-  uint8_t* planes[3];
-  size_t strides[3];
-} sf_image_out;
 
 /** Type of the values of a depth map. */
 typedef enum sf_depth_type {
@@ -149,7 +141,7 @@ typedef struct sf_image_field {
  * them, the depth map or the workspace. Side views are converted pixel by pixel where they are
  * read, which is beside depth edges and beyond the picture's edges only. */
 SF_API sf_status sf_refocus_images(sf_engine* engine, const sf_params* params,
-                                   const sf_image_field* field, const sf_image_out* out,
+                                   const sf_image_field* field, const sf_image* out,
                                    sf_report* report);
 
 /** As sf_prepare, of images; sf_prepared_size has the bytes. sf_refocus_prepared_images alone
@@ -159,14 +151,14 @@ SF_API sf_status sf_prepare_images(sf_engine* engine, const sf_image_field* fiel
 
 /** As sf_refocus_images, with the same bytes, of what sf_prepare_images made. */
 SF_API sf_status sf_refocus_prepared_images(sf_engine* engine, const sf_params* params,
-                                            const sf_prepared* prepared, const sf_image_out* out,
+                                            const sf_prepared* prepared, const sf_image* out,
                                             sf_report* report);
 
 /** As sf_refocus_preview, into an image: of what sf_prepare or sf_prepare_images made. Alpha of
  * `out` is 255. Chroma is that of the preview's own 2 x 2 pixels. */
 SF_API sf_status sf_refocus_preview_images(sf_engine* engine, const sf_params* params,
                                            const sf_prepared* prepared, int32_t shift,
-                                           const sf_image_out* out, sf_report* report);
+                                           const sf_image* out, sf_report* report);
 
 /** As sf_stream_push, of images: planes point to the next rows. The depth map is the whole one,
  *  the same in all calls; coverage is rows like the views. Rows that share chroma come together:
@@ -178,7 +170,7 @@ SF_API sf_status sf_stream_push_images(sf_engine* engine, const sf_image_field* 
 
 /** As sf_stream_pull, into an image whose planes point to the next rows; `rows` is even where they
  *  share chroma, but at the picture's end. Rows pushed by either call may be pulled by either. */
-SF_API sf_status sf_stream_pull_images(sf_engine* engine, const sf_image_out* out, int32_t rows,
+SF_API sf_status sf_stream_pull_images(sf_engine* engine, const sf_image* out, int32_t rows,
                                        int32_t* written, sf_report* report);
 
 #ifdef __cplusplus

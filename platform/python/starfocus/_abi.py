@@ -134,7 +134,7 @@ class DepthConfig(Structure):
 
 
 class Image(Structure):
-    """sf_image, and sf_image_out, which differs from it in what is const."""
+    """sf_image"""
 
     _fields_ = [
         ("format", c_int32), ("matrix", c_int32), ("range", c_int32), ("pixel_stride", c_int32),
@@ -173,7 +173,7 @@ STRUCTURES = {
     "sf_problem": Problem, "sf_timing": Timing, "sf_position": Position, "sf_config": Config, "sf_region": Region, "sf_params": Params,
     "sf_plane": Plane, "sf_light_field": LightField, "sf_layer_report": LayerReport,
     "sf_skipped": Skipped, "sf_report": Report, "sf_disparity_stats": DisparityStats,
-    "sf_depth_config": DepthConfig, "sf_image": Image, "sf_image_out": Image,
+    "sf_depth_config": DepthConfig, "sf_image": Image,
     "sf_depth_map": DepthMap, "sf_image_field": ImageField, "sf_map": Map, "sf_callbacks": Callbacks,
 }
 

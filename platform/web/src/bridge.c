@@ -219,7 +219,7 @@ EXPORT(refocus) sf_status Refocus(int32_t shift) {
   refused = sf_engine_problem(engine);
   width = Reduced(whole ? 0 : region->x, whole ? config.width : region->width, shift & 31);
   height = Reduced(whole ? 0 : region->y, whole ? config.height : region->height, shift & 31);
-  const sf_image_out out = {
+  const sf_image out = {
       .format = SF_FORMAT_RGBX, .planes = {picture}, .strides = {4 * (size_t)width}};
   if (shift == 0) {
     return sf_refocus_prepared_images(engine, &params, prepared, &out, NULL);

@@ -82,7 +82,7 @@ bool ReadPlane(JNIEnv* env, const NamedImage& from, int plane, PlaneSize size, s
   char name[60];
   std::snprintf(name, sizeof name, "%s, plane %d", from.what, plane);
   void* const address = AddressOf(env, buffer, name, size, stride);
-  image->planes[plane] = static_cast<const uint8_t*>(address);
+  image->planes[plane] = address;
   image->strides[plane] = static_cast<size_t>(stride);
   env->DeleteLocalRef(buffer);
   env->DeleteLocalRef(strides);
@@ -130,17 +130,6 @@ bool ReadImage(JNIEnv* env, jobject object, const char* what, int32_t width, int
     if (!ReadPlane(env, {object, what, planes}, i, size, image)) return false;
   }
   env->DeleteLocalRef(planes);
-  return true;
-}
-
-bool ReadImageOut(JNIEnv* env, jobject object, int32_t width, int32_t height, sf_image_out* image) {
-  sf_image read;
-  if (!ReadImage(env, object, "out", width, height, &read)) return false;
-  *image = {read.format, read.matrix, read.range, read.pixel_stride, {}, {}};
-  for (int i = 0; i < 3; ++i) {
-    image->planes[i] = const_cast<uint8_t*>(read.planes[i]);
-    image->strides[i] = read.strides[i];
-  }
   return true;
 }
 

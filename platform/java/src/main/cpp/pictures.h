@@ -16,7 +16,6 @@ namespace starfocus {
 // An Image that is read, or written, of this size in pixels.
 bool ReadImage(JNIEnv* env, jobject object, const char* what, int32_t width, int32_t height,
                sf_image* image);
-bool ReadImageOut(JNIEnv* env, jobject object, int32_t width, int32_t height, sf_image_out* image);
 
 // A DepthMap.
 bool ReadDepthMap(JNIEnv* env, jobject object, sf_depth_map* map);

@@ -117,7 +117,7 @@ struct JavaTask {
 
 // Reads a task; false with an exception pending.
 bool ReadTask(JNIEnv* env, Session* session, const JavaTask& task, sf_params* params,
-              sf_image_out* image) {
+              sf_image* image) {
   const int32_t shift = task.shift;
   const jobject parameters = task.parameters, out = task.out;
   sf_params_init(params);
@@ -129,8 +129,8 @@ bool ReadTask(JNIEnv* env, Session* session, const JavaTask& task, sf_params* pa
   const int32_t width = whole ? session->config.width : region.width < 1 ? 1 : region.width;
   const int32_t height = whole ? session->config.height : region.height < 1 ? 1 : region.height;
   const int32_t known = shift < 0 || shift > SF_MAX_PREVIEW ? 0 : shift;
-  return ReadImageOut(env, out, Reduced(region.x, width, known), Reduced(region.y, height, known),
-                      image);
+  return ReadImage(env, out, "out", Reduced(region.x, width, known),
+                   Reduced(region.y, height, known), image);
 }
 
 // Makes the pool and the engine of a session whose configuration is read.
@@ -217,7 +217,7 @@ STARFOCUS_NATIVE(void, refocus)
   Session* const session = From(handle);
   sf_image_field field;
   sf_params params;
-  sf_image_out image;
+  sf_image image;
   if (!ReadImageField(env, light_field, session->config, &field) ||
       !ReadTask(env, session, {0, parameters, out}, &params, &image)) {
     return;
@@ -240,7 +240,7 @@ STARFOCUS_NATIVE(void, refocusPrepared)
 (JNIEnv* env, jclass, jlong handle, jobject parameters, jobject out) {
   Session* const session = From(handle);
   sf_params params;
-  sf_image_out image;
+  sf_image image;
   if (!ReadTask(env, session, {0, parameters, out}, &params, &image)) return;
   Begin(session);
   ThrowStatus(
@@ -252,7 +252,7 @@ STARFOCUS_NATIVE(void, preview)
 (JNIEnv* env, jclass, jlong handle, jint shift, jobject parameters, jobject out) {
   Session* const session = From(handle);
   sf_params params;
-  sf_image_out image;
+  sf_image image;
   if (!ReadTask(env, session, {shift, parameters, out}, &params, &image)) return;
   Begin(session);
   ThrowStatus(env,
