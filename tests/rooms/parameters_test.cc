@@ -109,26 +109,7 @@ std::vector<std::string> FindWide(const std::string& code, size_t limit) {
 }
 
 // Functions of the public API that still have more parameters.
-const std::set<std::string> kWide = {
-    "Refocus",
-    "RefocusAfter",
-    "RefocusPreview",
-    "StreamPull",
-    "sf_estimate_disparity",
-    "sf_focus_at",
-    "sf_prepare",
-    "sf_prepare_images",
-    "sf_refocus",
-    "sf_refocus_after",
-    "sf_refocus_images",
-    "sf_refocus_prepared",
-    "sf_refocus_prepared_images",
-    "sf_refocus_preview",
-    "sf_refocus_preview_images",
-    "sf_repair_disparity",
-    "sf_stream_pull",
-    "sf_stream_pull_images",
-};
+const std::set<std::string> kWide = {"sf_focus_at", "sf_refocus_after", "sf_refocus_preview"};
 
 }  // namespace
 
