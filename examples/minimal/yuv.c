@@ -14,9 +14,9 @@ int main(void) {
   for (int i = 0; i < MW * MH; ++i) millimetres[i] = i % 37 ? (uint16_t)(500 + 40 * (i % MW)) : 0;
   sf_config config; /* disparities 8000 / 3660 mm to 8000 / 500 mm */
   sf_config_init(&config);
-  config.width = W, config.height = H, config.views = 1, config.images = 1;
+  config.width = W, config.height = H, config.views = 1, config.features |= SF_FEATURE_IMAGES;
   config.disparity_min = 2, config.disparity_max = 16, config.max_blur = 14;
-  config.fill_unknown = 1;
+  config.features |= SF_FEATURE_FILL_UNKNOWN;
   size_t bytes = 0;
   sf_status status = sf_workspace_size(&config, &bytes);
   char* memory = malloc(bytes + SF_ALIGNMENT); /* the workspace begins at a multiple of that */

@@ -93,7 +93,7 @@ class Session {
     config.disparity_min = stats.min;
     config.disparity_max = stats.max;
     config.max_blur = kBlur;
-    config.fill_unknown = 1;
+    config.features |= SF_FEATURE_FILL_UNKNOWN;
     config.max_workers = runner_->workers();
     config.previews = options_.shift;
     const double range = double(stats.max) - double(stats.min);

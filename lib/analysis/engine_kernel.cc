@@ -49,10 +49,10 @@ sf_config ConfigOf(int side, const EngineProbe& probe) {
   config.max_blur = std::fmax(probe.r_max, 1);
   config.largest_block = kBlock;
   config.transfer = SF_TRANSFER_NONE;
-  config.gather = 0;  // the kernel of views is asked for
-  config.max_layer = probe.layer;
-  config.timing.block = SF_MAX_TIMING;  // one block is the cheapest
-  config.skips = 0;                     // what is rendered is looked at
+  config.tuning.gather = 0;  // the kernel of views is asked for
+  config.tuning.max_layer = probe.layer;
+  config.tuning.timing.block = SF_MAX_TIMING;  // one block is the cheapest
+  config.tuning.skips = 0;                     // what is rendered is looked at
   return config;
 }
 

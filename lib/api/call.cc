@@ -2,6 +2,7 @@
 #include "lib/api/call.h"
 
 #include "lib/api/validate.h"
+#include "lib/base/features.h"
 #include "lib/engine/layout.h"
 
 namespace starfocus {
@@ -16,7 +17,7 @@ void CompareWith(const Call& call, EngineState* engine) {
   changes.now = call.now;
   // Depth-dependent blur is that of the centre view.
   changes.views = call.params.mode == SF_MODE_BLUR ? 1 : config.views;
-  changes.fills = config.fill_unknown != 0;
+  changes.fills = Has(config.features, SF_FEATURE_FILL_UNKNOWN);
   changes.width = config.width;
   changes.height = config.height;
   changes.side = config.largest_block;

@@ -14,9 +14,6 @@ namespace {
 
 sf_status CheckDepthConfig(const sf_depth_config& config, bool repairs) {
   Checker check(config.problem);
-  for (const uint32_t value : config.reserved) {
-    check.Need(value == 0, SF_ERROR_RANGE, {"reserved"}, {"0"});
-  }
   CheckPictureRange(
       {config.width, config.height, config.disparity_min, config.disparity_max, config.max_workers},
       &check);
@@ -76,6 +73,8 @@ bool AreApart(const DepthPlanes& planes, const Extent& workspace) {
 // Checks the map that is to be repaired: its finite values lie in the configured range, and there
 // is one.
 sf_status CheckGiven(const sf_depth_config& config, const sf_light_field& light_field) {
+  const auto low = static_cast<float>(config.disparity_min);
+  const auto high = static_cast<float>(config.disparity_max);
   Checker check(config.problem);
   bool any = false;
   for (int32_t y = 0; y < config.height; ++y) {
@@ -84,13 +83,19 @@ sf_status CheckGiven(const sf_depth_config& config, const sf_light_field& light_
     for (int32_t x = 0; x < config.width; ++x) {
       if (!std::isfinite(row[x])) continue;
       any = true;
-      check.Need(row[x] >= config.disparity_min && row[x] <= config.disparity_max,
-                 SF_ERROR_DISPARITY, {"disparity", row[x]},
+      check.Need(row[x] >= low && row[x] <= high, SF_ERROR_DISPARITY, {"disparity", row[x]},
                  {"disparity_min to disparity_max", config.disparity_min, config.disparity_max});
     }
   }
   check.Need(any, SF_ERROR_ALL_INVALID, {"disparity"}, {"a finite value"});
   return check.status();
+}
+
+sf_depth_config DefaultDepthConfig() {
+  sf_depth_config config = {};
+  config.views = 5;
+  config.max_workers = 1;
+  return config;
 }
 
 EstimatePlan PlanOf(const sf_depth_config& config, bool repairs) {
@@ -100,15 +105,16 @@ EstimatePlan PlanOf(const sf_depth_config& config, bool repairs) {
 }
 
 sf_status SizeOf(const sf_depth_config* config, bool repairs, size_t* bytes) {
-  sf_status status = EnterConfig(config, {{"bytes", bytes}});
-  if (status == SF_OK) status = CheckDepthConfig(*config, repairs);
+  sf_depth_config full = DefaultDepthConfig();
+  sf_status status = EnterConfig(config, {{"bytes", bytes}}, &full);
+  if (status == SF_OK) status = CheckDepthConfig(full, repairs);
   if (status != SF_OK) return status;
-  const EstimatePlan plan = PlanOf(*config, repairs);
+  const EstimatePlan plan = PlanOf(full, repairs);
   EstimateMemory* counted = nullptr;
   ColourMemory* of_colour = nullptr;
-  const size_t needed = config->views == 1
-                            ? LayOutColourRepair(plan, config->max_workers, nullptr, &of_colour)
-                            : LayOutEstimate(plan, config->max_workers, nullptr, &counted);
+  const size_t needed = full.views == 1
+                            ? LayOutColourRepair(plan, full.max_workers, nullptr, &of_colour)
+                            : LayOutEstimate(plan, full.max_workers, nullptr, &counted);
   if (needed == kTooLarge) return SF_ERROR_TOO_LARGE;
   *bytes = needed;
   return SF_OK;
@@ -200,17 +206,19 @@ sf_status SweepViews(const DepthCall& call, bool repairs, const MapOutput& outpu
 }
 
 // Checks a call and does it.
-sf_status RunCall(const DepthCall& call, bool repairs, sf_map* map) {
-  sf_status status =
-      EnterConfig(call.config,
-                  {{"light_field", call.light_field}, {"map", map}, {"workspace", call.workspace}});
+sf_status RunCall(DepthCall call, bool repairs, sf_map* map) {
+  sf_depth_config full = DefaultDepthConfig();
+  sf_status status = EnterConfig(
+      call.config, {{"light_field", call.light_field}, {"map", map}, {"workspace", call.workspace}},
+      &full);
+  call.config = &full;
   if (status == SF_OK) status = CheckCall(call, repairs, *map);
   if (status != SF_OK) return status;
   map->has_coverage = 0;
   const MapOutput output = {map->disparity,
                             map->disparity_stride / sizeof(float),
-                            call.config->disparity_min,
-                            call.config->disparity_max,
+                            static_cast<float>(call.config->disparity_min),
+                            static_cast<float>(call.config->disparity_max),
                             map->confidence,
                             map->confidence_stride,
                             map->coverage,
@@ -222,12 +230,8 @@ sf_status RunCall(const DepthCall& call, bool repairs, sf_map* map) {
 }  // namespace
 }  // namespace starfocus
 
-void sf_depth_config_init(sf_depth_config* config) {
-  if (config == nullptr) return;
-  std::memset(config, 0, sizeof(*config));
-  config->version = SF_ABI_VERSION;
-  config->views = 5;
-  config->max_workers = 1;
+void sf_depth_config_init_sized(sf_depth_config* config, uint32_t size) {
+  starfocus::InitSized(starfocus::DefaultDepthConfig(), size, config);
 }
 
 sf_status sf_estimate_size(const sf_depth_config* config, size_t* bytes) {

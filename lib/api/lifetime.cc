@@ -52,8 +52,9 @@ size_t sf_struct_size(const char* name) {
       SIZE_OF(sf_disparity_stats), SIZE_OF(sf_params),       SIZE_OF(sf_plane),
       SIZE_OF(sf_problem),         SIZE_OF(sf_position),     SIZE_OF(sf_previous),
       SIZE_OF(sf_region),          SIZE_OF(sf_report),       SIZE_OF(sf_skipped),
-      SIZE_OF(sf_timing),          SIZE_OF(sf_image),        SIZE_OF(sf_image_field),
-      SIZE_OF(sf_depth_map),       SIZE_OF(sf_map),          SIZE_OF(sf_callbacks)};
+      SIZE_OF(sf_timing),          SIZE_OF(sf_tuning),       SIZE_OF(sf_image),
+      SIZE_OF(sf_image_field),     SIZE_OF(sf_depth_map),    SIZE_OF(sf_map),
+      SIZE_OF(sf_callbacks)};
 #undef SIZE_OF
   if (name == nullptr) return 0;
   for (const Entry& entry : kSizes) {
@@ -62,24 +63,27 @@ size_t sf_struct_size(const char* name) {
   return 0;
 }
 
-void sf_config_init(sf_config* config) {
-  if (config == nullptr) return;
-  std::memset(config, 0, sizeof(*config));
-  config->version = SF_ABI_VERSION;
-  config->views = 5;
-  config->max_blur = 32.0;
-  config->max_workers = 1;
-  config->theta = 0.26 * 3.14159265358979323846;
-  config->max_layer = SF_LAYERS - 1;
-  config->deblocking = 35;
-  config->timing = starfocus::DefaultTiming();
-  config->n_scale = 1.0;
-  config->skips = 1;
-  config->gather = 1;
-  config->highlights = 1;
-  config->blades = 5;
-  config->ring_inner = 0.5F;
-  config->features = SF_FEATURE_LINE_SCAN | SF_FEATURE_COVERAGE;
+sf_config starfocus::DefaultConfig() {
+  sf_config config = {};
+  config.views = 5;
+  config.max_blur = 32.0;
+  config.max_workers = 1;
+  config.theta = 0.26 * 3.14159265358979323846;
+  config.tuning.max_layer = SF_LAYERS - 1;
+  config.tuning.deblocking = 35;
+  config.tuning.timing = DefaultTiming();
+  config.tuning.n_scale = 1.0;
+  config.tuning.skips = 1;
+  config.tuning.gather = 1;
+  config.highlights = 1;
+  config.blades = 5;
+  config.ring_inner = 0.5;
+  config.features = SF_FEATURE_LINE_SCAN | SF_FEATURE_COVERAGE;
+  return config;
+}
+
+void sf_config_init_sized(sf_config* config, uint32_t size) {
+  starfocus::InitSized(starfocus::DefaultConfig(), size, config);
 }
 
 void sf_params_init(sf_params* params) {
@@ -99,11 +103,12 @@ int sf_view_position(int32_t index, double* u, double* v) {
 }
 
 sf_status sf_workspace_size(const sf_config* config, size_t* bytes) {
-  sf_status status = starfocus::EnterConfig(config, {{"bytes", bytes}});
-  if (status == SF_OK) status = starfocus::CheckConfig(*config);
+  sf_config full = starfocus::DefaultConfig();
+  sf_status status = starfocus::EnterConfig(config, {{"bytes", bytes}}, &full);
+  if (status == SF_OK) status = starfocus::CheckConfig(full);
   if (status != SF_OK) return status;
   EngineState* counted = nullptr;
-  const size_t needed = starfocus::LayOut(starfocus::Choose(*config), nullptr, &counted);
+  const size_t needed = starfocus::LayOut(starfocus::Choose(full), nullptr, &counted);
   if (needed == starfocus::kTooLarge) return SF_ERROR_TOO_LARGE;
   *bytes = needed;
   return SF_OK;
@@ -114,13 +119,14 @@ sf_status sf_init(const sf_config* config, void* workspace, size_t bytes, sf_eng
   *engine = nullptr;
   size_t needed = 0;
   sf_status status = sf_workspace_size(config, &needed);
-  if (status == SF_OK) {
-    status = starfocus::CheckMemory({"workspace", workspace, bytes}, needed, config->problem);
-  }
+  if (status != SF_OK) return status;
+  sf_config full = starfocus::DefaultConfig();
+  starfocus::ReadSized(*config, &full);
+  status = starfocus::CheckMemory({"workspace", workspace, bytes}, needed, full.problem);
   if (status != SF_OK) return status;
   new (workspace) EngineState();
   EngineState* made = nullptr;
-  const sf_config chosen = starfocus::Choose(*config);
+  const sf_config chosen = starfocus::Choose(full);
   starfocus::LayOut(chosen, workspace, &made);
   made->config = chosen;
   made->config.problem = &made->problem;

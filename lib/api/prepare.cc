@@ -27,11 +27,12 @@ using starfocus::EngineState;
 using starfocus::Prepared;
 
 sf_status sf_prepared_size(const sf_config* config, size_t* bytes) {
-  sf_status status = starfocus::EnterConfig(config, {{"bytes", bytes}});
-  if (status == SF_OK) status = starfocus::CheckConfig(*config);
+  sf_config full = starfocus::DefaultConfig();
+  sf_status status = starfocus::EnterConfig(config, {{"bytes", bytes}}, &full);
+  if (status == SF_OK) status = starfocus::CheckConfig(full);
   if (status != SF_OK) return status;
   Prepared* counted = nullptr;
-  const size_t needed = starfocus::LayOutPrepared(*config, nullptr, &counted);
+  const size_t needed = starfocus::LayOutPrepared(full, nullptr, &counted);
   if (needed == starfocus::kTooLarge) return SF_ERROR_TOO_LARGE;
   *bytes = needed;
   return SF_OK;

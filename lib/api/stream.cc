@@ -4,6 +4,7 @@
 
 #include "lib/api/call.h"
 #include "lib/api/validate.h"
+#include "lib/base/features.h"
 #include "lib/engine/layout.h"
 #include "lib/engine/stripe.h"
 #include "lib/source/extents.h"
@@ -109,7 +110,8 @@ sf_status sf_stream_begin(sf_engine* engine, const sf_params* params) {
   status = starfocus::CheckParams(e.config, *params);
   if (status != SF_OK) return status;
   starfocus::Checker check(&e.problem);
-  check.Need(e.config.streaming != 0, SF_ERROR_FEATURE, {"streaming", 0}, {"1", 1, 1});
+  check.Need(starfocus::Has(e.config.features, SF_FEATURE_STREAMING), SF_ERROR_FEATURE,
+             {"features", double(e.config.features)}, {"SF_FEATURE_STREAMING"});
   check.Need(starfocus::IsWhole(params->region), SF_ERROR_RANGE, {"region"}, {"all 0"});
   if (check.status() != SF_OK) return check.status();
   e.stream = starfocus::Stream();

@@ -21,34 +21,29 @@ void CheckShape(const sf_config& config, Checker* check) {
   check->In({"blades", double(config.blades)}, STARFOCUS_FROM_TO(SF_MIN_BLADES, SF_MAX_BLADES));
   check->In({"rotation", config.rotation}, STARFOCUS_FROM_TO(-360, 360));
   check->In({"curvature", config.curvature}, STARFOCUS_FROM_TO(0, 1));
-  check->Need(config.ring_inner >= 0 && config.ring_inner <= static_cast<float>(SF_MAX_RING_INNER),
-              SF_ERROR_RANGE, {"ring_inner", config.ring_inner},
-              STARFOCUS_FROM_TO(0, SF_MAX_RING_INNER));
+  check->In({"ring_inner", config.ring_inner}, STARFOCUS_FROM_TO(0, SF_MAX_RING_INNER));
   check->In({"cats_eye", config.cats_eye}, STARFOCUS_FROM_TO(0, 1));
 }
 
 void CheckTiming(const sf_timing& timing, Checker* check) {
   const Allowed allowed = {"at most SF_MAX_TIMING", 0, SF_MAX_TIMING};
-  check->In({"timing.block", double(timing.block)}, allowed);
-  check->In({"timing.field", double(timing.field)}, allowed);
-  check->In({"timing.a", double(timing.a)}, allowed);
-  check->In({"timing.b", double(timing.b)}, allowed);
-  check->In({"timing.c", double(timing.c)}, allowed);
-  check->In({"timing.upsample", double(timing.upsample)}, allowed);
-  check->In({"timing.span", double(timing.span)}, allowed);
-  check->In({"timing.hole", double(timing.hole)}, allowed);
+  check->In({"tuning.timing.block", double(timing.block)}, allowed);
+  check->In({"tuning.timing.field", double(timing.field)}, allowed);
+  check->In({"tuning.timing.a", double(timing.a)}, allowed);
+  check->In({"tuning.timing.b", double(timing.b)}, allowed);
+  check->In({"tuning.timing.c", double(timing.c)}, allowed);
+  check->In({"tuning.timing.upsample", double(timing.upsample)}, allowed);
+  check->In({"tuning.timing.span", double(timing.span)}, allowed);
+  check->In({"tuning.timing.hole", double(timing.hole)}, allowed);
 }
 
-void CheckFlags(const sf_config& config, Checker* check) {
-  const Allowed flag = STARFOCUS_FROM_TO(0, 1);
-  constexpr uint32_t kKnown = SF_FEATURE_LINE_SCAN | SF_FEATURE_COVERAGE;
-  check->Need((config.features & ~kKnown) == 0, SF_ERROR_RANGE,
-              {"features", double(config.features)}, {"bits of SF_FEATURE_"});
-  check->In({"streaming", double(config.streaming)}, flag);
-  check->In({"skips", double(config.skips)}, flag);
-  check->In({"gather", double(config.gather)}, flag);
-  check->In({"fill_unknown", double(config.fill_unknown)}, flag);
-  check->In({"images", double(config.images)}, flag);
+void CheckTuning(const sf_tuning& tuning, Checker* check) {
+  check->In({"tuning.max_layer", double(tuning.max_layer)}, STARFOCUS_FROM_TO(0, 2));
+  check->In({"tuning.deblocking", double(tuning.deblocking)}, STARFOCUS_FROM_TO(0, 255));
+  check->In({"tuning.skips", double(tuning.skips)}, STARFOCUS_FROM_TO(0, 1));
+  check->In({"tuning.gather", double(tuning.gather)}, STARFOCUS_FROM_TO(0, 1));
+  check->In({"tuning.n_scale", tuning.n_scale}, STARFOCUS_FROM_TO(SF_MIN_N_SCALE, SF_MAX_N_SCALE));
+  CheckTiming(tuning.timing, check);
 }
 
 bool IsBlock(int32_t side) {
@@ -76,7 +71,6 @@ void CheckPictureRange(const PictureRange& picture, Checker* check) {
 
 sf_status CheckConfig(const sf_config& config) {
   Checker check(config.problem);
-  check.Need(AllZero(config.reserved), SF_ERROR_RANGE, {"reserved"}, {"0"});
   CheckPictureRange(
       {config.width, config.height, config.disparity_min, config.disparity_max, config.max_workers},
       &check);
@@ -90,11 +84,11 @@ sf_status CheckConfig(const sf_config& config) {
   check.Need(IsBlock(config.largest_block), SF_ERROR_RANGE,
              {"largest_block", double(config.largest_block)}, {"0, 32, 64, 128 or 256"});
   check.In({"theta", config.theta}, {"0.05 pi to 0.45 pi", SF_MIN_THETA, SF_MAX_THETA});
-  check.In({"max_layer", double(config.max_layer)}, STARFOCUS_FROM_TO(0, 2));
-  check.In({"deblocking", double(config.deblocking)}, STARFOCUS_FROM_TO(0, 255));
-  CheckTiming(config.timing, &check);
-  check.In({"n_scale", config.n_scale}, STARFOCUS_FROM_TO(SF_MIN_N_SCALE, SF_MAX_N_SCALE));
-  CheckFlags(config, &check);
+  CheckTuning(config.tuning, &check);
+  constexpr uint32_t kFeatures = SF_FEATURE_LINE_SCAN | SF_FEATURE_COVERAGE | SF_FEATURE_STREAMING |
+                                 SF_FEATURE_IMAGES | SF_FEATURE_FILL_UNKNOWN;
+  check.Need((config.features & ~kFeatures) == 0, SF_ERROR_RANGE,
+             {"features", double(config.features)}, {"bits of SF_FEATURE_"});
   check.In({"previews", double(config.previews)}, STARFOCUS_FROM_TO(0, SF_MAX_PREVIEW));
   check.In({"transfer", double(config.transfer)}, {"an sf_transfer", 0, SF_TRANSFER_NONE});
   check.In({"highlights", config.highlights}, STARFOCUS_FROM_TO(1, SF_MAX_HIGHLIGHTS));

@@ -6,20 +6,23 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "lib/api/sized.h"
 #include "lib/base/geometry.h"
 #include "lib/base/problem.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
 
-// Begins a call with a configuration: forgets the problem of the call before, and checks that the
-// configuration is initialized and that no pointer is null.
+// Begins a call with a configuration: reads it into *full, which holds defaults, forgets the
+// problem of the call before, and checks that no pointer is null.
 template <class Config>
-sf_status EnterConfig(const Config* config, std::initializer_list<Pointer> pointers) {
+sf_status EnterConfig(const Config* config, std::initializer_list<Pointer> pointers, Config* full) {
   if (config == nullptr) return SF_ERROR_NULL;
-  if (config->version != SF_ABI_VERSION) return SF_ERROR_STRUCTURE;
-  return CheckPointers(pointers, config->problem);
+  if (!ReadSized(*config, full)) return SF_ERROR_STRUCTURE;
+  return CheckPointers(pointers, full->problem);
 }
+
+sf_config DefaultConfig();
 
 // Begins a call with an engine.
 sf_status EnterEngine(sf_engine* engine, std::initializer_list<Pointer> pointers);

@@ -2,6 +2,7 @@
 #include "lib/api/validate_image.h"
 
 #include "lib/api/validate.h"
+#include "lib/base/features.h"
 #include "lib/base/gaps.h"
 #include "lib/convert/depth_rows.h"
 #include "lib/convert/image_planes.h"
@@ -60,7 +61,8 @@ sf_status CheckDepthMap(const sf_config& config, const sf_depth_map& map) {
 
 sf_status NeedImages(const sf_config& config) {
   Checker check(config.problem);
-  check.Need(config.images != 0, SF_ERROR_FEATURE, {"images", 0}, {"1", 1, 1});
+  check.Need(Has(config.features, SF_FEATURE_IMAGES), SF_ERROR_FEATURE,
+             {"features", double(config.features)}, {"SF_FEATURE_IMAGES"});
   return check.status();
 }
 

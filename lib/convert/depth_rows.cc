@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "lib/base/features.h"
 #include "lib/base/fixed.h"
 
 namespace starfocus {
@@ -76,12 +77,9 @@ DepthSource MakeDepthSource(const sf_config& config, const sf_depth_map& map,
                             const uint32_t* columns) {
   const float invalid =
       map.has_invalid != 0 ? map.invalid : std::numeric_limits<float>::quiet_NaN();
-  const simd::DepthRule rule = {map.scale,
-                                map.offset,
-                                invalid,
-                                map.meaning == SF_DEPTH_RECIPROCAL,
-                                config.disparity_min,
-                                config.disparity_max};
+  const simd::DepthRule rule = {
+      map.scale,           map.offset,         invalid, map.meaning == SF_DEPTH_RECIPROCAL,
+      RangeOf(config).min, RangeOf(config).max};
   return {map, rule, config.width, config.height, columns};
 }
 

@@ -3,6 +3,7 @@
 #ifndef STARFOCUS_LIB_COVERAGE_PASSES_H_
 #define STARFOCUS_LIB_COVERAGE_PASSES_H_
 
+#include "lib/base/features.h"
 #include "lib/base/fixed.h"
 #include "lib/coverage/coverage_input.h"
 #include "starfocus/starfocus.h"
@@ -17,7 +18,7 @@ void RunPass(const CoverageInput& in, int pass, int32_t first, int32_t last, int
 
 // Whether the engine has memory for coverage.
 inline bool HasCoverage(const sf_config& config) {
-  return (config.features & SF_FEATURE_COVERAGE) != 0;
+  return Has(config.features, SF_FEATURE_COVERAGE);
 }
 
 // CoverageMap::around where coverage is given: pixels look two tiles far for edges.
@@ -26,7 +27,8 @@ inline constexpr int32_t kAroundGiven = 2;
 // The farthest that a nearer surface moves before a farther one in any view that is looked into.
 inline int32_t LargestMoveBefore(const sf_config& config) {
   if (config.views == 1) return 0;
-  return Min(static_cast<int32_t>(config.disparity_max - config.disparity_min) + 3, kMostMove + 1);
+  const DisparityRange range = RangeOf(config);
+  return Min(static_cast<int32_t>(range.max - range.min) + 3, kMostMove + 1);
 }
 
 // Rows of tiles that a pass is ahead of the last one.

@@ -57,8 +57,9 @@ EstimatePlan MakePlan(const sf_depth_config& config) {
   plan.width = config.width;
   plan.height = config.height;
   constexpr float kScale = 1 << kDisparityBits;
-  plan.low = static_cast<int32_t>(std::floor(config.disparity_min * kScale));
-  const auto high = static_cast<int32_t>(std::ceil(config.disparity_max * kScale));
+  plan.low = static_cast<int32_t>(std::floor(static_cast<float>(config.disparity_min) * kScale));
+  const auto high =
+      static_cast<int32_t>(std::ceil(static_cast<float>(config.disparity_max) * kScale));
   const int32_t range = high - plan.low;
   const int32_t least = (range + kMostLabels - 2) / (kMostLabels - 1);
   plan.step = Max(1, (least + kLabelStep - 1) / kLabelStep) * kLabelStep;

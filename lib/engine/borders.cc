@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/engine/borders.h"
 
+#include "lib/base/features.h"
 #include "lib/base/fixed.h"
 #include "lib/base/rules.h"
 #include "lib/coverage/passes.h"
@@ -49,11 +50,11 @@ Borders AddBorders(const sf_config& config, double max_blur, bool joins) {
   Borders borders;
   borders.joined = joins ? kDeblockRows : 0;
   borders.whole_block = reach + kRenderBorder;
-  borders.cells = ToWholeCells(reach + kLayerMargin[config.max_layer]) / kCellSize;
+  borders.cells = ToWholeCells(reach + kLayerMargin[config.tuning.max_layer]) / kCellSize;
   // Depth edges of a cell count as far as blur reaches, the rest of it also for upsampling.
   borders.centre = Max(borders.cells * kCellSize, ToWholeCells(reach) + kCellBorder);
   if (!one_view) borders.centre = Max(borders.centre, kLookBack - 1);
-  for (int layer = 0; layer <= config.max_layer; ++layer) {
+  for (int layer = 0; layer <= config.tuning.max_layer; ++layer) {
     int32_t& level = borders.level[layer] = BorderOfLevel(blur, layer);
     borders.centre = Max(borders.centre, DownToPicture(level, layer));
     const int32_t moved = (level << layer) + LargestMove(config) + CapturedBorder(layer);
@@ -72,7 +73,8 @@ Borders AddBorders(const sf_config& config, double max_blur, bool joins) {
         ToWholeCells(reach + kLayerMargin[2]) + 5 * kCellSize + blur + LargestMove(config);
     borders.views = Max(borders.views, borders.highlights + LampReach(LargestLamp(config.width)));
   }
-  borders.streamed = borders.views + (config.images != 0 ? borders.views % 2 : 0);
+  borders.streamed =
+      borders.views + (Has(config.features, SF_FEATURE_IMAGES) ? borders.views % 2 : 0);
   return borders;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstring>
 
+#include "lib/base/features.h"
 #include "lib/base/fixed.h"
 #include "lib/base/problem.h"
 #include "lib/engine/stripe.h"
@@ -42,7 +43,7 @@ void CopyCodes(const RowSource& source, int view, int32_t y, int32_t width, uint
 
 // Fills a row's unknown disparities, if the configuration says so.
 void FinishMapRow(const EngineState& engine, int16_t* row, Counts* counts) {
-  if (engine.config.fill_unknown != 0) {
+  if (Has(engine.config.features, SF_FEATURE_FILL_UNKNOWN)) {
     counts->unknown_pixels +=
         static_cast<uint64_t>(FillUnknown(engine.config, *engine.kernels, row));
   }
@@ -64,8 +65,8 @@ void LoadPart(const RowsJob& job, int32_t index, Worker* worker) {
 
 sf_status StatusOf(uint32_t flags, const sf_config& config) {
   Checker check(config.problem);
-  check.Need((flags & simd::kUnknownDepth) == 0 || config.fill_unknown != 0, SF_ERROR_NOT_FINITE,
-             {"disparity"}, {"finite, or fill_unknown"});
+  check.Need((flags & simd::kUnknownDepth) == 0 || Has(config.features, SF_FEATURE_FILL_UNKNOWN),
+             SF_ERROR_NOT_FINITE, {"disparity"}, {"finite, or SF_FEATURE_FILL_UNKNOWN"});
   check.Need((flags & simd::kDepthOutside) == 0, SF_ERROR_DISPARITY, {"disparity"},
              {"disparity_min to disparity_max", config.disparity_min, config.disparity_max});
   return check.status();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/engine/layout.h"
 
+#include "lib/base/features.h"
 #include "lib/base/rules.h"
 #include "lib/engine/stripe_coverage.h"
 #include "lib/input/field.h"
@@ -88,7 +89,7 @@ void TakeTables(const sf_config& config, Arena* arena, Tables* tables) {
 
 // Takes the planes of layers 1 and 2 around a stripe.
 void TakeLayers(const sf_config& config, Arena* arena, EngineState* engine) {
-  for (int layer = 1; layer <= config.max_layer; ++layer) {
+  for (int layer = 1; layer <= config.tuning.max_layer; ++layer) {
     LayerPlane& plane = engine->pictures.layers[layer];
     const auto width = static_cast<size_t>(LayerSize(config.width, layer));
     plane.samples.stride = 3 * width;
@@ -135,7 +136,7 @@ void TakeImages(const sf_config& config, int32_t rows, Arena* arena, ImageMemory
   const auto width = static_cast<size_t>(config.width);
   images->columns = arena->Take<uint32_t>(width);
   images->odd_row = arena->Take<uint8_t>(3 * width);
-  if (config.streaming == 0) return;
+  if (!Has(config.features, SF_FEATURE_STREAMING)) return;
   // Alpha is read when finished rows are written, which may be those of a stripe before.
   images->alpha.rows = rows + config.largest_block + kDeblockRows;
   images->alpha.stride = width;
@@ -144,7 +145,7 @@ void TakeImages(const sf_config& config, int32_t rows, Arena* arena, ImageMemory
 
 void TakeRows(const sf_config& config, Arena* arena, EngineState* engine) {
   const auto width = static_cast<size_t>(config.width);
-  const bool streaming = config.streaming != 0;
+  const bool streaming = Has(config.features, SF_FEATURE_STREAMING);
   const Borders borders = LargestBorders(config);
   const int32_t rows = config.largest_block + 2 * (streaming ? borders.streamed : borders.centre);
   engine->pictures.disparity.rows = rows;
@@ -154,7 +155,7 @@ void TakeRows(const sf_config& config, Arena* arena, EngineState* engine) {
       arena->Take<uint8_t>(3 * width, static_cast<size_t>(config.largest_block + kDeblockRows));
   // Null without streaming also where LayOutAnew made it of an engine that streams.
   engine->stripe.last_rows = streaming ? arena->Take<uint8_t>(3 * width, kDeblockRows) : nullptr;
-  const int rings = streaming ? config.views : config.images;
+  const int rings = streaming ? config.views : Has(config.features, SF_FEATURE_IMAGES) ? 1 : 0;
   if (streaming && HasCoverage(config)) {
     engine->stripe.coverage.given.rows = rows;
     engine->stripe.coverage.given.stride = width;
@@ -165,7 +166,7 @@ void TakeRows(const sf_config& config, Arena* arena, EngineState* engine) {
     engine->rings[view].stride = 3 * width;
     engine->rings[view].data = arena->Take<uint8_t>(3 * width, static_cast<size_t>(rows));
   }
-  if (config.images != 0) TakeImages(config, rows, arena, &engine->images);
+  if (Has(config.features, SF_FEATURE_IMAGES)) TakeImages(config, rows, arena, &engine->images);
 }
 
 size_t Carve(const sf_config& config, Arena arena, EngineState** engine) {

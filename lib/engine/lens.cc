@@ -28,7 +28,7 @@ ViewWeights FrameWeights(const sf_config& config, const Tables& tables, const Le
                                   tables.benchmark_weights);
   }
   const int32_t n = renderer.view_count(lens.r_max, DemandOf(tables.opening));
-  return lens.apertures[ScaleViews(n, config.n_scale)];
+  return lens.apertures[ScaleViews(n, config.tuning.n_scale)];
 }
 
 }  // namespace

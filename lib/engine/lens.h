@@ -47,7 +47,7 @@ inline bool IsBenchmark(const Lens& lens) { return lens.params.mode == SF_MODE_B
 // tells.
 inline bool Gathers(const sf_config& config, const Lens& lens) {
   const bool octant = config.aperture_shape != SF_SHAPE_POLYGON && config.cats_eye == 0;
-  return IsBlockMode(lens) && lens.renderer->gathers && config.gather != 0 && octant;
+  return IsBlockMode(lens) && lens.renderer->gathers && config.tuning.gather != 0 && octant;
 }
 
 // The last step of the kernels that are made for gathering.
@@ -60,7 +60,7 @@ inline const ViewWeights& WeightsOf(const Lens& lens, int32_t n) {
 
 // Whether blocks of different layers are joined.
 inline bool IsDeblocking(const sf_config& config, const Lens& lens) {
-  return IsBlockMode(lens) && config.max_layer > 0 && config.deblocking > 0;
+  return IsBlockMode(lens) && config.tuning.max_layer > 0 && config.tuning.deblocking > 0;
 }
 
 // Blur radius of the configured range's farther end.

@@ -3,6 +3,7 @@
 
 #include <cstring>
 
+#include "lib/base/features.h"
 #include "lib/base/fixed.h"
 #include "lib/base/gaps.h"
 #include "lib/engine/borders.h"
@@ -53,17 +54,18 @@ int32_t FillUnknown(const sf_config& config, const simd::Kernels& kernels, int16
   for (int32_t x = 0; x < config.width; ++x) unknown += row[x] == simd::kNoSurface ? 1 : 0;
   const auto is_known = [](int16_t value) { return value != simd::kNoSurface; };
   if (unknown == 0 || FillGaps(row, config.width, is_known)) return unknown;
-  kernels.ConvertDisparity(&config.disparity_min, 1, config.disparity_min, config.disparity_max,
-                           row);
+  const DisparityRange range = RangeOf(config);
+  kernels.ConvertDisparity(&range.min, 1, range.min, range.max, row);
   for (int32_t x = 1; x < config.width; ++x) row[x] = row[0];
   return unknown;
 }
 
 uint32_t ConvertDisparities(const sf_config& config, const simd::Kernels& kernels, const float* row,
                             int16_t* out) {
+  const DisparityRange range = RangeOf(config);
   const auto convert = [&](int32_t x, int32_t end) {
-    return kernels.ConvertDisparity(row + x, static_cast<size_t>(end - x), config.disparity_min,
-                                    config.disparity_max, out + x);
+    return kernels.ConvertDisparity(row + x, static_cast<size_t>(end - x), range.min, range.max,
+                                    out + x);
   };
   if (convert(0, config.width)) return 0;
   uint32_t flags = 0;

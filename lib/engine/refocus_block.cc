@@ -105,7 +105,8 @@ int SumBits(const BlockInputs& in, const RenderJob& job) {
 }
 
 ExcessSum ExcessOf(const BlockInputs& in) {
-  return {in.kernels, in.windows[0].transfer, ExcessFactor(in.config->highlights)};
+  return {in.kernels, in.windows[0].transfer,
+          ExcessFactor(static_cast<float>(in.config->highlights))};
 }
 
 // The pictures as a window of what highlights have beyond white.
@@ -190,7 +191,7 @@ Rendered CopyBlock(const BlockInputs& in, const Rect& rect, const Plane<uint8_t>
   const uint64_t samples = Samples(rect);
   CopyCentre(in.windows[0], rect, out);
   worker->counts.reads.centre_bytes += samples;
-  if (in.config->skips != 0) {
+  if (in.config->tuning.skips != 0) {
     worker->counts.skipped.copied_blocks += 1;
     worker->counts.skipped.copied_pixels += samples / 3;
   }
@@ -221,7 +222,7 @@ Rendered RefocusViews(const BlockInputs& in, const Block& block, const Plane<uin
       &worker->cancel,          gathered, lens.r_max, IsBenchmark(lens)};
   // The views' part of a layer is brought to the picture together with what is gathered.
   const bool in_part = block.layer > 0 && block.gathers;
-  if (in.config->skips == 0 || block.has_highlights || in_part) {
+  if (in.config->tuning.skips == 0 || block.has_highlights || in_part) {
     return Render(in, block, job, out, worker);
   }
   if (pinhole || lens.renderer->nothing_moves(job)) {

@@ -48,7 +48,7 @@ sf_status Deblock(const Stripe& stripe, const Plane<uint8_t>& out, EngineState* 
   const sf_config& config = engine->config;
   const Transfer* transfer = engine->pictures.windows[0].transfer;
   const JoinJob job = {{&engine->stripe.map, out, config.width, config.height, stripe.y,
-                        config.deblocking, transfer, engine->kernels},
+                        config.tuning.deblocking, transfer, engine->kernels},
                        config.largest_block / kSmallestBlock,
                        {Max(0, stripe.y - kDeblockRows), FinishedRows(config, stripe.y)}};
   const sf_status status =

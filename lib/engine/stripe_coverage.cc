@@ -3,6 +3,8 @@
 
 #include <initializer_list>
 
+#include "lib/base/features.h"
+
 namespace starfocus {
 namespace {
 
@@ -82,9 +84,10 @@ void TakeCoverage(const sf_config& config, int32_t border, Arena* arena, Coverag
   map.height = config.height;
   map.columns = (config.width + kTileSide - 1) / kTileSide;
   map.tile_rows = MostTileRows(config, border);
-  map.disparity_min = static_cast<int16_t>(config.disparity_min * (1 << kDisparityBits));
+  const DisparityRange disparities = RangeOf(config);
+  map.disparity_min = static_cast<int16_t>(disparities.min * (1 << kDisparityBits));
   const auto range =
-      static_cast<int32_t>((config.disparity_max - config.disparity_min) * (1 << kDisparityBits));
+      static_cast<int32_t>((disparities.max - disparities.min) * (1 << kDisparityBits));
   map.bin_bits = 0;
   while (range >> map.bin_bits >= 64) ++map.bin_bits;
   const auto tiles = static_cast<size_t>(map.columns) * static_cast<size_t>(map.tile_rows);

@@ -57,7 +57,7 @@ void ClearLayerColumns(const sf_config& config, Pictures* pictures) {
 }
 
 void MarkLayerColumns(const sf_config& config, Pictures* pictures) {
-  for (int layer = 1; layer <= config.max_layer; ++layer) {
+  for (int layer = 1; layer <= config.tuning.max_layer; ++layer) {
     for (int32_t column = 0; column < Columns(config); ++column) {
       pictures->needed[layer][column] |= kNeeded;
     }

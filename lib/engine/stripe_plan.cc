@@ -65,7 +65,7 @@ Block WholeBlock(const PlanJob& job, const Rect& rect) {
   block.n = lens.aperture.n;
   block.gathers = block.has_highlights = false;
   block.cost =
-      PredictTime(job.config->timing,
+      PredictTime(job.config->tuning.timing,
                   lens.renderer->measure_work(block.rendered, block.border, lens.aperture, {}, 0));
   return block;
 }
@@ -110,7 +110,7 @@ void PlanBlocks(const PlanJob& job, int32_t column, Worker* worker) {
                                 DemandOf(*job.opening),
                                 lens.scale,
                                 LargestSide(job),
-                                has_highlights ? 0 : job.config->max_layer,
+                                has_highlights ? 0 : job.config->tuning.max_layer,
                                 !has_highlights && Gathers(*job.config, lens),
                                 has_highlights};
   const PlanInput input = {*job.kernels, rules, *job.cells, lens.borders.cells};
@@ -205,7 +205,7 @@ void ReadPlan(const Stripe& stripe, EngineState* engine) {
   plan.used = 0;
   ClearMap(stripe, &engine->stripe.map);
   ClearLayerColumns(config, &pictures);
-  if (config.skips == 0) MarkLayerColumns(config, &pictures);
+  if (config.tuning.skips == 0) MarkLayerColumns(config, &pictures);
   for (int32_t column = 0; column < plan.columns; ++column) {
     const Block* const planned = plan.BlocksOf(column);
     for (int32_t k = 0; k < plan.counts[column]; ++k) {
@@ -220,7 +220,7 @@ void ReadPlan(const Stripe& stripe, EngineState* engine) {
 
 // Counts the columns of layers that no block needs.
 void CountSpared(EngineState* engine) {
-  for (int layer = 1; layer <= engine->config.max_layer; ++layer) {
+  for (int layer = 1; layer <= engine->config.tuning.max_layer; ++layer) {
     for (int32_t column = 0; column < engine->stripe.plan.columns; ++column) {
       engine->report.skipped.layer_columns +=
           (engine->pictures.needed[layer][column] & kNeeded) == 0;

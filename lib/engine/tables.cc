@@ -11,7 +11,7 @@ constexpr int64_t kAperturePoints = 256;
 
 int32_t LargestN(const sf_config& config, const Renderer& renderer, double r_max) {
   const Demand demand = DemandOf(ShapeOf(config));
-  return ScaleViews(renderer.view_count(r_max + 1, demand), config.n_scale);
+  return ScaleViews(renderer.view_count(r_max + 1, demand), config.tuning.n_scale);
 }
 
 sf_status MakeApertures(const Renderer& renderer, int32_t last, Watch* watch, Tables* tables) {

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "lib/base/features.h"
 #include "lib/base/view_weights.h"
 #include "lib/base/watch.h"
 #include "lib/filter/blur.h"
@@ -17,7 +18,7 @@ namespace starfocus {
 inline constexpr int32_t kMaxRenderers = 2;
 inline constexpr const Renderer* kRenderers[kMaxRenderers] = {&kSliceRenderer, &kLineScanRenderer};
 inline bool HasLineScan(const sf_config& config) {
-  return (config.features & SF_FEATURE_LINE_SCAN) != 0;
+  return Has(config.features, SF_FEATURE_LINE_SCAN);
 }
 inline int32_t RendererCount(const sf_config& config) { return HasLineScan(config) ? 2 : 1; }
 

@@ -133,7 +133,7 @@ class Partition {
         for (int32_t layer = first; layer < SF_LAYERS; ++layer) {
           ++node->gathered[layer];
           node->gather[layer] += PredictGather(
-              config_.timing, static_cast<uint64_t>(kCellSize * kCellSize) >> 2 * layer,
+              config_.tuning.timing, static_cast<uint64_t>(kCellSize * kCellSize) >> 2 * layer,
               cells.At(x, y)->r_max >> layer);
         }
       }
@@ -166,7 +166,7 @@ class Partition {
     const auto cells = static_cast<uint64_t>(node.cells);
     const auto gathered = static_cast<uint64_t>(node.gathered[block->layer]);
     if (gathered > 0) {
-      const uint64_t upsample = config_.timing.upsample * UpsampledPixels(*block);
+      const uint64_t upsample = config_.tuning.timing.upsample * UpsampledPixels(*block);
       const uint64_t views = block->cost - upsample;
       block->cost = node.gather[block->layer] + upsample + views * (cells - gathered) / cells;
       block->gathers = true;
@@ -196,7 +196,7 @@ class Partition {
 
   int32_t Views(int32_t r_max, int32_t layer) const {
     const double radius = static_cast<double>(r_max) / (kRadiusOne * (1 << layer));
-    return ScaleViews(rules_.renderer->view_count(radius, rules_.demand), config_.n_scale);
+    return ScaleViews(rules_.renderer->view_count(radius, rules_.demand), config_.tuning.n_scale);
   }
 
   void ChooseParameters(const BlockStats& stats, int32_t side, Block* block) const {
@@ -214,7 +214,7 @@ class Partition {
     BlockWork work = rules_.renderer->measure_work(
         block->rendered, block->border, rules_.apertures[block->n], stats.content, layer);
     work.upsample = UpsampledPixels(*block);
-    block->cost = PredictTime(config_.timing, work);
+    block->cost = PredictTime(config_.tuning.timing, work);
   }
 
   // Leaves to views the least rectangle around the cells that are not gathered.

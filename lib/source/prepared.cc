@@ -3,6 +3,7 @@
 
 #include <new>
 
+#include "lib/base/features.h"
 #include "lib/base/view_set.h"
 #include "lib/engine/layout.h"
 #include "lib/engine/stripe_layers.h"
@@ -25,7 +26,7 @@ sf_status MakeLayers(const Prepared& prepared, const RowSource& source, EngineSt
     ForgetLayers(engine->config, &engine->pictures);
     MarkLayerColumns(engine->config, &engine->pictures);
     PlaceLayers({y, y + side < height ? y + side : height + kBeyond}, Borders(), &engine->pictures);
-    for (int layer = 1; layer <= engine->config.max_layer; ++layer) {
+    for (int layer = 1; layer <= engine->config.tuning.max_layer; ++layer) {
       engine->pictures.layers[layer].samples.rows = 0;
       engine->pictures.layers[layer].samples.data =
           prepared.layers[layer].Row(engine->pictures.layers[layer].rows.first);
@@ -53,10 +54,10 @@ size_t LayOutPrepared(const sf_config& config, void* base, Prepared** prepared) 
   Prepared counted;  // stands in for **prepared while counting
   Prepared& p = *prepared == nullptr ? counted : **prepared;
   const auto width = static_cast<size_t>(config.width), height = static_cast<size_t>(config.height);
-  if (config.images != 0) p.images = arena.Take<sf_image_field>(1);
+  if (Has(config.features, SF_FEATURE_IMAGES)) p.images = arena.Take<sf_image_field>(1);
   p.disparity.stride = width;
   p.disparity.data = arena.Take<int16_t>(width, height);
-  for (int layer = 1; layer <= config.max_layer; ++layer) {
+  for (int layer = 1; layer <= config.tuning.max_layer; ++layer) {
     Plane<int16_t>& plane = p.layers[layer];
     plane.stride = 3 * static_cast<size_t>(LayerSize(config.width, layer));
     plane.data =
@@ -93,7 +94,7 @@ bool Fits(const Prepared& prepared, const sf_config& config) {
   const sf_config& made = prepared.config;
   return made.width == config.width && made.height == config.height && SameViews(made, config) &&
          made.disparity_min == config.disparity_min && made.disparity_max == config.disparity_max &&
-         made.max_layer == config.max_layer && made.transfer == config.transfer;
+         made.tuning.max_layer == config.tuning.max_layer && made.transfer == config.transfer;
 }
 
 Extent PreparedMemory(const Prepared& prepared) {

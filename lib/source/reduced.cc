@@ -65,8 +65,8 @@ int16_t ConvertedEnd(const EngineState& engine, float end) {
 bool ReduceMap(const ReduceJob& job, int shift, const Part& part, Worker* worker) {
   const sf_config reduced = ReducedConfig(job.engine->config, shift);
   // Rounding twice may leave the range by one step.
-  const int16_t low = ConvertedEnd(*job.engine, reduced.disparity_min);
-  const int16_t high = ConvertedEnd(*job.engine, reduced.disparity_max);
+  const int16_t low = ConvertedEnd(*job.engine, static_cast<float>(reduced.disparity_min));
+  const int16_t high = ConvertedEnd(*job.engine, static_cast<float>(reduced.disparity_max));
   const int32_t side = 1 << shift;
   for (int32_t y = job.rows.first; y < job.rows.last; y += side) {
     if (!worker->cancel.Spend(int64_t{4} * side * part.width)) return false;
@@ -123,12 +123,12 @@ void ReduceColumn(const ReduceJob& job, int32_t index, Worker* worker) {
 
 sf_config ReducedConfig(const sf_config& config, int shift) {
   sf_config reduced = config;
-  const auto side = static_cast<float>(1 << shift);
+  const double side = 1 << shift;
   reduced.width = ReducedSize(config.width, shift);
   reduced.height = ReducedSize(config.height, shift);
   reduced.disparity_min = config.disparity_min / side;
   reduced.disparity_max = config.disparity_max / side;
-  reduced.streaming = 0;
+  reduced.features &= ~SF_FEATURE_STREAMING;
   reduced.previews = 0;
   return reduced;
 }

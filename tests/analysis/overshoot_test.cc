@@ -55,8 +55,8 @@ double Undershoot(double r, sf_rule rule, int layer, sf_transfer transfer, Kerne
   params.rule = rule;
   sf_config config = test::ConfigFor(scene, r + 1);
   config.transfer = transfer;
-  config.max_layer = layer;
-  config.gather = 0;
+  config.tuning.max_layer = layer;
+  config.tuning.gather = 0;
   config.largest_block = 128;
   test::Engine engine(config);
   test::Output out(kSide, kSide);

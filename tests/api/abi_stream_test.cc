@@ -20,7 +20,7 @@ struct Fixture {
   sf_params params = test::Params(0.5);
   test::Output out{kWidth, kHeight, 4};
 
-  Fixture() { config.streaming = 1; }
+  Fixture() { config.features |= SF_FEATURE_STREAMING; }
 
   sf_status Push(sf_engine* engine, const sf_light_field& field, int rows, int32_t* consumed) {
     return sf_stream_push(engine, &field, rows, consumed);
@@ -63,7 +63,7 @@ TEST_CASE("stream: not without streaming = 1, not without begin") {
     CHECK(sf_stream_begin(engine.get(), &params) == SF_ERROR_RANGE);
     CHECK(f.Push(engine.get(), f.scene.Field(), 1, &count) == SF_ERROR_STATE);
   }
-  f.config.streaming = 0;
+  f.config.features &= ~SF_FEATURE_STREAMING;
   test::Engine engine(f.config);
   REQUIRE(engine.status() == SF_OK);
   CHECK(sf_stream_begin(engine.get(), &f.params) == SF_ERROR_FEATURE);

@@ -29,11 +29,11 @@ struct Bad {
 };
 
 const Bad<sf_config> kBadConfigs[] = {
-    {"", [](sf_config* c) { c->version = 0; }, SF_ERROR_STRUCTURE},
-    {"", [](sf_config* c) { c->version = SF_ABI_VERSION + 1; }, SF_ERROR_STRUCTURE},
-    {"reserved", [](sf_config* c) { c->reserved[0] = 1; }},
-    {"reserved", [](sf_config* c) { c->reserved[1] = 1; }},
-    {"features", [](sf_config* c) { c->features |= 4; }},
+    {"", [](sf_config* c) { c->size = 0; }, SF_ERROR_STRUCTURE},
+    {"", [](sf_config* c) { c->size = 4; }, SF_ERROR_STRUCTURE},
+    {"", [](sf_config* c) { c->size = sizeof(sf_config) + 1; }, SF_ERROR_STRUCTURE},
+    {"", [](sf_config* c) { c->size = UINT32_MAX; }, SF_ERROR_STRUCTURE},
+    {"features", [](sf_config* c) { c->features |= 32; }},
     {"features", [](sf_config* c) { c->features = 0x80000000u; }},
     {"width", [](sf_config* c) { c->width = 0; }},
     {"width", [](sf_config* c) { c->width = -1; }},
@@ -75,36 +75,32 @@ const Bad<sf_config> kBadConfigs[] = {
     {"theta", [](sf_config* c) { c->theta = -0.8; }},
     {"theta", [](sf_config* c) { c->theta = kNan; }},
     {"theta", [](sf_config* c) { c->theta = kInf; }},
-    {"max_layer", [](sf_config* c) { c->max_layer = -1; }},
-    {"max_layer", [](sf_config* c) { c->max_layer = SF_LAYERS; }},
-    {"max_layer", [](sf_config* c) { c->max_layer = INT32_MIN; }},
-    {"max_layer", [](sf_config* c) { c->max_layer = INT32_MAX; }},
-    {"deblocking", [](sf_config* c) { c->deblocking = -1; }},
-    {"deblocking", [](sf_config* c) { c->deblocking = 256; }},
-    {"deblocking", [](sf_config* c) { c->deblocking = INT32_MIN; }},
-    {"deblocking", [](sf_config* c) { c->deblocking = INT32_MAX; }},
-    {"timing.block", [](sf_config* c) { c->timing.block = SF_MAX_TIMING + 1; }},
-    {"timing.field", [](sf_config* c) { c->timing.field = SF_MAX_TIMING + 1; }},
-    {"timing.a", [](sf_config* c) { c->timing.a = SF_MAX_TIMING + 1; }},
-    {"timing.b", [](sf_config* c) { c->timing.b = UINT32_MAX; }},
-    {"timing.c", [](sf_config* c) { c->timing.c = 0x80000000u; }},
-    {"timing.span", [](sf_config* c) { c->timing.span = SF_MAX_TIMING + 1; }},
-    {"timing.hole", [](sf_config* c) { c->timing.hole = UINT32_MAX; }},
-    {"timing.upsample", [](sf_config* c) { c->timing.upsample = UINT32_MAX; }},
-    {"n_scale", [](sf_config* c) { c->n_scale = 0; }},
-    {"n_scale", [](sf_config* c) { c->n_scale = 0.4999; }},
-    {"n_scale", [](sf_config* c) { c->n_scale = 2.0001; }},
-    {"n_scale", [](sf_config* c) { c->n_scale = -1; }},
-    {"n_scale", [](sf_config* c) { c->n_scale = kNan; }},
-    {"n_scale", [](sf_config* c) { c->n_scale = kInf; }},
-    {"skips", [](sf_config* c) { c->skips = -1; }},
-    {"skips", [](sf_config* c) { c->skips = 2; }},
-    {"fill_unknown", [](sf_config* c) { c->fill_unknown = -1; }},
-    {"fill_unknown", [](sf_config* c) { c->fill_unknown = 2; }},
-    {"images", [](sf_config* c) { c->images = -1; }},
-    {"images", [](sf_config* c) { c->images = 2; }},
-    {"gather", [](sf_config* c) { c->gather = -1; }},
-    {"gather", [](sf_config* c) { c->gather = 2; }},
+    {"tuning.max_layer", [](sf_config* c) { c->tuning.max_layer = -1; }},
+    {"tuning.max_layer", [](sf_config* c) { c->tuning.max_layer = SF_LAYERS; }},
+    {"tuning.max_layer", [](sf_config* c) { c->tuning.max_layer = INT32_MIN; }},
+    {"tuning.max_layer", [](sf_config* c) { c->tuning.max_layer = INT32_MAX; }},
+    {"tuning.deblocking", [](sf_config* c) { c->tuning.deblocking = -1; }},
+    {"tuning.deblocking", [](sf_config* c) { c->tuning.deblocking = 256; }},
+    {"tuning.deblocking", [](sf_config* c) { c->tuning.deblocking = INT32_MIN; }},
+    {"tuning.deblocking", [](sf_config* c) { c->tuning.deblocking = INT32_MAX; }},
+    {"tuning.timing.block", [](sf_config* c) { c->tuning.timing.block = SF_MAX_TIMING + 1; }},
+    {"tuning.timing.field", [](sf_config* c) { c->tuning.timing.field = SF_MAX_TIMING + 1; }},
+    {"tuning.timing.a", [](sf_config* c) { c->tuning.timing.a = SF_MAX_TIMING + 1; }},
+    {"tuning.timing.b", [](sf_config* c) { c->tuning.timing.b = UINT32_MAX; }},
+    {"tuning.timing.c", [](sf_config* c) { c->tuning.timing.c = 0x80000000u; }},
+    {"tuning.timing.span", [](sf_config* c) { c->tuning.timing.span = SF_MAX_TIMING + 1; }},
+    {"tuning.timing.hole", [](sf_config* c) { c->tuning.timing.hole = UINT32_MAX; }},
+    {"tuning.timing.upsample", [](sf_config* c) { c->tuning.timing.upsample = UINT32_MAX; }},
+    {"tuning.n_scale", [](sf_config* c) { c->tuning.n_scale = 0; }},
+    {"tuning.n_scale", [](sf_config* c) { c->tuning.n_scale = 0.4999; }},
+    {"tuning.n_scale", [](sf_config* c) { c->tuning.n_scale = 2.0001; }},
+    {"tuning.n_scale", [](sf_config* c) { c->tuning.n_scale = -1; }},
+    {"tuning.n_scale", [](sf_config* c) { c->tuning.n_scale = kNan; }},
+    {"tuning.n_scale", [](sf_config* c) { c->tuning.n_scale = kInf; }},
+    {"tuning.skips", [](sf_config* c) { c->tuning.skips = -1; }},
+    {"tuning.skips", [](sf_config* c) { c->tuning.skips = 2; }},
+    {"tuning.gather", [](sf_config* c) { c->tuning.gather = -1; }},
+    {"tuning.gather", [](sf_config* c) { c->tuning.gather = 2; }},
     {"highlights", [](sf_config* c) { c->highlights = 0.99F; }},
     {"highlights", [](sf_config* c) { c->highlights = 64.1F; }},
     {"highlights", [](sf_config* c) { c->highlights = float(kNan); }},
@@ -239,7 +235,7 @@ TEST_CASE("configuration: limits are legal") {
   config.max_blur = SF_MAX_BLUR;
   config.largest_block = 256;
   config.max_workers = SF_MAX_WORKERS;
-  config.streaming = 1;
+  config.features |= SF_FEATURE_STREAMING;
   config.highlights = static_cast<float>(SF_MAX_HIGHLIGHTS);
   size_t bytes = 0;
   // Every value is legal, but all limits together are more than 32 bits address.
@@ -258,15 +254,15 @@ TEST_CASE("configuration: limits are legal") {
     CHECK(sf_workspace_size(&config, &bytes) == legal);
   }
   for (const double n_scale : {SF_MIN_N_SCALE, SF_MAX_N_SCALE}) {
-    config.n_scale = n_scale;
+    config.tuning.n_scale = n_scale;
     CHECK(sf_workspace_size(&config, &bytes) == legal);
   }
   for (const int max_layer : {0, 1, 2}) {
     for (const int deblocking : {0, 1, 255}) {
       for (const uint32_t timing : {0u, 1u, SF_MAX_TIMING}) {
-        config.max_layer = max_layer;
-        config.deblocking = deblocking;
-        config.timing = {timing, timing, timing, timing, timing, timing, timing, timing};
+        config.tuning.max_layer = max_layer;
+        config.tuning.deblocking = deblocking;
+        config.tuning.timing = {timing, timing, timing, timing, timing, timing, timing, timing};
         CHECK(sf_workspace_size(&config, &bytes) == legal);
       }
     }
@@ -434,7 +430,7 @@ TEST_CASE("refocus: output may overlap neither the inputs nor the workspace") {
 TEST_CASE("refocus: a runner's failure is reported, in whichever phase of a stripe it comes") {
   // Out of focus, so that all phases of block mode run.
   Fixture f;
-  f.config.gather = 0;
+  f.config.tuning.gather = 0;
   f.config.max_blur = 12;
   test::Engine engine(f.config);
   REQUIRE(engine.status() == SF_OK);

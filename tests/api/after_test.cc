@@ -64,7 +64,8 @@ void CheckFrames(test::Scene scene, const sf_config& config, const sf_params& pa
     CAPTURE(frame);
     const test::Scene before = scene;
     const int changes = random->Int(0, 3);
-    for (int k = 0; k < changes; ++k) Change(&scene, config.fill_unknown != 0, random);
+    for (int k = 0; k < changes; ++k)
+      Change(&scene, test::Has(config.features, SF_FEATURE_FILL_UNKNOWN), random);
     test::Output expected(width, height, 2), out(width, height, 2);
     sf_report report = {}, whole = {};
     REQUIRE(After(&engine, params, scene, before, before_out, &out, &report) == SF_OK);
@@ -91,8 +92,8 @@ TEST_CASE("after: the bytes of the frame alone, in every mode, as frames change 
         test::LayeredScene(width, height, kViews[round % 4], 5, uint64_t(round) + 900);
     sf_config config = test::ConfigFor(scene, 12);
     config.largest_block = 32 << random.Int(0, 1);
-    config.max_layer = random.Int(0, 3) == 0 ? random.Int(0, 1) : 2;
-    config.deblocking = random.Int(0, 3) == 0 ? 35 : 255;
+    config.tuning.max_layer = random.Int(0, 3) == 0 ? random.Int(0, 1) : 2;
+    config.tuning.deblocking = random.Int(0, 3) == 0 ? 35 : 255;
     sf_params params = test::Params(random.Real(-5, 5), random.Real(0.1, 1), SF_MODE_BLOCK);
     params.rule = random.Int(0, 2);
     if (round % 4 == 3) params.mode = round % 8 == 3 ? SF_MODE_FRAME : SF_MODE_BLUR;
@@ -119,7 +120,7 @@ TEST_CASE("after: filled pixels change with the known ones beside the gap") {
     }
     sf_config config = test::ConfigFor(scene, 8);
     config.largest_block = 32;
-    config.fill_unknown = 1;
+    config.features |= SF_FEATURE_FILL_UNKNOWN;
     CheckFrames(scene, config, test::Params(random.Real(-3, 3), 0.5, SF_MODE_BLOCK), 8, &random);
   }
 }
@@ -161,7 +162,7 @@ TEST_CASE("after: joins between blocks of different layers, beside a change") {
   }
   sf_config config = test::ConfigFor(scene, 9);
   config.largest_block = 32;
-  config.deblocking = 255;
+  config.tuning.deblocking = 255;
   for (const double focus : {-1.0, 0.0, 3.0}) {
     sf_params params = test::Params(focus, 1, SF_MODE_BLOCK);
     params.rule = SF_RULE_PAPER;
@@ -176,9 +177,9 @@ TEST_CASE("after: a block that changes its layer changes its neighbours' joins")
   scene.Disparity(500, 5) = scene.Disparity(5, 500) = 0;
   sf_config config = test::ConfigFor(scene, 6);
   config.largest_block = 256;
-  config.deblocking = 255;
-  config.timing = {};
-  config.timing.block = SF_MAX_TIMING;
+  config.tuning.deblocking = 255;
+  config.tuning.timing = {};
+  config.tuning.timing.block = SF_MAX_TIMING;
   sf_params params = test::Params(0, 1, SF_MODE_BLOCK);
   params.rule = SF_RULE_PAPER;
   test::Engine engine(config);

@@ -2,6 +2,7 @@
 // Engines of sf_create: memory in one piece of the allocator's, which gets it back.
 #include <doctest/doctest.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -58,6 +59,28 @@ struct Fixture {
     CHECK(out.bytes == expected.bytes);
   }
 };
+
+TEST_CASE("configuration: shorter structures get the defaults of what they lack") {
+  constexpr uint32_t kShort = offsetof(sf_config, largest_block);
+  std::vector<uint8_t> memory(kShort);
+  sf_config* const config = reinterpret_cast<sf_config*>(memory.data());
+  sf_config_init_sized(config, kShort);
+  CHECK(config->size == kShort);
+  config->width = config->height = 20;
+  sf_config whole;
+  sf_config_init(&whole);
+  whole.width = whole.height = 20;
+  size_t bytes = 0, expected = 0;
+  REQUIRE(sf_workspace_size(config, &bytes) == SF_OK);
+  REQUIRE(sf_workspace_size(&whole, &expected) == SF_OK);
+  CHECK(bytes == expected);
+  REQUIRE(sf_prepared_size(config, &bytes) == SF_OK);
+  REQUIRE(sf_prepared_size(&whole, &expected) == SF_OK);
+  CHECK(bytes == expected);
+  sf_engine* engine = nullptr;
+  REQUIRE(sf_create(config, nullptr, &engine) == SF_OK);
+  sf_destroy(engine);
+}
 
 TEST_CASE("create: one allocation of the workspace's size, given back once") {
   const Fixture f;

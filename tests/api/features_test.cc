@@ -48,7 +48,7 @@ TEST_CASE("features: without the line scan the default and slices give the bytes
 TEST_CASE("features: without the line scan the paper's rule is rejected in modes that render") {
   const test::Scene scene = test::RandomScene(70, 50, 5, -4, 4, 1);
   sf_config config = WithoutLineScan(test::ConfigFor(scene, 16));
-  config.streaming = 1;
+  config.features |= SF_FEATURE_STREAMING;
   test::Engine engine(config);
   REQUIRE(engine.status() == SF_OK);
   for (const sf_mode mode : kModes) {

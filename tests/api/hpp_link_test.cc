@@ -37,7 +37,7 @@ struct Field {
     config.width = config.height = kSize;
     config.views = 1;
     config.disparity_max = 1;
-    config.streaming = 1;
+    config.features |= SF_FEATURE_STREAMING;
     config.previews = 1;
     params.focus = 3;
   }

@@ -158,8 +158,8 @@ TEST_CASE("images: engines without them, no pointers, the workspace, bad paramet
   params.mode = 9;
   CHECK(sf_refocus_images(e, &params, &images, &out, nullptr) == SF_ERROR_RANGE);
   params.mode = SF_MODE_BLOCK;
-  config.images = 0;
-  config.streaming = 1;
+  config.features &= ~SF_FEATURE_IMAGES;
+  config.features |= SF_FEATURE_STREAMING;
   test::Engine without(config);
   sf_prepared* prepared = nullptr;
   int32_t rows = 0;

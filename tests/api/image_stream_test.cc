@@ -71,9 +71,9 @@ TEST_CASE("image streams: the bytes of whole images, whatever rows come at a tim
         test::LayeredScene(size[0], size[1], round % 2 == 0 ? 5 : 1, 7, uint64_t(round) + 50);
     const ImageField field = FieldOf(scene, round % kFormats, round % 3 == 0, &random);
     sf_config config = test::ImageConfig(field, round % 2 == 0 ? 9 : 20);
-    config.streaming = 1;
+    config.features |= SF_FEATURE_STREAMING;
     config.largest_block = 32;
-    config.fill_unknown = 1;
+    config.features |= SF_FEATURE_FILL_UNKNOWN;
     test::Engine engine(config);
     REQUIRE(engine.status() == SF_OK);
     const ImageKind kind = test::AnyKind((round / 2 + 2) % kFormats, &random);
@@ -94,7 +94,7 @@ TEST_CASE("image streams: rows of R, G, B may be pushed, and pulled") {
   const test::Scene scene = test::LayeredScene(100, 90, 5, 7, 50);
   const ImageField field = FieldOf(scene, SF_FORMAT_RGBX, false, &random);
   sf_config config = test::ImageConfig(field, 20);
-  config.streaming = 1;
+  config.features |= SF_FEATURE_STREAMING;
   test::Engine engine(config);
   ImageKind kind;
   kind.format = SF_FORMAT_BGRX;
@@ -129,7 +129,7 @@ TEST_CASE("image streams: alpha of rows that are pulled late is still there") {
   test::Scene scene = test::LayeredScene(20, 900, 1, 1, 50);
   const ImageField field = FieldOf(scene, SF_FORMAT_RGBX, false, &random);
   sf_config config = test::ImageConfig(field, 2);
-  config.streaming = 1;
+  config.features |= SF_FEATURE_STREAMING;
   config.largest_block = 256;
   test::Engine engine(config);
   ImageKind kind;
@@ -160,7 +160,7 @@ TEST_CASE("image streams: half of a pair of rows is refused, and a bad depth wit
   const test::Scene scene = test::LayeredScene(60, 51, 1, 7, 50);
   ImageField field = FieldOf(scene, SF_FORMAT_NV12, false, &random);
   sf_config config = test::ImageConfig(field, 20);
-  config.streaming = 1;
+  config.features |= SF_FEATURE_STREAMING;
   test::Engine engine(config);
   const sf_params params = test::Params(1, 1, SF_MODE_BLOCK);
   sf_image_field images = field.Field();
@@ -212,9 +212,9 @@ TEST_CASE("prepared images: the bytes of whole images, for many lenses and regio
     const test::Scene scene = test::LayeredScene(width, height, 5, 7, uint64_t(round) + 90);
     const ImageField field = FieldOf(scene, round, round % 3 == 0, &random);
     sf_config config = test::ImageConfig(field, 20);
-    config.fill_unknown = 1;
+    config.features |= SF_FEATURE_FILL_UNKNOWN;
     config.largest_block = 32 << random.Int(0, 2);
-    config.max_layer = random.Int(0, 2);
+    config.tuning.max_layer = random.Int(0, 2);
     test::Engine engine(config);
     PreparedMemory memory(config);
     sf_prepared* prepared = nullptr;

@@ -170,10 +170,10 @@ TEST_CASE("images: depth of every type, meaning and size; unknown depths") {
         test::MakeImageField(scene, {test::AnyKind(SF_FORMAT_NV12, &random)}, depth, &random);
     sf_config config = test::ImageConfig(field);
     config.largest_block = 32;
-    config.fill_unknown = 1;
+    config.features |= SF_FEATURE_FILL_UNKNOWN;
     const sf_params params = test::Params(2, 1, SF_MODE_BLOCK);
     CheckSame(field, config, params, test::AnyKind(SF_FORMAT_NV12, &random));
-    config.fill_unknown = 0;
+    config.features &= ~SF_FEATURE_FILL_UNKNOWN;
     test::Engine engine(config);
     ImageMemory out(130, 97, test::AnyKind(SF_FORMAT_RGB, &random)), before = out;
     const sf_image_field images = field.Field();

@@ -37,13 +37,13 @@ test::Scene AnyScene(int width, int height, uint64_t seed) {
 sf_config AnyConfig(const test::Scene& scene, test::Random* random) {
   sf_config config = test::ConfigFor(scene, 20);
   config.largest_block = 32 << random->Int(0, 3);
-  config.max_layer = random->Int(0, 2);
-  config.deblocking = random->Int(0, 1) * 255;
-  config.skips = random->Int(0, 1);
-  config.gather = random->Int(0, 1);
+  config.tuning.max_layer = random->Int(0, 2);
+  config.tuning.deblocking = random->Int(0, 1) * 255;
+  config.tuning.skips = random->Int(0, 1);
+  config.tuning.gather = random->Int(0, 1);
   config.theta = random->Real(SF_MIN_THETA, SF_MAX_THETA);
-  config.n_scale = random->Real(SF_MIN_N_SCALE, SF_MAX_N_SCALE);
-  config.streaming = 1;
+  config.tuning.n_scale = random->Real(SF_MIN_N_SCALE, SF_MAX_N_SCALE);
+  config.features |= SF_FEATURE_STREAMING;
   return config;
 }
 
@@ -116,7 +116,7 @@ TEST_CASE("pinhole: the report tells of one copied view, and maps are checked al
   for (const int skips : {0, 1}) {
     for (const sf_mode mode : kModes) {
       sf_config config = test::ConfigFor(scene, 20);
-      config.skips = skips;
+      config.tuning.skips = skips;
       test::Engine engine(config);
       test::Output out(130, 67);
       sf_report report = {};

@@ -72,7 +72,7 @@ TEST_CASE("prepared: the bytes of sf_refocus, in every mode, for many lenses and
         test::LayeredScene(size[0], size[1], kViews[round % 4], 7, uint64_t(round) + 800);
     sf_config config = test::ConfigFor(scene, 20);
     config.largest_block = 32 << random.Int(0, 3);
-    config.max_layer = round % 4 == 0 ? random.Int(0, 1) : 2;
+    config.tuning.max_layer = round % 4 == 0 ? random.Int(0, 1) : 2;
     CAPTURE(round);
     ++round;
     test::Engine engine(config);
@@ -100,7 +100,7 @@ TEST_CASE("prepared: by one engine for another, which streams in between") {
   Memory memory(config);
   const sf_prepared* prepared = Prepare(&maker, scene, &memory);
   config.max_workers = 3;
-  config.streaming = 1;
+  config.features |= SF_FEATURE_STREAMING;
   config.largest_block = 32;
   config.max_blur = 16;
   test::Engine user(config);
@@ -118,7 +118,7 @@ TEST_CASE("prepared: what the documentation says of the memory") {
   sf_config config = test::ConfigFor(scene, 20);
   const double pixels = 1000.0 * 800;
   CHECK(double(Memory(config).bytes) / pixels == doctest::Approx(3.89).epsilon(0.01));
-  config.max_layer = 0;
+  config.tuning.max_layer = 0;
   CHECK(double(Memory(config).bytes) / pixels == doctest::Approx(2).epsilon(0.01));
 }
 
@@ -187,7 +187,7 @@ TEST_CASE("prepared: refocusing refuses what sf_refocus refuses, and another con
     if (field == 2) other.views = 1;
     if (field == 3) other.disparity_min = -4;
     if (field == 4) other.disparity_max = 4;
-    if (field == 5) other.max_layer = 1;
+    if (field == 5) other.tuning.max_layer = 1;
     if (field == 6) {
       for (int k = 1; k < other.views; ++k) other.positions[k] = {0.25 * k / other.views, 0};
     }

@@ -93,7 +93,8 @@ sf_config ReducedConfig(const sf_config& config, int shift, int32_t largest_bloc
   reduced.disparity_max /= side;
   reduced.max_blur /= side;
   reduced.largest_block = largest_block;
-  reduced.streaming = reduced.images = reduced.previews = 0;
+  reduced.features &= ~(SF_FEATURE_STREAMING | SF_FEATURE_IMAGES);
+  reduced.previews = 0;
   return reduced;
 }
 
@@ -190,9 +191,9 @@ TEST_CASE("preview: the bytes of the light field that the definition reduces") {
         test::LayeredScene(size[0], size[1], kViews[round % 4], 7, uint64_t(round) + 90);
     sf_config config = test::ConfigFor(scene, 20);
     config.largest_block = 32 << random.Int(0, 2);
-    config.max_layer = round % 4 == 0 ? random.Int(0, 1) : 2;
+    config.tuning.max_layer = round % 4 == 0 ? random.Int(0, 1) : 2;
     config.transfer = round % 3 == 0 ? SF_TRANSFER_NONE : SF_TRANSFER_SRGB;
-    config.streaming = round % 2;
+    test::SetFeature(SF_FEATURE_STREAMING, round % 2, &config.features);
     config.max_workers = 2;
     config.cats_eye = round % 5 == 4 ? 0.5F : 0.0F;
     config.highlights = round % 5 == 3 ? 4.0F : 1.0F;
@@ -231,7 +232,7 @@ TEST_CASE(
     }
     sf_config config = test::ConfigFor(scene, 8);
     config.largest_block = 32;
-    config.streaming = 1;
+    config.features |= SF_FEATURE_STREAMING;
     config.max_workers = 2;
     config.previews = 3;
     Prepared prepared(scene, config, RunOnTwo);
@@ -282,7 +283,7 @@ TEST_CASE("preview: of images, into images") {
 TEST_CASE("preview: the engine is what it was, and the workspace no larger") {
   const test::Scene scene = test::LayeredScene(170, 130, 5, 7, 3);
   sf_config config = test::ConfigFor(scene, 20);
-  config.streaming = 1;
+  config.features |= SF_FEATURE_STREAMING;
   size_t without = 0, with = 0;
   REQUIRE(sf_workspace_size(&config, &without) == SF_OK);
   config.previews = 3;
@@ -412,7 +413,7 @@ TEST_CASE("preview: images refuse what pictures do") {
   sf_config config = test::ConfigFor(scene, 8);
   config.previews = 1;
   Prepared without(scene, config);
-  config.images = 1;
+  config.features |= SF_FEATURE_IMAGES;
   Prepared prepared(scene, config);
   const sf_params params = test::Params(1);
   std::vector<uint8_t> rgb(3 * 25 * 20);

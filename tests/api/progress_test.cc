@@ -69,7 +69,7 @@ struct Fixture {
     }
     config = test::ConfigFor(scene, 12);
     config.largest_block = 32;
-    config.streaming = 1;
+    config.features |= SF_FEATURE_STREAMING;
     config.max_workers = 2;
     config.highlights = of.highlights;
     params = test::Params(-3, of.aperture, of.mode);
@@ -307,7 +307,7 @@ TEST_CASE("progress: whatever a block takes, a million samples are too many to w
     if (gathered) scene.disparity.assign(scene.disparity.size(), 9);
     sf_config config = test::ConfigFor(scene, 32);
     config.largest_block = side;
-    config.max_layer = 0;
+    config.tuning.max_layer = 0;
     // Every second pixel counts in what is gathered.
     const int radius = gathered ? 12 : 32, size = (gathered ? 1 : 2) * radius + 1;
     sf_params params = test::Params(9 - radius, 1, of.mode);

@@ -100,8 +100,8 @@ TEST_CASE("region: the bytes of the whole picture, in every mode") {
         test::LayeredScene(width, height, kViews[round % 4], 7, uint64_t(round) + 700);
     sf_config config = test::ConfigFor(scene, 20);
     config.largest_block = 32 << random.Int(0, 2);
-    config.max_layer = random.Int(0, 3) == 0 ? random.Int(0, 1) : 2;
-    config.deblocking = random.Int(0, 2) == 0 ? random.Int(0, 255) : 255;
+    config.tuning.max_layer = random.Int(0, 3) == 0 ? random.Int(0, 1) : 2;
+    config.tuning.deblocking = random.Int(0, 2) == 0 ? random.Int(0, 255) : 255;
     sf_params params = test::Params(random.Real(-9, 9), random.Real(0.3, 1), SF_MODE_BLOCK);
     params.rule = random.Int(0, 2);
     if (round % 4 == 3) params.mode = round % 8 == 3 ? SF_MODE_FRAME : SF_MODE_BLUR;
@@ -123,7 +123,7 @@ TEST_CASE("region: joins between blocks of different layers reach into it") {
     }
     sf_config config = test::ConfigFor(scene, 13);
     config.largest_block = side;
-    config.deblocking = 255;
+    config.tuning.deblocking = 255;
     sf_params params = test::Params(-1, 1, SF_MODE_BLOCK);
     params.rule = SF_RULE_PAPER;
     CheckRegions(scene, config, params, &random);
@@ -256,7 +256,7 @@ TEST_CASE("region: output as large as the region, and no larger") {
 TEST_CASE("region: streaming has none") {
   const test::Scene scene = test::LayeredScene(40, 30, 1, 4, 3);
   sf_config config = test::ConfigFor(scene, 8);
-  config.streaming = 1;
+  config.features |= SF_FEATURE_STREAMING;
   test::Engine engine(config);
   REQUIRE(engine.status() == SF_OK);
   sf_params params = test::Params(0);

@@ -93,8 +93,8 @@ void CheckEqual(const sf_report& report, const sf_report& expected) {
 void CheckRetries(const test::Scene& scene, const sf_params& params, int gather) {
   sf_config config = test::ConfigFor(scene, 28);
   config.largest_block = 32;
-  config.streaming = 1;
-  config.gather = gather;
+  config.features |= SF_FEATURE_STREAMING;
+  config.tuning.gather = gather;
   Failing never = {1 << 20, 0};
   const Streamed expected = Stream(config, params, scene, kHeight, &never);
   REQUIRE(expected.failures == 0);

@@ -26,7 +26,7 @@ void CheckSame(const test::Scene& scene, const sf_params& params, int block) {
   REQUIRE(test::Refocus(&whole_engine, params, scene, &whole, nullptr, nullptr, &whole_report) ==
           SF_OK);
   CHECK(whole.PaddingUntouched());
-  config.streaming = 1;
+  config.features |= SF_FEATURE_STREAMING;
   test::Engine engine(config);
   REQUIRE(engine.status() == SF_OK);
   constexpr int kChunks[][2] = {{1, 1}, {3, 3}, {64, 64}, {kAll, 1}, {1, kAll}, {kAll, kAll}};
@@ -88,7 +88,7 @@ TEST_CASE("stream: strides of pictures do not matter") {
     }
   }
   sf_config config = test::ConfigFor(tight);
-  config.streaming = 1;
+  config.features |= SF_FEATURE_STREAMING;
   test::Engine engine(config);
   REQUIRE(engine.status() == SF_OK);
   test::Output a(50, 70), b(50, 70, 1), c(50, 70, 40);
@@ -107,7 +107,7 @@ TEST_CASE("stream: a picture of 20,000 rows goes through the workspace of one of
   sf_config config = test::ConfigFor(scene);
   size_t tall_bytes = 0, low_bytes = 0;
   for (int streaming : {0, 1}) {
-    config.streaming = streaming;
+    test::SetFeature(SF_FEATURE_STREAMING, streaming, &config.features);
     config.height = kTall;
     REQUIRE(sf_workspace_size(&config, &tall_bytes) == SF_OK);
     config.height = 200;
@@ -129,7 +129,7 @@ TEST_CASE("stream: a picture of 20,000 rows goes through the workspace of one of
 
   test::Output streamed(kWidth, kTall), whole(kWidth, kTall);
   REQUIRE(test::Stream(&engine, params, scene, &streamed, 100, 100) == SF_OK);
-  config.streaming = 0;
+  config.features &= ~SF_FEATURE_STREAMING;
   test::Engine whole_engine(config);
   REQUIRE(test::Refocus(&whole_engine, params, scene, &whole) == SF_OK);
   CHECK(streamed.bytes == whole.bytes);
@@ -150,7 +150,7 @@ TEST_CASE("stream: rings hold all that layers are made of, up to the largest blu
     REQUIRE(test::Refocus(&whole_engine, params, scene, &whole, nullptr, nullptr, &report) ==
             SF_OK);
     CHECK(report.layers[radius < 3 ? 0 : radius < 6 ? 1 : 2].pixels == 48 * 200);
-    config.streaming = 1;
+    config.features |= SF_FEATURE_STREAMING;
     test::Engine engine(config);
     REQUIRE(test::Stream(&engine, params, scene, &streamed, 50, 50) == SF_OK);
     CAPTURE(radius);

@@ -104,7 +104,7 @@ TEST_CASE("views: a mirrored scene with the pair's other side gives the mirrored
 TEST_CASE("views: the paper's rule needs the star, others do without") {
   const test::Scene scene = Scene({{0, 0}, {1, 0}, {0, 1}});
   sf_config config = test::ConfigFor(scene);
-  config.streaming = 1;
+  config.features |= SF_FEATURE_STREAMING;
   test::Engine engine(config);
   REQUIRE(engine.status() == SF_OK);
   test::Output out(scene.width, scene.height);

@@ -43,9 +43,9 @@ Error Prepare(const Field& field, const Task& task, double focus, double apertur
   config.disparity_max = field.high;
   config.max_blur = std::max(1.0, std::ceil(field.LargestBlur(focus, aperture)));
   config.transfer = field.transfer;
-  config.max_layer = task.max_layer;
+  config.tuning.max_layer = task.max_layer;
   config.largest_block = task.largest_block;
-  config.n_scale = task.n_scale;
+  config.tuning.n_scale = task.n_scale;
   config.max_workers = task.workers;
   if (task.workers > 1) timed->pool = std::make_unique<ThreadRunner>(task.workers);
   sf_status status = sf_workspace_size(&config, &timed->workspace_bytes);

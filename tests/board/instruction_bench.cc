@@ -55,7 +55,7 @@ constexpr sf_timing kTiming = {4000000, 12000, 1500, 1700, 2500, 9000, 0, 0};
 int Run(const Case& one, bool reference, int runs) {
   const test::Scene scene = test::IntegerScene(one.width, one.height, one.views, one.depth);
   sf_config config = test::ConfigFor(scene, 16);
-  config.timing = kTiming;
+  config.tuning.timing = kTiming;
   test::Engine engine(config);
   if (engine.status() != SF_OK) return 1;
   if (reference) test::UseKernels(&starfocus::simd::ReferenceKernels(), engine.get());

@@ -53,7 +53,7 @@ void* RunCalls(void* data) {
   if (calls->status == SF_OK) {
     calls->status = sf_init(&calls->config, calls->workspace, calls->bytes, &engine);
   }
-  if (calls->status == SF_OK && calls->config.streaming == 0) {
+  if (calls->status == SF_OK && !test::Has(calls->config.features, SF_FEATURE_STREAMING)) {
     calls->status =
         sf_refocus(engine, &calls->params, &calls->field, calls->out, calls->out_stride, nullptr);
   } else if (calls->status == SF_OK) {
@@ -97,7 +97,7 @@ void PrintStack() {
         const test::Scene scene = test::RandomScene(150, 90, views, -4, 4, 3);
         Calls calls = {};
         calls.config = test::ConfigFor(scene, 16);
-        calls.config.streaming = streaming;
+        test::SetFeature(SF_FEATURE_STREAMING, streaming, &calls.config.features);
         calls.params = test::Params(1, 1, mode);
         calls.field = scene.Field();
         test::Output out(150, 90);

@@ -68,7 +68,7 @@ Distance Check(const test::Scene& scene, const sf_params& params, const sf_confi
   CAPTURE(params.focus);
   CAPTURE(params.aperture);
   CAPTURE(params.rule);
-  CAPTURE(config.max_layer);
+  CAPTURE(config.tuning.max_layer);
   CAPTURE(config.transfer);
   CAPTURE(config.largest_block);
   CHECK(distance.largest <= 1);
@@ -79,8 +79,8 @@ Distance Check(const test::Scene& scene, const sf_params& params, const sf_confi
 sf_config Config(const test::Scene& scene, int max_layer, double max_blur = 24) {
   sf_config config = test::ConfigFor(scene, max_blur);
   config.theta = kTheta;
-  config.max_layer = max_layer;
-  config.deblocking = 0;  // a decision by thresholds; deblock_test has it
+  config.tuning.max_layer = max_layer;
+  config.tuning.deblocking = 0;  // a decision by thresholds; deblock_test has it
   config.largest_block = 32;
   while (config.largest_block < scene.height) config.largest_block *= 2;
   return config;
@@ -175,7 +175,7 @@ TEST_CASE("block conformance: largest subapertures, smallest and single blocks")
           sf_params params = test::Params(focus, 1, SF_MODE_BLOCK);
           params.rule = SF_RULE_SUBAPERTURE;
           sf_config config = Config(scene, max_layer, 32);
-          config.timing.block = block_cost;
+          config.tuning.timing.block = block_cost;
           all.Add(Check(scene, params, config, &covered));
         }
       }

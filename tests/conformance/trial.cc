@@ -113,17 +113,17 @@ void SetConfig(Trial* trial, test::Random* random) {
   sf_config& config = trial->config;
   config = test::ConfigFor(trial->scene, std::max(0.5, radius));
   config.largest_block = random->Int(0, 3) == 0 ? 64 : 32;
-  config.max_layer = random->Int(0, SF_LAYERS - 1);
-  config.deblocking = 0;  // a decision by thresholds; deblock_test has it
-  config.skips = random->Int(0, 1);
-  config.gather = random->Int(0, 3) == 0 ? 0 : 1;
+  config.tuning.max_layer = random->Int(0, SF_LAYERS - 1);
+  config.tuning.deblocking = 0;  // a decision by thresholds; deblock_test has it
+  config.tuning.skips = random->Int(0, 1);
+  config.tuning.gather = random->Int(0, 3) == 0 ? 0 : 1;
   // A cheap or a dear block makes the partition fine or coarse.
-  if (random->Int(0, 1) == 0) config.timing.block = 1u << random->Int(0, 26);
+  if (random->Int(0, 1) == 0) config.tuning.timing.block = 1u << random->Int(0, 26);
   if (random->Int(0, 1) == 0) {
     config.theta =
         OneOf({SF_MIN_THETA, SF_MAX_THETA, random->Real(SF_MIN_THETA, SF_MAX_THETA)}, random);
   }
-  if (random->Int(0, 1) == 0) config.n_scale = random->Real(SF_MIN_N_SCALE, SF_MAX_N_SCALE);
+  if (random->Int(0, 1) == 0) config.tuning.n_scale = random->Real(SF_MIN_N_SCALE, SF_MAX_N_SCALE);
   config.transfer = random->Int(0, 1) == 0 ? SF_TRANSFER_SRGB : SF_TRANSFER_NONE;
   const int lamps = random->Int(0, 5);
   if (lamps < 2) config.highlights = float(random->Real(1, lamps == 0 ? 4 : 16));
@@ -140,8 +140,8 @@ std::string Trial::Text() const {
                 "%d, highlights %.9g, %s",
                 scene.width, scene.height, scene.views(), kModes[params.mode], params.rule,
                 double{scene.disparity_min}, double{scene.disparity_max}, params.focus,
-                params.aperture, config.largest_block, config.max_layer, config.theta,
-                config.n_scale, config.gather, config.timing.block, config.transfer,
+                params.aperture, config.largest_block, config.tuning.max_layer, config.theta,
+                config.tuning.n_scale, config.tuning.gather, config.tuning.timing.block, config.transfer,
                 double{config.highlights}, test::ShapeText(config).c_str());
   std::string all = text;
   for (const sf_position& at : scene.positions) {

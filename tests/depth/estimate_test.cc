@@ -187,8 +187,8 @@ TEST_CASE("estimate: bad configurations have their errors") {
     return sf_estimate_size(&config, &bytes);
   };
   CHECK(status([](sf_depth_config*) {}) == SF_OK);
-  CHECK(status([](sf_depth_config* c) { c->version = 0; }) == SF_ERROR_STRUCTURE);
-  CHECK(status([](sf_depth_config* c) { c->reserved[7] = 1; }) == SF_ERROR_RANGE);
+  CHECK(status([](sf_depth_config* c) { c->size = 0; }) == SF_ERROR_STRUCTURE);
+  CHECK(status([](sf_depth_config* c) { ++c->size; }) == SF_ERROR_STRUCTURE);
   CHECK(status([](sf_depth_config* c) { c->width = 0; }) == SF_ERROR_RANGE);
   CHECK(status([](sf_depth_config* c) { c->height = 65536; }) == SF_ERROR_RANGE);
   CHECK(status([](sf_depth_config* c) { c->views = 1; }) == SF_ERROR_RANGE);

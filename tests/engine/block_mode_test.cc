@@ -60,10 +60,10 @@ std::string Text(const Setup& s, const test::Scene& scene) {
 sf_config Config(const Setup& s, const test::Scene& scene) {
   sf_config config = test::ConfigFor(scene, s.max_blur);
   config.largest_block = s.block;
-  config.max_layer = s.max_layer;
-  config.deblocking = s.deblocking;
+  config.tuning.max_layer = s.max_layer;
+  config.tuning.deblocking = s.deblocking;
   config.max_workers = s.workers;
-  config.skips = s.skips;
+  config.tuning.skips = s.skips;
   return config;
 }
 
@@ -99,7 +99,7 @@ void CheckStreamed(const test::Scene& scene, const Setup& s, test::Random* rando
   sf_report whole_report = {};
   const std::vector<uint8_t> whole = Whole(scene, s, &whole_report);
   sf_config config = Config(s, scene);
-  config.streaming = 1;
+  config.features |= SF_FEATURE_STREAMING;
   test::Engine engine(config);
   REQUIRE(engine.status() == SF_OK);
   constexpr int kAll = 1 << 20;

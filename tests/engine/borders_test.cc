@@ -94,11 +94,11 @@ struct Way {
     sf_config config = test::ConfigFor(scene, aperture * (limit + std::abs(focus)));
     if (!coverage) config.features &= ~SF_FEATURE_COVERAGE;
     config.largest_block = kSuperblock;
-    config.max_layer = int16_t(max_layer);
-    config.gather = int16_t(gather);
+    config.tuning.max_layer = int16_t(max_layer);
+    config.tuning.gather = int16_t(gather);
     config.highlights = highlights;
-    config.n_scale = n_scale;
-    config.deblocking = 0;  // joins no other superblock to it
+    config.tuning.n_scale = n_scale;
+    config.tuning.deblocking = 0;  // joins no other superblock to it
     return config;
   }
   static constexpr int kSuperblock = 32;

@@ -57,10 +57,10 @@ int Changed(const Trial& t) {
   }
   sf_config config = test::ConfigFor(scene, t.max_blur);
   config.largest_block = t.block;
-  config.n_scale = t.n_scale;
+  config.tuning.n_scale = t.n_scale;
   config.transfer = t.transfer;
   if (t.theta > 0) config.theta = t.theta;
-  config.skips = 0;  // what is filled has passed no filter
+  config.tuning.skips = 0;  // what is filled has passed no filter
   test::Random shapes(t.shape);
   if (t.shape != 0) test::RandomShape(&config, &shapes);
   test::Engine engine(config);

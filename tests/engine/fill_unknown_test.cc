@@ -49,7 +49,7 @@ Scenes WithGaps(int views) {
 
 sf_config FillingConfig(const test::Scene& scene) {
   sf_config config = test::ConfigFor(scene, 32);
-  config.fill_unknown = 1;
+  config.features |= SF_FEATURE_FILL_UNKNOWN;
   return config;
 }
 
@@ -76,7 +76,7 @@ TEST_CASE("fill unknown: streams and prepared light fields fill alike") {
   const test::Scene& scene = scenes.unknown;
   const sf_params params = test::Params(0.5, 0.5, SF_MODE_BLOCK);
   sf_config config = FillingConfig(scene);
-  config.streaming = 1;
+  config.features |= SF_FEATURE_STREAMING;
   test::Engine engine(config);
   REQUIRE(engine.status() == SF_OK);
   test::Output whole(scene.width, scene.height), other(scene.width, scene.height);

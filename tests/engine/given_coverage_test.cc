@@ -130,7 +130,7 @@ TEST_CASE("given coverage: deep inside a silhouette, too, the wall ends where co
 TEST_CASE("given coverage: regions, streams, images and prepared fields give the same bytes") {
   const test::Scene scene = Comb();
   sf_config config = CombConfig(scene);
-  config.streaming = config.images = 1;
+  config.features |= SF_FEATURE_STREAMING | SF_FEATURE_IMAGES;
   for (const double focus : {kFar, 1.0, kNear}) {
     CAPTURE(focus);
     sf_params params = test::Params(focus, 1, SF_MODE_BLOCK);
@@ -229,7 +229,7 @@ TEST_CASE("given coverage: where nothing moves, colours that contradict it stay"
   test::Random random(3);
   for (uint8_t& coverage : scene.coverage) coverage = random.Byte();
   sf_config config = CombConfig(scene);
-  config.skips = 0;
+  config.tuning.skips = 0;
   const test::Output out = Refocused(scene, config, test::Params(0, 0.001, SF_MODE_BLOCK));
   CHECK((out.bytes == scene.pictures[0]));
 }
@@ -255,7 +255,7 @@ TEST_CASE("given coverage: highlights brighten nothing but their surroundings") 
 TEST_CASE("given coverage: without the feature it is not looked at, and bad input is refused") {
   const test::Scene scene = Comb();
   sf_config config = CombConfig(scene);
-  config.streaming = 1;
+  config.features |= SF_FEATURE_STREAMING;
   const sf_params params = test::Params(kFar, 1, SF_MODE_BLOCK);
   test::Engine engine(config);
   sf_light_field field = scene.Field();

@@ -119,8 +119,8 @@ std::string Refocus(const Case& one, const test::Scene& scene,
   config.largest_block = one.block;
   // Slanted surfaces have the paper's values, the others light.
   config.transfer = one.depth == test::Depth::kSlanted ? SF_TRANSFER_NONE : SF_TRANSFER_SRGB;
-  config.gather = one.views != 9;  // views have their share, layers 1 and 2 with them
-  if (one.levels > 0) config.n_scale = 0.5;
+  config.tuning.gather = one.views != 9;  // views have their share, layers 1 and 2 with them
+  if (one.levels > 0) config.tuning.n_scale = 0.5;
   if (one.shape != nullptr) one.shape->Set(&config);
   test::Engine engine(config);
   REQUIRE(engine.status() == SF_OK);

@@ -131,7 +131,7 @@ TEST_CASE("no heap call in size query, init, refocusing and streaming") {
       CAPTURE(views);
       const test::Scene scene = test::RandomScene(70, 50, views, -3, 3, 5);
       sf_config config = test::ConfigFor(scene, 16);
-      config.streaming = 1;
+      config.features |= SF_FEATURE_STREAMING;
       test::Engine holder(config);  // only its memory is used
       REQUIRE(holder.status() == SF_OK);
       const sf_params params = test::Params(1.25, 0.9, mode);
@@ -176,7 +176,7 @@ TEST_CASE("no heap call of images") {
   const test::ImageField field = test::MakeImageField(
       scene, {nv12}, test::MakeDepth(scene, 35, 25, SF_DEPTH_U16, SF_DEPTH_RECIPROCAL, 0), &random);
   sf_config config = test::ImageConfig(field, 16);
-  config.streaming = 1;
+  config.features |= SF_FEATURE_STREAMING;
   test::Engine engine(config);
   test::ImageMemory image(70, 50, nv12);
   const sf_image_field images = field.Field();
@@ -207,8 +207,8 @@ TEST_CASE("no heap call in block mode with all layers, deblocking, visitor and c
   }
   sf_config config = test::ConfigFor(scene, 28);
   config.largest_block = 32;
-  config.streaming = 1;
-  config.gather = 0;            // all three layers
+  config.features |= SF_FEATURE_STREAMING;
+  config.tuning.gather = 0;            // all three layers
   test::Engine holder(config);  // only its memory is used
   REQUIRE(holder.status() == SF_OK);
   const sf_params params = test::Params(0, 1, SF_MODE_BLOCK);

@@ -36,7 +36,7 @@ std::vector<uint8_t> Picture(const test::Scene& scene, double blur, double highl
                              sf_transfer transfer = SF_TRANSFER_SRGB) {
   sf_config config = test::ConfigFor(scene, 20);
   config.largest_block = 32;
-  config.max_layer = config.gather = 0;  // where highlights are there is neither
+  config.tuning.max_layer = config.tuning.gather = 0;  // where highlights are there is neither
   config.highlights = float(highlights);
   config.transfer = transfer;
   sf_params params = test::Params(blur, 1, mode);
@@ -120,7 +120,7 @@ TEST_CASE("highlights: walls do not glow") {
 TEST_CASE("highlights: what sees nothing but one large highlight is rendered once") {
   const auto samples = [](const test::Scene& scene, double highlights) {
     sf_config config = test::ConfigFor(scene, 20);
-    config.gather = 0;
+    config.tuning.gather = 0;
     config.highlights = float(highlights);
     return test::RefocusScene(scene, config, test::Params(9, 1, SF_MODE_BLOCK))
         .report.rendered_samples;
@@ -162,7 +162,7 @@ TEST_CASE("highlights: rows that come one by one give the same bytes") {
     for (const sf_mode mode : kModes) {
       sf_config config = test::ConfigFor(scene, 9);
       config.largest_block = 32;
-      config.streaming = 1;
+      config.features |= SF_FEATURE_STREAMING;
       config.highlights = 6;
       test::Engine engine(config);
       REQUIRE(engine.status() == SF_OK);

@@ -100,7 +100,7 @@ TEST_CASE("layout: workspaces of boards are no larger than they were" *
       // Without layers 1 and 2.
       {[] {
          sf_config config = test::BoardConfig(640, 480, 1, 32, 8, 1);
-         config.max_layer = 0;
+         config.tuning.max_layer = 0;
          return config;
        }(),
        1056},
@@ -118,7 +118,7 @@ TEST_CASE("layout: all of a workspace is for some part" * doctest::skip(starfocu
   for (const int streaming : {0, 1}) {
     for (const int images : {0, 1}) {
       sf_config config = test::BoardConfig(320, 200, 5, 64, 12, streaming);
-      config.images = images;
+      test::SetFeature(SF_FEATURE_IMAGES, images, &config.features);
       const std::vector<test::MemoryPart> parts = test::MeasureParts(config);
       size_t bytes = 0;
       REQUIRE(sf_workspace_size(&config, &bytes) == SF_OK);
@@ -140,8 +140,8 @@ TEST_CASE("layout: what grows with the picture comes last, and less of it fits i
     config.max_blur = random.Real(0.1, SF_MAX_BLUR);
     config.largest_block = 32 << random.Int(0, 3);
     config.max_workers = random.Int(1, 4);
-    config.streaming = random.Int(0, 1);
-    config.images = random.Int(0, 1);
+    test::SetFeature(SF_FEATURE_STREAMING, random.Int(0, 1), &config.features);
+    test::SetFeature(SF_FEATURE_IMAGES, random.Int(0, 1), &config.features);
     config.highlights = random.Int(0, 1) == 0 ? 1.0F : 8.0F;
     config.cats_eye = random.Int(0, 1) == 0 ? 0.0F : 0.5F;
     const size_t bytes = test::WorkspaceBytes(config);
@@ -161,7 +161,7 @@ TEST_CASE("layout: laid out anew, an engine keeps its workers and tables") {
   config.width = 300;
   config.height = 200;
   config.max_workers = 2;
-  config.streaming = 1;
+  config.features |= SF_FEATURE_STREAMING;
   test::Engine engine(config);
   REQUIRE(engine.status() == SF_OK);
   starfocus::EngineState& state = test::StateOf(engine.get());
@@ -192,7 +192,7 @@ TEST_CASE("layout: sizes never wrap, and too large ones are an error of every ca
   config.disparity_max = 500;
   config.max_blur = SF_MAX_BLUR;
   config.largest_block = 256;
-  config.streaming = 1;
+  config.features |= SF_FEATURE_STREAMING;
   int refused = 0;
   for (int width = 999; width <= SF_MAX_SIZE; width += 1000) {
     config.width = width;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// sf_config.n_scale through the public ABI: which N it makes, that the other modes do not ask for
+// sf_tuning.n_scale through the public ABI: which N it makes, that the other modes do not ask for
 // it, and that it trades time for error.
 #include <doctest/doctest.h>
 
@@ -24,8 +24,8 @@ constexpr double kScales[] = {0.5, 0.7, 1, 1.4, 2};
 Refocused Refocus(const test::Scene& scene, const sf_params& params, double n_scale,
                   double max_blur = 32) {
   sf_config config = test::ConfigFor(scene, max_blur);
-  config.n_scale = n_scale;
-  config.gather = 0;  // N is all that differs
+  config.tuning.n_scale = n_scale;
+  config.tuning.gather = 0;  // N is all that differs
   return test::RefocusScene(scene, config, params);
 }
 
@@ -46,9 +46,9 @@ TEST_CASE("n_scale: multiplies the N of either rule in frame and block mode") {
           sf_params params = test::Params(radius, 1, mode);
           params.rule = rule;
           sf_config config = test::ConfigFor(scene);
-          config.n_scale = scale;
-          config.max_layer = 0;
-          config.gather = 0;  // which takes no views at all
+          config.tuning.n_scale = scale;
+          config.tuning.max_layer = 0;
+          config.tuning.gather = 0;  // which takes no views at all
           test::Engine engine(config);
           REQUIRE(engine.status() == SF_OK);
           test::Output out(scene.width, scene.height);

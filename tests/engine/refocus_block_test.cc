@@ -107,9 +107,9 @@ struct FrameDiff {
 
 void CheckPicture(const test::Scene& scene, const sf_params& params, int more, FrameDiff* changes) {
   sf_config config = test::ConfigFor(scene, 40);
-  config.gather = 0;           // views everywhere
+  config.tuning.gather = 0;           // views everywhere
   config.largest_block = 128;  // the whole picture, so that all of every layer is there
-  config.n_scale = more % 2 == 0 ? 1 : SF_MIN_N_SCALE;
+  config.tuning.n_scale = more % 2 == 0 ? 1 : SF_MIN_N_SCALE;
   test::Engine engine(config);
   REQUIRE(engine.status() == SF_OK);
   test::Output out(scene.width, scene.height);

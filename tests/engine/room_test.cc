@@ -30,7 +30,7 @@ std::vector<uint8_t> Picture(const sf_config& config, const sf_params& params,
   test::Engine engine(config);
   REQUIRE(engine.status() == SF_OK);
   test::Output out(scene.width, scene.height);
-  if (config.streaming != 0) {
+  if (test::Has(config.features, SF_FEATURE_STREAMING)) {
     REQUIRE(test::Stream(&engine, params, scene, &out, 7, 5) == SF_OK);
   } else {
     REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
@@ -49,14 +49,14 @@ TEST_CASE("room: larger blurs, rows and workers that are reserved change no pict
     params.rule = random.Int(0, 5) == 0 ? SF_RULE_PAPER : SF_RULE_SUBAPERTURE;
     sf_config config = test::ConfigFor(scene, double{range});
     config.largest_block = 32 << random.Int(0, 1);
-    config.n_scale = random.Int(0, 1) == 0 ? 0.5 : 1;
-    config.timing.block = 1u << random.Int(0, 26);
-    config.gather = random.Int(0, 1);
+    config.tuning.n_scale = random.Int(0, 1) == 0 ? 0.5 : 1;
+    config.tuning.timing.block = 1u << random.Int(0, 26);
+    config.tuning.gather = random.Int(0, 1);
     const std::vector<uint8_t> expected = Picture(config, params, scene);
     for (const double max_blur : {range + 1.0, 45.0, SF_MAX_BLUR}) {
       sf_config other = config;
       other.max_blur = max_blur;
-      other.streaming = random.Int(0, 1);
+      test::SetFeature(SF_FEATURE_STREAMING, random.Int(0, 1), &other.features);
       other.max_workers = random.Int(1, 3);
       CAPTURE(round);
       CAPTURE(max_blur);

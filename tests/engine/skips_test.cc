@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What sf_skipped counts: the same bytes as with sf_config.skips = 0, on scenes where each of it is
+// What sf_skipped counts: the same bytes as with sf_tuning.skips = 0, on scenes where each of it is
 // skipped, and nothing where it may not be.
 #include <doctest/doctest.h>
 
@@ -25,7 +25,7 @@ constexpr int kBlocks[] = {32, 64, 128, 256};
 constexpr sf_mode kModes[] = {SF_MODE_FRAME, SF_MODE_BENCHMARK, SF_MODE_BLOCK};
 
 Refocused Refocus(const test::Scene& scene, sf_config config, const sf_params& params, int skips) {
-  config.skips = skips;
+  config.tuning.skips = skips;
   return test::RefocusScene(scene, config, params);
 }
 
@@ -82,9 +82,9 @@ TEST_CASE("skips: the same bytes as with all the work done, in every mode") {
     const test::Scene scene = VariedScene(width, height, views, limit, &random);
     sf_config config = test::ConfigFor(scene, 20);
     config.largest_block = kBlocks[random.Int(0, 3)];
-    config.max_layer = random.Int(0, 3) == 0 ? random.Int(0, 1) : 2;
-    if (random.Int(0, 3) == 0) config.n_scale = random.Real(0.5, 2);
-    config.gather = random.Int(0, 1);
+    config.tuning.max_layer = random.Int(0, 3) == 0 ? random.Int(0, 1) : 2;
+    if (random.Int(0, 3) == 0) config.tuning.n_scale = random.Real(0.5, 2);
+    config.tuning.gather = random.Int(0, 1);
     const sf_mode mode = kModes[round % 3 == 0 ? round / 3 % 2 : 2];
     const double focus = random.Int(0, 1) == 0 ? 0 : random.Real(-2 * limit, 2 * limit);
     double aperture = random.Int(0, 1) == 0 ? 1 : random.Real(0.02, 1);
@@ -172,7 +172,7 @@ TEST_CASE("skips: levels that no block reads are not made") {
   params.focus = 27;  // 25: all at layer 2, and no block reads layer 1
   const sf_skipped far = Refocus(scene, config, params, 1).report.skipped;
   CHECK(far.layer_columns == 3);
-  config.max_layer = 1;
+  config.tuning.max_layer = 1;
   CHECK(Refocus(scene, config, params, 1).report.skipped.layer_columns == 0);
 }
 

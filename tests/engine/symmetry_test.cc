@@ -45,7 +45,7 @@ TEST_CASE("symmetry: captured views change places") {
 test::Output Refocused(const test::Scene& scene, const sf_params& params) {
   sf_config config = test::ConfigFor(scene);
   config.largest_block = 32;
-  config.max_layer = 0;  // layers keep every second pixel, from the left and the top
+  config.tuning.max_layer = 0;  // layers keep every second pixel, from the left and the top
   test::Engine engine(config);
   REQUIRE(engine.status() == SF_OK);
   test::Output out(scene.width, scene.height);

@@ -143,7 +143,7 @@ TEST_CASE("thin: every way in gives the same bytes") {
     }
     params.region = {};
     sf_config streaming = config;
-    streaming.streaming = 1;
+    streaming.features |= SF_FEATURE_STREAMING;
     test::Engine stream(streaming);
     test::Output streamed(kWidth, kHeight);
     REQUIRE(test::Stream(&stream, params, scene, &streamed, 7, 11) == SF_OK);

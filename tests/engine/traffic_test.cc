@@ -74,7 +74,7 @@ TEST_CASE("traffic: the map is read twice, first to be checked, and that of a st
   CHECK(part.disparity_bytes < whole.disparity_bytes);
   // Rows of a stream are checked one by one.
   params.region = {};
-  config.streaming = 1;
+  config.features |= SF_FEATURE_STREAMING;
   test::Engine engine(config);
   test::Output out(kWidth, kTall);
   sf_report streamed = {};
@@ -86,10 +86,10 @@ TEST_CASE("traffic: layers read the centre view once more") {
   const test::Scene scene = FlatScene(0.1f);
   sf_config config = test::ConfigFor(scene, 24);
   config.largest_block = 64;
-  config.gather = 0;
+  config.tuning.gather = 0;
   const sf_params params = test::Params(18, 1, SF_MODE_BLOCK);
   const sf_report layered = test::RefocusScene(scene, config, params).report;
-  config.max_layer = 0;
+  config.tuning.max_layer = 0;
   const sf_report whole = test::RefocusScene(scene, config, params).report;
   CHECK(layered.layers[0].pixels == 0);
   CHECK(layered.centre_bytes >= 3 * kWidth * kHeight);

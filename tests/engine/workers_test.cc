@@ -50,7 +50,7 @@ std::vector<uint8_t> Whole(const test::Scene& scene, const sf_params& params, in
   sf_config config = test::ConfigFor(scene);
   config.largest_block = 32;
   config.max_workers = workers;
-  config.streaming = stream;
+  test::SetFeature(SF_FEATURE_STREAMING, stream, &config.features);
   test::Engine engine(config);
   REQUIRE(engine.status() == SF_OK);
   test::Output out(scene.width, scene.height);

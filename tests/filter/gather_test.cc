@@ -149,7 +149,7 @@ TEST_CASE("gather: a flat surface gets the bytes of the blur mode") {
       CHECK(gathered.report.gathered_pixels == 70 * 45);
       CHECK(gathered.report.n == 0);
       CHECK(gathered.report.rendered_samples == 0);
-      config.gather = 0;
+      config.tuning.gather = 0;
       const Refocused views = RefocusScene(scene, config, test::Params(radius, 1, SF_MODE_BLOCK));
       CHECK(views.report.gathered_pixels == 0);
       CHECK(views.report.n > 0);
@@ -202,7 +202,7 @@ TEST_CASE("gather: beside depth edges views go on, and nothing gets worse agains
     sf_config config = test::ConfigFor(scene, 16);
     const Refocused benchmark = RefocusScene(scene, config, test::Params(1, 1, SF_MODE_BENCHMARK));
     const Refocused gathered = RefocusScene(scene, config, test::Params(1, 1, SF_MODE_BLOCK));
-    config.gather = 0;
+    config.tuning.gather = 0;
     const Refocused views = RefocusScene(scene, config, test::Params(1, 1, SF_MODE_BLOCK));
     CHECK(gathered.report.gathered_pixels > 0);
     CHECK(gathered.report.gathered_pixels < 180 * 130);

@@ -10,6 +10,7 @@
 
 #include "starfocus/starfocus.h"
 #include "tests/fuzz/input.h"
+#include "tests/support/features.h"
 #include "tests/support/strands.h"
 
 namespace {
@@ -62,23 +63,23 @@ sf_config MakeConfig(bool strands, Input* input) {
   config.max_blur = input->Rarely() ? input->Real(1, SF_MAX_BLUR) : input->Real(0.01, 14);
   config.largest_block = kBlocks[input->Int(0, 3)];
   config.max_workers = input->Rarely() ? SF_MAX_WORKERS : 1;
-  config.streaming = input->Int(0, 1);
+  test::SetFeature(SF_FEATURE_STREAMING, input->Int(0, 1), &config.features);
   config.theta = input->Real(SF_MIN_THETA, SF_MAX_THETA);
-  config.max_layer = input->Int(0, 2);
-  config.deblocking = input->Int(0, 255);
-  config.timing.block = 1u << input->Int(0, 26);
-  config.timing.c = static_cast<uint32_t>(input->Int(0, 100000));
+  config.tuning.max_layer = input->Int(0, 2);
+  config.tuning.deblocking = input->Int(0, 255);
+  config.tuning.timing.block = 1u << input->Int(0, 26);
+  config.tuning.timing.c = static_cast<uint32_t>(input->Int(0, 100000));
   // From what another field drew: recorded inputs keep their meaning.
-  config.skips = config.deblocking % 4 != 0;
-  config.gather = config.deblocking % 3 != 0;
-  config.previews = config.deblocking / 4 % 4;
-  config.n_scale = 0.5 + 0.25 * (config.deblocking % 7);
-  if (config.deblocking % 7 == 1)
-    config.highlights = 1.0F + static_cast<float>(config.deblocking) / 8;
-  config.transfer = config.deblocking % 5 == 0 ? SF_TRANSFER_NONE : SF_TRANSFER_SRGB;
-  if (config.deblocking % 2 == 0) SetShape(config.deblocking * 2 / 3, &config);
-  if (config.deblocking % 6 == 1) SetPositions(config.deblocking, &config);
-  if (config.deblocking % 8 == 3) config.features = 0;
+  config.tuning.skips = config.tuning.deblocking % 4 != 0;
+  config.tuning.gather = config.tuning.deblocking % 3 != 0;
+  config.previews = config.tuning.deblocking / 4 % 4;
+  config.tuning.n_scale = 0.5 + 0.25 * (config.tuning.deblocking % 7);
+  if (config.tuning.deblocking % 7 == 1)
+    config.highlights = 1.0F + static_cast<float>(config.tuning.deblocking) / 8;
+  config.transfer = config.tuning.deblocking % 5 == 0 ? SF_TRANSFER_NONE : SF_TRANSFER_SRGB;
+  if (config.tuning.deblocking % 2 == 0) SetShape(config.tuning.deblocking * 2 / 3, &config);
+  if (config.tuning.deblocking % 6 == 1) SetPositions(config.tuning.deblocking, &config);
+  if (config.tuning.deblocking % 8 == 3) config.features = 0;
   if (input->Rarely()) {
     uint8_t* bytes = reinterpret_cast<uint8_t*>(&config);
     input->Bytes(bytes + input->Int(0, static_cast<int>(sizeof(config) / 4) - 1) * 4, 4);
@@ -163,11 +164,11 @@ void MakeDisparity(const sf_config& config, const Strands& strands, Input* input
                    Pictures* pictures) {
   const Levels levels = MakeLevels(config, strands, &Strands::DepthAt, input);
   pictures->disparity.reset(new float[levels.count]);
-  const float range = config.disparity_max - config.disparity_min;
+  const auto low = static_cast<float>(config.disparity_min);
+  const auto high = static_cast<float>(config.disparity_max);
   for (size_t i = 0; i < levels.count; ++i) {
-    const float value =
-        config.disparity_min + range * static_cast<float>(levels.samples[i]) / 255.0f;
-    pictures->disparity[i] = std::clamp(value, config.disparity_min, config.disparity_max);
+    const float value = low + (high - low) * static_cast<float>(levels.samples[i]) / 255.0f;
+    pictures->disparity[i] = std::clamp(value, low, high);
   }
   if (input->Rarely()) {
     pictures->disparity[input->Value<uint32_t>() % levels.count] = input->Value<float>();
@@ -302,7 +303,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   for (int round = 0; round < 2; ++round) {
     const sf_params params = MakeParams(config, &input);
     SetProgress(engine, &input);
-    const double scale = params.mode == SF_MODE_BENCHMARK ? 2 : config.n_scale;
+    const double scale = params.mode == SF_MODE_BENCHMARK ? 2 : config.tuning.n_scale;
     const bool frame = params.mode == SF_MODE_FRAME;
     const bool by_default = params.mode == SF_MODE_BLOCK || (frame && config.views == 1);
     const bool subapertures =
@@ -310,7 +311,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     // At most 13 views along the radius stand for subapertures, however wide the blur is.
     const double n = scale * (subapertures ? std::min(config.max_blur, 13.0) : config.max_blur);
     if (3.2 * n * n * config.width * config.height > kMostWork) continue;
-    if (config.streaming != 0 && input.Int(0, 1) == 1) {
+    if (test::Has(config.features, SF_FEATURE_STREAMING) && input.Int(0, 1) == 1) {
       Stream(engine, config, params, pictures, out.get(), stride, &input);
     } else {
       Refocus(engine, config, params, pictures, out.get(), stride, &input);

@@ -9,6 +9,7 @@
 
 #include "starfocus/image.h"
 #include "tests/fuzz/input.h"
+#include "tests/support/features.h"
 
 namespace {
 
@@ -108,9 +109,9 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   config.width = picture.width, config.height = picture.height;
   config.views = input.Int(0, 1) == 0 ? 1 : 5;
   config.disparity_min = -14, config.disparity_max = 14, config.max_blur = 16;
-  config.images = 1, config.largest_block = 32;
-  config.streaming = input.Int(0, 1);
-  config.fill_unknown = input.Rarely() ? 0 : 1;
+  config.features |= SF_FEATURE_IMAGES, config.largest_block = 32;
+  test::SetFeature(SF_FEATURE_STREAMING, input.Int(0, 1), &config.features);
+  test::SetFeature(SF_FEATURE_FILL_UNKNOWN, input.Rarely() ? 0 : 1, &config.features);
   config.highlights = input.Rarely() ? 4 : 1;
   sf_params params;
   sf_params_init(&params);
@@ -130,7 +131,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   }
   field.depth = MakeDepth(picture, &input, &planes);
   const sf_image out = MakeImage(picture, &input, &planes);
-  const sf_status status = config.streaming != 0
+  const sf_status status = test::Has(config.features, SF_FEATURE_STREAMING)
                                ? StreamAll(engine, params, field, out, picture)
                                : sf_refocus_images(engine, &params, &field, &out, nullptr);
   if (!MayBe(status)) std::abort();

@@ -85,10 +85,10 @@ TEST_CASE("beyond: edges look as in a larger picture of the same scene") {
       for (const sf_mode mode : {SF_MODE_BLOCK, SF_MODE_FRAME, SF_MODE_BENCHMARK}) {
         for (const int gather : {0, 1}) {
           sf_config config = test::ConfigFor(scene, 9);
-          config.gather = gather;
+          config.tuning.gather = gather;
           config.transfer = SF_TRANSFER_NONE;
           sf_config larger_config = test::ConfigFor(larger, 9);
-          larger_config.gather = gather;
+          larger_config.tuning.gather = gather;
           larger_config.transfer = SF_TRANSFER_NONE;
           const sf_params params = test::Params(double(disparity) - 8, 1, mode);
           const Difference difference =

@@ -132,7 +132,7 @@ TEST_CASE("partition: the least of all partitions, tiled once, by the rules") {
     const int side = 32 << random.Int(0, 3);
     const int width = random.Int(1, side + 40), height = random.Int(1, side + 40);
     Plan plan(width, height, side, random.Real(0.5, 14), &random);
-    if (round % 2 == 1) plan.config.timing.block = 0;  // whatever a block costs here, splits more
+    if (round % 2 == 1) plan.config.tuning.timing.block = 0;  // whatever a block costs here, splits more
     blocks += CheckPicture(plan);
     largest_blocks += size_t(((width - 1) / side + 1) * ((height - 1) / side + 1));
   }
@@ -154,7 +154,7 @@ TEST_CASE("partition: random and degenerate coefficients") {
   for (int round = 0; round < 60; ++round) {
     const int side = 32 << random.Int(0, 1);
     Plan plan(random.Int(1, side), random.Int(1, side), side, 9, &random);
-    sf_timing& timing = plan.config.timing;
+    sf_timing& timing = plan.config.tuning.timing;
     for (uint32_t* value : {&timing.block, &timing.field, &timing.a, &timing.b, &timing.c,
                             &timing.upsample, &timing.span, &timing.hole}) {
       const int kind = random.Int(0, 3);
@@ -169,9 +169,9 @@ TEST_CASE("partition: where nothing or only blocks cost, nothing is split") {
   for (const uint32_t block : {0u, 1u, SF_MAX_TIMING}) {
     for (const int side : {32, 64, 128, 256}) {
       Plan plan(side - 5, side, side, 10, &random);
-      plan.config.timing = {};
+      plan.config.tuning.timing = {};
       plan.rules.gathers = false;  // what is gathered is not the block's
-      plan.config.timing.block = block;
+      plan.config.tuning.timing.block = block;
       const std::vector<Block> blocks = plan.Partition(0, 0);
       REQUIRE(blocks.size() == 1);
       CHECK(blocks[0].rect.width == side - 5);
@@ -196,7 +196,7 @@ TEST_CASE("partition: the rules on flat pictures, at and beside their thresholds
       plan.grid = test::MeasureCells(plan.disparity, 3 * kMiddle, 3 * kMiddle, scale, &plan.cells);
       plan.around = test::BordersOf(r).cells;
       plan.rules.max_layer = max_layer;
-      plan.config.n_scale = 1;
+      plan.config.tuning.n_scale = 1;
       plan.rules.demand = static_cast<starfocus::Demand>(random.Int(0, 3));
       const double exact = std::floor(r * 64) / 64;
       CAPTURE(exact);

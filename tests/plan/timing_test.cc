@@ -185,7 +185,7 @@ TEST_CASE("timing: the default coefficients are these on every machine") {
   sf_config_init(&config);
   constexpr sf_timing kDefault = {5659266, 0, 2354, 0, 106, 3266, 720, 507};
   for (const auto coefficient : kCoefficients) {
-    CHECK(config.timing.*coefficient == kDefault.*coefficient);
+    CHECK(config.tuning.timing.*coefficient == kDefault.*coefficient);
   }
 }
 

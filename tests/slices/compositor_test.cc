@@ -34,9 +34,9 @@ test::Scene HalfPlanes(double near, double far, int views) {
 
 std::vector<int> MiddleRow(const test::Scene& scene, double focus, sf_mode mode, int layers = 0) {
   sf_config config = test::ConfigFor(scene, 32);
-  config.gather = 0;
+  config.tuning.gather = 0;
   config.transfer = SF_TRANSFER_NONE;
-  config.max_layer = layers;
+  config.tuning.max_layer = layers;
   sf_params params = test::Params(focus, 1, mode);
   params.rule = SF_RULE_SUBAPERTURE;
   const test::Refocused picture = test::RefocusScene(scene, config, params);
@@ -114,9 +114,9 @@ TEST_CASE("stack: where slices of a slope overlap, its end covers no more than e
     for (int x = 0; x < kEdge; ++x) scene.Disparity(x, y) = 3 + float(y) / kHeight;
   }
   sf_config config = test::ConfigFor(scene, 32);
-  config.gather = 0;
+  config.tuning.gather = 0;
   config.transfer = SF_TRANSFER_NONE;
-  config.max_layer = 0;
+  config.tuning.max_layer = 0;
   const test::Refocused picture =
       test::RefocusScene(scene, config, test::Params(0, 1, SF_MODE_BLOCK));
   double least = kWidth, most = 0;

@@ -39,9 +39,9 @@ test::Scene Mixed(double near, double far, int views, bool transposed = false, i
 std::vector<int> MiddleRow(const test::Scene& scene, double focus, bool transposed = false,
                            double aperture = 1) {
   sf_config config = test::ConfigFor(scene, 32);
-  config.gather = 0;
+  config.tuning.gather = 0;
   config.transfer = SF_TRANSFER_NONE;
-  config.max_layer = 0;
+  config.tuning.max_layer = 0;
   const test::Refocused picture =
       test::RefocusScene(scene, config, test::Params(focus, aperture, SF_MODE_BLOCK));
   std::vector<int> row;
@@ -122,9 +122,9 @@ TEST_CASE("matte: where slices of a slope overlap, its end still covers a quarte
     for (int x = kEdge; x < kWidth; ++x) scene.Disparity(x, y) = float(-0.6 + 1.2 * y / kHeight);
   }
   sf_config config = test::ConfigFor(scene, 32);
-  config.gather = 0;
+  config.tuning.gather = 0;
   config.transfer = SF_TRANSFER_NONE;
-  config.max_layer = 0;
+  config.tuning.max_layer = 0;
   const test::Refocused picture =
       test::RefocusScene(scene, config, test::Params(0, 1, SF_MODE_BLOCK));
   for (int y = 2; y < kHeight - 2; ++y) {
@@ -190,7 +190,7 @@ TEST_CASE("matte: no light leaves a subject for the wall behind, at any level an
           for (const int block : {32, 64, 128, 256}) {
             sf_config config = test::ConfigFor(scene, 40);
             config.transfer = SF_TRANSFER_NONE;
-            config.max_layer = max_layer;
+            config.tuning.max_layer = max_layer;
             config.largest_block = block;
             CAPTURE(views);
             CAPTURE(dark_subject);

@@ -81,7 +81,7 @@ Outcome Mirrors(test::Random* random) {
   setup.config.width = setup.scene.width;
   setup.config.height = setup.scene.height;
   setup.config.largest_block = 32;
-  setup.config.max_layer = 0;  // layers keep every second pixel, from the left and the top
+  setup.config.tuning.max_layer = 0;  // layers keep every second pixel, from the left and the top
   // Coverage takes the first by rows of equally near pixels, of which a range as wide as that of
   // strands makes many.
   if (setup.strands) setup.config.features &= ~SF_FEATURE_COVERAGE;

@@ -27,7 +27,7 @@ bool IsLineByLine(const Setup& setup) {
 
 // Line by line the views are as many as the square of the radius.
 void LimitWork(Setup* setup) {
-  const double n = 1 + setup->Radius() * std::max(1.0, setup->config.n_scale);
+  const double n = 1 + setup->Radius() * std::max(1.0, setup->config.tuning.n_scale);
   const double views = 3.2 * n * n * (setup->params.mode == SF_MODE_BENCHMARK ? 4 : 1);
   if (!IsLineByLine(*setup) || views * setup->config.width * setup->config.height < kMostWork) {
     return;
@@ -46,7 +46,7 @@ Setup RandomCase(test::Random* random) {
         std::min(SF_MAX_BLUR, std::ceil(setup.config.max_blur) + random->Int(0, 8));
   }
   if (random->Int(0, 3) == 0) {
-    sf_timing& timing = setup.config.timing;
+    sf_timing& timing = setup.config.tuning.timing;
     for (uint32_t* coefficient : {&timing.block, &timing.field, &timing.a, &timing.b, &timing.c,
                                   &timing.upsample, &timing.span, &timing.hole}) {
       *coefficient = random->Int(0, 2) == 0 ? 0 : random->Next() % (SF_MAX_TIMING + 1);
@@ -73,7 +73,7 @@ void Distract(const Asked& asked, Rig* rig, test::Random* random) {
   if (what <= 1) {
     sf_refocus(rig->get(), &params, &field, out.bytes.data(), out.stride, nullptr);
   }
-  if (what == 2 && rig->config().streaming != 0) {
+  if (what == 2 && test::Has(rig->config().features, SF_FEATURE_STREAMING)) {
     int32_t moved = 0;
     sf_stream_begin(rig->get(), &params);
     sf_stream_push(rig->get(), &field, random->Int(0, setup.scene.height), &moved);
@@ -131,7 +131,7 @@ std::string Prepared(const Asked& asked, test::Random* random) {
   sf_config config = asked.setup.config;
   if (random->Int(0, 1) == 0) config.largest_block = 32 << random->Int(0, 3);
   if (random->Int(0, 1) == 0) config.max_blur = random->Real(0.5, 64);
-  if (random->Int(0, 1) == 0) config.gather = 1 - config.gather;
+  if (random->Int(0, 1) == 0) config.tuning.gather = 1 - config.tuning.gather;
   if (random->Int(0, 1) == 0) config.previews = random->Int(1, SF_MAX_PREVIEW);
   Rig maker(config, RandomVariant(random)), rig(asked.setup.config, RandomVariant(random));
   size_t bytes = 0;

@@ -40,7 +40,7 @@ void Invert(Setup* setup) {
 }
 
 bool MayResample(const Setup& setup) {
-  return setup.params.mode == SF_MODE_BLOCK && setup.config.max_layer > 0;
+  return setup.params.mode == SF_MODE_BLOCK && setup.config.tuning.max_layer > 0;
 }
 
 // Smallest and largest sample of the views.
@@ -85,8 +85,8 @@ Outcome CheckInversion(Setup setup, test::Random* random) {
     outcome.error = std::max<double>(outcome.error, std::abs(plain[i] + other[i] - 255));
   }
   // Deblocking compares rounded differences with a threshold, and may decide differently.
-  const bool deblocked = MayResample(setup) && setup.config.deblocking > 0;
-  const double most = deblocked ? setup.config.deblocking + kMostInversion : kMostInversion;
+  const bool deblocked = MayResample(setup) && setup.config.tuning.deblocking > 0;
+  const double most = deblocked ? setup.config.tuning.deblocking + kMostInversion : kMostInversion;
   if (outcome.error > most)
     return Contradiction(setup,
                          "inverted picture differs by " + std::to_string(int(outcome.error)));

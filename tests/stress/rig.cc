@@ -63,9 +63,9 @@ void Memory::Free::operator()(void* memory) const {
 
 Rig::Rig(const sf_config& config, const Variant& variant)
     : config_(config), variant_(variant), random_(variant.order) {
-  config_.streaming = variant.stream;
+  test::SetFeature(SF_FEATURE_STREAMING, variant.stream, &config_.features);
   config_.max_workers = variant.workers;
-  config_.skips = variant.skips;
+  config_.tuning.skips = variant.skips;
   config_.max_blur = std::min(SF_MAX_BLUR, config.max_blur * variant.room);
   status_ = sf_workspace_size(&config_, &bytes_);
   if (status_ != SF_OK) return;

@@ -40,11 +40,11 @@ std::string Setup::Text() const {
          std::to_string(params.rule) + ", disparity [" + Number(config.disparity_min) + ", " +
          Number(config.disparity_max) + "], focus " + Number(params.focus) + ", aperture " +
          Number(params.aperture) + ", max_blur " + Number(config.max_blur) + ", block " +
-         std::to_string(config.largest_block) + ", layers " + std::to_string(config.max_layer) +
-         ", deblocking " + std::to_string(config.deblocking) + ", transfer " +
+         std::to_string(config.largest_block) + ", layers " + std::to_string(config.tuning.max_layer) +
+         ", deblocking " + std::to_string(config.tuning.deblocking) + ", transfer " +
          std::to_string(config.transfer) + ", highlights " + Number(double{config.highlights}) +
-         ", theta " + Number(config.theta) + ", n_scale " + Number(config.n_scale) +
-         (config.gather != 0 ? "" : ", nothing gathered") +
+         ", theta " + Number(config.theta) + ", n_scale " + Number(config.tuning.n_scale) +
+         (config.tuning.gather != 0 ? "" : ", nothing gathered") +
          (scene.coverage.empty() ? "" : ", coverage") + ", " + test::ShapeText(config);
 }
 
@@ -149,11 +149,11 @@ void RandomLens(double radius, int modes, Setup* setup, test::Random* random) {
   setup->params = test::Params(focus, aperture);
   setup->config = test::ConfigFor(scene);
   setup->config.largest_block = kBlocks[std::min(random->Int(0, 3), random->Int(0, 3))];
-  setup->config.max_layer = random->Int(0, 3) == 0 ? random->Int(0, 1) : 2;
-  if (random->Int(0, 3) == 0) setup->config.deblocking = random->Int(0, 255);
+  setup->config.tuning.max_layer = random->Int(0, 3) == 0 ? random->Int(0, 1) : 2;
+  if (random->Int(0, 3) == 0) setup->config.tuning.deblocking = random->Int(0, 255);
   if (random->Int(0, 3) == 0) setup->config.theta = OftenAnEnd(SF_MIN_THETA, SF_MAX_THETA, random);
   // A cheap or a dear block makes the partition coarse or fine.
-  if (random->Int(0, 1) == 0) setup->config.timing.block = 1u << random->Int(0, 26);
+  if (random->Int(0, 1) == 0) setup->config.tuning.timing.block = 1u << random->Int(0, 26);
   FitBlur(setup);
   RandomMode(modes, setup, random);
   setup->config.transfer = random->Int(0, 1) == 0 ? SF_TRANSFER_SRGB : SF_TRANSFER_NONE;
@@ -187,9 +187,9 @@ Setup RandomSetup(const Bounds& bounds, test::Random* random) {
       static_cast<float>(std::max<double>(-bounds.disparity, std::min(a, b))),
       static_cast<float>(std::min<double>(bounds.disparity, std::max(a, b))), random->Int(0, 3));
   RandomLens(RandomRadius(bounds.radius, random), bounds.modes, &setup, random);
-  if (random->Int(0, 3) == 0) setup.config.gather = 0;
+  if (random->Int(0, 3) == 0) setup.config.tuning.gather = 0;
   if (random->Int(0, 3) == 0)
-    setup.config.n_scale = OftenAnEnd(SF_MIN_N_SCALE, SF_MAX_N_SCALE, random);
+    setup.config.tuning.n_scale = OftenAnEnd(SF_MIN_N_SCALE, SF_MAX_N_SCALE, random);
   // Pictures draw numbers of their own: a fuzzer's bytes would not last for them.
   test::Random fill(random->Next());
   setup.strands = strands;

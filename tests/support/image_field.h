@@ -59,7 +59,7 @@ inline ImageField MakeImageField(const Scene& scene, const std::vector<ImageKind
 
 inline sf_config ImageConfig(const ImageField& field, double max_blur = 20) {
   sf_config config = ConfigFor(field.converted, max_blur);
-  config.images = 1;
+  config.features |= SF_FEATURE_IMAGES;
   return config;
 }
 

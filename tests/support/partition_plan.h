@@ -86,7 +86,7 @@ struct Plan {
     Use(random->Int(0, 1) == 1 ? kSliceRenderer : kLineScanRenderer);
     rules.demand = static_cast<starfocus::Demand>((width + rules.max_layer) % 4);
     rules.largest_node = largest_block;
-    config.n_scale = (2 + 2 * rules.max_layer + IsSlices()) / 4.0;
+    config.tuning.n_scale = (2 + 2 * rules.max_layer + IsSlices()) / 4.0;
   }
   Plan(const Plan&) = delete;
 
@@ -230,7 +230,7 @@ inline void PlanRest(const Plan& plan, Block* block) {
     border.bottom = std::max(border.bottom, unit_y + kSmallestBlock + part.bottom - bottom);
   });
   const int views = ViewsOf(true, r_max / (kRadiusOne * scale), plan.rules.demand);
-  block->n = std::min(int(std::ceil(views * plan.config.n_scale)), plan.rules.max_n);
+  block->n = std::min(int(std::ceil(views * plan.config.tuning.n_scale)), plan.rules.max_n);
   const auto beyond = [&](int pixels) { return CeilQuotient(pixels, scale) + 1; };
   block->border = {beyond(border.left), beyond(border.right), beyond(border.top),
                    beyond(border.bottom)};
@@ -248,7 +248,8 @@ struct GatherPlan {
         if (!plan.MayGather(x, y, layer)) continue;
         ++gathered;
         const int r_max = plan.grid.At(x / kCellSize, y / kCellSize)->r_max;
-        cost += starfocus::PredictGather(plan.config.timing, uint64_t(side * side), r_max >> layer);
+        cost += starfocus::PredictGather(plan.config.tuning.timing, uint64_t(side * side),
+                                         r_max >> layer);
       }
     }
   }
@@ -284,7 +285,7 @@ inline Block Planned(const Plan& plan, int x, int y, int side) {
                plan.rules.max_layer);
   const int scale = 1 << block.layer;
   const int views = ViewsOf(subapertures, stats.r_max / (kRadiusOne * scale), plan.rules.demand);
-  block.n = std::min(int(std::ceil(views * plan.config.n_scale)), plan.rules.max_n);
+  block.n = std::min(int(std::ceil(views * plan.config.tuning.n_scale)), plan.rules.max_n);
   const int margin = kLayerMargin[block.layer] / scale;
   block.rendered = {x / scale - margin, y / scale - margin,
                     CeilQuotient(block.rect.width, scale) + 2 * margin,
@@ -300,8 +301,8 @@ inline Block Planned(const Plan& plan, int x, int y, int side) {
   starfocus::BlockWork work = plan.rules.renderer->measure_work(
       block.rendered, block.border, plan.rules.apertures[block.n], stats.content, block.layer);
   work.upsample = upsampled;
-  block.cost = starfocus::PredictTime(plan.config.timing, work);
-  if (block.n > 0) PlanGathering(plan, plan.config.timing.upsample * upsampled, &block);
+  block.cost = starfocus::PredictTime(plan.config.tuning.timing, work);
+  if (block.n > 0) PlanGathering(plan, plan.config.tuning.timing.upsample * upsampled, &block);
   return block;
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
+#include "tests/support/features.h"
 
 namespace test {
 

@@ -63,7 +63,7 @@ EngineRun::EngineRun(int threads, int pictures)
 Error EngineRun::Start(const std::string& where, const EngineTask& task) {
   sf_config config = task.config;
   config.max_workers = task.threads;
-  config.streaming = task.stream ? 1 : 0;
+  if (task.stream) config.features |= SF_FEATURE_STREAMING;
   sf_problem problem = {};
   config.problem = &problem;
   try {

@@ -159,7 +159,7 @@ Error PlanLens(const LensOptions& options, LensPlan* plan) {
   plan->options = options;
   sf_config_init(&plan->config);
   if (Error error = ParseShape(options.shape, &plan->config)) return error;
-  return options.timing.empty() ? Error() : ReadTiming(options.timing, &plan->config.timing);
+  return options.timing.empty() ? Error() : ReadTiming(options.timing, &plan->config.tuning.timing);
 }
 
 Error PlanFocus(const LensOptions& options, LensPlan* plan) {
@@ -265,11 +265,11 @@ EngineTask MakeTask(const LensPlan& plan, const LightField& light_field,
   task.config.disparity_max = stats.max;
   task.config.max_blur = max_blur;
   task.config.largest_block = plan.options.largest_block;
-  task.config.max_layer = plan.options.max_layer;
-  task.config.deblocking = plan.options.deblocking;
-  task.config.n_scale = plan.options.n_scale;
+  task.config.tuning.max_layer = plan.options.max_layer;
+  task.config.tuning.deblocking = plan.options.deblocking;
+  task.config.tuning.n_scale = plan.options.n_scale;
   task.config.transfer = plan.options.transfer;
-  task.config.highlights = static_cast<float>(plan.options.highlights);
+  task.config.highlights = plan.options.highlights;
   sf_params_init(&task.params);
   task.params.mode = plan.options.mode;
   task.params.rule = plan.options.rule;

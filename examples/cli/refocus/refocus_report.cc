@@ -113,14 +113,14 @@ void AddFigures(const EngineTask& task, const EngineResult& result, Json* json) 
   json->Set("highlights", task.config.highlights);
   json->Set("transfer", task.config.transfer == SF_TRANSFER_NONE ? "none" : "srgb");
   json->Set("shape", ShapeJson(task.config));
-  json->Set("n_scale", task.config.n_scale);
+  json->Set("n_scale", task.config.tuning.n_scale);
   json->Set("r_max", result.report.r_max);
   json->Set("N", result.report.n);
   json->Set("rendered_views", result.report.rendered_views);
   json->Set("rendered_samples", result.report.rendered_samples);
   json->Set("largest_block", result.report.largest_block);
-  json->Set("max_layer", task.config.max_layer);
-  json->Set("deblocking", task.config.deblocking);
+  json->Set("max_layer", task.config.tuning.max_layer);
+  json->Set("deblocking", task.config.tuning.deblocking);
   json->Set("layers", LayersJson(result.report, task.params.mode == SF_MODE_BLOCK));
   json->Set("skipped", SkippedJson(task, result.report));
   json->Set("traffic", TrafficJson(task, result.report));

@@ -20,8 +20,8 @@ sf_config MakeConfig(const LightField& light_field, const sf_disparity_stats& st
   config.disparity_max = stats.max;
   config.max_blur = SF_MAX_BLUR;
   config.largest_block = 256;       // the scratch then serves every smaller block
-  config.n_scale = SF_MAX_N_SCALE;  // and there are apertures of every N that is sampled
-  config.skips = 0;                 // the model is one of rendering
+  config.tuning.n_scale = SF_MAX_N_SCALE;  // and there are apertures of every N that is sampled
+  config.tuning.skips = 0;                 // the model is one of rendering
   return config;
 }
 

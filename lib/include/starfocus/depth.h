@@ -17,15 +17,15 @@ extern "C" {
 
 /** What a map is made from. Call sf_depth_config_init first. */
 typedef struct sf_depth_config {
-  uint32_t version;     /**< SF_ABI_VERSION, set by sf_depth_config_init */
+  uint32_t size;        /**< of the structure in bytes, set by sf_depth_config_init */
   int32_t width;        /**< pixels, [1, SF_MAX_SIZE] */
   int32_t height;       /**< pixels, [1, SF_MAX_SIZE] */
   int32_t views;        /**< captured views: 5, 9 or 17 (see sf_view_position), 1 as well of a
                              repair; default 5 */
-  float disparity_min;  /**< disparities are looked for from here */
-  float disparity_max;  /**< to here, both within +-SF_MAX_DISPARITY; in steps of half a pixel, of
-                             a pixel or more, 128 at most, if the range is wider than 64; between
-                             two steps what fits best is found */
+  double disparity_min; /**< disparities are looked for from here */
+  double disparity_max; /**< to here, both within +-SF_MAX_DISPARITY; in steps of half a pixel, of
+                            a pixel or more, 128 at most, if the range is wider than 64; between
+                            two steps what fits best is found */
   int32_t max_workers;  /**< workers the runner may use, [1, SF_MAX_WORKERS]; default 1 */
   sf_runner runner;     /**< runs the jobs; null, the default: the calling thread runs them */
   void* runner_data;    /**< passed to runner */
@@ -35,7 +35,6 @@ typedef struct sf_depth_config {
                              outputs and the workspace are unspecified */
   void* progress_data;  /**< passed to progress */
   sf_problem* problem;  /**< where a call tells what it refuses; null, the default: nowhere */
-  uint32_t reserved[8]; /**< zero */
 } sf_depth_config;
 
 /** Output planes of a map. They must not overlap the views, the given map, the workspace or each
@@ -52,7 +51,12 @@ typedef struct sf_map {
                              of `coverage` are unspecified */
 } sf_map;
 
-SF_API void sf_depth_config_init(sf_depth_config* config);
+/** As sf_config_init_sized. */
+SF_API void sf_depth_config_init_sized(sf_depth_config* config, uint32_t size);
+
+static inline void sf_depth_config_init(sf_depth_config* config) {
+  sf_depth_config_init_sized(config, (uint32_t)sizeof(sf_depth_config));
+}
 
 /** Bytes of workspace of sf_estimate_disparity into *bytes: 5 for each pixel of the picture, and
  * for each worker up to 1.2 MB for each pixel of the range and about 10, 20 or 45 MB with 5, 9 or

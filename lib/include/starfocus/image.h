@@ -6,7 +6,7 @@
  * nothing is copied whole. The bytes are those of converting everything first, by the formulas
  * below, refocusing, and converting the result.
  *
- * An engine for them is configured with sf_config.images = 1; else they return SF_ERROR_FEATURE. A
+ * An engine for them is configured with SF_FEATURE_IMAGES; else they return SF_ERROR_FEATURE. A
  * static program that calls none of them holds nothing of them.
  *
  * Codes have 8 bits: light is a table of them. Formats of 10 and 16 bits are not supported.
@@ -104,7 +104,7 @@ typedef enum sf_depth_meaning {
  *
  *  Disparities are computed in single precision, each operation rounded, must lie in the configured
  *  range (else SF_ERROR_DISPARITY), and are rounded to D = floor(64 disparity + 1/2). Those that
- *  are not finite, and those of invalid values, are unknown: see sf_config.fill_unknown, without
+ *  are not finite, and those of invalid values, are unknown: see SF_FEATURE_FILL_UNKNOWN, without
  *  which they are SF_ERROR_NOT_FINITE; rows of the picture are filled, not of the map.
  *
  *  A smaller map is interpolated between its values along surfaces and never across their edges.
@@ -163,7 +163,7 @@ SF_API sf_status sf_refocus_preview_images(sf_engine* engine, const sf_params* p
 /** As sf_stream_push, of images: planes point to the next rows. The depth map is the whole one,
  *  the same in all calls; coverage is rows like the views. Rows that share chroma come together:
  * where a view has some, `rows` is even but at the picture's end (else SF_ERROR_RANGE), and so is
- * *consumed. All rows of all views are converted. The engine is configured with streaming = 1, too.
+ * *consumed. All rows of all views are converted. The engine needs SF_FEATURE_STREAMING, too.
  */
 SF_API sf_status sf_stream_push_images(sf_engine* engine, const sf_image_field* field, int32_t rows,
                                        int32_t* consumed);

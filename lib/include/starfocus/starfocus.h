@@ -76,6 +76,13 @@ SF_API size_t sf_struct_size(const char* name);
 #define SF_MAX_RING_INNER 0.9
 #define SF_FEATURE_LINE_SCAN 1u /**< the paper's renderer, SF_RULE_PAPER */
 #define SF_FEATURE_COVERAGE 2u  /**< hair and other thin structures are parted */
+#define SF_FEATURE_STREAMING 4u /**< sf_stream_*: reserves rings of rows */
+#define SF_FEATURE_IMAGES 8u    /**< the calls of starfocus/image.h: reserves rows for them */
+/** NaN and infinite values of disparity maps are unknown, and along their row the known value next
+ * to them goes on, of one on either side that of the farther surface; a row without any is at
+ *  disparity_min. Without it they are refused, SF_ERROR_NOT_FINITE. sf_repair_disparity finds what
+ *  the views show there, and sf_fill_disparity fills whole maps. */
+#define SF_FEATURE_FILL_UNKNOWN 16u
 
 /** What the opening of the lens looks like, in the disc of radius u_t. */
 typedef enum sf_shape {
@@ -102,85 +109,74 @@ typedef enum sf_transfer {
       1 /**< light is the code itself: codes are averaged as they are (the paper's) */
 } sf_transfer;
 
-/** What a workspace is made for. Call sf_config_init first: it zeroes and sets the defaults. */
+/** What a workspace is made for. Call sf_config_init first: it sets `size` and the defaults. A
+ * program whose header has fewer fields than the library gets their defaults; one whose header has
+ * more is refused, SF_ERROR_STRUCTURE. */
 typedef struct sf_config {
-  uint32_t version;    /**< SF_ABI_VERSION, set by sf_config_init */
-  int32_t width;       /**< pixels, [1, SF_MAX_SIZE] */
-  int32_t height;      /**< pixels, [1, SF_MAX_SIZE]; the workspace does not depend on it */
-  int32_t views;       /**< captured views: 1, 5, 9 or 17 (see sf_view_position), or with positions
-                            any number from 1 to SF_MAX_VIEWS; default 5 */
-  float disparity_min; /**< smallest disparity any map may hold; with disparity_max it bounds the
+  uint32_t size;        /**< of the structure in bytes, set by sf_config_init */
+  int32_t width;        /**< pixels, [1, SF_MAX_SIZE] */
+  int32_t height;       /**< pixels, [1, SF_MAX_SIZE]; the workspace does not depend on it */
+  int32_t views;        /**< captured views: 1, 5, 9 or 17 (see sf_view_position), or with positions
+                             any number from 1 to SF_MAX_VIEWS; default 5 */
+  double disparity_min; /**< smallest disparity any map may hold; with disparity_max it bounds the
                             blur, and so N of the frame modes and, beyond 32 pixels of blur, how
                             finely scenes are cut, in every entry path */
-  float disparity_max; /**< largest disparity any map may hold, >= disparity_min */
-  double max_blur;     /**< largest blur radius r = aperture * |d - focus| in pixels that will be
-                            asked for, (0, SF_MAX_BLUR]; default 32. It reserves room and changes
-                            no picture */
+  double disparity_max; /**< largest disparity any map may hold, >= disparity_min */
+  double max_blur;      /**< largest blur radius r = aperture * |d - focus| in pixels that will be
+                             asked for, (0, SF_MAX_BLUR]; default 32. It reserves room and changes
+                             no picture */
   int32_t
       largest_block;   /**< side of the largest refocusing block in pixels: 32, 64, 128, 256, or
                             0, the default: 128 from a width of 1536 on, else 64. For wide
                             pictures 128 is up to an eighth faster; a worker's memory grows with
                             the block's area, from 1.15 MiB at 64 on. sf_report has what 0 chose */
   int32_t max_workers; /**< workers the runner may use, [1, SF_MAX_WORKERS]; default 1 */
-  int32_t streaming;   /**< 1 reserves line rings for sf_stream_*; default 0: whole pictures only */
-  double theta;        /**< fall-off of the aperture (3) in radians; default 0.26 pi */
-  int32_t max_layer;   /**< largest subsampled layer L of SF_MODE_BLOCK: 0, 1 or 2; default 2 */
-  int32_t deblocking;  /**< beta of (16), (17) in gray levels, [0, 255]; 0: off; default 35 */
-  sf_timing timing;    /**< each coefficient <= SF_MAX_TIMING */
-  double n_scale;      /**< time against error: multiplies the N of either rule in SF_MODE_BLOCK and
-                            SF_MODE_FRAME, rounded up; the number of views grows with its square;
-                            [SF_MIN_N_SCALE, SF_MAX_N_SCALE]; default 1 */
-  int32_t skips;  /**< 1, the default: what sf_skipped counts is left out; 0: all is done, for the
-                       same bytes */
-  int32_t gather; /**< 1, the default: by SF_RULE_SUBAPERTURE SF_MODE_BLOCK blurs the centre view
-                     itself, with the kernel (4), where one surface is all that lies within reach;
-                     0: it renders views there too */
-  int16_t aperture_shape; /**< sf_shape; default SF_SHAPE_FALL_OFF. theta belongs to that alone, the
+  uint32_t features; /**< bits of SF_FEATURE_, what the workspace has memory for; default LINE_SCAN
+                        and COVERAGE. Without LINE_SCAN, SF_RULE_DEFAULT is SUBAPERTURE in all
+                        modes, and SF_RULE_PAPER is refused, SF_ERROR_FEATURE */
+  int32_t previews;  /**< largest shift of sf_refocus_preview, [0, SF_MAX_PREVIEW]: sf_prepare then
+                        keeps the light field at 1/2, 1/4 and 1/8 of its size, up to that; default
+                        0: none. The workspace does not grow by it */
+  int32_t transfer;  /**< sf_transfer: how codes of the pictures stand for light; default
+                        SF_TRANSFER_SRGB */
+  int32_t aperture_shape; /**< sf_shape; default SF_SHAPE_FALL_OFF. theta belongs to that alone, the
                              fields below to the others. By a polygon's and with cats_eye nothing
                              is gathered */
-  int16_t blades;         /**< of a polygon, [SF_MIN_BLADES, SF_MAX_BLADES]; default 5 */
-  float rotation;  /**< of a polygon in degrees, [-360, 360]; 0, the default: a corner at the top of
-                      the lens, (0, -1); more turns it clockwise, to the right */
-  float curvature; /**< of a polygon's edges, the disc's radius over theirs, [0, 1]; default 0:
-                      straight; 1: the disc */
-  float ring_inner; /**< of a ring: radius of its hole over u_t, [0, SF_MAX_RING_INNER]; default
+  int32_t blades;         /**< of a polygon, [SF_MIN_BLADES, SF_MAX_BLADES]; default 5 */
+  double theta;           /**< fall-off of the aperture (3) in radians; default 0.26 pi */
+  double rotation; /**< of a polygon in degrees, [-360, 360]; 0, the default: a corner at the top of
+                     the lens, (0, -1); more turns it clockwise, to the right */
+  double curvature;  /**< of a polygon's edges, the disc's radius over theirs, [0, 1]; default 0:
+                       straight; 1: the disc */
+  double ring_inner; /**< of a ring: radius of its hole over u_t, [0, SF_MAX_RING_INNER]; default
                        0.5 */
-  float cats_eye; /**< how far a second rim, as wide as the disc, lies beside the lens in radii, as
+  double cats_eye; /**< how far a second rim, as wide as the disc, lies beside the lens in radii, as
                      it is seen from the picture's corners, [0, 1]; less towards the middle: light
                      passes both. Pictures do not get darker by it, SF_MODE_BLUR does without it;
                      default 0: there is none */
-  int32_t transfer; /**< sf_transfer: how codes of the pictures stand for light; default
-                       SF_TRANSFER_SRGB */
-  float highlights; /**< how many times white the lamps are that pictures clip,
+  double highlights; /**< how many times white the lamps are that pictures clip,
                        [1, SF_MAX_HIGHLIGHTS]; default 1: as white as they look. Pixels two of whose
                        codes are 251 or more count, the brighter the more, up to clipped ones.
                        White areas wider and higher than a 32nd of the picture's width (16 to 128
                        pixels) count less, from twice as much on not at all: walls do not glow */
-  int32_t
-      fill_unknown;  /**< 1: NaN and infinite values of disparity maps are unknown, and along their
-                        row the known value next to them goes on, of one on either side that of
-                        the farther surface; a row without any is at disparity_min. 0, the
-                        default: they are refused, SF_ERROR_NOT_FINITE. sf_repair_disparity finds
-                        what the views show there, and sf_fill_disparity fills whole maps */
-  int32_t images;    /**< 1 reserves rows for the calls of starfocus/image.h; default 0 */
-  int32_t previews;  /**< largest shift of sf_refocus_preview, [0, SF_MAX_PREVIEW]: sf_prepare then
-                        keeps the light field at 1/2, 1/4 and 1/8 of its size, up to that; default
-                        0: none. The workspace does not grow by it */
-  uint32_t features; /**< bits of SF_FEATURE_, default all: what the workspace has memory for.
-                          Without LINE_SCAN, SF_RULE_DEFAULT is SUBAPERTURE in all modes, and
-                          SF_RULE_PAPER is refused, SF_ERROR_FEATURE */
-  uint32_t reserved[2]; /**< zero */
   /** Where the `views` captured views lie: each coordinate in [-1, 1], rounded to 1/16384, no two
    *  alike, the first one (0, 0). All 0, the default: where sf_view_position tells. What lies
    *  behind an edge is read from the best view that sees it, and filled where none does.
    *  SF_RULE_PAPER and starfocus/depth.h need the star. */
   sf_position positions[SF_MAX_VIEWS];
+  sf_tuning tuning; /**< in the structure, so that copies of a configuration need no care */
   /** Where a call with this configuration tells what it refuses; null, the default: nowhere. Calls
    *  with an engine do not use it: see sf_engine_problem. */
   sf_problem* problem;
 } sf_config;
 
-SF_API void sf_config_init(sf_config* config);
+/** Sets the first `size` bytes of a configuration, as many as the caller's header knows. For
+ *  bindings; programs in C and C++ call sf_config_init. */
+SF_API void sf_config_init_sized(sf_config* config, uint32_t size);
+
+static inline void sf_config_init(sf_config* config) {
+  sf_config_init_sized(config, (uint32_t)sizeof(sf_config));
+}
 
 /** Position (u, v) of view `index` of the star; those of 1, 5 and 9 are the first of the 17:
  *  0 centre; 1-4 (+1,0) (-1,0) (0,+1) (0,-1); 5-8 (+1,+1) (-1,+1) (+1,-1) (-1,-1); 9-16 the same
@@ -296,7 +292,7 @@ typedef struct sf_layer_report {
   uint64_t measured_ns;      /**< by sf_callbacks.clock, summed over workers; 0 without one */
 } sf_layer_report;
 
-/** Work that was left out because its result is known; all 0 with sf_config.skips = 0. */
+/** Work that was left out because its result is known; all 0 with sf_tuning.skips = 0. */
 typedef struct sf_skipped {
   uint64_t copied_blocks; /**< no rendered view moves a pixel: copied from the centre view */
   uint64_t copied_pixels; /**< picture pixels they cover */
@@ -322,9 +318,9 @@ typedef struct sf_report {
                                  checked */
   uint64_t side_bytes;      /**< read of the views beside the centre, counted every time: in holes,
                                  beside depth edges and beyond the edges of the picture only */
-  uint64_t gathered_pixels; /**< by sf_config.gather: blurred as a whole, no view is rendered */
+  uint64_t gathered_pixels; /**< by sf_tuning.gather: blurred as a whole, no view is rendered */
   uint64_t reused_blocks;   /**< sf_refocus_after: superblocks of which nothing was refocused */
-  uint64_t unknown_pixels;  /**< values that sf_config.fill_unknown filled, in the rows of the map
+  uint64_t unknown_pixels;  /**< values that SF_FEATURE_FILL_UNKNOWN filled, in the rows of the map
                                  that were read; none of a prepared light field */
 } sf_report;
 
@@ -393,7 +389,7 @@ SF_API sf_status sf_refocus_after(sf_engine* engine, const sf_params* params,
                                   const sf_light_field* light_field, const sf_previous* previous,
                                   uint8_t* out, size_t out_stride, sf_report* report);
 
-/** Starts (or restarts) a streamed refocusing; the engine must be configured with streaming = 1. */
+/** Starts (or restarts) a streamed refocusing; the engine needs SF_FEATURE_STREAMING. */
 SF_API sf_status sf_stream_begin(sf_engine* engine, const sf_params* params);
 
 /** Copies up to `rows` next rows of every view and of the disparity map; light_field points at the

@@ -8,7 +8,7 @@ a wrong place.
 from __future__ import annotations
 
 import ctypes
-from ctypes import (CFUNCTYPE, POINTER, Structure, c_char_p, c_double, c_float, c_int, c_int16, c_int32, c_int64,
+from ctypes import (CFUNCTYPE, POINTER, Structure, c_char_p, c_double, c_float, c_int, c_int32, c_int64,
                     c_size_t, c_uint32, c_uint64, c_void_p)
 from pathlib import Path
 
@@ -31,19 +31,23 @@ class Position(Structure):
     _fields_ = [("u", c_double), ("v", c_double)]
 
 
+class Tuning(Structure):
+    """sf_tuning"""
+
+    _fields_ = [("max_layer", c_int32), ("deblocking", c_int32), ("skips", c_int32), ("gather", c_int32),
+                ("n_scale", c_double), ("timing", Timing)]
+
+
 class Config(Structure):
     """sf_config"""
 
     _fields_ = [
-        ("version", c_uint32), ("width", c_int32), ("height", c_int32), ("views", c_int32),
-        ("disparity_min", c_float), ("disparity_max", c_float), ("max_blur", c_double),
-        ("largest_block", c_int32), ("max_workers", c_int32), ("streaming", c_int32), ("theta", c_double),
-        ("max_layer", c_int32), ("deblocking", c_int32), ("timing", Timing), ("n_scale", c_double),
-        ("skips", c_int32), ("gather", c_int32), ("aperture_shape", c_int16), ("blades", c_int16),
-        ("rotation", c_float), ("curvature", c_float), ("ring_inner", c_float), ("cats_eye", c_float),
-        ("transfer", c_int32), ("highlights", c_float), ("fill_unknown", c_int32), ("images", c_int32),
-        ("previews", c_int32), ("features", c_uint32), ("reserved", c_uint32 * 2),
-        ("positions", Position * MAX_VIEWS), ("problem", c_void_p),
+        ("size", c_uint32), ("width", c_int32), ("height", c_int32), ("views", c_int32),
+        ("disparity_min", c_double), ("disparity_max", c_double), ("max_blur", c_double),
+        ("largest_block", c_int32), ("max_workers", c_int32), ("features", c_uint32), ("previews", c_int32),
+        ("transfer", c_int32), ("aperture_shape", c_int32), ("blades", c_int32), ("theta", c_double),
+        ("rotation", c_double), ("curvature", c_double), ("ring_inner", c_double), ("cats_eye", c_double),
+        ("highlights", c_double), ("positions", Position * MAX_VIEWS), ("tuning", Tuning), ("problem", c_void_p),
     ]
 
 
@@ -126,10 +130,10 @@ class DepthConfig(Structure):
     """sf_depth_config"""
 
     _fields_ = [
-        ("version", c_uint32), ("width", c_int32), ("height", c_int32), ("views", c_int32),
-        ("disparity_min", c_float), ("disparity_max", c_float), ("max_workers", c_int32),
+        ("size", c_uint32), ("width", c_int32), ("height", c_int32), ("views", c_int32),
+        ("disparity_min", c_double), ("disparity_max", c_double), ("max_workers", c_int32),
         ("runner", c_void_p), ("runner_data", c_void_p), ("progress", Progress), ("progress_data", c_void_p),
-        ("problem", c_void_p), ("reserved", c_uint32 * 8),
+        ("problem", c_void_p),
     ]
 
 
@@ -170,7 +174,8 @@ class Map(Structure):
 
 
 STRUCTURES = {
-    "sf_problem": Problem, "sf_timing": Timing, "sf_position": Position, "sf_config": Config, "sf_region": Region, "sf_params": Params,
+    "sf_problem": Problem, "sf_timing": Timing, "sf_tuning": Tuning, "sf_position": Position, "sf_config": Config,
+    "sf_region": Region, "sf_params": Params,
     "sf_plane": Plane, "sf_light_field": LightField, "sf_layer_report": LayerReport,
     "sf_skipped": Skipped, "sf_report": Report, "sf_disparity_stats": DisparityStats,
     "sf_depth_config": DepthConfig, "sf_image": Image,
@@ -201,9 +206,9 @@ _MAP_CALLS = {
     "sf_view_position": (c_int32, POINTER(c_double), POINTER(c_double)),
 }
 _OTHERS = {
-    "sf_config_init": (None, POINTER(Config)),
+    "sf_config_init_sized": (None, POINTER(Config), c_uint32),
     "sf_params_init": (None, POINTER(Params)),
-    "sf_depth_config_init": (None, POINTER(DepthConfig)),
+    "sf_depth_config_init_sized": (None, POINTER(DepthConfig), c_uint32),
     "sf_destroy": (None, c_void_p),
     "sf_engine_problem": (POINTER(Problem), c_void_p),
     "sf_status_string": (c_char_p, c_int),

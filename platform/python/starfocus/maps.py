@@ -103,7 +103,7 @@ def _make_map(size_of: Any, make: Any, views: Views, given: Optional[np.ndarray]
     height, width = shape[:2]
     pool, watch, size = Pool(workers), Watch(progress), ctypes.c_size_t()
     config, problem = _abi.DepthConfig(), _abi.Problem()
-    library.sf_depth_config_init(byref(config))
+    library.sf_depth_config_init_sized(byref(config), ctypes.sizeof(config))
     config.problem = ctypes.addressof(problem)
     for name, value in (("width", width), ("height", height), ("views", len(views))):
         set_field(config, name, value)

@@ -21,6 +21,10 @@ from .images import DepthMap, Image
 from .maps import measure_disparity
 
 
+#: What `config` switches on by names of its own: bits of sf_config.features.
+_FEATURES = {"line_scan": 1, "coverage": 2, "images": 8, "fill_unknown": 16}
+
+
 class Refocuser:
     """An engine for light fields of one size.
 
@@ -31,9 +35,9 @@ class Refocuser:
         workers: threads that refocus; 0: one for each big core of the machine.
         positions: (u, v) of each view where they are not those of `view_positions`, from -1 to 1, the centre
             (0, 0) first: `[(0, 0), (1, 0)]` of a stereo pair.
-        config: other fields of sf_config (starfocus.h) by their names, such as `max_blur`, `aperture_shape`,
-            `transfer`, `highlights`, `fill_unknown`, `images=1` for `refocus_images`, or `previews=3` for
-            `Prepared.preview` down to an eighth of the size.
+        config: other fields of sf_config and sf_tuning (starfocus.h) and features by their names, such as `max_blur`,
+            `aperture_shape`, `transfer`, `highlights`, `fill_unknown=1`, `images=1` for
+            `refocus_images`, or `previews=3` for `Prepared.preview` down to an eighth of the size.
 
     Memory is taken here and nowhere else. Calls let other Python threads run; calls of several threads with
     the same refocuser take turns. The bytes of pictures depend on neither the machine nor `workers`.
@@ -42,14 +46,20 @@ class Refocuser:
     def __init__(self, width: int, height: int, views: int = 5, *, disparity_min: float,
                  disparity_max: float, workers: int = 0, positions: Any = None, **config: Any):
         self._config = _abi.Config()
-        library.sf_config_init(byref(self._config))
-        set_below = {"version", "reserved", "max_workers", "positions", "problem"}
+        library.sf_config_init_sized(byref(self._config), ctypes.sizeof(self._config))
+        set_below = {"size", "max_workers", "positions", "problem", "tuning"}
         known = {field[0] for field in _abi.Config._fields_} - set_below
+        tuning = {field[0] for field in _abi.Tuning._fields_}
         for name, value in {**config, "width": width, "height": height, "views": views,
                             "disparity_min": disparity_min, "disparity_max": disparity_max}.items():
-            if name not in known:
+            if name in _FEATURES:
+                self._config.features = self._config.features & ~_FEATURES[name] | (_FEATURES[name] if value else 0)
+            elif name in tuning:
+                set_field(self._config.tuning, name, value)
+            elif name in known:
+                set_field(self._config, name, value)
+            else:
                 raise TypeError(f"Refocuser: unknown field of the configuration '{name}'")
-            set_field(self._config, name, value)
         if positions is not None:
             self._config.positions = positions_of(positions, views)
         self._pool = Pool(workers)

@@ -90,7 +90,7 @@ EXPORT(configure) int Configure(double value) { return SetConfigField(&wanted, t
 /* Accepts the configuration, for that many workers, or leaves the one before. */
 EXPORT(accept) sf_status Accept(int32_t count) {
   wanted.max_workers = count;
-  wanted.images = 1;
+  wanted.features |= SF_FEATURE_IMAGES;
   size_t bytes = 0;
   const sf_status status = sf_workspace_size(&wanted, &bytes);
   refused = &problem;

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-typedef enum FieldType { kInt16, kInt32, kUint32, kFloat, kDouble } FieldType;
+typedef enum FieldType { kInt32, kUint32, kDouble } FieldType;
 
 typedef struct Field {
   const char* name;
@@ -13,26 +13,27 @@ typedef struct Field {
 
 #define CONFIG(name, type) \
   { #name, offsetof(sf_config, name), type }
+#define TUNING(name, type) \
+  { #name, offsetof(sf_config, tuning.name), type }
 #define PARAMS(name, type) \
   { #name, offsetof(sf_params, name), type }
 
 static const Field kConfigFields[] = {
-    CONFIG(width, kInt32),         CONFIG(height, kInt32),
-    CONFIG(views, kInt32),         CONFIG(disparity_min, kFloat),
-    CONFIG(disparity_max, kFloat), CONFIG(max_blur, kDouble),
-    CONFIG(largest_block, kInt32), CONFIG(theta, kDouble),
-    CONFIG(max_layer, kInt32),     CONFIG(deblocking, kInt32),
-    CONFIG(timing.block, kUint32), CONFIG(timing.field, kUint32),
-    CONFIG(timing.a, kUint32),     CONFIG(timing.b, kUint32),
-    CONFIG(timing.c, kUint32),     CONFIG(timing.upsample, kUint32),
-    CONFIG(timing.span, kUint32),  CONFIG(timing.hole, kUint32),
-    CONFIG(n_scale, kDouble),      CONFIG(skips, kInt32),
-    CONFIG(gather, kInt32),        CONFIG(aperture_shape, kInt16),
-    CONFIG(blades, kInt16),        CONFIG(rotation, kFloat),
-    CONFIG(curvature, kFloat),     CONFIG(ring_inner, kFloat),
-    CONFIG(cats_eye, kFloat),      CONFIG(transfer, kInt32),
-    CONFIG(highlights, kFloat),    CONFIG(fill_unknown, kInt32),
-    CONFIG(previews, kInt32),
+    CONFIG(width, kInt32),          CONFIG(height, kInt32),
+    CONFIG(views, kInt32),          CONFIG(disparity_min, kDouble),
+    CONFIG(disparity_max, kDouble), CONFIG(max_blur, kDouble),
+    CONFIG(largest_block, kInt32),  CONFIG(previews, kInt32),
+    CONFIG(transfer, kInt32),       CONFIG(aperture_shape, kInt32),
+    CONFIG(blades, kInt32),         CONFIG(theta, kDouble),
+    CONFIG(rotation, kDouble),      CONFIG(curvature, kDouble),
+    CONFIG(ring_inner, kDouble),    CONFIG(cats_eye, kDouble),
+    CONFIG(highlights, kDouble),    TUNING(max_layer, kInt32),
+    TUNING(deblocking, kInt32),     TUNING(skips, kInt32),
+    TUNING(gather, kInt32),         TUNING(n_scale, kDouble),
+    TUNING(timing.block, kUint32),  TUNING(timing.field, kUint32),
+    TUNING(timing.a, kUint32),      TUNING(timing.b, kUint32),
+    TUNING(timing.c, kUint32),      TUNING(timing.upsample, kUint32),
+    TUNING(timing.span, kUint32),   TUNING(timing.hole, kUint32),
 };
 
 static const Field kParamsFields[] = {
@@ -51,17 +52,11 @@ static int64_t Whole(double value, int64_t low, int64_t high, int64_t wrong) {
 
 static void Store(void* to, FieldType type, double value) {
   switch (type) {
-    case kInt16:
-      *(int16_t*)to = (int16_t)Whole(value, INT16_MIN, INT16_MAX, INT16_MIN);
-      break;
     case kInt32:
       *(int32_t*)to = (int32_t)Whole(value, INT32_MIN, INT32_MAX, INT32_MIN);
       break;
     case kUint32:
       *(uint32_t*)to = (uint32_t)Whole(value, 0, UINT32_MAX, UINT32_MAX);
-      break;
-    case kFloat:
-      *(float*)to = (float)value;
       break;
     case kDouble:
       *(double*)to = value;
@@ -79,6 +74,12 @@ static int Set(void* structure, const Field* fields, size_t count, const char* n
 }
 
 int SetConfigField(sf_config* config, const char* name, double value) {
+  if (strcmp(name, "fill_unknown") == 0) {
+    /* What is neither 0 nor 1 sets all bits, which the library rejects. */
+    const uint32_t bits = value == 0 || value == 1 ? SF_FEATURE_FILL_UNKNOWN : UINT32_MAX;
+    config->features = value == 0 ? config->features & ~bits : config->features | bits;
+    return 1;
+  }
   return Set(config, kConfigFields, sizeof(kConfigFields) / sizeof(kConfigFields[0]), name, value);
 }
 

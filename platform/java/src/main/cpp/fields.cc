@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/java/src/main/cpp/fields.h"
 
-#include <algorithm>
 #include <cstring>
-#include <limits>
 
 namespace starfocus {
 namespace {
@@ -26,12 +24,6 @@ jfieldID Find(JNIEnv* env, jobject object, const char* name, const char* signatu
   return id;
 }
 
-// What does not fit stays out of range: the library shall see that.
-int16_t Narrow(jint value) {
-  using Limits = std::numeric_limits<int16_t>;
-  return static_cast<int16_t>(std::clamp<jint>(value, Limits::min(), Limits::max()));
-}
-
 template <class T>
 void Store(void* to, T value) {
   std::memcpy(to, &value, sizeof value);
@@ -52,9 +44,6 @@ bool ReadFields(JNIEnv* env, jobject object, const Field* fields, size_t count, 
     if (id == nullptr) return false;
     char* const to = static_cast<char*>(structure) + fields[i].offset;
     switch (fields[i].type) {
-      case FieldType::kInt16:
-        Store(to, Narrow(env->GetIntField(object, id)));
-        break;
       case FieldType::kInt32:
         Store(to, static_cast<int32_t>(env->GetIntField(object, id)));
         break;
@@ -76,9 +65,6 @@ bool WriteFields(JNIEnv* env, const void* structure, const Field* fields, size_t
     if (id == nullptr) return false;
     const char* const from = static_cast<const char*>(structure) + fields[i].offset;
     switch (fields[i].type) {
-      case FieldType::kInt16:
-        env->SetIntField(object, id, Load<int16_t>(from));
-        break;
       case FieldType::kInt32:
         env->SetIntField(object, id, Load<int32_t>(from));
         break;

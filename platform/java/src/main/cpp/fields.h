@@ -10,8 +10,8 @@
 
 namespace starfocus {
 
-// What a field is in C; in Java kInt16 and kInt32 are int.
-enum class FieldType { kInt16, kInt32, kFloat, kDouble };
+// What a field is in C and in Java.
+enum class FieldType { kInt32, kFloat, kDouble };
 
 struct Field {
   const char* name;  // in Java

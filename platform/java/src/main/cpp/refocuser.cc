@@ -56,22 +56,21 @@ constexpr Field kConfigFields[] = {
     {"width", FieldType::kInt32, offsetof(sf_config, width)},
     {"height", FieldType::kInt32, offsetof(sf_config, height)},
     {"views", FieldType::kInt32, offsetof(sf_config, views)},
-    {"disparityMin", FieldType::kFloat, offsetof(sf_config, disparity_min)},
-    {"disparityMax", FieldType::kFloat, offsetof(sf_config, disparity_max)},
+    {"disparityMin", FieldType::kDouble, offsetof(sf_config, disparity_min)},
+    {"disparityMax", FieldType::kDouble, offsetof(sf_config, disparity_max)},
     {"maxBlur", FieldType::kDouble, offsetof(sf_config, max_blur)},
     {"workers", FieldType::kInt32, offsetof(sf_config, max_workers)},
     {"largestBlock", FieldType::kInt32, offsetof(sf_config, largest_block)},
-    {"nScale", FieldType::kDouble, offsetof(sf_config, n_scale)},
-    {"apertureShape", FieldType::kInt16, offsetof(sf_config, aperture_shape)},
+    {"nScale", FieldType::kDouble, offsetof(sf_config, tuning.n_scale)},
+    {"apertureShape", FieldType::kInt32, offsetof(sf_config, aperture_shape)},
     {"theta", FieldType::kDouble, offsetof(sf_config, theta)},
-    {"blades", FieldType::kInt16, offsetof(sf_config, blades)},
-    {"rotation", FieldType::kFloat, offsetof(sf_config, rotation)},
-    {"curvature", FieldType::kFloat, offsetof(sf_config, curvature)},
-    {"ringInner", FieldType::kFloat, offsetof(sf_config, ring_inner)},
-    {"catsEye", FieldType::kFloat, offsetof(sf_config, cats_eye)},
+    {"blades", FieldType::kInt32, offsetof(sf_config, blades)},
+    {"rotation", FieldType::kDouble, offsetof(sf_config, rotation)},
+    {"curvature", FieldType::kDouble, offsetof(sf_config, curvature)},
+    {"ringInner", FieldType::kDouble, offsetof(sf_config, ring_inner)},
+    {"catsEye", FieldType::kDouble, offsetof(sf_config, cats_eye)},
     {"transfer", FieldType::kInt32, offsetof(sf_config, transfer)},
-    {"highlights", FieldType::kFloat, offsetof(sf_config, highlights)},
-    {"fillUnknown", FieldType::kInt32, offsetof(sf_config, fill_unknown)},
+    {"highlights", FieldType::kDouble, offsetof(sf_config, highlights)},
     {"previews", FieldType::kInt32, offsetof(sf_config, previews)},
 };
 
@@ -136,7 +135,7 @@ bool ReadTask(JNIEnv* env, Session* session, const JavaTask& task, sf_params* pa
 // Makes the pool and the engine of a session whose configuration is read.
 sf_status Start(Session* session) {
   sf_config* const config = &session->config;
-  config->images = 1;
+  config->features |= SF_FEATURE_IMAGES;
   if (config->max_workers != 1) {
     session->pool = sf_pool_create(config->max_workers);
     if (session->pool == nullptr) return SF_ERROR_MEMORY;
@@ -199,6 +198,9 @@ STARFOCUS_NATIVE(jlong, create)(JNIEnv* env, jclass, jobject configuration) {
   sf_config_init(&session->config);
   if (ReadFields(env, configuration, kConfigFields, std::size(kConfigFields), &session->config) &&
       ReadPositions(env, configuration, &session->config)) {
+    if (ReadInt(env, configuration, "fillUnknown") != 0) {
+      session->config.features |= SF_FEATURE_FILL_UNKNOWN;
+    }
     sf_problem problem = {};
     session->config.problem = &problem;
     const sf_status status = Start(session);

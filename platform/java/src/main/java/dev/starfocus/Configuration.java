@@ -20,7 +20,7 @@ public final class Configuration {
    */
   public double[] positions;
   /** What disparity maps may hold. */
-  public float disparityMin, disparityMax;
+  public double disparityMin, disparityMax;
   /** Largest blur radius in pixels that will be asked for. */
   public double maxBlur;
   /** Threads that refocus; 0, the default: one for each big core. */
@@ -31,10 +31,10 @@ public final class Configuration {
   public int apertureShape;
   public double theta;
   public int blades;
-  public float rotation, curvature, ringInner, catsEye;
+  public double rotation, curvature, ringInner, catsEye;
   public int transfer;
-  public float highlights;
-  /** 1: disparities that are not finite, and invalid depths, are unknown; 0: they are refused. */
+  public double highlights;
+  /** Not 0: disparities that are not finite, and invalid depths, are unknown; 0: they are refused. */
   public int fillUnknown;
   /** Largest shift of {@link Refocuser#preview}, 0 to 3; 0, the default: there are no previews. */
   public int previews;

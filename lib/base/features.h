@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a configuration asks for.
+#ifndef STARFOCUS_LIB_BASE_FEATURES_H_
+#define STARFOCUS_LIB_BASE_FEATURES_H_
+
+#include <cstdint>
+
+#include "starfocus/starfocus.h"
+
+namespace starfocus {
+
+// Whether an SF_FEATURE_ is among those of a configuration.
+constexpr bool Has(uint32_t features, uint32_t feature) { return (features & feature) != 0; }
+
+// The range of disparities as maps have them: single precision.
+struct DisparityRange {
+  float min, max;
+};
+inline DisparityRange RangeOf(const sf_config& config) {
+  return {static_cast<float>(config.disparity_min), static_cast<float>(config.disparity_max)};
+}
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_BASE_FEATURES_H_
