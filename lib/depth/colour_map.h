@@ -58,8 +58,8 @@ void ReadMap(const EstimatePlan& plan, const sf_light_field& light_field, int16_
 // any.
 int32_t MeasureNoise(const EstimatePlan& plan, const int16_t* disparity);
 
-// Returns true if two disparities in the rectangle, extended by `margin` pixels, differ by more than
-// `step`.
+// Returns true if two disparities in the rectangle, extended by `margin` pixels, differ by more
+// than `step`.
 bool HasStep(const ColourMap& map, const Rect& rect, int32_t margin, int32_t step);
 
 // Returns true if one of the pixel's neighbours in the tile belongs to another surface.

@@ -38,8 +38,8 @@ void SetPlanes(const sf_config& config, const simd::Kernels& kernels, const Plan
 uint32_t ConvertDisparities(const sf_config& config, const simd::Kernels& kernels, const float* row,
                             int16_t* out);
 
-// Fills the unknown pixels (kNoSurface) of a converted row, as SF_FEATURE_FILL_UNKNOWN says. Returns
-// their number.
+// Fills the unknown pixels (kNoSurface) of a converted row, as SF_FEATURE_FILL_UNKNOWN says.
+// Returns their number.
 int32_t FillUnknown(const sf_config& config, const simd::Kernels& kernels, int16_t* row);
 
 // Forgets the layers' rows, which are of another picture, or of which not all were made.

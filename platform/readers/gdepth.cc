@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "platform/base64.h"
 #include "platform/image_io.h"
 #include "platform/levels.h"
-#include "platform/base64.h"
 #include "platform/readers/depth_levels.h"
 #include "platform/readers/depth_range.h"
 #include "platform/writers/depth_photo.h"

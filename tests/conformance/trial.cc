@@ -141,8 +141,8 @@ std::string Trial::Text() const {
                 scene.width, scene.height, scene.views(), kModes[params.mode], params.rule,
                 double{scene.disparity_min}, double{scene.disparity_max}, params.focus,
                 params.aperture, config.largest_block, config.tuning.max_layer, config.theta,
-                config.tuning.n_scale, config.tuning.gather, config.tuning.timing.block, config.transfer,
-                double{config.highlights}, test::ShapeText(config).c_str());
+                config.tuning.n_scale, config.tuning.gather, config.tuning.timing.block,
+                config.transfer, double{config.highlights}, test::ShapeText(config).c_str());
   std::string all = text;
   for (const sf_position& at : scene.positions) {
     std::snprintf(text, sizeof(text), ", view (%.9g, %.9g)", at.u, at.v);

@@ -208,7 +208,7 @@ TEST_CASE("no heap call in block mode with all layers, deblocking, visitor and c
   sf_config config = test::ConfigFor(scene, 28);
   config.largest_block = 32;
   config.features |= SF_FEATURE_STREAMING;
-  config.tuning.gather = 0;            // all three layers
+  config.tuning.gather = 0;     // all three layers
   test::Engine holder(config);  // only its memory is used
   REQUIRE(holder.status() == SF_OK);
   const sf_params params = test::Params(0, 1, SF_MODE_BLOCK);

@@ -36,7 +36,7 @@ struct Patch {
     }
     sf_config config = test::ConfigFor(scene, std::abs(focus) + 1);
     config.largest_block = 32;
-    config.tuning.max_layer = 0;                // layers smooth what is looked at here
+    config.tuning.max_layer = 0;         // layers smooth what is looked at here
     config.transfer = SF_TRANSFER_NONE;  // levels that add up
     shape.Set(&config);
     test::Engine engine(config);

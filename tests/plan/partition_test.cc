@@ -132,7 +132,8 @@ TEST_CASE("partition: the least of all partitions, tiled once, by the rules") {
     const int side = 32 << random.Int(0, 3);
     const int width = random.Int(1, side + 40), height = random.Int(1, side + 40);
     Plan plan(width, height, side, random.Real(0.5, 14), &random);
-    if (round % 2 == 1) plan.config.tuning.timing.block = 0;  // whatever a block costs here, splits more
+    if (round % 2 == 1)
+      plan.config.tuning.timing.block = 0;  // whatever a block costs here, splits more
     blocks += CheckPicture(plan);
     largest_blocks += size_t(((width - 1) / side + 1) * ((height - 1) / side + 1));
   }

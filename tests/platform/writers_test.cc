@@ -8,10 +8,10 @@
 #include <numeric>
 #include <string>
 
+#include "platform/base64.h"
 #include "platform/icc_profile.h"
 #include "platform/image_io.h"
 #include "platform/png.h"
-#include "platform/base64.h"
 #include "platform/writers/depth_photo.h"
 #include "platform/writers/exif.h"
 #include "platform/writers/jpeg.h"

@@ -40,8 +40,9 @@ std::string Setup::Text() const {
          std::to_string(params.rule) + ", disparity [" + Number(config.disparity_min) + ", " +
          Number(config.disparity_max) + "], focus " + Number(params.focus) + ", aperture " +
          Number(params.aperture) + ", max_blur " + Number(config.max_blur) + ", block " +
-         std::to_string(config.largest_block) + ", layers " + std::to_string(config.tuning.max_layer) +
-         ", deblocking " + std::to_string(config.tuning.deblocking) + ", transfer " +
+         std::to_string(config.largest_block) + ", layers " +
+         std::to_string(config.tuning.max_layer) + ", deblocking " +
+         std::to_string(config.tuning.deblocking) + ", transfer " +
          std::to_string(config.transfer) + ", highlights " + Number(double{config.highlights}) +
          ", theta " + Number(config.theta) + ", n_scale " + Number(config.tuning.n_scale) +
          (config.tuning.gather != 0 ? "" : ", nothing gathered") +

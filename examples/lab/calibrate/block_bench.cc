@@ -19,7 +19,7 @@ sf_config MakeConfig(const LightField& light_field, const sf_disparity_stats& st
   config.disparity_min = stats.min;
   config.disparity_max = stats.max;
   config.max_blur = SF_MAX_BLUR;
-  config.largest_block = 256;       // the scratch then serves every smaller block
+  config.largest_block = 256;              // the scratch then serves every smaller block
   config.tuning.n_scale = SF_MAX_N_SCALE;  // and there are apertures of every N that is sampled
   config.tuning.skips = 0;                 // the model is one of rendering
   return config;
