@@ -3,7 +3,6 @@
 
 #include <cstring>
 
-#include "lib/base/ramp.h"
 #include "lib/coverage/far_light.h"
 #include "lib/coverage/patch.h"
 
@@ -14,7 +13,20 @@ namespace {
 // outlines of maps of networks are off by as many.
 constexpr int32_t kGivenReach = 32;
 
-// Ramps are told by the pixels beside.
+// A pixel is on a ramp if its disparity lies between the disparities of two opposite neighbours,
+// both steps are at least kLeastRamp, and the larger step is at most kRampRatio times the smaller
+// one.
+constexpr int32_t kLeastRamp = 1 << (kDisparityBits - 1);
+constexpr int32_t kRampRatio = 4;
+
+// Returns true if `here` is on a ramp; disparities of three pixels in a line, kDisparityBits.
+bool IsRamp(int32_t before, int32_t here, int32_t after) {
+  const int32_t sign = after < before ? -1 : 1;
+  const int32_t a = sign * (here - before), b = sign * (after - here);
+  return Min(a, b) >= kLeastRamp && Max(a, b) <= kRampRatio * Min(a, b);
+}
+
+// Width in pixels of the border that IsRamp reads.
 constexpr int32_t kRampReach = 1;
 using GivenPatch = Patch<kGivenReach + kRampReach>;
 

@@ -5,7 +5,6 @@
 #include <initializer_list>
 
 #include "lib/base/fixed.h"
-#include "lib/base/ramp.h"
 
 namespace starfocus {
 namespace {
@@ -17,37 +16,6 @@ constexpr int32_t kEdgeStep = 5 << kDisparityBits;
 constexpr int32_t kBeside = 1, kMostInside = 4;
 // A cell has hair if more than a fifth of the near pixels within 12 cells look like background.
 constexpr int32_t kHairReach = 12, kHairShare = 5;
-
-// Disparities of a cell with a border of one pixel; pixels outside the picture repeat its edge.
-struct CellPatch {
-  static constexpr int32_t kSide = kHairCell + 2;
-  int16_t disparity[kSide][kSide];
-  int16_t low = INT16_MAX, high = INT16_MIN;
-
-  CellPatch(const ColourMap& map, const Rect& cell) {
-    for (int32_t y = 0; y < kSide; ++y) {
-      const int32_t row = Clamp(cell.y + y - 1, 0, map.plan.height - 1);
-      const int16_t* from = map.disparity + map.At(0, row);
-      for (int32_t x = 0; x < kSide; ++x) {
-        const int16_t here = from[Clamp(cell.x + x - 1, 0, map.plan.width - 1)];
-        disparity[y][x] = here;
-        low = std::min(low, here);
-        high = std::max(high, here);
-      }
-    }
-  }
-
-  bool MayHaveRamp() const { return high - low >= 2 * kLeastRamp; }
-  // Returns true if pixel (x, y) of the cell is on a ramp.
-  bool IsOnRamp(int32_t x, int32_t y) const {
-    const int16_t* const here = &disparity[y + 1][x + 1];
-    for (const ptrdiff_t step :
-         {ptrdiff_t{1}, ptrdiff_t{kSide - 1}, ptrdiff_t{kSide}, ptrdiff_t{kSide + 1}}) {
-      if (IsRamp(here[-step], *here, here[step])) return true;
-    }
-    return false;
-  }
-};
 
 // Replaces each of `count` values, `stride` apart, by the reduction of all values within `reach`.
 template <class T, class Join>
@@ -116,24 +84,17 @@ HairCells TakeHairCells(int32_t width, int32_t height, Arena* arena) {
 
 void MeasureHairCell(const ColourMap& map, int32_t column, int32_t row, const HairCells& cells) {
   const Rect cell = HairCellAt(map.plan, column, row);
-  const CellPatch patch(map, cell);
-  const bool has_ramp = patch.MayHaveRamp();
-  int16_t low = INT16_MAX, high = INT16_MIN, farthest = INT16_MAX, nearest = INT16_MIN;
-  for (int32_t y = 0; y < cell.height; ++y) {
+  int16_t low = INT16_MAX, high = INT16_MIN;
+  for (int32_t y = cell.y; y < cell.y + cell.height; ++y) {
+    const int16_t* disparities = map.disparity + map.At(cell.x, y);
     for (int32_t x = 0; x < cell.width; ++x) {
-      const int16_t disparity = patch.disparity[y + 1][x + 1];
-      farthest = std::min(farthest, disparity);
-      nearest = std::max(nearest, disparity);
-      if (has_ramp && patch.IsOnRamp(x, y)) continue;
-      low = std::min(low, disparity);
-      high = std::max(high, disparity);
+      low = std::min(low, disparities[x]);
+      high = std::max(high, disparities[x]);
     }
   }
   const size_t at = cells.At(column, row);
-  cells.low[at] = low;
-  cells.high[at] = high;
-  cells.farthest[at] = farthest;
-  cells.nearest[at] = nearest;
+  cells.low[at] = cells.farthest[at] = low;
+  cells.high[at] = cells.nearest[at] = high;
 }
 
 bool MarkEdges(const HairCells& cells) {

@@ -18,9 +18,9 @@ inline constexpr int32_t kSurfaceReach = 10;
 
 struct HairCells {
   int32_t columns, rows;
-  // Lowest and highest disparity outside ramps: of the cell, after MarkEdges within kSurfaceReach.
+  // Lowest and highest disparity within kSurfaceReach, after MarkEdges.
   int16_t *low, *high;
-  // Lowest and highest disparity of all pixels of the cell.
+  // Lowest and highest disparity of the cell.
   int16_t *farthest, *nearest;
   uint8_t* marks;
   int32_t* line;  // scratch of a row or a column
