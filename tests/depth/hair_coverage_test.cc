@@ -143,6 +143,23 @@ TEST_CASE(
   for (const uint8_t value : unasked.coverage) REQUIRE(value == 77);
 }
 
+TEST_CASE("hair coverage: hair at a small part of the outlines is not found") {
+  Portrait portrait = MakeClosedHair();
+  portrait.hair = {40, 60, 60, 110};
+  portrait.body = {0, 110, 240, 181};
+  portrait.Draw();
+  CHECK(Repair(portrait).has_coverage == 0);
+}
+
+TEST_CASE("hair coverage: texture of the wall is not hair") {
+  Portrait portrait = MakeClosedHair();
+  portrait.spots = true;
+  portrait.Draw();
+  const Found found = Repair(portrait);
+  REQUIRE(found.has_coverage == 1);
+  CHECK(Difference({60, 40, 160, 56}, found.coverage, portrait.coverage) < 0.5);
+}
+
 TEST_CASE("hair coverage: a map without edges has none") {
   Portrait portrait = MakeClosedHair();
   portrait.map.assign(portrait.map.size(), kNear);

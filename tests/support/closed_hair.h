@@ -22,7 +22,8 @@ struct ClosedHair {
   static constexpr float kNear = 9, kFar = -4;
   static constexpr int kWidth = 240, kHeight = 181;
   Area body = {40, 110, 240, 181}, hair = {40, 60, 180, 110};
-  Strands strands;  // of the hair; without strands the hair is opaque
+  Strands strands;     // of the hair; without strands the hair is opaque
+  bool spots = false;  // the wall has spots, a quarter of the way to the colour of the hair
   std::vector<uint8_t> rgb, coverage;
   std::vector<float> map;
 
@@ -42,7 +43,9 @@ struct ClosedHair {
     const bool in_hair = hair.Has(x, y);
     int covers = in_hair || body.Has(x, y) ? 255 : 0;
     if (in_hair && strands.any()) covers = strands.CoverageAt(x, y);
-    for (int c = 0; c < 3; ++c) rgb.push_back(Mixture(covers, near[c], far[c]));
+    const bool in_spot = spots && x % 9 < 2 && y % 9 < 2;
+    const int mixed = in_spot && covers == 0 ? 64 : covers;
+    for (int c = 0; c < 3; ++c) rgb.push_back(Mixture(mixed, near[c], far[c]));
     coverage.push_back(uint8_t(covers));
     map.push_back(in_hair || body.Has(x, y) ? kNear : kFar);
   }
