@@ -8,10 +8,6 @@
 namespace test::kernel_cases {
 namespace {
 
-using starfocus::simd::CellLimits;
-using starfocus::simd::CellMeasure;
-using starfocus::simd::Kernels;
-
 CellLimits DrawCellLimits(Draw* draw) {
   CellLimits limits;
   limits.focus = int16_t(draw->Rarely(3) ? draw->Int(-32768, 32767) : draw->Int(-200, 200));
@@ -103,8 +99,7 @@ std::vector<int64_t> Fields(const CellMeasure& measure) {
 void MeasureCell(Draw* draw, KernelCall* call) {
   const size_t cells = draw->Size(1, 3, kTimedSamples / 64);  // beside each other
   const size_t width = 8 * cells + 2, stride = width + draw->Size(0, 9, 0);
-  const int16_t* in = call->Input("disparity", CellDisparities(9 * stride + width, draw),
-                                  starfocus::simd::kPadding);
+  const int16_t* in = call->Input("disparity", CellDisparities(9 * stride + width, draw), kPadding);
   for (size_t y = 0; y < 9; ++y) call->Ignore(in + y * stride + width, stride - width);
   std::vector<const int16_t*> all_rows;
   for (size_t n = 0; n < 10 * cells; ++n) {
@@ -118,12 +113,11 @@ void MeasureCell(Draw* draw, KernelCall* call) {
     ForFields(measures[cell],
               [&](const auto* first, int count) { call->Result(first, size_t(count)); });
   }
-  call->run = [=](const Kernels& kernels) -> uint64_t {
+  call->Runs([=](const Kernels& kernels) {
     for (size_t cell = 0; cell < cells; ++cell) {
       kernels.MeasureCell(rows + 10 * cell, limits, &measures[cell]);
     }
-    return 0;
-  };
+  });
   call->is_right = [=](uint64_t, Met* met) {
     bool right = true;
     for (size_t cell = 0; cell < cells; ++cell) {

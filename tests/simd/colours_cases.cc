@@ -5,13 +5,6 @@
 namespace test::depth_cases {
 namespace {
 
-using starfocus::simd::ColourSample;
-using starfocus::simd::DepthKernels;
-using starfocus::simd::kColourKeyBits;
-using starfocus::simd::kColourWindow;
-using starfocus::simd::kNoColourKey;
-using starfocus::simd::kSliceLanes;
-
 constexpr int kMostCost = 80;  // of a pixel without its colour
 
 // Few colours are alike otherwise.
@@ -42,10 +35,7 @@ void CompareColours(Draw* draw, DepthCall* call) {
   uint16_t* least = call->Output<uint16_t>("least", groups * kSliceLanes);
   call->Result(least, groups * kSliceLanes);
   std::fill_n(least, groups * kSliceLanes, kNoColourKey);
-  call->run = [=](const DepthKernels& kernels) -> uint64_t {
-    kernels.CompareColours(window, stride, least);
-    return 0;
-  };
+  call->Runs([=](const DepthKernels& kernels) { kernels.CompareColours(window, stride, least); });
   // No key is less than that of a pixel of the group, which has the pixel's colour.
   call->is_right = [=](uint64_t, Met* met) {
     std::vector<uint16_t> lowest(groups, kNoColourKey);

@@ -9,15 +9,6 @@
 namespace test::kernel_cases {
 namespace {
 
-using starfocus::simd::CoverView;
-using starfocus::simd::Kernels;
-using starfocus::simd::kNearReach;
-using starfocus::simd::kNearTaps;
-using starfocus::simd::kPadding;
-using starfocus::simd::kSliceLanes;
-using starfocus::simd::NearRows;
-using starfocus::simd::NearSums;
-
 int Saturated(int value) { return std::clamp(value, -32768, 32767); }
 
 // a * b of 15 fractional bits, rounded halves up, by real numbers.
@@ -56,16 +47,14 @@ void CoverPlaces(Draw* draw, KernelCall* call) {
   const uint8_t* coverage = call->Input("coverage", Bytes(rows * kSliceLanes, draw));
   const int16_t* far = call->Input("far", TwoSurfaces(rows * kSliceLanes, draw));
   const CoverView view = DrawView(draw);
-  auto* covered = call->Output<int16_t>("covered", rows * kSliceLanes);
-  call->Result(covered, rows * kSliceLanes);
-  call->run = [=](const Kernels& kernels) -> uint64_t {
+  auto* covered = call->Results<int16_t>("covered", rows * kSliceLanes);
+  call->Runs([=](const Kernels& kernels) {
     std::fill(covered, covered + rows * kSliceLanes, int16_t{100});
     for (size_t y = 0; y < rows; ++y) {
       const size_t at = y * kSliceLanes;
       kernels.CoverPlaces(near + at, coverage + at, far + at, view, covered + at);
     }
-    return 0;
-  };
+  });
   call->is_right = [=](uint64_t, Met* met) {
     bool right = true;
     for (size_t n = 0; n < rows * kSliceLanes; ++n) {
@@ -97,9 +86,8 @@ void SumNear(Draw* draw, KernelCall* call) {
       call->Ignore(plane - at + y * stride + width, stride - width);
     }
   }
-  auto* sums = call->Output<NearSums>("sums", rows);
-  call->Result(sums, rows);
-  call->run = [=](const Kernels& kernels) -> uint64_t {
+  auto* sums = call->Results<NearSums>("sums", rows);
+  call->Runs([=](const Kernels& kernels) {
     NearRows row = first;
     for (size_t y = 0; y < rows; ++y) {
       kernels.SumNear(row, sums + y);
@@ -107,8 +95,7 @@ void SumNear(Draw* draw, KernelCall* call) {
       row.disparity += stride;
       row.weight += stride;
     }
-    return 0;
-  };
+  });
   call->is_right = [=](uint64_t, Met* met) {
     bool right = true;
     for (size_t i = 0; i < rows * kSliceLanes; ++i) {

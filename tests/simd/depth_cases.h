@@ -9,6 +9,7 @@
 namespace test {
 
 namespace depth_cases {
+using namespace starfocus::simd;
 #define STARFOCUS_DECLARE_CASE(Kernel) void Kernel(Draw* draw, DepthCall* call);
 STARFOCUS_DEPTH_KERNELS(STARFOCUS_DECLARE_CASE)
 #undef STARFOCUS_DECLARE_CASE

@@ -9,14 +9,6 @@
 namespace test::image_cases {
 namespace {
 
-using starfocus::simd::DepthRule;
-using starfocus::simd::ImageKernels;
-using starfocus::simd::kBlendStep;
-using starfocus::simd::kColumnOne;
-using starfocus::simd::kDepthOutside;
-using starfocus::simd::kNoSurface;
-using starfocus::simd::kUnknownDepth;
-
 constexpr int kLongestDepths = 2 * 32 + 35;
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -72,10 +64,7 @@ void WidenCase(const std::vector<T>& all, void (*ImageKernels::*kernel)(const T*
   const T* values = call->Input("values", all);
   float* z = call->Output<float>("z", count);
   call->Result(z, count);
-  call->run = [=](const ImageKernels& kernels) -> uint64_t {
-    (kernels.*kernel)(values, count, z);
-    return 0;
-  };
+  call->Runs([=](const ImageKernels& kernels) { (kernels.*kernel)(values, count, z); });
 }
 
 }  // namespace
@@ -137,10 +126,7 @@ void BlendRows(Draw* draw, ImageCall* call) {
   const int16_t* b = call->Input("b", second);
   int16_t* out = call->Output<int16_t>("out", count);
   call->Result(out, count);
-  call->run = [=](const ImageKernels& kernels) -> uint64_t {
-    kernels.BlendRows(a, b, count, share, out);
-    return 0;
-  };
+  call->Runs([=](const ImageKernels& kernels) { kernels.BlendRows(a, b, count, share, out); });
   call->is_right = [=](uint64_t, Met* met) {
     for (size_t n = 0; n < count; ++n) {
       const bool apart = std::abs(a[n] - b[n]) > kBlendStep;
@@ -170,10 +156,8 @@ void SpreadRow(Draw* draw, ImageCall* call) {
   const uint32_t* columns = call->Input("columns", places);
   int16_t* out = call->Output<int16_t>("out", count);
   call->Result(out, count);
-  call->run = [=](const ImageKernels& kernels) -> uint64_t {
-    kernels.SpreadRow(pairs, columns, count, first, out);
-    return 0;
-  };
+  call->Runs(
+      [=](const ImageKernels& kernels) { kernels.SpreadRow(pairs, columns, count, first, out); });
 }
 
 }  // namespace test::image_cases

@@ -8,11 +8,6 @@
 namespace test::kernel_cases {
 namespace {
 
-using starfocus::simd::Disc;
-using starfocus::simd::Kernels;
-using starfocus::simd::kMaxDisc;
-using starfocus::simd::kPadding;
-
 size_t OctantIndex(int x, int y) {
   const int high = std::max(std::abs(x), std::abs(y)), low = std::min(std::abs(x), std::abs(y));
   return size_t(high * (high + 1) / 2 + low);
@@ -51,7 +46,7 @@ Disc MakeDisc(Draw* draw, KernelCall* call) {
 struct Filtered {
   Disc disc;
   size_t out_stride;
-  starfocus::simd::SampleRows in;
+  SampleRows in;
 
   Filtered(Draw* draw, KernelCall* call) : disc(MakeDisc(draw, call)) {
     const size_t count = draw->Size(1, draw->Rarely(4) ? 400 : 60, 96);
@@ -81,19 +76,17 @@ void FilterDisc(Draw* draw, KernelCall* call) {
   const Filtered filtered(draw, call);
   const auto encoding = AnyEncoding(draw, call);
   auto* out = filtered.Output<uint8_t>(call);
-  call->run = [=](const Kernels& kernels) -> uint64_t {
+  call->Runs([=](const Kernels& kernels) {
     kernels.FilterDisc(filtered.in, filtered.disc, encoding, out, filtered.out_stride);
-    return 0;
-  };
+  });
 }
 
 void FilterDiscLayer(Draw* draw, KernelCall* call) {
   const Filtered filtered(draw, call);
   auto* out = filtered.Output<int16_t>(call);
-  call->run = [=](const Kernels& kernels) -> uint64_t {
+  call->Runs([=](const Kernels& kernels) {
     kernels.FilterDiscLayer(filtered.in, filtered.disc, out, filtered.out_stride);
-    return 0;
-  };
+  });
 }
 
 // The first disc has weights of the second one, and some where that has none.
@@ -110,10 +103,9 @@ void FilterTwoDiscs(Draw* draw, KernelCall* call) {
   less.bits = BitsOf(less.size, weights);
   less.weights = call->Input("weights of less", weights);
   auto *out_less = filtered.Output<int16_t>(call), *out_more = filtered.Output<int16_t>(call);
-  call->run = [=](const Kernels& kernels) -> uint64_t {
+  call->Runs([=](const Kernels& kernels) {
     kernels.FilterTwoDiscs(filtered.in, less, more, out_less, out_more, filtered.out_stride);
-    return 0;
-  };
+  });
 }
 
 }  // namespace test::kernel_cases

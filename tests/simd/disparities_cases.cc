@@ -9,12 +9,6 @@
 namespace test::kernel_cases {
 namespace {
 
-using starfocus::simd::DisparityRange;
-using starfocus::simd::Kernels;
-using starfocus::simd::kNoSurface;
-using starfocus::simd::kSliceLanes;
-using starfocus::simd::SliceSamples;
-
 // The ends of the range, halves of a step, and anything between.
 std::vector<float> DisparitiesWithin(size_t count, float low, float high, Draw* draw) {
   std::vector<float> disparity(count);
@@ -39,9 +33,8 @@ void ConvertDisparity(Draw* draw, KernelCall* call) {
                            std::nextafter(high, kInfinity), std::nextafter(low, -kInfinity)};
   const bool spoilt = draw->Rarely(3);
   if (spoilt) values[size_t(draw->Int(0, int(count) - 1))] = outside[draw->Int(0, 4)];
-  const float* disparity = call->Input("disparity", values, starfocus::simd::kPadding);
-  auto* out = call->Output<int16_t>("out", count);
-  call->Result(out, count);
+  const float* disparity = call->Input("disparity", values, kPadding);
+  auto* out = call->Results<int16_t>("out", count);
   call->run = [=](const Kernels& kernels) -> uint64_t {
     return kernels.ConvertDisparity(disparity, count, low, high, out);
   };
@@ -64,12 +57,9 @@ void FindRanges(Draw* draw, KernelCall* call) {
     call->Ignore(disparity + row * stride + count, stride - count);
   }
   call->Ignore(disparity + (rows - 1) * stride + count, whole - count);
-  auto* ranges = call->Output<DisparityRange>("ranges", whole / kSliceLanes);
-  call->Result(ranges, whole / kSliceLanes);
-  call->run = [=](const Kernels& kernels) -> uint64_t {
-    kernels.FindRanges(disparity, stride, rows, count, ranges);
-    return 0;
-  };
+  auto* ranges = call->Results<DisparityRange>("ranges", whole / kSliceLanes);
+  call->Runs(
+      [=](const Kernels& kernels) { kernels.FindRanges(disparity, stride, rows, count, ranges); });
   call->is_right = [=](uint64_t, Met* met) {
     for (size_t k = 0; k < whole / kSliceLanes; ++k) {
       (*met)[ranges[k].low > ranges[k].high ? "no surface" : "a range"] += 1;
@@ -86,12 +76,10 @@ void FindWithin(Draw* draw, KernelCall* call) {
   const int16_t* disparity = call->Input("disparity", in);
   const auto low = int16_t(draw->Int(-45, 35));
   const auto high = int16_t(draw->Int(0, 3) == 0 ? INT16_MAX : draw->Int(low, 45));
-  auto* within = call->Output<uint16_t>("within", rows);
-  call->Result(within, rows);
-  call->run = [=](const Kernels& kernels) -> uint64_t {
+  auto* within = call->Results<uint16_t>("within", rows);
+  call->Runs([=](const Kernels& kernels) {
     kernels.FindWithin(disparity, stride, rows, {low, high}, within);
-    return 0;
-  };
+  });
   call->is_right = [=](uint64_t, Met*) {
     bool right = true;
     for (size_t k = 0; k < rows * kSliceLanes; ++k) {

@@ -4,17 +4,12 @@
 
 namespace test::kernel_cases {
 
-using starfocus::simd::CompositeFinish;
-using starfocus::simd::Kernels;
-using starfocus::simd::SliceSamples;
-
 // Coverage mostly stays what it was beside it: all, none, anything, or about what suffices. In the
 // bench it seldom changes, as in pictures.
 void FinishComposite(Draw* draw, KernelCall* call) {
   const size_t count = draw->Length(1, 70, kTimedSamples / 3), whole = SliceSamples(count);
   const size_t plane = whole + draw->Size(0, 5, 0);
-  const CompositeFinish finish = {uint32_t(draw->Int(1, 90000)),
-                                  draw->Int(starfocus::simd::kLightBits, 24)};
+  const CompositeFinish finish = {uint32_t(draw->Int(1, 90000)), draw->Int(kLightBits, 24)};
   const uint32_t all = 4 * finish.least + uint32_t(draw->Int(0, 5));
   std::vector<uint32_t> values(3 * plane + whole);
   uint32_t covered = all;
@@ -34,13 +29,11 @@ void FinishComposite(Draw* draw, KernelCall* call) {
   for (size_t c = 0; c < 4; ++c) {
     call->Ignore(sums + c * plane + count, (c < 3 ? plane : whole) - count);
   }
-  const int16_t* centre = call->Input("centre", Light(3 * count, draw), starfocus::simd::kPadding);
-  auto* out = call->Output<uint32_t>("out", 3 * count);
-  call->Result(out, 3 * count);
-  call->run = [=](const Kernels& kernels) -> uint64_t {
+  const int16_t* centre = call->Input("centre", Light(3 * count, draw), kPadding);
+  auto* out = call->Results<uint32_t>("out", 3 * count);
+  call->Runs([=](const Kernels& kernels) {
     kernels.FinishComposite(sums, plane, centre, finish, count, out);
-    return 0;
-  };
+  });
   call->is_right = [=](uint64_t, Met* met) {
     for (size_t n = 0; n < count; ++n) {
       (*met)[sums[3 * plane + n] < finish.least ? "missing" : "covered"] += 1;

@@ -7,18 +7,6 @@
 namespace test::kernel_cases {
 namespace {
 
-using starfocus::simd::FarRow;
-using starfocus::simd::FarRows;
-using starfocus::simd::Kernels;
-using starfocus::simd::kNoSurface;
-using starfocus::simd::kSliceEnd;
-using starfocus::simd::kSliceLanes;
-using starfocus::simd::kSliceWhole;
-using starfocus::simd::kSourceDistance;
-using starfocus::simd::kSurfaces;
-using starfocus::simd::SliceSamples;
-using starfocus::simd::SourcedRow;
-
 constexpr size_t kTimedWidth = 192;
 
 // Where a hidden surface was found: by views, or repeated from any distance, a short one as a rule.
@@ -120,10 +108,7 @@ void SmoothFar(Draw* draw, KernelCall* call) {
   auto* out = call->Output<int16_t>("out", 3 * row);
   std::fill_n(out, 3 * row, int16_t{77});
   for (size_t c = 0; c < 3; ++c) call->Result(out + c * row, whole);
-  call->run = [=](const Kernels& kernels) -> uint64_t {
-    kernels.SmoothFar(rows, unit, step, count, out);
-    return 0;
-  };
+  call->Runs([=](const Kernels& kernels) { kernels.SmoothFar(rows, unit, step, count, out); });
   call->is_right = [=](uint64_t, Met* met) {
     bool right = true;
     for (size_t n = 0; n < whole; ++n) {
@@ -153,10 +138,8 @@ void PutFarthest(Draw* draw, KernelCall* call) {
   auto* out = call->Output<int16_t>("out", 3 * plane);
   std::fill_n(out, 3 * plane, int16_t{-1});
   for (size_t c = 0; c < 3; ++c) call->Result(out + c * plane, whole);
-  call->run = [=](const Kernels& kernels) -> uint64_t {
-    kernels.PutFarthest(far, surface, hiding, plane, out);
-    return 0;
-  };
+  call->Runs(
+      [=](const Kernels& kernels) { kernels.PutFarthest(far, surface, hiding, plane, out); });
   call->is_right = [=](uint64_t, Met* met) {
     bool right = true;
     for (size_t n = 0; n < whole; ++n) {

@@ -9,6 +9,7 @@
 namespace test {
 
 namespace image_cases {
+using namespace starfocus::simd;
 #define STARFOCUS_DECLARE_CASE(Kernel) void Kernel(Draw* draw, ImageCall* call);
 STARFOCUS_IMAGE_KERNELS(STARFOCUS_DECLARE_CASE)
 #undef STARFOCUS_DECLARE_CASE

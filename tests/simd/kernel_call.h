@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One call of a kernel, as kernels_test checks it and starfocus-bench-micro times it: the memory
-// that the kernel works on, what it may do there, and how it is called.
+// One call of a kernel, as kernels_bytes_test checks it and starfocus-bench-micro times it: the
+// memory that the kernel works on, what it may do there, and how it is called.
 #ifndef STARFOCUS_TESTS_SIMD_KERNEL_CALL_H_
 #define STARFOCUS_TESTS_SIMD_KERNEL_CALL_H_
 
@@ -84,6 +84,13 @@ class CallMemory {
   void Result(const T* first, size_t count) {
     Mark(first, count, Role::kResult);
   }
+  // Room for values all of which the kernel determines.
+  template <class T>
+  T* Results(const char* name, size_t count) {
+    T* first = Output<T>(name, count);
+    Result(first, count);
+    return first;
+  }
   // Says that the kernel may leave anything there.
   template <class T>
   void Free(const T* first, size_t count) {
@@ -151,6 +158,15 @@ class CallOf : public CallMemory {
 
   // Calls the kernel of that table and returns what it returns.
   std::function<uint64_t(const Table&)> run;
+
+  // Sets `run` to what calls a kernel that returns nothing.
+  template <class Call>
+  void Runs(const Call& call) {
+    run = [=](const Table& table) {
+      call(table);
+      return uint64_t{0};
+    };
+  }
 
   // Checks the kernels of each table against those of the reference.
   std::string Check(const Table& reference, const std::vector<const Table*>& tables, Met* met) {

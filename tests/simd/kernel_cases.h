@@ -12,6 +12,7 @@ namespace test {
 // Each case is defined beside those of its family, in spans_cases.cc and so on. A kernel of the
 // table without a case is an error of the linker.
 namespace kernel_cases {
+using namespace starfocus::simd;
 #define STARFOCUS_DECLARE_CASE(Kernel) void Kernel(Draw* draw, KernelCall* call);
 STARFOCUS_KERNELS(STARFOCUS_DECLARE_CASE)
 #undef STARFOCUS_DECLARE_CASE

@@ -7,15 +7,6 @@
 namespace test::depth_cases {
 namespace {
 
-using starfocus::simd::DepthKernels;
-using starfocus::simd::kCostScale;
-using starfocus::simd::kMostDifference;
-using starfocus::simd::kPadding;
-using starfocus::simd::kViewEnds;
-using starfocus::simd::LabelRow;
-using starfocus::simd::SliceSamples;
-using starfocus::simd::ViewMove;
-
 constexpr int kMostLabels = 40, kTimedLabels = 44, kLongest = 70, kTimed = 320;
 // Pixels that labels move views by at most.
 constexpr int kReach = 5;
@@ -59,10 +50,7 @@ void CostLabels(Draw* draw, DepthCall* call) {
     call->Result(cost + n * places, row.labels);
     call->Free(cost + n * places + row.labels, SliceSamples(row.labels) - row.labels);
   }
-  call->run = [=](const DepthKernels& kernels) -> uint64_t {
-    kernels.CostLabels(row, count, places, cost);
-    return 0;
-  };
+  call->Runs([=](const DepthKernels& kernels) { kernels.CostLabels(row, count, places, cost); });
   call->is_right = [=](uint64_t, Met* met) {
     for (size_t n = 0; n < count * places; ++n) {
       if (n % places >= row.labels) continue;

@@ -7,20 +7,6 @@
 namespace test::kernel_cases {
 namespace {
 
-using starfocus::simd::CopyLimits;
-using starfocus::simd::DepthRow;
-using starfocus::simd::HiddenRow;
-using starfocus::simd::Kernels;
-using starfocus::simd::kMostUnit;
-using starfocus::simd::kNoSurface;
-using starfocus::simd::kPadding;
-using starfocus::simd::kSlantBits;
-using starfocus::simd::kSliceLanes;
-using starfocus::simd::kSurfaces;
-using starfocus::simd::SliceSamples;
-using starfocus::simd::StepBits;
-using starfocus::simd::ViewLook;
-
 constexpr int16_t kStep = 48;
 constexpr int kTimedFieldWidth = 192;
 
@@ -44,10 +30,7 @@ void Split(Draw* draw, KernelCall* call) {
   const int16_t* rgb = call->Input("rgb", Light(3 * count, draw), kPadding);
   auto* out = call->Output<int16_t>("out", 3 * plane);
   for (size_t c = 0; c < 3; ++c) call->Result(out + c * plane, count);
-  call->run = [=](const Kernels& kernels) -> uint64_t {
-    kernels.Split(rgb, count, plane, out);
-    return 0;
-  };
+  call->Runs([=](const Kernels& kernels) { kernels.Split(rgb, count, plane, out); });
   call->is_right = [=](uint64_t, Met*) {
     bool right = true;
     for (size_t i = 0; i < 3 * count; ++i) right = right && out[i % 3 * plane + i / 3] == rgb[i];
@@ -59,24 +42,19 @@ void Split(Draw* draw, KernelCall* call) {
 void FindEdges(Draw* draw, KernelCall* call) {
   const size_t count = draw->Length(1, 50, kTimedFieldWidth), whole = SliceSamples(count);
   const size_t rows = draw->Size(2, 20, kTimedSamples / kTimedFieldWidth + 1);
-  const starfocus::simd::EdgeLimits limits = {draw->Rarely(2) ? int16_t(draw->Int(1, 300)) : kStep,
-                                              draw->Int(6, 8)};
+  const EdgeLimits limits = {draw->Rarely(2) ? int16_t(draw->Int(1, 300)) : kStep, draw->Int(6, 8)};
   const int16_t* disparity = call->Input("disparity", MovedRows(rows, whole, limits.step, draw));
-  auto* moved = call->Output<int16_t>("moved", whole);
-  auto* behind = call->Output<int16_t>("behind", whole);
-  auto* distance = call->Output<uint8_t>("distance", (rows - 1) * whole);
+  auto* moved = call->Results<int16_t>("moved", whole);
+  auto* behind = call->Results<int16_t>("behind", whole);
+  auto* distance = call->Results<uint8_t>("distance", (rows - 1) * whole);
   std::fill_n(moved, whole, int16_t{INT16_MAX});
-  call->Result(moved, whole);
-  call->Result(behind, whole);
-  call->Result(distance, (rows - 1) * whole);
-  call->run = [=](const Kernels& kernels) -> uint64_t {
+  call->Runs([=](const Kernels& kernels) {
     for (size_t row = 1; row < rows; ++row) {
       const int16_t* near = disparity + row * whole;
       uint8_t* distances = distance + (row - 1) * whole;
       kernels.FindEdges({near, near - whole, moved, behind, distances}, limits, count);
     }
-    return 0;
-  };
+  });
   call->is_right = [=](uint64_t, Met* met) {
     (*met)["hidden"] += std::count_if(distance, distance + (rows - 1) * whole,
                                       [](uint8_t pixels) { return pixels > 1; });
@@ -88,12 +66,8 @@ void FindSteps(Draw* draw, KernelCall* call) {
   const size_t count = draw->Length(1, 70, kTimedSamples),
                chunks = SliceSamples(count) / kSliceLanes;
   const int16_t* row = call->Input("row", Disparities(count + 1, draw), kPadding);
-  auto* steps = call->Output<StepBits>("steps", chunks);
-  call->Result(steps, chunks);
-  call->run = [=](const Kernels& kernels) -> uint64_t {
-    kernels.FindSteps(row, count, kStep, steps);
-    return 0;
-  };
+  auto* steps = call->Results<StepBits>("steps", chunks);
+  call->Runs([=](const Kernels& kernels) { kernels.FindSteps(row, count, kStep, steps); });
   call->is_right = [=](uint64_t, Met* met) {
     bool right = true;
     for (size_t n = 0; n < chunks * kSliceLanes; ++n) {
@@ -116,18 +90,15 @@ void FindCopies(Draw* draw, KernelCall* call) {
   for (int16_t& d : disparities) d = int16_t(std::clamp(d + draw->Int(-9, 9), -32000, 32000));
   const int16_t* field = call->Input("field", disparities, kPadding);
   const CopyLimits limits = {int16_t(draw->Int(1, 20)), int16_t(draw->Int(20, 100))};
-  auto* copies = call->Output<int16_t>("copies", rows * samples);
-  auto* chunks = call->Output<uint64_t>("chunks", rows);
-  call->Result(copies, rows * samples);
-  call->Result(chunks, rows);
+  auto* copies = call->Results<int16_t>("copies", rows * samples);
+  auto* chunks = call->Results<uint64_t>("chunks", rows);
   const int16_t* first = field + stride + 1;
-  call->run = [=](const Kernels& kernels) -> uint64_t {
+  call->Runs([=](const Kernels& kernels) {
     for (size_t y = 0; y < rows; ++y) {
       chunks[y] = kernels.FindCopies(first + y * stride, ptrdiff_t(stride), count, limits,
                                      copies + y * samples);
     }
-    return 0;
-  };
+  });
   call->is_right = [=](uint64_t, Met* met) {
     bool right = true;
     for (size_t i = 0; i < rows * samples; ++i) {
@@ -152,15 +123,13 @@ void BesideSteps(Draw* draw, KernelCall* call) {
   const size_t rows = draw->Size(1, 3, kTimedSamples / 96);
   const size_t stride = count + 2 + draw->Size(0, 7, 0);
   const int16_t* field = call->Input("field", Disparities((rows + 2) * stride, draw), kPadding);
-  auto* beside = call->Output<uint16_t>("beside", rows * chunks);
-  call->Result(beside, rows * chunks);
+  auto* beside = call->Results<uint16_t>("beside", rows * chunks);
   const int16_t* first = field + stride + 1;
-  call->run = [=](const Kernels& kernels) -> uint64_t {
+  call->Runs([=](const Kernels& kernels) {
     for (size_t y = 0; y < rows; ++y) {
       kernels.BesideSteps(first + y * stride, ptrdiff_t(stride), count, kStep, beside + y * chunks);
     }
-    return 0;
-  };
+  });
   call->is_right = [=](uint64_t, Met* met) {
     bool right = true;
     for (size_t i = 0; i < rows * chunks * kSliceLanes; ++i) {
@@ -320,10 +289,10 @@ struct HiddenField {
         const int value = source[k][n * kSliceLanes + i], sides = value & 15;
         right = right && (found[k][n] >> i & 1) == int(value != 0);
         right = right && (disparity[k][n * kSliceLanes + i] != kNoSurface) == (value != 0);
-        const bool unseen = value >> starfocus::simd::kSourceDistance != 0;
+        const bool unseen = value >> kSourceDistance != 0;
         (*met)["seen"] += sides != 0 && !unseen;
         (*met)["unseen"] += unseen;
-        (*met)["second view"] += (value >> starfocus::simd::kSourceSecond & 15) != 0;
+        (*met)["second view"] += (value >> kSourceSecond & 15) != 0;
         (*met)["tied"] += (sides & (sides - 1)) != 0;
         if (k > 0) (*met)["second"] += value != 0;
       }
@@ -337,12 +306,11 @@ struct HiddenField {
 void LookBehind(Draw* draw, KernelCall* call) {
   const DepthField field = MakeField(draw, call);
   const HiddenField hidden(field, call);
-  call->run = [=](const Kernels& kernels) -> uint64_t {
+  call->Runs([=](const Kernels& kernels) {
     for (int y = 0; y < field.height; ++y) {
       hidden.chunks[y] = kernels.LookBehind(field.Row(y), hidden.Row(field.stride * size_t(y)));
     }
-    return 0;
-  };
+  });
   call->is_right = [=](uint64_t, Met* met) {
     bool right = true;
     const size_t groups = field.stride / kSliceLanes;

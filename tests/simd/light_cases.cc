@@ -4,37 +4,20 @@
 
 namespace test::kernel_cases {
 
-using starfocus::simd::Encoding;
-using starfocus::simd::kEncodeBits;
-using starfocus::simd::kEncodeEntries;
-using starfocus::simd::kEncodeStep;
-using starfocus::simd::Kernels;
-using starfocus::simd::kLightBits;
-using starfocus::simd::kLightWhite;
-using starfocus::simd::kPadding;
-
 void Decode(Draw* draw, KernelCall* call) {
   const size_t count = draw->Length(1, kLongestBytes, kTimedSamples);
   const uint8_t* codes = call->Input("codes", Bytes(count, draw), kPadding);
   const Encoding encoding = AnyEncoding(draw, call);
-  auto* light = call->Output<int16_t>("light", count);
-  call->Result(light, count);
-  call->run = [=](const Kernels& kernels) -> uint64_t {
-    kernels.Decode(codes, count, encoding, light);
-    return 0;
-  };
+  auto* light = call->Results<int16_t>("light", count);
+  call->Runs([=](const Kernels& kernels) { kernels.Decode(codes, count, encoding, light); });
 }
 
 void Encode(Draw* draw, KernelCall* call) {
   const size_t count = draw->Length(1, kLongestBytes, kTimedSamples);
   const int16_t* light = call->Input("light", Light(count, draw), kPadding);
   const Encoding encoding = AnyEncoding(draw, call);
-  auto* codes = call->Output<uint8_t>("codes", count);
-  call->Result(codes, count);
-  call->run = [=](const Kernels& kernels) -> uint64_t {
-    kernels.Encode(light, count, encoding, codes);
-    return 0;
-  };
+  auto* codes = call->Results<uint8_t>("codes", count);
+  call->Runs([=](const Kernels& kernels) { kernels.Encode(light, count, encoding, codes); });
 }
 
 void Finish(Draw* draw, KernelCall* call) {
@@ -49,12 +32,9 @@ void Finish(Draw* draw, KernelCall* call) {
   }
   const uint32_t* accumulators = call->Input("accumulators", sums, kPadding);
   const Encoding encoding = AnyEncoding(draw, call);
-  auto* out = call->Output<uint8_t>("out", count);
-  call->Result(out, count);
-  call->run = [=](const Kernels& kernels) -> uint64_t {
-    kernels.Finish(accumulators, count, shift, encoding, out);
-    return 0;
-  };
+  auto* out = call->Results<uint8_t>("out", count);
+  call->Runs(
+      [=](const Kernels& kernels) { kernels.Finish(accumulators, count, shift, encoding, out); });
 }
 
 }  // namespace test::kernel_cases

@@ -5,14 +5,6 @@
 namespace test::kernel_cases {
 namespace {
 
-using starfocus::simd::BlockReach;
-using starfocus::simd::CellPlanes;
-using starfocus::simd::CellRanges;
-using starfocus::simd::kCellPixels;
-using starfocus::simd::kCellPlanes;
-using starfocus::simd::Kernels;
-using starfocus::simd::SliceSamples;
-
 // What blurs of cells reach. In the bench most blurs are small.
 int Reach(int around, Draw* draw) {
   const int far = draw->Rarely(3) ? kCellPixels * around : 20;
@@ -28,16 +20,16 @@ CellPlanes MakeCells(size_t columns, size_t rows, size_t around, Draw* draw, Ker
     const auto set = [&](size_t index, int value) { samples[index * plane + n] = int16_t(value); };
     const int reach = Reach(int(around), draw), low = draw->Int(-most, most);
     for (size_t side = 0; side < 4; ++side) {
-      set(starfocus::simd::kReachLeft + side, draw->Int(-8, reach));
-      set(starfocus::simd::kInsideLeft + side, draw->Int(0, kCellPixels));
+      set(kReachLeft + side, draw->Int(-8, reach));
+      set(kInsideLeft + side, draw->Int(0, kCellPixels));
     }
-    set(starfocus::simd::kReachPlane, reach);
-    set(starfocus::simd::kRadiusPlane, 64 * reach);
-    set(starfocus::simd::kEdgePlane, draw->Int(0, 9) == 0 ? 60 * reach : 0);
-    set(starfocus::simd::kLowPlane, low);
-    set(starfocus::simd::kHighPlane, draw->Int(low, most));
+    set(kReachPlane, reach);
+    set(kRadiusPlane, 64 * reach);
+    set(kEdgePlane, draw->Int(0, 9) == 0 ? 60 * reach : 0);
+    set(kLowPlane, low);
+    set(kHighPlane, draw->Int(low, most));
   }
-  const int16_t* cells = call->Input("cells", samples, starfocus::simd::kPadding);
+  const int16_t* cells = call->Input("cells", samples, kPadding);
   return {cells + around * (stride + 1), plane, stride};
 }
 
@@ -47,16 +39,14 @@ void ReachBlock(Draw* draw, KernelCall* call) {
   const size_t blocks = draw->Size(1, 3, 48);  // beside each other
   const auto around = int32_t(draw->Length(1, 12, 2));
   const CellPlanes cells = MakeCells(2 * blocks, 2, size_t(around), draw, call);
-  auto* reaches = call->Output<BlockReach>("reach", blocks);
-  call->Result(reaches, blocks);
-  call->run = [=](const Kernels& kernels) -> uint64_t {
+  auto* reaches = call->Results<BlockReach>("reach", blocks);
+  call->Runs([=](const Kernels& kernels) {
     constexpr int16_t kMargins[3] = {0, 4, 12};
     for (size_t block = 0; block < blocks; ++block) {
       const CellPlanes at = {cells.cells + 2 * block, cells.plane, cells.stride};
       kernels.ReachBlock(at, around, kMargins, &reaches[block]);
     }
-    return 0;
-  };
+  });
 }
 
 void SurroundCells(Draw* draw, KernelCall* call) {
@@ -72,10 +62,7 @@ void SurroundCells(Draw* draw, KernelCall* call) {
   }
   call->Result(ranges.widest, count);
   call->Free(ranges.widest + count, whole - count);
-  call->run = [=](const Kernels& kernels) -> uint64_t {
-    kernels.SurroundCells(cells, around, count, ranges);
-    return 0;
-  };
+  call->Runs([=](const Kernels& kernels) { kernels.SurroundCells(cells, around, count, ranges); });
 }
 
 }  // namespace test::kernel_cases

@@ -5,15 +5,6 @@
 namespace test::depth_cases {
 namespace {
 
-using starfocus::simd::DepthKernels;
-using starfocus::simd::kLargestJump;
-using starfocus::simd::kLeastJump;
-using starfocus::simd::kNoLabel;
-using starfocus::simd::kPadding;
-using starfocus::simd::kSlopeCost;
-using starfocus::simd::PathLabels;
-using starfocus::simd::PathRow;
-
 constexpr int kMostPathLabels = 70, kTimedPathLabels = 55, kMostCost = 240, kMostJump = 1000;
 
 // A path as the kernel writes it, with its least.
@@ -84,10 +75,7 @@ void AddPaths(Draw* draw, DepthCall* call) {
     row.before = start;
     row.before_least = row.least - step;
   }
-  call->run = [=](const DepthKernels& kernels) -> uint64_t {
-    kernels.AddPaths(row, labels, step, count);
-    return 0;
-  };
+  call->Runs([=](const DepthKernels& kernels) { kernels.AddPaths(row, labels, step, count); });
 }
 
 void FindJumps(Draw* draw, DepthCall* call) {
@@ -102,10 +90,8 @@ void FindJumps(Draw* draw, DepthCall* call) {
   const uint8_t* before = pixels();
   int16_t* jump = call->Output<int16_t>("jump", count);
   call->Result(jump, count);
-  call->run = [=](const DepthKernels& kernels) -> uint64_t {
-    kernels.FindJumps(here, before, plane, count, jump);
-    return 0;
-  };
+  call->Runs(
+      [=](const DepthKernels& kernels) { kernels.FindJumps(here, before, plane, count, jump); });
   call->is_right = [=](uint64_t, Met* met) {
     for (size_t n = 0; n < count; ++n) {
       ++(*met)[jump[n] == kLeastJump ? "other colours" : "alike"];
@@ -129,10 +115,9 @@ void ChooseLabels(Draw* draw, DepthCall* call) {
   uint8_t* margin = rates ? call->Output<uint8_t>("margin", count) : nullptr;
   call->Result(choice, count);
   if (rates) call->Result(margin, count);
-  call->run = [=](const DepthKernels& kernels) -> uint64_t {
+  call->Runs([=](const DepthKernels& kernels) {
     kernels.ChooseLabels(sum, labels, count, choice, margin);
-    return 0;
-  };
+  });
   call->is_right = [=](uint64_t, Met* met) {
     for (size_t n = 0; n < count; ++n) {
       const int label = (choice[n] + 32) >> 6;

@@ -6,9 +6,6 @@
 namespace test::image_cases {
 namespace {
 
-using starfocus::simd::ImageKernels;
-using starfocus::simd::PixelOrder;
-
 constexpr int kLongestPixels = 2 * 64 + 67;
 
 PixelOrder AnyOrder(Draw* draw) { return {size_t(draw->Int(3, 4)), draw->Int(0, 1) != 0}; }
@@ -22,10 +19,7 @@ void PixelsToRgb(Draw* draw, ImageCall* call) {
   const uint8_t* pixels = call->Input("pixels", RandomBytes(order.step * (count - 1) + 3, draw));
   uint8_t* rgb = call->Output<uint8_t>("rgb", 3 * count);
   call->Result(rgb, 3 * count);
-  call->run = [=](const ImageKernels& kernels) -> uint64_t {
-    kernels.PixelsToRgb(pixels, count, order, rgb);
-    return 0;
-  };
+  call->Runs([=](const ImageKernels& kernels) { kernels.PixelsToRgb(pixels, count, order, rgb); });
 }
 
 void RgbToPixels(Draw* draw, ImageCall* call) {
@@ -34,10 +28,7 @@ void RgbToPixels(Draw* draw, ImageCall* call) {
   const uint8_t* rgb = call->Input("rgb", RandomBytes(3 * count, draw));
   uint8_t* pixels = call->Output<uint8_t>("pixels", order.step * count);
   call->Result(pixels, order.step * count);
-  call->run = [=](const ImageKernels& kernels) -> uint64_t {
-    kernels.RgbToPixels(rgb, count, order, pixels);
-    return 0;
-  };
+  call->Runs([=](const ImageKernels& kernels) { kernels.RgbToPixels(rgb, count, order, pixels); });
 }
 
 }  // namespace test::image_cases

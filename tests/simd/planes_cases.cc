@@ -7,10 +7,6 @@
 namespace test::depth_cases {
 namespace {
 
-using starfocus::simd::DepthKernels;
-using starfocus::simd::kPadding;
-using starfocus::simd::SliceSamples;
-
 constexpr int kTimedPlane = 512, kLongestPlane = 2 * 64 + 3;
 
 std::vector<uint8_t> Samples(size_t count, Draw* draw) {
@@ -27,10 +23,7 @@ void SplitRow(Draw* draw, DepthCall* call) {
   const uint8_t* rgb = call->Input("rgb", Samples(3 * count, draw));
   uint8_t* plane = call->Output<uint8_t>("planes", 3 * stride);
   for (size_t c = 0; c < 3; ++c) call->Result(plane + c * stride, count);
-  call->run = [=](const DepthKernels& kernels) -> uint64_t {
-    kernels.SplitRow(rgb, count, stride, plane);
-    return 0;
-  };
+  call->Runs([=](const DepthKernels& kernels) { kernels.SplitRow(rgb, count, stride, plane); });
 }
 
 void InterpolateRow(Draw* draw, DepthCall* call) {
@@ -42,10 +35,9 @@ void InterpolateRow(Draw* draw, DepthCall* call) {
   uint8_t* out = call->Output<uint8_t>("out", SliceSamples(count));
   call->Result(out, count);
   call->Free(out + count, SliceSamples(count) - count);
-  call->run = [=](const DepthKernels& kernels) -> uint64_t {
+  call->Runs([=](const DepthKernels& kernels) {
     kernels.InterpolateRow(row, next, across, down, count, out);
-    return 0;
-  };
+  });
   // Between the four around it.
   call->is_right = [=](uint64_t, Met*) {
     for (size_t n = 0; n < count; ++n) {

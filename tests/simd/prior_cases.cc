@@ -5,11 +5,6 @@
 namespace test::depth_cases {
 namespace {
 
-using starfocus::simd::DepthKernels;
-using starfocus::simd::kMostPrior;
-using starfocus::simd::kSliceLanes;
-using starfocus::simd::PriorRow;
-
 std::vector<uint8_t> Priors(size_t count, Draw* draw) {
   std::vector<uint8_t> priors(count);
   for (uint8_t& prior : priors) {
@@ -34,10 +29,7 @@ void SpreadPrior(Draw* draw, DepthCall* call) {
   std::copy(own.begin(), own.end(), prior);
   row.prior = prior + first;
   if (!draw->Rarely(4)) row.before = call->Input("before", Priors(size, draw)) + first;
-  call->run = [=](const DepthKernels& kernels) -> uint64_t {
-    kernels.SpreadPrior(row);
-    return 0;
-  };
+  call->Runs([=](const DepthKernels& kernels) { kernels.SpreadPrior(row); });
   // No label costs more than it did, nor more than it costs the pixel before it, and the way.
   call->is_right = [=](uint64_t, Met* met) {
     for (size_t k = 0; k < size; ++k) {
@@ -53,10 +45,7 @@ void AddPrior(Draw* draw, DepthCall* call) {
   const uint8_t* prior = call->Input("prior", Priors(count, draw));
   uint8_t* cost = call->Output<uint8_t>("cost", count);
   call->Result(cost, count);
-  call->run = [=](const DepthKernels& kernels) -> uint64_t {
-    kernels.AddPrior(prior, count, cost);
-    return 0;
-  };
+  call->Runs([=](const DepthKernels& kernels) { kernels.AddPrior(prior, count, cost); });
 }
 
 }  // namespace test::depth_cases

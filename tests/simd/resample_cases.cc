@@ -6,12 +6,6 @@
 namespace test::kernel_cases {
 namespace {
 
-using starfocus::simd::HalfBand;
-using starfocus::simd::Kernels;
-using starfocus::simd::kLayerWhite;
-using starfocus::simd::kPadding;
-using starfocus::simd::SampleRange;
-
 // Black, white and anything between, or samples as far out of range as filters leave them.
 std::vector<int16_t> Samples(size_t count, bool in_range, Draw* draw) {
   std::vector<int16_t> samples(count);
@@ -52,12 +46,10 @@ void FilterLine(Filter filter, Draw* draw, KernelCall* call) {
   const HalfBand taps = Taps(draw);
   const SampleRange in_range = {0, kLayerWhite}, all = {INT16_MIN, INT16_MAX};
   const SampleRange range = draw->Int(0, 1) == 0 ? in_range : all;
-  auto* out = call->Output<int16_t>("out", count);
-  call->Result(out, count);
-  call->run = [=](const Kernels& kernels) -> uint64_t {
+  auto* out = call->Results<int16_t>("out", count);
+  call->Runs([=](const Kernels& kernels) {
     filter(kernels)(in, ptrdiff_t(step), taps, count, range, out);
-    return 0;
-  };
+  });
 }
 
 }  // namespace
@@ -67,20 +59,15 @@ void WidenPhases(Draw* draw, KernelCall* call) {
   const uint8_t* in = call->Input("in", Bytes(6 * pairs, draw));
   const auto encoding = AnyEncoding(draw, call);
   const Phases out(pairs, 0, call);
-  call->run = [=](const Kernels& kernels) -> uint64_t {
-    kernels.WidenPhases(in, pairs, encoding, out.even, out.odd);
-    return 0;
-  };
+  call->Runs(
+      [=](const Kernels& kernels) { kernels.WidenPhases(in, pairs, encoding, out.even, out.odd); });
 }
 
 void SplitPhases(Draw* draw, KernelCall* call) {
   const size_t pairs = draw->Length(0, kLongestSamples, kTimedSamples / 6);
   const int16_t* in = call->Input("in", Samples(6 * pairs, false, draw), kPadding);
   const Phases out(pairs, 1, call);
-  call->run = [=](const Kernels& kernels) -> uint64_t {
-    kernels.SplitPhases(in, pairs, out.even, out.odd);
-    return 0;
-  };
+  call->Runs([=](const Kernels& kernels) { kernels.SplitPhases(in, pairs, out.even, out.odd); });
 }
 
 void Narrow(Draw* draw, KernelCall* call) {
@@ -95,12 +82,8 @@ void Narrow(Draw* draw, KernelCall* call) {
   }
   const int16_t* in = call->Input("in", samples, kPadding);
   const auto encoding = AnyEncoding(draw, call);
-  auto* out = call->Output<uint8_t>("out", count);
-  call->Result(out, count);
-  call->run = [=](const Kernels& kernels) -> uint64_t {
-    kernels.Narrow(in, count, encoding, out);
-    return 0;
-  };
+  auto* out = call->Results<uint8_t>("out", count);
+  call->Runs([=](const Kernels& kernels) { kernels.Narrow(in, count, encoding, out); });
 }
 
 void FinishLayer(Draw* draw, KernelCall* call) {
@@ -111,12 +94,8 @@ void FinishLayer(Draw* draw, KernelCall* call) {
     sum = draw->Int(0, 3) == 0 ? uint32_t{255} << shift : draw->Next() % (255u << shift);
   }
   const uint32_t* accumulators = call->Input("accumulators", sums, kPadding);
-  auto* out = call->Output<int16_t>("out", count);
-  call->Result(out, count);
-  call->run = [=](const Kernels& kernels) -> uint64_t {
-    kernels.FinishLayer(accumulators, count, shift, out);
-    return 0;
-  };
+  auto* out = call->Results<int16_t>("out", count);
+  call->Runs([=](const Kernels& kernels) { kernels.FinishLayer(accumulators, count, shift, out); });
 }
 
 void FilterHalfBand(Draw* draw, KernelCall* call) {
@@ -128,12 +107,8 @@ void Halve(Draw* draw, KernelCall* call) {
   const int16_t* even = call->Input("even", Samples(count, true, draw), kPadding);
   const int16_t* odd = call->Input("odd", Samples(count + 9, true, draw), kPadding) + 6;
   const HalfBand taps = Taps(draw);
-  auto* out = call->Output<int16_t>("out", count);
-  call->Result(out, count);
-  call->run = [=](const Kernels& kernels) -> uint64_t {
-    kernels.Halve(even, odd, taps, count, out);
-    return 0;
-  };
+  auto* out = call->Results<int16_t>("out", count);
+  call->Runs([=](const Kernels& kernels) { kernels.Halve(even, odd, taps, count, out); });
 }
 
 void Between(Draw* draw, KernelCall* call) {

@@ -9,11 +9,6 @@
 namespace test::kernel_cases {
 namespace {
 
-using starfocus::simd::Kernels;
-using starfocus::simd::kRunLanes;
-using starfocus::simd::RunLimits;
-using starfocus::simd::RunMarks;
-
 // Lines side by side, forwards (step > 0) or backwards: `first` is position 0 of line 0.
 struct Lines {
   const int16_t* first;
@@ -76,8 +71,8 @@ void FindRuns(Draw* draw, KernelCall* call) {
   const size_t count = size_t(lines.count), length = size_t(lines.length);
   const size_t stride = count + draw->Size(0, 9, 0);
   const bool backwards = draw->Int(0, 1) == 1;
-  const int16_t* disparity = call->Input(
-      "disparity", LineDisparities((length - 1) * stride + count, draw), starfocus::simd::kPadding);
+  const int16_t* disparity =
+      call->Input("disparity", LineDisparities((length - 1) * stride + count, draw), kPadding);
   for (size_t q = 0; q + 1 < length; ++q) {
     call->Ignore(disparity + q * stride + count, stride - count);
   }
@@ -100,10 +95,9 @@ void FindRuns(Draw* draw, KernelCall* call) {
       call->Free(words + q / 16 * marks.stride + count, whole - count);
     }
   }
-  call->run = [=](const Kernels& kernels) -> uint64_t {
+  call->Runs([=](const Kernels& kernels) {
     kernels.FindRuns(lines.first, lines.step, length, count, limits, marks);
-    return 0;
-  };
+  });
   call->is_right = [=](uint64_t, Met*) {
     bool right = true;
     for (int k = 0; k < lines.count; ++k) right = right && MarksAreRight(marks, lines, k, limits);

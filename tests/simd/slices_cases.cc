@@ -7,19 +7,6 @@
 namespace test::kernel_cases {
 namespace {
 
-using starfocus::simd::Kernels;
-using starfocus::simd::kNoSurface;
-using starfocus::simd::kSliceEnd;
-using starfocus::simd::kSliceLanes;
-using starfocus::simd::kSliceOne;
-using starfocus::simd::kSliceWhole;
-using starfocus::simd::kSurfaces;
-using starfocus::simd::SliceCover;
-using starfocus::simd::SliceRange;
-using starfocus::simd::SliceSamples;
-using starfocus::simd::SliceTaps;
-using starfocus::simd::SurfaceRow;
-
 std::vector<uint8_t> MostlyWholeShares(size_t count, Draw* draw) {
   std::vector<uint8_t> shares(count);
   for (uint8_t& share : shares) {
@@ -75,12 +62,9 @@ void SelectSlice(Draw* draw, KernelCall* call) {
     call->Result(out + c * plane, count);
     call->Free(out + c * plane + count, whole - count);
   }
-  auto* cover = call->Output<SliceCover>("cover", 1);
-  call->Result(cover, 1);
-  call->run = [=](const Kernels& kernels) -> uint64_t {
-    *cover = kernels.SelectSlice(row, range, count, plane, out);
-    return 0;
-  };
+  auto* cover = call->Results<SliceCover>("cover", 1);
+  call->Runs(
+      [=](const Kernels& kernels) { *cover = kernels.SelectSlice(row, range, count, plane, out); });
   call->is_right = [=](uint64_t, Met* met) {
     SliceCover expected = {0, (uint64_t{1} << whole / kSliceLanes) - 1};
     for (size_t n = 0; n < count; ++n) {
@@ -98,7 +82,7 @@ void SelectSlice(Draw* draw, KernelCall* call) {
 // Samples that lie `step` apart, as a row or as a column of planes.
 void SpreadSlice(Draw* draw, KernelCall* call) {
   const size_t count = draw->Length(1, 160, kTimedSamples), whole = SliceSamples(count);
-  SliceTaps taps = {int32_t(draw->Size(1, starfocus::simd::kMaxSpread, 2)), 0, 0, 0};
+  SliceTaps taps = {int32_t(draw->Size(1, kMaxSpread, 2)), 0, 0, 0};
   taps.inner = int16_t(taps.reach == 1 ? 0 : draw->Int(0, 32767 / taps.reach));
   taps.outer = int16_t(draw->Int(0, taps.inner == 0 ? 20000 : taps.inner));
   taps.centre = int16_t(std::min(32767, 32768 - (taps.reach - 1) * taps.inner - taps.outer));
@@ -109,12 +93,9 @@ void SpreadSlice(Draw* draw, KernelCall* call) {
     sample = draw->Int(0, 4) < bright ? kSliceOne : int16_t(draw->Int(0, kSliceOne));
   }
   const int16_t* in = call->Input("in", samples) + before;
-  auto* out = call->Output<int16_t>("out", whole);
-  call->Result(out, whole);
-  call->run = [=](const Kernels& kernels) -> uint64_t {
-    kernels.SpreadSlice(in, ptrdiff_t(step), taps, count, out);
-    return 0;
-  };
+  auto* out = call->Results<int16_t>("out", whole);
+  call->Runs(
+      [=](const Kernels& kernels) { kernels.SpreadSlice(in, ptrdiff_t(step), taps, count, out); });
   call->is_right = [=](uint64_t, Met* met) {
     (*met)["saturated"] += std::count(out, out + whole, kSliceOne);
     return true;

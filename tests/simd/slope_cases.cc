@@ -5,10 +5,6 @@
 namespace test::kernel_cases {
 namespace {
 
-using starfocus::simd::Kernels;
-using starfocus::simd::kLayerWhite;
-using starfocus::simd::SliceSamples;
-
 // Samples of a layer, often black or white.
 std::vector<int16_t> Samples(size_t count, Draw* draw) {
   std::vector<int16_t> samples = Light(count, draw);
@@ -29,12 +25,8 @@ void MixSamples(Draw* draw, KernelCall* call) {
   std::vector<int16_t> shares(whole);
   for (int16_t& share : shares) share = Between(draw, 0, 32767);
   const int16_t* share = call->Input("share", shares);
-  auto* out = call->Output<int16_t>("out", whole);
-  call->Result(out, whole);
-  call->run = [=](const Kernels& kernels) -> uint64_t {
-    kernels.MixSamples(less, more, share, count, out);
-    return 0;
-  };
+  auto* out = call->Results<int16_t>("out", whole);
+  call->Runs([=](const Kernels& kernels) { kernels.MixSamples(less, more, share, count, out); });
 }
 
 void MoveSamples(Draw* draw, KernelCall* call) {
@@ -42,8 +34,7 @@ void MoveSamples(Draw* draw, KernelCall* call) {
   const size_t rows = draw->Size(1, 9, kTimedSamples / 96);
   const size_t stride = whole + 6 + size_t(draw->Int(0, 5));
   const size_t out_stride = whole + size_t(draw->Int(0, 5));
-  const starfocus::simd::HalfMove move = {Between(draw, -32767, 32767),
-                                          Between(draw, -32767, 32767)};
+  const HalfMove move = {Between(draw, -32767, 32767), Between(draw, -32767, 32767)};
   // Rims that go on beyond what is in range.
   std::vector<int16_t> values = Samples((rows + 2) * stride, draw);
   for (int16_t& value : values) {
@@ -52,10 +43,9 @@ void MoveSamples(Draw* draw, KernelCall* call) {
   const int16_t* in = call->Input("in", values);
   auto* out = call->Output<int16_t>("out", rows * out_stride);
   for (size_t y = 0; y < rows; ++y) call->Result(out + y * out_stride, whole);
-  call->run = [=](const Kernels& kernels) -> uint64_t {
+  call->Runs([=](const Kernels& kernels) {
     kernels.MoveSamples({in + stride + 3, stride, rows, count}, move, out, out_stride);
-    return 0;
-  };
+  });
 }
 
 }  // namespace test::kernel_cases

@@ -7,11 +7,6 @@
 namespace test::depth_cases {
 namespace {
 
-using starfocus::simd::DepthKernels;
-using starfocus::simd::kMostSmoothRows;
-using starfocus::simd::kPadding;
-using starfocus::simd::SmoothRows;
-
 constexpr int kTimedRow = 512, kLongestRow = 2 * 16 + 3;
 constexpr int kFarthest = 500 * 64;  // disparity
 
@@ -51,10 +46,7 @@ void SmoothDisparity(Draw* draw, DepthCall* call) {
   rows.own = rows.rows[rows.count / 2];
   int16_t* smooth = call->Output<int16_t>("smooth", count);
   call->Result(smooth, count);
-  call->run = [=](const DepthKernels& kernels) -> uint64_t {
-    kernels.SmoothDisparity(rows, count, smooth);
-    return 0;
-  };
+  call->Runs([=](const DepthKernels& kernels) { kernels.SmoothDisparity(rows, count, smooth); });
   call->is_right = [=](uint64_t, Met* met) {
     for (size_t n = 0; n < count; ++n) {
       if (std::abs(smooth[n] - rows.own[n]) > rows.tolerance) return false;

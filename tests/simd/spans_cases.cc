@@ -5,11 +5,6 @@
 namespace test::kernel_cases {
 namespace {
 
-using starfocus::simd::kBlendBits;
-using starfocus::simd::Kernels;
-using starfocus::simd::kPadding;
-using starfocus::simd::Span;
-
 struct Spans {
   const Span* spans;
   size_t count, end;
@@ -58,19 +53,14 @@ void Accumulate(Draw* draw, KernelCall* call) {
   const Spans spans = MakeSpans(false, draw, call);
   auto* accumulators = MakeTarget<uint32_t>("accumulators", spans, call);
   for (size_t n = 0; n < spans.end; ++n) accumulators[n] = draw->Next() >> 4;
-  call->run = [=](const Kernels& kernels) -> uint64_t {
-    kernels.Accumulate(spans.spans, spans.count, accumulators);
-    return 0;
-  };
+  call->Runs(
+      [=](const Kernels& kernels) { kernels.Accumulate(spans.spans, spans.count, accumulators); });
 }
 
 void Blend(Draw* draw, KernelCall* call) {
   const Spans spans = MakeSpans(true, draw, call);
   auto* line = MakeTarget<int16_t>("line", spans, call);
-  call->run = [=](const Kernels& kernels) -> uint64_t {
-    kernels.Blend(spans.spans, spans.count, line);
-    return 0;
-  };
+  call->Runs([=](const Kernels& kernels) { kernels.Blend(spans.spans, spans.count, line); });
 }
 
 }  // namespace test::kernel_cases

@@ -7,17 +7,6 @@
 namespace test::kernel_cases {
 namespace {
 
-using starfocus::simd::kCoveredNear;
-using starfocus::simd::Kernels;
-using starfocus::simd::kRowsAhead;
-using starfocus::simd::kSliceLanes;
-using starfocus::simd::kSliceOne;
-using starfocus::simd::SliceFraction;
-using starfocus::simd::SliceOffset;
-using starfocus::simd::SlicePlanes;
-using starfocus::simd::SliceViews;
-using starfocus::simd::StripSlice;
-
 // Where views lie: on whole samples, between two that weigh the same at edges and inside or not, or
 // on three or four of them.
 SliceFraction Fraction(Draw* draw) {
@@ -66,14 +55,12 @@ void ShiftSlice(Draw* draw, KernelCall* call) {
   const SliceFraction fraction = Fraction(draw);
   auto* out = call->Output<int16_t>("out", 3 * plane + rows * kSliceLanes);
   for (size_t c = 0; c < 4; ++c) call->Result(out + c * plane, rows * kSliceLanes);
-  auto* near = call->Output<int8_t>("near", kRowsAhead + rows);
+  auto* near = call->Results<int8_t>("near", kRowsAhead + rows);
   constexpr int8_t kLeft = 9;
   std::fill_n(near, kRowsAhead + rows, kLeft);
-  call->Result(near, kRowsAhead + rows);
-  call->run = [=](const Kernels& kernels) -> uint64_t {
+  call->Runs([=](const Kernels& kernels) {
     kernels.ShiftSlice(in, fraction, rows, plane, out, near + kRowsAhead);
-    return 0;
-  };
+  });
   call->is_right = [=](uint64_t, Met* met) {
     const int8_t *begin = near, *end = near + kRowsAhead + rows;
     (*met)["covered"] += std::count(begin, end, kCoveredNear);
@@ -157,13 +144,9 @@ void Composite(Draw* draw, KernelCall* call) {
   const size_t rows = draw->Length(1, 9, kTimedSamples / 4 / kSliceLanes);
   Met covered;
   const SliceViews views = MakeViews(rows, draw, call, &covered);
-  auto* sums = call->Output<uint32_t>("sums", 4 * rows * kSliceLanes);
+  auto* sums = call->Results<uint32_t>("sums", 4 * rows * kSliceLanes);
   for (size_t n = 0; n < 4 * rows * kSliceLanes; ++n) sums[n] = uint32_t(draw->Int(0, 1 << 30));
-  call->Result(sums, 4 * rows * kSliceLanes);
-  call->run = [=](const Kernels& kernels) -> uint64_t {
-    kernels.Composite(views, rows, sums);
-    return 0;
-  };
+  call->Runs([=](const Kernels& kernels) { kernels.Composite(views, rows, sums); });
   call->is_right = [=](uint64_t, Met* met) {
     for (const auto& one : covered) (*met)[one.first] += one.second;
     return true;

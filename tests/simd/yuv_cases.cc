@@ -6,9 +6,6 @@
 namespace test::image_cases {
 namespace {
 
-using starfocus::simd::ImageKernels;
-using starfocus::simd::YuvMatrix;
-
 constexpr int kLongestRow = 2 * 64 + 67;  // pixels: two of the widest vectors, with all tails
 
 // Coefficients as large as any that are used, and larger.
@@ -45,10 +42,7 @@ void YuvToRgb(Draw* draw, ImageCall* call) {
   const uint8_t* v = call->Input("v", Codes(half, draw));
   uint8_t* rgb = call->Output<uint8_t>("rgb", 3 * count);
   call->Result(rgb, 3 * count);
-  call->run = [=](const ImageKernels& kernels) -> uint64_t {
-    kernels.YuvToRgb(y, u, v, count, m, rgb);
-    return 0;
-  };
+  call->Runs([=](const ImageKernels& kernels) { kernels.YuvToRgb(y, u, v, count, m, rgb); });
 }
 
 void RgbToLuma(Draw* draw, ImageCall* call) {
@@ -57,10 +51,7 @@ void RgbToLuma(Draw* draw, ImageCall* call) {
   const uint8_t* rgb = call->Input("rgb", Codes(3 * count, draw));
   uint8_t* y = call->Output<uint8_t>("y", count);
   call->Result(y, count);
-  call->run = [=](const ImageKernels& kernels) -> uint64_t {
-    kernels.RgbToLuma(rgb, count, m, y);
-    return 0;
-  };
+  call->Runs([=](const ImageKernels& kernels) { kernels.RgbToLuma(rgb, count, m, y); });
 }
 
 void RgbToChroma(Draw* draw, ImageCall* call) {
@@ -72,10 +63,8 @@ void RgbToChroma(Draw* draw, ImageCall* call) {
   uint8_t* v = call->Output<uint8_t>("v", half);
   call->Result(u, half);
   call->Result(v, half);
-  call->run = [=](const ImageKernels& kernels) -> uint64_t {
-    kernels.RgbToChroma(upper, lower, count, m, u, v);
-    return 0;
-  };
+  call->Runs(
+      [=](const ImageKernels& kernels) { kernels.RgbToChroma(upper, lower, count, m, u, v); });
 }
 
 void SplitPairs(Draw* draw, ImageCall* call) {
@@ -85,10 +74,7 @@ void SplitPairs(Draw* draw, ImageCall* call) {
   uint8_t* second = call->Output<uint8_t>("second", count);
   call->Result(first, count);
   call->Result(second, count);
-  call->run = [=](const ImageKernels& kernels) -> uint64_t {
-    kernels.SplitPairs(pairs, count, first, second);
-    return 0;
-  };
+  call->Runs([=](const ImageKernels& kernels) { kernels.SplitPairs(pairs, count, first, second); });
 }
 
 void JoinPairs(Draw* draw, ImageCall* call) {
@@ -97,10 +83,7 @@ void JoinPairs(Draw* draw, ImageCall* call) {
   const uint8_t* second = call->Input("second", Codes(count, draw));
   uint8_t* pairs = call->Output<uint8_t>("pairs", 2 * count);
   call->Result(pairs, 2 * count);
-  call->run = [=](const ImageKernels& kernels) -> uint64_t {
-    kernels.JoinPairs(first, second, count, pairs);
-    return 0;
-  };
+  call->Runs([=](const ImageKernels& kernels) { kernels.JoinPairs(first, second, count, pairs); });
 }
 
 }  // namespace test::image_cases
