@@ -16,9 +16,7 @@
 namespace overshoot_test {
 namespace {
 
-using starfocus::analysis::EngineKernel;
-using starfocus::analysis::EngineProbe;
-using starfocus::analysis::Kernel;
+using namespace starfocus::analysis;
 
 constexpr int kSide = 128, kMiddle = 64, kLow = 60, kHigh = 200;
 

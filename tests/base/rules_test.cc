@@ -14,12 +14,7 @@
 namespace rules_test {
 namespace {
 
-using starfocus::LayerByPaper;
-using starfocus::LayerBySubaperture;
-using starfocus::ScaleViews;
-using starfocus::ViewsByPaper;
-using starfocus::ViewsBySubaperture;
-using starfocus::ViewsOfBenchmark;
+using namespace starfocus;
 
 double Below(double value) { return std::nextafter(value, 0.0); }
 double Above(double value) { return std::nextafter(value, 1e9); }

@@ -12,10 +12,7 @@
 namespace view_set_test {
 namespace {
 
-using starfocus::kOcclusionViews;
-using starfocus::kSideCount;
-using starfocus::OcclusionViews;
-using starfocus::ViewSet;
+using namespace starfocus;
 
 sf_config Config(const std::vector<sf_position>& positions) {
   sf_config config = {};

@@ -13,9 +13,7 @@
 namespace swept_test {
 namespace {
 
-using starfocus::EstimateMemory;
-using starfocus::EstimatePlan;
-using starfocus::kSweptRadius;
+using namespace starfocus;
 using test::PlaneScene;
 
 // Whether each pixel of a scene is swept when its map is `given`.

@@ -17,9 +17,7 @@
 namespace deblock_test {
 namespace {
 
-using starfocus::kDeblockRows;
-using starfocus::kSmallestBlock;
-using starfocus::LayerMap;
+using namespace starfocus;
 using test::DeblockPicture;
 using Picture = test::LayeredPicture;
 

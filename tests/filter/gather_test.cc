@@ -21,12 +21,8 @@
 namespace gather_test {
 namespace {
 
-using starfocus::Cell;
-using starfocus::CellKind;
-using starfocus::kCellSize;
-using starfocus::kDisparityBits;
-using test::Refocused;
-using test::RefocusScene;
+using namespace starfocus;
+using namespace test;
 
 constexpr int kOne = 1 << kDisparityBits;
 

@@ -17,14 +17,8 @@
 namespace layers_test {
 namespace {
 
-using starfocus::LayerPlane;
-using starfocus::LayerRect;
-using starfocus::LayerSize;
-using starfocus::Plane;
-using starfocus::simd::HalfBand;
-using starfocus::simd::kLayerBits;
-using starfocus::simd::kPadding;
-using starfocus::simd::kTapBits;
+using namespace starfocus;
+using namespace starfocus::simd;
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kBetaDown = 1.28, kBetaUp = 2.17;

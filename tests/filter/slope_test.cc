@@ -13,11 +13,7 @@
 namespace slope_test {
 namespace {
 
-using starfocus::kCellSize;
-using starfocus::kDisparityBits;
-using starfocus::kSlopeBits;
-using starfocus::RadiusRange;
-using starfocus::Slope;
+using namespace starfocus;
 
 constexpr double kOne = 1 << kSlopeBits;
 constexpr int kSide = 40;

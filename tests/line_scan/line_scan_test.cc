@@ -17,21 +17,8 @@
 namespace line_scan_test {
 namespace {
 
-using starfocus::Direction;
-using starfocus::kSurfaceStep;
-using starfocus::ViewGrid;
-using test::CheckHole;
-using test::CheckSurface;
-using test::Depths;
-using test::Kind;
-using test::MakeGrid;
-using test::MakeLine;
-using test::Mirrored;
-using test::Picture;
-using test::Record;
-using test::Recorder;
-using test::Scan;
-using test::Shown;
+using namespace starfocus;
+using namespace test;
 
 TEST_CASE("line scan: a surface in focus stays") {
   CheckSurface(Scan(MakeLine({{9, 0}})), 0, 9, 0);

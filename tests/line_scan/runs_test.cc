@@ -16,10 +16,7 @@
 namespace runs_test {
 namespace {
 
-using starfocus::Direction;
-using starfocus::kSurfaceStep;
-using starfocus::Run;
-using starfocus::ViewGrid;
+using namespace starfocus;
 using test::Depths;
 
 struct Found {

@@ -16,10 +16,7 @@ namespace span_sink_test {
 namespace {
 
 using starfocus::Rim;
-using starfocus::simd::kPadding;
-using starfocus::simd::Span;
-
-using starfocus::simd::kLightBits;
+using namespace starfocus::simd;
 
 constexpr int kLength = 12;
 constexpr uint32_t kBlendOne = 1 << starfocus::simd::kBlendBits;

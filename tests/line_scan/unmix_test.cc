@@ -12,9 +12,7 @@
 namespace unmix_test {
 namespace {
 
-using starfocus::Field;
-using starfocus::ViewGrid;
-using starfocus::Window;
+using namespace starfocus;
 
 constexpr int kSize = 24;
 constexpr int kEdge = 12;  // the first near column

@@ -20,15 +20,7 @@
 namespace block_stats_test {
 namespace {
 
-using starfocus::BlockStats;
-using starfocus::BlurScale;
-using starfocus::Border;
-using starfocus::Cell;
-using starfocus::CellGrid;
-using starfocus::kCellSize;
-using starfocus::kLayerMargin;
-using starfocus::kSmallestBlock;
-using starfocus::Window;
+using namespace starfocus;
 
 constexpr int kDisparityOne = 1 << starfocus::kDisparityBits;
 constexpr int kSizes = 5;  // 16, 32, ... 256
@@ -331,7 +323,7 @@ void CheckMap(Map map, int largest_block) {
 TEST_CASE("cells: no pixel beyond a border reaches its block, on random disparity maps") {
   test::Random random(11);
   constexpr int kWidths[] = {1, 7, 8, 9, 15, 16, 17, 23, 40, 64, 71, 90};
-  for (int round = 0; round < (STARFOCUS_EMULATED ? 100 : 300); ++round) {
+  for (int round = 0; round < 300; ++round) {
     const int width = kWidths[random.Int(0, 11)], height = kWidths[random.Int(0, 11)];
     const auto content = Content(round % kContents);
     const double amplitude = std::vector<double>{0.3, 1, 3, 8, 20}[size_t(random.Int(0, 4))];

@@ -18,18 +18,8 @@
 namespace partition_test {
 namespace {
 
-using starfocus::Block;
-using starfocus::BlurScale;
-using starfocus::Border;
-using starfocus::kCellSize;
-using starfocus::kSmallestBlock;
-using starfocus::Rect;
-using test::AllCosts;
-using test::LayerOf;
-using test::LeastCost;
-using test::Plan;
-using test::Planned;
-using test::ViewsOf;
+using namespace starfocus;
+using namespace test;
 
 bool Same(const Rect& a, const Rect& b) {
   return a.x == b.x && a.y == b.y && a.width == b.width && a.height == b.height;

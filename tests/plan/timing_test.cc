@@ -14,12 +14,7 @@
 namespace timing_test {
 namespace {
 
-using starfocus::BlockWork;
-using starfocus::Border;
-using starfocus::Content;
-using starfocus::kLineScanRenderer;
-using starfocus::kSliceRenderer;
-using starfocus::Rect;
+using namespace starfocus;
 
 // The discs i^2 + j^2 <= N^2, whatever their weights.
 starfocus::ViewWeights DiscOf(int n) {

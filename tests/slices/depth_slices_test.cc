@@ -14,9 +14,7 @@
 namespace depth_slices_test {
 namespace {
 
-using starfocus::kMaxSlices;
-using starfocus::Slice;
-using starfocus::SliceRule;
+using namespace starfocus;
 
 constexpr int kSize = 64;
 

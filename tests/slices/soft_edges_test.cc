@@ -7,20 +7,8 @@
 namespace soft_edges_test {
 namespace {
 
-using starfocus::Direction;
-using starfocus::kSurfaceStep;
-using starfocus::ViewGrid;
-using test::CheckHole;
-using test::CheckSurface;
-using test::Depths;
-using test::Kind;
-using test::MakeGrid;
-using test::MakeLine;
-using test::Mirrored;
-using test::Picture;
-using test::Record;
-using test::Scan;
-using test::Shown;
+using namespace starfocus;
+using namespace test;
 
 // The view of a line, the same in either direction.
 Picture ScanBothWays(const Depths& line) {
