@@ -149,8 +149,8 @@ TEST_CASE("file: a read-only file is refused, before the work and when it is wri
   fs::create_symlink("a", folder.file("link"));
   REQUIRE(chmod(path.c_str(), 0444) == 0);
   for (const std::string& name : {path, folder.file("link")}) {
-    CHECK(CheckOutputPath(name).line().find("read-only") != std::string::npos);
-    CHECK(WriteFile(name, FromText("new")).line().find("read-only") != std::string::npos);
+    CHECK(Contains(CheckOutputPath(name), "read-only"));
+    CHECK(Contains(WriteFile(name, FromText("new")), "read-only"));
   }
   CHECK(Read(path) == "old");
   CHECK(folder.count() == 2);

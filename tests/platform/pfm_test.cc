@@ -86,8 +86,8 @@ TEST_CASE("pfm: malformed files are one-line errors and leave the map alone") {
     FloatMap map;
     map.width = 9;
     const std::string error = ReadText(text, &map).line();
-    CHECK(error.find(": expected ") != std::string::npos);
-    CHECK(error.find('\n') == std::string::npos);
+    CHECK(Contains(error, ": expected "));
+    CHECK(!Contains(error, "\n"));
     CHECK(map.width == 9);
   }
 }

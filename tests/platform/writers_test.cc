@@ -204,12 +204,12 @@ TEST_CASE("writers: EXIF and the profile stay, edited where the picture is") {
       const std::string path = folder.file(name);
       REQUIRE(WriteImage(path, Ramp(40, 30), how) == "");
       const std::string tags = Ask(folder, "exiftool -s -s -n '" + path + "'");
-      CHECK(tags.find("Software: starfocus 0.") != std::string::npos);
-      CHECK(tags.find("Make: Holgaro\n") != std::string::npos);
-      CHECK(tags.find("Orientation: 1\n") != std::string::npos);
-      CHECK(tags.find("ExifImageWidth: 40\n") != std::string::npos);
-      CHECK(tags.find("ExifImageHeight: 30\n") != std::string::npos);
-      CHECK(tags.find("Compression: 6") == std::string::npos);  // the thumbnail's
+      CHECK(Contains(tags, "Software: starfocus 0."));
+      CHECK(Contains(tags, "Make: Holgaro\n"));
+      CHECK(Contains(tags, "Orientation: 1\n"));
+      CHECK(Contains(tags, "ExifImageWidth: 40\n"));
+      CHECK(Contains(tags, "ExifImageHeight: 30\n"));
+      CHECK(!Contains(tags, "Compression: 6"));  // the thumbnail's
       CHECK(Ask(folder, "exiftool -b -icc_profile '" + path + "'").size() == 150000);
     }
   }
@@ -233,7 +233,7 @@ TEST_CASE("writers: what PNG and WebP files say of a picture is read again") {
     CHECK(metadata.icc == how.metadata.icc);
     const std::string exif(metadata.exif.begin(), metadata.exif.end());
     CHECK(exif.find("II") == 0);
-    CHECK(exif.find("Holgaro") != std::string::npos);
+    CHECK(Contains(exif, "Holgaro"));
   }
 }
 
@@ -319,7 +319,7 @@ TEST_CASE("writers: grey levels above 255 take 16 bits") {
   Bytes png;
   const std::string error = EncodeGreyPng("a.png", grey, &png).line();
   if (!HasLibpng()) {
-    CHECK(error.find("libpng") != std::string::npos);
+    CHECK(Contains(error, "libpng"));
     return;
   }
   REQUIRE(error == "");
@@ -340,7 +340,7 @@ TEST_CASE("writers: an animation shows its pictures in their order") {
   TempFolder folder;
   const std::string path = folder.file("a.webp");
   if (Error absent = WebpWriter::Check(path, 1, 1)) {
-    CHECK(absent.line().find("libwebp") != std::string::npos);
+    CHECK(Contains(absent, "libwebp"));
     return;
   }
   CHECK(WebpWriter::Check(path, 16384, 1) != "");
@@ -361,7 +361,7 @@ TEST_CASE("writers: an animation shows its pictures in their order") {
     return;
   }
   const std::string said = Ask(folder, "webpinfo '" + path + "'");
-  CHECK(said.find("No error detected") != std::string::npos);
+  CHECK(Contains(said, "No error detected"));
   size_t frames = 0;
   for (size_t at = said.find("Chunk ANMF"); at < said.size();
        at = said.find("Chunk ANMF", at + 1)) {
@@ -397,10 +397,10 @@ TEST_CASE("writers: a depth photo holds the map and the picture before, for exif
   }
   const std::string file = "'" + folder.file("a.jpg") + "'";
   const std::string tags = Ask(folder, "exiftool -s -s -G1 -n " + file);
-  CHECK(tags.find("Far: 1\n") != std::string::npos);
-  CHECK(tags.find("Near: 0.11111") != std::string::npos);             // 1 / (8 + 1)
-  CHECK(tags.find("FocalDistance: 0.166666") != std::string::npos);   // 1 / (2 + 3 + 1)
-  CHECK(tags.find("BlurAtInfinity: 0.0075\n") != std::string::npos);  // 0.5 * 6 / 400
+  CHECK(Contains(tags, "Far: 1\n"));
+  CHECK(Contains(tags, "Near: 0.11111"));             // 1 / (8 + 1)
+  CHECK(Contains(tags, "FocalDistance: 0.166666"));   // 1 / (2 + 3 + 1)
+  CHECK(Contains(tags, "BlurAtInfinity: 0.0075\n"));  // 0.5 * 6 / 400
   const std::string png = Ask(folder, "exiftool -b -XMP-GDepth:DepthImage " + file);
   const std::string sharp = Ask(folder, "exiftool -b -XMP-GImage:ImageData " + file);
   REQUIRE(WriteFile(folder.file("d.png"), FromText(png)) == "");

@@ -23,10 +23,6 @@ using namespace photos;
 constexpr int kWidth = 48, kHeight = 36;
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
-bool Contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 // What a map says of a scene: a wall, a floor below that comes nearer, and a box before them.
 struct Scene {
   double wall, floor, box;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Comparing an error with its line, "" where there is none, as tests do.
+// Comparing an error with its line, "" where there is none, and looking for a part of it, as tests
+// do.
 #ifndef STARFOCUS_TESTS_SUPPORT_ERROR_LINE_H_
 #define STARFOCUS_TESTS_SUPPORT_ERROR_LINE_H_
 
@@ -12,6 +13,13 @@ namespace starfocus {
 
 inline bool operator==(const Error& error, const std::string& line) { return error.line() == line; }
 inline bool operator!=(const Error& error, const std::string& line) { return error.line() != line; }
+
+inline bool Contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+inline bool Contains(const Error& error, const std::string& part) {
+  return Contains(error.line(), part);
+}
 
 // What doctest shows.
 inline std::ostream& operator<<(std::ostream& out, const Error& error) {
