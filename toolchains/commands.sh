@@ -22,17 +22,11 @@ emulator() {
   esac
 }
 
-# data_option PRESET: of the emulated boards one refocuses the data sets; on the others that would
-# only be slower.
-data_option() {
-  [ "$1" = aarch64 ] || echo -DSTARFOCUS_DATA_DIR=
-}
-
 # cross_build PRESET [TARGET...]
 cross_build() {
   local preset=$1
   shift
-  step "configure-$preset" "configuring build/$preset" cmake --preset "$preset" $(data_option "$preset")
+  step "configure-$preset" "configuring build/$preset" cmake --preset "$preset"
   step "build-$preset" "building ${*:-everything} in build/$preset" \
     cmake --build --preset "$preset" --parallel "$(nproc)" ${1:+--target "$@"}
 }
@@ -42,9 +36,9 @@ sve_test() {
   local bytes=${1%:*} name=${1#*:}
   qemu-aarch64 -cpu max,sve-default-vector-length=$bytes -L /usr/aarch64-linux-gnu \
     -E LD_LIBRARY_PATH=build/sysroot/arm64/usr/lib/aarch64-linux-gnu \
-    build/aarch64-max/tests/simd_byte_tests --no-intro=true "--source-file=*/${name}_test.cc" \
+    build/aarch64-max/tests/simd_byte_tests --no-intro=true "--source-file=*/${name}_bytes_test.cc" \
     >"$LOGS/$name-$bytes.log" 2>&1 && return
-  echo "${name}_test failed with SVE registers of $bytes bytes: see $LOGS/$name-$bytes.log" >&2
+  echo "${name}_bytes_test failed with SVE registers of $bytes bytes: see $LOGS/$name-$bytes.log" >&2
   return 1
 }
 
@@ -191,7 +185,7 @@ cross() {
 golden() {
   install_missing
   build starfocus_engine_byte_tests
-  STARFOCUS_RECORD_GOLDEN=1 $BUILD/tests/engine_byte_tests --no-intro=true '--source-file=*/golden_test.cc'
+  STARFOCUS_RECORD_GOLDEN=1 $BUILD/tests/engine_byte_tests --no-intro=true '--source-file=*/golden_bytes_test.cc'
 }
 
 # code_bytes TRIPLE LIBRARY: bytes of code and of read-only data that a program which calls

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // starfocus-bench-micro: every kernel on every SIMD target beside its reference, and what surrounds
 // them, beside a memcpy of the same size, in bytes read and written per second. The calls of
-// kernels are those that kernels_test checks.
+// kernels are those that kernels_bytes_test checks.
 #include "tests/bench/micro.h"
 
 #include <benchmark/benchmark.h>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs the program STARFOCUS_PROGRAM (a definition of the build, or the environment variable), or
-// starfocus-lab beside it.
+// Runs the program STARFOCUS_PROGRAM, or starfocus-lab beside it.
 #ifndef STARFOCUS_TESTS_CLI_CALL_PROGRAM_H_
 #define STARFOCUS_TESTS_CLI_CALL_PROGRAM_H_
 
@@ -19,16 +18,11 @@ namespace starfocus {
 
 // The program that has the subcommand at the beginning of `arguments`.
 inline std::string ProgramFor(const std::string& arguments) {
-  const char* program = std::getenv("STARFOCUS_PROGRAM");
-#ifdef STARFOCUS_PROGRAM
-  if (program == nullptr) program = STARFOCUS_PROGRAM;
-#endif
-  REQUIRE_MESSAGE(program != nullptr, "set STARFOCUS_PROGRAM to the program to test");
   const std::string command = arguments.substr(0, arguments.find(' '));
   for (const char* one : {"analyze", "calibrate", "compare", "scene", "sheet", "stress"}) {
-    if (command == one) return program + std::string("-lab");
+    if (command == one) return STARFOCUS_PROGRAM "-lab";
   }
-  return program;
+  return STARFOCUS_PROGRAM;
 }
 
 struct Outcome {
@@ -46,8 +40,9 @@ inline std::string Text(const std::string& path) {
 inline Outcome Call(const TempFolder& folder, const std::string& arguments,
                     const std::string& before = "") {
   TempFolder logs;
-  const std::string command = "cd '" + folder.path() + "' && " + before + " exec '" +
-                              ProgramFor(arguments) + "' " + arguments;
+  const std::string command = "cd '" + folder.path() + "' && " + before +
+                              " exec " STARFOCUS_EMULATOR " '" + ProgramFor(arguments) + "' " +
+                              arguments;
   const int status = std::system(
       ("exec >'" + logs.file("out") + "' 2>'" + logs.file("err") + "'; " + command).c_str());
   Outcome outcome;
@@ -55,6 +50,12 @@ inline Outcome Call(const TempFolder& folder, const std::string& arguments,
   outcome.out = Text(logs.file("out"));
   outcome.err = Text(logs.file("err"));
   return outcome;
+}
+
+// Calls what has to succeed.
+inline void Succeed(const TempFolder& folder, const std::string& arguments) {
+  CAPTURE(arguments);
+  REQUIRE(Call(folder, arguments).code == 0);
 }
 
 // What stands in an error line behind the name of the program.

@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <string>
 
@@ -34,24 +35,38 @@ inline void CheckRefused(const TempFolder& folder, const std::string& arguments,
   CHECK(outcome.code == (usage ? 2 : 1));
   CHECK(outcome.out == "");
   CheckErrorLine(outcome.err);
-  CHECK(outcome.err.find(mention) != std::string::npos);
+  CHECK(Contains(outcome.err, mention));
   CHECK(folder.count() == before);
 }
 
-// A folder with a 40x30 light field `lf` of 5 views and some broken things around it.
+// Checks each row of the table tests/cli/NAME.
+inline void CheckRefusals(const TempFolder& folder, const std::string& name) {
+  std::ifstream table(STARFOCUS_SOURCE_DIR "/tests/cli/" + name);
+  int rows = 0;
+  for (std::string row; std::getline(table, row);) {
+    const size_t arrow = row.find(" -> ");
+    if (row.rfind("#", 0) == 0 || arrow == std::string::npos) continue;
+    CheckRefused(folder, row.substr(0, arrow), row.substr(arrow + 4));
+    ++rows;
+  }
+  CHECK(rows > 50);
+}
+
+// A folder with a 40x30 light field `lf` of 5 views, `bare` without its map, `link` to it, `grid`
+// of views of other names, and some broken things around them.
 inline void Prepare(const TempFolder& folder) {
-  REQUIRE(Call(folder, "scene lf --size 40x30 --views 5 --name wires").code == 0);
+  namespace fs = std::filesystem;
+  Succeed(folder, "scene lf --size 40x30 --views 5 --name wires");
   REQUIRE(WriteFile(folder.file("text.png"), Bytes{'h', 'e', 'l', 'l', 'o'}) == "");
   REQUIRE(WriteImage(folder.file("small.png"), Image(4, 4)) == "");
   REQUIRE(WriteImage(folder.file("large.png"), Image(5, 4)) == "");
-  for (const char* name : {"missing", "broken", "nan", "huge", "short"}) {
-    std::filesystem::copy(folder.file("lf"), folder.file(name));
+  for (const char* name : {"missing", "broken", "nan", "huge", "short", "bare", "linked"}) {
+    fs::copy(folder.file("lf"), folder.file(name));
   }
-  std::filesystem::copy(folder.file("lf"), folder.file("linked"));
-  std::filesystem::rename(folder.file("linked/view_+1.0_+0.0.png"), folder.file("target.png"));
-  std::filesystem::create_symlink("../target.png", folder.file("linked/view_+1.0_+0.0.png"));
-  std::filesystem::create_symlink("../target.png", folder.file("linked/out.png"));
-  std::filesystem::remove(folder.file("missing/view_+0.0_+0.0.png"));
+  fs::rename(folder.file("linked/view_+1.0_+0.0.png"), folder.file("target.png"));
+  fs::create_symlink("../target.png", folder.file("linked/view_+1.0_+0.0.png"));
+  fs::create_symlink("../target.png", folder.file("linked/out.png"));
+  fs::remove(folder.file("missing/view_+0.0_+0.0.png"));
   REQUIRE(WriteFile(folder.file("broken/view_-1.0_+0.0.png"), Bytes{1, 2, 3}) == "");
   FloatMap map;
   REQUIRE(ReadPfm(folder.file("lf/disparity.pfm"), &map) == "");
@@ -59,10 +74,19 @@ inline void Prepare(const TempFolder& folder) {
   REQUIRE(WritePfm(folder.file("nan/disparity.pfm"), map) == "");
   map.values[45] = 1e9f;
   REQUIRE(WritePfm(folder.file("huge/disparity.pfm"), map) == "");
-  std::filesystem::resize_file(folder.file("short/disparity.pfm"), 100);
-  std::filesystem::create_directory(folder.file("taken_002.png"));
-  REQUIRE(Call(folder, "scene tiny --size 20x10 --views 5").code == 0);
-  REQUIRE(Call(folder, "scene single --size 40x30 --views 1").code == 0);
+  fs::resize_file(folder.file("short/disparity.pfm"), 100);
+  fs::create_directory(folder.file("taken_002.png"));
+  fs::remove(folder.file("bare/disparity.pfm"));
+  fs::create_directory_symlink("lf", folder.file("link"));
+  fs::create_directory(folder.file("grid"));
+  for (const char* name : {"v_0_0.png", "v_0_1.png", "v_0_2.png"}) {
+    fs::copy_file(folder.file("lf/view_+0.0_+0.0.png"), folder.file(std::string("grid/") + name));
+  }
+  fs::copy_file(folder.file("lf/disparity.pfm"), folder.file("grid/disparity.pfm"));
+  fs::create_hard_link(folder.file("grid/v_0_1.png"), folder.file("hard.png"));
+  Succeed(folder, "scene truths --size 40x30 --views 1 --truth 1,1");
+  Succeed(folder, "scene tiny --size 20x10 --views 5");
+  Succeed(folder, "scene single --size 40x30 --views 1");
 }
 
 }  // namespace starfocus

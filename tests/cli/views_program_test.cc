@@ -25,12 +25,9 @@ double Psnr(const TempFolder& folder, const std::string& names) {
 
 TEST_CASE("views: the more sides are captured, the nearer to the truth") {
   TempFolder folder;
-  REQUIRE(Call(folder, "scene lf --size 256x192 --views 5 --transfer none --truth=-2.4,1").code ==
-          0);
+  Succeed(folder, "scene lf --size 256x192 --views 5 --transfer none --truth=-2.4,1");
   const auto error = [&](const std::string& views) {
-    REQUIRE(
-        Call(folder, "refocus lf -o x.png --transfer none --focus=-2.4 --views " + views).code ==
-        0);
+    Succeed(folder, "refocus lf -o x.png --transfer none --focus=-2.4 --views " + views);
     return Psnr(folder, "lf/truth_dt-2.4_ut1.png x.png");
   };
   const double one = error("1"), five = error("5");
@@ -49,47 +46,46 @@ TEST_CASE("views: the more sides are captured, the nearer to the truth") {
 TEST_CASE("views: scenes at positions are refocused, streamed and told of") {
   TempFolder folder;
   const std::string positions = "0,0:0.7,-0.25:-0.5,0:0.125,1";
-  REQUIRE(Call(folder, "scene lf --size 64x48 --views " + positions).code == 0);
+  Succeed(folder, "scene lf --size 64x48 --views " + positions);
   CHECK(fs::exists(folder.file("lf/view_+0.7_-0.25.png")));
   const Outcome info = Call(folder, "info lf");
-  CHECK(info.out.find("4 views") != std::string::npos);
-  CHECK(info.out.find("(0.7, -0.25)") != std::string::npos);
-  REQUIRE(Call(folder, "refocus lf -o whole.png --focus 0").code == 0);
-  REQUIRE(Call(folder, "refocus lf -o rows.png --focus 0 --stream --threads 2").code == 0);
+  CHECK(Contains(info.out, "4 views"));
+  CHECK(Contains(info.out, "(0.7, -0.25)"));
+  Succeed(folder, "refocus lf -o whole.png --focus 0");
+  Succeed(folder, "refocus lf -o rows.png --focus 0 --stream --threads 2");
   CHECK(Call(folder, "compare whole.png rows.png").out == "PSNR inf, largest difference 0\n");
   const Outcome paper = Call(folder, "refocus lf -o x.png --focus 0 --rule paper");
   CHECK(paper.code == 2);
-  CHECK(paper.err.find("star") != std::string::npos);
+  CHECK(Contains(paper.err, "star"));
   CHECK(Call(folder, "refocus lf -o frame.png --focus 0 --mode frame").code == 0);
   // Their map is repaired by the centre view, and none is estimated.
-  CHECK(Call(folder, "disparity lf --repair -o map.pfm").out.find("1 view,") != std::string::npos);
+  CHECK(Contains(Call(folder, "disparity lf --repair -o map.pfm").out, "1 view,"));
   fs::remove(folder.file("lf/disparity.pfm"));
   const Outcome none = Call(folder, "refocus lf -o x.png --focus 0");
   CHECK(none.code == 1);
-  CHECK(none.err.find("star") != std::string::npos);
+  CHECK(Contains(none.err, "star"));
 }
 
 TEST_CASE("views: a stereo pair as Middlebury's is opened, unknown disparities filled") {
   TempFolder folder;
-  REQUIRE(Call(folder, "scene lf --size 64x48 --views 0,0:1,0").code == 0);
+  Succeed(folder, "scene lf --size 64x48 --views 0,0:1,0");
   LightField field;
   REQUIRE(LoadLightField(folder.file("lf"), {}, &field) == "");
   fs::create_directory(folder.file("pair"));
   REQUIRE(WriteImage(folder.file("pair/im0.png"), field.views[0]) == "");
   REQUIRE(WriteImage(folder.file("pair/im1.png"), field.views[1]) == "");
   REQUIRE(WritePfm(folder.file("pair/disp0.pfm"), field.disparity) == "");
-  REQUIRE(Call(folder, "refocus lf -o a.png --focus 0").code == 0);
-  REQUIRE(Call(folder, "refocus pair -o b.png --focus 0").code == 0);
+  Succeed(folder, "refocus lf -o a.png --focus 0");
+  Succeed(folder, "refocus pair -o b.png --focus 0");
   CHECK(Call(folder, "compare a.png b.png").out == "PSNR inf, largest difference 0\n");
   field.disparity.values[70] = HUGE_VALF;
   REQUIRE(WritePfm(folder.file("pair/disp0.pfm"), field.disparity) == "");
-  CHECK(Call(folder, "info pair").out.find("1 invalid") != std::string::npos);
+  CHECK(Contains(Call(folder, "info pair").out, "1 invalid"));
   REQUIRE(WritePfm(folder.file("lf/disparity.pfm"), field.disparity) == "");
   // A pair's map has infinite values by its format, a light field's by mistake.
-  CHECK(Call(folder, "refocus lf -o c.png --focus 0").err.find("--fill-invalid") !=
-        std::string::npos);
-  REQUIRE(Call(folder, "refocus lf -o c.png --focus 0 --fill-invalid").code == 0);
-  REQUIRE(Call(folder, "refocus pair -o b.png --focus 0").code == 0);
+  CHECK(Contains(Call(folder, "refocus lf -o c.png --focus 0").err, "--fill-invalid"));
+  Succeed(folder, "refocus lf -o c.png --focus 0 --fill-invalid");
+  Succeed(folder, "refocus pair -o b.png --focus 0");
   CHECK(Call(folder, "compare b.png c.png").out == "PSNR inf, largest difference 0\n");
   CHECK(Call(folder, "refocus pair -o pair/im1.png --focus 0 --fill-invalid").code == 2);
 }

@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 void MakeScene(const TempFolder& folder, const std::string& name, const std::string& more = "") {
-  REQUIRE(Call(folder, "scene " + name + " --size 48x36 --views 5 --threads 1 " + more).code == 0);
+  Succeed(folder, "scene " + name + " --size 48x36 --views 5 --threads 1 " + more);
 }
 
 size_t Count(const std::string& text, const std::string& part) {
@@ -33,7 +33,7 @@ TEST_CASE("writers: - is standard output and input, in the format that is named"
   MakeScene(folder, "lf");
   for (const std::string format : {"png", "ppm", "jpg"}) {
     CAPTURE(format);
-    REQUIRE(Call(folder, "refocus lf --focus 1 -o a." + format).code == 0);
+    Succeed(folder, "refocus lf --focus 1 -o a." + format);
     const Outcome piped = Call(folder, "refocus lf --focus 1 -o " + format + ":-");
     CHECK(piped.code == 0);
     CHECK(piped.out == Text(folder.file("a." + format)));
@@ -50,11 +50,11 @@ TEST_CASE("writers: - is standard output and input, in the format that is named"
 TEST_CASE("writers: quality and depth photos are asked for sensibly or not at all") {
   TempFolder folder;
   MakeScene(folder, "lf");
-  REQUIRE(Call(folder, "refocus lf --focus 1 -o low.jpg --quality 20").code == 0);
-  REQUIRE(Call(folder, "refocus lf --focus 1 -o high.jpg --quality 99").code == 0);
+  Succeed(folder, "refocus lf --focus 1 -o low.jpg --quality 20");
+  Succeed(folder, "refocus lf --focus 1 -o high.jpg --quality 99");
   CHECK(fs::file_size(folder.file("low.jpg")) < fs::file_size(folder.file("high.jpg")));
-  REQUIRE(Call(folder, "refocus lf --focus 1 -o deep.jpg --depth-photo").code == 0);
-  CHECK(Text(folder.file("deep.jpg")).find("GDepth:Data") != std::string::npos);
+  Succeed(folder, "refocus lf --focus 1 -o deep.jpg --depth-photo");
+  CHECK(Contains(Text(folder.file("deep.jpg")), "GDepth:Data"));
   for (const std::string wrong :
        {"-o b.jpg --quality 0", "-o b.jpg --quality 101", "-o b.png --depth-photo",
         "-o b.jpg --depth-photo --region 0,0,8,8", "-o b.png --all-in-focus c.png"}) {
@@ -71,11 +71,9 @@ TEST_CASE("writers: a sweep is an animation, or a sharp picture with the focus o
   MakeScene(folder, "lf");
   const bool webp = !WebpWriter::Check("", 1, 1);
   const std::string out = webp ? "s.webp" : "s.png";
-  REQUIRE(
-      Call(folder,
-           "refocus lf --sweep -0.45:0.45:4 --all-in-focus all.png --focus-index index.png -o " +
-               out)
-          .code == 0);
+  Succeed(
+      folder,
+      "refocus lf --sweep -0.45:0.45:4 --all-in-focus all.png --focus-index index.png -o " + out);
   CHECK(folder.count() == (webp ? 4 : 7));
   Image all, centre, index;
   REQUIRE(ReadImage(folder.file("all.png"), &all) == "");
@@ -109,13 +107,13 @@ TEST_CASE("writers: a batch goes on after a bad input and says which failed") {
     const Outcome outcome =
         Call(folder, "refocus lf bad more/ none -o out --focus 1 --jobs " + jobs);
     CHECK(outcome.code == 1);
-    CHECK(outcome.err.find("(failed: bad, none)") != std::string::npos);
+    CHECK(Contains(outcome.err, "(failed: bad, none)"));
     CHECK(Count(outcome.err, "\n") == 3);
     for (const char* name : {"lf.png", "one.png", "two.png"}) {
       CHECK(fs::exists(folder.file("out/" + std::string(name))));
     }
     CHECK(std::distance(fs::directory_iterator(folder.file("out")), {}) == 3);
-    REQUIRE(Call(folder, "refocus lf -o single.png --focus 1").code == 0);
+    Succeed(folder, "refocus lf -o single.png --focus 1");
     CHECK(Text(folder.file("single.png")) == Text(folder.file("out/lf.png")));
     fs::remove_all(folder.file("out"));
   }
@@ -150,10 +148,10 @@ TEST_CASE("writers: compare draws where pictures differ, and over neither of the
 TEST_CASE("writers: the page of view has everything in it and says what is to be seen") {
   TempFolder folder;
   MakeScene(folder, "'a<b&\"c'", "--truth 4,1 --truth 2,0.5");
-  REQUIRE(Call(folder, "view 'a<b&\"c' -o page.html").code == 0);
+  Succeed(folder, "view 'a<b&\"c' -o page.html");
   const std::string page = Text(folder.file("page.html"));
-  CHECK(page.find("<title>a&lt;b&amp;&quot;c</title>") != std::string::npos);
-  CHECK(page.find("a<b") == std::string::npos);
+  CHECK(Contains(page, "<title>a&lt;b&amp;&quot;c</title>"));
+  CHECK(!Contains(page, "a<b"));
   CHECK(Count(page, "<img ") == 13);  // photo, map, 6 foci, blocks, 2 truths with their errors
   CHECK(Count(page, "src=\"data:image/jpeg;base64,/9j/") == 13);
   CHECK(Count(page, "src=") == 13);
@@ -162,7 +160,7 @@ TEST_CASE("writers: the page of view has everything in it and says what is to be
   CHECK(Count(page, " alt=\"\"") == 0);
   CHECK(Count(page, "<rect ") == 32);
   CHECK(Count(page, " dB, largest ") == 2);
-  CHECK(page.find("prefers-color-scheme: dark") != std::string::npos);
+  CHECK(Contains(page, "prefers-color-scheme: dark"));
   for (const char* element : {"html", "main", "section", "figure", "svg", "table", "details"}) {
     CHECK(Count(page, "<" + std::string(element) + ">") +
               Count(page, "<" + std::string(element) + " ") ==

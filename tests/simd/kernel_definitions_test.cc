@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the references of the kernels compute, worked out by hand. kernels_test.cc compares all
-// targets with them.
+// What the references of the kernels compute, worked out by hand. kernels_bytes_test.cc compares
+// all targets with them.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -15,13 +15,7 @@
 namespace kernel_definitions_test {
 namespace {
 
-using starfocus::simd::CellMeasure;
-using starfocus::simd::Kernels;
-using starfocus::simd::kLayerWhite;
-using starfocus::simd::kRunLanes;
-using starfocus::simd::ReferenceKernels;
-using starfocus::simd::RunMarks;
-using starfocus::simd::Span;
+using namespace starfocus::simd;
 
 TEST_CASE("kernel definitions: spans, composites, discs and disparities, by hand") {
   const int16_t source[] = {10, 20, 30, 40, 50, 60, 70, 80, 32640};
@@ -80,9 +74,9 @@ TEST_CASE("kernel definitions: spans, composites, discs and disparities, by hand
 TEST_CASE("kernel definitions: light and codes, by hand") {
   int16_t table[256] = {};
   for (int code = 0; code < 256; ++code) table[code] = int16_t(code * code / 2);
-  std::vector<uint16_t> entries(starfocus::simd::kEncodeEntries, 3 << 4);
+  std::vector<uint16_t> entries(kEncodeEntries, 3 << 4);
   entries[0] = (2 << 4) + 16 - 5;  // code 2 below 5, 3 from there on
-  const starfocus::simd::Encoding encoding = {table, entries.data()};
+  const Encoding encoding = {table, entries.data()};
   const uint8_t codes[3] = {0, 10, 255};
   int16_t light[3];
   ReferenceKernels().Decode(codes, 3, encoding, light);
@@ -107,7 +101,7 @@ TEST_CASE("kernel definitions: light and codes, by hand") {
 TEST_CASE("kernel definitions: ranges, by hand") {
   int16_t in[2 * 20] = {};
   for (int16_t& d : in) d = INT16_MIN;
-  starfocus::simd::DisparityRange ranges[2];
+  DisparityRange ranges[2];
   ReferenceKernels().FindRanges(in, 20, 2, 17, ranges);
   CHECK(ranges[0].low > ranges[0].high);
   in[3] = 8, in[20 + 15] = -32767, in[16] = 32767, in[17] = 0;

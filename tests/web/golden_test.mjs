@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The package gives the bytes of the library: every checksum of tests/engine/golden.txt, whose names tell
-// the light field and the lens, as tests/engine/golden_test.cc makes them.
+// the light field and the lens, as tests/engine/golden_bytes_test.cc makes them.
 
 import assert from 'node:assert/strict';
 import {readFileSync} from 'node:fs';

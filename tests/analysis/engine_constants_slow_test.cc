@@ -1,0 +1,345 @@
+// SPDX-License-Identifier: Apache-2.0
+// The engine's constants against the analysis they come from. A failure names the figure of the
+// paper that moves: then the analysis, the figure and the documents change together, or the
+// constant is wrong.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "lib/analysis/aperture.h"
+#include "lib/analysis/engine_steps.h"
+#include "lib/analysis/half_band.h"
+#include "lib/analysis/ideal.h"
+#include "lib/analysis/search.h"
+#include "lib/analysis/selection.h"
+#include "lib/analysis/star_kernel.h"
+#include "lib/analysis/subaperture_rule.h"
+#include "lib/analysis/subsampled.h"
+#include "lib/analysis/view_kernel.h"
+#include "lib/base/fixed.h"
+#include "lib/base/rules.h"
+#include "lib/base/view_weights.h"
+#include "lib/filter/blur.h"
+#include "lib/filter/gather.h"
+#include "lib/filter/layers.h"
+#include "lib/line_scan/line_scan.h"
+#include "lib/plan/timing.h"
+#include "starfocus/starfocus.h"
+
+namespace starfocus::engine_constants_slow_test {
+namespace {
+
+using namespace analysis;
+
+TEST_CASE("constants: theta is Table I's at r = 3") {
+  sf_config config;
+  sf_config_init(&config);
+  const double table = OptimiseOnGrid(3).filters.theta;
+  CHECK_MESSAGE(config.theta == doctest::Approx(table).epsilon(1e-12),
+                "the default of sf_config.theta is " << config.theta / kPi << " pi, Table I has "
+                                                     << table / kPi
+                                                     << " pi: all figures and rules move");
+  CHECK_MESSAGE(config.theta == doctest::Approx(kDefaultTheta).epsilon(1e-12),
+                "lib/analysis draws its figures with another theta than the engine's default");
+}
+
+TEST_CASE("constants: the views of (9)") {
+  // Largest r that gets N = 4, and the slope beyond.
+  const auto jump = [](int n) {
+    return Cross(0.1, 128, 1e-9, [&](double r) { return ViewsByPaper(r) - n - 0.5; });
+  };
+  CHECK_MESSAGE(4 / jump(4) == doctest::Approx(0.787).epsilon(1e-6),
+                "the under-sampling ratio of Fig. 6 and (9) moves");
+  CHECK_MESSAGE(80 / jump(80) == doctest::Approx(0.787).epsilon(1e-6),
+                "the under-sampling ratio of Fig. 6 and (9) moves");
+  for (int n = 1; n <= 3; ++n) {
+    CHECK_MESSAGE(jump(n) == doctest::Approx(n).epsilon(1e-6), "(9) below r = 4 moves");
+  }
+  for (int n = 4; n <= 32; ++n) {
+    const double r = jump(n) - 1e-6, over = WorstOverSampling(n, kDefaultTheta).error;
+    CHECK_MESSAGE(PaperError(r, n, kDefaultTheta) <= over,
+                  "Fig. 6: N = " << n << " is given out up to r = " << r
+                                 << ", where its error exceeds the worst of over-sampling");
+  }
+  for (const double r : {0.3, 1.0, 2.5, 7.0, 40.0}) {
+    CHECK_MESSAGE(ViewsOfBenchmark(r) == 2 * static_cast<int>(std::ceil(r)),
+                  "the benchmark's N moves: every PSNR of the paper's section VI");
+  }
+}
+
+TEST_CASE("constants: aperture weights are a_{d,N} of (5)") {
+  for (const int n : {1, 2, 3, 4, 7, 13, 26, 32}) {
+    CAPTURE(n);
+    std::vector<uint16_t> memory(ViewWeightsSize(n));
+    const starfocus::ViewWeights engine =
+        MakeViewWeights(n, ApertureFallOff(kDefaultTheta), memory.data());
+    double sum = 0, worst = 0;
+    const auto exact = [&](int i, int j) {
+      return analysis::Aperture(double(i * i + j * j) / (double(n) * n), kDefaultTheta);
+    };
+    for (int i = -n; i <= n; ++i) {
+      for (int j = -n; j <= n; ++j) sum += exact(i, j);
+    }
+    const double one = std::ldexp(1.0, engine.sum_bits);
+    for (int i = 0; i <= n; ++i) {
+      for (int j = 0; j <= i; ++j) {
+        worst = std::max(worst, std::fabs(engine.Weight(i, j) - one * exact(i, j) / sum));
+      }
+    }
+    CHECK_MESSAGE(worst < 4, "the aperture (3) moves by " << worst << " units of 2^-"
+                                                          << engine.sum_bits
+                                                          << ": Figs. 4, 5, 6 and Table I");
+  }
+}
+
+TEST_CASE("constants: the footprint of a view is its subaperture") {
+  for (const int32_t width : {1, 13, 64, 128, 200, 256}) {
+    double worst = 0;
+    for (int32_t offset = -kShiftOne / 2; offset <= kShiftOne / 2; ++offset) {
+      const double t = double(kShiftOne - std::abs(offset)) / kShiftOne;
+      const double exact = Trapezoid(t, double(width) / kShiftOne);
+      const double weight = SubapertureWeight(offset, width) / double(1 << simd::kBlendBits);
+      worst = std::max(worst, std::fabs(weight - exact));
+    }
+    CHECK_MESSAGE(worst <= 1.0 / (1 << simd::kBlendBits),
+                  "h of (6) moves for subapertures " << width
+                                                     << "/256 px wide: the subapertures' table "
+                                                     << "and rule");
+  }
+}
+
+TEST_CASE("constants: the layers' filters are Table I's at r = 3, and beta_U's") {
+  const auto check = [](const simd::HalfBand& taps, double beta, double gain, const char* moves) {
+    const Kernel1 exact = HalfBand(beta);
+    const double one = gain * (1 << simd::kTapBits);
+    CHECK_MESSAGE(std::fabs(taps.near - one * exact(1)) < 1, "tap 1 of " << moves);
+    CHECK_MESSAGE(std::fabs(taps.far - one * exact(3)) < 1, "tap 3 of " << moves);
+    // Unit gain of both phases costs the middle tap what G(-1) is short of 0.
+    CHECK_MESSAGE(std::fabs(taps.centre - one * exact(0)) < 1 + one * std::fabs(GainAtPi(exact)),
+                  "tap 0 of " << moves);
+  };
+  check(kDownFilter, OptimiseOnGrid(3).filters.beta_down, 1,
+        "G_D moves: Table I, Fig. 8, (12) and the kernels of the layers");
+  check(kUpFilter, std::round(100 * BetaWithoutPi()) / 100, 2,
+        "G_U moves: Table I, Fig. 8 and the kernels of the layers");
+  CHECK_MESSAGE(kBetaDown == doctest::Approx(OptimiseOnGrid(3).filters.beta_down).epsilon(1e-9),
+                "lib/analysis draws Fig. 8 with another beta_D than Table I's");
+}
+
+TEST_CASE("constants: the layers of (12)") {
+  CHECK_MESSAGE(OptimiseOnGrid(2.5).error > kThreshold, "Table I: (12) could begin at r = 2.5");
+  CHECK_MESSAGE(OptimiseOnGrid(3).error < kThreshold, "Table I: (12) must begin above r = 3");
+  const double below = std::nextafter(3.0, 0.0);
+  CHECK_MESSAGE(LayerByPaper(below) == 0, "(12) moves: layer 1 begins below r = 3");
+  CHECK_MESSAGE(LayerByPaper(3) == 1, "(12) moves: layer 1 begins above r = 3");
+  CHECK_MESSAGE(LayerByPaper(2 * below) == 1, "(12) moves: layer 2 begins below r = 6");
+  CHECK_MESSAGE(LayerByPaper(6) == 2, "(12) moves: layer 2 begins above r = 6");
+}
+
+TEST_CASE("constants: the layers beside the rule for subapertures") {
+  const double below = std::nextafter(7.0, 0.0);
+  CHECK_MESSAGE(LayerBySubaperture(below, false) == 0,
+                "LayerBySubaperture: layer 1 begins below r = 7");
+  CHECK_MESSAGE(LayerBySubaperture(7, false) == 1,
+                "LayerBySubaperture: layer 1 begins above r = 7");
+  const double second = std::nextafter(24.0, 0.0);
+  CHECK_MESSAGE(LayerBySubaperture(second, false) == 1,
+                "LayerBySubaperture: layer 2 begins below r = 24");
+  CHECK_MESSAGE(LayerBySubaperture(24, false) == 2,
+                "LayerBySubaperture: layer 2 begins above r = 24");
+}
+
+TEST_CASE("constants: the filters go down and up as (10) and (11) have it") {
+  for (const double r : {3.0, 4.5, 7.0}) {
+    const Kernel half = IdealKernel(r / 2, kDefaultTheta);
+    const Filters filters = {kBetaDown, kDefaultTheta};
+    CHECK(SquaredError(ThroughLayer(half, kBetaDown), SubsampledKernel(r, filters, Alias::kNone)) <
+          1e-20);
+    CHECK(LayerAliasing(half, 1, kBetaDown) ==
+          doctest::Approx(AliasingError(r, filters)).epsilon(1e-9));
+    CHECK(MakeLayerTheory(r, 1).error == doctest::Approx(SubsampledError(r, filters)));
+  }
+  CHECK(std::fabs(LayerAliasing(IdealKernel(2, kDefaultTheta), 0, kBetaDown)) < 1e-15);
+}
+
+// Radii in both directions; `least` is where the rule's layer begins.
+void CheckEngine(sf_rule rule, int layer, int least, int most) {
+  for (int k = 8 * least; k <= 8 * most; k = k < 64 ? k + 1 : k + 13) {
+    for (const int sign : {1, -1}) {
+      const double r = sign * k / 8.0;
+      CAPTURE(r);
+      CAPTURE(rule);
+      CAPTURE(layer);
+      EngineStep step;
+      REQUIRE(MeasureStep({r, std::fabs(r), SF_MODE_BLOCK, rule, layer}, &step) == SF_OK);
+      CHECK(step.layer == layer);
+      CHECK_MESSAGE(step.apart <= kExplained[layer],
+                    "N = " << step.n << ": the impulse response is not StarKernel's; `starfocus "
+                           << "analyze` shows which radii move");
+      CHECK(Explain(step).find("unexplained") == std::string::npos);
+      if (layer > 0) {
+        const LayerTheory theory = MakeLayerTheory(r < 0 ? -r : r, layer);
+        // N by (9) is 2 and 3 at first: what aliases is not quite the ideal kernel.
+        CHECK(std::fabs(step.aliasing - theory.aliasing) < (rule == SF_RULE_PAPER ? 2e-4 : 1e-4));
+      }
+      if (rule == SF_RULE_SUBAPERTURE) {
+        CHECK_MESSAGE(step.engine <= kThreshold, "the selection threshold: " << Explain(step));
+      } else {
+        // With N from (9) the worst is the half-covered neighbour at r = 1/2.
+        CHECK(step.engine < (k <= 8 ? 8e-2 : k <= 24 ? 6e-3 : k <= 64 ? 2e-3 : 1e-3));
+      }
+    }
+  }
+}
+
+TEST_CASE("constants: the running engine has the kernel it is described by") {
+  constexpr int kMost = 40;
+  for (const sf_rule rule : {SF_RULE_PAPER, SF_RULE_SUBAPERTURE}) {
+    CheckEngine(rule, 0, 0, kMost);
+    CheckEngine(rule, 1, rule == SF_RULE_PAPER ? 3 : 7, kMost);
+    CheckEngine(rule, 2, rule == SF_RULE_PAPER ? 6 : 24, kMost);
+  }
+}
+
+TEST_CASE("constants: the engine's subapertures keep the threshold at every radius that N serves") {
+  for (const double r_max : {5.5, 11.0, 25.0, 34.0, 40.0}) {
+    const int n = ViewsBySubaperture(r_max);
+    double worst = 0, worst_r = 0;
+    for (double r = 0.5 + 1.0 / 64; r <= r_max; r += 1.0 / 16) {
+      const double error = SquaredError(StarKernel(r, n, kDefaultTheta, Subapertures::kWide),
+                                        IdealKernel(r, kDefaultTheta));
+      if (error > worst) worst = error, worst_r = r;
+    }
+    CHECK_MESSAGE(worst <= kThreshold, "the rule for subapertures: N = " << n << " misses (4) by "
+                                                                         << worst
+                                                                         << " at r = " << worst_r);
+  }
+}
+
+// The largest error of a lens of that width, over radii of N = 3 close to each other from `first`
+// on.
+double WorstOfThree(int lens, double first) {
+  const SubapertureLights lights = SubapertureLights::OfLens(lens, kDefaultTheta);
+  double worst = 0;
+  for (double r = first; r <= 5.5; r += 1.0 / 32) {
+    worst =
+        std::max(worst, SquaredError(SubapertureKernel(r, lights), IdealKernel(r, kDefaultTheta)));
+  }
+  return worst;
+}
+
+TEST_CASE("constants: the width of the lens in three subapertures") {
+  // From half a pixel on, where the centre view alone ends, and from where kernels are wider.
+  constexpr double kFirst = 0.5 + 1.0 / 64, kWider = 0.625;
+  const int own = LensInSubapertures(3);
+  CHECK(WorstOfThree(own, kFirst) < kThreshold);
+  for (int lens = 3 * kSubapertureUnits - 11; lens <= 3 * kSubapertureUnits; ++lens) {
+    CAPTURE(lens);
+    if (WorstOfThree(lens, kFirst) >= kThreshold) continue;
+    CHECK(SubapertureLights::OfLens(lens, kDefaultTheta).views() == 29);
+    CHECK_MESSAGE(WorstOfThree(lens, kWider) >= WorstOfThree(own, kWider),
+                  "94: this one is better");
+  }
+}
+
+TEST_CASE("constants: the width of the lens in subapertures") {
+  const auto worst = [](int lens, double r_max) { return WorstOfLens(lens, r_max, kDefaultTheta); };
+  const auto views = [](int lens) {
+    return SubapertureLights::OfLens(lens, kDefaultTheta).views();
+  };
+  // N = 5: the least worst error of all lenses with 69 views.
+  const double chosen = worst(LensInSubapertures(5), 25);
+  CHECK(views(LensInSubapertures(5)) == 69);
+  for (int lens = 5 * kSubapertureUnits - 24; lens <= 5 * kSubapertureUnits; ++lens) {
+    if (views(lens) != 69) continue;
+    CHECK_MESSAGE(worst(lens, 25) >= chosen, "32 n - 11: a lens of " << lens << " / 32 is better");
+  }
+  // N = 4: of lenses with as few views none has less than half of its worst error.
+  CHECK(views(LensInSubapertures(4)) == 49);
+  for (int lens = 4 * kSubapertureUnits - 24; lens <= 4 * kSubapertureUnits; ++lens) {
+    if (views(lens) > 49) continue;
+    CHECK_MESSAGE(worst(lens, 11) > worst(LensInSubapertures(4), 11) / 2,
+                  "123: a lens of " << lens << " / 32 has half its error");
+  }
+  // What the others are chosen by one formula for: far below the threshold of the rule.
+  for (const double r_max : {11.0, 25.0, 34.0, 49.0}) {
+    const int n = ViewsBySubaperture(r_max);
+    CAPTURE(n);
+    CHECK_MESSAGE(worst(LensInSubapertures(n), r_max) < kThreshold / 4,
+                  "LensInSubapertures: the worst error of its views moves");
+  }
+}
+
+// The kernels (4) that gather, and those of the blur mode up to as far.
+struct GatherKernels {
+  std::vector<uint16_t> weights =
+      std::vector<uint16_t>(BlurWeightCount(ApertureShape(), kMaxGather));
+  std::vector<Psf> kernels = std::vector<Psf>(static_cast<size_t>(BlurStepCount(kMaxGather)));
+
+  GatherKernels() {
+    MakePsfs(0, BlurStepCount(kMaxGather), ApertureFallOff(kDefaultTheta), nullptr, weights.data(),
+             kernels.data());
+  }
+  // Of a radius with kDisparityBits.
+  const Psf& Of(int32_t r) const { return kernels[static_cast<size_t>(BlurStep(r))]; }
+};
+
+TEST_CASE("constants: steps between the radii of kernels that gather") {
+  const GatherKernels made;
+  double near_focus = 0, fine = 0, coarse = 0;
+  for (int32_t r = 1; r <= kMaxGather << kDisparityBits; ++r) {
+    const Psf& kernel = made.Of(r);
+    Kernel engine(kernel.size);
+    for (int n = -kernel.size; n <= kernel.size; ++n) {
+      for (int m = -kernel.size; m <= kernel.size; ++m) {
+        engine.at(n, m) = std::ldexp(kernel.Weight(n, m), -kernel.sum_bits);
+      }
+    }
+    const double radius = double(r) / (1 << kDisparityBits);
+    const double error = SquaredError(engine, IdealKernel(radius, kDefaultTheta));
+    double& worst = radius < 1 ? near_focus : radius < 4 ? fine : coarse;
+    worst = std::max(worst, error);
+  }
+  CHECK_MESSAGE(near_focus < 7.5e-3,
+                "kFineSteps: below one pixel the kernel moves by " << near_focus);
+  CHECK_MESSAGE(fine < 1.6e-3, "kFineSteps: up to 4 pixels the kernel moves by " << fine);
+  CHECK_MESSAGE(coarse < 1.6e-5, "kCoarseSteps: the kernel moves by " << coarse);
+}
+
+TEST_CASE("constants: taps of a kernel that gathers") {
+  constexpr int32_t kOne = 1 << kDisparityBits;
+  // The model counts no fewer taps than kernels have, and not half as many again but for the
+  // smallest. It adds the time of 16 taps and takes a tap for a 64th of an upsampled pixel.
+  sf_timing timing = {};
+  timing.upsample = 64;
+  const GatherKernels made;
+  for (int32_t r = kOne; r <= kMaxGather * kOne; r += kOne / 4) {
+    const Psf& kernel = made.Of(r);
+    const auto counted = static_cast<int32_t>(PredictGather(timing, 1, r)) - 16;
+    int32_t taps = 0;
+    for (int32_t n = 0; n <= kernel.size; ++n) {
+      for (int32_t m = 0; m <= kernel.size; ++m) taps += kernel.Weight(n, m) != 0 ? 1 : 0;
+    }
+    CHECK_MESSAGE(counted >= taps, "PredictGather: radius " << r << " / 64 has " << taps);
+    CHECK_MESSAGE(counted <= taps + taps / 2 + 6,
+                  "PredictGather: radius " << r << " / 64 has " << taps);
+  }
+}
+
+TEST_CASE("constants: one N for a picture has the kernel it is described by") {
+  for (const double r : {0.0, 0.5, 3.25, 11.0, 24.5}) {
+    EngineStep step;
+    REQUIRE(MeasureStep({r, 40, SF_MODE_FRAME, SF_RULE_PAPER, 0}, &step) == SF_OK);
+    CHECK(step.n == ViewsByPaper(40));
+    CHECK(step.apart <= kExplained[0]);
+    REQUIRE(MeasureStep({r, 40, SF_MODE_FRAME, SF_RULE_SUBAPERTURE, 0}, &step) == SF_OK);
+    CHECK(step.n == ViewsBySubaperture(40));
+    CHECK(step.apart <= kExplained[0]);
+  }
+}
+
+}  // namespace
+}  // namespace starfocus::engine_constants_slow_test

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// What openings that don't fall off ask of views and layers, computed anew: the rules of Demand.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "lib/analysis/aperture.h"
+#include "lib/analysis/opening.h"
+#include "lib/analysis/selection.h"
+#include "lib/analysis/subsampled.h"
+#include "lib/base/rules.h"
+
+namespace starfocus::opening_rules_slow_test {
+namespace {
+
+using namespace analysis;
+
+struct Asked {
+  const char* name;
+  BrightOpening opening;
+  Demand demand;
+};
+const Asked kAsked[] = {{"disc", {0, 0}, Demand::kDisc},
+                        {"pentagon", {0, 5}, Demand::kPolygon},
+                        {"ring", {0.5, 0}, Demand::kRing}};
+
+// The first radius, of whole pixels, at which `layer` is 1.
+template <class Layer>
+int FirstRadius(const Layer& layer) {
+  int r = 0;
+  while (layer(double(r)) == 0) ++r;
+  return r;
+}
+
+TEST_CASE(
+    "openings: layers begin where the error (10) is that of the fall-off at its first radius") {
+  const double fall_off = SubsampledError(7, {1.28, kDefaultTheta});
+  for (const Asked& asked : kAsked) {
+    CAPTURE(asked.name);
+    const int first =
+        FirstRadius([&](double r) { return LayerBySubaperture(r, true, asked.demand); });
+    CHECK(LayerError(first, asked.opening) <= fall_off);
+    CHECK(LayerError(first - 2, asked.opening) > fall_off);
+    // By (12) where it falls below the threshold.
+    const int paper = FirstRadius([&](double r) { return LayerByPaper(r, asked.demand); });
+    CHECK(LayerError(paper, asked.opening) <= kThreshold);
+    CHECK(LayerError(paper - 1, asked.opening) > kThreshold);
+  }
+}
+
+TEST_CASE("openings: subapertures keep the threshold, and a quarter of it where more are taken") {
+  for (const Asked& asked : kAsked) {
+    CAPTURE(asked.name);
+    double worst = 0, beyond = 0;
+    for (double r = 1.5; r <= 34; r += 0.5) {
+      const int n = ViewsBySubaperture(r, asked.demand);
+      const double error =
+          SquaredError(SubapertureKernel(r, n, asked.opening), IdealKernel(r, asked.opening));
+      worst = std::max(worst, error);
+      if (r > 5) beyond = std::max(beyond, error);
+    }
+    CAPTURE(worst);
+    CAPTURE(beyond);
+    CHECK(worst <= kThreshold);
+    if (asked.demand == Demand::kDisc) continue;
+    CHECK(beyond <= kThreshold / 4);
+    // Four along the radius would not keep that.
+    CHECK(WorstOfSubapertures(4, 5.5, 11, asked.opening) > kThreshold / 4);
+  }
+}
+
+TEST_CASE("openings: a disc without blades, a ring without a hole and many blades are alike") {
+  const double r = 6.25;
+  const Kernel disc = IdealKernel(r, BrightOpening{0, 0});
+  CHECK(SquaredError(disc, IdealKernel(r, BrightOpening{1e-9, 0})) < 1e-9);
+  CHECK(SquaredError(disc, IdealKernel(r, BrightOpening{0, 60})) < 1e-6);
+  CHECK(disc.Sum() == doctest::Approx(1));
+  const double area = 3.14159265358979 * r * r;
+  CHECK(disc(0, 0) == doctest::Approx(1 / area).epsilon(1e-3));
+}
+
+}  // namespace
+}  // namespace starfocus::opening_rules_slow_test

@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: Apache-2.0
+// Images streamed and prepared: the bytes of sf_refocus_images.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "lib/source/prepared.h"
+#include "tests/support/image_field.h"
+#include "tests/support/inside.h"
+#include "tests/support/watch.h"
+
+namespace image_stream_bytes_test {
+namespace {
+
+using test::ImageField;
+using test::ImageKind;
+using test::ImageMemory;
+
+constexpr int kFormats = 8;
+
+ImageField FieldOf(const test::Scene& scene, int format, bool unknown, test::Random* random) {
+  std::vector<ImageKind> kinds;
+  for (int k = 0; k < 3; ++k) kinds.push_back(test::AnyKind((format + 3 * k) % kFormats, random));
+  test::DepthMemory depth = test::MakeDepth(scene, (scene.width + 1) / 2, (scene.height + 2) / 3,
+                                            SF_DEPTH_HALF, SF_DEPTH_RECIPROCAL, 1);
+  if (unknown) depth.Put(0, depth.map.height / 2, std::numeric_limits<double>::quiet_NaN());
+  return test::MakeImageField(scene, kinds, std::move(depth), random);
+}
+
+ImageMemory Refocused(test::Engine* engine, const ImageField& field, const sf_params& params,
+                      const ImageKind& kind, sf_report* report) {
+  ImageMemory image(field.converted.width, field.converted.height, kind);
+  const sf_image_field images = field.Field();
+  const sf_image out = image.Out();
+  REQUIRE(sf_refocus_images(engine->get(), &params, &images, &out, report) == SF_OK);
+  return image;
+}
+
+// Pushes and pulls at most so many rows at a time.
+sf_status StreamImages(test::Engine* engine, const ImageField& field, const sf_params& params,
+                       int push_rows, int pull_rows, ImageMemory* image, sf_report* report) {
+  sf_status status = sf_stream_begin(engine->get(), &params);
+  const int height = image->height();
+  for (int pushed = 0, pulled = 0; status == SF_OK && pulled < height;) {
+    int32_t consumed = 0, written = 0;
+    const int rows = std::min(push_rows, height - pushed);
+    if (rows > 0) {
+      const sf_image_field images = field.Field(pushed);
+      status = sf_stream_push_images(engine->get(), &images, rows, &consumed);
+      if (status != SF_OK) return status;
+      CHECK((consumed % 2 == 0 || pushed + consumed == height));
+    }
+    const sf_image out = image->Out(pulled);
+    status = sf_stream_pull_images(engine->get(), &out, std::min(pull_rows, height - pulled),
+                                   &written, report);
+    pushed += consumed;
+    pulled += written;
+    if (status == SF_OK && consumed == 0 && written == 0) return SF_ERROR_STATE;
+  }
+  return status;
+}
+
+TEST_CASE("image streams: the bytes of whole images, whatever rows come at a time") {
+  test::Random random(41);
+  constexpr int kSizes[][2] = {{131, 97}, {64, 200}, {33, 31}, {90, 163}, {1, 2}, {2, 1}};
+  for (int round = 0; round < 2 * kFormats; ++round) {
+    CAPTURE(round);
+    const auto& size = kSizes[round % 6];
+    const test::Scene scene =
+        test::LayeredScene(size[0], size[1], round % 2 == 0 ? 5 : 1, 7, uint64_t(round) + 50);
+    const ImageField field = FieldOf(scene, round % kFormats, round % 3 == 0, &random);
+    sf_config config = test::ImageConfig(field, round % 2 == 0 ? 9 : 20);
+    config.features |= SF_FEATURE_STREAMING;
+    config.largest_block = 32;
+    config.features |= SF_FEATURE_FILL_UNKNOWN;
+    test::Engine engine(config);
+    REQUIRE(engine.status() == SF_OK);
+    const ImageKind kind = test::AnyKind((round / 2 + 2) % kFormats, &random);
+    const sf_params params = test::Params(random.Real(0, 3), 0.8, SF_MODE_BLOCK);
+    sf_report expected_report = {}, report = {};
+    const ImageMemory expected = Refocused(&engine, field, params, kind, &expected_report);
+    ImageMemory streamed(size[0], size[1], kind);
+    REQUIRE(StreamImages(&engine, field, params, 2 * random.Int(1, 30), 2 * random.Int(1, 50),
+                         &streamed, &report) == SF_OK);
+    const bool same = streamed == expected;
+    CHECK(same);
+    CHECK(report.unknown_pixels == expected_report.unknown_pixels);
+  }
+}
+
+TEST_CASE("image streams: rows of R, G, B may be pushed, and pulled") {
+  test::Random random(42);
+  const test::Scene scene = test::LayeredScene(100, 90, 5, 7, 50);
+  const ImageField field = FieldOf(scene, SF_FORMAT_RGBX, false, &random);
+  sf_config config = test::ImageConfig(field, 20);
+  config.features |= SF_FEATURE_STREAMING;
+  test::Engine engine(config);
+  ImageKind kind;
+  kind.format = SF_FORMAT_BGRX;
+  const sf_params params = test::Params(1, 1, SF_MODE_BLOCK);
+  test::Output expected(100, 90), got(100, 90);
+  REQUIRE(test::Refocus(&engine, params, field.converted, &expected) == SF_OK);
+  ImageMemory image(100, 90, kind), opaque(100, 90, kind);
+  test::PutPicture(
+      expected.bytes.data(), expected.stride, [](int, int) { return uint8_t{255}; }, &opaque);
+  const sf_image out = image.Out();
+  const sf_image_field images = field.Field();
+  const sf_light_field converted = field.converted.Field();
+  int32_t rows = 0;
+  // Alpha of a stream before is not seen.
+  for (int round = 0; round < 2; ++round) {
+    REQUIRE(sf_stream_begin(engine.get(), &params) == SF_OK);
+    REQUIRE(sf_stream_push_images(engine.get(), &images, 90, &rows) == SF_OK);
+    REQUIRE(rows == 90);
+    REQUIRE(sf_stream_pull(engine.get(), got.bytes.data(), got.stride, 90, &rows, nullptr) ==
+            SF_OK);
+    CHECK(got.bytes == expected.bytes);
+    REQUIRE(sf_stream_begin(engine.get(), &params) == SF_OK);
+    REQUIRE(sf_stream_push(engine.get(), &converted, 90, &rows) == SF_OK);
+    REQUIRE(sf_stream_pull_images(engine.get(), &out, 90, &rows, nullptr) == SF_OK);
+    const bool same = image == opaque;
+    CHECK(same);
+  }
+}
+
+TEST_CASE("image streams: alpha of rows that are pulled late is still there") {
+  test::Random random(48);
+  test::Scene scene = test::LayeredScene(20, 900, 1, 1, 50);
+  const ImageField field = FieldOf(scene, SF_FORMAT_RGBX, false, &random);
+  sf_config config = test::ImageConfig(field, 2);
+  config.features |= SF_FEATURE_STREAMING;
+  config.largest_block = 256;
+  test::Engine engine(config);
+  ImageKind kind;
+  kind.format = SF_FORMAT_RGBX;
+  const sf_params params = test::Params(0, 1, SF_MODE_BLOCK);
+  const ImageMemory expected = Refocused(&engine, field, params, kind, nullptr);
+  ImageMemory streamed(20, 900, kind);
+  REQUIRE(StreamImages(&engine, field, params, 900, 2, &streamed, nullptr) == SF_OK);
+  const bool same = streamed == expected;
+  CHECK(same);
+}
+
+TEST_CASE("image streams: rings hold pairs of rows, however far away is read") {
+  test::Random random(49);
+  const ImageField field =
+      FieldOf(test::LayeredScene(20, 20, 1, 1, 50), SF_FORMAT_RGB, false, &random);
+  sf_config config = test::ImageConfig(field, 2);
+  for (float most = 3; most < 12; most += 0.5f) {
+    config.disparity_max = most;
+    const starfocus::Borders borders = test::BordersOf(config);
+    CHECK(borders.streamed % 2 == 0);
+    CHECK(borders.streamed >= borders.views);
+  }
+}
+
+TEST_CASE("image streams: half of a pair of rows is refused, and a bad depth with both") {
+  test::Random random(43);
+  const test::Scene scene = test::LayeredScene(60, 51, 1, 7, 50);
+  ImageField field = FieldOf(scene, SF_FORMAT_NV12, false, &random);
+  sf_config config = test::ImageConfig(field, 20);
+  config.features |= SF_FEATURE_STREAMING;
+  test::Engine engine(config);
+  const sf_params params = test::Params(1, 1, SF_MODE_BLOCK);
+  sf_image_field images = field.Field();
+  ImageMemory image(60, 51, test::AnyKind(SF_FORMAT_I420, &random));
+  sf_image out = image.Out();
+  int32_t rows = 7;
+  CHECK(sf_stream_push_images(engine.get(), &images, 2, &rows) == SF_ERROR_STATE);
+  CHECK(rows == 0);
+  REQUIRE(sf_stream_begin(engine.get(), &params) == SF_OK);
+  CHECK(sf_stream_push_images(engine.get(), &images, 3, &rows) == SF_ERROR_RANGE);
+  CHECK(sf_stream_push_images(engine.get(), &images, 52, &rows) == SF_ERROR_RANGE);
+  CHECK(sf_stream_push_images(engine.get(), &images, 51, &rows) == SF_OK);
+  CHECK(rows == 51);
+  CHECK(sf_stream_pull_images(engine.get(), &out, 3, &rows, nullptr) == SF_ERROR_RANGE);
+  CHECK(sf_stream_pull_images(engine.get(), &out, 50, &rows, nullptr) == SF_OK);
+  CHECK(rows == 50);
+  out = image.Out(50);
+  CHECK(sf_stream_pull_images(engine.get(), &out, 9, &rows, nullptr) == SF_OK);
+  CHECK(rows == 1);
+  // The map's last row: pairs before it are taken.
+  field.depth.Put(3, field.depth.map.height - 1, 1e-3);
+  images = field.Field();
+  REQUIRE(sf_stream_begin(engine.get(), &params) == SF_OK);
+  CHECK(sf_stream_push_images(engine.get(), &images, 51, &rows) == SF_ERROR_DISPARITY);
+  CHECK(rows > 20);
+  CHECK(rows < 51);
+  CHECK(rows % 2 == 0);
+}
+
+// Memory for prepared light fields of that configuration.
+struct PreparedMemory {
+  explicit PreparedMemory(const sf_config& config) {
+    REQUIRE(sf_prepared_size(&config, &bytes) == SF_OK);
+    memory.assign(bytes + SF_ALIGNMENT, test::kPoison);
+  }
+  void* get() {
+    const uintptr_t address = reinterpret_cast<uintptr_t>(memory.data());
+    return memory.data() + (SF_ALIGNMENT - address % SF_ALIGNMENT) % SF_ALIGNMENT;
+  }
+  size_t bytes = 0;
+  std::vector<uint8_t> memory;
+};
+
+TEST_CASE("prepared images: the bytes of whole images, for many lenses and regions") {
+  test::Random random(44);
+  for (int round = 0; round < kFormats; ++round) {
+    CAPTURE(round);
+    const int width = random.Int(1, 200), height = random.Int(1, 200);
+    const test::Scene scene = test::LayeredScene(width, height, 5, 7, uint64_t(round) + 90);
+    const ImageField field = FieldOf(scene, round, round % 3 == 0, &random);
+    sf_config config = test::ImageConfig(field, 20);
+    config.features |= SF_FEATURE_FILL_UNKNOWN;
+    config.largest_block = 32 << random.Int(0, 2);
+    config.tuning.max_layer = random.Int(0, 2);
+    test::Engine engine(config);
+    PreparedMemory memory(config);
+    sf_prepared* prepared = nullptr;
+    {
+      const sf_image_field images = field.Field();  // need not stay
+      REQUIRE(sf_prepare_images(engine.get(), &images, memory.get(), memory.bytes, &prepared) ==
+              SF_OK);
+    }
+    for (int lens = 0; lens < 4; ++lens) {
+      sf_params params = test::Params(random.Real(-9, 9), 1, SF_MODE_BLOCK);
+      if (lens == 2) params.mode = SF_MODE_BLUR;
+      const ImageKind kind = test::AnyKind((round + lens) % kFormats, &random);
+      sf_report report = {};
+      const ImageMemory expected = Refocused(&engine, field, params, kind, &report);
+      ImageMemory got(width, height, kind);
+      const sf_image out = got.Out();
+      REQUIRE(sf_refocus_prepared_images(engine.get(), &params, prepared, &out, &report) == SF_OK);
+      const bool same = got == expected;
+      CHECK(same);
+      CHECK(report.disparity_bytes == 0);
+    }
+  }
+}
+
+TEST_CASE("prepared images: disparities and layers are those of the converted pictures") {
+  test::Random random(47);
+  for (const int side : {32, 64, 128}) {
+    CAPTURE(side);
+    const test::Scene scene = test::LayeredScene(150, 271, 1, 7, 60);
+    const ImageField field = FieldOf(scene, SF_FORMAT_NV12, false, &random);
+    sf_config config = test::ImageConfig(field, 20);
+    config.largest_block = side;
+    test::Engine engine(config);
+    PreparedMemory memory(config), other(config);
+    sf_prepared *got = nullptr, *expected = nullptr;
+    const sf_image_field images = field.Field();
+    const sf_light_field pictures = field.converted.Field();
+    REQUIRE(sf_prepare_images(engine.get(), &images, memory.get(), memory.bytes, &got) == SF_OK);
+    REQUIRE(sf_prepare(engine.get(), &pictures, other.get(), other.bytes, &expected) == SF_OK);
+    const auto& a = *reinterpret_cast<const starfocus::Prepared*>(got);
+    const auto& b = *reinterpret_cast<const starfocus::Prepared*>(expected);
+    const auto same = [](const auto& one, const auto& two, int rows) {
+      return std::equal(one.data, one.data + one.stride * size_t(rows), two.data);
+    };
+    CHECK(same(a.disparity, b.disparity, 271));
+    CHECK(same(a.layers[1], b.layers[1], 136));
+    CHECK(same(a.layers[2], b.layers[2], 68));
+  }
+}
+
+TEST_CASE("prepared images: neither kind is taken for the other") {
+  test::Random random(45);
+  const test::Scene scene = test::LayeredScene(60, 50, 5, 7, 50);
+  const ImageField field = FieldOf(scene, SF_FORMAT_NV12, false, &random);
+  const sf_config config = test::ImageConfig(field, 20);
+  test::Engine engine(config);
+  PreparedMemory memory(config), other(config);
+  sf_prepared *of_images = nullptr, *of_pictures = nullptr;
+  const sf_image_field images = field.Field();
+  const sf_light_field pictures = field.converted.Field();
+  REQUIRE(sf_prepare_images(engine.get(), &images, memory.get(), memory.bytes, &of_images) ==
+          SF_OK);
+  REQUIRE(sf_prepare(engine.get(), &pictures, other.get(), other.bytes, &of_pictures) == SF_OK);
+  const sf_params params = test::Params(1, 1, SF_MODE_BLOCK);
+  test::Output out(60, 50);
+  ImageMemory image(60, 50, test::AnyKind(SF_FORMAT_NV12, &random));
+  const sf_image to = image.Out();
+  CHECK(sf_refocus_prepared(engine.get(), &params, of_images, out.bytes.data(), out.stride,
+                            nullptr) == SF_ERROR_PREPARED);
+  CHECK(sf_refocus_prepared_images(engine.get(), &params, of_pictures, &to, nullptr) ==
+        SF_ERROR_PREPARED);
+  // A light field may not be prepared into its own memory.
+  sf_image_field own = images;
+  own.depth.data = memory.get();
+  own.depth.stride = 4096;
+  CHECK(sf_prepare_images(engine.get(), &own, memory.get(), memory.bytes, &of_images) ==
+        SF_ERROR_OVERLAP);
+  CHECK(of_images == nullptr);
+  CHECK(sf_prepare_images(engine.get(), &images, other.get(), other.bytes - 1, &of_images) ==
+        SF_ERROR_WORKSPACE);
+}
+
+TEST_CASE("images: calls are watched, and cancelled wherever they ask") {
+  test::Random random(46);
+  const test::Scene scene = test::LayeredScene(200, 150, 5, 7, 50);
+  const ImageField field = FieldOf(scene, SF_FORMAT_NV12, false, &random);
+  sf_config config = test::ImageConfig(field, 20);
+  config.largest_block = 32;
+  test::Engine engine(config);
+  const ImageKind kind = test::AnyKind(SF_FORMAT_NV21, &random);
+  const sf_params params = test::Params(1, 1, SF_MODE_BLOCK);
+  const ImageMemory expected = Refocused(&engine, field, params, kind, nullptr);
+  test::Watch watch;
+  const auto tell = [&](test::Watch* to) {
+    const sf_callbacks callbacks =
+        test::ToldTo(to != nullptr ? test::Watch::Progress : nullptr, to);
+    REQUIRE(sf_set_callbacks(engine.get(), &callbacks) == SF_OK);
+  };
+  tell(&watch);
+  CHECK((Refocused(&engine, field, params, kind, nullptr) == expected));
+  CHECK(watch.Ended());
+  CHECK(watch.rows == 150);
+  const sf_image_field images = field.Field();
+  PreparedMemory memory(config);
+  sf_prepared* prepared = nullptr;
+  // What a call has worked since it last asked counts for the next call, which may ask once less.
+  for (int stop = 0; stop + 1 < watch.calls; stop += 3) {
+    test::Watch stops(stop);
+    tell(&stops);
+    ImageMemory image(200, 150, kind);
+    const sf_image out = image.Out();
+    CHECK(sf_refocus_images(engine.get(), &params, &images, &out, nullptr) == SF_ERROR_CANCELLED);
+    CHECK(stops.Good());
+    test::Watch first(stop % 4);
+    tell(&first);
+    CHECK(sf_prepare_images(engine.get(), &images, memory.get(), memory.bytes, &prepared) ==
+          SF_ERROR_CANCELLED);
+  }
+  tell(nullptr);
+  CHECK((Refocused(&engine, field, params, kind, nullptr) == expected));
+}
+
+}  // namespace
+}  // namespace image_stream_bytes_test

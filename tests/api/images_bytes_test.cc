@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+// Images and depth maps of every format: the bytes of converting them first.
+#include <doctest/doctest.h>
+
+#include <thread>
+#include <vector>
+
+#include "tests/support/image_field.h"
+
+namespace images_bytes_test {
+namespace {
+
+using test::ImageField;
+using test::ImageKind;
+using test::ImageMemory;
+
+constexpr int kFormats = 8, kTypes = 4;
+constexpr int kAllViews[] = {1, 5, 9, 17};
+
+// Two threads: jobs in turn.
+int RunOnTwo(void*, sf_job job, void* data, int32_t count) {
+  std::thread other([=] {
+    for (int32_t k = 1; k < count; k += 2) job(data, k, 1);
+  });
+  for (int32_t k = 0; k < count; k += 2) job(data, k, 0);
+  other.join();
+  return 0;
+}
+
+ImageField AnyField(const test::Scene& scene, int format, int round, test::Random* random) {
+  std::vector<ImageKind> kinds = {test::AnyKind(format, random)};
+  for (int k = 0; k < 2; ++k) kinds.push_back(test::AnyKind(random->Int(0, kFormats - 1), random));
+  const bool whole = round % 5 == 0;
+  return test::MakeImageField(
+      scene, kinds,
+      test::MakeDepth(scene, whole ? scene.width : random->Int(1, scene.width),
+                      whole ? scene.height : random->Int(1, scene.height),
+                      sf_depth_type(round % kTypes), sf_depth_meaning(round / kTypes % 2),
+                      random->Int(0, 5)),
+      random);
+}
+
+// Refocuses the images, and what they are converted to, and compares.
+void CheckSame(const ImageField& field, const sf_config& config, const sf_params& params,
+               const ImageKind& kind, sf_runner runner = nullptr) {
+  test::Engine engine(config);
+  REQUIRE(engine.status() == SF_OK);
+  const sf_region& r = params.region;
+  const int width = r.width > 0 ? r.width : config.width;
+  const int height = r.height > 0 ? r.height : config.height;
+  ImageMemory got(width, height, kind);
+  const sf_image_field images = field.Field();
+  const sf_image out = got.Out();
+  sf_report report = {}, expected_report = {};
+  const sf_callbacks callbacks = test::RunBy(runner);
+  REQUIRE(sf_set_callbacks(engine.get(), &callbacks) == SF_OK);
+  REQUIRE(sf_refocus_images(engine.get(), &params, &images, &out, &report) == SF_OK);
+  test::Output expected(width, height);
+  REQUIRE(test::Refocus(&engine, params, field.converted, &expected, callbacks, &expected_report) ==
+          SF_OK);
+  const bool same = got == field.Converted(expected, kind, r.x, r.y);
+  CHECK(same);
+  CHECK(report.unknown_pixels == expected_report.unknown_pixels);
+  CHECK(report.side_bytes == expected_report.side_bytes);
+  CHECK(report.n == expected_report.n);
+}
+
+TEST_CASE("images: every format in and out gives the bytes of converting first, in every mode") {
+  test::Random random(24);
+  constexpr int kSizes[][2] = {{1, 1},   {2, 2},    {1, 77},   {131, 1}, {33, 31},
+                               {64, 64}, {101, 67}, {150, 91}, {97, 130}};
+  for (int round = 0; round < 3 * kFormats; ++round) {
+    CAPTURE(round);
+    const auto& size = kSizes[round % 9];
+    const test::Scene scene =
+        test::LayeredScene(size[0], size[1], kAllViews[round % 4], 7, uint64_t(round) + 1);
+    const ImageField field = AnyField(scene, round % kFormats, round, &random);
+    sf_config config = test::ImageConfig(field);
+    config.largest_block = 32 << random.Int(0, 3);
+    config.max_workers = 2;
+    config.transfer = round % 7 == 6 ? SF_TRANSFER_NONE : SF_TRANSFER_SRGB;
+    const sf_mode mode = round % 6 == 4   ? SF_MODE_FRAME
+                         : round % 6 == 5 ? SF_MODE_BLUR
+                                          : SF_MODE_BLOCK;
+    sf_params params = test::Params(random.Real(-9, 9), random.Real(0.3, 1), mode);
+    params.rule = random.Int(0, 2);
+    const ImageKind kind = test::AnyKind((round * 3 + round / kFormats) % kFormats, &random);
+    CheckSame(field, config, params, kind, round % 2 == 0 ? nullptr : RunOnTwo);
+  }
+}
+
+TEST_CASE("images: regions at odd places, of odd sizes") {
+  test::Random random(25);
+  const test::Scene scene = test::LayeredScene(141, 163, 5, 7, 9);
+  for (int round = 0; round < 2 * kFormats; ++round) {
+    CAPTURE(round);
+    const ImageField field = AnyField(scene, round % kFormats, round, &random);
+    sf_config config = test::ImageConfig(field);
+    config.largest_block = 32 << random.Int(0, 1);
+    config.max_workers = 2;
+    sf_params params = test::Params(random.Real(-9, 9), 1, SF_MODE_BLOCK);
+    sf_region& region = params.region;
+    region = {random.Int(0, 60), random.Int(0, 40), 1, 1};
+    region.width = random.Int(1, scene.width - region.x);
+    region.height = round % 3 == 0 ? random.Int(1, 9) : random.Int(1, scene.height - region.y);
+    const ImageKind kind = test::AnyKind((round + 4) % kFormats, &random);
+    CheckSame(field, config, params, kind, round % 2 == 0 ? nullptr : RunOnTwo);
+  }
+}
+
+TEST_CASE("images: what near surfaces hide, and what lies beyond the edges, far away") {
+  test::Random random(26);
+  for (const int views : {5, 17}) {
+    for (const int rule : {SF_RULE_SUBAPERTURE, SF_RULE_PAPER}) {
+      const test::Scene scene = test::NearScene(173, 122, views, 3);
+      const ImageField field = AnyField(scene, SF_FORMAT_NV12, 0, &random);
+      sf_config config = test::ImageConfig(field, 8);
+      sf_params params = test::Params(test::kNearFocus, 0.2, SF_MODE_BLOCK);
+      params.rule = rule;
+      CheckSame(field, config, params, test::AnyKind(SF_FORMAT_I420, &random));
+    }
+  }
+}
+
+TEST_CASE("images: lamps") {
+  test::Random random(27);
+  test::Scene scene = test::LayeredScene(140, 110, 5, 7, 12);
+  for (int lamp = 0; lamp < 12; ++lamp) {
+    const int x = random.Int(0, 130), y = random.Int(0, 100), size = random.Int(1, 9);
+    for (int view = 0; view < 5; ++view) {
+      for (int k = 0; k < size * size; ++k) {
+        for (int c = 0; c < 3; ++c) scene.Pixel(view, x + k % size, y + k / size)[c] = 255;
+      }
+    }
+  }
+  for (const sf_mode mode : {SF_MODE_BLOCK, SF_MODE_BLUR}) {
+    const ImageField field = AnyField(scene, SF_FORMAT_NV21, 5, &random);
+    sf_config config = test::ImageConfig(field);
+    config.highlights = 8;
+    config.largest_block = 32;
+    CheckSame(field, config, test::Params(5, 1, mode), test::AnyKind(SF_FORMAT_BGRX, &random));
+  }
+}
+
+TEST_CASE("images: depth of every type, meaning and size; unknown depths") {
+  test::Random random(28);
+  const test::Scene scene = test::LayeredScene(130, 97, 5, 7, 4);
+  const int sizes[][2] = {{130, 97}, {65, 49}, {33, 97}, {130, 25}, {1, 1}, {44, 2}};
+  for (int round = 0; round < 6 * kTypes * 2; ++round) {
+    CAPTURE(round);
+    const auto& size = sizes[round / (2 * kTypes)];
+    const auto type = sf_depth_type(round % kTypes);
+    test::DepthMemory depth = test::MakeDepth(scene, size[0], size[1], type,
+                                              sf_depth_meaning(round / kTypes % 2), round % 3);
+    depth.map.has_invalid = 1;
+    depth.map.invalid = type == SF_DEPTH_U16 ? 65535 : 255;
+    const bool unknown = round % 3 != 2;
+    if (unknown) {
+      for (int k = 0; k < 1 + size[0] * size[1] / 20; ++k) {
+        const int x = random.Int(0, size[0] - 1), y = random.Int(0, size[1] - 1);
+        const bool not_a_number = type == SF_DEPTH_FLOAT || type == SF_DEPTH_HALF;
+        depth.Put(
+            x, y,
+            not_a_number ? std::numeric_limits<double>::quiet_NaN() : double(depth.map.invalid));
+      }
+    } else {
+      depth.map.invalid = 254.5f;
+    }
+    const ImageField field =
+        test::MakeImageField(scene, {test::AnyKind(SF_FORMAT_NV12, &random)}, depth, &random);
+    sf_config config = test::ImageConfig(field);
+    config.largest_block = 32;
+    config.features |= SF_FEATURE_FILL_UNKNOWN;
+    const sf_params params = test::Params(2, 1, SF_MODE_BLOCK);
+    CheckSame(field, config, params, test::AnyKind(SF_FORMAT_NV12, &random));
+    config.features &= ~SF_FEATURE_FILL_UNKNOWN;
+    test::Engine engine(config);
+    ImageMemory out(130, 97, test::AnyKind(SF_FORMAT_RGB, &random)), before = out;
+    const sf_image_field images = field.Field();
+    const sf_image to = out.Out();
+    const sf_status status = sf_refocus_images(engine.get(), &params, &images, &to, nullptr);
+    CHECK(status == (unknown ? SF_ERROR_NOT_FINITE : SF_OK));
+    const bool untouched = out == before;
+    CHECK(untouched == unknown);
+  }
+}
+
+TEST_CASE("images: a depth outside the configured range is refused before anything is written") {
+  test::Random random(29);
+  const test::Scene scene = test::LayeredScene(70, 60, 1, 7, 4);
+  ImageField field = AnyField(scene, SF_FORMAT_I420, 4, &random);
+  const sf_config config = test::ImageConfig(field);
+  sf_depth_map& map = field.depth.map;
+  field.depth = test::MakeDepth(scene, 30, 20, SF_DEPTH_U16, SF_DEPTH_RECIPROCAL, 0);
+  field.depth.Put(29, 19, 1);
+  map.data = field.depth.words.data();
+  test::Engine engine(config);
+  ImageMemory out(70, 60, test::AnyKind(SF_FORMAT_NV12, &random)), before = out;
+  const sf_image_field images = field.Field();
+  const sf_image to = out.Out();
+  const sf_params params = test::Params(2, 1, SF_MODE_BLOCK);
+  CHECK(sf_refocus_images(engine.get(), &params, &images, &to, nullptr) == SF_ERROR_DISPARITY);
+  const bool untouched = out == before;
+  CHECK(untouched);
+}
+
+}  // namespace
+}  // namespace images_bytes_test

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rows pushed and pulled give the bytes of the whole-picture call, in memory independent of the
+// picture's height.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "starfocus/starfocus.h"
+#include "tests/support/test_scene.h"
+
+namespace stream_bytes_test {
+namespace {
+
+constexpr int kAll = 1 << 20;  // more rows than any picture here
+
+// Compares both ways for one scene and several chunk sizes.
+void CheckSame(const test::Scene& scene, const sf_params& params, int block) {
+  constexpr int kPadding = 7;
+  sf_config config = test::ConfigFor(scene);
+  config.largest_block = block;
+  test::Engine whole_engine(config);
+  REQUIRE(whole_engine.status() == SF_OK);
+  test::Output whole(scene.width, scene.height, kPadding);
+  sf_report whole_report = {};
+  REQUIRE(test::Refocus(&whole_engine, params, scene, &whole, nullptr, nullptr, &whole_report) ==
+          SF_OK);
+  CHECK(whole.PaddingUntouched());
+  config.features |= SF_FEATURE_STREAMING;
+  test::Engine engine(config);
+  REQUIRE(engine.status() == SF_OK);
+  constexpr int kChunks[][2] = {{1, 1}, {3, 3}, {64, 64}, {kAll, 1}, {1, kAll}, {kAll, kAll}};
+  for (const auto& chunk : kChunks) {
+    CAPTURE(chunk[0]);
+    CAPTURE(chunk[1]);
+    test::Output streamed(scene.width, scene.height, kPadding);
+    sf_report report = {};
+    REQUIRE(test::Stream(&engine, params, scene, &streamed, chunk[0], chunk[1], nullptr, nullptr,
+                         &report) == SF_OK);
+    CHECK(streamed.bytes == whole.bytes);
+    CHECK(report.n == whole_report.n);
+    CHECK(report.r_max == whole_report.r_max);
+    CHECK(report.rendered_views == whole_report.rendered_views);
+    CHECK(report.rendered_samples == whole_report.rendered_samples);
+  }
+}
+
+TEST_CASE("stream: same bytes for every size, star set and chunk") {
+  constexpr int kSizes[][2] = {{1, 1},   {1, 5},   {5, 1},   {2, 3},    {3, 31},  {31, 33},
+                               {33, 65}, {64, 64}, {65, 32}, {40, 130}, {130, 97}};
+  for (const auto& size : kSizes) {
+    for (int views : {1, 5, 9, 17}) {
+      CAPTURE(size[0]);
+      CAPTURE(size[1]);
+      CAPTURE(views);
+      const uint64_t seed = static_cast<uint64_t>(size[0] * 1000 + size[1]);
+      const test::Scene scene = test::RandomScene(size[0], size[1], views, -3, 4, seed, 5);
+      CheckSame(scene, test::Params(0.75), 32);
+    }
+  }
+}
+
+TEST_CASE("stream: same bytes for other focuses, apertures, modes and blocks") {
+  const test::Scene scene = test::RandomScene(75, 140, 17, -5, 5, 42, 3);
+  CheckSame(scene, test::Params(-5.5, 0.5), 32);
+  CheckSame(scene, test::Params(9, 1), 64);
+  CheckSame(scene, test::Params(0.1, 0.33, SF_MODE_BENCHMARK), 32);
+  CheckSame(scene, test::Params(2, 1), 128);
+}
+
+TEST_CASE("stream: rows of side views as far away as the largest disparity") {
+  const test::Scene scene = test::NearScene(70, 400, 5, 12);
+  for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BLOCK}) {
+    CAPTURE(mode);
+    CheckSame(scene, test::Params(test::kNearFocus, 0.2, mode), 32);
+  }
+}
+
+TEST_CASE("stream: strides of pictures do not matter") {
+  const test::Scene tight = test::RandomScene(50, 70, 9, -2, 2, 8);
+  test::Scene padded = test::EmptyScene(50, 70, 9, -2, 2, 21);
+  for (int y = 0; y < 70; ++y) {
+    for (int x = 0; x < 50; ++x) {
+      padded.Disparity(x, y) = tight.Disparity(x, y);
+      for (int view = 0; view < 9; ++view) {
+        std::copy_n(tight.Pixel(view, x, y), 3, padded.Pixel(view, x, y));
+      }
+    }
+  }
+  sf_config config = test::ConfigFor(tight);
+  config.features |= SF_FEATURE_STREAMING;
+  test::Engine engine(config);
+  REQUIRE(engine.status() == SF_OK);
+  test::Output a(50, 70), b(50, 70, 1), c(50, 70, 40);
+  REQUIRE(test::Refocus(&engine, test::Params(1), tight, &a) == SF_OK);
+  REQUIRE(test::Refocus(&engine, test::Params(1), padded, &b) == SF_OK);
+  REQUIRE(test::Stream(&engine, test::Params(1), padded, &c, 11, 5) == SF_OK);
+  CHECK(a.bytes == b.Tight());
+  CHECK(a.bytes == c.Tight());
+  CHECK(b.PaddingUntouched());
+  CHECK(c.PaddingUntouched());
+}
+
+TEST_CASE("stream: a picture of 20,000 rows goes through the workspace of one of 200") {
+  constexpr int kWidth = 24, kTall = 20000;
+  const test::Scene scene = test::RandomScene(kWidth, kTall, 17, -2, 2, 77);
+  sf_config config = test::ConfigFor(scene);
+  size_t tall_bytes = 0, low_bytes = 0;
+  for (int streaming : {0, 1}) {
+    test::SetFeature(SF_FEATURE_STREAMING, streaming, &config.features);
+    config.height = kTall;
+    REQUIRE(sf_workspace_size(&config, &tall_bytes) == SF_OK);
+    config.height = 200;
+    REQUIRE(sf_workspace_size(&config, &low_bytes) == SF_OK);
+    CHECK(tall_bytes == low_bytes);
+  }
+  // 20,000 rows in one push are far more than the rings hold: some must be left to the caller.
+  config.height = kTall;
+  test::Engine engine(config);
+  REQUIRE(engine.status() == SF_OK);
+  REQUIRE(engine.bytes() == low_bytes);
+  const sf_params params = test::Params(0.5);
+  REQUIRE(sf_stream_begin(engine.get(), &params) == SF_OK);
+  const sf_light_field field = scene.Field();
+  int32_t consumed = 0;
+  REQUIRE(sf_stream_push(engine.get(), &field, kTall, &consumed) == SF_OK);
+  CHECK(consumed > 0);
+  CHECK(consumed < 2000);
+
+  test::Output streamed(kWidth, kTall), whole(kWidth, kTall);
+  REQUIRE(test::Stream(&engine, params, scene, &streamed, 100, 100) == SF_OK);
+  config.features &= ~SF_FEATURE_STREAMING;
+  test::Engine whole_engine(config);
+  REQUIRE(test::Refocus(&whole_engine, params, scene, &whole) == SF_OK);
+  CHECK(streamed.bytes == whole.bytes);
+}
+
+// With one view rings hold just the rows that blocks at layers 1 and 2 are made of.
+TEST_CASE("stream: rings hold all that layers are made of, up to the largest blur") {
+  for (int radius = 1; radius <= 16; ++radius) {
+    test::Scene scene = test::RandomScene(48, 200, 1, 0, float(radius), 70 + uint64_t(radius));
+    for (float& disparity : scene.disparity) disparity = float(radius);
+    sf_config config = test::ConfigFor(scene, radius);
+    config.largest_block = 32;
+    sf_params params = test::Params(0, 1, SF_MODE_BLOCK);
+    params.rule = SF_RULE_PAPER;
+    test::Output whole(48, 200), streamed(48, 200);
+    test::Engine whole_engine(config);
+    sf_report report = {};
+    REQUIRE(test::Refocus(&whole_engine, params, scene, &whole, nullptr, nullptr, &report) ==
+            SF_OK);
+    CHECK(report.layers[radius < 3 ? 0 : radius < 6 ? 1 : 2].pixels == 48 * 200);
+    config.features |= SF_FEATURE_STREAMING;
+    test::Engine engine(config);
+    REQUIRE(test::Stream(&engine, params, scene, &streamed, 50, 50) == SF_OK);
+    CAPTURE(radius);
+    CHECK(streamed.bytes == whole.bytes);
+  }
+}
+
+}  // namespace
+}  // namespace stream_bytes_test

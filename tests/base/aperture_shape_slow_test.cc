@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+// Openings of lenses against the same shapes in double, and the weights and kernels of all of them.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <vector>
+
+#include "lib/base/aperture_shape.h"
+#include "lib/base/view_weights.h"
+#include "lib/filter/blur.h"
+#include "tests/conformance/reference_opening.h"
+#include "tests/support/shapes.h"
+
+namespace aperture_shape_slow_test {
+namespace {
+
+using starfocus::ApertureShape;
+using starfocus::ViewWeights;
+
+sf_config ConfigOf(const test::NamedShape& shape) {
+  sf_config config;
+  sf_config_init(&config);
+  shape.Set(&config);
+  return config;
+}
+
+template <class Weight>
+int64_t Total(int n, const Weight& weight) {
+  int64_t sum = 0;
+  for (int i = -n; i <= n; ++i) {
+    for (int j = -n; j <= n; ++j) sum += weight(i, j);
+  }
+  return sum;
+}
+
+TEST_CASE("opening: light passes where the shape is open") {
+  constexpr int kRadius = 1000;
+  test::Random random(5);
+  for (int trial = 0; trial < 200; ++trial) {
+    sf_config config;
+    sf_config_init(&config);
+    test::RandomShape(&config, &random);
+    const ApertureShape opening = starfocus::ShapeOf(config);
+    const reference::ApertureShape exact(config);
+    int wrong = 0;
+    for (int k = 0; k < 2000; ++k) {
+      const int x = random.Int(-1050, 1050), y = random.Int(-1050, 1050);
+      const bool open = starfocus::LetsThrough(opening, x, y, kRadius);
+      // Points close to an edge may fall on either side of it.
+      bool near_edge = false, inside = exact.Density(x / 1000.0, y / 1000.0) > 0;
+      for (const double turn : {0.0, 1.6, 3.1, 4.7}) {
+        const double u = x / 1000.0 + 5e-4 * std::cos(turn), v = y / 1000.0 + 5e-4 * std::sin(turn);
+        near_edge |= (exact.Density(u, v) > 0) != inside;
+      }
+      wrong += open != inside && !near_edge;
+    }
+    CHECK_MESSAGE(wrong == 0, test::ShapeText(config));
+  }
+}
+
+TEST_CASE("opening: all weights sum to a power of two, and none is beyond its type") {
+  test::Random random(6);
+  for (int trial = 0; trial < 150; ++trial) {
+    sf_config config;
+    sf_config_init(&config);
+    test::RandomShape(&config, &random);
+    const ApertureShape opening = starfocus::ShapeOf(config);
+    const int n = random.Int(0, 9) == 0 ? random.Int(60, 130) : random.Int(1, 30);
+    std::vector<uint16_t> weights(starfocus::ViewWeightsSize(opening, n));
+    std::vector<uint16_t> rest(starfocus::FullApertureSize(n));
+    CAPTURE(test::ShapeText(config));
+    CAPTURE(n);
+    for (const bool wide : {false, true}) {
+      const ViewWeights whole = wide ? starfocus::MakeSubapertures(n, opening, weights.data())
+                                     : starfocus::MakeViewWeights(n, opening, weights.data());
+      const auto check = [&](const ViewWeights& aperture) {
+        const auto weight = [&](int i, int j) { return aperture.Weight(i, j); };
+        CHECK(Total(n, weight) == int64_t{1} << aperture.sum_bits);
+        int too_large = 0;
+        Total(n, [&](int i, int j) { return too_large += aperture.Weight(i, j) > 32767; });
+        CHECK(too_large == 0);
+      };
+      check(whole);
+      // The rim at its farthest in every direction, and between.
+      for (int k = 0; k < 4; ++k) {
+        const double angle = random.Real(0, 6.3), far = k < 2 ? 1 : random.Unit();
+        const int one = starfocus::kOpeningOne;
+        const starfocus::RimShift shift = {static_cast<int32_t>(one * far * std::cos(angle)),
+                                           static_cast<int32_t>(one * far * std::sin(angle))};
+        check(starfocus::MakeCatsEye(whole, opening, shift, rest.data()));
+      }
+    }
+  }
+}
+
+TEST_CASE("opening: a rim that does not move takes nothing away") {
+  for (const test::NamedShape& shape : test::kShapes) {
+    const ApertureShape opening = starfocus::ShapeOf(ConfigOf(shape));
+    for (const int n : {4, 6, 11}) {
+      std::vector<uint16_t> weights(starfocus::ViewWeightsSize(opening, n));
+      std::vector<uint16_t> rest(starfocus::FullApertureSize(n));
+      const ViewWeights whole = starfocus::MakeSubapertures(n, opening, weights.data());
+      const ViewWeights same = starfocus::MakeCatsEye(whole, opening, {}, rest.data());
+      CHECK(same.sum_bits == whole.sum_bits);
+      int apart = 0;
+      Total(n, [&](int i, int j) {
+        return apart = std::max(apart, std::abs(int(same.Weight(i, j)) - int(whole.Weight(i, j))));
+      });
+      CHECK_MESSAGE(apart <= 1, shape.name);
+    }
+  }
+}
+
+TEST_CASE("opening: rims of mirrored places are mirrored, farthest in the corners") {
+  ApertureShape opening;
+  opening.cats_eye = starfocus::kOpeningOne;
+  const auto shift = [&](int x, int y) {
+    return starfocus::ShiftOfRim(opening, {x, y, 32, 32}, 640, 480);
+  };
+  CHECK(shift(304, 224).x == 0);
+  CHECK(shift(304, 224).y == 0);
+  CHECK(shift(0, 0).x == -shift(608, 0).x);
+  CHECK(shift(0, 0).y == -shift(0, 448).y);
+  CHECK(shift(0, 0).x > 0);
+  const double far = std::hypot(shift(0, 0).x, shift(0, 0).y) / starfocus::kOpeningOne;
+  CHECK(far == doctest::Approx(std::hypot(304, 224) / 400).epsilon(1e-3));
+}
+
+TEST_CASE("opening: kernels that blur sum to exactly one through any shape") {
+  test::Random random(8);
+  constexpr double kMost = 13;
+  const int steps = starfocus::BlurStepCount(kMost);
+  for (int trial = 0; trial < 60; ++trial) {
+    sf_config config;
+    sf_config_init(&config);
+    test::RandomShape(&config, &random);
+    const ApertureShape opening = starfocus::ShapeOf(config);
+    std::vector<uint16_t> weights(starfocus::BlurWeightCount(opening, kMost));
+    std::vector<starfocus::Psf> kernels(static_cast<size_t>(steps));
+    starfocus::MakePsfs(0, steps, opening, nullptr, weights.data(), kernels.data());
+    int wrong = 0;
+    for (const starfocus::Psf& kernel : kernels) {
+      wrong += Total(kernel.size, [&](int n, int m) { return kernel.Weight(n, m); }) !=
+               int64_t{1} << kernel.sum_bits;
+    }
+    CHECK_MESSAGE(wrong == 0, test::ShapeText(config));
+  }
+}
+
+}  // namespace
+}  // namespace aperture_shape_slow_test

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: Apache-2.0
+// Options in a photographer's words, by the pictures that they give.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <set>
+#include <string>
+
+#include "platform/image_io.h"
+#include "platform/light_field.h"
+#include "tests/cli/call_program.h"
+#include "tests/support/error_line.h"
+#include "tests/support/temp_folder.h"
+
+namespace starfocus::lens_options_slow_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST_CASE("cli: f-stops and strengths are apertures; strength 0 is the centre view") {
+  TempFolder folder;
+  Succeed(folder, "scene lf --size 40x30 --views 5 --name wires");
+  const auto picture = [&](const std::string& options) {
+    CAPTURE(options);
+    Succeed(folder, "refocus lf --focus 1 -o one.png " + options);
+    return Text(folder.file("one.png"));
+  };
+  const std::string half = picture("--aperture 0.5");
+  for (const char* same :
+       {"--f-stop 2", "--f-stop 2.8 --widest 1.4", "--strength 50", "--f-stop 1 --widest 0.5"}) {
+    CHECK(picture(same) == half);
+  }
+  CHECK(picture("--f-stop 1") == picture(""));
+  CHECK(picture("--strength 99") != picture("--strength 100"));
+  Image centre, out;
+  REQUIRE(ReadImage(folder.file("lf/view_+0.0_+0.0.png"), &centre) == "");
+  for (const char* more : {"", "--mode frame", "--mode benchmark", "--mode blur", "--rule paper",
+                           "--stream", "--f-stop 2 --threads 2"}) {
+    picture("--strength 0 " + std::string(more));
+    REQUIRE(ReadImage(folder.file("one.png"), &out) == "");
+    CHECK(out.pixels == centre.pixels);
+  }
+  // No blur is too large for it.
+  Succeed(folder, "refocus lf -o s.png --sweep -900:900:2 --strength 0");
+  REQUIRE(ReadImage(folder.file("s_001.png"), &out) == "");
+  CHECK(out.pixels == centre.pixels);
+}
+
+TEST_CASE("cli: --focus-at takes the surface around the pixel, not the pixel") {
+  TempFolder folder;
+  Succeed(folder, "scene lf --size 40x30 --views 5 --name wires");
+  FloatMap map;
+  REQUIRE(ReadPfm(folder.file("lf/disparity.pfm"), &map) == "");
+  map.values.assign(map.values.size(), 1.25f);
+  map.values[size_t(15 * map.width + 20)] = 4;
+  REQUIRE(WritePfm(folder.file("lf/disparity.pfm"), map) == "");
+  Succeed(folder, "refocus lf -o at.png --focus-at 20,15 --report at.json");
+  CHECK(Contains(Text(folder.file("at.json")), "\"focus\": 1.25"));
+  Succeed(folder, "refocus lf -o d.png --focus 1.25");
+  CHECK(Text(folder.file("at.png")) == Text(folder.file("d.png")));
+}
+
+double Psnr(const Image& a, const Image& b) {
+  double sum = 0;
+  for (size_t i = 0; i < a.pixels.size(); ++i) {
+    sum += (double(a.pixels[i]) - b.pixels[i]) * (double(a.pixels[i]) - b.pixels[i]);
+  }
+  return 10 * std::log10(255.0 * 255 * double(a.pixels.size()) / sum);
+}
+
+TEST_CASE("cli: lamps are nearer to the truth as light, values to that of values") {
+  TempFolder folder;
+  for (const char* traced : {"srgb", "none"}) {
+    Succeed(folder, "scene lf --size 120x90 --views 5 --name lamps --truth 4,1 --transfer " +
+                        std::string(traced));
+    CHECK(Contains(Text(folder.file("lf/meta.txt")), std::string("transfer: ") + traced));
+    Image truth;
+    REQUIRE(ReadImage(folder.file("lf/truth_dt4_ut1.png"), &truth) == "");
+    const auto psnr = [&](const std::string& transfer) {
+      Succeed(folder, "refocus lf --focus 4 -o a.png --report a.json --transfer " + transfer);
+      CHECK(Contains(Text(folder.file("a.json")), "\"transfer\": \"" + transfer + "\""));
+      Image picture;
+      REQUIRE(ReadImage(folder.file("a.png"), &picture) == "");
+      return Psnr(picture, truth);
+    };
+    const double srgb = psnr("srgb"), none = psnr("none");
+    CAPTURE(srgb);
+    CAPTURE(none);
+    CHECK((std::string(traced) == "srgb" ? srgb - none : none - srgb) > 3);
+    Succeed(folder, "refocus lf --focus 4 -o b.png");
+    const std::string other = Text(folder.file("b.png"));
+    Succeed(folder, "refocus lf --focus 4 -o a.png --transfer srgb");
+    CHECK(Text(folder.file("a.png")) == other);
+  }
+}
+
+TEST_CASE("cli: clipped lamps are nearer to the truth as highlights") {
+  TempFolder folder;
+  Succeed(folder, "scene lf --size 160x120 --views 5 --name lamps --truth 4,1");
+  Image truth;
+  REQUIRE(ReadImage(folder.file("lf/truth_dt4_ut1.png"), &truth) == "");
+  const auto psnr = [&](const std::string& highlights) {
+    Succeed(folder, "refocus lf --focus 4 -o a.png --report a.json --highlights " + highlights);
+    CHECK(Contains(Text(folder.file("a.json")), "\"highlights\": " + highlights));
+    Image picture;
+    REQUIRE(ReadImage(folder.file("a.png"), &picture) == "");
+    return Psnr(picture, truth);
+  };
+  const double clipped = psnr("1.0"), bright = psnr("3.0");
+  CAPTURE(clipped);
+  CAPTURE(bright);
+  CHECK(bright - clipped > 0.5);
+}
+
+TEST_CASE(
+    "cli: shapes of the aperture change the picture and its truth, and the report says which") {
+  TempFolder folder;
+  Succeed(folder, "scene lf --size 40x30 --views 5 --name wires --truth 1,1");
+  const auto picture = [&](const std::string& options) {
+    CAPTURE(options);
+    Succeed(folder, "refocus lf --focus -3 -o one.png --report one.json " + options);
+    return Text(folder.file("one.png"));
+  };
+  const std::string plain = picture("");
+  for (const char* same : {"--shape fall-off", "--theta 0.26", "--cats-eye 0"}) {
+    CHECK(picture(same) == plain);
+  }
+  const auto reported = [&](const std::string& text) {
+    return Text(folder.file("one.json")).find(text) != std::string::npos;
+  };
+  std::set<std::string> pictures = {plain};
+  CHECK(pictures.insert(picture("--shape disc")).second);
+  CHECK(reported("\"name\": \"disc\""));
+  CHECK(pictures.insert(picture("--shape ring:0.75")).second);
+  CHECK(reported("\"inner\": 0.75"));
+  CHECK(pictures.insert(picture("--shape polygon:5")).second);
+  CHECK(pictures.insert(picture("--shape polygon:5,36")).second);
+  CHECK(reported("\"rotation\": 36"));
+  CHECK(pictures.insert(picture("--shape polygon:5,36,0.5")).second);
+  CHECK(reported("\"curvature\": 0.5"));
+  CHECK(picture("--shape polygon:5,-36,0.5") == picture("--shape polygon:5,36,0.5"));
+  CHECK(pictures.insert(picture("--theta 0.4")).second);
+  CHECK(pictures.insert(picture("--cats-eye 1")).second);
+  CHECK(reported("\"cats_eye\": 1"));
+  for (const char* range : {"--theta 0.05", "--theta 0.45", "--shape ring:0.9"}) picture(range);
+  for (const char* lens : {"--shape disc", "--shape polygon:5,12.5,0.5 --cats-eye 0.5"}) {
+    const std::string call = "scene lf --size 40x30 --views 5 --name wires --truth 1,1 ";
+    Succeed(folder, call + lens);
+  }
+  const std::string truth = Text(folder.file("lf/truth_dt1_ut1.png"));
+  CHECK(Text(folder.file("lf/truth_dt1_ut1_disc.png")) != truth);
+  CHECK(Text(folder.file("lf/truth_dt1_ut1_polygon-5-12.5-0.5_cats-eye0.5.png")) != truth);
+  const std::string meta = Text(folder.file("lf/meta.txt"));
+  CHECK(Contains(meta, "aperture polygon:5,12.5,0.5, cat's eyes 0.5"));
+}
+
+// A folder `lf` with disparities of 300 on the left and 0 on the right: at focus 0 an aperture of
+// 128/300 = 0.42667, f/2.34375, blurs by 128 pixels.
+void MakeDeepFolder(const TempFolder& folder) {
+  Succeed(folder, "scene lf --size 40x30 --views 1");
+  FloatMap map;
+  REQUIRE(ReadPfm(folder.file("lf/disparity.pfm"), &map) == "");
+  for (size_t i = 0; i < map.values.size(); ++i) map.values[i] = i % 40 < 20 ? 300.0f : 0.0f;
+  REQUIRE(WritePfm(folder.file("lf/disparity.pfm"), map) == "");
+}
+
+TEST_CASE("cli: the default aperture is the widest that fits the limit of blur, and is named") {
+  TempFolder folder;
+  MakeDeepFolder(folder);
+  const std::string at = "refocus lf --focus 0 -o ";
+  const Outcome outcome = Call(folder, at + "default.png");
+  CHECK(outcome.code == 0);
+  CHECK(Contains(outcome.err, "lf: aperture f/2.35 (--f-stop)"));
+  const Outcome same = Call(folder, at + "same.png --f-stop 2.35");
+  CHECK(same.code == 0);
+  CHECK(same.err == "");
+  CHECK(Text(folder.file("default.png")) == Text(folder.file("same.png")));
+  for (const char* fits : {"--aperture 0.426", "--strength 42.6", "--f-stop 2 --strength 85.3",
+                           "--f-stop 4.7 --widest 2", "--strength 0"}) {
+    CAPTURE(fits);
+    CHECK(Call(folder, at + "x.png " + fits).code == 0);
+  }
+  const struct {
+    const char* option;
+    const char* fits;
+  } wide[] = {{"--f-stop 2.34", "--f-stop: expected f/2.35 or narrower"},
+              {"--f-stop 1", "f/2.35 or narrower"},
+              {"--f-stop 4.68 --widest 2", "f/4.69 or narrower"},
+              {"--f-stop 2 --strength 90", "f/2.11 or narrower"},
+              {"--aperture 0.427", "--aperture: expected at most 0.426"},
+              {"--aperture 1 --strength 50", "at most 0.853"},
+              {"--strength 42.7", "--strength: expected at most 42.6 percent"},
+              {"--strength 100", "at most 42.6 percent"}};
+  fs::remove(folder.file("x.png"));
+  for (const auto& row : wide) {
+    CAPTURE(row.option);
+    const Outcome refused = Call(folder, at + "x.png " + row.option);
+    CHECK(refused.code == 2);
+    CheckErrorLine(refused.err);
+    CHECK(Contains(refused.err, row.fits));
+    CHECK(!fs::exists(folder.file("x.png")));
+  }
+}
+
+TEST_CASE("cli: sweeps, videos, pages and batches fit the limit of blur, too") {
+  TempFolder folder;
+  MakeDeepFolder(folder);
+  fs::copy(folder.file("lf"), folder.file("second"));
+  const struct {
+    const char* arguments;
+    const char* named;
+  } calls[] = {{"refocus lf --sweep -100:0:2 -o s.png", "f/3.13"},
+               {"video lf second --focus 0 -o out", "f/2.35"},
+               {"refocus lf second --focus 0 -o batch/", "f/2.35"},
+               {"view lf -o page.html", "f/2.35"}};
+  for (const auto& call : calls) {
+    CAPTURE(call.arguments);
+    const Outcome outcome = Call(folder, call.arguments);
+    CHECK(outcome.code == 0);
+    CHECK(Contains(outcome.err, std::string("aperture ") + call.named));
+    const Outcome refused = Call(folder, call.arguments + std::string(" --f-stop 2.34"));
+    CHECK(refused.code != 0);
+    CHECK(Contains(refused.err, std::string(call.named) + " or narrower"));
+    const std::string same = call.arguments + std::string(" --f-stop ") + (call.named + 2);
+    const Outcome named = Call(folder, same);
+    CHECK(named.code == 0);
+    CHECK(!Contains(named.err, "aperture"));
+  }
+  CHECK(Contains(Call(folder, "refocus lf second --focus 0 -o batch/").err, "second: aperture f/"));
+  // What fits a video fits all of its frames.
+  FloatMap map;
+  REQUIRE(ReadPfm(folder.file("second/disparity.pfm"), &map) == "");
+  for (float& value : map.values) value *= 4.0f / 3;
+  REQUIRE(WritePfm(folder.file("second/disparity.pfm"), map) == "");
+  const Outcome frames = Call(folder, "video lf second --focus 0 --f-stop 1 -o none");
+  CHECK(frames.code == 2);
+  CHECK(Contains(frames.err, "f/3.13 or narrower"));
+}
+
+TEST_CASE("cli: without a hint the nearest large surface near the centre is in focus") {
+  TempFolder folder;
+  Succeed(folder, "scene lf --size 160x120 --views 1");
+  FloatMap map;
+  REQUIRE(ReadPfm(folder.file("lf/disparity.pfm"), &map) == "");
+  // A wall at 1, a subject at 6 right of the centre, a wire at 9, and something at 20 in a corner.
+  for (int y = 0; y < map.height; ++y) {
+    for (int x = 0; x < map.width; ++x) {
+      float& value = map.values[size_t(y) * size_t(map.width) + size_t(x)];
+      value = 1;
+      if (x >= 84 && x < 116 && y >= 40 && y < 84) value = 6;
+      if (x >= 60 && x < 62) value = 9;
+      if (x < 36 && y >= 92) value = 20;
+    }
+  }
+  REQUIRE(WritePfm(folder.file("lf/disparity.pfm"), map) == "");
+  const Outcome outcome = Call(folder, "refocus lf -o a.png --report a.json");
+  CHECK(outcome.code == 0);
+  CHECK(Contains(outcome.err, "lf: focused at "));
+  CHECK(Contains(outcome.err, "the nearest large surface near the centre"));
+  CHECK(Contains(Text(folder.file("a.json")), "\"focus\": 6.0"));
+  const Outcome video = Call(folder, "video lf -o out --report v.json");
+  CHECK(video.code == 0);
+  CHECK(Contains(Text(folder.file("v.json")), "\"focus\": 6.0"));
+  // Each input of a batch has its own.
+  fs::copy(folder.file("lf"), folder.file("other"));
+  for (float& value : map.values) value = -2;
+  REQUIRE(WritePfm(folder.file("other/disparity.pfm"), map) == "");
+  const Outcome batch = Call(folder, "refocus lf other -o both/");
+  CHECK(batch.code == 0);
+  CHECK(Contains(batch.err, "other: focused at "));
+  Succeed(folder, "refocus other --focus -2 -o b.png");
+  CHECK(Text(folder.file("both/other.png")) == Text(folder.file("b.png")));
+  CHECK(Text(folder.file("both/lf.png")) == Text(folder.file("a.png")));
+}
+
+}  // namespace
+}  // namespace starfocus::lens_options_slow_test

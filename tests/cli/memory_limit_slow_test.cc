@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// The program with too little memory, by limits in small steps: it succeeds, or it says that it is
+// out of memory and leaves nothing behind.
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "platform/image_io.h"
+#include "tests/cli/call_program.h"
+
+namespace starfocus::memory_limit_slow_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Sanitizers take addresses of their own, which the limit would refuse.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kLimitless = true;
+#elif defined(__has_feature)
+constexpr bool kLimitless = __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) ||
+                            __has_feature(memory_sanitizer);
+#else
+constexpr bool kLimitless = false;
+#endif
+
+constexpr int kSteps = 25;
+
+Outcome CallWithin(const TempFolder& folder, int limit, const std::string& arguments) {
+  return Call(folder, arguments, "ulimit -v " + std::to_string(limit) + " &&");
+}
+
+// The lowest limit in KiB, nearly, within which a program starts at all and does so little.
+int FindStart(const TempFolder& folder, const std::string& little) {
+  int low = 1000, high = 100000;
+  REQUIRE(CallWithin(folder, high, little).code == 0);
+  while (high - low > 32) {
+    const int middle = (low + high) / 2;
+    (CallWithin(folder, middle, little).code == 0 ? high : low) = middle;
+  }
+  return high;
+}
+
+// Tries limits from `start` to `range` KiB above it. `output` is what the command writes, a file or
+// folder; `right` says whether it is as it is with enough memory.
+template <class Right>
+void CheckLimits(const TempFolder& folder, int start, const std::string& arguments, int range,
+                 const std::string& output, const Right& right) {
+  CAPTURE(arguments);
+  int failures = 0;
+  for (int step = 0; step <= kSteps; ++step) {
+    const int limit = start + range * step / kSteps;
+    CAPTURE(limit);
+    if (!output.empty()) fs::remove_all(folder.file(output));
+    const Outcome outcome = CallWithin(folder, limit, arguments);
+    CAPTURE(outcome.err);
+    if (outcome.code == 0) {
+      CHECK(outcome.err == "");
+      CHECK(right(outcome));
+      continue;
+    }
+    ++failures;
+    CHECK(outcome.code == 1);
+    CheckErrorLine(outcome.err);
+    CHECK(Contains(outcome.err, "out of memory"));
+    if (!output.empty() && output.find('.') != std::string::npos) {
+      CHECK(!fs::exists(folder.file(output)));
+    }
+  }
+  CHECK(failures > 0);
+  CHECK(failures < kSteps);
+}
+
+TEST_CASE("memory limits: one clear error each, or the right result" * doctest::skip(kLimitless)) {
+  TempFolder folder;
+  Succeed(folder, "scene lf --size 240x180 --views 5");
+  Succeed(folder, "refocus lf --focus 2 -o right.png");
+  Succeed(folder, "sheet right.png right.png -o right_sheet.png");
+  const int start = FindStart(folder, "--version"), lab_start = FindStart(folder, "sheet --help");
+  const auto same = [&](const char* name, const char* other) {
+    return [&folder, name, other](const Outcome&) {
+      return Text(folder.file(name)) == Text(folder.file(other));
+    };
+  };
+  CheckLimits(folder, start, "refocus lf --focus 2 -o a.png", 4500, "a.png",
+              same("a.png", "right.png"));
+  CheckLimits(folder, start, "refocus lf --focus 2 -o a.png --threads 8", 90000, "a.png",
+              same("a.png", "right.png"));
+  CheckLimits(folder, lab_start, "sheet right.png right.png -o a.png", 4000, "a.png",
+              same("a.png", "right_sheet.png"));
+  CheckLimits(folder, lab_start, "scene new --size 240x180 --views 5 --threads 8", 90000, "new",
+              same("new/view_+0.0_+1.0.png", "lf/view_+0.0_+1.0.png"));
+  const std::string info = Call(folder, "info lf").out;
+  CheckLimits(folder, start, "info lf", 2500, "",
+              [&](const Outcome& outcome) { return outcome.out == info; });
+  CheckLimits(folder, lab_start, "compare right.png lf/view_+0.0_+0.0.png", 1500, "",
+              [](const Outcome& outcome) { return outcome.out.find("PSNR ") == 0; });
+}
+
+}  // namespace
+}  // namespace starfocus::memory_limit_slow_test

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "examples/scene/builders.h"
+#include "examples/scene/noise.h"
+#include "examples/scene/render.h"
+#include "starfocus/starfocus.h"
+
+namespace starfocus::scene_slow_test {
+namespace {
+
+// An emulator needs twenty times as long.
+constexpr int kWidth = 256, kHeight = kWidth * 3 / 4;
+const char* const kNames[] = {"portrait", "wires", "ramp", "hair", "grass"};
+
+SceneOpening DefaultOpening() {
+  sf_config config;
+  sf_config_init(&config);
+  return SceneOpening(config);
+}
+
+// Sample of view (u, v) where centre pixel (x, y) of disparity d appears, bilinear; -1 outside.
+double WarpedSample(const Image& view, double x, double y, int channel) {
+  const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
+  if (x0 < 0 || y0 < 0 || x0 + 1 >= view.width || y0 + 1 >= view.height) return -1;
+  const double fx = x - x0, fy = y - y0;
+  const auto at = [&](int px, int py) { return double(view.row(py)[3 * px + channel]); };
+  return (1 - fy) * ((1 - fx) * at(x0, y0) + fx * at(x0 + 1, y0)) +
+         fy * ((1 - fx) * at(x0, y0 + 1) + fx * at(x0 + 1, y0 + 1));
+}
+
+// Share of centre pixels that the view, warped by `sign` times the disparity, gives back.
+double WarpAgreement(const Image& centre, const Image& view, const FloatMap& map, double u,
+                     double v, double sign) {
+  int good = 0, all = 0;
+  for (int y = 0; y < centre.height; ++y) {
+    for (int x = 0; x < centre.width; ++x) {
+      const double d = sign * map.at(x, y);
+      const double sample = WarpedSample(view, x - u * d, y - v * d, 1);
+      if (sample < 0) continue;
+      ++all;
+      // Sub-pixel shifts of fine texture cost contrast: allow what the neighbourhood spans.
+      double low = 255, high = 0;
+      for (int j = -1; j <= 1; ++j) {
+        for (int i = -1; i <= 1; ++i) {
+          const int px = x + i, py = y + j;
+          if (px < 0 || py < 0 || px >= centre.width || py >= centre.height) continue;
+          low = std::fmin(low, centre.row(py)[3 * px + 1]);
+          high = std::fmax(high, centre.row(py)[3 * px + 1]);
+        }
+      }
+      const double slack = 3 + 0.3 * (high - low);
+      if (std::fabs(sample - centre.row(y)[3 * x + 1]) <= slack) ++good;
+    }
+  }
+  return double(good) / all;
+}
+
+double Psnr(const Image& a, const Image& b) {
+  double squares = 0;
+  for (size_t i = 0; i < a.pixels.size(); ++i) {
+    const double d = double(a.pixels[i]) - b.pixels[i];
+    squares += d * d;
+  }
+  return 10 * std::log10(255.0 * 255.0 * double(a.pixels.size()) / (squares + 1e-9));
+}
+
+TEST_CASE("scene: views warped by the exact disparity give the centre view back") {
+  ThreadRunner runner(2);
+  for (const char* name : kNames) {
+    Scene scene;
+    REQUIRE(MakeScene(name, &scene));
+    const RayTracer renderer(scene, kWidth, kHeight, SF_TRANSFER_NONE, &runner);
+    const Image centre = renderer.View(0, 0, nullptr);
+    const FloatMap map = renderer.Disparity();
+    // A third of the grass are pixels that show two surfaces.
+    const double least = std::string(name) == "grass" ? 0.75 : 0.88;
+    for (int index : {1, 4, 6, 16}) {
+      double u = 0, v = 0;
+      REQUIRE(sf_view_position(index, &u, &v));
+      const Image view = renderer.View(u, v, nullptr);
+      CAPTURE(name);
+      CAPTURE(index);
+      CHECK(WarpAgreement(centre, view, map, u, v, 1) > least);
+      CHECK(WarpAgreement(centre, view, map, u, v, -1) < 0.80);
+    }
+  }
+}
+
+TEST_CASE("scene: a lens stopped down to a pinhole takes the centre view") {
+  ThreadRunner runner(2);
+  Scene scene;
+  REQUIRE(MakeScene("portrait", &scene));
+  const RayTracer renderer(scene, kWidth / 2, kHeight / 2, SF_TRANSFER_NONE, &runner);
+  const Image centre = renderer.View(0, 0, nullptr);
+  CHECK(Psnr(centre, renderer.Truth(0.5, 1e-6, DefaultOpening(), nullptr)) > 38);
+  CHECK(Psnr(centre, renderer.Truth(0.5, 1, DefaultOpening(), nullptr)) < 32);
+}
+
+TEST_CASE("scene: what the lens focuses on is sharp, the rest is not") {
+  ThreadRunner runner(2);
+  Scene scene;
+  REQUIRE(MakeScene("ramp", &scene));
+  const RayTracer renderer(scene, kWidth, kHeight, SF_TRANSFER_NONE, &runner);
+  const FloatMap map = renderer.Disparity();
+  const Image centre = renderer.View(0, 0, nullptr);
+  const Image truth = renderer.Truth(map.at(kWidth / 2, kHeight / 2), 1, DefaultOpening(), nullptr);
+  const auto band = [](const Image& image, int y) {
+    Image rows(image.width, 1);
+    std::copy(image.row(y), image.row(y) + image.stride(), rows.row(0));
+    return rows;
+  };
+  CHECK(Psnr(band(centre, kHeight / 2), band(truth, kHeight / 2)) > 33);
+  CHECK(Psnr(band(centre, 2), band(truth, 2)) < 28);
+}
+
+TEST_CASE("scene: the same pictures for any number of threads") {
+  ThreadRunner one(1), three(3);
+  constexpr int kOdd = 61;
+  for (const char* name : kNames) {
+    Scene scene;
+    REQUIRE(MakeScene(name, &scene));
+    const RayTracer a(scene, kOdd, 47, SF_TRANSFER_NONE, &one),
+        b(scene, kOdd, 47, SF_TRANSFER_NONE, &three);
+    CHECK(a.View(-0.5, 1, nullptr).pixels == b.View(-0.5, 1, nullptr).pixels);
+    CHECK(a.Truth(1, 0.8, DefaultOpening(), nullptr).pixels ==
+          b.Truth(1, 0.8, DefaultOpening(), nullptr).pixels);
+    CHECK(a.Disparity().values == b.Disparity().values);
+  }
+}
+
+TEST_CASE("scene: near, middle and far points lie in that order, at any size") {
+  ThreadRunner runner(1);
+  for (const char* name : kNames) {
+    Scene scene;
+    REQUIRE(MakeScene(name, &scene));
+    REQUIRE(scene.points.size() == 3);
+    for (const int width : {1024, 96, 40}) {
+      const int height = width == 40 ? 90 : width * 3 / 4;
+      const RayTracer renderer(scene, width, height, SF_TRANSFER_NONE, &runner);
+      const FloatMap map = renderer.Disparity();
+      std::vector<float> disparity;
+      for (const NamedPoint& point : scene.points) {
+        int x = -1, y = -1;
+        renderer.ToPixel(point.x, point.y, &x, &y);
+        REQUIRE(x >= 0);
+        REQUIRE(y >= 0);
+        REQUIRE(x < width);
+        REQUIRE(y < height);
+        disparity.push_back(map.at(x, y));
+      }
+      CHECK(disparity[0] > disparity[1]);
+      CHECK(disparity[1] > disparity[2]);
+    }
+  }
+}
+
+TEST_CASE("scene: tiny pictures and every pixel finite") {
+  ThreadRunner runner(1);
+  for (const char* name : kNames) {
+    Scene scene;
+    REQUIRE(MakeScene(name, &scene));
+    for (const int width : {1, 2, 300}) {
+      const RayTracer renderer(scene, width, 3, SF_TRANSFER_NONE, &runner);
+      CHECK(renderer.View(1, -1, nullptr).pixels.size() == size_t(9 * width));
+      for (float d : renderer.Disparity().values) CHECK(std::isfinite(d));
+    }
+  }
+  Scene scene;
+  CHECK_FALSE(MakeScene("other", &scene));
+}
+
+TEST_CASE("scene: rays meet planes and ellipsoids where algebra says") {
+  Surface plane = Piece(Outline::kNone, {10, 20, 3}, {0, 0}, {});
+  plane.slope_x = 0.1;
+  plane.slope_y = -0.2;
+  const Ray ray = {4, -7, 0.6, -0.8};
+  Hit hit;
+  REQUIRE(Intersect(plane, ray, &hit));
+  CHECK(hit.d == doctest::Approx(3 + 0.1 * (hit.x - 10) - 0.2 * (hit.y - 20)));
+  CHECK(hit.x == doctest::Approx(4 + 0.6 * hit.d));
+  CHECK(hit.y == doctest::Approx(-7 - 0.8 * hit.d));
+
+  const Surface ball = Turned(Ellipsoid({1, 2, 4}, {30, 20, 5}, {}), 3, 4);
+  REQUIRE(Intersect(ball, {1, 2, 0, 0}, &hit));
+  CHECK(hit.d == doctest::Approx(9));
+  CHECK(hit.nz == doctest::Approx(1));
+  REQUIRE(Intersect(ball, ray, &hit));
+  const double lx = 0.6 * (hit.x - 1) + 0.8 * (hit.y - 2);
+  const double ly = 0.6 * (hit.y - 2) - 0.8 * (hit.x - 1), ld = hit.d - 4;
+  CHECK(lx * lx / 900 + ly * ly / 400 + ld * ld / 25 == doctest::Approx(1));
+  CHECK(hit.lx == doctest::Approx(lx));
+  CHECK_FALSE(Intersect(ball, {200, 2, 0, 0}, &hit));
+}
+
+TEST_CASE("scene: bounds hold every hit") {
+  for (const char* name : kNames) {
+    Scene scene;
+    REQUIRE(MakeScene(name, &scene));
+    int outside = 0;
+    for (const Surface& surface : scene.surfaces) {
+      const Bounds box = SurfaceBounds(surface, 1200);
+      for (int k = 0; k < 400; ++k) {
+        const Ray ray = {1024 * HashUnit(k, 0, 5) - 512, 768 * HashUnit(k, 1, 5) - 384,
+                         2 * HashUnit(k, 2, 5) - 1, 2 * HashUnit(k, 3, 5) - 1};
+        Hit hit;
+        if (!Intersect(surface, ray, &hit)) continue;
+        const double slack = 1e-6;
+        if (hit.x < box.x0 - slack || hit.x > box.x1 + slack || hit.y < box.y0 - slack ||
+            hit.y > box.y1 + slack || hit.d < box.d0 - slack || hit.d > box.d1 + slack) {
+          ++outside;
+        }
+      }
+    }
+    CHECK(outside == 0);
+  }
+}
+
+TEST_CASE("noise: in range, continuous and not constant") {
+  double low = 1, high = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const double x = i * 0.37 - 500, y = i * 0.11 - 200;
+    const double value = Fractal(x, y, 5, 3);
+    low = std::fmin(low, value);
+    high = std::fmax(high, value);
+    CHECK(std::fabs(Noise(x + 1e-6, y, 3) - Noise(x, y, 3)) < 1e-5);
+  }
+  CHECK(low >= 0);
+  CHECK(high <= 1);
+  CHECK(high - low > 0.4);
+  CHECK(Wrap(-0.25, 1) == doctest::Approx(0.75));
+  CHECK(Triangle(0.5, 1) == doctest::Approx(1));
+}
+
+}  // namespace
+}  // namespace starfocus::scene_slow_test

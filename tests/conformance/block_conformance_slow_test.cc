@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: Apache-2.0
+// Block mode against the double-precision reference given the engine's own partition: at most one
+// gray level apart anywhere, on every SIMD target.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "simd/kernels.h"
+#include "starfocus/starfocus.h"
+#include "tests/conformance/conformance.h"
+#include "tests/conformance/engine_blocks.h"
+#include "tests/conformance/reference.h"
+#include "tests/support/error_line.h"
+#include "tests/support/rounds.h"
+#include "tests/support/simd_targets.h"
+#include "tests/support/test_scene.h"
+#ifdef STARFOCUS_PROGRAM
+#include "examples/scene/render.h"
+#endif
+
+namespace block_conformance_slow_test {
+namespace {
+
+using namespace conformance;
+
+constexpr double kTheta = 0.26 * 3.14159265358979323846;
+constexpr int kStars[] = {1, 5, 9, 17};
+constexpr Depth kDepths[] = {Depth::kConstant, Depth::kPiecewise, Depth::kSlanted, Depth::kNoisy};
+constexpr sf_rule kRules[] = {SF_RULE_PAPER, SF_RULE_SUBAPERTURE};
+
+// Pixels that blocks of each layer cover, those gathered, and the longest side that views render.
+struct Covered {
+  int64_t pixels[SF_LAYERS] = {};
+  int64_t gathered = 0;
+  int longest = 0;
+};
+
+void Count(const std::vector<reference::Block>& blocks, Covered* covered) {
+  for (const reference::Block& block : blocks) {
+    covered->pixels[block.layer] += block.width * block.height;
+    const int side = std::max(block.rendered_width, block.rendered_height);
+    covered->longest = std::max(covered->longest, side);
+    for (const reference::GatheredCell& cell : block.gathered) {
+      covered->gathered += cell.width * cell.height;
+    }
+  }
+}
+
+Distance Check(const test::Scene& scene, const sf_params& params, const sf_config& config,
+               Covered* covered) {
+  test::Engine engine(config);
+  REQUIRE(engine.status() == SF_OK);
+  const EngineResult result =
+      RunEngine(scene, params, starfocus::simd::ReferenceKernels(), &engine);
+  REQUIRE(result.status == SF_OK);
+  Count(result.blocks, covered);
+  const Distance distance =
+      Compare(result.bytes, reference::RefocusBlocks(scene, params, config, result.blocks));
+  for (const starfocus::simd::Kernels* kernels : test::SimdTargets()) {
+    const bool same = RunEngine(scene, params, *kernels, &engine).bytes == result.bytes;
+    CHECK_MESSAGE(same, kernels->name);
+  }
+  CAPTURE(scene.width);
+  CAPTURE(scene.height);
+  CAPTURE(scene.views());
+  CAPTURE(params.focus);
+  CAPTURE(params.aperture);
+  CAPTURE(params.rule);
+  CAPTURE(config.tuning.max_layer);
+  CAPTURE(config.transfer);
+  CAPTURE(config.largest_block);
+  CHECK(distance.largest <= 1);
+  if (distance.samples >= kEnoughSamples) CHECK(distance.mean() < kMeanLimit);
+  return distance;
+}
+
+sf_config Config(const test::Scene& scene, int max_layer, double max_blur = 24) {
+  sf_config config = test::ConfigFor(scene, max_blur);
+  config.theta = kTheta;
+  config.tuning.max_layer = max_layer;
+  config.tuning.deblocking = 0;  // a decision by thresholds; deblock_test has it
+  config.largest_block = 32;
+  while (config.largest_block < scene.height) config.largest_block *= 2;
+  return config;
+}
+
+// Both rules and all layers.
+Distance CheckAll(const test::Scene& scene, double focus, double aperture, Covered* covered) {
+  Distance all;
+  for (const sf_rule rule : kRules) {
+    for (int max_layer = 0; max_layer < SF_LAYERS; ++max_layer) {
+      sf_params params = test::Params(focus, aperture, SF_MODE_BLOCK);
+      params.rule = rule;
+      Covered here;
+      // Values at every layer, light without layers and at the smallest one.
+      for (const sf_transfer transfer : {SF_TRANSFER_NONE, SF_TRANSFER_SRGB}) {
+        if (transfer == SF_TRANSFER_SRGB && max_layer == 1) continue;
+        sf_config config = Config(scene, max_layer);
+        config.transfer = transfer;
+        all.Add(Check(scene, params, config, &here));
+      }
+      for (int layer = 0; layer < SF_LAYERS; ++layer) covered->pixels[layer] += here.pixels[layer];
+      covered->gathered += here.gathered;
+    }
+  }
+  return all;
+}
+
+void Tell(const char* name, const Distance& all, const Covered& covered) {
+  all.Print(name);
+  std::printf("  pixels at layers 0, 1, 2: %lld %lld %lld\n",
+              static_cast<long long>(covered.pixels[0]), static_cast<long long>(covered.pixels[1]),
+              static_cast<long long>(covered.pixels[2]));
+  CHECK(all.mean() < kMeanLimit);
+  for (const int64_t pixels : covered.pixels) CHECK(pixels > 0);
+  std::printf("  gathered: %lld\n", static_cast<long long>(covered.gathered));
+}
+
+TEST_CASE("block conformance: random scenes, every star set, both rules, all layers") {
+  test::Random random(51);
+  Distance all;
+  Covered covered;
+  for (int round = 0; round < (test::kSlow ? 1 : 3); ++round) {
+    for (const int views : kStars) {
+      for (const Depth depth : kDepths) {
+        const int width = random.Int(1, 96), height = random.Int(1, 64);
+        const float low = float(random.Real(-6, 2));
+        test::Scene scene =
+            test::EmptyScene(width, height, views, low, low + float(random.Real(0.5, 6)));
+        SetDepth(depth, &scene, &random);
+        SetColours(Colours(random.Int(0, 2)), &scene, &random);
+        const double aperture = random.Int(0, 1) == 0 ? 1 : random.Real(0.3, 1);
+        all.Add(CheckAll(scene, low - random.Real(0, 9), aperture, &covered));
+      }
+    }
+  }
+  Tell("random scenes in blocks", all, covered);
+}
+
+TEST_CASE("block conformance: the benchmark's slices") {
+  test::Random random(54);
+  Distance all;
+  Covered covered;
+  for (const int views : kStars) {
+    for (const Depth depth : kDepths) {
+      const float low = float(random.Real(-3, 2));
+      test::Scene scene = test::EmptyScene(random.Int(40, 64), random.Int(33, 48), views, low,
+                                           low + float(random.Real(0.5, 4)));
+      SetDepth(depth, &scene, &random);
+      SetColours(Colours(random.Int(0, 2)), &scene, &random);
+      sf_params params = test::Params(low - random.Real(-1, 2), 1, SF_MODE_BENCHMARK);
+      params.rule = SF_RULE_SUBAPERTURE;
+      all.Add(Check(scene, params, Config(scene, 2), &covered));
+    }
+  }
+  all.Print("the benchmark in slices");
+  CHECK(all.mean() < kMeanLimit);
+  CHECK(covered.pixels[1] + covered.pixels[2] + covered.gathered == 0);
+}
+
+TEST_CASE("block conformance: largest subapertures, smallest and single blocks") {
+  test::Random random(52);
+  Distance all;
+  Covered covered;
+  for (const uint32_t block_cost : {0u, 1000u, SF_MAX_TIMING}) {
+    for (const Depth depth : {Depth::kConstant, Depth::kSlanted}) {
+      test::Scene scene = test::EmptyScene(64, 48, 5, 0, 4);
+      SetDepth(depth, &scene, &random);
+      SetColours(Colours::kRandom, &scene, &random);
+      for (const double focus : {-25.0, -7.0, -2.0}) {
+        for (int max_layer = 0; max_layer < SF_LAYERS; ++max_layer) {
+          sf_params params = test::Params(focus, 1, SF_MODE_BLOCK);
+          params.rule = SF_RULE_SUBAPERTURE;
+          sf_config config = Config(scene, max_layer, 32);
+          config.tuning.timing.block = block_cost;
+          all.Add(Check(scene, params, config, &covered));
+        }
+      }
+    }
+  }
+  Tell("subapertures and partitions", all, covered);
+}
+
+TEST_CASE("block conformance: more slices than fit, widest subapertures") {
+  struct Lens {
+    float low, high;
+    double focus, max_blur;
+  };
+  // Surfaces blurred on both sides of the focus, in more slices than there are and in more than
+  // memory has room for; and an aperture whose subapertures are almost as wide as they are spread.
+  constexpr Lens kLenses[] = {{-10, 10, 0, 24}, {-23, 23, 0, 24}, {0, 4, -104, 109}};
+  test::Random random(53);
+  Distance all;
+  Covered covered;
+  for (const Lens& lens : kLenses) {
+    for (const Depth depth : {Depth::kPiecewise, Depth::kNoisy}) {
+      for (const int views : {1, 17}) {
+        test::Scene scene = test::EmptyScene(64, 48, views, lens.low, lens.high);
+        SetDepth(depth, &scene, &random);
+        SetColours(Colours::kRandom, &scene, &random);
+        for (int max_layer = 0; max_layer < SF_LAYERS; ++max_layer) {
+          sf_params params = test::Params(lens.focus, 1, SF_MODE_BLOCK);
+          params.rule = SF_RULE_SUBAPERTURE;
+          all.Add(Check(scene, params, Config(scene, max_layer, lens.max_blur), &covered));
+        }
+      }
+    }
+  }
+  all.Print("many slices and wide subapertures");
+}
+
+// Three tiles across, the last of them 72 pixels wide, and two down, which see few slices and many.
+TEST_CASE("block conformance: tiles of large blocks have slices of their own") {
+  test::Random random(55);
+  Distance all;
+  for (const float range : {4.0F, 24.0F}) {
+    for (const Depth depth : {Depth::kSlanted, Depth::kNoisy}) {
+      test::Scene scene = test::EmptyScene(200, 90, 5, -range / 2, range / 2);
+      SetDepth(depth, &scene, &random);
+      SetColours(Colours::kRandom, &scene, &random);
+      sf_params params = test::Params(random.Real(-1, 1), 1, SF_MODE_FRAME);
+      params.rule = SF_RULE_SUBAPERTURE;
+      sf_config config = Config(scene, 0);
+      config.largest_block = 256;
+      Covered covered;
+      all.Add(Check(scene, params, config, &covered));
+      CHECK(covered.longest == 200);
+    }
+  }
+  all.Print("tiles of large blocks");
+  CHECK(all.mean() < kMeanLimit);
+}
+
+#ifdef STARFOCUS_PROGRAM
+TEST_CASE("block conformance: parts of the demo's scenes") {
+  constexpr int kWidth = 192, kHeight = kWidth * 3 / 4;
+  starfocus::ThreadRunner runner(1);
+  Distance all;
+  Covered covered;
+  for (const char* name : {"portrait", "wires", "ramp"}) {
+    starfocus::Scene drawn;
+    REQUIRE(starfocus::MakeScene(name, &drawn));
+    const starfocus::RayTracer renderer(drawn, kWidth, kHeight, SF_TRANSFER_NONE, &runner);
+    starfocus::LightField field;
+    for (int i = 0; i < 5; ++i) {
+      double u = 0, v = 0;
+      sf_view_position(i, &u, &v);
+      field.views.push_back(renderer.View(u, v, nullptr));
+    }
+    field.disparity = renderer.Disparity();
+    // The disparities of a picture of this size are a few pixels: seen from far out of focus.
+    const test::Scene scene = Crop(field, kWidth / 3, kHeight / 3, 64, 48);
+    for (const double focus : {double(scene.disparity_max), scene.disparity_min - 6.5}) {
+      all.Add(CheckAll(scene, focus, 1, &covered));
+    }
+  }
+  Tell("demo scenes", all, covered);
+}
+
+TEST_CASE("block conformance: parts of the data sets" * doctest::test_suite("data_sets")) {
+  Distance all;
+  Covered covered;
+  bool any = false;
+  for (const char* name : {"wires", "stilllife", "microcity", "chess", "dino"}) {
+    const std::string folder = test::DataSet(name);
+    if (folder.empty()) continue;
+    any = true;
+    starfocus::LightField field;
+    REQUIRE(starfocus::LoadLightField(folder, {}, &field) == "");
+    for (const int x : {200, 330}) {
+      const test::Scene scene = Crop(field, x, 180, 64, 48);
+      CAPTURE(name);
+      const double middle = 0.5 * double(scene.disparity_min + scene.disparity_max);
+      for (const double focus : {middle, scene.disparity_min - 6.5}) {
+        const double reach = std::max(scene.disparity_max - focus, focus - scene.disparity_min);
+        all.Add(CheckAll(scene, focus, std::min(1.0, 16 / reach), &covered));
+      }
+    }
+  }
+  if (any) Tell("data sets", all, covered);
+}
+#endif
+
+}  // namespace
+}  // namespace block_conformance_slow_test

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+// The engine against the double-precision reference: at most one gray level apart anywhere.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "starfocus/starfocus.h"
+#include "tests/conformance/conformance.h"
+#include "tests/conformance/reference.h"
+#include "tests/support/error_line.h"
+#include "tests/support/rounds.h"
+#include "tests/support/test_scene.h"
+
+namespace conformance_slow_test {
+namespace {
+
+using namespace conformance;
+
+// Refocuses with both and checks their distance.
+Distance Check(const test::Scene& scene, const sf_params& params, const sf_config& config) {
+  const int block = config.largest_block;
+  test::Engine engine(config);
+  REQUIRE(engine.status() == SF_OK);
+  test::Output out(scene.width, scene.height);
+  sf_report report;
+  REQUIRE(test::Refocus(&engine, params, scene, &out, nullptr, nullptr, &report) == SF_OK);
+  const reference::Result expected = reference::Refocus(scene, params, config, block);
+  CAPTURE(scene.width);
+  CAPTURE(scene.height);
+  CAPTURE(scene.views());
+  CAPTURE(scene.disparity_min);
+  CAPTURE(scene.disparity_max);
+  CAPTURE(params.mode);
+  CAPTURE(params.focus);
+  CAPTURE(params.aperture);
+  CAPTURE(block);
+  CAPTURE(config.transfer);
+  CHECK(report.n == expected.n);
+  CHECK(report.rendered_views == expected.views);
+  const Distance distance = Compare(out.Tight(), expected.rgb);
+  CHECK(distance.largest <= 1);
+  if (distance.samples >= kEnoughSamples) CHECK(distance.mean() < kMeanLimit);
+  return distance;
+}
+
+// Line scans, by either transfer: block_conformance_slow_test has slices.
+Distance Check(const test::Scene& scene, sf_params params, int block, double theta) {
+  params.rule = SF_RULE_PAPER;
+  sf_config config = test::ConfigFor(scene, 16);
+  config.largest_block = block;
+  config.theta = theta;
+  Distance all;
+  for (const sf_transfer transfer : {SF_TRANSFER_NONE, SF_TRANSFER_SRGB}) {
+    config.transfer = transfer;
+    all.Add(Check(scene, params, config));
+  }
+  return all;
+}
+
+Distance Check(const test::Scene& scene, const sf_params& params, int block = 32) {
+  return Check(scene, params, block, 0.26 * 3.14159265358979323846);
+}
+
+// The reference is slow, and an emulator needs twenty times as long.
+constexpr int kSizes[][2] = {{1, 1}, {7, 5}, {40, 33}, {96, 64}};
+constexpr int kStars[] = {1, 5, 9, 17};
+constexpr Depth kDepths[] = {Depth::kConstant, Depth::kPiecewise, Depth::kSlanted, Depth::kNoisy};
+
+test::Scene MakeScene(int width, int height, int views, Depth depth, Range range,
+                      test::Random* random) {
+  test::Scene scene = test::EmptyScene(width, height, views, range.low, range.high);
+  SetDepth(depth, &scene, random);
+  SetColours(Colours(random->Int(0, 2)), &scene, random);
+  return scene;
+}
+
+// A focus for which the blur radius reaches 2 to 9 pixels.
+sf_params RandomLens(const test::Scene& scene, sf_mode mode, double r_max, test::Random* random) {
+  const double aperture = random->Int(0, 2) == 0 ? 1 : random->Real(0.3, 1);
+  const double reach = r_max / aperture;
+  const double half = 0.5 * double(scene.disparity_max - scene.disparity_min);
+  const double centre = 0.5 * double(scene.disparity_min + scene.disparity_max);
+  const double offset = std::max(0.0, reach - half);
+  return test::Params(centre + (random->Int(0, 1) == 0 ? offset : -offset), aperture, mode);
+}
+
+TEST_CASE("conformance: random scenes, every star set, both modes") {
+  Distance all[2];
+  for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BENCHMARK}) {
+    test::Random random(41 + uint64_t(mode));
+    for (const auto& size : kSizes) {
+      for (const int views : kStars) {
+        for (const Depth depth : kDepths) {
+          const double low = random.Real(-4, 3);
+          const Range range = {float(low), float(low + random.Real(0.5, 5))};
+          const test::Scene scene = MakeScene(size[0], size[1], views, depth, range, &random);
+          const double r_max = mode == SF_MODE_FRAME ? random.Real(2, 9) : random.Real(1, 5);
+          all[mode].Add(Check(scene, RandomLens(scene, mode, r_max, &random)));
+        }
+      }
+    }
+  }
+  all[SF_MODE_FRAME].Print("random scenes, frame");
+  all[SF_MODE_BENCHMARK].Print("random scenes, benchmark");
+  CHECK(all[SF_MODE_FRAME].mean() < kMeanLimit);
+  CHECK(all[SF_MODE_BENCHMARK].mean() < kMeanLimit);
+}
+
+TEST_CASE("conformance: many small scenes") {
+  constexpr int kSmall = 36;
+  Distance all;
+  for (uint64_t seed = 0; seed < (test::kSlow ? 100 : 300); ++seed) {
+    test::Random random(1000 + seed);
+    const double low = random.Real(-6, 5);
+    const Range range = {float(low), float(low + random.Real(0, 7))};
+    const test::Scene scene =
+        MakeScene(random.Int(1, kSmall), random.Int(1, kSmall), kStars[random.Int(0, 3)],
+                  kDepths[random.Int(0, 3)], range, &random);
+    const sf_mode mode = random.Int(0, 3) == 0 ? SF_MODE_BENCHMARK : SF_MODE_FRAME;
+    const double r_max = mode == SF_MODE_FRAME ? random.Real(0.1, 9) : random.Real(0.1, 4);
+    CAPTURE(seed);
+    all.Add(Check(scene, RandomLens(scene, mode, r_max, &random)));
+  }
+  all.Print("small scenes");
+  CHECK(all.mean() < kMeanLimit);
+}
+
+TEST_CASE("conformance: blocks of 64, widest and narrowest aperture") {
+  Distance all;
+  for (const double theta : {SF_MIN_THETA, SF_MAX_THETA}) {
+    for (const int views : kStars) {
+      test::Random random(77 + uint64_t(views));
+      const test::Scene scene = MakeScene(96, 64, views, Depth::kPiecewise, Range{-2, 3}, &random);
+      all.Add(Check(scene, test::Params(0.7), 64, theta));
+      all.Add(Check(scene, test::Params(-1.9, 0.8), 64, theta));
+    }
+  }
+  all.Print("blocks of 64");
+}
+
+#ifdef STARFOCUS_PROGRAM
+TEST_CASE("conformance: parts of the data sets: wires" * doctest::test_suite("data_sets")) {
+  const std::string folder = test::DataSet("wires");
+  if (folder.empty()) return;
+  starfocus::LightField field;
+  REQUIRE(starfocus::LoadLightField(folder, {}, &field) == "");
+  Distance all;
+  for (const int x : {0, 192, 384}) {
+    const test::Scene scene = Crop(field, x, 128, 128, 128);
+    for (const double focus : {0.0, 3.0, 7.0}) all.Add(Check(scene, test::Params(focus), 64));
+  }
+  const test::Scene scene = Crop(field, 200, 100, 64, 64);
+  all.Add(Check(scene, test::Params(3, 1, SF_MODE_BENCHMARK), 64));
+  all.Print("wires");
+}
+#endif
+
+}  // namespace
+}  // namespace conformance_slow_test

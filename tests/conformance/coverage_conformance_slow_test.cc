@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the engine's passes leave of thin structure, found and given, against the double-precision
+// reference.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+#include "starfocus/starfocus.h"
+#include "tests/conformance/reference_coverage.h"
+#include "tests/support/inside.h"
+#include "tests/support/strands.h"
+#include "tests/support/test_scene.h"
+
+namespace coverage_conformance_slow_test {
+namespace {
+
+constexpr int kWidth = 96, kHeight = 64;
+constexpr double kNear = 6, kFar = -6;
+
+// Which map a scene has: what covers pixels' centres, or that with outlines that are ramps.
+enum class Map { kCentres, kRamps };
+
+// Strands that lean, before a wall.
+double CoverageAt(double x, double y) {
+  if (x < 6 || x > 52 || std::fabs(y - kHeight / 2.0) > 22) return 0;
+  double left = 1;
+  for (int k = 0; k < 20; ++k) {
+    const double lean = k % 2 == 0 ? 0.23 : -0.31;
+    const double at = 10 + 4 * k + lean * (y - kHeight / 2.0);
+    const double thick = 0.8 + 0.3 * (k % 4);
+    left *= 1 - std::clamp((1 + thick) / 2 - std::fabs(x - at), 0.0, std::min(1.0, thick));
+  }
+  return 1 - left;
+}
+
+double LightAt(double x, double y, int c, double u, double v) {
+  const double coverage = CoverageAt(x + u * kNear, y + v * kNear);
+  const double far_x = x + u * kFar, far_y = y + v * kFar;
+  const double wall = 170 + 12 * c + 25 * std::sin(far_x / 19 + c) + 20 * std::cos(far_y / 23);
+  return coverage * (60 - 12 * c) + (1 - coverage) * wall;
+}
+
+float DisparityAt(int x, int y, Map map) {
+  // Surfaces are not flat.
+  const double far = kFar + 0.4 * std::sin(x / 15.0), near = kNear - 0.01 * y;
+  const auto is_near = [&](int column) { return CoverageAt(column, y) > 0.5 ? 1.0 : 0.0; };
+  const double share =
+      map == Map::kCentres ? is_near(x) : (is_near(x - 1) + 2 * is_near(x) + is_near(x + 1)) / 4;
+  return float(std::clamp(far + share * (near - far), kFar, kNear));
+}
+
+test::Scene Strands(int views, Map map, bool given) {
+  test::Scene scene = test::EmptyScene(kWidth, kHeight, views, float(kFar), float(kNear));
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      for (int view = 0; view < views; ++view) {
+        const sf_position at = scene.PositionOf(view);
+        for (int c = 0; c < 3; ++c) {
+          scene.Pixel(view, x, y)[c] = uint8_t(std::lround(LightAt(x, y, c, at.u, at.v)));
+        }
+      }
+      scene.Disparity(x, y) = DisparityAt(x, y, map);
+      if (given) scene.coverage.push_back(uint8_t(std::lround(255 * CoverageAt(x, y))));
+    }
+  }
+  return scene;
+}
+
+// Strands of any kind before a surface, with noise; the views need not agree.
+test::Scene RandomStrands(bool given, uint64_t seed) {
+  test::Random random(seed);
+  constexpr int kViews[] = {1, 5, 9, 17};
+  test::Scene scene = test::EmptyScene(kWidth, kHeight, kViews[random.Int(0, 3)],
+                                       float(random.Real(-12, 0)), float(random.Real(5.5, 12)));
+  const test::Strands strands = test::DrawStrands(&random);
+  int near[3], far[3];
+  for (int c = 0; c < 3; ++c) near[c] = random.Byte(), far[c] = random.Byte();
+  const int noise = random.Int(0, 20);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const int coverage = strands.CoverageAt(x, y);
+      for (int view = 0; view < scene.views(); ++view) {
+        for (int c = 0; c < 3; ++c) {
+          const int light = test::Mixture(coverage, near[c], far[c]) + random.Int(-noise, noise);
+          scene.Pixel(view, x, y)[c] = uint8_t(std::clamp(light, 0, 255));
+        }
+      }
+      const float share = float(strands.DepthAt(x, y)) / 255;
+      scene.Disparity(x, y) =
+          std::min(scene.disparity_min + share * (scene.disparity_max - scene.disparity_min),
+                   scene.disparity_max);
+      if (given) scene.coverage.push_back(uint8_t(coverage));
+    }
+  }
+  return scene;
+}
+
+// The engine's coverage map of the whole picture, which one stripe holds.
+std::vector<reference::PartedPixel> EnginesPixels(const test::Scene& scene) {
+  sf_config config = test::ConfigFor(scene);
+  config.transfer = SF_TRANSFER_NONE;
+  config.largest_block = 64;
+  test::Engine engine(config);
+  test::Output out(scene.width, scene.height);
+  REQUIRE(test::Refocus(&engine, test::Params(scene.disparity_min, 1, SF_MODE_BLOCK), scene,
+                        &out) == SF_OK);
+  const starfocus::CoverageMap& map = test::StateOf(engine.get()).stripe.coverage.map;
+  REQUIRE(map.tile_rows >= map.Rows());
+  std::vector<reference::PartedPixel> pixels;
+  for (int y = 0; y < scene.height; ++y) {
+    for (int x = 0; x < scene.width; ++x) {
+      const size_t at = map.At(x, y);
+      const starfocus::CoverageTile& tile =
+          map.Tile(x / starfocus::kTileSide, y / starfocus::kTileSide);
+      reference::PartedPixel pixel;
+      pixel.parted = tile.thin != 0 && map.alpha[at] != starfocus::kUnparted;
+      if (pixel.parted) {
+        const starfocus::FarCell& far = map.FarAt(x, y);
+        pixel.alpha = double(map.alpha[at]) / starfocus::kWhole;
+        pixel.near = map.near[at];
+        pixel.far = far.disparity;
+        for (size_t c = 0; c < 3; ++c) {
+          pixel.light[c] = double(far.rgb[c]) / (1 << starfocus::kLightBits);
+        }
+      }
+      pixels.push_back(pixel);
+    }
+  }
+  return pixels;
+}
+
+struct Distance {
+  int parted = 0, otherwise = 0;    // pixels parted by both, by one only
+  int disparities = 0;              // of those parted by both: with other disparities,
+  int alphas = 0, lights = 0;       // or farther apart than kCoverageLimit and kLightLimit
+  double alpha = 0, alpha_sum = 0;  // largest distance, and all
+  double light = 0, light_sum = 0;  // the same in codes
+
+  void Add(const Distance& other) {
+    parted += other.parted;
+    otherwise += other.otherwise;
+    disparities += other.disparities;
+    alphas += other.alphas;
+    lights += other.lights;
+    alpha = std::max(alpha, other.alpha);
+    light = std::max(light, other.light);
+    alpha_sum += other.alpha_sum;
+    light_sum += other.light_sum;
+  }
+};
+
+// The engine's coverage has steps of 1/128, which are 1/256 off at most and 1/512 on the average,
+// and colours that it compares steps of 1/8 code. What it knows of light has steps of 1/256, of
+// which the eighth power of coverage loses up to two: that counts where little else is known, as
+// between strands that a view sees through. Where a decision is close (whether two colours tell a
+// mixture, or a strand covers a place) that decides some pixels otherwise.
+constexpr double kCoverageLimit = 2.0 / 128, kCoverageMean = 1.0 / 256;
+constexpr double kLightLimit = 1, kLightMean = 0.25;
+
+Distance Compare(const std::vector<reference::PartedPixel>& pixels,
+                 const std::vector<reference::PartedPixel>& exact) {
+  REQUIRE(pixels.size() == exact.size());
+  Distance distance;
+  for (size_t n = 0; n < pixels.size(); ++n) {
+    const reference::PartedPixel &a = pixels[n], &b = exact[n];
+    if (a.parted != b.parted) ++distance.otherwise;
+    if (!a.parted || !b.parted) continue;
+    double light = 0;
+    for (size_t c = 0; c < 3; ++c) light = std::max(light, std::fabs(a.light[c] - b.light[c]));
+    const double alpha = std::fabs(a.alpha - b.alpha);
+    distance.Add({1, 0, a.near != b.near || a.far != b.far ? 1 : 0, alpha > kCoverageLimit ? 1 : 0,
+                  light > kLightLimit ? 1 : 0, alpha, alpha, light, light});
+  }
+  return distance;
+}
+
+Distance Check(const test::Scene& scene) {
+  const Distance distance =
+      Compare(EnginesPixels(scene), reference::PartPixels(scene, SF_TRANSFER_NONE));
+  const int percent = distance.parted / 100;
+  CHECK(distance.otherwise <= percent);
+  CHECK(distance.disparities == 0);
+  CHECK(distance.alphas <= percent);
+  CHECK(distance.lights <= percent);
+  CHECK(distance.alpha_sum <= kCoverageMean * distance.parted);
+  CHECK(distance.light_sum <= kLightMean * distance.parted);
+  return distance;
+}
+
+void Print(const char* name, const Distance& distance) {
+  std::printf(
+      "%s: %d pixels parted, %d by one only, coverage: %d beyond 2/128, largest %.4f, mean %.5f, "
+      "far light: %d beyond 1, largest %.3f, mean %.4f\n",
+      name, distance.parted, distance.otherwise, distance.alphas, distance.alpha,
+      distance.alpha_sum / distance.parted, distance.lights, distance.light,
+      distance.light_sum / distance.parted);
+}
+
+constexpr int kViews[] = {1, 5, 17};
+
+TEST_CASE("coverage: given") {
+  for (const Map map : {Map::kCentres, Map::kRamps}) {
+    Distance all;
+    for (const int views : kViews) {
+      CAPTURE(views);
+      const Distance distance = Check(Strands(views, map, true));
+      CHECK(distance.parted > 4000);
+      CHECK(distance.parted < kWidth * kHeight - 500);
+      all.Add(distance);
+    }
+    Print(map == Map::kRamps ? "given, a map of ramps" : "given", all);
+  }
+}
+
+TEST_CASE("coverage: found") {
+  Distance all;
+  for (const int views : kViews) {
+    CAPTURE(views);
+    const Distance distance = Check(Strands(views, Map::kCentres, false));
+    CHECK(distance.parted > 2000);
+    all.Add(distance);
+  }
+  Print("found", all);
+}
+
+TEST_CASE("coverage: random strands") {
+  for (const bool given : {true, false}) {
+    Distance all;
+    for (uint64_t seed = 1; seed <= 12; ++seed) {
+      CAPTURE(given);
+      CAPTURE(seed);
+      all.Add(Check(RandomStrands(given, seed)));
+    }
+    CHECK(all.parted > 20000);
+    Print(given ? "random, given" : "random, found", all);
+  }
+}
+
+}  // namespace
+}  // namespace coverage_conformance_slow_test

@@ -1,0 +1,381 @@
+// SPDX-License-Identifier: Apache-2.0
+// Repaired maps of scenes that are known, and what sf_repair_disparity refuses.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "lib/depth/repair.h"
+#include "starfocus/depth.h"
+#include "tests/depth/depth_scene.h"
+#include "tests/support/simd_targets.h"
+
+namespace repair_bytes_test {
+namespace {
+
+using namespace test;
+
+constexpr float kLow = -6, kHigh = 8;
+
+struct Repaired {
+  std::vector<float> disparity;
+  std::vector<uint8_t> confidence;
+};
+
+Repaired RepairField(const PlaneField& field, const std::vector<float>& given,
+                     sf_depth_config config, sf_runner runner = nullptr) {
+  config.runner = runner;
+  size_t bytes = 0;
+  REQUIRE(sf_repair_size(&config, &bytes) == SF_OK);
+  const Memory memory(bytes);
+  const auto width = size_t(field.width), pixels = width * size_t(field.height);
+  Repaired result = {std::vector<float>(pixels, NAN), std::vector<uint8_t>(pixels, 77)};
+  sf_light_field light_field = field.Get();
+  light_field.disparity = given.data();
+  light_field.disparity_stride = sizeof(float) * width;
+  sf_map map = {result.disparity.data(),
+                sizeof(float) * width,
+                result.confidence.data(),
+                width,
+                nullptr,
+                0,
+                0};
+  REQUIRE(sf_repair_disparity(&config, &light_field, &map, memory.data, memory.bytes) == SF_OK);
+  return result;
+}
+
+// The scene's map, its near plane wider by `grown` pixels on both sides.
+std::vector<float> MapOf(const PlaneScene& scene, int grown) {
+  PlaneScene other = scene;
+  other.near_left -= grown;
+  other.near_right += grown;
+  std::vector<float> map;
+  for (int y = 0; y < scene.height; ++y) {
+    for (int x = 0; x < scene.width; ++x) map.push_back(float(other.DisparityAt(x)));
+  }
+  return map;
+}
+
+TEST_CASE("repair: edges that lie beside those of the picture go there") {
+  for (const int views : {5, 9, 17}) {
+    PlaneScene scene;
+    scene.views = views;
+    const PlaneField field = RenderPlanes(scene);
+    for (const int grown : {-3, 3}) {
+      const std::vector<float> given = MapOf(scene, grown);
+      CAPTURE(views);
+      CAPTURE(grown);
+      CHECK(ShareOff(scene, given, 0.5) > 0.06);
+      // Two edges of a pixel each are 2 / 96.
+      const Repaired repaired = RepairField(field, given, ConfigOf(field, kLow, kHigh));
+      CHECK(ShareOff(scene, repaired.disparity, 0.1) < 0.012);
+    }
+  }
+}
+
+TEST_CASE("repair: a blurred edge becomes one again") {
+  PlaneScene scene;
+  const PlaneField field = RenderPlanes(scene);
+  const std::vector<float> exact = MapOf(scene, 0);
+  std::vector<float> given = exact;
+  for (int y = 0; y < scene.height; ++y) {
+    for (int x = 5; x < scene.width - 5; ++x) {
+      float sum = 0;
+      for (int k = -5; k <= 5; ++k) sum += exact[size_t(y * scene.width + x + k)];
+      given[size_t(y * scene.width + x)] = sum / 11;
+    }
+  }
+  CHECK(ShareOff(scene, given, 0.5) > 0.15);
+  const Repaired repaired = RepairField(field, given, ConfigOf(field, kLow, kHigh));
+  CHECK(ShareOff(scene, repaired.disparity, 0.28) < 0.03);
+}
+
+TEST_CASE("repair: noise goes") {
+  PlaneScene scene;
+  const PlaneField field = RenderPlanes(scene);
+  std::vector<float> given = MapOf(scene, 0);
+  test::Random random(5);
+  for (float& value : given) value += float(random.Int(-100, 100)) * 0.01F;
+  CHECK(ShareOff(scene, given, 0.28) > 0.6);
+  const Repaired repaired = RepairField(field, given, ConfigOf(field, kLow, kHigh));
+  CHECK(ShareOff(scene, repaired.disparity, 0.28) < 0.03);
+}
+
+TEST_CASE("repair: a map that is right stays as it is to the bit") {
+  PlaneScene scene;
+  scene.near = 5.013;
+  scene.far = -3.27;
+  scene.lean = 0.02;
+  const PlaneField field = RenderPlanes(scene);
+  const std::vector<float> given = MapOf(scene, 0);
+  const Repaired repaired = RepairField(field, given, ConfigOf(field, kLow, kHigh));
+  int changed = 0;
+  for (size_t i = 0; i < given.size(); ++i) changed += repaired.disparity[i] != given[i];
+  CHECK(changed < int(given.size()) / 200);
+  // A plane alone: all of it.
+  scene.near_left = scene.near_right = 0;
+  const std::vector<float> plane = MapOf(scene, 0);
+  CHECK(RepairField(RenderPlanes(scene), plane, ConfigOf(field, kLow, kHigh)).disparity == plane);
+}
+
+// Strands of a pixel and a quarter, three pixels apart and crossing, before a wall.
+struct StrandScene {
+  static constexpr int kWidth = 96, kHeight = 80;
+  static constexpr double kNear = 7, kFar = -5;
+
+  static bool IsStrand(double x, double y) {
+    const auto within = [](double at, double period) {
+      return std::abs(at - period * std::round(at / period)) < 0.62;
+    };
+    return x > 16 && x < 80 && (within(x + 0.4 * y, 4.3) || within(x - 0.3 * y, 7.1));
+  }
+  // 16 samples a pixel.
+  static uint8_t Pixel(double u, double v, int x, int y, int c) {
+    double sum = 0;
+    for (int k = 0; k < 16; ++k) {
+      const double across = x + (k % 4 - 1.5) / 4, down = y + (k / 4 - 1.5) / 4;
+      const bool strand = IsStrand(across + u * kNear, down + v * kNear);
+      sum += strand ? 40 + 20 * c : PlaneScene::Texture(across + u * kFar, down + v * kFar, 2, c);
+    }
+    return uint8_t(sum / 16 + 0.5);
+  }
+  static PlaneField Render(int views) {
+    PlaneField field = {kWidth, kHeight, {}};
+    for (int k = 0; k < views; ++k) {
+      double u = 0, v = 0;
+      sf_view_position(k, &u, &v);
+      std::vector<uint8_t> view;
+      for (int at = 0; at < 3 * kWidth * kHeight; ++at) {
+        view.push_back(Pixel(u, v, at / 3 % kWidth, at / 3 / kWidth, at % 3));
+      }
+      field.views.push_back(view);
+    }
+    return field;
+  }
+  static std::vector<float> Map() {
+    std::vector<float> map;
+    for (int at = 0; at < kWidth * kHeight; ++at) {
+      map.push_back(float(IsStrand(at % kWidth, at / kWidth) ? kNear : kFar));
+    }
+    return map;
+  }
+};
+
+TEST_CASE("repair: strands of an exact map stay") {
+  const std::vector<float> given = StrandScene::Map();
+  for (const int views : {1, 5, 17}) {
+    CAPTURE(views);
+    const PlaneField field = StrandScene::Render(views);
+    const Repaired repaired = RepairField(field, given, ConfigOf(field, kLow, kHigh));
+    int lost = 0, strands = 0;
+    for (size_t i = 0; i < given.size(); ++i) {
+      strands += given[i] > 0;
+      lost += given[i] > 0 && repaired.disparity[i] < 0;
+    }
+    CHECK(strands > 1000);
+    CHECK(lost < strands / 50);
+  }
+}
+
+TEST_CASE("repair: strands stay whose map is one closed outline, and gaps open") {
+  const std::vector<float> exact = StrandScene::Map();
+  std::vector<float> given = exact;
+  for (size_t i = 0; i < given.size(); ++i) {
+    const size_t x = i % StrandScene::kWidth;
+    if (x > 16 && x < 80) given[i] = StrandScene::kNear;
+  }
+  const PlaneField field = StrandScene::Render(5);
+  const Repaired repaired = RepairField(field, given, ConfigOf(field, kLow, kHigh));
+  int lost = 0, strands = 0, opened = 0;
+  for (size_t i = 0; i < given.size(); ++i) {
+    strands += exact[i] > 0;
+    lost += exact[i] > 0 && repaired.disparity[i] < 0;
+    opened += exact[i] < 0 && given[i] > 0 && repaired.disparity[i] < 0;
+  }
+  CHECK(lost < strands / 20);
+  CHECK(opened > 100);
+}
+
+TEST_CASE("repair: pictures of one colour gainsay nothing") {
+  const PlaneScene scene;
+  PlaneField field = RenderPlanes(scene);
+  for (auto& view : field.views) std::fill(view.begin(), view.end(), uint8_t{90});
+  const std::vector<float> given = MapOf(scene, 2);
+  CHECK(RepairField(field, given, ConfigOf(field, kLow, kHigh)).disparity == given);
+}
+
+TEST_CASE("repair: what nothing gainsays is as sure as the picture is different a pixel away") {
+  const PlaneScene scene;
+  PlaneField field = RenderPlanes(scene);
+  // 7 gray levels across in each colour, and 4 down.
+  for (auto& view : field.views) {
+    for (int at = 0; at < int(view.size()); ++at) {
+      const int x = at / 3 % field.width, y = at / 3 / field.width;
+      view[size_t(at)] = uint8_t(100 + 7 * (x % 2) + 4 * (y % 2));
+    }
+  }
+  const std::vector<float> still(size_t(scene.width * scene.height), 0.0F);
+  const Repaired repaired = RepairField(field, still, ConfigOf(field, kLow, kHigh));
+  CHECK(repaired.disparity == still);
+  for (const uint8_t sure : repaired.confidence) REQUIRE(int(sure) == 4 * (3 * 7 + 3 * 4) / 2);
+}
+
+TEST_CASE("repair: what is unknown gets the disparity that the views show") {
+  PlaneScene scene;
+  const PlaneField field = RenderPlanes(scene);
+  std::vector<float> given = MapOf(scene, 0);
+  for (int y = 10; y < 50; ++y) {
+    for (int x = 20; x < 45; ++x) {
+      given[size_t(y * scene.width + x)] =
+          x % 2 == 0 ? NAN : std::numeric_limits<float>::infinity();
+    }
+  }
+  const Repaired repaired = RepairField(field, given, ConfigOf(field, kLow, kHigh));
+  CHECK(ShareOff(scene, repaired.disparity, 0.28) < 0.022);
+}
+
+TEST_CASE("repair: mirrored light fields give mirrored maps") {
+  PlaneScene scene;
+  scene.width = 401;
+  scene.height = 61;
+  scene.views = 9;
+  const PlaneField field = RenderPlanes(scene);
+  const std::vector<float> given = MapOf(scene, 3);
+  const sf_depth_config config = ConfigOf(field, kLow, kHigh);
+  const Repaired repaired = RepairField(field, given, config);
+  for (const bool across : {true, false}) {
+    const auto mirror = [&](int at) {
+      const int x = at % field.width, y = at / field.width;
+      return size_t(across ? y * field.width + field.width - 1 - x
+                           : (field.height - 1 - y) * field.width + x);
+    };
+    std::vector<float> turned(given.size());
+    for (int at = 0; at < int(given.size()); ++at) turned[mirror(at)] = given[size_t(at)];
+    const Repaired back = RepairField(MirroredField(field, across), turned, config);
+    int wrong = 0;
+    for (int at = 0; at < int(given.size()); ++at) {
+      wrong += repaired.disparity[size_t(at)] != back.disparity[mirror(at)];
+      wrong += repaired.confidence[size_t(at)] != back.confidence[mirror(at)];
+    }
+    CHECK(wrong == 0);
+  }
+}
+
+TEST_CASE("repair: the same bytes by any number of workers, in any order") {
+  PlaneScene scene;
+  scene.width = 400;
+  scene.height = 40;
+  scene.views = 5;
+  const PlaneField field = RenderPlanes(scene);
+  sf_depth_config config = ConfigOf(field, kLow, kHigh);
+  const std::vector<float> given = MapOf(scene, 2);
+  const Repaired one = RepairField(field, given, config);
+  config.max_workers = 2;
+  const Repaired two = RepairField(field, given, config, RunBackwards);
+  CHECK(one.disparity == two.disparity);
+  CHECK(one.confidence == two.confidence);
+}
+
+TEST_CASE("repair: the same bytes on every SIMD target") {
+  PlaneScene scene;
+  scene.width = 70;
+  scene.height = 20;
+  const PlaneField field = RenderPlanes(scene);
+  const sf_depth_config config = ConfigOf(field, kLow, kHigh);
+  const std::vector<float> given = MapOf(scene, 3);
+  const Repaired best = RepairField(field, given, config);
+  sf_light_field light_field = field.Get();
+  light_field.disparity = given.data();
+  light_field.disparity_stride = sizeof(float) * 70;
+  std::vector<const starfocus::simd::DepthKernels*> tables = test::DepthTargets();
+  tables.push_back(&starfocus::simd::ReferenceDepthKernels());
+  for (const starfocus::simd::DepthKernels* kernels : tables) {
+    starfocus::EstimatePlan plan = starfocus::MakePlan(config);
+    plan.repairs = true;
+    starfocus::EstimateMemory* laid_out = nullptr;
+    const Memory memory(starfocus::LayOutEstimate(plan, 1, nullptr, &laid_out));
+    starfocus::LayOutEstimate(plan, 1, memory.data, &laid_out);
+    std::vector<float> disparity(best.disparity.size());
+    const starfocus::MapOutput output = {disparity.data(), 70, kLow, kHigh, nullptr, 0, nullptr, 0};
+    REQUIRE(starfocus::Repair(plan, light_field, *kernels, output, laid_out) == SF_OK);
+    CAPTURE(kernels->name);
+    CHECK(disparity == best.disparity);
+  }
+}
+
+TEST_CASE("repair: pictures of any size, within the range") {
+  for (const int width : {1, 2, 17, 33}) {
+    for (const int height : {1, 3, 30}) {
+      PlaneScene scene;
+      scene.width = width;
+      scene.height = height;
+      scene.views = 5;
+      const PlaneField field = RenderPlanes(scene);
+      const sf_depth_config config = ConfigOf(field, -500, 500);
+      for (const float value : RepairField(field, MapOf(scene, 1), config).disparity) {
+        CHECK((value >= -500 && value <= 500));
+      }
+    }
+  }
+}
+
+TEST_CASE("repair: a noisy map of one view stays in its range") {
+  constexpr int kSide = 64;
+  const std::vector<uint8_t> picture(3 * kSide * kSide, 90);
+  std::vector<float> given, found(kSide * kSide, NAN);
+  test::Random random(11);
+  const float low = 1.003F, high = 7;  // 1.003 is not a multiple of 1/64
+  for (int at = 0; at < kSide * kSide; ++at) {
+    given.push_back(at % kSide < 16 ? low : float(random.Real(4, high)));
+  }
+  sf_depth_config config;
+  sf_depth_config_init(&config);
+  config.width = config.height = kSide;
+  config.views = 1;
+  config.disparity_min = low, config.disparity_max = high;
+  size_t bytes = 0;
+  REQUIRE(sf_repair_size(&config, &bytes) == SF_OK);
+  const Memory memory(bytes);
+  sf_light_field field = {};
+  field.views[0] = {picture.data(), 3 * kSide};
+  field.disparity = given.data();
+  field.disparity_stride = sizeof(float) * kSide;
+  sf_map map = {found.data(), sizeof(float) * kSide, nullptr, 0, nullptr, 0, 0};
+  REQUIRE(sf_repair_disparity(&config, &field, &map, memory.data, bytes) == SF_OK);
+  CHECK(found != given);
+  for (const float value : found) REQUIRE((value >= low && value <= high));
+}
+
+TEST_CASE("repair: bad maps have their errors, and nothing is written") {
+  const PlaneScene scene;
+  const PlaneField field = RenderPlanes(scene);
+  const sf_depth_config config = ConfigOf(field, kLow, kHigh);
+  size_t bytes = 0;
+  REQUIRE(sf_repair_size(&config, &bytes) == SF_OK);
+  CHECK(sf_repair_size(nullptr, &bytes) == SF_ERROR_NULL);
+  const Memory memory(bytes);
+  const auto width = size_t(field.width);
+  const size_t row = sizeof(float) * width;
+  std::vector<float> map(width * size_t(field.height), 42), given = MapOf(scene, 0);
+  sf_light_field light_field = field.Get();
+  const auto status = [&](const float* from, size_t stride, size_t size) {
+    light_field.disparity = from;
+    light_field.disparity_stride = stride;
+    sf_map to = {map.data(), row, nullptr, 0, nullptr, 0, 0};
+    return sf_repair_disparity(&config, &light_field, &to, memory.data, size);
+  };
+  CHECK(status(nullptr, row, bytes) == SF_ERROR_NULL);
+  CHECK(status(given.data(), row - 4, bytes) == SF_ERROR_STRIDE);
+  CHECK(status(given.data(), row, bytes - 1) == SF_ERROR_WORKSPACE);
+  CHECK(status(map.data(), row, bytes) == SF_ERROR_OVERLAP);
+  CHECK(status(static_cast<const float*>(memory.data), row, bytes) == SF_ERROR_OVERLAP);
+  given[100] = 8.01F;
+  CHECK(status(given.data(), row, bytes) == SF_ERROR_DISPARITY);
+  given.assign(given.size(), NAN);
+  CHECK(status(given.data(), row, bytes) == SF_ERROR_ALL_INVALID);
+  for (const float value : map) REQUIRE(value == 42);
+}
+
+}  // namespace
+}  // namespace repair_bytes_test

@@ -1,0 +1,467 @@
+// SPDX-License-Identifier: Apache-2.0
+// SF_MODE_BLOCK through the public ABI: the same bytes whichever way the rows come, whoever works
+// and whatever computes; constants stay; what is in focus is copied; and it looks like
+// the benchmark.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "simd/kernels.h"
+#include "starfocus/starfocus.h"
+#include "tests/filter/deblock_reference.h"
+#include "tests/support/inside.h"
+#include "tests/support/layered_scene.h"
+#include "tests/support/simd_targets.h"
+#include "tests/support/symmetry.h"
+#include "tests/support/test_scene.h"
+
+namespace block_mode_slow_test {
+namespace {
+
+constexpr int kViews[] = {1, 5, 9, 17};
+constexpr int kBlocks[] = {32, 64, 128, 256};
+
+// Everything a picture depends on but its content.
+struct Setup {
+  double focus = 0, aperture = 1;
+  int block = 64, max_layer = 2, deblocking = 35, workers = 1;
+  double max_blur = 40;
+  int skips = 1;
+  sf_mode mode = SF_MODE_BLOCK;
+  sf_rule rule = SF_RULE_DEFAULT;
+
+  sf_params Params() const {
+    sf_params params = test::Params(focus, aperture, mode);
+    params.rule = rule;
+    return params;
+  }
+};
+
+std::string Text(const Setup& s, const test::Scene& scene) {
+  char text[200];
+  std::snprintf(
+      text, sizeof(text),
+      "%dx%d views %d focus %.3f aperture %.3f block %d max_layer %d deblocking %d rule %d",
+      scene.width, scene.height, scene.views(), s.focus, s.aperture, s.block, s.max_layer,
+      s.deblocking, s.rule);
+  return text;
+}
+
+sf_config Config(const Setup& s, const test::Scene& scene) {
+  sf_config config = test::ConfigFor(scene, s.max_blur);
+  config.largest_block = s.block;
+  config.tuning.max_layer = s.max_layer;
+  config.tuning.deblocking = s.deblocking;
+  config.max_workers = s.workers;
+  config.tuning.skips = s.skips;
+  return config;
+}
+
+std::vector<uint8_t> Whole(const test::Scene& scene, const Setup& s, sf_report* report = nullptr,
+                           const starfocus::simd::Kernels* kernels = nullptr,
+                           sf_runner runner = nullptr, void* data = nullptr) {
+  test::Engine engine(Config(s, scene));
+  REQUIRE(engine.status() == SF_OK);
+  if (kernels != nullptr) test::UseKernels(kernels, engine.get());
+  test::Output out(scene.width, scene.height, 5);
+  REQUIRE(test::Refocus(&engine, s.Params(), scene, &out, runner, data, report) == SF_OK);
+  CHECK(out.PaddingUntouched());
+  return out.Tight();
+}
+
+Setup RandomSetup(test::Random* random, float limit) {
+  Setup s;
+  s.focus = random->Real(-1.3 * limit, 1.3 * limit);
+  s.aperture = random->Int(0, 1) == 0 ? 1 : random->Real(0.2, 1);
+  s.block = kBlocks[random->Int(0, 3)];
+  s.max_layer = random->Int(0, 3) == 0 ? random->Int(0, 1) : 2;
+  s.deblocking = random->Int(0, 3) == 0 ? random->Int(0, 255) : 35;
+  s.rule = sf_rule(random->Int(0, 2));
+  return s;
+}
+
+uint64_t BlocksOf(const sf_report& report) {
+  return report.layers[0].blocks + report.layers[1].blocks + report.layers[2].blocks;
+}
+
+void CheckStreamed(const test::Scene& scene, const Setup& s, test::Random* random) {
+  CAPTURE(Text(s, scene));
+  sf_report whole_report = {};
+  const std::vector<uint8_t> whole = Whole(scene, s, &whole_report);
+  sf_config config = Config(s, scene);
+  config.features |= SF_FEATURE_STREAMING;
+  test::Engine engine(config);
+  REQUIRE(engine.status() == SF_OK);
+  constexpr int kAll = 1 << 20;
+  const int kChunks[][2] = {
+      {1, 1}, {kAll, kAll}, {random->Int(1, 70), random->Int(1, 70)}, {1, kAll}, {kAll, 1}};
+  for (const auto& chunk : kChunks) {
+    CAPTURE(chunk[0]);
+    CAPTURE(chunk[1]);
+    test::Output out(scene.width, scene.height, 3);
+    sf_report report = {};
+    REQUIRE(test::Stream(&engine, s.Params(), scene, &out, chunk[0], chunk[1], nullptr, nullptr,
+                         &report) == SF_OK);
+    CHECK(out.PaddingUntouched());
+    const bool same = out.Tight() == whole;
+    CHECK(same);
+    CHECK(report.n == whole_report.n);
+    CHECK(report.rendered_samples == whole_report.rendered_samples);
+    CHECK(std::memcmp(&report.skipped, &whole_report.skipped, sizeof(sf_skipped)) == 0);
+    CHECK(report.side_bytes == whole_report.side_bytes);
+    for (int layer = 0; layer < SF_LAYERS; ++layer) {
+      CHECK(report.layers[layer].blocks == whole_report.layers[layer].blocks);
+      CHECK(report.layers[layer].pixels == whole_report.layers[layer].pixels);
+      CHECK(report.layers[layer].predicted_ps == whole_report.layers[layer].predicted_ps);
+    }
+  }
+}
+
+TEST_CASE("block: rows give the bytes of whole pictures, at every kind of size") {
+  test::Random random(31);
+  constexpr int kSizes[][2] = {{1, 1},   {1, 40},  {40, 1},   {1, 150},  {150, 1},  {2, 3},
+                               {15, 17}, {16, 16}, {17, 15},  {31, 33},  {32, 32},  {33, 70},
+                               {64, 64}, {65, 63}, {100, 37}, {30, 131}, {130, 97}, {67, 260}};
+  uint64_t seed = 1;
+  for (const auto& size : kSizes) {
+    for (const int views : kViews) {
+      if (size[0] * size[1] > 8000 && views != 17 && views != 1) continue;
+      const test::Scene scene = test::LayeredScene(size[0], size[1], views, 7, ++seed);
+      Setup s = RandomSetup(&random, 7);
+      s.block = size[1] > 64 ? 32 << random.Int(0, 1) : s.block;
+      CheckStreamed(scene, s, &random);
+    }
+  }
+}
+
+TEST_CASE("block: rows give the bytes of whole pictures in blur mode and on noise") {
+  test::Random random(32);
+  for (int round = 0; round < 12; ++round) {
+    test::Scene scene = test::RandomScene(random.Int(1, 90), random.Int(30, 120),
+                                          kViews[random.Int(0, 3)], -4, 4, uint64_t(round) + 60);
+    if (round % 2 == 0) test::NoisyDisparity(&scene, &random);
+    Setup s = RandomSetup(&random, 4);
+    s.mode = round % 3 == 0 ? SF_MODE_BLUR : SF_MODE_BLOCK;
+    s.block = 32;
+    CheckStreamed(scene, s, &random);
+  }
+}
+
+// A fresh thread per worker; the jobs are drawn from the last to the first.
+int RunThreads(void* workers, sf_job job, void* data, int32_t count) {
+  std::atomic<int> left{count};
+  const auto work = [&](int32_t worker) {
+    for (int index = --left; index >= 0; index = --left) job(data, index, worker);
+  };
+  std::vector<std::thread> threads;
+  for (int32_t worker = 0; worker < *static_cast<int*>(workers); ++worker) {
+    threads.emplace_back(work, worker);
+  }
+  for (std::thread& thread : threads) thread.join();
+  return 0;
+}
+
+TEST_CASE("block: 1, 2 and 7 workers give the bytes of no runner at all") {
+  test::Random random(33);
+  for (int round = 0; round < 12; ++round) {
+    const test::Scene scene = test::LayeredScene(random.Int(90, 240), random.Int(30, 140),
+                                                 kViews[round % 4], 8, uint64_t(round) + 100);
+    Setup s = RandomSetup(&random, 8);
+    s.block = 32 << random.Int(0, 1);
+    s.mode = round % 4 == 3 ? SF_MODE_BLUR : SF_MODE_BLOCK;
+    CAPTURE(Text(s, scene));
+    sf_report expected_report = {};
+    const std::vector<uint8_t> expected = Whole(scene, s, &expected_report);
+    for (int workers : {1, 2, 7}) {
+      s.workers = workers;
+      sf_report report = {};
+      const bool same = Whole(scene, s, &report, nullptr, RunThreads, &workers) == expected;
+      CHECK(same);
+      CHECK(BlocksOf(report) == BlocksOf(expected_report));
+      CHECK(report.rendered_samples == expected_report.rendered_samples);
+    }
+  }
+}
+
+TEST_CASE("block: every SIMD target gives the bytes of the plain kernels") {
+  test::Random random(34);
+  const std::vector<const starfocus::simd::Kernels*> targets = test::SimdTargets();
+  for (int round = 0; round < 12; ++round) {
+    const test::Scene scene = test::LayeredScene(random.Int(1, 120), random.Int(1, 100),
+                                                 kViews[round % 4], 7, uint64_t(round) + 200);
+    Setup s = RandomSetup(&random, 7);
+    s.mode = round % 4 == 3 ? SF_MODE_BLUR : SF_MODE_BLOCK;
+    CAPTURE(Text(s, scene));
+    const std::vector<uint8_t> expected =
+        Whole(scene, s, nullptr, &starfocus::simd::ReferenceKernels());
+    for (const starfocus::simd::Kernels* kernels : targets) {
+      CAPTURE(kernels->name);
+      const bool same = Whole(scene, s, nullptr, kernels) == expected;
+      CHECK(same);
+    }
+  }
+}
+
+TEST_CASE("block: constant pictures stay, bit for bit") {
+  test::Random random(35);
+  for (int round = 0; round < 256; ++round) {
+    const float limit = random.Int(0, 2) == 0 ? 16.0f : 6.0f;
+    test::Scene scene = test::LayeredScene(random.Int(1, 100), random.Int(1, 80), kViews[round % 4],
+                                           limit, uint64_t(round) + 300);
+    if (round % 5 == 0) test::NoisyDisparity(&scene, &random);
+    for (auto& picture : scene.pictures) {
+      std::fill(picture.begin(), picture.end(), uint8_t(round));
+    }
+    Setup s = RandomSetup(&random, limit);
+    s.mode = round % 4 == 3 ? SF_MODE_BLUR : SF_MODE_BLOCK;
+    s.skips = 0;  // what is filled has passed no filter
+    const std::vector<uint8_t> out = Whole(scene, s);
+    const bool same = std::all_of(out.begin(), out.end(), [&](uint8_t b) { return b == round; });
+    CHECK_MESSAGE(same, Text(s, scene));
+  }
+}
+
+TEST_CASE("block: all in focus copies the centre view, for every configuration") {
+  for (const int block : kBlocks) {
+    for (int max_layer = 0; max_layer <= 2; ++max_layer) {
+      for (const auto& size :
+           {std::pair<int, int>{1, 1}, {130, 1}, {1, 130}, {77, 50}, {256, 64}}) {
+        test::Scene scene = test::RandomScene(size.first, size.second, 9, 3.25f, 3.25f, 5);
+        Setup s;
+        s.focus = 3.25;
+        s.block = block;
+        s.max_layer = max_layer;
+        sf_report report = {};
+        const bool same = Whole(scene, s, &report) == scene.pictures[0];
+        CHECK_MESSAGE(same, Text(s, scene));
+        CHECK(report.layers[0].pixels == uint64_t(size.first) * uint64_t(size.second));
+        CHECK(report.layers[1].blocks + report.layers[2].blocks == 0);
+        CHECK(report.n == 0);  // the centre view and no other
+        CHECK(report.layers[0].views == report.layers[0].blocks);
+      }
+    }
+  }
+}
+
+TEST_CASE("block: all far out of focus goes to layer 2, as far as allowed") {
+  for (const auto& size : {std::pair<int, int>{1, 1}, {90, 1}, {1, 90}, {100, 61}, {256, 128}}) {
+    for (int max_layer = 0; max_layer <= 2; ++max_layer) {
+      const test::Scene scene = test::LayeredScene(size.first, size.second, 5, 2, 44);
+      Setup s;
+      s.focus = 20;
+      s.rule = SF_RULE_PAPER;  // wide subapertures keep silhouettes out of layer 2
+      s.max_layer = max_layer;
+      s.block = 128;
+      sf_report report = {};
+      Whole(scene, s, &report);
+      CAPTURE(Text(s, scene));
+      for (int layer = 0; layer < SF_LAYERS; ++layer) {
+        const uint64_t all = uint64_t(size.first) * uint64_t(size.second);
+        CHECK(report.layers[layer].pixels == (layer == max_layer ? all : 0));
+      }
+    }
+  }
+}
+
+struct Told {
+  int width, height;
+  std::vector<int> covered;
+  uint64_t blocks = 0, views = 0;
+  int largest_n = 0;
+  bool subapertures = false;  // the rule
+};
+
+TEST_CASE("block: the blocks told of tile the picture once and are those of the report") {
+  test::Random random(36);
+  for (int round = 0; round < 20; ++round) {
+    const test::Scene scene =
+        test::LayeredScene(random.Int(1, 200), random.Int(1, 150), 5, 8, uint64_t(round) + 400);
+    Setup s = RandomSetup(&random, 8);
+    s.skips = 0;  // skipped blocks have fewer views than they are told with
+    test::Engine engine(Config(s, scene));
+    REQUIRE(engine.status() == SF_OK);
+    Told told = {scene.width, scene.height, {}, 0, 0, 0, s.rule != SF_RULE_PAPER};
+    told.covered.assign(size_t(scene.width) * size_t(scene.height), 0);
+    const sf_params params = s.Params();
+    const sf_block_visitor visitor = [](void* data, const sf_block* block) {
+      Told& to = *static_cast<Told*>(data);
+      for (int y = block->y; y < block->y + block->height; ++y) {
+        for (int x = block->x; x < block->x + block->width; ++x) {
+          if (x < to.width && y < to.height) ++to.covered[size_t(y) * size_t(to.width) + size_t(x)];
+        }
+      }
+      ++to.blocks;
+      to.largest_n = std::max(to.largest_n, block->n);
+      for (int i = -block->n; i <= block->n; ++i) {
+        for (int j = -block->n; j <= block->n; ++j) {
+          const int most =
+              to.subapertures ? starfocus::MostOfSubapertures(block->n) : block->n * block->n;
+          to.views += i * i + j * j <= most;
+        }
+      }
+    };
+    test::Output out(scene.width, scene.height);
+    sf_report report = {};
+    REQUIRE(test::Refocus(&engine, params, scene, &out, test::VisitedBy(visitor, &told), &report) ==
+            SF_OK);
+    CAPTURE(Text(s, scene));
+    CHECK(std::all_of(told.covered.begin(), told.covered.end(), [](int n) { return n == 1; }));
+    CHECK(told.blocks == BlocksOf(report));
+    CHECK(told.largest_n == report.n);
+    CHECK(told.views == report.layers[0].views + report.layers[1].views + report.layers[2].views);
+    CHECK(report.layers[0].pixels + report.layers[1].pixels + report.layers[2].pixels ==
+          uint64_t(scene.width) * uint64_t(scene.height));
+    // Telling changes nothing.
+    const bool same = Whole(scene, s) == out.Tight();
+    CHECK(same);
+  }
+}
+
+// A texture on a slanted plane, its views rendered exactly: (x, y) of view (u, v) shows the plane's
+// point (x + u d, y + v d).
+test::Scene SmoothScene(int width, int height, int views) {
+  test::Scene scene = test::EmptyScene(width, height, views, -6, 6);
+  const auto disparity = [&](double x) { return 12 * x / (width - 1) - 6; };
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      scene.Disparity(x, y) = float(std::clamp(disparity(x), -6.0, 6.0));
+    }
+  }
+  for (int view = 0; view < views; ++view) {
+    double u = 0, v = 0;
+    sf_view_position(view, &u, &v);
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        // px - u d(px) = x, d linear.
+        const double px = (x - 6 * u) / (1 - 12 * u / (width - 1)), py = y + v * disparity(px);
+        for (int c = 0; c < 3; ++c) {
+          const double value = std::sin(0.15 * px + 0.1 * py + c) * std::cos(0.06 * px - 0.2 * py) +
+                               0.4 * std::sin(0.9 * px - 0.7 * py + 2 * c);
+          scene.Pixel(view, x, y)[c] = uint8_t(std::clamp(128 + 80 * value, 0.0, 255.0));
+        }
+      }
+    }
+  }
+  return scene;
+}
+
+double Psnr(const std::vector<uint8_t>& a, const std::vector<uint8_t>& b) {
+  double sum = 0;
+  for (size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+  return sum == 0 ? 99 : 10 * std::log10(255.0 * 255.0 * double(a.size()) / sum);
+}
+
+TEST_CASE("block: agrees with the benchmark on a slanted plane") {
+  const test::Scene scene = SmoothScene(320, 160, 17);
+  for (const double focus : {-6.0, -2.0, 0.0, 3.5, 6.0}) {
+    Setup s;
+    s.focus = focus;
+    s.mode = SF_MODE_BENCHMARK;
+    const std::vector<uint8_t> benchmark = Whole(scene, s);
+    s.mode = SF_MODE_BLOCK;
+    std::string line = "focus " + std::to_string(focus) + ":";
+    for (int max_layer = 0; max_layer <= 2; ++max_layer) {
+      s.max_layer = max_layer;
+      const double psnr = Psnr(Whole(scene, s), benchmark);
+      line += " L<=" + std::to_string(max_layer) + " " + std::to_string(psnr) + " dB";
+      CAPTURE(focus);
+      CAPTURE(max_layer);
+      CHECK(psnr > 45);
+    }
+    MESSAGE(line);
+  }
+}
+
+TEST_CASE("block: deblocking does to the picture at once what it does to stripes") {
+  test::Random random(39);
+  int changed = 0;
+  for (int round = 0; round < 40; ++round) {
+    const test::Scene scene = test::LayeredScene(random.Int(20, 200), random.Int(40, 200),
+                                                 kViews[round % 4], 8, uint64_t(round) + 600);
+    Setup s = RandomSetup(&random, 8);
+    s.block = 32 << random.Int(0, 1);
+    s.max_layer = random.Int(0, 4) == 0 ? 1 : 2;
+    s.deblocking = 0;
+    const sf_config config = Config(s, scene);
+    test::Engine engine(config);
+    REQUIRE(engine.status() == SF_OK);
+    test::LayeredPicture picture(scene.width, scene.height);
+    const sf_params params = s.Params();
+    const sf_block_visitor visitor = [](void* data, const sf_block* block) {
+      auto* to = static_cast<test::LayeredPicture*>(data);
+      for (int y = block->y; y < block->y + block->height; y += test::kUnit) {
+        for (int x = block->x; x < block->x + block->width; x += test::kUnit) {
+          to->Layer(x / test::kUnit, y / test::kUnit) = uint8_t(block->layer);
+        }
+      }
+    };
+    test::Output out(scene.width, scene.height);
+    REQUIRE(test::Refocus(&engine, params, scene, &out, test::VisitedBy(visitor, &picture)) ==
+            SF_OK);
+    for (const int beta : {35, 255}) {
+      picture.rgb = out.bytes;
+      test::DeblockPicture(&picture, beta, config.transfer);
+      changed += picture.rgb != out.bytes;
+      s.deblocking = beta;
+      CAPTURE(Text(s, scene));
+      const bool same = Whole(scene, s) == picture.rgb;
+      CHECK(same);
+    }
+  }
+  CHECK(changed > 20);
+}
+
+TEST_CASE("block: an engine that is used again gives what a fresh one gives") {
+  test::Random random(37);
+  const test::Scene scene = test::LayeredScene(110, 75, 9, 7, 10);
+  Setup s;
+  s.block = 64;
+  test::Engine engine(Config(s, scene));
+  REQUIRE(engine.status() == SF_OK);
+  constexpr sf_mode kModes[] = {SF_MODE_BLOCK, SF_MODE_BLUR, SF_MODE_FRAME, SF_MODE_BENCHMARK};
+  for (int round = 0; round < 16; ++round) {
+    s.focus = random.Real(-9, 9);
+    s.mode = kModes[random.Int(0, 3)];
+    test::Output out(scene.width, scene.height);
+    REQUIRE(test::Refocus(&engine, s.Params(), scene, &out) == SF_OK);
+    const bool same = out.bytes == Whole(scene, s);
+    CAPTURE(round);
+    CHECK(same);
+  }
+}
+
+TEST_CASE("block: mirrored light fields of whole blocks give mirrored pictures at layer 0") {
+  test::Random random(38);
+  for (int round = 0; round < 24; ++round) {
+    const int block = kBlocks[random.Int(0, 1)];
+    const int width = block * random.Int(1, 3), height = block * random.Int(1, 2);
+    test::Scene scene =
+        round % 2 == 0
+            ? test::LayeredScene(width, height, kViews[round % 4], 6, uint64_t(round) + 500)
+            : test::RandomScene(width, height, kViews[round % 4], -3, 3, uint64_t(round));
+    Setup s = RandomSetup(&random, scene.disparity_max);
+    s.block = block;
+    s.max_layer = 0;
+    const std::vector<uint8_t> plain = Whole(scene, s);
+    for (const bool along_x : {true, false}) {
+      const test::Symmetry mirror = {false, along_x, !along_x};
+      const std::vector<uint8_t> moved = Whole(test::Move(mirror, scene), s);
+      const test::Distance distance =
+          test::Compare(mirror, width, height, plain.data(), moved.data());
+      CAPTURE(along_x);
+      CHECK_MESSAGE(distance.samples == 0, Text(s, scene));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace block_mode_slow_test

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: Apache-2.0
+// A constant picture comes out unchanged, bit for bit: every filter has unit gain exactly.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "starfocus/starfocus.h"
+#include "tests/support/shapes.h"
+#include "tests/support/test_scene.h"
+
+namespace constant_slow_test {
+namespace {
+
+struct Trial {
+  int width = 1, height = 1, views = 17;
+  float low = 0, high = 0;
+  double focus = 0, aperture = 1;
+  sf_mode mode = SF_MODE_FRAME;
+  int block = 64;
+  bool noisy = false;
+  int levels = 0;                                // of disparity, pixel by pixel at random
+  double max_blur = 64, n_scale = 1, theta = 0;  // 0: the default
+  sf_rule rule = SF_RULE_DEFAULT;
+  int transfer = SF_TRANSFER_SRGB;
+  uint64_t shape = 0;  // the seed of a random one, unless 0
+  uint8_t color[3] = {0, 0, 0};
+  uint64_t seed = 1;
+};
+
+std::string Text(const Trial& t) {
+  return std::to_string(t.width) + "x" + std::to_string(t.height) + " views " +
+         std::to_string(t.views) + " disparity [" + std::to_string(t.low) + ", " +
+         std::to_string(t.high) + "] focus " + std::to_string(t.focus) + " aperture " +
+         std::to_string(t.aperture) + " mode " + std::to_string(t.mode) + " block " +
+         std::to_string(t.block) + (t.noisy ? " noisy" : "") + " n_scale " +
+         std::to_string(t.n_scale) + " theta " + std::to_string(t.theta) + " shape " +
+         std::to_string(t.shape) + " seed " + std::to_string(t.seed);
+}
+
+// Refocuses a picture of one colour; the number of samples that changed, -1 on error.
+int Changed(const Trial& t) {
+  test::Random random(t.seed);
+  test::Scene scene = test::EmptyScene(t.width, t.height, t.views, t.low, t.high);
+  for (auto& picture : scene.pictures) {
+    for (size_t i = 0; i < picture.size(); ++i) picture[i] = t.color[i % 3];
+  }
+  if (t.levels > 0) {
+    for (float& disparity : scene.disparity) {
+      disparity = t.low + (t.high - t.low) * random.Int(0, t.levels - 1) / (t.levels - 1);
+    }
+  } else if (t.noisy) {
+    test::NoisyDisparity(&scene, &random);
+  } else {
+    test::RandomDisparity(&scene, &random);
+  }
+  sf_config config = test::ConfigFor(scene, t.max_blur);
+  config.largest_block = t.block;
+  config.tuning.n_scale = t.n_scale;
+  config.transfer = t.transfer;
+  if (t.theta > 0) config.theta = t.theta;
+  config.tuning.skips = 0;  // what is filled has passed no filter
+  test::Random shapes(t.shape);
+  if (t.shape != 0) test::RandomShape(&config, &shapes);
+  test::Engine engine(config);
+  test::Output out(t.width, t.height);
+  sf_params params = test::Params(t.focus, t.aperture, t.mode);
+  params.rule = t.rule;
+  const sf_status status =
+      engine.status() != SF_OK ? engine.status() : test::Refocus(&engine, params, scene, &out);
+  if (status != SF_OK) {
+    MESSAGE(sf_status_string(status));
+    return -1;
+  }
+  int changed = 0;
+  for (size_t i = 0; i < out.bytes.size(); ++i) changed += out.bytes[i] != t.color[i % 3];
+  return changed;
+}
+
+TEST_CASE("constant: every level") {
+  Trial t;
+  t.width = 19;
+  t.height = 11;
+  t.low = -2;
+  t.high = 3;
+  for (int views : {1, 5, 9, 17}) {
+    t.views = views;
+    for (int level = 0; level < 256; level += (views == 17 ? 1 : 15)) {
+      std::fill(t.color, t.color + 3, static_cast<uint8_t>(level));
+      t.seed = static_cast<uint64_t>(level) + 1;
+      for (const int transfer : {SF_TRANSFER_NONE, SF_TRANSFER_SRGB}) {
+        t.transfer = transfer;
+        CHECK_MESSAGE(Changed(t) == 0, Text(t) << " level " << level);
+      }
+    }
+  }
+}
+
+TEST_CASE("constant: every N") {
+  Trial t;
+  t.width = 21;
+  t.height = 18;
+  t.color[0] = 255;
+  t.color[1] = 128;
+  t.color[2] = 1;
+  for (int views : {1, 5, 9, 17}) {
+    t.views = views;
+    for (int radius = 0; radius <= 24; ++radius) {
+      for (sf_mode mode : {SF_MODE_FRAME, SF_MODE_BENCHMARK}) {
+        if (mode == SF_MODE_BENCHMARK && radius > 12) continue;
+        t.low = static_cast<float>(-radius);
+        t.high = static_cast<float>(radius) / 2;
+        t.mode = mode;
+        t.seed = static_cast<uint64_t>(radius) + 100;
+        t.transfer = radius % 4 == 3 ? SF_TRANSFER_NONE : SF_TRANSFER_SRGB;
+        CHECK_MESSAGE(Changed(t) == 0, Text(t));
+      }
+    }
+  }
+}
+
+TEST_CASE("constant: through every shape of opening") {
+  Trial t;
+  t.width = 70;
+  t.height = 41;
+  t.color[0] = 255;
+  t.color[1] = 127;
+  t.color[2] = 1;
+  // Sanitizers look at what a shape makes the engine do, which a quarter of them do too.
+#if defined(__SANITIZE_ADDRESS__)
+  constexpr uint64_t kShapes = 60;
+#else
+  constexpr uint64_t kShapes = 240;
+#endif
+  for (uint64_t shape = 1; shape <= kShapes; ++shape) {
+    test::Random random(shape + 7000);
+    t.shape = t.seed = shape;
+    t.views = random.Int(0, 1) == 0 ? 1 : 9;
+    t.mode = static_cast<sf_mode>(random.Int(SF_MODE_FRAME, SF_MODE_BLUR));
+    t.rule = static_cast<sf_rule>(random.Int(SF_RULE_DEFAULT, SF_RULE_SUBAPERTURE));
+    const double radius = random.Real(0.2, t.mode == SF_MODE_BENCHMARK ? 6 : 30);
+    t.low = static_cast<float>(-radius);
+    t.high = static_cast<float>(random.Real(-radius, radius));
+    t.n_scale = random.Real(SF_MIN_N_SCALE, SF_MAX_N_SCALE);
+    t.block = 32 << random.Int(0, 2);
+    CHECK_MESSAGE(Changed(t) == 0, Text(t));
+  }
+}
+
+TEST_CASE("constant: every small size") {
+  Trial t;
+  t.low = -3;
+  t.high = 4;
+  t.focus = 0.25;
+  for (int height : {1, 2, 3, 5, 8, 17}) {
+    for (int width : {1, 2, 3, 4, 7, 16, 31, 33}) {
+      for (int views : {1, 5, 9, 17}) {
+        t.width = width;
+        t.height = height;
+        t.views = views;
+        t.seed = static_cast<uint64_t>(width * 100 + height);
+        for (int c = 0; c < 3; ++c) t.color[c] = static_cast<uint8_t>(t.seed * (c + 7));
+        CHECK_MESSAGE(Changed(t) == 0, Text(t));
+      }
+    }
+  }
+}
+
+// Few views of a wide lens: slices of subapertures wider than three pixels are spread in memory of
+// their own, and those of N = 4 reach beyond the blur radius.
+TEST_CASE("constant: wide subapertures") {
+  Trial t;
+  t.width = t.height = 64;
+  t.views = 1;
+  t.levels = 6;
+  t.rule = SF_RULE_SUBAPERTURE;
+  std::fill(t.color, t.color + 3, static_cast<uint8_t>(204));
+  for (const sf_mode mode : {SF_MODE_BLOCK, SF_MODE_FRAME}) {
+    for (const double n_scale : {0.5, 0.66, 0.8, 2.0}) {
+      for (int radius = 10; radius <= 50; radius += mode == SF_MODE_FRAME ? 3 : 10) {
+        t.mode = mode;
+        t.n_scale = n_scale;
+        t.max_blur = radius;
+        t.low = static_cast<float>(-radius);
+        t.high = static_cast<float>(radius);
+        t.block = radius % 2 == 0 ? 64 : 32;
+        t.seed = static_cast<uint64_t>(radius);
+        CHECK_MESSAGE(Changed(t) == 0, Text(t));
+      }
+    }
+  }
+}
+
+// Through openings much brighter in the middle most views have little weight, and codes of the dark
+// are few levels of light: products of both are summed in shares of larger weights. What is left is
+// the rounding of slices that cover parts of a pixel: up to three pixels of a few pictures.
+TEST_CASE("constant: dark codes through steep openings") {
+  Trial t;
+  t.width = t.height = 64;
+  t.views = 5;
+  t.levels = 5;
+  t.rule = SF_RULE_SUBAPERTURE;
+  int pictures = 0;  // with a pixel of another code
+  for (const double part : {0.3, 0.35, 0.4, 0.42, 0.44, 0.45}) {
+    for (const double radius : {1.5, 3.0, 4.0, 6.0, 8.0, 12.0}) {
+      for (int code = 1; code < 40; ++code) {
+        t.theta = std::min(part * 3.141592653589793, SF_MAX_THETA);
+        t.max_blur = radius;
+        t.low = static_cast<float>(-radius);
+        t.high = static_cast<float>(radius);
+        t.mode = code % 2 == 0 ? SF_MODE_BLOCK : SF_MODE_FRAME;
+        t.seed = static_cast<uint64_t>(code);
+        std::fill(t.color, t.color + 3, static_cast<uint8_t>(code));
+        const int changed = Changed(t);
+        CHECK_MESSAGE(changed >= 0, Text(t) << " code " << code);
+        CHECK_MESSAGE(changed <= 9, Text(t) << " code " << code);
+        pictures += changed > 0;
+      }
+    }
+  }
+  CHECK(pictures <= 2);
+}
+
+TEST_CASE("constant: random sizes, ranges, focuses, apertures and blocks") {
+  test::Random random(2024);
+  constexpr int kViews[] = {1, 5, 9, 17}, kBlocks[] = {32, 64, 128, 256};
+  int pictures = 0;  // with a pixel of another code: parts of slices are rounded in 15 bits
+  for (int round = 0; round < 250; ++round) {
+    Trial t;
+    t.width = random.Int(1, 90);
+    t.height = random.Int(1, 70);
+    t.views = kViews[random.Int(0, 3)];
+    t.block = kBlocks[random.Int(0, 3)];
+    const double middle = random.Real(-20, 20), spread = random.Real(0, 6);
+    t.low = static_cast<float>(middle - spread);
+    t.high = static_cast<float>(middle + spread);
+    t.focus = middle + random.Real(-1, 1) * (random.Int(0, 3) ? 3 : 10);
+    t.aperture = random.Int(0, 2) ? random.Real(0.01, 1) : 1;
+    t.mode = random.Int(0, 3) ? SF_MODE_FRAME : SF_MODE_BENCHMARK;
+    t.noisy = random.Int(0, 1) == 1;
+    for (uint8_t& c : t.color) c = random.Byte();
+    t.seed = static_cast<uint64_t>(round) + 1000;
+    const int changed = Changed(t);
+    CHECK_MESSAGE((changed == 0 || (changed == 1 && t.noisy)), Text(t));
+    pictures += changed > 0;
+  }
+  CHECK(pictures <= 1);
+}
+
+}  // namespace
+}  // namespace constant_slow_test

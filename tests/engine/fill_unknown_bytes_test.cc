@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+// Maps with unknown values: refused, or filled along their rows.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "starfocus/starfocus.h"
+#include "tests/support/refocused.h"
+#include "tests/support/test_scene.h"
+
+namespace fill_unknown_bytes_test {
+namespace {
+
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+// A scene some of whose map is unknown, and the same with what is there filled by hand.
+struct Scenes {
+  test::Scene unknown, filled;
+  int64_t count = 0;
+
+  Scenes(int width, int height, int views, uint64_t seed)
+      : unknown(test::RandomScene(width, height, views, -3, 3, seed)), filled(unknown) {}
+
+  // Makes [first, end) of row y unknown, which should become `value`.
+  void Forget(int y, int first, int end, float value, float as = kNaN) {
+    for (int x = first; x < end; ++x) {
+      unknown.Disparity(x, y) = as;
+      filled.Disparity(x, y) = value;
+    }
+    count += end - first;
+  }
+};
+
+// Gaps at both ends, in the middle with the farther surface on either side, and a whole row.
+Scenes WithGaps(int views) {
+  Scenes scenes(150, 90, views, 5);
+  for (int y = 3; y < 90; y += 7) {
+    const auto at = [&](int x) { return scenes.filled.Disparity(x, y); };
+    scenes.Forget(y, 0, 9, at(9));
+    scenes.Forget(y, 40, 63, std::min(at(39), at(63)), y % 2 == 0 ? kInfinity : -kInfinity);
+    scenes.Forget(y, 141, 150, at(140));
+  }
+  scenes.Forget(50, 0, 150, scenes.unknown.disparity_min);
+  return scenes;
+}
+
+sf_config FillingConfig(const test::Scene& scene) {
+  sf_config config = test::ConfigFor(scene, 32);
+  config.features |= SF_FEATURE_FILL_UNKNOWN;
+  return config;
+}
+
+TEST_CASE("fill unknown: the farther known value of the row goes on, in every mode") {
+  for (const int views : {1, 5}) {
+    const Scenes scenes = WithGaps(views);
+    for (const sf_mode mode : {SF_MODE_BLOCK, SF_MODE_FRAME, SF_MODE_BENCHMARK, SF_MODE_BLUR}) {
+      const sf_params params = test::Params(0.5, 0.5, mode);
+      const test::Refocused filled =
+          test::RefocusScene(scenes.unknown, FillingConfig(scenes.unknown), params);
+      const test::Refocused by_hand =
+          test::RefocusScene(scenes.filled, test::ConfigFor(scenes.filled, 32), params);
+      CAPTURE(views);
+      CAPTURE(mode);
+      CHECK(filled.rgb == by_hand.rgb);
+      CHECK(filled.report.unknown_pixels == uint64_t(scenes.count));
+      CHECK(by_hand.report.unknown_pixels == 0);
+    }
+  }
+}
+
+TEST_CASE("fill unknown: streams and prepared light fields fill alike") {
+  const Scenes scenes = WithGaps(5);
+  const test::Scene& scene = scenes.unknown;
+  const sf_params params = test::Params(0.5, 0.5, SF_MODE_BLOCK);
+  sf_config config = FillingConfig(scene);
+  config.features |= SF_FEATURE_STREAMING;
+  test::Engine engine(config);
+  REQUIRE(engine.status() == SF_OK);
+  test::Output whole(scene.width, scene.height), other(scene.width, scene.height);
+  REQUIRE(test::Refocus(&engine, params, scene, &whole) == SF_OK);
+  sf_report report = {};
+  REQUIRE(test::Stream(&engine, params, scene, &other, 11, 7, nullptr, nullptr, &report) == SF_OK);
+  CHECK(other.bytes == whole.bytes);
+  CHECK(report.unknown_pixels == uint64_t(scenes.count));
+
+  size_t bytes = 0;
+  REQUIRE(sf_prepared_size(&config, &bytes) == SF_OK);
+  std::vector<uint8_t> memory(bytes + SF_ALIGNMENT);
+  const uintptr_t address = reinterpret_cast<uintptr_t>(memory.data());
+  uint8_t* const aligned = memory.data() + (SF_ALIGNMENT - address % SF_ALIGNMENT) % SF_ALIGNMENT;
+  const sf_light_field field = scene.Field();
+  sf_prepared* prepared = nullptr;
+  REQUIRE(sf_prepare(engine.get(), &field, aligned, bytes, &prepared) == SF_OK);
+  test::Output of_prepared(scene.width, scene.height);
+  REQUIRE(sf_refocus_prepared(engine.get(), &params, prepared, of_prepared.bytes.data(),
+                              of_prepared.stride, &report) == SF_OK);
+  CHECK(of_prepared.bytes == whole.bytes);
+  CHECK(report.unknown_pixels == 0);
+}
+
+TEST_CASE("fill unknown: a value outside the range is refused beside unknown ones") {
+  Scenes scenes = WithGaps(1);
+  scenes.unknown.Disparity(70, 10) = scenes.unknown.disparity_max + 1;
+  const sf_config config = FillingConfig(scenes.unknown);
+  test::Engine engine(config);
+  test::Output out(scenes.unknown.width, scenes.unknown.height);
+  CHECK(test::Refocus(&engine, test::Params(0, 0.5, SF_MODE_BLOCK), scenes.unknown, &out) ==
+        SF_ERROR_DISPARITY);
+  CHECK(out.Untouched());
+}
+
+TEST_CASE("fill unknown: unless told to, the engine refuses them") {
+  const Scenes scenes = WithGaps(1);
+  test::Engine engine(test::ConfigFor(scenes.unknown, 32));
+  test::Output out(scenes.unknown.width, scenes.unknown.height);
+  CHECK(test::Refocus(&engine, test::Params(0, 0.5, SF_MODE_BLOCK), scenes.unknown, &out) ==
+        SF_ERROR_NOT_FINITE);
+  CHECK(out.Untouched());
+}
+
+}  // namespace
+}  // namespace fill_unknown_bytes_test

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+// Checksums of refocused pictures, the same on every machine, SIMD target and compiler: the promise
+// of bit-exactness. golden.txt holds them; after an intended change of the engine's output
+//   ./do golden
+// writes it anew (STARFOCUS_RECORD_GOLDEN=1 makes this program do so).
+#include <doctest/doctest.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "starfocus/starfocus.h"
+#include "tests/support/inside.h"
+#include "tests/support/integer_scene.h"
+#include "tests/support/shapes.h"
+#include "tests/support/simd_targets.h"
+#include "tests/support/test_scene.h"
+
+namespace golden_bytes_test {
+namespace {
+
+// FNV-1a.
+uint64_t Hash(const std::vector<uint8_t>& bytes) {
+  uint64_t hash = 0xCBF29CE484222325u;
+  for (const uint8_t byte : bytes) hash = (hash ^ byte) * 0x100000001B3u;
+  return hash;
+}
+
+struct Lens {
+  sf_mode mode;
+  double focus, aperture;
+};
+
+struct Case {
+  std::string name;
+  int width, height, views;
+  test::Depth depth;
+  Lens lens;
+  int block;
+  int levels = 0, range = 0;                // of a LevelScene, if there are any
+  const test::NamedShape* shape = nullptr;  // of the lens, unless it is the default one
+};
+
+// Many disparities, of which slices of blurs up to `range` are cut.
+struct LevelCase {
+  int block, levels, range;
+};
+constexpr LevelCase kLevelCases[] = {{32, 13, 40}, {32, 16, 38}, {64, 11, 29},
+                                     {64, 12, 32}, {64, 15, 33}, {64, 14, 40},
+                                     {64, 16, 39}, {64, 16, 29}, {128, 11, 39}};
+
+std::vector<Case> Cases() {
+  constexpr const char* kDepthNames[] = {"layers", "slanted", "noise"};
+  constexpr const char* kModeNames[] = {"frame", "benchmark", "block", "blur"};
+  constexpr Lens kLenses[] = {{SF_MODE_FRAME, -2.03125, 1}, {SF_MODE_FRAME, 3.75, 0.625},
+                              {SF_MODE_FRAME, 9.3, 0.9},    {SF_MODE_BENCHMARK, 0.25, 0.75},
+                              {SF_MODE_BLOCK, -3.5, 1},     {SF_MODE_BLOCK, 1.125, 0.8},
+                              {SF_MODE_BLUR, 2.5, 1},       {SF_MODE_BLOCK, -27.5, 1}};
+  std::vector<Case> cases;
+  int number = 0;
+  for (const int views : {1, 5, 9, 17}) {
+    for (const test::Depth depth :
+         {test::Depth::kLayers, test::Depth::kSlanted, test::Depth::kNoise}) {
+      for (const Lens& lens : kLenses) {
+        // Noise makes each view of a line its own; one lens of it is enough.
+        if (depth == test::Depth::kNoise && &lens != &kLenses[1] && &lens != &kLenses[4]) continue;
+        Case one = {"", 97, 70, views, depth, lens, number % 2 == 0 ? 32 : 64};
+        char name[80];
+        std::snprintf(name, sizeof(name), "%d-%s-%s-%g-%g-%d", views,
+                      kDepthNames[static_cast<int>(depth)], kModeNames[lens.mode], lens.focus,
+                      lens.aperture, one.block);
+        one.name = name;
+        cases.push_back(one);
+        ++number;
+      }
+    }
+  }
+  // Slices with almost MostSliceArea, or with little more: if that were 1 % more, or less, each
+  // picture would change. The last one is a block of four cuts, which has another picture uncut.
+  for (const LevelCase& level : kLevelCases) {
+    Case one = {"",          level.block,         level.block,
+                1,           test::Depth::kNoise, {SF_MODE_FRAME, 0, 1},
+                level.block, level.levels,        level.range};
+    one.name = "levels-" + std::to_string(level.levels) + "-" + std::to_string(level.range) + "-" +
+               std::to_string(level.block);
+    cases.push_back(one);
+  }
+  // Either rule in block mode, kernels, and wide blurs.
+  for (const test::NamedShape& shape : test::kShapes) {
+    for (const Lens& lens : {kLenses[5], kLenses[6], kLenses[7]}) {
+      for (const int block : {32, 64}) {
+        if (lens.mode == SF_MODE_BLUR && block == 64) continue;  // the same picture
+        if (lens.focus == kLenses[7].focus && block == 32) continue;
+        Case one = {"", 97, 70, 5, test::Depth::kLayers, lens, block};
+        char name[80];
+        std::snprintf(name, sizeof(name), "%s-%s-%g-%d", shape.name, kModeNames[lens.mode],
+                      lens.focus, block);
+        one.name = name;
+        one.shape = &shape;
+        cases.push_back(one);
+      }
+    }
+  }
+  return cases;
+}
+
+// What each layer covered, and what was gathered.
+struct Covered {
+  uint64_t layers[SF_LAYERS] = {};
+  uint64_t gathered = 0;
+};
+
+// Adds to `covered`.
+std::string Refocus(const Case& one, const test::Scene& scene,
+                    const starfocus::simd::Kernels* kernels, Covered* covered) {
+  sf_config config = test::ConfigFor(scene, 43);
+  config.largest_block = one.block;
+  // Slanted surfaces have the paper's values, the others light.
+  config.transfer = one.depth == test::Depth::kSlanted ? SF_TRANSFER_NONE : SF_TRANSFER_SRGB;
+  config.tuning.gather = one.views != 9;  // views have their share, layers 1 and 2 with them
+  if (one.levels > 0) config.tuning.n_scale = 0.5;
+  if (one.shape != nullptr) one.shape->Set(&config);
+  test::Engine engine(config);
+  REQUIRE(engine.status() == SF_OK);
+  test::UseKernels(kernels, engine.get());
+  test::Output out(scene.width, scene.height);
+  sf_params params = test::Params(one.lens.focus, one.lens.aperture, one.lens.mode);
+  // The rule of subapertures keeps layer 2 away from depth edges: either rule has its share of the
+  // cases.
+  if (one.block == 32) params.rule = SF_RULE_PAPER;
+  if (one.levels > 0) params.rule = SF_RULE_SUBAPERTURE;
+  sf_report report = {};
+  REQUIRE(test::Refocus(&engine, params, scene, &out, nullptr, nullptr, &report) == SF_OK);
+  for (int layer = 0; layer < SF_LAYERS; ++layer) {
+    covered->layers[layer] += report.layers[layer].pixels;
+  }
+  covered->gathered += report.gathered_pixels;
+  char text[20];
+  std::snprintf(text, sizeof(text), "%016llx", static_cast<unsigned long long>(Hash(out.bytes)));
+  return text;
+}
+
+using Golden = std::map<std::string, std::string>;
+
+Golden ReadGolden() {
+  Golden golden;
+  std::FILE* file = std::fopen(STARFOCUS_GOLDEN_FILE, "r");
+  REQUIRE_MESSAGE(file != nullptr, "cannot read " STARFOCUS_GOLDEN_FILE);
+  char name[100], hash[20];
+  while (std::fscanf(file, "%99s %19s", name, hash) == 2) golden[name] = hash;
+  std::fclose(file);
+  return golden;
+}
+
+void WriteGolden(const std::vector<Case>& cases, Golden golden) {
+  std::FILE* file = std::fopen(STARFOCUS_GOLDEN_FILE, "w");
+  REQUIRE_MESSAGE(file != nullptr, "cannot write " STARFOCUS_GOLDEN_FILE);
+  for (const Case& one : cases) {
+    std::fprintf(file, "%s %s\n", one.name.c_str(), golden[one.name].c_str());
+  }
+  CHECK(std::fclose(file) == 0);
+}
+
+TEST_CASE("golden: the same pictures on every machine and SIMD target") {
+  std::vector<const starfocus::simd::Kernels*> tables = test::SimdTargets();
+  tables.push_back(&starfocus::simd::ReferenceKernels());
+  const std::vector<Case> cases = Cases();
+  const bool record = std::getenv("STARFOCUS_RECORD_GOLDEN") != nullptr;
+  Golden golden;
+  if (!record) golden = ReadGolden();
+  std::map<std::string, int> wrong;
+  Covered covered;
+  for (const Case& one : cases) {
+    const test::Scene scene = one.levels > 0
+                                  ? test::LevelScene(one.block, one.levels, one.range)
+                                  : test::IntegerScene(one.width, one.height, one.views, one.depth);
+    // What is recorded is the reference's: the last table.
+    if (record) golden[one.name] = Refocus(one, scene, tables.back(), &covered);
+    for (const starfocus::simd::Kernels* kernels : tables) {
+      CAPTURE(one.name);
+      CAPTURE(kernels->name);
+      const std::string hash = Refocus(one, scene, kernels, &covered);
+      CHECK(hash == golden[one.name]);
+      wrong[kernels->name] += hash != golden[one.name];
+    }
+  }
+  for (const starfocus::simd::Kernels* kernels : tables) {
+    std::printf("golden: %s: %zu of %zu checksums equal\n", kernels->name,
+                cases.size() - static_cast<size_t>(wrong[kernels->name]), cases.size());
+  }
+  for (const uint64_t pixels : covered.layers) CHECK(pixels > 0);
+  CHECK(covered.gathered > 0);
+  if (record) WriteGolden(cases, golden);
+  CHECK(golden.size() == cases.size());
+}
+
+}  // namespace
+}  // namespace golden_bytes_test

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+// The range of a picture against that of its views: what starfocus.h says of SF_MODE_BLOCK.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+
+#include "starfocus/starfocus.h"
+#include "tests/support/shapes.h"
+#include "tests/support/test_scene.h"
+#include "tests/support/transfer_curve.h"
+
+namespace input_range_slow_test {
+namespace {
+
+// A picture of two levels, in squares or stripes of a few pixels or at random.
+void DrawTwoLevels(int low, int high, test::Random* random, test::Scene* scene) {
+  const int kind = random->Int(0, 3), side_x = random->Int(1, 12), side_y = random->Int(1, 12);
+  const bool alike = random->Int(0, 2) > 0;
+  for (int view = 0; view < scene->views(); ++view) {
+    for (int y = 0; y < scene->height; ++y) {
+      for (int x = 0; x < scene->width; ++x) {
+        bool bright = random->Int(0, 1) == 1;
+        if (kind == 1) bright = (x / side_x + y / side_y) % 2 == 1;
+        if (kind == 2) bright = x >= side_x && x < 2 * side_x && y >= side_y && y < 3 * side_y;
+        if (kind == 3) bright = x % (side_x + 1) == 0 || y % (side_y + 1) == 0;
+        std::fill_n(scene->Pixel(view, x, y), 3, uint8_t(bright ? high : low));
+      }
+    }
+    if (alike && view > 0) scene->pictures[size_t(view)] = scene->pictures[0];
+  }
+}
+
+struct Trial {
+  test::Scene scene;
+  sf_config config;
+  sf_params params;
+  int low, high;
+};
+
+// What a trial draws beside the default fall-off.
+enum class Openings { kDefault, kAnyTheta, kAnyShape };
+
+Trial MakeTrial(uint64_t seed, sf_mode mode, sf_rule rule, Openings openings) {
+  constexpr int kViews[] = {1, 5, 9, 17};
+  test::Random random(seed);
+  Trial trial;
+  const double range = random.Int(0, 1) * random.Real(0, 4);
+  trial.scene = test::EmptyScene(random.Int(8, 64), random.Int(8, 48), kViews[random.Int(0, 3)], 0,
+                                 float(range));
+  test::RandomDisparity(&trial.scene, &random);
+  trial.low = random.Int(0, 120);
+  trial.high = random.Int(trial.low + 1, 255);
+  DrawTwoLevels(trial.low, trial.high, &random, &trial.scene);
+  const double radius = random.Real(1, 40);
+  trial.params = test::Params(random.Int(0, 1) == 0 ? range + radius : -radius, 1, mode);
+  trial.params.rule = rule;
+  trial.config = test::ConfigFor(trial.scene, radius + range + 1);
+  trial.config.transfer = seed % 2 == 0 ? SF_TRANSFER_NONE : SF_TRANSFER_SRGB;
+  if (openings == Openings::kAnyTheta) {
+    trial.config.theta =
+        random.Int(0, 1) == 0 ? SF_MAX_THETA : random.Real(SF_MIN_THETA, SF_MAX_THETA);
+  }
+  if (openings == Openings::kAnyShape) test::RandomShape(&trial.config, &random);
+  return trial;
+}
+
+// How far a picture leaves the range of its views.
+struct Beyond {
+  int levels = 0;
+  double contrast =
+      0;  // in parts of the difference of both levels' light, less a level of rounding
+};
+
+// Refocuses the trial and widens `worst` by it.
+void Widen(const Trial& trial, Beyond* worst) {
+  test::Engine engine(trial.config);
+  REQUIRE(engine.status() == SF_OK);
+  test::Output out(trial.scene.width, trial.scene.height);
+  REQUIRE(test::Refocus(&engine, trial.params, trial.scene, &out) == SF_OK);
+  int below = 0, above = 0;
+  for (const uint8_t level : out.bytes) {
+    below = std::max(below, trial.low - level);
+    above = std::max(above, level - trial.high);
+  }
+  worst->levels = std::max({worst->levels, below, above});
+  const auto light = [&](int level) { return test::LightOf(level, trial.config.transfer); };
+  const double contrast = light(trial.high) - light(trial.low);
+  if (below > 0) {
+    const double less = light(trial.low) - light(trial.low - below + 1);
+    worst->contrast = std::max(worst->contrast, less / contrast);
+  }
+  if (above > 0) {
+    const double more = light(trial.high + above - 1) - light(trial.high);
+    worst->contrast = std::max(worst->contrast, more / contrast);
+  }
+}
+
+Beyond WorstOf(sf_mode mode, sf_rule rule, Openings openings) {
+  const uint64_t kTrials = mode == SF_MODE_BLOCK ? 300 : 60;
+  Beyond worst;
+  for (uint64_t seed = 1; seed <= kTrials; ++seed) {
+    CAPTURE(seed);
+    Widen(MakeTrial(seed, mode, rule, openings), &worst);
+  }
+  constexpr const char* kNames[] = {"default opening", "any theta", "any shape"};
+  std::printf("mode %d, rule %d, %s: %d levels, %.3f of the contrast\n", int(mode), int(rule),
+              kNames[int(openings)], worst.levels, worst.contrast);
+  return worst;
+}
+
+}  // namespace
+
+TEST_CASE("input range: frame modes stay within the levels of the views") {
+  for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BENCHMARK}) {
+    for (const sf_rule rule : {SF_RULE_PAPER, SF_RULE_SUBAPERTURE}) {
+      for (const Openings openings : {Openings::kAnyTheta, Openings::kAnyShape}) {
+        CHECK(WorstOf(mode, rule, openings).levels == 0);
+      }
+    }
+  }
+}
+
+TEST_CASE("input range: subsampled blocks overshoot by no more than the header says") {
+  CHECK(WorstOf(SF_MODE_BLOCK, SF_RULE_SUBAPERTURE, Openings::kDefault).contrast <= 0.04);
+  CHECK(WorstOf(SF_MODE_BLOCK, SF_RULE_SUBAPERTURE, Openings::kAnyTheta).contrast <= 0.04);
+  CHECK(WorstOf(SF_MODE_BLOCK, SF_RULE_SUBAPERTURE, Openings::kAnyShape).contrast <= 0.04);
+  CHECK(WorstOf(SF_MODE_BLOCK, SF_RULE_PAPER, Openings::kDefault).contrast <= 0.13);
+  CHECK(WorstOf(SF_MODE_BLOCK, SF_RULE_PAPER, Openings::kAnyTheta).contrast <= 0.4);
+  CHECK(WorstOf(SF_MODE_BLOCK, SF_RULE_PAPER, Openings::kAnyShape).contrast <= 0.4);
+}
+
+}  // namespace input_range_slow_test

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+// The carving of memory, and the sizes that it gives of engines and prepared light fields.
+
+#include <doctest/doctest.h>
+
+#include <cstdint>
+
+#include "lib/source/reduced.h"
+#include "starfocus/starfocus.h"
+#include "tests/support/inside.h"
+#include "tests/support/memory_parts.h"
+#include "tests/support/test_scene.h"
+
+namespace layout_bytes_test {
+namespace {
+
+using starfocus::Arena;
+using starfocus::kTooLarge;
+
+// With red zones between them no pieces share memory.
+TEST_CASE("layout: pieces are aligned, padded and counted as they are carved" *
+          doctest::skip(starfocus::kRedZone > 0)) {
+  alignas(SF_ALIGNMENT) static uint8_t memory[1 << 12];
+  Arena counting(nullptr), arena(memory);
+  for (Arena* one : {&counting, &arena}) {
+    uint8_t* first = one->Take<uint8_t>(1);
+    int32_t* second = one->Take<int32_t>(7, 5);
+    const size_t mark = one->Mark();
+    one->Take<uint8_t>(1000);
+    one->Reuse(mark);
+    const size_t room = one->Shared();
+    CHECK(room >= 1000 - 63);
+    uint8_t* shared = one->Take<uint8_t>(room);
+    one->Reuse(mark);
+    one->Take<uint8_t>(10);
+    CHECK(one->Bytes() == mark + 1088);
+    one->GoOn();
+    CHECK(one->Shared() == 0);
+    uint8_t* last = one->Take<uint8_t>(0);
+    if (one == &counting) {
+      CHECK((first == nullptr && second == nullptr && shared == nullptr && last == nullptr));
+      continue;
+    }
+    CHECK(first == memory);
+    CHECK(reinterpret_cast<uint8_t*>(second) == memory + 128);  // 1 and 64 bytes
+    CHECK(shared == memory + 128 + 256);                        // 140 and 64
+    CHECK(last == shared + 1088);                               // 1000 and 64
+  }
+  CHECK(counting.Bytes() == 128 + 256 + 1088 + 64);
+  CHECK(arena.Bytes() == counting.Bytes());
+}
+
+TEST_CASE("layout: what memory cannot hold is too large, not small") {
+  // Of a piece: padding, rounding.
+  constexpr size_t kMost = 1 << 16, kExtra = starfocus::kRedZone + 64 + 63;
+  const auto bytes = [](size_t count, size_t times) {
+    Arena arena(nullptr, kMost);
+    arena.Take<uint32_t>(count, times);
+    return arena.Bytes();
+  };
+  CHECK(bytes((kMost - kExtra) / 4, 1) <= kMost);
+  CHECK(bytes(1, (kMost - kExtra) / 4) <= kMost);
+  CHECK(bytes((kMost - kExtra) / 4 + 1, 1) == kTooLarge);
+  // Products that wrap to little.
+  CHECK(bytes(SIZE_MAX / 4 + 1, 1) == kTooLarge);
+  CHECK(bytes(SIZE_MAX / 8 + 2, 2) == kTooLarge);
+  CHECK(bytes(SIZE_MAX, SIZE_MAX) == kTooLarge);
+  CHECK(bytes(0, SIZE_MAX) == starfocus::kRedZone + 64);
+  // A sum that wraps, and what follows it.
+  Arena arena(nullptr);
+  arena.Take<uint8_t>(SIZE_MAX / 2 - kExtra);
+  CHECK(arena.Bytes() <= SIZE_MAX / 2);
+  const size_t mark = arena.Mark();
+  arena.Take<uint8_t>(1);
+  CHECK(arena.Bytes() == kTooLarge);
+  arena.Reuse(mark);
+  CHECK(arena.Bytes() == kTooLarge);
+}
+
+// What a stripe keeps on a board, in KiB of a workspace (docs/boards.md): with all modes and rules.
+TEST_CASE("layout: workspaces of boards are no larger than they were" *
+          doctest::skip(starfocus::kRedZone > 0)) {
+  const auto with_coverage = [](sf_config config) {
+    config.features |= SF_FEATURE_COVERAGE;
+    return config;
+  };
+  const struct {
+    sf_config config;
+    size_t most;
+  } kBoards[] = {
+      // With memory for thin structures.
+      {with_coverage(test::BoardConfig(640, 480, 1, 32, 8, 1)), 4161},
+      {with_coverage(test::BoardConfig(1920, 1080, 17, 64, 32, 0)), 14443},
+      {with_coverage(test::BoardConfig(1920, 1080, 1, 64, 32, 0)), 13148},
+      // VGA, one streamed view, blocks of 32, blurs of 8.
+      {test::BoardConfig(640, 480, 1, 32, 8, 1), 1141},
+      // Full HD, whole pictures, blocks of 64, blurs of 32.
+      {test::BoardConfig(1920, 1080, 17, 64, 32, 0), 3049},
+      {test::BoardConfig(1920, 1080, 1, 64, 32, 0), 3049},
+      // Without layers 1 and 2.
+      {[] {
+         sf_config config = test::BoardConfig(640, 480, 1, 32, 8, 1);
+         config.tuning.max_layer = 0;
+         return config;
+       }(),
+       1056},
+  };
+  for (const auto& board : kBoards) {
+    size_t bytes = 0;
+    REQUIRE(sf_workspace_size(&board.config, &bytes) == SF_OK);
+    CAPTURE(bytes);
+    CHECK(bytes <= board.most << 10);
+  }
+}
+
+// The table of docs/boards.md is made of these parts.
+TEST_CASE("layout: all of a workspace is for some part" * doctest::skip(starfocus::kRedZone > 0)) {
+  for (const int streaming : {0, 1}) {
+    for (const int images : {0, 1}) {
+      sf_config config = test::BoardConfig(320, 200, 5, 64, 12, streaming);
+      test::SetFeature(SF_FEATURE_IMAGES, images, &config.features);
+      const std::vector<test::MemoryPart> parts = test::MeasureParts(config);
+      size_t bytes = 0;
+      REQUIRE(sf_workspace_size(&config, &bytes) == SF_OK);
+      CHECK(!parts.empty());
+      CHECK(test::SumOf(parts).all == bytes);
+    }
+  }
+}
+
+// sf_refocus_preview has an engine laid out anew for a smaller picture.
+TEST_CASE("layout: what grows with the picture comes last, and less of it fits into the same") {
+  test::Random random(44);
+  for (int round = 0; round < 300; ++round) {
+    sf_config config;
+    sf_config_init(&config);
+    config.width = random.Int(1, random.Int(0, 1) == 0 ? 40 : SF_MAX_SIZE);
+    config.height = random.Int(1, 4000);
+    config.disparity_max = float(random.Real(0, 500));
+    config.max_blur = random.Real(0.1, SF_MAX_BLUR);
+    config.largest_block = 32 << random.Int(0, 3);
+    config.max_workers = random.Int(1, 4);
+    test::SetFeature(SF_FEATURE_STREAMING, random.Int(0, 1), &config.features);
+    test::SetFeature(SF_FEATURE_IMAGES, random.Int(0, 1), &config.features);
+    config.highlights = random.Int(0, 1) == 0 ? 1.0F : 8.0F;
+    config.cats_eye = random.Int(0, 1) == 0 ? 0.0F : 0.5F;
+    const size_t bytes = test::WorkspaceBytes(config);
+    if (bytes == kTooLarge) continue;
+    for (int shift = 1; shift <= SF_MAX_PREVIEW; ++shift) {
+      const sf_config reduced = starfocus::ReducedConfig(config, shift);
+      CAPTURE(round);
+      CAPTURE(shift);
+      CHECK(test::WorkspaceBytes(reduced) <= bytes);
+    }
+  }
+}
+
+TEST_CASE("layout: laid out anew, an engine keeps its workers and tables") {
+  sf_config config;
+  sf_config_init(&config);
+  config.width = 300;
+  config.height = 200;
+  config.max_workers = 2;
+  config.features |= SF_FEATURE_STREAMING;
+  test::Engine engine(config);
+  REQUIRE(engine.status() == SF_OK);
+  starfocus::EngineState& state = test::StateOf(engine.get());
+  config = state.config;
+  const starfocus::Worker* workers = state.crew.workers;
+  const uint32_t* sums = workers[1].sums;
+  const uint16_t* weights = state.tables.apertures[0].weights;
+  const uint8_t *out = state.stripe.out, *last_rows = state.stripe.last_rows;
+  starfocus::LayOutAnew(starfocus::ReducedConfig(config, 2), &state);
+  CHECK(state.config.width == 75);
+  CHECK(state.crew.workers == workers);
+  CHECK(state.crew.workers[1].sums == sums);
+  CHECK(state.tables.apertures[0].weights == weights);
+  CHECK(state.stripe.last_rows == nullptr);  // it does not stream
+  starfocus::LayOutAnew(config, &state);
+  CHECK(state.config.width == 300);
+  CHECK(state.stripe.out == out);
+  CHECK(state.stripe.last_rows == last_rows);
+}
+
+// On 32 bits sizes of wide streaming configurations are beyond all addresses.
+TEST_CASE("layout: sizes never wrap, and too large ones are an error of every call") {
+  sf_config config;
+  sf_config_init(&config);
+  config.height = 65535;
+  config.views = SF_MAX_VIEWS;
+  config.disparity_min = -500;
+  config.disparity_max = 500;
+  config.max_blur = SF_MAX_BLUR;
+  config.largest_block = 256;
+  config.features |= SF_FEATURE_STREAMING;
+  int refused = 0;
+  for (int width = 999; width <= SF_MAX_SIZE; width += 1000) {
+    config.width = width;
+    // Views of 3 bytes a pixel in as many rows as a stripe with what disparities and blurs reach.
+    const uint64_t rings = uint64_t{3 * SF_MAX_VIEWS * (256 + 2 * 628)} * uint64_t(width);
+    const uint64_t disparities = uint64_t{2 * 65535} * uint64_t(width);
+    for (const bool prepared : {false, true}) {
+      size_t bytes = 77;
+      const sf_status status =
+          prepared ? sf_prepared_size(&config, &bytes) : sf_workspace_size(&config, &bytes);
+      CAPTURE(width);
+      CAPTURE(prepared);
+      if (status == SF_OK) {
+        CHECK(bytes > (prepared ? disparities : rings));
+        CHECK(bytes < (prepared ? 2 : 4) * (prepared ? disparities : rings) + (1 << 26));
+        continue;
+      }
+      CHECK(status == SF_ERROR_TOO_LARGE);
+      CHECK(bytes == 77);
+      ++refused;
+      if (prepared) continue;
+      alignas(SF_ALIGNMENT) static uint8_t little[SF_ALIGNMENT];
+      sf_engine* engine = nullptr;
+      CHECK(sf_init(&config, little, sizeof(little), &engine) == SF_ERROR_TOO_LARGE);
+      CHECK(engine == nullptr);
+    }
+  }
+  CHECK((refused > 0) == (sizeof(size_t) == 4));
+}
+
+}  // namespace
+}  // namespace layout_bytes_test

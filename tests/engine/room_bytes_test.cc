@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// A picture depends on its own lens: room that a configuration reserves for others changes no byte.
+#include <doctest/doctest.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "starfocus/starfocus.h"
+#include "tests/support/rounds.h"
+#include "tests/support/test_scene.h"
+
+namespace room_bytes_test {
+namespace {
+
+// Surfaces of a few disparities, pixel by pixel at random: more slices than there is memory for.
+test::Scene Levels(int side, int count, float range, test::Random* random) {
+  test::Scene scene = test::EmptyScene(side, side, random->Int(0, 1) == 0 ? 1 : 5, -range, range);
+  for (auto& picture : scene.pictures) picture = test::RandomBytes(picture.size(), random);
+  std::vector<float> levels(static_cast<size_t>(count));
+  for (float& level : levels) level = static_cast<float>(random->Real(-range, range));
+  for (float& disparity : scene.disparity) {
+    disparity = levels[static_cast<size_t>(random->Int(0, count - 1))];
+  }
+  return scene;
+}
+
+std::vector<uint8_t> Picture(const sf_config& config, const sf_params& params,
+                             const test::Scene& scene) {
+  test::Engine engine(config);
+  REQUIRE(engine.status() == SF_OK);
+  test::Output out(scene.width, scene.height);
+  if (test::Has(config.features, SF_FEATURE_STREAMING)) {
+    REQUIRE(test::Stream(&engine, params, scene, &out, 7, 5) == SF_OK);
+  } else {
+    REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
+  }
+  return out.Tight();
+}
+
+TEST_CASE("room: larger blurs, rows and workers that are reserved change no picture") {
+  test::Random random(11);
+  for (int round = 0; round < test::Rounds(60); ++round) {
+    const float range = static_cast<float>(random.Real(2, 40));
+    const int side = random.Int(0, 2) == 0 ? 96 : 32 << random.Int(0, 1);
+    const test::Scene scene = Levels(side, random.Int(5, 16), range, &random);
+    sf_params params = test::Params(0, 1, random.Int(0, 1) == 0 ? SF_MODE_BLOCK : SF_MODE_FRAME);
+    if (range < 5 && random.Int(0, 1) == 0) params.mode = SF_MODE_BENCHMARK;
+    params.rule = random.Int(0, 5) == 0 ? SF_RULE_PAPER : SF_RULE_SUBAPERTURE;
+    sf_config config = test::ConfigFor(scene, double{range});
+    config.largest_block = 32 << random.Int(0, 1);
+    config.tuning.n_scale = random.Int(0, 1) == 0 ? 0.5 : 1;
+    config.tuning.timing.block = 1u << random.Int(0, 26);
+    config.tuning.gather = random.Int(0, 1);
+    const std::vector<uint8_t> expected = Picture(config, params, scene);
+    for (const double max_blur : {range + 1.0, 45.0, SF_MAX_BLUR}) {
+      sf_config other = config;
+      other.max_blur = max_blur;
+      test::SetFeature(SF_FEATURE_STREAMING, random.Int(0, 1), &other.features);
+      other.max_workers = random.Int(1, 3);
+      CAPTURE(round);
+      CAPTURE(max_blur);
+      const bool same = Picture(other, params, scene) == expected;
+      CHECK(same);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace room_bytes_test

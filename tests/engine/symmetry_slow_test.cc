@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+// Mirroring, transposing or turning the light field does the same to the refocused picture, when
+// the picture is whole blocks: exactly, but for turns with wide subapertures.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "starfocus/starfocus.h"
+#include "tests/support/symmetry.h"
+#include "tests/support/test_scene.h"
+
+namespace symmetry_slow_test {
+namespace {
+
+using test::Distance;
+
+struct Symmetry {
+  const char* name;
+  test::Symmetry move;
+};
+
+const Symmetry kMirrors[] = {{"mirror x", {false, true, false}},
+                             {"mirror y", {false, false, true}},
+                             {"turn 180", {false, true, true}}};
+const Symmetry kTurns[] = {{"transpose", {true, false, false}},
+                           {"turn 90", {true, true, false}},
+                           {"turn 270", {true, false, true}},
+                           {"anti-transpose", {true, true, true}}};
+
+TEST_CASE("symmetry: captured views change places") {
+  CHECK(test::MoveView(kMirrors[0].move, 1) == 2);
+  CHECK(test::MoveView(kMirrors[0].move, 3) == 3);
+  CHECK(test::MoveView(kMirrors[1].move, 3) == 4);
+  CHECK(test::MoveView(kTurns[0].move, 1) == 3);
+  for (const Symmetry& s : {kMirrors[2], kTurns[1], kTurns[3]}) {
+    std::vector<int> places;
+    for (int view = 0; view < SF_MAX_VIEWS; ++view) places.push_back(test::MoveView(s.move, view));
+    std::sort(places.begin(), places.end());
+    for (int view = 0; view < SF_MAX_VIEWS; ++view) CHECK(places[size_t(view)] == view);
+  }
+}
+
+test::Output Refocused(const test::Scene& scene, const sf_params& params) {
+  sf_config config = test::ConfigFor(scene);
+  config.largest_block = 32;
+  config.tuning.max_layer = 0;  // layers keep every second pixel, from the left and the top
+  test::Engine engine(config);
+  REQUIRE(engine.status() == SF_OK);
+  test::Output out(scene.width, scene.height);
+  REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
+  return out;
+}
+
+Distance Measure(const Symmetry& s, const test::Scene& scene, const sf_params& params) {
+  const test::Output plain = Refocused(scene, params);
+  CHECK(plain.bytes != scene.pictures[0]);
+  const test::Output moved = Refocused(test::Move(s.move, scene), params);
+  return test::Compare(s.move, scene.width, scene.height, plain.bytes.data(), moved.bytes.data());
+}
+
+void Check(const Symmetry& s, const test::Scene& scene, const sf_params& params) {
+  CAPTURE(s.name);
+  CAPTURE(scene.width);
+  CAPTURE(scene.height);
+  CAPTURE(scene.views());
+  CAPTURE(params.focus);
+  CHECK(Measure(s, scene, params).samples == 0);
+}
+
+constexpr int kSizes[][2] = {{32, 32}, {64, 64}, {96, 32}, {64, 128}};
+
+TEST_CASE("symmetry: mirrored light fields give mirrored pictures") {
+  for (const auto& size : kSizes) {
+    for (int views : {17, 9, 5, 1}) {
+      const test::Scene scene = test::RandomScene(size[0], size[1], views, -4, 4, 31);
+      for (const Symmetry& s : kMirrors) {
+        Check(s, scene, test::Params(0));
+        Check(s, scene, test::Params(-3.3, 0.7));
+      }
+    }
+  }
+}
+
+TEST_CASE("symmetry: transposed and turned light fields give transposed and turned pictures") {
+  for (const auto& size : kSizes) {
+    for (int views : {17, 9, 5, 1}) {
+      const test::Scene scene = test::RandomScene(size[0], size[1], views, -4, 4, 32);
+      for (const Symmetry& s : kTurns) {
+        for (sf_params params : {test::Params(0), test::Params(2.6, 0.9)}) {
+          params.rule = SF_RULE_PAPER;  // slices look along rows first
+          Check(s, scene, params);
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("symmetry: also in benchmark mode and on noisy disparity") {
+  test::Scene scene = test::RandomScene(64, 32, 17, -2, 3, 33);
+  test::Random random(34);
+  test::NoisyDisparity(&scene, &random);
+  for (const Symmetry& s : kMirrors) Check(s, scene, test::Params(0.4, 1, SF_MODE_BENCHMARK));
+  sf_params lines = test::Params(0.4, 1, SF_MODE_BENCHMARK);
+  lines.rule = SF_RULE_PAPER;
+  for (const Symmetry& s : kMirrors) Check(s, scene, lines);
+  for (const Symmetry& s : kTurns) Check(s, scene, lines);
+}
+
+// Subapertures up to several pixels wide, over flat, slanted and noisy surfaces.
+TEST_CASE("symmetry: mirrors with wide subapertures") {
+  for (const int views : {17, 5, 1}) {
+    test::Scene scene = test::RandomScene(64, 32, views, -3, 8, 35);
+    test::Random random(36);
+    for (const bool noisy : {false, true}) {
+      if (noisy) test::NoisyDisparity(&scene, &random);
+      for (const sf_mode mode : {SF_MODE_BLOCK, SF_MODE_FRAME}) {
+        sf_params params = test::Params(-12.6, 1, mode);
+        params.rule = SF_RULE_SUBAPERTURE;
+        for (const Symmetry& s : kMirrors) Check(s, scene, params);
+      }
+    }
+  }
+}
+
+// All views of wide subapertures are rendered along rows first. Over one surface the order only
+// rounds differently; which surface shows beside a depth edge depends on it.
+TEST_CASE("symmetry: turns with wide subapertures, up to the order of rows and columns") {
+  for (const int views : {17, 5, 1}) {
+    for (const sf_mode mode : {SF_MODE_BLOCK, SF_MODE_FRAME}) {
+      for (const double focus : {-12.6, 1.3}) {
+        sf_params params = test::Params(focus, 1, mode);
+        params.rule = SF_RULE_SUBAPERTURE;
+        for (const Symmetry& s : kTurns) {
+          CAPTURE(s.name);
+          CAPTURE(views);
+          CAPTURE(mode);
+          CAPTURE(focus);
+          test::Scene flat = test::RandomScene(64, 32, views, 3, 3, 37);
+          const Distance one = Measure(s, flat, params);
+          CHECK(one.largest <= 1);
+          CHECK(one.mean < 0.06);
+          const Distance many = Measure(s, test::RandomScene(64, 32, views, -3, 8, 35), params);
+          CHECK(many.mean < 2);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace symmetry_slow_test

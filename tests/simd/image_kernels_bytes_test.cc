@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every kernel of pictures and depth maps on every SIMD target of this machine against its
+// reference, and what the references compute, by hand.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "simd/image_kernels.h"
+#include "tests/simd/check_kernels.h"
+#include "tests/simd/image_cases.h"
+#include "tests/support/simd_targets.h"
+
+namespace image_kernels_bytes_test {
+namespace {
+
+using namespace starfocus::simd;
+
+TEST_CASE("image kernels: every target gives the bits of the reference and writes nothing else") {
+  CHECK(test::ImageTargets()[0] == &BestImageKernels());
+  test::CheckKernels<test::ImageCall>(test::kImageCases, ReferenceImageKernels(),
+                                      test::ImageTargets());
+}
+
+TEST_CASE("image kernels: half floats, all of them, on every target") {
+  std::vector<uint16_t> halves(65536);
+  for (size_t k = 0; k < halves.size(); ++k) halves[k] = uint16_t(k);
+  for (const ImageKernels* kernels : test::ImageTargets()) {
+    std::vector<float> z(halves.size());
+    kernels->HalvesToDepth(halves.data(), z.size(), z.data());
+    int wrong = 0;
+    for (size_t k = 0; k < z.size(); ++k) {
+      const int exponent = int(k >> 10) & 31, fraction = int(k) & 1023;
+      const double size =
+          exponent == 0 ? std::ldexp(fraction, -24) : std::ldexp(1024 + fraction, exponent - 25);
+      if (exponent == 31) {
+        wrong += std::isnan(z[k]) ? 0 : 1;
+      } else {
+        wrong += double(z[k]) == (k >= 32768 ? -size : size) ? 0 : 1;
+      }
+    }
+    CHECK(wrong == 0);
+  }
+}
+
+TEST_CASE("image kernels: depths, by hand") {
+  const ImageKernels& kernels = ReferenceImageKernels();
+  const DepthRule metres = {4000, -1, 65535, true, -10, 10};
+  const float z[] = {1000, 4000, 0, 65535, 500};
+  int16_t out[5];
+  CHECK(kernels.DepthToDisparity(z, 5, metres, out) == kUnknownDepth);
+  CHECK(out[0] == 3 * 64);
+  CHECK(out[1] == 0);
+  CHECK(out[2] == kNoSurface);  // infinitely near
+  CHECK(out[3] == kNoSurface);
+  CHECK(out[4] == 7 * 64);
+  const DepthRule linear = {0.5f, 2, NAN, false, -10, 10};
+  const float steps[] = {0, 1, 16, 17};
+  CHECK(kernels.DepthToDisparity(steps, 3, linear, out) == 0);
+  CHECK(out[0] == 2 * 64);
+  CHECK(out[1] == 160);
+  CHECK(out[2] == 10 * 64);
+  CHECK(kernels.DepthToDisparity(steps, 4, linear, out) == kDepthOutside);
+}
+
+TEST_CASE("image kernels: between rows and columns of a map, by hand") {
+  const ImageKernels& kernels = ReferenceImageKernels();
+  const int16_t a[] = {0, 0, 0, kNoSurface}, b[] = {96, 97, -96, 5};
+  int16_t out[4];
+  kernels.BlendRows(a, b, 4, 64, out);
+  CHECK(out[0] == 24);
+  CHECK(out[1] == 0);
+  CHECK(out[2] == -24);
+  CHECK(out[3] == kNoSurface);
+  kernels.BlendRows(a, b, 4, 128, out);
+  CHECK(out[1] == 97);
+  CHECK(out[3] == 5);
+  const int32_t pairs[] = {0 | 80 << 16, 80 | 1000 << 16};
+  const uint32_t columns[] = {7 * 256, 7 * 256 + 128, 8 * 256 + 127, 8 * 256 + 128};
+  kernels.SpreadRow(pairs, columns, 4, 7, out);
+  CHECK(out[0] == 0);
+  CHECK(out[1] == 40);
+  CHECK(out[2] == 80);
+  CHECK(out[3] == 1000);
+}
+
+}  // namespace
+}  // namespace image_kernels_bytes_test

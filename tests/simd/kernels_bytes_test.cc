@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every kernel on every SIMD target of this machine against its reference, and the engine on every
+// target.
+#include <doctest/doctest.h>
+#include <hwy/highway.h>
+
+#include <cstdint>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "simd/kernels.h"
+#include "tests/simd/check_kernels.h"
+#include "tests/simd/kernel_cases.h"
+#include "tests/support/inside.h"
+#include "tests/support/simd_targets.h"
+#include "tests/support/test_scene.h"
+
+namespace kernels_bytes_test {
+namespace {
+
+using namespace starfocus::simd;
+
+TEST_CASE("kernels: several SIMD targets run here") {
+  const std::vector<const Kernels*> all = test::SimdTargets();
+  std::printf("SIMD targets:");
+  for (const Kernels* kernels : all) std::printf(" %s", kernels->name);
+  std::printf("\n");
+#if HWY_ARCH_X86 && !defined(HWY_COMPILE_ONLY_STATIC)
+  CHECK(all.size() > 1);
+#endif
+  CHECK(std::string(sf_simd_target()) == BestKernels().name);
+}
+
+TEST_CASE("kernels: a test that would run on no SIMD target fails") {
+  CHECK_THROWS(test::ListTargets(+[](size_t) -> const Kernels* { return nullptr; }));
+}
+
+TEST_CASE("kernels: every target gives the bits of the reference and writes nothing else") {
+  test::CheckKernels<test::KernelCall>(test::kKernelCases, ReferenceKernels(), test::SimdTargets());
+}
+
+TEST_CASE("kernels: the bench's calls are right, too") {
+  for (const test::KernelCase& one : test::kKernelCases) {
+    test::Draw draw = test::Draw::ForBench();
+    test::KernelCall call(&draw);
+    one.make(&draw, &call);
+    test::Met met;
+    const std::string wrong = call.Check(ReferenceKernels(), test::SimdTargets(), &met);
+    CHECK_MESSAGE(wrong.empty(), (one.kernel + (": " + wrong)));
+  }
+}
+
+// Puts a function that counts in the place of one kernel of a table.
+template <auto kKernel>
+struct Counted;
+template <class Result, class... Args, Result (*Kernels::*kKernel)(Args...)>
+struct Counted<kKernel> {
+  static inline int calls = 0;
+
+  static Result Call(Args... args) {
+    ++calls;
+    return (ReferenceKernels().*kKernel)(args...);
+  }
+  static Kernels Table() {
+    Kernels kernels = ReferenceKernels();
+    kernels.*kKernel = Call;
+    return kernels;
+  }
+};
+
+TEST_CASE("kernels: a case calls the kernel whose name it has") {
+  const auto check = [](const test::KernelCase& one, const Kernels& table, const int* calls) {
+    test::Draw draw = test::Draw::ForBench();
+    test::KernelCall call(&draw);
+    one.make(&draw, &call);
+    call.run(table);
+    CHECK_MESSAGE(*calls > 0, std::string(one.kernel));
+  };
+  const test::KernelCase* one = test::kKernelCases;
+#define STARFOCUS_COUNT_CALLS(Kernel) \
+  check(*one++, Counted<&Kernels::Kernel>::Table(), &Counted<&Kernels::Kernel>::calls);
+  STARFOCUS_KERNELS(STARFOCUS_COUNT_CALLS)
+#undef STARFOCUS_COUNT_CALLS
+}
+
+// Kernels that do one thing each that they may not do.
+struct Spoilt {
+  const char* complaint;
+  void (*narrow)(const int16_t* in, size_t count, const Encoding& encoding, uint8_t* out);
+};
+constexpr Spoilt kSpoilt[] = {
+    {"spoilt differs in out[0]",
+     [](const int16_t* in, size_t count, const Encoding& encoding, uint8_t* out) {
+       ReferenceKernels().Narrow(in, count, encoding, out);
+       out[0] ^= 1;
+     }},
+    {"spoilt differs in out[0]",
+     [](const int16_t* in, size_t count, const Encoding& encoding, uint8_t* out) {
+       ReferenceKernels().Narrow(in, count, encoding, out);
+       out[0] = uint8_t(out[0] + in[count]);  // which may hold anything
+     }},
+    {"spoilt writes where it may not: out[",
+     [](const int16_t* in, size_t count, const Encoding& encoding, uint8_t* out) {
+       ReferenceKernels().Narrow(in, count, encoding, out);
+       out[count] ^= 1;
+     }},
+    {"spoilt writes where it may not: out[-1]",
+     [](const int16_t* in, size_t count, const Encoding& encoding, uint8_t* out) {
+       ReferenceKernels().Narrow(in, count, encoding, out);
+       out[-1] ^= 1;
+     }},
+    {"spoilt writes where it may not: in[0]",
+     [](const int16_t* in, size_t count, const Encoding& encoding, uint8_t* out) {
+       ReferenceKernels().Narrow(in, count, encoding, out);
+       const_cast<int16_t*>(in)[0] ^= 1;
+     }},
+};
+
+// What a call of Narrow finds wrong with a kernel, or of Split with one that writes between planes.
+std::string Complaint(const Kernels& spoilt, void (*make)(test::Draw*, test::KernelCall*)) {
+  std::string wrong;
+  for (int round = 0; round < 20 && wrong.empty(); ++round) {
+    test::Draw draw = test::Draw::ForTest(1, round);
+    test::KernelCall call(&draw);
+    make(&draw, &call);
+    test::Met met;
+    wrong = call.Check(ReferenceKernels(), {&spoilt}, &met);
+  }
+  return wrong;
+}
+
+TEST_CASE("kernels: what a kernel may not do is noticed") {
+  for (const Spoilt& one : kSpoilt) {
+    Kernels spoilt = ReferenceKernels();
+    spoilt.name = "spoilt";
+    spoilt.Narrow = one.narrow;
+    const std::string wrong = Complaint(spoilt, test::kernel_cases::Narrow);
+    CHECK_MESSAGE(wrong.find(one.complaint) == 0, wrong);
+  }
+  Kernels spoilt = ReferenceKernels();
+  spoilt.name = "spoilt";
+  spoilt.Split = [](const int16_t* rgb, size_t count, size_t plane, int16_t* out) {
+    ReferenceKernels().Split(rgb, count, plane, out);
+    if (plane > count) out[count] ^= 1;  // between two planes
+  };
+  CHECK(Complaint(spoilt, test::kernel_cases::Split).find("spoilt writes where") == 0);
+  spoilt = ReferenceKernels();
+  spoilt.name = "spoilt";
+  spoilt.ConvertDisparity = [](const float* disparity, size_t count, float low, float high,
+                               int16_t* out) {
+    return !ReferenceKernels().ConvertDisparity(disparity, count, low, high, out);
+  };
+  CHECK(Complaint(spoilt, test::kernel_cases::ConvertDisparity) == "spoilt returns 0 instead of 1");
+}
+
+std::vector<uint8_t> Refocused(const test::Scene& scene, const sf_params& params,
+                               const Kernels& kernels) {
+  sf_config config = test::ConfigFor(scene);
+  config.largest_block = 32;
+  test::Engine engine(config);
+  REQUIRE(engine.status() == SF_OK);
+  test::UseKernels(&kernels, engine.get());
+  test::Output out(scene.width, scene.height, 5);
+  REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
+  CHECK(out.PaddingUntouched());
+  return out.bytes;
+}
+
+TEST_CASE("kernels: the engine gives the same bytes on every target") {
+  constexpr int kSizes[][2] = {{1, 1}, {5, 3}, {33, 40}, {77, 50}};
+  for (const auto& size : kSizes) {
+    for (const int views : {1, 5, 9, 17}) {
+      const test::Scene scene =
+          test::RandomScene(size[0], size[1], views, -3, 4, 50 + uint64_t(views));
+      for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BENCHMARK}) {
+        const sf_params params = test::Params(1.3, 0.9, mode);
+        const std::vector<uint8_t> expected = Refocused(scene, params, ReferenceKernels());
+        for (const Kernels* kernels : test::SimdTargets()) {
+          CAPTURE(kernels->name);
+          CAPTURE(size[0]);
+          CAPTURE(views);
+          CAPTURE(mode);
+          const bool same = Refocused(scene, params, *kernels) == expected;
+          CHECK(same);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace kernels_bytes_test
