@@ -73,8 +73,8 @@ sf_status Camera::Take(double focus, double aperture) {
   sf_params params;
   sf_params_init(&params);
   params.mode = mode_;
-  params.focus = focus;
-  params.aperture = aperture;
+  params.lens.focus = focus;
+  params.lens.aperture = aperture;
   return sf_refocus(engine_, &params, &rows_, picture_.pixels.data(), picture_.stride(), nullptr);
 }
 

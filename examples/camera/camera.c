@@ -96,7 +96,7 @@ static sf_status Refocus(sf_pool* pool, FILE* file, double* sensor_seconds) {
   sf_params params;
   sf_status status = MakeEngine(pool, &engine);
   sf_params_init(&params);
-  params.focus = kBall;
+  params.lens.focus = kBall;
   if (status == SF_OK) status = sf_stream_begin(engine, &params);
   fprintf(file, "P6\n%d %d\n255\n", kWidth, kHeight);
   SensorDepth(depth);

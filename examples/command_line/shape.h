@@ -18,8 +18,8 @@ struct ShapeOptions {
 
 void AddShapeOptions(Command* command, ShapeOptions* options);
 
-// Sets what the options ask for in an initialised configuration.
-Error ParseShape(const ShapeOptions& options, sf_config* config);
+// Sets the lens: the shape that the options ask for, and defaults.
+Error ParseShape(const ShapeOptions& options, sf_lens* lens);
 
 // What tells the shape from the default one in a file's name, "" for that.
 std::string ShapeSuffix(const ShapeOptions& options);

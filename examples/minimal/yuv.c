@@ -38,7 +38,7 @@ int main(void) {
   sf_image out = {.format = SF_FORMAT_NV12, .planes = {out_luma, out_chroma}, .strides = {W, W}};
   sf_params params; /* what is a metre away is in focus */
   sf_params_init(&params);
-  params.focus = 8;
+  params.lens.focus = 8;
   if (!status) status = sf_refocus_images(engine, &params, &field, &out, NULL);
   FILE* file = status ? NULL : fopen("yuv.pgm", "wb");
   if (file) fprintf(file, "P5 %d %d 255\n", W, H), fwrite(out_luma, 1, W * H, file), fclose(file);

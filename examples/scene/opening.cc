@@ -14,17 +14,17 @@ double Square(double x) { return x * x; }
 
 }  // namespace
 
-SceneOpening::SceneOpening(const sf_config& config)
-    : shape_(static_cast<sf_shape>(config.aperture_shape)),
-      inner_(config.ring_inner),
-      cats_eye_(config.cats_eye),
-      curvature_(config.curvature),
-      half_(kPi / config.blades) {
+SceneOpening::SceneOpening(const sf_lens& lens)
+    : shape_(static_cast<sf_shape>(lens.shape)),
+      inner_(lens.ring_inner),
+      cats_eye_(lens.cats_eye),
+      curvature_(lens.curvature),
+      half_(kPi / lens.blades) {
   if (shape_ == SF_SHAPE_FALL_OFF) {
-    fall_off_ = config.theta == kTheta ? kCotSquared : 1 / Square(std::tan(config.theta));
+    fall_off_ = lens.theta == kTheta ? kCotSquared : 1 / Square(std::tan(lens.theta));
   }
-  for (int k = 0; k < config.blades; ++k) {
-    const double angle = config.rotation * kPi / 180 + (2 * k + 1) * half_;
+  for (int k = 0; k < lens.blades; ++k) {
+    const double angle = lens.rotation * kPi / 180 + (2 * k + 1) * half_;
     edges_.push_back({std::sin(angle), -std::cos(angle)});
   }
 }

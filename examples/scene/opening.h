@@ -11,8 +11,8 @@ namespace starfocus {
 
 class SceneOpening {
  public:
-  // Of a configuration: its aperture_shape and what belongs to that.
-  explicit SceneOpening(const sf_config& config);
+  // The opening of a valid lens.
+  explicit SceneOpening(const sf_lens& lens);
 
   // cot^2(theta) of the density (3), or 0: as bright everywhere.
   double fall_off() const { return fall_off_; }

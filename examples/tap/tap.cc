@@ -97,7 +97,7 @@ class Session {
     config.max_workers = runner_->workers();
     config.previews = options_.shift;
     const double range = double(stats.max) - double(stats.min);
-    params_.aperture = std::min(1.0, kBlur / std::max(range, 1e-9));
+    params_.lens.aperture = std::min(1.0, kBlur / std::max(range, 1e-9));
     const double start = Seconds();
     if (Error error = Outcome(engine_.Init(config))) return error;
     sf_callbacks callbacks = {};
@@ -120,7 +120,7 @@ class Session {
   }
 
   Error Preview(double focus, const std::string& what) {
-    params_.focus = focus;
+    params_.lens.focus = focus;
     const double start = Seconds();
     if (Error error = Outcome(engine_.RefocusPreview(params_, options_.shift,
                                                      preview_.pixels.data(), preview_.stride())))
@@ -130,7 +130,7 @@ class Session {
   }
 
   Error Full(double focus) {
-    params_.focus = focus;
+    params_.lens.focus = focus;
     const double start = Seconds();
     if (Error error =
             Outcome(engine_.RefocusPrepared(params_, full_.pixels.data(), full_.stride())))

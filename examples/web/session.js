@@ -5,12 +5,12 @@
 import {createRefocuser, Shape} from './starfocus/starfocus.js';
 
 const SHAPES = {
-  'soft': {apertureShape: Shape.FALL_OFF, catsEye: 0},
-  'disc': {apertureShape: Shape.DISC, catsEye: 0},
-  'pentagon': {apertureShape: Shape.POLYGON, blades: 5, curvature: 0, rotation: 0, catsEye: 0},
-  'hexagon': {apertureShape: Shape.POLYGON, blades: 6, curvature: 0.5, rotation: 17.5, catsEye: 0},
-  'ring': {apertureShape: Shape.RING, catsEye: 0},
-  'cats-eye': {apertureShape: Shape.DISC, catsEye: 0.75}
+  'soft': {shape: Shape.FALL_OFF},
+  'disc': {shape: Shape.DISC},
+  'pentagon': {shape: Shape.POLYGON, blades: 5},
+  'hexagon': {shape: Shape.POLYGON, blades: 6, curvature: 0.5, rotation: 17.5},
+  'ring': {shape: Shape.RING},
+  'cats-eye': {shape: Shape.DISC, catsEye: 0.75}
 };
 const LARGEST_BLUR = 128;
 const LARGEST_SHIFT = 3;
@@ -25,7 +25,7 @@ export class Session {
   #field;
   #options;
   #lens;
-  #lensChanged = false;
+  #highlightsChanged = false;
   #asked = false;
   #working = null;
   #full = null;  // AbortController of the full picture
@@ -43,7 +43,7 @@ export class Session {
     session.#refocuser = await createRefocuser({
       width: field.width, height: field.height, views: field.views.length, disparityMin: field.low,
       disparityMax: field.high, maxBlur: Math.min(LARGEST_BLUR, span), previews: LARGEST_SHIFT, fillUnknown: true,
-      ...session.#settings(), ...options.engine
+      shapes: true, highlights: lens.highlights, ...options.engine
     });
     try {
       await session.#refocuser.prepare(field.views, field.depth);
@@ -68,7 +68,7 @@ export class Session {
 
   /** Refocuses with this lens: {focus, stops, highlights, shape, blocks}. Resolves when nothing is left to do. */
   refocus(lens) {
-    this.#lensChanged ||= lens.shape !== this.#lens.shape || lens.highlights !== this.#lens.highlights;
+    this.#highlightsChanged ||= lens.highlights !== this.#lens.highlights;
     this.#lens = lens;
     this.#asked = true;
     this.#full?.abort();
@@ -96,20 +96,16 @@ export class Session {
     this.#refocuser?.close();
   }
 
-  #settings() {
-    return {...SHAPES[this.#lens.shape], highlights: this.#lens.highlights};
-  }
-
-  #params({focus, stops}) {
-    return {focus, aperture: this.widest * 2 ** (-stops / 2)};
+  #params({focus, stops, shape}) {
+    return {focus, aperture: this.widest * 2 ** (-stops / 2), ...SHAPES[shape]};
   }
 
   async #work() {
     while (this.#asked) {
       this.#asked = false;
-      if (this.#lensChanged) {
-        this.#lensChanged = false;
-        await this.#refocuser.configure(this.#settings());
+      if (this.#highlightsChanged) {
+        this.#highlightsChanged = false;
+        await this.#refocuser.configure({highlights: this.#lens.highlights});
       }
       await this.#preview(this.#lens);
       if (!this.#asked) await this.#finish(this.#lens);

@@ -46,24 +46,26 @@ using starfocus::EngineState;
 
 sf_status sf_refocus_images(sf_engine* engine, const sf_params* params, const sf_image_field* field,
                             const sf_image* out, sf_report* report) {
-  const sf_status status =
-      starfocus::EnterEngine(engine, {{"params", params}, {"field", field}, {"out", out}});
+  sf_params full;
+  const sf_status status = starfocus::EnterCall(
+      engine, {{"params", params}, {"field", field}, {"out", out}}, params, &full);
   if (status != SF_OK) return status;
-  return starfocus::Refocus({*params, *field, nullptr, *out},
-                            reinterpret_cast<EngineState*>(engine), report);
+  return starfocus::Refocus({full, *field, nullptr, *out}, reinterpret_cast<EngineState*>(engine),
+                            report);
 }
 
 sf_status sf_refocus_prepared_images(sf_engine* engine, const sf_params* params,
                                      const sf_prepared* prepared, const sf_image* out,
                                      sf_report* report) {
-  const sf_status status =
-      starfocus::EnterEngine(engine, {{"params", params}, {"prepared", prepared}, {"out", out}});
+  sf_params full;
+  const sf_status status = starfocus::EnterCall(
+      engine, {{"params", params}, {"prepared", prepared}, {"out", out}}, params, &full);
   if (status != SF_OK) return status;
   const auto* p = reinterpret_cast<const starfocus::Prepared*>(prepared);
   if (p->images == nullptr) {
     return starfocus::Refuse(SF_ERROR_PREPARED, {"prepared"}, {"of sf_prepare_images"},
                              &reinterpret_cast<EngineState*>(engine)->problem);
   }
-  return starfocus::Refocus({*params, *p->images, p, *out}, reinterpret_cast<EngineState*>(engine),
+  return starfocus::Refocus({full, *p->images, p, *out}, reinterpret_cast<EngineState*>(engine),
                             report);
 }

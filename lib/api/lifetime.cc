@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // The C ABI of an engine's life: defaults, sizes, init.
-#include <cstring>
 #include <new>
 
 #include "lib/api/validate.h"
@@ -54,7 +53,7 @@ size_t sf_struct_size(const char* name) {
       SIZE_OF(sf_region),          SIZE_OF(sf_report),       SIZE_OF(sf_skipped),
       SIZE_OF(sf_timing),          SIZE_OF(sf_tuning),       SIZE_OF(sf_image),
       SIZE_OF(sf_image_field),     SIZE_OF(sf_depth_map),    SIZE_OF(sf_map),
-      SIZE_OF(sf_callbacks)};
+      SIZE_OF(sf_callbacks),       SIZE_OF(sf_lens)};
 #undef SIZE_OF
   if (name == nullptr) return 0;
   for (const Entry& entry : kSizes) {
@@ -68,7 +67,6 @@ sf_config starfocus::DefaultConfig() {
   config.views = 5;
   config.max_blur = 32.0;
   config.max_workers = 1;
-  config.theta = 0.26 * 3.14159265358979323846;
   config.tuning.max_layer = SF_LAYERS - 1;
   config.tuning.deblocking = 35;
   config.tuning.timing = DefaultTiming();
@@ -76,8 +74,6 @@ sf_config starfocus::DefaultConfig() {
   config.tuning.skips = 1;
   config.tuning.gather = 1;
   config.highlights = 1;
-  config.blades = 5;
-  config.ring_inner = 0.5;
   config.features = SF_FEATURE_LINE_SCAN | SF_FEATURE_COVERAGE;
   return config;
 }
@@ -86,12 +82,18 @@ void sf_config_init_sized(sf_config* config, uint32_t size) {
   starfocus::InitSized(starfocus::DefaultConfig(), size, config);
 }
 
-void sf_params_init(sf_params* params) {
-  if (params == nullptr) return;
-  std::memset(params, 0, sizeof(*params));
-  params->version = SF_ABI_VERSION;
-  params->mode = SF_MODE_BLOCK;
-  params->aperture = 1.0;
+sf_params starfocus::DefaultParams() {
+  sf_params params = {};
+  params.mode = SF_MODE_BLOCK;
+  params.lens.aperture = 1.0;
+  params.lens.blades = 5;
+  params.lens.theta = 0.26 * 3.14159265358979323846;
+  params.lens.ring_inner = 0.5;
+  return params;
+}
+
+void sf_params_init_sized(sf_params* params, uint32_t size) {
+  starfocus::InitSized(starfocus::DefaultParams(), size, params);
 }
 
 int sf_view_position(int32_t index, double* u, double* v) {
@@ -131,8 +133,6 @@ sf_status sf_init(const sf_config* config, void* workspace, size_t bytes, sf_eng
   made->config = chosen;
   made->config.problem = &made->problem;
   made->kernels = &starfocus::simd::BestKernels();
-  made->tables.opening = starfocus::ShapeOf(chosen);
-  made->tables.mean_square = starfocus::MeanSquare(made->tables.opening);
   *engine = reinterpret_cast<sf_engine*>(made);
   return SF_OK;
 }

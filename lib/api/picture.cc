@@ -76,34 +76,38 @@ using starfocus::EngineState;
 
 sf_status sf_refocus(sf_engine* engine, const sf_params* params, const sf_light_field* light_field,
                      uint8_t* out, size_t out_stride, sf_report* report) {
-  const sf_status status =
-      starfocus::EnterEngine(engine, {{"params", params}, {"light_field", light_field}});
+  sf_params full;
+  const sf_status status = starfocus::EnterCall(
+      engine, {{"params", params}, {"light_field", light_field}}, params, &full);
   if (status != SF_OK) return status;
-  return starfocus::Refocus({*params, *light_field, nullptr, nullptr, out, out_stride},
+  return starfocus::Refocus({full, *light_field, nullptr, nullptr, out, out_stride},
                             reinterpret_cast<EngineState*>(engine), report);
 }
 
 sf_status sf_refocus_after(sf_engine* engine, const sf_params* params,
                            const sf_light_field* light_field, const sf_previous* previous,
                            uint8_t* out, size_t out_stride, sf_report* report) {
-  const sf_status status = starfocus::EnterEngine(
-      engine, {{"params", params}, {"light_field", light_field}, {"previous", previous}});
+  sf_params full;
+  const sf_status status = starfocus::EnterCall(
+      engine, {{"params", params}, {"light_field", light_field}, {"previous", previous}}, params,
+      &full);
   if (status != SF_OK) return status;
-  return starfocus::Refocus({*params, *light_field, nullptr, previous, out, out_stride},
+  return starfocus::Refocus({full, *light_field, nullptr, previous, out, out_stride},
                             reinterpret_cast<EngineState*>(engine), report);
 }
 
 sf_status sf_refocus_prepared(sf_engine* engine, const sf_params* params,
                               const sf_prepared* prepared, uint8_t* out, size_t out_stride,
                               sf_report* report) {
+  sf_params full;
   const sf_status status =
-      starfocus::EnterEngine(engine, {{"params", params}, {"prepared", prepared}});
+      starfocus::EnterCall(engine, {{"params", params}, {"prepared", prepared}}, params, &full);
   if (status != SF_OK) return status;
   const auto* p = reinterpret_cast<const starfocus::Prepared*>(prepared);
   if (p->images != nullptr) {
     return starfocus::Refuse(SF_ERROR_PREPARED, {"prepared"}, {"of sf_prepare"},
                              &reinterpret_cast<EngineState*>(engine)->problem);
   }
-  return starfocus::Refocus({*params, p->light_field, p, nullptr, out, out_stride},
+  return starfocus::Refocus({full, p->light_field, p, nullptr, out, out_stride},
                             reinterpret_cast<EngineState*>(engine), report);
 }

@@ -26,7 +26,7 @@ class Reduction {
 
 sf_params ReducedParams(const PreviewRequest& request, const Rect& rect) {
   sf_params params = request.params;
-  params.focus /= 1 << request.shift;
+  params.lens.focus /= 1 << request.shift;
   if (!IsWhole(params.region)) params.region = {rect.x, rect.y, rect.width, rect.height};
   return params;
 }
@@ -82,11 +82,13 @@ sf_status RefocusPreview(const PreviewRequest& request, const RowSink& sink, Eng
 sf_status sf_refocus_preview(sf_engine* engine, const sf_params* params,
                              const sf_prepared* prepared, int32_t shift, uint8_t* out,
                              size_t out_stride, sf_report* report) {
-  sf_status status = starfocus::EnterEngine(engine, {{"params", params}, {"prepared", prepared}});
+  sf_params full;
+  sf_status status =
+      starfocus::EnterCall(engine, {{"params", params}, {"prepared", prepared}}, params, &full);
   if (status != SF_OK) return status;
   auto& e = *reinterpret_cast<starfocus::EngineState*>(engine);
   const starfocus::PreviewRequest request = {
-      *params, *reinterpret_cast<const starfocus::Prepared*>(prepared), shift};
+      full, *reinterpret_cast<const starfocus::Prepared*>(prepared), shift};
   status = starfocus::CheckPreview(request, e);
   if (status != SF_OK) return status;
   const starfocus::Picture picture = {out, out_stride, starfocus::PreviewRect(request, e)};

@@ -10,14 +10,15 @@
 sf_status sf_refocus_preview_images(sf_engine* engine, const sf_params* params,
                                     const sf_prepared* prepared, int32_t shift, const sf_image* out,
                                     sf_report* report) {
-  sf_status status =
-      starfocus::EnterEngine(engine, {{"params", params}, {"prepared", prepared}, {"out", out}});
+  sf_params full;
+  sf_status status = starfocus::EnterCall(
+      engine, {{"params", params}, {"prepared", prepared}, {"out", out}}, params, &full);
   if (status != SF_OK) return status;
   auto& e = *reinterpret_cast<starfocus::EngineState*>(engine);
   status = starfocus::NeedImages(e.config);
   if (status != SF_OK) return status;
   const starfocus::PreviewRequest request = {
-      *params, *reinterpret_cast<const starfocus::Prepared*>(prepared), shift};
+      full, *reinterpret_cast<const starfocus::Prepared*>(prepared), shift};
   status = starfocus::CheckPreview(request, e);
   if (status != SF_OK) return status;
   const starfocus::Rect rect = starfocus::PreviewRect(request, e);

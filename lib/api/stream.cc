@@ -104,19 +104,20 @@ sf_status PullRows(const RowSink& sink, int32_t rows, EngineState* engine, int32
 using starfocus::EngineState;
 
 sf_status sf_stream_begin(sf_engine* engine, const sf_params* params) {
-  sf_status status = starfocus::EnterEngine(engine, {{"params", params}});
+  sf_params full;
+  sf_status status = starfocus::EnterCall(engine, {{"params", params}}, params, &full);
   if (status != SF_OK) return status;
   EngineState& e = *reinterpret_cast<EngineState*>(engine);
-  status = starfocus::CheckParams(e.config, *params);
+  status = starfocus::CheckParams(e.config, full);
   if (status != SF_OK) return status;
   starfocus::Checker check(&e.problem);
   check.Need(starfocus::Has(e.config.features, SF_FEATURE_STREAMING), SF_ERROR_FEATURE,
              {"features", double(e.config.features)}, {"SF_FEATURE_STREAMING"});
-  check.Need(starfocus::IsWhole(params->region), SF_ERROR_RANGE, {"region"}, {"all 0"});
+  check.Need(starfocus::IsWhole(full.region), SF_ERROR_RANGE, {"region"}, {"all 0"});
   if (check.status() != SF_OK) return check.status();
   e.stream = starfocus::Stream();
   e.crew.jobs.watch.Begin(0, e.config.height);
-  status = starfocus::SetLens(*params, &e);
+  status = starfocus::SetLens(full, &e);
   if (status != SF_OK) return status;
   starfocus::SetPlanes(e.config, *e.kernels, e.rings, &e.pictures);
   e.stream.active = true;

@@ -7,22 +7,22 @@
 namespace starfocus {
 namespace {
 
-template <size_t kCount>
-bool AllZero(const uint32_t (&reserved)[kCount]) {
-  for (const uint32_t value : reserved) {
-    if (value != 0) return false;
-  }
-  return true;
-}
-
 // All fields are checked, also those that other shapes than the one asked for have.
-void CheckShape(const sf_config& config, Checker* check) {
-  check->In({"aperture_shape", double(config.aperture_shape)}, {"an sf_shape", 0, SF_SHAPE_RING});
-  check->In({"blades", double(config.blades)}, STARFOCUS_FROM_TO(SF_MIN_BLADES, SF_MAX_BLADES));
-  check->In({"rotation", config.rotation}, STARFOCUS_FROM_TO(-360, 360));
-  check->In({"curvature", config.curvature}, STARFOCUS_FROM_TO(0, 1));
-  check->In({"ring_inner", config.ring_inner}, STARFOCUS_FROM_TO(0, SF_MAX_RING_INNER));
-  check->In({"cats_eye", config.cats_eye}, STARFOCUS_FROM_TO(0, 1));
+void CheckLens(const sf_config& config, const sf_lens& lens, Checker* check) {
+  check->In({"lens.focus", lens.focus}, STARFOCUS_FROM_TO(-SF_MAX_FOCUS, SF_MAX_FOCUS));
+  check->In({"lens.aperture", lens.aperture}, STARFOCUS_FROM_TO(0, 1));
+  check->In({"lens.shape", double(lens.shape)}, {"an sf_shape", 0, SF_SHAPE_RING});
+  check->In({"lens.blades", double(lens.blades)}, STARFOCUS_FROM_TO(SF_MIN_BLADES, SF_MAX_BLADES));
+  check->In({"lens.theta", lens.theta}, {"0.05 pi to 0.45 pi", SF_MIN_THETA, SF_MAX_THETA});
+  check->In({"lens.rotation", lens.rotation}, STARFOCUS_FROM_TO(-360, 360));
+  check->In({"lens.curvature", lens.curvature}, STARFOCUS_FROM_TO(0, 1));
+  check->In({"lens.ring_inner", lens.ring_inner}, STARFOCUS_FROM_TO(0, SF_MAX_RING_INNER));
+  check->In({"lens.cats_eye", lens.cats_eye}, STARFOCUS_FROM_TO(0, 1));
+  if (HasShapes(config)) return;
+  check->Need(lens.shape != SF_SHAPE_POLYGON, SF_ERROR_FEATURE, {"lens.shape", double(lens.shape)},
+              {"not SF_SHAPE_POLYGON without SF_FEATURE_SHAPES"});
+  check->Need(lens.cats_eye == 0, SF_ERROR_FEATURE, {"lens.cats_eye", lens.cats_eye},
+              {"0 without SF_FEATURE_SHAPES"});
 }
 
 void CheckTiming(const sf_timing& timing, Checker* check) {
@@ -57,6 +57,17 @@ sf_status EnterEngine(sf_engine* engine, std::initializer_list<Pointer> pointers
   return CheckPointers(pointers, &reinterpret_cast<EngineState*>(engine)->problem);
 }
 
+sf_status EnterCall(sf_engine* engine, std::initializer_list<Pointer> pointers,
+                    const sf_params* params, sf_params* full) {
+  const sf_status status = EnterEngine(engine, pointers);
+  if (status != SF_OK) return status;
+  *full = DefaultParams();
+  Checker check(&reinterpret_cast<EngineState*>(engine)->problem);
+  check.Need(ReadSized(*params, full), SF_ERROR_STRUCTURE, {"params.size", double(params->size)},
+             {"what sf_params_init sets"});
+  return check.status();
+}
+
 void CheckPictureRange(const PictureRange& picture, Checker* check) {
   const Allowed size = STARFOCUS_FROM_TO(1, SF_MAX_SIZE);
   check->In({"width", double(picture.width)}, size);
@@ -83,28 +94,22 @@ sf_status CheckConfig(const sf_config& config) {
              {"above 0, at most SF_MAX_BLUR", kNoNumber, SF_MAX_BLUR});
   check.Need(IsBlock(config.largest_block), SF_ERROR_RANGE,
              {"largest_block", double(config.largest_block)}, {"0, 32, 64, 128 or 256"});
-  check.In({"theta", config.theta}, {"0.05 pi to 0.45 pi", SF_MIN_THETA, SF_MAX_THETA});
   CheckTuning(config.tuning, &check);
   constexpr uint32_t kFeatures = SF_FEATURE_LINE_SCAN | SF_FEATURE_COVERAGE | SF_FEATURE_STREAMING |
-                                 SF_FEATURE_IMAGES | SF_FEATURE_FILL_UNKNOWN;
+                                 SF_FEATURE_IMAGES | SF_FEATURE_FILL_UNKNOWN | SF_FEATURE_SHAPES;
   check.Need((config.features & ~kFeatures) == 0, SF_ERROR_RANGE,
              {"features", double(config.features)}, {"bits of SF_FEATURE_"});
   check.In({"previews", double(config.previews)}, STARFOCUS_FROM_TO(0, SF_MAX_PREVIEW));
   check.In({"transfer", double(config.transfer)}, {"an sf_transfer", 0, SF_TRANSFER_NONE});
   check.In({"highlights", config.highlights}, STARFOCUS_FROM_TO(1, SF_MAX_HIGHLIGHTS));
-  CheckShape(config, &check);
   return check.status();
 }
 
 sf_status CheckParams(const sf_config& config, const sf_params& params) {
   Checker check(config.problem);
-  check.Need(params.version == SF_ABI_VERSION, SF_ERROR_STRUCTURE,
-             {"params.version", double(params.version)}, {"what sf_params_init sets"});
-  check.Need(AllZero(params.reserved), SF_ERROR_RANGE, {"reserved"}, {"0"});
   check.In({"mode", double(params.mode)}, {"an sf_mode", 0, SF_MODE_BLUR});
   check.In({"rule", double(params.rule)}, {"an sf_rule", 0, SF_RULE_SUBAPERTURE});
-  check.In({"focus", params.focus}, STARFOCUS_FROM_TO(-SF_MAX_FOCUS, SF_MAX_FOCUS));
-  check.In({"aperture", params.aperture}, STARFOCUS_FROM_TO(0, 1));
+  CheckLens(config, params.lens, &check);
   if (params.rule == SF_RULE_PAPER && params.mode != SF_MODE_BLUR) {
     check.Need(HasLineScan(config), SF_ERROR_FEATURE, {"rule", double(params.rule)},
                {"not SF_RULE_PAPER without SF_FEATURE_LINE_SCAN"});

@@ -24,8 +24,14 @@ sf_status EnterConfig(const Config* config, std::initializer_list<Pointer> point
 
 sf_config DefaultConfig();
 
+sf_params DefaultParams();
+
 // Begins a call with an engine.
 sf_status EnterEngine(sf_engine* engine, std::initializer_list<Pointer> pointers);
+
+// Begins a call that refocuses: reads the params, one of the pointers, into *full.
+sf_status EnterCall(sf_engine* engine, std::initializer_list<Pointer> pointers,
+                    const sf_params* params, sf_params* full);
 
 // What configurations of engines and of maps have in common.
 struct PictureRange {

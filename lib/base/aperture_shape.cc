@@ -2,6 +2,7 @@
 #include "lib/base/aperture_shape.h"
 
 #include <cmath>
+#include <cstring>
 
 namespace starfocus {
 namespace {
@@ -25,16 +26,16 @@ Direction DirectionOf(double angle) {
 // An edge is an arc through two corners of the unit circle, `curvature` over its radius: with
 // `half` of the angle between them, its circle's centre lies at cos(half) - sqrt(1 / curvature^2 -
 // sin(half)^2) along the edge's normal. Times the curvature, that has a limit for straight edges.
-void SetPolygon(const sf_config& config, ApertureShape* opening) {
-  opening->blades = config.blades;
-  const double half = kPi / config.blades;
+void SetPolygon(const sf_lens& lens, ApertureShape* opening) {
+  opening->blades = lens.blades;
+  const double half = kPi / lens.blades;
   const double sine = DirectionOf(half).sine, cosine = DirectionOf(half).cosine;
-  const double curvature = config.curvature, turn = config.rotation * (kPi / 180);
+  const double curvature = lens.curvature, turn = lens.rotation * (kPi / 180);
   const double root = std::sqrt(1 - curvature * curvature * sine * sine);
   opening->bulge = Round(curvature);
   opening->slope = Round(2 * (root - curvature * cosine));
   opening->limit = Round(2 * cosine * root - curvature * (cosine * cosine - sine * sine));
-  for (int32_t edge = 0; edge < config.blades; ++edge) {
+  for (int32_t edge = 0; edge < lens.blades; ++edge) {
     const Direction normal = DirectionOf(turn + (2 * edge + 1) * half);
     opening->normals[edge][0] = Round(normal.sine);
     opening->normals[edge][1] = Round(-normal.cosine);
@@ -56,13 +57,20 @@ uint32_t ApertureFallOff(double theta) {
   return static_cast<uint32_t>(65536.0 / (tangent * tangent) + 0.5);
 }
 
-ApertureShape ShapeOf(const sf_config& config) {
-  ApertureShape opening(ApertureFallOff(config.theta));
-  opening.shape = static_cast<sf_shape>(config.aperture_shape);
-  if (opening.shape == SF_SHAPE_POLYGON) SetPolygon(config, &opening);
-  if (opening.shape == SF_SHAPE_RING) opening.inner = Round(config.ring_inner);
-  opening.cats_eye = Round(config.cats_eye);
+ApertureShape ShapeOf(const sf_lens& lens) {
+  ApertureShape opening;
+  opening.shape = static_cast<sf_shape>(lens.shape);
+  if (opening.shape == SF_SHAPE_FALL_OFF) opening.fall_off = ApertureFallOff(lens.theta);
+  if (opening.shape == SF_SHAPE_POLYGON) SetPolygon(lens, &opening);
+  if (opening.shape == SF_SHAPE_RING) opening.inner = Round(lens.ring_inner);
+  opening.cats_eye = Round(lens.cats_eye);
   return opening;
+}
+
+bool AreAlike(const ApertureShape& a, const ApertureShape& b) {
+  return a.shape == b.shape && a.fall_off == b.fall_off && a.inner == b.inner &&
+         a.blades == b.blades && std::memcmp(a.normals, b.normals, sizeof a.normals) == 0 &&
+         a.bulge == b.bulge && a.slope == b.slope && a.limit == b.limit;
 }
 
 int32_t MeanSquare(const ApertureShape& opening) {

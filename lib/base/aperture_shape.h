@@ -40,8 +40,11 @@ struct ApertureShape {
   bool IsRing() const { return shape == SF_SHAPE_RING; }
 };
 
-// The opening that a valid configuration asks for.
-ApertureShape ShapeOf(const sf_config& config);
+// The opening of a valid lens.
+ApertureShape ShapeOf(const sf_lens& lens);
+
+// Whether two openings of ShapeOf are the same but for their cat's eyes.
+bool AreAlike(const ApertureShape& a, const ApertureShape& b);
 
 // The mean square of a coordinate of the light that an opening other than a polygon lets through,
 // of the lens's radius: kOpeningBits.

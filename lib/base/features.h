@@ -12,6 +12,9 @@ namespace starfocus {
 // Whether an SF_FEATURE_ is among those of a configuration.
 constexpr bool Has(uint32_t features, uint32_t feature) { return (features & feature) != 0; }
 
+// Whether lenses may be polygons and have cat's eyes.
+inline bool HasShapes(const sf_config& config) { return Has(config.features, SF_FEATURE_SHAPES); }
+
 // The range of disparities as maps have them: single precision.
 struct DisparityRange {
   float min, max;

@@ -32,13 +32,13 @@ Worker TakeWorker(const sf_config& config, Arena* arena) {
   const int32_t renderers = RendererCount(config);
   int32_t max_n[kMaxRenderers] = {}, most = 0;
   for (int32_t k = 0; k < renderers; ++k) {
-    max_n[k] =
-        Max(LargestN(config, *kRenderers[k], config.max_blur), ViewsOfBenchmark(config.max_blur));
+    max_n[k] = Max(LargestN(config, *kRenderers[k], Demand::kRing, config.max_blur),
+                   ViewsOfBenchmark(config.max_blur));
     most = Max(most, max_n[k]);
     worker.scratch[k] = arena->Take<uint8_t>(kRenderers[k]->scratch_bytes);
   }
   worker.sums = arena->Take<uint32_t>(3 * side * side);
-  if (config.cats_eye > 0) worker.aperture_weights = arena->Take<uint16_t>(FullApertureSize(most));
+  if (HasShapes(config)) worker.aperture_weights = arena->Take<uint16_t>(FullApertureSize(most));
   if (config.highlights > 1) worker.lamp_runs = arena->Take<LampRuns>(1);
   const size_t shared = arena->Mark();
   // The pool of slices, which comes last, takes all that others need.
@@ -72,19 +72,22 @@ Worker TakeWorker(const sf_config& config, Arena* arena) {
 }
 
 void TakeTables(const sf_config& config, Arena* arena, Tables* tables) {
-  const ApertureShape opening = ShapeOf(config);
+  const bool full = HasShapes(config);
+  const auto weights_of = [&](int32_t n) {
+    return full ? FullApertureSize(n) : ViewWeightsSize(n);
+  };
   for (int32_t k = 0; k < RendererCount(config); ++k) {
-    const int32_t last = LargestN(config, *kRenderers[k], config.max_blur);
+    const int32_t last = LargestN(config, *kRenderers[k], Demand::kRing, config.max_blur);
     size_t weights = 0;
-    for (int32_t n = 0; n <= last; ++n) weights += ViewWeightsSize(opening, n);
+    for (int32_t n = 0; n <= last; ++n) weights += weights_of(n);
     tables->apertures[k].apertures = arena->Take<ViewWeights>(static_cast<size_t>(last) + 1);
     tables->apertures[k].weights = arena->Take<uint16_t>(weights);
   }
   const int32_t benchmark_n = ViewsOfBenchmark(config.max_blur);
   const auto steps = static_cast<size_t>(BlurStepCount(config.max_blur));
-  tables->benchmark_weights = arena->Take<uint16_t>(ViewWeightsSize(opening, benchmark_n));
+  tables->benchmark_weights = arena->Take<uint16_t>(weights_of(benchmark_n));
   tables->psfs = arena->Take<Psf>(steps);
-  tables->blur_weights = arena->Take<uint16_t>(BlurWeightCount(opening, config.max_blur));
+  tables->blur_weights = arena->Take<uint16_t>(BlurWeightCount(full, config.max_blur));
 }
 
 // Takes the planes of layers 1 and 2 around a stripe.

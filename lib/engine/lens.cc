@@ -42,14 +42,14 @@ Rect RegionOf(const sf_config& config, const sf_params& params) {
 int32_t LastGatherStep(const Lens& lens) { return BlurStepCount(LargestGather(lens.r_max)) - 1; }
 
 double LargestBlur(const sf_config& config, const sf_params& params) {
-  const double nearer = config.disparity_max - params.focus;
-  const double farther = params.focus - config.disparity_min;
-  return params.aperture * (nearer > farther ? nearer : farther);
+  const double nearer = config.disparity_max - params.lens.focus;
+  const double farther = params.lens.focus - config.disparity_min;
+  return params.lens.aperture * (nearer > farther ? nearer : farther);
 }
 
 sf_status CheckBlur(const sf_config& config, double r_max) {
   Checker check(config.problem);
-  check.Need(r_max <= config.max_blur, SF_ERROR_BLUR, {"aperture", r_max},
+  check.Need(r_max <= config.max_blur, SF_ERROR_BLUR, {"lens.aperture", r_max},
              {"a blur radius of at most max_blur pixels", 0, config.max_blur});
   return check.status();
 }
@@ -59,6 +59,7 @@ sf_status MakeLens(const sf_config& config, const sf_params& params, Watch* watc
   const double r_max = LargestBlur(config, params);
   const sf_status fits = CheckBlur(config, r_max);
   if (fits != SF_OK) return fits;
+  SetOpening(ShapeOf(params.lens), tables);
   lens->params = params;
   lens->region = RegionOf(config, params);
   lens->renderer = &RendererOf(config, params);
@@ -66,12 +67,14 @@ sf_status MakeLens(const sf_config& config, const sf_params& params, Watch* watc
   lens->borders = AddBorders(config, r_max, IsDeblocking(config, *lens));
   // The benchmark has an aperture of its own, and SF_MODE_BLUR needs only that of N = 0.
   const bool has_own = IsBenchmark(*lens) || params.mode == SF_MODE_BLUR;
-  lens->largest_n = LargestN(config, *lens->renderer, has_own ? 0 : r_max);
+  lens->largest_n =
+      LargestN(config, *lens->renderer, DemandOf(tables->opening), has_own ? 0 : r_max);
   const sf_status status = MakeApertures(*lens->renderer, lens->largest_n, watch, tables);
   if (status != SF_OK) return status;
   lens->apertures = tables->apertures[lens->renderer->index].apertures;
   lens->aperture = FrameWeights(config, *tables, *lens);
-  const ViewGrid grid = MakeViewGrid(lens->aperture, params.focus, params.aperture, 0, false);
+  const ViewGrid grid =
+      MakeViewGrid(lens->aperture, params.lens.focus, params.lens.aperture, 0, false);
   lens->scale = {grid.focus, grid.step};
   if (Gathers(config, *lens)) return MakePsfs(LastGatherStep(*lens) + 1, watch, tables);
   if (params.mode == SF_MODE_BLUR) return MakePsfs(BlurStepCount(r_max), watch, tables);

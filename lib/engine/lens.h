@@ -37,7 +37,7 @@ inline bool IsWhole(const sf_region& region) {
 Rect RegionOf(const sf_config& config, const sf_params& params);
 
 // Whether the picture is the centre view itself, in any mode.
-inline bool IsPinhole(const Lens& lens) { return lens.params.aperture == 0; }
+inline bool IsPinhole(const Lens& lens) { return lens.params.lens.aperture == 0; }
 
 inline bool IsBlockMode(const Lens& lens) { return lens.params.mode == SF_MODE_BLOCK; }
 
@@ -46,7 +46,8 @@ inline bool IsBenchmark(const Lens& lens) { return lens.params.mode == SF_MODE_B
 // Whether smooth cells are gathered: the kernel for that knows no lens but those that an octant
 // tells.
 inline bool Gathers(const sf_config& config, const Lens& lens) {
-  const bool octant = config.aperture_shape != SF_SHAPE_POLYGON && config.cats_eye == 0;
+  const sf_lens& asked = lens.params.lens;
+  const bool octant = asked.shape != SF_SHAPE_POLYGON && asked.cats_eye == 0;
   return IsBlockMode(lens) && lens.renderer->gathers && config.tuning.gather != 0 && octant;
 }
 
@@ -70,7 +71,7 @@ double LargestBlur(const sf_config& config, const sf_params& params);
 sf_status CheckBlur(const sf_config& config, double r_max);
 
 // Makes the lens for params, and the tables that it needs and that are not there yet. Returns
-// SF_ERROR_BLUR_TOO_LARGE, SF_ERROR_CANCELLED or SF_OK. The other fields of params must have been
+// SF_ERROR_BLUR, SF_ERROR_CANCELLED or SF_OK. The other fields of params must have been
 // checked.
 sf_status MakeLens(const sf_config& config, const sf_params& params, Watch* watch, Tables* tables,
                    Lens* lens);

@@ -212,8 +212,9 @@ Rendered RefocusViews(const BlockInputs& in, const Block& block, const Plane<uin
                              ShiftOfRim(opening, block.rect, in.config->width, in.config->height),
                              worker->aperture_weights)
                : whole;
-  ViewGrid grid = MakeViewGrid(rendered, lens.params.focus, lens.params.aperture * rendered.extent,
-                               block.layer, in.config->views == 17);
+  ViewGrid grid =
+      MakeViewGrid(rendered, lens.params.lens.focus, lens.params.lens.aperture * rendered.extent,
+                   block.layer, in.config->views == 17);
   if (pinhole) grid.step = 0;
   const BlockCells cells = {in.gathered, block.rect, block.layer};
   const BlockCells* const gathered = block.gathers ? &cells : nullptr;

@@ -9,9 +9,20 @@ constexpr int64_t kAperturePoints = 256;
 
 }  // namespace
 
-int32_t LargestN(const sf_config& config, const Renderer& renderer, double r_max) {
-  const Demand demand = DemandOf(ShapeOf(config));
+int32_t LargestN(const sf_config& config, const Renderer& renderer, Demand demand, double r_max) {
   return ScaleViews(renderer.view_count(r_max + 1, demand), config.tuning.n_scale);
+}
+
+void SetOpening(const ApertureShape& opening, Tables* tables) {
+  const bool same = tables->mean_square != 0 && AreAlike(opening, tables->opening);
+  tables->opening = opening;
+  if (same) return;
+  for (ApertureTable& table : tables->apertures) {
+    table.count = 0;
+    table.used = 0;
+  }
+  tables->blur_steps = 0;
+  tables->mean_square = MeanSquare(opening);
 }
 
 sf_status MakeApertures(const Renderer& renderer, int32_t last, Watch* watch, Tables* tables) {

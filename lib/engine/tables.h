@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "lib/base/features.h"
+#include "lib/base/rules.h"
 #include "lib/base/view_weights.h"
 #include "lib/base/watch.h"
 #include "lib/filter/blur.h"
@@ -23,8 +24,8 @@ inline bool HasLineScan(const sf_config& config) {
 inline int32_t RendererCount(const sf_config& config) { return HasLineScan(config) ? 2 : 1; }
 
 // Returns the largest N that the block and frame modes may need for blur radii up to r_max pixels,
-// which are rounded up before N is chosen.
-int32_t LargestN(const sf_config& config, const Renderer& renderer, double r_max);
+// which are rounded up before N is chosen. No demand needs a larger N than kRing.
+int32_t LargestN(const sf_config& config, const Renderer& renderer, Demand demand, double r_max);
 
 // Apertures of one renderer, by N.
 struct ApertureTable {
@@ -35,14 +36,17 @@ struct ApertureTable {
 };
 
 struct Tables {
-  ApertureShape opening;
+  ApertureShape opening;  // that the tables below are made for; but for its cat's eyes
   ApertureTable apertures[kMaxRenderers];
   uint16_t* benchmark_weights;  // of the one aperture of the benchmark mode
   Psf* psfs;
   uint16_t* blur_weights;
-  int32_t blur_steps = 0;  // kernels made so far
-  int32_t mean_square;     // MeanSquare of the opening
+  int32_t blur_steps = 0;   // kernels made so far
+  int32_t mean_square = 0;  // MeanSquare of the opening; 0: there is none yet
 };
+
+// Sets the opening, and forgets all tables if they were made for another one.
+void SetOpening(const ApertureShape& opening, Tables* tables);
 
 // Makes the renderer's apertures up to N = `last` that are not there yet. Returns SF_OK or
 // SF_ERROR_CANCELLED; those that were made stay.

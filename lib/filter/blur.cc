@@ -248,10 +248,10 @@ int32_t BlurStepCount(double max_blur) {
   return BlurStep(static_cast<int32_t>(max_blur * kOne) + 1) + 1;
 }
 
-size_t BlurWeightCount(const ApertureShape& opening, double max_blur) {
+size_t BlurWeightCount(bool full, double max_blur) {
   size_t count = 0;
   for (int32_t step = 0; step < BlurStepCount(max_blur); ++step) {
-    count += WeightsOf(!opening.IsSymmetric(), SizeOf(RadiusOfStep(step)));
+    count += WeightsOf(full, SizeOf(RadiusOfStep(step)));
   }
   return count;
 }

@@ -43,8 +43,8 @@ struct Psf {
   }
 };
 
-// Weights that all kernels up to max_blur store together.
-size_t BlurWeightCount(const ApertureShape& opening, double max_blur);
+// Weights that all kernels up to max_blur store together, of an octant or full.
+size_t BlurWeightCount(bool full, double max_blur);
 
 // Makes the kernels of steps [first, last), first <= last, behind those before, which must have
 // been made; kernels[BlurStepCount], weights[BlurWeightCount]. Cat's eyes are left out. Returns

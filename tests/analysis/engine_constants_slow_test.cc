@@ -35,14 +35,14 @@ namespace {
 using namespace analysis;
 
 TEST_CASE("constants: theta is Table I's at r = 3") {
-  sf_config config;
-  sf_config_init(&config);
-  const double table = OptimiseOnGrid(3).filters.theta;
-  CHECK_MESSAGE(config.theta == doctest::Approx(table).epsilon(1e-12),
-                "the default of sf_config.theta is " << config.theta / kPi << " pi, Table I has "
-                                                     << table / kPi
-                                                     << " pi: all figures and rules move");
-  CHECK_MESSAGE(config.theta == doctest::Approx(kDefaultTheta).epsilon(1e-12),
+  sf_params params;
+  sf_params_init(&params);
+  const double theta = params.lens.theta, table = OptimiseOnGrid(3).filters.theta;
+  CHECK_MESSAGE(theta == doctest::Approx(table).epsilon(1e-12),
+                "the default of sf_lens.theta is " << theta / kPi << " pi, Table I has "
+                                                   << table / kPi
+                                                   << " pi: all figures and rules move");
+  CHECK_MESSAGE(theta == doctest::Approx(kDefaultTheta).epsilon(1e-12),
                 "lib/analysis draws its figures with another theta than the engine's default");
 }
 
@@ -275,8 +275,7 @@ TEST_CASE("constants: the width of the lens in subapertures") {
 
 // The kernels (4) that gather, and those of the blur mode up to as far.
 struct GatherKernels {
-  std::vector<uint16_t> weights =
-      std::vector<uint16_t>(BlurWeightCount(ApertureShape(), kMaxGather));
+  std::vector<uint16_t> weights = std::vector<uint16_t>(BlurWeightCount(false, kMaxGather));
   std::vector<Psf> kernels = std::vector<Psf>(static_cast<size_t>(BlurStepCount(kMaxGather)));
 
   GatherKernels() {

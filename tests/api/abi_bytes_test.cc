@@ -33,7 +33,7 @@ const Bad<sf_config> kBadConfigs[] = {
     {"", [](sf_config* c) { c->size = 4; }, SF_ERROR_STRUCTURE},
     {"", [](sf_config* c) { c->size = sizeof(sf_config) + 1; }, SF_ERROR_STRUCTURE},
     {"", [](sf_config* c) { c->size = UINT32_MAX; }, SF_ERROR_STRUCTURE},
-    {"features", [](sf_config* c) { c->features |= 32; }},
+    {"features", [](sf_config* c) { c->features |= 64; }},
     {"features", [](sf_config* c) { c->features = 0x80000000u; }},
     {"width", [](sf_config* c) { c->width = 0; }},
     {"width", [](sf_config* c) { c->width = -1; }},
@@ -69,12 +69,6 @@ const Bad<sf_config> kBadConfigs[] = {
     {"max_workers", [](sf_config* c) { c->max_workers = 0; }},
     {"max_workers", [](sf_config* c) { c->max_workers = -1; }},
     {"max_workers", [](sf_config* c) { c->max_workers = SF_MAX_WORKERS + 1; }},
-    {"theta", [](sf_config* c) { c->theta = 0; }},
-    {"theta", [](sf_config* c) { c->theta = 0.157; }},
-    {"theta", [](sf_config* c) { c->theta = 1.414; }},
-    {"theta", [](sf_config* c) { c->theta = -0.8; }},
-    {"theta", [](sf_config* c) { c->theta = kNan; }},
-    {"theta", [](sf_config* c) { c->theta = kInf; }},
     {"tuning.max_layer", [](sf_config* c) { c->tuning.max_layer = -1; }},
     {"tuning.max_layer", [](sf_config* c) { c->tuning.max_layer = SF_LAYERS; }},
     {"tuning.max_layer", [](sf_config* c) { c->tuning.max_layer = INT32_MIN; }},
@@ -110,28 +104,57 @@ const Bad<sf_config> kBadConfigs[] = {
 
 // For an engine of disparities [-2, 2] and max_blur 8.
 const Bad<sf_params> kBadParams[] = {
-    {"params.version", [](sf_params* p) { p->version = 0; }, SF_ERROR_STRUCTURE},
-    {"params.version", [](sf_params* p) { p->version = SF_ABI_VERSION + 1; }, SF_ERROR_STRUCTURE},
-    {"reserved", [](sf_params* p) { p->reserved[0] = 1; }},
-    {"reserved", [](sf_params* p) { p->reserved[3] = 0x80000000u; }},
+    {"params.size", [](sf_params* p) { p->size = 0; }, SF_ERROR_STRUCTURE},
+    {"params.size", [](sf_params* p) { p->size = 4; }, SF_ERROR_STRUCTURE},
+    {"params.size", [](sf_params* p) { p->size = sizeof(sf_params) + 1; }, SF_ERROR_STRUCTURE},
+    {"params.size", [](sf_params* p) { p->size = UINT32_MAX; }, SF_ERROR_STRUCTURE},
     {"mode", [](sf_params* p) { p->mode = -1; }},
     {"mode", [](sf_params* p) { p->mode = SF_MODE_BLUR + 1; }},
     {"mode", [](sf_params* p) { p->mode = 1000; }},
     {"rule", [](sf_params* p) { p->rule = -1; }},
     {"rule", [](sf_params* p) { p->rule = SF_RULE_SUBAPERTURE + 1; }},
-    {"focus", [](sf_params* p) { p->focus = kNan; }},
-    {"focus", [](sf_params* p) { p->focus = kInf; }},
-    {"focus", [](sf_params* p) { p->focus = -kInf; }},
-    {"focus", [](sf_params* p) { p->focus = 1.1e6; }},
-    {"focus", [](sf_params* p) { p->focus = -1e300; }},
-    {"aperture", [](sf_params* p) { p->aperture = -1e-300; }},
-    {"aperture", [](sf_params* p) { p->aperture = -0.5; }},
-    {"aperture", [](sf_params* p) { p->aperture = 1.0000001; }},
-    {"aperture", [](sf_params* p) { p->aperture = kNan; }},
-    {"aperture", [](sf_params* p) { p->aperture = kInf; }},
-    {"aperture", [](sf_params* p) { p->focus = 6.5; }, SF_ERROR_BLUR},
-    {"aperture", [](sf_params* p) { p->focus = -6.5; }, SF_ERROR_BLUR},
-    {"aperture", [](sf_params* p) { p->focus = 1e6; }, SF_ERROR_BLUR},
+    {"lens.focus", [](sf_params* p) { p->lens.focus = kNan; }},
+    {"lens.focus", [](sf_params* p) { p->lens.focus = kInf; }},
+    {"lens.focus", [](sf_params* p) { p->lens.focus = -kInf; }},
+    {"lens.focus", [](sf_params* p) { p->lens.focus = 1.1e6; }},
+    {"lens.focus", [](sf_params* p) { p->lens.focus = -1e300; }},
+    {"lens.aperture", [](sf_params* p) { p->lens.aperture = -1e-300; }},
+    {"lens.aperture", [](sf_params* p) { p->lens.aperture = -0.5; }},
+    {"lens.aperture", [](sf_params* p) { p->lens.aperture = 1.0000001; }},
+    {"lens.aperture", [](sf_params* p) { p->lens.aperture = kNan; }},
+    {"lens.aperture", [](sf_params* p) { p->lens.aperture = kInf; }},
+    {"lens.shape", [](sf_params* p) { p->lens.shape = -1; }},
+    {"lens.shape", [](sf_params* p) { p->lens.shape = SF_SHAPE_RING + 1; }},
+    {"lens.shape", [](sf_params* p) { p->lens.shape = INT32_MAX; }},
+    {"lens.shape", [](sf_params* p) { p->lens.shape = INT32_MIN; }},
+    {"lens.blades", [](sf_params* p) { p->lens.blades = 0; }},
+    {"lens.blades", [](sf_params* p) { p->lens.blades = SF_MIN_BLADES - 1; }},
+    {"lens.blades", [](sf_params* p) { p->lens.blades = SF_MAX_BLADES + 1; }},
+    {"lens.blades", [](sf_params* p) { p->lens.blades = -5; }},
+    {"lens.theta", [](sf_params* p) { p->lens.theta = 0; }},
+    {"lens.theta", [](sf_params* p) { p->lens.theta = 0.157; }},
+    {"lens.theta", [](sf_params* p) { p->lens.theta = 1.414; }},
+    {"lens.theta", [](sf_params* p) { p->lens.theta = -0.8; }},
+    {"lens.theta", [](sf_params* p) { p->lens.theta = kNan; }},
+    {"lens.theta", [](sf_params* p) { p->lens.theta = kInf; }},
+    {"lens.rotation", [](sf_params* p) { p->lens.rotation = -360.1; }},
+    {"lens.rotation", [](sf_params* p) { p->lens.rotation = 360.1; }},
+    {"lens.rotation", [](sf_params* p) { p->lens.rotation = kNan; }},
+    {"lens.rotation", [](sf_params* p) { p->lens.rotation = -kInf; }},
+    {"lens.curvature", [](sf_params* p) { p->lens.curvature = -0.001; }},
+    {"lens.curvature", [](sf_params* p) { p->lens.curvature = 1.001; }},
+    {"lens.curvature", [](sf_params* p) { p->lens.curvature = kNan; }},
+    {"lens.ring_inner", [](sf_params* p) { p->lens.ring_inner = -0.001; }},
+    {"lens.ring_inner", [](sf_params* p) { p->lens.ring_inner = 0.901; }},
+    {"lens.ring_inner", [](sf_params* p) { p->lens.ring_inner = kNan; }},
+    {"lens.cats_eye", [](sf_params* p) { p->lens.cats_eye = -0.001; }},
+    {"lens.cats_eye", [](sf_params* p) { p->lens.cats_eye = 1.001; }},
+    {"lens.cats_eye", [](sf_params* p) { p->lens.cats_eye = kNan; }},
+    {"lens.shape", [](sf_params* p) { p->lens.shape = SF_SHAPE_POLYGON; }, SF_ERROR_FEATURE},
+    {"lens.cats_eye", [](sf_params* p) { p->lens.cats_eye = 1e-9; }, SF_ERROR_FEATURE},
+    {"lens.aperture", [](sf_params* p) { p->lens.focus = 6.5; }, SF_ERROR_BLUR},
+    {"lens.aperture", [](sf_params* p) { p->lens.focus = -6.5; }, SF_ERROR_BLUR},
+    {"lens.aperture", [](sf_params* p) { p->lens.focus = 1e6; }, SF_ERROR_BLUR},
 };
 
 // For a width of 20.
@@ -235,24 +258,13 @@ TEST_CASE("configuration: limits are legal") {
   config.max_blur = SF_MAX_BLUR;
   config.largest_block = 256;
   config.max_workers = SF_MAX_WORKERS;
-  config.features |= SF_FEATURE_STREAMING;
+  config.features |= SF_FEATURE_STREAMING | SF_FEATURE_SHAPES;
   config.highlights = static_cast<float>(SF_MAX_HIGHLIGHTS);
   size_t bytes = 0;
   // Every value is legal, but all limits together are more than 32 bits address.
   const sf_status legal = sizeof(size_t) == 4 ? SF_ERROR_TOO_LARGE : SF_OK;
-  for (double theta : {SF_MIN_THETA, SF_MAX_THETA}) {
-    config.theta = theta;
-    CHECK(sf_workspace_size(&config, &bytes) == legal);
-    CHECK((bytes > 0) == (legal == SF_OK));
-  }
-  config.curvature = config.cats_eye = 1;
-  config.ring_inner = static_cast<float>(SF_MAX_RING_INNER);
-  for (int shape = SF_SHAPE_FALL_OFF; shape <= SF_SHAPE_RING; ++shape) {
-    config.aperture_shape = static_cast<int16_t>(shape);
-    config.blades = shape % 2 == 0 ? SF_MIN_BLADES : SF_MAX_BLADES;
-    config.rotation = shape % 2 == 0 ? -360.0F : 360.0F;
-    CHECK(sf_workspace_size(&config, &bytes) == legal);
-  }
+  CHECK(sf_workspace_size(&config, &bytes) == legal);
+  CHECK((bytes > 0) == (legal == SF_OK));
   for (const double n_scale : {SF_MIN_N_SCALE, SF_MAX_N_SCALE}) {
     config.tuning.n_scale = n_scale;
     CHECK(sf_workspace_size(&config, &bytes) == legal);
@@ -327,6 +339,10 @@ TEST_CASE("refocus: illegal parameters") {
     CHECK(f.NothingWritten());
   }
   f.params = test::Params(6);  // r = 8: exactly the largest blur
+  f.params.lens.curvature = 1;
+  f.params.lens.ring_inner = SF_MAX_RING_INNER;
+  f.params.lens.blades = SF_MAX_BLADES;
+  f.params.lens.rotation = 360;
   CHECK(f.Refocus(engine.get()) == SF_OK);
   CHECK(f.report.r_max == 8);
 }

@@ -41,12 +41,11 @@ TEST_CASE("stream: begin refuses what refocus refuses") {
     spoil(&params);
     return sf_stream_begin(engine.get(), &params);
   };
-  CHECK(begin([](sf_params* p) { p->version = 0; }) == SF_ERROR_STRUCTURE);
-  CHECK(begin([](sf_params* p) { p->reserved[3] = 1; }) == SF_ERROR_RANGE);
+  CHECK(begin([](sf_params* p) { p->size = 0; }) == SF_ERROR_STRUCTURE);
   CHECK(begin([](sf_params* p) { p->mode = 99; }) == SF_ERROR_RANGE);
-  CHECK(begin([](sf_params* p) { p->focus = -2e6; }) == SF_ERROR_RANGE);
-  CHECK(begin([](sf_params* p) { p->aperture = -0.1; }) == SF_ERROR_RANGE);
-  CHECK(begin([](sf_params* p) { p->focus = 6.5; }) == SF_ERROR_BLUR);
+  CHECK(begin([](sf_params* p) { p->lens.focus = -2e6; }) == SF_ERROR_RANGE);
+  CHECK(begin([](sf_params* p) { p->lens.aperture = -0.1; }) == SF_ERROR_RANGE);
+  CHECK(begin([](sf_params* p) { p->lens.focus = 6.5; }) == SF_ERROR_BLUR);
 }
 
 TEST_CASE("stream: not without streaming = 1, not without begin") {
@@ -59,7 +58,7 @@ TEST_CASE("stream: not without streaming = 1, not without begin") {
     CHECK(f.Pull(engine.get(), 1, &count) == SF_ERROR_STATE);
     // A refused begin starts nothing.
     sf_params params = f.params;
-    params.aperture = 2;
+    params.lens.aperture = 2;
     CHECK(sf_stream_begin(engine.get(), &params) == SF_ERROR_RANGE);
     CHECK(f.Push(engine.get(), f.scene.Field(), 1, &count) == SF_ERROR_STATE);
   }

@@ -37,7 +37,7 @@ static int Run(const sf_config* config, void* workspace, size_t bytes) {
   status = sf_init(config, workspace, bytes, &engine);
   if (status != SF_OK) return Fail("sf_init", status);
   sf_params_init(&params);
-  params.focus = -1.0;
+  params.lens.focus = -1.0;
   status = sf_refocus(engine, &params, &field, out, 3 * kWidth, NULL);
   if (status != SF_OK) return Fail("sf_refocus", status);
   for (i = 0; i < sizeof out; ++i) {

@@ -65,26 +65,25 @@ TEST_CASE("defaults are those that the header tells") {
   CHECK(config.tuning.n_scale == 1);
   CHECK(config.tuning.skips == 1);
   CHECK(config.tuning.gather == 1);
-  CHECK(config.theta == doctest::Approx(0.26 * 3.14159265358979).epsilon(1e-12));
-  CHECK(config.aperture_shape == SF_SHAPE_FALL_OFF);
-  CHECK(config.blades == 5);
-  CHECK(config.rotation == 0);
-  CHECK(config.curvature == 0);
-  CHECK(config.ring_inner == 0.5F);
-  CHECK(config.cats_eye == 0);
   CHECK(config.transfer == SF_TRANSFER_SRGB);
   CHECK(config.highlights == 1);
   CHECK(config.features == (SF_FEATURE_LINE_SCAN | SF_FEATURE_COVERAGE));
   sf_params params;
   std::memset(&params, test::kPoison, sizeof params);
   sf_params_init(&params);
-  CHECK(params.version == SF_ABI_VERSION);
+  CHECK(params.size == sizeof params);
   CHECK(params.mode == SF_MODE_BLOCK);
   CHECK(params.rule == SF_RULE_DEFAULT);
-  CHECK(params.aperture == 1);
-  CHECK(params.focus == 0);
+  CHECK(params.lens.aperture == 1);
+  CHECK(params.lens.focus == 0);
+  CHECK(params.lens.shape == SF_SHAPE_FALL_OFF);
+  CHECK(params.lens.theta == doctest::Approx(0.26 * 3.14159265358979).epsilon(1e-12));
+  CHECK(params.lens.blades == 5);
+  CHECK(params.lens.rotation == 0);
+  CHECK(params.lens.curvature == 0);
+  CHECK(params.lens.ring_inner == 0.5);
+  CHECK(params.lens.cats_eye == 0);
   CHECK(params.region.width == 0);
-  for (uint32_t reserved : params.reserved) CHECK(reserved == 0);
 }
 
 TEST_CASE("view positions") {

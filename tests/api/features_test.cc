@@ -66,13 +66,13 @@ TEST_CASE("features: without the line scan the paper's rule is rejected in modes
 TEST_CASE("features: a workspace without the line scan is smaller") {
   for (const int block : {32, 64, 128, 256}) {
     for (const double blur : {0.5, 8.0, 32.0, 128.0}) {
-      for (const float cats_eye : {0.0F, 0.5F}) {
+      for (const bool shapes : {false, true}) {
         sf_config config;
         sf_config_init(&config);
         config.width = config.height = 500;
         config.largest_block = block;
         config.max_blur = blur;
-        config.cats_eye = cats_eye;
+        test::SetFeature(SF_FEATURE_SHAPES, shapes, &config.features);
         const sf_config less = WithoutLineScan(config);
         size_t with = 0, without = 0;
         REQUIRE(sf_workspace_size(&config, &with) == SF_OK);

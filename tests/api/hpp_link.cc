@@ -39,7 +39,7 @@ struct Field {
     config.disparity_max = 1;
     config.features |= SF_FEATURE_STREAMING;
     config.previews = 1;
-    params.focus = 3;
+    params.lens.focus = 3;
   }
 
   // Whether these calls give the picture.

@@ -41,7 +41,6 @@ sf_config AnyConfig(const test::Scene& scene, test::Random* random) {
   config.tuning.deblocking = random->Int(0, 1) * 255;
   config.tuning.skips = random->Int(0, 1);
   config.tuning.gather = random->Int(0, 1);
-  config.theta = random->Real(SF_MIN_THETA, SF_MAX_THETA);
   config.tuning.n_scale = random->Real(SF_MIN_N_SCALE, SF_MAX_N_SCALE);
   config.features |= SF_FEATURE_STREAMING;
   return config;
@@ -87,8 +86,9 @@ TEST_CASE("pinhole: the centre view to the byte, by every mode, rule and way in"
       REQUIRE(engine.status() == SF_OK);
       sf_params params = test::Params(random.Real(-9, 9), 0, mode);
       params.rule = random.Int(0, 2);
+      params.lens.theta = random.Real(SF_MIN_THETA, SF_MAX_THETA);
       // Blur may be as large as it likes where there is none.
-      if (seed % 4 == 0) params.focus = -SF_MAX_FOCUS;
+      if (seed % 4 == 0) params.lens.focus = -SF_MAX_FOCUS;
       CAPTURE(seed);
       const std::vector<uint8_t> centre = CentreView(scene, {0, 0, size[0], size[1]});
       test::Output whole(size[0], size[1], 5), streamed = whole, prepared = whole, after = whole;

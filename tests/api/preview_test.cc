@@ -174,7 +174,7 @@ bool IsOfReduced(Prepared* prepared, sf_params params, int shift, const sf_confi
   const test::Output got = prepared->Preview(params, shift, test::RunBy(RunOnTwo), &report);
   test::Engine small(ReducedConfig(config, shift, report.largest_block));
   REQUIRE(small.status() == SF_OK);
-  params.focus /= 1 << shift;
+  params.lens.focus /= 1 << shift;
   params.region = ReducedRegion(params.region, shift);
   test::Output expected(got.width, got.height, 3);
   REQUIRE(test::Refocus(&small, params, reduced, &expected) == SF_OK);
@@ -195,7 +195,7 @@ TEST_CASE("preview: the bytes of the light field that the definition reduces") {
     config.transfer = round % 3 == 0 ? SF_TRANSFER_NONE : SF_TRANSFER_SRGB;
     test::SetFeature(SF_FEATURE_STREAMING, round % 2, &config.features);
     config.max_workers = 2;
-    config.cats_eye = round % 5 == 4 ? 0.5F : 0.0F;
+    test::SetFeature(SF_FEATURE_SHAPES, round % 5 == 4, &config.features);
     config.highlights = round % 5 == 3 ? 4.0F : 1.0F;
     config.previews = 3;
     CAPTURE(round);
@@ -207,6 +207,7 @@ TEST_CASE("preview: the bytes of the light field that the definition reduces") {
       for (int lens = 0; lens < test::Rounds(4); ++lens) {
         sf_params params = test::Params(random.Real(-12, 12), random.Real(0.3, 1), SF_MODE_BLOCK);
         params.rule = random.Int(0, 2);
+        if (test::Has(config.features, SF_FEATURE_SHAPES)) params.lens.cats_eye = 0.5;
         if (lens == 2) params.mode = random.Int(0, 1) == 0 ? SF_MODE_FRAME : SF_MODE_BLUR;
         if (lens == 3) {
           params.region = {random.Int(0, size[0] - 1), random.Int(0, size[1] - 1), 1, 1};

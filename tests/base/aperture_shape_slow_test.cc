@@ -20,11 +20,16 @@ namespace {
 using starfocus::ApertureShape;
 using starfocus::ViewWeights;
 
-sf_config ConfigOf(const test::NamedShape& shape) {
-  sf_config config;
-  sf_config_init(&config);
-  shape.Set(&config);
-  return config;
+sf_lens LensOf(const test::NamedShape& shape) {
+  sf_lens lens = test::Params(0).lens;
+  shape.Set(&lens);
+  return lens;
+}
+
+sf_lens RandomLens(test::Random* random) {
+  sf_lens lens = test::Params(0).lens;
+  test::RandomShape(&lens, random);
+  return lens;
 }
 
 template <class Weight>
@@ -40,11 +45,9 @@ TEST_CASE("opening: light passes where the shape is open") {
   constexpr int kRadius = 1000;
   test::Random random(5);
   for (int trial = 0; trial < 200; ++trial) {
-    sf_config config;
-    sf_config_init(&config);
-    test::RandomShape(&config, &random);
-    const ApertureShape opening = starfocus::ShapeOf(config);
-    const reference::ApertureShape exact(config);
+    const sf_lens lens = RandomLens(&random);
+    const ApertureShape opening = starfocus::ShapeOf(lens);
+    const reference::ApertureShape exact(lens);
     int wrong = 0;
     for (int k = 0; k < 2000; ++k) {
       const int x = random.Int(-1050, 1050), y = random.Int(-1050, 1050);
@@ -57,21 +60,19 @@ TEST_CASE("opening: light passes where the shape is open") {
       }
       wrong += open != inside && !near_edge;
     }
-    CHECK_MESSAGE(wrong == 0, test::ShapeText(config));
+    CHECK_MESSAGE(wrong == 0, test::ShapeText(lens));
   }
 }
 
 TEST_CASE("opening: all weights sum to a power of two, and none is beyond its type") {
   test::Random random(6);
   for (int trial = 0; trial < 150; ++trial) {
-    sf_config config;
-    sf_config_init(&config);
-    test::RandomShape(&config, &random);
-    const ApertureShape opening = starfocus::ShapeOf(config);
+    const sf_lens lens = RandomLens(&random);
+    const ApertureShape opening = starfocus::ShapeOf(lens);
     const int n = random.Int(0, 9) == 0 ? random.Int(60, 130) : random.Int(1, 30);
     std::vector<uint16_t> weights(starfocus::ViewWeightsSize(opening, n));
     std::vector<uint16_t> rest(starfocus::FullApertureSize(n));
-    CAPTURE(test::ShapeText(config));
+    CAPTURE(test::ShapeText(lens));
     CAPTURE(n);
     for (const bool wide : {false, true}) {
       const ViewWeights whole = wide ? starfocus::MakeSubapertures(n, opening, weights.data())
@@ -98,7 +99,7 @@ TEST_CASE("opening: all weights sum to a power of two, and none is beyond its ty
 
 TEST_CASE("opening: a rim that does not move takes nothing away") {
   for (const test::NamedShape& shape : test::kShapes) {
-    const ApertureShape opening = starfocus::ShapeOf(ConfigOf(shape));
+    const ApertureShape opening = starfocus::ShapeOf(LensOf(shape));
     for (const int n : {4, 6, 11}) {
       std::vector<uint16_t> weights(starfocus::ViewWeightsSize(opening, n));
       std::vector<uint16_t> rest(starfocus::FullApertureSize(n));
@@ -134,11 +135,9 @@ TEST_CASE("opening: kernels that blur sum to exactly one through any shape") {
   constexpr double kMost = 13;
   const int steps = starfocus::BlurStepCount(kMost);
   for (int trial = 0; trial < 60; ++trial) {
-    sf_config config;
-    sf_config_init(&config);
-    test::RandomShape(&config, &random);
-    const ApertureShape opening = starfocus::ShapeOf(config);
-    std::vector<uint16_t> weights(starfocus::BlurWeightCount(opening, kMost));
+    const sf_lens lens = RandomLens(&random);
+    const ApertureShape opening = starfocus::ShapeOf(lens);
+    std::vector<uint16_t> weights(starfocus::BlurWeightCount(!opening.IsSymmetric(), kMost));
     std::vector<starfocus::Psf> kernels(static_cast<size_t>(steps));
     starfocus::MakePsfs(0, steps, opening, nullptr, weights.data(), kernels.data());
     int wrong = 0;
@@ -146,7 +145,7 @@ TEST_CASE("opening: kernels that blur sum to exactly one through any shape") {
       wrong += Total(kernel.size, [&](int n, int m) { return kernel.Weight(n, m); }) !=
                int64_t{1} << kernel.sum_bits;
     }
-    CHECK_MESSAGE(wrong == 0, test::ShapeText(config));
+    CHECK_MESSAGE(wrong == 0, test::ShapeText(lens));
   }
 }
 

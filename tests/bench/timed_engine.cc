@@ -59,8 +59,8 @@ Error Prepare(const Field& field, const Task& task, double focus, double apertur
   sf_params_init(&timed->params);
   timed->params.mode = ModeOf(task.mode);
   timed->params.rule = task.rule;
-  timed->params.focus = focus;
-  timed->params.aperture = aperture;
+  timed->params.lens.focus = focus;
+  timed->params.lens.aperture = aperture;
   timed->picture = Image(config.width, config.height);
   sf_callbacks callbacks = {};
   if (timed->pool != nullptr) callbacks.runner = ThreadRunner::Run;

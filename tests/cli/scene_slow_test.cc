@@ -18,9 +18,9 @@ constexpr int kWidth = 256, kHeight = kWidth * 3 / 4;
 const char* const kNames[] = {"portrait", "wires", "ramp", "hair", "grass"};
 
 SceneOpening DefaultOpening() {
-  sf_config config;
-  sf_config_init(&config);
-  return SceneOpening(config);
+  sf_params params;
+  sf_params_init(&params);
+  return SceneOpening(params.lens);
 }
 
 // Sample of view (u, v) where centre pixel (x, y) of disparity d appears, bilinear; -1 outside.

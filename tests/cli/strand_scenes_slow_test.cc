@@ -159,13 +159,13 @@ TEST_CASE("strand scenes: coverage is the area of a half plane") {
 
 TEST_CASE("strand scenes: truth through a pinhole is the centre view") {
   ThreadRunner runner(2);
-  sf_config config;
-  sf_config_init(&config);
+  sf_params params;
+  sf_params_init(&params);
   for (const char* name : kNames) {
     const Scene scene = Made(name);
     const RayTracer tracer(scene, kWidth, kHeight, SF_TRANSFER_NONE, &runner);
     const Image centre = tracer.View(0, 0, nullptr);
-    const SceneOpening opening(config);
+    const SceneOpening opening(params.lens);
     CHECK(MeanDifference(centre, tracer.Truth(9, 1e-6, opening, nullptr)) < 1);
     CHECK(MeanDifference(centre, tracer.Truth(9, 1, opening, nullptr)) > 4);
   }

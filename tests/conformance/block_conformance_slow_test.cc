@@ -65,8 +65,8 @@ Distance Check(const test::Scene& scene, const sf_params& params, const sf_confi
   CAPTURE(scene.width);
   CAPTURE(scene.height);
   CAPTURE(scene.views());
-  CAPTURE(params.focus);
-  CAPTURE(params.aperture);
+  CAPTURE(params.lens.focus);
+  CAPTURE(params.lens.aperture);
   CAPTURE(params.rule);
   CAPTURE(config.tuning.max_layer);
   CAPTURE(config.transfer);
@@ -78,7 +78,6 @@ Distance Check(const test::Scene& scene, const sf_params& params, const sf_confi
 
 sf_config Config(const test::Scene& scene, int max_layer, double max_blur = 24) {
   sf_config config = test::ConfigFor(scene, max_blur);
-  config.theta = kTheta;
   config.tuning.max_layer = max_layer;
   config.tuning.deblocking = 0;  // a decision by thresholds; deblock_test has it
   config.largest_block = 32;

@@ -37,8 +37,8 @@ Distance Check(const test::Scene& scene, const sf_params& params, const sf_confi
   CAPTURE(scene.disparity_min);
   CAPTURE(scene.disparity_max);
   CAPTURE(params.mode);
-  CAPTURE(params.focus);
-  CAPTURE(params.aperture);
+  CAPTURE(params.lens.focus);
+  CAPTURE(params.lens.aperture);
   CAPTURE(block);
   CAPTURE(config.transfer);
   CHECK(report.n == expected.n);
@@ -54,7 +54,7 @@ Distance Check(const test::Scene& scene, sf_params params, int block, double the
   params.rule = SF_RULE_PAPER;
   sf_config config = test::ConfigFor(scene, 16);
   config.largest_block = block;
-  config.theta = theta;
+  params.lens.theta = theta;
   Distance all;
   for (const sf_transfer transfer : {SF_TRANSFER_NONE, SF_TRANSFER_SRGB}) {
     config.transfer = transfer;

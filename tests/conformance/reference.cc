@@ -76,9 +76,9 @@ Lens MakeLens(const sf_params& params, const ApertureShape& opening, int n, int 
   Lens lens;
   lens.n = n;
   lens.most = n * n;
-  lens.radius = params.aperture;
+  lens.radius = params.lens.aperture;
   lens.opening = opening;
-  lens.focus = RoundedTo64(params.focus);
+  lens.focus = RoundedTo64(params.lens.focus);
   double extent = 1;
   if (wide) {
     // Views up to 5/32 of a subaperture beyond the rim.
@@ -88,7 +88,7 @@ Lens MakeLens(const sf_params& params, const ApertureShape& opening, int n, int 
     lens.most = int(farthest * farthest);
     extent = lens.n / lens.subapertures;
   }
-  const auto step = int64_t(params.aperture * extent * (1 << 24));
+  const auto step = int64_t(params.lens.aperture * extent * (1 << 24));
   lens.step = std::max<int64_t>(1, Rounded(2 * step, 1 + layer));
   lens.layer = layer;
   return lens;
@@ -279,10 +279,11 @@ void RefocusFrame(const LightField& field, const Lens& lens, int border, int blo
 
 Result Refocus(const test::Scene& scene, const sf_params& params, const sf_config& config,
                int block) {
-  const double r_max = params.aperture * std::max(std::fabs(scene.disparity_min - params.focus),
-                                                  std::fabs(scene.disparity_max - params.focus));
+  const double r_max =
+      params.lens.aperture * std::max(std::fabs(scene.disparity_min - params.lens.focus),
+                                      std::fabs(scene.disparity_max - params.lens.focus));
   const int n = ViewsAlongRadius(r_max, params.mode), border = int(std::ceil(r_max)) + 2;
-  const Lens lens = MakeLens(params, config, n, 0);
+  const Lens lens = MakeLens(params, params.lens, n, 0);
   Result result;
   result.n = n;
   result.rgb.assign(3 * size_t(scene.width) * size_t(scene.height), 0);
@@ -316,16 +317,17 @@ void RefocusAll(const LightField& field, const sf_params& params, const sf_confi
   const Picture& centre = field.at({0, 0});
   const std::vector<Picture> layers = MakeLayers(centre);
   const bool benchmark = params.mode == SF_MODE_BENCHMARK;
-  const double r_max = params.aperture * std::max(config.disparity_max - params.focus,
-                                                  params.focus - config.disparity_min);
+  const double r_max = params.lens.aperture * std::max(config.disparity_max - params.lens.focus,
+                                                       params.lens.focus - config.disparity_min);
   const int widest = std::max(int(r_max), 32) + 3;  // reach of the most blurred slice
   const Slicing slicing = {size_t(benchmark ? 32 : 16), 5 * (widest + 16) * (widest + 16),
                            benchmark ? 0.125 : 0.375};
   for (const Block& block : blocks) {
     if (excess && (block.layer > 0 || !block.gathered.empty())) continue;
     const bool by_subaperture = params.rule == SF_RULE_SUBAPERTURE && block.n > 0;
-    const ApertureShape here = ApertureShape(config).At(block.x, block.y, block.width, block.height,
-                                                        centre.width, centre.height);
+    const ApertureShape here =
+        ApertureShape(params.lens)
+            .At(block.x, block.y, block.width, block.height, centre.width, centre.height);
     const Lens lens = MakeLens(params, here, block.n, block.layer, by_subaperture);
     const Rectangle rectangle = {
         block.rendered_x, block.rendered_y, block.rendered_width, block.rendered_height, block.left,

@@ -23,7 +23,7 @@ struct Result {
   std::vector<double> rgb;  // codes, unrounded, 3 * width * height
 };
 
-// Refocuses the scene by the opening and the transfer of `config`. `block` is the side of the
+// Refocuses the scene by the transfer of `config`. `block` is the side of the
 // blocks: runs of one shift start at the edge of a block's extended rectangle, so that results
 // depend on it.
 Result Refocus(const test::Scene& scene, const sf_params& params, const sf_config& config,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reference's opening of the lens: (3), and the shapes of sf_config, in double precision.
+// The reference's opening of the lens: (3), and the shapes of sf_lens, in double precision.
 #ifndef STARFOCUS_TESTS_CONFORMANCE_REFERENCE_OPENING_H_
 #define STARFOCUS_TESTS_CONFORMANCE_REFERENCE_OPENING_H_
 
@@ -32,14 +32,14 @@ struct ApertureShape {
 
   ApertureShape(double angle)  // NOLINT: the plain lens is its theta
       : theta(angle), cot2(1 / (std::tan(theta) * std::tan(theta))) {}
-  ApertureShape(const sf_config& config)  // NOLINT: a lens is its configuration
-      : theta(config.theta),
-        shape(config.aperture_shape),
-        blades(config.blades),
-        rotation(config.rotation),
-        curvature(config.curvature),
-        inner(config.ring_inner),
-        cats_eye(config.cats_eye),
+  ApertureShape(const sf_lens& lens)  // NOLINT: converts
+      : theta(lens.theta),
+        shape(lens.shape),
+        blades(lens.blades),
+        rotation(lens.rotation),
+        curvature(lens.curvature),
+        inner(lens.ring_inner),
+        cats_eye(lens.cats_eye),
         cot2(1 / (std::tan(theta) * std::tan(theta))) {
     const double half = Half(), r = 1 / curvature, sine = std::sin(half);
     for (int k = 0; k < blades; ++k) {

@@ -103,9 +103,9 @@ void SetLens(Trial* trial, test::Random* random) {
 }
 
 double RadiusOf(const Trial& trial) {
-  return trial.params.aperture *
-         std::max(std::fabs(trial.scene.disparity_min - trial.params.focus),
-                  std::fabs(trial.scene.disparity_max - trial.params.focus));
+  return trial.params.lens.aperture *
+         std::max(std::fabs(trial.scene.disparity_min - trial.params.lens.focus),
+                  std::fabs(trial.scene.disparity_max - trial.params.lens.focus));
 }
 
 void SetConfig(Trial* trial, test::Random* random) {
@@ -120,14 +120,15 @@ void SetConfig(Trial* trial, test::Random* random) {
   // A cheap or a dear block makes the partition fine or coarse.
   if (random->Int(0, 1) == 0) config.tuning.timing.block = 1u << random->Int(0, 26);
   if (random->Int(0, 1) == 0) {
-    config.theta =
+    trial->params.lens.theta =
         OneOf({SF_MIN_THETA, SF_MAX_THETA, random->Real(SF_MIN_THETA, SF_MAX_THETA)}, random);
   }
   if (random->Int(0, 1) == 0) config.tuning.n_scale = random->Real(SF_MIN_N_SCALE, SF_MAX_N_SCALE);
   config.transfer = random->Int(0, 1) == 0 ? SF_TRANSFER_SRGB : SF_TRANSFER_NONE;
   const int lamps = random->Int(0, 5);
   if (lamps < 2) config.highlights = float(random->Real(1, lamps == 0 ? 4 : 16));
-  if (random->Int(0, 1) == 0) test::RandomShape(&config, random);
+  if (random->Int(0, 1) == 0) test::RandomShape(&trial->params.lens, random);
+  test::ReserveFor(trial->params.lens, &config);
 }
 
 }  // namespace
@@ -139,10 +140,11 @@ std::string Trial::Text() const {
                 "block %d, layers %d, theta %.9g, n_scale %.9g, gather %d, block cost %u, transfer "
                 "%d, highlights %.9g, %s",
                 scene.width, scene.height, scene.views(), kModes[params.mode], params.rule,
-                double{scene.disparity_min}, double{scene.disparity_max}, params.focus,
-                params.aperture, config.largest_block, config.tuning.max_layer, config.theta,
-                config.tuning.n_scale, config.tuning.gather, config.tuning.timing.block,
-                config.transfer, double{config.highlights}, test::ShapeText(config).c_str());
+                double{scene.disparity_min}, double{scene.disparity_max}, params.lens.focus,
+                params.lens.aperture, config.largest_block, config.tuning.max_layer,
+                params.lens.theta, config.tuning.n_scale, config.tuning.gather,
+                config.tuning.timing.block, config.transfer, double{config.highlights},
+                test::ShapeText(params.lens).c_str());
   std::string all = text;
   for (const sf_position& at : scene.positions) {
     std::snprintf(text, sizeof(text), ", view (%.9g, %.9g)", at.u, at.v);

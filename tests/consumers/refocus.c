@@ -46,7 +46,7 @@ int main(void) {
   if (status == SF_OK) status = sf_set_callbacks(engine, &callbacks);
   sf_params_init(&params);
   for (i = 0; status == SF_OK && i < sizeof foci / sizeof *foci; ++i) {
-    params.focus = foci[i];
+    params.lens.focus = foci[i];
     status = sf_refocus(engine, &params, &field, out, kStride, NULL);
     if (status == SF_OK) printf("%08x\n", (unsigned)Checksum(out, sizeof out));
   }

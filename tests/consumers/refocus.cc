@@ -16,7 +16,7 @@ int main() {
   sf_status status = engine.Init(config);
   for (const double focus : {6.0, -4.0}) {
     starfocus::Params params;
-    params.focus = focus;
+    params.lens.focus = focus;
     if (status == SF_OK) status = engine.Refocus(params, field, out, kStride);
     if (status == SF_OK) std::printf("%08x\n", static_cast<unsigned>(Checksum(out, sizeof out)));
   }

@@ -59,14 +59,15 @@ int Changed(const Trial& t) {
   config.largest_block = t.block;
   config.tuning.n_scale = t.n_scale;
   config.transfer = t.transfer;
-  if (t.theta > 0) config.theta = t.theta;
   config.tuning.skips = 0;  // what is filled has passed no filter
   test::Random shapes(t.shape);
-  if (t.shape != 0) test::RandomShape(&config, &shapes);
-  test::Engine engine(config);
-  test::Output out(t.width, t.height);
   sf_params params = test::Params(t.focus, t.aperture, t.mode);
   params.rule = t.rule;
+  if (t.theta > 0) params.lens.theta = t.theta;
+  if (t.shape != 0) test::RandomShape(&params.lens, &shapes);
+  test::ReserveFor(params.lens, &config);
+  test::Engine engine(config);
+  test::Output out(t.width, t.height);
   const sf_status status =
       engine.status() != SF_OK ? engine.status() : test::Refocus(&engine, params, scene, &out);
   if (status != SF_OK) {

@@ -49,10 +49,16 @@ test::Scene Comb() {
 
 sf_config CombConfig(const test::Scene& scene) {
   sf_config config = test::ConfigFor(scene, kNear - kFar);
-  config.aperture_shape = SF_SHAPE_DISC;
   config.transfer = SF_TRANSFER_NONE;
   config.largest_block = 64;
   return config;
+}
+
+// Block mode through a disc.
+sf_params ThroughDisc(double focus) {
+  sf_params params = test::Params(focus, 1, SF_MODE_BLOCK);
+  params.lens.shape = SF_SHAPE_DISC;
+  return params;
 }
 
 test::Output Refocused(const test::Scene& scene, const sf_config& config, const sf_params& params) {
@@ -93,7 +99,7 @@ test::Scene Without(test::Scene scene) {
 
 TEST_CASE("given coverage: it decides over a map without gaps") {
   const test::Scene scene = Comb();
-  const sf_params params = test::Params(kFar, 1, SF_MODE_BLOCK);
+  const sf_params params = ThroughDisc(kFar);
   const double with = PsnrOf(Refocused(scene, CombConfig(scene), params));
   const double without = PsnrOf(Refocused(Without(scene), CombConfig(scene), params));
   MESSAGE(without, " -> ", with, " dB");
@@ -116,7 +122,7 @@ TEST_CASE("given coverage: deep inside a silhouette, too, the wall ends where co
   config.max_blur = kRadius;
   test::Engine engine(config);
   test::Output out(scene.width, scene.height);
-  REQUIRE(test::Refocus(&engine, test::Params(0, 1, SF_MODE_BLOCK), scene, &out) == SF_OK);
+  REQUIRE(test::Refocus(&engine, ThroughDisc(0), scene, &out) == SF_OK);
   double most = 0;
   for (int x = kEdge - kRadius; x < kEdge; ++x) {
     const double to_edge = kEdge - 0.5 - x, angle = std::acos(to_edge / kRadius);
@@ -133,7 +139,7 @@ TEST_CASE("given coverage: regions, streams, images and prepared fields give the
   config.features |= SF_FEATURE_STREAMING | SF_FEATURE_IMAGES;
   for (const double focus : {kFar, 1.0, kNear}) {
     CAPTURE(focus);
-    sf_params params = test::Params(focus, 1, SF_MODE_BLOCK);
+    sf_params params = ThroughDisc(focus);
     const test::Output whole = Refocused(scene, config, params);
     CHECK((Refocused(Without(scene), config, params).bytes != whole.bytes));
     test::Engine engine(config);
@@ -197,11 +203,11 @@ TEST_CASE("given coverage: previews have its means") {
   sf_prepared* prepared = nullptr;
   REQUIRE(sf_prepare(engine.get(), &field, memory.data() + SF_ALIGNMENT - address % SF_ALIGNMENT,
                      bytes, &prepared) == SF_OK);
-  sf_params params = test::Params(2 * kFar, 1, SF_MODE_BLOCK);
+  sf_params params = ThroughDisc(2 * kFar);
   test::Output preview(kWidth, kHeight);
   REQUIRE(sf_refocus_preview(engine.get(), &params, prepared, 1, preview.bytes.data(),
                              preview.stride, nullptr) == SF_OK);
-  params.focus = kFar;
+  params.lens.focus = kFar;
   CHECK((preview.bytes == Refocused(scene, CombConfig(scene), params).bytes));
   CHECK((preview.bytes != Refocused(Without(scene), CombConfig(scene), params).bytes));
 }
@@ -209,7 +215,7 @@ TEST_CASE("given coverage: previews have its means") {
 TEST_CASE("given coverage: a frame after another one sees what changed of it") {
   const test::Scene before = Comb();
   const sf_config config = CombConfig(before);
-  const sf_params params = test::Params(kFar, 1, SF_MODE_BLOCK);
+  const sf_params params = ThroughDisc(kFar);
   const test::Output first = Refocused(before, config, params);
   test::Scene changed = before;
   changed.coverage[size_t(90 * kWidth + 100)] ^= 255;
@@ -230,7 +236,9 @@ TEST_CASE("given coverage: where nothing moves, colours that contradict it stay"
   for (uint8_t& coverage : scene.coverage) coverage = random.Byte();
   sf_config config = CombConfig(scene);
   config.tuning.skips = 0;
-  const test::Output out = Refocused(scene, config, test::Params(0, 0.001, SF_MODE_BLOCK));
+  sf_params params = ThroughDisc(0);
+  params.lens.aperture = 0.001;
+  const test::Output out = Refocused(scene, config, params);
   CHECK((out.bytes == scene.pictures[0]));
 }
 
@@ -239,7 +247,7 @@ TEST_CASE("given coverage: highlights brighten nothing but their surroundings") 
   for (auto& sample : scene.pictures[0]) sample = std::min<uint8_t>(sample, 240);
   for (int y = 2; y < 6; ++y) std::fill_n(scene.Pixel(0, 2, y), 12, uint8_t{255});
   sf_config config = CombConfig(scene);
-  const sf_params params = test::Params(kNear, 1, SF_MODE_BLOCK);
+  const sf_params params = ThroughDisc(kNear);
   const test::Output plain = Refocused(scene, config, params);
   config.highlights = 16;
   const test::Output lit = Refocused(scene, config, params);
@@ -256,7 +264,7 @@ TEST_CASE("given coverage: without the feature it is not looked at, and bad inpu
   const test::Scene scene = Comb();
   sf_config config = CombConfig(scene);
   config.features |= SF_FEATURE_STREAMING;
-  const sf_params params = test::Params(kFar, 1, SF_MODE_BLOCK);
+  const sf_params params = ThroughDisc(kFar);
   test::Engine engine(config);
   sf_light_field field = scene.Field();
   int32_t consumed = 0;

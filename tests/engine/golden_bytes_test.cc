@@ -121,12 +121,13 @@ std::string Refocus(const Case& one, const test::Scene& scene,
   config.transfer = one.depth == test::Depth::kSlanted ? SF_TRANSFER_NONE : SF_TRANSFER_SRGB;
   config.tuning.gather = one.views != 9;  // views have their share, layers 1 and 2 with them
   if (one.levels > 0) config.tuning.n_scale = 0.5;
-  if (one.shape != nullptr) one.shape->Set(&config);
+  sf_params params = test::Params(one.lens.focus, one.lens.aperture, one.lens.mode);
+  if (one.shape != nullptr) one.shape->Set(&params.lens);
+  test::ReserveFor(params.lens, &config);
   test::Engine engine(config);
   REQUIRE(engine.status() == SF_OK);
   test::UseKernels(kernels, engine.get());
   test::Output out(scene.width, scene.height);
-  sf_params params = test::Params(one.lens.focus, one.lens.aperture, one.lens.mode);
   // The rule of subapertures keeps layer 2 away from depth edges: either rule has its share of the
   // cases.
   if (one.block == 32) params.rule = SF_RULE_PAPER;

@@ -60,10 +60,11 @@ Trial MakeTrial(uint64_t seed, sf_mode mode, sf_rule rule, Openings openings) {
   trial.config = test::ConfigFor(trial.scene, radius + range + 1);
   trial.config.transfer = seed % 2 == 0 ? SF_TRANSFER_NONE : SF_TRANSFER_SRGB;
   if (openings == Openings::kAnyTheta) {
-    trial.config.theta =
+    trial.params.lens.theta =
         random.Int(0, 1) == 0 ? SF_MAX_THETA : random.Real(SF_MIN_THETA, SF_MAX_THETA);
   }
-  if (openings == Openings::kAnyShape) test::RandomShape(&trial.config, &random);
+  if (openings == Openings::kAnyShape) test::RandomShape(&trial.params.lens, &random);
+  test::ReserveFor(trial.params.lens, &trial.config);
   return trial;
 }
 

@@ -143,7 +143,7 @@ TEST_CASE("layout: what grows with the picture comes last, and less of it fits i
     test::SetFeature(SF_FEATURE_STREAMING, random.Int(0, 1), &config.features);
     test::SetFeature(SF_FEATURE_IMAGES, random.Int(0, 1), &config.features);
     config.highlights = random.Int(0, 1) == 0 ? 1.0F : 8.0F;
-    config.cats_eye = random.Int(0, 1) == 0 ? 0.0F : 0.5F;
+    test::SetFeature(SF_FEATURE_SHAPES, random.Int(0, 1), &config.features);
     const size_t bytes = test::WorkspaceBytes(config);
     if (bytes == kTooLarge) continue;
     for (int shift = 1; shift <= SF_MAX_PREVIEW; ++shift) {

@@ -38,12 +38,13 @@ struct Patch {
     config.largest_block = 32;
     config.tuning.max_layer = 0;         // layers smooth what is looked at here
     config.transfer = SF_TRANSFER_NONE;  // levels that add up
-    shape.Set(&config);
+    sf_params params = test::Params(focus, 1, mode);
+    params.rule = rule;
+    shape.Set(&params.lens);
+    test::ReserveFor(params.lens, &config);
     test::Engine engine(config);
     REQUIRE(engine.status() == SF_OK);
     test::Output out(kSide, kSide);
-    sf_params params = test::Params(focus, 1, mode);
-    params.rule = rule;
     REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
     for (int y = 0; y < kSide; ++y) {
       for (int x = 0; x < kSide; ++x) levels.push_back(*out.Pixel(x, y));
@@ -98,8 +99,7 @@ TEST_CASE("shapes: the light of a patch stays, whatever the opening") {
 TEST_CASE("shapes: dark codes stay through openings whose views weigh much more in the middle") {
   constexpr int kWidth = 40, kHeight = 12, kEdge = 28;
   test::Scene scene = test::EmptyScene(kWidth, kHeight, 1, 0, 0);
-  sf_config config = test::ConfigFor(scene, 4);
-  config.theta = 1.41;
+  const sf_config config = test::ConfigFor(scene, 4);
   for (const sf_mode mode : kModes) {
     for (int code = 1; code < 40; ++code) {
       for (int y = 0; y < kHeight; ++y) {
@@ -108,7 +108,9 @@ TEST_CASE("shapes: dark codes stay through openings whose views weigh much more 
       }
       test::Engine engine(config);
       test::Output out(kWidth, kHeight);
-      REQUIRE(test::Refocus(&engine, test::Params(2.4, 1, mode), scene, &out) == SF_OK);
+      sf_params params = test::Params(2.4, 1, mode);
+      params.lens.theta = 1.41;
+      REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
       CAPTURE(mode);
       CAPTURE(code);
       CHECK(int{*out.Pixel(10, 6)} == code);

@@ -169,7 +169,7 @@ TEST_CASE("skips: levels that no block reads are not made") {
   sf_params params = test::Params(2.25, 1, SF_MODE_BLOCK);  // blur radius 0.25
   const sf_skipped focused = Refocus(scene, config, params, 1).report.skipped;
   CHECK(focused.layer_columns == 2 * 3);
-  params.focus = 27;  // 25: all at layer 2, and no block reads layer 1
+  params.lens.focus = 27;  // 25: all at layer 2, and no block reads layer 1
   const sf_skipped far = Refocus(scene, config, params, 1).report.skipped;
   CHECK(far.layer_columns == 3);
   config.tuning.max_layer = 1;

@@ -64,7 +64,7 @@ void Check(const Symmetry& s, const test::Scene& scene, const sf_params& params)
   CAPTURE(scene.width);
   CAPTURE(scene.height);
   CAPTURE(scene.views());
-  CAPTURE(params.focus);
+  CAPTURE(params.lens.focus);
   CHECK(Measure(s, scene, params).samples == 0);
 }
 

@@ -63,11 +63,17 @@ test::Scene Strands(int views) {
 
 sf_config ConfigFor(const test::Scene& scene, bool coverage) {
   sf_config config = test::ConfigFor(scene, kNear - kFar);
-  config.aperture_shape = SF_SHAPE_DISC;
   config.transfer = SF_TRANSFER_NONE;
   config.largest_block = 64;
   if (!coverage) config.features &= ~SF_FEATURE_COVERAGE;
   return config;
+}
+
+// Block mode through a disc.
+sf_params ThroughDisc(double focus) {
+  sf_params params = test::Params(focus, 1, SF_MODE_BLOCK);
+  params.lens.shape = SF_SHAPE_DISC;
+  return params;
 }
 
 // The mean of a disc of lens positions.
@@ -117,7 +123,7 @@ TEST_CASE("thin: strands are parted from a wall that is in focus, and from one t
     const std::vector<double> truth = TruthOf(focus);
     for (const int views : {1, 5}) {
       const test::Scene scene = Strands(views);
-      const sf_params params = test::Params(focus, 1, SF_MODE_BLOCK);
+      const sf_params params = ThroughDisc(focus);
       const double with = PsnrOf(Refocused(scene, ConfigFor(scene, true), params), truth);
       const double without = PsnrOf(Refocused(scene, ConfigFor(scene, false), params), truth);
       MESSAGE("views ", views, ", focus ", focus, ": ", without, " -> ", with, " dB");
@@ -131,7 +137,7 @@ TEST_CASE("thin: every way in gives the same bytes") {
   sf_config config = ConfigFor(scene, true);
   for (const double focus : {kFar, 0.0, kNear}) {
     CAPTURE(focus);
-    sf_params params = test::Params(focus, 1, SF_MODE_BLOCK);
+    sf_params params = ThroughDisc(focus);
     const test::Output whole = Refocused(scene, config, params);
     test::Engine engine(config);
     for (const sf_region region : {sf_region{40, 90, 70, 30}, sf_region{0, 143, 160, 1},

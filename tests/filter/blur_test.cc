@@ -30,12 +30,12 @@ std::vector<double> Reference(const test::Scene& scene, const sf_params& params,
   double light[256];
   for (int code = 0; code < 256; ++code) light[code] = test::LightOf(code, transfer);
   std::vector<double> out;
-  const int focus = int(std::floor(params.focus * kOne + 0.5));
+  const int focus = int(std::floor(params.lens.focus * kOne + 0.5));
   for (int y = 0; y < scene.height; ++y) {
     for (int x = 0; x < scene.width; ++x) {
       const int signed_distance = int(std::floor(scene.Disparity(x, y) * kOne + 0.5f)) - focus;
       const int distance = std::abs(signed_distance), side = signed_distance < 0 ? -1 : 1;
-      const double r = reference::NearestRadius(int(std::floor(params.aperture * distance)));
+      const double r = reference::NearestRadius(int(std::floor(params.lens.aperture * distance)));
       const reference::Psf& kernel = reference::PsfOf(r, opening);
       double sums[3] = {0, 0, 0};
       for (int m = -kernel.size; m <= kernel.size; ++m) {
@@ -56,14 +56,15 @@ std::vector<uint8_t> Blurred(const test::Scene& scene, double focus, double aper
                              double theta, int transfer, const test::NamedShape* shape = nullptr) {
   sf_config config = test::ConfigFor(scene, 40);
   config.largest_block = block;
-  config.theta = theta;
   config.transfer = transfer;
-  if (shape != nullptr) shape->Set(&config);
+  sf_params params = test::Params(focus, aperture, SF_MODE_BLUR);
+  params.lens.theta = theta;
+  if (shape != nullptr) shape->Set(&params.lens);
+  test::ReserveFor(params.lens, &config);
   test::Engine engine(config);
   REQUIRE(engine.status() == SF_OK);
   test::Output out(scene.width, scene.height, 3);
-  REQUIRE(test::Refocus(&engine, test::Params(focus, aperture, SF_MODE_BLUR), scene, &out) ==
-          SF_OK);
+  REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
   CHECK(out.PaddingUntouched());
   return out.Tight();
 }
@@ -132,9 +133,8 @@ TEST_CASE("blur: random disparity, focus, aperture, fall-off and block") {
 
 TEST_CASE("blur: through openings of other shapes, in front of the focus and behind it") {
   for (const test::NamedShape& shape : test::kShapes) {
-    sf_config config;
-    sf_config_init(&config);
-    shape.Set(&config);
+    sf_lens lens = test::Params(0).lens;
+    shape.Set(&lens);
     for (const double r : {0.5, 0.75, 1.0, 1.75, 3.0, 4.5, 8.0, 13.0}) {
       CAPTURE(shape.name);
       CAPTURE(r);
@@ -146,7 +146,7 @@ TEST_CASE("blur: through openings of other shapes, in front of the focus and beh
       const std::vector<uint8_t> got =
           Blurred(scene, focus, aperture, 32, kTheta, SF_TRANSFER_SRGB, &shape);
       const std::vector<double> expected =
-          Reference(scene, test::Params(focus, aperture, SF_MODE_BLUR), config, SF_TRANSFER_SRGB);
+          Reference(scene, test::Params(focus, aperture, SF_MODE_BLUR), lens, SF_TRANSFER_SRGB);
       double largest = 0;
       for (size_t i = 0; i < got.size(); ++i) {
         largest = std::max(largest, std::abs(got[i] - std::floor(expected[i] + 0.5)));
@@ -185,7 +185,7 @@ TEST_CASE("blur: the size of blocks does not matter") {
 TEST_CASE("blur: kernels sum to exactly one, fit their types and fall off from the centre") {
   const double most = SF_MAX_BLUR;
   const int steps = starfocus::BlurStepCount(most);
-  std::vector<uint16_t> weights(starfocus::BlurWeightCount(starfocus::ApertureShape(), most));
+  std::vector<uint16_t> weights(starfocus::BlurWeightCount(false, most));
   std::vector<starfocus::Psf> kernels(static_cast<size_t>(steps));
   // In two parts, as an engine makes them when it is asked for more.
   const uint32_t fall_off = starfocus::ApertureFallOff(kTheta);

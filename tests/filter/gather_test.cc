@@ -171,7 +171,7 @@ TEST_CASE(
 }
 
 TEST_CASE("gather: the rows that kernels read of a layer are kept") {
-  std::vector<uint16_t> weights(starfocus::BlurWeightCount({}, starfocus::kMaxGather));
+  std::vector<uint16_t> weights(starfocus::BlurWeightCount(false, starfocus::kMaxGather));
   std::vector<starfocus::Psf> kernels(size_t(starfocus::BlurStepCount(starfocus::kMaxGather)));
   starfocus::MakePsfs(0, int32_t(kernels.size()), {}, nullptr, weights.data(), kernels.data());
   for (int blur = 1; blur <= SF_MAX_BLUR * 4; ++blur) {

@@ -24,13 +24,13 @@ constexpr int kBlocks[] = {32, 64, 128, 256};
 constexpr double kMostWork = 300000;
 
 // Shapes from what another field drew: recorded inputs keep their meaning.
-void SetShape(int drawn, sf_config* config) {
-  config->aperture_shape = static_cast<int16_t>(drawn % 4);
-  config->blades = static_cast<int16_t>(3 + drawn % 10);
-  config->rotation = static_cast<float>(3 * drawn - 360);
-  config->curvature = static_cast<float>(drawn % 11) / 10;
-  config->ring_inner = static_cast<float>(drawn % 7) / 8;
-  config->cats_eye = drawn % 3 == 0 ? static_cast<float>(drawn % 9) / 8 : 0;
+void SetShape(int drawn, sf_lens* lens) {
+  lens->shape = drawn % 4;
+  lens->blades = 3 + drawn % 10;
+  lens->rotation = 3 * drawn - 360;
+  lens->curvature = drawn % 11 / 10.0;
+  lens->ring_inner = drawn % 7 / 8.0;
+  lens->cats_eye = drawn % 3 == 0 ? drawn % 9 / 8.0 : 0;
 }
 
 // The same for 2 to 17 views off the star.
@@ -48,7 +48,8 @@ void SetDepths(Input* input, sf_config* config) {
 }
 
 // Mostly valid; now and then any bytes at all in one field. With room for strands, or any size.
-sf_config MakeConfig(bool strands, Input* input) {
+// Sets the shape of the lens, too.
+sf_config MakeConfig(bool strands, Input* input, sf_lens* lens) {
   sf_config config;
   sf_config_init(&config);
   const int side = input->Rarely() ? 100 : 24;
@@ -64,7 +65,7 @@ sf_config MakeConfig(bool strands, Input* input) {
   config.largest_block = kBlocks[input->Int(0, 3)];
   config.max_workers = input->Rarely() ? SF_MAX_WORKERS : 1;
   test::SetFeature(SF_FEATURE_STREAMING, input->Int(0, 1), &config.features);
-  config.theta = input->Real(SF_MIN_THETA, SF_MAX_THETA);
+  lens->theta = input->Real(SF_MIN_THETA, SF_MAX_THETA);
   config.tuning.max_layer = input->Int(0, 2);
   config.tuning.deblocking = input->Int(0, 255);
   config.tuning.timing.block = 1u << input->Int(0, 26);
@@ -77,7 +78,10 @@ sf_config MakeConfig(bool strands, Input* input) {
   if (config.tuning.deblocking % 7 == 1)
     config.highlights = 1.0F + static_cast<float>(config.tuning.deblocking) / 8;
   config.transfer = config.tuning.deblocking % 5 == 0 ? SF_TRANSFER_NONE : SF_TRANSFER_SRGB;
-  if (config.tuning.deblocking % 2 == 0) SetShape(config.tuning.deblocking * 2 / 3, &config);
+  if (config.tuning.deblocking % 2 == 0) {
+    SetShape(config.tuning.deblocking * 2 / 3, lens);
+    config.features |= SF_FEATURE_SHAPES;
+  }
   if (config.tuning.deblocking % 6 == 1) SetPositions(config.tuning.deblocking, &config);
   if (config.tuning.deblocking % 8 == 3) config.features = 0;
   if (input->Rarely()) {
@@ -87,26 +91,28 @@ sf_config MakeConfig(bool strands, Input* input) {
   return config;
 }
 
-sf_params MakeParams(const sf_config& config, Input* input) {
-  sf_params params;
-  sf_params_init(&params);
+// `params` have the shape of the lens.
+void SetParams(const sf_config& config, Input* input, sf_params* given) {
+  sf_params& params = *given;
   params.mode = input->Rarely() ? input->Value<int32_t>() : input->Int(0, 3);
   params.rule = input->Rarely() ? input->Value<int32_t>() : input->Int(0, 2);
-  params.focus = input->Real(config.disparity_min, config.disparity_max);
-  if (input->Rarely()) params.focus = input->Value<double>();
-  params.aperture = input->Real(0, 1);
+  params.lens.focus = input->Real(config.disparity_min, config.disparity_max);
+  if (input->Rarely()) params.lens.focus = input->Value<double>();
+  params.lens.aperture = input->Real(0, 1);
   // An aperture that the configuration allows, most of the time.
-  const double radius = params.aperture * std::max(params.focus - config.disparity_min,
-                                                   config.disparity_max - params.focus);
+  const double radius = params.lens.aperture * std::max(params.lens.focus - config.disparity_min,
+                                                        config.disparity_max - params.lens.focus);
   if (radius > config.max_blur && !input->Rarely()) {
-    params.aperture *= config.max_blur / radius * 0.999;
+    params.lens.aperture *= config.max_blur / radius * 0.999;
   }
   if (input->Rarely()) {
     params.region = {input->Int(0, config.width), input->Int(0, config.height),
                      input->Int(0, config.width), input->Int(0, config.height)};
   }
-  if (input->Rarely()) params.reserved[input->Int(0, 3)] = input->Value<uint32_t>();
-  return params;
+  if (input->Rarely()) {
+    uint8_t* bytes = reinterpret_cast<uint8_t*>(&params);
+    input->Bytes(bytes + input->Int(0, static_cast<int>(sizeof(params) / 4) - 1) * 4, 4);
+  }
 }
 
 // Sets a progress function that cancels, or none.
@@ -287,7 +293,9 @@ void Refocus(sf_engine* engine, const sf_config& config, const sf_params& params
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   Input input(data, size);
   const Strands strands = input.Int(0, 1) == 0 ? Strands() : test::DrawStrands(&input);
-  const sf_config config = MakeConfig(strands.any(), &input);
+  sf_params lens;
+  sf_params_init(&lens);
+  const sf_config config = MakeConfig(strands.any(), &input, &lens.lens);
   size_t bytes = 0;
   if (sf_workspace_size(&config, &bytes) != SF_OK || bytes > (size_t{200} << 20)) return 0;
   if (int64_t{config.width} * config.height > 20000) return 0;
@@ -301,7 +309,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const size_t stride = row + static_cast<size_t>(input.Int(0, 5));
   const std::unique_ptr<uint8_t[]> out(new uint8_t[Needed(stride, config.height, row)]);
   for (int round = 0; round < 2; ++round) {
-    const sf_params params = MakeParams(config, &input);
+    sf_params params = lens;
+    SetParams(config, &input, &params);
     SetProgress(engine, &input);
     const double scale = params.mode == SF_MODE_BENCHMARK ? 2 : config.tuning.n_scale;
     const bool frame = params.mode == SF_MODE_FRAME;

@@ -115,7 +115,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   config.highlights = input.Rarely() ? 4 : 1;
   sf_params params;
   sf_params_init(&params);
-  params.focus = input.Real(-2, 2);
+  params.lens.focus = input.Real(-2, 2);
   params.mode = input.Rarely() ? SF_MODE_BLUR : SF_MODE_BLOCK;
   size_t bytes = 0;
   if (sf_workspace_size(&config, &bytes) != SF_OK) std::abort();

@@ -88,13 +88,40 @@ public final class RefocuserTest {
 
   private static void defaultsAreTheLibrarys() {
     final Configuration made = new Configuration();
-    check(made.views == 5 && made.maxBlur == 32 && made.blades == 5 && made.ringInner == 0.5F
-            && made.highlights == 1 && made.workers == 0,
+    check(made.views == 5 && made.maxBlur == 32 && made.highlights == 1 && made.workers == 0,
         "defaults of the configuration");
-    check(Math.abs(made.theta - 0.26 * Math.PI) < 1e-12, "default of theta");
     final Parameters parameters = new Parameters();
+    check(parameters.shape == Parameters.SHAPE_FALL_OFF && parameters.blades == 5
+            && parameters.ringInner == 0.5 && parameters.catsEye == 0,
+        "defaults of the lens");
+    check(Math.abs(parameters.theta - 0.26 * Math.PI) < 1e-12, "default of theta");
     check(parameters.mode == Parameters.MODE_BLOCK && parameters.aperture == 1,
         "defaults of the parameters");
+  }
+
+  private static void theLensChangesItsShape() {
+    final Configuration configuration = configuration();
+    configuration.shapes = 1;
+    final Parameters parameters = new Parameters();
+    parameters.focus = 1;
+    final ByteBuffer pentagon = bytes(3 * WIDTH * HEIGHT), plain = bytes(3 * WIDTH * HEIGHT);
+    try (Refocuser refocuser = new Refocuser(configuration)) {
+      parameters.shape = Parameters.SHAPE_POLYGON;
+      refocuser.refocus(field(picture()), parameters, out(pentagon));
+      parameters.shape = Parameters.SHAPE_FALL_OFF;
+      refocuser.refocus(field(picture()), parameters, out(plain));
+      check(plain.equals(refocused(1)), "the bytes after another shape");
+      check(!plain.equals(pentagon), "a shape of its own");
+      parameters.blades = 65536 + 5;
+      checkThrows(StarfocusException.class, "lens.blades",
+          () -> refocuser.refocus(field(picture()), parameters, out(plain)));
+    }
+    parameters.blades = 5;
+    parameters.catsEye = 0.5;
+    try (Refocuser refocuser = new Refocuser(configuration())) {
+      checkThrows(StarfocusException.class, "lens.cats_eye",
+          () -> refocuser.refocus(field(picture()), parameters, out(plain)));
+    }
   }
 
   private static void everyWayGivesTheSameBytes() {
@@ -388,9 +415,6 @@ public final class RefocuserTest {
     final Configuration wrong = configuration();
     wrong.views = 4;
     checkThrows(StarfocusException.class, "views", () -> new Refocuser(wrong));
-    final Configuration narrow = configuration();
-    narrow.blades = 65536 + 5;
-    checkThrows(StarfocusException.class, "blades", () -> new Refocuser(narrow));
     final Refocuser closed = new Refocuser(configuration());
     checkThrows(IllegalStateException.class, "no light field is prepared",
         () -> closed.refocusPrepared(new Parameters(), out(bytes(3 * WIDTH * HEIGHT))));
@@ -444,6 +468,7 @@ public final class RefocuserTest {
 
   public static void main(String[] arguments) throws InterruptedException {
     defaultsAreTheLibrarys();
+    theLensChangesItsShape();
     everyWayGivesTheSameBytes();
     viewsLieWhereTheyAreSaidTo();
     aPreviewIsOfTheReducedLightField();

@@ -47,9 +47,24 @@ class Bytes(unittest.TestCase):
         made = refocuser(workers=1).refocus(VIEWS, DISPARITY, focus=1, aperture=0.5, mode=starfocus.Mode.FRAME)
         np.testing.assert_array_equal(made, expected)
         expected = by_program("--focus", "1", "--shape", "polygon:5,18,0.3", "--transfer", "none")
-        five = refocuser(aperture_shape=starfocus.Shape.POLYGON, blades=5, rotation=18, curvature=0.3,
-                         transfer=starfocus.Transfer.NONE)
-        np.testing.assert_array_equal(five.refocus(VIEWS, DISPARITY, focus=1), expected)
+        engine = refocuser(shapes=1, transfer=starfocus.Transfer.NONE)
+        five = {"shape": starfocus.Shape.POLYGON, "blades": 5, "rotation": 18, "curvature": 0.3}
+        np.testing.assert_array_equal(engine.refocus(VIEWS, DISPARITY, focus=1, **five), expected)
+
+    def test_the_lens_of_a_refocuser_changes_its_shape(self):
+        engine = refocuser(shapes=1)
+        prepared = engine.prepare(VIEWS, DISPARITY)
+        for option, lens in (("fall-off", {}), ("polygon:6", {"shape": starfocus.Shape.POLYGON, "blades": 6}),
+                             ("ring:0.5", {"shape": starfocus.Shape.RING}), ("fall-off", {})):
+            expected = by_program("--focus", "1", "--shape", option)
+            np.testing.assert_array_equal(engine.refocus(VIEWS, DISPARITY, focus=1, **lens), expected)
+            np.testing.assert_array_equal(prepared.refocus(focus=1, **lens), expected)
+        with self.assertRaises(TypeError):
+            prepared.refocus(focus=1, petals=5)
+        with self.assertRaisesRegex(starfocus.StarfocusError, "lens.blades"):
+            prepared.refocus(focus=1, blades=99)
+        with self.assertRaisesRegex(starfocus.StarfocusError, "lens.cats_eye"):
+            refocuser().refocus(VIEWS, DISPARITY, focus=1, cats_eye=0.5)
 
     def test_coverage_gives_the_program_s_bytes(self):
         coverage = np.tile(np.arange(WIDTH, dtype=np.uint8), (HEIGHT, 1))
@@ -227,7 +242,7 @@ class Arguments(unittest.TestCase):
                 call((0, 0, 4))
 
     def test_numbers_that_do_not_fit_their_field(self):
-        for name in ("width", "views", "blades", "max_layer", "previews"):
+        for name in ("width", "views", "max_layer", "previews"):
             for beyond in (2**16, 2**32, -2**40):
                 with self.assertRaises(ValueError):
                     starfocus.Refocuser(**{"width": 9, "height": 9, "disparity_min": 0, "disparity_max": 1,
@@ -237,6 +252,7 @@ class Arguments(unittest.TestCase):
         engine = refocuser(images=1, previews=1)
         prepared = engine.prepare(VIEWS, DISPARITY)
         for call in (lambda: engine.refocus(VIEWS, DISPARITY, focus=1, mode=2**32), lambda: refocuser(workers=2**32),
+                     lambda: engine.refocus(VIEWS, DISPARITY, focus=1, blades=2**32 + 5),
                      lambda: starfocus.focus_at(DISPARITY, 2**32, 0), lambda: prepared.preview(2**32 + 1, focus=1),
                      lambda: starfocus.Image(starfocus.Format.RGB, VIEWS[:1], pixel_stride=256 - 2**32)
                      .as_structure(WIDTH, HEIGHT, "out")):

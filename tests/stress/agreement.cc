@@ -45,9 +45,7 @@ int MostJump(const Setup& setup, const sf_report& a, const sf_report& b) {
   if (params.mode == SF_MODE_BLUR) return kLadderJump;
   int most = kSmoothJump;
   if (LayerOf(a) != LayerOf(b)) {
-    sf_config config;
-    sf_config_init(&config);
-    most = setup.config.theta == config.theta ? kLayerJump : kLayerJumpOfTheta;
+    most = params.lens.theta == test::Params(0).lens.theta ? kLayerJump : kLayerJumpOfTheta;
   }
   return a.n != b.n && !UsesSubapertures(setup) ? std::max(most, kViewsJump) : most;
 }
@@ -86,8 +84,9 @@ Outcome Mirrors(test::Random* random) {
   // strands makes many.
   if (setup.strands) setup.config.features &= ~SF_FEATURE_COVERAGE;
   // Polygons, and what cat's eyes leave, are not their own mirror images.
-  if (setup.config.aperture_shape == SF_SHAPE_POLYGON) setup.config.aperture_shape = SF_SHAPE_DISC;
-  setup.config.cats_eye = 0;
+  sf_lens& lens = setup.params.lens;
+  if (lens.shape == SF_SHAPE_POLYGON) lens.shape = SF_SHAPE_DISC;
+  lens.cats_eye = 0;
   test::Symmetry symmetry = {random->Int(0, 1) == 1, random->Int(0, 1) == 1,
                              random->Int(0, 1) == 1};
   if (setup.params.mode != SF_MODE_BLUR && UsesSubapertures(setup)) symmetry.transpose = false;
@@ -134,10 +133,10 @@ Outcome Continuity(test::Random* random) {
   const bool focus = random->Int(0, 1) == 0;
   Setup other = setup;
   if (focus) {
-    other.params.focus += other.params.focus < 0 ? -1.0 / 64 : 1.0 / 64;
+    other.params.lens.focus += other.params.lens.focus < 0 ? -1.0 / 64 : 1.0 / 64;
   } else {
-    setup.params.aperture = random->Real(0.1, 1);
-    other.params.aperture = setup.params.aperture * (1 - 1.0 / 256);
+    setup.params.lens.aperture = random->Real(0.1, 1);
+    other.params.lens.aperture = setup.params.lens.aperture * (1 - 1.0 / 256);
   }
   FitBlur(&setup);
   FitBlur(&other);

@@ -64,7 +64,7 @@ void Distract(const Asked& asked, Rig* rig, test::Random* random) {
   sf_params params = setup.params;
   params.mode = random->Int(0, 1) == 0 ? SF_MODE_BLOCK : SF_MODE_BLUR;
   params.rule = SF_RULE_SUBAPERTURE;
-  params.aperture /= random->Int(1, 4);
+  params.lens.aperture /= random->Int(1, 4);
   const sf_light_field field = setup.scene.Field();
   test::Output out(setup.scene.width, setup.scene.height);
   const int what = random->Int(0, 5);

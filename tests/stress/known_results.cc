@@ -22,9 +22,7 @@ constexpr int kMostInversion = 2;
 // it from radius 4 on than from 3, but not that of apertures steeper than the default, which are
 // nearly a pinhole.
 double MostOvershoot(const Setup& setup, double radius) {
-  sf_config config;
-  sf_config_init(&config);
-  const bool steep = setup.config.theta > config.theta;
+  const bool steep = setup.params.lens.theta > test::Params(0).lens.theta;
   if (setup.params.rule != SF_RULE_PAPER && radius >= 4) return steep ? 0.1 : 0.02;
   return steep ? 0.144 : 0.03;
 }
@@ -169,7 +167,7 @@ Outcome Limits(test::Random* random) {
   setup.params.mode = kind == 0 ? int{SF_MODE_BENCHMARK} : random->Int(0, 1) + 2;
   setup.config.largest_block = 32;
   if (setup.Radius() > SF_MAX_BLUR)
-    setup.params.aperture *= SF_MAX_BLUR / setup.Radius() * 0.999999;
+    setup.params.lens.aperture *= SF_MAX_BLUR / setup.Radius() * 0.999999;
   FitBlur(&setup);
   return random->Int(0, 1) == 0 ? CheckConstant(setup, random) : CheckInversion(setup, random);
 }
@@ -187,9 +185,9 @@ Outcome FarFocus(test::Random* random) {
   const Bounds bounds = {24, 6, 4, static_cast<float>(random->Int(0, 1) == 0 ? 2 : 100)};
   Setup setup = RandomSetup(bounds, random);
   const double distance = std::pow(10.0, random->Real(1, 5.9));
-  setup.params.focus = random->Int(0, 1) == 0 ? distance : -distance;
-  setup.params.aperture = 1;
-  setup.params.aperture = std::min(1.0, random->Real(0.01, 6) / setup.Radius());
+  setup.params.lens.focus = random->Int(0, 1) == 0 ? distance : -distance;
+  setup.params.lens.aperture = 1;
+  setup.params.lens.aperture = std::min(1.0, random->Real(0.01, 6) / setup.Radius());
   FitBlur(&setup);
   RandomMode(4, &setup, random);
   return random->Int(0, 1) == 0 ? CheckConstant(setup, random) : CheckInversion(setup, random);
@@ -281,7 +279,7 @@ Outcome Steps(test::Random* random) {
     if (positive && k > 0 && at(k) < at(k - 1)) return Contradiction(setup, "a step falls");
   }
   const double radius =
-      setup.params.aperture * std::fabs(scene.Disparity(0, 0) - setup.params.focus);
+      setup.params.lens.aperture * std::fabs(scene.Disparity(0, 0) - setup.params.lens.focus);
   const double step = light(high) - light(low);
   if (over > MostOvershoot(setup, radius) * step)
     return Contradiction(

@@ -30,23 +30,23 @@ double OftenAnEnd(double low, double high, test::Random* random) {
 }  // namespace
 
 double Setup::Radius() const {
-  return params.aperture * std::max(std::fabs(config.disparity_min - params.focus),
-                                    std::fabs(config.disparity_max - params.focus));
+  return params.lens.aperture * std::max(std::fabs(config.disparity_min - params.lens.focus),
+                                         std::fabs(config.disparity_max - params.lens.focus));
 }
 
 std::string Setup::Text() const {
   return std::to_string(config.width) + "x" + std::to_string(config.height) + ", " +
          std::to_string(config.views) + " views, " + kModes[params.mode] + ", rule " +
          std::to_string(params.rule) + ", disparity [" + Number(config.disparity_min) + ", " +
-         Number(config.disparity_max) + "], focus " + Number(params.focus) + ", aperture " +
-         Number(params.aperture) + ", max_blur " + Number(config.max_blur) + ", block " +
+         Number(config.disparity_max) + "], focus " + Number(params.lens.focus) + ", aperture " +
+         Number(params.lens.aperture) + ", max_blur " + Number(config.max_blur) + ", block " +
          std::to_string(config.largest_block) + ", layers " +
          std::to_string(config.tuning.max_layer) + ", deblocking " +
          std::to_string(config.tuning.deblocking) + ", transfer " +
          std::to_string(config.transfer) + ", highlights " + Number(double{config.highlights}) +
-         ", theta " + Number(config.theta) + ", n_scale " + Number(config.tuning.n_scale) +
+         ", theta " + Number(params.lens.theta) + ", n_scale " + Number(config.tuning.n_scale) +
          (config.tuning.gather != 0 ? "" : ", nothing gathered") +
-         (scene.coverage.empty() ? "" : ", coverage") + ", " + test::ShapeText(config);
+         (scene.coverage.empty() ? "" : ", coverage") + ", " + test::ShapeText(params.lens);
 }
 
 double RandomRadius(double largest, test::Random* random) {
@@ -152,7 +152,9 @@ void RandomLens(double radius, int modes, Setup* setup, test::Random* random) {
   setup->config.largest_block = kBlocks[std::min(random->Int(0, 3), random->Int(0, 3))];
   setup->config.tuning.max_layer = random->Int(0, 3) == 0 ? random->Int(0, 1) : 2;
   if (random->Int(0, 3) == 0) setup->config.tuning.deblocking = random->Int(0, 255);
-  if (random->Int(0, 3) == 0) setup->config.theta = OftenAnEnd(SF_MIN_THETA, SF_MAX_THETA, random);
+  if (random->Int(0, 3) == 0) {
+    setup->params.lens.theta = OftenAnEnd(SF_MIN_THETA, SF_MAX_THETA, random);
+  }
   // A cheap or a dear block makes the partition coarse or fine.
   if (random->Int(0, 1) == 0) setup->config.tuning.timing.block = 1u << random->Int(0, 26);
   FitBlur(setup);
@@ -164,8 +166,8 @@ Setup FlatSetup(int width, int height, double radius, test::Random* random) {
   Setup setup;
   setup.scene = test::EmptyScene(width, height, kViews[random->Int(0, 3)], 0, 0);
   RandomLens(radius, 4, &setup, random);
-  setup.params.aperture = 1;
-  setup.params.focus = random->Int(0, 1) == 0 ? radius : -radius;
+  setup.params.lens.aperture = 1;
+  setup.params.lens.focus = random->Int(0, 1) == 0 ? radius : -radius;
   FitBlur(&setup);
   RandomMode(4, &setup, random);
   return setup;
@@ -200,7 +202,8 @@ Setup RandomSetup(const Bounds& bounds, test::Random* random) {
     SetDepth(static_cast<Depth>(random->Int(0, 6)), &setup.scene, &fill);
     SetColours(static_cast<Colours>(random->Int(0, 3)), &setup.scene, &fill);
   }
-  if (fill.Int(0, 3) == 0) test::RandomShape(&setup.config, &fill);
+  if (fill.Int(0, 3) == 0) test::RandomShape(&setup.params.lens, &fill);
+  test::ReserveFor(setup.params.lens, &setup.config);
   return setup;
 }
 

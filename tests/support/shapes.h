@@ -12,25 +12,31 @@
 namespace test {
 
 // Any shape, with and without cat's eyes; ends of ranges as often as not.
-inline void RandomShape(sf_config* config, Random* random) {
+inline void RandomShape(sf_lens* lens, Random* random) {
   const auto often_an_end = [&](double low, double high) {
     const int end = random->Int(0, 3);
     return static_cast<float>(end == 0 ? low : end == 1 ? high : random->Real(low, high));
   };
-  config->aperture_shape = static_cast<int16_t>(random->Int(SF_SHAPE_FALL_OFF, SF_SHAPE_RING));
-  config->blades = static_cast<int16_t>(random->Int(SF_MIN_BLADES, SF_MAX_BLADES));
-  config->rotation = often_an_end(0, 360) - (random->Int(0, 1) == 0 ? 360.0F : 0.0F);
-  config->curvature = often_an_end(0, 1);
-  config->ring_inner = often_an_end(0, SF_MAX_RING_INNER);
-  if (random->Int(0, 2) == 0) config->cats_eye = often_an_end(0, 1);
+  lens->shape = random->Int(SF_SHAPE_FALL_OFF, SF_SHAPE_RING);
+  lens->blades = random->Int(SF_MIN_BLADES, SF_MAX_BLADES);
+  lens->rotation = often_an_end(0, 360) - (random->Int(0, 1) == 0 ? 360.0F : 0.0F);
+  lens->curvature = often_an_end(0, 1);
+  lens->ring_inner = often_an_end(0, SF_MAX_RING_INNER);
+  if (random->Int(0, 2) == 0) lens->cats_eye = often_an_end(0, 1);
 }
 
-inline std::string ShapeText(const sf_config& config) {
+// Sets SF_FEATURE_SHAPES if the lens needs it, and clears it otherwise.
+inline void ReserveFor(const sf_lens& lens, sf_config* config) {
+  const bool needed = lens.shape == SF_SHAPE_POLYGON || lens.cats_eye > 0;
+  SetFeature(SF_FEATURE_SHAPES, needed, &config->features);
+}
+
+inline std::string ShapeText(const sf_lens& lens) {
   char text[200];
   std::snprintf(text, sizeof(text),
                 "shape %d, blades %d, rotation %.9g, curvature %.9g, inner %.9g, cats_eye %.9g",
-                config.aperture_shape, config.blades, double{config.rotation},
-                double{config.curvature}, double{config.ring_inner}, double{config.cats_eye});
+                lens.shape, lens.blades, lens.rotation, lens.curvature, lens.ring_inner,
+                lens.cats_eye);
   return text;
 }
 
@@ -40,13 +46,13 @@ struct NamedShape {
   int shape, blades;
   float rotation, curvature, inner, cats_eye;
 
-  void Set(sf_config* config) const {
-    config->aperture_shape = static_cast<int16_t>(shape);
-    config->blades = static_cast<int16_t>(blades);
-    config->rotation = rotation;
-    config->curvature = curvature;
-    config->ring_inner = inner;
-    config->cats_eye = cats_eye;
+  void Set(sf_lens* lens) const {
+    lens->shape = shape;
+    lens->blades = blades;
+    lens->rotation = rotation;
+    lens->curvature = curvature;
+    lens->ring_inner = inner;
+    lens->cats_eye = cats_eye;
   }
 };
 inline constexpr NamedShape kShapes[] = {

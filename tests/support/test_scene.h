@@ -230,8 +230,8 @@ inline void RandomViews(Scene* scene, sf_config* config, Random* random) {
 inline sf_params Params(double focus, double aperture = 1, sf_mode mode = SF_MODE_FRAME) {
   sf_params params;
   sf_params_init(&params);
-  params.focus = focus;
-  params.aperture = aperture;
+  params.lens.focus = focus;
+  params.lens.aperture = aperture;
   params.mode = mode;
   return params;
 }

@@ -12,12 +12,12 @@ import {dropAlpha} from './pictures.mjs';
 
 const modes = {frame: Mode.FRAME, benchmark: Mode.BENCHMARK, block: Mode.BLOCK, blur: Mode.BLUR};
 const shapes = {
-  'disc': {apertureShape: Shape.DISC},
-  'pentagon': {apertureShape: Shape.POLYGON},
-  'curved-hexagon': {apertureShape: Shape.POLYGON, blades: 6, rotation: 17.5, curvature: 0.5},
-  'ring': {apertureShape: Shape.RING},
+  'disc': {shape: Shape.DISC},
+  'pentagon': {shape: Shape.POLYGON},
+  'curved-hexagon': {shape: Shape.POLYGON, blades: 6, rotation: 17.5, curvature: 0.5},
+  'ring': {shape: Shape.RING},
   'cats-eye': {catsEye: 0.75},
-  'pentagon-cats-eye': {apertureShape: Shape.POLYGON, catsEye: 0.5}
+  'pentagon-cats-eye': {shape: Shape.POLYGON, catsEye: 0.5}
 };
 const apertures = {'1.125': 0.8, '2.5': 1, '-27.5': 1};  // of the shapes' lenses, by their focus
 
@@ -49,19 +49,17 @@ function readCase(name) {
     transfer: depth === 'slanted' ? Transfer.NONE : Transfer.SRGB,
     config: {
       largestBlock: Number(block),
-      gather: Number(views) !== 9,
-      ...(shaped && shapes[shaped[1]])
+      gather: Number(views) !== 9
     },
     params: {
       mode: modes[modeName],
       focus: Number(focus),
       aperture: Number(aperture),
-      rule: Number(block) === 32 ? Rule.PAPER : Rule.DEFAULT
+      rule: Number(block) === 32 ? Rule.PAPER : Rule.DEFAULT,
+      ...(shaped && shapes[shaped[1]])
     }
   };
 }
-
-const UNCHANGED = {nScale: 1, apertureShape: Shape.FALL_OFF, blades: 5, rotation: 0, curvature: 0, catsEye: 0};
 
 /** Refocuses cases one after the other, with one refocuser for as long as the light field stays. */
 class Refocusings {
@@ -74,7 +72,7 @@ class Refocusings {
 
   async run({scene, transfer, config, params}) {
     if (scene !== this.#scene) await this.#open(scene, transfer);
-    await this.#refocuser.configure({...UNCHANGED, ...config});
+    await this.#refocuser.configure({nScale: 1, ...config});
     return this.#refocuser.refocus(params);
   }
 
@@ -82,7 +80,7 @@ class Refocusings {
     this.close();
     const {width, height, views, disparity, low, high} = this.#scene = scene;
     this.#refocuser = await createRefocuser({
-      width, height, views: views.length, disparityMin: low, disparityMax: high, maxBlur: 43, transfer,
+      width, height, views: views.length, disparityMin: low, disparityMax: high, maxBlur: 43, transfer, shapes: true,
       ...this.options
     });
     await this.#refocuser.prepare(views, disparity);

@@ -14,7 +14,7 @@ import {assertSameBytes, dropAlpha, readLightField, readPng} from './pictures.mj
 const program = process.env.STARFOCUS_PROGRAM, folder = process.env.STARFOCUS_FIELD;
 const field = readLightField(folder);
 const {width, height, low, high} = field, views = field.views.map(view => view.data);
-const options = {width, height, views: 5, disparityMin: low, disparityMax: high, maxBlur: 20, previews: 3};
+const options = {width, height, views: 5, disparityMin: low, disparityMax: high, maxBlur: 20, previews: 3, shapes: true};
 let refocuser;
 
 /** Returns what the program makes of the folder. */
@@ -45,12 +45,24 @@ test('a tap gives the bytes of the program', async () => {
                    refocusByProgram('--focus-at', `${x},${y}`, '--aperture', '0.7'));
 });
 
-test('a changed lens gives the bytes of the program', async () => {
-  await refocuser.configure({apertureShape: Shape.POLYGON, blades: 5, highlights: 4});
-  const picture = await refocuser.refocus({focus: 1});
-  await refocuser.configure({apertureShape: Shape.FALL_OFF, highlights: 1});
+test('changed settings give the bytes of the program', async () => {
+  await refocuser.configure({highlights: 4});
+  const picture = await refocuser.refocus({focus: 1, shape: Shape.POLYGON, blades: 5});
+  await refocuser.configure({highlights: 1});
   assertSameBytes(dropAlpha(picture.data),
                    refocusByProgram('--focus', '1', '--shape', 'polygon:5', '--highlights', '4'));
+});
+
+test('shapes of the lens that change from call to call give the bytes of the program', async () => {
+  const lenses = {
+    'fall-off': {}, 'polygon:7': {shape: Shape.POLYGON, blades: 7}, 'ring:0.25': {shape: Shape.RING, ringInner: 0.25},
+    'disc': {shape: Shape.DISC}
+  };
+  for (const [option, lens] of Object.entries(lenses)) {
+    const picture = await refocuser.refocus({focus: 1, ...lens});
+    assertSameBytes(dropAlpha(picture.data), refocusByProgram('--focus', '1', '--shape', option));
+  }
+  await assert.rejects(refocuser.refocus({blades: 99}), error => error.field === 'lens.blades');
 });
 
 test('regions, blocks and previews', async () => {

@@ -189,7 +189,7 @@ Error RunSweep(const RefocusOptions& options, const PictureOptions& how,
   if (!error) error = run.Start(InputName(options.input.path), task);
   if (!error) error = run.Prepare(InputName(options.input.path), task);
   for (size_t i = 0; i < foci.size() && !error; ++i) {
-    task.params.focus = foci[i];
+    task.params.lens.focus = foci[i];
     std::string out;
     EngineResult result;
     error = run.Refocus(InputName(options.input.path), task, &result);

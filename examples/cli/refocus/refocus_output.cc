@@ -110,8 +110,8 @@ Error WriteRefocused(const OutputOptions& options, const PictureOptions& how, do
   SharpOriginal photo = {};
   photo.before = &task.light_field->views[0];
   photo.disparity = &task.light_field->disparity;
-  photo.focus = task.params.focus;
-  photo.aperture = task.params.aperture;
+  photo.focus = task.params.lens.focus;
+  photo.aperture = task.params.lens.aperture;
   photo.widest = widest;
   Bytes bytes;
   if (Error error =

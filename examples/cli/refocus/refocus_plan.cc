@@ -158,7 +158,10 @@ void AddLensOptions(Command* command, LensOptions* options) {
 Error PlanLens(const LensOptions& options, LensPlan* plan) {
   plan->options = options;
   sf_config_init(&plan->config);
-  if (Error error = ParseShape(options.shape, &plan->config)) return error;
+  if (Error error = ParseShape(options.shape, &plan->lens)) return error;
+  if (plan->lens.shape == SF_SHAPE_POLYGON || plan->lens.cats_eye > 0) {
+    plan->config.features |= SF_FEATURE_SHAPES;
+  }
   return options.timing.empty() ? Error() : ReadTiming(options.timing, &plan->config.tuning.timing);
 }
 
@@ -273,8 +276,9 @@ EngineTask MakeTask(const LensPlan& plan, const LightField& light_field,
   sf_params_init(&task.params);
   task.params.mode = plan.options.mode;
   task.params.rule = plan.options.rule;
-  task.params.focus = plan.foci[0];
-  task.params.aperture = plan.aperture.radius;
+  task.params.lens = plan.lens;
+  task.params.lens.focus = plan.foci[0];
+  task.params.lens.aperture = plan.aperture.radius;
   task.params.region = plan.region;
   if (reported) task.callbacks.clock = ThreadNanoseconds;
   task.threads = plan.options.threads;

@@ -47,7 +47,8 @@ struct LensPlan {
   int x = 0, y = 0;          // that pixel
   ApertureChoice aperture;
   sf_region region = {};  // all 0: the whole picture
-  sf_config config = {};  // the shape of the aperture, the timing, and defaults
+  sf_config config = {};  // what the shape needs, the timing, and defaults
+  sf_lens lens = {};      // the shape of the opening, and defaults
 };
 
 // All that can be refused before a light field is read, but for the aperture and the focus.

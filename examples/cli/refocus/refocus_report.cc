@@ -84,18 +84,18 @@ uint64_t LargestBlocks(const EngineTask& task, int side) {
   return count(region.x, region.width) * count(region.y, region.height);
 }
 
-Json ShapeJson(const sf_config& config) {
+Json ShapeJson(const sf_lens& lens) {
   constexpr const char* kNames[] = {"fall-off", "disc", "polygon", "ring"};
   Json json;
-  json.Set("name", kNames[config.aperture_shape]);
-  if (config.aperture_shape == SF_SHAPE_FALL_OFF) json.Set("theta", config.theta);
-  if (config.aperture_shape == SF_SHAPE_POLYGON) {
-    json.Set("blades", config.blades);
-    json.Set("rotation", config.rotation);
-    json.Set("curvature", config.curvature);
+  json.Set("name", kNames[lens.shape]);
+  if (lens.shape == SF_SHAPE_FALL_OFF) json.Set("theta", lens.theta);
+  if (lens.shape == SF_SHAPE_POLYGON) {
+    json.Set("blades", lens.blades);
+    json.Set("rotation", lens.rotation);
+    json.Set("curvature", lens.curvature);
   }
-  if (config.aperture_shape == SF_SHAPE_RING) json.Set("inner", config.ring_inner);
-  json.Set("cats_eye", config.cats_eye);
+  if (lens.shape == SF_SHAPE_RING) json.Set("inner", lens.ring_inner);
+  json.Set("cats_eye", lens.cats_eye);
   return json;
 }
 
@@ -108,11 +108,11 @@ void AddFigures(const EngineTask& task, const EngineResult& result, Json* json) 
     json->Set("region", Json::Array({region.x, region.y, region.width, region.height}));
   }
   json->Set("views", task.config.views);
-  json->Set("focus", task.params.focus);
-  json->Set("aperture", task.params.aperture);
+  json->Set("focus", task.params.lens.focus);
+  json->Set("aperture", task.params.lens.aperture);
   json->Set("highlights", task.config.highlights);
   json->Set("transfer", task.config.transfer == SF_TRANSFER_NONE ? "none" : "srgb");
-  json->Set("shape", ShapeJson(task.config));
+  json->Set("shape", ShapeJson(task.params.lens));
   json->Set("n_scale", task.config.tuning.n_scale);
   json->Set("r_max", result.report.r_max);
   json->Set("N", result.report.n);

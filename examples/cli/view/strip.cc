@@ -94,8 +94,8 @@ Error RefocusEach(
   Error error = run.Start(where, task);
   if (!error) error = run.Prepare(where, task);
   for (size_t i = 0; i < lenses.size() && !error; ++i) {
-    task.params.focus = lenses[i].focus;
-    task.params.aperture = lenses[i].aperture;
+    task.params.lens.focus = lenses[i].focus;
+    task.params.lens.aperture = lenses[i].aperture;
     blocks.clear();
     EngineResult result;
     error = run.Refocus(where, task, &result);

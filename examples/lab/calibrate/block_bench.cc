@@ -41,8 +41,12 @@ Error BlockBench::Open(const std::string& where, const LightField& light_field) 
   }
   if (status == SF_OK) {
     engine_ = reinterpret_cast<EngineState*>(engine);
-    // Blocks of any N are timed.
-    const int32_t last = LargestN(engine_->config, kSliceRenderer, SF_MAX_BLUR);
+    // Blocks of any N are timed, through the default shape as in Focus.
+    sf_params params;
+    sf_params_init(&params);
+    SetOpening(ShapeOf(params.lens), &engine_->tables);
+    const Demand demand = DemandOf(engine_->tables.opening);
+    const int32_t last = LargestN(engine_->config, kSliceRenderer, demand, SF_MAX_BLUR);
     status = MakeApertures(kSliceRenderer, last, nullptr, &engine_->tables);
   }
   if (status != SF_OK) {
@@ -98,8 +102,8 @@ void BlockBench::HoldLayer(int layer) {
 void BlockBench::Focus(const BlockTask& task) {
   sf_params params;
   sf_params_init(&params);
-  params.focus = task.focus;
-  params.aperture = task.aperture;
+  params.lens.focus = task.focus;
+  params.lens.aperture = task.aperture;
   SetLens(params, engine_);
 }
 

@@ -46,7 +46,7 @@ struct SceneOptions {
 struct Plan {
   Scene scene;
   std::vector<Truth> truths;
-  sf_config shape;  // of the lens of the truths
+  sf_lens lens;  // of the truths, but for focus and aperture
 };
 
 Error ParseTruth(const std::string& text, Truth* truth) {
@@ -83,8 +83,7 @@ Error MakePlan(const SceneOptions& options, Plan* plan) {
     plan->truths.emplace_back();
     if (Error error = ParseTruth(text, &plan->truths.back())) return error;
   }
-  sf_config_init(&plan->shape);
-  return ParseShape(options.shape, &plan->shape);
+  return ParseShape(options.shape, &plan->lens);
 }
 
 // Views of an earlier, larger set or in another format would mix with the new ones, and so would
@@ -137,10 +136,10 @@ std::string MetaText(const SceneOptions& options, const Plan& plan, const RayTra
       "convention: centre pixel (x, y) appears in view (u, v) at (x - u*d, y - v*d)\n"
       "truth_dt<D>_ut<U>" +
       ShapeSuffix(options.shape) + ".png: thin-lens ground truth, " +
-      (plan.shape.aperture_shape == SF_SHAPE_FALL_OFF
+      (plan.lens.shape == SF_SHAPE_FALL_OFF
            ? "aperture density (3) with theta " + Short(options.shape.theta) + " pi"
            : "aperture " + options.shape.shape) +
-      (plan.shape.cats_eye > 0 ? ", cat's eyes " + Short(options.shape.cats_eye) : "") + "\n";
+      (plan.lens.cats_eye > 0 ? ", cat's eyes " + Short(options.shape.cats_eye) : "") + "\n";
   return text;
 }
 
@@ -151,7 +150,7 @@ struct Pictures {
 };
 
 Pictures Render(const SceneOptions& options, const Plan& plan, const RayTracer& renderer) {
-  const SceneOpening opening(plan.shape);
+  const SceneOpening opening(plan.lens);
   const bool covers = plan.scene.HasForeground();
   const int64_t costs = int64_t(options.views.size()) + (covers ? RayTracer::kCoverageCost : 0) +
                         RayTracer::kTruthCost * int64_t(plan.truths.size());

@@ -83,15 +83,9 @@ SF_API size_t sf_struct_size(const char* name);
  *  disparity_min. Without it they are refused, SF_ERROR_NOT_FINITE. sf_repair_disparity finds what
  *  the views show there, and sf_fill_disparity fills whole maps. */
 #define SF_FEATURE_FILL_UNKNOWN 16u
-
-/** What the opening of the lens looks like, in the disc of radius u_t. */
-typedef enum sf_shape {
-  SF_SHAPE_FALL_OFF = 0, /**< the paper's (3): the disc, darker towards its rim by theta */
-  SF_SHAPE_DISC = 1,     /**< the disc, as bright everywhere */
-  SF_SHAPE_POLYGON = 2,  /**< of `blades` blades, `rotation` and `curvature`; its corners lie on
-                            the  disc's rim */
-  SF_SHAPE_RING = 3      /**< the disc less one of radius `ring_inner`: a mirror lens */
-} sf_shape;
+/** Lenses may be polygons and have cat's eyes: reserves larger tables. Without it such lenses are
+ *  refused, SF_ERROR_FEATURE. */
+#define SF_FEATURE_SHAPES 32u
 
 /** Where a captured view lies, in units of u. */
 typedef struct sf_position {
@@ -139,21 +133,6 @@ typedef struct sf_config {
                         0: none. The workspace does not grow by it */
   int32_t transfer;  /**< sf_transfer: how codes of the pictures stand for light; default
                         SF_TRANSFER_SRGB */
-  int32_t aperture_shape; /**< sf_shape; default SF_SHAPE_FALL_OFF. theta belongs to that alone, the
-                             fields below to the others. By a polygon's and with cats_eye nothing
-                             is gathered */
-  int32_t blades;         /**< of a polygon, [SF_MIN_BLADES, SF_MAX_BLADES]; default 5 */
-  double theta;           /**< fall-off of the aperture (3) in radians; default 0.26 pi */
-  double rotation; /**< of a polygon in degrees, [-360, 360]; 0, the default: a corner at the top of
-                     the lens, (0, -1); more turns it clockwise, to the right */
-  double curvature;  /**< of a polygon's edges, the disc's radius over theirs, [0, 1]; default 0:
-                       straight; 1: the disc */
-  double ring_inner; /**< of a ring: radius of its hole over u_t, [0, SF_MAX_RING_INNER]; default
-                       0.5 */
-  double cats_eye; /**< how far a second rim, as wide as the disc, lies beside the lens in radii, as
-                     it is seen from the picture's corners, [0, 1]; less towards the middle: light
-                     passes both. Pictures do not get darker by it, SF_MODE_BLUR does without it;
-                     default 0: there is none */
   double highlights; /**< how many times white the lamps are that pictures clip,
                        [1, SF_MAX_HIGHLIGHTS]; default 1: as white as they look. Pixels two of whose
                        codes are 251 or more count, the brighter the more, up to clipped ones.
@@ -249,18 +228,55 @@ typedef struct sf_region {
   int32_t x, y, width, height; /**< its left and top pixel, >= 0, and its size, >= 1 */
 } sf_region;
 
-/** What to render. Call sf_params_init first. */
+/** What the opening of the lens looks like, in the disc of radius u_t. */
+typedef enum sf_shape {
+  SF_SHAPE_FALL_OFF = 0, /**< the paper's (3): the disc, darker towards its rim by theta */
+  SF_SHAPE_DISC = 1,     /**< the disc, as bright everywhere */
+  SF_SHAPE_POLYGON = 2,  /**< of `blades` blades, `rotation` and `curvature`; its corners lie on
+                            the disc's rim. Needs SF_FEATURE_SHAPES */
+  SF_SHAPE_RING = 3      /**< the disc less one of radius `ring_inner`: a mirror lens */
+} sf_shape;
+
+/** The lens of a refocusing. It may differ from call to call; the engine makes its tables again for
+ *  the first call after any of shape, blades, theta, rotation, curvature and ring_inner changed.
+ *  All fields are checked, also those that other shapes have. */
+typedef struct sf_lens {
+  double focus;    /**< disparity d_t in focus, finite, |d_t| <= SF_MAX_FOCUS; default 0 */
+  double aperture; /**< radius u_t, [0, 1]; 0: the centre view to the byte; default 1 */
+  int32_t shape;   /**< sf_shape; default SF_SHAPE_FALL_OFF. theta belongs to that alone, the fields
+                      below to the others. With a polygon and with cats_eye nothing is gathered */
+  int32_t blades;  /**< of a polygon, [SF_MIN_BLADES, SF_MAX_BLADES]; default 5 */
+  double theta;    /**< fall-off of the aperture (3) in radians, [SF_MIN_THETA, SF_MAX_THETA];
+                      default 0.26 pi */
+  double rotation; /**< of a polygon in degrees, [-360, 360]; 0, the default: a corner at the top of
+                     the lens, (0, -1); more turns it clockwise, to the right */
+  double curvature;  /**< of a polygon's edges, the disc's radius over theirs, [0, 1]; default 0:
+                       straight; 1: the disc */
+  double ring_inner; /**< of a ring: radius of its hole over u_t, [0, SF_MAX_RING_INNER]; default
+                       0.5 */
+  double cats_eye; /**< how far a second rim, as wide as the disc, lies beside the lens in radii, as
+                     it is seen from the picture's corners, [0, 1]; less towards the middle: light
+                     passes both. Pictures do not get darker by it, SF_MODE_BLUR does without it.
+                     Above 0 it needs SF_FEATURE_SHAPES; default 0: there is none */
+} sf_lens;
+
+/** What to render. Call sf_params_init first: it sets `size` and the defaults. Structures of other
+ *  sizes are treated as those of sf_config. */
 typedef struct sf_params {
-  uint32_t version;     /**< SF_ABI_VERSION, set by sf_params_init */
-  int32_t mode;         /**< sf_mode; default SF_MODE_BLOCK */
-  double focus;         /**< disparity d_t in focus, finite, |d_t| <= SF_MAX_FOCUS */
-  double aperture;      /**< radius u_t, [0, 1]; 0: the centre view to the byte; default 1 */
-  int32_t rule;         /**< sf_rule; SF_MODE_BLUR ignores it; default SF_RULE_DEFAULT */
-  sf_region region;     /**< what sf_refocus writes; streaming: all 0; default all 0 */
-  uint32_t reserved[4]; /**< zero */
+  uint32_t size;    /**< of the structure in bytes, set by sf_params_init */
+  int32_t mode;     /**< sf_mode; default SF_MODE_BLOCK */
+  int32_t rule;     /**< sf_rule; SF_MODE_BLUR ignores it; default SF_RULE_DEFAULT */
+  sf_region region; /**< what sf_refocus writes; streaming: all 0; default all 0 */
+  sf_lens lens;     /**< what focuses the picture */
 } sf_params;
 
-SF_API void sf_params_init(sf_params* params);
+/** Sets the first `size` bytes of params, as many as the caller's header knows. For bindings;
+ *  programs in C and C++ call sf_params_init. */
+SF_API void sf_params_init_sized(sf_params* params, uint32_t size);
+
+static inline void sf_params_init(sf_params* params) {
+  sf_params_init_sized(params, (uint32_t)sizeof(sf_params));
+}
 
 /** Rows of a picture: `data` points to the first row. */
 typedef struct sf_plane {

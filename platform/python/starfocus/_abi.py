@@ -45,9 +45,8 @@ class Config(Structure):
         ("size", c_uint32), ("width", c_int32), ("height", c_int32), ("views", c_int32),
         ("disparity_min", c_double), ("disparity_max", c_double), ("max_blur", c_double),
         ("largest_block", c_int32), ("max_workers", c_int32), ("features", c_uint32), ("previews", c_int32),
-        ("transfer", c_int32), ("aperture_shape", c_int32), ("blades", c_int32), ("theta", c_double),
-        ("rotation", c_double), ("curvature", c_double), ("ring_inner", c_double), ("cats_eye", c_double),
-        ("highlights", c_double), ("positions", Position * MAX_VIEWS), ("tuning", Tuning), ("problem", c_void_p),
+        ("transfer", c_int32), ("highlights", c_double), ("positions", Position * MAX_VIEWS), ("tuning", Tuning),
+        ("problem", c_void_p),
     ]
 
 
@@ -64,13 +63,19 @@ class Region(Structure):
     _fields_ = [(name, c_int32) for name in ("x", "y", "width", "height")]
 
 
+class Lens(Structure):
+    """sf_lens"""
+
+    _fields_ = [
+        ("focus", c_double), ("aperture", c_double), ("shape", c_int32), ("blades", c_int32), ("theta", c_double),
+        ("rotation", c_double), ("curvature", c_double), ("ring_inner", c_double), ("cats_eye", c_double),
+    ]
+
+
 class Params(Structure):
     """sf_params"""
 
-    _fields_ = [
-        ("version", c_uint32), ("mode", c_int32), ("focus", c_double), ("aperture", c_double),
-        ("rule", c_int32), ("region", Region), ("reserved", c_uint32 * 4),
-    ]
+    _fields_ = [("size", c_uint32), ("mode", c_int32), ("rule", c_int32), ("region", Region), ("lens", Lens)]
 
 
 class Callbacks(Structure):
@@ -175,7 +180,7 @@ class Map(Structure):
 
 STRUCTURES = {
     "sf_problem": Problem, "sf_timing": Timing, "sf_tuning": Tuning, "sf_position": Position, "sf_config": Config,
-    "sf_region": Region, "sf_params": Params,
+    "sf_region": Region, "sf_lens": Lens, "sf_params": Params,
     "sf_plane": Plane, "sf_light_field": LightField, "sf_layer_report": LayerReport,
     "sf_skipped": Skipped, "sf_report": Report, "sf_disparity_stats": DisparityStats,
     "sf_depth_config": DepthConfig, "sf_image": Image,
@@ -207,7 +212,7 @@ _MAP_CALLS = {
 }
 _OTHERS = {
     "sf_config_init_sized": (None, POINTER(Config), c_uint32),
-    "sf_params_init": (None, POINTER(Params)),
+    "sf_params_init_sized": (None, POINTER(Params), c_uint32),
     "sf_depth_config_init_sized": (None, POINTER(DepthConfig), c_uint32),
     "sf_destroy": (None, c_void_p),
     "sf_engine_problem": (POINTER(Problem), c_void_p),

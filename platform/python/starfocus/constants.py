@@ -21,7 +21,7 @@ class Rule(IntEnum):
 
 
 class Shape(IntEnum):
-    """The opening of the lens, for the configuration's aperture_shape: sf_shape."""
+    """The opening of the lens: sf_shape."""
 
     FALL_OFF = 0
     DISC = 1

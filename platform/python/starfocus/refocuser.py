@@ -22,7 +22,7 @@ from .maps import measure_disparity
 
 
 #: What `config` switches on by names of its own: bits of sf_config.features.
-_FEATURES = {"line_scan": 1, "coverage": 2, "images": 8, "fill_unknown": 16}
+_FEATURES = {"line_scan": 1, "coverage": 2, "images": 8, "fill_unknown": 16, "shapes": 32}
 
 
 class Refocuser:
@@ -36,8 +36,9 @@ class Refocuser:
         positions: (u, v) of each view where they are not those of `view_positions`, from -1 to 1, the centre
             (0, 0) first: `[(0, 0), (1, 0)]` of a stereo pair.
         config: other fields of sf_config and sf_tuning (starfocus.h) and features by their names, such as `max_blur`,
-            `aperture_shape`, `transfer`, `highlights`, `fill_unknown=1`, `images=1` for
-            `refocus_images`, or `previews=3` for `Prepared.preview` down to an eighth of the size.
+            `transfer`, `highlights`, `fill_unknown=1`, `shapes=1` for lenses that are polygons or have cat's
+            eyes, `images=1` for `refocus_images`, or `previews=3` for `Prepared.preview` down to an eighth of
+            the size.
 
     Memory is taken here and nowhere else. Calls let other Python threads run; calls of several threads with
     the same refocuser take turns. The bytes of pictures depend on neither the machine nor `workers`.
@@ -104,7 +105,7 @@ class Refocuser:
     def refocus(self, views: Views, disparity: np.ndarray, *, focus: float, aperture: float = 1.0,
                 coverage: Optional[np.ndarray] = None, mode: Mode = Mode.BLOCK, rule: Rule = Rule.DEFAULT,
                 region: Optional[RegionOfPicture] = None, out: Optional[np.ndarray] = None,
-                progress: Optional[ProgressFunction] = None) -> np.ndarray:
+                progress: Optional[ProgressFunction] = None, **lens: Any) -> np.ndarray:
         """The picture that a lens of the radius `aperture`, from 0 to 1, focused at the disparity `focus`
         would have taken, as (height, width, 3) uint8.
 
@@ -116,14 +117,17 @@ class Refocuser:
             region: only this part of the picture, with the same bytes. Four zeros, as None: the whole picture.
             out: written and returned in place of a new array.
             progress: is told of the rows done and of all; what counts as true calls it off (Cancelled).
+            lens: other fields of sf_lens (starfocus.h): `shape`, `blades`, `theta`, `rotation`, `curvature`,
+                `ring_inner`, `cats_eye`.
 
         Raises StarfocusError, of which there are kinds, and TypeError or ValueError for arrays.
         """
         field, kept = light_field(views, disparity, self._config.views, self.height, self.width)
         kept += set_coverage(field, coverage, self.height, self.width)
         *_, width, height = part_of(region, self.width, self.height)
-        return self._picture(focus, aperture, mode, rule, region, output(out, (height, width, 3), "out"),
-                             progress, library.sf_refocus, byref(field), keep=kept)
+        params = self._params(mode, rule, region, focus=focus, aperture=aperture, **lens)
+        return self._picture(params, output(out, (height, width, 3), "out"), progress, library.sf_refocus,
+                             byref(field), keep=kept)
 
     def prepare(self, views: Views, disparity: np.ndarray, *, coverage: Optional[np.ndarray] = None,
                 progress: Optional[ProgressFunction] = None) -> "Prepared":
@@ -133,7 +137,7 @@ class Refocuser:
     def refocus_images(self, views: Sequence[Image], depth: DepthMap, *, focus: float,
                        out: Image, aperture: float = 1.0, coverage: Optional[np.ndarray] = None,
                        mode: Mode = Mode.BLOCK, rule: Rule = Rule.DEFAULT, region: Optional[RegionOfPicture] = None,
-                       progress: Optional[ProgressFunction] = None) -> Image:
+                       progress: Optional[ProgressFunction] = None, **lens: Any) -> Image:
         """As `refocus`, of pictures and depths as cameras have them, into the image `out`, which is returned;
         the configuration has `images=1`."""
         if len(views) != self._config.views:
@@ -146,28 +150,29 @@ class Refocuser:
         *_, width, height = part_of(region, self.width, self.height)
         target = out.as_structure(width, height, "out", written=True)
         watch = Watch(progress)
-        params = self._params(focus, aperture, mode, rule, region)
+        params = self._params(mode, rule, region, focus=focus, aperture=aperture, **lens)
         self._call(watch, library.sf_refocus_images, byref(params), byref(field), byref(target))
         del kept
         return out
 
-    def _picture(self, focus: float, aperture: float, mode: Mode, rule: Rule,
-                 region: Optional[RegionOfPicture], picture: np.ndarray,
-                 progress: Optional[ProgressFunction], function: Any, *scene: Any,
-                 keep: List[np.ndarray]) -> np.ndarray:
+    def _picture(self, params: _abi.Params, picture: np.ndarray, progress: Optional[ProgressFunction],
+                 function: Any, *scene: Any, keep: List[np.ndarray]) -> np.ndarray:
         """The picture by sf_refocus or its like, of the scene, which reads the arrays to `keep`."""
         watch = Watch(progress)
-        params = self._params(focus, aperture, mode, rule, region)
         self._call(watch, function, byref(params), *scene, pointer(picture), stride_of(picture))
         del keep
         return picture
 
-    def _params(self, focus: float, aperture: float, mode: Mode, rule: Rule,
-                region: Optional[RegionOfPicture]) -> _abi.Params:
+    def _params(self, mode: Mode, rule: Rule, region: Optional[RegionOfPicture], **lens: Any) -> _abi.Params:
         params = _abi.Params()
-        library.sf_params_init(byref(params))
-        for name, value in (("focus", focus), ("aperture", aperture), ("mode", mode), ("rule", rule)):
-            set_field(params, name, value)
+        library.sf_params_init_sized(byref(params), ctypes.sizeof(params))
+        set_field(params, "mode", mode)
+        set_field(params, "rule", rule)
+        known = {field[0] for field in _abi.Lens._fields_}
+        for name, value in lens.items():
+            if name not in known:
+                raise TypeError(f"refocus: unknown field of the lens '{name}'")
+            set_field(params.lens, name, value)
         if region is not None:
             set_field(params, "region", tuple(region))
         return params
@@ -209,17 +214,18 @@ class Prepared:
     def refocus(self, *, focus: float, aperture: float = 1.0, mode: Mode = Mode.BLOCK,
                 rule: Rule = Rule.DEFAULT, region: Optional[RegionOfPicture] = None,
                 out: Optional[np.ndarray] = None,
-                progress: Optional[ProgressFunction] = None) -> np.ndarray:
+                progress: Optional[ProgressFunction] = None, **lens: Any) -> np.ndarray:
         """As Refocuser.refocus of the light field, with the same bytes."""
+        # pylint: disable=protected-access
         *_, width, height = part_of(region, self._refocuser.width, self._refocuser.height)
-        return self._refocuser._picture(  # pylint: disable=protected-access
-            focus, aperture, mode, rule, region, output(out, (height, width, 3), "out"), progress,
-            library.sf_refocus_prepared, self._handle, keep=self._kept)
+        params = self._refocuser._params(mode, rule, region, focus=focus, aperture=aperture, **lens)
+        return self._refocuser._picture(params, output(out, (height, width, 3), "out"), progress,
+                                        library.sf_refocus_prepared, self._handle, keep=self._kept)
 
     def preview(self, shift: int, *, focus: float, aperture: float = 1.0, mode: Mode = Mode.BLOCK,
                 rule: Rule = Rule.DEFAULT, region: Optional[RegionOfPicture] = None,
                 out: Optional[np.ndarray] = None,
-                progress: Optional[ProgressFunction] = None) -> np.ndarray:
+                progress: Optional[ProgressFunction] = None, **lens: Any) -> np.ndarray:
         """As `refocus` at 1 / 2**shift of the size, from 1 to the `previews` of the refocuser's
         configuration. Focus and region are in pixels of the full size; the picture has the pixels that
         have a part of the region."""
@@ -229,9 +235,9 @@ class Prepared:
             raise ArgumentError(Status.PREPARED, _abi.Problem(Status.PREPARED, 0, b"shift", b"1 to previews", shift))
         side = 1 << shift
         shape = (-(-(y + height) // side) - y // side, -(-(x + width) // side) - x // side, 3)
-        return self._refocuser._picture(
-            focus, aperture, mode, rule, region, output(out, shape, "out"), progress,
-            library.sf_refocus_preview, self._handle, shift, keep=self._kept)
+        params = self._refocuser._params(mode, rule, region, focus=focus, aperture=aperture, **lens)
+        return self._refocuser._picture(params, output(out, shape, "out"), progress, library.sf_refocus_preview,
+                                        self._handle, shift, keep=self._kept)
 
 
 def _as_dict(structure: ctypes.Structure) -> Dict[str, Any]:

@@ -8,41 +8,36 @@
 //   const picture = await refocuser.refocus({focus});
 //   context.putImageData(new ImageData(picture.data, picture.width, picture.height), 0, 0);
 //
-// Fields that are not explained here are those of sf_config and sf_params in starfocus/starfocus.h, written
-// as JavaScript writes names, with its defaults. Bytes are those of the library and of its program.
+// Fields that are not explained here are those of sf_config, sf_params and sf_lens in starfocus/starfocus.h,
+// written as JavaScript writes names, with its defaults. Bytes are those of the library and of its program.
 
 /** How the picture is made; default BLOCK. */
 export declare const Mode: {readonly FRAME: 0, readonly BENCHMARK: 1, readonly BLOCK: 2, readonly BLUR: 3};
 /** How many views a blur needs. */
 export declare const Rule: {readonly DEFAULT: 0, readonly PAPER: 1, readonly SUBAPERTURE: 2};
-/** The opening of the lens. */
+/** The opening of the lens; default FALL_OFF. */
 export declare const Shape: {readonly FALL_OFF: 0, readonly DISC: 1, readonly POLYGON: 2, readonly RING: 3};
 /** How the codes of a picture stand for light; default SRGB. */
 export declare const Transfer: {readonly SRGB: 0, readonly NONE: 1};
 
 /** What a refocuser can be told at any time. */
-export interface Lens {
+export interface Settings {
   /** Largest blur radius in pixels that will be asked for; default 32. */
   maxBlur?: number;
   largestBlock?: 0 | 32 | 64 | 128 | 256;
-  theta?: number;
   deblocking?: number;
   timing?: {block?: number, field?: number, a?: number, b?: number, c?: number, upsample?: number, span?: number, hole?: number};
   nScale?: number;
   skips?: boolean;
   gather?: boolean;
-  apertureShape?: 0 | 1 | 2 | 3;
-  blades?: number;
-  rotation?: number;
-  curvature?: number;
-  ringInner?: number;
-  catsEye?: number;
   /** How many times white the lamps are that the pictures clip, from 1 to 64; default 1. */
   highlights?: number;
   fillUnknown?: boolean;
+  /** True: lenses may be polygons and have cat's eyes, for which memory is reserved. */
+  shapes?: boolean;
 }
 
-export interface Options extends Lens {
+export interface Options extends Settings {
   /** Pixels of every view. */
   width: number;
   height: number;
@@ -89,6 +84,14 @@ export interface Params extends Call {
   focus?: number;
   /** Radius of the lens, from 0 to 1, which is that of the outermost views; default 1. */
   aperture?: number;
+  /** POLYGON, and catsEye above 0, need `shapes`. */
+  shape?: 0 | 1 | 2 | 3;
+  blades?: number;
+  theta?: number;
+  rotation?: number;
+  curvature?: number;
+  ringInner?: number;
+  catsEye?: number;
   mode?: 0 | 1 | 2 | 3;
   rule?: 0 | 1 | 2;
   /** Only this part of the picture, in its pixels; four zeros: the whole picture. */
@@ -140,8 +143,8 @@ export interface Refocuser {
   prepare(views: View[], depth: Float32Array | DepthMap,
           options?: Call & {coverage?: Uint8Array | Uint8ClampedArray, transfer?: boolean}): Promise<{milliseconds: number}>;
 
-  /** Changes the lens; the light field stays. */
-  configure(lens: Lens): Promise<void>;
+  /** Changes settings, for which it makes another engine; the light field stays. */
+  configure(settings: Settings): Promise<void>;
 
   /** Refocuses at 1 / 2^shift of the size; default 1. */
   preview(params?: Params & {shift?: 1 | 2 | 3}): Promise<Picture>;

@@ -17,29 +17,41 @@ typedef struct Field {
   { #name, offsetof(sf_config, tuning.name), type }
 #define PARAMS(name, type) \
   { #name, offsetof(sf_params, name), type }
+#define LENS(name, type) \
+  { #name, offsetof(sf_params, lens.name), type }
 
 static const Field kConfigFields[] = {
-    CONFIG(width, kInt32),          CONFIG(height, kInt32),
-    CONFIG(views, kInt32),          CONFIG(disparity_min, kDouble),
-    CONFIG(disparity_max, kDouble), CONFIG(max_blur, kDouble),
-    CONFIG(largest_block, kInt32),  CONFIG(previews, kInt32),
-    CONFIG(transfer, kInt32),       CONFIG(aperture_shape, kInt32),
-    CONFIG(blades, kInt32),         CONFIG(theta, kDouble),
-    CONFIG(rotation, kDouble),      CONFIG(curvature, kDouble),
-    CONFIG(ring_inner, kDouble),    CONFIG(cats_eye, kDouble),
-    CONFIG(highlights, kDouble),    TUNING(max_layer, kInt32),
-    TUNING(deblocking, kInt32),     TUNING(skips, kInt32),
-    TUNING(gather, kInt32),         TUNING(n_scale, kDouble),
-    TUNING(timing.block, kUint32),  TUNING(timing.field, kUint32),
-    TUNING(timing.a, kUint32),      TUNING(timing.b, kUint32),
-    TUNING(timing.c, kUint32),      TUNING(timing.upsample, kUint32),
-    TUNING(timing.span, kUint32),   TUNING(timing.hole, kUint32),
+    CONFIG(width, kInt32),
+    CONFIG(height, kInt32),
+    CONFIG(views, kInt32),
+    CONFIG(disparity_min, kDouble),
+    CONFIG(disparity_max, kDouble),
+    CONFIG(max_blur, kDouble),
+    CONFIG(largest_block, kInt32),
+    CONFIG(previews, kInt32),
+    CONFIG(transfer, kInt32),
+    CONFIG(highlights, kDouble),
+    TUNING(max_layer, kInt32),
+    TUNING(deblocking, kInt32),
+    TUNING(skips, kInt32),
+    TUNING(gather, kInt32),
+    TUNING(n_scale, kDouble),
+    TUNING(timing.block, kUint32),
+    TUNING(timing.field, kUint32),
+    TUNING(timing.a, kUint32),
+    TUNING(timing.b, kUint32),
+    TUNING(timing.c, kUint32),
+    TUNING(timing.upsample, kUint32),
+    TUNING(timing.span, kUint32),
+    TUNING(timing.hole, kUint32),
 };
 
 static const Field kParamsFields[] = {
-    PARAMS(mode, kInt32),         PARAMS(focus, kDouble),        PARAMS(aperture, kDouble),
-    PARAMS(rule, kInt32),         PARAMS(region.x, kInt32),      PARAMS(region.y, kInt32),
-    PARAMS(region.width, kInt32), PARAMS(region.height, kInt32),
+    PARAMS(mode, kInt32),     PARAMS(rule, kInt32),         PARAMS(region.x, kInt32),
+    PARAMS(region.y, kInt32), PARAMS(region.width, kInt32), PARAMS(region.height, kInt32),
+    LENS(focus, kDouble),     LENS(aperture, kDouble),      LENS(shape, kInt32),
+    LENS(blades, kInt32),     LENS(theta, kDouble),         LENS(rotation, kDouble),
+    LENS(curvature, kDouble), LENS(ring_inner, kDouble),    LENS(cats_eye, kDouble),
 };
 
 /* Returns `value`, or `wrong` if it is not a whole number in [low, high]. `wrong` is outside the
@@ -73,13 +85,16 @@ static int Set(void* structure, const Field* fields, size_t count, const char* n
   return 0;
 }
 
+static int SetFeature(sf_config* config, uint32_t feature, double value) {
+  /* What is neither 0 nor 1 sets all bits, which the library rejects. */
+  const uint32_t bits = value == 0 || value == 1 ? feature : UINT32_MAX;
+  config->features = value == 0 ? config->features & ~bits : config->features | bits;
+  return 1;
+}
+
 int SetConfigField(sf_config* config, const char* name, double value) {
-  if (strcmp(name, "fill_unknown") == 0) {
-    /* What is neither 0 nor 1 sets all bits, which the library rejects. */
-    const uint32_t bits = value == 0 || value == 1 ? SF_FEATURE_FILL_UNKNOWN : UINT32_MAX;
-    config->features = value == 0 ? config->features & ~bits : config->features | bits;
-    return 1;
-  }
+  if (strcmp(name, "fill_unknown") == 0) return SetFeature(config, SF_FEATURE_FILL_UNKNOWN, value);
+  if (strcmp(name, "shapes") == 0) return SetFeature(config, SF_FEATURE_SHAPES, value);
   return Set(config, kConfigFields, sizeof(kConfigFields) / sizeof(kConfigFields[0]), name, value);
 }
 

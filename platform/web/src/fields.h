@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Fields of sf_config and sf_params by their C names, for JavaScript, which sees no structures. */
+/* Fields of sf_config, sf_params and sf_lens by their C names, for JavaScript, which sees no
+ * structures. */
 #ifndef STARFOCUS_PLATFORM_WEB_SRC_FIELDS_H_
 #define STARFOCUS_PLATFORM_WEB_SRC_FIELDS_H_
 

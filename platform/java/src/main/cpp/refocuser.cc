@@ -62,13 +62,6 @@ constexpr Field kConfigFields[] = {
     {"workers", FieldType::kInt32, offsetof(sf_config, max_workers)},
     {"largestBlock", FieldType::kInt32, offsetof(sf_config, largest_block)},
     {"nScale", FieldType::kDouble, offsetof(sf_config, tuning.n_scale)},
-    {"apertureShape", FieldType::kInt32, offsetof(sf_config, aperture_shape)},
-    {"theta", FieldType::kDouble, offsetof(sf_config, theta)},
-    {"blades", FieldType::kInt32, offsetof(sf_config, blades)},
-    {"rotation", FieldType::kDouble, offsetof(sf_config, rotation)},
-    {"curvature", FieldType::kDouble, offsetof(sf_config, curvature)},
-    {"ringInner", FieldType::kDouble, offsetof(sf_config, ring_inner)},
-    {"catsEye", FieldType::kDouble, offsetof(sf_config, cats_eye)},
     {"transfer", FieldType::kInt32, offsetof(sf_config, transfer)},
     {"highlights", FieldType::kDouble, offsetof(sf_config, highlights)},
     {"previews", FieldType::kInt32, offsetof(sf_config, previews)},
@@ -77,8 +70,15 @@ constexpr Field kConfigFields[] = {
 constexpr Field kParamsFields[] = {
     {"mode", FieldType::kInt32, offsetof(sf_params, mode)},
     {"rule", FieldType::kInt32, offsetof(sf_params, rule)},
-    {"focus", FieldType::kDouble, offsetof(sf_params, focus)},
-    {"aperture", FieldType::kDouble, offsetof(sf_params, aperture)},
+    {"focus", FieldType::kDouble, offsetof(sf_params, lens.focus)},
+    {"aperture", FieldType::kDouble, offsetof(sf_params, lens.aperture)},
+    {"shape", FieldType::kInt32, offsetof(sf_params, lens.shape)},
+    {"blades", FieldType::kInt32, offsetof(sf_params, lens.blades)},
+    {"theta", FieldType::kDouble, offsetof(sf_params, lens.theta)},
+    {"rotation", FieldType::kDouble, offsetof(sf_params, lens.rotation)},
+    {"curvature", FieldType::kDouble, offsetof(sf_params, lens.curvature)},
+    {"ringInner", FieldType::kDouble, offsetof(sf_params, lens.ring_inner)},
+    {"catsEye", FieldType::kDouble, offsetof(sf_params, lens.cats_eye)},
     {"regionX", FieldType::kInt32, offsetof(sf_params, region.x)},
     {"regionY", FieldType::kInt32, offsetof(sf_params, region.y)},
     {"regionWidth", FieldType::kInt32, offsetof(sf_params, region.width)},
@@ -200,6 +200,9 @@ STARFOCUS_NATIVE(jlong, create)(JNIEnv* env, jclass, jobject configuration) {
       ReadPositions(env, configuration, &session->config)) {
     if (ReadInt(env, configuration, "fillUnknown") != 0) {
       session->config.features |= SF_FEATURE_FILL_UNKNOWN;
+    }
+    if (ReadInt(env, configuration, "shapes") != 0) {
+      session->config.features |= SF_FEATURE_SHAPES;
     }
     sf_problem problem = {};
     session->config.problem = &problem;

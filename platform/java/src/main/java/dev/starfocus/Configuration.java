@@ -7,7 +7,6 @@ package dev.starfocus;
  * disparities must be filled in.
  */
 public final class Configuration {
-  public static final int SHAPE_FALL_OFF = 0, SHAPE_DISC = 1, SHAPE_POLYGON = 2, SHAPE_RING = 3;
   public static final int TRANSFER_SRGB = 0, TRANSFER_NONE = 1;
 
   /** Size of the pictures in pixels. */
@@ -28,14 +27,15 @@ public final class Configuration {
 
   public int largestBlock;
   public double nScale;
-  public int apertureShape;
-  public double theta;
-  public int blades;
-  public double rotation, curvature, ringInner, catsEye;
   public int transfer;
   public double highlights;
   /** Not 0: disparities that are not finite, and invalid depths, are unknown; 0: they are refused. */
   public int fillUnknown;
+  /**
+   * Not 0: lenses may be polygons and have cat's eyes, for which memory is reserved; 0, the default:
+   * they are refused.
+   */
+  public int shapes;
   /** Largest shift of {@link Refocuser#preview}, 0 to 3; 0, the default: there are no previews. */
   public int previews;
 

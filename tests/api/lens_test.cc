@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lenses whose shape changes between the calls of one engine: the bytes are those of an engine that
+// has seen no other lens.
+#include <doctest/doctest.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "starfocus/starfocus.h"
+#include "tests/support/layered_scene.h"
+#include "tests/support/shapes.h"
+#include "tests/support/test_scene.h"
+
+namespace lens_test {
+namespace {
+
+constexpr int kWidth = 97, kHeight = 70;
+constexpr sf_mode kModes[] = {SF_MODE_BLOCK, SF_MODE_FRAME, SF_MODE_BENCHMARK, SF_MODE_BLUR};
+constexpr test::NamedShape kPlain = {"fall-off", SF_SHAPE_FALL_OFF, 5, 0, 0, 0.5F, 0};
+
+sf_lens LensOf(const test::NamedShape& shape, double theta = 0.8) {
+  sf_lens lens = test::Params(-3.5).lens;
+  lens.theta = theta;
+  shape.Set(&lens);
+  return lens;
+}
+
+// Shapes of every kind in turn, and neighbours that differ in one field each.
+std::vector<sf_lens> Lenses() {
+  std::vector<sf_lens> lenses = {LensOf(kPlain)};
+  for (const test::NamedShape& shape : test::kShapes) lenses.push_back(LensOf(shape));
+  lenses.push_back(LensOf(kPlain));
+  lenses.push_back(LensOf(kPlain, 1.2));
+  const sf_lens polygon = LensOf({"hexagon", SF_SHAPE_POLYGON, 6, 10, 0.25F, 0.5F, 0});
+  lenses.insert(lenses.end(), 4, polygon);
+  lenses[lenses.size() - 3].blades = 7;
+  lenses[lenses.size() - 2].rotation = 30;
+  lenses[lenses.size() - 1].curvature = 0.75;
+  const sf_lens ring = LensOf({"ring", SF_SHAPE_RING, 5, 0, 0, 0.25F, 0});
+  lenses.insert(lenses.end(), 2, ring);
+  lenses.back().ring_inner = 0.75;
+  lenses.push_back(LensOf(kPlain));
+  return lenses;
+}
+
+test::Scene MakeScene() { return test::LayeredScene(kWidth, kHeight, 5, 4, 3); }
+
+sf_config Config(const test::Scene& scene) {
+  sf_config config = test::ConfigFor(scene, 10);
+  config.largest_block = 32;
+  config.features |= SF_FEATURE_SHAPES | SF_FEATURE_STREAMING;
+  return config;
+}
+
+sf_params ParamsOf(const sf_lens& lens, sf_mode mode, sf_rule rule) {
+  sf_params params = test::Params(0, 1, mode);
+  params.rule = rule;
+  params.lens = lens;
+  return params;
+}
+
+// By an engine that has memory for that shape alone.
+std::vector<uint8_t> Expected(const test::Scene& scene, const sf_params& params) {
+  sf_config config = Config(scene);
+  test::ReserveFor(params.lens, &config);
+  test::Engine engine(config);
+  test::Output out(kWidth, kHeight);
+  REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
+  return out.bytes;
+}
+
+TEST_CASE("lens: a shape that changes between calls gives the bytes of an engine of its own") {
+  const test::Scene scene = MakeScene();
+  for (const sf_mode mode : kModes) {
+    for (const sf_rule rule : {SF_RULE_PAPER, SF_RULE_SUBAPERTURE}) {
+      CAPTURE(mode);
+      CAPTURE(rule);
+      if (mode == SF_MODE_BLUR && rule == SF_RULE_PAPER) continue;  // it ignores the rule
+      test::Engine engine(Config(scene));
+      int index = 0;
+      for (const sf_lens& lens : Lenses()) {
+        CAPTURE(index);
+        ++index;
+        const sf_params params = ParamsOf(lens, mode, rule);
+        test::Output out(kWidth, kHeight);
+        REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
+        CHECK((out.bytes == Expected(scene, params)));
+      }
+    }
+  }
+}
+
+// Cancels at the call of progress after `left` others.
+int CancelAfter(void* left, int32_t, int32_t) { return (*static_cast<int*>(left))-- == 0; }
+
+TEST_CASE("lens: a cancelled call leaves no table of its shape to calls with another") {
+  const test::Scene scene = MakeScene();
+  const sf_lens pentagon = LensOf(test::kShapes[1]), plain = LensOf(kPlain);
+  for (const sf_mode mode : kModes) {
+    CAPTURE(mode);
+    test::Engine engine(Config(scene));
+    const auto check = [&](const sf_lens& lens) {
+      const sf_params params = ParamsOf(lens, mode, SF_RULE_DEFAULT);
+      test::Output out(kWidth, kHeight);
+      REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
+      CHECK((out.bytes == Expected(scene, params)));
+    };
+    int cancelled = 0;
+    for (int calls = 0; calls < 6; ++calls) {
+      int left = calls;
+      test::Output out(kWidth, kHeight);
+      const sf_params params = ParamsOf(pentagon, mode, SF_RULE_DEFAULT);
+      const sf_status status =
+          test::Refocus(&engine, params, scene, &out, test::ToldTo(CancelAfter, &left));
+      cancelled += status == SF_ERROR_CANCELLED;
+      check(calls % 2 == 0 ? plain : pentagon);
+    }
+    CHECK(cancelled > 1);
+  }
+}
+
+TEST_CASE("lens: engines share a prepared light field, each through lenses of its own") {
+  const test::Scene scene = MakeScene();
+  const sf_config config = Config(scene);
+  test::Engine first(config), second(config);
+  size_t bytes = 0;
+  REQUIRE(sf_prepared_size(&config, &bytes) == SF_OK);
+  std::vector<uint8_t> memory(bytes + SF_ALIGNMENT);
+  uint8_t* const aligned =
+      memory.data() + SF_ALIGNMENT - reinterpret_cast<uintptr_t>(memory.data()) % SF_ALIGNMENT;
+  const sf_light_field field = scene.Field();
+  sf_prepared* prepared = nullptr;
+  REQUIRE(sf_prepare(first.get(), &field, aligned, bytes, &prepared) == SF_OK);
+  const std::vector<sf_lens> lenses = Lenses();
+  for (size_t k = 0; k < lenses.size(); ++k) {
+    CAPTURE(k);
+    for (const bool ahead : {false, true}) {
+      const sf_lens& lens = lenses[(k + (ahead ? 1 : 0)) % lenses.size()];
+      const sf_params params = ParamsOf(lens, SF_MODE_BLOCK, SF_RULE_DEFAULT);
+      test::Output out(kWidth, kHeight);
+      REQUIRE(sf_refocus_prepared((ahead ? second : first).get(), &params, prepared,
+                                  out.bytes.data(), out.stride, nullptr) == SF_OK);
+      CHECK((out.bytes == Expected(scene, params)));
+    }
+  }
+}
+
+TEST_CASE("lens: a stream keeps the lens that it was begun with") {
+  const test::Scene scene = MakeScene();
+  test::Engine engine(Config(scene));
+  for (const sf_lens& lens : Lenses()) {
+    const sf_params expected = ParamsOf(lens, SF_MODE_BLOCK, SF_RULE_DEFAULT);
+    sf_params params = expected;
+    REQUIRE(sf_stream_begin(engine.get(), &params) == SF_OK);
+    params.lens = LensOf(test::kShapes[0]);
+    // A begin that is refused changes nothing.
+    params.lens.blades = 99;
+    CHECK(sf_stream_begin(engine.get(), &params) == SF_ERROR_RANGE);
+    test::Output out(kWidth, kHeight);
+    int pushed = 0, pulled = 0;
+    while (pulled < kHeight) {
+      const sf_light_field field = scene.Field(pushed);
+      int32_t consumed = 0, written = 0;
+      REQUIRE(sf_stream_push(engine.get(), &field, kHeight - pushed, &consumed) == SF_OK);
+      REQUIRE(sf_stream_pull(engine.get(), out.bytes.data() + size_t(pulled) * out.stride,
+                             out.stride, kHeight - pulled, &written, nullptr) == SF_OK);
+      pushed += consumed;
+      pulled += written;
+      REQUIRE(consumed + written > 0);
+    }
+    CHECK((out.bytes == Expected(scene, expected)));
+  }
+}
+
+TEST_CASE("lens: without SF_FEATURE_SHAPES only polygons and cat's eyes are refused") {
+  const test::Scene scene = MakeScene();
+  sf_config config = Config(scene);
+  config.features &= ~SF_FEATURE_SHAPES;
+  test::Engine engine(config);
+  for (const sf_lens& lens : Lenses()) {
+    const bool refused = lens.shape == SF_SHAPE_POLYGON || lens.cats_eye > 0;
+    const sf_params params = ParamsOf(lens, SF_MODE_BLOCK, SF_RULE_DEFAULT);
+    test::Output out(kWidth, kHeight);
+    const sf_status status = test::Refocus(&engine, params, scene, &out);
+    CHECK(status == (refused ? SF_ERROR_FEATURE : SF_OK));
+    CHECK(out.Untouched() == refused);
+  }
+}
+
+TEST_CASE("lens: the memory for polygons and cat's eyes is reserved on demand") {
+  for (const int block : {32, 64, 128}) {
+    for (const double blur : {0.5, 8.0, 32.0, 128.0}) {
+      sf_config config;
+      sf_config_init(&config);
+      config.width = config.height = 500;
+      config.largest_block = block;
+      config.max_blur = blur;
+      size_t without = 0, with = 0;
+      REQUIRE(sf_workspace_size(&config, &without) == SF_OK);
+      config.features |= SF_FEATURE_SHAPES;
+      REQUIRE(sf_workspace_size(&config, &with) == SF_OK);
+      CAPTURE(block);
+      CAPTURE(blur);
+      CHECK(with > without);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lens_test
