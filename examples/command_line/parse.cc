@@ -165,6 +165,11 @@ const Command& CommandOf(const Program& program, const std::string& name) {
 Error RunCommandLine(const Program& program, int argc, char** argv) {
   const std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
   const std::string first = arguments.empty() ? "" : arguments[0];
+  for (const std::string& name : program.lab_commands) {
+    if (first == name) {
+      return Error::Usage("command line", "`starfocus-lab " + name + "`", "'" + name + "'");
+    }
+  }
   if (Error error = CheckSeparators(arguments, CommandOf(program, first).options)) return error;
   CLI::App app;
   Error wrong_value;

@@ -145,6 +145,17 @@ TEST_CASE("program: output that does not arrive is an error") {
   CHECK(Call(folder, "refocus lf --focus 1 -o a.png --report /dev/full").code == 1);
 }
 
+TEST_CASE("program: a subcommand of starfocus-lab names that program") {
+  TempFolder folder;
+  for (const std::string name : {"analyze", "calibrate", "compare", "scene", "sheet", "stress"}) {
+    CAPTURE(name);
+    CHECK(Call(folder, name + " --help").code == 0);  // by starfocus-lab
+    // The quotes make it a call of starfocus.
+    CheckRefused(folder, "'" + name + "' lf",
+                 "command line: expected `starfocus-lab " + name + "`, found '" + name + "'");
+  }
+}
+
 TEST_CASE("program: a refusal names its true cause") {
   TempFolder folder;
   Prepare(folder);
