@@ -12,11 +12,8 @@ const query = new URLSearchParams(location.search);
 
 let session = null, field = null, opening = 0, times = '', pulling = null;
 
-// What tests and speed figures ask for: ?threads=1, ?simd=0.
-const engine = {
-  threads: query.has('threads') ? Number(query.get('threads')) : undefined,
-  simd: query.get('simd') !== '0'
-};
+// What tests and speed figures ask for: ?threads=1.
+const engine = {threads: query.has('threads') ? Number(query.get('threads')) : undefined};
 
 /** Screen readers hear of the last of several changes, when no more are to come. */
 function say(text, more = false) {
@@ -102,9 +99,8 @@ async function take(next) {
   const opened = await Session.open(field, lens(), {onPicture: showPicture, onProgress: showProgress, engine});
   if (turn !== opening) return opened.close();
   session = opened;
-  const {version, simd, threads} = session.engine;
-  get('engine').textContent = `starfocus ${version}, WebAssembly ${simd ? 'with' : 'without'} SIMD, ` +
-      `${threads} ${threads === 1 ? 'thread' : 'threads'}.`;
+  const {version, threads} = session.engine;
+  get('engine').textContent = `starfocus ${version}, ${threads} ${threads === 1 ? 'thread' : 'threads'}.`;
   say(`Opened: ${field.name}, ${field.width} x ${field.height}. Tap to focus.`);
 }
 

@@ -31,7 +31,6 @@ before(async () => {
 after(() => refocuser.close());
 
 test('its version is that of the package', () => {
-  assert.equal(refocuser.simd, true);
   assert.match(refocuser.version, /^\d+\.\d+\.\d+$/);
   const text = readFileSync('node_modules/starfocus/package.json', 'utf8');
   assert.equal(refocuser.version, JSON.parse(text).version);
@@ -168,4 +167,10 @@ test('a closed refocuser refuses', async () => {
   const closed = await createRefocuser({...options, threads: 1});
   closed.close();
   await assert.rejects(closed.prepare(views, field.disparity.data), /was closed/);
+});
+
+test('without SIMD: one sentence', {skip: process.arch !== 'x64'}, () => {
+  const script = `import('starfocus').then(({createRefocuser}) => createRefocuser(${JSON.stringify(options)}))`;
+  assert.throws(() => execFileSync(process.execPath, ['--no-enable-sse4-1', '-e', script], {stdio: 'pipe'}),
+                /WebAssembly has no SIMD here/);
 });

@@ -52,8 +52,6 @@ export interface Options extends Settings {
   /** Workers that share the work, the one that answers among them; default: as many as there are cores. Where
    *  memory cannot be shared, in pages that are not cross-origin isolated, it is always 1. */
   threads?: number;
-  /** False: without SIMD even where there is SIMD. */
-  simd?: boolean;
 }
 
 /** A picture as a canvas has it, or rows of R, G, B or R, G, B, A without gaps; all views of one kind. */
@@ -131,8 +129,6 @@ export declare class StarfocusError extends Error {
 export interface Refocuser {
   /** Version of the library, such as "0.1.0". */
   readonly version: string;
-  /** Whether it runs with SIMD. */
-  readonly simd: boolean;
   readonly threads: number;
 
   /** Takes a light field: the views in the order of sf_view_position (the centre, then right, left, below,

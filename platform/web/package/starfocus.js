@@ -45,7 +45,6 @@ class Refocuser {
     const {shared} = opened;
     if (shared) this.#shared = new Int32Array(shared.memory.buffer, shared.address, 3);
     this.version = opened.version;
-    this.simd = opened.simd;
     this.threads = options.threads;
     return this;
   }
@@ -159,14 +158,14 @@ class Refocuser {
 }
 
 export async function createRefocuser(options) {
-  const {threads, simd = true, ...config} = options ?? {};
+  const {threads, ...config} = options ?? {};
   if (threads !== undefined && !(Number.isInteger(threads) && threads >= 1 && threads <= MAX_WORKERS)) {
     throw new TypeError(`createRefocuser: expected 1 to ${MAX_WORKERS} threads, found ${threads}.`);
   }
   const workers = canShare ? threads ?? Math.min(await countCores(), MAX_WORKERS) : 1;
   const refocuser = new Refocuser(await startWorker(), config);
   try {
-    return await refocuser.open({config, simd, threads: workers});
+    return await refocuser.open({config, threads: workers});
   } catch (error) {
     refocuser.close();
     throw error;

@@ -2,7 +2,7 @@
 // The worker that has the engine, and the helpers that share its memory. Messages to it are
 // {id, name, values} and {cancel: id}; it answers {id, result}, {id, error} and {id, progress}.
 
-import {compile, hasSimd, instantiate, makeMemory, readText, writeText} from './engine.js';
+import {compile, instantiate, makeMemory, readText, writeText} from './engine.js';
 import {canShare, listen, parentOfWorker, startWorker} from './host.js';
 
 const OK = 0, CANCELLED = 17;
@@ -79,22 +79,20 @@ async function startHelper(values) {
 }
 
 const calls = {
-  async open({config: given, simd, threads}) {
-    const vectors = simd && hasSimd();
-    const modules = await compile(vectors, canShare);
+  async open({config: given, threads}) {
+    const module = await compile(canShare);
     memory = makeMemory(canShare);
-    ({engine} = await instantiate(modules, memory, true));
+    engine = await instantiate(module, memory);
     engine.begin();
     setFields(engine.configure, given, 'createRefocuser');
     check(engine.accept(threads));
     workers = threads;
     size = {width: given.width, height: given.height};
     for (let worker = 1; worker < threads; ++worker) {
-      await startHelper({modules, memory, worker, stacks: [engine.stack(), engine.stack()]});
+      await startHelper({module, memory, worker, stack: engine.stack()});
     }
     return {
       version: readText(memory, engine.version()),
-      simd: vectors,
       shared: canShare ? {memory, address: engine.shared()} : null
     };
   },
@@ -172,12 +170,11 @@ function readBlocks() {
 }
 
 /** Runs jobs of another worker's engine for as long as there is one. */
-async function help({modules, memory: shared, worker, stacks}) {
-  const helper = await instantiate(modules, shared, false);
-  helper.engine.__stack_pointer.value = stacks[0];
-  helper.kernels.__stack_pointer.value = stacks[1];
+async function help({module, memory: shared, worker, stack}) {
+  const helper = await instantiate(module, shared);
+  helper.__stack_pointer.value = stack;
   parent.postMessage('ready');
-  helper.engine.help(worker);
+  helper.help(worker);
 }
 
 listen(parent, async ({id, name, values, cancel}) => {

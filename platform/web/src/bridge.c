@@ -12,7 +12,7 @@
 #define EXPORT(name) __attribute__((export_name(#name)))
 #define PAGE 65536u
 #define MAX_BLOCKS 65536
-#define STACK PAGE /* of a helper */
+#define STACK (2 * PAGE) /* of a helper */
 
 extern unsigned char __heap_base; /* the linker's: where the module's own data ends */
 
