@@ -4,26 +4,21 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <regex>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "starfocus/version.h"
+#include "tests/rooms/tree.h"
 
 namespace documents_test {
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kRoot = STARFOCUS_SOURCE_DIR;
-
-std::string Read(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
+using tree::kRoot;
+using tree::Read;
 
 std::vector<fs::path> Documents() {
   std::vector<fs::path> found = {kRoot / "README.md", kRoot / "CONTRIBUTING.md",
@@ -64,17 +59,13 @@ std::set<std::string> Find(const std::string& text, const std::string& pattern) 
 std::set<std::string> WordsOfCode() {
   std::set<std::string> words;
   const std::regex word("[A-Za-z_][A-Za-z_0-9]*");
-  for (const char* folder : {"lib", "simd", "platform", "examples", "tests"}) {
-    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(kRoot / folder)) {
-      const std::string extension = entry.path().extension().string();
-      static const std::set<std::string> kCode = {".h",    ".cc", ".hpp", ".c", ".py",
-                                                  ".java", ".js", ".mjs", ".ts"};
-      if (kCode.count(extension) == 0) continue;
-      if (entry.path().filename() == "documents_test.cc") continue;
-      const std::string text = Read(entry.path());
-      words.insert(std::sregex_token_iterator(text.begin(), text.end(), word),
-                   std::sregex_token_iterator());
-    }
+  for (const fs::path& path :
+       tree::Files({"lib", "simd", "platform", "examples", "tests"},
+                   {".h", ".cc", ".hpp", ".c", ".py", ".java", ".js", ".mjs", ".ts"})) {
+    if (path.filename() == "documents_test.cc") continue;
+    const std::string text = Read(path);
+    words.insert(std::sregex_token_iterator(text.begin(), text.end(), word),
+                 std::sregex_token_iterator());
   }
   return words;
 }
@@ -135,11 +126,8 @@ TEST_CASE("documents: the names that they cite are names of the code") {
 std::string ReadAll(const std::vector<std::string>& folders,
                     const std::set<std::string>& extensions) {
   std::string text;
-  for (const std::string& folder : folders) {
-    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(kRoot / folder)) {
-      if (entry.path().filename() == "documents_test.cc") continue;
-      if (extensions.count(entry.path().extension().string()) == 1) text += Read(entry.path());
-    }
+  for (const fs::path& path : tree::Files(folders, extensions)) {
+    if (path.filename() != "documents_test.cc") text += Read(path);
   }
   return text;
 }

@@ -6,12 +6,13 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <regex>
 #include <set>
 #include <string>
 #include <vector>
+
+#include "tests/rooms/tree.h"
 
 namespace includes_test {
 namespace {
@@ -48,17 +49,13 @@ std::string ModuleOf(const std::string& file) {
 }
 
 std::vector<Include> ReadIncludes(const std::string& folder) {
-  const fs::path root = STARFOCUS_SOURCE_DIR;
   const std::regex line_of("^ *#include \"((lib|simd|platform|examples|tests)/[^\"]+)\".*");
   std::vector<Include> includes;
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / folder)) {
-    const std::string extension = entry.path().extension().string();
-    if (extension != ".h" && extension != ".cc" && extension != ".hpp") continue;
-    std::ifstream file(entry.path());
+  for (const fs::path& path : tree::Files({folder}, {".h", ".cc", ".hpp"})) {
     std::smatch found;
-    for (std::string line; std::getline(file, line);) {
+    for (const std::string& line : tree::Lines(path)) {
       if (!std::regex_match(line, found, line_of)) continue;
-      includes.push_back({fs::relative(entry.path(), root).generic_string(), found[1]});
+      includes.push_back({fs::relative(path, tree::kRoot).generic_string(), found[1]});
     }
   }
   return includes;

@@ -3,11 +3,12 @@
 #include <doctest/doctest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <regex>
 #include <set>
 #include <string>
 #include <vector>
+
+#include "tests/rooms/tree.h"
 
 namespace lengths_test {
 namespace {
@@ -16,25 +17,7 @@ namespace fs = std::filesystem;
 
 constexpr size_t kFileLines = 500, kFunctionLines = 60;
 
-std::vector<std::string> Lines(const fs::path& path) {
-  std::vector<std::string> lines;
-  std::ifstream file(path);
-  for (std::string line; std::getline(file, line);) lines.push_back(line);
-  return lines;
-}
-
-std::vector<fs::path> Sources(const std::vector<std::string>& folders) {
-  std::vector<fs::path> found;
-  for (const std::string& folder : folders) {
-    for (const fs::directory_entry& entry :
-         fs::recursive_directory_iterator(fs::path(STARFOCUS_SOURCE_DIR) / folder)) {
-      const std::string extension = entry.path().extension().string();
-      static const std::set<std::string> kSources = {".h", ".hpp", ".c", ".cc", ".py", ".java"};
-      if (kSources.count(extension) == 1) found.push_back(entry.path());
-    }
-  }
-  return found;
-}
+const std::set<std::string> kSources = {".h", ".hpp", ".c", ".cc", ".py", ".java"};
 
 // First lines of functions longer than `limit`. As clang-format lays them out, a function or member
 // ends in a line that is a brace alone, and begins at the last line before it that is indented as
@@ -62,16 +45,17 @@ std::vector<std::string> FindLong(const std::vector<std::string>& lines, size_t 
 }  // namespace
 
 TEST_CASE("lengths: no file has more than 500 lines") {
-  const std::vector<fs::path> sources = Sources({"lib", "simd", "platform", "examples", "tests"});
+  const std::vector<fs::path> sources =
+      tree::Files({"lib", "simd", "platform", "examples", "tests"}, kSources);
   REQUIRE(sources.size() > 300);
   for (const fs::path& path : sources) {
-    CHECK_MESSAGE(Lines(path).size() <= kFileLines, path.string());
+    CHECK_MESSAGE(tree::Lines(path).size() <= kFileLines, path.string());
   }
 }
 
 TEST_CASE("lengths: no function has more than 60 lines") {
-  for (const fs::path& path : Sources({"lib", "simd", "platform", "examples"})) {
-    for (const std::string& line : FindLong(Lines(path), kFunctionLines)) {
+  for (const fs::path& path : tree::Files({"lib", "simd", "platform", "examples"}, kSources)) {
+    for (const std::string& line : FindLong(tree::Lines(path), kFunctionLines)) {
       FAIL_CHECK(path.string() << ": " << line);
     }
   }

@@ -3,9 +3,11 @@
 #include <doctest/doctest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <set>
 #include <string>
+#include <vector>
+
+#include "tests/rooms/tree.h"
 
 namespace license_test {
 namespace {
@@ -14,35 +16,24 @@ namespace fs = std::filesystem;
 
 const std::string kLicence = "SPDX-License-Identifier: Apache-2.0";
 
-bool IsSource(const fs::path& path) {
-  static const std::set<std::string> kExtensions = {".h",     ".hpp", ".c",  ".cc",   ".js",
-                                                    ".cmake", ".sh",  ".py", ".java", ".gradle",
-                                                    ".mjs",   ".ts",  ".css"};
-  return kExtensions.count(path.extension().string()) == 1 || path.filename() == "CMakeLists.txt";
-}
+const std::set<std::string> kSources = {".h",     ".hpp", ".c",   ".cc",           ".js",
+                                        ".cmake", ".sh",  ".py",  ".java",         ".gradle",
+                                        ".mjs",   ".ts",  ".css", "CMakeLists.txt"};
 
 bool NamesLicence(const fs::path& path) {
-  std::ifstream file(path);
-  std::string line;
-  std::getline(file, line);
-  if (line.compare(0, 2, "#!") == 0) std::getline(file, line);
-  return line.find(kLicence) != std::string::npos;
+  const std::vector<std::string> lines = tree::Lines(path);
+  const size_t first = !lines.empty() && lines[0].compare(0, 2, "#!") == 0 ? 1 : 0;
+  return first < lines.size() && lines[first].find(kLicence) != std::string::npos;
 }
 
 TEST_CASE("licence: every source file names it") {
-  const fs::path root = STARFOCUS_SOURCE_DIR;
-  size_t files = 0;
-  for (const char* folder :
-       {"lib", "simd", "platform", "examples", "tests", "toolchains", "cmake"}) {
-    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / folder)) {
-      if (!entry.is_regular_file() || !IsSource(entry.path())) continue;
-      ++files;
-      CHECK_MESSAGE(NamesLicence(entry.path()),
-                    "its first line must be '// "
-                        << kLicence << "': " << fs::relative(entry.path(), root).string());
-    }
+  const std::vector<fs::path> files = tree::Files(
+      {"lib", "simd", "platform", "examples", "tests", "toolchains", "cmake"}, kSources);
+  for (const fs::path& path : files) {
+    CHECK_MESSAGE(NamesLicence(path),
+                  "its first line must be '// " << kLicence << "': " << path.string());
   }
-  CHECK(files > 300);
+  CHECK(files.size() > 300);
 }
 
 }  // namespace

@@ -4,12 +4,12 @@
 
 #include <cctype>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <regex>
 #include <set>
 #include <string>
 #include <vector>
+
+#include "tests/rooms/tree.h"
 
 namespace parameters_test {
 namespace {
@@ -115,17 +115,11 @@ const std::set<std::string> kWide = {"sf_focus_at", "sf_refocus_after", "sf_refo
 
 TEST_CASE("parameters: no function has more than six") {
   std::set<std::string> wide;
-  for (const char* folder : {"lib", "simd", "platform", "examples"}) {
-    for (const fs::directory_entry& entry :
-         fs::recursive_directory_iterator(fs::path(STARFOCUS_SOURCE_DIR) / folder)) {
-      static const std::set<std::string> kSources = {".h", ".hpp", ".c", ".cc", ".java"};
-      if (kSources.count(entry.path().extension().string()) == 0) continue;
-      std::ifstream file(entry.path());
-      const std::string code((std::istreambuf_iterator<char>(file)), {});
-      for (const std::string& name : FindWide(code, kMostParameters)) {
-        CHECK_MESSAGE(kWide.count(name) == 1, entry.path().string(), ": ", name);
-        wide.insert(name);
-      }
+  for (const fs::path& path :
+       tree::Files({"lib", "simd", "platform", "examples"}, {".h", ".hpp", ".c", ".cc", ".java"})) {
+    for (const std::string& name : FindWide(tree::Read(path), kMostParameters)) {
+      CHECK_MESSAGE(kWide.count(name) == 1, path.string(), ": ", name);
+      wide.insert(name);
     }
   }
   for (const std::string& name : kWide) {
