@@ -44,7 +44,7 @@ struct ApertureShape {
 ApertureShape ShapeOf(const sf_lens& lens);
 
 // Whether two openings of ShapeOf are the same but for their cat's eyes.
-bool AreAlike(const ApertureShape& a, const ApertureShape& b);
+bool AreAlike(ApertureShape a, const ApertureShape& b);
 
 // The mean square of a coordinate of the light that an opening other than a polygon lets through,
 // of the lens's radius: kOpeningBits.
