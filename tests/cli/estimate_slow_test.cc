@@ -16,7 +16,7 @@
 #include "tests/support/temp_folder.h"
 #include "tests/support/test_scene.h"
 
-namespace starfocus::estimate_program_test {
+namespace starfocus::estimate_slow_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -202,4 +202,4 @@ TEST_CASE("refocus, info: a map that is missing is estimated, and they say so") 
 }
 
 }  // namespace
-}  // namespace starfocus::estimate_program_test
+}  // namespace starfocus::estimate_slow_test
