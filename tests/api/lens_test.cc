@@ -3,6 +3,7 @@
 // has seen no other lens.
 #include <doctest/doctest.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -175,6 +176,23 @@ TEST_CASE("lens: a stream keeps the lens that it was begun with") {
     }
     CHECK((out.bytes == Expected(scene, expected)));
   }
+}
+
+TEST_CASE("lens: shorter params get the defaults of the fields they lack") {
+  constexpr uint32_t kShort = offsetof(sf_params, lens) + offsetof(sf_lens, blades);
+  const test::Scene scene = MakeScene();
+  const sf_params expected = test::Params(-3.5, 1, SF_MODE_BLOCK);
+  std::vector<uint8_t> memory(kShort);
+  sf_params* const params = reinterpret_cast<sf_params*>(memory.data());
+  sf_params_init_sized(params, kShort);
+  CHECK(params->size == kShort);
+  params->lens.focus = expected.lens.focus;
+  test::Engine engine(Config(scene));
+  test::Output out(kWidth, kHeight), streamed(kWidth, kHeight);
+  REQUIRE(test::Refocus(&engine, *params, scene, &out) == SF_OK);
+  CHECK((out.bytes == Expected(scene, expected)));
+  REQUIRE(test::Stream(&engine, *params, scene, &streamed, kHeight, kHeight) == SF_OK);
+  CHECK((streamed.bytes == out.bytes));
 }
 
 TEST_CASE("lens: without SF_FEATURE_SHAPES only polygons and cat's eyes are refused") {
