@@ -60,10 +60,9 @@ Error Camera::Load(const std::string& folder, sf_mode mode) {
                     Describe(status, &problem).text);
   }
   for (size_t i = 0; i < light_field_.views.size(); ++i) {
-    rows_.views[i] = {light_field_.views[i].row(0), light_field_.views[i].stride()};
+    rows_.views[i] = sf_image_rgb(light_field_.views[i].row(0), light_field_.views[i].stride());
   }
-  rows_.disparity = map.values.data();
-  rows_.disparity_stride = stride;
+  rows_.depth = sf_depth_float(map.values.data(), stride, map.width, map.height);
   picture_ = Image(config.width, config.height);
   mode_ = mode;
   return {};
@@ -75,7 +74,8 @@ sf_status Camera::Take(double focus, double aperture) {
   params.mode = mode_;
   params.lens.focus = focus;
   params.lens.aperture = aperture;
-  return sf_refocus(engine_, &params, &rows_, picture_.pixels.data(), picture_.stride(), nullptr);
+  const sf_image out = sf_image_rgb(picture_.pixels.data(), picture_.stride());
+  return sf_refocus(engine_, &params, &rows_, &out, nullptr);
 }
 
 }  // namespace starfocus

@@ -3,8 +3,8 @@
  * G, B out. No picture is ever whole, so that all of it takes less than 64 MiB; says how much, and
  * how long. */
 #define _POSIX_C_SOURCE 200112L
-#include <starfocus/image.h>
 #include <starfocus/pool.h>
+#include <starfocus/starfocus.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/resource.h>
@@ -43,8 +43,8 @@ static sf_status MakeEngine(sf_pool* pool, sf_engine** engine) {
 
 /* What the sensors have delivered from row `first` of these rows on, with the depth of the picture.
  */
-static sf_image_field FieldFrom(int first) {
-  sf_image_field field;
+static sf_light_field FieldFrom(int first) {
+  sf_light_field field;
   int i;
   memset(&field, 0, sizeof field);
   for (i = 0; i < kCameras; ++i) {
@@ -75,14 +75,15 @@ static sf_status Stream(sf_engine* engine, FILE* file, double* sensor_seconds) {
     }
     if (taken < delivered) {
       const int first = taken % kRows;
-      const sf_image_field field = FieldFrom(first);
-      status = sf_stream_push_images(engine, &field, delivered - taken, &count);
+      const sf_light_field field = FieldFrom(first);
+      status = sf_stream_push(engine, &field, delivered - taken, &count);
       taken += count;
     }
     if (status == SF_OK) {
       const int rows = kHeight - written < kRows ? kHeight - written : kRows;
+      const sf_image picture = sf_image_rgb(out, kWidth * 3);
       int32_t i;
-      status = sf_stream_pull(engine, out, kWidth * 3, rows, &count, NULL);
+      status = sf_stream_pull(engine, &picture, rows, &count, NULL);
       for (i = 0; i < count * kWidth * 3; ++i) checksum = (checksum ^ out[i]) * 16777619u;
       if (fwrite(out, kWidth * 3, (size_t)count, file) != (size_t)count) break;
       written += count;

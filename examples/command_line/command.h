@@ -65,7 +65,7 @@ struct Command {
 struct Program {
   Command main;                           // options without a subcommand
   std::vector<Command> commands;          // one of them must be chosen, if there are any
-  std::vector<std::string> lab_commands;  // names of subcommands of starfocus-lab
+  std::vector<std::string> lab_commands = {};  // names of subcommands of starfocus-lab
 };
 
 // The last lines of a program's help.

@@ -22,8 +22,10 @@ int main(void) {
   if (!status) status = sf_init(&config, workspace, bytes, &engine);
   sf_params params; /* focus 0: the middle column; aperture 1 */
   sf_params_init(&params);
-  sf_light_field field = {{{view, W * 3}}, disparity, W * sizeof(float), NULL, 0};
-  if (!status) status = sf_refocus(engine, &params, &field, out, W * 3, NULL);
+  sf_light_field field = {.views = {sf_image_rgb(view, W * 3)}};
+  field.depth = sf_depth_float(disparity, W * sizeof(float), W, H);
+  sf_image picture = sf_image_rgb(out, W * 3);
+  if (!status) status = sf_refocus(engine, &params, &field, &picture, NULL);
   FILE* file = status ? NULL : fopen("minimal.ppm", "wb");
   if (file) fprintf(file, "P6 %d %d 255\n", W, H), fwrite(out, 3, W * H, file), fclose(file);
   free(memory);

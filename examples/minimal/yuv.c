@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* A camera's frame: NV12 with a map of millimetres of a quarter of its size is refocused into NV12;
  * writes its luma as yuv.pgm. */
-#include <starfocus/image.h>
+#include <starfocus/starfocus.h>
 #include <stdio.h>
 #include <stdlib.h>
 enum { W = 320, H = 200, MW = W / 4, MH = H / 4 };
@@ -23,7 +23,7 @@ int main(void) {
   void* workspace = memory ? memory + (SF_ALIGNMENT - (uintptr_t)memory % SF_ALIGNMENT) : NULL;
   sf_engine* engine = NULL;
   if (!status) status = sf_init(&config, workspace, bytes, &engine);
-  sf_image_field field = {0};
+  sf_light_field field = {.coverage = NULL};
   field.views[0] =
       (sf_image){.format = SF_FORMAT_NV12, .planes = {luma, chroma}, .strides = {W, W}};
   field.depth = (sf_depth_map){.data = millimetres,
@@ -39,7 +39,7 @@ int main(void) {
   sf_params params; /* what is a metre away is in focus */
   sf_params_init(&params);
   params.lens.focus = 8;
-  if (!status) status = sf_refocus_images(engine, &params, &field, &out, NULL);
+  if (!status) status = sf_refocus(engine, &params, &field, &out, NULL);
   FILE* file = status ? NULL : fopen("yuv.pgm", "wb");
   if (file) fprintf(file, "P5 %d %d 255\n", W, H), fwrite(out_luma, 1, W * H, file), fclose(file);
   free(memory);

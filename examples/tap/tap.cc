@@ -75,16 +75,15 @@ class Session {
         preview_((field.width() - 1) / (1 << options.shift) + 1,
                  (field.height() - 1) / (1 << options.shift) + 1) {
     for (size_t k = 0; k < field.views.size(); ++k) {
-      field_.views[k] = {field.views[k].pixels.data(), field.views[k].stride()};
+      field_.views[k] = sf_image_rgb(field.views[k].pixels.data(), field.views[k].stride());
     }
-    field_.disparity = map_.values.data();
-    field_.disparity_stride = sizeof(float) * size_t(map_.width);
+    field_.depth = sf_depth_float(map_.values.data(), Stride(), map_.width, map_.height);
   }
 
   Error Prepare() {
     sf_disparity_stats stats = {};
-    if (Error error = Outcome(sf_measure_disparity(field_.disparity, field_.disparity_stride,
-                                                   map_.width, map_.height, &stats)))
+    if (Error error = Outcome(
+            sf_measure_disparity(map_.values.data(), Stride(), map_.width, map_.height, &stats)))
       return error;
     Config config;
     config.width = map_.width;
@@ -113,7 +112,8 @@ class Session {
 
   Error FocusAt(const Pixel& point, double* focus) {
     const double start = Seconds();
-    const Error error = Outcome(engine_.FocusAt(field_, point.x, point.y, focus));
+    const Error error = Outcome(sf_focus_at(map_.values.data(), Stride(), map_.width, map_.height,
+                                            point.x, point.y, focus));
     const std::string tap = std::to_string(point.x) + "," + std::to_string(point.y);
     if (!error) Say("tap at " + tap + ": focus " + Short(*focus), start);
     return error;
@@ -122,9 +122,10 @@ class Session {
   Error Preview(double focus, const std::string& what) {
     params_.lens.focus = focus;
     const double start = Seconds();
-    if (Error error = Outcome(engine_.RefocusPreview(params_, options_.shift,
-                                                     preview_.pixels.data(), preview_.stride())))
-      return error;
+    Params params = params_;
+    params.preview_shift = options_.shift;
+    const sf_image out = sf_image_rgb(preview_.pixels.data(), preview_.stride());
+    if (Error error = Outcome(engine_.RefocusPrepared(params, out))) return error;
     Say(what + ", 1/" + std::to_string(1 << options_.shift) + " of the size", start);
     return Keep(preview_);
   }
@@ -132,9 +133,8 @@ class Session {
   Error Full(double focus) {
     params_.lens.focus = focus;
     const double start = Seconds();
-    if (Error error =
-            Outcome(engine_.RefocusPrepared(params_, full_.pixels.data(), full_.stride())))
-      return error;
+    const sf_image out = sf_image_rgb(full_.pixels.data(), full_.stride());
+    if (Error error = Outcome(engine_.RefocusPrepared(params_, out))) return error;
     Say("full picture", start);
     return Keep(full_);
   }
@@ -162,9 +162,10 @@ class Session {
   }
 
  private:
+  size_t Stride() const { return sizeof(float) * size_t(map_.width); }
   int Views() const {
     int views = 0;
-    while (views < SF_MAX_VIEWS && field_.views[views].data != nullptr) ++views;
+    while (views < SF_MAX_VIEWS && field_.views[views].planes[0] != nullptr) ++views;
     return views;
   }
 

@@ -77,11 +77,12 @@ class Engine {
     params.rule = probe.rule;
     sf_light_field field = {};
     const size_t side = static_cast<size_t>(impulse.side);
-    field.views[0] = {impulse.rgb.data(), 3 * side};
-    field.disparity = impulse.disparity.data();
-    field.disparity_stride = side * sizeof(float);
+    field.views[0] = sf_image_rgb(impulse.rgb.data(), 3 * side);
+    field.depth = sf_depth_float(impulse.disparity.data(), side * sizeof(float), int32_t(side),
+                                 int32_t(side));
     out_.resize(impulse.rgb.size());
-    const sf_status status = sf_refocus(engine_, &params, &field, out_.data(), 3 * side, nullptr);
+    const sf_image out = sf_image_rgb(out_.data(), 3 * side);
+    const sf_status status = sf_refocus(engine_, &params, &field, &out, nullptr);
     if (status != SF_OK) return status;
     return state().stripe.plan.used == 1 ? SF_OK : SF_ERROR_STATE;
   }

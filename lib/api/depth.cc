@@ -6,6 +6,8 @@
 #include <cstring>
 
 #include "lib/api/validate.h"
+#include "lib/api/validate_image.h"
+#include "lib/base/rows.h"
 #include "lib/depth/colour_repair.h"
 #include "lib/depth/repair.h"
 
@@ -44,12 +46,12 @@ DepthPlanes PlanesOf(const sf_depth_config& config, const sf_light_field& light_
     planes.written[planes.writes++] = ExtentOf(map.coverage, map.coverage_stride, height, width);
   }
   for (int view = 0; view < config.views; ++view) {
-    const sf_plane& plane = light_field.views[view];
-    planes.read[planes.reads++] = ExtentOf(plane.data, plane.stride, height, 3 * width);
+    const Plane<const uint8_t> rows = RowsOf(light_field.views[view]);
+    planes.read[planes.reads++] = ExtentOf(rows.data, rows.stride, height, 3 * width);
   }
   if (repairs) {
     planes.read[planes.reads++] =
-        ExtentOf(light_field.disparity, light_field.disparity_stride, height, floats);
+        ExtentOf(light_field.depth.data, light_field.depth.stride, height, floats);
   }
   return planes;
 }
@@ -78,8 +80,7 @@ sf_status CheckGiven(const sf_depth_config& config, const sf_light_field& light_
   Checker check(config.problem);
   bool any = false;
   for (int32_t y = 0; y < config.height; ++y) {
-    const float* row = light_field.disparity +
-                       static_cast<size_t>(y) * light_field.disparity_stride / sizeof(float);
+    const float* row = RowsOf(light_field.depth).Row(y);
     for (int32_t x = 0; x < config.width; ++x) {
       if (!std::isfinite(row[x])) continue;
       any = true;
@@ -151,13 +152,14 @@ sf_status CheckCall(const DepthCall& call, bool repairs, const sf_map& map) {
   const sf_depth_config& config = *call.config;
   const sf_light_field& light_field = *call.light_field;
   const int32_t width = config.width, height = config.height;
-  status = CheckViews(config.views, width, height, light_field, problem);
+  status = CheckViews(light_field, config.views, {width, height}, problem);
+  if (status == SF_OK) status = CheckInPlace(light_field, config.views, problem);
   if (status == SF_OK)
     status = CheckMap({map.disparity, map.disparity_stride}, width, height, problem);
-  if (status == SF_OK && repairs) {
-    status =
-        CheckMap({light_field.disparity, light_field.disparity_stride}, width, height, problem);
-  }
+  if (status == SF_OK && repairs)
+    status = CheckDepthMap(light_field.depth, {width, height}, problem);
+  if (status == SF_OK && repairs)
+    status = CheckInPlace(light_field.depth, {width, height}, problem);
   if (status == SF_OK) status = CheckStrides(config, map);
   if (status != SF_OK) return status;
   const auto begin = reinterpret_cast<uintptr_t>(call.workspace);

@@ -26,13 +26,13 @@ sf_status sf_measure_disparity(const float* disparity, size_t stride, int32_t wi
   if (stats == nullptr) return SF_ERROR_NULL;
   const sf_status status = starfocus::CheckMap({disparity, stride}, width, height, nullptr);
   if (status != SF_OK) return status;
-  sf_disparity_stats found = {0.0f, 0.0f, 0};
+  sf_disparity_stats found = {0, 0, 0};
   bool any = false;
   for (int32_t y = 0; y < height; ++y) {
     const float* row = disparity + static_cast<size_t>(y) * (stride / sizeof(float));
     for (int32_t x = 0; x < width; ++x) {
-      const float d = row[x];
-      if (!starfocus::IsFinite(d)) {
+      const double d = row[x];
+      if (!starfocus::IsFinite(row[x])) {
         ++found.invalid;
       } else if (!any) {
         found.min = found.max = d;

@@ -6,7 +6,6 @@
 #include "lib/engine/engine.h"
 #include "lib/engine/layout.h"
 #include "starfocus/depth.h"
-#include "starfocus/image.h"
 #include "starfocus/starfocus.h"
 
 using starfocus::EngineState;
@@ -48,12 +47,11 @@ size_t sf_struct_size(const char* name) {
   constexpr Entry kSizes[] = {
       SIZE_OF(sf_allocator),       SIZE_OF(sf_block),        SIZE_OF(sf_config),
       SIZE_OF(sf_depth_config),    SIZE_OF(sf_layer_report), SIZE_OF(sf_light_field),
-      SIZE_OF(sf_disparity_stats), SIZE_OF(sf_params),       SIZE_OF(sf_plane),
+      SIZE_OF(sf_disparity_stats), SIZE_OF(sf_params),       SIZE_OF(sf_callbacks),
       SIZE_OF(sf_problem),         SIZE_OF(sf_position),     SIZE_OF(sf_previous),
       SIZE_OF(sf_region),          SIZE_OF(sf_report),       SIZE_OF(sf_skipped),
       SIZE_OF(sf_timing),          SIZE_OF(sf_tuning),       SIZE_OF(sf_image),
-      SIZE_OF(sf_image_field),     SIZE_OF(sf_depth_map),    SIZE_OF(sf_map),
-      SIZE_OF(sf_callbacks),       SIZE_OF(sf_lens)};
+      SIZE_OF(sf_depth_map),       SIZE_OF(sf_map),          SIZE_OF(sf_lens)};
 #undef SIZE_OF
   if (name == nullptr) return 0;
   for (const Entry& entry : kSizes) {

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // The C ABI for light fields that are prepared once.
-#include "lib/api/prepare.h"
-
 #include "lib/api/validate.h"
+#include "lib/api/validate_image.h"
 #include "lib/engine/layout.h"
 #include "lib/source/light_field.h"
 #include "lib/source/prepared.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
+namespace {
 
+// Checks the memory that a prepared light field is to be made in, which must not overlap what is
+// `read`.
 sf_status CheckPreparedMemory(const EngineState& engine, const PrepareCall& call, Extents* read) {
   Prepared* counted = nullptr;
   const size_t needed = LayOutPrepared(engine.config, nullptr, &counted);
@@ -21,6 +23,7 @@ sf_status CheckPreparedMemory(const EngineState& engine, const PrepareCall& call
   return CheckApart(ExtentOf(call.memory, 0, 1, needed), *read, "memory", problem);
 }
 
+}  // namespace
 }  // namespace starfocus
 
 using starfocus::EngineState;
@@ -49,15 +52,15 @@ sf_status sf_prepare(sf_engine* engine, const sf_light_field* light_field, void*
   status = starfocus::CheckLightField(e.config, *light_field);
   if (status != SF_OK) return status;
   starfocus::Extents read;
-  read.AddLightField(e.config, *light_field);
+  starfocus::AddLightField(e.config, *light_field, &read);
   status = starfocus::CheckPreparedMemory(e, call, &read);
   if (status != SF_OK) return status;
-  const starfocus::LightFieldRows rows(*light_field, 0, e);
-  rows.Use(&e);
+  starfocus::LightField field;
+  starfocus::MakeLightField(*light_field, 0, &e, &field);
+  starfocus::UseLightField(field, &e);
   Prepared* made = nullptr;
-  status = starfocus::Prepare(call, rows.Source(), &e, &made);
+  status = starfocus::Prepare(call, starfocus::SourceOf(field), &e, &made);
   if (status != SF_OK) return status;
-  made->images = nullptr;
   made->light_field = *light_field;
   *prepared = reinterpret_cast<sf_prepared*>(made);
   return SF_OK;

@@ -3,8 +3,9 @@
 
 #include "lib/api/call.h"
 #include "lib/api/validate.h"
+#include "lib/api/validate_image.h"
 #include "lib/engine/layout.h"
-#include "lib/source/light_field.h"
+#include "lib/source/picture_output.h"
 
 namespace starfocus {
 namespace {
@@ -41,18 +42,6 @@ void UseReduced(const Prepared& prepared, int32_t shift, EngineState* engine) {
   engine->pictures.windows[0].given_coverage = {field.coverage.data, field.coverage.stride, 0, 0};
 }
 
-sf_status CheckPicture(const Picture& picture, const PreviewRequest& request,
-                       const EngineState& engine) {
-  const Rect& rect = picture.rect;
-  const sf_status status = CheckOutput(engine.config, rect, picture.data, picture.stride);
-  if (status != SF_OK) return status;
-  const Extent out =
-      ExtentOf(picture.data, picture.stride, rect.height, 3 * static_cast<size_t>(rect.width));
-  return CheckApart(out, MemoryOf(engine, &request.prepared), "out", engine.config.problem);
-}
-
-}  // namespace
-
 sf_status CheckPreview(const PreviewRequest& request, const EngineState& engine) {
   const sf_config& config = engine.config;
   const sf_status status = CheckCall(config, request.params, &request.prepared);
@@ -60,39 +49,33 @@ sf_status CheckPreview(const PreviewRequest& request, const EngineState& engine)
   const int32_t most = request.prepared.config.previews;
   Checker check(config.problem);
   check.Need(request.shift >= 1 && request.shift <= most, SF_ERROR_PREPARED,
-             {"shift", double(request.shift)}, {"1 to previews", 1, double(most)});
+             {"preview_shift", double(request.shift)}, {"1 to previews", 1, double(most)});
+  check.Need(request.params.previous == nullptr, SF_ERROR_RANGE, {"previous"},
+             {"null for a prepared light field"});
   if (check.status() != SF_OK) return check.status();
   return CheckBlur(config, LargestBlur(config, request.params));
 }
 
-Rect PreviewRect(const PreviewRequest& request, const EngineState& engine) {
-  return ReducedRect(RegionOf(engine.config, request.params), request.shift);
-}
+}  // namespace
 
-sf_status RefocusPreview(const PreviewRequest& request, const RowSink& sink, EngineState* engine,
+sf_status RefocusPreview(const PreviewRequest& request, const sf_image& out, EngineState* engine,
                          sf_report* report) {
-  const sf_params params = ReducedParams(request, PreviewRect(request, *engine));
+  sf_status status = CheckPreview(request, *engine);
+  if (status != SF_OK) return status;
+  const Rect rect = ReducedRect(RegionOf(engine->config, request.params), request.shift);
+  const PictureSize size = {rect.width, rect.height};
+  status = CheckOutput(engine->config, out, size);
+  if (status == SF_OK) {
+    status =
+        CheckOutputApart(out, size, MemoryOf(*engine, &request.prepared), engine->config.problem);
+  }
+  if (status != SF_OK) return status;
+  const PictureOutput output = {
+      &simd::BestImageKernels(), PlanesOf<uint8_t>(out), rect, {{}, 1}, nullptr};
+  const sf_params params = ReducedParams(request, rect);
   const Reduction reduction(request.shift, engine);
   UseReduced(request.prepared, request.shift, engine);
-  return RunCall({params, {}, sink}, engine, report);
+  return RunCall({params, {}, SinkOf(output)}, engine, report);
 }
 
 }  // namespace starfocus
-
-sf_status sf_refocus_preview(sf_engine* engine, const sf_params* params,
-                             const sf_prepared* prepared, int32_t shift, uint8_t* out,
-                             size_t out_stride, sf_report* report) {
-  sf_params full;
-  sf_status status =
-      starfocus::EnterCall(engine, {{"params", params}, {"prepared", prepared}}, params, &full);
-  if (status != SF_OK) return status;
-  auto& e = *reinterpret_cast<starfocus::EngineState*>(engine);
-  const starfocus::PreviewRequest request = {
-      full, *reinterpret_cast<const starfocus::Prepared*>(prepared), shift};
-  status = starfocus::CheckPreview(request, e);
-  if (status != SF_OK) return status;
-  const starfocus::Picture picture = {out, out_stride, starfocus::PreviewRect(request, e)};
-  status = starfocus::CheckPicture(picture, request, e);
-  if (status != SF_OK) return status;
-  return starfocus::RefocusPreview(request, starfocus::SinkOf(picture), &e, report);
-}

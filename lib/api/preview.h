@@ -15,14 +15,8 @@ struct PreviewRequest {
   int32_t shift;
 };
 
-// Checks all but the output.
-sf_status CheckPreview(const PreviewRequest& request, const EngineState& engine);
-
-// The rectangle of the preview that is asked for.
-Rect PreviewRect(const PreviewRequest& request, const EngineState& engine);
-
-// Refocuses what CheckPreview has passed into `sink`.
-sf_status RefocusPreview(const PreviewRequest& request, const RowSink& sink, EngineState* engine,
+// Checks a request and refocuses it into `out`.
+sf_status RefocusPreview(const PreviewRequest& request, const sf_image& out, EngineState* engine,
                          sf_report* report);
 
 }  // namespace starfocus

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The streaming half of the C ABI: rows in, finished rows out, through the engine's line rings.
-#include "lib/api/stream.h"
-
 #include "lib/api/call.h"
 #include "lib/api/validate.h"
+#include "lib/api/validate_image.h"
 #include "lib/base/features.h"
 #include "lib/engine/layout.h"
 #include "lib/engine/stripe.h"
-#include "lib/source/extents.h"
 #include "lib/source/light_field.h"
+#include "lib/source/picture_output.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
@@ -40,16 +39,43 @@ sf_status CheckCount(const EngineState& engine, int32_t rows, int32_t most) {
   return check.status();
 }
 
-}  // namespace
-
-sf_status CheckPush(const EngineState& engine, int32_t rows) {
-  return CheckCount(engine, rows, engine.config.height - engine.stream.pushed);
+// Checks that `rows` rows from row `first` of the picture on are as many as a format takes.
+sf_status CheckPairs(const sf_config& config, bool is_yuv, int32_t first, int32_t rows) {
+  Checker check(config.problem);
+  check.Need(!is_yuv || (first % 2 == 0 && (rows % 2 == 0 || first + rows == config.height)),
+             SF_ERROR_RANGE, {"rows", double(rows)}, {"even, but at the end of the picture"});
+  return check.status();
 }
 
-sf_status CheckPull(const EngineState& engine, int32_t rows) {
-  return CheckCount(engine, rows, INT32_MAX);
+bool AnyYuv(const sf_config& config, const sf_light_field& light_field) {
+  for (int view = 0; view < config.views; ++view) {
+    if (IsYuv(light_field.views[view].format)) return true;
+  }
+  return false;
 }
 
+sf_status CheckPush(const EngineState& engine, const sf_light_field& light_field, int32_t rows) {
+  const sf_config& config = engine.config;
+  const int32_t pushed = engine.stream.pushed;
+  sf_status status = CheckCount(engine, rows, config.height - pushed);
+  if (status == SF_OK) status = CheckLightField(config, light_field);
+  if (status != SF_OK) return status;
+  return CheckPairs(config, AnyYuv(config, light_field), pushed, rows);
+}
+
+// `rows` are at most as many as are left.
+sf_status CheckPull(const EngineState& engine, const sf_image& out, int32_t rows) {
+  const sf_config& config = engine.config;
+  sf_status status = CheckOutput(config, out, {config.width, config.height});
+  if (status == SF_OK) {
+    status = CheckPairs(config, IsYuv(out.format), engine.stream.written, rows);
+  }
+  if (status != SF_OK || rows == 0) return status;
+  return CheckOutputApart(out, {config.width, rows}, MemoryOf(engine, nullptr), config.problem);
+}
+
+// Copies up to `rows` next rows of the source, `unit` (1 or 2) at a time, as long as the next
+// stripe needs some. *consumed counts them.
 sf_status PushRows(const RowSource& source, int32_t rows, int32_t unit, EngineState* engine,
                    int32_t* consumed) {
   Stream& stream = engine->stream;
@@ -80,6 +106,8 @@ sf_status PushRows(const RowSource& source, int32_t rows, int32_t unit, EngineSt
   return SF_OK;
 }
 
+// Stores up to `rows` next rows, and refocuses the stripes that these need and whose rows are
+// there. *written counts the rows.
 sf_status PullRows(const RowSink& sink, int32_t rows, EngineState* engine, int32_t* written) {
   Stream& stream = engine->stream;
   while (*written < rows && stream.written < engine->config.height) {
@@ -99,6 +127,7 @@ sf_status PullRows(const RowSink& sink, int32_t rows, EngineState* engine, int32
   return SF_OK;
 }
 
+}  // namespace
 }  // namespace starfocus
 
 using starfocus::EngineState;
@@ -114,6 +143,8 @@ sf_status sf_stream_begin(sf_engine* engine, const sf_params* params) {
   check.Need(starfocus::Has(e.config.features, SF_FEATURE_STREAMING), SF_ERROR_FEATURE,
              {"features", double(e.config.features)}, {"SF_FEATURE_STREAMING"});
   check.Need(starfocus::IsWhole(full.region), SF_ERROR_RANGE, {"region"}, {"all 0"});
+  check.Need(full.preview_shift == 0, SF_ERROR_RANGE, {"preview_shift"}, {"0 for a stream"});
+  check.Need(full.previous == nullptr, SF_ERROR_RANGE, {"previous"}, {"null for a stream"});
   if (check.status() != SF_OK) return check.status();
   e.stream = starfocus::Stream();
   e.crew.jobs.watch.Begin(0, e.config.height);
@@ -131,32 +162,33 @@ sf_status sf_stream_push(sf_engine* engine, const sf_light_field* light_field, i
       starfocus::EnterEngine(engine, {{"light_field", light_field}, {"consumed", consumed}});
   if (status != SF_OK) return status;
   EngineState& e = *reinterpret_cast<EngineState*>(engine);
-  status = starfocus::CheckPush(e, rows);
-  if (status == SF_OK) status = starfocus::CheckLightField(e.config, *light_field);
+  status = starfocus::CheckPush(e, *light_field, rows);
   if (status != SF_OK) return status;
-  const starfocus::LightFieldRows pushed(*light_field, e.stream.pushed, e);
-  return starfocus::PushRows(pushed.Source(), rows, 1, &e, consumed);
+  starfocus::LightField field;
+  starfocus::MakeLightField(*light_field, e.stream.pushed, &e, &field);
+  const int32_t unit = starfocus::AnyYuv(e.config, *light_field) ? 2 : 1;
+  return starfocus::PushRows(starfocus::SourceOf(field), rows, unit, &e, consumed);
 }
 
-sf_status sf_stream_pull(sf_engine* engine, uint8_t* out, size_t out_stride, int32_t rows,
-                         int32_t* written, sf_report* report) {
+sf_status sf_stream_pull(sf_engine* engine, const sf_image* out, int32_t rows, int32_t* written,
+                         sf_report* report) {
   if (written != nullptr) *written = 0;
-  sf_status status = starfocus::EnterEngine(engine, {{"written", written}});
+  sf_status status = starfocus::EnterEngine(engine, {{"out", out}, {"written", written}});
   if (status != SF_OK) return status;
   EngineState& e = *reinterpret_cast<EngineState*>(engine);
-  status = starfocus::CheckPull(e, rows);
-  const int32_t width = e.config.width, left = e.config.height - e.stream.written;
-  if (status == SF_OK) {
-    status = starfocus::CheckOutput(e.config, {0, 0, width, e.config.height}, out, out_stride);
-  }
+  status = starfocus::CheckCount(e, rows, INT32_MAX);
   if (status != SF_OK) return status;
+  const int32_t first = e.stream.written, left = e.config.height - first;
   const int32_t most = starfocus::Min(rows, left);
-  status = starfocus::CheckApart(
-      starfocus::ExtentOf(out, out_stride, most, 3 * static_cast<size_t>(width)),
-      starfocus::MemoryOf(e, nullptr), "out", &e.problem);
+  status = starfocus::CheckPull(e, *out, most);
   if (status != SF_OK) return status;
-  const starfocus::Picture picture = {out, out_stride, {0, e.stream.written, width, left}};
-  status = starfocus::PullRows(starfocus::SinkOf(picture), rows, &e, written);
+  const starfocus::Plane<uint8_t>& alpha = e.images.alpha;
+  const starfocus::PictureOutput output = {&starfocus::simd::BestImageKernels(),
+                                           starfocus::PlanesOf<uint8_t>(*out),
+                                           {0, first, e.config.width, left},
+                                           {{alpha.data, alpha.stride, alpha.rows, 0}, 1},
+                                           nullptr};
+  status = starfocus::PullRows(starfocus::SinkOf(output), most, &e, written);
   if (status == SF_OK && report != nullptr) *report = e.report;
   return status;
 }

@@ -158,26 +158,6 @@ sf_status CheckCoverage(const sf_config& config, const uint8_t* coverage, size_t
   return check.status();
 }
 
-sf_status CheckViews(int32_t views, int32_t width, int32_t height,
-                     const sf_light_field& light_field, sf_problem* problem) {
-  Checker check(problem);
-  for (int32_t view = 0; view < views; ++view) {
-    const sf_plane& plane = light_field.views[view];
-    check.NotNull(plane.data, "views[].data", view);
-    check.Stride(ValidStride(plane.stride, 3 * static_cast<size_t>(width), height),
-                 "views[].stride", plane.stride, view);
-  }
-  return check.status();
-}
-
-sf_status CheckLightField(const sf_config& config, const sf_light_field& field) {
-  sf_status status = CheckViews(config.views, config.width, config.height, field, config.problem);
-  if (status == SF_OK) status = CheckCoverage(config, field.coverage, field.coverage_stride);
-  if (status != SF_OK) return status;
-  return CheckMap({field.disparity, field.disparity_stride}, config.width, config.height,
-                  config.problem);
-}
-
 sf_status CheckRegion(const sf_config& config, const sf_region& region) {
   if (IsWhole(region)) return SF_OK;
   Checker check(config.problem);
@@ -187,15 +167,6 @@ sf_status CheckRegion(const sf_config& config, const sf_region& region) {
            {"inside the picture", 1, config.width - double(region.x)});
   check.In({"region.height", double(region.height)},
            {"inside the picture", 1, config.height - double(region.y)});
-  return check.status();
-}
-
-sf_status CheckOutput(const sf_config& config, const Rect& rect, const uint8_t* out,
-                      size_t stride) {
-  Checker check(config.problem);
-  check.NotNull(out, "out");
-  check.Stride(ValidStride(stride, 3 * static_cast<size_t>(rect.width), rect.height), "out_stride",
-               stride);
   return check.status();
 }
 

@@ -69,18 +69,8 @@ bool ValidStride(size_t stride, size_t row_bytes, int32_t rows);
 // Whether a light field may have that coverage, or none: null.
 sf_status CheckCoverage(const sf_config& config, const uint8_t* coverage, size_t stride);
 
-// Checks pointers and strides of the views of a light field.
-sf_status CheckViews(int32_t views, int32_t width, int32_t height,
-                     const sf_light_field& light_field, sf_problem* problem);
-
-// Checks pointers and strides of a light field of `config`.
-sf_status CheckLightField(const sf_config& config, const sf_light_field& light_field);
-
 // Checks that a region is all 0, or inside the picture.
 sf_status CheckRegion(const sf_config& config, const sf_region& region);
-
-// Checks an output of the size of `rect`.
-sf_status CheckOutput(const sf_config& config, const Rect& rect, const uint8_t* out, size_t stride);
 
 }  // namespace starfocus
 

@@ -4,6 +4,7 @@
 #include "lib/api/validate.h"
 #include "lib/base/features.h"
 #include "lib/base/gaps.h"
+#include "lib/base/rows.h"
 #include "lib/convert/depth_rows.h"
 #include "lib/convert/image_planes.h"
 
@@ -18,17 +19,17 @@ struct PlaneSize {
   size_t row_bytes;
 };
 
-PlaneSize SizeOfPlane(const sf_image& image, int plane, int32_t width, int32_t height) {
-  const auto pixels = static_cast<size_t>(width), samples = (pixels + 1) / 2;
+PlaneSize SizeOfPlane(const sf_image& image, int plane, const PictureSize& picture) {
+  const auto pixels = static_cast<size_t>(picture.width), samples = (pixels + 1) / 2;
   const int32_t given = image.pixel_stride, format = image.format;
   const auto step = static_cast<size_t>(given != 0 ? given : LeastStep(format));
-  if (!IsYuv(format)) return {height, (pixels - 1) * step + (HasAlpha(format) ? 4 : 3)};
-  if (plane == 0) return {height, pixels};
-  return {(height + 1) / 2, IsPaired(format) ? 2 * samples : (samples - 1) * step + 1};
+  if (!IsYuv(format)) return {picture.height, (pixels - 1) * step + (HasAlpha(format) ? 4 : 3)};
+  if (plane == 0) return {picture.height, pixels};
+  return {(picture.height + 1) / 2, IsPaired(format) ? 2 * samples : (samples - 1) * step + 1};
 }
 
-Extent ExtentOfPlane(const sf_image& image, int plane, int32_t width, int32_t height) {
-  const PlaneSize size = SizeOfPlane(image, plane, width, height);
+Extent ExtentOfPlane(const sf_image& image, int plane, const PictureSize& picture) {
+  const PlaneSize size = SizeOfPlane(image, plane, picture);
   return ExtentOf(image.planes[plane], image.strides[plane], size.rows, size.row_bytes);
 }
 
@@ -38,17 +39,68 @@ bool ValidPixelStride(int32_t format, int32_t stride) {
   return stride > LeastStep(format) && stride <= SF_MAX_PIXEL_STRIDE;
 }
 
-sf_status CheckDepthMap(const sf_config& config, const sf_depth_map& map) {
-  Checker check(config.problem);
+// The fields of an image by their names.
+struct ImageNames {
+  const char *format, *matrix, *range, *pixel_stride, *planes, *strides;
+};
+
+constexpr ImageNames kViewNames = {"views[].format",       "views[].matrix", "views[].range",
+                                   "views[].pixel_stride", "views[].planes", "views[].strides"};
+constexpr ImageNames kOutNames = {"out.format",       "out.matrix", "out.range",
+                                  "out.pixel_stride", "out.planes", "out.strides"};
+
+// Checks view `index`, or an output.
+void CheckImage(const sf_image& image, const PictureSize& size, const ImageNames& names,
+                int32_t index, Checker* check) {
+  const int32_t format = image.format;
+  check->In({names.format, double(format), index}, {"an sf_format", 0, SF_FORMAT_YUV_420_888});
+  if (check->status() != SF_OK) return;
+  if (IsYuv(format)) {
+    check->In({names.matrix, double(image.matrix), index},
+              {"an sf_matrix", SF_MATRIX_BT601, SF_MATRIX_BT709});
+    check->In({names.range, double(image.range), index},
+              {"an sf_range", SF_RANGE_LIMITED, SF_RANGE_FULL});
+  }
+  check->Need(ValidPixelStride(format, image.pixel_stride), SF_ERROR_RANGE,
+              {names.pixel_stride, double(image.pixel_stride), index},
+              {"0, or bytes that the format allows"});
+  if (check->status() != SF_OK) return;
+  for (int plane = 0; plane < PlanesOfFormat(format); ++plane) {
+    check->NotNull(image.planes[plane], names.planes, index);
+    const PlaneSize bytes = SizeOfPlane(image, plane, size);
+    check->Stride(ValidStride(image.strides[plane], bytes.row_bytes, bytes.rows), names.strides,
+                  image.strides[plane], index);
+  }
+}
+
+void NeedInPlace(const sf_image& image, const ImageNames& names, int32_t index, Checker* check) {
+  check->Need(IsInPlace(image), SF_ERROR_FEATURE, {names.format, double(image.format), index},
+              {"SF_FORMAT_RGB without gaps, or SF_FEATURE_IMAGES"});
+}
+
+}  // namespace
+
+sf_status CheckViews(const sf_light_field& light_field, int32_t count, const PictureSize& size,
+                     sf_problem* problem) {
+  Checker check(problem);
+  for (int32_t view = 0; view < count; ++view) {
+    CheckImage(light_field.views[view], size, kViewNames, view, &check);
+  }
+  return check.status();
+}
+
+sf_status CheckDepthMap(const sf_depth_map& map, const PictureSize& size, sf_problem* problem) {
+  Checker check(problem);
   check.NotNull(map.data, "depth.data");
   check.In({"depth.type", double(map.type)}, {"an sf_depth_type", 0, SF_DEPTH_HALF});
   check.In({"depth.meaning", double(map.meaning)}, {"an sf_depth_meaning", 0, SF_DEPTH_RECIPROCAL});
   check.In({"depth.has_invalid", double(map.has_invalid)}, STARFOCUS_FROM_TO(0, 1));
-  check.Need(IsFinite(map.scale) && map.scale != 0, SF_ERROR_RANGE, {"depth.scale", map.scale},
-             {"finite, not 0"});
-  check.Need(IsFinite(map.offset), SF_ERROR_RANGE, {"depth.offset", map.offset}, {"finite"});
-  check.In({"depth.width", double(map.width)}, {"1 to width", 1, double(config.width)});
-  check.In({"depth.height", double(map.height)}, {"1 to height", 1, double(config.height)});
+  const auto scale = static_cast<float>(map.scale), offset = static_cast<float>(map.offset);
+  check.Need(IsFinite(scale) && scale != 0, SF_ERROR_RANGE, {"depth.scale", map.scale},
+             {"a finite float, not 0"});
+  check.Need(IsFinite(offset), SF_ERROR_RANGE, {"depth.offset", map.offset}, {"a finite float"});
+  check.In({"depth.width", double(map.width)}, {"1 to width", 1, double(size.width)});
+  check.In({"depth.height", double(map.height)}, {"1 to height", 1, double(size.height)});
   if (check.status() != SF_OK) return check.status();
   const size_t bytes = DepthBytes(map.type);
   check.Stride(ValidStride(map.stride, bytes * static_cast<size_t>(map.width), map.height) &&
@@ -57,67 +109,62 @@ sf_status CheckDepthMap(const sf_config& config, const sf_depth_map& map) {
   return check.status();
 }
 
-}  // namespace
-
-sf_status NeedImages(const sf_config& config) {
-  Checker check(config.problem);
-  check.Need(Has(config.features, SF_FEATURE_IMAGES), SF_ERROR_FEATURE,
-             {"features", double(config.features)}, {"SF_FEATURE_IMAGES"});
-  return check.status();
-}
-
-sf_status CheckImage(const sf_image& image, const Rect& size, sf_problem* problem, int32_t index) {
+sf_status CheckInPlace(const sf_light_field& light_field, int32_t count, sf_problem* problem) {
   Checker check(problem);
-  const int32_t format = image.format;
-  check.In({"image.format", double(format), index}, {"an sf_format", 0, SF_FORMAT_YUV_420_888});
-  if (check.status() != SF_OK) return check.status();
-  if (IsYuv(format)) {
-    check.In({"image.matrix", double(image.matrix), index},
-             {"an sf_matrix", SF_MATRIX_BT601, SF_MATRIX_BT709});
-    check.In({"image.range", double(image.range), index},
-             {"an sf_range", SF_RANGE_LIMITED, SF_RANGE_FULL});
-  }
-  check.Need(ValidPixelStride(format, image.pixel_stride), SF_ERROR_RANGE,
-             {"image.pixel_stride", double(image.pixel_stride), index},
-             {"0, or bytes that the format allows"});
-  if (check.status() != SF_OK) return check.status();
-  for (int plane = 0; plane < PlanesOfFormat(format); ++plane) {
-    check.NotNull(image.planes[plane], "image.planes", index);
-    const PlaneSize bytes = SizeOfPlane(image, plane, size.width, size.height);
-    check.Stride(ValidStride(image.strides[plane], bytes.row_bytes, bytes.rows), "image.strides",
-                 image.strides[plane], index);
+  for (int32_t view = 0; view < count; ++view) {
+    NeedInPlace(light_field.views[view], kViewNames, view, &check);
   }
   return check.status();
 }
 
-sf_status CheckImageField(const sf_config& config, const sf_image_field& field) {
-  for (int32_t view = 0; view < config.views; ++view) {
-    const sf_status status =
-        CheckImage(field.views[view], {0, 0, config.width, config.height}, config.problem, view);
-    if (status != SF_OK) return status;
-  }
-  const sf_status status = CheckCoverage(config, field.coverage, field.coverage_stride);
-  return status == SF_OK ? CheckDepthMap(config, field.depth) : status;
+sf_status CheckInPlace(const sf_depth_map& map, const PictureSize& size, sf_problem* problem) {
+  Checker check(problem);
+  check.Need(IsInPlace(map, size.width, size.height), SF_ERROR_FEATURE, {"depth"},
+             {"as of sf_depth_float, as large as the picture, or SF_FEATURE_IMAGES"});
+  return check.status();
 }
 
-void AddImageField(const sf_config& config, const sf_image_field& field, Extents* extents) {
-  const sf_depth_map& map = field.depth;
+sf_status CheckLightField(const sf_config& config, const sf_light_field& light_field) {
+  const PictureSize size = {config.width, config.height};
+  sf_problem* const problem = config.problem;
+  sf_status status = CheckViews(light_field, config.views, size, problem);
+  if (status == SF_OK) {
+    status = CheckCoverage(config, light_field.coverage, light_field.coverage_stride);
+  }
+  if (status == SF_OK) status = CheckDepthMap(light_field.depth, size, problem);
+  if (status != SF_OK || Has(config.features, SF_FEATURE_IMAGES)) return status;
+  status = CheckInPlace(light_field, config.views, problem);
+  return status == SF_OK ? CheckInPlace(light_field.depth, size, problem) : status;
+}
+
+void AddLightField(const sf_config& config, const sf_light_field& light_field, Extents* extents) {
+  const sf_depth_map& map = light_field.depth;
   extents->AddRows(map.data, map.stride, map.height,
                    DepthBytes(map.type) * static_cast<size_t>(map.width));
-  extents->AddCoverage(config, field.coverage, field.coverage_stride);
+  extents->AddCoverage(config, light_field.coverage, light_field.coverage_stride);
   for (int view = 0; view < config.views; ++view) {
-    const sf_image& image = field.views[view];
-    for (int plane = 0; plane < PlanesOfFormat(image.format); ++plane) {
-      extents->Add(ExtentOfPlane(image, plane, config.width, config.height));
-    }
+    AddImage(light_field.views[view], {config.width, config.height}, extents);
   }
 }
 
-sf_status CheckImageOutput(const sf_image& image, const Rect& size, const Extents& read,
+void AddImage(const sf_image& image, const PictureSize& size, Extents* extents) {
+  for (int plane = 0; plane < PlanesOfFormat(image.format); ++plane) {
+    extents->Add(ExtentOfPlane(image, plane, size));
+  }
+}
+
+sf_status CheckOutput(const sf_config& config, const sf_image& image, const PictureSize& size) {
+  Checker check(config.problem);
+  CheckImage(image, size, kOutNames, 0, &check);
+  if (!Has(config.features, SF_FEATURE_IMAGES)) NeedInPlace(image, kOutNames, 0, &check);
+  return check.status();
+}
+
+sf_status CheckOutputApart(const sf_image& image, const PictureSize& size, const Extents& read,
                            sf_problem* problem) {
-  sf_status status = CheckImage(image, size, problem);
+  sf_status status = SF_OK;
   for (int plane = 0; status == SF_OK && plane < PlanesOfFormat(image.format); ++plane) {
-    status = CheckApart(ExtentOfPlane(image, plane, size.width, size.height), read, "out", problem);
+    status = CheckApart(ExtentOfPlane(image, plane, size), read, "out", problem);
   }
   return status;
 }

@@ -4,25 +4,41 @@
 #define STARFOCUS_LIB_API_VALIDATE_IMAGE_H_
 
 #include "lib/source/extents.h"
-#include "starfocus/image.h"
+#include "starfocus/starfocus.h"
 
 namespace starfocus {
 
-// Whether the engine is made for images.
-sf_status NeedImages(const sf_config& config);
+struct PictureSize {
+  int32_t width, height;
+};
 
-// Checks an image of that size, view `index` or the output.
-sf_status CheckImage(const sf_image& image, const Rect& size, sf_problem* problem,
-                     int32_t index = 0);
+// Checks `count` views.
+sf_status CheckViews(const sf_light_field& light_field, int32_t count, const PictureSize& size,
+                     sf_problem* problem);
 
-// Checks the views and the depth map for pictures of `config`.
-sf_status CheckImageField(const sf_config& config, const sf_image_field& field);
+// Checks the map of a picture of that size.
+sf_status CheckDepthMap(const sf_depth_map& map, const PictureSize& size, sf_problem* problem);
 
-// Adds the images and the depth map of a field.
-void AddImageField(const sf_config& config, const sf_image_field& field, Extents* extents);
+// Checks that `count` views are of formats that are read in place.
+sf_status CheckInPlace(const sf_light_field& light_field, int32_t count, sf_problem* problem);
 
-// Checks an output of that size that must not overlap what is read.
-sf_status CheckImageOutput(const sf_image& image, const Rect& size, const Extents& read,
+// Checks that a map is, too.
+sf_status CheckInPlace(const sf_depth_map& map, const PictureSize& size, sf_problem* problem);
+
+// Checks a light field for pictures of `config`.
+sf_status CheckLightField(const sf_config& config, const sf_light_field& light_field);
+
+// Adds all planes of a light field.
+void AddLightField(const sf_config& config, const sf_light_field& light_field, Extents* extents);
+
+// Adds the planes of a picture of that size.
+void AddImage(const sf_image& image, const PictureSize& size, Extents* extents);
+
+// Checks a picture of that size for the engine to write, by itself.
+sf_status CheckOutput(const sf_config& config, const sf_image& image, const PictureSize& size);
+
+// Checks that it does not overlap what is read.
+sf_status CheckOutputApart(const sf_image& image, const PictureSize& size, const Extents& read,
                            sf_problem* problem);
 
 }  // namespace starfocus

@@ -20,7 +20,8 @@ uint32_t ConvertValues(const simd::ImageKernels& kernels, const DepthSource& dep
                        int32_t y, int32_t count, int16_t* out) {
   const sf_depth_map& map = depth.map;
   const auto values = static_cast<size_t>(count);
-  const uint8_t* row = static_cast<const uint8_t*>(map.data) + static_cast<size_t>(y) * map.stride +
+  const uint8_t* row = static_cast<const uint8_t*>(map.data) +
+                       static_cast<size_t>(y - depth.first) * map.stride +
                        static_cast<size_t>(x) * DepthBytes(map.type);
   if (map.type == SF_DEPTH_FLOAT) {
     return kernels.DepthToDisparity(reinterpret_cast<const float*>(row), values, depth.rule, out);
@@ -75,11 +76,14 @@ void FillColumns(int32_t width, int32_t map_width, uint32_t* columns) {
 
 DepthSource MakeDepthSource(const sf_config& config, const sf_depth_map& map,
                             const uint32_t* columns) {
-  const float invalid =
-      map.has_invalid != 0 ? map.invalid : std::numeric_limits<float>::quiet_NaN();
-  const simd::DepthRule rule = {
-      map.scale,           map.offset,         invalid, map.meaning == SF_DEPTH_RECIPROCAL,
-      RangeOf(config).min, RangeOf(config).max};
+  const float invalid = map.has_invalid != 0 ? static_cast<float>(map.invalid)
+                                             : std::numeric_limits<float>::quiet_NaN();
+  const simd::DepthRule rule = {static_cast<float>(map.scale),
+                                static_cast<float>(map.offset),
+                                invalid,
+                                map.meaning == SF_DEPTH_RECIPROCAL,
+                                RangeOf(config).min,
+                                RangeOf(config).max};
   return {map, rule, config.width, config.height, columns};
 }
 
@@ -95,9 +99,10 @@ uint32_t ReadDepthRow(const simd::ImageKernels& kernels, const DepthSource& dept
                       int16_t* out) {
   const uint32_t place = PlaceOfRow(depth, y);
   const bool is_row = depth.map.width == depth.width && place % simd::kColumnOne == 0;
+  const int32_t most = is_row ? kPiece : kPixels;
   uint32_t flags = 0;
-  for (int32_t x = 0; x < depth.width; x += kPixels) {
-    const int32_t count = Min(kPixels, depth.width - x);
+  for (int32_t x = 0; x < depth.width; x += most) {
+    const int32_t count = Min(most, depth.width - x);
     flags |= is_row
                  ? ConvertValues(kernels, depth, x,
                                  static_cast<int32_t>(place >> simd::kColumnBits), count, out + x)

@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "simd/image_kernels.h"
-#include "starfocus/image.h"
+#include "starfocus/starfocus.h"
 
 namespace starfocus {
 
@@ -15,8 +15,10 @@ namespace starfocus {
 struct DepthSource {
   sf_depth_map map;
   simd::DepthRule rule;
-  int32_t width, height;    // of the picture
-  const uint32_t* columns;  // of the picture, in the map (simd::SpreadRow)
+  int32_t width, height;  // of the picture
+  const uint32_t*
+      columns;        // of the picture, in the map (simd::SpreadRow); null: the map is as wide
+  int32_t first = 0;  // row of the picture that `map` begins with, if it is as high
 };
 
 // Fills in where each column of pictures of that width lies in the map.

@@ -21,6 +21,9 @@ struct ImagePlanes {
   Byte* planes[3];
   size_t strides[3];
 
+  // Whether rows are R, G, B without gaps.
+  bool IsPacked() const { return !is_yuv && !blue_first && step == 3; }
+
   Byte* Pixel(int32_t x, int32_t y) const {
     return planes[0] + static_cast<size_t>(y) * strides[0] + static_cast<size_t>(x) * step;
   }

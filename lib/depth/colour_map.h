@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "lib/base/fixed.h"
+#include "lib/base/rows.h"
 #include "lib/depth/estimate_plan.h"
 #include "lib/depth/map_rows.h"
 #include "simd/colours.h"
@@ -40,7 +41,7 @@ struct ColourMap {
   const int16_t* disparity;
 
   const uint8_t* Pixel(int32_t x, int32_t y) const {
-    const sf_plane& view = light_field.views[0];
+    const Plane<const uint8_t> view = RowsOf(light_field.views[0]);
     return static_cast<const uint8_t*>(view.data) + static_cast<size_t>(y) * view.stride +
            3 * static_cast<size_t>(x);
   }
@@ -49,7 +50,7 @@ struct ColourMap {
   }
 };
 
-// Converts light_field.disparity, of which one pixel at least is finite. The others get the nearest
+// Converts light_field.depth, of which one pixel at least is finite. The others get the nearest
 // one of their row, or the nearest row that has one; of two that are as near the farther surface.
 void ReadMap(const EstimatePlan& plan, const sf_light_field& light_field, int16_t* disparity);
 

@@ -49,7 +49,7 @@ struct ColourMemory {
 size_t LayOutColourRepair(const EstimatePlan& plan, int32_t max_workers, void* base,
                           ColourMemory** memory);
 
-// Repairs light_field.disparity, of which one pixel at least is finite, into `output`, by the
+// Repairs light_field.depth, of which one pixel at least is finite, into `output`, by the
 // centre view alone. Pixels that no colour gainsays keep their disparity to the bit unless the map
 // is noisy, or most pixels of its colour around are of another surface; unknown ones (NaN,
 // infinite) get one. Confidence is 255 where nothing is in doubt, and 0 where colours gainsay the

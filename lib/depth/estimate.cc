@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "lib/base/fixed.h"
+#include "lib/base/rows.h"
 #include "lib/depth/estimate_clean.h"
 #include "lib/depth/phases.h"
 #include "lib/depth/sweep.h"
@@ -35,7 +36,8 @@ void WriteTile(const void* data, int32_t index, int32_t) {
     const size_t row = static_cast<size_t>(y) * static_cast<size_t>(plan.width);
     float* disparity = output.disparity + static_cast<size_t>(y) * output.stride;
     for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
-      const int32_t d = WithoutStray(plan, job.sweep.light_field.views[0], memory.second, x, y);
+      const int32_t d =
+          WithoutStray(plan, RowsOf(job.sweep.light_field.views[0]), memory.second, x, y);
       const size_t at = row + static_cast<size_t>(x);
       constexpr float kPixel = 1.0F / (1 << kDisparityBits);
       disparity[x] = output.Clamped(static_cast<float>(d) * kPixel);

@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "lib/base/fixed.h"
+#include "lib/base/geometry.h"
 
 namespace starfocus {
 namespace {
@@ -72,8 +73,8 @@ Range RangeOf(const EstimatePlan& plan, const int16_t* map, const Rect& around) 
 
 }  // namespace
 
-int16_t WithoutStray(const EstimatePlan& plan, const sf_plane& centre, const int16_t* map,
-                     int32_t x, int32_t y) {
+int16_t WithoutStray(const EstimatePlan& plan, const Plane<const uint8_t>& centre,
+                     const int16_t* map, int32_t x, int32_t y) {
   const Rect around = Widened(plan, {x, y, 1, 1}, kRadius);
   const int16_t own =
       map[static_cast<size_t>(y) * static_cast<size_t>(plan.width) + static_cast<size_t>(x)];

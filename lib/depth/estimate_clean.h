@@ -5,14 +5,15 @@
 
 #include <cstdint>
 
+#include "lib/base/geometry.h"
 #include "lib/depth/estimate_plan.h"
 
 namespace starfocus {
 
 // Returns the disparity of pixel (x, y), or, where it strays from it, the median of those around
 // it, of which the ones of like colour count more. `map` has the picture's size, kDisparityBits.
-int16_t WithoutStray(const EstimatePlan& plan, const sf_plane& centre, const int16_t* map,
-                     int32_t x, int32_t y);
+int16_t WithoutStray(const EstimatePlan& plan, const Plane<const uint8_t>& centre,
+                     const int16_t* map, int32_t x, int32_t y);
 
 }  // namespace starfocus
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "lib/base/fixed.h"
+#include "lib/base/rows.h"
 
 namespace starfocus {
 namespace {
@@ -26,7 +27,7 @@ void SplitPictureRow(const uint8_t* row, int32_t picture_width, const Patches& p
 
 // A view whose planes are made: moved by parts of a pixel, 128ths.
 struct MovedView {
-  const sf_plane& picture;
+  Plane<const uint8_t> picture;
   int32_t moves;
   int32_t across[4], down[4];
 };
@@ -115,11 +116,11 @@ void LoadPatches(const EstimatePlan& plan, const sf_light_field& light_field, co
   patches->left = region.x - plan.reach;
   patches->top = region.y - plan.reach;
   patches->rows = region.height + 2 * plan.reach + 1;
-  MakePlanes({light_field.views[0], 1, {}, {}}, plan, kernels, *patches, patches->rgb);
+  MakePlanes({RowsOf(light_field.views[0]), 1, {}, {}}, plan, kernels, *patches, patches->rgb);
   uint8_t* planes = patches->rgb + 3 * patches->plane;
   for (int32_t k = 0; k < plan.side_views(); ++k) {
     const SideView& side = plan.side[k];
-    MovedView view = {light_field.views[side.index], plan.Phases(side), {}, {}};
+    MovedView view = {RowsOf(light_field.views[side.index]), plan.Phases(side), {}, {}};
     for (int32_t phase = 0; phase < view.moves; ++phase) {
       view.across[phase] = MoveAcross(side, plan.Disparity(phase)) & 127;
       view.down[phase] = MoveDown(side, plan.Disparity(phase)) & 127;

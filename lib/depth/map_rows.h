@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "lib/base/rows.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
@@ -28,8 +29,7 @@ struct MapOutput {
 
 // Row y of the given map.
 inline const float* GivenAt(const sf_light_field& light_field, int32_t y) {
-  return light_field.disparity +
-         static_cast<size_t>(y) * (light_field.disparity_stride / sizeof(float));
+  return RowsOf(light_field.depth).Row(y);
 }
 
 }  // namespace starfocus

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "lib/base/fixed.h"
+#include "lib/base/rows.h"
 #include "lib/depth/phases.h"
 #include "lib/depth/repair_map.h"
 #include "lib/depth/sweep.h"
@@ -52,8 +53,8 @@ void SweepSecond(const void* data, int32_t index, int32_t worker) {
 void ValueTile(const void* data, int32_t index, int32_t) {
   const Sweep& sweep = JobOf(data).sweep;
   const Rect tile = TileOf(sweep.plan, index);
-  EvenOut(sweep.plan, sweep.light_field.views[0], tile, *sweep.memory, sweep.memory->first);
-  if (sweep.rates) RateUnswept(sweep.plan, sweep.light_field.views[0], tile, sweep.memory);
+  EvenOut(sweep.plan, RowsOf(sweep.light_field.views[0]), tile, *sweep.memory, sweep.memory->first);
+  if (sweep.rates) RateUnswept(sweep.plan, RowsOf(sweep.light_field.views[0]), tile, sweep.memory);
   sweep.memory->counts[index] = CountTile(sweep.plan, tile, *sweep.memory);
   const ThinGrid grid = GridOf(sweep.plan);
   CountBeside(grid, sweep.memory->given, tile, index, sweep.memory->given_cells);

@@ -8,7 +8,7 @@
 
 namespace starfocus {
 
-// Repairs light_field.disparity into `output`; the plan is one that repairs. Pixels that nothing
+// Repairs light_field.depth into `output`; the plan is one that repairs. Pixels that nothing
 // gainsays keep their disparity to the bit, unknown ones (NaN, infinite) get one. SF_OK, or
 // SF_ERROR_RUNNER.
 sf_status Repair(const EstimatePlan& plan, const sf_light_field& light_field,

@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "lib/base/fixed.h"
+#include "lib/base/geometry.h"
 #include "lib/depth/estimate_clean.h"
 #include "lib/depth/swept.h"
 #include "simd/disparities.h"
@@ -133,7 +134,7 @@ void FindTrusted(const EstimatePlan& plan, const Rect& tile, const int16_t* give
   }
 }
 
-void EvenOut(const EstimatePlan& plan, const sf_plane& centre, const Rect& tile,
+void EvenOut(const EstimatePlan& plan, const Plane<const uint8_t>& centre, const Rect& tile,
              const EstimateMemory& memory, int16_t* evened) {
   ForSwept(plan, memory.swept, tile, [&](int32_t x, int32_t y) {
     const size_t at = IndexOf(plan, x, y);

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "lib/base/geometry.h"
 #include "lib/depth/estimate.h"
 
 namespace starfocus {
@@ -22,7 +23,7 @@ void FindTrusted(const EstimatePlan& plan, const Rect& tile, const int16_t* give
 // Writes the disparity of each pixel of a tile: the given one where memory.second agrees; otherwise
 // the mean of trusted ones around it of the same surface, or that of memory.second there, of which
 // strays are left out by the colours of the centre view.
-void EvenOut(const EstimatePlan& plan, const sf_plane& centre, const Rect& tile,
+void EvenOut(const EstimatePlan& plan, const Plane<const uint8_t>& centre, const Rect& tile,
              const EstimateMemory& memory, int16_t* evened);
 
 // Whether memory.first is another surface than the given one at pixel `at`, or that is unknown.

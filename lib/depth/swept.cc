@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "lib/base/fixed.h"
+#include "lib/base/rows.h"
 #include "simd/disparities.h"
 #include "simd/match.h"
 
@@ -22,7 +23,7 @@ bool IsTested(int32_t at, int32_t length) { return (std::abs(2 * at - (length - 
 
 // Returns how much a pixel differs from the view's place (x, y), in 128ths of a pixel:
 // simd::kMostDifference where the view ends before.
-int32_t Misfit(const EstimatePlan& plan, const sf_plane& view, int32_t x, int32_t y,
+int32_t Misfit(const EstimatePlan& plan, const Plane<const uint8_t>& view, int32_t x, int32_t y,
                const uint8_t* pixel) {
   const int32_t column = x >> 7, row = y >> 7, across = x & 127, down = y & 127;
   const int32_t right = across > 0 ? 3 : 0, below = down > 0 ? 1 : 0;
@@ -46,15 +47,15 @@ int32_t Misfit(const EstimatePlan& plan, const sf_plane& view, int32_t x, int32_
 // Whether the views on one side of pixel (x, y), whichever, show it at disparity d.
 bool Fits(const EstimatePlan& plan, const sf_light_field& light_field, int32_t x, int32_t y,
           int32_t d) {
-  const sf_plane& centre = light_field.views[0];
+  const Plane<const uint8_t> centre = RowsOf(light_field.views[0]);
   const uint8_t* pixel = centre.data + static_cast<size_t>(y) * centre.stride + 3 * x;
   const int32_t along = plan.arms == 4 ? 2 : 3;  // as for simd::LabelRow
   int32_t misfit[8];
   for (int32_t arm = 0; arm < plan.arms + along - 1; ++arm) {
     if (arm < plan.arms) {
       const SideView& side = plan.side[arm];
-      misfit[arm] = Misfit(plan, light_field.views[side.index], 128 * x + MoveAcross(side, d),
-                           128 * y + MoveDown(side, d), pixel);
+      misfit[arm] = Misfit(plan, RowsOf(light_field.views[side.index]),
+                           128 * x + MoveAcross(side, d), 128 * y + MoveDown(side, d), pixel);
     }
     if (arm < along - 1) continue;
     int32_t sum = 0;
@@ -140,7 +141,7 @@ void FindSwept(const EstimatePlan& plan, const Rect& tile, uint8_t* scratch,
   }
 }
 
-void RateUnswept(const EstimatePlan& plan, const sf_plane& centre, const Rect& tile,
+void RateUnswept(const EstimatePlan& plan, const Plane<const uint8_t>& centre, const Rect& tile,
                  EstimateMemory* memory) {
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
     const size_t row = static_cast<size_t>(y) * static_cast<size_t>(plan.width);

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "lib/base/geometry.h"
 #include "lib/depth/estimate_memory.h"
 #include "starfocus/starfocus.h"
 
@@ -27,7 +28,7 @@ void FindSwept(const EstimatePlan& plan, const Rect& tile, uint8_t* scratch,
 // Enters the certainty of the pixels of a tile that were not swept: how much the centre view
 // differs a pixel away, across and along, which is how much worse views fit a pixel nearer or
 // further away.
-void RateUnswept(const EstimatePlan& plan, const sf_plane& centre, const Rect& tile,
+void RateUnswept(const EstimatePlan& plan, const Plane<const uint8_t>& centre, const Rect& tile,
                  EstimateMemory* memory);
 
 // Calls act(begin, end) for each run of pixels of row y in [from, to) that are swept, from left to

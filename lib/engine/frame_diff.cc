@@ -5,6 +5,7 @@
 
 #include "lib/base/fixed.h"
 #include "lib/base/gaps.h"
+#include "lib/base/rows.h"
 
 namespace starfocus {
 namespace {
@@ -70,10 +71,8 @@ void CompareRow(const FrameDiff& changes, const RowPair& rows, int32_t y, int32_
 
 // Compares row y of the maps. What is filled changes with the known values beside the gap.
 void CompareMaps(const FrameDiff& changes, int32_t y) {
-  const auto row = static_cast<size_t>(y);
-  const sf_light_field &a = *changes.before, &b = *changes.now;
-  const float* const before = a.disparity + row * (a.disparity_stride / sizeof(float));
-  const float* const now = b.disparity + row * (b.disparity_stride / sizeof(float));
+  const float* const before = RowsOf(changes.before->depth).Row(y);
+  const float* const now = RowsOf(changes.now->depth).Row(y);
   const auto is_filled = [&](int32_t x) {
     return changes.fills && (!IsFinite(before[x]) || !IsFinite(now[x]));
   };
@@ -95,15 +94,13 @@ void CompareCoverage(const FrameDiff& changes, int32_t y) {
 }
 
 void CompareViews(const FrameDiff& changes, int32_t y) {
-  const auto row = static_cast<size_t>(y);
-  const sf_light_field &a = *changes.before, &b = *changes.now;
   CompareMaps(changes, y);
   CompareCoverage(changes, y);
   for (int32_t view = 0; view < changes.views; ++view) {
-    CompareRow(changes,
-               {a.views[view].data + row * a.views[view].stride,
-                b.views[view].data + row * b.views[view].stride, 3},
-               y, view == 0 ? changes.centre_reach : changes.side_reach, [](int32_t*, int32_t*) {});
+    CompareRow(
+        changes,
+        {RowsOf(changes.before->views[view]).Row(y), RowsOf(changes.now->views[view]).Row(y), 3}, y,
+        view == 0 ? changes.centre_reach : changes.side_reach, [](int32_t*, int32_t*) {});
   }
 }
 

@@ -60,26 +60,6 @@ int32_t FillUnknown(const sf_config& config, const simd::Kernels& kernels, int16
   return unknown;
 }
 
-uint32_t ConvertDisparities(const sf_config& config, const simd::Kernels& kernels, const float* row,
-                            int16_t* out) {
-  const DisparityRange range = RangeOf(config);
-  const auto convert = [&](int32_t x, int32_t end) {
-    return kernels.ConvertDisparity(row + x, static_cast<size_t>(end - x), range.min, range.max,
-                                    out + x);
-  };
-  if (convert(0, config.width)) return 0;
-  uint32_t flags = 0;
-  for (int32_t x = 0, end = 0; x < config.width; x = end) {
-    for (; x < config.width && !IsFinite(row[x]); ++x) {
-      out[x] = simd::kNoSurface;
-      flags |= simd::kUnknownDepth;
-    }
-    for (end = x; end < config.width && IsFinite(row[end]);) ++end;
-    if (end > x && !convert(x, end)) flags |= simd::kDepthOutside;
-  }
-  return flags;
-}
-
 void ForgetLayers(const sf_config& config, Pictures* pictures) {
   for (int layer = 1; layer < SF_LAYERS; ++layer) {
     // A ring of as many rows as a stripe may need: what the stripe before made stays.

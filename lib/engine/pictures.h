@@ -33,11 +33,6 @@ void SetViews(const sf_config& config, const ViewReader& reader, const Plane<con
 void SetPlanes(const sf_config& config, const simd::Kernels& kernels, const Plane<uint8_t>* views,
                Pictures* pictures);
 
-// Converts a disparity row to `out`, kDisparityBits, and kNoSurface where it is not finite. Returns
-// simd::DepthFlags; values outside of the configured range become anything.
-uint32_t ConvertDisparities(const sf_config& config, const simd::Kernels& kernels, const float* row,
-                            int16_t* out);
-
 // Fills the unknown pixels (kNoSurface) of a converted row, as SF_FEATURE_FILL_UNKNOWN says.
 // Returns their number.
 int32_t FillUnknown(const sf_config& config, const simd::Kernels& kernels, int16_t* row);

@@ -10,7 +10,7 @@
 
 namespace starfocus {
 
-// All planes of a light field in any format, or of two of RGB, and four pieces of memory.
+// All planes of a light field in any format, or of two that are in place, and four more pieces.
 struct Extents {
   Extent of[3 * kMaxViews + 4];
   int count = 0;
@@ -18,16 +18,6 @@ struct Extents {
   void Add(const Extent& extent) { of[count++] = extent; }
   void AddRows(const void* data, size_t stride, int32_t rows, size_t row_bytes) {
     Add(ExtentOf(data, stride, rows, row_bytes));
-  }
-  void AddLightField(const sf_config& config, const sf_light_field& light_field) {
-    const auto width = static_cast<size_t>(config.width);
-    for (int view = 0; view < config.views; ++view) {
-      const sf_plane& plane = light_field.views[view];
-      AddRows(plane.data, plane.stride, config.height, 3 * width);
-    }
-    AddRows(light_field.disparity, light_field.disparity_stride, config.height,
-            sizeof(float) * width);
-    AddCoverage(config, light_field.coverage, light_field.coverage_stride);
   }
   void AddCoverage(const sf_config& config, const uint8_t* coverage, size_t stride) {
     if (coverage == nullptr) return;

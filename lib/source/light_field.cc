@@ -3,95 +3,110 @@
 
 #include <cstring>
 
+#include "lib/base/rows.h"
+
 namespace starfocus {
 namespace {
 
-uint8_t* At(const Picture& picture, int32_t x, int32_t y) {
-  return picture.data + static_cast<size_t>(y - picture.rect.y) * picture.stride +
-         3 * static_cast<size_t>(x - picture.rect.x);
+const LightField& FieldOf(const void* self) { return *static_cast<const LightField*>(self); }
+
+const uint8_t* ReadView(const void* self, int view, int32_t x, int32_t y, int32_t count,
+                        uint8_t* room) {
+  const LightField& field = FieldOf(self);
+  ReadCodes(*field.kernels, field.views[view], x, y - field.first, count, room);
+  return room;
 }
 
-// Copies columns [first, last) of a row.
-void CopyColumns(const Picture& picture, const Plane<uint8_t>& from, int32_t y, int32_t first,
-                 int32_t last) {
-  if (first >= last) return;
-  std::memcpy(At(picture, first, y), from.Row(y) + 3 * static_cast<size_t>(first),
-              3 * static_cast<size_t>(last - first));
+// The windows read the centre view's rows where they have been converted.
+const uint8_t* WindowCodes(const void* self, int view, int32_t x, int32_t y, int32_t count,
+                           uint8_t* room) {
+  if (view > 0) return ReadView(self, view, x, y, count, room);
+  return ReaderOf(FieldOf(self).planes).Codes(view, x, y, count, room);
 }
 
-// Copies what changed of a row.
-void CopyFrameDiff(const Picture& picture, const Plane<uint8_t>& from, int32_t y,
-                   const EngineState& engine) {
-  const Rect& rect = picture.rect;
-  const int32_t side = engine.config.largest_block, reach = engine.lens.borders.joined;
-  for (int32_t column = 0; column < Columns(engine.config); ++column) {
-    const int32_t x = column * side;
-    if (!HasChanged(engine.stripe.changes, {x, y - reach, side, 1 + 2 * reach})) continue;
-    CopyColumns(picture, from, y, Max(x - reach, rect.x),
-                Min(x + side + reach, rect.x + rect.width));
+void WindowLight(const void* self, int view, int32_t x, int32_t y, int32_t count, int16_t* rgb) {
+  constexpr int32_t kPiece = 256;
+  const PlaneViews& planes = FieldOf(self).planes;
+  uint8_t room[3 * kPiece];
+  for (int32_t p = 0; p < count; p += kPiece) {
+    const int32_t some = Min(kPiece, count - p);
+    planes.kernels->Decode(WindowCodes(self, view, x + p, y, some, room),
+                           3 * static_cast<size_t>(some), planes.transfer->encoding, rgb + 3 * p);
   }
 }
 
-sf_status Store(const void* self, const RowRange& rows, const Plane<uint8_t>& from,
-                EngineState* engine) {
-  const auto& picture = *static_cast<const Picture*>(self);
-  const Rect& rect = picture.rect;
-  for (int32_t y = rows.first; y < rows.last; ++y) {
-    if (picture.previous == nullptr) {
-      CopyColumns(picture, from, y, rect.x, rect.x + rect.width);
-      continue;
-    }
-    std::memcpy(
-        At(picture, rect.x, y),
-        picture.previous->out + static_cast<size_t>(y - rect.y) * picture.previous->out_stride,
-        3 * static_cast<size_t>(rect.width));
-    CopyFrameDiff(picture, from, y, *engine);
+uint32_t ReadMap(const void* self, int32_t y, int16_t* out, uint64_t* bytes) {
+  const LightField& field = FieldOf(self);
+  const bool two = PlaceOfRow(field.depth, y) % simd::kColumnOne != 0;
+  const size_t row = DepthBytes(field.depth.map.type) * static_cast<size_t>(field.depth.map.width);
+  *bytes += two ? 2 * row : row;
+  return ReadDepthRow(*field.kernels, field.depth, y, out);
+}
+
+void ReadCoverage(const void* self, int32_t y, uint8_t* out) {
+  const LightField& field = FieldOf(self);
+  std::memcpy(out, field.coverage.Row(y), static_cast<size_t>(field.depth.width));
+}
+
+void ReadAlpha(const void* self, int32_t y, uint8_t* out) {
+  const LightField& field = FieldOf(self);
+  const AlphaSource alpha = AlphaOf(field.views[0]);
+  const uint8_t* const row = alpha.rows.Row(y - field.first);
+  for (int32_t x = 0; x < field.depth.width; ++x) out[x] = row[static_cast<size_t>(x) * alpha.step];
+}
+
+void MakeViews(const sf_light_field& given, EngineState* engine, LightField* field) {
+  field->in_place = true;
+  for (int view = 0; view < engine->config.views; ++view) {
+    field->views[view] = PlanesOf<const uint8_t>(given.views[view]);
+    field->in_place = field->in_place && field->views[view].IsPacked();
   }
-  return SF_OK;
+  PlaneViews& planes = field->planes;
+  planes.kernels = engine->kernels;
+  planes.transfer = &TransferOf(engine->config.transfer);
+  const Plane<uint8_t>& ring = engine->rings[0];
+  if (!field->in_place) planes.view[0] = {ring.data, ring.stride, ring.rows, 0};
+  for (int view = 0; field->in_place && view < engine->config.views; ++view) {
+    planes.view[view] = RowsOf(given.views[view], field->first);
+  }
 }
 
 }  // namespace
 
-LightFieldRows::LightFieldRows(const sf_light_field& light_field, int32_t first,
-                               const EngineState& engine)
-    : engine_(engine),
-      disparity_{light_field.disparity, light_field.disparity_stride / sizeof(float), 0, first},
-      coverage_{light_field.coverage, light_field.coverage_stride, 0, first} {
-  planes_.kernels = engine.kernels;
-  planes_.transfer = &TransferOf(engine.config.transfer);
-  for (int view = 0; view < engine.config.views; ++view) {
-    planes_.view[view] = {light_field.views[view].data, light_field.views[view].stride, 0, first};
+void MakeLightField(const sf_light_field& given, int32_t first, EngineState* engine,
+                    LightField* field) {
+  field->kernels = &simd::BestImageKernels();
+  field->first = first;
+  MakeViews(given, engine, field);
+  ImageMemory& memory = engine->images;
+  if (memory.columns != nullptr && memory.map_width != given.depth.width) {
+    memory.map_width = given.depth.width;
+    FillColumns(engine->config.width, memory.map_width, memory.columns);
   }
+  field->depth = MakeDepthSource(engine->config, given.depth, memory.columns);
+  // Smaller maps come whole.
+  if (given.depth.height == engine->config.height) field->depth.first = first;
+  field->coverage = {given.coverage, given.coverage_stride, 0, first};
 }
 
-uint32_t LightFieldRows::ReadMap(const void* self, int32_t y, int16_t* out, uint64_t* bytes) {
-  const auto& rows = *static_cast<const LightFieldRows*>(self);
-  const sf_config& config = rows.engine_.config;
-  *bytes += sizeof(float) * static_cast<uint64_t>(config.width);
-  return ConvertDisparities(config, *rows.engine_.kernels, rows.disparity_.Row(y), out);
-}
-
-void LightFieldRows::ReadCoverage(const void* self, int32_t y, uint8_t* out) {
-  const auto& rows = *static_cast<const LightFieldRows*>(self);
-  std::memcpy(out, rows.coverage_.Row(y), static_cast<size_t>(rows.engine_.config.width));
-}
-
-RowSource LightFieldRows::Source() const {
+RowSource SourceOf(const LightField& field) {
   RowSource source;
-  source.views = ReaderOf(planes_);
+  source.views = field.in_place ? ReaderOf(field.planes) : ViewReader{nullptr, ReadView, &field};
+  source.converts_centre = !field.in_place;
   source.map = ReadMap;
-  if (coverage_.data != nullptr) source.coverage = ReadCoverage;
-  source.self = this;
+  if (field.coverage.data != nullptr) source.coverage = ReadCoverage;
+  if (field.views[0].has_alpha) source.alpha = ReadAlpha;
+  source.self = &field;
   return source;
 }
 
-void LightFieldRows::Use(EngineState* engine) const {
+void UseLightField(const LightField& field, EngineState* engine) {
   PlaneViews& planes = engine->pictures.planes;
-  planes = planes_;
-  SetViews(engine->config, ReaderOf(planes), planes.view[0], &engine->pictures);
-  engine->pictures.windows[0].given_coverage = coverage_;
+  planes = field.planes;
+  const ViewReader reader =
+      field.in_place ? ReaderOf(planes) : ViewReader{WindowLight, WindowCodes, &field};
+  SetViews(engine->config, reader, planes.view[0], &engine->pictures);
+  engine->pictures.windows[0].given_coverage = field.coverage;
 }
-
-RowSink SinkOf(const Picture& picture) { return {Store, &picture}; }
 
 }  // namespace starfocus

@@ -1,46 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
-// A light field of RGB rows and float disparities in the caller's memory, and RGB pictures.
+// A light field of the caller's during a call. Disparities are converted as they are loaded. Views
+// that are all rows of R, G, B are read in place; else rows of the centre view are converted into
+// the engine's ring, and pixels of side views where they are read.
 #ifndef STARFOCUS_LIB_SOURCE_LIGHT_FIELD_H_
 #define STARFOCUS_LIB_SOURCE_LIGHT_FIELD_H_
 
+#include "lib/convert/depth_rows.h"
+#include "lib/convert/image_rows.h"
 #include "lib/engine/driver.h"
 #include "lib/engine/engine.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
 
-// Rows of a light field, of which the first is row `first` of the picture.
-class LightFieldRows {
- public:
-  LightFieldRows(const sf_light_field& light_field, int32_t first, const EngineState& engine);
-
-  // Returns a source of the rows; this object must outlive it.
-  RowSource Source() const;
-
-  // Points the engine's windows at the rows, which are those of a whole light field.
-  void Use(EngineState* engine) const;
-
- private:
-  static uint32_t ReadMap(const void* self, int32_t y, int16_t* out, uint64_t* bytes);
-  static void ReadCoverage(const void* self, int32_t y, uint8_t* out);
-
-  const EngineState& engine_;
-  Plane<const float> disparity_;
-  Plane<const uint8_t> coverage_;  // null: there is none
-  PlaneViews planes_;
+struct LightField {
+  const simd::ImageKernels* kernels;
+  ImageSource views[kMaxViews];
+  int32_t first;  // row of the picture that the views begin with
+  bool in_place;
+  DepthSource depth;
+  Plane<const uint8_t> coverage;  // null: there is none
+  PlaneViews planes;              // in place: the views; else view 0 alone, the engine's ring
 };
 
-// An RGB picture of the caller's for `rect` of the picture. What has not changed since `previous`
-// (null: none) comes from there.
-struct Picture {
-  uint8_t* data;
-  size_t stride;
-  Rect rect;
-  const sf_previous* previous = nullptr;
-};
+// Makes *field of a light field that has been checked, whose rows begin with row `first` of the
+// picture. Columns of a smaller map go into the engine's memory.
+void MakeLightField(const sf_light_field& given, int32_t first, EngineState* engine,
+                    LightField* field);
 
-// Returns a sink that writes to `picture`, which must outlive it.
-RowSink SinkOf(const Picture& picture);
+// Returns a source of the field's rows; the field must outlive it.
+RowSource SourceOf(const LightField& field);
+
+// Points the engine's windows at the field, which must stay unless it is in place.
+void UseLightField(const LightField& field, EngineState* engine);
 
 }  // namespace starfocus
 

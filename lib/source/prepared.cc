@@ -3,11 +3,9 @@
 
 #include <new>
 
-#include "lib/base/features.h"
 #include "lib/base/view_set.h"
 #include "lib/engine/layout.h"
 #include "lib/engine/stripe_layers.h"
-#include "lib/source/light_field.h"
 
 namespace starfocus {
 namespace {
@@ -54,7 +52,6 @@ size_t LayOutPrepared(const sf_config& config, void* base, Prepared** prepared) 
   Prepared counted;  // stands in for **prepared while counting
   Prepared& p = *prepared == nullptr ? counted : **prepared;
   const auto width = static_cast<size_t>(config.width), height = static_cast<size_t>(config.height);
-  if (Has(config.features, SF_FEATURE_IMAGES)) p.images = arena.Take<sf_image_field>(1);
   p.disparity.stride = width;
   p.disparity.data = arena.Take<int16_t>(width, height);
   for (int layer = 1; layer <= config.tuning.max_layer; ++layer) {

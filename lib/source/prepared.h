@@ -10,7 +10,6 @@
 #include "lib/engine/engine.h"
 #include "lib/source/extents.h"
 #include "lib/source/reduced.h"
-#include "starfocus/image.h"
 
 namespace starfocus {
 
@@ -18,7 +17,6 @@ struct Prepared {
   sf_config config;  // of the engine that made it
   sf_light_field light_field;
   bool covers = false;               // whether the light field has coverage
-  sf_image_field* images = nullptr;  // instead of the light field; null: there are none
   Plane<int16_t> disparity;          // all rows
   Plane<int16_t> layers[SF_LAYERS];  // samples: all rows of layers 1 to config.tuning.max_layer
   ReducedField reduced[SF_MAX_PREVIEW + 1];  // by shift, from 1 to config.previews

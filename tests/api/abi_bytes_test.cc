@@ -152,6 +152,7 @@ const Bad<sf_params> kBadParams[] = {
     {"lens.cats_eye", [](sf_params* p) { p->lens.cats_eye = kNan; }},
     {"lens.shape", [](sf_params* p) { p->lens.shape = SF_SHAPE_POLYGON; }, SF_ERROR_FEATURE},
     {"lens.cats_eye", [](sf_params* p) { p->lens.cats_eye = 1e-9; }, SF_ERROR_FEATURE},
+    {"preview_shift", [](sf_params* p) { p->preview_shift = 1; }},
     {"lens.aperture", [](sf_params* p) { p->lens.focus = 6.5; }, SF_ERROR_BLUR},
     {"lens.aperture", [](sf_params* p) { p->lens.focus = -6.5; }, SF_ERROR_BLUR},
     {"lens.aperture", [](sf_params* p) { p->lens.focus = 1e6; }, SF_ERROR_BLUR},
@@ -159,17 +160,16 @@ const Bad<sf_params> kBadParams[] = {
 
 // For a width of 20.
 const Bad<sf_light_field> kBadFields[] = {
-    {"views[].data", [](sf_light_field* f) { f->views[0].data = nullptr; }, SF_ERROR_NULL},
-    {"views[].data", [](sf_light_field* f) { f->views[16].data = nullptr; }, SF_ERROR_NULL},
-    {"disparity", [](sf_light_field* f) { f->disparity = nullptr; }, SF_ERROR_NULL},
-    {"views[].stride", [](sf_light_field* f) { f->views[0].stride = 0; }, SF_ERROR_STRIDE},
-    {"views[].stride", [](sf_light_field* f) { f->views[16].stride = 59; }, SF_ERROR_STRIDE},
-    {"views[].stride", [](sf_light_field* f) { f->views[3].stride = kHuge; }, SF_ERROR_STRIDE},
-    {"disparity_stride", [](sf_light_field* f) { f->disparity_stride = 0; }, SF_ERROR_STRIDE},
-    {"disparity_stride", [](sf_light_field* f) { f->disparity_stride = 76; }, SF_ERROR_STRIDE},
-    {"disparity_stride", [](sf_light_field* f) { f->disparity_stride = 82; }, SF_ERROR_STRIDE},
-    {"disparity_stride", [](sf_light_field* f) { f->disparity_stride = kHuge - 3; },
-     SF_ERROR_STRIDE},
+    {"views[].planes", [](sf_light_field* f) { f->views[0].planes[0] = nullptr; }, SF_ERROR_NULL},
+    {"views[].planes", [](sf_light_field* f) { f->views[16].planes[0] = nullptr; }, SF_ERROR_NULL},
+    {"depth.data", [](sf_light_field* f) { f->depth.data = nullptr; }, SF_ERROR_NULL},
+    {"views[].strides", [](sf_light_field* f) { f->views[0].strides[0] = 0; }, SF_ERROR_STRIDE},
+    {"views[].strides", [](sf_light_field* f) { f->views[16].strides[0] = 59; }, SF_ERROR_STRIDE},
+    {"views[].strides", [](sf_light_field* f) { f->views[3].strides[0] = kHuge; }, SF_ERROR_STRIDE},
+    {"depth.stride", [](sf_light_field* f) { f->depth.stride = 0; }, SF_ERROR_STRIDE},
+    {"depth.stride", [](sf_light_field* f) { f->depth.stride = 76; }, SF_ERROR_STRIDE},
+    {"depth.stride", [](sf_light_field* f) { f->depth.stride = 82; }, SF_ERROR_STRIDE},
+    {"depth.stride", [](sf_light_field* f) { f->depth.stride = kHuge - 3; }, SF_ERROR_STRIDE},
 };
 
 constexpr int kWidth = 20, kHeight = 12;
@@ -203,7 +203,7 @@ struct Fixture {
     return out.Untouched() && std::memcmp(&report, &report_before, sizeof report) == 0;
   }
   sf_status Refocus(sf_engine* engine) {
-    return sf_refocus(engine, &params, &field, out.bytes.data(), out.stride, &report);
+    return test::RefocusRgb(engine, &params, &field, out.bytes.data(), out.stride, &report);
   }
 };
 
@@ -368,7 +368,7 @@ TEST_CASE("refocus: null pointers and output stride") {
   uint8_t* out = f.out.bytes.data();
   const size_t stride = f.out.stride;
   const auto run = [&](sf_engine* e, const sf_params* p, const sf_light_field* l, uint8_t* o,
-                       size_t s) { return sf_refocus(e, p, l, o, s, nullptr); };
+                       size_t s) { return test::RefocusRgb(e, p, l, o, s, nullptr); };
   CHECK(run(nullptr, &f.params, &f.field, out, stride) == SF_ERROR_NULL);
   CHECK(run(engine.get(), nullptr, &f.field, out, stride) == SF_ERROR_NULL);
   CHECK(run(engine.get(), &f.params, nullptr, out, stride) == SF_ERROR_NULL);
@@ -410,8 +410,8 @@ TEST_CASE("refocus: output may overlap neither the inputs nor the workspace") {
   REQUIRE(engine.status() == SF_OK);
   const size_t stride = 3 * kWidth;
   const auto run = [&](void* out) {
-    return sf_refocus(engine.get(), &f.params, &f.field, static_cast<uint8_t*>(out), stride,
-                      nullptr);
+    return test::RefocusRgb(engine.get(), &f.params, &f.field, static_cast<uint8_t*>(out), stride,
+                            nullptr);
   };
   const test::Scene before = f.scene;
   CHECK(run(f.scene.pictures[0].data()) == SF_ERROR_OVERLAP);
@@ -426,7 +426,7 @@ TEST_CASE("refocus: output may overlap neither the inputs nor the workspace") {
   // To the last byte of the map's last row.
   std::vector<float> map(size_t(kWidth * kHeight) + stride * kHeight);
   std::copy(f.scene.disparity.begin(), f.scene.disparity.end(), map.begin());
-  f.field.disparity = map.data();
+  f.field.depth.data = map.data();
   uint8_t* const behind = reinterpret_cast<uint8_t*>(map.data() + kWidth * kHeight);
   for (const size_t bytes : {size_t{1}, size_t{3}, size_t{kWidth}, stride - 1, stride}) {
     CHECK(run(behind - bytes) == SF_ERROR_OVERLAP);
@@ -437,7 +437,7 @@ TEST_CASE("refocus: output may overlap neither the inputs nor the workspace") {
   std::vector<uint8_t> joined(3 * stride * kHeight, test::kPoison);
   uint8_t* view = joined.data() + stride * kHeight;
   std::memcpy(view, f.scene.pictures[0].data(), stride * kHeight);
-  f.field.views[0].data = view;
+  f.field.views[0].planes[0] = view;
   CHECK(run(joined.data()) == SF_OK);
   CHECK(run(joined.data() + 2 * stride * kHeight) == SF_OK);
   CHECK(run(joined.data() + 1) == SF_ERROR_OVERLAP);
@@ -465,8 +465,8 @@ TEST_CASE("refocus: a runner's failure is reported, in whichever phase of a stri
     const auto run = [&](Failing* failing) {
       const sf_callbacks callbacks = test::RunBy(Failing::Run, failing);
       REQUIRE(sf_set_callbacks(engine.get(), &callbacks) == SF_OK);
-      return sf_refocus(engine.get(), &f.params, &f.field, f.out.bytes.data(), f.out.stride,
-                        nullptr);
+      return test::RefocusRgb(engine.get(), &f.params, &f.field, f.out.bytes.data(), f.out.stride,
+                              nullptr);
     };
     Failing never = {0, 1000};
     REQUIRE(run(&never) == SF_OK);

@@ -26,7 +26,7 @@ struct Fixture {
     return sf_stream_push(engine, &field, rows, consumed);
   }
   sf_status Pull(sf_engine* engine, int rows, int32_t* written) {
-    return sf_stream_pull(engine, out.bytes.data(), out.stride, rows, written, nullptr);
+    return test::PullRgb(engine, out.bytes.data(), out.stride, rows, written, nullptr);
   }
 };
 
@@ -43,6 +43,9 @@ TEST_CASE("stream: begin refuses what refocus refuses") {
   };
   CHECK(begin([](sf_params* p) { p->size = 0; }) == SF_ERROR_STRUCTURE);
   CHECK(begin([](sf_params* p) { p->mode = 99; }) == SF_ERROR_RANGE);
+  CHECK(begin([](sf_params* p) { p->preview_shift = 1; }) == SF_ERROR_RANGE);
+  static const sf_previous previous = {};
+  CHECK(begin([](sf_params* p) { p->previous = &previous; }) == SF_ERROR_RANGE);
   CHECK(begin([](sf_params* p) { p->lens.focus = -2e6; }) == SF_ERROR_RANGE);
   CHECK(begin([](sf_params* p) { p->lens.aperture = -0.1; }) == SF_ERROR_RANGE);
   CHECK(begin([](sf_params* p) { p->lens.focus = 6.5; }) == SF_ERROR_BLUR);
@@ -81,18 +84,18 @@ TEST_CASE("stream: push refuses null pointers, short strides and wrong counts") 
   CHECK(sf_stream_push(nullptr, &field, 1, &count) == SF_ERROR_NULL);
   CHECK(sf_stream_push(engine.get(), nullptr, 1, &count) == SF_ERROR_NULL);
   CHECK(sf_stream_push(engine.get(), &field, 1, nullptr) == SF_ERROR_NULL);
-  field.views[8].data = nullptr;
+  field.views[8].planes[0] = nullptr;
   CHECK(f.Push(engine.get(), field, 1, &count) == SF_ERROR_NULL);
   field = f.scene.Field();
-  field.disparity = nullptr;
+  field.depth.data = nullptr;
   CHECK(f.Push(engine.get(), field, 1, &count) == SF_ERROR_NULL);
   field = f.scene.Field();
-  field.views[8].stride = 3 * kWidth - 1;
+  field.views[8].strides[0] = 3 * kWidth - 1;
   CHECK(f.Push(engine.get(), field, 2, &count) == SF_ERROR_STRIDE);
   field = f.scene.Field();
-  field.disparity_stride = 4 * kWidth - 4;
+  field.depth.stride = 4 * kWidth - 4;
   CHECK(f.Push(engine.get(), field, 2, &count) == SF_ERROR_STRIDE);
-  field.disparity_stride = 4 * kWidth + 2;
+  field.depth.stride = 4 * kWidth + 2;
   CHECK(f.Push(engine.get(), field, 2, &count) == SF_ERROR_STRIDE);
   field = f.scene.Field();
   CHECK(f.Push(engine.get(), field, -1, &count) == SF_ERROR_RANGE);
@@ -118,7 +121,7 @@ TEST_CASE("stream: pull refuses null pointers, short strides, wrong counts and o
   REQUIRE(count > 0);
   uint8_t* out = f.out.bytes.data();
   const auto pull = [&](sf_engine* e, uint8_t* o, size_t stride, int rows, int32_t* written) {
-    return sf_stream_pull(e, o, stride, rows, written, nullptr);
+    return test::PullRgb(e, o, stride, rows, written, nullptr);
   };
   CHECK(pull(nullptr, out, f.out.stride, 1, &count) == SF_ERROR_NULL);
   CHECK(pull(engine.get(), nullptr, f.out.stride, 1, &count) == SF_ERROR_NULL);
@@ -172,8 +175,8 @@ TEST_CASE("stream: a row with a bad disparity is refused, the rows before it are
         if (pushed < kHeight) {
           REQUIRE(f.Push(engine.get(), f.scene.Field(pushed), kHeight - pushed, &took) == SF_OK);
         }
-        REQUIRE(sf_stream_pull(engine.get(), out.bytes.data() + out.stride * size_t(pulled),
-                               out.stride, kHeight - pulled, &gave, nullptr) == SF_OK);
+        REQUIRE(test::PullRgb(engine.get(), out.bytes.data() + out.stride * size_t(pulled),
+                              out.stride, kHeight - pulled, &gave, nullptr) == SF_OK);
         REQUIRE(took + gave > 0);
         pushed += took;
         pulled += gave;

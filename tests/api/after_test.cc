@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// sf_refocus_after: the bytes of refocusing the frame alone, blocks reused where nothing changed.
+// sf_params.previous: the bytes of refocusing the frame alone, blocks reused where nothing changed.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -22,9 +22,10 @@ sf_status After(test::Engine* engine, const sf_params& params, const test::Scene
                 const test::Scene& before, const test::Output& before_out, test::Output* out,
                 sf_report* report) {
   const sf_light_field field = scene.Field();
-  const sf_previous previous = {before.Field(), before_out.bytes.data(), before_out.stride};
-  return sf_refocus_after(engine->get(), &params, &field, &previous, out->bytes.data(), out->stride,
-                          report);
+  const sf_previous previous = {before.Field(),
+                                sf_image_rgb(before_out.bytes.data(), before_out.stride)};
+  return test::RefocusAfterRgb(engine->get(), &params, &field, &previous, out->bytes.data(),
+                               out->stride, report);
 }
 
 int LargestBlocks(const test::Scene& scene, int side) {
@@ -238,33 +239,43 @@ TEST_CASE("after: depth-dependent blur does not look at side views") {
 
 TEST_CASE("after: bad input") {
   const test::Scene scene = test::LayeredScene(50, 40, 5, 3, 12);
-  test::Engine engine(test::ConfigFor(scene, 8));
+  sf_config config = test::ConfigFor(scene, 8);
+  config.features |= SF_FEATURE_IMAGES;
+  test::Engine engine(config);
   const sf_light_field field = scene.Field();
   const sf_params params = test::Params(1);
   test::Output out(50, 40), before(50, 40);
-  const sf_previous good = {field, before.bytes.data(), before.stride};
+  const sf_previous good = {field, sf_image_rgb(before.bytes.data(), before.stride)};
   const auto run = [&](const sf_light_field* f, const sf_previous* previous, uint8_t* to) {
-    return sf_refocus_after(engine.get(), &params, f, previous, to, out.stride, nullptr);
+    return test::RefocusAfterRgb(engine.get(), &params, f, previous, to, out.stride, nullptr);
   };
   uint8_t* to = out.bytes.data();
   CHECK(run(nullptr, &good, to) == SF_ERROR_NULL);
-  CHECK(run(&field, nullptr, to) == SF_ERROR_NULL);
   CHECK(run(&field, &good, nullptr) == SF_ERROR_NULL);
   sf_previous bad = good;
-  bad.out = nullptr;
+  bad.out.planes[0] = nullptr;
   CHECK(run(&field, &bad, to) == SF_ERROR_NULL);
   bad = good;
-  bad.out_stride = 149;
+  bad.out.strides[0] = 149;
   CHECK(run(&field, &bad, to) == SF_ERROR_STRIDE);
   bad = good;
-  bad.light_field.views[4].data = nullptr;
+  bad.light_field.views[4].planes[0] = nullptr;
   CHECK(run(&field, &bad, to) == SF_ERROR_NULL);
   bad = good;
-  bad.light_field.disparity_stride = 4;
+  bad.light_field.depth.stride = 4;
   CHECK(run(&field, &bad, to) == SF_ERROR_STRIDE);
   bad = good;
-  bad.out = to + 3;
+  bad.out.planes[0] = to + 3;
   CHECK(run(&field, &bad, to) == SF_ERROR_OVERLAP);
+  bad = good;
+  bad.out.format = SF_FORMAT_BGR;
+  CHECK(run(&field, &bad, to) == SF_ERROR_FEATURE);
+  bad = good;
+  bad.light_field.views[2].format = SF_FORMAT_BGR;
+  CHECK(run(&field, &bad, to) == SF_ERROR_FEATURE);
+  bad = good;
+  bad.light_field.depth.scale = 2;
+  CHECK(run(&field, &bad, to) == SF_ERROR_FEATURE);
   test::Scene other = scene;
   bad = good;
   bad.light_field = other.Field();

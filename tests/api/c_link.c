@@ -26,19 +26,19 @@ static int Run(const sf_config* config, void* workspace, size_t bytes) {
   sf_light_field field = {0};
   sf_engine* engine = NULL;
   sf_params params;
+  sf_image result;
   sf_status status;
   size_t i;
   for (i = 0; i < sizeof picture; ++i) picture[i] = kLevel;
   for (i = 0; i < kWidth * kHeight; ++i) disparity[i] = (float)(i % 3);
-  field.views[0].data = picture;
-  field.views[0].stride = 3 * kWidth;
-  field.disparity = disparity;
-  field.disparity_stride = kWidth * sizeof(float);
+  field.views[0] = sf_image_rgb(picture, 3 * kWidth);
+  field.depth = sf_depth_float(disparity, kWidth * sizeof(float), kWidth, kHeight);
   status = sf_init(config, workspace, bytes, &engine);
   if (status != SF_OK) return Fail("sf_init", status);
   sf_params_init(&params);
   params.lens.focus = -1.0;
-  status = sf_refocus(engine, &params, &field, out, 3 * kWidth, NULL);
+  result = sf_image_rgb(out, 3 * kWidth);
+  status = sf_refocus(engine, &params, &field, &result, NULL);
   if (status != SF_OK) return Fail("sf_refocus", status);
   for (i = 0; i < sizeof out; ++i) {
     if (out[i] != kLevel) {

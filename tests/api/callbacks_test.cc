@@ -54,7 +54,7 @@ struct Fixture {
     return config;
   }
   sf_status Refocus(test::Engine* engine) {
-    return sf_refocus(engine->get(), &params, &field, out.bytes.data(), out.stride, nullptr);
+    return test::RefocusRgb(engine->get(), &params, &field, out.bytes.data(), out.stride, nullptr);
   }
 };
 
@@ -79,11 +79,11 @@ TEST_CASE("callbacks: functions stay for all calls until others are set") {
   CHECK(f.calls.runner > 0);
   CHECK(f.calls.progress > 0);
   test::Output preview((kWidth + 1) / 2, (kHeight + 1) / 2);
-  REQUIRE(sf_refocus_preview(engine.get(), &f.params, prepared, 1, preview.bytes.data(),
-                             preview.stride, nullptr) == SF_OK);
+  REQUIRE(test::PreviewRgb(engine.get(), &f.params, prepared, 1, preview.bytes.data(),
+                           preview.stride, nullptr) == SF_OK);
   CHECK(f.calls.Take());
-  REQUIRE(sf_refocus_prepared(engine.get(), &f.params, prepared, f.out.bytes.data(), f.out.stride,
-                              nullptr) == SF_OK);
+  REQUIRE(test::RefocusPreparedRgb(engine.get(), &f.params, prepared, f.out.bytes.data(),
+                                   f.out.stride, nullptr) == SF_OK);
   CHECK(f.calls.Take());
   REQUIRE(sf_set_callbacks(engine.get(), &callbacks) == SF_OK);
   REQUIRE(f.Refocus(&engine) == SF_OK);
@@ -116,8 +116,8 @@ TEST_CASE("callbacks: those of a stream may change between two pulls") {
     if (pushed < kHeight) {
       REQUIRE(sf_stream_push(engine.get(), &rows, kHeight - pushed, &consumed) == SF_OK);
     }
-    REQUIRE(sf_stream_pull(engine.get(), f.out.bytes.data() + size_t(pulled) * f.out.stride,
-                           f.out.stride, kHeight, &written, nullptr) == SF_OK);
+    REQUIRE(test::PullRgb(engine.get(), f.out.bytes.data() + size_t(pulled) * f.out.stride,
+                          f.out.stride, kHeight, &written, nullptr) == SF_OK);
     CHECK(f.calls.None() == (round % 2 != 0));
     f.calls = Calls();
     pushed += consumed;

@@ -55,7 +55,8 @@ struct Fixture {
   void CheckPicture(sf_engine* engine) const {
     const sf_light_field field = scene.Field();
     test::Output out(70, 50);
-    CHECK(sf_refocus(engine, &params, &field, out.bytes.data(), out.stride, nullptr) == SF_OK);
+    CHECK(test::RefocusRgb(engine, &params, &field, out.bytes.data(), out.stride, nullptr) ==
+          SF_OK);
     CHECK(out.bytes == expected.bytes);
   }
 };

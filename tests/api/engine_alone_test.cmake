@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # cmake -DNM=… -DFOLDER=… -P engine_alone_test.cmake
-# A static program that only refocuses R, G, B, in memory of its own, holds nothing of lib/depth, nothing of what
-# converts images and nothing of sf_create's; one that makes maps has the first, one that refocuses images the
-# second. The program for users holds nothing of lib/analysis, of the ray tracer and of tests, as that for
-# developers does.
+# A static program that only refocuses, in memory of its own, holds nothing of lib/depth and nothing of sf_create's;
+# one that makes maps has the first. The program for users holds nothing of lib/analysis, of the ray tracer and of
+# tests, as that for developers does.
 cmake_minimum_required(VERSION 3.20)
 
 # expect(PROGRAM has|lacks NAME...): of symbols that match each name.
@@ -24,11 +23,9 @@ function(expect program expected)
 endfunction()
 
 set(depth "sf_(estimate|repair)_|DepthKernels|AddPaths")
-set(images "sf_refocus_images" "ImageKernels" "ReadCodes" "YuvToRgb" "ReadDepthRow")
 set(developers "analysis::" "RayTracer" "stress::")
 expect(minimal has "sf_init")
-expect(minimal lacks "sf_create" ${depth} ${images})
-expect(yuv has ${images})
+expect(minimal lacks "sf_create" ${depth})
 expect(starfocus has ${depth})
 expect(starfocus lacks ${developers})
 expect(starfocus-lab has ${developers})

@@ -31,9 +31,8 @@ struct Field {
   starfocus::Params params;
 
   Field() {
-    field.views[0] = {picture.data(), 3 * kSize};
-    field.disparity = disparity.data();
-    field.disparity_stride = kSize * sizeof(float);
+    field.views[0] = sf_image_rgb(picture.data(), 3 * kSize);
+    field.depth = sf_depth_float(disparity.data(), kSize * sizeof(float), kSize, kSize);
     config.width = config.height = kSize;
     config.views = 1;
     config.disparity_max = 1;
@@ -45,22 +44,29 @@ struct Field {
   // Whether these calls give the picture.
   bool Refocuses(starfocus::Engine* engine) const {
     std::vector<uint8_t> out(picture.size());
-    return engine->Refocus(params, field, out.data(), 3 * kSize) == SF_OK && out == picture;
+    return engine->Refocus(params, field, sf_image_rgb(out.data(), 3 * kSize)) == SF_OK &&
+           out == picture;
   }
   bool RefocusesPrepared(starfocus::Engine* engine) const {
     std::vector<uint8_t> out(picture.size());
-    return engine->RefocusPrepared(params, out.data(), 3 * kSize) == SF_OK && out == picture;
+    return engine->RefocusPrepared(params, sf_image_rgb(out.data(), 3 * kSize)) == SF_OK &&
+           out == picture;
   }
   bool RefocusesPreview(starfocus::Engine* engine) const {
     constexpr size_t kHalf = (kSize + 1) / 2;
     const std::vector<uint8_t> expected(3 * kHalf * kHalf, 50);
     std::vector<uint8_t> out(expected.size());
-    return engine->RefocusPreview(params, 1, out.data(), 3 * kHalf) == SF_OK && out == expected;
+    starfocus::Params reduced = params;
+    reduced.preview_shift = 1;
+    return engine->RefocusPrepared(reduced, sf_image_rgb(out.data(), 3 * kHalf)) == SF_OK &&
+           out == expected;
   }
   bool RefocusesAfter(starfocus::Engine* engine) const {
     std::vector<uint8_t> out(picture.size());
-    const sf_previous previous = {field, picture.data(), 3 * kSize};
-    return engine->RefocusAfter(params, field, previous, out.data(), 3 * kSize) == SF_OK &&
+    const sf_previous previous = {field, sf_image_rgb(picture.data(), 3 * kSize)};
+    starfocus::Params after = params;
+    after.previous = &previous;
+    return engine->Refocus(after, field, sf_image_rgb(out.data(), 3 * kSize)) == SF_OK &&
            out == picture;
   }
   bool Streams(starfocus::Engine* engine) const {
@@ -68,7 +74,7 @@ struct Field {
     int32_t consumed = 0, written = 0;
     return engine->StreamBegin(params) == SF_OK &&
            engine->StreamPush(field, kSize, &consumed) == SF_OK && consumed == kSize &&
-           engine->StreamPull(out.data(), 3 * kSize, kSize, &written) == SF_OK &&
+           engine->StreamPull(sf_image_rgb(out.data(), 3 * kSize), kSize, &written) == SF_OK &&
            written == kSize && out == picture;
   }
 
@@ -76,18 +82,13 @@ struct Field {
   bool IsEmpty(starfocus::Engine* engine) const {
     std::vector<uint8_t> out(picture.size());
     int32_t rows = 0;
-    const sf_previous previous = {field, picture.data(), 3 * kSize};
-    double focus = 0;
-    return engine->get() == nullptr && engine->FocusAt(field, 0, 0, &focus) == SF_ERROR_NULL &&
-           engine->workspace_bytes() == 0 &&
-           engine->Refocus(params, field, out.data(), 3 * kSize) == SF_ERROR_NULL &&
-           engine->RefocusAfter(params, field, previous, out.data(), 3 * kSize) == SF_ERROR_NULL &&
+    return engine->get() == nullptr && engine->workspace_bytes() == 0 &&
+           engine->Refocus(params, field, sf_image_rgb(out.data(), 3 * kSize)) == SF_ERROR_NULL &&
            engine->Prepare(field) == SF_ERROR_NULL &&
-           engine->RefocusPrepared(params, out.data(), 3 * kSize) == SF_ERROR_NULL &&
-           engine->RefocusPreview(params, 1, out.data(), 3 * kSize) == SF_ERROR_NULL &&
+           engine->RefocusPrepared(params, sf_image_rgb(out.data(), 3 * kSize)) == SF_ERROR_NULL &&
            engine->StreamBegin(params) == SF_ERROR_NULL &&
            engine->StreamPush(field, kSize, &rows) == SF_ERROR_NULL &&
-           engine->StreamPull(out.data(), 3 * kSize, kSize, &rows) == SF_ERROR_NULL;
+           engine->StreamPull(sf_image_rgb(out.data(), 3 * kSize), kSize, &rows) == SF_ERROR_NULL;
   }
 };
 
@@ -99,9 +100,6 @@ bool EveryCall() {
   bad.width = -1;
   if (engine.Init(bad) != SF_ERROR_RANGE || !f.IsEmpty(&engine)) return false;
   if (engine.Init(f.config) != SF_OK || engine.workspace_bytes() == 0) return false;
-  double focus = 0;
-  if (engine.FocusAt(f.field, kSize - 1, kSize - 1, &focus) != SF_OK || focus != 0.5) return false;
-  if (engine.FocusAt(f.field, kSize, 0, &focus) != SF_ERROR_RANGE) return false;
   return f.Refocuses(&engine) && engine.Prepare(f.field) == SF_OK && f.RefocusesPrepared(&engine) &&
          f.RefocusesPreview(&engine) && f.RefocusesAfter(&engine) && f.Streams(&engine);
 }
@@ -121,7 +119,7 @@ bool SecondInit() {
   if (!f.Refocuses(&engine) || !f.RefocusesPrepared(&engine)) return false;
   if (engine.Init(f.config) != SF_OK) return false;
   std::vector<uint8_t> out(f.picture.size());
-  return engine.RefocusPrepared(f.params, out.data(), 3 * kSize) == SF_ERROR_NULL &&
+  return engine.RefocusPrepared(f.params, sf_image_rgb(out.data(), 3 * kSize)) == SF_ERROR_NULL &&
          f.Refocuses(&engine);
 }
 
@@ -160,7 +158,8 @@ bool SecondPrepare() {
     f.disparity[7] = 0.5f;
     no_memory = false;
     if (status != (round == 0 ? SF_ERROR_MEMORY : SF_ERROR_DISPARITY)) return false;
-    if (engine.RefocusPrepared(f.params, out.data(), 3 * kSize) != SF_ERROR_NULL) return false;
+    if (engine.RefocusPrepared(f.params, sf_image_rgb(out.data(), 3 * kSize)) != SF_ERROR_NULL)
+      return false;
   }
   return f.Refocuses(&engine);
 }

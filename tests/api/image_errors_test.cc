@@ -19,7 +19,7 @@ using test::ImageMemory;
 constexpr int kWidth = 37, kHeight = 29;
 
 struct Call {
-  sf_image_field field;
+  sf_light_field field;
   sf_image out;
 };
 
@@ -34,45 +34,43 @@ constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 const Case kCases[] = {
     {"as it should be", [](Call*) {}, SF_OK, ""},
-    {"format -1", [](Call* c) { c->field.views[0].format = -1; }, SF_ERROR_RANGE, "image.format"},
-    {"format 8", [](Call* c) { c->field.views[4].format = 8; }, SF_ERROR_RANGE, "image.format"},
-    {"matrix 2", [](Call* c) { c->field.views[1].matrix = 2; }, SF_ERROR_RANGE, "image.matrix"},
-    {"matrix -1", [](Call* c) { c->out.matrix = -1; }, SF_ERROR_RANGE, "image.matrix"},
-    {"range 2", [](Call* c) { c->out.range = 2; }, SF_ERROR_RANGE, "image.range"},
-    {"range -1", [](Call* c) { c->field.views[1].range = -1; }, SF_ERROR_RANGE, "image.range"},
+    {"format -1", [](Call* c) { c->field.views[0].format = -1; }, SF_ERROR_RANGE, "views[].format"},
+    {"format 8", [](Call* c) { c->field.views[4].format = 8; }, SF_ERROR_RANGE, "views[].format"},
+    {"matrix 2", [](Call* c) { c->field.views[1].matrix = 2; }, SF_ERROR_RANGE, "views[].matrix"},
+    {"matrix -1", [](Call* c) { c->out.matrix = -1; }, SF_ERROR_RANGE, "out.matrix"},
+    {"range 2", [](Call* c) { c->out.range = 2; }, SF_ERROR_RANGE, "out.range"},
+    {"range -1", [](Call* c) { c->field.views[1].range = -1; }, SF_ERROR_RANGE, "views[].range"},
     {"no luma", [](Call* c) { c->field.views[1].planes[0] = nullptr; }, SF_ERROR_NULL,
-     "image.planes"},
+     "views[].planes"},
     {"no chroma", [](Call* c) { c->field.views[1].planes[1] = nullptr; }, SF_ERROR_NULL,
-     "image.planes"},
-    {"no V", [](Call* c) { c->out.planes[2] = nullptr; }, SF_ERROR_NULL, "image.planes"},
+     "views[].planes"},
+    {"no V", [](Call* c) { c->out.planes[2] = nullptr; }, SF_ERROR_NULL, "out.planes"},
     {"NV12 has no third plane", [](Call* c) { c->field.views[1].planes[2] = nullptr; }, SF_OK, ""},
     {"luma's stride", [](Call* c) { c->field.views[1].strides[0] = kWidth - 1; }, SF_ERROR_STRIDE,
-     "image.strides"},
+     "views[].strides"},
     {"chroma's stride", [](Call* c) { c->field.views[1].strides[1] = kWidth; }, SF_ERROR_STRIDE,
-     "image.strides"},
-    {"V's stride", [](Call* c) { c->out.strides[2] = kWidth / 2; }, SF_ERROR_STRIDE,
-     "image.strides"},
+     "views[].strides"},
+    {"V's stride", [](Call* c) { c->out.strides[2] = kWidth / 2; }, SF_ERROR_STRIDE, "out.strides"},
     {"a stride past the addresses", [](Call* c) { c->out.strides[0] = SIZE_MAX / 2; },
-     SF_ERROR_STRIDE, "image.strides"},
+     SF_ERROR_STRIDE, "out.strides"},
     {"NV12, 1 apart", [](Call* c) { c->field.views[1].pixel_stride = 1; }, SF_ERROR_RANGE,
-     "image.pixel_stride"},
+     "views[].pixel_stride"},
     {"NV12, 2 apart", [](Call* c) { c->field.views[1].pixel_stride = 2; }, SF_OK, ""},
-    {"I420, 2 apart", [](Call* c) { c->out.pixel_stride = 2; }, SF_ERROR_RANGE,
-     "image.pixel_stride"},
+    {"I420, 2 apart", [](Call* c) { c->out.pixel_stride = 2; }, SF_ERROR_RANGE, "out.pixel_stride"},
     {"RGB, 2 apart", [](Call* c) { c->field.views[0].pixel_stride = 2; }, SF_ERROR_RANGE,
-     "image.pixel_stride"},
+     "views[].pixel_stride"},
     {"RGB, -3 apart", [](Call* c) { c->field.views[0].pixel_stride = -3; }, SF_ERROR_RANGE,
-     "image.pixel_stride"},
+     "views[].pixel_stride"},
     {"RGB, 257 apart", [](Call* c) { c->field.views[0].pixel_stride = 257; }, SF_ERROR_RANGE,
-     "image.pixel_stride"},
+     "views[].pixel_stride"},
     {"RGB, 4 apart in too short rows", [](Call* c) { c->field.views[0].pixel_stride = 4; },
-     SF_ERROR_STRIDE, "image.strides"},
+     SF_ERROR_STRIDE, "views[].strides"},
     {"RGBX, 3 apart",
      [](Call* c) {
        c->field.views[0].format = SF_FORMAT_RGBX;
        c->field.views[0].pixel_stride = 3;
      },
-     SF_ERROR_RANGE, "image.pixel_stride"},
+     SF_ERROR_RANGE, "views[].pixel_stride"},
     {"no depth", [](Call* c) { c->field.depth.data = nullptr; }, SF_ERROR_NULL, "depth.data"},
     {"type 4", [](Call* c) { c->field.depth.type = 4; }, SF_ERROR_RANGE, "depth.type"},
     {"type -1", [](Call* c) { c->field.depth.type = -1; }, SF_ERROR_RANGE, "depth.type"},
@@ -124,7 +122,7 @@ TEST_CASE("images: bad ones are refused, with nothing written") {
     ImageMemory image(kWidth, kHeight, i420), before = image;
     Call call = {field.Field(), image.Out()};
     one.spoil(&call);
-    CHECK(sf_refocus_images(engine.get(), &params, &call.field, &call.out, nullptr) == one.status);
+    CHECK(sf_refocus(engine.get(), &params, &call.field, &call.out, nullptr) == one.status);
     CHECK(std::string(sf_engine_problem(engine.get())->field) == one.field);
     const bool untouched = image == before;
     CHECK(untouched == (one.status != SF_OK));
@@ -140,35 +138,36 @@ TEST_CASE("images: engines without them, no pointers, the workspace, bad paramet
   test::Engine engine(config);
   sf_params params = test::Params(1, 1, SF_MODE_BLOCK);
   ImageMemory image(kWidth, kHeight, ImageKind());
-  const sf_image_field images = field.Field();
+  const sf_light_field images = field.Field();
   sf_image out = image.Out();
   sf_engine* e = engine.get();
-  CHECK(sf_refocus_images(nullptr, &params, &images, &out, nullptr) == SF_ERROR_NULL);
-  CHECK(sf_refocus_images(e, nullptr, &images, &out, nullptr) == SF_ERROR_NULL);
-  CHECK(sf_refocus_images(e, &params, nullptr, &out, nullptr) == SF_ERROR_NULL);
-  CHECK(sf_refocus_images(e, &params, &images, nullptr, nullptr) == SF_ERROR_NULL);
-  CHECK(sf_refocus_prepared_images(e, &params, nullptr, &out, nullptr) == SF_ERROR_NULL);
-  CHECK(sf_prepare_images(e, &images, nullptr, 0, nullptr) == SF_ERROR_NULL);
+  CHECK(sf_refocus(nullptr, &params, &images, &out, nullptr) == SF_ERROR_NULL);
+  CHECK(sf_refocus(e, nullptr, &images, &out, nullptr) == SF_ERROR_NULL);
+  CHECK(sf_refocus(e, &params, nullptr, &out, nullptr) == SF_ERROR_NULL);
+  CHECK(sf_refocus(e, &params, &images, nullptr, nullptr) == SF_ERROR_NULL);
+  CHECK(sf_refocus_prepared(e, &params, nullptr, &out, nullptr) == SF_ERROR_NULL);
+  CHECK(sf_prepare(e, &images, nullptr, 0, nullptr) == SF_ERROR_NULL);
   out.planes[0] = engine.workspace();
-  CHECK(sf_refocus_images(e, &params, &images, &out, nullptr) == SF_ERROR_OVERLAP);
+  CHECK(sf_refocus(e, &params, &images, &out, nullptr) == SF_ERROR_OVERLAP);
   out = image.Out();
   params.region = {0, 0, kWidth + 1, 1};
-  CHECK(sf_refocus_images(e, &params, &images, &out, nullptr) == SF_ERROR_RANGE);
+  CHECK(sf_refocus(e, &params, &images, &out, nullptr) == SF_ERROR_RANGE);
   params.region = {};
   params.mode = 9;
-  CHECK(sf_refocus_images(e, &params, &images, &out, nullptr) == SF_ERROR_RANGE);
+  CHECK(sf_refocus(e, &params, &images, &out, nullptr) == SF_ERROR_RANGE);
   params.mode = SF_MODE_BLOCK;
   config.features &= ~SF_FEATURE_IMAGES;
   config.features |= SF_FEATURE_STREAMING;
   test::Engine without(config);
   sf_prepared* prepared = nullptr;
   int32_t rows = 0;
-  CHECK(sf_refocus_images(without.get(), &params, &images, &out, nullptr) == SF_ERROR_FEATURE);
-  CHECK(sf_prepare_images(without.get(), &images, engine.workspace(), 1 << 20, &prepared) ==
+  CHECK(sf_refocus(without.get(), &params, &images, &out, nullptr) == SF_ERROR_FEATURE);
+  CHECK(sf_prepare(without.get(), &images, engine.workspace(), 1 << 20, &prepared) ==
         SF_ERROR_FEATURE);
   REQUIRE(sf_stream_begin(without.get(), &params) == SF_OK);
-  CHECK(sf_stream_push_images(without.get(), &images, 1, &rows) == SF_ERROR_FEATURE);
-  CHECK(sf_stream_pull_images(without.get(), &out, 1, &rows, nullptr) == SF_ERROR_FEATURE);
+  CHECK(sf_stream_push(without.get(), &images, 1, &rows) == SF_ERROR_FEATURE);
+  out.format = SF_FORMAT_BGR;
+  CHECK(sf_stream_pull(without.get(), &out, 1, &rows, nullptr) == SF_ERROR_FEATURE);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Images streamed and prepared: the bytes of sf_refocus_images.
+// Images streamed and prepared: the bytes of sf_refocus.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -19,10 +19,12 @@ using test::ImageMemory;
 
 constexpr int kFormats = 8;
 
-ImageField FieldOf(const test::Scene& scene, int format, bool unknown, test::Random* random) {
+ImageField FieldOf(const test::Scene& scene, int format, bool unknown, test::Random* random,
+                   bool all_rows = false) {
   std::vector<ImageKind> kinds;
   for (int k = 0; k < 3; ++k) kinds.push_back(test::AnyKind((format + 3 * k) % kFormats, random));
-  test::DepthMemory depth = test::MakeDepth(scene, (scene.width + 1) / 2, (scene.height + 2) / 3,
+  test::DepthMemory depth = test::MakeDepth(scene, (scene.width + 1) / 2,
+                                            all_rows ? scene.height : (scene.height + 2) / 3,
                                             SF_DEPTH_HALF, SF_DEPTH_RECIPROCAL, 1);
   if (unknown) depth.Put(0, depth.map.height / 2, std::numeric_limits<double>::quiet_NaN());
   return test::MakeImageField(scene, kinds, std::move(depth), random);
@@ -31,9 +33,9 @@ ImageField FieldOf(const test::Scene& scene, int format, bool unknown, test::Ran
 ImageMemory Refocused(test::Engine* engine, const ImageField& field, const sf_params& params,
                       const ImageKind& kind, sf_report* report) {
   ImageMemory image(field.converted.width, field.converted.height, kind);
-  const sf_image_field images = field.Field();
+  const sf_light_field images = field.Field();
   const sf_image out = image.Out();
-  REQUIRE(sf_refocus_images(engine->get(), &params, &images, &out, report) == SF_OK);
+  REQUIRE(sf_refocus(engine->get(), &params, &images, &out, report) == SF_OK);
   return image;
 }
 
@@ -46,14 +48,14 @@ sf_status StreamImages(test::Engine* engine, const ImageField& field, const sf_p
     int32_t consumed = 0, written = 0;
     const int rows = std::min(push_rows, height - pushed);
     if (rows > 0) {
-      const sf_image_field images = field.Field(pushed);
-      status = sf_stream_push_images(engine->get(), &images, rows, &consumed);
+      const sf_light_field images = field.Field(pushed);
+      status = sf_stream_push(engine->get(), &images, rows, &consumed);
       if (status != SF_OK) return status;
       CHECK((consumed % 2 == 0 || pushed + consumed == height));
     }
     const sf_image out = image->Out(pulled);
-    status = sf_stream_pull_images(engine->get(), &out, std::min(pull_rows, height - pulled),
-                                   &written, report);
+    status =
+        sf_stream_pull(engine->get(), &out, std::min(pull_rows, height - pulled), &written, report);
     pushed += consumed;
     pulled += written;
     if (status == SF_OK && consumed == 0 && written == 0) return SF_ERROR_STATE;
@@ -69,7 +71,8 @@ TEST_CASE("image streams: the bytes of whole images, whatever rows come at a tim
     const auto& size = kSizes[round % 6];
     const test::Scene scene =
         test::LayeredScene(size[0], size[1], round % 2 == 0 ? 5 : 1, 7, uint64_t(round) + 50);
-    const ImageField field = FieldOf(scene, round % kFormats, round % 3 == 0, &random);
+    const ImageField field =
+        FieldOf(scene, round % kFormats, round % 3 == 0, &random, round % 4 == 1);
     sf_config config = test::ImageConfig(field, round % 2 == 0 ? 9 : 20);
     config.features |= SF_FEATURE_STREAMING;
     config.largest_block = 32;
@@ -105,20 +108,19 @@ TEST_CASE("image streams: rows of R, G, B may be pushed, and pulled") {
   test::PutPicture(
       expected.bytes.data(), expected.stride, [](int, int) { return uint8_t{255}; }, &opaque);
   const sf_image out = image.Out();
-  const sf_image_field images = field.Field();
+  const sf_light_field images = field.Field();
   const sf_light_field converted = field.converted.Field();
   int32_t rows = 0;
   // Alpha of a stream before is not seen.
   for (int round = 0; round < 2; ++round) {
     REQUIRE(sf_stream_begin(engine.get(), &params) == SF_OK);
-    REQUIRE(sf_stream_push_images(engine.get(), &images, 90, &rows) == SF_OK);
+    REQUIRE(sf_stream_push(engine.get(), &images, 90, &rows) == SF_OK);
     REQUIRE(rows == 90);
-    REQUIRE(sf_stream_pull(engine.get(), got.bytes.data(), got.stride, 90, &rows, nullptr) ==
-            SF_OK);
+    REQUIRE(test::PullRgb(engine.get(), got.bytes.data(), got.stride, 90, &rows, nullptr) == SF_OK);
     CHECK(got.bytes == expected.bytes);
     REQUIRE(sf_stream_begin(engine.get(), &params) == SF_OK);
     REQUIRE(sf_stream_push(engine.get(), &converted, 90, &rows) == SF_OK);
-    REQUIRE(sf_stream_pull_images(engine.get(), &out, 90, &rows, nullptr) == SF_OK);
+    REQUIRE(sf_stream_pull(engine.get(), &out, 90, &rows, nullptr) == SF_OK);
     const bool same = image == opaque;
     CHECK(same);
   }
@@ -163,28 +165,28 @@ TEST_CASE("image streams: half of a pair of rows is refused, and a bad depth wit
   config.features |= SF_FEATURE_STREAMING;
   test::Engine engine(config);
   const sf_params params = test::Params(1, 1, SF_MODE_BLOCK);
-  sf_image_field images = field.Field();
+  sf_light_field images = field.Field();
   ImageMemory image(60, 51, test::AnyKind(SF_FORMAT_I420, &random));
   sf_image out = image.Out();
   int32_t rows = 7;
-  CHECK(sf_stream_push_images(engine.get(), &images, 2, &rows) == SF_ERROR_STATE);
+  CHECK(sf_stream_push(engine.get(), &images, 2, &rows) == SF_ERROR_STATE);
   CHECK(rows == 0);
   REQUIRE(sf_stream_begin(engine.get(), &params) == SF_OK);
-  CHECK(sf_stream_push_images(engine.get(), &images, 3, &rows) == SF_ERROR_RANGE);
-  CHECK(sf_stream_push_images(engine.get(), &images, 52, &rows) == SF_ERROR_RANGE);
-  CHECK(sf_stream_push_images(engine.get(), &images, 51, &rows) == SF_OK);
+  CHECK(sf_stream_push(engine.get(), &images, 3, &rows) == SF_ERROR_RANGE);
+  CHECK(sf_stream_push(engine.get(), &images, 52, &rows) == SF_ERROR_RANGE);
+  CHECK(sf_stream_push(engine.get(), &images, 51, &rows) == SF_OK);
   CHECK(rows == 51);
-  CHECK(sf_stream_pull_images(engine.get(), &out, 3, &rows, nullptr) == SF_ERROR_RANGE);
-  CHECK(sf_stream_pull_images(engine.get(), &out, 50, &rows, nullptr) == SF_OK);
+  CHECK(sf_stream_pull(engine.get(), &out, 3, &rows, nullptr) == SF_ERROR_RANGE);
+  CHECK(sf_stream_pull(engine.get(), &out, 50, &rows, nullptr) == SF_OK);
   CHECK(rows == 50);
   out = image.Out(50);
-  CHECK(sf_stream_pull_images(engine.get(), &out, 9, &rows, nullptr) == SF_OK);
+  CHECK(sf_stream_pull(engine.get(), &out, 9, &rows, nullptr) == SF_OK);
   CHECK(rows == 1);
   // The map's last row: pairs before it are taken.
   field.depth.Put(3, field.depth.map.height - 1, 1e-3);
   images = field.Field();
   REQUIRE(sf_stream_begin(engine.get(), &params) == SF_OK);
-  CHECK(sf_stream_push_images(engine.get(), &images, 51, &rows) == SF_ERROR_DISPARITY);
+  CHECK(sf_stream_push(engine.get(), &images, 51, &rows) == SF_ERROR_DISPARITY);
   CHECK(rows > 20);
   CHECK(rows < 51);
   CHECK(rows % 2 == 0);
@@ -219,9 +221,8 @@ TEST_CASE("prepared images: the bytes of whole images, for many lenses and regio
     PreparedMemory memory(config);
     sf_prepared* prepared = nullptr;
     {
-      const sf_image_field images = field.Field();  // need not stay
-      REQUIRE(sf_prepare_images(engine.get(), &images, memory.get(), memory.bytes, &prepared) ==
-              SF_OK);
+      const sf_light_field images = field.Field();  // need not stay
+      REQUIRE(sf_prepare(engine.get(), &images, memory.get(), memory.bytes, &prepared) == SF_OK);
     }
     for (int lens = 0; lens < 4; ++lens) {
       sf_params params = test::Params(random.Real(-9, 9), 1, SF_MODE_BLOCK);
@@ -231,7 +232,7 @@ TEST_CASE("prepared images: the bytes of whole images, for many lenses and regio
       const ImageMemory expected = Refocused(&engine, field, params, kind, &report);
       ImageMemory got(width, height, kind);
       const sf_image out = got.Out();
-      REQUIRE(sf_refocus_prepared_images(engine.get(), &params, prepared, &out, &report) == SF_OK);
+      REQUIRE(sf_refocus_prepared(engine.get(), &params, prepared, &out, &report) == SF_OK);
       const bool same = got == expected;
       CHECK(same);
       CHECK(report.disparity_bytes == 0);
@@ -250,9 +251,9 @@ TEST_CASE("prepared images: disparities and layers are those of the converted pi
     test::Engine engine(config);
     PreparedMemory memory(config), other(config);
     sf_prepared *got = nullptr, *expected = nullptr;
-    const sf_image_field images = field.Field();
+    const sf_light_field images = field.Field();
     const sf_light_field pictures = field.converted.Field();
-    REQUIRE(sf_prepare_images(engine.get(), &images, memory.get(), memory.bytes, &got) == SF_OK);
+    REQUIRE(sf_prepare(engine.get(), &images, memory.get(), memory.bytes, &got) == SF_OK);
     REQUIRE(sf_prepare(engine.get(), &pictures, other.get(), other.bytes, &expected) == SF_OK);
     const auto& a = *reinterpret_cast<const starfocus::Prepared*>(got);
     const auto& b = *reinterpret_cast<const starfocus::Prepared*>(expected);
@@ -265,7 +266,7 @@ TEST_CASE("prepared images: disparities and layers are those of the converted pi
   }
 }
 
-TEST_CASE("prepared images: neither kind is taken for the other") {
+TEST_CASE("prepared images: pictures of any format are made of light fields of any") {
   test::Random random(45);
   const test::Scene scene = test::LayeredScene(60, 50, 5, 7, 50);
   const ImageField field = FieldOf(scene, SF_FORMAT_NV12, false, &random);
@@ -273,27 +274,28 @@ TEST_CASE("prepared images: neither kind is taken for the other") {
   test::Engine engine(config);
   PreparedMemory memory(config), other(config);
   sf_prepared *of_images = nullptr, *of_pictures = nullptr;
-  const sf_image_field images = field.Field();
+  const sf_light_field images = field.Field();
   const sf_light_field pictures = field.converted.Field();
-  REQUIRE(sf_prepare_images(engine.get(), &images, memory.get(), memory.bytes, &of_images) ==
-          SF_OK);
+  REQUIRE(sf_prepare(engine.get(), &images, memory.get(), memory.bytes, &of_images) == SF_OK);
   REQUIRE(sf_prepare(engine.get(), &pictures, other.get(), other.bytes, &of_pictures) == SF_OK);
   const sf_params params = test::Params(1, 1, SF_MODE_BLOCK);
   test::Output out(60, 50);
   ImageMemory image(60, 50, test::AnyKind(SF_FORMAT_NV12, &random));
   const sf_image to = image.Out();
-  CHECK(sf_refocus_prepared(engine.get(), &params, of_images, out.bytes.data(), out.stride,
-                            nullptr) == SF_ERROR_PREPARED);
-  CHECK(sf_refocus_prepared_images(engine.get(), &params, of_pictures, &to, nullptr) ==
-        SF_ERROR_PREPARED);
+  REQUIRE(test::RefocusPreparedRgb(engine.get(), &params, of_images, out.bytes.data(), out.stride,
+                                   nullptr) == SF_OK);
+  test::Output of_rgb(60, 50);
+  REQUIRE(test::Refocus(&engine, params, field.converted, &of_rgb) == SF_OK);
+  CHECK(out.bytes == of_rgb.bytes);
+  REQUIRE(sf_refocus_prepared(engine.get(), &params, of_pictures, &to, nullptr) == SF_OK);
+  CHECK(image == field.Converted(out, image.kind()));
   // A light field may not be prepared into its own memory.
-  sf_image_field own = images;
+  sf_light_field own = images;
   own.depth.data = memory.get();
   own.depth.stride = 4096;
-  CHECK(sf_prepare_images(engine.get(), &own, memory.get(), memory.bytes, &of_images) ==
-        SF_ERROR_OVERLAP);
+  CHECK(sf_prepare(engine.get(), &own, memory.get(), memory.bytes, &of_images) == SF_ERROR_OVERLAP);
   CHECK(of_images == nullptr);
-  CHECK(sf_prepare_images(engine.get(), &images, other.get(), other.bytes - 1, &of_images) ==
+  CHECK(sf_prepare(engine.get(), &images, other.get(), other.bytes - 1, &of_images) ==
         SF_ERROR_WORKSPACE);
 }
 
@@ -317,7 +319,7 @@ TEST_CASE("images: calls are watched, and cancelled wherever they ask") {
   CHECK((Refocused(&engine, field, params, kind, nullptr) == expected));
   CHECK(watch.Ended());
   CHECK(watch.rows == 150);
-  const sf_image_field images = field.Field();
+  const sf_light_field images = field.Field();
   PreparedMemory memory(config);
   sf_prepared* prepared = nullptr;
   // What a call has worked since it last asked counts for the next call, which may ask once less.
@@ -326,11 +328,11 @@ TEST_CASE("images: calls are watched, and cancelled wherever they ask") {
     tell(&stops);
     ImageMemory image(200, 150, kind);
     const sf_image out = image.Out();
-    CHECK(sf_refocus_images(engine.get(), &params, &images, &out, nullptr) == SF_ERROR_CANCELLED);
+    CHECK(sf_refocus(engine.get(), &params, &images, &out, nullptr) == SF_ERROR_CANCELLED);
     CHECK(stops.Good());
     test::Watch first(stop % 4);
     tell(&first);
-    CHECK(sf_prepare_images(engine.get(), &images, memory.get(), memory.bytes, &prepared) ==
+    CHECK(sf_prepare(engine.get(), &images, memory.get(), memory.bytes, &prepared) ==
           SF_ERROR_CANCELLED);
   }
   tell(nullptr);

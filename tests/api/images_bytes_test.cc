@@ -49,12 +49,12 @@ void CheckSame(const ImageField& field, const sf_config& config, const sf_params
   const int width = r.width > 0 ? r.width : config.width;
   const int height = r.height > 0 ? r.height : config.height;
   ImageMemory got(width, height, kind);
-  const sf_image_field images = field.Field();
+  const sf_light_field images = field.Field();
   const sf_image out = got.Out();
   sf_report report = {}, expected_report = {};
   const sf_callbacks callbacks = test::RunBy(runner);
   REQUIRE(sf_set_callbacks(engine.get(), &callbacks) == SF_OK);
-  REQUIRE(sf_refocus_images(engine.get(), &params, &images, &out, &report) == SF_OK);
+  REQUIRE(sf_refocus(engine.get(), &params, &images, &out, &report) == SF_OK);
   test::Output expected(width, height);
   REQUIRE(test::Refocus(&engine, params, field.converted, &expected, callbacks, &expected_report) ==
           SF_OK);
@@ -176,9 +176,9 @@ TEST_CASE("images: depth of every type, meaning and size; unknown depths") {
     config.features &= ~SF_FEATURE_FILL_UNKNOWN;
     test::Engine engine(config);
     ImageMemory out(130, 97, test::AnyKind(SF_FORMAT_RGB, &random)), before = out;
-    const sf_image_field images = field.Field();
+    const sf_light_field images = field.Field();
     const sf_image to = out.Out();
-    const sf_status status = sf_refocus_images(engine.get(), &params, &images, &to, nullptr);
+    const sf_status status = sf_refocus(engine.get(), &params, &images, &to, nullptr);
     CHECK(status == (unknown ? SF_ERROR_NOT_FINITE : SF_OK));
     const bool untouched = out == before;
     CHECK(untouched == unknown);
@@ -196,10 +196,10 @@ TEST_CASE("images: a depth outside the configured range is refused before anythi
   map.data = field.depth.words.data();
   test::Engine engine(config);
   ImageMemory out(70, 60, test::AnyKind(SF_FORMAT_NV12, &random)), before = out;
-  const sf_image_field images = field.Field();
+  const sf_light_field images = field.Field();
   const sf_image to = out.Out();
   const sf_params params = test::Params(2, 1, SF_MODE_BLOCK);
-  CHECK(sf_refocus_images(engine.get(), &params, &images, &to, nullptr) == SF_ERROR_DISPARITY);
+  CHECK(sf_refocus(engine.get(), &params, &images, &to, nullptr) == SF_ERROR_DISPARITY);
   const bool untouched = out == before;
   CHECK(untouched);
 }

@@ -144,8 +144,8 @@ TEST_CASE("lens: engines share a prepared light field, each through lenses of it
       const sf_lens& lens = lenses[(k + (ahead ? 1 : 0)) % lenses.size()];
       const sf_params params = ParamsOf(lens, SF_MODE_BLOCK, SF_RULE_DEFAULT);
       test::Output out(kWidth, kHeight);
-      REQUIRE(sf_refocus_prepared((ahead ? second : first).get(), &params, prepared,
-                                  out.bytes.data(), out.stride, nullptr) == SF_OK);
+      REQUIRE(test::RefocusPreparedRgb((ahead ? second : first).get(), &params, prepared,
+                                       out.bytes.data(), out.stride, nullptr) == SF_OK);
       CHECK((out.bytes == Expected(scene, params)));
     }
   }
@@ -168,8 +168,8 @@ TEST_CASE("lens: a stream keeps the lens that it was begun with") {
       const sf_light_field field = scene.Field(pushed);
       int32_t consumed = 0, written = 0;
       REQUIRE(sf_stream_push(engine.get(), &field, kHeight - pushed, &consumed) == SF_OK);
-      REQUIRE(sf_stream_pull(engine.get(), out.bytes.data() + size_t(pulled) * out.stride,
-                             out.stride, kHeight - pulled, &written, nullptr) == SF_OK);
+      REQUIRE(test::PullRgb(engine.get(), out.bytes.data() + size_t(pulled) * out.stride,
+                            out.stride, kHeight - pulled, &written, nullptr) == SF_OK);
       pushed += consumed;
       pulled += written;
       REQUIRE(consumed + written > 0);

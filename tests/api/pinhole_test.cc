@@ -56,8 +56,8 @@ sf_status Prepared(test::Engine* engine, const sf_config& config, const sf_param
   const sf_light_field field = scene.Field();
   sf_prepared* prepared = nullptr;
   REQUIRE(sf_prepare(engine->get(), &field, aligned, bytes, &prepared) == SF_OK);
-  return sf_refocus_prepared(engine->get(), &params, prepared, out->bytes.data(), out->stride,
-                             nullptr);
+  return test::RefocusPreparedRgb(engine->get(), &params, prepared, out->bytes.data(), out->stride,
+                                  nullptr);
 }
 
 // The frame after one that differs in a patch of every view and of the map.
@@ -69,9 +69,10 @@ sf_status After(test::Engine* engine, const sf_params& params, const test::Scene
   test::Output before_out(scene.width, scene.height);
   REQUIRE(test::Refocus(engine, params, before, &before_out) == SF_OK);
   const sf_light_field field = scene.Field();
-  const sf_previous previous = {before.Field(), before_out.bytes.data(), before_out.stride};
-  return sf_refocus_after(engine->get(), &params, &field, &previous, out->bytes.data(), out->stride,
-                          nullptr);
+  const sf_previous previous = {before.Field(),
+                                sf_image_rgb(before_out.bytes.data(), before_out.stride)};
+  return test::RefocusAfterRgb(engine->get(), &params, &field, &previous, out->bytes.data(),
+                               out->stride, nullptr);
 }
 
 TEST_CASE("pinhole: the centre view to the byte, by every mode, rule and way in") {

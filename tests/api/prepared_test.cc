@@ -48,8 +48,8 @@ void CheckSame(test::Engine* engine, const sf_prepared* prepared, const test::Sc
   const int height = r.height > 0 ? r.height : scene.height;
   test::Output expected(width, height, 3), got(width, height, 3);
   sf_report report = {}, prepared_report = {};
-  REQUIRE(sf_refocus_prepared(engine->get(), &params, prepared, got.bytes.data(), got.stride,
-                              &prepared_report) == SF_OK);
+  REQUIRE(test::RefocusPreparedRgb(engine->get(), &params, prepared, got.bytes.data(), got.stride,
+                                   &prepared_report) == SF_OK);
   REQUIRE(test::Refocus(engine, params, scene, &expected, nullptr, nullptr, &report) == SF_OK);
   const bool same = got.bytes == expected.bytes;
   CHECK(same);
@@ -136,7 +136,7 @@ TEST_CASE("prepared: bad input") {
   CHECK(bytes == 4711);
   const sf_light_field field = scene.Field();
   sf_light_field none = field;
-  none.disparity = nullptr;
+  none.depth.data = nullptr;
   const auto prepare = [&](sf_engine* e, const sf_light_field* f, void* at, size_t size) {
     sf_prepared* prepared = reinterpret_cast<sf_prepared*>(&scene);
     const sf_status status = sf_prepare(e, f, at, size, &prepared);
@@ -170,7 +170,7 @@ TEST_CASE("prepared: refocusing refuses what sf_refocus refuses, and another con
   const sf_prepared* prepared = Prepare(&engine, scene, &memory);
   test::Output out(50, 40);
   const auto run = [&](sf_engine* e, const sf_params& params, const sf_prepared* p, void* to) {
-    return sf_refocus_prepared(e, &params, p, static_cast<uint8_t*>(to), out.stride, nullptr);
+    return test::RefocusPreparedRgb(e, &params, p, static_cast<uint8_t*>(to), out.stride, nullptr);
   };
   const sf_params params = test::Params(1);
   CHECK(run(nullptr, params, prepared, out.bytes.data()) == SF_ERROR_NULL);

@@ -126,8 +126,8 @@ class Prepared {
                     const sf_callbacks& callbacks = {}, sf_report* report = nullptr) {
     const sf_status status = sf_set_callbacks(engine.get(), &callbacks);
     if (status != SF_OK) return status;
-    return sf_refocus_preview(engine.get(), &params, field_, shift, out->bytes.data(), out->stride,
-                              report);
+    return test::PreviewRgb(engine.get(), &params, field_, shift, out->bytes.data(), out->stride,
+                            report);
   }
   // The preview of the whole picture or the params' region.
   test::Output Preview(const sf_params& params, int shift, const sf_callbacks& callbacks = {},
@@ -261,9 +261,9 @@ TEST_CASE("preview: of images, into images") {
     std::vector<uint8_t> memory(expected.bytes + SF_ALIGNMENT);
     const uintptr_t address = reinterpret_cast<uintptr_t>(memory.data());
     uint8_t* at = memory.data() + (SF_ALIGNMENT - address % SF_ALIGNMENT) % SF_ALIGNMENT;
-    const sf_image_field images = field.Field();
+    const sf_light_field images = field.Field();
     sf_prepared* prepared = nullptr;
-    REQUIRE(sf_prepare_images(engine.get(), &images, at, expected.bytes, &prepared) == SF_OK);
+    REQUIRE(sf_prepare(engine.get(), &images, at, expected.bytes, &prepared) == SF_OK);
     const sf_params params = test::Params(2, 1, SF_MODE_BLOCK);
     for (int shift = 1; shift <= 2; ++shift) {
       const test::Output wanted = expected.Preview(params, shift);
@@ -273,8 +273,7 @@ TEST_CASE("preview: of images, into images") {
       test::PutPicture(
           wanted.bytes.data(), wanted.stride, [](int, int) { return uint8_t{255}; }, &image);
       const sf_image out = got.Out();
-      REQUIRE(sf_refocus_preview_images(engine.get(), &params, prepared, shift, &out, nullptr) ==
-              SF_OK);
+      REQUIRE(test::Preview(engine.get(), &params, prepared, shift, &out, nullptr) == SF_OK);
       const bool same = got == image;
       CHECK(same);
     }
@@ -302,8 +301,8 @@ TEST_CASE("preview: the engine is what it was, and the workspace no larger") {
   const test::Output again = prepared.Preview(test::Params(5, 1, SF_MODE_BLOCK), 2);
   CHECK(again.bytes == first.bytes);
   int32_t written = 0;
-  CHECK(sf_stream_pull(prepared.engine.get(), streamed.bytes.data(), streamed.stride, 1, &written,
-                       nullptr) == SF_ERROR_STATE);
+  CHECK(test::PullRgb(prepared.engine.get(), streamed.bytes.data(), streamed.stride, 1, &written,
+                      nullptr) == SF_ERROR_STATE);
   REQUIRE(test::Stream(&prepared.engine, params, scene, &streamed, 9, 9) == SF_OK);
   CHECK(streamed.bytes == before.bytes);
 }
@@ -376,17 +375,18 @@ TEST_CASE("preview: bad input") {
   const sf_params params = test::Params(1);
   test::Output out(25, 20);
   CHECK(none.Preview(params, 1, &out) == SF_ERROR_PREPARED);
-  for (const int shift : {-1, 0, 3, 32}) {
+  for (const int shift : {-1, 3, 32}) {
     CHECK(prepared.Preview(params, shift, &out) == SF_ERROR_PREPARED);
   }
   const auto run = [&](sf_engine* e, const sf_params* p, const sf_prepared* of, uint8_t* to,
                        size_t stride) {
-    return sf_refocus_preview(e, p, of, 1, to, stride, nullptr);
+    return test::PreviewRgb(e, p, of, 1, to, stride, nullptr);
   };
   sf_engine* e = prepared.engine.get();
   uint8_t* to = out.bytes.data();
   CHECK(run(nullptr, &params, prepared.field(), to, out.stride) == SF_ERROR_NULL);
-  CHECK(run(e, nullptr, prepared.field(), to, out.stride) == SF_ERROR_NULL);
+  const sf_image image = sf_image_rgb(to, out.stride);
+  CHECK(sf_refocus_prepared(e, nullptr, prepared.field(), &image, nullptr) == SF_ERROR_NULL);
   CHECK(run(e, &params, nullptr, to, out.stride) == SF_ERROR_NULL);
   CHECK(run(e, &params, prepared.field(), nullptr, out.stride) == SF_ERROR_NULL);
   CHECK(run(e, &params, prepared.field(), to, 74) == SF_ERROR_STRIDE);
@@ -404,12 +404,16 @@ TEST_CASE("preview: bad input") {
   other.width = 49;
   test::Engine another(other);
   CHECK(run(another.get(), &params, prepared.field(), to, out.stride) == SF_ERROR_PREPARED);
+  sf_params after = params;
+  const sf_previous previous = {scene.Field(), image};
+  after.previous = &previous;
+  CHECK(run(e, &after, prepared.field(), to, out.stride) == SF_ERROR_RANGE);
   CHECK(out.Untouched());
   // An engine that was itself configured for none may show those of another.
   CHECK(run(none.engine.get(), &params, prepared.field(), to, out.stride) == SF_OK);
 }
 
-TEST_CASE("preview: images refuse what pictures do") {
+TEST_CASE("preview: bad images") {
   const test::Scene scene = test::LayeredScene(50, 40, 5, 3, 12);
   sf_config config = test::ConfigFor(scene, 8);
   config.previews = 1;
@@ -422,8 +426,9 @@ TEST_CASE("preview: images refuse what pictures do") {
   out.planes[0] = rgb.data();
   out.strides[0] = 75;
   const auto run = [&](Prepared* of, int shift, const sf_image* to) {
-    return sf_refocus_preview_images(of->engine.get(), &params, of->field(), shift, to, nullptr);
+    return test::Preview(of->engine.get(), &params, of->field(), shift, to, nullptr);
   };
+  out.format = SF_FORMAT_BGR;
   CHECK(run(&without, 1, &out) == SF_ERROR_FEATURE);
   CHECK(run(&prepared, 1, nullptr) == SF_ERROR_NULL);
   CHECK(run(&prepared, 2, &out) == SF_ERROR_PREPARED);

@@ -167,17 +167,18 @@ TEST_CASE("progress: cancelled frames after others, prepared light fields and st
     const sf_light_field field = f.scene.Field();
     CheckEntry(f, [&](test::Engine* engine, Watch* watch, test::Output* out) {
       SetCallbacks(engine, Watched(watch));
-      const sf_previous previous = {f.before.Field(), f.previous.bytes.data(), f.previous.stride};
-      return sf_refocus_after(engine->get(), &f.params, &field, &previous, out->bytes.data(),
-                              out->stride, nullptr);
+      const sf_previous previous = {f.before.Field(),
+                                    sf_image_rgb(f.previous.bytes.data(), f.previous.stride)};
+      return test::RefocusAfterRgb(engine->get(), &f.params, &field, &previous, out->bytes.data(),
+                                   out->stride, nullptr);
     });
     Prepared prepared(f.config);
     test::Engine maker(f.config);
     REQUIRE(prepared.Prepare(f, &maker, nullptr, nullptr) == SF_OK);
     CheckEntry(f, [&](test::Engine* engine, Watch* watch, test::Output* out) {
       SetCallbacks(engine, Watched(watch, RunOnTwo));
-      return sf_refocus_prepared(engine->get(), &f.params, prepared.prepared, out->bytes.data(),
-                                 out->stride, nullptr);
+      return test::RefocusPreparedRgb(engine->get(), &f.params, prepared.prepared,
+                                      out->bytes.data(), out->stride, nullptr);
     });
     CheckEntry(f, [&](test::Engine* engine, Watch* watch, test::Output* out) {
       return test::Stream(engine, f.params, f.scene, out, 9, 7, Watched(watch));
@@ -201,8 +202,8 @@ TEST_CASE("progress: a preparation that is cancelled gives nothing, and harms no
       CHECK(watch.rows == kHeight);
       CHECK(stop >= 7);
       SetCallbacks(&engine, {});
-      CHECK(sf_refocus_prepared(engine.get(), &f.params, prepared.prepared, out.bytes.data(),
-                                out.stride, nullptr) == SF_OK);
+      CHECK(test::RefocusPreparedRgb(engine.get(), &f.params, prepared.prepared, out.bytes.data(),
+                                     out.stride, nullptr) == SF_OK);
       CHECK(out.bytes == f.expected.bytes);
       break;
     }
@@ -247,8 +248,8 @@ int PullOn(const Fixture& f, int every, sf_report* report, test::Output* out) {
     }
     watch.stop = cancelled % 2 == 0 ? watch.calls + every : Watch::kNever;
     const sf_status status =
-        sf_stream_pull(engine.get(), out->bytes.data() + size_t(pulled) * out->stride, out->stride,
-                       kHeight - pulled, &written, report);
+        test::PullRgb(engine.get(), out->bytes.data() + size_t(pulled) * out->stride, out->stride,
+                      kHeight - pulled, &written, report);
     pushed += consumed;
     pulled += written;
     if (status == SF_ERROR_CANCELLED) {

@@ -245,7 +245,7 @@ TEST_CASE("region: output as large as the region, and no larger") {
   params.region = {3, 4, 5, 6};
   std::vector<uint8_t> out(15 * 6);
   const auto run = [&](uint8_t* to, size_t stride) {
-    return sf_refocus(engine.get(), &params, &field, to, stride, nullptr);
+    return test::RefocusRgb(engine.get(), &params, &field, to, stride, nullptr);
   };
   CHECK(run(out.data(), 14) == SF_ERROR_STRIDE);
   CHECK(run(out.data(), 15) == SF_OK);

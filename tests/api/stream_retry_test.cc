@@ -53,8 +53,8 @@ Streamed Stream(const sf_config& config, const sf_params& params, const test::Sc
     }
     uint8_t* const rows = result.out.bytes.data() + size_t(pulled) * result.out.stride;
     const sf_status status =
-        sf_stream_pull(engine.get(), rows, result.out.stride, std::min(chunk, kHeight - pulled),
-                       &written, &result.report);
+        test::PullRgb(engine.get(), rows, result.out.stride, std::min(chunk, kHeight - pulled),
+                      &written, &result.report);
     pushed += consumed;
     pulled += written;
     if (status == SF_ERROR_RUNNER) {

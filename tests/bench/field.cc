@@ -118,10 +118,10 @@ sf_light_field Rows(const LightField& data, int views) {
   sf_light_field rows = {};
   for (int i = 0; i < views; ++i) {
     const Image& view = data.views[size_t(i)];
-    rows.views[i] = {view.pixels.data(), view.stride()};
+    rows.views[i] = sf_image_rgb(view.pixels.data(), view.stride());
   }
-  rows.disparity = data.disparity.values.data();
-  rows.disparity_stride = sizeof(float) * size_t(data.width());
+  rows.depth = sf_depth_float(data.disparity.values.data(), sizeof(float) * size_t(data.width()),
+                              data.width(), data.height());
   return rows;
 }
 

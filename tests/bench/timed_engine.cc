@@ -7,6 +7,7 @@
 #include "platform/file.h"
 #include "simd/kernels.h"
 #include "tests/support/inside.h"
+#include "tests/support/rgb_calls.h"
 
 namespace starfocus::bench {
 namespace {
@@ -74,8 +75,8 @@ Error RunOnce(const Field& field, const Task& task, TimedEngine* timed, Elapsed*
   const sf_light_field rows = Rows(field.data, task.views);
   Image& out = timed->picture;
   const Stopwatch stopwatch;
-  const sf_status status = sf_refocus(timed->engine, &timed->params, &rows, out.pixels.data(),
-                                      out.stride(), &timed->report);
+  const sf_status status = test::RefocusRgb(timed->engine, &timed->params, &rows, out.pixels.data(),
+                                            out.stride(), &timed->report);
   *elapsed = stopwatch.Get();
   if (status == SF_OK) return {};
   return Expected(field.name, "a light field that the engine refocuses", sf_status_string(status));

@@ -54,8 +54,8 @@ void* RunCalls(void* data) {
     calls->status = sf_init(&calls->config, calls->workspace, calls->bytes, &engine);
   }
   if (calls->status == SF_OK && !test::Has(calls->config.features, SF_FEATURE_STREAMING)) {
-    calls->status =
-        sf_refocus(engine, &calls->params, &calls->field, calls->out, calls->out_stride, nullptr);
+    calls->status = test::RefocusRgb(engine, &calls->params, &calls->field, calls->out,
+                                     calls->out_stride, nullptr);
   } else if (calls->status == SF_OK) {
     int32_t consumed = 0, written = 0;
     calls->status = sf_stream_begin(engine, &calls->params);
@@ -63,8 +63,8 @@ void* RunCalls(void* data) {
       calls->status = sf_stream_push(engine, &calls->field, calls->config.height, &consumed);
     }
     if (calls->status == SF_OK) {
-      calls->status = sf_stream_pull(engine, calls->out, calls->out_stride, calls->config.height,
-                                     &written, nullptr);
+      calls->status = test::PullRgb(engine, calls->out, calls->out_stride, calls->config.height,
+                                    &written, nullptr);
     }
   }
   return nullptr;

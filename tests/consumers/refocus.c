@@ -22,6 +22,7 @@ int main(void) {
   const sf_light_field field = MakeScene(&scene);
   sf_config config;
   sf_params params;
+  const sf_image picture = sf_image_rgb(out, kStride);
   sf_engine* engine = NULL;
   sf_callbacks callbacks = {0};
   sf_status status;
@@ -47,7 +48,7 @@ int main(void) {
   sf_params_init(&params);
   for (i = 0; status == SF_OK && i < sizeof foci / sizeof *foci; ++i) {
     params.lens.focus = foci[i];
-    status = sf_refocus(engine, &params, &field, out, kStride, NULL);
+    status = sf_refocus(engine, &params, &field, &picture, NULL);
     if (status == SF_OK) printf("%08x\n", (unsigned)Checksum(out, sizeof out));
   }
   free(memory);

@@ -5,6 +5,7 @@
 #define STARFOCUS_TESTS_CONSUMERS_SCENE_H_
 
 #include <starfocus/starfocus.h>
+#include <string.h>
 
 enum { kWidth = 200, kHeight = 150, kViews = 5, kStride = 3 * kWidth };
 
@@ -22,8 +23,9 @@ static uint8_t TextureAt(int x, int y, int channel) {
 }
 
 static sf_light_field MakeScene(Scene* scene) {
-  sf_light_field field = {{{0, 0}}, 0, 0, 0, 0};
+  sf_light_field field;
   int i, x, y, channel;
+  memset(&field, 0, sizeof field);
   for (i = 0; i < kViews; ++i) {
     double u = 0, v = 0;
     sf_view_position(i, &u, &v);
@@ -37,11 +39,9 @@ static sf_light_field MakeScene(Scene* scene) {
         if (i == 0) scene->disparity[y * kWidth + x] = (float)d;
       }
     }
-    field.views[i].data = scene->views[i];
-    field.views[i].stride = kStride;
+    field.views[i] = sf_image_rgb(scene->views[i], kStride);
   }
-  field.disparity = scene->disparity;
-  field.disparity_stride = kWidth * sizeof(float);
+  field.depth = sf_depth_float(scene->disparity, kWidth * sizeof(float), kWidth, kHeight);
   return field;
 }
 

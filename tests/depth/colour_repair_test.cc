@@ -68,9 +68,8 @@ Repaired Repair(const Photo& photo, int workers = 1,
   starfocus::LayOutColourRepair(plan, workers, base, &memory);
   sf_light_field field = {};
   const auto width = size_t(photo.width);
-  field.views[0] = {photo.rgb.data(), 3 * width};
-  field.disparity = photo.map.data();
-  field.disparity_stride = width * sizeof(float);
+  field.views[0] = sf_image_rgb(photo.rgb.data(), 3 * width);
+  field.depth = sf_depth_float(photo.map.data(), width * sizeof(float), photo.width, photo.height);
   Repaired result = {std::vector<float>(photo.map.size()), std::vector<uint8_t>(photo.map.size())};
   memory->jobs.runner = {workers > 1 ? RunBackwards : nullptr, nullptr};
   const starfocus::MapOutput output = {result.map.data(),        width, -500,    500,
@@ -258,8 +257,7 @@ TEST_CASE("colour repair: rows without a known value are those of the nearest kn
   config.width = photo.width;
   config.height = photo.height;
   sf_light_field field = {};
-  field.disparity = photo.map.data();
-  field.disparity_stride = 2 * sizeof(float);
+  field.depth = sf_depth_float(photo.map.data(), 2 * sizeof(float), photo.width, photo.height);
   std::vector<int16_t> filled(photo.map.size());
   starfocus::ReadMap(starfocus::MakePlan(config), field, filled.data());
   // In the middle, as far from both, the farther surface counts.
@@ -332,8 +330,7 @@ TEST_CASE("colour repair: pixels beside steps are doubted, but not those of thin
   config.width = 60, config.height = 40;
   const starfocus::EstimatePlan plan = starfocus::MakePlan(config);
   sf_light_field field = {};
-  field.disparity = photo.map.data();
-  field.disparity_stride = 60 * sizeof(float);
+  field.depth = sf_depth_float(photo.map.data(), 60 * sizeof(float), 60, 40);
   std::vector<uint8_t> scratch(fixed.size()), doubt(fixed.size());
   starfocus::MeasureDoubt({plan, field, fixed.data()}, {0, 0, 60, 40}, scratch.data(),
                           doubt.data());

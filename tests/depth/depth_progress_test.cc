@@ -45,8 +45,7 @@ struct Maps {
     sf_light_field field = views.Get();
     const size_t stride = sizeof(float) * size_t(config.width);
     if (repairs) {
-      field.disparity = given.data();
-      field.disparity_stride = stride;
+      field.depth = sf_depth_float(given.data(), stride, config.width, config.height);
     }
     map->assign(given.size(), -1);
     sf_map out = {map->data(), stride, nullptr, 0, nullptr, 0, 0};

@@ -44,7 +44,7 @@ struct PlaneField {
   sf_light_field Get() const {
     sf_light_field field = {};
     for (size_t k = 0; k < views.size(); ++k) {
-      field.views[k] = {views[k].data(), 3 * size_t(width)};
+      field.views[k] = sf_image_rgb(views[k].data(), 3 * size_t(width));
     }
     return field;
   }

@@ -222,10 +222,10 @@ TEST_CASE("estimate: bad memory has its errors, and nothing is written") {
   CHECK(status(to, row, reinterpret_cast<uint8_t*>(to) + 7, width, at, bytes) == SF_ERROR_OVERLAP);
   CHECK(status(to, row, const_cast<uint8_t*>(field.views[16].data()), width, at, bytes) ==
         SF_ERROR_OVERLAP);
-  views.views[16].data = nullptr;
+  views.views[16].planes[0] = nullptr;
   CHECK(status(to, row, sure, width, at, bytes) == SF_ERROR_NULL);
   views = whole;
-  views.views[3].stride = 3 * width - 1;
+  views.views[3].strides[0] = 3 * width - 1;
   CHECK(status(to, row, sure, width, at, bytes) == SF_ERROR_STRIDE);
   for (const float value : map) REQUIRE(value == 42);
   for (const uint8_t value : confidence) REQUIRE(value == 42);

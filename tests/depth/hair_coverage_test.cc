@@ -57,9 +57,9 @@ Found Repair(const Portrait& portrait, const Call& call = {}) {
   const test::Memory memory(bytes);
   const size_t width = Portrait::kWidth, pixels = portrait.map.size();
   sf_light_field field = {};
-  field.views[0] = {portrait.rgb.data(), 3 * width};
-  field.disparity = portrait.map.data();
-  field.disparity_stride = sizeof(float) * width;
+  field.views[0] = sf_image_rgb(portrait.rgb.data(), 3 * width);
+  field.depth = sf_depth_float(portrait.map.data(), sizeof(float) * width, Portrait::kWidth,
+                               Portrait::kHeight);
   Found found = {SF_OK, 0, std::vector<float>(pixels, NAN), std::vector<uint8_t>(pixels, 77),
                  std::vector<uint8_t>(pixels, 77)};
   sf_map map = {found.map.data(),
@@ -218,9 +218,9 @@ TEST_CASE("hair coverage: bad planes have their errors, and nothing is written")
   const test::Memory memory(bytes);
   const size_t width = Portrait::kWidth;
   sf_light_field field = {};
-  field.views[0] = {portrait.rgb.data(), 3 * width};
-  field.disparity = portrait.map.data();
-  field.disparity_stride = sizeof(float) * width;
+  field.views[0] = sf_image_rgb(portrait.rgb.data(), 3 * width);
+  field.depth = sf_depth_float(portrait.map.data(), sizeof(float) * width, Portrait::kWidth,
+                               Portrait::kHeight);
   std::vector<float> to(portrait.map.size(), 42);
   std::vector<uint8_t> sure(to.size(), 42), coverage(to.size(), 42);
   const auto status = [&](uint8_t* covers, size_t stride) {

@@ -32,8 +32,8 @@ Repaired RepairField(const PlaneField& field, const std::vector<float>& given,
   const auto width = size_t(field.width), pixels = width * size_t(field.height);
   Repaired result = {std::vector<float>(pixels, NAN), std::vector<uint8_t>(pixels, 77)};
   sf_light_field light_field = field.Get();
-  light_field.disparity = given.data();
-  light_field.disparity_stride = sizeof(float) * width;
+  light_field.depth =
+      sf_depth_float(given.data(), sizeof(float) * width, field.width, field.height);
   sf_map map = {result.disparity.data(),
                 sizeof(float) * width,
                 result.confidence.data(),
@@ -286,8 +286,7 @@ TEST_CASE("repair: the same bytes on every SIMD target") {
   const std::vector<float> given = MapOf(scene, 3);
   const Repaired best = RepairField(field, given, config);
   sf_light_field light_field = field.Get();
-  light_field.disparity = given.data();
-  light_field.disparity_stride = sizeof(float) * 70;
+  light_field.depth = sf_depth_float(given.data(), sizeof(float) * 70, field.width, field.height);
   std::vector<const starfocus::simd::DepthKernels*> tables = test::DepthTargets();
   tables.push_back(&starfocus::simd::ReferenceDepthKernels());
   for (const starfocus::simd::DepthKernels* kernels : tables) {
@@ -338,9 +337,8 @@ TEST_CASE("repair: a noisy map of one view stays in its range") {
   REQUIRE(sf_repair_size(&config, &bytes) == SF_OK);
   const Memory memory(bytes);
   sf_light_field field = {};
-  field.views[0] = {picture.data(), 3 * kSide};
-  field.disparity = given.data();
-  field.disparity_stride = sizeof(float) * kSide;
+  field.views[0] = sf_image_rgb(picture.data(), 3 * kSide);
+  field.depth = sf_depth_float(given.data(), sizeof(float) * kSide, kSide, kSide);
   sf_map map = {found.data(), sizeof(float) * kSide, nullptr, 0, nullptr, 0, 0};
   REQUIRE(sf_repair_disparity(&config, &field, &map, memory.data, bytes) == SF_OK);
   CHECK(found != given);
@@ -360,8 +358,7 @@ TEST_CASE("repair: bad maps have their errors, and nothing is written") {
   std::vector<float> map(width * size_t(field.height), 42), given = MapOf(scene, 0);
   sf_light_field light_field = field.Get();
   const auto status = [&](const float* from, size_t stride, size_t size) {
-    light_field.disparity = from;
-    light_field.disparity_stride = stride;
+    light_field.depth = sf_depth_float(from, stride, field.width, field.height);
     sf_map to = {map.data(), row, nullptr, 0, nullptr, 0, 0};
     return sf_repair_disparity(&config, &light_field, &to, memory.data, size);
   };

@@ -26,7 +26,7 @@ struct Scene {
   Scene() {
     plan.width = kWidth;
     plan.height = kHeight;
-    field.views[0] = {rgb.data(), 3 * kWidth};
+    field.views[0] = sf_image_rgb(rgb.data(), 3 * kWidth);
   }
   starfocus::ColourMap Map() const { return {plan, field, map.data()}; }
   // Fills both; the picture's edge is a ramp of so many pixels that begins at its column.

@@ -95,8 +95,8 @@ TEST_CASE("fill unknown: streams and prepared light fields fill alike") {
   sf_prepared* prepared = nullptr;
   REQUIRE(sf_prepare(engine.get(), &field, aligned, bytes, &prepared) == SF_OK);
   test::Output of_prepared(scene.width, scene.height);
-  REQUIRE(sf_refocus_prepared(engine.get(), &params, prepared, of_prepared.bytes.data(),
-                              of_prepared.stride, &report) == SF_OK);
+  REQUIRE(test::RefocusPreparedRgb(engine.get(), &params, prepared, of_prepared.bytes.data(),
+                                   of_prepared.stride, &report) == SF_OK);
   CHECK(of_prepared.bytes == whole.bytes);
   CHECK(report.unknown_pixels == 0);
 }

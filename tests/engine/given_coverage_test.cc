@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "starfocus/image.h"
+#include "starfocus/starfocus.h"
 #include "tests/support/image_field.h"
 #include "tests/support/test_scene.h"
 
@@ -147,21 +147,16 @@ TEST_CASE("given coverage: regions, streams, images and prepared fields give the
     REQUIRE(test::Stream(&engine, params, scene, &out, 7, 11) == SF_OK);
     CHECK((out.bytes == whole.bytes));
 
-    const sf_light_field rows = scene.Field();
-    sf_image_field field = {};
-    field.views[0].planes[0] = const_cast<uint8_t*>(rows.views[0].data);
-    field.views[0].strides[0] = rows.views[0].stride;
-    field.depth.data = rows.disparity;
-    field.depth.stride = rows.disparity_stride;
-    field.depth.width = kWidth;
-    field.depth.height = kHeight;
-    field.depth.scale = 1;
-    field.coverage = rows.coverage;
-    field.coverage_stride = rows.coverage_stride;
-    sf_image image = {};
-    image.planes[0] = out.bytes.data();
-    image.strides[0] = out.stride;
-    REQUIRE(sf_refocus_images(engine.get(), &params, &field, &image, nullptr) == SF_OK);
+    // Three bytes with a gap behind them are converted.
+    std::vector<uint8_t> gapped(4 * size_t{kWidth} * kHeight);
+    for (int k = 0; k < kWidth * kHeight; ++k) {
+      std::copy_n(scene.Pixel(0, k % kWidth, k / kWidth), 3, gapped.begin() + 4 * k);
+    }
+    sf_light_field field = scene.Field();
+    field.views[0] = sf_image_rgb(gapped.data(), 4 * size_t{kWidth});
+    field.views[0].pixel_stride = 4;
+    const sf_image image = sf_image_rgb(out.bytes.data(), out.stride);
+    REQUIRE(sf_refocus(engine.get(), &params, &field, &image, nullptr) == SF_OK);
     CHECK((out.bytes == whole.bytes));
 
     const sf_region region = {33, 100, 90, 41};
@@ -205,8 +200,8 @@ TEST_CASE("given coverage: previews have its means") {
                      bytes, &prepared) == SF_OK);
   sf_params params = ThroughDisc(2 * kFar);
   test::Output preview(kWidth, kHeight);
-  REQUIRE(sf_refocus_preview(engine.get(), &params, prepared, 1, preview.bytes.data(),
-                             preview.stride, nullptr) == SF_OK);
+  REQUIRE(test::PreviewRgb(engine.get(), &params, prepared, 1, preview.bytes.data(), preview.stride,
+                           nullptr) == SF_OK);
   params.lens.focus = kFar;
   CHECK((preview.bytes == Refocused(scene, CombConfig(scene), params).bytes));
   CHECK((preview.bytes != Refocused(Without(scene), CombConfig(scene), params).bytes));
@@ -223,9 +218,9 @@ TEST_CASE("given coverage: a frame after another one sees what changed of it") {
     test::Engine engine(config);
     test::Output out(kWidth, kHeight);
     const sf_light_field field = now.Field();
-    const sf_previous previous = {before.Field(), first.bytes.data(), first.stride};
-    REQUIRE(sf_refocus_after(engine.get(), &params, &field, &previous, out.bytes.data(), out.stride,
-                             nullptr) == SF_OK);
+    const sf_previous previous = {before.Field(), sf_image_rgb(first.bytes.data(), first.stride)};
+    REQUIRE(test::RefocusAfterRgb(engine.get(), &params, &field, &previous, out.bytes.data(),
+                                  out.stride, nullptr) == SF_OK);
     CHECK((out.bytes == Refocused(now, config, params).bytes));
   }
 }
@@ -277,11 +272,11 @@ TEST_CASE("given coverage: without the feature it is not looked at, and bad inpu
   field = scene.Field();
   test::Output out(kWidth, kHeight);
   field.coverage_stride = kWidth - 1;
-  CHECK(sf_refocus(engine.get(), &params, &field, out.bytes.data(), out.stride, nullptr) ==
+  CHECK(test::RefocusRgb(engine.get(), &params, &field, out.bytes.data(), out.stride, nullptr) ==
         SF_ERROR_STRIDE);
   field.coverage = out.bytes.data();
   field.coverage_stride = kWidth;
-  CHECK(sf_refocus(engine.get(), &params, &field, out.bytes.data(), out.stride, nullptr) ==
+  CHECK(test::RefocusRgb(engine.get(), &params, &field, out.bytes.data(), out.stride, nullptr) ==
         SF_ERROR_OVERLAP);
   config.features &= ~SF_FEATURE_COVERAGE;
   CHECK(

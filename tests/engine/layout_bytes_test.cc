@@ -128,7 +128,7 @@ TEST_CASE("layout: all of a workspace is for some part" * doctest::skip(starfocu
   }
 }
 
-// sf_refocus_preview has an engine laid out anew for a smaller picture.
+// A preview has an engine laid out anew for a smaller picture.
 TEST_CASE("layout: what grows with the picture comes last, and less of it fits into the same") {
   test::Random random(44);
   for (int round = 0; round < 300; ++round) {

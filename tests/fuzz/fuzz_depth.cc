@@ -134,7 +134,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   for (int view = 0; view < config.views; ++view) {
     pictures.emplace_back(3 * width, config.height, &input);
     FillPicture(&input, &pictures.back());
-    field.views[view] = {pictures.back().values.get(), pictures.back().stride};
+    field.views[view] = sf_image_rgb(pictures.back().values.get(), pictures.back().stride);
   }
   Rows<float> given(width, config.height, &input), map(width, config.height, &input);
   Rows<uint8_t> sure(width, config.height, &input), coverage(width, config.height, &input);
@@ -142,8 +142,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (config.views == 1 && input.Int(0, 1) == 1) {
     FillHair(config, &input, &pictures[0], &given);
   }
-  field.disparity = given.values.get();
-  field.disparity_stride = given.stride * sizeof(float);
+  field.depth =
+      sf_depth_float(given.values.get(), given.stride * sizeof(float), config.width, config.height);
   const auto make = repairs ? sf_repair_disparity : sf_estimate_disparity;
   sf_map out = {map.values.get(),
                 map.stride * sizeof(float),

@@ -11,6 +11,7 @@
 #include "starfocus/starfocus.h"
 #include "tests/fuzz/input.h"
 #include "tests/support/features.h"
+#include "tests/support/rgb_calls.h"
 #include "tests/support/strands.h"
 
 namespace {
@@ -179,8 +180,8 @@ void MakeDisparity(const sf_config& config, const Strands& strands, Input* input
   if (input->Rarely()) {
     pictures->disparity[input->Value<uint32_t>() % levels.count] = input->Value<float>();
   }
-  pictures->field.disparity = pictures->disparity.get();
-  pictures->field.disparity_stride = levels.stride * sizeof(float);
+  pictures->field.depth = sf_depth_float(pictures->disparity.get(), levels.stride * sizeof(float),
+                                         config.width, config.height);
 }
 
 void MakeCoverage(const sf_config& config, const Strands& strands, Input* input,
@@ -213,7 +214,7 @@ Pictures MakePictures(const sf_config& config, const Strands& strands, Input* in
     pictures.bytes.emplace_back(new uint8_t[bytes]);
     uint8_t* picture = pictures.bytes.back().get();
     MakeView(strands, stride, bytes, input, picture);
-    pictures.field.views[view] = {picture, stride};
+    pictures.field.views[view] = sf_image_rgb(picture, stride);
   }
   MakeDisparity(config, strands, input, &pictures);
   MakeCoverage(config, strands, input, &pictures);
@@ -223,9 +224,12 @@ Pictures MakePictures(const sf_config& config, const Strands& strands, Input* in
 sf_light_field Rows(const sf_light_field& field, int views, int row) {
   sf_light_field from = field;
   for (int view = 0; view < views; ++view) {
-    from.views[view].data += static_cast<size_t>(row) * from.views[view].stride;
+    sf_image& image = from.views[view];
+    image.planes[0] =
+        static_cast<uint8_t*>(image.planes[0]) + static_cast<size_t>(row) * image.strides[0];
   }
-  from.disparity += static_cast<size_t>(row) * (from.disparity_stride / sizeof(float));
+  from.depth.data =
+      static_cast<const char*>(from.depth.data) + static_cast<size_t>(row) * from.depth.stride;
   if (from.coverage != nullptr) from.coverage += static_cast<size_t>(row) * from.coverage_stride;
   return from;
 }
@@ -249,7 +253,7 @@ void Stream(sf_engine* engine, const sf_config& config, const sf_params& params,
     }
     uint8_t* rest = out + static_cast<size_t>(pulled) * stride;
     const int count = RowCount(config.height - pulled, input);
-    const sf_status status = sf_stream_pull(engine, rest, stride, count, &moved, nullptr);
+    const sf_status status = test::PullRgb(engine, rest, stride, count, &moved, nullptr);
     if (status != SF_OK && status != SF_ERROR_CANCELLED) return;
     pulled += moved;  // a stream that was cancelled goes on
     if (!input->Rarely()) continue;
@@ -263,7 +267,7 @@ void Refocus(sf_engine* engine, const sf_config& config, const sf_params& params
              const Pictures& pictures, uint8_t* out, size_t stride, Input* input) {
   sf_report report;
   if (!input->Rarely()) {
-    sf_refocus(engine, &params, &pictures.field, out, stride, &report);
+    test::RefocusRgb(engine, &params, &pictures.field, out, stride, &report);
     return;
   }
   if (input->Int(0, 1) == 0) {
@@ -271,8 +275,8 @@ void Refocus(sf_engine* engine, const sf_config& config, const sf_params& params
     const size_t bytes = Needed(stride, config.height, 3 * static_cast<size_t>(config.width));
     const std::unique_ptr<uint8_t[]> picture(new uint8_t[bytes]());
     const sf_previous previous = {input->Int(0, 1) == 0 ? before.field : pictures.field,
-                                  picture.get(), stride};
-    sf_refocus_after(engine, &params, &pictures.field, &previous, out, stride, &report);
+                                  sf_image_rgb(picture.get(), stride)};
+    test::RefocusAfterRgb(engine, &params, &pictures.field, &previous, out, stride, &report);
     return;
   }
   size_t bytes = 0;
@@ -284,8 +288,8 @@ void Refocus(sf_engine* engine, const sf_config& config, const sf_params& params
   const sf_status status = sf_prepare(engine, &pictures.field, memory, bytes, &prepared);
   if (status != SF_OK) return;
   // A preview is no larger than the picture, and leaves the engine as it was.
-  sf_refocus_preview(engine, &params, prepared, config.previews, out, stride, &report);
-  sf_refocus_prepared(engine, &params, prepared, out, stride, &report);
+  test::PreviewRgb(engine, &params, prepared, config.previews, out, stride, &report);
+  test::RefocusPreparedRgb(engine, &params, prepared, out, stride, &report);
 }
 
 }  // namespace

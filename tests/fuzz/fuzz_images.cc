@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "starfocus/image.h"
+#include "starfocus/starfocus.h"
 #include "tests/fuzz/input.h"
 #include "tests/support/features.h"
 
@@ -83,14 +83,14 @@ sf_depth_map MakeDepth(const Size& size, Input* input, Planes* planes) {
   return map;
 }
 
-sf_status StreamAll(sf_engine* engine, const sf_params& params, const sf_image_field& field,
+sf_status StreamAll(sf_engine* engine, const sf_params& params, const sf_light_field& field,
                     const sf_image& out, const Size& size) {
   int32_t consumed = 0, written = 0;
   sf_status status = sf_stream_begin(engine, &params);
   if (status != SF_OK) return status;
-  status = sf_stream_push_images(engine, &field, size.height, &consumed);
+  status = sf_stream_push(engine, &field, size.height, &consumed);
   if (status != SF_OK) return status;
-  return sf_stream_pull_images(engine, &out, size.height, &written, nullptr);
+  return sf_stream_pull(engine, &out, size.height, &written, nullptr);
 }
 
 // What well-formed images may still be refused for.
@@ -125,7 +125,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   sf_engine* engine = nullptr;
   if (sf_init(&config, workspace, bytes, &engine) != SF_OK) std::abort();
   Planes planes;
-  sf_image_field field = {};
+  sf_light_field field = {};
   for (int view = 0; view < config.views; ++view) {
     field.views[view] = MakeImage(picture, &input, &planes);
   }
@@ -133,7 +133,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const sf_image out = MakeImage(picture, &input, &planes);
   const sf_status status = test::Has(config.features, SF_FEATURE_STREAMING)
                                ? StreamAll(engine, params, field, out, picture)
-                               : sf_refocus_images(engine, &params, &field, &out, nullptr);
+                               : sf_refocus(engine, &params, &field, &out, nullptr);
   if (!MayBe(status)) std::abort();
   return 0;
 }

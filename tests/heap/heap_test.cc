@@ -150,9 +150,9 @@ TEST_CASE("no heap call in size query, init, refocusing and streaming") {
       const sf_status made = sf_init(&config, holder.workspace(), bytes, &engine);
       const sf_status set = sf_set_callbacks(engine, &callbacks);
       const sf_status refocused =
-          sf_refocus(engine, &params, &field, out.bytes.data(), out.stride, &report);
+          test::RefocusRgb(engine, &params, &field, out.bytes.data(), out.stride, &report);
       const sf_status streamed = test::Stream(&holder, params, scene, &out, 13, 7);
-      const sf_status refused = sf_refocus(engine, &params, &field, nullptr, 0, nullptr);
+      const sf_status refused = test::RefocusRgb(engine, &params, &field, nullptr, 0, nullptr);
       sf_status_string(refused);
       sf_simd_target();
       const int counted = watch.Stop();
@@ -179,15 +179,15 @@ TEST_CASE("no heap call of images") {
   config.features |= SF_FEATURE_STREAMING;
   test::Engine engine(config);
   test::ImageMemory image(70, 50, nv12);
-  const sf_image_field images = field.Field();
+  const sf_light_field images = field.Field();
   const sf_image out = image.Out();
   const sf_params params = test::Params(1.25, 0.9, SF_MODE_BLOCK);
   int32_t taken = 0, given = 0;
   HeapWatch watch;
-  const sf_status refocused = sf_refocus_images(engine.get(), &params, &images, &out, nullptr);
+  const sf_status refocused = sf_refocus(engine.get(), &params, &images, &out, nullptr);
   const sf_status begun = sf_stream_begin(engine.get(), &params);
-  const sf_status pushed = sf_stream_push_images(engine.get(), &images, 50, &taken);
-  const sf_status pulled = sf_stream_pull_images(engine.get(), &out, 50, &given, nullptr);
+  const sf_status pushed = sf_stream_push(engine.get(), &images, 50, &taken);
+  const sf_status pulled = sf_stream_pull(engine.get(), &out, 50, &given, nullptr);
   const int counted = watch.Stop();
   CHECK(refocused == SF_OK);
   CHECK(begun == SF_OK);
@@ -225,7 +225,7 @@ TEST_CASE("no heap call in block mode with all layers, deblocking, visitor and c
   const sf_status made = sf_init(&config, holder.workspace(), holder.bytes(), &engine);
   const sf_status set = sf_set_callbacks(engine, &callbacks);
   const sf_status refocused =
-      sf_refocus(engine, &params, &field, out.bytes.data(), out.stride, &report);
+      test::RefocusRgb(engine, &params, &field, out.bytes.data(), out.stride, &report);
   const sf_status streamed = test::Stream(&holder, params, scene, &out, 13, 7);
   const int counted = watch.Stop();
 
@@ -259,7 +259,7 @@ TEST_CASE(
   const sf_status made = sf_create(&config, &allocator, &engine);
   const sf_status set = sf_set_callbacks(engine, &callbacks);
   const sf_status cancelled =
-      sf_refocus(engine, &params, &field, out.bytes.data(), out.stride, nullptr);
+      test::RefocusRgb(engine, &params, &field, out.bytes.data(), out.stride, nullptr);
   sf_destroy(engine);
   const int counted = watch.Stop();
 
@@ -286,10 +286,10 @@ TEST_CASE("no heap call in preparing, regions and refocusing what is prepared") 
   sf_prepared* prepared = nullptr;
   const sf_status made =
       sf_prepare(holder.get(), &field, memory.workspace(), memory.bytes(), &prepared);
-  const sf_status again =
-      sf_refocus_prepared(holder.get(), &params, prepared, out.bytes.data(), out.stride, nullptr);
+  const sf_status again = test::RefocusPreparedRgb(holder.get(), &params, prepared,
+                                                   out.bytes.data(), out.stride, nullptr);
   const sf_status part =
-      sf_refocus(holder.get(), &params, &field, out.bytes.data(), out.stride, nullptr);
+      test::RefocusRgb(holder.get(), &params, &field, out.bytes.data(), out.stride, nullptr);
   const int counted = watch.Stop();
 
   CHECK(made == SF_OK);

@@ -95,7 +95,7 @@ archive() {
   page_alignment "$work/aar/jni/$abi/libstarfocus_jni.so"
   # C programs link what is in there.
   cat >"$work/linked.c" <<'TEXT'
-#include <starfocus/image.h>
+#include <starfocus/starfocus.h>
 #include <starfocus/pool.h>
 int main(void) { return sf_pool_cores() == 0 || sf_abi_version() != SF_ABI_VERSION; }
 TEXT

@@ -127,7 +127,7 @@ class Bytes(unittest.TestCase):
         whole = engine.refocus(VIEWS, DISPARITY, focus=1)
         turned = [starfocus.Image(starfocus.Format.BGR, [np.ascontiguousarray(view[:, :, ::-1])]) for view in VIEWS]
         out = starfocus.Image.empty(starfocus.Format.BGRX, WIDTH, HEIGHT)
-        engine.refocus_images(turned, starfocus.DepthMap(DISPARITY), focus=1, out=out)
+        engine.refocus(turned, starfocus.DepthMap(DISPARITY), focus=1, out=out)
         pixels = out.planes[0].reshape(HEIGHT, WIDTH, 4)
         np.testing.assert_array_equal(pixels[:, :, 2::-1], whole)
         self.assertTrue((pixels[:, :, 3] == 255).all())
@@ -140,7 +140,7 @@ class Bytes(unittest.TestCase):
         millimetres = np.full((HEIGHT // 2, WIDTH // 2), 500, np.uint16)
         depth = starfocus.DepthMap(millimetres, starfocus.DepthMeaning.RECIPROCAL, scale=1000.0, invalid=0)
         out = starfocus.Image.empty(form, WIDTH, HEIGHT)
-        starfocus.Refocuser(WIDTH, HEIGHT, 1, disparity_min=0, disparity_max=4, images=1).refocus_images(
+        starfocus.Refocuser(WIDTH, HEIGHT, 1, disparity_min=0, disparity_max=4, images=1).refocus(
             [view], depth, focus=0, out=out)
         for plane, expected in zip(out.planes, view.planes):
             self.assertLessEqual(np.abs(plane.astype(int) - expected).max(), 1)
@@ -153,8 +153,8 @@ class Bytes(unittest.TestCase):
             large[:, :WIDTH] = view
         inside = [large[:, :WIDTH] for large in wide]
         field, _ = _calls.light_field(inside, DISPARITY, 5, HEIGHT, WIDTH)
-        self.assertEqual(field.views[0].data, wide[0].ctypes.data)
-        self.assertEqual(field.views[0].stride, 3 * (WIDTH + 5))
+        self.assertEqual(field.views[0].planes[0], wide[0].ctypes.data)
+        self.assertEqual(field.views[0].strides[0], 3 * (WIDTH + 5))
         np.testing.assert_array_equal(engine.refocus(inside, DISPARITY, focus=1), whole)
         flipped = [np.ascontiguousarray(view[::-1])[::-1] for view in VIEWS]
         every_second = np.repeat(DISPARITY, 2, axis=1)[:, ::2]
@@ -194,7 +194,7 @@ class Errors(unittest.TestCase):
             engine.refocus(VIEWS, DISPARITY, focus=0, out=np.zeros((HEIGHT, WIDTH, 3), np.uint8)[:, ::-1])
         image = [starfocus.Image(starfocus.Format.RGBX, [view]) for view in VIEWS]
         with self.assertRaisesRegex(ValueError, "view 0, plane 0: expected .* rows of"):
-            engine.refocus_images(image, starfocus.DepthMap(DISPARITY), focus=0, out=image[0])
+            engine.refocus(image, starfocus.DepthMap(DISPARITY), focus=0, out=image[0])
 
     def test_maps_that_are_not_finite(self):
         holes = DISPARITY.copy()
@@ -218,7 +218,7 @@ class Arguments(unittest.TestCase):
         views = [starfocus.Image(starfocus.Format.RGB, [view]) for view in VIEWS]
         backing = np.full((2 * HEIGHT, 3 * WIDTH), 0xEE, np.uint8)
         with self.assertRaisesRegex(ValueError, f"out, plane 0: expected {HEIGHT} rows"):
-            engine.refocus_images(views, starfocus.DepthMap(DISPARITY), focus=1, region=zeros,
+            engine.refocus(views, starfocus.DepthMap(DISPARITY), focus=1, region=zeros,
                                   out=starfocus.Image(starfocus.Format.RGB, [backing[:1]]))
         self.assertTrue((backing == 0xEE).all())
 
@@ -267,7 +267,7 @@ class Arguments(unittest.TestCase):
             given = DISPARITY.astype(kind)
             np.testing.assert_array_equal(engine.refocus(VIEWS, given, focus=1), whole)
             out = starfocus.Image.empty(starfocus.Format.RGB, WIDTH, HEIGHT)
-            engine.refocus_images(images, starfocus.DepthMap(given), focus=1, out=out)
+            engine.refocus(images, starfocus.DepthMap(given), focus=1, out=out)
             np.testing.assert_array_equal(out.planes[0].reshape(whole.shape), whole)
         half = np.clip(DISPARITY, -2, 2).astype(np.float16)
         engine = refocuser()
@@ -320,7 +320,7 @@ class Arguments(unittest.TestCase):
                 else:
                     image = starfocus.Image(starfocus.Format(int(random.integers(4))), [out],
                                             pixel_stride=int(random.choice(odd)) * int(random.integers(2)))
-                    engine.refocus_images([starfocus.Image(starfocus.Format.RGB, [view])],
+                    engine.refocus([starfocus.Image(starfocus.Format.RGB, [view])],
                                           starfocus.DepthMap(np.zeros((height, width))), focus=0.5, out=image,
                                           region=region)
                 counts["done"] += 1

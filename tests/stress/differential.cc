@@ -71,14 +71,14 @@ void Distract(const Asked& asked, Rig* rig, test::Random* random) {
   if (what == 1) params.region = RandomRegion(setup.scene, random);
   rig->SetCallbacks();
   if (what <= 1) {
-    sf_refocus(rig->get(), &params, &field, out.bytes.data(), out.stride, nullptr);
+    test::RefocusRgb(rig->get(), &params, &field, out.bytes.data(), out.stride, nullptr);
   }
   if (what == 2 && test::Has(rig->config().features, SF_FEATURE_STREAMING)) {
     int32_t moved = 0;
     sf_stream_begin(rig->get(), &params);
     sf_stream_push(rig->get(), &field, random->Int(0, setup.scene.height), &moved);
-    sf_stream_pull(rig->get(), out.bytes.data(), out.stride, random->Int(0, setup.scene.height),
-                   &moved, nullptr);
+    test::PullRgb(rig->get(), out.bytes.data(), out.stride, random->Int(0, setup.scene.height),
+                  &moved, nullptr);
   }
   if (what == 3) rig->Restart();
 }
@@ -157,14 +157,15 @@ std::string Prepared(const Asked& asked, test::Random* random) {
     test::Output preview(region.width, region.height);
     status = Retried(&rig, random, [&] {
       rig.SetCallbacks();
-      return sf_refocus_preview(rig.get(), &params, prepared, config.previews, preview.bytes.data(),
-                                preview.stride, nullptr);
+      return test::PreviewRgb(rig.get(), &params, prepared, config.previews, preview.bytes.data(),
+                              preview.stride, nullptr);
     });
     if (status != SF_OK) return std::string("preview: ") + sf_status_string(status);
   }
   status = Retried(&rig, random, [&] {
     rig.SetCallbacks();
-    return sf_refocus_prepared(rig.get(), &params, prepared, out.bytes.data(), out.stride, nullptr);
+    return test::RefocusPreparedRgb(rig.get(), &params, prepared, out.bytes.data(), out.stride,
+                                    nullptr);
   });
   return Verdict(rig, status, Crop(asked, region), out);
 }

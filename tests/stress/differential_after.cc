@@ -91,12 +91,13 @@ std::string After(const Asked& asked, test::Random* random) {
     sf_params params = now.setup.params;
     if (part) params.region = region;
     const sf_light_field field = now.setup.scene.Field();
-    const sf_previous previous = {before.Field(), last.data(), 3 * size_t(region.width)};
+    const sf_previous previous = {before.Field(),
+                                  sf_image_rgb(last.data(), 3 * size_t(region.width))};
     test::Output out(region.width, region.height, random->Int(0, 5));
     const sf_status status = Retried(&rig, random, [&] {
       rig.SetCallbacks();
-      return sf_refocus_after(rig.get(), &params, &field, &previous, out.bytes.data(), out.stride,
-                              nullptr);
+      return test::RefocusAfterRgb(rig.get(), &params, &field, &previous, out.bytes.data(),
+                                   out.stride, nullptr);
     });
     failure = Verdict(rig, status, Crop(now, region), out);
     if (!failure.empty()) return failure;

@@ -58,8 +58,8 @@ struct Streaming {
     rig->SetCallbacks();
     int32_t written = -1;
     const sf_status status =
-        sf_stream_pull(rig->get(), out.bytes.data() + size_t(pulled) * out.stride, out.stride, rows,
-                       &written, nullptr);
+        test::PullRgb(rig->get(), out.bytes.data() + size_t(pulled) * out.stride, out.stride, rows,
+                      &written, nullptr);
     const bool failed = fails && rig->Mend();
     if (status != (failed ? SF_ERROR_RUNNER : SF_OK) || written < 0 || written > rows) {
       failure = std::string("pull: ") + sf_status_string(status) + ", " + std::to_string(written) +

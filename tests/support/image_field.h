@@ -15,10 +15,14 @@ struct ImageField {
   DepthMemory depth;
   Scene converted;  // by the definitions; what the engine is to see
 
-  sf_image_field Field(int row = 0) const {
-    sf_image_field field = {};
+  // The rows from `row` on; a smaller map comes whole.
+  sf_light_field Field(int row = 0) const {
+    sf_light_field field = {};
     for (size_t k = 0; k < views.size(); ++k) field.views[k] = views[k].In(row);
     field.depth = depth.map;
+    if (depth.map.height == converted.height) {
+      field.depth.data = static_cast<const char*>(depth.map.data) + size_t(row) * depth.map.stride;
+    }
     return field;
   }
   uint8_t Alpha(int x, int y) const {

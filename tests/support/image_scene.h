@@ -10,7 +10,7 @@
 #include <limits>
 #include <vector>
 
-#include "starfocus/image.h"
+#include "starfocus/starfocus.h"
 #include "tests/support/test_scene.h"
 
 namespace test {

@@ -13,6 +13,7 @@
 
 #include "starfocus/starfocus.h"
 #include "tests/support/features.h"
+#include "tests/support/rgb_calls.h"
 
 namespace test {
 
@@ -104,11 +105,10 @@ struct Scene {
   sf_light_field Field(int row = 0) const {
     sf_light_field field = {};
     for (size_t i = 0; i < pictures.size(); ++i) {
-      field.views[i].data = pictures[i].data() + static_cast<size_t>(row) * stride;
-      field.views[i].stride = stride;
+      field.views[i] = sf_image_rgb(pictures[i].data() + static_cast<size_t>(row) * stride, stride);
     }
-    field.disparity = disparity.data() + static_cast<size_t>(row) * disparity_width;
-    field.disparity_stride = disparity_width * sizeof(float);
+    field.depth = sf_depth_float(disparity.data() + static_cast<size_t>(row) * disparity_width,
+                                 disparity_width * sizeof(float), width, height);
     if (coverage.empty()) return field;
     field.coverage = coverage.data() + static_cast<size_t>(row) * static_cast<size_t>(width);
     field.coverage_stride = static_cast<size_t>(width);
@@ -336,7 +336,7 @@ sf_status Refocus(AnyEngine* engine, const sf_params& params, const Scene& scene
   const sf_status status = sf_set_callbacks(engine->get(), &callbacks);
   if (status != SF_OK) return status;
   const sf_light_field field = scene.Field();
-  return sf_refocus(engine->get(), &params, &field, out->bytes.data(), out->stride, report);
+  return test::RefocusRgb(engine->get(), &params, &field, out->bytes.data(), out->stride, report);
 }
 
 template <class AnyEngine>
@@ -365,8 +365,8 @@ sf_status Stream(AnyEngine* engine, const sf_params& params, const Scene& scene,
     }
     const int rows_out = std::min(pull_rows, scene.height - pulled);
     status =
-        sf_stream_pull(engine->get(), out->bytes.data() + static_cast<size_t>(pulled) * out->stride,
-                       out->stride, rows_out, &written, report);
+        test::PullRgb(engine->get(), out->bytes.data() + static_cast<size_t>(pulled) * out->stride,
+                      out->stride, rows_out, &written, report);
     pushed += consumed;
     pulled += written;
     if (status == SF_OK && consumed == 0 && written == 0) status = SF_ERROR_STATE;

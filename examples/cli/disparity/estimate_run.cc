@@ -72,7 +72,7 @@ Error MakeMap(const std::string& where, const Images& views, const FloatMap* giv
     const Workspace workspace(::operator new (bytes, std::align_val_t{SF_ALIGNMENT}));
     sf_light_field light_field = {};
     for (size_t i = 0; i < views.size(); ++i) {
-      light_field.views[i] = {views[i].row(0), views[i].stride()};
+      light_field.views[i] = sf_image_rgb(views[i].row(0), views[i].stride());
     }
     const auto width = size_t(centre.width), pixels = width * size_t(centre.height);
     map->width = centre.width;
@@ -88,8 +88,8 @@ Error MakeMap(const std::string& where, const Images& views, const FloatMap* giv
       out.coverage = coverage->data();
     }
     if (given != nullptr) {
-      light_field.disparity = given->values.data();
-      light_field.disparity_stride = sizeof(float) * width;
+      light_field.depth =
+          sf_depth_float(given->values.data(), sizeof(float) * width, given->width, given->height);
     }
     const auto make = given == nullptr ? sf_estimate_disparity : sf_repair_disparity;
     status = make(&config, &light_field, &out, workspace.get(), bytes);
@@ -193,13 +193,13 @@ Error RepairDisparity(const std::string& where, int threads, bool covers, LightF
   if (status != SF_OK || stats.invalid == int64_t{given.width} * given.height) {
     return Expected(where, "a disparity map with a value", "none");
   }
-  const auto most = static_cast<float>(SF_MAX_DISPARITY);
-  if (stats.min < -most || stats.max > most) {
-    return Expected(where, "disparities within +-" + Short(most),
+  constexpr double kMost = SF_MAX_DISPARITY;
+  if (stats.min < -kMost || stats.max > kMost) {
+    return Expected(where, "disparities within +-" + Short(kMost),
                     Short(stats.min) + " to " + Short(stats.max));
   }
-  const DisparityRange range = {std::max(stats.min - kRepairReach, -most),
-                                std::min(stats.max + kRepairReach, most)};
+  const DisparityRange range = {float(std::max(stats.min - kRepairReach, -kMost)),
+                                float(std::min(stats.max + kRepairReach, kMost))};
   Maker maker(threads, "repairing disparities");
   FloatMap map;
   Bytes sure;

@@ -18,11 +18,11 @@ sf_light_field Rows(const LightField& light_field, int first) {
   sf_light_field rows = {};
   for (size_t i = 0; i < light_field.views.size(); ++i) {
     const Image& view = light_field.views[i];
-    rows.views[i] = {view.row(first), view.stride()};
+    rows.views[i] = sf_image_rgb(view.row(first), view.stride());
   }
   const FloatMap& map = light_field.disparity;
-  rows.disparity = map.values.data() + size_t(first) * size_t(map.width);
-  rows.disparity_stride = sizeof(float) * size_t(map.width);
+  rows.depth = sf_depth_float(map.values.data() + size_t(first) * size_t(map.width),
+                              sizeof(float) * size_t(map.width), map.width, map.height);
   if (!light_field.coverage.empty()) {
     rows.coverage = light_field.coverage.data() + size_t(first) * size_t(map.width);
     rows.coverage_stride = size_t(map.width);
@@ -96,7 +96,8 @@ Error EngineRun::Refocus(const std::string& where, const EngineTask& task, Engin
 Error EngineRun::RefocusAfter(const std::string& where, const EngineTask& task,
                               const LightField& before, const Image& picture,
                               EngineResult* result) {
-  const sf_previous previous = {Rows(before, 0), picture.pixels.data(), picture.stride()};
+  const sf_previous previous = {Rows(before, 0),
+                                sf_image_rgb(picture.pixels.data(), picture.stride())};
   return Run(where, task, &previous, result);
 }
 
@@ -124,8 +125,9 @@ sf_status EngineRun::RunStream(const EngineTask& task, EngineResult* result) {
       pushed += consumed;
     }
     if (status != SF_OK) break;
-    status = sf_stream_pull(engine_, out->row(pulled), out->stride(),
-                            std::min(kStreamRows, out->height - pulled), &written, &result->report);
+    const sf_image to = sf_image_rgb(out->row(pulled), out->stride());
+    status = sf_stream_pull(engine_, &to, std::min(kStreamRows, out->height - pulled), &written,
+                            &result->report);
     pulled += written;
     if (status == SF_OK && consumed == 0 && written == 0) return SF_ERROR_STATE;
   }
@@ -141,20 +143,18 @@ Error EngineRun::Run(const std::string& where, const EngineTask& task, const sf_
   result->workspace_bytes = workspace_bytes_;
   result->prepared_bytes = prepared_bytes_;
   const sf_light_field rows = Rows(*task.light_field, 0);
+  const sf_image to = sf_image_rgb(out.pixels.data(), out.stride());
+  sf_params params = task.params;
+  params.previous = previous;
   sf_status status = SetCallbacks(task, true);
   if (status != SF_OK) return Outcome(where, status, sf_engine_problem(engine_));
   const double start = Seconds();
   if (task.stream) {
     status = RunStream(task, result);
-  } else if (previous != nullptr) {
-    status = sf_refocus_after(engine_, &task.params, &rows, previous, out.pixels.data(),
-                              out.stride(), &result->report);
   } else if (prepared_ != nullptr) {
-    status = sf_refocus_prepared(engine_, &task.params, prepared_, out.pixels.data(), out.stride(),
-                                 &result->report);
+    status = sf_refocus_prepared(engine_, &params, prepared_, &to, &result->report);
   } else {
-    status =
-        sf_refocus(engine_, &task.params, &rows, out.pixels.data(), out.stride(), &result->report);
+    status = sf_refocus(engine_, &params, &rows, &to, &result->report);
   }
   result->seconds = Seconds() - start;
   return Outcome(where, status, sf_engine_problem(engine_));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "lib/convert/depth_rows.h"
 #include "lib/engine/stripe.h"
 #include "platform/clock.h"
 #include "platform/file.h"
@@ -62,11 +63,12 @@ void BlockBench::HoldDisparity() {
   const FloatMap& map = light_field_->disparity;
   disparity_.resize(map.values.size() + simd::kPadding);
   engine_->pictures.disparity = {disparity_.data(), size_t(map.width), 0, 0};
+  const sf_depth_map given =
+      sf_depth_float(map.values.data(), sizeof(float) * size_t(map.width), map.width, map.height);
+  const DepthSource source = MakeDepthSource(engine_->config, given, nullptr);
   for (int y = 0; y < map.height; ++y) {
     // The range is the map's own, so that no value can be outside.
-    ConvertDisparities(engine_->config, *engine_->kernels,
-                       map.values.data() + size_t(y) * size_t(map.width),
-                       engine_->pictures.disparity.Row(y));
+    ReadDepthRow(simd::BestImageKernels(), source, y, engine_->pictures.disparity.Row(y));
   }
   views_.kernels = engine_->kernels;
   views_.transfer = &TransferOf(engine_->config.transfer);

@@ -65,10 +65,11 @@ SF_API sf_status sf_estimate_size(const sf_depth_config* config, size_t* bytes);
 
 /** Estimates the disparity of each pixel of the centre view: the one at which all views that see
  *  the pixel agree best, smooth between neighbours. Every value lies in the configured range.
- *  light_field->disparity is not read. The views and the workspace must not change during the call.
- *  Confidence is the cost of the best disparity that differs by a step or more, minus the cost of
- *  the result, in quarters of a gray level, summed over the three colours: 0 if another disparity
- *  is as good (a wall of one colour, pixels that hardly any view sees), 255 if none is. */
+ *  light_field->depth is not read; views are of SF_FORMAT_RGB without gaps between pixels. The
+ * views and the workspace must not change during the call. Confidence is the cost of the best
+ * disparity that differs by a step or more, minus the cost of the result, in quarters of a gray
+ * level, summed over the three colours: 0 if another disparity is as good (a wall of one colour,
+ * pixels that hardly any view sees), 255 if none is. */
 SF_API sf_status sf_estimate_disparity(const sf_depth_config* config,
                                        const sf_light_field* light_field, sf_map* map,
                                        void* workspace, size_t bytes);
@@ -77,12 +78,12 @@ SF_API sf_status sf_estimate_disparity(const sf_depth_config* config,
  *  each worker about as much as sf_estimate_size has. */
 SF_API sf_status sf_repair_size(const sf_depth_config* config, size_t* bytes);
 
-/** Repairs light_field->disparity: edges that differ from those of the picture, are blurred or come
- *  from a smaller map, noise, and unknown values (NaN, infinite). With side views it works like
- *  sf_estimate_disparity, with a cost that grows with the distance from the given disparity; with
- *  one view it compares colours. Values that the pictures do not contradict keep their bits, unless
- *  one view has a noisy map. With one view, outlines become as smooth as those of the picture, and
- *  foreground surfaces grow where the picture's edges are soft.
+/** Repairs light_field->depth, a map as of sf_depth_float: edges that differ from those of the
+ * picture, are blurred or come from a smaller map, noise, and unknown values (NaN, infinite). With
+ * side views it works like sf_estimate_disparity, with a cost that grows with the distance from the
+ * given disparity; with one view it compares colours. Values that the pictures do not contradict
+ * keep their bits, unless one view has a noisy map. With one view, outlines become as smooth as
+ * those of the picture, and foreground surfaces grow where the picture's edges are soft.
  *
  *  Finite values of the given map must lie in the configured range, which may be wider (else
  *  SF_ERROR_DISPARITY); SF_ERROR_ALL_INVALID if no value is finite. Confidence is 0 also where the

@@ -1,20 +1,18 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* starfocus: pictures and depth maps as cameras have them.
+/* starfocus: the formats of pictures and depth maps. Part of starfocus.h.
  *
- * These calls do what those of starfocus.h do, of pictures in other formats and of other maps than
- * rows of R, G, B and of float disparities. Rows are converted as they are read and written;
- * nothing is copied whole. The bytes are those of converting everything first, by the formulas
- * below, refocusing, and converting the result.
+ * Rows are converted as they are read and written; nothing is copied whole. The result has the
+ * bytes of converting everything to R, G, B and float disparities first, by the formulas below,
+ * refocusing, and converting the result. Samples have 8 bits.
  *
- * An engine for them is configured with SF_FEATURE_IMAGES; else they return SF_ERROR_FEATURE. A
- * static program that calls none of them holds nothing of them.
- *
- * Codes have 8 bits: light is a table of them. Formats of 10 and 16 bits are not supported.
+ * An engine reads and writes SF_FORMAT_RGB without gaps between pixels, and maps of floats as
+ * sf_depth_float describes them. All else needs SF_FEATURE_IMAGES.
  */
 #ifndef STARFOCUS_IMAGE_H_
 #define STARFOCUS_IMAGE_H_
 
-#include "starfocus/starfocus.h"
+#include <stddef.h>
+#include <stdint.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -121,57 +119,31 @@ typedef struct sf_depth_map {
   int32_t height;   /**< in [1, height of the picture] */
   int32_t type;     /**< sf_depth_type */
   int32_t meaning;  /**< sf_depth_meaning */
-  float scale;      /**< finite, not 0 */
-  float offset;     /**< finite */
+  double scale;     /**< finite, not 0; this, `offset` and `invalid` are rounded to float */
+  double offset;    /**< finite */
+  double invalid;   /**< compared with z */
   int32_t has_invalid; /**< 1: `invalid` stands for an unknown depth; 0: no value does */
-  float invalid;       /**< compared with z */
 } sf_depth_map;
 
-/** A light field of images. All have the configured width and height; formats may differ. */
-typedef struct sf_image_field {
-  sf_image views[SF_MAX_VIEWS]; /**< the configured number, in the order of sf_view_position */
-  sf_depth_map depth;           /**< of the centre view */
-  const uint8_t* coverage;      /**< as in sf_light_field, as large as the picture; may be null */
-  size_t coverage_stride;       /**< bytes from row to row, >= width */
-} sf_image_field;
+/** Returns an image of R, G, B whose first row is at `data`, `stride` bytes from row to row. Views
+ *  are only read. */
+static inline sf_image sf_image_rgb(const void* data, size_t stride) {
+  sf_image image = {SF_FORMAT_RGB, 0, 0, 0, {NULL, NULL, NULL}, {0, 0, 0}};
+  image.planes[0] = (void*)data;
+  image.strides[0] = stride;
+  return image;
+}
 
-/** As sf_refocus. The alpha of `out` is that of the centre view, 255 if that has none. An output of
- *  a region is a picture of its own: its chroma is that of its own 2 x 2 pixels, wherever the
- * region lies. The images are only read, during the call; no plane of `out` may overlap any of
- * them, the depth map or the workspace. Side views are converted pixel by pixel where they are
- * read, which is beside depth edges and beyond the picture's edges only. */
-SF_API sf_status sf_refocus_images(sf_engine* engine, const sf_params* params,
-                                   const sf_image_field* field, const sf_image* out,
-                                   sf_report* report);
-
-/** As sf_prepare, of images; sf_prepared_size has the bytes. sf_refocus_prepared_images alone
- *  takes what it makes. The structure `field` need not stay, what it points to must. */
-SF_API sf_status sf_prepare_images(sf_engine* engine, const sf_image_field* field, void* memory,
-                                   size_t bytes, sf_prepared** prepared);
-
-/** As sf_refocus_images, with the same bytes, of what sf_prepare_images made. */
-SF_API sf_status sf_refocus_prepared_images(sf_engine* engine, const sf_params* params,
-                                            const sf_prepared* prepared, const sf_image* out,
-                                            sf_report* report);
-
-/** As sf_refocus_preview, into an image: of what sf_prepare or sf_prepare_images made. Alpha of
- * `out` is 255. Chroma is that of the preview's own 2 x 2 pixels. */
-SF_API sf_status sf_refocus_preview_images(sf_engine* engine, const sf_params* params,
-                                           const sf_prepared* prepared, int32_t shift,
-                                           const sf_image* out, sf_report* report);
-
-/** As sf_stream_push, of images: planes point to the next rows. The depth map is the whole one,
- *  the same in all calls; coverage is rows like the views. Rows that share chroma come together:
- * where a view has some, `rows` is even but at the picture's end (else SF_ERROR_RANGE), and so is
- * *consumed. All rows of all views are converted. The engine needs SF_FEATURE_STREAMING, too.
- */
-SF_API sf_status sf_stream_push_images(sf_engine* engine, const sf_image_field* field, int32_t rows,
-                                       int32_t* consumed);
-
-/** As sf_stream_pull, into an image whose planes point to the next rows; `rows` is even where they
- *  share chroma, but at the picture's end. Rows pushed by either call may be pulled by either. */
-SF_API sf_status sf_stream_pull_images(sf_engine* engine, const sf_image* out, int32_t rows,
-                                       int32_t* written, sf_report* report);
+/** Returns a map of width x height float disparities, `stride` bytes from row to row. */
+static inline sf_depth_map sf_depth_float(const float* data, size_t stride, int32_t width,
+                                          int32_t height) {
+  sf_depth_map map = {NULL, 0, 0, 0, SF_DEPTH_FLOAT, SF_DEPTH_LINEAR, 1, 0, 0, 0};
+  map.data = data;
+  map.stride = stride;
+  map.width = width;
+  map.height = height;
+  return map;
+}
 
 #ifdef __cplusplus
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* starfocus: refocusing for sparse light fields. C ABI.
  *
- * Given 1 to 17 rectified 8-bit RGB views, those of the paper's star or any others such as a stereo
+ * Given 1 to 17 rectified 8-bit views, those of the paper's star or any others such as a stereo
  * pair, and the disparity map of the centre view, the engine computes the picture that a lens of
  * aperture radius `aperture`, focused at disparity `focus`, would have taken (Huang et al., "Fast
  * Physically-Correct Refocusing for Sparse Light Fields Using Block-Based Multi-Rate View
@@ -39,6 +39,7 @@
 #include <stdint.h>
 
 #include "starfocus/callbacks.h"
+#include "starfocus/image.h"
 #include "starfocus/status.h"
 #include "starfocus/tuning.h"
 #include "starfocus/version.h"
@@ -77,7 +78,7 @@ SF_API size_t sf_struct_size(const char* name);
 #define SF_FEATURE_LINE_SCAN 1u /**< the paper's renderer, SF_RULE_PAPER */
 #define SF_FEATURE_COVERAGE 2u  /**< hair and other thin structures are parted */
 #define SF_FEATURE_STREAMING 4u /**< sf_stream_*: reserves rings of rows */
-#define SF_FEATURE_IMAGES 8u    /**< the calls of starfocus/image.h: reserves rows for them */
+#define SF_FEATURE_IMAGES 8u    /**< formats other than rows of R, G, B and of float disparities */
 /** NaN and infinite values of disparity maps are unknown, and along their row the known value next
  * to them goes on, of one on either side that of the farther surface; a row without any is at
  *  disparity_min. Without it they are refused, SF_ERROR_NOT_FINITE. sf_repair_disparity finds what
@@ -128,7 +129,7 @@ typedef struct sf_config {
   uint32_t features; /**< bits of SF_FEATURE_, what the workspace has memory for; default LINE_SCAN
                         and COVERAGE. Without LINE_SCAN, SF_RULE_DEFAULT is SUBAPERTURE in all
                         modes, and SF_RULE_PAPER is refused, SF_ERROR_FEATURE */
-  int32_t previews;  /**< largest shift of sf_refocus_preview, [0, SF_MAX_PREVIEW]: sf_prepare then
+  int32_t previews;  /**< largest sf_params.preview_shift, [0, SF_MAX_PREVIEW]: sf_prepare then
                         keeps the light field at 1/2, 1/4 and 1/8 of its size, up to that; default
                         0: none. The workspace does not grow by it */
   int32_t transfer;  /**< sf_transfer: how codes of the pictures stand for light; default
@@ -260,14 +261,39 @@ typedef struct sf_lens {
                      Above 0 it needs SF_FEATURE_SHAPES; default 0: there is none */
 } sf_lens;
 
+/** A light field. All views have the configured width and height; their formats may differ. */
+typedef struct sf_light_field {
+  sf_image views[SF_MAX_VIEWS]; /**< the configured number, in the order of sf_view_position or
+                                     sf_config.positions */
+  sf_depth_map depth;           /**< of the centre view */
+  /** How much of each pixel of the centre view the nearer of two surfaces covers that meet there,
+   *  255: all; as a matting network finds it. Within 32 pixels of depth edges of over 5 pixels it
+   *  decides over the map. Null: there is none. Not looked at without SF_FEATURE_COVERAGE. */
+  const uint8_t* coverage;
+  size_t coverage_stride; /**< bytes from row to row, >= width */
+} sf_light_field;
+
+/** The frame before: a light field of the same configuration, and what was made of it with the same
+ *  sf_params but for `previous`. */
+typedef struct sf_previous {
+  sf_light_field light_field; /**< only compared */
+  sf_image out;               /**< the picture, or region, that sf_refocus wrote */
+} sf_previous;
+
 /** What to render. Call sf_params_init first: it sets `size` and the defaults. Structures of other
  *  sizes are treated as those of sf_config. */
 typedef struct sf_params {
-  uint32_t size;    /**< of the structure in bytes, set by sf_params_init */
-  int32_t mode;     /**< sf_mode; default SF_MODE_BLOCK */
-  int32_t rule;     /**< sf_rule; SF_MODE_BLUR ignores it; default SF_RULE_DEFAULT */
-  sf_region region; /**< what sf_refocus writes; streaming: all 0; default all 0 */
-  sf_lens lens;     /**< what focuses the picture */
+  uint32_t size;         /**< of the structure in bytes, set by sf_params_init */
+  int32_t mode;          /**< sf_mode; default SF_MODE_BLOCK */
+  int32_t rule;          /**< sf_rule; SF_MODE_BLUR ignores it; default SF_RULE_DEFAULT */
+  sf_region region;      /**< what is written; streaming: all 0; default all 0 */
+  sf_lens lens;          /**< what focuses the picture */
+  int32_t preview_shift; /**< sf_refocus_prepared: at 1 / 2^shift of the size; default 0 */
+  /** sf_refocus: superblocks that depend on no pixel that changed since are copied from here, for
+   *  the same bytes. Both light fields and both pictures are of the formats that need no
+   *  SF_FEATURE_IMAGES (else SF_ERROR_FEATURE). Default null: nothing is known of a frame before.
+   */
+  const sf_previous* previous;
 } sf_params;
 
 /** Sets the first `size` bytes of params, as many as the caller's header knows. For bindings;
@@ -277,25 +303,6 @@ SF_API void sf_params_init_sized(sf_params* params, uint32_t size);
 static inline void sf_params_init(sf_params* params) {
   sf_params_init_sized(params, (uint32_t)sizeof(sf_params));
 }
-
-/** Rows of a picture: `data` points to the first row. */
-typedef struct sf_plane {
-  const uint8_t* data; /**< interleaved R, G, B */
-  size_t stride;       /**< bytes from row to row, >= 3 * width */
-} sf_plane;
-
-/** A light field. All views have the configured width and height. */
-typedef struct sf_light_field {
-  sf_plane views[SF_MAX_VIEWS]; /**< the configured number, in the order of sf_view_position or
-                                     sf_config.positions */
-  const float* disparity;       /**< disparity of the centre view, aligned for float */
-  size_t disparity_stride;      /**< bytes from row to row, >= 4 * width, multiple of 4 */
-  /** How much of each pixel of the centre view the nearer of two surfaces covers that meet there,
-   *  255: all; as a matting network finds it. Within 32 pixels of depth edges of over 5 pixels it
-   *  decides over the map. Null: there is none. Not looked at without SF_FEATURE_COVERAGE. */
-  const uint8_t* coverage;
-  size_t coverage_stride; /**< bytes from row to row, >= width */
-} sf_light_field;
 
 /** What the blocks of one layer did. */
 typedef struct sf_layer_report {
@@ -335,19 +342,20 @@ typedef struct sf_report {
   uint64_t side_bytes;      /**< read of the views beside the centre, counted every time: in holes,
                                  beside depth edges and beyond the edges of the picture only */
   uint64_t gathered_pixels; /**< by sf_tuning.gather: blurred as a whole, no view is rendered */
-  uint64_t reused_blocks;   /**< sf_refocus_after: superblocks of which nothing was refocused */
+  uint64_t reused_blocks;   /**< sf_params.previous: superblocks of which nothing was refocused */
   uint64_t unknown_pixels;  /**< values that SF_FEATURE_FILL_UNKNOWN filled, in the rows of the map
                                  that were read; none of a prepared light field */
 } sf_report;
 
-/** Refocuses whole pictures, or the params' region of them: `out` points to its first pixel, and
- * the bytes are those of the whole picture there. Of a region, only the blocks of the whole picture
- * that its pixels depend on are refocused, and only the disparity rows that these can read are
- * checked. The light field is only read, during the call; `out` (`out_stride` bytes from row to
- * row, >= 3 * the width of the picture or region) must overlap neither it nor the workspace. report
- * may be null. */
+/** Refocuses whole pictures, or the params' region of them, whose bytes are those of the whole
+ *  picture there. Of a region, only the blocks of the whole picture that its pixels depend on are
+ *  refocused, and only the disparity rows that these can read are checked. The light field is only
+ *  read, during the call. `out` is a picture of the region's size and must overlap neither the
+ * light field, `params->previous` nor the workspace. Its alpha is that of the centre view, 255 if
+ * that has none; its chroma is that of its own 2 x 2 pixels, wherever the region lies. report may
+ * be null. */
 SF_API sf_status sf_refocus(sf_engine* engine, const sf_params* params,
-                            const sf_light_field* light_field, uint8_t* out, size_t out_stride,
+                            const sf_light_field* light_field, const sf_image* out,
                             sf_report* report);
 
 /** What is made of a light field for every lens alike; it lives inside the caller's memory. */
@@ -369,66 +377,51 @@ SF_API sf_status sf_prepare(sf_engine* engine, const sf_light_field* light_field
 
 /** As sf_refocus, with the same bytes, of a prepared light field; of this engine or of any of the
  *  same size, views and positions, disparity range, max_layer and transfer (else
- *  SF_ERROR_PREPARED). Several engines may use one at a time. */
+ *  SF_ERROR_PREPARED). Several engines may use one at a time. `params->previous` must be null.
+ *
+ *  With a preview_shift it refocuses at 1 / S of the size, S = 2^shift, in about 1 / S^2 of the
+ *  time; else `params` are in pixels of the full size as ever. `out` has the pixels that have a
+ * part of the region: from x / S to (x + width - 1) / S, both rounded down, and rows likewise; its
+ * alpha is 255. SF_ERROR_PREPARED when the light field was not prepared for that shift.
+ *
+ *  The preview is, byte for byte, what sf_refocus gives of the reduced light field, by an engine of
+ *  its size and else of the same configuration (largest_block as sf_report says), but for a
+ *  disparity range, max_blur, focus and region divided by S. There a pixel of a view is the mean
+ *  light, in 128ths of a 255th of white and then as a code, of the S x S pixels (fewer at the right
+ *  and bottom edges) that it stands for, and a disparity the median of theirs, the larger of two in
+ *  the middle, over S: a multiple of 1/64, halves rounded up, within the range. on_block, progress
+ *  and the report count pixels of the preview. The light field's pictures are not read. */
 SF_API sf_status sf_refocus_prepared(sf_engine* engine, const sf_params* params,
-                                     const sf_prepared* prepared, uint8_t* out, size_t out_stride,
+                                     const sf_prepared* prepared, const sf_image* out,
                                      sf_report* report);
-
-/** Refocuses a prepared light field at 1 / S of its size, S = 2^shift, in about 1 / S^2 of the
- * time; `params` are in pixels of the full size as ever. `out` has the pixels that have a part of
- * the region: from x / S to (x + width - 1) / S, both rounded down, and rows likewise.
- *
- * The preview is, byte for byte, what sf_refocus gives of the reduced light field, by an engine of
- * its size and else of the same configuration (largest_block as sf_report says), but for a
- * disparity range, max_blur, focus and region divided by S. There a pixel of a view is the mean
- * light, in 128ths of a 255th of white and then as a code, of the S x S pixels (fewer at the right
- * and bottom edges) that it stands for, and a disparity the median of theirs, the larger of two in
- * the middle, over S: a multiple of 1/64, halves rounded up, within the range.
- *
- * on_block, progress and the report count pixels of the preview. The light field's pictures are not
- * read; `prepared` may be of sf_prepare or sf_prepare_images. SF_ERROR_PREPARED when it was not
- * prepared for that shift; else errors are those of sf_refocus_prepared. */
-SF_API sf_status sf_refocus_preview(sf_engine* engine, const sf_params* params,
-                                    const sf_prepared* prepared, int32_t shift, uint8_t* out,
-                                    size_t out_stride, sf_report* report);
-
-/** A light field of the same configuration and what was made of it with the same params. */
-typedef struct sf_previous {
-  sf_light_field light_field; /**< only compared */
-  const uint8_t* out; /**< the picture, or region, that sf_refocus or sf_refocus_after wrote */
-  size_t out_stride;  /**< bytes from row to row */
-} sf_previous;
-
-/** As sf_refocus, with the same bytes, of the frame after another: superblocks that depend on no
- *  pixel that changed are copied from its picture. `out` must overlap nothing of `previous`. */
-SF_API sf_status sf_refocus_after(sf_engine* engine, const sf_params* params,
-                                  const sf_light_field* light_field, const sf_previous* previous,
-                                  uint8_t* out, size_t out_stride, sf_report* report);
 
 /** Starts (or restarts) a streamed refocusing; the engine needs SF_FEATURE_STREAMING. */
 SF_API sf_status sf_stream_begin(sf_engine* engine, const sf_params* params);
 
-/** Copies up to `rows` next rows of every view and of the disparity map; light_field points at the
- *  first of them. *consumed <= rows tells how many fitted: pull finished rows and push the rest.
- *  A row with a bad disparity value is refused: the rows before it are consumed. Either all rows
- *  have coverage or none (else SF_ERROR_STATE). */
+/** Copies up to `rows` next rows of the light field. Planes of views and coverage point to the
+ * first of them, and so does a map as high as the picture; a map of fewer rows is given whole, the
+ * same in all calls. *consumed <= rows tells how many fitted: pull finished rows and push the rest.
+ *  Rows that share chroma come together: where a view has some, `rows` is even but at the picture's
+ *  end (else SF_ERROR_RANGE), and so is *consumed. A row with a bad disparity value is refused: the
+ *  rows before it are consumed. Either all rows have coverage or none (else SF_ERROR_STATE). */
 SF_API sf_status sf_stream_push(sf_engine* engine, const sf_light_field* light_field, int32_t rows,
                                 int32_t* consumed);
 
-/** Writes up to `rows` next finished rows to out; *written may be 0 until more rows are pushed.
- *  report may be null; it is complete once the last row is written. After
+/** Writes up to `rows` next finished rows to `out`, whose planes point to the first of them; where
+ *  they share chroma, `rows` is even but at the picture's end. *written may be 0 until more rows
+ * are pushed. report may be null; it is complete once the last row is written. After
  *  SF_ERROR_RUNNER and SF_ERROR_CANCELLED the rows counted by *written are good, and the stream
  *  stays: the next pull goes on behind them, sf_stream_begin and every other call with the engine
- * but sf_set_callbacks end it. That pull tells on_block again of blocks that had been left half
- * done, but the report counts them once (only centre_bytes may grow: what was read in vain is read
- * again). progress is told of the rows that are made, also by the pulls before, of the whole
+ *  but sf_set_callbacks end it. That pull tells on_block again of blocks that had been left half
+ *  done, but the report counts them once (only centre_bytes may grow: what was read in vain is read
+ *  again). progress is told of the rows that are made, also by the pulls before, of the whole
  *  picture's, and only by pulls that make any. */
-SF_API sf_status sf_stream_pull(sf_engine* engine, uint8_t* out, size_t out_stride, int32_t rows,
+SF_API sf_status sf_stream_pull(sf_engine* engine, const sf_image* out, int32_t rows,
                                 int32_t* written, sf_report* report);
 
 /** What sf_measure_disparity finds in a disparity map. */
 typedef struct sf_disparity_stats {
-  float min, max;  /**< smallest and largest finite value; 0 when there is none */
+  double min, max; /**< smallest and largest finite value; 0 when there is none */
   int64_t invalid; /**< number of NaN and infinite values */
 } sf_disparity_stats;
 

@@ -48,15 +48,9 @@ class Engine {
     return sf_set_callbacks(get(), &callbacks);
   }
 
-  sf_status Refocus(const sf_params& params, const sf_light_field& light_field, uint8_t* out,
-                    size_t out_stride, sf_report* report = nullptr) {
-    return sf_refocus(get(), &params, &light_field, out, out_stride, report);
-  }
-
-  sf_status RefocusAfter(const sf_params& params, const sf_light_field& light_field,
-                         const sf_previous& previous, uint8_t* out, size_t out_stride,
-                         sf_report* report = nullptr) {
-    return sf_refocus_after(get(), &params, &light_field, &previous, out, out_stride, report);
+  sf_status Refocus(const sf_params& params, const sf_light_field& light_field, const sf_image& out,
+                    sf_report* report = nullptr) {
+    return sf_refocus(get(), &params, &light_field, &out, report);
   }
 
   // What the last call refused; null before Init. That of Init is where config.problem points to.
@@ -78,15 +72,9 @@ class Engine {
     return status;
   }
 
-  sf_status RefocusPrepared(const sf_params& params, uint8_t* out, size_t out_stride,
+  sf_status RefocusPrepared(const sf_params& params, const sf_image& out,
                             sf_report* report = nullptr) {
-    return sf_refocus_prepared(get(), &params, prepared_.handle, out, out_stride, report);
-  }
-
-  // Of what Prepare made, with config.previews of `shift` at least.
-  sf_status RefocusPreview(const sf_params& params, int32_t shift, uint8_t* out, size_t out_stride,
-                           sf_report* report = nullptr) {
-    return sf_refocus_preview(get(), &params, prepared_.handle, shift, out, out_stride, report);
+    return sf_refocus_prepared(get(), &params, prepared_.handle, &out, report);
   }
 
   sf_status StreamBegin(const sf_params& params) { return sf_stream_begin(get(), &params); }
@@ -95,16 +83,9 @@ class Engine {
     return sf_stream_push(get(), &rows, count, consumed);
   }
 
-  sf_status StreamPull(uint8_t* out, size_t out_stride, int32_t rows, int32_t* written,
+  sf_status StreamPull(const sf_image& out, int32_t rows, int32_t* written,
                        sf_report* report = nullptr) {
-    return sf_stream_pull(get(), out, out_stride, rows, written, report);
-  }
-
-  // sf_focus_at of a light field of the configured size.
-  sf_status FocusAt(const sf_light_field& light_field, int32_t x, int32_t y, double* focus) const {
-    if (get() == nullptr) return SF_ERROR_NULL;
-    return sf_focus_at(light_field.disparity, light_field.disparity_stride, config_.width,
-                       config_.height, x, y, focus);
+    return sf_stream_pull(get(), &out, rows, written, report);
   }
 
   sf_engine* get() const { return engine_.handle; }

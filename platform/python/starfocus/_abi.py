@@ -75,7 +75,10 @@ class Lens(Structure):
 class Params(Structure):
     """sf_params"""
 
-    _fields_ = [("size", c_uint32), ("mode", c_int32), ("rule", c_int32), ("region", Region), ("lens", Lens)]
+    _fields_ = [
+        ("size", c_uint32), ("mode", c_int32), ("rule", c_int32), ("region", Region), ("lens", Lens),
+        ("preview_shift", c_int32), ("previous", c_void_p),
+    ]
 
 
 class Callbacks(Structure):
@@ -87,17 +90,30 @@ class Callbacks(Structure):
     ]
 
 
-class Plane(Structure):
-    """sf_plane"""
+class Image(Structure):
+    """sf_image"""
 
-    _fields_ = [("data", c_void_p), ("stride", c_size_t)]
+    _fields_ = [
+        ("format", c_int32), ("matrix", c_int32), ("range", c_int32), ("pixel_stride", c_int32),
+        ("planes", c_void_p * 3), ("strides", c_size_t * 3),
+    ]
+
+
+class DepthMap(Structure):
+    """sf_depth_map"""
+
+    _fields_ = [
+        ("data", c_void_p), ("stride", c_size_t), ("width", c_int32), ("height", c_int32),
+        ("type", c_int32), ("meaning", c_int32), ("scale", c_double), ("offset", c_double),
+        ("invalid", c_double), ("has_invalid", c_int32),
+    ]
 
 
 class LightField(Structure):
     """sf_light_field"""
 
-    _fields_ = [("views", Plane * MAX_VIEWS), ("disparity", c_void_p), ("disparity_stride", c_size_t),
-                ("coverage", c_void_p), ("coverage_stride", c_size_t)]
+    _fields_ = [("views", Image * MAX_VIEWS), ("depth", DepthMap), ("coverage", c_void_p),
+                ("coverage_stride", c_size_t)]
 
 
 class LayerReport(Structure):
@@ -128,7 +144,7 @@ class Report(Structure):
 class DisparityStats(Structure):
     """sf_disparity_stats"""
 
-    _fields_ = [("min", c_float), ("max", c_float), ("invalid", c_int64)]
+    _fields_ = [("min", c_double), ("max", c_double), ("invalid", c_int64)]
 
 
 class DepthConfig(Structure):
@@ -140,32 +156,6 @@ class DepthConfig(Structure):
         ("runner", c_void_p), ("runner_data", c_void_p), ("progress", Progress), ("progress_data", c_void_p),
         ("problem", c_void_p),
     ]
-
-
-class Image(Structure):
-    """sf_image"""
-
-    _fields_ = [
-        ("format", c_int32), ("matrix", c_int32), ("range", c_int32), ("pixel_stride", c_int32),
-        ("planes", c_void_p * 3), ("strides", c_size_t * 3),
-    ]
-
-
-class DepthMap(Structure):
-    """sf_depth_map"""
-
-    _fields_ = [
-        ("data", c_void_p), ("stride", c_size_t), ("width", c_int32), ("height", c_int32),
-        ("type", c_int32), ("meaning", c_int32), ("scale", c_float), ("offset", c_float),
-        ("has_invalid", c_int32), ("invalid", c_float),
-    ]
-
-
-class ImageField(Structure):
-    """sf_image_field"""
-
-    _fields_ = [("views", Image * MAX_VIEWS), ("depth", DepthMap), ("coverage", c_void_p),
-                ("coverage_stride", c_size_t)]
 
 
 class Map(Structure):
@@ -180,24 +170,20 @@ class Map(Structure):
 
 STRUCTURES = {
     "sf_problem": Problem, "sf_timing": Timing, "sf_tuning": Tuning, "sf_position": Position, "sf_config": Config,
-    "sf_region": Region, "sf_lens": Lens, "sf_params": Params,
-    "sf_plane": Plane, "sf_light_field": LightField, "sf_layer_report": LayerReport,
+    "sf_region": Region, "sf_lens": Lens, "sf_params": Params, "sf_light_field": LightField,
+    "sf_layer_report": LayerReport,
     "sf_skipped": Skipped, "sf_report": Report, "sf_disparity_stats": DisparityStats,
     "sf_depth_config": DepthConfig, "sf_image": Image,
-    "sf_depth_map": DepthMap, "sf_image_field": ImageField, "sf_map": Map, "sf_callbacks": Callbacks,
+    "sf_depth_map": DepthMap, "sf_map": Map, "sf_callbacks": Callbacks,
 }
 
 _ENGINE_CALLS = {
     "sf_create": (POINTER(Config), c_void_p, POINTER(c_void_p)),
     "sf_set_callbacks": (c_void_p, POINTER(Callbacks)),
     "sf_prepared_size": (POINTER(Config), POINTER(c_size_t)),
-    "sf_refocus": (c_void_p, POINTER(Params), POINTER(LightField), c_void_p, c_size_t, POINTER(Report)),
+    "sf_refocus": (c_void_p, POINTER(Params), POINTER(LightField), POINTER(Image), POINTER(Report)),
     "sf_prepare": (c_void_p, POINTER(LightField), c_void_p, c_size_t, POINTER(c_void_p)),
-    "sf_refocus_prepared": (c_void_p, POINTER(Params), c_void_p, c_void_p, c_size_t, POINTER(Report)),
-    "sf_refocus_preview": (c_void_p, POINTER(Params), c_void_p, c_int32, c_void_p, c_size_t,
-                           POINTER(Report)),
-    "sf_refocus_images": (c_void_p, POINTER(Params), POINTER(ImageField), POINTER(Image),
-                          POINTER(Report)),
+    "sf_refocus_prepared": (c_void_p, POINTER(Params), c_void_p, POINTER(Image), POINTER(Report)),
 }
 _MAP_CALLS = {
     "sf_measure_disparity": (c_void_p, c_size_t, c_int32, c_int32, POINTER(DisparityStats)),

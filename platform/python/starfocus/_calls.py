@@ -16,9 +16,9 @@ from .errors import ArgumentError, check
 
 #: Is told of the rows done and of all rows; what counts as true calls the work off.
 ProgressFunction = Callable[[int, int], Any]
-#: Views as one array of shape (views, height, width, 3), or as one of (height, width, 3) each. One array of
-#: (height, width, 3) is one view.
-Views = Union[np.ndarray, Sequence[np.ndarray]]
+#: Views as one array of shape (views, height, width, 3), or as one of (height, width, 3) or an Image each. One
+#: array of (height, width, 3) is one view.
+Views = Union[np.ndarray, Sequence[Any]]
 #: x, y, width and height in pixels.
 RegionOfPicture = Tuple[int, int, int, int]
 
@@ -113,8 +113,8 @@ def as_map(disparity: Any) -> np.ndarray:
     return rows_of(disparity, np.float32, disparity.shape, "disparity")
 
 
-def set_coverage(field: Any, coverage: Any, height: int, width: int) -> List[np.ndarray]:
-    """Points sf_light_field or sf_image_field to coverage, unless that is None; returns what must be kept."""
+def set_coverage(field: _abi.LightField, coverage: Any, height: int, width: int) -> List[np.ndarray]:
+    """Points sf_light_field to coverage, unless that is None; returns what must be kept."""
     if coverage is None:
         return []
     coverage = rows_of(coverage, np.uint8, (height, width), "coverage")
@@ -122,21 +122,34 @@ def set_coverage(field: Any, coverage: Any, height: int, width: int) -> List[np.
     return [coverage]
 
 
+def as_image(array: np.ndarray) -> _abi.Image:
+    """sf_image of rows of R, G, B."""
+    image = _abi.Image()
+    image.planes[0], image.strides[0] = array.ctypes.data, stride_of(array)
+    return image
+
+
 def light_field(views: Views, disparity: Any, count: int, height: int,
-                width: int) -> Tuple[_abi.LightField, List[np.ndarray]]:
-    """sf_light_field of the arrays, and what must be kept as long as the library may read it. Without a
-    disparity map (None) its place stays empty."""
+                width: int) -> Tuple[_abi.LightField, List[Any]]:
+    """sf_light_field of arrays, Images and a DepthMap, and what must be kept as long as the library may read it.
+    Without a disparity map (None) its place stays empty."""
     views = as_list(views)
     if len(views) != count:
         raise ValueError(f"views: expected {count}, found {len(views)}")
     field, kept = _abi.LightField(), []
     for i, view in enumerate(views):
-        view = rows_of(view, np.uint8, (height, width, 3), f"view {i}")
-        field.views[i] = _abi.Plane(view.ctypes.data, stride_of(view))
+        if hasattr(view, "as_structure"):
+            field.views[i] = view.as_structure(width, height, f"view {i}")
+        else:
+            view = rows_of(view, np.uint8, (height, width, 3), f"view {i}")
+            field.views[i] = as_image(view)
         kept.append(view)
-    if disparity is not None:
+    if hasattr(disparity, "as_structure"):
+        field.depth, values = disparity.as_structure()
+        kept.append(values)
+    elif disparity is not None:
         disparity = rows_of(as_map(disparity), np.float32, (height, width), "disparity")
-        field.disparity, field.disparity_stride = disparity.ctypes.data, stride_of(disparity)
+        field.depth = _abi.DepthMap(disparity.ctypes.data, stride_of(disparity), width, height, scale=1)
         kept.append(disparity)
     return field, kept
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Pictures and depth maps as cameras have them: starfocus/image.h."""
+"""Pictures and depth maps as cameras have them: sf_image and sf_depth_map."""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -80,8 +80,8 @@ class DepthMap:
                              f"{values.shape} with the strides {values.strides}")
         height, width = values.shape
         depth = _abi.DepthMap(values.ctypes.data, stride_of(values), width, height, _DEPTH_TYPES[values.dtype],
-                              DepthMeaning(self.meaning), self.scale, self.offset, self.invalid is not None,
-                              self.invalid or 0.0)
+                              DepthMeaning(self.meaning), self.scale, self.offset, self.invalid or 0.0,
+                              self.invalid is not None)
         return depth, values
 
 

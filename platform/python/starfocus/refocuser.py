@@ -7,19 +7,24 @@ import math
 import threading
 import weakref
 from ctypes import byref
-from typing import Any, Dict, List, Optional, Sequence
+from typing import Any, Dict, List, Optional, Tuple, Union
 
 import numpy as np
 
 from . import _abi
-from ._calls import (Pool, ProgressFunction, RegionOfPicture, Views, Watch, aligned, as_list, light_field,
-                     output, part_of, pointer, positions_of, set_coverage, set_field, stride_of, whole)
+from ._calls import (Pool, ProgressFunction, RegionOfPicture, Views, Watch, aligned, as_image, as_list, light_field,
+                     output, part_of, pointer, positions_of, set_coverage, set_field, whole)
 from ._abi import library
 from .constants import Mode, Rule, Status
 from .errors import ArgumentError, check
 from .images import DepthMap, Image
 from .maps import measure_disparity
 
+
+#: A disparity map as an array of (height, width), or depths in another form.
+Disparity = Union[np.ndarray, DepthMap]
+#: A picture as an array of (height, width, 3), or in another format.
+Picture = Union[np.ndarray, Image]
 
 #: What `config` switches on by names of its own: bits of sf_config.features.
 _FEATURES = {"line_scan": 1, "coverage": 2, "images": 8, "fill_unknown": 16, "shapes": 32}
@@ -37,8 +42,8 @@ class Refocuser:
             (0, 0) first: `[(0, 0), (1, 0)]` of a stereo pair.
         config: other fields of sf_config and sf_tuning (starfocus.h) and features by their names, such as `max_blur`,
             `transfer`, `highlights`, `fill_unknown=1`, `shapes=1` for lenses that are polygons or have cat's
-            eyes, `images=1` for `refocus_images`, or `previews=3` for `Prepared.preview` down to an eighth of
-            the size.
+            eyes, `images=1` for other formats than RGB, or `previews=3` for `Prepared.preview` down to an
+            eighth of the size.
 
     Memory is taken here and nowhere else. Calls let other Python threads run; calls of several threads with
     the same refocuser take turns. The bytes of pictures depend on neither the machine nor `workers`.
@@ -102,20 +107,22 @@ class Refocuser:
         """Threads that refocus."""
         return self._pool.workers
 
-    def refocus(self, views: Views, disparity: np.ndarray, *, focus: float, aperture: float = 1.0,
+    def refocus(self, views: Views, disparity: Disparity, *, focus: float, aperture: float = 1.0,
                 coverage: Optional[np.ndarray] = None, mode: Mode = Mode.BLOCK, rule: Rule = Rule.DEFAULT,
-                region: Optional[RegionOfPicture] = None, out: Optional[np.ndarray] = None,
-                progress: Optional[ProgressFunction] = None, **lens: Any) -> np.ndarray:
+                region: Optional[RegionOfPicture] = None, out: Optional[Picture] = None,
+                progress: Optional[ProgressFunction] = None, **lens: Any) -> Picture:
         """The picture that a lens of the radius `aperture`, from 0 to 1, focused at the disparity `focus`
         would have taken, as (height, width, 3) uint8.
 
         Args:
-            views: uint8 of (height, width, 3) each. Where rows are contiguous they are read where they are.
-            disparity: (height, width), of the centre view; float32, other floating-point types are converted.
+            views: uint8 of (height, width, 3) or an Image each; Images other than RGB need `images=1` in the
+                configuration. Where rows are contiguous they are read where they are.
+            disparity: (height, width), of the centre view; float32, other floating-point types are converted. Or a
+                DepthMap, which needs `images=1` unless it is of float32 disparities and as large as the picture.
             coverage: (height, width) uint8: how much of each pixel the nearer of two surfaces covers, 255: all,
                 as a matting network finds it; it decides over the map near depth edges. None: there is none.
             region: only this part of the picture, with the same bytes. Four zeros, as None: the whole picture.
-            out: written and returned in place of a new array.
+            out: an array, or with `images=1` an Image, that is written and returned in place of a new array.
             progress: is told of the rows done and of all; what counts as true calls it off (Cancelled).
             lens: other fields of sf_lens (starfocus.h): `shape`, `blades`, `theta`, `rotation`, `curvature`,
                 `ring_inner`, `cats_eye`.
@@ -126,40 +133,23 @@ class Refocuser:
         kept += set_coverage(field, coverage, self.height, self.width)
         *_, width, height = part_of(region, self.width, self.height)
         params = self._params(mode, rule, region, focus=focus, aperture=aperture, **lens)
-        return self._picture(params, output(out, (height, width, 3), "out"), progress, library.sf_refocus,
-                             byref(field), keep=kept)
+        return self._picture(params, out, (height, width), progress, library.sf_refocus, byref(field), keep=kept)
 
-    def prepare(self, views: Views, disparity: np.ndarray, *, coverage: Optional[np.ndarray] = None,
+    def prepare(self, views: Views, disparity: Disparity, *, coverage: Optional[np.ndarray] = None,
                 progress: Optional[ProgressFunction] = None) -> "Prepared":
         """What is the same for every lens, made once for many pictures of one light field."""
         return Prepared(self, views, disparity, progress, coverage)
 
-    def refocus_images(self, views: Sequence[Image], depth: DepthMap, *, focus: float,
-                       out: Image, aperture: float = 1.0, coverage: Optional[np.ndarray] = None,
-                       mode: Mode = Mode.BLOCK, rule: Rule = Rule.DEFAULT, region: Optional[RegionOfPicture] = None,
-                       progress: Optional[ProgressFunction] = None, **lens: Any) -> Image:
-        """As `refocus`, of pictures and depths as cameras have them, into the image `out`, which is returned;
-        the configuration has `images=1`."""
-        if len(views) != self._config.views:
-            raise ValueError(f"views: expected {self._config.views}, found {len(views)}")
-        structure, kept = depth.as_structure()
-        field = _abi.ImageField(depth=structure)
-        kept = [kept, set_coverage(field, coverage, self.height, self.width)]
-        for i, view in enumerate(views):
-            field.views[i] = view.as_structure(self.width, self.height, f"view {i}")
-        *_, width, height = part_of(region, self.width, self.height)
-        target = out.as_structure(width, height, "out", written=True)
-        watch = Watch(progress)
-        params = self._params(mode, rule, region, focus=focus, aperture=aperture, **lens)
-        self._call(watch, library.sf_refocus_images, byref(params), byref(field), byref(target))
-        del kept
-        return out
-
-    def _picture(self, params: _abi.Params, picture: np.ndarray, progress: Optional[ProgressFunction],
-                 function: Any, *scene: Any, keep: List[np.ndarray]) -> np.ndarray:
-        """The picture by sf_refocus or its like, of the scene, which reads the arrays to `keep`."""
-        watch = Watch(progress)
-        self._call(watch, function, byref(params), *scene, pointer(picture), stride_of(picture))
+    def _picture(self, params: _abi.Params, out: Optional[Picture], size: Tuple[int, int],
+                 progress: Optional[ProgressFunction], function: Any, scene: Any, *, keep: List[Any]) -> Picture:
+        """The picture of that height and width by sf_refocus or its like, of the scene, which reads the arrays
+        to `keep`."""
+        if isinstance(out, Image):
+            picture, image = out, out.as_structure(size[1], size[0], "out", written=True)
+        else:
+            picture = output(out, (*size, 3), "out")
+            image = as_image(picture)
+        self._call(Watch(progress), function, byref(params), scene, byref(image))
         del keep
         return picture
 
@@ -197,7 +187,7 @@ class Prepared:
     """A light field of which all that is the same for every lens has been made: 3.89 bytes per pixel, and
     for previews of 5 views up to 5.9 more. It keeps the arrays; they must stay as they are."""
 
-    def __init__(self, refocuser: Refocuser, views: Views, disparity: np.ndarray,
+    def __init__(self, refocuser: Refocuser, views: Views, disparity: Disparity,
                  progress: Optional[ProgressFunction], coverage: Optional[np.ndarray] = None):
         # pylint: disable=protected-access
         config = refocuser._config
@@ -212,20 +202,18 @@ class Prepared:
                        byref(self._handle))
 
     def refocus(self, *, focus: float, aperture: float = 1.0, mode: Mode = Mode.BLOCK,
-                rule: Rule = Rule.DEFAULT, region: Optional[RegionOfPicture] = None,
-                out: Optional[np.ndarray] = None,
-                progress: Optional[ProgressFunction] = None, **lens: Any) -> np.ndarray:
+                rule: Rule = Rule.DEFAULT, region: Optional[RegionOfPicture] = None, out: Optional[Picture] = None,
+                progress: Optional[ProgressFunction] = None, **lens: Any) -> Picture:
         """As Refocuser.refocus of the light field, with the same bytes."""
         # pylint: disable=protected-access
         *_, width, height = part_of(region, self._refocuser.width, self._refocuser.height)
         params = self._refocuser._params(mode, rule, region, focus=focus, aperture=aperture, **lens)
-        return self._refocuser._picture(params, output(out, (height, width, 3), "out"), progress,
-                                        library.sf_refocus_prepared, self._handle, keep=self._kept)
+        return self._refocuser._picture(params, out, (height, width), progress, library.sf_refocus_prepared,
+                                        self._handle, keep=self._kept)
 
     def preview(self, shift: int, *, focus: float, aperture: float = 1.0, mode: Mode = Mode.BLOCK,
-                rule: Rule = Rule.DEFAULT, region: Optional[RegionOfPicture] = None,
-                out: Optional[np.ndarray] = None,
-                progress: Optional[ProgressFunction] = None, **lens: Any) -> np.ndarray:
+                rule: Rule = Rule.DEFAULT, region: Optional[RegionOfPicture] = None, out: Optional[Picture] = None,
+                progress: Optional[ProgressFunction] = None, **lens: Any) -> Picture:
         """As `refocus` at 1 / 2**shift of the size, from 1 to the `previews` of the refocuser's
         configuration. Focus and region are in pixels of the full size; the picture has the pixels that
         have a part of the region."""
@@ -234,10 +222,11 @@ class Prepared:
         if not 1 <= whole(shift, "shift") <= self._refocuser._config.previews:
             raise ArgumentError(Status.PREPARED, _abi.Problem(Status.PREPARED, 0, b"shift", b"1 to previews", shift))
         side = 1 << shift
-        shape = (-(-(y + height) // side) - y // side, -(-(x + width) // side) - x // side, 3)
+        size = -(-(y + height) // side) - y // side, -(-(x + width) // side) - x // side
         params = self._refocuser._params(mode, rule, region, focus=focus, aperture=aperture, **lens)
-        return self._refocuser._picture(params, output(out, shape, "out"), progress, library.sf_refocus_preview,
-                                        self._handle, shift, keep=self._kept)
+        params.preview_shift = shift
+        return self._refocuser._picture(params, out, size, progress, library.sf_refocus_prepared, self._handle,
+                                        keep=self._kept)
 
 
 def _as_dict(structure: ctypes.Structure) -> Dict[str, Any]:

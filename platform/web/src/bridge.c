@@ -7,7 +7,7 @@
 
 #include "platform/web/src/fields.h"
 #include "platform/web/src/threads.h"
-#include "starfocus/image.h"
+#include "starfocus/starfocus.h"
 
 #define EXPORT(name) __attribute__((export_name(#name)))
 #define PAGE 65536u
@@ -27,7 +27,7 @@ static int32_t workers;
 static uintptr_t top = (uintptr_t)&__heap_base; /* first byte that nobody uses */
 static uintptr_t stacks_end;                    /* top when there is no light field */
 static uintptr_t field_end;                     /* top when there is no engine */
-static sf_image_field field;
+static sf_light_field field;
 static void* prepared_memory;
 static size_t prepared_bytes;
 static sf_prepared* prepared;
@@ -188,7 +188,7 @@ EXPORT(problem) const sf_problem* Problem(void) { return refused; }
 /* Prepares the light field whose pixels are in their places. */
 EXPORT(prepare) sf_status Prepare(void) {
   refused = sf_engine_problem(engine);
-  return sf_prepare_images(engine, &field, prepared_memory, prepared_bytes, &prepared);
+  return sf_prepare(engine, &field, prepared_memory, prepared_bytes, &prepared);
 }
 
 /* Begins a call of that number. */
@@ -221,10 +221,8 @@ EXPORT(refocus) sf_status Refocus(int32_t shift) {
   height = Reduced(whole ? 0 : region->y, whole ? config.height : region->height, shift & 31);
   const sf_image out = {
       .format = SF_FORMAT_RGBX, .planes = {picture}, .strides = {4 * (size_t)width}};
-  if (shift == 0) {
-    return sf_refocus_prepared_images(engine, &params, prepared, &out, NULL);
-  }
-  return sf_refocus_preview_images(engine, &params, prepared, shift, &out, NULL);
+  params.preview_shift = shift;
+  return sf_refocus_prepared(engine, &params, prepared, &out, NULL);
 }
 
 EXPORT(picture_width) int32_t PictureWidth(void) { return width; }

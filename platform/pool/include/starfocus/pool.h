@@ -8,7 +8,7 @@
  *   callbacks.runner = sf_pool_run;
  *   callbacks.runner_data = pool;
  *   sf_set_callbacks(engine, &callbacks);
- *   sf_refocus(engine, &params, &light_field, out, stride, NULL);
+ *   sf_refocus(engine, &params, &light_field, &out, NULL);
  *   sf_pool_destroy(pool);
  */
 #ifndef STARFOCUS_POOL_H_

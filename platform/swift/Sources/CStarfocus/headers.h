@@ -2,5 +2,4 @@
 /* What the Swift module CStarfocus has; threads are the caller's (DispatchQueue.concurrentPerform
  * makes an sf_runner). */
 #include <starfocus/depth.h>
-#include <starfocus/image.h>
 #include <starfocus/starfocus.h>

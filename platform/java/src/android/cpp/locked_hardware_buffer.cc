@@ -5,7 +5,7 @@
 #include <jni.h>
 
 #include "platform/java/src/main/cpp/exceptions.h"
-#include "starfocus/image.h"
+#include "starfocus/starfocus.h"
 
 using namespace starfocus;
 

@@ -101,10 +101,10 @@ constexpr Field kDepthFields[] = {
     {"height", FieldType::kInt32, offsetof(sf_depth_map, height)},
     {"type", FieldType::kInt32, offsetof(sf_depth_map, type)},
     {"meaning", FieldType::kInt32, offsetof(sf_depth_map, meaning)},
-    {"scale", FieldType::kFloat, offsetof(sf_depth_map, scale)},
-    {"offset", FieldType::kFloat, offsetof(sf_depth_map, offset)},
+    {"scale", FieldType::kDouble, offsetof(sf_depth_map, scale)},
+    {"offset", FieldType::kDouble, offsetof(sf_depth_map, offset)},
     {"hasInvalid", FieldType::kInt32, offsetof(sf_depth_map, has_invalid)},
-    {"invalid", FieldType::kFloat, offsetof(sf_depth_map, invalid)},
+    {"invalid", FieldType::kDouble, offsetof(sf_depth_map, invalid)},
 };
 
 }  // namespace
@@ -154,8 +154,8 @@ bool ReadDepthMap(JNIEnv* env, jobject object, sf_depth_map* map) {
   return map->data != nullptr;
 }
 
-bool ReadImageField(JNIEnv* env, jobject light_field, const sf_config& config,
-                    sf_image_field* field) {
+bool ReadLightField(JNIEnv* env, jobject light_field, const sf_config& config,
+                    sf_light_field* field) {
   *field = {};
   const auto views =
       static_cast<jobjectArray>(ReadObject(env, light_field, "views", "[Ldev/starfocus/Image;"));

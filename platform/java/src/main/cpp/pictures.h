@@ -6,7 +6,7 @@
 
 #include <jni.h>
 
-#include "starfocus/image.h"
+#include "starfocus/starfocus.h"
 
 namespace starfocus {
 
@@ -21,8 +21,8 @@ bool ReadImage(JNIEnv* env, jobject object, const char* what, int32_t width, int
 bool ReadDepthMap(JNIEnv* env, jobject object, sf_depth_map* map);
 
 // A LightField with the views of the configuration.
-bool ReadImageField(JNIEnv* env, jobject light_field, const sf_config& config,
-                    sf_image_field* field);
+bool ReadLightField(JNIEnv* env, jobject light_field, const sf_config& config,
+                    sf_light_field* field);
 
 }  // namespace starfocus
 

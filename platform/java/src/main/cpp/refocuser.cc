@@ -11,7 +11,6 @@
 #include "platform/java/src/main/cpp/exceptions.h"
 #include "platform/java/src/main/cpp/fields.h"
 #include "platform/java/src/main/cpp/pictures.h"
-#include "starfocus/image.h"
 #include "starfocus/pool.h"
 #include "starfocus/starfocus.h"
 
@@ -121,6 +120,7 @@ bool ReadTask(JNIEnv* env, Session* session, const JavaTask& task, sf_params* pa
   const jobject parameters = task.parameters, out = task.out;
   sf_params_init(params);
   if (!ReadFields(env, parameters, kParamsFields, std::size(kParamsFields), params)) return false;
+  params->preview_shift = shift;
   const sf_region& region = params->region;
   const bool whole = region.width == 0 && region.height == 0;
   // The library has looked at neither the region, without pixels of which no buffer is needed, nor
@@ -151,7 +151,7 @@ sf_status Start(Session* session) {
   return sf_set_callbacks(session->engine, &callbacks);
 }
 
-sf_status Prepare(Session* session, const sf_image_field& field) {
+sf_status Prepare(Session* session, const sf_light_field& field) {
   size_t bytes = 0;
   const sf_status status = sf_prepared_size(&session->config, &bytes);
   if (status != SF_OK) return status;
@@ -161,8 +161,7 @@ sf_status Prepare(Session* session, const sf_image_field& field) {
     return SF_ERROR_MEMORY;
   }
   Begin(session);
-  return sf_prepare_images(session->engine, &field, session->prepared_memory, bytes,
-                           &session->prepared);
+  return sf_prepare(session->engine, &field, session->prepared_memory, bytes, &session->prepared);
 }
 
 }  // namespace
@@ -220,23 +219,23 @@ STARFOCUS_NATIVE(void, destroy)(JNIEnv*, jclass, jlong handle) { End(From(handle
 STARFOCUS_NATIVE(void, refocus)
 (JNIEnv* env, jclass, jlong handle, jobject light_field, jobject parameters, jobject out) {
   Session* const session = From(handle);
-  sf_image_field field;
+  sf_light_field field;
   sf_params params;
   sf_image image;
-  if (!ReadImageField(env, light_field, session->config, &field) ||
+  if (!ReadLightField(env, light_field, session->config, &field) ||
       !ReadTask(env, session, {0, parameters, out}, &params, &image)) {
     return;
   }
   Begin(session);
-  ThrowStatus(env, sf_refocus_images(session->engine, &params, &field, &image, nullptr),
+  ThrowStatus(env, sf_refocus(session->engine, &params, &field, &image, nullptr),
               sf_engine_problem(session->engine));
 }
 
 STARFOCUS_NATIVE(void, prepare)
 (JNIEnv* env, jclass, jlong handle, jobject light_field) {
   Session* const session = From(handle);
-  sf_image_field field;
-  if (ReadImageField(env, light_field, session->config, &field)) {
+  sf_light_field field;
+  if (ReadLightField(env, light_field, session->config, &field)) {
     ThrowStatus(env, Prepare(session, field), sf_engine_problem(session->engine));
   }
 }
@@ -248,9 +247,9 @@ STARFOCUS_NATIVE(void, refocusPrepared)
   sf_image image;
   if (!ReadTask(env, session, {0, parameters, out}, &params, &image)) return;
   Begin(session);
-  ThrowStatus(
-      env, sf_refocus_prepared_images(session->engine, &params, session->prepared, &image, nullptr),
-      sf_engine_problem(session->engine));
+  ThrowStatus(env,
+              sf_refocus_prepared(session->engine, &params, session->prepared, &image, nullptr),
+              sf_engine_problem(session->engine));
 }
 
 STARFOCUS_NATIVE(void, preview)
@@ -261,8 +260,7 @@ STARFOCUS_NATIVE(void, preview)
   if (!ReadTask(env, session, {shift, parameters, out}, &params, &image)) return;
   Begin(session);
   ThrowStatus(env,
-              sf_refocus_preview_images(session->engine, &params, session->prepared, shift, &image,
-                                        nullptr),
+              sf_refocus_prepared(session->engine, &params, session->prepared, &image, nullptr),
               sf_engine_problem(session->engine));
 }
 

@@ -14,10 +14,10 @@ public final class DepthMap {
   public final int type, width, height;
   /** Disparity is scale * z + offset (LINEAR, the default) or scale / z + offset (RECIPROCAL). */
   public int meaning = LINEAR;
-  public float scale = 1, offset;
+  public double scale = 1, offset;
   /** 1: `invalid` stands for an unknown depth; 0, the default: no value does. */
   public int hasInvalid;
-  public float invalid;
+  public double invalid;
 
   final ByteBuffer values;
   final int stride;

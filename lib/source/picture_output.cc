@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/source/image_output.h"
+#include "lib/source/picture_output.h"
 
 #include <cstring>
 
 #include "lib/base/fixed.h"
+#include "lib/base/rows.h"
 
 namespace starfocus {
 namespace {
 
 // Converts pairs of the image's rows: job `index` of `jobs` has as many as the others, but for one.
 struct PairsJob {
-  const ImageOutput* out;
+  const PictureOutput* out;
   Plane<uint8_t> from;
   const uint8_t* odd_row;  // of the pair that the rows before have begun
   RowRange rows;           // of the image
@@ -24,7 +25,7 @@ const uint8_t* RowOf(const PairsJob& job, int32_t y) {
 }
 
 void WritePair(const PairsJob& job, int32_t upper) {
-  const ImageOutput& out = *job.out;
+  const PictureOutput& out = *job.out;
   const RowRange rows = {Max(upper, job.rows.first), Min(upper + 2, job.rows.last)};
   for (int32_t y = rows.first; y < rows.last; ++y) {
     WriteCodes(*out.kernels, RowOf(job, y), out.rect.width, y, out.image);
@@ -45,15 +46,45 @@ void WritePairs(const PairsJob& job, int32_t index, Worker* worker) {
   }
 }
 
+// Copies columns [first, last) of row y.
+void CopyColumns(const PictureOutput& out, const Plane<uint8_t>& from, int32_t y, int32_t first,
+                 int32_t last) {
+  if (first >= last) return;
+  std::memcpy(out.image.Pixel(first - out.rect.x, y - out.rect.y),
+              from.Row(y) + 3 * static_cast<size_t>(first), 3 * static_cast<size_t>(last - first));
+}
+
+// Copies row y, or what changed of it, and the rest from the picture before.
+void StoreRow(const PictureOutput& out, const Plane<uint8_t>& from, int32_t y,
+              const EngineState& engine) {
+  const Rect& rect = out.rect;
+  if (out.previous == nullptr) {
+    CopyColumns(out, from, y, rect.x, rect.x + rect.width);
+    return;
+  }
+  std::memcpy(out.image.Pixel(0, y - rect.y), RowsOf(*out.previous, rect.y).Row(y),
+              3 * static_cast<size_t>(rect.width));
+  const int32_t side = engine.config.largest_block, reach = engine.lens.borders.joined;
+  for (int32_t column = 0; column < Columns(engine.config); ++column) {
+    const int32_t x = column * side;
+    if (!HasChanged(engine.stripe.changes, {x, y - reach, side, 1 + 2 * reach})) continue;
+    CopyColumns(out, from, y, Max(x - reach, rect.x), Min(x + side + reach, rect.x + rect.width));
+  }
+}
+
 sf_status Store(const void* self, const RowRange& rows, const Plane<uint8_t>& from,
                 EngineState* engine) {
-  const auto& out = *static_cast<const ImageOutput*>(self);
+  const auto& out = *static_cast<const PictureOutput*>(self);
+  if (out.image.IsPacked()) {
+    for (int32_t y = rows.first; y < rows.last; ++y) StoreRow(out, from, y, *engine);
+    return SF_OK;
+  }
   const RowRange inside = {rows.first - out.rect.y, rows.last - out.rect.y};
   const int32_t pairs = (inside.last + 1) / 2 - inside.first / 2;
   const int32_t jobs = Min(MaxJobs(engine->config), pairs);
   const PairsJob job = {&out, from, engine->images.odd_row, inside, jobs};
   const sf_status status = RunJobs<PairsJob, WritePairs>(job, jobs, &engine->crew);
-  if (inside.last % 2 != 0 && inside.last < out.rect.height) {
+  if (out.image.is_yuv && inside.last % 2 != 0 && inside.last < out.rect.height) {
     std::memcpy(engine->images.odd_row, RowOf(job, inside.last - 1),
                 3 * static_cast<size_t>(out.rect.width));
   }
@@ -62,6 +93,6 @@ sf_status Store(const void* self, const RowRange& rows, const Plane<uint8_t>& fr
 
 }  // namespace
 
-RowSink SinkOf(const ImageOutput& out) { return {Store, &out}; }
+RowSink SinkOf(const PictureOutput& out) { return {Store, &out}; }
 
 }  // namespace starfocus
