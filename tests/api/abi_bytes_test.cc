@@ -443,42 +443,6 @@ TEST_CASE("refocus: output may overlap neither the inputs nor the workspace") {
   CHECK(run(joined.data() + 1) == SF_ERROR_OVERLAP);
 }
 
-TEST_CASE("refocus: a runner's failure is reported, in whichever phase of a stripe it comes") {
-  // Out of focus, so that all phases of block mode run.
-  Fixture f;
-  f.config.tuning.gather = 0;
-  f.config.max_blur = 12;
-  test::Engine engine(f.config);
-  REQUIRE(engine.status() == SF_OK);
-  struct Failing {
-    int calls, last;
-    static int Run(void* self, sf_job job, void* data, int32_t count) {
-      Failing& failing = *static_cast<Failing*>(self);
-      if (++failing.calls > failing.last) return 1;
-      for (int32_t i = 0; i < count; ++i) job(data, i, 0);
-      return 0;
-    }
-  };
-  for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BENCHMARK, SF_MODE_BLOCK, SF_MODE_BLUR}) {
-    CAPTURE(mode);
-    f.params = test::Params(9.75, 1, mode);
-    const auto run = [&](Failing* failing) {
-      const sf_callbacks callbacks = test::RunBy(Failing::Run, failing);
-      REQUIRE(sf_set_callbacks(engine.get(), &callbacks) == SF_OK);
-      return test::RefocusRgb(engine.get(), &f.params, &f.field, f.out.bytes.data(), f.out.stride,
-                              nullptr);
-    };
-    Failing never = {0, 1000};
-    REQUIRE(run(&never) == SF_OK);
-    REQUIRE(never.calls >= (mode == SF_MODE_BLOCK ? 4 : 1));
-    for (int last = 0; last < never.calls; ++last) {
-      Failing failing = {0, last};
-      CHECK(run(&failing) == SF_ERROR_RUNNER);
-      CHECK(failing.calls == last + 1);
-    }
-  }
-}
-
 TEST_CASE("refocus: the report holds what was rendered") {
   Fixture f;
   test::Engine engine(f.config);

@@ -137,14 +137,6 @@ TEST_CASE("stream: pull refuses null pointers, short strides, wrong counts and o
   CHECK(f.out.Untouched());
 }
 
-TEST_CASE("stream: a runner's failure is reported") {
-  Fixture f;
-  test::Engine engine(f.config);
-  REQUIRE(engine.status() == SF_OK);
-  const sf_runner fails = [](void*, sf_job, void*, int32_t) { return -1; };
-  CHECK(test::Stream(&engine, f.params, f.scene, &f.out, 16, 16, fails) == SF_ERROR_RUNNER);
-}
-
 TEST_CASE("stream: a row with a bad disparity is refused, the rows before it are not") {
   Fixture f;
   test::Engine engine(f.config);

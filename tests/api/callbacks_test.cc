@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
+#include "tests/support/prepared_memory.h"
 #include "tests/support/test_scene.h"
 
 namespace callbacks_test {
@@ -68,14 +69,8 @@ TEST_CASE("callbacks: functions stay for all calls until others are set") {
     REQUIRE(f.Refocus(&engine) == SF_OK);
     CHECK(f.calls.Take());
   }
-  size_t bytes = 0;
-  const sf_config config = f.Config();
-  REQUIRE(sf_prepared_size(&config, &bytes) == SF_OK);
-  std::vector<uint8_t> memory(bytes + SF_ALIGNMENT);
-  uint8_t* aligned = memory.data();
-  while (reinterpret_cast<uintptr_t>(aligned) % SF_ALIGNMENT != 0) ++aligned;
-  sf_prepared* prepared = nullptr;
-  REQUIRE(sf_prepare(engine.get(), &f.field, aligned, bytes, &prepared) == SF_OK);
+  test::PreparedMemory memory(f.Config());
+  const sf_prepared* prepared = memory.Prepare(engine.get(), f.field);
   CHECK(f.calls.runner > 0);
   CHECK(f.calls.progress > 0);
   test::Output preview((kWidth + 1) / 2, (kHeight + 1) / 2);

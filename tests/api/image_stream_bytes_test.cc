@@ -8,7 +8,7 @@
 #include "lib/source/prepared.h"
 #include "tests/support/image_field.h"
 #include "tests/support/inside.h"
-#include "tests/support/watch.h"
+#include "tests/support/prepared_memory.h"
 
 namespace image_stream_bytes_test {
 namespace {
@@ -192,20 +192,6 @@ TEST_CASE("image streams: half of a pair of rows is refused, and a bad depth wit
   CHECK(rows % 2 == 0);
 }
 
-// Memory for prepared light fields of that configuration.
-struct PreparedMemory {
-  explicit PreparedMemory(const sf_config& config) {
-    REQUIRE(sf_prepared_size(&config, &bytes) == SF_OK);
-    memory.assign(bytes + SF_ALIGNMENT, test::kPoison);
-  }
-  void* get() {
-    const uintptr_t address = reinterpret_cast<uintptr_t>(memory.data());
-    return memory.data() + (SF_ALIGNMENT - address % SF_ALIGNMENT) % SF_ALIGNMENT;
-  }
-  size_t bytes = 0;
-  std::vector<uint8_t> memory;
-};
-
 TEST_CASE("prepared images: the bytes of whole images, for many lenses and regions") {
   test::Random random(44);
   for (int round = 0; round < kFormats; ++round) {
@@ -218,12 +204,8 @@ TEST_CASE("prepared images: the bytes of whole images, for many lenses and regio
     config.largest_block = 32 << random.Int(0, 2);
     config.tuning.max_layer = random.Int(0, 2);
     test::Engine engine(config);
-    PreparedMemory memory(config);
-    sf_prepared* prepared = nullptr;
-    {
-      const sf_light_field images = field.Field();  // need not stay
-      REQUIRE(sf_prepare(engine.get(), &images, memory.get(), memory.bytes, &prepared) == SF_OK);
-    }
+    test::PreparedMemory memory(config);
+    const sf_prepared* prepared = memory.Prepare(engine.get(), field.Field());
     for (int lens = 0; lens < 4; ++lens) {
       sf_params params = test::Params(random.Real(-9, 9), 1, SF_MODE_BLOCK);
       if (lens == 2) params.mode = SF_MODE_BLUR;
@@ -249,12 +231,9 @@ TEST_CASE("prepared images: disparities and layers are those of the converted pi
     sf_config config = test::ImageConfig(field, 20);
     config.largest_block = side;
     test::Engine engine(config);
-    PreparedMemory memory(config), other(config);
-    sf_prepared *got = nullptr, *expected = nullptr;
-    const sf_light_field images = field.Field();
-    const sf_light_field pictures = field.converted.Field();
-    REQUIRE(sf_prepare(engine.get(), &images, memory.get(), memory.bytes, &got) == SF_OK);
-    REQUIRE(sf_prepare(engine.get(), &pictures, other.get(), other.bytes, &expected) == SF_OK);
+    test::PreparedMemory memory(config), other(config);
+    const sf_prepared* got = memory.Prepare(engine.get(), field.Field());
+    const sf_prepared* expected = other.Prepare(engine.get(), field.converted.Field());
     const auto& a = *reinterpret_cast<const starfocus::Prepared*>(got);
     const auto& b = *reinterpret_cast<const starfocus::Prepared*>(expected);
     const auto same = [](const auto& one, const auto& two, int rows) {
@@ -272,12 +251,10 @@ TEST_CASE("prepared images: pictures of any format are made of light fields of a
   const ImageField field = FieldOf(scene, SF_FORMAT_NV12, false, &random);
   const sf_config config = test::ImageConfig(field, 20);
   test::Engine engine(config);
-  PreparedMemory memory(config), other(config);
-  sf_prepared *of_images = nullptr, *of_pictures = nullptr;
+  test::PreparedMemory memory(config), other(config);
   const sf_light_field images = field.Field();
-  const sf_light_field pictures = field.converted.Field();
-  REQUIRE(sf_prepare(engine.get(), &images, memory.get(), memory.bytes, &of_images) == SF_OK);
-  REQUIRE(sf_prepare(engine.get(), &pictures, other.get(), other.bytes, &of_pictures) == SF_OK);
+  sf_prepared* of_images = memory.Prepare(engine.get(), images);
+  const sf_prepared* of_pictures = other.Prepare(engine.get(), field.converted.Field());
   const sf_params params = test::Params(1, 1, SF_MODE_BLOCK);
   test::Output out(60, 50);
   ImageMemory image(60, 50, test::AnyKind(SF_FORMAT_NV12, &random));
@@ -297,46 +274,6 @@ TEST_CASE("prepared images: pictures of any format are made of light fields of a
   CHECK(of_images == nullptr);
   CHECK(sf_prepare(engine.get(), &images, other.get(), other.bytes - 1, &of_images) ==
         SF_ERROR_WORKSPACE);
-}
-
-TEST_CASE("images: calls are watched, and cancelled wherever they ask") {
-  test::Random random(46);
-  const test::Scene scene = test::LayeredScene(200, 150, 5, 7, 50);
-  const ImageField field = FieldOf(scene, SF_FORMAT_NV12, false, &random);
-  sf_config config = test::ImageConfig(field, 20);
-  config.largest_block = 32;
-  test::Engine engine(config);
-  const ImageKind kind = test::AnyKind(SF_FORMAT_NV21, &random);
-  const sf_params params = test::Params(1, 1, SF_MODE_BLOCK);
-  const ImageMemory expected = Refocused(&engine, field, params, kind, nullptr);
-  test::Watch watch;
-  const auto tell = [&](test::Watch* to) {
-    const sf_callbacks callbacks =
-        test::ToldTo(to != nullptr ? test::Watch::Progress : nullptr, to);
-    REQUIRE(sf_set_callbacks(engine.get(), &callbacks) == SF_OK);
-  };
-  tell(&watch);
-  CHECK((Refocused(&engine, field, params, kind, nullptr) == expected));
-  CHECK(watch.Ended());
-  CHECK(watch.rows == 150);
-  const sf_light_field images = field.Field();
-  PreparedMemory memory(config);
-  sf_prepared* prepared = nullptr;
-  // What a call has worked since it last asked counts for the next call, which may ask once less.
-  for (int stop = 0; stop + 1 < watch.calls; stop += 3) {
-    test::Watch stops(stop);
-    tell(&stops);
-    ImageMemory image(200, 150, kind);
-    const sf_image out = image.Out();
-    CHECK(sf_refocus(engine.get(), &params, &images, &out, nullptr) == SF_ERROR_CANCELLED);
-    CHECK(stops.Good());
-    test::Watch first(stop % 4);
-    tell(&first);
-    CHECK(sf_prepare(engine.get(), &images, memory.get(), memory.bytes, &prepared) ==
-          SF_ERROR_CANCELLED);
-  }
-  tell(nullptr);
-  CHECK((Refocused(&engine, field, params, kind, nullptr) == expected));
 }
 
 }  // namespace

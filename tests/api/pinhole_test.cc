@@ -7,6 +7,7 @@
 
 #include "starfocus/starfocus.h"
 #include "tests/support/layered_scene.h"
+#include "tests/support/prepared_memory.h"
 #include "tests/support/test_scene.h"
 
 namespace pinhole_test {
@@ -48,14 +49,8 @@ sf_config AnyConfig(const test::Scene& scene, test::Random* random) {
 
 sf_status Prepared(test::Engine* engine, const sf_config& config, const sf_params& params,
                    const test::Scene& scene, test::Output* out) {
-  size_t bytes = 0;
-  REQUIRE(sf_prepared_size(&config, &bytes) == SF_OK);
-  std::vector<uint8_t> memory(bytes + SF_ALIGNMENT);
-  uint8_t* const aligned =
-      memory.data() + SF_ALIGNMENT - reinterpret_cast<uintptr_t>(memory.data()) % SF_ALIGNMENT;
-  const sf_light_field field = scene.Field();
-  sf_prepared* prepared = nullptr;
-  REQUIRE(sf_prepare(engine->get(), &field, aligned, bytes, &prepared) == SF_OK);
+  test::PreparedMemory memory(config);
+  const sf_prepared* prepared = memory.Prepare(engine->get(), scene.Field());
   return test::RefocusPreparedRgb(engine->get(), &params, prepared, out->bytes.data(), out->stride,
                                   nullptr);
 }

@@ -9,36 +9,13 @@
 
 #include "starfocus/starfocus.h"
 #include "tests/support/layered_scene.h"
+#include "tests/support/prepared_memory.h"
 #include "tests/support/test_scene.h"
 
 namespace prepared_test {
 namespace {
 
 constexpr int kViews[] = {1, 5, 9, 17};
-
-// Memory of exactly the size asked for, poisoned.
-class Memory {
- public:
-  explicit Memory(const sf_config& config) {
-    REQUIRE(sf_prepared_size(&config, &bytes) == SF_OK);
-    memory_.assign(bytes + SF_ALIGNMENT, test::kPoison);
-  }
-  uint8_t* get() {
-    const uintptr_t address = reinterpret_cast<uintptr_t>(memory_.data());
-    return memory_.data() + (SF_ALIGNMENT - address % SF_ALIGNMENT) % SF_ALIGNMENT;
-  }
-  size_t bytes = 0;
-
- private:
-  std::vector<uint8_t> memory_;
-};
-
-sf_prepared* Prepare(test::Engine* engine, const test::Scene& scene, Memory* memory) {
-  const sf_light_field field = scene.Field();
-  sf_prepared* prepared = nullptr;
-  REQUIRE(sf_prepare(engine->get(), &field, memory->get(), memory->bytes, &prepared) == SF_OK);
-  return prepared;
-}
 
 // Refocuses with both and compares bytes and counts.
 void CheckSame(test::Engine* engine, const sf_prepared* prepared, const test::Scene& scene,
@@ -77,8 +54,8 @@ TEST_CASE("prepared: the bytes of sf_refocus, in every mode, for many lenses and
     ++round;
     test::Engine engine(config);
     REQUIRE(engine.status() == SF_OK);
-    Memory memory(config);
-    const sf_prepared* prepared = Prepare(&engine, scene, &memory);
+    test::PreparedMemory memory(config);
+    const sf_prepared* prepared = memory.Prepare(engine.get(), scene.Field());
     for (int lens = 0; lens < 6; ++lens) {
       sf_params params = test::Params(random.Real(-12, 12), random.Real(0.3, 1), SF_MODE_BLOCK);
       params.rule = random.Int(0, 2);
@@ -97,8 +74,8 @@ TEST_CASE("prepared: by one engine for another, which streams in between") {
   const test::Scene scene = test::LayeredScene(140, 100, 5, 7, 11);
   sf_config config = test::ConfigFor(scene, 20);
   test::Engine maker(config);
-  Memory memory(config);
-  const sf_prepared* prepared = Prepare(&maker, scene, &memory);
+  test::PreparedMemory memory(config);
+  const sf_prepared* prepared = memory.Prepare(maker.get(), scene.Field());
   config.max_workers = 3;
   config.features |= SF_FEATURE_STREAMING;
   config.largest_block = 32;
@@ -117,16 +94,16 @@ TEST_CASE("prepared: what the documentation says of the memory") {
   const test::Scene scene = test::LayeredScene(1000, 800, 5, 7, 11);
   sf_config config = test::ConfigFor(scene, 20);
   const double pixels = 1000.0 * 800;
-  CHECK(double(Memory(config).bytes) / pixels == doctest::Approx(3.89).epsilon(0.01));
+  CHECK(double(test::PreparedMemory(config).bytes) / pixels == doctest::Approx(3.89).epsilon(0.01));
   config.tuning.max_layer = 0;
-  CHECK(double(Memory(config).bytes) / pixels == doctest::Approx(2).epsilon(0.01));
+  CHECK(double(test::PreparedMemory(config).bytes) / pixels == doctest::Approx(2).epsilon(0.01));
 }
 
 TEST_CASE("prepared: bad input") {
   test::Scene scene = test::LayeredScene(50, 40, 5, 3, 12);
   const sf_config config = test::ConfigFor(scene, 8);
   test::Engine engine(config);
-  Memory memory(config);
+  test::PreparedMemory memory(config);
   size_t bytes = 4711;
   sf_config bad = config;
   bad.views = 3;
@@ -166,8 +143,8 @@ TEST_CASE("prepared: refocusing refuses what sf_refocus refuses, and another con
   const test::Scene scene = test::LayeredScene(50, 40, 5, 3, 12);
   const sf_config config = test::ConfigFor(scene, 8);
   test::Engine engine(config);
-  Memory memory(config);
-  const sf_prepared* prepared = Prepare(&engine, scene, &memory);
+  test::PreparedMemory memory(config);
+  const sf_prepared* prepared = memory.Prepare(engine.get(), scene.Field());
   test::Output out(50, 40);
   const auto run = [&](sf_engine* e, const sf_params& params, const sf_prepared* p, void* to) {
     return test::RefocusPreparedRgb(e, &params, p, static_cast<uint8_t*>(to), out.stride, nullptr);
@@ -198,29 +175,11 @@ TEST_CASE("prepared: refocusing refuses what sf_refocus refuses, and another con
   CHECK(out.Untouched());
 }
 
-TEST_CASE("prepared: a runner's failure is reported") {
-  const test::Scene scene = test::LayeredScene(50, 40, 5, 3, 12);
-  const sf_config config = test::ConfigFor(scene, 8);
-  test::Engine engine(config);
-  Memory memory(config);
-  const sf_light_field field = scene.Field();
-  sf_prepared* prepared = nullptr;
-  const sf_callbacks fails = test::RunBy([](void*, sf_job, void*, int32_t) { return 1; });
-  const sf_callbacks none = {};
-  REQUIRE(sf_set_callbacks(engine.get(), &fails) == SF_OK);
-  CHECK(sf_prepare(engine.get(), &field, memory.get(), memory.bytes, &prepared) == SF_ERROR_RUNNER);
-  CHECK(prepared == nullptr);
-  // The engine goes on as before.
-  REQUIRE(sf_set_callbacks(engine.get(), &none) == SF_OK);
-  const sf_prepared* again = Prepare(&engine, scene, &memory);
-  CheckSame(&engine, again, scene, test::Params(-4, 1, SF_MODE_BLOCK));
-}
-
 TEST_CASE("prepared: a bad map is refused before anything is written") {
   test::Scene scene = test::LayeredScene(50, 90, 5, 3, 12);
   const sf_config config = test::ConfigFor(scene, 8);
   test::Engine engine(config);
-  Memory memory(config);
+  test::PreparedMemory memory(config);
   const std::vector<uint8_t> before(memory.get(), memory.get() + memory.bytes);
   for (const int row : {0, 40, 89}) {
     CAPTURE(row);

@@ -10,8 +10,8 @@
 
 #include "lib/base/transfer.h"
 #include "tests/support/image_field.h"
+#include "tests/support/prepared_memory.h"
 #include "tests/support/rounds.h"
-#include "tests/support/watch.h"
 
 namespace preview_test {
 namespace {
@@ -110,16 +110,10 @@ sf_region ReducedRegion(const sf_region& region, int shift) {
 class Prepared {
  public:
   Prepared(const test::Scene& scene, const sf_config& config, sf_runner runner = nullptr)
-      : engine(config), scene_(scene) {
-    REQUIRE(engine.status() == SF_OK);
-    REQUIRE(sf_prepared_size(&config, &bytes) == SF_OK);
-    memory_.assign(bytes + SF_ALIGNMENT, test::kPoison);
-    const uintptr_t address = reinterpret_cast<uintptr_t>(memory_.data());
-    at = memory_.data() + (SF_ALIGNMENT - address % SF_ALIGNMENT) % SF_ALIGNMENT;
-    const sf_light_field field = scene.Field();
+      : engine(config), memory(config), scene_(scene) {
     const sf_callbacks callbacks = test::RunBy(runner);
     REQUIRE(sf_set_callbacks(engine.get(), &callbacks) == SF_OK);
-    REQUIRE(sf_prepare(engine.get(), &field, at, bytes, &field_) == SF_OK);
+    field_ = memory.Prepare(engine.get(), scene.Field());
   }
 
   sf_status Preview(const sf_params& params, int shift, test::Output* out,
@@ -142,12 +136,10 @@ class Prepared {
   const sf_prepared* field() const { return field_; }
 
   test::Engine engine;
-  size_t bytes = 0;
-  uint8_t* at = nullptr;
+  test::PreparedMemory memory;
 
  private:
   const test::Scene& scene_;
-  std::vector<uint8_t> memory_;
   sf_prepared* field_ = nullptr;
 };
 
@@ -258,12 +250,8 @@ TEST_CASE("preview: of images, into images") {
     config.previews = 2;
     Prepared expected(field.converted, config);
     test::Engine engine(config);
-    std::vector<uint8_t> memory(expected.bytes + SF_ALIGNMENT);
-    const uintptr_t address = reinterpret_cast<uintptr_t>(memory.data());
-    uint8_t* at = memory.data() + (SF_ALIGNMENT - address % SF_ALIGNMENT) % SF_ALIGNMENT;
-    const sf_light_field images = field.Field();
-    sf_prepared* prepared = nullptr;
-    REQUIRE(sf_prepare(engine.get(), &images, at, expected.bytes, &prepared) == SF_OK);
+    test::PreparedMemory memory(config);
+    const sf_prepared* prepared = memory.Prepare(engine.get(), field.Field());
     const sf_params params = test::Params(2, 1, SF_MODE_BLOCK);
     for (int shift = 1; shift <= 2; ++shift) {
       const test::Output wanted = expected.Preview(params, shift);
@@ -313,8 +301,7 @@ TEST_CASE("preview: what the documentation says of the memory") {
   constexpr double kExpected[] = {3.89, 8.40, 9.52, 9.81};
   for (int previews = 0; previews <= 3; ++previews) {
     config.previews = previews;
-    size_t bytes = 0;
-    REQUIRE(sf_prepared_size(&config, &bytes) == SF_OK);
+    const size_t bytes = test::PreparedMemory(config).bytes;
     CHECK(double(bytes) / (800.0 * 640) == doctest::Approx(kExpected[previews]).epsilon(0.01));
   }
 }
@@ -390,8 +377,8 @@ TEST_CASE("preview: bad input") {
   CHECK(run(e, &params, nullptr, to, out.stride) == SF_ERROR_NULL);
   CHECK(run(e, &params, prepared.field(), nullptr, out.stride) == SF_ERROR_NULL);
   CHECK(run(e, &params, prepared.field(), to, 74) == SF_ERROR_STRIDE);
-  CHECK(run(e, &params, prepared.field(), prepared.at + prepared.bytes - 1, out.stride) ==
-        SF_ERROR_OVERLAP);
+  CHECK(run(e, &params, prepared.field(), prepared.memory.get() + prepared.memory.bytes - 1,
+            out.stride) == SF_ERROR_OVERLAP);
   CHECK(run(e, &params, prepared.field(), static_cast<uint8_t*>(prepared.engine.workspace()),
             out.stride) == SF_ERROR_OVERLAP);
   const sf_params far = test::Params(9), wide = test::Params(1, 2);
@@ -433,64 +420,13 @@ TEST_CASE("preview: bad images") {
   CHECK(run(&prepared, 1, nullptr) == SF_ERROR_NULL);
   CHECK(run(&prepared, 2, &out) == SF_ERROR_PREPARED);
   CHECK(run(&prepared, 1, &out) == SF_OK);
-  for (uint8_t* to : {prepared.at, static_cast<uint8_t*>(prepared.engine.workspace())}) {
+  for (uint8_t* to : {prepared.memory.get(), static_cast<uint8_t*>(prepared.engine.workspace())}) {
     out.planes[0] = to;
     CHECK(run(&prepared, 1, &out) == SF_ERROR_OVERLAP);
   }
   out.planes[0] = rgb.data();
   out.format = 99;
   CHECK(run(&prepared, 1, &out) == SF_ERROR_RANGE);
-}
-
-TEST_CASE("preview: progress is told of the preview's rows, and calls it off") {
-  const test::Scene scene = test::LayeredScene(300, 260, 5, 7, 12);
-  sf_config config = test::ConfigFor(scene, 16);
-  config.largest_block = 32;
-  config.previews = 2;
-  Prepared prepared(scene, config);
-  sf_params params = test::Params(-4, 1, SF_MODE_BLOCK);
-  const test::Output expected = prepared.Preview(params, 1);
-  test::Watch watch;
-  prepared.Preview(params, 1, test::ToldTo(test::Watch::Progress, &watch));
-  CHECK(watch.Ended());
-  CHECK(watch.rows == 130);
-  for (int stop = 0; stop < watch.calls; stop += 1 + watch.calls / 5) {
-    test::Watch cancels(stop);
-    test::Output out(150, 130);
-    CHECK(prepared.Preview(params, 1, &out, test::ToldTo(test::Watch::Progress, &cancels)) ==
-          SF_ERROR_CANCELLED);
-    CHECK(cancels.Good());
-    CHECK(prepared.Preview(params, 1).bytes == expected.bytes);
-  }
-}
-
-TEST_CASE("preview: making one is told of and called off as preparing is, and a runner may fail") {
-  const test::Scene scene = test::LayeredScene(200, 260, 5, 7, 12);
-  sf_config config = test::ConfigFor(scene, 16);
-  config.largest_block = 32;
-  config.previews = 3;
-  Prepared prepared(scene, config);
-  const sf_light_field field = scene.Field();
-  const auto prepare = [&](test::Watch* watch, sf_runner runner) {
-    sf_prepared* made = nullptr;
-    sf_callbacks callbacks = test::ToldTo(test::Watch::Progress, watch);
-    callbacks.runner = runner;
-    REQUIRE(sf_set_callbacks(prepared.engine.get(), &callbacks) == SF_OK);
-    const sf_status status =
-        sf_prepare(prepared.engine.get(), &field, prepared.at, prepared.bytes, &made);
-    CHECK((made == nullptr) == (status != SF_OK));
-    return status;
-  };
-  test::Watch watch;
-  CHECK(prepare(&watch, nullptr) == SF_OK);
-  CHECK(watch.Ended());
-  for (int stop = 0; stop < watch.calls; stop += 1 + watch.calls / 9) {
-    test::Watch cancels(stop);
-    CHECK(prepare(&cancels, nullptr) == SF_ERROR_CANCELLED);
-    CHECK(cancels.Good());
-  }
-  test::Watch other;
-  CHECK(prepare(&other, [](void*, sf_job, void*, int32_t) { return 1; }) == SF_ERROR_RUNNER);
 }
 
 }  // namespace

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// sf_callbacks.progress: what it is told, and that a call it cancels leaves the engine as it was,
-// whenever it does.
+// sf_callbacks.progress: what it is told, how often, and what becomes of a stream that it cancels.
 #include <doctest/doctest.h>
 
-#include <functional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "starfocus/starfocus.h"
-#include "tests/support/rounds.h"
 #include "tests/support/test_scene.h"
 #include "tests/support/watch.h"
 
@@ -19,16 +15,6 @@ namespace {
 using test::Watch;
 
 constexpr int kWidth = 70, kHeight = 75;
-
-// One thread per job, two at a time.
-int RunOnTwo(void*, sf_job job, void* data, int32_t count) {
-  std::thread other([=] {
-    for (int32_t i = 1; i < count; i += 2) job(data, i, 1);
-  });
-  for (int32_t i = 0; i < count; i += 2) job(data, i, 0);
-  other.join();
-  return 0;
-}
 
 struct Case {
   std::string what;
@@ -53,11 +39,10 @@ const Case kCases[] = {
 };
 
 struct Fixture {
-  test::Scene scene, before;
+  test::Scene scene;
   sf_config config;
   sf_params params;
   test::Output expected{kWidth, kHeight, 5};  // of a fresh engine
-  test::Output previous{kWidth, kHeight, 5};  // of the scene before
 
   explicit Fixture(const Case& of) : scene(test::RandomScene(kWidth, kHeight, 5, -3, 9, 8)) {
     if (of.flat) scene.disparity.assign(scene.disparity.size(), 9);
@@ -74,143 +59,16 @@ struct Fixture {
     config.highlights = of.highlights;
     params = test::Params(-3, of.aperture, of.mode);
     params.rule = of.rule;
-    before = scene;
-    before.Pixel(0, 50, 60)[1] ^= 64;  // a corner of the last stripes differs
     test::Engine engine(config);
     REQUIRE(engine.status() == SF_OK);
     REQUIRE(test::Refocus(&engine, params, scene, &expected) == SF_OK);
-    REQUIRE(test::Refocus(&engine, params, before, &previous) == SF_OK);
   }
 };
 
-// Callbacks with a watch, which may be null, and a runner.
-sf_callbacks Watched(Watch* watch, sf_runner runner = nullptr) {
-  sf_callbacks callbacks = test::ToldTo(watch != nullptr ? Watch::Progress : nullptr, watch);
-  callbacks.runner = runner;
-  return callbacks;
-}
+sf_callbacks Watched(Watch* watch) { return test::ToldTo(Watch::Progress, watch); }
 
 void SetCallbacks(test::Engine* engine, const sf_callbacks& callbacks) {
   REQUIRE(sf_set_callbacks(engine->get(), &callbacks) == SF_OK);
-}
-
-// The memory of a prepared light field.
-struct Prepared {
-  std::vector<uint8_t> memory;
-  size_t bytes = 0;
-  sf_prepared* prepared = nullptr;
-
-  explicit Prepared(const sf_config& config) {
-    REQUIRE(sf_prepared_size(&config, &bytes) == SF_OK);
-    memory.resize(bytes + SF_ALIGNMENT);
-  }
-  uint8_t* At() {
-    const auto address = reinterpret_cast<uintptr_t>(memory.data());
-    return memory.data() + (SF_ALIGNMENT - address % SF_ALIGNMENT) % SF_ALIGNMENT;
-  }
-  sf_status Prepare(const Fixture& f, test::Engine* engine, Watch* watch, sf_runner runner) {
-    const sf_light_field field = f.scene.Field();
-    SetCallbacks(engine, Watched(watch, runner));
-    return sf_prepare(engine->get(), &field, At(), bytes, &prepared);
-  }
-};
-
-// A way to ask for the whole picture of the scene. The watch is null where nobody is to be asked.
-using Entry = std::function<sf_status(test::Engine*, Watch*, test::Output*)>;
-
-// Cancels at every call there is (of slow builds at the first ones and some of the others), after
-// each of which the same engine must make the picture of a fresh one. Returns the calls of the
-// entry.
-int CheckEntry(const Fixture& f, const Entry& entry) {
-  test::Engine engine(f.config);
-  int stop = 0;
-  for (;; stop += test::kSlow && stop >= 10 ? 7 : 1) {
-    CAPTURE(stop);
-    Watch watch(stop);
-    test::Output out(kWidth, kHeight, 5);
-    const sf_status status = entry(&engine, &watch, &out);
-    CHECK(watch.Good());
-    if (watch.calls <= stop) {  // it ended before
-      CHECK(status == SF_OK);
-      CHECK(watch.Ended());
-      CHECK(out.bytes == f.expected.bytes);
-      break;
-    }
-    REQUIRE(status == SF_ERROR_CANCELLED);
-    CHECK(out.PaddingUntouched());
-    test::Output again(kWidth, kHeight, 5);
-    REQUIRE(entry(&engine, nullptr, &again) == SF_OK);
-    CHECK(again.bytes == f.expected.bytes);
-  }
-  return stop;
-}
-
-TEST_CASE("progress: cancelled at any call, in every mode, the engine is as before") {
-  for (const Case& of : kCases) {
-    CAPTURE(of.what);
-    const Fixture f(of);
-    for (const sf_runner runner : {sf_runner(nullptr), sf_runner(RunOnTwo)}) {
-      CAPTURE(runner == nullptr);
-      const int calls = CheckEntry(f, [&](test::Engine* engine, Watch* watch, test::Output* out) {
-        return test::Refocus(engine, f.params, f.scene, out, Watched(watch, runner));
-      });
-      // Three columns of three stripes, and the end.
-      CHECK(calls >= 10);
-    }
-  }
-}
-
-TEST_CASE("progress: cancelled frames after others, prepared light fields and streams") {
-  for (const Case& of : {kCases[3], kCases[4], kCases[8]}) {
-    CAPTURE(of.what);
-    const Fixture f(of);
-    const sf_light_field field = f.scene.Field();
-    CheckEntry(f, [&](test::Engine* engine, Watch* watch, test::Output* out) {
-      SetCallbacks(engine, Watched(watch));
-      const sf_previous previous = {f.before.Field(),
-                                    sf_image_rgb(f.previous.bytes.data(), f.previous.stride)};
-      return test::RefocusAfterRgb(engine->get(), &f.params, &field, &previous, out->bytes.data(),
-                                   out->stride, nullptr);
-    });
-    Prepared prepared(f.config);
-    test::Engine maker(f.config);
-    REQUIRE(prepared.Prepare(f, &maker, nullptr, nullptr) == SF_OK);
-    CheckEntry(f, [&](test::Engine* engine, Watch* watch, test::Output* out) {
-      SetCallbacks(engine, Watched(watch, RunOnTwo));
-      return test::RefocusPreparedRgb(engine->get(), &f.params, prepared.prepared,
-                                      out->bytes.data(), out->stride, nullptr);
-    });
-    CheckEntry(f, [&](test::Engine* engine, Watch* watch, test::Output* out) {
-      return test::Stream(engine, f.params, f.scene, out, 9, 7, Watched(watch));
-    });
-  }
-}
-
-TEST_CASE("progress: a preparation that is cancelled gives nothing, and harms nothing") {
-  const Fixture f(kCases[4]);
-  test::Engine engine(f.config);
-  Prepared prepared(f.config);
-  for (int stop = 0;; ++stop) {
-    CAPTURE(stop);
-    Watch watch(stop);
-    const sf_status status = prepared.Prepare(f, &engine, &watch, stop % 2 ? RunOnTwo : nullptr);
-    CHECK(watch.Good());
-    CHECK((prepared.prepared == nullptr) == (status != SF_OK));
-    test::Output out(kWidth, kHeight, 5);
-    if (status == SF_OK) {
-      CHECK(watch.Ended());
-      CHECK(watch.rows == kHeight);
-      CHECK(stop >= 7);
-      SetCallbacks(&engine, {});
-      CHECK(test::RefocusPreparedRgb(engine.get(), &f.params, prepared.prepared, out.bytes.data(),
-                                     out.stride, nullptr) == SF_OK);
-      CHECK(out.bytes == f.expected.bytes);
-      break;
-    }
-    REQUIRE(status == SF_ERROR_CANCELLED);
-    REQUIRE(test::Refocus(&engine, f.params, f.scene, &out) == SF_OK);
-    CHECK(out.bytes == f.expected.bytes);
-  }
 }
 
 TEST_CASE("progress: of a region its rows are told") {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
+#include "tests/support/prepared_memory.h"
 #include "tests/support/test_scene.h"
 
 namespace runner_misuse_test {
@@ -137,17 +138,13 @@ TEST_CASE("runner: every misuse of every set is an error, and harms no later cal
 TEST_CASE("runner: sf_prepare refuses a runner that skips a job") {
   Fixture f;
   test::Engine engine(f.config);
-  size_t bytes = 0;
-  REQUIRE(sf_prepared_size(&f.config, &bytes) == SF_OK);
-  std::vector<uint8_t> memory(bytes + SF_ALIGNMENT);
-  uint8_t* aligned = memory.data();
-  while (reinterpret_cast<uintptr_t>(aligned) % SF_ALIGNMENT != 0) ++aligned;
+  test::PreparedMemory memory(f.config);
   const sf_light_field field = f.scene.Field();
   Runner bad = {kMisuses[2].run, 1};
-  sf_prepared* prepared = reinterpret_cast<sf_prepared*>(aligned);
+  sf_prepared* prepared = reinterpret_cast<sf_prepared*>(memory.get());
   const sf_callbacks callbacks = test::RunBy(Runner::Run, &bad);
   REQUIRE(sf_set_callbacks(engine.get(), &callbacks) == SF_OK);
-  CHECK(sf_prepare(engine.get(), &field, aligned, bytes, &prepared) == SF_ERROR_RUNNER);
+  CHECK(sf_prepare(engine.get(), &field, memory.get(), memory.bytes, &prepared) == SF_ERROR_RUNNER);
   CHECK(prepared == nullptr);
 }
 

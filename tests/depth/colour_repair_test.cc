@@ -15,103 +15,49 @@
 
 #include "lib/base/fixed.h"
 #include "lib/depth/colour_map.h"
-#include "tests/support/simd_targets.h"
+#include "tests/depth/disc_photo.h"
 #include "tests/support/test_scene.h"
 
 namespace colour_repair_test {
 namespace {
 
 using starfocus::kDisparityBits;
-using starfocus::simd::DepthKernels;
+using test::MakeDisc;
+using test::Photo;
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
-// A picture and its map.
-struct Photo {
-  int width, height;
-  std::vector<uint8_t> rgb;
-  std::vector<float> map;
-
-  Photo(int w, int h)
-      : width(w), height(h), rgb(3 * size_t(w) * size_t(h), 90), map(size_t(w) * size_t(h)) {}
-  size_t At(int x, int y) const { return size_t(y) * size_t(width) + size_t(x); }
-  float& Map(int x, int y) { return map[At(x, y)]; }
-  void Paint(int x, int y, int r, int g, int b) {
-    uint8_t* pixel = rgb.data() + 3 * At(x, y);
-    pixel[0] = uint8_t(r), pixel[1] = uint8_t(g), pixel[2] = uint8_t(b);
-  }
-};
 
 struct Repaired {
   std::vector<float> map;
   std::vector<uint8_t> confidence;
 };
 
-// Runs jobs backwards, each on another of three workers than the one before.
-int RunBackwards(void*, sf_job job, void* data, int32_t count) {
-  for (int32_t k = count - 1; k >= 0; --k) job(data, k, k % 3);
-  return 0;
-}
-
-Repaired Repair(const Photo& photo, int workers = 1,
-                const DepthKernels& kernels = starfocus::simd::BestDepthKernels()) {
+Repaired Repair(const Photo& photo) {
   sf_depth_config config;
   sf_depth_config_init(&config);
   config.width = photo.width;
   config.height = photo.height;
   const starfocus::EstimatePlan plan = starfocus::MakePlan(config);
   starfocus::ColourMemory* memory = nullptr;
-  const size_t bytes = starfocus::LayOutColourRepair(plan, workers, nullptr, &memory);
+  const size_t bytes = starfocus::LayOutColourRepair(plan, 1, nullptr, &memory);
   void* base = ::operator new(bytes, std::align_val_t(SF_ALIGNMENT));
   std::memset(base, 0xA5, bytes);
-  starfocus::LayOutColourRepair(plan, workers, base, &memory);
+  starfocus::LayOutColourRepair(plan, 1, base, &memory);
   sf_light_field field = {};
   const auto width = size_t(photo.width);
   field.views[0] = sf_image_rgb(photo.rgb.data(), 3 * width);
   field.depth = sf_depth_float(photo.map.data(), width * sizeof(float), photo.width, photo.height);
   Repaired result = {std::vector<float>(photo.map.size()), std::vector<uint8_t>(photo.map.size())};
-  memory->jobs.runner = {workers > 1 ? RunBackwards : nullptr, nullptr};
   const starfocus::MapOutput output = {result.map.data(),        width, -500,    500,
                                        result.confidence.data(), width, nullptr, 0};
-  CHECK(RepairByColour(plan, field, kernels, output, memory) == SF_OK);
+  CHECK(RepairByColour(plan, field, starfocus::simd::BestDepthKernels(), output, memory) == SF_OK);
   ::operator delete(base, std::align_val_t(SF_ALIGNMENT));
   return result;
 }
 
 bool SameBits(const std::vector<float>& a, const std::vector<float>& b) {
   return std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
-}
-
-// A disc of one colour before a wall of another, both speckled; the map's disc is `grown` wider.
-Photo MakeDisc(int grown, float near = 6, float far = -4) {
-  Photo photo(300, 130);
-  for (int y = 0; y < photo.height; ++y) {
-    for (int x = 0; x < photo.width; ++x) {
-      const double distance = std::hypot(x - 151.3, y - 66.2);
-      const int speckle = (x * 7 + y * 13 + x * y % 11) % 17;
-      if (distance < 40) {
-        photo.Paint(x, y, 190 + speckle, 80 + speckle, 40);
-      } else {
-        photo.Paint(x, y, 60, 90 + speckle, 150 + speckle);
-      }
-      photo.Map(x, y) = distance < 40 + grown ? near : far;
-    }
-  }
-  return photo;
-}
-
-// Adds normal noise of a pixel to the map.
-void AddNoise(Photo* photo) {
-  uint32_t state = 7;
-  for (float& d : photo->map) {
-    float sum = -6;  // twelve uniform numbers make a normal one
-    for (int k = 0; k < 12; ++k) {
-      state = state * 1664525 + 1013904223;
-      sum += float(state >> 8) / float(1 << 24);
-    }
-    d += sum;
-  }
 }
 
 // Counts what is of another surface: up to a pixel is the same one.
@@ -263,59 +209,6 @@ TEST_CASE("colour repair: rows without a known value are those of the nearest kn
   // In the middle, as far from both, the farther surface counts.
   const int expected[] = {1, 4, 1, 4, 1, 4, 1, 4, 1, 2, 3, 2, 3, 2, 3, 2};
   for (size_t k = 0; k < filled.size(); ++k) CHECK(filled[k] == expected[k] << kDisparityBits);
-}
-
-TEST_CASE("colour repair: mirrored pictures have mirrored maps") {
-  Photo photo = MakeDisc(3);
-  for (int x = 40; x < 90; ++x) photo.Map(x, 60 + x % 3) = kNan;
-  for (int x = 100; x < 112; ++x) photo.Map(x, 100) += float(x % 5);
-  const Repaired plain = Repair(photo);
-  for (const bool across : {false, true}) {
-    const auto mirror = [&](const Photo& from, int x, int y) {
-      return across ? from.At(from.width - 1 - x, y) : from.At(x, from.height - 1 - y);
-    };
-    Photo mirrored = photo;
-    for (int y = 0; y < photo.height; ++y) {
-      for (int x = 0; x < photo.width; ++x) {
-        const size_t to = photo.At(x, y), from = mirror(photo, x, y);
-        mirrored.map[to] = photo.map[from];
-        std::memcpy(mirrored.rgb.data() + 3 * to, photo.rgb.data() + 3 * from, 3);
-      }
-    }
-    const Repaired other = Repair(mirrored);
-    int different = 0;
-    for (int y = 0; y < photo.height; ++y) {
-      for (int x = 0; x < photo.width; ++x) {
-        const size_t to = photo.At(x, y), from = mirror(photo, x, y);
-        different += other.map[to] != plain.map[from];
-        different += other.confidence[to] != plain.confidence[from];
-      }
-    }
-    CHECK(different == 0);
-  }
-}
-
-TEST_CASE("colour repair: the same bytes in any order and for any number of workers") {
-  Photo photo = MakeDisc(3);
-  const Repaired one = Repair(photo), three = Repair(photo, 3);
-  CHECK(SameBits(one.map, three.map));
-  CHECK(one.confidence == three.confidence);
-}
-
-TEST_CASE("colour repair: the same bytes on every SIMD target") {
-  std::vector<const DepthKernels*> tables = test::DepthTargets();
-  tables.push_back(&starfocus::simd::ReferenceDepthKernels());
-  for (const bool noisy : {false, true}) {
-    Photo photo = MakeDisc(3);
-    if (noisy) AddNoise(&photo);
-    const Repaired best = Repair(photo);
-    for (const DepthKernels* kernels : tables) {
-      CAPTURE(kernels->name);
-      const Repaired repaired = Repair(photo, 1, *kernels);
-      CHECK(SameBits(repaired.map, best.map));
-      CHECK(repaired.confidence == best.confidence);
-    }
-  }
 }
 
 TEST_CASE("colour repair: pixels beside steps are doubted, but not those of thin surfaces") {

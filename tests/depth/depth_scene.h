@@ -3,6 +3,8 @@
 #ifndef STARFOCUS_TESTS_DEPTH_DEPTH_SCENE_H_
 #define STARFOCUS_TESTS_DEPTH_DEPTH_SCENE_H_
 
+#include <doctest/doctest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -88,6 +90,29 @@ struct Memory {
   size_t bytes;
   void* data;
 };
+
+struct MadeMap {
+  std::vector<float> disparity;
+  std::vector<uint8_t> confidence;
+};
+
+// The map that is estimated, or that `given` is repaired to.
+inline MadeMap MakeMap(const PlaneField& field, const sf_depth_config& config,
+                       const std::vector<float>& given = {}) {
+  size_t bytes = 0;
+  REQUIRE((given.empty() ? sf_estimate_size : sf_repair_size)(&config, &bytes) == SF_OK);
+  const Memory memory(bytes);
+  const auto width = size_t(field.width), pixels = width * size_t(field.height);
+  MadeMap made = {std::vector<float>(pixels, NAN), std::vector<uint8_t>(pixels, 77)};
+  sf_light_field light_field = field.Get();
+  light_field.depth =
+      sf_depth_float(given.data(), sizeof(float) * width, field.width, field.height);
+  sf_map map = {
+      made.disparity.data(), sizeof(float) * width, made.confidence.data(), width, nullptr, 0, 0};
+  const auto make = given.empty() ? sf_estimate_disparity : sf_repair_disparity;
+  REQUIRE(make(&config, &light_field, &map, memory.data, memory.bytes) == SF_OK);
+  return made;
+}
 
 inline double ShareOff(const PlaneScene& scene, const std::vector<float>& disparity, double by) {
   int off = 0;

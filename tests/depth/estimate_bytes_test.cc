@@ -17,37 +17,12 @@ namespace {
 
 using namespace test;
 
-struct Estimated {
-  std::vector<float> disparity;
-  std::vector<uint8_t> confidence;
-};
-
-Estimated EstimateField(const PlaneField& field, sf_depth_config config,
-                        sf_runner runner = nullptr) {
-  config.runner = runner;
-  size_t bytes = 0;
-  REQUIRE(sf_estimate_size(&config, &bytes) == SF_OK);
-  const Memory memory(bytes);
-  const auto width = size_t(field.width), pixels = width * size_t(field.height);
-  Estimated result = {std::vector<float>(pixels, NAN), std::vector<uint8_t>(pixels, 77)};
-  const sf_light_field light_field = field.Get();
-  sf_map map = {result.disparity.data(),
-                sizeof(float) * width,
-                result.confidence.data(),
-                width,
-                nullptr,
-                0,
-                0};
-  REQUIRE(sf_estimate_disparity(&config, &light_field, &map, memory.data, memory.bytes) == SF_OK);
-  return result;
-}
-
 TEST_CASE("estimate: a near plane before a far one, to a pixel of its edges") {
   for (const int views : {5, 9, 17}) {
     PlaneScene scene;
     scene.views = views;
     const PlaneField field = RenderPlanes(scene);
-    const Estimated found = EstimateField(field, ConfigOf(field, -6, 8));
+    const MadeMap found = MakeMap(field, ConfigOf(field, -6, 8));
     CAPTURE(views);
     // Two edges of a pixel each are 2 / 96.
     CHECK(ShareOff(scene, found.disparity, 0.28) < 0.022);
@@ -60,7 +35,7 @@ TEST_CASE("estimate: a leaning plane stays one, between the steps that are tried
   scene.near_left = scene.near_right = 0;
   scene.lean = 0.04;
   const PlaneField field = RenderPlanes(scene);
-  const Estimated found = EstimateField(field, ConfigOf(field, -6, 8));
+  const MadeMap found = MakeMap(field, ConfigOf(field, -6, 8));
   CHECK(ShareOff(scene, found.disparity, 0.2) < 0.01);
   CHECK(ShareOff(scene, found.disparity, 0.1) < 0.1);
 }
@@ -69,7 +44,7 @@ TEST_CASE("estimate: a plane that faces the camera is one disparity to the bit")
   PlaneScene scene;
   scene.near_left = scene.near_right = 0;
   const PlaneField field = RenderPlanes(scene);
-  for (const float value : EstimateField(field, ConfigOf(field, -3, -3)).disparity) {
+  for (const float value : MakeMap(field, ConfigOf(field, -3, -3)).disparity) {
     CHECK(value == -3);
   }
 }
@@ -77,76 +52,16 @@ TEST_CASE("estimate: a plane that faces the camera is one disparity to the bit")
 TEST_CASE("estimate: nobody is sure of the disparities of pictures of one colour") {
   PlaneField field = RenderPlanes(PlaneScene());
   for (auto& view : field.views) std::fill(view.begin(), view.end(), uint8_t{90});
-  const Estimated found = EstimateField(field, ConfigOf(field, -6, 8));
+  const MadeMap found = MakeMap(field, ConfigOf(field, -6, 8));
   for (const float value : found.disparity) CHECK((value >= -6 && value <= 8));
   for (const uint8_t value : found.confidence) CHECK(int(value) == 0);
 }
 
 TEST_CASE("estimate: confidence is high where one disparity alone fits") {
   const PlaneField field = RenderPlanes(PlaneScene());
-  std::vector<uint8_t> confidence = EstimateField(field, ConfigOf(field, -6, 8)).confidence;
+  std::vector<uint8_t> confidence = MakeMap(field, ConfigOf(field, -6, 8)).confidence;
   std::sort(confidence.begin(), confidence.end());
   CHECK(confidence[confidence.size() / 2] > 48);
-}
-
-TEST_CASE("estimate: mirrored light fields give mirrored maps") {
-  // Several tiles, of different sizes.
-  PlaneScene scene;
-  scene.width = 401;
-  scene.height = 61;
-  scene.views = 9;
-  const PlaneField field = RenderPlanes(scene);
-  const Estimated found = EstimateField(field, ConfigOf(field, -4, 6));
-  for (const bool across : {true, false}) {
-    const Estimated back = EstimateField(MirroredField(field, across), ConfigOf(field, -4, 6));
-    int wrong = 0;
-    for (int y = 0; y < field.height; ++y) {
-      for (int x = 0; x < field.width; ++x) {
-        const int at = y * field.width + x;
-        const int to = across ? y * field.width + field.width - 1 - x
-                              : (field.height - 1 - y) * field.width + x;
-        wrong += found.disparity[size_t(at)] != back.disparity[size_t(to)];
-        wrong += found.confidence[size_t(at)] != back.confidence[size_t(to)];
-      }
-    }
-    CHECK(wrong == 0);
-  }
-}
-
-TEST_CASE("estimate: the same bytes by any number of workers, in any order") {
-  PlaneScene scene;
-  scene.width = 400;
-  scene.height = 40;
-  scene.views = 5;
-  const PlaneField field = RenderPlanes(scene);
-  sf_depth_config config = ConfigOf(field, -4, 6);
-  const Estimated one = EstimateField(field, config);
-  config.max_workers = 2;
-  const Estimated two = EstimateField(field, config, RunBackwards);
-  CHECK(one.disparity == two.disparity);
-  CHECK(one.confidence == two.confidence);
-}
-
-TEST_CASE("estimate: the same bytes on every SIMD target") {
-  PlaneScene scene;
-  scene.width = 70;
-  scene.height = 20;
-  const PlaneField field = RenderPlanes(scene);
-  const sf_depth_config config = ConfigOf(field, -4, 6);
-  const Estimated best = EstimateField(field, config);
-  std::vector<const starfocus::simd::DepthKernels*> tables = test::DepthTargets();
-  tables.push_back(&starfocus::simd::ReferenceDepthKernels());
-  for (const starfocus::simd::DepthKernels* kernels : tables) {
-    const starfocus::EstimatePlan plan = starfocus::MakePlan(config);
-    starfocus::EstimateMemory* laid_out = nullptr;
-    const Memory memory(starfocus::LayOutEstimate(plan, 1, nullptr, &laid_out));
-    starfocus::LayOutEstimate(plan, 1, memory.data, &laid_out);
-    std::vector<float> disparity(best.disparity.size());
-    const starfocus::MapOutput output = {disparity.data(), 70, -4, 6, nullptr, 0, nullptr, 0};
-    REQUIRE(starfocus::Estimate(plan, field.Get(), *kernels, output, laid_out) == SF_OK);
-    CAPTURE(kernels->name);
-    CHECK(disparity == best.disparity);
-  }
 }
 
 TEST_CASE("estimate: pictures of any size, with any range, within it") {
@@ -159,7 +74,7 @@ TEST_CASE("estimate: pictures of any size, with any range, within it") {
       const PlaneField field = RenderPlanes(scene);
       for (const auto& range : {std::pair<float, float>{0, 0}, {-3.3F, 4.7F}, {-500, 500}}) {
         for (const float value :
-             EstimateField(field, ConfigOf(field, range.first, range.second)).disparity) {
+             MakeMap(field, ConfigOf(field, range.first, range.second)).disparity) {
           CHECK((value >= range.first && value <= range.second));
         }
       }

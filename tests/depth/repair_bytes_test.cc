@@ -18,33 +18,6 @@ using namespace test;
 
 constexpr float kLow = -6, kHigh = 8;
 
-struct Repaired {
-  std::vector<float> disparity;
-  std::vector<uint8_t> confidence;
-};
-
-Repaired RepairField(const PlaneField& field, const std::vector<float>& given,
-                     sf_depth_config config, sf_runner runner = nullptr) {
-  config.runner = runner;
-  size_t bytes = 0;
-  REQUIRE(sf_repair_size(&config, &bytes) == SF_OK);
-  const Memory memory(bytes);
-  const auto width = size_t(field.width), pixels = width * size_t(field.height);
-  Repaired result = {std::vector<float>(pixels, NAN), std::vector<uint8_t>(pixels, 77)};
-  sf_light_field light_field = field.Get();
-  light_field.depth =
-      sf_depth_float(given.data(), sizeof(float) * width, field.width, field.height);
-  sf_map map = {result.disparity.data(),
-                sizeof(float) * width,
-                result.confidence.data(),
-                width,
-                nullptr,
-                0,
-                0};
-  REQUIRE(sf_repair_disparity(&config, &light_field, &map, memory.data, memory.bytes) == SF_OK);
-  return result;
-}
-
 // The scene's map, its near plane wider by `grown` pixels on both sides.
 std::vector<float> MapOf(const PlaneScene& scene, int grown) {
   PlaneScene other = scene;
@@ -68,7 +41,7 @@ TEST_CASE("repair: edges that lie beside those of the picture go there") {
       CAPTURE(grown);
       CHECK(ShareOff(scene, given, 0.5) > 0.06);
       // Two edges of a pixel each are 2 / 96.
-      const Repaired repaired = RepairField(field, given, ConfigOf(field, kLow, kHigh));
+      const MadeMap repaired = MakeMap(field, ConfigOf(field, kLow, kHigh), given);
       CHECK(ShareOff(scene, repaired.disparity, 0.1) < 0.012);
     }
   }
@@ -87,7 +60,7 @@ TEST_CASE("repair: a blurred edge becomes one again") {
     }
   }
   CHECK(ShareOff(scene, given, 0.5) > 0.15);
-  const Repaired repaired = RepairField(field, given, ConfigOf(field, kLow, kHigh));
+  const MadeMap repaired = MakeMap(field, ConfigOf(field, kLow, kHigh), given);
   CHECK(ShareOff(scene, repaired.disparity, 0.28) < 0.03);
 }
 
@@ -98,7 +71,7 @@ TEST_CASE("repair: noise goes") {
   test::Random random(5);
   for (float& value : given) value += float(random.Int(-100, 100)) * 0.01F;
   CHECK(ShareOff(scene, given, 0.28) > 0.6);
-  const Repaired repaired = RepairField(field, given, ConfigOf(field, kLow, kHigh));
+  const MadeMap repaired = MakeMap(field, ConfigOf(field, kLow, kHigh), given);
   CHECK(ShareOff(scene, repaired.disparity, 0.28) < 0.03);
 }
 
@@ -109,14 +82,14 @@ TEST_CASE("repair: a map that is right stays as it is to the bit") {
   scene.lean = 0.02;
   const PlaneField field = RenderPlanes(scene);
   const std::vector<float> given = MapOf(scene, 0);
-  const Repaired repaired = RepairField(field, given, ConfigOf(field, kLow, kHigh));
+  const MadeMap repaired = MakeMap(field, ConfigOf(field, kLow, kHigh), given);
   int changed = 0;
   for (size_t i = 0; i < given.size(); ++i) changed += repaired.disparity[i] != given[i];
   CHECK(changed < int(given.size()) / 200);
   // A plane alone: all of it.
   scene.near_left = scene.near_right = 0;
   const std::vector<float> plane = MapOf(scene, 0);
-  CHECK(RepairField(RenderPlanes(scene), plane, ConfigOf(field, kLow, kHigh)).disparity == plane);
+  CHECK(MakeMap(RenderPlanes(scene), ConfigOf(field, kLow, kHigh), plane).disparity == plane);
 }
 
 // Strands of a pixel and a quarter, three pixels apart and crossing, before a wall.
@@ -167,7 +140,7 @@ TEST_CASE("repair: strands of an exact map stay") {
   for (const int views : {1, 5, 17}) {
     CAPTURE(views);
     const PlaneField field = StrandScene::Render(views);
-    const Repaired repaired = RepairField(field, given, ConfigOf(field, kLow, kHigh));
+    const MadeMap repaired = MakeMap(field, ConfigOf(field, kLow, kHigh), given);
     int lost = 0, strands = 0;
     for (size_t i = 0; i < given.size(); ++i) {
       strands += given[i] > 0;
@@ -186,7 +159,7 @@ TEST_CASE("repair: strands stay whose map is one closed outline, and gaps open")
     if (x > 16 && x < 80) given[i] = StrandScene::kNear;
   }
   const PlaneField field = StrandScene::Render(5);
-  const Repaired repaired = RepairField(field, given, ConfigOf(field, kLow, kHigh));
+  const MadeMap repaired = MakeMap(field, ConfigOf(field, kLow, kHigh), given);
   int lost = 0, strands = 0, opened = 0;
   for (size_t i = 0; i < given.size(); ++i) {
     strands += exact[i] > 0;
@@ -202,7 +175,7 @@ TEST_CASE("repair: pictures of one colour gainsay nothing") {
   PlaneField field = RenderPlanes(scene);
   for (auto& view : field.views) std::fill(view.begin(), view.end(), uint8_t{90});
   const std::vector<float> given = MapOf(scene, 2);
-  CHECK(RepairField(field, given, ConfigOf(field, kLow, kHigh)).disparity == given);
+  CHECK(MakeMap(field, ConfigOf(field, kLow, kHigh), given).disparity == given);
 }
 
 TEST_CASE("repair: what nothing gainsays is as sure as the picture is different a pixel away") {
@@ -216,7 +189,7 @@ TEST_CASE("repair: what nothing gainsays is as sure as the picture is different 
     }
   }
   const std::vector<float> still(size_t(scene.width * scene.height), 0.0F);
-  const Repaired repaired = RepairField(field, still, ConfigOf(field, kLow, kHigh));
+  const MadeMap repaired = MakeMap(field, ConfigOf(field, kLow, kHigh), still);
   CHECK(repaired.disparity == still);
   for (const uint8_t sure : repaired.confidence) REQUIRE(int(sure) == 4 * (3 * 7 + 3 * 4) / 2);
 }
@@ -231,76 +204,8 @@ TEST_CASE("repair: what is unknown gets the disparity that the views show") {
           x % 2 == 0 ? NAN : std::numeric_limits<float>::infinity();
     }
   }
-  const Repaired repaired = RepairField(field, given, ConfigOf(field, kLow, kHigh));
+  const MadeMap repaired = MakeMap(field, ConfigOf(field, kLow, kHigh), given);
   CHECK(ShareOff(scene, repaired.disparity, 0.28) < 0.022);
-}
-
-TEST_CASE("repair: mirrored light fields give mirrored maps") {
-  PlaneScene scene;
-  scene.width = 401;
-  scene.height = 61;
-  scene.views = 9;
-  const PlaneField field = RenderPlanes(scene);
-  const std::vector<float> given = MapOf(scene, 3);
-  const sf_depth_config config = ConfigOf(field, kLow, kHigh);
-  const Repaired repaired = RepairField(field, given, config);
-  for (const bool across : {true, false}) {
-    const auto mirror = [&](int at) {
-      const int x = at % field.width, y = at / field.width;
-      return size_t(across ? y * field.width + field.width - 1 - x
-                           : (field.height - 1 - y) * field.width + x);
-    };
-    std::vector<float> turned(given.size());
-    for (int at = 0; at < int(given.size()); ++at) turned[mirror(at)] = given[size_t(at)];
-    const Repaired back = RepairField(MirroredField(field, across), turned, config);
-    int wrong = 0;
-    for (int at = 0; at < int(given.size()); ++at) {
-      wrong += repaired.disparity[size_t(at)] != back.disparity[mirror(at)];
-      wrong += repaired.confidence[size_t(at)] != back.confidence[mirror(at)];
-    }
-    CHECK(wrong == 0);
-  }
-}
-
-TEST_CASE("repair: the same bytes by any number of workers, in any order") {
-  PlaneScene scene;
-  scene.width = 400;
-  scene.height = 40;
-  scene.views = 5;
-  const PlaneField field = RenderPlanes(scene);
-  sf_depth_config config = ConfigOf(field, kLow, kHigh);
-  const std::vector<float> given = MapOf(scene, 2);
-  const Repaired one = RepairField(field, given, config);
-  config.max_workers = 2;
-  const Repaired two = RepairField(field, given, config, RunBackwards);
-  CHECK(one.disparity == two.disparity);
-  CHECK(one.confidence == two.confidence);
-}
-
-TEST_CASE("repair: the same bytes on every SIMD target") {
-  PlaneScene scene;
-  scene.width = 70;
-  scene.height = 20;
-  const PlaneField field = RenderPlanes(scene);
-  const sf_depth_config config = ConfigOf(field, kLow, kHigh);
-  const std::vector<float> given = MapOf(scene, 3);
-  const Repaired best = RepairField(field, given, config);
-  sf_light_field light_field = field.Get();
-  light_field.depth = sf_depth_float(given.data(), sizeof(float) * 70, field.width, field.height);
-  std::vector<const starfocus::simd::DepthKernels*> tables = test::DepthTargets();
-  tables.push_back(&starfocus::simd::ReferenceDepthKernels());
-  for (const starfocus::simd::DepthKernels* kernels : tables) {
-    starfocus::EstimatePlan plan = starfocus::MakePlan(config);
-    plan.repairs = true;
-    starfocus::EstimateMemory* laid_out = nullptr;
-    const Memory memory(starfocus::LayOutEstimate(plan, 1, nullptr, &laid_out));
-    starfocus::LayOutEstimate(plan, 1, memory.data, &laid_out);
-    std::vector<float> disparity(best.disparity.size());
-    const starfocus::MapOutput output = {disparity.data(), 70, kLow, kHigh, nullptr, 0, nullptr, 0};
-    REQUIRE(starfocus::Repair(plan, light_field, *kernels, output, laid_out) == SF_OK);
-    CAPTURE(kernels->name);
-    CHECK(disparity == best.disparity);
-  }
 }
 
 TEST_CASE("repair: pictures of any size, within the range") {
@@ -312,7 +217,7 @@ TEST_CASE("repair: pictures of any size, within the range") {
       scene.views = 5;
       const PlaneField field = RenderPlanes(scene);
       const sf_depth_config config = ConfigOf(field, -500, 500);
-      for (const float value : RepairField(field, MapOf(scene, 1), config).disparity) {
+      for (const float value : MakeMap(field, config, MapOf(scene, 1)).disparity) {
         CHECK((value >= -500 && value <= 500));
       }
     }

@@ -1,26 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// SF_MODE_BLOCK through the public ABI: the same bytes whichever way the rows come, whoever works
-// and whatever computes; constants stay; what is in focus is copied; and it looks like
-// the benchmark.
+// SF_MODE_BLOCK through the public ABI: the same bytes whichever way the rows come; constants stay;
+// what is in focus is copied; and it looks like the benchmark.
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
-#include "simd/kernels.h"
 #include "starfocus/starfocus.h"
 #include "tests/filter/deblock_reference.h"
 #include "tests/support/inside.h"
 #include "tests/support/layered_scene.h"
-#include "tests/support/simd_targets.h"
 #include "tests/support/symmetry.h"
 #include "tests/support/test_scene.h"
 
@@ -33,7 +28,7 @@ constexpr int kBlocks[] = {32, 64, 128, 256};
 // Everything a picture depends on but its content.
 struct Setup {
   double focus = 0, aperture = 1;
-  int block = 64, max_layer = 2, deblocking = 35, workers = 1;
+  int block = 64, max_layer = 2, deblocking = 35;
   double max_blur = 40;
   int skips = 1;
   sf_mode mode = SF_MODE_BLOCK;
@@ -61,19 +56,15 @@ sf_config Config(const Setup& s, const test::Scene& scene) {
   config.largest_block = s.block;
   config.tuning.max_layer = s.max_layer;
   config.tuning.deblocking = s.deblocking;
-  config.max_workers = s.workers;
   config.tuning.skips = s.skips;
   return config;
 }
 
-std::vector<uint8_t> Whole(const test::Scene& scene, const Setup& s, sf_report* report = nullptr,
-                           const starfocus::simd::Kernels* kernels = nullptr,
-                           sf_runner runner = nullptr, void* data = nullptr) {
+std::vector<uint8_t> Whole(const test::Scene& scene, const Setup& s, sf_report* report = nullptr) {
   test::Engine engine(Config(s, scene));
   REQUIRE(engine.status() == SF_OK);
-  if (kernels != nullptr) test::UseKernels(kernels, engine.get());
   test::Output out(scene.width, scene.height, 5);
-  REQUIRE(test::Refocus(&engine, s.Params(), scene, &out, runner, data, report) == SF_OK);
+  REQUIRE(test::Refocus(&engine, s.Params(), scene, &out, nullptr, nullptr, report) == SF_OK);
   CHECK(out.PaddingUntouched());
   return out.Tight();
 }
@@ -153,61 +144,6 @@ TEST_CASE("block: rows give the bytes of whole pictures in blur mode and on nois
     s.mode = round % 3 == 0 ? SF_MODE_BLUR : SF_MODE_BLOCK;
     s.block = 32;
     CheckStreamed(scene, s, &random);
-  }
-}
-
-// A fresh thread per worker; the jobs are drawn from the last to the first.
-int RunThreads(void* workers, sf_job job, void* data, int32_t count) {
-  std::atomic<int> left{count};
-  const auto work = [&](int32_t worker) {
-    for (int index = --left; index >= 0; index = --left) job(data, index, worker);
-  };
-  std::vector<std::thread> threads;
-  for (int32_t worker = 0; worker < *static_cast<int*>(workers); ++worker) {
-    threads.emplace_back(work, worker);
-  }
-  for (std::thread& thread : threads) thread.join();
-  return 0;
-}
-
-TEST_CASE("block: 1, 2 and 7 workers give the bytes of no runner at all") {
-  test::Random random(33);
-  for (int round = 0; round < 12; ++round) {
-    const test::Scene scene = test::LayeredScene(random.Int(90, 240), random.Int(30, 140),
-                                                 kViews[round % 4], 8, uint64_t(round) + 100);
-    Setup s = RandomSetup(&random, 8);
-    s.block = 32 << random.Int(0, 1);
-    s.mode = round % 4 == 3 ? SF_MODE_BLUR : SF_MODE_BLOCK;
-    CAPTURE(Text(s, scene));
-    sf_report expected_report = {};
-    const std::vector<uint8_t> expected = Whole(scene, s, &expected_report);
-    for (int workers : {1, 2, 7}) {
-      s.workers = workers;
-      sf_report report = {};
-      const bool same = Whole(scene, s, &report, nullptr, RunThreads, &workers) == expected;
-      CHECK(same);
-      CHECK(BlocksOf(report) == BlocksOf(expected_report));
-      CHECK(report.rendered_samples == expected_report.rendered_samples);
-    }
-  }
-}
-
-TEST_CASE("block: every SIMD target gives the bytes of the plain kernels") {
-  test::Random random(34);
-  const std::vector<const starfocus::simd::Kernels*> targets = test::SimdTargets();
-  for (int round = 0; round < 12; ++round) {
-    const test::Scene scene = test::LayeredScene(random.Int(1, 120), random.Int(1, 100),
-                                                 kViews[round % 4], 7, uint64_t(round) + 200);
-    Setup s = RandomSetup(&random, 7);
-    s.mode = round % 4 == 3 ? SF_MODE_BLUR : SF_MODE_BLOCK;
-    CAPTURE(Text(s, scene));
-    const std::vector<uint8_t> expected =
-        Whole(scene, s, nullptr, &starfocus::simd::ReferenceKernels());
-    for (const starfocus::simd::Kernels* kernels : targets) {
-      CAPTURE(kernels->name);
-      const bool same = Whole(scene, s, nullptr, kernels) == expected;
-      CHECK(same);
-    }
   }
 }
 
@@ -418,25 +354,6 @@ TEST_CASE("block: deblocking does to the picture at once what it does to stripes
     }
   }
   CHECK(changed > 20);
-}
-
-TEST_CASE("block: an engine that is used again gives what a fresh one gives") {
-  test::Random random(37);
-  const test::Scene scene = test::LayeredScene(110, 75, 9, 7, 10);
-  Setup s;
-  s.block = 64;
-  test::Engine engine(Config(s, scene));
-  REQUIRE(engine.status() == SF_OK);
-  constexpr sf_mode kModes[] = {SF_MODE_BLOCK, SF_MODE_BLUR, SF_MODE_FRAME, SF_MODE_BENCHMARK};
-  for (int round = 0; round < 16; ++round) {
-    s.focus = random.Real(-9, 9);
-    s.mode = kModes[random.Int(0, 3)];
-    test::Output out(scene.width, scene.height);
-    REQUIRE(test::Refocus(&engine, s.Params(), scene, &out) == SF_OK);
-    const bool same = out.bytes == Whole(scene, s);
-    CAPTURE(round);
-    CHECK(same);
-  }
 }
 
 TEST_CASE("block: mirrored light fields of whole blocks give mirrored pictures at layer 0") {

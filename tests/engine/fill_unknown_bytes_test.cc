@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
+#include "tests/support/prepared_memory.h"
 #include "tests/support/refocused.h"
 #include "tests/support/test_scene.h"
 
@@ -86,14 +87,8 @@ TEST_CASE("fill unknown: streams and prepared light fields fill alike") {
   CHECK(other.bytes == whole.bytes);
   CHECK(report.unknown_pixels == uint64_t(scenes.count));
 
-  size_t bytes = 0;
-  REQUIRE(sf_prepared_size(&config, &bytes) == SF_OK);
-  std::vector<uint8_t> memory(bytes + SF_ALIGNMENT);
-  const uintptr_t address = reinterpret_cast<uintptr_t>(memory.data());
-  uint8_t* const aligned = memory.data() + (SF_ALIGNMENT - address % SF_ALIGNMENT) % SF_ALIGNMENT;
-  const sf_light_field field = scene.Field();
-  sf_prepared* prepared = nullptr;
-  REQUIRE(sf_prepare(engine.get(), &field, aligned, bytes, &prepared) == SF_OK);
+  test::PreparedMemory memory(config);
+  const sf_prepared* prepared = memory.Prepare(engine.get(), scene.Field());
   test::Output of_prepared(scene.width, scene.height);
   REQUIRE(test::RefocusPreparedRgb(engine.get(), &params, prepared, of_prepared.bytes.data(),
                                    of_prepared.stride, &report) == SF_OK);

@@ -9,6 +9,7 @@
 
 #include "starfocus/starfocus.h"
 #include "tests/support/image_field.h"
+#include "tests/support/prepared_memory.h"
 #include "tests/support/test_scene.h"
 
 namespace given_coverage_test {
@@ -190,14 +191,8 @@ TEST_CASE("given coverage: previews have its means") {
   config.previews = 1;
   test::Engine engine(config);
   REQUIRE(engine.status() == SF_OK);
-  size_t bytes = 0;
-  REQUIRE(sf_prepared_size(&config, &bytes) == SF_OK);
-  std::vector<uint8_t> memory(bytes + SF_ALIGNMENT);
-  const uintptr_t address = reinterpret_cast<uintptr_t>(memory.data());
-  const sf_light_field field = doubled.Field();
-  sf_prepared* prepared = nullptr;
-  REQUIRE(sf_prepare(engine.get(), &field, memory.data() + SF_ALIGNMENT - address % SF_ALIGNMENT,
-                     bytes, &prepared) == SF_OK);
+  test::PreparedMemory memory(config);
+  const sf_prepared* prepared = memory.Prepare(engine.get(), doubled.Field());
   sf_params params = ThroughDisc(2 * kFar);
   test::Output preview(kWidth, kHeight);
   REQUIRE(test::PreviewRgb(engine.get(), &params, prepared, 1, preview.bytes.data(), preview.stride,

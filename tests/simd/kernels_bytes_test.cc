@@ -154,40 +154,5 @@ TEST_CASE("kernels: what a kernel may not do is noticed") {
   CHECK(Complaint(spoilt, test::kernel_cases::ConvertDisparity) == "spoilt returns 0 instead of 1");
 }
 
-std::vector<uint8_t> Refocused(const test::Scene& scene, const sf_params& params,
-                               const Kernels& kernels) {
-  sf_config config = test::ConfigFor(scene);
-  config.largest_block = 32;
-  test::Engine engine(config);
-  REQUIRE(engine.status() == SF_OK);
-  test::UseKernels(&kernels, engine.get());
-  test::Output out(scene.width, scene.height, 5);
-  REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
-  CHECK(out.PaddingUntouched());
-  return out.bytes;
-}
-
-TEST_CASE("kernels: the engine gives the same bytes on every target") {
-  constexpr int kSizes[][2] = {{1, 1}, {5, 3}, {33, 40}, {77, 50}};
-  for (const auto& size : kSizes) {
-    for (const int views : {1, 5, 9, 17}) {
-      const test::Scene scene =
-          test::RandomScene(size[0], size[1], views, -3, 4, 50 + uint64_t(views));
-      for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BENCHMARK}) {
-        const sf_params params = test::Params(1.3, 0.9, mode);
-        const std::vector<uint8_t> expected = Refocused(scene, params, ReferenceKernels());
-        for (const Kernels* kernels : test::SimdTargets()) {
-          CAPTURE(kernels->name);
-          CAPTURE(size[0]);
-          CAPTURE(views);
-          CAPTURE(mode);
-          const bool same = Refocused(scene, params, *kernels) == expected;
-          CHECK(same);
-        }
-      }
-    }
-  }
-}
-
 }  // namespace
 }  // namespace kernels_bytes_test

@@ -101,6 +101,12 @@ class ImageMemory {
     return &bytes_[1][row * strides_[1] + column + ((which == 1) == v_first ? 1 : 0)];
   }
 
+  // All planes, one after the other.
+  std::vector<uint8_t> Bytes() const {
+    std::vector<uint8_t> all;
+    for (const auto& plane : bytes_) all.insert(all.end(), plane.begin(), plane.end());
+    return all;
+  }
   bool operator==(const ImageMemory& other) const {
     return bytes_[0] == other.bytes_[0] && bytes_[1] == other.bytes_[1] &&
            bytes_[2] == other.bytes_[2];

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+// Estimates and repairs of disparity maps, by star sets of every size and by colours alone.
+#ifndef STARFOCUS_TESTS_DEPTH_MAP_OPERATIONS_H_
+#define STARFOCUS_TESTS_DEPTH_MAP_OPERATIONS_H_
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "lib/depth/colour_repair.h"
+#include "lib/depth/estimate.h"
+#include "lib/depth/repair.h"
+#include "starfocus/depth.h"
+#include "tests/depth/depth_scene.h"
+#include "tests/depth/disc_photo.h"
+#include "tests/properties/operations.h"
+
+namespace properties {
+
+struct MapInput {
+  test::PlaneField field;
+  std::vector<float> given;  // empty: the map is estimated
+  float low, high;
+};
+
+// Two planes of some tiles; for a repair a noisy map, whose near plane is too wide.
+inline MapInput Planes(int width, int height, int views, bool repairs) {
+  test::PlaneScene scene;
+  scene.width = width;
+  scene.height = height;
+  scene.views = views;
+  MapInput input = {test::RenderPlanes(scene), {}, -4, 7};
+  if (!repairs) return input;
+  scene.near_left -= 3;
+  scene.near_right += 3;
+  test::Random random(7);
+  for (int i = 0; i < width * height; ++i) {
+    input.given.push_back(float(scene.DisparityAt(i % width) + random.Real(-0.7, 0.7)));
+  }
+  return input;
+}
+
+// A disc whose map is too wide, with unknown values and others.
+inline MapInput Disc(bool noisy) {
+  test::Photo photo = test::MakeDisc(3);
+  for (int x = 40; x < 90; ++x) photo.Map(x, 60 + x % 3) = std::numeric_limits<float>::quiet_NaN();
+  for (int x = 100; x < 112; ++x) photo.Map(x, 100) += float(x % 5);
+  if (noisy) test::AddNoise(&photo);
+  return {{photo.width, photo.height, {photo.rgb}}, photo.map, -500, 500};
+}
+
+// A map in the making.
+struct Maps {
+  Maps(MapInput of, const Setup& how) : input(std::move(of)), setup(how) {
+    const test::Symmetry& mirror = setup.mirror;
+    if (mirror.mirror_x || mirror.mirror_y) {
+      input.field = test::MirroredField(input.field, mirror.mirror_x);
+      if (!input.given.empty()) input.given = Mirrored(input.given);
+    }
+    config = test::ConfigOf(input.field, input.low, input.high);
+    config.max_workers = setup.workers;
+    size_t bytes = 0;
+    const auto size = input.given.empty() ? sf_estimate_size : sf_repair_size;
+    REQUIRE(size(&config, &bytes) == SF_OK);
+    memory = std::make_unique<test::Memory>(bytes);
+    if (setup.used) std::memset(memory->data, 0x11, bytes);
+  }
+
+  template <class T>
+  std::vector<T> Mirrored(const std::vector<T>& plane) const {
+    std::vector<T> mirrored(plane.size());
+    for (int y = 0; y < input.field.height; ++y) {
+      for (int x = 0; x < input.field.width; ++x) {
+        const auto to = test::Move(setup.mirror, input.field.width, input.field.height, x, y);
+        mirrored[size_t(to.second * input.field.width + to.first)] =
+            plane[size_t(y * input.field.width + x)];
+      }
+    }
+    return mirrored;
+  }
+
+  sf_status Make(const sf_callbacks& callbacks, Bytes* out) {
+    config.runner = callbacks.runner;
+    config.runner_data = callbacks.runner_data;
+    config.progress = callbacks.progress;
+    config.progress_data = callbacks.progress_data;
+    const auto width = size_t(config.width), pixels = width * size_t(config.height);
+    std::vector<float> disparity(pixels, NAN);
+    std::vector<uint8_t> confidence(pixels, 77);
+    sf_light_field field = input.field.Get();
+    if (!input.given.empty()) {
+      field.depth =
+          sf_depth_float(input.given.data(), sizeof(float) * width, config.width, config.height);
+    }
+    sf_status status = SF_OK;
+    if (setup.depth_kernels != nullptr) {
+      status = MakeBy(
+          *setup.depth_kernels, field,
+          {disparity.data(), width, input.low, input.high, confidence.data(), width, nullptr, 0});
+    } else {
+      const auto make = input.given.empty() ? sf_estimate_disparity : sf_repair_disparity;
+      sf_map map = {
+          disparity.data(), sizeof(float) * width, confidence.data(), width, nullptr, 0, 0};
+      status = make(&config, &field, &map, memory->data, memory->bytes);
+    }
+    disparity = Mirrored(disparity);
+    *out = Mirrored(confidence);
+    out->resize(pixels * (1 + sizeof(float)));
+    std::memcpy(out->data() + pixels, disparity.data(), pixels * sizeof(float));
+    return status;
+  }
+
+  // The same inside the library, by those kernels.
+  sf_status MakeBy(const starfocus::simd::DepthKernels& kernels, const sf_light_field& field,
+                   const starfocus::MapOutput& output) {
+    starfocus::EstimatePlan plan = starfocus::MakePlan(config);
+    plan.repairs = !input.given.empty();
+    if (config.views == 1) {
+      starfocus::ColourMemory* of_colour = nullptr;
+      starfocus::LayOutColourRepair(plan, 1, memory->data, &of_colour);
+      return starfocus::RepairByColour(plan, field, kernels, output, of_colour);
+    }
+    starfocus::EstimateMemory* laid_out = nullptr;
+    starfocus::LayOutEstimate(plan, 1, memory->data, &laid_out);
+    return (plan.repairs ? starfocus::Repair : starfocus::Estimate)(plan, field, kernels, output,
+                                                                    laid_out);
+  }
+
+  MapInput input;
+  Setup setup;
+  sf_depth_config config;
+  std::unique_ptr<test::Memory> memory;
+};
+
+inline std::vector<Operation> MapOperations() {
+  std::vector<Operation> all;
+  const auto add = [&all](const std::string& name, int questions, const MapInput& input) {
+    all.push_back({name, input.field.height, questions, [input](const Setup& setup) -> Run {
+                     const auto of = std::make_shared<Maps>(input, setup);
+                     return [of](const sf_callbacks& callbacks, Bytes* out) {
+                       return of->Make(callbacks, out);
+                     };
+                   }});
+  };
+  for (const bool repairs : {false, true}) {
+    const std::string what = repairs ? "repair by views: " : "estimate by views: ";
+    const int questions = repairs ? 7 : 4;
+    add(what + "5", questions, Planes(400, 40, 5, repairs));
+    add(what + "9", questions, Planes(401, 61, 9, repairs));
+    add(what + "17", questions, Planes(70, 20, 17, repairs));
+    add(what + "5, two tiles high", questions, Planes(150, 140, 5, repairs));
+  }
+  add("repair by colours", 6, Disc(false));
+  add("repair by colours: noise", 6, Disc(true));
+  return all;
+}
+
+}  // namespace properties
+
+#endif  // STARFOCUS_TESTS_DEPTH_MAP_OPERATIONS_H_

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every way to make a map gives the same bytes on every SIMD target, of mirrored input and in used
+// memory.
+#include <doctest/doctest.h>
+
+#include <vector>
+
+#include "tests/depth/map_operations.h"
+#include "tests/support/simd_targets.h"
+
+namespace maps_bytes_test {
+namespace {
+
+using namespace properties;
+
+TEST_CASE("maps: the same bytes on every SIMD target, of mirrored input and in used memory") {
+  std::vector<Setup> setups(4);
+  setups[1].used = true;
+  setups[2].mirror.mirror_x = setups[3].mirror.mirror_y = true;
+  for (const auto* kernels : test::DepthTargets()) setups.emplace_back().depth_kernels = kernels;
+  setups.emplace_back().depth_kernels = &starfocus::simd::ReferenceDepthKernels();
+  for (const Operation& operation : MapOperations()) CheckSetups(operation, setups);
+}
+
+}  // namespace
+}  // namespace maps_bytes_test

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+// Operations that make pictures or maps, and what must hold of each of them: its bytes depend
+// neither on who works in which order, nor on what was made before, nor on a runner that failed or
+// a call that was cancelled.
+#ifndef STARFOCUS_TESTS_PROPERTIES_OPERATIONS_H_
+#define STARFOCUS_TESTS_PROPERTIES_OPERATIONS_H_
+
+#include <doctest/doctest.h>
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "starfocus/starfocus.h"
+#include "tests/support/rounds.h"
+#include "tests/support/symmetry.h"
+#include "tests/support/test_scene.h"
+#include "tests/support/watch.h"
+
+namespace starfocus::simd {
+struct DepthKernels;
+struct Kernels;
+}  // namespace starfocus::simd
+
+namespace properties {
+
+using Bytes = std::vector<uint8_t>;
+
+// What the bytes of a result must not depend on.
+struct Setup {
+  int workers = 1;
+  bool used = false;                                  // engine or memory made something before
+  const starfocus::simd::Kernels* kernels = nullptr;  // null: the best of this machine
+  const starfocus::simd::DepthKernels* depth_kernels = nullptr;
+  test::Symmetry mirror = {false, false, false};  // of the input, undone in the result
+};
+
+// Runs an operation that is set up, any number of times.
+using Run = std::function<sf_status(const sf_callbacks& callbacks, Bytes* out)>;
+
+struct Operation {
+  std::string name;
+  int32_t rows;   // that progress is told of
+  int questions;  // progress is told at least as often
+  std::function<Run(const Setup& setup)> set_up;
+};
+
+// The bytes of an operation that succeeds.
+inline Bytes Made(const Run& run, const sf_callbacks& callbacks = {}) {
+  Bytes bytes;
+  REQUIRE(run(callbacks, &bytes) == SF_OK);
+  return bytes;
+}
+
+// A thread per worker; the jobs are drawn in a shuffled order.
+struct ShuffledRunner {
+  int workers, sets = 0, jobs = 0;
+
+  static int Run(void* self, sf_job job, void* data, int32_t count) {
+    ShuffledRunner* runner = static_cast<ShuffledRunner*>(self);
+    runner->jobs += count;
+    test::Random random(uint64_t(10 * runner->workers + ++runner->sets));
+    std::vector<int32_t> order(static_cast<size_t>(count));
+    for (int32_t i = 0; i < count; ++i) order[size_t(i)] = i;
+    for (size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random.Next() % i]);
+    std::atomic<size_t> next{0};
+    std::vector<std::thread> threads;
+    for (int32_t worker = 0; worker < runner->workers; ++worker) {
+      threads.emplace_back([&, worker] {
+        for (size_t i = next++; i < order.size(); i = next++) job(data, order[i], worker);
+      });
+    }
+    for (std::thread& thread : threads) thread.join();
+    return 0;
+  }
+};
+
+inline void CheckWorkers(const Operation& operation) {
+  CAPTURE(operation.name);
+  const Bytes expected = Made(operation.set_up({}));
+  for (const auto& [workers, most] : {std::pair(1, 1), {2, 2}, {7, 7}, {3, SF_MAX_WORKERS}}) {
+    CAPTURE(workers);
+    Setup setup;
+    setup.workers = most;
+    ShuffledRunner runner = {workers};
+    const Run run = operation.set_up(setup);
+    CHECK((Made(run, test::RunBy(ShuffledRunner::Run, &runner)) == expected));
+    CHECK(runner.jobs > 1);
+  }
+}
+
+// Each setup gives the bytes of the first.
+inline void CheckSetups(const Operation& operation, const std::vector<Setup>& setups) {
+  CAPTURE(operation.name);
+  const Bytes expected = Made(operation.set_up(setups[0]));
+  for (size_t k = 1; k < setups.size(); ++k) {
+    CAPTURE(k);
+    const Run run = operation.set_up(setups[k]);
+    for (int round = 0; round < (setups[k].used ? 2 : 1); ++round) {
+      CHECK((Made(run) == expected));
+    }
+  }
+}
+
+// Fails at a set of jobs, having run some of them.
+struct FailingRunner {
+  int fails_at, sets = 0;
+
+  static int Run(void* self, sf_job job, void* data, int32_t count) {
+    FailingRunner* runner = static_cast<FailingRunner*>(self);
+    const bool fails = runner->sets++ == runner->fails_at;
+    for (int32_t i = 0; i < (fails ? count / 2 : count); ++i) job(data, i, 0);
+    return fails ? 1 : 0;
+  }
+};
+
+// A runner may fail at any set of jobs, and the next call makes all.
+inline void CheckFailingRunner(const Operation& operation) {
+  CAPTURE(operation.name);
+  const Run run = operation.set_up({});
+  const Bytes expected = Made(run);
+  for (int at = 0;; ++at) {
+    CAPTURE(at);
+    FailingRunner runner = {at};
+    Bytes bytes;
+    const sf_status status = run(test::RunBy(FailingRunner::Run, &runner), &bytes);
+    if (runner.sets <= at) {
+      CHECK(status == SF_OK);
+      CHECK((bytes == expected));
+      CHECK(at > 0);
+      return;
+    }
+    CHECK(status == SF_ERROR_RUNNER);
+    CHECK(runner.sets == at + 1);
+    CHECK((Made(run) == expected));
+  }
+}
+
+// One thread per job, two at a time.
+inline int RunOnTwo(void*, sf_job job, void* data, int32_t count) {
+  std::thread other([=] {
+    for (int32_t i = 1; i < count; i += 2) job(data, i, 1);
+  });
+  for (int32_t i = 0; i < count; i += 2) job(data, i, 0);
+  other.join();
+  return 0;
+}
+
+// Cancels at every call there is (of slow builds at the first ones and some of the others), after
+// each of which the same engine must make what a new one makes.
+inline void CheckCancelling(const Operation& operation) {
+  CAPTURE(operation.name);
+  const Bytes expected = Made(operation.set_up({}));
+  for (const sf_runner runner : {sf_runner(nullptr), sf_runner(RunOnTwo)}) {
+    CAPTURE(runner == nullptr);
+    Setup setup;
+    setup.workers = 2;
+    const Run run = operation.set_up(setup);
+    for (int stop = 0;; stop += test::kSlow && stop >= 10 ? 7 : 1) {
+      CAPTURE(stop);
+      test::Watch watch(stop);
+      sf_callbacks callbacks = test::ToldTo(test::Watch::Progress, &watch);
+      callbacks.runner = runner;
+      Bytes bytes;
+      const sf_status status = run(callbacks, &bytes);
+      CHECK(watch.Good());
+      if (watch.calls <= stop) {  // it ended before
+        CHECK(status == SF_OK);
+        CHECK(watch.Ended());
+        CHECK(watch.rows == operation.rows);
+        CHECK(watch.calls >= operation.questions);
+        CHECK((bytes == expected));
+        break;
+      }
+      REQUIRE(status == SF_ERROR_CANCELLED);
+      CHECK((Made(run, test::RunBy(runner)) == expected));
+    }
+  }
+}
+
+}  // namespace properties
+
+#endif  // STARFOCUS_TESTS_PROPERTIES_OPERATIONS_H_

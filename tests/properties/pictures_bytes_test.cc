@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every way to make a picture gives the same bytes on every SIMD target.
+#include <doctest/doctest.h>
+
+#include <vector>
+
+#include "tests/properties/operations.h"
+#include "tests/properties/picture_operations.h"
+#include "tests/support/simd_targets.h"
+
+namespace pictures_bytes_test {
+namespace {
+
+using namespace properties;
+
+TEST_CASE("pictures: every SIMD target gives the bytes of the plain kernels") {
+  std::vector<Setup> setups(1);
+  setups[0].kernels = &starfocus::simd::ReferenceKernels();
+  for (const auto* kernels : test::SimdTargets()) setups.emplace_back().kernels = kernels;
+  for (const Operation& operation : PictureOperations()) CheckSetups(operation, setups);
+}
+
+}  // namespace
+}  // namespace pictures_bytes_test
