@@ -39,59 +39,6 @@ ImageMemory Refocused(test::Engine* engine, const ImageField& field, const sf_pa
   return image;
 }
 
-// Pushes and pulls at most so many rows at a time.
-sf_status StreamImages(test::Engine* engine, const ImageField& field, const sf_params& params,
-                       int push_rows, int pull_rows, ImageMemory* image, sf_report* report) {
-  sf_status status = sf_stream_begin(engine->get(), &params);
-  const int height = image->height();
-  for (int pushed = 0, pulled = 0; status == SF_OK && pulled < height;) {
-    int32_t consumed = 0, written = 0;
-    const int rows = std::min(push_rows, height - pushed);
-    if (rows > 0) {
-      const sf_light_field images = field.Field(pushed);
-      status = sf_stream_push(engine->get(), &images, rows, &consumed);
-      if (status != SF_OK) return status;
-      CHECK((consumed % 2 == 0 || pushed + consumed == height));
-    }
-    const sf_image out = image->Out(pulled);
-    status =
-        sf_stream_pull(engine->get(), &out, std::min(pull_rows, height - pulled), &written, report);
-    pushed += consumed;
-    pulled += written;
-    if (status == SF_OK && consumed == 0 && written == 0) return SF_ERROR_STATE;
-  }
-  return status;
-}
-
-TEST_CASE("image streams: the bytes of whole images, whatever rows come at a time") {
-  test::Random random(41);
-  constexpr int kSizes[][2] = {{131, 97}, {64, 200}, {33, 31}, {90, 163}, {1, 2}, {2, 1}};
-  for (int round = 0; round < 2 * kFormats; ++round) {
-    CAPTURE(round);
-    const auto& size = kSizes[round % 6];
-    const test::Scene scene =
-        test::LayeredScene(size[0], size[1], round % 2 == 0 ? 5 : 1, 7, uint64_t(round) + 50);
-    const ImageField field =
-        FieldOf(scene, round % kFormats, round % 3 == 0, &random, round % 4 == 1);
-    sf_config config = test::ImageConfig(field, round % 2 == 0 ? 9 : 20);
-    config.features |= SF_FEATURE_STREAMING;
-    config.largest_block = 32;
-    config.features |= SF_FEATURE_FILL_UNKNOWN;
-    test::Engine engine(config);
-    REQUIRE(engine.status() == SF_OK);
-    const ImageKind kind = test::AnyKind((round / 2 + 2) % kFormats, &random);
-    const sf_params params = test::Params(random.Real(0, 3), 0.8, SF_MODE_BLOCK);
-    sf_report expected_report = {}, report = {};
-    const ImageMemory expected = Refocused(&engine, field, params, kind, &expected_report);
-    ImageMemory streamed(size[0], size[1], kind);
-    REQUIRE(StreamImages(&engine, field, params, 2 * random.Int(1, 30), 2 * random.Int(1, 50),
-                         &streamed, &report) == SF_OK);
-    const bool same = streamed == expected;
-    CHECK(same);
-    CHECK(report.unknown_pixels == expected_report.unknown_pixels);
-  }
-}
-
 TEST_CASE("image streams: rows of R, G, B may be pushed, and pulled") {
   test::Random random(42);
   const test::Scene scene = test::LayeredScene(100, 90, 5, 7, 50);
@@ -139,7 +86,7 @@ TEST_CASE("image streams: alpha of rows that are pulled late is still there") {
   const sf_params params = test::Params(0, 1, SF_MODE_BLOCK);
   const ImageMemory expected = Refocused(&engine, field, params, kind, nullptr);
   ImageMemory streamed(20, 900, kind);
-  REQUIRE(StreamImages(&engine, field, params, 900, 2, &streamed, nullptr) == SF_OK);
+  REQUIRE(test::Stream(&engine, field, params, 900, 2, &streamed, nullptr) == SF_OK);
   const bool same = streamed == expected;
   CHECK(same);
 }
@@ -190,36 +137,6 @@ TEST_CASE("image streams: half of a pair of rows is refused, and a bad depth wit
   CHECK(rows > 20);
   CHECK(rows < 51);
   CHECK(rows % 2 == 0);
-}
-
-TEST_CASE("prepared images: the bytes of whole images, for many lenses and regions") {
-  test::Random random(44);
-  for (int round = 0; round < kFormats; ++round) {
-    CAPTURE(round);
-    const int width = random.Int(1, 200), height = random.Int(1, 200);
-    const test::Scene scene = test::LayeredScene(width, height, 5, 7, uint64_t(round) + 90);
-    const ImageField field = FieldOf(scene, round, round % 3 == 0, &random);
-    sf_config config = test::ImageConfig(field, 20);
-    config.features |= SF_FEATURE_FILL_UNKNOWN;
-    config.largest_block = 32 << random.Int(0, 2);
-    config.tuning.max_layer = random.Int(0, 2);
-    test::Engine engine(config);
-    test::PreparedMemory memory(config);
-    const sf_prepared* prepared = memory.Prepare(engine.get(), field.Field());
-    for (int lens = 0; lens < 4; ++lens) {
-      sf_params params = test::Params(random.Real(-9, 9), 1, SF_MODE_BLOCK);
-      if (lens == 2) params.mode = SF_MODE_BLUR;
-      const ImageKind kind = test::AnyKind((round + lens) % kFormats, &random);
-      sf_report report = {};
-      const ImageMemory expected = Refocused(&engine, field, params, kind, &report);
-      ImageMemory got(width, height, kind);
-      const sf_image out = got.Out();
-      REQUIRE(sf_refocus_prepared(engine.get(), &params, prepared, &out, &report) == SF_OK);
-      const bool same = got == expected;
-      CHECK(same);
-      CHECK(report.disparity_bytes == 0);
-    }
-  }
 }
 
 TEST_CASE("prepared images: disparities and layers are those of the converted pictures") {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tests/support/image_field.h"
+#include "tests/support/prepared_memory.h"
 
 namespace images_bytes_test {
 namespace {
@@ -40,9 +41,10 @@ ImageField AnyField(const test::Scene& scene, int format, int round, test::Rando
       random);
 }
 
-// Refocuses the images, and what they are converted to, and compares.
-void CheckSame(const ImageField& field, const sf_config& config, const sf_params& params,
-               const ImageKind& kind, sf_runner runner = nullptr) {
+// Refocuses the images whole, streamed and prepared, and what they are converted to, and compares.
+void CheckSame(const ImageField& field, sf_config config, const sf_params& params,
+               const ImageKind& kind, test::Random* random, sf_runner runner = nullptr) {
+  config.features |= SF_FEATURE_STREAMING;
   test::Engine engine(config);
   REQUIRE(engine.status() == SF_OK);
   const sf_region& r = params.region;
@@ -63,6 +65,19 @@ void CheckSame(const ImageField& field, const sf_config& config, const sf_params
   CHECK(report.unknown_pixels == expected_report.unknown_pixels);
   CHECK(report.side_bytes == expected_report.side_bytes);
   CHECK(report.n == expected_report.n);
+  test::PreparedMemory memory(config);
+  const sf_prepared* prepared = memory.Prepare(engine.get(), images);
+  ImageMemory again(width, height, kind);
+  const sf_image to = again.Out();
+  REQUIRE(sf_refocus_prepared(engine.get(), &params, prepared, &to, &report) == SF_OK);
+  CHECK((again == got));
+  CHECK(report.disparity_bytes == 0);
+  if (r.width > 0) return;
+  ImageMemory streamed(width, height, kind);
+  REQUIRE(test::Stream(&engine, field, params, 2 * random->Int(1, 30), 2 * random->Int(1, 50),
+                       &streamed, &report) == SF_OK);
+  CHECK((streamed == got));
+  CHECK(report.unknown_pixels == expected_report.unknown_pixels);
 }
 
 TEST_CASE("images: every format in and out gives the bytes of converting first, in every mode") {
@@ -85,7 +100,7 @@ TEST_CASE("images: every format in and out gives the bytes of converting first, 
     sf_params params = test::Params(random.Real(-9, 9), random.Real(0.3, 1), mode);
     params.rule = random.Int(0, 2);
     const ImageKind kind = test::AnyKind((round * 3 + round / kFormats) % kFormats, &random);
-    CheckSame(field, config, params, kind, round % 2 == 0 ? nullptr : RunOnTwo);
+    CheckSame(field, config, params, kind, &random, round % 2 == 0 ? nullptr : RunOnTwo);
   }
 }
 
@@ -104,7 +119,7 @@ TEST_CASE("images: regions at odd places, of odd sizes") {
     region.width = random.Int(1, scene.width - region.x);
     region.height = round % 3 == 0 ? random.Int(1, 9) : random.Int(1, scene.height - region.y);
     const ImageKind kind = test::AnyKind((round + 4) % kFormats, &random);
-    CheckSame(field, config, params, kind, round % 2 == 0 ? nullptr : RunOnTwo);
+    CheckSame(field, config, params, kind, &random, round % 2 == 0 ? nullptr : RunOnTwo);
   }
 }
 
@@ -117,7 +132,7 @@ TEST_CASE("images: what near surfaces hide, and what lies beyond the edges, far 
       sf_config config = test::ImageConfig(field, 8);
       sf_params params = test::Params(test::kNearFocus, 0.2, SF_MODE_BLOCK);
       params.rule = rule;
-      CheckSame(field, config, params, test::AnyKind(SF_FORMAT_I420, &random));
+      CheckSame(field, config, params, test::AnyKind(SF_FORMAT_I420, &random), &random);
     }
   }
 }
@@ -138,7 +153,8 @@ TEST_CASE("images: lamps") {
     sf_config config = test::ImageConfig(field);
     config.highlights = 8;
     config.largest_block = 32;
-    CheckSame(field, config, test::Params(5, 1, mode), test::AnyKind(SF_FORMAT_BGRX, &random));
+    CheckSame(field, config, test::Params(5, 1, mode), test::AnyKind(SF_FORMAT_BGRX, &random),
+              &random);
   }
 }
 
@@ -172,7 +188,7 @@ TEST_CASE("images: depth of every type, meaning and size; unknown depths") {
     config.largest_block = 32;
     config.features |= SF_FEATURE_FILL_UNKNOWN;
     const sf_params params = test::Params(2, 1, SF_MODE_BLOCK);
-    CheckSame(field, config, params, test::AnyKind(SF_FORMAT_NV12, &random));
+    CheckSame(field, config, params, test::AnyKind(SF_FORMAT_NV12, &random), &random);
     config.features &= ~SF_FEATURE_FILL_UNKNOWN;
     test::Engine engine(config);
     ImageMemory out(130, 97, test::AnyKind(SF_FORMAT_RGB, &random)), before = out;

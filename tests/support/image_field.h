@@ -3,6 +3,9 @@
 #ifndef STARFOCUS_TESTS_SUPPORT_IMAGE_FIELD_H_
 #define STARFOCUS_TESTS_SUPPORT_IMAGE_FIELD_H_
 
+#include <doctest/doctest.h>
+
+#include <algorithm>
 #include <vector>
 
 #include "tests/support/image_scene.h"
@@ -65,6 +68,30 @@ inline sf_config ImageConfig(const ImageField& field, double max_blur = 20) {
   sf_config config = ConfigFor(field.converted, max_blur);
   config.features |= SF_FEATURE_IMAGES;
   return config;
+}
+
+// Pushes and pulls at most so many rows at a time.
+inline sf_status Stream(Engine* engine, const ImageField& field, const sf_params& params,
+                        int push_rows, int pull_rows, ImageMemory* image, sf_report* report) {
+  sf_status status = sf_stream_begin(engine->get(), &params);
+  const int height = image->height();
+  for (int pushed = 0, pulled = 0; status == SF_OK && pulled < height;) {
+    int32_t consumed = 0, written = 0;
+    const int rows = std::min(push_rows, height - pushed);
+    if (rows > 0) {
+      const sf_light_field images = field.Field(pushed);
+      status = sf_stream_push(engine->get(), &images, rows, &consumed);
+      if (status != SF_OK) return status;
+      CHECK((consumed % 2 == 0 || pushed + consumed == height));
+    }
+    const sf_image out = image->Out(pulled);
+    status =
+        sf_stream_pull(engine->get(), &out, std::min(pull_rows, height - pulled), &written, report);
+    pushed += consumed;
+    pulled += written;
+    if (status == SF_OK && consumed == 0 && written == 0) return SF_ERROR_STATE;
+  }
+  return status;
 }
 
 }  // namespace test
