@@ -9,6 +9,7 @@
 #include <string>
 
 #include "starfocus/starfocus.h"
+#include "tests/support/prepared_memory.h"
 #include "tests/support/test_scene.h"
 
 namespace abi_bytes_test {
@@ -326,17 +327,67 @@ TEST_CASE("workspace: too small or misaligned") {
   CHECK(engine != nullptr);
 }
 
-TEST_CASE("refocus: illegal parameters") {
+// What takes parameters or light fields refuses them alike.
+struct Function {
+  const char* name;
+  bool takes_params, takes_field;
+  sf_status (*call)(Fixture* f, sf_engine* e, test::PreparedMemory* memory);
+};
+const Function kFunctions[] = {
+    {"sf_refocus", true, true,
+     [](Fixture* f, sf_engine* e, test::PreparedMemory*) { return f->Refocus(e); }},
+    {"sf_refocus_prepared", true, false,
+     [](Fixture* f, sf_engine* e, test::PreparedMemory* memory) {
+       return test::RefocusPreparedRgb(e, &f->params, memory->Prepare(e, f->field),
+                                       f->out.bytes.data(), f->out.stride, &f->report);
+     }},
+    {"sf_stream_begin", true, false,
+     [](Fixture* f, sf_engine* e, test::PreparedMemory*) {
+       return sf_stream_begin(e, &f->params);
+     }},
+    {"sf_prepare", false, true,
+     [](Fixture* f, sf_engine* e, test::PreparedMemory* memory) {
+       sf_prepared* made = nullptr;
+       return sf_prepare(e, &f->field, memory->get(), memory->bytes, &made);
+     }},
+    {"sf_stream_push", false, true,
+     [](Fixture* f, sf_engine* e, test::PreparedMemory*) {
+       int32_t taken = 0;
+       REQUIRE(sf_stream_begin(e, &f->params) == SF_OK);
+       const sf_status status = sf_stream_push(e, &f->field, kHeight, &taken);
+       CHECK((taken == 0) == (status != SF_OK));
+       return status;
+     }},
+};
+
+TEST_CASE("pictures: illegal parameters and light fields") {
   Fixture f;
+  f.config.features |= SF_FEATURE_STREAMING;
   test::Engine engine(f.config);
   REQUIRE(engine.status() == SF_OK);
-  for (const Bad<sf_params>& bad : kBadParams) {
+  test::PreparedMemory memory(f.config);
+  const auto check = [&](const auto& bad, const Function& function) {
     CAPTURE(bad.field);
-    f.params = test::Params(0.5);
-    bad.spoil(&f.params);
-    CHECK(f.Refocus(engine.get()) == bad.status);
+    CHECK(function.call(&f, engine.get(), &memory) == bad.status);
     CheckProblem(bad, sf_engine_problem(engine.get()));
     CHECK(f.NothingWritten());
+  };
+  for (const Function& function : kFunctions) {
+    CAPTURE(function.name);
+    for (const Bad<sf_params>& bad : kBadParams) {
+      const bool previews = std::string(bad.field) == "preview_shift";
+      if (!function.takes_params || (previews && function.call == kFunctions[1].call)) continue;
+      f.params = test::Params(0.5);
+      bad.spoil(&f.params);
+      check(bad, function);
+    }
+    f.params = test::Params(0.5);
+    for (const Bad<sf_light_field>& bad : kBadFields) {
+      if (!function.takes_field) continue;
+      bad.spoil(&f.field);
+      check(bad, function);
+      f.field = f.scene.Field();
+    }
   }
   f.params = test::Params(6);  // r = 8: exactly the largest blur
   f.params.lens.curvature = 1;
@@ -345,20 +396,6 @@ TEST_CASE("refocus: illegal parameters") {
   f.params.lens.rotation = 360;
   CHECK(f.Refocus(engine.get()) == SF_OK);
   CHECK(f.report.r_max == 8);
-}
-
-TEST_CASE("refocus: illegal light fields") {
-  Fixture f;
-  test::Engine engine(f.config);
-  REQUIRE(engine.status() == SF_OK);
-  for (const Bad<sf_light_field>& bad : kBadFields) {
-    CAPTURE(bad.field);
-    f.field = f.scene.Field();
-    bad.spoil(&f.field);
-    CHECK(f.Refocus(engine.get()) == bad.status);
-    CheckProblem(bad, sf_engine_problem(engine.get()));
-    CHECK(f.NothingWritten());
-  }
 }
 
 TEST_CASE("refocus: null pointers and output stride") {
