@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
-#include "tests/support/prepared_memory.h"
 #include "tests/support/refocused.h"
 #include "tests/support/test_scene.h"
+#include "tests/support/ways.h"
 
 namespace fill_unknown_bytes_test {
 namespace {
@@ -72,28 +72,13 @@ TEST_CASE("fill unknown: the farther known value of the row goes on, in every mo
   }
 }
 
-TEST_CASE("fill unknown: streams and prepared light fields fill alike") {
+TEST_CASE("fill unknown: every way in fills alike") {
   const Scenes scenes = WithGaps(5);
-  const test::Scene& scene = scenes.unknown;
+  const sf_config config = FillingConfig(scenes.unknown);
   const sf_params params = test::Params(0.5, 0.5, SF_MODE_BLOCK);
-  sf_config config = FillingConfig(scene);
-  config.features |= SF_FEATURE_STREAMING;
-  test::Engine engine(config);
-  REQUIRE(engine.status() == SF_OK);
-  test::Output whole(scene.width, scene.height), other(scene.width, scene.height);
-  REQUIRE(test::Refocus(&engine, params, scene, &whole) == SF_OK);
-  sf_report report = {};
-  REQUIRE(test::Stream(&engine, params, scene, &other, 11, 7, nullptr, nullptr, &report) == SF_OK);
-  CHECK(other.bytes == whole.bytes);
+  test::CheckWays(scenes.unknown, config, params);
+  const sf_report report = test::RefocusScene(scenes.unknown, config, params).report;
   CHECK(report.unknown_pixels == uint64_t(scenes.count));
-
-  test::PreparedMemory memory(config);
-  const sf_prepared* prepared = memory.Prepare(engine.get(), scene.Field());
-  test::Output of_prepared(scene.width, scene.height);
-  REQUIRE(test::RefocusPreparedRgb(engine.get(), &params, prepared, of_prepared.bytes.data(),
-                                   of_prepared.stride, &report) == SF_OK);
-  CHECK(of_prepared.bytes == whole.bytes);
-  CHECK(report.unknown_pixels == 0);
 }
 
 TEST_CASE("fill unknown: a value outside the range is refused beside unknown ones") {

@@ -11,6 +11,7 @@
 #include "tests/support/image_field.h"
 #include "tests/support/prepared_memory.h"
 #include "tests/support/test_scene.h"
+#include "tests/support/ways.h"
 
 namespace given_coverage_test {
 namespace {
@@ -134,37 +135,15 @@ TEST_CASE("given coverage: deep inside a silhouette, too, the wall ends where co
   CHECK(most < 2);
 }
 
-TEST_CASE("given coverage: regions, streams, images and prepared fields give the same bytes") {
+TEST_CASE("given coverage: every way in gives the same bytes") {
   const test::Scene scene = Comb();
-  sf_config config = CombConfig(scene);
-  config.features |= SF_FEATURE_STREAMING | SF_FEATURE_IMAGES;
+  const sf_config config = CombConfig(scene);
   for (const double focus : {kFar, 1.0, kNear}) {
     CAPTURE(focus);
     sf_params params = ThroughDisc(focus);
-    const test::Output whole = Refocused(scene, config, params);
-    CHECK((Refocused(Without(scene), config, params).bytes != whole.bytes));
-    test::Engine engine(config);
-    test::Output out(kWidth, kHeight);
-    REQUIRE(test::Stream(&engine, params, scene, &out, 7, 11) == SF_OK);
-    CHECK((out.bytes == whole.bytes));
-
-    // Three bytes with a gap behind them are converted.
-    std::vector<uint8_t> gapped(4 * size_t{kWidth} * kHeight);
-    for (int k = 0; k < kWidth * kHeight; ++k) {
-      std::copy_n(scene.Pixel(0, k % kWidth, k / kWidth), 3, gapped.begin() + 4 * k);
-    }
-    sf_light_field field = scene.Field();
-    field.views[0] = sf_image_rgb(gapped.data(), 4 * size_t{kWidth});
-    field.views[0].pixel_stride = 4;
-    const sf_image image = sf_image_rgb(out.bytes.data(), out.stride);
-    REQUIRE(sf_refocus(engine.get(), &params, &field, &image, nullptr) == SF_OK);
-    CHECK((out.bytes == whole.bytes));
-
-    const sf_region region = {33, 100, 90, 41};
-    params.region = region;
-    test::Output part(region.width, region.height);
-    REQUIRE(test::Refocus(&engine, params, scene, &part) == SF_OK);
-    CHECK(test::IsPartOf(part, whole, region));
+    CHECK((Refocused(Without(scene), config, params).bytes !=
+           Refocused(scene, config, params).bytes));
+    test::CheckWays(scene, config, params);
   }
 }
 

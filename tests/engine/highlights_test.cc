@@ -10,6 +10,7 @@
 
 #include "tests/support/refocused.h"
 #include "tests/support/transfer_curve.h"
+#include "tests/support/ways.h"
 
 namespace highlights_test {
 namespace {
@@ -149,7 +150,7 @@ TEST_CASE("highlights: a picture without any stays the same to the byte") {
   }
 }
 
-TEST_CASE("highlights: rows that come one by one give the same bytes") {
+TEST_CASE("highlights: every way in gives the same bytes") {
   for (const int views : {1, 5}) {
     test::Scene scene = test::RandomScene(97, 150, views, -3, 5, 78);
     for (int lamp = 0; lamp < 12; ++lamp) {
@@ -162,18 +163,11 @@ TEST_CASE("highlights: rows that come one by one give the same bytes") {
     for (const sf_mode mode : kModes) {
       sf_config config = test::ConfigFor(scene, 9);
       config.largest_block = 32;
-      config.features |= SF_FEATURE_STREAMING;
       config.highlights = 6;
-      test::Engine engine(config);
-      REQUIRE(engine.status() == SF_OK);
       const sf_params params = test::Params(-4, 1, mode);
-      test::Output whole(scene.width, scene.height), streamed(scene.width, scene.height);
-      REQUIRE(test::Refocus(&engine, params, scene, &whole) == SF_OK);
-      REQUIRE(test::Stream(&engine, params, scene, &streamed, 7, 5) == SF_OK);
       CAPTURE(views);
       CAPTURE(mode);
-      const bool same = streamed.bytes == whole.bytes;
-      CHECK(same);
+      test::CheckWays(scene, config, params);
     }
   }
 }

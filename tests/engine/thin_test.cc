@@ -10,6 +10,7 @@
 #include "starfocus/starfocus.h"
 #include "tests/support/inside.h"
 #include "tests/support/test_scene.h"
+#include "tests/support/ways.h"
 
 namespace thin_test {
 namespace {
@@ -138,22 +139,8 @@ TEST_CASE("thin: every way in gives the same bytes") {
   for (const double focus : {kFar, 0.0, kNear}) {
     CAPTURE(focus);
     sf_params params = ThroughDisc(focus);
+    test::CheckWays(scene, config, params);
     const test::Output whole = Refocused(scene, config, params);
-    test::Engine engine(config);
-    for (const sf_region region : {sf_region{40, 90, 70, 30}, sf_region{0, 143, 160, 1},
-                                   sf_region{80, 0, 1, 144}, sf_region{3, 63, 90, 3}}) {
-      params.region = region;
-      test::Output part(region.width, region.height);
-      REQUIRE(test::Refocus(&engine, params, scene, &part) == SF_OK);
-      CHECK(test::IsPartOf(part, whole, region));
-    }
-    params.region = {};
-    sf_config streaming = config;
-    streaming.features |= SF_FEATURE_STREAMING;
-    test::Engine stream(streaming);
-    test::Output streamed(kWidth, kHeight);
-    REQUIRE(test::Stream(&stream, params, scene, &streamed, 7, 11) == SF_OK);
-    CHECK((streamed.bytes == whole.bytes));
     config.features ^= SF_FEATURE_LINE_SCAN;
     CHECK((Refocused(scene, config, params).bytes == whole.bytes));
   }

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// Ways to ask for a picture against each other.
+#ifndef STARFOCUS_TESTS_SUPPORT_WAYS_H_
+#define STARFOCUS_TESTS_SUPPORT_WAYS_H_
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "starfocus/starfocus.h"
+#include "tests/support/prepared_memory.h"
+#include "tests/support/test_scene.h"
+
+namespace test {
+
+// Streams, prepared light fields, views with gaps between pixels and regions give the bytes of the
+// whole picture.
+inline void CheckWays(const Scene& scene, sf_config config, sf_params params) {
+  config.features |= SF_FEATURE_STREAMING | SF_FEATURE_IMAGES;
+  Engine engine(config);
+  const int width = scene.width, height = scene.height;
+  sf_report report = {}, other_report = {};
+  Output whole(width, height), streamed = whole, again = whole, converted = whole;
+  REQUIRE(Refocus(&engine, params, scene, &whole, nullptr, nullptr, &report) == SF_OK);
+  REQUIRE(Stream(&engine, params, scene, &streamed, 7, 11, nullptr, nullptr, &other_report) ==
+          SF_OK);
+  CHECK((streamed.bytes == whole.bytes));
+  CHECK(other_report.unknown_pixels == report.unknown_pixels);
+  PreparedMemory memory(config);
+  const sf_prepared* prepared = memory.Prepare(engine.get(), scene.Field());
+  REQUIRE(RefocusPreparedRgb(engine.get(), &params, prepared, again.bytes.data(), again.stride,
+                             &other_report) == SF_OK);
+  CHECK((again.bytes == whole.bytes));
+  CHECK(other_report.unknown_pixels == 0);
+
+  std::vector<uint8_t> gapped(4 * size_t(width) * size_t(height));
+  for (int k = 0; k < width * height; ++k) {
+    std::copy_n(scene.Pixel(0, k % width, k / width), 3, gapped.begin() + 4 * k);
+  }
+  sf_light_field field = scene.Field();
+  field.views[0] = sf_image_rgb(gapped.data(), 4 * size_t(width));
+  field.views[0].pixel_stride = 4;
+  const sf_image image = sf_image_rgb(converted.bytes.data(), converted.stride);
+  REQUIRE(sf_refocus(engine.get(), &params, &field, &image, nullptr) == SF_OK);
+  CHECK((converted.bytes == whole.bytes));
+
+  for (const sf_region& region :
+       {sf_region{width / 4, height * 5 / 8, width * 7 / 16, height / 5},
+        sf_region{0, height - 1, width, 1}, sf_region{width / 2, 0, 1, height},
+        sf_region{3, height * 7 / 16, width / 2, 3}}) {
+    params.region = region;
+    Output part(region.width, region.height);
+    REQUIRE(Refocus(&engine, params, scene, &part) == SF_OK);
+    CHECK(IsPartOf(part, whole, region));
+  }
+}
+
+}  // namespace test
+
+#endif  // STARFOCUS_TESTS_SUPPORT_WAYS_H_
