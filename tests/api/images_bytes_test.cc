@@ -2,7 +2,6 @@
 // Images and depth maps of every format: the bytes of converting them first.
 #include <doctest/doctest.h>
 
-#include <thread>
 #include <vector>
 
 #include "tests/support/image_field.h"
@@ -17,16 +16,6 @@ using test::ImageMemory;
 
 constexpr int kFormats = 8, kTypes = 4;
 constexpr int kAllViews[] = {1, 5, 9, 17};
-
-// Two threads: jobs in turn.
-int RunOnTwo(void*, sf_job job, void* data, int32_t count) {
-  std::thread other([=] {
-    for (int32_t k = 1; k < count; k += 2) job(data, k, 1);
-  });
-  for (int32_t k = 0; k < count; k += 2) job(data, k, 0);
-  other.join();
-  return 0;
-}
 
 ImageField AnyField(const test::Scene& scene, int format, int round, test::Random* random) {
   std::vector<ImageKind> kinds = {test::AnyKind(format, random)};
@@ -100,7 +89,7 @@ TEST_CASE("images: every format in and out gives the bytes of converting first, 
     sf_params params = test::Params(random.Real(-9, 9), random.Real(0.3, 1), mode);
     params.rule = random.Int(0, 2);
     const ImageKind kind = test::AnyKind((round * 3 + round / kFormats) % kFormats, &random);
-    CheckSame(field, config, params, kind, &random, round % 2 == 0 ? nullptr : RunOnTwo);
+    CheckSame(field, config, params, kind, &random, round % 2 == 0 ? nullptr : test::RunOnTwo);
   }
 }
 
@@ -119,7 +108,7 @@ TEST_CASE("images: regions at odd places, of odd sizes") {
     region.width = random.Int(1, scene.width - region.x);
     region.height = round % 3 == 0 ? random.Int(1, 9) : random.Int(1, scene.height - region.y);
     const ImageKind kind = test::AnyKind((round + 4) % kFormats, &random);
-    CheckSame(field, config, params, kind, &random, round % 2 == 0 ? nullptr : RunOnTwo);
+    CheckSame(field, config, params, kind, &random, round % 2 == 0 ? nullptr : test::RunOnTwo);
   }
 }
 

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <thread>
 #include <vector>
 
 #include "lib/base/transfer.h"
@@ -17,16 +16,6 @@ namespace preview_test {
 namespace {
 
 constexpr int kViews[] = {1, 5, 9, 17};
-
-// Two threads: jobs in turn.
-int RunOnTwo(void*, sf_job job, void* data, int32_t count) {
-  std::thread other([=] {
-    for (int32_t k = 1; k < count; k += 2) job(data, k, 1);
-  });
-  for (int32_t k = 0; k < count; k += 2) job(data, k, 0);
-  other.join();
-  return 0;
-}
 
 int Ceil(int size, int shift) { return (size + (1 << shift) - 1) >> shift; }
 
@@ -163,7 +152,7 @@ double Psnr(const test::Output& got, const test::Output& full, int shift, int32_
 bool IsOfReduced(Prepared* prepared, sf_params params, int shift, const sf_config& config,
                  const test::Scene& reduced) {
   sf_report report = {};
-  const test::Output got = prepared->Preview(params, shift, test::RunBy(RunOnTwo), &report);
+  const test::Output got = prepared->Preview(params, shift, test::RunBy(test::RunOnTwo), &report);
   test::Engine small(ReducedConfig(config, shift, report.largest_block));
   REQUIRE(small.status() == SF_OK);
   params.lens.focus /= 1 << shift;
@@ -192,7 +181,7 @@ TEST_CASE("preview: the bytes of the light field that the definition reduces") {
     config.previews = 3;
     CAPTURE(round);
     ++round;
-    Prepared prepared(scene, config, RunOnTwo);
+    Prepared prepared(scene, config, test::RunOnTwo);
     for (int shift = 1; shift <= 3; ++shift) {
       CAPTURE(shift);
       const test::Scene reduced = Reduced(scene, shift, config.transfer);
@@ -228,7 +217,7 @@ TEST_CASE(
     config.features |= SF_FEATURE_STREAMING;
     config.max_workers = 2;
     config.previews = 3;
-    Prepared prepared(scene, config, RunOnTwo);
+    Prepared prepared(scene, config, test::RunOnTwo);
     for (int shift = 1; shift <= 3; ++shift) {
       CAPTURE(shift);
       const test::Scene reduced = Reduced(scene, shift, config.transfer);

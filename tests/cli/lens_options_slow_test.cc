@@ -11,6 +11,7 @@
 #include "platform/light_field.h"
 #include "tests/cli/call_program.h"
 #include "tests/support/error_line.h"
+#include "tests/support/psnr.h"
 #include "tests/support/temp_folder.h"
 
 namespace starfocus::lens_options_slow_test {
@@ -61,14 +62,6 @@ TEST_CASE("cli: --focus-at takes the surface around the pixel, not the pixel") {
   CHECK(Text(folder.file("at.png")) == Text(folder.file("d.png")));
 }
 
-double Psnr(const Image& a, const Image& b) {
-  double sum = 0;
-  for (size_t i = 0; i < a.pixels.size(); ++i) {
-    sum += (double(a.pixels[i]) - b.pixels[i]) * (double(a.pixels[i]) - b.pixels[i]);
-  }
-  return 10 * std::log10(255.0 * 255 * double(a.pixels.size()) / sum);
-}
-
 TEST_CASE("cli: lamps are nearer to the truth as light, values to that of values") {
   TempFolder folder;
   for (const char* traced : {"srgb", "none"}) {
@@ -82,7 +75,7 @@ TEST_CASE("cli: lamps are nearer to the truth as light, values to that of values
       CHECK(Contains(Text(folder.file("a.json")), "\"transfer\": \"" + transfer + "\""));
       Image picture;
       REQUIRE(ReadImage(folder.file("a.png"), &picture) == "");
-      return Psnr(picture, truth);
+      return test::Psnr(picture.pixels, truth.pixels);
     };
     const double srgb = psnr("srgb"), none = psnr("none");
     CAPTURE(srgb);
@@ -105,7 +98,7 @@ TEST_CASE("cli: clipped lamps are nearer to the truth as highlights") {
     CHECK(Contains(Text(folder.file("a.json")), "\"highlights\": " + highlights));
     Image picture;
     REQUIRE(ReadImage(folder.file("a.png"), &picture) == "");
-    return Psnr(picture, truth);
+    return test::Psnr(picture.pixels, truth.pixels);
   };
   const double clipped = psnr("1.0"), bright = psnr("3.0");
   CAPTURE(clipped);

@@ -9,6 +9,7 @@
 #include "examples/scene/noise.h"
 #include "examples/scene/render.h"
 #include "starfocus/starfocus.h"
+#include "tests/support/psnr.h"
 
 namespace starfocus::scene_slow_test {
 namespace {
@@ -60,15 +61,6 @@ double WarpAgreement(const Image& centre, const Image& view, const FloatMap& map
   return double(good) / all;
 }
 
-double Psnr(const Image& a, const Image& b) {
-  double squares = 0;
-  for (size_t i = 0; i < a.pixels.size(); ++i) {
-    const double d = double(a.pixels[i]) - b.pixels[i];
-    squares += d * d;
-  }
-  return 10 * std::log10(255.0 * 255.0 * double(a.pixels.size()) / (squares + 1e-9));
-}
-
 TEST_CASE("scene: views warped by the exact disparity give the centre view back") {
   ThreadRunner runner(2);
   for (const char* name : kNames) {
@@ -97,8 +89,9 @@ TEST_CASE("scene: a lens stopped down to a pinhole takes the centre view") {
   REQUIRE(MakeScene("portrait", &scene));
   const RayTracer renderer(scene, kWidth / 2, kHeight / 2, SF_TRANSFER_NONE, &runner);
   const Image centre = renderer.View(0, 0, nullptr);
-  CHECK(Psnr(centre, renderer.Truth(0.5, 1e-6, DefaultOpening(), nullptr)) > 38);
-  CHECK(Psnr(centre, renderer.Truth(0.5, 1, DefaultOpening(), nullptr)) < 32);
+  CHECK(test::Psnr(centre.pixels, renderer.Truth(0.5, 1e-6, DefaultOpening(), nullptr).pixels) >
+        38);
+  CHECK(test::Psnr(centre.pixels, renderer.Truth(0.5, 1, DefaultOpening(), nullptr).pixels) < 32);
 }
 
 TEST_CASE("scene: what the lens focuses on is sharp, the rest is not") {
@@ -114,8 +107,8 @@ TEST_CASE("scene: what the lens focuses on is sharp, the rest is not") {
     std::copy(image.row(y), image.row(y) + image.stride(), rows.row(0));
     return rows;
   };
-  CHECK(Psnr(band(centre, kHeight / 2), band(truth, kHeight / 2)) > 33);
-  CHECK(Psnr(band(centre, 2), band(truth, 2)) < 28);
+  CHECK(test::Psnr(band(centre, kHeight / 2).pixels, band(truth, kHeight / 2).pixels) > 33);
+  CHECK(test::Psnr(band(centre, 2).pixels, band(truth, 2).pixels) < 28);
 }
 
 TEST_CASE("scene: the same pictures for any number of threads") {

@@ -16,6 +16,7 @@
 #include "tests/filter/deblock_reference.h"
 #include "tests/support/inside.h"
 #include "tests/support/layered_scene.h"
+#include "tests/support/psnr.h"
 #include "tests/support/symmetry.h"
 #include "tests/support/test_scene.h"
 
@@ -290,12 +291,6 @@ test::Scene SmoothScene(int width, int height, int views) {
   return scene;
 }
 
-double Psnr(const std::vector<uint8_t>& a, const std::vector<uint8_t>& b) {
-  double sum = 0;
-  for (size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
-  return sum == 0 ? 99 : 10 * std::log10(255.0 * 255.0 * double(a.size()) / sum);
-}
-
 TEST_CASE("block: agrees with the benchmark on a slanted plane") {
   const test::Scene scene = SmoothScene(320, 160, 17);
   for (const double focus : {-6.0, -2.0, 0.0, 3.5, 6.0}) {
@@ -307,7 +302,7 @@ TEST_CASE("block: agrees with the benchmark on a slanted plane") {
     std::string line = "focus " + std::to_string(focus) + ":";
     for (int max_layer = 0; max_layer <= 2; ++max_layer) {
       s.max_layer = max_layer;
-      const double psnr = Psnr(Whole(scene, s), benchmark);
+      const double psnr = test::Psnr(Whole(scene, s), benchmark);
       line += " L<=" + std::to_string(max_layer) + " " + std::to_string(psnr) + " dB";
       CAPTURE(focus);
       CAPTURE(max_layer);

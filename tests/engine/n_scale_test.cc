@@ -11,6 +11,7 @@
 #include "lib/base/rules.h"
 #include "starfocus/starfocus.h"
 #include "tests/support/integer_scene.h"
+#include "tests/support/psnr.h"
 #include "tests/support/refocused.h"
 #include "tests/support/test_scene.h"
 
@@ -30,12 +31,6 @@ Refocused Refocus(const test::Scene& scene, const sf_params& params, double n_sc
 }
 
 test::Scene FlatScene(uint64_t seed) { return test::RandomScene(40, 36, 5, 0, 0, seed); }
-
-double Psnr(const std::vector<uint8_t>& a, const std::vector<uint8_t>& b) {
-  double sum = 0;
-  for (size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
-  return sum == 0 ? 99 : 10 * std::log10(255.0 * 255.0 * double(a.size()) / sum);
-}
 
 TEST_CASE("n_scale: multiplies the N of either rule in frame and block mode") {
   const test::Scene scene = FlatScene(1);
@@ -112,7 +107,7 @@ TEST_CASE("n_scale: more views, and nearer to the benchmark") {
       CAPTURE(scale);
       CHECK(picture.report.rendered_samples > samples);
       samples = picture.report.rendered_samples;
-      psnr.push_back(Psnr(picture.rgb, benchmark));
+      psnr.push_back(test::Psnr(picture.rgb, benchmark));
       line += " " + std::to_string(samples) + " samples, " + std::to_string(psnr.back()) + " dB;";
     }
     MESSAGE(line);

@@ -15,6 +15,7 @@
 #include "tests/plan/measured_cells.h"
 #include "tests/support/inside.h"
 #include "tests/support/layered_scene.h"
+#include "tests/support/psnr.h"
 #include "tests/support/refocused.h"
 #include "tests/support/test_scene.h"
 
@@ -186,12 +187,6 @@ TEST_CASE("gather: the rows that kernels read of a layer are kept") {
   }
 }
 
-double Psnr(const std::vector<uint8_t>& a, const std::vector<uint8_t>& b) {
-  double sum = 0;
-  for (size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
-  return sum == 0 ? 99 : 10 * std::log10(255.0 * 255.0 * double(a.size()) / sum);
-}
-
 TEST_CASE("gather: beside depth edges views go on, and nothing gets worse against the benchmark") {
   for (const uint64_t seed : {64, 65, 66}) {
     const test::Scene scene = test::LayeredScene(180, 130, 9, 6, seed);
@@ -204,10 +199,11 @@ TEST_CASE("gather: beside depth edges views go on, and nothing gets worse agains
     CHECK(gathered.report.gathered_pixels < 180 * 130);
     CHECK(gathered.rgb != views.rgb);
     CAPTURE(seed);
-    MESSAGE("dB with and without: ", Psnr(gathered.rgb, benchmark.rgb), " ",
-            Psnr(views.rgb, benchmark.rgb), ", gathered ", gathered.report.gathered_pixels);
+    MESSAGE("dB with and without: ", test::Psnr(gathered.rgb, benchmark.rgb), " ",
+            test::Psnr(views.rgb, benchmark.rgb), ", gathered ", gathered.report.gathered_pixels);
     // At 52 dB half of the difference is the rounding of both pictures to bytes.
-    CHECK(Psnr(gathered.rgb, benchmark.rgb) > std::min(Psnr(views.rgb, benchmark.rgb) - 0.2, 52.0));
+    CHECK(test::Psnr(gathered.rgb, benchmark.rgb) >
+          std::min(test::Psnr(views.rgb, benchmark.rgb) - 0.2, 52.0));
   }
 }
 

@@ -140,22 +140,12 @@ inline void CheckFailingRunner(const Operation& operation) {
   }
 }
 
-// One thread per job, two at a time.
-inline int RunOnTwo(void*, sf_job job, void* data, int32_t count) {
-  std::thread other([=] {
-    for (int32_t i = 1; i < count; i += 2) job(data, i, 1);
-  });
-  for (int32_t i = 0; i < count; i += 2) job(data, i, 0);
-  other.join();
-  return 0;
-}
-
 // Cancels at every call there is (of slow builds at the first ones and some of the others), after
 // each of which the same engine must make what a new one makes.
 inline void CheckCancelling(const Operation& operation) {
   CAPTURE(operation.name);
   const Bytes expected = Made(operation.set_up({}));
-  for (const sf_runner runner : {sf_runner(nullptr), sf_runner(RunOnTwo)}) {
+  for (const sf_runner runner : {sf_runner(nullptr), sf_runner(test::RunOnTwo)}) {
     CAPTURE(runner == nullptr);
     Setup setup;
     setup.workers = 2;

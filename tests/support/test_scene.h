@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "starfocus/starfocus.h"
@@ -306,6 +307,16 @@ inline bool IsPartOf(const Output& part, const Output& whole, const sf_region& r
     }
   }
   return true;
+}
+
+// Runs jobs in turn by two threads.
+inline int RunOnTwo(void*, sf_job job, void* data, int32_t count) {
+  std::thread other([=] {
+    for (int32_t i = 1; i < count; i += 2) job(data, i, 1);
+  });
+  for (int32_t i = 0; i < count; i += 2) job(data, i, 0);
+  other.join();
+  return 0;
 }
 
 // Callbacks with a runner alone, and with a progress function alone.
