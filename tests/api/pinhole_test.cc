@@ -79,7 +79,6 @@ TEST_CASE("pinhole: the centre view to the byte, by every mode, rule and way in"
       const test::Scene scene = AnyScene(size[0], size[1], ++seed);
       const sf_config config = AnyConfig(scene, &random);
       test::Engine engine(config);
-      REQUIRE(engine.status() == SF_OK);
       sf_params params = test::Params(random.Real(-9, 9), 0, mode);
       params.rule = random.Int(0, 2);
       params.lens.theta = random.Real(SF_MIN_THETA, SF_MAX_THETA);

@@ -81,7 +81,6 @@ TEST_CASE("prepared: by one engine for another, which streams in between") {
   config.largest_block = 32;
   config.max_blur = 16;
   test::Engine user(config);
-  REQUIRE(user.status() == SF_OK);
   CheckSame(&user, prepared, scene, test::Params(2, 1, SF_MODE_BLOCK));
   test::Output whole(140, 100), streamed(140, 100);
   REQUIRE(test::Refocus(&user, test::Params(-3, 1, SF_MODE_BLOCK), scene, &whole) == SF_OK);

@@ -60,7 +60,6 @@ struct Fixture {
     params = test::Params(-3, of.aperture, of.mode);
     params.rule = of.rule;
     test::Engine engine(config);
-    REQUIRE(engine.status() == SF_OK);
     REQUIRE(test::Refocus(&engine, params, scene, &expected) == SF_OK);
   }
 };

@@ -40,7 +40,6 @@ Streamed Stream(const sf_config& config, const sf_params& params, const test::Sc
                 int chunk, Failing* failing) {
   Streamed result;
   test::Engine engine(config);
-  REQUIRE(engine.status() == SF_OK);
   const sf_callbacks callbacks = test::RunBy(Failing::Run, failing);
   REQUIRE(sf_set_callbacks(engine.get(), &callbacks) == SF_OK);
   REQUIRE(sf_stream_begin(engine.get(), &params) == SF_OK);

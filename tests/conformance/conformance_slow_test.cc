@@ -26,7 +26,6 @@ using namespace conformance;
 Distance Check(const test::Scene& scene, const sf_params& params, const sf_config& config) {
   const int block = config.largest_block;
   test::Engine engine(config);
-  REQUIRE(engine.status() == SF_OK);
   test::Output out(scene.width, scene.height);
   sf_report report;
   REQUIRE(test::Refocus(&engine, params, scene, &out, nullptr, nullptr, &report) == SF_OK);

@@ -169,7 +169,6 @@ TEST_CASE("given coverage: previews have its means") {
   config.max_blur = 4 * kNear;
   config.previews = 1;
   test::Engine engine(config);
-  REQUIRE(engine.status() == SF_OK);
   test::PreparedMemory memory(config);
   const sf_prepared* prepared = memory.Prepare(engine.get(), doubled.Field());
   sf_params params = ThroughDisc(2 * kFar);

@@ -45,7 +45,6 @@ TEST_CASE("n_scale: multiplies the N of either rule in frame and block mode") {
           config.tuning.max_layer = 0;
           config.tuning.gather = 0;  // which takes no views at all
           test::Engine engine(config);
-          REQUIRE(engine.status() == SF_OK);
           test::Output out(scene.width, scene.height);
           sf_report report = {};
           REQUIRE(test::Refocus(&engine, params, scene, &out, nullptr, nullptr, &report) == SF_OK);

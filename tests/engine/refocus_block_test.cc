@@ -111,7 +111,6 @@ void CheckPicture(const test::Scene& scene, const sf_params& params, int more, F
   config.largest_block = 128;  // the whole picture, so that all of every layer is there
   config.tuning.n_scale = more % 2 == 0 ? 1 : SF_MIN_N_SCALE;
   test::Engine engine(config);
-  REQUIRE(engine.status() == SF_OK);
   test::Output out(scene.width, scene.height);
   REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
   for (Block block : test::PlanOf(engine.get()).blocks) {

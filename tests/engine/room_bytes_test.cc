@@ -28,7 +28,6 @@ test::Scene Levels(int side, int count, float range, test::Random* random) {
 std::vector<uint8_t> Picture(const sf_config& config, const sf_params& params,
                              const test::Scene& scene) {
   test::Engine engine(config);
-  REQUIRE(engine.status() == SF_OK);
   test::Output out(scene.width, scene.height);
   if (test::Has(config.features, SF_FEATURE_STREAMING)) {
     REQUIRE(test::Stream(&engine, params, scene, &out, 7, 5) == SF_OK);

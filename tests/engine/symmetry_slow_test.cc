@@ -46,7 +46,6 @@ test::Output Refocused(const test::Scene& scene, const sf_params& params) {
   config.largest_block = 32;
   config.tuning.max_layer = 0;  // layers keep every second pixel, from the left and the top
   test::Engine engine(config);
-  REQUIRE(engine.status() == SF_OK);
   test::Output out(scene.width, scene.height);
   REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
   return out;

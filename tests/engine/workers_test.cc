@@ -37,7 +37,6 @@ TEST_CASE("workers: each block is a job, those of the most predicted time come f
   sf_config config = test::ConfigFor(scene);
   config.largest_block = kSide;
   test::Engine engine(config);
-  REQUIRE(engine.status() == SF_OK);
   const sf_params params = test::Params(-9, 1, SF_MODE_BLOCK);
   const auto costs = [&] {
     std::vector<uint64_t> all;

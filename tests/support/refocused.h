@@ -21,7 +21,6 @@ struct Refocused {
 inline Refocused RefocusScene(const Scene& scene, const sf_config& config,
                               const sf_params& params) {
   Engine engine(config);
-  REQUIRE(engine.status() == SF_OK);
   Output out(scene.width, scene.height);
   Refocused refocused;
   REQUIRE(Refocus(&engine, params, scene, &out, nullptr, nullptr, &refocused.report) == SF_OK);
