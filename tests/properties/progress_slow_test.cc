@@ -1,68 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// sf_callbacks.progress: what it is told, how often, and what becomes of a stream that it cancels.
+// sf_callbacks.progress: how often it is asked, and what becomes of a stream that it cancels.
 #include <doctest/doctest.h>
 
-#include <string>
-#include <vector>
-
 #include "starfocus/starfocus.h"
+#include "tests/properties/picture_operations.h"
 #include "tests/support/test_scene.h"
 #include "tests/support/watch.h"
 
 namespace progress_slow_test {
 namespace {
 
+using namespace properties;
 using test::Watch;
-
-constexpr int kWidth = 70, kHeight = 75;
-
-struct Case {
-  std::string what;
-  sf_mode mode;
-  sf_rule rule;
-  double aperture;
-  float highlights;
-  bool flat;  // one surface, which is gathered
-};
-
-const Case kCases[] = {
-    {"frame, paper", SF_MODE_FRAME, SF_RULE_PAPER, 0.5, 1, false},
-    {"frame, subapertures", SF_MODE_FRAME, SF_RULE_SUBAPERTURE, 1, 1, false},
-    {"benchmark, slices", SF_MODE_BENCHMARK, SF_RULE_SUBAPERTURE, 0.3, 1, false},
-    {"benchmark, paper", SF_MODE_BENCHMARK, SF_RULE_PAPER, 0.3, 1, false},
-    {"blocks", SF_MODE_BLOCK, SF_RULE_SUBAPERTURE, 1, 1, false},
-    {"blocks, gathered", SF_MODE_BLOCK, SF_RULE_SUBAPERTURE, 1, 1, true},
-    {"blocks, paper", SF_MODE_BLOCK, SF_RULE_PAPER, 0.5, 1, false},
-    {"blocks, highlights", SF_MODE_BLOCK, SF_RULE_SUBAPERTURE, 1, 4, false},
-    {"blur", SF_MODE_BLUR, SF_RULE_DEFAULT, 1, 1, false},
-    {"pinhole", SF_MODE_BLOCK, SF_RULE_DEFAULT, 0, 1, false},
-};
-
-struct Fixture {
-  test::Scene scene;
-  sf_config config;
-  sf_params params;
-  test::Output expected{kWidth, kHeight, 5};  // of a fresh engine
-
-  explicit Fixture(const Case& of) : scene(test::RandomScene(kWidth, kHeight, 5, -3, 9, 8)) {
-    if (of.flat) scene.disparity.assign(scene.disparity.size(), 9);
-    // Bright squares are lamps.
-    for (auto& picture : scene.pictures) {
-      for (int y = 40; y < 44; ++y) {
-        for (int x = 3 * 30; x < 3 * 34; ++x) picture[size_t(y) * scene.stride + size_t(x)] = 255;
-      }
-    }
-    config = test::ConfigFor(scene, 12);
-    config.largest_block = 32;
-    config.features |= SF_FEATURE_STREAMING;
-    config.max_workers = 2;
-    config.highlights = of.highlights;
-    params = test::Params(-3, of.aperture, of.mode);
-    params.rule = of.rule;
-    test::Engine engine(config);
-    REQUIRE(test::Refocus(&engine, params, scene, &expected) == SF_OK);
-  }
-};
 
 sf_callbacks Watched(Watch* watch) { return test::ToldTo(Watch::Progress, watch); }
 
@@ -70,28 +19,8 @@ void SetCallbacks(test::Engine* engine, const sf_callbacks& callbacks) {
   REQUIRE(sf_set_callbacks(engine->get(), &callbacks) == SF_OK);
 }
 
-TEST_CASE("progress: of a region its rows are told") {
-  const Fixture f(kCases[4]);
-  test::Engine engine(f.config);
-  sf_region region = {21, 17, 30, 41};
-  test::Output out(region.width, region.height);
-  Watch watch;
-  sf_params params = f.params;
-  params.region = region;
-  REQUIRE(test::Refocus(&engine, params, f.scene, &out) == SF_OK);  // makes the kernels
-  REQUIRE(test::Refocus(&engine, params, f.scene, &out, Watched(&watch)) == SF_OK);
-  CHECK(watch.Ended());
-  CHECK(watch.rows == 41);
-  // What a call has worked since it last asked counts for the next call, which may ask once less.
-  for (int stop = 0; stop + 1 < watch.calls; ++stop) {
-    Watch cancels(stop);
-    CHECK(test::Refocus(&engine, params, f.scene, &out, Watched(&cancels)) == SF_ERROR_CANCELLED);
-    CHECK(cancels.Good());
-  }
-}
-
 // Pulls a stream, again whenever it is cancelled, which every pull is after `every` more calls.
-int PullOn(const Fixture& f, int every, sf_report* report, test::Output* out) {
+int PullOn(const Picture& f, int every, sf_report* report, test::Output* out) {
   test::Engine engine(f.config);
   Watch watch;
   SetCallbacks(&engine, Watched(&watch));
@@ -124,17 +53,18 @@ int PullOn(const Fixture& f, int every, sf_report* report, test::Output* out) {
 }
 
 TEST_CASE("progress: a stream that was cancelled goes on with its rows, and the same report") {
-  const Fixture f(kCases[4]);
+  const Picture f(SceneOf(kBlocks), kBlocks, {});
   sf_report expected = {}, report = {};
-  test::Output out(kWidth, kHeight, 5);
+  test::Output whole(kWidth, kHeight, 5), out(kWidth, kHeight, 5);
+  REQUIRE(test::Refocus(f.engine.get(), f.params, f.scene, &whole) == SF_OK);
   REQUIRE(PullOn(f, 1 << 20, &expected, &out) == 0);
-  CHECK(out.bytes == f.expected.bytes);
+  CHECK(out.bytes == whole.bytes);
   int cancelled = 0;
   for (int every = 0; every < 40; ++every) {
     CAPTURE(every);
     test::Output again(kWidth, kHeight, 5);
     cancelled += PullOn(f, every, &report, &again);
-    CHECK(again.bytes == f.expected.bytes);
+    CHECK(again.bytes == whole.bytes);
     CHECK(report.rendered_samples == expected.rendered_samples);
     CHECK(report.disparity_bytes == expected.disparity_bytes);
   }
@@ -142,8 +72,8 @@ TEST_CASE("progress: a stream that was cancelled goes on with its rows, and the 
 }
 
 TEST_CASE("progress: a stream that is cancelled as it begins has not begun") {
-  Fixture f(kCases[8]);  // its kernels are made then
-  test::Engine engine(f.config);
+  const Picture f(SceneOf(kBlur), kBlur, {});
+  test::Engine engine(f.config);  // its kernels are made then
   Watch watch(0);
   SetCallbacks(&engine, Watched(&watch));
   CHECK(sf_stream_begin(engine.get(), &f.params) == SF_ERROR_CANCELLED);
@@ -156,9 +86,9 @@ TEST_CASE("progress: a stream that is cancelled as it begins has not begun") {
 // ask again and again.
 TEST_CASE("progress: whatever a block takes, a million samples are too many to wait for") {
   constexpr double kMost = 1 << 20;
-  for (const Case& of : kCases) {
-    CAPTURE(of.what);
-    if (of.aperture == 0 || of.highlights > 1) continue;
+  for (const Lens& of : kLenses) {
+    CAPTURE(of.name);
+    if (of.aperture == 0 || of.highlights > 1 || of.layered || of.views == 1) continue;
     const bool gathered = of.flat;
     const int side = gathered ? 128 : 64;
     test::Scene scene = test::RandomScene(side, side, 5, -3, 9, 8);
