@@ -2,28 +2,19 @@
 // Aperture 0: the centre view, byte for byte, in every mode and every way in.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstdint>
-#include <vector>
 
 #include "starfocus/starfocus.h"
 #include "tests/support/layered_scene.h"
-#include "tests/support/prepared_memory.h"
 #include "tests/support/test_scene.h"
+#include "tests/support/ways.h"
 
 namespace pinhole_test {
 namespace {
 
 constexpr int kViews[] = {1, 5, 9, 17};
 constexpr sf_mode kModes[] = {SF_MODE_FRAME, SF_MODE_BENCHMARK, SF_MODE_BLOCK, SF_MODE_BLUR};
-
-std::vector<uint8_t> CentreView(const test::Scene& scene, const sf_region& region) {
-  std::vector<uint8_t> pixels;
-  for (int y = region.y; y < region.y + region.height; ++y) {
-    const uint8_t* row = scene.Pixel(0, region.x, y);
-    pixels.insert(pixels.end(), row, row + 3 * region.width);
-  }
-  return pixels;
-}
 
 // Random pictures over a map of flat areas and edges, or of noise.
 test::Scene AnyScene(int width, int height, uint64_t seed) {
@@ -43,31 +34,7 @@ sf_config AnyConfig(const test::Scene& scene, test::Random* random) {
   config.tuning.skips = random->Int(0, 1);
   config.tuning.gather = random->Int(0, 1);
   config.tuning.n_scale = random->Real(SF_MIN_N_SCALE, SF_MAX_N_SCALE);
-  config.features |= SF_FEATURE_STREAMING;
   return config;
-}
-
-sf_status Prepared(test::Engine* engine, const sf_config& config, const sf_params& params,
-                   const test::Scene& scene, test::Output* out) {
-  test::PreparedMemory memory(config);
-  const sf_prepared* prepared = memory.Prepare(engine->get(), scene.Field());
-  return test::RefocusPreparedRgb(engine->get(), &params, prepared, out->bytes.data(), out->stride,
-                                  nullptr);
-}
-
-// The frame after one that differs in a patch of every view and of the map.
-sf_status After(test::Engine* engine, const sf_params& params, const test::Scene& scene,
-                test::Output* out) {
-  test::Scene before = scene;
-  for (int view = 0; view < scene.views(); ++view) before.Pixel(view, scene.width / 2, 0)[1] ^= 9;
-  before.Disparity(0, scene.height - 1) = 0;
-  test::Output before_out(scene.width, scene.height);
-  REQUIRE(test::Refocus(engine, params, before, &before_out) == SF_OK);
-  const sf_light_field field = scene.Field();
-  const sf_previous previous = {before.Field(),
-                                sf_image_rgb(before_out.bytes.data(), before_out.stride)};
-  return test::RefocusAfterRgb(engine->get(), &params, &field, &previous, out->bytes.data(),
-                               out->stride, nullptr);
 }
 
 TEST_CASE("pinhole: the centre view to the byte, by every mode, rule and way in") {
@@ -78,30 +45,17 @@ TEST_CASE("pinhole: the centre view to the byte, by every mode, rule and way in"
     for (const sf_mode mode : kModes) {
       const test::Scene scene = AnyScene(size[0], size[1], ++seed);
       const sf_config config = AnyConfig(scene, &random);
-      test::Engine engine(config);
       sf_params params = test::Params(random.Real(-9, 9), 0, mode);
       params.rule = random.Int(0, 2);
       params.lens.theta = random.Real(SF_MIN_THETA, SF_MAX_THETA);
       // Blur may be as large as it likes where there is none.
       if (seed % 4 == 0) params.lens.focus = -SF_MAX_FOCUS;
       CAPTURE(seed);
-      const std::vector<uint8_t> centre = CentreView(scene, {0, 0, size[0], size[1]});
-      test::Output whole(size[0], size[1], 5), streamed = whole, prepared = whole, after = whole;
-      REQUIRE(test::Refocus(&engine, params, scene, &whole) == SF_OK);
-      REQUIRE(test::Stream(&engine, params, scene, &streamed, 7, 5) == SF_OK);
-      REQUIRE(Prepared(&engine, config, params, scene, &prepared) == SF_OK);
-      REQUIRE(After(&engine, params, scene, &after) == SF_OK);
-      for (const test::Output* out : {&whole, &streamed, &prepared, &after}) {
-        const bool same = out->Tight() == centre;
-        CHECK(same);
-        CHECK(out->PaddingUntouched());
+      const test::Output whole = test::CheckWays(scene, config, params);
+      for (int y = 0; y < scene.height; ++y) {
+        CHECK(std::equal(scene.Pixel(0, 0, y), scene.Pixel(0, 0, y) + 3 * scene.width,
+                         whole.Pixel(0, y)));
       }
-      sf_region& region = params.region;
-      region = {size[0] / 3, size[1] / 4, size[0] - size[0] / 3, (size[1] + 3) / 4};
-      test::Output part(region.width, region.height);
-      REQUIRE(test::Refocus(&engine, params, scene, &part) == SF_OK);
-      const bool same = part.Tight() == CentreView(scene, region);
-      CHECK(same);
     }
   }
 }

@@ -15,15 +15,17 @@
 
 namespace test {
 
-// Streams, prepared light fields, views with gaps between pixels and regions give the bytes of the
-// whole picture.
-inline void CheckWays(const Scene& scene, sf_config config, sf_params params) {
+// Streams, prepared light fields, frames after others, views with gaps between pixels and regions
+// give the bytes of the whole picture, which is returned.
+inline Output CheckWays(const Scene& scene, sf_config config, sf_params params) {
   config.features |= SF_FEATURE_STREAMING | SF_FEATURE_IMAGES;
   Engine engine(config);
   const int width = scene.width, height = scene.height;
   sf_report report = {}, other_report = {};
-  Output whole(width, height), streamed = whole, again = whole, converted = whole;
+  Output whole(width, height, 5), streamed = whole, again = whole, before_out = whole,
+                                  after = whole, converted = whole;
   REQUIRE(Refocus(&engine, params, scene, &whole, nullptr, nullptr, &report) == SF_OK);
+  CHECK(whole.PaddingUntouched());
   REQUIRE(Stream(&engine, params, scene, &streamed, 7, 11, nullptr, nullptr, &other_report) ==
           SF_OK);
   CHECK((streamed.bytes == whole.bytes));
@@ -35,26 +37,38 @@ inline void CheckWays(const Scene& scene, sf_config config, sf_params params) {
   CHECK((again.bytes == whole.bytes));
   CHECK(other_report.unknown_pixels == 0);
 
+  Scene before = scene;
+  for (int view = 0; view < scene.views(); ++view) before.Pixel(view, width / 2, 0)[1] ^= 9;
+  before.Disparity(0, height - 1) = scene.disparity_min;
+  REQUIRE(Refocus(&engine, params, before, &before_out) == SF_OK);
+  sf_light_field field = scene.Field();
+  const sf_previous previous = {before.Field(),
+                                sf_image_rgb(before_out.bytes.data(), before_out.stride)};
+  REQUIRE(RefocusAfterRgb(engine.get(), &params, &field, &previous, after.bytes.data(),
+                          after.stride, nullptr) == SF_OK);
+  CHECK((after.bytes == whole.bytes));
+
   std::vector<uint8_t> gapped(4 * size_t(width) * size_t(height));
   for (int k = 0; k < width * height; ++k) {
     std::copy_n(scene.Pixel(0, k % width, k / width), 3, gapped.begin() + 4 * k);
   }
-  sf_light_field field = scene.Field();
   field.views[0] = sf_image_rgb(gapped.data(), 4 * size_t(width));
   field.views[0].pixel_stride = 4;
   const sf_image image = sf_image_rgb(converted.bytes.data(), converted.stride);
   REQUIRE(sf_refocus(engine.get(), &params, &field, &image, nullptr) == SF_OK);
   CHECK((converted.bytes == whole.bytes));
 
+  const int x = std::min(3, width - 1), y = height * 7 / 16;
   for (const sf_region& region :
-       {sf_region{width / 4, height * 5 / 8, width * 7 / 16, height / 5},
+       {sf_region{width / 3, height / 4, width - width / 3, (height + 3) / 4},
         sf_region{0, height - 1, width, 1}, sf_region{width / 2, 0, 1, height},
-        sf_region{3, height * 7 / 16, width / 2, 3}}) {
+        sf_region{x, y, std::max(1, std::min(width / 2, width - x)), std::min(3, height - y)}}) {
     params.region = region;
     Output part(region.width, region.height);
     REQUIRE(Refocus(&engine, params, scene, &part) == SF_OK);
     CHECK(IsPartOf(part, whole, region));
   }
+  return whole;
 }
 
 }  // namespace test
