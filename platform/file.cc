@@ -93,60 +93,62 @@ Error TooLarge(const std::string& path, uint64_t most, const std::string& found)
                                  std::to_string(most) + " bytes, found " + found + ")"};
 }
 
-// Opens a regular file of at most `most` bytes, or a pipe, whose `size` is 0.
-Error OpenFile(const std::string& path, uint64_t most, File* file, size_t* size) {
+struct OpenedFile {
+  File file;
+  size_t size = 0;  // 0: a pipe
+};
+
+// Opens a regular file of at most `most` bytes, or a pipe.
+Result<OpenedFile> OpenFile(const std::string& path, uint64_t most) {
   // Standard input is read by a handle of its own, which may be closed.
   const bool standard = path == "-";
-  file->reset(standard ? fdopen(dup(STDIN_FILENO), "rb") : std::fopen(path.c_str(), "rb"));
+  File file(standard ? fdopen(dup(STDIN_FILENO), "rb") : std::fopen(path.c_str(), "rb"));
   struct stat status;
-  if (*file == nullptr || fstat(fileno(file->get()), &status) != 0) {
+  if (file == nullptr || fstat(fileno(file.get()), &status) != 0) {
     return Cannot("read", path, Reason(errno));
   }
   if (S_ISDIR(status.st_mode)) return Cannot("read", path, "it is a folder");
   if (!standard && (S_ISCHR(status.st_mode) || S_ISBLK(status.st_mode))) {
     return Cannot("read", path, "it is a device");
   }
-  *size = 0;
-  if (!S_ISREG(status.st_mode)) return {};
+  if (!S_ISREG(status.st_mode)) return OpenedFile{std::move(file), 0};
   const auto bytes = static_cast<uint64_t>(status.st_size);
   if (bytes > most) return TooLarge(path, most, std::to_string(bytes));
-  *size = static_cast<size_t>(bytes);
-  return {};
+  return OpenedFile{std::move(file), static_cast<size_t>(bytes)};
 }
 
 using IsWanted = bool (*)(const Bytes& beginning);
 
 // Stops after the first part if `is_wanted`, unless it is null, is false of it.
-Error ReadAtMost(const std::string& path, uint64_t most, IsWanted is_wanted, Bytes* bytes) {
-  bytes->clear();
-  File file;
-  size_t size = 0;
-  if (Error error = OpenFile(path, most, &file, &size)) return error;
+Result<Bytes> ReadAtMost(const std::string& path, uint64_t most, IsWanted is_wanted) {
+  const Result<OpenedFile> opened = OpenFile(path, most);
+  if (!opened) return opened.error();
+  std::FILE* const file = opened->file.get();
+  Bytes bytes;
   uint8_t buffer[65536];
   for (;;) {
-    const size_t got = std::fread(buffer, 1, sizeof(buffer), file.get());
-    const bool first = bytes->empty();
-    bytes->insert(bytes->end(), buffer, buffer + got);
-    if (first && is_wanted != nullptr && !is_wanted(*bytes)) return {};
-    if (first) bytes->reserve(size);
-    if (bytes->size() > most) return TooLarge(path, most, "more");
+    const size_t got = std::fread(buffer, 1, sizeof(buffer), file);
+    const bool first = bytes.empty();
+    bytes.insert(bytes.end(), buffer, buffer + got);
+    if (first && is_wanted != nullptr && !is_wanted(bytes)) return bytes;
+    if (first) bytes.reserve(opened->size);
+    if (bytes.size() > most) return TooLarge(path, most, "more");
     if (got < sizeof(buffer)) break;
   }
-  return std::ferror(file.get()) ? Cannot("read", path, Reason(errno)) : Error();
+  if (std::ferror(file) != 0) return Cannot("read", path, Reason(errno));
+  return bytes;
 }
 
 }  // namespace
 
-Error ReadFile(const std::string& path, Bytes* bytes) {
-  return ReadAtMost(path, kMostBytes, nullptr, bytes);
+Result<Bytes> ReadFile(const std::string& path) { return ReadAtMost(path, kMostBytes, nullptr); }
+
+Result<Bytes> ReadFileIf(const std::string& path, IsWanted is_wanted) {
+  return ReadAtMost(path, kMostBytes, is_wanted);
 }
 
-Error ReadFileIf(const std::string& path, IsWanted is_wanted, Bytes* bytes) {
-  return ReadAtMost(path, kMostBytes, is_wanted, bytes);
-}
-
-Error ReadSmallFile(const std::string& path, Bytes* bytes) {
-  return ReadAtMost(path, kMostSmallBytes, nullptr, bytes);
+Result<Bytes> ReadSmallFile(const std::string& path) {
+  return ReadAtMost(path, kMostSmallBytes, nullptr);
 }
 
 Error WriteFile(const std::string& path, const Bytes& bytes) {

@@ -16,15 +16,15 @@ using Bytes = std::vector<uint8_t>;
 
 // Reads a regular file or a pipe of at most 2 GiB. Rejects folders and devices: a device such as
 // /dev/zero never ends. "-" is standard input, here and below.
-Error ReadFile(const std::string& path, Bytes* bytes);
+Result<Bytes> ReadFile(const std::string& path);
 
-// The same of a file that is wanted only if its first 64 KiB say so: of any other file `bytes` gets
+// The same of a file that is wanted only if its first 64 KiB say so: of any other file it returns
 // these alone, so that a file of another kind costs no memory and a stream of it ends.
-Error ReadFileIf(const std::string& path, bool (*is_wanted)(const Bytes& beginning), Bytes* bytes);
+Result<Bytes> ReadFileIf(const std::string& path, bool (*is_wanted)(const Bytes& beginning));
 
 // Reads a file of at most kMostSmallBytes: timings, calibrations and other texts.
 constexpr size_t kMostSmallBytes = size_t{1} << 20;
-Error ReadSmallFile(const std::string& path, Bytes* bytes);
+Result<Bytes> ReadSmallFile(const std::string& path);
 
 // Writes to a temporary file in the same folder and renames it, so that `path` holds either what
 // it held before or all of `bytes`. A file that is there keeps its owner and permissions, and a

@@ -9,21 +9,22 @@
 
 namespace starfocus {
 
-Error ListFolder(const std::string& folder, std::vector<std::string>* names) {
+Result<std::vector<std::string>> ListFolder(const std::string& folder) {
+  std::vector<std::string> names;
   constexpr size_t kMostFiles = 100000;
   std::error_code error;
   std::filesystem::directory_iterator at(folder, error);
   for (const std::filesystem::directory_iterator end; !error && at != end; at.increment(error)) {
-    if (names->size() == kMostFiles) {
+    if (names.size() == kMostFiles) {
       return Expected(folder, "a folder of at most " + std::to_string(kMostFiles) + " files",
                       "more");
     }
-    names->push_back(at->path().filename().string());
+    names.push_back(at->path().filename().string());
   }
   if (error == std::errc::not_enough_memory) return OutOfMemory(folder, "list its files");
   if (error) return Cannot("read folder", folder, error);
-  std::sort(names->begin(), names->end());
-  return {};
+  std::sort(names.begin(), names.end());
+  return names;
 }
 
 Error MakeFolder(const std::string& folder) {

@@ -11,7 +11,7 @@
 namespace starfocus {
 
 // The names of everything in a folder of at most 100 000, sorted.
-Error ListFolder(const std::string& folder, std::vector<std::string>* names);
+Result<std::vector<std::string>> ListFolder(const std::string& folder);
 
 // Makes the folder and those above it, unless it is there.
 Error MakeFolder(const std::string& folder);

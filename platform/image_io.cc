@@ -29,20 +29,13 @@ bool CanHold(const Bytes& png, const PngHeader& header) {
   return bits * header.height / 8 <= kMostExpansion * png.size();
 }
 
-// The header of a PNG file whose pixels there is room for.
-Error CheckPngHeader(const std::string& path, const Bytes& png, PngHeader* header) {
-  if (!ReadPngHeader(png, header)) {
-    return Expected(path, "a PNG picture that begins with its header", "none there");
-  }
+Result<DecodedPicture> DecodePng(const std::string& path, const Bytes& png) {
+  if (IsTruncatedPng(png)) return Truncated(path, "PNG");
+  const std::optional<PngHeader> header = ReadPngHeader(png);
+  if (!header) return Expected(path, "a PNG picture that begins with its header", "none there");
   if (Error error = CheckPictureSize(path, header->width, header->height)) return error;
-  return CanHold(png, *header) ? Error() : Truncated(path, "PNG");
-}
-
-Error DecodePng(const std::string& path, const Bytes& bytes, Image* image, Metadata* metadata) {
-  if (IsTruncatedPng(bytes)) return Truncated(path, "PNG");
-  PngHeader header;
-  if (Error error = CheckPngHeader(path, bytes, &header)) return error;
-  return DecodePngPixels(path, bytes, image, metadata);
+  if (!CanHold(png, *header)) return Truncated(path, "PNG");
+  return DecodePngPixels(path, png);
 }
 
 bool IsJpegStart(const Bytes& bytes) {
@@ -58,23 +51,23 @@ Error CheckExtension(const std::string& path) {
 
 }  // namespace
 
-Error DecodeImage(const std::string& where, Bytes* bytes, Image* image, Metadata* metadata) {
-  if (bytes->empty()) return Expected(where, kFormats, "an empty file");
-  if (bytes->front() == 'P') return DecodePpm(where, *bytes, image);
-  if (bytes->size() > INT_MAX) return Expected(where, "a file below 2 GiB", "a larger one");
-  Metadata unused;
-  if (metadata == nullptr) metadata = &unused;
-  if (IsPng(*bytes)) return DecodePng(where, *bytes, image, metadata);
-  if (IsWebp(*bytes)) return DecodeWebp(where, *bytes, image, metadata);
-  return IsJpegStart(*bytes) ? DecodeJpeg(where, *bytes, image)
-                             : Expected(where, kFormats, DescribeFile(*bytes));
+Result<DecodedPicture> DecodeImage(const std::string& where, const Bytes& bytes) {
+  if (bytes.empty()) return Expected(where, kFormats, "an empty file");
+  if (bytes.front() == 'P') return WithoutMetadata(DecodePpm(where, bytes));
+  if (bytes.size() > INT_MAX) return Expected(where, "a file below 2 GiB", "a larger one");
+  if (IsPng(bytes)) return DecodePng(where, bytes);
+  if (IsWebp(bytes)) return DecodeWebp(where, bytes);
+  if (IsJpegStart(bytes)) return WithoutMetadata(DecodeJpeg(where, bytes));
+  return Expected(where, kFormats, DescribeFile(bytes));
 }
 
-Error ReadImage(const std::string& path, Image* image) {
+Result<Image> ReadImage(const std::string& path) {
   try {
-    Bytes bytes;
-    if (Error error = ReadFileIf(path, MayBePicture, &bytes)) return error;
-    return DecodeImage(path, &bytes, image);
+    const Result<Bytes> bytes = ReadFileIf(path, MayBePicture);
+    if (!bytes) return bytes.error();
+    Result<DecodedPicture> picture = DecodeImage(path, *bytes);
+    if (!picture) return picture.error();
+    return std::move(picture->image);
   } catch (const std::bad_alloc&) {
     return OutOfMemory(path, "read it");
   }

@@ -15,13 +15,12 @@ namespace starfocus {
 
 // Reads a picture, whatever its name says, by its content. Grey and CMYK become RGB, alpha is
 // dropped. Pictures may have 2^28 pixels, here and below.
-Error ReadImage(const std::string& path, Image* image);
+Result<Image> ReadImage(const std::string& path);
 
-// The same of bytes in memory, which may be changed; `where` only names them in the error.
-// `metadata`, unless it is null, gets the profile, EXIF and whole XMP packet of PNG and WebP files;
-// those of JPEG files are read with the other segments (readers/jpeg_parts.h).
-Error DecodeImage(const std::string& where, Bytes* bytes, Image* image,
-                  Metadata* metadata = nullptr);
+// The same of bytes in memory; `where` only names them in the error. The metadata are the profile,
+// EXIF and whole XMP packet of PNG and WebP files; those of JPEG files are read with the other
+// segments (readers/jpeg_parts.h).
+Result<DecodedPicture> DecodeImage(const std::string& where, const Bytes& bytes);
 
 // Writes by extension (writers/picture.h).
 Error WriteImage(const std::string& path, const Image& image, const PictureOptions& options = {});

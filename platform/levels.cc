@@ -56,8 +56,7 @@ Error TakeGrey(const std::string& where, const Sample* pixel, int channels, Alph
 
 // Decodes a PNG file that DecodeImage has read without an error.
 Error DecodePngSamples(const std::string& where, const Bytes& bytes, Alpha alpha, Samples* result) {
-  PngHeader header = {};
-  ReadPngHeader(bytes, &header);
+  const PngHeader header = *ReadPngHeader(bytes);
   constexpr int kHasAlpha = 4;  // this bit of the colour type
   if (alpha == Alpha::kTaken && (header.colour & kHasAlpha) == 0) alpha = Alpha::kIgnored;
   constexpr int kColour = 2;  // this bit of the colour type: RGB or a palette of RGB
@@ -80,51 +79,45 @@ Error DecodePngSamples(const std::string& where, const Bytes& bytes, Alpha alpha
                   "a broken one (" + std::string(stbi_failure_reason()) + ")");
 }
 
-Error Decode(const std::string& where, Alpha alpha, Bytes* bytes, Samples* samples) {
+Result<Samples> Decode(const std::string& where, Alpha alpha, const Bytes& bytes) {
   Samples result;
-  if (!bytes->empty() && bytes->front() == 'P') {
-    PnmSamples pnm;
-    if (Error error = DecodePnmSamples(where, *bytes, &pnm)) return error;
-    result.map.width = pnm.width;
-    result.map.height = pnm.height;
-    result.largest = pnm.largest;
-    if (Error error = TakeGrey(where, pnm.samples.data(), pnm.channels, alpha, &result)) {
+  if (!bytes.empty() && bytes.front() == 'P') {
+    const Result<PnmSamples> pnm = DecodePnmSamples(where, bytes);
+    if (!pnm) return pnm.error();
+    result = {{pnm->width, pnm->height, {}}, pnm->largest};
+    if (Error error = TakeGrey(where, pnm->samples.data(), pnm->channels, alpha, &result)) {
       return error;
     }
-  } else {
-    const Bytes file = IsPng(*bytes) ? *bytes : Bytes();  // DecodeImage changes palettes
-    Image image;
-    if (Error error = DecodeImage(where, bytes, &image)) return error;
-    result.map.width = image.width;
-    result.map.height = image.height;
-    result.largest = 255;
-    if (file.empty()) {
-      if (Error error = TakeGrey(where, image.pixels.data(), 3, alpha, &result)) return error;
-    } else {
-      image = {};  // makes room
-      if (Error error = DecodePngSamples(where, file, alpha, &result)) return error;
-    }
+    return result;
   }
-  *samples = std::move(result);
-  return {};
+  Result<DecodedPicture> picture = DecodeImage(where, bytes);
+  if (!picture) return picture.error();
+  Image& image = picture->image;
+  result = {{image.width, image.height, {}}, 255};
+  if (IsPng(bytes)) {
+    image = {};  // makes room
+    if (Error error = DecodePngSamples(where, bytes, alpha, &result)) return error;
+  } else if (Error error = TakeGrey(where, image.pixels.data(), 3, alpha, &result)) {
+    return error;
+  }
+  return result;
 }
 
 }  // namespace
 
-Error DecodeSamples(const std::string& where, bool use_alpha, Bytes* bytes, Samples* samples) {
-  return Decode(where, use_alpha ? Alpha::kTransparent : Alpha::kIgnored, bytes, samples);
+Result<Samples> DecodeSamples(const std::string& where, bool use_alpha, const Bytes& bytes) {
+  return Decode(where, use_alpha ? Alpha::kTransparent : Alpha::kIgnored, bytes);
 }
 
-Error DecodeCoverage(const std::string& where, Bytes* bytes, Samples* samples) {
-  return Decode(where, Alpha::kTaken, bytes, samples);
+Result<Samples> DecodeCoverage(const std::string& where, const Bytes& bytes) {
+  return Decode(where, Alpha::kTaken, bytes);
 }
 
-Error DecodeLevels(const std::string& where, Bytes* bytes, FloatMap* levels) {
-  Samples samples;
-  if (Error error = DecodeSamples(where, true, bytes, &samples)) return error;
-  for (float& value : samples.map.values) value /= static_cast<float>(samples.largest);
-  *levels = std::move(samples.map);
-  return {};
+Result<FloatMap> DecodeLevels(const std::string& where, const Bytes& bytes) {
+  Result<Samples> samples = DecodeSamples(where, true, bytes);
+  if (!samples) return samples.error();
+  for (float& value : samples->map.values) value /= static_cast<float>(samples->largest);
+  return std::move(samples->map);
 }
 
 }  // namespace starfocus

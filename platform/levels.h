@@ -17,15 +17,15 @@ struct Samples {
   int largest = 0;  // the sample of white
 };
 
-// Decodes the samples. `where` only names the file in errors; `bytes` may be changed. With
-// `use_alpha`, pixels less than half opaque (alpha channel or tRNS) are NaN.
-Error DecodeSamples(const std::string& where, bool use_alpha, Bytes* bytes, Samples* samples);
+// Decodes the samples. `where` only names the file in errors. With `use_alpha`, pixels less than
+// half opaque (alpha channel or tRNS) are NaN.
+Result<Samples> DecodeSamples(const std::string& where, bool use_alpha, const Bytes& bytes);
 
 // Decodes coverage as samples of a PNG file's alpha channel, or of another picture's grey levels.
-Error DecodeCoverage(const std::string& where, Bytes* bytes, Samples* samples);
+Result<Samples> DecodeCoverage(const std::string& where, const Bytes& bytes);
 
 // Decodes the levels, 0 to 1; NaN where the picture is transparent.
-Error DecodeLevels(const std::string& where, Bytes* bytes, FloatMap* levels);
+Result<FloatMap> DecodeLevels(const std::string& where, const Bytes& bytes);
 
 }  // namespace starfocus
 

@@ -48,16 +48,15 @@ struct SaveJob {
 
 struct LoadJob {
   const std::vector<ViewFile>& files;
-  std::vector<Image>* views;
-  std::vector<Error> errors;  // of each view
+  std::vector<Result<Image>> views;
   Progress progress;
 
   static void Run(void* data, int32_t index, int32_t) {
     LoadJob* self = static_cast<LoadJob*>(data);
     const std::string& path = self->files[size_t(index)].path;
-    Error* error = &self->errors[size_t(index)];
-    *error = CheckPlainFile(path);
-    if (!*error) *error = ReadImage(path, &(*self->views)[size_t(index)]);
+    Result<Image> view = CheckPlainFile(path);
+    if (view) view = ReadImage(path);
+    self->views[size_t(index)] = std::move(view);
     self->progress.Step();
   }
 };
@@ -105,10 +104,10 @@ std::vector<std::string> LightFieldFiles(const std::string& folder) {
   return files;
 }
 
-Error ReadDisparity(const std::string& folder, FloatMap* map) {
+Result<FloatMap> ReadDisparity(const std::string& folder) {
   const std::string path = DisparityPath(folder);
   if (Error error = CheckPlainFile(path)) return error;
-  return ReadPfm(path, map);
+  return ReadPfm(path);
 }
 
 bool HasDisparity(const std::string& folder) {
@@ -118,12 +117,8 @@ bool HasDisparity(const std::string& folder) {
 
 Error LoadViewFiles(const std::vector<ViewFile>& files, LightField* light_field,
                     ThreadRunner* runner) {
-  LightField result;
-  for (const ViewFile& file : files) result.positions.push_back(file.position);
-  result.views.resize(files.size());
   LoadJob load = {files,
-                  &result.views,
-                  std::vector<Error>(files.size()),
+                  std::vector<Result<Image>>(files.size(), Image()),
                   {"reading views", static_cast<int64_t>(files.size())}};
   const auto count = static_cast<int32_t>(files.size());
   if (runner != nullptr) {
@@ -131,8 +126,11 @@ Error LoadViewFiles(const std::vector<ViewFile>& files, LightField* light_field,
   } else {
     for (int32_t k = 0; k < count; ++k) LoadJob::Run(&load, k, 0);
   }
+  LightField result;
   for (size_t k = 0; k < files.size(); ++k) {
-    if (load.errors[k]) return load.errors[k];
+    if (!load.views[k]) return load.views[k].error();
+    result.positions.push_back(files[k].position);
+    result.views.push_back(std::move(*load.views[k]));
     const Image &centre = result.views[0], &view = result.views[k];
     if (view.width != centre.width || view.height != centre.height) {
       return Expected(files[k].path, SizeText(centre.width, centre.height) + " as the centre view",
@@ -145,16 +143,14 @@ Error LoadViewFiles(const std::vector<ViewFile>& files, LightField* light_field,
 
 Error LoadCaptured(const std::string& folder, const Positions& wanted, LightField* light_field,
                    ThreadRunner* runner) {
-  std::vector<ViewFile> files;
-  if (Error error = ChooseViewFiles(folder, wanted, &files)) return error;
-  return LoadViewFiles(files, light_field, runner);
+  const Result<std::vector<ViewFile>> files = ChooseViewFiles(folder, wanted);
+  return files ? LoadViewFiles(*files, light_field, runner) : files.error();
 }
 
 Error LoadMap(const std::string& path, LightField* light_field) {
-  FloatMap map;
   if (Error error = CheckPlainFile(path)) return error;
-  if (Error error = ReadPfm(path, &map)) return error;
-  return TakeMap(path, std::move(map), light_field);
+  Result<FloatMap> map = ReadPfm(path);
+  return map ? TakeMap(path, std::move(*map), light_field) : map.error();
 }
 
 Error TakeMap(const std::string& path, FloatMap map, LightField* light_field) {
@@ -174,19 +170,20 @@ std::string CoveragePath(const std::string& folder) {
 }
 
 Error LoadCoverage(const std::string& path, LightField* light_field) {
-  Bytes bytes;
-  Samples samples;
   if (Error error = CheckPlainFile(path)) return error;
-  if (Error error = ReadFile(path, &bytes)) return error;
-  if (Error error = DecodeCoverage(path, &bytes, &samples)) return error;
+  const Result<Bytes> bytes = ReadFile(path);
+  if (!bytes) return bytes.error();
+  const Result<Samples> samples = DecodeCoverage(path, *bytes);
+  if (!samples) return samples.error();
+  const FloatMap& map = samples->map;
   const Image& centre = light_field->views[0];
-  if (samples.map.width != centre.width || samples.map.height != centre.height) {
+  if (map.width != centre.width || map.height != centre.height) {
     return Expected(path, SizeText(centre.width, centre.height) + " as the centre view",
-                    SizeText(samples.map.width, samples.map.height));
+                    SizeText(map.width, map.height));
   }
-  const float scale = 255 / static_cast<float>(samples.largest);
+  const float scale = 255 / static_cast<float>(samples->largest);
   light_field->coverage.clear();
-  for (const float value : samples.map.values) {
+  for (const float value : map.values) {
     light_field->coverage.push_back(static_cast<uint8_t>(value * scale + 0.5F));
   }
   return {};

@@ -37,7 +37,7 @@ std::vector<std::string> LightFieldFiles(const std::string& folder);
 // Whether the file of that name, in a folder, is taken for a part of its light field.
 bool IsLightFieldFile(const std::string& name);
 
-Error ReadDisparity(const std::string& folder, FloatMap* map);
+Result<FloatMap> ReadDisparity(const std::string& folder);
 
 // Whether the folder has a disparity map; it may be a bad one.
 bool HasDisparity(const std::string& folder);

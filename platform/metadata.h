@@ -4,8 +4,11 @@
 #define STARFOCUS_PLATFORM_METADATA_H_
 
 #include <string>
+#include <utility>
 
 #include "platform/file.h"
+#include "platform/image.h"
+#include "platform/result.h"
 
 namespace starfocus {
 
@@ -17,6 +20,17 @@ struct Metadata {
   // caption, rating, copyright and so on, but nothing on the file's parts (kept_metadata.h).
   std::string xmp = {};
 };
+
+// A picture with the metadata of its file.
+struct DecodedPicture {
+  Image image;
+  Metadata metadata;
+};
+
+inline Result<DecodedPicture> WithoutMetadata(Result<Image> image) {
+  if (!image) return image.error();
+  return DecodedPicture{std::move(*image), {}};
+}
 
 }  // namespace starfocus
 

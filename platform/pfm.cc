@@ -51,10 +51,10 @@ Error ParseHeader(const std::string& path, TextHeader* header, FloatMap* map, By
   return {};
 }
 
-Error Decode(const std::string& path, FloatMap* map) {
-  Bytes bytes;
-  if (Error error = ReadFile(path, &bytes)) return error;
-  TextHeader header(bytes);
+Result<FloatMap> Decode(const std::string& path) {
+  const Result<Bytes> bytes = ReadFile(path);
+  if (!bytes) return bytes.error();
+  TextHeader header(*bytes);
   FloatMap result;
   ByteOrder order = ByteOrder::kLittle;
   if (Error error = ParseHeader(path, &header, &result, &order)) return error;
@@ -72,8 +72,7 @@ Error Decode(const std::string& path, FloatMap* map) {
     float* row = result.values.data() + y * width;
     for (size_t x = 0; x < width; ++x, data += 4) row[x] = LoadFloat(data, order);
   }
-  *map = std::move(result);
-  return {};
+  return result;
 }
 
 Bytes Encode(const FloatMap& map, ByteOrder order) {
@@ -89,9 +88,9 @@ Bytes Encode(const FloatMap& map, ByteOrder order) {
 
 }  // namespace
 
-Error ReadPfm(const std::string& path, FloatMap* map) {
+Result<FloatMap> ReadPfm(const std::string& path) {
   try {
-    return Decode(path, map);
+    return Decode(path);
   } catch (const std::bad_alloc&) {
     return OutOfMemory(path, "read it");
   }

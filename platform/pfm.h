@@ -24,7 +24,7 @@ enum class ByteOrder { kLittle, kBig };
 
 // Values may be NaN or infinite. The magnitude of the scale, a unit without meaning for
 // disparities, is ignored.
-Error ReadPfm(const std::string& path, FloatMap* map);
+Result<FloatMap> ReadPfm(const std::string& path);
 Error WritePfm(const std::string& path, const FloatMap& map, ByteOrder order = ByteOrder::kLittle);
 
 }  // namespace starfocus

@@ -18,13 +18,12 @@ bool IsChunk(const uint8_t* chunk, const char* name) {
 
 }  // namespace
 
-bool ReadPngHeader(const Bytes& png, PngHeader* header) {
+std::optional<PngHeader> ReadPngHeader(const Bytes& png) {
   constexpr size_t kSize = 13;
-  if (png.size() < kFirstChunk + 8 + kSize) return false;
+  if (png.size() < kFirstChunk + 8 + kSize) return {};
   const uint8_t* chunk = &png[kFirstChunk];
-  if (!IsChunk(chunk, "IHDR") || ReadBigEndian32(chunk) != kSize) return false;
-  *header = {ReadBigEndian32(chunk + 8), ReadBigEndian32(chunk + 12), chunk[16], chunk[17]};
-  return true;
+  if (!IsChunk(chunk, "IHDR") || ReadBigEndian32(chunk) != kSize) return {};
+  return PngHeader{ReadBigEndian32(chunk + 8), ReadBigEndian32(chunk + 12), chunk[16], chunk[17]};
 }
 
 // stb_image refuses palettes of 16-bit indices, as the format does.

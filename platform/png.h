@@ -4,6 +4,7 @@
 #define STARFOCUS_PLATFORM_PNG_H_
 
 #include <cstdint>
+#include <optional>
 
 #include "platform/file.h"
 
@@ -16,8 +17,8 @@ struct PngHeader {
   int colour;  // the format's colour type
 };
 
-// Reads the header of a file whose container is whole; false when it does not begin with one.
-bool ReadPngHeader(const Bytes& png, PngHeader* header);
+// Reads the header of a file whose container is whole; none when it does not begin with one.
+std::optional<PngHeader> ReadPngHeader(const Bytes& png);
 
 // Whether the pixels are indices into a palette.
 bool HasPalette(const PngHeader& header);

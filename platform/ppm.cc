@@ -13,24 +13,25 @@ struct PnmHeader {
 };
 
 // Reads the header, and checks that all samples follow it.
-Error ReadHeader(const std::string& path, TextHeader* text, PnmHeader* header) {
+Result<PnmHeader> ReadHeader(const std::string& path, TextHeader* text) {
   const std::string magic = text->Token();
   if (magic != "P6" && magic != "P5") return Expected(path, "a P6 or P5 picture", magic);
   const std::string width = text->Token(), height = text->Token(), largest = text->Token();
-  *header = {ParseSize(width), ParseSize(height), magic == "P6" ? 3 : 1, ParseSize(largest), 1};
-  if (header->width == 0 || header->height == 0) {
+  PnmHeader header = {ParseSize(width), ParseSize(height), magic == "P6" ? 3 : 1,
+                      ParseSize(largest), 1};
+  if (header.width == 0 || header.height == 0) {
     return Expected(path, "width and height from 1 to 65535",
                     "'" + width + "' and '" + height + "'");
   }
-  if (header->largest == 0) {
+  if (header.largest == 0) {
     return Expected(path, "a largest value from 1 to 65535", "'" + largest + "'");
   }
-  if (header->largest > 255) header->sample_bytes = 2;
-  if (!FitsMemory(header->width, header->height, 3 * size_t(header->sample_bytes))) {
+  if (header.largest > 255) header.sample_bytes = 2;
+  if (!FitsMemory(header.width, header.height, 3 * size_t(header.sample_bytes))) {
     return OutOfMemory(path, "read it");
   }
-  const size_t need = header->samples() * size_t(header->sample_bytes);
-  if (text->remaining() >= need) return {};
+  const size_t need = header.samples() * size_t(header.sample_bytes);
+  if (text->remaining() >= need) return header;
   return Expected(path, std::to_string(need) + " bytes of pixels",
                   std::to_string(text->remaining()));
 }
@@ -44,29 +45,30 @@ int SampleAt(const PnmHeader& header, const uint8_t* data, size_t index) {
 
 }  // namespace
 
-Error DecodePpm(const std::string& path, const Bytes& bytes, Image* image) {
+Result<Image> DecodePpm(const std::string& path, const Bytes& bytes) {
   TextHeader text(bytes);
-  PnmHeader header;
-  if (Error error = ReadHeader(path, &text, &header)) return error;
-  *image = Image(header.width, header.height);
-  for (size_t i = 0; i < image->pixels.size(); ++i) {
+  const Result<PnmHeader> read = ReadHeader(path, &text);
+  if (!read) return read.error();
+  const PnmHeader& header = *read;
+  Image image(header.width, header.height);
+  for (size_t i = 0; i < image.pixels.size(); ++i) {
     const int value = SampleAt(header, text.data(), header.channels == 3 ? i : i / 3);
-    image->pixels[i] = static_cast<uint8_t>((value * 255 + header.largest / 2) / header.largest);
+    image.pixels[i] = static_cast<uint8_t>((value * 255 + header.largest / 2) / header.largest);
   }
-  return {};
+  return image;
 }
 
-Error DecodePnmSamples(const std::string& path, const Bytes& bytes, PnmSamples* result) {
+Result<PnmSamples> DecodePnmSamples(const std::string& path, const Bytes& bytes) {
   TextHeader text(bytes);
-  PnmHeader header;
-  if (Error error = ReadHeader(path, &text, &header)) return error;
-  *result = {header.width, header.height, header.channels, header.largest, {}};
-  const size_t count = header.samples();
-  result->samples.reserve(count);
+  const Result<PnmHeader> header = ReadHeader(path, &text);
+  if (!header) return header.error();
+  PnmSamples result = {header->width, header->height, header->channels, header->largest, {}};
+  const size_t count = header->samples();
+  result.samples.reserve(count);
   for (size_t i = 0; i < count; ++i) {
-    result->samples.push_back(static_cast<uint16_t>(SampleAt(header, text.data(), i)));
+    result.samples.push_back(static_cast<uint16_t>(SampleAt(*header, text.data(), i)));
   }
-  return {};
+  return result;
 }
 
 Bytes EncodePpm(const Image& image) {

@@ -16,7 +16,7 @@ namespace starfocus {
 
 // Decodes P6 or P5 (grey becomes RGB) with any largest value up to 65535, scaled to 8 bits.
 // `path` only names the file in the error.
-Error DecodePpm(const std::string& path, const Bytes& bytes, Image* image);
+Result<Image> DecodePpm(const std::string& path, const Bytes& bytes);
 
 // Samples as a P6 or P5 file has them, 0 to `largest`.
 struct PnmSamples {
@@ -24,7 +24,7 @@ struct PnmSamples {
   std::vector<uint16_t> samples;
 };
 
-Error DecodePnmSamples(const std::string& path, const Bytes& bytes, PnmSamples* result);
+Result<PnmSamples> DecodePnmSamples(const std::string& path, const Bytes& bytes);
 
 Bytes EncodePpm(const Image& image);
 

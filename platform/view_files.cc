@@ -83,24 +83,25 @@ bool ComesBefore(const ViewFile& a, const ViewFile& b) {
 }
 
 // Names of views in a folder, each with the first extension that it has.
-Error ListNames(const std::string& folder, std::vector<ViewFile>* files) {
-  std::vector<std::string> names;
-  if (Error error = ListFolder(folder, &names)) return error;
-  for (const std::string& name : names) {
+Result<std::vector<ViewFile>> ListNames(const std::string& folder) {
+  const Result<std::vector<std::string>> names = ListFolder(folder);
+  if (!names) return names.error();
+  std::vector<ViewFile> files;
+  for (const std::string& name : *names) {
     ViewFile file;
     size_t extension = 0;
     if (!ReadName(name, &file.position, &extension)) continue;
     const std::string stem = name.substr(0, name.size() - 4);
     const auto has = [&](size_t other) {
-      return std::binary_search(names.begin(), names.end(), stem + kExtensions[other]);
+      return std::binary_search(names->begin(), names->end(), stem + kExtensions[other]);
     };
     bool first = true;
     for (size_t other = 0; other < extension; ++other) first = first && !has(other);
     if (!first) continue;
     file.path = (fs::path(folder) / name).string();
-    files->push_back(file);
+    files.push_back(file);
   }
-  return {};
+  return files;
 }
 
 // The pair that a folder has if it has no views by name.
@@ -155,11 +156,11 @@ bool IsViewFile(const std::string& name) {
   return ReadName(name, &position, &extension) || name == kPair[0] || name == kPair[1];
 }
 
-Error FindViewFiles(const std::string& folder, std::vector<ViewFile>* files) {
-  std::vector<ViewFile> found;
+Result<std::vector<ViewFile>> FindViewFiles(const std::string& folder) {
   if (Error error = CheckFolder(folder)) return error;
-  if (Error error = ListNames(folder, &found)) return error;
-  if (found.empty()) found = ListPair(folder);
+  const Result<std::vector<ViewFile>> named = ListNames(folder);
+  if (!named) return named.error();
+  std::vector<ViewFile> found = named->empty() ? ListPair(folder) : *named;
   for (const ViewFile& file : found) {
     if (std::fabs(file.position.u) > 1 || std::fabs(file.position.v) > 1) {
       return Expected(file.path, "a view with u and v from -1 to 1", "one farther out");
@@ -181,14 +182,14 @@ Error FindViewFiles(const std::string& folder, std::vector<ViewFile>* files) {
                     std::to_string(found.size()));
   }
   found[0].position = {0, 0};
-  *files = std::move(found);
-  return {};
+  return found;
 }
 
-Error SelectViewFiles(const std::string& where, const std::vector<ViewFile>& files,
-                      const Positions& wanted, std::vector<ViewFile>* chosen) {
-  chosen->clear();
-  if (wanted.empty()) *chosen = files;
+Result<std::vector<ViewFile>> SelectViewFiles(const std::string& where,
+                                              const std::vector<ViewFile>& files,
+                                              const Positions& wanted) {
+  if (wanted.empty()) return files;
+  std::vector<ViewFile> chosen;
   for (const sf_position& position : wanted) {
     const auto at = std::find_if(files.begin(), files.end(), [&](const ViewFile& file) {
       return SamePosition(file.position, position);
@@ -197,16 +198,14 @@ Error SelectViewFiles(const std::string& where, const std::vector<ViewFile>& fil
       return Expected(where, std::to_string(wanted.size()) + " views",
                       "no " + ViewName(position) + ".png (or .ppm, .jpg)");
     }
-    chosen->push_back(*at);
+    chosen.push_back(*at);
   }
-  return {};
+  return chosen;
 }
 
-Error ChooseViewFiles(const std::string& folder, const Positions& wanted,
-                      std::vector<ViewFile>* chosen) {
-  std::vector<ViewFile> files;
-  if (Error error = FindViewFiles(folder, &files)) return error;
-  return SelectViewFiles(folder, files, wanted, chosen);
+Result<std::vector<ViewFile>> ChooseViewFiles(const std::string& folder, const Positions& wanted) {
+  const Result<std::vector<ViewFile>> files = FindViewFiles(folder);
+  return files ? SelectViewFiles(folder, *files, wanted) : files;
 }
 
 }  // namespace starfocus

@@ -45,16 +45,16 @@ bool IsViewFile(const std::string& name);
 // All files of captured views in a folder, the centre first, then those of sf_view_position in
 // their order, then the others by u and v. Of one name the first of .png, .ppm and .jpg counts.
 // Errors: no folder, no centre view, more than SF_MAX_VIEWS, a position beyond 1, two files of one.
-Error FindViewFiles(const std::string& folder, std::vector<ViewFile>* files);
+Result<std::vector<ViewFile>> FindViewFiles(const std::string& folder);
 
 // Those of `files` at the positions wanted, in their order, or all of them if none are. Errors are
 // about `where`.
-Error SelectViewFiles(const std::string& where, const std::vector<ViewFile>& files,
-                      const Positions& wanted, std::vector<ViewFile>* chosen);
+Result<std::vector<ViewFile>> SelectViewFiles(const std::string& where,
+                                              const std::vector<ViewFile>& files,
+                                              const Positions& wanted);
 
 // The same of all files of a folder.
-Error ChooseViewFiles(const std::string& folder, const Positions& wanted,
-                      std::vector<ViewFile>* chosen);
+Result<std::vector<ViewFile>> ChooseViewFiles(const std::string& folder, const Positions& wanted);
 
 }  // namespace starfocus
 

@@ -14,7 +14,7 @@ namespace starfocus {
 // Decodes to RGB: grey and CMYK become RGB, without a colour profile. By libjpeg-turbo where the
 // build has it, else by stb_image, which reads no arithmetic coding. A truncated file is an error.
 // `where` only names the file in errors.
-Error DecodeJpeg(const std::string& where, const Bytes& jpeg, Image* image);
+Result<Image> DecodeJpeg(const std::string& where, const Bytes& jpeg);
 
 }  // namespace starfocus
 

@@ -10,7 +10,7 @@
 
 namespace starfocus {
 
-Error DecodeJpeg(const std::string& where, const Bytes& jpeg, Image* image) {
+Result<Image> DecodeJpeg(const std::string& where, const Bytes& jpeg) {
   if (Error error = CheckStbContainer(where, jpeg)) return error;
   int width = 0, height = 0, channels = 0;
   {
@@ -22,7 +22,7 @@ Error DecodeJpeg(const std::string& where, const Bytes& jpeg, Image* image) {
   }
   if (Error error = CheckPictureSize(where, width, height)) return error;
   // stb_image would fill hundreds of megabytes for a file of a few bytes first.
-  return JpegCanHold(jpeg.size(), false, width, height) ? DecodeStb(where, jpeg, image)
+  return JpegCanHold(jpeg.size(), false, width, height) ? DecodeStb(where, jpeg)
                                                         : Truncated(where, "JPEG");
 }
 

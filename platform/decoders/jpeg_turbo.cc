@@ -125,7 +125,7 @@ Error Failed(const std::string& where, const Decoder& decoder) {
 
 }  // namespace
 
-Error DecodeJpeg(const std::string& where, const Bytes& jpeg, Image* image) {
+Result<Image> DecodeJpeg(const std::string& where, const Bytes& jpeg) {
   const auto decoder = std::make_unique<Decoder>();
   if (!ReadHeader(jpeg, decoder.get())) return Failed(where, *decoder);
   const jpeg_decompress_struct& info = decoder->info;
@@ -138,8 +138,7 @@ Error DecodeJpeg(const std::string& where, const Bytes& jpeg, Image* image) {
   if (!ReadRows(decoder.get(), cmyk.empty() ? nullptr : cmyk.data(), &result)) {
     return Failed(where, *decoder);
   }
-  *image = std::move(result);
-  return {};
+  return result;
 }
 
 }  // namespace starfocus

@@ -6,7 +6,6 @@
 #include <string>
 
 #include "platform/file.h"
-#include "platform/image.h"
 #include "platform/metadata.h"
 #include "platform/result.h"
 
@@ -15,7 +14,7 @@ namespace starfocus {
 // Decodes to 8 bits of R, G, B: grey becomes RGB, 16 bits are rounded to 8, transparency is
 // dropped. By libpng where the build has it, with the ICC profile and EXIF; else by stb_image,
 // without any. `where` only names the file in errors.
-Error DecodePngPixels(const std::string& where, const Bytes& png, Image* image, Metadata* metadata);
+Result<DecodedPicture> DecodePngPixels(const std::string& where, const Bytes& png);
 
 }  // namespace starfocus
 

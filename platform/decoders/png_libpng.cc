@@ -148,26 +148,27 @@ Error LookUp(const std::string& where, const Reader& reader, const Bytes& indice
   return {};
 }
 
-void TakeMetadata(const Reader& reader, Call* call, Metadata* metadata) {
+Metadata TakeMetadata(const Reader& reader, Call* call) {
+  Metadata metadata;
   png_charp name = nullptr;
   png_bytep profile = nullptr, exif = nullptr;
   png_uint_32 size = 0;
   int method = 0;
   if (png_get_iCCP(reader.png, reader.info, &name, &method, &profile, &size) != 0) {
-    metadata->icc.assign(profile, profile + size);
+    metadata.icc.assign(profile, profile + size);
   }
   if (png_get_eXIf_1(reader.png, reader.info, &size, &exif) != 0) {
-    metadata->exif.assign(exif, exif + size);
-    TrimExif(&metadata->exif);
+    metadata.exif.assign(exif, exif + size);
+    TrimExif(&metadata.exif);
   }
-  if (metadata->exif.empty()) metadata->exif = std::move(call->exif);
-  metadata->xmp = std::move(call->xmp);
+  if (metadata.exif.empty()) metadata.exif = std::move(call->exif);
+  metadata.xmp = std::move(call->xmp);
+  return metadata;
 }
 
 }  // namespace
 
-Error DecodePngPixels(const std::string& where, const Bytes& png, Image* image,
-                      Metadata* metadata) {
+Result<DecodedPicture> DecodePngPixels(const std::string& where, const Bytes& png) {
   Call call = {png};
   Reader reader;
   if (!ReadHeader(&call, &reader)) return Failed(where, call);
@@ -182,9 +183,7 @@ Error DecodePngPixels(const std::string& where, const Bytes& png, Image* image,
   uint8_t* const rows = palette ? indices.data() : result.pixels.data();
   if (!ReadRows(reader, result.height, row_bytes, rows)) return Failed(where, call);
   if (Error error = palette ? LookUp(where, reader, indices, &result) : Error()) return error;
-  TakeMetadata(reader, &call, metadata);
-  *image = std::move(result);
-  return {};
+  return DecodedPicture{std::move(result), TakeMetadata(reader, &call)};
 }
 
 }  // namespace starfocus

@@ -8,7 +8,7 @@
 namespace starfocus {
 namespace {
 
-Error DecodeIndices(const std::string& where, const PngHeader& header, Bytes bytes, Image* image) {
+Result<Image> DecodeIndices(const std::string& where, const PngHeader& header, Bytes bytes) {
   const StbMemory memory;
   const Bytes palette = TakePalette(&bytes);
   const int colours = static_cast<int>(palette.size() / 3), step = GreyStep(header);
@@ -23,18 +23,16 @@ Error DecodeIndices(const std::string& where, const PngHeader& header, Bytes byt
     }
     for (size_t c = 0; c < 3; ++c) result.pixels[3 * i + c] = palette[3 * size_t(index) + c];
   }
-  *image = std::move(result);
-  return {};
+  return result;
 }
 
 }  // namespace
 
-Error DecodePngPixels(const std::string& where, const Bytes& png, Image* image, Metadata*) {
-  const Error error = CheckStbContainer(where, png);
-  PngHeader header = {};
-  if (error || !ReadPngHeader(png, &header)) return error;
-  return HasPalette(header) ? DecodeIndices(where, header, png, image)
-                            : DecodeStb(where, png, image);
+Result<DecodedPicture> DecodePngPixels(const std::string& where, const Bytes& png) {
+  if (Error error = CheckStbContainer(where, png)) return error;
+  const PngHeader header = *ReadPngHeader(png);
+  return WithoutMetadata(HasPalette(header) ? DecodeIndices(where, header, png)
+                                            : DecodeStb(where, png));
 }
 
 }  // namespace starfocus

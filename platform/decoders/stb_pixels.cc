@@ -30,14 +30,13 @@ Error StbFailed(const std::string& where) {
                   "a broken one (" + std::string(stbi_failure_reason()) + ")");
 }
 
-Error DecodeStb(const std::string& where, const Bytes& bytes, Image* image) {
+Result<Image> DecodeStb(const std::string& where, const Bytes& bytes) {
   const StbMemory memory;
   Image result;
   const uint8_t* samples = LoadStb(bytes, 3, &result);
   if (samples == nullptr) return StbFailed(where);
   result.pixels.assign(samples, samples + result.pixels.size());
-  *image = std::move(result);
-  return {};
+  return result;
 }
 
 }  // namespace starfocus

@@ -22,7 +22,7 @@ const uint8_t* LoadStb(const Bytes& bytes, int channels, Image* image);
 Error StbFailed(const std::string& where);
 
 // Decodes a PNG without a palette, or a JPEG.
-Error DecodeStb(const std::string& where, const Bytes& bytes, Image* image);
+Result<Image> DecodeStb(const std::string& where, const Bytes& bytes);
 
 }  // namespace starfocus
 

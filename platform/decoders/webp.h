@@ -6,7 +6,6 @@
 #include <string>
 
 #include "platform/file.h"
-#include "platform/image.h"
 #include "platform/metadata.h"
 #include "platform/result.h"
 
@@ -17,7 +16,7 @@ bool IsWebp(const Bytes& bytes);
 
 // Decodes a still picture to RGB, without its alpha, by libwebp where the build has it. `where`
 // only names the file in errors.
-Error DecodeWebp(const std::string& where, const Bytes& webp, Image* image, Metadata* metadata);
+Result<DecodedPicture> DecodeWebp(const std::string& where, const Bytes& webp);
 
 }  // namespace starfocus
 

@@ -4,7 +4,7 @@
 
 namespace starfocus {
 
-Error DecodeWebp(const std::string& where, const Bytes&, Image*, Metadata*) {
+Result<DecodedPicture> DecodeWebp(const std::string& where, const Bytes&) {
   return Expected(where, "a program built with libwebp to read WebP (Debian: libwebp-dev)", "none");
 }
 

@@ -40,20 +40,22 @@ Bytes ChunkOf(const WebPMux* mux, const char* name) {
   return Bytes(data.bytes, data.bytes + data.size);
 }
 
-void ReadMetadata(const Bytes& webp, Metadata* metadata) {
+Metadata ReadMetadata(const Bytes& webp) {
+  Metadata metadata;
   const WebPData file = {webp.data(), webp.size()};
   const std::unique_ptr<WebPMux, FreeMux> mux(WebPMuxCreate(&file, 0));
-  if (mux == nullptr) return;  // a picture alone
-  metadata->icc = ChunkOf(mux.get(), "ICCP");
-  metadata->exif = ChunkOf(mux.get(), "EXIF");
-  TrimExif(&metadata->exif);
+  if (mux == nullptr) return metadata;  // a picture alone
+  metadata.icc = ChunkOf(mux.get(), "ICCP");
+  metadata.exif = ChunkOf(mux.get(), "EXIF");
+  TrimExif(&metadata.exif);
   const Bytes xmp = ChunkOf(mux.get(), "XMP ");
-  metadata->xmp.assign(xmp.begin(), xmp.end());
+  metadata.xmp.assign(xmp.begin(), xmp.end());
+  return metadata;
 }
 
 }  // namespace
 
-Error DecodeWebp(const std::string& where, const Bytes& webp, Image* image, Metadata* metadata) {
+Result<DecodedPicture> DecodeWebp(const std::string& where, const Bytes& webp) {
   if (SizeOf(webp) > webp.size()) return Truncated(where, "WebP");
   WebPDecoderConfig config;
   if (!WebPInitDecoderConfig(&config)) {
@@ -77,9 +79,7 @@ Error DecodeWebp(const std::string& where, const Bytes& webp, Image* image, Meta
                           result.pixels.size()};
   status = WebPDecode(webp.data(), webp.size(), &config);
   if (status != VP8_STATUS_OK) return Failed(where, status);
-  ReadMetadata(webp, metadata);
-  *image = std::move(result);
-  return {};
+  return DecodedPicture{std::move(result), ReadMetadata(webp)};
 }
 
 }  // namespace starfocus

@@ -77,9 +77,11 @@ Error ReadAppleJpeg(Span file, const JpegParts& parts, DepthPhoto* photo) {
     const std::string type = TypeOf(xmp);
     gain_map = gain_map || type.find("gainmap") != std::string::npos;
     if (!IsMap(type) || !photo->map.values.empty()) continue;
-    Bytes bytes(picture.file.data, picture.file.data + picture.file.size);
-    error = DecodeLevels("auxiliary picture", &bytes, &photo->map);
+    const Bytes bytes(picture.file.data, picture.file.data + picture.file.size);
+    Result<FloatMap> map = DecodeLevels("auxiliary picture", bytes);
+    error = map.error();
     if (error) continue;
+    photo->map = std::move(*map);
     photo->format = "Apple depth photo (JPEG)";
     NoteIndex(parts, picture, photo);
     UnderstandApple(xmp, photo);

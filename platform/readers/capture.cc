@@ -42,13 +42,15 @@ Names PicturesOf(const Names& names) {
 
 Error OpenOwn(const std::string& folder, const Names& names, Capture* capture) {
   capture->format = "light-field folder";
-  Error error = FindViewFiles(folder, &capture->files);
-  if (!error && HasDisparity(folder)) capture->map_path = DisparityPath(folder);
+  Result<std::vector<ViewFile>> files = FindViewFiles(folder);
+  if (!files) return files.error();
+  capture->files = std::move(*files);
+  if (HasDisparity(folder)) capture->map_path = DisparityPath(folder);
   capture->coverage_path = CoveragePath(folder);
   // Unknown disparities of a pair are infinite.
   if (Has(names, "im0.png")) capture->care = MapCare::kFill;
   const bool pair = Has(names, "im0.png") && Has(names, "calib.txt");
-  return !error && pair ? ReadMiddlebury(folder, capture) : error;
+  return pair ? ReadMiddlebury(folder, capture) : Error();
 }
 
 Error OpenArray(const std::string& folder, const Names& pictures, Capture* capture) {
@@ -72,14 +74,14 @@ Error OpenArray(const std::string& folder, const Names& pictures, Capture* captu
 }
 
 Error OpenFolder(const std::string& folder, Capture* capture) {
-  Names names;
-  if (Error error = ListFolder(folder, &names)) return error;
-  if (FindGreyMapPair(folder, names, capture)) return {};
-  const Names pictures = PicturesOf(names);
-  if (pictures.empty() || std::any_of(names.begin(), names.end(), IsViewFile)) {
-    return OpenOwn(folder, names, capture);
+  const Result<Names> names = ListFolder(folder);
+  if (!names) return names.error();
+  if (FindGreyMapPair(folder, *names, capture)) return {};
+  const Names pictures = PicturesOf(*names);
+  if (pictures.empty() || std::any_of(names->begin(), names->end(), IsViewFile)) {
+    return OpenOwn(folder, *names, capture);
   }
-  return IsHci(names) ? OpenHci(folder, names, capture) : OpenArray(folder, pictures, capture);
+  return IsHci(*names) ? OpenHci(folder, *names, capture) : OpenArray(folder, pictures, capture);
 }
 
 // Takes the two views of a stereo pair, which have no map.
@@ -152,17 +154,18 @@ Error LoadMapOf(Capture* capture) {
 }
 
 Error LoadViews(const Positions& wanted, Capture* capture, ThreadRunner* runner) {
-  std::vector<ViewFile> chosen;
-  if (Error error = SelectViewFiles(capture->path, capture->files, wanted, &chosen)) return error;
+  const Result<std::vector<ViewFile>> chosen =
+      SelectViewFiles(capture->path, capture->files, wanted);
+  if (!chosen) return chosen.error();
   if (capture->photo) {
     FitMap(&capture->light_field);
     return {};
   }
   if (!capture->light_field.views.empty()) {
-    SelectViews(chosen, &capture->light_field);
+    SelectViews(*chosen, &capture->light_field);
     return {};
   }
-  Error error = LoadViewFiles(chosen, &capture->light_field, runner);
+  Error error = LoadViewFiles(*chosen, &capture->light_field, runner);
   return !error && !capture->map_path.empty() ? LoadMapOf(capture) : error;
 }
 

@@ -67,8 +67,9 @@ void TellMap(const std::string& text, DepthPhoto* photo) {
 
 Error ReadJpegPicture(const std::string& where, Span file, const JpegParts& parts,
                       DepthPhoto* photo) {
-  Bytes bytes(file.data, file.data + file.size);
-  if (Error error = DecodeImage(where, &bytes, &photo->picture)) return error;
+  Result<DecodedPicture> picture = DecodeImage(where, Bytes(file.data, file.data + file.size));
+  if (!picture) return picture.error();
+  photo->picture = std::move(picture->image);
   photo->metadata = parts.metadata;
   if (!parts.ignored.empty()) photo->notes.push_back(parts.ignored);
   ReadExif(photo);

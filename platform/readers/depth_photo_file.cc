@@ -153,8 +153,10 @@ Error DecodeDepthPhoto(const std::string& where, Span file, bool with_map, Near 
                        DepthPhoto* photo) {
   if (IsHeif(file)) return ReadHeif(where, file, near, photo);
   if (IsJpeg(file)) return DecodeJpegPhoto(where, file, with_map, near, photo);
-  Bytes bytes(file.data, file.data + file.size);
-  if (Error error = DecodeImage(where, &bytes, &photo->picture, &photo->metadata)) return error;
+  Result<DecodedPicture> picture = DecodeImage(where, Bytes(file.data, file.data + file.size));
+  if (!picture) return picture.error();
+  photo->picture = std::move(picture->image);
+  photo->metadata = std::move(picture->metadata);
   ReadExif(photo);
   CheckProfile(photo);
   KeepCaptions(photo);
@@ -163,13 +165,13 @@ Error DecodeDepthPhoto(const std::string& where, Span file, bool with_map, Near 
 
 Error ReadDepthPhotoFile(const std::string& path, const DepthOptions& options, std::string* depth,
                          DepthPhoto* photo) {
-  Bytes bytes;
   const bool stream = path == "-";  // no depth picture lies beside it
   const std::string where = InputName(path);
-  Error error = ReadFileIf(path, MayBePicture, &bytes);
-  const Span file = {bytes.data(), bytes.size()};
-  if (!error && stream && bytes.empty()) error = Expected(where, "a photo", "nothing");
-  if (!error) error = DecodeDepthPhoto(where, file, depth->empty(), options.near, photo);
+  const Result<Bytes> bytes = ReadFileIf(path, MayBePicture);
+  if (!bytes) return bytes.error();
+  if (stream && bytes->empty()) return Expected(where, "a photo", "nothing");
+  const Span file = {bytes->data(), bytes->size()};
+  Error error = DecodeDepthPhoto(where, file, depth->empty(), options.near, photo);
   if (error) return error;
   if (depth->empty() && !photo->map.values.empty()) return CheckOptions(where, options);
   if (depth->empty() && !stream) error = FindDepthPicture(path, photo, depth);

@@ -166,8 +166,9 @@ Error ReadDynamicDepth(Span file, const JpegParts& parts, const XmpNode& xmp, Ne
     return Expected("Dynamic Depth", "the depth map that its XMP names, behind the picture",
                     index == 0 ? "no such item" : "no picture there");
   }
-  Bytes bytes(data.data, data.data + data.size);
-  if (Error error = DecodeLevels("Dynamic Depth", &bytes, &photo->map)) return error;
+  Result<FloatMap> levels = DecodeLevels("Dynamic Depth", Bytes(data.data, data.data + data.size));
+  if (!levels) return levels.error();
+  photo->map = std::move(*levels);
   if (!by_lengths) {
     photo->notes.push_back(
         "the lengths of its container are wrong and ignored: the depth map was found behind the "

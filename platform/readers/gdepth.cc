@@ -18,8 +18,9 @@ const std::string kDepth = "http://ns.google.com/photos/1.0/depthmap/|";
 const std::string kFocus = "http://ns.google.com/photos/1.0/focus/|";
 const std::string kImage = "http://ns.google.com/photos/1.0/image/|";
 
-Error DecodeData(const std::string& where, const std::string& text, Bytes* bytes) {
-  if (DecodeBase64(text, bytes) && !bytes->empty()) return {};
+Result<Bytes> DecodeData(const std::string& where, const std::string& text) {
+  Bytes bytes;
+  if (DecodeBase64(text, &bytes) && !bytes.empty()) return bytes;
   return Expected(where, "a picture in base64", "something else");
 }
 
@@ -28,9 +29,11 @@ Error ReadMap(const XmpNode& xmp, Near near, DepthPhoto* photo) {
   if (data == nullptr) {
     return Expected("GDepth", "GDepth:Data, the map, in its XMP or extended XMP", "none");
   }
-  Bytes bytes;
-  if (Error error = DecodeData("GDepth:Data", *data, &bytes)) return error;
-  if (Error error = DecodeLevels("GDepth:Data", &bytes, &photo->map)) return error;
+  const Result<Bytes> bytes = DecodeData("GDepth:Data", *data);
+  if (!bytes) return bytes.error();
+  Result<FloatMap> map = DecodeLevels("GDepth:Data", *bytes);
+  if (!map) return map.error();
+  photo->map = std::move(*map);
   const RangeProperties range = {
       FindProperty(xmp, kDepth + "Format"), FindProperty(xmp, kDepth + "Near"),
       FindProperty(xmp, kDepth + "Far"), FindProperty(xmp, kDepth + "Units")};
@@ -73,15 +76,13 @@ void ReadOwnDisparities(const XmpNode& xmp, DepthPhoto* photo) {
 void ReadSharp(const XmpNode& xmp, DepthPhoto* photo) {
   const std::string* data = FindProperty(xmp, kImage + "Data");
   if (data == nullptr) return;
-  Bytes bytes;
-  Image sharp;
-  Error error = DecodeData("GImage:Data", *data, &bytes);
-  if (!error) error = DecodeImage("GImage:Data", &bytes, &sharp);
-  if (error) {
-    photo->notes.push_back("the sharp picture inside is ignored: " + error.line());
+  const Result<Bytes> bytes = DecodeData("GImage:Data", *data);
+  Result<DecodedPicture> sharp = bytes ? DecodeImage("GImage:Data", *bytes) : bytes.error();
+  if (!sharp) {
+    photo->notes.push_back("the sharp picture inside is ignored: " + sharp.error().line());
     return;
   }
-  photo->picture = std::move(sharp);
+  photo->picture = std::move(sharp->image);
   photo->facts.emplace_back("picture", "the sharp one inside (GImage:Data)");
 }
 

@@ -36,10 +36,10 @@ void TakeKeyValues(const std::string& text, KeyValues* values) {
 }
 
 Error ReadKeyValues(const std::string& path, KeyValues* values) {
-  Bytes bytes;
   if (Error error = CheckPlainFile(path)) return error;
-  if (Error error = ReadSmallFile(path, &bytes)) return error;
-  TakeKeyValues({bytes.begin(), bytes.end()}, values);
+  const Result<Bytes> bytes = ReadSmallFile(path);
+  if (!bytes) return bytes.error();
+  TakeKeyValues({bytes->begin(), bytes->end()}, values);
   return {};
 }
 

@@ -123,15 +123,15 @@ bool FindGreyMapPair(const std::string& folder, const std::vector<std::string>& 
 
 Error LoadGreyMap(Capture* capture) {
   const std::string& path = capture->map_path;
-  Bytes bytes;
-  Samples samples;
   if (Error error = CheckPlainFile(path)) return error;
-  if (Error error = ReadFile(path, &bytes)) return error;
-  if (Error error = DecodeSamples(path, true, &bytes, &samples)) return error;
-  std::replace(samples.map.values.begin(), samples.map.values.end(), 0.0F,
+  const Result<Bytes> bytes = ReadFile(path);
+  if (!bytes) return bytes.error();
+  Result<Samples> samples = DecodeSamples(path, true, *bytes);
+  if (!samples) return samples.error();
+  std::replace(samples->map.values.begin(), samples->map.values.end(), 0.0F,
                std::numeric_limits<float>::quiet_NaN());
   LightField* field = &capture->light_field;
-  if (Error error = TakeMap(path, std::move(samples.map), field)) return error;
+  if (Error error = TakeMap(path, std::move(samples->map), field)) return error;
   const auto* pair =
       std::find_if(std::begin(kPairs), std::end(kPairs),
                    [&](const GreyMapPair& one) { return capture->format == one.format; });

@@ -66,11 +66,14 @@ bool Fits(const std::string& photo, const std::string& file, Candidate* candidat
   return true;
 }
 
-Error ReadSamples(const std::string& path, bool use_alpha, Samples* samples) {
-  if (LowerExtension(path) == ".pfm") return ReadPfm(path, &samples->map);
-  Bytes bytes;
-  if (Error error = ReadFile(path, &bytes)) return error;
-  return DecodeSamples(path, use_alpha, &bytes, samples);
+Result<Samples> ReadSamples(const std::string& path, bool use_alpha) {
+  if (LowerExtension(path) == ".pfm") {
+    Result<FloatMap> map = ReadPfm(path);
+    if (!map) return map.error();
+    return Samples{std::move(*map), 0};
+  }
+  const Result<Bytes> bytes = ReadFile(path);
+  return bytes ? DecodeSamples(path, use_alpha, *bytes) : bytes.error();
 }
 
 // Gives the numbers of the map the meaning that the options say.
@@ -128,13 +131,13 @@ Error FindDepthPicture(const std::string& path, DepthPhoto* photo, std::string* 
 Error ReadDepthPicture(const std::string& path, const DepthOptions& options, DepthPhoto* photo) {
   photo->format = "photo and depth picture";
   photo->facts.emplace_back("depth picture", path);
-  Samples samples;
   if (Error error = CheckPlainFile(path)) return error;
-  if (Error error = ReadSamples(path, options.use_alpha, &samples)) return error;
-  photo->map = std::move(samples.map);
-  MarkUnknown(options, samples.largest, photo);
+  Result<Samples> samples = ReadSamples(path, options.use_alpha);
+  if (!samples) return samples.error();
+  photo->map = std::move(samples->map);
+  MarkUnknown(options, samples->largest, photo);
   StandWithPhoto(options.orientation, photo);
-  Understand(options, samples.largest == 0, photo);
+  Understand(options, samples->largest == 0, photo);
   return {};
 }
 

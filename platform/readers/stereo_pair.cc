@@ -36,10 +36,10 @@ bool ReadStereoPair(const std::string& path, Span file, DepthPhoto* photo) {
   if (pictures.empty() || IsAuxiliary(pictures[0])) return false;
   const uint32_t type = pictures[0].type;
   if (type != kUndefined && type != kStereo) return false;
-  Bytes bytes(pictures[0].file.data, pictures[0].file.data + pictures[0].file.size);
-  Image right;
-  if (DecodeImage(path, &bytes, &right) || right.width != photo->picture.width ||
-      right.height != photo->picture.height) {
+  const Span second = pictures[0].file;
+  Result<DecodedPicture> right = DecodeImage(path, Bytes(second.data, second.data + second.size));
+  if (!right || right->image.width != photo->picture.width ||
+      right->image.height != photo->picture.height) {
     return false;
   }
   if (!pictures[0].indexed) {
@@ -50,7 +50,7 @@ bool ReadStereoPair(const std::string& path, Span file, DepthPhoto* photo) {
     photo->notes.push_back("the orientation of EXIF is ignored: a stereo pair stays as it is");
   }
   photo->format = "stereo pair (MPO)";
-  photo->right = std::move(right);
+  photo->right = std::move(right->image);
   return true;
 }
 

@@ -23,9 +23,9 @@ template <class PerPixel>
 Error ReadFileOf(const std::string& path, double Counts::*simd, double Counts::*plain,
                  PerPixel per_pixel, std::vector<Counts>* counts) {
   if (path.empty()) return {};
-  Bytes bytes;
-  if (Error error = ReadFile(path, &bytes)) return error;
-  std::istringstream text(std::string(bytes.begin(), bytes.end()));
+  const Result<Bytes> bytes = ReadFile(path);
+  if (!bytes) return bytes.error();
+  std::istringstream text(std::string(bytes->begin(), bytes->end()));
   for (std::string line; std::getline(text, line);) {
     std::istringstream words(line);
     std::string name, kernels;

@@ -32,7 +32,9 @@ Error LoadTruths(const std::string& folder, Field* field) {
     if (std::sscanf(name.c_str(), "truth_dt%lf_ut%lf", &truth.focus, &truth.aperture) != 2) {
       continue;
     }
-    if (Error error = ReadImage(path.string(), &truth.picture)) return error;
+    Result<Image> picture = ReadImage(path.string());
+    if (!picture) return picture.error();
+    truth.picture = std::move(*picture);
     if (truth.picture.width != field->data.width() ||
         truth.picture.height != field->data.height()) {
       return Expected(path.string(), "the size of the views", "another");

@@ -162,18 +162,18 @@ struct Job {
 Error Tune(const Job& job, const Image& truth, double* scale, ToolResult* result) {
   double best = -1;
   for (const double tried : {0.35, 0.5, 0.7, 1.0}) {
-    Image picture;
     double ignored = 0;
     if (Error error = job.Make(tried, 1, true, &ignored)) return error;
-    if (Error error = ReadImage(job.files.out, &picture)) return error;
-    if (picture.pixels.size() != truth.pixels.size()) {
+    Result<Image> picture = ReadImage(job.files.out);
+    if (!picture) return picture.error();
+    if (picture->pixels.size() != truth.pixels.size()) {
       return Expected(job.known->tool.name, "a picture of the size of the view", "another");
     }
-    const double psnr = Psnr(picture, truth);
+    const double psnr = Psnr(*picture, truth);
     if (psnr <= best) continue;
     best = psnr;
     *scale = tried;
-    result->picture = std::move(picture);
+    result->picture = std::move(*picture);
   }
   return {};
 }

@@ -31,8 +31,7 @@ struct Outcome {
 };
 
 inline std::string Text(const std::string& path) {
-  Bytes bytes;
-  REQUIRE(ReadFile(path, &bytes) == "");
+  const Bytes bytes = ValueOf(ReadFile(path));
   return std::string(bytes.begin(), bytes.end());
 }
 

@@ -114,8 +114,7 @@ TEST_CASE("cli: refocus, stream, report, compare, info and sheet work together")
   CHECK(Contains(Call(folder, "info nan --json").out, "\"invalid\":1,"));
   CHECK(Call(folder, "sheet -o sheet.png whole.png small.png --labels near,far --width 60").code ==
         0);
-  Image sheet;
-  REQUIRE(ReadImage(folder.file("sheet.png"), &sheet) == "");
+  Image sheet = ValueOf(ReadImage(folder.file("sheet.png")));
   CHECK(sheet.width <= 60);
   CHECK(Call(folder, "--help").code == 0);
   CHECK(Call(folder, "refocus --help").code == 0);
@@ -141,9 +140,8 @@ TEST_CASE("cli: a region is that part of the picture") {
           "refocus lf -o part.png --focus 0.5 --region 7,5,20,11 --map part_map.png "
           "--report part.json");
   for (const std::string name : {"whole part", "map part_map"}) {
-    Image whole, part;
-    REQUIRE(ReadImage(folder.file(name.substr(0, name.find(' ')) + ".png"), &whole) == "");
-    REQUIRE(ReadImage(folder.file(name.substr(name.find(' ') + 1) + ".png"), &part) == "");
+    const Image whole = ValueOf(ReadImage(folder.file(name.substr(0, name.find(' ')) + ".png")));
+    const Image part = ValueOf(ReadImage(folder.file(name.substr(name.find(' ') + 1) + ".png")));
     REQUIRE(part.width == 20);
     REQUIRE(part.height == 11);
     for (int y = 0; y < part.height; ++y) {
@@ -163,7 +161,7 @@ TEST_CASE("cli: a video is its frames one by one, but for the work") {
   // The third and fourth frame differ from the others in a corner.
   Image view;
   const std::string centre = folder.file("in/3/view_+0.0_+0.0.png");
-  REQUIRE(ReadImage(centre, &view) == "");
+  view = ValueOf(ReadImage(centre));
   std::fill_n(view.row(2), 20, uint8_t{255});
   REQUIRE(WriteImage(centre, view) == "");
   fs::copy(centre, folder.file("in/4/view_+0.0_+0.0.png"), fs::copy_options::overwrite_existing);

@@ -36,18 +36,16 @@ TEST_CASE("disparity: finds the range and most of the map of a traced scene") {
   REQUIRE(made.code == 0);
   CHECK(made.err == "");
   CHECK(Contains(made.out, "5 views"));
-  FloatMap exact, found;
-  REQUIRE(ReadPfm(folder.file("lf/disparity.pfm"), &exact) == "");
-  REQUIRE(ReadPfm(folder.file("bare/disparity.pfm"), &found) == "");
+  const FloatMap exact = ValueOf(ReadPfm(folder.file("lf/disparity.pfm")));
+  const FloatMap found = ValueOf(ReadPfm(folder.file("bare/disparity.pfm")));
   REQUIRE(found.values.size() == exact.values.size());
   int off = 0;
   for (size_t i = 0; i < exact.values.size(); ++i) {
     off += std::fabs(found.values[i] - exact.values[i]) > 0.5;
   }
   CHECK(off < int(exact.values.size()) / 8);
-  Image picture, sure;
-  REQUIRE(ReadImage(folder.file("bare/disparity.png"), &picture) == "");
-  REQUIRE(ReadImage(folder.file("sure.png"), &sure) == "");
+  const Image picture = ValueOf(ReadImage(folder.file("bare/disparity.png")));
+  const Image sure = ValueOf(ReadImage(folder.file("sure.png")));
   CHECK(picture.width == 160);
   CHECK(sure.height == 120);
 }
@@ -69,8 +67,7 @@ TEST_CASE("disparity: what is written there already stays") {
 // The map of `lf` with its near objects 3 pixels wider, in `worse`.
 void MakeWorse(const TempFolder& folder) {
   fs::copy(folder.file("lf"), folder.file("worse"));
-  FloatMap exact;
-  REQUIRE(ReadPfm(folder.file("lf/disparity.pfm"), &exact) == "");
+  FloatMap exact = ValueOf(ReadPfm(folder.file("lf/disparity.pfm")));
   FloatMap worse = exact;
   for (int y = 0; y < exact.height; ++y) {
     for (int x = 3; x + 3 < exact.width; ++x) {
@@ -112,8 +109,7 @@ TEST_CASE("disparity --repair, refocus --repair: one view is repaired by its col
   TempFolder folder;
   PrepareScene(folder, "portrait --size 256x192");
   fs::copy(folder.file("lf"), folder.file("noisy"));
-  FloatMap map;
-  REQUIRE(ReadPfm(folder.file("lf/disparity.pfm"), &map) == "");
+  FloatMap map = ValueOf(ReadPfm(folder.file("lf/disparity.pfm")));
   test::Random random(3);
   for (float& value : map.values) value += float(random.Int(-150, 150)) * 0.01F;
   REQUIRE(WritePfm(folder.file("noisy/disparity.pfm"), map) == "");

@@ -34,25 +34,21 @@ TEST_CASE("cli: f-stops and strengths are apertures; strength 0 is the centre vi
   }
   CHECK(picture("--f-stop 1") == picture(""));
   CHECK(picture("--strength 99") != picture("--strength 100"));
-  Image centre, out;
-  REQUIRE(ReadImage(folder.file("lf/view_+0.0_+0.0.png"), &centre) == "");
+  const Image centre = ValueOf(ReadImage(folder.file("lf/view_+0.0_+0.0.png")));
   for (const char* more : {"", "--mode frame", "--mode benchmark", "--mode blur", "--rule paper",
                            "--stream", "--f-stop 2 --threads 2"}) {
     picture("--strength 0 " + std::string(more));
-    REQUIRE(ReadImage(folder.file("one.png"), &out) == "");
-    CHECK(out.pixels == centre.pixels);
+    CHECK(ValueOf(ReadImage(folder.file("one.png"))).pixels == centre.pixels);
   }
   // No blur is too large for it.
   Succeed(folder, "refocus lf -o s.png --sweep -900:900:2 --strength 0");
-  REQUIRE(ReadImage(folder.file("s_001.png"), &out) == "");
-  CHECK(out.pixels == centre.pixels);
+  CHECK(ValueOf(ReadImage(folder.file("s_001.png"))).pixels == centre.pixels);
 }
 
 TEST_CASE("cli: --focus-at takes the surface around the pixel, not the pixel") {
   TempFolder folder;
   Succeed(folder, "scene lf --size 40x30 --views 5 --name wires");
-  FloatMap map;
-  REQUIRE(ReadPfm(folder.file("lf/disparity.pfm"), &map) == "");
+  FloatMap map = ValueOf(ReadPfm(folder.file("lf/disparity.pfm")));
   map.values.assign(map.values.size(), 1.25f);
   map.values[size_t(15 * map.width + 20)] = 4;
   REQUIRE(WritePfm(folder.file("lf/disparity.pfm"), map) == "");
@@ -68,14 +64,11 @@ TEST_CASE("cli: lamps are nearer to the truth as light, values to that of values
     Succeed(folder, "scene lf --size 120x90 --views 5 --name lamps --truth 4,1 --transfer " +
                         std::string(traced));
     CHECK(Contains(Text(folder.file("lf/meta.txt")), std::string("transfer: ") + traced));
-    Image truth;
-    REQUIRE(ReadImage(folder.file("lf/truth_dt4_ut1.png"), &truth) == "");
+    Image truth = ValueOf(ReadImage(folder.file("lf/truth_dt4_ut1.png")));
     const auto psnr = [&](const std::string& transfer) {
       Succeed(folder, "refocus lf --focus 4 -o a.png --report a.json --transfer " + transfer);
       CHECK(Contains(Text(folder.file("a.json")), "\"transfer\": \"" + transfer + "\""));
-      Image picture;
-      REQUIRE(ReadImage(folder.file("a.png"), &picture) == "");
-      return test::Psnr(picture.pixels, truth.pixels);
+      return test::Psnr(ValueOf(ReadImage(folder.file("a.png"))).pixels, truth.pixels);
     };
     const double srgb = psnr("srgb"), none = psnr("none");
     CAPTURE(srgb);
@@ -91,14 +84,11 @@ TEST_CASE("cli: lamps are nearer to the truth as light, values to that of values
 TEST_CASE("cli: clipped lamps are nearer to the truth as highlights") {
   TempFolder folder;
   Succeed(folder, "scene lf --size 160x120 --views 5 --name lamps --truth 4,1");
-  Image truth;
-  REQUIRE(ReadImage(folder.file("lf/truth_dt4_ut1.png"), &truth) == "");
+  Image truth = ValueOf(ReadImage(folder.file("lf/truth_dt4_ut1.png")));
   const auto psnr = [&](const std::string& highlights) {
     Succeed(folder, "refocus lf --focus 4 -o a.png --report a.json --highlights " + highlights);
     CHECK(Contains(Text(folder.file("a.json")), "\"highlights\": " + highlights));
-    Image picture;
-    REQUIRE(ReadImage(folder.file("a.png"), &picture) == "");
-    return test::Psnr(picture.pixels, truth.pixels);
+    return test::Psnr(ValueOf(ReadImage(folder.file("a.png"))).pixels, truth.pixels);
   };
   const double clipped = psnr("1.0"), bright = psnr("3.0");
   CAPTURE(clipped);
@@ -152,8 +142,7 @@ TEST_CASE(
 // 128/300 = 0.42667, f/2.34375, blurs by 128 pixels.
 void MakeDeepFolder(const TempFolder& folder) {
   Succeed(folder, "scene lf --size 40x30 --views 1");
-  FloatMap map;
-  REQUIRE(ReadPfm(folder.file("lf/disparity.pfm"), &map) == "");
+  FloatMap map = ValueOf(ReadPfm(folder.file("lf/disparity.pfm")));
   for (size_t i = 0; i < map.values.size(); ++i) map.values[i] = i % 40 < 20 ? 300.0f : 0.0f;
   REQUIRE(WritePfm(folder.file("lf/disparity.pfm"), map) == "");
 }
@@ -222,8 +211,7 @@ TEST_CASE("cli: sweeps, videos, pages and batches fit the limit of blur, too") {
   }
   CHECK(Contains(Call(folder, "refocus lf second --focus 0 -o batch/").err, "second: aperture f/"));
   // What fits a video fits all of its frames.
-  FloatMap map;
-  REQUIRE(ReadPfm(folder.file("second/disparity.pfm"), &map) == "");
+  FloatMap map = ValueOf(ReadPfm(folder.file("second/disparity.pfm")));
   for (float& value : map.values) value *= 4.0f / 3;
   REQUIRE(WritePfm(folder.file("second/disparity.pfm"), map) == "");
   const Outcome frames = Call(folder, "video lf second --focus 0 --f-stop 1 -o none");
@@ -234,8 +222,7 @@ TEST_CASE("cli: sweeps, videos, pages and batches fit the limit of blur, too") {
 TEST_CASE("cli: without a hint the nearest large surface near the centre is in focus") {
   TempFolder folder;
   Succeed(folder, "scene lf --size 160x120 --views 1");
-  FloatMap map;
-  REQUIRE(ReadPfm(folder.file("lf/disparity.pfm"), &map) == "");
+  FloatMap map = ValueOf(ReadPfm(folder.file("lf/disparity.pfm")));
   // A wall at 1, a subject at 6 right of the centre, a wire at 9, and something at 20 in a corner.
   for (int y = 0; y < map.height; ++y) {
     for (int x = 0; x < map.width; ++x) {

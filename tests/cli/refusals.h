@@ -68,8 +68,7 @@ inline void Prepare(const TempFolder& folder) {
   fs::create_symlink("../target.png", folder.file("linked/out.png"));
   fs::remove(folder.file("missing/view_+0.0_+0.0.png"));
   REQUIRE(WriteFile(folder.file("broken/view_-1.0_+0.0.png"), Bytes{1, 2, 3}) == "");
-  FloatMap map;
-  REQUIRE(ReadPfm(folder.file("lf/disparity.pfm"), &map) == "");
+  FloatMap map = ValueOf(ReadPfm(folder.file("lf/disparity.pfm")));
   map.values[45] = std::numeric_limits<float>::quiet_NaN();
   REQUIRE(WritePfm(folder.file("nan/disparity.pfm"), map) == "");
   map.values[45] = 1e9f;

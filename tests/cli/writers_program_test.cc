@@ -75,13 +75,11 @@ TEST_CASE("writers: a sweep is an animation, or a sharp picture with the focus o
       folder,
       "refocus lf --sweep -0.45:0.45:4 --all-in-focus all.png --focus-index index.png -o " + out);
   CHECK(folder.count() == (webp ? 4 : 7));
-  Image all, centre, index;
-  REQUIRE(ReadImage(folder.file("all.png"), &all) == "");
-  REQUIRE(ReadImage(folder.file("lf/view_+0.0_+0.0.png"), &centre) == "");
-  REQUIRE(ReadImage(folder.file("index.png"), &index) == "");
+  const Image all = ValueOf(ReadImage(folder.file("all.png")));
+  const Image centre = ValueOf(ReadImage(folder.file("lf/view_+0.0_+0.0.png")));
+  const Image index = ValueOf(ReadImage(folder.file("index.png")));
   CHECK(all.pixels == centre.pixels);
-  FloatMap map;
-  REQUIRE(ReadPfm(folder.file("lf/disparity.pfm"), &map) == "");
+  FloatMap map = ValueOf(ReadPfm(folder.file("lf/disparity.pfm")));
   bool seen[4] = {};
   for (size_t i = 0; i < map.values.size(); ++i) {
     const int number = index.pixels[3 * i];
@@ -135,8 +133,7 @@ TEST_CASE("writers: compare draws where pictures differ, and over neither of the
   REQUIRE(WriteImage(folder.file("a.png"), a) == "");
   REQUIRE(WriteImage(folder.file("b.png"), b) == "");
   CHECK(Call(folder, "compare a.png b.png --map map.ppm").code == 0);
-  Image map;
-  REQUIRE(ReadImage(folder.file("map.ppm"), &map) == "");
+  Image map = ValueOf(ReadImage(folder.file("map.ppm")));
   for (size_t i = 0; i < 12; ++i) {
     const int sum = map.pixels[3 * i] + map.pixels[3 * i + 1] + map.pixels[3 * i + 2];
     CHECK(sum == (i == 5 ? 765 : i == 6 ? 382 : 0));

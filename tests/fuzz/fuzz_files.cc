@@ -34,32 +34,26 @@ class MemoryFile {
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const MemoryFile file(data, size);
-  starfocus::FloatMap map;
-  if (!starfocus::ReadPfm(file.path(), &map)) {
-    if (map.values.size() != size_t(map.width) * size_t(map.height)) std::abort();
+  if (const auto map = starfocus::ReadPfm(file.path())) {
+    if (map->values.size() != size_t(map->width) * size_t(map->height)) std::abort();
   }
-  starfocus::Bytes bytes;
-  const bool small = !starfocus::ReadSmallFile(file.path(), &bytes);
-  if (small != (size <= starfocus::kMostSmallBytes) || (small && bytes.size() != size))
+  const auto small = starfocus::ReadSmallFile(file.path());
+  if (bool(small) != (size <= starfocus::kMostSmallBytes) || (small && small->size() != size))
     std::abort();
-  if (starfocus::DescribeFile(bytes).empty()) std::abort();
-  starfocus::Image image;
-  if (!starfocus::ReadImage(file.path(), &image)) {
-    if (image.pixels.size() != image.stride() * size_t(image.height)) std::abort();
+  if (starfocus::DescribeFile(*small).empty()) std::abort();
+  if (const auto image = starfocus::ReadImage(file.path())) {
+    if (image->pixels.size() != image->stride() * size_t(image->height)) std::abort();
   }
-  starfocus::Bytes copy(data, data + size);
-  starfocus::FloatMap levels;
-  if (!starfocus::DecodeLevels("levels", &copy, &levels)) {
-    if (levels.values.size() != size_t(levels.width) * size_t(levels.height)) std::abort();
-    for (const float level : levels.values) {
+  const starfocus::Bytes bytes(data, data + size);
+  if (const auto levels = starfocus::DecodeLevels("levels", bytes)) {
+    if (levels->values.size() != size_t(levels->width) * size_t(levels->height)) std::abort();
+    for (const float level : levels->values) {
       if (level < 0 || level > 1) std::abort();
     }
   }
-  copy.assign(data, data + size);
-  starfocus::Samples samples;
-  if (!starfocus::DecodeCoverage("coverage", &copy, &samples)) {
-    for (const float sample : samples.map.values) {
-      if (!(sample >= 0 && sample <= static_cast<float>(samples.largest))) std::abort();
+  if (const auto samples = starfocus::DecodeCoverage("coverage", bytes)) {
+    for (const float sample : samples->map.values) {
+      if (!(sample >= 0 && sample <= static_cast<float>(samples->largest))) std::abort();
     }
   }
   return 0;

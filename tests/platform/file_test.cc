@@ -26,8 +26,7 @@ namespace fs = std::filesystem;
 Bytes FromText(const std::string& text) { return Bytes(text.begin(), text.end()); }
 
 std::string Read(const std::string& path) {
-  Bytes bytes;
-  REQUIRE(ReadFile(path, &bytes) == "");
+  const Bytes bytes = ValueOf(ReadFile(path));
   return std::string(bytes.begin(), bytes.end());
 }
 
@@ -53,9 +52,8 @@ TEST_CASE("file: errors are one line") {
 
 TEST_CASE("file: an error names its true cause") {
   TempFolder folder;
-  Bytes bytes;
-  CHECK(ReadFile(folder.path(), &bytes) == "cannot read " + folder.path() + ": it is a folder");
-  CHECK(ReadFile(folder.file("a"), &bytes) ==
+  CHECK(ReadFile(folder.path()) == "cannot read " + folder.path() + ": it is a folder");
+  CHECK(ReadFile(folder.file("a")) ==
         "cannot read " + folder.file("a") + ": no such file or directory");
   CHECK(CheckOutputPath(folder.path()) == "cannot write " + folder.path() + ": it is a folder");
   CHECK(CheckOutputPath(folder.file("a/b")) ==
@@ -70,8 +68,7 @@ TEST_CASE("file: an error names its true cause") {
   if (geteuid() == 0) return;  // root may do everything
   REQUIRE(chmod(folder.file("a").c_str(), 0) == 0);
   REQUIRE(chmod(folder.file("b").c_str(), 0500) == 0);
-  CHECK(ReadFile(folder.file("a"), &bytes) ==
-        "cannot read " + folder.file("a") + ": permission denied");
+  CHECK(ReadFile(folder.file("a")) == "cannot read " + folder.file("a") + ": permission denied");
   CHECK(MakeFolder(folder.file("b/d")) ==
         "cannot create folder " + folder.file("b/d") + ": permission denied");
   CHECK(CheckOutputPath(folder.file("b/d")) ==
@@ -81,26 +78,24 @@ TEST_CASE("file: an error names its true cause") {
 
 TEST_CASE("file: devices and endless pipes are not read, and small files have a limit") {
   TempFolder folder;
-  Bytes bytes;
   const auto device = [](const char* path) {
     return std::string("cannot read ") + path + ": it is a device";
   };
   for (const char* path : {"/dev/zero", "/dev/null"}) {
     if (!fs::exists(path)) continue;
-    CHECK(ReadFile(path, &bytes) == device(path));
-    CHECK(ReadSmallFile(path, &bytes) == device(path));
+    CHECK(ReadFile(path) == device(path));
+    CHECK(ReadSmallFile(path) == device(path));
   }
   REQUIRE(WriteFile(folder.file("most"), Bytes(kMostSmallBytes)) == "");
-  CHECK(ReadSmallFile(folder.file("most"), &bytes) == "");
-  CHECK(bytes.size() == kMostSmallBytes);
+  CHECK(ValueOf(ReadSmallFile(folder.file("most"))).size() == kMostSmallBytes);
   REQUIRE(WriteFile(folder.file("more"), Bytes(kMostSmallBytes + 1)) == "");
-  CHECK(ReadSmallFile(folder.file("more"), &bytes) ==
+  CHECK(ReadSmallFile(folder.file("more")) ==
         folder.file("more") +
             ": the file is too large (expected at most 1048576 bytes, found 1048577)");
-  CHECK(ReadFile(folder.file("more"), &bytes) == "");
+  CHECK(ReadFile(folder.file("more")) == "");
   // A file with a hole of its size, so that the disk has room.
   REQUIRE(truncate(folder.file("more").c_str(), (off_t{1} << 31) + 1) == 0);
-  CHECK(ReadFile(folder.file("more"), &bytes) ==
+  CHECK(ReadFile(folder.file("more")) ==
         folder.file("more") +
             ": the file is too large (expected at most 2147483648 bytes, found 2147483649)");
   // A pipe that ends is read; one that does not is read up to the limit.
@@ -117,12 +112,12 @@ TEST_CASE("file: devices and endless pipes are not read, and small files have a 
       }
       _exit(0);
     }
-    const std::string error = ReadSmallFile(path, &bytes).line();
+    const Result<Bytes> read = ReadSmallFile(path);
     if (endless) {
-      CHECK(error == path + ": the file is too large (expected at most 1048576 bytes, found more)");
+      CHECK(read == path + ": the file is too large (expected at most 1048576 bytes, found more)");
     } else {
-      CHECK(error == "");
-      CHECK(bytes.size() == 1000);
+      CHECK(read == "");
+      CHECK(read->size() == 1000);
     }
     int status = 0;
     REQUIRE(waitpid(child, &status, 0) == child);

@@ -27,12 +27,12 @@ Image Pattern(int width, int height) {
 
 Bytes FromText(const std::string& text) { return Bytes(text.begin(), text.end()); }
 
-// Reads `bytes` as a picture; returns the error.
-Error ReadBytes(const Bytes& bytes, Image* image) {
+// Reads `bytes` as a picture.
+Result<Image> ReadBytes(const Bytes& bytes) {
   TempFolder folder;
   const std::string path = folder.file("picture");
   REQUIRE(WriteFile(path, bytes) == "");
-  return ReadImage(path, image);
+  return ReadImage(path);
 }
 
 TEST_CASE("image_io: PNG and PPM come back exactly, at any size") {
@@ -44,8 +44,7 @@ TEST_CASE("image_io: PNG and PPM come back exactly, at any size") {
         const std::string path = folder.file(std::string("a") + extension);
         const Image image = Pattern(width, height);
         REQUIRE(WriteImage(path, image) == "");
-        Image back;
-        REQUIRE(ReadImage(path, &back) == "");
+        Image back = ValueOf(ReadImage(path));
         CHECK(back.width == width);
         CHECK(back.height == height);
         CHECK(back.pixels == image.pixels);
@@ -62,8 +61,7 @@ TEST_CASE("image_io: JPEG comes back nearly") {
     for (int x = 0; x < 120; ++x) image.row(y)[x] = static_cast<uint8_t>(40 + x + y);
   }
   REQUIRE(WriteImage(folder.file("a.jpg"), image) == "");
-  Image back;
-  REQUIRE(ReadImage(folder.file("a.jpg"), &back) == "");
+  Image back = ValueOf(ReadImage(folder.file("a.jpg")));
   REQUIRE(back.pixels.size() == image.pixels.size());
   for (size_t i = 0; i < image.pixels.size(); ++i) {
     CHECK(std::abs(int{back.pixels[i]} - int{image.pixels[i]}) <= 8);
@@ -71,14 +69,13 @@ TEST_CASE("image_io: JPEG comes back nearly") {
 }
 
 TEST_CASE("image_io: PPM header variants") {
-  Image image;
-  CHECK(ReadBytes(FromText("P6 # comment\n1\t1\n255\nabc"), &image) == "");
+  Image image = ValueOf(ReadBytes(FromText("P6 # comment\n1\t1\n255\nabc")));
   CHECK(image.pixels == FromText("abc"));
-  CHECK(ReadBytes(FromText("P5 2 1 100 \x32\x64"), &image) == "");
+  image = ValueOf(ReadBytes(FromText("P5 2 1 100 \x32\x64")));
   CHECK(image.pixels == Bytes{128, 128, 128, 255, 255, 255});
   Bytes wide = FromText("P6 1 1 65535\n");
   for (int value : {0xff, 0xff, 0x80, 0x00, 0x00, 0x00}) wide.push_back(uint8_t(value));
-  CHECK(ReadBytes(wide, &image) == "");
+  image = ValueOf(ReadBytes(wide));
   CHECK(image.pixels == Bytes{255, 128, 0});
 }
 
@@ -98,12 +95,10 @@ TEST_CASE("image_io: broken files are one-line errors") {
                              "\xff\xd8\xff"};
   for (const std::string& text : bad) {
     CAPTURE(text);
-    Image image = Pattern(2, 2);
-    const std::string error = ReadBytes(FromText(text), &image).line();
+    const std::string error = ReadBytes(FromText(text)).error().line();
     CHECK(Contains(error, "expected "));
     CHECK(Contains(error, ", found "));
     CHECK(!Contains(error, "\n"));
-    CHECK(image.width == 2);  // untouched
   }
 }
 
@@ -111,10 +106,8 @@ TEST_CASE("image_io: broken files are one-line errors") {
 Bytes Written(const std::string& name) {
   TempFolder folder;
   REQUIRE(WriteImage(folder.file(name), Pattern(24, 18)) == "");
-  Bytes bytes;
-  REQUIRE(ReadFile(folder.file(name), &bytes) == "");
-  Image image;
-  REQUIRE(ReadBytes(bytes, &image) == "");
+  const Bytes bytes = ValueOf(ReadFile(folder.file(name)));
+  Image image = ValueOf(ReadBytes(bytes));
   return bytes;
 }
 
@@ -124,8 +117,7 @@ TEST_CASE("image_io: truncated PNG and JPEG are refused at every length") {
     for (size_t size = 0; size + 20 < bytes.size(); size += 13) {
       CAPTURE(name);
       CAPTURE(size);
-      Image image;
-      CHECK(ReadBytes(Bytes(bytes.begin(), bytes.begin() + std::ptrdiff_t(size)), &image) != "");
+      CHECK(ReadBytes(Bytes(bytes.begin(), bytes.begin() + std::ptrdiff_t(size))) != "");
     }
   }
 }
@@ -136,16 +128,14 @@ TEST_CASE("image_io: a PNG with any byte changed is refused") {
     CAPTURE(at);
     Bytes changed = bytes;
     changed[at] ^= 0x10;
-    Image image;
-    CHECK(ReadBytes(changed, &image) != "");
+    CHECK(ReadBytes(changed) != "");
   }
 }
 
 TEST_CASE("image_io: a PNG chunk longer than its file is refused before it is read") {
   Bytes bytes = Written("a.png");
-  Image image;
   bytes[33] = 0x67;  // the length of the chunk behind the header: 1.7 GB
-  CHECK(Contains(ReadBytes(bytes, &image), "truncated"));
+  CHECK(Contains(ReadBytes(bytes), "truncated"));
 }
 
 TEST_CASE("image_io: a JPEG too short for its size is refused before it is decoded") {
@@ -154,22 +144,18 @@ TEST_CASE("image_io: a JPEG too short for its size is refused before it is decod
   const auto at = std::search(bytes.begin(), bytes.end(), frame, frame + 2);
   REQUIRE(at != bytes.end());
   for (int k = 5; k < 9; ++k) at[k] = 0x3f;  // height and width
-  Image image;
-  CHECK(Contains(ReadBytes(bytes, &image), "truncated"));
+  CHECK(Contains(ReadBytes(bytes), "truncated"));
 }
 
 TEST_CASE("image_io: a JPEG table of more codes than it has room for is refused") {
   Bytes bytes = Written("a.jpg");
-  Image image;
   const uint8_t marker[] = {0xff, 0xc4};
   const auto table = std::search(bytes.begin(), bytes.end(), marker, marker + 2);
   REQUIRE(bytes.end() - table > 4 + 17);
   std::fill_n(table + 4 + 1, 16, uint8_t{17});
-  const auto names_table = [&image](const Bytes& broken) {
-    const std::string error =
-        ReadBytes(broken, &image).line();  // by libjpeg-turbo, or for stb_image
-    return error.find("Huffman table") != std::string::npos ||
-           error.find("code table") != std::string::npos;
+  const auto names_table = [](const Bytes& broken) {
+    const Result<Image> read = ReadBytes(broken);  // by libjpeg-turbo, or by stb_image
+    return Contains(read, "Huffman table") || Contains(read, "code table");
   };
   CHECK(names_table(bytes));
   // stb_image takes several 0xff for one.
@@ -262,13 +248,12 @@ TEST_CASE("image_io: a PNG palette is looked up, and an index beyond it refused"
         const int index = x == 7 ? last : x % colours;
         row[size_t(x / per_byte)] |= uint8_t(index << (8 - depth - x % per_byte * depth));
       }
-      Image image;
-      const std::string error = ReadBytes(MakePng(8, 1, depth, 3, palette, row), &image).line();
+      const Result<Image> read = ReadBytes(MakePng(8, 1, depth, 3, palette, row));
       if (last >= 3) {
-        CHECK(Contains(error, "3 colours, found " + std::to_string(last)));
+        CHECK(Contains(read, "3 colours, found " + std::to_string(last)));
         continue;
       }
-      REQUIRE(error == "");
+      const Image image = ValueOf(read);
       REQUIRE(image.width == 8);
       for (int x = 0; x < 8; ++x) {
         const int index = x == 7 ? last : x % colours;
@@ -278,12 +263,10 @@ TEST_CASE("image_io: a PNG palette is looked up, and an index beyond it refused"
       }
     }
   }
-  Image image;
-  CHECK(ReadBytes(MakePng(8, 1, 8, 3, {}, Bytes(8)), &image) != "");        // no palette
-  CHECK(ReadBytes(MakePng(8, 1, 8, 3, Bytes(7), Bytes(8)), &image) != "");  // a third of a colour
-  CHECK(ReadBytes(MakePng(4, 1, 16, 3, palette, Bytes(8)), &image) != "");  // 16-bit indices
-  CHECK(ReadBytes(MakePng(8, 1, 8, 0, {}, Bytes(8, 99)), &image) == "");
-  CHECK(image.pixels == Bytes(24, 99));
+  CHECK(ReadBytes(MakePng(8, 1, 8, 3, {}, Bytes(8))) != "");        // no palette
+  CHECK(ReadBytes(MakePng(8, 1, 8, 3, Bytes(7), Bytes(8))) != "");  // a third of a colour
+  CHECK(ReadBytes(MakePng(4, 1, 16, 3, palette, Bytes(8))) != "");  // 16-bit indices
+  CHECK(ValueOf(ReadBytes(MakePng(8, 1, 8, 0, {}, Bytes(8, 99)))).pixels == Bytes(24, 99));
 }
 
 TEST_CASE("image_io: what follows the end of a PNG file is no part of it") {
@@ -294,8 +277,7 @@ TEST_CASE("image_io: what follows the end of a PNG file is no part of it") {
   const Bytes name = FromText("PLTE");
   png.insert(png.end(), name.begin(), name.end());
   png.insert(png.end(), 4, 0);
-  Image image;
-  REQUIRE(ReadBytes(png, &image) == "");
+  Image image = ValueOf(ReadBytes(png));
   CHECK(std::equal(&palette[3], &palette[6], image.row(0)));
 }
 
@@ -308,9 +290,8 @@ TEST_CASE("image_io: a picture too large for its format says its size") {
                {20000, 20000, "2^28 pixels, found 20000x20000"},
                {65535, 65535, "2^28 pixels, found 65535x65535"}};
   for (const auto& size : sizes) {
-    Image image;
     const Bytes png = MakePng(size.width, size.height, 8, 0, {}, Bytes(8));
-    CHECK(Contains(ReadBytes(png, &image), size.expected));
+    CHECK(Contains(ReadBytes(png), size.expected));
   }
   // The encoders count bytes in an int: more of them would be written out of bounds.
   TempFolder folder;
@@ -324,10 +305,7 @@ TEST_CASE("image_io: a picture too large for its format says its size") {
 
 // A file among the seeds of the fuzz targets: 24x16 pixels, red 40 + 7 x, green 60 + 8 y, blue 128.
 Bytes Seed(const std::string& name) {
-  Bytes bytes;
-  const std::string folder = STARFOCUS_SOURCE_DIR "/tests/fuzz/corpus/photo/";
-  REQUIRE(ReadFile(folder + name, &bytes) == "");
-  return bytes;
+  return ValueOf(ReadFile(STARFOCUS_SOURCE_DIR "/tests/fuzz/corpus/photo/" + name));
 }
 
 // The largest difference from that picture, its light scaled by `share`.
@@ -348,19 +326,14 @@ int DifferenceFromSeed(const Image& image, double share) {
 }
 
 // Whether the build has libjpeg-turbo: stb_image reads no arithmetic coding.
-bool HasLibjpeg() {
-  Bytes bytes = Seed("arithmetic.jpg");
-  Image image;
-  return !DecodeImage("arithmetic.jpg", &bytes, &image);
-}
+bool HasLibjpeg() { return bool(DecodeImage("arithmetic.jpg", Seed("arithmetic.jpg"))); }
 
 TEST_CASE("image_io: JPEG of every kind that libjpeg-turbo reads has its colours") {
   if (!HasLibjpeg()) return;
   for (const char* name : {"arithmetic.jpg", "progressive.jpg", "restart.jpg", "cmyk.jpg",
                            "cmyk_adobe.jpg", "ycck.jpg"}) {
     CAPTURE(name);
-    Image image;
-    REQUIRE(ReadBytes(Seed(name), &image) == "");
+    Image image = ValueOf(ReadBytes(Seed(name)));
     // Black is 200 everywhere where there is any, as Adobe stores it: of 255 no ink.
     const bool black = name[0] == 'c' || name[0] == 'y';
     CHECK(DifferenceFromSeed(image, black ? 200 / 255.0 : 1) <= 6);
@@ -369,58 +342,51 @@ TEST_CASE("image_io: JPEG of every kind that libjpeg-turbo reads has its colours
 
 TEST_CASE("image_io: bytes between the parts of a JPEG do no harm") {
   if (!HasLibjpeg()) return;
-  Image image;
   Bytes bytes = Seed("restart.jpg");
   const Bytes junk = {0xff, 0xd1, 0x55, 0x55, 0x55};
   bytes.insert(bytes.end() - 2, junk.begin(), junk.end());
-  REQUIRE(ReadBytes(bytes, &image) == "");
-  CHECK(DifferenceFromSeed(image, 1) <= 6);
+  CHECK(DifferenceFromSeed(ValueOf(ReadBytes(bytes)), 1) <= 6);
   bytes.insert(bytes.end(), 100, 0xff);  // behind its end
-  REQUIRE(ReadBytes(bytes, &image) == "");
+  CHECK(ReadBytes(bytes) == "");
 }
 
 TEST_CASE("image_io: JPEG of 12 bits a sample, and a truncated one with an end, name the cause") {
   if (!HasLibjpeg()) return;
-  Image image;
   Bytes bytes = Seed("restart.jpg");
   const uint8_t frame[] = {0xff, 0xc0};
   const auto at = std::search(bytes.begin(), bytes.end(), frame, frame + 2);
   REQUIRE(at != bytes.end());
   at[4] = 12;
-  CHECK(Contains(ReadBytes(bytes, &image), "precision 12"));
+  CHECK(Contains(ReadBytes(bytes), "precision 12"));
   bytes = Seed("arithmetic.jpg");
   bytes.resize(bytes.size() * 2 / 3);
-  CHECK(Contains(ReadBytes(bytes, &image), "truncated"));
+  CHECK(Contains(ReadBytes(bytes), "truncated"));
   bytes = Seed("progressive.jpg");
   bytes.resize(bytes.size() * 2 / 3);
-  CHECK(Contains(ReadBytes(bytes, &image), "truncated"));
+  CHECK(Contains(ReadBytes(bytes), "truncated"));
   bytes = Seed("restart.jpg");
   bytes.resize(bytes.size() - 60);
   bytes.insert(bytes.end(), {0xff, 0xd9});
-  CHECK(Contains(ReadBytes(bytes, &image), "truncated"));
+  CHECK(Contains(ReadBytes(bytes), "truncated"));
 }
 
 TEST_CASE("image_io: an interlaced PNG of 16 bits with alpha is a picture of 8") {
-  Image image;
-  REQUIRE(ReadBytes(Seed("interlaced16.png"), &image) == "");
+  Image image = ValueOf(ReadBytes(Seed("interlaced16.png")));
   CHECK(DifferenceFromSeed(image, 1) == 0);
 }
 
 TEST_CASE("image_io: WebP, lossy and lossless, whole or truncated") {
-  Image image;
   if (WebpWriter::Check("", 1, 1)) {
-    CHECK(Contains(ReadBytes(Seed("lossless.webp"), &image), "libwebp"));
+    CHECK(Contains(ReadBytes(Seed("lossless.webp")), "libwebp"));
     return;
   }
-  REQUIRE(ReadBytes(Seed("lossless.webp"), &image) == "");
-  CHECK(DifferenceFromSeed(image, 1) == 0);
-  REQUIRE(ReadBytes(Seed("lossy.webp"), &image) == "");
-  CHECK(DifferenceFromSeed(image, 1) <= 12);
+  CHECK(DifferenceFromSeed(ValueOf(ReadBytes(Seed("lossless.webp"))), 1) == 0);
+  CHECK(DifferenceFromSeed(ValueOf(ReadBytes(Seed("lossy.webp"))), 1) <= 12);
   const Bytes whole = Seed("lossy.webp");
   for (size_t size = 12; size < whole.size(); ++size) {
     CAPTURE(size);
     const Bytes cut(whole.begin(), whole.begin() + static_cast<ptrdiff_t>(size));
-    CHECK(Contains(ReadBytes(cut, &image), "truncated"));
+    CHECK(Contains(ReadBytes(cut), "truncated"));
   }
 }
 
@@ -433,7 +399,7 @@ TEST_CASE("image_io: an animation is no picture, and the error says so") {
   REQUIRE(writer.Add(image) == "");
   Bytes bytes;
   REQUIRE(writer.Finish({}, &bytes) == "");
-  CHECK(Contains(ReadBytes(bytes, &image), "animation"));
+  CHECK(Contains(ReadBytes(bytes), "animation"));
 }
 
 }  // namespace

@@ -142,8 +142,7 @@ bool HasLibpng() {
 std::string Ask(const TempFolder& folder, const std::string& command) {
   const std::string out = folder.file("said");
   CHECK(std::system((command + " >'" + out + "' 2>/dev/null").c_str()) == 0);
-  Bytes bytes;
-  REQUIRE(ReadFile(out, &bytes) == "");
+  const Bytes bytes = ValueOf(ReadFile(out));
   return std::string(bytes.begin(), bytes.end());
 }
 
@@ -225,11 +224,8 @@ TEST_CASE("writers: what PNG and WebP files say of a picture is read again") {
     if (name == "a.png" && !HasLibpng()) continue;
     CAPTURE(name);
     REQUIRE(WriteImage(folder.file(name), Ramp(40, 30), how) == "");
-    Bytes bytes;
-    REQUIRE(ReadFile(folder.file(name), &bytes) == "");
-    Image image;
-    Metadata metadata;
-    REQUIRE(DecodeImage(name, &bytes, &image, &metadata) == "");
+    Bytes bytes = ValueOf(ReadFile(folder.file(name)));
+    const Metadata metadata = ValueOf(DecodeImage(name, bytes)).metadata;
     CHECK(metadata.icc == how.metadata.icc);
     const std::string exif(metadata.exif.begin(), metadata.exif.end());
     CHECK(exif.find("II") == 0);
@@ -245,9 +241,7 @@ TEST_CASE("writers: a small PNG is smaller, with the same pixels") {
   REQUIRE(EncodePng("a.png", image, {}, PngSize::kSmall, &small) == "");
   CHECK(small.size() < quick.size());
   for (Bytes* bytes : {&quick, &small}) {
-    Image back;
-    REQUIRE(DecodeImage("a.png", bytes, &back) == "");
-    CHECK(back.pixels == image.pixels);
+    CHECK(ValueOf(DecodeImage("a.png", *bytes)).image.pixels == image.pixels);
   }
 }
 
@@ -276,16 +270,12 @@ TEST_CASE("writers: EXIF in a text chunk of a PNG, as ImageMagick has it, is rea
   for (const std::string type : {"exif", "APP1"}) {
     Bytes png = PngWithChunk("tEXt", "Raw profile type " + type + '\0' + "\n" + type + "\n     " +
                                          std::to_string(text.size()) + digits + "\n");
-    Image image;
-    Metadata metadata;
-    REQUIRE(DecodeImage("a.png", &png, &image, &metadata) == "");
+    const Metadata metadata = ValueOf(DecodeImage("a.png", png)).metadata;
     CHECK(metadata.exif == exif);
   }
   for (const std::string content : {"Raw profile type exif", "", "\n", "\nexif\n 4\n4578", "xx"}) {
     Bytes png = PngWithChunk("zTXt", "Raw profile type exif" + std::string(2, '\0') + content);
-    Image image;
-    Metadata metadata;
-    REQUIRE(DecodeImage("a.png", &png, &image, &metadata) == "");
+    const Metadata metadata = ValueOf(DecodeImage("a.png", png)).metadata;
     CHECK(metadata.exif.empty());
   }
 }
@@ -323,17 +313,14 @@ TEST_CASE("writers: grey levels above 255 take 16 bits") {
     return;
   }
   REQUIRE(error == "");
-  PngHeader header;
-  REQUIRE(ReadPngHeader(png, &header));
-  CHECK(header.depth == 16);
+  CHECK(ReadPngHeader(png)->depth == 16);
   Image back;
   REQUIRE(WriteFile(folder.file("a.png"), png) == "");
-  REQUIRE(ReadImage(folder.file("a.png"), &back) == "");
+  back = ValueOf(ReadImage(folder.file("a.png")));
   CHECK(int{back.pixels[3 * 599]} == 599 >> 8);
   grey.levels.assign(600, 255);
   REQUIRE(EncodeGreyPng("a.png", grey, &png) == "");
-  REQUIRE(ReadPngHeader(png, &header));
-  CHECK(header.depth == 8);
+  CHECK(ReadPngHeader(png)->depth == 8);
 }
 
 TEST_CASE("writers: an animation shows its pictures in their order") {
@@ -387,8 +374,7 @@ TEST_CASE("writers: a depth photo holds the map and the picture before, for exif
   const SharpOriginal photo = {&before, &map, 2, 0.5};
   REQUIRE(EncodeDepthPhoto("a.jpg", picture, photo, 95, {}, &jpeg) == "");
   REQUIRE(WriteFile(folder.file("a.jpg"), jpeg) == "");
-  Image back;
-  CHECK(ReadImage(folder.file("a.jpg"), &back) == "");
+  Image back = ValueOf(ReadImage(folder.file("a.jpg")));
   const std::string text(jpeg.begin(), jpeg.end());
   CHECK(text.find("RangeInverse") < text.find("http://ns.adobe.com/xmp/extension/"));
   if (!Has("exiftool")) {
@@ -404,14 +390,14 @@ TEST_CASE("writers: a depth photo holds the map and the picture before, for exif
   const std::string png = Ask(folder, "exiftool -b -XMP-GDepth:DepthImage " + file);
   const std::string sharp = Ask(folder, "exiftool -b -XMP-GImage:ImageData " + file);
   REQUIRE(WriteFile(folder.file("d.png"), FromText(png)) == "");
-  REQUIRE(ReadImage(folder.file("d.png"), &back) == "");
+  back = ValueOf(ReadImage(folder.file("d.png")));
   REQUIRE(back.pixels.size() == 3 * map.values.size());
   for (size_t i = 0; i < map.values.size(); ++i) {
     const double level = 255 * (5 - double(map.values[i])) / 8;
     if (std::fabs(level - back.pixels[3 * i]) > 0.51) FAIL("level of pixel " << i);
   }
   REQUIRE(WriteFile(folder.file("s.jpg"), FromText(sharp)) == "");
-  CHECK(ReadImage(folder.file("s.jpg"), &back) == "");
+  back = ValueOf(ReadImage(folder.file("s.jpg")));
   CHECK(Ask(folder, "exiftool -validate -warning -s3 " + file).find("OK") == 0);
 }
 

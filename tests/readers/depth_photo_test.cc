@@ -283,8 +283,7 @@ TEST_CASE("photos: limits of segments, items, pictures and pixels are named") {
   const std::string header = "IHDR" + Big(16000, 4) + Big(16000, 4) + png.substr(24, 5);
   png = png.substr(0, 12) + header + Big(Crc(header), 4) + png.substr(33);
   Bytes bytes(png.begin(), png.end());
-  FloatMap map;
-  CHECK(Contains(DecodeLevels("x", &bytes, &map), "truncated"));
+  CHECK(Contains(DecodeLevels("x", bytes), "truncated"));
   if (!CanReadXmp()) return;
   std::string items;
   for (int k = 0; k < 65; ++k) items += ContainerItem("image/png", 1, "other");
@@ -318,8 +317,7 @@ TEST_CASE("XMP: limits are named, and nothing else than elements is read") {
 }
 
 std::string Seed(const std::string& name) {
-  Bytes bytes;
-  Require(ReadFile(STARFOCUS_SOURCE_DIR "/tests/fuzz/corpus/" + name, &bytes));
+  const Bytes bytes = ValueOf(ReadFile(STARFOCUS_SOURCE_DIR "/tests/fuzz/corpus/" + name));
   return {bytes.begin(), bytes.end()};
 }
 
@@ -348,8 +346,7 @@ TEST_CASE("photos: EXIF of PNG and WebP turns the picture as that of JPEG does")
     TempFolder folder;
     if (CheckImageOutput(folder.file(name))) continue;
     Require(WriteImage(folder.file(name), Ramp(kWidth, kHeight), how));
-    Bytes bytes;
-    Require(ReadFile(folder.file(name), &bytes));
+    const Bytes bytes = ValueOf(ReadFile(folder.file(name)));
     const std::string written(bytes.begin(), bytes.end());
     if (written.find("starfocus") == std::string::npos) continue;  // a build without libpng
     DepthPhoto photo;
@@ -386,16 +383,13 @@ TEST_CASE("photos: profiles of grey, or with parts missing, are left out with a 
 TEST_CASE("coverage: the alpha channel of a picture of 16 bits, or the levels of one without") {
   const std::string file = Seed("files/rgba16.png"), grey = Seed("files/gray.png");
   Bytes bytes(file.begin(), file.end());
-  Samples samples, levels;
-  REQUIRE(DecodeCoverage("rgba16.png", &bytes, &samples) == "");
+  Samples samples = ValueOf(DecodeCoverage("rgba16.png", bytes));
   CHECK(samples.largest == 65535);
   CHECK(samples.map.values[0] == 0x0607);
   CHECK(samples.map.values[1] == 0x0e0f);
   bytes.assign(grey.begin(), grey.end());
-  REQUIRE(DecodeCoverage("gray.png", &bytes, &samples) == "");
-  bytes.assign(grey.begin(), grey.end());
-  REQUIRE(DecodeSamples("gray.png", false, &bytes, &levels) == "");
-  CHECK(samples.map.values == levels.map.values);
+  samples = ValueOf(DecodeCoverage("gray.png", bytes));
+  CHECK(samples.map.values == ValueOf(DecodeSamples("gray.png", false, bytes)).map.values);
 }
 
 TEST_CASE("HEIF: the brands of still pictures and of sequences, anywhere in their list") {

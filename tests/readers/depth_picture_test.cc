@@ -76,9 +76,8 @@ struct Opened {
 
 std::string PfmOf(const FloatMap& map, ByteOrder order = ByteOrder::kLittle) {
   TempFolder folder;
-  Bytes bytes;
   Require(WritePfm(folder.file("map.pfm"), map, order));
-  Require(ReadFile(folder.file("map.pfm"), &bytes));
+  const Bytes bytes = ValueOf(ReadFile(folder.file("map.pfm")));
   return {bytes.begin(), bytes.end()};
 }
 
@@ -308,8 +307,7 @@ TEST_CASE("depth pictures: PGM keeps its 16 bits, and colours are refused") {
   for (const uint16_t level : LevelsOf(kMillimetres)) pgm += Big(level, 2);
   CheckScene(Opened("map.pgm", pgm, NearIs(Near::kBlack)));
   Bytes bytes(pgm.begin(), pgm.end());
-  Samples samples;
-  REQUIRE(DecodeSamples("x", true, &bytes, &samples) == "");
+  Samples samples = ValueOf(DecodeSamples("x", true, bytes));
   CHECK(samples.largest == 4095);
   CHECK(samples.map.values[Index(kBox[0], kBox[1])] == 900);
   Image colours(kWidth, kHeight);

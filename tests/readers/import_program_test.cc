@@ -100,9 +100,7 @@ TEST_CASE("photos: captions reach every output, and no depth map is claimed ther
     const Outcome outcome = Call(folder, "refocus photo.jpg --focus 1 -o " + name + option);
     if (Contains(outcome.err, "libwebp") || Contains(outcome.err, "libpng")) continue;
     REQUIRE(outcome.code == 0);
-    Bytes bytes;
-    REQUIRE(ReadFile(folder.file(name), &bytes) == "");
-    const std::string file(bytes.begin(), bytes.end());
+    const std::string file = Text(folder.file(name));
     CAPTURE(name);
     CHECK(Contains(file, "Cats &amp; dogs"));
     CHECK(Contains(file, "<xmp:Rating>4</xmp:Rating>"));
@@ -119,9 +117,7 @@ TEST_CASE("photos: captions reach every output, and no depth map is claimed ther
     REQUIRE(std::system(("exiftool -s -G -Title -Rating -Caption-Abstract -Warning '" +
                          folder.file(name) + "' > '" + folder.file("tags") + "'")
                             .c_str()) == 0);
-    Bytes tags;
-    REQUIRE(ReadFile(folder.file("tags"), &tags) == "");
-    const std::string text(tags.begin(), tags.end());
+    const std::string text = Text(folder.file("tags"));
     CHECK(Contains(text, "Cats & dogs"));
     CHECK(Contains(text, "Rating                          : 4"));
     CHECK(!Contains(text, "Warning"));
@@ -223,8 +219,7 @@ TEST_CASE("photos: the subject stays in EXIF where its pixels are those of the p
     MakePhoto(folder, kind.exif);
     const std::string refocus = "refocus a.jpg --near white --focus-at 30,30 -o b.jpg ";
     Succeed(folder, refocus + kind.options);
-    Image picture;
-    REQUIRE(ReadImage(folder.file("b.jpg"), &picture) == "");
+    Image picture = ValueOf(ReadImage(folder.file("b.jpg")));
     Image map(picture.width, picture.height);
     std::fill_n(map.pixels.begin(), map.pixels.size() / 2, uint8_t{255});
     Write(folder.file("b-depth.png"), Encode(map, ".png"));
@@ -381,9 +376,8 @@ TEST_CASE("photos: a saved depth photo has the disparities and the blur of what 
     // The same blur: that of a quarter more would differ by several levels.
     Succeed(folder, "refocus lf" + std::string(kind.widest) + lens + "first.png");
     Succeed(folder, "refocus saved.jpg" + lens + "again.png");
-    Image first, again;
-    REQUIRE(ReadImage(folder.file("first.png"), &first) == "");
-    REQUIRE(ReadImage(folder.file("again.png"), &again) == "");
+    const Image first = ValueOf(ReadImage(folder.file("first.png")));
+    const Image again = ValueOf(ReadImage(folder.file("again.png")));
     double squares = 0;
     for (size_t k = 0; k < first.pixels.size(); ++k) {
       const double difference = double(first.pixels[k]) - double(again.pixels[k]);
@@ -401,8 +395,7 @@ TEST_CASE("photos: a saved depth photo has the disparities and the blur of what 
 }
 
 TEST_CASE("photos: HEIC with an auxiliary depth picture") {
-  Bytes bytes;
-  REQUIRE(ReadFile(STARFOCUS_SOURCE_DIR "/tests/fuzz/corpus/heif/depth.heic", &bytes) == "");
+  const Bytes bytes = ValueOf(ReadFile(STARFOCUS_SOURCE_DIR "/tests/fuzz/corpus/heif/depth.heic"));
   DepthPhoto photo;
   const Error error = ReadHeif("x", {bytes.data(), bytes.size()}, Near::kUnknown, &photo);
 #ifdef STARFOCUS_HAS_HEIF
@@ -432,8 +425,7 @@ TEST_CASE("photos: what exiftool wrote is read, and what the tests write exiftoo
                               "exiftool -s3 -XMP-GDepth:Far ours.jpg > far.txt")
                           .c_str()) == 0);
   CHECK(Text(folder.file("far.txt")) == "4\n");
-  Image map;
-  REQUIRE(ReadImage(folder.file("map.png"), &map) == "");
+  Image map = ValueOf(ReadImage(folder.file("map.png")));
   CHECK(map.width == 48);
   Write(folder.file("theirs.jpg"), Encode(Ramp(96, 64), ".jpg"));
   // EXIF by exiftool, too: standing on its right side, a lens of 26 mm.
@@ -476,13 +468,11 @@ TEST_CASE("parts of the data sets: photographs of phones are refocused near and 
   CHECK(capture.light_field.width() == 4032);
   CHECK(!capture.metadata.exif.empty());
   CHECK(capture.metadata.icc.size() == 536);
-  Bytes bytes;
+  Bytes bytes = ValueOf(ReadFile(photos + "pug.heic"));
   DepthPhoto photo;
-  FloatMap other;
-  REQUIRE(ReadFile(photos + "pug.heic", &bytes) == "");
   REQUIRE(ReadHeif("pug", {bytes.data(), bytes.size()}, Near::kUnknown, &photo) == "");
-  REQUIRE(ReadFile(photos + "pug_depth.png", &bytes) == "");
-  REQUIRE(DecodeLevels("pug_depth", &bytes, &other) == "");
+  bytes = ValueOf(ReadFile(photos + "pug_depth.png"));
+  const FloatMap other = ValueOf(DecodeLevels("pug_depth", bytes));
   REQUIRE(photo.map.values.size() == other.values.size());
   double largest = 0;
   for (size_t k = 0; k < other.values.size(); ++k) {

@@ -5,7 +5,9 @@
 #define STARFOCUS_TESTS_SUPPORT_ERROR_LINE_H_
 
 #include <ostream>
+#include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "platform/result.h"
 
@@ -21,9 +23,33 @@ inline bool Contains(const Error& error, const std::string& part) {
   return Contains(error.line(), part);
 }
 
+template <class T>
+bool operator==(const Result<T>& result, const std::string& line) {
+  return result.error() == line;
+}
+template <class T>
+bool operator!=(const Result<T>& result, const std::string& line) {
+  return result.error() != line;
+}
+template <class T>
+bool Contains(const Result<T>& result, const std::string& part) {
+  return Contains(result.error(), part);
+}
+
+// The value of a result that must have one.
+template <class T>
+T ValueOf(Result<T> result) {
+  if (!result) throw std::runtime_error(result.error().line());
+  return std::move(*result);
+}
+
 // What doctest shows.
 inline std::ostream& operator<<(std::ostream& out, const Error& error) {
   return out << error.line();
+}
+template <class T>
+std::ostream& operator<<(std::ostream& out, const Result<T>& result) {
+  return out << result.error();
 }
 
 }  // namespace starfocus

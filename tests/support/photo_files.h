@@ -12,6 +12,7 @@
 
 #include "platform/base64.h"
 #include "platform/image_io.h"
+#include "tests/support/error_line.h"
 #include "tests/support/temp_folder.h"
 
 namespace starfocus::photos {
@@ -23,9 +24,8 @@ inline void Require(const Error& error) {
 // The bytes of a picture as a file of that extension.
 inline std::string Encode(const Image& image, const std::string& extension) {
   TempFolder folder;
-  Bytes bytes;
   Require(WriteImage(folder.file("picture" + extension), image));
-  Require(ReadFile(folder.file("picture" + extension), &bytes));
+  const Bytes bytes = ValueOf(ReadFile(folder.file("picture" + extension)));
   return {bytes.begin(), bytes.end()};
 }
 

@@ -124,16 +124,17 @@ Error FocusFirst(const std::string& folder, const FloatMap& map, LensPlan* plan)
 
 // Looks at all frames: their views and disparities.
 Error Scan(const VideoOptions& options, LensPlan* plan, Video* video) {
-  std::vector<ViewFile> files;
-  if (Error error = ChooseViewFiles(video->folders[0], plan->options.views, &files)) return error;
-  for (const ViewFile& file : files) video->views.push_back(file.position);
+  const auto chosen = ChooseViewFiles(video->folders[0], plan->options.views);
+  if (!chosen) return chosen.error();
+  for (const ViewFile& file : *chosen) video->views.push_back(file.position);
   if (Error error = CheckRule(video->folders[0], *plan, video->views)) return error;
   for (size_t i = 0; i < video->folders.size(); ++i) {
     const std::string& folder = video->folders[i];
-    FloatMap map;
     sf_disparity_stats stats = {};
-    if (Error error = ChooseViewFiles(folder, video->views, &files)) return error;
-    if (Error error = ReadDisparity(folder, &map)) return error;
+    if (Error error = ChooseViewFiles(folder, video->views).error()) return error;
+    Result<FloatMap> read = ReadDisparity(folder);
+    if (!read) return read.error();
+    FloatMap& map = *read;
     if (i == 0) video->width = map.width, video->height = map.height;
     if (Error error = CheckSize(folder, map, *video)) return error;
     if (Error error = Prepare(options, folder, &map, &stats)) return error;

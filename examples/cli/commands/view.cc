@@ -48,8 +48,9 @@ std::string Number(double value, int decimals) {
 }
 
 Error ShowTruth(const TruthFile& truth, const Image& picture, Contents* contents) {
-  Image real;
-  if (Error error = ReadImage(truth.path, &real)) return error;
+  const Result<Image> read = ReadImage(truth.path);
+  if (!read) return read.error();
+  const Image& real = *read;
   if (real.width != picture.width || real.height != picture.height) return {};  // of another one
   const Difference difference = MeasureDifference(picture, real);
   const std::string lens =

@@ -35,9 +35,9 @@ Json TimingJson(const sf_timing& timing) {
 }
 
 Error ReadTiming(const std::string& path, sf_timing* timing) {
-  Bytes bytes;
-  if (Error error = ReadSmallFile(path, &bytes)) return error;
-  const JsonObject object = ReadJsonObject(bytes, "timing");
+  const Result<Bytes> bytes = ReadSmallFile(path);
+  if (!bytes) return bytes.error();
+  const JsonObject object = ReadJsonObject(*bytes, "timing");
   if (!object.is_json) return Expected(path, "a JSON file", "other text");
   if (!object.is_there) {
     return Expected(path, "an object \"timing\", as starfocus-lab calibrate writes it", "none");

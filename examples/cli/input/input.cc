@@ -162,10 +162,9 @@ Error OpenInput(const InputOptions& options, Capture* capture) {
 }
 
 Error LoadInput(const Positions& views, int threads, Capture* capture) {
-  std::vector<ViewFile> chosen;
   for (const sf_position& view : views) {
     // A view that is not there is the option's fault.
-    if (!SelectViewFiles(capture->path, capture->files, {view}, &chosen)) continue;
+    if (SelectViewFiles(capture->path, capture->files, {view})) continue;
     return Error::Usage(
         "--views", "some of the " + std::to_string(capture->files.size()) + " in " + capture->path,
         std::to_string(views.size()) + " with " + ViewName(view));

@@ -28,9 +28,8 @@ bool ParseTruthName(const fs::path& name, LensAt* lens) {
 
 // Whether the folder's meta.txt says that pictures average codes.
 sf_transfer TransferOf(const std::string& folder) {
-  Bytes bytes;
-  if (ReadSmallFile((fs::path(folder) / "meta.txt").string(), &bytes)) return SF_TRANSFER_SRGB;
-  const std::string text(bytes.begin(), bytes.end());
+  const Result<Bytes> bytes = ReadSmallFile((fs::path(folder) / "meta.txt").string());
+  const std::string text(bytes->begin(), bytes->end());
   return text.find("transfer: none\n") != std::string::npos ? SF_TRANSFER_NONE : SF_TRANSFER_SRGB;
 }
 

@@ -33,10 +33,11 @@ Error CheckMap(const CompareOptions& options) {
 }
 
 Error Run(const CompareOptions& options) {
-  Image a, b;
   if (Error error = CheckMap(options)) return error;
-  if (Error error = ReadImage(options.first, &a)) return error;
-  if (Error error = ReadImage(options.second, &b)) return error;
+  const Result<Image> first = ReadImage(options.first), second = ReadImage(options.second);
+  if (!first) return first.error();
+  if (!second) return second.error();
+  const Image &a = *first, &b = *second;
   if (a.width != b.width || a.height != b.height) {
     return Expected(options.second, SizeText(a) + " as " + options.first, SizeText(b));
   }

@@ -57,9 +57,9 @@ Error Run(const SheetOptions& options) {
   }
   std::vector<Image> cells;
   for (const std::string& path : options.pictures) {
-    Image picture;
-    if (Error error = ReadImage(path, &picture)) return error;
-    cells.push_back(Shrink(picture, cell_width));
+    const Result<Image> picture = ReadImage(path);
+    if (!picture) return picture.error();
+    cells.push_back(Shrink(*picture, cell_width));
   }
   return WriteImage(options.out, Arrange(cells, options.labels));
 }
