@@ -76,9 +76,8 @@ Result<Image> ReadImage(const std::string& path) {
 Error WriteImage(const std::string& path, const Image& image, const PictureOptions& options) {
   if (Error error = CheckExtension(path)) return error;
   try {
-    Bytes bytes;
-    if (Error error = EncodePicture(path, image, options, &bytes)) return error;
-    return WriteFile(path, bytes);
+    const Result<Bytes> bytes = EncodePicture(path, image, options);
+    return bytes ? WriteFile(path, *bytes) : bytes.error();
   } catch (const std::bad_alloc&) {
     return OutOfMemory(path, "write it");
   }

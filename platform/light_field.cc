@@ -67,9 +67,8 @@ Error SaveCoverage(const std::string& folder, const LightField& light_field) {
   image.height = light_field.views[0].height;
   image.levels.assign(light_field.coverage.begin(), light_field.coverage.end());
   const std::string path = Join(folder, kCoverageName);
-  Bytes png;
-  if (Error error = EncodeGreyPng(path, image, &png)) return error;
-  return WriteFile(path, png);
+  const Result<Bytes> png = EncodeGreyPng(path, image);
+  return png ? WriteFile(path, *png) : png.error();
 }
 
 }  // namespace

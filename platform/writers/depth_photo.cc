@@ -54,8 +54,8 @@ GreyImage Levels(const FloatMap& map, const Range& range) {
 }
 
 // Our own properties. Disparities at f/1 beyond the limit are moved to it, which changes no blur.
-Error OwnAttributes(const std::string& path, const SharpOriginal& photo, const Range& range,
-                    std::string* attributes) {
+Result<std::string> OwnAttributes(const std::string& path, const SharpOriginal& photo,
+                                  const Range& range) {
   double near = photo.widest * range.high, far = photo.widest * range.low;
   const double moved = std::clamp(0.0, -SF_MAX_DISPARITY - far,
                                   std::max(-SF_MAX_DISPARITY - far, SF_MAX_DISPARITY - near));
@@ -66,9 +66,8 @@ Error OwnAttributes(const std::string& path, const SharpOriginal& photo, const R
                     std::to_string(near - far));
   }
   const double diagonal = std::hypot(photo.before->width, photo.before->height);
-  *attributes = Attribute(std::string("Starfocus:") + kNearDisparity, near / diagonal) +
-                Attribute(std::string("Starfocus:") + kFarDisparity, far / diagonal);
-  return {};
+  return Attribute(std::string("Starfocus:") + kNearDisparity, near / diagonal) +
+         Attribute(std::string("Starfocus:") + kFarDisparity, far / diagonal);
 }
 
 std::string FocusAttributes(const SharpOriginal& photo, double low) {
@@ -80,23 +79,23 @@ std::string FocusAttributes(const SharpOriginal& photo, double low) {
 
 }  // namespace
 
-Error EncodeDepthPhoto(const std::string& path, const Image& picture, const SharpOriginal& photo,
-                       int quality, const Metadata& metadata, Bytes* jpeg) {
+Result<Bytes> EncodeDepthPhoto(const std::string& path, const Image& picture,
+                               const SharpOriginal& photo, int quality, const Metadata& metadata) {
   const Range range(*photo.disparity);
-  Bytes map, before, segments;
-  std::string own;
-  if (Error error = OwnAttributes(path, photo, range, &own)) return error;
-  if (Error error = EncodeGreyPng(path, Levels(*photo.disparity, range), &map)) return error;
-  if (Error error = EncodeJpeg(path, *photo.before, quality, {{}, metadata.icc}, {}, &before)) {
-    return error;
-  }
+  const Result<std::string> own = OwnAttributes(path, photo, range);
+  if (!own) return own.error();
+  const Result<Bytes> map = EncodeGreyPng(path, Levels(*photo.disparity, range));
+  if (!map) return map;
+  const Result<Bytes> before = EncodeJpeg(path, *photo.before, quality, {{}, metadata.icc}, {});
+  if (!before) return before;
   const std::string attributes =
       Attribute("GDepth:Format", "RangeInverse") +
       Attribute("GDepth:Near", 1 / (range.high - range.low + 1)) + Attribute("GDepth:Far", 1) +
       Attribute("GDepth:Mime", "image/png") + Attribute("GImage:Mime", "image/jpeg") +
-      FocusAttributes(photo, range.low) + own;
-  const std::string extended =
-      Attribute("GDepth:Data", EncodeBase64(map)) + Attribute("GImage:Data", EncodeBase64(before));
+      FocusAttributes(photo, range.low) + *own;
+  const std::string extended = Attribute("GDepth:Data", EncodeBase64(*map)) +
+                               Attribute("GImage:Data", EncodeBase64(*before));
+  Bytes segments;
   // Descriptions that have no room beside those of the map are left out.
   if (!AppendExtendedXmp(kNamespaces, attributes, extended, metadata.xmp, &segments) &&
       !AppendExtendedXmp(kNamespaces, attributes, extended, "", &segments)) {
@@ -104,7 +103,7 @@ Error EncodeDepthPhoto(const std::string& path, const Image& picture, const Shar
   }
   Metadata others = metadata;
   others.xmp.clear();  // a file has one packet
-  return EncodeJpeg(path, picture, quality, others, segments, jpeg);
+  return EncodeJpeg(path, picture, quality, others, segments);
 }
 
 }  // namespace starfocus

@@ -35,8 +35,8 @@ struct SharpOriginal {
 // The picture as JPEG of that quality with the one before and its map, a PNG of 8 bits whose levels
 // are linear in disparity (RangeInverse). GFocus:BlurAtInfinity is the radius of blur over the
 // longer side. `path` only names the file in errors.
-Error EncodeDepthPhoto(const std::string& path, const Image& picture, const SharpOriginal& photo,
-                       int quality, const Metadata& metadata, Bytes* jpeg);
+Result<Bytes> EncodeDepthPhoto(const std::string& path, const Image& picture,
+                               const SharpOriginal& photo, int quality, const Metadata& metadata);
 
 }  // namespace starfocus
 

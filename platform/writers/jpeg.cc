@@ -7,10 +7,10 @@
 
 namespace starfocus {
 
-Error EncodeJpeg(const std::string& path, const Image& image, int quality, const Metadata& metadata,
-                 const Bytes& segments, Bytes* jpeg) {
-  jpeg->clear();
-  if (Error error = EncodeJpegPixels(path, image, quality, jpeg)) return error;
+Result<Bytes> EncodeJpeg(const std::string& path, const Image& image, int quality,
+                         const Metadata& metadata, const Bytes& segments) {
+  Result<Bytes> jpeg = EncodeJpegPixels(path, image, quality);
+  if (!jpeg) return jpeg;
   Bytes all, exif = metadata.exif;
   if (MarkEdited("starfocus " SF_VERSION_STRING, image.width, image.height, &exif)) {
     AppendExif(exif, &all);
@@ -19,8 +19,8 @@ Error EncodeJpeg(const std::string& path, const Image& image, int quality, const
   AppendIptc(metadata.iptc, &all);
   AppendProfile(metadata.icc, &all);
   all.insert(all.end(), segments.begin(), segments.end());
-  InsertSegments(all, jpeg);
-  return {};
+  InsertSegments(all, &*jpeg);
+  return jpeg;
 }
 
 }  // namespace starfocus

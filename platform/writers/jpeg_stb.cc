@@ -16,11 +16,12 @@ void Append(void* context, void* data, int size) {
 
 }  // namespace
 
-Error EncodeJpegPixels(const std::string& path, const Image& image, int quality, Bytes* jpeg) {
+Result<Bytes> EncodeJpegPixels(const std::string& path, const Image& image, int quality) {
   const StbMemory memory;
-  if (stbi_write_jpg_to_func(Append, jpeg, image.width, image.height, 3, image.pixels.data(),
+  Bytes jpeg;
+  if (stbi_write_jpg_to_func(Append, &jpeg, image.width, image.height, 3, image.pixels.data(),
                              quality)) {
-    return {};
+    return jpeg;
   }
   return Expected(path, "a picture that can be encoded", "an encoder failure");
 }

@@ -66,7 +66,7 @@ bool Compress(const Image& image, int quality, Memory* memory, Failure* failure)
 
 }  // namespace
 
-Error EncodeJpegPixels(const std::string& path, const Image& image, int quality, Bytes* jpeg) {
+Result<Bytes> EncodeJpegPixels(const std::string& path, const Image& image, int quality) {
   Memory memory;
   const auto failure = std::make_unique<Failure>();
   if (!Compress(image, quality, &memory, failure.get())) {
@@ -74,8 +74,7 @@ Error EncodeJpegPixels(const std::string& path, const Image& image, int quality,
                ? OutOfMemory(path, "write it")
                : Expected(path, "a picture that libjpeg can write", failure->reason);
   }
-  jpeg->insert(jpeg->end(), memory.data, memory.data + memory.size);
-  return {};
+  return Bytes(memory.data, memory.data + memory.size);
 }
 
 }  // namespace starfocus

@@ -23,11 +23,11 @@ Error CheckSize(const std::string& path, const Image& image) {
   return Expected(path, "a PNG, JPEG or WebP picture of at most 2^28 pixels", size);
 }
 
-Error EncodeWebp(const std::string& path, const Image& image, const PictureOptions& options,
-                 Bytes* bytes) {
+Result<Bytes> EncodeWebp(const std::string& path, const Image& image,
+                         const PictureOptions& options) {
   WebpWriter writer(path, options.quality);
   if (Error error = writer.Add(image)) return error;
-  return writer.Finish(options.metadata, bytes);
+  return writer.Finish(options.metadata);
 }
 
 }  // namespace
@@ -37,19 +37,16 @@ bool IsPictureExtension(const std::string& extension) {
          extension == ".jpeg" || extension == ".webp";
 }
 
-Error EncodePicture(const std::string& path, const Image& image, const PictureOptions& options,
-                    Bytes* bytes) {
+Result<Bytes> EncodePicture(const std::string& path, const Image& image,
+                            const PictureOptions& options) {
   const std::string extension = FormatExtension(path);
-  if (extension == ".ppm") {
-    *bytes = EncodePpm(image);
-    return {};
-  }
+  if (extension == ".ppm") return EncodePpm(image);
   if (Error error = CheckSize(path, image)) return error;
   if (extension == ".png") {
-    return EncodePng(path, image, options.metadata, options.png_size, bytes);
+    return EncodePng(path, image, options.metadata, options.png_size);
   }
-  if (extension == ".webp") return EncodeWebp(path, image, options, bytes);
-  return EncodeJpeg(path, image, options.quality, options.metadata, {}, bytes);
+  if (extension == ".webp") return EncodeWebp(path, image, options);
+  return EncodeJpeg(path, image, options.quality, options.metadata, {});
 }
 
 }  // namespace starfocus

@@ -26,8 +26,8 @@ bool IsPictureExtension(const std::string& extension);
 
 // Encodes by the extension of `path` (standard_stream.h), which else names the file in errors. PPM
 // has no place for metadata.
-Error EncodePicture(const std::string& path, const Image& image, const PictureOptions& options,
-                    Bytes* bytes);
+Result<Bytes> EncodePicture(const std::string& path, const Image& image,
+                            const PictureOptions& options);
 
 }  // namespace starfocus
 

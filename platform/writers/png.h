@@ -25,11 +25,11 @@ enum class PngSize { kQuick, kSmall };
 // 8 bits of R, G, B, as all pictures of the engine have. By libpng and libdeflate where the build
 // has them, with metadata changed to what is true of the picture (exif.h); else by stb_image_write,
 // without any and of one size. `path` only names the file in errors, here and below.
-Error EncodePng(const std::string& path, const Image& image, const Metadata& metadata, PngSize size,
-                Bytes* png);
+Result<Bytes> EncodePng(const std::string& path, const Image& image, const Metadata& metadata,
+                        PngSize size);
 
 // Levels as they are, in 8 bits where all have room there, else in 16, which only libpng writes.
-Error EncodeGreyPng(const std::string& path, const GreyImage& image, Bytes* png);
+Result<Bytes> EncodeGreyPng(const std::string& path, const GreyImage& image);
 
 }  // namespace starfocus
 

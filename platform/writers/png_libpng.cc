@@ -32,7 +32,7 @@ struct Rows {
 
 // What the library is given back with, and what went wrong.
 struct Call {
-  Bytes* png;
+  Bytes png = {};
   bool no_memory = false;
   char reason[100] = "";
   std::string xmp = {};  // a packet, which must outlive the library's jumps
@@ -50,7 +50,7 @@ void Free(png_structp, png_voidp memory) { std::free(memory); }
 void Append(png_structp png, png_bytep data, png_size_t size) {
   Call* call = static_cast<Call*>(png_get_io_ptr(png));
   try {
-    call->png->insert(call->png->end(), data, data + size);
+    call->png.insert(call->png.end(), data, data + size);
     return;
   } catch (const std::bad_alloc&) {
     call->no_memory = true;
@@ -165,30 +165,29 @@ bool Write(const Rows& rows, const Pixels& pixels, const Metadata& metadata, Byt
   return true;
 }
 
-Error Encode(const std::string& path, const Rows& rows, const Metadata& metadata, int level,
-             Bytes* png) {
+Result<Bytes> Encode(const std::string& path, const Rows& rows, const Metadata& metadata,
+                     int level) {
   const Pixels pixels = Compress(rows, level);
   Bytes exif = metadata.exif;
   if (!MarkEdited("starfocus " SF_VERSION_STRING, rows.width, rows.height, &exif)) exif.clear();
-  png->clear();
-  png->reserve(pixels.size + exif.size() + metadata.icc.size() + 1024);
-  Call call = {png};
+  Call call;
+  call.png.reserve(pixels.size + exif.size() + metadata.icc.size() + 1024);
   call.xmp = XmpPacket(metadata.xmp);
-  if (Write(rows, pixels, metadata, &exif, &call)) return {};
+  if (Write(rows, pixels, metadata, &exif, &call)) return std::move(call.png);
   if (call.no_memory || call.reason[0] == '\0') return OutOfMemory(path, "write it");
   return Expected(path, "a picture that libpng can write", call.reason);
 }
 
 }  // namespace
 
-Error EncodePng(const std::string& path, const Image& image, const Metadata& metadata, PngSize size,
-                Bytes* png) {
+Result<Bytes> EncodePng(const std::string& path, const Image& image, const Metadata& metadata,
+                        PngSize size) {
   const Rows rows = {image.width,        image.height,        8,
                      PNG_COLOR_TYPE_RGB, image.pixels.data(), image.stride()};
-  return Encode(path, rows, metadata, size == PngSize::kSmall ? kSmallLevel : kLevel, png);
+  return Encode(path, rows, metadata, size == PngSize::kSmall ? kSmallLevel : kLevel);
 }
 
-Error EncodeGreyPng(const std::string& path, const GreyImage& image, Bytes* png) {
+Result<Bytes> EncodeGreyPng(const std::string& path, const GreyImage& image) {
   const bool wide = std::any_of(image.levels.begin(), image.levels.end(),
                                 [](uint16_t level) { return level > 255; });
   const size_t bytes = wide ? 2 : 1;
@@ -200,7 +199,7 @@ Error EncodeGreyPng(const std::string& path, const GreyImage& image, Bytes* png)
   }
   const Rows rows = {image.width,         image.height,   wide ? 16 : 8,
                      PNG_COLOR_TYPE_GRAY, samples.data(), size_t(image.width) * bytes};
-  return Encode(path, rows, {}, kLevel, png);
+  return Encode(path, rows, {}, kLevel);
 }
 
 }  // namespace starfocus

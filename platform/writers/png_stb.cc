@@ -16,24 +16,24 @@ void Append(void* context, void* data, int size) {
   bytes->insert(bytes->end(), first, first + size);
 }
 
-Error Encode(const std::string& path, int width, int height, int channels, const uint8_t* samples,
-             Bytes* png) {
+Result<Bytes> Encode(const std::string& path, int width, int height, int channels,
+                     const uint8_t* samples) {
   const StbMemory memory;
-  png->clear();
-  if (stbi_write_png_to_func(Append, png, width, height, channels, samples, channels * width) &&
-      !png->empty()) {
-    return {};
+  Bytes png;
+  if (stbi_write_png_to_func(Append, &png, width, height, channels, samples, channels * width) &&
+      !png.empty()) {
+    return png;
   }
   return Expected(path, "a picture that can be encoded", "an encoder failure");
 }
 
 }  // namespace
 
-Error EncodePng(const std::string& path, const Image& image, const Metadata&, PngSize, Bytes* png) {
-  return Encode(path, image.width, image.height, 3, image.pixels.data(), png);
+Result<Bytes> EncodePng(const std::string& path, const Image& image, const Metadata&, PngSize) {
+  return Encode(path, image.width, image.height, 3, image.pixels.data());
 }
 
-Error EncodeGreyPng(const std::string& path, const GreyImage& image, Bytes* png) {
+Result<Bytes> EncodeGreyPng(const std::string& path, const GreyImage& image) {
   Bytes samples;
   for (const uint16_t level : image.levels) {
     if (level > 255) {
@@ -44,7 +44,7 @@ Error EncodeGreyPng(const std::string& path, const GreyImage& image, Bytes* png)
     }
     samples.push_back(static_cast<uint8_t>(level));
   }
-  return Encode(path, image.width, image.height, 1, samples.data(), png);
+  return Encode(path, image.width, image.height, 1, samples.data());
 }
 
 }  // namespace starfocus

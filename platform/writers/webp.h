@@ -29,7 +29,7 @@ class WebpWriter {
   Error Add(const Image& picture);
 
   // The whole file, with metadata changed to what is true of the pictures (exif.h).
-  Error Finish(const Metadata& metadata, Bytes* webp);
+  Result<Bytes> Finish(const Metadata& metadata);
 
  private:
   struct State;

@@ -20,6 +20,6 @@ Error WebpWriter::Add(const Image& picture) {
   return Check(state_->path, picture.width, picture.height);
 }
 
-Error WebpWriter::Finish(const Metadata&, Bytes*) { return Check(state_->path, 0, 0); }
+Result<Bytes> WebpWriter::Finish(const Metadata&) { return Check(state_->path, 0, 0); }
 
 }  // namespace starfocus

@@ -94,7 +94,7 @@ Error WebpWriter::Add(const Image& picture) {
              : Failed(state.path, WebPAnimEncoderGetError(state.encoder));
 }
 
-Error WebpWriter::Finish(const Metadata& metadata, Bytes* webp) {
+Result<Bytes> WebpWriter::Finish(const Metadata& metadata) {
   State& state = *state_;
   Data coded, whole;
   if (!WebPAnimEncoderAdd(state.encoder, nullptr, kMilliseconds * state.pictures, nullptr) ||
@@ -111,8 +111,7 @@ Error WebpWriter::Finish(const Metadata& metadata, Bytes* webp) {
                     WebPMuxAssemble(mux, &whole.data) == WEBP_MUX_OK;
   WebPMuxDelete(mux);
   if (!made) return OutOfMemory(state.path, "write it");
-  webp->assign(whole.data.bytes, whole.data.bytes + whole.data.size);
-  return {};
+  return Bytes(whole.data.bytes, whole.data.bytes + whole.data.size);
 }
 
 }  // namespace starfocus

@@ -113,11 +113,9 @@ Error WriteRefocused(const OutputOptions& options, const PictureOptions& how, do
   photo.focus = task.params.lens.focus;
   photo.aperture = task.params.lens.aperture;
   photo.widest = widest;
-  Bytes bytes;
-  if (Error error =
-          EncodeDepthPhoto(options.out, picture, photo, how.quality, how.metadata, &bytes))
-    return error;
-  return WriteFile(options.out, bytes);
+  const Result<Bytes> bytes =
+      EncodeDepthPhoto(options.out, picture, photo, how.quality, how.metadata);
+  return bytes ? WriteFile(options.out, *bytes) : bytes.error();
 }
 
 Error WritePair(const OutputOptions& options, const PictureOptions& how,
@@ -128,9 +126,9 @@ Error WritePair(const OutputOptions& options, const PictureOptions& how,
     index.levels.reserve(map.size());
     std::transform(map.begin(), map.end(), std::back_inserter(index.levels),
                    [&](float disparity) { return Nearest(foci, disparity); });
-    Bytes bytes;
-    if (Error error = EncodeGreyPng(options.focus_index, index, &bytes)) return error;
-    if (Error error = WriteFile(options.focus_index, bytes)) return error;
+    const Result<Bytes> bytes = EncodeGreyPng(options.focus_index, index);
+    if (!bytes) return bytes.error();
+    if (Error error = WriteFile(options.focus_index, *bytes)) return error;
   }
   if (options.all_in_focus.empty()) return {};
   return WriteImage(options.all_in_focus, light_field.views[0], how);
@@ -174,9 +172,8 @@ Error StackWriter::WriteWaiting() {
 
 Error StackWriter::Finish() {
   if (!animation_) return WriteWaiting();
-  Bytes bytes;
-  if (Error error = animation_->Finish(how_.metadata, &bytes)) return error;
-  return WriteFile(out_, bytes);
+  const Result<Bytes> bytes = animation_->Finish(how_.metadata);
+  return bytes ? WriteFile(out_, *bytes) : bytes.error();
 }
 
 }  // namespace starfocus

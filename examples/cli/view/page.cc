@@ -88,13 +88,12 @@ Error Page::AddFigures(const std::string& path, const std::string& heading,
   body_ += "<section>\n<h2>" + Escape(heading) + "</h2>\n<div class=\"figures\">\n";
   for (const PageFigure& figure : figures) {
     const Image small = Shrink(figure.picture, width);
-    Bytes jpeg;
-    const Error error = EncodeJpeg(path, small, kQuality, {{}, icc_}, {}, &jpeg);
-    if (error) return error;
+    const Result<Bytes> jpeg = EncodeJpeg(path, small, kQuality, {{}, icc_}, {});
+    if (!jpeg) return jpeg.error();
     body_ += "<figure style=\"max-width: " + std::to_string(small.width) + "px\"><img width=\"" +
              std::to_string(small.width) + "\" height=\"" + std::to_string(small.height) +
              "\" alt=\"" + Escape(figure.says) + "\" src=\"data:image/jpeg;base64," +
-             EncodeBase64(jpeg) + "\"><figcaption>" + Escape(figure.caption) +
+             EncodeBase64(*jpeg) + "\"><figcaption>" + Escape(figure.caption) +
              "</figcaption></figure>\n";
   }
   body_ += "</div>\n</section>\n";

@@ -170,9 +170,8 @@ Pictures Render(const SceneOptions& options, const Plan& plan, const RayTracer& 
 
 Error SaveCoverage(const std::string& folder, const GreyImage& coverage) {
   const std::string path = (fs::path(folder) / kCoverageFile).string();
-  Bytes png;
-  if (Error error = EncodeGreyPng(path, coverage, &png)) return error;
-  return WriteFile(path, png);
+  const Result<Bytes> png = EncodeGreyPng(path, coverage);
+  return png ? WriteFile(path, *png) : png.error();
 }
 
 Error Run(const SceneOptions& options) {
