@@ -8,39 +8,15 @@
 
 #include "starfocus/starfocus.h"
 #include "tests/support/test_scene.h"
+#include "tests/support/ways.h"
 
 namespace stream_bytes_test {
 namespace {
 
-constexpr int kAll = 1 << 20;  // more rows than any picture here
-
-// Compares both ways for one scene and several chunk sizes.
 void CheckSame(const test::Scene& scene, const sf_params& params, int block) {
-  constexpr int kPadding = 7;
   sf_config config = test::ConfigFor(scene);
   config.largest_block = block;
-  test::Engine whole_engine(config);
-  test::Output whole(scene.width, scene.height, kPadding);
-  sf_report whole_report = {};
-  REQUIRE(test::Refocus(&whole_engine, params, scene, &whole, nullptr, nullptr, &whole_report) ==
-          SF_OK);
-  CHECK(whole.PaddingUntouched());
-  config.features |= SF_FEATURE_STREAMING;
-  test::Engine engine(config);
-  constexpr int kChunks[][2] = {{1, 1}, {3, 3}, {64, 64}, {kAll, 1}, {1, kAll}, {kAll, kAll}};
-  for (const auto& chunk : kChunks) {
-    CAPTURE(chunk[0]);
-    CAPTURE(chunk[1]);
-    test::Output streamed(scene.width, scene.height, kPadding);
-    sf_report report = {};
-    REQUIRE(test::Stream(&engine, params, scene, &streamed, chunk[0], chunk[1], nullptr, nullptr,
-                         &report) == SF_OK);
-    CHECK(streamed.bytes == whole.bytes);
-    CHECK(report.n == whole_report.n);
-    CHECK(report.r_max == whole_report.r_max);
-    CHECK(report.rendered_views == whole_report.rendered_views);
-    CHECK(report.rendered_samples == whole_report.rendered_samples);
-  }
+  test::CheckStreamed(scene, config, params);
 }
 
 TEST_CASE("stream: same bytes for every size, star set and chunk") {

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <cstring>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,6 +18,7 @@
 #include "tests/support/psnr.h"
 #include "tests/support/symmetry.h"
 #include "tests/support/test_scene.h"
+#include "tests/support/ways.h"
 
 namespace block_mode_slow_test {
 namespace {
@@ -84,36 +84,9 @@ uint64_t BlocksOf(const sf_report& report) {
   return report.layers[0].blocks + report.layers[1].blocks + report.layers[2].blocks;
 }
 
-void CheckStreamed(const test::Scene& scene, const Setup& s, test::Random* random) {
+void CheckStreamed(const test::Scene& scene, const Setup& s) {
   CAPTURE(Text(s, scene));
-  sf_report whole_report = {};
-  const std::vector<uint8_t> whole = Whole(scene, s, &whole_report);
-  sf_config config = Config(s, scene);
-  config.features |= SF_FEATURE_STREAMING;
-  test::Engine engine(config);
-  constexpr int kAll = 1 << 20;
-  const int kChunks[][2] = {
-      {1, 1}, {kAll, kAll}, {random->Int(1, 70), random->Int(1, 70)}, {1, kAll}, {kAll, 1}};
-  for (const auto& chunk : kChunks) {
-    CAPTURE(chunk[0]);
-    CAPTURE(chunk[1]);
-    test::Output out(scene.width, scene.height, 3);
-    sf_report report = {};
-    REQUIRE(test::Stream(&engine, s.Params(), scene, &out, chunk[0], chunk[1], nullptr, nullptr,
-                         &report) == SF_OK);
-    CHECK(out.PaddingUntouched());
-    const bool same = out.Tight() == whole;
-    CHECK(same);
-    CHECK(report.n == whole_report.n);
-    CHECK(report.rendered_samples == whole_report.rendered_samples);
-    CHECK(std::memcmp(&report.skipped, &whole_report.skipped, sizeof(sf_skipped)) == 0);
-    CHECK(report.side_bytes == whole_report.side_bytes);
-    for (int layer = 0; layer < SF_LAYERS; ++layer) {
-      CHECK(report.layers[layer].blocks == whole_report.layers[layer].blocks);
-      CHECK(report.layers[layer].pixels == whole_report.layers[layer].pixels);
-      CHECK(report.layers[layer].predicted_ps == whole_report.layers[layer].predicted_ps);
-    }
-  }
+  test::CheckStreamed(scene, Config(s, scene), s.Params());
 }
 
 TEST_CASE("block: rows give the bytes of whole pictures, at every kind of size") {
@@ -128,7 +101,7 @@ TEST_CASE("block: rows give the bytes of whole pictures, at every kind of size")
       const test::Scene scene = test::LayeredScene(size[0], size[1], views, 7, ++seed);
       Setup s = RandomSetup(&random, 7);
       s.block = size[1] > 64 ? 32 << random.Int(0, 1) : s.block;
-      CheckStreamed(scene, s, &random);
+      CheckStreamed(scene, s);
     }
   }
 }
@@ -142,7 +115,7 @@ TEST_CASE("block: rows give the bytes of whole pictures in blur mode and on nois
     Setup s = RandomSetup(&random, 4);
     s.mode = round % 3 == 0 ? SF_MODE_BLUR : SF_MODE_BLOCK;
     s.block = 32;
-    CheckStreamed(scene, s, &random);
+    CheckStreamed(scene, s);
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 #include "starfocus/starfocus.h"
@@ -69,6 +70,42 @@ inline Output CheckWays(const Scene& scene, sf_config config, sf_params params) 
     CHECK(IsPartOf(part, whole, region));
   }
   return whole;
+}
+
+// Rows that come and go in chunks of any sizes give the bytes and the report of the whole picture.
+inline void CheckStreamed(const Scene& scene, sf_config config, const sf_params& params) {
+  Engine whole_engine(config);
+  Output whole(scene.width, scene.height, 7);
+  sf_report expected = {};
+  REQUIRE(Refocus(&whole_engine, params, scene, &whole, nullptr, nullptr, &expected) == SF_OK);
+  CHECK(whole.PaddingUntouched());
+  config.features |= SF_FEATURE_STREAMING;
+  Engine engine(config);
+  Random random(uint64_t(scene.width) * 977 + uint64_t(scene.height));
+  constexpr int kAll = 1 << 20;
+  const int chunks[][2] = {
+      {1, 1},    {3, 3},    {64, 64},    {random.Int(1, 70), random.Int(1, 70)},
+      {1, kAll}, {kAll, 1}, {kAll, kAll}};
+  for (const auto& chunk : chunks) {
+    CAPTURE(chunk[0]);
+    CAPTURE(chunk[1]);
+    Output out(scene.width, scene.height, 7);
+    sf_report report = {};
+    REQUIRE(Stream(&engine, params, scene, &out, chunk[0], chunk[1], nullptr, nullptr, &report) ==
+            SF_OK);
+    CHECK((out.bytes == whole.bytes));
+    CHECK(report.n == expected.n);
+    CHECK(report.r_max == expected.r_max);
+    CHECK(report.rendered_views == expected.rendered_views);
+    CHECK(report.rendered_samples == expected.rendered_samples);
+    CHECK(report.side_bytes == expected.side_bytes);
+    CHECK(std::memcmp(&report.skipped, &expected.skipped, sizeof(sf_skipped)) == 0);
+    for (int layer = 0; layer < SF_LAYERS; ++layer) {
+      CHECK(report.layers[layer].blocks == expected.layers[layer].blocks);
+      CHECK(report.layers[layer].pixels == expected.layers[layer].pixels);
+      CHECK(report.layers[layer].predicted_ps == expected.layers[layer].predicted_ps);
+    }
+  }
 }
 
 }  // namespace test
