@@ -74,7 +74,7 @@ class Engine {
     sf_params params;
     sf_params_init(&params);
     params.mode = probe.mode;
-    params.rule = probe.rule;
+    params.renderer = probe.renderer;
     sf_light_field field = {};
     const size_t side = static_cast<size_t>(impulse.side);
     field.views[0] = sf_image_rgb(impulse.rgb.data(), 3 * side);

@@ -13,8 +13,8 @@ struct EngineProbe {
   double r;      // d - d_t of the surface in pixels, |r| <= 60; the sign tells the direction
   double r_max;  // largest blur radius of the disparity range, >= |r|: frame mode takes N from it
   sf_mode mode;  // SF_MODE_FRAME or SF_MODE_BLOCK
-  sf_rule rule;  // SF_RULE_PAPER or SF_RULE_SUBAPERTURE
-  int layer;     // the largest L that block mode may use, in [0, 2]
+  sf_renderer renderer;  // SF_RENDERER_LINE_SCAN or SF_RENDERER_SLICES
+  int layer;             // the largest L that block mode may use, in [0, 2]
 };
 
 struct EngineKernel {

@@ -36,7 +36,7 @@ sf_status MeasureStep(const EngineProbe& probe, EngineStep* step) {
   const double theta = kDefaultTheta;
   const int n = measured.n, layer = measured.layer;
   const double r = std::fabs(probe.r), small = r / (1 << layer);
-  const bool wide = probe.rule == SF_RULE_SUBAPERTURE;
+  const bool wide = probe.renderer == SF_RENDERER_SLICES;
   const Kernel ideal = IdealKernel(r, theta);
   const Kernel star = Through(
       StarKernel(small, n, theta, wide ? Subapertures::kWide : Subapertures::kNarrow), layer);

@@ -108,13 +108,13 @@ sf_status CheckConfig(const sf_config& config) {
 sf_status CheckParams(const sf_config& config, const sf_params& params) {
   Checker check(config.problem);
   check.In({"mode", double(params.mode)}, {"an sf_mode", 0, SF_MODE_BLUR});
-  check.In({"rule", double(params.rule)}, {"an sf_rule", 0, SF_RULE_SUBAPERTURE});
+  check.In({"renderer", double(params.renderer)}, {"an sf_renderer", 0, SF_RENDERER_SLICES});
   CheckLens(config, params.lens, &check);
-  if (params.rule == SF_RULE_PAPER && params.mode != SF_MODE_BLUR) {
-    check.Need(HasLineScan(config), SF_ERROR_FEATURE, {"rule", double(params.rule)},
-               {"not SF_RULE_PAPER without SF_FEATURE_LINE_SCAN"});
-    check.Need(HasStar(config), SF_ERROR_FEATURE, {"rule", double(params.rule)},
-               {"not SF_RULE_PAPER without the views of sf_view_position"});
+  if (params.renderer == SF_RENDERER_LINE_SCAN && params.mode != SF_MODE_BLUR) {
+    check.Need(HasLineScan(config), SF_ERROR_FEATURE, {"renderer", double(params.renderer)},
+               {"not SF_RENDERER_LINE_SCAN without SF_FEATURE_LINE_SCAN"});
+    check.Need(HasStar(config), SF_ERROR_FEATURE, {"renderer", double(params.renderer)},
+               {"not SF_RENDERER_LINE_SCAN without the views of sf_view_position"});
   }
   return check.status();
 }

@@ -12,9 +12,9 @@ namespace {
 
 // The line scan shows a halo, as wide as the blur, where no view sees what is behind edges.
 const Renderer& RendererOf(const sf_config& config, const sf_params& params) {
-  const bool by_default = params.rule == SF_RULE_DEFAULT && params.mode == SF_MODE_FRAME &&
+  const bool by_default = params.renderer == SF_RENDERER_AUTO && params.mode == SF_MODE_FRAME &&
                           config.views > 1 && HasStar(config);
-  const bool is_paper = params.rule == SF_RULE_PAPER || by_default;
+  const bool is_paper = params.renderer == SF_RENDERER_LINE_SCAN || by_default;
   return is_paper && HasLineScan(config) ? kLineScanRenderer : kSliceRenderer;
 }
 

@@ -166,15 +166,15 @@ TEST_CASE("constants: the filters go down and up as (10) and (11) have it") {
 }
 
 // Radii in both directions; `least` is where the rule's layer begins.
-void CheckEngine(sf_rule rule, int layer, int least, int most) {
+void CheckEngine(sf_renderer renderer, int layer, int least, int most) {
   for (int k = 8 * least; k <= 8 * most; k = k < 64 ? k + 1 : k + 13) {
     for (const int sign : {1, -1}) {
       const double r = sign * k / 8.0;
       CAPTURE(r);
-      CAPTURE(rule);
+      CAPTURE(renderer);
       CAPTURE(layer);
       EngineStep step;
-      REQUIRE(MeasureStep({r, std::fabs(r), SF_MODE_BLOCK, rule, layer}, &step) == SF_OK);
+      REQUIRE(MeasureStep({r, std::fabs(r), SF_MODE_BLOCK, renderer, layer}, &step) == SF_OK);
       CHECK(step.layer == layer);
       CHECK_MESSAGE(step.apart <= kExplained[layer],
                     "N = " << step.n << ": the impulse response is not StarKernel's; `starfocus "
@@ -183,9 +183,10 @@ void CheckEngine(sf_rule rule, int layer, int least, int most) {
       if (layer > 0) {
         const LayerTheory theory = MakeLayerTheory(r < 0 ? -r : r, layer);
         // N by (9) is 2 and 3 at first: what aliases is not quite the ideal kernel.
-        CHECK(std::fabs(step.aliasing - theory.aliasing) < (rule == SF_RULE_PAPER ? 2e-4 : 1e-4));
+        CHECK(std::fabs(step.aliasing - theory.aliasing) <
+              (renderer == SF_RENDERER_LINE_SCAN ? 2e-4 : 1e-4));
       }
-      if (rule == SF_RULE_SUBAPERTURE) {
+      if (renderer == SF_RENDERER_SLICES) {
         CHECK_MESSAGE(step.engine <= kThreshold, "the selection threshold: " << Explain(step));
       } else {
         // With N from (9) the worst is the half-covered neighbour at r = 1/2.
@@ -197,10 +198,10 @@ void CheckEngine(sf_rule rule, int layer, int least, int most) {
 
 TEST_CASE("constants: the running engine has the kernel it is described by") {
   constexpr int kMost = 40;
-  for (const sf_rule rule : {SF_RULE_PAPER, SF_RULE_SUBAPERTURE}) {
-    CheckEngine(rule, 0, 0, kMost);
-    CheckEngine(rule, 1, rule == SF_RULE_PAPER ? 3 : 7, kMost);
-    CheckEngine(rule, 2, rule == SF_RULE_PAPER ? 6 : 24, kMost);
+  for (const sf_renderer renderer : {SF_RENDERER_LINE_SCAN, SF_RENDERER_SLICES}) {
+    CheckEngine(renderer, 0, 0, kMost);
+    CheckEngine(renderer, 1, renderer == SF_RENDERER_LINE_SCAN ? 3 : 7, kMost);
+    CheckEngine(renderer, 2, renderer == SF_RENDERER_LINE_SCAN ? 6 : 24, kMost);
   }
 }
 
@@ -331,10 +332,10 @@ TEST_CASE("constants: taps of a kernel that gathers") {
 TEST_CASE("constants: one N for a picture has the kernel it is described by") {
   for (const double r : {0.0, 0.5, 3.25, 11.0, 24.5}) {
     EngineStep step;
-    REQUIRE(MeasureStep({r, 40, SF_MODE_FRAME, SF_RULE_PAPER, 0}, &step) == SF_OK);
+    REQUIRE(MeasureStep({r, 40, SF_MODE_FRAME, SF_RENDERER_LINE_SCAN, 0}, &step) == SF_OK);
     CHECK(step.n == ViewsByPaper(40));
     CHECK(step.apart <= kExplained[0]);
-    REQUIRE(MeasureStep({r, 40, SF_MODE_FRAME, SF_RULE_SUBAPERTURE, 0}, &step) == SF_OK);
+    REQUIRE(MeasureStep({r, 40, SF_MODE_FRAME, SF_RENDERER_SLICES, 0}, &step) == SF_OK);
     CHECK(step.n == ViewsBySubaperture(40));
     CHECK(step.apart <= kExplained[0]);
   }

@@ -95,7 +95,7 @@ TEST_CASE("after: the bytes of the frame alone, in every mode, as frames change 
     config.tuning.max_layer = random.Int(0, 3) == 0 ? random.Int(0, 1) : 2;
     config.tuning.deblocking = random.Int(0, 3) == 0 ? 35 : 255;
     sf_params params = test::Params(random.Real(-5, 5), random.Real(0.1, 1), SF_MODE_BLOCK);
-    params.rule = random.Int(0, 2);
+    params.renderer = random.Int(0, 2);
     if (round % 4 == 3) params.mode = round % 8 == 3 ? SF_MODE_FRAME : SF_MODE_BLUR;
     if (round % 5 == 4) {
       params.region = {random.Int(0, width - 1), random.Int(0, height - 1), 1, 1};
@@ -165,7 +165,7 @@ TEST_CASE("after: joins between blocks of different layers, beside a change") {
   config.tuning.deblocking = 255;
   for (const double focus : {-1.0, 0.0, 3.0}) {
     sf_params params = test::Params(focus, 1, SF_MODE_BLOCK);
-    params.rule = SF_RULE_PAPER;
+    params.renderer = SF_RENDERER_LINE_SCAN;
     CheckFrames(scene, config, params, 12, &random);
   }
 }
@@ -181,7 +181,7 @@ TEST_CASE("after: a block that changes its layer changes its neighbours' joins")
   config.tuning.timing = {};
   config.tuning.timing.block = SF_MAX_TIMING;
   sf_params params = test::Params(0, 1, SF_MODE_BLOCK);
-  params.rule = SF_RULE_PAPER;
+  params.renderer = SF_RENDERER_LINE_SCAN;
   test::Engine engine(config);
   test::Output first(600, 600), second(600, 600), expected(600, 600);
   sf_report report = {};

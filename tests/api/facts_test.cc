@@ -73,7 +73,7 @@ TEST_CASE("defaults are those that the header tells") {
   sf_params_init(&params);
   CHECK(params.size == sizeof params);
   CHECK(params.mode == SF_MODE_BLOCK);
-  CHECK(params.rule == SF_RULE_DEFAULT);
+  CHECK(params.renderer == SF_RENDERER_AUTO);
   CHECK(params.lens.aperture == 1);
   CHECK(params.lens.focus == 0);
   CHECK(params.lens.shape == SF_SHAPE_FALL_OFF);

@@ -24,16 +24,16 @@ TEST_CASE("features: without the line scan the default and slices give the bytes
     const sf_config config = test::ConfigFor(scene, 16);
     test::Engine with(config), without(WithoutLineScan(config));
     for (const sf_mode mode : kModes) {
-      for (const sf_rule rule : {SF_RULE_DEFAULT, SF_RULE_SUBAPERTURE}) {
+      for (const sf_renderer renderer : {SF_RENDERER_AUTO, SF_RENDERER_SLICES}) {
         CAPTURE(views);
         CAPTURE(mode);
-        CAPTURE(rule);
+        CAPTURE(renderer);
         sf_params params = test::Params(2, 1, mode);
-        params.rule = rule;
+        params.renderer = renderer;
         test::Output out(150, 90), expected(150, 90);
         sf_report report, expected_report;
         REQUIRE(test::Refocus(&without, params, scene, &out, nullptr, nullptr, &report) == SF_OK);
-        params.rule = SF_RULE_SUBAPERTURE;
+        params.renderer = SF_RENDERER_SLICES;
         REQUIRE(test::Refocus(&with, params, scene, &expected, nullptr, nullptr,
                               &expected_report) == SF_OK);
         CHECK(out.bytes == expected.bytes);
@@ -53,7 +53,7 @@ TEST_CASE("features: without the line scan the paper's rule is rejected in modes
   for (const sf_mode mode : kModes) {
     CAPTURE(mode);
     sf_params params = test::Params(1, 1, mode);
-    params.rule = SF_RULE_PAPER;
+    params.renderer = SF_RENDERER_LINE_SCAN;
     const sf_status expected = mode == SF_MODE_BLUR ? SF_OK : SF_ERROR_FEATURE;
     test::Output out(70, 50);
     CHECK(test::Refocus(&engine, params, scene, &out) == expected);

@@ -86,7 +86,7 @@ TEST_CASE("images: every format in and out gives the bytes of converting first, 
                          : round % 6 == 5 ? SF_MODE_BLUR
                                           : SF_MODE_BLOCK;
     sf_params params = test::Params(random.Real(-9, 9), random.Real(0.3, 1), mode);
-    params.rule = random.Int(0, 2);
+    params.renderer = random.Int(0, 2);
     const ImageKind kind = test::AnyKind((round * 3 + round / kFormats) % kFormats, &random);
     CheckSame(field, config, params, kind, &random, round % 2 == 0 ? nullptr : test::RunOnTwo);
   }
@@ -114,12 +114,12 @@ TEST_CASE("images: regions at odd places, of odd sizes") {
 TEST_CASE("images: what near surfaces hide, and what lies beyond the edges, far away") {
   test::Random random(26);
   for (const int views : {5, 17}) {
-    for (const int rule : {SF_RULE_SUBAPERTURE, SF_RULE_PAPER}) {
+    for (const int renderer : {SF_RENDERER_SLICES, SF_RENDERER_LINE_SCAN}) {
       const test::Scene scene = test::NearScene(173, 122, views, 3);
       const ImageField field = AnyField(scene, SF_FORMAT_NV12, 0, &random);
       sf_config config = test::ImageConfig(field, 8);
       sf_params params = test::Params(test::kNearFocus, 0.2, SF_MODE_BLOCK);
-      params.rule = rule;
+      params.renderer = renderer;
       CheckSame(field, config, params, test::AnyKind(SF_FORMAT_I420, &random), &random);
     }
   }

@@ -54,9 +54,9 @@ sf_config Config(const test::Scene& scene) {
   return config;
 }
 
-sf_params ParamsOf(const sf_lens& lens, sf_mode mode, sf_rule rule) {
+sf_params ParamsOf(const sf_lens& lens, sf_mode mode, sf_renderer renderer) {
   sf_params params = test::Params(0, 1, mode);
-  params.rule = rule;
+  params.renderer = renderer;
   params.lens = lens;
   return params;
 }
@@ -81,12 +81,13 @@ TEST_CASE("lens: a shape that changes between calls gives the bytes of an engine
     // The second round finds the tables of the first, and no other table in their place.
     for (const int round : {0, 1}) {
       for (const sf_mode mode : kModes) {
-        for (const sf_rule rule : {SF_RULE_PAPER, SF_RULE_SUBAPERTURE}) {
-          if (mode == SF_MODE_BLUR && rule == SF_RULE_PAPER) continue;  // it ignores the rule
+        for (const sf_renderer renderer : {SF_RENDERER_LINE_SCAN, SF_RENDERER_SLICES}) {
+          if (mode == SF_MODE_BLUR && renderer == SF_RENDERER_LINE_SCAN)
+            continue;  // it ignores the rule
           CAPTURE(round);
           CAPTURE(mode);
-          CAPTURE(rule);
-          const sf_params params = ParamsOf(lens, mode, rule);
+          CAPTURE(renderer);
+          const sf_params params = ParamsOf(lens, mode, renderer);
           test::Output out(kWidth, kHeight);
           REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
           CHECK((out.bytes == Expected(scene, params)));
@@ -106,7 +107,7 @@ TEST_CASE("lens: a cancelled call leaves no table of its shape to calls with ano
     CAPTURE(mode);
     test::Engine engine(Config(scene));
     const auto check = [&](const sf_lens& lens) {
-      const sf_params params = ParamsOf(lens, mode, SF_RULE_DEFAULT);
+      const sf_params params = ParamsOf(lens, mode, SF_RENDERER_AUTO);
       test::Output out(kWidth, kHeight);
       REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
       CHECK((out.bytes == Expected(scene, params)));
@@ -115,7 +116,7 @@ TEST_CASE("lens: a cancelled call leaves no table of its shape to calls with ano
     for (int calls = 0; calls < 6; ++calls) {
       int left = calls;
       test::Output out(kWidth, kHeight);
-      const sf_params params = ParamsOf(pentagon, mode, SF_RULE_DEFAULT);
+      const sf_params params = ParamsOf(pentagon, mode, SF_RENDERER_AUTO);
       const sf_status status =
           test::Refocus(&engine, params, scene, &out, test::ToldTo(CancelAfter, &left));
       cancelled += status == SF_ERROR_CANCELLED;
@@ -142,7 +143,7 @@ TEST_CASE("lens: engines share a prepared light field, each through lenses of it
     CAPTURE(k);
     for (const bool ahead : {false, true}) {
       const sf_lens& lens = lenses[(k + (ahead ? 1 : 0)) % lenses.size()];
-      const sf_params params = ParamsOf(lens, SF_MODE_BLOCK, SF_RULE_DEFAULT);
+      const sf_params params = ParamsOf(lens, SF_MODE_BLOCK, SF_RENDERER_AUTO);
       test::Output out(kWidth, kHeight);
       REQUIRE(test::RefocusPreparedRgb((ahead ? second : first).get(), &params, prepared,
                                        out.bytes.data(), out.stride, nullptr) == SF_OK);
@@ -155,7 +156,7 @@ TEST_CASE("lens: a stream keeps the lens that it was begun with") {
   const test::Scene scene = MakeScene();
   test::Engine engine(Config(scene));
   for (const sf_lens& lens : Lenses()) {
-    const sf_params expected = ParamsOf(lens, SF_MODE_BLOCK, SF_RULE_DEFAULT);
+    const sf_params expected = ParamsOf(lens, SF_MODE_BLOCK, SF_RENDERER_AUTO);
     sf_params params = expected;
     REQUIRE(sf_stream_begin(engine.get(), &params) == SF_OK);
     params.lens = LensOf(test::kShapes[0]);
@@ -202,7 +203,7 @@ TEST_CASE("lens: without SF_FEATURE_SHAPES only polygons and cat's eyes are refu
   test::Engine engine(config);
   for (const sf_lens& lens : Lenses()) {
     const bool refused = lens.shape == SF_SHAPE_POLYGON || lens.cats_eye > 0;
-    const sf_params params = ParamsOf(lens, SF_MODE_BLOCK, SF_RULE_DEFAULT);
+    const sf_params params = ParamsOf(lens, SF_MODE_BLOCK, SF_RENDERER_AUTO);
     test::Output out(kWidth, kHeight);
     const sf_status status = test::Refocus(&engine, params, scene, &out);
     CHECK(status == (refused ? SF_ERROR_FEATURE : SF_OK));

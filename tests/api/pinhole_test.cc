@@ -46,7 +46,7 @@ TEST_CASE("pinhole: the centre view to the byte, by every mode, rule and way in"
       const test::Scene scene = AnyScene(size[0], size[1], ++seed);
       const sf_config config = AnyConfig(scene, &random);
       sf_params params = test::Params(random.Real(-9, 9), 0, mode);
-      params.rule = random.Int(0, 2);
+      params.renderer = random.Int(0, 2);
       params.lens.theta = random.Real(SF_MIN_THETA, SF_MAX_THETA);
       // Blur may be as large as it likes where there is none.
       if (seed % 4 == 0) params.lens.focus = -SF_MAX_FOCUS;
@@ -70,7 +70,7 @@ TEST_CASE("pinhole: the report tells of one copied view, and maps are checked al
       test::Output out(130, 67);
       sf_report report = {};
       sf_params params = test::Params(-SF_MAX_FOCUS, 0, mode);
-      params.rule = SF_RULE_PAPER;
+      params.renderer = SF_RENDERER_LINE_SCAN;
       REQUIRE(test::Refocus(&engine, params, scene, &out, nullptr, nullptr, &report) == SF_OK);
       CHECK(report.r_max == 0);
       CHECK(report.n == 0);

@@ -58,7 +58,7 @@ TEST_CASE("prepared: the bytes of sf_refocus, in every mode, for many lenses and
     const sf_prepared* prepared = memory.Prepare(engine.get(), scene.Field());
     for (int lens = 0; lens < 6; ++lens) {
       sf_params params = test::Params(random.Real(-12, 12), random.Real(0.3, 1), SF_MODE_BLOCK);
-      params.rule = random.Int(0, 2);
+      params.renderer = random.Int(0, 2);
       if (lens == 4) params.mode = round % 2 == 0 ? SF_MODE_FRAME : SF_MODE_BLUR;
       if (lens == 5) {
         params.region = {random.Int(0, size[0] - 1), random.Int(0, size[1] - 1), 1, 1};

@@ -186,7 +186,7 @@ TEST_CASE("preview: the bytes of the light field that the definition reduces") {
       const test::Scene reduced = Reduced(scene, shift, config.transfer);
       for (int lens = 0; lens < test::Rounds(4); ++lens) {
         sf_params params = test::Params(random.Real(-12, 12), random.Real(0.3, 1), SF_MODE_BLOCK);
-        params.rule = random.Int(0, 2);
+        params.renderer = random.Int(0, 2);
         if (test::Has(config.features, SF_FEATURE_SHAPES)) params.lens.cats_eye = 0.5;
         if (lens == 2) params.mode = random.Int(0, 1) == 0 ? SF_MODE_FRAME : SF_MODE_BLUR;
         if (lens == 3) {

@@ -102,7 +102,7 @@ TEST_CASE("region: the bytes of the whole picture, in every mode") {
     config.tuning.max_layer = random.Int(0, 3) == 0 ? random.Int(0, 1) : 2;
     config.tuning.deblocking = random.Int(0, 2) == 0 ? random.Int(0, 255) : 255;
     sf_params params = test::Params(random.Real(-9, 9), random.Real(0.3, 1), SF_MODE_BLOCK);
-    params.rule = random.Int(0, 2);
+    params.renderer = random.Int(0, 2);
     if (round % 4 == 3) params.mode = round % 8 == 3 ? SF_MODE_FRAME : SF_MODE_BLUR;
     if (round == 11) params.mode = SF_MODE_BENCHMARK;
     CAPTURE(round);
@@ -124,7 +124,7 @@ TEST_CASE("region: joins between blocks of different layers reach into it") {
     config.largest_block = side;
     config.tuning.deblocking = 255;
     sf_params params = test::Params(-1, 1, SF_MODE_BLOCK);
-    params.rule = SF_RULE_PAPER;
+    params.renderer = SF_RENDERER_LINE_SCAN;
     CheckRegions(scene, config, params, &random);
   }
 }

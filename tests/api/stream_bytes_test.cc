@@ -115,7 +115,7 @@ TEST_CASE("stream: rings hold all that layers are made of, up to the largest blu
     sf_config config = test::ConfigFor(scene, radius);
     config.largest_block = 32;
     sf_params params = test::Params(0, 1, SF_MODE_BLOCK);
-    params.rule = SF_RULE_PAPER;
+    params.renderer = SF_RENDERER_LINE_SCAN;
     test::Output whole(48, 200), streamed(48, 200);
     test::Engine whole_engine(config);
     sf_report report = {};

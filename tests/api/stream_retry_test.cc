@@ -97,7 +97,7 @@ void CheckRetries(const test::Scene& scene, const sf_params& params, int gather)
   Failing never = {1 << 20, 0};
   const Streamed expected = Stream(config, params, scene, kHeight, &never);
   REQUIRE(expected.failures == 0);
-  const bool all_layers = params.mode == SF_MODE_BLOCK && params.rule == SF_RULE_SUBAPERTURE;
+  const bool all_layers = params.mode == SF_MODE_BLOCK && params.renderer == SF_RENDERER_SLICES;
   for (const sf_layer_report& layer : expected.report.layers)
     CHECK((!all_layers || layer.blocks > 0));
   constexpr int kStep = STARFOCUS_EMULATED ? 4 : 1;  // an emulator needs twenty times as long
@@ -118,15 +118,15 @@ void CheckRetries(const test::Scene& scene, const sf_params& params, int gather)
 TEST_CASE("stream: a pull after one whose runner failed repeats its rows, with the same report") {
   const test::Scene scene = MixedScene();
   for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BLOCK, SF_MODE_BLUR}) {
-    for (const sf_rule rule : {SF_RULE_PAPER, SF_RULE_SUBAPERTURE}) {
+    for (const sf_renderer renderer : {SF_RENDERER_LINE_SCAN, SF_RENDERER_SLICES}) {
       for (const int gather : {0, 1}) {
-        const bool plain = rule == SF_RULE_SUBAPERTURE && gather == 0;
+        const bool plain = renderer == SF_RENDERER_SLICES && gather == 0;
         if (mode != SF_MODE_BLOCK && !plain) continue;
         CAPTURE(mode);
-        CAPTURE(rule);
+        CAPTURE(renderer);
         CAPTURE(gather);
         sf_params params = test::Params(0, 1, mode);
-        params.rule = rule;
+        params.renderer = renderer;
         CheckRetries(scene, params, gather);
       }
     }

@@ -24,9 +24,9 @@ test::Scene Scene(const std::vector<sf_position>& positions) {
 }
 
 std::vector<uint8_t> Picture(const test::Scene& scene, sf_mode mode = SF_MODE_BLOCK,
-                             sf_rule rule = SF_RULE_SUBAPERTURE) {
+                             sf_renderer renderer = SF_RENDERER_SLICES) {
   sf_params params = test::Params(kFocus, 1, mode);
-  params.rule = rule;
+  params.renderer = renderer;
   return test::RefocusScene(scene, test::ConfigFor(scene), params).rgb;
 }
 
@@ -34,13 +34,13 @@ TEST_CASE("views: the star by its positions is the star, in any order by subaper
   for (const int views : {5, 9, 17}) {
     test::Scene scene = test::RandomScene(70, 50, views, -4, 6, 5);
     const std::vector<uint8_t> block = Picture(scene);
-    const std::vector<uint8_t> paper = Picture(scene, SF_MODE_FRAME, SF_RULE_PAPER);
+    const std::vector<uint8_t> paper = Picture(scene, SF_MODE_FRAME, SF_RENDERER_LINE_SCAN);
     std::vector<sf_position> positions;
     for (int k = 0; k < views; ++k) positions.push_back(scene.PositionOf(k));
     scene.positions = positions;
     CHECK(Picture(scene) == block);
-    CHECK(Picture(scene, SF_MODE_FRAME, SF_RULE_PAPER) == paper);
-    CHECK(Picture(scene, SF_MODE_FRAME, SF_RULE_DEFAULT) == paper);
+    CHECK(Picture(scene, SF_MODE_FRAME, SF_RENDERER_LINE_SCAN) == paper);
+    CHECK(Picture(scene, SF_MODE_FRAME, SF_RENDERER_AUTO) == paper);
     for (const int other : {2, 4, 3}) {
       std::swap(scene.positions[1], scene.positions[size_t(other)]);
       std::swap(scene.pictures[1], scene.pictures[size_t(other)]);
@@ -53,12 +53,12 @@ TEST_CASE("views: the star by its positions is the star, in any order by subaper
 TEST_CASE("views: one view takes subapertures in every mode unless the paper's rule is asked for") {
   const test::Scene scene = test::RandomScene(70, 50, 1, -4, 6, 5);
   for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BENCHMARK, SF_MODE_BLOCK}) {
-    CHECK(Picture(scene, mode, SF_RULE_DEFAULT) == Picture(scene, mode, SF_RULE_SUBAPERTURE));
-    CHECK(Picture(scene, mode, SF_RULE_PAPER) != Picture(scene, mode, SF_RULE_SUBAPERTURE));
+    CHECK(Picture(scene, mode, SF_RENDERER_AUTO) == Picture(scene, mode, SF_RENDERER_SLICES));
+    CHECK(Picture(scene, mode, SF_RENDERER_LINE_SCAN) != Picture(scene, mode, SF_RENDERER_SLICES));
   }
   const test::Scene star = test::RandomScene(70, 50, 5, -4, 6, 5);
-  CHECK(Picture(star, SF_MODE_FRAME, SF_RULE_DEFAULT) ==
-        Picture(star, SF_MODE_FRAME, SF_RULE_PAPER));
+  CHECK(Picture(star, SF_MODE_FRAME, SF_RENDERER_AUTO) ==
+        Picture(star, SF_MODE_FRAME, SF_RENDERER_LINE_SCAN));
 }
 
 TEST_CASE("views: a pair reads its second view, and another position of it elsewhere") {
@@ -109,18 +109,18 @@ TEST_CASE("views: the paper's rule needs the star, others do without") {
   test::Output out(scene.width, scene.height);
   for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BENCHMARK, SF_MODE_BLOCK}) {
     sf_params params = test::Params(kFocus, 0.5, mode);
-    params.rule = SF_RULE_PAPER;
+    params.renderer = SF_RENDERER_LINE_SCAN;
     CHECK(test::Refocus(&engine, params, scene, &out) == SF_ERROR_FEATURE);
     CHECK(sf_stream_begin(engine.get(), &params) == SF_ERROR_FEATURE);
-    params.rule = SF_RULE_DEFAULT;
+    params.renderer = SF_RENDERER_AUTO;
     REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
     const std::vector<uint8_t> by_default = out.Tight();
-    params.rule = SF_RULE_SUBAPERTURE;
+    params.renderer = SF_RENDERER_SLICES;
     REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
     CHECK(out.Tight() == by_default);
   }
   sf_params blur = test::Params(kFocus, 0.5, SF_MODE_BLUR);
-  blur.rule = SF_RULE_PAPER;  // which this mode ignores
+  blur.renderer = SF_RENDERER_LINE_SCAN;  // which this mode ignores
   CHECK(test::Refocus(&engine, blur, scene, &out) == SF_OK);
 }
 

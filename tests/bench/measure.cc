@@ -74,7 +74,7 @@ const Run* FindMode(const std::vector<Run>& runs, const char* mode, int views) {
   const Run* found = nullptr;
   for (const Run& run : runs) {
     const Task& task = run.entry->task;
-    if (task.mode != mode || !task.target.empty() || task.rule != SF_RULE_DEFAULT ||
+    if (task.mode != mode || !task.target.empty() || task.renderer != SF_RENDERER_AUTO ||
         task.n_scale != 1 || task.workers != 1) {
       continue;
     }

@@ -32,9 +32,9 @@ Json Describe(const Machine& machine, const Row& row) {
   json["views"] = row.task.views;
   json["max_layer"] = row.task.max_layer;
   json["largest_block"] = row.largest_block;
-  json["rule"] = row.task.rule == SF_RULE_DEFAULT ? "default"
-                 : row.task.rule == SF_RULE_PAPER ? "paper"
-                                                  : "subaperture";
+  json["renderer"] = row.task.renderer == SF_RENDERER_AUTO        ? "auto"
+                     : row.task.renderer == SF_RENDERER_LINE_SCAN ? "line-scan"
+                                                                  : "slices";
   json["n_scale"] = row.task.n_scale;
   json["workers"] = row.task.workers;
   json["aperture"] = row.aperture;

@@ -52,8 +52,8 @@ std::string Method(const Row& row) {
     name += ", blocks to " + std::to_string(task.largest_block);
   }
   if (task.n_scale != 1) name += ", N × " + Fixed(task.n_scale, 2);
-  if (task.rule == SF_RULE_PAPER) name += ", N by (9)";
-  if (task.rule == SF_RULE_SUBAPERTURE) name += ", N by subapertures";
+  if (task.renderer == SF_RENDERER_LINE_SCAN) name += ", N by (9)";
+  if (task.renderer == SF_RENDERER_SLICES) name += ", N by subapertures";
   return name;
 }
 

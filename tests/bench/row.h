@@ -16,10 +16,10 @@ struct Task {
   std::string mode = "block";  // block, frame, benchmark, blur or a rival's name
   int views = 0;
   int max_layer = SF_LAYERS - 1;
-  int largest_block = 0;       // 0: the library chooses
-  int rule = SF_RULE_DEFAULT;  // sf_rule
-  double n_scale = 1;          // of the rule's N
-  std::string target;          // SIMD target; empty: the best one
+  int largest_block = 0;            // 0: the library chooses
+  int renderer = SF_RENDERER_AUTO;  // sf_renderer
+  double n_scale = 1;               // of the rule's N
+  std::string target;               // SIMD target; empty: the best one
   int workers = 1;
   bool timed = true;  // blocks, with a clock, which costs instructions
 };

@@ -37,10 +37,10 @@ void AddOptions(const Field& field, const Choice& choice, Group* group) {
     group->entries.back().task.max_layer = layer;
   }
   for (const char* mode : {"block", "frame"}) {
-    for (const int rule : {SF_RULE_PAPER, SF_RULE_SUBAPERTURE}) {
+    for (const int renderer : {SF_RENDERER_LINE_SCAN, SF_RENDERER_SLICES}) {
       if (!choice.rules) continue;
       group->entries.push_back(MakeEntry("options", mode, field.views()));
-      group->entries.back().task.rule = rule;
+      group->entries.back().task.renderer = renderer;
     }
   }
   for (const int side : choice.largest_blocks) {

@@ -59,7 +59,7 @@ Error Prepare(const Field& field, const Task& task, double focus, double apertur
   }
   sf_params_init(&timed->params);
   timed->params.mode = ModeOf(task.mode);
-  timed->params.rule = task.rule;
+  timed->params.renderer = task.renderer;
   timed->params.lens.focus = focus;
   timed->params.lens.aperture = aperture;
   timed->picture = Image(config.width, config.height);

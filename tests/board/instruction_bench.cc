@@ -21,7 +21,7 @@ struct Case {
   sf_mode mode;
   double focus, aperture;
   int width = 192, height = 128;
-  sf_rule rule = SF_RULE_DEFAULT;
+  sf_renderer renderer = SF_RENDERER_AUTO;
 };
 
 // Of 192 x 128 pixels if not told otherwise; the name tells views, scene, mode and the largest blur
@@ -31,13 +31,14 @@ constexpr Case kCases[] = {
     {"17-slanted-frame-8", 17, test::Depth::kSlanted, SF_MODE_FRAME, 4, 1},
     {"5-layers-frame-6", 5, test::Depth::kLayers, SF_MODE_FRAME, 2, 1},
     {"1-layers-frame-paper-4", 1, test::Depth::kLayers, SF_MODE_FRAME, 0, 1, 192, 128,
-     SF_RULE_PAPER},
+     SF_RENDERER_LINE_SCAN},
     {"17-layers-block-8", 17, test::Depth::kLayers, SF_MODE_BLOCK, -4, 1},
     {"5-slanted-block-4", 5, test::Depth::kSlanted, SF_MODE_BLOCK, 0, 1},
     // Large enough for partitions to differ.
     {"9-room-block-7", 9, test::Depth::kRoom, SF_MODE_BLOCK, 3.5, 1, 384, 256},
     {"5-room-block-4", 5, test::Depth::kRoom, SF_MODE_BLOCK, -1, 1, 384, 256},
-    {"9-room-block-paper-7", 9, test::Depth::kRoom, SF_MODE_BLOCK, 3.5, 1, 384, 256, SF_RULE_PAPER},
+    {"9-room-block-paper-7", 9, test::Depth::kRoom, SF_MODE_BLOCK, 3.5, 1, 384, 256,
+     SF_RENDERER_LINE_SCAN},
     {"1-layers-blur-8", 1, test::Depth::kLayers, SF_MODE_BLUR, 4, 1},
     {"9-layers-benchmark-4", 9, test::Depth::kLayers, SF_MODE_BENCHMARK, 0, 1},
 };
@@ -61,7 +62,7 @@ int Run(const Case& one, bool reference, int runs) {
   if (reference) test::UseKernels(&starfocus::simd::ReferenceKernels(), engine.get());
   test::Output out(one.width, one.height);
   sf_params params = test::Params(one.focus, one.aperture, one.mode);
-  params.rule = one.rule;
+  params.renderer = one.renderer;
   for (int run = 0; run < runs; ++run) {
     if (test::Refocus(&engine, params, scene, &out) != SF_OK) return 1;
   }

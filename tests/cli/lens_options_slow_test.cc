@@ -35,8 +35,8 @@ TEST_CASE("cli: f-stops and strengths are apertures; strength 0 is the centre vi
   CHECK(picture("--f-stop 1") == picture(""));
   CHECK(picture("--strength 99") != picture("--strength 100"));
   const Image centre = ValueOf(ReadImage(folder.file("lf/view_+0.0_+0.0.png")));
-  for (const char* more : {"", "--mode frame", "--mode benchmark", "--mode blur", "--rule paper",
-                           "--stream", "--f-stop 2 --threads 2"}) {
+  for (const char* more : {"", "--mode frame", "--mode benchmark", "--mode blur",
+                           "--renderer line-scan", "--stream", "--f-stop 2 --threads 2"}) {
     picture("--strength 0 " + std::string(more));
     CHECK(ValueOf(ReadImage(folder.file("one.png"))).pixels == centre.pixels);
   }

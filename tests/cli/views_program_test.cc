@@ -54,7 +54,7 @@ TEST_CASE("views: scenes at positions are refocused, streamed and told of") {
   Succeed(folder, "refocus lf -o whole.png --focus 0");
   Succeed(folder, "refocus lf -o rows.png --focus 0 --stream --threads 2");
   CHECK(Call(folder, "compare whole.png rows.png").out == "PSNR inf, largest difference 0\n");
-  const Outcome paper = Call(folder, "refocus lf -o x.png --focus 0 --rule paper");
+  const Outcome paper = Call(folder, "refocus lf -o x.png --focus 0 --renderer line-scan");
   CHECK(paper.code == 2);
   CHECK(Contains(paper.err, "star"));
   CHECK(Call(folder, "refocus lf -o frame.png --focus 0 --mode frame").code == 0);

@@ -28,7 +28,7 @@ using namespace conformance;
 constexpr double kTheta = 0.26 * 3.14159265358979323846;
 constexpr int kStars[] = {1, 5, 9, 17};
 constexpr Depth kDepths[] = {Depth::kConstant, Depth::kPiecewise, Depth::kSlanted, Depth::kNoisy};
-constexpr sf_rule kRules[] = {SF_RULE_PAPER, SF_RULE_SUBAPERTURE};
+constexpr sf_renderer kRules[] = {SF_RENDERER_LINE_SCAN, SF_RENDERER_SLICES};
 
 // Pixels that blocks of each layer cover, those gathered, and the longest side that views render.
 struct Covered {
@@ -67,7 +67,7 @@ Distance Check(const test::Scene& scene, const sf_params& params, const sf_confi
   CAPTURE(scene.views());
   CAPTURE(params.lens.focus);
   CAPTURE(params.lens.aperture);
-  CAPTURE(params.rule);
+  CAPTURE(params.renderer);
   CAPTURE(config.tuning.max_layer);
   CAPTURE(config.transfer);
   CAPTURE(config.largest_block);
@@ -88,10 +88,10 @@ sf_config Config(const test::Scene& scene, int max_layer, double max_blur = 24) 
 // Both rules and all layers.
 Distance CheckAll(const test::Scene& scene, double focus, double aperture, Covered* covered) {
   Distance all;
-  for (const sf_rule rule : kRules) {
+  for (const sf_renderer renderer : kRules) {
     for (int max_layer = 0; max_layer < SF_LAYERS; ++max_layer) {
       sf_params params = test::Params(focus, aperture, SF_MODE_BLOCK);
-      params.rule = rule;
+      params.renderer = renderer;
       Covered here;
       // Values at every layer, light without layers and at the smallest one.
       for (const sf_transfer transfer : {SF_TRANSFER_NONE, SF_TRANSFER_SRGB}) {
@@ -150,7 +150,7 @@ TEST_CASE("block conformance: the benchmark's slices") {
       SetDepth(depth, &scene, &random);
       SetColours(Colours(random.Int(0, 2)), &scene, &random);
       sf_params params = test::Params(low - random.Real(-1, 2), 1, SF_MODE_BENCHMARK);
-      params.rule = SF_RULE_SUBAPERTURE;
+      params.renderer = SF_RENDERER_SLICES;
       all.Add(Check(scene, params, Config(scene, 2), &covered));
     }
   }
@@ -171,7 +171,7 @@ TEST_CASE("block conformance: largest subapertures, smallest and single blocks")
       for (const double focus : {-25.0, -7.0, -2.0}) {
         for (int max_layer = 0; max_layer < SF_LAYERS; ++max_layer) {
           sf_params params = test::Params(focus, 1, SF_MODE_BLOCK);
-          params.rule = SF_RULE_SUBAPERTURE;
+          params.renderer = SF_RENDERER_SLICES;
           sf_config config = Config(scene, max_layer, 32);
           config.tuning.timing.block = block_cost;
           all.Add(Check(scene, params, config, &covered));
@@ -201,7 +201,7 @@ TEST_CASE("block conformance: more slices than fit, widest subapertures") {
         SetColours(Colours::kRandom, &scene, &random);
         for (int max_layer = 0; max_layer < SF_LAYERS; ++max_layer) {
           sf_params params = test::Params(lens.focus, 1, SF_MODE_BLOCK);
-          params.rule = SF_RULE_SUBAPERTURE;
+          params.renderer = SF_RENDERER_SLICES;
           all.Add(Check(scene, params, Config(scene, max_layer, lens.max_blur), &covered));
         }
       }
@@ -220,7 +220,7 @@ TEST_CASE("block conformance: tiles of large blocks have slices of their own") {
       SetDepth(depth, &scene, &random);
       SetColours(Colours::kRandom, &scene, &random);
       sf_params params = test::Params(random.Real(-1, 1), 1, SF_MODE_FRAME);
-      params.rule = SF_RULE_SUBAPERTURE;
+      params.renderer = SF_RENDERER_SLICES;
       sf_config config = Config(scene, 0);
       config.largest_block = 256;
       Covered covered;

@@ -50,7 +50,7 @@ Distance Check(const test::Scene& scene, const sf_params& params, const sf_confi
 
 // Line scans, by either transfer: block_conformance_slow_test has slices.
 Distance Check(const test::Scene& scene, sf_params params, int block, double theta) {
-  params.rule = SF_RULE_PAPER;
+  params.renderer = SF_RENDERER_LINE_SCAN;
   sf_config config = test::ConfigFor(scene, 16);
   config.largest_block = block;
   params.lens.theta = theta;

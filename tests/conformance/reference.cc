@@ -324,7 +324,7 @@ void RefocusAll(const LightField& field, const sf_params& params, const sf_confi
                            benchmark ? 0.125 : 0.375};
   for (const Block& block : blocks) {
     if (excess && (block.layer > 0 || !block.gathered.empty())) continue;
-    const bool by_subaperture = params.rule == SF_RULE_SUBAPERTURE && block.n > 0;
+    const bool by_subaperture = params.renderer == SF_RENDERER_SLICES && block.n > 0;
     const ApertureShape here =
         ApertureShape(params.lens)
             .At(block.x, block.y, block.width, block.height, centre.width, centre.height);

@@ -99,7 +99,7 @@ void SetLens(Trial* trial, test::Random* random) {
                        : random->Int(0, 3) == 0 ? SF_MODE_FRAME
                                                 : SF_MODE_BLOCK;
   trial->params = test::Params(focus, aperture, mode);
-  trial->params.rule = random->Int(0, 3) == 0 ? SF_RULE_PAPER : SF_RULE_SUBAPERTURE;
+  trial->params.renderer = random->Int(0, 3) == 0 ? SF_RENDERER_LINE_SCAN : SF_RENDERER_SLICES;
 }
 
 double RadiusOf(const Trial& trial) {
@@ -139,7 +139,7 @@ std::string Trial::Text() const {
                 "%dx%d, %d views, %s, rule %d, disparity [%.9g, %.9g], focus %.9g, aperture %.9g, "
                 "block %d, layers %d, theta %.9g, n_scale %.9g, gather %d, block cost %u, transfer "
                 "%d, highlights %.9g, %s",
-                scene.width, scene.height, scene.views(), kModes[params.mode], params.rule,
+                scene.width, scene.height, scene.views(), kModes[params.mode], params.renderer,
                 double{scene.disparity_min}, double{scene.disparity_max}, params.lens.focus,
                 params.lens.aperture, config.largest_block, config.tuning.max_layer,
                 params.lens.theta, config.tuning.n_scale, config.tuning.gather,
@@ -159,7 +159,7 @@ Trial MakeTrial(uint64_t seed, bool anywhere) {
   trial.scene = MakeScene(&random);
   SetLens(&trial, &random);
   SetConfig(&trial, &random);
-  if (anywhere && trial.params.rule != SF_RULE_PAPER) {
+  if (anywhere && trial.params.renderer != SF_RENDERER_LINE_SCAN) {
     test::RandomViews(&trial.scene, &trial.config, &random);
   }
   return trial;

@@ -33,11 +33,11 @@ struct Setup {
   double max_blur = 40;
   int skips = 1;
   sf_mode mode = SF_MODE_BLOCK;
-  sf_rule rule = SF_RULE_DEFAULT;
+  sf_renderer renderer = SF_RENDERER_AUTO;
 
   sf_params Params() const {
     sf_params params = test::Params(focus, aperture, mode);
-    params.rule = rule;
+    params.renderer = renderer;
     return params;
   }
 };
@@ -48,7 +48,7 @@ std::string Text(const Setup& s, const test::Scene& scene) {
       text, sizeof(text),
       "%dx%d views %d focus %.3f aperture %.3f block %d max_layer %d deblocking %d rule %d",
       scene.width, scene.height, scene.views(), s.focus, s.aperture, s.block, s.max_layer,
-      s.deblocking, s.rule);
+      s.deblocking, s.renderer);
   return text;
 }
 
@@ -76,7 +76,7 @@ Setup RandomSetup(test::Random* random, float limit) {
   s.block = kBlocks[random->Int(0, 3)];
   s.max_layer = random->Int(0, 3) == 0 ? random->Int(0, 1) : 2;
   s.deblocking = random->Int(0, 3) == 0 ? random->Int(0, 255) : 35;
-  s.rule = sf_rule(random->Int(0, 2));
+  s.renderer = sf_renderer(random->Int(0, 2));
   return s;
 }
 
@@ -166,7 +166,7 @@ TEST_CASE("block: all far out of focus goes to layer 2, as far as allowed") {
       const test::Scene scene = test::LayeredScene(size.first, size.second, 5, 2, 44);
       Setup s;
       s.focus = 20;
-      s.rule = SF_RULE_PAPER;  // wide subapertures keep silhouettes out of layer 2
+      s.renderer = SF_RENDERER_LINE_SCAN;  // wide subapertures keep silhouettes out of layer 2
       s.max_layer = max_layer;
       s.block = 128;
       sf_report report = {};
@@ -197,7 +197,7 @@ TEST_CASE("block: the blocks told of tile the picture once and are those of the 
     s.skips = 0;  // skipped blocks have fewer views than they are told with
     test::Engine engine(Config(s, scene));
     REQUIRE(engine.status() == SF_OK);
-    Told told = {scene.width, scene.height, {}, 0, 0, 0, s.rule != SF_RULE_PAPER};
+    Told told = {scene.width, scene.height, {}, 0, 0, 0, s.renderer != SF_RENDERER_LINE_SCAN};
     told.covered.assign(size_t(scene.width) * size_t(scene.height), 0);
     const sf_params params = s.Params();
     const sf_block_visitor visitor = [](void* data, const sf_block* block) {

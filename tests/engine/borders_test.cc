@@ -82,7 +82,7 @@ test::Scene AnyScene(int side, int views, float limit, bool bright, test::Random
 
 // A way to refocus a superblock.
 struct Way {
-  int views = 5, mode = SF_MODE_BLOCK, rule = SF_RULE_SUBAPERTURE, max_layer = 2, gather = 1;
+  int views = 5, mode = SF_MODE_BLOCK, renderer = SF_RENDERER_SLICES, max_layer = 2, gather = 1;
   float highlights = 1, limit = 4;
   double focus = 0, n_scale = 1, aperture = 1;
   bool bright = false, coverage = false;
@@ -131,7 +131,7 @@ class Superblock {
  private:
   std::vector<uint8_t> Refocus(const test::Scene& scene, sf_report* report) {
     sf_params params = test::Params(way_.focus, way_.aperture, sf_mode(way_.mode));
-    params.rule = way_.rule;
+    params.renderer = way_.renderer;
     params.region = {rect_.x, rect_.y, rect_.width, rect_.height};
     test::Output out(rect_.width, rect_.height);
     REQUIRE(test::Refocus(&engine_, params, scene, &out, nullptr, nullptr, report) == SF_OK);
@@ -152,7 +152,7 @@ Way AnyWay(test::Random* random) {
   Way way;
   way.views = kViews[random->Int(0, 2)];
   way.mode = kModes[std::min(3, random->Int(0, 8))];
-  way.rule = random->Int(0, 1) == 0 ? SF_RULE_PAPER : SF_RULE_SUBAPERTURE;
+  way.renderer = random->Int(0, 1) == 0 ? SF_RENDERER_LINE_SCAN : SF_RENDERER_SLICES;
   way.max_layer = random->Int(0, 2);
   way.gather = random->Int(0, 1);
   way.highlights = random->Int(0, 5) == 0 ? 8.0F : 1.0F;
@@ -178,7 +178,7 @@ TEST_CASE("borders: nothing beyond those of a superblock is read") {
     gathered += superblock.report().gathered_pixels;
     CAPTURE(round);
     CAPTURE(way.mode);
-    CAPTURE(way.rule);
+    CAPTURE(way.renderer);
     CAPTURE(way.views);
     CAPTURE(way.max_layer);
     CAPTURE(way.limit);
@@ -193,7 +193,7 @@ TEST_CASE("borders: nothing beyond those of a superblock is read") {
 // A way by which a sum of borders is what it is.
 struct Sum {
   const char* name;
-  int views, rule, max_layer;
+  int views, renderer, max_layer;
   double blur, aperture, part;  // part: of the range of disparities that blur comes from
   int Borders::*border;
   int Kept::*kept;
@@ -204,7 +204,7 @@ struct Sum {
   Way Made() const {
     Way way;
     way.views = views;
-    way.rule = rule;
+    way.renderer = renderer;
     way.max_layer = max_layer;
     way.gather = highlights > 1 ? 1 : 0;
     way.highlights = highlights;
@@ -222,15 +222,16 @@ struct Sum {
 // rounded away. Of side views: hidden pixels at the rim of a block's border hardly show, those of
 // levels less, and disparities there are seldom the largest that the configuration has room for.
 const Sum kSums[] = {
-    {"boundary pixels", 1, SF_RULE_SUBAPERTURE, 0, 7, 1, 1, &Borders::centre, &Kept::map, 0},
-    {"edges", 5, SF_RULE_SUBAPERTURE, 0, 1, 1.0 / 24, 1, &Borders::centre, &Kept::map, 0, 1, 161},
-    {"level 1", 1, SF_RULE_SUBAPERTURE, 1, 11, 1, 1, &Borders::centre, &Kept::centre, 0},
-    {"level 2", 1, SF_RULE_PAPER, 2, 11, 1, 0.25, &Borders::centre, &Kept::centre, 10},
-    {"views", 5, SF_RULE_SUBAPERTURE, 0, 7, 7.0 / 24, 1, &Borders::views, &Kept::sides, 4},
-    {"views, level 1", 5, SF_RULE_SUBAPERTURE, 1, 11, 0.5, 0.75, &Borders::views, &Kept::sides, 8},
-    {"views, level 2", 5, SF_RULE_SUBAPERTURE, 2, 11, 0.25, 0.5, &Borders::views, &Kept::sides, 20},
-    {"highlights", 1, SF_RULE_SUBAPERTURE, 2, 4, 1, 1, &Borders::views, &Kept::centre, 0, 8},
-    {"highlights of views", 5, SF_RULE_PAPER, 2, 4, 1, 1, &Borders::views, &Kept::sides, 0, 8},
+    {"boundary pixels", 1, SF_RENDERER_SLICES, 0, 7, 1, 1, &Borders::centre, &Kept::map, 0},
+    {"edges", 5, SF_RENDERER_SLICES, 0, 1, 1.0 / 24, 1, &Borders::centre, &Kept::map, 0, 1, 161},
+    {"level 1", 1, SF_RENDERER_SLICES, 1, 11, 1, 1, &Borders::centre, &Kept::centre, 0},
+    {"level 2", 1, SF_RENDERER_LINE_SCAN, 2, 11, 1, 0.25, &Borders::centre, &Kept::centre, 10},
+    {"views", 5, SF_RENDERER_SLICES, 0, 7, 7.0 / 24, 1, &Borders::views, &Kept::sides, 4},
+    {"views, level 1", 5, SF_RENDERER_SLICES, 1, 11, 0.5, 0.75, &Borders::views, &Kept::sides, 8},
+    {"views, level 2", 5, SF_RENDERER_SLICES, 2, 11, 0.25, 0.5, &Borders::views, &Kept::sides, 20},
+    {"highlights", 1, SF_RENDERER_SLICES, 2, 4, 1, 1, &Borders::views, &Kept::centre, 0, 8},
+    {"highlights of views", 5, SF_RENDERER_LINE_SCAN, 2, 4, 1, 1, &Borders::views, &Kept::sides, 0,
+     8},
 };
 
 TEST_CASE("borders: with one pixel less than they add up to pictures change") {

@@ -59,7 +59,7 @@ TEST_CASE("closed: a surface whose disparities jitter or slope lets no light thr
             CAPTURE(focus);
             CAPTURE(mode);
             sf_params params = test::Params(focus, 1, mode);
-            params.rule = SF_RULE_SUBAPERTURE;
+            params.renderer = SF_RENDERER_SLICES;
             test::Output out(kSide, kSide);
             REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
             CHECK(MostLeaked(out, 16) <= 1);

@@ -22,7 +22,7 @@ struct Trial {
   bool noisy = false;
   int levels = 0;                                // of disparity, pixel by pixel at random
   double max_blur = 64, n_scale = 1, theta = 0;  // 0: the default
-  sf_rule rule = SF_RULE_DEFAULT;
+  sf_renderer renderer = SF_RENDERER_AUTO;
   int transfer = SF_TRANSFER_SRGB;
   uint64_t shape = 0;  // the seed of a random one, unless 0
   uint8_t color[3] = {0, 0, 0};
@@ -62,7 +62,7 @@ int Changed(const Trial& t) {
   config.tuning.skips = 0;  // what is filled has passed no filter
   test::Random shapes(t.shape);
   sf_params params = test::Params(t.focus, t.aperture, t.mode);
-  params.rule = t.rule;
+  params.renderer = t.renderer;
   if (t.theta > 0) params.lens.theta = t.theta;
   if (t.shape != 0) test::RandomShape(&params.lens, &shapes);
   test::ReserveFor(params.lens, &config);
@@ -139,7 +139,7 @@ TEST_CASE("constant: through every shape of opening") {
     t.shape = t.seed = shape;
     t.views = random.Int(0, 1) == 0 ? 1 : 9;
     t.mode = static_cast<sf_mode>(random.Int(SF_MODE_FRAME, SF_MODE_BLUR));
-    t.rule = static_cast<sf_rule>(random.Int(SF_RULE_DEFAULT, SF_RULE_SUBAPERTURE));
+    t.renderer = static_cast<sf_renderer>(random.Int(SF_RENDERER_AUTO, SF_RENDERER_SLICES));
     const double radius = random.Real(0.2, t.mode == SF_MODE_BENCHMARK ? 6 : 30);
     t.low = static_cast<float>(-radius);
     t.high = static_cast<float>(random.Real(-radius, radius));
@@ -175,7 +175,7 @@ TEST_CASE("constant: wide subapertures") {
   t.width = t.height = 64;
   t.views = 1;
   t.levels = 6;
-  t.rule = SF_RULE_SUBAPERTURE;
+  t.renderer = SF_RENDERER_SLICES;
   std::fill(t.color, t.color + 3, static_cast<uint8_t>(204));
   for (const sf_mode mode : {SF_MODE_BLOCK, SF_MODE_FRAME}) {
     for (const double n_scale : {0.5, 0.66, 0.8, 2.0}) {
@@ -201,7 +201,7 @@ TEST_CASE("constant: dark codes through steep openings") {
   t.width = t.height = 64;
   t.views = 5;
   t.levels = 5;
-  t.rule = SF_RULE_SUBAPERTURE;
+  t.renderer = SF_RENDERER_SLICES;
   int pictures = 0;  // with a pixel of another code
   for (const double part : {0.3, 0.35, 0.4, 0.42, 0.44, 0.45}) {
     for (const double radius : {1.5, 3.0, 4.0, 6.0, 8.0, 12.0}) {

@@ -129,8 +129,8 @@ std::string Refocus(const Case& one, const test::Scene& scene,
   test::Output out(scene.width, scene.height);
   // The rule of subapertures keeps layer 2 away from depth edges: either rule has its share of the
   // cases.
-  if (one.block == 32) params.rule = SF_RULE_PAPER;
-  if (one.levels > 0) params.rule = SF_RULE_SUBAPERTURE;
+  if (one.block == 32) params.renderer = SF_RENDERER_LINE_SCAN;
+  if (one.levels > 0) params.renderer = SF_RENDERER_SLICES;
   sf_report report = {};
   REQUIRE(test::Refocus(&engine, params, scene, &out, nullptr, nullptr, &report) == SF_OK);
   for (int layer = 0; layer < SF_LAYERS; ++layer) {

@@ -33,7 +33,7 @@ test::Scene WhiteRect(int x0, int y0, int width, int height, int code = 255, int
 }
 
 std::vector<uint8_t> Picture(const test::Scene& scene, double blur, double highlights,
-                             sf_mode mode = SF_MODE_BLOCK, sf_rule rule = SF_RULE_DEFAULT,
+                             sf_mode mode = SF_MODE_BLOCK, sf_renderer renderer = SF_RENDERER_AUTO,
                              sf_transfer transfer = SF_TRANSFER_SRGB) {
   sf_config config = test::ConfigFor(scene, 20);
   config.largest_block = 32;
@@ -41,7 +41,7 @@ std::vector<uint8_t> Picture(const test::Scene& scene, double blur, double highl
   config.highlights = float(highlights);
   config.transfer = transfer;
   sf_params params = test::Params(blur, 1, mode);
-  params.rule = rule;
+  params.renderer = renderer;
   return test::RefocusScene(scene, config, params).rgb;
 }
 
@@ -55,13 +55,13 @@ TEST_CASE("highlights: a lamp becomes a disc with all of its light") {
   const test::Scene lamp = WhiteRect(58, 59, 3, 3);
   for (const sf_transfer transfer : {SF_TRANSFER_SRGB, SF_TRANSFER_NONE}) {
     for (const sf_mode mode : kModes) {
-      for (const sf_rule rule : {SF_RULE_PAPER, SF_RULE_SUBAPERTURE}) {
+      for (const sf_renderer renderer : {SF_RENDERER_LINE_SCAN, SF_RENDERER_SLICES}) {
         const auto light = [&](double highlights) {
-          return LightIn(Picture(lamp, 11, highlights, mode, rule, transfer), transfer);
+          return LightIn(Picture(lamp, 11, highlights, mode, renderer, transfer), transfer);
         };
         CAPTURE(transfer);
         CAPTURE(mode);
-        CAPTURE(rule);
+        CAPTURE(renderer);
         const double clipped = light(1);
         CHECK(light(4) - clipped == doctest::Approx(9 * 3 * 255).epsilon(0.04));
         CHECK(light(8) - clipped == doctest::Approx(9 * 7 * 255).epsilon(0.04));

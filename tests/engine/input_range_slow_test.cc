@@ -43,7 +43,7 @@ struct Trial {
 // What a trial draws beside the default fall-off.
 enum class Openings { kDefault, kAnyTheta, kAnyShape };
 
-Trial MakeTrial(uint64_t seed, sf_mode mode, sf_rule rule, Openings openings) {
+Trial MakeTrial(uint64_t seed, sf_mode mode, sf_renderer renderer, Openings openings) {
   constexpr int kViews[] = {1, 5, 9, 17};
   test::Random random(seed);
   Trial trial;
@@ -56,7 +56,7 @@ Trial MakeTrial(uint64_t seed, sf_mode mode, sf_rule rule, Openings openings) {
   DrawTwoLevels(trial.low, trial.high, &random, &trial.scene);
   const double radius = random.Real(1, 40);
   trial.params = test::Params(random.Int(0, 1) == 0 ? range + radius : -radius, 1, mode);
-  trial.params.rule = rule;
+  trial.params.renderer = renderer;
   trial.config = test::ConfigFor(trial.scene, radius + range + 1);
   trial.config.transfer = seed % 2 == 0 ? SF_TRANSFER_NONE : SF_TRANSFER_SRGB;
   if (openings == Openings::kAnyTheta) {
@@ -98,15 +98,15 @@ void Widen(const Trial& trial, Beyond* worst) {
   }
 }
 
-Beyond WorstOf(sf_mode mode, sf_rule rule, Openings openings) {
+Beyond WorstOf(sf_mode mode, sf_renderer renderer, Openings openings) {
   const uint64_t kTrials = mode == SF_MODE_BLOCK ? 300 : 60;
   Beyond worst;
   for (uint64_t seed = 1; seed <= kTrials; ++seed) {
     CAPTURE(seed);
-    Widen(MakeTrial(seed, mode, rule, openings), &worst);
+    Widen(MakeTrial(seed, mode, renderer, openings), &worst);
   }
   constexpr const char* kNames[] = {"default opening", "any theta", "any shape"};
-  std::printf("mode %d, rule %d, %s: %d levels, %.3f of the contrast\n", int(mode), int(rule),
+  std::printf("mode %d, rule %d, %s: %d levels, %.3f of the contrast\n", int(mode), int(renderer),
               kNames[int(openings)], worst.levels, worst.contrast);
   return worst;
 }
@@ -115,21 +115,21 @@ Beyond WorstOf(sf_mode mode, sf_rule rule, Openings openings) {
 
 TEST_CASE("input range: frame modes stay within the levels of the views") {
   for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BENCHMARK}) {
-    for (const sf_rule rule : {SF_RULE_PAPER, SF_RULE_SUBAPERTURE}) {
+    for (const sf_renderer renderer : {SF_RENDERER_LINE_SCAN, SF_RENDERER_SLICES}) {
       for (const Openings openings : {Openings::kAnyTheta, Openings::kAnyShape}) {
-        CHECK(WorstOf(mode, rule, openings).levels == 0);
+        CHECK(WorstOf(mode, renderer, openings).levels == 0);
       }
     }
   }
 }
 
 TEST_CASE("input range: subsampled blocks overshoot by no more than the header says") {
-  CHECK(WorstOf(SF_MODE_BLOCK, SF_RULE_SUBAPERTURE, Openings::kDefault).contrast <= 0.04);
-  CHECK(WorstOf(SF_MODE_BLOCK, SF_RULE_SUBAPERTURE, Openings::kAnyTheta).contrast <= 0.04);
-  CHECK(WorstOf(SF_MODE_BLOCK, SF_RULE_SUBAPERTURE, Openings::kAnyShape).contrast <= 0.04);
-  CHECK(WorstOf(SF_MODE_BLOCK, SF_RULE_PAPER, Openings::kDefault).contrast <= 0.13);
-  CHECK(WorstOf(SF_MODE_BLOCK, SF_RULE_PAPER, Openings::kAnyTheta).contrast <= 0.4);
-  CHECK(WorstOf(SF_MODE_BLOCK, SF_RULE_PAPER, Openings::kAnyShape).contrast <= 0.4);
+  CHECK(WorstOf(SF_MODE_BLOCK, SF_RENDERER_SLICES, Openings::kDefault).contrast <= 0.04);
+  CHECK(WorstOf(SF_MODE_BLOCK, SF_RENDERER_SLICES, Openings::kAnyTheta).contrast <= 0.04);
+  CHECK(WorstOf(SF_MODE_BLOCK, SF_RENDERER_SLICES, Openings::kAnyShape).contrast <= 0.04);
+  CHECK(WorstOf(SF_MODE_BLOCK, SF_RENDERER_LINE_SCAN, Openings::kDefault).contrast <= 0.13);
+  CHECK(WorstOf(SF_MODE_BLOCK, SF_RENDERER_LINE_SCAN, Openings::kAnyTheta).contrast <= 0.4);
+  CHECK(WorstOf(SF_MODE_BLOCK, SF_RENDERER_LINE_SCAN, Openings::kAnyShape).contrast <= 0.4);
 }
 
 }  // namespace input_range_slow_test

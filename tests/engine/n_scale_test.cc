@@ -36,10 +36,10 @@ TEST_CASE("n_scale: multiplies the N of either rule in frame and block mode") {
   const test::Scene scene = FlatScene(1);
   for (const double radius : {0.0, 0.25, 0.9, 3.5, 9.0, 17.0, 25.0}) {
     for (const double scale : kScales) {
-      for (const sf_rule rule : {SF_RULE_PAPER, SF_RULE_SUBAPERTURE}) {
+      for (const sf_renderer renderer : {SF_RENDERER_LINE_SCAN, SF_RENDERER_SLICES}) {
         for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BLOCK}) {
           sf_params params = test::Params(radius, 1, mode);
-          params.rule = rule;
+          params.renderer = renderer;
           sf_config config = test::ConfigFor(scene);
           config.tuning.n_scale = scale;
           config.tuning.max_layer = 0;
@@ -48,8 +48,8 @@ TEST_CASE("n_scale: multiplies the N of either rule in frame and block mode") {
           test::Output out(scene.width, scene.height);
           sf_report report = {};
           REQUIRE(test::Refocus(&engine, params, scene, &out, nullptr, nullptr, &report) == SF_OK);
-          const int n = rule == SF_RULE_PAPER ? starfocus::ViewsByPaper(radius)
-                                              : starfocus::ViewsBySubaperture(radius);
+          const int n = renderer == SF_RENDERER_LINE_SCAN ? starfocus::ViewsByPaper(radius)
+                                                          : starfocus::ViewsBySubaperture(radius);
           CAPTURE(radius);
           CAPTURE(scale);
           CAPTURE(mode);
@@ -77,10 +77,10 @@ TEST_CASE("n_scale: benchmark and blur mode do not change") {
 TEST_CASE("n_scale: the smallest workspace gives what a large one does") {
   for (const double radius : {0.3, 0.51, 1.0, 2.5}) {
     const test::Scene scene = FlatScene(2);
-    for (const sf_rule rule : {SF_RULE_PAPER, SF_RULE_SUBAPERTURE}) {
+    for (const sf_renderer renderer : {SF_RENDERER_LINE_SCAN, SF_RENDERER_SLICES}) {
       for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BLOCK}) {
         sf_params params = test::Params(radius, 1, mode);
-        params.rule = rule;
+        params.renderer = renderer;
         CAPTURE(radius);
         const bool same =
             Refocus(scene, params, 2, radius).rgb == Refocus(scene, params, 2, 64).rgb;

@@ -136,7 +136,7 @@ FrameDiff CheckPictures(int rounds, double least_aperture, const MakeScene& make
     const test::Scene scene = make_scene(width, height, kViews[random.Int(0, 3)], limit, &random);
     const double aperture = random.Int(0, 1) == 0 ? 1 : random.Real(least_aperture, 1);
     sf_params params = test::Params(kFocus[random.Int(0, 7)], aperture, SF_MODE_BLOCK);
-    params.rule = round % 2 == 0 ? SF_RULE_PAPER : SF_RULE_SUBAPERTURE;
+    params.renderer = round % 2 == 0 ? SF_RENDERER_LINE_SCAN : SF_RENDERER_SLICES;
     CheckPicture(scene, params, random.Int(1, 9), &changes);
   }
   changes.Tell();

@@ -45,7 +45,7 @@ TEST_CASE("room: larger blurs, rows and workers that are reserved change no pict
     const test::Scene scene = Levels(side, random.Int(5, 16), range, &random);
     sf_params params = test::Params(0, 1, random.Int(0, 1) == 0 ? SF_MODE_BLOCK : SF_MODE_FRAME);
     if (range < 5 && random.Int(0, 1) == 0) params.mode = SF_MODE_BENCHMARK;
-    params.rule = random.Int(0, 5) == 0 ? SF_RULE_PAPER : SF_RULE_SUBAPERTURE;
+    params.renderer = random.Int(0, 5) == 0 ? SF_RENDERER_LINE_SCAN : SF_RENDERER_SLICES;
     sf_config config = test::ConfigFor(scene, double{range});
     config.largest_block = 32 << random.Int(0, 1);
     config.tuning.n_scale = random.Int(0, 1) == 0 ? 0.5 : 1;

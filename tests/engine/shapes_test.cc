@@ -27,7 +27,7 @@ struct Patch {
   std::vector<int> levels;
   Place place;
 
-  Patch(const test::NamedShape& shape, double focus, sf_mode mode, sf_rule rule, Place at)
+  Patch(const test::NamedShape& shape, double focus, sf_mode mode, sf_renderer renderer, Place at)
       : place(at) {
     test::Scene scene = test::EmptyScene(kSide, kSide, 1, 0, 0);
     std::fill(scene.pictures[0].begin(), scene.pictures[0].end(), uint8_t{0});
@@ -39,7 +39,7 @@ struct Patch {
     config.tuning.max_layer = 0;         // layers smooth what is looked at here
     config.transfer = SF_TRANSFER_NONE;  // levels that add up
     sf_params params = test::Params(focus, 1, mode);
-    params.rule = rule;
+    params.renderer = renderer;
     shape.Set(&params.lens);
     test::ReserveFor(params.lens, &config);
     test::Engine engine(config);
@@ -88,8 +88,8 @@ TEST_CASE("shapes: the light of a patch stays, whatever the opening") {
     for (const sf_mode mode : kModes) {
       CAPTURE(shape.name);
       CAPTURE(mode);
-      const sf_rule rule = mode == SF_MODE_FRAME ? SF_RULE_PAPER : SF_RULE_DEFAULT;
-      const Patch patch(shape, 9, mode, rule, {});
+      const sf_renderer renderer = mode == SF_MODE_FRAME ? SF_RENDERER_LINE_SCAN : SF_RENDERER_AUTO;
+      const Patch patch(shape, 9, mode, renderer, {});
       CHECK(patch.Light() == doctest::Approx(9 * 255).epsilon(0.03));
     }
   }
@@ -120,7 +120,7 @@ TEST_CASE("shapes: dark codes stay through openings whose views weigh much more 
 TEST_CASE("shapes: a ring's middle is dark") {
   for (const sf_mode mode : kModes) {
     CAPTURE(mode);
-    const Patch patch(kRing, -10, mode, SF_RULE_DEFAULT, {});
+    const Patch patch(kRing, -10, mode, SF_RENDERER_AUTO, {});
     for (int y = -2; y <= 2; ++y) {
       for (int x = -2; x <= 2; ++x) CHECK(patch.At(x, y) == 0);
     }
@@ -132,10 +132,10 @@ TEST_CASE("shapes: a ring's middle is dark") {
 
 TEST_CASE("shapes: a pentagon is mirrored about its axis alone, and stands on its head when near") {
   for (const sf_mode mode : kModes) {
-    for (const sf_rule rule : {SF_RULE_PAPER, SF_RULE_SUBAPERTURE}) {
+    for (const sf_renderer renderer : {SF_RENDERER_LINE_SCAN, SF_RENDERER_SLICES}) {
       CAPTURE(mode);
-      CAPTURE(rule);
-      const Patch far(kPentagon, 10, mode, rule, {}), near(kPentagon, -10, mode, rule, {});
+      CAPTURE(renderer);
+      const Patch far(kPentagon, 10, mode, renderer, {}), near(kPentagon, -10, mode, renderer, {});
       CHECK(far.Unlike([&](int x, int y) { return far.At(-x, y); }) < 0.03);
       CHECK(far.Unlike([&](int x, int y) { return far.At(x, -y); }) > 0.1);
       CHECK(far.Unlike([&](int x, int y) { return far.At(y, x); }) > 0.1);
@@ -152,14 +152,14 @@ TEST_CASE("shapes: all modes see the same opening") {
   for (const test::NamedShape& shape : test::kShapes) {
     if (shape.cats_eye > 0) continue;
     for (const double focus : {6.0, -11.0}) {
-      const Patch ideal(shape, focus, SF_MODE_BLUR, SF_RULE_DEFAULT, {});
+      const Patch ideal(shape, focus, SF_MODE_BLUR, SF_RENDERER_AUTO, {});
       for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BENCHMARK, SF_MODE_BLOCK}) {
-        for (const sf_rule rule : {SF_RULE_PAPER, SF_RULE_SUBAPERTURE}) {
+        for (const sf_renderer renderer : {SF_RENDERER_LINE_SCAN, SF_RENDERER_SLICES}) {
           CAPTURE(shape.name);
           CAPTURE(focus);
           CAPTURE(mode);
-          CAPTURE(rule);
-          const Patch patch(shape, focus, mode, rule, {});
+          CAPTURE(renderer);
+          const Patch patch(shape, focus, mode, renderer, {});
           CHECK(patch.Unlike([&](int x, int y) { return ideal.At(x, y); }) < 0.12);
         }
       }
@@ -169,19 +169,20 @@ TEST_CASE("shapes: all modes see the same opening") {
 
 TEST_CASE("shapes: cat's eyes are cut on the side away from the picture's middle") {
   for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BENCHMARK, SF_MODE_BLOCK}) {
-    for (const sf_rule rule : {SF_RULE_PAPER, SF_RULE_SUBAPERTURE}) {
+    for (const sf_renderer renderer : {SF_RENDERER_LINE_SCAN, SF_RENDERER_SLICES}) {
       CAPTURE(mode);
-      CAPTURE(rule);
+      CAPTURE(renderer);
       for (const int side : {-1, 1}) {
         const Place corner = {kSide / 2 + 32 * side, kSide / 2 - 32 * side};
-        const Patch far(kCatsEye, 10, mode, rule, corner), near(kCatsEye, -10, mode, rule, corner);
+        const Patch far(kCatsEye, 10, mode, renderer, corner),
+            near(kCatsEye, -10, mode, renderer, corner);
         // What is nearer than the focus shows the opening turned by half a turn.
         CHECK(far.Sum([&](int x, int) { return x * side; }) / far.Light() < -1.5);
         CHECK(far.Sum([&](int, int y) { return -y * side; }) / far.Light() < -1.5);
         CHECK(near.Sum([&](int x, int) { return x * side; }) / near.Light() > 1.5);
         CHECK(near.Sum([&](int, int y) { return -y * side; }) / near.Light() > 1.5);
       }
-      const Patch middle(kCatsEye, 10, mode, rule, {});
+      const Patch middle(kCatsEye, 10, mode, renderer, {});
       CHECK(std::fabs(middle.Sum([](int x, int) { return x; })) < 1.5 * middle.Light());
     }
   }

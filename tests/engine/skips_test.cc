@@ -90,7 +90,7 @@ TEST_CASE("skips: the same bytes as with all the work done, in every mode") {
     double aperture = random.Int(0, 1) == 0 ? 1 : random.Real(0.02, 1);
     if (mode == SF_MODE_BENCHMARK) aperture /= limit;
     sf_params params = test::Params(focus, aperture, mode);
-    params.rule = random.Int(0, 2);
+    params.renderer = random.Int(0, 2);
     const Refocused skipped = Refocus(scene, config, params, 1);
     const Refocused whole = Refocus(scene, config, params, 0);
     CAPTURE(round);
@@ -127,7 +127,7 @@ TEST_CASE("skips: in frame modes a block in focus is copied, but for what splats
   for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BENCHMARK}) {
     test::Scene scene = ColumnScene(256, 64, 250, 8);
     sf_params params = test::Params(0, 1, mode);
-    params.rule = SF_RULE_PAPER;
+    params.renderer = SF_RENDERER_LINE_SCAN;
     const sf_config config = test::ConfigFor(scene, 8);
     const Refocused picture = Refocus(scene, config, params, 1);
     CHECK(picture.report.skipped.copied_blocks == 3);
@@ -143,7 +143,7 @@ TEST_CASE("skips: with N by (9) shifts of up to a third of a pixel move nothing,
   for (const double radius : {0.1, 0.32, 0.36, 0.4}) {
     const test::Scene scene = test::RandomScene(64, 64, 5, 1, 1, 3);
     sf_params params = test::Params(1 - radius, 1, SF_MODE_BLOCK);
-    params.rule = SF_RULE_PAPER;
+    params.renderer = SF_RENDERER_LINE_SCAN;
     const sf_config config = test::ConfigFor(scene, 8);
     const Refocused skipped = Refocus(scene, config, params, 1);
     const bool copied = skipped.report.skipped.copied_pixels == 64 * 64;

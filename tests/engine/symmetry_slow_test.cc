@@ -87,7 +87,7 @@ TEST_CASE("symmetry: transposed and turned light fields give transposed and turn
       const test::Scene scene = test::RandomScene(size[0], size[1], views, -4, 4, 32);
       for (const Symmetry& s : kTurns) {
         for (sf_params params : {test::Params(0), test::Params(2.6, 0.9)}) {
-          params.rule = SF_RULE_PAPER;  // slices look along rows first
+          params.renderer = SF_RENDERER_LINE_SCAN;  // slices look along rows first
           Check(s, scene, params);
         }
       }
@@ -101,7 +101,7 @@ TEST_CASE("symmetry: also in benchmark mode and on noisy disparity") {
   test::NoisyDisparity(&scene, &random);
   for (const Symmetry& s : kMirrors) Check(s, scene, test::Params(0.4, 1, SF_MODE_BENCHMARK));
   sf_params lines = test::Params(0.4, 1, SF_MODE_BENCHMARK);
-  lines.rule = SF_RULE_PAPER;
+  lines.renderer = SF_RENDERER_LINE_SCAN;
   for (const Symmetry& s : kMirrors) Check(s, scene, lines);
   for (const Symmetry& s : kTurns) Check(s, scene, lines);
 }
@@ -115,7 +115,7 @@ TEST_CASE("symmetry: mirrors with wide subapertures") {
       if (noisy) test::NoisyDisparity(&scene, &random);
       for (const sf_mode mode : {SF_MODE_BLOCK, SF_MODE_FRAME}) {
         sf_params params = test::Params(-12.6, 1, mode);
-        params.rule = SF_RULE_SUBAPERTURE;
+        params.renderer = SF_RENDERER_SLICES;
         for (const Symmetry& s : kMirrors) Check(s, scene, params);
       }
     }
@@ -129,7 +129,7 @@ TEST_CASE("symmetry: turns with wide subapertures, up to the order of rows and c
     for (const sf_mode mode : {SF_MODE_BLOCK, SF_MODE_FRAME}) {
       for (const double focus : {-12.6, 1.3}) {
         sf_params params = test::Params(focus, 1, mode);
-        params.rule = SF_RULE_SUBAPERTURE;
+        params.renderer = SF_RENDERER_SLICES;
         for (const Symmetry& s : kTurns) {
           CAPTURE(s.name);
           CAPTURE(views);

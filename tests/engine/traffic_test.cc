@@ -41,7 +41,7 @@ TEST_CASE("traffic: what is in focus is read once") {
 TEST_CASE("traffic: blocks are read with what lies around them") {
   const test::Scene scene = FlatScene(0.1f);
   sf_params params = test::Params(0, 0.75, SF_MODE_FRAME);
-  params.rule = SF_RULE_SUBAPERTURE;
+  params.renderer = SF_RENDERER_SLICES;
   const sf_report report = test::RefocusScene(scene, Config(scene), params).report;
   // Blocks of 64 and 32 by 64 with the border of blur radius 3: that many columns lie in the
   // picture, and that many rows are read, of which the picture's edges repeat.
@@ -53,7 +53,7 @@ TEST_CASE("traffic: blocks are read with what lies around them") {
 TEST_CASE("traffic: of a map in focus at disparity 4 side views are read beyond the edges only") {
   const test::Scene scene = FlatScene(4);
   sf_params params = test::Params(3, 1, SF_MODE_FRAME);
-  params.rule = SF_RULE_SUBAPERTURE;
+  params.renderer = SF_RENDERER_SLICES;
   const sf_report report = test::RefocusScene(scene, Config(scene), params).report;
   // 4 of the pixels beyond each edge, beside each block, by 2 x 2 pixels of 3 bytes.
   constexpr uint64_t kAlong = 2 * (kWidth + 2 * 9) + 2 * kHeight;

@@ -64,11 +64,11 @@ test::Scene FlatScene(int width, int height, double disparity, const CodeAt& cod
 }
 
 test::Refocused RefocusFlat(const test::Scene& scene, double blur, sf_mode mode,
-                            sf_transfer transfer, sf_rule rule = SF_RULE_DEFAULT) {
+                            sf_transfer transfer, sf_renderer renderer = SF_RENDERER_AUTO) {
   sf_config config = test::ConfigFor(scene, 32);
   config.transfer = transfer;
   sf_params params = test::Params(double(scene.disparity_min) - blur, 1, mode);
-  params.rule = rule;
+  params.renderer = renderer;
   return test::RefocusScene(scene, config, params);
 }
 
@@ -77,11 +77,11 @@ TEST_CASE("transfer: a ramp of dark codes stays monotone, wherever it is focused
   constexpr int kCodes = 41, kStep = 3, kWidth = kCodes * kStep;
   const test::Scene ramp = FlatScene(kWidth, 24, 0, [](int x, int) { return x / kStep; });
   for (const sf_mode mode : kModes) {
-    for (const sf_rule rule : {SF_RULE_PAPER, SF_RULE_SUBAPERTURE}) {
+    for (const sf_renderer renderer : {SF_RENDERER_LINE_SCAN, SF_RENDERER_SLICES}) {
       for (const double blur : {0.0, 0.3, 1.0, 2.5, 5.0, 9.0, 14.0}) {
-        const test::Refocused out = RefocusFlat(ramp, blur, mode, SF_TRANSFER_SRGB, rule);
+        const test::Refocused out = RefocusFlat(ramp, blur, mode, SF_TRANSFER_SRGB, renderer);
         CAPTURE(mode);
-        CAPTURE(rule);
+        CAPTURE(renderer);
         CAPTURE(blur);
         bool monotone = true, survives = true;
         for (int y = 0; y < 24; ++y) {
@@ -108,7 +108,7 @@ TEST_CASE("transfer: half of the light of white is code 188, half of the code 12
     for (const double blur : {6.0, 11.0, 20.0}) {
       // Not by the paper's rule: views about a pixel apart show the board again.
       const auto middle = [&](sf_transfer transfer) {
-        const auto out = RefocusFlat(board, blur, mode, transfer, SF_RULE_SUBAPERTURE);
+        const auto out = RefocusFlat(board, blur, mode, transfer, SF_RENDERER_SLICES);
         return int(out.rgb[3 * (48 * 96 + 48)]);
       };
       CAPTURE(mode);

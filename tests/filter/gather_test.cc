@@ -158,17 +158,17 @@ TEST_CASE(
     "gather: not beyond the largest radius, in focus, in frame modes or by the paper's rule") {
   const test::Scene scene = test::RandomScene(70, 45, 5, 0, 0, 63);
   const sf_config config = test::ConfigFor(scene, 49);
-  const auto gathered = [&](double focus, sf_mode mode, sf_rule rule) {
+  const auto gathered = [&](double focus, sf_mode mode, sf_renderer renderer) {
     sf_params params = test::Params(focus, 1, mode);
-    params.rule = rule;
+    params.renderer = renderer;
     return RefocusScene(scene, config, params).report.gathered_pixels;
   };
-  CHECK(gathered(48.1, SF_MODE_BLOCK, SF_RULE_SUBAPERTURE) == 0);
-  CHECK(gathered(48, SF_MODE_BLOCK, SF_RULE_DEFAULT) == 70 * 45);
-  CHECK(gathered(0.5, SF_MODE_BLOCK, SF_RULE_SUBAPERTURE) == 0);
-  CHECK(gathered(3, SF_MODE_BLOCK, SF_RULE_PAPER) == 0);
-  CHECK(gathered(3, SF_MODE_FRAME, SF_RULE_SUBAPERTURE) == 0);
-  CHECK(gathered(3, SF_MODE_BENCHMARK, SF_RULE_SUBAPERTURE) == 0);
+  CHECK(gathered(48.1, SF_MODE_BLOCK, SF_RENDERER_SLICES) == 0);
+  CHECK(gathered(48, SF_MODE_BLOCK, SF_RENDERER_AUTO) == 70 * 45);
+  CHECK(gathered(0.5, SF_MODE_BLOCK, SF_RENDERER_SLICES) == 0);
+  CHECK(gathered(3, SF_MODE_BLOCK, SF_RENDERER_LINE_SCAN) == 0);
+  CHECK(gathered(3, SF_MODE_FRAME, SF_RENDERER_SLICES) == 0);
+  CHECK(gathered(3, SF_MODE_BENCHMARK, SF_RENDERER_SLICES) == 0);
 }
 
 TEST_CASE("gather: the rows that kernels read of a layer are kept") {

@@ -96,7 +96,7 @@ sf_config MakeConfig(bool strands, Input* input, sf_lens* lens) {
 void SetParams(const sf_config& config, Input* input, sf_params* given) {
   sf_params& params = *given;
   params.mode = input->Rarely() ? input->Value<int32_t>() : input->Int(0, 3);
-  params.rule = input->Rarely() ? input->Value<int32_t>() : input->Int(0, 2);
+  params.renderer = input->Rarely() ? input->Value<int32_t>() : input->Int(0, 2);
   params.lens.focus = input->Real(config.disparity_min, config.disparity_max);
   if (input->Rarely()) params.lens.focus = input->Value<double>();
   params.lens.aperture = input->Real(0, 1);
@@ -319,8 +319,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     const double scale = params.mode == SF_MODE_BENCHMARK ? 2 : config.tuning.n_scale;
     const bool frame = params.mode == SF_MODE_FRAME;
     const bool by_default = params.mode == SF_MODE_BLOCK || (frame && config.views == 1);
-    const bool subapertures =
-        by_default ? params.rule != SF_RULE_PAPER : frame && params.rule == SF_RULE_SUBAPERTURE;
+    const bool subapertures = by_default ? params.renderer != SF_RENDERER_LINE_SCAN
+                                         : frame && params.renderer == SF_RENDERER_SLICES;
     // At most 13 views along the radius stand for subapertures, however wide the blur is.
     const double n = scale * (subapertures ? std::min(config.max_blur, 13.0) : config.max_blur);
     if (3.2 * n * n * config.width * config.height > kMostWork) continue;

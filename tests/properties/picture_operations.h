@@ -25,7 +25,7 @@ constexpr int kWidth = 70, kHeight = 75;  // three superblocks each way
 struct Lens {
   const char* name;
   sf_mode mode;
-  sf_rule rule;
+  sf_renderer renderer;
   double aperture;
   int views;
   float highlights = 1;
@@ -33,23 +33,23 @@ struct Lens {
   bool layered = false;  // or subsampled
 };
 
-constexpr Lens kBlocks = {"blocks", SF_MODE_BLOCK, SF_RULE_SUBAPERTURE, 1, 5};
-constexpr Lens kBlur = {"blur", SF_MODE_BLUR, SF_RULE_DEFAULT, 1, 5};
-constexpr Lens kPaper = {"benchmark, paper", SF_MODE_BENCHMARK, SF_RULE_PAPER, 0.3, 5};
+constexpr Lens kBlocks = {"blocks", SF_MODE_BLOCK, SF_RENDERER_SLICES, 1, 5};
+constexpr Lens kBlur = {"blur", SF_MODE_BLUR, SF_RENDERER_AUTO, 1, 5};
+constexpr Lens kPaper = {"benchmark, paper", SF_MODE_BENCHMARK, SF_RENDERER_LINE_SCAN, 0.3, 5};
 constexpr Lens kLenses[] = {
     kBlocks,
     kBlur,
     kPaper,
-    {"blocks, one view", SF_MODE_BLOCK, SF_RULE_DEFAULT, 0.7, 1},
-    {"blocks, gathered", SF_MODE_BLOCK, SF_RULE_SUBAPERTURE, 1, 5, 1, true},
-    {"blocks, layered", SF_MODE_BLOCK, SF_RULE_SUBAPERTURE, 1, 5, 1, true, true},
-    {"blocks, paper", SF_MODE_BLOCK, SF_RULE_PAPER, 0.5, 9},
-    {"blocks, highlights", SF_MODE_BLOCK, SF_RULE_SUBAPERTURE, 1, 5, 4},
-    {"frame, paper", SF_MODE_FRAME, SF_RULE_PAPER, 0.5, 17},
-    {"frame, one view", SF_MODE_FRAME, SF_RULE_DEFAULT, 1, 1},
-    {"frame, subapertures", SF_MODE_FRAME, SF_RULE_SUBAPERTURE, 1, 9},
-    {"benchmark, slices", SF_MODE_BENCHMARK, SF_RULE_SUBAPERTURE, 0.3, 5},
-    {"pinhole", SF_MODE_BLOCK, SF_RULE_DEFAULT, 0, 5},
+    {"blocks, one view", SF_MODE_BLOCK, SF_RENDERER_AUTO, 0.7, 1},
+    {"blocks, gathered", SF_MODE_BLOCK, SF_RENDERER_SLICES, 1, 5, 1, true},
+    {"blocks, layered", SF_MODE_BLOCK, SF_RENDERER_SLICES, 1, 5, 1, true, true},
+    {"blocks, paper", SF_MODE_BLOCK, SF_RENDERER_LINE_SCAN, 0.5, 9},
+    {"blocks, highlights", SF_MODE_BLOCK, SF_RENDERER_SLICES, 1, 5, 4},
+    {"frame, paper", SF_MODE_FRAME, SF_RENDERER_LINE_SCAN, 0.5, 17},
+    {"frame, one view", SF_MODE_FRAME, SF_RENDERER_AUTO, 1, 1},
+    {"frame, subapertures", SF_MODE_FRAME, SF_RENDERER_SLICES, 1, 9},
+    {"benchmark, slices", SF_MODE_BENCHMARK, SF_RENDERER_SLICES, 0.3, 5},
+    {"pinhole", SF_MODE_BLOCK, SF_RENDERER_AUTO, 0, 5},
 };
 
 // A scene, the frame before it, and an engine that has prepared it.
@@ -69,7 +69,7 @@ struct Picture {
     config.highlights = lens.highlights;
     config.tuning.gather = lens.layered ? 0 : 1;
     params = test::Params(-3, lens.aperture, lens.mode);
-    params.rule = lens.rule;
+    params.renderer = lens.renderer;
     engine = std::make_unique<test::Engine>(config);
     REQUIRE(engine->status() == SF_OK);
     if (setup.kernels != nullptr) test::UseKernels(setup.kernels, engine->get());

@@ -99,7 +99,7 @@ TEST_CASE("progress: whatever a block takes, a million samples are too many to w
     // Every second pixel counts in what is gathered.
     const int radius = gathered ? 12 : 32, size = (gathered ? 1 : 2) * radius + 1;
     sf_params params = test::Params(9 - radius, 1, of.mode);
-    params.rule = of.rule;
+    params.renderer = of.renderer;
     test::Engine engine(config);
     test::Output out(side, side);
     // The kernels, that its first picture makes, are asked between, too.

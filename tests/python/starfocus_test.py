@@ -440,7 +440,7 @@ class Headers(unittest.TestCase):
         return {key: int(value) for key, value in re.findall(r"(\w+)\s*=\s*(\d+)", body)}
 
     def test_enumerations(self):
-        kinds = {"sf_status": "SF_(?:ERROR_)?", "sf_mode": "SF_MODE_", "sf_rule": "SF_RULE_", "sf_shape": "SF_SHAPE_",
+        kinds = {"sf_status": "SF_(?:ERROR_)?", "sf_mode": "SF_MODE_", "sf_renderer": "SF_RENDERER_", "sf_shape": "SF_SHAPE_",
                  "sf_transfer": "SF_TRANSFER_", "sf_format": "SF_FORMAT_", "sf_matrix": "SF_MATRIX_",
                  "sf_range": "SF_RANGE_", "sf_depth_meaning": "SF_DEPTH_"}
         for name, prefix in kinds.items():

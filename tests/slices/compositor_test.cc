@@ -38,7 +38,7 @@ std::vector<int> MiddleRow(const test::Scene& scene, double focus, sf_mode mode,
   config.transfer = SF_TRANSFER_NONE;
   config.tuning.max_layer = layers;
   sf_params params = test::Params(focus, 1, mode);
-  params.rule = SF_RULE_SUBAPERTURE;
+  params.renderer = SF_RENDERER_SLICES;
   const test::Refocused picture = test::RefocusScene(scene, config, params);
   std::vector<int> row;
   for (int x = 0; x < kWidth; ++x) {
@@ -178,7 +178,7 @@ TEST_CASE("stack: once the caller says no, no other tile is made") {
   test::UseKernels(&counting, engine.get());
   test::Output out(256, 256);
   sf_params params = test::Params(0, 1, SF_MODE_FRAME);
-  params.rule = SF_RULE_SUBAPERTURE;
+  params.renderer = SF_RENDERER_SLICES;
   REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
   const int all = ranges_found;
   ranges_found = 0;

@@ -36,8 +36,9 @@ int LayerOf(const sf_report& report) {
 // Whether views stand for wide subapertures; not told of blur mode, whose kernels are others.
 bool UsesSubapertures(const Setup& setup) {
   const sf_params& params = setup.params;
-  if (params.mode != SF_MODE_FRAME || setup.config.views == 1) return params.rule != SF_RULE_PAPER;
-  return params.rule == SF_RULE_SUBAPERTURE;
+  if (params.mode != SF_MODE_FRAME || setup.config.views == 1)
+    return params.renderer != SF_RENDERER_LINE_SCAN;
+  return params.renderer == SF_RENDERER_SLICES;
 }
 
 int MostJump(const Setup& setup, const sf_report& a, const sf_report& b) {

@@ -21,8 +21,9 @@ constexpr Bounds kRegimes[] = {
 
 bool IsLineByLine(const Setup& setup) {
   const sf_params& params = setup.params;
-  return params.rule == SF_RULE_PAPER || params.mode == SF_MODE_BENCHMARK ||
-         (params.mode == SF_MODE_FRAME && params.rule == SF_RULE_DEFAULT && setup.config.views > 1);
+  return params.renderer == SF_RENDERER_LINE_SCAN || params.mode == SF_MODE_BENCHMARK ||
+         (params.mode == SF_MODE_FRAME && params.renderer == SF_RENDERER_AUTO &&
+          setup.config.views > 1);
 }
 
 // Line by line the views are as many as the square of the radius.
@@ -33,7 +34,7 @@ void LimitWork(Setup* setup) {
     return;
   }
   setup->params.mode = SF_MODE_BLOCK;
-  setup->params.rule = SF_RULE_SUBAPERTURE;
+  setup->params.renderer = SF_RENDERER_SLICES;
 }
 
 Setup RandomCase(test::Random* random) {
@@ -52,7 +53,7 @@ Setup RandomCase(test::Random* random) {
       *coefficient = random->Int(0, 2) == 0 ? 0 : random->Next() % (SF_MAX_TIMING + 1);
     }
   }
-  if (setup.params.rule != SF_RULE_PAPER && random->Int(0, 2) == 0) {
+  if (setup.params.renderer != SF_RENDERER_LINE_SCAN && random->Int(0, 2) == 0) {
     test::RandomViews(&setup.scene, &setup.config, random);
   }
   return setup;
@@ -63,7 +64,7 @@ void Distract(const Asked& asked, Rig* rig, test::Random* random) {
   const Setup& setup = asked.setup;
   sf_params params = setup.params;
   params.mode = random->Int(0, 1) == 0 ? SF_MODE_BLOCK : SF_MODE_BLUR;
-  params.rule = SF_RULE_SUBAPERTURE;
+  params.renderer = SF_RENDERER_SLICES;
   params.lens.aperture /= random->Int(1, 4);
   const sf_light_field field = setup.scene.Field();
   test::Output out(setup.scene.width, setup.scene.height);

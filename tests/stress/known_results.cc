@@ -23,7 +23,7 @@ constexpr int kMostInversion = 2;
 // nearly a pinhole.
 double MostOvershoot(const Setup& setup, double radius) {
   const bool steep = setup.params.lens.theta > test::Params(0).lens.theta;
-  if (setup.params.rule != SF_RULE_PAPER && radius >= 4) return steep ? 0.1 : 0.02;
+  if (setup.params.renderer != SF_RENDERER_LINE_SCAN && radius >= 4) return steep ? 0.1 : 0.02;
   return steep ? 0.144 : 0.03;
 }
 

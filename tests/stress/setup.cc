@@ -36,8 +36,8 @@ double Setup::Radius() const {
 
 std::string Setup::Text() const {
   return std::to_string(config.width) + "x" + std::to_string(config.height) + ", " +
-         std::to_string(config.views) + " views, " + kModes[params.mode] + ", rule " +
-         std::to_string(params.rule) + ", disparity [" + Number(config.disparity_min) + ", " +
+         std::to_string(config.views) + " views, " + kModes[params.mode] + ", renderer " +
+         std::to_string(params.renderer) + ", disparity [" + Number(config.disparity_min) + ", " +
          Number(config.disparity_max) + "], focus " + Number(params.lens.focus) + ", aperture " +
          Number(params.lens.aperture) + ", max_blur " + Number(config.max_blur) + ", block " +
          std::to_string(config.largest_block) + ", layers " +
@@ -132,7 +132,7 @@ void FitBlur(Setup* setup) {
 
 void RandomMode(int modes, Setup* setup, test::Random* random) {
   setup->params.mode = random->Int(0, modes - 1);
-  setup->params.rule = random->Int(SF_RULE_DEFAULT, SF_RULE_SUBAPERTURE);
+  setup->params.renderer = random->Int(SF_RENDERER_AUTO, SF_RENDERER_SLICES);
   // The benchmark's number of views grows with the square of twice the radius.
   if (setup->params.mode == SF_MODE_BENCHMARK && setup->Radius() > 4) {
     setup->params.mode = SF_MODE_BLOCK;

@@ -5,7 +5,7 @@
 import assert from 'node:assert/strict';
 import {readFileSync} from 'node:fs';
 import test from 'node:test';
-import {createRefocuser, Mode, Rule, Shape, Transfer} from 'starfocus';
+import {createRefocuser, Mode, Renderer, Shape, Transfer} from 'starfocus';
 
 import {makeIntegerScene, makeLevelScene} from './integer_scene.mjs';
 import {dropAlpha} from './pictures.mjs';
@@ -36,7 +36,7 @@ function readCase(name) {
     return {
       scene: makeLevelScene(block, count, range),
       config: {largestBlock: block, nScale: 0.5},
-      params: {mode: Mode.FRAME, focus: 0, aperture: 1, rule: Rule.SUBAPERTURE}
+      params: {mode: Mode.FRAME, focus: 0, aperture: 1, renderer: Renderer.SLICES}
     };
   }
   const number = '(-?[\\d.]+)', mode = `(${Object.keys(modes).join('|')})`;
@@ -55,7 +55,7 @@ function readCase(name) {
       mode: modes[modeName],
       focus: Number(focus),
       aperture: Number(aperture),
-      rule: Number(block) === 32 ? Rule.PAPER : Rule.DEFAULT,
+      renderer: Number(block) === 32 ? Renderer.LINE_SCAN : Renderer.AUTO,
       ...(shaped && shapes[shaped[1]])
     }
   };

@@ -129,7 +129,7 @@ Error Open(const RefocusOptions& options, LensPlan* plan, Capture* capture) {
 // Checks everything that does not need the map in the picture's size or repaired, which takes long.
 Error Foresee(const RefocusOptions& options, const Capture& capture, LensPlan* plan) {
   const LightField& light_field = capture.light_field;
-  if (Error error = CheckRule(capture.path, *plan, light_field.positions)) return error;
+  if (Error error = CheckRenderer(capture.path, *plan, light_field.positions)) return error;
   if (Error error = CheckRegion(light_field.views[0], plan->region)) return error;
   if (plan->focus_option.empty()) {
     const DefaultFocus focus = FindDefaultFocus(capture);

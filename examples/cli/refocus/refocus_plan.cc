@@ -132,13 +132,15 @@ void AddLensOptions(Command* command, LensOptions* options) {
            "32, 64, 128 or 256; default: 64, for pictures from 1536 pixels wide on 128",
            Choice<int>({{"32", 32}, {"64", 64}, {"128", 128}, {"256", 256}},
                        &options->largest_block)},
-          {"--rule", "paper|subaperture",
-           "How many views a blur needs, and whether they are rendered line by line (paper) "
-           "or show slices; default: paper in frame mode of 5 or more views, else subaperture",
-           Choice<sf_rule>({{"paper", SF_RULE_PAPER}, {"subaperture", SF_RULE_SUBAPERTURE}},
-                           &options->rule)},
+          {"--renderer", "slices|line-scan",
+           "slices: few views that show slices of the scene; line-scan: the paper's views, line by "
+           "line; "
+           "default: slices, but line-scan in frame mode with 5 or more views",
+           Choice<sf_renderer>(
+               {{"slices", SF_RENDERER_SLICES}, {"line-scan", SF_RENDERER_LINE_SCAN}},
+               &options->renderer)},
           {"--n-scale", "X",
-           "0.5 to 2: multiplies the rule's views along the radius; fewer are faster, more "
+           "0.5 to 2: multiplies the views along the radius; fewer are faster, more "
            "closer to the benchmark",
            Number(SF_MIN_N_SCALE, SF_MAX_N_SCALE,
                   "a factor from " + Short(SF_MIN_N_SCALE) + " to " + Short(SF_MAX_N_SCALE),
@@ -187,12 +189,13 @@ void UseFocus(const DefaultFocus& focus, LensPlan* plan) {
   if (!focus.at_pixel) plan->foci = {focus.disparity};
 }
 
-Error CheckRule(const std::string& where, const LensPlan& plan, const Positions& views) {
-  if (plan.options.rule != SF_RULE_PAPER || plan.options.mode == SF_MODE_BLUR || AreStar(views)) {
+Error CheckRenderer(const std::string& where, const LensPlan& plan, const Positions& views) {
+  if (plan.options.renderer != SF_RENDERER_LINE_SCAN || plan.options.mode == SF_MODE_BLUR ||
+      AreStar(views)) {
     return {};
   }
-  return Error::Usage("--rule", "subaperture, as paper needs a star of 1, 5, 9 or 17 views",
-                      "paper for the " + std::to_string(views.size()) + " views of " + where);
+  return Error::Usage("--renderer", "slices, as line-scan needs a star of 1, 5, 9 or 17 views",
+                      "line-scan for the " + std::to_string(views.size()) + " views of " + where);
 }
 
 Error PrepareDisparity(const std::string& where, const FloatMap& map, sf_disparity_stats* stats) {
@@ -275,7 +278,7 @@ EngineTask MakeTask(const LensPlan& plan, const LightField& light_field,
   task.config.highlights = plan.options.highlights;
   sf_params_init(&task.params);
   task.params.mode = plan.options.mode;
-  task.params.rule = plan.options.rule;
+  task.params.renderer = plan.options.renderer;
   task.params.lens = plan.lens;
   task.params.lens.focus = plan.foci[0];
   task.params.lens.aperture = plan.aperture.radius;

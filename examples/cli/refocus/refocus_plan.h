@@ -25,7 +25,7 @@ struct LensOptions {
   std::optional<Pixel> focus_at;
   ApertureOptions aperture;
   sf_mode mode = SF_MODE_BLOCK;
-  sf_rule rule = SF_RULE_DEFAULT;
+  sf_renderer renderer = SF_RENDERER_AUTO;
   Positions views;  // none: all there are
   int threads = 1;
   int largest_block = 0;  // 0: the library chooses
@@ -57,8 +57,8 @@ Error PlanLens(const LensOptions& options, LensPlan* plan);
 Error PlanFocus(const LensOptions& options, LensPlan* plan);
 void UseFocus(const DefaultFocus& focus, LensPlan* plan);
 
-// Checks that the rule is one for these views: the paper's needs a star.
-Error CheckRule(const std::string& where, const LensPlan& plan, const Positions& views);
+// Checks that the renderer is one for these views: line scans need a star.
+Error CheckRenderer(const std::string& where, const LensPlan& plan, const Positions& views);
 
 // Measures a map, which is to have no holes. Errors are about `where`.
 Error PrepareDisparity(const std::string& where, const FloatMap& map, sf_disparity_stats* stats);

@@ -19,14 +19,16 @@ using namespace analysis;
 // What one series of steps measures.
 struct Series {
   sf_mode mode;
-  sf_rule rule;
+  sf_renderer renderer;
   int layer;
   double r_max;      // 0: r itself
   double increment;  // of r
   int largest;       // r
 };
 
-const char* NameOf(sf_rule rule) { return rule == SF_RULE_PAPER ? "paper" : "subaperture"; }
+const char* NameOf(sf_renderer renderer) {
+  return renderer == SF_RENDERER_LINE_SCAN ? "line-scan" : "slices";
+}
 
 // Consecutive steps with the same reason.
 struct Stretch {
@@ -47,9 +49,9 @@ void Extend(const EngineStep& step, const std::string& reason, bool joined,
 }
 
 // The least r, of halves, that a layer is used at: (12), or LayerBySubaperture without depth edges.
-double LeastRadius(sf_rule rule, int layer) {
+double LeastRadius(sf_renderer renderer, int layer) {
   const auto layer_at = [&](double r) {
-    return rule == SF_RULE_PAPER ? LayerByPaper(r) : LayerBySubaperture(r, false);
+    return renderer == SF_RENDERER_LINE_SCAN ? LayerByPaper(r) : LayerBySubaperture(r, false);
   };
   double least = 0;
   while (layer_at(least) < layer) least += 0.5;
@@ -58,10 +60,10 @@ double LeastRadius(sf_rule rule, int layer) {
 
 // Measures one series in the direction of `sign`, from the least r that its layer is used at.
 Error Measure(const Series& series, int sign, Table* table, Table* layers) {
-  const double least = LeastRadius(series.rule, series.layer);
+  const double least = LeastRadius(series.renderer, series.layer);
   if (least > series.largest) return {};
   const int count = static_cast<int>((series.largest - least) / series.increment);
-  std::printf("  layer %d, rule %s, r = %g to %d%s\n", series.layer, NameOf(series.rule),
+  std::printf("  layer %d, renderer %s, r = %g to %d%s\n", series.layer, NameOf(series.renderer),
               least == 0 ? 0 : sign * least, sign * series.largest,
               series.r_max > 0 ? " in a picture whose r_max is that" : "");
   Progress progress("the engine's kernels", count);
@@ -70,7 +72,7 @@ Error Measure(const Series& series, int sign, Table* table, Table* layers) {
   bool joined = false;
   for (int k = 0; k <= count; ++k) {
     const double r = least + k * series.increment;
-    const EngineProbe probe = {sign * r, std::max(r, series.r_max), series.mode, series.rule,
+    const EngineProbe probe = {sign * r, std::max(r, series.r_max), series.mode, series.renderer,
                                series.layer};
     EngineStep step;
     const sf_status status = MeasureStep(probe, &step);
@@ -82,12 +84,12 @@ Error Measure(const Series& series, int sign, Table* table, Table* layers) {
     joined = !reason.empty();
     apart = std::max(apart, step.apart);
     if (step.aliasing > aliasing) aliasing = step.aliasing, aliasing_r = r;
-    table->Row().Add(step.r).Add(step.layer).Add(NameOf(series.rule)).Add(step.n);
+    table->Row().Add(step.r).Add(step.layer).Add(NameOf(series.renderer)).Add(step.n);
     table->Add(step.engine).Add(step.star).Add(step.subapertures).Add(step.paper).Add(step.apart);
     table->Add(reason);
     if (series.layer > 0) {
       const LayerTheory theory = MakeLayerTheory(r, series.layer);
-      layers->Row().Add(step.r).Add(step.layer).Add(NameOf(series.rule)).Add(step.n);
+      layers->Row().Add(step.r).Add(step.layer).Add(NameOf(series.renderer)).Add(step.n);
       layers->Add(step.engine).Add(theory.error).Add(step.aliasing).Add(theory.aliasing);
     }
     progress.Step();
@@ -114,19 +116,19 @@ std::string Panel(const std::string& title, const std::string& table, const std:
          "'' using 1:5 with points pt 7 ps 0.2 lt 2 title 'measured'\n";
 }
 
-// The tables of one rule.
+// The tables of one renderer.
 struct RuleTables {
   Table engine, r_max, engine_layers, layers;
 };
 
-RuleTables MakeTables(sf_rule rule) {
-  const std::string suffix = rule == SF_RULE_PAPER ? "" : "_subapertures";
+RuleTables MakeTables(sf_renderer renderer) {
+  const std::string suffix = renderer == SF_RENDERER_LINE_SCAN ? "" : "_subapertures";
   const std::vector<std::string> columns = {
-      "r",         "L",     "rule",  "N", "sse_engine", "sse_star", "sse_subapertures",
+      "r",         "L",     "renderer", "N", "sse_engine", "sse_star", "sse_subapertures",
       "sse_paper", "apart", "reason"};
   return {Table("engine" + suffix, columns), Table("engine_rmax" + suffix, columns),
           Table("engine_layers" + suffix, columns),
-          Table("layers" + suffix, {"r", "L", "rule", "N", "sse_engine", "sse_theory",
+          Table("layers" + suffix, {"r", "L", "renderer", "N", "sse_engine", "sse_theory",
                                     "alias_engine", "alias_theory"})};
 }
 
@@ -135,16 +137,16 @@ RuleTables MakeTables(sf_rule rule) {
 Result<Figure> AnalyseEngine(int largest) {
   Figure figure = {"engine", 860, 1240, {}, ""};
   std::printf("The running engine: SSE of its kernels against (4), and why where above 1e-3\n");
-  for (const sf_rule rule : {SF_RULE_PAPER, SF_RULE_SUBAPERTURE}) {
-    RuleTables tables = MakeTables(rule);
+  for (const sf_renderer renderer : {SF_RENDERER_LINE_SCAN, SF_RENDERER_SLICES}) {
+    RuleTables tables = MakeTables(renderer);
     for (int layer = 0; layer < SF_LAYERS; ++layer) {
-      const Series series = {SF_MODE_BLOCK, rule, layer, 0, 1.0 / 8, largest};
+      const Series series = {SF_MODE_BLOCK, renderer, layer, 0, 1.0 / 8, largest};
       Table* table = layer == 0 ? &tables.engine : &tables.engine_layers;
       for (const int sign : {1, -1}) {
         if (Error error = Measure(series, sign, table, &tables.layers)) return error;
       }
     }
-    const Series series = {SF_MODE_FRAME, rule, 0, double(largest), 1.0 / 2, largest};
+    const Series series = {SF_MODE_FRAME, renderer, 0, double(largest), 1.0 / 2, largest};
     if (Error error = Measure(series, 1, &tables.r_max, &tables.layers)) return error;
     for (const Table& table : {tables.engine, tables.r_max, tables.engine_layers, tables.layers}) {
       figure.tables.push_back(table);

@@ -75,7 +75,7 @@ SF_API size_t sf_struct_size(const char* name);
 #define SF_MIN_BLADES 3
 #define SF_MAX_BLADES 12
 #define SF_MAX_RING_INNER 0.9
-#define SF_FEATURE_LINE_SCAN 1u /**< the paper's renderer, SF_RULE_PAPER */
+#define SF_FEATURE_LINE_SCAN 1u /**< the paper's renderer, SF_RENDERER_LINE_SCAN */
 #define SF_FEATURE_COVERAGE 2u  /**< hair and other thin structures are parted */
 #define SF_FEATURE_STREAMING 4u /**< sf_stream_*: reserves rings of rows */
 #define SF_FEATURE_IMAGES 8u    /**< formats other than rows of R, G, B and of float disparities */
@@ -127,8 +127,8 @@ typedef struct sf_config {
                             the block's area, from 1.15 MiB at 64 on. sf_report has what 0 chose */
   int32_t max_workers; /**< workers the runner may use, [1, SF_MAX_WORKERS]; default 1 */
   uint32_t features; /**< bits of SF_FEATURE_, what the workspace has memory for; default LINE_SCAN
-                        and COVERAGE. Without LINE_SCAN, SF_RULE_DEFAULT is SUBAPERTURE in all
-                        modes, and SF_RULE_PAPER is refused, SF_ERROR_FEATURE */
+                        and COVERAGE. Without LINE_SCAN, SF_RENDERER_AUTO is SUBAPERTURE in all
+                        modes, and SF_RENDERER_LINE_SCAN is refused, SF_ERROR_FEATURE */
   int32_t previews;  /**< largest sf_params.preview_shift, [0, SF_MAX_PREVIEW]: sf_prepare then
                         keeps the light field at 1/2, 1/4 and 1/8 of its size, up to that; default
                         0: none. The workspace does not grow by it */
@@ -142,7 +142,7 @@ typedef struct sf_config {
   /** Where the `views` captured views lie: each coordinate in [-1, 1], rounded to 1/16384, no two
    *  alike, the first one (0, 0). All 0, the default: where sf_view_position tells. What lies
    *  behind an edge is read from the best view that sees it, and filled where none does.
-   *  SF_RULE_PAPER and starfocus/depth.h need the star. */
+   *  SF_RENDERER_LINE_SCAN and starfocus/depth.h need the star. */
   sf_position positions[SF_MAX_VIEWS];
   sf_tuning tuning; /**< in the structure, so that copies of a configuration need no care */
   /** Where a call with this configuration tells what it refuses; null, the default: nowhere. Calls
@@ -203,26 +203,29 @@ SF_API sf_status sf_create(const sf_config* config, const sf_allocator* allocato
 SF_API void sf_destroy(sf_engine* engine);
 
 typedef enum sf_mode {
-  SF_MODE_FRAME = 0,     /**< one N for the whole picture, from (9) */
-  SF_MODE_BENCHMARK = 1, /**< one N = 2 * ceil(r_max): the paper's objective quality benchmark; the
-                            rule says whether views show fine slices or are rendered line by line */
-  SF_MODE_BLOCK = 2,     /**< blocks of variable size, each with its own N and layer (section V).
-                            Half-band filters of layers 1 and 2 overshoot: a picture may leave the
-                            range of its views' light by 4 % of that range by the rule of
-                            subapertures and 13 % by the paper's, 4 and 40 % through other openings
-                            than the default. With SF_TRANSFER_SRGB dark codes differ by more: 4 %
-                            of white are the codes up to 56. The other modes stay in the range */
+  SF_MODE_FRAME = 0, /**< one N for the whole picture, from (9) */
+  SF_MODE_BENCHMARK =
+      1,             /**< one N = 2 * ceil(r_max): the paper's objective quality benchmark; the
+                        renderer says whether views show fine slices or are rendered line by line */
+  SF_MODE_BLOCK = 2, /**< blocks of variable size, each with its own N and layer (section V).
+                        Half-band filters of layers 1 and 2 overshoot: a picture may leave the
+                        range of its views' light by 4 % of that range with slices and
+                        13 % with line scans, 4 and 40 % through other openings than the
+                        default. With SF_TRANSFER_SRGB dark codes differ by more: 4 %
+                        of white are the codes up to 56. The other modes stay in the range */
   SF_MODE_BLUR = 3 /**< the centre view alone, blurred by (4): up to ten times the time of blocks */
 } sf_mode;
 
-/** How many views a blur radius needs. */
-typedef enum sf_rule {
-  SF_RULE_DEFAULT = 0, /**< PAPER for SF_MODE_FRAME of a star of 5 or more, else SUBAPERTURE */
-  SF_RULE_PAPER = 1, /**< (9): views at most a pixel or so apart, rendered line by line (IV); needs
-                          the star of sf_view_position, else SF_ERROR_FEATURE */
-  SF_RULE_SUBAPERTURE = 2 /**< each view stands for its subaperture, however wide, and shows
-                         slices of the scene */
-} sf_rule;
+/** What renders views, and so how many of them a blur radius needs. */
+typedef enum sf_renderer {
+  SF_RENDERER_AUTO =
+      0, /**< LINE_SCAN for SF_MODE_FRAME of a star of 5 or more views, else SLICES */
+  SF_RENDERER_LINE_SCAN = 1, /**< the paper's: views at most a pixel or so apart (9), rendered line
+                                  by line (IV). Needs SF_FEATURE_LINE_SCAN and the views of
+                                  sf_view_position */
+  SF_RENDERER_SLICES = 2     /**< each view stands for its subaperture, however wide, and shows
+                                  slices of the scene */
+} sf_renderer;
 
 /** A rectangle inside the picture, in pixels; all 0: the whole picture. */
 typedef struct sf_region {
@@ -285,7 +288,7 @@ typedef struct sf_previous {
 typedef struct sf_params {
   uint32_t size;         /**< of the structure in bytes, set by sf_params_init */
   int32_t mode;          /**< sf_mode; default SF_MODE_BLOCK */
-  int32_t rule;          /**< sf_rule; SF_MODE_BLUR ignores it; default SF_RULE_DEFAULT */
+  int32_t renderer;      /**< sf_renderer; SF_MODE_BLUR ignores it; default SF_RENDERER_AUTO */
   sf_region region;      /**< what is written; streaming: all 0; default all 0 */
   sf_lens lens;          /**< what focuses the picture */
   int32_t preview_shift; /**< sf_refocus_prepared: at 1 / 2^shift of the size; default 0 */

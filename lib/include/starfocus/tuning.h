@@ -29,14 +29,14 @@ typedef struct sf_timing {
 typedef struct sf_tuning {
   int32_t max_layer;  /**< largest subsampled layer L of SF_MODE_BLOCK: 0, 1 or 2; default 2 */
   int32_t deblocking; /**< beta of (16), (17) in gray levels, [0, 255]; 0: off; default 35 */
-  int32_t skips;    /**< 1, the default: what sf_skipped counts is left out; 0: all is done, for the
-                         same bytes */
-  int32_t gather;   /**< 1, the default: by SF_RULE_SUBAPERTURE SF_MODE_BLOCK blurs the centre view
-                       itself, with the kernel (4), where one surface is all that lies within reach;
-                       0: it renders views there too */
-  double n_scale;   /**< time against error: multiplies the N of either rule in SF_MODE_BLOCK and
-                         SF_MODE_FRAME, rounded up; the number of views grows with its square;
-                         [SF_MIN_N_SCALE, SF_MAX_N_SCALE]; default 1 */
+  int32_t skips;  /**< 1, the default: what sf_skipped counts is left out; 0: all is done, for the
+                       same bytes */
+  int32_t gather; /**< 1, the default: by SF_RENDERER_SLICES SF_MODE_BLOCK blurs the centre view
+                     itself, with the kernel (4), where one surface is all that lies within reach;
+                     0: it renders views there too */
+  double n_scale; /**< time against error: multiplies the N of either renderer in SF_MODE_BLOCK and
+                       SF_MODE_FRAME, rounded up; the number of views grows with its square;
+                       [SF_MIN_N_SCALE, SF_MAX_N_SCALE]; default 1 */
   sf_timing timing; /**< each coefficient <= SF_MAX_TIMING */
 } sf_tuning;
 

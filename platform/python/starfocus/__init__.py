@@ -10,7 +10,7 @@ Pictures are arrays of uint8 and of the shape (height, width, 3), disparity maps
 `view_positions` tells, or at positions that are given.
 """
 from ._abi import library as _library
-from .constants import (DepthMeaning, Format, Matrix, Mode, Range, Rule, Shape, Status, Transfer)
+from .constants import (DepthMeaning, Format, Matrix, Mode, Range, Renderer, Shape, Status, Transfer)
 from .errors import ArgumentError, Cancelled, DisparityError, OutOfMemory, StarfocusError
 from .folder import read_light_field, read_pfm, read_picture
 from .images import DepthMap, Image
@@ -29,7 +29,7 @@ def simd_target() -> str:
 __all__ = [
     "ArgumentError", "Cancelled", "DepthMap", "DepthMeaning", "DisparityError", "DisparityMap",
     "DisparityStats", "Format", "Image", "Matrix", "Mode", "OutOfMemory", "Prepared", "Range", "Refocuser",
-    "Rule", "Shape", "StarfocusError", "Status", "Transfer", "aperture_of_f_stop", "estimate_disparity",
+    "Renderer", "Shape", "StarfocusError", "Status", "Transfer", "aperture_of_f_stop", "estimate_disparity",
     "fill_disparity", "focus_at", "measure_disparity", "read_light_field", "read_pfm", "read_picture",
     "repair_disparity", "simd_target", "view_positions",
 ]

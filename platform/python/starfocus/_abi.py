@@ -76,7 +76,7 @@ class Params(Structure):
     """sf_params"""
 
     _fields_ = [
-        ("size", c_uint32), ("mode", c_int32), ("rule", c_int32), ("region", Region), ("lens", Lens),
+        ("size", c_uint32), ("mode", c_int32), ("renderer", c_int32), ("region", Region), ("lens", Lens),
         ("preview_shift", c_int32), ("previous", c_void_p),
     ]
 

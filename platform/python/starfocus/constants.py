@@ -12,12 +12,12 @@ class Mode(IntEnum):
     BLUR = 3
 
 
-class Rule(IntEnum):
-    """How many views a blur radius needs: sf_rule."""
+class Renderer(IntEnum):
+    """What renders views, and so how many of them a blur radius needs: sf_renderer."""
 
-    DEFAULT = 0
-    PAPER = 1
-    SUBAPERTURE = 2
+    AUTO = 0
+    LINE_SCAN = 1
+    SLICES = 2
 
 
 class Shape(IntEnum):

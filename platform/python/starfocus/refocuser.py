@@ -15,7 +15,7 @@ from . import _abi
 from ._calls import (Pool, ProgressFunction, RegionOfPicture, Views, Watch, aligned, as_image, as_list, light_field,
                      output, part_of, pointer, positions_of, set_coverage, set_field, whole)
 from ._abi import library
-from .constants import Mode, Rule, Status
+from .constants import Mode, Renderer, Status
 from .errors import ArgumentError, check
 from .images import DepthMap, Image
 from .maps import measure_disparity
@@ -108,7 +108,7 @@ class Refocuser:
         return self._pool.workers
 
     def refocus(self, views: Views, disparity: Disparity, *, focus: float, aperture: float = 1.0,
-                coverage: Optional[np.ndarray] = None, mode: Mode = Mode.BLOCK, rule: Rule = Rule.DEFAULT,
+                coverage: Optional[np.ndarray] = None, mode: Mode = Mode.BLOCK, renderer: Renderer = Renderer.AUTO,
                 region: Optional[RegionOfPicture] = None, out: Optional[Picture] = None,
                 progress: Optional[ProgressFunction] = None, **lens: Any) -> Picture:
         """The picture that a lens of the radius `aperture`, from 0 to 1, focused at the disparity `focus`
@@ -132,7 +132,7 @@ class Refocuser:
         field, kept = light_field(views, disparity, self._config.views, self.height, self.width)
         kept += set_coverage(field, coverage, self.height, self.width)
         *_, width, height = part_of(region, self.width, self.height)
-        params = self._params(mode, rule, region, focus=focus, aperture=aperture, **lens)
+        params = self._params(mode, renderer, region, focus=focus, aperture=aperture, **lens)
         return self._picture(params, out, (height, width), progress, library.sf_refocus, byref(field), keep=kept)
 
     def prepare(self, views: Views, disparity: Disparity, *, coverage: Optional[np.ndarray] = None,
@@ -153,11 +153,11 @@ class Refocuser:
         del keep
         return picture
 
-    def _params(self, mode: Mode, rule: Rule, region: Optional[RegionOfPicture], **lens: Any) -> _abi.Params:
+    def _params(self, mode: Mode, renderer: Renderer, region: Optional[RegionOfPicture], **lens: Any) -> _abi.Params:
         params = _abi.Params()
         library.sf_params_init_sized(byref(params), ctypes.sizeof(params))
         set_field(params, "mode", mode)
-        set_field(params, "rule", rule)
+        set_field(params, "renderer", renderer)
         known = {field[0] for field in _abi.Lens._fields_}
         for name, value in lens.items():
             if name not in known:
@@ -202,17 +202,17 @@ class Prepared:
                        byref(self._handle))
 
     def refocus(self, *, focus: float, aperture: float = 1.0, mode: Mode = Mode.BLOCK,
-                rule: Rule = Rule.DEFAULT, region: Optional[RegionOfPicture] = None, out: Optional[Picture] = None,
+                renderer: Renderer = Renderer.AUTO, region: Optional[RegionOfPicture] = None, out: Optional[Picture] = None,
                 progress: Optional[ProgressFunction] = None, **lens: Any) -> Picture:
         """As Refocuser.refocus of the light field, with the same bytes."""
         # pylint: disable=protected-access
         *_, width, height = part_of(region, self._refocuser.width, self._refocuser.height)
-        params = self._refocuser._params(mode, rule, region, focus=focus, aperture=aperture, **lens)
+        params = self._refocuser._params(mode, renderer, region, focus=focus, aperture=aperture, **lens)
         return self._refocuser._picture(params, out, (height, width), progress, library.sf_refocus_prepared,
                                         self._handle, keep=self._kept)
 
     def preview(self, shift: int, *, focus: float, aperture: float = 1.0, mode: Mode = Mode.BLOCK,
-                rule: Rule = Rule.DEFAULT, region: Optional[RegionOfPicture] = None, out: Optional[Picture] = None,
+                renderer: Renderer = Renderer.AUTO, region: Optional[RegionOfPicture] = None, out: Optional[Picture] = None,
                 progress: Optional[ProgressFunction] = None, **lens: Any) -> Picture:
         """As `refocus` at 1 / 2**shift of the size, from 1 to the `previews` of the refocuser's
         configuration. Focus and region are in pixels of the full size; the picture has the pixels that
@@ -223,7 +223,7 @@ class Prepared:
             raise ArgumentError(Status.PREPARED, _abi.Problem(Status.PREPARED, 0, b"shift", b"1 to previews", shift))
         side = 1 << shift
         size = -(-(y + height) // side) - y // side, -(-(x + width) // side) - x // side
-        params = self._refocuser._params(mode, rule, region, focus=focus, aperture=aperture, **lens)
+        params = self._refocuser._params(mode, renderer, region, focus=focus, aperture=aperture, **lens)
         params.preview_shift = shift
         return self._refocuser._picture(params, out, size, progress, library.sf_refocus_prepared, self._handle,
                                         keep=self._kept)

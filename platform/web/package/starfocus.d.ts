@@ -14,7 +14,7 @@
 /** How the picture is made; default BLOCK. */
 export declare const Mode: {readonly FRAME: 0, readonly BENCHMARK: 1, readonly BLOCK: 2, readonly BLUR: 3};
 /** How many views a blur needs. */
-export declare const Rule: {readonly DEFAULT: 0, readonly PAPER: 1, readonly SUBAPERTURE: 2};
+export declare const Renderer: {readonly AUTO: 0, readonly LINE_SCAN: 1, readonly SLICES: 2};
 /** The opening of the lens; default FALL_OFF. */
 export declare const Shape: {readonly FALL_OFF: 0, readonly DISC: 1, readonly POLYGON: 2, readonly RING: 3};
 /** How the codes of a picture stand for light; default SRGB. */
@@ -91,7 +91,7 @@ export interface Params extends Call {
   ringInner?: number;
   catsEye?: number;
   mode?: 0 | 1 | 2 | 3;
-  rule?: 0 | 1 | 2;
+  renderer?: 0 | 1 | 2;
   /** Only this part of the picture, in its pixels; four zeros: the whole picture. */
   region?: {x: number, y: number, width: number, height: number};
   /** True: the picture has a list of its blocks, of the first 65536 of them. */

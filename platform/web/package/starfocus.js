@@ -6,7 +6,7 @@ import {canShare, countCores, listen, startWorker} from './host.js';
 import {checkCoverage, checkViews, readDepth} from './light_field.js';
 
 export const Mode = {FRAME: 0, BENCHMARK: 1, BLOCK: 2, BLUR: 3};
-export const Rule = {DEFAULT: 0, PAPER: 1, SUBAPERTURE: 2};
+export const Renderer = {AUTO: 0, LINE_SCAN: 1, SLICES: 2};
 export const Shape = {FALL_OFF: 0, DISC: 1, POLYGON: 2, RING: 3};
 export const Transfer = {SRGB: 0, NONE: 1};
 

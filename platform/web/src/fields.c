@@ -47,7 +47,7 @@ static const Field kConfigFields[] = {
 };
 
 static const Field kParamsFields[] = {
-    PARAMS(mode, kInt32),     PARAMS(rule, kInt32),         PARAMS(region.x, kInt32),
+    PARAMS(mode, kInt32),     PARAMS(renderer, kInt32),     PARAMS(region.x, kInt32),
     PARAMS(region.y, kInt32), PARAMS(region.width, kInt32), PARAMS(region.height, kInt32),
     LENS(focus, kDouble),     LENS(aperture, kDouble),      LENS(shape, kInt32),
     LENS(blades, kInt32),     LENS(theta, kDouble),         LENS(rotation, kDouble),

@@ -68,7 +68,7 @@ constexpr Field kConfigFields[] = {
 
 constexpr Field kParamsFields[] = {
     {"mode", FieldType::kInt32, offsetof(sf_params, mode)},
-    {"rule", FieldType::kInt32, offsetof(sf_params, rule)},
+    {"renderer", FieldType::kInt32, offsetof(sf_params, renderer)},
     {"focus", FieldType::kDouble, offsetof(sf_params, lens.focus)},
     {"aperture", FieldType::kDouble, offsetof(sf_params, lens.aperture)},
     {"shape", FieldType::kInt32, offsetof(sf_params, lens.shape)},

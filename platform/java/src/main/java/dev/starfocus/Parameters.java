@@ -8,9 +8,9 @@ package dev.starfocus;
 public final class Parameters {
   public static final int MODE_FRAME = 0, MODE_BENCHMARK = 1, MODE_BLOCK = 2, MODE_BLUR = 3;
   public static final int SHAPE_FALL_OFF = 0, SHAPE_DISC = 1, SHAPE_POLYGON = 2, SHAPE_RING = 3;
-  public static final int RULE_DEFAULT = 0, RULE_PAPER = 1, RULE_SUBAPERTURE = 2;
+  public static final int RENDERER_AUTO = 0, RENDERER_LINE_SCAN = 1, RENDERER_SLICES = 2;
 
-  public int mode, rule;
+  public int mode, renderer;
   /** Disparity in focus. */
   public double focus;
   /** Radius of the lens, from 0 (the centre view itself) to 1, the default. */
