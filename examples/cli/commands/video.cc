@@ -127,7 +127,7 @@ Error Scan(const VideoOptions& options, LensPlan* plan, Video* video) {
   const auto chosen = ChooseViewFiles(video->folders[0], plan->options.views);
   if (!chosen) return chosen.error();
   for (const ViewFile& file : *chosen) video->views.push_back(file.position);
-  if (Error error = CheckRule(video->folders[0], *plan, video->views)) return error;
+  if (Error error = CheckRenderer(video->folders[0], *plan, video->views)) return error;
   for (size_t i = 0; i < video->folders.size(); ++i) {
     const std::string& folder = video->folders[i];
     sf_disparity_stats stats = {};
