@@ -47,14 +47,15 @@ using Chip = std::unique_ptr<gpiod_chip, CloseChip>;
 
 int LineCount(gpiod_chip* chip);
 
-Error OpenChip(const std::string& name, Chip* chip) {
+Result<Chip> OpenChip(const std::string& name) {
   const std::string path = ChipPath(name);
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) {
     return Expected(path, "a GPIO chip (--list shows them)", "nothing");
   }
-  chip->reset(gpiod_chip_open(path.c_str()));
-  return *chip == nullptr ? Failure(path, "a GPIO chip (--list shows them)") : Error();
+  Chip chip(gpiod_chip_open(path.c_str()));
+  if (chip == nullptr) return Failure(path, "a GPIO chip (--list shows them)");
+  return chip;
 }
 
 Error CheckLine(const std::string& chip_name, gpiod_chip* chip, int line) {
@@ -141,21 +142,21 @@ struct FreeBuffer {
 
 }  // namespace
 
-Error ListGpioChips(std::vector<GpioChip>* chips) {
+Result<std::vector<GpioChip>> ListGpioChips() {
   std::vector<std::string> paths;
   std::error_code failure;
   for (const auto& entry : std::filesystem::directory_iterator("/dev", failure)) {
     if (entry.path().filename().string().rfind("gpiochip", 0) == 0) paths.push_back(entry.path());
   }
   std::sort(paths.begin(), paths.end());
+  std::vector<GpioChip> chips;
   Error error;
   for (const std::string& path : paths) {
-    Chip chip;
-    const Error refused = OpenChip(path, &chip);
-    if (!refused) chips->push_back(Describe(chip.get()));
-    if (!error) error = refused;
+    const Result<Chip> chip = OpenChip(path);
+    if (chip) chips.push_back(Describe(chip->get()));
+    if (!error) error = chip.error();
   }
-  if (!chips->empty()) return {};
+  if (!chips.empty()) return chips;
   return error ? error : Expected("/dev", "a GPIO chip (gpiochip0, ...)", "none");
 }
 
@@ -182,7 +183,9 @@ struct GpioOutput::Line {
 Error GpioInputs::Open(const std::string& chip, const std::vector<int>& lines, GpioBias bias) {
   auto opened = std::make_unique<Lines>();
   opened->name = ChipPath(chip);
-  if (Error error = OpenChip(chip, &opened->chip)) return error;
+  Result<Chip> own = OpenChip(chip);
+  if (!own) return own.error();
+  opened->chip = std::move(*own);
   gpiod_line_bulk_init(&opened->bulk);
   for (const int line : lines) {
     if (Error error = CheckLine(chip, opened->chip.get(), line)) return error;
@@ -237,7 +240,9 @@ Error GpioInputs::Wait(int timeout, std::vector<GpioEdge>* edges) {
 Error GpioOutput::Open(const std::string& chip, int line) {
   auto opened = std::make_unique<Line>();
   opened->name = LineName(chip, line);
-  if (Error error = OpenChip(chip, &opened->chip)) return error;
+  Result<Chip> own = OpenChip(chip);
+  if (!own) return own.error();
+  opened->chip = std::move(*own);
   if (Error error = CheckLine(chip, opened->chip.get(), line)) return error;
   opened->line = gpiod_chip_get_line(opened->chip.get(), static_cast<unsigned>(line));
   if (opened->line == nullptr || gpiod_line_request_output(opened->line, kConsumer, 0) != 0) {
@@ -278,7 +283,9 @@ struct GpioOutput::Line {
 Error GpioInputs::Open(const std::string& chip, const std::vector<int>& lines, GpioBias bias) {
   auto opened = std::make_unique<Lines>();
   opened->name = ChipPath(chip);
-  if (Error error = OpenChip(chip, &opened->chip)) return error;
+  Result<Chip> own = OpenChip(chip);
+  if (!own) return own.error();
+  opened->chip = std::move(*own);
   std::string names;
   for (const int line : lines) {
     if (Error error = CheckLine(chip, opened->chip.get(), line)) return error;
@@ -334,7 +341,9 @@ Error GpioOutput::Open(const std::string& chip, int line) {
   auto opened = std::make_unique<Line>();
   opened->name = LineName(chip, line);
   opened->offset = static_cast<unsigned>(line);
-  if (Error error = OpenChip(chip, &opened->chip)) return error;
+  Result<Chip> own = OpenChip(chip);
+  if (!own) return own.error();
+  opened->chip = std::move(*own);
   if (Error error = CheckLine(chip, opened->chip.get(), line)) return error;
   gpiod_line_settings* settings = gpiod_line_settings_new();
   if (settings != nullptr) {

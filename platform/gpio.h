@@ -19,8 +19,8 @@ struct GpioChip {
   int lines;
 };
 
-// Every chip this user may open, and an error when there is none.
-Error ListGpioChips(std::vector<GpioChip>* chips);
+// Every chip this user may open; an error when there is none.
+Result<std::vector<GpioChip>> ListGpioChips();
 
 enum class GpioBias { kAsIs, kPullUp, kPullDown };
 

@@ -114,8 +114,7 @@ bool HasDisparity(const std::string& folder) {
   return fs::exists(DisparityPath(folder), error);
 }
 
-Error LoadViewFiles(const std::vector<ViewFile>& files, LightField* light_field,
-                    ThreadRunner* runner) {
+Result<LightField> LoadViewFiles(const std::vector<ViewFile>& files, ThreadRunner* runner) {
   LoadJob load = {files,
                   std::vector<Result<Image>>(files.size(), Image()),
                   {"reading views", static_cast<int64_t>(files.size())}};
@@ -136,14 +135,13 @@ Error LoadViewFiles(const std::vector<ViewFile>& files, LightField* light_field,
                       SizeText(view.width, view.height));
     }
   }
-  *light_field = std::move(result);
-  return {};
+  return result;
 }
 
-Error LoadCaptured(const std::string& folder, const Positions& wanted, LightField* light_field,
-                   ThreadRunner* runner) {
+Result<LightField> LoadCaptured(const std::string& folder, const Positions& wanted,
+                                ThreadRunner* runner) {
   const Result<std::vector<ViewFile>> files = ChooseViewFiles(folder, wanted);
-  return files ? LoadViewFiles(*files, light_field, runner) : files.error();
+  return files ? LoadViewFiles(*files, runner) : files.error();
 }
 
 Error LoadMap(const std::string& path, LightField* light_field) {
@@ -188,15 +186,15 @@ Error LoadCoverage(const std::string& path, LightField* light_field) {
   return {};
 }
 
-Error LoadLightField(const std::string& folder, const Positions& wanted, LightField* light_field,
-                     ThreadRunner* runner) {
-  LightField result;
-  Error error = LoadCaptured(folder, wanted, &result, runner);
-  if (!error) error = LoadMap(DisparityPath(folder), &result);
+Result<LightField> LoadLightField(const std::string& folder, const Positions& wanted,
+                                  ThreadRunner* runner) {
+  Result<LightField> result = LoadCaptured(folder, wanted, runner);
+  if (!result) return result;
+  if (Error error = LoadMap(DisparityPath(folder), &*result)) return error;
   const std::string coverage = CoveragePath(folder);
-  if (!error && !coverage.empty()) error = LoadCoverage(coverage, &result);
-  if (!error) *light_field = std::move(result);
-  return error;
+  if (coverage.empty()) return result;
+  if (Error error = LoadCoverage(coverage, &*result)) return error;
+  return result;
 }
 
 Error SaveLightField(const std::string& folder, const LightField& light_field,

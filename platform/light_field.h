@@ -45,12 +45,12 @@ bool HasDisparity(const std::string& folder);
 // Loads the views at these positions, or all of the folder's if there are none, without the map.
 // All sizes must agree. Here and below views are decoded several at a time on `runner`; null: one
 // after the other.
-Error LoadCaptured(const std::string& folder, const Positions& wanted, LightField* light_field,
-                   ThreadRunner* runner = nullptr);
+Result<LightField> LoadCaptured(const std::string& folder, const Positions& wanted,
+                                ThreadRunner* runner = nullptr);
 
 // Loads these views without a map. All sizes must agree.
-Error LoadViewFiles(const std::vector<ViewFile>& files, LightField* light_field,
-                    ThreadRunner* runner = nullptr);
+Result<LightField> LoadViewFiles(const std::vector<ViewFile>& files,
+                                 ThreadRunner* runner = nullptr);
 
 // Loads the map of views that are there, of the same size.
 Error LoadMap(const std::string& path, LightField* light_field);
@@ -66,8 +66,8 @@ std::string CoveragePath(const std::string& folder);
 Error LoadCoverage(const std::string& path, LightField* light_field);
 
 // Loads these views, the disparity map and the coverage, if there is some, of the same size.
-Error LoadLightField(const std::string& folder, const Positions& wanted, LightField* light_field,
-                     ThreadRunner* runner = nullptr);
+Result<LightField> LoadLightField(const std::string& folder, const Positions& wanted,
+                                  ThreadRunner* runner = nullptr);
 
 // Makes the folder if needed and writes PNG views, several at a time on `runner`, and the coverage
 // and the disparity map if there are any.

@@ -181,12 +181,11 @@ class Board {
 };
 
 Error List() {
-  std::vector<GpioChip> chips;
-  const Error error = ListGpioChips(&chips);
-  for (const GpioChip& chip : chips) {
+  const Result<std::vector<GpioChip>> chips = ListGpioChips();
+  for (const GpioChip& chip : *chips) {
     std::printf("%s: %s, %d lines\n", chip.name.c_str(), chip.label.c_str(), chip.lines);
   }
-  return error;
+  return chips.error();
 }
 
 Error Run(const Options& options) {

@@ -15,7 +15,9 @@ void Camera::FreeAligned::operator()(void* memory) const {
 }
 
 Error Camera::Load(const std::string& folder, sf_mode mode) {
-  if (Error error = LoadLightField(folder, {}, &light_field_)) return error;
+  Result<LightField> loaded = LoadLightField(folder, {});
+  if (!loaded) return loaded.error();
+  light_field_ = std::move(*loaded);
   FloatMap& map = light_field_.disparity;
   const size_t stride = sizeof(float) * size_t(map.width);
   sf_status status = sf_fill_disparity(map.values.data(), stride, map.width, map.height);

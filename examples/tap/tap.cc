@@ -36,10 +36,12 @@ struct Options {
 Error Open(const Options& options, ThreadRunner* runner, LightField* field, Pixel* first,
            Pixel* second) {
   if (!options.folder.empty()) {
-    const Error error = LoadLightField(options.folder, {}, field);
+    Result<LightField> loaded = LoadLightField(options.folder, {});
+    if (!loaded) return loaded.error();
+    *field = std::move(*loaded);
     *first = {field->width() / 2, field->height() / 2};
     *second = {field->width() / 8, field->height() / 8};
-    return error;
+    return {};
   }
   const Scene scene = MakePortrait();
   const RayTracer renderer(scene, options.size.x, options.size.y, SF_TRANSFER_SRGB, runner);

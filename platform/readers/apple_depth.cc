@@ -24,9 +24,9 @@ bool IsMap(const std::string& type) { return type == "disparity" || type == "dep
 XmpNode ReadPackets(const JpegParts& parts) {
   XmpNode root;
   for (const Span& packet : parts.xmp) {
-    XmpNode node;
     const char* text = reinterpret_cast<const char*>(packet.data);
-    if (!ParseXmp("", text, packet.size, &node)) root.children.push_back(std::move(node));
+    Result<XmpNode> node = ParseXmp("", text, packet.size);
+    if (node) root.children.push_back(std::move(*node));
   }
   return root;
 }

@@ -54,8 +54,9 @@ Error OpenOwn(const std::string& folder, const Names& names, Capture* capture) {
 }
 
 Error OpenArray(const std::string& folder, const Names& pictures, Capture* capture) {
-  ViewArray array;
-  if (Error error = FindArray(folder, pictures, &array)) return error;
+  Result<ViewArray> found = FindArray(folder, pictures);
+  if (!found) return found.error();
+  ViewArray& array = *found;
   if (array.paths.empty()) {
     return Expected(
         folder,
@@ -66,11 +67,11 @@ Error OpenArray(const std::string& folder, const Names& pictures, Capture* captu
   const bool stanford = IsStanford(pictures[0]) && array.rows > 1;
   capture->format = stanford ? "Stanford light field" : "rows and columns of views";
   if (stanford) OrderStanford(&array);
-  Star star;
-  Error error = ChooseStar(folder, array, &star, &capture->facts);
-  capture->files = std::move(star.views);
+  Result<Star> star = ChooseStar(folder, array, &capture->facts);
+  if (!star) return star.error();
+  capture->files = std::move(star->views);
   if (HasDisparity(folder)) capture->map_path = DisparityPath(folder);
-  return error;
+  return {};
 }
 
 Error OpenFolder(const std::string& folder, Capture* capture) {
@@ -165,29 +166,29 @@ Error LoadViews(const Positions& wanted, Capture* capture, ThreadRunner* runner)
     SelectViews(*chosen, &capture->light_field);
     return {};
   }
-  Error error = LoadViewFiles(*chosen, &capture->light_field, runner);
-  return !error && !capture->map_path.empty() ? LoadMapOf(capture) : error;
+  Result<LightField> loaded = LoadViewFiles(*chosen, runner);
+  if (!loaded) return loaded.error();
+  capture->light_field = std::move(*loaded);
+  return capture->map_path.empty() ? Error() : LoadMapOf(capture);
 }
 
 }  // namespace
 
-Error OpenCapture(const std::string& path, const CaptureOptions& options, Capture* capture) {
+Result<Capture> OpenCapture(const std::string& path, const CaptureOptions& options) {
   try {
-    Capture result;
-    result.path = InputName(path);
-    std::error_code failure;
-    if (path == "-") {
-      Error error = OpenPhoto(path, options, &result);
-      if (!error) *capture = std::move(result);
-      return error;
+    bool folder = false;
+    if (path != "-") {
+      std::error_code failure;
+      const fs::file_status status = fs::status(path, failure);
+      if (Error error = CheckPlainFile(path)) return error;
+      if (!fs::exists(status)) return Cannot("read", path, failure);
+      folder = fs::is_directory(status);
     }
-    const fs::file_status status = fs::status(path, failure);
-    if (Error error = CheckPlainFile(path)) return error;
-    if (!fs::exists(status)) return Cannot("read", path, failure);
-    Error error =
-        fs::is_directory(status) ? OpenFolder(path, &result) : OpenPhoto(path, options, &result);
-    if (!error) *capture = std::move(result);
-    return error;
+    Capture capture;
+    capture.path = InputName(path);
+    Error error = folder ? OpenFolder(path, &capture) : OpenPhoto(path, options, &capture);
+    if (error) return error;
+    return capture;
   } catch (const std::bad_alloc&) {
     return OutOfMemory(path, "read it");
   }

@@ -46,7 +46,7 @@ struct Capture {
 // Finds out what `path` is; "-" is a photograph on standard input. Of a photograph everything is
 // read, of a folder its list of files and what lies beside the pictures. The error says what was
 // found and what is missing.
-Error OpenCapture(const std::string& path, const CaptureOptions& options, Capture* capture);
+Result<Capture> OpenCapture(const std::string& path, const CaptureOptions& options);
 
 // Reads the views at the positions wanted, or all if none are, and the map and the coverage if
 // there are any. Views are decoded several at a time on `runner`; null: one after the other.

@@ -35,11 +35,9 @@ void IgnoreXmp(const Error& error, DepthPhoto* photo) {
 // Adds a packet to those under `root`. A packet that cannot be read is ignored, which a note says.
 void AddPacket(const std::string& name, const char* text, size_t size, XmpNode* root,
                DepthPhoto* photo) {
-  XmpNode packet;
-  if (Error error = ParseXmp(name + " is ignored", text, size, &packet)) {
-    return IgnoreXmp(error, photo);
-  }
-  root->children.push_back(std::move(packet));
+  Result<XmpNode> packet = ParseXmp(name + " is ignored", text, size);
+  if (!packet) return IgnoreXmp(packet.error(), photo);
+  root->children.push_back(std::move(*packet));
 }
 
 // Reads the packets of a JPEG file: those of its segments, and then the extended ones that they
@@ -57,11 +55,11 @@ XmpNode ReadXmp(const JpegParts& parts, bool all, DepthPhoto* photo) {
   for (size_t k = 0; k < parts.extensions.size() && all; ++k)
     names.insert(parts.extensions[k].guid);
   for (const std::string& name : names) {
-    std::string text;
-    if (Error error = JoinExtensions("the extended XMP is ignored", parts, name, &text)) {
-      IgnoreXmp(error, photo);
+    const auto text = JoinExtensions("the extended XMP is ignored", parts, name);
+    if (text) {
+      AddPacket("the extended XMP", text->data(), text->size(), &root, photo);
     } else {
-      AddPacket("the extended XMP", text.data(), text.size(), &root, photo);
+      IgnoreXmp(text.error(), photo);
     }
   }
   return root;
@@ -81,13 +79,13 @@ void ReadMap(Span file, const JpegParts& parts, const XmpNode& xmp, Near near, D
 
 Error DecodeJpegPhoto(const std::string& where, Span file, bool with_map, Near near,
                       DepthPhoto* photo) {
-  JpegParts parts;
-  if (Error error = ReadJpegParts(where, file, &parts)) return error;
-  if (Error error = ReadJpegPicture(where, file, parts, photo)) return error;
-  const XmpNode xmp = ReadXmp(parts, false, photo);
+  const Result<JpegParts> parts = ReadJpegParts(where, file);
+  if (!parts) return parts.error();
+  if (Error error = ReadJpegPicture(where, file, *parts, photo)) return error;
+  const XmpNode xmp = ReadXmp(*parts, false, photo);
   photo->metadata.xmp = KeptXmp(xmp);
   if (FindProperty(xmp, kGainMap) != nullptr) photo->facts.emplace_back("gain map", "left out");
-  if (with_map) ReadMap(file, parts, xmp, near, photo);
+  if (with_map) ReadMap(file, *parts, xmp, near, photo);
   return {};
 }
 
@@ -105,12 +103,11 @@ Error CheckOptions(const std::string& path, const DepthOptions& options) {
 // Reads the map from extended XMP that no packet names, as an editor leaves it that writes the
 // packet anew. By the specification it does not count, so that every other map comes first.
 bool ReadStrayMap(Span file, Near near, DepthPhoto* photo) {
-  JpegParts parts;
-  if (!IsJpeg(file) || ReadJpegParts("", file, &parts) || parts.extensions.empty()) {
-    return false;
-  }
+  if (!IsJpeg(file)) return false;
+  const Result<JpegParts> parts = ReadJpegParts("", file);
+  if (!parts || parts->extensions.empty()) return false;
   DepthPhoto ignored;
-  const XmpNode xmp = ReadXmp(parts, true, &ignored);
+  const XmpNode xmp = ReadXmp(*parts, true, &ignored);
   if (!HasGdepth(xmp) || ReadGdepth(xmp, near, photo)) {
     photo->map = {};
     return false;
@@ -132,11 +129,9 @@ void KeepCaptions(DepthPhoto* photo) {
   const std::string packet = std::move(photo->metadata.xmp);
   photo->metadata.xmp.clear();
   if (packet.empty() || !CanReadXmp()) return;
-  XmpNode root;
-  if (Error error = ParseXmp("the XMP", packet.data(), packet.size(), &root)) {
-    return IgnoreXmp(error, photo);
-  }
-  photo->metadata.xmp = KeptXmp(root);
+  const Result<XmpNode> root = ParseXmp("the XMP", packet.data(), packet.size());
+  if (!root) return IgnoreXmp(root.error(), photo);
+  photo->metadata.xmp = KeptXmp(*root);
 }
 
 // Notes why the map in the file is not used, unless a note says so already.

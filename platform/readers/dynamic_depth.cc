@@ -42,7 +42,8 @@ size_t LengthOf(const XmpNode& node, const std::string& name, size_t file) {
   return static_cast<size_t>(value);
 }
 
-Error ReadItems(Span file, const XmpNode& xmp, std::vector<Item>* items) {
+Result<std::vector<Item>> ReadItems(Span file, const XmpNode& xmp) {
+  std::vector<Item> items;
   for (const std::string& space : kItems) {
     std::vector<const XmpNode*> nodes;
     FindOwners(xmp, space + "Mime", &nodes);
@@ -51,14 +52,14 @@ Error ReadItems(Span file, const XmpNode& xmp, std::vector<Item>* items) {
                       std::to_string(nodes.size()));
     }
     for (const XmpNode* node : nodes) {
-      items->push_back({TextOf(*node, space + "Mime"), TextOf(*node, space + "DataURI"),
-                        TextOf(*node, space + "Semantic"),
-                        LengthOf(*node, space + "Length", file.size),
-                        LengthOf(*node, space + "Padding", file.size)});
+      items.push_back({TextOf(*node, space + "Mime"), TextOf(*node, space + "DataURI"),
+                       TextOf(*node, space + "Semantic"),
+                       LengthOf(*node, space + "Length", file.size),
+                       LengthOf(*node, space + "Padding", file.size)});
     }
-    if (!items->empty()) return {};
+    if (!items.empty()) break;
   }
-  return {};
+  return items;
 }
 
 bool BeginsPicture(Span file) {
@@ -156,8 +157,9 @@ bool HasDynamicDepth(const XmpNode& xmp) {
 Error ReadDynamicDepth(Span file, const JpegParts& parts, const XmpNode& xmp, Near near,
                        DepthPhoto* photo) {
   const XmpNode* map = FindMap(xmp);
-  std::vector<Item> items;
-  if (Error error = ReadItems(file, xmp, &items)) return error;
+  const Result<std::vector<Item>> listed = ReadItems(file, xmp);
+  if (!listed) return listed.error();
+  const std::vector<Item>& items = *listed;
   const size_t index =
       FindDepth(items, map == nullptr ? nullptr : OwnProperty(*map, kMap + "DepthURI"));
   Span data;

@@ -28,8 +28,9 @@ bool Has(const std::vector<std::string>& names, const std::string& name) {
 // The f-stop of the lens whose rim the outermost views lie on: focal length over twice their
 // distance from the centre.
 Error ReadParameters(const std::string& path, int reach, Capture* capture) {
-  KeyValues values;
-  if (Error error = ReadKeyValues(path, &values)) return error;
+  Result<KeyValues> read = ReadKeyValues(path);
+  if (!read) return read.error();
+  KeyValues& values = *read;
   double baseline = 0, focal = 0;
   if (!NumberOf(values, "baseline_mm", &baseline) || !NumberOf(values, "focal_length_mm", &focal) ||
       !(baseline > 0) || !(focal > 0)) {
@@ -62,15 +63,15 @@ Error OpenHci(const std::string& folder, const std::vector<std::string>& names, 
                     std::to_string(array.paths.size()) + " named " + kPrefix + "000.png and so on");
   }
   array.rows = array.columns = side;
-  Star star;
-  if (Error error = ChooseStar(folder, array, &star, &capture->facts)) return error;
-  capture->files = std::move(star.views);
+  Result<Star> star = ChooseStar(folder, array, &capture->facts);
+  if (!star) return star.error();
+  capture->files = std::move(star->views);
   if (Has(names, kMap)) {
     capture->map_path = (std::filesystem::path(folder) / kMap).string();
-    capture->map_scale = star.reach;  // the file's disparities are those of neighbours
+    capture->map_scale = star->reach;  // the file's disparities are those of neighbours
   }
   if (!Has(names, kParameters)) return {};
-  return ReadParameters((std::filesystem::path(folder) / kParameters).string(), star.reach,
+  return ReadParameters((std::filesystem::path(folder) / kParameters).string(), star->reach,
                         capture);
 }
 

@@ -166,10 +166,9 @@ void ReadProfiles(const heif_image_handle* handle, DepthPhoto* photo) {
 // Captions of the picture. XMP that is not well-formed has none.
 void ReadCaptions(const heif_image_handle* handle, DepthPhoto* photo) {
   const Bytes xmp = ReadMetadata(handle, "mime", "application/rdf+xml");
-  XmpNode root;
   if (xmp.empty() || !CanReadXmp()) return;
-  const char* text = reinterpret_cast<const char*>(xmp.data());
-  if (!ParseXmp("", text, xmp.size(), &root)) photo->metadata.xmp = KeptXmp(root);
+  const auto root = ParseXmp("", reinterpret_cast<const char*>(xmp.data()), xmp.size());
+  if (root) photo->metadata.xmp = KeptXmp(*root);
 }
 
 // Whether an auxiliary picture is something that refocusing has no use for.
@@ -228,14 +227,13 @@ Error Understand(const std::string& where, const heif_image_handle* primary,
                  const heif_image_handle* depth, heif_item_id id, Near near, DepthPhoto* photo) {
   const Bytes xmp = ReadMetadata(depth, "mime", "application/rdf+xml");
   if (!xmp.empty() && CanReadXmp()) {
-    XmpNode root;
-    const Error error = ParseXmp("the XMP of the depth map is ignored",
-                                 reinterpret_cast<const char*>(xmp.data()), xmp.size(), &root);
-    if (!error) {
-      UnderstandApple(root, photo);
+    const auto root = ParseXmp("the XMP of the depth map is ignored",
+                               reinterpret_cast<const char*>(xmp.data()), xmp.size());
+    if (root) {
+      UnderstandApple(*root, photo);
       return {};
     }
-    photo->notes.push_back(error.line());
+    photo->notes.push_back(root.error().line());
   }
   const Information* information = nullptr;
   if (heif_image_handle_get_depth_image_representation_info(primary, id, &information) &&

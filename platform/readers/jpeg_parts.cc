@@ -126,7 +126,7 @@ bool IsJpeg(Span file) {
   return file.size >= 3 && file.data[0] == 0xff && file.data[1] == 0xd8 && file.data[2] == 0xff;
 }
 
-Error ReadJpegParts(const std::string& where, Span file, JpegParts* parts) {
+Result<JpegParts> ReadJpegParts(const std::string& where, Span file) {
   JpegParts result;
   std::vector<Span> profile, resources;
   size_t segments = 0;
@@ -142,8 +142,7 @@ Error ReadJpegParts(const std::string& where, Span file, JpegParts* parts) {
       result.end = at;
       JoinProfile(std::move(profile), &result);
       result.metadata.iptc = FindIptc(resources);
-      *parts = std::move(result);
-      return {};
+      return result;
     }
     if (at + 2 > file.size) break;
     const size_t length = size_t(file.data[at]) * 256 + file.data[at + 1];
@@ -164,8 +163,8 @@ Error ReadJpegParts(const std::string& where, Span file, JpegParts* parts) {
   return Truncated(where, "JPEG");
 }
 
-Error JoinExtensions(const std::string& where, const JpegParts& parts, const std::string& guid,
-                     std::string* text) {
+Result<std::string> JoinExtensions(const std::string& where, const JpegParts& parts,
+                                   const std::string& guid) {
   std::vector<const XmpExtension*> chosen;
   for (const XmpExtension& extension : parts.extensions) {
     if (SameHex(extension.guid, guid)) chosen.push_back(&extension);
@@ -188,8 +187,7 @@ Error JoinExtensions(const std::string& where, const JpegParts& parts, const std
     return Expected(where, std::to_string(total) + " bytes of extended XMP",
                     std::to_string(joined.size()) + " of them in a row");
   }
-  *text = std::move(joined);
-  return {};
+  return joined;
 }
 
 }  // namespace starfocus

@@ -42,11 +42,11 @@ bool IsJpeg(Span file);
 
 // Reads the segments of the first picture. The parts of an ICC profile are joined by their numbers,
 // in any order; a profile that is not whole or not of RGB colours is left out.
-Error ReadJpegParts(const std::string& where, Span file, JpegParts* parts);
+Result<JpegParts> ReadJpegParts(const std::string& where, Span file);
 
 // The extended XMP of that GUID, put together.
-Error JoinExtensions(const std::string& where, const JpegParts& parts, const std::string& guid,
-                     std::string* text);
+Result<std::string> JoinExtensions(const std::string& where, const JpegParts& parts,
+                                   const std::string& guid);
 
 }  // namespace starfocus
 

@@ -35,12 +35,13 @@ void TakeKeyValues(const std::string& text, KeyValues* values) {
   Take(line, values);
 }
 
-Error ReadKeyValues(const std::string& path, KeyValues* values) {
+Result<KeyValues> ReadKeyValues(const std::string& path) {
   if (Error error = CheckPlainFile(path)) return error;
   const Result<Bytes> bytes = ReadSmallFile(path);
   if (!bytes) return bytes.error();
-  TakeKeyValues({bytes->begin(), bytes->end()}, values);
-  return {};
+  KeyValues values;
+  TakeKeyValues({bytes->begin(), bytes->end()}, &values);
+  return values;
 }
 
 bool NumberOf(const KeyValues& values, const std::string& key, double* number) {

@@ -17,7 +17,7 @@ using KeyValues = std::map<std::string, std::string>;
 void TakeKeyValues(const std::string& text, KeyValues* values);
 
 // Those of a file of at most 1 MiB (ReadSmallFile).
-Error ReadKeyValues(const std::string& path, KeyValues* values);
+Result<KeyValues> ReadKeyValues(const std::string& path);
 
 // Whether the key is there and its value a finite number.
 bool NumberOf(const KeyValues& values, const std::string& key, double* number);

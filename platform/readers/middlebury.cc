@@ -89,9 +89,9 @@ int ChooseMultiple(const GreyMapPair& pair, const LightField& field, const Float
 }  // namespace
 
 Error ReadMiddlebury(const std::string& folder, Capture* capture) {
-  KeyValues values;
-  if (Error error = ReadKeyValues((std::filesystem::path(folder) / "calib.txt").string(), &values))
-    return error;
+  Result<KeyValues> read = ReadKeyValues((std::filesystem::path(folder) / "calib.txt").string());
+  if (!read) return read.error();
+  KeyValues& values = *read;
   capture->format = "Middlebury stereo pair";
   double baseline = 0, offset = 0;
   if (NumberOf(values, "baseline", &baseline)) {

@@ -105,13 +105,14 @@ std::vector<MultiPicture> ListMultiPictures(Span file, const JpegParts& parts, b
   for (size_t attempt = 0; attempt < kMostPictures; ++attempt) {
     at = FindBeginning(file, at);
     if (at >= file.size) break;
-    MultiPicture picture;
-    picture.file = {file.data + at, file.size - at};
-    if (ReadJpegParts("", picture.file, &picture.parts)) {
+    Result<JpegParts> own = ReadJpegParts("", {file.data + at, file.size - at});
+    if (!own) {
       ++at;
       continue;
     }
-    picture.file.size = picture.parts.end;
+    MultiPicture picture;
+    picture.file = {file.data + at, own->end};
+    picture.parts = std::move(*own);
     at += picture.parts.end;
     pictures.push_back(std::move(picture));
   }

@@ -29,10 +29,10 @@ bool IsAuxiliary(const MultiPicture& picture) {
 }  // namespace
 
 bool ReadStereoPair(const std::string& path, Span file, DepthPhoto* photo) {
-  JpegParts parts;
-  if (!IsJpeg(file) || ReadJpegParts(path, file, &parts)) return false;
-  if (parts.multi_picture.empty() && LowerExtension(path) != ".mpo") return false;
-  const std::vector<MultiPicture> pictures = ListMultiPictures(file, parts);
+  if (!IsJpeg(file)) return false;
+  const Result<JpegParts> parts = ReadJpegParts(path, file);
+  if (!parts || (parts->multi_picture.empty() && LowerExtension(path) != ".mpo")) return false;
+  const std::vector<MultiPicture> pictures = ListMultiPictures(file, *parts);
   if (pictures.empty() || IsAuxiliary(pictures[0])) return false;
   const uint32_t type = pictures[0].type;
   if (type != kUndefined && type != kStereo) return false;

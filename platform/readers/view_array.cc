@@ -93,45 +93,45 @@ void ChooseLine(const Chooser& chooser, bool is_row) {
 
 }  // namespace
 
-Error ChooseStar(const std::string& where, const ViewArray& array, Star* star, Facts* facts) {
+Result<Star> ChooseStar(const std::string& where, const ViewArray& array, Facts* facts) {
+  Star star;
   const int half_rows = HalfOf(array.rows), half_columns = HalfOf(array.columns);
-  const Chooser chooser = {array, half_rows, half_columns, star};
-  star->reach = std::min(half_rows, half_columns);
-  if (star->reach > 0) {
-    star->reach = ReachOf(star->reach);
+  const Chooser chooser = {array, half_rows, half_columns, &star};
+  star.reach = std::min(half_rows, half_columns);
+  if (star.reach > 0) {
+    star.reach = ReachOf(star.reach);
     ChooseSquare(chooser);
   } else {
-    star->reach = std::max(half_rows, half_columns);
-    if (star->reach == 0 || (array.rows > 1 && array.columns > 1)) {
+    star.reach = std::max(half_rows, half_columns);
+    if (star.reach == 0 || (array.rows > 1 && array.columns > 1)) {
       return Expected(where, "rows and columns of 3 views or more, or one row or column of them",
                       Count(array.rows, array.columns));
     }
     ChooseLine(chooser, array.rows == 1);
   }
-  facts->emplace_back("views", std::to_string(star->views.size()) + " of " +
+  facts->emplace_back("views", std::to_string(star.views.size()) + " of " +
                                    Count(array.rows, array.columns) + ", the outermost " +
-                                   std::to_string(star->reach) + " from the centre");
-  return {};
+                                   std::to_string(star.reach) + " from the centre");
+  return star;
 }
 
-Error FindArray(const std::string& folder, const std::vector<std::string>& names,
-                ViewArray* array) {
+Result<ViewArray> FindArray(const std::string& folder, const std::vector<std::string>& names) {
   std::vector<Parts> parts;
   for (const std::string& name : names) {
     parts.push_back(Split(std::filesystem::path(name).stem().string()));
   }
-  if (names.size() < 3 || names.size() > kMostViews) return {};
+  if (names.size() < 3 || names.size() > kMostViews) return ViewArray();
   const std::vector<size_t> varying = FindVarying(parts);
-  if (varying.empty()) return {};
+  if (varying.empty()) return ViewArray();
   std::map<std::pair<int, int>, std::string> places;
   std::set<int> rows, columns;
   for (size_t k = 0; k < names.size(); ++k) {
-    if (parts[k].numbers.size() != parts[0].numbers.size()) return {};
+    if (parts[k].numbers.size() != parts[0].numbers.size()) return ViewArray();
     const int first = parts[k].numbers[varying[0]];
     const int second = varying.size() > 1 ? parts[k].numbers[varying[1]] : -1;
     const std::pair<int, int> at =
         varying.size() > 1 ? std::pair(first, second) : std::pair(0, first);
-    if (!places.emplace(at, names[k]).second) return {};
+    if (!places.emplace(at, names[k]).second) return ViewArray();
     rows.insert(at.first);
     columns.insert(at.second);
   }
@@ -141,12 +141,11 @@ Error FindArray(const std::string& folder, const std::vector<std::string>& names
                         Count(static_cast<int>(rows.size()), static_cast<int>(columns.size())),
                     std::to_string(names.size()) + " pictures, the first " + names[0]);
   }
-  array->rows = static_cast<int>(rows.size());
-  array->columns = static_cast<int>(columns.size());
+  ViewArray array = {static_cast<int>(rows.size()), static_cast<int>(columns.size()), {}};
   for (const auto& place : places) {
-    array->paths.push_back((std::filesystem::path(folder) / place.second).string());
+    array.paths.push_back((std::filesystem::path(folder) / place.second).string());
   }
-  return {};
+  return array;
 }
 
 }  // namespace starfocus

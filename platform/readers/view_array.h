@@ -28,12 +28,12 @@ struct Star {
 // The widest star within an array of at least 3 x 3, 17 views where halves of its reach are whole
 // and 9 elsewhere; of a single row or column up to 17 views. An even row or column more is left
 // out. A fact tells what was chosen.
-Error ChooseStar(const std::string& where, const ViewArray& array, Star* star, Facts* facts);
+Result<Star> ChooseStar(const std::string& where, const ViewArray& array, Facts* facts);
 
 // Pictures whose names differ in two numbers, row and column, or in one: NAME_00_01.png and so on.
 // The first two that differ count, so that the camera's place in Stanford's names does not.
-// `array` stays empty when the names are none of that kind.
-Error FindArray(const std::string& folder, const std::vector<std::string>& names, ViewArray* array);
+// The array is empty when the names are none of that kind.
+Result<ViewArray> FindArray(const std::string& folder, const std::vector<std::string>& names);
 
 }  // namespace starfocus
 

@@ -105,7 +105,7 @@ void TrimAll(XmpNode* node) {
 
 bool CanReadXmp() { return true; }
 
-Error ParseXmp(const std::string& where, const char* text, size_t size, XmpNode* root) {
+Result<XmpNode> ParseXmp(const std::string& where, const char* text, size_t size) {
   if (size > kMostBytes) {
     return Expected(where, "XMP of at most " + std::to_string(kMostBytes) + " bytes",
                     std::to_string(size));
@@ -127,16 +127,16 @@ Error ParseXmp(const std::string& where, const char* text, size_t size, XmpNode*
     return OutOfMemory(where, "read its XMP");
   if (!builder.expected.empty()) return Expected(where, builder.expected, builder.found);
   if (!whole) return Expected(where, "well-formed XMP", XML_ErrorString(code));
-  *root = std::move(builder.open[0]);
-  TrimAll(root);
-  return {};
+  XmpNode& root = builder.open[0];
+  TrimAll(&root);
+  return std::move(root);
 }
 
 #else
 
 bool CanReadXmp() { return false; }
 
-Error ParseXmp(const std::string& where, const char*, size_t, XmpNode*) {
+Result<XmpNode> ParseXmp(const std::string& where, const char*, size_t) {
   return Expected(where, "a build with expat to read its XMP", "one without");
 }
 

@@ -23,7 +23,7 @@ bool CanReadXmp();
 
 // Parses a packet with no document type, at most 64 MiB, nested at most 32 deep and of at most
 // 20000 elements and attributes.
-Error ParseXmp(const std::string& where, const char* text, size_t size, XmpNode* root);
+Result<XmpNode> ParseXmp(const std::string& where, const char* text, size_t size);
 
 // The value of the node's own property without white space around it; null if it has none.
 const std::string* OwnProperty(const XmpNode& node, const std::string& name);

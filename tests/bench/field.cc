@@ -68,7 +68,9 @@ const Image* Field::FindTruth(double focus, double aperture) const {
 Error LoadField(const std::string& folder, Field* field) {
   const fs::path path = fs::path(folder).lexically_normal();
   field->name = (path.has_filename() ? path : path.parent_path()).filename().string();
-  if (Error error = LoadLightField(folder, {}, &field->data)) return error;
+  Result<LightField> loaded = LoadLightField(folder, {});
+  if (!loaded) return loaded.error();
+  field->data = std::move(*loaded);
   FloatMap* map = &field->data.disparity;
   const sf_status status = sf_fill_disparity(map->values.data(), sizeof(float) * size_t(map->width),
                                              map->width, map->height);

@@ -47,8 +47,7 @@ TEST_CASE("cli: scene writes what its name says, again the same bytes") {
   CHECK(Contains(Text(folder.file("a/meta.txt")), "\nmiddle: "));
   // The same set may be written over.
   CHECK(Call(folder, "scene a --size 20x10 --views 9").code == 0);
-  LightField light_field;
-  CHECK(LoadLightField(folder.file("a"), {}, &light_field) == "");
+  LightField light_field = ValueOf(LoadLightField(folder.file("a"), {}));
   CHECK(light_field.width() == 20);
 }
 

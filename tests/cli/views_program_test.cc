@@ -69,8 +69,7 @@ TEST_CASE("views: scenes at positions are refocused, streamed and told of") {
 TEST_CASE("views: a stereo pair as Middlebury's is opened, unknown disparities filled") {
   TempFolder folder;
   Succeed(folder, "scene lf --size 64x48 --views 0,0:1,0");
-  LightField field;
-  REQUIRE(LoadLightField(folder.file("lf"), {}, &field) == "");
+  LightField field = ValueOf(LoadLightField(folder.file("lf"), {}));
   fs::create_directory(folder.file("pair"));
   REQUIRE(WriteImage(folder.file("pair/im0.png"), field.views[0]) == "");
   REQUIRE(WriteImage(folder.file("pair/im1.png"), field.views[1]) == "");

@@ -147,8 +147,7 @@ TEST_CASE("conformance: blocks of 64, widest and narrowest aperture") {
 TEST_CASE("conformance: parts of the data sets: wires" * doctest::test_suite("data_sets")) {
   const std::string folder = test::DataSet("wires");
   if (folder.empty()) return;
-  starfocus::LightField field;
-  REQUIRE(starfocus::LoadLightField(folder, {}, &field) == "");
+  starfocus::LightField field = starfocus::ValueOf(starfocus::LoadLightField(folder, {}));
   Distance all;
   for (const int x : {0, 192, 384}) {
     const test::Scene scene = Crop(field, x, 128, 128, 128);

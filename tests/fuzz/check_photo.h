@@ -20,10 +20,9 @@ namespace starfocus::fuzz {
 // What is written of the XMP is well-formed; it may be nested deeper than what was read.
 inline void CheckCaptions(const Metadata& metadata) {
   const std::string packet = XmpPacket(metadata.xmp);
-  XmpNode root;
   if (packet.empty() || !CanReadXmp()) return;
-  const Error error = ParseXmp("captions", packet.data(), packet.size(), &root);
-  if (error.line().find("well-formed") != std::string::npos) std::abort();
+  const Result<XmpNode> root = ParseXmp("captions", packet.data(), packet.size());
+  if (root.error().line().find("well-formed") != std::string::npos) std::abort();
 }
 
 inline Error Decode(const uint8_t* data, size_t size, DepthPhoto* photo) {

@@ -83,15 +83,14 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     WriteMap(map, input.Rarely() ? input.Int(1, 4) : side, &input);
     written.push_back(map);
   }
-  starfocus::LightField field;
   constexpr int kWanted[] = {0, 1, 5, 9, 17};
   const starfocus::Positions wanted = starfocus::StarPositions(kWanted[input.Int(0, 4)]);
-  if (!starfocus::LoadLightField(folder.path(), wanted, &field)) {
-    const size_t loaded = field.views.size();
-    if (loaded < 1 || loaded > SF_MAX_VIEWS || field.positions.size() != loaded) std::abort();
+  if (const auto field = starfocus::LoadLightField(folder.path(), wanted)) {
+    const size_t loaded = field->views.size();
+    if (loaded < 1 || loaded > SF_MAX_VIEWS || field->positions.size() != loaded) std::abort();
     if (!wanted.empty() && loaded != wanted.size()) std::abort();
-    for (const starfocus::Image& image : field.views) {
-      if (image.width != field.width() || image.height != field.height()) std::abort();
+    for (const starfocus::Image& image : field->views) {
+      if (image.width != field->width() || image.height != field->height()) std::abort();
     }
   }
   for (const std::string& path : written) unlink(path.c_str());

@@ -24,15 +24,15 @@ void CheckArray(const std::string& text) {
       names.back() += c;
     }
   }
-  starfocus::ViewArray array;
-  if (starfocus::FindArray("folder", names, &array) || array.paths.empty()) return;
-  if (array.paths.size() != size_t(array.rows) * size_t(array.columns)) std::abort();
-  starfocus::Star star;
+  const auto array = starfocus::FindArray("folder", names);
+  if (!array || array->paths.empty()) return;
+  if (array->paths.size() != size_t(array->rows) * size_t(array->columns)) std::abort();
   starfocus::Facts facts;
-  if (starfocus::ChooseStar("folder", array, &star, &facts)) return;
-  if (star.views.empty() || star.views.size() > SF_MAX_VIEWS) std::abort();
-  if (star.views[0].position.u != 0 || star.views[0].position.v != 0) std::abort();
-  for (const starfocus::ViewFile& view : star.views) {
+  const auto star = starfocus::ChooseStar("folder", *array, &facts);
+  if (!star) return;
+  if (star->views.empty() || star->views.size() > SF_MAX_VIEWS) std::abort();
+  if (star->views[0].position.u != 0 || star->views[0].position.v != 0) std::abort();
+  for (const starfocus::ViewFile& view : star->views) {
     if (view.position.u < -1 || view.position.u > 1) std::abort();
     if (view.position.v < -1 || view.position.v > 1) std::abort();
   }
@@ -40,10 +40,10 @@ void CheckArray(const std::string& text) {
 
 // Segments and indices of JPEG files, without decoding any picture.
 void CheckParts(const uint8_t* data, size_t size) {
-  starfocus::JpegParts parts;
-  if (starfocus::ReadJpegParts("photo", {data, size}, &parts)) return;
+  const auto read = starfocus::ReadJpegParts("photo", {data, size});
+  if (!read) return;
+  const starfocus::JpegParts& parts = *read;
   if (parts.end > size) std::abort();
-  std::string text;
   for (const starfocus::MultiPicture& picture : starfocus::ListMultiPictures({data, size}, parts)) {
     const starfocus::Span& file = picture.file;
     if (file.data < data + parts.end || file.data + file.size > data + size) std::abort();
@@ -52,10 +52,8 @@ void CheckParts(const uint8_t* data, size_t size) {
   if (!parts.metadata.icc.empty() && !starfocus::IsRgbProfile(parts.metadata.icc)) std::abort();
   if (parts.metadata.iptc.size() > size) std::abort();
   if (!parts.extensions.empty()) {
-    if (!starfocus::JoinExtensions("photo", parts, parts.extensions[0].guid, &text) &&
-        text.size() > size) {
-      std::abort();
-    }
+    const auto text = starfocus::JoinExtensions("photo", parts, parts.extensions[0].guid);
+    if (text && text->size() > size) std::abort();
   }
 }
 

@@ -58,13 +58,12 @@ TEST_CASE("light_field: every star set comes back in order, whole or in part") {
     for (int asked : {0, 1, 5, 9, 17}) {
       CAPTURE(saved);
       CAPTURE(asked);
-      LightField back;
-      const std::string error = LoadLightField(folder.path(), StarPositions(asked), &back).line();
+      const Result<LightField> read = LoadLightField(folder.path(), StarPositions(asked));
       if (asked > saved) {
-        CHECK(Contains(error, "expected " + std::to_string(asked) + " views"));
+        CHECK(Contains(read, "expected " + std::to_string(asked) + " views"));
         continue;
       }
-      REQUIRE(error == "");
+      const LightField back = ValueOf(read);
       REQUIRE(back.views.size() == size_t(asked == 0 ? saved : asked));
       CHECK(AreStar(back.positions));
       for (size_t i = 0; i < back.views.size(); ++i) CHECK(back.views[i].pixels[0] == 10 * i + 3);
@@ -81,8 +80,7 @@ TEST_CASE("light_field: formats mix") {
   Remove(folder, 2);
   REQUIRE(WriteImage(folder.file(StarName(1) + ".ppm"), light_field.views[1]) == "");
   REQUIRE(WriteImage(folder.file(StarName(2) + ".jpg"), light_field.views[2]) == "");
-  LightField back;
-  CHECK(LoadLightField(folder.path(), {}, &back) == "");
+  LightField back = ValueOf(LoadLightField(folder.path(), {}));
   CHECK(back.views.size() == 5);
 }
 
@@ -92,8 +90,7 @@ TEST_CASE("light_field: views at any positions come back, the centre first") {
   TempFolder folder;
   REQUIRE(Save(folder, light_field) == "");
   CHECK(fs::exists(folder.file("view_+0.7_-0.25.png")));
-  LightField back;
-  REQUIRE(LoadLightField(folder.path(), {}, &back) == "");
+  LightField back = ValueOf(LoadLightField(folder.path(), {}));
   REQUIRE(back.views.size() == 4);
   CHECK_FALSE(AreStar(back.positions));
   // Those of the star, then by u.
@@ -106,17 +103,17 @@ TEST_CASE("light_field: views at any positions come back, the centre first") {
   ConfigureViews(back, &config);
   CHECK(config.views == 4);
   CHECK(config.positions[3].v == -0.25);
-  REQUIRE(LoadLightField(folder.path(), {{0, 0}, {0.7, -0.25}}, &back) == "");
+  back = ValueOf(LoadLightField(folder.path(), {{0, 0}, {0.7, -0.25}}));
   CHECK(back.views.size() == 2);
   CHECK(back.views[1].pixels[0] == 13);
-  CHECK(Contains(LoadLightField(folder.path(), {{0, 0}, {0.7, 0.25}}, &back), "+0.7_+0.25"));
+  CHECK(Contains(LoadLightField(folder.path(), {{0, 0}, {0.7, 0.25}}), "+0.7_+0.25"));
 }
 
 TEST_CASE("light_field: coverage is grey levels or alpha, of the size of the centre view") {
-  LightField light_field = Make(1, 3, 2), back;
+  LightField light_field = Make(1, 3, 2);
   TempFolder folder;
   REQUIRE(Save(folder, light_field) == "");
-  REQUIRE(LoadLightField(folder.path(), {}, &back) == "");
+  LightField back = ValueOf(LoadLightField(folder.path(), {}));
   CHECK(back.coverage.empty());
   GreyImage grey;
   grey.width = 3;
@@ -125,49 +122,46 @@ TEST_CASE("light_field: coverage is grey levels or alpha, of the size of the cen
   Bytes png = ValueOf(EncodeGreyPng("coverage.png", grey));
   const std::string path = folder.file("coverage.png");
   REQUIRE(WriteFile(path, png) == "");
-  REQUIRE(LoadLightField(folder.path(), {}, &back) == "");
+  back = ValueOf(LoadLightField(folder.path(), {}));
   CHECK((back.coverage == std::vector<uint8_t>{0, 1, 127, 128, 254, 255}));
   CHECK(IsLightFieldFile("coverage.png"));
   TempFolder other;
   REQUIRE(Save(other, back) == "");
   CHECK(LightFieldFiles(other.path()).size() == 3);
-  back.coverage.clear();
-  REQUIRE(LoadLightField(other.path(), {}, &back) == "");
+  back = ValueOf(LoadLightField(other.path(), {}));
   CHECK((back.coverage == std::vector<uint8_t>{0, 1, 127, 128, 254, 255}));
   grey.width = 2;
   grey.height = 3;
   png = ValueOf(EncodeGreyPng("coverage.png", grey));
   REQUIRE(WriteFile(path, png) == "");
-  CHECK(Contains(LoadLightField(folder.path(), {}, &back), "expected 3x2 as the centre view"));
+  CHECK(Contains(LoadLightField(folder.path(), {}), "expected 3x2 as the centre view"));
 }
 
 TEST_CASE("light_field: what is left of a star is a set of views, but not without its centre") {
   TempFolder folder;
   REQUIRE(Save(folder, Make(9, 4, 4)) == "");
   Remove(folder, 6);
-  LightField back;
-  CHECK(LoadLightField(folder.path(), {}, &back) == "");
+  LightField back = ValueOf(LoadLightField(folder.path(), {}));
   CHECK(back.views.size() == 8);
   CHECK_FALSE(AreStar(back.positions));
-  CHECK(Contains(LoadLightField(folder.path(), StarPositions(9), &back), StarName(6)));
-  CHECK(LoadLightField(folder.path(), StarPositions(5), &back) == "");
+  CHECK(Contains(LoadLightField(folder.path(), StarPositions(9)), StarName(6)));
+  back = ValueOf(LoadLightField(folder.path(), StarPositions(5)));
   CHECK(AreStar(back.positions));
   Remove(folder, 0);
-  CHECK(Contains(LoadLightField(folder.path(), {}, &back), StarName(0)));
-  CHECK(Contains(LoadLightField(folder.path(), StarPositions(5), &back), StarName(0)));
+  CHECK(Contains(LoadLightField(folder.path(), {}), StarName(0)));
+  CHECK(Contains(LoadLightField(folder.path(), StarPositions(5)), StarName(0)));
 }
 
 TEST_CASE("light_field: views too far out, twice at one position, or too many are refused") {
   TempFolder folder;
   REQUIRE(Save(folder, Make(17, 4, 4)) == "");
-  LightField back;
   const std::string far = folder.file("view_+1.1_+0.0.png");
   REQUIRE(WriteImage(far, Image(4, 4)) == "");
-  CHECK(Contains(LoadLightField(folder.path(), {}, &back), far));
+  CHECK(Contains(LoadLightField(folder.path(), {}), far));
   fs::remove(far);
   const std::string twice = folder.file("view_+1.00_+0.0.png");
   REQUIRE(WriteImage(twice, Image(4, 4)) == "");
-  CHECK(Contains(LoadLightField(folder.path(), {}, &back), "view_+1.00_+0.0"));
+  CHECK(Contains(LoadLightField(folder.path(), {}), "view_+1.00_+0.0"));
   fs::remove(twice);
   // Alike to four decimals, though not next to each other by u and v.
   const std::string close[] = {"view_+0.30001_+0.4.png", "view_+0.30002_+0.1.png",
@@ -175,11 +169,11 @@ TEST_CASE("light_field: views too far out, twice at one position, or too many ar
   for (const std::string& name : close) {
     REQUIRE(WriteImage(folder.file(name), Image(4, 4)) == "");
   }
-  CHECK(Contains(LoadLightField(folder.path(), {}, &back), "different positions"));
+  CHECK(Contains(LoadLightField(folder.path(), {}), "different positions"));
   for (const std::string& name : close) fs::remove(folder.file(name));
   REQUIRE(WriteImage(folder.file("view_+0.2_+0.0.png"), Image(4, 4)) == "");
-  CHECK(Contains(LoadLightField(folder.path(), {}, &back), "at most 17 views"));
-  CHECK(LoadLightField(folder.path(), StarPositions(17), &back) != "");
+  CHECK(Contains(LoadLightField(folder.path(), {}), "at most 17 views"));
+  CHECK(LoadLightField(folder.path(), StarPositions(17)) != "");
 }
 
 TEST_CASE("light_field: files that only look like views are none") {
@@ -191,8 +185,7 @@ TEST_CASE("light_field: files that only look like views are none") {
     REQUIRE(WriteFile(folder.file(name), {}) == "");
     CHECK_FALSE(IsLightFieldFile(name));
   }
-  LightField back;
-  CHECK(LoadLightField(folder.path(), {}, &back) == "");
+  LightField back = ValueOf(LoadLightField(folder.path(), {}));
   CHECK(back.views.size() == 1);
 }
 
@@ -201,10 +194,10 @@ TEST_CASE("light_field: a stereo pair as Middlebury's has the second view at (1,
   const LightField light_field = Make(2, 6, 4);
   REQUIRE(WriteImage(folder.file("im0.png"), light_field.views[0]) == "");
   LightField back;
-  CHECK(Contains(LoadLightField(folder.path(), {}, &back), StarName(0)));  // one is no pair
+  CHECK(Contains(LoadLightField(folder.path(), {}), StarName(0)));  // one is no pair
   REQUIRE(WriteImage(folder.file("im1.png"), light_field.views[1]) == "");
   REQUIRE(WritePfm(folder.file("disp0.pfm"), light_field.disparity) == "");
-  REQUIRE(LoadLightField(folder.path(), {}, &back) == "");
+  const LightField back = ValueOf(LoadLightField(folder.path(), {}));
   REQUIRE(back.views.size() == 2);
   CHECK(back.views[1].pixels[0] == 13);
   CHECK(SamePosition(back.positions[1], {1, 0}));
@@ -215,7 +208,7 @@ TEST_CASE("light_field: a stereo pair as Middlebury's has the second view at (1,
   FloatMap map = light_field.disparity;
   map.values[0] = 2;
   REQUIRE(WritePfm(folder.file("disparity.pfm"), map) == "");
-  REQUIRE(LoadLightField(folder.path(), {}, &back) == "");
+  back = ValueOf(LoadLightField(folder.path(), {}));
   CHECK(back.disparity.at(0, 0) == 2);
 }
 
@@ -223,17 +216,15 @@ TEST_CASE("light_field: sizes must agree") {
   TempFolder folder;
   REQUIRE(Save(folder, Make(5, 6, 4)) == "");
   REQUIRE(WriteImage(folder.file(StarName(3) + ".png"), Image(6, 5)) == "");
-  LightField back;
-  const std::string error = LoadLightField(folder.path(), {}, &back).line();
+  const std::string error = LoadLightField(folder.path(), {}).error().line();
   CHECK(Contains(error, StarName(3)));
   CHECK(Contains(error, "6x4"));
   CHECK(Contains(error, "6x5"));
   REQUIRE(WriteImage(folder.file(StarName(3) + ".png"), Image(6, 4)) == "");
   REQUIRE(WritePfm(folder.file("disparity.pfm"), Make(1, 4, 6).disparity) == "");
-  CHECK(Contains(LoadLightField(folder.path(), {}, &back), "found 4x6"));
+  CHECK(Contains(LoadLightField(folder.path(), {}), "found 4x6"));
   fs::remove(folder.file("disparity.pfm"));
-  CHECK(Contains(LoadLightField(folder.path(), {}, &back), "disparity.pfm"));
-  CHECK(back.views.empty());
+  CHECK(Contains(LoadLightField(folder.path(), {}), "disparity.pfm"));
 }
 
 TEST_CASE("light_field: a pipe in place of a view or the map keeps nobody waiting") {
@@ -242,8 +233,7 @@ TEST_CASE("light_field: a pipe in place of a view or the map keeps nobody waitin
     REQUIRE(Save(folder, Make(5, 4, 4)) == "");
     REQUIRE(fs::remove(folder.file(name)));
     REQUIRE(mkfifo(folder.file(name).c_str(), 0600) == 0);
-    LightField back;
-    const std::string error = LoadLightField(folder.path(), {}, &back).line();
+    const std::string error = LoadLightField(folder.path(), {}).error().line();
     CHECK(Contains(error, name));
     CHECK(Contains(error, "pipe"));
   }
@@ -251,11 +241,10 @@ TEST_CASE("light_field: a pipe in place of a view or the map keeps nobody waitin
 
 TEST_CASE("light_field: no folder, a file, an empty folder") {
   TempFolder folder;
-  LightField back;
-  CHECK(Contains(LoadLightField(folder.file("none"), {}, &back), "found nothing"));
+  CHECK(Contains(LoadLightField(folder.file("none"), {}), "found nothing"));
   REQUIRE(WriteFile(folder.file("file"), {}) == "");
-  CHECK(Contains(LoadLightField(folder.file("file"), {}, &back), "found a file"));
-  CHECK(Contains(LoadLightField(folder.path(), {}, &back), StarName(0)));
+  CHECK(Contains(LoadLightField(folder.file("file"), {}), "found a file"));
+  CHECK(Contains(LoadLightField(folder.path(), {}), StarName(0)));
 }
 
 }  // namespace

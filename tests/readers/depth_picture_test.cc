@@ -62,7 +62,9 @@ struct Opened {
     TempFolder folder;
     Write(folder.file("photo.jpg"), Encode(Plain(kWidth, kHeight, 128), ".jpg"));
     Write(folder.file(name), depth);
-    error = OpenCapture(folder.file("photo.jpg"), {folder.file(name), options}, &capture).line();
+    const auto opened = OpenCapture(folder.file("photo.jpg"), {folder.file(name), options});
+    error = opened.error().line();
+    capture = *opened;
   }
 
   double At(int x, int y) const { return double(capture.light_field.disparity.at(x, y)); }
@@ -367,11 +369,10 @@ TEST_CASE("depth pictures: upright already or turned with the photo, by proporti
       Write(folder.file("photo.jpg"), Insert(Encode(as_file, ".jpg"), ExifSegment(orientation, 0)));
       Write(folder.file("file.png"), Encode(GreyOf(map), ".png"));
       Write(folder.file("upright.png"), Encode(GreyOf(upright), ".png"));
-      Capture by_file, by_upright, wrong;
       DepthOptions options = NearIs(Near::kWhite);
       const std::string path = folder.file("photo.jpg");
-      REQUIRE(OpenCapture(path, {folder.file("file.png"), options}, &by_file) == "");
-      REQUIRE(OpenCapture(path, {folder.file("upright.png"), options}, &by_upright) == "");
+      const Capture by_file = ValueOf(OpenCapture(path, {folder.file("file.png"), options}));
+      const Capture by_upright = ValueOf(OpenCapture(path, {folder.file("upright.png"), options}));
       CHECK(by_file.light_field.disparity.values == by_upright.light_field.disparity.values);
       CHECK(by_file.light_field.disparity.width == upright.width);
       const bool judged = orientation > 1 && (orientation < 5 || square);
@@ -381,11 +382,11 @@ TEST_CASE("depth pictures: upright already or turned with the photo, by proporti
       CHECK(Contains(by_upright.notes[0], "--depth-orientation photo"));
       CHECK(Contains(by_file.notes[0], "--depth-orientation upright"));
       options.orientation = DepthOrientation::kPhoto;
-      REQUIRE(OpenCapture(path, {folder.file("upright.png"), options}, &wrong) == "");
+      Capture wrong = ValueOf(OpenCapture(path, {folder.file("upright.png"), options}));
       CHECK(wrong.notes.empty());
       CHECK(wrong.light_field.disparity.values != by_file.light_field.disparity.values);
       options.orientation = DepthOrientation::kUpright;
-      REQUIRE(OpenCapture(path, {folder.file("upright.png"), options}, &wrong) == "");
+      wrong = ValueOf(OpenCapture(path, {folder.file("upright.png"), options}));
       CHECK(wrong.light_field.disparity.values == by_file.light_field.disparity.values);
     }
   }
@@ -415,12 +416,11 @@ TEST_CASE("depth pictures: names beside the photo") {
     Write(folder.file("photo2-depth.png"), "no picture");
     Write(folder.file("depth.png"), "no picture");
     Write(folder.file(name), Encode(Ramp(kWidth, kHeight), ".png"));
-    Capture capture;
-    REQUIRE(OpenCapture(folder.file("photo.jpg"), {}, &capture) == "");
+    Capture capture = ValueOf(OpenCapture(folder.file("photo.jpg"), {}));
     CHECK(capture.map_path == folder.file(name));
     CHECK(capture.notes.size() == 1);
     Write(folder.file("photo-depth.jpg"), Encode(Ramp(kWidth, kHeight), ".jpg"));
-    REQUIRE(OpenCapture(folder.file("photo.jpg"), {"", NearIs(Near::kWhite)}, &capture) == "");
+    capture = ValueOf(OpenCapture(folder.file("photo.jpg"), {"", NearIs(Near::kWhite)}));
     REQUIRE(capture.notes.size() == 1);
     CHECK(Contains(capture.notes[0], "2 depth pictures"));
   }

@@ -295,7 +295,7 @@ TEST_CASE("photos: import writes a folder that gives the same picture") {
   LightField field;
   CHECK(Call(folder, "import photo.jpg raw --repair --no-repair").code == 2);
   Succeed(folder, "import photo.jpg raw --no-repair");
-  REQUIRE(LoadLightField(folder.file("raw"), {}, &field) == "");
+  field = ValueOf(LoadLightField(folder.file("raw"), {}));
   const float edge = field.disparity.at(48, 8);
   CHECK((edge < field.disparity.at(0, 8) && edge > field.disparity.at(95, 8)));  // between both
 }
@@ -363,8 +363,7 @@ TEST_CASE("photos: a saved depth photo has the disparities and the blur of what 
     const std::string lens = " --focus-at 40,40 --f-stop 4 -o ";
     Succeed(folder, "refocus lf" + std::string(kind.widest) + lens +
                         "saved.jpg --quality 100 --depth-photo");
-    Capture capture;
-    REQUIRE(OpenCapture(folder.file("saved.jpg"), {}, &capture) == "");
+    Capture capture = ValueOf(OpenCapture(folder.file("saved.jpg"), {}));
     const FloatMap& map = capture.light_field.disparity;
     const double step = kind.factor * double(kind.high - kind.low) / 255;
     CHECK(std::fabs(double(map.at(0, 9)) - (kind.factor * kind.high + kind.moved)) <=
@@ -434,8 +433,7 @@ TEST_CASE("photos: what exiftool wrote is read, and what the tests write exiftoo
                           "-XMP-GDepth:Far=3 -XMP-GDepth:Units=m '-XMP-GDepth:DepthImage<=map.png' "
                           "-n -Orientation=8 -FocalLengthIn35mmFormat=26 theirs.jpg")
                       .c_str()) == 0);
-  Capture capture;
-  REQUIRE(OpenCapture(folder.file("theirs.jpg"), {}, &capture) == "");
+  Capture capture = ValueOf(OpenCapture(folder.file("theirs.jpg"), {}));
   CHECK(capture.light_field.width() == 64);
   const FloatMap& disparity = capture.light_field.disparity;
   const double per_diopter = 26.0 * 26 / 1000 / 2 / 43.2666 * std::hypot(96, 64);
@@ -452,8 +450,7 @@ TEST_CASE("parts of the data sets: photographs of phones are refocused near and 
   }
   TempFolder folder;
   for (const char* name : {"flowers", "hut", "mango", "shelf", "tunnel"}) {
-    Capture pair;
-    REQUIRE(OpenCapture(photos + name + "-image.jpg", {}, &pair) == "");
+    Capture pair = ValueOf(OpenCapture(photos + name + "-image.jpg", {}));
     REQUIRE(pair.notes.size() == 1);
     CHECK(Contains(pair.notes[0], "taken to be black"));
   }
@@ -463,8 +460,7 @@ TEST_CASE("parts of the data sets: photographs of phones are refocused near and 
   CHECK(std::atof(Call(folder, "compare near.png far.png").out.c_str() + 5) < 40);
 #ifdef STARFOCUS_HAS_HEIF
   // As another reader takes the map out of the same file.
-  Capture capture;
-  REQUIRE(OpenCapture(photos + "pug.heic", {}, &capture) == "");
+  Capture capture = ValueOf(OpenCapture(photos + "pug.heic", {}));
   CHECK(capture.light_field.width() == 4032);
   CHECK(!capture.metadata.exif.empty());
   CHECK(capture.metadata.icc.size() == 536);

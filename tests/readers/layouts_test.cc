@@ -41,7 +41,9 @@ int LevelAt(const Capture& capture, double u, double v) {
 }
 
 Error OpenAndLoad(const TempFolder& folder, Capture* capture) {
-  if (Error error = OpenCapture(folder.path(), {}, capture)) return error;
+  Result<Capture> opened = OpenCapture(folder.path(), {});
+  if (!opened) return opened.error();
+  *capture = std::move(*opened);
   return LoadCapture({}, capture);
 }
 
@@ -186,8 +188,7 @@ TEST_CASE("stereo pairs: disp0GT.pfm, as ETH3D names it, is the map") {
   CHECK(IsLightFieldFile("disp0GT.pfm"));
   // Without a calibration, too, the map may have infinite values, which are filled.
   std::filesystem::remove(folder.file("calib.txt"));
-  Capture plain;
-  Require(OpenCapture(folder.file("."), {}, &plain));
+  Capture plain = ValueOf(OpenCapture(folder.file("."), {}));
   CHECK(plain.map_path == folder.file("./disp0GT.pfm"));
   CHECK(plain.care == MapCare::kFill);
 }
@@ -252,12 +253,11 @@ TEST_CASE("Middlebury of 2003 to 2006: grey maps of the multiple that their size
   }
   TempFolder folder;  // without a picture beside it the size decides
   WriteGreyMapPair(folder, ppm, 375, 4);
-  Capture capture;
-  REQUIRE(OpenCapture(folder.path(), {}, &capture) == "");
+  Capture capture = ValueOf(OpenCapture(folder.path(), {}));
   REQUIRE(LoadCapture(StarPositions(1), &capture) == "");
   CHECK(capture.light_field.disparity.at(20, 20) == 9);
   Require(WriteImage(folder.file("disp2.png"), Plain(4, 3, 40)));
-  REQUIRE(OpenCapture(folder.path(), {}, &capture) == "");
+  capture = ValueOf(OpenCapture(folder.path(), {}));
   CHECK(Contains(LoadCapture({}, &capture), "as the centre view"));
 }
 

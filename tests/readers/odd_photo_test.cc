@@ -66,7 +66,9 @@ Error OpenBeside(const std::string& photo, Capture* capture) {
   Write(folder.file("photo-depth.png"), RampPng());
   CaptureOptions options;
   options.map.near = Near::kWhite;
-  return OpenCapture(folder.file("photo.jpg"), options, capture);
+  Result<Capture> opened = OpenCapture(folder.file("photo.jpg"), options);
+  if (opened) *capture = std::move(*opened);
+  return opened.error();
 }
 
 TEST_CASE("XMP that is lost or malformed is ignored, and the depth picture beside it is used") {
@@ -174,9 +176,10 @@ TEST_CASE("a stereo pair in one file has two views and no map") {
   Capture capture;
   const auto open = [&](const std::string& name, const std::string& file) {
     Write(folder.file(name), file);
-    Error error = OpenCapture(folder.file(name), {}, &capture);
-    if (!error) error = LoadCapture({}, &capture);
-    return !error && capture.light_field.views.size() == 2;
+    Result<Capture> opened = OpenCapture(folder.file(name), {});
+    if (!opened || LoadCapture({}, &*opened)) return false;
+    capture = std::move(*opened);
+    return capture.light_field.views.size() == 2;
   };
   for (const bool little : {false, true}) {
     for (const uint32_t type : {0u, 0x020002u, 0x20020002u}) {
@@ -214,7 +217,7 @@ TEST_CASE("profiles: parts are joined by number, and what is not whole or RGB is
   Capture capture;
   const auto open = [&](const std::string& segments) {
     Write(folder.file("photo.jpg"), Insert(Photo(), segments));
-    REQUIRE(OpenCapture(folder.file("photo.jpg"), {}, &capture) == "");
+    capture = ValueOf(OpenCapture(folder.file("photo.jpg"), {}));
     const Bytes& icc = capture.metadata.icc;
     return std::string(icc.begin(), icc.end());
   };
@@ -289,7 +292,7 @@ TEST_CASE("photos: an error names what the file is") {
   CHECK(Contains(error(png.substr(0, png.size() - 5)), "the PNG file is truncated"));
   CHECK(Contains(error(photo.substr(0, photo.size() / 2)), "the JPEG file is truncated"));
   TempFolder folder;
-  CHECK(OpenCapture(folder.file("none.jpg"), {}, &capture) ==
+  CHECK(OpenCapture(folder.file("none.jpg"), {}) ==
         "cannot read " + folder.file("none.jpg") + ": no such file or directory");
 }
 

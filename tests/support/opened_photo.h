@@ -24,7 +24,9 @@ inline std::string Data(const std::string& map) { return "GDepth:Data=\"" + Base
 inline Error Open(const std::string& bytes, Capture* capture, const CaptureOptions& options = {}) {
   TempFolder folder;
   Write(folder.file("photo.jpg"), bytes);
-  return OpenCapture(folder.file("photo.jpg"), options, capture);
+  Result<Capture> opened = OpenCapture(folder.file("photo.jpg"), options);
+  if (opened) *capture = std::move(*opened);
+  return opened.error();
 }
 
 // docs/formats.md: a lens of f/1 on full frame.

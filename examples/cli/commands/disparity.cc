@@ -136,13 +136,13 @@ Error WriteMap(const DisparityOptions& options, const Plan& plan,
 
 Error Run(const DisparityOptions& options) {
   Plan plan;
-  LightField light_field;
   if (Error error = MakePlan(options, &plan)) return error;
   ThreadRunner runner(options.threads);
-  if (Error error = options.repair
-                        ? LoadLightField(options.folder, options.views, &light_field, &runner)
-                        : LoadCaptured(options.folder, options.views, &light_field, &runner))
-    return error;
+  Result<LightField> loaded = options.repair
+                                  ? LoadLightField(options.folder, options.views, &runner)
+                                  : LoadCaptured(options.folder, options.views, &runner);
+  if (!loaded) return loaded.error();
+  LightField& light_field = *loaded;
   const double start = Seconds();
   const Result<DisparityEstimate> estimate = options.repair
                                                  ? RepairFolder(options, &plan, &light_field)

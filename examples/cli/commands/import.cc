@@ -48,8 +48,9 @@ Error Run(const ImportOptions& options) {
   if (Error error = CheckFolderApart({"DIR", options.folder}, {options.input.path})) return error;
   if (Error error = CheckFolderOutput(options.folder)) return error;
   if (Error error = CheckFolder(options.folder)) return error;
-  Capture capture;
-  if (Error error = OpenInput(options.input, &capture)) return error;
+  Result<Capture> opened = OpenInput(options.input);
+  if (!opened) return opened.error();
+  Capture& capture = *opened;
   ThreadRunner runner(options.threads);
   if (Error error = LoadCapture(options.views, &capture, &runner)) return error;
   if (Error error = CareForMap(options.map, options.threads, &capture)) return error;

@@ -110,10 +110,11 @@ Error Measure(const Capture& capture, sf_disparity_stats* stats, std::vector<int
 }
 
 Error Run(const InfoOptions& options) {
-  Capture capture;
   sf_disparity_stats stats = {};
   std::vector<int64_t> counts;
-  if (Error error = OpenInput(options.input, &capture)) return error;
+  Result<Capture> opened = OpenInput(options.input);
+  if (!opened) return opened.error();
+  Capture& capture = *opened;
   if (Error error = HasMap(capture) ? LoadInput({}, 1, &capture) : LoadCapture({}, &capture))
     return error;
   if (Error error = Measure(capture, &stats, &counts)) return error;

@@ -117,13 +117,14 @@ Error CheckRegion(const Image& picture, const sf_region& region) {
                           std::to_string(region.x) + "," + std::to_string(region.y));
 }
 
-Error Open(const RefocusOptions& options, LensPlan* plan, Capture* capture) {
-  Error error = OpenInput(options.input, capture);
-  if (!error) {
-    error = CheckApart(ListOutputs(options),
-                       {{}, CaptureFiles(*capture), GridsOf(options.input, *capture)});
-  }
-  return error ? error : PlanAperture(options.lens.aperture, *capture, &plan->aperture);
+Result<Capture> Open(const RefocusOptions& options, LensPlan* plan) {
+  Result<Capture> capture = OpenInput(options.input);
+  if (!capture) return capture;
+  Error error = CheckApart(ListOutputs(options),
+                           {{}, CaptureFiles(*capture), GridsOf(options.input, *capture)});
+  if (!error) error = PlanAperture(options.lens.aperture, *capture, &plan->aperture);
+  if (error) return error;
+  return capture;
 }
 
 // Checks everything that does not need the map in the picture's size or repaired, which takes long.
@@ -140,10 +141,12 @@ Error Foresee(const RefocusOptions& options, const Capture& capture, LensPlan* p
 }
 
 Error Load(const RefocusOptions& options, LensPlan* plan, Loaded* loaded) {
+  Result<Capture> opened = Open(options, plan);
+  if (!opened) return opened.error();
+  loaded->capture = std::move(*opened);
   Capture* capture = &loaded->capture;
   const FloatMap& map = capture->light_field.disparity;
-  Error error = Open(options, plan, capture);
-  if (!error && capture->photo) error = Foresee(options, *capture, plan);
+  Error error = capture->photo ? Foresee(options, *capture, plan) : Error();
   if (!error) error = LoadInput(plan->options.views, plan->options.threads, capture);
   if (!error && !capture->photo) error = Foresee(options, *capture, plan);
   if (!error) error = CareForMap(options.disparities, plan->options.threads, capture);

@@ -149,13 +149,14 @@ Error Scan(const VideoOptions& options, LensPlan* plan, Video* video) {
   return {};
 }
 
-Error LoadFrame(const VideoOptions& options, const Video& video, size_t index,
-                LightField* light_field) {
+Result<LightField> LoadFrame(const VideoOptions& options, const Video& video, size_t index) {
   const std::string& folder = video.folders[index];
   sf_disparity_stats stats;
-  if (Error error = LoadLightField(folder, video.views, light_field)) return error;
-  if (Error error = CheckSize(folder, light_field->disparity, video)) return error;
-  return Prepare(options, folder, &light_field->disparity, &stats);
+  Result<LightField> frame = LoadLightField(folder, video.views);
+  if (!frame) return frame;
+  if (Error error = CheckSize(folder, frame->disparity, video)) return error;
+  if (Error error = Prepare(options, folder, &frame->disparity, &stats)) return error;
+  return frame;
 }
 
 Error RefocusFrames(const VideoOptions& options, const LensPlan& plan, const Video& video,
@@ -165,8 +166,10 @@ Error RefocusFrames(const VideoOptions& options, const LensPlan& plan, const Vid
   Image picture;
   for (size_t i = 0; i < video.folders.size(); ++i) {
     const std::string &folder = video.folders[i], out = FramePath(options.out, i);
-    std::swap(now, before);
-    if (Error error = LoadFrame(options, video, i, &now)) return error;
+    before = std::move(now);
+    Result<LightField> frame = LoadFrame(options, video, i);
+    if (!frame) return frame.error();
+    now = std::move(*frame);
     const EngineTask task = MakeTask(plan, now, video.stats, video.max_blur, true);
     EngineResult result;
     Error error = i == 0 ? run.Start(folder, task) : Error();

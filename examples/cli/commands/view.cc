@@ -153,8 +153,11 @@ Error Open(const ViewOptions& options, ApertureChoice* aperture, Capture* captur
     for (const TruthFile& truth : FindTruths(options.input.path)) files.push_back(truth.path);
     error = CheckApart({{"--output", options.out}}, {{options.input.path}, files, {}});
   }
-  if (!error) error = OpenInput(options.input, capture);
-  if (!error) error = CheckApart({{"--output", options.out}}, {{}, CaptureFiles(*capture)});
+  if (error) return error;
+  Result<Capture> opened = OpenInput(options.input);
+  if (!opened) return opened.error();
+  *capture = std::move(*opened);
+  error = CheckApart({{"--output", options.out}}, {{}, CaptureFiles(*capture)});
   if (!error) error = PlanAperture(options.aperture, *capture, aperture);
   if (!error && capture->photo) error = ForeseeAperture(*capture, aperture);
   if (!error) error = LoadInput({}, options.threads, capture);

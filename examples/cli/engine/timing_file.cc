@@ -34,7 +34,7 @@ Json TimingJson(const sf_timing& timing) {
   return json;
 }
 
-Error ReadTiming(const std::string& path, sf_timing* timing) {
+Result<sf_timing> ReadTiming(const std::string& path) {
   const Result<Bytes> bytes = ReadSmallFile(path);
   if (!bytes) return bytes.error();
   const JsonObject object = ReadJsonObject(*bytes, "timing");
@@ -42,8 +42,9 @@ Error ReadTiming(const std::string& path, sf_timing* timing) {
   if (!object.is_there) {
     return Expected(path, "an object \"timing\", as starfocus-lab calibrate writes it", "none");
   }
+  sf_timing timing = {};
   for (const TimingTerm& term : kTimingTerms) {
-    if (Error error = ReadCoefficient(path, object, term.name, &(timing->*term.coefficient)))
+    if (Error error = ReadCoefficient(path, object, term.name, &(timing.*term.coefficient)))
       return error;
   }
   for (const JsonMember& member : object.members) {
@@ -52,7 +53,7 @@ Error ReadTiming(const std::string& path, sf_timing* timing) {
     if (!known)
       return Expected(path, "no other coefficients", "timing." + member.name.substr(0, 60));
   }
-  return {};
+  return timing;
 }
 
 }  // namespace starfocus

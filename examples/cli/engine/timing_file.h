@@ -17,7 +17,7 @@ Json TimingJson(const sf_timing& timing);
 
 // Reads the member "timing"; it must hold every coefficient and nothing else. Other members of the
 // file are remarks.
-Error ReadTiming(const std::string& path, sf_timing* timing);
+Result<sf_timing> ReadTiming(const std::string& path);
 
 }  // namespace starfocus
 

@@ -132,7 +132,7 @@ void AddMapOptions(Command* command, MapOptions* options) {
       command);
 }
 
-Error OpenInput(const InputOptions& options, Capture* capture) {
+Result<Capture> OpenInput(const InputOptions& options) {
   if (options.path == "-") {
     if (options.depth == "-") {
       return Error::Usage("--depth", "a file, as SRC is standard input", "-");
@@ -145,20 +145,20 @@ Error OpenInput(const InputOptions& options, Capture* capture) {
   wanted.depth = options.depth;
   wanted.small_map = true;
   wanted.map = options.map;
-  Error error = CheckNear(options.map);
+  if (Error error = CheckNear(options.map)) return error;
   std::error_code ignored;
   const char* option = DepthOption(options);
-  if (!error && option != nullptr && options.path != "-" &&
+  if (option != nullptr && options.path != "-" &&
       std::filesystem::is_directory(options.path, ignored)) {
-    error = Error::Usage(option, "a photo, not a folder", options.path);
+    return Error::Usage(option, "a photo, not a folder", options.path);
   }
-  if (!error) error = OpenCapture(options.path, wanted, capture);
-  if (error) return error;
+  Result<Capture> capture = OpenCapture(options.path, wanted);
+  if (!capture) return capture;
   if (!options.coverage.empty()) capture->coverage_path = options.coverage;
   for (const std::string& note : capture->notes) {
     std::fprintf(stderr, "%s: %s\n", capture->path.c_str(), note.c_str());
   }
-  return {};
+  return capture;
 }
 
 Error LoadInput(const Positions& views, int threads, Capture* capture) {

@@ -30,7 +30,7 @@ void AddMapOptions(Command* command, MapOptions* options);
 
 // Finds out what it is (OpenCapture); what was guessed goes to stderr. The map of a photo keeps its
 // own size until LoadInput.
-Error OpenInput(const InputOptions& options, Capture* capture);
+Result<Capture> OpenInput(const InputOptions& options);
 
 // Reads the views wanted, or all if none are, and the map; one that is not there is estimated from
 // these views, and a line on stderr says so.

@@ -24,10 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool IsLightField(const fs::path& folder) {
-  Capture capture;
-  return !OpenCapture(folder.string(), {}, &capture);
-}
+bool IsLightField(const fs::path& folder) { return bool(OpenCapture(folder.string(), {})); }
 
 bool HasDepthPicture(const fs::path& path) {
   DepthPhoto unused;

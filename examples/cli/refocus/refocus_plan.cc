@@ -164,7 +164,10 @@ Error PlanLens(const LensOptions& options, LensPlan* plan) {
   if (plan->lens.shape == SF_SHAPE_POLYGON || plan->lens.cats_eye > 0) {
     plan->config.features |= SF_FEATURE_SHAPES;
   }
-  return options.timing.empty() ? Error() : ReadTiming(options.timing, &plan->config.tuning.timing);
+  if (options.timing.empty()) return {};
+  const Result<sf_timing> timing = ReadTiming(options.timing);
+  plan->config.tuning.timing = *timing;
+  return timing.error();
 }
 
 Error PlanFocus(const LensOptions& options, LensPlan* plan) {

@@ -44,12 +44,12 @@ Error Trace(const std::string& name, SceneTimes* times) {
 }
 
 Error Load(const std::string& folder, SceneTimes* times) {
-  Capture capture;
   InputOptions input;
   input.path = folder;
-  if (Error error = OpenInput(input, &capture)) return error;
-  if (Error error = LoadInput({}, 1, &capture)) return error;
-  return times->Open(folder, std::move(capture.light_field));
+  Result<Capture> capture = OpenInput(input);
+  if (!capture) return capture.error();
+  if (Error error = LoadInput({}, 1, &*capture)) return error;
+  return times->Open(folder, std::move(capture->light_field));
 }
 
 using Scenes = std::vector<std::unique_ptr<SceneTimes>>;
