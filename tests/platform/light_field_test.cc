@@ -193,7 +193,6 @@ TEST_CASE("light_field: a stereo pair as Middlebury's has the second view at (1,
   TempFolder folder;
   const LightField light_field = Make(2, 6, 4);
   REQUIRE(WriteImage(folder.file("im0.png"), light_field.views[0]) == "");
-  LightField back;
   CHECK(Contains(LoadLightField(folder.path(), {}), StarName(0)));  // one is no pair
   REQUIRE(WriteImage(folder.file("im1.png"), light_field.views[1]) == "");
   REQUIRE(WritePfm(folder.file("disp0.pfm"), light_field.disparity) == "");
