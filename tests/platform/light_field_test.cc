@@ -196,7 +196,7 @@ TEST_CASE("light_field: a stereo pair as Middlebury's has the second view at (1,
   CHECK(Contains(LoadLightField(folder.path(), {}), StarName(0)));  // one is no pair
   REQUIRE(WriteImage(folder.file("im1.png"), light_field.views[1]) == "");
   REQUIRE(WritePfm(folder.file("disp0.pfm"), light_field.disparity) == "");
-  const LightField back = ValueOf(LoadLightField(folder.path(), {}));
+  LightField back = ValueOf(LoadLightField(folder.path(), {}));
   REQUIRE(back.views.size() == 2);
   CHECK(back.views[1].pixels[0] == 13);
   CHECK(SamePosition(back.positions[1], {1, 0}));
