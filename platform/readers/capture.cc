@@ -98,12 +98,13 @@ int PixelAt(double share, int pixels) {
 }
 
 Error OpenPhoto(const std::string& path, const CaptureOptions& options, Capture* capture) {
-  DepthPhoto photo;
-  std::string depth = options.depth;
-  Error error = ReadDepthPhotoFile(path, options.map, &depth, &photo);
+  Result<DepthPhoto> read = ReadDepthPhotoFile(path, options.map, options.depth);
+  if (!read) return read.error();
+  DepthPhoto& photo = *read;
   const bool pair = !photo.right.pixels.empty();
-  if (!error && !pair) error = MakeSmallMap(capture->path, &photo, &capture->light_field);
-  if (error) return error;
+  if (!pair) {
+    if (Error error = MakeSmallMap(capture->path, &photo, &capture->light_field)) return error;
+  }
   capture->format = photo.format;
   capture->metadata = std::move(photo.metadata);
   capture->facts = std::move(photo.facts);
@@ -116,7 +117,7 @@ Error OpenPhoto(const std::string& path, const CaptureOptions& options, Capture*
   const Image& picture = capture->light_field.views[0];
   capture->photo = true;
   capture->files = {{{0, 0}, path}};
-  capture->map_path = depth.empty() ? path : depth;
+  capture->map_path = photo.depth_path.empty() ? path : photo.depth_path;
   capture->care = photo.is_ready ? MapCare::kNone : MapCare::kRepair;
   capture->widest = 1;
   capture->f_stop = kPhotoFStop;

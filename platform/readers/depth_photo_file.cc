@@ -144,39 +144,53 @@ void NoteProblem(DepthPhoto* photo) {
 
 }  // namespace
 
-Error DecodeDepthPhoto(const std::string& where, Span file, bool with_map, Near near,
-                       DepthPhoto* photo) {
-  if (IsHeif(file)) return ReadHeif(where, file, near, photo);
-  if (IsJpeg(file)) return DecodeJpegPhoto(where, file, with_map, near, photo);
+Result<DepthPhoto> DecodeDepthPhoto(const std::string& where, Span file, bool with_map, Near near) {
+  if (IsHeif(file)) return ReadHeif(where, file, near);
+  DepthPhoto photo;
+  if (IsJpeg(file)) {
+    if (Error error = DecodeJpegPhoto(where, file, with_map, near, &photo)) return error;
+    return photo;
+  }
   Result<DecodedPicture> picture = DecodeImage(where, Bytes(file.data, file.data + file.size));
   if (!picture) return picture.error();
-  photo->picture = std::move(picture->image);
-  photo->metadata = std::move(picture->metadata);
-  ReadExif(photo);
-  CheckProfile(photo);
-  KeepCaptions(photo);
-  return {};
+  photo.picture = std::move(picture->image);
+  photo.metadata = std::move(picture->metadata);
+  ReadExif(&photo);
+  CheckProfile(&photo);
+  KeepCaptions(&photo);
+  return photo;
 }
 
-Error ReadDepthPhotoFile(const std::string& path, const DepthOptions& options, std::string* depth,
-                         DepthPhoto* photo) {
+Result<DepthPhoto> ReadDepthPhotoFile(const std::string& path, const DepthOptions& options,
+                                      const std::string& depth) {
   const bool stream = path == "-";  // no depth picture lies beside it
   const std::string where = InputName(path);
   const Result<Bytes> bytes = ReadFileIf(path, MayBePicture);
   if (!bytes) return bytes.error();
   if (stream && bytes->empty()) return Expected(where, "a photo", "nothing");
   const Span file = {bytes->data(), bytes->size()};
-  Error error = DecodeDepthPhoto(where, file, depth->empty(), options.near, photo);
-  if (error) return error;
-  if (depth->empty() && !photo->map.values.empty()) return CheckOptions(where, options);
-  if (depth->empty() && !stream) error = FindDepthPicture(path, photo, depth);
-  if (error) return error;
-  if (depth->empty()) {
-    const bool read = ReadStrayMap(file, options.near, photo) || ReadStereoPair(path, file, photo);
-    return read ? Error() : NoMap(where, photo->map_problem);
+  Result<DepthPhoto> decoded = DecodeDepthPhoto(where, file, depth.empty(), options.near);
+  if (!decoded) return decoded;
+  DepthPhoto& photo = *decoded;
+  if (depth.empty() && !photo.map.values.empty()) {
+    if (Error error = CheckOptions(where, options)) return error;
+    return decoded;
   }
-  NoteProblem(photo);
-  return ReadDepthPicture(*depth, options, photo);
+  photo.depth_path = depth;
+  if (depth.empty() && !stream) {
+    Result<std::string> beside = FindDepthPicture(path, &photo);
+    if (!beside) return beside.error();
+    photo.depth_path = std::move(*beside);
+  }
+  if (photo.depth_path.empty()) {
+    if (ReadStrayMap(file, options.near, &photo) || ReadStereoPair(path, file, &photo)) {
+      return decoded;
+    }
+    return NoMap(where, photo.map_problem);
+  }
+  NoteProblem(&photo);
+  if (Error error = ReadDepthPicture(photo.depth_path, options, &photo)) return error;
+  return decoded;
 }
 
 }  // namespace starfocus

@@ -11,18 +11,17 @@
 
 namespace starfocus {
 
-// Reads a photograph and its map: from the depth picture *depth if that is named, else from within
-// the file, else from a depth picture beside it, whose name *depth becomes. Where there is no map,
-// the file may be a stereo pair: photo->right is its other picture then. What cannot be read but is
-// not needed is ignored, which photo->notes say. `options` are about the depth picture: an option
+// Reads a photograph and its map: from the depth picture `depth` if that is named, else from within
+// the file, else from a depth picture beside it. Where there is no map, the file may be a stereo
+// pair: `right` of the photo is its other picture then. What cannot be read but is not needed is
+// ignored, which the notes of the photo say. `options` are about the depth picture: an option
 // beyond the near end is an error for a map within the file.
-Error ReadDepthPhotoFile(const std::string& path, const DepthOptions& options, std::string* depth,
-                         DepthPhoto* photo);
+Result<DepthPhoto> ReadDepthPhotoFile(const std::string& path, const DepthOptions& options,
+                                      const std::string& depth);
 
-// The same of bytes in memory, without what lies beside: photo->map is empty if they have none that
+// The same of bytes in memory, without what lies beside: the map is empty if they have none that
 // can be read.
-Error DecodeDepthPhoto(const std::string& where, Span file, bool with_map, Near near,
-                       DepthPhoto* photo);
+Result<DepthPhoto> DecodeDepthPhoto(const std::string& where, Span file, bool with_map, Near near);
 
 }  // namespace starfocus
 

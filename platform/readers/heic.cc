@@ -301,10 +301,13 @@ Error Read(const std::string& where, Span file, Near near, DepthPhoto* photo) {
 
 }  // namespace
 
-Error ReadHeif(const std::string& where, Span file, Near near, DepthPhoto* photo) {
+Result<DepthPhoto> ReadHeif(const std::string& where, Span file, Near near) {
   try {
-    const Error error = Read(where, file, near, photo);
-    return error && EndsWithinBox(file) ? Truncated(where, "HEIF") : error;
+    DepthPhoto photo;
+    if (Error error = Read(where, file, near, &photo)) {
+      return EndsWithinBox(file) ? Truncated(where, "HEIF") : error;
+    }
+    return photo;
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& failure) {  // libheif's, which its C functions let through
@@ -314,7 +317,7 @@ Error ReadHeif(const std::string& where, Span file, Near near, DepthPhoto* photo
 
 #else
 
-Error ReadHeif(const std::string& where, Span, Near, DepthPhoto*) {
+Result<DepthPhoto> ReadHeif(const std::string& where, Span, Near) {
   return Expected(where, "a build with libheif to read HEIC files", "one without");
 }
 

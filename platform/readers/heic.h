@@ -17,7 +17,7 @@ bool IsHeif(Span file);
 
 // Reads the primary picture, and its map unless it has none: photo->map is empty then. Turned as
 // the file says; `near` counts only where it does not say which end of the map is near.
-Error ReadHeif(const std::string& where, Span file, Near near, DepthPhoto* photo);
+Result<DepthPhoto> ReadHeif(const std::string& where, Span file, Near near);
 
 }  // namespace starfocus
 

@@ -99,7 +99,7 @@ bool IsDepthPictureName(const std::string& name) {
   return !NameBefore(fs::path(name).stem().string()).empty();
 }
 
-Error FindDepthPicture(const std::string& path, DepthPhoto* photo, std::string* depth) {
+Result<std::string> FindDepthPicture(const std::string& path, DepthPhoto* photo) {
   const fs::path file(path);
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
   const std::string ending = "-image";
@@ -118,14 +118,13 @@ Error FindDepthPicture(const std::string& path, DepthPhoto* photo, std::string* 
     found.push_back(candidate);
   }
   if (error) return Expected(folder.string(), "a folder that can be read", error.message());
-  if (found.empty()) return {};
+  if (found.empty()) return std::string();
   std::sort(found.begin(), found.end());
-  *depth = (file.parent_path() / found[0].name).string();
   if (found.size() > 1) {
     photo->notes.push_back(std::to_string(found.size()) + " depth pictures are beside the photo, " +
                            found[0].name + " is used (else: --depth FILE)");
   }
-  return {};
+  return (file.parent_path() / found[0].name).string();
 }
 
 Error ReadDepthPicture(const std::string& path, const DepthOptions& options, DepthPhoto* photo) {

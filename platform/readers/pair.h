@@ -15,9 +15,9 @@ namespace starfocus {
 bool IsDepthPictureName(const std::string& name);
 
 // Finds the depth picture beside a photograph NAME.jpg or NAME-image.jpg: NAME-depth, NAME_depth or
-// NAME.depth with .png, .pgm, .pfm, .jpg or .jpeg, in any case. *depth is empty if there is none.
+// NAME.depth with .png, .pgm, .pfm, .jpg or .jpeg, in any case. Returns "" if there is none.
 // If there are several, a note names the one that is taken.
-Error FindDepthPicture(const std::string& path, DepthPhoto* photo, std::string* depth);
+Result<std::string> FindDepthPicture(const std::string& path, DepthPhoto* photo);
 
 // Reads the depth picture, PNG, PGM, PPM, JPEG or PFM, into a photo whose picture is there. Without
 // options larger is nearer in a PFM file, and the near end of others is guessed.

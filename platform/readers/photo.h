@@ -32,6 +32,7 @@ struct DepthPhoto {
   Image picture;
   FloatMap map;             // NaN: unknown; empty: none that can be read
   std::string map_problem;  // why a map in the file cannot be read
+  std::string depth_path;   // the depth picture that the map is of; empty: it is in the file
   Image right;              // of a stereo pair, whose left picture is `picture`; empty: none
   MapMeaning meaning = MapMeaning::kOrder;
   int orientation = 1;    // of EXIF: what is still to be done to picture and map

@@ -25,15 +25,16 @@ inline void CheckCaptions(const Metadata& metadata) {
   if (root.error().line().find("well-formed") != std::string::npos) std::abort();
 }
 
-inline Error Decode(const uint8_t* data, size_t size, DepthPhoto* photo) {
+inline Result<DepthPhoto> Decode(const uint8_t* data, size_t size) {
   const MemoryBudget budget(data, size);
   const Near near = size % 2 == 0 ? Near::kUnknown : Near::kWhite;
-  return DecodeDepthPhoto("photo", {data, size}, true, near, photo);
+  return DecodeDepthPhoto("photo", {data, size}, true, near);
 }
 
 inline void CheckPhoto(const uint8_t* data, size_t size) {
-  DepthPhoto photo;
-  if (Decode(data, size, &photo)) return;
+  Result<DepthPhoto> decoded = Decode(data, size);
+  if (!decoded) return;
+  DepthPhoto& photo = *decoded;
   CheckCaptions(photo.metadata);
   if (photo.map.values.empty()) {
     if (ReadStereoPair("photo", {data, size}, &photo) &&

@@ -18,12 +18,11 @@ struct Pictures {
 };
 
 void Decode(const std::string& file) {
-  starfocus::DepthPhoto photo;
   const auto* bytes = reinterpret_cast<const uint8_t*>(file.data());
-  const starfocus::Error error = starfocus::DecodeDepthPhoto("photo", {bytes, file.size()}, true,
-                                                             starfocus::Near::kUnknown, &photo);
-  if (!error && photo.picture.pixels.empty()) std::abort();
-  starfocus::fuzz::CheckCaptions(photo.metadata);
+  const auto photo =
+      starfocus::DecodeDepthPhoto("photo", {bytes, file.size()}, true, starfocus::Near::kUnknown);
+  if (photo && photo->picture.pixels.empty()) std::abort();
+  starfocus::fuzz::CheckCaptions(photo->metadata);
 }
 
 }  // namespace

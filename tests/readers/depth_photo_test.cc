@@ -347,8 +347,8 @@ TEST_CASE("photos: EXIF of PNG and WebP turns the picture as that of JPEG does")
     const Bytes bytes = ValueOf(ReadFile(folder.file(name)));
     const std::string written(bytes.begin(), bytes.end());
     if (written.find("starfocus") == std::string::npos) continue;  // a build without libpng
-    DepthPhoto photo;
-    REQUIRE(DecodeDepthPhoto(name, SpanOf(Turned(written)), true, Near::kUnknown, &photo) == "");
+    const DepthPhoto photo =
+        ValueOf(DecodeDepthPhoto(name, SpanOf(Turned(written)), true, Near::kUnknown));
     CHECK(!photo.metadata.exif.empty());
 #ifdef STARFOCUS_HAS_EXIF
     CHECK(photo.orientation == 6);
@@ -363,11 +363,9 @@ TEST_CASE("photos: profiles of grey, or with parts missing, are left out with a 
   profile.replace(12, 12, "mntrRGB XYZ ");
   profile.replace(36, 4, "acsp");
   const auto read = [](const std::string& icc) {
-    DepthPhoto photo;
     const std::string file =
         Insert(Photo(), Segment(0xe2, std::string("ICC_PROFILE\0\1\1", 14) + icc));
-    REQUIRE(DecodeDepthPhoto("photo.jpg", SpanOf(file), true, Near::kUnknown, &photo) == "");
-    return photo;
+    return ValueOf(DecodeDepthPhoto("photo.jpg", SpanOf(file), true, Near::kUnknown));
   };
   CHECK(read(profile).metadata.icc.size() == 200);
   CHECK(read(profile.substr(0, 199)).metadata.icc.empty());

@@ -395,19 +395,18 @@ TEST_CASE("photos: a saved depth photo has the disparities and the blur of what 
 
 TEST_CASE("photos: HEIC with an auxiliary depth picture") {
   const Bytes bytes = ValueOf(ReadFile(STARFOCUS_SOURCE_DIR "/tests/fuzz/corpus/heif/depth.heic"));
-  DepthPhoto photo;
-  const Error error = ReadHeif("x", {bytes.data(), bytes.size()}, Near::kUnknown, &photo);
+  const auto read = ReadHeif("x", {bytes.data(), bytes.size()}, Near::kUnknown);
 #ifdef STARFOCUS_HAS_HEIF
-  REQUIRE(error == "");
+  const DepthPhoto photo = ValueOf(read);
   CHECK(photo.picture.width == 16);
   REQUIRE(photo.map.values.size() == 16 * 16);
   CHECK(std::fabs(photo.map.at(0, 8) - photo.map.at(15, 8)) > 0.8F);  // it runs from side to side
   for (const size_t size : {size_t{30}, bytes.size() / 2, bytes.size() - 1}) {
-    CHECK(Contains(ReadHeif("x", {bytes.data(), size}, Near::kUnknown, &photo),
+    CHECK(Contains(ReadHeif("x", {bytes.data(), size}, Near::kUnknown),
                    "the HEIF file is truncated"));
   }
 #else
-  CHECK(Contains(error, "a build with libheif"));
+  CHECK(Contains(read, "a build with libheif"));
 #endif
 }
 
@@ -465,8 +464,7 @@ TEST_CASE("parts of the data sets: photographs of phones are refocused near and 
   CHECK(!capture.metadata.exif.empty());
   CHECK(capture.metadata.icc.size() == 536);
   Bytes bytes = ValueOf(ReadFile(photos + "pug.heic"));
-  DepthPhoto photo;
-  REQUIRE(ReadHeif("pug", {bytes.data(), bytes.size()}, Near::kUnknown, &photo) == "");
+  const DepthPhoto photo = ValueOf(ReadHeif("pug", {bytes.data(), bytes.size()}, Near::kUnknown));
   bytes = ValueOf(ReadFile(photos + "pug_depth.png"));
   const FloatMap other = ValueOf(DecodeLevels("pug_depth", bytes));
   REQUIRE(photo.map.values.size() == other.values.size());

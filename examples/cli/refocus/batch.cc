@@ -28,8 +28,7 @@ bool IsLightField(const fs::path& folder) { return bool(OpenCapture(folder.strin
 
 bool HasDepthPicture(const fs::path& path) {
   DepthPhoto unused;
-  std::string depth;
-  return !FindDepthPicture(path.string(), &unused, &depth) && !depth.empty();
+  return !FindDepthPicture(path.string(), &unused)->empty();
 }
 
 // A depth picture stands beside the photograph that it is of. PNG and WebP pictures without one are
