@@ -51,12 +51,12 @@ sf_status RunCall(const Call& call, EngineState* engine, sf_report* report) {
   engine->stream.active = false;
   engine->crew.jobs.watch.Begin(0, RegionOf(engine->config, params).height);
   sf_status status = SetLens(params, engine);
-  if (status != SF_OK) return status;
+  if (status != SF_OK) return TellStatus(status, engine->config.problem);
   if (call.prepared != nullptr) UsePrepared(*call.prepared, engine);
   if (call.before != nullptr) CompareWith(call, engine);
   status = RefocusRows(call.source, call.sink, engine);
   if (status == SF_OK && report != nullptr) *report = engine->report;
-  return status;
+  return TellStatus(status, engine->config.problem);
 }
 
 }  // namespace starfocus

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstdlib>
 
+#include "lib/api/validate.h"
 #include "lib/engine/engine.h"
 #include "starfocus/starfocus.h"
 
@@ -25,20 +26,31 @@ void* AllocateFromHeap(void*, size_t bytes, size_t alignment) {
 
 void ReleaseToHeap(void*, void* memory, size_t) { std::free(static_cast<void**>(memory)[-1]); }
 
+// Whether a function is there, as a pointer that is null or not.
+template <class Function>
+const void* Address(Function* function) {
+  return reinterpret_cast<const void*>(function);
+}
+
 }  // namespace
 }  // namespace starfocus
 
 sf_status sf_create(const sf_config* config, const sf_allocator* allocator, sf_engine** engine) {
-  if (engine == nullptr) return SF_ERROR_NULL;
-  *engine = nullptr;
+  if (engine != nullptr) *engine = nullptr;
   const sf_allocator heap = {nullptr, starfocus::AllocateFromHeap, starfocus::ReleaseToHeap};
   const sf_allocator& from = allocator != nullptr ? *allocator : heap;
-  if (from.allocate == nullptr || from.release == nullptr) return SF_ERROR_NULL;
+  sf_config full = starfocus::DefaultConfig();
+  sf_status status =
+      starfocus::EnterConfig(config,
+                             {{"engine", engine},
+                              {"allocator.allocate", starfocus::Address(from.allocate)},
+                              {"allocator.release", starfocus::Address(from.release)}},
+                             &full);
   size_t bytes = 0;
-  sf_status status = sf_workspace_size(config, &bytes);
+  if (status == SF_OK) status = sf_workspace_size(config, &bytes);
   if (status != SF_OK) return status;
   void* const memory = from.allocate(from.data, bytes, SF_ALIGNMENT);
-  if (memory == nullptr) return SF_ERROR_MEMORY;
+  if (memory == nullptr) return starfocus::TellStatus(SF_ERROR_MEMORY, full.problem);
   status = sf_init(config, memory, bytes, engine);
   if (status != SF_OK) {
     from.release(from.data, memory, bytes);

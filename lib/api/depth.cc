@@ -116,7 +116,7 @@ sf_status SizeOf(const sf_depth_config* config, bool repairs, size_t* bytes) {
   const size_t needed = full.views == 1
                             ? LayOutColourRepair(plan, full.max_workers, nullptr, &of_colour)
                             : LayOutEstimate(plan, full.max_workers, nullptr, &counted);
-  if (needed == kTooLarge) return SF_ERROR_TOO_LARGE;
+  if (needed == kTooLarge) return TellStatus(SF_ERROR_TOO_LARGE, full.problem);
   *bytes = needed;
   return SF_OK;
 }
@@ -225,8 +225,9 @@ sf_status RunCall(DepthCall call, bool repairs, sf_map* map) {
                             map->confidence_stride,
                             map->coverage,
                             map->coverage_stride};
-  return call.config->views == 1 ? RepairOneView(call, output, &map->has_coverage)
-                                 : SweepViews(call, repairs, output);
+  status = call.config->views == 1 ? RepairOneView(call, output, &map->has_coverage)
+                                   : SweepViews(call, repairs, output);
+  return TellStatus(status, full.problem);
 }
 
 }  // namespace

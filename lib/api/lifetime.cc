@@ -109,19 +109,19 @@ sf_status sf_workspace_size(const sf_config* config, size_t* bytes) {
   if (status != SF_OK) return status;
   EngineState* counted = nullptr;
   const size_t needed = starfocus::LayOut(starfocus::Choose(full), nullptr, &counted);
-  if (needed == starfocus::kTooLarge) return SF_ERROR_TOO_LARGE;
+  if (needed == starfocus::kTooLarge)
+    return starfocus::TellStatus(SF_ERROR_TOO_LARGE, full.problem);
   *bytes = needed;
   return SF_OK;
 }
 
 sf_status sf_init(const sf_config* config, void* workspace, size_t bytes, sf_engine** engine) {
-  if (engine == nullptr) return SF_ERROR_NULL;
-  *engine = nullptr;
-  size_t needed = 0;
-  sf_status status = sf_workspace_size(config, &needed);
-  if (status != SF_OK) return status;
+  if (engine != nullptr) *engine = nullptr;
   sf_config full = starfocus::DefaultConfig();
-  starfocus::ReadSized(*config, &full);
+  sf_status status = starfocus::EnterConfig(config, {{"engine", engine}}, &full);
+  size_t needed = 0;
+  if (status == SF_OK) status = sf_workspace_size(config, &needed);
+  if (status != SF_OK) return status;
   status = starfocus::CheckMemory({"workspace", workspace, bytes}, needed, full.problem);
   if (status != SF_OK) return status;
   new (workspace) EngineState();

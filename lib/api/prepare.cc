@@ -36,7 +36,8 @@ sf_status sf_prepared_size(const sf_config* config, size_t* bytes) {
   if (status != SF_OK) return status;
   Prepared* counted = nullptr;
   const size_t needed = starfocus::LayOutPrepared(full, nullptr, &counted);
-  if (needed == starfocus::kTooLarge) return SF_ERROR_TOO_LARGE;
+  if (needed == starfocus::kTooLarge)
+    return starfocus::TellStatus(SF_ERROR_TOO_LARGE, full.problem);
   *bytes = needed;
   return SF_OK;
 }
@@ -60,7 +61,7 @@ sf_status sf_prepare(sf_engine* engine, const sf_light_field* light_field, void*
   starfocus::UseLightField(field, &e);
   Prepared* made = nullptr;
   status = starfocus::Prepare(call, starfocus::SourceOf(field), &e, &made);
-  if (status != SF_OK) return status;
+  if (status != SF_OK) return starfocus::TellStatus(status, &e.problem);
   made->light_field = *light_field;
   *prepared = reinterpret_cast<sf_prepared*>(made);
   return SF_OK;

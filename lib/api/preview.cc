@@ -53,7 +53,7 @@ sf_status CheckPreview(const PreviewRequest& request, const EngineState& engine)
   check.Need(request.params.previous == nullptr, SF_ERROR_RANGE, {"previous"},
              {"null for a prepared light field"});
   if (check.status() != SF_OK) return check.status();
-  return CheckBlur(config, LargestBlur(config, request.params));
+  return CheckBlur(config, request.params);
 }
 
 }  // namespace

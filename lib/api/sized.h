@@ -8,11 +8,12 @@
 
 namespace starfocus {
 
-// Writes the defaults as far as the caller's structure goes, with its size.
+// Writes the defaults as far as the caller's structure goes, zeros beyond, and its size.
 template <class Structure>
 void InitSized(Structure defaults, uint32_t size, Structure* given) {
   if (given == nullptr || size < sizeof size) return;
   defaults.size = size;
+  if (size > sizeof defaults) std::memset(static_cast<void*>(given), 0, size);
   std::memcpy(static_cast<void*>(given), &defaults,
               size < sizeof defaults ? size : sizeof defaults);
 }

@@ -149,7 +149,7 @@ sf_status sf_stream_begin(sf_engine* engine, const sf_params* params) {
   e.stream = starfocus::Stream();
   e.crew.jobs.watch.Begin(0, e.config.height);
   status = starfocus::SetLens(full, &e);
-  if (status != SF_OK) return status;
+  if (status != SF_OK) return starfocus::TellStatus(status, &e.problem);
   starfocus::SetPlanes(e.config, *e.kernels, e.rings, &e.pictures);
   e.stream.active = true;
   return SF_OK;
@@ -190,5 +190,5 @@ sf_status sf_stream_pull(sf_engine* engine, const sf_image* out, int32_t rows, i
                                            nullptr};
   status = starfocus::PullRows(starfocus::SinkOf(output), most, &e, written);
   if (status == SF_OK && report != nullptr) *report = e.report;
-  return status;
+  return starfocus::TellStatus(status, &e.problem);
 }

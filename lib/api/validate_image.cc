@@ -75,7 +75,7 @@ void CheckImage(const sf_image& image, const PictureSize& size, const ImageNames
 
 void NeedInPlace(const sf_image& image, const ImageNames& names, int32_t index, Checker* check) {
   check->Need(IsInPlace(image), SF_ERROR_FEATURE, {names.format, double(image.format), index},
-              {"SF_FORMAT_RGB without gaps, or SF_FEATURE_IMAGES"});
+              {"SF_FORMAT_RGB without gaps, or an engine with SF_FEATURE_IMAGES"});
 }
 
 }  // namespace
@@ -119,8 +119,9 @@ sf_status CheckInPlace(const sf_light_field& light_field, int32_t count, sf_prob
 
 sf_status CheckInPlace(const sf_depth_map& map, const PictureSize& size, sf_problem* problem) {
   Checker check(problem);
-  check.Need(IsInPlace(map, size.width, size.height), SF_ERROR_FEATURE, {"depth"},
-             {"as of sf_depth_float, as large as the picture, or SF_FEATURE_IMAGES"});
+  check.Need(
+      IsInPlace(map, size.width, size.height), SF_ERROR_FEATURE, {"depth"},
+      {"as of sf_depth_float, as large as the picture, or an engine with SF_FEATURE_IMAGES"});
   return check.status();
 }
 

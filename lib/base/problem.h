@@ -42,6 +42,9 @@ struct FieldValue {
 sf_status Refuse(sf_status status, const FieldValue& field, const Allowed& allowed,
                  sf_problem* problem);
 
+// Fills *problem in for a status that no check has told of: runner, progress or memory. Returns it.
+sf_status TellStatus(sf_status status, sf_problem* problem);
+
 // Checks values one after the other. The first one that it refuses is the problem.
 class Checker {
  public:

@@ -47,17 +47,19 @@ double LargestBlur(const sf_config& config, const sf_params& params) {
   return params.lens.aperture * (nearer > farther ? nearer : farther);
 }
 
-sf_status CheckBlur(const sf_config& config, double r_max) {
+sf_status CheckBlur(const sf_config& config, const sf_params& params) {
+  const double r_max = LargestBlur(config, params), aperture = params.lens.aperture;
   Checker check(config.problem);
-  check.Need(r_max <= config.max_blur, SF_ERROR_BLUR, {"lens.aperture", r_max},
-             {"a blur radius of at most max_blur pixels", 0, config.max_blur});
+  check.Need(r_max <= config.max_blur, SF_ERROR_BLUR, {"lens.aperture", aperture},
+             {"at most max_blur over the largest |disparity - lens.focus| that is configured", 0,
+              aperture * config.max_blur / r_max});
   return check.status();
 }
 
 sf_status MakeLens(const sf_config& config, const sf_params& params, Watch* watch, Tables* tables,
                    Lens* lens) {
   const double r_max = LargestBlur(config, params);
-  const sf_status fits = CheckBlur(config, r_max);
+  const sf_status fits = CheckBlur(config, params);
   if (fits != SF_OK) return fits;
   SetOpening(ShapeOf(params.lens), tables);
   lens->params = params;

@@ -67,8 +67,8 @@ inline bool IsDeblocking(const sf_config& config, const Lens& lens) {
 // Blur radius of the configured range's farther end.
 double LargestBlur(const sf_config& config, const sf_params& params);
 
-// Returns SF_ERROR_BLUR if the engine is not made for blur of that radius, else SF_OK.
-sf_status CheckBlur(const sf_config& config, double r_max);
+// Returns SF_ERROR_BLUR if the engine is not made for the largest blur of the params, else SF_OK.
+sf_status CheckBlur(const sf_config& config, const sf_params& params);
 
 // Makes the lens for params, and the tables that it needs and that are not there yet. Returns
 // SF_ERROR_BLUR, SF_ERROR_CANCELLED or SF_OK. The other fields of params must have been

@@ -2,8 +2,10 @@
 // Engines of sf_create: memory in one piece of the allocator's, which gets it back.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "starfocus/starfocus.h"
@@ -83,6 +85,17 @@ TEST_CASE("configuration: shorter structures get the defaults of what they lack"
   sf_destroy(engine);
 }
 
+TEST_CASE("configuration: longer structures are zero beyond what the library knows, and refused") {
+  std::vector<uint8_t> memory(sizeof(sf_config) + 24, test::kPoison);
+  sf_config* const config = reinterpret_cast<sf_config*>(memory.data());
+  sf_config_init_sized(config, uint32_t(memory.size()));
+  CHECK(config->size == memory.size());
+  CHECK(std::count(memory.end() - 24, memory.end(), 0) == 24);
+  config->width = config->height = 20;
+  size_t bytes = 0;
+  CHECK(sf_workspace_size(config, &bytes) == SF_ERROR_STRUCTURE);
+}
+
 TEST_CASE("create: one allocation of the workspace's size, given back once") {
   const Fixture f;
   Counter counter;
@@ -116,13 +129,18 @@ TEST_CASE("create: without an allocator the heap's memory, aligned") {
 }
 
 TEST_CASE("create: no memory, misaligned memory and other errors leave nothing behind") {
-  const Fixture f;
+  Fixture f;
+  sf_problem problem = {};
+  f.config.problem = &problem;
+  const auto field = [&problem] { return std::string(problem.field); };
   Counter counter;
   const sf_allocator allocator = counter.Allocator();
   sf_engine* const poison = reinterpret_cast<sf_engine*>(&counter);
   sf_engine* engine = poison;
   counter.empty = true;
   CHECK(sf_create(&f.config, &allocator, &engine) == SF_ERROR_MEMORY);
+  CHECK(problem.status == SF_ERROR_MEMORY);
+  CHECK(field() == "allocator");
   CHECK(engine == nullptr);
   CHECK(counter.allocations == 1);
   CHECK(counter.releases == 0);
@@ -142,10 +160,12 @@ TEST_CASE("create: no memory, misaligned memory and other errors leave nothing b
   CHECK(engine == nullptr);
   CHECK(sf_create(nullptr, &allocator, &engine) == SF_ERROR_NULL);
   CHECK(sf_create(&f.config, &allocator, nullptr) == SF_ERROR_NULL);
+  CHECK(field() == "engine");
   const sf_allocator without[] = {{&counter, nullptr, Counter::Release},
                                   {&counter, Counter::Allocate, nullptr}};
   for (const sf_allocator& half : without) {
     CHECK(sf_create(&f.config, &half, &engine) == SF_ERROR_NULL);
+    CHECK(field() == (half.allocate == nullptr ? "allocator.allocate" : "allocator.release"));
   }
   CHECK(counter.allocations == 2);
 }

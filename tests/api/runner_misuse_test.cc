@@ -128,6 +128,9 @@ TEST_CASE("runner: every misuse of every set is an error, and harms no later cal
       Runner bad = {misuse.run, set};
       CHECK(test::Refocus(&engine, f.params, f.scene, &out, Runner::Run, &bad) == SF_ERROR_RUNNER);
       CHECK(bad.sets == set + 1);
+      const sf_problem* const problem = sf_engine_problem(engine.get());
+      CHECK(problem->status == SF_ERROR_RUNNER);
+      CHECK(std::string(problem->field) == "runner");
     }
     out = test::Output(kWidth, kHeight);
     CHECK(test::Refocus(&engine, f.params, f.scene, &out) == SF_OK);
@@ -146,6 +149,7 @@ TEST_CASE("runner: sf_prepare refuses a runner that skips a job") {
   REQUIRE(sf_set_callbacks(engine.get(), &callbacks) == SF_OK);
   CHECK(sf_prepare(engine.get(), &field, memory.get(), memory.bytes, &prepared) == SF_ERROR_RUNNER);
   CHECK(prepared == nullptr);
+  CHECK(std::string(sf_engine_problem(engine.get())->field) == "runner");
 }
 
 // The set that is running, for a clock that is asked within its jobs.

@@ -77,6 +77,7 @@ TEST_CASE("progress: a stream that is cancelled as it begins has not begun") {
   Watch watch(0);
   SetCallbacks(&engine, Watched(&watch));
   CHECK(sf_stream_begin(engine.get(), &f.params) == SF_ERROR_CANCELLED);
+  CHECK(sf_engine_problem(engine.get())->status == SF_ERROR_CANCELLED);
   const sf_light_field field = f.scene.Field();
   int32_t consumed = 0;
   CHECK(sf_stream_push(engine.get(), &field, 1, &consumed) == SF_ERROR_STATE);

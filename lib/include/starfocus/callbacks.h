@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* starfocus: functions of the caller that the engine calls. Part of starfocus.h. */
+/* starfocus: functions of the caller that the engine calls. Part of starfocus.h. They must return:
+ * no exception and no longjmp may leave them. */
 #ifndef STARFOCUS_CALLBACKS_H_
 #define STARFOCUS_CALLBACKS_H_
 

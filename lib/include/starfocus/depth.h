@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* starfocus: disparity maps from captured views. C ABI; conventions as in starfocus.h, of which a
- * program that makes no maps needs nothing of this.
+/* starfocus: disparity maps from captured views. C ABI; conventions as in starfocus.h. A program
+ * that makes no disparity maps does not need this header. Views are of SF_FORMAT_RGB without gaps
+ * between pixels.
  *
  * Use: sf_depth_config_init, fill the fields in, sf_estimate_size, allocate that many bytes aligned
  * to SF_ALIGNMENT, sf_estimate_disparity. The bytes of a map depend on the configuration and the
@@ -20,19 +21,19 @@ typedef struct sf_depth_config {
   uint32_t size;        /**< of the structure in bytes, set by sf_depth_config_init */
   int32_t width;        /**< pixels, [1, SF_MAX_SIZE] */
   int32_t height;       /**< pixels, [1, SF_MAX_SIZE] */
-  int32_t views;        /**< captured views: 5, 9 or 17 (see sf_view_position), 1 as well of a
-                             repair; default 5 */
-  double disparity_min; /**< disparities are looked for from here */
-  double disparity_max; /**< to here, both within +-SF_MAX_DISPARITY; in steps of half a pixel, of
-                            a pixel or more, 128 at most, if the range is wider than 64; between
-                            two steps what fits best is found */
+  int32_t views;        /**< captured views: 5, 9 or 17 (see sf_view_position), and 1 for
+                             sf_repair_disparity; default 5 */
+  double disparity_min; /**< least disparity of the map, within +-SF_MAX_DISPARITY; default 0 */
+  double disparity_max; /**< largest one; default 0. The range is searched in steps of half a pixel,
+                            or if it is wider than 64, of a pixel or more (at most 128 steps).
+                           Values between two steps are interpolated */
   int32_t max_workers;  /**< workers the runner may use, [1, SF_MAX_WORKERS]; default 1 */
   sf_runner runner;     /**< runs the jobs; null, the default: the calling thread runs them */
   void* runner_data;    /**< passed to runner */
-  sf_progress progress; /**< of the rows of the map, by all that they take; null, the default:
-                             nobody is asked. It is asked between tiles of the picture alone, which
-                             take longer than those of an engine; after SF_ERROR_CANCELLED the
-                             outputs and the workspace are unspecified */
+  sf_progress progress; /**< receives rows of the map as the work proceeds; null, the default: no
+                             progress is reported. It is called after each tile of the picture,
+                           which takes up to 50 ms; after SF_ERROR_CANCELLED the outputs and the
+                             workspace are unspecified */
   void* progress_data;  /**< passed to progress */
   sf_problem* problem;  /**< where a call tells what it refuses; null, the default: nowhere */
 } sf_depth_config;
@@ -65,7 +66,7 @@ SF_API sf_status sf_estimate_size(const sf_depth_config* config, size_t* bytes);
 
 /** Estimates the disparity of each pixel of the centre view: the one at which all views that see
  *  the pixel agree best, smooth between neighbours. Every value lies in the configured range.
- *  light_field->depth is not read; views are of SF_FORMAT_RGB without gaps between pixels. The
+ *  light_field->depth is not read. The
  * views and the workspace must not change during the call. Confidence is the cost of the best
  * disparity that differs by a step or more, minus the cost of the result, in quarters of a gray
  * level, summed over the three colours: 0 if another disparity is as good (a wall of one colour,

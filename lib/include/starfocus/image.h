@@ -52,8 +52,7 @@ typedef enum sf_range {
 } sf_range;
 
 /** A picture that is read or written. Calls do not write the pictures that they read; of an output
- *  they write the bytes of its pixels alone. All zero but for planes and strides it is one of
- *  R, G, B.
+ *  they write the bytes of its pixels alone. With all other fields 0 it is SF_FORMAT_RGB.
  *
  *  Conversion is in integers, the same on every machine. P(a, c) is (a c + 2^14) >> 15 (arithmetic
  *  shifts round down) and [x] is x rounded to the nearest integer, halves away from 0.
@@ -72,13 +71,13 @@ typedef enum sf_range {
  *    v_b = [-h Kb / (1 - Kr)], v_g = -v_r - v_b. */
 typedef struct sf_image {
   int32_t format;       /**< sf_format */
-  int32_t matrix;       /**< sf_matrix; of R, G, B not looked at */
-  int32_t range;        /**< sf_range; of R, G, B not looked at */
+  int32_t matrix;       /**< sf_matrix; ignored for R, G, B */
+  int32_t range;        /**< sf_range; ignored for R, G, B */
   int32_t pixel_stride; /**< bytes from pixel to pixel of R, G, B: at least 3, or 4 with alpha, at
                              most SF_MAX_PIXEL_STRIDE; or from sample to sample of chroma: 1 or
                              2 of YUV_420_888, else what the format says. 0: the least that the
                              format allows */
-  void* planes[3];      /**< first bytes; those that the format has not are not looked at */
+  void* planes[3];      /**< first bytes; planes that the format lacks are ignored */
   size_t strides[3];    /**< bytes from row to row of each, as long as a row at least */
 } sf_image;
 
@@ -119,9 +118,10 @@ typedef struct sf_depth_map {
   int32_t height;   /**< in [1, height of the picture] */
   int32_t type;     /**< sf_depth_type */
   int32_t meaning;  /**< sf_depth_meaning */
-  double scale;     /**< finite, not 0; this, `offset` and `invalid` are rounded to float */
-  double offset;    /**< finite */
-  double invalid;   /**< compared with z */
+  double scale;   /**< finite, not 0: 1 for disparities; this, `offset` and `invalid` are rounded to
+                     float */
+  double offset;  /**< finite */
+  double invalid; /**< compared with z */
   int32_t has_invalid; /**< 1: `invalid` stands for an unknown depth; 0: no value does */
 } sf_depth_map;
 

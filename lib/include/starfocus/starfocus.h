@@ -14,23 +14,28 @@
  *      no call is running. Or sf_create, which has an allocator do that, and sf_destroy.
  *   3. sf_refocus with whole pictures, or sf_stream_begin / sf_stream_push / sf_stream_pull with
  *      rows. Both give the same bytes. For many pictures of one light field there is sf_prepare,
- *      for a part of one sf_params.region, for frames of a video sf_refocus_after.
+ *      for a part of one sf_params.region, for frames of a video sf_params.previous.
  *
  * Conventions: u grows to the right, v downwards; no view lies beyond |u|, |v| = 1, where the
  * star's outermost ones are. Disparity d is in pixels per unit u, larger is nearer: a point seen at
- * (x, y) in the centre view is seen at (x - u*d, y - v*d) in view (u, v). Pictures are rows of
- * interleaved R, G, B bytes; strides are in bytes and may exceed the row length.
+ * (x, y) in the centre view is seen at (x - u*d, y - v*d) in view (u, v). The lens blurs it to a
+ * disc of radius aperture * |d - focus| pixels. Strides are in bytes and may exceed the row length.
+ * Zero all structures that have no init function, as by `= {0}`, and set what you need.
  *
- * Threads: an engine is used by one call at a time; several engines are independent. The engine
- * starts no threads; it hands jobs to the runner of sf_set_callbacks, for which starfocus/pool.h is
- * one. Output bytes depend on neither the runner, the number of workers, the SIMD target nor the
- * way the rows come in.
+ * Threads: an engine is used by one call at a time, of any thread; several engines are independent.
+ * The engine starts no threads; it hands jobs to the runner of sf_set_callbacks, for which
+ * starfocus/pool.h is one. Output bytes depend on neither the runner, the number of workers, the
+ * SIMD target nor the way the rows come in.
  *
  * Errors: every function checks all its arguments before it writes anything but its own state. It
  * returns an sf_status, which says what kind of error it is. An sf_problem says which field or
  * argument was refused, what its value was and what was expected: set sf_config.problem and
  * sf_depth_config.problem for calls that take a configuration, and ask sf_engine_problem after
- * calls with an engine.
+ * calls with an engine. SF_ERROR_STRUCTURE leaves sf_config.problem as it is.
+ *
+ * Bindings: refuse to run if sf_abi_version() is not SF_ABI_VERSION. Structures with `size` may get
+ * fields at their end without a new version, all others are fixed within one. Enumerators are
+ * passed as int. static inline functions are not exported: bindings call those with _sized instead.
  */
 #ifndef STARFOCUS_STARFOCUS_H_
 #define STARFOCUS_STARFOCUS_H_
@@ -63,8 +68,8 @@ SF_API uint32_t sf_abi_version(void);
 /** SF_VERSION_STRING the library was built with, e.g. "0.1.0"; static storage. */
 SF_API const char* sf_version(void);
 
-/** Size in bytes of a structure of starfocus.h or depth.h in the library, by its name, such as
- *  "sf_config"; 0 for unknown names. Bindings compare it with the structures they declare. */
+/** Size in bytes of a public structure in the library, by its name, such as "sf_config"; 0 for
+ *  unknown names. Bindings compare it with the structures they declare. */
 SF_API size_t sf_struct_size(const char* name);
 
 #define SF_MIN_THETA 0.15707963267948966 /**< 0.05 pi */
@@ -76,13 +81,13 @@ SF_API size_t sf_struct_size(const char* name);
 #define SF_MAX_BLADES 12
 #define SF_MAX_RING_INNER 0.9
 #define SF_FEATURE_LINE_SCAN 1u /**< the paper's renderer, SF_RENDERER_LINE_SCAN */
-#define SF_FEATURE_COVERAGE 2u  /**< hair and other thin structures are parted */
+#define SF_FEATURE_COVERAGE 2u  /**< separates hair and thin structures from what is behind them */
 #define SF_FEATURE_STREAMING 4u /**< sf_stream_*: reserves rings of rows */
 #define SF_FEATURE_IMAGES 8u    /**< formats other than rows of R, G, B and of float disparities */
-/** NaN and infinite values of disparity maps are unknown, and along their row the known value next
- * to them goes on, of one on either side that of the farther surface; a row without any is at
- *  disparity_min. Without it they are refused, SF_ERROR_NOT_FINITE. sf_repair_disparity finds what
- *  the views show there, and sf_fill_disparity fills whole maps. */
+/** NaN and infinite values of disparity maps are unknown: each takes the nearest known value of its
+ *  row; between two, that of the farther surface. A row without any is at disparity_min. Without
+ * the feature they are refused, SF_ERROR_NOT_FINITE. sf_repair_disparity finds what the views show
+ *  there, and sf_fill_disparity fills whole maps. */
 #define SF_FEATURE_FILL_UNKNOWN 16u
 /** Lenses may be polygons and have cat's eyes: reserves larger tables. Without it such lenses are
  *  refused, SF_ERROR_FEATURE. */
@@ -113,10 +118,10 @@ typedef struct sf_config {
   int32_t height;       /**< pixels, [1, SF_MAX_SIZE]; the workspace does not depend on it */
   int32_t views;        /**< captured views: 1, 5, 9 or 17 (see sf_view_position), or with positions
                              any number from 1 to SF_MAX_VIEWS; default 5 */
-  double disparity_min; /**< smallest disparity any map may hold; with disparity_max it bounds the
-                            blur, and so N of the frame modes and, beyond 32 pixels of blur, how
-                            finely scenes are cut, in every entry path */
-  double disparity_max; /**< largest disparity any map may hold, >= disparity_min */
+  double disparity_min; /**< smallest disparity any map may hold; default 0. A range wider than that
+                            of the maps changes pictures: it raises N of the frame modes, and beyond
+                            32 pixels of blur, slices get thicker */
+  double disparity_max; /**< largest disparity any map may hold, >= disparity_min; default 0 */
   double max_blur;      /**< largest blur radius r = aperture * |d - focus| in pixels that will be
                              asked for, (0, SF_MAX_BLUR]; default 32. It reserves room and changes
                              no picture */
@@ -277,7 +282,8 @@ typedef struct sf_light_field {
 } sf_light_field;
 
 /** The frame before: a light field of the same configuration, and what was made of it with the same
- *  sf_params but for `previous`. */
+ *  sf_params but for `previous`. That is not checked: the picture of another lens is copied where
+ *  nothing changed. */
 typedef struct sf_previous {
   sf_light_field light_field; /**< only compared */
   sf_image out;               /**< the picture, or region, that sf_refocus wrote */
@@ -401,24 +407,24 @@ SF_API sf_status sf_refocus_prepared(sf_engine* engine, const sf_params* params,
 /** Starts (or restarts) a streamed refocusing; the engine needs SF_FEATURE_STREAMING. */
 SF_API sf_status sf_stream_begin(sf_engine* engine, const sf_params* params);
 
-/** Copies up to `rows` next rows of the light field. Planes of views and coverage point to the
- * first of them, and so does a map as high as the picture; a map of fewer rows is given whole, the
- * same in all calls. *consumed <= rows tells how many fitted: pull finished rows and push the rest.
- *  Rows that share chroma come together: where a view has some, `rows` is even but at the picture's
- *  end (else SF_ERROR_RANGE), and so is *consumed. A row with a bad disparity value is refused: the
- *  rows before it are consumed. Either all rows have coverage or none (else SF_ERROR_STATE). */
+/** Copies up to `rows` next rows of the light field, at most as many as are left. Planes of views
+ * and coverage point to the first of them. depth.height is always that of the whole map: if that is
+ * the picture's, depth.data points to the first of the rows, too; a smaller map is given whole in
+ * every call. *consumed <= rows tells how many fitted: pull finished rows and push the rest. Rows
+ * that share chroma come together: where a view has some, `rows` is even but at the picture's end
+ * (else SF_ERROR_RANGE), and so is *consumed. A row with a bad disparity value is refused: the rows
+ * before it are consumed. Either all rows have coverage or none (else SF_ERROR_STATE). */
 SF_API sf_status sf_stream_push(sf_engine* engine, const sf_light_field* light_field, int32_t rows,
                                 int32_t* consumed);
 
 /** Writes up to `rows` next finished rows to `out`, whose planes point to the first of them; where
- *  they share chroma, `rows` is even but at the picture's end. *written may be 0 until more rows
- * are pushed. report may be null; it is complete once the last row is written. After
- *  SF_ERROR_RUNNER and SF_ERROR_CANCELLED the rows counted by *written are good, and the stream
- *  stays: the next pull goes on behind them, sf_stream_begin and every other call with the engine
- *  but sf_set_callbacks end it. That pull tells on_block again of blocks that had been left half
- *  done, but the report counts them once (only centre_bytes may grow: what was read in vain is read
- *  again). progress is told of the rows that are made, also by the pulls before, of the whole
- *  picture's, and only by pulls that make any. */
+ *  they share chroma, `rows` is even but at the picture's end. More rows than are left may be asked
+ *  for. *written may be 0 until more rows are pushed. report may be null; it is complete once the
+ *  last row is written.
+ *  After SF_ERROR_RUNNER and SF_ERROR_CANCELLED the rows counted by *written are good, and the next
+ *  pull goes on behind them. That pull tells on_block again of blocks that were half done; the
+ * report counts them once (only centre_bytes may grow). sf_stream_begin and every other call with
+ * the engine but sf_set_callbacks end the stream. progress counts rows of the whole picture. */
 SF_API sf_status sf_stream_pull(sf_engine* engine, const sf_image* out, int32_t rows,
                                 int32_t* written, sf_report* report);
 

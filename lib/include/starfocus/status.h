@@ -27,7 +27,8 @@ typedef enum sf_status {
   SF_ERROR_MEMORY = 8,       /**< an allocator, or that of starfocus.hpp, has no memory */
   SF_ERROR_STRIDE = 9,       /**< a stride is smaller than a row, or misaligned */
   SF_ERROR_OVERLAP = 10,     /**< an output overlaps an input or the workspace */
-  SF_ERROR_BLUR = 11,        /**< aperture * |disparity - focus| would exceed max_blur */
+  SF_ERROR_BLUR = 11,        /**< aperture * |disparity - focus| would exceed max_blur at
+                                  disparity_min or disparity_max */
   SF_ERROR_DISPARITY = 12,   /**< disparity map holds a value outside the configured range */
   SF_ERROR_NOT_FINITE = 13,  /**< disparity map holds NaN or infinity */
   SF_ERROR_ALL_INVALID = 14, /**< disparity map without a single finite value */
