@@ -17,7 +17,7 @@ int main() {
   for (const double focus : {6.0, -4.0}) {
     starfocus::Params params;
     params.lens.focus = focus;
-    if (status == SF_OK) status = engine.Refocus(params, field, out, kStride);
+    if (status == SF_OK) status = engine.Refocus(params, field, sf_image_rgb(out, kStride));
     if (status == SF_OK) std::printf("%08x\n", static_cast<unsigned>(Checksum(out, sizeof out)));
   }
   if (status != SF_OK) std::fprintf(stderr, "refocus: %s\n", sf_status_string(status));
