@@ -98,14 +98,14 @@ class Engine {
 std::vector<double> ReadLevels(const Engine& measured) {
   const EngineState& engine = measured.state();
   const Block& block = engine.stripe.plan.blocks[0];
-  const Worker& worker = engine.crew.workers[0];
+  const Scratch& scratch = engine.workers.scratch[0];
   const ViewWeights& aperture = WeightsOf(engine.lens, block.n);
   const int bits =
       block.layer == 0 ? engine.lens.renderer->sum_bits(aperture) : int{simd::kLayerBits};
   const double one = std::ldexp(1.0, bits);
   std::vector<double> levels(measured.out().size() / 3);
   for (size_t k = 0; k < levels.size(); ++k) {
-    const double sample = block.layer == 0 ? worker.sums[3 * k] : worker.picture_samples[3 * k];
+    const double sample = block.layer == 0 ? scratch.sums[3 * k] : scratch.picture_samples[3 * k];
     // The centre view alone is copied.
     levels[k] = aperture.n == 0 ? measured.out()[3 * k] : sample / one;
   }

@@ -22,7 +22,7 @@ int32_t NeededRows(const EngineState& engine) {
 // Refocuses the next stripe, whose rows must have been pushed.
 sf_status RefocusNext(EngineState* engine) {
   Stream& stream = engine->stream;
-  Watch& watch = engine->crew.jobs.watch;
+  Watch& watch = engine->workers.jobs.watch;
   watch.Begin(stream.finished, engine->config.height);
   const sf_status status = RefocusStripe(engine, stream.next);
   if (status != SF_OK) return status;
@@ -147,7 +147,7 @@ sf_status sf_stream_begin(sf_engine* engine, const sf_params* params) {
   check.Need(full.previous == nullptr, SF_ERROR_RANGE, {"previous"}, {"null for a stream"});
   if (check.status() != SF_OK) return check.status();
   e.stream = starfocus::Stream();
-  e.crew.jobs.watch.Begin(0, e.config.height);
+  e.workers.jobs.watch.Begin(0, e.config.height);
   status = starfocus::SetLens(full, &e);
   if (status != SF_OK) return starfocus::TellStatus(status, &e.problem);
   starfocus::SetPlanes(e.config, *e.kernels, e.rings, &e.pictures);

@@ -27,11 +27,11 @@ void ReadMap(const RowsJob& job, int32_t y, int16_t* row, Counts* counts) {
 }
 
 // Job `index` overwrites one row of the ring, of which it has the only one.
-void CheckPart(const RowsJob& job, int32_t index, Worker* worker) {
+void CheckPart(const RowsJob& job, int32_t index, Scratch* scratch) {
   const RowRange rows = PartOf(job.rows, index, job.jobs);
   for (int32_t y = rows.first; y < rows.last; ++y) {
-    if (!worker->cancel.Spend(job.engine->config.width)) return;
-    ReadMap(job, y, job.disparity.Row(index), &worker->counts);
+    if (!scratch->cancel.Spend(job.engine->config.width)) return;
+    ReadMap(job, y, job.disparity.Row(index), &scratch->counts);
   }
 }
 
@@ -50,16 +50,16 @@ void FinishMapRow(const EngineState& engine, int16_t* row, Counts* counts) {
   CheckAll(ranges::kDisparity, row, static_cast<size_t>(engine.config.width));
 }
 
-void LoadPart(const RowsJob& job, int32_t index, Worker* worker) {
+void LoadPart(const RowsJob& job, int32_t index, Scratch* scratch) {
   const EngineState& engine = *job.engine;
   const int32_t width = engine.config.width;
   const RowRange rows = PartOf(job.rows, index, job.jobs);
   for (int32_t y = rows.first; y < rows.last; ++y) {
-    if (!worker->cancel.Spend(4 * int64_t{width})) return;
+    if (!scratch->cancel.Spend(4 * int64_t{width})) return;
     if (job.source->converts_centre) CopyCodes(*job.source, 0, y, width, engine.rings[0].Row(y));
     if (job.source->map == nullptr) continue;
-    ReadMap(job, y, job.disparity.Row(y), &worker->counts);
-    FinishMapRow(engine, job.disparity.Row(y), &worker->counts);
+    ReadMap(job, y, job.disparity.Row(y), &scratch->counts);
+    FinishMapRow(engine, job.disparity.Row(y), &scratch->counts);
   }
 }
 
@@ -72,12 +72,12 @@ sf_status StatusOf(uint32_t flags, const sf_config& config) {
   return check.status();
 }
 
-template <void (*kJob)(const RowsJob&, int32_t, Worker*)>
+template <void (*kJob)(const RowsJob&, int32_t, Scratch*)>
 sf_status RunRows(const RowsJob& job, EngineState* engine) {
-  const sf_status status = RunJobs<RowsJob, kJob>(job, job.jobs, &engine->crew);
+  const sf_status status = RunJobs<RowsJob, kJob>(job, job.jobs, &engine->workers);
   uint32_t flags = 0;
   for (int32_t worker = 0; worker < engine->config.max_workers; ++worker) {
-    flags |= engine->crew.workers[worker].counts.depth_flags;
+    flags |= engine->workers.scratch[worker].counts.depth_flags;
   }
   TakeCounts(engine);
   return status != SF_OK ? status : StatusOf(flags, engine->config);
@@ -116,7 +116,7 @@ sf_status LoadRows(const RowSource& source, const RowRange& rows, const Plane<in
 sf_status CopyRow(const RowSource& source, int32_t y, EngineState* engine) {
   const sf_config& config = engine->config;
   int16_t* const row = engine->pictures.disparity.Row(y);
-  Counts& counts = engine->crew.workers[0].counts;
+  Counts& counts = engine->workers.scratch[0].counts;
   counts.depth_flags = source.map(source.self, y, row, &counts.disparity_bytes);
   const sf_status status = StatusOf(counts.depth_flags, config);
   if (status == SF_OK) FinishMapRow(*engine, row, &counts);
@@ -151,7 +151,7 @@ sf_status RefocusRows(const RowSource& source, const RowSink& sink, EngineState*
     status = LoadRows(source, rows, engine->pictures.disparity, engine);
     rows.first = rows.last;
     if (status == SF_OK && engine->stripe.changes.active) {
-      status = CompareRows(y, &engine->crew.workers[0].cancel, &engine->stripe.changes);
+      status = CompareRows(y, &engine->workers.scratch[0].cancel, &engine->stripe.changes);
     }
     if (status == SF_OK) status = RefocusStripe(engine, y);
     if (status != SF_OK) break;
@@ -161,10 +161,10 @@ sf_status RefocusRows(const RowSource& source, const RowSink& sink, EngineState*
     if (finished.first < end) {
       status = sink.store(sink.self, finished, BufferRows(*engine, y), engine);
     }
-    if (status == SF_OK) engine->crew.jobs.watch.SetRows(Max(0, end - top));
+    if (status == SF_OK) engine->workers.jobs.watch.SetRows(Max(0, end - top));
   }
   if (status != SF_OK) return status;
-  return engine->crew.jobs.watch.Ask() ? SF_OK : SF_ERROR_CANCELLED;
+  return engine->workers.jobs.watch.Ask() ? SF_OK : SF_ERROR_CANCELLED;
 }
 
 }  // namespace starfocus

@@ -33,7 +33,7 @@ void Add(const Counts& counts, sf_report* report) {
 
 sf_status SetLens(const sf_params& params, EngineState* engine) {
   const sf_status status =
-      MakeLens(engine->config, params, &engine->crew.jobs.watch, &engine->tables, &engine->lens);
+      MakeLens(engine->config, params, &engine->workers.jobs.watch, &engine->tables, &engine->lens);
   if (status != SF_OK) return status;
   engine->report = sf_report();
   engine->report.r_max = engine->lens.r_max;
@@ -48,14 +48,14 @@ sf_status SetLens(const sf_params& params, EngineState* engine) {
 
 void TakeCounts(EngineState* engine) {
   for (int32_t worker = 0; worker < engine->config.max_workers; ++worker) {
-    Add(engine->crew.workers[worker].counts, &engine->report);
+    Add(engine->workers.scratch[worker].counts, &engine->report);
   }
   DropCounts(engine);
 }
 
 void DropCounts(EngineState* engine) {
   for (int32_t worker = 0; worker < engine->config.max_workers; ++worker) {
-    engine->crew.workers[worker].counts = Counts();
+    engine->workers.scratch[worker].counts = Counts();
   }
 }
 

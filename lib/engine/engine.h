@@ -42,11 +42,11 @@ struct EngineState {
   Tables tables;
   sf_allocator allocator = {};      // of the memory; without functions: the caller's own
   size_t bytes = 0;                 // of that, from the allocator
-  Crew crew;                        // the workers' memory
+  Workers workers;                  // the workers' memory
   Plane<uint8_t> rings[kMaxViews];  // with streaming: rows that were pushed
   ImageMemory images;               // and rings[0]: of images
 
-  // Until the next sf_set_callbacks, beside the runner and progress function in crew.jobs:
+  // Until the next sf_set_callbacks, beside the runner and progress function in workers.jobs:
   sf_clock clock = nullptr;
   sf_block_visitor on_block = nullptr;
   void* on_block_data = nullptr;
@@ -61,7 +61,7 @@ struct EngineState {
   StripeState stripe;
 };
 
-// Sets up the lens for params, watched by the crew's watch, and forgets all of the refocusing
+// Sets up the lens for params, told to the workers' watch, and forgets all of the refocusing
 // before. Returns SF_ERROR_BLUR, SF_ERROR_CANCELLED or SF_OK. The other fields of params
 // must have been checked.
 sf_status SetLens(const sf_params& params, EngineState* engine);

@@ -24,10 +24,10 @@ void TakeResample(const sf_config& config, Arena* arena, ResampleScratch* resamp
 
 // Blocks are rendered, or parted, one after the other, and only sums are handed on: all the rest of
 // a worker's memory is shared.
-Worker TakeWorker(const sf_config& config, Arena* arena) {
+Scratch TakeScratch(const sf_config& config, Arena* arena) {
   const auto side = static_cast<size_t>(config.largest_block);
   const Borders borders = LargestBorders(config);
-  Worker worker = {};
+  Scratch scratch = {};
   const size_t extended = side + 2 * static_cast<size_t>(borders.level[0]);
   const int32_t renderers = RendererCount(config);
   int32_t max_n[kMaxRenderers] = {}, most = 0;
@@ -35,40 +35,40 @@ Worker TakeWorker(const sf_config& config, Arena* arena) {
     max_n[k] = Max(LargestN(config, *kRenderers[k], Demand::kRing, config.max_blur),
                    ViewsOfBenchmark(config.max_blur));
     most = Max(most, max_n[k]);
-    worker.scratch[k] = arena->Take<uint8_t>(kRenderers[k]->scratch_bytes);
+    scratch.renderers[k] = arena->Take<uint8_t>(kRenderers[k]->scratch_bytes);
   }
-  worker.sums = arena->Take<uint32_t>(3 * side * side);
-  if (HasShapes(config)) worker.aperture_weights = arena->Take<uint16_t>(FullApertureSize(most));
-  if (config.highlights > 1) worker.lamp_runs = arena->Take<LampRuns>(1);
+  scratch.sums = arena->Take<uint32_t>(3 * side * side);
+  if (HasShapes(config)) scratch.aperture_weights = arena->Take<uint16_t>(FullApertureSize(most));
+  if (config.highlights > 1) scratch.lamp_runs = arena->Take<LampRuns>(1);
   const size_t shared = arena->Mark();
   // The pool of slices, which comes last, takes all that others need.
   for (int32_t k = renderers - 1; k >= 0; --k) {
     kRenderers[k]->take_scratch(config, extended, static_cast<size_t>(max_n[k]), arena,
-                                worker.scratch[k]);
+                                scratch.renderers[k]);
     arena->Reuse(shared);
   }
   // What is gathered comes to a rendered rectangle from the field.
   const size_t half = side / 2 + 2 * static_cast<size_t>(LayerMargin(1));
-  worker.layer_samples = arena->Take<int16_t>(3 * half * half);
+  scratch.layer_samples = arena->Take<int16_t>(3 * half * half);
   const size_t behind = arena->Mark();
-  worker.field.rgb = arena->Take<int16_t>(extended * RgbStride(static_cast<int32_t>(extended)));
-  worker.field.disparity = arena->Take<int16_t>(extended * extended);
-  worker.spans = TakeSpans(extended, arena);
+  scratch.field.rgb = arena->Take<int16_t>(extended * RgbStride(static_cast<int32_t>(extended)));
+  scratch.field.disparity = arena->Take<int16_t>(extended * extended);
+  scratch.spans = TakeSpans(extended, arena);
   arena->Reuse(behind);
-  worker.upsample.line = arena->Take<int16_t>(3 * half);
-  worker.upsample.between = arena->Take<int16_t>(3 * half);
-  worker.upsample.even = arena->Take<int16_t>(3 * half);
-  worker.middle_samples = arena->Take<int16_t>(3 * half * half);
-  worker.picture_samples = arena->Take<int16_t>(3 * side * side);
+  scratch.upsample.line = arena->Take<int16_t>(3 * half);
+  scratch.upsample.between = arena->Take<int16_t>(3 * half);
+  scratch.upsample.even = arena->Take<int16_t>(3 * half);
+  scratch.middle_samples = arena->Take<int16_t>(3 * half * half);
+  scratch.picture_samples = arena->Take<int16_t>(3 * side * side);
   arena->Reuse(shared);
-  TakeResample(config, arena, &worker.resample);
+  TakeResample(config, arena, &scratch.resample);
   arena->Reuse(shared);
-  worker.partition.nodes =
+  scratch.partition.nodes =
       arena->Take<PartitionNode>(static_cast<size_t>(PartitionNodes(config.largest_block)));
-  worker.partition.cells =
+  scratch.partition.cells =
       arena->Take<int16_t>(SurroundingSamples(config.largest_block / kCellSize, borders.cells));
   arena->GoOn();
-  return worker;
+  return scratch;
 }
 
 void TakeTables(const sf_config& config, Arena* arena, Tables* tables) {
@@ -177,19 +177,19 @@ size_t Carve(const sf_config& config, Arena arena, EngineState** engine) {
   EngineState counted;  // stands in for *engine while counting
   EngineState& e = *engine == nullptr ? counted : **engine;
   TakeTables(config, &arena, &e.tables);
-  e.crew.jobs.max_workers = config.max_workers;
-  e.crew.workers = arena.Take<Worker>(static_cast<size_t>(config.max_workers));
+  e.workers.jobs.max_workers = config.max_workers;
+  e.workers.scratch = arena.Take<Scratch>(static_cast<size_t>(config.max_workers));
   for (int32_t worker = 0; worker < config.max_workers; ++worker) {
-    const Worker taken = TakeWorker(config, &arena);
+    const Scratch taken = TakeScratch(config, &arena);
     if (*engine == nullptr) continue;
-    e.crew.workers[worker] = taken;
-    e.crew.workers[worker].cancel = CancelToken(&e.crew.jobs.watch);
+    e.workers.scratch[worker] = taken;
+    e.workers.scratch[worker].cancel = CancelToken(&e.workers.jobs.watch);
   }
   // What grows with the picture comes last: LayOut for a smaller one leaves all else in place.
   TakeRows(config, &arena, &e);
   TakeLayers(config, &arena, &e);
   TakeStripe(config, &arena, &e);
-  e.crew.jobs.progress =
+  e.workers.jobs.progress =
       arena.Take<std::atomic<uint32_t>>(ProgressWords(static_cast<size_t>(MaxJobs(config))));
   return arena.Bytes();
 }

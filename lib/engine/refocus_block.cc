@@ -21,49 +21,49 @@ uint8_t* At(const Plane<uint8_t>& out, const Rect& rect, int32_t row) {
 const simd::Encoding& EncodingOf(const BlockInputs& in) { return in.windows[0].transfer->encoding; }
 
 void FinishPicture(const BlockInputs& in, const Rect& rect, int shift, const Plane<uint8_t>& out,
-                   const Worker& worker) {
+                   const Scratch& scratch) {
   const size_t samples = 3 * static_cast<size_t>(rect.width);
-  CheckSums(worker.sums, Samples(rect), shift);
+  CheckSums(scratch.sums, Samples(rect), shift);
   for (int32_t row = 0; row < rect.height; ++row) {
-    in.kernels->Finish(worker.sums + static_cast<size_t>(row) * samples, samples, shift,
+    in.kernels->Finish(scratch.sums + static_cast<size_t>(row) * samples, samples, shift,
                        EncodingOf(in), At(out, rect, row));
   }
 }
 
 // Makes samples of the layer of the sums of a block, in what it has of LayerFrame.
-void KeepLayer(const BlockInputs& in, const Block& block, int shift, const Worker& worker) {
+void KeepLayer(const BlockInputs& in, const Block& block, int shift, const Scratch& scratch) {
   const Rect frame = LayerFrame(block.rect, block.layer), &rendered = block.rendered;
   const size_t samples = 3 * static_cast<size_t>(rendered.width);
-  CheckSums(worker.sums, Samples(rendered), shift);
+  CheckSums(scratch.sums, Samples(rendered), shift);
   for (int32_t row = 0; row < rendered.height; ++row) {
     const size_t pixel =
         static_cast<size_t>(rendered.y - frame.y + row) * static_cast<size_t>(frame.width) +
         static_cast<size_t>(rendered.x - frame.x);
-    in.kernels->FinishLayer(worker.sums + static_cast<size_t>(row) * samples, samples, shift,
-                            worker.layer_samples + 3 * pixel);
+    in.kernels->FinishLayer(scratch.sums + static_cast<size_t>(row) * samples, samples, shift,
+                            scratch.layer_samples + 3 * pixel);
   }
 }
 
 // Brings what a block has at its layer to the picture: from layer 2 by way of layer 1, with the
 // margin that the next step reads.
 void FinishLayer(const BlockInputs& in, const Block& block, const Plane<uint8_t>& out,
-                 const Worker& worker) {
+                 const Scratch& scratch) {
   const simd::Kernels& kernels = *in.kernels;
   const Rect frame = LayerFrame(block.rect, block.layer);
-  CheckAll(ranges::kLayerSample, worker.layer_samples, Samples(frame));
-  LayerRect layer = {worker.layer_samples, frame.width, frame.height};
+  CheckAll(ranges::kLayerSample, scratch.layer_samples, Samples(frame));
+  LayerRect layer = {scratch.layer_samples, frame.width, frame.height};
   int32_t margin = LayerMargin(block.layer);
   if (block.layer == 2) {
     const int32_t next_margin = LayerMargin(1);
-    const LayerRect middle = {worker.middle_samples,
+    const LayerRect middle = {scratch.middle_samples,
                               ((block.rect.width + 1) >> 1) + 2 * next_margin,
                               ((block.rect.height + 1) >> 1) + 2 * next_margin};
-    UpsampleByTwo(kernels, layer, margin - next_margin / 2, worker.upsample, middle);
+    UpsampleByTwo(kernels, layer, margin - next_margin / 2, scratch.upsample, middle);
     layer = middle;
     margin = next_margin;
   }
-  const LayerRect picture = {worker.picture_samples, block.rect.width, block.rect.height};
-  UpsampleByTwo(kernels, layer, margin, worker.upsample, picture);
+  const LayerRect picture = {scratch.picture_samples, block.rect.width, block.rect.height};
+  UpsampleByTwo(kernels, layer, margin, scratch.upsample, picture);
   const size_t samples = 3 * static_cast<size_t>(block.rect.width);
   for (int32_t row = 0; row < block.rect.height; ++row) {
     kernels.Narrow(picture.samples + static_cast<size_t>(row) * samples, samples, EncodingOf(in),
@@ -80,9 +80,9 @@ void CopyCentre(const Window& window, const Rect& rect, const Plane<uint8_t>& ou
 }
 
 // The window, which counts for a worker what is read of its views.
-Window Counting(const Window& window, Worker* worker) {
+Window Counting(const Window& window, Scratch* scratch) {
   Window counting = window;
-  counting.reads = &worker->counts.reads;
+  counting.reads = &scratch->counts.reads;
   return counting;
 }
 
@@ -92,11 +92,11 @@ struct Rendered {
 };
 
 // Renders the views of a job into the worker's sums. Returns the samples of a view.
-uint64_t RenderSums(const BlockInputs& in, RenderJob job, Worker* worker) {
-  const Window counting = Counting(*job.window, worker);
+uint64_t RenderSums(const BlockInputs& in, RenderJob job, Scratch* scratch) {
+  const Window counting = Counting(*job.window, scratch);
   job.window = &counting;
   const Renderer& renderer = *in.lens->renderer;
-  return renderer.render(job, worker->scratch[renderer.index], worker->sums);
+  return renderer.render(job, scratch->renderers[renderer.index], scratch->sums);
 }
 
 // The fractional bits of the sums that RenderSums leaves.
@@ -112,11 +112,11 @@ ExcessSum ExcessOf(const BlockInputs& in) {
 // The pictures as a window of what highlights have beyond white.
 class ExcessWindow {
  public:
-  ExcessWindow(const BlockInputs& in, Worker* worker)
+  ExcessWindow(const BlockInputs& in, Scratch* scratch)
       : views_{in.windows[0].reader, in.config->width, in.config->height,
-               LargestLamp(in.config->width), worker->lamp_runs},
+               LargestLamp(in.config->width), scratch->lamp_runs},
         window_(in.windows[0]) {
-    worker->lamp_runs->Clear();
+    scratch->lamp_runs->Clear();
     window_.light = window_.reader;
     window_.reader = ReaderOf(views_);
     window_.is_excess = true;
@@ -134,52 +134,52 @@ class ExcessWindow {
 // Renders what highlights are beyond white, too, and adds it to the block. Returns the samples of a
 // view.
 uint64_t RenderExcess(const BlockInputs& in, RenderJob job, const Plane<uint8_t>& out,
-                      Worker* worker) {
-  const ExcessWindow excess(in, worker);
+                      Scratch* scratch) {
+  const ExcessWindow excess(in, scratch);
   job.window = &excess.window();
-  const uint64_t samples = RenderSums(in, job, worker);
-  if (!worker->cancel.Spend(0)) return 0;
+  const uint64_t samples = RenderSums(in, job, scratch);
+  if (!scratch->cancel.Spend(0)) return 0;
   const size_t row_samples = 3 * static_cast<size_t>(job.rect.width);
   for (int32_t row = 0; row < job.rect.height; ++row) {
-    AddExcess(ExcessOf(in), worker->sums + static_cast<size_t>(row) * row_samples, row_samples,
+    AddExcess(ExcessOf(in), scratch->sums + static_cast<size_t>(row) * row_samples, row_samples,
               SumBits(in, job), At(out, job.rect, row));
   }
   return samples;
 }
 
 Rendered Render(const BlockInputs& in, const Block& block, const RenderJob& job,
-                const Plane<uint8_t>& out, Worker* worker) {
-  uint64_t samples = RenderSums(in, job, worker);
-  if (!worker->cancel.Spend(0)) return {0, 0};  // of sums that nobody has finished
+                const Plane<uint8_t>& out, Scratch* scratch) {
+  uint64_t samples = RenderSums(in, job, scratch);
+  if (!scratch->cancel.Spend(0)) return {0, 0};  // of sums that nobody has finished
   if (block.layer == 0) {
-    FinishPicture(in, job.rect, SumBits(in, job), out, *worker);
+    FinishPicture(in, job.rect, SumBits(in, job), out, *scratch);
   } else {
-    KeepLayer(in, block, SumBits(in, job), *worker);
-    if (!block.gathers) FinishLayer(in, block, out, *worker);
+    KeepLayer(in, block, SumBits(in, job), *scratch);
+    if (!block.gathers) FinishLayer(in, block, out, *scratch);
   }
-  if (block.has_highlights) samples += RenderExcess(in, job, out, worker);
+  if (block.has_highlights) samples += RenderExcess(in, job, out, scratch);
   const auto views = static_cast<uint64_t>(WeightsOf(*in.lens, block.n).views);
   return {views, views * samples};
 }
 
 // Gathers the cells of a block and brings what is then complete to the picture.
 void GatherBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>& out,
-                 Worker* worker) {
+                 Scratch* scratch) {
   Field field;
-  field.rgb = worker->field.rgb;
-  field.disparity = worker->field.disparity;
-  const Window counting = Counting(in.windows[block.layer], worker);
+  field.rgb = scratch->field.rgb;
+  field.disparity = scratch->field.disparity;
+  const Window counting = Counting(in.windows[block.layer], scratch);
   const BlockCells cells = {in.gathered, block.rect, block.layer};
   const Tables& tables = *in.tables;
   const GatherKernels blur = {tables.psfs, LastGatherStep(*in.lens), tables.mean_square};
-  const GatherJob job = {&counting, in.cells,   cells,          in.lens->scale,
-                         blur,      in.kernels, &worker->cancel};
+  const GatherJob job = {&counting, in.cells,   cells,           in.lens->scale,
+                         blur,      in.kernels, &scratch->cancel};
   const Rect frame = LayerFrame(block.rect, block.layer);
   const Gathered gathered = block.layer == 0 ? Gathered{At(out, block.rect, 0), nullptr, out.stride}
-                                             : Gathered{nullptr, worker->layer_samples,
+                                             : Gathered{nullptr, scratch->layer_samples,
                                                         3 * static_cast<size_t>(frame.width)};
-  worker->counts.gathered_pixels += GatherCells(job, &field, gathered);
-  if (block.layer > 0 && worker->cancel.Spend(0)) FinishLayer(in, block, out, *worker);
+  scratch->counts.gathered_pixels += GatherCells(job, &field, gathered);
+  if (block.layer > 0 && scratch->cancel.Spend(0)) FinishLayer(in, block, out, *scratch);
 }
 
 // The part of a block that views give: at layer 0 they need not be rendered for all of it.
@@ -187,19 +187,19 @@ const Rect& ViewsRect(const Block& block) { return block.layer == 0 ? block.rend
 
 // Copies a part of the block from the centre view, which is its one view.
 Rendered CopyBlock(const BlockInputs& in, const Rect& rect, const Plane<uint8_t>& out,
-                   Worker* worker) {
+                   Scratch* scratch) {
   const uint64_t samples = Samples(rect);
   CopyCentre(in.windows[0], rect, out);
-  worker->counts.reads.centre_bytes += samples;
+  scratch->counts.reads.centre_bytes += samples;
   if (in.config->tuning.skips != 0) {
-    worker->counts.skipped.copied_blocks += 1;
-    worker->counts.skipped.copied_pixels += samples / 3;
+    scratch->counts.skipped.copied_blocks += 1;
+    scratch->counts.skipped.copied_pixels += samples / 3;
   }
   return {1, samples};
 }
 
 Rendered RefocusViews(const BlockInputs& in, const Block& block, const Plane<uint8_t>& out,
-                      Worker* worker) {
+                      Scratch* scratch) {
   const Lens& lens = *in.lens;
   const ViewWeights& aperture = WeightsOf(lens, block.n);
   // Without skips the one view of N = 0 is rendered as those of a lens that moves no pixel.
@@ -210,7 +210,7 @@ Rendered RefocusViews(const BlockInputs& in, const Block& block, const Plane<uin
   const ViewWeights rendered =
       cats_eye ? MakeCatsEye(whole, opening,
                              ShiftOfRim(opening, block.rect, in.config->width, in.config->height),
-                             worker->aperture_weights)
+                             scratch->aperture_weights)
                : whole;
   ViewGrid grid =
       MakeViewGrid(rendered, lens.params.lens.focus, lens.params.lens.aperture * rendered.extent,
@@ -220,52 +220,52 @@ Rendered RefocusViews(const BlockInputs& in, const Block& block, const Plane<uin
   const BlockCells* const gathered = block.gathers ? &cells : nullptr;
   const RenderJob job = {
       &in.windows[block.layer], &grid,    in.kernels, block.rendered,   block.border,
-      &worker->cancel,          gathered, lens.r_max, IsBenchmark(lens)};
+      &scratch->cancel,         gathered, lens.r_max, IsBenchmark(lens)};
   // The views' part of a layer is brought to the picture together with what is gathered.
   const bool in_part = block.layer > 0 && block.gathers;
   if (in.config->tuning.skips == 0 || block.has_highlights || in_part) {
-    return Render(in, block, job, out, worker);
+    return Render(in, block, job, out, scratch);
   }
   if (pinhole || lens.renderer->nothing_moves(job)) {
-    return CopyBlock(in, ViewsRect(block), out, worker);
+    return CopyBlock(in, ViewsRect(block), out, scratch);
   }
-  return Render(in, block, job, out, worker);
+  return Render(in, block, job, out, scratch);
 }
 
 void BlurBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>& out,
-               Worker* worker) {
-  const BlurScratch scratch = {worker->field.rgb, worker->sums, worker->spans};
+               Scratch* scratch) {
+  const BlurScratch memory = {scratch->field.rgb, scratch->sums, scratch->spans};
   const auto blur = [&](const Window& window, const ExcessSum& excess) {
-    const Window counting = Counting(window, worker);
+    const Window counting = Counting(window, scratch);
     const BlurJob job = {&counting,  in.lens->scale,    in.tables->psfs, in.kernels,
-                         block.rect, block.border.left, excess,          &worker->cancel};
-    BlurRectangle(job, scratch, At(out, block.rect, 0), out.stride);
+                         block.rect, block.border.left, excess,          &scratch->cancel};
+    BlurRectangle(job, memory, At(out, block.rect, 0), out.stride);
   };
   blur(in.windows[0], {in.kernels, in.windows[0].transfer, 0});
-  if (block.has_highlights) blur(ExcessWindow(in, worker).window(), ExcessOf(in));
+  if (block.has_highlights) blur(ExcessWindow(in, scratch).window(), ExcessOf(in));
 }
 
 }  // namespace
 
 void RefocusBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>& out,
-                  Worker* worker) {
+                  Scratch* scratch) {
   const sf_clock clock = in.clock;
   const uint64_t start = clock != nullptr ? clock() : 0;
   Rendered rendered = {1, 0};  // the centre, of a block gathered whole
   if (IsPinhole(*in.lens)) {
     // Copied also without skips: whatever else becomes of samples, none is to change here.
-    rendered = CopyBlock(in, block.rect, out, worker);
+    rendered = CopyBlock(in, block.rect, out, scratch);
   } else if (in.lens->params.mode == SF_MODE_BLUR) {
-    BlurBlock(in, block, out, worker);
+    BlurBlock(in, block, out, scratch);
     rendered = {0, 0};
   } else {
     if (block.rendered.width > 0) {
-      rendered = RefocusViews(in, block, out, worker);
+      rendered = RefocusViews(in, block, out, scratch);
     }
     // Cells are gathered after views, which know nothing of them.
-    if (block.gathers) GatherBlock(in, block, out, worker);
+    if (block.gathers) GatherBlock(in, block, out, scratch);
   }
-  sf_layer_report& report = worker->counts.layers[block.layer];
+  sf_layer_report& report = scratch->counts.layers[block.layer];
   report.blocks += 1;
   report.pixels += Samples(block.rect) / 3;
   report.views += rendered.views;

@@ -5,8 +5,8 @@
 
 #include "lib/base/geometry.h"
 #include "lib/engine/lens.h"
+#include "lib/engine/scratch.h"
 #include "lib/engine/tables.h"
-#include "lib/engine/worker.h"
 #include "lib/input/window.h"
 #include "lib/plan/block_stats.h"
 #include "lib/plan/partition.h"
@@ -27,9 +27,9 @@ struct BlockInputs {
   sf_clock clock;  // null: blocks are not timed
 };
 
-// Writes the block's rectangle of the picture into `out` and counts it in worker->counts.
+// Writes the block's rectangle of the picture into `out` and counts it in scratch->counts.
 void RefocusBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>& out,
-                  Worker* worker);
+                  Scratch* scratch);
 
 }  // namespace starfocus
 

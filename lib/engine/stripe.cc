@@ -19,11 +19,11 @@ struct RefocusJob {
   Plane<uint8_t> out;  // the picture's rows: output
 };
 
-void RefocusOneBlock(const RefocusJob& job, int32_t index, Worker* worker) {
+void RefocusOneBlock(const RefocusJob& job, int32_t index, Scratch* scratch) {
   const Block& block = job.blocks[index];
   // What is read and filtered whatever becomes of the block; renderers count what they do.
-  if (!worker->cancel.Spend(3 * int64_t{block.rect.width} * block.rect.height)) return;
-  RefocusBlock(job.in, block, job.out, worker);
+  if (!scratch->cancel.Spend(3 * int64_t{block.rect.width} * block.rect.height)) return;
+  RefocusBlock(job.in, block, job.out, scratch);
 }
 
 // Joins blocks of different layers. Between rows, job `index` joins the boundaries of a column of
@@ -34,12 +34,12 @@ struct JoinJob {
   RowRange finished;
 };
 
-void DeblockRowBoundaries(const JoinJob& job, int32_t column, Worker*) {
+void DeblockRowBoundaries(const JoinJob& job, int32_t column, Scratch*) {
   DeblockRows(job.deblock, column * job.units,
               Min((column + 1) * job.units, job.deblock.map->columns));
 }
 
-void DeblockColumnBoundaries(const JoinJob& job, int32_t index, Worker*) {
+void DeblockColumnBoundaries(const JoinJob& job, int32_t index, Scratch*) {
   const int32_t first = job.finished.first + index * kSmallestBlock;
   DeblockColumns(job.deblock, first, Min(first + kSmallestBlock, job.finished.last));
 }
@@ -52,11 +52,11 @@ sf_status Deblock(const Stripe& stripe, const Plane<uint8_t>& out, EngineState* 
                        config.largest_block / kSmallestBlock,
                        {Max(0, stripe.y - kDeblockRows), FinishedRows(config, stripe.y)}};
   const sf_status status =
-      RunJobs<JoinJob, DeblockRowBoundaries>(job, Columns(config), &engine->crew);
+      RunJobs<JoinJob, DeblockRowBoundaries>(job, Columns(config), &engine->workers);
   const int32_t rows = job.finished.last - job.finished.first;
   if (status != SF_OK || rows <= 0) return status;
   return RunJobs<JoinJob, DeblockColumnBoundaries>(
-      job, (rows + kSmallestBlock - 1) / kSmallestBlock, &engine->crew);
+      job, (rows + kSmallestBlock - 1) / kSmallestBlock, &engine->workers);
 }
 
 sf_status RefocusPhases(const Stripe& stripe, const Plane<uint8_t>& out, EngineState* engine) {
@@ -66,7 +66,7 @@ sf_status RefocusPhases(const Stripe& stripe, const Plane<uint8_t>& out, EngineS
   if (status == SF_OK) status = PlanStripe(stripe, engine);
   if (status == SF_OK && IsBlockMode(lens) && !engine->pictures.prepared) {
     PlaceLayers({stripe.y, stripe.y + stripe.height}, lens.borders, &engine->pictures);
-    status = FillLayers(config, *engine->kernels, &engine->crew, &engine->pictures);
+    status = FillLayers(config, *engine->kernels, &engine->workers, &engine->pictures);
   }
   if (status != SF_OK) return status;
   const StripePlan& plan = engine->stripe.plan;
@@ -76,7 +76,7 @@ sf_status RefocusPhases(const Stripe& stripe, const Plane<uint8_t>& out, EngineS
             [](const Block& a, const Block& b) { return a.cost > b.cost; });
   const RefocusJob job = {InputsOf(*engine), plan.blocks, out};
   if (plan.used > 0) {
-    status = RunJobs<RefocusJob, RefocusOneBlock>(job, plan.used, &engine->crew);
+    status = RunJobs<RefocusJob, RefocusOneBlock>(job, plan.used, &engine->workers);
   }
   if (status != SF_OK || !IsDeblocking(config, lens)) return status;
   return Deblock(stripe, out, engine);

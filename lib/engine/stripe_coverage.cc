@@ -16,12 +16,12 @@ struct PassJob {
   int32_t tiles;  // of a superblock
 };
 
-void RunPassJob(const PassJob& job, int32_t index, Worker* worker) {
+void RunPassJob(const PassJob& job, int32_t index, Scratch* scratch) {
   Window window = *job.in.window;
-  window.reads = &worker->counts.reads;
+  window.reads = &scratch->counts.reads;
   const int32_t first = index * job.tiles, last = Min(first + job.tiles, job.in.map->columns);
   for (int32_t row = job.rows.first; row < job.rows.last; ++row) {
-    if (!worker->cancel.Spend(int64_t{last - first} * kTileSide * kTileSide)) return;
+    if (!scratch->cancel.Spend(int64_t{last - first} * kTileSide * kTileSide)) return;
     RunPass({job.in.kernels, &window, job.in.map}, job.pass, first, last, row);
   }
 }
@@ -67,7 +67,7 @@ sf_status RunPasses(int32_t top, int32_t end, EngineState* engine) {
                            rows,
                            TilesOfSuperblock(engine->config)};
       const sf_status status =
-          RunJobs<PassJob, RunPassJob>(job, Columns(engine->config), &engine->crew);
+          RunJobs<PassJob, RunPassJob>(job, Columns(engine->config), &engine->workers);
       if (status != SF_OK) return status;
     }
     done = Max(rows.first, rows.last);

@@ -15,7 +15,7 @@ struct LayerJob {
   const LayerPlane* layers;      // their planes are the output
 };
 
-void DownsampleInto(const LayerJob& job, int32_t layer, int32_t index, Worker* worker) {
+void DownsampleInto(const LayerJob& job, int32_t layer, int32_t index, Scratch* scratch) {
   const int need = job.needed[layer][index];
   if ((need & kNeeded) == 0) return;
   LayerPlane missing = job.layers[layer];
@@ -29,13 +29,13 @@ void DownsampleInto(const LayerJob& job, int32_t layer, int32_t index, Worker* w
     columns = TapsOfLayer(columns);
     rows = TapsOfLayer(rows);
   }
-  worker->counts.reads.centre_bytes +=
+  scratch->counts.reads.centre_bytes +=
       3 * static_cast<uint64_t>(columns) * static_cast<uint64_t>(rows);
-  DownsamplePicture(*job.kernels, *job.picture, worker->resample, {layer, begin, end, &missing});
+  DownsamplePicture(*job.kernels, *job.picture, scratch->resample, {layer, begin, end, &missing});
 }
 
-void DownsampleColumn(const LayerJob& job, int32_t index, Worker* worker) {
-  for (int32_t layer = 1; layer < SF_LAYERS; ++layer) DownsampleInto(job, layer, index, worker);
+void DownsampleColumn(const LayerJob& job, int32_t index, Scratch* scratch) {
+  for (int32_t layer = 1; layer < SF_LAYERS; ++layer) DownsampleInto(job, layer, index, scratch);
 }
 
 bool AnyColumn(const uint8_t* needed, int32_t columns) {
@@ -97,7 +97,7 @@ void PlaceLayers(const RowRange& of_picture, const Borders& borders, Pictures* p
   }
 }
 
-sf_status FillLayers(const sf_config& config, const simd::Kernels& kernels, Crew* crew,
+sf_status FillLayers(const sf_config& config, const simd::Kernels& kernels, Workers* workers,
                      Pictures* pictures) {
   const int32_t columns = Columns(config);
   if (!AnyColumn(pictures->needed[1], columns) && !AnyColumn(pictures->needed[2], columns)) {
@@ -105,7 +105,7 @@ sf_status FillLayers(const sf_config& config, const simd::Kernels& kernels, Crew
   }
   const LayerJob job = {&config, &kernels, &pictures->windows[0], pictures->needed,
                         pictures->layers};
-  return RunJobs<LayerJob, DownsampleColumn>(job, columns, crew);
+  return RunJobs<LayerJob, DownsampleColumn>(job, columns, workers);
 }
 
 }  // namespace starfocus

@@ -28,7 +28,7 @@ void PlaceLayers(const RowRange& of_picture, const Borders& borders, Pictures* p
 
 // Subsamples into the marked columns of placed layers. Returns SF_OK, SF_ERROR_RUNNER or
 // SF_ERROR_CANCELLED.
-sf_status FillLayers(const sf_config& config, const simd::Kernels& kernels, Crew* crew,
+sf_status FillLayers(const sf_config& config, const simd::Kernels& kernels, Workers* workers,
                      Pictures* pictures);
 
 }  // namespace starfocus

@@ -90,7 +90,7 @@ void PlanWhole(const PlanJob& job, int32_t column) {
   job.plan.counts[column] = count;
 }
 
-void PlanBlocks(const PlanJob& job, int32_t column, Worker* worker) {
+void PlanBlocks(const PlanJob& job, int32_t column, Scratch* scratch) {
   const StripePlan& plan = job.plan;
   const Lens& lens = *job.lens;
   plan.counts[column] = 0;
@@ -114,11 +114,11 @@ void PlanBlocks(const PlanJob& job, int32_t column, Worker* worker) {
                                 !has_highlights && Gathers(*job.config, lens),
                                 has_highlights};
   const PlanInput input = {*job.kernels, rules, *job.cells, lens.borders.cells};
-  plan.counts[column] = PartitionBlock(input, left, job.rows.y, worker->partition,
+  plan.counts[column] = PartitionBlock(input, left, job.rows.y, scratch->partition,
                                        plan.BlocksOf(column), plan.gathered);
 }
 
-void MeasureColumn(const MeasureJob& job, int32_t index, Worker*) {
+void MeasureColumn(const MeasureJob& job, int32_t index, Scratch*) {
   if (job.measured[index] == 0) return;
   const int32_t first = index * job.per_block;
   const int32_t last = Min(first + job.per_block, job.cells.columns);
@@ -260,7 +260,7 @@ sf_status PlanStripe(const Stripe& rows, EngineState* engine) {
     const MeasureJob job = {
         engine->kernels, &engine->pictures.windows[0], lens.scale, state.plan.side / kCellSize,
         first_row,       state.plan.measured,          state.cells};
-    const sf_status status = RunJobs<MeasureJob, MeasureColumn>(job, columns, &engine->crew);
+    const sf_status status = RunJobs<MeasureJob, MeasureColumn>(job, columns, &engine->workers);
     if (status != SF_OK) return status;
   }
   const PlanJob job = {&engine->config,
@@ -271,7 +271,7 @@ sf_status PlanStripe(const Stripe& rows, EngineState* engine) {
                        &engine->pictures.windows[0],
                        rows,
                        state.plan};
-  const sf_status status = RunJobs<PlanJob, PlanBlocks>(job, columns, &engine->crew);
+  const sf_status status = RunJobs<PlanJob, PlanBlocks>(job, columns, &engine->workers);
   if (status != SF_OK) return status;
   ReadPlan(rows, engine);
   if (IsBlockMode(lens)) CountSpared(engine);

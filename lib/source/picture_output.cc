@@ -38,10 +38,10 @@ void WritePair(const PairsJob& job, int32_t upper) {
   WriteChroma(*out.kernels, RowOf(job, upper), RowOf(job, lower), out.rect.width, upper, out.image);
 }
 
-void WritePairs(const PairsJob& job, int32_t index, Worker* worker) {
+void WritePairs(const PairsJob& job, int32_t index, Scratch* scratch) {
   const RowRange pairs = PartOf({job.rows.first / 2, (job.rows.last + 1) / 2}, index, job.jobs);
   for (int32_t pair = pairs.first; pair < pairs.last; ++pair) {
-    if (!worker->cancel.Spend(6 * int64_t{job.out->rect.width})) return;
+    if (!scratch->cancel.Spend(6 * int64_t{job.out->rect.width})) return;
     WritePair(job, 2 * pair);
   }
 }
@@ -83,7 +83,7 @@ sf_status Store(const void* self, const RowRange& rows, const Plane<uint8_t>& fr
   const int32_t pairs = (inside.last + 1) / 2 - inside.first / 2;
   const int32_t jobs = Min(MaxJobs(engine->config), pairs);
   const PairsJob job = {&out, from, engine->images.odd_row, inside, jobs};
-  const sf_status status = RunJobs<PairsJob, WritePairs>(job, jobs, &engine->crew);
+  const sf_status status = RunJobs<PairsJob, WritePairs>(job, jobs, &engine->workers);
   if (out.image.is_yuv && inside.last % 2 != 0 && inside.last < out.rect.height) {
     std::memcpy(engine->images.odd_row, RowOf(job, inside.last - 1),
                 3 * static_cast<size_t>(out.rect.width));

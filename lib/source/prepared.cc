@@ -29,12 +29,12 @@ sf_status MakeLayers(const Prepared& prepared, const RowSource& source, EngineSt
       engine->pictures.layers[layer].samples.data =
           prepared.layers[layer].Row(engine->pictures.layers[layer].rows.first);
     }
-    engine->crew.jobs.watch.SetRows(y);
+    engine->workers.jobs.watch.SetRows(y);
     // The filters' taps reach as far below the stripe.
     read = {read.last, Min(height, y + side + kBeyond)};
     status = LoadRows(source, read, prepared.disparity, engine);
     if (status != SF_OK) break;
-    status = FillLayers(engine->config, *engine->kernels, &engine->crew, &engine->pictures);
+    status = FillLayers(engine->config, *engine->kernels, &engine->workers, &engine->pictures);
     if (status != SF_OK) break;
     status = ReduceRows(prepared.disparity, {y, Min(y + side, height)}, prepared.config.previews,
                         prepared.reduced, engine);
@@ -69,7 +69,7 @@ size_t LayOutPrepared(const sf_config& config, void* base, Prepared** prepared) 
 sf_status Prepare(const PrepareCall& call, const RowSource& source, EngineState* engine,
                   Prepared** prepared) {
   const int32_t height = engine->config.height;
-  Watch& watch = engine->crew.jobs.watch;
+  Watch& watch = engine->workers.jobs.watch;
   engine->stream.active = false;
   watch.Begin(0, height);
   sf_status status = CheckRows(source, {0, height}, engine);

@@ -30,18 +30,18 @@ void AddLight(const int16_t* light, size_t samples, bool is_first, uint32_t* sum
 }
 
 // Returns false when the caller cancels.
-bool ReduceView(const ReduceJob& job, int view, const Part& part, Worker* worker) {
+bool ReduceView(const ReduceJob& job, int view, const Part& part, Scratch* scratch) {
   const EngineState& engine = *job.engine;
   const Window& window = engine.pictures.windows[0];
   const simd::Encoding& encoding = window.transfer->encoding;
   const size_t samples = 3 * static_cast<size_t>(part.width);
-  int16_t* const light = worker->picture_samples;
+  int16_t* const light = scratch->picture_samples;
   int16_t* const mean = light + 6 * engine.config.largest_block;
   for (int32_t y = job.rows.first; y < job.rows.last; ++y) {
-    if (!worker->cancel.Spend(static_cast<int64_t>(samples) * (1 + job.previews))) return false;
+    if (!scratch->cancel.Spend(static_cast<int64_t>(samples) * (1 + job.previews))) return false;
     window.reader.Light(view, part.x, y, part.width, light);
     for (int shift = 1; shift <= job.previews; ++shift) {
-      uint32_t* const sums = worker->sums + 3 * shift * engine.config.largest_block;
+      uint32_t* const sums = scratch->sums + 3 * shift * engine.config.largest_block;
       const int32_t row = y & ((1 << shift) - 1);
       AddLight(light, samples, row == 0, sums);
       if (row + 1 < 1 << shift && y + 1 < engine.config.height) continue;
@@ -62,14 +62,14 @@ int16_t ConvertedEnd(const EngineState& engine, float end) {
 }
 
 // Returns false when the caller cancels.
-bool ReduceMap(const ReduceJob& job, int shift, const Part& part, Worker* worker) {
+bool ReduceMap(const ReduceJob& job, int shift, const Part& part, Scratch* scratch) {
   const sf_config reduced = ReducedConfig(job.engine->config, shift);
   // Rounding twice may leave the range by one step.
   const int16_t low = ConvertedEnd(*job.engine, static_cast<float>(reduced.disparity_min));
   const int16_t high = ConvertedEnd(*job.engine, static_cast<float>(reduced.disparity_max));
   const int32_t side = 1 << shift;
   for (int32_t y = job.rows.first; y < job.rows.last; y += side) {
-    if (!worker->cancel.Spend(int64_t{4} * side * part.width)) return false;
+    if (!scratch->cancel.Spend(int64_t{4} * side * part.width)) return false;
     int16_t* const out = job.fields[shift].disparity.Row(y >> shift);
     for (int32_t x = part.x; x < part.x + part.width; x += side) {
       int16_t values[1 << (2 * kMaxReduction)];
@@ -86,13 +86,13 @@ bool ReduceMap(const ReduceJob& job, int shift, const Part& part, Worker* worker
 }
 
 // Returns false when the caller cancels.
-bool ReduceCoverage(const ReduceJob& job, int shift, const Part& part, Worker* worker) {
+bool ReduceCoverage(const ReduceJob& job, int shift, const Part& part, Scratch* scratch) {
   const Plane<const uint8_t>& given = job.engine->pictures.windows[0].given_coverage;
   const Plane<uint8_t>& coverage = job.fields[shift].coverage;
   if (given.data == nullptr || coverage.data == nullptr) return true;
   const int32_t side = 1 << shift;
   for (int32_t y = job.rows.first; y < job.rows.last; y += side) {
-    if (!worker->cancel.Spend(int64_t{side} * part.width)) return false;
+    if (!scratch->cancel.Spend(int64_t{side} * part.width)) return false;
     for (int32_t x = part.x; x < part.x + part.width; x += side) {
       int32_t sum = 0, count = 0;
       for (int32_t row = y; row < Min(y + side, job.rows.last); ++row) {
@@ -106,16 +106,16 @@ bool ReduceCoverage(const ReduceJob& job, int shift, const Part& part, Worker* w
   return true;
 }
 
-void ReduceColumn(const ReduceJob& job, int32_t index, Worker* worker) {
+void ReduceColumn(const ReduceJob& job, int32_t index, Scratch* scratch) {
   const sf_config& config = job.engine->config;
   const int32_t x = index * config.largest_block;
   const Part part = {x, Min(config.largest_block, config.width - x)};
   for (int view = 0; view < config.views; ++view) {
-    if (!ReduceView(job, view, part, worker)) return;
+    if (!ReduceView(job, view, part, scratch)) return;
   }
   for (int shift = 1; shift <= job.previews; ++shift) {
-    if (!ReduceMap(job, shift, part, worker)) return;
-    if (!ReduceCoverage(job, shift, part, worker)) return;
+    if (!ReduceMap(job, shift, part, scratch)) return;
+    if (!ReduceCoverage(job, shift, part, scratch)) return;
   }
 }
 
@@ -151,7 +151,7 @@ sf_status ReduceRows(const Plane<int16_t>& disparity, const RowRange& rows, int3
                      const ReducedField* fields, EngineState* engine) {
   if (previews == 0) return SF_OK;
   const ReduceJob job = {engine, disparity, rows, previews, fields};
-  return RunJobs<ReduceJob, ReduceColumn>(job, Columns(engine->config), &engine->crew);
+  return RunJobs<ReduceJob, ReduceColumn>(job, Columns(engine->config), &engine->workers);
 }
 
 }  // namespace starfocus

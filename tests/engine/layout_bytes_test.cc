@@ -166,14 +166,14 @@ TEST_CASE("layout: laid out anew, an engine keeps its workers and tables") {
   REQUIRE(engine.status() == SF_OK);
   starfocus::EngineState& state = test::StateOf(engine.get());
   config = state.config;
-  const starfocus::Worker* workers = state.crew.workers;
+  const starfocus::Scratch* workers = state.workers.scratch;
   const uint32_t* sums = workers[1].sums;
   const uint16_t* weights = state.tables.apertures[0].weights;
   const uint8_t *out = state.stripe.out, *last_rows = state.stripe.last_rows;
   starfocus::LayOutAnew(starfocus::ReducedConfig(config, 2), &state);
   CHECK(state.config.width == 75);
-  CHECK(state.crew.workers == workers);
-  CHECK(state.crew.workers[1].sums == sums);
+  CHECK(state.workers.scratch == workers);
+  CHECK(state.workers.scratch[1].sums == sums);
   CHECK(state.tables.apertures[0].weights == weights);
   CHECK(state.stripe.last_rows == nullptr);  // it does not stream
   starfocus::LayOutAnew(config, &state);

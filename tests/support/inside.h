@@ -56,13 +56,13 @@ inline std::vector<uint8_t> RenderOne(const starfocus::Block& block, sf_engine* 
   const size_t stride = 3 * static_cast<size_t>(state.config.width);
   std::vector<uint8_t> out(stride * static_cast<size_t>(state.config.height), kPoison);
   starfocus::RefocusBlock(starfocus::InputsOf(state), block, {out.data(), stride, 0, 0},
-                          &state.crew.workers[0]);
+                          &state.workers.scratch[0]);
   return out;
 }
 
 // Bytes of the first worker's pool of slices, which may be made less.
 inline size_t& PoolBytes(sf_engine* engine) {
-  void* scratch = StateOf(engine).crew.workers[0].scratch[starfocus::kSliceRenderer.index];
+  void* scratch = StateOf(engine).workers.scratch[0].renderers[starfocus::kSliceRenderer.index];
   return static_cast<starfocus::CompositorScratch*>(scratch)->pool_bytes;
 }
 

@@ -24,19 +24,19 @@ struct MemoryPart {
 
 // The parts of an engine of one worker, in the order they are taken.
 inline std::vector<MemoryPart> PartsOf(const starfocus::EngineState& e) {
-  const starfocus::Worker& worker = e.crew.workers[0];
-  const auto& slices =
-      *static_cast<starfocus::CompositorScratch*>(worker.scratch[starfocus::kSliceRenderer.index]);
-  const auto* const line_scan =
-      static_cast<starfocus::LineScanScratch*>(worker.scratch[starfocus::kLineScanRenderer.index]);
+  const starfocus::Scratch& scratch = e.workers.scratch[0];
+  const auto& slices = *static_cast<starfocus::CompositorScratch*>(
+      scratch.renderers[starfocus::kSliceRenderer.index]);
+  const auto* const line_scan = static_cast<starfocus::LineScanScratch*>(
+      scratch.renderers[starfocus::kLineScanRenderer.index]);
   return {
       {"the engine itself", false, &e},
       {"slices: apertures of every N", false, e.tables.apertures[0].apertures},
       {"line scan: apertures of every N", false, e.tables.apertures[1].apertures},
       {"the benchmark's aperture", false, e.tables.benchmark_weights},
       {"kernels of radii", false, e.tables.psfs},
-      {"workers", false, e.crew.workers},
-      {"sums of a block", false, worker.sums},
+      {"workers", false, e.workers.scratch},
+      {"sums of a block", false, scratch.sums},
       {"line scan", true, line_scan == nullptr ? nullptr : line_scan->field_rgb[0]},
       {"slices: surfaces", true, slices.surfaces.disparity[0] - starfocus::simd::kSliceLanes},
       {"slices: where views show them, sums of a tile", true, slices.offsets},
@@ -44,11 +44,11 @@ inline std::vector<MemoryPart> PartsOf(const starfocus::EngineState& e) {
       {"slices: the block and its edges", true, slices.field_rgb},
       {"slices: filling surfaces", true, slices.fill.disparity},
       {"slices: their pixels and tiles", true, slices.pool},
-      {"a block at its layer", true, worker.layer_samples},
-      {"gathering, mode `blur`", true, worker.field.rgb},
-      {"layers up", true, worker.upsample.line},
-      {"layers down", true, worker.resample.even},
-      {"splitting blocks", true, worker.partition.nodes},
+      {"a block at its layer", true, scratch.layer_samples},
+      {"gathering, mode `blur`", true, scratch.field.rgb},
+      {"layers up", true, scratch.upsample.line},
+      {"layers down", true, scratch.resample.even},
+      {"splitting blocks", true, scratch.partition.nodes},
       {"disparities: ring of rows", false, e.pictures.disparity.data},
       {"finished rows", false, e.stripe.out},
       {"views: rings of rows", false, e.rings[0].data},
@@ -57,7 +57,7 @@ inline std::vector<MemoryPart> PartsOf(const starfocus::EngineState& e) {
       {"layer 2: ring of rows", false, e.pictures.layers[2].samples.data},
       {"8x8 cells", false, e.stripe.cells.cells},
       {"blocks, and marks of columns", false, e.stripe.plan.wanted},
-      {"jobs", false, e.crew.jobs.progress},
+      {"jobs", false, e.workers.jobs.progress},
   };
 }
 

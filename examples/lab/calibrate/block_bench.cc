@@ -132,7 +132,7 @@ uint64_t BlockBench::Time(const BlockTask& task) {
   Focus(task);
   const Plane<uint8_t> out = {picture_.pixels.data(), picture_.stride(), 0, 0};
   const uint64_t start = ThreadNanoseconds();
-  RefocusBlock(InputsOf(*engine_), task.block, out, engine_->crew.workers);
+  RefocusBlock(InputsOf(*engine_), task.block, out, engine_->workers.scratch);
   return 1000 * (ThreadNanoseconds() - start);
 }
 

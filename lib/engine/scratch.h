@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What belongs to one worker: memory that its jobs use one after the other, and what it counts.
-#ifndef STARFOCUS_LIB_ENGINE_WORKER_H_
-#define STARFOCUS_LIB_ENGINE_WORKER_H_
+#ifndef STARFOCUS_LIB_ENGINE_SCRATCH_H_
+#define STARFOCUS_LIB_ENGINE_SCRATCH_H_
 
 #include <cstdint>
 
@@ -35,13 +35,13 @@ struct FieldMemory {
 // Every renderer leaves the weighted sums of a block in `sums`; but for these and weights all
 // memory of a worker is shared, since a worker does one thing at a time (layout.cc). R: largest
 // side of a rectangle.
-struct Worker {
-  void* scratch[kMaxRenderers];  // of each renderer
-  uint32_t* sums;                // 3 R^2
-  uint16_t* aperture_weights;    // with cat's eyes: of a block, of the largest N
-  LampRuns* lamp_runs;           // with highlights
-  FieldMemory field;             // of blocks that are gathered, or blurred by depth
-  SpanMemory spans;              // of blocks blurred by depth
+struct Scratch {
+  void* renderers[kMaxRenderers];  // of each
+  uint32_t* sums;                  // 3 R^2
+  uint16_t* aperture_weights;      // with cat's eyes: of a block, of the largest N
+  LampRuns* lamp_runs;             // with highlights
+  FieldMemory field;               // of blocks that are gathered, or blurred by depth
+  SpanMemory spans;                // of blocks blurred by depth
   ResampleScratch resample;
   UpsampleScratch upsample;
   int16_t* layer_samples;    // a rendered rectangle
@@ -54,4 +54,4 @@ struct Worker {
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_ENGINE_WORKER_H_
+#endif  // STARFOCUS_LIB_ENGINE_SCRATCH_H_
