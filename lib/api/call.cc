@@ -49,7 +49,7 @@ Extents MemoryOf(const EngineState& engine, const Prepared* prepared) {
 sf_status RunCall(const Call& call, EngineState* engine, sf_report* report) {
   const sf_params& params = call.params;
   engine->stream.active = false;
-  engine->workers.jobs.watch.Begin(0, RegionOf(engine->config, params).height);
+  engine->workers.jobs.call_progress.Begin(0, RegionOf(engine->config, params).height);
   sf_status status = SetLens(params, engine);
   if (status != SF_OK) return TellStatus(status, engine->config.problem);
   if (call.prepared != nullptr) UsePrepared(*call.prepared, engine);

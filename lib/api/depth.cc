@@ -173,13 +173,13 @@ sf_status CheckCall(const DepthCall& call, bool repairs, const sf_map& map) {
 template <class Make>
 sf_status Watched(const sf_depth_config& config, JobSet* jobs, const Make& make) {
   jobs->runner = {config.runner, config.runner_data};
-  Watch* const watch = &jobs->watch;
-  watch->SetProgress(config.progress, config.progress_data);
-  watch->Begin(0, config.height);
+  CallProgress* const call_progress = &jobs->call_progress;
+  call_progress->SetProgress(config.progress, config.progress_data);
+  call_progress->Begin(0, config.height);
   const sf_status status = make();
   if (status != SF_OK) return status;
-  watch->SetRows(config.height);
-  return watch->Ask() ? SF_OK : SF_ERROR_CANCELLED;
+  call_progress->SetRows(config.height);
+  return call_progress->Ask() ? SF_OK : SF_ERROR_CANCELLED;
 }
 
 // Repairs by colour. Says whether there is coverage.

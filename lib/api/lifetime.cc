@@ -144,7 +144,7 @@ sf_status sf_set_callbacks(sf_engine* engine, const sf_callbacks* callbacks) {
   if (status != SF_OK) return status;
   EngineState& e = *reinterpret_cast<EngineState*>(engine);
   e.workers.jobs.runner = {callbacks->runner, callbacks->runner_data};
-  e.workers.jobs.watch.SetProgress(callbacks->progress, callbacks->progress_data);
+  e.workers.jobs.call_progress.SetProgress(callbacks->progress, callbacks->progress_data);
   e.clock = callbacks->clock;
   e.on_block = callbacks->on_block;
   e.on_block_data = callbacks->on_block_data;

@@ -22,14 +22,14 @@ int32_t NeededRows(const EngineState& engine) {
 // Refocuses the next stripe, whose rows must have been pushed.
 sf_status RefocusNext(EngineState* engine) {
   Stream& stream = engine->stream;
-  Watch& watch = engine->workers.jobs.watch;
-  watch.Begin(stream.finished, engine->config.height);
+  CallProgress& call_progress = engine->workers.jobs.call_progress;
+  call_progress.Begin(stream.finished, engine->config.height);
   const sf_status status = RefocusStripe(engine, stream.next);
   if (status != SF_OK) return status;
   stream.finished = FinishedRows(engine->config, stream.next);
   stream.next += engine->config.largest_block;
-  watch.SetRows(stream.finished);
-  return watch.Ask() ? SF_OK : SF_ERROR_CANCELLED;
+  call_progress.SetRows(stream.finished);
+  return call_progress.Ask() ? SF_OK : SF_ERROR_CANCELLED;
 }
 
 sf_status CheckCount(const EngineState& engine, int32_t rows, int32_t most) {
@@ -147,7 +147,7 @@ sf_status sf_stream_begin(sf_engine* engine, const sf_params* params) {
   check.Need(full.previous == nullptr, SF_ERROR_RANGE, {"previous"}, {"null for a stream"});
   if (check.status() != SF_OK) return check.status();
   e.stream = starfocus::Stream();
-  e.workers.jobs.watch.Begin(0, e.config.height);
+  e.workers.jobs.call_progress.Begin(0, e.config.height);
   status = starfocus::SetLens(full, &e);
   if (status != SF_OK) return starfocus::TellStatus(status, &e.problem);
   starfocus::SetPlanes(e.config, *e.kernels, e.rings, &e.pictures);

@@ -17,9 +17,9 @@ Progress ProgressOf(const JobSet& set, int32_t index) {
 }
 
 void RunJob(int32_t index, int32_t worker, JobSet* set) {
-  if (!set->watch.Ask()) return;
+  if (!set->call_progress.Ask()) return;
   set->function(set->data, index, worker);
-  set->watch.CountJob();
+  set->call_progress.CountJob();
 }
 
 // Takes a job and runs it; false when it has been taken before or does not exist.
@@ -65,10 +65,10 @@ sf_status RunJobSet(JobFunction function, const void* data, int32_t count, JobSe
   set->function = function;
   set->data = data;
   set->count = count;
-  set->watch.BeginJobs(count);
+  set->call_progress.BeginJobs(count);
   if (set->runner.run == nullptr) {
     for (int32_t index = 0; index < count; ++index) RunJob(index, 0, set);
-    return set->watch.IsCancelled() ? SF_ERROR_CANCELLED : SF_OK;
+    return set->call_progress.IsCancelled() ? SF_ERROR_CANCELLED : SF_OK;
   }
   for (size_t word = 0; word < ProgressWords(static_cast<size_t>(count)); ++word) {
     set->progress[word].store(0, std::memory_order_relaxed);
@@ -78,7 +78,7 @@ sf_status RunJobSet(JobFunction function, const void* data, int32_t count, JobSe
   const int result = set->runner.run(set->runner.data, CallJob, set, count);
   const bool all = Close(set);
   // A runner may have left jobs out because it knows.
-  if (set->watch.IsCancelled()) return SF_ERROR_CANCELLED;
+  if (set->call_progress.IsCancelled()) return SF_ERROR_CANCELLED;
   return result == 0 && all ? SF_OK : SF_ERROR_RUNNER;
 }
 

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "lib/base/watch.h"
+#include "lib/base/call_progress.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
@@ -25,8 +25,8 @@ using JobFunction = void (*)(const void* data, int32_t index, int32_t worker);
 // machines have no smaller atomic objects than words.
 constexpr size_t ProgressWords(size_t jobs) { return (jobs + 15) / 16; }
 
-// The set of jobs that the runner has been given, the runner, and the watch over all sets of a
-// call. It lies in the workspace, so that a job called too late finds it closed.
+// The set of jobs that the runner has been given, the runner, and the progress function over all
+// sets of a call. It lies in the workspace, so that a job called too late finds it closed.
 struct JobSet {
   JobFunction function = nullptr;
   const void* data = nullptr;
@@ -37,13 +37,13 @@ struct JobSet {
   std::atomic<uint32_t> open{0};                    // 1: the runner has not returned yet
   std::atomic<uint32_t> misused{0};                 // 1: a call was refused
   Runner runner = {};
-  Watch watch;
+  CallProgress call_progress;
 };
 
-// Runs function(data, index, worker) for all indices in [0, count), count > 0, and asks the watch
-// before each. SF_OK; SF_ERROR_CANCELLED, with jobs left out, once the watch has heard no; or
-// SF_ERROR_RUNNER when the runner failed or did not run each of them exactly once. No job runs any
-// more afterwards, whatever the runner does.
+// Runs function(data, index, worker) for all indices in [0, count), count > 0, and asks the
+// progress function before each. SF_OK; SF_ERROR_CANCELLED, with jobs left out, once the progress
+// function has heard no; or SF_ERROR_RUNNER when the runner failed or did not run each of them
+// exactly once. No job runs any more afterwards, whatever the runner does.
 sf_status RunJobSet(JobFunction function, const void* data, int32_t count, JobSet* set);
 
 }  // namespace starfocus

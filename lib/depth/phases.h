@@ -20,7 +20,7 @@ class Phases {
 
   // Returns SF_OK, SF_ERROR_CANCELLED or SF_ERROR_RUNNER (RunJobSet).
   sf_status Run(JobFunction function, const void* data) {
-    jobs_->watch.SetPart(done_++, count_);
+    jobs_->call_progress.SetPart(done_++, count_);
     return RunJobSet(function, data, tiles_, jobs_);
   }
 

@@ -161,10 +161,10 @@ sf_status RefocusRows(const RowSource& source, const RowSink& sink, EngineState*
     if (finished.first < end) {
       status = sink.store(sink.self, finished, BufferRows(*engine, y), engine);
     }
-    if (status == SF_OK) engine->workers.jobs.watch.SetRows(Max(0, end - top));
+    if (status == SF_OK) engine->workers.jobs.call_progress.SetRows(Max(0, end - top));
   }
   if (status != SF_OK) return status;
-  return engine->workers.jobs.watch.Ask() ? SF_OK : SF_ERROR_CANCELLED;
+  return engine->workers.jobs.call_progress.Ask() ? SF_OK : SF_ERROR_CANCELLED;
 }
 
 }  // namespace starfocus

@@ -32,8 +32,8 @@ void Add(const Counts& counts, sf_report* report) {
 }  // namespace
 
 sf_status SetLens(const sf_params& params, EngineState* engine) {
-  const sf_status status =
-      MakeLens(engine->config, params, &engine->workers.jobs.watch, &engine->tables, &engine->lens);
+  const sf_status status = MakeLens(engine->config, params, &engine->workers.jobs.call_progress,
+                                    &engine->tables, &engine->lens);
   if (status != SF_OK) return status;
   engine->report = sf_report();
   engine->report.r_max = engine->lens.r_max;

@@ -61,7 +61,7 @@ struct EngineState {
   StripeState stripe;
 };
 
-// Sets up the lens for params, told to the workers' watch, and forgets all of the refocusing
+// Sets up the lens for params, told to the workers' CallProgress, and forgets all of the refocusing
 // before. Returns SF_ERROR_BLUR, SF_ERROR_CANCELLED or SF_OK. The other fields of params
 // must have been checked.
 sf_status SetLens(const sf_params& params, EngineState* engine);

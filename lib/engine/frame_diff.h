@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "lib/base/call_progress.h"
 #include "lib/base/geometry.h"
-#include "lib/base/watch.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {

@@ -183,7 +183,7 @@ size_t Carve(const sf_config& config, Arena arena, EngineState** engine) {
     const Scratch taken = TakeScratch(config, &arena);
     if (*engine == nullptr) continue;
     e.workers.scratch[worker] = taken;
-    e.workers.scratch[worker].cancel = CancelToken(&e.workers.jobs.watch);
+    e.workers.scratch[worker].cancel = CancelToken(&e.workers.jobs.call_progress);
   }
   // What grows with the picture comes last: LayOut for a smaller one leaves all else in place.
   TakeRows(config, &arena, &e);

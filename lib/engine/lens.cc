@@ -56,8 +56,8 @@ sf_status CheckBlur(const sf_config& config, const sf_params& params) {
   return check.status();
 }
 
-sf_status MakeLens(const sf_config& config, const sf_params& params, Watch* watch, Tables* tables,
-                   Lens* lens) {
+sf_status MakeLens(const sf_config& config, const sf_params& params, CallProgress* call_progress,
+                   Tables* tables, Lens* lens) {
   const double r_max = LargestBlur(config, params);
   const sf_status fits = CheckBlur(config, params);
   if (fits != SF_OK) return fits;
@@ -71,15 +71,15 @@ sf_status MakeLens(const sf_config& config, const sf_params& params, Watch* watc
   const bool has_own = IsBenchmark(*lens) || params.mode == SF_MODE_BLUR;
   lens->largest_n =
       LargestN(config, *lens->renderer, DemandOf(tables->opening), has_own ? 0 : r_max);
-  const sf_status status = MakeApertures(*lens->renderer, lens->largest_n, watch, tables);
+  const sf_status status = MakeApertures(*lens->renderer, lens->largest_n, call_progress, tables);
   if (status != SF_OK) return status;
   lens->apertures = tables->apertures[lens->renderer->index].apertures;
   lens->aperture = FrameWeights(config, *tables, *lens);
   const ViewGrid grid =
       MakeViewGrid(lens->aperture, params.lens.focus, params.lens.aperture, 0, false);
   lens->scale = {grid.focus, grid.step};
-  if (Gathers(config, *lens)) return MakePsfs(LastGatherStep(*lens) + 1, watch, tables);
-  if (params.mode == SF_MODE_BLUR) return MakePsfs(BlurStepCount(r_max), watch, tables);
+  if (Gathers(config, *lens)) return MakePsfs(LastGatherStep(*lens) + 1, call_progress, tables);
+  if (params.mode == SF_MODE_BLUR) return MakePsfs(BlurStepCount(r_max), call_progress, tables);
   return SF_OK;
 }
 

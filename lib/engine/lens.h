@@ -5,9 +5,9 @@
 
 #include <cstdint>
 
+#include "lib/base/call_progress.h"
 #include "lib/base/geometry.h"
 #include "lib/base/view_weights.h"
-#include "lib/base/watch.h"
 #include "lib/engine/borders.h"
 #include "lib/engine/tables.h"
 #include "lib/filter/deblock.h"
@@ -73,8 +73,8 @@ sf_status CheckBlur(const sf_config& config, const sf_params& params);
 // Makes the lens for params, and the tables that it needs and that are not there yet. Returns
 // SF_ERROR_BLUR, SF_ERROR_CANCELLED or SF_OK. The other fields of params must have been
 // checked.
-sf_status MakeLens(const sf_config& config, const sf_params& params, Watch* watch, Tables* tables,
-                   Lens* lens);
+sf_status MakeLens(const sf_config& config, const sf_params& params, CallProgress* call_progress,
+                   Tables* tables, Lens* lens);
 
 }  // namespace starfocus
 

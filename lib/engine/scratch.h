@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "lib/base/watch.h"
+#include "lib/base/call_progress.h"
 #include "lib/engine/tables.h"
 #include "lib/filter/blur.h"
 #include "lib/filter/layers.h"

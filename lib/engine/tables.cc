@@ -25,9 +25,10 @@ void SetOpening(const ApertureShape& opening, Tables* tables) {
   tables->mean_square = MeanSquare(opening);
 }
 
-sf_status MakeApertures(const Renderer& renderer, int32_t last, Watch* watch, Tables* tables) {
+sf_status MakeApertures(const Renderer& renderer, int32_t last, CallProgress* call_progress,
+                        Tables* tables) {
   ApertureTable& table = tables->apertures[renderer.index];
-  CancelToken cancel(watch);
+  CancelToken cancel(call_progress);
   for (; table.count <= last; ++table.count) {
     const size_t size = ViewWeightsSize(tables->opening, table.count);
     if (!cancel.Spend(static_cast<int64_t>(size) * kAperturePoints)) return SF_ERROR_CANCELLED;
@@ -38,9 +39,9 @@ sf_status MakeApertures(const Renderer& renderer, int32_t last, Watch* watch, Ta
   return SF_OK;
 }
 
-sf_status MakePsfs(int32_t steps, Watch* watch, Tables* tables) {
+sf_status MakePsfs(int32_t steps, CallProgress* call_progress, Tables* tables) {
   if (steps <= tables->blur_steps) return SF_OK;
-  CancelToken cancel(watch);
+  CancelToken cancel(call_progress);
   tables->blur_steps = MakePsfs(tables->blur_steps, steps, tables->opening, &cancel,
                                 tables->blur_weights, tables->psfs);
   return tables->blur_steps == steps ? SF_OK : SF_ERROR_CANCELLED;

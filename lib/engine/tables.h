@@ -5,10 +5,10 @@
 
 #include <cstdint>
 
+#include "lib/base/call_progress.h"
 #include "lib/base/features.h"
 #include "lib/base/rules.h"
 #include "lib/base/view_weights.h"
-#include "lib/base/watch.h"
 #include "lib/filter/blur.h"
 #include "lib/plan/renderer.h"
 #include "starfocus/starfocus.h"
@@ -50,11 +50,12 @@ void SetOpening(const ApertureShape& opening, Tables* tables);
 
 // Makes the renderer's apertures up to N = `last` that are not there yet. Returns SF_OK or
 // SF_ERROR_CANCELLED; those that were made stay.
-sf_status MakeApertures(const Renderer& renderer, int32_t last, Watch* watch, Tables* tables);
+sf_status MakeApertures(const Renderer& renderer, int32_t last, CallProgress* call_progress,
+                        Tables* tables);
 
 // Makes the blur kernels of steps up to `steps` that are not there yet. Returns SF_OK or
 // SF_ERROR_CANCELLED; those that were made stay.
-sf_status MakePsfs(int32_t steps, Watch* watch, Tables* tables);
+sf_status MakePsfs(int32_t steps, CallProgress* call_progress, Tables* tables);
 
 }  // namespace starfocus
 

@@ -8,7 +8,7 @@
 #include <cstdint>
 
 #include "lib/base/aperture_shape.h"
-#include "lib/base/watch.h"
+#include "lib/base/call_progress.h"
 #include "lib/filter/add_excess.h"
 #include "lib/filter/span_list.h"
 #include "lib/input/window.h"

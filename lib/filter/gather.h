@@ -8,8 +8,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "lib/base/call_progress.h"
 #include "lib/base/rules.h"
-#include "lib/base/watch.h"
 #include "lib/filter/blur.h"
 #include "lib/input/field.h"
 #include "lib/plan/block_stats.h"

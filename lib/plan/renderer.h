@@ -8,11 +8,11 @@
 #include <cstdint>
 
 #include "lib/base/arena.h"
+#include "lib/base/call_progress.h"
 #include "lib/base/geometry.h"
 #include "lib/base/rules.h"
 #include "lib/base/view_grid.h"
 #include "lib/base/view_weights.h"
-#include "lib/base/watch.h"
 #include "lib/input/window.h"
 #include "lib/plan/block_stats.h"
 #include "lib/plan/gathered_cells.h"

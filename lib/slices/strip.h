@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "lib/base/watch.h"
+#include "lib/base/call_progress.h"
 #include "lib/slices/slice_plane.h"
 #include "lib/slices/slice_stack.h"
 #include "simd/kernels.h"

@@ -29,7 +29,7 @@ sf_status MakeLayers(const Prepared& prepared, const RowSource& source, EngineSt
       engine->pictures.layers[layer].samples.data =
           prepared.layers[layer].Row(engine->pictures.layers[layer].rows.first);
     }
-    engine->workers.jobs.watch.SetRows(y);
+    engine->workers.jobs.call_progress.SetRows(y);
     // The filters' taps reach as far below the stripe.
     read = {read.last, Min(height, y + side + kBeyond)};
     status = LoadRows(source, read, prepared.disparity, engine);
@@ -69,9 +69,9 @@ size_t LayOutPrepared(const sf_config& config, void* base, Prepared** prepared) 
 sf_status Prepare(const PrepareCall& call, const RowSource& source, EngineState* engine,
                   Prepared** prepared) {
   const int32_t height = engine->config.height;
-  Watch& watch = engine->workers.jobs.watch;
+  CallProgress& call_progress = engine->workers.jobs.call_progress;
   engine->stream.active = false;
-  watch.Begin(0, height);
+  call_progress.Begin(0, height);
   sf_status status = CheckRows(source, {0, height}, engine);
   if (status != SF_OK) return status;
   new (call.memory) Prepared();
@@ -81,8 +81,8 @@ sf_status Prepare(const PrepareCall& call, const RowSource& source, EngineState*
   made->covers = engine->pictures.windows[0].given_coverage.data != nullptr;
   status = MakeLayers(*made, source, engine);
   if (status != SF_OK) return status;
-  watch.SetRows(height);
-  if (!watch.Ask()) return SF_ERROR_CANCELLED;
+  call_progress.SetRows(height);
+  if (!call_progress.Ask()) return SF_ERROR_CANCELLED;
   *prepared = made;
   return SF_OK;
 }

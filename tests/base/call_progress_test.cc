@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/base/watch.h"
+#include "lib/base/call_progress.h"
 
 #include <doctest/doctest.h>
 
 #include <thread>
 #include <vector>
 
-namespace starfocus::watch_test {
+namespace starfocus::call_progress_test {
 namespace {
 
 // What is asked, and the answer.
@@ -25,7 +25,7 @@ TEST_CASE("cancel: work is counted, however it is cut up, and asked after half a
   for (const int64_t at_once : {1, 1000, 1 << 19, 1 << 25}) {
     CAPTURE(at_once);
     Caller caller;
-    Watch watch;
+    CallProgress watch;
     watch.SetProgress(Caller::Progress, &caller);
     watch.Begin(0, 10);
     CancelToken cancel(&watch);
@@ -44,7 +44,7 @@ TEST_CASE("cancel: work is counted, however it is cut up, and asked after half a
 TEST_CASE("cancel: no is no for all of a call, and forgotten in the next") {
   Caller caller;
   caller.answer = 1;
-  Watch watch;
+  CallProgress watch;
   watch.SetProgress(Caller::Progress, &caller);
   watch.Begin(0, 10);
   CancelToken one(&watch), other(&watch);
@@ -64,7 +64,7 @@ TEST_CASE("cancel: no is no for all of a call, and forgotten in the next") {
 }
 
 TEST_CASE("cancel: without anybody to ask work goes on") {
-  Watch watch;
+  CallProgress watch;
   CancelToken nobody, watched(&watch);
   for (int i = 0; i < 3; ++i) {
     CHECK(nobody.Spend(1 << 25));
@@ -75,7 +75,7 @@ TEST_CASE("cancel: without anybody to ask work goes on") {
 
 // Asks from another thread while it is asked.
 struct Nested {
-  Watch* watch;
+  CallProgress* watch;
   int calls = 0;
   bool other = false;  // what the other thread was told
 
@@ -88,7 +88,7 @@ struct Nested {
 };
 
 TEST_CASE("watch: while a thread asks, others go on without asking") {
-  Watch watch;
+  CallProgress watch;
   Nested nested{&watch};
   watch.SetProgress(Nested::Progress, &nested);
   watch.Begin(0, 10);
@@ -101,7 +101,7 @@ TEST_CASE("watch: while a thread asks, others go on without asking") {
 
 TEST_CASE("watch: rows of parts are made as the jobs of their set are") {
   Caller caller;
-  Watch watch;
+  CallProgress watch;
   watch.SetProgress(Caller::Progress, &caller);
   watch.Begin(0, 100);
   for (int part = 0; part < 3; ++part) {
@@ -118,4 +118,4 @@ TEST_CASE("watch: rows of parts are made as the jobs of their set are") {
 }
 
 }  // namespace
-}  // namespace starfocus::watch_test
+}  // namespace starfocus::call_progress_test

@@ -1,31 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/base/watch.h"
+#include "lib/base/call_progress.h"
 
 namespace starfocus {
 
-void Watch::Begin(int32_t done, int32_t rows) {
+void CallProgress::Begin(int32_t done, int32_t rows) {
   rows_ = rows;
   cancelled_.store(0);
   SetRows(done);
 }
 
-void Watch::SetRows(int32_t done) {
+void CallProgress::SetRows(int32_t done) {
   done_ = next_ = done;
   BeginJobs(1);
 }
 
-void Watch::SetPart(int32_t part, int32_t parts) {
+void CallProgress::SetPart(int32_t part, int32_t parts) {
   done_ = static_cast<int32_t>(int64_t{rows_} * part / parts);
   next_ = static_cast<int32_t>(int64_t{rows_} * (part + 1) / parts);
   BeginJobs(1);
 }
 
-void Watch::BeginJobs(int32_t jobs) {
+void CallProgress::BeginJobs(int32_t jobs) {
   jobs_ = jobs;
   jobs_done_.store(0, std::memory_order_relaxed);
 }
 
-bool Watch::Ask() {
+bool CallProgress::Ask() {
   if (progress_ == nullptr) return true;
   if (IsCancelled()) return false;
   if (asking_.exchange(1) != 0) return true;

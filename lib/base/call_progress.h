@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The caller's progress function, which is told how far a call has come and says whether to go on.
-#ifndef STARFOCUS_LIB_BASE_WATCH_H_
-#define STARFOCUS_LIB_BASE_WATCH_H_
+#ifndef STARFOCUS_LIB_BASE_CALL_PROGRESS_H_
+#define STARFOCUS_LIB_BASE_CALL_PROGRESS_H_
 
 #include <atomic>
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace starfocus {
 
 // Asks the caller, from any of the threads that run jobs, but never two at a time. It lies in the
 // workspace, for one call after the other.
-class Watch {
+class CallProgress {
  public:
   // Sets the function of the calls that follow; null: nobody is asked.
   void SetProgress(sf_progress progress, void* data) {
@@ -53,7 +53,7 @@ class Watch {
 class CancelToken {
  public:
   CancelToken() = default;
-  explicit CancelToken(Watch* watch) : watch_(watch) {}
+  explicit CancelToken(CallProgress* call_progress) : call_progress_(call_progress) {}
 
   // Counts about so many samples read, filtered or added up. Returns whether to go on; no once, it
   // is no until the next call.
@@ -64,7 +64,7 @@ class CancelToken {
 
  private:
   bool Ask() {
-    const bool goes_on = watch_ == nullptr || watch_->Ask();
+    const bool goes_on = call_progress_ == nullptr || call_progress_->Ask();
     left_ = goes_on ? kSamples : 0;
     return goes_on;
   }
@@ -72,7 +72,7 @@ class CancelToken {
   // A fraction of a millisecond's on a desktop, a millisecond's on a board.
   static constexpr int64_t kSamples = 1 << 19;
 
-  Watch* watch_ = nullptr;  // null: nobody is asked
+  CallProgress* call_progress_ = nullptr;  // null: nobody is asked
   int64_t left_ = kSamples;
 };
 
@@ -83,4 +83,4 @@ inline bool GoesOn(CancelToken* cancel, int64_t samples) {
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_BASE_WATCH_H_
+#endif  // STARFOCUS_LIB_BASE_CALL_PROGRESS_H_
