@@ -34,12 +34,12 @@ sf_params ReducedParams(const PreviewRequest& request, const Rect& rect) {
 
 void UseReduced(const Prepared& prepared, int32_t shift, EngineState* engine) {
   const ReducedField& field = prepared.reduced[shift];
-  SetPlanes(engine->config, *engine->kernels, field.views, &engine->pictures);
-  for (Window& window : engine->pictures.windows) {
+  SetPlanes(engine->config, *engine->kernels, field.views, &engine->row_store);
+  for (Window& window : engine->row_store.windows) {
     window.disparity = {field.disparity.data, field.disparity.stride, 0, 0};
   }
   if (!prepared.covers) return;
-  engine->pictures.windows[0].given_coverage = {field.coverage.data, field.coverage.stride, 0, 0};
+  engine->row_store.windows[0].given_coverage = {field.coverage.data, field.coverage.stride, 0, 0};
 }
 
 sf_status CheckPreview(const PreviewRequest& request, const EngineState& engine) {

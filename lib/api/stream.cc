@@ -84,7 +84,7 @@ sf_status PushRows(const RowSource& source, int32_t rows, int32_t unit, EngineSt
     stream.covers = covers;
     const Plane<uint8_t>& ring = engine->stripe.coverage.given;
     if (covers) {
-      engine->pictures.windows[0].given_coverage = {ring.data, ring.stride, ring.rows, 0};
+      engine->row_store.windows[0].given_coverage = {ring.data, ring.stride, ring.rows, 0};
     }
   }
   Checker check(engine->config.problem);
@@ -150,7 +150,7 @@ sf_status sf_stream_begin(sf_engine* engine, const sf_params* params) {
   e.workers.jobs.call_progress.Begin(0, e.config.height);
   status = starfocus::SetLens(full, &e);
   if (status != SF_OK) return starfocus::TellStatus(status, &e.problem);
-  starfocus::SetPlanes(e.config, *e.kernels, e.rings, &e.pictures);
+  starfocus::SetPlanes(e.config, *e.kernels, e.rings, &e.row_store);
   e.stream.active = true;
   return SF_OK;
 }

@@ -101,7 +101,7 @@ RowRange PartOf(const RowRange& rows, int32_t index, int32_t parts) {
 
 sf_status CheckRows(const RowSource& source, const RowRange& rows, EngineState* engine) {
   if (source.map == nullptr) return SF_OK;
-  const Plane<int16_t>& ring = engine->pictures.disparity;
+  const Plane<int16_t>& ring = engine->row_store.disparity;
   const int32_t jobs = Min(Min(MaxJobs(engine->config), ring.rows), rows.last - rows.first);
   return RunRows<CheckPart>({&source, engine, rows, jobs, ring}, engine);
 }
@@ -115,7 +115,7 @@ sf_status LoadRows(const RowSource& source, const RowRange& rows, const Plane<in
 
 sf_status CopyRow(const RowSource& source, int32_t y, EngineState* engine) {
   const sf_config& config = engine->config;
-  int16_t* const row = engine->pictures.disparity.Row(y);
+  int16_t* const row = engine->row_store.disparity.Row(y);
   Counts& counts = engine->workers.scratch[0].counts;
   counts.depth_flags = source.map(source.self, y, row, &counts.disparity_bytes);
   const sf_status status = StatusOf(counts.depth_flags, config);
@@ -148,7 +148,7 @@ sf_status RefocusRows(const RowSource& source, const RowSink& sink, EngineState*
   sf_status status = CheckRows(source, rows, engine);
   for (int32_t y = stripes.first; y <= last && status == SF_OK; y += side) {
     rows.last = Min(config.height, y + side + reach);
-    status = LoadRows(source, rows, engine->pictures.disparity, engine);
+    status = LoadRows(source, rows, engine->row_store.disparity, engine);
     rows.first = rows.last;
     if (status == SF_OK && engine->stripe.changes.active) {
       status = CompareRows(y, &engine->workers.scratch[0].cancel, &engine->stripe.changes);

@@ -39,10 +39,10 @@ sf_status SetLens(const sf_params& params, EngineState* engine) {
   engine->report.r_max = engine->lens.r_max;
   engine->report.largest_block = engine->config.largest_block;
   DropCounts(engine);
-  engine->pictures.prepared = false;
+  engine->row_store.prepared = false;
   engine->stripe.changes.active = false;
   ForgetStripe(&engine->stripe);
-  ForgetLayers(engine->config, &engine->pictures);
+  ForgetLayers(engine->config, &engine->row_store);
   return SF_OK;
 }
 

@@ -8,7 +8,7 @@
 
 #include "lib/engine/jobs.h"
 #include "lib/engine/lens.h"
-#include "lib/engine/pictures.h"
+#include "lib/engine/row_store.h"
 #include "lib/engine/stripe_state.h"
 #include "lib/engine/tables.h"
 #include "simd/kernels.h"
@@ -53,7 +53,7 @@ struct EngineState {
 
   // For one refocusing:
   Lens lens;
-  Pictures pictures;
+  RowStore row_store;
   Stream stream;
   sf_report report;
 

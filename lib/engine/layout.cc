@@ -93,7 +93,7 @@ void TakeTables(const sf_config& config, Arena* arena, Tables* tables) {
 // Takes the planes of layers 1 and 2 around a stripe.
 void TakeLayers(const sf_config& config, Arena* arena, EngineState* engine) {
   for (int layer = 1; layer <= config.tuning.max_layer; ++layer) {
-    LayerPlane& plane = engine->pictures.layers[layer];
+    LayerPlane& plane = engine->row_store.layers[layer];
     const auto width = static_cast<size_t>(LayerSize(config.width, layer));
     plane.samples.stride = 3 * width;
     plane.samples.data =
@@ -121,7 +121,7 @@ void TakeStripe(const sf_config& config, Arena* arena, EngineState* engine) {
   engine->stripe.plan.gathered.cells = arena->Take<uint8_t>(
       static_cast<size_t>(engine->stripe.plan.gathered.columns * (side / kCellSize)));
   for (int layer = 1; layer < SF_LAYERS; ++layer) {
-    engine->pictures.needed[layer] = arena->Take<uint8_t>(blocks);
+    engine->row_store.needed[layer] = arena->Take<uint8_t>(blocks);
   }
   FrameDiff& changes = engine->stripe.changes;
   changes.columns = static_cast<int32_t>(blocks);
@@ -151,9 +151,9 @@ void TakeRows(const sf_config& config, Arena* arena, EngineState* engine) {
   const bool streaming = Has(config.features, SF_FEATURE_STREAMING);
   const Borders borders = LargestBorders(config);
   const int32_t rows = config.largest_block + 2 * (streaming ? borders.streamed : borders.centre);
-  engine->pictures.disparity.rows = rows;
-  engine->pictures.disparity.stride = width;
-  engine->pictures.disparity.data = arena->Take<int16_t>(width, static_cast<size_t>(rows));
+  engine->row_store.disparity.rows = rows;
+  engine->row_store.disparity.stride = width;
+  engine->row_store.disparity.data = arena->Take<int16_t>(width, static_cast<size_t>(rows));
   engine->stripe.out =
       arena->Take<uint8_t>(3 * width, static_cast<size_t>(config.largest_block + kDeblockRows));
   // Null without streaming also where LayOutAnew made it of an engine that streams.

@@ -46,7 +46,7 @@ void DeblockColumnBoundaries(const JoinJob& job, int32_t index, Scratch*) {
 
 sf_status Deblock(const Stripe& stripe, const Plane<uint8_t>& out, EngineState* engine) {
   const sf_config& config = engine->config;
-  const Transfer* transfer = engine->pictures.windows[0].transfer;
+  const Transfer* transfer = engine->row_store.windows[0].transfer;
   const JoinJob job = {{&engine->stripe.map, out, config.width, config.height, stripe.y,
                         config.tuning.deblocking, transfer, engine->kernels},
                        config.largest_block / kSmallestBlock,
@@ -64,9 +64,9 @@ sf_status RefocusPhases(const Stripe& stripe, const Plane<uint8_t>& out, EngineS
   const Lens& lens = engine->lens;
   sf_status status = FindCoverage(stripe, engine);
   if (status == SF_OK) status = PlanStripe(stripe, engine);
-  if (status == SF_OK && IsBlockMode(lens) && !engine->pictures.prepared) {
-    PlaceLayers({stripe.y, stripe.y + stripe.height}, lens.borders, &engine->pictures);
-    status = FillLayers(config, *engine->kernels, &engine->workers, &engine->pictures);
+  if (status == SF_OK && IsBlockMode(lens) && !engine->row_store.prepared) {
+    PlaceLayers({stripe.y, stripe.y + stripe.height}, lens.borders, &engine->row_store);
+    status = FillLayers(config, *engine->kernels, &engine->workers, &engine->row_store);
   }
   if (status != SF_OK) return status;
   const StripePlan& plan = engine->stripe.plan;
@@ -95,7 +95,7 @@ void WithdrawStripe(const sf_report& report, EngineState* engine) {
   engine->report = report;
   DropCounts(engine);
   engine->stripe.plan.all_measured = false;
-  ForgetLayers(engine->config, &engine->pictures);
+  ForgetLayers(engine->config, &engine->row_store);
 }
 
 }  // namespace
@@ -105,7 +105,7 @@ BlockInputs InputsOf(const EngineState& engine) {
           engine.kernels,
           &engine.tables,
           &engine.lens,
-          engine.pictures.windows,
+          engine.row_store.windows,
           &engine.stripe.cells,
           &engine.stripe.plan.gathered,
           engine.clock};

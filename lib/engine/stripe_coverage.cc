@@ -62,7 +62,7 @@ sf_status RunPasses(int32_t top, int32_t end, EngineState* engine) {
     const RowRange rows = {done >= 0 ? done : Max(0, top - ahead),
                            Min(state.map.Rows(), end + ahead)};
     if (rows.first < rows.last) {
-      const PassJob job = {{engine->kernels, &engine->pictures.windows[0], &state.map},
+      const PassJob job = {{engine->kernels, &engine->row_store.windows[0], &state.map},
                            pass,
                            rows,
                            TilesOfSuperblock(engine->config)};
@@ -104,9 +104,9 @@ void TakeCoverage(const sf_config& config, int32_t border, Arena* arena, Coverag
 sf_status FindCoverage(const Stripe& stripe, EngineState* engine) {
   CoverageState& state = engine->stripe.coverage;
   const bool finds = FindsCoverage(*engine);
-  for (Window& window : engine->pictures.windows) window.coverage = finds ? &state.map : nullptr;
+  for (Window& window : engine->row_store.windows) window.coverage = finds ? &state.map : nullptr;
   if (!finds) return SF_OK;
-  const bool given = engine->pictures.windows[0].given_coverage.data != nullptr;
+  const bool given = engine->row_store.windows[0].given_coverage.data != nullptr;
   state.map.around = given ? kAroundGiven : 1;
   const int32_t border = engine->lens.borders.parted;
   const int32_t top = Max(0, stripe.y - border) / kTileSide;

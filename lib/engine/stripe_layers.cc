@@ -47,24 +47,24 @@ bool AnyColumn(const uint8_t* needed, int32_t columns) {
 
 }  // namespace
 
-void ClearLayerColumns(const sf_config& config, Pictures* pictures) {
+void ClearLayerColumns(const sf_config& config, RowStore* row_store) {
   for (int layer = 1; layer < SF_LAYERS; ++layer) {
     for (int32_t column = 0; column < Columns(config); ++column) {
-      uint8_t& need = pictures->needed[layer][column];
+      uint8_t& need = row_store->needed[layer][column];
       need = (need & kNeeded) != 0 ? kNeededBefore : 0;
     }
   }
 }
 
-void MarkLayerColumns(const sf_config& config, Pictures* pictures) {
+void MarkLayerColumns(const sf_config& config, RowStore* row_store) {
   for (int layer = 1; layer <= config.tuning.max_layer; ++layer) {
     for (int32_t column = 0; column < Columns(config); ++column) {
-      pictures->needed[layer][column] |= kNeeded;
+      row_store->needed[layer][column] |= kNeeded;
     }
   }
 }
 
-void MarkLayerColumns(const sf_config& config, const Block& block, Pictures* pictures) {
+void MarkLayerColumns(const sf_config& config, const Block& block, RowStore* row_store) {
   if (block.layer == 0) return;
   const int32_t side = config.largest_block, scale = 1 << block.layer;
   int32_t left = block.rendered.x - block.border.left;
@@ -77,13 +77,13 @@ void MarkLayerColumns(const sf_config& config, const Block& block, Pictures* pic
   const int32_t first = Max(0, left * scale / side);
   const int32_t last = Min(Columns(config) - 1, right * scale / side);
   for (int32_t column = first; column <= last; ++column) {
-    pictures->needed[block.layer][column] |= kNeeded;
+    row_store->needed[block.layer][column] |= kNeeded;
   }
 }
 
-void PlaceLayers(const RowRange& of_picture, const Borders& borders, Pictures* pictures) {
+void PlaceLayers(const RowRange& of_picture, const Borders& borders, RowStore* row_store) {
   for (int layer = 1; layer < SF_LAYERS; ++layer) {
-    LayerPlane& plane = pictures->layers[layer];
+    LayerPlane& plane = row_store->layers[layer];
     const int32_t beyond = borders.level[layer];
     const int32_t last = (of_picture.last + (1 << layer) - 1) >> layer;
     const RowRange inside = {Max(0, (of_picture.first >> layer) - beyond),
@@ -92,19 +92,19 @@ void PlaceLayers(const RowRange& of_picture, const Borders& borders, Pictures* p
     plane.known = kept ? Clamp(plane.rows.last, inside.first, inside.last) : inside.first;
     plane.rows = inside;
     plane.samples.first = plane.rows.first;
-    pictures->windows[layer].samples = {plane.samples.data, plane.samples.stride,
-                                        plane.samples.rows, plane.samples.first};
+    row_store->windows[layer].samples = {plane.samples.data, plane.samples.stride,
+                                         plane.samples.rows, plane.samples.first};
   }
 }
 
 sf_status FillLayers(const sf_config& config, const simd::Kernels& kernels, Workers* workers,
-                     Pictures* pictures) {
+                     RowStore* row_store) {
   const int32_t columns = Columns(config);
-  if (!AnyColumn(pictures->needed[1], columns) && !AnyColumn(pictures->needed[2], columns)) {
+  if (!AnyColumn(row_store->needed[1], columns) && !AnyColumn(row_store->needed[2], columns)) {
     return SF_OK;
   }
-  const LayerJob job = {&config, &kernels, &pictures->windows[0], pictures->needed,
-                        pictures->layers};
+  const LayerJob job = {&config, &kernels, &row_store->windows[0], row_store->needed,
+                        row_store->layers};
   return RunJobs<LayerJob, DownsampleColumn>(job, columns, workers);
 }
 

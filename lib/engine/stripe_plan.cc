@@ -200,18 +200,18 @@ void ReportBlock(const Block& block, EngineState* engine) {
 // that follow.
 void ReadPlan(const Stripe& stripe, EngineState* engine) {
   const sf_config& config = engine->config;
-  Pictures& pictures = engine->pictures;
+  RowStore& row_store = engine->row_store;
   StripePlan& plan = engine->stripe.plan;
   plan.used = 0;
   ClearMap(stripe, &engine->stripe.map);
-  ClearLayerColumns(config, &pictures);
-  if (config.tuning.skips == 0) MarkLayerColumns(config, &pictures);
+  ClearLayerColumns(config, &row_store);
+  if (config.tuning.skips == 0) MarkLayerColumns(config, &row_store);
   for (int32_t column = 0; column < plan.columns; ++column) {
     const Block* const planned = plan.BlocksOf(column);
     for (int32_t k = 0; k < plan.counts[column]; ++k) {
       if (!IsInRegion(*engine, planned[k].rect) || !IsNew(*engine, planned[k].rect)) continue;
       const Block& block = plan.blocks[plan.used++] = planned[k];
-      MarkLayerColumns(config, block, &pictures);
+      MarkLayerColumns(config, block, &row_store);
       MapBlock(stripe, block, engine->stripe.map);
       ReportBlock(block, engine);
     }
@@ -223,7 +223,7 @@ void CountSpared(EngineState* engine) {
   for (int layer = 1; layer <= engine->config.tuning.max_layer; ++layer) {
     for (int32_t column = 0; column < engine->stripe.plan.columns; ++column) {
       engine->report.skipped.layer_columns +=
-          (engine->pictures.needed[layer][column] & kNeeded) == 0;
+          (engine->row_store.needed[layer][column] & kNeeded) == 0;
     }
   }
 }
@@ -258,8 +258,8 @@ sf_status PlanStripe(const Stripe& rows, EngineState* engine) {
     state.plan.gathered.first_row = rows.y / kCellSize;
     const int32_t first_row = PlaceCells(rows, lens, &state);
     const MeasureJob job = {
-        engine->kernels, &engine->pictures.windows[0], lens.scale, state.plan.side / kCellSize,
-        first_row,       state.plan.measured,          state.cells};
+        engine->kernels, &engine->row_store.windows[0], lens.scale, state.plan.side / kCellSize,
+        first_row,       state.plan.measured,           state.cells};
     const sf_status status = RunJobs<MeasureJob, MeasureColumn>(job, columns, &engine->workers);
     if (status != SF_OK) return status;
   }
@@ -268,7 +268,7 @@ sf_status PlanStripe(const Stripe& rows, EngineState* engine) {
                        &engine->tables.opening,
                        &lens,
                        &state.cells,
-                       &engine->pictures.windows[0],
+                       &engine->row_store.windows[0],
                        rows,
                        state.plan};
   const sf_status status = RunJobs<PlanJob, PlanBlocks>(job, columns, &engine->workers);

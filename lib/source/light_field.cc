@@ -101,12 +101,12 @@ RowSource SourceOf(const LightField& field) {
 }
 
 void UseLightField(const LightField& field, EngineState* engine) {
-  PlaneViews& planes = engine->pictures.planes;
+  PlaneViews& planes = engine->row_store.planes;
   planes = field.planes;
   const ViewReader reader =
       field.in_place ? ReaderOf(planes) : ViewReader{WindowLight, WindowCodes, &field};
-  SetViews(engine->config, reader, planes.view[0], &engine->pictures);
-  engine->pictures.windows[0].given_coverage = field.coverage;
+  SetViews(engine->config, reader, planes.view[0], &engine->row_store);
+  engine->row_store.windows[0].given_coverage = field.coverage;
 }
 
 }  // namespace starfocus

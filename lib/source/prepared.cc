@@ -13,7 +13,7 @@ namespace {
 // Makes the layers and reduced light fields in the planes of `prepared`, and converts the map.
 sf_status MakeLayers(const Prepared& prepared, const RowSource& source, EngineState* engine) {
   LayerPlane own[SF_LAYERS];
-  for (int layer = 0; layer < SF_LAYERS; ++layer) own[layer] = engine->pictures.layers[layer];
+  for (int layer = 0; layer < SF_LAYERS; ++layer) own[layer] = engine->row_store.layers[layer];
   const int32_t height = engine->config.height, side = engine->config.largest_block;
   // Layers end beyond the picture (LayerSize), by fewer than so many of its pixels; PlaceLayers
   // leaves out what lies beyond them.
@@ -21,26 +21,27 @@ sf_status MakeLayers(const Prepared& prepared, const RowSource& source, EngineSt
   RowRange read = {0, 0};
   sf_status status = SF_OK;
   for (int32_t y = 0; y < height && status == SF_OK; y += side) {
-    ForgetLayers(engine->config, &engine->pictures);
-    MarkLayerColumns(engine->config, &engine->pictures);
-    PlaceLayers({y, y + side < height ? y + side : height + kBeyond}, Borders(), &engine->pictures);
+    ForgetLayers(engine->config, &engine->row_store);
+    MarkLayerColumns(engine->config, &engine->row_store);
+    PlaceLayers({y, y + side < height ? y + side : height + kBeyond}, Borders(),
+                &engine->row_store);
     for (int layer = 1; layer <= engine->config.tuning.max_layer; ++layer) {
-      engine->pictures.layers[layer].samples.rows = 0;
-      engine->pictures.layers[layer].samples.data =
-          prepared.layers[layer].Row(engine->pictures.layers[layer].rows.first);
+      engine->row_store.layers[layer].samples.rows = 0;
+      engine->row_store.layers[layer].samples.data =
+          prepared.layers[layer].Row(engine->row_store.layers[layer].rows.first);
     }
     engine->workers.jobs.call_progress.SetRows(y);
     // The filters' taps reach as far below the stripe.
     read = {read.last, Min(height, y + side + kBeyond)};
     status = LoadRows(source, read, prepared.disparity, engine);
     if (status != SF_OK) break;
-    status = FillLayers(engine->config, *engine->kernels, &engine->workers, &engine->pictures);
+    status = FillLayers(engine->config, *engine->kernels, &engine->workers, &engine->row_store);
     if (status != SF_OK) break;
     status = ReduceRows(prepared.disparity, {y, Min(y + side, height)}, prepared.config.previews,
                         prepared.reduced, engine);
   }
-  for (int layer = 0; layer < SF_LAYERS; ++layer) engine->pictures.layers[layer] = own[layer];
-  ForgetLayers(engine->config, &engine->pictures);
+  for (int layer = 0; layer < SF_LAYERS; ++layer) engine->row_store.layers[layer] = own[layer];
+  ForgetLayers(engine->config, &engine->row_store);
   return status;
 }
 
@@ -78,7 +79,7 @@ sf_status Prepare(const PrepareCall& call, const RowSource& source, EngineState*
   Prepared* made = nullptr;
   LayOutPrepared(engine->config, call.memory, &made);
   made->config = engine->config;
-  made->covers = engine->pictures.windows[0].given_coverage.data != nullptr;
+  made->covers = engine->row_store.windows[0].given_coverage.data != nullptr;
   status = MakeLayers(*made, source, engine);
   if (status != SF_OK) return status;
   call_progress.SetRows(height);
@@ -102,11 +103,11 @@ Extent PreparedMemory(const Prepared& prepared) {
 void UsePrepared(const Prepared& prepared, EngineState* engine) {
   const Plane<int16_t>& disparity = prepared.disparity;
   for (int layer = 0; layer < SF_LAYERS; ++layer) {
-    engine->pictures.windows[layer].disparity = {disparity.data, disparity.stride, 0, 0};
+    engine->row_store.windows[layer].disparity = {disparity.data, disparity.stride, 0, 0};
     const Plane<int16_t>& plane = prepared.layers[layer];
-    if (layer > 0) engine->pictures.windows[layer].samples = {plane.data, plane.stride, 0, 0};
+    if (layer > 0) engine->row_store.windows[layer].samples = {plane.data, plane.stride, 0, 0};
   }
-  engine->pictures.prepared = true;
+  engine->row_store.prepared = true;
 }
 
 }  // namespace starfocus

@@ -32,7 +32,7 @@ void AddLight(const int16_t* light, size_t samples, bool is_first, uint32_t* sum
 // Returns false when the caller cancels.
 bool ReduceView(const ReduceJob& job, int view, const Part& part, Scratch* scratch) {
   const EngineState& engine = *job.engine;
-  const Window& window = engine.pictures.windows[0];
+  const Window& window = engine.row_store.windows[0];
   const simd::Encoding& encoding = window.transfer->encoding;
   const size_t samples = 3 * static_cast<size_t>(part.width);
   int16_t* const light = scratch->picture_samples;
@@ -87,7 +87,7 @@ bool ReduceMap(const ReduceJob& job, int shift, const Part& part, Scratch* scrat
 
 // Returns false when the caller cancels.
 bool ReduceCoverage(const ReduceJob& job, int shift, const Part& part, Scratch* scratch) {
-  const Plane<const uint8_t>& given = job.engine->pictures.windows[0].given_coverage;
+  const Plane<const uint8_t>& given = job.engine->row_store.windows[0].given_coverage;
   const Plane<uint8_t>& coverage = job.fields[shift].coverage;
   if (given.data == nullptr || coverage.data == nullptr) return true;
   const int32_t side = 1 << shift;

@@ -62,13 +62,13 @@ Error BlockBench::Open(const std::string& where, const LightField& light_field) 
 void BlockBench::HoldDisparity() {
   const FloatMap& map = light_field_->disparity;
   disparity_.resize(map.values.size() + simd::kPadding);
-  engine_->pictures.disparity = {disparity_.data(), size_t(map.width), 0, 0};
+  engine_->row_store.disparity = {disparity_.data(), size_t(map.width), 0, 0};
   const sf_depth_map given =
       sf_depth_float(map.values.data(), sizeof(float) * size_t(map.width), map.width, map.height);
   const DepthSource source = MakeDepthSource(engine_->config, given, nullptr);
   for (int y = 0; y < map.height; ++y) {
     // The range is the map's own, so that no value can be outside.
-    ReadDepthRow(simd::BestImageKernels(), source, y, engine_->pictures.disparity.Row(y));
+    ReadDepthRow(simd::BestImageKernels(), source, y, engine_->row_store.disparity.Row(y));
   }
   views_.kernels = engine_->kernels;
   views_.transfer = &TransferOf(engine_->config.transfer);
@@ -76,11 +76,11 @@ void BlockBench::HoldDisparity() {
     const Image& view = light_field_->views[i];
     views_.view[i] = {view.pixels.data(), view.stride(), 0, 0};
   }
-  SetViews(engine_->config, ReaderOf(views_), views_.view[0], &engine_->pictures);
+  SetViews(engine_->config, ReaderOf(views_), views_.view[0], &engine_->row_store);
 }
 
 void BlockBench::HoldLayer(int layer) {
-  LayerPlane& plane = engine_->pictures.layers[layer];
+  LayerPlane& plane = engine_->row_store.layers[layer];
   const size_t stride = 3 * size_t(plane.width), rows = size_t(plane.height);
   layer_samples_[layer].resize(stride * rows + simd::kPadding);
   plane.rows = {0, plane.height};
@@ -95,10 +95,10 @@ void BlockBench::HoldLayer(int layer) {
   const ResampleScratch scratch = {even.data(), odd.data(), halved.data(), layer_one.data()};
   for (int32_t begin = 0; begin < plane.width; begin += step) {
     const int32_t end = std::min(begin + step, plane.width);
-    DownsamplePicture(*engine_->kernels, engine_->pictures.windows[0], scratch,
+    DownsamplePicture(*engine_->kernels, engine_->row_store.windows[0], scratch,
                       {layer, begin, end, &plane});
   }
-  engine_->pictures.windows[layer].samples = {plane.samples.data, stride, 0, 0};
+  engine_->row_store.windows[layer].samples = {plane.samples.data, stride, 0, 0};
 }
 
 void BlockBench::Focus(const BlockTask& task) {
@@ -117,7 +117,7 @@ BlockWork BlockBench::Work(const BlockTask& task) {
   std::vector<Cell> cells(size_t((rect.width + kCellSize - 1) / kCellSize));
   const int first = rect.x / kCellSize;
   for (int y = rect.y; y < rect.y + rect.height; y += kCellSize) {
-    MeasureCells(*engine_->kernels, engine_->pictures.windows[0], engine_->lens.scale,
+    MeasureCells(*engine_->kernels, engine_->row_store.windows[0], engine_->lens.scale,
                  {y / kCellSize, first, first + int(cells.size()), cells.data()});
     for (const Cell& cell : cells) AddCell(cell, &content);
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The pictures of a call: views, layers and converted disparities, as windows onto them.
-#ifndef STARFOCUS_LIB_ENGINE_PICTURES_H_
-#define STARFOCUS_LIB_ENGINE_PICTURES_H_
+#ifndef STARFOCUS_LIB_ENGINE_ROW_STORE_H_
+#define STARFOCUS_LIB_ENGINE_ROW_STORE_H_
 
 #include <cstdint>
 
@@ -16,7 +16,7 @@ namespace starfocus {
 // Whether the columns of a layer are read by the stripe, and whether they were by the one before.
 enum ColumnNeed : uint8_t { kNeeded = 1, kNeededBefore = 2 };
 
-struct Pictures {
+struct RowStore {
   PlaneViews planes;  // what the windows read, if all views are rows of codes in memory
   Window windows[SF_LAYERS];
   LayerPlane layers[SF_LAYERS];  // layers 1 and 2, around a stripe
@@ -27,19 +27,19 @@ struct Pictures {
 
 // Points the windows at views: `reader` must stay valid, `centre` has the codes of the centre view.
 void SetViews(const sf_config& config, const ViewReader& reader, const Plane<const uint8_t>& centre,
-              Pictures* pictures);
+              RowStore* row_store);
 
 // Points the windows at views in memory of the library: reduced pictures or rings of rows.
 void SetPlanes(const sf_config& config, const simd::Kernels& kernels, const Plane<uint8_t>* views,
-               Pictures* pictures);
+               RowStore* row_store);
 
 // Fills the unknown pixels (kNoSurface) of a converted row, as SF_FEATURE_FILL_UNKNOWN says.
 // Returns their number.
 int32_t FillUnknown(const sf_config& config, const simd::Kernels& kernels, int16_t* row);
 
 // Forgets the layers' rows, which are of another picture, or of which not all were made.
-void ForgetLayers(const sf_config& config, Pictures* pictures);
+void ForgetLayers(const sf_config& config, RowStore* row_store);
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_ENGINE_PICTURES_H_
+#endif  // STARFOCUS_LIB_ENGINE_ROW_STORE_H_

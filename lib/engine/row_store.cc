@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/engine/pictures.h"
+#include "lib/engine/row_store.h"
 
 #include <cstring>
 
@@ -12,12 +12,12 @@
 namespace starfocus {
 
 void SetViews(const sf_config& config, const ViewReader& reader, const Plane<const uint8_t>& centre,
-              Pictures* pictures) {
+              RowStore* row_store) {
   ViewSet set;
   FindViews(config, &set);  // which were checked when the engine was made
   const OcclusionViews occlusion_views = ChooseOcclusionViews(set);
   for (int layer = 0; layer < SF_LAYERS; ++layer) {
-    Window& window = pictures->windows[layer];
+    Window& window = row_store->windows[layer];
     window.layer = layer;
     const int32_t taps = layer == 0 ? 2 : 2 * (1 << layer) - 1;
     window.colour_bytes = 3 * taps * taps;
@@ -29,24 +29,24 @@ void SetViews(const sf_config& config, const ViewReader& reader, const Plane<con
     window.occlusion_views = occlusion_views;
     window.transfer = &TransferOf(config.transfer);
     window.reader = reader;
-    window.disparity = {pictures->disparity.data, pictures->disparity.stride,
-                        pictures->disparity.rows, 0};
+    window.disparity = {row_store->disparity.data, row_store->disparity.stride,
+                        row_store->disparity.rows, 0};
     window.given_coverage = {};
-    pictures->layers[layer].width = window.width;
-    pictures->layers[layer].height = window.height;
+    row_store->layers[layer].width = window.width;
+    row_store->layers[layer].height = window.height;
   }
-  pictures->windows[0].centre = centre;
+  row_store->windows[0].centre = centre;
 }
 
 void SetPlanes(const sf_config& config, const simd::Kernels& kernels, const Plane<uint8_t>* views,
-               Pictures* pictures) {
-  PlaneViews& planes = pictures->planes;
+               RowStore* row_store) {
+  PlaneViews& planes = row_store->planes;
   planes.kernels = &kernels;
   planes.transfer = &TransferOf(config.transfer);
   for (int view = 0; view < config.views; ++view) {
     planes.view[view] = {views[view].data, views[view].stride, views[view].rows, 0};
   }
-  SetViews(config, ReaderOf(planes), planes.view[0], pictures);
+  SetViews(config, ReaderOf(planes), planes.view[0], row_store);
 }
 
 int32_t FillUnknown(const sf_config& config, const simd::Kernels& kernels, int16_t* row) {
@@ -60,12 +60,12 @@ int32_t FillUnknown(const sf_config& config, const simd::Kernels& kernels, int16
   return unknown;
 }
 
-void ForgetLayers(const sf_config& config, Pictures* pictures) {
+void ForgetLayers(const sf_config& config, RowStore* row_store) {
   for (int layer = 1; layer < SF_LAYERS; ++layer) {
     // A ring of as many rows as a stripe may need: what the stripe before made stays.
-    pictures->layers[layer].samples.rows = LayerRows(config, layer);
-    pictures->layers[layer].rows = {0, 0};
-    std::memset(pictures->needed[layer], 0, static_cast<size_t>(Columns(config)));
+    row_store->layers[layer].samples.rows = LayerRows(config, layer);
+    row_store->layers[layer].rows = {0, 0};
+    std::memset(row_store->needed[layer], 0, static_cast<size_t>(Columns(config)));
   }
 }
 
