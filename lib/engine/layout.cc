@@ -4,7 +4,7 @@
 #include "lib/base/features.h"
 #include "lib/base/rules.h"
 #include "lib/engine/stripe_coverage.h"
-#include "lib/input/field.h"
+#include "lib/input/block_pixels.h"
 
 namespace starfocus {
 namespace {

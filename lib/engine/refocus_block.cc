@@ -165,7 +165,7 @@ Rendered Render(const BlockInputs& in, const Block& block, const RenderJob& job,
 // Gathers the cells of a block and brings what is then complete to the picture.
 void GatherBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>& out,
                  Scratch* scratch) {
-  Field field;
+  BlockPixels field;
   field.rgb = scratch->field.rgb;
   field.disparity = scratch->field.disparity;
   const Window counting = Counting(in.windows[block.layer], scratch);

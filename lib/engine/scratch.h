@@ -27,7 +27,7 @@ struct Counts {
 };
 
 // The extended rectangle of a block in the centre view. E: largest side of one.
-struct FieldMemory {
+struct BlockPixelsMemory {
   int16_t* rgb;        // light: E rows of RgbStride(E)
   int16_t* disparity;  // E^2
 };
@@ -40,7 +40,7 @@ struct Scratch {
   uint32_t* sums;                  // 3 R^2
   uint16_t* aperture_weights;      // with cat's eyes: of a block, of the largest N
   LampRuns* lamp_runs;             // with highlights
-  FieldMemory field;               // of blocks that are gathered, or blurred by depth
+  BlockPixelsMemory field;         // of blocks that are gathered, or blurred by depth
   SpanMemory spans;                // of blocks blurred by depth
   ResampleScratch resample;
   UpsampleScratch upsample;

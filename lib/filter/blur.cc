@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "lib/input/load_field.h"
+#include "lib/input/load_block.h"
 
 namespace starfocus {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "lib/filter/slope.h"
-#include "lib/input/load_field.h"
+#include "lib/input/load_block.h"
 #include "lib/plan/neighbourhood.h"
 
 namespace starfocus {
@@ -30,7 +30,7 @@ struct SlopeRows {
 
 class Gather {
  public:
-  Gather(const GatherJob& job, Field* field, const Gathered& out)
+  Gather(const GatherJob& job, BlockPixels* field, const Gathered& out)
       : job_(job),
         block_(job.cells.block),
         frame_(LayerFrame(block_, job.cells.layer)),
@@ -54,7 +54,7 @@ class Gather {
       }
     }
     loaded_ = {left, top, right - left, bottom - top};
-    LoadField(*job_.window, loaded_, {border_, border_, border_, border_}, field_);
+    LoadBlock(*job_.window, loaded_, {border_, border_, border_, border_}, field_);
   }
 
   void Filter() {
@@ -252,7 +252,7 @@ class Gather {
   const Rect& block_;  // in the picture
   const Rect frame_;   // at the layer
   Rect loaded_ = {};   // of the layer: what cells are gathered of
-  Field* field_;
+  BlockPixels* field_;
   const Gathered& out_;
   int32_t border_ = 0;  // of the field around it: as far as any kernel reaches
   uint64_t pixels_ = 0;
@@ -262,7 +262,7 @@ class Gather {
 
 }  // namespace
 
-uint64_t GatherCells(const GatherJob& job, Field* field, const Gathered& out) {
+uint64_t GatherCells(const GatherJob& job, BlockPixels* field, const Gathered& out) {
   Gather gather(job, field, out);
   gather.Load();
   gather.Filter();

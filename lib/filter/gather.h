@@ -11,7 +11,7 @@
 #include "lib/base/call_progress.h"
 #include "lib/base/rules.h"
 #include "lib/filter/blur.h"
-#include "lib/input/field.h"
+#include "lib/input/block_pixels.h"
 #include "lib/plan/block_stats.h"
 #include "lib/plan/gathered_cells.h"
 #include "simd/kernels.h"
@@ -47,7 +47,7 @@ struct Gathered {
 
 // Gathers the cells of a block that are to be; `field` has room for its LayerFrame and a border of
 // kMaxGather pixels. Returns their pixels in the picture.
-uint64_t GatherCells(const GatherJob& job, Field* field, const Gathered& out);
+uint64_t GatherCells(const GatherJob& job, BlockPixels* field, const Gathered& out);
 
 }  // namespace starfocus
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "lib/base/fixed.h"
-#include "lib/input/field.h"
+#include "lib/input/block_pixels.h"
 #include "lib/input/window.h"
 #include "simd/kernels.h"
 
@@ -64,7 +64,7 @@ int32_t FadedShareOf(const Colour& near, const Colour& far, const Colour& mixed)
 // than `step`, than one beside, above or below them; of those in the picture, but for the field's
 // outermost ones.
 template <class Visit>
-void ForEachBesideEdge(const simd::Kernels& kernels, const Window& window, const Field& field,
+void ForEachBesideEdge(const simd::Kernels& kernels, const Window& window, const BlockPixels& field,
                        int16_t step, const Visit& visit) {
   constexpr int32_t kChunk = static_cast<int32_t>(simd::kSliceLanes), kAtOnce = 16 * kChunk;
   const int32_t left = Max(1, -field.x), right = Min(field.width - 1, window.width - field.x);

@@ -40,7 +40,7 @@ struct Place {
 // Fills a field's pixels beyond the picture's edges.
 class Beyond {
  public:
-  Beyond(const Window& window, Field* field)
+  Beyond(const Window& window, BlockPixels* field)
       : window_(window), field_(*field), rect_{field->x, field->y, field->width, field->height} {}
 
   void Look() {
@@ -138,13 +138,13 @@ class Beyond {
   static constexpr size_t kBytes = 3 * sizeof(int16_t);  // of a pixel
 
   const Window& window_;
-  const Field& field_;
+  const BlockPixels& field_;
   const Rect rect_;
 };
 
 }  // namespace
 
-void ExtendEdges(const Window& window, Field* field) {
+void ExtendEdges(const Window& window, BlockPixels* field) {
   if (window.views > 1) Beyond(window, field).Look();
 }
 

@@ -3,7 +3,7 @@
 #ifndef STARFOCUS_LIB_INPUT_PICTURE_EDGE_H_
 #define STARFOCUS_LIB_INPUT_PICTURE_EDGE_H_
 
-#include "lib/input/field.h"
+#include "lib/input/block_pixels.h"
 #include "lib/input/window.h"
 
 namespace starfocus {
@@ -17,7 +17,7 @@ inline constexpr int32_t kLookBack = 32;
 // beyond the edge as its disparity moves it from unit to unit take their colour from the captured
 // view that shows them, up to where something nearer covers them there. What lies farther away
 // repeats the last of them. Without side views, and beyond corners, nothing changes.
-void ExtendEdges(const Window& window, Field* field);
+void ExtendEdges(const Window& window, BlockPixels* field);
 
 }  // namespace starfocus
 

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <initializer_list>
 
-#include "lib/input/load_field.h"
+#include "lib/input/load_block.h"
 #include "lib/line_scan/holes.h"
 #include "lib/line_scan/line_scan.h"
 #include "lib/line_scan/span_sink.h"
@@ -23,7 +23,7 @@ Direction DirectionOf(int sign) {
 // and a line of it.
 struct LineHoles {
   const RenderJob& job;
-  const Field& field;
+  const BlockPixels& field;
   const int64_t* moves;
   int u, v;
   int32_t i, j;
@@ -50,12 +50,12 @@ class Star {
       : job_(job), grid_(*job.grid), scratch_(scratch), sums_(sums) {}
 
   void Refocus() {
-    Field rows = MakeField(0);
-    LoadField(*job_.window, job_.rect, job_.border, &rows);
+    BlockPixels rows = MakeField(0);
+    LoadBlock(*job_.window, job_.rect, job_.border, &rows);
     UnmixEdges(*job_.kernels, *job_.window, grid_, &rows);
     for (int32_t i = 0; i <= grid_.n(); ++i) scratch_->moves[i] = grid_.Move(i);
     Clear(scratch_->column_sums);
-    Field columns = MakeField(1);
+    BlockPixels columns = MakeField(1);
     TransposeDisparity(rows, &columns);
     AddViews(rows, columns, scratch_->column_sums);
     TransposePixels(rows, &columns);
@@ -78,8 +78,8 @@ class Star {
     std::memset(sums, 0, samples * sizeof(uint32_t));
   }
 
-  Field MakeField(int orientation) const {
-    Field field;
+  BlockPixels MakeField(int orientation) const {
+    BlockPixels field;
     field.rgb = scratch_->field_rgb[orientation];
     field.disparity = scratch_->field_disparity[orientation];
     return field;
@@ -97,7 +97,7 @@ class Star {
         {rgb, target, 3 * static_cast<uint32_t>(pixels), static_cast<uint16_t>(weight), 0, 0});
   }
 
-  void AddCentre(const Field& rows) {
+  void AddCentre(const BlockPixels& rows) {
     const Rect& inner = rows.inner;
     SpanList list = Accumulating(sums_);
     for (int32_t row = 0; row < inner.height; ++row) {
@@ -108,13 +108,13 @@ class Star {
   }
 
   // The weight of view (i, j) of a field, in its orientation.
-  uint32_t WeightOf(const Field& field, int32_t i, int32_t j) const {
+  uint32_t WeightOf(const BlockPixels& field, int32_t i, int32_t j) const {
     return field.transposed ? grid_.aperture.Weight(j, i) : grid_.aperture.Weight(i, j);
   }
 
   // Adds types A and C along the rows of `field`, in the triangles on either side of that axis;
   // `other` is the same field in the other orientation.
-  void AddViews(const Field& field, const Field& other, uint32_t* accumulators) {
+  void AddViews(const BlockPixels& field, const BlockPixels& other, uint32_t* accumulators) {
     const int64_t samples = 3 * int64_t{field.width} * field.height;  // of a type A view
     for (const int sign : {1, -1}) {
       FindAllRuns(field, other, DirectionOf(sign));
@@ -127,7 +127,7 @@ class Star {
     }
   }
 
-  void FindAllRuns(const Field& field, const Field& other, Direction direction) {
+  void FindAllRuns(const BlockPixels& field, const BlockPixels& other, Direction direction) {
     MarkRuns(*job_.kernels, grid_, {other.disparity, other.width, field.width, field.height},
              direction, &scratch_->marks);
     for (int32_t row = 0; row < field.height; ++row) {
@@ -136,7 +136,7 @@ class Star {
     }
   }
 
-  Run* RunsOf(const Field& field, int32_t row) const {
+  Run* RunsOf(const BlockPixels& field, int32_t row) const {
     return scratch_->runs + static_cast<size_t>(row) * static_cast<size_t>(field.width);
   }
 
@@ -149,7 +149,7 @@ class Star {
   }
 
   // Rows that the type C views (i, j), j <= last, can reach from.
-  Rows RowsFor(const Field& field, int32_t last) const {
+  Rows RowsFor(const BlockPixels& field, int32_t last) const {
     const Rect& inner = field.inner;
     const int32_t n = grid_.n(), above = inner.y, end = inner.y + inner.height;
     const auto reach = [&](int32_t border) {
@@ -160,7 +160,7 @@ class Star {
   }
 
   // Renders view (sign * i, 0), one line per column of the rectangle, and its disparity.
-  void RenderTypeA(const Field& field, int sign, int32_t i, const Rows& rows) {
+  void RenderTypeA(const BlockPixels& field, int sign, int32_t i, const Rows& rows) {
     const int32_t width = field.inner.width, height = rows.end - rows.begin;
     for (int32_t row = 0; row < height; row += kStripRows) {
       const int32_t count = Min(kStripRows, height - row);
@@ -176,8 +176,8 @@ class Star {
     }
   }
 
-  void RenderRow(const Field& field, int sign, int32_t i, int32_t row, const SpanTarget& target,
-                 SpanList* list) {
+  void RenderRow(const BlockPixels& field, int sign, int32_t i, int32_t row,
+                 const SpanTarget& target, SpanList* list) {
     const Line line = {field.Rgb(0, row), field.Disparity(0, row), 1, field.width};
     const LineHoles holes = {
         job_, field, scratch_->moves, sign, 0, i, 0, {field.x, field.y + row, 1, 0}};
@@ -189,7 +189,7 @@ class Star {
   }
 
   // Adds the views (sign * i, j), |j| <= last, from the columns of the type A view.
-  void AddColumns(const Field& field, int sign, int32_t i, int32_t last, const Rows& rows,
+  void AddColumns(const BlockPixels& field, int sign, int32_t i, int32_t last, const Rows& rows,
                   uint32_t* accumulators) {
     const int32_t width = field.inner.width, height = rows.end - rows.begin;
     SpanList list = Accumulating(accumulators);
@@ -244,7 +244,7 @@ class Star {
     });
   }
 
-  Diagonals GetDiagonals(const Field& field, bool anti) {
+  Diagonals GetDiagonals(const BlockPixels& field, bool anti) {
     Diagonals diagonals;
     diagonals.rgb = scratch_->diagonal_rgb;
     diagonals.disparity = scratch_->diagonal_disparity;
@@ -259,7 +259,7 @@ class Star {
   }
 
   // Adds the type B views on one diagonal of the aperture, inside the disc.
-  void TypeB(const Field& field, bool anti) {
+  void TypeB(const BlockPixels& field, bool anti) {
     const int32_t last = LastOnDiagonal(grid_.n());
     if (last == 0) return;
     const Diagonals diagonals = GetDiagonals(field, anti);
@@ -275,7 +275,7 @@ class Star {
     }
   }
 
-  void AddDiagonal(const Field& field, const Diagonals& diagonals, const DiagonalLine& at,
+  void AddDiagonal(const BlockPixels& field, const Diagonals& diagonals, const DiagonalLine& at,
                    int32_t index, const LinePart& part, int32_t last) {
     const int32_t begin = part.begin, end = part.end;
     const Line line = GetLine(diagonals, index, at.length);

@@ -67,7 +67,7 @@ class Unmixer {
 }  // namespace
 
 void UnmixEdges(const simd::Kernels& kernels, const Window& window, const ViewGrid& grid,
-                Field* field) {
+                BlockPixels* field) {
   if (window.layer != 0 || window.views == 1) return;
   const Unmixer unmixer(window, grid);
   ForEachBesideEdge(kernels, window, *field, kSurfaceStep, [&](int32_t column, int32_t row) {

@@ -3,7 +3,7 @@
 
 #include <cstring>
 
-#include "lib/input/load_field.h"
+#include "lib/input/load_block.h"
 #include "lib/slices/matte.h"
 #include "lib/slices/thin.h"
 
@@ -166,10 +166,10 @@ class Section {
 // Finds the surfaces of the rectangle and copies its centre view to where CentreRow has it. Returns
 // the rectangle in pixels of the surfaces.
 Rect LoadSurfaces(const RenderJob& job, CompositorScratch* scratch, uint32_t* accumulators) {
-  Field field;
+  BlockPixels field;
   field.rgb = scratch->field_rgb;
   field.disparity = scratch->field_disparity;
-  LoadField(*job.window, job.rect, job.border, &field);
+  LoadBlock(*job.window, job.rect, job.border, &field);
   TakeThinDisparities(*job.window, &field);
   FindLayeredDepth(*job.kernels, *job.window, field, &scratch->surfaces);
   FindMatte(*job.kernels, *job.window, *job.grid, field, &scratch->surfaces);

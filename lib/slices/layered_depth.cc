@@ -29,7 +29,7 @@ class HiddenColours {
  public:
   int16_t rgb[3 * kChunk + simd::kPadding / sizeof(int16_t)] = {};
 
-  HiddenColours(const Window& window, const Field& field) : window_(window), field_(field) {}
+  HiddenColours(const Window& window, const BlockPixels& field) : window_(window), field_(field) {}
 
   // Reads the colours of the pixels k of which bit k is set. Behind one edge many follow each
   // other.
@@ -107,7 +107,7 @@ class HiddenColours {
   }
 
   const Window& window_;
-  const Field& field_;
+  const BlockPixels& field_;
   bool repeats_ = false;
 };
 
@@ -126,7 +126,7 @@ simd::ViewLook ViewLookOf(const OcclusionView& look, int unit_bits) {
 
 class SurfaceFinder {
  public:
-  SurfaceFinder(const simd::Kernels& kernels, const Window& window, const Field& field,
+  SurfaceFinder(const simd::Kernels& kernels, const Window& window, const BlockPixels& field,
                 LayeredDepth* surfaces)
       : kernels_(kernels),
         window_(window),
@@ -335,7 +335,7 @@ class SurfaceFinder {
 
 }  // namespace
 
-void FindLayeredDepth(const simd::Kernels& kernels, const Window& window, const Field& field,
+void FindLayeredDepth(const simd::Kernels& kernels, const Window& window, const BlockPixels& field,
                       LayeredDepth* surfaces) {
   surfaces->width = field.width;
   surfaces->height = field.height;

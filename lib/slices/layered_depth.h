@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "lib/input/field.h"
+#include "lib/input/block_pixels.h"
 #include "lib/input/window.h"
 #include "simd/kernels.h"
 
@@ -70,7 +70,7 @@ struct SurfaceBands {
 // (OcclusionViews) and in which nothing covers them; without one the background goes on. Sides with
 // the same distance and disparity give their mean. Pixels within a surface hide copies of
 // themselves (kLeastCopy). The memory of `surfaces` must be set.
-void FindLayeredDepth(const simd::Kernels& kernels, const Window& window, const Field& field,
+void FindLayeredDepth(const simd::Kernels& kernels, const Window& window, const BlockPixels& field,
                       LayeredDepth* surfaces);
 
 }  // namespace starfocus

@@ -13,7 +13,7 @@ constexpr int32_t kLeastMove = kShiftOne;
 
 class MatteFinder {
  public:
-  MatteFinder(const Window& window, const ViewGrid& grid, const Field& field,
+  MatteFinder(const Window& window, const ViewGrid& grid, const BlockPixels& field,
               LayeredDepth* surfaces)
       : centre_{window},
         grid_(grid),
@@ -148,7 +148,7 @@ class MatteFinder {
 
   const CentreView centre_;
   const ViewGrid& grid_;
-  const Field& field_;
+  const BlockPixels& field_;
   LayeredDepth& surfaces_;
   const int16_t step_;  // a larger one from pixel to pixel is a depth edge
   const int64_t rim_;
@@ -157,7 +157,7 @@ class MatteFinder {
 }  // namespace
 
 void FindMatte(const simd::Kernels& kernels, const Window& window, const ViewGrid& grid,
-               const Field& field, LayeredDepth* surfaces) {
+               const BlockPixels& field, LayeredDepth* surfaces) {
   MatteFinder finder(window, grid, field, surfaces);
   ForEachBesideEdge(kernels, window, field, finder.step(),
                     [&](int32_t column, int32_t row) { finder.FindPixel(column, row); });

@@ -4,7 +4,7 @@
 #define STARFOCUS_LIB_SLICES_MATTE_H_
 
 #include "lib/base/view_grid.h"
-#include "lib/input/field.h"
+#include "lib/input/block_pixels.h"
 #include "lib/input/window.h"
 #include "lib/slices/layered_depth.h"
 
@@ -16,7 +16,7 @@ namespace starfocus {
 // nor the field's outermost pixels, which splat into no rectangle. `surfaces` as FindLayeredDepth
 // left them; of four surfaces the farthest is dropped.
 void FindMatte(const simd::Kernels& kernels, const Window& window, const ViewGrid& grid,
-               const Field& field, LayeredDepth* surfaces);
+               const BlockPixels& field, LayeredDepth* surfaces);
 
 }  // namespace starfocus
 

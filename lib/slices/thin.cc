@@ -14,7 +14,7 @@ constexpr int32_t kSameStructure = 4 << kDisparityBits;
 
 class ThinParter {
  public:
-  ThinParter(const Window& window, const Field& field, LayeredDepth* surfaces)
+  ThinParter(const Window& window, const BlockPixels& field, LayeredDepth* surfaces)
       : map_(*window.coverage), is_excess_(window.is_excess), field_(field), surfaces_(*surfaces) {}
 
   void PartPixel(int32_t x, int32_t y) {
@@ -79,13 +79,13 @@ class ThinParter {
 
   const CoverageMap& map_;
   const bool is_excess_;  // light is that of highlights beyond white
-  const Field& field_;
+  const BlockPixels& field_;
   LayeredDepth& surfaces_;
 };
 
 // Calls act(x, y) for each pixel of the picture in thin tiles of the field.
 template <class Act>
-void ForThin(const CoverageMap& map, const Field& field, const Act& act) {
+void ForThin(const CoverageMap& map, const BlockPixels& field, const Act& act) {
   const int32_t left = Max(0, field.x), right = Min(field.x + field.width, map.width);
   const int32_t top = Max(0, field.y), bottom = Min(field.y + field.height, map.height);
   for (int32_t y = top; y < bottom; ++y) {
@@ -99,7 +99,7 @@ void ForThin(const CoverageMap& map, const Field& field, const Act& act) {
 
 }  // namespace
 
-void TakeThinDisparities(const Window& window, Field* field) {
+void TakeThinDisparities(const Window& window, BlockPixels* field) {
   if (window.coverage == nullptr || window.layer > 0) return;
   const CoverageMap& map = *window.coverage;
   ForThin(map, *field, [&](int32_t x, int32_t y) {
@@ -112,7 +112,7 @@ void TakeThinDisparities(const Window& window, Field* field) {
   });
 }
 
-void PartThin(const Window& window, const Field& field, LayeredDepth* surfaces) {
+void PartThin(const Window& window, const BlockPixels& field, LayeredDepth* surfaces) {
   if (window.coverage == nullptr || window.layer > 0) return;
   ThinParter parter(window, field, surfaces);
   ForThin(*window.coverage, field, [&](int32_t x, int32_t y) { parter.PartPixel(x, y); });

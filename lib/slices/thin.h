@@ -3,7 +3,7 @@
 #ifndef STARFOCUS_LIB_SLICES_THIN_H_
 #define STARFOCUS_LIB_SLICES_THIN_H_
 
-#include "lib/input/field.h"
+#include "lib/input/block_pixels.h"
 #include "lib/input/window.h"
 #include "lib/slices/layered_depth.h"
 
@@ -11,11 +11,11 @@ namespace starfocus {
 
 // Gives pixels of thin tiles the disparity of the surface that covers most of them, so that hidden
 // surfaces end there. Call it before FindLayeredDepth.
-void TakeThinDisparities(const Window& window, Field* field);
+void TakeThinDisparities(const Window& window, BlockPixels* field);
 
 // Gives pixels of thin tiles the two surfaces that the coverage map has found there, in place of
 // those that FindLayeredDepth and FindMatte left. Call it before InpaintHidden.
-void PartThin(const Window& window, const Field& field, LayeredDepth* surfaces);
+void PartThin(const Window& window, const BlockPixels& field, LayeredDepth* surfaces);
 
 }  // namespace starfocus
 

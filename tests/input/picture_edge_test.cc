@@ -10,7 +10,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "lib/input/load_field.h"
+#include "lib/input/load_block.h"
 #include "starfocus/starfocus.h"
 #include "tests/support/refocused.h"
 #include "tests/support/star_views.h"
@@ -153,10 +153,10 @@ struct Row {
     const int width = kWidth + 2 * kBorder;
     std::vector<int16_t> rgb(starfocus::RgbStride(width) * kHeight);
     std::vector<int16_t> copy(size_t(width) * kHeight);
-    starfocus::Field field;
+    starfocus::BlockPixels field;
     field.rgb = rgb.data();
     field.disparity = copy.data();
-    starfocus::LoadField(window, {0, 0, kWidth, kHeight}, {kBorder, kBorder, 0, 0}, &field);
+    starfocus::LoadBlock(window, {0, 0, kWidth, kHeight}, {kBorder, kBorder, 0, 0}, &field);
     std::vector<int> row;
     for (int x = 0; x < width; ++x) row.push_back(*field.Rgb(x, 3) >> starfocus::kLightBits);
     return row;

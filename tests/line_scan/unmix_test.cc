@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "lib/input/load_field.h"
+#include "lib/input/load_block.h"
 #include "tests/support/star_views.h"
 
 namespace unmix_test {
@@ -30,7 +30,7 @@ struct Scene {
   std::vector<int16_t> rgb;
   starfocus::PlaneViews planes;
   Window window;
-  Field field;
+  BlockPixels field;
 
   Scene(double far, double near, const Greys& greys, int views = 5, bool mirrored = false)
       : centre(3 * kSize * kSize),
@@ -61,7 +61,7 @@ struct Scene {
     std::vector<int16_t> copy(disparity.size() + starfocus::simd::kPadding);
     field.disparity = copy.data();
     test::ReadPlanes(&planes, &window);
-    starfocus::LoadField(window, {4, 4, kSize - 8, kSize - 8}, {4, 4, 4, 4}, &field);
+    starfocus::LoadBlock(window, {4, 4, kSize - 8, kSize - 8}, {4, 4, 4, 4}, &field);
     starfocus::ViewWeights aperture;
     aperture.n = aperture.last = 4;
     window.layer = layer;

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "lib/input/load_field.h"
+#include "lib/input/load_block.h"
 #include "lib/slices/layered_depth.h"
 #include "tests/support/star_views.h"
 #include "tests/support/test_scene.h"
@@ -36,7 +36,7 @@ struct LayeredScene {
   starfocus::PlaneViews views_of;
   starfocus::Window window;
   LayeredDepth surfaces;
-  starfocus::Field field;
+  starfocus::BlockPixels field;
   std::vector<int16_t> copy;
   starfocus::Reads reads;
 
@@ -98,7 +98,7 @@ struct LayeredScene {
     field = {};
     field.rgb = rgb.data();
     field.disparity = copy.data();
-    starfocus::LoadField(window, {0, 0, kSize, kSize}, {0, 0, 0, 0}, &field);
+    starfocus::LoadBlock(window, {0, 0, kSize, kSize}, {0, 0, 0, 0}, &field);
     starfocus::FindLayeredDepth(starfocus::simd::BestKernels(), window, field, &surfaces);
   }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The extended rectangle that a block is refocused from, as lines in the three orientations of the
 // star (paper, IV-B): rows, columns (90 degrees) and diagonals (the lossless 45 degree layout).
-#ifndef STARFOCUS_LIB_INPUT_FIELD_H_
-#define STARFOCUS_LIB_INPUT_FIELD_H_
+#ifndef STARFOCUS_LIB_INPUT_BLOCK_PIXELS_H_
+#define STARFOCUS_LIB_INPUT_BLOCK_PIXELS_H_
 
 #include <cstddef>
 #include <cstdint>
@@ -23,7 +23,7 @@ void Transpose(const int16_t* in, size_t in_stride, int32_t rows, int32_t column
 
 // A copy of the extended rectangle. Positions are oriented: in a transposed field x runs down the
 // picture and y across it.
-struct Field {
+struct BlockPixels {
   bool transposed = false;
   int32_t width = 0, height = 0;  // of the extended rectangle
   int32_t x = 0, y = 0;           // of its pixel (0, 0) in the picture
@@ -41,8 +41,8 @@ struct Field {
 };
 
 // Rows become columns; to->disparity, or after it to->rgb, must be set and differ from `from`'s.
-void TransposeDisparity(const Field& from, Field* to);
-void TransposePixels(const Field& from, Field* to);
+void TransposeDisparity(const BlockPixels& from, BlockPixels* to);
+void TransposePixels(const BlockPixels& from, BlockPixels* to);
 
 // The diagonal lines of a field: direction (1, 1), or (1, -1) when anti.
 struct Diagonals {
@@ -51,7 +51,7 @@ struct Diagonals {
   int16_t* disparity = nullptr;
   uint32_t* offsets = nullptr;  // pixels before each line; Count(field) of them
 
-  static int32_t Count(const Field& field) { return field.width + field.height - 1; }
+  static int32_t Count(const BlockPixels& field) { return field.width + field.height - 1; }
 };
 
 // Where diagonal `index` of a field starts, and its number of pixels; it goes on to (x + t, y + t),
@@ -59,11 +59,11 @@ struct Diagonals {
 struct DiagonalLine {
   int32_t x, y, length;
 };
-DiagonalLine GetDiagonal(const Field& field, bool anti, int32_t index);
+DiagonalLine GetDiagonal(const BlockPixels& field, bool anti, int32_t index);
 
 // Copies the diagonals; the arrays must be set, each with room for the whole field.
-void LoadDiagonals(const Field& field, bool anti, Diagonals* diagonals);
+void LoadDiagonals(const BlockPixels& field, bool anti, Diagonals* diagonals);
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_INPUT_FIELD_H_
+#endif  // STARFOCUS_LIB_INPUT_BLOCK_PIXELS_H_

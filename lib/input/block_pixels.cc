@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/input/field.h"
+#include "lib/input/block_pixels.h"
 
 #include <cstring>
 
@@ -18,12 +18,12 @@ void Transpose(const int16_t* in, size_t in_stride, int32_t rows, int32_t column
   }
 }
 
-void TransposePixels(const Field& from, Field* to) {
+void TransposePixels(const BlockPixels& from, BlockPixels* to) {
   Transpose(from.rgb, RgbStride(from.width), from.height, from.width, to->rgb,
             RgbStride(to->width));
 }
 
-void TransposeDisparity(const Field& from, Field* to) {
+void TransposeDisparity(const BlockPixels& from, BlockPixels* to) {
   to->transposed = !from.transposed;
   to->width = from.height;
   to->height = from.width;
@@ -39,14 +39,14 @@ void TransposeDisparity(const Field& from, Field* to) {
   }
 }
 
-DiagonalLine GetDiagonal(const Field& field, bool anti, int32_t index) {
+DiagonalLine GetDiagonal(const BlockPixels& field, bool anti, int32_t index) {
   const int32_t x = Max(0, index - (field.height - 1));
   const int32_t y = anti ? Min(index, field.height - 1) : Max(0, field.height - 1 - index);
   const int32_t rest = anti ? y + 1 : field.height - y;
   return {x, y, Min(field.width - x, rest)};
 }
 
-void LoadDiagonals(const Field& field, bool anti, Diagonals* diagonals) {
+void LoadDiagonals(const BlockPixels& field, bool anti, Diagonals* diagonals) {
   diagonals->anti = anti;
   uint32_t offset = 0;
   const ptrdiff_t step = anti ? 1 - ptrdiff_t{field.width} : 1 + ptrdiff_t{field.width};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/input/load_field.h"
+#include "lib/input/load_block.h"
 
 #include <cstring>
 
@@ -60,7 +60,7 @@ void LoadLight(const Window& window, int32_t x, int32_t y, int32_t count, int16_
   }
 }
 
-void LoadField(const Window& window, const Rect& rect, const Border& border, Field* field) {
+void LoadBlock(const Window& window, const Rect& rect, const Border& border, BlockPixels* field) {
   field->transposed = false;
   field->width = border.left + rect.width + border.right;
   field->height = border.top + rect.height + border.bottom;
