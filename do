@@ -371,7 +371,7 @@ bench() {
     '')
       fields="build/bench/portrait build/bench/ramp build/bench/hair-scene"
       options="--quantiles 0.1,0.3,0.5,0.7,0.9 --apertures 1,0.5,0.25 --views 5,9 --max-layers 0,1 --rules
-        --n-scales 0.5,0.7,1,1.4,2 --largest-blocks 32,128,256 --targets all --workers 2 --largest-radius 64 --largest-size 16" ;;
+        --n-scales 0.5,0.7,1,1.4,2 --superblocks 32,128,256 --targets all --workers 2 --largest-radius 64 --largest-size 16" ;;
     *) help >&2; exit 1 ;;
   esac
   require gnuplot-nox

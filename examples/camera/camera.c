@@ -33,8 +33,7 @@ static sf_status MakeEngine(sf_pool* pool, sf_engine** engine) {
   config.width = kWidth, config.height = kHeight, config.views = kCameras;
   config.disparity_min = kWall, config.disparity_max = kBall, config.max_blur = kBall - kWall;
   config.features |= SF_FEATURE_STREAMING, config.features |= SF_FEATURE_IMAGES;
-  config.largest_block =
-      64; /* wide pictures would get 128, and four times the memory of a worker */
+  config.superblock = 64; /* wide pictures would get 128, and four times the memory of a worker */
   config.max_workers = sf_pool_workers(pool);
   callbacks.runner = sf_pool_run, callbacks.runner_data = pool;
   status = sf_create(&config, NULL, engine);

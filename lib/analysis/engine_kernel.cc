@@ -47,7 +47,7 @@ sf_config ConfigOf(int side, const EngineProbe& probe) {
   config.disparity_min = static_cast<float>(probe.r < 0 ? -probe.r_max : 0);
   config.disparity_max = static_cast<float>(probe.r < 0 ? 0 : probe.r_max);
   config.max_blur = std::fmax(probe.r_max, 1);
-  config.largest_block = kBlock;
+  config.superblock = kBlock;
   config.transfer = SF_TRANSFER_NONE;
   config.tuning.gather = 0;  // the kernel of views is asked for
   config.tuning.max_layer = probe.layer;

@@ -20,7 +20,7 @@ void CompareWith(const Call& call, EngineState* engine) {
   changes.fills = Has(config.features, SF_FEATURE_FILL_UNKNOWN);
   changes.width = config.width;
   changes.height = config.height;
-  changes.side = config.largest_block;
+  changes.side = config.superblock;
   const Borders& borders = engine->lens.borders;
   changes.side_reach = borders.views;
   changes.centre_reach = borders.highlights > 0 ? borders.views : borders.centre;

@@ -19,7 +19,7 @@ namespace {
 sf_config Choose(const sf_config& config) {
   constexpr int32_t kWide = 1536;
   sf_config chosen = config;
-  if (chosen.largest_block == 0) chosen.largest_block = config.width < kWide ? 64 : 128;
+  if (chosen.superblock == 0) chosen.superblock = config.width < kWide ? 64 : 128;
   return chosen;
 }
 

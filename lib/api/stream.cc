@@ -15,7 +15,7 @@ namespace {
 
 // Input rows that the next stripe reads.
 int32_t NeededRows(const EngineState& engine) {
-  return Min(engine.config.height, engine.stream.next + engine.config.largest_block +
+  return Min(engine.config.height, engine.stream.next + engine.config.superblock +
                                        LargestBorders(engine.config).streamed);
 }
 
@@ -27,7 +27,7 @@ sf_status RefocusNext(EngineState* engine) {
   const sf_status status = RefocusStripe(engine, stream.next);
   if (status != SF_OK) return status;
   stream.finished = FinishedRows(engine->config, stream.next);
-  stream.next += engine->config.largest_block;
+  stream.next += engine->config.superblock;
   call_progress.SetRows(stream.finished);
   return call_progress.Ask() ? SF_OK : SF_ERROR_CANCELLED;
 }
@@ -119,7 +119,7 @@ sf_status PullRows(const RowSink& sink, int32_t rows, EngineState* engine, int32
     const int32_t some = Min(rows - *written, stream.finished - stream.written);
     const sf_status status =
         sink.store(sink.self, {stream.written, stream.written + some},
-                   BufferRows(*engine, stream.next - engine->config.largest_block), engine);
+                   BufferRows(*engine, stream.next - engine->config.superblock), engine);
     if (status != SF_OK) return status;
     stream.written += some;
     *written += some;

@@ -92,8 +92,8 @@ sf_status CheckConfig(const sf_config& config) {
   check.Need(config.max_blur > 0.0 && config.max_blur <= SF_MAX_BLUR, SF_ERROR_RANGE,
              {"max_blur", config.max_blur},
              {"above 0, at most SF_MAX_BLUR", kNoNumber, SF_MAX_BLUR});
-  check.Need(IsBlock(config.largest_block), SF_ERROR_RANGE,
-             {"largest_block", double(config.largest_block)}, {"0, 32, 64, 128 or 256"});
+  check.Need(IsBlock(config.superblock), SF_ERROR_RANGE, {"superblock", double(config.superblock)},
+             {"0, 32, 64, 128 or 256"});
   CheckTuning(config.tuning, &check);
   constexpr uint32_t kFeatures = SF_FEATURE_LINE_SCAN | SF_FEATURE_COVERAGE | SF_FEATURE_STREAMING |
                                  SF_FEATURE_IMAGES | SF_FEATURE_FILL_UNKNOWN | SF_FEATURE_SHAPES;

@@ -35,12 +35,12 @@ inline Borders LargestBorders(const sf_config& config) {
 
 // Superblocks side by side.
 inline int32_t Columns(const sf_config& config) {
-  return (config.width + config.largest_block - 1) / config.largest_block;
+  return (config.width + config.superblock - 1) / config.superblock;
 }
 
 // Rows of a level that a stripe may need.
 inline int32_t LayerRows(const sf_config& config, int layer) {
-  return (config.largest_block >> layer) + 2 * LargestBorders(config).level[layer];
+  return (config.superblock >> layer) + 2 * LargestBorders(config).level[layer];
 }
 
 }  // namespace starfocus

@@ -88,7 +88,7 @@ sf_status RunRows(const RowsJob& job, EngineState* engine) {
 RowRange StripeRows(const EngineState& engine) {
   const Rect& region = engine.lens.region;
   const int32_t reach = engine.lens.borders.joined;
-  const int32_t side = engine.config.largest_block;
+  const int32_t side = engine.config.superblock;
   return {Max(0, region.y - reach) / side * side,
           Min(engine.config.height, region.y + region.height + reach)};
 }
@@ -139,7 +139,7 @@ sf_status CopyRow(const RowSource& source, int32_t y, EngineState* engine) {
 sf_status RefocusRows(const RowSource& source, const RowSink& sink, EngineState* engine) {
   const sf_config& config = engine->config;
   const Lens& lens = engine->lens;
-  const int32_t side = config.largest_block, reach = lens.borders.centre, top = lens.region.y;
+  const int32_t side = config.superblock, reach = lens.borders.centre, top = lens.region.y;
   const int32_t bottom = top + lens.region.height;
   const RowRange stripes = StripeRows(*engine);
   RowRange rows = {Max(0, stripes.first - reach), 0};

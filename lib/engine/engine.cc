@@ -37,7 +37,7 @@ sf_status SetLens(const sf_params& params, EngineState* engine) {
   if (status != SF_OK) return status;
   engine->report = sf_report();
   engine->report.r_max = engine->lens.r_max;
-  engine->report.largest_block = engine->config.largest_block;
+  engine->report.superblock = engine->config.superblock;
   DropCounts(engine);
   engine->row_store.prepared = false;
   engine->stripe.changes.active = false;

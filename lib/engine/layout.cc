@@ -12,7 +12,7 @@ namespace {
 // Takes the memory that a column of superblocks is subsampled in.
 void TakeResample(const sf_config& config, Arena* arena, ResampleScratch* resample) {
   // The last column has what a layer has beyond the picture, a pixel or two.
-  const auto side = config.largest_block;
+  const auto side = config.superblock;
   const auto columns = static_cast<size_t>(Max(side / 2 + 1, TapsOfLayer(side / 4 + 2)));
   const int32_t above_two = TapsOfLayer(LayerRows(config, 2));
   const auto rows = static_cast<size_t>(TapsOfLayer(Max(LayerRows(config, 1), above_two)));
@@ -25,7 +25,7 @@ void TakeResample(const sf_config& config, Arena* arena, ResampleScratch* resamp
 // Blocks are rendered, or parted, one after the other, and only sums are handed on: all the rest of
 // a worker's memory is shared.
 Scratch TakeScratch(const sf_config& config, Arena* arena) {
-  const auto side = static_cast<size_t>(config.largest_block);
+  const auto side = static_cast<size_t>(config.superblock);
   const Borders borders = LargestBorders(config);
   Scratch scratch = {};
   const size_t extended = side + 2 * static_cast<size_t>(borders.level[0]);
@@ -64,9 +64,9 @@ Scratch TakeScratch(const sf_config& config, Arena* arena) {
   TakeResample(config, arena, &scratch.resample);
   arena->Reuse(shared);
   scratch.partition.nodes =
-      arena->Take<PartitionNode>(static_cast<size_t>(PartitionNodes(config.largest_block)));
+      arena->Take<PartitionNode>(static_cast<size_t>(PartitionNodes(config.superblock)));
   scratch.partition.cells =
-      arena->Take<int16_t>(SurroundingSamples(config.largest_block / kCellSize, borders.cells));
+      arena->Take<int16_t>(SurroundingSamples(config.superblock / kCellSize, borders.cells));
   arena->GoOn();
   return scratch;
 }
@@ -103,7 +103,7 @@ void TakeLayers(const sf_config& config, Arena* arena, EngineState* engine) {
 
 void TakeStripe(const sf_config& config, Arena* arena, EngineState* engine) {
   const Borders borders = LargestBorders(config);
-  const int32_t side = config.largest_block;
+  const int32_t side = config.superblock;
   const auto blocks = static_cast<size_t>((config.width + side - 1) / side);
   engine->stripe.cells.columns = (config.width + kCellSize - 1) / kCellSize;
   engine->stripe.cells.rows = (config.height + kCellSize - 1) / kCellSize;
@@ -141,7 +141,7 @@ void TakeImages(const sf_config& config, int32_t rows, Arena* arena, ImageMemory
   images->odd_row = arena->Take<uint8_t>(3 * width);
   if (!Has(config.features, SF_FEATURE_STREAMING)) return;
   // Alpha is read when finished rows are written, which may be those of a stripe before.
-  images->alpha.rows = rows + config.largest_block + kDeblockRows;
+  images->alpha.rows = rows + config.superblock + kDeblockRows;
   images->alpha.stride = width;
   images->alpha.data = arena->Take<uint8_t>(width, static_cast<size_t>(images->alpha.rows));
 }
@@ -150,12 +150,12 @@ void TakeRows(const sf_config& config, Arena* arena, EngineState* engine) {
   const auto width = static_cast<size_t>(config.width);
   const bool streaming = Has(config.features, SF_FEATURE_STREAMING);
   const Borders borders = LargestBorders(config);
-  const int32_t rows = config.largest_block + 2 * (streaming ? borders.streamed : borders.centre);
+  const int32_t rows = config.superblock + 2 * (streaming ? borders.streamed : borders.centre);
   engine->row_store.disparity.rows = rows;
   engine->row_store.disparity.stride = width;
   engine->row_store.disparity.data = arena->Take<int16_t>(width, static_cast<size_t>(rows));
   engine->stripe.out =
-      arena->Take<uint8_t>(3 * width, static_cast<size_t>(config.largest_block + kDeblockRows));
+      arena->Take<uint8_t>(3 * width, static_cast<size_t>(config.superblock + kDeblockRows));
   // Null without streaming also where LayOutAnew made it of an engine that streams.
   engine->stripe.last_rows = streaming ? arena->Take<uint8_t>(3 * width, kDeblockRows) : nullptr;
   const int rings = streaming ? config.views : Has(config.features, SF_FEATURE_IMAGES) ? 1 : 0;

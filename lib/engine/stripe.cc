@@ -49,7 +49,7 @@ sf_status Deblock(const Stripe& stripe, const Plane<uint8_t>& out, EngineState* 
   const Transfer* transfer = engine->row_store.windows[0].transfer;
   const JoinJob job = {{&engine->stripe.map, out, config.width, config.height, stripe.y,
                         config.tuning.deblocking, transfer, engine->kernels},
-                       config.largest_block / kSmallestBlock,
+                       config.superblock / kSmallestBlock,
                        {Max(0, stripe.y - kDeblockRows), FinishedRows(config, stripe.y)}};
   const sf_status status =
       RunJobs<JoinJob, DeblockRowBoundaries>(job, Columns(config), &engine->workers);
@@ -112,7 +112,7 @@ BlockInputs InputsOf(const EngineState& engine) {
 }
 
 int32_t FinishedRows(const sf_config& config, int32_t y) {
-  const int32_t end = y + config.largest_block;
+  const int32_t end = y + config.superblock;
   return end >= config.height ? config.height : end - kDeblockRows;
 }
 
@@ -123,9 +123,9 @@ Plane<uint8_t> BufferRows(const EngineState& engine, int32_t y) {
 sf_status RefocusStripe(EngineState* engine, int32_t y) {
   const RedZones zones(engine);
   const sf_config& config = engine->config;
-  const Stripe stripe = {y, Min(config.largest_block, config.height - y)};
+  const Stripe stripe = {y, Min(config.superblock, config.height - y)};
   const Plane<uint8_t> rows = BufferRows(*engine, y);
-  uint8_t* const ends = rows.Row(y + config.largest_block - kDeblockRows);
+  uint8_t* const ends = rows.Row(y + config.superblock - kDeblockRows);
   uint8_t* const last_rows = engine->stripe.last_rows;
   const size_t bytes = kDeblockRows * rows.stride;
   // The last rows of the stripe before may still change, and anew when a stripe that failed is

@@ -26,11 +26,11 @@ void RunPassJob(const PassJob& job, int32_t index, Scratch* scratch) {
   }
 }
 
-int32_t TilesOfSuperblock(const sf_config& config) { return config.largest_block / kTileSide; }
+int32_t TilesOfSuperblock(const sf_config& config) { return config.superblock / kTileSide; }
 
 // Rows of tiles of which some pass may need what another has left there.
 int32_t MostTileRows(const sf_config& config, int32_t border) {
-  const int32_t read = (config.largest_block + 2 * border) / kTileSide + 2;
+  const int32_t read = (config.superblock + 2 * border) / kTileSide + 2;
   const int32_t looked_at = TilesOfSuperblock(config) + kMostMove / kTileSide + 1;
   return Max(read, looked_at) + TilesAhead(config, kFindRagged) + 1;
 }

@@ -21,7 +21,7 @@ void DownsampleInto(const LayerJob& job, int32_t layer, int32_t index, Scratch* 
   LayerPlane missing = job.layers[layer];
   if ((need & kNeededBefore) != 0) missing.rows.first = missing.known;
   if (missing.rows.first == missing.rows.last) return;
-  const int32_t side = job.config->largest_block >> layer, begin = index * side;
+  const int32_t side = job.config->superblock >> layer, begin = index * side;
   // The last column takes what a layer has beyond the picture.
   const int32_t end = index + 1 == Columns(*job.config) ? missing.width : begin + side;
   int32_t columns = end - begin, rows = missing.rows.last - missing.rows.first;
@@ -66,7 +66,7 @@ void MarkLayerColumns(const sf_config& config, RowStore* row_store) {
 
 void MarkLayerColumns(const sf_config& config, const Block& block, RowStore* row_store) {
   if (block.layer == 0) return;
-  const int32_t side = config.largest_block, scale = 1 << block.layer;
+  const int32_t side = config.superblock, scale = 1 << block.layer;
   int32_t left = block.rendered.x - block.border.left;
   int32_t right = block.rendered.x + block.rendered.width + block.border.right;
   if (block.gathers) {

@@ -33,7 +33,7 @@ void TakeScratch(const sf_config& config, size_t extended, size_t max_n, Arena* 
                  void* memory) {
   LineScanScratch counted;
   LineScanScratch& scratch = memory == nullptr ? counted : *static_cast<LineScanScratch*>(memory);
-  const auto rectangle = static_cast<size_t>(config.largest_block);
+  const auto rectangle = static_cast<size_t>(config.superblock);
   const size_t area = extended * extended;
   const size_t rgb_stride = RgbStride(static_cast<int32_t>(extended));
   for (int k = 0; k < 2; ++k) {

@@ -26,7 +26,7 @@ class Partition {
         scratch_(scratch),
         gathered_(gathered),
         config_(*rules.config),
-        side_(rules.config->largest_block / kSmallestBlock) {
+        side_(rules.config->superblock / kSmallestBlock) {
     while ((1 << levels_) < side_) ++levels_;
   }
 

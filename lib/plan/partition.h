@@ -52,14 +52,14 @@ struct PartitionNode {
 };
 
 // Blocks a superblock can split into.
-constexpr int32_t MaxBlocks(int32_t largest_block) {
-  return (largest_block / kSmallestBlock) * (largest_block / kSmallestBlock);
+constexpr int32_t MaxBlocks(int32_t superblock) {
+  return (superblock / kSmallestBlock) * (superblock / kSmallestBlock);
 }
 
 // Nodes of the quadtree of a superblock.
-constexpr int32_t PartitionNodes(int32_t largest_block) {
+constexpr int32_t PartitionNodes(int32_t superblock) {
   int32_t nodes = 0;
-  for (int32_t side = largest_block / kSmallestBlock; side > 0; side /= 2) nodes += side * side;
+  for (int32_t side = superblock / kSmallestBlock; side > 0; side /= 2) nodes += side * side;
   return nodes;
 }
 
@@ -77,7 +77,7 @@ struct PlanInput {
   int32_t around;  // how many cells away a pixel may splat from
 };
 
-// Splits the superblock at (x, y), multiples of largest_block, into the blocks of least
+// Splits the superblock at (x, y), multiples of superblock, into the blocks of least
 // predicted time. Writes at most MaxBlocks blocks in z-order, and what of `gathered` belongs to the
 // superblock; returns the number of blocks.
 int32_t PartitionBlock(const PlanInput& input, int32_t x, int32_t y,

@@ -64,7 +64,7 @@ void StoreRow(const PictureOutput& out, const Plane<uint8_t>& from, int32_t y,
   }
   std::memcpy(out.image.Pixel(0, y - rect.y), RowsOf(*out.previous, rect.y).Row(y),
               3 * static_cast<size_t>(rect.width));
-  const int32_t side = engine.config.largest_block, reach = engine.lens.borders.joined;
+  const int32_t side = engine.config.superblock, reach = engine.lens.borders.joined;
   for (int32_t column = 0; column < Columns(engine.config); ++column) {
     const int32_t x = column * side;
     if (!HasChanged(engine.stripe.changes, {x, y - reach, side, 1 + 2 * reach})) continue;

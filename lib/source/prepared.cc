@@ -14,7 +14,7 @@ namespace {
 sf_status MakeLayers(const Prepared& prepared, const RowSource& source, EngineState* engine) {
   LayerPlane own[SF_LAYERS];
   for (int layer = 0; layer < SF_LAYERS; ++layer) own[layer] = engine->row_store.layers[layer];
-  const int32_t height = engine->config.height, side = engine->config.largest_block;
+  const int32_t height = engine->config.height, side = engine->config.superblock;
   // Layers end beyond the picture (LayerSize), by fewer than so many of its pixels; PlaceLayers
   // leaves out what lies beyond them.
   constexpr int32_t kBeyond = 16;

@@ -36,12 +36,12 @@ bool ReduceView(const ReduceJob& job, int view, const Part& part, Scratch* scrat
   const simd::Encoding& encoding = window.transfer->encoding;
   const size_t samples = 3 * static_cast<size_t>(part.width);
   int16_t* const light = scratch->picture_samples;
-  int16_t* const mean = light + 6 * engine.config.largest_block;
+  int16_t* const mean = light + 6 * engine.config.superblock;
   for (int32_t y = job.rows.first; y < job.rows.last; ++y) {
     if (!scratch->cancel.Spend(static_cast<int64_t>(samples) * (1 + job.previews))) return false;
     window.reader.Light(view, part.x, y, part.width, light);
     for (int shift = 1; shift <= job.previews; ++shift) {
-      uint32_t* const sums = scratch->sums + 3 * shift * engine.config.largest_block;
+      uint32_t* const sums = scratch->sums + 3 * shift * engine.config.superblock;
       const int32_t row = y & ((1 << shift) - 1);
       AddLight(light, samples, row == 0, sums);
       if (row + 1 < 1 << shift && y + 1 < engine.config.height) continue;
@@ -108,8 +108,8 @@ bool ReduceCoverage(const ReduceJob& job, int shift, const Part& part, Scratch* 
 
 void ReduceColumn(const ReduceJob& job, int32_t index, Scratch* scratch) {
   const sf_config& config = job.engine->config;
-  const int32_t x = index * config.largest_block;
-  const Part part = {x, Min(config.largest_block, config.width - x)};
+  const int32_t x = index * config.superblock;
+  const Part part = {x, Min(config.superblock, config.width - x)};
   for (int view = 0; view < config.views; ++view) {
     if (!ReduceView(job, view, part, scratch)) return;
   }

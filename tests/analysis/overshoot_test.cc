@@ -55,7 +55,7 @@ double Undershoot(double r, sf_renderer renderer, int layer, sf_transfer transfe
   config.transfer = transfer;
   config.tuning.max_layer = layer;
   config.tuning.gather = 0;
-  config.largest_block = 128;
+  config.superblock = 128;
   test::Engine engine(config);
   test::Output out(kSide, kSide);
   REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);

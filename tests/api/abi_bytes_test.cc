@@ -62,11 +62,11 @@ const Bad<sf_config> kBadConfigs[] = {
     {"max_blur", [](sf_config* c) { c->max_blur = 128.5; }},
     {"max_blur", [](sf_config* c) { c->max_blur = kNan; }},
     {"max_blur", [](sf_config* c) { c->max_blur = kInf; }},
-    {"largest_block", [](sf_config* c) { c->largest_block = 1; }},
-    {"largest_block", [](sf_config* c) { c->largest_block = -64; }},
-    {"largest_block", [](sf_config* c) { c->largest_block = 16; }},
-    {"largest_block", [](sf_config* c) { c->largest_block = 48; }},
-    {"largest_block", [](sf_config* c) { c->largest_block = 512; }},
+    {"superblock", [](sf_config* c) { c->superblock = 1; }},
+    {"superblock", [](sf_config* c) { c->superblock = -64; }},
+    {"superblock", [](sf_config* c) { c->superblock = 16; }},
+    {"superblock", [](sf_config* c) { c->superblock = 48; }},
+    {"superblock", [](sf_config* c) { c->superblock = 512; }},
     {"max_workers", [](sf_config* c) { c->max_workers = 0; }},
     {"max_workers", [](sf_config* c) { c->max_workers = -1; }},
     {"max_workers", [](sf_config* c) { c->max_workers = SF_MAX_WORKERS + 1; }},
@@ -257,7 +257,7 @@ TEST_CASE("configuration: limits are legal") {
   config.disparity_min = static_cast<float>(-SF_MAX_DISPARITY);
   config.disparity_max = static_cast<float>(SF_MAX_DISPARITY);
   config.max_blur = SF_MAX_BLUR;
-  config.largest_block = 256;
+  config.superblock = 256;
   config.max_workers = SF_MAX_WORKERS;
   config.features |= SF_FEATURE_STREAMING | SF_FEATURE_SHAPES;
   config.highlights = static_cast<float>(SF_MAX_HIGHLIGHTS);
@@ -288,7 +288,7 @@ TEST_CASE("configuration: a superblock of 0 is 128 from a width of 1536 on, else
     const test::Scene scene = test::RandomScene(width, 3, 1, -2, 2, 9);
     sf_config config = test::ConfigFor(scene, 4);
     test::Engine chosen(config);
-    config.largest_block = width < 1536 ? 64 : 128;
+    config.superblock = width < 1536 ? 64 : 128;
     test::Engine told(config);
     CHECK(chosen.bytes() == told.bytes());
     test::Output a(width, 3), b(width, 3);
@@ -296,7 +296,7 @@ TEST_CASE("configuration: a superblock of 0 is 128 from a width of 1536 on, else
     const sf_params params = test::Params(1, 1, SF_MODE_BLOCK);
     REQUIRE(test::Refocus(&chosen, params, scene, &a, nullptr, nullptr, &report) == SF_OK);
     REQUIRE(test::Refocus(&told, params, scene, &b) == SF_OK);
-    CHECK(report.largest_block == config.largest_block);
+    CHECK(report.superblock == config.superblock);
     CHECK(a.bytes == b.bytes);
   }
 }

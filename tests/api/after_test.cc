@@ -28,7 +28,7 @@ sf_status After(test::Engine* engine, const sf_params& params, const test::Scene
                                out->stride, report);
 }
 
-int LargestBlocks(const test::Scene& scene, int side) {
+int Superblocks(const test::Scene& scene, int side) {
   return ((scene.width + side - 1) / side) * ((scene.height + side - 1) / side);
 }
 
@@ -74,7 +74,7 @@ void CheckFrames(test::Scene scene, const sf_config& config, const sf_params& pa
     CHECK(same);
     CHECK(whole.reused_blocks == 0);
     if (r.width == 0) {
-      const int blocks = LargestBlocks(scene, config.largest_block);
+      const int blocks = Superblocks(scene, config.superblock);
       CHECK(report.reused_blocks <= uint64_t(blocks));
       if (changes == 0) CHECK(report.reused_blocks == uint64_t(blocks));
       if (report.reused_blocks == uint64_t(blocks)) CHECK(report.rendered_samples == 0);
@@ -91,7 +91,7 @@ TEST_CASE("after: the bytes of the frame alone, in every mode, as frames change 
     const test::Scene scene =
         test::LayeredScene(width, height, kViews[round % 4], 5, uint64_t(round) + 900);
     sf_config config = test::ConfigFor(scene, 12);
-    config.largest_block = 32 << random.Int(0, 1);
+    config.superblock = 32 << random.Int(0, 1);
     config.tuning.max_layer = random.Int(0, 3) == 0 ? random.Int(0, 1) : 2;
     config.tuning.deblocking = random.Int(0, 3) == 0 ? 35 : 255;
     sf_params params = test::Params(random.Real(-5, 5), random.Real(0.1, 1), SF_MODE_BLOCK);
@@ -119,7 +119,7 @@ TEST_CASE("after: filled pixels change with the known ones beside the gap") {
         scene.Disparity(x, y) = std::numeric_limits<float>::infinity();
     }
     sf_config config = test::ConfigFor(scene, 8);
-    config.largest_block = 32;
+    config.superblock = 32;
     config.features |= SF_FEATURE_FILL_UNKNOWN;
     CheckFrames(scene, config, test::Params(random.Real(-3, 3), 0.5, SF_MODE_BLOCK), 8, &random);
   }
@@ -128,7 +128,7 @@ TEST_CASE("after: filled pixels change with the known ones beside the gap") {
 TEST_CASE("after: blocks read side views as far away as the largest disparity") {
   const test::Scene before = test::NearScene(70, 900, 5, 13);
   sf_config config = test::ConfigFor(before, 8);
-  config.largest_block = 32;
+  config.superblock = 32;
   test::Engine engine(config);
   for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BLOCK}) {
     const sf_params params = test::Params(test::kNearFocus, 0.2, mode);
@@ -161,7 +161,7 @@ TEST_CASE("after: joins between blocks of different layers, beside a change") {
     }
   }
   sf_config config = test::ConfigFor(scene, 9);
-  config.largest_block = 32;
+  config.superblock = 32;
   config.tuning.deblocking = 255;
   for (const double focus : {-1.0, 0.0, 3.0}) {
     sf_params params = test::Params(focus, 1, SF_MODE_BLOCK);
@@ -176,7 +176,7 @@ TEST_CASE("after: a block that changes its layer changes its neighbours' joins")
   std::fill(scene.disparity.begin(), scene.disparity.end(), 6.0f);
   scene.Disparity(500, 5) = scene.Disparity(5, 500) = 0;
   sf_config config = test::ConfigFor(scene, 6);
-  config.largest_block = 256;
+  config.superblock = 256;
   config.tuning.deblocking = 255;
   config.tuning.timing = {};
   config.tuning.timing.block = SF_MAX_TIMING;

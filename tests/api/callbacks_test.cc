@@ -49,7 +49,7 @@ struct Fixture {
 
   sf_config Config() const {
     sf_config config = test::ConfigFor(scene, 12);
-    config.largest_block = 32;
+    config.superblock = 32;
     config.features |= SF_FEATURE_STREAMING;
     config.previews = 1;
     return config;

@@ -64,7 +64,7 @@ struct Fixture {
 };
 
 TEST_CASE("configuration: shorter structures get the defaults of what they lack") {
-  constexpr uint32_t kShort = offsetof(sf_config, largest_block);
+  constexpr uint32_t kShort = offsetof(sf_config, superblock);
   std::vector<uint8_t> memory(kShort);
   sf_config* const config = reinterpret_cast<sf_config*>(memory.data());
   sf_config_init_sized(config, kShort);

@@ -58,7 +58,7 @@ TEST_CASE("defaults are those that the header tells") {
   sf_config_init(&config);
   CHECK(config.size == sizeof config);
   CHECK(config.max_blur == 32);
-  CHECK(config.largest_block == 0);
+  CHECK(config.superblock == 0);
   CHECK(config.max_workers == 1);
   CHECK(config.tuning.max_layer == 2);
   CHECK(config.tuning.deblocking == 35);

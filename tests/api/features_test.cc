@@ -69,7 +69,7 @@ TEST_CASE("features: a workspace without the line scan is smaller") {
         sf_config config;
         sf_config_init(&config);
         config.width = config.height = 500;
-        config.largest_block = block;
+        config.superblock = block;
         config.max_blur = blur;
         test::SetFeature(SF_FEATURE_SHAPES, shapes, &config.features);
         const sf_config less = WithoutLineScan(config);

@@ -79,7 +79,7 @@ TEST_CASE("image streams: alpha of rows that are pulled late is still there") {
   const ImageField field = FieldOf(scene, SF_FORMAT_RGBX, false, &random);
   sf_config config = test::ImageConfig(field, 2);
   config.features |= SF_FEATURE_STREAMING;
-  config.largest_block = 256;
+  config.superblock = 256;
   test::Engine engine(config);
   ImageKind kind;
   kind.format = SF_FORMAT_RGBX;
@@ -146,7 +146,7 @@ TEST_CASE("prepared images: disparities and layers are those of the converted pi
     const test::Scene scene = test::LayeredScene(150, 271, 1, 7, 60);
     const ImageField field = FieldOf(scene, SF_FORMAT_NV12, false, &random);
     sf_config config = test::ImageConfig(field, 20);
-    config.largest_block = side;
+    config.superblock = side;
     test::Engine engine(config);
     test::PreparedMemory memory(config), other(config);
     const sf_prepared* got = memory.Prepare(engine.get(), field.Field());

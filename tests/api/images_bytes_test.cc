@@ -79,7 +79,7 @@ TEST_CASE("images: every format in and out gives the bytes of converting first, 
         test::LayeredScene(size[0], size[1], kAllViews[round % 4], 7, uint64_t(round) + 1);
     const ImageField field = AnyField(scene, round % kFormats, round, &random);
     sf_config config = test::ImageConfig(field);
-    config.largest_block = 32 << random.Int(0, 3);
+    config.superblock = 32 << random.Int(0, 3);
     config.max_workers = 2;
     config.transfer = round % 7 == 6 ? SF_TRANSFER_NONE : SF_TRANSFER_SRGB;
     const sf_mode mode = round % 6 == 4   ? SF_MODE_FRAME
@@ -99,7 +99,7 @@ TEST_CASE("images: regions at odd places, of odd sizes") {
     CAPTURE(round);
     const ImageField field = AnyField(scene, round % kFormats, round, &random);
     sf_config config = test::ImageConfig(field);
-    config.largest_block = 32 << random.Int(0, 1);
+    config.superblock = 32 << random.Int(0, 1);
     config.max_workers = 2;
     sf_params params = test::Params(random.Real(-9, 9), 1, SF_MODE_BLOCK);
     sf_region& region = params.region;
@@ -140,7 +140,7 @@ TEST_CASE("images: lamps") {
     const ImageField field = AnyField(scene, SF_FORMAT_NV21, 5, &random);
     sf_config config = test::ImageConfig(field);
     config.highlights = 8;
-    config.largest_block = 32;
+    config.superblock = 32;
     CheckSame(field, config, test::Params(5, 1, mode), test::AnyKind(SF_FORMAT_BGRX, &random),
               &random);
   }
@@ -173,7 +173,7 @@ TEST_CASE("images: depth of every type, meaning and size; unknown depths") {
     const ImageField field =
         test::MakeImageField(scene, {test::AnyKind(SF_FORMAT_NV12, &random)}, depth, &random);
     sf_config config = test::ImageConfig(field);
-    config.largest_block = 32;
+    config.superblock = 32;
     config.features |= SF_FEATURE_FILL_UNKNOWN;
     const sf_params params = test::Params(2, 1, SF_MODE_BLOCK);
     CheckSame(field, config, params, test::AnyKind(SF_FORMAT_NV12, &random), &random);

@@ -49,7 +49,7 @@ test::Scene MakeScene() { return test::LayeredScene(kWidth, kHeight, 5, 4, 3); }
 
 sf_config Config(const test::Scene& scene) {
   sf_config config = test::ConfigFor(scene, 10);
-  config.largest_block = 32;
+  config.superblock = 32;
   config.features |= SF_FEATURE_SHAPES | SF_FEATURE_STREAMING;
   return config;
 }
@@ -217,7 +217,7 @@ TEST_CASE("lens: the memory for polygons and cat's eyes is reserved on demand") 
       sf_config config;
       sf_config_init(&config);
       config.width = config.height = 500;
-      config.largest_block = block;
+      config.superblock = block;
       config.max_blur = blur;
       size_t without = 0, with = 0;
       REQUIRE(sf_workspace_size(&config, &without) == SF_OK);

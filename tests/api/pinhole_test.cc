@@ -28,7 +28,7 @@ test::Scene AnyScene(int width, int height, uint64_t seed) {
 
 sf_config AnyConfig(const test::Scene& scene, test::Random* random) {
   sf_config config = test::ConfigFor(scene, 20);
-  config.largest_block = 32 << random->Int(0, 3);
+  config.superblock = 32 << random->Int(0, 3);
   config.tuning.max_layer = random->Int(0, 2);
   config.tuning.deblocking = random->Int(0, 1) * 255;
   config.tuning.skips = random->Int(0, 1);

@@ -48,7 +48,7 @@ TEST_CASE("prepared: the bytes of sf_refocus, in every mode, for many lenses and
     const test::Scene scene =
         test::LayeredScene(size[0], size[1], kViews[round % 4], 7, uint64_t(round) + 800);
     sf_config config = test::ConfigFor(scene, 20);
-    config.largest_block = 32 << random.Int(0, 3);
+    config.superblock = 32 << random.Int(0, 3);
     config.tuning.max_layer = round % 4 == 0 ? random.Int(0, 1) : 2;
     CAPTURE(round);
     ++round;
@@ -78,7 +78,7 @@ TEST_CASE("prepared: by one engine for another, which streams in between") {
   const sf_prepared* prepared = memory.Prepare(maker.get(), scene.Field());
   config.max_workers = 3;
   config.features |= SF_FEATURE_STREAMING;
-  config.largest_block = 32;
+  config.superblock = 32;
   config.max_blur = 16;
   test::Engine user(config);
   CheckSame(&user, prepared, scene, test::Params(2, 1, SF_MODE_BLOCK));

@@ -73,7 +73,7 @@ test::Scene Reduced(const test::Scene& scene, int shift, int32_t transfer) {
   return reduced;
 }
 
-sf_config ReducedConfig(const sf_config& config, int shift, int32_t largest_block) {
+sf_config ReducedConfig(const sf_config& config, int shift, int32_t superblock) {
   sf_config reduced = config;
   const float side = float(1 << shift);
   reduced.width = Ceil(config.width, shift);
@@ -81,7 +81,7 @@ sf_config ReducedConfig(const sf_config& config, int shift, int32_t largest_bloc
   reduced.disparity_min /= side;
   reduced.disparity_max /= side;
   reduced.max_blur /= side;
-  reduced.largest_block = largest_block;
+  reduced.superblock = superblock;
   reduced.features &= ~(SF_FEATURE_STREAMING | SF_FEATURE_IMAGES);
   reduced.previews = 0;
   return reduced;
@@ -153,7 +153,7 @@ bool IsOfReduced(Prepared* prepared, sf_params params, int shift, const sf_confi
                  const test::Scene& reduced) {
   sf_report report = {};
   const test::Output got = prepared->Preview(params, shift, test::RunBy(test::RunOnTwo), &report);
-  test::Engine small(ReducedConfig(config, shift, report.largest_block));
+  test::Engine small(ReducedConfig(config, shift, report.superblock));
   params.lens.focus /= 1 << shift;
   params.region = ReducedRegion(params.region, shift);
   test::Output expected(got.width, got.height, 3);
@@ -170,7 +170,7 @@ TEST_CASE("preview: the bytes of the light field that the definition reduces") {
     const test::Scene scene =
         test::LayeredScene(size[0], size[1], kViews[round % 4], 7, uint64_t(round) + 90);
     sf_config config = test::ConfigFor(scene, 20);
-    config.largest_block = 32 << random.Int(0, 2);
+    config.superblock = 32 << random.Int(0, 2);
     config.tuning.max_layer = round % 4 == 0 ? random.Int(0, 1) : 2;
     config.transfer = round % 3 == 0 ? SF_TRANSFER_NONE : SF_TRANSFER_SRGB;
     test::SetFeature(SF_FEATURE_STREAMING, round % 2, &config.features);
@@ -212,7 +212,7 @@ TEST_CASE(
       for (int x = 0; x < scene.width; ++x) scene.Disparity(x, y) += offset;
     }
     sf_config config = test::ConfigFor(scene, 8);
-    config.largest_block = 32;
+    config.superblock = 32;
     config.features |= SF_FEATURE_STREAMING;
     config.max_workers = 2;
     config.previews = 3;

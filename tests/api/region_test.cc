@@ -98,7 +98,7 @@ TEST_CASE("region: the bytes of the whole picture, in every mode") {
     const test::Scene scene =
         test::LayeredScene(width, height, kViews[round % 4], 7, uint64_t(round) + 700);
     sf_config config = test::ConfigFor(scene, 20);
-    config.largest_block = 32 << random.Int(0, 2);
+    config.superblock = 32 << random.Int(0, 2);
     config.tuning.max_layer = random.Int(0, 3) == 0 ? random.Int(0, 1) : 2;
     config.tuning.deblocking = random.Int(0, 2) == 0 ? random.Int(0, 255) : 255;
     sf_params params = test::Params(random.Real(-9, 9), random.Real(0.3, 1), SF_MODE_BLOCK);
@@ -121,7 +121,7 @@ TEST_CASE("region: joins between blocks of different layers reach into it") {
       }
     }
     sf_config config = test::ConfigFor(scene, 13);
-    config.largest_block = side;
+    config.superblock = side;
     config.tuning.deblocking = 255;
     sf_params params = test::Params(-1, 1, SF_MODE_BLOCK);
     params.renderer = SF_RENDERER_LINE_SCAN;
@@ -132,7 +132,7 @@ TEST_CASE("region: joins between blocks of different layers reach into it") {
 TEST_CASE("region: costs its share of the picture and its surroundings") {
   const test::Scene scene = test::LayeredScene(640, 640, 5, 4, 9);
   sf_config config = test::ConfigFor(scene, 8);
-  config.largest_block = 32;
+  config.superblock = 32;
   test::Engine engine(config);
   for (const sf_mode mode : {SF_MODE_BLOCK, SF_MODE_FRAME}) {
     sf_params params = test::Params(1, 1, mode);
@@ -156,7 +156,7 @@ TEST_CASE("region: costs its share of the picture and its surroundings") {
 TEST_CASE("region: only disparity rows that it can read are checked, before a pixel is written") {
   test::Scene scene = test::LayeredScene(40, 600, 1, 4, 3);
   sf_config config = test::ConfigFor(scene, 4);
-  config.largest_block = 32;
+  config.superblock = 32;
   test::Engine engine(config);
   REQUIRE(engine.status() == SF_OK);
   sf_params params = test::Params(0, 1, SF_MODE_BLOCK);
@@ -180,7 +180,7 @@ TEST_CASE("region: a bad row is refused before a pixel is written, or is not rea
   constexpr int kHeight = 240;
   test::Scene scene = test::LayeredScene(40, kHeight, 5, 3, 4);
   sf_config config = test::ConfigFor(scene, 4);
-  config.largest_block = 32;
+  config.superblock = 32;
   config.features &= ~SF_FEATURE_COVERAGE;  // which comes from farther away
   test::Engine engine(config);
   constexpr sf_region kRegions[] = {

@@ -106,7 +106,7 @@ struct Fixture {
 
   Fixture() {
     config.max_workers = kWorkers;
-    config.largest_block = 32;
+    config.superblock = 32;
     config.tuning.gather = 0;
     test::Engine engine(config);
     REQUIRE(test::Refocus(&engine, params, scene, &expected) == SF_OK);

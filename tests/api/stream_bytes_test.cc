@@ -15,7 +15,7 @@ namespace {
 
 void CheckSame(const test::Scene& scene, const sf_params& params, int block) {
   sf_config config = test::ConfigFor(scene);
-  config.largest_block = block;
+  config.superblock = block;
   test::CheckStreamed(scene, config, params);
 }
 
@@ -113,7 +113,7 @@ TEST_CASE("stream: rings hold all that layers are made of, up to the largest blu
     test::Scene scene = test::RandomScene(48, 200, 1, 0, float(radius), 70 + uint64_t(radius));
     for (float& disparity : scene.disparity) disparity = float(radius);
     sf_config config = test::ConfigFor(scene, radius);
-    config.largest_block = 32;
+    config.superblock = 32;
     sf_params params = test::Params(0, 1, SF_MODE_BLOCK);
     params.renderer = SF_RENDERER_LINE_SCAN;
     test::Output whole(48, 200), streamed(48, 200);

@@ -91,7 +91,7 @@ void CheckEqual(const sf_report& report, const sf_report& expected) {
 
 void CheckRetries(const test::Scene& scene, const sf_params& params, int gather) {
   sf_config config = test::ConfigFor(scene, 28);
-  config.largest_block = 32;
+  config.superblock = 32;
   config.features |= SF_FEATURE_STREAMING;
   config.tuning.gather = gather;
   Failing never = {1 << 20, 0};

@@ -102,7 +102,7 @@ void AddOptions(CLI::App* app, Options* options) {
       ->delimiter(',');
   app->add_option("--views", choice.views, "Smaller star sets, in block mode")->delimiter(',');
   app->add_option("--max-layers", choice.max_layers, "0, 1, 2")->delimiter(',');
-  app->add_option("--largest-blocks", choice.largest_blocks, "32, 64, 128, 256")->delimiter(',');
+  app->add_option("--superblocks", choice.superblocks, "32, 64, 128, 256")->delimiter(',');
   app->add_option("--n-scales", choice.n_scales, "Factors of N, in block and frame mode")
       ->delimiter(',');
   app->add_flag("--rules", choice.rules, "Both rules for N, in block and frame mode");

@@ -113,7 +113,7 @@ Row CommonRow(const Group& group, const Entry& entry) {
 
 void AddReport(const sf_report& report, Row* row) {
   row->n = report.n;
-  row->largest_block = report.largest_block;
+  row->superblock = report.superblock;
   row->rendered_samples = double(report.rendered_samples);
   double time = 0, pixels = 0;
   for (const sf_layer_report& layer : report.layers) {

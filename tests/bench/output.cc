@@ -31,7 +31,7 @@ Json Describe(const Machine& machine, const Row& row) {
   json["mode"] = row.task.mode;
   json["views"] = row.task.views;
   json["max_layer"] = row.task.max_layer;
-  json["largest_block"] = row.largest_block;
+  json["superblock"] = row.superblock;
   json["renderer"] = row.task.renderer == SF_RENDERER_AUTO        ? "auto"
                      : row.task.renderer == SF_RENDERER_LINE_SCAN ? "line-scan"
                                                                   : "slices";

@@ -48,8 +48,8 @@ std::string Method(const Row& row) {
   if (row.study == "options" && task.max_layer != SF_LAYERS - 1) {
     name += ", layers to " + std::to_string(task.max_layer);
   }
-  if (row.study == "options" && task.largest_block != 0) {
-    name += ", blocks to " + std::to_string(task.largest_block);
+  if (row.study == "options" && task.superblock != 0) {
+    name += ", blocks to " + std::to_string(task.superblock);
   }
   if (task.n_scale != 1) name += ", N × " + Fixed(task.n_scale, 2);
   if (task.renderer == SF_RENDERER_LINE_SCAN) name += ", N by (9)";

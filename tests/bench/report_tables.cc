@@ -36,9 +36,8 @@ double WithLayers(const Rows& rows, const std::string& field, int layer, const V
                      [&](const Row& row) {
                        return row.study == "options" && row.field == field &&
                               row.task.max_layer == layer &&
-                              row.task.renderer == SF_RENDERER_AUTO &&
-                              row.task.largest_block == 0 && row.task.n_scale == 1 &&
-                              std::isfinite(row.quantile);
+                              row.task.renderer == SF_RENDERER_AUTO && row.task.superblock == 0 &&
+                              row.task.n_scale == 1 && std::isfinite(row.quantile);
                      }),
               value);
 }

@@ -16,7 +16,7 @@ struct Task {
   std::string mode = "block";  // block, frame, benchmark, blur or a rival's name
   int views = 0;
   int max_layer = SF_LAYERS - 1;
-  int largest_block = 0;            // 0: the library chooses
+  int superblock = 0;               // 0: the library chooses
   int renderer = SF_RENDERER_AUTO;  // sf_renderer
   double n_scale = 1;               // of the rule's N
   std::string target;               // SIMD target; empty: the best one
@@ -42,7 +42,7 @@ struct Row {
   double quantile = kNone;  // of the disparity map, where the focus was chosen by one
   double r_max = kNone;
   int n = 0;
-  int largest_block = 0;  // that the engine used
+  int superblock = 0;  // that the engine used
   double rendered_views = 0, rendered_samples = 0;
   Quality benchmark, truth;  // against the benchmark mode and ray tracing
   double wall_ms = kNone;    // median by the wall clock

@@ -43,9 +43,9 @@ void AddOptions(const Field& field, const Choice& choice, Group* group) {
       group->entries.back().task.renderer = renderer;
     }
   }
-  for (const int side : choice.largest_blocks) {
+  for (const int side : choice.superblocks) {
     group->entries.push_back(base);
-    group->entries.back().task.largest_block = side;
+    group->entries.back().task.superblock = side;
   }
   for (const char* mode : {"block", "frame"}) {
     for (const double scale : choice.n_scales) {

@@ -18,7 +18,7 @@ struct Choice {
   std::vector<double> quantiles = {0.1, 0.3, 0.5, 0.7, 0.9};
   std::vector<int> views;       // star sets below the whole one, in block mode
   std::vector<int> max_layers;  // sweeps at every picture, in block mode
-  std::vector<int> largest_blocks;
+  std::vector<int> superblocks;
   std::vector<double> n_scales;      // of N, in block and frame mode
   bool rules = false;                // both rules for N, in block and frame mode
   std::vector<std::string> targets;  // at the middle quantile; "all": every one

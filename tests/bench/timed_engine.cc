@@ -45,7 +45,7 @@ Error Prepare(const Field& field, const Task& task, double focus, double apertur
   config.max_blur = std::max(1.0, std::ceil(field.LargestBlur(focus, aperture)));
   config.transfer = field.transfer;
   config.tuning.max_layer = task.max_layer;
-  config.largest_block = task.largest_block;
+  config.superblock = task.superblock;
   config.tuning.n_scale = task.n_scale;
   config.max_workers = task.workers;
   if (task.workers > 1) timed->pool = std::make_unique<ThreadRunner>(task.workers);

@@ -135,7 +135,7 @@ void PrintWorkspace() {
     std::printf("| %s | %s |", name, input);
     for (const int block : kBlocks) {
       for (const int blur : kBlurs) {
-        config.largest_block = block;
+        config.superblock = block;
         config.max_blur = blur;
         std::printf(" %zu |", WorkspaceKilobytes(config));
       }

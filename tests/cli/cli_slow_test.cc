@@ -126,7 +126,7 @@ TEST_CASE("wide pictures are refocused in larger blocks") {
     CAPTURE(size);
     Succeed(folder, std::string("scene wide --views 1 --size ") + size);
     Succeed(folder, "refocus wide -o wide.ppm --focus 3 --report wide.json");
-    const std::string expected = std::string("\"largest_block\": ") + side + ",";
+    const std::string expected = std::string("\"superblock\": ") + side + ",";
     CHECK(Contains(Text(folder.file("wide.json")), expected));
   }
 }
@@ -164,7 +164,7 @@ TEST_CASE("cli: a video is its frames one by one, but for the work") {
   std::fill_n(view.row(2), 20, uint8_t{255});
   REQUIRE(WriteImage(centre, view) == "");
   fs::copy(centre, folder.file("in/4/view_+0.0_+0.0.png"), fs::copy_options::overwrite_existing);
-  const std::string lens = " --focus 3 --aperture 0.2 --largest-block 32";
+  const std::string lens = " --focus 3 --aperture 0.2 --superblock 32";
   Succeed(folder, "video in -o out --report v.json" + lens);
   Succeed(folder, "video in/1 in/3 -o two" + lens);
   // Neither a hidden folder nor its own output is a frame.

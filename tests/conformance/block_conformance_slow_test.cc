@@ -70,7 +70,7 @@ Distance Check(const test::Scene& scene, const sf_params& params, const sf_confi
   CAPTURE(params.renderer);
   CAPTURE(config.tuning.max_layer);
   CAPTURE(config.transfer);
-  CAPTURE(config.largest_block);
+  CAPTURE(config.superblock);
   CHECK(distance.largest <= 1);
   if (distance.samples >= kEnoughSamples) CHECK(distance.mean() < kMeanLimit);
   return distance;
@@ -80,8 +80,8 @@ sf_config Config(const test::Scene& scene, int max_layer, double max_blur = 24) 
   sf_config config = test::ConfigFor(scene, max_blur);
   config.tuning.max_layer = max_layer;
   config.tuning.deblocking = 0;  // a decision by thresholds; deblock_test has it
-  config.largest_block = 32;
-  while (config.largest_block < scene.height) config.largest_block *= 2;
+  config.superblock = 32;
+  while (config.superblock < scene.height) config.superblock *= 2;
   return config;
 }
 
@@ -222,7 +222,7 @@ TEST_CASE("block conformance: tiles of large blocks have slices of their own") {
       sf_params params = test::Params(random.Real(-1, 1), 1, SF_MODE_FRAME);
       params.renderer = SF_RENDERER_SLICES;
       sf_config config = Config(scene, 0);
-      config.largest_block = 256;
+      config.superblock = 256;
       Covered covered;
       all.Add(Check(scene, params, config, &covered));
       CHECK(covered.longest == 200);

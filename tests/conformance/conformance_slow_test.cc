@@ -24,7 +24,7 @@ using namespace conformance;
 
 // Refocuses with both and checks their distance.
 Distance Check(const test::Scene& scene, const sf_params& params, const sf_config& config) {
-  const int block = config.largest_block;
+  const int block = config.superblock;
   test::Engine engine(config);
   test::Output out(scene.width, scene.height);
   sf_report report;
@@ -52,7 +52,7 @@ Distance Check(const test::Scene& scene, const sf_params& params, const sf_confi
 Distance Check(const test::Scene& scene, sf_params params, int block, double theta) {
   params.renderer = SF_RENDERER_LINE_SCAN;
   sf_config config = test::ConfigFor(scene, 16);
-  config.largest_block = block;
+  config.superblock = block;
   params.lens.theta = theta;
   Distance all;
   for (const sf_transfer transfer : {SF_TRANSFER_NONE, SF_TRANSFER_SRGB}) {

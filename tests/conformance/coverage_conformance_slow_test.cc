@@ -102,7 +102,7 @@ test::Scene RandomStrands(bool given, uint64_t seed) {
 std::vector<reference::PartedPixel> EnginesPixels(const test::Scene& scene) {
   sf_config config = test::ConfigFor(scene);
   config.transfer = SF_TRANSFER_NONE;
-  config.largest_block = 64;
+  config.superblock = 64;
   test::Engine engine(config);
   test::Output out(scene.width, scene.height);
   REQUIRE(test::Refocus(&engine, test::Params(scene.disparity_min, 1, SF_MODE_BLOCK), scene,

@@ -112,7 +112,7 @@ void SetConfig(Trial* trial, test::Random* random) {
   const double radius = RadiusOf(*trial);
   sf_config& config = trial->config;
   config = test::ConfigFor(trial->scene, std::max(0.5, radius));
-  config.largest_block = random->Int(0, 3) == 0 ? 64 : 32;
+  config.superblock = random->Int(0, 3) == 0 ? 64 : 32;
   config.tuning.max_layer = random->Int(0, SF_LAYERS - 1);
   config.tuning.deblocking = 0;  // a decision by thresholds; deblock_test has it
   config.tuning.skips = random->Int(0, 1);
@@ -141,10 +141,9 @@ std::string Trial::Text() const {
                 "%d, highlights %.9g, %s",
                 scene.width, scene.height, scene.views(), kModes[params.mode], params.renderer,
                 double{scene.disparity_min}, double{scene.disparity_max}, params.lens.focus,
-                params.lens.aperture, config.largest_block, config.tuning.max_layer,
-                params.lens.theta, config.tuning.n_scale, config.tuning.gather,
-                config.tuning.timing.block, config.transfer, double{config.highlights},
-                test::ShapeText(params.lens).c_str());
+                params.lens.aperture, config.superblock, config.tuning.max_layer, params.lens.theta,
+                config.tuning.n_scale, config.tuning.gather, config.tuning.timing.block,
+                config.transfer, double{config.highlights}, test::ShapeText(params.lens).c_str());
   std::string all = text;
   for (const sf_position& at : scene.positions) {
     std::snprintf(text, sizeof(text), ", view (%.9g, %.9g)", at.u, at.v);

@@ -54,7 +54,7 @@ std::string Text(const Setup& s, const test::Scene& scene) {
 
 sf_config Config(const Setup& s, const test::Scene& scene) {
   sf_config config = test::ConfigFor(scene, s.max_blur);
-  config.largest_block = s.block;
+  config.superblock = s.block;
   config.tuning.max_layer = s.max_layer;
   config.tuning.deblocking = s.deblocking;
   config.tuning.skips = s.skips;

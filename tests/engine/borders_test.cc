@@ -93,7 +93,7 @@ struct Way {
   sf_config Config(const test::Scene& scene) const {
     sf_config config = test::ConfigFor(scene, aperture * (limit + std::abs(focus)));
     if (!coverage) config.features &= ~SF_FEATURE_COVERAGE;
-    config.largest_block = kSuperblock;
+    config.superblock = kSuperblock;
     config.tuning.max_layer = int16_t(max_layer);
     config.tuning.gather = int16_t(gather);
     config.highlights = highlights;

@@ -56,7 +56,7 @@ int Changed(const Trial& t) {
     test::RandomDisparity(&scene, &random);
   }
   sf_config config = test::ConfigFor(scene, t.max_blur);
-  config.largest_block = t.block;
+  config.superblock = t.block;
   config.tuning.n_scale = t.n_scale;
   config.transfer = t.transfer;
   config.tuning.skips = 0;  // what is filled has passed no filter

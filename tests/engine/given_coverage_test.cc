@@ -52,7 +52,7 @@ test::Scene Comb() {
 sf_config CombConfig(const test::Scene& scene) {
   sf_config config = test::ConfigFor(scene, kNear - kFar);
   config.transfer = SF_TRANSFER_NONE;
-  config.largest_block = 64;
+  config.superblock = 64;
   return config;
 }
 

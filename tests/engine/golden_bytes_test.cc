@@ -116,7 +116,7 @@ struct Covered {
 std::string Refocus(const Case& one, const test::Scene& scene,
                     const starfocus::simd::Kernels* kernels, Covered* covered) {
   sf_config config = test::ConfigFor(scene, 43);
-  config.largest_block = one.block;
+  config.superblock = one.block;
   // Slanted surfaces have the paper's values, the others light.
   config.transfer = one.depth == test::Depth::kSlanted ? SF_TRANSFER_NONE : SF_TRANSFER_SRGB;
   config.tuning.gather = one.views != 9;  // views have their share, layers 1 and 2 with them

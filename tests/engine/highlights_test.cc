@@ -36,7 +36,7 @@ std::vector<uint8_t> Picture(const test::Scene& scene, double blur, double highl
                              sf_mode mode = SF_MODE_BLOCK, sf_renderer renderer = SF_RENDERER_AUTO,
                              sf_transfer transfer = SF_TRANSFER_SRGB) {
   sf_config config = test::ConfigFor(scene, 20);
-  config.largest_block = 32;
+  config.superblock = 32;
   config.tuning.max_layer = config.tuning.gather = 0;  // where highlights are there is neither
   config.highlights = float(highlights);
   config.transfer = transfer;
@@ -162,7 +162,7 @@ TEST_CASE("highlights: every way in gives the same bytes") {
     }
     for (const sf_mode mode : kModes) {
       sf_config config = test::ConfigFor(scene, 9);
-      config.largest_block = 32;
+      config.superblock = 32;
       config.highlights = 6;
       const sf_params params = test::Params(-4, 1, mode);
       CAPTURE(views);

@@ -138,7 +138,7 @@ TEST_CASE("layout: what grows with the picture comes last, and less of it fits i
     config.height = random.Int(1, 4000);
     config.disparity_max = float(random.Real(0, 500));
     config.max_blur = random.Real(0.1, SF_MAX_BLUR);
-    config.largest_block = 32 << random.Int(0, 3);
+    config.superblock = 32 << random.Int(0, 3);
     config.max_workers = random.Int(1, 4);
     test::SetFeature(SF_FEATURE_STREAMING, random.Int(0, 1), &config.features);
     test::SetFeature(SF_FEATURE_IMAGES, random.Int(0, 1), &config.features);
@@ -191,7 +191,7 @@ TEST_CASE("layout: sizes never wrap, and too large ones are an error of every ca
   config.disparity_min = -500;
   config.disparity_max = 500;
   config.max_blur = SF_MAX_BLUR;
-  config.largest_block = 256;
+  config.superblock = 256;
   config.features |= SF_FEATURE_STREAMING;
   int refused = 0;
   for (int width = 999; width <= SF_MAX_SIZE; width += 1000) {

@@ -107,8 +107,8 @@ struct FrameDiff {
 
 void CheckPicture(const test::Scene& scene, const sf_params& params, int more, FrameDiff* changes) {
   sf_config config = test::ConfigFor(scene, 40);
-  config.tuning.gather = 0;    // views everywhere
-  config.largest_block = 128;  // the whole picture, so that all of every layer is there
+  config.tuning.gather = 0;  // views everywhere
+  config.superblock = 128;   // the whole picture, so that all of every layer is there
   config.tuning.n_scale = more % 2 == 0 ? 1 : SF_MIN_N_SCALE;
   test::Engine engine(config);
   test::Output out(scene.width, scene.height);

@@ -47,7 +47,7 @@ TEST_CASE("room: larger blurs, rows and workers that are reserved change no pict
     if (range < 5 && random.Int(0, 1) == 0) params.mode = SF_MODE_BENCHMARK;
     params.renderer = random.Int(0, 5) == 0 ? SF_RENDERER_LINE_SCAN : SF_RENDERER_SLICES;
     sf_config config = test::ConfigFor(scene, double{range});
-    config.largest_block = 32 << random.Int(0, 1);
+    config.superblock = 32 << random.Int(0, 1);
     config.tuning.n_scale = random.Int(0, 1) == 0 ? 0.5 : 1;
     config.tuning.timing.block = 1u << random.Int(0, 26);
     config.tuning.gather = random.Int(0, 1);

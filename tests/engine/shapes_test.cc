@@ -35,7 +35,7 @@ struct Patch {
       for (int x = -1; x <= 1; ++x) std::fill_n(scene.Pixel(0, at.x + x, at.y + y), 3, 255);
     }
     sf_config config = test::ConfigFor(scene, std::abs(focus) + 1);
-    config.largest_block = 32;
+    config.superblock = 32;
     config.tuning.max_layer = 0;         // layers smooth what is looked at here
     config.transfer = SF_TRANSFER_NONE;  // levels that add up
     sf_params params = test::Params(focus, 1, mode);

@@ -81,7 +81,7 @@ TEST_CASE("skips: the same bytes as with all the work done, in every mode") {
     const int views = kViews[random.Int(0, 3)];
     const test::Scene scene = VariedScene(width, height, views, limit, &random);
     sf_config config = test::ConfigFor(scene, 20);
-    config.largest_block = kBlocks[random.Int(0, 3)];
+    config.superblock = kBlocks[random.Int(0, 3)];
     config.tuning.max_layer = random.Int(0, 3) == 0 ? random.Int(0, 1) : 2;
     if (random.Int(0, 3) == 0) config.tuning.n_scale = random.Real(0.5, 2);
     config.tuning.gather = random.Int(0, 1);

@@ -43,7 +43,7 @@ TEST_CASE("symmetry: captured views change places") {
 
 test::Output Refocused(const test::Scene& scene, const sf_params& params) {
   sf_config config = test::ConfigFor(scene);
-  config.largest_block = 32;
+  config.superblock = 32;
   config.tuning.max_layer = 0;  // layers keep every second pixel, from the left and the top
   test::Engine engine(config);
   test::Output out(scene.width, scene.height);

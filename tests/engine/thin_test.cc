@@ -65,7 +65,7 @@ test::Scene Strands(int views) {
 sf_config ConfigFor(const test::Scene& scene, bool coverage) {
   sf_config config = test::ConfigFor(scene, kNear - kFar);
   config.transfer = SF_TRANSFER_NONE;
-  config.largest_block = 64;
+  config.superblock = 64;
   if (!coverage) config.features &= ~SF_FEATURE_COVERAGE;
   return config;
 }

@@ -24,7 +24,7 @@ test::Scene FlatScene(float disparity) {
 
 sf_config Config(const test::Scene& scene) {
   sf_config config = test::ConfigFor(scene, 8);
-  config.largest_block = 64;
+  config.superblock = 64;
   return config;
 }
 
@@ -85,7 +85,7 @@ TEST_CASE("traffic: the map is read twice, first to be checked, and that of a st
 TEST_CASE("traffic: layers read the centre view once more") {
   const test::Scene scene = FlatScene(0.1f);
   sf_config config = test::ConfigFor(scene, 24);
-  config.largest_block = 64;
+  config.superblock = 64;
   config.tuning.gather = 0;
   const sf_params params = test::Params(18, 1, SF_MODE_BLOCK);
   const sf_report layered = test::RefocusScene(scene, config, params).report;

@@ -35,7 +35,7 @@ TEST_CASE("workers: each block is a job, those of the most predicted time come f
     std::fill(row + kSide / 4, row + scene.width, 9.0F);
   }
   sf_config config = test::ConfigFor(scene);
-  config.largest_block = kSide;
+  config.superblock = kSide;
   test::Engine engine(config);
   const sf_params params = test::Params(-9, 1, SF_MODE_BLOCK);
   const auto costs = [&] {
@@ -64,7 +64,7 @@ TEST_CASE("workers: engines in several threads are independent") {
     constexpr int kViews[] = {17, 9, 5, 1};
     scenes.push_back(test::RandomScene(60 + 11 * i, 70, kViews[i], -3, 3, 20 + uint64_t(i)));
     sf_config config = test::ConfigFor(scenes[size_t(i)]);
-    config.largest_block = 32;
+    config.superblock = 32;
     expected[size_t(i)] = test::RefocusScene(scenes[size_t(i)], config, test::Params(i - 1.5)).rgb;
   }
   std::vector<std::thread> threads;
@@ -73,7 +73,7 @@ TEST_CASE("workers: engines in several threads are independent") {
     threads.emplace_back([&, i] {
       const test::Scene& scene = scenes[size_t(i)];
       sf_config config = test::ConfigFor(scene);
-      config.largest_block = 32;
+      config.superblock = 32;
       test::Engine engine(config);
       test::Output out(scene.width, scene.height);
       for (int round = 0; round < 3; ++round) {

@@ -55,7 +55,7 @@ std::vector<double> Reference(const test::Scene& scene, const sf_params& params,
 std::vector<uint8_t> Blurred(const test::Scene& scene, double focus, double aperture, int block,
                              double theta, int transfer, const test::NamedShape* shape = nullptr) {
   sf_config config = test::ConfigFor(scene, 40);
-  config.largest_block = block;
+  config.superblock = block;
   config.transfer = transfer;
   sf_params params = test::Params(focus, aperture, SF_MODE_BLUR);
   params.lens.theta = theta;

@@ -130,7 +130,7 @@ TEST_CASE("gather: a flat surface gets the bytes of the blur mode") {
     for (const int block : {32, 64, 256}) {
       test::Scene scene = test::RandomScene(70, 45, 5, 0, 0, 62);
       sf_config config = test::ConfigFor(scene, 16);
-      config.largest_block = block;
+      config.superblock = block;
       config.transfer = SF_TRANSFER_NONE;
       const Refocused gathered =
           RefocusScene(scene, config, test::Params(radius, 1, SF_MODE_BLOCK));

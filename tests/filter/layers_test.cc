@@ -149,17 +149,17 @@ struct Scratch {
 
 // Layers 1 and 2 of a picture as a stripe of superblocks makes them.
 struct Layers {
-  Layers(const std::vector<uint8_t>& picture, int width, int height, int largest_block,
+  Layers(const std::vector<uint8_t>& picture, int width, int height, int superblock,
          const starfocus::simd::Kernels& kernels)
       : one(width, height, 1), two(width, height, 2) {
-    const Scratch scratch(largest_block / 2 + 16, 2 * height + 20);
+    const Scratch scratch(superblock / 2 + 16, 2 * height + 20);
     const starfocus::Window from = WindowOf(picture, width, height);
-    const int columns = (width + largest_block - 1) / largest_block;
+    const int columns = (width + superblock - 1) / superblock;
     for (int layer = 1; layer <= 2; ++layer) {
       LayerPlane* to = layer == 1 ? &one.plane : &two.plane;
       for (int index = columns - 1; index >= 0; --index) {
-        const int begin = index * (largest_block >> layer);
-        const int end = index + 1 == columns ? to->width : begin + (largest_block >> layer);
+        const int begin = index * (superblock >> layer);
+        const int end = index + 1 == columns ? to->width : begin + (superblock >> layer);
         DownsamplePicture(kernels, from, scratch.memory, {layer, begin, end, to});
       }
     }
@@ -202,9 +202,8 @@ std::vector<int16_t> UpByTwo(const Padded& in, int margin, int width, int height
 
 // One or two layers down and up again, as samples.
 std::vector<int16_t> DownAndUp(const std::vector<uint8_t>& picture, int width, int height,
-                               int layer, int largest_block,
-                               const starfocus::simd::Kernels& kernels) {
-  const Layers layers(picture, width, height, largest_block, kernels);
+                               int layer, int superblock, const starfocus::simd::Kernels& kernels) {
+  const Layers layers(picture, width, height, superblock, kernels);
   const LayerPlane& plane = layer == 1 ? layers.one.plane : layers.two.plane;
   const auto load = [&](int x, int y, int c) { return plane.samples.Row(y)[3 * x + c]; };
   constexpr int kMargin = 2;
@@ -251,7 +250,7 @@ std::vector<uint8_t> RandomPicture(int width, int height, Content content, test:
   return picture;
 }
 
-int LargestBlock(test::Random* random) { return 32 << random->Int(0, 3); }
+int Superblock(test::Random* random) { return 32 << random->Int(0, 3); }
 
 struct Errors {
   double samples[3] = {}, levels[3] = {};  // by layer: before and after rounding to gray levels
@@ -269,7 +268,7 @@ Errors Compare() {
         RandomPicture(width, height, Content(round % kContents), &random);
     for (int layer = 1; layer <= 2; ++layer) {
       const std::vector<int16_t> got =
-          DownAndUp(picture, width, height, layer, LargestBlock(&random), kernels);
+          DownAndUp(picture, width, height, layer, Superblock(&random), kernels);
       std::vector<uint8_t> levels(picture.size() + kPadding);
       kernels.Narrow(got.data(), picture.size(), {nullptr, nullptr}, levels.data());
       const Image expected = ReferenceDownAndUp(picture, width, height, layer);

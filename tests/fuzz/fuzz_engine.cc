@@ -63,7 +63,7 @@ sf_config MakeConfig(bool strands, Input* input, sf_lens* lens) {
   config.disparity_max = static_cast<float>(std::max(a, b));
   if (strands) SetDepths(input, &config);
   config.max_blur = input->Rarely() ? input->Real(1, SF_MAX_BLUR) : input->Real(0.01, 14);
-  config.largest_block = kBlocks[input->Int(0, 3)];
+  config.superblock = kBlocks[input->Int(0, 3)];
   config.max_workers = input->Rarely() ? SF_MAX_WORKERS : 1;
   test::SetFeature(SF_FEATURE_STREAMING, input->Int(0, 1), &config.features);
   lens->theta = input->Real(SF_MIN_THETA, SF_MAX_THETA);

@@ -109,7 +109,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   config.width = picture.width, config.height = picture.height;
   config.views = input.Int(0, 1) == 0 ? 1 : 5;
   config.disparity_min = -14, config.disparity_max = 14, config.max_blur = 16;
-  config.features |= SF_FEATURE_IMAGES, config.largest_block = 32;
+  config.features |= SF_FEATURE_IMAGES, config.superblock = 32;
   test::SetFeature(SF_FEATURE_STREAMING, input.Int(0, 1), &config.features);
   test::SetFeature(SF_FEATURE_FILL_UNKNOWN, input.Rarely() ? 0 : 1, &config.features);
   config.highlights = input.Rarely() ? 4 : 1;

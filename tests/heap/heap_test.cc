@@ -203,7 +203,7 @@ TEST_CASE("no heap call in block mode with all layers, deblocking, visitor and c
     }
   }
   sf_config config = test::ConfigFor(scene, 28);
-  config.largest_block = 32;
+  config.superblock = 32;
   config.features |= SF_FEATURE_STREAMING;
   config.tuning.gather = 0;     // all three layers
   test::Engine holder(config);  // only its memory is used

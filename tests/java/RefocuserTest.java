@@ -223,7 +223,7 @@ public final class RefocuserTest {
     final Configuration configuration = configuration(), reduced = configuration();
     configuration.transfer = reduced.transfer = Configuration.TRANSFER_NONE;
     configuration.previews = 2;
-    configuration.largestBlock = reduced.largestBlock = 32;
+    configuration.superblock = reduced.superblock = 32;
     reduced.width = width;
     reduced.height = height;
     reduced.disparityMin /= 2;

@@ -282,20 +282,20 @@ void CheckBlock(const Map& map, int x0, int y0, int level, double largest,
 }
 
 // Checks all blocks of a picture, as the engine's quadtree makes them.
-void CheckMap(Map map, int largest_block) {
+void CheckMap(Map map, int superblock) {
   map.Measure();
   const double largest = map.LargestRadius();
   const int around = test::BordersOf(largest).cells;
-  for (int y = 0; y < map.height; y += largest_block) {
-    const Cells cells(map, y, largest_block, around);
+  for (int y = 0; y < map.height; y += superblock) {
+    const Cells cells(map, y, superblock, around);
     // stats[level]: the blocks of one size in the stripe, row by row; null beyond the picture.
     std::vector<std::vector<BlockStats>> stats;
-    for (int level = 0; (kSmallestBlock << level) <= largest_block; ++level) {
+    for (int level = 0; (kSmallestBlock << level) <= superblock; ++level) {
       const int side = kSmallestBlock << level;
       const int columns = (map.width + side - 1) / side;
-      const int rows = (std::min(largest_block, map.height - y) + side - 1) / side;
+      const int rows = (std::min(superblock, map.height - y) + side - 1) / side;
       const int below_columns = (map.width + side / 2 - 1) / (side / 2);
-      const int below_rows = (std::min(largest_block, map.height - y) + side / 2 - 1) / (side / 2);
+      const int below_rows = (std::min(superblock, map.height - y) + side / 2 - 1) / (side / 2);
       stats.emplace_back();
       for (int row = 0; row < rows; ++row) {
         for (int column = 0; column < columns; ++column) {

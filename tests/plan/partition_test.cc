@@ -33,7 +33,7 @@ int SideOf(const Plan& plan, const Block& block, int x, int y) {
   int side = kSmallestBlock;
   while (side < block.rect.width || side < block.rect.height) side *= 2;
   // At the picture's edge a clipped block may be that of a larger node.
-  for (; side <= plan.config.largest_block; side *= 2) {
+  for (; side <= plan.config.superblock; side *= 2) {
     if ((block.rect.x - x) % side == 0 && (block.rect.y - y) % side == 0 &&
         Planned(plan, block.rect.x, block.rect.y, side).cost == block.cost) {
       return side;
@@ -43,7 +43,7 @@ int SideOf(const Plan& plan, const Block& block, int x, int y) {
 }
 
 void CheckBlocks(const Plan& plan, int x, int y, const std::vector<Block>& blocks) {
-  const int side = plan.config.largest_block;
+  const int side = plan.config.superblock;
   std::vector<int> covered(size_t(side) * size_t(side));
   for (const Block& block : blocks) {
     const Rect& rect = block.rect;
@@ -95,7 +95,7 @@ uint64_t Sum(const std::vector<Block>& blocks) {
 // Checks every superblock of a picture; the number of blocks.
 size_t CheckPicture(const Plan& plan) {
   size_t count = 0;
-  const int side = plan.config.largest_block;
+  const int side = plan.config.superblock;
   for (int y = 0; y < plan.config.height; y += side) {
     for (int x = 0; x < plan.config.width; x += side) {
       CAPTURE(plan.config.width);
@@ -117,7 +117,7 @@ size_t CheckPicture(const Plan& plan) {
 
 TEST_CASE("partition: the least of all partitions, tiled once, by the rules") {
   test::Random random(7);
-  size_t blocks = 0, largest_blocks = 0;
+  size_t blocks = 0, superblocks = 0;
   for (int round = 0; round < 60; ++round) {
     const int side = 32 << random.Int(0, 3);
     const int width = random.Int(1, side + 40), height = random.Int(1, side + 40);
@@ -125,9 +125,9 @@ TEST_CASE("partition: the least of all partitions, tiled once, by the rules") {
     if (round % 2 == 1)
       plan.config.tuning.timing.block = 0;  // whatever a block costs here, splits more
     blocks += CheckPicture(plan);
-    largest_blocks += size_t(((width - 1) / side + 1) * ((height - 1) / side + 1));
+    superblocks += size_t(((width - 1) / side + 1) * ((height - 1) / side + 1));
   }
-  CHECK(blocks > 2 * largest_blocks);  // there was something to decide
+  CHECK(blocks > 2 * superblocks);  // there was something to decide
 }
 
 TEST_CASE("partition: literally every partition of 128") {
@@ -219,7 +219,7 @@ TEST_CASE("partition: the rules on flat pictures, at and beside their thresholds
 void AddRowsBeyond(const Plan& plan, int y, const std::vector<Block>& blocks, int (*most)[3]) {
   for (const Block& block : blocks) {
     if (block.rendered.width == 0) continue;
-    const int end = std::min(plan.config.height, y + plan.config.largest_block);
+    const int end = std::min(plan.config.height, y + plan.config.superblock);
     const int above = (y >> block.layer) - (block.rendered.y - block.border.top);
     const int below = block.rendered.y + block.rendered.height + block.border.bottom -
                       ((end + (1 << block.layer) - 1) >> block.layer);

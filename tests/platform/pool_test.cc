@@ -103,7 +103,7 @@ TEST_CASE("pool: several live at once, and one serves several callers in turn") 
 TEST_CASE("pool: an engine's runner, whose progress is told by one thread at a time") {
   const test::Scene scene = test::RandomScene(300, 120, 5, -3, 6, 4);
   sf_config config = test::ConfigFor(scene, 12);
-  config.largest_block = 32;
+  config.superblock = 32;
   sf_params params = test::Params(-3, 1, SF_MODE_BLOCK);
   test::Output expected(300, 120);
   test::Engine one(config);

@@ -62,7 +62,7 @@ struct Picture {
     before = scene;
     before.Pixel(0, 50, 60)[1] ^= 64;  // a corner of the last stripes differs
     config = test::ConfigFor(scene, 13);
-    config.largest_block = 32;
+    config.superblock = 32;
     config.features |= SF_FEATURE_STREAMING | SF_FEATURE_IMAGES;
     config.previews = 1;
     config.max_workers = setup.workers;

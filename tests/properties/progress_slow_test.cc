@@ -95,7 +95,7 @@ TEST_CASE("progress: whatever a block takes, a million samples are too many to w
     test::Scene scene = test::RandomScene(side, side, 5, -3, 9, 8);
     if (gathered) scene.disparity.assign(scene.disparity.size(), 9);
     sf_config config = test::ConfigFor(scene, 32);
-    config.largest_block = side;
+    config.superblock = side;
     config.tuning.max_layer = 0;
     // Every second pixel counts in what is gathered.
     const int radius = gathered ? 12 : 32, size = (gathered ? 1 : 2) * radius + 1;

@@ -114,7 +114,7 @@ class Bytes(unittest.TestCase):
         low, high = DISPARITY.min() / 2, DISPARITY.max() / 2
         disparity = np.clip((np.floor(median / 2 + 0.5) / 64).astype(np.float32), low, high)
         small = starfocus.Refocuser(WIDTH // 2, HEIGHT // 2, disparity_min=low, disparity_max=high,
-                                    largest_block=engine.report["largest_block"], **none)
+                                    superblock=engine.report["superblock"], **none)
         np.testing.assert_array_equal(small.refocus(views, disparity, focus=1, aperture=0.75), half)
         part = prepared.preview(1, focus=2, aperture=0.75, region=(41, 30, 50, 21))
         np.testing.assert_array_equal(part, half[15:26, 20:46])

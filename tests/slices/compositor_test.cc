@@ -168,7 +168,7 @@ int SayNo(void*, int32_t, int32_t) { return ranges_found > 0 ? 1 : 0; }
 TEST_CASE("stack: once the caller says no, no other tile is made") {
   const test::Scene scene = test::RandomScene(256, 256, 5, -3, 9, 8);
   sf_config config = test::ConfigFor(scene, 32);
-  config.largest_block = 256;
+  config.superblock = 256;
   test::Engine engine(config);
   starfocus::simd::Kernels counting = starfocus::simd::BestKernels();
   counting.FindRanges = [](auto... arguments) {
@@ -193,7 +193,7 @@ TEST_CASE("stack: a worker takes 1.15 mebibytes at blocks of 64 and blurs of 32"
   size_t bytes[2];
   for (int workers = 1; workers <= 2; ++workers) {
     sf_config config = test::ConfigFor(HalfPlanes(16, -16, 17), 32);
-    config.largest_block = 64;
+    config.superblock = 64;
     config.max_workers = workers;
     REQUIRE(sf_workspace_size(&config, &bytes[workers - 1]) == SF_OK);
   }

@@ -191,7 +191,7 @@ TEST_CASE("matte: no light leaves a subject for the wall behind, at any level an
             sf_config config = test::ConfigFor(scene, 40);
             config.transfer = SF_TRANSFER_NONE;
             config.tuning.max_layer = max_layer;
-            config.largest_block = block;
+            config.superblock = block;
             CAPTURE(views);
             CAPTURE(dark_subject);
             CAPTURE(focus);

@@ -79,7 +79,7 @@ Outcome Mirrors(test::Random* random) {
   SetColours(static_cast<Colours>(random->Int(0, 2)), &setup.scene, random);
   setup.config.width = setup.scene.width;
   setup.config.height = setup.scene.height;
-  setup.config.largest_block = 32;
+  setup.config.superblock = 32;
   setup.config.tuning.max_layer = 0;  // layers keep every second pixel, from the left and the top
   // Coverage takes the first by rows of equally near pixels, of which a range as wide as that of
   // strands makes many.

@@ -40,7 +40,7 @@ void LimitWork(Setup* setup) {
 Setup RandomCase(test::Random* random) {
   Setup setup = RandomSetup(kRegimes[std::min(random->Int(0, 4), random->Int(0, 4))], random);
   LimitWork(&setup);
-  if (random->Int(0, 7) == 0) setup.config.largest_block = 0;  // the library's choice
+  if (random->Int(0, 7) == 0) setup.config.superblock = 0;  // the library's choice
   if (random->Int(0, 3) == 0) setup.config.highlights = float(random->Real(1, SF_MAX_HIGHLIGHTS));
   if (random->Int(0, 3) == 0) {
     setup.config.max_blur =
@@ -130,7 +130,7 @@ std::string Refused(const Asked& asked, test::Random* random) {
 // Another engine prepares than the one that refocuses.
 std::string Prepared(const Asked& asked, test::Random* random) {
   sf_config config = asked.setup.config;
-  if (random->Int(0, 1) == 0) config.largest_block = 32 << random->Int(0, 3);
+  if (random->Int(0, 1) == 0) config.superblock = 32 << random->Int(0, 3);
   if (random->Int(0, 1) == 0) config.max_blur = random->Real(0.5, 64);
   if (random->Int(0, 1) == 0) config.tuning.gather = 1 - config.tuning.gather;
   if (random->Int(0, 1) == 0) config.previews = random->Int(1, SF_MAX_PREVIEW);

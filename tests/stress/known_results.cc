@@ -165,7 +165,7 @@ Outcome Limits(test::Random* random) {
   const double radius = kind == 0 ? 16 : kind < 4 ? SF_MAX_BLUR : random->Int(13, 30);
   RandomLens(radius, 4, &setup, random);
   setup.params.mode = kind == 0 ? int{SF_MODE_BENCHMARK} : random->Int(0, 1) + 2;
-  setup.config.largest_block = 32;
+  setup.config.superblock = 32;
   if (setup.Radius() > SF_MAX_BLUR)
     setup.params.lens.aperture *= SF_MAX_BLUR / setup.Radius() * 0.999999;
   FitBlur(&setup);

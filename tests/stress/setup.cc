@@ -40,9 +40,8 @@ std::string Setup::Text() const {
          std::to_string(params.renderer) + ", disparity [" + Number(config.disparity_min) + ", " +
          Number(config.disparity_max) + "], focus " + Number(params.lens.focus) + ", aperture " +
          Number(params.lens.aperture) + ", max_blur " + Number(config.max_blur) + ", block " +
-         std::to_string(config.largest_block) + ", layers " +
-         std::to_string(config.tuning.max_layer) + ", deblocking " +
-         std::to_string(config.tuning.deblocking) + ", transfer " +
+         std::to_string(config.superblock) + ", layers " + std::to_string(config.tuning.max_layer) +
+         ", deblocking " + std::to_string(config.tuning.deblocking) + ", transfer " +
          std::to_string(config.transfer) + ", highlights " + Number(double{config.highlights}) +
          ", theta " + Number(params.lens.theta) + ", n_scale " + Number(config.tuning.n_scale) +
          (config.tuning.gather != 0 ? "" : ", nothing gathered") +
@@ -149,7 +148,7 @@ void RandomLens(double radius, int modes, Setup* setup, test::Random* random) {
   const double focus = centre + (random->Int(0, 1) == 0 ? offset : -offset);
   setup->params = test::Params(focus, aperture);
   setup->config = test::ConfigFor(scene);
-  setup->config.largest_block = kBlocks[std::min(random->Int(0, 3), random->Int(0, 3))];
+  setup->config.superblock = kBlocks[std::min(random->Int(0, 3), random->Int(0, 3))];
   setup->config.tuning.max_layer = random->Int(0, 3) == 0 ? random->Int(0, 1) : 2;
   if (random->Int(0, 3) == 0) setup->config.tuning.deblocking = random->Int(0, 255);
   if (random->Int(0, 3) == 0) {

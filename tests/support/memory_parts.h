@@ -117,7 +117,7 @@ inline sf_config BoardConfig(int width, int height, int views, int block, double
   config.disparity_min = -16;
   config.disparity_max = 16;
   config.max_blur = blur;
-  config.largest_block = block;
+  config.superblock = block;
   test::SetFeature(SF_FEATURE_STREAMING, streaming, &config.features);
   config.features &= ~SF_FEATURE_COVERAGE;
   return config;

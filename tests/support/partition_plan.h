@@ -55,7 +55,7 @@ inline const std::vector<starfocus::ViewWeights>& AperturesOf(const Renderer& re
 
 // A disparity map measured, and the rules of a partition.
 struct Plan {
-  Plan(int width, int height, int largest_block, double limit, Random* random)
+  Plan(int width, int height, int superblock, double limit, Random* random)
       : disparity(size_t(width) * size_t(height)) {
     const int pieces = random->Int(0, 8);
     for (int piece = 0; piece <= pieces; ++piece) {
@@ -81,11 +81,11 @@ struct Plan {
     rules.config = &config;
     config.width = width;
     config.height = height;
-    config.largest_block = largest_block;
+    config.superblock = superblock;
     rules.max_layer = random->Int(0, 2);
     Use(random->Int(0, 1) == 1 ? kSliceRenderer : kLineScanRenderer);
     rules.demand = static_cast<starfocus::Demand>((width + rules.max_layer) % 4);
-    rules.largest_node = largest_block;
+    rules.largest_node = superblock;
     config.tuning.n_scale = (2 + 2 * rules.max_layer + IsSlices()) / 4.0;
   }
   Plan(const Plan&) = delete;
@@ -100,11 +100,11 @@ struct Plan {
   }
 
   std::vector<Block> Partition(int x, int y) const {
-    std::vector<PartitionNode> nodes(size_t(starfocus::PartitionNodes(config.largest_block)));
+    std::vector<PartitionNode> nodes(size_t(starfocus::PartitionNodes(config.superblock)));
     std::memset(static_cast<void*>(nodes.data()), kPoison, nodes.size() * sizeof(PartitionNode));
-    std::vector<Block> blocks(size_t(starfocus::MaxBlocks(config.largest_block)));
+    std::vector<Block> blocks(size_t(starfocus::MaxBlocks(config.superblock)));
     std::vector<int16_t> samples(
-        starfocus::SurroundingSamples(config.largest_block / kCellSize, around), kPoison);
+        starfocus::SurroundingSamples(config.superblock / kCellSize, around), kPoison);
     const int count =
         starfocus::PartitionBlock({starfocus::simd::BestKernels(), rules, grid, around}, x, y,
                                   {nodes.data(), samples.data()}, blocks.data(), gathered);

@@ -35,7 +35,7 @@ function readCase(name) {
     const [count, range, block] = levels.slice(1).map(Number);
     return {
       scene: makeLevelScene(block, count, range),
-      config: {largestBlock: block, nScale: 0.5},
+      config: {superblock: block, nScale: 0.5},
       params: {mode: Mode.FRAME, focus: 0, aperture: 1, renderer: Renderer.SLICES}
     };
   }
@@ -48,7 +48,7 @@ function readCase(name) {
     scene: integerScene(Number(views), depth),
     transfer: depth === 'slanted' ? Transfer.NONE : Transfer.SRGB,
     config: {
-      largestBlock: Number(block),
+      superblock: Number(block),
       gather: Number(views) !== 9
     },
     params: {

@@ -128,10 +128,9 @@ void AddLensOptions(Command* command, LensOptions* options) {
            "17, 9, 5 or 1, or positions U,V:U,V, the first one 0,0; default: all of the folder",
            Views(&options->views)},
           {"--threads", "N", "1 to 64", Threads(&options->threads), Use::kDefault},
-          {"--largest-block", "32|64|128|256",
+          {"--superblock", "32|64|128|256",
            "32, 64, 128 or 256; default: 64, for pictures from 1536 pixels wide on 128",
-           Choice<int>({{"32", 32}, {"64", 64}, {"128", 128}, {"256", 256}},
-                       &options->largest_block)},
+           Choice<int>({{"32", 32}, {"64", 64}, {"128", 128}, {"256", 256}}, &options->superblock)},
           {"--renderer", "slices|line-scan",
            "slices: few views that show slices of the scene; line-scan: the paper's views, line by "
            "line; "
@@ -273,7 +272,7 @@ EngineTask MakeTask(const LensPlan& plan, const LightField& light_field,
   task.config.disparity_min = stats.min;
   task.config.disparity_max = stats.max;
   task.config.max_blur = max_blur;
-  task.config.largest_block = plan.options.largest_block;
+  task.config.superblock = plan.options.superblock;
   task.config.tuning.max_layer = plan.options.max_layer;
   task.config.tuning.deblocking = plan.options.deblocking;
   task.config.tuning.n_scale = plan.options.n_scale;

@@ -28,7 +28,7 @@ struct LensOptions {
   sf_renderer renderer = SF_RENDERER_AUTO;
   Positions views;  // none: all there are
   int threads = 1;
-  int largest_block = 0;  // 0: the library chooses
+  int superblock = 0;  // 0: the library chooses
   int max_layer = 2, deblocking = 35;
   double n_scale = 1, highlights = 1;
   sf_transfer transfer = SF_TRANSFER_SRGB;

@@ -74,7 +74,7 @@ Json TrafficJson(const EngineTask& task, const sf_report& report) {
 }
 
 // Superblocks of the picture or region.
-uint64_t LargestBlocks(const EngineTask& task, int side) {
+uint64_t Superblocks(const EngineTask& task, int side) {
   const sf_config& config = task.config;
   const sf_region& region = task.params.region;
   const auto count = [&](int first, int size) {
@@ -118,7 +118,7 @@ void AddFigures(const EngineTask& task, const EngineResult& result, Json* json) 
   json->Set("N", result.report.n);
   json->Set("rendered_views", result.report.rendered_views);
   json->Set("rendered_samples", result.report.rendered_samples);
-  json->Set("largest_block", result.report.largest_block);
+  json->Set("superblock", result.report.superblock);
   json->Set("max_layer", task.config.tuning.max_layer);
   json->Set("deblocking", task.config.tuning.deblocking);
   json->Set("layers", LayersJson(result.report, task.params.mode == SF_MODE_BLOCK));
@@ -145,10 +145,10 @@ void SeriesReport::Add(const std::string& output, const EngineTask& task,
   json.Set("output", output);
   AddFigures(task, result, &json);
   json.Set("prepared_bytes", result.prepared_bytes);
-  const uint64_t blocks = LargestBlocks(task, result.report.largest_block);
-  json.Set("largest_blocks", blocks);
+  const uint64_t blocks = Superblocks(task, result.report.superblock);
+  json.Set("superblocks", blocks);
   json.Set("reused_blocks", result.report.reused_blocks);
-  largest_blocks_ += blocks;
+  superblocks_ += blocks;
   reused_blocks_ += result.report.reused_blocks;
   pictures_.Add(std::move(json));
 }
@@ -156,7 +156,7 @@ void SeriesReport::Add(const std::string& output, const EngineTask& task,
 std::string SeriesReport::Text(double seconds_total) const {
   Json json;
   json.Set("pictures", pictures_);
-  json.Set("largest_blocks", largest_blocks_);
+  json.Set("superblocks", superblocks_);
   json.Set("reused_blocks", reused_blocks_);
   json.Set("seconds_total", seconds_total);
   return json.Text(2) + "\n";

@@ -25,7 +25,7 @@ class SeriesReport {
 
  private:
   Json pictures_ = Json::Array();
-  uint64_t reused_blocks_ = 0, largest_blocks_ = 0;
+  uint64_t reused_blocks_ = 0, superblocks_ = 0;
 };
 
 }  // namespace starfocus

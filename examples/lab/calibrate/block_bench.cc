@@ -20,7 +20,7 @@ sf_config MakeConfig(const LightField& light_field, const sf_disparity_stats& st
   config.disparity_min = stats.min;
   config.disparity_max = stats.max;
   config.max_blur = SF_MAX_BLUR;
-  config.largest_block = 256;              // the scratch then serves every smaller block
+  config.superblock = 256;                 // the scratch then serves every smaller block
   config.tuning.n_scale = SF_MAX_N_SCALE;  // and there are apertures of every N that is sampled
   config.tuning.skips = 0;                 // the model is one of rendering
   return config;
@@ -86,7 +86,7 @@ void BlockBench::HoldLayer(int layer) {
   plane.rows = {0, plane.height};
   plane.samples = {layer_samples_[layer].data(), stride, 0, 0};
   // All rows at once: more than a worker has memory for.
-  const int32_t step = engine_->config.largest_block / 2;
+  const int32_t step = engine_->config.superblock / 2;
   const auto columns = size_t(TapsOfLayer(step));
   const auto above = size_t(TapsOfLayer(plane.height));
   std::vector<int16_t> even(3 * (columns + 3) + simd::kPadding), odd = even;

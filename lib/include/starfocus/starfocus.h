@@ -125,12 +125,11 @@ typedef struct sf_config {
   double max_blur;      /**< largest blur radius r = aperture * |d - focus| in pixels that will be
                              asked for, (0, SF_MAX_BLUR]; default 32. It reserves room and changes
                              no picture */
-  int32_t
-      largest_block;   /**< side of the largest refocusing block in pixels: 32, 64, 128, 256, or
-                            0, the default: 128 from a width of 1536 on, else 64. For wide
-                            pictures 128 is up to an eighth faster; a worker's memory grows with
-                            the block's area, from 1.15 MiB at 64 on. sf_report has what 0 chose */
-  int32_t max_workers; /**< workers the runner may use, [1, SF_MAX_WORKERS]; default 1 */
+  int32_t superblock;   /**< side of the squares that a plan of blocks starts from, pixels: 32, 64,
+                           128, 256, or 0, the default: 128 from a width of 1536 on, else 64. For wide
+                           pictures 128 is up to an eighth faster; a worker's memory grows with the
+                           square's area, from 1.15 MiB at 64 on. sf_report has what 0 chose */
+  int32_t max_workers;  /**< workers the runner may use, [1, SF_MAX_WORKERS]; default 1 */
   uint32_t features; /**< bits of SF_FEATURE_, what the workspace has memory for; default LINE_SCAN
                         and COVERAGE. Without LINE_SCAN, SF_RENDERER_AUTO is SUBAPERTURE in all
                         modes, and SF_RENDERER_LINE_SCAN is refused, SF_ERROR_FEATURE */
@@ -338,8 +337,8 @@ typedef struct sf_report {
   double r_max;           /**< largest blur radius the configured disparity range allows, pixels */
   int32_t n;              /**< views along the aperture radius, N; the largest of any block */
   int32_t rendered_views; /**< views of i^2 + j^2 <= N^2 for that N */
-  int32_t largest_block;  /**< side of the superblocks in pixels: the configured one, or what 0
-                               chose */
+  int32_t superblock;     /**< side of the superblocks in pixels: the configured one, or what 0
+                                  chose */
   uint64_t rendered_samples; /**< R, G, B samples of all rendered views, summed over the layers */
   sf_layer_report layers[SF_LAYERS]; /**< by L; frame modes use L = 0 only */
   sf_skipped skipped;
@@ -394,7 +393,7 @@ SF_API sf_status sf_prepare(sf_engine* engine, const sf_light_field* light_field
  * alpha is 255. SF_ERROR_PREPARED when the light field was not prepared for that shift.
  *
  *  The preview is, byte for byte, what sf_refocus gives of the reduced light field, by an engine of
- *  its size and else of the same configuration (largest_block as sf_report says), but for a
+ *  its size and else of the same configuration (superblock as sf_report says), but for a
  *  disparity range, max_blur, focus and region divided by S. There a pixel of a view is the mean
  *  light, in 128ths of a 255th of white and then as a code, of the S x S pixels (fewer at the right
  *  and bottom edges) that it stands for, and a disparity the median of theirs, the larger of two in

@@ -44,7 +44,7 @@ class Config(Structure):
     _fields_ = [
         ("size", c_uint32), ("width", c_int32), ("height", c_int32), ("views", c_int32),
         ("disparity_min", c_double), ("disparity_max", c_double), ("max_blur", c_double),
-        ("largest_block", c_int32), ("max_workers", c_int32), ("features", c_uint32), ("previews", c_int32),
+        ("superblock", c_int32), ("max_workers", c_int32), ("features", c_uint32), ("previews", c_int32),
         ("transfer", c_int32), ("highlights", c_double), ("positions", Position * MAX_VIEWS), ("tuning", Tuning),
         ("problem", c_void_p),
     ]
@@ -134,7 +134,7 @@ class Report(Structure):
     """sf_report"""
 
     _fields_ = [
-        ("r_max", c_double), ("n", c_int32), ("rendered_views", c_int32), ("largest_block", c_int32),
+        ("r_max", c_double), ("n", c_int32), ("rendered_views", c_int32), ("superblock", c_int32),
         ("rendered_samples", c_uint64), ("layers", LayerReport * 3), ("skipped", Skipped),
         ("centre_bytes", c_uint64), ("disparity_bytes", c_uint64), ("side_bytes", c_uint64),
         ("gathered_pixels", c_uint64), ("reused_blocks", c_uint64), ("unknown_pixels", c_uint64),

@@ -24,7 +24,7 @@ export declare const Transfer: {readonly SRGB: 0, readonly NONE: 1};
 export interface Settings {
   /** Largest blur radius in pixels that will be asked for; default 32. */
   maxBlur?: number;
-  largestBlock?: 0 | 32 | 64 | 128 | 256;
+  superblock?: 0 | 32 | 64 | 128 | 256;
   deblocking?: number;
   timing?: {block?: number, field?: number, a?: number, b?: number, c?: number, upsample?: number, span?: number, hole?: number};
   nScale?: number;

@@ -27,7 +27,7 @@ static const Field kConfigFields[] = {
     CONFIG(disparity_min, kDouble),
     CONFIG(disparity_max, kDouble),
     CONFIG(max_blur, kDouble),
-    CONFIG(largest_block, kInt32),
+    CONFIG(superblock, kInt32),
     CONFIG(previews, kInt32),
     CONFIG(transfer, kInt32),
     CONFIG(highlights, kDouble),

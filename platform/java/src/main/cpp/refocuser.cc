@@ -59,7 +59,7 @@ constexpr Field kConfigFields[] = {
     {"disparityMax", FieldType::kDouble, offsetof(sf_config, disparity_max)},
     {"maxBlur", FieldType::kDouble, offsetof(sf_config, max_blur)},
     {"workers", FieldType::kInt32, offsetof(sf_config, max_workers)},
-    {"largestBlock", FieldType::kInt32, offsetof(sf_config, largest_block)},
+    {"superblock", FieldType::kInt32, offsetof(sf_config, superblock)},
     {"nScale", FieldType::kDouble, offsetof(sf_config, tuning.n_scale)},
     {"transfer", FieldType::kInt32, offsetof(sf_config, transfer)},
     {"highlights", FieldType::kDouble, offsetof(sf_config, highlights)},

@@ -25,7 +25,7 @@ public final class Configuration {
   /** Threads that refocus; 0, the default: one for each big core. */
   public int workers;
 
-  public int largestBlock;
+  public int superblock;
   public double nScale;
   public int transfer;
   public double highlights;
