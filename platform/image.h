@@ -9,7 +9,7 @@
 
 namespace starfocus {
 
-// Largest width and height of any file read or written: SF_MAX_SIZE of starfocus.h.
+// Largest width and height of any file read or written: STARFOCUS_MAX_SIZE of starfocus.h.
 inline constexpr int kMaxPictureSize = 65535;
 
 // Whether so many pixels can have room at all: on 32 bits the largest pictures cannot.

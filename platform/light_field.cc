@@ -73,7 +73,7 @@ Error SaveCoverage(const std::string& folder, const LightField& light_field) {
 
 }  // namespace
 
-void ConfigureViews(const LightField& light_field, sf_config* config) {
+void ConfigureViews(const LightField& light_field, starfocus_config* config) {
   config->views = static_cast<int32_t>(light_field.views.size());
   std::copy(light_field.positions.begin(), light_field.positions.end(), config->positions);
 }

@@ -17,16 +17,16 @@ namespace starfocus {
 
 struct LightField {
   std::vector<Image> views;
-  Positions positions;  // of the views; empty: those of sf_view_position
+  Positions positions;  // of the views; empty: those of starfocus_view_position
   FloatMap disparity;
-  std::vector<uint8_t> coverage;  // as sf_light_field.coverage, packed rows; empty: none
+  std::vector<uint8_t> coverage;  // as starfocus_light_field.coverage, packed rows; empty: none
 
   int width() const { return disparity.width; }
   int height() const { return disparity.height; }
 };
 
 // Tells a configuration the views of a light field and where they lie.
-void ConfigureViews(const LightField& light_field, sf_config* config);
+void ConfigureViews(const LightField& light_field, starfocus_config* config);
 
 // The file of its map, there or not.
 std::string DisparityPath(const std::string& folder);

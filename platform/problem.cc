@@ -7,11 +7,11 @@
 
 namespace starfocus {
 
-ProblemText Describe(sf_status status, const sf_problem* problem) {
+ProblemText Describe(starfocus_status status, const starfocus_problem* problem) {
   ProblemText made;
   char* const text = made.text;
   const auto size = static_cast<int>(sizeof made.text);
-  const char* const sentence = sf_status_string(status);
+  const char* const sentence = starfocus_status_string(status);
   if (problem == nullptr || problem->status != status || problem->field[0] == 0) {
     std::snprintf(text, sizeof made.text, "%s", sentence);
     return made;

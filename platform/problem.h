@@ -15,7 +15,7 @@ struct ProblemText {
 
 // "<field>: <sentence of the status> (expected <range>, found <value>)" of a call that returned
 // `status`; the sentence alone if `problem` is null, of another call, or names no field.
-ProblemText Describe(sf_status status, const sf_problem* problem);
+ProblemText Describe(starfocus_status status, const starfocus_problem* problem);
 
 }  // namespace starfocus
 

@@ -47,7 +47,7 @@ class PictureProgress {
   PictureProgress(std::string what, int pictures)
       : progress_(std::move(what), int64_t{kSteps} * pictures) {}
 
-  // The sf_progress, whose data is the PictureProgress; never cancels.
+  // The starfocus_progress, whose data is the PictureProgress; never cancels.
   static int Tell(void* data, int32_t rows_done, int32_t rows);
 
  private:

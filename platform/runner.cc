@@ -12,7 +12,7 @@ namespace {
 
 // Jobs of one set, and what they have thrown: an exception must not leave a thread of the pool.
 struct Guarded {
-  sf_job job;
+  starfocus_job job;
   void* data;
   std::atomic<bool> failed{false};
   std::mutex mutex{};  // of the failure
@@ -33,15 +33,15 @@ struct Guarded {
 
 }  // namespace
 
-ThreadRunner::ThreadRunner(int workers) : pool_(sf_pool_create(std::max(workers, 1))) {
+ThreadRunner::ThreadRunner(int workers) : pool_(starfocus_pool_create(std::max(workers, 1))) {
   if (pool_ == nullptr) throw std::bad_alloc();
 }
 
-int ThreadRunner::Run(void* runner_data, sf_job job, void* job_data, int32_t count) {
+int ThreadRunner::Run(void* runner_data, starfocus_job job, void* job_data, int32_t count) {
   if (runner_data == nullptr || job == nullptr) return 1;
   Guarded guarded{job, job_data};
-  const int status = sf_pool_run(static_cast<ThreadRunner*>(runner_data)->pool_.get(), Guarded::Run,
-                                 &guarded, count);
+  const int status = starfocus_pool_run(static_cast<ThreadRunner*>(runner_data)->pool_.get(),
+                                        Guarded::Run, &guarded, count);
   if (guarded.failure != nullptr) std::rethrow_exception(guarded.failure);
   return status;
 }

@@ -43,7 +43,7 @@ bool ReadCoordinate(const std::string& text, size_t at, size_t end, double* valu
 }
 
 // The position that a file's name tells, and which of kExtensions it has.
-bool ReadName(const std::string& name, sf_position* position, size_t* extension) {
+bool ReadName(const std::string& name, starfocus_position* position, size_t* extension) {
   constexpr char kPrefix[] = "view_";
   constexpr size_t kBegin = sizeof(kPrefix) - 1, kExtension = 4;
   if (name.size() < kBegin + kExtension || name.compare(0, kBegin, kPrefix) != 0) return false;
@@ -68,8 +68,8 @@ Error CheckFolder(const std::string& folder) {
 }
 
 // Where a view comes in the star, behind it if it is none of its.
-size_t StarIndex(const sf_position& position) {
-  const Positions star = StarPositions(SF_MAX_VIEWS);
+size_t StarIndex(const starfocus_position& position) {
+  const Positions star = StarPositions(STARFOCUS_MAX_VIEWS);
   size_t index = 0;
   while (index < star.size() && !SamePosition(star[index], position)) ++index;
   return index;
@@ -125,8 +125,8 @@ bool IsStarSet(int views) {
 Positions StarPositions(int views) {
   Positions positions(static_cast<size_t>(views));
   for (int index = 0; index < views; ++index) {
-    sf_position& position = positions[static_cast<size_t>(index)];
-    sf_view_position(index, &position.u, &position.v);
+    starfocus_position& position = positions[static_cast<size_t>(index)];
+    starfocus_view_position(index, &position.u, &position.v);
   }
   return positions;
 }
@@ -138,20 +138,20 @@ bool AreStar(const Positions& positions) {
   return std::equal(star.begin(), star.end(), positions.begin(), SamePosition);
 }
 
-sf_position RoundedPosition(double u, double v) {
+starfocus_position RoundedPosition(double u, double v) {
   return {std::round(u * kDecimals) / kDecimals, std::round(v * kDecimals) / kDecimals};
 }
 
-bool SamePosition(const sf_position& a, const sf_position& b) {
+bool SamePosition(const starfocus_position& a, const starfocus_position& b) {
   return std::fabs(a.u - b.u) < kAlike && std::fabs(a.v - b.v) < kAlike;
 }
 
-std::string ViewName(const sf_position& position) {
+std::string ViewName(const starfocus_position& position) {
   return "view_" + CoordinateText(position.u) + "_" + CoordinateText(position.v);
 }
 
 bool IsViewFile(const std::string& name) {
-  sf_position position;
+  starfocus_position position;
   size_t extension = 0;
   return ReadName(name, &position, &extension) || name == kPair[0] || name == kPair[1];
 }
@@ -177,8 +177,8 @@ Result<std::vector<ViewFile>> FindViewFiles(const std::string& folder) {
     const std::string centre = (fs::path(folder) / (ViewName({0, 0}) + ".png")).string();
     return Expected(centre, "a view (or .ppm, .jpg)", "no file");
   }
-  if (found.size() > SF_MAX_VIEWS) {
-    return Expected(folder, "at most " + std::to_string(SF_MAX_VIEWS) + " views",
+  if (found.size() > STARFOCUS_MAX_VIEWS) {
+    return Expected(folder, "at most " + std::to_string(STARFOCUS_MAX_VIEWS) + " views",
                     std::to_string(found.size()));
   }
   found[0].position = {0, 0};
@@ -190,7 +190,7 @@ Result<std::vector<ViewFile>> SelectViewFiles(const std::string& where,
                                               const Positions& wanted) {
   if (wanted.empty()) return files;
   std::vector<ViewFile> chosen;
-  for (const sf_position& position : wanted) {
+  for (const starfocus_position& position : wanted) {
     const auto at = std::find_if(files.begin(), files.end(), [&](const ViewFile& file) {
       return SamePosition(file.position, position);
     });

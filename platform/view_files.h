@@ -14,37 +14,38 @@
 namespace starfocus {
 
 // Positions of captured views, the centre (0, 0) first.
-using Positions = std::vector<sf_position>;
+using Positions = std::vector<starfocus_position>;
 
 struct ViewFile {
-  sf_position position;
+  starfocus_position position;
   std::string path;
 };
 
-// The first `views` of sf_view_position.
+// The first `views` of starfocus_view_position.
 Positions StarPositions(int views);
 
 // Whether the star has that many views: 1, 5, 9 or 17.
 bool IsStarSet(int views);
 
-// Whether these are the first ones of sf_view_position, in their order.
+// Whether these are the first ones of starfocus_view_position, in their order.
 bool AreStar(const Positions& positions);
 
 // A position as names of files tell it: of four decimals.
-sf_position RoundedPosition(double u, double v);
+starfocus_position RoundedPosition(double u, double v);
 
 // Whether the two are one view's, up to what names of files tell.
-bool SamePosition(const sf_position& a, const sf_position& b);
+bool SamePosition(const starfocus_position& a, const starfocus_position& b);
 
 // "view_-0.5_+1.0": one to four decimals.
-std::string ViewName(const sf_position& position);
+std::string ViewName(const starfocus_position& position);
 
 // Whether a file of that name, in a folder, is taken for a captured view.
 bool IsViewFile(const std::string& name);
 
-// All files of captured views in a folder, the centre first, then those of sf_view_position in
-// their order, then the others by u and v. Of one name the first of .png, .ppm and .jpg counts.
-// Errors: no folder, no centre view, more than SF_MAX_VIEWS, a position beyond 1, two files of one.
+// All files of captured views in a folder, the centre first, then those of starfocus_view_position
+// in their order, then the others by u and v. Of one name the first of .png, .ppm and .jpg counts.
+// Errors: no folder, no centre view, more than STARFOCUS_MAX_VIEWS, a position beyond 1, two files
+// of one.
 Result<std::vector<ViewFile>> FindViewFiles(const std::string& folder);
 
 // Those of `files` at the positions wanted, in their order, or all of them if none are. Errors are

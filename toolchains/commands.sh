@@ -74,7 +74,7 @@ instructions() {
   local runs preset=$1 name=$2 kernels=$3
   for runs in 1 2; do
     $(emulator "$preset") -d plugin \
-      -plugin "$LOGS/count.so,sym=starfocus,sym=sf_,sym=memcpy,sym=memset,sym=memmove" \
+      -plugin "$LOGS/count.so,sym=starfocus,sym=starfocus_,sym=memcpy,sym=memset,sym=memmove" \
       "build/$preset/tests/instruction_bench" "$name" "$kernels" $runs 2>&1 |
       sed -n 's/^instructions: //p'
   done | awk 'NR == 1 { first = $1 } NR == 2 { print $1 - first }'
@@ -192,8 +192,8 @@ golden() {
 # everything the engine offers for refocusing keeps after its linker's garbage collection.
 code_bytes() {
   local object=build/log/collected.o
-  "$1-ld" -r --gc-sections -e sf_refocus -u sf_workspace_size -u sf_init -u sf_stream_begin \
-    -u sf_stream_push -u sf_stream_pull -u sf_status_string -o $object "$2" || exit 1
+  "$1-ld" -r --gc-sections -e starfocus_refocus -u starfocus_workspace_size -u starfocus_init -u starfocus_stream_begin \
+    -u starfocus_stream_push -u starfocus_stream_pull -u starfocus_status_string -o $object "$2" || exit 1
   "$1-size" -A $object |
     awk '/^\.text/ { code += $2 } /^\.(rodata|data)/ { data += $2 } END { printf "%d | %d", code, data }'
 }

@@ -31,7 +31,7 @@ struct Options {
   bool active_high = false;
   GpioBias bias = GpioBias::kPullUp;
   std::optional<double> focus, step;
-  sf_mode mode = SF_MODE_BLOCK;
+  starfocus_mode mode = STARFOCUS_MODE_BLOCK;
   int threads = 1, pictures = 0;
   bool list = false;
 };
@@ -92,7 +92,7 @@ class Board {
     }
     std::printf("ready: focus %g (%g to %g), aperture %g, workspace %zu bytes, %s\n", focus_,
                 camera_.farthest(), camera_.nearest(), aperture(), camera_.workspace_bytes(),
-                sf_simd_target());
+                starfocus_simd_target());
     return {};
   }
 
@@ -141,11 +141,11 @@ class Board {
     bool during = false, after = false;
     if (Error error = SetBusy(true, &during)) return error;
     const double start = Seconds();
-    const sf_status status = camera_.Take(focus_, aperture());
+    const starfocus_status status = camera_.Take(focus_, aperture());
     const double seconds = Seconds() - start;
     if (Error error = SetBusy(false, &after)) return error;
-    if (status != SF_OK) {
-      return Error::Internal("picture", "a refocused one", sf_status_string(status));
+    if (status != STARFOCUS_OK) {
+      return Error::Internal("picture", "a refocused one", starfocus_status_string(status));
     }
     ++taken_;
     std::printf("picture %d: focus %g, aperture %g, %.3f ms", taken_, focus_, aperture(),
@@ -231,7 +231,8 @@ Error Main(int argc, char** argv) {
            {"--step", "TEXT", "Disparity of an encoder step; default: 1/40 of all",
             Number(&options.step)},
            {"--mode", "TEXT", "block or frame",
-            Choice<sf_mode>({{"block", SF_MODE_BLOCK}, {"frame", SF_MODE_FRAME}}, &options.mode),
+            Choice<starfocus_mode>(
+                {{"block", STARFOCUS_MODE_BLOCK}, {"frame", STARFOCUS_MODE_FRAME}}, &options.mode),
             Use::kDefault},
            {"--threads", "TEXT", "1 to 64", Threads(&options.threads), Use::kDefault},
            {"--pictures", "TEXT", "End after so many; 0: never",

@@ -11,32 +11,33 @@
 namespace starfocus {
 
 void Camera::FreeAligned::operator()(void* memory) const {
-  ::operator delete (memory, std::align_val_t{SF_ALIGNMENT});
+  ::operator delete (memory, std::align_val_t{STARFOCUS_ALIGNMENT});
 }
 
-Error Camera::Load(const std::string& folder, sf_mode mode) {
+Error Camera::Load(const std::string& folder, starfocus_mode mode) {
   Result<LightField> loaded = LoadLightField(folder, {});
   if (!loaded) return loaded.error();
   light_field_ = std::move(*loaded);
   FloatMap& map = light_field_.disparity;
   const size_t stride = sizeof(float) * size_t(map.width);
-  sf_status status = sf_fill_disparity(map.values.data(), stride, map.width, map.height);
-  if (status == SF_OK) {
-    status = sf_measure_disparity(map.values.data(), stride, map.width, map.height, &stats_);
+  starfocus_status status =
+      starfocus_fill_disparity(map.values.data(), stride, map.width, map.height);
+  if (status == STARFOCUS_OK) {
+    status = starfocus_measure_disparity(map.values.data(), stride, map.width, map.height, &stats_);
   }
-  if (status != SF_OK) {
-    return Expected(DisparityPath(folder), "a disparity map", sf_status_string(status));
+  if (status != STARFOCUS_OK) {
+    return Expected(DisparityPath(folder), "a disparity map", starfocus_status_string(status));
   }
   const double range = double(stats_.max) - double(stats_.min);
   for (double aperture = 1; aperture > 0.1; aperture /= 2) {
-    if (aperture * range <= SF_MAX_BLUR) apertures_.push_back(aperture);
+    if (aperture * range <= STARFOCUS_MAX_BLUR) apertures_.push_back(aperture);
   }
   if (apertures_.empty()) {
     return Expected(DisparityPath(folder), "disparities no further than 1000 pixels apart",
                     std::to_string(range));
   }
-  sf_config config;
-  sf_config_init(&config);
+  starfocus_config config;
+  starfocus_config_init(&config);
   config.width = light_field_.width();
   config.height = light_field_.height();
   ConfigureViews(light_field_, &config);
@@ -44,40 +45,41 @@ Error Camera::Load(const std::string& folder, sf_mode mode) {
   config.disparity_max = stats_.max;
   config.max_blur = std::max(1.0, std::ceil(apertures_[0] * range));
   config.max_workers = runner_.workers();
-  sf_problem problem = {};
+  starfocus_problem problem = {};
   config.problem = &problem;
-  status = sf_workspace_size(&config, &bytes_);
-  if (status == SF_OK) {
-    workspace_.reset(::operator new (bytes_, std::align_val_t{SF_ALIGNMENT}));
-    status = sf_init(&config, workspace_.get(), bytes_, &engine_);
+  status = starfocus_workspace_size(&config, &bytes_);
+  if (status == STARFOCUS_OK) {
+    workspace_.reset(::operator new (bytes_, std::align_val_t{STARFOCUS_ALIGNMENT}));
+    status = starfocus_init(&config, workspace_.get(), bytes_, &engine_);
   }
-  if (status == SF_OK) {
-    sf_callbacks callbacks = {};
+  if (status == STARFOCUS_OK) {
+    starfocus_callbacks callbacks = {};
     callbacks.runner = ThreadRunner::Run;
     callbacks.runner_data = &runner_;
-    status = sf_set_callbacks(engine_, &callbacks);
+    status = starfocus_set_callbacks(engine_, &callbacks);
   }
-  if (status != SF_OK) {
+  if (status != STARFOCUS_OK) {
     return Expected(folder, "a light field that the engine refocuses",
                     Describe(status, &problem).text);
   }
   for (size_t i = 0; i < light_field_.views.size(); ++i) {
-    rows_.views[i] = sf_image_rgb(light_field_.views[i].row(0), light_field_.views[i].stride());
+    rows_.views[i] =
+        starfocus_image_rgb(light_field_.views[i].row(0), light_field_.views[i].stride());
   }
-  rows_.depth = sf_depth_float(map.values.data(), stride, map.width, map.height);
+  rows_.depth = starfocus_depth_float(map.values.data(), stride, map.width, map.height);
   picture_ = Image(config.width, config.height);
   mode_ = mode;
   return {};
 }
 
-sf_status Camera::Take(double focus, double aperture) {
-  sf_params params;
-  sf_params_init(&params);
+starfocus_status Camera::Take(double focus, double aperture) {
+  starfocus_params params;
+  starfocus_params_init(&params);
   params.mode = mode_;
   params.lens.focus = focus;
   params.lens.aperture = aperture;
-  const sf_image out = sf_image_rgb(picture_.pixels.data(), picture_.stride());
-  return sf_refocus(engine_, &params, &rows_, &out, nullptr);
+  const starfocus_image out = starfocus_image_rgb(picture_.pixels.data(), picture_.stride());
+  return starfocus_refocus(engine_, &params, &rows_, &out, nullptr);
 }
 
 }  // namespace starfocus

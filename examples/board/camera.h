@@ -20,7 +20,7 @@ class Camera {
   explicit Camera(int threads) : runner_(threads) {}
 
   // Loads the light field and makes an engine for every focus within its disparities.
-  Error Load(const std::string& folder, sf_mode mode);
+  Error Load(const std::string& folder, starfocus_mode mode);
 
   double nearest() const { return stats_.max; }
   double farthest() const { return stats_.min; }
@@ -29,7 +29,7 @@ class Camera {
   size_t workspace_bytes() const { return bytes_; }
 
   // Refocuses; the result is picture().
-  sf_status Take(double focus, double aperture);
+  starfocus_status Take(double focus, double aperture);
   const Image& picture() const { return picture_; }
 
  private:
@@ -39,13 +39,13 @@ class Camera {
 
   ThreadRunner runner_;
   LightField light_field_;
-  sf_light_field rows_ = {};
-  sf_disparity_stats stats_ = {};
+  starfocus_light_field rows_ = {};
+  starfocus_disparity_stats stats_ = {};
   std::vector<double> apertures_;
   std::unique_ptr<void, FreeAligned> workspace_;
   size_t bytes_ = 0;
-  sf_engine* engine_ = nullptr;
-  sf_mode mode_ = SF_MODE_FRAME;
+  starfocus_engine* engine_ = nullptr;
+  starfocus_mode mode_ = STARFOCUS_MODE_FRAME;
   Image picture_;
 };
 

@@ -25,44 +25,44 @@ static double Seconds(void) {
   return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-static sf_status MakeEngine(sf_pool* pool, sf_engine** engine) {
-  sf_callbacks callbacks = {0};
-  sf_config config;
-  sf_status status;
-  sf_config_init(&config);
+static starfocus_status MakeEngine(starfocus_pool* pool, starfocus_engine** engine) {
+  starfocus_callbacks callbacks = {0};
+  starfocus_config config;
+  starfocus_status status;
+  starfocus_config_init(&config);
   config.width = kWidth, config.height = kHeight, config.views = kCameras;
   config.disparity_min = kWall, config.disparity_max = kBall, config.max_blur = kBall - kWall;
-  config.features |= SF_FEATURE_STREAMING, config.features |= SF_FEATURE_IMAGES;
+  config.features |= STARFOCUS_FEATURE_STREAMING, config.features |= STARFOCUS_FEATURE_IMAGES;
   config.superblock = 64; /* wide pictures would get 128, and four times the memory of a worker */
-  config.max_workers = sf_pool_workers(pool);
-  callbacks.runner = sf_pool_run, callbacks.runner_data = pool;
-  status = sf_create(&config, NULL, engine);
-  return status == SF_OK ? sf_set_callbacks(*engine, &callbacks) : status;
+  config.max_workers = starfocus_pool_workers(pool);
+  callbacks.runner = starfocus_pool_run, callbacks.runner_data = pool;
+  status = starfocus_create(&config, NULL, engine);
+  return status == STARFOCUS_OK ? starfocus_set_callbacks(*engine, &callbacks) : status;
 }
 
 /* What the sensors have delivered from row `first` of these rows on, with the depth of the picture.
  */
-static sf_light_field FieldFrom(int first) {
-  sf_light_field field;
+static starfocus_light_field FieldFrom(int first) {
+  starfocus_light_field field;
   int i;
   memset(&field, 0, sizeof field);
   for (i = 0; i < kCameras; ++i) {
-    sf_image* const view = &field.views[i];
-    view->format = SF_FORMAT_NV12;
+    starfocus_image* const view = &field.views[i];
+    view->format = STARFOCUS_FORMAT_NV12;
     view->planes[0] = luma[i] + first * kWidth, view->planes[1] = chroma[i] + first / 2 * kWidth;
     view->strides[0] = view->strides[1] = kWidth;
   }
   field.depth.data = depth, field.depth.stride = kDepthWidth;
   field.depth.width = kDepthWidth, field.depth.height = kDepthHeight;
-  field.depth.type = SF_DEPTH_U8, field.depth.scale = 1, field.depth.offset = -100;
+  field.depth.type = STARFOCUS_DEPTH_U8, field.depth.scale = 1, field.depth.offset = -100;
   return field;
 }
 
 /* Rows go in as they come, as far as there is room, and out as they are finished. */
-static sf_status Stream(sf_engine* engine, FILE* file, double* sensor_seconds) {
+static starfocus_status Stream(starfocus_engine* engine, FILE* file, double* sensor_seconds) {
   int delivered = 0, taken = 0, written = 0;
-  sf_status status = SF_OK;
-  while (status == SF_OK && written < kHeight) {
+  starfocus_status status = STARFOCUS_OK;
+  while (status == STARFOCUS_OK && written < kHeight) {
     int32_t count = 0;
     if (taken == delivered && delivered < kHeight) {
       const int rows = kHeight - delivered < kRows ? kHeight - delivered : kRows;
@@ -74,15 +74,15 @@ static sf_status Stream(sf_engine* engine, FILE* file, double* sensor_seconds) {
     }
     if (taken < delivered) {
       const int first = taken % kRows;
-      const sf_light_field field = FieldFrom(first);
-      status = sf_stream_push(engine, &field, delivered - taken, &count);
+      const starfocus_light_field field = FieldFrom(first);
+      status = starfocus_stream_push(engine, &field, delivered - taken, &count);
       taken += count;
     }
-    if (status == SF_OK) {
+    if (status == STARFOCUS_OK) {
       const int rows = kHeight - written < kRows ? kHeight - written : kRows;
-      const sf_image picture = sf_image_rgb(out, kWidth * 3);
+      const starfocus_image picture = starfocus_image_rgb(out, kWidth * 3);
       int32_t i;
-      status = sf_stream_pull(engine, &picture, rows, &count, NULL);
+      status = starfocus_stream_pull(engine, &picture, rows, &count, NULL);
       for (i = 0; i < count * kWidth * 3; ++i) checksum = (checksum ^ out[i]) * 16777619u;
       if (fwrite(out, kWidth * 3, (size_t)count, file) != (size_t)count) break;
       written += count;
@@ -91,32 +91,32 @@ static sf_status Stream(sf_engine* engine, FILE* file, double* sensor_seconds) {
   return status;
 }
 
-static sf_status Refocus(sf_pool* pool, FILE* file, double* sensor_seconds) {
-  sf_engine* engine = NULL;
-  sf_params params;
-  sf_status status = MakeEngine(pool, &engine);
-  sf_params_init(&params);
+static starfocus_status Refocus(starfocus_pool* pool, FILE* file, double* sensor_seconds) {
+  starfocus_engine* engine = NULL;
+  starfocus_params params;
+  starfocus_status status = MakeEngine(pool, &engine);
+  starfocus_params_init(&params);
   params.lens.focus = kBall;
-  if (status == SF_OK) status = sf_stream_begin(engine, &params);
+  if (status == STARFOCUS_OK) status = starfocus_stream_begin(engine, &params);
   fprintf(file, "P6\n%d %d\n255\n", kWidth, kHeight);
   SensorDepth(depth);
-  if (status == SF_OK) status = Stream(engine, file, sensor_seconds);
-  sf_destroy(engine);
+  if (status == STARFOCUS_OK) status = Stream(engine, file, sensor_seconds);
+  starfocus_destroy(engine);
   return status;
 }
 
 int main(int count, char** arguments) {
-  const int32_t cores = sf_pool_cores();
+  const int32_t cores = starfocus_pool_cores();
   const double start = Seconds();
   double sensor_seconds = 0, seconds;
   struct rusage usage;
-  sf_status status;
-  sf_pool* pool;
+  starfocus_status status;
+  starfocus_pool* pool;
   int failed;
   FILE* const file = count == 2 ? fopen(arguments[1], "wb") : NULL;
   if (!file) return fprintf(stderr, "usage: camera OUT.ppm\n"), 2;
-  pool = sf_pool_create(cores < 4 ? cores : 4);
-  status = pool ? Refocus(pool, file, &sensor_seconds) : SF_ERROR_MEMORY;
+  pool = starfocus_pool_create(cores < 4 ? cores : 4);
+  status = pool ? Refocus(pool, file, &sensor_seconds) : STARFOCUS_ERROR_MEMORY;
   seconds = Seconds() - start;
   failed = ferror(file);
   failed |= fclose(file);
@@ -125,8 +125,8 @@ int main(int count, char** arguments) {
          seconds, sensor_seconds);
   printf("peak memory %.1f MiB, checksum %08x\n", (double)usage.ru_maxrss / 1024,
          (unsigned)checksum);
-  if (status != SF_OK) fprintf(stderr, "camera: %s\n", sf_status_string(status));
+  if (status != STARFOCUS_OK) fprintf(stderr, "camera: %s\n", starfocus_status_string(status));
   if (failed) fprintf(stderr, "camera: '%s' could not be written\n", arguments[1]);
-  sf_pool_destroy(pool);
-  return status != SF_OK || failed;
+  starfocus_pool_destroy(pool);
+  return status != STARFOCUS_OK || failed;
 }

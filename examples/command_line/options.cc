@@ -84,7 +84,7 @@ Target ReadPairInto(char separator, T* value) {
   });
 }
 
-bool IsFar(const sf_position& position) {
+bool IsFar(const starfocus_position& position) {
   return std::fabs(position.u) > 1 || std::fabs(position.v) > 1;
 }
 
@@ -98,16 +98,16 @@ std::string ReadViews(const std::string& text, Positions* positions) {
   for (const std::string& part : Split(text, ':')) {
     const std::vector<double> numbers = ReadNumbers(part, ',');
     if (numbers.size() != 2) return "17, 9, 5 or 1, or positions U,V:U,V";
-    const sf_position position = RoundedPosition(numbers[0], numbers[1]);
+    const starfocus_position position = RoundedPosition(numbers[0], numbers[1]);
     if (IsFar(position)) return "positions within +-1";
-    for (const sf_position& other : *positions) {
+    for (const starfocus_position& other : *positions) {
       if (SamePosition(other, position)) return "positions that differ";
     }
     positions->push_back(position);
   }
   if (!SamePosition(positions->front(), {0, 0})) return "the centre view, 0,0, first";
-  if (positions->size() <= SF_MAX_VIEWS) return "";
-  return "at most " + std::to_string(SF_MAX_VIEWS) + " views";
+  if (positions->size() <= STARFOCUS_MAX_VIEWS) return "";
+  return "at most " + std::to_string(STARFOCUS_MAX_VIEWS) + " views";
 }
 
 constexpr double kMost = std::numeric_limits<double>::max();
@@ -122,7 +122,7 @@ Target Whole(int low, int high, std::optional<int>* value) {
   return ReadWholeInto(low, high, value, "");
 }
 
-Target Threads(int* value) { return Whole(1, SF_MAX_WORKERS, value); }
+Target Threads(int* value) { return Whole(1, STARFOCUS_MAX_WORKERS, value); }
 
 Target Number(double* value) { return Number(-kMost, kMost, "a finite number", value); }
 
@@ -138,8 +138,9 @@ Target Number(double low, double high, const std::string& expected, std::optiona
   return ReadNumberInto(low, high, expected, value, "");
 }
 
-Target Transfer(sf_transfer* value) {
-  return Choice<sf_transfer>({{"srgb", SF_TRANSFER_SRGB}, {"none", SF_TRANSFER_NONE}}, value);
+Target Transfer(starfocus_transfer* value) {
+  return Choice<starfocus_transfer>(
+      {{"srgb", STARFOCUS_TRANSFER_SRGB}, {"none", STARFOCUS_TRANSFER_NONE}}, value);
 }
 
 Target Pair(char separator, Pixel* value) {
@@ -150,7 +151,7 @@ Target Pair(char separator, Pixel* value) {
 
 Target Pair(char separator, std::optional<Pixel>* value) { return ReadPairInto(separator, value); }
 
-Target Region(sf_region* value) {
+Target Region(starfocus_region* value) {
   return Target([value](const std::string& text) -> std::string {
     const std::vector<int> sizes = ReadSizes(text, ',');
     if (sizes.size() != 4 || sizes[2] == 0 || sizes[3] == 0) {

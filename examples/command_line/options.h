@@ -31,7 +31,7 @@ template <class T>
 using Words = std::vector<std::pair<const char*, T>>;
 template <class T>
 Target Choice(const Words<T>& words, T* value);
-Target Transfer(sf_transfer* value);
+Target Transfer(starfocus_transfer* value);
 
 // Two whole numbers from 0 to 65535.
 struct Pixel {
@@ -41,7 +41,7 @@ Target Pair(char separator, Pixel* value);
 Target Pair(char separator, std::optional<Pixel>* value);
 
 // X,Y,W,H: a rectangle of whole numbers, neither side 0.
-Target Region(sf_region* value);
+Target Region(starfocus_region* value);
 
 // 17, 9, 5 or 1: those of the star, or U,V:U,V and so on: views at those positions, the first one
 // at 0,0, all within +-1, rounded to four decimals as names of files are.

@@ -18,31 +18,32 @@ Error ShapeError(const std::string& text) {
                       "'" + text.substr(0, 60) + "'");
 }
 
-bool SetPolygon(const std::vector<double>& numbers, sf_lens* lens) {
+bool SetPolygon(const std::vector<double>& numbers, starfocus_lens* lens) {
   if (numbers.empty() || numbers.size() > 3) return false;
   const double blades = numbers[0], rotation = numbers.size() > 1 ? numbers[1] : 0;
   const double curvature = numbers.size() > 2 ? numbers[2] : 0;
-  if (blades < SF_MIN_BLADES || blades > SF_MAX_BLADES || blades != int(blades)) return false;
+  if (blades < STARFOCUS_MIN_BLADES || blades > STARFOCUS_MAX_BLADES || blades != int(blades))
+    return false;
   if (rotation < -360 || rotation > 360 || curvature < 0 || curvature > 1) return false;
-  lens->shape = SF_SHAPE_POLYGON;
+  lens->shape = STARFOCUS_SHAPE_POLYGON;
   lens->blades = static_cast<int32_t>(blades);
   lens->rotation = rotation;
   lens->curvature = curvature;
   return true;
 }
 
-bool SetRing(const std::vector<double>& numbers, sf_lens* lens) {
-  if (numbers.size() != 1 || numbers[0] < 0 || numbers[0] > SF_MAX_RING_INNER) return false;
-  lens->shape = SF_SHAPE_RING;
+bool SetRing(const std::vector<double>& numbers, starfocus_lens* lens) {
+  if (numbers.size() != 1 || numbers[0] < 0 || numbers[0] > STARFOCUS_MAX_RING_INNER) return false;
+  lens->shape = STARFOCUS_SHAPE_RING;
   lens->ring_inner = numbers[0];
   return true;
 }
 
-bool SetShape(const std::string& text, sf_lens* lens) {
+bool SetShape(const std::string& text, starfocus_lens* lens) {
   const size_t colon = text.find(':');
   const std::string name = text.substr(0, colon);
   if (colon == std::string::npos) {
-    lens->shape = name == "disc" ? SF_SHAPE_DISC : SF_SHAPE_FALL_OFF;
+    lens->shape = name == "disc" ? STARFOCUS_SHAPE_DISC : STARFOCUS_SHAPE_FALL_OFF;
     return name == "disc" || name == "fall-off";
   }
   const std::vector<double> numbers = ReadNumbers(text.substr(colon + 1), ',');
@@ -71,18 +72,18 @@ void AddShapeOptions(Command* command, ShapeOptions* options) {
       command);
 }
 
-Error ParseShape(const ShapeOptions& options, sf_lens* lens) {
-  sf_params defaults;
-  sf_params_init(&defaults);
+Error ParseShape(const ShapeOptions& options, starfocus_lens* lens) {
+  starfocus_params defaults;
+  starfocus_params_init(&defaults);
   *lens = defaults.lens;
   if (!SetShape(options.shape, lens)) return ShapeError(options.shape);
-  if (lens->shape != SF_SHAPE_FALL_OFF && options.theta != ShapeOptions().theta) {
+  if (lens->shape != STARFOCUS_SHAPE_FALL_OFF && options.theta != ShapeOptions().theta) {
     return Error::Usage("--theta", "--shape fall-off beside it", "'" + options.shape + "'");
   }
   // The ends of the range and the default are the library's to the last digit.
   lens->theta = options.theta * kPi;
-  if (lens->theta < SF_MIN_THETA) lens->theta = SF_MIN_THETA;
-  if (lens->theta > SF_MAX_THETA) lens->theta = SF_MAX_THETA;
+  if (lens->theta < STARFOCUS_MIN_THETA) lens->theta = STARFOCUS_MIN_THETA;
+  if (lens->theta > STARFOCUS_MAX_THETA) lens->theta = STARFOCUS_MAX_THETA;
   lens->cats_eye = options.cats_eye;
   return {};
 }

@@ -19,7 +19,7 @@ struct ShapeOptions {
 void AddShapeOptions(Command* command, ShapeOptions* options);
 
 // Sets the lens: the shape that the options ask for, and defaults.
-Error ParseShape(const ShapeOptions& options, sf_lens* lens);
+Error ParseShape(const ShapeOptions& options, starfocus_lens* lens);
 
 // What tells the shape from the default one in a file's name, "" for that.
 std::string ShapeSuffix(const ShapeOptions& options);

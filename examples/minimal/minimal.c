@@ -10,24 +10,26 @@ static float disparity[W * H];
 int main(void) {
   for (int i = 0; i < W * H; ++i) disparity[i] = (float)(i % W) / W * 16 - 8;
   for (int i = 0; i < W * H * 3; ++i) view[i] = (i / 3 % W / 8 + i / 3 / W / 8) % 2 ? 60 : 240;
-  sf_config config; /* one view of W x H whose blur radius never exceeds 8 pixels */
-  sf_config_init(&config);
+  starfocus_config config; /* one view of W x H whose blur radius never exceeds 8 pixels */
+  starfocus_config_init(&config);
   config.width = W, config.height = H, config.views = 1;
   config.disparity_min = -8, config.disparity_max = 8, config.max_blur = 8;
   size_t bytes = 0;
-  sf_status status = sf_workspace_size(&config, &bytes);
-  char* memory = malloc(bytes + SF_ALIGNMENT); /* the workspace begins at a multiple of that */
-  void* workspace = memory ? memory + (SF_ALIGNMENT - (uintptr_t)memory % SF_ALIGNMENT) : NULL;
-  sf_engine* engine = NULL;
-  if (!status) status = sf_init(&config, workspace, bytes, &engine);
-  sf_params params; /* focus 0: the middle column; aperture 1 */
-  sf_params_init(&params);
-  sf_light_field field = {.views = {sf_image_rgb(view, W * 3)}};
-  field.depth = sf_depth_float(disparity, W * sizeof(float), W, H);
-  sf_image picture = sf_image_rgb(out, W * 3);
-  if (!status) status = sf_refocus(engine, &params, &field, &picture, NULL);
+  starfocus_status status = starfocus_workspace_size(&config, &bytes);
+  char* memory =
+      malloc(bytes + STARFOCUS_ALIGNMENT); /* the workspace begins at a multiple of that */
+  void* workspace =
+      memory ? memory + (STARFOCUS_ALIGNMENT - (uintptr_t)memory % STARFOCUS_ALIGNMENT) : NULL;
+  starfocus_engine* engine = NULL;
+  if (!status) status = starfocus_init(&config, workspace, bytes, &engine);
+  starfocus_params params; /* focus 0: the middle column; aperture 1 */
+  starfocus_params_init(&params);
+  starfocus_light_field field = {.views = {starfocus_image_rgb(view, W * 3)}};
+  field.depth = starfocus_depth_float(disparity, W * sizeof(float), W, H);
+  starfocus_image picture = starfocus_image_rgb(out, W * 3);
+  if (!status) status = starfocus_refocus(engine, &params, &field, &picture, NULL);
   FILE* file = status ? NULL : fopen("minimal.ppm", "wb");
   if (file) fprintf(file, "P6 %d %d 255\n", W, H), fwrite(out, 3, W * H, file), fclose(file);
   free(memory);
-  return puts(sf_status_string(status)), !file;
+  return puts(starfocus_status_string(status)), !file;
 }

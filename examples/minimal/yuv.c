@@ -12,36 +12,40 @@ int main(void) {
   for (int i = 0; i < W * H; ++i) luma[i] = (i % W / 8 + i / W / 8) % 2 ? 60 : 220;
   for (int i = 0; i < W * H / 2; ++i) chroma[i] = i % 2 ? 110 : 140;
   for (int i = 0; i < MW * MH; ++i) millimetres[i] = i % 37 ? (uint16_t)(500 + 40 * (i % MW)) : 0;
-  sf_config config; /* disparities 8000 / 3660 mm to 8000 / 500 mm */
-  sf_config_init(&config);
-  config.width = W, config.height = H, config.views = 1, config.features |= SF_FEATURE_IMAGES;
+  starfocus_config config; /* disparities 8000 / 3660 mm to 8000 / 500 mm */
+  starfocus_config_init(&config);
+  config.width = W, config.height = H, config.views = 1,
+  config.features |= STARFOCUS_FEATURE_IMAGES;
   config.disparity_min = 2, config.disparity_max = 16, config.max_blur = 14;
-  config.features |= SF_FEATURE_FILL_UNKNOWN;
+  config.features |= STARFOCUS_FEATURE_FILL_UNKNOWN;
   size_t bytes = 0;
-  sf_status status = sf_workspace_size(&config, &bytes);
-  char* memory = malloc(bytes + SF_ALIGNMENT); /* the workspace begins at a multiple of that */
-  void* workspace = memory ? memory + (SF_ALIGNMENT - (uintptr_t)memory % SF_ALIGNMENT) : NULL;
-  sf_engine* engine = NULL;
-  if (!status) status = sf_init(&config, workspace, bytes, &engine);
-  sf_light_field field = {.coverage = NULL};
-  field.views[0] =
-      (sf_image){.format = SF_FORMAT_NV12, .planes = {luma, chroma}, .strides = {W, W}};
-  field.depth = (sf_depth_map){.data = millimetres,
-                               .stride = 2 * MW,
-                               .width = MW,
-                               .height = MH,
-                               .type = SF_DEPTH_U16,
-                               .meaning = SF_DEPTH_RECIPROCAL,
-                               .scale = 8000,
-                               .has_invalid = 1,
-                               .invalid = 0};
-  sf_image out = {.format = SF_FORMAT_NV12, .planes = {out_luma, out_chroma}, .strides = {W, W}};
-  sf_params params; /* what is a metre away is in focus */
-  sf_params_init(&params);
+  starfocus_status status = starfocus_workspace_size(&config, &bytes);
+  char* memory =
+      malloc(bytes + STARFOCUS_ALIGNMENT); /* the workspace begins at a multiple of that */
+  void* workspace =
+      memory ? memory + (STARFOCUS_ALIGNMENT - (uintptr_t)memory % STARFOCUS_ALIGNMENT) : NULL;
+  starfocus_engine* engine = NULL;
+  if (!status) status = starfocus_init(&config, workspace, bytes, &engine);
+  starfocus_light_field field = {.coverage = NULL};
+  field.views[0] = (starfocus_image){
+      .format = STARFOCUS_FORMAT_NV12, .planes = {luma, chroma}, .strides = {W, W}};
+  field.depth = (starfocus_depth_map){.data = millimetres,
+                                      .stride = 2 * MW,
+                                      .width = MW,
+                                      .height = MH,
+                                      .type = STARFOCUS_DEPTH_U16,
+                                      .meaning = STARFOCUS_DEPTH_RECIPROCAL,
+                                      .scale = 8000,
+                                      .has_invalid = 1,
+                                      .invalid = 0};
+  starfocus_image out = {
+      .format = STARFOCUS_FORMAT_NV12, .planes = {out_luma, out_chroma}, .strides = {W, W}};
+  starfocus_params params; /* what is a metre away is in focus */
+  starfocus_params_init(&params);
   params.lens.focus = 8;
-  if (!status) status = sf_refocus(engine, &params, &field, &out, NULL);
+  if (!status) status = starfocus_refocus(engine, &params, &field, &out, NULL);
   FILE* file = status ? NULL : fopen("yuv.pgm", "wb");
   if (file) fprintf(file, "P5 %d %d 255\n", W, H), fwrite(out_luma, 1, W * H, file), fclose(file);
   free(memory);
-  return puts(sf_status_string(status)), !file;
+  return puts(starfocus_status_string(status)), !file;
 }

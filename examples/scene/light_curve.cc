@@ -20,8 +20,8 @@ double Power(double value) {
 
 }  // namespace
 
-LightCurve::LightCurve(sf_transfer transfer) {
-  if (transfer == SF_TRANSFER_NONE) return;
+LightCurve::LightCurve(starfocus_transfer transfer) {
+  if (transfer == STARFOCUS_TRANSFER_NONE) return;
   for (int k = 0; k <= kMostCode * kSteps; ++k) {
     const double value = k / (255.0 * kSteps);
     light_.push_back(255 * (value <= 0.04045 ? value / 12.92 : Power((value + 0.055) / 1.055)));

@@ -15,7 +15,7 @@ namespace starfocus {
 // the same on every machine.
 class LightCurve {
  public:
-  explicit LightCurve(sf_transfer transfer);
+  explicit LightCurve(starfocus_transfer transfer);
 
   Color Decode(const Color& codes) const;
   Color Encode(const Color& light) const;

@@ -14,13 +14,13 @@ double Square(double x) { return x * x; }
 
 }  // namespace
 
-SceneOpening::SceneOpening(const sf_lens& lens)
-    : shape_(static_cast<sf_shape>(lens.shape)),
+SceneOpening::SceneOpening(const starfocus_lens& lens)
+    : shape_(static_cast<starfocus_shape>(lens.shape)),
       inner_(lens.ring_inner),
       cats_eye_(lens.cats_eye),
       curvature_(lens.curvature),
       half_(kPi / lens.blades) {
-  if (shape_ == SF_SHAPE_FALL_OFF) {
+  if (shape_ == STARFOCUS_SHAPE_FALL_OFF) {
     fall_off_ = lens.theta == kTheta ? kCotSquared : 1 / Square(std::tan(lens.theta));
   }
   for (int k = 0; k < lens.blades; ++k) {
@@ -32,14 +32,14 @@ SceneOpening::SceneOpening(const sf_lens& lens)
 double SceneOpening::LeastShare() const {
   // Two discs that lie s apart have 1 - 2 s / pi of each in common, or more.
   const double both = 1 - 2 / kPi * cats_eye_;
-  if (shape_ == SF_SHAPE_RING) return both * (1 - inner_ * inner_);
-  return shape_ == SF_SHAPE_POLYGON ? both * std::sin(2 * half_) / (2 * half_) : both;
+  if (shape_ == STARFOCUS_SHAPE_RING) return both * (1 - inner_ * inner_);
+  return shape_ == STARFOCUS_SHAPE_POLYGON ? both * std::sin(2 * half_) / (2 * half_) : both;
 }
 
 bool SceneOpening::Passes(double u, double v, double x, double y) const {
   if (cats_eye_ > 0 && Square(u + cats_eye_ * x) + Square(v + cats_eye_ * y) > 1) return false;
-  if (shape_ == SF_SHAPE_RING) return u * u + v * v >= inner_ * inner_;
-  if (shape_ != SF_SHAPE_POLYGON) return true;
+  if (shape_ == STARFOCUS_SHAPE_RING) return u * u + v * v >= inner_ * inner_;
+  if (shape_ != STARFOCUS_SHAPE_POLYGON) return true;
   for (const Edge& edge : edges_) {
     if (curvature_ == 0) {
       if (u * edge.x + v * edge.y > std::cos(half_)) return false;

@@ -12,7 +12,7 @@ namespace starfocus {
 class SceneOpening {
  public:
   // The opening of a valid lens.
-  explicit SceneOpening(const sf_lens& lens);
+  explicit SceneOpening(const starfocus_lens& lens);
 
   // cot^2(theta) of the density (3), or 0: as bright everywhere.
   double fall_off() const { return fall_off_; }
@@ -29,7 +29,7 @@ class SceneOpening {
     double x, y;  // its normal
   };
 
-  sf_shape shape_;
+  starfocus_shape shape_;
   double fall_off_ = 0, inner_, cats_eye_;
   double curvature_, half_;  // of a polygon: half of the angle between two corners
   std::vector<Edge> edges_;

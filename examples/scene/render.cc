@@ -84,7 +84,7 @@ struct RayTracer::Lens {
   const SceneOpening* opening = nullptr;
 };
 
-RayTracer::RayTracer(const Scene& scene, int width, int height, sf_transfer transfer,
+RayTracer::RayTracer(const Scene& scene, int width, int height, starfocus_transfer transfer,
                      ThreadRunner* runner)
     : scene_(scene),
       width_(width),

@@ -18,7 +18,8 @@ namespace starfocus {
 class RayTracer {
  public:
   // Pictures are means of light, as `transfer` has it.
-  RayTracer(const Scene& scene, int width, int height, sf_transfer transfer, ThreadRunner* runner);
+  RayTracer(const Scene& scene, int width, int height, starfocus_transfer transfer,
+            ThreadRunner* runner);
 
   // Progress counts rows, rows of ground truth kTruthCost times, and rows of coverage kCoverageCost
   // times; null for none.

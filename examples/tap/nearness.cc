@@ -9,7 +9,7 @@
 namespace starfocus {
 
 double PreviewPsnr(const Image& preview, const Image& full, int shift) {
-  const LightCurve curve(SF_TRANSFER_SRGB);
+  const LightCurve curve(STARFOCUS_TRANSFER_SRGB);
   double light[256];
   for (int code = 0; code < 256; ++code) light[code] = curve.Decode({double(code), 0, 0}).r;
   double squares = 0;

@@ -29,7 +29,7 @@ struct Options {
   std::string folder, out;
   Pixel size = {4000, 3000};  // of the scene that is traced without a folder
   std::optional<Pixel> first, second;
-  int shift = 2, frames = 12, threads = sf_pool_cores();
+  int shift = 2, frames = 12, threads = starfocus_pool_cores();
 };
 
 // The light field of a folder, or the portrait traced; and where to tap if nobody says.
@@ -44,11 +44,11 @@ Error Open(const Options& options, ThreadRunner* runner, LightField* field, Pixe
     return {};
   }
   const Scene scene = MakePortrait();
-  const RayTracer renderer(scene, options.size.x, options.size.y, SF_TRANSFER_SRGB, runner);
+  const RayTracer renderer(scene, options.size.x, options.size.y, STARFOCUS_TRANSFER_SRGB, runner);
   Progress progress("tracing", int64_t{5} * options.size.y);
   for (int view = 0; view < 5; ++view) {
     double u = 0, v = 0;
-    sf_view_position(view, &u, &v);
+    starfocus_view_position(view, &u, &v);
     field->views.push_back(renderer.View(u, v, &progress));
   }
   field->disparity = renderer.Disparity();
@@ -77,15 +77,15 @@ class Session {
         preview_((field.width() - 1) / (1 << options.shift) + 1,
                  (field.height() - 1) / (1 << options.shift) + 1) {
     for (size_t k = 0; k < field.views.size(); ++k) {
-      field_.views[k] = sf_image_rgb(field.views[k].pixels.data(), field.views[k].stride());
+      field_.views[k] = starfocus_image_rgb(field.views[k].pixels.data(), field.views[k].stride());
     }
-    field_.depth = sf_depth_float(map_.values.data(), Stride(), map_.width, map_.height);
+    field_.depth = starfocus_depth_float(map_.values.data(), Stride(), map_.width, map_.height);
   }
 
   Error Prepare() {
-    sf_disparity_stats stats = {};
-    if (Error error = Outcome(
-            sf_measure_disparity(map_.values.data(), Stride(), map_.width, map_.height, &stats)))
+    starfocus_disparity_stats stats = {};
+    if (Error error = Outcome(starfocus_measure_disparity(map_.values.data(), Stride(), map_.width,
+                                                          map_.height, &stats)))
       return error;
     Config config;
     config.width = map_.width;
@@ -94,14 +94,14 @@ class Session {
     config.disparity_min = stats.min;
     config.disparity_max = stats.max;
     config.max_blur = kBlur;
-    config.features |= SF_FEATURE_FILL_UNKNOWN;
+    config.features |= STARFOCUS_FEATURE_FILL_UNKNOWN;
     config.max_workers = runner_->workers();
     config.previews = options_.shift;
     const double range = double(stats.max) - double(stats.min);
     params_.lens.aperture = std::min(1.0, kBlur / std::max(range, 1e-9));
     const double start = Seconds();
     if (Error error = Outcome(engine_.Init(config))) return error;
-    sf_callbacks callbacks = {};
+    starfocus_callbacks callbacks = {};
     callbacks.runner = ThreadRunner::Run;
     callbacks.runner_data = runner_;
     if (Error error = Outcome(engine_.SetCallbacks(callbacks))) return error;
@@ -114,8 +114,8 @@ class Session {
 
   Error FocusAt(const Pixel& point, double* focus) {
     const double start = Seconds();
-    const Error error = Outcome(sf_focus_at(map_.values.data(), Stride(), map_.width, map_.height,
-                                            point.x, point.y, focus));
+    const Error error = Outcome(starfocus_focus_at(map_.values.data(), Stride(), map_.width,
+                                                   map_.height, point.x, point.y, focus));
     const std::string tap = std::to_string(point.x) + "," + std::to_string(point.y);
     if (!error) Say("tap at " + tap + ": focus " + Short(*focus), start);
     return error;
@@ -126,7 +126,7 @@ class Session {
     const double start = Seconds();
     Params params = params_;
     params.preview_shift = options_.shift;
-    const sf_image out = sf_image_rgb(preview_.pixels.data(), preview_.stride());
+    const starfocus_image out = starfocus_image_rgb(preview_.pixels.data(), preview_.stride());
     if (Error error = Outcome(engine_.RefocusPrepared(params, out))) return error;
     Say(what + ", 1/" + std::to_string(1 << options_.shift) + " of the size", start);
     return Keep(preview_);
@@ -135,7 +135,7 @@ class Session {
   Error Full(double focus) {
     params_.lens.focus = focus;
     const double start = Seconds();
-    const sf_image out = sf_image_rgb(full_.pixels.data(), full_.stride());
+    const starfocus_image out = starfocus_image_rgb(full_.pixels.data(), full_.stride());
     if (Error error = Outcome(engine_.RefocusPrepared(params_, out))) return error;
     Say("full picture", start);
     return Keep(full_);
@@ -167,12 +167,13 @@ class Session {
   size_t Stride() const { return sizeof(float) * size_t(map_.width); }
   int Views() const {
     int views = 0;
-    while (views < SF_MAX_VIEWS && field_.views[views].planes[0] != nullptr) ++views;
+    while (views < STARFOCUS_MAX_VIEWS && field_.views[views].planes[0] != nullptr) ++views;
     return views;
   }
 
-  static Error Outcome(sf_status status) {
-    return status == SF_OK ? Error() : Error(ErrorKind::kInput, sf_status_string(status));
+  static Error Outcome(starfocus_status status) {
+    return status == STARFOCUS_OK ? Error()
+                                  : Error(ErrorKind::kInput, starfocus_status_string(status));
   }
 
   static void Say(const std::string& what, double start) {
@@ -189,7 +190,7 @@ class Session {
   const Options& options_;
   ThreadRunner* const runner_;
   const FloatMap& map_;
-  sf_light_field field_ = {};
+  starfocus_light_field field_ = {};
   Image full_, preview_;
   Engine engine_;
   Params params_;
@@ -232,7 +233,7 @@ Error Main(int argc, char** argv) {
            {"--second", "X,Y", "Pixel X,Y that the focus is then pulled to",
             Pair(',', &options.second)},
            {"--preview", "1|2|3", "1, 2 or 3: previews are 1/2, 1/4 or 1/8 of the size",
-            Whole(1, SF_MAX_PREVIEW, &options.shift), Use::kDefault},
+            Whole(1, STARFOCUS_MAX_PREVIEW, &options.shift), Use::kDefault},
            {"--frames", "N", "Previews of the focus pull", Whole(1, 1000, &options.frames),
             Use::kDefault},
            {"--threads", "N", "1 to 64; default: all of the machine", Threads(&options.threads)},

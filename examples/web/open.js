@@ -7,7 +7,7 @@ import {inverseDistances, parseGDepth} from './gdepth.js';
 import {parsePfm} from './pfm.js';
 import {decode, isGray, redOf} from './pixels.js';
 
-// Views in the order of sf_view_position; the sets that there may be are the first of them.
+// Views in the order of starfocus_view_position; the sets that there may be are the first of them.
 const POSITIONS = [
   [0, 0], [1, 0], [-1, 0], [0, 1], [0, -1], [1, 1], [-1, 1], [1, -1], [-1, -1],
   [.5, 0], [-.5, 0], [0, .5], [0, -.5], [.5, .5], [-.5, .5], [.5, -.5], [-.5, -.5]

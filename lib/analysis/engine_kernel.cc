@@ -15,13 +15,13 @@ namespace {
 constexpr int kBlock = 256;
 constexpr uint8_t kWhite = 255;
 // The dark surface is a gray from which the filters' negative lobes can still go down.
-constexpr uint8_t kDark[SF_LAYERS] = {0, 64, 64};
+constexpr uint8_t kDark[STARFOCUS_LAYERS] = {0, 64, 64};
 // Pixels that the filters reach beyond the blur.
-constexpr int kReach[SF_LAYERS] = {2, 10, 24};
+constexpr int kReach[STARFOCUS_LAYERS] = {2, 10, 24};
 
 struct FreeAligned {
   void operator()(void* memory) const {
-    ::operator delete (memory, std::align_val_t{SF_ALIGNMENT});
+    ::operator delete (memory, std::align_val_t{STARFOCUS_ALIGNMENT});
   }
 };
 
@@ -39,59 +39,59 @@ struct Impulse {
   }
 };
 
-sf_config ConfigOf(int side, const EngineProbe& probe) {
-  sf_config config;
-  sf_config_init(&config);
+starfocus_config ConfigOf(int side, const EngineProbe& probe) {
+  starfocus_config config;
+  starfocus_config_init(&config);
   config.width = config.height = side;
   config.views = 1;  // a flat surface has no holes, so that no captured view is ever read
   config.disparity_min = static_cast<float>(probe.r < 0 ? -probe.r_max : 0);
   config.disparity_max = static_cast<float>(probe.r < 0 ? 0 : probe.r_max);
   config.max_blur = std::fmax(probe.r_max, 1);
   config.superblock = kBlock;
-  config.transfer = SF_TRANSFER_NONE;
+  config.transfer = STARFOCUS_TRANSFER_NONE;
   config.tuning.gather = 0;  // the kernel of views is asked for
   config.tuning.max_layer = probe.layer;
-  config.tuning.timing.block = SF_MAX_TIMING;  // one block is the cheapest
-  config.tuning.skips = 0;                     // what is rendered is looked at
+  config.tuning.timing.block = STARFOCUS_MAX_TIMING;  // one block is the cheapest
+  config.tuning.skips = 0;                            // what is rendered is looked at
   return config;
 }
 
 // An engine in memory of its own.
 class Engine {
  public:
-  explicit Engine(const sf_config& config) {
+  explicit Engine(const starfocus_config& config) {
     size_t bytes = 0;
-    status_ = sf_workspace_size(&config, &bytes);
-    if (status_ != SF_OK) return;
-    memory_.reset(::operator new (bytes, std::align_val_t{SF_ALIGNMENT}));
-    status_ = sf_init(&config, memory_.get(), bytes, &engine_);
+    status_ = starfocus_workspace_size(&config, &bytes);
+    if (status_ != STARFOCUS_OK) return;
+    memory_.reset(::operator new (bytes, std::align_val_t{STARFOCUS_ALIGNMENT}));
+    status_ = starfocus_init(&config, memory_.get(), bytes, &engine_);
   }
-  sf_status status() const { return status_; }
+  starfocus_status status() const { return status_; }
   const EngineState& state() const { return *reinterpret_cast<const EngineState*>(engine_); }
   const std::vector<uint8_t>& out() const { return out_; }
 
-  sf_status Refocus(const Impulse& impulse, const EngineProbe& probe) {
-    sf_params params;
-    sf_params_init(&params);
+  starfocus_status Refocus(const Impulse& impulse, const EngineProbe& probe) {
+    starfocus_params params;
+    starfocus_params_init(&params);
     params.mode = probe.mode;
     params.renderer = probe.renderer;
-    sf_light_field field = {};
+    starfocus_light_field field = {};
     const size_t side = static_cast<size_t>(impulse.side);
-    field.views[0] = sf_image_rgb(impulse.rgb.data(), 3 * side);
-    field.depth = sf_depth_float(impulse.disparity.data(), side * sizeof(float), int32_t(side),
-                                 int32_t(side));
+    field.views[0] = starfocus_image_rgb(impulse.rgb.data(), 3 * side);
+    field.depth = starfocus_depth_float(impulse.disparity.data(), side * sizeof(float),
+                                        int32_t(side), int32_t(side));
     out_.resize(impulse.rgb.size());
-    const sf_image out = sf_image_rgb(out_.data(), 3 * side);
-    const sf_status status = sf_refocus(engine_, &params, &field, &out, nullptr);
-    if (status != SF_OK) return status;
-    return state().stripe.plan.used == 1 ? SF_OK : SF_ERROR_STATE;
+    const starfocus_image out = starfocus_image_rgb(out_.data(), 3 * side);
+    const starfocus_status status = starfocus_refocus(engine_, &params, &field, &out, nullptr);
+    if (status != STARFOCUS_OK) return status;
+    return state().stripe.plan.used == 1 ? STARFOCUS_OK : STARFOCUS_ERROR_STATE;
   }
 
  private:
   std::unique_ptr<void, FreeAligned> memory_;
   std::vector<uint8_t> out_;
-  sf_engine* engine_ = nullptr;
-  sf_status status_ = SF_OK;
+  starfocus_engine* engine_ = nullptr;
+  starfocus_status status_ = STARFOCUS_OK;
 };
 
 // Gray levels of the picture refocused last, before they are rounded to bytes.
@@ -127,19 +127,19 @@ Kernel ReadKernel(const std::vector<double>& levels, const std::vector<double>& 
 
 }  // namespace
 
-sf_status MeasureEngineKernel(const EngineProbe& probe, EngineKernel* result) {
-  if (probe.layer < 0 || probe.layer >= SF_LAYERS) return SF_ERROR_RANGE;
+starfocus_status MeasureEngineKernel(const EngineProbe& probe, EngineKernel* result) {
+  if (probe.layer < 0 || probe.layer >= STARFOCUS_LAYERS) return STARFOCUS_ERROR_RANGE;
   const int radius = static_cast<int>(std::ceil(std::fabs(probe.r))) + kReach[probe.layer];
   const int places = 1 << probe.layer;
   const int middle = (radius + places - 1) / places * places, side = middle + places + radius;
-  if (side > kBlock) return SF_ERROR_BLUR;
+  if (side > kBlock) return STARFOCUS_ERROR_BLUR;
   const uint8_t dark = kDark[probe.layer];
   Impulse impulse(side, probe.r, dark);
   Engine engine(ConfigOf(side, probe));
-  if (engine.status() != SF_OK) return engine.status();
+  if (engine.status() != STARFOCUS_OK) return engine.status();
   // Where nothing is white, roundings of a layer add up to one or two 64ths of a gray level.
-  const sf_status flat_status = engine.Refocus(impulse, probe);
-  if (flat_status != SF_OK) return flat_status;
+  const starfocus_status flat_status = engine.Refocus(impulse, probe);
+  if (flat_status != STARFOCUS_OK) return flat_status;
   const std::vector<double> flat = ReadLevels(engine);
   Kernel sum(radius);
   double squares = 0;
@@ -147,8 +147,8 @@ sf_status MeasureEngineKernel(const EngineProbe& probe, EngineKernel* result) {
   for (int a = 0; a < places; ++a) {
     for (int b = 0; b <= a; ++b) {
       impulse.Set(middle + a, middle + b, kWhite);
-      const sf_status status = engine.Refocus(impulse, probe);
-      if (status != SF_OK) return status;
+      const starfocus_status status = engine.Refocus(impulse, probe);
+      if (status != STARFOCUS_OK) return status;
       impulse.Set(middle + a, middle + b, dark);
       Kernel kernel = ReadKernel(ReadLevels(engine), flat, side, middle + a, middle + b, radius);
       kernel.Scale(1.0 / (kWhite - dark));
@@ -164,7 +164,7 @@ sf_status MeasureEngineKernel(const EngineProbe& probe, EngineKernel* result) {
   const double aliasing = squares / (places * places) - Energy(sum);
   const Block& block = engine.state().stripe.plan.blocks[0];
   *result = {sum, aliasing, block.n, block.layer};
-  return SF_OK;
+  return STARFOCUS_OK;
 }
 
 }  // namespace starfocus::analysis

@@ -12,9 +12,9 @@ namespace starfocus::analysis {
 struct EngineProbe {
   double r;      // d - d_t of the surface in pixels, |r| <= 60; the sign tells the direction
   double r_max;  // largest blur radius of the disparity range, >= |r|: frame mode takes N from it
-  sf_mode mode;  // SF_MODE_FRAME or SF_MODE_BLOCK
-  sf_renderer renderer;  // SF_RENDERER_LINE_SCAN or SF_RENDERER_SLICES
-  int layer;             // the largest L that block mode may use, in [0, 2]
+  starfocus_mode mode;          // STARFOCUS_MODE_FRAME or STARFOCUS_MODE_BLOCK
+  starfocus_renderer renderer;  // STARFOCUS_RENDERER_LINE_SCAN or STARFOCUS_RENDERER_SLICES
+  int layer;                    // the largest L that block mode may use, in [0, 2]
 };
 
 struct EngineKernel {
@@ -24,10 +24,11 @@ struct EngineKernel {
   int layer;        // L the engine chose
 };
 
-// At layer 0 reads the 32-bit accumulators that sf_refocus leaves behind, because rounding to bytes
-// hides all taps below 1/510; from a layer, samples to 1/64 gray level before they are rounded.
-// *result is valid for SF_OK only. SF_ERROR_STATE: the picture was split into blocks.
-sf_status MeasureEngineKernel(const EngineProbe& probe, EngineKernel* result);
+// At layer 0 reads the 32-bit accumulators that starfocus_refocus leaves behind, because rounding
+// to bytes hides all taps below 1/510; from a layer, samples to 1/64 gray level before they are
+// rounded. *result is valid for STARFOCUS_OK only. STARFOCUS_ERROR_STATE: the picture was split
+// into blocks.
+starfocus_status MeasureEngineKernel(const EngineProbe& probe, EngineKernel* result);
 
 }  // namespace starfocus::analysis
 

@@ -29,14 +29,14 @@ LayerTheory MakeLayerTheory(double r, int layer) {
           LayerAliasing(small, layer, kBetaDown)};
 }
 
-sf_status MeasureStep(const EngineProbe& probe, EngineStep* step) {
+starfocus_status MeasureStep(const EngineProbe& probe, EngineStep* step) {
   EngineKernel measured = {Kernel(0), 0, 0, 0};
-  const sf_status status = MeasureEngineKernel(probe, &measured);
-  if (status != SF_OK) return status;
+  const starfocus_status status = MeasureEngineKernel(probe, &measured);
+  if (status != STARFOCUS_OK) return status;
   const double theta = kDefaultTheta;
   const int n = measured.n, layer = measured.layer;
   const double r = std::fabs(probe.r), small = r / (1 << layer);
-  const bool wide = probe.renderer == SF_RENDERER_SLICES;
+  const bool wide = probe.renderer == STARFOCUS_RENDERER_SLICES;
   const Kernel ideal = IdealKernel(r, theta);
   const Kernel star = Through(
       StarKernel(small, n, theta, wide ? Subapertures::kWide : Subapertures::kNarrow), layer);
@@ -56,7 +56,7 @@ sf_status MeasureStep(const EngineProbe& probe, EngineStep* step) {
            error(both),
            SquaredError(measured.kernel, star),
            measured.aliasing};
-  return SF_OK;
+  return STARFOCUS_OK;
 }
 
 std::string Explain(const EngineStep& step) {

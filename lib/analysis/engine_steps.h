@@ -33,7 +33,7 @@ struct EngineStep {
   double aliasing;      // measured
 };
 
-sf_status MeasureStep(const EngineProbe& probe, EngineStep* step);
+starfocus_status MeasureStep(const EngineProbe& probe, EngineStep* step);
 
 // Measured kernel and StarKernel may be this far apart: slices have 7 fractional bits of a gray
 // level, the weights of views 10 or so, and the samples of layers 6, of the few levels that a

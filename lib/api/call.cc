@@ -10,14 +10,14 @@ namespace {
 
 // Sets up the comparison with the light field before.
 void CompareWith(const Call& call, EngineState* engine) {
-  const sf_config& config = engine->config;
+  const starfocus_config& config = engine->config;
   FrameDiff& changes = engine->stripe.changes;
   changes.active = true;
   changes.before = call.before;
   changes.now = call.now;
   // Depth-dependent blur is that of the centre view.
-  changes.views = call.params.mode == SF_MODE_BLUR ? 1 : config.views;
-  changes.fills = Has(config.features, SF_FEATURE_FILL_UNKNOWN);
+  changes.views = call.params.mode == STARFOCUS_MODE_BLUR ? 1 : config.views;
+  changes.fills = Has(config.features, STARFOCUS_FEATURE_FILL_UNKNOWN);
   changes.width = config.width;
   changes.height = config.height;
   changes.side = config.superblock;
@@ -29,12 +29,13 @@ void CompareWith(const Call& call, EngineState* engine) {
 
 }  // namespace
 
-sf_status CheckCall(const sf_config& config, const sf_params& params, const Prepared* prepared) {
-  sf_status status = CheckParams(config, params);
-  if (status == SF_OK) status = CheckRegion(config, params.region);
-  if (status != SF_OK) return status;
+starfocus_status CheckCall(const starfocus_config& config, const starfocus_params& params,
+                           const Prepared* prepared) {
+  starfocus_status status = CheckParams(config, params);
+  if (status == STARFOCUS_OK) status = CheckRegion(config, params.region);
+  if (status != STARFOCUS_OK) return status;
   Checker check(config.problem);
-  check.Need(prepared == nullptr || Fits(*prepared, config), SF_ERROR_PREPARED, {"prepared"},
+  check.Need(prepared == nullptr || Fits(*prepared, config), STARFOCUS_ERROR_PREPARED, {"prepared"},
              {"of the same size, views, disparity range, max_layer and transfer"});
   return check.status();
 }
@@ -46,16 +47,16 @@ Extents MemoryOf(const EngineState& engine, const Prepared* prepared) {
   return memory;
 }
 
-sf_status RunCall(const Call& call, EngineState* engine, sf_report* report) {
-  const sf_params& params = call.params;
+starfocus_status RunCall(const Call& call, EngineState* engine, starfocus_report* report) {
+  const starfocus_params& params = call.params;
   engine->stream.active = false;
   engine->workers.jobs.call_progress.Begin(0, RegionOf(engine->config, params).height);
-  sf_status status = SetLens(params, engine);
-  if (status != SF_OK) return TellStatus(status, engine->config.problem);
+  starfocus_status status = SetLens(params, engine);
+  if (status != STARFOCUS_OK) return TellStatus(status, engine->config.problem);
   if (call.prepared != nullptr) UsePrepared(*call.prepared, engine);
   if (call.before != nullptr) CompareWith(call, engine);
   status = RefocusRows(call.source, call.sink, engine);
-  if (status == SF_OK && report != nullptr) *report = engine->report;
+  if (status == STARFOCUS_OK && report != nullptr) *report = engine->report;
   return TellStatus(status, engine->config.problem);
 }
 

@@ -11,21 +11,22 @@
 namespace starfocus {
 
 struct Call {
-  const sf_params& params;
+  const starfocus_params& params;
   RowSource source;
   RowSink sink;
-  const Prepared* prepared = nullptr;                      // null: there is none
-  const sf_light_field *before = nullptr, *now = nullptr;  // null: nothing to compare with
+  const Prepared* prepared = nullptr;                             // null: there is none
+  const starfocus_light_field *before = nullptr, *now = nullptr;  // null: nothing to compare with
 };
 
 // Checks params, and the prepared light field (null: none) against the engine's configuration.
-sf_status CheckCall(const sf_config& config, const sf_params& params, const Prepared* prepared);
+starfocus_status CheckCall(const starfocus_config& config, const starfocus_params& params,
+                           const Prepared* prepared);
 
 // The memory of the engine and of a prepared light field, which no output may overlap.
 Extents MemoryOf(const EngineState& engine, const Prepared* prepared);
 
 // Refocuses. The views must be set and everything checked but the values of the map.
-sf_status RunCall(const Call& call, EngineState* engine, sf_report* report);
+starfocus_status RunCall(const Call& call, EngineState* engine, starfocus_report* report);
 
 }  // namespace starfocus
 

@@ -35,38 +35,39 @@ const void* Address(Function* function) {
 }  // namespace
 }  // namespace starfocus
 
-sf_status sf_create(const sf_config* config, const sf_allocator* allocator, sf_engine** engine) {
+starfocus_status starfocus_create(const starfocus_config* config,
+                                  const starfocus_allocator* allocator, starfocus_engine** engine) {
   if (engine != nullptr) *engine = nullptr;
-  const sf_allocator heap = {nullptr, starfocus::AllocateFromHeap, starfocus::ReleaseToHeap};
-  const sf_allocator& from = allocator != nullptr ? *allocator : heap;
-  sf_config full = starfocus::DefaultConfig();
-  sf_status status =
+  const starfocus_allocator heap = {nullptr, starfocus::AllocateFromHeap, starfocus::ReleaseToHeap};
+  const starfocus_allocator& from = allocator != nullptr ? *allocator : heap;
+  starfocus_config full = starfocus::DefaultConfig();
+  starfocus_status status =
       starfocus::EnterConfig(config,
                              {{"engine", engine},
                               {"allocator.allocate", starfocus::Address(from.allocate)},
                               {"allocator.release", starfocus::Address(from.release)}},
                              &full);
   size_t bytes = 0;
-  if (status == SF_OK) status = sf_workspace_size(config, &bytes);
-  if (status != SF_OK) return status;
-  void* const memory = from.allocate(from.data, bytes, SF_ALIGNMENT);
-  if (memory == nullptr) return starfocus::TellStatus(SF_ERROR_MEMORY, full.problem);
-  status = sf_init(config, memory, bytes, engine);
-  if (status != SF_OK) {
+  if (status == STARFOCUS_OK) status = starfocus_workspace_size(config, &bytes);
+  if (status != STARFOCUS_OK) return status;
+  void* const memory = from.allocate(from.data, bytes, STARFOCUS_ALIGNMENT);
+  if (memory == nullptr) return starfocus::TellStatus(STARFOCUS_ERROR_MEMORY, full.problem);
+  status = starfocus_init(config, memory, bytes, engine);
+  if (status != STARFOCUS_OK) {
     from.release(from.data, memory, bytes);
     return status;
   }
   EngineState& made = *reinterpret_cast<EngineState*>(*engine);
   made.allocator = from;
   made.bytes = bytes;
-  return SF_OK;
+  return STARFOCUS_OK;
 }
 
-void sf_destroy(sf_engine* engine) {
+void starfocus_destroy(starfocus_engine* engine) {
   if (engine == nullptr) return;
   const EngineState& state = *reinterpret_cast<EngineState*>(engine);
   if (state.allocator.release == nullptr) return;
   // The engine ends with its memory, where the allocator is kept as well.
-  const sf_allocator allocator = state.allocator;
+  const starfocus_allocator allocator = state.allocator;
   allocator.release(allocator.data, engine, state.bytes);
 }

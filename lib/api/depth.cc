@@ -14,26 +14,27 @@
 namespace starfocus {
 namespace {
 
-sf_status CheckDepthConfig(const sf_depth_config& config, bool repairs) {
+starfocus_status CheckDepthConfig(const starfocus_depth_config& config, bool repairs) {
   Checker check(config.problem);
   CheckPictureRange(
       {config.width, config.height, config.disparity_min, config.disparity_max, config.max_workers},
       &check);
   const bool one = config.views == 1 && repairs;
-  check.Need(one || config.views == 5 || config.views == 9 || config.views == 17, SF_ERROR_RANGE,
-             {"views", double(config.views)}, {"5, 9 or 17, or 1 of a repair"});
+  check.Need(one || config.views == 5 || config.views == 9 || config.views == 17,
+             STARFOCUS_ERROR_RANGE, {"views", double(config.views)},
+             {"5, 9 or 17, or 1 of a repair"});
   return check.status();
 }
 
 // The planes of a call: what is written, then what is read.
 struct DepthPlanes {
-  Extent written[3], read[SF_MAX_VIEWS + 2];
+  Extent written[3], read[STARFOCUS_MAX_VIEWS + 2];
   int writes = 0, reads = 0;
 };
 
 // Those of all that a call writes and reads, but its workspace.
-DepthPlanes PlanesOf(const sf_depth_config& config, const sf_light_field& light_field, bool repairs,
-                     const sf_map& map) {
+DepthPlanes PlanesOf(const starfocus_depth_config& config, const starfocus_light_field& light_field,
+                     bool repairs, const starfocus_map& map) {
   const auto width = static_cast<size_t>(config.width), floats = width * sizeof(float);
   const int32_t height = config.height;
   DepthPlanes planes;
@@ -74,7 +75,8 @@ bool AreApart(const DepthPlanes& planes, const Extent& workspace) {
 
 // Checks the map that is to be repaired: its finite values lie in the configured range, and there
 // is one.
-sf_status CheckGiven(const sf_depth_config& config, const sf_light_field& light_field) {
+starfocus_status CheckGiven(const starfocus_depth_config& config,
+                            const starfocus_light_field& light_field) {
   const auto low = static_cast<float>(config.disparity_min);
   const auto high = static_cast<float>(config.disparity_max);
   Checker check(config.problem);
@@ -84,52 +86,52 @@ sf_status CheckGiven(const sf_depth_config& config, const sf_light_field& light_
     for (int32_t x = 0; x < config.width; ++x) {
       if (!std::isfinite(row[x])) continue;
       any = true;
-      check.Need(row[x] >= low && row[x] <= high, SF_ERROR_DISPARITY, {"disparity", row[x]},
+      check.Need(row[x] >= low && row[x] <= high, STARFOCUS_ERROR_DISPARITY, {"disparity", row[x]},
                  {"disparity_min to disparity_max", config.disparity_min, config.disparity_max});
     }
   }
-  check.Need(any, SF_ERROR_ALL_INVALID, {"disparity"}, {"a finite value"});
+  check.Need(any, STARFOCUS_ERROR_ALL_INVALID, {"disparity"}, {"a finite value"});
   return check.status();
 }
 
-sf_depth_config DefaultDepthConfig() {
-  sf_depth_config config = {};
+starfocus_depth_config DefaultDepthConfig() {
+  starfocus_depth_config config = {};
   config.views = 5;
   config.max_workers = 1;
   return config;
 }
 
-EstimatePlan PlanOf(const sf_depth_config& config, bool repairs) {
+EstimatePlan PlanOf(const starfocus_depth_config& config, bool repairs) {
   EstimatePlan plan = MakePlan(config);
   plan.repairs = repairs;
   return plan;
 }
 
-sf_status SizeOf(const sf_depth_config* config, bool repairs, size_t* bytes) {
-  sf_depth_config full = DefaultDepthConfig();
-  sf_status status = EnterConfig(config, {{"bytes", bytes}}, &full);
-  if (status == SF_OK) status = CheckDepthConfig(full, repairs);
-  if (status != SF_OK) return status;
+starfocus_status SizeOf(const starfocus_depth_config* config, bool repairs, size_t* bytes) {
+  starfocus_depth_config full = DefaultDepthConfig();
+  starfocus_status status = EnterConfig(config, {{"bytes", bytes}}, &full);
+  if (status == STARFOCUS_OK) status = CheckDepthConfig(full, repairs);
+  if (status != STARFOCUS_OK) return status;
   const EstimatePlan plan = PlanOf(full, repairs);
   EstimateMemory* counted = nullptr;
   ColourMemory* of_colour = nullptr;
   const size_t needed = full.views == 1
                             ? LayOutColourRepair(plan, full.max_workers, nullptr, &of_colour)
                             : LayOutEstimate(plan, full.max_workers, nullptr, &counted);
-  if (needed == kTooLarge) return TellStatus(SF_ERROR_TOO_LARGE, full.problem);
+  if (needed == kTooLarge) return TellStatus(STARFOCUS_ERROR_TOO_LARGE, full.problem);
   *bytes = needed;
-  return SF_OK;
+  return STARFOCUS_OK;
 }
 
 // What a call works with.
 struct DepthCall {
-  const sf_depth_config* config;
-  const sf_light_field* light_field;
+  const starfocus_depth_config* config;
+  const starfocus_light_field* light_field;
   void* workspace;
   size_t bytes;
 };
 
-sf_status CheckStrides(const sf_depth_config& config, const sf_map& map) {
+starfocus_status CheckStrides(const starfocus_depth_config& config, const starfocus_map& map) {
   const auto width = static_cast<size_t>(config.width);
   Checker check(config.problem);
   check.Stride(
@@ -141,61 +143,62 @@ sf_status CheckStrides(const sf_depth_config& config, const sf_map& map) {
 }
 
 // Checks all arguments of a call.
-sf_status CheckCall(const DepthCall& call, bool repairs, const sf_map& map) {
+starfocus_status CheckCall(const DepthCall& call, bool repairs, const starfocus_map& map) {
   size_t needed = 0;
-  sf_status status = SizeOf(call.config, repairs, &needed);
-  sf_problem* const problem = call.config->problem;
-  if (status == SF_OK) {
+  starfocus_status status = SizeOf(call.config, repairs, &needed);
+  starfocus_problem* const problem = call.config->problem;
+  if (status == STARFOCUS_OK) {
     status = CheckMemory({"workspace", call.workspace, call.bytes}, needed, problem);
   }
-  if (status != SF_OK) return status;
-  const sf_depth_config& config = *call.config;
-  const sf_light_field& light_field = *call.light_field;
+  if (status != STARFOCUS_OK) return status;
+  const starfocus_depth_config& config = *call.config;
+  const starfocus_light_field& light_field = *call.light_field;
   const int32_t width = config.width, height = config.height;
   status = CheckViews(light_field, config.views, {width, height}, problem);
-  if (status == SF_OK) status = CheckInPlace(light_field, config.views, problem);
-  if (status == SF_OK)
+  if (status == STARFOCUS_OK) status = CheckInPlace(light_field, config.views, problem);
+  if (status == STARFOCUS_OK)
     status = CheckMap({map.disparity, map.disparity_stride}, width, height, problem);
-  if (status == SF_OK && repairs)
+  if (status == STARFOCUS_OK && repairs)
     status = CheckDepthMap(light_field.depth, {width, height}, problem);
-  if (status == SF_OK && repairs)
+  if (status == STARFOCUS_OK && repairs)
     status = CheckInPlace(light_field.depth, {width, height}, problem);
-  if (status == SF_OK) status = CheckStrides(config, map);
-  if (status != SF_OK) return status;
+  if (status == STARFOCUS_OK) status = CheckStrides(config, map);
+  if (status != STARFOCUS_OK) return status;
   const auto begin = reinterpret_cast<uintptr_t>(call.workspace);
   if (!AreApart(PlanesOf(config, light_field, repairs, map), {begin, begin + needed})) {
-    return Refuse(SF_ERROR_OVERLAP, {"map"}, {"apart from inputs and workspace"}, problem);
+    return Refuse(STARFOCUS_ERROR_OVERLAP, {"map"}, {"apart from inputs and workspace"}, problem);
   }
-  return status == SF_OK && repairs ? CheckGiven(config, light_field) : status;
+  return status == STARFOCUS_OK && repairs ? CheckGiven(config, light_field) : status;
 }
 
 // Makes a map with the caller's runner and progress function.
 template <class Make>
-sf_status Watched(const sf_depth_config& config, JobSet* jobs, const Make& make) {
+starfocus_status Watched(const starfocus_depth_config& config, JobSet* jobs, const Make& make) {
   jobs->runner = {config.runner, config.runner_data};
   CallProgress* const call_progress = &jobs->call_progress;
   call_progress->SetProgress(config.progress, config.progress_data);
   call_progress->Begin(0, config.height);
-  const sf_status status = make();
-  if (status != SF_OK) return status;
+  const starfocus_status status = make();
+  if (status != STARFOCUS_OK) return status;
   call_progress->SetRows(config.height);
-  return call_progress->Ask() ? SF_OK : SF_ERROR_CANCELLED;
+  return call_progress->Ask() ? STARFOCUS_OK : STARFOCUS_ERROR_CANCELLED;
 }
 
 // Repairs by colour. Says whether there is coverage.
-sf_status RepairOneView(const DepthCall& call, const MapOutput& output, int32_t* has_coverage) {
+starfocus_status RepairOneView(const DepthCall& call, const MapOutput& output,
+                               int32_t* has_coverage) {
   const EstimatePlan plan = PlanOf(*call.config, true);
   ColourMemory* memory = nullptr;
   LayOutColourRepair(plan, call.config->max_workers, call.workspace, &memory);
-  const sf_status status = Watched(*call.config, &memory->jobs, [&] {
+  const starfocus_status status = Watched(*call.config, &memory->jobs, [&] {
     return RepairByColour(plan, *call.light_field, simd::BestDepthKernels(), output, memory);
   });
-  *has_coverage = status == SF_OK && memory->has_coverage ? 1 : 0;
+  *has_coverage = status == STARFOCUS_OK && memory->has_coverage ? 1 : 0;
   return status;
 }
 
 // Estimates, or repairs by all views.
-sf_status SweepViews(const DepthCall& call, bool repairs, const MapOutput& output) {
+starfocus_status SweepViews(const DepthCall& call, bool repairs, const MapOutput& output) {
   const EstimatePlan plan = PlanOf(*call.config, repairs);
   const simd::DepthKernels& kernels = simd::BestDepthKernels();
   EstimateMemory* memory = nullptr;
@@ -208,14 +211,14 @@ sf_status SweepViews(const DepthCall& call, bool repairs, const MapOutput& outpu
 }
 
 // Checks a call and does it.
-sf_status RunCall(DepthCall call, bool repairs, sf_map* map) {
-  sf_depth_config full = DefaultDepthConfig();
-  sf_status status = EnterConfig(
+starfocus_status RunCall(DepthCall call, bool repairs, starfocus_map* map) {
+  starfocus_depth_config full = DefaultDepthConfig();
+  starfocus_status status = EnterConfig(
       call.config, {{"light_field", call.light_field}, {"map", map}, {"workspace", call.workspace}},
       &full);
   call.config = &full;
-  if (status == SF_OK) status = CheckCall(call, repairs, *map);
-  if (status != SF_OK) return status;
+  if (status == STARFOCUS_OK) status = CheckCall(call, repairs, *map);
+  if (status != STARFOCUS_OK) return status;
   map->has_coverage = 0;
   const MapOutput output = {map->disparity,
                             map->disparity_stride / sizeof(float),
@@ -233,24 +236,26 @@ sf_status RunCall(DepthCall call, bool repairs, sf_map* map) {
 }  // namespace
 }  // namespace starfocus
 
-void sf_depth_config_init_sized(sf_depth_config* config, uint32_t size) {
+void starfocus_depth_config_init_sized(starfocus_depth_config* config, uint32_t size) {
   starfocus::InitSized(starfocus::DefaultDepthConfig(), size, config);
 }
 
-sf_status sf_estimate_size(const sf_depth_config* config, size_t* bytes) {
+starfocus_status starfocus_estimate_size(const starfocus_depth_config* config, size_t* bytes) {
   return starfocus::SizeOf(config, false, bytes);
 }
 
-sf_status sf_repair_size(const sf_depth_config* config, size_t* bytes) {
+starfocus_status starfocus_repair_size(const starfocus_depth_config* config, size_t* bytes) {
   return starfocus::SizeOf(config, true, bytes);
 }
 
-sf_status sf_estimate_disparity(const sf_depth_config* config, const sf_light_field* light_field,
-                                sf_map* map, void* workspace, size_t bytes) {
+starfocus_status starfocus_estimate_disparity(const starfocus_depth_config* config,
+                                              const starfocus_light_field* light_field,
+                                              starfocus_map* map, void* workspace, size_t bytes) {
   return starfocus::RunCall({config, light_field, workspace, bytes}, false, map);
 }
 
-sf_status sf_repair_disparity(const sf_depth_config* config, const sf_light_field* light_field,
-                              sf_map* map, void* workspace, size_t bytes) {
+starfocus_status starfocus_repair_disparity(const starfocus_depth_config* config,
+                                            const starfocus_light_field* light_field,
+                                            starfocus_map* map, void* workspace, size_t bytes) {
   return starfocus::RunCall({config, light_field, workspace, bytes}, true, map);
 }

@@ -21,12 +21,12 @@ void FillLine(const MapLine& line) { FillGaps(line, line.length, IsFinite); }
 }  // namespace
 }  // namespace starfocus
 
-sf_status sf_measure_disparity(const float* disparity, size_t stride, int32_t width, int32_t height,
-                               sf_disparity_stats* stats) {
-  if (stats == nullptr) return SF_ERROR_NULL;
-  const sf_status status = starfocus::CheckMap({disparity, stride}, width, height, nullptr);
-  if (status != SF_OK) return status;
-  sf_disparity_stats found = {0, 0, 0};
+starfocus_status starfocus_measure_disparity(const float* disparity, size_t stride, int32_t width,
+                                             int32_t height, starfocus_disparity_stats* stats) {
+  if (stats == nullptr) return STARFOCUS_ERROR_NULL;
+  const starfocus_status status = starfocus::CheckMap({disparity, stride}, width, height, nullptr);
+  if (status != STARFOCUS_OK) return status;
+  starfocus_disparity_stats found = {0, 0, 0};
   bool any = false;
   for (int32_t y = 0; y < height; ++y) {
     const float* row = disparity + static_cast<size_t>(y) * (stride / sizeof(float));
@@ -44,19 +44,21 @@ sf_status sf_measure_disparity(const float* disparity, size_t stride, int32_t wi
     }
   }
   *stats = found;
-  return SF_OK;
+  return STARFOCUS_OK;
 }
 
-sf_status sf_fill_disparity(float* disparity, size_t stride, int32_t width, int32_t height) {
-  sf_disparity_stats stats;
-  const sf_status status = sf_measure_disparity(disparity, stride, width, height, &stats);
-  if (status != SF_OK || stats.invalid == 0) return status;
+starfocus_status starfocus_fill_disparity(float* disparity, size_t stride, int32_t width,
+                                          int32_t height) {
+  starfocus_disparity_stats stats;
+  const starfocus_status status =
+      starfocus_measure_disparity(disparity, stride, width, height, &stats);
+  if (status != STARFOCUS_OK || stats.invalid == 0) return status;
   const size_t row_step = stride / sizeof(float);
-  if (stats.invalid == int64_t{width} * height) return SF_ERROR_ALL_INVALID;
+  if (stats.invalid == int64_t{width} * height) return STARFOCUS_ERROR_ALL_INVALID;
   for (int32_t y = 0; y < height; ++y) {
     starfocus::FillLine({disparity + static_cast<size_t>(y) * row_step, 1, width});
   }
   // Rows that had nothing are still wholly invalid, so every column has the same gaps.
   for (int32_t x = 0; x < width; ++x) starfocus::FillLine({disparity + x, row_step, height});
-  return SF_OK;
+  return STARFOCUS_OK;
 }

@@ -102,15 +102,15 @@ double MostCommon(const Sorted& sorted) {
 }  // namespace
 }  // namespace starfocus
 
-sf_status sf_focus_at(const float* disparity, size_t stride, int32_t width, int32_t height,
-                      int32_t x, int32_t y, double* focus) {
-  if (focus == nullptr) return SF_ERROR_NULL;
-  const sf_status status = starfocus::CheckMap({disparity, stride}, width, height, nullptr);
-  if (status != SF_OK) return status;
-  if (x < 0 || x >= width || y < 0 || y >= height) return SF_ERROR_RANGE;
+starfocus_status starfocus_focus_at(const float* disparity, size_t stride, int32_t width,
+                                    int32_t height, int32_t x, int32_t y, double* focus) {
+  if (focus == nullptr) return STARFOCUS_ERROR_NULL;
+  const starfocus_status status = starfocus::CheckMap({disparity, stride}, width, height, nullptr);
+  if (status != STARFOCUS_OK) return status;
+  if (x < 0 || x >= width || y < 0 || y >= height) return STARFOCUS_ERROR_RANGE;
   const starfocus::Map map = {disparity, stride / sizeof(float), width, height};
   starfocus::Sorted sorted;
-  if (!starfocus::SortAround(map, x, y, &sorted)) return SF_ERROR_NOT_FINITE;
+  if (!starfocus::SortAround(map, x, y, &sorted)) return STARFOCUS_ERROR_NOT_FINITE;
   double surface =
       starfocus::HasNeighbour(map, x, y) ? double{map.At(x, y)} : starfocus::MostCommon(sorted);
   // Once more, since what is near the first median depends less on the noise of the pixel itself.
@@ -118,13 +118,13 @@ sf_status sf_focus_at(const float* disparity, size_t stride, int32_t width, int3
     surface = starfocus::Median(sorted, starfocus::PartNear(sorted, surface));
   }
   *focus = surface;
-  return SF_OK;
+  return STARFOCUS_OK;
 }
 
-sf_status sf_aperture_of_f_stop(double f_stop, double widest, double* aperture) {
-  if (aperture == nullptr) return SF_ERROR_NULL;
+starfocus_status starfocus_aperture_of_f_stop(double f_stop, double widest, double* aperture) {
+  if (aperture == nullptr) return STARFOCUS_ERROR_NULL;
   // The comparison is written so that NaN fails.
-  if (!(widest > 0.0 && widest <= f_stop && std::isfinite(f_stop))) return SF_ERROR_RANGE;
+  if (!(widest > 0.0 && widest <= f_stop && std::isfinite(f_stop))) return STARFOCUS_ERROR_RANGE;
   *aperture = widest / f_stop;
-  return SF_OK;
+  return STARFOCUS_OK;
 }

@@ -12,13 +12,14 @@ namespace {
 
 // Checks the memory that a prepared light field is to be made in, which must not overlap what is
 // `read`.
-sf_status CheckPreparedMemory(const EngineState& engine, const PrepareCall& call, Extents* read) {
+starfocus_status CheckPreparedMemory(const EngineState& engine, const PrepareCall& call,
+                                     Extents* read) {
   Prepared* counted = nullptr;
   const size_t needed = LayOutPrepared(engine.config, nullptr, &counted);
-  if (needed == kTooLarge) return SF_ERROR_TOO_LARGE;
-  sf_problem* const problem = engine.config.problem;
-  const sf_status status = CheckMemory({"memory", call.memory, call.bytes}, needed, problem);
-  if (status != SF_OK) return status;
+  if (needed == kTooLarge) return STARFOCUS_ERROR_TOO_LARGE;
+  starfocus_problem* const problem = engine.config.problem;
+  const starfocus_status status = CheckMemory({"memory", call.memory, call.bytes}, needed, problem);
+  if (status != STARFOCUS_OK) return status;
   read->Add(Workspace(engine));
   return CheckApart(ExtentOf(call.memory, 0, 1, needed), *read, "memory", problem);
 }
@@ -29,40 +30,41 @@ sf_status CheckPreparedMemory(const EngineState& engine, const PrepareCall& call
 using starfocus::EngineState;
 using starfocus::Prepared;
 
-sf_status sf_prepared_size(const sf_config* config, size_t* bytes) {
-  sf_config full = starfocus::DefaultConfig();
-  sf_status status = starfocus::EnterConfig(config, {{"bytes", bytes}}, &full);
-  if (status == SF_OK) status = starfocus::CheckConfig(full);
-  if (status != SF_OK) return status;
+starfocus_status starfocus_prepared_size(const starfocus_config* config, size_t* bytes) {
+  starfocus_config full = starfocus::DefaultConfig();
+  starfocus_status status = starfocus::EnterConfig(config, {{"bytes", bytes}}, &full);
+  if (status == STARFOCUS_OK) status = starfocus::CheckConfig(full);
+  if (status != STARFOCUS_OK) return status;
   Prepared* counted = nullptr;
   const size_t needed = starfocus::LayOutPrepared(full, nullptr, &counted);
   if (needed == starfocus::kTooLarge)
-    return starfocus::TellStatus(SF_ERROR_TOO_LARGE, full.problem);
+    return starfocus::TellStatus(STARFOCUS_ERROR_TOO_LARGE, full.problem);
   *bytes = needed;
-  return SF_OK;
+  return STARFOCUS_OK;
 }
 
-sf_status sf_prepare(sf_engine* engine, const sf_light_field* light_field, void* memory,
-                     size_t bytes, sf_prepared** prepared) {
+starfocus_status starfocus_prepare(starfocus_engine* engine,
+                                   const starfocus_light_field* light_field, void* memory,
+                                   size_t bytes, starfocus_prepared** prepared) {
   if (prepared != nullptr) *prepared = nullptr;
-  sf_status status =
+  starfocus_status status =
       starfocus::EnterEngine(engine, {{"light_field", light_field}, {"prepared", prepared}});
-  if (status != SF_OK) return status;
+  if (status != STARFOCUS_OK) return status;
   EngineState& e = *reinterpret_cast<EngineState*>(engine);
   const starfocus::PrepareCall call = {memory, bytes};
   status = starfocus::CheckLightField(e.config, *light_field);
-  if (status != SF_OK) return status;
+  if (status != STARFOCUS_OK) return status;
   starfocus::Extents read;
   starfocus::AddLightField(e.config, *light_field, &read);
   status = starfocus::CheckPreparedMemory(e, call, &read);
-  if (status != SF_OK) return status;
+  if (status != STARFOCUS_OK) return status;
   starfocus::LightField field;
   starfocus::MakeLightField(*light_field, 0, &e, &field);
   starfocus::UseLightField(field, &e);
   Prepared* made = nullptr;
   status = starfocus::Prepare(call, starfocus::SourceOf(field), &e, &made);
-  if (status != SF_OK) return starfocus::TellStatus(status, &e.problem);
+  if (status != STARFOCUS_OK) return starfocus::TellStatus(status, &e.problem);
   made->light_field = *light_field;
-  *prepared = reinterpret_cast<sf_prepared*>(made);
-  return SF_OK;
+  *prepared = reinterpret_cast<starfocus_prepared*>(made);
+  return STARFOCUS_OK;
 }

@@ -21,12 +21,12 @@ class Reduction {
   Reduction& operator=(const Reduction&) = delete;
 
  private:
-  const sf_config config_;
+  const starfocus_config config_;
   EngineState* const engine_;
 };
 
-sf_params ReducedParams(const PreviewRequest& request, const Rect& rect) {
-  sf_params params = request.params;
+starfocus_params ReducedParams(const PreviewRequest& request, const Rect& rect) {
+  starfocus_params params = request.params;
   params.lens.focus /= 1 << request.shift;
   if (!IsWhole(params.region)) params.region = {rect.x, rect.y, rect.width, rect.height};
   return params;
@@ -42,37 +42,37 @@ void UseReduced(const Prepared& prepared, int32_t shift, EngineState* engine) {
   engine->row_store.windows[0].given_coverage = {field.coverage.data, field.coverage.stride, 0, 0};
 }
 
-sf_status CheckPreview(const PreviewRequest& request, const EngineState& engine) {
-  const sf_config& config = engine.config;
-  const sf_status status = CheckCall(config, request.params, &request.prepared);
-  if (status != SF_OK) return status;
+starfocus_status CheckPreview(const PreviewRequest& request, const EngineState& engine) {
+  const starfocus_config& config = engine.config;
+  const starfocus_status status = CheckCall(config, request.params, &request.prepared);
+  if (status != STARFOCUS_OK) return status;
   const int32_t most = request.prepared.config.previews;
   Checker check(config.problem);
-  check.Need(request.shift >= 1 && request.shift <= most, SF_ERROR_PREPARED,
+  check.Need(request.shift >= 1 && request.shift <= most, STARFOCUS_ERROR_PREPARED,
              {"preview_shift", double(request.shift)}, {"1 to previews", 1, double(most)});
-  check.Need(request.params.previous == nullptr, SF_ERROR_RANGE, {"previous"},
+  check.Need(request.params.previous == nullptr, STARFOCUS_ERROR_RANGE, {"previous"},
              {"null for a prepared light field"});
-  if (check.status() != SF_OK) return check.status();
+  if (check.status() != STARFOCUS_OK) return check.status();
   return CheckBlur(config, request.params);
 }
 
 }  // namespace
 
-sf_status RefocusPreview(const PreviewRequest& request, const sf_image& out, EngineState* engine,
-                         sf_report* report) {
-  sf_status status = CheckPreview(request, *engine);
-  if (status != SF_OK) return status;
+starfocus_status RefocusPreview(const PreviewRequest& request, const starfocus_image& out,
+                                EngineState* engine, starfocus_report* report) {
+  starfocus_status status = CheckPreview(request, *engine);
+  if (status != STARFOCUS_OK) return status;
   const Rect rect = ReducedRect(RegionOf(engine->config, request.params), request.shift);
   const PictureSize size = {rect.width, rect.height};
   status = CheckOutput(engine->config, out, size);
-  if (status == SF_OK) {
+  if (status == STARFOCUS_OK) {
     status =
         CheckOutputApart(out, size, MemoryOf(*engine, &request.prepared), engine->config.problem);
   }
-  if (status != SF_OK) return status;
+  if (status != STARFOCUS_OK) return status;
   const PictureOutput output = {
       &simd::BestImageKernels(), PlanesOf<uint8_t>(out), rect, {{}, 1}, nullptr};
-  const sf_params params = ReducedParams(request, rect);
+  const starfocus_params params = ReducedParams(request, rect);
   const Reduction reduction(request.shift, engine);
   UseReduced(request.prepared, request.shift, engine);
   return RunCall({params, {}, SinkOf(output)}, engine, report);

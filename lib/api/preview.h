@@ -10,14 +10,14 @@
 namespace starfocus {
 
 struct PreviewRequest {
-  const sf_params& params;  // in pixels of the full size
+  const starfocus_params& params;  // in pixels of the full size
   const Prepared& prepared;
   int32_t shift;
 };
 
 // Checks a request and refocuses it into `out`.
-sf_status RefocusPreview(const PreviewRequest& request, const sf_image& out, EngineState* engine,
-                         sf_report* report);
+starfocus_status RefocusPreview(const PreviewRequest& request, const starfocus_image& out,
+                                EngineState* engine, starfocus_report* report);
 
 }  // namespace starfocus
 

@@ -20,64 +20,68 @@ int32_t NeededRows(const EngineState& engine) {
 }
 
 // Refocuses the next stripe, whose rows must have been pushed.
-sf_status RefocusNext(EngineState* engine) {
+starfocus_status RefocusNext(EngineState* engine) {
   Stream& stream = engine->stream;
   CallProgress& call_progress = engine->workers.jobs.call_progress;
   call_progress.Begin(stream.finished, engine->config.height);
-  const sf_status status = RefocusStripe(engine, stream.next);
-  if (status != SF_OK) return status;
+  const starfocus_status status = RefocusStripe(engine, stream.next);
+  if (status != STARFOCUS_OK) return status;
   stream.finished = FinishedRows(engine->config, stream.next);
   stream.next += engine->config.superblock;
   call_progress.SetRows(stream.finished);
-  return call_progress.Ask() ? SF_OK : SF_ERROR_CANCELLED;
+  return call_progress.Ask() ? STARFOCUS_OK : STARFOCUS_ERROR_CANCELLED;
 }
 
-sf_status CheckCount(const EngineState& engine, int32_t rows, int32_t most) {
+starfocus_status CheckCount(const EngineState& engine, int32_t rows, int32_t most) {
   Checker check(engine.config.problem);
-  check.Need(engine.stream.active, SF_ERROR_STATE, {"stream"}, {"sf_stream_begin before"});
+  check.Need(engine.stream.active, STARFOCUS_ERROR_STATE, {"stream"},
+             {"starfocus_stream_begin before"});
   check.In({"rows", double(rows)}, {"rows that are left", 0, double(most)});
   return check.status();
 }
 
 // Checks that `rows` rows from row `first` of the picture on are as many as a format takes.
-sf_status CheckPairs(const sf_config& config, bool is_yuv, int32_t first, int32_t rows) {
+starfocus_status CheckPairs(const starfocus_config& config, bool is_yuv, int32_t first,
+                            int32_t rows) {
   Checker check(config.problem);
   check.Need(!is_yuv || (first % 2 == 0 && (rows % 2 == 0 || first + rows == config.height)),
-             SF_ERROR_RANGE, {"rows", double(rows)}, {"even, but at the end of the picture"});
+             STARFOCUS_ERROR_RANGE, {"rows", double(rows)},
+             {"even, but at the end of the picture"});
   return check.status();
 }
 
-bool AnyYuv(const sf_config& config, const sf_light_field& light_field) {
+bool AnyYuv(const starfocus_config& config, const starfocus_light_field& light_field) {
   for (int view = 0; view < config.views; ++view) {
     if (IsYuv(light_field.views[view].format)) return true;
   }
   return false;
 }
 
-sf_status CheckPush(const EngineState& engine, const sf_light_field& light_field, int32_t rows) {
-  const sf_config& config = engine.config;
+starfocus_status CheckPush(const EngineState& engine, const starfocus_light_field& light_field,
+                           int32_t rows) {
+  const starfocus_config& config = engine.config;
   const int32_t pushed = engine.stream.pushed;
-  sf_status status = CheckCount(engine, rows, config.height - pushed);
-  if (status == SF_OK) status = CheckLightField(config, light_field);
-  if (status != SF_OK) return status;
+  starfocus_status status = CheckCount(engine, rows, config.height - pushed);
+  if (status == STARFOCUS_OK) status = CheckLightField(config, light_field);
+  if (status != STARFOCUS_OK) return status;
   return CheckPairs(config, AnyYuv(config, light_field), pushed, rows);
 }
 
 // `rows` are at most as many as are left.
-sf_status CheckPull(const EngineState& engine, const sf_image& out, int32_t rows) {
-  const sf_config& config = engine.config;
-  sf_status status = CheckOutput(config, out, {config.width, config.height});
-  if (status == SF_OK) {
+starfocus_status CheckPull(const EngineState& engine, const starfocus_image& out, int32_t rows) {
+  const starfocus_config& config = engine.config;
+  starfocus_status status = CheckOutput(config, out, {config.width, config.height});
+  if (status == STARFOCUS_OK) {
     status = CheckPairs(config, IsYuv(out.format), engine.stream.written, rows);
   }
-  if (status != SF_OK || rows == 0) return status;
+  if (status != STARFOCUS_OK || rows == 0) return status;
   return CheckOutputApart(out, {config.width, rows}, MemoryOf(engine, nullptr), config.problem);
 }
 
 // Copies up to `rows` next rows of the source, `unit` (1 or 2) at a time, as long as the next
 // stripe needs some. *consumed counts them.
-sf_status PushRows(const RowSource& source, int32_t rows, int32_t unit, EngineState* engine,
-                   int32_t* consumed) {
+starfocus_status PushRows(const RowSource& source, int32_t rows, int32_t unit, EngineState* engine,
+                          int32_t* consumed) {
   Stream& stream = engine->stream;
   const bool covers = source.coverage != nullptr;
   if (stream.pushed == 0) {
@@ -88,43 +92,45 @@ sf_status PushRows(const RowSource& source, int32_t rows, int32_t unit, EngineSt
     }
   }
   Checker check(engine->config.problem);
-  check.Need(covers == stream.covers, SF_ERROR_STATE, {"coverage"}, {"in all rows or in none"});
-  if (check.status() != SF_OK) return check.status();
+  check.Need(covers == stream.covers, STARFOCUS_ERROR_STATE, {"coverage"},
+             {"in all rows or in none"});
+  if (check.status() != STARFOCUS_OK) return check.status();
   while (*consumed < rows && stream.pushed < NeededRows(*engine)) {
     const int32_t some = Min(unit, rows - *consumed);
-    const sf_report report = engine->report;
+    const starfocus_report report = engine->report;
     // Both rows of a pair, or none.
     for (int32_t k = 0; k < some; ++k) {
-      const sf_status status = CopyRow(source, stream.pushed + k, engine);
-      if (status == SF_OK) continue;
+      const starfocus_status status = CopyRow(source, stream.pushed + k, engine);
+      if (status == STARFOCUS_OK) continue;
       engine->report = report;
       return status;
     }
     stream.pushed += some;
     *consumed += some;
   }
-  return SF_OK;
+  return STARFOCUS_OK;
 }
 
 // Stores up to `rows` next rows, and refocuses the stripes that these need and whose rows are
 // there. *written counts the rows.
-sf_status PullRows(const RowSink& sink, int32_t rows, EngineState* engine, int32_t* written) {
+starfocus_status PullRows(const RowSink& sink, int32_t rows, EngineState* engine,
+                          int32_t* written) {
   Stream& stream = engine->stream;
   while (*written < rows && stream.written < engine->config.height) {
     if (stream.written == stream.finished) {
       if (stream.pushed < NeededRows(*engine)) break;
-      const sf_status status = RefocusNext(engine);
-      if (status != SF_OK) return status;
+      const starfocus_status status = RefocusNext(engine);
+      if (status != STARFOCUS_OK) return status;
     }
     const int32_t some = Min(rows - *written, stream.finished - stream.written);
-    const sf_status status =
+    const starfocus_status status =
         sink.store(sink.self, {stream.written, stream.written + some},
                    BufferRows(*engine, stream.next - engine->config.superblock), engine);
-    if (status != SF_OK) return status;
+    if (status != STARFOCUS_OK) return status;
     stream.written += some;
     *written += some;
   }
-  return SF_OK;
+  return STARFOCUS_OK;
 }
 
 }  // namespace
@@ -132,56 +138,58 @@ sf_status PullRows(const RowSink& sink, int32_t rows, EngineState* engine, int32
 
 using starfocus::EngineState;
 
-sf_status sf_stream_begin(sf_engine* engine, const sf_params* params) {
-  sf_params full;
-  sf_status status = starfocus::EnterCall(engine, {{"params", params}}, params, &full);
-  if (status != SF_OK) return status;
+starfocus_status starfocus_stream_begin(starfocus_engine* engine, const starfocus_params* params) {
+  starfocus_params full;
+  starfocus_status status = starfocus::EnterCall(engine, {{"params", params}}, params, &full);
+  if (status != STARFOCUS_OK) return status;
   EngineState& e = *reinterpret_cast<EngineState*>(engine);
   status = starfocus::CheckParams(e.config, full);
-  if (status != SF_OK) return status;
+  if (status != STARFOCUS_OK) return status;
   starfocus::Checker check(&e.problem);
-  check.Need(starfocus::Has(e.config.features, SF_FEATURE_STREAMING), SF_ERROR_FEATURE,
-             {"features", double(e.config.features)}, {"SF_FEATURE_STREAMING"});
-  check.Need(starfocus::IsWhole(full.region), SF_ERROR_RANGE, {"region"}, {"all 0"});
-  check.Need(full.preview_shift == 0, SF_ERROR_RANGE, {"preview_shift"}, {"0 for a stream"});
-  check.Need(full.previous == nullptr, SF_ERROR_RANGE, {"previous"}, {"null for a stream"});
-  if (check.status() != SF_OK) return check.status();
+  check.Need(starfocus::Has(e.config.features, STARFOCUS_FEATURE_STREAMING),
+             STARFOCUS_ERROR_FEATURE, {"features", double(e.config.features)},
+             {"STARFOCUS_FEATURE_STREAMING"});
+  check.Need(starfocus::IsWhole(full.region), STARFOCUS_ERROR_RANGE, {"region"}, {"all 0"});
+  check.Need(full.preview_shift == 0, STARFOCUS_ERROR_RANGE, {"preview_shift"}, {"0 for a stream"});
+  check.Need(full.previous == nullptr, STARFOCUS_ERROR_RANGE, {"previous"}, {"null for a stream"});
+  if (check.status() != STARFOCUS_OK) return check.status();
   e.stream = starfocus::Stream();
   e.workers.jobs.call_progress.Begin(0, e.config.height);
   status = starfocus::SetLens(full, &e);
-  if (status != SF_OK) return starfocus::TellStatus(status, &e.problem);
+  if (status != STARFOCUS_OK) return starfocus::TellStatus(status, &e.problem);
   starfocus::SetPlanes(e.config, *e.kernels, e.rings, &e.row_store);
   e.stream.active = true;
-  return SF_OK;
+  return STARFOCUS_OK;
 }
 
-sf_status sf_stream_push(sf_engine* engine, const sf_light_field* light_field, int32_t rows,
-                         int32_t* consumed) {
+starfocus_status starfocus_stream_push(starfocus_engine* engine,
+                                       const starfocus_light_field* light_field, int32_t rows,
+                                       int32_t* consumed) {
   if (consumed != nullptr) *consumed = 0;
-  sf_status status =
+  starfocus_status status =
       starfocus::EnterEngine(engine, {{"light_field", light_field}, {"consumed", consumed}});
-  if (status != SF_OK) return status;
+  if (status != STARFOCUS_OK) return status;
   EngineState& e = *reinterpret_cast<EngineState*>(engine);
   status = starfocus::CheckPush(e, *light_field, rows);
-  if (status != SF_OK) return status;
+  if (status != STARFOCUS_OK) return status;
   starfocus::LightField field;
   starfocus::MakeLightField(*light_field, e.stream.pushed, &e, &field);
   const int32_t unit = starfocus::AnyYuv(e.config, *light_field) ? 2 : 1;
   return starfocus::PushRows(starfocus::SourceOf(field), rows, unit, &e, consumed);
 }
 
-sf_status sf_stream_pull(sf_engine* engine, const sf_image* out, int32_t rows, int32_t* written,
-                         sf_report* report) {
+starfocus_status starfocus_stream_pull(starfocus_engine* engine, const starfocus_image* out,
+                                       int32_t rows, int32_t* written, starfocus_report* report) {
   if (written != nullptr) *written = 0;
-  sf_status status = starfocus::EnterEngine(engine, {{"out", out}, {"written", written}});
-  if (status != SF_OK) return status;
+  starfocus_status status = starfocus::EnterEngine(engine, {{"out", out}, {"written", written}});
+  if (status != STARFOCUS_OK) return status;
   EngineState& e = *reinterpret_cast<EngineState*>(engine);
   status = starfocus::CheckCount(e, rows, INT32_MAX);
-  if (status != SF_OK) return status;
+  if (status != STARFOCUS_OK) return status;
   const int32_t first = e.stream.written, left = e.config.height - first;
   const int32_t most = starfocus::Min(rows, left);
   status = starfocus::CheckPull(e, *out, most);
-  if (status != SF_OK) return status;
+  if (status != STARFOCUS_OK) return status;
   const starfocus::Plane<uint8_t>& alpha = e.images.alpha;
   const starfocus::PictureOutput output = {&starfocus::simd::BestImageKernels(),
                                            starfocus::PlanesOf<uint8_t>(*out),
@@ -189,6 +197,6 @@ sf_status sf_stream_pull(sf_engine* engine, const sf_image* out, int32_t rows, i
                                            {{alpha.data, alpha.stride, alpha.rows, 0}, 1},
                                            nullptr};
   status = starfocus::PullRows(starfocus::SinkOf(output), most, &e, written);
-  if (status == SF_OK && report != nullptr) *report = e.report;
+  if (status == STARFOCUS_OK && report != nullptr) *report = e.report;
   return starfocus::TellStatus(status, &e.problem);
 }

@@ -16,22 +16,23 @@ namespace starfocus {
 // Begins a call with a configuration: reads it into *full, which holds defaults, forgets the
 // problem of the call before, and checks that no pointer is null.
 template <class Config>
-sf_status EnterConfig(const Config* config, std::initializer_list<Pointer> pointers, Config* full) {
-  if (config == nullptr) return SF_ERROR_NULL;
-  if (!ReadSized(*config, full)) return SF_ERROR_STRUCTURE;
+starfocus_status EnterConfig(const Config* config, std::initializer_list<Pointer> pointers,
+                             Config* full) {
+  if (config == nullptr) return STARFOCUS_ERROR_NULL;
+  if (!ReadSized(*config, full)) return STARFOCUS_ERROR_STRUCTURE;
   return CheckPointers(pointers, full->problem);
 }
 
-sf_config DefaultConfig();
+starfocus_config DefaultConfig();
 
-sf_params DefaultParams();
+starfocus_params DefaultParams();
 
 // Begins a call with an engine.
-sf_status EnterEngine(sf_engine* engine, std::initializer_list<Pointer> pointers);
+starfocus_status EnterEngine(starfocus_engine* engine, std::initializer_list<Pointer> pointers);
 
 // Begins a call that refocuses: reads the params, one of the pointers, into *full.
-sf_status EnterCall(sf_engine* engine, std::initializer_list<Pointer> pointers,
-                    const sf_params* params, sf_params* full);
+starfocus_status EnterCall(starfocus_engine* engine, std::initializer_list<Pointer> pointers,
+                           const starfocus_params* params, starfocus_params* full);
 
 // What configurations of engines and of maps have in common.
 struct PictureRange {
@@ -42,8 +43,8 @@ struct PictureRange {
 void CheckPictureRange(const PictureRange& picture, Checker* check);
 
 // The checks below tell config.problem what they refuse, or `problem` (null: nobody).
-sf_status CheckConfig(const sf_config& config);
-sf_status CheckParams(const sf_config& config, const sf_params& params);
+starfocus_status CheckConfig(const starfocus_config& config);
+starfocus_status CheckParams(const starfocus_config& config, const starfocus_params& params);
 
 // Memory of a caller's; the name is that of the argument.
 struct Memory {
@@ -53,7 +54,7 @@ struct Memory {
 };
 
 // Checks memory to lay something of `needed` bytes out in.
-sf_status CheckMemory(const Memory& memory, size_t needed, sf_problem* problem);
+starfocus_status CheckMemory(const Memory& memory, size_t needed, starfocus_problem* problem);
 
 struct MapPlane {
   const float* disparity;
@@ -61,16 +62,18 @@ struct MapPlane {
 };
 
 // Checks a disparity map by itself.
-sf_status CheckMap(const MapPlane& map, int32_t width, int32_t height, sf_problem* problem);
+starfocus_status CheckMap(const MapPlane& map, int32_t width, int32_t height,
+                          starfocus_problem* problem);
 
 // Tells whether rows are as wide as `row_bytes`, and all of them addressable.
 bool ValidStride(size_t stride, size_t row_bytes, int32_t rows);
 
 // Whether a light field may have that coverage, or none: null.
-sf_status CheckCoverage(const sf_config& config, const uint8_t* coverage, size_t stride);
+starfocus_status CheckCoverage(const starfocus_config& config, const uint8_t* coverage,
+                               size_t stride);
 
 // Checks that a region is all 0, or inside the picture.
-sf_status CheckRegion(const sf_config& config, const sf_region& region);
+starfocus_status CheckRegion(const starfocus_config& config, const starfocus_region& region);
 
 }  // namespace starfocus
 

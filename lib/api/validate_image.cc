@@ -19,7 +19,7 @@ struct PlaneSize {
   size_t row_bytes;
 };
 
-PlaneSize SizeOfPlane(const sf_image& image, int plane, const PictureSize& picture) {
+PlaneSize SizeOfPlane(const starfocus_image& image, int plane, const PictureSize& picture) {
   const auto pixels = static_cast<size_t>(picture.width), samples = (pixels + 1) / 2;
   const int32_t given = image.pixel_stride, format = image.format;
   const auto step = static_cast<size_t>(given != 0 ? given : LeastStep(format));
@@ -28,15 +28,15 @@ PlaneSize SizeOfPlane(const sf_image& image, int plane, const PictureSize& pictu
   return {(picture.height + 1) / 2, IsPaired(format) ? 2 * samples : (samples - 1) * step + 1};
 }
 
-Extent ExtentOfPlane(const sf_image& image, int plane, const PictureSize& picture) {
+Extent ExtentOfPlane(const starfocus_image& image, int plane, const PictureSize& picture) {
   const PlaneSize size = SizeOfPlane(image, plane, picture);
   return ExtentOf(image.planes[plane], image.strides[plane], size.rows, size.row_bytes);
 }
 
 bool ValidPixelStride(int32_t format, int32_t stride) {
   if (stride == 0 || stride == LeastStep(format)) return true;
-  if (IsYuv(format)) return format == SF_FORMAT_YUV_420_888 && stride == 2;
-  return stride > LeastStep(format) && stride <= SF_MAX_PIXEL_STRIDE;
+  if (IsYuv(format)) return format == STARFOCUS_FORMAT_YUV_420_888 && stride == 2;
+  return stride > LeastStep(format) && stride <= STARFOCUS_MAX_PIXEL_STRIDE;
 }
 
 // The fields of an image by their names.
@@ -50,21 +50,22 @@ constexpr ImageNames kOutNames = {"out.format",       "out.matrix", "out.range",
                                   "out.pixel_stride", "out.planes", "out.strides"};
 
 // Checks view `index`, or an output.
-void CheckImage(const sf_image& image, const PictureSize& size, const ImageNames& names,
+void CheckImage(const starfocus_image& image, const PictureSize& size, const ImageNames& names,
                 int32_t index, Checker* check) {
   const int32_t format = image.format;
-  check->In({names.format, double(format), index}, {"an sf_format", 0, SF_FORMAT_YUV_420_888});
-  if (check->status() != SF_OK) return;
+  check->In({names.format, double(format), index},
+            {"an starfocus_format", 0, STARFOCUS_FORMAT_YUV_420_888});
+  if (check->status() != STARFOCUS_OK) return;
   if (IsYuv(format)) {
     check->In({names.matrix, double(image.matrix), index},
-              {"an sf_matrix", SF_MATRIX_BT601, SF_MATRIX_BT709});
+              {"an starfocus_matrix", STARFOCUS_MATRIX_BT601, STARFOCUS_MATRIX_BT709});
     check->In({names.range, double(image.range), index},
-              {"an sf_range", SF_RANGE_LIMITED, SF_RANGE_FULL});
+              {"an starfocus_range", STARFOCUS_RANGE_LIMITED, STARFOCUS_RANGE_FULL});
   }
-  check->Need(ValidPixelStride(format, image.pixel_stride), SF_ERROR_RANGE,
+  check->Need(ValidPixelStride(format, image.pixel_stride), STARFOCUS_ERROR_RANGE,
               {names.pixel_stride, double(image.pixel_stride), index},
               {"0, or bytes that the format allows"});
-  if (check->status() != SF_OK) return;
+  if (check->status() != STARFOCUS_OK) return;
   for (int plane = 0; plane < PlanesOfFormat(format); ++plane) {
     check->NotNull(image.planes[plane], names.planes, index);
     const PlaneSize bytes = SizeOfPlane(image, plane, size);
@@ -73,15 +74,17 @@ void CheckImage(const sf_image& image, const PictureSize& size, const ImageNames
   }
 }
 
-void NeedInPlace(const sf_image& image, const ImageNames& names, int32_t index, Checker* check) {
-  check->Need(IsInPlace(image), SF_ERROR_FEATURE, {names.format, double(image.format), index},
-              {"SF_FORMAT_RGB without gaps, or an engine with SF_FEATURE_IMAGES"});
+void NeedInPlace(const starfocus_image& image, const ImageNames& names, int32_t index,
+                 Checker* check) {
+  check->Need(IsInPlace(image), STARFOCUS_ERROR_FEATURE,
+              {names.format, double(image.format), index},
+              {"STARFOCUS_FORMAT_RGB without gaps, or an engine with STARFOCUS_FEATURE_IMAGES"});
 }
 
 }  // namespace
 
-sf_status CheckViews(const sf_light_field& light_field, int32_t count, const PictureSize& size,
-                     sf_problem* problem) {
+starfocus_status CheckViews(const starfocus_light_field& light_field, int32_t count,
+                            const PictureSize& size, starfocus_problem* problem) {
   Checker check(problem);
   for (int32_t view = 0; view < count; ++view) {
     CheckImage(light_field.views[view], size, kViewNames, view, &check);
@@ -89,19 +92,22 @@ sf_status CheckViews(const sf_light_field& light_field, int32_t count, const Pic
   return check.status();
 }
 
-sf_status CheckDepthMap(const sf_depth_map& map, const PictureSize& size, sf_problem* problem) {
+starfocus_status CheckDepthMap(const starfocus_depth_map& map, const PictureSize& size,
+                               starfocus_problem* problem) {
   Checker check(problem);
   check.NotNull(map.data, "depth.data");
-  check.In({"depth.type", double(map.type)}, {"an sf_depth_type", 0, SF_DEPTH_HALF});
-  check.In({"depth.meaning", double(map.meaning)}, {"an sf_depth_meaning", 0, SF_DEPTH_RECIPROCAL});
+  check.In({"depth.type", double(map.type)}, {"an starfocus_depth_type", 0, STARFOCUS_DEPTH_HALF});
+  check.In({"depth.meaning", double(map.meaning)},
+           {"an starfocus_depth_meaning", 0, STARFOCUS_DEPTH_RECIPROCAL});
   check.In({"depth.has_invalid", double(map.has_invalid)}, STARFOCUS_FROM_TO(0, 1));
   const auto scale = static_cast<float>(map.scale), offset = static_cast<float>(map.offset);
-  check.Need(IsFinite(scale) && scale != 0, SF_ERROR_RANGE, {"depth.scale", map.scale},
+  check.Need(IsFinite(scale) && scale != 0, STARFOCUS_ERROR_RANGE, {"depth.scale", map.scale},
              {"a finite float, not 0"});
-  check.Need(IsFinite(offset), SF_ERROR_RANGE, {"depth.offset", map.offset}, {"a finite float"});
+  check.Need(IsFinite(offset), STARFOCUS_ERROR_RANGE, {"depth.offset", map.offset},
+             {"a finite float"});
   check.In({"depth.width", double(map.width)}, {"1 to width", 1, double(size.width)});
   check.In({"depth.height", double(map.height)}, {"1 to height", 1, double(size.height)});
-  if (check.status() != SF_OK) return check.status();
+  if (check.status() != STARFOCUS_OK) return check.status();
   const size_t bytes = DepthBytes(map.type);
   check.Stride(ValidStride(map.stride, bytes * static_cast<size_t>(map.width), map.height) &&
                    map.stride % bytes == 0 && reinterpret_cast<uintptr_t>(map.data) % bytes == 0,
@@ -109,7 +115,8 @@ sf_status CheckDepthMap(const sf_depth_map& map, const PictureSize& size, sf_pro
   return check.status();
 }
 
-sf_status CheckInPlace(const sf_light_field& light_field, int32_t count, sf_problem* problem) {
+starfocus_status CheckInPlace(const starfocus_light_field& light_field, int32_t count,
+                              starfocus_problem* problem) {
   Checker check(problem);
   for (int32_t view = 0; view < count; ++view) {
     NeedInPlace(light_field.views[view], kViewNames, view, &check);
@@ -117,29 +124,32 @@ sf_status CheckInPlace(const sf_light_field& light_field, int32_t count, sf_prob
   return check.status();
 }
 
-sf_status CheckInPlace(const sf_depth_map& map, const PictureSize& size, sf_problem* problem) {
+starfocus_status CheckInPlace(const starfocus_depth_map& map, const PictureSize& size,
+                              starfocus_problem* problem) {
   Checker check(problem);
-  check.Need(
-      IsInPlace(map, size.width, size.height), SF_ERROR_FEATURE, {"depth"},
-      {"as of sf_depth_float, as large as the picture, or an engine with SF_FEATURE_IMAGES"});
+  check.Need(IsInPlace(map, size.width, size.height), STARFOCUS_ERROR_FEATURE, {"depth"},
+             {"as of starfocus_depth_float, as large as the picture, or an engine with "
+              "STARFOCUS_FEATURE_IMAGES"});
   return check.status();
 }
 
-sf_status CheckLightField(const sf_config& config, const sf_light_field& light_field) {
+starfocus_status CheckLightField(const starfocus_config& config,
+                                 const starfocus_light_field& light_field) {
   const PictureSize size = {config.width, config.height};
-  sf_problem* const problem = config.problem;
-  sf_status status = CheckViews(light_field, config.views, size, problem);
-  if (status == SF_OK) {
+  starfocus_problem* const problem = config.problem;
+  starfocus_status status = CheckViews(light_field, config.views, size, problem);
+  if (status == STARFOCUS_OK) {
     status = CheckCoverage(config, light_field.coverage, light_field.coverage_stride);
   }
-  if (status == SF_OK) status = CheckDepthMap(light_field.depth, size, problem);
-  if (status != SF_OK || Has(config.features, SF_FEATURE_IMAGES)) return status;
+  if (status == STARFOCUS_OK) status = CheckDepthMap(light_field.depth, size, problem);
+  if (status != STARFOCUS_OK || Has(config.features, STARFOCUS_FEATURE_IMAGES)) return status;
   status = CheckInPlace(light_field, config.views, problem);
-  return status == SF_OK ? CheckInPlace(light_field.depth, size, problem) : status;
+  return status == STARFOCUS_OK ? CheckInPlace(light_field.depth, size, problem) : status;
 }
 
-void AddLightField(const sf_config& config, const sf_light_field& light_field, Extents* extents) {
-  const sf_depth_map& map = light_field.depth;
+void AddLightField(const starfocus_config& config, const starfocus_light_field& light_field,
+                   Extents* extents) {
+  const starfocus_depth_map& map = light_field.depth;
   extents->AddRows(map.data, map.stride, map.height,
                    DepthBytes(map.type) * static_cast<size_t>(map.width));
   extents->AddCoverage(config, light_field.coverage, light_field.coverage_stride);
@@ -148,23 +158,24 @@ void AddLightField(const sf_config& config, const sf_light_field& light_field, E
   }
 }
 
-void AddImage(const sf_image& image, const PictureSize& size, Extents* extents) {
+void AddImage(const starfocus_image& image, const PictureSize& size, Extents* extents) {
   for (int plane = 0; plane < PlanesOfFormat(image.format); ++plane) {
     extents->Add(ExtentOfPlane(image, plane, size));
   }
 }
 
-sf_status CheckOutput(const sf_config& config, const sf_image& image, const PictureSize& size) {
+starfocus_status CheckOutput(const starfocus_config& config, const starfocus_image& image,
+                             const PictureSize& size) {
   Checker check(config.problem);
   CheckImage(image, size, kOutNames, 0, &check);
-  if (!Has(config.features, SF_FEATURE_IMAGES)) NeedInPlace(image, kOutNames, 0, &check);
+  if (!Has(config.features, STARFOCUS_FEATURE_IMAGES)) NeedInPlace(image, kOutNames, 0, &check);
   return check.status();
 }
 
-sf_status CheckOutputApart(const sf_image& image, const PictureSize& size, const Extents& read,
-                           sf_problem* problem) {
-  sf_status status = SF_OK;
-  for (int plane = 0; status == SF_OK && plane < PlanesOfFormat(image.format); ++plane) {
+starfocus_status CheckOutputApart(const starfocus_image& image, const PictureSize& size,
+                                  const Extents& read, starfocus_problem* problem) {
+  starfocus_status status = STARFOCUS_OK;
+  for (int plane = 0; status == STARFOCUS_OK && plane < PlanesOfFormat(image.format); ++plane) {
     status = CheckApart(ExtentOfPlane(image, plane, size), read, "out", problem);
   }
   return status;

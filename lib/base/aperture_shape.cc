@@ -27,7 +27,7 @@ Direction DirectionOf(double angle) {
 // An edge is an arc through two corners of the unit circle, `curvature` over its radius: with
 // `half` of the angle between them, its circle's centre lies at cos(half) - sqrt(1 / curvature^2 -
 // sin(half)^2) along the edge's normal. Times the curvature, that has a limit for straight edges.
-void SetPolygon(const sf_lens& lens, ApertureShape* opening) {
+void SetPolygon(const starfocus_lens& lens, ApertureShape* opening) {
   opening->blades = lens.blades;
   const double half = kPi / lens.blades;
   const double sine = DirectionOf(half).sine, cosine = DirectionOf(half).cosine;
@@ -58,12 +58,12 @@ uint32_t ApertureFallOff(double theta) {
   return static_cast<uint32_t>(65536.0 / (tangent * tangent) + 0.5);
 }
 
-ApertureShape ShapeOf(const sf_lens& lens) {
+ApertureShape ShapeOf(const starfocus_lens& lens) {
   ApertureShape opening;
-  opening.shape = static_cast<sf_shape>(lens.shape);
-  if (opening.shape == SF_SHAPE_FALL_OFF) opening.fall_off = ApertureFallOff(lens.theta);
-  if (opening.shape == SF_SHAPE_POLYGON) SetPolygon(lens, &opening);
-  if (opening.shape == SF_SHAPE_RING) opening.inner = Round(lens.ring_inner);
+  opening.shape = static_cast<starfocus_shape>(lens.shape);
+  if (opening.shape == STARFOCUS_SHAPE_FALL_OFF) opening.fall_off = ApertureFallOff(lens.theta);
+  if (opening.shape == STARFOCUS_SHAPE_POLYGON) SetPolygon(lens, &opening);
+  if (opening.shape == STARFOCUS_SHAPE_RING) opening.inner = Round(lens.ring_inner);
   opening.cats_eye = Round(lens.cats_eye);
   return opening;
 }
@@ -75,7 +75,7 @@ bool AreAlike(ApertureShape a, const ApertureShape& b) {
 }
 
 int32_t MeanSquare(const ApertureShape& opening) {
-  if (opening.shape != SF_SHAPE_FALL_OFF) {
+  if (opening.shape != STARFOCUS_SHAPE_FALL_OFF) {
     const double inner = static_cast<double>(opening.inner) / kOpeningOne;
     return Round((1 + inner * inner) / 4);
   }
@@ -95,11 +95,11 @@ int32_t MeanSquare(const ApertureShape& opening) {
 bool LetsThrough(const ApertureShape& opening, int64_t x, int64_t y, int64_t radius) {
   const int64_t square = x * x + y * y;
   if (square > radius * radius) return false;
-  if (opening.shape == SF_SHAPE_RING) {
+  if (opening.shape == STARFOCUS_SHAPE_RING) {
     const int64_t inner = opening.inner * radius;
     return square * kOpeningOne * kOpeningOne >= inner * inner;
   }
-  if (opening.shape != SF_SHAPE_POLYGON) return true;
+  if (opening.shape != STARFOCUS_SHAPE_POLYGON) return true;
   const int64_t limit = (opening.limit * radius * radius - opening.bulge * square) * kOpeningOne;
   for (int32_t edge = 0; edge < opening.blades; ++edge) {
     const int64_t along = x * opening.normals[edge][0] + y * opening.normals[edge][1];

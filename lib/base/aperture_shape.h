@@ -22,26 +22,26 @@ struct ApertureShape {
   // The paper's (3), of what ApertureFallOff gives: an opening that is nothing else.
   ApertureShape(uint32_t cot_square = 1 << 16) : fall_off(cot_square) {}  // NOLINT: converts
 
-  sf_shape shape = SF_SHAPE_FALL_OFF;
-  uint32_t fall_off;     // of SF_SHAPE_FALL_OFF: cot^2(theta), 16 bits
+  starfocus_shape shape = STARFOCUS_SHAPE_FALL_OFF;
+  uint32_t fall_off;     // of STARFOCUS_SHAPE_FALL_OFF: cot^2(theta), 16 bits
   int32_t inner = 0;     // of a ring: the radius of its hole
   int32_t cats_eye = 0;  // how far the rim behind the lens moves up to a corner of the picture
   // A polygon has the points p of `bulge` |p|^2 + `slope` p * normal <= `limit` for the normal of
   // each of its edges, which are arcs through the corners.
   int32_t blades = 0;
-  int32_t normals[SF_MAX_BLADES][2] = {};
+  int32_t normals[STARFOCUS_MAX_BLADES][2] = {};
   int32_t bulge = 0, slope = 0, limit = 0;
   int32_t inscribed = 0;  // radius of a disc in it: kOpeningBits, rounded down
 
   // Whether the opening is its own mirror image about both axes and both diagonals, so that an
   // octant tells all of it. What cat's eyes leave of it isn't.
-  bool IsSymmetric() const { return shape != SF_SHAPE_POLYGON; }
+  bool IsSymmetric() const { return shape != STARFOCUS_SHAPE_POLYGON; }
   // Whether the octant's centre may be dark.
-  bool IsRing() const { return shape == SF_SHAPE_RING; }
+  bool IsRing() const { return shape == STARFOCUS_SHAPE_RING; }
 };
 
 // The opening of a valid lens.
-ApertureShape ShapeOf(const sf_lens& lens);
+ApertureShape ShapeOf(const starfocus_lens& lens);
 
 // Whether two openings of ShapeOf are the same but for their cat's eyes.
 bool AreAlike(ApertureShape a, const ApertureShape& b);

@@ -16,8 +16,8 @@ namespace starfocus {
 inline constexpr size_t kTooLarge = SIZE_MAX;
 
 // In builds with AddressSanitizer this many bytes behind each piece and its padding, a multiple of
-// SF_ALIGNMENT, are a red zone: whatever reads or writes it while jobs run is reported. Pieces
-// share no memory there, so that each has neighbours of its own.
+// STARFOCUS_ALIGNMENT, are a red zone: whatever reads or writes it while jobs run is reported.
+// Pieces share no memory there, so that each has neighbours of its own.
 #if defined(__has_feature)
 #if __has_feature(address_sanitizer)
 #define STARFOCUS_RED_ZONES
@@ -85,13 +85,13 @@ class Arena {
       too_large_ = true;
     } else {
       const size_t begin = used_;
-      used_ += (bytes + kExtra) / SF_ALIGNMENT * SF_ALIGNMENT;
+      used_ += (bytes + kExtra) / STARFOCUS_ALIGNMENT * STARFOCUS_ALIGNMENT;
       if (pieces_ != nullptr) pieces_->visit(pieces_->data, begin, used_);
     }
   }
 
-  // Padding, a red zone, and what rounding up to SF_ALIGNMENT adds at most.
-  static constexpr size_t kExtra = simd::kPadding + kRedZone + SF_ALIGNMENT - 1;
+  // Padding, a red zone, and what rounding up to STARFOCUS_ALIGNMENT adds at most.
+  static constexpr size_t kExtra = simd::kPadding + kRedZone + STARFOCUS_ALIGNMENT - 1;
 
   uint8_t* base_;
   size_t most_;

@@ -15,7 +15,7 @@ namespace starfocus {
 class CallProgress {
  public:
   // Sets the function of the calls that follow; null: nobody is asked.
-  void SetProgress(sf_progress progress, void* data) {
+  void SetProgress(starfocus_progress progress, void* data) {
     progress_ = progress;
     data_ = data;
   }
@@ -41,7 +41,7 @@ class CallProgress {
   bool IsCancelled() const { return cancelled_.load(std::memory_order_relaxed) != 0; }
 
  private:
-  sf_progress progress_ = nullptr;
+  starfocus_progress progress_ = nullptr;
   void* data_ = nullptr;
   int32_t rows_ = 0, done_ = 0, next_ = 0, jobs_ = 1;
   std::atomic<int32_t> jobs_done_{0};

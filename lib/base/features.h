@@ -9,17 +9,19 @@
 
 namespace starfocus {
 
-// Whether an SF_FEATURE_ is among those of a configuration.
+// Whether an STARFOCUS_FEATURE_ is among those of a configuration.
 constexpr bool Has(uint32_t features, uint32_t feature) { return (features & feature) != 0; }
 
 // Whether lenses may be polygons and have cat's eyes.
-inline bool HasShapes(const sf_config& config) { return Has(config.features, SF_FEATURE_SHAPES); }
+inline bool HasShapes(const starfocus_config& config) {
+  return Has(config.features, STARFOCUS_FEATURE_SHAPES);
+}
 
 // The range of disparities as maps have them: single precision.
 struct DisparityRange {
   float min, max;
 };
-inline DisparityRange RangeOf(const sf_config& config) {
+inline DisparityRange RangeOf(const starfocus_config& config) {
   return {static_cast<float>(config.disparity_min), static_cast<float>(config.disparity_max)};
 }
 

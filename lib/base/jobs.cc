@@ -32,7 +32,8 @@ bool TakeJob(JobSet* set, int32_t index, int32_t worker) {
   return true;
 }
 
-// The sf_job. Whoever has a worker's memory reads the set, which changes only while nobody has any.
+// The starfocus_job. Whoever has a worker's memory reads the set, which changes only while nobody
+// has any.
 void CallJob(void* data, int32_t index, int32_t worker) {
   JobSet& set = *static_cast<JobSet*>(data);
   if (worker < 0 || worker >= set.max_workers || set.busy[worker].exchange(1) != 0) {
@@ -61,14 +62,14 @@ bool Close(JobSet* set) {
 
 }  // namespace
 
-sf_status RunJobSet(JobFunction function, const void* data, int32_t count, JobSet* set) {
+starfocus_status RunJobSet(JobFunction function, const void* data, int32_t count, JobSet* set) {
   set->function = function;
   set->data = data;
   set->count = count;
   set->call_progress.BeginJobs(count);
   if (set->runner.run == nullptr) {
     for (int32_t index = 0; index < count; ++index) RunJob(index, 0, set);
-    return set->call_progress.IsCancelled() ? SF_ERROR_CANCELLED : SF_OK;
+    return set->call_progress.IsCancelled() ? STARFOCUS_ERROR_CANCELLED : STARFOCUS_OK;
   }
   for (size_t word = 0; word < ProgressWords(static_cast<size_t>(count)); ++word) {
     set->progress[word].store(0, std::memory_order_relaxed);
@@ -78,8 +79,8 @@ sf_status RunJobSet(JobFunction function, const void* data, int32_t count, JobSe
   const int result = set->runner.run(set->runner.data, CallJob, set, count);
   const bool all = Close(set);
   // A runner may have left jobs out because it knows.
-  if (set->call_progress.IsCancelled()) return SF_ERROR_CANCELLED;
-  return result == 0 && all ? SF_OK : SF_ERROR_RUNNER;
+  if (set->call_progress.IsCancelled()) return STARFOCUS_ERROR_CANCELLED;
+  return result == 0 && all ? STARFOCUS_OK : STARFOCUS_ERROR_RUNNER;
 }
 
 }  // namespace starfocus

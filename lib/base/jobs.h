@@ -14,7 +14,7 @@ namespace starfocus {
 
 // Who runs the jobs; a null function: the calling thread.
 struct Runner {
-  sf_runner run;
+  starfocus_runner run;
   void* data;
 };
 
@@ -32,19 +32,19 @@ struct JobSet {
   const void* data = nullptr;
   int32_t count = 0;
   int32_t max_workers = 1;
-  std::atomic<uint32_t>* progress = nullptr;        // ProgressWords of the largest set
-  std::atomic<uint32_t> busy[SF_MAX_WORKERS] = {};  // 1: a job has that worker's memory
-  std::atomic<uint32_t> open{0};                    // 1: the runner has not returned yet
-  std::atomic<uint32_t> misused{0};                 // 1: a call was refused
+  std::atomic<uint32_t>* progress = nullptr;               // ProgressWords of the largest set
+  std::atomic<uint32_t> busy[STARFOCUS_MAX_WORKERS] = {};  // 1: a job has that worker's memory
+  std::atomic<uint32_t> open{0};                           // 1: the runner has not returned yet
+  std::atomic<uint32_t> misused{0};                        // 1: a call was refused
   Runner runner = {};
   CallProgress call_progress;
 };
 
 // Runs function(data, index, worker) for all indices in [0, count), count > 0, and asks the
-// progress function before each. SF_OK; SF_ERROR_CANCELLED, with jobs left out, once the progress
-// function has heard no; or SF_ERROR_RUNNER when the runner failed or did not run each of them
-// exactly once. No job runs any more afterwards, whatever the runner does.
-sf_status RunJobSet(JobFunction function, const void* data, int32_t count, JobSet* set);
+// progress function before each. STARFOCUS_OK; STARFOCUS_ERROR_CANCELLED, with jobs left out, once
+// the progress function has heard no; or STARFOCUS_ERROR_RUNNER when the runner failed or did not
+// run each of them exactly once. No job runs any more afterwards, whatever the runner does.
+starfocus_status RunJobSet(JobFunction function, const void* data, int32_t count, JobSet* set);
 
 }  // namespace starfocus
 

@@ -39,35 +39,35 @@ struct FieldValue {
 };
 
 // Fills *problem in, unless it is null. Returns the status.
-sf_status Refuse(sf_status status, const FieldValue& field, const Allowed& allowed,
-                 sf_problem* problem);
+starfocus_status Refuse(starfocus_status status, const FieldValue& field, const Allowed& allowed,
+                        starfocus_problem* problem);
 
 // Fills *problem in for a status that no check has told of: runner, progress or memory. Returns it.
-sf_status TellStatus(sf_status status, sf_problem* problem);
+starfocus_status TellStatus(starfocus_status status, starfocus_problem* problem);
 
 // Checks values one after the other. The first one that it refuses is the problem.
 class Checker {
  public:
-  explicit Checker(sf_problem* problem) : problem_(problem) {}
+  explicit Checker(starfocus_problem* problem) : problem_(problem) {}
 
   // Refuses the field unless `good`.
-  void Need(bool good, sf_status status, const FieldValue& field, const Allowed& allowed) {
-    if (!good && status_ == SF_OK) status_ = Refuse(status, field, allowed, problem_);
+  void Need(bool good, starfocus_status status, const FieldValue& field, const Allowed& allowed) {
+    if (!good && status_ == STARFOCUS_OK) status_ = Refuse(status, field, allowed, problem_);
   }
   // A number between two others.
   void In(const FieldValue& field, const Allowed& allowed) {
-    Need(allowed.Has(field.value), SF_ERROR_RANGE, field, allowed);
+    Need(allowed.Has(field.value), STARFOCUS_ERROR_RANGE, field, allowed);
   }
   void Stride(bool good, const char* name, size_t stride, int32_t index = 0);
   void NotNull(const void* pointer, const char* name, int32_t index = 0) {
-    Need(pointer != nullptr, SF_ERROR_NULL, {name, kNoNumber, index}, {"not null"});
+    Need(pointer != nullptr, STARFOCUS_ERROR_NULL, {name, kNoNumber, index}, {"not null"});
   }
 
-  sf_status status() const { return status_; }
+  starfocus_status status() const { return status_; }
 
  private:
-  sf_problem* const problem_;
-  sf_status status_ = SF_OK;
+  starfocus_problem* const problem_;
+  starfocus_status status_ = STARFOCUS_OK;
 };
 
 // An argument that must not be null.
@@ -77,7 +77,7 @@ struct Pointer {
 };
 
 // Begins a call: forgets the problem of the call before, unless it is null, and checks arguments.
-sf_status CheckPointers(std::initializer_list<Pointer> pointers, sf_problem* problem);
+starfocus_status CheckPointers(std::initializer_list<Pointer> pointers, starfocus_problem* problem);
 
 }  // namespace starfocus
 

@@ -11,22 +11,24 @@
 
 namespace starfocus {
 
-inline bool IsInPlace(const sf_image& image) {
-  return image.format == SF_FORMAT_RGB && (image.pixel_stride == 0 || image.pixel_stride == 3);
+inline bool IsInPlace(const starfocus_image& image) {
+  return image.format == STARFOCUS_FORMAT_RGB &&
+         (image.pixel_stride == 0 || image.pixel_stride == 3);
 }
 
-inline bool IsInPlace(const sf_depth_map& map, int32_t width, int32_t height) {
-  return map.type == SF_DEPTH_FLOAT && map.meaning == SF_DEPTH_LINEAR && map.scale == 1 &&
-         map.offset == 0 && map.has_invalid == 0 && map.width == width && map.height == height;
+inline bool IsInPlace(const starfocus_depth_map& map, int32_t width, int32_t height) {
+  return map.type == STARFOCUS_DEPTH_FLOAT && map.meaning == STARFOCUS_DEPTH_LINEAR &&
+         map.scale == 1 && map.offset == 0 && map.has_invalid == 0 && map.width == width &&
+         map.height == height;
 }
 
 // Rows of an image that is in place; the first one is row `first` of the picture.
-inline Plane<const uint8_t> RowsOf(const sf_image& image, int32_t first = 0) {
+inline Plane<const uint8_t> RowsOf(const starfocus_image& image, int32_t first = 0) {
   return {static_cast<const uint8_t*>(image.planes[0]), image.strides[0], 0, first};
 }
 
 // Rows of a map that is in place.
-inline Plane<const float> RowsOf(const sf_depth_map& map) {
+inline Plane<const float> RowsOf(const starfocus_depth_map& map) {
   return {static_cast<const float*>(map.data), map.stride / sizeof(float), 0, 0};
 }
 

@@ -60,9 +60,9 @@ int32_t ViewsByPaper(double r_max) {
 }
 
 Demand DemandOf(const ApertureShape& opening) {
-  if (opening.shape == SF_SHAPE_RING) return Demand::kRing;
-  if (opening.shape == SF_SHAPE_POLYGON || opening.cats_eye > 0) return Demand::kPolygon;
-  return opening.shape == SF_SHAPE_DISC ? Demand::kDisc : Demand::kFallOff;
+  if (opening.shape == STARFOCUS_SHAPE_RING) return Demand::kRing;
+  if (opening.shape == STARFOCUS_SHAPE_POLYGON || opening.cats_eye > 0) return Demand::kPolygon;
+  return opening.shape == STARFOCUS_SHAPE_DISC ? Demand::kDisc : Demand::kFallOff;
 }
 
 int32_t ViewsBySubaperture(double r_max, Demand demand) {

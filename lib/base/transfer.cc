@@ -58,7 +58,7 @@ constexpr Transfer kNone = {kTables.same, {nullptr, nullptr}};
 }  // namespace
 
 const Transfer& TransferOf(int32_t transfer) {
-  return transfer == SF_TRANSFER_NONE ? kNone : kSrgb;
+  return transfer == STARFOCUS_TRANSFER_NONE ? kNone : kSrgb;
 }
 
 }  // namespace starfocus

@@ -18,9 +18,9 @@ struct Transfer {
   simd::Encoding encoding;  // the same for kernels, which do without tables where they can
 };
 
-// The tables of a transfer: SF_TRANSFER_SRGB those of IEC 61966-2-1, SF_TRANSFER_NONE those of
-// light that is the code itself. Light of a code is rounded to the nearest level; of light, the
-// code is that whose own light is nearest in codes.
+// The tables of a transfer: STARFOCUS_TRANSFER_SRGB those of IEC 61966-2-1, STARFOCUS_TRANSFER_NONE
+// those of light that is the code itself. Light of a code is rounded to the nearest level; of
+// light, the code is that whose own light is nearest in codes.
 const Transfer& TransferOf(int32_t transfer);
 
 }  // namespace starfocus

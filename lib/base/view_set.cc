@@ -62,45 +62,46 @@ int CapturedView(int u, int v, bool half) {
   return half && index != 0 ? index + 8 : index;
 }
 
-sf_status FindViews(const sf_config& config, ViewSet* views) {
+starfocus_status FindViews(const starfocus_config& config, ViewSet* views) {
   *views = {};
   Checker check(config.problem);
-  check.In({"views", double(config.views)}, STARFOCUS_FROM_TO(1, SF_MAX_VIEWS));
-  if (check.status() != SF_OK) return check.status();
+  check.In({"views", double(config.views)}, STARFOCUS_FROM_TO(1, STARFOCUS_MAX_VIEWS));
+  if (check.status() != STARFOCUS_OK) return check.status();
   views->count = config.views;
   views->star = IsStarCount(config.views);
   bool given = false;
   for (int32_t k = 0; k < config.views; ++k) {
-    const sf_position& position = config.positions[k];
+    const starfocus_position& position = config.positions[k];
     given = given || position.u != 0 || position.v != 0;
     check.In({"positions[].u", position.u, k}, STARFOCUS_FROM_TO(-1, 1));
     check.In({"positions[].v", position.v, k}, STARFOCUS_FROM_TO(-1, 1));
-    if (check.status() != SF_OK) return check.status();
+    if (check.status() != STARFOCUS_OK) return check.status();
     views->at[k] = {Converted(position.u), Converted(position.v)};
   }
   if (!given) {
     for (int32_t k = 0; k < config.views; ++k) views->at[k] = kStar[k];
-    check.Need(views->star, SF_ERROR_RANGE, {"views", double(config.views)},
+    check.Need(views->star, STARFOCUS_ERROR_RANGE, {"views", double(config.views)},
                {"1, 5, 9 or 17 without positions"});
     return check.status();
   }
-  check.Need(SamePosition(views->at[0], {0, 0}), SF_ERROR_RANGE, {"positions[]"}, {"(0, 0)"});
+  check.Need(SamePosition(views->at[0], {0, 0}), STARFOCUS_ERROR_RANGE, {"positions[]"},
+             {"(0, 0)"});
   for (int32_t k = 0; k < config.views; ++k) {
     views->star = views->star && SamePosition(views->at[k], kStar[k]);
     for (int32_t other = 0; other < k; ++other) {
-      check.Need(!SamePosition(views->at[k], views->at[other]), SF_ERROR_RANGE,
+      check.Need(!SamePosition(views->at[k], views->at[other]), STARFOCUS_ERROR_RANGE,
                  {"positions[]", kNoNumber, k}, {"another position than those before"});
     }
   }
   return check.status();
 }
 
-bool HasStar(const sf_config& config) {
+bool HasStar(const starfocus_config& config) {
   ViewSet views;
-  return FindViews(config, &views) == SF_OK && views.star;
+  return FindViews(config, &views) == STARFOCUS_OK && views.star;
 }
 
-bool SameViews(const sf_config& a, const sf_config& b) {
+bool SameViews(const starfocus_config& a, const starfocus_config& b) {
   ViewSet first, second;
   FindViews(a, &first);
   FindViews(b, &second);

@@ -10,7 +10,7 @@
 
 namespace starfocus {
 
-inline constexpr int kMaxViews = SF_MAX_VIEWS;
+inline constexpr int kMaxViews = STARFOCUS_MAX_VIEWS;
 
 // The sides of a pixel.
 inline constexpr int kSideCount = 4;
@@ -43,7 +43,7 @@ struct OcclusionViews {
 // The captured views of a configuration.
 struct ViewSet {
   int32_t count = 0;
-  bool star = false;  // whether they are those of sf_view_position
+  bool star = false;  // whether they are those of starfocus_view_position
   ViewPosition at[kMaxViews] = {};
 };
 
@@ -54,14 +54,15 @@ ViewPosition StarPosition(int index);
 // distance.
 int CapturedView(int u, int v, bool half);
 
-// Finds the views of a configuration. Refuses views and positions that are none, SF_ERROR_RANGE.
-sf_status FindViews(const sf_config& config, ViewSet* views);
+// Finds the views of a configuration. Refuses views and positions that are none,
+// STARFOCUS_ERROR_RANGE.
+starfocus_status FindViews(const starfocus_config& config, ViewSet* views);
 
-// Whether the views of a configuration, which was checked, are those of sf_view_position.
-bool HasStar(const sf_config& config);
+// Whether the views of a configuration, which was checked, are those of starfocus_view_position.
+bool HasStar(const starfocus_config& config);
 
 // Whether two configurations, which were checked, have the same views in the same order.
-bool SameViews(const sf_config& a, const sf_config& b);
+bool SameViews(const starfocus_config& a, const starfocus_config& b);
 
 // Chooses the views that look behind edges on each side: those that lie nearer to its direction
 // than to any other. Of these the farthest out come first, as far as they lie on the side's axis:

@@ -135,7 +135,7 @@ uint32_t OpenPointsOfPolygon(int32_t i, int32_t j, int32_t radius, const Apertur
 void WeighSubapertures(const ApertureShape& opening, uint16_t* weights, ViewWeights* aperture) {
   Clear(*aperture, weights);
   const int32_t radius = aperture->radius;
-  if (opening.shape == SF_SHAPE_FALL_OFF) {
+  if (opening.shape == STARFOCUS_SHAPE_FALL_OFF) {
     Weigh(
         false,
         [&](int32_t i, int32_t j) { return LightOfSubaperture(i, j, radius, opening.fall_off); },
@@ -143,7 +143,7 @@ void WeighSubapertures(const ApertureShape& opening, uint16_t* weights, ViewWeig
     return;
   }
   ForEachWeight(*aperture, false, [&](int32_t i, int32_t j, int32_t) {
-    const uint32_t open = opening.shape == SF_SHAPE_POLYGON
+    const uint32_t open = opening.shape == STARFOCUS_SHAPE_POLYGON
                               ? OpenPointsOfPolygon(i, j, radius, opening)
                               : OpenPoints(i, j, radius, opening);
     weights[IndexOf(*aperture, i, j)] = static_cast<uint16_t>(open);
@@ -170,7 +170,8 @@ uint32_t PassingPoints(int32_t i, int32_t j, int32_t lens, const ApertureShape& 
   if (square > outer * outer) return 0;
   if (inner > 0 && square < inner * inner) return kAll;
   // Within the disc all points are those of an opening that has no edges there.
-  const bool plain = opening.shape == SF_SHAPE_FALL_OFF || opening.shape == SF_SHAPE_DISC;
+  const bool plain =
+      opening.shape == STARFOCUS_SHAPE_FALL_OFF || opening.shape == STARFOCUS_SHAPE_DISC;
   const bool all = plain && inner > 0 && x * x + y * y < inner * inner;
   uint32_t inside = 0, both = 0;
   ForEachPoint(i, j, [&](int64_t a, int64_t b) {
@@ -198,7 +199,7 @@ ViewWeights MakeViewWeights(int32_t n, const ApertureShape& opening, uint16_t* w
   aperture.full = !opening.IsSymmetric();
   if (n == 0) {
     WeighCentre(weights, &aperture);
-  } else if (opening.shape == SF_SHAPE_FALL_OFF) {
+  } else if (opening.shape == STARFOCUS_SHAPE_FALL_OFF) {
     Clear(aperture, weights);
     const uint64_t n_square = static_cast<uint64_t>(n) * static_cast<uint64_t>(n);
     Weigh(

@@ -18,18 +18,18 @@ constexpr int32_t kPiece = 256, kPixels = kPiece - 1;
 // Converts `count` <= kPiece values from column x of row y of the map on. Returns DepthFlags.
 uint32_t ConvertValues(const simd::ImageKernels& kernels, const DepthSource& depth, int32_t x,
                        int32_t y, int32_t count, int16_t* out) {
-  const sf_depth_map& map = depth.map;
+  const starfocus_depth_map& map = depth.map;
   const auto values = static_cast<size_t>(count);
   const uint8_t* row = static_cast<const uint8_t*>(map.data) +
                        static_cast<size_t>(y - depth.first) * map.stride +
                        static_cast<size_t>(x) * DepthBytes(map.type);
-  if (map.type == SF_DEPTH_FLOAT) {
+  if (map.type == STARFOCUS_DEPTH_FLOAT) {
     return kernels.DepthToDisparity(reinterpret_cast<const float*>(row), values, depth.rule, out);
   }
   float z[kPiece];
-  if (map.type == SF_DEPTH_U8) {
+  if (map.type == STARFOCUS_DEPTH_U8) {
     kernels.BytesToDepth(row, values, z);
-  } else if (map.type == SF_DEPTH_U16) {
+  } else if (map.type == STARFOCUS_DEPTH_U16) {
     kernels.WordsToDepth(reinterpret_cast<const uint16_t*>(row), values, z);
   } else {
     kernels.HalvesToDepth(reinterpret_cast<const uint16_t*>(row), values, z);
@@ -74,21 +74,23 @@ void FillColumns(int32_t width, int32_t map_width, uint32_t* columns) {
   for (int32_t x = 0; x < width; ++x) columns[x] = PlaceOf(x, width, map_width);
 }
 
-DepthSource MakeDepthSource(const sf_config& config, const sf_depth_map& map,
+DepthSource MakeDepthSource(const starfocus_config& config, const starfocus_depth_map& map,
                             const uint32_t* columns) {
   const float invalid = map.has_invalid != 0 ? static_cast<float>(map.invalid)
                                              : std::numeric_limits<float>::quiet_NaN();
   const simd::DepthRule rule = {static_cast<float>(map.scale),
                                 static_cast<float>(map.offset),
                                 invalid,
-                                map.meaning == SF_DEPTH_RECIPROCAL,
+                                map.meaning == STARFOCUS_DEPTH_RECIPROCAL,
                                 RangeOf(config).min,
                                 RangeOf(config).max};
   return {map, rule, config.width, config.height, columns};
 }
 
 size_t DepthBytes(int32_t type) {
-  return type == SF_DEPTH_FLOAT ? sizeof(float) : type == SF_DEPTH_U8 ? 1 : sizeof(uint16_t);
+  return type == STARFOCUS_DEPTH_FLOAT ? sizeof(float)
+         : type == STARFOCUS_DEPTH_U8  ? 1
+                                       : sizeof(uint16_t);
 }
 
 uint32_t PlaceOfRow(const DepthSource& depth, int32_t y) {

@@ -13,7 +13,7 @@ namespace starfocus {
 
 // A depth map for a picture.
 struct DepthSource {
-  sf_depth_map map;
+  starfocus_depth_map map;
   simd::DepthRule rule;
   int32_t width, height;  // of the picture
   const uint32_t*
@@ -25,7 +25,7 @@ struct DepthSource {
 void FillColumns(int32_t width, int32_t map_width, uint32_t* columns);
 
 // Returns the map for pictures of `config`, with the columns that FillColumns made.
-DepthSource MakeDepthSource(const sf_config& config, const sf_depth_map& map,
+DepthSource MakeDepthSource(const starfocus_config& config, const starfocus_depth_map& map,
                             const uint32_t* columns);
 
 // Returns the bytes of a value.

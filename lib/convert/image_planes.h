@@ -40,12 +40,12 @@ struct ImagePlanes {
 using ImageSource = ImagePlanes<const uint8_t>;
 using ImageTarget = ImagePlanes<uint8_t>;
 
-constexpr bool IsYuv(int32_t format) { return format >= SF_FORMAT_NV12; }
+constexpr bool IsYuv(int32_t format) { return format >= STARFOCUS_FORMAT_NV12; }
 constexpr bool IsPaired(int32_t format) {
-  return format == SF_FORMAT_NV12 || format == SF_FORMAT_NV21;
+  return format == STARFOCUS_FORMAT_NV12 || format == STARFOCUS_FORMAT_NV21;
 }
 constexpr bool HasAlpha(int32_t format) {
-  return format == SF_FORMAT_RGBX || format == SF_FORMAT_BGRX;
+  return format == STARFOCUS_FORMAT_RGBX || format == STARFOCUS_FORMAT_BGRX;
 }
 
 // Returns what pixel_stride 0 stands for.
@@ -56,11 +56,11 @@ constexpr int32_t LeastStep(int32_t format) {
 
 // Returns the planes of an image that has been checked. Byte is const for images that are read.
 template <class Byte>
-ImagePlanes<Byte> PlanesOf(const sf_image& image) {
+ImagePlanes<Byte> PlanesOf(const starfocus_image& image) {
   ImagePlanes<Byte> of = {};
   const int32_t format = image.format;
   of.is_yuv = IsYuv(format);
-  of.blue_first = format == SF_FORMAT_BGR || format == SF_FORMAT_BGRX;
+  of.blue_first = format == STARFOCUS_FORMAT_BGR || format == STARFOCUS_FORMAT_BGRX;
   of.has_alpha = HasAlpha(format);
   of.step = static_cast<size_t>(image.pixel_stride != 0 ? image.pixel_stride : LeastStep(format));
   if (of.is_yuv) of.matrix = &kYuvMatrices[image.matrix][image.range];
@@ -69,7 +69,7 @@ ImagePlanes<Byte> PlanesOf(const sf_image& image) {
     of.strides[plane] = image.strides[plane];
   }
   if (IsPaired(format)) {
-    const int u = format == SF_FORMAT_NV12 ? 0 : 1;
+    const int u = format == STARFOCUS_FORMAT_NV12 ? 0 : 1;
     Byte* const chroma = of.planes[1];
     of.planes[1] = chroma + u;
     of.planes[2] = chroma + 1 - u;

@@ -39,7 +39,7 @@ constexpr simd::YuvMatrix MakeYuvMatrix(double kr, double kb, bool full) {
   return m;
 }
 
-// By sf_matrix and sf_range.
+// By starfocus_matrix and starfocus_range.
 inline constexpr simd::YuvMatrix kYuvMatrices[2][2] = {
     {MakeYuvMatrix(0.299, 0.114, false), MakeYuvMatrix(0.299, 0.114, true)},
     {MakeYuvMatrix(0.2126, 0.0722, false), MakeYuvMatrix(0.2126, 0.0722, true)},

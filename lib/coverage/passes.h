@@ -17,22 +17,22 @@ enum CoveragePass { kFindRagged, kStart, kUnmixFirst, kLook, kUnmixAgain, kCover
 void RunPass(const CoverageInput& in, int pass, int32_t first, int32_t last, int32_t row);
 
 // Whether the engine has memory for coverage.
-inline bool HasCoverage(const sf_config& config) {
-  return Has(config.features, SF_FEATURE_COVERAGE);
+inline bool HasCoverage(const starfocus_config& config) {
+  return Has(config.features, STARFOCUS_FEATURE_COVERAGE);
 }
 
 // CoverageMap::around where coverage is given: pixels look two tiles far for edges.
 inline constexpr int32_t kAroundGiven = 2;
 
 // The farthest that a nearer surface moves before a farther one in any view that is looked into.
-inline int32_t LargestMoveBefore(const sf_config& config) {
+inline int32_t LargestMoveBefore(const starfocus_config& config) {
   if (config.views == 1) return 0;
   const DisparityRange range = RangeOf(config);
   return Min(static_cast<int32_t>(range.max - range.min) + 3, kMostMove + 1);
 }
 
 // Rows of tiles that a pass is ahead of the last one.
-inline int32_t TilesAhead(const sf_config& config, int pass) {
+inline int32_t TilesAhead(const starfocus_config& config, int pass) {
   const int32_t moved = (LargestMoveBefore(config) + kTileSide - 1) / kTileSide;
   switch (pass) {
     case kUnmixAgain:
@@ -49,7 +49,7 @@ inline int32_t TilesAhead(const sf_config& config, int pass) {
 }
 
 // Pixels beyond what is parted that the passes read.
-inline int32_t CoverageBorder(const sf_config& config) {
+inline int32_t CoverageBorder(const starfocus_config& config) {
   if (!HasCoverage(config)) return 0;
   return (TilesAhead(config, kFindRagged) + 1) * kTileSide + kBandReach + 2;
 }

@@ -135,7 +135,8 @@ bool IsThin(const ColourMap& map, const Rect& region, const uint8_t* doubt, int3
 
 }  // namespace
 
-void ReadMap(const EstimatePlan& plan, const sf_light_field& light_field, int16_t* disparity) {
+void ReadMap(const EstimatePlan& plan, const starfocus_light_field& light_field,
+             int16_t* disparity) {
   const ColourMap map = {plan, light_field, disparity};
   int32_t unknown = 0;  // rows before this one that wait for the next one
   for (int32_t y = 0; y < plan.height; ++y) {

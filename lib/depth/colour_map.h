@@ -37,7 +37,7 @@ inline int16_t ToFixed(float disparity) {
 // A map that jobs read: the picture, what was given, and rows of `width` 16-bit disparities.
 struct ColourMap {
   const EstimatePlan& plan;
-  const sf_light_field& light_field;
+  const starfocus_light_field& light_field;
   const int16_t* disparity;
 
   const uint8_t* Pixel(int32_t x, int32_t y) const {
@@ -52,7 +52,8 @@ struct ColourMap {
 
 // Converts light_field.depth, of which one pixel at least is finite. The others get the nearest
 // one of their row, or the nearest row that has one; of two that are as near the farther surface.
-void ReadMap(const EstimatePlan& plan, const sf_light_field& light_field, int16_t* disparity);
+void ReadMap(const EstimatePlan& plan, const starfocus_light_field& light_field,
+             int16_t* disparity);
 
 // Returns the standard deviation of the map's noise, kDisparityBits: from the median of what a
 // pixel differs from the mean of its neighbours, so that edges don't count. 0 if there is hardly

@@ -248,10 +248,10 @@ void CompleteTile(const void* data, int32_t index, int32_t) {
 }
 
 // Repairs the map, but not where hair was found.
-sf_status ChooseByColour(const ColourMap& given, const simd::DepthKernels& kernels,
-                         const MapOutput& output, Phases* phases, ColourMemory* memory) {
+starfocus_status ChooseByColour(const ColourMap& given, const simd::DepthKernels& kernels,
+                                const MapOutput& output, Phases* phases, ColourMemory* memory) {
   const EstimatePlan& plan = given.plan;
-  const sf_light_field& light_field = given.light_field;
+  const starfocus_light_field& light_field = given.light_field;
   int16_t* const* maps = memory->maps;
   const int32_t noise = MeasureNoise(plan, maps[0]);
   const ColourMap half = {plan, light_field, maps[1]};
@@ -283,10 +283,10 @@ sf_status ChooseByColour(const ColourMap& given, const simd::DepthKernels& kerne
       continue;
     }
     if (phase.function == WriteTile) JudgeMap(plan, memory);
-    const sf_status status = phases->Run(phase.function, &phase.job);
-    if (status != SF_OK) return status;
+    const starfocus_status status = phases->Run(phase.function, &phase.job);
+    if (status != STARFOCUS_OK) return status;
   }
-  return SF_OK;
+  return STARFOCUS_OK;
 }
 
 ColourTileMemory TakeTile(const EstimatePlan& plan, Arena* arena) {
@@ -354,18 +354,18 @@ size_t LayOutColourRepair(const EstimatePlan& plan, int32_t max_workers, void* b
   return arena.Bytes();
 }
 
-sf_status RepairByColour(const EstimatePlan& plan, const sf_light_field& light_field,
-                         const simd::DepthKernels& kernels, const MapOutput& output,
-                         ColourMemory* memory) {
+starfocus_status RepairByColour(const EstimatePlan& plan, const starfocus_light_field& light_field,
+                                const simd::DepthKernels& kernels, const MapOutput& output,
+                                ColourMemory* memory) {
   ReadMap(plan, light_field, memory->maps[0]);
   const ColourMap given = {plan, light_field, memory->maps[0]};
   const int32_t before = output.coverage == nullptr ? 0 : kHairPhases;
   Phases phases(plan, before + kColourPhases, &memory->jobs);
   memory->has_coverage = false;
   if (before != 0) {
-    const sf_status status = FindHairCoverage(given, output, memory->hair_cells, memory->hair,
-                                              &phases, &memory->has_coverage);
-    if (status != SF_OK) return status;
+    const starfocus_status status = FindHairCoverage(given, output, memory->hair_cells,
+                                                     memory->hair, &phases, &memory->has_coverage);
+    if (status != STARFOCUS_OK) return status;
   }
   return ChooseByColour(given, kernels, output, &phases, memory);
 }

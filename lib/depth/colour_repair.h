@@ -44,8 +44,8 @@ struct ColourMemory {
   ColourTileMemory* workers;
 };
 
-// Lays out the memory at `base` (aligned to SF_ALIGNMENT), or counts when base is null. Returns the
-// bytes used, or kTooLarge. Of the plan only size and tiles are read, here and below.
+// Lays out the memory at `base` (aligned to STARFOCUS_ALIGNMENT), or counts when base is null.
+// Returns the bytes used, or kTooLarge. Of the plan only size and tiles are read, here and below.
 size_t LayOutColourRepair(const EstimatePlan& plan, int32_t max_workers, void* base,
                           ColourMemory** memory);
 
@@ -55,10 +55,11 @@ size_t LayOutColourRepair(const EstimatePlan& plan, int32_t max_workers, void* b
 // infinite) get one. Confidence is 255 where nothing is in doubt, and 0 where colours gainsay the
 // map too weakly or an outline was moved afterwards. If output.coverage is not null and the map
 // has closed the outline of hair, the coverage of hair is written, memory->has_coverage is set, and
-// disparities of hair stay (hair_coverage.h). Returns SF_OK, SF_ERROR_CANCELLED or SF_ERROR_RUNNER.
-sf_status RepairByColour(const EstimatePlan& plan, const sf_light_field& light_field,
-                         const simd::DepthKernels& kernels, const MapOutput& output,
-                         ColourMemory* memory);
+// disparities of hair stay (hair_coverage.h). Returns STARFOCUS_OK, STARFOCUS_ERROR_CANCELLED or
+// STARFOCUS_ERROR_RUNNER.
+starfocus_status RepairByColour(const EstimatePlan& plan, const starfocus_light_field& light_field,
+                                const simd::DepthKernels& kernels, const MapOutput& output,
+                                ColourMemory* memory);
 
 }  // namespace starfocus
 

@@ -11,10 +11,10 @@
 
 namespace starfocus {
 
-// SF_OK, or SF_ERROR_RUNNER.
-sf_status Estimate(const EstimatePlan& plan, const sf_light_field& light_field,
-                   const simd::DepthKernels& kernels, const MapOutput& output,
-                   EstimateMemory* memory);
+// STARFOCUS_OK, or STARFOCUS_ERROR_RUNNER.
+starfocus_status Estimate(const EstimatePlan& plan, const starfocus_light_field& light_field,
+                          const simd::DepthKernels& kernels, const MapOutput& output,
+                          EstimateMemory* memory);
 
 }  // namespace starfocus
 

@@ -71,8 +71,8 @@ struct EstimateMemory {
   TileMemory* workers;
 };
 
-// Lays out the memory at `base` (aligned to SF_ALIGNMENT), or counts when base is null. Returns the
-// bytes used, or kTooLarge.
+// Lays out the memory at `base` (aligned to STARFOCUS_ALIGNMENT), or counts when base is null.
+// Returns the bytes used, or kTooLarge.
 size_t LayOutEstimate(const EstimatePlan& plan, int32_t max_workers, void* base,
                       EstimateMemory** memory, const PieceVisitor* pieces = nullptr);
 

@@ -111,8 +111,8 @@ Rect WithReach(const EstimatePlan& plan, const SideView& view, const Rect& rect)
 
 }  // namespace
 
-void LoadPatches(const EstimatePlan& plan, const sf_light_field& light_field, const Rect& region,
-                 const simd::DepthKernels& kernels, Patches* patches) {
+void LoadPatches(const EstimatePlan& plan, const starfocus_light_field& light_field,
+                 const Rect& region, const simd::DepthKernels& kernels, Patches* patches) {
   patches->left = region.x - plan.reach;
   patches->top = region.y - plan.reach;
   patches->rows = region.height + 2 * plan.reach + 1;

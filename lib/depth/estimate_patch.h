@@ -10,8 +10,8 @@
 namespace starfocus {
 
 // Makes the planes of all views around `region`, as far as disparities reach.
-void LoadPatches(const EstimatePlan& plan, const sf_light_field& light_field, const Rect& region,
-                 const simd::DepthKernels& kernels, Patches* patches);
+void LoadPatches(const EstimatePlan& plan, const starfocus_light_field& light_field,
+                 const Rect& region, const simd::DepthKernels& kernels, Patches* patches);
 
 // Fills in where the patches show each label in each side view.
 void FindMoves(const EstimatePlan& plan, const Patches& patches, simd::ViewMove* moves);

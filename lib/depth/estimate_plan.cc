@@ -52,7 +52,7 @@ int32_t EstimatePlan::AllPhases() const {
   return phases;
 }
 
-EstimatePlan MakePlan(const sf_depth_config& config) {
+EstimatePlan MakePlan(const starfocus_depth_config& config) {
   EstimatePlan plan = {};
   plan.width = config.width;
   plan.height = config.height;

@@ -22,7 +22,7 @@ inline constexpr int32_t kRepairMargin = 12;
 
 inline constexpr int32_t kLabelStep = 1 << (kDisparityBits - 1);  // half a pixel
 inline constexpr int32_t kMostLabels = 129;
-inline constexpr int32_t kMostSideViews = SF_MAX_VIEWS - 1;
+inline constexpr int32_t kMostSideViews = STARFOCUS_MAX_VIEWS - 1;
 
 // A captured view beside the centre; its position in halves of a unit.
 struct SideView {
@@ -50,7 +50,7 @@ struct EstimatePlan {
   int32_t AllPhases() const;
 };
 
-EstimatePlan MakePlan(const sf_depth_config& config);
+EstimatePlan MakePlan(const starfocus_depth_config& config);
 
 // The plan with every other label, none of which is beyond the last one, and half of the paths: the
 // first sweep of a repair only finds who hides what.

@@ -56,8 +56,9 @@ HairMemory TakeHairMemory(const EstimatePlan& plan, Arena* arena) {
   return memory;
 }
 
-sf_status FindHairCoverage(const ColourMap& map, const MapOutput& output, const HairCells& cells,
-                           const HairMemory& memory, Phases* phases, bool* found) {
+starfocus_status FindHairCoverage(const ColourMap& map, const MapOutput& output,
+                                  const HairCells& cells, const HairMemory& memory, Phases* phases,
+                                  bool* found) {
   const HairJob job = {map, output, cells, memory};
   // Each phase, and the step that follows it for the whole picture. A step that returns false ends
   // the search.
@@ -81,11 +82,11 @@ sf_status FindHairCoverage(const ColourMap& map, const MapOutput& output, const 
       phases->Skip();
       continue;
     }
-    const sf_status status = phases->Run(phase.function, &job);
-    if (status != SF_OK) return status;
+    const starfocus_status status = phases->Run(phase.function, &job);
+    if (status != STARFOCUS_OK) return status;
     *found = phase.conclude(job);
   }
-  return SF_OK;
+  return STARFOCUS_OK;
 }
 
 void CompleteCoverage(const ColourMap& map, const MapOutput& output, const HairCells& cells,

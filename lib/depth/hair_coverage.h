@@ -19,8 +19,9 @@ inline constexpr int32_t kHairPhases = 9;
 
 // Marks the cells with hair and writes their coverage. *found is true if there are any. Returns the
 // status of Phases::Run.
-sf_status FindHairCoverage(const ColourMap& map, const MapOutput& output, const HairCells& cells,
-                           const HairMemory& memory, Phases* phases, bool* found);
+starfocus_status FindHairCoverage(const ColourMap& map, const MapOutput& output,
+                                  const HairCells& cells, const HairMemory& memory, Phases* phases,
+                                  bool* found);
 
 // Completes a tile after its map is written. In cells without hair the coverage is 0 or 255,
 // according to the map. In cells with hair the confidence is 255 minus the difference of the

@@ -28,7 +28,7 @@ struct MapOutput {
 };
 
 // Row y of the given map.
-inline const float* GivenAt(const sf_light_field& light_field, int32_t y) {
+inline const float* GivenAt(const starfocus_light_field& light_field, int32_t y) {
   return RowsOf(light_field.depth).Row(y);
 }
 

@@ -18,8 +18,8 @@ class Phases {
   // Counts the next phase as done without running it.
   void Skip() { ++done_; }
 
-  // Returns SF_OK, SF_ERROR_CANCELLED or SF_ERROR_RUNNER (RunJobSet).
-  sf_status Run(JobFunction function, const void* data) {
+  // Returns STARFOCUS_OK, STARFOCUS_ERROR_CANCELLED or STARFOCUS_ERROR_RUNNER (RunJobSet).
+  starfocus_status Run(JobFunction function, const void* data) {
     jobs_->call_progress.SetPart(done_++, count_);
     return RunJobSet(function, data, tiles_, jobs_);
   }

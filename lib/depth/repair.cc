@@ -132,9 +132,9 @@ void WriteTile(const void* data, int32_t index, int32_t) {
 
 }  // namespace
 
-sf_status Repair(const EstimatePlan& plan, const sf_light_field& light_field,
-                 const simd::DepthKernels& kernels, const MapOutput& output,
-                 EstimateMemory* memory) {
+starfocus_status Repair(const EstimatePlan& plan, const starfocus_light_field& light_field,
+                        const simd::DepthKernels& kernels, const MapOutput& output,
+                        EstimateMemory* memory) {
   const RepairJob job = {{plan, light_field, kernels, memory, output.confidence != nullptr},
                          output};
   constexpr JobFunction kPhases[] = {ReadTile,    TrustTile, MarkTile, SweepFirst,
@@ -142,10 +142,10 @@ sf_status Repair(const EstimatePlan& plan, const sf_light_field& light_field,
   Phases phases(plan, sizeof kPhases / sizeof *kPhases, &memory->jobs);
   for (const JobFunction phase : kPhases) {
     if (phase == WriteTile) JudgeMaps(job.sweep);
-    const sf_status status = phases.Run(phase, &job);
-    if (status != SF_OK) return status;
+    const starfocus_status status = phases.Run(phase, &job);
+    if (status != STARFOCUS_OK) return status;
   }
-  return SF_OK;
+  return STARFOCUS_OK;
 }
 
 }  // namespace starfocus

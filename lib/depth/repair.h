@@ -9,11 +9,11 @@
 namespace starfocus {
 
 // Repairs light_field.depth into `output`; the plan is one that repairs. Pixels that nothing
-// gainsays keep their disparity to the bit, unknown ones (NaN, infinite) get one. SF_OK, or
-// SF_ERROR_RUNNER.
-sf_status Repair(const EstimatePlan& plan, const sf_light_field& light_field,
-                 const simd::DepthKernels& kernels, const MapOutput& output,
-                 EstimateMemory* memory);
+// gainsays keep their disparity to the bit, unknown ones (NaN, infinite) get one. STARFOCUS_OK, or
+// STARFOCUS_ERROR_RUNNER.
+starfocus_status Repair(const EstimatePlan& plan, const starfocus_light_field& light_field,
+                        const simd::DepthKernels& kernels, const MapOutput& output,
+                        EstimateMemory* memory);
 
 }  // namespace starfocus
 

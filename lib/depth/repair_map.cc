@@ -97,7 +97,7 @@ bool IsRough(const EstimatePlan& plan, const EstimateMemory& memory, int32_t x, 
 
 }  // namespace
 
-void ReadGiven(const EstimatePlan& plan, const sf_light_field& light_field, const Rect& tile,
+void ReadGiven(const EstimatePlan& plan, const starfocus_light_field& light_field, const Rect& tile,
                EstimateMemory* memory) {
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
     const float* row = GivenAt(light_field, y);

@@ -12,7 +12,7 @@ namespace starfocus {
 
 // Converts the given disparities of a tile to kDisparityBits; kNoSurface where they are not finite.
 // Both maps of the sweeps begin with them.
-void ReadGiven(const EstimatePlan& plan, const sf_light_field& light_field, const Rect& tile,
+void ReadGiven(const EstimatePlan& plan, const starfocus_light_field& light_field, const Rect& tile,
                EstimateMemory* memory);
 
 // Pixels are trusted whose 3x3 neighbours are known and of one surface: what blurs or scales a map

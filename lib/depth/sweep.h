@@ -10,7 +10,7 @@ namespace starfocus {
 
 struct Sweep {
   const EstimatePlan& plan;
-  const sf_light_field& light_field;
+  const starfocus_light_field& light_field;
   const simd::DepthKernels& kernels;
   EstimateMemory* memory;
   bool rates;  // whether anybody asks for certainty

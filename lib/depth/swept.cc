@@ -45,7 +45,7 @@ int32_t Misfit(const EstimatePlan& plan, const Plane<const uint8_t>& view, int32
 }
 
 // Whether the views on one side of pixel (x, y), whichever, show it at disparity d.
-bool Fits(const EstimatePlan& plan, const sf_light_field& light_field, int32_t x, int32_t y,
+bool Fits(const EstimatePlan& plan, const starfocus_light_field& light_field, int32_t x, int32_t y,
           int32_t d) {
   const Plane<const uint8_t> centre = RowsOf(light_field.views[0]);
   const uint8_t* pixel = centre.data + static_cast<size_t>(y) * centre.stride + 3 * x;
@@ -97,8 +97,8 @@ void ReadDoubts(const EstimatePlan& plan, const uint8_t* doubt, const Rect& arou
 
 }  // namespace
 
-void FindDoubts(const EstimatePlan& plan, const sf_light_field& light_field, const Rect& tile,
-                EstimateMemory* memory) {
+void FindDoubts(const EstimatePlan& plan, const starfocus_light_field& light_field,
+                const Rect& tile, EstimateMemory* memory) {
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
     const size_t row = static_cast<size_t>(y) * static_cast<size_t>(plan.width);
     const int16_t* trusted = memory->trusted + row;

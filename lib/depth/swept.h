@@ -17,8 +17,8 @@ namespace starfocus {
 inline constexpr int32_t kSweptRadius = 5;
 
 // Enters whether each pixel of a tile is in doubt; memory->trusted of it is known.
-void FindDoubts(const EstimatePlan& plan, const sf_light_field& light_field, const Rect& tile,
-                EstimateMemory* memory);
+void FindDoubts(const EstimatePlan& plan, const starfocus_light_field& light_field,
+                const Rect& tile, EstimateMemory* memory);
 
 // Enters which pixels of a tile are swept; the doubts of all tiles are known. `scratch` has a
 // byte for each pixel of the tile widened by kSweptRadius.

@@ -23,7 +23,7 @@ int32_t CeilPixels(double value) {
 int32_t ToWholeCells(int32_t pixels) { return (pixels + kCellSize - 1) / kCellSize * kCellSize; }
 
 // The largest disparity, rounded up: how far side views show a point from its place.
-int32_t LargestMove(const sf_config& config) {
+int32_t LargestMove(const starfocus_config& config) {
   const double nearer = config.disparity_max, farther = -config.disparity_min;
   return CeilPixels(nearer > farther ? nearer : farther);
 }
@@ -44,7 +44,7 @@ int32_t DownToPicture(int32_t border, int layer) {
 
 }  // namespace
 
-Borders AddBorders(const sf_config& config, double max_blur, bool joins) {
+Borders AddBorders(const starfocus_config& config, double max_blur, bool joins) {
   const int32_t blur = CeilPixels(max_blur), reach = ReachOf(blur << kDisparityBits);
   const bool one_view = config.views == 1;
   Borders borders;
@@ -74,7 +74,7 @@ Borders AddBorders(const sf_config& config, double max_blur, bool joins) {
     borders.views = Max(borders.views, borders.highlights + LampReach(LargestLamp(config.width)));
   }
   borders.streamed =
-      borders.views + (Has(config.features, SF_FEATURE_IMAGES) ? borders.views % 2 : 0);
+      borders.views + (Has(config.features, STARFOCUS_FEATURE_IMAGES) ? borders.views % 2 : 0);
   return borders;
 }
 

@@ -43,7 +43,7 @@ void CopyCodes(const RowSource& source, int view, int32_t y, int32_t width, uint
 
 // Fills a row's unknown disparities, if the configuration says so.
 void FinishMapRow(const EngineState& engine, int16_t* row, Counts* counts) {
-  if (Has(engine.config.features, SF_FEATURE_FILL_UNKNOWN)) {
+  if (Has(engine.config.features, STARFOCUS_FEATURE_FILL_UNKNOWN)) {
     counts->unknown_pixels +=
         static_cast<uint64_t>(FillUnknown(engine.config, *engine.kernels, row));
   }
@@ -63,24 +63,25 @@ void LoadPart(const RowsJob& job, int32_t index, Scratch* scratch) {
   }
 }
 
-sf_status StatusOf(uint32_t flags, const sf_config& config) {
+starfocus_status StatusOf(uint32_t flags, const starfocus_config& config) {
   Checker check(config.problem);
-  check.Need((flags & simd::kUnknownDepth) == 0 || Has(config.features, SF_FEATURE_FILL_UNKNOWN),
-             SF_ERROR_NOT_FINITE, {"disparity"}, {"finite, or SF_FEATURE_FILL_UNKNOWN"});
-  check.Need((flags & simd::kDepthOutside) == 0, SF_ERROR_DISPARITY, {"disparity"},
+  check.Need(
+      (flags & simd::kUnknownDepth) == 0 || Has(config.features, STARFOCUS_FEATURE_FILL_UNKNOWN),
+      STARFOCUS_ERROR_NOT_FINITE, {"disparity"}, {"finite, or STARFOCUS_FEATURE_FILL_UNKNOWN"});
+  check.Need((flags & simd::kDepthOutside) == 0, STARFOCUS_ERROR_DISPARITY, {"disparity"},
              {"disparity_min to disparity_max", config.disparity_min, config.disparity_max});
   return check.status();
 }
 
 template <void (*kJob)(const RowsJob&, int32_t, Scratch*)>
-sf_status RunRows(const RowsJob& job, EngineState* engine) {
-  const sf_status status = RunJobs<RowsJob, kJob>(job, job.jobs, &engine->workers);
+starfocus_status RunRows(const RowsJob& job, EngineState* engine) {
+  const starfocus_status status = RunJobs<RowsJob, kJob>(job, job.jobs, &engine->workers);
   uint32_t flags = 0;
   for (int32_t worker = 0; worker < engine->config.max_workers; ++worker) {
     flags |= engine->workers.scratch[worker].counts.depth_flags;
   }
   TakeCounts(engine);
-  return status != SF_OK ? status : StatusOf(flags, engine->config);
+  return status != STARFOCUS_OK ? status : StatusOf(flags, engine->config);
 }
 
 }  // namespace
@@ -99,29 +100,30 @@ RowRange PartOf(const RowRange& rows, int32_t index, int32_t parts) {
           rows.first + static_cast<int32_t>(count * (index + 1) / parts)};
 }
 
-sf_status CheckRows(const RowSource& source, const RowRange& rows, EngineState* engine) {
-  if (source.map == nullptr) return SF_OK;
+starfocus_status CheckRows(const RowSource& source, const RowRange& rows, EngineState* engine) {
+  if (source.map == nullptr) return STARFOCUS_OK;
   const Plane<int16_t>& ring = engine->row_store.disparity;
   const int32_t jobs = Min(Min(MaxJobs(engine->config), ring.rows), rows.last - rows.first);
   return RunRows<CheckPart>({&source, engine, rows, jobs, ring}, engine);
 }
 
-sf_status LoadRows(const RowSource& source, const RowRange& rows, const Plane<int16_t>& disparity,
-                   EngineState* engine) {
-  if (rows.first >= rows.last || (source.map == nullptr && !source.converts_centre)) return SF_OK;
+starfocus_status LoadRows(const RowSource& source, const RowRange& rows,
+                          const Plane<int16_t>& disparity, EngineState* engine) {
+  if (rows.first >= rows.last || (source.map == nullptr && !source.converts_centre))
+    return STARFOCUS_OK;
   const int32_t jobs = Min(MaxJobs(engine->config), rows.last - rows.first);
   return RunRows<LoadPart>({&source, engine, rows, jobs, disparity}, engine);
 }
 
-sf_status CopyRow(const RowSource& source, int32_t y, EngineState* engine) {
-  const sf_config& config = engine->config;
+starfocus_status CopyRow(const RowSource& source, int32_t y, EngineState* engine) {
+  const starfocus_config& config = engine->config;
   int16_t* const row = engine->row_store.disparity.Row(y);
   Counts& counts = engine->workers.scratch[0].counts;
   counts.depth_flags = source.map(source.self, y, row, &counts.disparity_bytes);
-  const sf_status status = StatusOf(counts.depth_flags, config);
-  if (status == SF_OK) FinishMapRow(*engine, row, &counts);
+  const starfocus_status status = StatusOf(counts.depth_flags, config);
+  if (status == STARFOCUS_OK) FinishMapRow(*engine, row, &counts);
   TakeCounts(engine);
-  if (status != SF_OK) return status;
+  if (status != STARFOCUS_OK) return status;
   for (int view = 0; view < config.views; ++view) {
     CopyCodes(source, view, y, config.width, engine->rings[view].Row(y));
   }
@@ -130,14 +132,14 @@ sf_status CopyRow(const RowSource& source, int32_t y, EngineState* engine) {
     source.coverage(source.self, y, coverage.Row(y));
   }
   const Plane<uint8_t>& alpha = engine->images.alpha;
-  if (alpha.data == nullptr) return SF_OK;
+  if (alpha.data == nullptr) return STARFOCUS_OK;
   std::memset(alpha.Row(y), 255, alpha.stride);
   if (source.alpha != nullptr) source.alpha(source.self, y, alpha.Row(y));
-  return SF_OK;
+  return STARFOCUS_OK;
 }
 
-sf_status RefocusRows(const RowSource& source, const RowSink& sink, EngineState* engine) {
-  const sf_config& config = engine->config;
+starfocus_status RefocusRows(const RowSource& source, const RowSink& sink, EngineState* engine) {
+  const starfocus_config& config = engine->config;
   const Lens& lens = engine->lens;
   const int32_t side = config.superblock, reach = lens.borders.centre, top = lens.region.y;
   const int32_t bottom = top + lens.region.height;
@@ -145,26 +147,26 @@ sf_status RefocusRows(const RowSource& source, const RowSink& sink, EngineState*
   RowRange rows = {Max(0, stripes.first - reach), 0};
   const int32_t last = (stripes.last - 1) / side * side;  // stripe
   rows.last = Min(config.height, last + side + reach);
-  sf_status status = CheckRows(source, rows, engine);
-  for (int32_t y = stripes.first; y <= last && status == SF_OK; y += side) {
+  starfocus_status status = CheckRows(source, rows, engine);
+  for (int32_t y = stripes.first; y <= last && status == STARFOCUS_OK; y += side) {
     rows.last = Min(config.height, y + side + reach);
     status = LoadRows(source, rows, engine->row_store.disparity, engine);
     rows.first = rows.last;
-    if (status == SF_OK && engine->stripe.changes.active) {
+    if (status == STARFOCUS_OK && engine->stripe.changes.active) {
       status = CompareRows(y, &engine->workers.scratch[0].cancel, &engine->stripe.changes);
     }
-    if (status == SF_OK) status = RefocusStripe(engine, y);
-    if (status != SF_OK) break;
+    if (status == STARFOCUS_OK) status = RefocusStripe(engine, y);
+    if (status != STARFOCUS_OK) break;
     // The stripe after the last one changes nothing of the region.
     const int32_t end = y == last ? bottom : Min(FinishedRows(config, y), bottom);
     const RowRange finished = {Max(y - kDeblockRows, top), end};
     if (finished.first < end) {
       status = sink.store(sink.self, finished, BufferRows(*engine, y), engine);
     }
-    if (status == SF_OK) engine->workers.jobs.call_progress.SetRows(Max(0, end - top));
+    if (status == STARFOCUS_OK) engine->workers.jobs.call_progress.SetRows(Max(0, end - top));
   }
-  if (status != SF_OK) return status;
-  return engine->workers.jobs.call_progress.Ask() ? SF_OK : SF_ERROR_CANCELLED;
+  if (status != STARFOCUS_OK) return status;
+  return engine->workers.jobs.call_progress.Ask() ? STARFOCUS_OK : STARFOCUS_ERROR_CANCELLED;
 }
 
 }  // namespace starfocus

@@ -31,23 +31,23 @@ struct RowSource {
 
 // Takes finished rows of a picture or region, in order. `from` has all columns of the picture.
 struct RowSink {
-  sf_status (*store)(const void* self, const RowRange& rows, const Plane<uint8_t>& from,
-                     EngineState* engine);
+  starfocus_status (*store)(const void* self, const RowRange& rows, const Plane<uint8_t>& from,
+                            EngineState* engine);
   const void* self;
 };
 
 // Checks that all values of rows [rows.first, rows.last) of the map are allowed.
-// SF_ERROR_NOT_FINITE comes before SF_ERROR_DISPARITY.
-sf_status CheckRows(const RowSource& source, const RowRange& rows, EngineState* engine);
+// STARFOCUS_ERROR_NOT_FINITE comes before STARFOCUS_ERROR_DISPARITY.
+starfocus_status CheckRows(const RowSource& source, const RowRange& rows, EngineState* engine);
 
 // Loads rows of the map into `disparity`, and of the centre view into its ring if the source
 // converts it. The rows have been checked.
-sf_status LoadRows(const RowSource& source, const RowRange& rows, const Plane<int16_t>& disparity,
-                   EngineState* engine);
+starfocus_status LoadRows(const RowSource& source, const RowRange& rows,
+                          const Plane<int16_t>& disparity, EngineState* engine);
 
 // Copies row y of the source into the rings of a streaming engine. Returns the status of its map,
 // with which nothing is copied.
-sf_status CopyRow(const RowSource& source, int32_t y, EngineState* engine);
+starfocus_status CopyRow(const RowSource& source, int32_t y, EngineState* engine);
 
 // Returns the rows of the stripes that the lens's region needs; a stripe's first row is a multiple
 // of the superblock.
@@ -57,9 +57,9 @@ RowRange StripeRows(const EngineState& engine);
 RowRange PartOf(const RowRange& rows, int32_t index, int32_t parts);
 
 // Refocuses what the lens's region needs, stripe by stripe, and stores the region's rows. All rows
-// are checked before the first one is stored. Returns SF_OK, SF_ERROR_CANCELLED, SF_ERROR_RUNNER or
-// an error of the map.
-sf_status RefocusRows(const RowSource& source, const RowSink& sink, EngineState* engine);
+// are checked before the first one is stored. Returns STARFOCUS_OK, STARFOCUS_ERROR_CANCELLED,
+// STARFOCUS_ERROR_RUNNER or an error of the map.
+starfocus_status RefocusRows(const RowSource& source, const RowSink& sink, EngineState* engine);
 
 }  // namespace starfocus
 

@@ -6,7 +6,7 @@
 namespace starfocus {
 namespace {
 
-void Add(const sf_layer_report& part, sf_layer_report* sum) {
+void Add(const starfocus_layer_report& part, starfocus_layer_report* sum) {
   sum->blocks += part.blocks;
   sum->pixels += part.pixels;
   sum->views += part.views;
@@ -15,8 +15,8 @@ void Add(const sf_layer_report& part, sf_layer_report* sum) {
   sum->measured_ns += part.measured_ns;
 }
 
-void Add(const Counts& counts, sf_report* report) {
-  for (int layer = 0; layer < SF_LAYERS; ++layer) {
+void Add(const Counts& counts, starfocus_report* report) {
+  for (int layer = 0; layer < STARFOCUS_LAYERS; ++layer) {
     Add(counts.layers[layer], &report->layers[layer]);
     report->rendered_samples += counts.layers[layer].rendered_samples;
   }
@@ -31,11 +31,11 @@ void Add(const Counts& counts, sf_report* report) {
 
 }  // namespace
 
-sf_status SetLens(const sf_params& params, EngineState* engine) {
-  const sf_status status = MakeLens(engine->config, params, &engine->workers.jobs.call_progress,
-                                    &engine->tables, &engine->lens);
-  if (status != SF_OK) return status;
-  engine->report = sf_report();
+starfocus_status SetLens(const starfocus_params& params, EngineState* engine) {
+  const starfocus_status status = MakeLens(
+      engine->config, params, &engine->workers.jobs.call_progress, &engine->tables, &engine->lens);
+  if (status != STARFOCUS_OK) return status;
+  engine->report = starfocus_report();
   engine->report.r_max = engine->lens.r_max;
   engine->report.superblock = engine->config.superblock;
   DropCounts(engine);
@@ -43,7 +43,7 @@ sf_status SetLens(const sf_params& params, EngineState* engine) {
   engine->stripe.changes.active = false;
   ForgetStripe(&engine->stripe);
   ForgetLayers(engine->config, &engine->row_store);
-  return SF_OK;
+  return STARFOCUS_OK;
 }
 
 void TakeCounts(EngineState* engine) {

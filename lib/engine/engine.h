@@ -36,35 +36,36 @@ struct ImageMemory {
 
 struct EngineState {
   // For the engine's life:
-  sf_config config;         // whose problem is the engine's own
-  sf_problem problem = {};  // of the last call
+  starfocus_config config;         // whose problem is the engine's own
+  starfocus_problem problem = {};  // of the last call
   const simd::Kernels* kernels;
   Tables tables;
-  sf_allocator allocator = {};      // of the memory; without functions: the caller's own
-  size_t bytes = 0;                 // of that, from the allocator
-  Workers workers;                  // the workers' memory
-  Plane<uint8_t> rings[kMaxViews];  // with streaming: rows that were pushed
-  ImageMemory images;               // and rings[0]: of images
+  starfocus_allocator allocator = {};  // of the memory; without functions: the caller's own
+  size_t bytes = 0;                    // of that, from the allocator
+  Workers workers;                     // the workers' memory
+  Plane<uint8_t> rings[kMaxViews];     // with streaming: rows that were pushed
+  ImageMemory images;                  // and rings[0]: of images
 
-  // Until the next sf_set_callbacks, beside the runner and progress function in workers.jobs:
-  sf_clock clock = nullptr;
-  sf_block_visitor on_block = nullptr;
+  // Until the next starfocus_set_callbacks, beside the runner and progress function in
+  // workers.jobs:
+  starfocus_clock clock = nullptr;
+  starfocus_block_visitor on_block = nullptr;
   void* on_block_data = nullptr;
 
   // For one refocusing:
   Lens lens;
   RowStore row_store;
   Stream stream;
-  sf_report report;
+  starfocus_report report;
 
   // For one stripe:
   StripeState stripe;
 };
 
 // Sets up the lens for params, told to the workers' CallProgress, and forgets all of the refocusing
-// before. Returns SF_ERROR_BLUR, SF_ERROR_CANCELLED or SF_OK. The other fields of params
-// must have been checked.
-sf_status SetLens(const sf_params& params, EngineState* engine);
+// before. Returns STARFOCUS_ERROR_BLUR, STARFOCUS_ERROR_CANCELLED or STARFOCUS_OK. The other fields
+// of params must have been checked.
+starfocus_status SetLens(const starfocus_params& params, EngineState* engine);
 
 // Adds to the report what the workers counted since the last time; or forgets it.
 void TakeCounts(EngineState* engine);

@@ -86,7 +86,7 @@ void CompareMaps(const FrameDiff& changes, int32_t y) {
 // Compares row y of coverage, of which there is as much in both.
 void CompareCoverage(const FrameDiff& changes, int32_t y) {
   const auto row = static_cast<size_t>(y);
-  const sf_light_field &a = *changes.before, &b = *changes.now;
+  const starfocus_light_field &a = *changes.before, &b = *changes.now;
   if (a.coverage == nullptr || b.coverage == nullptr) return;
   CompareRow(changes,
              {a.coverage + row * a.coverage_stride, b.coverage + row * b.coverage_stride, 1}, y,
@@ -112,7 +112,7 @@ void StartFrameDiff(int32_t y, FrameDiff* changes) {
   changes->known = Max(0, changes->rows - reach) / changes->side;
 }
 
-sf_status CompareRows(int32_t y, CancelToken* cancel, FrameDiff* changes) {
+starfocus_status CompareRows(int32_t y, CancelToken* cancel, FrameDiff* changes) {
   const int32_t reach = changes->side_reach;
   const int32_t end = Min(changes->height, y + 2 * changes->side + reach);
   for (; changes->rows < end; ++changes->rows) {
@@ -121,10 +121,10 @@ sf_status CompareRows(int32_t y, CancelToken* cancel, FrameDiff* changes) {
       std::memset(changes->Flags(changes->known), 0, static_cast<size_t>(changes->columns));
     }
     const int64_t samples = int64_t{3} * changes->width * changes->views;
-    if (!cancel->Spend(samples)) return SF_ERROR_CANCELLED;
+    if (!cancel->Spend(samples)) return STARFOCUS_ERROR_CANCELLED;
     CompareViews(*changes, changes->rows);
   }
-  return SF_OK;
+  return STARFOCUS_OK;
 }
 
 bool HasChanged(const FrameDiff& changes, const Rect& rect) {

@@ -16,7 +16,7 @@ namespace starfocus {
 // beside it are known once all rows within their reach are compared.
 struct FrameDiff {
   bool active = false;  // there is something to compare with
-  const sf_light_field *before, *now;
+  const starfocus_light_field *before, *now;
   int32_t views;                     // that matter
   int32_t width, height, side;       // of the picture and its superblocks
   int32_t columns;                   // of superblocks
@@ -36,8 +36,8 @@ struct FrameDiff {
 void StartFrameDiff(int32_t y, FrameDiff* changes);
 
 // Compares all rows that blocks of the stripe at row y, and of those before and after it, depend
-// on. Returns SF_OK or SF_ERROR_CANCELLED.
-sf_status CompareRows(int32_t y, CancelToken* cancel, FrameDiff* changes);
+// on. Returns STARFOCUS_OK or STARFOCUS_ERROR_CANCELLED.
+starfocus_status CompareRows(int32_t y, CancelToken* cancel, FrameDiff* changes);
 
 // Whether a superblock that has pixels in `rect`, or less than a stripe away from those last
 // compared, has changed.

@@ -18,12 +18,12 @@ struct Workers {
 };
 
 // Most jobs of any set of an engine.
-int32_t MaxJobs(const sf_config& config);
+int32_t MaxJobs(const starfocus_config& config);
 
 // Runs kJob(data, index, memory of a worker) for all indices as RunJobSet does: its data are its
 // input and say where its output goes.
 template <class Data, void (*kJob)(const Data&, int32_t, Scratch*)>
-sf_status RunJobs(const Data& data, int32_t count, Workers* workers) {
+starfocus_status RunJobs(const Data& data, int32_t count, Workers* workers) {
   struct Set {
     const Data& data;
     Scratch* scratch;

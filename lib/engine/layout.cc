@@ -10,7 +10,7 @@ namespace starfocus {
 namespace {
 
 // Takes the memory that a column of superblocks is subsampled in.
-void TakeResample(const sf_config& config, Arena* arena, ResampleScratch* resample) {
+void TakeResample(const starfocus_config& config, Arena* arena, ResampleScratch* resample) {
   // The last column has what a layer has beyond the picture, a pixel or two.
   const auto side = config.superblock;
   const auto columns = static_cast<size_t>(Max(side / 2 + 1, TapsOfLayer(side / 4 + 2)));
@@ -24,7 +24,7 @@ void TakeResample(const sf_config& config, Arena* arena, ResampleScratch* resamp
 
 // Blocks are rendered, or parted, one after the other, and only sums are handed on: all the rest of
 // a worker's memory is shared.
-Scratch TakeScratch(const sf_config& config, Arena* arena) {
+Scratch TakeScratch(const starfocus_config& config, Arena* arena) {
   const auto side = static_cast<size_t>(config.superblock);
   const Borders borders = LargestBorders(config);
   Scratch scratch = {};
@@ -71,7 +71,7 @@ Scratch TakeScratch(const sf_config& config, Arena* arena) {
   return scratch;
 }
 
-void TakeTables(const sf_config& config, Arena* arena, Tables* tables) {
+void TakeTables(const starfocus_config& config, Arena* arena, Tables* tables) {
   const bool full = HasShapes(config);
   const auto weights_of = [&](int32_t n) {
     return full ? FullApertureSize(n) : ViewWeightsSize(n);
@@ -91,7 +91,7 @@ void TakeTables(const sf_config& config, Arena* arena, Tables* tables) {
 }
 
 // Takes the planes of layers 1 and 2 around a stripe.
-void TakeLayers(const sf_config& config, Arena* arena, EngineState* engine) {
+void TakeLayers(const starfocus_config& config, Arena* arena, EngineState* engine) {
   for (int layer = 1; layer <= config.tuning.max_layer; ++layer) {
     LayerPlane& plane = engine->row_store.layers[layer];
     const auto width = static_cast<size_t>(LayerSize(config.width, layer));
@@ -101,7 +101,7 @@ void TakeLayers(const sf_config& config, Arena* arena, EngineState* engine) {
   }
 }
 
-void TakeStripe(const sf_config& config, Arena* arena, EngineState* engine) {
+void TakeStripe(const starfocus_config& config, Arena* arena, EngineState* engine) {
   const Borders borders = LargestBorders(config);
   const int32_t side = config.superblock;
   const auto blocks = static_cast<size_t>((config.width + side - 1) / side);
@@ -120,7 +120,7 @@ void TakeStripe(const sf_config& config, Arena* arena, EngineState* engine) {
   engine->stripe.plan.gathered.columns = static_cast<int32_t>(blocks) * side / kCellSize;
   engine->stripe.plan.gathered.cells = arena->Take<uint8_t>(
       static_cast<size_t>(engine->stripe.plan.gathered.columns * (side / kCellSize)));
-  for (int layer = 1; layer < SF_LAYERS; ++layer) {
+  for (int layer = 1; layer < STARFOCUS_LAYERS; ++layer) {
     engine->row_store.needed[layer] = arena->Take<uint8_t>(blocks);
   }
   FrameDiff& changes = engine->stripe.changes;
@@ -135,20 +135,20 @@ void TakeStripe(const sf_config& config, Arena* arena, EngineState* engine) {
 }
 
 // Takes what images need; `rows` are those of a ring.
-void TakeImages(const sf_config& config, int32_t rows, Arena* arena, ImageMemory* images) {
+void TakeImages(const starfocus_config& config, int32_t rows, Arena* arena, ImageMemory* images) {
   const auto width = static_cast<size_t>(config.width);
   images->columns = arena->Take<uint32_t>(width);
   images->odd_row = arena->Take<uint8_t>(3 * width);
-  if (!Has(config.features, SF_FEATURE_STREAMING)) return;
+  if (!Has(config.features, STARFOCUS_FEATURE_STREAMING)) return;
   // Alpha is read when finished rows are written, which may be those of a stripe before.
   images->alpha.rows = rows + config.superblock + kDeblockRows;
   images->alpha.stride = width;
   images->alpha.data = arena->Take<uint8_t>(width, static_cast<size_t>(images->alpha.rows));
 }
 
-void TakeRows(const sf_config& config, Arena* arena, EngineState* engine) {
+void TakeRows(const starfocus_config& config, Arena* arena, EngineState* engine) {
   const auto width = static_cast<size_t>(config.width);
-  const bool streaming = Has(config.features, SF_FEATURE_STREAMING);
+  const bool streaming = Has(config.features, STARFOCUS_FEATURE_STREAMING);
   const Borders borders = LargestBorders(config);
   const int32_t rows = config.superblock + 2 * (streaming ? borders.streamed : borders.centre);
   engine->row_store.disparity.rows = rows;
@@ -158,7 +158,9 @@ void TakeRows(const sf_config& config, Arena* arena, EngineState* engine) {
       arena->Take<uint8_t>(3 * width, static_cast<size_t>(config.superblock + kDeblockRows));
   // Null without streaming also where LayOutAnew made it of an engine that streams.
   engine->stripe.last_rows = streaming ? arena->Take<uint8_t>(3 * width, kDeblockRows) : nullptr;
-  const int rings = streaming ? config.views : Has(config.features, SF_FEATURE_IMAGES) ? 1 : 0;
+  const int rings = streaming                                        ? config.views
+                    : Has(config.features, STARFOCUS_FEATURE_IMAGES) ? 1
+                                                                     : 0;
   if (streaming && HasCoverage(config)) {
     engine->stripe.coverage.given.rows = rows;
     engine->stripe.coverage.given.stride = width;
@@ -169,10 +171,11 @@ void TakeRows(const sf_config& config, Arena* arena, EngineState* engine) {
     engine->rings[view].stride = 3 * width;
     engine->rings[view].data = arena->Take<uint8_t>(3 * width, static_cast<size_t>(rows));
   }
-  if (Has(config.features, SF_FEATURE_IMAGES)) TakeImages(config, rows, arena, &engine->images);
+  if (Has(config.features, STARFOCUS_FEATURE_IMAGES))
+    TakeImages(config, rows, arena, &engine->images);
 }
 
-size_t Carve(const sf_config& config, Arena arena, EngineState** engine) {
+size_t Carve(const starfocus_config& config, Arena arena, EngineState** engine) {
   *engine = arena.Take<EngineState>(1);
   EngineState counted;  // stands in for *engine while counting
   EngineState& e = *engine == nullptr ? counted : **engine;
@@ -204,12 +207,12 @@ void VisitZones(EngineState* engine, void (*visit)(void*, size_t, size_t)) {
 
 }  // namespace
 
-size_t LayOut(const sf_config& config, void* base, EngineState** engine,
+size_t LayOut(const starfocus_config& config, void* base, EngineState** engine,
               const PieceVisitor* pieces) {
   return Carve(config, Arena(base, PTRDIFF_MAX, pieces), engine);
 }
 
-void LayOutAnew(const sf_config& config, EngineState* engine) {
+void LayOutAnew(const starfocus_config& config, EngineState* engine) {
   EngineState* same = nullptr;
   Carve(config, Arena(engine), &same);
   engine->config = config;

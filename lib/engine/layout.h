@@ -13,16 +13,16 @@
 
 namespace starfocus {
 
-// Lays out an engine for a valid configuration at `base` (aligned to SF_ALIGNMENT), or counts when
-// base is null. Returns the bytes used, or kTooLarge; *engine is null when counting. `pieces`
-// (null: nobody) is told of what is taken.
-size_t LayOut(const sf_config& config, void* base, EngineState** engine,
+// Lays out an engine for a valid configuration at `base` (aligned to STARFOCUS_ALIGNMENT), or
+// counts when base is null. Returns the bytes used, or kTooLarge; *engine is null when counting.
+// `pieces` (null: nobody) is told of what is taken.
+size_t LayOut(const starfocus_config& config, void* base, EngineState** engine,
               const PieceVisitor* pieces = nullptr);
 
 // Lays an engine out anew for pictures that are no larger than those that its memory was made for:
 // `config` differs from that engine's in its size and range of disparities alone, and does not
 // stream. Tables stay; nothing of what a refocusing keeps does.
-void LayOutAnew(const sf_config& config, EngineState* engine);
+void LayOutAnew(const starfocus_config& config, EngineState* engine);
 
 // Makes the red zones of an engine's memory, if this build has any, ones that nobody may touch, as
 // long as the object lives: the memory is the caller's and may become something else afterwards.

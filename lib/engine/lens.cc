@@ -11,18 +11,19 @@ namespace starfocus {
 namespace {
 
 // The line scan shows a halo, as wide as the blur, where no view sees what is behind edges.
-const Renderer& RendererOf(const sf_config& config, const sf_params& params) {
-  const bool by_default = params.renderer == SF_RENDERER_AUTO && params.mode == SF_MODE_FRAME &&
-                          config.views > 1 && HasStar(config);
-  const bool is_paper = params.renderer == SF_RENDERER_LINE_SCAN || by_default;
+const Renderer& RendererOf(const starfocus_config& config, const starfocus_params& params) {
+  const bool by_default = params.renderer == STARFOCUS_RENDERER_AUTO &&
+                          params.mode == STARFOCUS_MODE_FRAME && config.views > 1 &&
+                          HasStar(config);
+  const bool is_paper = params.renderer == STARFOCUS_RENDERER_LINE_SCAN || by_default;
   return is_paper && HasLineScan(config) ? kLineScanRenderer : kSliceRenderer;
 }
 
 // Returns the one aperture of the frame modes. That of the benchmark is made in memory of its own.
-// SF_MODE_BLUR shows the centre view alone.
-ViewWeights FrameWeights(const sf_config& config, const Tables& tables, const Lens& lens) {
+// STARFOCUS_MODE_BLUR shows the centre view alone.
+ViewWeights FrameWeights(const starfocus_config& config, const Tables& tables, const Lens& lens) {
   const Renderer& renderer = *lens.renderer;
-  if (lens.params.mode == SF_MODE_BLUR) return lens.apertures[0];
+  if (lens.params.mode == STARFOCUS_MODE_BLUR) return lens.apertures[0];
   if (IsBenchmark(lens)) {
     return renderer.make_aperture(ViewsOfBenchmark(lens.r_max), tables.opening,
                                   tables.benchmark_weights);
@@ -33,54 +34,56 @@ ViewWeights FrameWeights(const sf_config& config, const Tables& tables, const Le
 
 }  // namespace
 
-Rect RegionOf(const sf_config& config, const sf_params& params) {
-  const sf_region& region = params.region;
+Rect RegionOf(const starfocus_config& config, const starfocus_params& params) {
+  const starfocus_region& region = params.region;
   if (IsWhole(region)) return {0, 0, config.width, config.height};
   return {region.x, region.y, region.width, region.height};
 }
 
 int32_t LastGatherStep(const Lens& lens) { return BlurStepCount(LargestGather(lens.r_max)) - 1; }
 
-double LargestBlur(const sf_config& config, const sf_params& params) {
+double LargestBlur(const starfocus_config& config, const starfocus_params& params) {
   const double nearer = config.disparity_max - params.lens.focus;
   const double farther = params.lens.focus - config.disparity_min;
   return params.lens.aperture * (nearer > farther ? nearer : farther);
 }
 
-sf_status CheckBlur(const sf_config& config, const sf_params& params) {
+starfocus_status CheckBlur(const starfocus_config& config, const starfocus_params& params) {
   const double r_max = LargestBlur(config, params), aperture = params.lens.aperture;
   Checker check(config.problem);
-  check.Need(r_max <= config.max_blur, SF_ERROR_BLUR, {"lens.aperture", aperture},
+  check.Need(r_max <= config.max_blur, STARFOCUS_ERROR_BLUR, {"lens.aperture", aperture},
              {"at most max_blur over the largest |disparity - lens.focus| that is configured", 0,
               aperture * config.max_blur / r_max});
   return check.status();
 }
 
-sf_status MakeLens(const sf_config& config, const sf_params& params, CallProgress* call_progress,
-                   Tables* tables, Lens* lens) {
+starfocus_status MakeLens(const starfocus_config& config, const starfocus_params& params,
+                          CallProgress* call_progress, Tables* tables, Lens* lens) {
   const double r_max = LargestBlur(config, params);
-  const sf_status fits = CheckBlur(config, params);
-  if (fits != SF_OK) return fits;
+  const starfocus_status fits = CheckBlur(config, params);
+  if (fits != STARFOCUS_OK) return fits;
   SetOpening(ShapeOf(params.lens), tables);
   lens->params = params;
   lens->region = RegionOf(config, params);
   lens->renderer = &RendererOf(config, params);
   lens->r_max = r_max;
   lens->borders = AddBorders(config, r_max, IsDeblocking(config, *lens));
-  // The benchmark has an aperture of its own, and SF_MODE_BLUR needs only that of N = 0.
-  const bool has_own = IsBenchmark(*lens) || params.mode == SF_MODE_BLUR;
+  // The benchmark has an aperture of its own, and STARFOCUS_MODE_BLUR needs only that of N = 0.
+  const bool has_own = IsBenchmark(*lens) || params.mode == STARFOCUS_MODE_BLUR;
   lens->largest_n =
       LargestN(config, *lens->renderer, DemandOf(tables->opening), has_own ? 0 : r_max);
-  const sf_status status = MakeApertures(*lens->renderer, lens->largest_n, call_progress, tables);
-  if (status != SF_OK) return status;
+  const starfocus_status status =
+      MakeApertures(*lens->renderer, lens->largest_n, call_progress, tables);
+  if (status != STARFOCUS_OK) return status;
   lens->apertures = tables->apertures[lens->renderer->index].apertures;
   lens->aperture = FrameWeights(config, *tables, *lens);
   const ViewGrid grid =
       MakeViewGrid(lens->aperture, params.lens.focus, params.lens.aperture, 0, false);
   lens->scale = {grid.focus, grid.step};
   if (Gathers(config, *lens)) return MakePsfs(LastGatherStep(*lens) + 1, call_progress, tables);
-  if (params.mode == SF_MODE_BLUR) return MakePsfs(BlurStepCount(r_max), call_progress, tables);
-  return SF_OK;
+  if (params.mode == STARFOCUS_MODE_BLUR)
+    return MakePsfs(BlurStepCount(r_max), call_progress, tables);
+  return STARFOCUS_OK;
 }
 
 }  // namespace starfocus

@@ -249,13 +249,13 @@ void BlurBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>& 
 
 void RefocusBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>& out,
                   Scratch* scratch) {
-  const sf_clock clock = in.clock;
+  const starfocus_clock clock = in.clock;
   const uint64_t start = clock != nullptr ? clock() : 0;
   Rendered rendered = {1, 0};  // the centre, of a block gathered whole
   if (IsPinhole(*in.lens)) {
     // Copied also without skips: whatever else becomes of samples, none is to change here.
     rendered = CopyBlock(in, block.rect, out, scratch);
-  } else if (in.lens->params.mode == SF_MODE_BLUR) {
+  } else if (in.lens->params.mode == STARFOCUS_MODE_BLUR) {
     BlurBlock(in, block, out, scratch);
     rendered = {0, 0};
   } else {
@@ -265,7 +265,7 @@ void RefocusBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t
     // Cells are gathered after views, which know nothing of them.
     if (block.gathers) GatherBlock(in, block, out, scratch);
   }
-  sf_layer_report& report = scratch->counts.layers[block.layer];
+  starfocus_layer_report& report = scratch->counts.layers[block.layer];
   report.blocks += 1;
   report.pixels += Samples(block.rect) / 3;
   report.views += rendered.views;

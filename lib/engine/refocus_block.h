@@ -17,14 +17,14 @@ namespace starfocus {
 
 // What the blocks of a stripe are made from.
 struct BlockInputs {
-  const sf_config* config;
+  const starfocus_config* config;
   const simd::Kernels* kernels;
   const Tables* tables;
   const Lens* lens;
   const Window* windows;  // of each layer
   const CellGrid* cells;
   const GatherMap* gathered;
-  sf_clock clock;  // null: blocks are not timed
+  starfocus_clock clock;  // null: blocks are not timed
 };
 
 // Writes the block's rectangle of the picture into `out` and counts it in scratch->counts.

@@ -11,12 +11,12 @@
 
 namespace starfocus {
 
-void SetViews(const sf_config& config, const ViewReader& reader, const Plane<const uint8_t>& centre,
-              RowStore* row_store) {
+void SetViews(const starfocus_config& config, const ViewReader& reader,
+              const Plane<const uint8_t>& centre, RowStore* row_store) {
   ViewSet set;
   FindViews(config, &set);  // which were checked when the engine was made
   const OcclusionViews occlusion_views = ChooseOcclusionViews(set);
-  for (int layer = 0; layer < SF_LAYERS; ++layer) {
+  for (int layer = 0; layer < STARFOCUS_LAYERS; ++layer) {
     Window& window = row_store->windows[layer];
     window.layer = layer;
     const int32_t taps = layer == 0 ? 2 : 2 * (1 << layer) - 1;
@@ -38,8 +38,8 @@ void SetViews(const sf_config& config, const ViewReader& reader, const Plane<con
   row_store->windows[0].centre = centre;
 }
 
-void SetPlanes(const sf_config& config, const simd::Kernels& kernels, const Plane<uint8_t>* views,
-               RowStore* row_store) {
+void SetPlanes(const starfocus_config& config, const simd::Kernels& kernels,
+               const Plane<uint8_t>* views, RowStore* row_store) {
   PlaneViews& planes = row_store->planes;
   planes.kernels = &kernels;
   planes.transfer = &TransferOf(config.transfer);
@@ -49,7 +49,7 @@ void SetPlanes(const sf_config& config, const simd::Kernels& kernels, const Plan
   SetViews(config, ReaderOf(planes), planes.view[0], row_store);
 }
 
-int32_t FillUnknown(const sf_config& config, const simd::Kernels& kernels, int16_t* row) {
+int32_t FillUnknown(const starfocus_config& config, const simd::Kernels& kernels, int16_t* row) {
   int32_t unknown = 0;
   for (int32_t x = 0; x < config.width; ++x) unknown += row[x] == simd::kNoSurface ? 1 : 0;
   const auto is_known = [](int16_t value) { return value != simd::kNoSurface; };
@@ -60,8 +60,8 @@ int32_t FillUnknown(const sf_config& config, const simd::Kernels& kernels, int16
   return unknown;
 }
 
-void ForgetLayers(const sf_config& config, RowStore* row_store) {
-  for (int layer = 1; layer < SF_LAYERS; ++layer) {
+void ForgetLayers(const starfocus_config& config, RowStore* row_store) {
+  for (int layer = 1; layer < STARFOCUS_LAYERS; ++layer) {
     // A ring of as many rows as a stripe may need: what the stripe before made stays.
     row_store->layers[layer].samples.rows = LayerRows(config, layer);
     row_store->layers[layer].rows = {0, 0};

@@ -18,27 +18,27 @@ enum ColumnNeed : uint8_t { kNeeded = 1, kNeededBefore = 2 };
 
 struct RowStore {
   PlaneViews planes;  // what the windows read, if all views are rows of codes in memory
-  Window windows[SF_LAYERS];
-  LayerPlane layers[SF_LAYERS];  // layers 1 and 2, around a stripe
-  uint8_t* needed[SF_LAYERS];    // per column of superblocks: ColumnNeed of its layer 1, 2
-  Plane<int16_t> disparity;      // ring of converted rows
-  bool prepared;                 // disparities and layers of the windows are a prepared field's
+  Window windows[STARFOCUS_LAYERS];
+  LayerPlane layers[STARFOCUS_LAYERS];  // layers 1 and 2, around a stripe
+  uint8_t* needed[STARFOCUS_LAYERS];    // per column of superblocks: ColumnNeed of its layer 1, 2
+  Plane<int16_t> disparity;             // ring of converted rows
+  bool prepared;  // disparities and layers of the windows are a prepared field's
 };
 
 // Points the windows at views: `reader` must stay valid, `centre` has the codes of the centre view.
-void SetViews(const sf_config& config, const ViewReader& reader, const Plane<const uint8_t>& centre,
-              RowStore* row_store);
+void SetViews(const starfocus_config& config, const ViewReader& reader,
+              const Plane<const uint8_t>& centre, RowStore* row_store);
 
 // Points the windows at views in memory of the library: reduced pictures or rings of rows.
-void SetPlanes(const sf_config& config, const simd::Kernels& kernels, const Plane<uint8_t>* views,
-               RowStore* row_store);
+void SetPlanes(const starfocus_config& config, const simd::Kernels& kernels,
+               const Plane<uint8_t>* views, RowStore* row_store);
 
-// Fills the unknown pixels (kNoSurface) of a converted row, as SF_FEATURE_FILL_UNKNOWN says.
+// Fills the unknown pixels (kNoSurface) of a converted row, as STARFOCUS_FEATURE_FILL_UNKNOWN says.
 // Returns their number.
-int32_t FillUnknown(const sf_config& config, const simd::Kernels& kernels, int16_t* row);
+int32_t FillUnknown(const starfocus_config& config, const simd::Kernels& kernels, int16_t* row);
 
 // Forgets the layers' rows, which are of another picture, or of which not all were made.
-void ForgetLayers(const sf_config& config, RowStore* row_store);
+void ForgetLayers(const starfocus_config& config, RowStore* row_store);
 
 }  // namespace starfocus
 

@@ -17,8 +17,8 @@ namespace starfocus {
 
 // What a worker counts in one stripe.
 struct Counts {
-  sf_layer_report layers[SF_LAYERS];
-  sf_skipped skipped;
+  starfocus_layer_report layers[STARFOCUS_LAYERS];
+  starfocus_skipped skipped;
   Reads reads;
   uint64_t disparity_bytes;
   uint64_t gathered_pixels;

@@ -44,31 +44,32 @@ void DeblockColumnBoundaries(const JoinJob& job, int32_t index, Scratch*) {
   DeblockColumns(job.deblock, first, Min(first + kSmallestBlock, job.finished.last));
 }
 
-sf_status Deblock(const Stripe& stripe, const Plane<uint8_t>& out, EngineState* engine) {
-  const sf_config& config = engine->config;
+starfocus_status Deblock(const Stripe& stripe, const Plane<uint8_t>& out, EngineState* engine) {
+  const starfocus_config& config = engine->config;
   const Transfer* transfer = engine->row_store.windows[0].transfer;
   const JoinJob job = {{&engine->stripe.map, out, config.width, config.height, stripe.y,
                         config.tuning.deblocking, transfer, engine->kernels},
                        config.superblock / kSmallestBlock,
                        {Max(0, stripe.y - kDeblockRows), FinishedRows(config, stripe.y)}};
-  const sf_status status =
+  const starfocus_status status =
       RunJobs<JoinJob, DeblockRowBoundaries>(job, Columns(config), &engine->workers);
   const int32_t rows = job.finished.last - job.finished.first;
-  if (status != SF_OK || rows <= 0) return status;
+  if (status != STARFOCUS_OK || rows <= 0) return status;
   return RunJobs<JoinJob, DeblockColumnBoundaries>(
       job, (rows + kSmallestBlock - 1) / kSmallestBlock, &engine->workers);
 }
 
-sf_status RefocusPhases(const Stripe& stripe, const Plane<uint8_t>& out, EngineState* engine) {
-  const sf_config& config = engine->config;
+starfocus_status RefocusPhases(const Stripe& stripe, const Plane<uint8_t>& out,
+                               EngineState* engine) {
+  const starfocus_config& config = engine->config;
   const Lens& lens = engine->lens;
-  sf_status status = FindCoverage(stripe, engine);
-  if (status == SF_OK) status = PlanStripe(stripe, engine);
-  if (status == SF_OK && IsBlockMode(lens) && !engine->row_store.prepared) {
+  starfocus_status status = FindCoverage(stripe, engine);
+  if (status == STARFOCUS_OK) status = PlanStripe(stripe, engine);
+  if (status == STARFOCUS_OK && IsBlockMode(lens) && !engine->row_store.prepared) {
     PlaceLayers({stripe.y, stripe.y + stripe.height}, lens.borders, &engine->row_store);
     status = FillLayers(config, *engine->kernels, &engine->workers, &engine->row_store);
   }
-  if (status != SF_OK) return status;
+  if (status != STARFOCUS_OK) return status;
   const StripePlan& plan = engine->stripe.plan;
   // Blocks of the most predicted time come first, so that no worker is left with a long one when
   // the others have none any more.
@@ -78,7 +79,7 @@ sf_status RefocusPhases(const Stripe& stripe, const Plane<uint8_t>& out, EngineS
   if (plan.used > 0) {
     status = RunJobs<RefocusJob, RefocusOneBlock>(job, plan.used, &engine->workers);
   }
-  if (status != SF_OK || !IsDeblocking(config, lens)) return status;
+  if (status != STARFOCUS_OK || !IsDeblocking(config, lens)) return status;
   return Deblock(stripe, out, engine);
 }
 
@@ -91,7 +92,7 @@ void KeepStripe(EngineState* engine) {
 
 // Leaves the engine as if the stripe had not been begun; what it shared with the one before is made
 // again.
-void WithdrawStripe(const sf_report& report, EngineState* engine) {
+void WithdrawStripe(const starfocus_report& report, EngineState* engine) {
   engine->report = report;
   DropCounts(engine);
   engine->stripe.plan.all_measured = false;
@@ -111,7 +112,7 @@ BlockInputs InputsOf(const EngineState& engine) {
           engine.clock};
 }
 
-int32_t FinishedRows(const sf_config& config, int32_t y) {
+int32_t FinishedRows(const starfocus_config& config, int32_t y) {
   const int32_t end = y + config.superblock;
   return end >= config.height ? config.height : end - kDeblockRows;
 }
@@ -120,9 +121,9 @@ Plane<uint8_t> BufferRows(const EngineState& engine, int32_t y) {
   return {engine.stripe.out, 3 * static_cast<size_t>(engine.config.width), 0, y - kDeblockRows};
 }
 
-sf_status RefocusStripe(EngineState* engine, int32_t y) {
+starfocus_status RefocusStripe(EngineState* engine, int32_t y) {
   const RedZones zones(engine);
-  const sf_config& config = engine->config;
+  const starfocus_config& config = engine->config;
   const Stripe stripe = {y, Min(config.superblock, config.height - y)};
   const Plane<uint8_t> rows = BufferRows(*engine, y);
   uint8_t* const ends = rows.Row(y + config.superblock - kDeblockRows);
@@ -131,19 +132,19 @@ sf_status RefocusStripe(EngineState* engine, int32_t y) {
   // The last rows of the stripe before may still change, and anew when a stripe that failed is
   // refocused again.
   std::memcpy(rows.Row(y - kDeblockRows), last_rows != nullptr ? last_rows : ends, bytes);
-  const sf_report report = engine->report;
+  const starfocus_report report = engine->report;
   if (!ChooseColumns(stripe, engine)) {
     ForgetStripe(&engine->stripe);  // nothing for the next stripe to join
-    return SF_OK;
+    return STARFOCUS_OK;
   }
-  const sf_status status = RefocusPhases(stripe, rows, engine);
-  if (status != SF_OK) {
+  const starfocus_status status = RefocusPhases(stripe, rows, engine);
+  if (status != STARFOCUS_OK) {
     WithdrawStripe(report, engine);
     return status;
   }
   KeepStripe(engine);
   if (last_rows != nullptr) std::memcpy(last_rows, ends, bytes);
-  return SF_OK;
+  return STARFOCUS_OK;
 }
 
 }  // namespace starfocus

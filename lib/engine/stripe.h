@@ -16,7 +16,7 @@ namespace starfocus {
 BlockInputs InputsOf(const EngineState& engine);
 
 // Output rows that are final once the stripe that starts at row y is done.
-int32_t FinishedRows(const sf_config& config, int32_t y);
+int32_t FinishedRows(const starfocus_config& config, int32_t y);
 
 // The engine's own rows for the stripe that starts at row y, and those before it that it may still
 // change.
@@ -24,9 +24,9 @@ Plane<uint8_t> BufferRows(const EngineState& engine, int32_t y);
 
 // Refocuses what the lens's region needs of the stripe that starts at row y, a multiple of the
 // superblock, into BufferRows; stripes come one after the other. All rows within reach are in
-// the windows. After SF_ERROR_RUNNER and SF_ERROR_CANCELLED the rows are half made and the engine
-// is as it was, so that a stripe of a stream can be refocused again.
-sf_status RefocusStripe(EngineState* engine, int32_t y);
+// the windows. After STARFOCUS_ERROR_RUNNER and STARFOCUS_ERROR_CANCELLED the rows are half made
+// and the engine is as it was, so that a stripe of a stream can be refocused again.
+starfocus_status RefocusStripe(EngineState* engine, int32_t y);
 
 }  // namespace starfocus
 

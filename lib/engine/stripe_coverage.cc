@@ -26,10 +26,10 @@ void RunPassJob(const PassJob& job, int32_t index, Scratch* scratch) {
   }
 }
 
-int32_t TilesOfSuperblock(const sf_config& config) { return config.superblock / kTileSide; }
+int32_t TilesOfSuperblock(const starfocus_config& config) { return config.superblock / kTileSide; }
 
 // Rows of tiles of which some pass may need what another has left there.
-int32_t MostTileRows(const sf_config& config, int32_t border) {
+int32_t MostTileRows(const starfocus_config& config, int32_t border) {
   const int32_t read = (config.superblock + 2 * border) / kTileSide + 2;
   const int32_t looked_at = TilesOfSuperblock(config) + kMostMove / kTileSide + 1;
   return Max(read, looked_at) + TilesAhead(config, kFindRagged) + 1;
@@ -48,12 +48,12 @@ void ClearAside(const CoverageMap& map) {
 // Whether coverage is found for the lens: slices show it.
 bool FindsCoverage(const EngineState& engine) {
   const Lens& lens = engine.lens;
-  return HasCoverage(engine.config) && lens.renderer->gathers && lens.params.mode != SF_MODE_BLUR &&
-         !IsPinhole(lens);
+  return HasCoverage(engine.config) && lens.renderer->gathers &&
+         lens.params.mode != STARFOCUS_MODE_BLUR && !IsPinhole(lens);
 }
 
 // Does all passes up to the one before last in row `end` of tiles.
-sf_status RunPasses(int32_t top, int32_t end, EngineState* engine) {
+starfocus_status RunPasses(int32_t top, int32_t end, EngineState* engine) {
   CoverageState& state = engine->stripe.coverage;
   for (int pass = 0; pass < kCoveragePasses; ++pass) {
     const int32_t ahead = TilesAhead(engine->config, pass);
@@ -66,18 +66,19 @@ sf_status RunPasses(int32_t top, int32_t end, EngineState* engine) {
                            pass,
                            rows,
                            TilesOfSuperblock(engine->config)};
-      const sf_status status =
+      const starfocus_status status =
           RunJobs<PassJob, RunPassJob>(job, Columns(engine->config), &engine->workers);
-      if (status != SF_OK) return status;
+      if (status != STARFOCUS_OK) return status;
     }
     done = Max(rows.first, rows.last);
   }
-  return SF_OK;
+  return STARFOCUS_OK;
 }
 
 }  // namespace
 
-void TakeCoverage(const sf_config& config, int32_t border, Arena* arena, CoverageState* state) {
+void TakeCoverage(const starfocus_config& config, int32_t border, Arena* arena,
+                  CoverageState* state) {
   if (!HasCoverage(config)) return;
   CoverageMap& map = state->map;
   map.width = config.width;
@@ -101,11 +102,11 @@ void TakeCoverage(const sf_config& config, int32_t border, Arena* arena, Coverag
   }
 }
 
-sf_status FindCoverage(const Stripe& stripe, EngineState* engine) {
+starfocus_status FindCoverage(const Stripe& stripe, EngineState* engine) {
   CoverageState& state = engine->stripe.coverage;
   const bool finds = FindsCoverage(*engine);
   for (Window& window : engine->row_store.windows) window.coverage = finds ? &state.map : nullptr;
-  if (!finds) return SF_OK;
+  if (!finds) return STARFOCUS_OK;
   const bool given = engine->row_store.windows[0].given_coverage.data != nullptr;
   state.map.around = given ? kAroundGiven : 1;
   const int32_t border = engine->lens.borders.parted;
@@ -113,8 +114,8 @@ sf_status FindCoverage(const Stripe& stripe, EngineState* engine) {
   const int32_t end = Min(state.map.Rows(), (stripe.y + stripe.height + border) / kTileSide + 1);
   if (state.done[kFindRagged] < 0) ClearAside(state.map);
   // A superblock's rows at a time, so that few rows are in memory.
-  sf_status status = SF_OK;
-  while (status == SF_OK && state.done[kUnmixAgain] < end) {
+  starfocus_status status = STARFOCUS_OK;
+  while (status == STARFOCUS_OK && state.done[kUnmixAgain] < end) {
     const int32_t from = Max(top, state.done[kUnmixAgain]);
     status = RunPasses(top, Min(from + TilesOfSuperblock(engine->config), end), engine);
   }

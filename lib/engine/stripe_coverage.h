@@ -12,10 +12,11 @@
 namespace starfocus {
 
 // Takes the memory of a coverage map for stripes that need `border` rows around them.
-void TakeCoverage(const sf_config& config, int32_t border, Arena* arena, CoverageState* state);
+void TakeCoverage(const starfocus_config& config, int32_t border, Arena* arena,
+                  CoverageState* state);
 
 // Finds the coverage of the rows that the stripe's blocks read.
-sf_status FindCoverage(const Stripe& stripe, EngineState* engine);
+starfocus_status FindCoverage(const Stripe& stripe, EngineState* engine);
 
 }  // namespace starfocus
 

@@ -8,7 +8,7 @@ namespace {
 
 // Subsamples columns of superblocks into the layers: job `index` has that column.
 struct LayerJob {
-  const sf_config* config;
+  const starfocus_config* config;
   const simd::Kernels* kernels;
   const Window* picture;         // at layer 0
   const uint8_t* const* needed;  // ColumnNeed of the layers' columns
@@ -35,7 +35,8 @@ void DownsampleInto(const LayerJob& job, int32_t layer, int32_t index, Scratch* 
 }
 
 void DownsampleColumn(const LayerJob& job, int32_t index, Scratch* scratch) {
-  for (int32_t layer = 1; layer < SF_LAYERS; ++layer) DownsampleInto(job, layer, index, scratch);
+  for (int32_t layer = 1; layer < STARFOCUS_LAYERS; ++layer)
+    DownsampleInto(job, layer, index, scratch);
 }
 
 bool AnyColumn(const uint8_t* needed, int32_t columns) {
@@ -47,8 +48,8 @@ bool AnyColumn(const uint8_t* needed, int32_t columns) {
 
 }  // namespace
 
-void ClearLayerColumns(const sf_config& config, RowStore* row_store) {
-  for (int layer = 1; layer < SF_LAYERS; ++layer) {
+void ClearLayerColumns(const starfocus_config& config, RowStore* row_store) {
+  for (int layer = 1; layer < STARFOCUS_LAYERS; ++layer) {
     for (int32_t column = 0; column < Columns(config); ++column) {
       uint8_t& need = row_store->needed[layer][column];
       need = (need & kNeeded) != 0 ? kNeededBefore : 0;
@@ -56,7 +57,7 @@ void ClearLayerColumns(const sf_config& config, RowStore* row_store) {
   }
 }
 
-void MarkLayerColumns(const sf_config& config, RowStore* row_store) {
+void MarkLayerColumns(const starfocus_config& config, RowStore* row_store) {
   for (int layer = 1; layer <= config.tuning.max_layer; ++layer) {
     for (int32_t column = 0; column < Columns(config); ++column) {
       row_store->needed[layer][column] |= kNeeded;
@@ -64,7 +65,7 @@ void MarkLayerColumns(const sf_config& config, RowStore* row_store) {
   }
 }
 
-void MarkLayerColumns(const sf_config& config, const Block& block, RowStore* row_store) {
+void MarkLayerColumns(const starfocus_config& config, const Block& block, RowStore* row_store) {
   if (block.layer == 0) return;
   const int32_t side = config.superblock, scale = 1 << block.layer;
   int32_t left = block.rendered.x - block.border.left;
@@ -82,7 +83,7 @@ void MarkLayerColumns(const sf_config& config, const Block& block, RowStore* row
 }
 
 void PlaceLayers(const RowRange& of_picture, const Borders& borders, RowStore* row_store) {
-  for (int layer = 1; layer < SF_LAYERS; ++layer) {
+  for (int layer = 1; layer < STARFOCUS_LAYERS; ++layer) {
     LayerPlane& plane = row_store->layers[layer];
     const int32_t beyond = borders.level[layer];
     const int32_t last = (of_picture.last + (1 << layer) - 1) >> layer;
@@ -97,11 +98,11 @@ void PlaceLayers(const RowRange& of_picture, const Borders& borders, RowStore* r
   }
 }
 
-sf_status FillLayers(const sf_config& config, const simd::Kernels& kernels, Workers* workers,
-                     RowStore* row_store) {
+starfocus_status FillLayers(const starfocus_config& config, const simd::Kernels& kernels,
+                            Workers* workers, RowStore* row_store) {
   const int32_t columns = Columns(config);
   if (!AnyColumn(row_store->needed[1], columns) && !AnyColumn(row_store->needed[2], columns)) {
-    return SF_OK;
+    return STARFOCUS_OK;
   }
   const LayerJob job = {&config, &kernels, &row_store->windows[0], row_store->needed,
                         row_store->layers};

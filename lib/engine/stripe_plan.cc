@@ -22,7 +22,7 @@ struct MeasureJob {
 
 // Splits superblocks: job `index` has that column.
 struct PlanJob {
-  const sf_config* config;
+  const starfocus_config* config;
   const simd::Kernels* kernels;
   const ApertureShape* opening;
   const Lens* lens;
@@ -46,7 +46,7 @@ int32_t LargestSide(const PlanJob& job) {
 // Whether blocks in `rect` may show what highlights are beyond white: some view has any as far away
 // as blur and disparity bring them. Where all of it is a highlight larger than a lamp, none is.
 bool HasHighlights(const PlanJob& job, const Rect& rect) {
-  const sf_config& config = *job.config;
+  const starfocus_config& config = *job.config;
   if (!(config.highlights > 1)) return false;
   const int32_t around = job.lens->borders.highlights;
   const Rect near = Extended(rect, {around, around, around, around});
@@ -185,21 +185,21 @@ void ClearMap(const Stripe& stripe, LayerMap* map) {
 
 // Counts a block that will be refocused, and tells the caller of it.
 void ReportBlock(const Block& block, EngineState* engine) {
-  sf_report& report = engine->report;
+  starfocus_report& report = engine->report;
   if (block.n > report.n || report.rendered_views == 0) {
     report.n = block.n;
     report.rendered_views = WeightsOf(engine->lens, block.n).views;
   }
   if (engine->on_block == nullptr) return;
-  const sf_block told = {block.rect.x,      block.rect.y, block.rect.width,
-                         block.rect.height, block.layer,  block.n};
+  const starfocus_block told = {block.rect.x,      block.rect.y, block.rect.width,
+                                block.rect.height, block.layer,  block.n};
   engine->on_block(engine->on_block_data, &told);
 }
 
 // Keeps the blocks that something asked for depends on, and finds what they mean for the phases
 // that follow.
 void ReadPlan(const Stripe& stripe, EngineState* engine) {
-  const sf_config& config = engine->config;
+  const starfocus_config& config = engine->config;
   RowStore& row_store = engine->row_store;
   StripePlan& plan = engine->stripe.plan;
   plan.used = 0;
@@ -250,7 +250,7 @@ bool ChooseColumns(const Stripe& rows, EngineState* engine) {
   return any;
 }
 
-sf_status PlanStripe(const Stripe& rows, EngineState* engine) {
+starfocus_status PlanStripe(const Stripe& rows, EngineState* engine) {
   const Lens& lens = engine->lens;
   StripeState& state = engine->stripe;
   const int32_t columns = state.plan.columns;
@@ -260,8 +260,9 @@ sf_status PlanStripe(const Stripe& rows, EngineState* engine) {
     const MeasureJob job = {
         engine->kernels, &engine->row_store.windows[0], lens.scale, state.plan.side / kCellSize,
         first_row,       state.plan.measured,           state.cells};
-    const sf_status status = RunJobs<MeasureJob, MeasureColumn>(job, columns, &engine->workers);
-    if (status != SF_OK) return status;
+    const starfocus_status status =
+        RunJobs<MeasureJob, MeasureColumn>(job, columns, &engine->workers);
+    if (status != STARFOCUS_OK) return status;
   }
   const PlanJob job = {&engine->config,
                        engine->kernels,
@@ -271,11 +272,11 @@ sf_status PlanStripe(const Stripe& rows, EngineState* engine) {
                        &engine->row_store.windows[0],
                        rows,
                        state.plan};
-  const sf_status status = RunJobs<PlanJob, PlanBlocks>(job, columns, &engine->workers);
-  if (status != SF_OK) return status;
+  const starfocus_status status = RunJobs<PlanJob, PlanBlocks>(job, columns, &engine->workers);
+  if (status != STARFOCUS_OK) return status;
   ReadPlan(rows, engine);
   if (IsBlockMode(lens)) CountSpared(engine);
-  return SF_OK;
+  return STARFOCUS_OK;
 }
 
 }  // namespace starfocus

@@ -17,9 +17,9 @@ namespace starfocus {
 bool ChooseColumns(const Stripe& rows, EngineState* engine);
 
 // Measures cells, splits the superblocks, drops blocks that nothing asked for depends on, and
-// tells the caller of the others. Returns SF_OK, SF_ERROR_RUNNER or
-// SF_ERROR_CANCELLED.
-sf_status PlanStripe(const Stripe& rows, EngineState* engine);
+// tells the caller of the others. Returns STARFOCUS_OK, STARFOCUS_ERROR_RUNNER or
+// STARFOCUS_ERROR_CANCELLED.
+starfocus_status PlanStripe(const Stripe& rows, EngineState* engine);
 
 }  // namespace starfocus
 

@@ -9,7 +9,8 @@ constexpr int64_t kAperturePoints = 256;
 
 }  // namespace
 
-int32_t LargestN(const sf_config& config, const Renderer& renderer, Demand demand, double r_max) {
+int32_t LargestN(const starfocus_config& config, const Renderer& renderer, Demand demand,
+                 double r_max) {
   return ScaleViews(renderer.view_count(r_max + 1, demand), config.tuning.n_scale);
 }
 
@@ -25,26 +26,27 @@ void SetOpening(const ApertureShape& opening, Tables* tables) {
   tables->mean_square = MeanSquare(opening);
 }
 
-sf_status MakeApertures(const Renderer& renderer, int32_t last, CallProgress* call_progress,
-                        Tables* tables) {
+starfocus_status MakeApertures(const Renderer& renderer, int32_t last, CallProgress* call_progress,
+                               Tables* tables) {
   ApertureTable& table = tables->apertures[renderer.index];
   CancelToken cancel(call_progress);
   for (; table.count <= last; ++table.count) {
     const size_t size = ViewWeightsSize(tables->opening, table.count);
-    if (!cancel.Spend(static_cast<int64_t>(size) * kAperturePoints)) return SF_ERROR_CANCELLED;
+    if (!cancel.Spend(static_cast<int64_t>(size) * kAperturePoints))
+      return STARFOCUS_ERROR_CANCELLED;
     table.apertures[table.count] =
         renderer.make_aperture(table.count, tables->opening, table.weights + table.used);
     table.used += size;
   }
-  return SF_OK;
+  return STARFOCUS_OK;
 }
 
-sf_status MakePsfs(int32_t steps, CallProgress* call_progress, Tables* tables) {
-  if (steps <= tables->blur_steps) return SF_OK;
+starfocus_status MakePsfs(int32_t steps, CallProgress* call_progress, Tables* tables) {
+  if (steps <= tables->blur_steps) return STARFOCUS_OK;
   CancelToken cancel(call_progress);
   tables->blur_steps = MakePsfs(tables->blur_steps, steps, tables->opening, &cancel,
                                 tables->blur_weights, tables->psfs);
-  return tables->blur_steps == steps ? SF_OK : SF_ERROR_CANCELLED;
+  return tables->blur_steps == steps ? STARFOCUS_OK : STARFOCUS_ERROR_CANCELLED;
 }
 
 }  // namespace starfocus

@@ -18,14 +18,15 @@ namespace starfocus {
 // All renderers, by Renderer::index. An engine has the first RendererCount of them.
 inline constexpr int32_t kMaxRenderers = 2;
 inline constexpr const Renderer* kRenderers[kMaxRenderers] = {&kSliceRenderer, &kLineScanRenderer};
-inline bool HasLineScan(const sf_config& config) {
-  return Has(config.features, SF_FEATURE_LINE_SCAN);
+inline bool HasLineScan(const starfocus_config& config) {
+  return Has(config.features, STARFOCUS_FEATURE_LINE_SCAN);
 }
-inline int32_t RendererCount(const sf_config& config) { return HasLineScan(config) ? 2 : 1; }
+inline int32_t RendererCount(const starfocus_config& config) { return HasLineScan(config) ? 2 : 1; }
 
 // Returns the largest N that the block and frame modes may need for blur radii up to r_max pixels,
 // which are rounded up before N is chosen. No demand needs a larger N than kRing.
-int32_t LargestN(const sf_config& config, const Renderer& renderer, Demand demand, double r_max);
+int32_t LargestN(const starfocus_config& config, const Renderer& renderer, Demand demand,
+                 double r_max);
 
 // Apertures of one renderer, by N.
 struct ApertureTable {
@@ -48,14 +49,14 @@ struct Tables {
 // Sets the opening, and forgets all tables if they were made for another one.
 void SetOpening(const ApertureShape& opening, Tables* tables);
 
-// Makes the renderer's apertures up to N = `last` that are not there yet. Returns SF_OK or
-// SF_ERROR_CANCELLED; those that were made stay.
-sf_status MakeApertures(const Renderer& renderer, int32_t last, CallProgress* call_progress,
-                        Tables* tables);
+// Makes the renderer's apertures up to N = `last` that are not there yet. Returns STARFOCUS_OK or
+// STARFOCUS_ERROR_CANCELLED; those that were made stay.
+starfocus_status MakeApertures(const Renderer& renderer, int32_t last, CallProgress* call_progress,
+                               Tables* tables);
 
-// Makes the blur kernels of steps up to `steps` that are not there yet. Returns SF_OK or
-// SF_ERROR_CANCELLED; those that were made stay.
-sf_status MakePsfs(int32_t steps, CallProgress* call_progress, Tables* tables);
+// Makes the blur kernels of steps up to `steps` that are not there yet. Returns STARFOCUS_OK or
+// STARFOCUS_ERROR_CANCELLED; those that were made stay.
+starfocus_status MakePsfs(int32_t steps, CallProgress* call_progress, Tables* tables);
 
 }  // namespace starfocus
 

@@ -67,7 +67,7 @@ Interval WithinPolygon(const ApertureShape& opening, double y, double r, Interva
 // that end where the opening does: points of a square grid, each inside or outside, are wrong by up
 // to 1.6 gray levels where the aperture ends without having fallen off. The arithmetic and the
 // square root are IEEE's, and so the same everywhere.
-template <sf_shape kShape>
+template <starfocus_shape kShape>
 double DiscIntegral(int32_t n, int32_t m, double r, int32_t lines, const ApertureShape& opening) {
   const double square = r * r, fall_off = opening.fall_off / 65536.0;
   const double low = Larger(m - 0.5, -r), high = Smaller(m + 0.5, r);
@@ -76,10 +76,10 @@ double DiscIntegral(int32_t n, int32_t m, double r, int32_t lines, const Apertur
   for (int32_t line = 0; line < lines; ++line) {
     const double y = low + (line + 0.5) / lines * (high - low), rim = std::sqrt(square - y * y);
     Interval x = {Larger(n - 0.5, -rim), Smaller(n + 0.5, rim)};
-    if (kShape == SF_SHAPE_POLYGON) x = WithinPolygon(opening, y, r, x);
+    if (kShape == STARFOCUS_SHAPE_POLYGON) x = WithinPolygon(opening, y, r, x);
     if (x.from >= x.to) continue;
-    double along = kShape == SF_SHAPE_FALL_OFF ? 0 : kPoints;
-    for (int32_t point = 0; kShape == SF_SHAPE_FALL_OFF && point < kPoints; ++point) {
+    double along = kShape == STARFOCUS_SHAPE_FALL_OFF ? 0 : kPoints;
+    for (int32_t point = 0; kShape == STARFOCUS_SHAPE_FALL_OFF && point < kPoints; ++point) {
       const double at = x.from + (point + 0.5) / kPoints * (x.to - x.from);
       const double ratio = fall_off / ((at * at + y * y) / square + fall_off);
       along += ratio * ratio;
@@ -94,16 +94,16 @@ double DiscIntegral(int32_t n, int32_t m, double r, int32_t lines, const Apertur
 double PixelIntegral(int32_t n, int32_t m, int32_t radius, const ApertureShape& opening) {
   const double r = static_cast<double>(radius) / kOne;
   const int32_t lines = LinesOf(radius);
-  if (opening.shape == SF_SHAPE_FALL_OFF) {
-    return DiscIntegral<SF_SHAPE_FALL_OFF>(n, m, r, lines, opening);
+  if (opening.shape == STARFOCUS_SHAPE_FALL_OFF) {
+    return DiscIntegral<STARFOCUS_SHAPE_FALL_OFF>(n, m, r, lines, opening);
   }
-  if (opening.shape == SF_SHAPE_POLYGON) {
-    return DiscIntegral<SF_SHAPE_POLYGON>(n, m, r, 4 * lines, opening);
+  if (opening.shape == STARFOCUS_SHAPE_POLYGON) {
+    return DiscIntegral<STARFOCUS_SHAPE_POLYGON>(n, m, r, 4 * lines, opening);
   }
-  const double whole = DiscIntegral<SF_SHAPE_DISC>(n, m, r, lines, opening);
+  const double whole = DiscIntegral<STARFOCUS_SHAPE_DISC>(n, m, r, lines, opening);
   if (!opening.IsRing() || opening.inner == 0) return whole;
   const double hole = r * opening.inner / kOpeningOne;
-  return Larger(0, whole - DiscIntegral<SF_SHAPE_DISC>(n, m, hole, lines, opening));
+  return Larger(0, whole - DiscIntegral<STARFOCUS_SHAPE_DISC>(n, m, hole, lines, opening));
 }
 
 // Calls visit(n, m, how many pixels share the weight, integral of (4)) for the weights of a kernel

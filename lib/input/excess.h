@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Highlights: what clipped samples stand for beyond white (sf_config.highlights).
+// Highlights: what clipped samples stand for beyond white (starfocus_config.highlights).
 #ifndef STARFOCUS_LIB_INPUT_EXCESS_H_
 #define STARFOCUS_LIB_INPUT_EXCESS_H_
 

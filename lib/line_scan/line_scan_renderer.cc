@@ -29,7 +29,7 @@ BlockWork MeasureWork(const Rect& rect, const Border& border, const ViewWeights&
 }
 
 // E and R of LineScanScratch are `extended` and the side of the superblocks.
-void TakeScratch(const sf_config& config, size_t extended, size_t max_n, Arena* arena,
+void TakeScratch(const starfocus_config& config, size_t extended, size_t max_n, Arena* arena,
                  void* memory) {
   LineScanScratch counted;
   LineScanScratch& scratch = memory == nullptr ? counted : *static_cast<LineScanScratch*>(memory);

@@ -73,8 +73,8 @@ class Partition {
                    const Surroundings& surroundings) {
     PartitionNode& node = Node(level, column, row);
     node.cells = 0;
-    for (int32_t layer = 0; layer < SF_LAYERS; ++layer) node.gathered[layer] = 0;
-    for (int32_t layer = 0; layer < SF_LAYERS; ++layer) node.gather[layer] = 0;
+    for (int32_t layer = 0; layer < STARFOCUS_LAYERS; ++layer) node.gathered[layer] = 0;
+    for (int32_t layer = 0; layer < STARFOCUS_LAYERS; ++layer) node.gather[layer] = 0;
     if (level == 0) {
       MeasureUnit(column, row, cells, surroundings, &node);
       return;
@@ -87,7 +87,7 @@ class Partition {
       if (!inside) continue;
       const PartitionNode& part = Node(level - 1, cx, cy);
       node.cells += part.cells;
-      for (int32_t layer = 0; layer < SF_LAYERS; ++layer) {
+      for (int32_t layer = 0; layer < STARFOCUS_LAYERS; ++layer) {
         node.gathered[layer] += part.gathered[layer];
         node.gather[layer] += part.gather[layer];
       }
@@ -130,7 +130,7 @@ class Partition {
       for (int32_t x = cell_x; x < Min(cell_x + 2, cells.columns); ++x) {
         ++node->cells;
         const int32_t first = gathered_.FirstLayer(x * kCellSize, y * kCellSize);
-        for (int32_t layer = first; layer < SF_LAYERS; ++layer) {
+        for (int32_t layer = first; layer < STARFOCUS_LAYERS; ++layer) {
           ++node->gathered[layer];
           node->gather[layer] += PredictGather(
               config_.tuning.timing, static_cast<uint64_t>(kCellSize * kCellSize) >> 2 * layer,
@@ -285,7 +285,7 @@ class Partition {
   const PartitionRules& rules_;
   const PartitionScratch& scratch_;
   const GatherMap& gathered_;
-  const sf_config& config_;
+  const starfocus_config& config_;
   int32_t side_;  // in smallest blocks
   int levels_ = 0;
   int32_t x_ = 0, y_ = 0;

@@ -29,7 +29,7 @@ struct Block {
 };
 
 struct PartitionRules {
-  const sf_config* config;
+  const starfocus_config* config;
   const Renderer* renderer;
   const ViewWeights* apertures;  // of the renderer by N, up to max_n
   int32_t max_n;
@@ -46,9 +46,9 @@ struct PartitionNode {
   BlockStats stats;
   Block block;
   uint64_t best;
-  int32_t cells;                // inside the picture
-  int32_t gathered[SF_LAYERS];  // those of them that could be, at each layer
-  uint64_t gather[SF_LAYERS];   // predicted time of that
+  int32_t cells;                       // inside the picture
+  int32_t gathered[STARFOCUS_LAYERS];  // those of them that could be, at each layer
+  uint64_t gather[STARFOCUS_LAYERS];   // predicted time of that
 };
 
 // Blocks a superblock can split into.

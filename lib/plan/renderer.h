@@ -55,7 +55,7 @@ struct Renderer {
   size_t scratch_bytes;
   // Takes the memory of one worker's scratch, which lies at `scratch` (null: only counted).
   // `extended`: largest side of a rectangle with its border; max_n: largest N.
-  void (*take_scratch)(const sf_config& config, size_t extended, size_t max_n, Arena* arena,
+  void (*take_scratch)(const starfocus_config& config, size_t extended, size_t max_n, Arena* arena,
                        void* scratch);
 
   // Returns true if every view shows every pixel of the rectangle where the centre view has it, so

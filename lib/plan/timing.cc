@@ -24,13 +24,13 @@ void AddScans(uint64_t views, uint64_t lines, const Content& content, int32_t la
   work->hole += views * (content.gaps >> 2 * layer) / kContentOne;
 }
 
-uint64_t PredictTime(const sf_timing& timing, const BlockWork& work) {
+uint64_t PredictTime(const starfocus_timing& timing, const BlockWork& work) {
   return timing.block + timing.field * work.field + timing.a * work.a + timing.b * work.b +
          timing.c * work.c + timing.upsample * work.upsample + timing.span * work.span +
          timing.hole * work.hole;
 }
 
-uint64_t PredictGather(const sf_timing& timing, uint64_t pixels, int32_t radius) {
+uint64_t PredictGather(const starfocus_timing& timing, uint64_t pixels, int32_t radius) {
   // This is an estimate: any radius costs the time of 16 taps besides its own, and a tap costs a
   // 64th of an upsampled pixel.
   return timing.upsample * pixels * (GatherTaps(radius) + 16) / 64;
@@ -39,6 +39,6 @@ uint64_t PredictGather(const sf_timing& timing, uint64_t pixels, int32_t radius)
 // block, field, a, b, c, upsample, span, hole: measured by `starfocus-lab calibrate` on an x86-64
 // processor with AVX-512. With those of boards, which were fitted to instruction counts, block mode
 // took between 1.7 % more and 0.4 % fewer instructions on AArch64 and ARMv6.
-sf_timing DefaultTiming() { return {5659266, 0, 2354, 0, 106, 3266, 720, 507}; }
+starfocus_timing DefaultTiming() { return {5659266, 0, 2354, 0, 106, 3266, 720, 507}; }
 
 }  // namespace starfocus

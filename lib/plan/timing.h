@@ -10,7 +10,8 @@
 
 namespace starfocus {
 
-// The work of refocusing one block, all at its layer: what the coefficients of sf_timing multiply.
+// The work of refocusing one block, all at its layer: what the coefficients of starfocus_timing
+// multiply.
 struct BlockWork {
   uint64_t field;     // pixels of the extended rectangle
   uint64_t a, b, c;   // rendered pixels P_A, P_B, P_C of (13)
@@ -25,15 +26,15 @@ void AddScans(uint64_t views, uint64_t lines, const Content& content, int32_t la
               BlockWork* work);
 
 // Picoseconds; exact in integers, so that a partition is the same on every machine.
-uint64_t PredictTime(const sf_timing& timing, const BlockWork& work);
+uint64_t PredictTime(const starfocus_timing& timing, const BlockWork& work);
 
 // The same for gathering `pixels` of a layer, which is as much a filter as upsampling, so that this
 // has no coefficient of its own; for pixels that are blurred by `radius` pixels of that layer
 // (kDisparityBits) at most.
-uint64_t PredictGather(const sf_timing& timing, uint64_t pixels, int32_t radius);
+uint64_t PredictGather(const starfocus_timing& timing, uint64_t pixels, int32_t radius);
 
 // The same coefficients on every machine, so that all of them part a picture alike.
-sf_timing DefaultTiming();
+starfocus_timing DefaultTiming();
 
 }  // namespace starfocus
 

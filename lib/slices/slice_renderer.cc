@@ -58,7 +58,7 @@ void TakeField(size_t extended, Arena* arena, CompositorScratch* stack) {
 }
 
 // E of CompositorScratch is `extended`.
-void TakeScratch(const sf_config& config, size_t extended, size_t max_n, Arena* arena,
+void TakeScratch(const starfocus_config& config, size_t extended, size_t max_n, Arena* arena,
                  void* memory) {
   CompositorScratch counted;
   CompositorScratch& scratch =

@@ -19,7 +19,7 @@ struct Extents {
   void AddRows(const void* data, size_t stride, int32_t rows, size_t row_bytes) {
     Add(ExtentOf(data, stride, rows, row_bytes));
   }
-  void AddCoverage(const sf_config& config, const uint8_t* coverage, size_t stride) {
+  void AddCoverage(const starfocus_config& config, const uint8_t* coverage, size_t stride) {
     if (coverage == nullptr) return;
     AddRows(coverage, stride, config.height, static_cast<size_t>(config.width));
   }
@@ -33,10 +33,10 @@ inline bool Overlaps(const Extent& a, const Extents& b) {
 }
 
 // Checks that an output does not overlap what is read; `name` is its argument's.
-inline sf_status CheckApart(const Extent& out, const Extents& read, const char* name,
-                            sf_problem* problem) {
-  if (!Overlaps(out, read)) return SF_OK;
-  return Refuse(SF_ERROR_OVERLAP, {name}, {"apart from inputs and workspace"}, problem);
+inline starfocus_status CheckApart(const Extent& out, const Extents& read, const char* name,
+                                   starfocus_problem* problem) {
+  if (!Overlaps(out, read)) return STARFOCUS_OK;
+  return Refuse(STARFOCUS_ERROR_OVERLAP, {name}, {"apart from inputs and workspace"}, problem);
 }
 
 }  // namespace starfocus

@@ -55,7 +55,7 @@ void ReadAlpha(const void* self, int32_t y, uint8_t* out) {
   for (int32_t x = 0; x < field.depth.width; ++x) out[x] = row[static_cast<size_t>(x) * alpha.step];
 }
 
-void MakeViews(const sf_light_field& given, EngineState* engine, LightField* field) {
+void MakeViews(const starfocus_light_field& given, EngineState* engine, LightField* field) {
   field->in_place = true;
   for (int view = 0; view < engine->config.views; ++view) {
     field->views[view] = PlanesOf<const uint8_t>(given.views[view]);
@@ -73,7 +73,7 @@ void MakeViews(const sf_light_field& given, EngineState* engine, LightField* fie
 
 }  // namespace
 
-void MakeLightField(const sf_light_field& given, int32_t first, EngineState* engine,
+void MakeLightField(const starfocus_light_field& given, int32_t first, EngineState* engine,
                     LightField* field) {
   field->kernels = &simd::BestImageKernels();
   field->first = first;

@@ -25,7 +25,7 @@ struct LightField {
 
 // Makes *field of a light field that has been checked, whose rows begin with row `first` of the
 // picture. Columns of a smaller map go into the engine's memory.
-void MakeLightField(const sf_light_field& given, int32_t first, EngineState* engine,
+void MakeLightField(const starfocus_light_field& given, int32_t first, EngineState* engine,
                     LightField* field);
 
 // Returns a source of the field's rows; the field must outlive it.

@@ -72,18 +72,18 @@ void StoreRow(const PictureOutput& out, const Plane<uint8_t>& from, int32_t y,
   }
 }
 
-sf_status Store(const void* self, const RowRange& rows, const Plane<uint8_t>& from,
-                EngineState* engine) {
+starfocus_status Store(const void* self, const RowRange& rows, const Plane<uint8_t>& from,
+                       EngineState* engine) {
   const auto& out = *static_cast<const PictureOutput*>(self);
   if (out.image.IsPacked()) {
     for (int32_t y = rows.first; y < rows.last; ++y) StoreRow(out, from, y, *engine);
-    return SF_OK;
+    return STARFOCUS_OK;
   }
   const RowRange inside = {rows.first - out.rect.y, rows.last - out.rect.y};
   const int32_t pairs = (inside.last + 1) / 2 - inside.first / 2;
   const int32_t jobs = Min(MaxJobs(engine->config), pairs);
   const PairsJob job = {&out, from, engine->images.odd_row, inside, jobs};
-  const sf_status status = RunJobs<PairsJob, WritePairs>(job, jobs, &engine->workers);
+  const starfocus_status status = RunJobs<PairsJob, WritePairs>(job, jobs, &engine->workers);
   if (out.image.is_yuv && inside.last % 2 != 0 && inside.last < out.rect.height) {
     std::memcpy(engine->images.odd_row, RowOf(job, inside.last - 1),
                 3 * static_cast<size_t>(out.rect.width));

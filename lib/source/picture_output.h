@@ -15,7 +15,7 @@ struct PictureOutput {
   Rect rect;
   AlphaSource alpha;  // of the whole picture; none: it is 255
   // Where what has not changed comes from; null: nowhere. Both pictures are in place then.
-  const sf_image* previous = nullptr;
+  const starfocus_image* previous = nullptr;
 };
 
 // Returns a sink that writes to `out`, which must outlive it. Chroma of a last row that has its

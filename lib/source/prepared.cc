@@ -11,16 +11,18 @@ namespace starfocus {
 namespace {
 
 // Makes the layers and reduced light fields in the planes of `prepared`, and converts the map.
-sf_status MakeLayers(const Prepared& prepared, const RowSource& source, EngineState* engine) {
-  LayerPlane own[SF_LAYERS];
-  for (int layer = 0; layer < SF_LAYERS; ++layer) own[layer] = engine->row_store.layers[layer];
+starfocus_status MakeLayers(const Prepared& prepared, const RowSource& source,
+                            EngineState* engine) {
+  LayerPlane own[STARFOCUS_LAYERS];
+  for (int layer = 0; layer < STARFOCUS_LAYERS; ++layer)
+    own[layer] = engine->row_store.layers[layer];
   const int32_t height = engine->config.height, side = engine->config.superblock;
   // Layers end beyond the picture (LayerSize), by fewer than so many of its pixels; PlaceLayers
   // leaves out what lies beyond them.
   constexpr int32_t kBeyond = 16;
   RowRange read = {0, 0};
-  sf_status status = SF_OK;
-  for (int32_t y = 0; y < height && status == SF_OK; y += side) {
+  starfocus_status status = STARFOCUS_OK;
+  for (int32_t y = 0; y < height && status == STARFOCUS_OK; y += side) {
     ForgetLayers(engine->config, &engine->row_store);
     MarkLayerColumns(engine->config, &engine->row_store);
     PlaceLayers({y, y + side < height ? y + side : height + kBeyond}, Borders(),
@@ -34,20 +36,21 @@ sf_status MakeLayers(const Prepared& prepared, const RowSource& source, EngineSt
     // The filters' taps reach as far below the stripe.
     read = {read.last, Min(height, y + side + kBeyond)};
     status = LoadRows(source, read, prepared.disparity, engine);
-    if (status != SF_OK) break;
+    if (status != STARFOCUS_OK) break;
     status = FillLayers(engine->config, *engine->kernels, &engine->workers, &engine->row_store);
-    if (status != SF_OK) break;
+    if (status != STARFOCUS_OK) break;
     status = ReduceRows(prepared.disparity, {y, Min(y + side, height)}, prepared.config.previews,
                         prepared.reduced, engine);
   }
-  for (int layer = 0; layer < SF_LAYERS; ++layer) engine->row_store.layers[layer] = own[layer];
+  for (int layer = 0; layer < STARFOCUS_LAYERS; ++layer)
+    engine->row_store.layers[layer] = own[layer];
   ForgetLayers(engine->config, &engine->row_store);
   return status;
 }
 
 }  // namespace
 
-size_t LayOutPrepared(const sf_config& config, void* base, Prepared** prepared) {
+size_t LayOutPrepared(const starfocus_config& config, void* base, Prepared** prepared) {
   Arena arena(base);
   *prepared = arena.Take<Prepared>(1);
   Prepared counted;  // stands in for **prepared while counting
@@ -67,29 +70,29 @@ size_t LayOutPrepared(const sf_config& config, void* base, Prepared** prepared) 
   return arena.Bytes();
 }
 
-sf_status Prepare(const PrepareCall& call, const RowSource& source, EngineState* engine,
-                  Prepared** prepared) {
+starfocus_status Prepare(const PrepareCall& call, const RowSource& source, EngineState* engine,
+                         Prepared** prepared) {
   const int32_t height = engine->config.height;
   CallProgress& call_progress = engine->workers.jobs.call_progress;
   engine->stream.active = false;
   call_progress.Begin(0, height);
-  sf_status status = CheckRows(source, {0, height}, engine);
-  if (status != SF_OK) return status;
+  starfocus_status status = CheckRows(source, {0, height}, engine);
+  if (status != STARFOCUS_OK) return status;
   new (call.memory) Prepared();
   Prepared* made = nullptr;
   LayOutPrepared(engine->config, call.memory, &made);
   made->config = engine->config;
   made->covers = engine->row_store.windows[0].given_coverage.data != nullptr;
   status = MakeLayers(*made, source, engine);
-  if (status != SF_OK) return status;
+  if (status != STARFOCUS_OK) return status;
   call_progress.SetRows(height);
-  if (!call_progress.Ask()) return SF_ERROR_CANCELLED;
+  if (!call_progress.Ask()) return STARFOCUS_ERROR_CANCELLED;
   *prepared = made;
-  return SF_OK;
+  return STARFOCUS_OK;
 }
 
-bool Fits(const Prepared& prepared, const sf_config& config) {
-  const sf_config& made = prepared.config;
+bool Fits(const Prepared& prepared, const starfocus_config& config) {
+  const starfocus_config& made = prepared.config;
   return made.width == config.width && made.height == config.height && SameViews(made, config) &&
          made.disparity_min == config.disparity_min && made.disparity_max == config.disparity_max &&
          made.tuning.max_layer == config.tuning.max_layer && made.transfer == config.transfer;
@@ -102,7 +105,7 @@ Extent PreparedMemory(const Prepared& prepared) {
 
 void UsePrepared(const Prepared& prepared, EngineState* engine) {
   const Plane<int16_t>& disparity = prepared.disparity;
-  for (int layer = 0; layer < SF_LAYERS; ++layer) {
+  for (int layer = 0; layer < STARFOCUS_LAYERS; ++layer) {
     engine->row_store.windows[layer].disparity = {disparity.data, disparity.stride, 0, 0};
     const Plane<int16_t>& plane = prepared.layers[layer];
     if (layer > 0) engine->row_store.windows[layer].samples = {plane.data, plane.stride, 0, 0};

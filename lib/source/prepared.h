@@ -14,17 +14,18 @@
 namespace starfocus {
 
 struct Prepared {
-  sf_config config;  // of the engine that made it
-  sf_light_field light_field;
-  bool covers = false;               // whether the light field has coverage
-  Plane<int16_t> disparity;          // all rows
-  Plane<int16_t> layers[SF_LAYERS];  // samples: all rows of layers 1 to config.tuning.max_layer
-  ReducedField reduced[SF_MAX_PREVIEW + 1];  // by shift, from 1 to config.previews
+  starfocus_config config;  // of the engine that made it
+  starfocus_light_field light_field;
+  bool covers = false;       // whether the light field has coverage
+  Plane<int16_t> disparity;  // all rows
+  Plane<int16_t>
+      layers[STARFOCUS_LAYERS];  // samples: all rows of layers 1 to config.tuning.max_layer
+  ReducedField reduced[STARFOCUS_MAX_PREVIEW + 1];  // by shift, from 1 to config.previews
 };
 
 // Lays out a prepared light field for a valid configuration at `base`, or counts when base is null.
 // Returns the bytes used, or kTooLarge; *prepared is null when counting.
-size_t LayOutPrepared(const sf_config& config, void* base, Prepared** prepared);
+size_t LayOutPrepared(const starfocus_config& config, void* base, Prepared** prepared);
 
 // A call that prepares a light field, whatever its format.
 struct PrepareCall {
@@ -36,11 +37,11 @@ struct PrepareCall {
 // map, and makes the layers and the reduced light fields stripe by stripe, in the engine's own
 // planes but for the pixels. *prepared is null on error; the memory stays as it is when a row of
 // the map is bad.
-sf_status Prepare(const PrepareCall& call, const RowSource& source, EngineState* engine,
-                  Prepared** prepared);
+starfocus_status Prepare(const PrepareCall& call, const RowSource& source, EngineState* engine,
+                         Prepared** prepared);
 
 // Whether an engine of `config` may refocus it.
-bool Fits(const Prepared& prepared, const sf_config& config);
+bool Fits(const Prepared& prepared, const starfocus_config& config);
 
 // Returns the memory it lives in.
 Extent PreparedMemory(const Prepared& prepared);

@@ -63,7 +63,7 @@ int16_t ConvertedEnd(const EngineState& engine, float end) {
 
 // Returns false when the caller cancels.
 bool ReduceMap(const ReduceJob& job, int shift, const Part& part, Scratch* scratch) {
-  const sf_config reduced = ReducedConfig(job.engine->config, shift);
+  const starfocus_config reduced = ReducedConfig(job.engine->config, shift);
   // Rounding twice may leave the range by one step.
   const int16_t low = ConvertedEnd(*job.engine, static_cast<float>(reduced.disparity_min));
   const int16_t high = ConvertedEnd(*job.engine, static_cast<float>(reduced.disparity_max));
@@ -107,7 +107,7 @@ bool ReduceCoverage(const ReduceJob& job, int shift, const Part& part, Scratch* 
 }
 
 void ReduceColumn(const ReduceJob& job, int32_t index, Scratch* scratch) {
-  const sf_config& config = job.engine->config;
+  const starfocus_config& config = job.engine->config;
   const int32_t x = index * config.superblock;
   const Part part = {x, Min(config.superblock, config.width - x)};
   for (int view = 0; view < config.views; ++view) {
@@ -121,19 +121,19 @@ void ReduceColumn(const ReduceJob& job, int32_t index, Scratch* scratch) {
 
 }  // namespace
 
-sf_config ReducedConfig(const sf_config& config, int shift) {
-  sf_config reduced = config;
+starfocus_config ReducedConfig(const starfocus_config& config, int shift) {
+  starfocus_config reduced = config;
   const double side = 1 << shift;
   reduced.width = ReducedSize(config.width, shift);
   reduced.height = ReducedSize(config.height, shift);
   reduced.disparity_min = config.disparity_min / side;
   reduced.disparity_max = config.disparity_max / side;
-  reduced.features &= ~SF_FEATURE_STREAMING;
+  reduced.features &= ~STARFOCUS_FEATURE_STREAMING;
   reduced.previews = 0;
   return reduced;
 }
 
-void TakeReduced(const sf_config& config, int shift, Arena* arena, ReducedField* field) {
+void TakeReduced(const starfocus_config& config, int shift, Arena* arena, ReducedField* field) {
   const auto width = static_cast<size_t>(ReducedSize(config.width, shift));
   const auto height = static_cast<size_t>(ReducedSize(config.height, shift));
   for (int view = 0; view < config.views; ++view) {
@@ -147,9 +147,9 @@ void TakeReduced(const sf_config& config, int shift, Arena* arena, ReducedField*
   field->coverage.data = arena->Take<uint8_t>(width, height);
 }
 
-sf_status ReduceRows(const Plane<int16_t>& disparity, const RowRange& rows, int32_t previews,
-                     const ReducedField* fields, EngineState* engine) {
-  if (previews == 0) return SF_OK;
+starfocus_status ReduceRows(const Plane<int16_t>& disparity, const RowRange& rows, int32_t previews,
+                            const ReducedField* fields, EngineState* engine) {
+  if (previews == 0) return STARFOCUS_OK;
   const ReduceJob job = {engine, disparity, rows, previews, fields};
   return RunJobs<ReduceJob, ReduceColumn>(job, Columns(engine->config), &engine->workers);
 }

@@ -10,7 +10,7 @@
 
 namespace starfocus {
 
-static_assert(SF_MAX_PREVIEW == kMaxReduction, "every preview is a reduction");
+static_assert(STARFOCUS_MAX_PREVIEW == kMaxReduction, "every preview is a reduction");
 
 struct ReducedField {
   Plane<uint8_t> views[kMaxViews];  // codes of all rows
@@ -19,15 +19,15 @@ struct ReducedField {
 };
 
 // The configuration of an engine for the light field of `config`, an engine's own, reduced.
-sf_config ReducedConfig(const sf_config& config, int shift);
+starfocus_config ReducedConfig(const starfocus_config& config, int shift);
 
-void TakeReduced(const sf_config& config, int shift, Arena* arena, ReducedField* field);
+void TakeReduced(const starfocus_config& config, int shift, Arena* arena, ReducedField* field);
 
 // Reduces rows [rows.first, rows.last) of the light field that the engine's windows show, by all
 // shifts from 1 to `previews` into fields[shift]; disparities are those of `disparity`. The first
 // row is a multiple of the superblock, and so is the last one but at the picture's end.
-sf_status ReduceRows(const Plane<int16_t>& disparity, const RowRange& rows, int32_t previews,
-                     const ReducedField* fields, EngineState* engine);
+starfocus_status ReduceRows(const Plane<int16_t>& disparity, const RowRange& rows, int32_t previews,
+                            const ReducedField* fields, EngineState* engine);
 
 }  // namespace starfocus
 

@@ -12,7 +12,7 @@ classes=$2
 shift 2
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-version=$(sed -n 's/^#define SF_VERSION_[A-Z]* \([0-9]*\)$/\1/p' "$here/../../lib/include/starfocus/version.h" |
+version=$(sed -n 's/^#define STARFOCUS_VERSION_[A-Z]* \([0-9]*\)$/\1/p' "$here/../../lib/include/starfocus/version.h" |
   paste -s -d .)
 least=$(sed -n 's/^ *minSdk \([0-9]*\).*/\1/p' "$here/build.gradle")
 

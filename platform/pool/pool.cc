@@ -44,13 +44,13 @@ class Lock {
 };
 
 struct Batch {
-  sf_job job;
+  starfocus_job job;
   void* data;
   int32_t count;
 };
 
 struct Thread {
-  sf_pool* pool;
+  starfocus_pool* pool;
   pthread_t id;
   int32_t worker;
 };
@@ -59,9 +59,9 @@ struct Thread {
 
 // A batch follows the one before within microseconds, less than it takes to wake a thread, so who
 // has nothing to do looks again for a while, giving way to other threads, before it sleeps.
-struct sf_pool {
+struct starfocus_pool {
   int32_t threads = 0;  // started
-  Thread started[SF_MAX_WORKERS - 1];
+  Thread started[STARFOCUS_MAX_WORKERS - 1];
   starfocus::CoreSet cores;  // that threads run on; empty: any
 
   pthread_mutex_t turn = PTHREAD_MUTEX_INITIALIZER;  // held for a whole batch
@@ -85,7 +85,7 @@ struct sf_pool {
 
 namespace {
 
-void Work(sf_pool* pool, int32_t worker) {
+void Work(starfocus_pool* pool, int32_t worker) {
   int32_t left = pool->left;
   while (left > 0) {
     if (!pool->left.compare_exchange_weak(left, left - 1)) continue;
@@ -101,7 +101,7 @@ void Work(sf_pool* pool, int32_t worker) {
 
 void* Serve(void* data) {
   const Thread& thread = *static_cast<const Thread*>(data);
-  sf_pool* const pool = thread.pool;
+  starfocus_pool* const pool = thread.pool;
   if (pool->cores.Count() > 0) starfocus::RunOn(pool->cores);
   while (pool->stop == 0) {
     LookFor([pool] { return pool->IsCalled(); });
@@ -116,7 +116,7 @@ void* Serve(void* data) {
   return nullptr;
 }
 
-void WaitForAll(sf_pool* pool) {
+void WaitForAll(starfocus_pool* pool) {
   LookFor([pool] { return pool->IsDone(); });
   if (pool->IsDone()) return;
   const Lock lock(&pool->sleep);
@@ -127,7 +127,7 @@ void WaitForAll(sf_pool* pool) {
 
 int32_t Clamp(int64_t value) {
   if (value < 1) return 1;
-  return value > SF_MAX_WORKERS ? SF_MAX_WORKERS : static_cast<int32_t>(value);
+  return value > STARFOCUS_MAX_WORKERS ? STARFOCUS_MAX_WORKERS : static_cast<int32_t>(value);
 }
 
 int32_t CountCores(const starfocus::CoreSet& big) {
@@ -137,12 +137,12 @@ int32_t CountCores(const starfocus::CoreSet& big) {
 
 }  // namespace
 
-int32_t sf_pool_cores(void) { return CountCores(starfocus::BigCores()); }
+int32_t starfocus_pool_cores(void) { return CountCores(starfocus::BigCores()); }
 
-sf_pool* sf_pool_create(int32_t workers) {
-  void* const memory = std::malloc(sizeof(sf_pool));
+starfocus_pool* starfocus_pool_create(int32_t workers) {
+  void* const memory = std::malloc(sizeof(starfocus_pool));
   if (memory == nullptr) return nullptr;
-  sf_pool* const pool = new (memory) sf_pool();
+  starfocus_pool* const pool = new (memory) starfocus_pool();
   const starfocus::CoreSet big = starfocus::BigCores();
   const int32_t wanted = workers <= 0 ? CountCores(big) : Clamp(workers);
   if (wanted <= big.Count()) pool->cores = big;
@@ -156,11 +156,13 @@ sf_pool* sf_pool_create(int32_t workers) {
   return pool;
 }
 
-int32_t sf_pool_workers(const sf_pool* pool) { return pool == nullptr ? 0 : pool->threads + 1; }
+int32_t starfocus_pool_workers(const starfocus_pool* pool) {
+  return pool == nullptr ? 0 : pool->threads + 1;
+}
 
-int sf_pool_run(void* data, sf_job job, void* job_data, int32_t count) {
+int starfocus_pool_run(void* data, starfocus_job job, void* job_data, int32_t count) {
   if (data == nullptr || job == nullptr || count < 0) return 1;
-  sf_pool* const pool = static_cast<sf_pool*>(data);
+  starfocus_pool* const pool = static_cast<starfocus_pool*>(data);
   const Lock turn(&pool->turn);
   pool->batch = {job, job_data, count};
   pool->undone = count;
@@ -174,7 +176,7 @@ int sf_pool_run(void* data, sf_job job, void* job_data, int32_t count) {
   return 0;
 }
 
-void sf_pool_destroy(sf_pool* pool) {
+void starfocus_pool_destroy(starfocus_pool* pool) {
   if (pool == nullptr) return;
   {
     const Lock lock(&pool->sleep);
@@ -188,6 +190,6 @@ void sf_pool_destroy(sf_pool* pool) {
   pthread_mutex_destroy(&pool->sleep);
   pthread_cond_destroy(&pool->wake);
   pthread_cond_destroy(&pool->finished);
-  pool->~sf_pool();
+  pool->~starfocus_pool();
   std::free(pool);
 }

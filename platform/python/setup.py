@@ -27,7 +27,7 @@ LIBRARY = "libstarfocus_python.so"
 def version() -> str:
     """The version that the public header has."""
     text = (ROOT / "lib/include/starfocus/version.h").read_text(encoding="utf-8")
-    parts = (re.search(rf"define SF_VERSION_{part} (\d+)", text) for part in ("MAJOR", "MINOR", "PATCH"))
+    parts = (re.search(rf"define STARFOCUS_VERSION_{part} (\d+)", text) for part in ("MAJOR", "MINOR", "PATCH"))
     return ".".join(part.group(1) for part in parts)
 
 

@@ -52,15 +52,15 @@ double DisparityPerDiopter(double focal_35mm, double diagonal_pixels) {
 void Scale(double factor, double zero, double most, DepthPhoto* photo) {
   photo->focus_value = factor * (photo->focus_value - zero);
   for (float& value : photo->map.values) {
-    value =
-        static_cast<float>(std::clamp(factor * (double(value) - zero), -SF_MAX_DISPARITY, most));
+    value = static_cast<float>(
+        std::clamp(factor * (double(value) - zero), -STARFOCUS_MAX_DISPARITY, most));
   }
 }
 
 void ToDisparity(const RobustRange& range, double diagonal, DepthPhoto* photo) {
   if (photo->meaning == MapMeaning::kInverseMetres) {
     const double focal = photo->focal_35mm > 0 ? photo->focal_35mm : kPortraitLens;
-    Scale(DisparityPerDiopter(focal, diagonal), 0, SF_MAX_DISPARITY, photo);
+    Scale(DisparityPerDiopter(focal, diagonal), 0, STARFOCUS_MAX_DISPARITY, photo);
     photo->facts.emplace_back("scale", "f-stops are those of a " + Rounded(focal) +
                                            " mm lens on full frame" +
                                            (photo->focal_35mm > 0 ? "" : " (assumed)"));
@@ -72,7 +72,7 @@ void ToDisparity(const RobustRange& range, double diagonal, DepthPhoto* photo) {
   if (order) {
     for (float& value : photo->map.values) value = std::max(value, range.low);
   }
-  Scale(extent > 0 ? nearest / extent : 0, zero, std::min(nearest, SF_MAX_DISPARITY), photo);
+  Scale(extent > 0 ? nearest / extent : 0, zero, std::min(nearest, STARFOCUS_MAX_DISPARITY), photo);
   photo->facts.emplace_back("scale", std::string("unknown: what is nearest is taken to be 1.5 m ") +
                                          (order ? "and what is farthest infinitely far " : "") +
                                          "before a 50 mm lens on full frame");
@@ -81,11 +81,11 @@ void ToDisparity(const RobustRange& range, double diagonal, DepthPhoto* photo) {
 // Disparities stay as they are.
 Error CheckDisparities(const std::string& where, DepthPhoto* photo) {
   const auto [low, high] = std::minmax_element(photo->map.values.begin(), photo->map.values.end());
-  if (double(*low) >= -SF_MAX_DISPARITY && double(*high) <= SF_MAX_DISPARITY) {
+  if (double(*low) >= -STARFOCUS_MAX_DISPARITY && double(*high) <= STARFOCUS_MAX_DISPARITY) {
     photo->facts.emplace_back("scale", "disparities of the map, in pixels");
     return {};
   }
-  const double limit = SF_MAX_DISPARITY;
+  const double limit = STARFOCUS_MAX_DISPARITY;
   return Expected(where, "disparities within +-" + Rounded(limit),
                   Rounded(double(*low)) + " to " + Rounded(double(*high)));
 }

@@ -75,14 +75,14 @@ struct Chooser {
 void ChooseSquare(const Chooser& chooser) {
   const Star& star = *chooser.star;
   const int views = star.reach % 2 == 0 ? 17 : 9;
-  for (const sf_position& at : StarPositions(views)) {
+  for (const starfocus_position& at : StarPositions(views)) {
     chooser.Add(static_cast<int>(at.v * star.reach), static_cast<int>(at.u * star.reach));
   }
 }
 
 // Of a single row or column every view, or of many every second and so on.
 void ChooseLine(const Chooser& chooser, bool is_row) {
-  const int reach = chooser.star->reach, step = (2 * reach) / (SF_MAX_VIEWS - 1) + 1;
+  const int reach = chooser.star->reach, step = (2 * reach) / (STARFOCUS_MAX_VIEWS - 1) + 1;
   for (int k = 0; k <= reach; k += step) {
     for (const int at : {k, -k}) {
       if (k != 0 || at == 0) is_row ? chooser.Add(0, at) : chooser.Add(at, 0);

@@ -57,11 +57,12 @@ GreyImage Levels(const FloatMap& map, const Range& range) {
 Result<std::string> OwnAttributes(const std::string& path, const SharpOriginal& photo,
                                   const Range& range) {
   double near = photo.widest * range.high, far = photo.widest * range.low;
-  const double moved = std::clamp(0.0, -SF_MAX_DISPARITY - far,
-                                  std::max(-SF_MAX_DISPARITY - far, SF_MAX_DISPARITY - near));
+  const double moved =
+      std::clamp(0.0, -STARFOCUS_MAX_DISPARITY - far,
+                 std::max(-STARFOCUS_MAX_DISPARITY - far, STARFOCUS_MAX_DISPARITY - near));
   near += moved;
   far += moved;
-  if (near > SF_MAX_DISPARITY) {
+  if (near > STARFOCUS_MAX_DISPARITY) {
     return Expected(path, "at most 1000 pixels from the least to the largest disparity at f/1",
                     std::to_string(near - far));
   }

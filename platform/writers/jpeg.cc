@@ -12,7 +12,7 @@ Result<Bytes> EncodeJpeg(const std::string& path, const Image& image, int qualit
   Result<Bytes> jpeg = EncodeJpegPixels(path, image, quality);
   if (!jpeg) return jpeg;
   Bytes all, exif = metadata.exif;
-  if (MarkEdited("starfocus " SF_VERSION_STRING, image.width, image.height, &exif)) {
+  if (MarkEdited("starfocus " STARFOCUS_VERSION_STRING, image.width, image.height, &exif)) {
     AppendExif(exif, &all);
   }
   AppendXmp(metadata.xmp, &all);

@@ -169,7 +169,8 @@ Result<Bytes> Encode(const std::string& path, const Rows& rows, const Metadata& 
                      int level) {
   const Pixels pixels = Compress(rows, level);
   Bytes exif = metadata.exif;
-  if (!MarkEdited("starfocus " SF_VERSION_STRING, rows.width, rows.height, &exif)) exif.clear();
+  if (!MarkEdited("starfocus " STARFOCUS_VERSION_STRING, rows.width, rows.height, &exif))
+    exif.clear();
   Call call;
   call.png.reserve(pixels.size + exif.size() + metadata.icc.size() + 1024);
   call.xmp = XmpPacket(metadata.xmp);

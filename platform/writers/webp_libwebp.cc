@@ -102,7 +102,8 @@ Result<Bytes> WebpWriter::Finish(const Metadata& metadata) {
     return Failed(state.path, WebPAnimEncoderGetError(state.encoder));
   }
   Bytes exif = metadata.exif;
-  if (!MarkEdited("starfocus " SF_VERSION_STRING, state.width, state.height, &exif)) exif.clear();
+  if (!MarkEdited("starfocus " STARFOCUS_VERSION_STRING, state.width, state.height, &exif))
+    exif.clear();
   const std::string packet = XmpPacket(metadata.xmp);
   WebPMux* mux = WebPMuxCreate(&coded.data, 0);
   const bool made = mux != nullptr && SetChunk(mux, "ICCP", metadata.icc) &&

@@ -35,13 +35,13 @@ namespace {
 using namespace analysis;
 
 TEST_CASE("constants: theta is Table I's at r = 3") {
-  sf_params params;
-  sf_params_init(&params);
+  starfocus_params params;
+  starfocus_params_init(&params);
   const double theta = params.lens.theta, table = OptimiseOnGrid(3).filters.theta;
   CHECK_MESSAGE(theta == doctest::Approx(table).epsilon(1e-12),
-                "the default of sf_lens.theta is " << theta / kPi << " pi, Table I has "
-                                                   << table / kPi
-                                                   << " pi: all figures and rules move");
+                "the default of starfocus_lens.theta is " << theta / kPi << " pi, Table I has "
+                                                          << table / kPi
+                                                          << " pi: all figures and rules move");
   CHECK_MESSAGE(theta == doctest::Approx(kDefaultTheta).epsilon(1e-12),
                 "lib/analysis draws its figures with another theta than the engine's default");
 }
@@ -166,7 +166,7 @@ TEST_CASE("constants: the filters go down and up as (10) and (11) have it") {
 }
 
 // Radii in both directions; `least` is where the rule's layer begins.
-void CheckEngine(sf_renderer renderer, int layer, int least, int most) {
+void CheckEngine(starfocus_renderer renderer, int layer, int least, int most) {
   for (int k = 8 * least; k <= 8 * most; k = k < 64 ? k + 1 : k + 13) {
     for (const int sign : {1, -1}) {
       const double r = sign * k / 8.0;
@@ -174,7 +174,8 @@ void CheckEngine(sf_renderer renderer, int layer, int least, int most) {
       CAPTURE(renderer);
       CAPTURE(layer);
       EngineStep step;
-      REQUIRE(MeasureStep({r, std::fabs(r), SF_MODE_BLOCK, renderer, layer}, &step) == SF_OK);
+      REQUIRE(MeasureStep({r, std::fabs(r), STARFOCUS_MODE_BLOCK, renderer, layer}, &step) ==
+              STARFOCUS_OK);
       CHECK(step.layer == layer);
       CHECK_MESSAGE(step.apart <= kExplained[layer],
                     "N = " << step.n << ": the impulse response is not StarKernel's; `starfocus "
@@ -184,9 +185,9 @@ void CheckEngine(sf_renderer renderer, int layer, int least, int most) {
         const LayerTheory theory = MakeLayerTheory(r < 0 ? -r : r, layer);
         // N by (9) is 2 and 3 at first: what aliases is not quite the ideal kernel.
         CHECK(std::fabs(step.aliasing - theory.aliasing) <
-              (renderer == SF_RENDERER_LINE_SCAN ? 2e-4 : 1e-4));
+              (renderer == STARFOCUS_RENDERER_LINE_SCAN ? 2e-4 : 1e-4));
       }
-      if (renderer == SF_RENDERER_SLICES) {
+      if (renderer == STARFOCUS_RENDERER_SLICES) {
         CHECK_MESSAGE(step.engine <= kThreshold, "the selection threshold: " << Explain(step));
       } else {
         // With N from (9) the worst is the half-covered neighbour at r = 1/2.
@@ -198,10 +199,11 @@ void CheckEngine(sf_renderer renderer, int layer, int least, int most) {
 
 TEST_CASE("constants: the running engine has the kernel it is described by") {
   constexpr int kMost = 40;
-  for (const sf_renderer renderer : {SF_RENDERER_LINE_SCAN, SF_RENDERER_SLICES}) {
+  for (const starfocus_renderer renderer :
+       {STARFOCUS_RENDERER_LINE_SCAN, STARFOCUS_RENDERER_SLICES}) {
     CheckEngine(renderer, 0, 0, kMost);
-    CheckEngine(renderer, 1, renderer == SF_RENDERER_LINE_SCAN ? 3 : 7, kMost);
-    CheckEngine(renderer, 2, renderer == SF_RENDERER_LINE_SCAN ? 6 : 24, kMost);
+    CheckEngine(renderer, 1, renderer == STARFOCUS_RENDERER_LINE_SCAN ? 3 : 7, kMost);
+    CheckEngine(renderer, 2, renderer == STARFOCUS_RENDERER_LINE_SCAN ? 6 : 24, kMost);
   }
 }
 
@@ -313,7 +315,7 @@ TEST_CASE("constants: taps of a kernel that gathers") {
   constexpr int32_t kOne = 1 << kDisparityBits;
   // The model counts no fewer taps than kernels have, and not half as many again but for the
   // smallest. It adds the time of 16 taps and takes a tap for a 64th of an upsampled pixel.
-  sf_timing timing = {};
+  starfocus_timing timing = {};
   timing.upsample = 64;
   const GatherKernels made;
   for (int32_t r = kOne; r <= kMaxGather * kOne; r += kOne / 4) {
@@ -332,10 +334,12 @@ TEST_CASE("constants: taps of a kernel that gathers") {
 TEST_CASE("constants: one N for a picture has the kernel it is described by") {
   for (const double r : {0.0, 0.5, 3.25, 11.0, 24.5}) {
     EngineStep step;
-    REQUIRE(MeasureStep({r, 40, SF_MODE_FRAME, SF_RENDERER_LINE_SCAN, 0}, &step) == SF_OK);
+    REQUIRE(MeasureStep({r, 40, STARFOCUS_MODE_FRAME, STARFOCUS_RENDERER_LINE_SCAN, 0}, &step) ==
+            STARFOCUS_OK);
     CHECK(step.n == ViewsByPaper(40));
     CHECK(step.apart <= kExplained[0]);
-    REQUIRE(MeasureStep({r, 40, SF_MODE_FRAME, SF_RENDERER_SLICES, 0}, &step) == SF_OK);
+    REQUIRE(MeasureStep({r, 40, STARFOCUS_MODE_FRAME, STARFOCUS_RENDERER_SLICES, 0}, &step) ==
+            STARFOCUS_OK);
     CHECK(step.n == ViewsBySubaperture(40));
     CHECK(step.apart <= kExplained[0]);
   }

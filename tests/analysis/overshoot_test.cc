@@ -20,10 +20,10 @@ using namespace starfocus::analysis;
 
 constexpr int kSide = 128, kMiddle = 64, kLow = 60, kHigh = 200;
 
-EngineKernel Measure(double r, sf_renderer renderer, int layer) {
-  const EngineProbe probe = {r, r, SF_MODE_BLOCK, renderer, layer};
+EngineKernel Measure(double r, starfocus_renderer renderer, int layer) {
+  const EngineProbe probe = {r, r, STARFOCUS_MODE_BLOCK, renderer, layer};
   EngineKernel measured = {Kernel(0), 0, 0, 0};
-  REQUIRE(starfocus::analysis::MeasureEngineKernel(probe, &measured) == SF_OK);
+  REQUIRE(starfocus::analysis::MeasureEngineKernel(probe, &measured) == STARFOCUS_OK);
   return measured;
 }
 
@@ -38,8 +38,8 @@ double NegativeSum(Kernel kernel) {
 
 // Refocuses the picture that is bright where the kernel around (x, y) is negative. Returns how far
 // the pixel there falls below the darker level, in parts of the contrast of light.
-double Undershoot(double r, sf_renderer renderer, int layer, sf_transfer transfer, Kernel kernel,
-                  int x, int y) {
+double Undershoot(double r, starfocus_renderer renderer, int layer, starfocus_transfer transfer,
+                  Kernel kernel, int x, int y) {
   test::Scene scene = test::EmptyScene(kSide, kSide, 1, float(r), float(r));
   for (int v = 0; v < kSide; ++v) {
     for (int u = 0; u < kSide; ++u) {
@@ -49,16 +49,16 @@ double Undershoot(double r, sf_renderer renderer, int layer, sf_transfer transfe
       std::fill_n(scene.Pixel(0, u, v), 3, uint8_t(bright ? kHigh : kLow));
     }
   }
-  sf_params params = test::Params(0, 1, SF_MODE_BLOCK);
+  starfocus_params params = test::Params(0, 1, STARFOCUS_MODE_BLOCK);
   params.renderer = renderer;
-  sf_config config = test::ConfigFor(scene, r + 1);
+  starfocus_config config = test::ConfigFor(scene, r + 1);
   config.transfer = transfer;
   config.tuning.max_layer = layer;
   config.tuning.gather = 0;
   config.superblock = 128;
   test::Engine engine(config);
   test::Output out(kSide, kSide);
-  REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
+  REQUIRE(test::Refocus(&engine, params, scene, &out) == STARFOCUS_OK);
   const auto light = [&](int level) { return test::LightOf(level, transfer); };
   int darkest = kLow;
   for (const uint8_t level : out.bytes) darkest = std::min(darkest, int(level));
@@ -67,14 +67,14 @@ double Undershoot(double r, sf_renderer renderer, int layer, sf_transfer transfe
 
 // The most that the kernels of these radii overshoot by, near where each layer begins, and that
 // pictures made for them do at all places on a layer's grid.
-double Worst(sf_renderer renderer, const std::vector<double>& radii) {
+double Worst(starfocus_renderer renderer, const std::vector<double>& radii) {
   double worst = 0;
   for (const double r : radii) {
     const EngineKernel measured = Measure(r, renderer, 2);
     double worst_here = 0;
     const int step = 1 << measured.layer;
     for (int k = 0; k < step; ++k) {
-      for (const sf_transfer transfer : {SF_TRANSFER_NONE, SF_TRANSFER_SRGB}) {
+      for (const starfocus_transfer transfer : {STARFOCUS_TRANSFER_NONE, STARFOCUS_TRANSFER_SRGB}) {
         worst_here = std::max(worst_here, Undershoot(r, renderer, measured.layer, transfer,
                                                      measured.kernel, kMiddle + k, kMiddle + k));
       }
@@ -89,12 +89,12 @@ double Worst(sf_renderer renderer, const std::vector<double>& radii) {
 }  // namespace
 
 TEST_CASE("overshoot: no picture leaves the range of its views by more than the header says") {
-  const double subapertures = Worst(SF_RENDERER_SLICES, {7, 7.5, 8, 10, 24, 26, 30});
-  const double paper = Worst(SF_RENDERER_LINE_SCAN, {3, 3.25, 3.5, 4, 6, 6.5, 7, 8, 12, 13});
+  const double subapertures = Worst(STARFOCUS_RENDERER_SLICES, {7, 7.5, 8, 10, 24, 26, 30});
+  const double paper = Worst(STARFOCUS_RENDERER_LINE_SCAN, {3, 3.25, 3.5, 4, 6, 6.5, 7, 8, 12, 13});
   CHECK(subapertures <= 0.04);
   CHECK(paper <= 0.13);
   // Without layers no tap is negative but by rounding.
-  CHECK(NegativeSum(Measure(7.5, SF_RENDERER_SLICES, 0).kernel) < 1e-3);
+  CHECK(NegativeSum(Measure(7.5, STARFOCUS_RENDERER_SLICES, 0).kernel) < 1e-3);
 }
 
 }  // namespace overshoot_test

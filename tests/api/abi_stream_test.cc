@@ -16,16 +16,17 @@ constexpr size_t kHuge = std::numeric_limits<size_t>::max();
 
 struct Fixture {
   test::Scene scene = test::RandomScene(kWidth, kHeight, 9, -2, 2, 3);
-  sf_config config = test::ConfigFor(scene, 8);
-  sf_params params = test::Params(0.5);
+  starfocus_config config = test::ConfigFor(scene, 8);
+  starfocus_params params = test::Params(0.5);
   test::Output out{kWidth, kHeight, 4};
 
-  Fixture() { config.features |= SF_FEATURE_STREAMING; }
+  Fixture() { config.features |= STARFOCUS_FEATURE_STREAMING; }
 
-  sf_status Push(sf_engine* engine, const sf_light_field& field, int rows, int32_t* consumed) {
-    return sf_stream_push(engine, &field, rows, consumed);
+  starfocus_status Push(starfocus_engine* engine, const starfocus_light_field& field, int rows,
+                        int32_t* consumed) {
+    return starfocus_stream_push(engine, &field, rows, consumed);
   }
-  sf_status Pull(sf_engine* engine, int rows, int32_t* written) {
+  starfocus_status Pull(starfocus_engine* engine, int rows, int32_t* written) {
     return test::PullRgb(engine, out.bytes.data(), out.stride, rows, written, nullptr);
   }
 };
@@ -33,14 +34,14 @@ struct Fixture {
 TEST_CASE("stream: begin refuses null pointers and a frame before") {
   Fixture f;
   test::Engine engine(f.config);
-  REQUIRE(engine.status() == SF_OK);
-  CHECK(sf_stream_begin(nullptr, &f.params) == SF_ERROR_NULL);
-  CHECK(sf_stream_begin(engine.get(), nullptr) == SF_ERROR_NULL);
-  // What the parameters may be, sf_refocus has too.
-  sf_params params = f.params;
-  const sf_previous previous = {};
+  REQUIRE(engine.status() == STARFOCUS_OK);
+  CHECK(starfocus_stream_begin(nullptr, &f.params) == STARFOCUS_ERROR_NULL);
+  CHECK(starfocus_stream_begin(engine.get(), nullptr) == STARFOCUS_ERROR_NULL);
+  // What the parameters may be, starfocus_refocus has too.
+  starfocus_params params = f.params;
+  const starfocus_previous previous = {};
   params.previous = &previous;
-  CHECK(sf_stream_begin(engine.get(), &params) == SF_ERROR_RANGE);
+  CHECK(starfocus_stream_begin(engine.get(), &params) == STARFOCUS_ERROR_RANGE);
 }
 
 TEST_CASE("stream: not without streaming = 1, not without begin") {
@@ -48,68 +49,69 @@ TEST_CASE("stream: not without streaming = 1, not without begin") {
   int32_t count = 0;
   {
     test::Engine engine(f.config);
-    REQUIRE(engine.status() == SF_OK);
-    CHECK(f.Push(engine.get(), f.scene.Field(), 1, &count) == SF_ERROR_STATE);
-    CHECK(f.Pull(engine.get(), 1, &count) == SF_ERROR_STATE);
+    REQUIRE(engine.status() == STARFOCUS_OK);
+    CHECK(f.Push(engine.get(), f.scene.Field(), 1, &count) == STARFOCUS_ERROR_STATE);
+    CHECK(f.Pull(engine.get(), 1, &count) == STARFOCUS_ERROR_STATE);
     // A refused begin starts nothing.
-    sf_params params = f.params;
+    starfocus_params params = f.params;
     params.lens.aperture = 2;
-    CHECK(sf_stream_begin(engine.get(), &params) == SF_ERROR_RANGE);
-    CHECK(f.Push(engine.get(), f.scene.Field(), 1, &count) == SF_ERROR_STATE);
+    CHECK(starfocus_stream_begin(engine.get(), &params) == STARFOCUS_ERROR_RANGE);
+    CHECK(f.Push(engine.get(), f.scene.Field(), 1, &count) == STARFOCUS_ERROR_STATE);
   }
-  f.config.features &= ~SF_FEATURE_STREAMING;
+  f.config.features &= ~STARFOCUS_FEATURE_STREAMING;
   test::Engine engine(f.config);
-  REQUIRE(engine.status() == SF_OK);
-  CHECK(sf_stream_begin(engine.get(), &f.params) == SF_ERROR_FEATURE);
-  CHECK(f.Push(engine.get(), f.scene.Field(), 1, &count) == SF_ERROR_STATE);
-  CHECK(f.Pull(engine.get(), 1, &count) == SF_ERROR_STATE);
+  REQUIRE(engine.status() == STARFOCUS_OK);
+  CHECK(starfocus_stream_begin(engine.get(), &f.params) == STARFOCUS_ERROR_FEATURE);
+  CHECK(f.Push(engine.get(), f.scene.Field(), 1, &count) == STARFOCUS_ERROR_STATE);
+  CHECK(f.Pull(engine.get(), 1, &count) == STARFOCUS_ERROR_STATE);
   CHECK(f.out.Untouched());
 }
 
 TEST_CASE("stream: push refuses null pointers and wrong counts") {
   Fixture f;
   test::Engine engine(f.config);
-  REQUIRE(sf_stream_begin(engine.get(), &f.params) == SF_OK);
+  REQUIRE(starfocus_stream_begin(engine.get(), &f.params) == STARFOCUS_OK);
   int32_t count = 0;
-  sf_light_field field = f.scene.Field();
-  CHECK(sf_stream_push(nullptr, &field, 1, &count) == SF_ERROR_NULL);
-  CHECK(sf_stream_push(engine.get(), nullptr, 1, &count) == SF_ERROR_NULL);
-  CHECK(sf_stream_push(engine.get(), &field, 1, nullptr) == SF_ERROR_NULL);
-  CHECK(f.Push(engine.get(), field, -1, &count) == SF_ERROR_RANGE);
-  CHECK(f.Push(engine.get(), field, INT32_MIN, &count) == SF_ERROR_RANGE);
-  CHECK(f.Push(engine.get(), field, kHeight + 1, &count) == SF_ERROR_RANGE);
-  CHECK(f.Push(engine.get(), field, INT32_MAX, &count) == SF_ERROR_RANGE);
+  starfocus_light_field field = f.scene.Field();
+  CHECK(starfocus_stream_push(nullptr, &field, 1, &count) == STARFOCUS_ERROR_NULL);
+  CHECK(starfocus_stream_push(engine.get(), nullptr, 1, &count) == STARFOCUS_ERROR_NULL);
+  CHECK(starfocus_stream_push(engine.get(), &field, 1, nullptr) == STARFOCUS_ERROR_NULL);
+  CHECK(f.Push(engine.get(), field, -1, &count) == STARFOCUS_ERROR_RANGE);
+  CHECK(f.Push(engine.get(), field, INT32_MIN, &count) == STARFOCUS_ERROR_RANGE);
+  CHECK(f.Push(engine.get(), field, kHeight + 1, &count) == STARFOCUS_ERROR_RANGE);
+  CHECK(f.Push(engine.get(), field, INT32_MAX, &count) == STARFOCUS_ERROR_RANGE);
   // None of these took a row: the whole picture still fits.
   count = -1;
-  CHECK(f.Push(engine.get(), field, 0, &count) == SF_OK);
+  CHECK(f.Push(engine.get(), field, 0, &count) == STARFOCUS_OK);
   CHECK(count == 0);
-  CHECK(f.Push(engine.get(), field, 1, &count) == SF_OK);
+  CHECK(f.Push(engine.get(), field, 1, &count) == STARFOCUS_OK);
   CHECK(count == 1);
-  CHECK(f.Push(engine.get(), f.scene.Field(1), kHeight, &count) == SF_ERROR_RANGE);
+  CHECK(f.Push(engine.get(), f.scene.Field(1), kHeight, &count) == STARFOCUS_ERROR_RANGE);
 }
 
 TEST_CASE("stream: pull refuses null pointers, short strides, wrong counts and overlap") {
   Fixture f;
   test::Engine engine(f.config);
-  REQUIRE(sf_stream_begin(engine.get(), &f.params) == SF_OK);
+  REQUIRE(starfocus_stream_begin(engine.get(), &f.params) == STARFOCUS_OK);
   int32_t count = 0;
-  REQUIRE(f.Push(engine.get(), f.scene.Field(), kHeight, &count) == SF_OK);
+  REQUIRE(f.Push(engine.get(), f.scene.Field(), kHeight, &count) == STARFOCUS_OK);
   REQUIRE(count > 0);
   uint8_t* out = f.out.bytes.data();
-  const auto pull = [&](sf_engine* e, uint8_t* o, size_t stride, int rows, int32_t* written) {
+  const auto pull = [&](starfocus_engine* e, uint8_t* o, size_t stride, int rows,
+                        int32_t* written) {
     return test::PullRgb(e, o, stride, rows, written, nullptr);
   };
-  CHECK(pull(nullptr, out, f.out.stride, 1, &count) == SF_ERROR_NULL);
-  CHECK(pull(engine.get(), nullptr, f.out.stride, 1, &count) == SF_ERROR_NULL);
-  CHECK(pull(engine.get(), out, f.out.stride, 1, nullptr) == SF_ERROR_NULL);
-  CHECK(pull(engine.get(), out, 0, 2, &count) == SF_ERROR_STRIDE);
-  CHECK(pull(engine.get(), out, 3 * kWidth - 1, 2, &count) == SF_ERROR_STRIDE);
-  CHECK(pull(engine.get(), out, kHuge, 2, &count) == SF_ERROR_STRIDE);
-  CHECK(pull(engine.get(), out, f.out.stride, -1, &count) == SF_ERROR_RANGE);
-  CHECK(pull(engine.get(), out, f.out.stride, INT32_MIN, &count) == SF_ERROR_RANGE);
-  CHECK(pull(engine.get(), engine.workspace(), f.out.stride, 1, &count) == SF_ERROR_OVERLAP);
+  CHECK(pull(nullptr, out, f.out.stride, 1, &count) == STARFOCUS_ERROR_NULL);
+  CHECK(pull(engine.get(), nullptr, f.out.stride, 1, &count) == STARFOCUS_ERROR_NULL);
+  CHECK(pull(engine.get(), out, f.out.stride, 1, nullptr) == STARFOCUS_ERROR_NULL);
+  CHECK(pull(engine.get(), out, 0, 2, &count) == STARFOCUS_ERROR_STRIDE);
+  CHECK(pull(engine.get(), out, 3 * kWidth - 1, 2, &count) == STARFOCUS_ERROR_STRIDE);
+  CHECK(pull(engine.get(), out, kHuge, 2, &count) == STARFOCUS_ERROR_STRIDE);
+  CHECK(pull(engine.get(), out, f.out.stride, -1, &count) == STARFOCUS_ERROR_RANGE);
+  CHECK(pull(engine.get(), out, f.out.stride, INT32_MIN, &count) == STARFOCUS_ERROR_RANGE);
+  CHECK(pull(engine.get(), engine.workspace(), f.out.stride, 1, &count) == STARFOCUS_ERROR_OVERLAP);
   CHECK(pull(engine.get(), engine.workspace() + engine.bytes() - 1, f.out.stride, 1, &count) ==
-        SF_ERROR_OVERLAP);
+        STARFOCUS_ERROR_OVERLAP);
   CHECK(f.out.Untouched());
 }
 
@@ -118,18 +120,18 @@ TEST_CASE("stream: a row with a bad disparity is refused, the rows before it are
   test::Engine engine(f.config);
   const test::Scene good = f.scene;
   test::Output expected(kWidth, kHeight, 4);
-  REQUIRE(test::Stream(&engine, f.params, good, &expected, 8, 8) == SF_OK);
+  REQUIRE(test::Stream(&engine, f.params, good, &expected, 8, 8) == STARFOCUS_OK);
   const struct {
     float value;
-    sf_status status;
-  } kBad[] = {{std::numeric_limits<float>::quiet_NaN(), SF_ERROR_NOT_FINITE},
-              {std::numeric_limits<float>::infinity(), SF_ERROR_NOT_FINITE},
-              {2.5f, SF_ERROR_DISPARITY}};
+    starfocus_status status;
+  } kBad[] = {{std::numeric_limits<float>::quiet_NaN(), STARFOCUS_ERROR_NOT_FINITE},
+              {std::numeric_limits<float>::infinity(), STARFOCUS_ERROR_NOT_FINITE},
+              {2.5f, STARFOCUS_ERROR_DISPARITY}};
   for (const auto& bad : kBad) {
     for (int row : {0, 1, 3}) {
       CAPTURE(row);
       f.scene.Disparity(kWidth - 1, row) = bad.value;
-      REQUIRE(sf_stream_begin(engine.get(), &f.params) == SF_OK);
+      REQUIRE(starfocus_stream_begin(engine.get(), &f.params) == STARFOCUS_OK);
       int32_t consumed = -1;
       CHECK(f.Push(engine.get(), f.scene.Field(), 5, &consumed) == bad.status);
       CHECK(consumed == row);
@@ -140,10 +142,11 @@ TEST_CASE("stream: a row with a bad disparity is refused, the rows before it are
       while (pulled < kHeight) {
         int32_t took = 0, gave = 0;
         if (pushed < kHeight) {
-          REQUIRE(f.Push(engine.get(), f.scene.Field(pushed), kHeight - pushed, &took) == SF_OK);
+          REQUIRE(f.Push(engine.get(), f.scene.Field(pushed), kHeight - pushed, &took) ==
+                  STARFOCUS_OK);
         }
         REQUIRE(test::PullRgb(engine.get(), out.bytes.data() + out.stride * size_t(pulled),
-                              out.stride, kHeight - pulled, &gave, nullptr) == SF_OK);
+                              out.stride, kHeight - pulled, &gave, nullptr) == STARFOCUS_OK);
         REQUIRE(took + gave > 0);
         pushed += took;
         pulled += gave;
@@ -157,17 +160,17 @@ TEST_CASE("stream: begin restarts, and whole pictures interrupt nothing but the 
   Fixture f;
   test::Engine engine(f.config);
   test::Output whole(kWidth, kHeight, 4);
-  REQUIRE(test::Refocus(&engine, f.params, f.scene, &whole) == SF_OK);
+  REQUIRE(test::Refocus(&engine, f.params, f.scene, &whole) == STARFOCUS_OK);
   // Stop half way, then start again.
-  REQUIRE(sf_stream_begin(engine.get(), &f.params) == SF_OK);
+  REQUIRE(starfocus_stream_begin(engine.get(), &f.params) == STARFOCUS_OK);
   int32_t count = 0;
-  REQUIRE(f.Push(engine.get(), f.scene.Field(), 40, &count) == SF_OK);
-  REQUIRE(f.Pull(engine.get(), 40, &count) == SF_OK);
+  REQUIRE(f.Push(engine.get(), f.scene.Field(), 40, &count) == STARFOCUS_OK);
+  REQUIRE(f.Pull(engine.get(), 40, &count) == STARFOCUS_OK);
   test::Output streamed(kWidth, kHeight, 4);
-  REQUIRE(test::Stream(&engine, f.params, f.scene, &streamed, 7, 9) == SF_OK);
+  REQUIRE(test::Stream(&engine, f.params, f.scene, &streamed, 7, 9) == STARFOCUS_OK);
   CHECK(streamed.bytes == whole.bytes);
   // Every row is out: another push has no place.
-  CHECK(f.Push(engine.get(), f.scene.Field(), 1, &count) == SF_ERROR_RANGE);
+  CHECK(f.Push(engine.get(), f.scene.Field(), 1, &count) == STARFOCUS_ERROR_RANGE);
 }
 
 }  // namespace

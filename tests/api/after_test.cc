@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// sf_params.previous: the bytes of refocusing the frame alone, blocks reused where nothing changed.
+// starfocus_params.previous: the bytes of refocusing the frame alone, blocks reused where nothing
+// changed.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -18,12 +19,13 @@ namespace {
 
 constexpr int kViews[] = {1, 5, 9, 17};
 
-sf_status After(test::Engine* engine, const sf_params& params, const test::Scene& scene,
-                const test::Scene& before, const test::Output& before_out, test::Output* out,
-                sf_report* report) {
-  const sf_light_field field = scene.Field();
-  const sf_previous previous = {before.Field(),
-                                sf_image_rgb(before_out.bytes.data(), before_out.stride)};
+starfocus_status After(test::Engine* engine, const starfocus_params& params,
+                       const test::Scene& scene, const test::Scene& before,
+                       const test::Output& before_out, test::Output* out,
+                       starfocus_report* report) {
+  const starfocus_light_field field = scene.Field();
+  const starfocus_previous previous = {
+      before.Field(), starfocus_image_rgb(before_out.bytes.data(), before_out.stride)};
   return test::RefocusAfterRgb(engine->get(), &params, &field, &previous, out->bytes.data(),
                                out->stride, report);
 }
@@ -52,24 +54,25 @@ void Change(test::Scene* scene, bool unknown, test::Random* random) {
   }
 }
 
-void CheckFrames(test::Scene scene, const sf_config& config, const sf_params& params, int frames,
-                 test::Random* random) {
+void CheckFrames(test::Scene scene, const starfocus_config& config, const starfocus_params& params,
+                 int frames, test::Random* random) {
   test::Engine engine(config), alone(config);
-  const sf_region& r = params.region;
+  const starfocus_region& r = params.region;
   const int width = r.width > 0 ? r.width : scene.width;
   const int height = r.height > 0 ? r.height : scene.height;
   test::Output before_out(width, height, 2);
-  REQUIRE(test::Refocus(&engine, params, scene, &before_out) == SF_OK);
+  REQUIRE(test::Refocus(&engine, params, scene, &before_out) == STARFOCUS_OK);
   for (int frame = 0; frame < frames; ++frame) {
     CAPTURE(frame);
     const test::Scene before = scene;
     const int changes = random->Int(0, 3);
     for (int k = 0; k < changes; ++k)
-      Change(&scene, test::Has(config.features, SF_FEATURE_FILL_UNKNOWN), random);
+      Change(&scene, test::Has(config.features, STARFOCUS_FEATURE_FILL_UNKNOWN), random);
     test::Output expected(width, height, 2), out(width, height, 2);
-    sf_report report = {}, whole = {};
-    REQUIRE(After(&engine, params, scene, before, before_out, &out, &report) == SF_OK);
-    REQUIRE(test::Refocus(&alone, params, scene, &expected, nullptr, nullptr, &whole) == SF_OK);
+    starfocus_report report = {}, whole = {};
+    REQUIRE(After(&engine, params, scene, before, before_out, &out, &report) == STARFOCUS_OK);
+    REQUIRE(test::Refocus(&alone, params, scene, &expected, nullptr, nullptr, &whole) ==
+            STARFOCUS_OK);
     const bool same = out.bytes == expected.bytes;
     CHECK(same);
     CHECK(whole.reused_blocks == 0);
@@ -90,13 +93,14 @@ TEST_CASE("after: the bytes of the frame alone, in every mode, as frames change 
     const int width = random.Int(1, 300), height = random.Int(1, 260);
     const test::Scene scene =
         test::LayeredScene(width, height, kViews[round % 4], 5, uint64_t(round) + 900);
-    sf_config config = test::ConfigFor(scene, 12);
+    starfocus_config config = test::ConfigFor(scene, 12);
     config.superblock = 32 << random.Int(0, 1);
     config.tuning.max_layer = random.Int(0, 3) == 0 ? random.Int(0, 1) : 2;
     config.tuning.deblocking = random.Int(0, 3) == 0 ? 35 : 255;
-    sf_params params = test::Params(random.Real(-5, 5), random.Real(0.1, 1), SF_MODE_BLOCK);
+    starfocus_params params =
+        test::Params(random.Real(-5, 5), random.Real(0.1, 1), STARFOCUS_MODE_BLOCK);
     params.renderer = random.Int(0, 2);
-    if (round % 4 == 3) params.mode = round % 8 == 3 ? SF_MODE_FRAME : SF_MODE_BLUR;
+    if (round % 4 == 3) params.mode = round % 8 == 3 ? STARFOCUS_MODE_FRAME : STARFOCUS_MODE_BLUR;
     if (round % 5 == 4) {
       params.region = {random.Int(0, width - 1), random.Int(0, height - 1), 1, 1};
       params.region.width = random.Int(1, width - params.region.x);
@@ -118,22 +122,23 @@ TEST_CASE("after: filled pixels change with the known ones beside the gap") {
       for (int x = first; x <= last; ++x)
         scene.Disparity(x, y) = std::numeric_limits<float>::infinity();
     }
-    sf_config config = test::ConfigFor(scene, 8);
+    starfocus_config config = test::ConfigFor(scene, 8);
     config.superblock = 32;
-    config.features |= SF_FEATURE_FILL_UNKNOWN;
-    CheckFrames(scene, config, test::Params(random.Real(-3, 3), 0.5, SF_MODE_BLOCK), 8, &random);
+    config.features |= STARFOCUS_FEATURE_FILL_UNKNOWN;
+    CheckFrames(scene, config, test::Params(random.Real(-3, 3), 0.5, STARFOCUS_MODE_BLOCK), 8,
+                &random);
   }
 }
 
 TEST_CASE("after: blocks read side views as far away as the largest disparity") {
   const test::Scene before = test::NearScene(70, 900, 5, 13);
-  sf_config config = test::ConfigFor(before, 8);
+  starfocus_config config = test::ConfigFor(before, 8);
   config.superblock = 32;
   test::Engine engine(config);
-  for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BLOCK}) {
-    const sf_params params = test::Params(test::kNearFocus, 0.2, mode);
+  for (const starfocus_mode mode : {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BLOCK}) {
+    const starfocus_params params = test::Params(test::kNearFocus, 0.2, mode);
     test::Output first(70, 900);
-    REQUIRE(test::Refocus(&engine, params, before, &first) == SF_OK);
+    REQUIRE(test::Refocus(&engine, params, before, &first) == STARFOCUS_OK);
     for (int view = 1; view < 5; ++view) {
       CAPTURE(view);
       test::Scene scene = before;
@@ -141,9 +146,9 @@ TEST_CASE("after: blocks read side views as far away as the largest disparity") 
         for (int y = 445; y < 455; ++y) scene.Pixel(view, x, y)[1] ^= 0xFF;
       }
       test::Output second(70, 900), expected(70, 900);
-      sf_report report = {};
-      REQUIRE(After(&engine, params, scene, before, first, &second, &report) == SF_OK);
-      REQUIRE(test::Refocus(&engine, params, scene, &expected) == SF_OK);
+      starfocus_report report = {};
+      REQUIRE(After(&engine, params, scene, before, first, &second, &report) == STARFOCUS_OK);
+      REQUIRE(test::Refocus(&engine, params, scene, &expected) == STARFOCUS_OK);
       const bool same = second.bytes == expected.bytes, changed = expected.bytes != first.bytes;
       CHECK(same);
       CHECK(changed);
@@ -160,12 +165,12 @@ TEST_CASE("after: joins between blocks of different layers, beside a change") {
       scene.Disparity(x, y) = (x / 32 + y / 32) % 2 == 0 ? 0.0f : 6.0f;
     }
   }
-  sf_config config = test::ConfigFor(scene, 9);
+  starfocus_config config = test::ConfigFor(scene, 9);
   config.superblock = 32;
   config.tuning.deblocking = 255;
   for (const double focus : {-1.0, 0.0, 3.0}) {
-    sf_params params = test::Params(focus, 1, SF_MODE_BLOCK);
-    params.renderer = SF_RENDERER_LINE_SCAN;
+    starfocus_params params = test::Params(focus, 1, STARFOCUS_MODE_BLOCK);
+    params.renderer = STARFOCUS_RENDERER_LINE_SCAN;
     CheckFrames(scene, config, params, 12, &random);
   }
 }
@@ -175,21 +180,21 @@ TEST_CASE("after: a block that changes its layer changes its neighbours' joins")
   test::Scene scene = test::LayeredScene(600, 600, 1, 6, 5);
   std::fill(scene.disparity.begin(), scene.disparity.end(), 6.0f);
   scene.Disparity(500, 5) = scene.Disparity(5, 500) = 0;
-  sf_config config = test::ConfigFor(scene, 6);
+  starfocus_config config = test::ConfigFor(scene, 6);
   config.superblock = 256;
   config.tuning.deblocking = 255;
   config.tuning.timing = {};
-  config.tuning.timing.block = SF_MAX_TIMING;
-  sf_params params = test::Params(0, 1, SF_MODE_BLOCK);
-  params.renderer = SF_RENDERER_LINE_SCAN;
+  config.tuning.timing.block = STARFOCUS_MAX_TIMING;
+  starfocus_params params = test::Params(0, 1, STARFOCUS_MODE_BLOCK);
+  params.renderer = STARFOCUS_RENDERER_LINE_SCAN;
   test::Engine engine(config);
   test::Output first(600, 600), second(600, 600), expected(600, 600);
-  sf_report report = {};
-  REQUIRE(test::Refocus(&engine, params, scene, &first) == SF_OK);
+  starfocus_report report = {};
+  REQUIRE(test::Refocus(&engine, params, scene, &first) == STARFOCUS_OK);
   const test::Scene before = scene;
   scene.Disparity(5, 5) = 0;
-  REQUIRE(After(&engine, params, scene, before, first, &second, &report) == SF_OK);
-  REQUIRE(test::Refocus(&engine, params, scene, &expected) == SF_OK);
+  REQUIRE(After(&engine, params, scene, before, first, &second, &report) == STARFOCUS_OK);
+  REQUIRE(test::Refocus(&engine, params, scene, &expected) == STARFOCUS_OK);
   const bool same = second.bytes == expected.bytes;
   CHECK(same);
   CHECK(report.reused_blocks == 5);  // all but the corner's four
@@ -206,16 +211,16 @@ TEST_CASE("after: a block that changes its layer changes its neighbours' joins")
 
 TEST_CASE("after: what is far from a change is reused") {
   const test::Scene before = test::LayeredScene(640, 512, 5, 2, 6);
-  sf_config config = test::ConfigFor(before, 4);
-  config.features &= ~SF_FEATURE_COVERAGE;  // which comes from farther away
+  starfocus_config config = test::ConfigFor(before, 4);
+  config.features &= ~STARFOCUS_FEATURE_COVERAGE;  // which comes from farther away
   test::Engine engine(config);
-  const sf_params params = test::Params(0, 1, SF_MODE_BLOCK);
+  const starfocus_params params = test::Params(0, 1, STARFOCUS_MODE_BLOCK);
   test::Output first(640, 512), second(640, 512);
-  sf_report whole = {}, report = {};
-  REQUIRE(test::Refocus(&engine, params, before, &first, nullptr, nullptr, &whole) == SF_OK);
+  starfocus_report whole = {}, report = {};
+  REQUIRE(test::Refocus(&engine, params, before, &first, nullptr, nullptr, &whole) == STARFOCUS_OK);
   test::Scene now = before;
   now.Pixel(3, 40, 30)[1] ^= 1;
-  REQUIRE(After(&engine, params, now, before, first, &second, &report) == SF_OK);
+  REQUIRE(After(&engine, params, now, before, first, &second, &report) == STARFOCUS_OK);
   CHECK(report.reused_blocks >= 80 - 12);
   CHECK(report.reused_blocks < 80);
   CHECK(report.rendered_samples * 2 < whole.rendered_samples);
@@ -225,62 +230,63 @@ TEST_CASE("after: what is far from a change is reused") {
 TEST_CASE("after: depth-dependent blur does not look at side views") {
   const test::Scene before = test::LayeredScene(100, 100, 5, 2, 6);
   test::Engine engine(test::ConfigFor(before, 4));
-  const sf_params params = test::Params(0, 1, SF_MODE_BLUR);
+  const starfocus_params params = test::Params(0, 1, STARFOCUS_MODE_BLUR);
   test::Output first(100, 100), second(100, 100);
-  REQUIRE(test::Refocus(&engine, params, before, &first) == SF_OK);
+  REQUIRE(test::Refocus(&engine, params, before, &first) == STARFOCUS_OK);
   test::Scene now = before;
   now.Pixel(3, 50, 50)[1] ^= 1;
-  sf_report report = {};
-  REQUIRE(After(&engine, params, now, before, first, &second, &report) == SF_OK);
+  starfocus_report report = {};
+  REQUIRE(After(&engine, params, now, before, first, &second, &report) == STARFOCUS_OK);
   CHECK(report.reused_blocks == 4);
   CHECK(first.bytes == second.bytes);
 }
 
 TEST_CASE("after: bad input") {
   const test::Scene scene = test::LayeredScene(50, 40, 5, 3, 12);
-  sf_config config = test::ConfigFor(scene, 8);
-  config.features |= SF_FEATURE_IMAGES;
+  starfocus_config config = test::ConfigFor(scene, 8);
+  config.features |= STARFOCUS_FEATURE_IMAGES;
   test::Engine engine(config);
-  const sf_light_field field = scene.Field();
-  const sf_params params = test::Params(1);
+  const starfocus_light_field field = scene.Field();
+  const starfocus_params params = test::Params(1);
   test::Output out(50, 40), before(50, 40);
-  const sf_previous good = {field, sf_image_rgb(before.bytes.data(), before.stride)};
-  const auto run = [&](const sf_light_field* f, const sf_previous* previous, uint8_t* to) {
+  const starfocus_previous good = {field, starfocus_image_rgb(before.bytes.data(), before.stride)};
+  const auto run = [&](const starfocus_light_field* f, const starfocus_previous* previous,
+                       uint8_t* to) {
     return test::RefocusAfterRgb(engine.get(), &params, f, previous, to, out.stride, nullptr);
   };
   uint8_t* to = out.bytes.data();
-  CHECK(run(nullptr, &good, to) == SF_ERROR_NULL);
-  CHECK(run(&field, &good, nullptr) == SF_ERROR_NULL);
-  sf_previous bad = good;
+  CHECK(run(nullptr, &good, to) == STARFOCUS_ERROR_NULL);
+  CHECK(run(&field, &good, nullptr) == STARFOCUS_ERROR_NULL);
+  starfocus_previous bad = good;
   bad.out.planes[0] = nullptr;
-  CHECK(run(&field, &bad, to) == SF_ERROR_NULL);
+  CHECK(run(&field, &bad, to) == STARFOCUS_ERROR_NULL);
   bad = good;
   bad.out.strides[0] = 149;
-  CHECK(run(&field, &bad, to) == SF_ERROR_STRIDE);
+  CHECK(run(&field, &bad, to) == STARFOCUS_ERROR_STRIDE);
   bad = good;
   bad.light_field.views[4].planes[0] = nullptr;
-  CHECK(run(&field, &bad, to) == SF_ERROR_NULL);
+  CHECK(run(&field, &bad, to) == STARFOCUS_ERROR_NULL);
   bad = good;
   bad.light_field.depth.stride = 4;
-  CHECK(run(&field, &bad, to) == SF_ERROR_STRIDE);
+  CHECK(run(&field, &bad, to) == STARFOCUS_ERROR_STRIDE);
   bad = good;
   bad.out.planes[0] = to + 3;
-  CHECK(run(&field, &bad, to) == SF_ERROR_OVERLAP);
+  CHECK(run(&field, &bad, to) == STARFOCUS_ERROR_OVERLAP);
   bad = good;
-  bad.out.format = SF_FORMAT_BGR;
-  CHECK(run(&field, &bad, to) == SF_ERROR_FEATURE);
+  bad.out.format = STARFOCUS_FORMAT_BGR;
+  CHECK(run(&field, &bad, to) == STARFOCUS_ERROR_FEATURE);
   bad = good;
-  bad.light_field.views[2].format = SF_FORMAT_BGR;
-  CHECK(run(&field, &bad, to) == SF_ERROR_FEATURE);
+  bad.light_field.views[2].format = STARFOCUS_FORMAT_BGR;
+  CHECK(run(&field, &bad, to) == STARFOCUS_ERROR_FEATURE);
   bad = good;
   bad.light_field.depth.scale = 2;
-  CHECK(run(&field, &bad, to) == SF_ERROR_FEATURE);
+  CHECK(run(&field, &bad, to) == STARFOCUS_ERROR_FEATURE);
   test::Scene other = scene;
   bad = good;
   bad.light_field = other.Field();
-  CHECK(run(&field, &bad, other.pictures[2].data()) == SF_ERROR_OVERLAP);
+  CHECK(run(&field, &bad, other.pictures[2].data()) == STARFOCUS_ERROR_OVERLAP);
   CHECK(out.Untouched());
-  CHECK(run(&field, &good, to) == SF_OK);
+  CHECK(run(&field, &good, to) == STARFOCUS_OK);
 }
 
 }  // namespace

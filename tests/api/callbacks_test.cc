@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// sf_set_callbacks: how long the functions of the caller are in force.
+// starfocus_set_callbacks: how long the functions of the caller are in force.
 #include <doctest/doctest.h>
 
 #include <vector>
@@ -17,7 +17,7 @@ constexpr int kWidth = 70, kHeight = 75;
 struct Calls {
   int runner = 0, progress = 0, blocks = 0;
 
-  static int Run(void* self, sf_job job, void* data, int32_t count) {
+  static int Run(void* self, starfocus_job job, void* data, int32_t count) {
     ++static_cast<Calls*>(self)->runner;
     for (int32_t i = 0; i < count; ++i) job(data, i, 0);
     return 0;
@@ -26,9 +26,9 @@ struct Calls {
     ++static_cast<Calls*>(self)->progress;
     return 0;
   }
-  static void Visit(void* self, const sf_block*) { ++static_cast<Calls*>(self)->blocks; }
+  static void Visit(void* self, const starfocus_block*) { ++static_cast<Calls*>(self)->blocks; }
 
-  sf_callbacks All() {
+  starfocus_callbacks All() {
     return {Run, this, Tell, this, [] { return uint64_t{0}; }, Visit, this};
   }
   // Returns whether all functions were called, and forgets the calls.
@@ -42,19 +42,19 @@ struct Calls {
 
 struct Fixture {
   test::Scene scene = test::RandomScene(kWidth, kHeight, 5, -3, 9, 8);
-  sf_params params = test::Params(-3, 1, SF_MODE_BLOCK);
-  sf_light_field field = scene.Field();
+  starfocus_params params = test::Params(-3, 1, STARFOCUS_MODE_BLOCK);
+  starfocus_light_field field = scene.Field();
   test::Output out{kWidth, kHeight};
   Calls calls;
 
-  sf_config Config() const {
-    sf_config config = test::ConfigFor(scene, 12);
+  starfocus_config Config() const {
+    starfocus_config config = test::ConfigFor(scene, 12);
     config.superblock = 32;
-    config.features |= SF_FEATURE_STREAMING;
+    config.features |= STARFOCUS_FEATURE_STREAMING;
     config.previews = 1;
     return config;
   }
-  sf_status Refocus(test::Engine* engine) {
+  starfocus_status Refocus(test::Engine* engine) {
     return test::RefocusRgb(engine->get(), &params, &field, out.bytes.data(), out.stride, nullptr);
   }
 };
@@ -62,37 +62,37 @@ struct Fixture {
 TEST_CASE("callbacks: functions stay for all calls until others are set") {
   Fixture f;
   test::Engine engine(f.Config());
-  sf_callbacks callbacks = f.calls.All();
-  REQUIRE(sf_set_callbacks(engine.get(), &callbacks) == SF_OK);
+  starfocus_callbacks callbacks = f.calls.All();
+  REQUIRE(starfocus_set_callbacks(engine.get(), &callbacks) == STARFOCUS_OK);
   callbacks = {};  // the engine has a copy
   for (int round = 0; round < 2; ++round) {
-    REQUIRE(f.Refocus(&engine) == SF_OK);
+    REQUIRE(f.Refocus(&engine) == STARFOCUS_OK);
     CHECK(f.calls.Take());
   }
   test::PreparedMemory memory(f.Config());
-  const sf_prepared* prepared = memory.Prepare(engine.get(), f.field);
+  const starfocus_prepared* prepared = memory.Prepare(engine.get(), f.field);
   CHECK(f.calls.runner > 0);
   CHECK(f.calls.progress > 0);
   test::Output preview((kWidth + 1) / 2, (kHeight + 1) / 2);
   REQUIRE(test::PreviewRgb(engine.get(), &f.params, prepared, 1, preview.bytes.data(),
-                           preview.stride, nullptr) == SF_OK);
+                           preview.stride, nullptr) == STARFOCUS_OK);
   CHECK(f.calls.Take());
   REQUIRE(test::RefocusPreparedRgb(engine.get(), &f.params, prepared, f.out.bytes.data(),
-                                   f.out.stride, nullptr) == SF_OK);
+                                   f.out.stride, nullptr) == STARFOCUS_OK);
   CHECK(f.calls.Take());
-  REQUIRE(sf_set_callbacks(engine.get(), &callbacks) == SF_OK);
-  REQUIRE(f.Refocus(&engine) == SF_OK);
+  REQUIRE(starfocus_set_callbacks(engine.get(), &callbacks) == STARFOCUS_OK);
+  REQUIRE(f.Refocus(&engine) == STARFOCUS_OK);
   CHECK(f.calls.None());
 }
 
 TEST_CASE("callbacks: null pointers are refused, and the functions set before stay") {
   Fixture f;
   test::Engine engine(f.Config());
-  const sf_callbacks callbacks = f.calls.All();
-  CHECK(sf_set_callbacks(nullptr, &callbacks) == SF_ERROR_NULL);
-  REQUIRE(sf_set_callbacks(engine.get(), &callbacks) == SF_OK);
-  CHECK(sf_set_callbacks(engine.get(), nullptr) == SF_ERROR_NULL);
-  REQUIRE(f.Refocus(&engine) == SF_OK);
+  const starfocus_callbacks callbacks = f.calls.All();
+  CHECK(starfocus_set_callbacks(nullptr, &callbacks) == STARFOCUS_ERROR_NULL);
+  REQUIRE(starfocus_set_callbacks(engine.get(), &callbacks) == STARFOCUS_OK);
+  CHECK(starfocus_set_callbacks(engine.get(), nullptr) == STARFOCUS_ERROR_NULL);
+  REQUIRE(f.Refocus(&engine) == STARFOCUS_OK);
   CHECK(f.calls.Take());
 }
 
@@ -100,19 +100,20 @@ TEST_CASE("callbacks: those of a stream may change between two pulls") {
   Fixture f;
   test::Output expected(kWidth, kHeight);
   test::Engine engine(f.Config());
-  REQUIRE(test::Refocus(&engine, f.params, f.scene, &expected) == SF_OK);
-  REQUIRE(sf_stream_begin(engine.get(), &f.params) == SF_OK);
+  REQUIRE(test::Refocus(&engine, f.params, f.scene, &expected) == STARFOCUS_OK);
+  REQUIRE(starfocus_stream_begin(engine.get(), &f.params) == STARFOCUS_OK);
   int pushed = 0, pulled = 0;
   for (int round = 0; pulled < kHeight; ++round) {
-    const sf_callbacks callbacks = round % 2 == 0 ? f.calls.All() : sf_callbacks();
-    REQUIRE(sf_set_callbacks(engine.get(), &callbacks) == SF_OK);
-    const sf_light_field rows = f.scene.Field(pushed);
+    const starfocus_callbacks callbacks = round % 2 == 0 ? f.calls.All() : starfocus_callbacks();
+    REQUIRE(starfocus_set_callbacks(engine.get(), &callbacks) == STARFOCUS_OK);
+    const starfocus_light_field rows = f.scene.Field(pushed);
     int32_t consumed = 0, written = 0;
     if (pushed < kHeight) {
-      REQUIRE(sf_stream_push(engine.get(), &rows, kHeight - pushed, &consumed) == SF_OK);
+      REQUIRE(starfocus_stream_push(engine.get(), &rows, kHeight - pushed, &consumed) ==
+              STARFOCUS_OK);
     }
     REQUIRE(test::PullRgb(engine.get(), f.out.bytes.data() + size_t(pulled) * f.out.stride,
-                          f.out.stride, kHeight, &written, nullptr) == SF_OK);
+                          f.out.stride, kHeight, &written, nullptr) == STARFOCUS_OK);
     CHECK(f.calls.None() == (round % 2 != 0));
     f.calls = Calls();
     pushed += consumed;

@@ -21,7 +21,9 @@ struct Map {
   Map(int w, int h, int padding = 0)
       : width(w), height(h), row(size_t(w + padding)), values(row * size_t(h), 0.f) {}
   float& At(int x, int y) { return values[size_t(y) * row + size_t(x)]; }
-  sf_status Fill() { return sf_fill_disparity(values.data(), row * 4, width, height); }
+  starfocus_status Fill() {
+    return starfocus_fill_disparity(values.data(), row * 4, width, height);
+  }
 
   int width, height;
   size_t row;
@@ -51,28 +53,28 @@ void CheckRows(Map before, Map after) {
 
 TEST_CASE("disparity: illegal arguments") {
   Map map(5, 4);
-  sf_disparity_stats stats;
+  starfocus_disparity_stats stats;
   std::memset(&stats, test::kPoison, sizeof stats);
-  const sf_disparity_stats poison = stats;
+  const starfocus_disparity_stats poison = stats;
   const auto measure = [&](const float* d, size_t stride, int w, int h) {
-    return sf_measure_disparity(d, stride, w, h, &stats);
+    return starfocus_measure_disparity(d, stride, w, h, &stats);
   };
   const auto fill = [&](float* d, size_t stride, int w, int h) {
-    return sf_fill_disparity(d, stride, w, h);
+    return starfocus_fill_disparity(d, stride, w, h);
   };
-  CHECK(measure(nullptr, 20, 5, 4) == SF_ERROR_NULL);
-  CHECK(sf_measure_disparity(map.values.data(), 20, 5, 4, nullptr) == SF_ERROR_NULL);
-  CHECK(fill(nullptr, 20, 5, 4) == SF_ERROR_NULL);
-  for (int size : {0, -1, SF_MAX_SIZE + 1, INT32_MAX, INT32_MIN}) {
-    CHECK(measure(map.values.data(), size_t{1} << 30, size, 4) == SF_ERROR_RANGE);
-    CHECK(measure(map.values.data(), 20, 5, size) == SF_ERROR_RANGE);
-    CHECK(fill(map.values.data(), size_t{1} << 30, size, 4) == SF_ERROR_RANGE);
-    CHECK(fill(map.values.data(), 20, 5, size) == SF_ERROR_RANGE);
+  CHECK(measure(nullptr, 20, 5, 4) == STARFOCUS_ERROR_NULL);
+  CHECK(starfocus_measure_disparity(map.values.data(), 20, 5, 4, nullptr) == STARFOCUS_ERROR_NULL);
+  CHECK(fill(nullptr, 20, 5, 4) == STARFOCUS_ERROR_NULL);
+  for (int size : {0, -1, STARFOCUS_MAX_SIZE + 1, INT32_MAX, INT32_MIN}) {
+    CHECK(measure(map.values.data(), size_t{1} << 30, size, 4) == STARFOCUS_ERROR_RANGE);
+    CHECK(measure(map.values.data(), 20, 5, size) == STARFOCUS_ERROR_RANGE);
+    CHECK(fill(map.values.data(), size_t{1} << 30, size, 4) == STARFOCUS_ERROR_RANGE);
+    CHECK(fill(map.values.data(), 20, 5, size) == STARFOCUS_ERROR_RANGE);
   }
   for (size_t stride :
        {size_t{0}, size_t{16}, size_t{21}, size_t{22}, std::numeric_limits<size_t>::max() - 3}) {
-    CHECK(measure(map.values.data(), stride, 5, 4) == SF_ERROR_STRIDE);
-    CHECK(fill(map.values.data(), stride, 5, 4) == SF_ERROR_STRIDE);
+    CHECK(measure(map.values.data(), stride, 5, 4) == STARFOCUS_ERROR_STRIDE);
+    CHECK(fill(map.values.data(), stride, 5, 4) == STARFOCUS_ERROR_STRIDE);
   }
   CHECK(std::memcmp(&stats, &poison, sizeof stats) == 0);
 }
@@ -83,21 +85,21 @@ TEST_CASE("disparity: smallest, largest and non-finite values") {
   for (int y = 0; y < 3; ++y) {
     for (int x = 0; x < 5; ++x) map.At(x, y) = float(x - y);
   }
-  sf_disparity_stats stats;
-  REQUIRE(sf_measure_disparity(map.values.data(), 28, 5, 3, &stats) == SF_OK);
+  starfocus_disparity_stats stats;
+  REQUIRE(starfocus_measure_disparity(map.values.data(), 28, 5, 3, &stats) == STARFOCUS_OK);
   CHECK(stats.min == -2);
   CHECK(stats.max == 4);
   CHECK(stats.invalid == 0);
   map.At(0, 2) = kNan;
   map.At(4, 0) = kInf;
   map.At(2, 1) = -kInf;
-  REQUIRE(sf_measure_disparity(map.values.data(), 28, 5, 3, &stats) == SF_OK);
+  REQUIRE(starfocus_measure_disparity(map.values.data(), 28, 5, 3, &stats) == STARFOCUS_OK);
   CHECK(stats.min == -1);
   CHECK(stats.max == 3);
   CHECK(stats.invalid == 3);
   Map none(2, 2);
   none.values.assign(4, kNan);
-  REQUIRE(sf_measure_disparity(none.values.data(), 8, 2, 2, &stats) == SF_OK);
+  REQUIRE(starfocus_measure_disparity(none.values.data(), 8, 2, 2, &stats) == STARFOCUS_OK);
   CHECK(stats.min == 0);
   CHECK(stats.max == 0);
   CHECK(stats.invalid == 4);
@@ -106,23 +108,23 @@ TEST_CASE("disparity: smallest, largest and non-finite values") {
 TEST_CASE("disparity: nothing to fill from") {
   Map map(3, 2);
   map.values = {kNan, kInf, -kInf, kNan, kNan, kNan};
-  CHECK(map.Fill() == SF_ERROR_ALL_INVALID);
+  CHECK(map.Fill() == STARFOCUS_ERROR_ALL_INVALID);
 }
 
 TEST_CASE("disparity: a hole between two surfaces becomes the farther one") {
   Map map(6, 1);
   map.values = {5, kNan, kInf, kNan, kNan, 1};
-  REQUIRE(map.Fill() == SF_OK);
+  REQUIRE(map.Fill() == STARFOCUS_OK);
   CHECK(map.values == std::vector<float>{5, 1, 1, 1, 1, 1});
   map.values = {kNan, kNan, 3, kNan, 7, -kInf};
-  REQUIRE(map.Fill() == SF_OK);
+  REQUIRE(map.Fill() == STARFOCUS_OK);
   CHECK(map.values == std::vector<float>{3, 3, 3, 3, 7, 7});
 }
 
 TEST_CASE("disparity: empty rows come from the rows above and below") {
   Map map(2, 5);
   map.values = {kNan, kNan, 4, 1, kNan, kNan, kNan, kNan, 2, 3};
-  REQUIRE(map.Fill() == SF_OK);
+  REQUIRE(map.Fill() == STARFOCUS_OK);
   CHECK(map.values == std::vector<float>{4, 1, 4, 1, 2, 1, 2, 1, 2, 3});
 }
 
@@ -138,7 +140,7 @@ TEST_CASE("disparity: random maps, padding untouched") {
       for (size_t x = size_t(map.width); x < map.row; ++x) map.values[size_t(y) * map.row + x] = 77;
     }
     const Map before = map;
-    REQUIRE(map.Fill() == SF_OK);
+    REQUIRE(map.Fill() == STARFOCUS_OK);
     CheckRows(before, map);
     for (int y = 0; y < map.height; ++y) {
       for (size_t x = size_t(map.width); x < map.row; ++x) {

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # cmake -DNM=… -DFOLDER=… -P engine_alone_test.cmake
-# A static program that only refocuses, in memory of its own, holds nothing of lib/depth and nothing of sf_create's;
+# A static program that only refocuses, in memory of its own, holds nothing of lib/depth and nothing of starfocus_create's;
 # one that makes maps has the first. The program for users holds nothing of lib/analysis, of the ray tracer and of
 # tests, as that for developers does.
 cmake_minimum_required(VERSION 3.20)
@@ -22,10 +22,10 @@ function(expect program expected)
   endforeach()
 endfunction()
 
-set(depth "sf_(estimate|repair)_|DepthKernels|AddPaths")
+set(depth "starfocus_(estimate|repair)_|DepthKernels|AddPaths")
 set(developers "analysis::" "RayTracer" "stress::")
-expect(minimal has "sf_init")
-expect(minimal lacks "sf_create" ${depth})
+expect(minimal has "starfocus_init")
+expect(minimal lacks "starfocus_create" ${depth})
 expect(starfocus has ${depth})
 expect(starfocus lacks ${developers})
 expect(starfocus-lab has ${developers})

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # cmake -DNM=… -DLIBRARY=… -DHEADERS=… -P exports_test.cmake
-# The shared library exports every SF_API function of the headers and nothing else.
+# The shared library exports every STARFOCUS_API function of the headers and nothing else.
 cmake_minimum_required(VERSION 3.20)
 execute_process(COMMAND "${NM}" -D --defined-only "${LIBRARY}"
                 OUTPUT_VARIABLE listing RESULT_VARIABLE result)
@@ -14,10 +14,10 @@ foreach(file IN LISTS files)
   file(READ "${file}" text)
   string(APPEND header "${text}")
 endforeach()
-string(REGEX MATCHALL "SF_API [^;(]*sf_[a-z_]+\\(" declarations "${header}")
+string(REGEX MATCHALL "STARFOCUS_API [^;(]*starfocus_[a-z_]+\\(" declarations "${header}")
 set(expected "")
 foreach(declaration IN LISTS declarations)
-  string(REGEX REPLACE ".*[ *](sf_[a-z_]+)\\($" "\\1" name "${declaration}")
+  string(REGEX REPLACE ".*[ *](starfocus_[a-z_]+)\\($" "\\1" name "${declaration}")
   list(APPEND expected "${name}")
 endforeach()
 list(LENGTH expected count)

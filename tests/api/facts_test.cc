@@ -17,14 +17,14 @@
 namespace facts_test {
 
 TEST_CASE("the version is that of the headers") {
-  CHECK(sf_version() == std::string(SF_VERSION_STRING));
+  CHECK(starfocus_version() == std::string(STARFOCUS_VERSION_STRING));
 }
 
 // The structures that a header defines.
 std::vector<std::string> StructuresOf(const std::string& header) {
   std::ifstream file(std::string(STARFOCUS_SOURCE_DIR) + "/lib/include/starfocus/" + header);
   std::vector<std::string> names;
-  const std::regex begin("typedef struct (sf_[a-z_]+) \\{.*");
+  const std::regex begin("typedef struct (starfocus_[a-z_]+) \\{.*");
   std::smatch found;
   for (std::string line; std::getline(file, line);) {
     if (std::regex_match(line, found, begin)) names.push_back(found[1]);
@@ -33,29 +33,31 @@ std::vector<std::string> StructuresOf(const std::string& header) {
 }
 
 TEST_CASE("sizes are those of the headers, of every structure") {
-  CHECK(sf_struct_size("sf_config") == sizeof(sf_config));
-  CHECK(sf_struct_size("sf_params") == sizeof(sf_params));
-  CHECK(sf_struct_size("sf_report") == sizeof(sf_report));
-  CHECK(sf_struct_size("sf_depth_config") == sizeof(sf_depth_config));
+  CHECK(starfocus_struct_size("starfocus_config") == sizeof(starfocus_config));
+  CHECK(starfocus_struct_size("starfocus_params") == sizeof(starfocus_params));
+  CHECK(starfocus_struct_size("starfocus_report") == sizeof(starfocus_report));
+  CHECK(starfocus_struct_size("starfocus_depth_config") == sizeof(starfocus_depth_config));
   size_t structures = 0;
-  for (const char* header : {"starfocus.h", "status.h", "tuning.h", "depth.h", "image.h"}) {
+  for (const char* header :
+       {"starfocus.h", "status.h", "tuning.h", "lens.h", "depth.h", "image.h"}) {
     for (const std::string& name : StructuresOf(header)) {
       CAPTURE(name);
-      CHECK(sf_struct_size(name.c_str()) > 0);
+      CHECK(starfocus_struct_size(name.c_str()) > 0);
       ++structures;
     }
   }
   CHECK(structures >= 18);
-  for (const char* name : {"", "sf_", "sf_confi", "sf_configs", "sf_engine"}) {
-    CHECK(sf_struct_size(name) == 0);
+  for (const char* name :
+       {"", "starfocus_", "starfocus_confi", "starfocus_configs", "starfocus_engine"}) {
+    CHECK(starfocus_struct_size(name) == 0);
   }
-  CHECK(sf_struct_size(nullptr) == 0);
+  CHECK(starfocus_struct_size(nullptr) == 0);
 }
 
 TEST_CASE("defaults are those that the header tells") {
-  sf_config config;
+  starfocus_config config;
   std::memset(&config, test::kPoison, sizeof config);
-  sf_config_init(&config);
+  starfocus_config_init(&config);
   CHECK(config.size == sizeof config);
   CHECK(config.max_blur == 32);
   CHECK(config.superblock == 0);
@@ -65,18 +67,18 @@ TEST_CASE("defaults are those that the header tells") {
   CHECK(config.tuning.n_scale == 1);
   CHECK(config.tuning.skips == 1);
   CHECK(config.tuning.gather == 1);
-  CHECK(config.transfer == SF_TRANSFER_SRGB);
+  CHECK(config.transfer == STARFOCUS_TRANSFER_SRGB);
   CHECK(config.highlights == 1);
-  CHECK(config.features == (SF_FEATURE_LINE_SCAN | SF_FEATURE_COVERAGE));
-  sf_params params;
+  CHECK(config.features == (STARFOCUS_FEATURE_LINE_SCAN | STARFOCUS_FEATURE_COVERAGE));
+  starfocus_params params;
   std::memset(&params, test::kPoison, sizeof params);
-  sf_params_init(&params);
+  starfocus_params_init(&params);
   CHECK(params.size == sizeof params);
-  CHECK(params.mode == SF_MODE_BLOCK);
-  CHECK(params.renderer == SF_RENDERER_AUTO);
+  CHECK(params.mode == STARFOCUS_MODE_BLOCK);
+  CHECK(params.renderer == STARFOCUS_RENDERER_AUTO);
   CHECK(params.lens.aperture == 1);
   CHECK(params.lens.focus == 0);
-  CHECK(params.lens.shape == SF_SHAPE_FALL_OFF);
+  CHECK(params.lens.shape == STARFOCUS_SHAPE_FALL_OFF);
   CHECK(params.lens.theta == doctest::Approx(0.26 * 3.14159265358979).epsilon(1e-12));
   CHECK(params.lens.blades == 5);
   CHECK(params.lens.rotation == 0);
@@ -87,30 +89,30 @@ TEST_CASE("defaults are those that the header tells") {
 }
 
 TEST_CASE("view positions") {
-  const double kExpected[SF_MAX_VIEWS][2] = {
+  const double kExpected[STARFOCUS_MAX_VIEWS][2] = {
       {0, 0},    {1, 0},     {-1, 0},     {0, 1},      {0, -1},     {1, 1},
       {-1, 1},   {1, -1},    {-1, -1},    {0.5, 0},    {-0.5, 0},   {0, 0.5},
       {0, -0.5}, {0.5, 0.5}, {-0.5, 0.5}, {0.5, -0.5}, {-0.5, -0.5}};
   double u = 7, v = 7;
-  CHECK(sf_view_position(-1, &u, &v) == 0);
-  CHECK(sf_view_position(SF_MAX_VIEWS, &u, &v) == 0);
-  CHECK(sf_view_position(INT32_MAX, &u, &v) == 0);
-  CHECK(sf_view_position(INT32_MIN, &u, &v) == 0);
-  CHECK(sf_view_position(0, nullptr, &v) == 0);
-  CHECK(sf_view_position(0, &u, nullptr) == 0);
+  CHECK(starfocus_view_position(-1, &u, &v) == 0);
+  CHECK(starfocus_view_position(STARFOCUS_MAX_VIEWS, &u, &v) == 0);
+  CHECK(starfocus_view_position(INT32_MAX, &u, &v) == 0);
+  CHECK(starfocus_view_position(INT32_MIN, &u, &v) == 0);
+  CHECK(starfocus_view_position(0, nullptr, &v) == 0);
+  CHECK(starfocus_view_position(0, &u, nullptr) == 0);
   CHECK(u == 7);
   CHECK(v == 7);
-  for (int i = 0; i < SF_MAX_VIEWS; ++i) {
+  for (int i = 0; i < STARFOCUS_MAX_VIEWS; ++i) {
     CAPTURE(i);
-    REQUIRE(sf_view_position(i, &u, &v) != 0);
+    REQUIRE(starfocus_view_position(i, &u, &v) != 0);
     CHECK(u == kExpected[i][0]);
     CHECK(v == kExpected[i][1]);
   }
 }
 
 TEST_CASE("the SIMD target has a name") {
-  REQUIRE(sf_simd_target() != nullptr);
-  CHECK(*sf_simd_target() != '\0');
+  REQUIRE(starfocus_simd_target() != nullptr);
+  CHECK(*starfocus_simd_target() != '\0');
 }
 
 }  // namespace facts_test

@@ -14,7 +14,7 @@ bool no_memory = false;  // for workspaces and prepared light fields
 }  // namespace
 
 void* operator new(size_t size, std::align_val_t, const std::nothrow_t&) noexcept {
-  return no_memory ? nullptr : std::aligned_alloc(SF_ALIGNMENT, (size + 63) / 64 * 64);
+  return no_memory ? nullptr : std::aligned_alloc(STARFOCUS_ALIGNMENT, (size + 63) / 64 * 64);
 }
 void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
 
@@ -26,17 +26,17 @@ constexpr int kSize = 12;
 struct Field {
   std::vector<uint8_t> picture = std::vector<uint8_t>(3 * kSize * kSize, 50);
   std::vector<float> disparity = std::vector<float>(kSize * kSize, 0.5f);
-  sf_light_field field = {};
+  starfocus_light_field field = {};
   starfocus::Config config;
   starfocus::Params params;
 
   Field() {
-    field.views[0] = sf_image_rgb(picture.data(), 3 * kSize);
-    field.depth = sf_depth_float(disparity.data(), kSize * sizeof(float), kSize, kSize);
+    field.views[0] = starfocus_image_rgb(picture.data(), 3 * kSize);
+    field.depth = starfocus_depth_float(disparity.data(), kSize * sizeof(float), kSize, kSize);
     config.width = config.height = kSize;
     config.views = 1;
     config.disparity_max = 1;
-    config.features |= SF_FEATURE_STREAMING;
+    config.features |= STARFOCUS_FEATURE_STREAMING;
     config.previews = 1;
     params.lens.focus = 3;
   }
@@ -44,12 +44,14 @@ struct Field {
   // Whether these calls give the picture.
   bool Refocuses(starfocus::Engine* engine) const {
     std::vector<uint8_t> out(picture.size());
-    return engine->Refocus(params, field, sf_image_rgb(out.data(), 3 * kSize)) == SF_OK &&
+    return engine->Refocus(params, field, starfocus_image_rgb(out.data(), 3 * kSize)) ==
+               STARFOCUS_OK &&
            out == picture;
   }
   bool RefocusesPrepared(starfocus::Engine* engine) const {
     std::vector<uint8_t> out(picture.size());
-    return engine->RefocusPrepared(params, sf_image_rgb(out.data(), 3 * kSize)) == SF_OK &&
+    return engine->RefocusPrepared(params, starfocus_image_rgb(out.data(), 3 * kSize)) ==
+               STARFOCUS_OK &&
            out == picture;
   }
   bool RefocusesPreview(starfocus::Engine* engine) const {
@@ -58,23 +60,26 @@ struct Field {
     std::vector<uint8_t> out(expected.size());
     starfocus::Params reduced = params;
     reduced.preview_shift = 1;
-    return engine->RefocusPrepared(reduced, sf_image_rgb(out.data(), 3 * kHalf)) == SF_OK &&
+    return engine->RefocusPrepared(reduced, starfocus_image_rgb(out.data(), 3 * kHalf)) ==
+               STARFOCUS_OK &&
            out == expected;
   }
   bool RefocusesAfter(starfocus::Engine* engine) const {
     std::vector<uint8_t> out(picture.size());
-    const sf_previous previous = {field, sf_image_rgb(picture.data(), 3 * kSize)};
+    const starfocus_previous previous = {field, starfocus_image_rgb(picture.data(), 3 * kSize)};
     starfocus::Params after = params;
     after.previous = &previous;
-    return engine->Refocus(after, field, sf_image_rgb(out.data(), 3 * kSize)) == SF_OK &&
+    return engine->Refocus(after, field, starfocus_image_rgb(out.data(), 3 * kSize)) ==
+               STARFOCUS_OK &&
            out == picture;
   }
   bool Streams(starfocus::Engine* engine) const {
     std::vector<uint8_t> out(picture.size());
     int32_t consumed = 0, written = 0;
-    return engine->StreamBegin(params) == SF_OK &&
-           engine->StreamPush(field, kSize, &consumed) == SF_OK && consumed == kSize &&
-           engine->StreamPull(sf_image_rgb(out.data(), 3 * kSize), kSize, &written) == SF_OK &&
+    return engine->StreamBegin(params) == STARFOCUS_OK &&
+           engine->StreamPush(field, kSize, &consumed) == STARFOCUS_OK && consumed == kSize &&
+           engine->StreamPull(starfocus_image_rgb(out.data(), 3 * kSize), kSize, &written) ==
+               STARFOCUS_OK &&
            written == kSize && out == picture;
   }
 
@@ -83,12 +88,15 @@ struct Field {
     std::vector<uint8_t> out(picture.size());
     int32_t rows = 0;
     return engine->get() == nullptr && engine->workspace_bytes() == 0 &&
-           engine->Refocus(params, field, sf_image_rgb(out.data(), 3 * kSize)) == SF_ERROR_NULL &&
-           engine->Prepare(field) == SF_ERROR_NULL &&
-           engine->RefocusPrepared(params, sf_image_rgb(out.data(), 3 * kSize)) == SF_ERROR_NULL &&
-           engine->StreamBegin(params) == SF_ERROR_NULL &&
-           engine->StreamPush(field, kSize, &rows) == SF_ERROR_NULL &&
-           engine->StreamPull(sf_image_rgb(out.data(), 3 * kSize), kSize, &rows) == SF_ERROR_NULL;
+           engine->Refocus(params, field, starfocus_image_rgb(out.data(), 3 * kSize)) ==
+               STARFOCUS_ERROR_NULL &&
+           engine->Prepare(field) == STARFOCUS_ERROR_NULL &&
+           engine->RefocusPrepared(params, starfocus_image_rgb(out.data(), 3 * kSize)) ==
+               STARFOCUS_ERROR_NULL &&
+           engine->StreamBegin(params) == STARFOCUS_ERROR_NULL &&
+           engine->StreamPush(field, kSize, &rows) == STARFOCUS_ERROR_NULL &&
+           engine->StreamPull(starfocus_image_rgb(out.data(), 3 * kSize), kSize, &rows) ==
+               STARFOCUS_ERROR_NULL;
   }
 };
 
@@ -98,10 +106,11 @@ bool EveryCall() {
   if (!f.IsEmpty(&engine)) return false;
   starfocus::Config bad;
   bad.width = -1;
-  if (engine.Init(bad) != SF_ERROR_RANGE || !f.IsEmpty(&engine)) return false;
-  if (engine.Init(f.config) != SF_OK || engine.workspace_bytes() == 0) return false;
-  return f.Refocuses(&engine) && engine.Prepare(f.field) == SF_OK && f.RefocusesPrepared(&engine) &&
-         f.RefocusesPreview(&engine) && f.RefocusesAfter(&engine) && f.Streams(&engine);
+  if (engine.Init(bad) != STARFOCUS_ERROR_RANGE || !f.IsEmpty(&engine)) return false;
+  if (engine.Init(f.config) != STARFOCUS_OK || engine.workspace_bytes() == 0) return false;
+  return f.Refocuses(&engine) && engine.Prepare(f.field) == STARFOCUS_OK &&
+         f.RefocusesPrepared(&engine) && f.RefocusesPreview(&engine) && f.RefocusesAfter(&engine) &&
+         f.Streams(&engine);
 }
 
 // A second Init that fails leaves the engine, and what it has prepared; one that succeeds is a new
@@ -109,30 +118,33 @@ bool EveryCall() {
 bool SecondInit() {
   const Field f;
   starfocus::Engine engine;
-  if (engine.Init(f.config) != SF_OK || engine.Prepare(f.field) != SF_OK) return false;
+  if (engine.Init(f.config) != STARFOCUS_OK || engine.Prepare(f.field) != STARFOCUS_OK)
+    return false;
   starfocus::Config bad;
-  if (engine.Init(bad) != SF_ERROR_RANGE) return false;
+  if (engine.Init(bad) != STARFOCUS_ERROR_RANGE) return false;
   no_memory = true;
-  const sf_status status = engine.Init(f.config);
+  const starfocus_status status = engine.Init(f.config);
   no_memory = false;
-  if (status != SF_ERROR_MEMORY) return false;
+  if (status != STARFOCUS_ERROR_MEMORY) return false;
   if (!f.Refocuses(&engine) || !f.RefocusesPrepared(&engine)) return false;
-  if (engine.Init(f.config) != SF_OK) return false;
+  if (engine.Init(f.config) != STARFOCUS_OK) return false;
   std::vector<uint8_t> out(f.picture.size());
-  return engine.RefocusPrepared(f.params, sf_image_rgb(out.data(), 3 * kSize)) == SF_ERROR_NULL &&
+  return engine.RefocusPrepared(f.params, starfocus_image_rgb(out.data(), 3 * kSize)) ==
+             STARFOCUS_ERROR_NULL &&
          f.Refocuses(&engine);
 }
 
 bool Moves() {
   const Field f;
   starfocus::Engine first;
-  if (first.Init(f.config) != SF_OK || first.Prepare(f.field) != SF_OK) return false;
+  if (first.Init(f.config) != STARFOCUS_OK || first.Prepare(f.field) != STARFOCUS_OK) return false;
   {
     starfocus::Engine second = std::move(first);
     if (!f.IsEmpty(&first)) return false;
     if (!f.Refocuses(&second) || !f.RefocusesPrepared(&second)) return false;
     starfocus::Engine third;
-    if (third.Init(f.config) != SF_OK || third.Prepare(f.field) != SF_OK) return false;
+    if (third.Init(f.config) != STARFOCUS_OK || third.Prepare(f.field) != STARFOCUS_OK)
+      return false;
     third = std::move(second);
     if (!f.IsEmpty(&second)) return false;
     starfocus::Engine& same = third;
@@ -141,24 +153,25 @@ bool Moves() {
   }
   // What it was moved to is gone.
   if (!f.IsEmpty(&first)) return false;
-  return first.Init(f.config) == SF_OK && f.Refocuses(&first);
+  return first.Init(f.config) == STARFOCUS_OK && f.Refocuses(&first);
 }
 
 // A Prepare that fails leaves nothing prepared.
 bool SecondPrepare() {
   Field f;
   starfocus::Engine engine;
-  if (engine.Init(f.config) != SF_OK) return false;
+  if (engine.Init(f.config) != STARFOCUS_OK) return false;
   std::vector<uint8_t> out(f.picture.size());
   for (int round = 0; round < 2; ++round) {
-    if (engine.Prepare(f.field) != SF_OK || !f.RefocusesPrepared(&engine)) return false;
+    if (engine.Prepare(f.field) != STARFOCUS_OK || !f.RefocusesPrepared(&engine)) return false;
     no_memory = round == 0;
     f.disparity[7] = 2;
-    const sf_status status = engine.Prepare(f.field);
+    const starfocus_status status = engine.Prepare(f.field);
     f.disparity[7] = 0.5f;
     no_memory = false;
-    if (status != (round == 0 ? SF_ERROR_MEMORY : SF_ERROR_DISPARITY)) return false;
-    if (engine.RefocusPrepared(f.params, sf_image_rgb(out.data(), 3 * kSize)) != SF_ERROR_NULL)
+    if (status != (round == 0 ? STARFOCUS_ERROR_MEMORY : STARFOCUS_ERROR_DISPARITY)) return false;
+    if (engine.RefocusPrepared(f.params, starfocus_image_rgb(out.data(), 3 * kSize)) !=
+        STARFOCUS_ERROR_NULL)
       return false;
   }
   return f.Refocuses(&engine);

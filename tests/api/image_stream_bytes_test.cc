@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Images streamed and prepared: the bytes of sf_refocus.
+// Images streamed and prepared: the bytes of starfocus_refocus.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -25,49 +25,50 @@ ImageField FieldOf(const test::Scene& scene, int format, bool unknown, test::Ran
   for (int k = 0; k < 3; ++k) kinds.push_back(test::AnyKind((format + 3 * k) % kFormats, random));
   test::DepthMemory depth = test::MakeDepth(scene, (scene.width + 1) / 2,
                                             all_rows ? scene.height : (scene.height + 2) / 3,
-                                            SF_DEPTH_HALF, SF_DEPTH_RECIPROCAL, 1);
+                                            STARFOCUS_DEPTH_HALF, STARFOCUS_DEPTH_RECIPROCAL, 1);
   if (unknown) depth.Put(0, depth.map.height / 2, std::numeric_limits<double>::quiet_NaN());
   return test::MakeImageField(scene, kinds, std::move(depth), random);
 }
 
-ImageMemory Refocused(test::Engine* engine, const ImageField& field, const sf_params& params,
-                      const ImageKind& kind, sf_report* report) {
+ImageMemory Refocused(test::Engine* engine, const ImageField& field, const starfocus_params& params,
+                      const ImageKind& kind, starfocus_report* report) {
   ImageMemory image(field.converted.width, field.converted.height, kind);
-  const sf_light_field images = field.Field();
-  const sf_image out = image.Out();
-  REQUIRE(sf_refocus(engine->get(), &params, &images, &out, report) == SF_OK);
+  const starfocus_light_field images = field.Field();
+  const starfocus_image out = image.Out();
+  REQUIRE(starfocus_refocus(engine->get(), &params, &images, &out, report) == STARFOCUS_OK);
   return image;
 }
 
 TEST_CASE("image streams: rows of R, G, B may be pushed, and pulled") {
   test::Random random(42);
   const test::Scene scene = test::LayeredScene(100, 90, 5, 7, 50);
-  const ImageField field = FieldOf(scene, SF_FORMAT_RGBX, false, &random);
-  sf_config config = test::ImageConfig(field, 20);
-  config.features |= SF_FEATURE_STREAMING;
+  const ImageField field = FieldOf(scene, STARFOCUS_FORMAT_RGBX, false, &random);
+  starfocus_config config = test::ImageConfig(field, 20);
+  config.features |= STARFOCUS_FEATURE_STREAMING;
   test::Engine engine(config);
   ImageKind kind;
-  kind.format = SF_FORMAT_BGRX;
-  const sf_params params = test::Params(1, 1, SF_MODE_BLOCK);
+  kind.format = STARFOCUS_FORMAT_BGRX;
+  const starfocus_params params = test::Params(1, 1, STARFOCUS_MODE_BLOCK);
   test::Output expected(100, 90), got(100, 90);
-  REQUIRE(test::Refocus(&engine, params, field.converted, &expected) == SF_OK);
+  REQUIRE(test::Refocus(&engine, params, field.converted, &expected) == STARFOCUS_OK);
   ImageMemory image(100, 90, kind), opaque(100, 90, kind);
   test::PutPicture(
       expected.bytes.data(), expected.stride, [](int, int) { return uint8_t{255}; }, &opaque);
-  const sf_image out = image.Out();
-  const sf_light_field images = field.Field();
-  const sf_light_field converted = field.converted.Field();
+  const starfocus_image out = image.Out();
+  const starfocus_light_field images = field.Field();
+  const starfocus_light_field converted = field.converted.Field();
   int32_t rows = 0;
   // Alpha of a stream before is not seen.
   for (int round = 0; round < 2; ++round) {
-    REQUIRE(sf_stream_begin(engine.get(), &params) == SF_OK);
-    REQUIRE(sf_stream_push(engine.get(), &images, 90, &rows) == SF_OK);
+    REQUIRE(starfocus_stream_begin(engine.get(), &params) == STARFOCUS_OK);
+    REQUIRE(starfocus_stream_push(engine.get(), &images, 90, &rows) == STARFOCUS_OK);
     REQUIRE(rows == 90);
-    REQUIRE(test::PullRgb(engine.get(), got.bytes.data(), got.stride, 90, &rows, nullptr) == SF_OK);
+    REQUIRE(test::PullRgb(engine.get(), got.bytes.data(), got.stride, 90, &rows, nullptr) ==
+            STARFOCUS_OK);
     CHECK(got.bytes == expected.bytes);
-    REQUIRE(sf_stream_begin(engine.get(), &params) == SF_OK);
-    REQUIRE(sf_stream_push(engine.get(), &converted, 90, &rows) == SF_OK);
-    REQUIRE(sf_stream_pull(engine.get(), &out, 90, &rows, nullptr) == SF_OK);
+    REQUIRE(starfocus_stream_begin(engine.get(), &params) == STARFOCUS_OK);
+    REQUIRE(starfocus_stream_push(engine.get(), &converted, 90, &rows) == STARFOCUS_OK);
+    REQUIRE(starfocus_stream_pull(engine.get(), &out, 90, &rows, nullptr) == STARFOCUS_OK);
     const bool same = image == opaque;
     CHECK(same);
   }
@@ -76,17 +77,17 @@ TEST_CASE("image streams: rows of R, G, B may be pushed, and pulled") {
 TEST_CASE("image streams: alpha of rows that are pulled late is still there") {
   test::Random random(48);
   test::Scene scene = test::LayeredScene(20, 900, 1, 1, 50);
-  const ImageField field = FieldOf(scene, SF_FORMAT_RGBX, false, &random);
-  sf_config config = test::ImageConfig(field, 2);
-  config.features |= SF_FEATURE_STREAMING;
+  const ImageField field = FieldOf(scene, STARFOCUS_FORMAT_RGBX, false, &random);
+  starfocus_config config = test::ImageConfig(field, 2);
+  config.features |= STARFOCUS_FEATURE_STREAMING;
   config.superblock = 256;
   test::Engine engine(config);
   ImageKind kind;
-  kind.format = SF_FORMAT_RGBX;
-  const sf_params params = test::Params(0, 1, SF_MODE_BLOCK);
+  kind.format = STARFOCUS_FORMAT_RGBX;
+  const starfocus_params params = test::Params(0, 1, STARFOCUS_MODE_BLOCK);
   const ImageMemory expected = Refocused(&engine, field, params, kind, nullptr);
   ImageMemory streamed(20, 900, kind);
-  REQUIRE(test::Stream(&engine, field, params, 900, 2, &streamed, nullptr) == SF_OK);
+  REQUIRE(test::Stream(&engine, field, params, 900, 2, &streamed, nullptr) == STARFOCUS_OK);
   const bool same = streamed == expected;
   CHECK(same);
 }
@@ -94,8 +95,8 @@ TEST_CASE("image streams: alpha of rows that are pulled late is still there") {
 TEST_CASE("image streams: rings hold pairs of rows, however far away is read") {
   test::Random random(49);
   const ImageField field =
-      FieldOf(test::LayeredScene(20, 20, 1, 1, 50), SF_FORMAT_RGB, false, &random);
-  sf_config config = test::ImageConfig(field, 2);
+      FieldOf(test::LayeredScene(20, 20, 1, 1, 50), STARFOCUS_FORMAT_RGB, false, &random);
+  starfocus_config config = test::ImageConfig(field, 2);
   for (float most = 3; most < 12; most += 0.5f) {
     config.disparity_max = most;
     const starfocus::Borders borders = test::BordersOf(config);
@@ -107,33 +108,33 @@ TEST_CASE("image streams: rings hold pairs of rows, however far away is read") {
 TEST_CASE("image streams: half of a pair of rows is refused, and a bad depth with both") {
   test::Random random(43);
   const test::Scene scene = test::LayeredScene(60, 51, 1, 7, 50);
-  ImageField field = FieldOf(scene, SF_FORMAT_NV12, false, &random);
-  sf_config config = test::ImageConfig(field, 20);
-  config.features |= SF_FEATURE_STREAMING;
+  ImageField field = FieldOf(scene, STARFOCUS_FORMAT_NV12, false, &random);
+  starfocus_config config = test::ImageConfig(field, 20);
+  config.features |= STARFOCUS_FEATURE_STREAMING;
   test::Engine engine(config);
-  const sf_params params = test::Params(1, 1, SF_MODE_BLOCK);
-  sf_light_field images = field.Field();
-  ImageMemory image(60, 51, test::AnyKind(SF_FORMAT_I420, &random));
-  sf_image out = image.Out();
+  const starfocus_params params = test::Params(1, 1, STARFOCUS_MODE_BLOCK);
+  starfocus_light_field images = field.Field();
+  ImageMemory image(60, 51, test::AnyKind(STARFOCUS_FORMAT_I420, &random));
+  starfocus_image out = image.Out();
   int32_t rows = 7;
-  CHECK(sf_stream_push(engine.get(), &images, 2, &rows) == SF_ERROR_STATE);
+  CHECK(starfocus_stream_push(engine.get(), &images, 2, &rows) == STARFOCUS_ERROR_STATE);
   CHECK(rows == 0);
-  REQUIRE(sf_stream_begin(engine.get(), &params) == SF_OK);
-  CHECK(sf_stream_push(engine.get(), &images, 3, &rows) == SF_ERROR_RANGE);
-  CHECK(sf_stream_push(engine.get(), &images, 52, &rows) == SF_ERROR_RANGE);
-  CHECK(sf_stream_push(engine.get(), &images, 51, &rows) == SF_OK);
+  REQUIRE(starfocus_stream_begin(engine.get(), &params) == STARFOCUS_OK);
+  CHECK(starfocus_stream_push(engine.get(), &images, 3, &rows) == STARFOCUS_ERROR_RANGE);
+  CHECK(starfocus_stream_push(engine.get(), &images, 52, &rows) == STARFOCUS_ERROR_RANGE);
+  CHECK(starfocus_stream_push(engine.get(), &images, 51, &rows) == STARFOCUS_OK);
   CHECK(rows == 51);
-  CHECK(sf_stream_pull(engine.get(), &out, 3, &rows, nullptr) == SF_ERROR_RANGE);
-  CHECK(sf_stream_pull(engine.get(), &out, 50, &rows, nullptr) == SF_OK);
+  CHECK(starfocus_stream_pull(engine.get(), &out, 3, &rows, nullptr) == STARFOCUS_ERROR_RANGE);
+  CHECK(starfocus_stream_pull(engine.get(), &out, 50, &rows, nullptr) == STARFOCUS_OK);
   CHECK(rows == 50);
   out = image.Out(50);
-  CHECK(sf_stream_pull(engine.get(), &out, 9, &rows, nullptr) == SF_OK);
+  CHECK(starfocus_stream_pull(engine.get(), &out, 9, &rows, nullptr) == STARFOCUS_OK);
   CHECK(rows == 1);
   // The map's last row: pairs before it are taken.
   field.depth.Put(3, field.depth.map.height - 1, 1e-3);
   images = field.Field();
-  REQUIRE(sf_stream_begin(engine.get(), &params) == SF_OK);
-  CHECK(sf_stream_push(engine.get(), &images, 51, &rows) == SF_ERROR_DISPARITY);
+  REQUIRE(starfocus_stream_begin(engine.get(), &params) == STARFOCUS_OK);
+  CHECK(starfocus_stream_push(engine.get(), &images, 51, &rows) == STARFOCUS_ERROR_DISPARITY);
   CHECK(rows > 20);
   CHECK(rows < 51);
   CHECK(rows % 2 == 0);
@@ -144,13 +145,13 @@ TEST_CASE("prepared images: disparities and layers are those of the converted pi
   for (const int side : {32, 64, 128}) {
     CAPTURE(side);
     const test::Scene scene = test::LayeredScene(150, 271, 1, 7, 60);
-    const ImageField field = FieldOf(scene, SF_FORMAT_NV12, false, &random);
-    sf_config config = test::ImageConfig(field, 20);
+    const ImageField field = FieldOf(scene, STARFOCUS_FORMAT_NV12, false, &random);
+    starfocus_config config = test::ImageConfig(field, 20);
     config.superblock = side;
     test::Engine engine(config);
     test::PreparedMemory memory(config), other(config);
-    const sf_prepared* got = memory.Prepare(engine.get(), field.Field());
-    const sf_prepared* expected = other.Prepare(engine.get(), field.converted.Field());
+    const starfocus_prepared* got = memory.Prepare(engine.get(), field.Field());
+    const starfocus_prepared* expected = other.Prepare(engine.get(), field.converted.Field());
     const auto& a = *reinterpret_cast<const starfocus::Prepared*>(got);
     const auto& b = *reinterpret_cast<const starfocus::Prepared*>(expected);
     const auto same = [](const auto& one, const auto& two, int rows) {
@@ -165,32 +166,34 @@ TEST_CASE("prepared images: disparities and layers are those of the converted pi
 TEST_CASE("prepared images: pictures of any format are made of light fields of any") {
   test::Random random(45);
   const test::Scene scene = test::LayeredScene(60, 50, 5, 7, 50);
-  const ImageField field = FieldOf(scene, SF_FORMAT_NV12, false, &random);
-  const sf_config config = test::ImageConfig(field, 20);
+  const ImageField field = FieldOf(scene, STARFOCUS_FORMAT_NV12, false, &random);
+  const starfocus_config config = test::ImageConfig(field, 20);
   test::Engine engine(config);
   test::PreparedMemory memory(config), other(config);
-  const sf_light_field images = field.Field();
-  sf_prepared* of_images = memory.Prepare(engine.get(), images);
-  const sf_prepared* of_pictures = other.Prepare(engine.get(), field.converted.Field());
-  const sf_params params = test::Params(1, 1, SF_MODE_BLOCK);
+  const starfocus_light_field images = field.Field();
+  starfocus_prepared* of_images = memory.Prepare(engine.get(), images);
+  const starfocus_prepared* of_pictures = other.Prepare(engine.get(), field.converted.Field());
+  const starfocus_params params = test::Params(1, 1, STARFOCUS_MODE_BLOCK);
   test::Output out(60, 50);
-  ImageMemory image(60, 50, test::AnyKind(SF_FORMAT_NV12, &random));
-  const sf_image to = image.Out();
+  ImageMemory image(60, 50, test::AnyKind(STARFOCUS_FORMAT_NV12, &random));
+  const starfocus_image to = image.Out();
   REQUIRE(test::RefocusPreparedRgb(engine.get(), &params, of_images, out.bytes.data(), out.stride,
-                                   nullptr) == SF_OK);
+                                   nullptr) == STARFOCUS_OK);
   test::Output of_rgb(60, 50);
-  REQUIRE(test::Refocus(&engine, params, field.converted, &of_rgb) == SF_OK);
+  REQUIRE(test::Refocus(&engine, params, field.converted, &of_rgb) == STARFOCUS_OK);
   CHECK(out.bytes == of_rgb.bytes);
-  REQUIRE(sf_refocus_prepared(engine.get(), &params, of_pictures, &to, nullptr) == SF_OK);
+  REQUIRE(starfocus_refocus_prepared(engine.get(), &params, of_pictures, &to, nullptr) ==
+          STARFOCUS_OK);
   CHECK(image == field.Converted(out, image.kind()));
   // A light field may not be prepared into its own memory.
-  sf_light_field own = images;
+  starfocus_light_field own = images;
   own.depth.data = memory.get();
   own.depth.stride = 4096;
-  CHECK(sf_prepare(engine.get(), &own, memory.get(), memory.bytes, &of_images) == SF_ERROR_OVERLAP);
+  CHECK(starfocus_prepare(engine.get(), &own, memory.get(), memory.bytes, &of_images) ==
+        STARFOCUS_ERROR_OVERLAP);
   CHECK(of_images == nullptr);
-  CHECK(sf_prepare(engine.get(), &images, other.get(), other.bytes - 1, &of_images) ==
-        SF_ERROR_WORKSPACE);
+  CHECK(starfocus_prepare(engine.get(), &images, other.get(), other.bytes - 1, &of_images) ==
+        STARFOCUS_ERROR_WORKSPACE);
 }
 
 }  // namespace

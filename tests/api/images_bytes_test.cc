@@ -25,45 +25,46 @@ ImageField AnyField(const test::Scene& scene, int format, int round, test::Rando
       scene, kinds,
       test::MakeDepth(scene, whole ? scene.width : random->Int(1, scene.width),
                       whole ? scene.height : random->Int(1, scene.height),
-                      sf_depth_type(round % kTypes), sf_depth_meaning(round / kTypes % 2),
-                      random->Int(0, 5)),
+                      starfocus_depth_type(round % kTypes),
+                      starfocus_depth_meaning(round / kTypes % 2), random->Int(0, 5)),
       random);
 }
 
 // Refocuses the images whole, streamed and prepared, and what they are converted to, and compares.
-void CheckSame(const ImageField& field, sf_config config, const sf_params& params,
-               const ImageKind& kind, test::Random* random, sf_runner runner = nullptr) {
-  config.features |= SF_FEATURE_STREAMING;
+void CheckSame(const ImageField& field, starfocus_config config, const starfocus_params& params,
+               const ImageKind& kind, test::Random* random, starfocus_runner runner = nullptr) {
+  config.features |= STARFOCUS_FEATURE_STREAMING;
   test::Engine engine(config);
-  const sf_region& r = params.region;
+  const starfocus_region& r = params.region;
   const int width = r.width > 0 ? r.width : config.width;
   const int height = r.height > 0 ? r.height : config.height;
   ImageMemory got(width, height, kind);
-  const sf_light_field images = field.Field();
-  const sf_image out = got.Out();
-  sf_report report = {}, expected_report = {};
-  const sf_callbacks callbacks = test::RunBy(runner);
-  REQUIRE(sf_set_callbacks(engine.get(), &callbacks) == SF_OK);
-  REQUIRE(sf_refocus(engine.get(), &params, &images, &out, &report) == SF_OK);
+  const starfocus_light_field images = field.Field();
+  const starfocus_image out = got.Out();
+  starfocus_report report = {}, expected_report = {};
+  const starfocus_callbacks callbacks = test::RunBy(runner);
+  REQUIRE(starfocus_set_callbacks(engine.get(), &callbacks) == STARFOCUS_OK);
+  REQUIRE(starfocus_refocus(engine.get(), &params, &images, &out, &report) == STARFOCUS_OK);
   test::Output expected(width, height);
   REQUIRE(test::Refocus(&engine, params, field.converted, &expected, callbacks, &expected_report) ==
-          SF_OK);
+          STARFOCUS_OK);
   const bool same = got == field.Converted(expected, kind, r.x, r.y);
   CHECK(same);
   CHECK(report.unknown_pixels == expected_report.unknown_pixels);
   CHECK(report.side_bytes == expected_report.side_bytes);
   CHECK(report.n == expected_report.n);
   test::PreparedMemory memory(config);
-  const sf_prepared* prepared = memory.Prepare(engine.get(), images);
+  const starfocus_prepared* prepared = memory.Prepare(engine.get(), images);
   ImageMemory again(width, height, kind);
-  const sf_image to = again.Out();
-  REQUIRE(sf_refocus_prepared(engine.get(), &params, prepared, &to, &report) == SF_OK);
+  const starfocus_image to = again.Out();
+  REQUIRE(starfocus_refocus_prepared(engine.get(), &params, prepared, &to, &report) ==
+          STARFOCUS_OK);
   CHECK((again == got));
   CHECK(report.disparity_bytes == 0);
   if (r.width > 0) return;
   ImageMemory streamed(width, height, kind);
   REQUIRE(test::Stream(&engine, field, params, 2 * random->Int(1, 30), 2 * random->Int(1, 50),
-                       &streamed, &report) == SF_OK);
+                       &streamed, &report) == STARFOCUS_OK);
   CHECK((streamed == got));
   CHECK(report.unknown_pixels == expected_report.unknown_pixels);
 }
@@ -78,14 +79,14 @@ TEST_CASE("images: every format in and out gives the bytes of converting first, 
     const test::Scene scene =
         test::LayeredScene(size[0], size[1], kAllViews[round % 4], 7, uint64_t(round) + 1);
     const ImageField field = AnyField(scene, round % kFormats, round, &random);
-    sf_config config = test::ImageConfig(field);
+    starfocus_config config = test::ImageConfig(field);
     config.superblock = 32 << random.Int(0, 3);
     config.max_workers = 2;
-    config.transfer = round % 7 == 6 ? SF_TRANSFER_NONE : SF_TRANSFER_SRGB;
-    const sf_mode mode = round % 6 == 4   ? SF_MODE_FRAME
-                         : round % 6 == 5 ? SF_MODE_BLUR
-                                          : SF_MODE_BLOCK;
-    sf_params params = test::Params(random.Real(-9, 9), random.Real(0.3, 1), mode);
+    config.transfer = round % 7 == 6 ? STARFOCUS_TRANSFER_NONE : STARFOCUS_TRANSFER_SRGB;
+    const starfocus_mode mode = round % 6 == 4   ? STARFOCUS_MODE_FRAME
+                                : round % 6 == 5 ? STARFOCUS_MODE_BLUR
+                                                 : STARFOCUS_MODE_BLOCK;
+    starfocus_params params = test::Params(random.Real(-9, 9), random.Real(0.3, 1), mode);
     params.renderer = random.Int(0, 2);
     const ImageKind kind = test::AnyKind((round * 3 + round / kFormats) % kFormats, &random);
     CheckSame(field, config, params, kind, &random, round % 2 == 0 ? nullptr : test::RunOnTwo);
@@ -98,11 +99,11 @@ TEST_CASE("images: regions at odd places, of odd sizes") {
   for (int round = 0; round < 2 * kFormats; ++round) {
     CAPTURE(round);
     const ImageField field = AnyField(scene, round % kFormats, round, &random);
-    sf_config config = test::ImageConfig(field);
+    starfocus_config config = test::ImageConfig(field);
     config.superblock = 32 << random.Int(0, 1);
     config.max_workers = 2;
-    sf_params params = test::Params(random.Real(-9, 9), 1, SF_MODE_BLOCK);
-    sf_region& region = params.region;
+    starfocus_params params = test::Params(random.Real(-9, 9), 1, STARFOCUS_MODE_BLOCK);
+    starfocus_region& region = params.region;
     region = {random.Int(0, 60), random.Int(0, 40), 1, 1};
     region.width = random.Int(1, scene.width - region.x);
     region.height = round % 3 == 0 ? random.Int(1, 9) : random.Int(1, scene.height - region.y);
@@ -114,13 +115,13 @@ TEST_CASE("images: regions at odd places, of odd sizes") {
 TEST_CASE("images: what near surfaces hide, and what lies beyond the edges, far away") {
   test::Random random(26);
   for (const int views : {5, 17}) {
-    for (const int renderer : {SF_RENDERER_SLICES, SF_RENDERER_LINE_SCAN}) {
+    for (const int renderer : {STARFOCUS_RENDERER_SLICES, STARFOCUS_RENDERER_LINE_SCAN}) {
       const test::Scene scene = test::NearScene(173, 122, views, 3);
-      const ImageField field = AnyField(scene, SF_FORMAT_NV12, 0, &random);
-      sf_config config = test::ImageConfig(field, 8);
-      sf_params params = test::Params(test::kNearFocus, 0.2, SF_MODE_BLOCK);
+      const ImageField field = AnyField(scene, STARFOCUS_FORMAT_NV12, 0, &random);
+      starfocus_config config = test::ImageConfig(field, 8);
+      starfocus_params params = test::Params(test::kNearFocus, 0.2, STARFOCUS_MODE_BLOCK);
       params.renderer = renderer;
-      CheckSame(field, config, params, test::AnyKind(SF_FORMAT_I420, &random), &random);
+      CheckSame(field, config, params, test::AnyKind(STARFOCUS_FORMAT_I420, &random), &random);
     }
   }
 }
@@ -136,13 +137,13 @@ TEST_CASE("images: lamps") {
       }
     }
   }
-  for (const sf_mode mode : {SF_MODE_BLOCK, SF_MODE_BLUR}) {
-    const ImageField field = AnyField(scene, SF_FORMAT_NV21, 5, &random);
-    sf_config config = test::ImageConfig(field);
+  for (const starfocus_mode mode : {STARFOCUS_MODE_BLOCK, STARFOCUS_MODE_BLUR}) {
+    const ImageField field = AnyField(scene, STARFOCUS_FORMAT_NV21, 5, &random);
+    starfocus_config config = test::ImageConfig(field);
     config.highlights = 8;
     config.superblock = 32;
-    CheckSame(field, config, test::Params(5, 1, mode), test::AnyKind(SF_FORMAT_BGRX, &random),
-              &random);
+    CheckSame(field, config, test::Params(5, 1, mode),
+              test::AnyKind(STARFOCUS_FORMAT_BGRX, &random), &random);
   }
 }
 
@@ -153,16 +154,16 @@ TEST_CASE("images: depth of every type, meaning and size; unknown depths") {
   for (int round = 0; round < 6 * kTypes * 2; ++round) {
     CAPTURE(round);
     const auto& size = sizes[round / (2 * kTypes)];
-    const auto type = sf_depth_type(round % kTypes);
-    test::DepthMemory depth = test::MakeDepth(scene, size[0], size[1], type,
-                                              sf_depth_meaning(round / kTypes % 2), round % 3);
+    const auto type = starfocus_depth_type(round % kTypes);
+    test::DepthMemory depth = test::MakeDepth(
+        scene, size[0], size[1], type, starfocus_depth_meaning(round / kTypes % 2), round % 3);
     depth.map.has_invalid = 1;
-    depth.map.invalid = type == SF_DEPTH_U16 ? 65535 : 255;
+    depth.map.invalid = type == STARFOCUS_DEPTH_U16 ? 65535 : 255;
     const bool unknown = round % 3 != 2;
     if (unknown) {
       for (int k = 0; k < 1 + size[0] * size[1] / 20; ++k) {
         const int x = random.Int(0, size[0] - 1), y = random.Int(0, size[1] - 1);
-        const bool not_a_number = type == SF_DEPTH_FLOAT || type == SF_DEPTH_HALF;
+        const bool not_a_number = type == STARFOCUS_DEPTH_FLOAT || type == STARFOCUS_DEPTH_HALF;
         depth.Put(
             x, y,
             not_a_number ? std::numeric_limits<double>::quiet_NaN() : double(depth.map.invalid));
@@ -170,20 +171,20 @@ TEST_CASE("images: depth of every type, meaning and size; unknown depths") {
     } else {
       depth.map.invalid = 254.5f;
     }
-    const ImageField field =
-        test::MakeImageField(scene, {test::AnyKind(SF_FORMAT_NV12, &random)}, depth, &random);
-    sf_config config = test::ImageConfig(field);
+    const ImageField field = test::MakeImageField(
+        scene, {test::AnyKind(STARFOCUS_FORMAT_NV12, &random)}, depth, &random);
+    starfocus_config config = test::ImageConfig(field);
     config.superblock = 32;
-    config.features |= SF_FEATURE_FILL_UNKNOWN;
-    const sf_params params = test::Params(2, 1, SF_MODE_BLOCK);
-    CheckSame(field, config, params, test::AnyKind(SF_FORMAT_NV12, &random), &random);
-    config.features &= ~SF_FEATURE_FILL_UNKNOWN;
+    config.features |= STARFOCUS_FEATURE_FILL_UNKNOWN;
+    const starfocus_params params = test::Params(2, 1, STARFOCUS_MODE_BLOCK);
+    CheckSame(field, config, params, test::AnyKind(STARFOCUS_FORMAT_NV12, &random), &random);
+    config.features &= ~STARFOCUS_FEATURE_FILL_UNKNOWN;
     test::Engine engine(config);
-    ImageMemory out(130, 97, test::AnyKind(SF_FORMAT_RGB, &random)), before = out;
-    const sf_light_field images = field.Field();
-    const sf_image to = out.Out();
-    const sf_status status = sf_refocus(engine.get(), &params, &images, &to, nullptr);
-    CHECK(status == (unknown ? SF_ERROR_NOT_FINITE : SF_OK));
+    ImageMemory out(130, 97, test::AnyKind(STARFOCUS_FORMAT_RGB, &random)), before = out;
+    const starfocus_light_field images = field.Field();
+    const starfocus_image to = out.Out();
+    const starfocus_status status = starfocus_refocus(engine.get(), &params, &images, &to, nullptr);
+    CHECK(status == (unknown ? STARFOCUS_ERROR_NOT_FINITE : STARFOCUS_OK));
     const bool untouched = out == before;
     CHECK(untouched == unknown);
   }
@@ -192,18 +193,19 @@ TEST_CASE("images: depth of every type, meaning and size; unknown depths") {
 TEST_CASE("images: a depth outside the configured range is refused before anything is written") {
   test::Random random(29);
   const test::Scene scene = test::LayeredScene(70, 60, 1, 7, 4);
-  ImageField field = AnyField(scene, SF_FORMAT_I420, 4, &random);
-  const sf_config config = test::ImageConfig(field);
-  sf_depth_map& map = field.depth.map;
-  field.depth = test::MakeDepth(scene, 30, 20, SF_DEPTH_U16, SF_DEPTH_RECIPROCAL, 0);
+  ImageField field = AnyField(scene, STARFOCUS_FORMAT_I420, 4, &random);
+  const starfocus_config config = test::ImageConfig(field);
+  starfocus_depth_map& map = field.depth.map;
+  field.depth = test::MakeDepth(scene, 30, 20, STARFOCUS_DEPTH_U16, STARFOCUS_DEPTH_RECIPROCAL, 0);
   field.depth.Put(29, 19, 1);
   map.data = field.depth.words.data();
   test::Engine engine(config);
-  ImageMemory out(70, 60, test::AnyKind(SF_FORMAT_NV12, &random)), before = out;
-  const sf_light_field images = field.Field();
-  const sf_image to = out.Out();
-  const sf_params params = test::Params(2, 1, SF_MODE_BLOCK);
-  CHECK(sf_refocus(engine.get(), &params, &images, &to, nullptr) == SF_ERROR_DISPARITY);
+  ImageMemory out(70, 60, test::AnyKind(STARFOCUS_FORMAT_NV12, &random)), before = out;
+  const starfocus_light_field images = field.Field();
+  const starfocus_image to = out.Out();
+  const starfocus_params params = test::Params(2, 1, STARFOCUS_MODE_BLOCK);
+  CHECK(starfocus_refocus(engine.get(), &params, &images, &to, nullptr) ==
+        STARFOCUS_ERROR_DISPARITY);
   const bool untouched = out == before;
   CHECK(untouched);
 }

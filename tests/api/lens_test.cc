@@ -16,29 +16,31 @@ namespace lens_test {
 namespace {
 
 constexpr int kWidth = 97, kHeight = 70;
-constexpr sf_mode kModes[] = {SF_MODE_BLOCK, SF_MODE_FRAME, SF_MODE_BENCHMARK, SF_MODE_BLUR};
-constexpr test::NamedShape kPlain = {"fall-off", SF_SHAPE_FALL_OFF, 5, 0, 0, 0.5F, 0};
+constexpr starfocus_mode kModes[] = {STARFOCUS_MODE_BLOCK, STARFOCUS_MODE_FRAME,
+                                     STARFOCUS_MODE_BENCHMARK, STARFOCUS_MODE_BLUR};
+constexpr test::NamedShape kPlain = {"fall-off", STARFOCUS_SHAPE_FALL_OFF, 5, 0, 0, 0.5F, 0};
 
-sf_lens LensOf(const test::NamedShape& shape, double theta = 0.8) {
-  sf_lens lens = test::Params(-3.5).lens;
+starfocus_lens LensOf(const test::NamedShape& shape, double theta = 0.8) {
+  starfocus_lens lens = test::Params(-3.5).lens;
   lens.theta = theta;
   shape.Set(&lens);
   return lens;
 }
 
 // Shapes of every kind in turn, and neighbours that differ in one field.
-std::vector<sf_lens> Lenses() {
-  std::vector<sf_lens> lenses = {LensOf(kPlain)};
+std::vector<starfocus_lens> Lenses() {
+  std::vector<starfocus_lens> lenses = {LensOf(kPlain)};
   for (const test::NamedShape& shape : test::kShapes) lenses.push_back(LensOf(shape));
   lenses.push_back(LensOf(kPlain));
   lenses.push_back(LensOf(kPlain, 1.2));
-  const sf_lens polygon = LensOf({"hexagon", SF_SHAPE_POLYGON, 6, 10, 0.25F, 0.5F, 0});
+  const starfocus_lens polygon =
+      LensOf({"hexagon", STARFOCUS_SHAPE_POLYGON, 6, 10, 0.25F, 0.5F, 0});
   lenses.insert(lenses.end(), 8, polygon);
   lenses[lenses.size() - 7].blades = 7;
   lenses[lenses.size() - 5].rotation = 30;
   lenses[lenses.size() - 3].curvature = 0.75;
   lenses[lenses.size() - 1].cats_eye = 0.75;
-  const sf_lens ring = LensOf({"ring", SF_SHAPE_RING, 5, 0, 0, 0.25F, 0});
+  const starfocus_lens ring = LensOf({"ring", STARFOCUS_SHAPE_RING, 5, 0, 0, 0.25F, 0});
   lenses.insert(lenses.end(), 2, ring);
   lenses.back().ring_inner = 0.75;
   lenses.push_back(LensOf(kPlain));
@@ -47,27 +49,28 @@ std::vector<sf_lens> Lenses() {
 
 test::Scene MakeScene() { return test::LayeredScene(kWidth, kHeight, 5, 4, 3); }
 
-sf_config Config(const test::Scene& scene) {
-  sf_config config = test::ConfigFor(scene, 10);
+starfocus_config Config(const test::Scene& scene) {
+  starfocus_config config = test::ConfigFor(scene, 10);
   config.superblock = 32;
-  config.features |= SF_FEATURE_SHAPES | SF_FEATURE_STREAMING;
+  config.features |= STARFOCUS_FEATURE_SHAPES | STARFOCUS_FEATURE_STREAMING;
   return config;
 }
 
-sf_params ParamsOf(const sf_lens& lens, sf_mode mode, sf_renderer renderer) {
-  sf_params params = test::Params(0, 1, mode);
+starfocus_params ParamsOf(const starfocus_lens& lens, starfocus_mode mode,
+                          starfocus_renderer renderer) {
+  starfocus_params params = test::Params(0, 1, mode);
   params.renderer = renderer;
   params.lens = lens;
   return params;
 }
 
 // By an engine that has memory for that shape alone.
-std::vector<uint8_t> Expected(const test::Scene& scene, const sf_params& params) {
-  sf_config config = Config(scene);
+std::vector<uint8_t> Expected(const test::Scene& scene, const starfocus_params& params) {
+  starfocus_config config = Config(scene);
   test::ReserveFor(params.lens, &config);
   test::Engine engine(config);
   test::Output out(kWidth, kHeight);
-  REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
+  REQUIRE(test::Refocus(&engine, params, scene, &out) == STARFOCUS_OK);
   return out.bytes;
 }
 
@@ -75,21 +78,22 @@ TEST_CASE("lens: a shape that changes between calls gives the bytes of an engine
   const test::Scene scene = MakeScene();
   test::Engine engine(Config(scene));
   int index = 0;
-  for (const sf_lens& lens : Lenses()) {
+  for (const starfocus_lens& lens : Lenses()) {
     CAPTURE(index);
     ++index;
     // The second round finds the tables of the first, and no other table in their place.
     for (const int round : {0, 1}) {
-      for (const sf_mode mode : kModes) {
-        for (const sf_renderer renderer : {SF_RENDERER_LINE_SCAN, SF_RENDERER_SLICES}) {
-          if (mode == SF_MODE_BLUR && renderer == SF_RENDERER_LINE_SCAN)
+      for (const starfocus_mode mode : kModes) {
+        for (const starfocus_renderer renderer :
+             {STARFOCUS_RENDERER_LINE_SCAN, STARFOCUS_RENDERER_SLICES}) {
+          if (mode == STARFOCUS_MODE_BLUR && renderer == STARFOCUS_RENDERER_LINE_SCAN)
             continue;  // it ignores the rule
           CAPTURE(round);
           CAPTURE(mode);
           CAPTURE(renderer);
-          const sf_params params = ParamsOf(lens, mode, renderer);
+          const starfocus_params params = ParamsOf(lens, mode, renderer);
           test::Output out(kWidth, kHeight);
-          REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
+          REQUIRE(test::Refocus(&engine, params, scene, &out) == STARFOCUS_OK);
           CHECK((out.bytes == Expected(scene, params)));
         }
       }
@@ -102,24 +106,24 @@ int CancelAfter(void* left, int32_t, int32_t) { return (*static_cast<int*>(left)
 
 TEST_CASE("lens: a cancelled call leaves no table of its shape to calls with another") {
   const test::Scene scene = MakeScene();
-  const sf_lens pentagon = LensOf(test::kShapes[1]), plain = LensOf(kPlain);
-  for (const sf_mode mode : kModes) {
+  const starfocus_lens pentagon = LensOf(test::kShapes[1]), plain = LensOf(kPlain);
+  for (const starfocus_mode mode : kModes) {
     CAPTURE(mode);
     test::Engine engine(Config(scene));
-    const auto check = [&](const sf_lens& lens) {
-      const sf_params params = ParamsOf(lens, mode, SF_RENDERER_AUTO);
+    const auto check = [&](const starfocus_lens& lens) {
+      const starfocus_params params = ParamsOf(lens, mode, STARFOCUS_RENDERER_AUTO);
       test::Output out(kWidth, kHeight);
-      REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
+      REQUIRE(test::Refocus(&engine, params, scene, &out) == STARFOCUS_OK);
       CHECK((out.bytes == Expected(scene, params)));
     };
     int cancelled = 0;
     for (int calls = 0; calls < 6; ++calls) {
       int left = calls;
       test::Output out(kWidth, kHeight);
-      const sf_params params = ParamsOf(pentagon, mode, SF_RENDERER_AUTO);
-      const sf_status status =
+      const starfocus_params params = ParamsOf(pentagon, mode, STARFOCUS_RENDERER_AUTO);
+      const starfocus_status status =
           test::Refocus(&engine, params, scene, &out, test::ToldTo(CancelAfter, &left));
-      cancelled += status == SF_ERROR_CANCELLED;
+      cancelled += status == STARFOCUS_ERROR_CANCELLED;
       check(calls % 2 == 0 ? plain : pentagon);
     }
     CHECK(cancelled > 1);
@@ -128,25 +132,25 @@ TEST_CASE("lens: a cancelled call leaves no table of its shape to calls with ano
 
 TEST_CASE("lens: engines share a prepared light field, each through lenses of its own") {
   const test::Scene scene = MakeScene();
-  const sf_config config = Config(scene);
+  const starfocus_config config = Config(scene);
   test::Engine first(config), second(config);
   size_t bytes = 0;
-  REQUIRE(sf_prepared_size(&config, &bytes) == SF_OK);
-  std::vector<uint8_t> memory(bytes + SF_ALIGNMENT);
-  uint8_t* const aligned =
-      memory.data() + SF_ALIGNMENT - reinterpret_cast<uintptr_t>(memory.data()) % SF_ALIGNMENT;
-  const sf_light_field field = scene.Field();
-  sf_prepared* prepared = nullptr;
-  REQUIRE(sf_prepare(first.get(), &field, aligned, bytes, &prepared) == SF_OK);
-  const std::vector<sf_lens> lenses = Lenses();
+  REQUIRE(starfocus_prepared_size(&config, &bytes) == STARFOCUS_OK);
+  std::vector<uint8_t> memory(bytes + STARFOCUS_ALIGNMENT);
+  uint8_t* const aligned = memory.data() + STARFOCUS_ALIGNMENT -
+                           reinterpret_cast<uintptr_t>(memory.data()) % STARFOCUS_ALIGNMENT;
+  const starfocus_light_field field = scene.Field();
+  starfocus_prepared* prepared = nullptr;
+  REQUIRE(starfocus_prepare(first.get(), &field, aligned, bytes, &prepared) == STARFOCUS_OK);
+  const std::vector<starfocus_lens> lenses = Lenses();
   for (size_t k = 0; k < lenses.size(); ++k) {
     CAPTURE(k);
     for (const bool ahead : {false, true}) {
-      const sf_lens& lens = lenses[(k + (ahead ? 1 : 0)) % lenses.size()];
-      const sf_params params = ParamsOf(lens, SF_MODE_BLOCK, SF_RENDERER_AUTO);
+      const starfocus_lens& lens = lenses[(k + (ahead ? 1 : 0)) % lenses.size()];
+      const starfocus_params params = ParamsOf(lens, STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_AUTO);
       test::Output out(kWidth, kHeight);
       REQUIRE(test::RefocusPreparedRgb((ahead ? second : first).get(), &params, prepared,
-                                       out.bytes.data(), out.stride, nullptr) == SF_OK);
+                                       out.bytes.data(), out.stride, nullptr) == STARFOCUS_OK);
       CHECK((out.bytes == Expected(scene, params)));
     }
   }
@@ -155,22 +159,23 @@ TEST_CASE("lens: engines share a prepared light field, each through lenses of it
 TEST_CASE("lens: a stream keeps the lens that it was begun with") {
   const test::Scene scene = MakeScene();
   test::Engine engine(Config(scene));
-  for (const sf_lens& lens : Lenses()) {
-    const sf_params expected = ParamsOf(lens, SF_MODE_BLOCK, SF_RENDERER_AUTO);
-    sf_params params = expected;
-    REQUIRE(sf_stream_begin(engine.get(), &params) == SF_OK);
+  for (const starfocus_lens& lens : Lenses()) {
+    const starfocus_params expected = ParamsOf(lens, STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_AUTO);
+    starfocus_params params = expected;
+    REQUIRE(starfocus_stream_begin(engine.get(), &params) == STARFOCUS_OK);
     params.lens = LensOf(test::kShapes[0]);
     // A begin that is refused changes nothing.
     params.lens.blades = 99;
-    CHECK(sf_stream_begin(engine.get(), &params) == SF_ERROR_RANGE);
+    CHECK(starfocus_stream_begin(engine.get(), &params) == STARFOCUS_ERROR_RANGE);
     test::Output out(kWidth, kHeight);
     int pushed = 0, pulled = 0;
     while (pulled < kHeight) {
-      const sf_light_field field = scene.Field(pushed);
+      const starfocus_light_field field = scene.Field(pushed);
       int32_t consumed = 0, written = 0;
-      REQUIRE(sf_stream_push(engine.get(), &field, kHeight - pushed, &consumed) == SF_OK);
+      REQUIRE(starfocus_stream_push(engine.get(), &field, kHeight - pushed, &consumed) ==
+              STARFOCUS_OK);
       REQUIRE(test::PullRgb(engine.get(), out.bytes.data() + size_t(pulled) * out.stride,
-                            out.stride, kHeight - pulled, &written, nullptr) == SF_OK);
+                            out.stride, kHeight - pulled, &written, nullptr) == STARFOCUS_OK);
       pushed += consumed;
       pulled += written;
       REQUIRE(consumed + written > 0);
@@ -180,33 +185,33 @@ TEST_CASE("lens: a stream keeps the lens that it was begun with") {
 }
 
 TEST_CASE("lens: shorter params get the defaults of the fields they lack") {
-  constexpr uint32_t kShort = offsetof(sf_params, lens) + offsetof(sf_lens, blades);
+  constexpr uint32_t kShort = offsetof(starfocus_params, lens) + offsetof(starfocus_lens, blades);
   const test::Scene scene = MakeScene();
-  const sf_params expected = test::Params(-3.5, 1, SF_MODE_BLOCK);
+  const starfocus_params expected = test::Params(-3.5, 1, STARFOCUS_MODE_BLOCK);
   std::vector<uint8_t> memory(kShort);
-  sf_params* const params = reinterpret_cast<sf_params*>(memory.data());
-  sf_params_init_sized(params, kShort);
+  starfocus_params* const params = reinterpret_cast<starfocus_params*>(memory.data());
+  starfocus_params_init_sized(params, kShort);
   CHECK(params->size == kShort);
   params->lens.focus = expected.lens.focus;
   test::Engine engine(Config(scene));
   test::Output out(kWidth, kHeight), streamed(kWidth, kHeight);
-  REQUIRE(test::Refocus(&engine, *params, scene, &out) == SF_OK);
+  REQUIRE(test::Refocus(&engine, *params, scene, &out) == STARFOCUS_OK);
   CHECK((out.bytes == Expected(scene, expected)));
-  REQUIRE(test::Stream(&engine, *params, scene, &streamed, kHeight, kHeight) == SF_OK);
+  REQUIRE(test::Stream(&engine, *params, scene, &streamed, kHeight, kHeight) == STARFOCUS_OK);
   CHECK((streamed.bytes == out.bytes));
 }
 
-TEST_CASE("lens: without SF_FEATURE_SHAPES only polygons and cat's eyes are refused") {
+TEST_CASE("lens: without STARFOCUS_FEATURE_SHAPES only polygons and cat's eyes are refused") {
   const test::Scene scene = MakeScene();
-  sf_config config = Config(scene);
-  config.features &= ~SF_FEATURE_SHAPES;
+  starfocus_config config = Config(scene);
+  config.features &= ~STARFOCUS_FEATURE_SHAPES;
   test::Engine engine(config);
-  for (const sf_lens& lens : Lenses()) {
-    const bool refused = lens.shape == SF_SHAPE_POLYGON || lens.cats_eye > 0;
-    const sf_params params = ParamsOf(lens, SF_MODE_BLOCK, SF_RENDERER_AUTO);
+  for (const starfocus_lens& lens : Lenses()) {
+    const bool refused = lens.shape == STARFOCUS_SHAPE_POLYGON || lens.cats_eye > 0;
+    const starfocus_params params = ParamsOf(lens, STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_AUTO);
     test::Output out(kWidth, kHeight);
-    const sf_status status = test::Refocus(&engine, params, scene, &out);
-    CHECK(status == (refused ? SF_ERROR_FEATURE : SF_OK));
+    const starfocus_status status = test::Refocus(&engine, params, scene, &out);
+    CHECK(status == (refused ? STARFOCUS_ERROR_FEATURE : STARFOCUS_OK));
     CHECK(out.Untouched() == refused);
   }
 }
@@ -214,15 +219,15 @@ TEST_CASE("lens: without SF_FEATURE_SHAPES only polygons and cat's eyes are refu
 TEST_CASE("lens: the memory for polygons and cat's eyes is reserved on demand") {
   for (const int block : {32, 64, 128}) {
     for (const double blur : {0.5, 8.0, 32.0, 128.0}) {
-      sf_config config;
-      sf_config_init(&config);
+      starfocus_config config;
+      starfocus_config_init(&config);
       config.width = config.height = 500;
       config.superblock = block;
       config.max_blur = blur;
       size_t without = 0, with = 0;
-      REQUIRE(sf_workspace_size(&config, &without) == SF_OK);
-      config.features |= SF_FEATURE_SHAPES;
-      REQUIRE(sf_workspace_size(&config, &with) == SF_OK);
+      REQUIRE(starfocus_workspace_size(&config, &without) == STARFOCUS_OK);
+      config.features |= STARFOCUS_FEATURE_SHAPES;
+      REQUIRE(starfocus_workspace_size(&config, &with) == STARFOCUS_OK);
       CAPTURE(block);
       CAPTURE(blur);
       CHECK(with > without);

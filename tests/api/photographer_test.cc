@@ -24,7 +24,8 @@ struct Map {
   float& At(int x, int y) { return values[size_t(y) * row + size_t(x)]; }
   double Focus(int x, int y) const {
     double focus = -77;
-    REQUIRE(sf_focus_at(values.data(), 4 * row, width, height, x, y, &focus) == SF_OK);
+    REQUIRE(starfocus_focus_at(values.data(), 4 * row, width, height, x, y, &focus) ==
+            STARFOCUS_OK);
     return focus;
   }
 
@@ -37,21 +38,21 @@ TEST_CASE("focus at: illegal arguments") {
   Map map(5, 4, 1, 2);
   double focus = -77;
   const auto at = [&](const float* d, size_t stride, int w, int h, int x, int y) {
-    return sf_focus_at(d, stride, w, h, x, y, &focus);
+    return starfocus_focus_at(d, stride, w, h, x, y, &focus);
   };
   const float* const d = map.values.data();
-  CHECK(at(nullptr, 28, 5, 4, 0, 0) == SF_ERROR_NULL);
-  CHECK(sf_focus_at(d, 28, 5, 4, 0, 0, nullptr) == SF_ERROR_NULL);
-  CHECK(at(d, 28, 0, 4, 0, 0) == SF_ERROR_RANGE);
-  CHECK(at(d, 28, 5, SF_MAX_SIZE + 1, 0, 0) == SF_ERROR_RANGE);
+  CHECK(at(nullptr, 28, 5, 4, 0, 0) == STARFOCUS_ERROR_NULL);
+  CHECK(starfocus_focus_at(d, 28, 5, 4, 0, 0, nullptr) == STARFOCUS_ERROR_NULL);
+  CHECK(at(d, 28, 0, 4, 0, 0) == STARFOCUS_ERROR_RANGE);
+  CHECK(at(d, 28, 5, STARFOCUS_MAX_SIZE + 1, 0, 0) == STARFOCUS_ERROR_RANGE);
   for (const size_t stride : {size_t{0}, size_t{16}, size_t{22}}) {
-    CHECK(at(d, stride, 5, 4, 0, 0) == SF_ERROR_STRIDE);
+    CHECK(at(d, stride, 5, 4, 0, 0) == STARFOCUS_ERROR_STRIDE);
   }
   for (const int outside : {-1, 5, INT32_MIN, INT32_MAX}) {
-    CHECK(at(d, 28, 5, 4, outside, 0) == SF_ERROR_RANGE);
-    CHECK(at(d, 28, 5, 4, 0, outside) == SF_ERROR_RANGE);
+    CHECK(at(d, 28, 5, 4, outside, 0) == STARFOCUS_ERROR_RANGE);
+    CHECK(at(d, 28, 5, 4, 0, outside) == STARFOCUS_ERROR_RANGE);
   }
-  CHECK(at(d, 28, 5, 4, 0, 4) == SF_ERROR_RANGE);
+  CHECK(at(d, 28, 5, 4, 0, 4) == STARFOCUS_ERROR_RANGE);
   CHECK(focus == -77);
 }
 
@@ -64,8 +65,8 @@ TEST_CASE("focus at: a value around the pixel that is not finite, and those that
       for (int x = 0; x < 30; ++x) {
         const bool read = std::abs(x - 12) <= 3 && std::abs(y - 9) <= 3;
         double focus = -77;
-        CHECK(sf_focus_at(map.values.data(), 4 * map.row, 30, 20, x, y, &focus) ==
-              (read ? SF_ERROR_NOT_FINITE : SF_OK));
+        CHECK(starfocus_focus_at(map.values.data(), 4 * map.row, 30, 20, x, y, &focus) ==
+              (read ? STARFOCUS_ERROR_NOT_FINITE : STARFOCUS_OK));
         CHECK(focus == (read ? -77 : 2));
       }
     }
@@ -184,7 +185,7 @@ TEST_CASE("focus at: random maps, as the definition says") {
 TEST_CASE("f-stops: the aperture is the widest over the f-stop") {
   const auto aperture = [](double f_stop, double widest) {
     double u = -77;
-    REQUIRE(sf_aperture_of_f_stop(f_stop, widest, &u) == SF_OK);
+    REQUIRE(starfocus_aperture_of_f_stop(f_stop, widest, &u) == STARFOCUS_OK);
     return u;
   };
   CHECK(aperture(1, 1) == 1);
@@ -201,9 +202,9 @@ TEST_CASE("f-stops: wider than the widest, or no f-stop at all") {
                            {kInf, 1}, {2, 0},     {2, -1},    {2, nan},    {2, kInf},
                            {0, 0},    {-1, -2},   {nan, nan}, {kInf, kInf}};
   for (const auto& pair : bad) {
-    CHECK(sf_aperture_of_f_stop(pair[0], pair[1], &u) == SF_ERROR_RANGE);
+    CHECK(starfocus_aperture_of_f_stop(pair[0], pair[1], &u) == STARFOCUS_ERROR_RANGE);
   }
-  CHECK(sf_aperture_of_f_stop(2, 1, nullptr) == SF_ERROR_NULL);
+  CHECK(starfocus_aperture_of_f_stop(2, 1, nullptr) == STARFOCUS_ERROR_NULL);
   CHECK(u == -77);
 }
 

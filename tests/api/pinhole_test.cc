@@ -14,7 +14,8 @@ namespace pinhole_test {
 namespace {
 
 constexpr int kViews[] = {1, 5, 9, 17};
-constexpr sf_mode kModes[] = {SF_MODE_FRAME, SF_MODE_BENCHMARK, SF_MODE_BLOCK, SF_MODE_BLUR};
+constexpr starfocus_mode kModes[] = {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BENCHMARK,
+                                     STARFOCUS_MODE_BLOCK, STARFOCUS_MODE_BLUR};
 
 // Random pictures over a map of flat areas and edges, or of noise.
 test::Scene AnyScene(int width, int height, uint64_t seed) {
@@ -26,14 +27,14 @@ test::Scene AnyScene(int width, int height, uint64_t seed) {
   return scene;
 }
 
-sf_config AnyConfig(const test::Scene& scene, test::Random* random) {
-  sf_config config = test::ConfigFor(scene, 20);
+starfocus_config AnyConfig(const test::Scene& scene, test::Random* random) {
+  starfocus_config config = test::ConfigFor(scene, 20);
   config.superblock = 32 << random->Int(0, 3);
   config.tuning.max_layer = random->Int(0, 2);
   config.tuning.deblocking = random->Int(0, 1) * 255;
   config.tuning.skips = random->Int(0, 1);
   config.tuning.gather = random->Int(0, 1);
-  config.tuning.n_scale = random->Real(SF_MIN_N_SCALE, SF_MAX_N_SCALE);
+  config.tuning.n_scale = random->Real(STARFOCUS_MIN_N_SCALE, STARFOCUS_MAX_N_SCALE);
   return config;
 }
 
@@ -42,14 +43,14 @@ TEST_CASE("pinhole: the centre view to the byte, by every mode, rule and way in"
   test::Random random(51);
   uint64_t seed = 0;
   for (const auto& size : kSizes) {
-    for (const sf_mode mode : kModes) {
+    for (const starfocus_mode mode : kModes) {
       const test::Scene scene = AnyScene(size[0], size[1], ++seed);
-      const sf_config config = AnyConfig(scene, &random);
-      sf_params params = test::Params(random.Real(-9, 9), 0, mode);
+      const starfocus_config config = AnyConfig(scene, &random);
+      starfocus_params params = test::Params(random.Real(-9, 9), 0, mode);
       params.renderer = random.Int(0, 2);
-      params.lens.theta = random.Real(SF_MIN_THETA, SF_MAX_THETA);
+      params.lens.theta = random.Real(STARFOCUS_MIN_THETA, STARFOCUS_MAX_THETA);
       // Blur may be as large as it likes where there is none.
-      if (seed % 4 == 0) params.lens.focus = -SF_MAX_FOCUS;
+      if (seed % 4 == 0) params.lens.focus = -STARFOCUS_MAX_FOCUS;
       CAPTURE(seed);
       const test::Output whole = test::CheckWays(scene, config, params);
       for (int y = 0; y < scene.height; ++y) {
@@ -63,15 +64,16 @@ TEST_CASE("pinhole: the centre view to the byte, by every mode, rule and way in"
 TEST_CASE("pinhole: the report tells of one copied view, and maps are checked all the same") {
   test::Scene scene = test::LayeredScene(130, 67, 9, 7, 4);
   for (const int skips : {0, 1}) {
-    for (const sf_mode mode : kModes) {
-      sf_config config = test::ConfigFor(scene, 20);
+    for (const starfocus_mode mode : kModes) {
+      starfocus_config config = test::ConfigFor(scene, 20);
       config.tuning.skips = skips;
       test::Engine engine(config);
       test::Output out(130, 67);
-      sf_report report = {};
-      sf_params params = test::Params(-SF_MAX_FOCUS, 0, mode);
-      params.renderer = SF_RENDERER_LINE_SCAN;
-      REQUIRE(test::Refocus(&engine, params, scene, &out, nullptr, nullptr, &report) == SF_OK);
+      starfocus_report report = {};
+      starfocus_params params = test::Params(-STARFOCUS_MAX_FOCUS, 0, mode);
+      params.renderer = STARFOCUS_RENDERER_LINE_SCAN;
+      REQUIRE(test::Refocus(&engine, params, scene, &out, nullptr, nullptr, &report) ==
+              STARFOCUS_OK);
       CHECK(report.r_max == 0);
       CHECK(report.n == 0);
       CHECK(report.rendered_views == 1);
@@ -84,8 +86,8 @@ TEST_CASE("pinhole: the report tells of one copied view, and maps are checked al
   test::Engine engine(test::ConfigFor(scene, 20));
   test::Output out(130, 67);
   scene.Disparity(129, 66) = 7.5f;
-  CHECK(test::Refocus(&engine, test::Params(3, 0, SF_MODE_BLOCK), scene, &out) ==
-        SF_ERROR_DISPARITY);
+  CHECK(test::Refocus(&engine, test::Params(3, 0, STARFOCUS_MODE_BLOCK), scene, &out) ==
+        STARFOCUS_ERROR_DISPARITY);
   CHECK(out.Untouched());
 }
 

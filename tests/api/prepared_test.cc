@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prepared light fields: the bytes of sf_refocus for every lens, and bad input.
+// Prepared light fields: the bytes of starfocus_refocus for every lens, and bad input.
 #include <doctest/doctest.h>
 
 #include <cstdint>
@@ -18,16 +18,17 @@ namespace {
 constexpr int kViews[] = {1, 5, 9, 17};
 
 // Refocuses with both and compares bytes and counts.
-void CheckSame(test::Engine* engine, const sf_prepared* prepared, const test::Scene& scene,
-               const sf_params& params) {
-  const sf_region& r = params.region;
+void CheckSame(test::Engine* engine, const starfocus_prepared* prepared, const test::Scene& scene,
+               const starfocus_params& params) {
+  const starfocus_region& r = params.region;
   const int width = r.width > 0 ? r.width : scene.width;
   const int height = r.height > 0 ? r.height : scene.height;
   test::Output expected(width, height, 3), got(width, height, 3);
-  sf_report report = {}, prepared_report = {};
+  starfocus_report report = {}, prepared_report = {};
   REQUIRE(test::RefocusPreparedRgb(engine->get(), &params, prepared, got.bytes.data(), got.stride,
-                                   &prepared_report) == SF_OK);
-  REQUIRE(test::Refocus(engine, params, scene, &expected, nullptr, nullptr, &report) == SF_OK);
+                                   &prepared_report) == STARFOCUS_OK);
+  REQUIRE(test::Refocus(engine, params, scene, &expected, nullptr, nullptr, &report) ==
+          STARFOCUS_OK);
   const bool same = got.bytes == expected.bytes;
   CHECK(same);
   // Layers and disparities were read when it was prepared.
@@ -39,7 +40,7 @@ void CheckSame(test::Engine* engine, const sf_prepared* prepared, const test::Sc
   CHECK(std::memcmp(&report, &prepared_report, sizeof(report)) == 0);
 }
 
-TEST_CASE("prepared: the bytes of sf_refocus, in every mode, for many lenses and regions") {
+TEST_CASE("prepared: the bytes of starfocus_refocus, in every mode, for many lenses and regions") {
   test::Random random(81);
   constexpr int kSizes[][2] = {{1, 1},    {1, 130},  {130, 1},  {31, 33},   {64, 64},  {65, 63},
                                {100, 37}, {67, 260}, {200, 90}, {129, 128}, {97, 131}, {150, 66}};
@@ -47,19 +48,20 @@ TEST_CASE("prepared: the bytes of sf_refocus, in every mode, for many lenses and
   for (const auto& size : kSizes) {
     const test::Scene scene =
         test::LayeredScene(size[0], size[1], kViews[round % 4], 7, uint64_t(round) + 800);
-    sf_config config = test::ConfigFor(scene, 20);
+    starfocus_config config = test::ConfigFor(scene, 20);
     config.superblock = 32 << random.Int(0, 3);
     config.tuning.max_layer = round % 4 == 0 ? random.Int(0, 1) : 2;
     CAPTURE(round);
     ++round;
     test::Engine engine(config);
-    REQUIRE(engine.status() == SF_OK);
+    REQUIRE(engine.status() == STARFOCUS_OK);
     test::PreparedMemory memory(config);
-    const sf_prepared* prepared = memory.Prepare(engine.get(), scene.Field());
+    const starfocus_prepared* prepared = memory.Prepare(engine.get(), scene.Field());
     for (int lens = 0; lens < 6; ++lens) {
-      sf_params params = test::Params(random.Real(-12, 12), random.Real(0.3, 1), SF_MODE_BLOCK);
+      starfocus_params params =
+          test::Params(random.Real(-12, 12), random.Real(0.3, 1), STARFOCUS_MODE_BLOCK);
       params.renderer = random.Int(0, 2);
-      if (lens == 4) params.mode = round % 2 == 0 ? SF_MODE_FRAME : SF_MODE_BLUR;
+      if (lens == 4) params.mode = round % 2 == 0 ? STARFOCUS_MODE_FRAME : STARFOCUS_MODE_BLUR;
       if (lens == 5) {
         params.region = {random.Int(0, size[0] - 1), random.Int(0, size[1] - 1), 1, 1};
         params.region.width = random.Int(1, size[0] - params.region.x);
@@ -72,26 +74,28 @@ TEST_CASE("prepared: the bytes of sf_refocus, in every mode, for many lenses and
 
 TEST_CASE("prepared: by one engine for another, which streams in between") {
   const test::Scene scene = test::LayeredScene(140, 100, 5, 7, 11);
-  sf_config config = test::ConfigFor(scene, 20);
+  starfocus_config config = test::ConfigFor(scene, 20);
   test::Engine maker(config);
   test::PreparedMemory memory(config);
-  const sf_prepared* prepared = memory.Prepare(maker.get(), scene.Field());
+  const starfocus_prepared* prepared = memory.Prepare(maker.get(), scene.Field());
   config.max_workers = 3;
-  config.features |= SF_FEATURE_STREAMING;
+  config.features |= STARFOCUS_FEATURE_STREAMING;
   config.superblock = 32;
   config.max_blur = 16;
   test::Engine user(config);
-  CheckSame(&user, prepared, scene, test::Params(2, 1, SF_MODE_BLOCK));
+  CheckSame(&user, prepared, scene, test::Params(2, 1, STARFOCUS_MODE_BLOCK));
   test::Output whole(140, 100), streamed(140, 100);
-  REQUIRE(test::Refocus(&user, test::Params(-3, 1, SF_MODE_BLOCK), scene, &whole) == SF_OK);
-  CheckSame(&user, prepared, scene, test::Params(8, 1, SF_MODE_BLOCK));
-  REQUIRE(test::Stream(&user, test::Params(-3, 1, SF_MODE_BLOCK), scene, &streamed, 9, 9) == SF_OK);
+  REQUIRE(test::Refocus(&user, test::Params(-3, 1, STARFOCUS_MODE_BLOCK), scene, &whole) ==
+          STARFOCUS_OK);
+  CheckSame(&user, prepared, scene, test::Params(8, 1, STARFOCUS_MODE_BLOCK));
+  REQUIRE(test::Stream(&user, test::Params(-3, 1, STARFOCUS_MODE_BLOCK), scene, &streamed, 9, 9) ==
+          STARFOCUS_OK);
   CHECK(streamed.bytes == whole.bytes);
 }
 
 TEST_CASE("prepared: what the documentation says of the memory") {
   const test::Scene scene = test::LayeredScene(1000, 800, 5, 7, 11);
-  sf_config config = test::ConfigFor(scene, 20);
+  starfocus_config config = test::ConfigFor(scene, 20);
   const double pixels = 1000.0 * 800;
   CHECK(double(test::PreparedMemory(config).bytes) / pixels == doctest::Approx(3.89).epsilon(0.01));
   config.tuning.max_layer = 0;
@@ -100,59 +104,62 @@ TEST_CASE("prepared: what the documentation says of the memory") {
 
 TEST_CASE("prepared: bad input") {
   test::Scene scene = test::LayeredScene(50, 40, 5, 3, 12);
-  const sf_config config = test::ConfigFor(scene, 8);
+  const starfocus_config config = test::ConfigFor(scene, 8);
   test::Engine engine(config);
   test::PreparedMemory memory(config);
   size_t bytes = 4711;
-  sf_config bad = config;
+  starfocus_config bad = config;
   bad.views = 3;
-  CHECK(sf_prepared_size(&bad, &bytes) == SF_ERROR_RANGE);
-  CHECK(sf_prepared_size(nullptr, &bytes) == SF_ERROR_NULL);
-  CHECK(sf_prepared_size(&config, nullptr) == SF_ERROR_NULL);
+  CHECK(starfocus_prepared_size(&bad, &bytes) == STARFOCUS_ERROR_RANGE);
+  CHECK(starfocus_prepared_size(nullptr, &bytes) == STARFOCUS_ERROR_NULL);
+  CHECK(starfocus_prepared_size(&config, nullptr) == STARFOCUS_ERROR_NULL);
   CHECK(bytes == 4711);
-  const sf_light_field field = scene.Field();
-  const auto prepare = [&](sf_engine* e, const sf_light_field* f, void* at, size_t size) {
-    sf_prepared* prepared = reinterpret_cast<sf_prepared*>(&scene);
-    const sf_status status = sf_prepare(e, f, at, size, &prepared);
-    CHECK((prepared == nullptr) == (status != SF_OK));
+  const starfocus_light_field field = scene.Field();
+  const auto prepare = [&](starfocus_engine* e, const starfocus_light_field* f, void* at,
+                           size_t size) {
+    starfocus_prepared* prepared = reinterpret_cast<starfocus_prepared*>(&scene);
+    const starfocus_status status = starfocus_prepare(e, f, at, size, &prepared);
+    CHECK((prepared == nullptr) == (status != STARFOCUS_OK));
     return status;
   };
   uint8_t* at = memory.get();
-  CHECK(prepare(nullptr, &field, at, memory.bytes) == SF_ERROR_NULL);
-  CHECK(prepare(engine.get(), nullptr, at, memory.bytes) == SF_ERROR_NULL);
-  CHECK(prepare(engine.get(), &field, nullptr, memory.bytes) == SF_ERROR_NULL);
-  CHECK(sf_prepare(engine.get(), &field, at, memory.bytes, nullptr) == SF_ERROR_NULL);
-  CHECK(prepare(engine.get(), &field, at, memory.bytes - 1) == SF_ERROR_WORKSPACE);
-  CHECK(prepare(engine.get(), &field, at + 8, memory.bytes) == SF_ERROR_WORKSPACE);
-  CHECK(prepare(engine.get(), &field, engine.workspace(), memory.bytes) == SF_ERROR_OVERLAP);
+  CHECK(prepare(nullptr, &field, at, memory.bytes) == STARFOCUS_ERROR_NULL);
+  CHECK(prepare(engine.get(), nullptr, at, memory.bytes) == STARFOCUS_ERROR_NULL);
+  CHECK(prepare(engine.get(), &field, nullptr, memory.bytes) == STARFOCUS_ERROR_NULL);
+  CHECK(starfocus_prepare(engine.get(), &field, at, memory.bytes, nullptr) == STARFOCUS_ERROR_NULL);
+  CHECK(prepare(engine.get(), &field, at, memory.bytes - 1) == STARFOCUS_ERROR_WORKSPACE);
+  CHECK(prepare(engine.get(), &field, at + 8, memory.bytes) == STARFOCUS_ERROR_WORKSPACE);
+  CHECK(prepare(engine.get(), &field, engine.workspace(), memory.bytes) == STARFOCUS_ERROR_OVERLAP);
   for (const float value : {std::numeric_limits<float>::quiet_NaN(), 3.5f}) {
     const float good = scene.Disparity(49, 39);
     scene.Disparity(49, 39) = value;
     CHECK(prepare(engine.get(), &field, at, memory.bytes) ==
-          (value > 3 ? SF_ERROR_DISPARITY : SF_ERROR_NOT_FINITE));
+          (value > 3 ? STARFOCUS_ERROR_DISPARITY : STARFOCUS_ERROR_NOT_FINITE));
     scene.Disparity(49, 39) = good;
   }
-  CHECK(prepare(engine.get(), &field, at, memory.bytes) == SF_OK);
+  CHECK(prepare(engine.get(), &field, at, memory.bytes) == STARFOCUS_OK);
 }
 
 TEST_CASE("prepared: refocusing refuses null pointers, overlap and another configuration") {
   const test::Scene scene = test::LayeredScene(50, 40, 5, 3, 12);
-  const sf_config config = test::ConfigFor(scene, 8);
+  const starfocus_config config = test::ConfigFor(scene, 8);
   test::Engine engine(config);
   test::PreparedMemory memory(config);
-  const sf_prepared* prepared = memory.Prepare(engine.get(), scene.Field());
+  const starfocus_prepared* prepared = memory.Prepare(engine.get(), scene.Field());
   test::Output out(50, 40);
-  const auto run = [&](sf_engine* e, const sf_params& params, const sf_prepared* p, void* to) {
+  const auto run = [&](starfocus_engine* e, const starfocus_params& params,
+                       const starfocus_prepared* p, void* to) {
     return test::RefocusPreparedRgb(e, &params, p, static_cast<uint8_t*>(to), out.stride, nullptr);
   };
-  const sf_params params = test::Params(1);
-  CHECK(run(nullptr, params, prepared, out.bytes.data()) == SF_ERROR_NULL);
-  CHECK(run(engine.get(), params, nullptr, out.bytes.data()) == SF_ERROR_NULL);
-  CHECK(run(engine.get(), params, prepared, nullptr) == SF_ERROR_NULL);
-  CHECK(run(engine.get(), params, prepared, memory.get() + memory.bytes - 1) == SF_ERROR_OVERLAP);
-  CHECK(run(engine.get(), params, prepared, engine.workspace()) == SF_ERROR_OVERLAP);
+  const starfocus_params params = test::Params(1);
+  CHECK(run(nullptr, params, prepared, out.bytes.data()) == STARFOCUS_ERROR_NULL);
+  CHECK(run(engine.get(), params, nullptr, out.bytes.data()) == STARFOCUS_ERROR_NULL);
+  CHECK(run(engine.get(), params, prepared, nullptr) == STARFOCUS_ERROR_NULL);
+  CHECK(run(engine.get(), params, prepared, memory.get() + memory.bytes - 1) ==
+        STARFOCUS_ERROR_OVERLAP);
+  CHECK(run(engine.get(), params, prepared, engine.workspace()) == STARFOCUS_ERROR_OVERLAP);
   for (int field = 0; field < 7; ++field) {
-    sf_config other = config;
+    starfocus_config other = config;
     if (field == 0) other.width = 49;
     if (field == 1) other.height = 39;
     if (field == 2) other.views = 1;
@@ -163,15 +170,15 @@ TEST_CASE("prepared: refocusing refuses null pointers, overlap and another confi
       for (int k = 1; k < other.views; ++k) other.positions[k] = {0.25 * k / other.views, 0};
     }
     test::Engine another(other);
-    REQUIRE(another.status() == SF_OK);
-    CHECK(run(another.get(), params, prepared, out.bytes.data()) == SF_ERROR_PREPARED);
+    REQUIRE(another.status() == STARFOCUS_OK);
+    CHECK(run(another.get(), params, prepared, out.bytes.data()) == STARFOCUS_ERROR_PREPARED);
   }
   CHECK(out.Untouched());
 }
 
 TEST_CASE("prepared: a bad map is refused before anything is written") {
   test::Scene scene = test::LayeredScene(50, 90, 5, 3, 12);
-  const sf_config config = test::ConfigFor(scene, 8);
+  const starfocus_config config = test::ConfigFor(scene, 8);
   test::Engine engine(config);
   test::PreparedMemory memory(config);
   const std::vector<uint8_t> before(memory.get(), memory.get() + memory.bytes);
@@ -180,10 +187,10 @@ TEST_CASE("prepared: a bad map is refused before anything is written") {
     const float good = scene.Disparity(49, row);
     for (const float bad : {std::numeric_limits<float>::quiet_NaN(), 1000.0f}) {
       scene.Disparity(49, row) = bad;
-      const sf_light_field field = scene.Field();
-      sf_prepared* prepared = nullptr;
-      CHECK(sf_prepare(engine.get(), &field, memory.get(), memory.bytes, &prepared) ==
-            (bad == bad ? SF_ERROR_DISPARITY : SF_ERROR_NOT_FINITE));
+      const starfocus_light_field field = scene.Field();
+      starfocus_prepared* prepared = nullptr;
+      CHECK(starfocus_prepare(engine.get(), &field, memory.get(), memory.bytes, &prepared) ==
+            (bad == bad ? STARFOCUS_ERROR_DISPARITY : STARFOCUS_ERROR_NOT_FINITE));
       CHECK(std::equal(before.begin(), before.end(), memory.get()));
     }
     scene.Disparity(49, row) = good;

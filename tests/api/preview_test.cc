@@ -73,8 +73,8 @@ test::Scene Reduced(const test::Scene& scene, int shift, int32_t transfer) {
   return reduced;
 }
 
-sf_config ReducedConfig(const sf_config& config, int shift, int32_t superblock) {
-  sf_config reduced = config;
+starfocus_config ReducedConfig(const starfocus_config& config, int shift, int32_t superblock) {
+  starfocus_config reduced = config;
   const float side = float(1 << shift);
   reduced.width = Ceil(config.width, shift);
   reduced.height = Ceil(config.height, shift);
@@ -82,13 +82,13 @@ sf_config ReducedConfig(const sf_config& config, int shift, int32_t superblock) 
   reduced.disparity_max /= side;
   reduced.max_blur /= side;
   reduced.superblock = superblock;
-  reduced.features &= ~(SF_FEATURE_STREAMING | SF_FEATURE_IMAGES);
+  reduced.features &= ~(STARFOCUS_FEATURE_STREAMING | STARFOCUS_FEATURE_IMAGES);
   reduced.previews = 0;
   return reduced;
 }
 
 // The pixels that have a part of a region; all 0 for the whole picture.
-sf_region ReducedRegion(const sf_region& region, int shift) {
+starfocus_region ReducedRegion(const starfocus_region& region, int shift) {
   if (region.width == 0) return region;
   const int x = region.x >> shift, y = region.y >> shift;
   return {x, y, Ceil(region.x + region.width, shift) - x,
@@ -98,38 +98,41 @@ sf_region ReducedRegion(const sf_region& region, int shift) {
 // An engine with a light field that it has prepared.
 class Prepared {
  public:
-  Prepared(const test::Scene& scene, const sf_config& config, sf_runner runner = nullptr)
+  Prepared(const test::Scene& scene, const starfocus_config& config,
+           starfocus_runner runner = nullptr)
       : engine(config), memory(config), scene_(scene) {
-    const sf_callbacks callbacks = test::RunBy(runner);
-    REQUIRE(sf_set_callbacks(engine.get(), &callbacks) == SF_OK);
+    const starfocus_callbacks callbacks = test::RunBy(runner);
+    REQUIRE(starfocus_set_callbacks(engine.get(), &callbacks) == STARFOCUS_OK);
     field_ = memory.Prepare(engine.get(), scene.Field());
   }
 
-  sf_status Preview(const sf_params& params, int shift, test::Output* out,
-                    const sf_callbacks& callbacks = {}, sf_report* report = nullptr) {
-    const sf_status status = sf_set_callbacks(engine.get(), &callbacks);
-    if (status != SF_OK) return status;
+  starfocus_status Preview(const starfocus_params& params, int shift, test::Output* out,
+                           const starfocus_callbacks& callbacks = {},
+                           starfocus_report* report = nullptr) {
+    const starfocus_status status = starfocus_set_callbacks(engine.get(), &callbacks);
+    if (status != STARFOCUS_OK) return status;
     return test::PreviewRgb(engine.get(), &params, field_, shift, out->bytes.data(), out->stride,
                             report);
   }
   // The preview of the whole picture or the params' region.
-  test::Output Preview(const sf_params& params, int shift, const sf_callbacks& callbacks = {},
-                       sf_report* report = nullptr) {
-    const sf_region region = ReducedRegion(params.region, shift);
+  test::Output Preview(const starfocus_params& params, int shift,
+                       const starfocus_callbacks& callbacks = {},
+                       starfocus_report* report = nullptr) {
+    const starfocus_region region = ReducedRegion(params.region, shift);
     const bool whole = region.width == 0;
     test::Output out(whole ? Ceil(scene_.width, shift) : region.width,
                      whole ? Ceil(scene_.height, shift) : region.height, 3);
-    REQUIRE(Preview(params, shift, &out, callbacks, report) == SF_OK);
+    REQUIRE(Preview(params, shift, &out, callbacks, report) == STARFOCUS_OK);
     return out;
   }
-  const sf_prepared* field() const { return field_; }
+  const starfocus_prepared* field() const { return field_; }
 
   test::Engine engine;
   test::PreparedMemory memory;
 
  private:
   const test::Scene& scene_;
-  sf_prepared* field_ = nullptr;
+  starfocus_prepared* field_ = nullptr;
 };
 
 // Pictures that agree with each other, of soft and of sharp edges.
@@ -149,15 +152,15 @@ double Psnr(const test::Output& got, const test::Output& full, int shift, int32_
 }
 
 // Whether a preview has the bytes of refocusing the light field `reduced`.
-bool IsOfReduced(Prepared* prepared, sf_params params, int shift, const sf_config& config,
-                 const test::Scene& reduced) {
-  sf_report report = {};
+bool IsOfReduced(Prepared* prepared, starfocus_params params, int shift,
+                 const starfocus_config& config, const test::Scene& reduced) {
+  starfocus_report report = {};
   const test::Output got = prepared->Preview(params, shift, test::RunBy(test::RunOnTwo), &report);
   test::Engine small(ReducedConfig(config, shift, report.superblock));
   params.lens.focus /= 1 << shift;
   params.region = ReducedRegion(params.region, shift);
   test::Output expected(got.width, got.height, 3);
-  REQUIRE(test::Refocus(&small, params, reduced, &expected) == SF_OK);
+  REQUIRE(test::Refocus(&small, params, reduced, &expected) == STARFOCUS_OK);
   return got.bytes == expected.bytes;
 }
 
@@ -169,13 +172,13 @@ TEST_CASE("preview: the bytes of the light field that the definition reduces") {
   for (const auto& size : kSizes) {
     const test::Scene scene =
         test::LayeredScene(size[0], size[1], kViews[round % 4], 7, uint64_t(round) + 90);
-    sf_config config = test::ConfigFor(scene, 20);
+    starfocus_config config = test::ConfigFor(scene, 20);
     config.superblock = 32 << random.Int(0, 2);
     config.tuning.max_layer = round % 4 == 0 ? random.Int(0, 1) : 2;
-    config.transfer = round % 3 == 0 ? SF_TRANSFER_NONE : SF_TRANSFER_SRGB;
-    test::SetFeature(SF_FEATURE_STREAMING, round % 2, &config.features);
+    config.transfer = round % 3 == 0 ? STARFOCUS_TRANSFER_NONE : STARFOCUS_TRANSFER_SRGB;
+    test::SetFeature(STARFOCUS_FEATURE_STREAMING, round % 2, &config.features);
     config.max_workers = 2;
-    test::SetFeature(SF_FEATURE_SHAPES, round % 5 == 4, &config.features);
+    test::SetFeature(STARFOCUS_FEATURE_SHAPES, round % 5 == 4, &config.features);
     config.highlights = round % 5 == 3 ? 4.0F : 1.0F;
     config.previews = 3;
     CAPTURE(round);
@@ -185,10 +188,12 @@ TEST_CASE("preview: the bytes of the light field that the definition reduces") {
       CAPTURE(shift);
       const test::Scene reduced = Reduced(scene, shift, config.transfer);
       for (int lens = 0; lens < test::Rounds(4); ++lens) {
-        sf_params params = test::Params(random.Real(-12, 12), random.Real(0.3, 1), SF_MODE_BLOCK);
+        starfocus_params params =
+            test::Params(random.Real(-12, 12), random.Real(0.3, 1), STARFOCUS_MODE_BLOCK);
         params.renderer = random.Int(0, 2);
-        if (test::Has(config.features, SF_FEATURE_SHAPES)) params.lens.cats_eye = 0.5;
-        if (lens == 2) params.mode = random.Int(0, 1) == 0 ? SF_MODE_FRAME : SF_MODE_BLUR;
+        if (test::Has(config.features, STARFOCUS_FEATURE_SHAPES)) params.lens.cats_eye = 0.5;
+        if (lens == 2)
+          params.mode = random.Int(0, 1) == 0 ? STARFOCUS_MODE_FRAME : STARFOCUS_MODE_BLUR;
         if (lens == 3) {
           params.region = {random.Int(0, size[0] - 1), random.Int(0, size[1] - 1), 1, 1};
           params.region.width = random.Int(1, size[0] - params.region.x);
@@ -211,16 +216,16 @@ TEST_CASE(
     for (int y = 0; y < scene.height; ++y) {
       for (int x = 0; x < scene.width; ++x) scene.Disparity(x, y) += offset;
     }
-    sf_config config = test::ConfigFor(scene, 8);
+    starfocus_config config = test::ConfigFor(scene, 8);
     config.superblock = 32;
-    config.features |= SF_FEATURE_STREAMING;
+    config.features |= STARFOCUS_FEATURE_STREAMING;
     config.max_workers = 2;
     config.previews = 3;
     Prepared prepared(scene, config, test::RunOnTwo);
     for (int shift = 1; shift <= 3; ++shift) {
       CAPTURE(shift);
       const test::Scene reduced = Reduced(scene, shift, config.transfer);
-      const sf_params params = test::Params(offset + 1, 1, SF_MODE_BLOCK);
+      const starfocus_params params = test::Params(offset + 1, 1, STARFOCUS_MODE_BLOCK);
       CHECK(IsOfReduced(&prepared, params, shift, config, reduced));
     }
   }
@@ -233,14 +238,14 @@ TEST_CASE("preview: of images, into images") {
     const test::Scene scene = test::LayeredScene(90 + format, 71, 5, 7, uint64_t(format));
     const test::ImageField field = test::MakeImageField(
         scene, {test::AnyKind(format, &random), test::AnyKind(7 - format, &random)},
-        test::MakeDepth(scene, 60, 71, SF_DEPTH_U16, SF_DEPTH_LINEAR, 0), &random);
-    sf_config config = test::ImageConfig(field);
+        test::MakeDepth(scene, 60, 71, STARFOCUS_DEPTH_U16, STARFOCUS_DEPTH_LINEAR, 0), &random);
+    starfocus_config config = test::ImageConfig(field);
     config.previews = 2;
     Prepared expected(field.converted, config);
     test::Engine engine(config);
     test::PreparedMemory memory(config);
-    const sf_prepared* prepared = memory.Prepare(engine.get(), field.Field());
-    const sf_params params = test::Params(2, 1, SF_MODE_BLOCK);
+    const starfocus_prepared* prepared = memory.Prepare(engine.get(), field.Field());
+    const starfocus_params params = test::Params(2, 1, STARFOCUS_MODE_BLOCK);
     for (int shift = 1; shift <= 2; ++shift) {
       const test::Output wanted = expected.Preview(params, shift);
       const test::ImageKind kind = test::AnyKind(format, &random);
@@ -248,8 +253,8 @@ TEST_CASE("preview: of images, into images") {
       test::ImageMemory image(wanted.width, wanted.height, kind);
       test::PutPicture(
           wanted.bytes.data(), wanted.stride, [](int, int) { return uint8_t{255}; }, &image);
-      const sf_image out = got.Out();
-      REQUIRE(test::Preview(engine.get(), &params, prepared, shift, &out, nullptr) == SF_OK);
+      const starfocus_image out = got.Out();
+      REQUIRE(test::Preview(engine.get(), &params, prepared, shift, &out, nullptr) == STARFOCUS_OK);
       const bool same = got == image;
       CHECK(same);
     }
@@ -258,34 +263,34 @@ TEST_CASE("preview: of images, into images") {
 
 TEST_CASE("preview: the engine is what it was, and the workspace no larger") {
   const test::Scene scene = test::LayeredScene(170, 130, 5, 7, 3);
-  sf_config config = test::ConfigFor(scene, 20);
-  config.features |= SF_FEATURE_STREAMING;
+  starfocus_config config = test::ConfigFor(scene, 20);
+  config.features |= STARFOCUS_FEATURE_STREAMING;
   size_t without = 0, with = 0;
-  REQUIRE(sf_workspace_size(&config, &without) == SF_OK);
+  REQUIRE(starfocus_workspace_size(&config, &without) == STARFOCUS_OK);
   config.previews = 3;
-  REQUIRE(sf_workspace_size(&config, &with) == SF_OK);
+  REQUIRE(starfocus_workspace_size(&config, &with) == STARFOCUS_OK);
   CHECK(with == without);
   Prepared prepared(scene, config);
-  const sf_params params = test::Params(-3, 1, SF_MODE_BLOCK);
+  const starfocus_params params = test::Params(-3, 1, STARFOCUS_MODE_BLOCK);
   test::Output before(170, 130), after(170, 130), streamed(170, 130);
-  REQUIRE(test::Refocus(&prepared.engine, params, scene, &before) == SF_OK);
-  const test::Output first = prepared.Preview(test::Params(5, 1, SF_MODE_BLOCK), 2);
-  REQUIRE(test::Refocus(&prepared.engine, params, scene, &after) == SF_OK);
+  REQUIRE(test::Refocus(&prepared.engine, params, scene, &before) == STARFOCUS_OK);
+  const test::Output first = prepared.Preview(test::Params(5, 1, STARFOCUS_MODE_BLOCK), 2);
+  REQUIRE(test::Refocus(&prepared.engine, params, scene, &after) == STARFOCUS_OK);
   CHECK(after.bytes == before.bytes);
   // A stream that a preview breaks off is begun anew.
-  REQUIRE(sf_stream_begin(prepared.engine.get(), &params) == SF_OK);
-  const test::Output again = prepared.Preview(test::Params(5, 1, SF_MODE_BLOCK), 2);
+  REQUIRE(starfocus_stream_begin(prepared.engine.get(), &params) == STARFOCUS_OK);
+  const test::Output again = prepared.Preview(test::Params(5, 1, STARFOCUS_MODE_BLOCK), 2);
   CHECK(again.bytes == first.bytes);
   int32_t written = 0;
   CHECK(test::PullRgb(prepared.engine.get(), streamed.bytes.data(), streamed.stride, 1, &written,
-                      nullptr) == SF_ERROR_STATE);
-  REQUIRE(test::Stream(&prepared.engine, params, scene, &streamed, 9, 9) == SF_OK);
+                      nullptr) == STARFOCUS_ERROR_STATE);
+  REQUIRE(test::Stream(&prepared.engine, params, scene, &streamed, 9, 9) == STARFOCUS_OK);
   CHECK(streamed.bytes == before.bytes);
 }
 
 TEST_CASE("preview: what the documentation says of the memory") {
   const test::Scene scene = test::LayeredScene(800, 640, 5, 7, 11);
-  sf_config config = test::ConfigFor(scene, 20);
+  starfocus_config config = test::ConfigFor(scene, 20);
   constexpr double kExpected[] = {3.89, 8.40, 9.52, 9.81};
   for (int previews = 0; previews <= 3; ++previews) {
     config.previews = previews;
@@ -299,7 +304,7 @@ test::Scene SmoothScene(int width, int height) {
   test::Scene scene = test::EmptyScene(width, height, 5, -12, 12);
   for (int view = 0; view < 5; ++view) {
     double u = 0, v = 0;
-    sf_view_position(view, &u, &v);
+    starfocus_view_position(view, &u, &v);
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x) {
         const double nx = x + 9 * u - 0.5 * width, ny = y + 9 * v - 0.5 * height;
@@ -318,14 +323,14 @@ test::Scene SmoothScene(int width, int height) {
 
 TEST_CASE("preview: near the full picture reduced") {
   const test::Scene scene = SmoothScene(512, 384);
-  sf_config config = test::ConfigFor(scene, 24);
+  starfocus_config config = test::ConfigFor(scene, 24);
   config.previews = 3;
   Prepared prepared(scene, config);
   constexpr double kLeast[] = {0, 53.5, 51.5, 43};  // of waves of 9 pixels an eighth shows little
   for (const double focus : {9.0, 0.0, -9.0}) {
-    const sf_params params = test::Params(focus, 1, SF_MODE_BLOCK);
+    const starfocus_params params = test::Params(focus, 1, STARFOCUS_MODE_BLOCK);
     test::Output full(512, 384);
-    REQUIRE(test::Refocus(&prepared.engine, params, scene, &full) == SF_OK);
+    REQUIRE(test::Refocus(&prepared.engine, params, scene, &full) == STARFOCUS_OK);
     for (int shift = 1; shift <= 3; ++shift) {
       CAPTURE(focus);
       CAPTURE(shift);
@@ -336,85 +341,86 @@ TEST_CASE("preview: near the full picture reduced") {
 
 TEST_CASE("preview: bad input") {
   const test::Scene scene = test::LayeredScene(50, 40, 5, 3, 12);
-  sf_config config = test::ConfigFor(scene, 8);
+  starfocus_config config = test::ConfigFor(scene, 8);
   size_t bytes = 0;
   for (const int previews : {-1, 4}) {
     config.previews = previews;
-    CHECK(sf_workspace_size(&config, &bytes) == SF_ERROR_RANGE);
-    CHECK(sf_prepared_size(&config, &bytes) == SF_ERROR_RANGE);
+    CHECK(starfocus_workspace_size(&config, &bytes) == STARFOCUS_ERROR_RANGE);
+    CHECK(starfocus_prepared_size(&config, &bytes) == STARFOCUS_ERROR_RANGE);
   }
   config.previews = 0;
   Prepared none(scene, config);
   config.previews = 2;
   Prepared prepared(scene, config);
-  const sf_params params = test::Params(1);
+  const starfocus_params params = test::Params(1);
   test::Output out(25, 20);
-  CHECK(none.Preview(params, 1, &out) == SF_ERROR_PREPARED);
+  CHECK(none.Preview(params, 1, &out) == STARFOCUS_ERROR_PREPARED);
   for (const int shift : {-1, 3, 32}) {
-    CHECK(prepared.Preview(params, shift, &out) == SF_ERROR_PREPARED);
+    CHECK(prepared.Preview(params, shift, &out) == STARFOCUS_ERROR_PREPARED);
   }
-  const auto run = [&](sf_engine* e, const sf_params* p, const sf_prepared* of, uint8_t* to,
-                       size_t stride) {
+  const auto run = [&](starfocus_engine* e, const starfocus_params* p, const starfocus_prepared* of,
+                       uint8_t* to, size_t stride) {
     return test::PreviewRgb(e, p, of, 1, to, stride, nullptr);
   };
-  sf_engine* e = prepared.engine.get();
+  starfocus_engine* e = prepared.engine.get();
   uint8_t* to = out.bytes.data();
-  CHECK(run(nullptr, &params, prepared.field(), to, out.stride) == SF_ERROR_NULL);
-  const sf_image image = sf_image_rgb(to, out.stride);
-  CHECK(sf_refocus_prepared(e, nullptr, prepared.field(), &image, nullptr) == SF_ERROR_NULL);
-  CHECK(run(e, &params, nullptr, to, out.stride) == SF_ERROR_NULL);
-  CHECK(run(e, &params, prepared.field(), nullptr, out.stride) == SF_ERROR_NULL);
-  CHECK(run(e, &params, prepared.field(), to, 74) == SF_ERROR_STRIDE);
+  CHECK(run(nullptr, &params, prepared.field(), to, out.stride) == STARFOCUS_ERROR_NULL);
+  const starfocus_image image = starfocus_image_rgb(to, out.stride);
+  CHECK(starfocus_refocus_prepared(e, nullptr, prepared.field(), &image, nullptr) ==
+        STARFOCUS_ERROR_NULL);
+  CHECK(run(e, &params, nullptr, to, out.stride) == STARFOCUS_ERROR_NULL);
+  CHECK(run(e, &params, prepared.field(), nullptr, out.stride) == STARFOCUS_ERROR_NULL);
+  CHECK(run(e, &params, prepared.field(), to, 74) == STARFOCUS_ERROR_STRIDE);
   CHECK(run(e, &params, prepared.field(), prepared.memory.get() + prepared.memory.bytes - 1,
-            out.stride) == SF_ERROR_OVERLAP);
+            out.stride) == STARFOCUS_ERROR_OVERLAP);
   CHECK(run(e, &params, prepared.field(), static_cast<uint8_t*>(prepared.engine.workspace()),
-            out.stride) == SF_ERROR_OVERLAP);
-  const sf_params far = test::Params(9), wide = test::Params(1, 2);
-  CHECK(run(e, &far, prepared.field(), to, out.stride) == SF_ERROR_BLUR);
-  CHECK(run(e, &wide, prepared.field(), to, out.stride) == SF_ERROR_RANGE);
-  sf_params outside = params;
+            out.stride) == STARFOCUS_ERROR_OVERLAP);
+  const starfocus_params far = test::Params(9), wide = test::Params(1, 2);
+  CHECK(run(e, &far, prepared.field(), to, out.stride) == STARFOCUS_ERROR_BLUR);
+  CHECK(run(e, &wide, prepared.field(), to, out.stride) == STARFOCUS_ERROR_RANGE);
+  starfocus_params outside = params;
   outside.region = {49, 0, 2, 1};  // inside the preview's pixels, and not inside the picture
-  CHECK(run(e, &outside, prepared.field(), to, out.stride) == SF_ERROR_RANGE);
-  sf_config other = config;
+  CHECK(run(e, &outside, prepared.field(), to, out.stride) == STARFOCUS_ERROR_RANGE);
+  starfocus_config other = config;
   other.width = 49;
   test::Engine another(other);
-  CHECK(run(another.get(), &params, prepared.field(), to, out.stride) == SF_ERROR_PREPARED);
-  sf_params after = params;
-  const sf_previous previous = {scene.Field(), image};
+  CHECK(run(another.get(), &params, prepared.field(), to, out.stride) == STARFOCUS_ERROR_PREPARED);
+  starfocus_params after = params;
+  const starfocus_previous previous = {scene.Field(), image};
   after.previous = &previous;
-  CHECK(run(e, &after, prepared.field(), to, out.stride) == SF_ERROR_RANGE);
+  CHECK(run(e, &after, prepared.field(), to, out.stride) == STARFOCUS_ERROR_RANGE);
   CHECK(out.Untouched());
   // An engine that was itself configured for none may show those of another.
-  CHECK(run(none.engine.get(), &params, prepared.field(), to, out.stride) == SF_OK);
+  CHECK(run(none.engine.get(), &params, prepared.field(), to, out.stride) == STARFOCUS_OK);
 }
 
 TEST_CASE("preview: bad images") {
   const test::Scene scene = test::LayeredScene(50, 40, 5, 3, 12);
-  sf_config config = test::ConfigFor(scene, 8);
+  starfocus_config config = test::ConfigFor(scene, 8);
   config.previews = 1;
   Prepared without(scene, config);
-  config.features |= SF_FEATURE_IMAGES;
+  config.features |= STARFOCUS_FEATURE_IMAGES;
   Prepared prepared(scene, config);
-  const sf_params params = test::Params(1);
+  const starfocus_params params = test::Params(1);
   std::vector<uint8_t> rgb(3 * 25 * 20);
-  sf_image out = {};
+  starfocus_image out = {};
   out.planes[0] = rgb.data();
   out.strides[0] = 75;
-  const auto run = [&](Prepared* of, int shift, const sf_image* to) {
+  const auto run = [&](Prepared* of, int shift, const starfocus_image* to) {
     return test::Preview(of->engine.get(), &params, of->field(), shift, to, nullptr);
   };
-  out.format = SF_FORMAT_BGR;
-  CHECK(run(&without, 1, &out) == SF_ERROR_FEATURE);
-  CHECK(run(&prepared, 1, nullptr) == SF_ERROR_NULL);
-  CHECK(run(&prepared, 2, &out) == SF_ERROR_PREPARED);
-  CHECK(run(&prepared, 1, &out) == SF_OK);
+  out.format = STARFOCUS_FORMAT_BGR;
+  CHECK(run(&without, 1, &out) == STARFOCUS_ERROR_FEATURE);
+  CHECK(run(&prepared, 1, nullptr) == STARFOCUS_ERROR_NULL);
+  CHECK(run(&prepared, 2, &out) == STARFOCUS_ERROR_PREPARED);
+  CHECK(run(&prepared, 1, &out) == STARFOCUS_OK);
   for (uint8_t* to : {prepared.memory.get(), static_cast<uint8_t*>(prepared.engine.workspace())}) {
     out.planes[0] = to;
-    CHECK(run(&prepared, 1, &out) == SF_ERROR_OVERLAP);
+    CHECK(run(&prepared, 1, &out) == STARFOCUS_ERROR_OVERLAP);
   }
   out.planes[0] = rgb.data();
   out.format = 99;
-  CHECK(run(&prepared, 1, &out) == SF_ERROR_RANGE);
+  CHECK(run(&prepared, 1, &out) == STARFOCUS_ERROR_RANGE);
 }
 
 }  // namespace

@@ -18,17 +18,17 @@ namespace {
 
 constexpr int kViews[] = {1, 5, 9, 17};
 
-uint64_t BlocksOf(const sf_report& report) {
+uint64_t BlocksOf(const starfocus_report& report) {
   return report.layers[0].blocks + report.layers[1].blocks + report.layers[2].blocks;
 }
 
-std::string Text(const sf_region& r) {
+std::string Text(const starfocus_region& r) {
   char text[80];
   std::snprintf(text, sizeof(text), "%d,%d,%d,%d", r.x, r.y, r.width, r.height);
   return text;
 }
 
-std::vector<uint8_t> Crop(const test::Output& picture, const sf_region& r) {
+std::vector<uint8_t> Crop(const test::Output& picture, const starfocus_region& r) {
   std::vector<uint8_t> crop;
   for (int y = r.y; y < r.y + r.height; ++y) {
     crop.insert(crop.end(), picture.Pixel(r.x, y), picture.Pixel(r.x, y) + 3 * r.width);
@@ -36,8 +36,8 @@ std::vector<uint8_t> Crop(const test::Output& picture, const sf_region& r) {
   return crop;
 }
 
-sf_region RandomRegion(int width, int height, test::Random* random) {
-  sf_region r = {random->Int(0, width - 1), random->Int(0, height - 1), 1, 1};
+starfocus_region RandomRegion(int width, int height, test::Random* random) {
+  starfocus_region r = {random->Int(0, width - 1), random->Int(0, height - 1), 1, 1};
   if (random->Int(0, 3) == 0) return r;
   r.width = random->Int(1, width - r.x);
   r.height = random->Int(1, height - r.y);
@@ -50,14 +50,14 @@ sf_region RandomRegion(int width, int height, test::Random* random) {
 
 // Checks a region against the whole picture, which the same engine refocuses in between, so that
 // nothing of another call may be left in what the region reads.
-void CheckRegion(test::Engine* engine, const test::Scene& scene, sf_params params,
-                 const test::Output& whole, const sf_report& whole_report,
-                 const sf_region& region) {
+void CheckRegion(test::Engine* engine, const test::Scene& scene, starfocus_params params,
+                 const test::Output& whole, const starfocus_report& whole_report,
+                 const starfocus_region& region) {
   CAPTURE(Text(region));
   params.region = region;
   test::Output out(region.width, region.height, 5);
-  sf_report report = {};
-  REQUIRE(test::Refocus(engine, params, scene, &out, nullptr, nullptr, &report) == SF_OK);
+  starfocus_report report = {};
+  REQUIRE(test::Refocus(engine, params, scene, &out, nullptr, nullptr, &report) == STARFOCUS_OK);
   const bool same = out.Tight() == Crop(whole, region);
   CHECK(same);
   CHECK(out.PaddingUntouched());
@@ -67,11 +67,12 @@ void CheckRegion(test::Engine* engine, const test::Scene& scene, sf_params param
   CHECK(BlocksOf(report) > 0);
 }
 
-void CheckRegions(const test::Scene& scene, const sf_config& config, const sf_params& params,
-                  test::Random* random) {
+void CheckRegions(const test::Scene& scene, const starfocus_config& config,
+                  const starfocus_params& params, test::Random* random) {
   const int w = scene.width, h = scene.height;
-  std::vector<sf_region> regions = {{0, 0, w, h},     {0, 0, 1, 1},     {w - 1, h - 1, 1, 1},
-                                    {0, h - 1, w, 1}, {w - 1, 0, 1, h}, {w / 2, h / 2, 1, 1}};
+  std::vector<starfocus_region> regions = {{0, 0, w, h},         {0, 0, 1, 1},
+                                           {w - 1, h - 1, 1, 1}, {0, h - 1, w, 1},
+                                           {w - 1, 0, 1, h},     {w / 2, h / 2, 1, 1}};
   for (int at : {32, 64, 80}) {  // on both sides of a boundary
     if (at < w && at < h) {
       regions.push_back({at, at, 1, 1});
@@ -84,9 +85,9 @@ void CheckRegions(const test::Scene& scene, const sf_config& config, const sf_pa
   for (int k = 0; k < 6; ++k) regions.push_back(RandomRegion(w, h, random));
   test::Engine engine(config);
   test::Output whole(w, h);
-  sf_report report = {};
-  REQUIRE(test::Refocus(&engine, params, scene, &whole, nullptr, nullptr, &report) == SF_OK);
-  for (const sf_region& region : regions) {
+  starfocus_report report = {};
+  REQUIRE(test::Refocus(&engine, params, scene, &whole, nullptr, nullptr, &report) == STARFOCUS_OK);
+  for (const starfocus_region& region : regions) {
     CheckRegion(&engine, scene, params, whole, report, region);
   }
 }
@@ -97,14 +98,15 @@ TEST_CASE("region: the bytes of the whole picture, in every mode") {
     const int width = random.Int(1, 180), height = random.Int(1, 150);
     const test::Scene scene =
         test::LayeredScene(width, height, kViews[round % 4], 7, uint64_t(round) + 700);
-    sf_config config = test::ConfigFor(scene, 20);
+    starfocus_config config = test::ConfigFor(scene, 20);
     config.superblock = 32 << random.Int(0, 2);
     config.tuning.max_layer = random.Int(0, 3) == 0 ? random.Int(0, 1) : 2;
     config.tuning.deblocking = random.Int(0, 2) == 0 ? random.Int(0, 255) : 255;
-    sf_params params = test::Params(random.Real(-9, 9), random.Real(0.3, 1), SF_MODE_BLOCK);
+    starfocus_params params =
+        test::Params(random.Real(-9, 9), random.Real(0.3, 1), STARFOCUS_MODE_BLOCK);
     params.renderer = random.Int(0, 2);
-    if (round % 4 == 3) params.mode = round % 8 == 3 ? SF_MODE_FRAME : SF_MODE_BLUR;
-    if (round == 11) params.mode = SF_MODE_BENCHMARK;
+    if (round % 4 == 3) params.mode = round % 8 == 3 ? STARFOCUS_MODE_FRAME : STARFOCUS_MODE_BLUR;
+    if (round == 11) params.mode = STARFOCUS_MODE_BENCHMARK;
     CAPTURE(round);
     CheckRegions(scene, config, params, &random);
   }
@@ -120,57 +122,58 @@ TEST_CASE("region: joins between blocks of different layers reach into it") {
         scene.Disparity(x, y) = (x / side + y / side) % 2 == 0 ? 0.0f : 11.0f;
       }
     }
-    sf_config config = test::ConfigFor(scene, 13);
+    starfocus_config config = test::ConfigFor(scene, 13);
     config.superblock = side;
     config.tuning.deblocking = 255;
-    sf_params params = test::Params(-1, 1, SF_MODE_BLOCK);
-    params.renderer = SF_RENDERER_LINE_SCAN;
+    starfocus_params params = test::Params(-1, 1, STARFOCUS_MODE_BLOCK);
+    params.renderer = STARFOCUS_RENDERER_LINE_SCAN;
     CheckRegions(scene, config, params, &random);
   }
 }
 
 TEST_CASE("region: costs its share of the picture and its surroundings") {
   const test::Scene scene = test::LayeredScene(640, 640, 5, 4, 9);
-  sf_config config = test::ConfigFor(scene, 8);
+  starfocus_config config = test::ConfigFor(scene, 8);
   config.superblock = 32;
   test::Engine engine(config);
-  for (const sf_mode mode : {SF_MODE_BLOCK, SF_MODE_FRAME}) {
-    sf_params params = test::Params(1, 1, mode);
+  for (const starfocus_mode mode : {STARFOCUS_MODE_BLOCK, STARFOCUS_MODE_FRAME}) {
+    starfocus_params params = test::Params(1, 1, mode);
     test::Output whole(640, 640), out(20, 20);
-    sf_report report = {}, part = {};
-    REQUIRE(test::Refocus(&engine, params, scene, &whole, nullptr, nullptr, &report) == SF_OK);
+    starfocus_report report = {}, part = {};
+    REQUIRE(test::Refocus(&engine, params, scene, &whole, nullptr, nullptr, &report) ==
+            STARFOCUS_OK);
     int told = 0;
-    const sf_callbacks counts =
-        test::VisitedBy([](void* data, const sf_block*) { ++*static_cast<int*>(data); }, &told);
+    const starfocus_callbacks counts = test::VisitedBy(
+        [](void* data, const starfocus_block*) { ++*static_cast<int*>(data); }, &told);
     params.region = {326, 326, 20, 20};  // inside one superblock
-    REQUIRE(test::Refocus(&engine, params, scene, &out, counts, &part) == SF_OK);
+    REQUIRE(test::Refocus(&engine, params, scene, &out, counts, &part) == STARFOCUS_OK);
     CHECK(BlocksOf(part) == uint64_t(told));
     CHECK(BlocksOf(part) <= 4);
     CHECK(part.rendered_samples * 100 < report.rendered_samples);
     params.region = {319, 319, 2, 2};  // where four meet
-    REQUIRE(test::Refocus(&engine, params, scene, &out, nullptr, nullptr, &part) == SF_OK);
+    REQUIRE(test::Refocus(&engine, params, scene, &out, nullptr, nullptr, &part) == STARFOCUS_OK);
     CHECK(BlocksOf(part) == 4);
   }
 }
 
 TEST_CASE("region: only disparity rows that it can read are checked, before a pixel is written") {
   test::Scene scene = test::LayeredScene(40, 600, 1, 4, 3);
-  sf_config config = test::ConfigFor(scene, 4);
+  starfocus_config config = test::ConfigFor(scene, 4);
   config.superblock = 32;
   test::Engine engine(config);
-  REQUIRE(engine.status() == SF_OK);
-  sf_params params = test::Params(0, 1, SF_MODE_BLOCK);
+  REQUIRE(engine.status() == STARFOCUS_OK);
+  starfocus_params params = test::Params(0, 1, STARFOCUS_MODE_BLOCK);
   params.region = {0, 290, 40, 20};
   test::Output out(40, 20);
   for (const int far : {0, 120, 480, 599}) {
     scene.Disparity(7, far) = std::numeric_limits<float>::quiet_NaN();
   }
-  CHECK(test::Refocus(&engine, params, scene, &out) == SF_OK);
+  CHECK(test::Refocus(&engine, params, scene, &out) == STARFOCUS_OK);
   for (const int near : {286, 300, 312, 330}) {
     test::Output untouched(40, 20);
     const float good = scene.Disparity(7, near);
     scene.Disparity(7, near) = 4.5f;
-    CHECK(test::Refocus(&engine, params, scene, &untouched) == SF_ERROR_DISPARITY);
+    CHECK(test::Refocus(&engine, params, scene, &untouched) == STARFOCUS_ERROR_DISPARITY);
     CHECK(untouched.Untouched());
     scene.Disparity(7, near) = good;
   }
@@ -179,32 +182,34 @@ TEST_CASE("region: only disparity rows that it can read are checked, before a pi
 TEST_CASE("region: a bad row is refused before a pixel is written, or is not read") {
   constexpr int kHeight = 240;
   test::Scene scene = test::LayeredScene(40, kHeight, 5, 3, 4);
-  sf_config config = test::ConfigFor(scene, 4);
+  starfocus_config config = test::ConfigFor(scene, 4);
   config.superblock = 32;
-  config.features &= ~SF_FEATURE_COVERAGE;  // which comes from farther away
+  config.features &= ~STARFOCUS_FEATURE_COVERAGE;  // which comes from farther away
   test::Engine engine(config);
-  constexpr sf_region kRegions[] = {
+  constexpr starfocus_region kRegions[] = {
       {0, 0, 0, 0}, {3, 0, 30, 9}, {3, 70, 30, 9}, {0, 120, 40, 50}, {3, 231, 30, 9}};
-  for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BLOCK, SF_MODE_BLUR}) {
-    for (const sf_region& region : kRegions) {
+  for (const starfocus_mode mode :
+       {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BLOCK, STARFOCUS_MODE_BLUR}) {
+    for (const starfocus_region& region : kRegions) {
       CAPTURE(mode);
       CAPTURE(Text(region));
-      sf_params params = test::Params(0, 1, mode);
+      starfocus_params params = test::Params(0, 1, mode);
       params.region = region;
       const test::Output blank(region.width > 0 ? region.width : 40,
                                region.width > 0 ? region.height : kHeight);
       test::Output good = blank;
-      REQUIRE(test::Refocus(&engine, params, scene, &good) == SF_OK);
+      REQUIRE(test::Refocus(&engine, params, scene, &good) == STARFOCUS_OK);
       int refused = 0;
       for (int row = 0; row < kHeight; ++row) {
         test::Output out = blank;
         const float kept = scene.Disparity(5, row);
         scene.Disparity(5, row) = std::numeric_limits<float>::quiet_NaN();
-        const sf_status status = test::Refocus(&engine, params, scene, &out);
+        const starfocus_status status = test::Refocus(&engine, params, scene, &out);
         scene.Disparity(5, row) = kept;
-        refused += status == SF_ERROR_NOT_FINITE;
-        const bool right = status == SF_OK ? out.bytes == good.bytes
-                                           : status == SF_ERROR_NOT_FINITE && out.Untouched();
+        refused += status == STARFOCUS_ERROR_NOT_FINITE;
+        const bool right = status == STARFOCUS_OK
+                               ? out.bytes == good.bytes
+                               : status == STARFOCUS_ERROR_NOT_FINITE && out.Untouched();
         CHECK_MESSAGE(right, "row ", row);
       }
       CHECK(refused >= good.height);
@@ -216,19 +221,20 @@ TEST_CASE("region: a bad row is refused before a pixel is written, or is not rea
 TEST_CASE("region: outside the picture") {
   const test::Scene scene = test::LayeredScene(40, 30, 1, 4, 3);
   test::Engine engine(test::ConfigFor(scene, 8));
-  REQUIRE(engine.status() == SF_OK);
+  REQUIRE(engine.status() == STARFOCUS_OK);
   constexpr int kMost = std::numeric_limits<int32_t>::max(), kLeast = -kMost - 1;
-  const sf_region kBad[] = {{0, 0, 1, 0},     {0, 0, 0, 1},         {1, 0, 0, 0},
-                            {-1, 0, 4, 4},    {0, -1, 4, 4},        {0, 0, -1, 4},
-                            {0, 0, 4, -1},    {0, 0, 41, 30},       {0, 0, 40, 31},
-                            {40, 0, 1, 1},    {0, 30, 1, 1},        {39, 0, 2, 1},
-                            {kMost, 0, 1, 1}, {1, 1, kMost, kMost}, {kLeast, kLeast, kMost, kMost}};
-  for (const sf_region& region : kBad) {
+  const starfocus_region kBad[] = {
+      {0, 0, 1, 0},     {0, 0, 0, 1},         {1, 0, 0, 0},
+      {-1, 0, 4, 4},    {0, -1, 4, 4},        {0, 0, -1, 4},
+      {0, 0, 4, -1},    {0, 0, 41, 30},       {0, 0, 40, 31},
+      {40, 0, 1, 1},    {0, 30, 1, 1},        {39, 0, 2, 1},
+      {kMost, 0, 1, 1}, {1, 1, kMost, kMost}, {kLeast, kLeast, kMost, kMost}};
+  for (const starfocus_region& region : kBad) {
     CAPTURE(Text(region));
-    sf_params params = test::Params(0);
+    starfocus_params params = test::Params(0);
     params.region = region;
     test::Output out(40, 30);
-    CHECK(test::Refocus(&engine, params, scene, &out) == SF_ERROR_RANGE);
+    CHECK(test::Refocus(&engine, params, scene, &out) == STARFOCUS_ERROR_RANGE);
     CHECK(out.Untouched());
   }
 }
@@ -236,31 +242,31 @@ TEST_CASE("region: outside the picture") {
 TEST_CASE("region: output as large as the region, and no larger") {
   const test::Scene scene = test::LayeredScene(40, 30, 1, 4, 3);
   test::Engine engine(test::ConfigFor(scene, 8));
-  REQUIRE(engine.status() == SF_OK);
-  const sf_light_field field = scene.Field();
-  sf_params params = test::Params(0);
+  REQUIRE(engine.status() == STARFOCUS_OK);
+  const starfocus_light_field field = scene.Field();
+  starfocus_params params = test::Params(0);
   params.region = {3, 4, 5, 6};
   std::vector<uint8_t> out(15 * 6);
   const auto run = [&](uint8_t* to, size_t stride) {
     return test::RefocusRgb(engine.get(), &params, &field, to, stride, nullptr);
   };
-  CHECK(run(out.data(), 14) == SF_ERROR_STRIDE);
-  CHECK(run(out.data(), 15) == SF_OK);
+  CHECK(run(out.data(), 14) == STARFOCUS_ERROR_STRIDE);
+  CHECK(run(out.data(), 15) == STARFOCUS_OK);
   // Beside the workspace, but not into it.
-  CHECK(run(engine.workspace() - 1, 15) == SF_ERROR_OVERLAP);
+  CHECK(run(engine.workspace() - 1, 15) == STARFOCUS_ERROR_OVERLAP);
 }
 
 TEST_CASE("region: streaming has none") {
   const test::Scene scene = test::LayeredScene(40, 30, 1, 4, 3);
-  sf_config config = test::ConfigFor(scene, 8);
-  config.features |= SF_FEATURE_STREAMING;
+  starfocus_config config = test::ConfigFor(scene, 8);
+  config.features |= STARFOCUS_FEATURE_STREAMING;
   test::Engine engine(config);
-  REQUIRE(engine.status() == SF_OK);
-  sf_params params = test::Params(0);
+  REQUIRE(engine.status() == STARFOCUS_OK);
+  starfocus_params params = test::Params(0);
   params.region = {0, 0, 40, 30};
-  CHECK(sf_stream_begin(engine.get(), &params) == SF_ERROR_RANGE);
+  CHECK(starfocus_stream_begin(engine.get(), &params) == STARFOCUS_ERROR_RANGE);
   params.region = {};
-  CHECK(sf_stream_begin(engine.get(), &params) == SF_OK);
+  CHECK(starfocus_stream_begin(engine.get(), &params) == STARFOCUS_OK);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runners that break their contract: SF_ERROR_RUNNER, and nothing worse.
+// Runners that break their contract: STARFOCUS_ERROR_RUNNER, and nothing worse.
 #include <doctest/doctest.h>
 
 #include <atomic>
@@ -17,9 +17,9 @@ namespace {
 constexpr int kWidth = 130, kHeight = 70, kWorkers = 2;
 
 // A runner's way to run one set of jobs; it always says success.
-using RunSet = void (*)(sf_job job, void* data, int32_t count);
+using RunSet = void (*)(starfocus_job job, void* data, int32_t count);
 
-void RunAll(sf_job job, void* data, int32_t count) {
+void RunAll(starfocus_job job, void* data, int32_t count) {
   for (int32_t i = 0; i < count; ++i) job(data, i, i % kWorkers);
 }
 
@@ -29,60 +29,60 @@ struct Misuse {
 };
 
 const Misuse kMisuses[] = {
-    {"runs nothing", [](sf_job, void*, int32_t) {}},
+    {"runs nothing", [](starfocus_job, void*, int32_t) {}},
     {"skips the first job",
-     [](sf_job job, void* data, int32_t count) {
+     [](starfocus_job job, void* data, int32_t count) {
        for (int32_t i = 1; i < count; ++i) job(data, i, 0);
      }},
     {"skips the last job",
-     [](sf_job job, void* data, int32_t count) {
+     [](starfocus_job job, void* data, int32_t count) {
        for (int32_t i = 0; i < count - 1; ++i) job(data, i, 0);
      }},
     {"runs a job twice",
-     [](sf_job job, void* data, int32_t count) {
+     [](starfocus_job job, void* data, int32_t count) {
        RunAll(job, data, count);
        job(data, count - 1, 1);
      }},
     {"runs one job as often as there are jobs",
-     [](sf_job job, void* data, int32_t count) {
+     [](starfocus_job job, void* data, int32_t count) {
        for (int32_t i = 0; i <= count; ++i) job(data, 0, 0);
      }},
     {"index -1",
-     [](sf_job job, void* data, int32_t count) {
+     [](starfocus_job job, void* data, int32_t count) {
        job(data, -1, 0);
        RunAll(job, data, count);
      }},
     {"index count",
-     [](sf_job job, void* data, int32_t count) {
+     [](starfocus_job job, void* data, int32_t count) {
        RunAll(job, data, count);
        job(data, count, 0);
      }},
     {"least index",
-     [](sf_job job, void* data, int32_t count) {
+     [](starfocus_job job, void* data, int32_t count) {
        RunAll(job, data, count);
        job(data, INT32_MIN, 0);
      }},
     {"largest index",
-     [](sf_job job, void* data, int32_t count) {
+     [](starfocus_job job, void* data, int32_t count) {
        RunAll(job, data, count);
        job(data, INT32_MAX, 0);
      }},
     {"worker -1",
-     [](sf_job job, void* data, int32_t count) {
+     [](starfocus_job job, void* data, int32_t count) {
        for (int32_t i = 0; i < count; ++i) job(data, i, -1);
      }},
     {"worker max_workers",
-     [](sf_job job, void* data, int32_t count) {
+     [](starfocus_job job, void* data, int32_t count) {
        for (int32_t i = 0; i < count; ++i) job(data, i, i % (kWorkers + 1));
        job(data, 0, kWorkers);
      }},
     {"a wrong worker although all is done",
-     [](sf_job job, void* data, int32_t count) {
+     [](starfocus_job job, void* data, int32_t count) {
        RunAll(job, data, count);
-       job(data, 0, SF_MAX_WORKERS);
+       job(data, 0, STARFOCUS_MAX_WORKERS);
      }},
-    {"least worker", [](sf_job job, void* data, int32_t) { job(data, 0, INT32_MIN); }},
-    {"largest worker", [](sf_job job, void* data, int32_t) { job(data, 0, INT32_MAX); }},
+    {"least worker", [](starfocus_job job, void* data, int32_t) { job(data, 0, INT32_MIN); }},
+    {"largest worker", [](starfocus_job job, void* data, int32_t) { job(data, 0, INT32_MAX); }},
 };
 
 // Misuses chosen sets.
@@ -91,7 +91,7 @@ struct Runner {
   int misused_set;
   int sets = 0;
 
-  static int Run(void* self, sf_job job, void* data, int32_t count) {
+  static int Run(void* self, starfocus_job job, void* data, int32_t count) {
     Runner& runner = *static_cast<Runner*>(self);
     (runner.sets++ == runner.misused_set ? runner.misuse : RunAll)(job, data, count);
     return 0;
@@ -100,8 +100,8 @@ struct Runner {
 
 struct Fixture {
   test::Scene scene = test::RandomScene(kWidth, kHeight, 5, -3, 6, 4);
-  sf_config config = test::ConfigFor(scene, 20);
-  sf_params params = test::Params(-9, 1, SF_MODE_BLOCK);
+  starfocus_config config = test::ConfigFor(scene, 20);
+  starfocus_params params = test::Params(-9, 1, STARFOCUS_MODE_BLOCK);
   test::Output expected{kWidth, kHeight};
 
   Fixture() {
@@ -109,7 +109,7 @@ struct Fixture {
     config.superblock = 32;
     config.tuning.gather = 0;
     test::Engine engine(config);
-    REQUIRE(test::Refocus(&engine, params, scene, &expected) == SF_OK);
+    REQUIRE(test::Refocus(&engine, params, scene, &expected) == STARFOCUS_OK);
   }
 };
 
@@ -118,7 +118,7 @@ TEST_CASE("runner: every misuse of every set is an error, and harms no later cal
   test::Engine engine(f.config);
   Runner good = {RunAll, -1};
   test::Output out(kWidth, kHeight);
-  REQUIRE(test::Refocus(&engine, f.params, f.scene, &out, Runner::Run, &good) == SF_OK);
+  REQUIRE(test::Refocus(&engine, f.params, f.scene, &out, Runner::Run, &good) == STARFOCUS_OK);
   CHECK(out.bytes == f.expected.bytes);
   CHECK(good.sets > 6);
   for (const Misuse& misuse : kMisuses) {
@@ -126,35 +126,37 @@ TEST_CASE("runner: every misuse of every set is an error, and harms no later cal
     for (int set = 0; set < good.sets; set += set < 6 ? 1 : 5) {
       CAPTURE(set);
       Runner bad = {misuse.run, set};
-      CHECK(test::Refocus(&engine, f.params, f.scene, &out, Runner::Run, &bad) == SF_ERROR_RUNNER);
+      CHECK(test::Refocus(&engine, f.params, f.scene, &out, Runner::Run, &bad) ==
+            STARFOCUS_ERROR_RUNNER);
       CHECK(bad.sets == set + 1);
-      const sf_problem* const problem = sf_engine_problem(engine.get());
-      CHECK(problem->status == SF_ERROR_RUNNER);
+      const starfocus_problem* const problem = starfocus_engine_problem(engine.get());
+      CHECK(problem->status == STARFOCUS_ERROR_RUNNER);
       CHECK(std::string(problem->field) == "runner");
     }
     out = test::Output(kWidth, kHeight);
-    CHECK(test::Refocus(&engine, f.params, f.scene, &out) == SF_OK);
+    CHECK(test::Refocus(&engine, f.params, f.scene, &out) == STARFOCUS_OK);
     CHECK(out.bytes == f.expected.bytes);
   }
 }
 
-TEST_CASE("runner: sf_prepare refuses a runner that skips a job") {
+TEST_CASE("runner: starfocus_prepare refuses a runner that skips a job") {
   Fixture f;
   test::Engine engine(f.config);
   test::PreparedMemory memory(f.config);
-  const sf_light_field field = f.scene.Field();
+  const starfocus_light_field field = f.scene.Field();
   Runner bad = {kMisuses[2].run, 1};
-  sf_prepared* prepared = reinterpret_cast<sf_prepared*>(memory.get());
-  const sf_callbacks callbacks = test::RunBy(Runner::Run, &bad);
-  REQUIRE(sf_set_callbacks(engine.get(), &callbacks) == SF_OK);
-  CHECK(sf_prepare(engine.get(), &field, memory.get(), memory.bytes, &prepared) == SF_ERROR_RUNNER);
+  starfocus_prepared* prepared = reinterpret_cast<starfocus_prepared*>(memory.get());
+  const starfocus_callbacks callbacks = test::RunBy(Runner::Run, &bad);
+  REQUIRE(starfocus_set_callbacks(engine.get(), &callbacks) == STARFOCUS_OK);
+  CHECK(starfocus_prepare(engine.get(), &field, memory.get(), memory.bytes, &prepared) ==
+        STARFOCUS_ERROR_RUNNER);
   CHECK(prepared == nullptr);
-  CHECK(std::string(sf_engine_problem(engine.get())->field) == "runner");
+  CHECK(std::string(starfocus_engine_problem(engine.get())->field) == "runner");
 }
 
 // The set that is running, for a clock that is asked within its jobs.
 struct {
-  sf_job job;
+  starfocus_job job;
   void* data;
   bool nested;
 } running;
@@ -164,20 +166,20 @@ TEST_CASE("runner: a worker that is busy gets no second job") {
   test::Engine engine(f.config);
   test::Output out(kWidth, kHeight);
   running.nested = false;
-  sf_callbacks callbacks = {};
+  starfocus_callbacks callbacks = {};
   callbacks.clock = []() -> uint64_t {
     // As if another thread had the same worker at the same time.
     if (!running.nested) running.job(running.data, 2, 0);
     running.nested = true;
     return 0;
   };
-  callbacks.runner = [](void*, sf_job job, void* data, int32_t count) {
+  callbacks.runner = [](void*, starfocus_job job, void* data, int32_t count) {
     running.job = job;
     running.data = data;
     for (int32_t i = 0; i < count; ++i) job(data, i, 0);
     return 0;
   };
-  CHECK(test::Refocus(&engine, f.params, f.scene, &out, callbacks) == SF_ERROR_RUNNER);
+  CHECK(test::Refocus(&engine, f.params, f.scene, &out, callbacks) == STARFOCUS_ERROR_RUNNER);
   CHECK(running.nested);
 }
 
@@ -185,19 +187,19 @@ TEST_CASE("runner: a job called after its runner has returned does nothing") {
   Fixture f;
   test::Engine engine(f.config);
   test::Output out(kWidth, kHeight);
-  const sf_runner keeps = [](void*, sf_job job, void* data, int32_t count) {
+  const starfocus_runner keeps = [](void*, starfocus_job job, void* data, int32_t count) {
     running.job = job;
     running.data = data;
     RunAll(job, data, count);
     return 0;
   };
-  REQUIRE(test::Refocus(&engine, f.params, f.scene, &out, keeps) == SF_OK);
-  for (const int worker : {-1, 0, 1, kWorkers, SF_MAX_WORKERS}) {
+  REQUIRE(test::Refocus(&engine, f.params, f.scene, &out, keeps) == STARFOCUS_OK);
+  for (const int worker : {-1, 0, 1, kWorkers, STARFOCUS_MAX_WORKERS}) {
     for (const int index : {-1, 0, 1, 1000}) running.job(running.data, index, worker);
   }
   CHECK(out.bytes == f.expected.bytes);
   // And spoils nothing that comes.
-  CHECK(test::Refocus(&engine, f.params, f.scene, &out, keeps) == SF_OK);
+  CHECK(test::Refocus(&engine, f.params, f.scene, &out, keeps) == STARFOCUS_OK);
   CHECK(out.bytes == f.expected.bytes);
 }
 
@@ -205,7 +207,8 @@ TEST_CASE("runner: jobs that still run when their runner returns are waited for"
   Fixture f;
   test::Engine engine(f.config);
   // Leaves the last job out, so that no set is complete, however fast the thread is.
-  const sf_runner leaves = [](void* data_of_runner, sf_job job, void* data, int32_t count) {
+  const starfocus_runner leaves = [](void* data_of_runner, starfocus_job job, void* data,
+                                     int32_t count) {
     std::thread& thread = *static_cast<std::thread*>(data_of_runner);
     if (thread.joinable()) thread.join();
     std::atomic<bool> started{false};
@@ -219,13 +222,14 @@ TEST_CASE("runner: jobs that still run when their runner returns are waited for"
   for (int round = 0; round < 50; ++round) {
     std::thread thread;
     test::Output out(kWidth, kHeight);
-    CHECK(test::Refocus(&engine, f.params, f.scene, &out, leaves, &thread) == SF_ERROR_RUNNER);
+    CHECK(test::Refocus(&engine, f.params, f.scene, &out, leaves, &thread) ==
+          STARFOCUS_ERROR_RUNNER);
     const std::vector<uint8_t> left = out.bytes;
     thread.join();
     CHECK(out.bytes == left);
   }
   test::Output out(kWidth, kHeight);
-  CHECK(test::Refocus(&engine, f.params, f.scene, &out) == SF_OK);
+  CHECK(test::Refocus(&engine, f.params, f.scene, &out) == STARFOCUS_OK);
   CHECK(out.bytes == f.expected.bytes);
 }
 

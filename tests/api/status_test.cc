@@ -14,43 +14,43 @@ namespace status_test {
 namespace {
 
 // What only the sentence of this status says; null when there is no such status.
-const char* WordsOf(sf_status status) {
+const char* WordsOf(starfocus_status status) {
   switch (status) {
-    case SF_OK:
+    case STARFOCUS_OK:
       return "success";
-    case SF_ERROR_NULL:
+    case STARFOCUS_ERROR_NULL:
       return "pointer is null";
-    case SF_ERROR_STRUCTURE:
+    case STARFOCUS_ERROR_STRUCTURE:
       return "init function";
-    case SF_ERROR_RANGE:
+    case STARFOCUS_ERROR_RANGE:
       return "outside its range";
-    case SF_ERROR_FEATURE:
+    case STARFOCUS_ERROR_FEATURE:
       return "needs a feature";
-    case SF_ERROR_STATE:
-      return "sf_stream_begin";
-    case SF_ERROR_WORKSPACE:
-      return "SF_ALIGNMENT";
-    case SF_ERROR_TOO_LARGE:
+    case STARFOCUS_ERROR_STATE:
+      return "starfocus_stream_begin";
+    case STARFOCUS_ERROR_WORKSPACE:
+      return "STARFOCUS_ALIGNMENT";
+    case STARFOCUS_ERROR_TOO_LARGE:
       return "can address";
-    case SF_ERROR_MEMORY:
+    case STARFOCUS_ERROR_MEMORY:
       return "there is no memory";
-    case SF_ERROR_STRIDE:
+    case STARFOCUS_ERROR_STRIDE:
       return "stride is smaller";
-    case SF_ERROR_OVERLAP:
+    case STARFOCUS_ERROR_OVERLAP:
       return "overlaps";
-    case SF_ERROR_BLUR:
+    case STARFOCUS_ERROR_BLUR:
       return "exceeds max_blur";
-    case SF_ERROR_DISPARITY:
+    case STARFOCUS_ERROR_DISPARITY:
       return "outside the configured disparity range";
-    case SF_ERROR_NOT_FINITE:
+    case STARFOCUS_ERROR_NOT_FINITE:
       return "NaN or infinity";
-    case SF_ERROR_ALL_INVALID:
+    case STARFOCUS_ERROR_ALL_INVALID:
       return "no finite value";
-    case SF_ERROR_PREPARED:
+    case STARFOCUS_ERROR_PREPARED:
       return "prepared light field";
-    case SF_ERROR_RUNNER:
+    case STARFOCUS_ERROR_RUNNER:
       return "runner";
-    case SF_ERROR_CANCELLED:
+    case STARFOCUS_ERROR_CANCELLED:
       return "cancelled";
   }
   return nullptr;
@@ -61,8 +61,8 @@ TEST_CASE("statuses: every one has a sentence of its own, and no other number ha
   int statuses = 0;
   for (int number = -1000; number <= 1000; ++number) {
     CAPTURE(number);
-    const auto status = static_cast<sf_status>(number);
-    const std::string sentence = sf_status_string(status);
+    const auto status = static_cast<starfocus_status>(number);
+    const std::string sentence = starfocus_status_string(status);
     if (WordsOf(status) == nullptr) {
       CHECK(sentence == "unknown status");
       continue;
@@ -73,7 +73,7 @@ TEST_CASE("statuses: every one has a sentence of its own, and no other number ha
     CHECK(sentences.insert(sentence).second);
     // What it says is of this status and of no other.
     for (int other = 0; other < 100; ++other) {
-      const char* const words = WordsOf(static_cast<sf_status>(other));
+      const char* const words = WordsOf(static_cast<starfocus_status>(other));
       if (words == nullptr) continue;
       CAPTURE(words);
       CHECK((sentence.find(words) != std::string::npos) == (other == number));

@@ -13,8 +13,8 @@
 namespace stream_bytes_test {
 namespace {
 
-void CheckSame(const test::Scene& scene, const sf_params& params, int block) {
-  sf_config config = test::ConfigFor(scene);
+void CheckSame(const test::Scene& scene, const starfocus_params& params, int block) {
+  starfocus_config config = test::ConfigFor(scene);
   config.superblock = block;
   test::CheckStreamed(scene, config, params);
 }
@@ -38,13 +38,13 @@ TEST_CASE("stream: same bytes for other focuses, apertures, modes and blocks") {
   const test::Scene scene = test::RandomScene(75, 140, 17, -5, 5, 42, 3);
   CheckSame(scene, test::Params(-5.5, 0.5), 32);
   CheckSame(scene, test::Params(9, 1), 64);
-  CheckSame(scene, test::Params(0.1, 0.33, SF_MODE_BENCHMARK), 32);
+  CheckSame(scene, test::Params(0.1, 0.33, STARFOCUS_MODE_BENCHMARK), 32);
   CheckSame(scene, test::Params(2, 1), 128);
 }
 
 TEST_CASE("stream: rows of side views as far away as the largest disparity") {
   const test::Scene scene = test::NearScene(70, 400, 5, 12);
-  for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BLOCK}) {
+  for (const starfocus_mode mode : {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BLOCK}) {
     CAPTURE(mode);
     CheckSame(scene, test::Params(test::kNearFocus, 0.2, mode), 32);
   }
@@ -61,13 +61,13 @@ TEST_CASE("stream: strides of pictures do not matter") {
       }
     }
   }
-  sf_config config = test::ConfigFor(tight);
-  config.features |= SF_FEATURE_STREAMING;
+  starfocus_config config = test::ConfigFor(tight);
+  config.features |= STARFOCUS_FEATURE_STREAMING;
   test::Engine engine(config);
   test::Output a(50, 70), b(50, 70, 1), c(50, 70, 40);
-  REQUIRE(test::Refocus(&engine, test::Params(1), tight, &a) == SF_OK);
-  REQUIRE(test::Refocus(&engine, test::Params(1), padded, &b) == SF_OK);
-  REQUIRE(test::Stream(&engine, test::Params(1), padded, &c, 11, 5) == SF_OK);
+  REQUIRE(test::Refocus(&engine, test::Params(1), tight, &a) == STARFOCUS_OK);
+  REQUIRE(test::Refocus(&engine, test::Params(1), padded, &b) == STARFOCUS_OK);
+  REQUIRE(test::Stream(&engine, test::Params(1), padded, &c, 11, 5) == STARFOCUS_OK);
   CHECK(a.bytes == b.Tight());
   CHECK(a.bytes == c.Tight());
   CHECK(b.PaddingUntouched());
@@ -77,33 +77,33 @@ TEST_CASE("stream: strides of pictures do not matter") {
 TEST_CASE("stream: a picture of 20,000 rows goes through the workspace of one of 200") {
   constexpr int kWidth = 24, kTall = 20000;
   const test::Scene scene = test::RandomScene(kWidth, kTall, 17, -2, 2, 77);
-  sf_config config = test::ConfigFor(scene);
+  starfocus_config config = test::ConfigFor(scene);
   size_t tall_bytes = 0, low_bytes = 0;
   for (int streaming : {0, 1}) {
-    test::SetFeature(SF_FEATURE_STREAMING, streaming, &config.features);
+    test::SetFeature(STARFOCUS_FEATURE_STREAMING, streaming, &config.features);
     config.height = kTall;
-    REQUIRE(sf_workspace_size(&config, &tall_bytes) == SF_OK);
+    REQUIRE(starfocus_workspace_size(&config, &tall_bytes) == STARFOCUS_OK);
     config.height = 200;
-    REQUIRE(sf_workspace_size(&config, &low_bytes) == SF_OK);
+    REQUIRE(starfocus_workspace_size(&config, &low_bytes) == STARFOCUS_OK);
     CHECK(tall_bytes == low_bytes);
   }
   // 20,000 rows in one push are far more than the rings hold: some must be left to the caller.
   config.height = kTall;
   test::Engine engine(config);
   REQUIRE(engine.bytes() == low_bytes);
-  const sf_params params = test::Params(0.5);
-  REQUIRE(sf_stream_begin(engine.get(), &params) == SF_OK);
-  const sf_light_field field = scene.Field();
+  const starfocus_params params = test::Params(0.5);
+  REQUIRE(starfocus_stream_begin(engine.get(), &params) == STARFOCUS_OK);
+  const starfocus_light_field field = scene.Field();
   int32_t consumed = 0;
-  REQUIRE(sf_stream_push(engine.get(), &field, kTall, &consumed) == SF_OK);
+  REQUIRE(starfocus_stream_push(engine.get(), &field, kTall, &consumed) == STARFOCUS_OK);
   CHECK(consumed > 0);
   CHECK(consumed < 2000);
 
   test::Output streamed(kWidth, kTall), whole(kWidth, kTall);
-  REQUIRE(test::Stream(&engine, params, scene, &streamed, 100, 100) == SF_OK);
-  config.features &= ~SF_FEATURE_STREAMING;
+  REQUIRE(test::Stream(&engine, params, scene, &streamed, 100, 100) == STARFOCUS_OK);
+  config.features &= ~STARFOCUS_FEATURE_STREAMING;
   test::Engine whole_engine(config);
-  REQUIRE(test::Refocus(&whole_engine, params, scene, &whole) == SF_OK);
+  REQUIRE(test::Refocus(&whole_engine, params, scene, &whole) == STARFOCUS_OK);
   CHECK(streamed.bytes == whole.bytes);
 }
 
@@ -112,19 +112,19 @@ TEST_CASE("stream: rings hold all that layers are made of, up to the largest blu
   for (int radius = 1; radius <= 16; ++radius) {
     test::Scene scene = test::RandomScene(48, 200, 1, 0, float(radius), 70 + uint64_t(radius));
     for (float& disparity : scene.disparity) disparity = float(radius);
-    sf_config config = test::ConfigFor(scene, radius);
+    starfocus_config config = test::ConfigFor(scene, radius);
     config.superblock = 32;
-    sf_params params = test::Params(0, 1, SF_MODE_BLOCK);
-    params.renderer = SF_RENDERER_LINE_SCAN;
+    starfocus_params params = test::Params(0, 1, STARFOCUS_MODE_BLOCK);
+    params.renderer = STARFOCUS_RENDERER_LINE_SCAN;
     test::Output whole(48, 200), streamed(48, 200);
     test::Engine whole_engine(config);
-    sf_report report = {};
+    starfocus_report report = {};
     REQUIRE(test::Refocus(&whole_engine, params, scene, &whole, nullptr, nullptr, &report) ==
-            SF_OK);
+            STARFOCUS_OK);
     CHECK(report.layers[radius < 3 ? 0 : radius < 6 ? 1 : 2].pixels == 48 * 200);
-    config.features |= SF_FEATURE_STREAMING;
+    config.features |= STARFOCUS_FEATURE_STREAMING;
     test::Engine engine(config);
-    REQUIRE(test::Stream(&engine, params, scene, &streamed, 50, 50) == SF_OK);
+    REQUIRE(test::Stream(&engine, params, scene, &streamed, 50, 50) == STARFOCUS_OK);
     CAPTURE(radius);
     CHECK(streamed.bytes == whole.bytes);
   }

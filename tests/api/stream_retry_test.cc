@@ -19,7 +19,7 @@ struct Failing {
   int fails_at, times;
   int sets = 0;
 
-  static int Run(void* self, sf_job job, void* data, int32_t count) {
+  static int Run(void* self, starfocus_job job, void* data, int32_t count) {
     Failing& failing = *static_cast<Failing*>(self);
     const int set = failing.sets++;
     const bool fails = set >= failing.fails_at && set < failing.fails_at + failing.times;
@@ -30,37 +30,38 @@ struct Failing {
 
 struct Streamed {
   test::Output out{kWidth, kHeight, 5};
-  sf_report report = {};
+  starfocus_report report = {};
   int failures = 0;
 };
 
 // Pushes all it can and pulls `chunk` rows at a time, again whenever the runner failed. An engine
 // of its own, since what another left in memory could be right.
-Streamed Stream(const sf_config& config, const sf_params& params, const test::Scene& scene,
-                int chunk, Failing* failing) {
+Streamed Stream(const starfocus_config& config, const starfocus_params& params,
+                const test::Scene& scene, int chunk, Failing* failing) {
   Streamed result;
   test::Engine engine(config);
-  const sf_callbacks callbacks = test::RunBy(Failing::Run, failing);
-  REQUIRE(sf_set_callbacks(engine.get(), &callbacks) == SF_OK);
-  REQUIRE(sf_stream_begin(engine.get(), &params) == SF_OK);
+  const starfocus_callbacks callbacks = test::RunBy(Failing::Run, failing);
+  REQUIRE(starfocus_set_callbacks(engine.get(), &callbacks) == STARFOCUS_OK);
+  REQUIRE(starfocus_stream_begin(engine.get(), &params) == STARFOCUS_OK);
   int pushed = 0, pulled = 0;
   while (pulled < kHeight) {
     int32_t consumed = 0, written = 0;
     if (pushed < kHeight) {
-      const sf_light_field field = scene.Field(pushed);
-      REQUIRE(sf_stream_push(engine.get(), &field, kHeight - pushed, &consumed) == SF_OK);
+      const starfocus_light_field field = scene.Field(pushed);
+      REQUIRE(starfocus_stream_push(engine.get(), &field, kHeight - pushed, &consumed) ==
+              STARFOCUS_OK);
     }
     uint8_t* const rows = result.out.bytes.data() + size_t(pulled) * result.out.stride;
-    const sf_status status =
+    const starfocus_status status =
         test::PullRgb(engine.get(), rows, result.out.stride, std::min(chunk, kHeight - pulled),
                       &written, &result.report);
     pushed += consumed;
     pulled += written;
-    if (status == SF_ERROR_RUNNER) {
+    if (status == STARFOCUS_ERROR_RUNNER) {
       ++result.failures;
       continue;
     }
-    REQUIRE(status == SF_OK);
+    REQUIRE(status == STARFOCUS_OK);
     REQUIRE(consumed + written > 0);
   }
   return result;
@@ -78,7 +79,7 @@ test::Scene MixedScene() {
   return scene;
 }
 
-void CheckEqual(const sf_report& report, const sf_report& expected) {
+void CheckEqual(const starfocus_report& report, const starfocus_report& expected) {
   CHECK(report.n == expected.n);
   CHECK(report.rendered_views == expected.rendered_views);
   CHECK(report.rendered_samples == expected.rendered_samples);
@@ -89,16 +90,17 @@ void CheckEqual(const sf_report& report, const sf_report& expected) {
   CHECK(report.gathered_pixels == expected.gathered_pixels);
 }
 
-void CheckRetries(const test::Scene& scene, const sf_params& params, int gather) {
-  sf_config config = test::ConfigFor(scene, 28);
+void CheckRetries(const test::Scene& scene, const starfocus_params& params, int gather) {
+  starfocus_config config = test::ConfigFor(scene, 28);
   config.superblock = 32;
-  config.features |= SF_FEATURE_STREAMING;
+  config.features |= STARFOCUS_FEATURE_STREAMING;
   config.tuning.gather = gather;
   Failing never = {1 << 20, 0};
   const Streamed expected = Stream(config, params, scene, kHeight, &never);
   REQUIRE(expected.failures == 0);
-  const bool all_layers = params.mode == SF_MODE_BLOCK && params.renderer == SF_RENDERER_SLICES;
-  for (const sf_layer_report& layer : expected.report.layers)
+  const bool all_layers =
+      params.mode == STARFOCUS_MODE_BLOCK && params.renderer == STARFOCUS_RENDERER_SLICES;
+  for (const starfocus_layer_report& layer : expected.report.layers)
     CHECK((!all_layers || layer.blocks > 0));
   constexpr int kStep = STARFOCUS_EMULATED ? 4 : 1;  // an emulator needs twenty times as long
   int failed = 0, tried = 0;
@@ -117,15 +119,17 @@ void CheckRetries(const test::Scene& scene, const sf_params& params, int gather)
 
 TEST_CASE("stream: a pull after one whose runner failed repeats its rows, with the same report") {
   const test::Scene scene = MixedScene();
-  for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BLOCK, SF_MODE_BLUR}) {
-    for (const sf_renderer renderer : {SF_RENDERER_LINE_SCAN, SF_RENDERER_SLICES}) {
+  for (const starfocus_mode mode :
+       {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BLOCK, STARFOCUS_MODE_BLUR}) {
+    for (const starfocus_renderer renderer :
+         {STARFOCUS_RENDERER_LINE_SCAN, STARFOCUS_RENDERER_SLICES}) {
       for (const int gather : {0, 1}) {
-        const bool plain = renderer == SF_RENDERER_SLICES && gather == 0;
-        if (mode != SF_MODE_BLOCK && !plain) continue;
+        const bool plain = renderer == STARFOCUS_RENDERER_SLICES && gather == 0;
+        if (mode != STARFOCUS_MODE_BLOCK && !plain) continue;
         CAPTURE(mode);
         CAPTURE(renderer);
         CAPTURE(gather);
-        sf_params params = test::Params(0, 1, mode);
+        starfocus_params params = test::Params(0, 1, mode);
         params.renderer = renderer;
         CheckRetries(scene, params, gather);
       }

@@ -2,7 +2,7 @@
 # cmake -DNM=… -DLIBRARY=… -P symbols_test.cmake
 # What lib/ and simd/ need of the outside: memory copies, a few functions of C's <math.h>, the
 # compiler's own helpers and Highway's choice of target. Nothing of libstdc++ (exceptions, RTTI,
-# streams, operator new), no I/O, and no heap but for what sf_create takes where it is given no allocator,
+# streams, operator new), no I/O, and no heap but for what starfocus_create takes where it is given no allocator,
 # in a unit of its own.
 cmake_minimum_required(VERSION 3.20)
 execute_process(COMMAND "${NM}" -P "${LIBRARY}" OUTPUT_VARIABLE listing RESULT_VARIABLE result)
@@ -43,7 +43,7 @@ foreach(name IN LISTS needed)
 endforeach()
 list(SORT heap)
 if(NOT heap STREQUAL "free;malloc")
-  message(SEND_ERROR "the unit of sf_create needs of the heap: ${heap}")
+  message(SEND_ERROR "the unit of starfocus_create needs of the heap: ${heap}")
 endif()
 list(JOIN needed " " text)
 message(STATUS "needed: ${text}")

@@ -17,15 +17,15 @@ namespace {
 
 constexpr double kFocus = 2;
 
-test::Scene Scene(const std::vector<sf_position>& positions) {
+test::Scene Scene(const std::vector<starfocus_position>& positions) {
   test::Scene scene = test::RandomScene(70, 50, int(positions.size()), -4, 6, 11);
   scene.positions = positions;
   return scene;
 }
 
-std::vector<uint8_t> Picture(const test::Scene& scene, sf_mode mode = SF_MODE_BLOCK,
-                             sf_renderer renderer = SF_RENDERER_SLICES) {
-  sf_params params = test::Params(kFocus, 1, mode);
+std::vector<uint8_t> Picture(const test::Scene& scene, starfocus_mode mode = STARFOCUS_MODE_BLOCK,
+                             starfocus_renderer renderer = STARFOCUS_RENDERER_SLICES) {
+  starfocus_params params = test::Params(kFocus, 1, mode);
   params.renderer = renderer;
   return test::RefocusScene(scene, test::ConfigFor(scene), params).rgb;
 }
@@ -34,13 +34,14 @@ TEST_CASE("views: the star by its positions is the star, in any order by subaper
   for (const int views : {5, 9, 17}) {
     test::Scene scene = test::RandomScene(70, 50, views, -4, 6, 5);
     const std::vector<uint8_t> block = Picture(scene);
-    const std::vector<uint8_t> paper = Picture(scene, SF_MODE_FRAME, SF_RENDERER_LINE_SCAN);
-    std::vector<sf_position> positions;
+    const std::vector<uint8_t> paper =
+        Picture(scene, STARFOCUS_MODE_FRAME, STARFOCUS_RENDERER_LINE_SCAN);
+    std::vector<starfocus_position> positions;
     for (int k = 0; k < views; ++k) positions.push_back(scene.PositionOf(k));
     scene.positions = positions;
     CHECK(Picture(scene) == block);
-    CHECK(Picture(scene, SF_MODE_FRAME, SF_RENDERER_LINE_SCAN) == paper);
-    CHECK(Picture(scene, SF_MODE_FRAME, SF_RENDERER_AUTO) == paper);
+    CHECK(Picture(scene, STARFOCUS_MODE_FRAME, STARFOCUS_RENDERER_LINE_SCAN) == paper);
+    CHECK(Picture(scene, STARFOCUS_MODE_FRAME, STARFOCUS_RENDERER_AUTO) == paper);
     for (const int other : {2, 4, 3}) {
       std::swap(scene.positions[1], scene.positions[size_t(other)]);
       std::swap(scene.pictures[1], scene.pictures[size_t(other)]);
@@ -52,13 +53,16 @@ TEST_CASE("views: the star by its positions is the star, in any order by subaper
 // By line scans a silhouette of one view has a halo as wide as the blur.
 TEST_CASE("views: one view takes subapertures in every mode unless the paper's rule is asked for") {
   const test::Scene scene = test::RandomScene(70, 50, 1, -4, 6, 5);
-  for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BENCHMARK, SF_MODE_BLOCK}) {
-    CHECK(Picture(scene, mode, SF_RENDERER_AUTO) == Picture(scene, mode, SF_RENDERER_SLICES));
-    CHECK(Picture(scene, mode, SF_RENDERER_LINE_SCAN) != Picture(scene, mode, SF_RENDERER_SLICES));
+  for (const starfocus_mode mode :
+       {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BENCHMARK, STARFOCUS_MODE_BLOCK}) {
+    CHECK(Picture(scene, mode, STARFOCUS_RENDERER_AUTO) ==
+          Picture(scene, mode, STARFOCUS_RENDERER_SLICES));
+    CHECK(Picture(scene, mode, STARFOCUS_RENDERER_LINE_SCAN) !=
+          Picture(scene, mode, STARFOCUS_RENDERER_SLICES));
   }
   const test::Scene star = test::RandomScene(70, 50, 5, -4, 6, 5);
-  CHECK(Picture(star, SF_MODE_FRAME, SF_RENDERER_AUTO) ==
-        Picture(star, SF_MODE_FRAME, SF_RENDERER_LINE_SCAN));
+  CHECK(Picture(star, STARFOCUS_MODE_FRAME, STARFOCUS_RENDERER_AUTO) ==
+        Picture(star, STARFOCUS_MODE_FRAME, STARFOCUS_RENDERER_LINE_SCAN));
 }
 
 TEST_CASE("views: a pair reads its second view, and another position of it elsewhere") {
@@ -70,7 +74,7 @@ TEST_CASE("views: a pair reads its second view, and another position of it elsew
   test::Scene other = pair;
   other.positions[1] = {1, 0.01};
   CHECK(Picture(pair) != Picture(other));
-  const sf_params params = test::Params(kFocus, 1, SF_MODE_BLOCK);
+  const starfocus_params params = test::Params(kFocus, 1, STARFOCUS_MODE_BLOCK);
   CHECK(test::RefocusScene(pair, test::ConfigFor(pair), params).report.side_bytes > 0);
 }
 
@@ -86,7 +90,8 @@ TEST_CASE("views: a mirrored scene with the pair's other side gives the mirrored
     }
   }
   const auto mean = [&] {
-    const auto a = Picture(scene, SF_MODE_FRAME), b = Picture(mirrored, SF_MODE_FRAME);
+    const auto a = Picture(scene, STARFOCUS_MODE_FRAME),
+               b = Picture(mirrored, STARFOCUS_MODE_FRAME);
     const int width = scene.width;
     double sum = 0;
     for (int i = 0; i < 3 * width * scene.height; ++i) {
@@ -103,39 +108,40 @@ TEST_CASE("views: a mirrored scene with the pair's other side gives the mirrored
 
 TEST_CASE("views: the paper's rule needs the star, others do without") {
   const test::Scene scene = Scene({{0, 0}, {1, 0}, {0, 1}});
-  sf_config config = test::ConfigFor(scene);
-  config.features |= SF_FEATURE_STREAMING;
+  starfocus_config config = test::ConfigFor(scene);
+  config.features |= STARFOCUS_FEATURE_STREAMING;
   test::Engine engine(config);
   test::Output out(scene.width, scene.height);
-  for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BENCHMARK, SF_MODE_BLOCK}) {
-    sf_params params = test::Params(kFocus, 0.5, mode);
-    params.renderer = SF_RENDERER_LINE_SCAN;
-    CHECK(test::Refocus(&engine, params, scene, &out) == SF_ERROR_FEATURE);
-    CHECK(sf_stream_begin(engine.get(), &params) == SF_ERROR_FEATURE);
-    params.renderer = SF_RENDERER_AUTO;
-    REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
+  for (const starfocus_mode mode :
+       {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BENCHMARK, STARFOCUS_MODE_BLOCK}) {
+    starfocus_params params = test::Params(kFocus, 0.5, mode);
+    params.renderer = STARFOCUS_RENDERER_LINE_SCAN;
+    CHECK(test::Refocus(&engine, params, scene, &out) == STARFOCUS_ERROR_FEATURE);
+    CHECK(starfocus_stream_begin(engine.get(), &params) == STARFOCUS_ERROR_FEATURE);
+    params.renderer = STARFOCUS_RENDERER_AUTO;
+    REQUIRE(test::Refocus(&engine, params, scene, &out) == STARFOCUS_OK);
     const std::vector<uint8_t> by_default = out.Tight();
-    params.renderer = SF_RENDERER_SLICES;
-    REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
+    params.renderer = STARFOCUS_RENDERER_SLICES;
+    REQUIRE(test::Refocus(&engine, params, scene, &out) == STARFOCUS_OK);
     CHECK(out.Tight() == by_default);
   }
-  sf_params blur = test::Params(kFocus, 0.5, SF_MODE_BLUR);
-  blur.renderer = SF_RENDERER_LINE_SCAN;  // which this mode ignores
-  CHECK(test::Refocus(&engine, blur, scene, &out) == SF_OK);
+  starfocus_params blur = test::Params(kFocus, 0.5, STARFOCUS_MODE_BLUR);
+  blur.renderer = STARFOCUS_RENDERER_LINE_SCAN;  // which this mode ignores
+  CHECK(test::Refocus(&engine, blur, scene, &out) == STARFOCUS_OK);
 }
 
 TEST_CASE("views: bad positions are refused before anything is made") {
   const test::Scene scene = Scene({{0, 0}, {1, 0}});
-  const auto status = [&](const std::vector<sf_position>& positions) {
-    sf_config config = test::ConfigFor(scene);
+  const auto status = [&](const std::vector<starfocus_position>& positions) {
+    starfocus_config config = test::ConfigFor(scene);
     std::copy(positions.begin(), positions.end(), config.positions);
     size_t bytes = 0;
-    return sf_workspace_size(&config, &bytes);
+    return starfocus_workspace_size(&config, &bytes);
   };
-  CHECK(status({{0, 0}, {-1, 1}}) == SF_OK);
-  CHECK(status({{0, 0}, {0, 0}}) == SF_ERROR_RANGE);  // no positions: two are no star
-  CHECK(status({{0, 0}, {1.5, 0}}) == SF_ERROR_RANGE);
-  CHECK(status({{0.5, 0}, {1, 0}}) == SF_ERROR_RANGE);
+  CHECK(status({{0, 0}, {-1, 1}}) == STARFOCUS_OK);
+  CHECK(status({{0, 0}, {0, 0}}) == STARFOCUS_ERROR_RANGE);  // no positions: two are no star
+  CHECK(status({{0, 0}, {1.5, 0}}) == STARFOCUS_ERROR_RANGE);
+  CHECK(status({{0.5, 0}, {1, 0}}) == STARFOCUS_ERROR_RANGE);
 }
 
 }  // namespace

@@ -20,14 +20,14 @@ namespace {
 using starfocus::ApertureShape;
 using starfocus::ViewWeights;
 
-sf_lens LensOf(const test::NamedShape& shape) {
-  sf_lens lens = test::Params(0).lens;
+starfocus_lens LensOf(const test::NamedShape& shape) {
+  starfocus_lens lens = test::Params(0).lens;
   shape.Set(&lens);
   return lens;
 }
 
-sf_lens RandomLens(test::Random* random) {
-  sf_lens lens = test::Params(0).lens;
+starfocus_lens RandomLens(test::Random* random) {
+  starfocus_lens lens = test::Params(0).lens;
   test::RandomShape(&lens, random);
   return lens;
 }
@@ -45,7 +45,7 @@ TEST_CASE("opening: light passes where the shape is open") {
   constexpr int kRadius = 1000;
   test::Random random(5);
   for (int trial = 0; trial < 200; ++trial) {
-    const sf_lens lens = RandomLens(&random);
+    const starfocus_lens lens = RandomLens(&random);
     const ApertureShape opening = starfocus::ShapeOf(lens);
     const reference::ApertureShape exact(lens);
     int wrong = 0;
@@ -67,7 +67,7 @@ TEST_CASE("opening: light passes where the shape is open") {
 TEST_CASE("opening: all weights sum to a power of two, and none is beyond its type") {
   test::Random random(6);
   for (int trial = 0; trial < 150; ++trial) {
-    const sf_lens lens = RandomLens(&random);
+    const starfocus_lens lens = RandomLens(&random);
     const ApertureShape opening = starfocus::ShapeOf(lens);
     const int n = random.Int(0, 9) == 0 ? random.Int(60, 130) : random.Int(1, 30);
     std::vector<uint16_t> weights(starfocus::ViewWeightsSize(opening, n));
@@ -135,7 +135,7 @@ TEST_CASE("opening: kernels that blur sum to exactly one through any shape") {
   constexpr double kMost = 13;
   const int steps = starfocus::BlurStepCount(kMost);
   for (int trial = 0; trial < 60; ++trial) {
-    const sf_lens lens = RandomLens(&random);
+    const starfocus_lens lens = RandomLens(&random);
     const ApertureShape opening = starfocus::ShapeOf(lens);
     std::vector<uint16_t> weights(starfocus::BlurWeightCount(!opening.IsSymmetric(), kMost));
     std::vector<starfocus::Psf> kernels(static_cast<size_t>(steps));

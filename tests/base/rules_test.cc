@@ -69,7 +69,7 @@ TEST_CASE("rules: (9) on the table of the design") {
 
 TEST_CASE("rules: (9) never decreases") {
   int last = 0;
-  for (double r = 0; r <= SF_MAX_BLUR; r += 1.0 / 64) {
+  for (double r = 0; r <= STARFOCUS_MAX_BLUR; r += 1.0 / 64) {
     REQUIRE(ViewsByPaper(r) >= last);
     last = ViewsByPaper(r);
   }
@@ -122,7 +122,7 @@ TEST_CASE("rules: layers from radius 3 and 6 on by (12)") {
   CHECK(LayerByPaper(3) == 1);
   CHECK(LayerByPaper(Below(6)) == 1);
   CHECK(LayerByPaper(6) == 2);
-  CHECK(LayerByPaper(SF_MAX_BLUR) == 2);
+  CHECK(LayerByPaper(STARFOCUS_MAX_BLUR) == 2);
 }
 
 TEST_CASE("rules: layers from radius 7 and 24 on by subapertures, no layer 2 beside depth edges") {
@@ -131,11 +131,11 @@ TEST_CASE("rules: layers from radius 7 and 24 on by subapertures, no layer 2 bes
   CHECK(LayerBySubaperture(7, false) == 1);
   CHECK(LayerBySubaperture(Below(24), false) == 1);
   CHECK(LayerBySubaperture(24, false) == 2);
-  CHECK(LayerBySubaperture(SF_MAX_BLUR, false) == 2);
+  CHECK(LayerBySubaperture(STARFOCUS_MAX_BLUR, false) == 2);
   CHECK(LayerBySubaperture(0, true) == 0);
   CHECK(LayerBySubaperture(Below(7), true) == 0);
   CHECK(LayerBySubaperture(7, true) == 1);
-  CHECK(LayerBySubaperture(SF_MAX_BLUR, true) == 1);
+  CHECK(LayerBySubaperture(STARFOCUS_MAX_BLUR, true) == 1);
 }
 
 TEST_CASE("rules: what openings demand, and that layers and more views follow") {
@@ -143,15 +143,15 @@ TEST_CASE("rules: what openings demand, and that layers and more views follow") 
   using starfocus::Demand;
   ApertureShape opening;
   CHECK(starfocus::DemandOf(opening) == Demand::kFallOff);
-  opening.shape = SF_SHAPE_DISC;
+  opening.shape = STARFOCUS_SHAPE_DISC;
   CHECK(starfocus::DemandOf(opening) == Demand::kDisc);
-  opening.shape = SF_SHAPE_POLYGON;
+  opening.shape = STARFOCUS_SHAPE_POLYGON;
   CHECK(starfocus::DemandOf(opening) == Demand::kPolygon);
-  opening.shape = SF_SHAPE_RING;
+  opening.shape = STARFOCUS_SHAPE_RING;
   CHECK(starfocus::DemandOf(opening) == Demand::kRing);
   opening.cats_eye = 1;
   CHECK(starfocus::DemandOf(opening) == Demand::kRing);
-  opening.shape = SF_SHAPE_FALL_OFF;
+  opening.shape = STARFOCUS_SHAPE_FALL_OFF;
   CHECK(starfocus::DemandOf(opening) == Demand::kPolygon);
   for (const double r : {0.0, 0.5, 0.6, 5.0, 5.2, 5.5, 11.0, 11.5, 25.0, 30.0, 34.5, 128.0}) {
     CAPTURE(r);
@@ -173,7 +173,7 @@ TEST_CASE("rules: what openings demand, and that layers and more views follow") 
     CHECK(LayerBySubaperture(first.subaperture, true, first.demand) == 1);
     CHECK(LayerBySubaperture(first.subaperture * 3.42, false, first.demand) == 1);
     CHECK(LayerBySubaperture(first.subaperture * 3.43, false, first.demand) == 2);
-    CHECK(LayerBySubaperture(SF_MAX_BLUR, true, first.demand) == 1);
+    CHECK(LayerBySubaperture(STARFOCUS_MAX_BLUR, true, first.demand) == 1);
   }
 }
 

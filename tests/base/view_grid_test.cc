@@ -28,8 +28,8 @@ TEST_CASE("view grid: the focus is rounded to 1/64, half up") {
   CHECK(MakeGrid(4, 1.0 / 128, 1).focus == 1);
   CHECK(MakeGrid(4, -1.0 / 128, 1).focus == 0);
   CHECK(MakeGrid(4, -3.0 / 128, 1).focus == -1);
-  CHECK(MakeGrid(4, SF_MAX_FOCUS, 1).focus == 64000000);
-  CHECK(MakeGrid(4, -SF_MAX_FOCUS, 1).focus == -64000000);
+  CHECK(MakeGrid(4, STARFOCUS_MAX_FOCUS, 1).focus == 64000000);
+  CHECK(MakeGrid(4, -STARFOCUS_MAX_FOCUS, 1).focus == -64000000);
 }
 
 TEST_CASE("view grid: view i lies at i u_t / N") {
@@ -57,7 +57,7 @@ TEST_CASE("view grid: shifts are u (d - d_t), to 1/256 of a pixel, within the bl
   test::Random random(5);
   for (int round = 0; round < 20000; ++round) {
     const double aperture = random.Real(0.01, 1);
-    const double radius = random.Real(0, SF_MAX_BLUR);
+    const double radius = random.Real(0, STARFOCUS_MAX_BLUR);
     const double disparity = random.Int(-500 * 64, 500 * 64) / 64.0;
     const double focus =
         std::floor((disparity + (random.Int(0, 1) == 0 ? 1 : -1) * radius / aperture) * 64 + 0.5) /

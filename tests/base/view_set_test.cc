@@ -14,28 +14,28 @@ namespace {
 
 using namespace starfocus;
 
-sf_config Config(const std::vector<sf_position>& positions) {
-  sf_config config = {};
-  for (const sf_position& position : positions) config.positions[config.views++] = position;
+starfocus_config Config(const std::vector<starfocus_position>& positions) {
+  starfocus_config config = {};
+  for (const starfocus_position& position : positions) config.positions[config.views++] = position;
   return config;
 }
 
-sf_config Star(int views) {
-  sf_config config = {};
+starfocus_config Star(int views) {
+  starfocus_config config = {};
   config.views = views;
   return config;
 }
 
-sf_status Check(const sf_config& config) {
+starfocus_status Check(const starfocus_config& config) {
   ViewSet set;
   return starfocus::FindViews(config, &set);
 }
 
 // The indices of the views that look behind edges to the right, left, bottom and top.
 using Sides = std::vector<std::vector<int>>;
-Sides LooksOf(const sf_config& config) {
+Sides LooksOf(const starfocus_config& config) {
   ViewSet set;
-  REQUIRE(starfocus::FindViews(config, &set) == SF_OK);
+  REQUIRE(starfocus::FindViews(config, &set) == STARFOCUS_OK);
   const OcclusionViews occlusion_views = starfocus::ChooseOcclusionViews(set);
   Sides sides(kSideCount);
   for (int side = 0; side < kSideCount; ++side) {
@@ -77,7 +77,7 @@ TEST_CASE("views: others stand in where none is nearer to the side") {
 }
 
 TEST_CASE("views: the order in which they are given decides nothing") {
-  std::vector<sf_position> positions = {{0, 0}, {1, 0.5}, {1, -0.5}, {0.75, 0}, {-0.2, 0.6}};
+  std::vector<starfocus_position> positions = {{0, 0}, {1, 0.5}, {1, -0.5}, {0.75, 0}, {-0.2, 0.6}};
   const auto chosen = [&] {
     const Sides sides = LooksOf(Config(positions));
     std::vector<std::pair<double, double>> found;
@@ -100,35 +100,36 @@ TEST_CASE("views: the order in which they are given decides nothing") {
 TEST_CASE("views: the star is known by its positions, in their order") {
   for (const int views : {1, 5, 9, 17}) {
     CHECK(starfocus::HasStar(Star(views)));
-    sf_config config = Star(views);
+    starfocus_config config = Star(views);
     for (int k = 0; k < views; ++k) {
-      sf_view_position(k, &config.positions[k].u, &config.positions[k].v);
+      starfocus_view_position(k, &config.positions[k].u, &config.positions[k].v);
     }
     CHECK(starfocus::HasStar(config));
     if (views == 1) continue;
     std::swap(config.positions[1], config.positions[2]);
-    CHECK(Check(config) == SF_OK);
+    CHECK(Check(config) == STARFOCUS_OK);
     CHECK_FALSE(starfocus::HasStar(config));
   }
   CHECK_FALSE(starfocus::HasStar(Config({{0, 0}, {1, 0}})));
 }
 
 TEST_CASE("views: what is no set of views is refused") {
-  for (const int views : {-1, 0, 2, 3, 4, 16, 18}) CHECK(Check(Star(views)) == SF_ERROR_RANGE);
-  CHECK(Check(Config({{0, 0}, {1, -1}})) == SF_OK);
+  for (const int views : {-1, 0, 2, 3, 4, 16, 18})
+    CHECK(Check(Star(views)) == STARFOCUS_ERROR_RANGE);
+  CHECK(Check(Config({{0, 0}, {1, -1}})) == STARFOCUS_OK);
   const double nan = std::numeric_limits<double>::quiet_NaN(), infinite = HUGE_VAL;
   for (const double bad : {nan, infinite, -infinite, 1.0001, -1.0001}) {
-    CHECK(Check(Config({{0, 0}, {bad, 0}})) == SF_ERROR_RANGE);
-    CHECK(Check(Config({{0, 0}, {1, 0}, {0, bad}})) == SF_ERROR_RANGE);
+    CHECK(Check(Config({{0, 0}, {bad, 0}})) == STARFOCUS_ERROR_RANGE);
+    CHECK(Check(Config({{0, 0}, {1, 0}, {0, bad}})) == STARFOCUS_ERROR_RANGE);
   }
-  CHECK(Check(Config({{1, 0}, {0, 0}})) == SF_ERROR_RANGE);
-  CHECK(Check(Config({{0, 0}, {0.5, 0}, {0.5, 0}})) == SF_ERROR_RANGE);
-  CHECK(Check(Config({{0, 0}, {1, 0}, {0, 0}})) == SF_ERROR_RANGE);
-  CHECK(Check(Config({{0, 0}, {0.5, 0}, {0.5 + 1.0 / 16384, 0}})) == SF_OK);
+  CHECK(Check(Config({{1, 0}, {0, 0}})) == STARFOCUS_ERROR_RANGE);
+  CHECK(Check(Config({{0, 0}, {0.5, 0}, {0.5, 0}})) == STARFOCUS_ERROR_RANGE);
+  CHECK(Check(Config({{0, 0}, {1, 0}, {0, 0}})) == STARFOCUS_ERROR_RANGE);
+  CHECK(Check(Config({{0, 0}, {0.5, 0}, {0.5 + 1.0 / 16384, 0}})) == STARFOCUS_OK);
   // Beyond the views anything may be left.
-  sf_config config = Config({{0, 0}, {1, 0}});
+  starfocus_config config = Config({{0, 0}, {1, 0}});
   config.positions[2] = {nan, 7};
-  CHECK(Check(config) == SF_OK);
+  CHECK(Check(config) == STARFOCUS_OK);
 }
 
 TEST_CASE("views: a disparity moves by its product with the position, alike on both sides") {

@@ -16,7 +16,8 @@ namespace view_weights_test {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kThetas[] = {SF_MIN_THETA, 0.1 * kPi, 0.26 * kPi, 0.4 * kPi, SF_MAX_THETA};
+constexpr double kThetas[] = {STARFOCUS_MIN_THETA, 0.1 * kPi, 0.26 * kPi, 0.4 * kPi,
+                              STARFOCUS_MAX_THETA};
 
 // (3): a(u, v) = cot^4 / (pi cos^2 (u^2 + v^2 + cot^2)^2) inside the unit disc.
 double Density(double u, double v, double theta) {

@@ -38,7 +38,7 @@ Error Check(const Options& options) {
     if (Error error = path.empty() ? Error() : CheckOutputPath(path)) return error;
   }
   for (const double scale : options.choice.n_scales) {
-    if (scale >= SF_MIN_N_SCALE && scale <= SF_MAX_N_SCALE) continue;
+    if (scale >= STARFOCUS_MIN_N_SCALE && scale <= STARFOCUS_MAX_N_SCALE) continue;
     return Expected("--n-scales", "factors from 0.5 to 2", std::to_string(scale));
   }
   if (options.choice.quantiles.empty()) return Expected("--quantiles", "at least one", "none");
@@ -73,7 +73,7 @@ Error Run(Options options) {
   for (size_t i = 0; i < options.folders.size() && !error; ++i) {
     Field field;
     error = LoadField(options.folders[i], &field);
-    field.transfer = options.transfer == "none" ? SF_TRANSFER_NONE : SF_TRANSFER_SRGB;
+    field.transfer = options.transfer == "none" ? STARFOCUS_TRANSFER_NONE : STARFOCUS_TRANSFER_SRGB;
     if (!error) error = MeasureField(field, options.choice, options.settings, &rows);
   }
   if (!error) error = MeasureSweeps(options, &rows);
@@ -111,7 +111,7 @@ void AddOptions(CLI::App* app, Options* options) {
   app->add_option("--workers", choice.workers,
                   "Numbers of threads beside one, at the middle quantile")
       ->delimiter(',')
-      ->check(CLI::Range(2, SF_MAX_WORKERS));
+      ->check(CLI::Range(2, STARFOCUS_MAX_WORKERS));
   app->add_option("--repetitions", settings.repetitions, "Of every task")
       ->check(CLI::Range(1, 1000));
   app->add_option("--patience", settings.patience, "Seconds per task before repetitions are cut");

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // starfocus-bench-count MODE [FOLDER VIEWS]: refocuses one light field, once, so that callgrind can
-// count the instructions of sf_refocus. The light field is a small one made in memory, or the first
-// views of a folder's, focused at its farthest disparity. Prints the pixels and the SIMD target.
+// count the instructions of starfocus_refocus. The light field is a small one made in memory, or
+// the first views of a folder's, focused at its farthest disparity. Prints the pixels and the SIMD
+// target.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -46,7 +47,7 @@ Field MakeField() {
   }
   for (int i = 0; i < kViews; ++i) {
     double u = 0, v = 0;
-    sf_view_position(i, &u, &v);
+    starfocus_view_position(i, &u, &v);
     Image view(kWidth, kHeight);
     for (int y = 0; y < kHeight; ++y) {
       for (int x = 0; x < kWidth; ++x) {
@@ -101,6 +102,6 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "%s\n", error.line().c_str());
     return 1;
   }
-  std::printf("%.0f %s\n", field.pixels(), sf_simd_target());
+  std::printf("%.0f %s\n", field.pixels(), starfocus_simd_target());
   return 0;
 }

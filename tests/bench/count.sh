@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# Instructions per pixel of sf_refocus, counted by callgrind: the same on every run, so that a
+# Instructions per pixel of starfocus_refocus, counted by callgrind: the same on every run, so that a
 # slowdown shows without a clock. usage: count.sh BUILD-FOLDER check|record
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
@@ -23,7 +23,7 @@ compiler=$("$compiler" --version | sed -n '1s/^[^ ]* //p') # without the program
 count() {
   local name=$1 out=$build/callgrind.$1 log=$build/callgrind.$1.log pixels instructions found
   shift
-  "$here/../support/valgrind.sh" "$build" --tool=callgrind --callgrind-out-file="$out" --toggle-collect=sf_refocus \
+  "$here/../support/valgrind.sh" "$build" --tool=callgrind --callgrind-out-file="$out" --toggle-collect=starfocus_refocus \
     "$program" "$@" >"$log" 2>"$log.err" || { cat "$log" "$log.err" >&2; exit 1; }
   read -r pixels found <"$log"
   [ "$found" = $target ] || { echo "target $found"; return; }
@@ -35,7 +35,7 @@ count() {
 # instruction_bench, which `./do count` counts on AArch64.
 count_case() {
   local out=$build/callgrind.$1.$3 instructions
-  "$here/../support/valgrind.sh" "$build" --tool=callgrind --callgrind-out-file="$out" --toggle-collect=sf_refocus \
+  "$here/../support/valgrind.sh" "$build" --tool=callgrind --callgrind-out-file="$out" --toggle-collect=starfocus_refocus \
     "$build/tests/instruction_bench" "$1" "$3" 1 >"$out.log" 2>&1 || { cat "$out.log" >&2; exit 1; }
   instructions=$(awk '/^(summary|totals):/ { print $2; exit }' "$out")
   awk -v n="$1 $3" -v i="$instructions" -v p="$2" 'BEGIN { printf "%s %.1f\n", n, i / p }'
@@ -73,7 +73,7 @@ counts=$(cat "$lines"/*)$'\n'
 
 if [ "$2" = record ]; then
   {
-    echo "# Instructions per pixel of sf_refocus on $target; ./do bench --record writes this."
+    echo "# Instructions per pixel of starfocus_refocus on $target; ./do bench --record writes this."
     echo "compiler $compiler"
     printf '%s' "$counts"
   } >"$baseline"

@@ -72,9 +72,10 @@ Error LoadField(const std::string& folder, Field* field) {
   if (!loaded) return loaded.error();
   field->data = std::move(*loaded);
   FloatMap* map = &field->data.disparity;
-  const sf_status status = sf_fill_disparity(map->values.data(), sizeof(float) * size_t(map->width),
-                                             map->width, map->height);
-  if (status != SF_OK) return Expected(folder, "a disparity map", sf_status_string(status));
+  const starfocus_status status = starfocus_fill_disparity(
+      map->values.data(), sizeof(float) * size_t(map->width), map->width, map->height);
+  if (status != STARFOCUS_OK)
+    return Expected(folder, "a disparity map", starfocus_status_string(status));
   Measure(field);
   return LoadTruths(folder, field);
 }
@@ -118,14 +119,15 @@ Field Stretch(const Field& field, double factor, int views) {
   return stretched;
 }
 
-sf_light_field Rows(const LightField& data, int views) {
-  sf_light_field rows = {};
+starfocus_light_field Rows(const LightField& data, int views) {
+  starfocus_light_field rows = {};
   for (int i = 0; i < views; ++i) {
     const Image& view = data.views[size_t(i)];
-    rows.views[i] = sf_image_rgb(view.pixels.data(), view.stride());
+    rows.views[i] = starfocus_image_rgb(view.pixels.data(), view.stride());
   }
-  rows.depth = sf_depth_float(data.disparity.values.data(), sizeof(float) * size_t(data.width()),
-                              data.width(), data.height());
+  rows.depth =
+      starfocus_depth_float(data.disparity.values.data(), sizeof(float) * size_t(data.width()),
+                            data.width(), data.height());
   return rows;
 }
 

@@ -24,7 +24,7 @@ struct Field {
   LightField data;
   float low = 0, high = 0;  // of the disparity map
   std::vector<Truth> truths;
-  sf_transfer transfer = SF_TRANSFER_SRGB;  // that the truths were traced by
+  starfocus_transfer transfer = STARFOCUS_TRANSFER_SRGB;  // that the truths were traced by
 
   int views() const { return int(data.views.size()); }
   double pixels() const { return double(data.width()) * data.height(); }
@@ -44,7 +44,7 @@ Field Tile(const Field& field, int width, int height, int views);
 Field Stretch(const Field& field, double factor, int views);
 
 // The first `views` views as the engine takes them.
-sf_light_field Rows(const LightField& data, int views);
+starfocus_light_field Rows(const LightField& data, int views);
 
 }  // namespace starfocus::bench
 

@@ -27,13 +27,13 @@ std::string CpuName() {
 Machine ThisMachine(const std::string& revision) {
   Machine machine;
   machine.cpu = CpuName();
-  machine.target = sf_simd_target();
+  machine.target = starfocus_simd_target();
 #if defined(__clang__)
   machine.compiler = "clang " __clang_version__;
 #else
   machine.compiler = "gcc " __VERSION__;
 #endif
-  machine.version = SF_VERSION_STRING;
+  machine.version = STARFOCUS_VERSION_STRING;
   if (!revision.empty()) machine.version += " " + revision;
   return machine;
 }

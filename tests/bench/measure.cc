@@ -74,7 +74,7 @@ const Run* FindMode(const std::vector<Run>& runs, const char* mode, int views) {
   const Run* found = nullptr;
   for (const Run& run : runs) {
     const Task& task = run.entry->task;
-    if (task.mode != mode || !task.target.empty() || task.renderer != SF_RENDERER_AUTO ||
+    if (task.mode != mode || !task.target.empty() || task.renderer != STARFOCUS_RENDERER_AUTO ||
         task.n_scale != 1 || task.workers != 1) {
       continue;
     }
@@ -111,18 +111,18 @@ Row CommonRow(const Group& group, const Entry& entry) {
   return row;
 }
 
-void AddReport(const sf_report& report, Row* row) {
+void AddReport(const starfocus_report& report, Row* row) {
   row->n = report.n;
   row->superblock = report.superblock;
   row->rendered_samples = double(report.rendered_samples);
   double time = 0, pixels = 0;
-  for (const sf_layer_report& layer : report.layers) {
+  for (const starfocus_layer_report& layer : report.layers) {
     row->rendered_views += double(layer.views);
     time += double(layer.measured_ns);
     pixels += double(layer.pixels);
   }
   if (row->task.mode != "block") row->rendered_views = report.rendered_views;
-  for (int i = 0; i < SF_LAYERS; ++i) {
+  for (int i = 0; i < STARFOCUS_LAYERS; ++i) {
     if (time > 0) row->layer_time[i] = double(report.layers[i].measured_ns) / time;
     if (pixels > 0) row->layer_pixels[i] = double(report.layers[i].pixels) / pixels;
   }

@@ -54,13 +54,14 @@ test::Scene SceneOf(const Picture& picture) {
 
 void Refocus(const Picture& picture, benchmark::State& state) {
   const test::Scene scene = SceneOf(picture);
-  sf_config config = test::ConfigFor(scene, kBlur);
+  starfocus_config config = test::ConfigFor(scene, kBlur);
   config.highlights = static_cast<float>(picture.highlights);
   test::Engine engine(config);
   test::Output out(kWidth, kHeight);
-  const sf_params params = test::Params(picture.white < 0 ? -1 : 0, 1, SF_MODE_BLOCK);
+  const starfocus_params params = test::Params(picture.white < 0 ? -1 : 0, 1, STARFOCUS_MODE_BLOCK);
   for (auto _ : state) {
-    if (test::Refocus(&engine, params, scene, &out) != SF_OK) state.SkipWithError("not refocused");
+    if (test::Refocus(&engine, params, scene, &out) != STARFOCUS_OK)
+      state.SkipWithError("not refocused");
   }
   const double pixels = double(kWidth) * kHeight;
   state.counters["per_pixel"] = benchmark::Counter(

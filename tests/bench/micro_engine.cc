@@ -75,7 +75,7 @@ void Deblock(benchmark::State& state) {
   constexpr int kUnits = kSide / 16;
   std::vector<uint8_t> units(size_t(kUnits * (kUnits + 1))), picture(size_t(3 * kSide * kSide));
   for (size_t i = 0; i < units.size(); ++i) {
-    units[i] = uint8_t((i % kUnits + i / kUnits) % SF_LAYERS);
+    units[i] = uint8_t((i % kUnits + i / kUnits) % STARFOCUS_LAYERS);
   }
   for (size_t i = 0; i < picture.size(); ++i) picture[i] = uint8_t(i / 48 * 9);
   LayerMap map;
@@ -88,7 +88,7 @@ void Deblock(benchmark::State& state) {
                           kSide,
                           0,
                           35,
-                          &TransferOf(SF_TRANSFER_NONE),
+                          &TransferOf(STARFOCUS_TRANSFER_NONE),
                           &simd::BestKernels()};
   for (auto _ : state) {
     DeblockRows(job, 0, kUnits);

@@ -32,9 +32,9 @@ Json Describe(const Machine& machine, const Row& row) {
   json["views"] = row.task.views;
   json["max_layer"] = row.task.max_layer;
   json["superblock"] = row.superblock;
-  json["renderer"] = row.task.renderer == SF_RENDERER_AUTO        ? "auto"
-                     : row.task.renderer == SF_RENDERER_LINE_SCAN ? "line-scan"
-                                                                  : "slices";
+  json["renderer"] = row.task.renderer == STARFOCUS_RENDERER_AUTO        ? "auto"
+                     : row.task.renderer == STARFOCUS_RENDERER_LINE_SCAN ? "line-scan"
+                                                                         : "slices";
   json["n_scale"] = row.task.n_scale;
   json["workers"] = row.task.workers;
   json["aperture"] = row.aperture;
@@ -55,7 +55,7 @@ Json Describe(const Machine& machine, const Row& row) {
   json["speed_to_frame"] = Number(row.ratio_frame);
   json["speed_to_blur"] = Number(row.ratio_blur);
   json["workspace_bytes"] = row.workspace;
-  for (int i = 0; i < SF_LAYERS; ++i) {
+  for (int i = 0; i < STARFOCUS_LAYERS; ++i) {
     json["time_share_layer_" + std::to_string(i)] = row.layer_time[i];
     json["pixel_share_layer_" + std::to_string(i)] = row.layer_pixels[i];
   }

@@ -20,14 +20,15 @@ const char kHead[] =
 
 std::string About(const Findings& findings) {
   const Machine& machine = findings.machine;
-  std::string text = "<p>" +
-                     Escape("starfocus " + machine.version + ", " + machine.compiler + ", " +
-                            machine.cpu + ", best SIMD target " + machine.target) +
-                     ", one worker but where it says otherwise. Times are processor time, medians "
-                     "of interleaved repetitions inside "
-                     "<code>sf_refocus</code>; PSNR is over all R, G, B samples, at most 99 dB. "
-                     "What is the paper's is grey and was measured on its 3.4 GHz CPU with its own "
-                     "light fields: compare ratios, not times.</p>\n";
+  std::string text =
+      "<p>" +
+      Escape("starfocus " + machine.version + ", " + machine.compiler + ", " + machine.cpu +
+             ", best SIMD target " + machine.target) +
+      ", one worker but where it says otherwise. Times are processor time, medians "
+      "of interleaved repetitions inside "
+      "<code>starfocus_refocus</code>; PSNR is over all R, G, B samples, at most 99 dB. "
+      "What is the paper's is grey and was measured on its 3.4 GHz CPU with its own "
+      "light fields: compare ratios, not times.</p>\n";
   if (!findings.missing.empty()) {
     text += "<p>Rivals left out because they are not installed:";
     for (const std::string& name : findings.missing) text += " " + Escape(name);

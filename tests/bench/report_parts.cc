@@ -45,15 +45,15 @@ std::string Method(const Row& row) {
   if (row.study == "views" || task.mode == "shift-and-add") {
     name += ", " + std::to_string(task.views) + " views";
   }
-  if (row.study == "options" && task.max_layer != SF_LAYERS - 1) {
+  if (row.study == "options" && task.max_layer != STARFOCUS_LAYERS - 1) {
     name += ", layers to " + std::to_string(task.max_layer);
   }
   if (row.study == "options" && task.superblock != 0) {
     name += ", blocks to " + std::to_string(task.superblock);
   }
   if (task.n_scale != 1) name += ", N × " + Fixed(task.n_scale, 2);
-  if (task.renderer == SF_RENDERER_LINE_SCAN) name += ", N by (9)";
-  if (task.renderer == SF_RENDERER_SLICES) name += ", N by subapertures";
+  if (task.renderer == STARFOCUS_RENDERER_LINE_SCAN) name += ", N by (9)";
+  if (task.renderer == STARFOCUS_RENDERER_SLICES) name += ", N by subapertures";
   return name;
 }
 

@@ -219,7 +219,7 @@ std::string LayerPlot(const Rows& rows) {
   for (const std::string& field : FieldNames(rows)) {
     const Rows some = AtQuantiles(rows, field, "block", 1, 0);
     std::string time = field + "-t", pixels = field + "-p";
-    for (int i = 0; i < SF_LAYERS; ++i) {
+    for (int i = 0; i < STARFOCUS_LAYERS; ++i) {
       time += " " + Fixed(100 * Mean(some, [&](const Row& row) { return row.layer_time[i]; }), 1);
       pixels +=
           " " + Fixed(100 * Mean(some, [&](const Row& row) { return row.layer_pixels[i]; }), 1);

@@ -36,8 +36,9 @@ double WithLayers(const Rows& rows, const std::string& field, int layer, const V
                      [&](const Row& row) {
                        return row.study == "options" && row.field == field &&
                               row.task.max_layer == layer &&
-                              row.task.renderer == SF_RENDERER_AUTO && row.task.superblock == 0 &&
-                              row.task.n_scale == 1 && std::isfinite(row.quantile);
+                              row.task.renderer == STARFOCUS_RENDERER_AUTO &&
+                              row.task.superblock == 0 && row.task.n_scale == 1 &&
+                              std::isfinite(row.quantile);
                      }),
               value);
 }
@@ -52,14 +53,14 @@ Cells FieldCells(const Rows& rows, const std::string& field, double aperture) {
                  Fixed(Mean(frame, RowPsnr), 1), Fixed(Mean(blur, RowPsnr), 1), Fixed(psnr, 1)};
   for (const int views : {9, 5}) cells.push_back(Signed(Mean(of("block", views), RowPsnr) - psnr));
   for (const Rows* some : {&frame, &blur, &block}) cells.push_back(Fixed(Seconds(*some), 3));
-  for (int layer = 0; layer < SF_LAYERS; ++layer) {
+  for (int layer = 0; layer < STARFOCUS_LAYERS; ++layer) {
     cells.push_back(Fixed(LayerTime(block, layer), 0) + " %");
   }
   cells.push_back(Fixed(Seconds(frame) / seconds, 1));
   cells.push_back(Fixed(Seconds(blur) / seconds, 2));
   if (aperture != 1) return cells.resize(17, "–"), cells;
   double before = Mean(frame, Ms);
-  for (int layer = 0; layer < SF_LAYERS; ++layer) {
+  for (int layer = 0; layer < STARFOCUS_LAYERS; ++layer) {
     const double now = layer == 2 ? Mean(block, Ms) : WithLayers(rows, field, layer, Ms);
     cells.push_back(Fixed(before / now, 1) + "×");
     before = now;
@@ -233,7 +234,8 @@ std::string WorkerTable(const Rows& rows) {
                   Fixed(row.wall_ms, 1), Fixed(one / row.wall_ms, 2), Fixed(row.least_wall_ms, 1),
                   Fixed(least_one / row.least_wall_ms, 2)});
   }
-  return "<p>By the wall clock inside <code>sf_refocus</code>, which also counts what the machine "
+  return "<p>By the wall clock inside <code>starfocus_refocus</code>, which also counts what the "
+         "machine "
          "does for others meanwhile: the least of a busy machine says more than the median.</p>" +
          Table({"light field, mode", "workers", "ms", "times as fast as one", "least ms",
                 "times as fast as one"},

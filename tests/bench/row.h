@@ -15,11 +15,11 @@ namespace starfocus::bench {
 struct Task {
   std::string mode = "block";  // block, frame, benchmark, blur or a rival's name
   int views = 0;
-  int max_layer = SF_LAYERS - 1;
-  int superblock = 0;               // 0: the library chooses
-  int renderer = SF_RENDERER_AUTO;  // sf_renderer
-  double n_scale = 1;               // of the rule's N
-  std::string target;               // SIMD target; empty: the best one
+  int max_layer = STARFOCUS_LAYERS - 1;
+  int superblock = 0;                      // 0: the library chooses
+  int renderer = STARFOCUS_RENDERER_AUTO;  // starfocus_renderer
+  double n_scale = 1;                      // of the rule's N
+  std::string target;                      // SIMD target; empty: the best one
   int workers = 1;
   bool timed = true;  // blocks, with a clock, which costs instructions
 };
@@ -51,8 +51,8 @@ struct Row {
   int runs = 0;
   double ratio_frame = kNone, ratio_blur = kNone;  // time of those in the same run / this time
   size_t workspace = 0;
-  double layer_time[SF_LAYERS] = {0, 0, 0};  // shares of block mode
-  double layer_pixels[SF_LAYERS] = {0, 0, 0};
+  double layer_time[STARFOCUS_LAYERS] = {0, 0, 0};  // shares of block mode
+  double layer_pixels[STARFOCUS_LAYERS] = {0, 0, 0};
 
   double pixels() const { return double(width) * height; }
   double ns_per_pixel() const { return ms * 1e6 / pixels(); }

@@ -37,7 +37,7 @@ void AddOptions(const Field& field, const Choice& choice, Group* group) {
     group->entries.back().task.max_layer = layer;
   }
   for (const char* mode : {"block", "frame"}) {
-    for (const int renderer : {SF_RENDERER_LINE_SCAN, SF_RENDERER_SLICES}) {
+    for (const int renderer : {STARFOCUS_RENDERER_LINE_SCAN, STARFOCUS_RENDERER_SLICES}) {
       if (!choice.rules) continue;
       group->entries.push_back(MakeEntry("options", mode, field.views()));
       group->entries.back().task.renderer = renderer;

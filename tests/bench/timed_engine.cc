@@ -17,7 +17,7 @@ const char* const kModes[] = {"frame", "benchmark", "block", "blur"};
 uint64_t Nanoseconds() { return static_cast<uint64_t>(CpuSeconds() * 1e9); }
 
 // A run-time engine takes the best target; the bench may want another.
-Error UseTarget(const std::string& name, sf_engine* engine) {
+Error UseTarget(const std::string& name, starfocus_engine* engine) {
   if (name.empty()) return {};
   const simd::Kernels& plain = simd::ReferenceKernels();
   const simd::Kernels* kernels = name == plain.name ? &plain : simd::FindKernels(name.c_str());
@@ -35,8 +35,8 @@ int ModeOf(const std::string& name) {
 
 Error Prepare(const Field& field, const Task& task, double focus, double aperture,
               TimedEngine* timed) {
-  sf_config config;
-  sf_config_init(&config);
+  starfocus_config config;
+  starfocus_config_init(&config);
   config.width = field.data.width();
   config.height = field.data.height();
   config.views = task.views;
@@ -49,37 +49,41 @@ Error Prepare(const Field& field, const Task& task, double focus, double apertur
   config.tuning.n_scale = task.n_scale;
   config.max_workers = task.workers;
   if (task.workers > 1) timed->pool = std::make_unique<ThreadRunner>(task.workers);
-  sf_status status = sf_workspace_size(&config, &timed->workspace_bytes);
-  if (status == SF_OK) {
-    timed->workspace.reset(::operator new (timed->workspace_bytes, std::align_val_t{SF_ALIGNMENT}));
-    status = sf_init(&config, timed->workspace.get(), timed->workspace_bytes, &timed->engine);
+  starfocus_status status = starfocus_workspace_size(&config, &timed->workspace_bytes);
+  if (status == STARFOCUS_OK) {
+    timed->workspace.reset(
+        ::operator new (timed->workspace_bytes, std::align_val_t{STARFOCUS_ALIGNMENT}));
+    status =
+        starfocus_init(&config, timed->workspace.get(), timed->workspace_bytes, &timed->engine);
   }
-  if (status != SF_OK) {
-    return Expected(field.name, "a light field that the engine takes", sf_status_string(status));
+  if (status != STARFOCUS_OK) {
+    return Expected(field.name, "a light field that the engine takes",
+                    starfocus_status_string(status));
   }
-  sf_params_init(&timed->params);
+  starfocus_params_init(&timed->params);
   timed->params.mode = ModeOf(task.mode);
   timed->params.renderer = task.renderer;
   timed->params.lens.focus = focus;
   timed->params.lens.aperture = aperture;
   timed->picture = Image(config.width, config.height);
-  sf_callbacks callbacks = {};
+  starfocus_callbacks callbacks = {};
   if (timed->pool != nullptr) callbacks.runner = ThreadRunner::Run;
   callbacks.runner_data = timed->pool.get();
   if (task.timed) callbacks.clock = Nanoseconds;
-  sf_set_callbacks(timed->engine, &callbacks);
+  starfocus_set_callbacks(timed->engine, &callbacks);
   return UseTarget(task.target, timed->engine);
 }
 
 Error RunOnce(const Field& field, const Task& task, TimedEngine* timed, Elapsed* elapsed) {
-  const sf_light_field rows = Rows(field.data, task.views);
+  const starfocus_light_field rows = Rows(field.data, task.views);
   Image& out = timed->picture;
   const Stopwatch stopwatch;
-  const sf_status status = test::RefocusRgb(timed->engine, &timed->params, &rows, out.pixels.data(),
-                                            out.stride(), &timed->report);
+  const starfocus_status status = test::RefocusRgb(timed->engine, &timed->params, &rows,
+                                                   out.pixels.data(), out.stride(), &timed->report);
   *elapsed = stopwatch.Get();
-  if (status == SF_OK) return {};
-  return Expected(field.name, "a light field that the engine refocuses", sf_status_string(status));
+  if (status == STARFOCUS_OK) return {};
+  return Expected(field.name, "a light field that the engine refocuses",
+                  starfocus_status_string(status));
 }
 
 }  // namespace starfocus::bench

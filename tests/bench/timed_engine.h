@@ -17,28 +17,28 @@ namespace starfocus::bench {
 
 struct FreeAligned {
   void operator()(void* memory) const {
-    ::operator delete (memory, std::align_val_t{SF_ALIGNMENT});
+    ::operator delete (memory, std::align_val_t{STARFOCUS_ALIGNMENT});
   }
 };
 
 struct TimedEngine {
   std::unique_ptr<void, FreeAligned> workspace;
   size_t workspace_bytes = 0;
-  sf_engine* engine = nullptr;
+  starfocus_engine* engine = nullptr;
   std::unique_ptr<ThreadRunner> pool;  // null for one worker
-  sf_params params;
-  sf_report report = {};
+  starfocus_params params;
+  starfocus_report report = {};
   Image picture;
 };
 
-// The sf_mode of a name; -1 when it is none.
+// The starfocus_mode of a name; -1 when it is none.
 int ModeOf(const std::string& name);
 
 // Makes an engine for task, focus and aperture. Errors are lines.
 Error Prepare(const Field& field, const Task& task, double focus, double aperture,
               TimedEngine* timed);
 
-// Refocuses once; *elapsed is the time inside sf_refocus.
+// Refocuses once; *elapsed is the time inside starfocus_refocus.
 Error RunOnce(const Field& field, const Task& task, TimedEngine* timed, Elapsed* elapsed);
 
 }  // namespace starfocus::bench

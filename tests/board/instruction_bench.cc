@@ -18,29 +18,29 @@ struct Case {
   const char* name;
   int views;
   test::Depth depth;
-  sf_mode mode;
+  starfocus_mode mode;
   double focus, aperture;
   int width = 192, height = 128;
-  sf_renderer renderer = SF_RENDERER_AUTO;
+  starfocus_renderer renderer = STARFOCUS_RENDERER_AUTO;
 };
 
 // Of 192 x 128 pixels if not told otherwise; the name tells views, scene, mode and the largest blur
 // radius in pixels.
 constexpr Case kCases[] = {
-    {"17-layers-frame-8", 17, test::Depth::kLayers, SF_MODE_FRAME, -4, 1},
-    {"17-slanted-frame-8", 17, test::Depth::kSlanted, SF_MODE_FRAME, 4, 1},
-    {"5-layers-frame-6", 5, test::Depth::kLayers, SF_MODE_FRAME, 2, 1},
-    {"1-layers-frame-paper-4", 1, test::Depth::kLayers, SF_MODE_FRAME, 0, 1, 192, 128,
-     SF_RENDERER_LINE_SCAN},
-    {"17-layers-block-8", 17, test::Depth::kLayers, SF_MODE_BLOCK, -4, 1},
-    {"5-slanted-block-4", 5, test::Depth::kSlanted, SF_MODE_BLOCK, 0, 1},
+    {"17-layers-frame-8", 17, test::Depth::kLayers, STARFOCUS_MODE_FRAME, -4, 1},
+    {"17-slanted-frame-8", 17, test::Depth::kSlanted, STARFOCUS_MODE_FRAME, 4, 1},
+    {"5-layers-frame-6", 5, test::Depth::kLayers, STARFOCUS_MODE_FRAME, 2, 1},
+    {"1-layers-frame-paper-4", 1, test::Depth::kLayers, STARFOCUS_MODE_FRAME, 0, 1, 192, 128,
+     STARFOCUS_RENDERER_LINE_SCAN},
+    {"17-layers-block-8", 17, test::Depth::kLayers, STARFOCUS_MODE_BLOCK, -4, 1},
+    {"5-slanted-block-4", 5, test::Depth::kSlanted, STARFOCUS_MODE_BLOCK, 0, 1},
     // Large enough for partitions to differ.
-    {"9-room-block-7", 9, test::Depth::kRoom, SF_MODE_BLOCK, 3.5, 1, 384, 256},
-    {"5-room-block-4", 5, test::Depth::kRoom, SF_MODE_BLOCK, -1, 1, 384, 256},
-    {"9-room-block-paper-7", 9, test::Depth::kRoom, SF_MODE_BLOCK, 3.5, 1, 384, 256,
-     SF_RENDERER_LINE_SCAN},
-    {"1-layers-blur-8", 1, test::Depth::kLayers, SF_MODE_BLUR, 4, 1},
-    {"9-layers-benchmark-4", 9, test::Depth::kLayers, SF_MODE_BENCHMARK, 0, 1},
+    {"9-room-block-7", 9, test::Depth::kRoom, STARFOCUS_MODE_BLOCK, 3.5, 1, 384, 256},
+    {"5-room-block-4", 5, test::Depth::kRoom, STARFOCUS_MODE_BLOCK, -1, 1, 384, 256},
+    {"9-room-block-paper-7", 9, test::Depth::kRoom, STARFOCUS_MODE_BLOCK, 3.5, 1, 384, 256,
+     STARFOCUS_RENDERER_LINE_SCAN},
+    {"1-layers-blur-8", 1, test::Depth::kLayers, STARFOCUS_MODE_BLUR, 4, 1},
+    {"9-layers-benchmark-4", 9, test::Depth::kLayers, STARFOCUS_MODE_BENCHMARK, 0, 1},
 };
 
 const Case* Find(const char* name) {
@@ -51,20 +51,20 @@ const Case* Find(const char* name) {
 }
 
 // Of no architecture in particular: the counts then don't change when coefficients do.
-constexpr sf_timing kTiming = {4000000, 12000, 1500, 1700, 2500, 9000, 0, 0};
+constexpr starfocus_timing kTiming = {4000000, 12000, 1500, 1700, 2500, 9000, 0, 0};
 
 int Run(const Case& one, bool reference, int runs) {
   const test::Scene scene = test::IntegerScene(one.width, one.height, one.views, one.depth);
-  sf_config config = test::ConfigFor(scene, 16);
+  starfocus_config config = test::ConfigFor(scene, 16);
   config.tuning.timing = kTiming;
   test::Engine engine(config);
-  if (engine.status() != SF_OK) return 1;
+  if (engine.status() != STARFOCUS_OK) return 1;
   if (reference) test::UseKernels(&starfocus::simd::ReferenceKernels(), engine.get());
   test::Output out(one.width, one.height);
-  sf_params params = test::Params(one.focus, one.aperture, one.mode);
+  starfocus_params params = test::Params(one.focus, one.aperture, one.mode);
   params.renderer = one.renderer;
   for (int run = 0; run < runs; ++run) {
-    if (test::Refocus(&engine, params, scene, &out) != SF_OK) return 1;
+    if (test::Refocus(&engine, params, scene, &out) != STARFOCUS_OK) return 1;
   }
   return 0;
 }

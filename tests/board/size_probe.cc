@@ -26,14 +26,14 @@ void Check(bool good, const char* what) {
 
 // The engine's calls, made on a stack of their own.
 struct Calls {
-  sf_config config;
-  sf_params params;
-  sf_light_field field;
+  starfocus_config config;
+  starfocus_params params;
+  starfocus_light_field field;
   void* workspace;
   size_t bytes;
   uint8_t* out;
   size_t out_stride;
-  sf_status status;
+  starfocus_status status;
   uintptr_t top;  // of what the calls use
 };
 
@@ -47,22 +47,23 @@ void* RunNothing(void* data) {
 void* RunCalls(void* data) {
   Calls* calls = static_cast<Calls*>(data);
   calls->top = FrameAddress();
-  sf_engine* engine = nullptr;
+  starfocus_engine* engine = nullptr;
   size_t needed = 0;
-  calls->status = sf_workspace_size(&calls->config, &needed);
-  if (calls->status == SF_OK) {
-    calls->status = sf_init(&calls->config, calls->workspace, calls->bytes, &engine);
+  calls->status = starfocus_workspace_size(&calls->config, &needed);
+  if (calls->status == STARFOCUS_OK) {
+    calls->status = starfocus_init(&calls->config, calls->workspace, calls->bytes, &engine);
   }
-  if (calls->status == SF_OK && !test::Has(calls->config.features, SF_FEATURE_STREAMING)) {
+  if (calls->status == STARFOCUS_OK &&
+      !test::Has(calls->config.features, STARFOCUS_FEATURE_STREAMING)) {
     calls->status = test::RefocusRgb(engine, &calls->params, &calls->field, calls->out,
                                      calls->out_stride, nullptr);
-  } else if (calls->status == SF_OK) {
+  } else if (calls->status == STARFOCUS_OK) {
     int32_t consumed = 0, written = 0;
-    calls->status = sf_stream_begin(engine, &calls->params);
-    if (calls->status == SF_OK) {
-      calls->status = sf_stream_push(engine, &calls->field, calls->config.height, &consumed);
+    calls->status = starfocus_stream_begin(engine, &calls->params);
+    if (calls->status == STARFOCUS_OK) {
+      calls->status = starfocus_stream_push(engine, &calls->field, calls->config.height, &consumed);
     }
-    if (calls->status == SF_OK) {
+    if (calls->status == STARFOCUS_OK) {
       calls->status = test::PullRgb(engine, calls->out, calls->out_stride, calls->config.height,
                                     &written, nullptr);
     }
@@ -92,24 +93,25 @@ size_t StackUsed(void* (*run)(void*), Calls* calls) {
 void PrintStack() {
   size_t most = 0;
   for (const int views : {1, 5, 9, 17}) {
-    for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BENCHMARK, SF_MODE_BLOCK, SF_MODE_BLUR}) {
+    for (const starfocus_mode mode : {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BENCHMARK,
+                                      STARFOCUS_MODE_BLOCK, STARFOCUS_MODE_BLUR}) {
       for (const int streaming : {0, 1}) {
         const test::Scene scene = test::RandomScene(150, 90, views, -4, 4, 3);
         Calls calls = {};
         calls.config = test::ConfigFor(scene, 16);
-        test::SetFeature(SF_FEATURE_STREAMING, streaming, &calls.config.features);
+        test::SetFeature(STARFOCUS_FEATURE_STREAMING, streaming, &calls.config.features);
         calls.params = test::Params(1, 1, mode);
         calls.field = scene.Field();
         test::Output out(150, 90);
         calls.out = out.bytes.data();
         calls.out_stride = out.stride;
         test::Engine memory(calls.config);
-        Check(memory.status() == SF_OK, "sf_init");
+        Check(memory.status() == STARFOCUS_OK, "starfocus_init");
         calls.workspace = memory.workspace();
         calls.bytes = memory.bytes();
         const size_t nothing = StackUsed(RunNothing, &calls);
         const size_t used = StackUsed(RunCalls, &calls);
-        Check(calls.status == SF_OK, "refocusing");
+        Check(calls.status == STARFOCUS_OK, "refocusing");
         Check(used > nothing && used < kStackBytes / 2, "measuring the stack");
         most = used > most ? used : most;
       }
@@ -118,9 +120,9 @@ void PrintStack() {
   std::printf("%zu\n", most);
 }
 
-size_t WorkspaceKilobytes(const sf_config& config) {
+size_t WorkspaceKilobytes(const starfocus_config& config) {
   size_t bytes = 0;
-  Check(sf_workspace_size(&config, &bytes) == SF_OK, "sf_workspace_size");
+  Check(starfocus_workspace_size(&config, &bytes) == STARFOCUS_OK, "starfocus_workspace_size");
   return (bytes + 1023) / 1024;
 }
 
@@ -131,7 +133,7 @@ void PrintWorkspace() {
     int width, height;
   } kSizes[] = {{"VGA", 640, 480}, {"HD", 1280, 720}, {"Full HD", 1920, 1080}};
   constexpr int kBlocks[] = {32, 64, 128, 256}, kBlurs[] = {8, 32, 128};
-  const auto row = [&](const char* name, const char* input, sf_config config) {
+  const auto row = [&](const char* name, const char* input, starfocus_config config) {
     std::printf("| %s | %s |", name, input);
     for (const int block : kBlocks) {
       for (const int blur : kBlurs) {
@@ -150,7 +152,7 @@ void PrintWorkspace() {
   for (size_t i = 0; i < sizeof(kBlocks) / sizeof(int) * 3; ++i) std::printf("--:|");
   std::printf("\n");
   for (const auto& size : kSizes) {
-    sf_config config = test::BoardConfig(size.width, size.height, 17, 32, 8, 0);
+    starfocus_config config = test::BoardConfig(size.width, size.height, 17, 32, 8, 0);
     row(size.name, "whole pictures", config);
     config.features = 0;
     row(size.name, "the same, no line scan", config);
@@ -168,14 +170,14 @@ class PartsTable {
   PartsTable() {
     const struct {
       const char* name;
-      sf_config config;
+      starfocus_config config;
     } kColumns[] = {
         {"VGA, 1 streamed view, 32, 8", test::BoardConfig(640, 480, 1, 32, 8, 1)},
         {"VGA, 5 streamed views, 64, 32", test::BoardConfig(640, 480, 5, 64, 32, 1)},
         {"Full HD, whole pictures, 64, 32", test::BoardConfig(1920, 1080, 17, 64, 32, 0)},
         {"the same, 128, 128", test::BoardConfig(1920, 1080, 17, 128, 128, 0)},
         {"the same, no line scan", [] {
-           sf_config config = test::BoardConfig(1920, 1080, 17, 128, 128, 0);
+           starfocus_config config = test::BoardConfig(1920, 1080, 17, 128, 128, 0);
            config.features = 0;
            return config;
          }()}};

@@ -19,8 +19,8 @@ constexpr int kWidth = 256, kHeight = kWidth * 3 / 4;
 const char* const kNames[] = {"portrait", "wires", "ramp", "hair", "grass"};
 
 SceneOpening DefaultOpening() {
-  sf_params params;
-  sf_params_init(&params);
+  starfocus_params params;
+  starfocus_params_init(&params);
   return SceneOpening(params.lens);
 }
 
@@ -66,14 +66,14 @@ TEST_CASE("scene: views warped by the exact disparity give the centre view back"
   for (const char* name : kNames) {
     Scene scene;
     REQUIRE(MakeScene(name, &scene));
-    const RayTracer renderer(scene, kWidth, kHeight, SF_TRANSFER_NONE, &runner);
+    const RayTracer renderer(scene, kWidth, kHeight, STARFOCUS_TRANSFER_NONE, &runner);
     const Image centre = renderer.View(0, 0, nullptr);
     const FloatMap map = renderer.Disparity();
     // A third of the grass are pixels that show two surfaces.
     const double least = std::string(name) == "grass" ? 0.75 : 0.88;
     for (int index : {1, 4, 6, 16}) {
       double u = 0, v = 0;
-      REQUIRE(sf_view_position(index, &u, &v));
+      REQUIRE(starfocus_view_position(index, &u, &v));
       const Image view = renderer.View(u, v, nullptr);
       CAPTURE(name);
       CAPTURE(index);
@@ -87,7 +87,7 @@ TEST_CASE("scene: a lens stopped down to a pinhole takes the centre view") {
   ThreadRunner runner(2);
   Scene scene;
   REQUIRE(MakeScene("portrait", &scene));
-  const RayTracer renderer(scene, kWidth / 2, kHeight / 2, SF_TRANSFER_NONE, &runner);
+  const RayTracer renderer(scene, kWidth / 2, kHeight / 2, STARFOCUS_TRANSFER_NONE, &runner);
   const Image centre = renderer.View(0, 0, nullptr);
   CHECK(test::Psnr(centre.pixels, renderer.Truth(0.5, 1e-6, DefaultOpening(), nullptr).pixels) >
         38);
@@ -98,7 +98,7 @@ TEST_CASE("scene: what the lens focuses on is sharp, the rest is not") {
   ThreadRunner runner(2);
   Scene scene;
   REQUIRE(MakeScene("ramp", &scene));
-  const RayTracer renderer(scene, kWidth, kHeight, SF_TRANSFER_NONE, &runner);
+  const RayTracer renderer(scene, kWidth, kHeight, STARFOCUS_TRANSFER_NONE, &runner);
   const FloatMap map = renderer.Disparity();
   const Image centre = renderer.View(0, 0, nullptr);
   const Image truth = renderer.Truth(map.at(kWidth / 2, kHeight / 2), 1, DefaultOpening(), nullptr);
@@ -117,8 +117,8 @@ TEST_CASE("scene: the same pictures for any number of threads") {
   for (const char* name : kNames) {
     Scene scene;
     REQUIRE(MakeScene(name, &scene));
-    const RayTracer a(scene, kOdd, 47, SF_TRANSFER_NONE, &one),
-        b(scene, kOdd, 47, SF_TRANSFER_NONE, &three);
+    const RayTracer a(scene, kOdd, 47, STARFOCUS_TRANSFER_NONE, &one),
+        b(scene, kOdd, 47, STARFOCUS_TRANSFER_NONE, &three);
     CHECK(a.View(-0.5, 1, nullptr).pixels == b.View(-0.5, 1, nullptr).pixels);
     CHECK(a.Truth(1, 0.8, DefaultOpening(), nullptr).pixels ==
           b.Truth(1, 0.8, DefaultOpening(), nullptr).pixels);
@@ -134,7 +134,7 @@ TEST_CASE("scene: near, middle and far points lie in that order, at any size") {
     REQUIRE(scene.points.size() == 3);
     for (const int width : {1024, 96, 40}) {
       const int height = width == 40 ? 90 : width * 3 / 4;
-      const RayTracer renderer(scene, width, height, SF_TRANSFER_NONE, &runner);
+      const RayTracer renderer(scene, width, height, STARFOCUS_TRANSFER_NONE, &runner);
       const FloatMap map = renderer.Disparity();
       std::vector<float> disparity;
       for (const NamedPoint& point : scene.points) {
@@ -158,7 +158,7 @@ TEST_CASE("scene: tiny pictures and every pixel finite") {
     Scene scene;
     REQUIRE(MakeScene(name, &scene));
     for (const int width : {1, 2, 300}) {
-      const RayTracer renderer(scene, width, 3, SF_TRANSFER_NONE, &runner);
+      const RayTracer renderer(scene, width, 3, STARFOCUS_TRANSFER_NONE, &runner);
       CHECK(renderer.View(1, -1, nullptr).pixels.size() == size_t(9 * width));
       for (float d : renderer.Disparity().values) CHECK(std::isfinite(d));
     }

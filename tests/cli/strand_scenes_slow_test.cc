@@ -115,7 +115,7 @@ TEST_CASE("strand scenes: coverage agrees with the map") {
   for (const char* name : kNames) {
     CAPTURE(std::string(name));
     const Scene scene = Made(name);
-    const RayTracer tracer(scene, kWidth, kHeight, SF_TRANSFER_NONE, &runner);
+    const RayTracer tracer(scene, kWidth, kHeight, STARFOCUS_TRANSFER_NONE, &runner);
     const FloatMap map = tracer.Disparity();
     const GreyImage coverage = tracer.Coverage(nullptr);
     int clear = 0, against = 0, fractions = 0, lost = 0;
@@ -148,7 +148,7 @@ TEST_CASE("strand scenes: coverage is the area of a half plane") {
   scene.surfaces.push_back(Piece(Outline::kBox, {100.3, 0, 5}, {100, 1000}, {}));
   scene.surfaces.back().foreground = true;
   ThreadRunner runner(1);
-  const RayTracer tracer(scene, 1024, 768, SF_TRANSFER_NONE, &runner);
+  const RayTracer tracer(scene, 1024, 768, STARFOCUS_TRANSFER_NONE, &runner);
   const GreyImage coverage = tracer.Coverage(nullptr);
   // Pixel 512 spans 0 to 1.
   const auto level = [&](int x) { return coverage.levels[size_t(400 * 1024 + x)]; };
@@ -159,11 +159,11 @@ TEST_CASE("strand scenes: coverage is the area of a half plane") {
 
 TEST_CASE("strand scenes: truth through a pinhole is the centre view") {
   ThreadRunner runner(2);
-  sf_params params;
-  sf_params_init(&params);
+  starfocus_params params;
+  starfocus_params_init(&params);
   for (const char* name : kNames) {
     const Scene scene = Made(name);
-    const RayTracer tracer(scene, kWidth, kHeight, SF_TRANSFER_NONE, &runner);
+    const RayTracer tracer(scene, kWidth, kHeight, STARFOCUS_TRANSFER_NONE, &runner);
     const Image centre = tracer.View(0, 0, nullptr);
     const SceneOpening opening(params.lens);
     CHECK(MeanDifference(centre, tracer.Truth(9, 1e-6, opening, nullptr)) < 1);
@@ -176,9 +176,9 @@ TEST_CASE("strand scenes: a seed gives the same scene again, another seed anothe
   for (const char* name : kNames) {
     const Scene scene = Made(name), again = Made(name), other = Made(name, 2);
     CHECK(scene.seeded);
-    const RayTracer a(scene, 120, 90, SF_TRANSFER_NONE, &one);
-    const RayTracer b(again, 120, 90, SF_TRANSFER_NONE, &three);
-    const RayTracer c(other, 120, 90, SF_TRANSFER_NONE, &three);
+    const RayTracer a(scene, 120, 90, STARFOCUS_TRANSFER_NONE, &one);
+    const RayTracer b(again, 120, 90, STARFOCUS_TRANSFER_NONE, &three);
+    const RayTracer c(other, 120, 90, STARFOCUS_TRANSFER_NONE, &three);
     CHECK(a.Coverage(nullptr).levels == b.Coverage(nullptr).levels);
     CHECK(a.Coverage(nullptr).levels != c.Coverage(nullptr).levels);
     CHECK(a.View(1, 0, nullptr).pixels == b.View(1, 0, nullptr).pixels);

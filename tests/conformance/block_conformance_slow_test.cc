@@ -28,11 +28,11 @@ using namespace conformance;
 constexpr double kTheta = 0.26 * 3.14159265358979323846;
 constexpr int kStars[] = {1, 5, 9, 17};
 constexpr Depth kDepths[] = {Depth::kConstant, Depth::kPiecewise, Depth::kSlanted, Depth::kNoisy};
-constexpr sf_renderer kRules[] = {SF_RENDERER_LINE_SCAN, SF_RENDERER_SLICES};
+constexpr starfocus_renderer kRules[] = {STARFOCUS_RENDERER_LINE_SCAN, STARFOCUS_RENDERER_SLICES};
 
 // Pixels that blocks of each layer cover, those gathered, and the longest side that views render.
 struct Covered {
-  int64_t pixels[SF_LAYERS] = {};
+  int64_t pixels[STARFOCUS_LAYERS] = {};
   int64_t gathered = 0;
   int longest = 0;
 };
@@ -48,13 +48,13 @@ void Count(const std::vector<reference::Block>& blocks, Covered* covered) {
   }
 }
 
-Distance Check(const test::Scene& scene, const sf_params& params, const sf_config& config,
-               Covered* covered) {
+Distance Check(const test::Scene& scene, const starfocus_params& params,
+               const starfocus_config& config, Covered* covered) {
   test::Engine engine(config);
-  REQUIRE(engine.status() == SF_OK);
+  REQUIRE(engine.status() == STARFOCUS_OK);
   const EngineResult result =
       RunEngine(scene, params, starfocus::simd::ReferenceKernels(), &engine);
-  REQUIRE(result.status == SF_OK);
+  REQUIRE(result.status == STARFOCUS_OK);
   Count(result.blocks, covered);
   const Distance distance =
       Compare(result.bytes, reference::RefocusBlocks(scene, params, config, result.blocks));
@@ -76,8 +76,8 @@ Distance Check(const test::Scene& scene, const sf_params& params, const sf_confi
   return distance;
 }
 
-sf_config Config(const test::Scene& scene, int max_layer, double max_blur = 24) {
-  sf_config config = test::ConfigFor(scene, max_blur);
+starfocus_config Config(const test::Scene& scene, int max_layer, double max_blur = 24) {
+  starfocus_config config = test::ConfigFor(scene, max_blur);
   config.tuning.max_layer = max_layer;
   config.tuning.deblocking = 0;  // a decision by thresholds; deblock_test has it
   config.superblock = 32;
@@ -88,19 +88,20 @@ sf_config Config(const test::Scene& scene, int max_layer, double max_blur = 24) 
 // Both rules and all layers.
 Distance CheckAll(const test::Scene& scene, double focus, double aperture, Covered* covered) {
   Distance all;
-  for (const sf_renderer renderer : kRules) {
-    for (int max_layer = 0; max_layer < SF_LAYERS; ++max_layer) {
-      sf_params params = test::Params(focus, aperture, SF_MODE_BLOCK);
+  for (const starfocus_renderer renderer : kRules) {
+    for (int max_layer = 0; max_layer < STARFOCUS_LAYERS; ++max_layer) {
+      starfocus_params params = test::Params(focus, aperture, STARFOCUS_MODE_BLOCK);
       params.renderer = renderer;
       Covered here;
       // Values at every layer, light without layers and at the smallest one.
-      for (const sf_transfer transfer : {SF_TRANSFER_NONE, SF_TRANSFER_SRGB}) {
-        if (transfer == SF_TRANSFER_SRGB && max_layer == 1) continue;
-        sf_config config = Config(scene, max_layer);
+      for (const starfocus_transfer transfer : {STARFOCUS_TRANSFER_NONE, STARFOCUS_TRANSFER_SRGB}) {
+        if (transfer == STARFOCUS_TRANSFER_SRGB && max_layer == 1) continue;
+        starfocus_config config = Config(scene, max_layer);
         config.transfer = transfer;
         all.Add(Check(scene, params, config, &here));
       }
-      for (int layer = 0; layer < SF_LAYERS; ++layer) covered->pixels[layer] += here.pixels[layer];
+      for (int layer = 0; layer < STARFOCUS_LAYERS; ++layer)
+        covered->pixels[layer] += here.pixels[layer];
       covered->gathered += here.gathered;
     }
   }
@@ -149,8 +150,8 @@ TEST_CASE("block conformance: the benchmark's slices") {
                                            low + float(random.Real(0.5, 4)));
       SetDepth(depth, &scene, &random);
       SetColours(Colours(random.Int(0, 2)), &scene, &random);
-      sf_params params = test::Params(low - random.Real(-1, 2), 1, SF_MODE_BENCHMARK);
-      params.renderer = SF_RENDERER_SLICES;
+      starfocus_params params = test::Params(low - random.Real(-1, 2), 1, STARFOCUS_MODE_BENCHMARK);
+      params.renderer = STARFOCUS_RENDERER_SLICES;
       all.Add(Check(scene, params, Config(scene, 2), &covered));
     }
   }
@@ -163,16 +164,16 @@ TEST_CASE("block conformance: largest subapertures, smallest and single blocks")
   test::Random random(52);
   Distance all;
   Covered covered;
-  for (const uint32_t block_cost : {0u, 1000u, SF_MAX_TIMING}) {
+  for (const uint32_t block_cost : {0u, 1000u, STARFOCUS_MAX_TIMING}) {
     for (const Depth depth : {Depth::kConstant, Depth::kSlanted}) {
       test::Scene scene = test::EmptyScene(64, 48, 5, 0, 4);
       SetDepth(depth, &scene, &random);
       SetColours(Colours::kRandom, &scene, &random);
       for (const double focus : {-25.0, -7.0, -2.0}) {
-        for (int max_layer = 0; max_layer < SF_LAYERS; ++max_layer) {
-          sf_params params = test::Params(focus, 1, SF_MODE_BLOCK);
-          params.renderer = SF_RENDERER_SLICES;
-          sf_config config = Config(scene, max_layer, 32);
+        for (int max_layer = 0; max_layer < STARFOCUS_LAYERS; ++max_layer) {
+          starfocus_params params = test::Params(focus, 1, STARFOCUS_MODE_BLOCK);
+          params.renderer = STARFOCUS_RENDERER_SLICES;
+          starfocus_config config = Config(scene, max_layer, 32);
           config.tuning.timing.block = block_cost;
           all.Add(Check(scene, params, config, &covered));
         }
@@ -199,9 +200,9 @@ TEST_CASE("block conformance: more slices than fit, widest subapertures") {
         test::Scene scene = test::EmptyScene(64, 48, views, lens.low, lens.high);
         SetDepth(depth, &scene, &random);
         SetColours(Colours::kRandom, &scene, &random);
-        for (int max_layer = 0; max_layer < SF_LAYERS; ++max_layer) {
-          sf_params params = test::Params(lens.focus, 1, SF_MODE_BLOCK);
-          params.renderer = SF_RENDERER_SLICES;
+        for (int max_layer = 0; max_layer < STARFOCUS_LAYERS; ++max_layer) {
+          starfocus_params params = test::Params(lens.focus, 1, STARFOCUS_MODE_BLOCK);
+          params.renderer = STARFOCUS_RENDERER_SLICES;
           all.Add(Check(scene, params, Config(scene, max_layer, lens.max_blur), &covered));
         }
       }
@@ -219,9 +220,9 @@ TEST_CASE("block conformance: tiles of large blocks have slices of their own") {
       test::Scene scene = test::EmptyScene(200, 90, 5, -range / 2, range / 2);
       SetDepth(depth, &scene, &random);
       SetColours(Colours::kRandom, &scene, &random);
-      sf_params params = test::Params(random.Real(-1, 1), 1, SF_MODE_FRAME);
-      params.renderer = SF_RENDERER_SLICES;
-      sf_config config = Config(scene, 0);
+      starfocus_params params = test::Params(random.Real(-1, 1), 1, STARFOCUS_MODE_FRAME);
+      params.renderer = STARFOCUS_RENDERER_SLICES;
+      starfocus_config config = Config(scene, 0);
       config.superblock = 256;
       Covered covered;
       all.Add(Check(scene, params, config, &covered));
@@ -241,11 +242,11 @@ TEST_CASE("block conformance: parts of the demo's scenes") {
   for (const char* name : {"portrait", "wires", "ramp"}) {
     starfocus::Scene drawn;
     REQUIRE(starfocus::MakeScene(name, &drawn));
-    const starfocus::RayTracer renderer(drawn, kWidth, kHeight, SF_TRANSFER_NONE, &runner);
+    const starfocus::RayTracer renderer(drawn, kWidth, kHeight, STARFOCUS_TRANSFER_NONE, &runner);
     starfocus::LightField field;
     for (int i = 0; i < 5; ++i) {
       double u = 0, v = 0;
-      sf_view_position(i, &u, &v);
+      starfocus_view_position(i, &u, &v);
       field.views.push_back(renderer.View(u, v, nullptr));
     }
     field.disparity = renderer.Disparity();

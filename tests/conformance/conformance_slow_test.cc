@@ -23,12 +23,13 @@ namespace {
 using namespace conformance;
 
 // Refocuses with both and checks their distance.
-Distance Check(const test::Scene& scene, const sf_params& params, const sf_config& config) {
+Distance Check(const test::Scene& scene, const starfocus_params& params,
+               const starfocus_config& config) {
   const int block = config.superblock;
   test::Engine engine(config);
   test::Output out(scene.width, scene.height);
-  sf_report report;
-  REQUIRE(test::Refocus(&engine, params, scene, &out, nullptr, nullptr, &report) == SF_OK);
+  starfocus_report report;
+  REQUIRE(test::Refocus(&engine, params, scene, &out, nullptr, nullptr, &report) == STARFOCUS_OK);
   const reference::Result expected = reference::Refocus(scene, params, config, block);
   CAPTURE(scene.width);
   CAPTURE(scene.height);
@@ -49,20 +50,20 @@ Distance Check(const test::Scene& scene, const sf_params& params, const sf_confi
 }
 
 // Line scans, by either transfer: block_conformance_slow_test has slices.
-Distance Check(const test::Scene& scene, sf_params params, int block, double theta) {
-  params.renderer = SF_RENDERER_LINE_SCAN;
-  sf_config config = test::ConfigFor(scene, 16);
+Distance Check(const test::Scene& scene, starfocus_params params, int block, double theta) {
+  params.renderer = STARFOCUS_RENDERER_LINE_SCAN;
+  starfocus_config config = test::ConfigFor(scene, 16);
   config.superblock = block;
   params.lens.theta = theta;
   Distance all;
-  for (const sf_transfer transfer : {SF_TRANSFER_NONE, SF_TRANSFER_SRGB}) {
+  for (const starfocus_transfer transfer : {STARFOCUS_TRANSFER_NONE, STARFOCUS_TRANSFER_SRGB}) {
     config.transfer = transfer;
     all.Add(Check(scene, params, config));
   }
   return all;
 }
 
-Distance Check(const test::Scene& scene, const sf_params& params, int block = 32) {
+Distance Check(const test::Scene& scene, const starfocus_params& params, int block = 32) {
   return Check(scene, params, block, 0.26 * 3.14159265358979323846);
 }
 
@@ -80,7 +81,8 @@ test::Scene MakeScene(int width, int height, int views, Depth depth, Range range
 }
 
 // A focus for which the blur radius reaches 2 to 9 pixels.
-sf_params RandomLens(const test::Scene& scene, sf_mode mode, double r_max, test::Random* random) {
+starfocus_params RandomLens(const test::Scene& scene, starfocus_mode mode, double r_max,
+                            test::Random* random) {
   const double aperture = random->Int(0, 2) == 0 ? 1 : random->Real(0.3, 1);
   const double reach = r_max / aperture;
   const double half = 0.5 * double(scene.disparity_max - scene.disparity_min);
@@ -91,7 +93,7 @@ sf_params RandomLens(const test::Scene& scene, sf_mode mode, double r_max, test:
 
 TEST_CASE("conformance: random scenes, every star set, both modes") {
   Distance all[2];
-  for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BENCHMARK}) {
+  for (const starfocus_mode mode : {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BENCHMARK}) {
     test::Random random(41 + uint64_t(mode));
     for (const auto& size : kSizes) {
       for (const int views : kStars) {
@@ -99,16 +101,16 @@ TEST_CASE("conformance: random scenes, every star set, both modes") {
           const double low = random.Real(-4, 3);
           const Range range = {float(low), float(low + random.Real(0.5, 5))};
           const test::Scene scene = MakeScene(size[0], size[1], views, depth, range, &random);
-          const double r_max = mode == SF_MODE_FRAME ? random.Real(2, 9) : random.Real(1, 5);
+          const double r_max = mode == STARFOCUS_MODE_FRAME ? random.Real(2, 9) : random.Real(1, 5);
           all[mode].Add(Check(scene, RandomLens(scene, mode, r_max, &random)));
         }
       }
     }
   }
-  all[SF_MODE_FRAME].Print("random scenes, frame");
-  all[SF_MODE_BENCHMARK].Print("random scenes, benchmark");
-  CHECK(all[SF_MODE_FRAME].mean() < kMeanLimit);
-  CHECK(all[SF_MODE_BENCHMARK].mean() < kMeanLimit);
+  all[STARFOCUS_MODE_FRAME].Print("random scenes, frame");
+  all[STARFOCUS_MODE_BENCHMARK].Print("random scenes, benchmark");
+  CHECK(all[STARFOCUS_MODE_FRAME].mean() < kMeanLimit);
+  CHECK(all[STARFOCUS_MODE_BENCHMARK].mean() < kMeanLimit);
 }
 
 TEST_CASE("conformance: many small scenes") {
@@ -121,8 +123,9 @@ TEST_CASE("conformance: many small scenes") {
     const test::Scene scene =
         MakeScene(random.Int(1, kSmall), random.Int(1, kSmall), kStars[random.Int(0, 3)],
                   kDepths[random.Int(0, 3)], range, &random);
-    const sf_mode mode = random.Int(0, 3) == 0 ? SF_MODE_BENCHMARK : SF_MODE_FRAME;
-    const double r_max = mode == SF_MODE_FRAME ? random.Real(0.1, 9) : random.Real(0.1, 4);
+    const starfocus_mode mode =
+        random.Int(0, 3) == 0 ? STARFOCUS_MODE_BENCHMARK : STARFOCUS_MODE_FRAME;
+    const double r_max = mode == STARFOCUS_MODE_FRAME ? random.Real(0.1, 9) : random.Real(0.1, 4);
     CAPTURE(seed);
     all.Add(Check(scene, RandomLens(scene, mode, r_max, &random)));
   }
@@ -132,7 +135,7 @@ TEST_CASE("conformance: many small scenes") {
 
 TEST_CASE("conformance: blocks of 64, widest and narrowest aperture") {
   Distance all;
-  for (const double theta : {SF_MIN_THETA, SF_MAX_THETA}) {
+  for (const double theta : {STARFOCUS_MIN_THETA, STARFOCUS_MAX_THETA}) {
     for (const int views : kStars) {
       test::Random random(77 + uint64_t(views));
       const test::Scene scene = MakeScene(96, 64, views, Depth::kPiecewise, Range{-2, 3}, &random);
@@ -154,7 +157,7 @@ TEST_CASE("conformance: parts of the data sets: wires" * doctest::test_suite("da
     for (const double focus : {0.0, 3.0, 7.0}) all.Add(Check(scene, test::Params(focus), 64));
   }
   const test::Scene scene = Crop(field, 200, 100, 64, 64);
-  all.Add(Check(scene, test::Params(3, 1, SF_MODE_BENCHMARK), 64));
+  all.Add(Check(scene, test::Params(3, 1, STARFOCUS_MODE_BENCHMARK), 64));
   all.Print("wires");
 }
 #endif

@@ -57,7 +57,7 @@ test::Scene Strands(int views, Map map, bool given) {
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
       for (int view = 0; view < views; ++view) {
-        const sf_position at = scene.PositionOf(view);
+        const starfocus_position at = scene.PositionOf(view);
         for (int c = 0; c < 3; ++c) {
           scene.Pixel(view, x, y)[c] = uint8_t(std::lround(LightAt(x, y, c, at.u, at.v)));
         }
@@ -100,13 +100,13 @@ test::Scene RandomStrands(bool given, uint64_t seed) {
 
 // The engine's coverage map of the whole picture, which one stripe holds.
 std::vector<reference::PartedPixel> EnginesPixels(const test::Scene& scene) {
-  sf_config config = test::ConfigFor(scene);
-  config.transfer = SF_TRANSFER_NONE;
+  starfocus_config config = test::ConfigFor(scene);
+  config.transfer = STARFOCUS_TRANSFER_NONE;
   config.superblock = 64;
   test::Engine engine(config);
   test::Output out(scene.width, scene.height);
-  REQUIRE(test::Refocus(&engine, test::Params(scene.disparity_min, 1, SF_MODE_BLOCK), scene,
-                        &out) == SF_OK);
+  REQUIRE(test::Refocus(&engine, test::Params(scene.disparity_min, 1, STARFOCUS_MODE_BLOCK), scene,
+                        &out) == STARFOCUS_OK);
   const starfocus::CoverageMap& map = test::StateOf(engine.get()).stripe.coverage.map;
   REQUIRE(map.tile_rows >= map.Rows());
   std::vector<reference::PartedPixel> pixels;
@@ -179,7 +179,7 @@ Distance Compare(const std::vector<reference::PartedPixel>& pixels,
 
 Distance Check(const test::Scene& scene) {
   const Distance distance =
-      Compare(EnginesPixels(scene), reference::PartPixels(scene, SF_TRANSFER_NONE));
+      Compare(EnginesPixels(scene), reference::PartPixels(scene, STARFOCUS_TRANSFER_NONE));
   const int percent = distance.parted / 100;
   CHECK(distance.otherwise <= percent);
   CHECK(distance.disparities == 0);

@@ -41,10 +41,10 @@ std::vector<reference::GatheredCell> GatheredCells(const starfocus::GatherMap& m
 
 // The engine tells of each block while the plan of its stripe is the one in memory.
 struct Visit {
-  sf_engine* engine;
+  starfocus_engine* engine;
   std::vector<reference::Block>* blocks;
 
-  static void Add(void* self, const sf_block* told) {
+  static void Add(void* self, const starfocus_block* told) {
     const auto& visit = *static_cast<const Visit*>(self);
     const test::StripeBlocks plan = test::PlanOf(visit.engine);
     const starfocus::Block& b = *std::find_if(
@@ -59,7 +59,7 @@ struct Visit {
 
 }  // namespace
 
-EngineResult RunEngine(const test::Scene& scene, const sf_params& params,
+EngineResult RunEngine(const test::Scene& scene, const starfocus_params& params,
                        const starfocus::simd::Kernels& kernels, test::Engine* engine) {
   EngineResult result;
   test::UseKernels(&kernels, engine->get());

@@ -15,14 +15,14 @@
 namespace conformance {
 
 struct EngineResult {
-  sf_status status = SF_OK;
-  sf_report report = {};
+  starfocus_status status = STARFOCUS_OK;
+  starfocus_report report = {};
   std::vector<uint8_t> bytes;            // 3 * width * height
   std::vector<reference::Block> blocks;  // of all stripes
 };
 
 // Refocuses the scene by an engine that is set up, on the given kernels.
-EngineResult RunEngine(const test::Scene& scene, const sf_params& params,
+EngineResult RunEngine(const test::Scene& scene, const starfocus_params& params,
                        const starfocus::simd::Kernels& kernels, test::Engine* engine);
 
 }  // namespace conformance

@@ -11,7 +11,7 @@ namespace {
 
 // As LightField has it.
 std::pair<int, int> PositionOf(const test::Scene& scene, int view) {
-  const sf_position at = scene.PositionOf(view);
+  const starfocus_position at = scene.PositionOf(view);
   return {int(std::lround(kViewUnit * at.u)), int(std::lround(kViewUnit * at.v))};
 }
 
@@ -71,7 +71,7 @@ LightField LoadExcess(const test::Scene& scene, int transfer) {
   return field;
 }
 
-Lens MakeLens(const sf_params& params, const ApertureShape& opening, int n, int layer,
+Lens MakeLens(const starfocus_params& params, const ApertureShape& opening, int n, int layer,
               bool wide = false) {
   Lens lens;
   lens.n = n;
@@ -221,7 +221,7 @@ void Put(const Picture& from, int x0, int y0, int width, Result* result) {
 }
 
 // Light becomes codes, with what highlights add to it (nothing: empty).
-void Encode(const sf_config& config, const std::vector<double>& excess, Result* result) {
+void Encode(const starfocus_config& config, const std::vector<double>& excess, Result* result) {
   for (size_t i = 0; i < result->rgb.size(); ++i) {
     double& value = result->rgb[i];
     if (!excess.empty()) value = std::min(255.0, value + (config.highlights - 1) * excess[i]);
@@ -249,7 +249,7 @@ LightField Load(const test::Scene& scene, int transfer) {
 }
 
 int ViewsAlongRadius(double r_max, int mode) {
-  if (mode == SF_MODE_BENCHMARK) return 2 * int(std::ceil(r_max));
+  if (mode == STARFOCUS_MODE_BENCHMARK) return 2 * int(std::ceil(r_max));
   if (r_max < 4) return int(std::ceil(r_max));
   return std::max(4, int(std::ceil(0.787 * r_max)));
 }
@@ -277,8 +277,8 @@ void RefocusFrame(const LightField& field, const Lens& lens, int border, int blo
 
 }  // namespace
 
-Result Refocus(const test::Scene& scene, const sf_params& params, const sf_config& config,
-               int block) {
+Result Refocus(const test::Scene& scene, const starfocus_params& params,
+               const starfocus_config& config, int block) {
   const double r_max =
       params.lens.aperture * std::max(std::fabs(scene.disparity_min - params.lens.focus),
                                       std::fabs(scene.disparity_max - params.lens.focus));
@@ -312,11 +312,12 @@ void Paste(const Picture& from, int x0, int y0, Picture* to) {
 
 // Views, and cells that are gathered, of the blocks; with `excess` of those alone that may show
 // highlights, which are at layer 0 and gather nothing.
-void RefocusAll(const LightField& field, const sf_params& params, const sf_config& config,
-                const std::vector<Block>& blocks, bool excess, Result* result) {
+void RefocusAll(const LightField& field, const starfocus_params& params,
+                const starfocus_config& config, const std::vector<Block>& blocks, bool excess,
+                Result* result) {
   const Picture& centre = field.at({0, 0});
   const std::vector<Picture> layers = MakeLayers(centre);
-  const bool benchmark = params.mode == SF_MODE_BENCHMARK;
+  const bool benchmark = params.mode == STARFOCUS_MODE_BENCHMARK;
   const double r_max = params.lens.aperture * std::max(config.disparity_max - params.lens.focus,
                                                        params.lens.focus - config.disparity_min);
   const int widest = std::max(int(r_max), 32) + 3;  // reach of the most blurred slice
@@ -324,7 +325,7 @@ void RefocusAll(const LightField& field, const sf_params& params, const sf_confi
                            benchmark ? 0.125 : 0.375};
   for (const Block& block : blocks) {
     if (excess && (block.layer > 0 || !block.gathered.empty())) continue;
-    const bool by_subaperture = params.renderer == SF_RENDERER_SLICES && block.n > 0;
+    const bool by_subaperture = params.renderer == STARFOCUS_RENDERER_SLICES && block.n > 0;
     const ApertureShape here =
         ApertureShape(params.lens)
             .At(block.x, block.y, block.width, block.height, centre.width, centre.height);
@@ -353,8 +354,9 @@ void RefocusAll(const LightField& field, const sf_params& params, const sf_confi
 
 }  // namespace
 
-std::vector<double> RefocusBlocks(const test::Scene& scene, const sf_params& params,
-                                  const sf_config& config, const std::vector<Block>& blocks) {
+std::vector<double> RefocusBlocks(const test::Scene& scene, const starfocus_params& params,
+                                  const starfocus_config& config,
+                                  const std::vector<Block>& blocks) {
   Result result;
   result.rgb.assign(3 * size_t(scene.width) * size_t(scene.height), 0);
   Result excess = result;

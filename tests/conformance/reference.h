@@ -26,8 +26,8 @@ struct Result {
 // Refocuses the scene by the transfer of `config`. `block` is the side of the
 // blocks: runs of one shift start at the edge of a block's extended rectangle, so that results
 // depend on it.
-Result Refocus(const test::Scene& scene, const sf_params& params, const sf_config& config,
-               int block);
+Result Refocus(const test::Scene& scene, const starfocus_params& params,
+               const starfocus_config& config, int block);
 
 // A cell of the picture that is gathered (reference_gather.h).
 struct GatheredCell {
@@ -47,8 +47,8 @@ struct Block {
 
 // Block mode, or the benchmark's blocks, with a given partition of the picture and without
 // deblocking; unrounded, 3 * width * height.
-std::vector<double> RefocusBlocks(const test::Scene& scene, const sf_params& params,
-                                  const sf_config& config, const std::vector<Block>& blocks);
+std::vector<double> RefocusBlocks(const test::Scene& scene, const starfocus_params& params,
+                                  const starfocus_config& config, const std::vector<Block>& blocks);
 
 }  // namespace reference
 

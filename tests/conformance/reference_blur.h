@@ -68,8 +68,8 @@ struct Psf {
 
 // The light of the opening's square [x0, x1] x [y0, y1]; a polygon's by points.
 inline double LightOf(const ApertureShape& opening, double x0, double x1, double y0, double y1) {
-  if (opening.shape == SF_SHAPE_FALL_OFF) return Integral(x0, x1, y0, y1, opening.cot2);
-  if (opening.shape == SF_SHAPE_POLYGON) {
+  if (opening.shape == STARFOCUS_SHAPE_FALL_OFF) return Integral(x0, x1, y0, y1, opening.cot2);
+  if (opening.shape == STARFOCUS_SHAPE_POLYGON) {
     const int points = FinenessOf(x1 - x0);
     double sum = 0;
     for (int point = 0; point < points * points; ++point) {
@@ -80,7 +80,7 @@ inline double LightOf(const ApertureShape& opening, double x0, double x1, double
   }
   double light = Integral(x0, x1, y0, y1, 0);
   const double r = opening.inner;
-  if (opening.shape == SF_SHAPE_RING && r > 0) {
+  if (opening.shape == STARFOCUS_SHAPE_RING && r > 0) {
     light -= r * r * Integral(x0 / r, x1 / r, y0 / r, y1 / r, 0);
   }
   return light;

@@ -27,8 +27,8 @@ double LadderAbove(int radius) {
 
 // Mean square of a coordinate of the opening's light, of the lens's radius.
 double MeanSquare(const ApertureShape& opening) {
-  if (opening.shape == SF_SHAPE_RING) return (1 + opening.inner * opening.inner) / 4;
-  if (opening.shape != SF_SHAPE_FALL_OFF) return 1.0 / 4;
+  if (opening.shape == STARFOCUS_SHAPE_RING) return (1 + opening.inner * opening.inner) / 4;
+  if (opening.shape != STARFOCUS_SHAPE_FALL_OFF) return 1.0 / 4;
   const double c = opening.cot2, light = c / (1 + c);
   return c * c * (std::log((1 + c) / c) + light - 1) / light / 2;
 }

@@ -83,7 +83,8 @@ struct Lens {
     if (n == 0) return 1;
     const double passing = opening.cats_eye > 0 ? opening.Passing(i, j, Radius()) : 1;
     // Openings that end sharply are sampled as the engine has them.
-    if (opening.shape != SF_SHAPE_FALL_OFF) return passing * opening.Mean(i, j, Radius(), 16);
+    if (opening.shape != STARFOCUS_SHAPE_FALL_OFF)
+      return passing * opening.Mean(i, j, Radius(), 16);
     // By as many points as other shapes. The integral is 5.5 % more for the four views on the rim
     // of N = 4, 0.02 % of all light each: of lamps ten times white that is three codes of the dark.
     if (subapertures > 0) return passing * opening.Mean(i, j, subapertures, 16);

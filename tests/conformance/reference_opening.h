@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reference's opening of the lens: (3), and the shapes of sf_lens, in double precision.
+// The reference's opening of the lens: (3), and the shapes of starfocus_lens, in double precision.
 #ifndef STARFOCUS_TESTS_CONFORMANCE_REFERENCE_OPENING_H_
 #define STARFOCUS_TESTS_CONFORMANCE_REFERENCE_OPENING_H_
 
@@ -18,7 +18,7 @@ inline double ApertureDensity(double u, double v, double cot2) {
 
 struct ApertureShape {
   double theta;
-  int shape = SF_SHAPE_FALL_OFF;
+  int shape = STARFOCUS_SHAPE_FALL_OFF;
   int blades = 0;
   double rotation = 0, curvature = 0, inner = 0, cats_eye = 0;
   double rim_x = 0, rim_y = 0;  // where the rim behind the lens is seen
@@ -27,12 +27,12 @@ struct ApertureShape {
   struct Edge {
     double x, y, centre;
   };
-  std::array<Edge, SF_MAX_BLADES> edges = {};
+  std::array<Edge, STARFOCUS_MAX_BLADES> edges = {};
   double cot2;  // of theta
 
   ApertureShape(double angle)  // NOLINT: the plain lens is its theta
       : theta(angle), cot2(1 / (std::tan(theta) * std::tan(theta))) {}
-  ApertureShape(const sf_lens& lens)  // NOLINT: converts
+  ApertureShape(const starfocus_lens& lens)  // NOLINT: converts
       : theta(lens.theta),
         shape(lens.shape),
         blades(lens.blades),
@@ -81,9 +81,9 @@ struct ApertureShape {
   double Density(double u, double v) const {
     const double square = u * u + v * v;
     if (square > 1) return 0;
-    if (shape == SF_SHAPE_FALL_OFF) return ApertureDensity(u, v, cot2);
-    if (shape == SF_SHAPE_RING) return square >= inner * inner;
-    return shape == SF_SHAPE_DISC || InPolygon(u, v) ? 1 : 0;
+    if (shape == STARFOCUS_SHAPE_FALL_OFF) return ApertureDensity(u, v, cot2);
+    if (shape == STARFOCUS_SHAPE_RING) return square >= inner * inner;
+    return shape == STARFOCUS_SHAPE_DISC || InPolygon(u, v) ? 1 : 0;
   }
 
   // The mean density over the subaperture around (i, j) of a lens that is `width` of them wide, by

@@ -95,11 +95,12 @@ void SetLens(Trial* trial, test::Random* random) {
   if (aperture * half > radius) aperture = std::max(radius / half, 1e-3);
   const double offset = std::max(0.0, radius / aperture - half);
   const double focus = centre + (random->Int(0, 1) == 0 ? offset : -offset);
-  const sf_mode mode = benchmark                ? SF_MODE_BENCHMARK
-                       : random->Int(0, 3) == 0 ? SF_MODE_FRAME
-                                                : SF_MODE_BLOCK;
+  const starfocus_mode mode = benchmark                ? STARFOCUS_MODE_BENCHMARK
+                              : random->Int(0, 3) == 0 ? STARFOCUS_MODE_FRAME
+                                                       : STARFOCUS_MODE_BLOCK;
   trial->params = test::Params(focus, aperture, mode);
-  trial->params.renderer = random->Int(0, 3) == 0 ? SF_RENDERER_LINE_SCAN : SF_RENDERER_SLICES;
+  trial->params.renderer =
+      random->Int(0, 3) == 0 ? STARFOCUS_RENDERER_LINE_SCAN : STARFOCUS_RENDERER_SLICES;
 }
 
 double RadiusOf(const Trial& trial) {
@@ -110,21 +111,23 @@ double RadiusOf(const Trial& trial) {
 
 void SetConfig(Trial* trial, test::Random* random) {
   const double radius = RadiusOf(*trial);
-  sf_config& config = trial->config;
+  starfocus_config& config = trial->config;
   config = test::ConfigFor(trial->scene, std::max(0.5, radius));
   config.superblock = random->Int(0, 3) == 0 ? 64 : 32;
-  config.tuning.max_layer = random->Int(0, SF_LAYERS - 1);
+  config.tuning.max_layer = random->Int(0, STARFOCUS_LAYERS - 1);
   config.tuning.deblocking = 0;  // a decision by thresholds; deblock_test has it
   config.tuning.skips = random->Int(0, 1);
   config.tuning.gather = random->Int(0, 3) == 0 ? 0 : 1;
   // A cheap or a dear block makes the partition fine or coarse.
   if (random->Int(0, 1) == 0) config.tuning.timing.block = 1u << random->Int(0, 26);
   if (random->Int(0, 1) == 0) {
-    trial->params.lens.theta =
-        OneOf({SF_MIN_THETA, SF_MAX_THETA, random->Real(SF_MIN_THETA, SF_MAX_THETA)}, random);
+    trial->params.lens.theta = OneOf({STARFOCUS_MIN_THETA, STARFOCUS_MAX_THETA,
+                                      random->Real(STARFOCUS_MIN_THETA, STARFOCUS_MAX_THETA)},
+                                     random);
   }
-  if (random->Int(0, 1) == 0) config.tuning.n_scale = random->Real(SF_MIN_N_SCALE, SF_MAX_N_SCALE);
-  config.transfer = random->Int(0, 1) == 0 ? SF_TRANSFER_SRGB : SF_TRANSFER_NONE;
+  if (random->Int(0, 1) == 0)
+    config.tuning.n_scale = random->Real(STARFOCUS_MIN_N_SCALE, STARFOCUS_MAX_N_SCALE);
+  config.transfer = random->Int(0, 1) == 0 ? STARFOCUS_TRANSFER_SRGB : STARFOCUS_TRANSFER_NONE;
   const int lamps = random->Int(0, 5);
   if (lamps < 2) config.highlights = float(random->Real(1, lamps == 0 ? 4 : 16));
   if (random->Int(0, 1) == 0) test::RandomShape(&trial->params.lens, random);
@@ -145,7 +148,7 @@ std::string Trial::Text() const {
                 config.tuning.n_scale, config.tuning.gather, config.tuning.timing.block,
                 config.transfer, double{config.highlights}, test::ShapeText(params.lens).c_str());
   std::string all = text;
-  for (const sf_position& at : scene.positions) {
+  for (const starfocus_position& at : scene.positions) {
     std::snprintf(text, sizeof(text), ", view (%.9g, %.9g)", at.u, at.v);
     all += text;
   }
@@ -158,7 +161,7 @@ Trial MakeTrial(uint64_t seed, bool anywhere) {
   trial.scene = MakeScene(&random);
   SetLens(&trial, &random);
   SetConfig(&trial, &random);
-  if (anywhere && trial.params.renderer != SF_RENDERER_LINE_SCAN) {
+  if (anywhere && trial.params.renderer != STARFOCUS_RENDERER_LINE_SCAN) {
     test::RandomViews(&trial.scene, &trial.config, &random);
   }
   return trial;
@@ -168,10 +171,10 @@ int MostLevels(const Trial& trial) { return trial.config.highlights > 1 ? 2 : 1;
 
 Distance Measure(const Trial& trial) {
   test::Engine engine(trial.config);
-  REQUIRE(engine.status() == SF_OK);
+  REQUIRE(engine.status() == STARFOCUS_OK);
   const EngineResult result =
       RunEngine(trial.scene, trial.params, starfocus::simd::ReferenceKernels(), &engine);
-  REQUIRE(result.status == SF_OK);
+  REQUIRE(result.status == STARFOCUS_OK);
   return Compare(result.bytes,
                  reference::RefocusBlocks(trial.scene, trial.params, trial.config, result.blocks));
 }

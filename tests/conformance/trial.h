@@ -15,8 +15,8 @@ namespace conformance {
 
 struct Trial {
   test::Scene scene;
-  sf_params params;
-  sf_config config;
+  starfocus_params params;
+  starfocus_config config;
 
   std::string Text() const;
 };

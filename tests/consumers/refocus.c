@@ -19,42 +19,43 @@ static uint8_t out[kHeight * kStride];
 
 int main(void) {
   const double foci[] = {6, -4};
-  const sf_light_field field = MakeScene(&scene);
-  sf_config config;
-  sf_params params;
-  const sf_image picture = sf_image_rgb(out, kStride);
-  sf_engine* engine = NULL;
-  sf_callbacks callbacks = {0};
-  sf_status status;
+  const starfocus_light_field field = MakeScene(&scene);
+  starfocus_config config;
+  starfocus_params params;
+  const starfocus_image picture = starfocus_image_rgb(out, kStride);
+  starfocus_engine* engine = NULL;
+  starfocus_callbacks callbacks = {0};
+  starfocus_status status;
   size_t bytes = 0, i;
   char* memory;
-  sf_config_init(&config);
+  starfocus_config_init(&config);
   ConfigureFor(&config);
 #ifdef WITH_POOL
-  sf_pool* const pool = sf_pool_create(3);
+  starfocus_pool* const pool = starfocus_pool_create(3);
   if (!pool) return 1;
-  config.max_workers = sf_pool_workers(pool);
-  callbacks.runner = sf_pool_run;
+  config.max_workers = starfocus_pool_workers(pool);
+  callbacks.runner = starfocus_pool_run;
   callbacks.runner_data = pool;
 #endif
-  status = sf_workspace_size(&config, &bytes);
-  memory = (char*)malloc(bytes + SF_ALIGNMENT);
+  status = starfocus_workspace_size(&config, &bytes);
+  memory = (char*)malloc(bytes + STARFOCUS_ALIGNMENT);
   if (!memory) return 1;
-  if (status == SF_OK) {
-    status = sf_init(&config, memory + (SF_ALIGNMENT - (uintptr_t)memory % SF_ALIGNMENT), bytes,
-                     &engine);
+  if (status == STARFOCUS_OK) {
+    status = starfocus_init(
+        &config, memory + (STARFOCUS_ALIGNMENT - (uintptr_t)memory % STARFOCUS_ALIGNMENT), bytes,
+        &engine);
   }
-  if (status == SF_OK) status = sf_set_callbacks(engine, &callbacks);
-  sf_params_init(&params);
-  for (i = 0; status == SF_OK && i < sizeof foci / sizeof *foci; ++i) {
+  if (status == STARFOCUS_OK) status = starfocus_set_callbacks(engine, &callbacks);
+  starfocus_params_init(&params);
+  for (i = 0; status == STARFOCUS_OK && i < sizeof foci / sizeof *foci; ++i) {
     params.lens.focus = foci[i];
-    status = sf_refocus(engine, &params, &field, &picture, NULL);
-    if (status == SF_OK) printf("%08x\n", (unsigned)Checksum(out, sizeof out));
+    status = starfocus_refocus(engine, &params, &field, &picture, NULL);
+    if (status == STARFOCUS_OK) printf("%08x\n", (unsigned)Checksum(out, sizeof out));
   }
   free(memory);
 #ifdef WITH_POOL
-  sf_pool_destroy(pool);
+  starfocus_pool_destroy(pool);
 #endif
-  if (status != SF_OK) fprintf(stderr, "refocus: %s\n", sf_status_string(status));
-  return status != SF_OK;
+  if (status != STARFOCUS_OK) fprintf(stderr, "refocus: %s\n", starfocus_status_string(status));
+  return status != STARFOCUS_OK;
 }

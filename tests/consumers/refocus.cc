@@ -9,17 +9,20 @@
 int main() {
   static Scene scene;
   static uint8_t out[kHeight * kStride];
-  const sf_light_field field = MakeScene(&scene);
+  const starfocus_light_field field = MakeScene(&scene);
   starfocus::Config config;
   ConfigureFor(&config);
   starfocus::Engine engine;
-  sf_status status = engine.Init(config);
+  starfocus_status status = engine.Init(config);
   for (const double focus : {6.0, -4.0}) {
     starfocus::Params params;
     params.lens.focus = focus;
-    if (status == SF_OK) status = engine.Refocus(params, field, sf_image_rgb(out, kStride));
-    if (status == SF_OK) std::printf("%08x\n", static_cast<unsigned>(Checksum(out, sizeof out)));
+    if (status == STARFOCUS_OK)
+      status = engine.Refocus(params, field, starfocus_image_rgb(out, kStride));
+    if (status == STARFOCUS_OK)
+      std::printf("%08x\n", static_cast<unsigned>(Checksum(out, sizeof out)));
   }
-  if (status != SF_OK) std::fprintf(stderr, "refocus: %s\n", sf_status_string(status));
-  return status != SF_OK;
+  if (status != STARFOCUS_OK)
+    std::fprintf(stderr, "refocus: %s\n", starfocus_status_string(status));
+  return status != STARFOCUS_OK;
 }

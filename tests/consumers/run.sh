@@ -147,12 +147,12 @@ swift() {
   cat >"$work/module.m" <<'TEXT'
 @import CStarfocus;
 int main(void) {
-  sf_config config;
-  sf_image image = {0};
-  sf_depth_config depth;
-  sf_config_init(&config);
-  sf_depth_config_init(&depth);
-  return image.format + (int)(sf_abi_version() - SF_ABI_VERSION);
+  starfocus_config config;
+  starfocus_image image = {0};
+  starfocus_depth_config depth;
+  starfocus_config_init(&config);
+  starfocus_depth_config_init(&depth);
+  return image.format + (int)(starfocus_abi_version() - STARFOCUS_ABI_VERSION);
 }
 TEXT
   quietly clang -fsyntax-only -Wall -Werror -fmodules "-fmodules-cache-path=$work/modules" \

@@ -22,13 +22,13 @@ static uint8_t TextureAt(int x, int y, int channel) {
   return (uint8_t)((x * x + 3 * x * y + 7 * y * y) / (5 + channel) & 255);
 }
 
-static sf_light_field MakeScene(Scene* scene) {
-  sf_light_field field;
+static starfocus_light_field MakeScene(Scene* scene) {
+  starfocus_light_field field;
   int i, x, y, channel;
   memset(&field, 0, sizeof field);
   for (i = 0; i < kViews; ++i) {
     double u = 0, v = 0;
-    sf_view_position(i, &u, &v);
+    starfocus_view_position(i, &u, &v);
     for (y = 0; y < kHeight; ++y) {
       for (x = 0; x < kWidth; ++x) {
         const int d = DisparityAt(x, y);
@@ -39,13 +39,13 @@ static sf_light_field MakeScene(Scene* scene) {
         if (i == 0) scene->disparity[y * kWidth + x] = (float)d;
       }
     }
-    field.views[i] = sf_image_rgb(scene->views[i], kStride);
+    field.views[i] = starfocus_image_rgb(scene->views[i], kStride);
   }
-  field.depth = sf_depth_float(scene->disparity, kWidth * sizeof(float), kWidth, kHeight);
+  field.depth = starfocus_depth_float(scene->disparity, kWidth * sizeof(float), kWidth, kHeight);
   return field;
 }
 
-static void ConfigureFor(sf_config* config) {
+static void ConfigureFor(starfocus_config* config) {
   config->width = kWidth;
   config->height = kHeight;
   config->views = kViews;

@@ -34,25 +34,27 @@ struct Repaired {
 };
 
 Repaired Repair(const Photo& photo) {
-  sf_depth_config config;
-  sf_depth_config_init(&config);
+  starfocus_depth_config config;
+  starfocus_depth_config_init(&config);
   config.width = photo.width;
   config.height = photo.height;
   const starfocus::EstimatePlan plan = starfocus::MakePlan(config);
   starfocus::ColourMemory* memory = nullptr;
   const size_t bytes = starfocus::LayOutColourRepair(plan, 1, nullptr, &memory);
-  void* base = ::operator new(bytes, std::align_val_t(SF_ALIGNMENT));
+  void* base = ::operator new(bytes, std::align_val_t(STARFOCUS_ALIGNMENT));
   std::memset(base, 0xA5, bytes);
   starfocus::LayOutColourRepair(plan, 1, base, &memory);
-  sf_light_field field = {};
+  starfocus_light_field field = {};
   const auto width = size_t(photo.width);
-  field.views[0] = sf_image_rgb(photo.rgb.data(), 3 * width);
-  field.depth = sf_depth_float(photo.map.data(), width * sizeof(float), photo.width, photo.height);
+  field.views[0] = starfocus_image_rgb(photo.rgb.data(), 3 * width);
+  field.depth =
+      starfocus_depth_float(photo.map.data(), width * sizeof(float), photo.width, photo.height);
   Repaired result = {std::vector<float>(photo.map.size()), std::vector<uint8_t>(photo.map.size())};
   const starfocus::MapOutput output = {result.map.data(),        width, -500,    500,
                                        result.confidence.data(), width, nullptr, 0};
-  CHECK(RepairByColour(plan, field, starfocus::simd::BestDepthKernels(), output, memory) == SF_OK);
-  ::operator delete(base, std::align_val_t(SF_ALIGNMENT));
+  CHECK(RepairByColour(plan, field, starfocus::simd::BestDepthKernels(), output, memory) ==
+        STARFOCUS_OK);
+  ::operator delete(base, std::align_val_t(STARFOCUS_ALIGNMENT));
   return result;
 }
 
@@ -198,12 +200,13 @@ TEST_CASE("colour repair: rows without a known value are those of the nearest kn
   std::fill(photo.map.begin(), photo.map.end(), kNan);
   photo.Map(0, 2) = 1, photo.Map(1, 2) = 4;
   photo.Map(0, 6) = 3, photo.Map(1, 6) = 2;
-  sf_depth_config config;
-  sf_depth_config_init(&config);
+  starfocus_depth_config config;
+  starfocus_depth_config_init(&config);
   config.width = photo.width;
   config.height = photo.height;
-  sf_light_field field = {};
-  field.depth = sf_depth_float(photo.map.data(), 2 * sizeof(float), photo.width, photo.height);
+  starfocus_light_field field = {};
+  field.depth =
+      starfocus_depth_float(photo.map.data(), 2 * sizeof(float), photo.width, photo.height);
   std::vector<int16_t> filled(photo.map.size());
   starfocus::ReadMap(starfocus::MakePlan(config), field, filled.data());
   // In the middle, as far from both, the farther surface counts.
@@ -218,12 +221,12 @@ TEST_CASE("colour repair: pixels beside steps are doubted, but not those of thin
   }
   std::vector<int16_t> fixed(photo.map.size());
   for (size_t k = 0; k < fixed.size(); ++k) fixed[k] = int16_t(64 * photo.map[k]);
-  sf_depth_config config;
-  sf_depth_config_init(&config);
+  starfocus_depth_config config;
+  starfocus_depth_config_init(&config);
   config.width = 60, config.height = 40;
   const starfocus::EstimatePlan plan = starfocus::MakePlan(config);
-  sf_light_field field = {};
-  field.depth = sf_depth_float(photo.map.data(), 60 * sizeof(float), 60, 40);
+  starfocus_light_field field = {};
+  field.depth = starfocus_depth_float(photo.map.data(), 60 * sizeof(float), 60, 40);
   std::vector<uint8_t> scratch(fixed.size()), doubt(fixed.size());
   starfocus::MeasureDoubt({plan, field, fixed.data()}, {0, 0, 60, 40}, scratch.data(),
                           doubt.data());

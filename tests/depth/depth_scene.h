@@ -43,10 +43,10 @@ struct PlaneField {
   int width = 0, height = 0;
   std::vector<std::vector<uint8_t>> views;
 
-  sf_light_field Get() const {
-    sf_light_field field = {};
+  starfocus_light_field Get() const {
+    starfocus_light_field field = {};
     for (size_t k = 0; k < views.size(); ++k) {
-      field.views[k] = sf_image_rgb(views[k].data(), 3 * size_t(width));
+      field.views[k] = starfocus_image_rgb(views[k].data(), 3 * size_t(width));
     }
     return field;
   }
@@ -56,7 +56,7 @@ inline PlaneField RenderPlanes(const PlaneScene& scene) {
   PlaneField field = {scene.width, scene.height, {}};
   for (int k = 0; k < scene.views; ++k) {
     double u = 0, v = 0;
-    sf_view_position(k, &u, &v);
+    starfocus_view_position(k, &u, &v);
     std::vector<uint8_t> view;
     for (int y = 0; y < scene.height; ++y) {
       for (int x = 0; x < 3 * scene.width; ++x) view.push_back(scene.Pixel(u, v, x / 3, y, x % 3));
@@ -66,9 +66,9 @@ inline PlaneField RenderPlanes(const PlaneScene& scene) {
   return field;
 }
 
-inline sf_depth_config ConfigOf(const PlaneField& field, float low, float high) {
-  sf_depth_config config;
-  sf_depth_config_init(&config);
+inline starfocus_depth_config ConfigOf(const PlaneField& field, float low, float high) {
+  starfocus_depth_config config;
+  starfocus_depth_config_init(&config);
   config.width = field.width;
   config.height = field.height;
   config.views = int32_t(field.views.size());
@@ -80,10 +80,10 @@ inline sf_depth_config ConfigOf(const PlaneField& field, float low, float high) 
 // Memory that holds anything.
 struct Memory {
   explicit Memory(size_t size)
-      : bytes(size), data(::operator new (size, std::align_val_t{SF_ALIGNMENT})) {
+      : bytes(size), data(::operator new (size, std::align_val_t{STARFOCUS_ALIGNMENT})) {
     std::memset(data, kPoison, size);
   }
-  ~Memory() { ::operator delete (data, std::align_val_t{SF_ALIGNMENT}); }
+  ~Memory() { ::operator delete (data, std::align_val_t{STARFOCUS_ALIGNMENT}); }
   Memory(const Memory&) = delete;
   Memory& operator=(const Memory&) = delete;
 
@@ -97,20 +97,21 @@ struct MadeMap {
 };
 
 // The map that is estimated, or that `given` is repaired to.
-inline MadeMap MakeMap(const PlaneField& field, const sf_depth_config& config,
+inline MadeMap MakeMap(const PlaneField& field, const starfocus_depth_config& config,
                        const std::vector<float>& given = {}) {
   size_t bytes = 0;
-  REQUIRE((given.empty() ? sf_estimate_size : sf_repair_size)(&config, &bytes) == SF_OK);
+  REQUIRE((given.empty() ? starfocus_estimate_size : starfocus_repair_size)(&config, &bytes) ==
+          STARFOCUS_OK);
   const Memory memory(bytes);
   const auto width = size_t(field.width), pixels = width * size_t(field.height);
   MadeMap made = {std::vector<float>(pixels, NAN), std::vector<uint8_t>(pixels, 77)};
-  sf_light_field light_field = field.Get();
+  starfocus_light_field light_field = field.Get();
   light_field.depth =
-      sf_depth_float(given.data(), sizeof(float) * width, field.width, field.height);
-  sf_map map = {
+      starfocus_depth_float(given.data(), sizeof(float) * width, field.width, field.height);
+  starfocus_map map = {
       made.disparity.data(), sizeof(float) * width, made.confidence.data(), width, nullptr, 0, 0};
-  const auto make = given.empty() ? sf_estimate_disparity : sf_repair_disparity;
-  REQUIRE(make(&config, &light_field, &map, memory.data, memory.bytes) == SF_OK);
+  const auto make = given.empty() ? starfocus_estimate_disparity : starfocus_repair_disparity;
+  REQUIRE(make(&config, &light_field, &map, memory.data, memory.bytes) == STARFOCUS_OK);
   return made;
 }
 
@@ -130,11 +131,11 @@ inline PlaneField MirroredField(const PlaneField& field, bool across) {
   PlaneField mirrored = field;
   for (int k = 0; k < int(field.views.size()); ++k) {
     double u = 0, v = 0;
-    sf_view_position(k, &u, &v);
+    starfocus_view_position(k, &u, &v);
     int from = 0;
     for (int other = 0; other < int(field.views.size()); ++other) {
       double a = 0, b = 0;
-      sf_view_position(other, &a, &b);
+      starfocus_view_position(other, &a, &b);
       if (a == (across ? -u : u) && b == (across ? v : -v)) from = other;
     }
     for (int y = 0; y < field.height; ++y) {
@@ -151,7 +152,7 @@ inline PlaneField MirroredField(const PlaneField& field, bool across) {
 }
 
 // Jobs backwards, by two workers in turns.
-inline int RunBackwards(void*, sf_job job, void* data, int32_t count) {
+inline int RunBackwards(void*, starfocus_job job, void* data, int32_t count) {
   for (int32_t index = count - 1; index >= 0; --index) job(data, index, index % 2);
   return 0;
 }

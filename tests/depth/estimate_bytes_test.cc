@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Estimated disparities of scenes that are known, and what sf_estimate_disparity refuses.
+// Estimated disparities of scenes that are known, and what starfocus_estimate_disparity refuses.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -84,72 +84,74 @@ TEST_CASE("estimate: pictures of any size, with any range, within it") {
 
 TEST_CASE("estimate: bad configurations have their errors") {
   const PlaneField field = RenderPlanes(PlaneScene());
-  const sf_depth_config good = ConfigOf(field, -3, 3);
+  const starfocus_depth_config good = ConfigOf(field, -3, 3);
   size_t bytes = 0;
-  CHECK(sf_estimate_size(nullptr, &bytes) == SF_ERROR_NULL);
-  CHECK(sf_estimate_size(&good, nullptr) == SF_ERROR_NULL);
+  CHECK(starfocus_estimate_size(nullptr, &bytes) == STARFOCUS_ERROR_NULL);
+  CHECK(starfocus_estimate_size(&good, nullptr) == STARFOCUS_ERROR_NULL);
   const auto status = [&](auto change) {
-    sf_depth_config config = good;
+    starfocus_depth_config config = good;
     change(&config);
-    return sf_estimate_size(&config, &bytes);
+    return starfocus_estimate_size(&config, &bytes);
   };
-  CHECK(status([](sf_depth_config*) {}) == SF_OK);
-  CHECK(status([](sf_depth_config* c) { c->size = 0; }) == SF_ERROR_STRUCTURE);
-  CHECK(status([](sf_depth_config* c) { ++c->size; }) == SF_ERROR_STRUCTURE);
-  CHECK(status([](sf_depth_config* c) { c->width = 0; }) == SF_ERROR_RANGE);
-  CHECK(status([](sf_depth_config* c) { c->height = 65536; }) == SF_ERROR_RANGE);
-  CHECK(status([](sf_depth_config* c) { c->views = 1; }) == SF_ERROR_RANGE);
-  CHECK(status([](sf_depth_config* c) { c->disparity_min = 4; }) == SF_ERROR_RANGE);
-  CHECK(status([](sf_depth_config* c) { c->disparity_max = NAN; }) == SF_ERROR_RANGE);
-  CHECK(status([](sf_depth_config* c) { c->disparity_max = 501; }) == SF_ERROR_RANGE);
-  CHECK(status([](sf_depth_config* c) { c->max_workers = 0; }) == SF_ERROR_RANGE);
-  CHECK(status([](sf_depth_config* c) { c->max_workers = 65; }) == SF_ERROR_RANGE);
+  CHECK(status([](starfocus_depth_config*) {}) == STARFOCUS_OK);
+  CHECK(status([](starfocus_depth_config* c) { c->size = 0; }) == STARFOCUS_ERROR_STRUCTURE);
+  CHECK(status([](starfocus_depth_config* c) { ++c->size; }) == STARFOCUS_ERROR_STRUCTURE);
+  CHECK(status([](starfocus_depth_config* c) { c->width = 0; }) == STARFOCUS_ERROR_RANGE);
+  CHECK(status([](starfocus_depth_config* c) { c->height = 65536; }) == STARFOCUS_ERROR_RANGE);
+  CHECK(status([](starfocus_depth_config* c) { c->views = 1; }) == STARFOCUS_ERROR_RANGE);
+  CHECK(status([](starfocus_depth_config* c) { c->disparity_min = 4; }) == STARFOCUS_ERROR_RANGE);
+  CHECK(status([](starfocus_depth_config* c) { c->disparity_max = NAN; }) == STARFOCUS_ERROR_RANGE);
+  CHECK(status([](starfocus_depth_config* c) { c->disparity_max = 501; }) == STARFOCUS_ERROR_RANGE);
+  CHECK(status([](starfocus_depth_config* c) { c->max_workers = 0; }) == STARFOCUS_ERROR_RANGE);
+  CHECK(status([](starfocus_depth_config* c) { c->max_workers = 65; }) == STARFOCUS_ERROR_RANGE);
 }
 
 TEST_CASE("estimate: bad memory has its errors, and nothing is written") {
   const PlaneField field = RenderPlanes(PlaneScene());
-  const sf_depth_config config = ConfigOf(field, -3, 3);
+  const starfocus_depth_config config = ConfigOf(field, -3, 3);
   size_t bytes = 0;
-  REQUIRE(sf_estimate_size(&config, &bytes) == SF_OK);
-  const Memory memory(bytes + SF_ALIGNMENT);
+  REQUIRE(starfocus_estimate_size(&config, &bytes) == STARFOCUS_OK);
+  const Memory memory(bytes + STARFOCUS_ALIGNMENT);
   const auto width = size_t(field.width), pixels = width * size_t(field.height);
   std::vector<float> map(pixels, 42);
   std::vector<uint8_t> confidence(pixels, 42);
-  const sf_light_field whole = field.Get();
-  sf_light_field views = whole;
+  const starfocus_light_field whole = field.Get();
+  starfocus_light_field views = whole;
   const auto status = [&](float* to, size_t stride, uint8_t* sure, size_t sure_stride, void* at,
                           size_t size) {
-    sf_map out = {to, stride, sure, sure_stride, nullptr, 0, 0};
-    return sf_estimate_disparity(&config, &views, &out, at, size);
+    starfocus_map out = {to, stride, sure, sure_stride, nullptr, 0, 0};
+    return starfocus_estimate_disparity(&config, &views, &out, at, size);
   };
   float* const to = map.data();
   uint8_t* const sure = confidence.data();
   void* const at = memory.data;
   const size_t row = sizeof(float) * width;
-  CHECK(status(nullptr, row, sure, width, at, bytes) == SF_ERROR_NULL);
-  CHECK(status(to, row, sure, width, nullptr, bytes) == SF_ERROR_NULL);
-  CHECK(status(to, row - 4, sure, width, at, bytes) == SF_ERROR_STRIDE);
-  CHECK(status(to, row + 2, sure, width, at, bytes) == SF_ERROR_STRIDE);
-  CHECK(status(to, row, sure, width - 1, at, bytes) == SF_ERROR_STRIDE);
-  CHECK(status(to, row, sure, width, at, bytes - 1) == SF_ERROR_WORKSPACE);
-  CHECK(status(to, row, sure, width, static_cast<char*>(at) + 4, bytes) == SF_ERROR_WORKSPACE);
-  CHECK(status(static_cast<float*>(at), row, sure, width, at, bytes) == SF_ERROR_OVERLAP);
-  CHECK(status(to, row, reinterpret_cast<uint8_t*>(to) + 7, width, at, bytes) == SF_ERROR_OVERLAP);
+  CHECK(status(nullptr, row, sure, width, at, bytes) == STARFOCUS_ERROR_NULL);
+  CHECK(status(to, row, sure, width, nullptr, bytes) == STARFOCUS_ERROR_NULL);
+  CHECK(status(to, row - 4, sure, width, at, bytes) == STARFOCUS_ERROR_STRIDE);
+  CHECK(status(to, row + 2, sure, width, at, bytes) == STARFOCUS_ERROR_STRIDE);
+  CHECK(status(to, row, sure, width - 1, at, bytes) == STARFOCUS_ERROR_STRIDE);
+  CHECK(status(to, row, sure, width, at, bytes - 1) == STARFOCUS_ERROR_WORKSPACE);
+  CHECK(status(to, row, sure, width, static_cast<char*>(at) + 4, bytes) ==
+        STARFOCUS_ERROR_WORKSPACE);
+  CHECK(status(static_cast<float*>(at), row, sure, width, at, bytes) == STARFOCUS_ERROR_OVERLAP);
+  CHECK(status(to, row, reinterpret_cast<uint8_t*>(to) + 7, width, at, bytes) ==
+        STARFOCUS_ERROR_OVERLAP);
   CHECK(status(to, row, const_cast<uint8_t*>(field.views[16].data()), width, at, bytes) ==
-        SF_ERROR_OVERLAP);
+        STARFOCUS_ERROR_OVERLAP);
   views.views[16].planes[0] = nullptr;
-  CHECK(status(to, row, sure, width, at, bytes) == SF_ERROR_NULL);
+  CHECK(status(to, row, sure, width, at, bytes) == STARFOCUS_ERROR_NULL);
   views = whole;
   views.views[3].strides[0] = 3 * width - 1;
-  CHECK(status(to, row, sure, width, at, bytes) == SF_ERROR_STRIDE);
+  CHECK(status(to, row, sure, width, at, bytes) == STARFOCUS_ERROR_STRIDE);
   for (const float value : map) REQUIRE(value == 42);
   for (const uint8_t value : confidence) REQUIRE(value == 42);
   views = whole;
-  sf_map out = {to, row, nullptr, 0, nullptr, 0, 0};
-  sf_depth_config fails = config;
-  fails.runner = [](void*, sf_job, void*, int32_t) { return 0; };
-  CHECK(sf_estimate_disparity(&fails, &views, &out, at, bytes) == SF_ERROR_RUNNER);
-  CHECK(sf_estimate_disparity(&config, &views, nullptr, at, bytes) == SF_ERROR_NULL);
+  starfocus_map out = {to, row, nullptr, 0, nullptr, 0, 0};
+  starfocus_depth_config fails = config;
+  fails.runner = [](void*, starfocus_job, void*, int32_t) { return 0; };
+  CHECK(starfocus_estimate_disparity(&fails, &views, &out, at, bytes) == STARFOCUS_ERROR_RUNNER);
+  CHECK(starfocus_estimate_disparity(&config, &views, nullptr, at, bytes) == STARFOCUS_ERROR_NULL);
 }
 
 }  // namespace

@@ -15,8 +15,8 @@ using starfocus::EstimatePlan;
 using starfocus::MakePlan;
 
 EstimatePlan PlanOf(int width, int height, int views, float low, float high) {
-  sf_depth_config config;
-  sf_depth_config_init(&config);
+  starfocus_depth_config config;
+  starfocus_depth_config_init(&config);
   config.width = width;
   config.height = height;
   config.views = views;
@@ -49,7 +49,7 @@ TEST_CASE("estimate plan: views are where they are, and lie opposite each other 
     CHECK(plan.side_views() == views - 1);
     for (int32_t k = 0; k < plan.side_views(); ++k) {
       double u = 0, v = 0;
-      REQUIRE(sf_view_position(plan.side[k].index, &u, &v) == 1);
+      REQUIRE(starfocus_view_position(plan.side[k].index, &u, &v) == 1);
       CHECK(plan.side[k].u2 == 2 * u);
       CHECK(plan.side[k].v2 == 2 * v);
       const int32_t ring = k / plan.arms * plan.arms;
@@ -84,8 +84,8 @@ TEST_CASE("estimate plan: moves in whole pixels are the nearest, halves towards 
 }
 
 TEST_CASE("estimate plan: every other label lies within the reach of all of them") {
-  sf_depth_config config;
-  sf_depth_config_init(&config);
+  starfocus_depth_config config;
+  starfocus_depth_config_init(&config);
   config.width = config.height = 10;
   for (int range = 0; range <= 1000; range = range < 70 ? range + 1 : range + 93) {
     config.disparity_min = -float(range) / 2;

@@ -24,7 +24,7 @@ using Portrait = test::ClosedHair;
 constexpr float kNear = Portrait::kNear, kFar = Portrait::kFar;
 
 struct Found {
-  sf_status status;
+  starfocus_status status;
   int32_t has_coverage;
   std::vector<float> map;
   std::vector<uint8_t> confidence, coverage;
@@ -32,13 +32,13 @@ struct Found {
 
 struct Call {
   bool covers = true;  // requests coverage
-  sf_runner runner = nullptr;
+  starfocus_runner runner = nullptr;
   int* calls = nullptr;  // calls of the progress function before it cancels; null: none
 };
 
 Found Repair(const Portrait& portrait, const Call& call = {}) {
-  sf_depth_config config;
-  sf_depth_config_init(&config);
+  starfocus_depth_config config;
+  starfocus_depth_config_init(&config);
   config.width = Portrait::kWidth;
   config.height = Portrait::kHeight;
   config.views = 1;
@@ -53,23 +53,23 @@ Found Repair(const Portrait& portrait, const Call& call = {}) {
     };
   }
   size_t bytes = 0;
-  REQUIRE(sf_repair_size(&config, &bytes) == SF_OK);
+  REQUIRE(starfocus_repair_size(&config, &bytes) == STARFOCUS_OK);
   const test::Memory memory(bytes);
   const size_t width = Portrait::kWidth, pixels = portrait.map.size();
-  sf_light_field field = {};
-  field.views[0] = sf_image_rgb(portrait.rgb.data(), 3 * width);
-  field.depth = sf_depth_float(portrait.map.data(), sizeof(float) * width, Portrait::kWidth,
-                               Portrait::kHeight);
-  Found found = {SF_OK, 0, std::vector<float>(pixels, NAN), std::vector<uint8_t>(pixels, 77),
+  starfocus_light_field field = {};
+  field.views[0] = starfocus_image_rgb(portrait.rgb.data(), 3 * width);
+  field.depth = starfocus_depth_float(portrait.map.data(), sizeof(float) * width, Portrait::kWidth,
+                                      Portrait::kHeight);
+  Found found = {STARFOCUS_OK, 0, std::vector<float>(pixels, NAN), std::vector<uint8_t>(pixels, 77),
                  std::vector<uint8_t>(pixels, 77)};
-  sf_map map = {found.map.data(),
-                sizeof(float) * width,
-                found.confidence.data(),
-                width,
-                call.covers ? found.coverage.data() : nullptr,
-                width,
-                -1};
-  found.status = sf_repair_disparity(&config, &field, &map, memory.data, bytes);
+  starfocus_map map = {found.map.data(),
+                       sizeof(float) * width,
+                       found.confidence.data(),
+                       width,
+                       call.covers ? found.coverage.data() : nullptr,
+                       width,
+                       -1};
+  found.status = starfocus_repair_disparity(&config, &field, &map, memory.data, bytes);
   found.has_coverage = map.has_coverage;
   return found;
 }
@@ -89,7 +89,7 @@ double Difference(const Area& area, const std::vector<uint8_t>& a, const std::ve
 TEST_CASE("hair coverage: found where the map has closed the outline of hair") {
   const Portrait portrait = MakeClosedHair();
   const Found found = Repair(portrait);
-  REQUIRE(found.status == SF_OK);
+  REQUIRE(found.status == STARFOCUS_OK);
   REQUIRE(found.has_coverage == 1);
   // The map alone, 255 everywhere in the hair, has a mean error of 182.
   CHECK(Difference({44, 64, 176, 108}, found.coverage, portrait.coverage) < 24);
@@ -188,7 +188,7 @@ TEST_CASE("hair coverage: a call can be cancelled in each phase") {
     CAPTURE(stop);
     int left = stop;
     const Found found = Repair(portrait, {true, nullptr, &left});
-    CHECK(found.status == SF_ERROR_CANCELLED);
+    CHECK(found.status == STARFOCUS_ERROR_CANCELLED);
     CHECK(found.has_coverage == 0);
   }
 }
@@ -209,32 +209,34 @@ TEST_CASE("hair coverage: hair across the whole picture, and no edge 40 pixels b
 
 TEST_CASE("hair coverage: bad planes have their errors, and nothing is written") {
   const Portrait portrait = MakeClosedHair();
-  sf_depth_config config;
-  sf_depth_config_init(&config);
+  starfocus_depth_config config;
+  starfocus_depth_config_init(&config);
   config.width = Portrait::kWidth, config.height = Portrait::kHeight, config.views = 1;
   config.disparity_min = -12, config.disparity_max = 12;
   size_t bytes = 0;
-  REQUIRE(sf_repair_size(&config, &bytes) == SF_OK);
+  REQUIRE(starfocus_repair_size(&config, &bytes) == STARFOCUS_OK);
   const test::Memory memory(bytes);
   const size_t width = Portrait::kWidth;
-  sf_light_field field = {};
-  field.views[0] = sf_image_rgb(portrait.rgb.data(), 3 * width);
-  field.depth = sf_depth_float(portrait.map.data(), sizeof(float) * width, Portrait::kWidth,
-                               Portrait::kHeight);
+  starfocus_light_field field = {};
+  field.views[0] = starfocus_image_rgb(portrait.rgb.data(), 3 * width);
+  field.depth = starfocus_depth_float(portrait.map.data(), sizeof(float) * width, Portrait::kWidth,
+                                      Portrait::kHeight);
   std::vector<float> to(portrait.map.size(), 42);
   std::vector<uint8_t> sure(to.size(), 42), coverage(to.size(), 42);
   const auto status = [&](uint8_t* covers, size_t stride) {
-    sf_map map = {to.data(), sizeof(float) * width, sure.data(), width, covers, stride, -1};
-    const sf_status got = sf_repair_disparity(&config, &field, &map, memory.data, bytes);
+    starfocus_map map = {to.data(), sizeof(float) * width, sure.data(), width, covers, stride, -1};
+    const starfocus_status got =
+        starfocus_repair_disparity(&config, &field, &map, memory.data, bytes);
     CHECK(map.has_coverage == -1);
     return got;
   };
-  CHECK(status(coverage.data(), width - 1) == SF_ERROR_STRIDE);
-  CHECK(status(sure.data(), width) == SF_ERROR_OVERLAP);
-  CHECK(status(reinterpret_cast<uint8_t*>(to.data()), width) == SF_ERROR_OVERLAP);
-  CHECK(status(const_cast<uint8_t*>(portrait.rgb.data()), width) == SF_ERROR_OVERLAP);
-  CHECK(status(static_cast<uint8_t*>(memory.data), width) == SF_ERROR_OVERLAP);
-  CHECK(sf_repair_disparity(&config, &field, nullptr, memory.data, bytes) == SF_ERROR_NULL);
+  CHECK(status(coverage.data(), width - 1) == STARFOCUS_ERROR_STRIDE);
+  CHECK(status(sure.data(), width) == STARFOCUS_ERROR_OVERLAP);
+  CHECK(status(reinterpret_cast<uint8_t*>(to.data()), width) == STARFOCUS_ERROR_OVERLAP);
+  CHECK(status(const_cast<uint8_t*>(portrait.rgb.data()), width) == STARFOCUS_ERROR_OVERLAP);
+  CHECK(status(static_cast<uint8_t*>(memory.data), width) == STARFOCUS_ERROR_OVERLAP);
+  CHECK(starfocus_repair_disparity(&config, &field, nullptr, memory.data, bytes) ==
+        STARFOCUS_ERROR_NULL);
   for (const float value : to) REQUIRE(value == 42);
   for (const uint8_t value : sure) REQUIRE(value == 42);
 }

@@ -66,8 +66,8 @@ struct Maps {
     config = test::ConfigOf(input.field, input.low, input.high);
     config.max_workers = setup.workers;
     size_t bytes = 0;
-    const auto size = input.given.empty() ? sf_estimate_size : sf_repair_size;
-    REQUIRE(size(&config, &bytes) == SF_OK);
+    const auto size = input.given.empty() ? starfocus_estimate_size : starfocus_repair_size;
+    REQUIRE(size(&config, &bytes) == STARFOCUS_OK);
     memory = std::make_unique<test::Memory>(bytes);
     if (setup.used) std::memset(memory->data, 0x11, bytes);
   }
@@ -85,7 +85,7 @@ struct Maps {
     return mirrored;
   }
 
-  sf_status Make(const sf_callbacks& callbacks, Bytes* out) {
+  starfocus_status Make(const starfocus_callbacks& callbacks, Bytes* out) {
     config.runner = callbacks.runner;
     config.runner_data = callbacks.runner_data;
     config.progress = callbacks.progress;
@@ -93,19 +93,20 @@ struct Maps {
     const auto width = size_t(config.width), pixels = width * size_t(config.height);
     std::vector<float> disparity(pixels, NAN);
     std::vector<uint8_t> confidence(pixels, 77);
-    sf_light_field field = input.field.Get();
+    starfocus_light_field field = input.field.Get();
     if (!input.given.empty()) {
-      field.depth =
-          sf_depth_float(input.given.data(), sizeof(float) * width, config.width, config.height);
+      field.depth = starfocus_depth_float(input.given.data(), sizeof(float) * width, config.width,
+                                          config.height);
     }
-    sf_status status = SF_OK;
+    starfocus_status status = STARFOCUS_OK;
     if (setup.depth_kernels != nullptr) {
       status = MakeBy(
           *setup.depth_kernels, field,
           {disparity.data(), width, input.low, input.high, confidence.data(), width, nullptr, 0});
     } else {
-      const auto make = input.given.empty() ? sf_estimate_disparity : sf_repair_disparity;
-      sf_map map = {
+      const auto make =
+          input.given.empty() ? starfocus_estimate_disparity : starfocus_repair_disparity;
+      starfocus_map map = {
           disparity.data(), sizeof(float) * width, confidence.data(), width, nullptr, 0, 0};
       status = make(&config, &field, &map, memory->data, memory->bytes);
     }
@@ -117,8 +118,8 @@ struct Maps {
   }
 
   // The same inside the library, by those kernels.
-  sf_status MakeBy(const starfocus::simd::DepthKernels& kernels, const sf_light_field& field,
-                   const starfocus::MapOutput& output) {
+  starfocus_status MakeBy(const starfocus::simd::DepthKernels& kernels,
+                          const starfocus_light_field& field, const starfocus::MapOutput& output) {
     starfocus::EstimatePlan plan = starfocus::MakePlan(config);
     plan.repairs = !input.given.empty();
     if (config.views == 1) {
@@ -134,7 +135,7 @@ struct Maps {
 
   MapInput input;
   Setup setup;
-  sf_depth_config config;
+  starfocus_depth_config config;
   std::unique_ptr<test::Memory> memory;
 };
 
@@ -143,7 +144,7 @@ inline std::vector<Operation> MapOperations() {
   const auto add = [&all](const std::string& name, int questions, const MapInput& input) {
     all.push_back({name, input.field.height, questions, [input](const Setup& setup) -> Run {
                      const auto of = std::make_shared<Maps>(input, setup);
-                     return [of](const sf_callbacks& callbacks, Bytes* out) {
+                     return [of](const starfocus_callbacks& callbacks, Bytes* out) {
                        return of->Make(callbacks, out);
                      };
                    }});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Repaired maps of scenes that are known, and what sf_repair_disparity refuses.
+// Repaired maps of scenes that are known, and what starfocus_repair_disparity refuses.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -117,7 +117,7 @@ struct StrandScene {
     PlaneField field = {kWidth, kHeight, {}};
     for (int k = 0; k < views; ++k) {
       double u = 0, v = 0;
-      sf_view_position(k, &u, &v);
+      starfocus_view_position(k, &u, &v);
       std::vector<uint8_t> view;
       for (int at = 0; at < 3 * kWidth * kHeight; ++at) {
         view.push_back(Pixel(u, v, at / 3 % kWidth, at / 3 / kWidth, at % 3));
@@ -216,7 +216,7 @@ TEST_CASE("repair: pictures of any size, within the range") {
       scene.height = height;
       scene.views = 5;
       const PlaneField field = RenderPlanes(scene);
-      const sf_depth_config config = ConfigOf(field, -500, 500);
+      const starfocus_depth_config config = ConfigOf(field, -500, 500);
       for (const float value : MakeMap(field, config, MapOf(scene, 1)).disparity) {
         CHECK((value >= -500 && value <= 500));
       }
@@ -233,19 +233,19 @@ TEST_CASE("repair: a noisy map of one view stays in its range") {
   for (int at = 0; at < kSide * kSide; ++at) {
     given.push_back(at % kSide < 16 ? low : float(random.Real(4, high)));
   }
-  sf_depth_config config;
-  sf_depth_config_init(&config);
+  starfocus_depth_config config;
+  starfocus_depth_config_init(&config);
   config.width = config.height = kSide;
   config.views = 1;
   config.disparity_min = low, config.disparity_max = high;
   size_t bytes = 0;
-  REQUIRE(sf_repair_size(&config, &bytes) == SF_OK);
+  REQUIRE(starfocus_repair_size(&config, &bytes) == STARFOCUS_OK);
   const Memory memory(bytes);
-  sf_light_field field = {};
-  field.views[0] = sf_image_rgb(picture.data(), 3 * kSide);
-  field.depth = sf_depth_float(given.data(), sizeof(float) * kSide, kSide, kSide);
-  sf_map map = {found.data(), sizeof(float) * kSide, nullptr, 0, nullptr, 0, 0};
-  REQUIRE(sf_repair_disparity(&config, &field, &map, memory.data, bytes) == SF_OK);
+  starfocus_light_field field = {};
+  field.views[0] = starfocus_image_rgb(picture.data(), 3 * kSide);
+  field.depth = starfocus_depth_float(given.data(), sizeof(float) * kSide, kSide, kSide);
+  starfocus_map map = {found.data(), sizeof(float) * kSide, nullptr, 0, nullptr, 0, 0};
+  REQUIRE(starfocus_repair_disparity(&config, &field, &map, memory.data, bytes) == STARFOCUS_OK);
   CHECK(found != given);
   for (const float value : found) REQUIRE((value >= low && value <= high));
 }
@@ -253,29 +253,29 @@ TEST_CASE("repair: a noisy map of one view stays in its range") {
 TEST_CASE("repair: bad maps have their errors, and nothing is written") {
   const PlaneScene scene;
   const PlaneField field = RenderPlanes(scene);
-  const sf_depth_config config = ConfigOf(field, kLow, kHigh);
+  const starfocus_depth_config config = ConfigOf(field, kLow, kHigh);
   size_t bytes = 0;
-  REQUIRE(sf_repair_size(&config, &bytes) == SF_OK);
-  CHECK(sf_repair_size(nullptr, &bytes) == SF_ERROR_NULL);
+  REQUIRE(starfocus_repair_size(&config, &bytes) == STARFOCUS_OK);
+  CHECK(starfocus_repair_size(nullptr, &bytes) == STARFOCUS_ERROR_NULL);
   const Memory memory(bytes);
   const auto width = size_t(field.width);
   const size_t row = sizeof(float) * width;
   std::vector<float> map(width * size_t(field.height), 42), given = MapOf(scene, 0);
-  sf_light_field light_field = field.Get();
+  starfocus_light_field light_field = field.Get();
   const auto status = [&](const float* from, size_t stride, size_t size) {
-    light_field.depth = sf_depth_float(from, stride, field.width, field.height);
-    sf_map to = {map.data(), row, nullptr, 0, nullptr, 0, 0};
-    return sf_repair_disparity(&config, &light_field, &to, memory.data, size);
+    light_field.depth = starfocus_depth_float(from, stride, field.width, field.height);
+    starfocus_map to = {map.data(), row, nullptr, 0, nullptr, 0, 0};
+    return starfocus_repair_disparity(&config, &light_field, &to, memory.data, size);
   };
-  CHECK(status(nullptr, row, bytes) == SF_ERROR_NULL);
-  CHECK(status(given.data(), row - 4, bytes) == SF_ERROR_STRIDE);
-  CHECK(status(given.data(), row, bytes - 1) == SF_ERROR_WORKSPACE);
-  CHECK(status(map.data(), row, bytes) == SF_ERROR_OVERLAP);
-  CHECK(status(static_cast<const float*>(memory.data), row, bytes) == SF_ERROR_OVERLAP);
+  CHECK(status(nullptr, row, bytes) == STARFOCUS_ERROR_NULL);
+  CHECK(status(given.data(), row - 4, bytes) == STARFOCUS_ERROR_STRIDE);
+  CHECK(status(given.data(), row, bytes - 1) == STARFOCUS_ERROR_WORKSPACE);
+  CHECK(status(map.data(), row, bytes) == STARFOCUS_ERROR_OVERLAP);
+  CHECK(status(static_cast<const float*>(memory.data), row, bytes) == STARFOCUS_ERROR_OVERLAP);
   given[100] = 8.01F;
-  CHECK(status(given.data(), row, bytes) == SF_ERROR_DISPARITY);
+  CHECK(status(given.data(), row, bytes) == STARFOCUS_ERROR_DISPARITY);
   given.assign(given.size(), NAN);
-  CHECK(status(given.data(), row, bytes) == SF_ERROR_ALL_INVALID);
+  CHECK(status(given.data(), row, bytes) == STARFOCUS_ERROR_ALL_INVALID);
   for (const float value : map) REQUIRE(value == 42);
 }
 

@@ -21,12 +21,12 @@ struct Scene {
   std::vector<uint8_t> rgb = std::vector<uint8_t>(3 * kWidth * kHeight);
   std::vector<int16_t> map = std::vector<int16_t>(kWidth * kHeight);
   starfocus::EstimatePlan plan = {};
-  sf_light_field field = {};
+  starfocus_light_field field = {};
 
   Scene() {
     plan.width = kWidth;
     plan.height = kHeight;
-    field.views[0] = sf_image_rgb(rgb.data(), 3 * kWidth);
+    field.views[0] = starfocus_image_rgb(rgb.data(), 3 * kWidth);
   }
   starfocus::ColourMap Map() const { return {plan, field, map.data()}; }
   // Fills both; the picture's edge is a ramp of so many pixels that begins at its column.

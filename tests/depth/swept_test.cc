@@ -24,9 +24,9 @@ std::vector<uint8_t> SweptOf(const PlaneScene& scene, const std::vector<float>& 
   EstimateMemory* memory = nullptr;
   const test::Memory bytes(starfocus::LayOutEstimate(plan, 1, nullptr, &memory));
   starfocus::LayOutEstimate(plan, 1, bytes.data, &memory);
-  sf_light_field light_field = field.Get();
-  light_field.depth =
-      sf_depth_float(given.data(), sizeof(float) * size_t(scene.width), scene.width, scene.height);
+  starfocus_light_field light_field = field.Get();
+  light_field.depth = starfocus_depth_float(given.data(), sizeof(float) * size_t(scene.width),
+                                            scene.width, scene.height);
   const int tiles = plan.columns * plan.rows;
   for (int k = 0; k < tiles; ++k) ReadGiven(plan, light_field, TileOf(plan, k), memory);
   for (int k = 0; k < tiles; ++k) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// SF_MODE_BLOCK through the public ABI: the same bytes whichever way the rows come; constants stay;
-// what is in focus is copied; and it looks like the benchmark.
+// STARFOCUS_MODE_BLOCK through the public ABI: the same bytes whichever way the rows come;
+// constants stay; what is in focus is copied; and it looks like the benchmark.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -32,11 +32,11 @@ struct Setup {
   int block = 64, max_layer = 2, deblocking = 35;
   double max_blur = 40;
   int skips = 1;
-  sf_mode mode = SF_MODE_BLOCK;
-  sf_renderer renderer = SF_RENDERER_AUTO;
+  starfocus_mode mode = STARFOCUS_MODE_BLOCK;
+  starfocus_renderer renderer = STARFOCUS_RENDERER_AUTO;
 
-  sf_params Params() const {
-    sf_params params = test::Params(focus, aperture, mode);
+  starfocus_params Params() const {
+    starfocus_params params = test::Params(focus, aperture, mode);
     params.renderer = renderer;
     return params;
   }
@@ -52,8 +52,8 @@ std::string Text(const Setup& s, const test::Scene& scene) {
   return text;
 }
 
-sf_config Config(const Setup& s, const test::Scene& scene) {
-  sf_config config = test::ConfigFor(scene, s.max_blur);
+starfocus_config Config(const Setup& s, const test::Scene& scene) {
+  starfocus_config config = test::ConfigFor(scene, s.max_blur);
   config.superblock = s.block;
   config.tuning.max_layer = s.max_layer;
   config.tuning.deblocking = s.deblocking;
@@ -61,10 +61,12 @@ sf_config Config(const Setup& s, const test::Scene& scene) {
   return config;
 }
 
-std::vector<uint8_t> Whole(const test::Scene& scene, const Setup& s, sf_report* report = nullptr) {
+std::vector<uint8_t> Whole(const test::Scene& scene, const Setup& s,
+                           starfocus_report* report = nullptr) {
   test::Engine engine(Config(s, scene));
   test::Output out(scene.width, scene.height, 5);
-  REQUIRE(test::Refocus(&engine, s.Params(), scene, &out, nullptr, nullptr, report) == SF_OK);
+  REQUIRE(test::Refocus(&engine, s.Params(), scene, &out, nullptr, nullptr, report) ==
+          STARFOCUS_OK);
   CHECK(out.PaddingUntouched());
   return out.Tight();
 }
@@ -76,11 +78,11 @@ Setup RandomSetup(test::Random* random, float limit) {
   s.block = kBlocks[random->Int(0, 3)];
   s.max_layer = random->Int(0, 3) == 0 ? random->Int(0, 1) : 2;
   s.deblocking = random->Int(0, 3) == 0 ? random->Int(0, 255) : 35;
-  s.renderer = sf_renderer(random->Int(0, 2));
+  s.renderer = starfocus_renderer(random->Int(0, 2));
   return s;
 }
 
-uint64_t BlocksOf(const sf_report& report) {
+uint64_t BlocksOf(const starfocus_report& report) {
   return report.layers[0].blocks + report.layers[1].blocks + report.layers[2].blocks;
 }
 
@@ -113,7 +115,7 @@ TEST_CASE("block: rows give the bytes of whole pictures in blur mode and on nois
                                           kViews[random.Int(0, 3)], -4, 4, uint64_t(round) + 60);
     if (round % 2 == 0) test::NoisyDisparity(&scene, &random);
     Setup s = RandomSetup(&random, 4);
-    s.mode = round % 3 == 0 ? SF_MODE_BLUR : SF_MODE_BLOCK;
+    s.mode = round % 3 == 0 ? STARFOCUS_MODE_BLUR : STARFOCUS_MODE_BLOCK;
     s.block = 32;
     CheckStreamed(scene, s);
   }
@@ -130,7 +132,7 @@ TEST_CASE("block: constant pictures stay, bit for bit") {
       std::fill(picture.begin(), picture.end(), uint8_t(round));
     }
     Setup s = RandomSetup(&random, limit);
-    s.mode = round % 4 == 3 ? SF_MODE_BLUR : SF_MODE_BLOCK;
+    s.mode = round % 4 == 3 ? STARFOCUS_MODE_BLUR : STARFOCUS_MODE_BLOCK;
     s.skips = 0;  // what is filled has passed no filter
     const std::vector<uint8_t> out = Whole(scene, s);
     const bool same = std::all_of(out.begin(), out.end(), [&](uint8_t b) { return b == round; });
@@ -148,7 +150,7 @@ TEST_CASE("block: all in focus copies the centre view, for every configuration")
         s.focus = 3.25;
         s.block = block;
         s.max_layer = max_layer;
-        sf_report report = {};
+        starfocus_report report = {};
         const bool same = Whole(scene, s, &report) == scene.pictures[0];
         CHECK_MESSAGE(same, Text(s, scene));
         CHECK(report.layers[0].pixels == uint64_t(size.first) * uint64_t(size.second));
@@ -166,13 +168,14 @@ TEST_CASE("block: all far out of focus goes to layer 2, as far as allowed") {
       const test::Scene scene = test::LayeredScene(size.first, size.second, 5, 2, 44);
       Setup s;
       s.focus = 20;
-      s.renderer = SF_RENDERER_LINE_SCAN;  // wide subapertures keep silhouettes out of layer 2
+      s.renderer =
+          STARFOCUS_RENDERER_LINE_SCAN;  // wide subapertures keep silhouettes out of layer 2
       s.max_layer = max_layer;
       s.block = 128;
-      sf_report report = {};
+      starfocus_report report = {};
       Whole(scene, s, &report);
       CAPTURE(Text(s, scene));
-      for (int layer = 0; layer < SF_LAYERS; ++layer) {
+      for (int layer = 0; layer < STARFOCUS_LAYERS; ++layer) {
         const uint64_t all = uint64_t(size.first) * uint64_t(size.second);
         CHECK(report.layers[layer].pixels == (layer == max_layer ? all : 0));
       }
@@ -196,11 +199,12 @@ TEST_CASE("block: the blocks told of tile the picture once and are those of the 
     Setup s = RandomSetup(&random, 8);
     s.skips = 0;  // skipped blocks have fewer views than they are told with
     test::Engine engine(Config(s, scene));
-    REQUIRE(engine.status() == SF_OK);
-    Told told = {scene.width, scene.height, {}, 0, 0, 0, s.renderer != SF_RENDERER_LINE_SCAN};
+    REQUIRE(engine.status() == STARFOCUS_OK);
+    Told told = {
+        scene.width, scene.height, {}, 0, 0, 0, s.renderer != STARFOCUS_RENDERER_LINE_SCAN};
     told.covered.assign(size_t(scene.width) * size_t(scene.height), 0);
-    const sf_params params = s.Params();
-    const sf_block_visitor visitor = [](void* data, const sf_block* block) {
+    const starfocus_params params = s.Params();
+    const starfocus_block_visitor visitor = [](void* data, const starfocus_block* block) {
       Told& to = *static_cast<Told*>(data);
       for (int y = block->y; y < block->y + block->height; ++y) {
         for (int x = block->x; x < block->x + block->width; ++x) {
@@ -218,9 +222,9 @@ TEST_CASE("block: the blocks told of tile the picture once and are those of the 
       }
     };
     test::Output out(scene.width, scene.height);
-    sf_report report = {};
+    starfocus_report report = {};
     REQUIRE(test::Refocus(&engine, params, scene, &out, test::VisitedBy(visitor, &told), &report) ==
-            SF_OK);
+            STARFOCUS_OK);
     CAPTURE(Text(s, scene));
     CHECK(std::all_of(told.covered.begin(), told.covered.end(), [](int n) { return n == 1; }));
     CHECK(told.blocks == BlocksOf(report));
@@ -246,7 +250,7 @@ test::Scene SmoothScene(int width, int height, int views) {
   }
   for (int view = 0; view < views; ++view) {
     double u = 0, v = 0;
-    sf_view_position(view, &u, &v);
+    starfocus_view_position(view, &u, &v);
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x) {
         // px - u d(px) = x, d linear.
@@ -267,9 +271,9 @@ TEST_CASE("block: agrees with the benchmark on a slanted plane") {
   for (const double focus : {-6.0, -2.0, 0.0, 3.5, 6.0}) {
     Setup s;
     s.focus = focus;
-    s.mode = SF_MODE_BENCHMARK;
+    s.mode = STARFOCUS_MODE_BENCHMARK;
     const std::vector<uint8_t> benchmark = Whole(scene, s);
-    s.mode = SF_MODE_BLOCK;
+    s.mode = STARFOCUS_MODE_BLOCK;
     std::string line = "focus " + std::to_string(focus) + ":";
     for (int max_layer = 0; max_layer <= 2; ++max_layer) {
       s.max_layer = max_layer;
@@ -293,11 +297,11 @@ TEST_CASE("block: deblocking does to the picture at once what it does to stripes
     s.block = 32 << random.Int(0, 1);
     s.max_layer = random.Int(0, 4) == 0 ? 1 : 2;
     s.deblocking = 0;
-    const sf_config config = Config(s, scene);
+    const starfocus_config config = Config(s, scene);
     test::Engine engine(config);
     test::LayeredPicture picture(scene.width, scene.height);
-    const sf_params params = s.Params();
-    const sf_block_visitor visitor = [](void* data, const sf_block* block) {
+    const starfocus_params params = s.Params();
+    const starfocus_block_visitor visitor = [](void* data, const starfocus_block* block) {
       auto* to = static_cast<test::LayeredPicture*>(data);
       for (int y = block->y; y < block->y + block->height; y += test::kUnit) {
         for (int x = block->x; x < block->x + block->width; x += test::kUnit) {
@@ -307,7 +311,7 @@ TEST_CASE("block: deblocking does to the picture at once what it does to stripes
     };
     test::Output out(scene.width, scene.height);
     REQUIRE(test::Refocus(&engine, params, scene, &out, test::VisitedBy(visitor, &picture)) ==
-            SF_OK);
+            STARFOCUS_OK);
     for (const int beta : {35, 255}) {
       picture.rgb = out.bytes;
       test::DeblockPicture(&picture, beta, config.transfer);

@@ -82,7 +82,8 @@ test::Scene AnyScene(int side, int views, float limit, bool bright, test::Random
 
 // A way to refocus a superblock.
 struct Way {
-  int views = 5, mode = SF_MODE_BLOCK, renderer = SF_RENDERER_SLICES, max_layer = 2, gather = 1;
+  int views = 5, mode = STARFOCUS_MODE_BLOCK, renderer = STARFOCUS_RENDERER_SLICES, max_layer = 2,
+      gather = 1;
   float highlights = 1, limit = 4;
   double focus = 0, n_scale = 1, aperture = 1;
   bool bright = false, coverage = false;
@@ -90,9 +91,9 @@ struct Way {
   int side = 160;
 
   int Side() const { return highlights > 1 ? 288 : side; }
-  sf_config Config(const test::Scene& scene) const {
-    sf_config config = test::ConfigFor(scene, aperture * (limit + std::abs(focus)));
-    if (!coverage) config.features &= ~SF_FEATURE_COVERAGE;
+  starfocus_config Config(const test::Scene& scene) const {
+    starfocus_config config = test::ConfigFor(scene, aperture * (limit + std::abs(focus)));
+    if (!coverage) config.features &= ~STARFOCUS_FEATURE_COVERAGE;
     config.superblock = kSuperblock;
     config.tuning.max_layer = int16_t(max_layer);
     config.tuning.gather = int16_t(gather);
@@ -111,7 +112,7 @@ class Superblock {
       : way_(way),
         scene_(AnyScene(way.Side(), way.views, way.limit, way.bright, random)),
         engine_(way.Config(scene_)) {
-    REQUIRE(engine_.status() == SF_OK);
+    REQUIRE(engine_.status() == STARFOCUS_OK);
     const int middle = way.Side() / 2 / Way::kSuperblock * Way::kSuperblock;
     const int last = (way.Side() - 1) / Way::kSuperblock * Way::kSuperblock;
     const int places[] = {0, middle, last};
@@ -122,19 +123,19 @@ class Superblock {
   }
 
   Borders Limits() const { return test::BordersOf(way_.Config(scene_)); }
-  const sf_report& report() const { return report_; }
+  const starfocus_report& report() const { return report_; }
 
   bool FrameDiff(const Kept& kept, test::Random* random) {
     return Refocus(Poisoned(scene_, rect_, kept, random), nullptr) != bytes_;
   }
 
  private:
-  std::vector<uint8_t> Refocus(const test::Scene& scene, sf_report* report) {
-    sf_params params = test::Params(way_.focus, way_.aperture, sf_mode(way_.mode));
+  std::vector<uint8_t> Refocus(const test::Scene& scene, starfocus_report* report) {
+    starfocus_params params = test::Params(way_.focus, way_.aperture, starfocus_mode(way_.mode));
     params.renderer = way_.renderer;
     params.region = {rect_.x, rect_.y, rect_.width, rect_.height};
     test::Output out(rect_.width, rect_.height);
-    REQUIRE(test::Refocus(&engine_, params, scene, &out, nullptr, nullptr, report) == SF_OK);
+    REQUIRE(test::Refocus(&engine_, params, scene, &out, nullptr, nullptr, report) == STARFOCUS_OK);
     return out.bytes;
   }
 
@@ -142,17 +143,18 @@ class Superblock {
   const test::Scene scene_;
   test::Engine engine_;
   Rect rect_ = {};
-  sf_report report_ = {};
+  starfocus_report report_ = {};
   std::vector<uint8_t> bytes_;
 };
 
 Way AnyWay(test::Random* random) {
   constexpr int kViews[] = {1, 5, 17};
-  constexpr int kModes[] = {SF_MODE_FRAME, SF_MODE_BENCHMARK, SF_MODE_BLUR, SF_MODE_BLOCK};
+  constexpr int kModes[] = {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BENCHMARK, STARFOCUS_MODE_BLUR,
+                            STARFOCUS_MODE_BLOCK};
   Way way;
   way.views = kViews[random->Int(0, 2)];
   way.mode = kModes[std::min(3, random->Int(0, 8))];
-  way.renderer = random->Int(0, 1) == 0 ? SF_RENDERER_LINE_SCAN : SF_RENDERER_SLICES;
+  way.renderer = random->Int(0, 1) == 0 ? STARFOCUS_RENDERER_LINE_SCAN : STARFOCUS_RENDERER_SLICES;
   way.max_layer = random->Int(0, 2);
   way.gather = random->Int(0, 1);
   way.highlights = random->Int(0, 5) == 0 ? 8.0F : 1.0F;
@@ -167,12 +169,12 @@ Way AnyWay(test::Random* random) {
 
 TEST_CASE("borders: nothing beyond those of a superblock is read") {
   test::Random random(1);
-  uint64_t pixels[SF_LAYERS] = {}, gathered = 0;
+  uint64_t pixels[STARFOCUS_LAYERS] = {}, gathered = 0;
   for (int round = 0; round < test::Rounds(400); ++round) {
     const Way way = AnyWay(&random);
     Superblock superblock(way, &random);
     const Borders borders = superblock.Limits();
-    for (int level = 0; level < SF_LAYERS; ++level) {
+    for (int level = 0; level < STARFOCUS_LAYERS; ++level) {
       pixels[level] += superblock.report().layers[level].pixels;
     }
     gathered += superblock.report().gathered_pixels;
@@ -222,16 +224,20 @@ struct Sum {
 // rounded away. Of side views: hidden pixels at the rim of a block's border hardly show, those of
 // levels less, and disparities there are seldom the largest that the configuration has room for.
 const Sum kSums[] = {
-    {"boundary pixels", 1, SF_RENDERER_SLICES, 0, 7, 1, 1, &Borders::centre, &Kept::map, 0},
-    {"edges", 5, SF_RENDERER_SLICES, 0, 1, 1.0 / 24, 1, &Borders::centre, &Kept::map, 0, 1, 161},
-    {"level 1", 1, SF_RENDERER_SLICES, 1, 11, 1, 1, &Borders::centre, &Kept::centre, 0},
-    {"level 2", 1, SF_RENDERER_LINE_SCAN, 2, 11, 1, 0.25, &Borders::centre, &Kept::centre, 10},
-    {"views", 5, SF_RENDERER_SLICES, 0, 7, 7.0 / 24, 1, &Borders::views, &Kept::sides, 4},
-    {"views, level 1", 5, SF_RENDERER_SLICES, 1, 11, 0.5, 0.75, &Borders::views, &Kept::sides, 8},
-    {"views, level 2", 5, SF_RENDERER_SLICES, 2, 11, 0.25, 0.5, &Borders::views, &Kept::sides, 20},
-    {"highlights", 1, SF_RENDERER_SLICES, 2, 4, 1, 1, &Borders::views, &Kept::centre, 0, 8},
-    {"highlights of views", 5, SF_RENDERER_LINE_SCAN, 2, 4, 1, 1, &Borders::views, &Kept::sides, 0,
-     8},
+    {"boundary pixels", 1, STARFOCUS_RENDERER_SLICES, 0, 7, 1, 1, &Borders::centre, &Kept::map, 0},
+    {"edges", 5, STARFOCUS_RENDERER_SLICES, 0, 1, 1.0 / 24, 1, &Borders::centre, &Kept::map, 0, 1,
+     161},
+    {"level 1", 1, STARFOCUS_RENDERER_SLICES, 1, 11, 1, 1, &Borders::centre, &Kept::centre, 0},
+    {"level 2", 1, STARFOCUS_RENDERER_LINE_SCAN, 2, 11, 1, 0.25, &Borders::centre, &Kept::centre,
+     10},
+    {"views", 5, STARFOCUS_RENDERER_SLICES, 0, 7, 7.0 / 24, 1, &Borders::views, &Kept::sides, 4},
+    {"views, level 1", 5, STARFOCUS_RENDERER_SLICES, 1, 11, 0.5, 0.75, &Borders::views,
+     &Kept::sides, 8},
+    {"views, level 2", 5, STARFOCUS_RENDERER_SLICES, 2, 11, 0.25, 0.5, &Borders::views,
+     &Kept::sides, 20},
+    {"highlights", 1, STARFOCUS_RENDERER_SLICES, 2, 4, 1, 1, &Borders::views, &Kept::centre, 0, 8},
+    {"highlights of views", 5, STARFOCUS_RENDERER_LINE_SCAN, 2, 4, 1, 1, &Borders::views,
+     &Kept::sides, 0, 8},
 };
 
 TEST_CASE("borders: with one pixel less than they add up to pictures change") {
@@ -297,7 +303,7 @@ TEST_CASE("borders: the filter of levels reads what it declares, and no less") {
       const std::vector<uint8_t> picture = NoiseAround(kSide, pair, border, seed);
       starfocus::Window window;
       window.width = window.height = window.picture_width = window.picture_height = kSide;
-      window.transfer = &starfocus::TransferOf(SF_TRANSFER_NONE);
+      window.transfer = &starfocus::TransferOf(STARFOCUS_TRANSFER_NONE);
       window.centre = {picture.data(), 3 * size_t(kSide), 0, 0};
       std::vector<int16_t> samples(3 * kRows * kRows + 64), even(3 * kSide), odd(even),
           half(3 * kSide * size_t(starfocus::TapsOfLayer(kRows)) + 64);
@@ -317,7 +323,7 @@ TEST_CASE("borders: the filter of levels reads what it declares, and no less") {
 
 TEST_CASE("borders: captured views are read as far around a place as declared, and no less") {
   constexpr int kSide = 40;
-  for (int layer = 0; layer < SF_LAYERS; ++layer) {
+  for (int layer = 0; layer < STARFOCUS_LAYERS; ++layer) {
     CAPTURE(layer);
     Dependence dependence;
     for (uint64_t seed = 1; seed <= 20; ++seed) {
@@ -326,7 +332,7 @@ TEST_CASE("borders: captured views are read as far around a place as declared, a
         const std::vector<uint8_t> picture = NoiseAround(kSide, place, border, seed);
         starfocus::PlaneViews planes;
         planes.kernels = &starfocus::simd::BestKernels();
-        planes.transfer = &starfocus::TransferOf(SF_TRANSFER_NONE);
+        planes.transfer = &starfocus::TransferOf(STARFOCUS_TRANSFER_NONE);
         planes.view[1] = {picture.data(), 3 * size_t(kSide), 0, 0};
         starfocus::Window window;
         window.layer = layer;

@@ -49,19 +49,19 @@ TEST_CASE("closed: a surface whose disparities jitter or slope lets no light thr
     for (const double slope : {0.0, 0.02}) {
       for (const int views : {1, 5}) {
         const test::Scene scene = Square(views, jitter, slope, 3);
-        const sf_config config = test::ConfigFor(scene, 16);
+        const starfocus_config config = test::ConfigFor(scene, 16);
         test::Engine engine(config);
         for (const double focus : {-6.0, -2.0, 5.0, 9.0}) {
-          for (const sf_mode mode : {SF_MODE_BLOCK, SF_MODE_FRAME}) {
+          for (const starfocus_mode mode : {STARFOCUS_MODE_BLOCK, STARFOCUS_MODE_FRAME}) {
             CAPTURE(jitter);
             CAPTURE(slope);
             CAPTURE(views);
             CAPTURE(focus);
             CAPTURE(mode);
-            sf_params params = test::Params(focus, 1, mode);
-            params.renderer = SF_RENDERER_SLICES;
+            starfocus_params params = test::Params(focus, 1, mode);
+            params.renderer = STARFOCUS_RENDERER_SLICES;
             test::Output out(kSide, kSide);
-            REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
+            REQUIRE(test::Refocus(&engine, params, scene, &out) == STARFOCUS_OK);
             CHECK(MostLeaked(out, 16) <= 1);
           }
         }

@@ -17,13 +17,13 @@ struct Trial {
   int width = 1, height = 1, views = 17;
   float low = 0, high = 0;
   double focus = 0, aperture = 1;
-  sf_mode mode = SF_MODE_FRAME;
+  starfocus_mode mode = STARFOCUS_MODE_FRAME;
   int block = 64;
   bool noisy = false;
   int levels = 0;                                // of disparity, pixel by pixel at random
   double max_blur = 64, n_scale = 1, theta = 0;  // 0: the default
-  sf_renderer renderer = SF_RENDERER_AUTO;
-  int transfer = SF_TRANSFER_SRGB;
+  starfocus_renderer renderer = STARFOCUS_RENDERER_AUTO;
+  int transfer = STARFOCUS_TRANSFER_SRGB;
   uint64_t shape = 0;  // the seed of a random one, unless 0
   uint8_t color[3] = {0, 0, 0};
   uint64_t seed = 1;
@@ -55,23 +55,24 @@ int Changed(const Trial& t) {
   } else {
     test::RandomDisparity(&scene, &random);
   }
-  sf_config config = test::ConfigFor(scene, t.max_blur);
+  starfocus_config config = test::ConfigFor(scene, t.max_blur);
   config.superblock = t.block;
   config.tuning.n_scale = t.n_scale;
   config.transfer = t.transfer;
   config.tuning.skips = 0;  // what is filled has passed no filter
   test::Random shapes(t.shape);
-  sf_params params = test::Params(t.focus, t.aperture, t.mode);
+  starfocus_params params = test::Params(t.focus, t.aperture, t.mode);
   params.renderer = t.renderer;
   if (t.theta > 0) params.lens.theta = t.theta;
   if (t.shape != 0) test::RandomShape(&params.lens, &shapes);
   test::ReserveFor(params.lens, &config);
   test::Engine engine(config);
   test::Output out(t.width, t.height);
-  const sf_status status =
-      engine.status() != SF_OK ? engine.status() : test::Refocus(&engine, params, scene, &out);
-  if (status != SF_OK) {
-    MESSAGE(sf_status_string(status));
+  const starfocus_status status = engine.status() != STARFOCUS_OK
+                                      ? engine.status()
+                                      : test::Refocus(&engine, params, scene, &out);
+  if (status != STARFOCUS_OK) {
+    MESSAGE(starfocus_status_string(status));
     return -1;
   }
   int changed = 0;
@@ -90,7 +91,7 @@ TEST_CASE("constant: every level") {
     for (int level = 0; level < 256; level += (views == 17 ? 1 : 15)) {
       std::fill(t.color, t.color + 3, static_cast<uint8_t>(level));
       t.seed = static_cast<uint64_t>(level) + 1;
-      for (const int transfer : {SF_TRANSFER_NONE, SF_TRANSFER_SRGB}) {
+      for (const int transfer : {STARFOCUS_TRANSFER_NONE, STARFOCUS_TRANSFER_SRGB}) {
         t.transfer = transfer;
         CHECK_MESSAGE(Changed(t) == 0, Text(t) << " level " << level);
       }
@@ -108,13 +109,13 @@ TEST_CASE("constant: every N") {
   for (int views : {1, 5, 9, 17}) {
     t.views = views;
     for (int radius = 0; radius <= 24; ++radius) {
-      for (sf_mode mode : {SF_MODE_FRAME, SF_MODE_BENCHMARK}) {
-        if (mode == SF_MODE_BENCHMARK && radius > 12) continue;
+      for (starfocus_mode mode : {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BENCHMARK}) {
+        if (mode == STARFOCUS_MODE_BENCHMARK && radius > 12) continue;
         t.low = static_cast<float>(-radius);
         t.high = static_cast<float>(radius) / 2;
         t.mode = mode;
         t.seed = static_cast<uint64_t>(radius) + 100;
-        t.transfer = radius % 4 == 3 ? SF_TRANSFER_NONE : SF_TRANSFER_SRGB;
+        t.transfer = radius % 4 == 3 ? STARFOCUS_TRANSFER_NONE : STARFOCUS_TRANSFER_SRGB;
         CHECK_MESSAGE(Changed(t) == 0, Text(t));
       }
     }
@@ -138,12 +139,13 @@ TEST_CASE("constant: through every shape of opening") {
     test::Random random(shape + 7000);
     t.shape = t.seed = shape;
     t.views = random.Int(0, 1) == 0 ? 1 : 9;
-    t.mode = static_cast<sf_mode>(random.Int(SF_MODE_FRAME, SF_MODE_BLUR));
-    t.renderer = static_cast<sf_renderer>(random.Int(SF_RENDERER_AUTO, SF_RENDERER_SLICES));
-    const double radius = random.Real(0.2, t.mode == SF_MODE_BENCHMARK ? 6 : 30);
+    t.mode = static_cast<starfocus_mode>(random.Int(STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BLUR));
+    t.renderer = static_cast<starfocus_renderer>(
+        random.Int(STARFOCUS_RENDERER_AUTO, STARFOCUS_RENDERER_SLICES));
+    const double radius = random.Real(0.2, t.mode == STARFOCUS_MODE_BENCHMARK ? 6 : 30);
     t.low = static_cast<float>(-radius);
     t.high = static_cast<float>(random.Real(-radius, radius));
-    t.n_scale = random.Real(SF_MIN_N_SCALE, SF_MAX_N_SCALE);
+    t.n_scale = random.Real(STARFOCUS_MIN_N_SCALE, STARFOCUS_MAX_N_SCALE);
     t.block = 32 << random.Int(0, 2);
     CHECK_MESSAGE(Changed(t) == 0, Text(t));
   }
@@ -175,11 +177,11 @@ TEST_CASE("constant: wide subapertures") {
   t.width = t.height = 64;
   t.views = 1;
   t.levels = 6;
-  t.renderer = SF_RENDERER_SLICES;
+  t.renderer = STARFOCUS_RENDERER_SLICES;
   std::fill(t.color, t.color + 3, static_cast<uint8_t>(204));
-  for (const sf_mode mode : {SF_MODE_BLOCK, SF_MODE_FRAME}) {
+  for (const starfocus_mode mode : {STARFOCUS_MODE_BLOCK, STARFOCUS_MODE_FRAME}) {
     for (const double n_scale : {0.5, 0.66, 0.8, 2.0}) {
-      for (int radius = 10; radius <= 50; radius += mode == SF_MODE_FRAME ? 3 : 10) {
+      for (int radius = 10; radius <= 50; radius += mode == STARFOCUS_MODE_FRAME ? 3 : 10) {
         t.mode = mode;
         t.n_scale = n_scale;
         t.max_blur = radius;
@@ -201,16 +203,16 @@ TEST_CASE("constant: dark codes through steep openings") {
   t.width = t.height = 64;
   t.views = 5;
   t.levels = 5;
-  t.renderer = SF_RENDERER_SLICES;
+  t.renderer = STARFOCUS_RENDERER_SLICES;
   int pictures = 0;  // with a pixel of another code
   for (const double part : {0.3, 0.35, 0.4, 0.42, 0.44, 0.45}) {
     for (const double radius : {1.5, 3.0, 4.0, 6.0, 8.0, 12.0}) {
       for (int code = 1; code < 40; ++code) {
-        t.theta = std::min(part * 3.141592653589793, SF_MAX_THETA);
+        t.theta = std::min(part * 3.141592653589793, STARFOCUS_MAX_THETA);
         t.max_blur = radius;
         t.low = static_cast<float>(-radius);
         t.high = static_cast<float>(radius);
-        t.mode = code % 2 == 0 ? SF_MODE_BLOCK : SF_MODE_FRAME;
+        t.mode = code % 2 == 0 ? STARFOCUS_MODE_BLOCK : STARFOCUS_MODE_FRAME;
         t.seed = static_cast<uint64_t>(code);
         std::fill(t.color, t.color + 3, static_cast<uint8_t>(code));
         const int changed = Changed(t);
@@ -238,7 +240,7 @@ TEST_CASE("constant: random sizes, ranges, focuses, apertures and blocks") {
     t.high = static_cast<float>(middle + spread);
     t.focus = middle + random.Real(-1, 1) * (random.Int(0, 3) ? 3 : 10);
     t.aperture = random.Int(0, 2) ? random.Real(0.01, 1) : 1;
-    t.mode = random.Int(0, 3) ? SF_MODE_FRAME : SF_MODE_BENCHMARK;
+    t.mode = random.Int(0, 3) ? STARFOCUS_MODE_FRAME : STARFOCUS_MODE_BENCHMARK;
     t.noisy = random.Int(0, 1) == 1;
     for (uint8_t& c : t.color) c = random.Byte();
     t.seed = static_cast<uint64_t>(round) + 1000;

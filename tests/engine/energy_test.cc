@@ -33,18 +33,19 @@ test::Scene PeriodicScene(int mean, uint64_t seed) {
 }
 
 TEST_CASE("energy: blending halves does not brighten") {
-  for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BENCHMARK, SF_MODE_BLOCK, SF_MODE_BLUR}) {
+  for (const starfocus_mode mode : {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BENCHMARK,
+                                    STARFOCUS_MODE_BLOCK, STARFOCUS_MODE_BLUR}) {
     for (const double radius : {0.5, 1.0, 1.5, 3.03125, 4.5, 6.25}) {
       double sum = 0;
       constexpr int kRounds = 40;
       for (int round = 0; round < kRounds; ++round) {
         const int mean = 108 + round;
         const test::Scene scene = PeriodicScene(mean, uint64_t(round) + 1);
-        sf_config config = test::ConfigFor(scene, 7);
-        config.transfer = SF_TRANSFER_NONE;
+        starfocus_config config = test::ConfigFor(scene, 7);
+        config.transfer = STARFOCUS_TRANSFER_NONE;
         test::Engine engine(config);
         test::Output out(kSide, kSide);
-        REQUIRE(test::Refocus(&engine, test::Params(radius, 1, mode), scene, &out) == SF_OK);
+        REQUIRE(test::Refocus(&engine, test::Params(radius, 1, mode), scene, &out) == STARFOCUS_OK);
         for (int y = kMargin; y < kMargin + kPeriod; ++y) {
           for (int x = kMargin; x < kMargin + kPeriod; ++x) sum += *out.Pixel(x, y) - mean;
         }

@@ -48,17 +48,18 @@ Scenes WithGaps(int views) {
   return scenes;
 }
 
-sf_config FillingConfig(const test::Scene& scene) {
-  sf_config config = test::ConfigFor(scene, 32);
-  config.features |= SF_FEATURE_FILL_UNKNOWN;
+starfocus_config FillingConfig(const test::Scene& scene) {
+  starfocus_config config = test::ConfigFor(scene, 32);
+  config.features |= STARFOCUS_FEATURE_FILL_UNKNOWN;
   return config;
 }
 
 TEST_CASE("fill unknown: the farther known value of the row goes on, in every mode") {
   for (const int views : {1, 5}) {
     const Scenes scenes = WithGaps(views);
-    for (const sf_mode mode : {SF_MODE_BLOCK, SF_MODE_FRAME, SF_MODE_BENCHMARK, SF_MODE_BLUR}) {
-      const sf_params params = test::Params(0.5, 0.5, mode);
+    for (const starfocus_mode mode : {STARFOCUS_MODE_BLOCK, STARFOCUS_MODE_FRAME,
+                                      STARFOCUS_MODE_BENCHMARK, STARFOCUS_MODE_BLUR}) {
+      const starfocus_params params = test::Params(0.5, 0.5, mode);
       const test::Refocused filled =
           test::RefocusScene(scenes.unknown, FillingConfig(scenes.unknown), params);
       const test::Refocused by_hand =
@@ -74,21 +75,21 @@ TEST_CASE("fill unknown: the farther known value of the row goes on, in every mo
 
 TEST_CASE("fill unknown: every way in fills alike") {
   const Scenes scenes = WithGaps(5);
-  const sf_config config = FillingConfig(scenes.unknown);
-  const sf_params params = test::Params(0.5, 0.5, SF_MODE_BLOCK);
+  const starfocus_config config = FillingConfig(scenes.unknown);
+  const starfocus_params params = test::Params(0.5, 0.5, STARFOCUS_MODE_BLOCK);
   test::CheckWays(scenes.unknown, config, params);
-  const sf_report report = test::RefocusScene(scenes.unknown, config, params).report;
+  const starfocus_report report = test::RefocusScene(scenes.unknown, config, params).report;
   CHECK(report.unknown_pixels == uint64_t(scenes.count));
 }
 
 TEST_CASE("fill unknown: a value outside the range is refused beside unknown ones") {
   Scenes scenes = WithGaps(1);
   scenes.unknown.Disparity(70, 10) = scenes.unknown.disparity_max + 1;
-  const sf_config config = FillingConfig(scenes.unknown);
+  const starfocus_config config = FillingConfig(scenes.unknown);
   test::Engine engine(config);
   test::Output out(scenes.unknown.width, scenes.unknown.height);
-  CHECK(test::Refocus(&engine, test::Params(0, 0.5, SF_MODE_BLOCK), scenes.unknown, &out) ==
-        SF_ERROR_DISPARITY);
+  CHECK(test::Refocus(&engine, test::Params(0, 0.5, STARFOCUS_MODE_BLOCK), scenes.unknown, &out) ==
+        STARFOCUS_ERROR_DISPARITY);
   CHECK(out.Untouched());
 }
 
@@ -96,8 +97,8 @@ TEST_CASE("fill unknown: unless told to, the engine refuses them") {
   const Scenes scenes = WithGaps(1);
   test::Engine engine(test::ConfigFor(scenes.unknown, 32));
   test::Output out(scenes.unknown.width, scenes.unknown.height);
-  CHECK(test::Refocus(&engine, test::Params(0, 0.5, SF_MODE_BLOCK), scenes.unknown, &out) ==
-        SF_ERROR_NOT_FINITE);
+  CHECK(test::Refocus(&engine, test::Params(0, 0.5, STARFOCUS_MODE_BLOCK), scenes.unknown, &out) ==
+        STARFOCUS_ERROR_NOT_FINITE);
   CHECK(out.Untouched());
 }
 

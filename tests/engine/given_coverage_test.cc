@@ -49,24 +49,25 @@ test::Scene Comb() {
   return scene;
 }
 
-sf_config CombConfig(const test::Scene& scene) {
-  sf_config config = test::ConfigFor(scene, kNear - kFar);
-  config.transfer = SF_TRANSFER_NONE;
+starfocus_config CombConfig(const test::Scene& scene) {
+  starfocus_config config = test::ConfigFor(scene, kNear - kFar);
+  config.transfer = STARFOCUS_TRANSFER_NONE;
   config.superblock = 64;
   return config;
 }
 
 // Block mode through a disc.
-sf_params ThroughDisc(double focus) {
-  sf_params params = test::Params(focus, 1, SF_MODE_BLOCK);
-  params.lens.shape = SF_SHAPE_DISC;
+starfocus_params ThroughDisc(double focus) {
+  starfocus_params params = test::Params(focus, 1, STARFOCUS_MODE_BLOCK);
+  params.lens.shape = STARFOCUS_SHAPE_DISC;
   return params;
 }
 
-test::Output Refocused(const test::Scene& scene, const sf_config& config, const sf_params& params) {
+test::Output Refocused(const test::Scene& scene, const starfocus_config& config,
+                       const starfocus_params& params) {
   test::Engine engine(config);
   test::Output out(kWidth, kHeight);
-  REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
+  REQUIRE(test::Refocus(&engine, params, scene, &out) == STARFOCUS_OK);
   return out;
 }
 
@@ -101,7 +102,7 @@ test::Scene Without(test::Scene scene) {
 
 TEST_CASE("given coverage: it decides over a map without gaps") {
   const test::Scene scene = Comb();
-  const sf_params params = ThroughDisc(kFar);
+  const starfocus_params params = ThroughDisc(kFar);
   const double with = PsnrOf(Refocused(scene, CombConfig(scene), params));
   const double without = PsnrOf(Refocused(Without(scene), CombConfig(scene), params));
   MESSAGE(without, " -> ", with, " dB");
@@ -120,11 +121,11 @@ TEST_CASE("given coverage: deep inside a silhouette, too, the wall ends where co
       scene.Disparity(x, y) = float(near * kRadius);
     }
   }
-  sf_config config = CombConfig(scene);
+  starfocus_config config = CombConfig(scene);
   config.max_blur = kRadius;
   test::Engine engine(config);
   test::Output out(scene.width, scene.height);
-  REQUIRE(test::Refocus(&engine, ThroughDisc(0), scene, &out) == SF_OK);
+  REQUIRE(test::Refocus(&engine, ThroughDisc(0), scene, &out) == STARFOCUS_OK);
   double most = 0;
   for (int x = kEdge - kRadius; x < kEdge; ++x) {
     const double to_edge = kEdge - 0.5 - x, angle = std::acos(to_edge / kRadius);
@@ -137,10 +138,10 @@ TEST_CASE("given coverage: deep inside a silhouette, too, the wall ends where co
 
 TEST_CASE("given coverage: every way in gives the same bytes") {
   const test::Scene scene = Comb();
-  const sf_config config = CombConfig(scene);
+  const starfocus_config config = CombConfig(scene);
   for (const double focus : {kFar, 1.0, kNear}) {
     CAPTURE(focus);
-    sf_params params = ThroughDisc(focus);
+    starfocus_params params = ThroughDisc(focus);
     CHECK((Refocused(Without(scene), config, params).bytes !=
            Refocused(scene, config, params).bytes));
     test::CheckWays(scene, config, params);
@@ -165,16 +166,16 @@ test::Scene Doubled(const test::Scene& scene) {
 
 TEST_CASE("given coverage: previews have its means") {
   const test::Scene scene = Comb(), doubled = Doubled(scene);
-  sf_config config = CombConfig(doubled);
+  starfocus_config config = CombConfig(doubled);
   config.max_blur = 4 * kNear;
   config.previews = 1;
   test::Engine engine(config);
   test::PreparedMemory memory(config);
-  const sf_prepared* prepared = memory.Prepare(engine.get(), doubled.Field());
-  sf_params params = ThroughDisc(2 * kFar);
+  const starfocus_prepared* prepared = memory.Prepare(engine.get(), doubled.Field());
+  starfocus_params params = ThroughDisc(2 * kFar);
   test::Output preview(kWidth, kHeight);
   REQUIRE(test::PreviewRgb(engine.get(), &params, prepared, 1, preview.bytes.data(), preview.stride,
-                           nullptr) == SF_OK);
+                           nullptr) == STARFOCUS_OK);
   params.lens.focus = kFar;
   CHECK((preview.bytes == Refocused(scene, CombConfig(scene), params).bytes));
   CHECK((preview.bytes != Refocused(Without(scene), CombConfig(scene), params).bytes));
@@ -182,18 +183,19 @@ TEST_CASE("given coverage: previews have its means") {
 
 TEST_CASE("given coverage: a frame after another one sees what changed of it") {
   const test::Scene before = Comb();
-  const sf_config config = CombConfig(before);
-  const sf_params params = ThroughDisc(kFar);
+  const starfocus_config config = CombConfig(before);
+  const starfocus_params params = ThroughDisc(kFar);
   const test::Output first = Refocused(before, config, params);
   test::Scene changed = before;
   changed.coverage[size_t(90 * kWidth + 100)] ^= 255;
   for (const test::Scene& now : {changed, Without(before), before}) {
     test::Engine engine(config);
     test::Output out(kWidth, kHeight);
-    const sf_light_field field = now.Field();
-    const sf_previous previous = {before.Field(), sf_image_rgb(first.bytes.data(), first.stride)};
+    const starfocus_light_field field = now.Field();
+    const starfocus_previous previous = {before.Field(),
+                                         starfocus_image_rgb(first.bytes.data(), first.stride)};
     REQUIRE(test::RefocusAfterRgb(engine.get(), &params, &field, &previous, out.bytes.data(),
-                                  out.stride, nullptr) == SF_OK);
+                                  out.stride, nullptr) == STARFOCUS_OK);
     CHECK((out.bytes == Refocused(now, config, params).bytes));
   }
 }
@@ -202,9 +204,9 @@ TEST_CASE("given coverage: where nothing moves, colours that contradict it stay"
   test::Scene scene = Comb();
   test::Random random(3);
   for (uint8_t& coverage : scene.coverage) coverage = random.Byte();
-  sf_config config = CombConfig(scene);
+  starfocus_config config = CombConfig(scene);
   config.tuning.skips = 0;
-  sf_params params = ThroughDisc(0);
+  starfocus_params params = ThroughDisc(0);
   params.lens.aperture = 0.001;
   const test::Output out = Refocused(scene, config, params);
   CHECK((out.bytes == scene.pictures[0]));
@@ -214,8 +216,8 @@ TEST_CASE("given coverage: highlights brighten nothing but their surroundings") 
   test::Scene scene = Comb();
   for (auto& sample : scene.pictures[0]) sample = std::min<uint8_t>(sample, 240);
   for (int y = 2; y < 6; ++y) std::fill_n(scene.Pixel(0, 2, y), 12, uint8_t{255});
-  sf_config config = CombConfig(scene);
-  const sf_params params = ThroughDisc(kNear);
+  starfocus_config config = CombConfig(scene);
+  const starfocus_params params = ThroughDisc(kNear);
   const test::Output plain = Refocused(scene, config, params);
   config.highlights = 16;
   const test::Output lit = Refocused(scene, config, params);
@@ -230,28 +232,28 @@ TEST_CASE("given coverage: highlights brighten nothing but their surroundings") 
 
 TEST_CASE("given coverage: without the feature it is not looked at, and bad input is refused") {
   const test::Scene scene = Comb();
-  sf_config config = CombConfig(scene);
-  config.features |= SF_FEATURE_STREAMING;
-  const sf_params params = ThroughDisc(kFar);
+  starfocus_config config = CombConfig(scene);
+  config.features |= STARFOCUS_FEATURE_STREAMING;
+  const starfocus_params params = ThroughDisc(kFar);
   test::Engine engine(config);
-  sf_light_field field = scene.Field();
+  starfocus_light_field field = scene.Field();
   int32_t consumed = 0;
-  REQUIRE(sf_stream_begin(engine.get(), &params) == SF_OK);
-  REQUIRE(sf_stream_push(engine.get(), &field, 4, &consumed) == SF_OK);
+  REQUIRE(starfocus_stream_begin(engine.get(), &params) == STARFOCUS_OK);
+  REQUIRE(starfocus_stream_push(engine.get(), &field, 4, &consumed) == STARFOCUS_OK);
   field = scene.Field(4);
   field.coverage = nullptr;
-  CHECK(sf_stream_push(engine.get(), &field, 4, &consumed) == SF_ERROR_STATE);
+  CHECK(starfocus_stream_push(engine.get(), &field, 4, &consumed) == STARFOCUS_ERROR_STATE);
   CHECK(consumed == 0);
   field = scene.Field();
   test::Output out(kWidth, kHeight);
   field.coverage_stride = kWidth - 1;
   CHECK(test::RefocusRgb(engine.get(), &params, &field, out.bytes.data(), out.stride, nullptr) ==
-        SF_ERROR_STRIDE);
+        STARFOCUS_ERROR_STRIDE);
   field.coverage = out.bytes.data();
   field.coverage_stride = kWidth;
   CHECK(test::RefocusRgb(engine.get(), &params, &field, out.bytes.data(), out.stride, nullptr) ==
-        SF_ERROR_OVERLAP);
-  config.features &= ~SF_FEATURE_COVERAGE;
+        STARFOCUS_ERROR_OVERLAP);
+  config.features &= ~STARFOCUS_FEATURE_COVERAGE;
   CHECK(
       (Refocused(scene, config, params).bytes == Refocused(Without(scene), config, params).bytes));
 }

@@ -29,7 +29,7 @@ uint64_t Hash(const std::vector<uint8_t>& bytes) {
 }
 
 struct Lens {
-  sf_mode mode;
+  starfocus_mode mode;
   double focus, aperture;
 };
 
@@ -54,10 +54,11 @@ constexpr LevelCase kLevelCases[] = {{32, 13, 40}, {32, 16, 38}, {64, 11, 29},
 std::vector<Case> Cases() {
   constexpr const char* kDepthNames[] = {"layers", "slanted", "noise"};
   constexpr const char* kModeNames[] = {"frame", "benchmark", "block", "blur"};
-  constexpr Lens kLenses[] = {{SF_MODE_FRAME, -2.03125, 1}, {SF_MODE_FRAME, 3.75, 0.625},
-                              {SF_MODE_FRAME, 9.3, 0.9},    {SF_MODE_BENCHMARK, 0.25, 0.75},
-                              {SF_MODE_BLOCK, -3.5, 1},     {SF_MODE_BLOCK, 1.125, 0.8},
-                              {SF_MODE_BLUR, 2.5, 1},       {SF_MODE_BLOCK, -27.5, 1}};
+  constexpr Lens kLenses[] = {
+      {STARFOCUS_MODE_FRAME, -2.03125, 1}, {STARFOCUS_MODE_FRAME, 3.75, 0.625},
+      {STARFOCUS_MODE_FRAME, 9.3, 0.9},    {STARFOCUS_MODE_BENCHMARK, 0.25, 0.75},
+      {STARFOCUS_MODE_BLOCK, -3.5, 1},     {STARFOCUS_MODE_BLOCK, 1.125, 0.8},
+      {STARFOCUS_MODE_BLUR, 2.5, 1},       {STARFOCUS_MODE_BLOCK, -27.5, 1}};
   std::vector<Case> cases;
   int number = 0;
   for (const int views : {1, 5, 9, 17}) {
@@ -81,7 +82,7 @@ std::vector<Case> Cases() {
   // picture would change. The last one is a block of four cuts, which has another picture uncut.
   for (const LevelCase& level : kLevelCases) {
     Case one = {"",          level.block,         level.block,
-                1,           test::Depth::kNoise, {SF_MODE_FRAME, 0, 1},
+                1,           test::Depth::kNoise, {STARFOCUS_MODE_FRAME, 0, 1},
                 level.block, level.levels,        level.range};
     one.name = "levels-" + std::to_string(level.levels) + "-" + std::to_string(level.range) + "-" +
                std::to_string(level.block);
@@ -91,7 +92,7 @@ std::vector<Case> Cases() {
   for (const test::NamedShape& shape : test::kShapes) {
     for (const Lens& lens : {kLenses[5], kLenses[6], kLenses[7]}) {
       for (const int block : {32, 64}) {
-        if (lens.mode == SF_MODE_BLUR && block == 64) continue;  // the same picture
+        if (lens.mode == STARFOCUS_MODE_BLUR && block == 64) continue;  // the same picture
         if (lens.focus == kLenses[7].focus && block == 32) continue;
         Case one = {"", 97, 70, 5, test::Depth::kLayers, lens, block};
         char name[80];
@@ -108,20 +109,21 @@ std::vector<Case> Cases() {
 
 // What each layer covered, and what was gathered.
 struct Covered {
-  uint64_t layers[SF_LAYERS] = {};
+  uint64_t layers[STARFOCUS_LAYERS] = {};
   uint64_t gathered = 0;
 };
 
 // Adds to `covered`.
 std::string Refocus(const Case& one, const test::Scene& scene,
                     const starfocus::simd::Kernels* kernels, Covered* covered) {
-  sf_config config = test::ConfigFor(scene, 43);
+  starfocus_config config = test::ConfigFor(scene, 43);
   config.superblock = one.block;
   // Slanted surfaces have the paper's values, the others light.
-  config.transfer = one.depth == test::Depth::kSlanted ? SF_TRANSFER_NONE : SF_TRANSFER_SRGB;
+  config.transfer =
+      one.depth == test::Depth::kSlanted ? STARFOCUS_TRANSFER_NONE : STARFOCUS_TRANSFER_SRGB;
   config.tuning.gather = one.views != 9;  // views have their share, layers 1 and 2 with them
   if (one.levels > 0) config.tuning.n_scale = 0.5;
-  sf_params params = test::Params(one.lens.focus, one.lens.aperture, one.lens.mode);
+  starfocus_params params = test::Params(one.lens.focus, one.lens.aperture, one.lens.mode);
   if (one.shape != nullptr) one.shape->Set(&params.lens);
   test::ReserveFor(params.lens, &config);
   test::Engine engine(config);
@@ -129,11 +131,11 @@ std::string Refocus(const Case& one, const test::Scene& scene,
   test::Output out(scene.width, scene.height);
   // The rule of subapertures keeps layer 2 away from depth edges: either rule has its share of the
   // cases.
-  if (one.block == 32) params.renderer = SF_RENDERER_LINE_SCAN;
-  if (one.levels > 0) params.renderer = SF_RENDERER_SLICES;
-  sf_report report = {};
-  REQUIRE(test::Refocus(&engine, params, scene, &out, nullptr, nullptr, &report) == SF_OK);
-  for (int layer = 0; layer < SF_LAYERS; ++layer) {
+  if (one.block == 32) params.renderer = STARFOCUS_RENDERER_LINE_SCAN;
+  if (one.levels > 0) params.renderer = STARFOCUS_RENDERER_SLICES;
+  starfocus_report report = {};
+  REQUIRE(test::Refocus(&engine, params, scene, &out, nullptr, nullptr, &report) == STARFOCUS_OK);
+  for (int layer = 0; layer < STARFOCUS_LAYERS; ++layer) {
     covered->layers[layer] += report.layers[layer].pixels;
   }
   covered->gathered += report.gathered_pixels;

@@ -16,7 +16,8 @@ namespace highlights_test {
 namespace {
 
 constexpr int kSide = 120;
-constexpr sf_mode kModes[] = {SF_MODE_BLOCK, SF_MODE_FRAME, SF_MODE_BENCHMARK, SF_MODE_BLUR};
+constexpr starfocus_mode kModes[] = {STARFOCUS_MODE_BLOCK, STARFOCUS_MODE_FRAME,
+                                     STARFOCUS_MODE_BENCHMARK, STARFOCUS_MODE_BLUR};
 
 // A dark flat picture with a white rectangle.
 test::Scene WhiteRect(int x0, int y0, int width, int height, int code = 255, int views = 1) {
@@ -33,19 +34,20 @@ test::Scene WhiteRect(int x0, int y0, int width, int height, int code = 255, int
 }
 
 std::vector<uint8_t> Picture(const test::Scene& scene, double blur, double highlights,
-                             sf_mode mode = SF_MODE_BLOCK, sf_renderer renderer = SF_RENDERER_AUTO,
-                             sf_transfer transfer = SF_TRANSFER_SRGB) {
-  sf_config config = test::ConfigFor(scene, 20);
+                             starfocus_mode mode = STARFOCUS_MODE_BLOCK,
+                             starfocus_renderer renderer = STARFOCUS_RENDERER_AUTO,
+                             starfocus_transfer transfer = STARFOCUS_TRANSFER_SRGB) {
+  starfocus_config config = test::ConfigFor(scene, 20);
   config.superblock = 32;
   config.tuning.max_layer = config.tuning.gather = 0;  // where highlights are there is neither
   config.highlights = float(highlights);
   config.transfer = transfer;
-  sf_params params = test::Params(blur, 1, mode);
+  starfocus_params params = test::Params(blur, 1, mode);
   params.renderer = renderer;
   return test::RefocusScene(scene, config, params).rgb;
 }
 
-double LightIn(const std::vector<uint8_t>& picture, sf_transfer transfer) {
+double LightIn(const std::vector<uint8_t>& picture, starfocus_transfer transfer) {
   double sum = 0;
   for (size_t i = 0; i < picture.size(); i += 3) sum += test::LightOf(picture[i], transfer);
   return sum;
@@ -53,9 +55,10 @@ double LightIn(const std::vector<uint8_t>& picture, sf_transfer transfer) {
 
 TEST_CASE("highlights: a lamp becomes a disc with all of its light") {
   const test::Scene lamp = WhiteRect(58, 59, 3, 3);
-  for (const sf_transfer transfer : {SF_TRANSFER_SRGB, SF_TRANSFER_NONE}) {
-    for (const sf_mode mode : kModes) {
-      for (const sf_renderer renderer : {SF_RENDERER_LINE_SCAN, SF_RENDERER_SLICES}) {
+  for (const starfocus_transfer transfer : {STARFOCUS_TRANSFER_SRGB, STARFOCUS_TRANSFER_NONE}) {
+    for (const starfocus_mode mode : kModes) {
+      for (const starfocus_renderer renderer :
+           {STARFOCUS_RENDERER_LINE_SCAN, STARFOCUS_RENDERER_SLICES}) {
         const auto light = [&](double highlights) {
           return LightIn(Picture(lamp, 11, highlights, mode, renderer, transfer), transfer);
         };
@@ -72,7 +75,7 @@ TEST_CASE("highlights: a lamp becomes a disc with all of its light") {
 
 TEST_CASE("highlights: the more, the nearer a code is to clipped; none below 251") {
   const auto light = [&](int code, double highlights) {
-    return LightIn(Picture(WhiteRect(58, 58, 4, 4, code), 10, highlights), SF_TRANSFER_SRGB);
+    return LightIn(Picture(WhiteRect(58, 58, 4, 4, code), 10, highlights), STARFOCUS_TRANSFER_SRGB);
   };
   double before = 0;
   for (int code = 249; code <= 255; ++code) {
@@ -114,16 +117,16 @@ TEST_CASE("highlights: walls do not glow") {
   }
   // A tube is long in one direction only.
   const test::Scene tube = WhiteRect(20, 60, 80, 4);
-  CHECK(LightIn(Picture(tube, 11, 4), SF_TRANSFER_SRGB) >
-        2 * LightIn(Picture(tube, 11, 1), SF_TRANSFER_SRGB));
+  CHECK(LightIn(Picture(tube, 11, 4), STARFOCUS_TRANSFER_SRGB) >
+        2 * LightIn(Picture(tube, 11, 1), STARFOCUS_TRANSFER_SRGB));
 }
 
 TEST_CASE("highlights: what sees nothing but one large highlight is rendered once") {
   const auto samples = [](const test::Scene& scene, double highlights) {
-    sf_config config = test::ConfigFor(scene, 20);
+    starfocus_config config = test::ConfigFor(scene, 20);
     config.tuning.gather = 0;
     config.highlights = float(highlights);
-    return test::RefocusScene(scene, config, test::Params(9, 1, SF_MODE_BLOCK))
+    return test::RefocusScene(scene, config, test::Params(9, 1, STARFOCUS_MODE_BLOCK))
         .report.rendered_samples;
   };
   for (const int views : {1, 5}) {
@@ -141,7 +144,7 @@ TEST_CASE("highlights: a picture without any stays the same to the byte") {
     for (auto& picture : scene.pictures) {
       for (uint8_t& sample : picture) sample = std::min(sample, uint8_t(250));
     }
-    for (const sf_mode mode : kModes) {
+    for (const starfocus_mode mode : kModes) {
       CAPTURE(views);
       CAPTURE(mode);
       const bool same = Picture(scene, 3, 64, mode) == Picture(scene, 3, 1, mode);
@@ -160,11 +163,11 @@ TEST_CASE("highlights: every way in gives the same bytes") {
         }
       }
     }
-    for (const sf_mode mode : kModes) {
-      sf_config config = test::ConfigFor(scene, 9);
+    for (const starfocus_mode mode : kModes) {
+      starfocus_config config = test::ConfigFor(scene, 9);
       config.superblock = 32;
       config.highlights = 6;
-      const sf_params params = test::Params(-4, 1, mode);
+      const starfocus_params params = test::Params(-4, 1, mode);
       CAPTURE(views);
       CAPTURE(mode);
       test::CheckWays(scene, config, params);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The range of a picture against that of its views: what starfocus.h says of SF_MODE_BLOCK.
+// The range of a picture against that of its views: what starfocus.h says of STARFOCUS_MODE_BLOCK.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -35,15 +35,16 @@ void DrawTwoLevels(int low, int high, test::Random* random, test::Scene* scene) 
 
 struct Trial {
   test::Scene scene;
-  sf_config config;
-  sf_params params;
+  starfocus_config config;
+  starfocus_params params;
   int low, high;
 };
 
 // What a trial draws beside the default fall-off.
 enum class Openings { kDefault, kAnyTheta, kAnyShape };
 
-Trial MakeTrial(uint64_t seed, sf_mode mode, sf_renderer renderer, Openings openings) {
+Trial MakeTrial(uint64_t seed, starfocus_mode mode, starfocus_renderer renderer,
+                Openings openings) {
   constexpr int kViews[] = {1, 5, 9, 17};
   test::Random random(seed);
   Trial trial;
@@ -58,10 +59,11 @@ Trial MakeTrial(uint64_t seed, sf_mode mode, sf_renderer renderer, Openings open
   trial.params = test::Params(random.Int(0, 1) == 0 ? range + radius : -radius, 1, mode);
   trial.params.renderer = renderer;
   trial.config = test::ConfigFor(trial.scene, radius + range + 1);
-  trial.config.transfer = seed % 2 == 0 ? SF_TRANSFER_NONE : SF_TRANSFER_SRGB;
+  trial.config.transfer = seed % 2 == 0 ? STARFOCUS_TRANSFER_NONE : STARFOCUS_TRANSFER_SRGB;
   if (openings == Openings::kAnyTheta) {
-    trial.params.lens.theta =
-        random.Int(0, 1) == 0 ? SF_MAX_THETA : random.Real(SF_MIN_THETA, SF_MAX_THETA);
+    trial.params.lens.theta = random.Int(0, 1) == 0
+                                  ? STARFOCUS_MAX_THETA
+                                  : random.Real(STARFOCUS_MIN_THETA, STARFOCUS_MAX_THETA);
   }
   if (openings == Openings::kAnyShape) test::RandomShape(&trial.params.lens, &random);
   test::ReserveFor(trial.params.lens, &trial.config);
@@ -79,7 +81,7 @@ struct Beyond {
 void Widen(const Trial& trial, Beyond* worst) {
   test::Engine engine(trial.config);
   test::Output out(trial.scene.width, trial.scene.height);
-  REQUIRE(test::Refocus(&engine, trial.params, trial.scene, &out) == SF_OK);
+  REQUIRE(test::Refocus(&engine, trial.params, trial.scene, &out) == STARFOCUS_OK);
   int below = 0, above = 0;
   for (const uint8_t level : out.bytes) {
     below = std::max(below, trial.low - level);
@@ -98,8 +100,8 @@ void Widen(const Trial& trial, Beyond* worst) {
   }
 }
 
-Beyond WorstOf(sf_mode mode, sf_renderer renderer, Openings openings) {
-  const uint64_t kTrials = mode == SF_MODE_BLOCK ? 300 : 60;
+Beyond WorstOf(starfocus_mode mode, starfocus_renderer renderer, Openings openings) {
+  const uint64_t kTrials = mode == STARFOCUS_MODE_BLOCK ? 300 : 60;
   Beyond worst;
   for (uint64_t seed = 1; seed <= kTrials; ++seed) {
     CAPTURE(seed);
@@ -114,8 +116,9 @@ Beyond WorstOf(sf_mode mode, sf_renderer renderer, Openings openings) {
 }  // namespace
 
 TEST_CASE("input range: frame modes stay within the levels of the views") {
-  for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BENCHMARK}) {
-    for (const sf_renderer renderer : {SF_RENDERER_LINE_SCAN, SF_RENDERER_SLICES}) {
+  for (const starfocus_mode mode : {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BENCHMARK}) {
+    for (const starfocus_renderer renderer :
+         {STARFOCUS_RENDERER_LINE_SCAN, STARFOCUS_RENDERER_SLICES}) {
       for (const Openings openings : {Openings::kAnyTheta, Openings::kAnyShape}) {
         CHECK(WorstOf(mode, renderer, openings).levels == 0);
       }
@@ -124,12 +127,18 @@ TEST_CASE("input range: frame modes stay within the levels of the views") {
 }
 
 TEST_CASE("input range: subsampled blocks overshoot by no more than the header says") {
-  CHECK(WorstOf(SF_MODE_BLOCK, SF_RENDERER_SLICES, Openings::kDefault).contrast <= 0.04);
-  CHECK(WorstOf(SF_MODE_BLOCK, SF_RENDERER_SLICES, Openings::kAnyTheta).contrast <= 0.04);
-  CHECK(WorstOf(SF_MODE_BLOCK, SF_RENDERER_SLICES, Openings::kAnyShape).contrast <= 0.04);
-  CHECK(WorstOf(SF_MODE_BLOCK, SF_RENDERER_LINE_SCAN, Openings::kDefault).contrast <= 0.13);
-  CHECK(WorstOf(SF_MODE_BLOCK, SF_RENDERER_LINE_SCAN, Openings::kAnyTheta).contrast <= 0.4);
-  CHECK(WorstOf(SF_MODE_BLOCK, SF_RENDERER_LINE_SCAN, Openings::kAnyShape).contrast <= 0.4);
+  CHECK(WorstOf(STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_SLICES, Openings::kDefault).contrast <=
+        0.04);
+  CHECK(WorstOf(STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_SLICES, Openings::kAnyTheta).contrast <=
+        0.04);
+  CHECK(WorstOf(STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_SLICES, Openings::kAnyShape).contrast <=
+        0.04);
+  CHECK(WorstOf(STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_LINE_SCAN, Openings::kDefault).contrast <=
+        0.13);
+  CHECK(WorstOf(STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_LINE_SCAN, Openings::kAnyTheta).contrast <=
+        0.4);
+  CHECK(WorstOf(STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_LINE_SCAN, Openings::kAnyShape).contrast <=
+        0.4);
 }
 
 }  // namespace input_range_slow_test

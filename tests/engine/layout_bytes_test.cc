@@ -20,7 +20,7 @@ using starfocus::kTooLarge;
 // With red zones between them no pieces share memory.
 TEST_CASE("layout: pieces are aligned, padded and counted as they are carved" *
           doctest::skip(starfocus::kRedZone > 0)) {
-  alignas(SF_ALIGNMENT) static uint8_t memory[1 << 12];
+  alignas(STARFOCUS_ALIGNMENT) static uint8_t memory[1 << 12];
   Arena counting(nullptr), arena(memory);
   for (Arena* one : {&counting, &arena}) {
     uint8_t* first = one->Take<uint8_t>(1);
@@ -80,12 +80,12 @@ TEST_CASE("layout: what memory cannot hold is too large, not small") {
 // What a stripe keeps on a board, in KiB of a workspace (docs/boards.md): with all modes and rules.
 TEST_CASE("layout: workspaces of boards are no larger than they were" *
           doctest::skip(starfocus::kRedZone > 0)) {
-  const auto with_coverage = [](sf_config config) {
-    config.features |= SF_FEATURE_COVERAGE;
+  const auto with_coverage = [](starfocus_config config) {
+    config.features |= STARFOCUS_FEATURE_COVERAGE;
     return config;
   };
   const struct {
-    sf_config config;
+    starfocus_config config;
     size_t most;
   } kBoards[] = {
       // With memory for thin structures.
@@ -99,7 +99,7 @@ TEST_CASE("layout: workspaces of boards are no larger than they were" *
       {test::BoardConfig(1920, 1080, 1, 64, 32, 0), 3049},
       // Without layers 1 and 2.
       {[] {
-         sf_config config = test::BoardConfig(640, 480, 1, 32, 8, 1);
+         starfocus_config config = test::BoardConfig(640, 480, 1, 32, 8, 1);
          config.tuning.max_layer = 0;
          return config;
        }(),
@@ -107,7 +107,7 @@ TEST_CASE("layout: workspaces of boards are no larger than they were" *
   };
   for (const auto& board : kBoards) {
     size_t bytes = 0;
-    REQUIRE(sf_workspace_size(&board.config, &bytes) == SF_OK);
+    REQUIRE(starfocus_workspace_size(&board.config, &bytes) == STARFOCUS_OK);
     CAPTURE(bytes);
     CHECK(bytes <= board.most << 10);
   }
@@ -117,11 +117,11 @@ TEST_CASE("layout: workspaces of boards are no larger than they were" *
 TEST_CASE("layout: all of a workspace is for some part" * doctest::skip(starfocus::kRedZone > 0)) {
   for (const int streaming : {0, 1}) {
     for (const int images : {0, 1}) {
-      sf_config config = test::BoardConfig(320, 200, 5, 64, 12, streaming);
-      test::SetFeature(SF_FEATURE_IMAGES, images, &config.features);
+      starfocus_config config = test::BoardConfig(320, 200, 5, 64, 12, streaming);
+      test::SetFeature(STARFOCUS_FEATURE_IMAGES, images, &config.features);
       const std::vector<test::MemoryPart> parts = test::MeasureParts(config);
       size_t bytes = 0;
-      REQUIRE(sf_workspace_size(&config, &bytes) == SF_OK);
+      REQUIRE(starfocus_workspace_size(&config, &bytes) == STARFOCUS_OK);
       CHECK(!parts.empty());
       CHECK(test::SumOf(parts).all == bytes);
     }
@@ -132,22 +132,22 @@ TEST_CASE("layout: all of a workspace is for some part" * doctest::skip(starfocu
 TEST_CASE("layout: what grows with the picture comes last, and less of it fits into the same") {
   test::Random random(44);
   for (int round = 0; round < 300; ++round) {
-    sf_config config;
-    sf_config_init(&config);
-    config.width = random.Int(1, random.Int(0, 1) == 0 ? 40 : SF_MAX_SIZE);
+    starfocus_config config;
+    starfocus_config_init(&config);
+    config.width = random.Int(1, random.Int(0, 1) == 0 ? 40 : STARFOCUS_MAX_SIZE);
     config.height = random.Int(1, 4000);
     config.disparity_max = float(random.Real(0, 500));
-    config.max_blur = random.Real(0.1, SF_MAX_BLUR);
+    config.max_blur = random.Real(0.1, STARFOCUS_MAX_BLUR);
     config.superblock = 32 << random.Int(0, 3);
     config.max_workers = random.Int(1, 4);
-    test::SetFeature(SF_FEATURE_STREAMING, random.Int(0, 1), &config.features);
-    test::SetFeature(SF_FEATURE_IMAGES, random.Int(0, 1), &config.features);
+    test::SetFeature(STARFOCUS_FEATURE_STREAMING, random.Int(0, 1), &config.features);
+    test::SetFeature(STARFOCUS_FEATURE_IMAGES, random.Int(0, 1), &config.features);
     config.highlights = random.Int(0, 1) == 0 ? 1.0F : 8.0F;
-    test::SetFeature(SF_FEATURE_SHAPES, random.Int(0, 1), &config.features);
+    test::SetFeature(STARFOCUS_FEATURE_SHAPES, random.Int(0, 1), &config.features);
     const size_t bytes = test::WorkspaceBytes(config);
     if (bytes == kTooLarge) continue;
-    for (int shift = 1; shift <= SF_MAX_PREVIEW; ++shift) {
-      const sf_config reduced = starfocus::ReducedConfig(config, shift);
+    for (int shift = 1; shift <= STARFOCUS_MAX_PREVIEW; ++shift) {
+      const starfocus_config reduced = starfocus::ReducedConfig(config, shift);
       CAPTURE(round);
       CAPTURE(shift);
       CHECK(test::WorkspaceBytes(reduced) <= bytes);
@@ -156,14 +156,14 @@ TEST_CASE("layout: what grows with the picture comes last, and less of it fits i
 }
 
 TEST_CASE("layout: laid out anew, an engine keeps its workers and tables") {
-  sf_config config;
-  sf_config_init(&config);
+  starfocus_config config;
+  starfocus_config_init(&config);
   config.width = 300;
   config.height = 200;
   config.max_workers = 2;
-  config.features |= SF_FEATURE_STREAMING;
+  config.features |= STARFOCUS_FEATURE_STREAMING;
   test::Engine engine(config);
-  REQUIRE(engine.status() == SF_OK);
+  REQUIRE(engine.status() == STARFOCUS_OK);
   starfocus::EngineState& state = test::StateOf(engine.get());
   config = state.config;
   const starfocus::Scratch* workers = state.workers.scratch;
@@ -184,39 +184,39 @@ TEST_CASE("layout: laid out anew, an engine keeps its workers and tables") {
 
 // On 32 bits sizes of wide streaming configurations are beyond all addresses.
 TEST_CASE("layout: sizes never wrap, and too large ones are an error of every call") {
-  sf_config config;
-  sf_config_init(&config);
+  starfocus_config config;
+  starfocus_config_init(&config);
   config.height = 65535;
-  config.views = SF_MAX_VIEWS;
+  config.views = STARFOCUS_MAX_VIEWS;
   config.disparity_min = -500;
   config.disparity_max = 500;
-  config.max_blur = SF_MAX_BLUR;
+  config.max_blur = STARFOCUS_MAX_BLUR;
   config.superblock = 256;
-  config.features |= SF_FEATURE_STREAMING;
+  config.features |= STARFOCUS_FEATURE_STREAMING;
   int refused = 0;
-  for (int width = 999; width <= SF_MAX_SIZE; width += 1000) {
+  for (int width = 999; width <= STARFOCUS_MAX_SIZE; width += 1000) {
     config.width = width;
     // Views of 3 bytes a pixel in as many rows as a stripe with what disparities and blurs reach.
-    const uint64_t rings = uint64_t{3 * SF_MAX_VIEWS * (256 + 2 * 628)} * uint64_t(width);
+    const uint64_t rings = uint64_t{3 * STARFOCUS_MAX_VIEWS * (256 + 2 * 628)} * uint64_t(width);
     const uint64_t disparities = uint64_t{2 * 65535} * uint64_t(width);
     for (const bool prepared : {false, true}) {
       size_t bytes = 77;
-      const sf_status status =
-          prepared ? sf_prepared_size(&config, &bytes) : sf_workspace_size(&config, &bytes);
+      const starfocus_status status = prepared ? starfocus_prepared_size(&config, &bytes)
+                                               : starfocus_workspace_size(&config, &bytes);
       CAPTURE(width);
       CAPTURE(prepared);
-      if (status == SF_OK) {
+      if (status == STARFOCUS_OK) {
         CHECK(bytes > (prepared ? disparities : rings));
         CHECK(bytes < (prepared ? 2 : 4) * (prepared ? disparities : rings) + (1 << 26));
         continue;
       }
-      CHECK(status == SF_ERROR_TOO_LARGE);
+      CHECK(status == STARFOCUS_ERROR_TOO_LARGE);
       CHECK(bytes == 77);
       ++refused;
       if (prepared) continue;
-      alignas(SF_ALIGNMENT) static uint8_t little[SF_ALIGNMENT];
-      sf_engine* engine = nullptr;
-      CHECK(sf_init(&config, little, sizeof(little), &engine) == SF_ERROR_TOO_LARGE);
+      alignas(STARFOCUS_ALIGNMENT) static uint8_t little[STARFOCUS_ALIGNMENT];
+      starfocus_engine* engine = nullptr;
+      CHECK(starfocus_init(&config, little, sizeof(little), &engine) == STARFOCUS_ERROR_TOO_LARGE);
       CHECK(engine == nullptr);
     }
   }

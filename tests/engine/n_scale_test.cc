@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// sf_tuning.n_scale through the public ABI: which N it makes, that the other modes do not ask for
-// it, and that it trades time for error.
+// starfocus_tuning.n_scale through the public ABI: which N it makes, that the other modes do not
+// ask for it, and that it trades time for error.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -22,9 +22,9 @@ using test::Refocused;
 
 constexpr double kScales[] = {0.5, 0.7, 1, 1.4, 2};
 
-Refocused Refocus(const test::Scene& scene, const sf_params& params, double n_scale,
+Refocused Refocus(const test::Scene& scene, const starfocus_params& params, double n_scale,
                   double max_blur = 32) {
-  sf_config config = test::ConfigFor(scene, max_blur);
+  starfocus_config config = test::ConfigFor(scene, max_blur);
   config.tuning.n_scale = n_scale;
   config.tuning.gather = 0;  // N is all that differs
   return test::RefocusScene(scene, config, params);
@@ -36,20 +36,23 @@ TEST_CASE("n_scale: multiplies the N of either rule in frame and block mode") {
   const test::Scene scene = FlatScene(1);
   for (const double radius : {0.0, 0.25, 0.9, 3.5, 9.0, 17.0, 25.0}) {
     for (const double scale : kScales) {
-      for (const sf_renderer renderer : {SF_RENDERER_LINE_SCAN, SF_RENDERER_SLICES}) {
-        for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BLOCK}) {
-          sf_params params = test::Params(radius, 1, mode);
+      for (const starfocus_renderer renderer :
+           {STARFOCUS_RENDERER_LINE_SCAN, STARFOCUS_RENDERER_SLICES}) {
+        for (const starfocus_mode mode : {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BLOCK}) {
+          starfocus_params params = test::Params(radius, 1, mode);
           params.renderer = renderer;
-          sf_config config = test::ConfigFor(scene);
+          starfocus_config config = test::ConfigFor(scene);
           config.tuning.n_scale = scale;
           config.tuning.max_layer = 0;
           config.tuning.gather = 0;  // which takes no views at all
           test::Engine engine(config);
           test::Output out(scene.width, scene.height);
-          sf_report report = {};
-          REQUIRE(test::Refocus(&engine, params, scene, &out, nullptr, nullptr, &report) == SF_OK);
-          const int n = renderer == SF_RENDERER_LINE_SCAN ? starfocus::ViewsByPaper(radius)
-                                                          : starfocus::ViewsBySubaperture(radius);
+          starfocus_report report = {};
+          REQUIRE(test::Refocus(&engine, params, scene, &out, nullptr, nullptr, &report) ==
+                  STARFOCUS_OK);
+          const int n = renderer == STARFOCUS_RENDERER_LINE_SCAN
+                            ? starfocus::ViewsByPaper(radius)
+                            : starfocus::ViewsBySubaperture(radius);
           CAPTURE(radius);
           CAPTURE(scale);
           CAPTURE(mode);
@@ -62,14 +65,14 @@ TEST_CASE("n_scale: multiplies the N of either rule in frame and block mode") {
 
 TEST_CASE("n_scale: benchmark and blur mode do not change") {
   const test::Scene scene = test::IntegerScene(70, 50, 5, test::Depth::kLayers);
-  for (const sf_mode mode : {SF_MODE_BENCHMARK, SF_MODE_BLUR}) {
-    const sf_params params = test::Params(1, 0.5, mode);
+  for (const starfocus_mode mode : {STARFOCUS_MODE_BENCHMARK, STARFOCUS_MODE_BLUR}) {
+    const starfocus_params params = test::Params(1, 0.5, mode);
     const Refocused plain = Refocus(scene, params, 1);
     for (const double scale : kScales) {
       const Refocused scaled = Refocus(scene, params, scale);
       const bool same = scaled.rgb == plain.rgb;
       CHECK(same);
-      if (mode == SF_MODE_BENCHMARK) CHECK(scaled.report.n == plain.report.n);
+      if (mode == STARFOCUS_MODE_BENCHMARK) CHECK(scaled.report.n == plain.report.n);
     }
   }
 }
@@ -77,9 +80,10 @@ TEST_CASE("n_scale: benchmark and blur mode do not change") {
 TEST_CASE("n_scale: the smallest workspace gives what a large one does") {
   for (const double radius : {0.3, 0.51, 1.0, 2.5}) {
     const test::Scene scene = FlatScene(2);
-    for (const sf_renderer renderer : {SF_RENDERER_LINE_SCAN, SF_RENDERER_SLICES}) {
-      for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BLOCK}) {
-        sf_params params = test::Params(radius, 1, mode);
+    for (const starfocus_renderer renderer :
+         {STARFOCUS_RENDERER_LINE_SCAN, STARFOCUS_RENDERER_SLICES}) {
+      for (const starfocus_mode mode : {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BLOCK}) {
+        starfocus_params params = test::Params(radius, 1, mode);
         params.renderer = renderer;
         CAPTURE(radius);
         const bool same =
@@ -93,8 +97,8 @@ TEST_CASE("n_scale: the smallest workspace gives what a large one does") {
 TEST_CASE("n_scale: more views, and nearer to the benchmark") {
   // Alone, since side views of noise see noise beyond the picture, each layer another.
   const test::Scene scene = test::IntegerScene(160, 120, 1, test::Depth::kSlanted);
-  for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BLOCK}) {
-    sf_params params = test::Params(-9.5, 1, SF_MODE_BENCHMARK);
+  for (const starfocus_mode mode : {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BLOCK}) {
+    starfocus_params params = test::Params(-9.5, 1, STARFOCUS_MODE_BENCHMARK);
     const std::vector<uint8_t> benchmark = Refocus(scene, params, 1).rgb;
     params.mode = mode;
     std::string line = "mode " + std::to_string(mode) + ":";

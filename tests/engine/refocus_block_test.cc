@@ -78,8 +78,8 @@ test::Scene SteppedScene(int width, int height, int views, float limit, test::Ra
 
 // What wider borders changed, by layer.
 struct FrameDiff {
-  int blocks[SF_LAYERS] = {}, changed[SF_LAYERS] = {}, largest[SF_LAYERS] = {};
-  int64_t samples[SF_LAYERS] = {}, changed_samples[SF_LAYERS] = {};
+  int blocks[STARFOCUS_LAYERS] = {}, changed[STARFOCUS_LAYERS] = {}, largest[STARFOCUS_LAYERS] = {};
+  int64_t samples[STARFOCUS_LAYERS] = {}, changed_samples[STARFOCUS_LAYERS] = {};
 
   void Add(const Block& block, const std::vector<uint8_t>& given,
            const std::vector<uint8_t>& wider) {
@@ -94,7 +94,7 @@ struct FrameDiff {
     }
   }
   void Tell() const {
-    for (int layer = 0; layer < SF_LAYERS; ++layer) {
+    for (int layer = 0; layer < STARFOCUS_LAYERS; ++layer) {
       char text[160];
       std::snprintf(text, sizeof(text),
                     "layer %d: %d of %d blocks change, %lld of %lld samples, by at most %d", layer,
@@ -105,14 +105,15 @@ struct FrameDiff {
   }
 };
 
-void CheckPicture(const test::Scene& scene, const sf_params& params, int more, FrameDiff* changes) {
-  sf_config config = test::ConfigFor(scene, 40);
+void CheckPicture(const test::Scene& scene, const starfocus_params& params, int more,
+                  FrameDiff* changes) {
+  starfocus_config config = test::ConfigFor(scene, 40);
   config.tuning.gather = 0;  // views everywhere
   config.superblock = 128;   // the whole picture, so that all of every layer is there
-  config.tuning.n_scale = more % 2 == 0 ? 1 : SF_MIN_N_SCALE;
+  config.tuning.n_scale = more % 2 == 0 ? 1 : STARFOCUS_MIN_N_SCALE;
   test::Engine engine(config);
   test::Output out(scene.width, scene.height);
-  REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
+  REQUIRE(test::Refocus(&engine, params, scene, &out) == STARFOCUS_OK);
   for (Block block : test::PlanOf(engine.get()).blocks) {
     // Not from `out`, which has been deblocked.
     const std::vector<uint8_t> given = test::RenderOne(block, engine.get());
@@ -135,8 +136,9 @@ FrameDiff CheckPictures(int rounds, double least_aperture, const MakeScene& make
     const float limit = static_cast<float>(2 * random.Int(1, 6));
     const test::Scene scene = make_scene(width, height, kViews[random.Int(0, 3)], limit, &random);
     const double aperture = random.Int(0, 1) == 0 ? 1 : random.Real(least_aperture, 1);
-    sf_params params = test::Params(kFocus[random.Int(0, 7)], aperture, SF_MODE_BLOCK);
-    params.renderer = round % 2 == 0 ? SF_RENDERER_LINE_SCAN : SF_RENDERER_SLICES;
+    starfocus_params params =
+        test::Params(kFocus[random.Int(0, 7)], aperture, STARFOCUS_MODE_BLOCK);
+    params.renderer = round % 2 == 0 ? STARFOCUS_RENDERER_LINE_SCAN : STARFOCUS_RENDERER_SLICES;
     CheckPicture(scene, params, random.Int(1, 9), &changes);
   }
   changes.Tell();
@@ -144,7 +146,7 @@ FrameDiff CheckPictures(int rounds, double least_aperture, const MakeScene& make
 }
 
 void CheckSmall(const FrameDiff& changes) {
-  for (int layer = 0; layer < SF_LAYERS; ++layer) {
+  for (int layer = 0; layer < STARFOCUS_LAYERS; ++layer) {
     CHECK(changes.blocks[layer] > 50);
     CHECK(changes.changed_samples[layer] * 1000 <= changes.samples[layer]);
     CHECK(changes.largest[layer] <= 9);  // what one of 29 views shows
@@ -153,7 +155,7 @@ void CheckSmall(const FrameDiff& changes) {
 
 TEST_CASE("refocus_block: the border is enough for a flat surface at every layer, size and place") {
   const FrameDiff changes = CheckPictures(200, 0.3, FlatScene);
-  for (int layer = 0; layer < SF_LAYERS; ++layer) {
+  for (int layer = 0; layer < STARFOCUS_LAYERS; ++layer) {
     CHECK(changes.blocks[layer] > 30);
     CHECK(changes.changed[layer] == 0);
   }

@@ -25,14 +25,14 @@ test::Scene Levels(int side, int count, float range, test::Random* random) {
   return scene;
 }
 
-std::vector<uint8_t> Picture(const sf_config& config, const sf_params& params,
+std::vector<uint8_t> Picture(const starfocus_config& config, const starfocus_params& params,
                              const test::Scene& scene) {
   test::Engine engine(config);
   test::Output out(scene.width, scene.height);
-  if (test::Has(config.features, SF_FEATURE_STREAMING)) {
-    REQUIRE(test::Stream(&engine, params, scene, &out, 7, 5) == SF_OK);
+  if (test::Has(config.features, STARFOCUS_FEATURE_STREAMING)) {
+    REQUIRE(test::Stream(&engine, params, scene, &out, 7, 5) == STARFOCUS_OK);
   } else {
-    REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
+    REQUIRE(test::Refocus(&engine, params, scene, &out) == STARFOCUS_OK);
   }
   return out.Tight();
 }
@@ -43,19 +43,21 @@ TEST_CASE("room: larger blurs, rows and workers that are reserved change no pict
     const float range = static_cast<float>(random.Real(2, 40));
     const int side = random.Int(0, 2) == 0 ? 96 : 32 << random.Int(0, 1);
     const test::Scene scene = Levels(side, random.Int(5, 16), range, &random);
-    sf_params params = test::Params(0, 1, random.Int(0, 1) == 0 ? SF_MODE_BLOCK : SF_MODE_FRAME);
-    if (range < 5 && random.Int(0, 1) == 0) params.mode = SF_MODE_BENCHMARK;
-    params.renderer = random.Int(0, 5) == 0 ? SF_RENDERER_LINE_SCAN : SF_RENDERER_SLICES;
-    sf_config config = test::ConfigFor(scene, double{range});
+    starfocus_params params =
+        test::Params(0, 1, random.Int(0, 1) == 0 ? STARFOCUS_MODE_BLOCK : STARFOCUS_MODE_FRAME);
+    if (range < 5 && random.Int(0, 1) == 0) params.mode = STARFOCUS_MODE_BENCHMARK;
+    params.renderer =
+        random.Int(0, 5) == 0 ? STARFOCUS_RENDERER_LINE_SCAN : STARFOCUS_RENDERER_SLICES;
+    starfocus_config config = test::ConfigFor(scene, double{range});
     config.superblock = 32 << random.Int(0, 1);
     config.tuning.n_scale = random.Int(0, 1) == 0 ? 0.5 : 1;
     config.tuning.timing.block = 1u << random.Int(0, 26);
     config.tuning.gather = random.Int(0, 1);
     const std::vector<uint8_t> expected = Picture(config, params, scene);
-    for (const double max_blur : {range + 1.0, 45.0, SF_MAX_BLUR}) {
-      sf_config other = config;
+    for (const double max_blur : {range + 1.0, 45.0, STARFOCUS_MAX_BLUR}) {
+      starfocus_config other = config;
       other.max_blur = max_blur;
-      test::SetFeature(SF_FEATURE_STREAMING, random.Int(0, 1), &other.features);
+      test::SetFeature(STARFOCUS_FEATURE_STREAMING, random.Int(0, 1), &other.features);
       other.max_workers = random.Int(1, 3);
       CAPTURE(round);
       CAPTURE(max_blur);

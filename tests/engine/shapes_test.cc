@@ -27,24 +27,25 @@ struct Patch {
   std::vector<int> levels;
   Place place;
 
-  Patch(const test::NamedShape& shape, double focus, sf_mode mode, sf_renderer renderer, Place at)
+  Patch(const test::NamedShape& shape, double focus, starfocus_mode mode,
+        starfocus_renderer renderer, Place at)
       : place(at) {
     test::Scene scene = test::EmptyScene(kSide, kSide, 1, 0, 0);
     std::fill(scene.pictures[0].begin(), scene.pictures[0].end(), uint8_t{0});
     for (int y = -1; y <= 1; ++y) {
       for (int x = -1; x <= 1; ++x) std::fill_n(scene.Pixel(0, at.x + x, at.y + y), 3, 255);
     }
-    sf_config config = test::ConfigFor(scene, std::abs(focus) + 1);
+    starfocus_config config = test::ConfigFor(scene, std::abs(focus) + 1);
     config.superblock = 32;
-    config.tuning.max_layer = 0;         // layers smooth what is looked at here
-    config.transfer = SF_TRANSFER_NONE;  // levels that add up
-    sf_params params = test::Params(focus, 1, mode);
+    config.tuning.max_layer = 0;                // layers smooth what is looked at here
+    config.transfer = STARFOCUS_TRANSFER_NONE;  // levels that add up
+    starfocus_params params = test::Params(focus, 1, mode);
     params.renderer = renderer;
     shape.Set(&params.lens);
     test::ReserveFor(params.lens, &config);
     test::Engine engine(config);
     test::Output out(kSide, kSide);
-    REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
+    REQUIRE(test::Refocus(&engine, params, scene, &out) == STARFOCUS_OK);
     for (int y = 0; y < kSide; ++y) {
       for (int x = 0; x < kSide; ++x) levels.push_back(*out.Pixel(x, y));
     }
@@ -78,17 +79,19 @@ struct Patch {
   }
 };
 
-const test::NamedShape kRing = {"ring", SF_SHAPE_RING, 5, 0, 0, 0.6F, 0};
-const test::NamedShape kPentagon = {"pentagon", SF_SHAPE_POLYGON, 5, 0, 0, 0.5F, 0};
-const test::NamedShape kCatsEye = {"cat's eye", SF_SHAPE_DISC, 5, 0, 0, 0.5F, 1};
-constexpr sf_mode kModes[] = {SF_MODE_FRAME, SF_MODE_BENCHMARK, SF_MODE_BLOCK, SF_MODE_BLUR};
+const test::NamedShape kRing = {"ring", STARFOCUS_SHAPE_RING, 5, 0, 0, 0.6F, 0};
+const test::NamedShape kPentagon = {"pentagon", STARFOCUS_SHAPE_POLYGON, 5, 0, 0, 0.5F, 0};
+const test::NamedShape kCatsEye = {"cat's eye", STARFOCUS_SHAPE_DISC, 5, 0, 0, 0.5F, 1};
+constexpr starfocus_mode kModes[] = {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BENCHMARK,
+                                     STARFOCUS_MODE_BLOCK, STARFOCUS_MODE_BLUR};
 
 TEST_CASE("shapes: the light of a patch stays, whatever the opening") {
   for (const test::NamedShape& shape : test::kShapes) {
-    for (const sf_mode mode : kModes) {
+    for (const starfocus_mode mode : kModes) {
       CAPTURE(shape.name);
       CAPTURE(mode);
-      const sf_renderer renderer = mode == SF_MODE_FRAME ? SF_RENDERER_LINE_SCAN : SF_RENDERER_AUTO;
+      const starfocus_renderer renderer =
+          mode == STARFOCUS_MODE_FRAME ? STARFOCUS_RENDERER_LINE_SCAN : STARFOCUS_RENDERER_AUTO;
       const Patch patch(shape, 9, mode, renderer, {});
       CHECK(patch.Light() == doctest::Approx(9 * 255).epsilon(0.03));
     }
@@ -98,8 +101,8 @@ TEST_CASE("shapes: the light of a patch stays, whatever the opening") {
 TEST_CASE("shapes: dark codes stay through openings whose views weigh much more in the middle") {
   constexpr int kWidth = 40, kHeight = 12, kEdge = 28;
   test::Scene scene = test::EmptyScene(kWidth, kHeight, 1, 0, 0);
-  const sf_config config = test::ConfigFor(scene, 4);
-  for (const sf_mode mode : kModes) {
+  const starfocus_config config = test::ConfigFor(scene, 4);
+  for (const starfocus_mode mode : kModes) {
     for (int code = 1; code < 40; ++code) {
       for (int y = 0; y < kHeight; ++y) {
         for (int x = 0; x < kWidth; ++x)
@@ -107,9 +110,9 @@ TEST_CASE("shapes: dark codes stay through openings whose views weigh much more 
       }
       test::Engine engine(config);
       test::Output out(kWidth, kHeight);
-      sf_params params = test::Params(2.4, 1, mode);
+      starfocus_params params = test::Params(2.4, 1, mode);
       params.lens.theta = 1.41;
-      REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
+      REQUIRE(test::Refocus(&engine, params, scene, &out) == STARFOCUS_OK);
       CAPTURE(mode);
       CAPTURE(code);
       CHECK(int{*out.Pixel(10, 6)} == code);
@@ -118,9 +121,9 @@ TEST_CASE("shapes: dark codes stay through openings whose views weigh much more 
 }
 
 TEST_CASE("shapes: a ring's middle is dark") {
-  for (const sf_mode mode : kModes) {
+  for (const starfocus_mode mode : kModes) {
     CAPTURE(mode);
-    const Patch patch(kRing, -10, mode, SF_RENDERER_AUTO, {});
+    const Patch patch(kRing, -10, mode, STARFOCUS_RENDERER_AUTO, {});
     for (int y = -2; y <= 2; ++y) {
       for (int x = -2; x <= 2; ++x) CHECK(patch.At(x, y) == 0);
     }
@@ -131,8 +134,9 @@ TEST_CASE("shapes: a ring's middle is dark") {
 }
 
 TEST_CASE("shapes: a pentagon is mirrored about its axis alone, and stands on its head when near") {
-  for (const sf_mode mode : kModes) {
-    for (const sf_renderer renderer : {SF_RENDERER_LINE_SCAN, SF_RENDERER_SLICES}) {
+  for (const starfocus_mode mode : kModes) {
+    for (const starfocus_renderer renderer :
+         {STARFOCUS_RENDERER_LINE_SCAN, STARFOCUS_RENDERER_SLICES}) {
       CAPTURE(mode);
       CAPTURE(renderer);
       const Patch far(kPentagon, 10, mode, renderer, {}), near(kPentagon, -10, mode, renderer, {});
@@ -152,9 +156,11 @@ TEST_CASE("shapes: all modes see the same opening") {
   for (const test::NamedShape& shape : test::kShapes) {
     if (shape.cats_eye > 0) continue;
     for (const double focus : {6.0, -11.0}) {
-      const Patch ideal(shape, focus, SF_MODE_BLUR, SF_RENDERER_AUTO, {});
-      for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BENCHMARK, SF_MODE_BLOCK}) {
-        for (const sf_renderer renderer : {SF_RENDERER_LINE_SCAN, SF_RENDERER_SLICES}) {
+      const Patch ideal(shape, focus, STARFOCUS_MODE_BLUR, STARFOCUS_RENDERER_AUTO, {});
+      for (const starfocus_mode mode :
+           {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BENCHMARK, STARFOCUS_MODE_BLOCK}) {
+        for (const starfocus_renderer renderer :
+             {STARFOCUS_RENDERER_LINE_SCAN, STARFOCUS_RENDERER_SLICES}) {
           CAPTURE(shape.name);
           CAPTURE(focus);
           CAPTURE(mode);
@@ -168,8 +174,10 @@ TEST_CASE("shapes: all modes see the same opening") {
 }
 
 TEST_CASE("shapes: cat's eyes are cut on the side away from the picture's middle") {
-  for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BENCHMARK, SF_MODE_BLOCK}) {
-    for (const sf_renderer renderer : {SF_RENDERER_LINE_SCAN, SF_RENDERER_SLICES}) {
+  for (const starfocus_mode mode :
+       {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BENCHMARK, STARFOCUS_MODE_BLOCK}) {
+    for (const starfocus_renderer renderer :
+         {STARFOCUS_RENDERER_LINE_SCAN, STARFOCUS_RENDERER_SLICES}) {
       CAPTURE(mode);
       CAPTURE(renderer);
       for (const int side : {-1, 1}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What sf_skipped counts: the same bytes as with sf_tuning.skips = 0, on scenes where each of it is
-// skipped, and nothing where it may not be.
+// What starfocus_skipped counts: the same bytes as with starfocus_tuning.skips = 0, on scenes where
+// each of it is skipped, and nothing where it may not be.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -22,20 +22,22 @@ using test::Refocused;
 
 constexpr int kViews[] = {1, 5, 9, 17};
 constexpr int kBlocks[] = {32, 64, 128, 256};
-constexpr sf_mode kModes[] = {SF_MODE_FRAME, SF_MODE_BENCHMARK, SF_MODE_BLOCK};
+constexpr starfocus_mode kModes[] = {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BENCHMARK,
+                                     STARFOCUS_MODE_BLOCK};
 
-Refocused Refocus(const test::Scene& scene, sf_config config, const sf_params& params, int skips) {
+Refocused Refocus(const test::Scene& scene, starfocus_config config, const starfocus_params& params,
+                  int skips) {
   config.tuning.skips = skips;
   return test::RefocusScene(scene, config, params);
 }
 
-void Add(const sf_skipped& part, sf_skipped* sum) {
+void Add(const starfocus_skipped& part, starfocus_skipped* sum) {
   sum->copied_blocks += part.copied_blocks;
   sum->copied_pixels += part.copied_pixels;
   sum->layer_columns += part.layer_columns;
 }
 
-bool IsNothing(const sf_skipped& skipped) {
+bool IsNothing(const starfocus_skipped& skipped) {
   return skipped.copied_blocks + skipped.copied_pixels + skipped.layer_columns == 0;
 }
 
@@ -74,22 +76,22 @@ test::Scene VariedScene(int width, int height, int views, float limit, test::Ran
 
 TEST_CASE("skips: the same bytes as with all the work done, in every mode") {
   test::Random random(51);
-  sf_skipped sum = {};
+  starfocus_skipped sum = {};
   for (int round = 0; round < test::Rounds(400); ++round) {
     const float limit = float(random.Int(1, 6));
     const int width = random.Int(1, 200), height = random.Int(1, 120);
     const int views = kViews[random.Int(0, 3)];
     const test::Scene scene = VariedScene(width, height, views, limit, &random);
-    sf_config config = test::ConfigFor(scene, 20);
+    starfocus_config config = test::ConfigFor(scene, 20);
     config.superblock = kBlocks[random.Int(0, 3)];
     config.tuning.max_layer = random.Int(0, 3) == 0 ? random.Int(0, 1) : 2;
     if (random.Int(0, 3) == 0) config.tuning.n_scale = random.Real(0.5, 2);
     config.tuning.gather = random.Int(0, 1);
-    const sf_mode mode = kModes[round % 3 == 0 ? round / 3 % 2 : 2];
+    const starfocus_mode mode = kModes[round % 3 == 0 ? round / 3 % 2 : 2];
     const double focus = random.Int(0, 1) == 0 ? 0 : random.Real(-2 * limit, 2 * limit);
     double aperture = random.Int(0, 1) == 0 ? 1 : random.Real(0.02, 1);
-    if (mode == SF_MODE_BENCHMARK) aperture /= limit;
-    sf_params params = test::Params(focus, aperture, mode);
+    if (mode == STARFOCUS_MODE_BENCHMARK) aperture /= limit;
+    starfocus_params params = test::Params(focus, aperture, mode);
     params.renderer = random.Int(0, 2);
     const Refocused skipped = Refocus(scene, config, params, 1);
     const Refocused whole = Refocus(scene, config, params, 0);
@@ -124,11 +126,11 @@ test::Scene ColumnScene(int width, int height, int x, float other) {
 }
 
 TEST_CASE("skips: in frame modes a block in focus is copied, but for what splats into it") {
-  for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BENCHMARK}) {
+  for (const starfocus_mode mode : {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BENCHMARK}) {
     test::Scene scene = ColumnScene(256, 64, 250, 8);
-    sf_params params = test::Params(0, 1, mode);
-    params.renderer = SF_RENDERER_LINE_SCAN;
-    const sf_config config = test::ConfigFor(scene, 8);
+    starfocus_params params = test::Params(0, 1, mode);
+    params.renderer = STARFOCUS_RENDERER_LINE_SCAN;
+    const starfocus_config config = test::ConfigFor(scene, 8);
     const Refocused picture = Refocus(scene, config, params, 1);
     CHECK(picture.report.skipped.copied_blocks == 3);
     CHECK(picture.report.skipped.copied_pixels == 3 * 64 * 64);
@@ -142,9 +144,9 @@ TEST_CASE("skips: in frame modes a block in focus is copied, but for what splats
 TEST_CASE("skips: with N by (9) shifts of up to a third of a pixel move nothing, above they do") {
   for (const double radius : {0.1, 0.32, 0.36, 0.4}) {
     const test::Scene scene = test::RandomScene(64, 64, 5, 1, 1, 3);
-    sf_params params = test::Params(1 - radius, 1, SF_MODE_BLOCK);
-    params.renderer = SF_RENDERER_LINE_SCAN;
-    const sf_config config = test::ConfigFor(scene, 8);
+    starfocus_params params = test::Params(1 - radius, 1, STARFOCUS_MODE_BLOCK);
+    params.renderer = STARFOCUS_RENDERER_LINE_SCAN;
+    const starfocus_config config = test::ConfigFor(scene, 8);
     const Refocused skipped = Refocus(scene, config, params, 1);
     const bool copied = skipped.report.skipped.copied_pixels == 64 * 64;
     const bool centre = Refocus(scene, config, params, 0).rgb == scene.pictures[0];
@@ -165,12 +167,12 @@ test::Scene FlatScene() {
 
 TEST_CASE("skips: levels that no block reads are not made") {
   const test::Scene scene = FlatScene();
-  sf_config config = test::ConfigFor(scene, 40);
-  sf_params params = test::Params(2.25, 1, SF_MODE_BLOCK);  // blur radius 0.25
-  const sf_skipped focused = Refocus(scene, config, params, 1).report.skipped;
+  starfocus_config config = test::ConfigFor(scene, 40);
+  starfocus_params params = test::Params(2.25, 1, STARFOCUS_MODE_BLOCK);  // blur radius 0.25
+  const starfocus_skipped focused = Refocus(scene, config, params, 1).report.skipped;
   CHECK(focused.layer_columns == 2 * 3);
   params.lens.focus = 27;  // 25: all at layer 2, and no block reads layer 1
-  const sf_skipped far = Refocus(scene, config, params, 1).report.skipped;
+  const starfocus_skipped far = Refocus(scene, config, params, 1).report.skipped;
   CHECK(far.layer_columns == 3);
   config.tuning.max_layer = 1;
   CHECK(Refocus(scene, config, params, 1).report.skipped.layer_columns == 0);
@@ -183,7 +185,8 @@ TEST_CASE("skips: no view of an aperture has weight zero, so that there is none 
     int most;
   };
   for (const auto [theta, most] :
-       {Lens{SF_MIN_THETA, 146}, Lens{0.26 * 3.14159265358979, 117}, Lens{SF_MAX_THETA, 31}}) {
+       {Lens{STARFOCUS_MIN_THETA, 146}, Lens{0.26 * 3.14159265358979, 117},
+        Lens{STARFOCUS_MAX_THETA, 31}}) {
     for (int n = 0; n <= most; ++n) {
       std::vector<uint16_t> weights(starfocus::ViewWeightsSize(n));
       const starfocus::ViewWeights aperture =

@@ -35,30 +35,31 @@ TEST_CASE("symmetry: captured views change places") {
   CHECK(test::MoveView(kTurns[0].move, 1) == 3);
   for (const Symmetry& s : {kMirrors[2], kTurns[1], kTurns[3]}) {
     std::vector<int> places;
-    for (int view = 0; view < SF_MAX_VIEWS; ++view) places.push_back(test::MoveView(s.move, view));
+    for (int view = 0; view < STARFOCUS_MAX_VIEWS; ++view)
+      places.push_back(test::MoveView(s.move, view));
     std::sort(places.begin(), places.end());
-    for (int view = 0; view < SF_MAX_VIEWS; ++view) CHECK(places[size_t(view)] == view);
+    for (int view = 0; view < STARFOCUS_MAX_VIEWS; ++view) CHECK(places[size_t(view)] == view);
   }
 }
 
-test::Output Refocused(const test::Scene& scene, const sf_params& params) {
-  sf_config config = test::ConfigFor(scene);
+test::Output Refocused(const test::Scene& scene, const starfocus_params& params) {
+  starfocus_config config = test::ConfigFor(scene);
   config.superblock = 32;
   config.tuning.max_layer = 0;  // layers keep every second pixel, from the left and the top
   test::Engine engine(config);
   test::Output out(scene.width, scene.height);
-  REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
+  REQUIRE(test::Refocus(&engine, params, scene, &out) == STARFOCUS_OK);
   return out;
 }
 
-Distance Measure(const Symmetry& s, const test::Scene& scene, const sf_params& params) {
+Distance Measure(const Symmetry& s, const test::Scene& scene, const starfocus_params& params) {
   const test::Output plain = Refocused(scene, params);
   CHECK(plain.bytes != scene.pictures[0]);
   const test::Output moved = Refocused(test::Move(s.move, scene), params);
   return test::Compare(s.move, scene.width, scene.height, plain.bytes.data(), moved.bytes.data());
 }
 
-void Check(const Symmetry& s, const test::Scene& scene, const sf_params& params) {
+void Check(const Symmetry& s, const test::Scene& scene, const starfocus_params& params) {
   CAPTURE(s.name);
   CAPTURE(scene.width);
   CAPTURE(scene.height);
@@ -86,8 +87,8 @@ TEST_CASE("symmetry: transposed and turned light fields give transposed and turn
     for (int views : {17, 9, 5, 1}) {
       const test::Scene scene = test::RandomScene(size[0], size[1], views, -4, 4, 32);
       for (const Symmetry& s : kTurns) {
-        for (sf_params params : {test::Params(0), test::Params(2.6, 0.9)}) {
-          params.renderer = SF_RENDERER_LINE_SCAN;  // slices look along rows first
+        for (starfocus_params params : {test::Params(0), test::Params(2.6, 0.9)}) {
+          params.renderer = STARFOCUS_RENDERER_LINE_SCAN;  // slices look along rows first
           Check(s, scene, params);
         }
       }
@@ -99,9 +100,10 @@ TEST_CASE("symmetry: also in benchmark mode and on noisy disparity") {
   test::Scene scene = test::RandomScene(64, 32, 17, -2, 3, 33);
   test::Random random(34);
   test::NoisyDisparity(&scene, &random);
-  for (const Symmetry& s : kMirrors) Check(s, scene, test::Params(0.4, 1, SF_MODE_BENCHMARK));
-  sf_params lines = test::Params(0.4, 1, SF_MODE_BENCHMARK);
-  lines.renderer = SF_RENDERER_LINE_SCAN;
+  for (const Symmetry& s : kMirrors)
+    Check(s, scene, test::Params(0.4, 1, STARFOCUS_MODE_BENCHMARK));
+  starfocus_params lines = test::Params(0.4, 1, STARFOCUS_MODE_BENCHMARK);
+  lines.renderer = STARFOCUS_RENDERER_LINE_SCAN;
   for (const Symmetry& s : kMirrors) Check(s, scene, lines);
   for (const Symmetry& s : kTurns) Check(s, scene, lines);
 }
@@ -113,9 +115,9 @@ TEST_CASE("symmetry: mirrors with wide subapertures") {
     test::Random random(36);
     for (const bool noisy : {false, true}) {
       if (noisy) test::NoisyDisparity(&scene, &random);
-      for (const sf_mode mode : {SF_MODE_BLOCK, SF_MODE_FRAME}) {
-        sf_params params = test::Params(-12.6, 1, mode);
-        params.renderer = SF_RENDERER_SLICES;
+      for (const starfocus_mode mode : {STARFOCUS_MODE_BLOCK, STARFOCUS_MODE_FRAME}) {
+        starfocus_params params = test::Params(-12.6, 1, mode);
+        params.renderer = STARFOCUS_RENDERER_SLICES;
         for (const Symmetry& s : kMirrors) Check(s, scene, params);
       }
     }
@@ -126,10 +128,10 @@ TEST_CASE("symmetry: mirrors with wide subapertures") {
 // rounds differently; which surface shows beside a depth edge depends on it.
 TEST_CASE("symmetry: turns with wide subapertures, up to the order of rows and columns") {
   for (const int views : {17, 5, 1}) {
-    for (const sf_mode mode : {SF_MODE_BLOCK, SF_MODE_FRAME}) {
+    for (const starfocus_mode mode : {STARFOCUS_MODE_BLOCK, STARFOCUS_MODE_FRAME}) {
       for (const double focus : {-12.6, 1.3}) {
-        sf_params params = test::Params(focus, 1, mode);
-        params.renderer = SF_RENDERER_SLICES;
+        starfocus_params params = test::Params(focus, 1, mode);
+        params.renderer = STARFOCUS_RENDERER_SLICES;
         for (const Symmetry& s : kTurns) {
           CAPTURE(s.name);
           CAPTURE(views);

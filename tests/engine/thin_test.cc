@@ -49,7 +49,7 @@ double LightAt(int x, int y, int c, double u, double v, double focus) {
 test::Scene Strands(int views) {
   test::Scene scene = test::EmptyScene(kWidth, kHeight, views, float(kFar), float(kNear));
   for (int view = 0; view < views; ++view) {
-    const sf_position at = scene.PositionOf(view);
+    const starfocus_position at = scene.PositionOf(view);
     for (int y = 0; y < kHeight; ++y) {
       for (int x = 0; x < kWidth; ++x) {
         for (int c = 0; c < 3; ++c) {
@@ -62,18 +62,18 @@ test::Scene Strands(int views) {
   return scene;
 }
 
-sf_config ConfigFor(const test::Scene& scene, bool coverage) {
-  sf_config config = test::ConfigFor(scene, kNear - kFar);
-  config.transfer = SF_TRANSFER_NONE;
+starfocus_config ConfigFor(const test::Scene& scene, bool coverage) {
+  starfocus_config config = test::ConfigFor(scene, kNear - kFar);
+  config.transfer = STARFOCUS_TRANSFER_NONE;
   config.superblock = 64;
-  if (!coverage) config.features &= ~SF_FEATURE_COVERAGE;
+  if (!coverage) config.features &= ~STARFOCUS_FEATURE_COVERAGE;
   return config;
 }
 
 // Block mode through a disc.
-sf_params ThroughDisc(double focus) {
-  sf_params params = test::Params(focus, 1, SF_MODE_BLOCK);
-  params.lens.shape = SF_SHAPE_DISC;
+starfocus_params ThroughDisc(double focus) {
+  starfocus_params params = test::Params(focus, 1, STARFOCUS_MODE_BLOCK);
+  params.lens.shape = STARFOCUS_SHAPE_DISC;
   return params;
 }
 
@@ -110,10 +110,11 @@ double PsnrOf(const test::Output& out, const std::vector<double>& truth) {
   return 10 * std::log10(255 * 255 * count / sum);
 }
 
-test::Output Refocused(const test::Scene& scene, const sf_config& config, const sf_params& params) {
+test::Output Refocused(const test::Scene& scene, const starfocus_config& config,
+                       const starfocus_params& params) {
   test::Engine engine(config);
   test::Output out(kWidth, kHeight);
-  REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
+  REQUIRE(test::Refocus(&engine, params, scene, &out) == STARFOCUS_OK);
   return out;
 }
 
@@ -124,7 +125,7 @@ TEST_CASE("thin: strands are parted from a wall that is in focus, and from one t
     const std::vector<double> truth = TruthOf(focus);
     for (const int views : {1, 5}) {
       const test::Scene scene = Strands(views);
-      const sf_params params = ThroughDisc(focus);
+      const starfocus_params params = ThroughDisc(focus);
       const double with = PsnrOf(Refocused(scene, ConfigFor(scene, true), params), truth);
       const double without = PsnrOf(Refocused(scene, ConfigFor(scene, false), params), truth);
       MESSAGE("views ", views, ", focus ", focus, ": ", without, " -> ", with, " dB");
@@ -135,12 +136,12 @@ TEST_CASE("thin: strands are parted from a wall that is in focus, and from one t
 
 TEST_CASE("thin: every way in gives the same bytes") {
   const test::Scene scene = Strands(5);
-  sf_config config = ConfigFor(scene, true);
+  starfocus_config config = ConfigFor(scene, true);
   for (const double focus : {kFar, 0.0, kNear}) {
     CAPTURE(focus);
-    sf_params params = ThroughDisc(focus);
+    starfocus_params params = ThroughDisc(focus);
     const test::Output whole = test::CheckWays(scene, config, params);
-    config.features ^= SF_FEATURE_LINE_SCAN;
+    config.features ^= STARFOCUS_FEATURE_LINE_SCAN;
     CHECK((Refocused(scene, config, params).bytes == whole.Tight()));
   }
 }

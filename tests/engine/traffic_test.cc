@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What sf_report tells of bytes read of the light field.
+// What starfocus_report tells of bytes read of the light field.
 #include <doctest/doctest.h>
 
 #include <cstdint>
@@ -22,16 +22,16 @@ test::Scene FlatScene(float disparity) {
   return scene;
 }
 
-sf_config Config(const test::Scene& scene) {
-  sf_config config = test::ConfigFor(scene, 8);
+starfocus_config Config(const test::Scene& scene) {
+  starfocus_config config = test::ConfigFor(scene, 8);
   config.superblock = 64;
   return config;
 }
 
 TEST_CASE("traffic: what is in focus is read once") {
   const test::Scene scene = FlatScene(0.1f);
-  const sf_report report =
-      test::RefocusScene(scene, Config(scene), test::Params(0, 0.3, SF_MODE_BLOCK)).report;
+  const starfocus_report report =
+      test::RefocusScene(scene, Config(scene), test::Params(0, 0.3, STARFOCUS_MODE_BLOCK)).report;
   CHECK(report.skipped.copied_pixels == kWidth * kHeight);
   CHECK(report.centre_bytes == 3 * kWidth * kHeight);
   CHECK(report.disparity_bytes == 2 * 4 * kWidth * kHeight);
@@ -40,9 +40,9 @@ TEST_CASE("traffic: what is in focus is read once") {
 
 TEST_CASE("traffic: blocks are read with what lies around them") {
   const test::Scene scene = FlatScene(0.1f);
-  sf_params params = test::Params(0, 0.75, SF_MODE_FRAME);
-  params.renderer = SF_RENDERER_SLICES;
-  const sf_report report = test::RefocusScene(scene, Config(scene), params).report;
+  starfocus_params params = test::Params(0, 0.75, STARFOCUS_MODE_FRAME);
+  params.renderer = STARFOCUS_RENDERER_SLICES;
+  const starfocus_report report = test::RefocusScene(scene, Config(scene), params).report;
   // Blocks of 64 and 32 by 64 with the border of blur radius 3: that many columns lie in the
   // picture, and that many rows are read, of which the picture's edges repeat.
   constexpr int kBorder = 5, kRows = kHeight + 2 * kBorder;
@@ -52,9 +52,9 @@ TEST_CASE("traffic: blocks are read with what lies around them") {
 
 TEST_CASE("traffic: of a map in focus at disparity 4 side views are read beyond the edges only") {
   const test::Scene scene = FlatScene(4);
-  sf_params params = test::Params(3, 1, SF_MODE_FRAME);
-  params.renderer = SF_RENDERER_SLICES;
-  const sf_report report = test::RefocusScene(scene, Config(scene), params).report;
+  starfocus_params params = test::Params(3, 1, STARFOCUS_MODE_FRAME);
+  params.renderer = STARFOCUS_RENDERER_SLICES;
+  const starfocus_report report = test::RefocusScene(scene, Config(scene), params).report;
   // 4 of the pixels beyond each edge, beside each block, by 2 x 2 pixels of 3 bytes.
   constexpr uint64_t kAlong = 2 * (kWidth + 2 * 9) + 2 * kHeight;
   CHECK(report.side_bytes == 12 * 4 * kAlong);
@@ -63,34 +63,35 @@ TEST_CASE("traffic: of a map in focus at disparity 4 side views are read beyond 
 TEST_CASE("traffic: the map is read twice, first to be checked, and that of a stream once") {
   constexpr int kTall = 700;
   const test::Scene scene = test::RandomScene(kWidth, kTall, 5, -4, 4, 6);
-  sf_config config = Config(scene);
-  sf_params params = test::Params(0, 0.75, SF_MODE_BLOCK);
-  const sf_report whole = test::RefocusScene(scene, config, params).report;
+  starfocus_config config = Config(scene);
+  starfocus_params params = test::Params(0, 0.75, STARFOCUS_MODE_BLOCK);
+  const starfocus_report whole = test::RefocusScene(scene, config, params).report;
   CHECK(whole.disparity_bytes == 2 * 4 * kWidth * kTall);
   // Of a region, rows that its blocks may read.
   params.region = {0, 330, kWidth, 40};
-  const sf_report part = test::RefocusScene(scene, config, params).report;
+  const starfocus_report part = test::RefocusScene(scene, config, params).report;
   CHECK(part.disparity_bytes > 0);
   CHECK(part.disparity_bytes < whole.disparity_bytes);
   // Rows of a stream are checked one by one.
   params.region = {};
-  config.features |= SF_FEATURE_STREAMING;
+  config.features |= STARFOCUS_FEATURE_STREAMING;
   test::Engine engine(config);
   test::Output out(kWidth, kTall);
-  sf_report streamed = {};
-  REQUIRE(test::Stream(&engine, params, scene, &out, 50, 50, nullptr, nullptr, &streamed) == SF_OK);
+  starfocus_report streamed = {};
+  REQUIRE(test::Stream(&engine, params, scene, &out, 50, 50, nullptr, nullptr, &streamed) ==
+          STARFOCUS_OK);
   CHECK(streamed.disparity_bytes == 4 * kWidth * kTall);
 }
 
 TEST_CASE("traffic: layers read the centre view once more") {
   const test::Scene scene = FlatScene(0.1f);
-  sf_config config = test::ConfigFor(scene, 24);
+  starfocus_config config = test::ConfigFor(scene, 24);
   config.superblock = 64;
   config.tuning.gather = 0;
-  const sf_params params = test::Params(18, 1, SF_MODE_BLOCK);
-  const sf_report layered = test::RefocusScene(scene, config, params).report;
+  const starfocus_params params = test::Params(18, 1, STARFOCUS_MODE_BLOCK);
+  const starfocus_report layered = test::RefocusScene(scene, config, params).report;
   config.tuning.max_layer = 0;
-  const sf_report whole = test::RefocusScene(scene, config, params).report;
+  const starfocus_report whole = test::RefocusScene(scene, config, params).report;
   CHECK(layered.layers[0].pixels == 0);
   CHECK(layered.centre_bytes >= 3 * kWidth * kHeight);
   CHECK(layered.centre_bytes < whole.centre_bytes);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light and its codes: what SF_TRANSFER_SRGB promises.
+// Light and its codes: what STARFOCUS_TRANSFER_SRGB promises.
 #include "lib/base/transfer.h"
 
 #include <doctest/doctest.h>
@@ -16,10 +16,11 @@
 namespace transfer_test {
 namespace {
 
-constexpr sf_transfer kTransfers[] = {SF_TRANSFER_SRGB, SF_TRANSFER_NONE};
-constexpr sf_mode kModes[] = {SF_MODE_BLOCK, SF_MODE_FRAME, SF_MODE_BENCHMARK, SF_MODE_BLUR};
+constexpr starfocus_transfer kTransfers[] = {STARFOCUS_TRANSFER_SRGB, STARFOCUS_TRANSFER_NONE};
+constexpr starfocus_mode kModes[] = {STARFOCUS_MODE_BLOCK, STARFOCUS_MODE_FRAME,
+                                     STARFOCUS_MODE_BENCHMARK, STARFOCUS_MODE_BLUR};
 
-uint8_t CodeOf(int light, sf_transfer transfer) {
+uint8_t CodeOf(int light, starfocus_transfer transfer) {
   const auto level = int16_t(light);
   uint8_t code = 0;
   starfocus::simd::ReferenceKernels().Encode(&level, 1, starfocus::TransferOf(transfer).encoding,
@@ -28,7 +29,7 @@ uint8_t CodeOf(int light, sf_transfer transfer) {
 }
 
 TEST_CASE("transfer: light of every code is the curve's, and its code the same") {
-  for (const sf_transfer transfer : kTransfers) {
+  for (const starfocus_transfer transfer : kTransfers) {
     const starfocus::Transfer& tables = starfocus::TransferOf(transfer);
     for (int code = 0; code < 256; ++code) {
       CAPTURE(code);
@@ -42,7 +43,7 @@ TEST_CASE("transfer: light of every code is the curve's, and its code the same")
 }
 
 TEST_CASE("transfer: every level of light is rounded to the nearest code") {
-  for (const sf_transfer transfer : kTransfers) {
+  for (const starfocus_transfer transfer : kTransfers) {
     for (int light = 0; light <= starfocus::kLightWhite; ++light) {
       const double exact = test::CodeOf(light / 128.0, transfer);
       if (std::fabs(CodeOf(light, transfer) - exact) > 0.5 + 1e-9) {
@@ -63,11 +64,12 @@ test::Scene FlatScene(int width, int height, double disparity, const CodeAt& cod
   return scene;
 }
 
-test::Refocused RefocusFlat(const test::Scene& scene, double blur, sf_mode mode,
-                            sf_transfer transfer, sf_renderer renderer = SF_RENDERER_AUTO) {
-  sf_config config = test::ConfigFor(scene, 32);
+test::Refocused RefocusFlat(const test::Scene& scene, double blur, starfocus_mode mode,
+                            starfocus_transfer transfer,
+                            starfocus_renderer renderer = STARFOCUS_RENDERER_AUTO) {
+  starfocus_config config = test::ConfigFor(scene, 32);
   config.transfer = transfer;
-  sf_params params = test::Params(double(scene.disparity_min) - blur, 1, mode);
+  starfocus_params params = test::Params(double(scene.disparity_min) - blur, 1, mode);
   params.renderer = renderer;
   return test::RefocusScene(scene, config, params);
 }
@@ -76,10 +78,12 @@ test::Refocused RefocusFlat(const test::Scene& scene, double blur, sf_mode mode,
 TEST_CASE("transfer: a ramp of dark codes stays monotone, wherever it is focused") {
   constexpr int kCodes = 41, kStep = 3, kWidth = kCodes * kStep;
   const test::Scene ramp = FlatScene(kWidth, 24, 0, [](int x, int) { return x / kStep; });
-  for (const sf_mode mode : kModes) {
-    for (const sf_renderer renderer : {SF_RENDERER_LINE_SCAN, SF_RENDERER_SLICES}) {
+  for (const starfocus_mode mode : kModes) {
+    for (const starfocus_renderer renderer :
+         {STARFOCUS_RENDERER_LINE_SCAN, STARFOCUS_RENDERER_SLICES}) {
       for (const double blur : {0.0, 0.3, 1.0, 2.5, 5.0, 9.0, 14.0}) {
-        const test::Refocused out = RefocusFlat(ramp, blur, mode, SF_TRANSFER_SRGB, renderer);
+        const test::Refocused out =
+            RefocusFlat(ramp, blur, mode, STARFOCUS_TRANSFER_SRGB, renderer);
         CAPTURE(mode);
         CAPTURE(renderer);
         CAPTURE(blur);
@@ -104,17 +108,17 @@ TEST_CASE("transfer: a ramp of dark codes stays monotone, wherever it is focused
 TEST_CASE("transfer: half of the light of white is code 188, half of the code 128") {
   const test::Scene board =
       FlatScene(96, 96, 0, [](int x, int y) { return (x + y) % 2 == 0 ? 255 : 0; });
-  for (const sf_mode mode : kModes) {
+  for (const starfocus_mode mode : kModes) {
     for (const double blur : {6.0, 11.0, 20.0}) {
       // Not by the paper's rule: views about a pixel apart show the board again.
-      const auto middle = [&](sf_transfer transfer) {
-        const auto out = RefocusFlat(board, blur, mode, transfer, SF_RENDERER_SLICES);
+      const auto middle = [&](starfocus_transfer transfer) {
+        const auto out = RefocusFlat(board, blur, mode, transfer, STARFOCUS_RENDERER_SLICES);
         return int(out.rgb[3 * (48 * 96 + 48)]);
       };
       CAPTURE(mode);
       CAPTURE(blur);
-      CHECK(std::abs(middle(SF_TRANSFER_SRGB) - 188) <= 2);
-      CHECK(std::abs(middle(SF_TRANSFER_NONE) - 128) <= 2);
+      CHECK(std::abs(middle(STARFOCUS_TRANSFER_SRGB) - 188) <= 2);
+      CHECK(std::abs(middle(STARFOCUS_TRANSFER_NONE) - 128) <= 2);
     }
   }
 }

@@ -19,7 +19,7 @@ namespace {
 struct NotingRunner {
   std::vector<int32_t> sets;
 
-  static int Run(void* self, sf_job job, void* data, int32_t count) {
+  static int Run(void* self, starfocus_job job, void* data, int32_t count) {
     static_cast<NotingRunner*>(self)->sets.push_back(count);
     for (int32_t index = 0; index < count; ++index) job(data, index, 0);
     return 0;
@@ -34,10 +34,10 @@ TEST_CASE("workers: each block is a job, those of the most predicted time come f
     float* row = scene.disparity.data() + size_t(y) * scene.disparity_width;
     std::fill(row + kSide / 4, row + scene.width, 9.0F);
   }
-  sf_config config = test::ConfigFor(scene);
+  starfocus_config config = test::ConfigFor(scene);
   config.superblock = kSide;
   test::Engine engine(config);
-  const sf_params params = test::Params(-9, 1, SF_MODE_BLOCK);
+  const starfocus_params params = test::Params(-9, 1, STARFOCUS_MODE_BLOCK);
   const auto costs = [&] {
     std::vector<uint64_t> all;
     for (const starfocus::Block& block : test::PlanOf(engine.get()).blocks) {
@@ -46,12 +46,12 @@ TEST_CASE("workers: each block is a job, those of the most predicted time come f
     return all;
   };
   test::Output out(scene.width, scene.height);
-  REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
+  REQUIRE(test::Refocus(&engine, params, scene, &out) == STARFOCUS_OK);
   const std::vector<uint64_t> planned = costs();
   REQUIRE(planned.size() > size_t(kColumns));
   CHECK(std::is_sorted(planned.rbegin(), planned.rend()));
   NotingRunner runner;
-  REQUIRE(test::Refocus(&engine, params, scene, &out, NotingRunner::Run, &runner) == SF_OK);
+  REQUIRE(test::Refocus(&engine, params, scene, &out, NotingRunner::Run, &runner) == STARFOCUS_OK);
   CHECK(costs() == planned);
   CHECK(std::count(runner.sets.begin(), runner.sets.end(), int32_t(planned.size())) >= 1);
 }
@@ -63,7 +63,7 @@ TEST_CASE("workers: engines in several threads are independent") {
   for (int i = 0; i < kThreads; ++i) {
     constexpr int kViews[] = {17, 9, 5, 1};
     scenes.push_back(test::RandomScene(60 + 11 * i, 70, kViews[i], -3, 3, 20 + uint64_t(i)));
-    sf_config config = test::ConfigFor(scenes[size_t(i)]);
+    starfocus_config config = test::ConfigFor(scenes[size_t(i)]);
     config.superblock = 32;
     expected[size_t(i)] = test::RefocusScene(scenes[size_t(i)], config, test::Params(i - 1.5)).rgb;
   }
@@ -72,12 +72,12 @@ TEST_CASE("workers: engines in several threads are independent") {
   for (int i = 0; i < kThreads; ++i) {
     threads.emplace_back([&, i] {
       const test::Scene& scene = scenes[size_t(i)];
-      sf_config config = test::ConfigFor(scene);
+      starfocus_config config = test::ConfigFor(scene);
       config.superblock = 32;
       test::Engine engine(config);
       test::Output out(scene.width, scene.height);
       for (int round = 0; round < 3; ++round) {
-        failures += test::Refocus(&engine, test::Params(i - 1.5), scene, &out) != SF_OK;
+        failures += test::Refocus(&engine, test::Params(i - 1.5), scene, &out) != STARFOCUS_OK;
       }
       got[size_t(i)] = out.bytes;
     });

@@ -25,7 +25,7 @@ using reference::kOne;
 static_assert(kOne == 1 << starfocus::kDisparityBits, "the same scale");
 
 // The blurred picture, unrounded. What is farther than the focus sees kernels turned.
-std::vector<double> Reference(const test::Scene& scene, const sf_params& params,
+std::vector<double> Reference(const test::Scene& scene, const starfocus_params& params,
                               const reference::ApertureShape& opening, int transfer) {
   double light[256];
   for (int code = 0; code < 256; ++code) light[code] = test::LightOf(code, transfer);
@@ -54,16 +54,16 @@ std::vector<double> Reference(const test::Scene& scene, const sf_params& params,
 
 std::vector<uint8_t> Blurred(const test::Scene& scene, double focus, double aperture, int block,
                              double theta, int transfer, const test::NamedShape* shape = nullptr) {
-  sf_config config = test::ConfigFor(scene, 40);
+  starfocus_config config = test::ConfigFor(scene, 40);
   config.superblock = block;
   config.transfer = transfer;
-  sf_params params = test::Params(focus, aperture, SF_MODE_BLUR);
+  starfocus_params params = test::Params(focus, aperture, STARFOCUS_MODE_BLUR);
   params.lens.theta = theta;
   if (shape != nullptr) shape->Set(&params.lens);
   test::ReserveFor(params.lens, &config);
   test::Engine engine(config);
   test::Output out(scene.width, scene.height, 3);
-  REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
+  REQUIRE(test::Refocus(&engine, params, scene, &out) == STARFOCUS_OK);
   CHECK(out.PaddingUntouched());
   return out.Tight();
 }
@@ -74,10 +74,10 @@ constexpr double kTheta = 0.26 * 3.14159265358979323846;
 double Difference(const test::Scene& scene, double focus, double aperture, int block,
                   double theta = kTheta) {
   double largest = 0;
-  for (const int transfer : {SF_TRANSFER_NONE, SF_TRANSFER_SRGB}) {
+  for (const int transfer : {STARFOCUS_TRANSFER_NONE, STARFOCUS_TRANSFER_SRGB}) {
     const std::vector<uint8_t> got = Blurred(scene, focus, aperture, block, theta, transfer);
     const std::vector<double> expected =
-        Reference(scene, test::Params(focus, aperture, SF_MODE_BLUR), theta, transfer);
+        Reference(scene, test::Params(focus, aperture, STARFOCUS_MODE_BLUR), theta, transfer);
     for (size_t i = 0; i < got.size(); ++i) {
       largest = std::max(largest, std::abs(got[i] - std::floor(expected[i] + 0.5)));
     }
@@ -112,8 +112,8 @@ void CheckRadii(double theta) {
 
 TEST_CASE("blur: flat disparity of many radii") { CheckRadii(kTheta); }
 TEST_CASE("blur: the same by apertures without fall-off and with the most") {
-  CheckRadii(SF_MIN_THETA);
-  CheckRadii(SF_MAX_THETA);
+  CheckRadii(STARFOCUS_MIN_THETA);
+  CheckRadii(STARFOCUS_MAX_THETA);
 }
 
 TEST_CASE("blur: random disparity, focus, aperture, fall-off and block") {
@@ -132,7 +132,7 @@ TEST_CASE("blur: random disparity, focus, aperture, fall-off and block") {
 
 TEST_CASE("blur: through openings of other shapes, in front of the focus and behind it") {
   for (const test::NamedShape& shape : test::kShapes) {
-    sf_lens lens = test::Params(0).lens;
+    starfocus_lens lens = test::Params(0).lens;
     shape.Set(&lens);
     for (const double r : {0.5, 0.75, 1.0, 1.75, 3.0, 4.5, 8.0, 13.0}) {
       CAPTURE(shape.name);
@@ -143,9 +143,9 @@ TEST_CASE("blur: through openings of other shapes, in front of the focus and beh
       for (float& disparity : scene.disparity) disparity = random.Int(0, 1) == 0 ? -2.0F : 2.0F;
       const double aperture = r < 1.5 ? r / 1.5 : 1, focus = r < 1.5 ? 0.5 : 2 - r;
       const std::vector<uint8_t> got =
-          Blurred(scene, focus, aperture, 32, kTheta, SF_TRANSFER_SRGB, &shape);
-      const std::vector<double> expected =
-          Reference(scene, test::Params(focus, aperture, SF_MODE_BLUR), lens, SF_TRANSFER_SRGB);
+          Blurred(scene, focus, aperture, 32, kTheta, STARFOCUS_TRANSFER_SRGB, &shape);
+      const std::vector<double> expected = Reference(
+          scene, test::Params(focus, aperture, STARFOCUS_MODE_BLUR), lens, STARFOCUS_TRANSFER_SRGB);
       double largest = 0;
       for (size_t i = 0; i < got.size(); ++i) {
         largest = std::max(largest, std::abs(got[i] - std::floor(expected[i] + 0.5)));
@@ -157,32 +157,32 @@ TEST_CASE("blur: through openings of other shapes, in front of the focus and beh
 
 TEST_CASE("blur: in focus it copies, and a constant stays") {
   const test::Scene sharp = test::RandomScene(41, 33, 1, 2.5f, 2.5f, 7);
-  CHECK(Blurred(sharp, 2.5, 1, 32, kTheta, SF_TRANSFER_SRGB) == sharp.pictures[0]);
+  CHECK(Blurred(sharp, 2.5, 1, 32, kTheta, STARFOCUS_TRANSFER_SRGB) == sharp.pictures[0]);
   for (int level = 0; level < 256; level += 5) {
     test::Scene scene = test::RandomScene(40, 35, 1, -9, 9, uint64_t(level) + 1);
     std::fill(scene.pictures[0].begin(), scene.pictures[0].end(), uint8_t(level));
-    CHECK(Blurred(scene, 0.3, 1, 64, kTheta, SF_TRANSFER_SRGB) == scene.pictures[0]);
+    CHECK(Blurred(scene, 0.3, 1, 64, kTheta, STARFOCUS_TRANSFER_SRGB) == scene.pictures[0]);
   }
 }
 
 TEST_CASE("blur: it looks at the centre view alone") {
   test::Scene scene = test::RandomScene(50, 40, 17, -4, 4, 19);
-  const std::vector<uint8_t> before = Blurred(scene, 1, 1, 32, kTheta, SF_TRANSFER_SRGB);
+  const std::vector<uint8_t> before = Blurred(scene, 1, 1, 32, kTheta, STARFOCUS_TRANSFER_SRGB);
   for (size_t view = 1; view < scene.pictures.size(); ++view) {
     std::fill(scene.pictures[view].begin(), scene.pictures[view].end(), uint8_t{9});
   }
-  CHECK(Blurred(scene, 1, 1, 32, kTheta, SF_TRANSFER_SRGB) == before);
+  CHECK(Blurred(scene, 1, 1, 32, kTheta, STARFOCUS_TRANSFER_SRGB) == before);
 }
 
 TEST_CASE("blur: the size of blocks does not matter") {
   const test::Scene scene = test::RandomScene(150, 90, 1, -6, 6, 20);
-  const std::vector<uint8_t> expected = Blurred(scene, 2, 1, 32, kTheta, SF_TRANSFER_SRGB);
+  const std::vector<uint8_t> expected = Blurred(scene, 2, 1, 32, kTheta, STARFOCUS_TRANSFER_SRGB);
   for (const int block : {64, 128, 256})
-    CHECK(Blurred(scene, 2, 1, block, kTheta, SF_TRANSFER_SRGB) == expected);
+    CHECK(Blurred(scene, 2, 1, block, kTheta, STARFOCUS_TRANSFER_SRGB) == expected);
 }
 
 TEST_CASE("blur: kernels sum to exactly one, fit their types and fall off from the centre") {
-  const double most = SF_MAX_BLUR;
+  const double most = STARFOCUS_MAX_BLUR;
   const int steps = starfocus::BlurStepCount(most);
   std::vector<uint16_t> weights(starfocus::BlurWeightCount(false, most));
   std::vector<starfocus::Psf> kernels(static_cast<size_t>(steps));
@@ -214,7 +214,7 @@ TEST_CASE("blur: kernels sum to exactly one, fit their types and fall off from t
 
 TEST_CASE("blur: the ladder of radii") {
   int last = -1;
-  for (int radius = 0; radius <= int(SF_MAX_BLUR) * kOne; ++radius) {
+  for (int radius = 0; radius <= int(STARFOCUS_MAX_BLUR) * kOne; ++radius) {
     const int step = starfocus::BlurStep(radius);
     REQUIRE(step >= last);
     REQUIRE(step <= last + 1);
@@ -226,7 +226,7 @@ TEST_CASE("blur: the ladder of radii") {
   CHECK(starfocus::BlurStep(4 * kOne) == 32);
   CHECK(starfocus::BlurStep(8 * kOne) == 64);
   CHECK(starfocus::BlurStep(128 * kOne) == 32 + 5 * 32);
-  CHECK(starfocus::BlurStepCount(SF_MAX_BLUR) > starfocus::BlurStep(128 * kOne));
+  CHECK(starfocus::BlurStepCount(STARFOCUS_MAX_BLUR) > starfocus::BlurStep(128 * kOne));
 }
 
 }  // namespace

@@ -75,7 +75,7 @@ TEST_CASE("deblock: stripes give what the whole picture gives") {
     const Picture before = RandomPicture(width, height, &random);
     const int beta = std::vector<int>{1, 10, 35, 35, 255}[size_t(random.Int(0, 4))];
     Picture expected = before;
-    const int transfer = random.Int(0, 1) == 0 ? SF_TRANSFER_SRGB : SF_TRANSFER_NONE;
+    const int transfer = random.Int(0, 1) == 0 ? STARFOCUS_TRANSFER_SRGB : STARFOCUS_TRANSFER_NONE;
     DeblockPicture(&expected, beta, transfer);
     changed += expected.rgb != before.rgb;
     for (const int stripe : kStripes) {
@@ -106,7 +106,7 @@ std::vector<int> DeblockedRow(const std::vector<int>& levels, int before, int af
   }
   picture.layers[0] = uint8_t(before);
   if (picture.layers.size() > 1) picture.layers[1] = uint8_t(after);
-  DeblockStripes(&picture, vertical ? 16 : 32, 1, beta, SF_TRANSFER_NONE);
+  DeblockStripes(&picture, vertical ? 16 : 32, 1, beta, STARFOCUS_TRANSFER_NONE);
   std::vector<int> out;
   for (int along = 0; along < length; ++along) {
     const uint8_t* first = vertical ? picture.Pixel(0, along) : picture.Pixel(along, 0);
@@ -184,9 +184,9 @@ TEST_CASE("deblock: every colour must meet the condition") {
     picture.layers = {2, 0};
     for (int x = 16; x < 32; ++x) picture.Pixel(x, 0)[c] = 140;
     Picture same = picture;
-    DeblockStripes(&picture, 32, 1, 40, SF_TRANSFER_NONE);
+    DeblockStripes(&picture, 32, 1, 40, STARFOCUS_TRANSFER_NONE);
     CHECK(picture.rgb == same.rgb);
-    DeblockStripes(&picture, 32, 1, 41, SF_TRANSFER_NONE);
+    DeblockStripes(&picture, 32, 1, 41, STARFOCUS_TRANSFER_NONE);
     CHECK(picture.rgb != same.rgb);
     CHECK(int(picture.Pixel(16, 0)[c]) == 110);
     CHECK(int(picture.Pixel(18, 0)[c]) == 130);
@@ -220,11 +220,11 @@ TEST_CASE("deblock: constant pictures and pictures of one unit stay") {
     Picture picture = RandomPicture(random.Int(1, 80), random.Int(1, 80), &random);
     std::fill(picture.rgb.begin(), picture.rgb.end(), uint8_t(round * 5));
     const std::vector<uint8_t> before = picture.rgb;
-    DeblockStripes(&picture, 32, 1, 255, SF_TRANSFER_NONE);
+    DeblockStripes(&picture, 32, 1, 255, STARFOCUS_TRANSFER_NONE);
     CHECK(picture.rgb == before);
     Picture small = RandomPicture(random.Int(1, 16), random.Int(1, 16), &random);
     const std::vector<uint8_t> small_before = small.rgb;
-    DeblockStripes(&small, 32, 1, 255, SF_TRANSFER_NONE);
+    DeblockStripes(&small, 32, 1, 255, STARFOCUS_TRANSFER_NONE);
     CHECK(small.rgb == small_before);
   }
 }

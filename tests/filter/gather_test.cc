@@ -129,25 +129,27 @@ TEST_CASE("gather: a flat surface gets the bytes of the blur mode") {
   for (const double radius : {0.6, 1.0, 2.5, 4.0, 7.3, 12.0}) {
     for (const int block : {32, 64, 256}) {
       test::Scene scene = test::RandomScene(70, 45, 5, 0, 0, 62);
-      sf_config config = test::ConfigFor(scene, 16);
+      starfocus_config config = test::ConfigFor(scene, 16);
       config.superblock = block;
-      config.transfer = SF_TRANSFER_NONE;
+      config.transfer = STARFOCUS_TRANSFER_NONE;
       const Refocused gathered =
-          RefocusScene(scene, config, test::Params(radius, 1, SF_MODE_BLOCK));
-      const Refocused blurred = RefocusScene(scene, config, test::Params(radius, 1, SF_MODE_BLUR));
+          RefocusScene(scene, config, test::Params(radius, 1, STARFOCUS_MODE_BLOCK));
+      const Refocused blurred =
+          RefocusScene(scene, config, test::Params(radius, 1, STARFOCUS_MODE_BLUR));
       CAPTURE(radius);
       CHECK(gathered.rgb == blurred.rgb);
       // Light of sRGB is no whole code: means of mirrored pixels are rounded.
-      sf_config light = config;
-      light.transfer = SF_TRANSFER_SRGB;
-      CHECK(LargestDifference(RefocusScene(scene, light, test::Params(radius, 1, SF_MODE_BLOCK)),
-                              RefocusScene(scene, light, test::Params(radius, 1, SF_MODE_BLUR))) <=
-            1);
+      starfocus_config light = config;
+      light.transfer = STARFOCUS_TRANSFER_SRGB;
+      CHECK(LargestDifference(
+                RefocusScene(scene, light, test::Params(radius, 1, STARFOCUS_MODE_BLOCK)),
+                RefocusScene(scene, light, test::Params(radius, 1, STARFOCUS_MODE_BLUR))) <= 1);
       CHECK(gathered.report.gathered_pixels == 70 * 45);
       CHECK(gathered.report.n == 0);
       CHECK(gathered.report.rendered_samples == 0);
       config.tuning.gather = 0;
-      const Refocused views = RefocusScene(scene, config, test::Params(radius, 1, SF_MODE_BLOCK));
+      const Refocused views =
+          RefocusScene(scene, config, test::Params(radius, 1, STARFOCUS_MODE_BLOCK));
       CHECK(views.report.gathered_pixels == 0);
       CHECK(views.report.n > 0);
     }
@@ -157,29 +159,29 @@ TEST_CASE("gather: a flat surface gets the bytes of the blur mode") {
 TEST_CASE(
     "gather: not beyond the largest radius, in focus, in frame modes or by the paper's rule") {
   const test::Scene scene = test::RandomScene(70, 45, 5, 0, 0, 63);
-  const sf_config config = test::ConfigFor(scene, 49);
-  const auto gathered = [&](double focus, sf_mode mode, sf_renderer renderer) {
-    sf_params params = test::Params(focus, 1, mode);
+  const starfocus_config config = test::ConfigFor(scene, 49);
+  const auto gathered = [&](double focus, starfocus_mode mode, starfocus_renderer renderer) {
+    starfocus_params params = test::Params(focus, 1, mode);
     params.renderer = renderer;
     return RefocusScene(scene, config, params).report.gathered_pixels;
   };
-  CHECK(gathered(48.1, SF_MODE_BLOCK, SF_RENDERER_SLICES) == 0);
-  CHECK(gathered(48, SF_MODE_BLOCK, SF_RENDERER_AUTO) == 70 * 45);
-  CHECK(gathered(0.5, SF_MODE_BLOCK, SF_RENDERER_SLICES) == 0);
-  CHECK(gathered(3, SF_MODE_BLOCK, SF_RENDERER_LINE_SCAN) == 0);
-  CHECK(gathered(3, SF_MODE_FRAME, SF_RENDERER_SLICES) == 0);
-  CHECK(gathered(3, SF_MODE_BENCHMARK, SF_RENDERER_SLICES) == 0);
+  CHECK(gathered(48.1, STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_SLICES) == 0);
+  CHECK(gathered(48, STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_AUTO) == 70 * 45);
+  CHECK(gathered(0.5, STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_SLICES) == 0);
+  CHECK(gathered(3, STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_LINE_SCAN) == 0);
+  CHECK(gathered(3, STARFOCUS_MODE_FRAME, STARFOCUS_RENDERER_SLICES) == 0);
+  CHECK(gathered(3, STARFOCUS_MODE_BENCHMARK, STARFOCUS_RENDERER_SLICES) == 0);
 }
 
 TEST_CASE("gather: the rows that kernels read of a layer are kept") {
   std::vector<uint16_t> weights(starfocus::BlurWeightCount(false, starfocus::kMaxGather));
   std::vector<starfocus::Psf> kernels(size_t(starfocus::BlurStepCount(starfocus::kMaxGather)));
   starfocus::MakePsfs(0, int32_t(kernels.size()), {}, nullptr, weights.data(), kernels.data());
-  for (int blur = 1; blur <= SF_MAX_BLUR * 4; ++blur) {
+  for (int blur = 1; blur <= STARFOCUS_MAX_BLUR * 4; ++blur) {
     const double max_blur = blur / 4.0;
     CAPTURE(max_blur);
     const starfocus::Borders borders = test::BordersOf(max_blur);
-    for (int layer = 1; layer < SF_LAYERS; ++layer) {
+    for (int layer = 1; layer < STARFOCUS_LAYERS; ++layer) {
       const double gathered = starfocus::LargestGather(max_blur / (1 << layer));
       const int32_t read = kernels[size_t(starfocus::BlurStepCount(gathered) - 1)].size;
       CHECK(starfocus::LayerMargin(layer) + read <= borders.level[layer]);
@@ -190,11 +192,13 @@ TEST_CASE("gather: the rows that kernels read of a layer are kept") {
 TEST_CASE("gather: beside depth edges views go on, and nothing gets worse against the benchmark") {
   for (const uint64_t seed : {64, 65, 66}) {
     const test::Scene scene = test::LayeredScene(180, 130, 9, 6, seed);
-    sf_config config = test::ConfigFor(scene, 16);
-    const Refocused benchmark = RefocusScene(scene, config, test::Params(1, 1, SF_MODE_BENCHMARK));
-    const Refocused gathered = RefocusScene(scene, config, test::Params(1, 1, SF_MODE_BLOCK));
+    starfocus_config config = test::ConfigFor(scene, 16);
+    const Refocused benchmark =
+        RefocusScene(scene, config, test::Params(1, 1, STARFOCUS_MODE_BENCHMARK));
+    const Refocused gathered =
+        RefocusScene(scene, config, test::Params(1, 1, STARFOCUS_MODE_BLOCK));
     config.tuning.gather = 0;
-    const Refocused views = RefocusScene(scene, config, test::Params(1, 1, SF_MODE_BLOCK));
+    const Refocused views = RefocusScene(scene, config, test::Params(1, 1, STARFOCUS_MODE_BLOCK));
     CHECK(gathered.report.gathered_pixels > 0);
     CHECK(gathered.report.gathered_pixels < 180 * 130);
     CHECK(gathered.rgb != views.rgb);

@@ -128,7 +128,7 @@ starfocus::Window WindowOf(const std::vector<uint8_t>& picture, int width, int h
   starfocus::Window window;
   window.width = window.picture_width = width;
   window.height = window.picture_height = height;
-  window.transfer = &starfocus::TransferOf(SF_TRANSFER_NONE);
+  window.transfer = &starfocus::TransferOf(STARFOCUS_TRANSFER_NONE);
   window.centre = {picture.data(), 3 * size_t(width), 0, 0};
   return window;
 }

@@ -105,7 +105,7 @@ double CentreOfViews(double radius, double gradient) {
 
 TEST_CASE("slope: a picture is moved to the centre of what all views show") {
   starfocus::ApertureShape disc;
-  disc.shape = SF_SHAPE_DISC;
+  disc.shape = STARFOCUS_SHAPE_DISC;
   const int32_t spread = starfocus::MeanSquare(disc);
   for (const double radius : {3.0, -7.0}) {
     for (const double gradient : {0.05, -0.1}) {
@@ -125,9 +125,9 @@ TEST_CASE("slope: the mean square of openings") {
   const auto mean_square = [&] { return starfocus::MeanSquare(opening) / 16384.0; };
   opening.fall_off = starfocus::ApertureFallOff(0.26 * 3.14159265358979);
   CHECK(mean_square() == doctest::Approx(0.1877).epsilon(0.002));
-  opening.shape = SF_SHAPE_DISC;
+  opening.shape = STARFOCUS_SHAPE_DISC;
   CHECK(mean_square() == doctest::Approx(0.25));
-  opening.shape = SF_SHAPE_RING;
+  opening.shape = STARFOCUS_SHAPE_RING;
   opening.inner = 1 << 13;
   CHECK(mean_square() == doctest::Approx(0.3125));
 }

@@ -52,7 +52,7 @@ inline void CheckPhoto(const uint8_t* data, size_t size) {
   if (view.pixels.size() != view.stride() * size_t(view.height)) std::abort();
   if (field.width() != view.width || field.height() != view.height) std::abort();
   for (const float disparity : field.disparity.values) {
-    if (std::fabs(disparity) > float(SF_MAX_DISPARITY)) std::abort();
+    if (std::fabs(disparity) > float(STARFOCUS_MAX_DISPARITY)) std::abort();
   }
 }
 

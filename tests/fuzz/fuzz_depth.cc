@@ -19,18 +19,18 @@ using starfocus::fuzz::Input;
 constexpr int kViews[] = {1, 5, 9, 17};
 
 // Mostly valid; now and then any bytes at all in one field.
-sf_depth_config MakeConfig(Input* input) {
-  sf_depth_config config;
-  sf_depth_config_init(&config);
+starfocus_depth_config MakeConfig(Input* input) {
+  starfocus_depth_config config;
+  starfocus_depth_config_init(&config);
   const int side = input->Rarely() ? 200 : input->Rarely() ? 80 : 24;
   config.width = input->Int(1, side);
   config.height = input->Int(1, side);
   config.views = kViews[input->Int(0, 3)];
-  const double most = input->Rarely() ? SF_MAX_DISPARITY : 12;
+  const double most = input->Rarely() ? STARFOCUS_MAX_DISPARITY : 12;
   const double a = input->Real(-most, most), b = input->Real(-most, most);
   config.disparity_min = static_cast<float>(std::min(a, b));
   config.disparity_max = static_cast<float>(std::max(a, b));
-  config.max_workers = input->Rarely() ? SF_MAX_WORKERS : 1;
+  config.max_workers = input->Rarely() ? STARFOCUS_MAX_WORKERS : 1;
   if (input->Rarely()) {
     uint8_t* bytes = reinterpret_cast<uint8_t*>(&config);
     input->Bytes(bytes + input->Int(0, static_cast<int>(sizeof(config) / 4) - 1) * 4, 4);
@@ -69,7 +69,7 @@ void FillPicture(Input* input, Rows<uint8_t>* picture) {
   }
 }
 
-void FillMap(const sf_depth_config& config, Input* input, Rows<float>* map) {
+void FillMap(const starfocus_depth_config& config, Input* input, Rows<float>* map) {
   uint8_t levels[32];
   input->Bytes(levels, sizeof(levels));
   const auto length = static_cast<size_t>(input->Int(1, 40));
@@ -85,7 +85,7 @@ void FillMap(const sf_depth_config& config, Input* input, Rows<float>* map) {
 }
 
 // A picture of strands above a body, and a map that has closed their outline.
-void FillHair(const sf_depth_config& config, Input* input, Rows<uint8_t>* picture,
+void FillHair(const starfocus_depth_config& config, Input* input, Rows<uint8_t>* picture,
               Rows<float>* map) {
   const test::Strands strands = test::DrawStrands(input);
   uint8_t colours[6];
@@ -106,7 +106,7 @@ void FillHair(const sf_depth_config& config, Input* input, Rows<uint8_t>* pictur
 }
 
 // Every value that is written lies in the range, but for what a repair keeps.
-void CheckMap(const sf_depth_config& config, const Rows<float>& map) {
+void CheckMap(const starfocus_depth_config& config, const Rows<float>& map) {
   for (int32_t y = 0; y < config.height; ++y) {
     for (int32_t x = 0; x < config.width; ++x) {
       const float value = map.values[static_cast<size_t>(y) * map.stride + static_cast<size_t>(x)];
@@ -119,22 +119,22 @@ void CheckMap(const sf_depth_config& config, const Rows<float>& map) {
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   Input input(data, size);
-  const sf_depth_config config = MakeConfig(&input);
+  const starfocus_depth_config config = MakeConfig(&input);
   const bool repairs = input.Int(0, 1) == 1;
   size_t bytes = 0;
-  const auto size_of = repairs ? sf_repair_size : sf_estimate_size;
-  if (size_of(&config, &bytes) != SF_OK || bytes > (size_t{300} << 20)) return 0;
+  const auto size_of = repairs ? starfocus_repair_size : starfocus_estimate_size;
+  if (size_of(&config, &bytes) != STARFOCUS_OK || bytes > (size_t{300} << 20)) return 0;
   if (int64_t{config.width} * config.height > 20000) return 0;
   void* workspace = nullptr;
-  if (posix_memalign(&workspace, SF_ALIGNMENT, bytes) != 0) return 0;
+  if (posix_memalign(&workspace, STARFOCUS_ALIGNMENT, bytes) != 0) return 0;
   const std::unique_ptr<void, void (*)(void*)> memory(workspace, std::free);
-  sf_light_field field = {};
+  starfocus_light_field field = {};
   std::vector<Rows<uint8_t>> pictures;
   const auto width = static_cast<size_t>(config.width);
   for (int view = 0; view < config.views; ++view) {
     pictures.emplace_back(3 * width, config.height, &input);
     FillPicture(&input, &pictures.back());
-    field.views[view] = sf_image_rgb(pictures.back().values.get(), pictures.back().stride);
+    field.views[view] = starfocus_image_rgb(pictures.back().values.get(), pictures.back().stride);
   }
   Rows<float> given(width, config.height, &input), map(width, config.height, &input);
   Rows<uint8_t> sure(width, config.height, &input), coverage(width, config.height, &input);
@@ -142,28 +142,29 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (config.views == 1 && input.Int(0, 1) == 1) {
     FillHair(config, &input, &pictures[0], &given);
   }
-  field.depth =
-      sf_depth_float(given.values.get(), given.stride * sizeof(float), config.width, config.height);
-  const auto make = repairs ? sf_repair_disparity : sf_estimate_disparity;
-  sf_map out = {map.values.get(),
-                map.stride * sizeof(float),
-                sure.values.get(),
-                sure.stride,
-                coverage.values.get(),
-                coverage.stride,
-                -1};
+  field.depth = starfocus_depth_float(given.values.get(), given.stride * sizeof(float),
+                                      config.width, config.height);
+  const auto make = repairs ? starfocus_repair_disparity : starfocus_estimate_disparity;
+  starfocus_map out = {map.values.get(),
+                       map.stride * sizeof(float),
+                       sure.values.get(),
+                       sure.stride,
+                       coverage.values.get(),
+                       coverage.stride,
+                       -1};
   if (input.Rarely()) out.confidence = nullptr;
   if (input.Rarely()) out.coverage = nullptr;
-  const sf_status status = make(&config, &field, &out, workspace, bytes);
-  if (status == SF_OK) CheckMap(config, map);
+  const starfocus_status status = make(&config, &field, &out, workspace, bytes);
+  if (status == STARFOCUS_OK) CheckMap(config, map);
   const bool may_cover = repairs && config.views == 1 && out.coverage != nullptr;
-  if (status == SF_OK && out.has_coverage != 0 && (out.has_coverage != 1 || !may_cover)) {
+  if (status == STARFOCUS_OK && out.has_coverage != 0 && (out.has_coverage != 1 || !may_cover)) {
     std::abort();
   }
   // Only a map may still be wrong.
-  const bool cancelled = config.progress != nullptr && status == SF_ERROR_CANCELLED;
-  if (status != SF_OK && !cancelled &&
-      !(repairs && (status == SF_ERROR_DISPARITY || status == SF_ERROR_ALL_INVALID))) {
+  const bool cancelled = config.progress != nullptr && status == STARFOCUS_ERROR_CANCELLED;
+  if (status != STARFOCUS_OK && !cancelled &&
+      !(repairs &&
+        (status == STARFOCUS_ERROR_DISPARITY || status == STARFOCUS_ERROR_ALL_INVALID))) {
     std::abort();
   }
   return 0;

@@ -25,7 +25,7 @@ constexpr int kBlocks[] = {32, 64, 128, 256};
 constexpr double kMostWork = 300000;
 
 // Shapes from what another field drew: recorded inputs keep their meaning.
-void SetShape(int drawn, sf_lens* lens) {
+void SetShape(int drawn, starfocus_lens* lens) {
   lens->shape = drawn % 4;
   lens->blades = 3 + drawn % 10;
   lens->rotation = 3 * drawn - 360;
@@ -35,7 +35,7 @@ void SetShape(int drawn, sf_lens* lens) {
 }
 
 // The same for 2 to 17 views off the star.
-void SetPositions(int drawn, sf_config* config) {
+void SetPositions(int drawn, starfocus_config* config) {
   config->views = 2 + drawn % 16;
   for (int k = 1; k < config->views; ++k) {
     config->positions[k] = {(drawn * k % 33 - 16) / 16.0, (k - 8) / 8.0};
@@ -43,30 +43,30 @@ void SetPositions(int drawn, sf_config* config) {
 }
 
 // Disparities of strands and of what is behind them.
-void SetDepths(Input* input, sf_config* config) {
+void SetDepths(Input* input, starfocus_config* config) {
   config->disparity_min = static_cast<float>(input->Real(-12, 3));
   config->disparity_max = config->disparity_min + static_cast<float>(input->Real(5, 12));
 }
 
 // Mostly valid; now and then any bytes at all in one field. With room for strands, or any size.
 // Sets the shape of the lens, too.
-sf_config MakeConfig(bool strands, Input* input, sf_lens* lens) {
-  sf_config config;
-  sf_config_init(&config);
+starfocus_config MakeConfig(bool strands, Input* input, starfocus_lens* lens) {
+  starfocus_config config;
+  starfocus_config_init(&config);
   const int side = input->Rarely() ? 100 : 24;
   config.width = input->Int(strands ? 16 : 1, side);
   config.height = input->Int(strands ? 16 : 1, side);
   config.views = kViews[input->Int(0, 3)];
-  const double most = input->Rarely() ? SF_MAX_DISPARITY : 12;
+  const double most = input->Rarely() ? STARFOCUS_MAX_DISPARITY : 12;
   const double a = input->Real(-most, most), b = input->Real(-most, most);
   config.disparity_min = static_cast<float>(std::min(a, b));
   config.disparity_max = static_cast<float>(std::max(a, b));
   if (strands) SetDepths(input, &config);
-  config.max_blur = input->Rarely() ? input->Real(1, SF_MAX_BLUR) : input->Real(0.01, 14);
+  config.max_blur = input->Rarely() ? input->Real(1, STARFOCUS_MAX_BLUR) : input->Real(0.01, 14);
   config.superblock = kBlocks[input->Int(0, 3)];
-  config.max_workers = input->Rarely() ? SF_MAX_WORKERS : 1;
-  test::SetFeature(SF_FEATURE_STREAMING, input->Int(0, 1), &config.features);
-  lens->theta = input->Real(SF_MIN_THETA, SF_MAX_THETA);
+  config.max_workers = input->Rarely() ? STARFOCUS_MAX_WORKERS : 1;
+  test::SetFeature(STARFOCUS_FEATURE_STREAMING, input->Int(0, 1), &config.features);
+  lens->theta = input->Real(STARFOCUS_MIN_THETA, STARFOCUS_MAX_THETA);
   config.tuning.max_layer = input->Int(0, 2);
   config.tuning.deblocking = input->Int(0, 255);
   config.tuning.timing.block = 1u << input->Int(0, 26);
@@ -78,10 +78,11 @@ sf_config MakeConfig(bool strands, Input* input, sf_lens* lens) {
   config.tuning.n_scale = 0.5 + 0.25 * (config.tuning.deblocking % 7);
   if (config.tuning.deblocking % 7 == 1)
     config.highlights = 1.0F + static_cast<float>(config.tuning.deblocking) / 8;
-  config.transfer = config.tuning.deblocking % 5 == 0 ? SF_TRANSFER_NONE : SF_TRANSFER_SRGB;
+  config.transfer =
+      config.tuning.deblocking % 5 == 0 ? STARFOCUS_TRANSFER_NONE : STARFOCUS_TRANSFER_SRGB;
   if (config.tuning.deblocking % 2 == 0) {
     SetShape(config.tuning.deblocking * 2 / 3, lens);
-    config.features |= SF_FEATURE_SHAPES;
+    config.features |= STARFOCUS_FEATURE_SHAPES;
   }
   if (config.tuning.deblocking % 6 == 1) SetPositions(config.tuning.deblocking, &config);
   if (config.tuning.deblocking % 8 == 3) config.features = 0;
@@ -93,8 +94,8 @@ sf_config MakeConfig(bool strands, Input* input, sf_lens* lens) {
 }
 
 // `params` have the shape of the lens.
-void SetParams(const sf_config& config, Input* input, sf_params* given) {
-  sf_params& params = *given;
+void SetParams(const starfocus_config& config, Input* input, starfocus_params* given) {
+  starfocus_params& params = *given;
   params.mode = input->Rarely() ? input->Value<int32_t>() : input->Int(0, 3);
   params.renderer = input->Rarely() ? input->Value<int32_t>() : input->Int(0, 2);
   params.lens.focus = input->Real(config.disparity_min, config.disparity_max);
@@ -117,8 +118,8 @@ void SetParams(const sf_config& config, Input* input, sf_params* given) {
 }
 
 // Sets a progress function that cancels, or none.
-void SetProgress(sf_engine* engine, Input* input) {
-  sf_callbacks callbacks = {};
+void SetProgress(starfocus_engine* engine, Input* input) {
+  starfocus_callbacks callbacks = {};
   if (input->Rarely()) {
     static int32_t left;  // calls of progress before the one that cancels
     left = input->Int(0, 100);
@@ -127,14 +128,14 @@ void SetProgress(sf_engine* engine, Input* input) {
     };
     callbacks.progress_data = &left;
   }
-  if (sf_set_callbacks(engine, &callbacks) != SF_OK) std::abort();
+  if (starfocus_set_callbacks(engine, &callbacks) != STARFOCUS_OK) std::abort();
 }
 
 struct Pictures {
   std::vector<std::unique_ptr<uint8_t[]>> bytes;
   std::unique_ptr<float[]> disparity;
   std::unique_ptr<uint8_t[]> coverage;  // or null
-  sf_light_field field = {};
+  starfocus_light_field field = {};
 };
 
 // Bytes of a picture with nothing behind the last pixel.
@@ -149,7 +150,7 @@ struct Levels {
 };
 
 // Runs of any levels, or those that the strands have.
-Levels MakeLevels(const sf_config& config, const Strands& strands,
+Levels MakeLevels(const starfocus_config& config, const Strands& strands,
                   int (Strands::*level_at)(int x, int y) const, Input* input) {
   const auto width = static_cast<size_t>(config.width);
   Levels levels;
@@ -167,7 +168,7 @@ Levels MakeLevels(const sf_config& config, const Strands& strands,
   return levels;
 }
 
-void MakeDisparity(const sf_config& config, const Strands& strands, Input* input,
+void MakeDisparity(const starfocus_config& config, const Strands& strands, Input* input,
                    Pictures* pictures) {
   const Levels levels = MakeLevels(config, strands, &Strands::DepthAt, input);
   pictures->disparity.reset(new float[levels.count]);
@@ -180,11 +181,11 @@ void MakeDisparity(const sf_config& config, const Strands& strands, Input* input
   if (input->Rarely()) {
     pictures->disparity[input->Value<uint32_t>() % levels.count] = input->Value<float>();
   }
-  pictures->field.depth = sf_depth_float(pictures->disparity.get(), levels.stride * sizeof(float),
-                                         config.width, config.height);
+  pictures->field.depth = starfocus_depth_float(
+      pictures->disparity.get(), levels.stride * sizeof(float), config.width, config.height);
 }
 
-void MakeCoverage(const sf_config& config, const Strands& strands, Input* input,
+void MakeCoverage(const starfocus_config& config, const Strands& strands, Input* input,
                   Pictures* pictures) {
   if (input->Int(0, 2) != 0) return;
   Levels levels = MakeLevels(config, strands, &Strands::CoverageAt, input);
@@ -205,7 +206,7 @@ void MakeView(const Strands& strands, size_t stride, size_t bytes, Input* input,
   }
 }
 
-Pictures MakePictures(const sf_config& config, const Strands& strands, Input* input) {
+Pictures MakePictures(const starfocus_config& config, const Strands& strands, Input* input) {
   Pictures pictures;
   const size_t row = 3 * static_cast<size_t>(config.width);
   for (int view = 0; view < config.views; ++view) {
@@ -214,17 +215,17 @@ Pictures MakePictures(const sf_config& config, const Strands& strands, Input* in
     pictures.bytes.emplace_back(new uint8_t[bytes]);
     uint8_t* picture = pictures.bytes.back().get();
     MakeView(strands, stride, bytes, input, picture);
-    pictures.field.views[view] = sf_image_rgb(picture, stride);
+    pictures.field.views[view] = starfocus_image_rgb(picture, stride);
   }
   MakeDisparity(config, strands, input, &pictures);
   MakeCoverage(config, strands, input, &pictures);
   return pictures;
 }
 
-sf_light_field Rows(const sf_light_field& field, int views, int row) {
-  sf_light_field from = field;
+starfocus_light_field Rows(const starfocus_light_field& field, int views, int row) {
+  starfocus_light_field from = field;
   for (int view = 0; view < views; ++view) {
-    sf_image& image = from.views[view];
+    starfocus_image& image = from.views[view];
     image.planes[0] =
         static_cast<uint8_t*>(image.planes[0]) + static_cast<size_t>(row) * image.strides[0];
   }
@@ -239,33 +240,35 @@ int RowCount(int left, Input* input) {
 }
 
 // Pushes rows and pulls finished ones into `out`, in any order; begins anew now and then.
-void Stream(sf_engine* engine, const sf_config& config, const sf_params& params,
-            const Pictures& pictures, uint8_t* out, size_t stride, Input* input) {
-  if (sf_stream_begin(engine, &params) != SF_OK) return;
+void Stream(starfocus_engine* engine, const starfocus_config& config,
+            const starfocus_params& params, const Pictures& pictures, uint8_t* out, size_t stride,
+            Input* input) {
+  if (starfocus_stream_begin(engine, &params) != STARFOCUS_OK) return;
   int pushed = 0, pulled = 0;
   for (int round = 0; round < 200 && pulled < config.height; ++round) {
     int32_t moved = 0;
     if (pushed < config.height) {
-      const sf_light_field rows = Rows(pictures.field, config.views, pushed);
+      const starfocus_light_field rows = Rows(pictures.field, config.views, pushed);
       const int count = RowCount(config.height - pushed, input);
-      if (sf_stream_push(engine, &rows, count, &moved) != SF_OK) return;
+      if (starfocus_stream_push(engine, &rows, count, &moved) != STARFOCUS_OK) return;
       pushed += moved;
     }
     uint8_t* rest = out + static_cast<size_t>(pulled) * stride;
     const int count = RowCount(config.height - pulled, input);
-    const sf_status status = test::PullRgb(engine, rest, stride, count, &moved, nullptr);
-    if (status != SF_OK && status != SF_ERROR_CANCELLED) return;
+    const starfocus_status status = test::PullRgb(engine, rest, stride, count, &moved, nullptr);
+    if (status != STARFOCUS_OK && status != STARFOCUS_ERROR_CANCELLED) return;
     pulled += moved;  // a stream that was cancelled goes on
     if (!input->Rarely()) continue;
-    if (sf_stream_begin(engine, &params) != SF_OK) return;
+    if (starfocus_stream_begin(engine, &params) != STARFOCUS_OK) return;
     pushed = pulled = 0;
   }
 }
 
 // Refocuses whole pictures in one of the ways, the last frame being another or the same.
-void Refocus(sf_engine* engine, const sf_config& config, const sf_params& params,
-             const Pictures& pictures, uint8_t* out, size_t stride, Input* input) {
-  sf_report report;
+void Refocus(starfocus_engine* engine, const starfocus_config& config,
+             const starfocus_params& params, const Pictures& pictures, uint8_t* out, size_t stride,
+             Input* input) {
+  starfocus_report report;
   if (!input->Rarely()) {
     test::RefocusRgb(engine, &params, &pictures.field, out, stride, &report);
     return;
@@ -274,19 +277,20 @@ void Refocus(sf_engine* engine, const sf_config& config, const sf_params& params
     const Pictures before = MakePictures(config, Strands(), input);
     const size_t bytes = Needed(stride, config.height, 3 * static_cast<size_t>(config.width));
     const std::unique_ptr<uint8_t[]> picture(new uint8_t[bytes]());
-    const sf_previous previous = {input->Int(0, 1) == 0 ? before.field : pictures.field,
-                                  sf_image_rgb(picture.get(), stride)};
+    const starfocus_previous previous = {input->Int(0, 1) == 0 ? before.field : pictures.field,
+                                         starfocus_image_rgb(picture.get(), stride)};
     test::RefocusAfterRgb(engine, &params, &pictures.field, &previous, out, stride, &report);
     return;
   }
   size_t bytes = 0;
-  if (sf_prepared_size(&config, &bytes) != SF_OK) std::abort();
+  if (starfocus_prepared_size(&config, &bytes) != STARFOCUS_OK) std::abort();
   void* memory = nullptr;
-  if (posix_memalign(&memory, SF_ALIGNMENT, bytes) != 0) return;
+  if (posix_memalign(&memory, STARFOCUS_ALIGNMENT, bytes) != 0) return;
   const std::unique_ptr<void, void (*)(void*)> owner(memory, std::free);
-  sf_prepared* prepared = nullptr;
-  const sf_status status = sf_prepare(engine, &pictures.field, memory, bytes, &prepared);
-  if (status != SF_OK) return;
+  starfocus_prepared* prepared = nullptr;
+  const starfocus_status status =
+      starfocus_prepare(engine, &pictures.field, memory, bytes, &prepared);
+  if (status != STARFOCUS_OK) return;
   // A preview is no larger than the picture, and leaves the engine as it was.
   test::PreviewRgb(engine, &params, prepared, config.previews, out, stride, &report);
   test::RefocusPreparedRgb(engine, &params, prepared, out, stride, &report);
@@ -297,34 +301,35 @@ void Refocus(sf_engine* engine, const sf_config& config, const sf_params& params
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   Input input(data, size);
   const Strands strands = input.Int(0, 1) == 0 ? Strands() : test::DrawStrands(&input);
-  sf_params lens;
-  sf_params_init(&lens);
-  const sf_config config = MakeConfig(strands.any(), &input, &lens.lens);
+  starfocus_params lens;
+  starfocus_params_init(&lens);
+  const starfocus_config config = MakeConfig(strands.any(), &input, &lens.lens);
   size_t bytes = 0;
-  if (sf_workspace_size(&config, &bytes) != SF_OK || bytes > (size_t{200} << 20)) return 0;
+  if (starfocus_workspace_size(&config, &bytes) != STARFOCUS_OK || bytes > (size_t{200} << 20))
+    return 0;
   if (int64_t{config.width} * config.height > 20000) return 0;
   void* workspace = nullptr;
-  if (posix_memalign(&workspace, SF_ALIGNMENT, bytes) != 0) return 0;
+  if (posix_memalign(&workspace, STARFOCUS_ALIGNMENT, bytes) != 0) return 0;
   const std::unique_ptr<void, void (*)(void*)> memory(workspace, std::free);
-  sf_engine* engine = nullptr;
-  if (sf_init(&config, workspace, bytes, &engine) != SF_OK) std::abort();
+  starfocus_engine* engine = nullptr;
+  if (starfocus_init(&config, workspace, bytes, &engine) != STARFOCUS_OK) std::abort();
   const Pictures pictures = MakePictures(config, strands, &input);
   const size_t row = 3 * static_cast<size_t>(config.width);
   const size_t stride = row + static_cast<size_t>(input.Int(0, 5));
   const std::unique_ptr<uint8_t[]> out(new uint8_t[Needed(stride, config.height, row)]);
   for (int round = 0; round < 2; ++round) {
-    sf_params params = lens;
+    starfocus_params params = lens;
     SetParams(config, &input, &params);
     SetProgress(engine, &input);
-    const double scale = params.mode == SF_MODE_BENCHMARK ? 2 : config.tuning.n_scale;
-    const bool frame = params.mode == SF_MODE_FRAME;
-    const bool by_default = params.mode == SF_MODE_BLOCK || (frame && config.views == 1);
-    const bool subapertures = by_default ? params.renderer != SF_RENDERER_LINE_SCAN
-                                         : frame && params.renderer == SF_RENDERER_SLICES;
+    const double scale = params.mode == STARFOCUS_MODE_BENCHMARK ? 2 : config.tuning.n_scale;
+    const bool frame = params.mode == STARFOCUS_MODE_FRAME;
+    const bool by_default = params.mode == STARFOCUS_MODE_BLOCK || (frame && config.views == 1);
+    const bool subapertures = by_default ? params.renderer != STARFOCUS_RENDERER_LINE_SCAN
+                                         : frame && params.renderer == STARFOCUS_RENDERER_SLICES;
     // At most 13 views along the radius stand for subapertures, however wide the blur is.
     const double n = scale * (subapertures ? std::min(config.max_blur, 13.0) : config.max_blur);
     if (3.2 * n * n * config.width * config.height > kMostWork) continue;
-    if (test::Has(config.features, SF_FEATURE_STREAMING) && input.Int(0, 1) == 1) {
+    if (test::Has(config.features, STARFOCUS_FEATURE_STREAMING) && input.Int(0, 1) == 1) {
       Stream(engine, config, params, pictures, out.get(), stride, &input);
     } else {
       Refocus(engine, config, params, pictures, out.get(), stride, &input);

@@ -52,7 +52,8 @@ void WriteMap(const std::string& path, int side, Input* input) {
 // begins as a view's.
 std::string NameOf(int view, Input* input) {
   if (!input->Rarely()) {
-    return starfocus::ViewName(starfocus::StarPositions(SF_MAX_VIEWS)[static_cast<size_t>(view)]);
+    return starfocus::ViewName(
+        starfocus::StarPositions(STARFOCUS_MAX_VIEWS)[static_cast<size_t>(view)]);
   }
   if (!input->Rarely()) {
     return starfocus::ViewName({input->Int(-120, 120) / 100.0, input->Int(-10, 10) / 10.0});
@@ -72,7 +73,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   static const std::string map = starfocus::DisparityPath(folder.path());
   Input input(data, size);
   std::vector<std::string> written;
-  const int side = input.Int(1, 4), views = input.Int(0, SF_MAX_VIEWS);
+  const int side = input.Int(1, 4), views = input.Int(0, STARFOCUS_MAX_VIEWS);
   for (int view = 0; view < views; ++view) {
     if (input.Rarely()) continue;
     const char* extension = kExtensions[input.Rarely() ? input.Int(0, 2) : 1];
@@ -87,7 +88,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const starfocus::Positions wanted = starfocus::StarPositions(kWanted[input.Int(0, 4)]);
   if (const auto field = starfocus::LoadLightField(folder.path(), wanted)) {
     const size_t loaded = field->views.size();
-    if (loaded < 1 || loaded > SF_MAX_VIEWS || field->positions.size() != loaded) std::abort();
+    if (loaded < 1 || loaded > STARFOCUS_MAX_VIEWS || field->positions.size() != loaded)
+      std::abort();
     if (!wanted.empty() && loaded != wanted.size()) std::abort();
     for (const starfocus::Image& image : field->views) {
       if (image.width != field->width() || image.height != field->height()) std::abort();

@@ -34,15 +34,16 @@ uint8_t* TakePlane(int32_t rows, size_t row_bytes, Input* input, size_t* stride,
   return planes->back().get();
 }
 
-sf_image MakeImage(const Size& size, Input* input, Planes* planes) {
-  sf_image image = {};
-  image.format = input->Int(SF_FORMAT_RGB, SF_FORMAT_YUV_420_888);
+starfocus_image MakeImage(const Size& size, Input* input, Planes* planes) {
+  starfocus_image image = {};
+  image.format = input->Int(STARFOCUS_FORMAT_RGB, STARFOCUS_FORMAT_YUV_420_888);
   image.matrix = input->Int(0, 1);
   image.range = input->Int(0, 1);
   const auto width = static_cast<size_t>(size.width), columns = (width + 1) / 2;
   const int32_t rows = (size.height + 1) / 2;
-  if (image.format < SF_FORMAT_NV12) {
-    const bool alpha = image.format == SF_FORMAT_RGBX || image.format == SF_FORMAT_BGRX;
+  if (image.format < STARFOCUS_FORMAT_NV12) {
+    const bool alpha =
+        image.format == STARFOCUS_FORMAT_RGBX || image.format == STARFOCUS_FORMAT_BGRX;
     image.pixel_stride = input->Int(alpha ? 4 : 3, 7);
     const size_t row_bytes =
         (width - 1) * static_cast<size_t>(image.pixel_stride) + (alpha ? 4 : 3);
@@ -50,8 +51,8 @@ sf_image MakeImage(const Size& size, Input* input, Planes* planes) {
     return image;
   }
   image.planes[0] = TakePlane(size.height, width, input, &image.strides[0], planes);
-  const bool pairs = image.format == SF_FORMAT_NV12 || image.format == SF_FORMAT_NV21;
-  if (image.format == SF_FORMAT_YUV_420_888) image.pixel_stride = input->Int(1, 2);
+  const bool pairs = image.format == STARFOCUS_FORMAT_NV12 || image.format == STARFOCUS_FORMAT_NV21;
+  if (image.format == STARFOCUS_FORMAT_YUV_420_888) image.pixel_stride = input->Int(1, 2);
   const auto step = static_cast<size_t>(std::max(image.pixel_stride, 1));
   const size_t row_bytes = pairs ? 2 * columns : (columns - 1) * step + 1;
   for (int plane = 1; plane <= (pairs ? 1 : 2); ++plane) {
@@ -61,9 +62,9 @@ sf_image MakeImage(const Size& size, Input* input, Planes* planes) {
 }
 
 // Values of any bytes: most maps have unknown ones, and ones outside of the range.
-sf_depth_map MakeDepth(const Size& size, Input* input, Planes* planes) {
+starfocus_depth_map MakeDepth(const Size& size, Input* input, Planes* planes) {
   constexpr size_t kBytes[] = {4, 2, 1, 2};
-  sf_depth_map map = {};
+  starfocus_depth_map map = {};
   map.width = input->Int(1, size.width);
   map.height = input->Int(1, size.height);
   map.type = input->Int(0, 3);
@@ -83,57 +84,59 @@ sf_depth_map MakeDepth(const Size& size, Input* input, Planes* planes) {
   return map;
 }
 
-sf_status StreamAll(sf_engine* engine, const sf_params& params, const sf_light_field& field,
-                    const sf_image& out, const Size& size) {
+starfocus_status StreamAll(starfocus_engine* engine, const starfocus_params& params,
+                           const starfocus_light_field& field, const starfocus_image& out,
+                           const Size& size) {
   int32_t consumed = 0, written = 0;
-  sf_status status = sf_stream_begin(engine, &params);
-  if (status != SF_OK) return status;
-  status = sf_stream_push(engine, &field, size.height, &consumed);
-  if (status != SF_OK) return status;
-  return sf_stream_pull(engine, &out, size.height, &written, nullptr);
+  starfocus_status status = starfocus_stream_begin(engine, &params);
+  if (status != STARFOCUS_OK) return status;
+  status = starfocus_stream_push(engine, &field, size.height, &consumed);
+  if (status != STARFOCUS_OK) return status;
+  return starfocus_stream_pull(engine, &out, size.height, &written, nullptr);
 }
 
 // What well-formed images may still be refused for.
-bool MayBe(sf_status status) {
-  return status == SF_OK || status == SF_ERROR_DISPARITY || status == SF_ERROR_NOT_FINITE ||
-         status == SF_ERROR_RANGE || status == SF_ERROR_BLUR;
+bool MayBe(starfocus_status status) {
+  return status == STARFOCUS_OK || status == STARFOCUS_ERROR_DISPARITY ||
+         status == STARFOCUS_ERROR_NOT_FINITE || status == STARFOCUS_ERROR_RANGE ||
+         status == STARFOCUS_ERROR_BLUR;
 }
 
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   Input input(data, size);
-  sf_config config;
-  sf_config_init(&config);
+  starfocus_config config;
+  starfocus_config_init(&config);
   const Size picture = {input.Int(1, 90), input.Int(1, 70)};
   config.width = picture.width, config.height = picture.height;
   config.views = input.Int(0, 1) == 0 ? 1 : 5;
   config.disparity_min = -14, config.disparity_max = 14, config.max_blur = 16;
-  config.features |= SF_FEATURE_IMAGES, config.superblock = 32;
-  test::SetFeature(SF_FEATURE_STREAMING, input.Int(0, 1), &config.features);
-  test::SetFeature(SF_FEATURE_FILL_UNKNOWN, input.Rarely() ? 0 : 1, &config.features);
+  config.features |= STARFOCUS_FEATURE_IMAGES, config.superblock = 32;
+  test::SetFeature(STARFOCUS_FEATURE_STREAMING, input.Int(0, 1), &config.features);
+  test::SetFeature(STARFOCUS_FEATURE_FILL_UNKNOWN, input.Rarely() ? 0 : 1, &config.features);
   config.highlights = input.Rarely() ? 4 : 1;
-  sf_params params;
-  sf_params_init(&params);
+  starfocus_params params;
+  starfocus_params_init(&params);
   params.lens.focus = input.Real(-2, 2);
-  params.mode = input.Rarely() ? SF_MODE_BLUR : SF_MODE_BLOCK;
+  params.mode = input.Rarely() ? STARFOCUS_MODE_BLUR : STARFOCUS_MODE_BLOCK;
   size_t bytes = 0;
-  if (sf_workspace_size(&config, &bytes) != SF_OK) std::abort();
+  if (starfocus_workspace_size(&config, &bytes) != STARFOCUS_OK) std::abort();
   void* workspace = nullptr;
-  if (posix_memalign(&workspace, SF_ALIGNMENT, bytes) != 0) return 0;
+  if (posix_memalign(&workspace, STARFOCUS_ALIGNMENT, bytes) != 0) return 0;
   const std::unique_ptr<void, void (*)(void*)> memory(workspace, std::free);
-  sf_engine* engine = nullptr;
-  if (sf_init(&config, workspace, bytes, &engine) != SF_OK) std::abort();
+  starfocus_engine* engine = nullptr;
+  if (starfocus_init(&config, workspace, bytes, &engine) != STARFOCUS_OK) std::abort();
   Planes planes;
-  sf_light_field field = {};
+  starfocus_light_field field = {};
   for (int view = 0; view < config.views; ++view) {
     field.views[view] = MakeImage(picture, &input, &planes);
   }
   field.depth = MakeDepth(picture, &input, &planes);
-  const sf_image out = MakeImage(picture, &input, &planes);
-  const sf_status status = test::Has(config.features, SF_FEATURE_STREAMING)
-                               ? StreamAll(engine, params, field, out, picture)
-                               : sf_refocus(engine, &params, &field, &out, nullptr);
+  const starfocus_image out = MakeImage(picture, &input, &planes);
+  const starfocus_status status = test::Has(config.features, STARFOCUS_FEATURE_STREAMING)
+                                      ? StreamAll(engine, params, field, out, picture)
+                                      : starfocus_refocus(engine, &params, &field, &out, nullptr);
   if (!MayBe(status)) std::abort();
   return 0;
 }

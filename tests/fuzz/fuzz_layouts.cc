@@ -30,7 +30,7 @@ void CheckArray(const std::string& text) {
   starfocus::Facts facts;
   const auto star = starfocus::ChooseStar("folder", *array, &facts);
   if (!star) return;
-  if (star->views.empty() || star->views.size() > SF_MAX_VIEWS) std::abort();
+  if (star->views.empty() || star->views.size() > STARFOCUS_MAX_VIEWS) std::abort();
   if (star->views[0].position.u != 0 || star->views[0].position.v != 0) std::abort();
   for (const starfocus::ViewFile& view : star->views) {
     if (view.position.u < -1 || view.position.u > 1) std::abort();

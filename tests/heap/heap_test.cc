@@ -128,38 +128,40 @@ TEST_CASE("the watch sees every kind of heap call") {
 int wrong = 0;  // calls that did not return what was expected
 
 // As CHECK, which may take memory.
-void Expect(sf_status expected, sf_status status) { wrong += status != expected; }
+void Expect(starfocus_status expected, starfocus_status status) { wrong += status != expected; }
 
 TEST_CASE("no heap call in size query, init, refocusing and streaming") {
   for (int views : {17, 9, 5, 1}) {
-    for (sf_mode mode : {SF_MODE_FRAME, SF_MODE_BENCHMARK, SF_MODE_BLOCK, SF_MODE_BLUR}) {
+    for (starfocus_mode mode : {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BENCHMARK,
+                                STARFOCUS_MODE_BLOCK, STARFOCUS_MODE_BLUR}) {
       CAPTURE(views);
       const test::Scene scene = test::RandomScene(70, 50, views, -3, 3, 5);
-      sf_config config = test::ConfigFor(scene, 16);
-      config.features |= SF_FEATURE_STREAMING;
+      starfocus_config config = test::ConfigFor(scene, 16);
+      config.features |= STARFOCUS_FEATURE_STREAMING;
       test::Engine holder(config);  // only its memory is used
-      REQUIRE(holder.status() == SF_OK);
-      const sf_params params = test::Params(1.25, 0.9, mode);
-      const sf_light_field field = scene.Field();
+      REQUIRE(holder.status() == STARFOCUS_OK);
+      const starfocus_params params = test::Params(1.25, 0.9, mode);
+      const starfocus_light_field field = scene.Field();
       test::Output out(70, 50);
-      const sf_callbacks callbacks = test::RunBy([](void*, sf_job job, void* data, int32_t count) {
-        for (int32_t i = count - 1; i >= 0; --i) job(data, i, 0);
-        return 0;
-      });
+      const starfocus_callbacks callbacks =
+          test::RunBy([](void*, starfocus_job job, void* data, int32_t count) {
+            for (int32_t i = count - 1; i >= 0; --i) job(data, i, 0);
+            return 0;
+          });
 
       HeapWatch watch;
       size_t bytes = 0;
-      sf_engine* engine = nullptr;
-      sf_report report;
-      Expect(SF_OK, sf_workspace_size(&config, &bytes));
-      Expect(SF_OK, sf_init(&config, holder.workspace(), bytes, &engine));
-      Expect(SF_OK, sf_set_callbacks(engine, &callbacks));
-      Expect(SF_OK,
+      starfocus_engine* engine = nullptr;
+      starfocus_report report;
+      Expect(STARFOCUS_OK, starfocus_workspace_size(&config, &bytes));
+      Expect(STARFOCUS_OK, starfocus_init(&config, holder.workspace(), bytes, &engine));
+      Expect(STARFOCUS_OK, starfocus_set_callbacks(engine, &callbacks));
+      Expect(STARFOCUS_OK,
              test::RefocusRgb(engine, &params, &field, out.bytes.data(), out.stride, &report));
-      Expect(SF_OK, test::Stream(&holder, params, scene, &out, 13, 7));
-      Expect(SF_ERROR_NULL, test::RefocusRgb(engine, &params, &field, nullptr, 0, nullptr));
-      sf_status_string(SF_ERROR_NULL);
-      sf_simd_target();
+      Expect(STARFOCUS_OK, test::Stream(&holder, params, scene, &out, 13, 7));
+      Expect(STARFOCUS_ERROR_NULL, test::RefocusRgb(engine, &params, &field, nullptr, 0, nullptr));
+      starfocus_status_string(STARFOCUS_ERROR_NULL);
+      starfocus_simd_target();
       const int counted = watch.Stop();
 
       CHECK(wrong == 0);
@@ -172,22 +174,23 @@ TEST_CASE("no heap call of images") {
   test::Random random(3);
   const test::Scene scene = test::RandomScene(70, 50, 5, -3, 3, 5);
   test::ImageKind nv12;
-  nv12.format = SF_FORMAT_NV12;
+  nv12.format = STARFOCUS_FORMAT_NV12;
   const test::ImageField field = test::MakeImageField(
-      scene, {nv12}, test::MakeDepth(scene, 35, 25, SF_DEPTH_U16, SF_DEPTH_RECIPROCAL, 0), &random);
-  sf_config config = test::ImageConfig(field, 16);
-  config.features |= SF_FEATURE_STREAMING;
+      scene, {nv12},
+      test::MakeDepth(scene, 35, 25, STARFOCUS_DEPTH_U16, STARFOCUS_DEPTH_RECIPROCAL, 0), &random);
+  starfocus_config config = test::ImageConfig(field, 16);
+  config.features |= STARFOCUS_FEATURE_STREAMING;
   test::Engine engine(config);
   test::ImageMemory image(70, 50, nv12);
-  const sf_light_field images = field.Field();
-  const sf_image out = image.Out();
-  const sf_params params = test::Params(1.25, 0.9, SF_MODE_BLOCK);
+  const starfocus_light_field images = field.Field();
+  const starfocus_image out = image.Out();
+  const starfocus_params params = test::Params(1.25, 0.9, STARFOCUS_MODE_BLOCK);
   int32_t taken = 0, given = 0;
   HeapWatch watch;
-  Expect(SF_OK, sf_refocus(engine.get(), &params, &images, &out, nullptr));
-  Expect(SF_OK, sf_stream_begin(engine.get(), &params));
-  Expect(SF_OK, sf_stream_push(engine.get(), &images, 50, &taken));
-  Expect(SF_OK, sf_stream_pull(engine.get(), &out, 50, &given, nullptr));
+  Expect(STARFOCUS_OK, starfocus_refocus(engine.get(), &params, &images, &out, nullptr));
+  Expect(STARFOCUS_OK, starfocus_stream_begin(engine.get(), &params));
+  Expect(STARFOCUS_OK, starfocus_stream_push(engine.get(), &images, 50, &taken));
+  Expect(STARFOCUS_OK, starfocus_stream_pull(engine.get(), &out, 50, &given, nullptr));
   const int counted = watch.Stop();
   CHECK(given == 50);
   CHECK(wrong == 0);
@@ -202,58 +205,59 @@ TEST_CASE("no heap call in block mode with all layers, deblocking, visitor and c
       scene.Disparity(x, y) = x < 48 ? 0.0f : x < 80 ? 6.0f : 26.0f;
     }
   }
-  sf_config config = test::ConfigFor(scene, 28);
+  starfocus_config config = test::ConfigFor(scene, 28);
   config.superblock = 32;
-  config.features |= SF_FEATURE_STREAMING;
+  config.features |= STARFOCUS_FEATURE_STREAMING;
   config.tuning.gather = 0;     // all three layers
   test::Engine holder(config);  // only its memory is used
-  REQUIRE(holder.status() == SF_OK);
-  const sf_params params = test::Params(0, 1, SF_MODE_BLOCK);
+  REQUIRE(holder.status() == STARFOCUS_OK);
+  const starfocus_params params = test::Params(0, 1, STARFOCUS_MODE_BLOCK);
   int told = 0;
-  sf_callbacks callbacks =
-      test::VisitedBy([](void* data, const sf_block*) { ++*static_cast<int*>(data); }, &told);
+  starfocus_callbacks callbacks = test::VisitedBy(
+      [](void* data, const starfocus_block*) { ++*static_cast<int*>(data); }, &told);
   callbacks.clock = []() -> uint64_t { return 7; };
-  const sf_light_field field = scene.Field();
+  const starfocus_light_field field = scene.Field();
   test::Output out(scene.width, scene.height);
 
   HeapWatch watch;
-  sf_engine* engine = nullptr;
-  sf_report report;
-  Expect(SF_OK, sf_init(&config, holder.workspace(), holder.bytes(), &engine));
-  Expect(SF_OK, sf_set_callbacks(engine, &callbacks));
-  Expect(SF_OK, test::RefocusRgb(engine, &params, &field, out.bytes.data(), out.stride, &report));
-  Expect(SF_OK, test::Stream(&holder, params, scene, &out, 13, 7));
+  starfocus_engine* engine = nullptr;
+  starfocus_report report;
+  Expect(STARFOCUS_OK, starfocus_init(&config, holder.workspace(), holder.bytes(), &engine));
+  Expect(STARFOCUS_OK, starfocus_set_callbacks(engine, &callbacks));
+  Expect(STARFOCUS_OK,
+         test::RefocusRgb(engine, &params, &field, out.bytes.data(), out.stride, &report));
+  Expect(STARFOCUS_OK, test::Stream(&holder, params, scene, &out, 13, 7));
   const int counted = watch.Stop();
 
   CHECK(wrong == 0);
   CHECK(counted == 0);
   CHECK(told > 0);
-  for (const sf_layer_report& layer : report.layers) CHECK(layer.blocks > 0);
+  for (const starfocus_layer_report& layer : report.layers) CHECK(layer.blocks > 0);
 }
 
 TEST_CASE(
     "no heap call in creating an engine in an allocator's memory, nor where it is cancelled") {
   const test::Scene scene = test::RandomScene(160, 96, 5, -3, 5, 8);
-  const sf_config config = test::ConfigFor(scene, 16);
+  const starfocus_config config = test::ConfigFor(scene, 16);
   test::Engine holder(config);  // only its memory is used
-  const sf_allocator allocator = {holder.workspace(),
-                                  [](void* memory, size_t, size_t) { return memory; },
-                                  [](void*, void*, size_t) {}};
-  const sf_params params = test::Params(0, 1, SF_MODE_BLOCK);
+  const starfocus_allocator allocator = {holder.workspace(),
+                                         [](void* memory, size_t, size_t) { return memory; },
+                                         [](void*, void*, size_t) {}};
+  const starfocus_params params = test::Params(0, 1, STARFOCUS_MODE_BLOCK);
   int progress_calls = 0;
-  const sf_callbacks callbacks =
+  const starfocus_callbacks callbacks =
       test::ToldTo([](void* data, int32_t, int32_t) { return ++*static_cast<int*>(data) / 30; },
                    &progress_calls);
-  const sf_light_field field = scene.Field();
+  const starfocus_light_field field = scene.Field();
   test::Output out(160, 96);
 
   HeapWatch watch;
-  sf_engine* engine = nullptr;
-  Expect(SF_OK, sf_create(&config, &allocator, &engine));
-  Expect(SF_OK, sf_set_callbacks(engine, &callbacks));
-  Expect(SF_ERROR_CANCELLED,
+  starfocus_engine* engine = nullptr;
+  Expect(STARFOCUS_OK, starfocus_create(&config, &allocator, &engine));
+  Expect(STARFOCUS_OK, starfocus_set_callbacks(engine, &callbacks));
+  Expect(STARFOCUS_ERROR_CANCELLED,
          test::RefocusRgb(engine, &params, &field, out.bytes.data(), out.stride, nullptr));
-  sf_destroy(engine);
+  starfocus_destroy(engine);
   const int counted = watch.Stop();
 
   CHECK(progress_calls == 30);
@@ -263,22 +267,23 @@ TEST_CASE(
 
 TEST_CASE("no heap call in preparing, regions and refocusing what is prepared") {
   const test::Scene scene = test::RandomScene(160, 96, 5, -3, 5, 8);
-  const sf_config config = test::ConfigFor(scene, 16);
+  const starfocus_config config = test::ConfigFor(scene, 16);
   test::Engine holder(config), memory(config);
   size_t bytes = 0;
-  REQUIRE(sf_prepared_size(&config, &bytes) == SF_OK);
+  REQUIRE(starfocus_prepared_size(&config, &bytes) == STARFOCUS_OK);
   REQUIRE(bytes <= memory.bytes());  // memory's is as good as any
-  sf_params params = test::Params(0, 1, SF_MODE_BLOCK);
+  starfocus_params params = test::Params(0, 1, STARFOCUS_MODE_BLOCK);
   params.region = {30, 20, 50, 50};
-  const sf_light_field field = scene.Field();
+  const starfocus_light_field field = scene.Field();
   test::Output out(50, 50);
 
   HeapWatch watch;
-  sf_prepared* prepared = nullptr;
-  Expect(SF_OK, sf_prepare(holder.get(), &field, memory.workspace(), memory.bytes(), &prepared));
-  Expect(SF_OK, test::RefocusPreparedRgb(holder.get(), &params, prepared, out.bytes.data(),
-                                         out.stride, nullptr));
-  Expect(SF_OK,
+  starfocus_prepared* prepared = nullptr;
+  Expect(STARFOCUS_OK,
+         starfocus_prepare(holder.get(), &field, memory.workspace(), memory.bytes(), &prepared));
+  Expect(STARFOCUS_OK, test::RefocusPreparedRgb(holder.get(), &params, prepared, out.bytes.data(),
+                                                out.stride, nullptr));
+  Expect(STARFOCUS_OK,
          test::RefocusRgb(holder.get(), &params, &field, out.bytes.data(), out.stride, nullptr));
   const int counted = watch.Stop();
 
@@ -292,15 +297,17 @@ TEST_CASE("no heap call in measuring, filling and tapping disparity maps") {
   for (int x = 0; x < 40; ++x) scene.Disparity(x, 11) = nan;
   scene.Disparity(4, 4) = nan;
   HeapWatch watch;
-  sf_disparity_stats stats;
-  const sf_status measured = sf_measure_disparity(scene.disparity.data(), 160, 40, 30, &stats);
-  const sf_status filled = sf_fill_disparity(scene.disparity.data(), 160, 40, 30);
+  starfocus_disparity_stats stats;
+  const starfocus_status measured =
+      starfocus_measure_disparity(scene.disparity.data(), 160, 40, 30, &stats);
+  const starfocus_status filled = starfocus_fill_disparity(scene.disparity.data(), 160, 40, 30);
   double focus = 0;
-  const sf_status tapped = sf_focus_at(scene.disparity.data(), 160, 40, 30, 4, 4, &focus);
+  const starfocus_status tapped =
+      starfocus_focus_at(scene.disparity.data(), 160, 40, 30, 4, 4, &focus);
   CHECK(watch.Stop() == 0);
-  CHECK(tapped == SF_OK);
-  CHECK(measured == SF_OK);
-  CHECK(filled == SF_OK);
+  CHECK(tapped == STARFOCUS_OK);
+  CHECK(measured == STARFOCUS_OK);
+  CHECK(filled == STARFOCUS_OK);
   CHECK(stats.invalid == 41);
 }
 

@@ -26,7 +26,7 @@ test::Scene FlatScene(int x0, int y0, int side, int views, float disparity) {
   test::Scene scene = test::EmptyScene(side, side, views, disparity - 1, disparity + 1);
   for (int view = 0; view < views; ++view) {
     double u = 0, v = 0;
-    sf_view_position(view, &u, &v);
+    starfocus_view_position(view, &u, &v);
     for (int y = 0; y < side; ++y) {
       for (int x = 0; x < side; ++x) {
         // Pixel (x, y) of the centre is at (x - u d, y - v d).
@@ -81,15 +81,16 @@ TEST_CASE("beyond: edges look as in a larger picture of the same scene") {
       const test::Scene scene = FlatScene(0, 0, kSide, views, disparity);
       const test::Scene larger =
           FlatScene(-kMargin, -kMargin, kSide + 2 * kMargin, views, disparity);
-      for (const sf_mode mode : {SF_MODE_BLOCK, SF_MODE_FRAME, SF_MODE_BENCHMARK}) {
+      for (const starfocus_mode mode :
+           {STARFOCUS_MODE_BLOCK, STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BENCHMARK}) {
         for (const int gather : {0, 1}) {
-          sf_config config = test::ConfigFor(scene, 9);
+          starfocus_config config = test::ConfigFor(scene, 9);
           config.tuning.gather = gather;
-          config.transfer = SF_TRANSFER_NONE;
-          sf_config larger_config = test::ConfigFor(larger, 9);
+          config.transfer = STARFOCUS_TRANSFER_NONE;
+          starfocus_config larger_config = test::ConfigFor(larger, 9);
           larger_config.tuning.gather = gather;
-          larger_config.transfer = SF_TRANSFER_NONE;
-          const sf_params params = test::Params(double(disparity) - 8, 1, mode);
+          larger_config.transfer = STARFOCUS_TRANSFER_NONE;
+          const starfocus_params params = test::Params(double(disparity) - 8, 1, mode);
           const Difference difference =
               AtEdges(test::RefocusScene(scene, config, params),
                       test::RefocusScene(larger, larger_config, params), kMargin);
@@ -109,10 +110,10 @@ TEST_CASE("beyond: a view alone repeats its edge") {
   constexpr int kMargin = 32;
   const test::Scene scene = FlatScene(0, 0, kSide, 1, 9);
   const test::Scene larger = FlatScene(-kMargin, -kMargin, kSide + 2 * kMargin, 1, 9);
-  const sf_params params = test::Params(1, 1, SF_MODE_BLOCK);
+  const starfocus_params params = test::Params(1, 1, STARFOCUS_MODE_BLOCK);
   const auto refocused = [&](const test::Scene& one) {
-    sf_config config = test::ConfigFor(one, 9);
-    config.transfer = SF_TRANSFER_NONE;
+    starfocus_config config = test::ConfigFor(one, 9);
+    config.transfer = STARFOCUS_TRANSFER_NONE;
     return test::RefocusScene(one, config, params);
   };
   CHECK(AtEdges(refocused(scene), refocused(larger), kMargin).mean > 3);
@@ -135,7 +136,7 @@ struct Row {
     window.width = window.picture_width = kWidth;
     window.height = window.picture_height = kHeight;
     test::SetStar(views, &window);
-    window.transfer = &starfocus::TransferOf(SF_TRANSFER_NONE);
+    window.transfer = &starfocus::TransferOf(STARFOCUS_TRANSFER_NONE);
     test::ReadPlanes(&planes, &window);
     disparity.assign(kWidth * kHeight, 0);
     window.disparity = {disparity.data(), kWidth, 0, 0};

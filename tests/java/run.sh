@@ -97,7 +97,7 @@ archive() {
   cat >"$work/linked.c" <<'TEXT'
 #include <starfocus/starfocus.h>
 #include <starfocus/pool.h>
-int main(void) { return sf_pool_cores() == 0 || sf_abi_version() != SF_ABI_VERSION; }
+int main(void) { return starfocus_pool_cores() == 0 || starfocus_abi_version() != STARFOCUS_ABI_VERSION; }
 TEXT
   quietly "$cc" "-I$work/aar/$module/include" -o "$work/linked" "$work/linked.c" \
     "$work/aar/jni/$abi/libstarfocus_jni.so" -Wl,--unresolved-symbols=ignore-in-shared-libs

@@ -48,7 +48,7 @@ struct Scene {
     window.width = window.picture_width = kSize;
     window.height = window.picture_height = kSize;
     test::SetStar(views, &window);
-    window.transfer = &starfocus::TransferOf(SF_TRANSFER_NONE);
+    window.transfer = &starfocus::TransferOf(STARFOCUS_TRANSFER_NONE);
     planes.view[0] = {centre.data(), 3 * kSize, 0, 0};
     for (int view = 1; view < views; ++view) planes.view[view] = {side.data(), 3 * kSize, 0, 0};
     window.disparity = {disparity.data(), kSize, 0, 0};

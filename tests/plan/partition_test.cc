@@ -145,11 +145,13 @@ TEST_CASE("partition: random and degenerate coefficients") {
   for (int round = 0; round < 60; ++round) {
     const int side = 32 << random.Int(0, 1);
     Plan plan(random.Int(1, side), random.Int(1, side), side, 9, &random);
-    sf_timing& timing = plan.config.tuning.timing;
+    starfocus_timing& timing = plan.config.tuning.timing;
     for (uint32_t* value : {&timing.block, &timing.field, &timing.a, &timing.b, &timing.c,
                             &timing.upsample, &timing.span, &timing.hole}) {
       const int kind = random.Int(0, 3);
-      *value = kind == 0 ? 0 : kind == 1 ? SF_MAX_TIMING : uint32_t(random.Int(0, SF_MAX_TIMING));
+      *value = kind == 0   ? 0
+               : kind == 1 ? STARFOCUS_MAX_TIMING
+                           : uint32_t(random.Int(0, STARFOCUS_MAX_TIMING));
     }
     CheckPicture(plan);
   }
@@ -157,7 +159,7 @@ TEST_CASE("partition: random and degenerate coefficients") {
 
 TEST_CASE("partition: where nothing or only blocks cost, nothing is split") {
   test::Random random(10);
-  for (const uint32_t block : {0u, 1u, SF_MAX_TIMING}) {
+  for (const uint32_t block : {0u, 1u, STARFOCUS_MAX_TIMING}) {
     for (const int side : {32, 64, 128, 256}) {
       Plan plan(side - 5, side, side, 10, &random);
       plan.config.tuning.timing = {};

@@ -105,17 +105,18 @@ TEST_CASE("timing: the work of a block, view by view") {
   }
 }
 
-constexpr uint32_t sf_timing::*kCoefficients[] = {
-    &sf_timing::field,    &sf_timing::a,    &sf_timing::b,    &sf_timing::c,
-    &sf_timing::upsample, &sf_timing::span, &sf_timing::hole, &sf_timing::block};
+constexpr uint32_t starfocus_timing::*kCoefficients[] = {
+    &starfocus_timing::field, &starfocus_timing::a,        &starfocus_timing::b,
+    &starfocus_timing::c,     &starfocus_timing::upsample, &starfocus_timing::span,
+    &starfocus_timing::hole,  &starfocus_timing::block};
 constexpr uint64_t BlockWork::*kAmounts[] = {
     &BlockWork::field,    &BlockWork::a,    &BlockWork::b,   &BlockWork::c,
     &BlockWork::upsample, &BlockWork::span, &BlockWork::hole};
-static_assert(sizeof(sf_timing) == 8 * sizeof(uint32_t), "a coefficient is not tested");
+static_assert(sizeof(starfocus_timing) == 8 * sizeof(uint32_t), "a coefficient is not tested");
 static_assert(sizeof(BlockWork) == 7 * sizeof(uint64_t), "an amount is not tested");
 
-sf_timing EqualTiming(uint32_t value) {
-  sf_timing timing = {};
+starfocus_timing EqualTiming(uint32_t value) {
+  starfocus_timing timing = {};
   for (const auto coefficient : kCoefficients) timing.*coefficient = value;
   return timing;
 }
@@ -126,7 +127,7 @@ TEST_CASE("timing: each coefficient counts its own work") {
   for (const auto which : kAmounts) work.*which = ++amount;
   CHECK(starfocus::PredictTime(EqualTiming(0), work) == 0);
   for (int k = 0; k < 8; ++k) {
-    sf_timing timing = EqualTiming(0);
+    starfocus_timing timing = EqualTiming(0);
     timing.*kCoefficients[k] = 100;
     CHECK(starfocus::PredictTime(timing, work) == 100 * (k < 7 ? work.*kAmounts[k] : 1));
   }
@@ -135,7 +136,7 @@ TEST_CASE("timing: each coefficient counts its own work") {
 TEST_CASE("timing: linear in work and in coefficients") {
   test::Random random(4);
   for (int round = 0; round < 200; ++round) {
-    sf_timing s = {}, t = {}, sum = {};
+    starfocus_timing s = {}, t = {}, sum = {};
     for (const auto which : kCoefficients) {
       s.*which = uint32_t(random.Int(0, 1 << 24));
       t.*which = uint32_t(random.Int(0, 1 << 24));
@@ -155,11 +156,11 @@ TEST_CASE("timing: linear in work and in coefficients") {
 }
 
 TEST_CASE("timing: a superblock with the largest coefficients, and all it splits into") {
-  const sf_timing most = EqualTiming(SF_MAX_TIMING);
+  const starfocus_timing most = EqualTiming(STARFOCUS_MAX_TIMING);
   const auto exact = [&](const BlockWork& work) {
     long double sum = 1;
     for (const auto which : kAmounts) sum += static_cast<long double>(work.*which);
-    return sum * SF_MAX_TIMING;
+    return sum * STARFOCUS_MAX_TIMING;
   };
   for (const int side : {16, 32, 64, 128, 256}) {
     // Of content, more than there are pixels.
@@ -176,9 +177,9 @@ TEST_CASE("timing: a superblock with the largest coefficients, and all it splits
 }
 
 TEST_CASE("timing: the default coefficients are these on every machine") {
-  sf_config config;
-  sf_config_init(&config);
-  constexpr sf_timing kDefault = {5659266, 0, 2354, 0, 106, 3266, 720, 507};
+  starfocus_config config;
+  starfocus_config_init(&config);
+  constexpr starfocus_timing kDefault = {5659266, 0, 2354, 0, 106, 3266, 720, 507};
   for (const auto coefficient : kCoefficients) {
     CHECK(config.tuning.timing.*coefficient == kDefault.*coefficient);
   }

@@ -17,7 +17,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string StarName(int index) { return ViewName(StarPositions(SF_MAX_VIEWS)[size_t(index)]); }
+std::string StarName(int index) {
+  return ViewName(StarPositions(STARFOCUS_MAX_VIEWS)[size_t(index)]);
+}
 
 LightField Make(int views, int width, int height) {
   LightField light_field;
@@ -41,7 +43,7 @@ void Remove(const TempFolder& folder, int view) {
   REQUIRE(fs::remove(folder.file(StarName(view) + ".png")));
 }
 
-TEST_CASE("light_field: names follow sf_view_position, and have up to four decimals") {
+TEST_CASE("light_field: names follow starfocus_view_position, and have up to four decimals") {
   CHECK(StarName(0) == "view_+0.0_+0.0");
   CHECK(StarName(1) == "view_+1.0_+0.0");
   CHECK(StarName(4) == "view_+0.0_-1.0");
@@ -99,7 +101,7 @@ TEST_CASE("light_field: views at any positions come back, the centre first") {
     CHECK(back.views[i].pixels[0] == 10 * order[i] + 3);
     CHECK(SamePosition(back.positions[i], light_field.positions[size_t(order[i])]));
   }
-  sf_config config = {};
+  starfocus_config config = {};
   ConfigureViews(back, &config);
   CHECK(config.views == 4);
   CHECK(config.positions[3].v == -0.25);

@@ -12,36 +12,36 @@
 namespace problem_test {
 namespace {
 
-std::string Text(sf_status status, const sf_problem* problem) {
+std::string Text(starfocus_status status, const starfocus_problem* problem) {
   return starfocus::Describe(status, problem).text;
 }
 
 TEST_CASE("problem: a field with its range and value") {
-  sf_problem problem = {};
-  sf_config config;
-  sf_config_init(&config);
+  starfocus_problem problem = {};
+  starfocus_config config;
+  starfocus_config_init(&config);
   config.problem = &problem;
   size_t bytes = 0;
-  CHECK(Text(sf_workspace_size(&config, &bytes), &problem) ==
+  CHECK(Text(starfocus_workspace_size(&config, &bytes), &problem) ==
         "width: a field or an argument is outside its range (expected 1 to 65535, found 0)");
   config.width = config.height = 8;
   config.views = 2;
   config.positions[1] = {0, 1.5};
-  CHECK(Text(sf_workspace_size(&config, &bytes), &problem) ==
+  CHECK(Text(starfocus_workspace_size(&config, &bytes), &problem) ==
         "positions[1].v: a field or an argument is outside its range (expected -1 to 1, found "
         "1.5)");
-  CHECK(Text(sf_workspace_size(&config, nullptr), &problem) ==
+  CHECK(Text(starfocus_workspace_size(&config, nullptr), &problem) ==
         "bytes: a required pointer is null (expected not null)");
 }
 
 TEST_CASE("problem: the sentence alone where no field is at fault or the problem is another's") {
-  sf_problem problem = {SF_ERROR_RANGE, 0, "width", "1", std::nan(""), 0, 0};
-  CHECK(Text(SF_ERROR_RANGE, &problem) ==
+  starfocus_problem problem = {STARFOCUS_ERROR_RANGE, 0, "width", "1", std::nan(""), 0, 0};
+  CHECK(Text(STARFOCUS_ERROR_RANGE, &problem) ==
         "width: a field or an argument is outside its range (expected 1)");
-  CHECK(Text(SF_ERROR_MEMORY, &problem) == "there is no memory");
-  CHECK(Text(SF_ERROR_RANGE, nullptr) == sf_status_string(SF_ERROR_RANGE));
+  CHECK(Text(STARFOCUS_ERROR_MEMORY, &problem) == "there is no memory");
+  CHECK(Text(STARFOCUS_ERROR_RANGE, nullptr) == starfocus_status_string(STARFOCUS_ERROR_RANGE));
   problem.field = "";
-  CHECK(Text(SF_ERROR_RANGE, &problem) == sf_status_string(SF_ERROR_RANGE));
+  CHECK(Text(STARFOCUS_ERROR_RANGE, &problem) == starfocus_status_string(STARFOCUS_ERROR_RANGE));
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ struct Record {
   explicit Record(int count) : calls(size_t(count)) {}
 
   std::vector<std::atomic<int>> calls;  // of each index
-  std::atomic<int> busy[SF_MAX_WORKERS] = {};
+  std::atomic<int> busy[STARFOCUS_MAX_WORKERS] = {};
   std::atomic<int> clashes{0}, worst_worker{0};
 
   static void Job(void* data, int32_t index, int32_t worker) {

@@ -40,7 +40,7 @@ struct Setup {
 };
 
 // Runs an operation that is set up, any number of times.
-using Run = std::function<sf_status(const sf_callbacks& callbacks, Bytes* out)>;
+using Run = std::function<starfocus_status(const starfocus_callbacks& callbacks, Bytes* out)>;
 
 struct Operation {
   std::string name;
@@ -50,9 +50,9 @@ struct Operation {
 };
 
 // The bytes of an operation that succeeds.
-inline Bytes Made(const Run& run, const sf_callbacks& callbacks = {}) {
+inline Bytes Made(const Run& run, const starfocus_callbacks& callbacks = {}) {
   Bytes bytes;
-  REQUIRE(run(callbacks, &bytes) == SF_OK);
+  REQUIRE(run(callbacks, &bytes) == STARFOCUS_OK);
   return bytes;
 }
 
@@ -60,7 +60,7 @@ inline Bytes Made(const Run& run, const sf_callbacks& callbacks = {}) {
 struct ShuffledRunner {
   int workers, sets = 0, jobs = 0;
 
-  static int Run(void* self, sf_job job, void* data, int32_t count) {
+  static int Run(void* self, starfocus_job job, void* data, int32_t count) {
     ShuffledRunner* runner = static_cast<ShuffledRunner*>(self);
     runner->jobs += count;
     test::Random random(uint64_t(10 * runner->workers + ++runner->sets));
@@ -82,7 +82,8 @@ struct ShuffledRunner {
 inline void CheckWorkers(const Operation& operation) {
   CAPTURE(operation.name);
   const Bytes expected = Made(operation.set_up({}));
-  for (const auto& [workers, most] : {std::pair(1, 1), {2, 2}, {7, 7}, {3, SF_MAX_WORKERS}}) {
+  for (const auto& [workers, most] :
+       {std::pair(1, 1), {2, 2}, {7, 7}, {3, STARFOCUS_MAX_WORKERS}}) {
     CAPTURE(workers);
     Setup setup;
     setup.workers = most;
@@ -110,7 +111,7 @@ inline void CheckSetups(const Operation& operation, const std::vector<Setup>& se
 struct FailingRunner {
   int fails_at, sets = 0;
 
-  static int Run(void* self, sf_job job, void* data, int32_t count) {
+  static int Run(void* self, starfocus_job job, void* data, int32_t count) {
     FailingRunner* runner = static_cast<FailingRunner*>(self);
     const bool fails = runner->sets++ == runner->fails_at;
     for (int32_t i = 0; i < (fails ? count / 2 : count); ++i) job(data, i, 0);
@@ -127,14 +128,14 @@ inline void CheckFailingRunner(const Operation& operation) {
     CAPTURE(at);
     FailingRunner runner = {at};
     Bytes bytes;
-    const sf_status status = run(test::RunBy(FailingRunner::Run, &runner), &bytes);
+    const starfocus_status status = run(test::RunBy(FailingRunner::Run, &runner), &bytes);
     if (runner.sets <= at) {
-      CHECK(status == SF_OK);
+      CHECK(status == STARFOCUS_OK);
       CHECK((bytes == expected));
       CHECK(at > 0);
       return;
     }
-    CHECK(status == SF_ERROR_RUNNER);
+    CHECK(status == STARFOCUS_ERROR_RUNNER);
     CHECK(runner.sets == at + 1);
     CHECK((Made(run) == expected));
   }
@@ -145,7 +146,8 @@ inline void CheckFailingRunner(const Operation& operation) {
 inline void CheckCancelling(const Operation& operation) {
   CAPTURE(operation.name);
   const Bytes expected = Made(operation.set_up({}));
-  for (const sf_runner runner : {sf_runner(nullptr), sf_runner(test::RunOnTwo)}) {
+  for (const starfocus_runner runner :
+       {starfocus_runner(nullptr), starfocus_runner(test::RunOnTwo)}) {
     CAPTURE(runner == nullptr);
     Setup setup;
     setup.workers = 2;
@@ -153,20 +155,20 @@ inline void CheckCancelling(const Operation& operation) {
     for (int stop = 0;; stop += test::kSlow && stop >= 10 ? 7 : 1) {
       CAPTURE(stop);
       test::Watch watch(stop);
-      sf_callbacks callbacks = test::ToldTo(test::Watch::Progress, &watch);
+      starfocus_callbacks callbacks = test::ToldTo(test::Watch::Progress, &watch);
       callbacks.runner = runner;
       Bytes bytes;
-      const sf_status status = run(callbacks, &bytes);
+      const starfocus_status status = run(callbacks, &bytes);
       CHECK(watch.Good());
       if (watch.calls <= stop) {  // it ended before
-        CHECK(status == SF_OK);
+        CHECK(status == STARFOCUS_OK);
         CHECK(watch.Ended());
         CHECK(watch.rows == operation.rows);
         CHECK(watch.calls >= operation.questions);
         CHECK((bytes == expected));
         break;
       }
-      REQUIRE(status == SF_ERROR_CANCELLED);
+      REQUIRE(status == STARFOCUS_ERROR_CANCELLED);
       CHECK((Made(run, test::RunBy(runner)) == expected));
     }
   }

@@ -24,8 +24,8 @@ constexpr int kWidth = 70, kHeight = 75;  // three superblocks each way
 
 struct Lens {
   const char* name;
-  sf_mode mode;
-  sf_renderer renderer;
+  starfocus_mode mode;
+  starfocus_renderer renderer;
   double aperture;
   int views;
   float highlights = 1;
@@ -33,23 +33,24 @@ struct Lens {
   bool layered = false;  // or subsampled
 };
 
-constexpr Lens kBlocks = {"blocks", SF_MODE_BLOCK, SF_RENDERER_SLICES, 1, 5};
-constexpr Lens kBlur = {"blur", SF_MODE_BLUR, SF_RENDERER_AUTO, 1, 5};
-constexpr Lens kPaper = {"benchmark, paper", SF_MODE_BENCHMARK, SF_RENDERER_LINE_SCAN, 0.3, 5};
+constexpr Lens kBlocks = {"blocks", STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_SLICES, 1, 5};
+constexpr Lens kBlur = {"blur", STARFOCUS_MODE_BLUR, STARFOCUS_RENDERER_AUTO, 1, 5};
+constexpr Lens kPaper = {"benchmark, paper", STARFOCUS_MODE_BENCHMARK, STARFOCUS_RENDERER_LINE_SCAN,
+                         0.3, 5};
 constexpr Lens kLenses[] = {
     kBlocks,
     kBlur,
     kPaper,
-    {"blocks, one view", SF_MODE_BLOCK, SF_RENDERER_AUTO, 0.7, 1},
-    {"blocks, gathered", SF_MODE_BLOCK, SF_RENDERER_SLICES, 1, 5, 1, true},
-    {"blocks, layered", SF_MODE_BLOCK, SF_RENDERER_SLICES, 1, 5, 1, true, true},
-    {"blocks, paper", SF_MODE_BLOCK, SF_RENDERER_LINE_SCAN, 0.5, 9},
-    {"blocks, highlights", SF_MODE_BLOCK, SF_RENDERER_SLICES, 1, 5, 4},
-    {"frame, paper", SF_MODE_FRAME, SF_RENDERER_LINE_SCAN, 0.5, 17},
-    {"frame, one view", SF_MODE_FRAME, SF_RENDERER_AUTO, 1, 1},
-    {"frame, subapertures", SF_MODE_FRAME, SF_RENDERER_SLICES, 1, 9},
-    {"benchmark, slices", SF_MODE_BENCHMARK, SF_RENDERER_SLICES, 0.3, 5},
-    {"pinhole", SF_MODE_BLOCK, SF_RENDERER_AUTO, 0, 5},
+    {"blocks, one view", STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_AUTO, 0.7, 1},
+    {"blocks, gathered", STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_SLICES, 1, 5, 1, true},
+    {"blocks, layered", STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_SLICES, 1, 5, 1, true, true},
+    {"blocks, paper", STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_LINE_SCAN, 0.5, 9},
+    {"blocks, highlights", STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_SLICES, 1, 5, 4},
+    {"frame, paper", STARFOCUS_MODE_FRAME, STARFOCUS_RENDERER_LINE_SCAN, 0.5, 17},
+    {"frame, one view", STARFOCUS_MODE_FRAME, STARFOCUS_RENDERER_AUTO, 1, 1},
+    {"frame, subapertures", STARFOCUS_MODE_FRAME, STARFOCUS_RENDERER_SLICES, 1, 9},
+    {"benchmark, slices", STARFOCUS_MODE_BENCHMARK, STARFOCUS_RENDERER_SLICES, 0.3, 5},
+    {"pinhole", STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_AUTO, 0, 5},
 };
 
 // A scene, the frame before it, and an engine that has prepared it.
@@ -63,7 +64,7 @@ struct Picture {
     before.Pixel(0, 50, 60)[1] ^= 64;  // a corner of the last stripes differs
     config = test::ConfigFor(scene, 13);
     config.superblock = 32;
-    config.features |= SF_FEATURE_STREAMING | SF_FEATURE_IMAGES;
+    config.features |= STARFOCUS_FEATURE_STREAMING | STARFOCUS_FEATURE_IMAGES;
     config.previews = 1;
     config.max_workers = setup.workers;
     config.highlights = lens.highlights;
@@ -71,38 +72,39 @@ struct Picture {
     params = test::Params(-3, lens.aperture, lens.mode);
     params.renderer = lens.renderer;
     engine = std::make_unique<test::Engine>(config);
-    REQUIRE(engine->status() == SF_OK);
+    REQUIRE(engine->status() == STARFOCUS_OK);
     if (setup.kernels != nullptr) test::UseKernels(setup.kernels, engine->get());
     if (setup.used) Use();
-    REQUIRE(test::Refocus(engine.get(), params, before, &previous) == SF_OK);
+    REQUIRE(test::Refocus(engine.get(), params, before, &previous) == STARFOCUS_OK);
     memory = std::make_unique<test::PreparedMemory>(config);
-    REQUIRE(Prepare(scene.Field(), &prepared) == SF_OK);
+    REQUIRE(Prepare(scene.Field(), &prepared) == STARFOCUS_OK);
   }
   void Use() {
     test::Output out(kWidth, kHeight);
-    sf_params other = test::Params(7, 0.4, SF_MODE_BLUR);
-    REQUIRE(test::Refocus(engine.get(), other, before, &out) == SF_OK);
-    other.mode = SF_MODE_FRAME;
-    REQUIRE(sf_stream_begin(engine->get(), &other) == SF_OK);
-    const sf_light_field field = before.Field();
+    starfocus_params other = test::Params(7, 0.4, STARFOCUS_MODE_BLUR);
+    REQUIRE(test::Refocus(engine.get(), other, before, &out) == STARFOCUS_OK);
+    other.mode = STARFOCUS_MODE_FRAME;
+    REQUIRE(starfocus_stream_begin(engine->get(), &other) == STARFOCUS_OK);
+    const starfocus_light_field field = before.Field();
     int32_t moved = 0;
-    REQUIRE(sf_stream_push(engine->get(), &field, kHeight, &moved) == SF_OK);
+    REQUIRE(starfocus_stream_push(engine->get(), &field, kHeight, &moved) == STARFOCUS_OK);
     REQUIRE(test::PullRgb(engine->get(), out.bytes.data(), out.stride, 5, &moved, nullptr) ==
-            SF_OK);
+            STARFOCUS_OK);
   }
-  sf_status Prepare(const sf_light_field& field, sf_prepared** made) {
-    const sf_status status = sf_prepare(engine->get(), &field, memory->get(), memory->bytes, made);
-    CHECK((*made == nullptr) == (status != SF_OK));
+  starfocus_status Prepare(const starfocus_light_field& field, starfocus_prepared** made) {
+    const starfocus_status status =
+        starfocus_prepare(engine->get(), &field, memory->get(), memory->bytes, made);
+    CHECK((*made == nullptr) == (status != STARFOCUS_OK));
     return status;
   }
 
   test::Scene scene, before;
-  sf_config config;
-  sf_params params;
+  starfocus_config config;
+  starfocus_params params;
   std::unique_ptr<test::Engine> engine;
   test::Output previous{kWidth, kHeight, 5};
   std::unique_ptr<test::PreparedMemory> memory;
-  sf_prepared* prepared = nullptr;
+  starfocus_prepared* prepared = nullptr;
 };
 
 inline test::Scene SceneOf(const Lens& lens) {
@@ -110,44 +112,48 @@ inline test::Scene SceneOf(const Lens& lens) {
 }
 
 // Ways to ask for a picture. The callbacks are set.
-inline sf_status Whole(Picture* of, const sf_callbacks& callbacks, test::Output* out,
-                       sf_report* report) {
+inline starfocus_status Whole(Picture* of, const starfocus_callbacks& callbacks, test::Output* out,
+                              starfocus_report* report) {
   return test::Refocus(of->engine.get(), of->params, of->scene, out, callbacks, report);
 }
-inline sf_status Region(Picture* of, const sf_callbacks& callbacks, test::Output* out,
-                        sf_report* report) {
-  sf_params params = of->params;
+inline starfocus_status Region(Picture* of, const starfocus_callbacks& callbacks, test::Output* out,
+                               starfocus_report* report) {
+  starfocus_params params = of->params;
   params.region = {21, 17, 30, 41};
   return test::Refocus(of->engine.get(), params, of->scene, out, callbacks, report);
 }
-inline sf_status Stream(Picture* of, const sf_callbacks& callbacks, test::Output* out,
-                        sf_report* report) {
+inline starfocus_status Stream(Picture* of, const starfocus_callbacks& callbacks, test::Output* out,
+                               starfocus_report* report) {
   return test::Stream(of->engine.get(), of->params, of->scene, out, 9, 7, callbacks, report);
 }
-inline sf_status After(Picture* of, const sf_callbacks&, test::Output* out, sf_report* report) {
-  const sf_light_field field = of->scene.Field();
-  const sf_previous previous = {of->before.Field(),
-                                sf_image_rgb(of->previous.bytes.data(), of->previous.stride)};
+inline starfocus_status After(Picture* of, const starfocus_callbacks&, test::Output* out,
+                              starfocus_report* report) {
+  const starfocus_light_field field = of->scene.Field();
+  const starfocus_previous previous = {
+      of->before.Field(), starfocus_image_rgb(of->previous.bytes.data(), of->previous.stride)};
   return test::RefocusAfterRgb(of->engine->get(), &of->params, &field, &previous, out->bytes.data(),
                                out->stride, report);
 }
-inline sf_status Prepared(Picture* of, const sf_callbacks&, test::Output* out, sf_report* report) {
+inline starfocus_status Prepared(Picture* of, const starfocus_callbacks&, test::Output* out,
+                                 starfocus_report* report) {
   return test::RefocusPreparedRgb(of->engine->get(), &of->params, of->prepared, out->bytes.data(),
                                   out->stride, report);
 }
-inline sf_status Preview(Picture* of, const sf_callbacks&, test::Output* out, sf_report* report) {
+inline starfocus_status Preview(Picture* of, const starfocus_callbacks&, test::Output* out,
+                                starfocus_report* report) {
   return test::PreviewRgb(of->engine->get(), &of->params, of->prepared, 1, out->bytes.data(),
                           out->stride, report);
 }
-inline sf_status Prepare(Picture* of, const sf_callbacks&, test::Output* out, sf_report* report) {
-  const sf_status status = of->Prepare(of->scene.Field(), &of->prepared);
-  const sf_callbacks none = {};
-  REQUIRE(sf_set_callbacks(of->engine->get(), &none) == SF_OK);
-  return status == SF_OK ? Prepared(of, none, out, report) : status;
+inline starfocus_status Prepare(Picture* of, const starfocus_callbacks&, test::Output* out,
+                                starfocus_report* report) {
+  const starfocus_status status = of->Prepare(of->scene.Field(), &of->prepared);
+  const starfocus_callbacks none = {};
+  REQUIRE(starfocus_set_callbacks(of->engine->get(), &none) == STARFOCUS_OK);
+  return status == STARFOCUS_OK ? Prepared(of, none, out, report) : status;
 }
 
-using Way = sf_status (*)(Picture* of, const sf_callbacks& callbacks, test::Output* out,
-                          sf_report* report);
+using Way = starfocus_status (*)(Picture* of, const starfocus_callbacks& callbacks,
+                                 test::Output* out, starfocus_report* report);
 struct NamedWay {
   const char* name;
   Way ask;
@@ -162,14 +168,14 @@ inline Operation OperationOf(const Lens& lens, const NamedWay& way) {
   return {way.name + std::string(": ") + lens.name, way.height, way.questions,
           [lens, way](const Setup& setup) -> Run {
             const auto of = std::make_shared<Picture>(SceneOf(lens), lens, setup);
-            return [of, way](const sf_callbacks& callbacks, Bytes* bytes) {
-              REQUIRE(sf_set_callbacks(of->engine->get(), &callbacks) == SF_OK);
+            return [of, way](const starfocus_callbacks& callbacks, Bytes* bytes) {
+              REQUIRE(starfocus_set_callbacks(of->engine->get(), &callbacks) == STARFOCUS_OK);
               test::Output out(way.width, way.height, 5);
-              sf_report report = {};
-              const sf_status status = way.ask(of.get(), callbacks, &out, &report);
+              starfocus_report report = {};
+              const starfocus_status status = way.ask(of.get(), callbacks, &out, &report);
               CHECK(out.PaddingUntouched());
               *bytes = out.bytes;
-              for (const sf_layer_report& layer : report.layers) {
+              for (const starfocus_layer_report& layer : report.layers) {
                 for (const uint64_t count : {layer.blocks, layer.views, layer.pixels}) {
                   for (int k = 0; k < 8; ++k) bytes->push_back(uint8_t(count >> 8 * k));
                 }
@@ -186,25 +192,25 @@ inline Run SetUpImages(int format, bool prepares, const Setup& setup) {
   const test::ImageKind kind = test::AnyKind(format, &random);
   const test::Scene scene = SceneOf(kBlocks);
   const auto field = std::make_shared<test::ImageField>(test::MakeImageField(
-      scene, {kind}, test::MakeDepth(scene, 35, 38, SF_DEPTH_U16, SF_DEPTH_RECIPROCAL, 0),
-      &random));
+      scene, {kind},
+      test::MakeDepth(scene, 35, 38, STARFOCUS_DEPTH_U16, STARFOCUS_DEPTH_RECIPROCAL, 0), &random));
   const auto of = std::make_shared<Picture>(field->converted, kBlocks, setup);
-  return [of, field, kind, prepares](const sf_callbacks& callbacks, Bytes* bytes) {
-    sf_engine* engine = of->engine->get();
-    REQUIRE(sf_set_callbacks(engine, &callbacks) == SF_OK);
+  return [of, field, kind, prepares](const starfocus_callbacks& callbacks, Bytes* bytes) {
+    starfocus_engine* engine = of->engine->get();
+    REQUIRE(starfocus_set_callbacks(engine, &callbacks) == STARFOCUS_OK);
     test::ImageMemory image(kWidth, kHeight, kind);
-    const sf_light_field images = field->Field();
-    const sf_image out = image.Out();
-    sf_status status = SF_OK;
+    const starfocus_light_field images = field->Field();
+    const starfocus_image out = image.Out();
+    starfocus_status status = STARFOCUS_OK;
     if (prepares) {
       status = of->Prepare(images, &of->prepared);
-      const sf_callbacks none = {};
-      REQUIRE(sf_set_callbacks(engine, &none) == SF_OK);
-      if (status == SF_OK) {
-        status = sf_refocus_prepared(engine, &of->params, of->prepared, &out, nullptr);
+      const starfocus_callbacks none = {};
+      REQUIRE(starfocus_set_callbacks(engine, &none) == STARFOCUS_OK);
+      if (status == STARFOCUS_OK) {
+        status = starfocus_refocus_prepared(engine, &of->params, of->prepared, &out, nullptr);
       }
     } else {
-      status = sf_refocus(engine, &of->params, &images, &out, nullptr);
+      status = starfocus_refocus(engine, &of->params, &images, &out, nullptr);
     }
     *bytes = image.Bytes();
     return status;
@@ -220,8 +226,8 @@ inline std::vector<Operation> PictureOperations(bool all_formats = true) {
   for (const Lens& lens : {kBlocks, kBlur, kPaper}) {
     for (const NamedWay& way : kWays) all.push_back(OperationOf(lens, way));
   }
-  for (int format = SF_FORMAT_RGB; format <= SF_FORMAT_YUV_420_888; ++format) {
-    if (!all_formats && format != SF_FORMAT_NV12) continue;
+  for (int format = STARFOCUS_FORMAT_RGB; format <= STARFOCUS_FORMAT_YUV_420_888; ++format) {
+    if (!all_formats && format != STARFOCUS_FORMAT_NV12) continue;
     for (const bool prepares : {false, true}) {
       all.push_back({(prepares ? "prepared images " : "images ") + std::to_string(format), kHeight,
                      7, [=](const Setup& setup) { return SetUpImages(format, prepares, setup); }});

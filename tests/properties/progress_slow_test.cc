@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// sf_callbacks.progress: how often it is asked, and what becomes of a stream that it cancels.
+// starfocus_callbacks.progress: how often it is asked, and what becomes of a stream that it
+// cancels.
 #include <doctest/doctest.h>
 
 #include "starfocus/starfocus.h"
@@ -13,35 +14,36 @@ namespace {
 using namespace properties;
 using test::Watch;
 
-sf_callbacks Watched(Watch* watch) { return test::ToldTo(Watch::Progress, watch); }
+starfocus_callbacks Watched(Watch* watch) { return test::ToldTo(Watch::Progress, watch); }
 
-void SetCallbacks(test::Engine* engine, const sf_callbacks& callbacks) {
-  REQUIRE(sf_set_callbacks(engine->get(), &callbacks) == SF_OK);
+void SetCallbacks(test::Engine* engine, const starfocus_callbacks& callbacks) {
+  REQUIRE(starfocus_set_callbacks(engine->get(), &callbacks) == STARFOCUS_OK);
 }
 
 // Pulls a stream, again whenever it is cancelled, which every pull is after `every` more calls.
-int PullOn(const Picture& f, int every, sf_report* report, test::Output* out) {
+int PullOn(const Picture& f, int every, starfocus_report* report, test::Output* out) {
   test::Engine engine(f.config);
   Watch watch;
   SetCallbacks(&engine, Watched(&watch));
-  REQUIRE(sf_stream_begin(engine.get(), &f.params) == SF_OK);
+  REQUIRE(starfocus_stream_begin(engine.get(), &f.params) == STARFOCUS_OK);
   int pushed = 0, pulled = 0, cancelled = 0;
   while (pulled < kHeight) {
-    const sf_light_field field = f.scene.Field(pushed);
+    const starfocus_light_field field = f.scene.Field(pushed);
     int32_t consumed = 0, written = 0;
     if (pushed < kHeight) {
-      REQUIRE(sf_stream_push(engine.get(), &field, kHeight - pushed, &consumed) == SF_OK);
+      REQUIRE(starfocus_stream_push(engine.get(), &field, kHeight - pushed, &consumed) ==
+              STARFOCUS_OK);
     }
     watch.stop = cancelled % 2 == 0 ? watch.calls + every : Watch::kNever;
-    const sf_status status =
+    const starfocus_status status =
         test::PullRgb(engine.get(), out->bytes.data() + size_t(pulled) * out->stride, out->stride,
                       kHeight - pulled, &written, report);
     pushed += consumed;
     pulled += written;
-    if (status == SF_ERROR_CANCELLED) {
+    if (status == STARFOCUS_ERROR_CANCELLED) {
       ++cancelled;
     } else {
-      REQUIRE(status == SF_OK);
+      REQUIRE(status == STARFOCUS_OK);
       REQUIRE(consumed + written > 0);
       if (cancelled % 2 != 0) ++cancelled;
     }
@@ -54,9 +56,9 @@ int PullOn(const Picture& f, int every, sf_report* report, test::Output* out) {
 
 TEST_CASE("progress: a stream that was cancelled goes on with its rows, and the same report") {
   const Picture f(SceneOf(kBlocks), kBlocks, {});
-  sf_report expected = {}, report = {};
+  starfocus_report expected = {}, report = {};
   test::Output whole(kWidth, kHeight, 5), out(kWidth, kHeight, 5);
-  REQUIRE(test::Refocus(f.engine.get(), f.params, f.scene, &whole) == SF_OK);
+  REQUIRE(test::Refocus(f.engine.get(), f.params, f.scene, &whole) == STARFOCUS_OK);
   REQUIRE(PullOn(f, 1 << 20, &expected, &out) == 0);
   CHECK(out.bytes == whole.bytes);
   int cancelled = 0;
@@ -76,11 +78,11 @@ TEST_CASE("progress: a stream that is cancelled as it begins has not begun") {
   test::Engine engine(f.config);  // its kernels are made then
   Watch watch(0);
   SetCallbacks(&engine, Watched(&watch));
-  CHECK(sf_stream_begin(engine.get(), &f.params) == SF_ERROR_CANCELLED);
-  CHECK(sf_engine_problem(engine.get())->status == SF_ERROR_CANCELLED);
-  const sf_light_field field = f.scene.Field();
+  CHECK(starfocus_stream_begin(engine.get(), &f.params) == STARFOCUS_ERROR_CANCELLED);
+  CHECK(starfocus_engine_problem(engine.get())->status == STARFOCUS_ERROR_CANCELLED);
+  const starfocus_light_field field = f.scene.Field();
   int32_t consumed = 0;
-  CHECK(sf_stream_push(engine.get(), &field, 1, &consumed) == SF_ERROR_STATE);
+  CHECK(starfocus_stream_push(engine.get(), &field, 1, &consumed) == STARFOCUS_ERROR_STATE);
 }
 
 // What lies between two questions is bounded by work, and not by blocks: one block of one job must
@@ -94,24 +96,25 @@ TEST_CASE("progress: whatever a block takes, a million samples are too many to w
     const int side = gathered ? 128 : 64;
     test::Scene scene = test::RandomScene(side, side, 5, -3, 9, 8);
     if (gathered) scene.disparity.assign(scene.disparity.size(), 9);
-    sf_config config = test::ConfigFor(scene, 32);
+    starfocus_config config = test::ConfigFor(scene, 32);
     config.superblock = side;
     config.tuning.max_layer = 0;
     // Every second pixel counts in what is gathered.
     const int radius = gathered ? 12 : 32, size = (gathered ? 1 : 2) * radius + 1;
-    sf_params params = test::Params(9 - radius, 1, of.mode);
+    starfocus_params params = test::Params(9 - radius, 1, of.mode);
     params.renderer = of.renderer;
     test::Engine engine(config);
     test::Output out(side, side);
     // The kernels, that its first picture makes, are asked between, too.
-    REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
+    REQUIRE(test::Refocus(&engine, params, scene, &out) == STARFOCUS_OK);
     Watch watch;
-    sf_report report = {};
-    REQUIRE(test::Refocus(&engine, params, scene, &out, Watched(&watch), &report) == SF_OK);
+    starfocus_report report = {};
+    REQUIRE(test::Refocus(&engine, params, scene, &out, Watched(&watch), &report) == STARFOCUS_OK);
     CHECK(watch.Ended());
     double samples =
         double(report.rendered_samples) + 3.0 * size * size * double(report.gathered_pixels);
-    if (of.mode == SF_MODE_BLUR) samples = 3.0 * 64 * 64 * 49 * 49;  // of the least blur, at least
+    if (of.mode == STARFOCUS_MODE_BLUR)
+      samples = 3.0 * 64 * 64 * 49 * 49;  // of the least blur, at least
     CAPTURE(samples);
     CHECK(samples > 4 * kMost);
     CHECK(watch.calls >= samples / kMost);

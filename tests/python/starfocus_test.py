@@ -432,7 +432,7 @@ class Headers(unittest.TestCase):
     """The package repeats what the C headers say."""
 
     text = "\n".join((HEADERS / name).read_text(encoding="utf-8")
-                     for name in ("status.h", "tuning.h", "callbacks.h", "starfocus.h", "depth.h", "image.h"))
+                     for name in ("status.h", "tuning.h", "lens.h", "callbacks.h", "starfocus.h", "depth.h", "image.h"))
     text = re.sub(r"/\*.*?\*/", "", text, flags=re.S)
 
     def values(self, name: str) -> dict:
@@ -440,9 +440,9 @@ class Headers(unittest.TestCase):
         return {key: int(value) for key, value in re.findall(r"(\w+)\s*=\s*(\d+)", body)}
 
     def test_enumerations(self):
-        kinds = {"sf_status": "SF_(?:ERROR_)?", "sf_mode": "SF_MODE_", "sf_renderer": "SF_RENDERER_", "sf_shape": "SF_SHAPE_",
-                 "sf_transfer": "SF_TRANSFER_", "sf_format": "SF_FORMAT_", "sf_matrix": "SF_MATRIX_",
-                 "sf_range": "SF_RANGE_", "sf_depth_meaning": "SF_DEPTH_"}
+        kinds = {"starfocus_status": "STARFOCUS_(?:ERROR_)?", "starfocus_mode": "STARFOCUS_MODE_", "starfocus_renderer": "STARFOCUS_RENDERER_", "starfocus_shape": "STARFOCUS_SHAPE_",
+                 "starfocus_transfer": "STARFOCUS_TRANSFER_", "starfocus_format": "STARFOCUS_FORMAT_", "starfocus_matrix": "STARFOCUS_MATRIX_",
+                 "starfocus_range": "STARFOCUS_RANGE_", "starfocus_depth_meaning": "STARFOCUS_DEPTH_"}
         for name, prefix in kinds.items():
             expected = {re.sub("^" + prefix, "", key): value for key, value in self.values(name).items()}
             enumeration = getattr(constants, "".join(word.capitalize() for word in name.split("_")[1:]))

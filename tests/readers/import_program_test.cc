@@ -306,7 +306,7 @@ TEST_CASE("folders: a grid without a map is estimated, and imported without one"
   fs::create_directory(folder.file("grid"));
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column) {
-      const sf_position at = {column - 1.0, row - 1.0};
+      const starfocus_position at = {column - 1.0, row - 1.0};
       fs::copy_file(
           folder.file("lf/" + ViewName(at) + ".png"),
           folder.file("grid/v_" + std::to_string(row) + "_" + std::to_string(column) + ".png"));

@@ -309,8 +309,8 @@ TEST_CASE("disparities of a photo stay within the limit, also between the values
   REQUIRE(field.disparity.values.size() == 97 * 61);
   const auto [low, high] =
       std::minmax_element(field.disparity.values.begin(), field.disparity.values.end());
-  CHECK(*low == float(SF_MAX_DISPARITY));
-  CHECK(*high == float(SF_MAX_DISPARITY));
+  CHECK(*low == float(STARFOCUS_MAX_DISPARITY));
+  CHECK(*high == float(STARFOCUS_MAX_DISPARITY));
 }
 
 }  // namespace

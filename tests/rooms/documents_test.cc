@@ -59,14 +59,17 @@ std::set<std::string> Find(const std::string& text, const std::string& pattern) 
 std::set<std::string> WordsOfCode() {
   std::set<std::string> words;
   const std::regex word("[A-Za-z_][A-Za-z_0-9]*");
-  for (const fs::path& path :
-       tree::Files({"lib", "simd", "platform", "examples", "tests"},
-                   {".h", ".cc", ".hpp", ".c", ".py", ".java", ".js", ".mjs", ".ts"})) {
+  for (const fs::path& path : tree::Files(
+           {"lib", "simd", "platform", "examples", "tests"},
+           {".h", ".cc", ".hpp", ".c", ".py", ".java", ".js", ".mjs", ".ts", ".txt", ".cmake"})) {
     if (path.filename() == "documents_test.cc") continue;
     const std::string text = Read(path);
     words.insert(std::sregex_token_iterator(text.begin(), text.end(), word),
                  std::sregex_token_iterator());
   }
+  const std::string build = Read(kRoot / "CMakeLists.txt");
+  words.insert(std::sregex_token_iterator(build.begin(), build.end(), word),
+               std::sregex_token_iterator());
   return words;
 }
 
@@ -77,7 +80,7 @@ TEST_CASE("documents: the README has 150 lines at most") {
 }
 
 TEST_CASE("documents: their version is the library's") {
-  const std::string version = SF_VERSION_STRING;
+  const std::string version = STARFOCUS_VERSION_STRING;
   CHECK(Find(Read(kRoot / "CITATION.cff"), "\nversion: (.+)\n").count(version) == 1);
   CHECK(Find(Read(kRoot / "CHANGELOG.md"), "\n## \\[([^\\]]+)\\]").count(version) == 1);
 }
@@ -112,9 +115,10 @@ TEST_CASE("documents: the names that they cite are names of the code") {
   const std::set<std::string> words = WordsOfCode();
   size_t names = 0;
   for (const fs::path& document : Documents()) {
-    const std::string pattern = "`((?:sf_|SF_|k[A-Z]|[A-Z][a-z]+[A-Z])[A-Za-z_0-9]*)[^`]*`";
+    const std::string pattern =
+        "`((?:starfocus_|STARFOCUS_|k[A-Z]|[A-Z][a-z]+[A-Z])[A-Za-z_0-9]*)[^`]*`";
     for (const std::string& name : Find(Prose(document), pattern)) {
-      if (name.back() == '_') continue;  // sf_stream_*
+      if (name.back() == '_') continue;  // starfocus_stream_*
       CHECK_MESSAGE(words.count(name) == 1, document.filename().string() << " cites " << name);
       ++names;
     }
@@ -136,7 +140,8 @@ TEST_CASE("documents: their programs call what there is") {
   const std::set<std::string> words = WordsOfCode();
   size_t names = 0;
   for (const fs::path& document : Documents()) {
-    for (const std::string& name : Find(Read(document), "\\b((?:sf|SF)_[A-Za-z_0-9]+)")) {
+    for (const std::string& name :
+         Find(Read(document), "\\b((?:starfocus|STARFOCUS)_[A-Za-z_0-9]+)")) {
       if (name.back() == '_') continue;
       CHECK_MESSAGE(words.count(name) == 1, document.filename().string() << " calls " << name);
       ++names;

@@ -71,7 +71,7 @@ TEST_CASE("lengths: long functions are seen, and lists of cases are none") {
   CHECK(FindLong(body("int Sum(int a) {", "  ++a;", "}"), 21).size() == 1);
   CHECK(FindLong(body("int Sum(int a) {", "  ++a;", "}"), 22).empty());
   CHECK(FindLong(body("  int Sum(int a) const {", "    ++a;", "  }"), 21).size() == 1);
-  CHECK(FindLong(body("const char* Name(int a) {", "    case SF_OK:", "}"), 21).empty());
+  CHECK(FindLong(body("const char* Name(int a) {", "    case STARFOCUS_OK:", "}"), 21).empty());
   CHECK(FindLong(body("struct Sum {", "  int a;", "}"), 21).empty());
 }
 

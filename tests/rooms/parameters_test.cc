@@ -109,7 +109,7 @@ std::vector<std::string> FindWide(const std::string& code, size_t limit) {
 }
 
 // Functions of the public API that still have more parameters.
-const std::set<std::string> kWide = {"sf_focus_at"};
+const std::set<std::string> kWide = {"starfocus_focus_at"};
 
 }  // namespace
 

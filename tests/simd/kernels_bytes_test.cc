@@ -29,7 +29,7 @@ TEST_CASE("kernels: several SIMD targets run here") {
 #if HWY_ARCH_X86 && !defined(HWY_COMPILE_ONLY_STATIC)
   CHECK(all.size() > 1);
 #endif
-  CHECK(std::string(sf_simd_target()) == BestKernels().name);
+  CHECK(std::string(starfocus_simd_target()) == BestKernels().name);
 }
 
 TEST_CASE("kernels: a test that would run on no SIMD target fails") {

@@ -32,13 +32,14 @@ test::Scene HalfPlanes(double near, double far, int views) {
   return scene;
 }
 
-std::vector<int> MiddleRow(const test::Scene& scene, double focus, sf_mode mode, int layers = 0) {
-  sf_config config = test::ConfigFor(scene, 32);
+std::vector<int> MiddleRow(const test::Scene& scene, double focus, starfocus_mode mode,
+                           int layers = 0) {
+  starfocus_config config = test::ConfigFor(scene, 32);
   config.tuning.gather = 0;
-  config.transfer = SF_TRANSFER_NONE;
+  config.transfer = STARFOCUS_TRANSFER_NONE;
   config.tuning.max_layer = layers;
-  sf_params params = test::Params(focus, 1, mode);
-  params.renderer = SF_RENDERER_SLICES;
+  starfocus_params params = test::Params(focus, 1, mode);
+  params.renderer = STARFOCUS_RENDERER_SLICES;
   const test::Refocused picture = test::RefocusScene(scene, config, params);
   std::vector<int> row;
   for (int x = 0; x < kWidth; ++x) {
@@ -49,7 +50,7 @@ std::vector<int> MiddleRow(const test::Scene& scene, double focus, sf_mode mode,
 
 TEST_CASE("stack: a surface in focus has a sharp end in front of a blurred one") {
   for (const int views : {5, 9, 17}) {
-    for (const sf_mode mode : {SF_MODE_BLOCK, SF_MODE_FRAME}) {
+    for (const starfocus_mode mode : {STARFOCUS_MODE_BLOCK, STARFOCUS_MODE_FRAME}) {
       const std::vector<int> row = MiddleRow(HalfPlanes(2, -6, views), 2, mode);
       CAPTURE(views);
       for (int x = 0; x < kWidth; ++x) {
@@ -62,7 +63,7 @@ TEST_CASE("stack: a surface in focus has a sharp end in front of a blurred one")
 
 TEST_CASE("stack: a blurred surface falls off evenly in front of one in focus") {
   for (const double radius : {2.0, 6.0, 13.0, 20.0}) {
-    const std::vector<int> row = MiddleRow(HalfPlanes(radius - 3, -3, 5), -3, SF_MODE_BLOCK);
+    const std::vector<int> row = MiddleRow(HalfPlanes(radius - 3, -3, 5), -3, STARFOCUS_MODE_BLOCK);
     CAPTURE(radius);
     for (int x = 1; x < kWidth; ++x) {
       CAPTURE(x);
@@ -83,7 +84,7 @@ TEST_CASE("stack: the far surface behind a blurred one is what captured views se
     std::fill(scene.pictures[size_t(view)].begin(), scene.pictures[size_t(view)].end(),
               uint8_t(100));
   }
-  const std::vector<int> row = MiddleRow(scene, 0, SF_MODE_BLOCK);
+  const std::vector<int> row = MiddleRow(scene, 0, STARFOCUS_MODE_BLOCK);
   // Where the near surface covers some of the lens the hidden grey shows, beside it the black.
   CHECK(row[kEdge - 1] > 150);
   CHECK(row[kEdge - 4] > row[kEdge - 1]);
@@ -99,7 +100,7 @@ TEST_CASE("stack: adjacent slices of one slope neither leak nor cover each other
     }
   }
   for (const double focus : {-3.0, 0.0, 8.0}) {
-    const std::vector<int> row = MiddleRow(scene, focus, SF_MODE_BLOCK);
+    const std::vector<int> row = MiddleRow(scene, focus, STARFOCUS_MODE_BLOCK);
     for (int x = 16; x < kWidth - 16; ++x) {
       CAPTURE(focus);
       CAPTURE(x);
@@ -113,12 +114,12 @@ TEST_CASE("stack: where slices of a slope overlap, its end covers no more than e
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kEdge; ++x) scene.Disparity(x, y) = 3 + float(y) / kHeight;
   }
-  sf_config config = test::ConfigFor(scene, 32);
+  starfocus_config config = test::ConfigFor(scene, 32);
   config.tuning.gather = 0;
-  config.transfer = SF_TRANSFER_NONE;
+  config.transfer = STARFOCUS_TRANSFER_NONE;
   config.tuning.max_layer = 0;
   const test::Refocused picture =
-      test::RefocusScene(scene, config, test::Params(0, 1, SF_MODE_BLOCK));
+      test::RefocusScene(scene, config, test::Params(0, 1, STARFOCUS_MODE_BLOCK));
   double least = kWidth, most = 0;
   for (int y = 8; y < kHeight - 8; ++y) {
     double light = 0;
@@ -145,13 +146,13 @@ TEST_CASE("stack: slices made section by section give the same picture") {
   const size_t least = starfocus::SliceBytes(16, 8, reach) + starfocus::StripBytes(8, reach);
   REQUIRE(pool > 2 * whole);
   for (const double focus : {0.0, 6.0}) {
-    const sf_params params = test::Params(focus, 1, SF_MODE_BENCHMARK);
+    const starfocus_params params = test::Params(focus, 1, STARFOCUS_MODE_BENCHMARK);
     test::Output expected(kWidth, kHeight), out(kWidth, kHeight);
-    REQUIRE(test::Refocus(&engine, params, scene, &expected) == SF_OK);
+    REQUIRE(test::Refocus(&engine, params, scene, &expected) == STARFOCUS_OK);
     const size_t ample = pool;
     for (const size_t bytes : {whole, (whole + least) / 2, 2 * least}) {
       pool = bytes;
-      REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
+      REQUIRE(test::Refocus(&engine, params, scene, &out) == STARFOCUS_OK);
       CAPTURE(focus);
       CAPTURE(bytes);
       CHECK(out.bytes == expected.bytes);
@@ -167,7 +168,7 @@ int SayNo(void*, int32_t, int32_t) { return ranges_found > 0 ? 1 : 0; }
 
 TEST_CASE("stack: once the caller says no, no other tile is made") {
   const test::Scene scene = test::RandomScene(256, 256, 5, -3, 9, 8);
-  sf_config config = test::ConfigFor(scene, 32);
+  starfocus_config config = test::ConfigFor(scene, 32);
   config.superblock = 256;
   test::Engine engine(config);
   starfocus::simd::Kernels counting = starfocus::simd::BestKernels();
@@ -177,12 +178,13 @@ TEST_CASE("stack: once the caller says no, no other tile is made") {
   };
   test::UseKernels(&counting, engine.get());
   test::Output out(256, 256);
-  sf_params params = test::Params(0, 1, SF_MODE_FRAME);
-  params.renderer = SF_RENDERER_SLICES;
-  REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
+  starfocus_params params = test::Params(0, 1, STARFOCUS_MODE_FRAME);
+  params.renderer = STARFOCUS_RENDERER_SLICES;
+  REQUIRE(test::Refocus(&engine, params, scene, &out) == STARFOCUS_OK);
   const int all = ranges_found;
   ranges_found = 0;
-  CHECK(test::Refocus(&engine, params, scene, &out, test::ToldTo(SayNo)) == SF_ERROR_CANCELLED);
+  CHECK(test::Refocus(&engine, params, scene, &out, test::ToldTo(SayNo)) ==
+        STARFOCUS_ERROR_CANCELLED);
   CHECK(ranges_found > 0);
   CHECK(ranges_found < all / 8);  // of sixteen tiles
 }
@@ -192,10 +194,10 @@ TEST_CASE("stack: a worker takes 1.15 mebibytes at blocks of 64 and blurs of 32"
           doctest::skip(starfocus::kRedZone > 0)) {
   size_t bytes[2];
   for (int workers = 1; workers <= 2; ++workers) {
-    sf_config config = test::ConfigFor(HalfPlanes(16, -16, 17), 32);
+    starfocus_config config = test::ConfigFor(HalfPlanes(16, -16, 17), 32);
     config.superblock = 64;
     config.max_workers = workers;
-    REQUIRE(sf_workspace_size(&config, &bytes[workers - 1]) == SF_OK);
+    REQUIRE(starfocus_workspace_size(&config, &bytes[workers - 1]) == STARFOCUS_OK);
   }
   CHECK(bytes[1] - bytes[0] <= size_t{1180} << 10);
 }

@@ -159,11 +159,11 @@ TEST_CASE("slices: their area follows from the blur of the lens alone") {
     CHECK(starfocus::MostSliceArea(blur) == 5 * 51 * 51);
   }
   CHECK(starfocus::MostSliceArea(33) == 5 * 52 * 52);
-  CHECK(starfocus::MostSliceArea(SF_MAX_BLUR) == 5 * 147 * 147);
+  CHECK(starfocus::MostSliceArea(STARFOCUS_MAX_BLUR) == 5 * 147 * 147);
 }
 
 TEST_CASE("slices: a slice takes no more memory than its area says") {
-  for (int reach = 0; reach <= starfocus::LargestSliceReach(SF_MAX_BLUR); ++reach) {
+  for (int reach = 0; reach <= starfocus::LargestSliceReach(STARFOCUS_MAX_BLUR); ++reach) {
     CAPTURE(reach);
     CHECK(starfocus::SliceBytes(starfocus::kLeastColumns, starfocus::kLeastRows, size_t(reach)) +
               starfocus::StripBytes(starfocus::kLeastRows, size_t(reach)) <=

@@ -71,7 +71,8 @@ TEST_CASE(
 
 TEST_CASE(
     "surfaces: views between the axes and at any distance are read where they show the place") {
-  for (const sf_position& at : {sf_position{0.5, 0.25}, sf_position{0.75, -0.5}}) {
+  for (const starfocus_position& at :
+       {starfocus_position{0.5, 0.25}, starfocus_position{0.75, -0.5}}) {
     Scene scene(17);
     test::SetPositions({at}, &scene.window);
     scene.Fill(0, kSize, 0, kSize, 4, 10);

@@ -26,7 +26,7 @@ inline constexpr int kArea = kStride * kSize + 16;
 struct LayeredScene {
   std::vector<int16_t> disparity = std::vector<int16_t>(kSize * kSize);
   std::vector<uint8_t> centre = std::vector<uint8_t>(3 * kSize * kSize);
-  std::vector<uint8_t> side[SF_MAX_VIEWS];
+  std::vector<uint8_t> side[STARFOCUS_MAX_VIEWS];
   std::vector<int16_t> planes[3], rows[2];
   std::vector<uint16_t> sources[2];
   std::vector<starfocus::simd::StepBits> steps;
@@ -67,7 +67,7 @@ struct LayeredScene {
   }
 
   void Find() {
-    window.transfer = &starfocus::TransferOf(SF_TRANSFER_NONE);
+    window.transfer = &starfocus::TransferOf(STARFOCUS_TRANSFER_NONE);
     views_of.view[0] = {centre.data(), 3 * kSize, 0, 0};
     test::ReadPlanes(&views_of, &window);
     window.disparity = {disparity.data(), kSize, 0, 0};

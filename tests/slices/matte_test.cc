@@ -38,12 +38,12 @@ test::Scene Mixed(double near, double far, int views, bool transposed = false, i
 
 std::vector<int> MiddleRow(const test::Scene& scene, double focus, bool transposed = false,
                            double aperture = 1) {
-  sf_config config = test::ConfigFor(scene, 32);
+  starfocus_config config = test::ConfigFor(scene, 32);
   config.tuning.gather = 0;
-  config.transfer = SF_TRANSFER_NONE;
+  config.transfer = STARFOCUS_TRANSFER_NONE;
   config.tuning.max_layer = 0;
   const test::Refocused picture =
-      test::RefocusScene(scene, config, test::Params(focus, aperture, SF_MODE_BLOCK));
+      test::RefocusScene(scene, config, test::Params(focus, aperture, STARFOCUS_MODE_BLOCK));
   std::vector<int> row;
   for (int k = 0; k < (transposed ? kHeight : kWidth); ++k) {
     const int x = transposed ? kWidth / 2 : k, y = transposed ? k : kHeight / 2;
@@ -121,12 +121,12 @@ TEST_CASE("matte: where slices of a slope overlap, its end still covers a quarte
   for (int y = 0; y < kHeight; ++y) {
     for (int x = kEdge; x < kWidth; ++x) scene.Disparity(x, y) = float(-0.6 + 1.2 * y / kHeight);
   }
-  sf_config config = test::ConfigFor(scene, 32);
+  starfocus_config config = test::ConfigFor(scene, 32);
   config.tuning.gather = 0;
-  config.transfer = SF_TRANSFER_NONE;
+  config.transfer = STARFOCUS_TRANSFER_NONE;
   config.tuning.max_layer = 0;
   const test::Refocused picture =
-      test::RefocusScene(scene, config, test::Params(0, 1, SF_MODE_BLOCK));
+      test::RefocusScene(scene, config, test::Params(0, 1, STARFOCUS_MODE_BLOCK));
   for (int y = 2; y < kHeight - 2; ++y) {
     CAPTURE(y);
     CHECK(std::abs(picture.rgb[size_t(3 * (y * kWidth + kEdge - 1))] - 90) <= 16);
@@ -141,7 +141,7 @@ test::Scene Disc(int views, double near, double far, int bright, int dark) {
     return (x - 83.3) * (x - 83.3) + (y - 78.2) * (y - 78.2) < 30 * 30;
   };
   for (int view = 0; view < views; ++view) {
-    const sf_position at = scene.PositionOf(view);
+    const starfocus_position at = scene.PositionOf(view);
     for (int y = 0; y < kSide; ++y) {
       for (int x = 0; x < kSide; ++x) {
         int covered = 0;
@@ -162,9 +162,10 @@ test::Scene Disc(int views, double near, double far, int bright, int dark) {
 
 // The largest difference from the wall's colour where no light of the disc may be: farther outside
 // than its blur and its mixed pixels reach.
-int GlowOf(const test::Scene& scene, const sf_config& config, double focus, double near, int wall) {
+int GlowOf(const test::Scene& scene, const starfocus_config& config, double focus, double near,
+           int wall) {
   const test::Refocused picture =
-      test::RefocusScene(scene, config, test::Params(focus, 1, SF_MODE_BLOCK));
+      test::RefocusScene(scene, config, test::Params(focus, 1, STARFOCUS_MODE_BLOCK));
   const double reach = 30 + std::abs(near - focus) + 3;
   int most = 0;
   for (int y = 0; y < scene.height; ++y) {
@@ -188,8 +189,8 @@ TEST_CASE("matte: no light leaves a subject for the wall behind, at any level an
       for (const double focus : {4.0, 2.5, -2.0, -4.0, -10.0}) {
         for (const int max_layer : {0, 1, 2}) {
           for (const int block : {32, 64, 128, 256}) {
-            sf_config config = test::ConfigFor(scene, 40);
-            config.transfer = SF_TRANSFER_NONE;
+            starfocus_config config = test::ConfigFor(scene, 40);
+            config.transfer = STARFOCUS_TRANSFER_NONE;
             config.tuning.max_layer = max_layer;
             config.superblock = block;
             CAPTURE(views);

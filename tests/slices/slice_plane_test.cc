@@ -39,7 +39,8 @@ TEST_CASE("slice planes: no slice of any N reaches farther than the memory laid 
   for (int n = 1; n <= 26; ++n) all.emplace_back(n);
   double nearest = 9;  // to the most, in pixels
   for (int round = 0; round < 40000; ++round) {
-    const double blur = random.Int(0, 3) == 0 ? random.Int(1, 128) : random.Real(0.5, SF_MAX_BLUR);
+    const double blur =
+        random.Int(0, 3) == 0 ? random.Int(1, 128) : random.Real(0.5, STARFOCUS_MAX_BLUR);
     const double aperture = random.Int(0, 1) == 0 ? 1 : random.Real(0.3, 1);
     // A focus that is rounded away from the disparity, which is rounded as well.
     const double away = std::min(blur / aperture, 500.0);

@@ -29,21 +29,21 @@ constexpr int kLayerJumpOfTheta = 48;
 constexpr int kLadderJump = 48;
 
 // The layer of a flat scene, all of whose blocks share it.
-int LayerOf(const sf_report& report) {
+int LayerOf(const starfocus_report& report) {
   return report.layers[2].pixels > 0 ? 2 : report.layers[1].pixels > 0 ? 1 : 0;
 }
 
 // Whether views stand for wide subapertures; not told of blur mode, whose kernels are others.
 bool UsesSubapertures(const Setup& setup) {
-  const sf_params& params = setup.params;
-  if (params.mode != SF_MODE_FRAME || setup.config.views == 1)
-    return params.renderer != SF_RENDERER_LINE_SCAN;
-  return params.renderer == SF_RENDERER_SLICES;
+  const starfocus_params& params = setup.params;
+  if (params.mode != STARFOCUS_MODE_FRAME || setup.config.views == 1)
+    return params.renderer != STARFOCUS_RENDERER_LINE_SCAN;
+  return params.renderer == STARFOCUS_RENDERER_SLICES;
 }
 
-int MostJump(const Setup& setup, const sf_report& a, const sf_report& b) {
-  const sf_params& params = setup.params;
-  if (params.mode == SF_MODE_BLUR) return kLadderJump;
+int MostJump(const Setup& setup, const starfocus_report& a, const starfocus_report& b) {
+  const starfocus_params& params = setup.params;
+  if (params.mode == STARFOCUS_MODE_BLUR) return kLadderJump;
   int most = kSmoothJump;
   if (LayerOf(a) != LayerOf(b)) {
     most = params.lens.theta == test::Params(0).lens.theta ? kLayerJump : kLayerJumpOfTheta;
@@ -83,14 +83,15 @@ Outcome Mirrors(test::Random* random) {
   setup.config.tuning.max_layer = 0;  // layers keep every second pixel, from the left and the top
   // Coverage takes the first by rows of equally near pixels, of which a range as wide as that of
   // strands makes many.
-  if (setup.strands) setup.config.features &= ~SF_FEATURE_COVERAGE;
+  if (setup.strands) setup.config.features &= ~STARFOCUS_FEATURE_COVERAGE;
   // Polygons, and what cat's eyes leave, are not their own mirror images.
-  sf_lens& lens = setup.params.lens;
-  if (lens.shape == SF_SHAPE_POLYGON) lens.shape = SF_SHAPE_DISC;
+  starfocus_lens& lens = setup.params.lens;
+  if (lens.shape == STARFOCUS_SHAPE_POLYGON) lens.shape = STARFOCUS_SHAPE_DISC;
   lens.cats_eye = 0;
   test::Symmetry symmetry = {random->Int(0, 1) == 1, random->Int(0, 1) == 1,
                              random->Int(0, 1) == 1};
-  if (setup.params.mode != SF_MODE_BLUR && UsesSubapertures(setup)) symmetry.transpose = false;
+  if (setup.params.mode != STARFOCUS_MODE_BLUR && UsesSubapertures(setup))
+    symmetry.transpose = false;
   std::string failure;
   const std::vector<uint8_t> plain = Refocused(setup, RandomVariant(random), &failure);
   Setup other = setup;
@@ -142,7 +143,7 @@ Outcome Continuity(test::Random* random) {
   FitBlur(&setup);
   FitBlur(&other);
   std::string failure;
-  sf_report report_a, report_b;
+  starfocus_report report_a, report_b;
   const std::vector<uint8_t> a = Refocused(setup, RandomVariant(random), &failure, &report_a);
   const std::vector<uint8_t> b = Refocused(other, RandomVariant(random), &failure, &report_b);
   if (!failure.empty()) return Fail(setup, failure);

@@ -20,40 +20,42 @@ constexpr Bounds kRegimes[] = {
     {160, 3, 4, 8}, {160, 6, 4, 500}, {100, 16, 4, 40}, {64, 50, 4, 500}, {40, 128, 4, 500}};
 
 bool IsLineByLine(const Setup& setup) {
-  const sf_params& params = setup.params;
-  return params.renderer == SF_RENDERER_LINE_SCAN || params.mode == SF_MODE_BENCHMARK ||
-         (params.mode == SF_MODE_FRAME && params.renderer == SF_RENDERER_AUTO &&
+  const starfocus_params& params = setup.params;
+  return params.renderer == STARFOCUS_RENDERER_LINE_SCAN ||
+         params.mode == STARFOCUS_MODE_BENCHMARK ||
+         (params.mode == STARFOCUS_MODE_FRAME && params.renderer == STARFOCUS_RENDERER_AUTO &&
           setup.config.views > 1);
 }
 
 // Line by line the views are as many as the square of the radius.
 void LimitWork(Setup* setup) {
   const double n = 1 + setup->Radius() * std::max(1.0, setup->config.tuning.n_scale);
-  const double views = 3.2 * n * n * (setup->params.mode == SF_MODE_BENCHMARK ? 4 : 1);
+  const double views = 3.2 * n * n * (setup->params.mode == STARFOCUS_MODE_BENCHMARK ? 4 : 1);
   if (!IsLineByLine(*setup) || views * setup->config.width * setup->config.height < kMostWork) {
     return;
   }
-  setup->params.mode = SF_MODE_BLOCK;
-  setup->params.renderer = SF_RENDERER_SLICES;
+  setup->params.mode = STARFOCUS_MODE_BLOCK;
+  setup->params.renderer = STARFOCUS_RENDERER_SLICES;
 }
 
 Setup RandomCase(test::Random* random) {
   Setup setup = RandomSetup(kRegimes[std::min(random->Int(0, 4), random->Int(0, 4))], random);
   LimitWork(&setup);
   if (random->Int(0, 7) == 0) setup.config.superblock = 0;  // the library's choice
-  if (random->Int(0, 3) == 0) setup.config.highlights = float(random->Real(1, SF_MAX_HIGHLIGHTS));
+  if (random->Int(0, 3) == 0)
+    setup.config.highlights = float(random->Real(1, STARFOCUS_MAX_HIGHLIGHTS));
   if (random->Int(0, 3) == 0) {
     setup.config.max_blur =
-        std::min(SF_MAX_BLUR, std::ceil(setup.config.max_blur) + random->Int(0, 8));
+        std::min(STARFOCUS_MAX_BLUR, std::ceil(setup.config.max_blur) + random->Int(0, 8));
   }
   if (random->Int(0, 3) == 0) {
-    sf_timing& timing = setup.config.tuning.timing;
+    starfocus_timing& timing = setup.config.tuning.timing;
     for (uint32_t* coefficient : {&timing.block, &timing.field, &timing.a, &timing.b, &timing.c,
                                   &timing.upsample, &timing.span, &timing.hole}) {
-      *coefficient = random->Int(0, 2) == 0 ? 0 : random->Next() % (SF_MAX_TIMING + 1);
+      *coefficient = random->Int(0, 2) == 0 ? 0 : random->Next() % (STARFOCUS_MAX_TIMING + 1);
     }
   }
-  if (setup.params.renderer != SF_RENDERER_LINE_SCAN && random->Int(0, 2) == 0) {
+  if (setup.params.renderer != STARFOCUS_RENDERER_LINE_SCAN && random->Int(0, 2) == 0) {
     test::RandomViews(&setup.scene, &setup.config, random);
   }
   return setup;
@@ -62,11 +64,11 @@ Setup RandomCase(test::Random* random) {
 // Uses the engine for something else.
 void Distract(const Asked& asked, Rig* rig, test::Random* random) {
   const Setup& setup = asked.setup;
-  sf_params params = setup.params;
-  params.mode = random->Int(0, 1) == 0 ? SF_MODE_BLOCK : SF_MODE_BLUR;
-  params.renderer = SF_RENDERER_SLICES;
+  starfocus_params params = setup.params;
+  params.mode = random->Int(0, 1) == 0 ? STARFOCUS_MODE_BLOCK : STARFOCUS_MODE_BLUR;
+  params.renderer = STARFOCUS_RENDERER_SLICES;
   params.lens.aperture /= random->Int(1, 4);
-  const sf_light_field field = setup.scene.Field();
+  const starfocus_light_field field = setup.scene.Field();
   test::Output out(setup.scene.width, setup.scene.height);
   const int what = random->Int(0, 5);
   if (what == 1) params.region = RandomRegion(setup.scene, random);
@@ -74,10 +76,10 @@ void Distract(const Asked& asked, Rig* rig, test::Random* random) {
   if (what <= 1) {
     test::RefocusRgb(rig->get(), &params, &field, out.bytes.data(), out.stride, nullptr);
   }
-  if (what == 2 && test::Has(rig->config().features, SF_FEATURE_STREAMING)) {
+  if (what == 2 && test::Has(rig->config().features, STARFOCUS_FEATURE_STREAMING)) {
     int32_t moved = 0;
-    sf_stream_begin(rig->get(), &params);
-    sf_stream_push(rig->get(), &field, random->Int(0, setup.scene.height), &moved);
+    starfocus_stream_begin(rig->get(), &params);
+    starfocus_stream_push(rig->get(), &field, random->Int(0, setup.scene.height), &moved);
     test::PullRgb(rig->get(), out.bytes.data(), out.stride, random->Int(0, setup.scene.height),
                   &moved, nullptr);
   }
@@ -88,7 +90,7 @@ std::string Whole(const Asked& asked, test::Random* random) {
   Rig rig(asked.setup.config, RandomVariant(random));
   Distract(asked, &rig, random);
   test::Output out(asked.setup.scene.width, asked.setup.scene.height, random->Int(0, 5));
-  const sf_status status = Retried(&rig, random, [&] {
+  const starfocus_status status = Retried(&rig, random, [&] {
     return test::Refocus(&rig, asked.setup.params, asked.setup.scene, &out, rig.callbacks());
   });
   return Verdict(rig, status, asked.picture, out);
@@ -97,10 +99,10 @@ std::string Whole(const Asked& asked, test::Random* random) {
 std::string Region(const Asked& asked, test::Random* random) {
   Rig rig(asked.setup.config, RandomVariant(random));
   Distract(asked, &rig, random);
-  sf_params params = asked.setup.params;
+  starfocus_params params = asked.setup.params;
   params.region = RandomRegion(asked.setup.scene, random);
   test::Output out(params.region.width, params.region.height, random->Int(0, 5));
-  const sf_status status = Retried(&rig, random, [&] {
+  const starfocus_status status = Retried(&rig, random, [&] {
     return test::Refocus(&rig, params, asked.setup.scene, &out, rig.callbacks());
   });
   return Verdict(rig, status, Crop(asked, params.region), out);
@@ -110,47 +112,48 @@ std::string Region(const Asked& asked, test::Random* random) {
 std::string Refused(const Asked& asked, test::Random* random) {
   Rig rig(asked.setup.config, RandomVariant(random));
   Setup setup = asked.setup;
-  const sf_region whole = {0, 0, setup.scene.width, setup.scene.height};
+  const starfocus_region whole = {0, 0, setup.scene.width, setup.scene.height};
   const bool part = random->Int(0, 2) > 0;
-  const sf_region region = part ? RandomRegion(setup.scene, random) : whole;
+  const starfocus_region region = part ? RandomRegion(setup.scene, random) : whole;
   if (part) setup.params.region = region;
   const int x = random->Int(0, setup.scene.width - 1), y = random->Int(0, setup.scene.height - 1);
   const bool nan = random->Int(0, 1) == 0;
   setup.scene.Disparity(x, y) = nan ? std::numeric_limits<float>::quiet_NaN() : 1000.0f;
   test::Output out(region.width, region.height);
-  const sf_status status = test::Refocus(&rig, setup.params, setup.scene, &out, rig.callbacks());
-  if (status == SF_OK && part) return Verdict(rig, status, Crop(asked, region), out);
-  if (status != (nan ? SF_ERROR_NOT_FINITE : SF_ERROR_DISPARITY)) {
+  const starfocus_status status =
+      test::Refocus(&rig, setup.params, setup.scene, &out, rig.callbacks());
+  if (status == STARFOCUS_OK && part) return Verdict(rig, status, Crop(asked, region), out);
+  if (status != (nan ? STARFOCUS_ERROR_NOT_FINITE : STARFOCUS_ERROR_DISPARITY)) {
     return "bad value at " + std::to_string(x) + "," + std::to_string(y) +
-           " is told as: " + sf_status_string(status);
+           " is told as: " + starfocus_status_string(status);
   }
   return out.Untouched() ? "" : "bad value is refused after a part of the picture was written";
 }
 
 // Another engine prepares than the one that refocuses.
 std::string Prepared(const Asked& asked, test::Random* random) {
-  sf_config config = asked.setup.config;
+  starfocus_config config = asked.setup.config;
   if (random->Int(0, 1) == 0) config.superblock = 32 << random->Int(0, 3);
   if (random->Int(0, 1) == 0) config.max_blur = random->Real(0.5, 64);
   if (random->Int(0, 1) == 0) config.tuning.gather = 1 - config.tuning.gather;
-  if (random->Int(0, 1) == 0) config.previews = random->Int(1, SF_MAX_PREVIEW);
+  if (random->Int(0, 1) == 0) config.previews = random->Int(1, STARFOCUS_MAX_PREVIEW);
   Rig maker(config, RandomVariant(random)), rig(asked.setup.config, RandomVariant(random));
   size_t bytes = 0;
-  sf_status status = sf_prepared_size(&config, &bytes);
-  if (status != SF_OK) return sf_status_string(status);
+  starfocus_status status = starfocus_prepared_size(&config, &bytes);
+  if (status != STARFOCUS_OK) return starfocus_status_string(status);
   const Memory memory(bytes, random->Int(0, 255), random);
-  sf_prepared* prepared = nullptr;
-  const sf_light_field field = asked.setup.scene.Field();
+  starfocus_prepared* prepared = nullptr;
+  const starfocus_light_field field = asked.setup.scene.Field();
   status = Retried(&maker, random, [&] {
     maker.SetCallbacks();
-    return sf_prepare(maker.get(), &field, memory.get(), bytes, &prepared);
+    return starfocus_prepare(maker.get(), &field, memory.get(), bytes, &prepared);
   });
-  if (status != SF_OK) return std::string("preparing: ") + sf_status_string(status);
+  if (status != STARFOCUS_OK) return std::string("preparing: ") + starfocus_status_string(status);
   const bool part = random->Int(0, 1) == 0;
-  sf_params params = asked.setup.params;
+  starfocus_params params = asked.setup.params;
   if (part) params.region = RandomRegion(asked.setup.scene, random);
-  const sf_region whole = {0, 0, asked.setup.scene.width, asked.setup.scene.height};
-  const sf_region region = part ? params.region : whole;
+  const starfocus_region whole = {0, 0, asked.setup.scene.width, asked.setup.scene.height};
+  const starfocus_region region = part ? params.region : whole;
   test::Output out(region.width, region.height, random->Int(0, 5));
   Distract(asked, &rig, random);
   if (config.previews > 0) {
@@ -161,7 +164,7 @@ std::string Prepared(const Asked& asked, test::Random* random) {
       return test::PreviewRgb(rig.get(), &params, prepared, config.previews, preview.bytes.data(),
                               preview.stride, nullptr);
     });
-    if (status != SF_OK) return std::string("preview: ") + sf_status_string(status);
+    if (status != STARFOCUS_OK) return std::string("preview: ") + starfocus_status_string(status);
   }
   status = Retried(&rig, random, [&] {
     rig.SetCallbacks();
@@ -191,15 +194,16 @@ const Way& RandomWay(test::Random* random) {
 
 }  // namespace
 
-sf_region RandomRegion(const test::Scene& scene, test::Random* random) {
-  sf_region region = {random->Int(0, scene.width - 1), random->Int(0, scene.height - 1), 1, 1};
+starfocus_region RandomRegion(const test::Scene& scene, test::Random* random) {
+  starfocus_region region = {random->Int(0, scene.width - 1), random->Int(0, scene.height - 1), 1,
+                             1};
   if (random->Int(0, 2) == 0) return region;
   region.width = random->Int(1, scene.width - region.x);
   region.height = random->Int(1, scene.height - region.y);
   return region;
 }
 
-std::vector<uint8_t> Crop(const Asked& asked, const sf_region& region) {
+std::vector<uint8_t> Crop(const Asked& asked, const starfocus_region& region) {
   std::vector<uint8_t> crop;
   const auto row = 3 * static_cast<std::ptrdiff_t>(asked.setup.scene.width);
   for (int y = region.y; y < region.y + region.height; ++y) {
@@ -209,21 +213,22 @@ std::vector<uint8_t> Crop(const Asked& asked, const sf_region& region) {
   return crop;
 }
 
-sf_status Retried(Rig* rig, test::Random* random, const std::function<sf_status()>& call) {
+starfocus_status Retried(Rig* rig, test::Random* random,
+                         const std::function<starfocus_status()>& call) {
   if (random->Int(0, 3) == 0) {
     rig->FailAfter(random->Int(0, 1) == 0 ? random->Int(0, 5) : random->Int(0, 60));
-    const sf_status status = call();
+    const starfocus_status status = call();
     const bool failed = rig->Mend();
-    if (failed && status == SF_OK) return SF_ERROR_RUNNER;
-    if (status != SF_OK && !(failed && status == SF_ERROR_RUNNER)) return status;
+    if (failed && status == STARFOCUS_OK) return STARFOCUS_ERROR_RUNNER;
+    if (status != STARFOCUS_OK && !(failed && status == STARFOCUS_ERROR_RUNNER)) return status;
   }
   return call();
 }
 
-std::string Verdict(const Rig& rig, sf_status status, const std::vector<uint8_t>& expected,
+std::string Verdict(const Rig& rig, starfocus_status status, const std::vector<uint8_t>& expected,
                     const test::Output& out) {
   const std::string how = " (" + rig.variant().Text() + ")";
-  if (status != SF_OK) return sf_status_string(status) + how;
+  if (status != STARFOCUS_OK) return starfocus_status_string(status) + how;
   if (!out.PaddingUntouched()) return "row padding overwritten" + how;
   const std::vector<uint8_t> got = out.Tight();
   size_t first = got.size(), count = 0;

@@ -18,17 +18,18 @@ struct Asked {
   std::vector<uint8_t> picture;
 };
 
-sf_region RandomRegion(const test::Scene& scene, test::Random* random);
+starfocus_region RandomRegion(const test::Scene& scene, test::Random* random);
 
 // The region of the picture.
-std::vector<uint8_t> Crop(const Asked& asked, const sf_region& region);
+std::vector<uint8_t> Crop(const Asked& asked, const starfocus_region& region);
 
 // The call's status; now and then its runner has failed once before. A failure that the call does
-// not tell is SF_ERROR_RUNNER here.
-sf_status Retried(Rig* rig, test::Random* random, const std::function<sf_status()>& call);
+// not tell is STARFOCUS_ERROR_RUNNER here.
+starfocus_status Retried(Rig* rig, test::Random* random,
+                         const std::function<starfocus_status()>& call);
 
 // Empty when the call succeeded and `out` holds the expected bytes.
-std::string Verdict(const Rig& rig, sf_status status, const std::vector<uint8_t>& expected,
+std::string Verdict(const Rig& rig, starfocus_status status, const std::vector<uint8_t>& expected,
                     const test::Output& out);
 
 // Ways with files of their own. Each gives what went wrong, or nothing.

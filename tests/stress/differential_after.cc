@@ -76,8 +76,8 @@ struct Changer {
 std::string After(const Asked& asked, test::Random* random) {
   const bool part = random->Int(0, 2) == 0;
   const test::Scene& first = asked.setup.scene;
-  const sf_region region =
-      part ? RandomRegion(first, random) : sf_region{0, 0, first.width, first.height};
+  const starfocus_region region =
+      part ? RandomRegion(first, random) : starfocus_region{0, 0, first.width, first.height};
   Asked now = asked;
   test::Scene before = first;
   std::vector<uint8_t> last = Crop(asked, region);
@@ -88,13 +88,13 @@ std::string After(const Asked& asked, test::Random* random) {
     std::string failure;
     now.picture = Refocused(now.setup, Variant(), &failure);
     if (!failure.empty()) return failure;
-    sf_params params = now.setup.params;
+    starfocus_params params = now.setup.params;
     if (part) params.region = region;
-    const sf_light_field field = now.setup.scene.Field();
-    const sf_previous previous = {before.Field(),
-                                  sf_image_rgb(last.data(), 3 * size_t(region.width))};
+    const starfocus_light_field field = now.setup.scene.Field();
+    const starfocus_previous previous = {
+        before.Field(), starfocus_image_rgb(last.data(), 3 * size_t(region.width))};
     test::Output out(region.width, region.height, random->Int(0, 5));
-    const sf_status status = Retried(&rig, random, [&] {
+    const starfocus_status status = Retried(&rig, random, [&] {
       rig.SetCallbacks();
       return test::RefocusAfterRgb(rig.get(), &params, &field, &previous, out.bytes.data(),
                                    out.stride, nullptr);

@@ -22,8 +22,8 @@ struct Streaming {
 
   void Begin() {
     pushed = pulled = 0;
-    const sf_status status = sf_stream_begin(rig->get(), &asked.setup.params);
-    if (status != SF_OK) failure = std::string("begin: ") + sf_status_string(status);
+    const starfocus_status status = starfocus_stream_begin(rig->get(), &asked.setup.params);
+    if (status != STARFOCUS_OK) failure = std::string("begin: ") + starfocus_status_string(status);
   }
 
   // One of the next rows may be bad: no row from there on is consumed.
@@ -36,16 +36,17 @@ struct Streaming {
     if (spoiled != nullptr) {
       *spoiled = random->Int(0, 1) == 0 ? std::numeric_limits<float>::quiet_NaN() : -1000.0f;
     }
-    const sf_light_field field = scene.Field(pushed);
+    const starfocus_light_field field = scene.Field(pushed);
     int32_t consumed = -1;
-    const sf_status status = sf_stream_push(rig->get(), &field, rows, &consumed);
+    const starfocus_status status = starfocus_stream_push(rig->get(), &field, rows, &consumed);
     if (spoiled != nullptr) *spoiled = kept;
-    const bool refused = status == SF_ERROR_NOT_FINITE || status == SF_ERROR_DISPARITY;
+    const bool refused =
+        status == STARFOCUS_ERROR_NOT_FINITE || status == STARFOCUS_ERROR_DISPARITY;
     if (consumed < 0 || consumed > bad || (refused && consumed != bad) ||
-        (status != SF_OK && !(refused && bad < rows))) {
-      failure = std::string("push: ") + sf_status_string(status) + ", " + std::to_string(consumed) +
-                " of " + std::to_string(rows) + " rows consumed, row " + std::to_string(bad) +
-                " is bad";
+        (status != STARFOCUS_OK && !(refused && bad < rows))) {
+      failure = std::string("push: ") + starfocus_status_string(status) + ", " +
+                std::to_string(consumed) + " of " + std::to_string(rows) + " rows consumed, row " +
+                std::to_string(bad) + " is bad";
     }
     pushed += consumed;
   }
@@ -57,13 +58,14 @@ struct Streaming {
     if (fails) rig->FailAfter(random->Int(0, 8));
     rig->SetCallbacks();
     int32_t written = -1;
-    const sf_status status =
+    const starfocus_status status =
         test::PullRgb(rig->get(), out.bytes.data() + size_t(pulled) * out.stride, out.stride, rows,
                       &written, nullptr);
     const bool failed = fails && rig->Mend();
-    if (status != (failed ? SF_ERROR_RUNNER : SF_OK) || written < 0 || written > rows) {
-      failure = std::string("pull: ") + sf_status_string(status) + ", " + std::to_string(written) +
-                " of " + std::to_string(rows) + " rows written";
+    if (status != (failed ? STARFOCUS_ERROR_RUNNER : STARFOCUS_OK) || written < 0 ||
+        written > rows) {
+      failure = std::string("pull: ") + starfocus_status_string(status) + ", " +
+                std::to_string(written) + " of " + std::to_string(rows) + " rows written";
     }
     pulled += written;
   }
@@ -93,7 +95,7 @@ std::string Streamed(const Asked& asked, test::Random* random) {
     if (idle > 1000) stream.failure = "neither rows in nor rows out";
   }
   if (!stream.failure.empty()) return stream.failure + " (" + variant.Text() + ")";
-  return Verdict(rig, SF_OK, asked.picture, stream.out);
+  return Verdict(rig, STARFOCUS_OK, asked.picture, stream.out);
 }
 
 }  // namespace starfocus::stress

@@ -23,7 +23,8 @@ constexpr int kMostInversion = 2;
 // nearly a pinhole.
 double MostOvershoot(const Setup& setup, double radius) {
   const bool steep = setup.params.lens.theta > test::Params(0).lens.theta;
-  if (setup.params.renderer != SF_RENDERER_LINE_SCAN && radius >= 4) return steep ? 0.1 : 0.02;
+  if (setup.params.renderer != STARFOCUS_RENDERER_LINE_SCAN && radius >= 4)
+    return steep ? 0.1 : 0.02;
   return steep ? 0.144 : 0.03;
 }
 
@@ -38,7 +39,7 @@ void Invert(Setup* setup) {
 }
 
 bool MayResample(const Setup& setup) {
-  return setup.params.mode == SF_MODE_BLOCK && setup.config.tuning.max_layer > 0;
+  return setup.params.mode == STARFOCUS_MODE_BLOCK && setup.config.tuning.max_layer > 0;
 }
 
 // Smallest and largest sample of the views.
@@ -73,7 +74,7 @@ Outcome CheckInversion(Setup setup, test::Random* random) {
     }
   }
   // Light is coded by a curve: the inverse of a picture is no inverse of its light.
-  if (setup.config.transfer != SF_TRANSFER_NONE) return {0, ""};
+  if (setup.config.transfer != STARFOCUS_TRANSFER_NONE) return {0, ""};
   Setup inverted = setup;
   Invert(&inverted);
   const std::vector<uint8_t> other = Refocused(inverted, RandomVariant(random), &failure);
@@ -162,12 +163,12 @@ Outcome Limits(test::Random* random) {
                                  kViews[random->Int(0, 3)], -spread, spread);
   SetDepth(static_cast<Depth>(random->Int(0, 4)), &setup.scene, random);
   SetColours(Colours::kExtreme, &setup.scene, random);
-  const double radius = kind == 0 ? 16 : kind < 4 ? SF_MAX_BLUR : random->Int(13, 30);
+  const double radius = kind == 0 ? 16 : kind < 4 ? STARFOCUS_MAX_BLUR : random->Int(13, 30);
   RandomLens(radius, 4, &setup, random);
-  setup.params.mode = kind == 0 ? int{SF_MODE_BENCHMARK} : random->Int(0, 1) + 2;
+  setup.params.mode = kind == 0 ? int{STARFOCUS_MODE_BENCHMARK} : random->Int(0, 1) + 2;
   setup.config.superblock = 32;
-  if (setup.Radius() > SF_MAX_BLUR)
-    setup.params.lens.aperture *= SF_MAX_BLUR / setup.Radius() * 0.999999;
+  if (setup.Radius() > STARFOCUS_MAX_BLUR)
+    setup.params.lens.aperture *= STARFOCUS_MAX_BLUR / setup.Radius() * 0.999999;
   FitBlur(&setup);
   return random->Int(0, 1) == 0 ? CheckConstant(setup, random) : CheckInversion(setup, random);
 }
@@ -194,7 +195,7 @@ Outcome FarFocus(test::Random* random) {
 }
 
 Outcome Extremes(test::Random* random) {
-  const float most = static_cast<float>(SF_MAX_DISPARITY);
+  const float most = static_cast<float>(STARFOCUS_MAX_DISPARITY);
   const int kind = random->Int(0, 2);
   const float low = kind == 0 ? most - 1.0f / 64 * random->Int(0, 300) : -most;
   const float high = kind == 1 ? -most + 1.0f / 64 * random->Int(0, 300) : most;
@@ -218,7 +219,7 @@ Outcome Energy(test::Random* random) {
   const int margin = static_cast<int>(radius) + 16;
   const int side = 2 * margin + kPeriod;
   Setup setup = FlatSetup(side, side, radius, random);
-  setup.config.transfer = SF_TRANSFER_NONE;  // a mean of codes
+  setup.config.transfer = STARFOCUS_TRANSFER_NONE;  // a mean of codes
   const int mean = random->Int(20, 235);
   // Room for what the layers' filters may overshoot: nothing is clipped.
   const int amplitude = std::max(1, static_cast<int>(std::min(mean, 255 - mean) / 1.8));

@@ -18,7 +18,7 @@ constexpr float kMost = 6;     // disparities lie within it
 constexpr int kPlaneMost = 4;  // and of planes within this
 
 struct Map {
-  sf_status status = SF_OK;
+  starfocus_status status = STARFOCUS_OK;
   std::vector<float> disparity;
   std::vector<uint8_t> confidence;
 
@@ -42,15 +42,15 @@ struct Question {
   }
 };
 
-int RunBackwards(void*, sf_job job, void* data, int32_t count) {
+int RunBackwards(void*, starfocus_job job, void* data, int32_t count) {
   for (int32_t i = count; i-- > 0;) job(data, i, i % 3);
   return 0;
 }
 
-Map Make(const Question& question, sf_runner runner, test::Random* random) {
+Map Make(const Question& question, starfocus_runner runner, test::Random* random) {
   const test::Scene& scene = question.scene;
-  sf_depth_config config;
-  sf_depth_config_init(&config);
+  starfocus_depth_config config;
+  starfocus_depth_config_init(&config);
   config.width = scene.width;
   config.height = scene.height;
   config.views = scene.views();
@@ -60,15 +60,16 @@ Map Make(const Question& question, sf_runner runner, test::Random* random) {
   config.runner = runner;
   size_t bytes = 0;
   Map map;
-  map.status = (question.repairs ? sf_repair_size : sf_estimate_size)(&config, &bytes);
-  if (map.status != SF_OK) return map;
+  map.status =
+      (question.repairs ? starfocus_repair_size : starfocus_estimate_size)(&config, &bytes);
+  if (map.status != STARFOCUS_OK) return map;
   const Memory memory(bytes, random->Int(0, 256), random);
   const auto width = static_cast<size_t>(scene.width);
   map.disparity.assign(width * static_cast<size_t>(scene.height), 0);
   map.confidence.assign(map.disparity.size(), 0);
-  const sf_light_field field = scene.Field();
-  const auto make = question.repairs ? sf_repair_disparity : sf_estimate_disparity;
-  sf_map out = {
+  const starfocus_light_field field = scene.Field();
+  const auto make = question.repairs ? starfocus_repair_disparity : starfocus_estimate_disparity;
+  starfocus_map out = {
       map.disparity.data(), sizeof(float) * width, map.confidence.data(), width, nullptr, 0, 0};
   map.status = make(&config, &field, &out, memory.get(), bytes);
   return map;
@@ -81,7 +82,7 @@ void DrawPlane(int disparity, test::Random* random, test::Scene* scene) {
       test::RandomBytes(3 * size_t(stride) * size_t(scene->height + 2 * margin), random);
   for (int view = 0; view < scene->views(); ++view) {
     double u = 0, v = 0;
-    sf_view_position(view, &u, &v);
+    starfocus_view_position(view, &u, &v);
     const int left = margin + int(u * disparity), top = margin + int(v * disparity);
     for (int y = 0; y < scene->height; ++y) {
       std::memcpy(scene->Pixel(view, 0, y),
@@ -105,7 +106,7 @@ Outcome CheckPlane(Question* question, test::Random* random) {
   }
   for (float& value : scene.disparity) value = float(disparity);
   const Map map = Make(*question, nullptr, random);
-  if (map.status != SF_OK) return {0, question->Text(sf_status_string(map.status))};
+  if (map.status != STARFOCUS_OK) return {0, question->Text(starfocus_status_string(map.status))};
   for (const float value : map.disparity) {
     if (value != float(disparity)) return {0, question->Text("a plane did not stay one")};
   }
@@ -125,9 +126,9 @@ test::Scene Mirrored(const test::Scene& scene) {
   }
   for (int a = 1; a < scene.views(); ++a) {
     double u = 0, v = 0, other_u = 0, other_v = 0;
-    sf_view_position(a, &u, &v);
+    starfocus_view_position(a, &u, &v);
     for (int b = a + 1; b < scene.views(); ++b) {
-      sf_view_position(b, &other_u, &other_v);
+      starfocus_view_position(b, &other_u, &other_v);
       if (other_u == -u && other_v == v)
         std::swap(mirrored.pictures[size_t(a)], mirrored.pictures[size_t(b)]);
     }
@@ -150,14 +151,15 @@ Outcome CheckAgreement(Question* question, test::Random* random) {
     }
   }
   const Map map = Make(*question, nullptr, random);
-  if (map.status == SF_ERROR_ALL_INVALID) return {};
-  if (map.status != SF_OK) return {0, question->Text(sf_status_string(map.status))};
+  if (map.status == STARFOCUS_ERROR_ALL_INVALID) return {};
+  if (map.status != STARFOCUS_OK) return {0, question->Text(starfocus_status_string(map.status))};
   if (!(Make(*question, RunBackwards, random) == map)) {
     return {0, question->Text("workers change the map")};
   }
   const Question mirrored = {Mirrored(scene), question->repairs};
   const Map other = Make(mirrored, nullptr, random);
-  if (other.status != SF_OK) return {0, mirrored.Text(sf_status_string(other.status))};
+  if (other.status != STARFOCUS_OK)
+    return {0, mirrored.Text(starfocus_status_string(other.status))};
   double largest = 0;
   const auto width = static_cast<size_t>(scene.width);
   for (size_t n = 0; n < map.disparity.size(); ++n) {

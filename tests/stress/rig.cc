@@ -48,7 +48,7 @@ Variant RandomVariant(test::Random* random) {
 }
 
 Memory::Memory(size_t bytes, int poison, test::Random* random)
-    : memory_(::operator new (bytes, std::align_val_t{SF_ALIGNMENT})) {
+    : memory_(::operator new (bytes, std::align_val_t{STARFOCUS_ALIGNMENT})) {
   auto* to = static_cast<uint8_t*>(memory_.get());
   if (poison >= 0 && poison <= 255) std::memset(to, poison, bytes);
   if (poison <= 255) return;
@@ -58,29 +58,29 @@ Memory::Memory(size_t bytes, int poison, test::Random* random)
 }
 
 void Memory::Free::operator()(void* memory) const {
-  ::operator delete (memory, std::align_val_t{SF_ALIGNMENT});
+  ::operator delete (memory, std::align_val_t{STARFOCUS_ALIGNMENT});
 }
 
-Rig::Rig(const sf_config& config, const Variant& variant)
+Rig::Rig(const starfocus_config& config, const Variant& variant)
     : config_(config), variant_(variant), random_(variant.order) {
-  test::SetFeature(SF_FEATURE_STREAMING, variant.stream, &config_.features);
+  test::SetFeature(STARFOCUS_FEATURE_STREAMING, variant.stream, &config_.features);
   config_.max_workers = variant.workers;
   config_.tuning.skips = variant.skips;
-  config_.max_blur = std::min(SF_MAX_BLUR, config.max_blur * variant.room);
-  status_ = sf_workspace_size(&config_, &bytes_);
-  if (status_ != SF_OK) return;
+  config_.max_blur = std::min(STARFOCUS_MAX_BLUR, config.max_blur * variant.room);
+  status_ = starfocus_workspace_size(&config_, &bytes_);
+  if (status_ != STARFOCUS_OK) return;
   memory_ = std::make_unique<Memory>(bytes_, variant.poison, &random_);
   Restart();
 }
 
 void Rig::Restart() {
-  status_ = sf_init(&config_, memory_->get(), bytes_, &engine_);
-  if (status_ == SF_OK && variant_.kernels != nullptr) {
+  status_ = starfocus_init(&config_, memory_->get(), bytes_, &engine_);
+  if (status_ == STARFOCUS_OK && variant_.kernels != nullptr) {
     test::UseKernels(variant_.kernels, engine_);
   }
 }
 
-int Rig::Run(void* self, sf_job job, void* data, int32_t count) {
+int Rig::Run(void* self, starfocus_job job, void* data, int32_t count) {
   Rig* rig = static_cast<Rig*>(self);
   std::vector<int32_t> order(static_cast<size_t>(count));
   for (int32_t i = 0; i < count; ++i) order[static_cast<size_t>(i)] = i;
@@ -114,18 +114,18 @@ int Rig::Run(void* self, sf_job job, void* data, int32_t count) {
 }
 
 std::vector<uint8_t> Refocused(const Setup& setup, const Variant& variant, std::string* failure,
-                               sf_report* report) {
+                               starfocus_report* report) {
   Rig rig(setup.config, variant);
-  sf_status status = rig.status();
+  starfocus_status status = rig.status();
   test::Output out(setup.scene.width, setup.scene.height, 5);
-  if (status == SF_OK) {
+  if (status == STARFOCUS_OK) {
     status = variant.stream
                  ? test::Stream(&rig, setup.params, setup.scene, &out, variant.push_rows,
                                 variant.pull_rows, rig.callbacks(), report)
                  : test::Refocus(&rig, setup.params, setup.scene, &out, rig.callbacks(), report);
   }
-  if (status != SF_OK) {
-    *failure = std::string(sf_status_string(status)) + " (" + variant.Text() + ")";
+  if (status != STARFOCUS_OK) {
+    *failure = std::string(starfocus_status_string(status)) + " (" + variant.Text() + ")";
     return {};
   }
   if (!out.PaddingUntouched()) {

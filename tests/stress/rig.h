@@ -21,8 +21,8 @@ struct Variant {
   bool stream = false;
   int push_rows = 1, pull_rows = 1;
   uint64_t order = 0;  // of the jobs; 0: no runner
-  int skips = 1;       // sf_tuning.skips
-  double room = 1;     // factor of sf_config.max_blur
+  int skips = 1;       // starfocus_tuning.skips
+  double room = 1;     // factor of starfocus_config.max_blur
   int poison = -1;     // of the workspace, as Memory's
 
   std::string Text() const;
@@ -50,24 +50,24 @@ class Memory {
 // The engine of a variant, in memory of exactly the size it asked for, and the runner of its jobs.
 class Rig {
  public:
-  Rig(const sf_config& config, const Variant& variant);
+  Rig(const starfocus_config& config, const Variant& variant);
 
   // Makes the engine anew in the memory that it used.
   void Restart();
 
-  sf_status status() const { return status_; }
-  sf_engine* get() const { return engine_; }
-  const sf_config& config() const { return config_; }
+  starfocus_status status() const { return status_; }
+  starfocus_engine* get() const { return engine_; }
+  const starfocus_config& config() const { return config_; }
   const Variant& variant() const { return variant_; }
 
   // Without a runner when the engine is to run the jobs by itself.
-  sf_callbacks callbacks() {
+  starfocus_callbacks callbacks() {
     return test::RunBy(variant_.order == 0 && jobs_left_ < 0 ? nullptr : Run, this);
   }
   // Sets these for the next call.
   void SetCallbacks() {
-    const sf_callbacks set = callbacks();
-    sf_set_callbacks(engine_, &set);
+    const starfocus_callbacks set = callbacks();
+    starfocus_set_callbacks(engine_, &set);
   }
 
   // The runner does so many jobs well, then one of them wrong in some way or not at all.
@@ -83,14 +83,14 @@ class Rig {
 
  private:
   // Runs jobs one after the other in a shuffled order as any of the workers.
-  static int Run(void* self, sf_job job, void* data, int32_t count);
+  static int Run(void* self, starfocus_job job, void* data, int32_t count);
 
-  sf_config config_;
+  starfocus_config config_;
   Variant variant_;
   size_t bytes_ = 0;
   std::unique_ptr<Memory> memory_;
-  sf_engine* engine_ = nullptr;
-  sf_status status_ = SF_OK;
+  starfocus_engine* engine_ = nullptr;
+  starfocus_status status_ = STARFOCUS_OK;
   test::Random random_;
   int32_t jobs_left_ = -1;
   bool failed_ = false;
@@ -99,7 +99,7 @@ class Rig {
 // Bytes of the picture without row padding; empty, with a line in *failure, when the engine failed
 // or wrote where it must not.
 std::vector<uint8_t> Refocused(const Setup& setup, const Variant& variant, std::string* failure,
-                               sf_report* report = nullptr);
+                               starfocus_report* report = nullptr);
 
 }  // namespace starfocus::stress
 

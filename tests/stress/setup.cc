@@ -94,7 +94,7 @@ void SetStrands(test::Scene* scene, test::Random* random) {
       scene->Disparity(x, y) = std::min(scene->disparity_min + depth * range, scene->disparity_max);
       if (given) scene->coverage.push_back(static_cast<uint8_t>(strands.CoverageAt(x, y)));
       for (int view = 0; view < scene->views(); ++view) {
-        const sf_position at = scene->PositionOf(view);
+        const starfocus_position at = scene->PositionOf(view);
         const auto right = static_cast<int>(std::lround(at.u * scene->disparity_max));
         const auto down = static_cast<int>(std::lround(at.v * scene->disparity_max));
         const int coverage = strands.CoverageAt(x + right, y + down);
@@ -131,10 +131,10 @@ void FitBlur(Setup* setup) {
 
 void RandomMode(int modes, Setup* setup, test::Random* random) {
   setup->params.mode = random->Int(0, modes - 1);
-  setup->params.renderer = random->Int(SF_RENDERER_AUTO, SF_RENDERER_SLICES);
+  setup->params.renderer = random->Int(STARFOCUS_RENDERER_AUTO, STARFOCUS_RENDERER_SLICES);
   // The benchmark's number of views grows with the square of twice the radius.
-  if (setup->params.mode == SF_MODE_BENCHMARK && setup->Radius() > 4) {
-    setup->params.mode = SF_MODE_BLOCK;
+  if (setup->params.mode == STARFOCUS_MODE_BENCHMARK && setup->Radius() > 4) {
+    setup->params.mode = STARFOCUS_MODE_BLOCK;
   }
 }
 
@@ -152,13 +152,14 @@ void RandomLens(double radius, int modes, Setup* setup, test::Random* random) {
   setup->config.tuning.max_layer = random->Int(0, 3) == 0 ? random->Int(0, 1) : 2;
   if (random->Int(0, 3) == 0) setup->config.tuning.deblocking = random->Int(0, 255);
   if (random->Int(0, 3) == 0) {
-    setup->params.lens.theta = OftenAnEnd(SF_MIN_THETA, SF_MAX_THETA, random);
+    setup->params.lens.theta = OftenAnEnd(STARFOCUS_MIN_THETA, STARFOCUS_MAX_THETA, random);
   }
   // A cheap or a dear block makes the partition coarse or fine.
   if (random->Int(0, 1) == 0) setup->config.tuning.timing.block = 1u << random->Int(0, 26);
   FitBlur(setup);
   RandomMode(modes, setup, random);
-  setup->config.transfer = random->Int(0, 1) == 0 ? SF_TRANSFER_SRGB : SF_TRANSFER_NONE;
+  setup->config.transfer =
+      random->Int(0, 1) == 0 ? STARFOCUS_TRANSFER_SRGB : STARFOCUS_TRANSFER_NONE;
 }
 
 Setup FlatSetup(int width, int height, double radius, test::Random* random) {
@@ -191,7 +192,7 @@ Setup RandomSetup(const Bounds& bounds, test::Random* random) {
   RandomLens(RandomRadius(bounds.radius, random), bounds.modes, &setup, random);
   if (random->Int(0, 3) == 0) setup.config.tuning.gather = 0;
   if (random->Int(0, 3) == 0)
-    setup.config.tuning.n_scale = OftenAnEnd(SF_MIN_N_SCALE, SF_MAX_N_SCALE, random);
+    setup.config.tuning.n_scale = OftenAnEnd(STARFOCUS_MIN_N_SCALE, STARFOCUS_MAX_N_SCALE, random);
   // Pictures draw numbers of their own: a fuzzer's bytes would not last for them.
   test::Random fill(random->Next());
   setup.strands = strands;

@@ -17,8 +17,8 @@ enum class Colours { kNoise, kExtreme, kSmooth, kPlainCentre };
 
 struct Setup {
   test::Scene scene;
-  sf_config config;
-  sf_params params;
+  starfocus_config config;
+  starfocus_params params;
   bool strands = false;  // SetStrands made it
 
   double Radius() const;     // largest blur radius of the configured disparities
@@ -29,7 +29,7 @@ struct Setup {
 struct Bounds {
   int size = 40;        // width and height in [1, size]
   double radius = 6;    // of the blur, mostly much less
-  int modes = 4;        // sf_mode below this
+  int modes = 4;        // starfocus_mode below this
   float disparity = 8;  // |d|
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bits of sf_config.features.
+// Bits of starfocus_config.features.
 #ifndef STARFOCUS_TESTS_SUPPORT_FEATURES_H_
 #define STARFOCUS_TESTS_SUPPORT_FEATURES_H_
 

@@ -19,8 +19,8 @@ struct ImageField {
   Scene converted;  // by the definitions; what the engine is to see
 
   // The rows from `row` on; a smaller map comes whole.
-  sf_light_field Field(int row = 0) const {
-    sf_light_field field = {};
+  starfocus_light_field Field(int row = 0) const {
+    starfocus_light_field field = {};
     for (size_t k = 0; k < views.size(); ++k) field.views[k] = views[k].In(row);
     field.depth = depth.map;
     if (depth.map.height == converted.height) {
@@ -64,32 +64,33 @@ inline ImageField MakeImageField(const Scene& scene, const std::vector<ImageKind
   return field;
 }
 
-inline sf_config ImageConfig(const ImageField& field, double max_blur = 20) {
-  sf_config config = ConfigFor(field.converted, max_blur);
-  config.features |= SF_FEATURE_IMAGES;
+inline starfocus_config ImageConfig(const ImageField& field, double max_blur = 20) {
+  starfocus_config config = ConfigFor(field.converted, max_blur);
+  config.features |= STARFOCUS_FEATURE_IMAGES;
   return config;
 }
 
 // Pushes and pulls at most so many rows at a time.
-inline sf_status Stream(Engine* engine, const ImageField& field, const sf_params& params,
-                        int push_rows, int pull_rows, ImageMemory* image, sf_report* report) {
-  sf_status status = sf_stream_begin(engine->get(), &params);
+inline starfocus_status Stream(Engine* engine, const ImageField& field,
+                               const starfocus_params& params, int push_rows, int pull_rows,
+                               ImageMemory* image, starfocus_report* report) {
+  starfocus_status status = starfocus_stream_begin(engine->get(), &params);
   const int height = image->height();
-  for (int pushed = 0, pulled = 0; status == SF_OK && pulled < height;) {
+  for (int pushed = 0, pulled = 0; status == STARFOCUS_OK && pulled < height;) {
     int32_t consumed = 0, written = 0;
     const int rows = std::min(push_rows, height - pushed);
     if (rows > 0) {
-      const sf_light_field images = field.Field(pushed);
-      status = sf_stream_push(engine->get(), &images, rows, &consumed);
-      if (status != SF_OK) return status;
+      const starfocus_light_field images = field.Field(pushed);
+      status = starfocus_stream_push(engine->get(), &images, rows, &consumed);
+      if (status != STARFOCUS_OK) return status;
       CHECK((consumed % 2 == 0 || pushed + consumed == height));
     }
-    const sf_image out = image->Out(pulled);
-    status =
-        sf_stream_pull(engine->get(), &out, std::min(pull_rows, height - pulled), &written, report);
+    const starfocus_image out = image->Out(pulled);
+    status = starfocus_stream_pull(engine->get(), &out, std::min(pull_rows, height - pulled),
+                                   &written, report);
     pushed += consumed;
     pulled += written;
-    if (status == SF_OK && consumed == 0 && written == 0) return SF_ERROR_STATE;
+    if (status == STARFOCUS_OK && consumed == 0 && written == 0) return STARFOCUS_ERROR_STATE;
   }
   return status;
 }

@@ -18,14 +18,17 @@ namespace test {
 // What an image is, but for its size. Layouts of YUV_420_888 with chroma 2 bytes apart: U first, V
 // first, or each in memory of its own.
 struct ImageKind {
-  int format = SF_FORMAT_RGB, matrix = 0, range = 0, pixel_stride = 0, padding = 0, layout = 0;
+  int format = STARFOCUS_FORMAT_RGB, matrix = 0, range = 0, pixel_stride = 0, padding = 0,
+      layout = 0;
 
-  bool IsYuv() const { return format >= SF_FORMAT_NV12; }
-  bool HasAlpha() const { return format == SF_FORMAT_RGBX || format == SF_FORMAT_BGRX; }
+  bool IsYuv() const { return format >= STARFOCUS_FORMAT_NV12; }
+  bool HasAlpha() const {
+    return format == STARFOCUS_FORMAT_RGBX || format == STARFOCUS_FORMAT_BGRX;
+  }
   int Step() const {
     if (pixel_stride != 0) return pixel_stride;
     if (!IsYuv()) return HasAlpha() ? 4 : 3;
-    return format == SF_FORMAT_NV12 || format == SF_FORMAT_NV21 ? 2 : 1;
+    return format == STARFOCUS_FORMAT_NV12 || format == STARFOCUS_FORMAT_NV21 ? 2 : 1;
   }
 };
 
@@ -36,7 +39,7 @@ inline ImageKind AnyKind(int format, Random* random) {
   kind.range = random->Int(0, 1);
   kind.padding = random->Int(0, 1) * random->Int(1, 19);
   kind.layout = random->Int(0, 2);
-  if (format == SF_FORMAT_YUV_420_888) kind.pixel_stride = random->Int(0, 2);
+  if (format == STARFOCUS_FORMAT_YUV_420_888) kind.pixel_stride = random->Int(0, 2);
   if (!kind.IsYuv() && random->Int(0, 1) == 0) {
     kind.pixel_stride = random->Int(kind.HasAlpha() ? 4 : 3, 6);
   }
@@ -55,7 +58,8 @@ class ImageMemory {
       return;
     }
     Take(0, height, width);
-    const bool pairs = step == 2 && (kind.format != SF_FORMAT_YUV_420_888 || kind.layout < 2);
+    const bool pairs =
+        step == 2 && (kind.format != STARFOCUS_FORMAT_YUV_420_888 || kind.layout < 2);
     if (pairs) {
       Take(1, (height + 1) / 2, 2 * columns);
     } else {
@@ -68,26 +72,27 @@ class ImageMemory {
   const ImageKind& kind() const { return kind_; }
 
   // The image from an even row on.
-  sf_image Out(int row = 0) {
-    sf_image out = {kind_.format, kind_.matrix, kind_.range, kind_.pixel_stride, {}, {}};
+  starfocus_image Out(int row = 0) {
+    starfocus_image out = {kind_.format, kind_.matrix, kind_.range, kind_.pixel_stride, {}, {}};
     for (int plane = 0; plane < 3; ++plane) {
       if (bytes_[plane].empty()) continue;
       const size_t first = size_t(plane == 0 ? row : row / 2) * strides_[plane];
       out.planes[plane] = bytes_[plane].data() + first;
       out.strides[plane] = strides_[plane];
     }
-    if (kind_.format == SF_FORMAT_YUV_420_888 && out.planes[2] == nullptr) {
+    if (kind_.format == STARFOCUS_FORMAT_YUV_420_888 && out.planes[2] == nullptr) {
       out.planes[2] = static_cast<uint8_t*>(out.planes[1]) + 1;
       out.strides[2] = out.strides[1];
       if (kind_.layout == 1) std::swap(out.planes[1], out.planes[2]);
     }
     return out;
   }
-  sf_image In(int row = 0) const { return const_cast<ImageMemory*>(this)->Out(row); }
+  starfocus_image In(int row = 0) const { return const_cast<ImageMemory*>(this)->Out(row); }
 
   // Colours 0, 1, 2: R, G, B; 3: alpha.
   uint8_t* Colour(int x, int y, int colour) {
-    const bool swaps = kind_.format == SF_FORMAT_BGR || kind_.format == SF_FORMAT_BGRX;
+    const bool swaps =
+        kind_.format == STARFOCUS_FORMAT_BGR || kind_.format == STARFOCUS_FORMAT_BGRX;
     const int place = swaps && colour < 3 ? 2 - colour : colour;
     return &bytes_[0][size_t(y) * strides_[0] + size_t(x * kind_.Step() + place)];
   }
@@ -96,8 +101,8 @@ class ImageMemory {
   uint8_t* Chroma(int which, int x, int y) {
     const size_t row = size_t(y / 2), column = size_t(x / 2 * kind_.Step());
     if (!bytes_[2].empty()) return &bytes_[which][row * strides_[which] + column];
-    const bool v_first = kind_.format == SF_FORMAT_NV21 ||
-                         (kind_.format == SF_FORMAT_YUV_420_888 && kind_.layout == 1);
+    const bool v_first = kind_.format == STARFOCUS_FORMAT_NV21 ||
+                         (kind_.format == STARFOCUS_FORMAT_YUV_420_888 && kind_.layout == 1);
     return &bytes_[1][row * strides_[1] + column + ((which == 1) == v_first ? 1 : 0)];
   }
 
@@ -195,33 +200,34 @@ void PutPicture(const uint8_t* rgb, size_t stride, const Alpha& alpha, ImageMemo
 
 // A depth map in memory.
 struct DepthMemory {
-  sf_depth_map map = {};
+  starfocus_depth_map map = {};
   std::vector<uint64_t> words;
 
   uint8_t* At(int x, int y) {
-    const int size = map.type == SF_DEPTH_FLOAT ? 4 : map.type == SF_DEPTH_U8 ? 1 : 2;
+    const int size = map.type == STARFOCUS_DEPTH_FLOAT ? 4 : map.type == STARFOCUS_DEPTH_U8 ? 1 : 2;
     return reinterpret_cast<uint8_t*>(words.data()) + size_t(y) * map.stride + size_t(x * size);
   }
   void Put(int x, int y, double z) {
-    if (map.type == SF_DEPTH_FLOAT) {
+    if (map.type == STARFOCUS_DEPTH_FLOAT) {
       const auto value = float(z);
       std::memcpy(At(x, y), &value, 4);
-    } else if (map.type == SF_DEPTH_U8) {
+    } else if (map.type == STARFOCUS_DEPTH_U8) {
       *At(x, y) = uint8_t(std::clamp(std::lround(z), 0L, 255L));
     } else {
-      const uint16_t value =
-          map.type == SF_DEPTH_U16 ? uint16_t(std::clamp(std::lround(z), 0L, 65535L)) : HalfOf(z);
+      const uint16_t value = map.type == STARFOCUS_DEPTH_U16
+                                 ? uint16_t(std::clamp(std::lround(z), 0L, 65535L))
+                                 : HalfOf(z);
       std::memcpy(At(x, y), &value, 2);
     }
   }
   float Get(int x, int y) {
-    if (map.type == SF_DEPTH_U8) return float(*At(x, y));
+    if (map.type == STARFOCUS_DEPTH_U8) return float(*At(x, y));
     uint16_t word = 0;
     float value = 0;
-    std::memcpy(&value, At(x, y), map.type == SF_DEPTH_FLOAT ? 4 : 0);
+    std::memcpy(&value, At(x, y), map.type == STARFOCUS_DEPTH_FLOAT ? 4 : 0);
     std::memcpy(&word, At(x, y), 2);
-    if (map.type == SF_DEPTH_U16) return float(word);
-    return map.type == SF_DEPTH_FLOAT ? value : FloatOf(word);
+    if (map.type == STARFOCUS_DEPTH_U16) return float(word);
+    return map.type == STARFOCUS_DEPTH_FLOAT ? value : FloatOf(word);
   }
 
   static uint16_t HalfOf(double z) {
@@ -242,17 +248,20 @@ struct DepthMemory {
 };
 
 // A map of a scene's disparities, taken in the middle of what each value stands for.
-inline DepthMemory MakeDepth(const Scene& scene, int width, int height, sf_depth_type type,
-                             sf_depth_meaning meaning, int padding) {
+inline DepthMemory MakeDepth(const Scene& scene, int width, int height, starfocus_depth_type type,
+                             starfocus_depth_meaning meaning, int padding) {
   DepthMemory depth;
-  sf_depth_map& map = depth.map;
+  starfocus_depth_map& map = depth.map;
   map.width = width, map.height = height, map.type = type, map.meaning = meaning;
   const double span = double(scene.disparity_max) - double(scene.disparity_min);
   // Distances of near surfaces are small; disparities are offset so that all of them are positive.
-  map.offset = float(double(scene.disparity_min) - (meaning == SF_DEPTH_LINEAR ? 0 : 0.2 * span));
-  const double steps = type == SF_DEPTH_U8 ? 250 : type == SF_DEPTH_U16 ? 60000 : 1000;
-  map.scale = float(meaning == SF_DEPTH_LINEAR ? span / steps : steps * 0.19 * span);
-  const int size = type == SF_DEPTH_FLOAT ? 4 : type == SF_DEPTH_U8 ? 1 : 2;
+  map.offset =
+      float(double(scene.disparity_min) - (meaning == STARFOCUS_DEPTH_LINEAR ? 0 : 0.2 * span));
+  const double steps = type == STARFOCUS_DEPTH_U8    ? 250
+                       : type == STARFOCUS_DEPTH_U16 ? 60000
+                                                     : 1000;
+  map.scale = float(meaning == STARFOCUS_DEPTH_LINEAR ? span / steps : steps * 0.19 * span);
+  const int size = type == STARFOCUS_DEPTH_FLOAT ? 4 : type == STARFOCUS_DEPTH_U8 ? 1 : 2;
   map.stride = size_t((width + padding) * size);
   depth.words.assign((map.stride * size_t(height) + 7) / 8, 0xCDCDCDCDCDCDCDCDu);
   map.data = depth.words.data();
@@ -261,7 +270,7 @@ inline DepthMemory MakeDepth(const Scene& scene, int width, int height, sf_depth
       const double d = double(scene.Disparity((2 * x + 1) * scene.width / (2 * width),
                                               (2 * y + 1) * scene.height / (2 * height)));
       const double from = d - double(map.offset), scale = double(map.scale);
-      depth.Put(x, y, meaning == SF_DEPTH_LINEAR ? from / scale : scale / from);
+      depth.Put(x, y, meaning == STARFOCUS_DEPTH_LINEAR ? from / scale : scale / from);
     }
   }
   return depth;
@@ -270,9 +279,9 @@ inline DepthMemory MakeDepth(const Scene& scene, int width, int height, sf_depth
 // The disparity of a value in 64ths; kUnknown where there is none.
 constexpr int kUnknown = -32768;
 inline int DepthAt(DepthMemory* depth, int x, int y) {
-  const sf_depth_map& map = depth->map;
+  const starfocus_depth_map& map = depth->map;
   const float z = depth->Get(x, y);
-  const float scaled = map.meaning == SF_DEPTH_LINEAR ? map.scale * z : map.scale / z;
+  const float scaled = map.meaning == STARFOCUS_DEPTH_LINEAR ? map.scale * z : map.scale / z;
   const float d = scaled + map.offset;
   if ((map.has_invalid != 0 && z == map.invalid) || !std::isfinite(d)) return kUnknown;
   return int(std::floor(64.0f * d + 0.5f));
@@ -291,7 +300,7 @@ inline int PlaceInMap(int x, int width, int small) {
 
 // The float map that the depth map stands for; unknown disparities are NaN.
 inline std::vector<float> ConvertDepth(DepthMemory* depth, int width, int height) {
-  const sf_depth_map& map = depth->map;
+  const starfocus_depth_map& map = depth->map;
   std::vector<float> disparity;
   for (int y = 0; y < height; ++y) {
     const int py = PlaceInMap(y, height, map.height), upper = py / 256;

@@ -16,27 +16,27 @@
 
 namespace test {
 
-inline starfocus::EngineState& StateOf(sf_engine* engine) {
+inline starfocus::EngineState& StateOf(starfocus_engine* engine) {
   return *reinterpret_cast<starfocus::EngineState*>(engine);
 }
 
-// Makes an engine use other kernels than the machine's best. Undone by sf_init.
-inline void UseKernels(const starfocus::simd::Kernels* kernels, sf_engine* engine) {
+// Makes an engine use other kernels than the machine's best. Undone by starfocus_init.
+inline void UseKernels(const starfocus::simd::Kernels* kernels, starfocus_engine* engine) {
   StateOf(engine).kernels = kernels;
 }
 
 using starfocus::Borders;
 
 // The borders of a configuration for blur radii up to `max_blur` pixels, or the configuration's.
-inline starfocus::Borders BordersOf(const sf_config& config, double max_blur) {
+inline starfocus::Borders BordersOf(const starfocus_config& config, double max_blur) {
   return starfocus::AddBorders(config, max_blur, true);
 }
-inline starfocus::Borders BordersOf(const sf_config& config) {
+inline starfocus::Borders BordersOf(const starfocus_config& config) {
   return starfocus::LargestBorders(config);
 }
 inline starfocus::Borders BordersOf(double max_blur) {
-  sf_config config;
-  sf_config_init(&config);
+  starfocus_config config;
+  starfocus_config_init(&config);
   return BordersOf(config, max_blur);
 }
 
@@ -45,13 +45,13 @@ struct StripeBlocks {
   std::vector<starfocus::Block> blocks;
   starfocus::GatherMap gathered;
 };
-inline StripeBlocks PlanOf(sf_engine* engine) {
+inline StripeBlocks PlanOf(starfocus_engine* engine) {
   const starfocus::StripePlan& plan = StateOf(engine).stripe.plan;
   return {{plan.blocks, plan.blocks + plan.used}, plan.gathered};
 }
 
 // A picture of poison with one block of the stripe that was refocused last, without deblocking.
-inline std::vector<uint8_t> RenderOne(const starfocus::Block& block, sf_engine* engine) {
+inline std::vector<uint8_t> RenderOne(const starfocus::Block& block, starfocus_engine* engine) {
   const starfocus::EngineState& state = StateOf(engine);
   const size_t stride = 3 * static_cast<size_t>(state.config.width);
   std::vector<uint8_t> out(stride * static_cast<size_t>(state.config.height), kPoison);
@@ -61,13 +61,13 @@ inline std::vector<uint8_t> RenderOne(const starfocus::Block& block, sf_engine* 
 }
 
 // Bytes of the first worker's pool of slices, which may be made less.
-inline size_t& PoolBytes(sf_engine* engine) {
+inline size_t& PoolBytes(starfocus_engine* engine) {
   void* scratch = StateOf(engine).workers.scratch[0].renderers[starfocus::kSliceRenderer.index];
   return static_cast<starfocus::CompositorScratch*>(scratch)->pool_bytes;
 }
 
 // Bytes of a workspace, or kTooLarge.
-inline size_t WorkspaceBytes(const sf_config& config) {
+inline size_t WorkspaceBytes(const starfocus_config& config) {
   starfocus::EngineState* counted = nullptr;
   return starfocus::LayOut(config, nullptr, &counted);
 }

@@ -19,7 +19,7 @@ inline Scene LayeredScene(int width, int height, int views, float limit, uint64_
   // Pictures whose views agree roughly: a texture that moves with the view.
   for (int view = 0; view < views; ++view) {
     double u = 0, v = 0;
-    sf_view_position(view, &u, &v);
+    starfocus_view_position(view, &u, &v);
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x) {
         for (int c = 0; c < 3; ++c) {

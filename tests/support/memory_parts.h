@@ -63,9 +63,9 @@ inline std::vector<MemoryPart> PartsOf(const starfocus::EngineState& e) {
 
 // Measures the parts of an engine for `config`, of one worker. Empty if a part begins elsewhere
 // than PartsOf says, in memory or in order.
-inline std::vector<MemoryPart> MeasureParts(const sf_config& config) {
+inline std::vector<MemoryPart> MeasureParts(const starfocus_config& config) {
   Engine memory(config);
-  if (memory.status() != SF_OK) return {};
+  if (memory.status() != STARFOCUS_OK) return {};
   starfocus::EngineState* engine = &StateOf(memory.get());
   struct Walk {
     std::vector<MemoryPart> parts;
@@ -107,10 +107,10 @@ inline MemorySum SumOf(const std::vector<MemoryPart>& parts) {
 }
 
 // A configuration of docs/boards.md, without memory for thin structures.
-inline sf_config BoardConfig(int width, int height, int views, int block, double blur,
-                             int streaming) {
-  sf_config config;
-  sf_config_init(&config);
+inline starfocus_config BoardConfig(int width, int height, int views, int block, double blur,
+                                    int streaming) {
+  starfocus_config config;
+  starfocus_config_init(&config);
   config.width = width;
   config.height = height;
   config.views = views;
@@ -118,8 +118,8 @@ inline sf_config BoardConfig(int width, int height, int views, int block, double
   config.disparity_max = 16;
   config.max_blur = blur;
   config.superblock = block;
-  test::SetFeature(SF_FEATURE_STREAMING, streaming, &config.features);
-  config.features &= ~SF_FEATURE_COVERAGE;
+  test::SetFeature(STARFOCUS_FEATURE_STREAMING, streaming, &config.features);
+  config.features &= ~STARFOCUS_FEATURE_COVERAGE;
   return config;
 }
 

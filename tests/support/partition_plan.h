@@ -77,7 +77,7 @@ struct Plan {
     around = BordersOf(2 * limit).cells;
     flags.assign(cells.size(), kPoison);
     gathered = {flags.data(), grid.columns, 0};
-    sf_config_init(&config);
+    starfocus_config_init(&config);
     rules.config = &config;
     config.width = width;
     config.height = height;
@@ -147,7 +147,7 @@ struct Plan {
   starfocus::GatherMap gathered;
   CellGrid grid;
   int around = 0;
-  sf_config config;
+  starfocus_config config;
   PartitionRules rules = {};
 };
 

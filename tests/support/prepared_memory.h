@@ -16,18 +16,19 @@ namespace test {
 
 class PreparedMemory {
  public:
-  explicit PreparedMemory(const sf_config& config) {
-    REQUIRE(sf_prepared_size(&config, &bytes) == SF_OK);
-    memory_.assign(bytes + SF_ALIGNMENT, kPoison);
+  explicit PreparedMemory(const starfocus_config& config) {
+    REQUIRE(starfocus_prepared_size(&config, &bytes) == STARFOCUS_OK);
+    memory_.assign(bytes + STARFOCUS_ALIGNMENT, kPoison);
   }
   uint8_t* get() {
     const auto address = reinterpret_cast<uintptr_t>(memory_.data());
-    return memory_.data() + (SF_ALIGNMENT - address % SF_ALIGNMENT) % SF_ALIGNMENT;
+    return memory_.data() +
+           (STARFOCUS_ALIGNMENT - address % STARFOCUS_ALIGNMENT) % STARFOCUS_ALIGNMENT;
   }
-  // What sf_prepare makes of a light field there.
-  sf_prepared* Prepare(sf_engine* engine, const sf_light_field& field) {
-    sf_prepared* prepared = nullptr;
-    REQUIRE(sf_prepare(engine, &field, get(), bytes, &prepared) == SF_OK);
+  // What starfocus_prepare makes of a light field there.
+  starfocus_prepared* Prepare(starfocus_engine* engine, const starfocus_light_field& field) {
+    starfocus_prepared* prepared = nullptr;
+    REQUIRE(starfocus_prepare(engine, &field, get(), bytes, &prepared) == STARFOCUS_OK);
     return prepared;
   }
 

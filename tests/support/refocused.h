@@ -15,15 +15,16 @@ namespace test {
 
 struct Refocused {
   std::vector<uint8_t> rgb;  // rows packed
-  sf_report report = {};
+  starfocus_report report = {};
 };
 
-inline Refocused RefocusScene(const Scene& scene, const sf_config& config,
-                              const sf_params& params) {
+inline Refocused RefocusScene(const Scene& scene, const starfocus_config& config,
+                              const starfocus_params& params) {
   Engine engine(config);
   Output out(scene.width, scene.height);
   Refocused refocused;
-  REQUIRE(Refocus(&engine, params, scene, &out, nullptr, nullptr, &refocused.report) == SF_OK);
+  REQUIRE(Refocus(&engine, params, scene, &out, nullptr, nullptr, &refocused.report) ==
+          STARFOCUS_OK);
   refocused.rgb = out.Tight();
   return refocused;
 }

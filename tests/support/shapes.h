@@ -12,26 +12,26 @@
 namespace test {
 
 // Any shape, with and without cat's eyes; ends of ranges as often as not.
-inline void RandomShape(sf_lens* lens, Random* random) {
+inline void RandomShape(starfocus_lens* lens, Random* random) {
   const auto often_an_end = [&](double low, double high) {
     const int end = random->Int(0, 3);
     return static_cast<float>(end == 0 ? low : end == 1 ? high : random->Real(low, high));
   };
-  lens->shape = random->Int(SF_SHAPE_FALL_OFF, SF_SHAPE_RING);
-  lens->blades = random->Int(SF_MIN_BLADES, SF_MAX_BLADES);
+  lens->shape = random->Int(STARFOCUS_SHAPE_FALL_OFF, STARFOCUS_SHAPE_RING);
+  lens->blades = random->Int(STARFOCUS_MIN_BLADES, STARFOCUS_MAX_BLADES);
   lens->rotation = often_an_end(0, 360) - (random->Int(0, 1) == 0 ? 360.0F : 0.0F);
   lens->curvature = often_an_end(0, 1);
-  lens->ring_inner = often_an_end(0, SF_MAX_RING_INNER);
+  lens->ring_inner = often_an_end(0, STARFOCUS_MAX_RING_INNER);
   if (random->Int(0, 2) == 0) lens->cats_eye = often_an_end(0, 1);
 }
 
-// Sets SF_FEATURE_SHAPES if the lens needs it, and clears it otherwise.
-inline void ReserveFor(const sf_lens& lens, sf_config* config) {
-  const bool needed = lens.shape == SF_SHAPE_POLYGON || lens.cats_eye > 0;
-  SetFeature(SF_FEATURE_SHAPES, needed, &config->features);
+// Sets STARFOCUS_FEATURE_SHAPES if the lens needs it, and clears it otherwise.
+inline void ReserveFor(const starfocus_lens& lens, starfocus_config* config) {
+  const bool needed = lens.shape == STARFOCUS_SHAPE_POLYGON || lens.cats_eye > 0;
+  SetFeature(STARFOCUS_FEATURE_SHAPES, needed, &config->features);
 }
 
-inline std::string ShapeText(const sf_lens& lens) {
+inline std::string ShapeText(const starfocus_lens& lens) {
   char text[200];
   std::snprintf(text, sizeof(text),
                 "shape %d, blades %d, rotation %.9g, curvature %.9g, inner %.9g, cats_eye %.9g",
@@ -46,7 +46,7 @@ struct NamedShape {
   int shape, blades;
   float rotation, curvature, inner, cats_eye;
 
-  void Set(sf_lens* lens) const {
+  void Set(starfocus_lens* lens) const {
     lens->shape = shape;
     lens->blades = blades;
     lens->rotation = rotation;
@@ -56,12 +56,12 @@ struct NamedShape {
   }
 };
 inline constexpr NamedShape kShapes[] = {
-    {"disc", SF_SHAPE_DISC, 5, 0, 0, 0.5F, 0},
-    {"pentagon", SF_SHAPE_POLYGON, 5, 0, 0, 0.5F, 0},
-    {"curved-hexagon", SF_SHAPE_POLYGON, 6, 17.5F, 0.5F, 0.5F, 0},
-    {"ring", SF_SHAPE_RING, 5, 0, 0, 0.5F, 0},
-    {"cats-eye", SF_SHAPE_FALL_OFF, 5, 0, 0, 0.5F, 0.75F},
-    {"pentagon-cats-eye", SF_SHAPE_POLYGON, 5, 0, 0, 0.5F, 0.5F}};
+    {"disc", STARFOCUS_SHAPE_DISC, 5, 0, 0, 0.5F, 0},
+    {"pentagon", STARFOCUS_SHAPE_POLYGON, 5, 0, 0, 0.5F, 0},
+    {"curved-hexagon", STARFOCUS_SHAPE_POLYGON, 6, 17.5F, 0.5F, 0.5F, 0},
+    {"ring", STARFOCUS_SHAPE_RING, 5, 0, 0, 0.5F, 0},
+    {"cats-eye", STARFOCUS_SHAPE_FALL_OFF, 5, 0, 0, 0.5F, 0.75F},
+    {"pentagon-cats-eye", STARFOCUS_SHAPE_POLYGON, 5, 0, 0, 0.5F, 0.5F}};
 
 }  // namespace test
 

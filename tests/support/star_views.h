@@ -10,7 +10,7 @@
 
 namespace test {
 
-inline void SetViews(const sf_config& config, starfocus::Window* window) {
+inline void SetViews(const starfocus_config& config, starfocus::Window* window) {
   starfocus::ViewSet views;
   starfocus::FindViews(config, &views);
   window->views = config.views;
@@ -27,16 +27,16 @@ inline void ReadPlanes(starfocus::PlaneViews* planes, starfocus::Window* window)
 
 // The star of 1, 5, 9 or 17 views.
 inline void SetStar(int views, starfocus::Window* window) {
-  sf_config config = {};
+  starfocus_config config = {};
   config.views = views;
   SetViews(config, window);
 }
 
 // The centre view and those at these positions.
-inline void SetPositions(const std::vector<sf_position>& sides, starfocus::Window* window) {
-  sf_config config = {};
+inline void SetPositions(const std::vector<starfocus_position>& sides, starfocus::Window* window) {
+  starfocus_config config = {};
   config.views = 1;
-  for (const sf_position& position : sides) config.positions[config.views++] = position;
+  for (const starfocus_position& position : sides) config.positions[config.views++] = position;
   SetViews(config, window);
 }
 

@@ -79,13 +79,14 @@ struct Scene {
   size_t disparity_width = 0;  // floats
   std::vector<std::vector<uint8_t>> pictures;
   std::vector<float> disparity;
-  std::vector<uint8_t> coverage;       // packed rows; empty: there is none
-  std::vector<sf_position> positions;  // of the views; empty: those of sf_view_position
+  std::vector<uint8_t> coverage;  // packed rows; empty: there is none
+  std::vector<starfocus_position>
+      positions;  // of the views; empty: those of starfocus_view_position
 
-  sf_position PositionOf(int view) const {
+  starfocus_position PositionOf(int view) const {
     if (!positions.empty()) return positions[static_cast<size_t>(view)];
-    sf_position position;
-    sf_view_position(view, &position.u, &position.v);
+    starfocus_position position;
+    starfocus_view_position(view, &position.u, &position.v);
     return position;
   }
 
@@ -103,13 +104,15 @@ struct Scene {
   float Disparity(int x, int y) const { return const_cast<Scene*>(this)->Disparity(x, y); }
 
   // The rows from `row` on, as the engine takes them.
-  sf_light_field Field(int row = 0) const {
-    sf_light_field field = {};
+  starfocus_light_field Field(int row = 0) const {
+    starfocus_light_field field = {};
     for (size_t i = 0; i < pictures.size(); ++i) {
-      field.views[i] = sf_image_rgb(pictures[i].data() + static_cast<size_t>(row) * stride, stride);
+      field.views[i] =
+          starfocus_image_rgb(pictures[i].data() + static_cast<size_t>(row) * stride, stride);
     }
-    field.depth = sf_depth_float(disparity.data() + static_cast<size_t>(row) * disparity_width,
-                                 disparity_width * sizeof(float), width, height);
+    field.depth =
+        starfocus_depth_float(disparity.data() + static_cast<size_t>(row) * disparity_width,
+                              disparity_width * sizeof(float), width, height);
     if (coverage.empty()) return field;
     field.coverage = coverage.data() + static_cast<size_t>(row) * static_cast<size_t>(width);
     field.coverage_stride = static_cast<size_t>(width);
@@ -192,9 +195,9 @@ inline Scene NearScene(int width, int height, int views, uint64_t seed) {
   return scene;
 }
 
-inline sf_config ConfigFor(const Scene& scene, double max_blur = 32) {
-  sf_config config;
-  sf_config_init(&config);
+inline starfocus_config ConfigFor(const Scene& scene, double max_blur = 32) {
+  starfocus_config config;
+  starfocus_config_init(&config);
   config.width = scene.width;
   config.height = scene.height;
   config.views = scene.views();
@@ -206,18 +209,18 @@ inline sf_config ConfigFor(const Scene& scene, double max_blur = 32) {
 }
 
 // Leaves some of a scene's views, at positions of any kind: along an axis, in an L or anywhere.
-inline void RandomViews(Scene* scene, sf_config* config, Random* random) {
+inline void RandomViews(Scene* scene, starfocus_config* config, Random* random) {
   if (scene->views() > 1 && random->Int(0, 1) == 0) {
     scene->pictures.resize(static_cast<size_t>(random->Int(2, 4)));
   }
   const int kind = random->Int(0, 3), steps = random->Int(0, 1) == 0 ? 4 : 16384;
   scene->positions = {{0, 0}};
   while (scene->positions.size() < scene->pictures.size()) {
-    sf_position position = {random->Int(-steps, steps) / double(steps),
-                            random->Int(-steps, steps) / double(steps)};
+    starfocus_position position = {random->Int(-steps, steps) / double(steps),
+                                   random->Int(-steps, steps) / double(steps)};
     if (kind == 0 && scene->positions.size() <= 4) position.v = 0;
     if (kind == 1) position = {std::max(0.0, position.u), std::max(0.0, position.v)};
-    const auto alike = [&](const sf_position& other) {
+    const auto alike = [&](const starfocus_position& other) {
       return other.u == position.u && other.v == position.v;
     };
     if (std::none_of(scene->positions.begin(), scene->positions.end(), alike)) {
@@ -228,9 +231,10 @@ inline void RandomViews(Scene* scene, sf_config* config, Random* random) {
   std::copy(scene->positions.begin(), scene->positions.end(), config->positions);
 }
 
-inline sf_params Params(double focus, double aperture = 1, sf_mode mode = SF_MODE_FRAME) {
-  sf_params params;
-  sf_params_init(&params);
+inline starfocus_params Params(double focus, double aperture = 1,
+                               starfocus_mode mode = STARFOCUS_MODE_FRAME) {
+  starfocus_params params;
+  starfocus_params_init(&params);
   params.lens.focus = focus;
   params.lens.aperture = aperture;
   params.mode = mode;
@@ -240,25 +244,26 @@ inline sf_params Params(double focus, double aperture = 1, sf_mode mode = SF_MOD
 // An engine in poisoned memory of exactly the size asked for.
 class Engine {
  public:
-  explicit Engine(const sf_config& config) {
-    status_ = sf_workspace_size(&config, &bytes_);
-    if (status_ != SF_OK) return;
-    memory_.assign(bytes_ + SF_ALIGNMENT, kPoison);
-    status_ = sf_init(&config, workspace(), bytes_, &engine_);
+  explicit Engine(const starfocus_config& config) {
+    status_ = starfocus_workspace_size(&config, &bytes_);
+    if (status_ != STARFOCUS_OK) return;
+    memory_.assign(bytes_ + STARFOCUS_ALIGNMENT, kPoison);
+    status_ = starfocus_init(&config, workspace(), bytes_, &engine_);
   }
-  sf_status status() const { return status_; }
-  sf_engine* get() const { return engine_; }
+  starfocus_status status() const { return status_; }
+  starfocus_engine* get() const { return engine_; }
   size_t bytes() const { return bytes_; }
   uint8_t* workspace() {
     const uintptr_t address = reinterpret_cast<uintptr_t>(memory_.data());
-    return memory_.data() + (SF_ALIGNMENT - address % SF_ALIGNMENT) % SF_ALIGNMENT;
+    return memory_.data() +
+           (STARFOCUS_ALIGNMENT - address % STARFOCUS_ALIGNMENT) % STARFOCUS_ALIGNMENT;
   }
 
  private:
   std::vector<uint8_t> memory_;
   size_t bytes_ = 0;
-  sf_engine* engine_ = nullptr;
-  sf_status status_ = SF_OK;
+  starfocus_engine* engine_ = nullptr;
+  starfocus_status status_ = STARFOCUS_OK;
 };
 
 // An output picture with poisoned rows and row padding.
@@ -299,7 +304,7 @@ struct Output {
 };
 
 // Whether `part` has the bytes of the picture `whole` in that region.
-inline bool IsPartOf(const Output& part, const Output& whole, const sf_region& region) {
+inline bool IsPartOf(const Output& part, const Output& whole, const starfocus_region& region) {
   for (int y = 0; y < region.height; ++y) {
     if (!std::equal(part.Pixel(0, y), part.Pixel(0, y) + 3 * region.width,
                     whole.Pixel(region.x, region.y + y))) {
@@ -310,7 +315,7 @@ inline bool IsPartOf(const Output& part, const Output& whole, const sf_region& r
 }
 
 // Runs jobs in turn by two threads.
-inline int RunOnTwo(void*, sf_job job, void* data, int32_t count) {
+inline int RunOnTwo(void*, starfocus_job job, void* data, int32_t count) {
   std::thread other([=] {
     for (int32_t i = 1; i < count; i += 2) job(data, i, 1);
   });
@@ -320,21 +325,21 @@ inline int RunOnTwo(void*, sf_job job, void* data, int32_t count) {
 }
 
 // Callbacks with a runner alone, and with a progress function alone.
-inline sf_callbacks RunBy(sf_runner runner, void* data = nullptr) {
-  sf_callbacks callbacks = {};
+inline starfocus_callbacks RunBy(starfocus_runner runner, void* data = nullptr) {
+  starfocus_callbacks callbacks = {};
   callbacks.runner = runner;
   callbacks.runner_data = data;
   return callbacks;
 }
-inline sf_callbacks ToldTo(sf_progress progress, void* data = nullptr) {
-  sf_callbacks callbacks = {};
+inline starfocus_callbacks ToldTo(starfocus_progress progress, void* data = nullptr) {
+  starfocus_callbacks callbacks = {};
   callbacks.progress = progress;
   callbacks.progress_data = data;
   return callbacks;
 }
 // Callbacks with a block visitor alone.
-inline sf_callbacks VisitedBy(sf_block_visitor visitor, void* data = nullptr) {
-  sf_callbacks callbacks = {};
+inline starfocus_callbacks VisitedBy(starfocus_block_visitor visitor, void* data = nullptr) {
+  starfocus_callbacks callbacks = {};
   callbacks.on_block = visitor;
   callbacks.on_block_data = data;
   return callbacks;
@@ -342,37 +347,38 @@ inline sf_callbacks VisitedBy(sf_block_visitor visitor, void* data = nullptr) {
 
 // AnyEngine has get(), as Engine.
 template <class AnyEngine>
-sf_status Refocus(AnyEngine* engine, const sf_params& params, const Scene& scene, Output* out,
-                  const sf_callbacks& callbacks, sf_report* report = nullptr) {
-  const sf_status status = sf_set_callbacks(engine->get(), &callbacks);
-  if (status != SF_OK) return status;
-  const sf_light_field field = scene.Field();
+starfocus_status Refocus(AnyEngine* engine, const starfocus_params& params, const Scene& scene,
+                         Output* out, const starfocus_callbacks& callbacks,
+                         starfocus_report* report = nullptr) {
+  const starfocus_status status = starfocus_set_callbacks(engine->get(), &callbacks);
+  if (status != STARFOCUS_OK) return status;
+  const starfocus_light_field field = scene.Field();
   return test::RefocusRgb(engine->get(), &params, &field, out->bytes.data(), out->stride, report);
 }
 
 template <class AnyEngine>
-sf_status Refocus(AnyEngine* engine, const sf_params& params, const Scene& scene, Output* out,
-                  sf_runner runner = nullptr, void* runner_data = nullptr,
-                  sf_report* report = nullptr) {
+starfocus_status Refocus(AnyEngine* engine, const starfocus_params& params, const Scene& scene,
+                         Output* out, starfocus_runner runner = nullptr,
+                         void* runner_data = nullptr, starfocus_report* report = nullptr) {
   return Refocus(engine, params, scene, out, RunBy(runner, runner_data), report);
 }
 
 // Pushes and pulls at most `push_rows` and `pull_rows` rows at a time until all rows are out.
-// SF_ERROR_STATE when neither side moves.
+// STARFOCUS_ERROR_STATE when neither side moves.
 template <class AnyEngine>
-sf_status Stream(AnyEngine* engine, const sf_params& params, const Scene& scene, Output* out,
-                 int push_rows, int pull_rows, const sf_callbacks& callbacks,
-                 sf_report* report = nullptr) {
-  sf_status status = sf_set_callbacks(engine->get(), &callbacks);
-  if (status == SF_OK) status = sf_stream_begin(engine->get(), &params);
+starfocus_status Stream(AnyEngine* engine, const starfocus_params& params, const Scene& scene,
+                        Output* out, int push_rows, int pull_rows,
+                        const starfocus_callbacks& callbacks, starfocus_report* report = nullptr) {
+  starfocus_status status = starfocus_set_callbacks(engine->get(), &callbacks);
+  if (status == STARFOCUS_OK) status = starfocus_stream_begin(engine->get(), &params);
   int pushed = 0, pulled = 0;
-  while (status == SF_OK && pulled < scene.height) {
+  while (status == STARFOCUS_OK && pulled < scene.height) {
     int32_t consumed = 0, written = 0;
     const int rows_in = std::min(push_rows, scene.height - pushed);
     if (rows_in > 0) {
-      const sf_light_field field = scene.Field(pushed);
-      status = sf_stream_push(engine->get(), &field, rows_in, &consumed);
-      if (status != SF_OK) break;
+      const starfocus_light_field field = scene.Field(pushed);
+      status = starfocus_stream_push(engine->get(), &field, rows_in, &consumed);
+      if (status != STARFOCUS_OK) break;
     }
     const int rows_out = std::min(pull_rows, scene.height - pulled);
     status =
@@ -380,15 +386,16 @@ sf_status Stream(AnyEngine* engine, const sf_params& params, const Scene& scene,
                       out->stride, rows_out, &written, report);
     pushed += consumed;
     pulled += written;
-    if (status == SF_OK && consumed == 0 && written == 0) status = SF_ERROR_STATE;
+    if (status == STARFOCUS_OK && consumed == 0 && written == 0) status = STARFOCUS_ERROR_STATE;
   }
   return status;
 }
 
 template <class AnyEngine>
-sf_status Stream(AnyEngine* engine, const sf_params& params, const Scene& scene, Output* out,
-                 int push_rows, int pull_rows, sf_runner runner = nullptr,
-                 void* runner_data = nullptr, sf_report* report = nullptr) {
+starfocus_status Stream(AnyEngine* engine, const starfocus_params& params, const Scene& scene,
+                        Output* out, int push_rows, int pull_rows,
+                        starfocus_runner runner = nullptr, void* runner_data = nullptr,
+                        starfocus_report* report = nullptr) {
   return Stream(engine, params, scene, out, push_rows, pull_rows, RunBy(runner, runner_data),
                 report);
 }

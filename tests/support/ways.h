@@ -18,68 +18,71 @@ namespace test {
 
 // Streams, prepared light fields, frames after others, views with gaps between pixels and regions
 // give the bytes of the whole picture, which is returned.
-inline Output CheckWays(const Scene& scene, sf_config config, sf_params params) {
-  config.features |= SF_FEATURE_STREAMING | SF_FEATURE_IMAGES;
+inline Output CheckWays(const Scene& scene, starfocus_config config, starfocus_params params) {
+  config.features |= STARFOCUS_FEATURE_STREAMING | STARFOCUS_FEATURE_IMAGES;
   Engine engine(config);
   const int width = scene.width, height = scene.height;
-  sf_report report = {}, other_report = {};
+  starfocus_report report = {}, other_report = {};
   Output whole(width, height, 5), streamed = whole, again = whole, before_out = whole,
                                   after = whole, converted = whole;
-  REQUIRE(Refocus(&engine, params, scene, &whole, nullptr, nullptr, &report) == SF_OK);
+  REQUIRE(Refocus(&engine, params, scene, &whole, nullptr, nullptr, &report) == STARFOCUS_OK);
   CHECK(whole.PaddingUntouched());
   REQUIRE(Stream(&engine, params, scene, &streamed, 7, 11, nullptr, nullptr, &other_report) ==
-          SF_OK);
+          STARFOCUS_OK);
   CHECK((streamed.bytes == whole.bytes));
   CHECK(other_report.unknown_pixels == report.unknown_pixels);
   PreparedMemory memory(config);
-  const sf_prepared* prepared = memory.Prepare(engine.get(), scene.Field());
+  const starfocus_prepared* prepared = memory.Prepare(engine.get(), scene.Field());
   REQUIRE(RefocusPreparedRgb(engine.get(), &params, prepared, again.bytes.data(), again.stride,
-                             &other_report) == SF_OK);
+                             &other_report) == STARFOCUS_OK);
   CHECK((again.bytes == whole.bytes));
   CHECK(other_report.unknown_pixels == 0);
 
   Scene before = scene;
   for (int view = 0; view < scene.views(); ++view) before.Pixel(view, width / 2, 0)[1] ^= 9;
   before.Disparity(0, height - 1) = scene.disparity_min;
-  REQUIRE(Refocus(&engine, params, before, &before_out) == SF_OK);
-  sf_light_field field = scene.Field();
-  const sf_previous previous = {before.Field(),
-                                sf_image_rgb(before_out.bytes.data(), before_out.stride)};
+  REQUIRE(Refocus(&engine, params, before, &before_out) == STARFOCUS_OK);
+  starfocus_light_field field = scene.Field();
+  const starfocus_previous previous = {
+      before.Field(), starfocus_image_rgb(before_out.bytes.data(), before_out.stride)};
   REQUIRE(RefocusAfterRgb(engine.get(), &params, &field, &previous, after.bytes.data(),
-                          after.stride, nullptr) == SF_OK);
+                          after.stride, nullptr) == STARFOCUS_OK);
   CHECK((after.bytes == whole.bytes));
 
   std::vector<uint8_t> gapped(4 * size_t(width) * size_t(height));
   for (int k = 0; k < width * height; ++k) {
     std::copy_n(scene.Pixel(0, k % width, k / width), 3, gapped.begin() + 4 * k);
   }
-  field.views[0] = sf_image_rgb(gapped.data(), 4 * size_t(width));
+  field.views[0] = starfocus_image_rgb(gapped.data(), 4 * size_t(width));
   field.views[0].pixel_stride = 4;
-  const sf_image image = sf_image_rgb(converted.bytes.data(), converted.stride);
-  REQUIRE(sf_refocus(engine.get(), &params, &field, &image, nullptr) == SF_OK);
+  const starfocus_image image = starfocus_image_rgb(converted.bytes.data(), converted.stride);
+  REQUIRE(starfocus_refocus(engine.get(), &params, &field, &image, nullptr) == STARFOCUS_OK);
   CHECK((converted.bytes == whole.bytes));
 
   const int x = std::min(3, width - 1), y = height * 7 / 16;
-  for (const sf_region& region :
-       {sf_region{width / 3, height / 4, width - width / 3, (height + 3) / 4},
-        sf_region{0, height - 1, width, 1}, sf_region{width / 2, 0, 1, height},
-        sf_region{x, y, std::max(1, std::min(width / 2, width - x)), std::min(3, height - y)}}) {
+  for (const starfocus_region& region :
+       {starfocus_region{width / 3, height / 4, width - width / 3, (height + 3) / 4},
+        starfocus_region{0, height - 1, width, 1}, starfocus_region{width / 2, 0, 1, height},
+        starfocus_region{x, y, std::max(1, std::min(width / 2, width - x)),
+                         std::min(3, height - y)}}) {
     params.region = region;
     Output part(region.width, region.height);
-    REQUIRE(Refocus(&engine, params, scene, &part) == SF_OK);
+    REQUIRE(Refocus(&engine, params, scene, &part) == STARFOCUS_OK);
     CHECK(IsPartOf(part, whole, region));
   }
   return whole;
 }
 
 // Rows that come and go in chunks of any sizes give the bytes and the report of the whole picture.
-inline void CheckStreamed(const Scene& scene, sf_config config, const sf_params& params) {
+inline void CheckStreamed(const Scene& scene, starfocus_config config,
+                          const starfocus_params& params) {
   Engine whole_engine(config);
   Output whole(scene.width, scene.height, 7);
-  sf_report expected = {};
-  REQUIRE(Refocus(&whole_engine, params, scene, &whole, nullptr, nullptr, &expected) == SF_OK);
+  starfocus_report expected = {};
+  REQUIRE(Refocus(&whole_engine, params, scene, &whole, nullptr, nullptr, &expected) ==
+          STARFOCUS_OK);
   CHECK(whole.PaddingUntouched());
-  config.features |= SF_FEATURE_STREAMING;
+  config.features |= STARFOCUS_FEATURE_STREAMING;
   Engine engine(config);
   Random random(uint64_t(scene.width) * 977 + uint64_t(scene.height));
   constexpr int kAll = 1 << 20;
@@ -90,17 +93,17 @@ inline void CheckStreamed(const Scene& scene, sf_config config, const sf_params&
     CAPTURE(chunk[0]);
     CAPTURE(chunk[1]);
     Output out(scene.width, scene.height, 7);
-    sf_report report = {};
+    starfocus_report report = {};
     REQUIRE(Stream(&engine, params, scene, &out, chunk[0], chunk[1], nullptr, nullptr, &report) ==
-            SF_OK);
+            STARFOCUS_OK);
     CHECK((out.bytes == whole.bytes));
     CHECK(report.n == expected.n);
     CHECK(report.r_max == expected.r_max);
     CHECK(report.rendered_views == expected.rendered_views);
     CHECK(report.rendered_samples == expected.rendered_samples);
     CHECK(report.side_bytes == expected.side_bytes);
-    CHECK(std::memcmp(&report.skipped, &expected.skipped, sizeof(sf_skipped)) == 0);
-    for (int layer = 0; layer < SF_LAYERS; ++layer) {
+    CHECK(std::memcmp(&report.skipped, &expected.skipped, sizeof(starfocus_skipped)) == 0);
+    for (int layer = 0; layer < STARFOCUS_LAYERS; ++layer) {
       CHECK(report.layers[layer].blocks == expected.layers[layer].blocks);
       CHECK(report.layers[layer].pixels == expected.layers[layer].pixels);
       CHECK(report.layers[layer].predicted_ps == expected.layers[layer].predicted_ps);

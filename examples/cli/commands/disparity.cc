@@ -35,9 +35,9 @@ struct Plan {
 // MIN:MAX.
 std::string ReadRange(const std::string& text, std::optional<DisparityRange>* range) {
   const std::vector<double> ends = ReadNumbers(text, ':');
-  if (ends.size() != 2 || ends[0] < -SF_MAX_DISPARITY || ends[0] > ends[1] ||
-      ends[1] > SF_MAX_DISPARITY) {
-    return "MIN:MAX, disparities within +-" + Short(SF_MAX_DISPARITY);
+  if (ends.size() != 2 || ends[0] < -STARFOCUS_MAX_DISPARITY || ends[0] > ends[1] ||
+      ends[1] > STARFOCUS_MAX_DISPARITY) {
+    return "MIN:MAX, disparities within +-" + Short(STARFOCUS_MAX_DISPARITY);
   }
   *range = {static_cast<float>(ends[0]), static_cast<float>(ends[1])};
   return "";

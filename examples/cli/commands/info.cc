@@ -25,7 +25,7 @@ struct InfoOptions {
   bool json = false;
 };
 
-double BinEdge(const sf_disparity_stats& stats, int bin) {
+double BinEdge(const starfocus_disparity_stats& stats, int bin) {
   return stats.min + (double(stats.max) - stats.min) * bin / kBins;
 }
 
@@ -33,13 +33,13 @@ void PrintRow(const std::string& name, const std::string& value) {
   std::printf("  %-10s %s\n", name.c_str(), value.c_str());
 }
 
-void PrintText(const Capture& capture, const sf_disparity_stats& stats,
+void PrintText(const Capture& capture, const starfocus_disparity_stats& stats,
                const std::vector<int64_t>& counts) {
   const LightField& light_field = capture.light_field;
   std::string views = std::to_string(light_field.views.size()) + " views";
   if (!AreStar(light_field.positions)) {
     views += " at";
-    for (const sf_position& at : light_field.positions) {
+    for (const starfocus_position& at : light_field.positions) {
       views += " (" + Short(at.u) + ", " + Short(at.v) + ")";
     }
   }
@@ -64,7 +64,7 @@ void PrintText(const Capture& capture, const sf_disparity_stats& stats,
   }
 }
 
-void PrintJson(const Capture& capture, const sf_disparity_stats& stats,
+void PrintJson(const Capture& capture, const starfocus_disparity_stats& stats,
                const std::vector<int64_t>& counts) {
   const LightField& light_field = capture.light_field;
   Json json;
@@ -77,7 +77,8 @@ void PrintJson(const Capture& capture, const sf_disparity_stats& stats,
   json.Set("height", light_field.views[0].height);
   json.Set("views", light_field.views.size());
   Json positions;
-  for (const sf_position& at : light_field.positions) positions.Add(Json::Array({at.u, at.v}));
+  for (const starfocus_position& at : light_field.positions)
+    positions.Add(Json::Array({at.u, at.v}));
   if (!light_field.positions.empty()) json.Set("positions", std::move(positions));
   if (!light_field.disparity.values.empty()) {
     json.Set("disparity_min", stats.min);
@@ -97,20 +98,22 @@ bool HasMap(const Capture& capture) {
   return !capture.map_path.empty() || StarWithin(positions) > 1;
 }
 
-Error Measure(const Capture& capture, sf_disparity_stats* stats, std::vector<int64_t>* counts) {
+Error Measure(const Capture& capture, starfocus_disparity_stats* stats,
+              std::vector<int64_t>* counts) {
   const FloatMap& map = capture.light_field.disparity;
   if (map.values.empty()) return {};
-  const sf_status status = sf_measure_disparity(
+  const starfocus_status status = starfocus_measure_disparity(
       map.values.data(), sizeof(float) * size_t(map.width), map.width, map.height, stats);
-  if (status != SF_OK) {
-    return Expected(MapName(capture), "disparities that can be measured", sf_status_string(status));
+  if (status != STARFOCUS_OK) {
+    return Expected(MapName(capture), "disparities that can be measured",
+                    starfocus_status_string(status));
   }
   *counts = Histogram(map, *stats, kBins);
   return {};
 }
 
 Error Run(const InfoOptions& options) {
-  sf_disparity_stats stats = {};
+  starfocus_disparity_stats stats = {};
   std::vector<int64_t> counts;
   Result<Capture> opened = OpenInput(options.input);
   if (!opened) return opened.error();

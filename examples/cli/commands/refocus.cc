@@ -29,8 +29,8 @@ struct RefocusOptions {
   std::vector<std::string> inputs;
   InputOptions input;  // the one of them that is refocused
   std::string report, map;
-  sf_region region = {};      // all 0: the whole picture
-  std::vector<double> sweep;  // foci; none: no sweep
+  starfocus_region region = {};  // all 0: the whole picture
+  std::vector<double> sweep;     // foci; none: no sweep
   int jobs = 1;
   OutputOptions output;
   LensOptions lens;
@@ -40,7 +40,7 @@ struct RefocusOptions {
 
 struct Loaded {
   Capture capture;
-  sf_disparity_stats stats = {};
+  starfocus_disparity_stats stats = {};
   double max_blur = 0;
 };
 
@@ -107,7 +107,7 @@ Error MakePlan(const RefocusOptions& options, LensPlan* plan, PictureOptions* ho
   return PlanLens(options.lens, plan);
 }
 
-Error CheckRegion(const Image& picture, const sf_region& region) {
+Error CheckRegion(const Image& picture, const starfocus_region& region) {
   if (region.x + region.width <= picture.width && region.y + region.height <= picture.height)
     return {};
   return Error::Usage("--region",
@@ -164,7 +164,7 @@ Error WriteReport(const RefocusOptions& options, const std::string& text) {
 Error RunOne(const RefocusOptions& options, const PictureOptions& how, double widest,
              const EngineTask& one, double start) {
   EngineTask task = one;
-  std::vector<sf_block> blocks;
+  std::vector<starfocus_block> blocks;
   if (!options.map.empty()) {
     task.callbacks.on_block = CollectBlock;
     task.callbacks.on_block_data = &blocks;
@@ -176,7 +176,7 @@ Error RunOne(const RefocusOptions& options, const PictureOptions& how, double wi
   if (!error) error = run.Refocus(InputName(options.input.path), task, &result);
   if (!error) error = WriteRefocused(options.output, how, widest, task, result.picture);
   if (!error && !options.map.empty()) {
-    const sf_region& region = task.params.region;
+    const starfocus_region& region = task.params.region;
     error = WriteImage(options.map, DrawPartition(result.picture, region.x, region.y, blocks));
   }
   if (error || options.report.empty()) return error;

@@ -36,7 +36,7 @@ struct Video {
   std::vector<std::string> folders;
   int width = 0, height = 0;
   Positions views;
-  sf_disparity_stats stats = {};  // of all frames
+  starfocus_disparity_stats stats = {};  // of all frames
   double max_blur = 0;
 };
 
@@ -104,7 +104,7 @@ Error CheckSize(const std::string& folder, const FloatMap& map, const Video& vid
 
 // Measures the map of a folder, its holes filled if asked to.
 Error Prepare(const VideoOptions& options, const std::string& folder, FloatMap* map,
-              sf_disparity_stats* stats) {
+              starfocus_disparity_stats* stats) {
   const std::string path = DisparityPath(folder);
   if (options.fill_invalid) {
     if (Error error = FillHoles(path, map)) return error;
@@ -130,7 +130,7 @@ Error Scan(const VideoOptions& options, LensPlan* plan, Video* video) {
   if (Error error = CheckRenderer(video->folders[0], *plan, video->views)) return error;
   for (size_t i = 0; i < video->folders.size(); ++i) {
     const std::string& folder = video->folders[i];
-    sf_disparity_stats stats = {};
+    starfocus_disparity_stats stats = {};
     if (Error error = ChooseViewFiles(folder, video->views).error()) return error;
     Result<FloatMap> read = ReadDisparity(folder);
     if (!read) return read.error();
@@ -151,7 +151,7 @@ Error Scan(const VideoOptions& options, LensPlan* plan, Video* video) {
 
 Result<LightField> LoadFrame(const VideoOptions& options, const Video& video, size_t index) {
   const std::string& folder = video.folders[index];
-  sf_disparity_stats stats;
+  starfocus_disparity_stats stats;
   Result<LightField> frame = LoadLightField(folder, video.views);
   if (!frame) return frame;
   if (Error error = CheckSize(folder, frame->disparity, video)) return error;

@@ -31,7 +31,7 @@ struct ViewOptions {
   InputOptions input;
   ApertureOptions aperture;
   std::string out;
-  int threads = sf_pool_cores();
+  int threads = starfocus_pool_cores();
 };
 
 // What is shown, in the order in which it is made.
@@ -67,7 +67,7 @@ Error ShowTruth(const TruthFile& truth, const Image& picture, Contents* contents
   return {};
 }
 
-Error ShowPicture(size_t index, const Image& picture, const std::vector<sf_block>& blocks,
+Error ShowPicture(size_t index, const Image& picture, const std::vector<starfocus_block>& blocks,
                   Contents* contents) {
   const size_t foci = contents->lenses.size() - contents->truths.size();
   if (index >= foci) return ShowTruth(contents->truths[index - foci], picture, contents);
@@ -84,8 +84,8 @@ Error ShowPicture(size_t index, const Image& picture, const std::vector<sf_block
   return {};
 }
 
-Error WritePage(const ViewOptions& options, const Capture& capture, const sf_disparity_stats& stats,
-                const Contents& contents) {
+Error WritePage(const ViewOptions& options, const Capture& capture,
+                const starfocus_disparity_stats& stats, const Contents& contents) {
   const LightField& light_field = capture.light_field;
   const std::string size =
       std::to_string(light_field.width()) + " × " + std::to_string(light_field.height());
@@ -116,7 +116,7 @@ Error WritePage(const ViewOptions& options, const Capture& capture, const sf_dis
 }
 
 // The lenses of the strip, and of the truths that are within the limit of blur.
-Error ChooseLenses(const Capture& capture, const sf_disparity_stats& stats,
+Error ChooseLenses(const Capture& capture, const starfocus_disparity_stats& stats,
                    ApertureChoice* aperture, Contents* contents) {
   const std::vector<double> foci = StripFoci(capture.light_field.disparity, kFoci);
   if (Error error = FitAperture(FarthestFromFocus(stats, foci), aperture)) return error;
@@ -124,9 +124,9 @@ Error ChooseLenses(const Capture& capture, const sf_disparity_stats& stats,
   for (const double focus : foci) contents->lenses.push_back({focus, aperture->radius});
   for (const TruthFile& truth : FindTruths(capture.path)) {
     const double blur = BlurOf(truth.lens, stats);
-    if (blur > SF_MAX_BLUR) {
+    if (blur > STARFOCUS_MAX_BLUR) {
       std::fprintf(stderr, "%s: left out: its lens blurs by %s pixels, and the limit is %s\n",
-                   truth.path.c_str(), Short(blur).c_str(), Short(SF_MAX_BLUR).c_str());
+                   truth.path.c_str(), Short(blur).c_str(), Short(STARFOCUS_MAX_BLUR).c_str());
       continue;
     }
     contents->truths.push_back(truth);
@@ -168,11 +168,11 @@ Error Run(const ViewOptions& options) {
   Capture capture;
   ApertureChoice aperture;
   if (Error error = Open(options, &aperture, &capture)) return error;
-  sf_disparity_stats stats = {}, known = {};
+  starfocus_disparity_stats stats = {}, known = {};
   const LightField& light_field = capture.light_field;
   const FloatMap& map = light_field.disparity;
-  sf_measure_disparity(map.values.data(), sizeof(float) * size_t(map.width), map.width, map.height,
-                       &known);
+  starfocus_measure_disparity(map.values.data(), sizeof(float) * size_t(map.width), map.width,
+                              map.height, &known);
   MapOptions care;
   care.fill = known.invalid > 0;
   Error error = CareForMap(care, options.threads, &capture);
@@ -181,10 +181,11 @@ Error Run(const ViewOptions& options) {
   if (!error) error = ChooseLenses(capture, stats, &aperture, &contents);
   if (error) return error;
   stats.invalid = known.invalid;  // of the map as it is; its holes are filled
-  error = RefocusEach(options.input.path, light_field, stats, options.threads, contents.lenses,
-                      [&](size_t i, const Image& picture, const std::vector<sf_block>& blocks) {
-                        return ShowPicture(i, picture, blocks, &contents);
-                      });
+  error =
+      RefocusEach(options.input.path, light_field, stats, options.threads, contents.lenses,
+                  [&](size_t i, const Image& picture, const std::vector<starfocus_block>& blocks) {
+                    return ShowPicture(i, picture, blocks, &contents);
+                  });
   return error ? error : WritePage(options, capture, stats, contents);
 }
 

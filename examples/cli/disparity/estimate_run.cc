@@ -50,9 +50,9 @@ Error MakeMap(const std::string& where, const Images& views, const FloatMap* giv
   Bytes *const confidence = made.confidence, *const coverage = made.coverage;
   const Image& centre = views[0];
   const char* task = given == nullptr ? "estimate its disparities" : "repair its disparities";
-  sf_depth_config config;
-  sf_depth_config_init(&config);
-  sf_problem problem = {};
+  starfocus_depth_config config;
+  starfocus_depth_config_init(&config);
+  starfocus_problem problem = {};
   config.problem = &problem;
   config.width = centre.width;
   config.height = centre.height;
@@ -65,20 +65,21 @@ Error MakeMap(const std::string& where, const Images& views, const FloatMap* giv
   config.progress = PictureProgress::Tell;
   config.progress_data = &maker->progress;
   size_t bytes = 0;
-  sf_status status =
-      given == nullptr ? sf_estimate_size(&config, &bytes) : sf_repair_size(&config, &bytes);
-  if (status == SF_ERROR_TOO_LARGE) return OutOfMemory(where, task);
-  if (status == SF_OK) {
-    const Workspace workspace(::operator new (bytes, std::align_val_t{SF_ALIGNMENT}));
-    sf_light_field light_field = {};
+  starfocus_status status = given == nullptr ? starfocus_estimate_size(&config, &bytes)
+                                             : starfocus_repair_size(&config, &bytes);
+  if (status == STARFOCUS_ERROR_TOO_LARGE) return OutOfMemory(where, task);
+  if (status == STARFOCUS_OK) {
+    const Workspace workspace(::operator new (bytes, std::align_val_t{STARFOCUS_ALIGNMENT}));
+    starfocus_light_field light_field = {};
     for (size_t i = 0; i < views.size(); ++i) {
-      light_field.views[i] = sf_image_rgb(views[i].row(0), views[i].stride());
+      light_field.views[i] = starfocus_image_rgb(views[i].row(0), views[i].stride());
     }
     const auto width = size_t(centre.width), pixels = width * size_t(centre.height);
     map->width = centre.width;
     map->height = centre.height;
     map->values.resize(pixels);
-    sf_map out = {map->values.data(), sizeof(float) * width, nullptr, width, nullptr, width, 0};
+    starfocus_map out = {
+        map->values.data(), sizeof(float) * width, nullptr, width, nullptr, width, 0};
     if (confidence != nullptr) {
       confidence->resize(pixels);
       out.confidence = confidence->data();
@@ -88,14 +89,14 @@ Error MakeMap(const std::string& where, const Images& views, const FloatMap* giv
       out.coverage = coverage->data();
     }
     if (given != nullptr) {
-      light_field.depth =
-          sf_depth_float(given->values.data(), sizeof(float) * width, given->width, given->height);
+      light_field.depth = starfocus_depth_float(given->values.data(), sizeof(float) * width,
+                                                given->width, given->height);
     }
-    const auto make = given == nullptr ? sf_estimate_disparity : sf_repair_disparity;
+    const auto make = given == nullptr ? starfocus_estimate_disparity : starfocus_repair_disparity;
     status = make(&config, &light_field, &out, workspace.get(), bytes);
     if (coverage != nullptr && out.has_coverage == 0) coverage->clear();
   }
-  if (status == SF_OK) return {};
+  if (status == STARFOCUS_OK) return {};
   return Error::Internal(where, "views whose disparities it can make",
                          Describe(status, &problem).text);
 }
@@ -150,8 +151,9 @@ Result<DisparityRange> FindRange(const std::string& where, const LightField& lig
   const int factor = (views[0].width + kSmallWidth - 1) / kSmallWidth;
   std::vector<Image> small;
   for (const Image& view : views) small.push_back(Shrink(view, factor));
-  const float most = std::min(static_cast<float>(small[0].width) / 8,
-                              static_cast<float>(SF_MAX_DISPARITY) / static_cast<float>(factor));
+  const float most =
+      std::min(static_cast<float>(small[0].width) / 8,
+               static_cast<float>(STARFOCUS_MAX_DISPARITY) / static_cast<float>(factor));
   Maker maker(threads, "looking for the disparities");
   FloatMap map;
   Bytes confidence;
@@ -187,13 +189,13 @@ Result<DisparityEstimate> EstimateDisparity(const std::string& where, const Ligh
 Error RepairDisparity(const std::string& where, int threads, bool covers, LightField* light_field,
                       Image* confidence) {
   const FloatMap& given = light_field->disparity;
-  sf_disparity_stats stats = {};
-  const sf_status status = sf_measure_disparity(
+  starfocus_disparity_stats stats = {};
+  const starfocus_status status = starfocus_measure_disparity(
       given.values.data(), sizeof(float) * size_t(given.width), given.width, given.height, &stats);
-  if (status != SF_OK || stats.invalid == int64_t{given.width} * given.height) {
+  if (status != STARFOCUS_OK || stats.invalid == int64_t{given.width} * given.height) {
     return Expected(where, "a disparity map with a value", "none");
   }
-  constexpr double kMost = SF_MAX_DISPARITY;
+  constexpr double kMost = STARFOCUS_MAX_DISPARITY;
   if (stats.min < -kMost || stats.max > kMost) {
     return Expected(where, "disparities within +-" + Short(kMost),
                     Short(stats.min) + " to " + Short(stats.max));

@@ -23,7 +23,7 @@ struct DisparityRange {
 
 struct DisparityEstimate {
   FloatMap map;
-  Image confidence;  // gray: 0 unknown, 255 sure (sf_estimate_disparity)
+  Image confidence;  // gray: 0 unknown, 255 sure (starfocus_estimate_disparity)
   Image coverage;    // of a repair, gray; empty: none was asked for, or found
 };
 

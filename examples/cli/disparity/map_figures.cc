@@ -7,7 +7,8 @@
 
 namespace starfocus {
 
-std::vector<int64_t> Histogram(const FloatMap& map, const sf_disparity_stats& stats, int bins) {
+std::vector<int64_t> Histogram(const FloatMap& map, const starfocus_disparity_stats& stats,
+                               int bins) {
   std::vector<int64_t> counts(static_cast<size_t>(bins));
   const double range = double(stats.max) - stats.min;
   for (float d : map.values) {

@@ -13,7 +13,8 @@
 namespace starfocus {
 
 // How many finite disparities lie in each of so many equal parts of the measured range.
-std::vector<int64_t> Histogram(const FloatMap& map, const sf_disparity_stats& stats, int bins);
+std::vector<int64_t> Histogram(const FloatMap& map, const starfocus_disparity_stats& stats,
+                               int bins);
 
 // A finite map as a picture: the nearest is white.
 Image DrawDisparity(const FloatMap& map);

@@ -56,8 +56,9 @@ std::string Section(const Program& program, const Command& command) {
 
 std::string ManualText(const Program& program) {
   const std::string name = Roff(program.main.name);
-  std::string text = ".TH " + name + " 1 \"\" \"starfocus " SF_VERSION_STRING "\"\n.SH NAME\n" +
-                     name + " \\- " + Roff(program.main.help) + "\n.SH SYNOPSIS\n" +
+  std::string text = ".TH " + name +
+                     " 1 \"\" \"starfocus " STARFOCUS_VERSION_STRING "\"\n.SH NAME\n" + name +
+                     " \\- " + Roff(program.main.help) + "\n.SH SYNOPSIS\n" +
                      Bold(program.main.name) + " " + Italic("COMMAND") + " [" + Italic("OPTION") +
                      "...]\n.SH OPTIONS\n" + Entries(program, program.main) + ".SH COMMANDS\n";
   for (const Command& command : program.commands) text += Section(program, command);

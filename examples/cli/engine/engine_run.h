@@ -22,21 +22,21 @@ struct FreeAligned {
 using Workspace = std::unique_ptr<void, FreeAligned>;
 
 // An engine in memory of its own, *bytes of it.
-sf_status MakeEngine(const sf_config& config, Workspace* workspace, size_t* bytes,
-                     sf_engine** engine);
+starfocus_status MakeEngine(const starfocus_config& config, Workspace* workspace, size_t* bytes,
+                            starfocus_engine** engine);
 
 struct EngineTask {
   const LightField* light_field = nullptr;
-  sf_config config;  // version, sizes, views, disparity range and max_blur filled in
-  sf_params params;
-  sf_callbacks callbacks = {};  // clock and on_block; EngineRun sets the others
+  starfocus_config config;  // version, sizes, views, disparity range and max_blur filled in
+  starfocus_params params;
+  starfocus_callbacks callbacks = {};  // clock and on_block; EngineRun sets the others
   int threads = 1;
   bool stream = false;  // rows in, rows out instead of whole pictures
 };
 
 struct EngineResult {
   Image picture;
-  sf_report report = {};
+  starfocus_report report = {};
   double seconds = 0;  // inside the engine
   size_t workspace_bytes = 0;
   size_t prepared_bytes = 0;
@@ -65,17 +65,17 @@ class EngineRun {
 
  private:
   // The task's callbacks, with the threads and, for a picture, the progress line.
-  sf_status SetCallbacks(const EngineTask& task, bool is_picture);
-  sf_status RunStream(const EngineTask& task, EngineResult* result);
-  Error Run(const std::string& where, const EngineTask& task, const sf_previous* previous,
+  starfocus_status SetCallbacks(const EngineTask& task, bool is_picture);
+  starfocus_status RunStream(const EngineTask& task, EngineResult* result);
+  Error Run(const std::string& where, const EngineTask& task, const starfocus_previous* previous,
             EngineResult* result);
 
   ThreadRunner runner_;
   PictureProgress progress_;
   Workspace workspace_, prepared_memory_;
   size_t workspace_bytes_ = 0, prepared_bytes_ = 0;
-  sf_engine* engine_ = nullptr;
-  sf_prepared* prepared_ = nullptr;
+  starfocus_engine* engine_ = nullptr;
+  starfocus_prepared* prepared_ = nullptr;
 };
 
 }  // namespace starfocus

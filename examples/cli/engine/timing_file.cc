@@ -12,12 +12,13 @@ Error ReadCoefficient(const std::string& path, const JsonObject& object, const s
                       uint32_t* value) {
   const auto expected = [&](const std::string& found) {
     return Expected(
-        path, "timing." + name + " as a whole number from 0 to " + std::to_string(SF_MAX_TIMING),
+        path,
+        "timing." + name + " as a whole number from 0 to " + std::to_string(STARFOCUS_MAX_TIMING),
         found);
   };
   for (const JsonMember& member : object.members) {
     if (member.name != name) continue;
-    if (!member.is_whole || member.whole > SF_MAX_TIMING) {
+    if (!member.is_whole || member.whole > STARFOCUS_MAX_TIMING) {
       return expected(member.text.substr(0, 60));
     }
     *value = static_cast<uint32_t>(member.whole);
@@ -28,13 +29,13 @@ Error ReadCoefficient(const std::string& path, const JsonObject& object, const s
 
 }  // namespace
 
-Json TimingJson(const sf_timing& timing) {
+Json TimingJson(const starfocus_timing& timing) {
   Json json;
   for (const TimingTerm& term : kTimingTerms) json.Set(term.name, timing.*term.coefficient);
   return json;
 }
 
-Result<sf_timing> ReadTiming(const std::string& path) {
+Result<starfocus_timing> ReadTiming(const std::string& path) {
   const Result<Bytes> bytes = ReadSmallFile(path);
   if (!bytes) return bytes.error();
   const JsonObject object = ReadJsonObject(*bytes, "timing");
@@ -42,7 +43,7 @@ Result<sf_timing> ReadTiming(const std::string& path) {
   if (!object.is_there) {
     return Expected(path, "an object \"timing\", as starfocus-lab calibrate writes it", "none");
   }
-  sf_timing timing = {};
+  starfocus_timing timing = {};
   for (const TimingTerm& term : kTimingTerms) {
     if (Error error = ReadCoefficient(path, object, term.name, &(timing.*term.coefficient)))
       return error;

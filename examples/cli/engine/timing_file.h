@@ -13,11 +13,11 @@
 namespace starfocus {
 
 // The member "timing" of such a file.
-Json TimingJson(const sf_timing& timing);
+Json TimingJson(const starfocus_timing& timing);
 
 // Reads the member "timing"; it must hold every coefficient and nothing else. Other members of the
 // file are remarks.
-Result<sf_timing> ReadTiming(const std::string& path);
+Result<starfocus_timing> ReadTiming(const std::string& path);
 
 }  // namespace starfocus
 

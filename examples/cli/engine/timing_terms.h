@@ -12,23 +12,23 @@ namespace starfocus {
 
 struct TimingTerm {
   const char* name;
-  uint32_t sf_timing::*coefficient;
+  uint32_t starfocus_timing::*coefficient;
   uint64_t BlockWork::*work;  // null: one for each block
   const char* unit;           // what the coefficient is a time of
 };
 
 inline constexpr TimingTerm kTimingTerms[] = {
-    {"block", &sf_timing::block, nullptr, "block"},
-    {"field", &sf_timing::field, &BlockWork::field, "pixel of the extended block"},
-    {"a", &sf_timing::a, &BlockWork::a, "rendered pixel of type A"},
-    {"b", &sf_timing::b, &BlockWork::b, "rendered pixel of type B"},
-    {"c", &sf_timing::c, &BlockWork::c, "rendered pixel of type C"},
-    {"upsample", &sf_timing::upsample, &BlockWork::upsample, "upsampled pixel"},
-    {"span", &sf_timing::span, &BlockWork::span, "stretch of a rendered line"},
-    {"hole", &sf_timing::hole, &BlockWork::hole, "uncovered pixel"},
+    {"block", &starfocus_timing::block, nullptr, "block"},
+    {"field", &starfocus_timing::field, &BlockWork::field, "pixel of the extended block"},
+    {"a", &starfocus_timing::a, &BlockWork::a, "rendered pixel of type A"},
+    {"b", &starfocus_timing::b, &BlockWork::b, "rendered pixel of type B"},
+    {"c", &starfocus_timing::c, &BlockWork::c, "rendered pixel of type C"},
+    {"upsample", &starfocus_timing::upsample, &BlockWork::upsample, "upsampled pixel"},
+    {"span", &starfocus_timing::span, &BlockWork::span, "stretch of a rendered line"},
+    {"hole", &starfocus_timing::hole, &BlockWork::hole, "uncovered pixel"},
 };
 inline constexpr int kTimingTermCount = sizeof(kTimingTerms) / sizeof(kTimingTerms[0]);
-static_assert(sizeof(sf_timing) == kTimingTermCount * sizeof(uint32_t), "every coefficient");
+static_assert(sizeof(starfocus_timing) == kTimingTermCount * sizeof(uint32_t), "every coefficient");
 
 }  // namespace starfocus
 

@@ -162,7 +162,7 @@ Result<Capture> OpenInput(const InputOptions& options) {
 }
 
 Error LoadInput(const Positions& views, int threads, Capture* capture) {
-  for (const sf_position& view : views) {
+  for (const starfocus_position& view : views) {
     // A view that is not there is the option's fault.
     if (SelectViewFiles(capture->path, capture->files, {view})) continue;
     return Error::Usage(
@@ -191,9 +191,11 @@ Error CareForMap(const MapOptions& options, int threads, Capture* capture) {
 }
 
 Error FillHoles(const std::string& where, FloatMap* map) {
-  const sf_status status = sf_fill_disparity(map->values.data(), sizeof(float) * size_t(map->width),
-                                             map->width, map->height);
-  return status == SF_OK ? Error() : Expected(where, "a disparity map", sf_status_string(status));
+  const starfocus_status status = starfocus_fill_disparity(
+      map->values.data(), sizeof(float) * size_t(map->width), map->width, map->height);
+  return status == STARFOCUS_OK
+             ? Error()
+             : Expected(where, "a disparity map", starfocus_status_string(status));
 }
 
 std::vector<std::string> GridsOf(const InputOptions& options, const Capture& capture) {

@@ -45,21 +45,21 @@ double FirstThatFits(double value, int direction, const Fits& fits) {
 // --strength.
 double WidestFStop(double range, const ApertureChoice& aperture) {
   const double factor = aperture.widest * aperture.strength;
-  return FirstThatFits(factor * range / SF_MAX_BLUR, 1, [&](double f_stop) {
-    return aperture.widest / f_stop * aperture.strength * range <= SF_MAX_BLUR;
+  return FirstThatFits(factor * range / STARFOCUS_MAX_BLUR, 1, [&](double f_stop) {
+    return aperture.widest / f_stop * aperture.strength * range <= STARFOCUS_MAX_BLUR;
   });
 }
 
 double LargestRadius(double range, const ApertureChoice& aperture) {
-  return FirstThatFits(SF_MAX_BLUR / range / aperture.strength, -1, [&](double radius) {
-    return radius * aperture.strength * range <= SF_MAX_BLUR;
+  return FirstThatFits(STARFOCUS_MAX_BLUR / range / aperture.strength, -1, [&](double radius) {
+    return radius * aperture.strength * range <= STARFOCUS_MAX_BLUR;
   });
 }
 
 double LargestPercentage(double range, const ApertureChoice& aperture) {
   const double base = aperture.radius / aperture.strength;
-  return FirstThatFits(100 * SF_MAX_BLUR / range / base, -1, [&](double percentage) {
-    return base * (percentage / 100) * range <= SF_MAX_BLUR;
+  return FirstThatFits(100 * STARFOCUS_MAX_BLUR / range / base, -1, [&](double percentage) {
+    return base * (percentage / 100) * range <= STARFOCUS_MAX_BLUR;
   });
 }
 
@@ -88,8 +88,8 @@ Error PlanAperture(const ApertureOptions& options, const Capture& capture,
   if (capture.f_stop > 0) aperture->radius = capture.widest / capture.f_stop;
   if (options.aperture) aperture->radius = *options.aperture;
   if (options.widest) aperture->widest = *options.widest;
-  if (options.f_stop &&
-      sf_aperture_of_f_stop(*options.f_stop, aperture->widest, &aperture->radius) != SF_OK) {
+  if (options.f_stop && starfocus_aperture_of_f_stop(*options.f_stop, aperture->widest,
+                                                     &aperture->radius) != STARFOCUS_OK) {
     return Error::Usage("--f-stop", "an f-stop from the widest on, " + Short(aperture->widest),
                         Short(*options.f_stop));
   }
@@ -99,7 +99,7 @@ Error PlanAperture(const ApertureOptions& options, const Capture& capture,
   return {};
 }
 
-double FarthestFromFocus(const sf_disparity_stats& stats, const std::vector<double>& foci) {
+double FarthestFromFocus(const starfocus_disparity_stats& stats, const std::vector<double>& foci) {
   double range = 0;
   for (const double focus : foci) {
     range = std::max({range, std::fabs(stats.min - focus), std::fabs(stats.max - focus)});
@@ -109,7 +109,7 @@ double FarthestFromFocus(const sf_disparity_stats& stats, const std::vector<doub
 
 Error FitAperture(double range, ApertureChoice* aperture) {
   const double blur = aperture->radius * range;
-  if (blur <= SF_MAX_BLUR) return {};
+  if (blur <= STARFOCUS_MAX_BLUR) return {};
   if (aperture->option.empty()) {
     aperture->radius = aperture->widest / WidestFStop(range, *aperture);
     aperture->narrowed = true;
@@ -117,7 +117,7 @@ Error FitAperture(double range, ApertureChoice* aperture) {
   }
   return Error::Usage(
       aperture->option,
-      WhatFits(range, *aperture) + " (blur of at most " + Short(SF_MAX_BLUR) + " pixels)",
+      WhatFits(range, *aperture) + " (blur of at most " + Short(STARFOCUS_MAX_BLUR) + " pixels)",
       aperture->value + ", which blurs by " + Short(std::ceil(10 * blur) / 10) + " pixels");
 }
 
@@ -126,7 +126,7 @@ void TellAperture(const std::string& path, const ApertureChoice& aperture) {
   std::fprintf(stderr,
                "%s: aperture f/%s (--f-stop): the widest whose blur is at most %s pixels here\n",
                path.c_str(), ThreeDigits(aperture.widest / aperture.radius).c_str(),
-               Short(SF_MAX_BLUR).c_str());
+               Short(STARFOCUS_MAX_BLUR).c_str());
 }
 
 }  // namespace starfocus

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The aperture of a refocusing, from the options and what the input knows of its lens, and the
-// limit that SF_MAX_BLUR pixels of blur set to it. Used by refocus, video and view.
+// limit that STARFOCUS_MAX_BLUR pixels of blur set to it. Used by refocus, video and view.
 #ifndef STARFOCUS_EXAMPLES_CLI_REFOCUS_APERTURE_H_
 #define STARFOCUS_EXAMPLES_CLI_REFOCUS_APERTURE_H_
 
@@ -33,7 +33,7 @@ Error PlanAperture(const ApertureOptions& options, const Capture& capture,
                    ApertureChoice* aperture);
 
 // Largest difference between a disparity of the map and one of the foci.
-double FarthestFromFocus(const sf_disparity_stats& stats, const std::vector<double>& foci);
+double FarthestFromFocus(const starfocus_disparity_stats& stats, const std::vector<double>& foci);
 
 // Fits the aperture to the limit of blur where disparities are up to `range` pixels out of focus:
 // narrows the default, and refuses an aperture that the user chose.

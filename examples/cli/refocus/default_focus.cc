@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kSamples = 64;                   // each way, over the middle half of the picture
 constexpr double kShare = 0.1, kAlike = 0.06;  // of the samples; of the range of disparities
-constexpr double kLeastAlike = 0.75;           // pixels, within which sf_focus_at sees one surface
+constexpr double kLeastAlike = 0.75;  // pixels, within which starfocus_focus_at sees one surface
 
 struct Sample {
   int x, y;

@@ -7,14 +7,15 @@ namespace starfocus {
 namespace {
 
 // The paper's Fig. 14 has red for L = 0 and blue for L = 2.
-constexpr uint8_t kLayerColors[SF_LAYERS][3] = {{230, 60, 50}, {60, 180, 75}, {50, 110, 235}};
+constexpr uint8_t kLayerColors[STARFOCUS_LAYERS][3] = {
+    {230, 60, 50}, {60, 180, 75}, {50, 110, 235}};
 constexpr int kTintPercent = 40;
 
 int Grey(const uint8_t* rgb) { return (77 * rgb[0] + 150 * rgb[1] + 29 * rgb[2] + 128) >> 8; }
 
 // The first row and column of a block are its outline: its neighbours draw the other two sides. The
 // map's first pixel is the picture's (left, top).
-void DrawBlock(const sf_block& block, int left, int top, Image* map) {
+void DrawBlock(const starfocus_block& block, int left, int top, Image* map) {
   const uint8_t* color = kLayerColors[block.layer];
   const int begin = std::max(block.x, left);
   const int end = std::min(block.x + block.width, left + map->width);
@@ -33,13 +34,14 @@ void DrawBlock(const sf_block& block, int left, int top, Image* map) {
 
 }  // namespace
 
-void CollectBlock(void* data, const sf_block* block) {
-  static_cast<std::vector<sf_block>*>(data)->push_back(*block);
+void CollectBlock(void* data, const starfocus_block* block) {
+  static_cast<std::vector<starfocus_block>*>(data)->push_back(*block);
 }
 
-Image DrawPartition(const Image& picture, int left, int top, const std::vector<sf_block>& blocks) {
+Image DrawPartition(const Image& picture, int left, int top,
+                    const std::vector<starfocus_block>& blocks) {
   Image map = picture;
-  for (const sf_block& block : blocks) DrawBlock(block, left, top, &map);
+  for (const starfocus_block& block : blocks) DrawBlock(block, left, top, &map);
   return map;
 }
 

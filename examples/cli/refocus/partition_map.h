@@ -10,12 +10,13 @@
 
 namespace starfocus {
 
-// An sf_block_visitor; `data` is a std::vector<sf_block> that the block is added to.
-void CollectBlock(void* data, const sf_block* block);
+// An starfocus_block_visitor; `data` is a std::vector<starfocus_block> that the block is added to.
+void CollectBlock(void* data, const starfocus_block* block);
 
 // The picture in grey, or the region of it whose first pixel is (left, top), every block tinted by
 // its layer (L = 0 red, 1 green, 2 blue) and outlined.
-Image DrawPartition(const Image& picture, int left, int top, const std::vector<sf_block>& blocks);
+Image DrawPartition(const Image& picture, int left, int top,
+                    const std::vector<starfocus_block>& blocks);
 
 }  // namespace starfocus
 

@@ -46,7 +46,7 @@ void AddOpticsOptions(Command* command, LensOptions* options) {
 // The disparity at a pixel of the picture, whose unknown neighbours are filled. Returns false where
 // nothing around is known.
 bool FocusAround(const FloatMap& map, int x, int y, double* focus) {
-  constexpr int kAround = 16;  // pixels: more than sf_focus_at looks at
+  constexpr int kAround = 16;  // pixels: more than starfocus_focus_at looks at
   const int left = std::max(0, x - kAround), top = std::max(0, y - kAround);
   FloatMap part;
   part.width = std::min(map.width, x + kAround + 1) - left;
@@ -57,9 +57,10 @@ bool FocusAround(const FloatMap& map, int x, int y, double* focus) {
     }
   }
   const size_t stride = sizeof(float) * size_t(part.width);
-  return sf_fill_disparity(part.values.data(), stride, part.width, part.height) == SF_OK &&
-         sf_focus_at(part.values.data(), stride, part.width, part.height, x - left, y - top,
-                     focus) == SF_OK;
+  return starfocus_fill_disparity(part.values.data(), stride, part.width, part.height) ==
+             STARFOCUS_OK &&
+         starfocus_focus_at(part.values.data(), stride, part.width, part.height, x - left, y - top,
+                            focus) == STARFOCUS_OK;
 }
 
 Error CheckPixel(int width, int height, const LensPlan& plan) {
@@ -105,11 +106,11 @@ void AddLensOptions(Command* command, LensOptions* options) {
            "as a benchmark of twice the views that blur can show, or by blurring the "
            "centre view alone: this looks like a quick preview of the others but takes "
            "about ten times as long as block",
-           Choice<sf_mode>({{"block", SF_MODE_BLOCK},
-                            {"frame", SF_MODE_FRAME},
-                            {"benchmark", SF_MODE_BENCHMARK},
-                            {"blur", SF_MODE_BLUR}},
-                           &options->mode),
+           Choice<starfocus_mode>({{"block", STARFOCUS_MODE_BLOCK},
+                                   {"frame", STARFOCUS_MODE_FRAME},
+                                   {"benchmark", STARFOCUS_MODE_BENCHMARK},
+                                   {"blur", STARFOCUS_MODE_BLUR}},
+                                  &options->mode),
            Use::kDefault},
       },
       command);
@@ -121,8 +122,8 @@ void AddLensOptions(Command* command, LensOptions* options) {
            Transfer(&options->transfer), Use::kDefault},
           {"--highlights", "X",
            "1 to 64: how many times white the lamps are that the pictures clip",
-           Number(1, SF_MAX_HIGHLIGHTS, "a factor from 1 to " + Short(SF_MAX_HIGHLIGHTS),
-                  &options->highlights),
+           Number(1, STARFOCUS_MAX_HIGHLIGHTS,
+                  "a factor from 1 to " + Short(STARFOCUS_MAX_HIGHLIGHTS), &options->highlights),
            Use::kDefault},
           {"--views", "17|9|5|1|U,V:U,V",
            "17, 9, 5 or 1, or positions U,V:U,V, the first one 0,0; default: all of the folder",
@@ -135,18 +136,19 @@ void AddLensOptions(Command* command, LensOptions* options) {
            "slices: few views that show slices of the scene; line-scan: the paper's views, line by "
            "line; "
            "default: slices, but line-scan in frame mode with 5 or more views",
-           Choice<sf_renderer>(
-               {{"slices", SF_RENDERER_SLICES}, {"line-scan", SF_RENDERER_LINE_SCAN}},
+           Choice<starfocus_renderer>(
+               {{"slices", STARFOCUS_RENDERER_SLICES}, {"line-scan", STARFOCUS_RENDERER_LINE_SCAN}},
                &options->renderer)},
           {"--n-scale", "X",
            "0.5 to 2: multiplies the views along the radius; fewer are faster, more "
            "closer to the benchmark",
-           Number(SF_MIN_N_SCALE, SF_MAX_N_SCALE,
-                  "a factor from " + Short(SF_MIN_N_SCALE) + " to " + Short(SF_MAX_N_SCALE),
+           Number(STARFOCUS_MIN_N_SCALE, STARFOCUS_MAX_N_SCALE,
+                  "a factor from " + Short(STARFOCUS_MIN_N_SCALE) + " to " +
+                      Short(STARFOCUS_MAX_N_SCALE),
                   &options->n_scale),
            Use::kDefault},
           {"--max-layer", "0|1|2", "0, 1 or 2: may subsample by 2^L",
-           Whole(0, SF_LAYERS - 1, &options->max_layer), Use::kDefault},
+           Whole(0, STARFOCUS_LAYERS - 1, &options->max_layer), Use::kDefault},
           {"--deblocking", "N",
            "0 to 255 grey levels: the largest step smoothed between layers; 0: off",
            Whole(0, 255, &options->deblocking), Use::kDefault},
@@ -158,13 +160,13 @@ void AddLensOptions(Command* command, LensOptions* options) {
 
 Error PlanLens(const LensOptions& options, LensPlan* plan) {
   plan->options = options;
-  sf_config_init(&plan->config);
+  starfocus_config_init(&plan->config);
   if (Error error = ParseShape(options.shape, &plan->lens)) return error;
-  if (plan->lens.shape == SF_SHAPE_POLYGON || plan->lens.cats_eye > 0) {
-    plan->config.features |= SF_FEATURE_SHAPES;
+  if (plan->lens.shape == STARFOCUS_SHAPE_POLYGON || plan->lens.cats_eye > 0) {
+    plan->config.features |= STARFOCUS_FEATURE_SHAPES;
   }
   if (options.timing.empty()) return {};
-  const Result<sf_timing> timing = ReadTiming(options.timing);
+  const Result<starfocus_timing> timing = ReadTiming(options.timing);
   plan->config.tuning.timing = *timing;
   return timing.error();
 }
@@ -192,24 +194,26 @@ void UseFocus(const DefaultFocus& focus, LensPlan* plan) {
 }
 
 Error CheckRenderer(const std::string& where, const LensPlan& plan, const Positions& views) {
-  if (plan.options.renderer != SF_RENDERER_LINE_SCAN || plan.options.mode == SF_MODE_BLUR ||
-      AreStar(views)) {
+  if (plan.options.renderer != STARFOCUS_RENDERER_LINE_SCAN ||
+      plan.options.mode == STARFOCUS_MODE_BLUR || AreStar(views)) {
     return {};
   }
   return Error::Usage("--renderer", "slices, as line-scan needs a star of 1, 5, 9 or 17 views",
                       "line-scan for the " + std::to_string(views.size()) + " views of " + where);
 }
 
-Error PrepareDisparity(const std::string& where, const FloatMap& map, sf_disparity_stats* stats) {
-  const sf_status status = sf_measure_disparity(
+Error PrepareDisparity(const std::string& where, const FloatMap& map,
+                       starfocus_disparity_stats* stats) {
+  const starfocus_status status = starfocus_measure_disparity(
       map.values.data(), sizeof(float) * size_t(map.width), map.width, map.height, stats);
-  if (status != SF_OK) return Expected(where, "a disparity map", sf_status_string(status));
+  if (status != STARFOCUS_OK)
+    return Expected(where, "a disparity map", starfocus_status_string(status));
   if (stats->invalid != 0) {
     return Expected(where, "finite disparities", FirstInvalid(map, stats->invalid));
   }
   const double largest = std::max(std::fabs(double(stats->min)), std::fabs(double(stats->max)));
-  if (largest <= SF_MAX_DISPARITY) return {};
-  return Expected(where, "disparities within +-" + Short(SF_MAX_DISPARITY),
+  if (largest <= STARFOCUS_MAX_DISPARITY) return {};
+  return Expected(where, "disparities within +-" + Short(STARFOCUS_MAX_DISPARITY),
                   Short(stats->min) + " to " + Short(stats->max));
 }
 
@@ -218,8 +222,8 @@ Error ChooseFocus(const FloatMap& map, LensPlan* plan) {
   double focus = 0;
   if (Error error = CheckPixel(map.width, map.height, *plan)) return error;
   // The map is a good one (PrepareDisparity).
-  sf_focus_at(map.values.data(), sizeof(float) * size_t(map.width), map.width, map.height, plan->x,
-              plan->y, &focus);
+  starfocus_focus_at(map.values.data(), sizeof(float) * size_t(map.width), map.width, map.height,
+                     plan->x, plan->y, &focus);
   plan->foci = {focus};
   return {};
 }
@@ -235,10 +239,10 @@ Error ForeseeBlur(const LightField& light_field, bool repaired, LensPlan* plan) 
     foci.resize(1);
     if (!FocusAround(map, x, y, &foci[0])) return {};
   }
-  sf_disparity_stats stats = {};
+  starfocus_disparity_stats stats = {};
   // Where nothing is known, the care of the map reports it.
-  if (sf_measure_disparity(map.values.data(), sizeof(float) * size_t(map.width), map.width,
-                           map.height, &stats) != SF_OK ||
+  if (starfocus_measure_disparity(map.values.data(), sizeof(float) * size_t(map.width), map.width,
+                                  map.height, &stats) != STARFOCUS_OK ||
       stats.invalid == int64_t{map.width} * map.height) {
     return {};
   }
@@ -249,10 +253,10 @@ Error ForeseeBlur(const LightField& light_field, bool repaired, LensPlan* plan) 
   return FitAperture(FarthestFromFocus(stats, foci), &plan->aperture);
 }
 
-Error ChooseBlur(const sf_disparity_stats& stats, LensPlan* plan, double* max_blur) {
+Error ChooseBlur(const starfocus_disparity_stats& stats, LensPlan* plan, double* max_blur) {
   for (const double focus : plan->foci) {
-    if (std::fabs(focus) <= SF_MAX_FOCUS) continue;
-    return Error::Usage(plan->focus_option, "a disparity within +-" + Short(SF_MAX_FOCUS),
+    if (std::fabs(focus) <= STARFOCUS_MAX_FOCUS) continue;
+    return Error::Usage(plan->focus_option, "a disparity within +-" + Short(STARFOCUS_MAX_FOCUS),
                         Short(focus));
   }
   const double range = FarthestFromFocus(stats, plan->foci);
@@ -262,7 +266,7 @@ Error ChooseBlur(const sf_disparity_stats& stats, LensPlan* plan, double* max_bl
 }
 
 EngineTask MakeTask(const LensPlan& plan, const LightField& light_field,
-                    const sf_disparity_stats& stats, double max_blur, bool reported) {
+                    const starfocus_disparity_stats& stats, double max_blur, bool reported) {
   EngineTask task;
   task.light_field = &light_field;
   task.config = plan.config;
@@ -278,7 +282,7 @@ EngineTask MakeTask(const LensPlan& plan, const LightField& light_field,
   task.config.tuning.n_scale = plan.options.n_scale;
   task.config.transfer = plan.options.transfer;
   task.config.highlights = plan.options.highlights;
-  sf_params_init(&task.params);
+  starfocus_params_init(&task.params);
   task.params.mode = plan.options.mode;
   task.params.renderer = plan.options.renderer;
   task.params.lens = plan.lens;

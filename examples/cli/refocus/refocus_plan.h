@@ -24,14 +24,14 @@ struct LensOptions {
   std::optional<double> focus;
   std::optional<Pixel> focus_at;
   ApertureOptions aperture;
-  sf_mode mode = SF_MODE_BLOCK;
-  sf_renderer renderer = SF_RENDERER_AUTO;
+  starfocus_mode mode = STARFOCUS_MODE_BLOCK;
+  starfocus_renderer renderer = STARFOCUS_RENDERER_AUTO;
   Positions views;  // none: all there are
   int threads = 1;
   int superblock = 0;  // 0: the library chooses
   int max_layer = 2, deblocking = 35;
   double n_scale = 1, highlights = 1;
-  sf_transfer transfer = SF_TRANSFER_SRGB;
+  starfocus_transfer transfer = STARFOCUS_TRANSFER_SRGB;
   std::string timing;
   ShapeOptions shape;
 };
@@ -46,9 +46,9 @@ struct LensPlan {
   std::vector<double> foci;  // one, or those of a sweep; none while they depend on a pixel
   int x = 0, y = 0;          // that pixel
   ApertureChoice aperture;
-  sf_region region = {};  // all 0: the whole picture
-  sf_config config = {};  // what the shape needs, the timing, and defaults
-  sf_lens lens = {};      // the shape of the opening, and defaults
+  starfocus_region region = {};  // all 0: the whole picture
+  starfocus_config config = {};  // what the shape needs, the timing, and defaults
+  starfocus_lens lens = {};      // the shape of the opening, and defaults
 };
 
 // All that can be refused before a light field is read, but for the aperture and the focus.
@@ -61,7 +61,8 @@ void UseFocus(const DefaultFocus& focus, LensPlan* plan);
 Error CheckRenderer(const std::string& where, const LensPlan& plan, const Positions& views);
 
 // Measures a map, which is to have no holes. Errors are about `where`.
-Error PrepareDisparity(const std::string& where, const FloatMap& map, sf_disparity_stats* stats);
+Error PrepareDisparity(const std::string& where, const FloatMap& map,
+                       starfocus_disparity_stats* stats);
 
 // The disparity of what is at the chosen pixel, if the focus depends on it.
 Error ChooseFocus(const FloatMap& map, LensPlan* plan);
@@ -72,11 +73,11 @@ Error ForeseeBlur(const LightField& light_field, bool repaired, LensPlan* plan);
 
 // Fits the aperture to the blur of the map that is used. Returns the largest blur radius of any
 // focus, rounded up to whole pixels.
-Error ChooseBlur(const sf_disparity_stats& stats, LensPlan* plan, double* max_blur);
+Error ChooseBlur(const starfocus_disparity_stats& stats, LensPlan* plan, double* max_blur);
 
 // The task of the first focus; with a clock when it is to be reported.
 EngineTask MakeTask(const LensPlan& plan, const LightField& light_field,
-                    const sf_disparity_stats& stats, double max_blur, bool reported);
+                    const starfocus_disparity_stats& stats, double max_blur, bool reported);
 
 }  // namespace starfocus
 

@@ -12,15 +12,15 @@ double Share(uint64_t part, uint64_t whole) {
 
 // Shares are of all layers together; seconds are those of the processor, summed over the threads.
 // The timing model is one of blocks that are refocused by views after an analysis of their content.
-Json LayersJson(const sf_report& report, bool predicted) {
+Json LayersJson(const starfocus_report& report, bool predicted) {
   uint64_t pixels = 0, time = 0;
-  for (const sf_layer_report& layer : report.layers) {
+  for (const starfocus_layer_report& layer : report.layers) {
     pixels += layer.pixels;
     time += layer.measured_ns;
   }
   Json layers = Json::Array();
-  for (int l = 0; l < SF_LAYERS; ++l) {
-    const sf_layer_report& layer = report.layers[l];
+  for (int l = 0; l < STARFOCUS_LAYERS; ++l) {
+    const starfocus_layer_report& layer = report.layers[l];
     Json json;
     json.Set("layer", l);
     json.Set("blocks", layer.blocks);
@@ -37,8 +37,8 @@ Json LayersJson(const sf_report& report, bool predicted) {
 }
 
 // Side views are read where holes open; beside it what they have in all.
-Json SkippedJson(const EngineTask& task, const sf_report& report) {
-  const sf_skipped& skipped = report.skipped;
+Json SkippedJson(const EngineTask& task, const starfocus_report& report) {
+  const starfocus_skipped& skipped = report.skipped;
   Json json;
   json.Set("copied_blocks", skipped.copied_blocks);
   json.Set("copied_pixels", skipped.copied_pixels);
@@ -56,8 +56,8 @@ Json SkippedJson(const EngineTask& task, const sf_report& report) {
 // Bytes of the pictures read and written, against each read once: a pixel of the centre view, its
 // disparity if that was not prepared, and a pixel written. Side views need none where no hole
 // opens.
-Json TrafficJson(const EngineTask& task, const sf_report& report) {
-  const sf_region& region = task.params.region;
+Json TrafficJson(const EngineTask& task, const starfocus_report& report) {
+  const starfocus_region& region = task.params.region;
   const uint64_t pixels = region.width > 0
                               ? uint64_t(region.width) * uint64_t(region.height)
                               : uint64_t(task.config.width) * uint64_t(task.config.height);
@@ -75,8 +75,8 @@ Json TrafficJson(const EngineTask& task, const sf_report& report) {
 
 // Superblocks of the picture or region.
 uint64_t Superblocks(const EngineTask& task, int side) {
-  const sf_config& config = task.config;
-  const sf_region& region = task.params.region;
+  const starfocus_config& config = task.config;
+  const starfocus_region& region = task.params.region;
   const auto count = [&](int first, int size) {
     return static_cast<uint64_t>((first + size - 1) / side - first / side + 1);
   };
@@ -84,17 +84,17 @@ uint64_t Superblocks(const EngineTask& task, int side) {
   return count(region.x, region.width) * count(region.y, region.height);
 }
 
-Json ShapeJson(const sf_lens& lens) {
+Json ShapeJson(const starfocus_lens& lens) {
   constexpr const char* kNames[] = {"fall-off", "disc", "polygon", "ring"};
   Json json;
   json.Set("name", kNames[lens.shape]);
-  if (lens.shape == SF_SHAPE_FALL_OFF) json.Set("theta", lens.theta);
-  if (lens.shape == SF_SHAPE_POLYGON) {
+  if (lens.shape == STARFOCUS_SHAPE_FALL_OFF) json.Set("theta", lens.theta);
+  if (lens.shape == STARFOCUS_SHAPE_POLYGON) {
     json.Set("blades", lens.blades);
     json.Set("rotation", lens.rotation);
     json.Set("curvature", lens.curvature);
   }
-  if (lens.shape == SF_SHAPE_RING) json.Set("inner", lens.ring_inner);
+  if (lens.shape == STARFOCUS_SHAPE_RING) json.Set("inner", lens.ring_inner);
   json.Set("cats_eye", lens.cats_eye);
   return json;
 }
@@ -103,7 +103,7 @@ void AddFigures(const EngineTask& task, const EngineResult& result, Json* json) 
   json->Set("mode", kModeNames[task.params.mode]);
   json->Set("width", task.config.width);
   json->Set("height", task.config.height);
-  const sf_region& region = task.params.region;
+  const starfocus_region& region = task.params.region;
   if (region.width > 0) {
     json->Set("region", Json::Array({region.x, region.y, region.width, region.height}));
   }
@@ -111,7 +111,7 @@ void AddFigures(const EngineTask& task, const EngineResult& result, Json* json) 
   json->Set("focus", task.params.lens.focus);
   json->Set("aperture", task.params.lens.aperture);
   json->Set("highlights", task.config.highlights);
-  json->Set("transfer", task.config.transfer == SF_TRANSFER_NONE ? "none" : "srgb");
+  json->Set("transfer", task.config.transfer == STARFOCUS_TRANSFER_NONE ? "none" : "srgb");
   json->Set("shape", ShapeJson(task.params.lens));
   json->Set("n_scale", task.config.tuning.n_scale);
   json->Set("r_max", result.report.r_max);
@@ -121,12 +121,12 @@ void AddFigures(const EngineTask& task, const EngineResult& result, Json* json) 
   json->Set("superblock", result.report.superblock);
   json->Set("max_layer", task.config.tuning.max_layer);
   json->Set("deblocking", task.config.tuning.deblocking);
-  json->Set("layers", LayersJson(result.report, task.params.mode == SF_MODE_BLOCK));
+  json->Set("layers", LayersJson(result.report, task.params.mode == STARFOCUS_MODE_BLOCK));
   json->Set("skipped", SkippedJson(task, result.report));
   json->Set("traffic", TrafficJson(task, result.report));
   json->Set("seconds_refocus", result.seconds);
   json->Set("workspace_bytes", result.workspace_bytes);
-  json->Set("simd_target", sf_simd_target());
+  json->Set("simd_target", starfocus_simd_target());
   json->Set("threads", task.threads);
 }
 

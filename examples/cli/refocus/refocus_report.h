@@ -11,7 +11,7 @@
 
 namespace starfocus {
 
-// The modes by name, in the order of sf_mode.
+// The modes by name, in the order of starfocus_mode.
 inline constexpr const char* kModeNames[] = {"frame", "benchmark", "block", "blur"};
 
 // The task must have been run with ThreadNanoseconds for a clock.

@@ -101,7 +101,7 @@ Error Page::AddFigures(const std::string& path, const std::string& heading,
 }
 
 void Page::AddHistogram(const std::string& heading, const std::vector<int64_t>& counts,
-                        const sf_disparity_stats& stats) {
+                        const starfocus_disparity_stats& stats) {
   const auto bars = static_cast<int>(counts.size());
   const int64_t most = std::max<int64_t>(1, *std::max_element(counts.begin(), counts.end()));
   const auto edge = [&](int bar) {

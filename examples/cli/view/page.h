@@ -36,7 +36,7 @@ class Page {
 
   // Bars, and the numbers as a table to unfold.
   void AddHistogram(const std::string& heading, const std::vector<int64_t>& counts,
-                    const sf_disparity_stats& stats);
+                    const starfocus_disparity_stats& stats);
 
   // The whole file.
   std::string Html() const;

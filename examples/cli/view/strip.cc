@@ -23,14 +23,15 @@ bool ParseTruthName(const fs::path& name, LensAt* lens) {
   const int parts =
       std::sscanf(stem.c_str(), "truth_dt%lf_ut%lf%n", &lens->focus, &lens->aperture, &end);
   return parts == 2 && size_t(end) == stem.size() && name.extension() == ".png" &&
-         std::fabs(lens->focus) <= SF_MAX_FOCUS && lens->aperture > 0 && lens->aperture <= 1;
+         std::fabs(lens->focus) <= STARFOCUS_MAX_FOCUS && lens->aperture > 0 && lens->aperture <= 1;
 }
 
 // Whether the folder's meta.txt says that pictures average codes.
-sf_transfer TransferOf(const std::string& folder) {
+starfocus_transfer TransferOf(const std::string& folder) {
   const Result<Bytes> bytes = ReadSmallFile((fs::path(folder) / "meta.txt").string());
   const std::string text(bytes->begin(), bytes->end());
-  return text.find("transfer: none\n") != std::string::npos ? SF_TRANSFER_NONE : SF_TRANSFER_SRGB;
+  return text.find("transfer: none\n") != std::string::npos ? STARFOCUS_TRANSFER_NONE
+                                                            : STARFOCUS_TRANSFER_SRGB;
 }
 
 }  // namespace
@@ -53,7 +54,7 @@ std::vector<double> StripFoci(const FloatMap& map, int count) {
   return foci;
 }
 
-double BlurOf(const LensAt& lens, const sf_disparity_stats& stats) {
+double BlurOf(const LensAt& lens, const starfocus_disparity_stats& stats) {
   return lens.aperture * FarthestFromFocus(stats, {lens.focus});
 }
 
@@ -72,9 +73,9 @@ std::vector<TruthFile> FindTruths(const std::string& folder) {
 }
 
 Error RefocusEach(
-    const std::string& where, const LightField& light_field, const sf_disparity_stats& stats,
+    const std::string& where, const LightField& light_field, const starfocus_disparity_stats& stats,
     int threads, const std::vector<LensAt>& lenses,
-    const std::function<Error(size_t, const Image&, const std::vector<sf_block>&)>& show) {
+    const std::function<Error(size_t, const Image&, const std::vector<starfocus_block>&)>& show) {
   LensOptions options;
   options.transfer = TransferOf(where);
   LensPlan plan;
@@ -85,7 +86,7 @@ Error RefocusEach(
     plan.foci.push_back(lens.focus);
   }
   EngineTask task = MakeTask(plan, light_field, stats, max_blur, false);
-  std::vector<sf_block> blocks;
+  std::vector<starfocus_block> blocks;
   task.threads = threads;
   task.callbacks.on_block = CollectBlock;
   task.callbacks.on_block_data = &blocks;

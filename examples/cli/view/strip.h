@@ -19,7 +19,7 @@ struct LensAt {
 };
 
 // The largest blur radius of a picture by this lens.
-double BlurOf(const LensAt& lens, const sf_disparity_stats& stats);
+double BlurOf(const LensAt& lens, const starfocus_disparity_stats& stats);
 
 // So many foci at equal steps of disparity, from far to near, between all but the outermost
 // hundredths of the map's known values. One where all values are alike.
@@ -36,11 +36,11 @@ struct TruthFile {
 std::vector<TruthFile> FindTruths(const std::string& folder);
 
 // Refocuses the light field of a folder or photo by each of the lenses, whose blur is at most
-// SF_MAX_BLUR, and shows the result with its blocks.
+// STARFOCUS_MAX_BLUR, and shows the result with its blocks.
 Error RefocusEach(
-    const std::string& where, const LightField& light_field, const sf_disparity_stats& stats,
+    const std::string& where, const LightField& light_field, const starfocus_disparity_stats& stats,
     int threads, const std::vector<LensAt>& lenses,
-    const std::function<Error(size_t, const Image&, const std::vector<sf_block>&)>& show);
+    const std::function<Error(size_t, const Image&, const std::vector<starfocus_block>&)>& show);
 
 }  // namespace starfocus
 

@@ -18,16 +18,16 @@ using namespace analysis;
 
 // What one series of steps measures.
 struct Series {
-  sf_mode mode;
-  sf_renderer renderer;
+  starfocus_mode mode;
+  starfocus_renderer renderer;
   int layer;
   double r_max;      // 0: r itself
   double increment;  // of r
   int largest;       // r
 };
 
-const char* NameOf(sf_renderer renderer) {
-  return renderer == SF_RENDERER_LINE_SCAN ? "line-scan" : "slices";
+const char* NameOf(starfocus_renderer renderer) {
+  return renderer == STARFOCUS_RENDERER_LINE_SCAN ? "line-scan" : "slices";
 }
 
 // Consecutive steps with the same reason.
@@ -49,9 +49,10 @@ void Extend(const EngineStep& step, const std::string& reason, bool joined,
 }
 
 // The least r, of halves, that a layer is used at: (12), or LayerBySubaperture without depth edges.
-double LeastRadius(sf_renderer renderer, int layer) {
+double LeastRadius(starfocus_renderer renderer, int layer) {
   const auto layer_at = [&](double r) {
-    return renderer == SF_RENDERER_LINE_SCAN ? LayerByPaper(r) : LayerBySubaperture(r, false);
+    return renderer == STARFOCUS_RENDERER_LINE_SCAN ? LayerByPaper(r)
+                                                    : LayerBySubaperture(r, false);
   };
   double least = 0;
   while (layer_at(least) < layer) least += 0.5;
@@ -75,9 +76,10 @@ Error Measure(const Series& series, int sign, Table* table, Table* layers) {
     const EngineProbe probe = {sign * r, std::max(r, series.r_max), series.mode, series.renderer,
                                series.layer};
     EngineStep step;
-    const sf_status status = MeasureStep(probe, &step);
-    if (status != SF_OK || step.layer != series.layer) {
-      return Expected("engine", "a kernel at r = " + std::to_string(r), sf_status_string(status));
+    const starfocus_status status = MeasureStep(probe, &step);
+    if (status != STARFOCUS_OK || step.layer != series.layer) {
+      return Expected("engine", "a kernel at r = " + std::to_string(r),
+                      starfocus_status_string(status));
     }
     const std::string reason = Explain(step);
     if (!reason.empty()) Extend(step, reason, joined, &stretches);
@@ -121,8 +123,8 @@ struct RuleTables {
   Table engine, r_max, engine_layers, layers;
 };
 
-RuleTables MakeTables(sf_renderer renderer) {
-  const std::string suffix = renderer == SF_RENDERER_LINE_SCAN ? "" : "_subapertures";
+RuleTables MakeTables(starfocus_renderer renderer) {
+  const std::string suffix = renderer == STARFOCUS_RENDERER_LINE_SCAN ? "" : "_subapertures";
   const std::vector<std::string> columns = {
       "r",         "L",     "renderer", "N", "sse_engine", "sse_star", "sse_subapertures",
       "sse_paper", "apart", "reason"};
@@ -137,16 +139,17 @@ RuleTables MakeTables(sf_renderer renderer) {
 Result<Figure> AnalyseEngine(int largest) {
   Figure figure = {"engine", 860, 1240, {}, ""};
   std::printf("The running engine: SSE of its kernels against (4), and why where above 1e-3\n");
-  for (const sf_renderer renderer : {SF_RENDERER_LINE_SCAN, SF_RENDERER_SLICES}) {
+  for (const starfocus_renderer renderer :
+       {STARFOCUS_RENDERER_LINE_SCAN, STARFOCUS_RENDERER_SLICES}) {
     RuleTables tables = MakeTables(renderer);
-    for (int layer = 0; layer < SF_LAYERS; ++layer) {
-      const Series series = {SF_MODE_BLOCK, renderer, layer, 0, 1.0 / 8, largest};
+    for (int layer = 0; layer < STARFOCUS_LAYERS; ++layer) {
+      const Series series = {STARFOCUS_MODE_BLOCK, renderer, layer, 0, 1.0 / 8, largest};
       Table* table = layer == 0 ? &tables.engine : &tables.engine_layers;
       for (const int sign : {1, -1}) {
         if (Error error = Measure(series, sign, table, &tables.layers)) return error;
       }
     }
-    const Series series = {SF_MODE_FRAME, renderer, 0, double(largest), 1.0 / 2, largest};
+    const Series series = {STARFOCUS_MODE_FRAME, renderer, 0, double(largest), 1.0 / 2, largest};
     if (Error error = Measure(series, 1, &tables.r_max, &tables.layers)) return error;
     for (const Table& table : {tables.engine, tables.r_max, tables.engine_layers, tables.layers}) {
       figure.tables.push_back(table);

@@ -11,18 +11,19 @@
 namespace starfocus {
 namespace {
 
-sf_config MakeConfig(const LightField& light_field, const sf_disparity_stats& stats) {
-  sf_config config;
-  sf_config_init(&config);
+starfocus_config MakeConfig(const LightField& light_field, const starfocus_disparity_stats& stats) {
+  starfocus_config config;
+  starfocus_config_init(&config);
   config.width = light_field.width();
   config.height = light_field.height();
   ConfigureViews(light_field, &config);
   config.disparity_min = stats.min;
   config.disparity_max = stats.max;
-  config.max_blur = SF_MAX_BLUR;
-  config.superblock = 256;                 // the scratch then serves every smaller block
-  config.tuning.n_scale = SF_MAX_N_SCALE;  // and there are apertures of every N that is sampled
-  config.tuning.skips = 0;                 // the model is one of rendering
+  config.max_blur = STARFOCUS_MAX_BLUR;
+  config.superblock = 256;  // the scratch then serves every smaller block
+  config.tuning.n_scale =
+      STARFOCUS_MAX_N_SCALE;  // and there are apertures of every N that is sampled
+  config.tuning.skips = 0;    // the model is one of rendering
   return config;
 }
 
@@ -31,31 +32,31 @@ sf_config MakeConfig(const LightField& light_field, const sf_disparity_stats& st
 Error BlockBench::Open(const std::string& where, const LightField& light_field) {
   light_field_ = &light_field;
   const FloatMap& map = light_field.disparity;
-  sf_disparity_stats stats = {};
-  sf_status status = sf_measure_disparity(map.values.data(), sizeof(float) * size_t(map.width),
-                                          map.width, map.height, &stats);
-  if (status == SF_OK && stats.invalid != 0) status = SF_ERROR_NOT_FINITE;
-  sf_engine* engine = nullptr;
+  starfocus_disparity_stats stats = {};
+  starfocus_status status = starfocus_measure_disparity(
+      map.values.data(), sizeof(float) * size_t(map.width), map.width, map.height, &stats);
+  if (status == STARFOCUS_OK && stats.invalid != 0) status = STARFOCUS_ERROR_NOT_FINITE;
+  starfocus_engine* engine = nullptr;
   size_t bytes = 0;
-  if (status == SF_OK) {
+  if (status == STARFOCUS_OK) {
     status = MakeEngine(MakeConfig(light_field, stats), &workspace_, &bytes, &engine);
   }
-  if (status == SF_OK) {
+  if (status == STARFOCUS_OK) {
     engine_ = reinterpret_cast<EngineState*>(engine);
     // Blocks of any N are timed, through the default shape as in Focus.
-    sf_params params;
-    sf_params_init(&params);
+    starfocus_params params;
+    starfocus_params_init(&params);
     SetOpening(ShapeOf(params.lens), &engine_->tables);
     const Demand demand = DemandOf(engine_->tables.opening);
-    const int32_t last = LargestN(engine_->config, kSliceRenderer, demand, SF_MAX_BLUR);
+    const int32_t last = LargestN(engine_->config, kSliceRenderer, demand, STARFOCUS_MAX_BLUR);
     status = MakeApertures(kSliceRenderer, last, nullptr, &engine_->tables);
   }
-  if (status != SF_OK) {
-    return Expected(where, "a light field to calibrate with", sf_status_string(status));
+  if (status != STARFOCUS_OK) {
+    return Expected(where, "a light field to calibrate with", starfocus_status_string(status));
   }
   picture_ = Image(map.width, map.height);
   HoldDisparity();
-  for (int layer = 1; layer < SF_LAYERS; ++layer) HoldLayer(layer);
+  for (int layer = 1; layer < STARFOCUS_LAYERS; ++layer) HoldLayer(layer);
   return {};
 }
 
@@ -63,8 +64,8 @@ void BlockBench::HoldDisparity() {
   const FloatMap& map = light_field_->disparity;
   disparity_.resize(map.values.size() + simd::kPadding);
   engine_->row_store.disparity = {disparity_.data(), size_t(map.width), 0, 0};
-  const sf_depth_map given =
-      sf_depth_float(map.values.data(), sizeof(float) * size_t(map.width), map.width, map.height);
+  const starfocus_depth_map given = starfocus_depth_float(
+      map.values.data(), sizeof(float) * size_t(map.width), map.width, map.height);
   const DepthSource source = MakeDepthSource(engine_->config, given, nullptr);
   for (int y = 0; y < map.height; ++y) {
     // The range is the map's own, so that no value can be outside.
@@ -102,8 +103,8 @@ void BlockBench::HoldLayer(int layer) {
 }
 
 void BlockBench::Focus(const BlockTask& task) {
-  sf_params params;
-  sf_params_init(&params);
+  starfocus_params params;
+  starfocus_params_init(&params);
   params.lens.focus = task.focus;
   params.lens.aperture = task.aperture;
   SetLens(params, engine_);

@@ -29,7 +29,7 @@ class BlockBench {
   // What the timing model knows of the task's block; its place must be a multiple of kCellSize.
   BlockWork Work(const BlockTask& task);
 
-  // Picoseconds to refocus the task's block once. Blur radii must not exceed SF_MAX_BLUR.
+  // Picoseconds to refocus the task's block once. Blur radii must not exceed STARFOCUS_MAX_BLUR.
   uint64_t Time(const BlockTask& task);
 
  private:
@@ -44,7 +44,7 @@ class BlockBench {
   EngineState* engine_ = nullptr;
   PlaneViews views_;
   std::vector<int16_t> disparity_;
-  std::vector<int16_t> layer_samples_[SF_LAYERS];
+  std::vector<int16_t> layer_samples_[STARFOCUS_LAYERS];
   Image picture_;
 };
 

@@ -64,7 +64,7 @@ const BlockSampler::Cell& BlockSampler::At(int column, int row) const {
 }
 
 double BlockSampler::SmallestRadius(const Lens& lens, const Rect& rect) const {
-  double smallest = SF_MAX_BLUR;
+  double smallest = STARFOCUS_MAX_BLUR;
   for (int row = rect.y / kCellSize; row * kCellSize < rect.y + rect.height; ++row) {
     for (int column = rect.x / kCellSize; column * kCellSize < rect.x + rect.width; ++column) {
       smallest = std::min(smallest, SmallestRadius(lens, At(column, row)));
@@ -124,7 +124,7 @@ bool BlockSampler::Draw(int pass, const BlockKind& kind, BlockTask* task) {
   const int side = kind.side, layer = kind.layer;
   if (side > map_.width || side > map_.height) return false;
   const Lens lens = RandomLens(pass);
-  if (LargestRadius(lens, range_) > SF_MAX_BLUR) return false;
+  if (LargestRadius(lens, range_) > STARFOCUS_MAX_BLUR) return false;
   const int grid = 1 << layer;
   const Rect rect = {RandomBelow(map_.width - side + 1) / kCellSize * kCellSize,
                      RandomBelow(map_.height - side + 1) / kCellSize * kCellSize, side, side};
@@ -157,7 +157,7 @@ std::vector<BlockGroup> BlockSampler::Sample(int count) {
     for (int n : kViewNumbers) groups.push_back({{side, 0, n}, {}});
   }
   for (int side : kLayerSides) {
-    for (int layer = 1; layer < SF_LAYERS; ++layer) groups.push_back({{side, layer, 0}, {}});
+    for (int layer = 1; layer < STARFOCUS_LAYERS; ++layer) groups.push_back({{side, layer, 0}, {}});
   }
   for (int pass = 0; pass < kPasses; ++pass) {
     for (int draw = 0; draw < kDraws; ++draw) {

@@ -75,19 +75,19 @@ Vector Solve(const Equations& equations) {
 
 }  // namespace
 
-sf_timing FitTiming(const std::vector<Measurement>& measurements) {
+starfocus_timing FitTiming(const std::vector<Measurement>& measurements) {
   const Equations equations = MakeEquations(measurements);
   const Vector solution = Solve(equations);
-  sf_timing timing = {};
+  starfocus_timing timing = {};
   for (size_t k = 0; k < solution.size(); ++k) {
     if (equations.length[k] == 0) continue;
-    const double value = std::min<double>(solution[k] / equations.length[k], SF_MAX_TIMING);
+    const double value = std::min<double>(solution[k] / equations.length[k], STARFOCUS_MAX_TIMING);
     timing.*kTimingTerms[k].coefficient = static_cast<uint32_t>(value + 0.5);
   }
   return timing;
 }
 
-Agreement Compare(const sf_timing& timing, const std::vector<Measurement>& measurements) {
+Agreement Compare(const starfocus_timing& timing, const std::vector<Measurement>& measurements) {
   const auto r_squared = [&](auto weight_of) {
     double sum = 0, weights = 0, errors = 0, deviations = 0;
     for (const Measurement& measurement : measurements) {

@@ -16,13 +16,13 @@ struct Measurement {
 
 // The coefficients, none negative, of the least sum of squared errors, each divided by its measured
 // time: an error then weighs between an absolute and a relative one, so that small blocks count.
-sf_timing FitTiming(const std::vector<Measurement>& measurements);
+starfocus_timing FitTiming(const std::vector<Measurement>& measurements);
 
 // Coefficient of determination R^2, and the one with the weights of the fit.
 struct Agreement {
   double plain, weighted;
 };
-Agreement Compare(const sf_timing& timing, const std::vector<Measurement>& measurements);
+Agreement Compare(const starfocus_timing& timing, const std::vector<Measurement>& measurements);
 
 }  // namespace starfocus
 

@@ -26,16 +26,16 @@ struct CalibrateOptions {
 };
 
 Error Trace(const std::string& name, SceneTimes* times) {
-  ThreadRunner runner(sf_pool_cores());
+  ThreadRunner runner(starfocus_pool_cores());
   Scene scene;
   MakeScene(name, &scene);
-  const RayTracer renderer(scene, kWidth, kHeight, SF_TRANSFER_SRGB, &runner);
+  const RayTracer renderer(scene, kWidth, kHeight, STARFOCUS_TRANSFER_SRGB, &runner);
   LightField light_field;
   {
     Progress progress("rendering " + name, int64_t{kHeight} * kViews);
     for (int i = 0; i < kViews; ++i) {
       double u = 0, v = 0;
-      sf_view_position(i, &u, &v);
+      starfocus_view_position(i, &u, &v);
       light_field.views.push_back(renderer.View(u, v, &progress));
     }
   }
@@ -78,8 +78,8 @@ void Measure(const Scenes& scenes) {
   }
 }
 
-void PrintCoefficients(const sf_timing& timing) {
-  std::printf("coefficients on %s, picoseconds:\n", sf_simd_target());
+void PrintCoefficients(const starfocus_timing& timing) {
+  std::printf("coefficients on %s, picoseconds:\n", starfocus_simd_target());
   for (const TimingTerm& term : kTimingTerms) {
     std::printf("%10s %9u per %s\n", term.name, unsigned{timing.*term.coefficient}, term.unit);
   }
@@ -87,7 +87,7 @@ void PrintCoefficients(const sf_timing& timing) {
 
 // Prints how well the model predicts the scene, and returns the same as JSON. No limit is drawn:
 // what the model leaves out lowers the agreement of a good machine, too.
-Json Judge(const char* role, const SceneTimes& scene, const sf_timing& timing) {
+Json Judge(const char* role, const SceneTimes& scene, const starfocus_timing& timing) {
   const Agreement configurations = Compare(timing, scene.Configurations());
   const Agreement blocks = Compare(timing, scene.Blocks());
   std::printf("R2 %.4f (weighted %.4f; single blocks %.4f), %s: %s, %lld blocks\n",
@@ -117,10 +117,10 @@ Error Calibrate(const CalibrateOptions& options) {
   if (Error error = CheckOutput(options)) return error;
   if (Error error = OpenScenes(options, &scenes)) return error;
   Measure(scenes);
-  const sf_timing timing = FitTiming(scenes[0]->Configurations());
+  const starfocus_timing timing = FitTiming(scenes[0]->Configurations());
   PrintCoefficients(timing);
   Json json;
-  json.Set("simd_target", sf_simd_target());
+  json.Set("simd_target", starfocus_simd_target());
   json.Set("timing", TimingJson(timing));
   json.Set("fit", Judge("fit", *scenes[0], timing));
   Json checks = Json::Array();

@@ -36,8 +36,8 @@ struct SceneOptions {
   std::string folder, name = "portrait";
   Pixel size = {1024, 768};
   Positions views = StarPositions(17);
-  sf_transfer transfer = SF_TRANSFER_SRGB;
-  int threads = sf_pool_cores();
+  starfocus_transfer transfer = STARFOCUS_TRANSFER_SRGB;
+  int threads = starfocus_pool_cores();
   std::optional<int> seed;
   std::vector<std::string> truths;
   ShapeOptions shape;
@@ -46,15 +46,15 @@ struct SceneOptions {
 struct Plan {
   Scene scene;
   std::vector<Truth> truths;
-  sf_lens lens;  // of the truths, but for focus and aperture
+  starfocus_lens lens;  // of the truths, but for focus and aperture
 };
 
 Error ParseTruth(const std::string& text, Truth* truth) {
   const std::vector<double> numbers = ReadNumbers(text, ',');
-  if (numbers.size() != 2 || std::fabs(numbers[0]) > SF_MAX_DISPARITY || !(numbers[1] > 0) ||
+  if (numbers.size() != 2 || std::fabs(numbers[0]) > STARFOCUS_MAX_DISPARITY || !(numbers[1] > 0) ||
       numbers[1] > 1) {
     return Error::Usage("--truth",
-                        "D,U: disparity in focus within +-" + Short(SF_MAX_DISPARITY) +
+                        "D,U: disparity in focus within +-" + Short(STARFOCUS_MAX_DISPARITY) +
                             " and aperture above 0 and at most 1",
                         "'" + text + "'");
   }
@@ -95,9 +95,9 @@ Error CheckFolder(const SceneOptions& options, const Plan& plan) {
   if (Error error = CheckFolderOutput(folder)) return error;
   for (const auto& entry : fs::directory_iterator(folder, failure)) {
     const std::string name = entry.path().filename().string();
-    const bool replaced = std::any_of(views.begin(), views.end(), [&](const sf_position& view) {
-      return name == ViewName(view) + ".png";
-    });
+    const bool replaced = std::any_of(
+        views.begin(), views.end(),
+        [&](const starfocus_position& view) { return name == ViewName(view) + ".png"; });
     if (IsViewFile(name) && !replaced) {
       return Expected(entry.path().string(), "no view left from another light field", "one");
     }
@@ -113,8 +113,8 @@ std::string MetaText(const SceneOptions& options, const Plan& plan, const RayTra
   std::string text = "scene: " + plan.scene.name + ", " + plan.scene.description + "\n";
   text += "size: " + std::to_string(options.size.x) + "x" + std::to_string(options.size.y) + "\n";
   text += "views: " + std::to_string(options.views.size()) + "\n";
-  text +=
-      std::string("transfer: ") + (options.transfer == SF_TRANSFER_NONE ? "none" : "srgb") + "\n";
+  text += std::string("transfer: ") +
+          (options.transfer == STARFOCUS_TRANSFER_NONE ? "none" : "srgb") + "\n";
   for (const NamedPoint& point : plan.scene.points) {
     int x, y;
     renderer.ToPixel(point.x, point.y, &x, &y);
@@ -136,7 +136,7 @@ std::string MetaText(const SceneOptions& options, const Plan& plan, const RayTra
       "convention: centre pixel (x, y) appears in view (u, v) at (x - u*d, y - v*d)\n"
       "truth_dt<D>_ut<U>" +
       ShapeSuffix(options.shape) + ".png: thin-lens ground truth, " +
-      (plan.lens.shape == SF_SHAPE_FALL_OFF
+      (plan.lens.shape == STARFOCUS_SHAPE_FALL_OFF
            ? "aperture density (3) with theta " + Short(options.shape.theta) + " pi"
            : "aperture " + options.shape.shape) +
       (plan.lens.cats_eye > 0 ? ", cat's eyes " + Short(options.shape.cats_eye) : "") + "\n";
@@ -157,7 +157,7 @@ Pictures Render(const SceneOptions& options, const Plan& plan, const RayTracer& 
   Progress progress("rendering", options.size.y * costs);
   Pictures pictures;
   pictures.light_field.positions = options.views;
-  for (const sf_position& view : options.views) {
+  for (const starfocus_position& view : options.views) {
     pictures.light_field.views.push_back(renderer.View(view.u, view.v, &progress));
   }
   pictures.light_field.disparity = renderer.Disparity();

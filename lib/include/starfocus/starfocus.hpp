@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Thin C++17 wrapper of starfocus.h: owns the workspace, adds nothing else. Header-only; no
-// exceptions: every call returns an sf_status.
+// exceptions: every call returns an starfocus_status.
 #ifndef STARFOCUS_STARFOCUS_HPP_
 #define STARFOCUS_STARFOCUS_HPP_
 
@@ -14,87 +14,90 @@
 
 namespace starfocus {
 
-struct Config : sf_config {
-  Config() { sf_config_init(this); }
+struct Config : starfocus_config {
+  Config() { starfocus_config_init(this); }
 };
 
-struct Params : sf_params {
-  Params() { sf_params_init(this); }
+struct Params : starfocus_params {
+  Params() { starfocus_params_init(this); }
 };
 
 // An engine together with its heap-allocated workspace. Movable; not for two threads at once.
-// Before Init, and after it was moved from, every other call returns SF_ERROR_NULL.
+// Before Init, and after it was moved from, every other call returns STARFOCUS_ERROR_NULL.
 class Engine {
  public:
-  // Allocates the workspace and makes the engine, in place of one made before; SF_ERROR_MEMORY when
-  // memory is short. After an error the engine is what it was before the call.
-  sf_status Init(const sf_config& config) {
+  // Allocates the workspace and makes the engine, in place of one made before;
+  // STARFOCUS_ERROR_MEMORY when memory is short. After an error the engine is what it was before
+  // the call.
+  starfocus_status Init(const starfocus_config& config) {
     size_t bytes = 0;
-    sf_status status = sf_workspace_size(&config, &bytes);
-    if (status != SF_OK) return status;
-    Owned<sf_engine> fresh(bytes);
-    if (fresh.memory == nullptr) return SF_ERROR_MEMORY;
-    status = sf_init(&config, fresh.memory.get(), bytes, &fresh.handle);
-    if (status != SF_OK) return status;
+    starfocus_status status = starfocus_workspace_size(&config, &bytes);
+    if (status != STARFOCUS_OK) return status;
+    Owned<starfocus_engine> fresh(bytes);
+    if (fresh.memory == nullptr) return STARFOCUS_ERROR_MEMORY;
+    status = starfocus_init(&config, fresh.memory.get(), bytes, &fresh.handle);
+    if (status != STARFOCUS_OK) return status;
     engine_ = std::move(fresh);
-    prepared_ = Owned<sf_prepared>();
+    prepared_ = Owned<starfocus_prepared>();
     config_ = config;
     config_.problem = nullptr;  // which the caller may not keep
-    return SF_OK;
+    return STARFOCUS_OK;
   }
 
   // Functions of the caller for all further calls. Init forgets them.
-  sf_status SetCallbacks(const sf_callbacks& callbacks) {
-    return sf_set_callbacks(get(), &callbacks);
+  starfocus_status SetCallbacks(const starfocus_callbacks& callbacks) {
+    return starfocus_set_callbacks(get(), &callbacks);
   }
 
-  sf_status Refocus(const sf_params& params, const sf_light_field& light_field, const sf_image& out,
-                    sf_report* report = nullptr) {
-    return sf_refocus(get(), &params, &light_field, &out, report);
+  starfocus_status Refocus(const starfocus_params& params, const starfocus_light_field& light_field,
+                           const starfocus_image& out, starfocus_report* report = nullptr) {
+    return starfocus_refocus(get(), &params, &light_field, &out, report);
   }
 
   // What the last call refused; null before Init. That of Init is where config.problem points to.
-  const sf_problem* problem() const { return sf_engine_problem(engine_.handle); }
+  const starfocus_problem* problem() const { return starfocus_engine_problem(engine_.handle); }
 
-  // Allocates the memory of a prepared light field and prepares it; SF_ERROR_MEMORY when memory is
-  // short. One prepared before is freed first, so that there are never two: after an error there is
-  // none, and RefocusPrepared returns SF_ERROR_NULL.
-  sf_status Prepare(const sf_light_field& light_field) {
-    prepared_ = Owned<sf_prepared>();
-    if (get() == nullptr) return SF_ERROR_NULL;
+  // Allocates the memory of a prepared light field and prepares it; STARFOCUS_ERROR_MEMORY when
+  // memory is short. One prepared before is freed first, so that there are never two: after an
+  // error there is none, and RefocusPrepared returns STARFOCUS_ERROR_NULL.
+  starfocus_status Prepare(const starfocus_light_field& light_field) {
+    prepared_ = Owned<starfocus_prepared>();
+    if (get() == nullptr) return STARFOCUS_ERROR_NULL;
     size_t bytes = 0;
-    sf_status status = sf_prepared_size(&config_, &bytes);
-    if (status != SF_OK) return status;
-    Owned<sf_prepared> fresh(bytes);
-    if (fresh.memory == nullptr) return SF_ERROR_MEMORY;
-    status = sf_prepare(get(), &light_field, fresh.memory.get(), bytes, &fresh.handle);
-    if (status == SF_OK) prepared_ = std::move(fresh);
+    starfocus_status status = starfocus_prepared_size(&config_, &bytes);
+    if (status != STARFOCUS_OK) return status;
+    Owned<starfocus_prepared> fresh(bytes);
+    if (fresh.memory == nullptr) return STARFOCUS_ERROR_MEMORY;
+    status = starfocus_prepare(get(), &light_field, fresh.memory.get(), bytes, &fresh.handle);
+    if (status == STARFOCUS_OK) prepared_ = std::move(fresh);
     return status;
   }
 
-  sf_status RefocusPrepared(const sf_params& params, const sf_image& out,
-                            sf_report* report = nullptr) {
-    return sf_refocus_prepared(get(), &params, prepared_.handle, &out, report);
+  starfocus_status RefocusPrepared(const starfocus_params& params, const starfocus_image& out,
+                                   starfocus_report* report = nullptr) {
+    return starfocus_refocus_prepared(get(), &params, prepared_.handle, &out, report);
   }
 
-  sf_status StreamBegin(const sf_params& params) { return sf_stream_begin(get(), &params); }
-
-  sf_status StreamPush(const sf_light_field& rows, int32_t count, int32_t* consumed) {
-    return sf_stream_push(get(), &rows, count, consumed);
+  starfocus_status StreamBegin(const starfocus_params& params) {
+    return starfocus_stream_begin(get(), &params);
   }
 
-  sf_status StreamPull(const sf_image& out, int32_t rows, int32_t* written,
-                       sf_report* report = nullptr) {
-    return sf_stream_pull(get(), &out, rows, written, report);
+  starfocus_status StreamPush(const starfocus_light_field& rows, int32_t count, int32_t* consumed) {
+    return starfocus_stream_push(get(), &rows, count, consumed);
   }
 
-  sf_engine* get() const { return engine_.handle; }
+  starfocus_status StreamPull(const starfocus_image& out, int32_t rows, int32_t* written,
+                              starfocus_report* report = nullptr) {
+    return starfocus_stream_pull(get(), &out, rows, written, report);
+  }
+
+  starfocus_engine* get() const { return engine_.handle; }
   size_t workspace_bytes() const { return engine_.bytes; }
 
  private:
   struct Free {
     void operator()(void* memory) const {
-      ::operator delete(memory, std::align_val_t(SF_ALIGNMENT));
+      ::operator delete(memory, std::align_val_t(STARFOCUS_ALIGNMENT));
     }
   };
 
@@ -103,7 +106,8 @@ class Engine {
   struct Owned {
     Owned() = default;
     explicit Owned(size_t size)
-        : memory(::operator new(size, std::align_val_t(SF_ALIGNMENT), std::nothrow)), bytes(size) {}
+        : memory(::operator new(size, std::align_val_t(STARFOCUS_ALIGNMENT), std::nothrow)),
+          bytes(size) {}
     Owned(Owned&& other) noexcept { *this = std::move(other); }
     Owned& operator=(Owned&& other) noexcept {
       memory = std::move(other.memory);
@@ -117,9 +121,9 @@ class Engine {
     size_t bytes = 0;
   };
 
-  Owned<sf_engine> engine_;
-  Owned<sf_prepared> prepared_;
-  sf_config config_ = {};
+  Owned<starfocus_engine> engine_;
+  Owned<starfocus_prepared> prepared_;
+  starfocus_config config_ = {};
 };
 
 }  // namespace starfocus

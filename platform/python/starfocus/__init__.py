@@ -18,12 +18,12 @@ from .maps import (DisparityMap, DisparityStats, aperture_of_f_stop, estimate_di
                    focus_at, measure_disparity, repair_disparity, view_positions)
 from .refocuser import Prepared, Refocuser
 
-__version__: str = _library.sf_version().decode()
+__version__: str = _library.starfocus_version().decode()
 
 
 def simd_target() -> str:
     """The SIMD instructions that this machine refocuses with, such as "AVX2"."""
-    return _library.sf_simd_target().decode()
+    return _library.starfocus_simd_target().decode()
 
 
 __all__ = [

@@ -20,26 +20,26 @@ Progress = CFUNCTYPE(c_int, c_void_p, c_int32, c_int32)
 
 
 class Timing(Structure):
-    """sf_timing"""
+    """starfocus_timing"""
 
     _fields_ = [(name, c_uint32) for name in ("block", "field", "a", "b", "c", "upsample", "span", "hole")]
 
 
 class Position(Structure):
-    """sf_position"""
+    """starfocus_position"""
 
     _fields_ = [("u", c_double), ("v", c_double)]
 
 
 class Tuning(Structure):
-    """sf_tuning"""
+    """starfocus_tuning"""
 
     _fields_ = [("max_layer", c_int32), ("deblocking", c_int32), ("skips", c_int32), ("gather", c_int32),
                 ("n_scale", c_double), ("timing", Timing)]
 
 
 class Config(Structure):
-    """sf_config"""
+    """starfocus_config"""
 
     _fields_ = [
         ("size", c_uint32), ("width", c_int32), ("height", c_int32), ("views", c_int32),
@@ -51,20 +51,20 @@ class Config(Structure):
 
 
 class Problem(Structure):
-    """sf_problem"""
+    """starfocus_problem"""
 
     _fields_ = [("status", c_int32), ("index", c_int32), ("field", c_char_p), ("expected", c_char_p),
                 ("value", c_double), ("low", c_double), ("high", c_double)]
 
 
 class Region(Structure):
-    """sf_region"""
+    """starfocus_region"""
 
     _fields_ = [(name, c_int32) for name in ("x", "y", "width", "height")]
 
 
 class Lens(Structure):
-    """sf_lens"""
+    """starfocus_lens"""
 
     _fields_ = [
         ("focus", c_double), ("aperture", c_double), ("shape", c_int32), ("blades", c_int32), ("theta", c_double),
@@ -73,7 +73,7 @@ class Lens(Structure):
 
 
 class Params(Structure):
-    """sf_params"""
+    """starfocus_params"""
 
     _fields_ = [
         ("size", c_uint32), ("mode", c_int32), ("renderer", c_int32), ("region", Region), ("lens", Lens),
@@ -82,7 +82,7 @@ class Params(Structure):
 
 
 class Callbacks(Structure):
-    """sf_callbacks"""
+    """starfocus_callbacks"""
 
     _fields_ = [
         ("runner", c_void_p), ("runner_data", c_void_p), ("progress", Progress), ("progress_data", c_void_p),
@@ -91,7 +91,7 @@ class Callbacks(Structure):
 
 
 class Image(Structure):
-    """sf_image"""
+    """starfocus_image"""
 
     _fields_ = [
         ("format", c_int32), ("matrix", c_int32), ("range", c_int32), ("pixel_stride", c_int32),
@@ -100,7 +100,7 @@ class Image(Structure):
 
 
 class DepthMap(Structure):
-    """sf_depth_map"""
+    """starfocus_depth_map"""
 
     _fields_ = [
         ("data", c_void_p), ("stride", c_size_t), ("width", c_int32), ("height", c_int32),
@@ -110,28 +110,28 @@ class DepthMap(Structure):
 
 
 class LightField(Structure):
-    """sf_light_field"""
+    """starfocus_light_field"""
 
     _fields_ = [("views", Image * MAX_VIEWS), ("depth", DepthMap), ("coverage", c_void_p),
                 ("coverage_stride", c_size_t)]
 
 
 class LayerReport(Structure):
-    """sf_layer_report"""
+    """starfocus_layer_report"""
 
     _fields_ = [(name, c_uint64) for name in
                 ("blocks", "pixels", "views", "rendered_samples", "predicted_ps", "measured_ns")]
 
 
 class Skipped(Structure):
-    """sf_skipped"""
+    """starfocus_skipped"""
 
     _fields_ = [(name, c_uint64) for name in ("copied_blocks", "copied_pixels", "filled_blocks",
                                               "filled_pixels", "layer_columns", "boundaries")]
 
 
 class Report(Structure):
-    """sf_report"""
+    """starfocus_report"""
 
     _fields_ = [
         ("r_max", c_double), ("n", c_int32), ("rendered_views", c_int32), ("superblock", c_int32),
@@ -142,13 +142,13 @@ class Report(Structure):
 
 
 class DisparityStats(Structure):
-    """sf_disparity_stats"""
+    """starfocus_disparity_stats"""
 
     _fields_ = [("min", c_double), ("max", c_double), ("invalid", c_int64)]
 
 
 class DepthConfig(Structure):
-    """sf_depth_config"""
+    """starfocus_depth_config"""
 
     _fields_ = [
         ("size", c_uint32), ("width", c_int32), ("height", c_int32), ("views", c_int32),
@@ -159,7 +159,7 @@ class DepthConfig(Structure):
 
 
 class Map(Structure):
-    """sf_map"""
+    """starfocus_map"""
 
     _fields_ = [
         ("disparity", c_void_p), ("disparity_stride", c_size_t), ("confidence", c_void_p),
@@ -169,47 +169,47 @@ class Map(Structure):
 
 
 STRUCTURES = {
-    "sf_problem": Problem, "sf_timing": Timing, "sf_tuning": Tuning, "sf_position": Position, "sf_config": Config,
-    "sf_region": Region, "sf_lens": Lens, "sf_params": Params, "sf_light_field": LightField,
-    "sf_layer_report": LayerReport,
-    "sf_skipped": Skipped, "sf_report": Report, "sf_disparity_stats": DisparityStats,
-    "sf_depth_config": DepthConfig, "sf_image": Image,
-    "sf_depth_map": DepthMap, "sf_map": Map, "sf_callbacks": Callbacks,
+    "starfocus_problem": Problem, "starfocus_timing": Timing, "starfocus_tuning": Tuning, "starfocus_position": Position, "starfocus_config": Config,
+    "starfocus_region": Region, "starfocus_lens": Lens, "starfocus_params": Params, "starfocus_light_field": LightField,
+    "starfocus_layer_report": LayerReport,
+    "starfocus_skipped": Skipped, "starfocus_report": Report, "starfocus_disparity_stats": DisparityStats,
+    "starfocus_depth_config": DepthConfig, "starfocus_image": Image,
+    "starfocus_depth_map": DepthMap, "starfocus_map": Map, "starfocus_callbacks": Callbacks,
 }
 
 _ENGINE_CALLS = {
-    "sf_create": (POINTER(Config), c_void_p, POINTER(c_void_p)),
-    "sf_set_callbacks": (c_void_p, POINTER(Callbacks)),
-    "sf_prepared_size": (POINTER(Config), POINTER(c_size_t)),
-    "sf_refocus": (c_void_p, POINTER(Params), POINTER(LightField), POINTER(Image), POINTER(Report)),
-    "sf_prepare": (c_void_p, POINTER(LightField), c_void_p, c_size_t, POINTER(c_void_p)),
-    "sf_refocus_prepared": (c_void_p, POINTER(Params), c_void_p, POINTER(Image), POINTER(Report)),
+    "starfocus_create": (POINTER(Config), c_void_p, POINTER(c_void_p)),
+    "starfocus_set_callbacks": (c_void_p, POINTER(Callbacks)),
+    "starfocus_prepared_size": (POINTER(Config), POINTER(c_size_t)),
+    "starfocus_refocus": (c_void_p, POINTER(Params), POINTER(LightField), POINTER(Image), POINTER(Report)),
+    "starfocus_prepare": (c_void_p, POINTER(LightField), c_void_p, c_size_t, POINTER(c_void_p)),
+    "starfocus_refocus_prepared": (c_void_p, POINTER(Params), c_void_p, POINTER(Image), POINTER(Report)),
 }
 _MAP_CALLS = {
-    "sf_measure_disparity": (c_void_p, c_size_t, c_int32, c_int32, POINTER(DisparityStats)),
-    "sf_fill_disparity": (c_void_p, c_size_t, c_int32, c_int32),
-    "sf_focus_at": (c_void_p, c_size_t, c_int32, c_int32, c_int32, c_int32, POINTER(c_double)),
-    "sf_aperture_of_f_stop": (c_double, c_double, POINTER(c_double)),
-    "sf_estimate_size": (POINTER(DepthConfig), POINTER(c_size_t)),
-    "sf_repair_size": (POINTER(DepthConfig), POINTER(c_size_t)),
-    "sf_estimate_disparity": (POINTER(DepthConfig), POINTER(LightField), POINTER(Map), c_void_p, c_size_t),
-    "sf_repair_disparity": (POINTER(DepthConfig), POINTER(LightField), POINTER(Map), c_void_p, c_size_t),
-    "sf_view_position": (c_int32, POINTER(c_double), POINTER(c_double)),
+    "starfocus_measure_disparity": (c_void_p, c_size_t, c_int32, c_int32, POINTER(DisparityStats)),
+    "starfocus_fill_disparity": (c_void_p, c_size_t, c_int32, c_int32),
+    "starfocus_focus_at": (c_void_p, c_size_t, c_int32, c_int32, c_int32, c_int32, POINTER(c_double)),
+    "starfocus_aperture_of_f_stop": (c_double, c_double, POINTER(c_double)),
+    "starfocus_estimate_size": (POINTER(DepthConfig), POINTER(c_size_t)),
+    "starfocus_repair_size": (POINTER(DepthConfig), POINTER(c_size_t)),
+    "starfocus_estimate_disparity": (POINTER(DepthConfig), POINTER(LightField), POINTER(Map), c_void_p, c_size_t),
+    "starfocus_repair_disparity": (POINTER(DepthConfig), POINTER(LightField), POINTER(Map), c_void_p, c_size_t),
+    "starfocus_view_position": (c_int32, POINTER(c_double), POINTER(c_double)),
 }
 _OTHERS = {
-    "sf_config_init_sized": (None, POINTER(Config), c_uint32),
-    "sf_params_init_sized": (None, POINTER(Params), c_uint32),
-    "sf_depth_config_init_sized": (None, POINTER(DepthConfig), c_uint32),
-    "sf_destroy": (None, c_void_p),
-    "sf_engine_problem": (POINTER(Problem), c_void_p),
-    "sf_status_string": (c_char_p, c_int),
-    "sf_simd_target": (c_char_p,),
-    "sf_version": (c_char_p,),
-    "sf_abi_version": (c_uint32,),
-    "sf_struct_size": (c_size_t, c_char_p),
-    "sf_pool_create": (c_void_p, c_int32),
-    "sf_pool_workers": (c_int32, c_void_p),
-    "sf_pool_destroy": (None, c_void_p),
+    "starfocus_config_init_sized": (None, POINTER(Config), c_uint32),
+    "starfocus_params_init_sized": (None, POINTER(Params), c_uint32),
+    "starfocus_depth_config_init_sized": (None, POINTER(DepthConfig), c_uint32),
+    "starfocus_destroy": (None, c_void_p),
+    "starfocus_engine_problem": (POINTER(Problem), c_void_p),
+    "starfocus_status_string": (c_char_p, c_int),
+    "starfocus_simd_target": (c_char_p,),
+    "starfocus_version": (c_char_p,),
+    "starfocus_abi_version": (c_uint32,),
+    "starfocus_struct_size": (c_size_t, c_char_p),
+    "starfocus_pool_create": (c_void_p, c_int32),
+    "starfocus_pool_workers": (c_int32, c_void_p),
+    "starfocus_pool_destroy": (None, c_void_p),
 }
 
 
@@ -222,15 +222,15 @@ def _load() -> ctypes.CDLL:
     for name, (result, *arguments) in _OTHERS.items():
         function = getattr(library, name)
         function.restype, function.argtypes = result, arguments
-    if library.sf_abi_version() != ABI_VERSION:
+    if library.starfocus_abi_version() != ABI_VERSION:
         raise ImportError(f"libstarfocus_python.so: expected ABI version {ABI_VERSION}, found "
-                          f"{library.sf_abi_version()}")
+                          f"{library.starfocus_abi_version()}")
     for name, structure in STRUCTURES.items():
-        expected, found = ctypes.sizeof(structure), library.sf_struct_size(name.encode())
+        expected, found = ctypes.sizeof(structure), library.starfocus_struct_size(name.encode())
         if expected != found:
             raise ImportError(f"libstarfocus_python.so: expected {name} of {expected} bytes, found {found}")
     return library
 
 
 library = _load()
-run_on_pool = ctypes.cast(library.sf_pool_run, c_void_p)
+run_on_pool = ctypes.cast(library.starfocus_pool_run, c_void_p)

@@ -46,7 +46,7 @@ def set_field(structure: ctypes.Structure, name: str, value: Any) -> None:
 
 
 def part_of(region: Optional[RegionOfPicture], width: int, height: int) -> RegionOfPicture:
-    """The region of a picture of this size. None and, as in sf_params, four zeros are the whole picture."""
+    """The region of a picture of this size. None and, as in starfocus_params, four zeros are the whole picture."""
     if region is None:
         return 0, 0, width, height
     if len(region) != 4:
@@ -114,7 +114,7 @@ def as_map(disparity: Any) -> np.ndarray:
 
 
 def set_coverage(field: _abi.LightField, coverage: Any, height: int, width: int) -> List[np.ndarray]:
-    """Points sf_light_field to coverage, unless that is None; returns what must be kept."""
+    """Points starfocus_light_field to coverage, unless that is None; returns what must be kept."""
     if coverage is None:
         return []
     coverage = rows_of(coverage, np.uint8, (height, width), "coverage")
@@ -123,7 +123,7 @@ def set_coverage(field: _abi.LightField, coverage: Any, height: int, width: int)
 
 
 def as_image(array: np.ndarray) -> _abi.Image:
-    """sf_image of rows of R, G, B."""
+    """starfocus_image of rows of R, G, B."""
     image = _abi.Image()
     image.planes[0], image.strides[0] = array.ctypes.data, stride_of(array)
     return image
@@ -131,7 +131,7 @@ def as_image(array: np.ndarray) -> _abi.Image:
 
 def light_field(views: Views, disparity: Any, count: int, height: int,
                 width: int) -> Tuple[_abi.LightField, List[Any]]:
-    """sf_light_field of arrays, Images and a DepthMap, and what must be kept as long as the library may read it.
+    """starfocus_light_field of arrays, Images and a DepthMap, and what must be kept as long as the library may read it.
     Without a disparity map (None) its place stays empty."""
     views = as_list(views)
     if len(views) != count:
@@ -155,7 +155,7 @@ def light_field(views: Views, disparity: Any, count: int, height: int,
 
 
 def positions_of(positions: Any, count: int) -> Any:
-    """Where `count` views lie, as sf_config has it."""
+    """Where `count` views lie, as starfocus_config has it."""
     places = np.asarray(positions, np.float64)
     if places.shape != (count, 2):
         raise ValueError(f"positions: expected the shape ({count}, 2), found {places.shape}")
@@ -177,12 +177,12 @@ class Pool:
         self.runner = None
         self.workers = 1
         if workers != 1:
-            self.handle = library.sf_pool_create(whole(workers, "workers"))
+            self.handle = library.starfocus_pool_create(whole(workers, "workers"))
             if not self.handle:
                 raise MemoryError("no memory for a pool of threads")
-            weakref.finalize(self, library.sf_pool_destroy, self.handle)
+            weakref.finalize(self, library.starfocus_pool_destroy, self.handle)
             self.runner = _abi.run_on_pool
-            self.workers = library.sf_pool_workers(self.handle)
+            self.workers = library.starfocus_pool_workers(self.handle)
 
 
 class Watch:

@@ -4,7 +4,7 @@ from enum import IntEnum
 
 
 class Mode(IntEnum):
-    """How a picture is refocused: sf_mode."""
+    """How a picture is refocused: starfocus_mode."""
 
     FRAME = 0
     BENCHMARK = 1
@@ -13,7 +13,7 @@ class Mode(IntEnum):
 
 
 class Renderer(IntEnum):
-    """What renders views, and so how many of them a blur radius needs: sf_renderer."""
+    """What renders views, and so how many of them a blur radius needs: starfocus_renderer."""
 
     AUTO = 0
     LINE_SCAN = 1
@@ -21,7 +21,7 @@ class Renderer(IntEnum):
 
 
 class Shape(IntEnum):
-    """The opening of the lens: sf_shape."""
+    """The opening of the lens: starfocus_shape."""
 
     FALL_OFF = 0
     DISC = 1
@@ -30,14 +30,14 @@ class Shape(IntEnum):
 
 
 class Transfer(IntEnum):
-    """How codes of pictures stand for light, for the configuration's transfer: sf_transfer."""
+    """How codes of pictures stand for light, for the configuration's transfer: starfocus_transfer."""
 
     SRGB = 0
     NONE = 1
 
 
 class Format(IntEnum):
-    """Where the bytes of an image lie: sf_format."""
+    """Where the bytes of an image lie: starfocus_format."""
 
     RGB = 0
     BGR = 1
@@ -50,28 +50,28 @@ class Format(IntEnum):
 
 
 class Matrix(IntEnum):
-    """How luma and chroma are made of R, G, B: sf_matrix."""
+    """How luma and chroma are made of R, G, B: starfocus_matrix."""
 
     BT601 = 0
     BT709 = 1
 
 
 class Range(IntEnum):
-    """Which codes luma and chroma have: sf_range."""
+    """Which codes luma and chroma have: starfocus_range."""
 
     LIMITED = 0
     FULL = 1
 
 
 class DepthMeaning(IntEnum):
-    """What a value z of a depth map means, disparity = scale z + offset or scale / z + offset: sf_depth_meaning."""
+    """What a value z of a depth map means, disparity = scale z + offset or scale / z + offset: starfocus_depth_meaning."""
 
     LINEAR = 0
     RECIPROCAL = 1
 
 
 class Status(IntEnum):
-    """What calls of the library answer with: sf_status, without its prefix SF_ERROR_."""
+    """What calls of the library answer with: starfocus_status, without its prefix STARFOCUS_ERROR_."""
 
     OK = 0
     NULL = 1

@@ -14,7 +14,7 @@ class StarfocusError(Exception):
     refused, a field of a structure or an argument; "" if it is no single one."""
 
     def __init__(self, status: int, problem: Optional[Problem] = None):
-        text = library.sf_status_string(status).decode()
+        text = library.starfocus_status_string(status).decode()
         self.field = ""
         if problem is not None and problem.status == status and problem.field:
             self.field = problem.field.decode().replace("[]", f"[{problem.index}]")

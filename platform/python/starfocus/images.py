@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Pictures and depth maps as cameras have them: sf_image and sf_depth_map."""
+"""Pictures and depth maps as cameras have them: starfocus_image and starfocus_depth_map."""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -39,7 +39,7 @@ class Image:
         return Image(form, [np.empty(size, np.uint8) for size in sizes], matrix, codes)
 
     def as_structure(self, width: int, height: int, what: str, written: bool = False) -> _abi.Image:
-        """sf_image; ValueError when a plane is too small for a picture of this size."""
+        """starfocus_image; ValueError when a plane is too small for a picture of this size."""
         form, pixel_stride = Format(self.format), whole(self.pixel_stride, f"{what}, pixel_stride")
         image = _abi.Image(form, Matrix(self.matrix), Range(self.range), pixel_stride)
         sizes = _plane_sizes(form, pixel_stride, width, height)
@@ -67,7 +67,7 @@ class DepthMap:
     invalid: Optional[float] = None
 
     def as_structure(self) -> Tuple[_abi.DepthMap, np.ndarray]:
-        """sf_depth_map, and the array that it points to."""
+        """starfocus_depth_map, and the array that it points to."""
         values = np.asarray(self.values)
         native = np.dtype(np.float32) if values.dtype.type == np.float64 else values.dtype.newbyteorder("=")
         if values.dtype != native:

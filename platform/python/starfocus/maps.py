@@ -39,7 +39,7 @@ def view_positions(count: int = 17) -> List[Tuple[float, float]]:
     u, v = ctypes.c_double(), ctypes.c_double()
     positions = []
     for index in range(count):
-        if not library.sf_view_position(index, byref(u), byref(v)):
+        if not library.starfocus_view_position(index, byref(u), byref(v)):
             raise ValueError(f"view_positions: expected at most {_abi.MAX_VIEWS} views, found {count}")
         positions.append((u.value, v.value))
     return positions
@@ -49,35 +49,35 @@ def measure_disparity(disparity: np.ndarray) -> DisparityStats:
     """The range of a map."""
     disparity = as_map(disparity)
     stats = _abi.DisparityStats()
-    check(library.sf_measure_disparity(*_rows(disparity), byref(stats)))
+    check(library.starfocus_measure_disparity(*_rows(disparity), byref(stats)))
     return DisparityStats(stats.min, stats.max, stats.invalid)
 
 
 def fill_disparity(disparity: np.ndarray) -> np.ndarray:
     """A copy whose values that are not finite are those of the farther neighbour in their row."""
     filled = np.array(as_map(disparity), order="C")
-    check(library.sf_fill_disparity(*_rows(filled)))
+    check(library.starfocus_fill_disparity(*_rows(filled)))
     return filled
 
 
 def focus_at(disparity: np.ndarray, x: int, y: int) -> float:
     """The focus for what is at the pixel (x, y): the median of its surface around there."""
     focus = ctypes.c_double()
-    check(library.sf_focus_at(*_rows(as_map(disparity)), whole(x, "x"), whole(y, "y"), byref(focus)))
+    check(library.starfocus_focus_at(*_rows(as_map(disparity)), whole(x, "x"), whole(y, "y"), byref(focus)))
     return focus.value
 
 
 def aperture_of_f_stop(f_stop: float, widest: float = 1.0) -> float:
     """The aperture of a lens stopped down to `f_stop`, where `widest` is the f-stop of aperture 1."""
     aperture = ctypes.c_double()
-    check(library.sf_aperture_of_f_stop(f_stop, widest, byref(aperture)))
+    check(library.starfocus_aperture_of_f_stop(f_stop, widest, byref(aperture)))
     return aperture.value
 
 
 def estimate_disparity(views: Views, disparity_min: float, disparity_max: float, *, workers: int = 0,
                        progress: Optional[ProgressFunction] = None) -> DisparityMap:
     """The disparity of each pixel of the centre view, from 5, 9 or 17 views, looked for in this range."""
-    return _make_map(library.sf_estimate_size, library.sf_estimate_disparity, views, None,
+    return _make_map(library.starfocus_estimate_size, library.starfocus_estimate_disparity, views, None,
                      (disparity_min, disparity_max), workers, progress)
 
 
@@ -90,7 +90,7 @@ def repair_disparity(views: Views, disparity: np.ndarray, disparity_min: Optiona
     stats = measure_disparity(disparity)
     span = (stats.min if disparity_min is None else disparity_min,
             stats.max if disparity_max is None else disparity_max)
-    return _make_map(library.sf_repair_size, library.sf_repair_disparity, views, disparity, span, workers,
+    return _make_map(library.starfocus_repair_size, library.starfocus_repair_disparity, views, disparity, span, workers,
                      progress)
 
 
@@ -103,7 +103,7 @@ def _make_map(size_of: Any, make: Any, views: Views, given: Optional[np.ndarray]
     height, width = shape[:2]
     pool, watch, size = Pool(workers), Watch(progress), ctypes.c_size_t()
     config, problem = _abi.DepthConfig(), _abi.Problem()
-    library.sf_depth_config_init_sized(byref(config), ctypes.sizeof(config))
+    library.starfocus_depth_config_init_sized(byref(config), ctypes.sizeof(config))
     config.problem = ctypes.addressof(problem)
     for name, value in (("width", width), ("height", height), ("views", len(views))):
         set_field(config, name, value)

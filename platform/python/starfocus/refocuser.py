@@ -26,7 +26,7 @@ Disparity = Union[np.ndarray, DepthMap]
 #: A picture as an array of (height, width, 3), or in another format.
 Picture = Union[np.ndarray, Image]
 
-#: What `config` switches on by names of its own: bits of sf_config.features.
+#: What `config` switches on by names of its own: bits of starfocus_config.features.
 _FEATURES = {"line_scan": 1, "coverage": 2, "images": 8, "fill_unknown": 16, "shapes": 32}
 
 
@@ -40,7 +40,7 @@ class Refocuser:
         workers: threads that refocus; 0: one for each big core of the machine.
         positions: (u, v) of each view where they are not those of `view_positions`, from -1 to 1, the centre
             (0, 0) first: `[(0, 0), (1, 0)]` of a stereo pair.
-        config: other fields of sf_config and sf_tuning (starfocus.h) and features by their names, such as `max_blur`,
+        config: other fields of starfocus_config and starfocus_tuning (starfocus.h) and features by their names, such as `max_blur`,
             `transfer`, `highlights`, `fill_unknown=1`, `shapes=1` for lenses that are polygons or have cat's
             eyes, `images=1` for other formats than RGB, or `previews=3` for `Prepared.preview` down to an
             eighth of the size.
@@ -52,7 +52,7 @@ class Refocuser:
     def __init__(self, width: int, height: int, views: int = 5, *, disparity_min: float,
                  disparity_max: float, workers: int = 0, positions: Any = None, **config: Any):
         self._config = _abi.Config()
-        library.sf_config_init_sized(byref(self._config), ctypes.sizeof(self._config))
+        library.starfocus_config_init_sized(byref(self._config), ctypes.sizeof(self._config))
         set_below = {"size", "max_workers", "positions", "problem", "tuning"}
         known = {field[0] for field in _abi.Config._fields_} - set_below
         tuning = {field[0] for field in _abi.Tuning._fields_}
@@ -73,11 +73,11 @@ class Refocuser:
         engine = ctypes.c_void_p()
         self._problem = _abi.Problem()
         self._config.problem = ctypes.addressof(self._problem)
-        check(library.sf_create(byref(self._config), None, byref(engine)), self._problem)
+        check(library.starfocus_create(byref(self._config), None, byref(engine)), self._problem)
         self._engine = engine.value
-        weakref.finalize(self, library.sf_destroy, self._engine)
+        weakref.finalize(self, library.starfocus_destroy, self._engine)
         self._lock = threading.Lock()
-        #: What the last refocusing did: the fields of sf_report.
+        #: What the last refocusing did: the fields of starfocus_report.
         self.report: Dict[str, Any] = {}
 
     @classmethod
@@ -124,7 +124,7 @@ class Refocuser:
             region: only this part of the picture, with the same bytes. Four zeros, as None: the whole picture.
             out: an array, or with `images=1` an Image, that is written and returned in place of a new array.
             progress: is told of the rows done and of all; what counts as true calls it off (Cancelled).
-            lens: other fields of sf_lens (starfocus.h): `shape`, `blades`, `theta`, `rotation`, `curvature`,
+            lens: other fields of starfocus_lens (starfocus.h): `shape`, `blades`, `theta`, `rotation`, `curvature`,
                 `ring_inner`, `cats_eye`.
 
         Raises StarfocusError, of which there are kinds, and TypeError or ValueError for arrays.
@@ -133,7 +133,7 @@ class Refocuser:
         kept += set_coverage(field, coverage, self.height, self.width)
         *_, width, height = part_of(region, self.width, self.height)
         params = self._params(mode, renderer, region, focus=focus, aperture=aperture, **lens)
-        return self._picture(params, out, (height, width), progress, library.sf_refocus, byref(field), keep=kept)
+        return self._picture(params, out, (height, width), progress, library.starfocus_refocus, byref(field), keep=kept)
 
     def prepare(self, views: Views, disparity: Disparity, *, coverage: Optional[np.ndarray] = None,
                 progress: Optional[ProgressFunction] = None) -> "Prepared":
@@ -142,7 +142,7 @@ class Refocuser:
 
     def _picture(self, params: _abi.Params, out: Optional[Picture], size: Tuple[int, int],
                  progress: Optional[ProgressFunction], function: Any, scene: Any, *, keep: List[Any]) -> Picture:
-        """The picture of that height and width by sf_refocus or its like, of the scene, which reads the arrays
+        """The picture of that height and width by starfocus_refocus or its like, of the scene, which reads the arrays
         to `keep`."""
         if isinstance(out, Image):
             picture, image = out, out.as_structure(size[1], size[0], "out", written=True)
@@ -155,7 +155,7 @@ class Refocuser:
 
     def _params(self, mode: Mode, renderer: Renderer, region: Optional[RegionOfPicture], **lens: Any) -> _abi.Params:
         params = _abi.Params()
-        library.sf_params_init_sized(byref(params), ctypes.sizeof(params))
+        library.starfocus_params_init_sized(byref(params), ctypes.sizeof(params))
         set_field(params, "mode", mode)
         set_field(params, "renderer", renderer)
         known = {field[0] for field in _abi.Lens._fields_}
@@ -177,10 +177,10 @@ class Refocuser:
         """Calls the function with the engine and the arguments; the watch receives its progress."""
         callbacks = _abi.Callbacks(self._pool.runner, self._pool.handle, watch.function)
         with self._lock:
-            status = library.sf_set_callbacks(self._engine, byref(callbacks))
+            status = library.starfocus_set_callbacks(self._engine, byref(callbacks))
             if status == Status.OK:
                 status = function(self._engine, *arguments)
-        watch.check(status, library.sf_engine_problem(self._engine).contents)
+        watch.check(status, library.starfocus_engine_problem(self._engine).contents)
 
 
 class Prepared:
@@ -195,10 +195,10 @@ class Prepared:
         field, self._kept = light_field(views, disparity, config.views, config.height, config.width)
         self._kept += set_coverage(field, coverage, config.height, config.width)
         size = ctypes.c_size_t()
-        check(library.sf_prepared_size(byref(config), byref(size)))
+        check(library.starfocus_prepared_size(byref(config), byref(size)))
         self._memory = aligned(size.value)
         self._handle = ctypes.c_void_p()
-        refocuser._run(Watch(progress), library.sf_prepare, byref(field), pointer(self._memory), size.value,
+        refocuser._run(Watch(progress), library.starfocus_prepare, byref(field), pointer(self._memory), size.value,
                        byref(self._handle))
 
     def refocus(self, *, focus: float, aperture: float = 1.0, mode: Mode = Mode.BLOCK,
@@ -208,7 +208,7 @@ class Prepared:
         # pylint: disable=protected-access
         *_, width, height = part_of(region, self._refocuser.width, self._refocuser.height)
         params = self._refocuser._params(mode, renderer, region, focus=focus, aperture=aperture, **lens)
-        return self._refocuser._picture(params, out, (height, width), progress, library.sf_refocus_prepared,
+        return self._refocuser._picture(params, out, (height, width), progress, library.starfocus_refocus_prepared,
                                         self._handle, keep=self._kept)
 
     def preview(self, shift: int, *, focus: float, aperture: float = 1.0, mode: Mode = Mode.BLOCK,
@@ -225,7 +225,7 @@ class Prepared:
         size = -(-(y + height) // side) - y // side, -(-(x + width) // side) - x // side
         params = self._refocuser._params(mode, renderer, region, focus=focus, aperture=aperture, **lens)
         params.preview_shift = shift
-        return self._refocuser._picture(params, out, size, progress, library.sf_refocus_prepared, self._handle,
+        return self._refocuser._picture(params, out, size, progress, library.starfocus_refocus_prepared, self._handle,
                                         keep=self._kept)
 
 

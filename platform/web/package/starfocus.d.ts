@@ -8,7 +8,7 @@
 //   const picture = await refocuser.refocus({focus});
 //   context.putImageData(new ImageData(picture.data, picture.width, picture.height), 0, 0);
 //
-// Fields that are not explained here are those of sf_config, sf_params and sf_lens in starfocus/starfocus.h,
+// Fields that are not explained here are those of starfocus_config, starfocus_params and starfocus_lens in starfocus/starfocus.h,
 // written as JavaScript writes names, with its defaults. Bytes are those of the library and of its program.
 
 /** How the picture is made; default BLOCK. */
@@ -119,7 +119,7 @@ export interface Picture {
   milliseconds: number;
 }
 
-/** What the library refuses; `status` is the sf_status, `field` what is at fault ("": no single one). Wrong kinds of values are TypeErrors. */
+/** What the library refuses; `status` is the starfocus_status, `field` what is at fault ("": no single one). Wrong kinds of values are TypeErrors. */
 export declare class StarfocusError extends Error {
   readonly status: number;
   readonly field: string;
@@ -131,7 +131,7 @@ export interface Refocuser {
   readonly version: string;
   readonly threads: number;
 
-  /** Takes a light field: the views in the order of sf_view_position (the centre, then right, left, below,
+  /** Takes a light field: the views in the order of starfocus_view_position (the centre, then right, left, below,
    *  above), and its depth, disparities if it is a Float32Array. `coverage` has a byte for each pixel: how
    *  much of it the nearer of two surfaces covers, 255: all, as a matting network finds it; near depth edges
    *  it decides over the depth. All are copied; with `transfer` their buffers are handed over instead, and

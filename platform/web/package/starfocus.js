@@ -16,7 +16,7 @@ const PROGRESS_INTERVAL = 50;  // ms
 // What the memory of a light field is sized by, or what was made of it depends on.
 const FIXED = ['width', 'height', 'views', 'disparityMin', 'disparityMax', 'previews', 'maxLayer', 'transfer'];
 
-/** What the library refuses, with the number of its sf_status and the field or argument at fault. */
+/** What the library refuses, with the number of its starfocus_status and the field or argument at fault. */
 export class StarfocusError extends Error {
   constructor(message, status, field) {
     super(message);

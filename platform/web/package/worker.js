@@ -6,7 +6,7 @@ import {compile, instantiate, makeMemory, readText, writeText} from './engine.js
 import {canShare, listen, parentOfWorker, startWorker} from './host.js';
 
 const OK = 0, CANCELLED = 17;
-const BLOCK_NUMBERS = 6;  // of an sf_block
+const BLOCK_NUMBERS = 6;  // of an starfocus_block
 
 // Where nothing is shared, messages are looked at after so many rows, which costs some 10 % of the time.
 const ROWS_AT_ONCE = 512;
@@ -25,7 +25,7 @@ function check(status) {
   throw Object.assign(new Error(message), {status, field, cancelled: status === CANCELLED});
 }
 
-/** The message for a status, and the field or argument that its sf_problem names. */
+/** The message for a status, and the field or argument that its starfocus_problem names. */
 function describe(status, sentence) {
   const address = engine.problem();
   if (!address) return {message: sentence, field: ''};

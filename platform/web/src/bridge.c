@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* What JavaScript calls: one engine with one light field in the memory of one module. Functions
- * answer with an sf_status unless they say otherwise. All memory is what lies behind the module's
- * own data: first the helpers' stacks, then the light field and what was prepared of it, then the
- * engine, which may be made anew for the same light field. */
+ * answer with an starfocus_status unless they say otherwise. All memory is what lies behind the
+ * module's own data: first the helpers' stacks, then the light field and what was prepared of it,
+ * then the engine, which may be made anew for the same light field. */
 #include <string.h>
 
 #include "platform/web/src/fields.h"
@@ -16,24 +16,24 @@
 
 extern unsigned char __heap_base; /* the linker's: where the module's own data ends */
 
-static char text[64];             /* names of fields that JavaScript writes */
-static sf_problem problem;        /* of the last call with a configuration */
-static const sf_problem* refused; /* of the last call */
-static sf_config wanted;          /* what the next engine is to be */
-static sf_config config;          /* what sizes the light field, and the engine if there is one */
-static sf_params params;
-static sf_engine* engine;
+static char text[64];                    /* names of fields that JavaScript writes */
+static starfocus_problem problem;        /* of the last call with a configuration */
+static const starfocus_problem* refused; /* of the last call */
+static starfocus_config wanted;          /* what the next engine is to be */
+static starfocus_config config; /* what sizes the light field, and the engine if there is one */
+static starfocus_params params;
+static starfocus_engine* engine;
 static int32_t workers;
 static uintptr_t top = (uintptr_t)&__heap_base; /* first byte that nobody uses */
 static uintptr_t stacks_end;                    /* top when there is no light field */
 static uintptr_t field_end;                     /* top when there is no engine */
-static sf_light_field field;
+static starfocus_light_field field;
 static void* prepared_memory;
 static size_t prepared_bytes;
-static sf_prepared* prepared;
+static starfocus_prepared* prepared;
 static uint8_t* picture;
 static int32_t width, height; /* of the picture that was made last */
-static sf_block* blocks;
+static starfocus_block* blocks;
 static int32_t block_count;
 static int32_t call; /* the number of the call that runs */
 
@@ -43,7 +43,7 @@ static struct { int32_t cancelled, rows_done, rows; } shared;
 
 /* Returns memory aligned for the engine, or null when there is no more. */
 static void* Allocate(size_t bytes) {
-  const uintptr_t start = (top + SF_ALIGNMENT - 1) & ~(uintptr_t)(SF_ALIGNMENT - 1);
+  const uintptr_t start = (top + STARFOCUS_ALIGNMENT - 1) & ~(uintptr_t)(STARFOCUS_ALIGNMENT - 1);
   if (bytes > UINTPTR_MAX - start - PAGE) return NULL;
   const uintptr_t end = start + bytes;
   const size_t pages = (end + PAGE - 1) / PAGE, there = __builtin_wasm_memory_size(0);
@@ -59,16 +59,16 @@ static int Progress(void* data, int32_t rows_done, int32_t rows) {
   return __atomic_load_n(&shared.cancelled, __ATOMIC_RELAXED) == call;
 }
 
-static void KeepBlock(void* data, const sf_block* block) {
+static void KeepBlock(void* data, const starfocus_block* block) {
   (void)data;
   if (block_count < MAX_BLOCKS) blocks[block_count++] = *block;
 }
 
 /* Sets the functions of the engine, if there is one; `on_block` may be null. */
-static void SetCallbacks(sf_block_visitor on_block) {
-  const sf_callbacks callbacks = {
+static void SetCallbacks(starfocus_block_visitor on_block) {
+  const starfocus_callbacks callbacks = {
       .runner = workers > 1 ? RunOnWorkers : NULL, .progress = Progress, .on_block = on_block};
-  sf_set_callbacks(engine, &callbacks);
+  starfocus_set_callbacks(engine, &callbacks);
 }
 
 /* Where a name of a field is written, ended by 0; at most 63 bytes. */
@@ -77,24 +77,24 @@ EXPORT(text) char* Text(void) { return text; }
 /* Begins a configuration: the default one, then the one that was accepted. */
 EXPORT(begin) void Begin(void) {
   if (workers == 0) {
-    sf_config_init(&wanted);
+    starfocus_config_init(&wanted);
     wanted.problem = &problem;
   } else {
     wanted = config;
   }
 }
 
-/* Returns whether sf_config has the field whose name is in the text. */
+/* Returns whether starfocus_config has the field whose name is in the text. */
 EXPORT(configure) int Configure(double value) { return SetConfigField(&wanted, text, value); }
 
 /* Accepts the configuration, for that many workers, or leaves the one before. */
-EXPORT(accept) sf_status Accept(int32_t count) {
+EXPORT(accept) starfocus_status Accept(int32_t count) {
   wanted.max_workers = count;
-  wanted.features |= SF_FEATURE_IMAGES;
+  wanted.features |= STARFOCUS_FEATURE_IMAGES;
   size_t bytes = 0;
-  const sf_status status = sf_workspace_size(&wanted, &bytes);
+  const starfocus_status status = starfocus_workspace_size(&wanted, &bytes);
   refused = &problem;
-  if (status == SF_OK) {
+  if (status == STARFOCUS_OK) {
     config = wanted;
     workers = count;
     SetHelpers(count - 1);
@@ -113,8 +113,8 @@ EXPORT(help) void HelpAs(int32_t worker) { Help(worker); }
 static int MakeRoomForViews(int32_t pixel_bytes) {
   const size_t row = (size_t)pixel_bytes * (size_t)config.width;
   for (int32_t view = 0; view < config.views; ++view) {
-    sf_image* const image = &field.views[view];
-    image->format = pixel_bytes == 4 ? SF_FORMAT_RGBX : SF_FORMAT_RGB;
+    starfocus_image* const image = &field.views[view];
+    image->format = pixel_bytes == 4 ? STARFOCUS_FORMAT_RGBX : STARFOCUS_FORMAT_RGB;
     image->planes[0] = (uint8_t*)Allocate(row * (size_t)config.height);
     image->strides[0] = row;
     if (image->planes[0] == NULL) return 0;
@@ -123,7 +123,7 @@ static int MakeRoomForViews(int32_t pixel_bytes) {
 }
 
 static int MakeRoomForDepth(int32_t depth_width, int32_t depth_height) {
-  sf_depth_map* const depth = &field.depth;
+  starfocus_depth_map* const depth = &field.depth;
   depth->width = depth_width;
   depth->height = depth_height;
   depth->stride = sizeof(float) * (size_t)depth_width;
@@ -141,24 +141,26 @@ static int MakeRoomForCoverage(void) {
 /* Makes room for a light field of pictures with 3 or 4 bytes a pixel, a depth map of that size and,
  * if `covers` is 1, coverage. What was there before is no more, the engine neither. */
 EXPORT(room)
-sf_status Room(int32_t pixel_bytes, int32_t depth_width, int32_t depth_height, int32_t covers) {
+starfocus_status Room(int32_t pixel_bytes, int32_t depth_width, int32_t depth_height,
+                      int32_t covers) {
   if (stacks_end == 0) stacks_end = top;
   top = stacks_end;
   engine = NULL;
   prepared = NULL;
   memset(&field, 0, sizeof(field));
-  const sf_status status = sf_prepared_size(&config, &prepared_bytes);
+  const starfocus_status status = starfocus_prepared_size(&config, &prepared_bytes);
   refused = &problem;
-  if (status != SF_OK) return status;
+  if (status != STARFOCUS_OK) return status;
   if (!MakeRoomForViews(pixel_bytes) || !MakeRoomForDepth(depth_width, depth_height) ||
       (covers && !MakeRoomForCoverage())) {
-    return SF_ERROR_MEMORY;
+    return STARFOCUS_ERROR_MEMORY;
   }
   picture = (uint8_t*)Allocate(4 * (size_t)config.width * (size_t)config.height);
-  blocks = (sf_block*)Allocate(MAX_BLOCKS * sizeof(sf_block));
+  blocks = (starfocus_block*)Allocate(MAX_BLOCKS * sizeof(starfocus_block));
   prepared_memory = Allocate(prepared_bytes);
   field_end = top;
-  return picture != NULL && blocks != NULL && prepared_memory != NULL ? SF_OK : SF_ERROR_MEMORY;
+  return picture != NULL && blocks != NULL && prepared_memory != NULL ? STARFOCUS_OK
+                                                                      : STARFOCUS_ERROR_MEMORY;
 }
 
 /* Where the pixels of a view of the room go; the depth map's, of view -1; coverage, of view -2. */
@@ -168,27 +170,27 @@ EXPORT(place) const void* Place(int32_t view) {
 }
 
 /* Makes the engine that was configured, for the light field that there is room for. */
-EXPORT(make_engine) sf_status MakeEngine(void) {
+EXPORT(make_engine) starfocus_status MakeEngine(void) {
   size_t bytes = 0;
-  const sf_status status = sf_workspace_size(&config, &bytes);
+  const starfocus_status status = starfocus_workspace_size(&config, &bytes);
   refused = &problem;
-  if (status != SF_OK) return status;
+  if (status != STARFOCUS_OK) return status;
   engine = NULL;
   top = field_end;
   void* const workspace = Allocate(bytes);
-  if (workspace == NULL) return SF_ERROR_MEMORY;
-  const sf_status made = sf_init(&config, workspace, bytes, &engine);
-  if (made == SF_OK) SetCallbacks(NULL);
+  if (workspace == NULL) return STARFOCUS_ERROR_MEMORY;
+  const starfocus_status made = starfocus_init(&config, workspace, bytes, &engine);
+  if (made == STARFOCUS_OK) SetCallbacks(NULL);
   return made;
 }
 
 /* What the last call refused; null when it was a call without a problem. */
-EXPORT(problem) const sf_problem* Problem(void) { return refused; }
+EXPORT(problem) const starfocus_problem* Problem(void) { return refused; }
 
 /* Prepares the light field whose pixels are in their places. */
-EXPORT(prepare) sf_status Prepare(void) {
-  refused = sf_engine_problem(engine);
-  return sf_prepare(engine, &field, prepared_memory, prepared_bytes, &prepared);
+EXPORT(prepare) starfocus_status Prepare(void) {
+  refused = starfocus_engine_problem(engine);
+  return starfocus_prepare(engine, &field, prepared_memory, prepared_bytes, &prepared);
 }
 
 /* Begins a call of that number. */
@@ -196,11 +198,11 @@ EXPORT(aim) void Aim(int32_t number) {
   call = number;
   shared.rows_done = shared.rows = 0;
   block_count = 0;
-  sf_params_init(&params);
+  starfocus_params_init(&params);
   SetCallbacks(NULL);
 }
 
-/* Returns whether sf_params has the field whose name is in the text. */
+/* Returns whether starfocus_params has the field whose name is in the text. */
 EXPORT(set) int Set(double value) { return SetParamsField(&params, text, value); }
 
 /* Has the next refocusings note the blocks. */
@@ -213,36 +215,37 @@ static int32_t Reduced(int64_t start, int64_t size, int32_t shift) {
 
 /* Refocuses as params say, at 1 / 2^shift of the size, into rows of R, G, B, 255 one after the
  * other. */
-EXPORT(refocus) sf_status Refocus(int32_t shift) {
-  const sf_region* const region = &params.region;
+EXPORT(refocus) starfocus_status Refocus(int32_t shift) {
+  const starfocus_region* const region = &params.region;
   const int whole = region->width == 0 && region->height == 0;
-  refused = sf_engine_problem(engine);
+  refused = starfocus_engine_problem(engine);
   width = Reduced(whole ? 0 : region->x, whole ? config.width : region->width, shift & 31);
   height = Reduced(whole ? 0 : region->y, whole ? config.height : region->height, shift & 31);
-  const sf_image out = {
-      .format = SF_FORMAT_RGBX, .planes = {picture}, .strides = {4 * (size_t)width}};
+  const starfocus_image out = {
+      .format = STARFOCUS_FORMAT_RGBX, .planes = {picture}, .strides = {4 * (size_t)width}};
   params.preview_shift = shift;
-  return sf_refocus_prepared(engine, &params, prepared, &out, NULL);
+  return starfocus_refocus_prepared(engine, &params, prepared, &out, NULL);
 }
 
 EXPORT(picture_width) int32_t PictureWidth(void) { return width; }
 EXPORT(picture_height) int32_t PictureHeight(void) { return height; }
 EXPORT(picture) const uint8_t* Picture(void) { return picture; }
-EXPORT(blocks) const sf_block* Blocks(void) { return blocks; }
+EXPORT(blocks) const starfocus_block* Blocks(void) { return blocks; }
 EXPORT(block_count) int32_t BlockCount(void) { return block_count; }
 EXPORT(shared) void* Shared(void) { return &shared; }
 
 /* The focus for a pixel of the depth map, into *text as a double. */
-EXPORT(focus_at) sf_status FocusAt(int32_t x, int32_t y) {
+EXPORT(focus_at) starfocus_status FocusAt(int32_t x, int32_t y) {
   double focus = 0;
   refused = NULL;
-  const sf_status status = sf_focus_at((const float*)field.depth.data, field.depth.stride,
-                                       field.depth.width, field.depth.height, x, y, &focus);
+  const starfocus_status status =
+      starfocus_focus_at((const float*)field.depth.data, field.depth.stride, field.depth.width,
+                         field.depth.height, x, y, &focus);
   memcpy(text, &focus, sizeof(focus));
   return status;
 }
 
-EXPORT(status_string) const char* StatusString(sf_status status) {
-  return sf_status_string(status);
+EXPORT(status_string) const char* StatusString(starfocus_status status) {
+  return starfocus_status_string(status);
 }
-EXPORT(version) const char* Version(void) { return sf_version(); }
+EXPORT(version) const char* Version(void) { return starfocus_version(); }

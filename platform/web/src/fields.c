@@ -12,13 +12,13 @@ typedef struct Field {
 } Field;
 
 #define CONFIG(name, type) \
-  { #name, offsetof(sf_config, name), type }
+  { #name, offsetof(starfocus_config, name), type }
 #define TUNING(name, type) \
-  { #name, offsetof(sf_config, tuning.name), type }
+  { #name, offsetof(starfocus_config, tuning.name), type }
 #define PARAMS(name, type) \
-  { #name, offsetof(sf_params, name), type }
+  { #name, offsetof(starfocus_params, name), type }
 #define LENS(name, type) \
-  { #name, offsetof(sf_params, lens.name), type }
+  { #name, offsetof(starfocus_params, lens.name), type }
 
 static const Field kConfigFields[] = {
     CONFIG(width, kInt32),
@@ -85,19 +85,20 @@ static int Set(void* structure, const Field* fields, size_t count, const char* n
   return 0;
 }
 
-static int SetFeature(sf_config* config, uint32_t feature, double value) {
+static int SetFeature(starfocus_config* config, uint32_t feature, double value) {
   /* What is neither 0 nor 1 sets all bits, which the library rejects. */
   const uint32_t bits = value == 0 || value == 1 ? feature : UINT32_MAX;
   config->features = value == 0 ? config->features & ~bits : config->features | bits;
   return 1;
 }
 
-int SetConfigField(sf_config* config, const char* name, double value) {
-  if (strcmp(name, "fill_unknown") == 0) return SetFeature(config, SF_FEATURE_FILL_UNKNOWN, value);
-  if (strcmp(name, "shapes") == 0) return SetFeature(config, SF_FEATURE_SHAPES, value);
+int SetConfigField(starfocus_config* config, const char* name, double value) {
+  if (strcmp(name, "fill_unknown") == 0)
+    return SetFeature(config, STARFOCUS_FEATURE_FILL_UNKNOWN, value);
+  if (strcmp(name, "shapes") == 0) return SetFeature(config, STARFOCUS_FEATURE_SHAPES, value);
   return Set(config, kConfigFields, sizeof(kConfigFields) / sizeof(kConfigFields[0]), name, value);
 }
 
-int SetParamsField(sf_params* params, const char* name, double value) {
+int SetParamsField(starfocus_params* params, const char* name, double value) {
   return Set(params, kParamsFields, sizeof(kParamsFields) / sizeof(kParamsFields[0]), name, value);
 }

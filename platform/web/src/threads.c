@@ -4,7 +4,7 @@
 /* The set of jobs that runs. Its first three fields change only while no helper looks at them:
  * after all have left a set, and before the next one is announced. */
 static struct {
-  sf_job job;
+  starfocus_job job;
   void* data;
   int32_t count;
   int32_t next;    /* the next index that nobody has taken */
@@ -38,7 +38,7 @@ void Help(int32_t worker) {
   }
 }
 
-int RunOnWorkers(void* data, sf_job job, void* job_data, int32_t count) {
+int RunOnWorkers(void* data, starfocus_job job, void* job_data, int32_t count) {
   (void)data;
   set.job = job;
   set.data = job_data;

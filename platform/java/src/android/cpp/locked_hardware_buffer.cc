@@ -20,11 +20,11 @@ Kind KindOf(uint32_t format) {
   switch (format) {
     case AHARDWAREBUFFER_FORMAT_R8G8B8A8_UNORM:
     case AHARDWAREBUFFER_FORMAT_R8G8B8X8_UNORM:
-      return {SF_FORMAT_RGBX, 4};
+      return {STARFOCUS_FORMAT_RGBX, 4};
     case AHARDWAREBUFFER_FORMAT_R8G8B8_UNORM:
-      return {SF_FORMAT_RGB, 3};
+      return {STARFOCUS_FORMAT_RGB, 3};
     case AHARDWAREBUFFER_FORMAT_Y8Cb8Cr8_420:
-      return {SF_FORMAT_YUV_420_888, 1};
+      return {STARFOCUS_FORMAT_YUV_420_888, 1};
     default:
       return {0, 0};
   }
@@ -53,7 +53,7 @@ extern "C" JNIEXPORT jint JNICALL Java_dev_starfocus_android_LockedHardwareBuffe
                   desc.layers, desc.format);
     return 0;
   }
-  const bool is_yuv = kind.format == SF_FORMAT_YUV_420_888;
+  const bool is_yuv = kind.format == STARFOCUS_FORMAT_YUV_420_888;
   const uint64_t usage =
       written ? AHARDWAREBUFFER_USAGE_CPU_WRITE_OFTEN : AHARDWAREBUFFER_USAGE_CPU_READ_OFTEN;
   AHardwareBuffer_Planes planes = {};

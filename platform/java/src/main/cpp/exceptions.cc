@@ -25,11 +25,11 @@ void ThrowArgument(JNIEnv* env, const char* format, ...) {
   ThrowNew(env, "java/lang/IllegalArgumentException", text);
 }
 
-void ThrowStatus(JNIEnv* env, sf_status status, const sf_problem* problem) {
-  if (status == SF_OK) return;
+void ThrowStatus(JNIEnv* env, starfocus_status status, const starfocus_problem* problem) {
+  if (status == STARFOCUS_OK) return;
   const ProblemText described = Describe(status, problem);
   const char* const text = described.text;
-  if (status == SF_ERROR_MEMORY || status == SF_ERROR_TOO_LARGE) {
+  if (status == STARFOCUS_ERROR_MEMORY || status == STARFOCUS_ERROR_TOO_LARGE) {
     ThrowNew(env, "java/lang/OutOfMemoryError", text);
     return;
   }

@@ -13,9 +13,9 @@ namespace starfocus {
 // IllegalArgumentException; the text is made as by printf.
 void ThrowArgument(JNIEnv* env, const char* format, ...) __attribute__((format(printf, 2, 3)));
 
-// OutOfMemoryError or StarfocusException, whichever the status is; SF_OK throws nothing. `problem`
-// (null: none) is what the call refused.
-void ThrowStatus(JNIEnv* env, sf_status status, const sf_problem* problem = nullptr);
+// OutOfMemoryError or StarfocusException, whichever the status is; STARFOCUS_OK throws nothing.
+// `problem` (null: none) is what the call refused.
+void ThrowStatus(JNIEnv* env, starfocus_status status, const starfocus_problem* problem = nullptr);
 
 }  // namespace starfocus
 

@@ -17,11 +17,11 @@ struct PlaneSize {
 
 int PlanesOf(int32_t format) {
   switch (format) {
-    case SF_FORMAT_NV12:
-    case SF_FORMAT_NV21:
+    case STARFOCUS_FORMAT_NV12:
+    case STARFOCUS_FORMAT_NV21:
       return 2;
-    case SF_FORMAT_I420:
-    case SF_FORMAT_YUV_420_888:
+    case STARFOCUS_FORMAT_I420:
+    case STARFOCUS_FORMAT_YUV_420_888:
       return 3;
     default:
       return 1;
@@ -29,11 +29,12 @@ int PlanesOf(int32_t format) {
 }
 
 // Bytes from the first to the last of a row, also of a pixel_stride that the library will refuse.
-PlaneSize SizeOf(const sf_image& image, int plane, int64_t width, int64_t height) {
+PlaneSize SizeOf(const starfocus_image& image, int plane, int64_t width, int64_t height) {
   const int64_t step = std::max(image.pixel_stride, 0);
   const int planes = PlanesOf(image.format);
   if (planes == 1) {
-    const bool has_alpha = image.format == SF_FORMAT_RGBX || image.format == SF_FORMAT_BGRX;
+    const bool has_alpha =
+        image.format == STARFOCUS_FORMAT_RGBX || image.format == STARFOCUS_FORMAT_BGRX;
     const int64_t pixel = has_alpha ? 4 : 3;
     return {height, (width - 1) * std::max(step, pixel) + pixel};
   }
@@ -73,7 +74,8 @@ struct NamedImage {
   jobjectArray planes;
 };
 
-bool ReadPlane(JNIEnv* env, const NamedImage& from, int plane, PlaneSize size, sf_image* image) {
+bool ReadPlane(JNIEnv* env, const NamedImage& from, int plane, PlaneSize size,
+               starfocus_image* image) {
   const auto strides = static_cast<jintArray>(ReadObject(env, from.object, "strides", "[I"));
   if (strides == nullptr) return false;
   jint stride = 0;
@@ -90,27 +92,27 @@ bool ReadPlane(JNIEnv* env, const NamedImage& from, int plane, PlaneSize size, s
 }
 
 constexpr Field kImageFields[] = {
-    {"format", FieldType::kInt32, offsetof(sf_image, format)},
-    {"matrix", FieldType::kInt32, offsetof(sf_image, matrix)},
-    {"range", FieldType::kInt32, offsetof(sf_image, range)},
-    {"pixelStride", FieldType::kInt32, offsetof(sf_image, pixel_stride)},
+    {"format", FieldType::kInt32, offsetof(starfocus_image, format)},
+    {"matrix", FieldType::kInt32, offsetof(starfocus_image, matrix)},
+    {"range", FieldType::kInt32, offsetof(starfocus_image, range)},
+    {"pixelStride", FieldType::kInt32, offsetof(starfocus_image, pixel_stride)},
 };
 
 constexpr Field kDepthFields[] = {
-    {"width", FieldType::kInt32, offsetof(sf_depth_map, width)},
-    {"height", FieldType::kInt32, offsetof(sf_depth_map, height)},
-    {"type", FieldType::kInt32, offsetof(sf_depth_map, type)},
-    {"meaning", FieldType::kInt32, offsetof(sf_depth_map, meaning)},
-    {"scale", FieldType::kDouble, offsetof(sf_depth_map, scale)},
-    {"offset", FieldType::kDouble, offsetof(sf_depth_map, offset)},
-    {"hasInvalid", FieldType::kInt32, offsetof(sf_depth_map, has_invalid)},
-    {"invalid", FieldType::kDouble, offsetof(sf_depth_map, invalid)},
+    {"width", FieldType::kInt32, offsetof(starfocus_depth_map, width)},
+    {"height", FieldType::kInt32, offsetof(starfocus_depth_map, height)},
+    {"type", FieldType::kInt32, offsetof(starfocus_depth_map, type)},
+    {"meaning", FieldType::kInt32, offsetof(starfocus_depth_map, meaning)},
+    {"scale", FieldType::kDouble, offsetof(starfocus_depth_map, scale)},
+    {"offset", FieldType::kDouble, offsetof(starfocus_depth_map, offset)},
+    {"hasInvalid", FieldType::kInt32, offsetof(starfocus_depth_map, has_invalid)},
+    {"invalid", FieldType::kDouble, offsetof(starfocus_depth_map, invalid)},
 };
 
 }  // namespace
 
 bool ReadImage(JNIEnv* env, jobject object, const char* what, int32_t width, int32_t height,
-               sf_image* image) {
+               starfocus_image* image) {
   *image = {};
   if (object == nullptr) {
     ThrowArgument(env, "%s: expected an image, found null", what);
@@ -133,7 +135,7 @@ bool ReadImage(JNIEnv* env, jobject object, const char* what, int32_t width, int
   return true;
 }
 
-bool ReadDepthMap(JNIEnv* env, jobject object, sf_depth_map* map) {
+bool ReadDepthMap(JNIEnv* env, jobject object, starfocus_depth_map* map) {
   *map = {};
   if (object == nullptr) {
     ThrowArgument(env, "depth: expected a map, found null");
@@ -145,7 +147,9 @@ bool ReadDepthMap(JNIEnv* env, jobject object, sf_depth_map* map) {
                   map->width, map->height);
     return false;
   }
-  const int64_t bytes = map->type == SF_DEPTH_FLOAT ? 4 : map->type == SF_DEPTH_U8 ? 1 : 2;
+  const int64_t bytes = map->type == STARFOCUS_DEPTH_FLOAT ? 4
+                        : map->type == STARFOCUS_DEPTH_U8  ? 1
+                                                           : 2;
   const int32_t stride = ReadInt(env, object, "stride");
   const jobject values = ReadObject(env, object, "values", "Ljava/nio/ByteBuffer;");
   if (env->ExceptionCheck()) return false;
@@ -154,8 +158,8 @@ bool ReadDepthMap(JNIEnv* env, jobject object, sf_depth_map* map) {
   return map->data != nullptr;
 }
 
-bool ReadLightField(JNIEnv* env, jobject light_field, const sf_config& config,
-                    sf_light_field* field) {
+bool ReadLightField(JNIEnv* env, jobject light_field, const starfocus_config& config,
+                    starfocus_light_field* field) {
   *field = {};
   const auto views =
       static_cast<jobjectArray>(ReadObject(env, light_field, "views", "[Ldev/starfocus/Image;"));

@@ -15,14 +15,14 @@ namespace starfocus {
 
 // An Image that is read, or written, of this size in pixels.
 bool ReadImage(JNIEnv* env, jobject object, const char* what, int32_t width, int32_t height,
-               sf_image* image);
+               starfocus_image* image);
 
 // A DepthMap.
-bool ReadDepthMap(JNIEnv* env, jobject object, sf_depth_map* map);
+bool ReadDepthMap(JNIEnv* env, jobject object, starfocus_depth_map* map);
 
 // A LightField with the views of the configuration.
-bool ReadLightField(JNIEnv* env, jobject light_field, const sf_config& config,
-                    sf_light_field* field);
+bool ReadLightField(JNIEnv* env, jobject light_field, const starfocus_config& config,
+                    starfocus_light_field* field);
 
 }  // namespace starfocus
 

@@ -20,19 +20,19 @@ namespace {
 // An engine with its threads. Java's side sees to it that one call at a time uses it, apart from
 // what is atomic.
 struct Session {
-  sf_config config = {};
-  sf_pool* pool = nullptr;
-  sf_engine* engine = nullptr;
+  starfocus_config config = {};
+  starfocus_pool* pool = nullptr;
+  starfocus_engine* engine = nullptr;
   void* prepared_memory = nullptr;
-  sf_prepared* prepared = nullptr;
+  starfocus_prepared* prepared = nullptr;
   std::atomic<int> cancelled{0}, rows_done{0};
 };
 
 // The library is to need no C++ run time, hence no delete; nor does a session need a destructor.
 void End(Session* session) {
   std::free(session->prepared_memory);
-  sf_destroy(session->engine);
-  sf_pool_destroy(session->pool);
+  starfocus_destroy(session->engine);
+  starfocus_pool_destroy(session->pool);
   std::free(session);
 }
 
@@ -52,50 +52,51 @@ void Begin(Session* session) {
 }
 
 constexpr Field kConfigFields[] = {
-    {"width", FieldType::kInt32, offsetof(sf_config, width)},
-    {"height", FieldType::kInt32, offsetof(sf_config, height)},
-    {"views", FieldType::kInt32, offsetof(sf_config, views)},
-    {"disparityMin", FieldType::kDouble, offsetof(sf_config, disparity_min)},
-    {"disparityMax", FieldType::kDouble, offsetof(sf_config, disparity_max)},
-    {"maxBlur", FieldType::kDouble, offsetof(sf_config, max_blur)},
-    {"workers", FieldType::kInt32, offsetof(sf_config, max_workers)},
-    {"superblock", FieldType::kInt32, offsetof(sf_config, superblock)},
-    {"nScale", FieldType::kDouble, offsetof(sf_config, tuning.n_scale)},
-    {"transfer", FieldType::kInt32, offsetof(sf_config, transfer)},
-    {"highlights", FieldType::kDouble, offsetof(sf_config, highlights)},
-    {"previews", FieldType::kInt32, offsetof(sf_config, previews)},
+    {"width", FieldType::kInt32, offsetof(starfocus_config, width)},
+    {"height", FieldType::kInt32, offsetof(starfocus_config, height)},
+    {"views", FieldType::kInt32, offsetof(starfocus_config, views)},
+    {"disparityMin", FieldType::kDouble, offsetof(starfocus_config, disparity_min)},
+    {"disparityMax", FieldType::kDouble, offsetof(starfocus_config, disparity_max)},
+    {"maxBlur", FieldType::kDouble, offsetof(starfocus_config, max_blur)},
+    {"workers", FieldType::kInt32, offsetof(starfocus_config, max_workers)},
+    {"superblock", FieldType::kInt32, offsetof(starfocus_config, superblock)},
+    {"nScale", FieldType::kDouble, offsetof(starfocus_config, tuning.n_scale)},
+    {"transfer", FieldType::kInt32, offsetof(starfocus_config, transfer)},
+    {"highlights", FieldType::kDouble, offsetof(starfocus_config, highlights)},
+    {"previews", FieldType::kInt32, offsetof(starfocus_config, previews)},
 };
 
 constexpr Field kParamsFields[] = {
-    {"mode", FieldType::kInt32, offsetof(sf_params, mode)},
-    {"renderer", FieldType::kInt32, offsetof(sf_params, renderer)},
-    {"focus", FieldType::kDouble, offsetof(sf_params, lens.focus)},
-    {"aperture", FieldType::kDouble, offsetof(sf_params, lens.aperture)},
-    {"shape", FieldType::kInt32, offsetof(sf_params, lens.shape)},
-    {"blades", FieldType::kInt32, offsetof(sf_params, lens.blades)},
-    {"theta", FieldType::kDouble, offsetof(sf_params, lens.theta)},
-    {"rotation", FieldType::kDouble, offsetof(sf_params, lens.rotation)},
-    {"curvature", FieldType::kDouble, offsetof(sf_params, lens.curvature)},
-    {"ringInner", FieldType::kDouble, offsetof(sf_params, lens.ring_inner)},
-    {"catsEye", FieldType::kDouble, offsetof(sf_params, lens.cats_eye)},
-    {"regionX", FieldType::kInt32, offsetof(sf_params, region.x)},
-    {"regionY", FieldType::kInt32, offsetof(sf_params, region.y)},
-    {"regionWidth", FieldType::kInt32, offsetof(sf_params, region.width)},
-    {"regionHeight", FieldType::kInt32, offsetof(sf_params, region.height)},
+    {"mode", FieldType::kInt32, offsetof(starfocus_params, mode)},
+    {"renderer", FieldType::kInt32, offsetof(starfocus_params, renderer)},
+    {"focus", FieldType::kDouble, offsetof(starfocus_params, lens.focus)},
+    {"aperture", FieldType::kDouble, offsetof(starfocus_params, lens.aperture)},
+    {"shape", FieldType::kInt32, offsetof(starfocus_params, lens.shape)},
+    {"blades", FieldType::kInt32, offsetof(starfocus_params, lens.blades)},
+    {"theta", FieldType::kDouble, offsetof(starfocus_params, lens.theta)},
+    {"rotation", FieldType::kDouble, offsetof(starfocus_params, lens.rotation)},
+    {"curvature", FieldType::kDouble, offsetof(starfocus_params, lens.curvature)},
+    {"ringInner", FieldType::kDouble, offsetof(starfocus_params, lens.ring_inner)},
+    {"catsEye", FieldType::kDouble, offsetof(starfocus_params, lens.cats_eye)},
+    {"regionX", FieldType::kInt32, offsetof(starfocus_params, region.x)},
+    {"regionY", FieldType::kInt32, offsetof(starfocus_params, region.y)},
+    {"regionWidth", FieldType::kInt32, offsetof(starfocus_params, region.width)},
+    {"regionHeight", FieldType::kInt32, offsetof(starfocus_params, region.height)},
 };
 
 // The positions of views, if there are any; false with an exception pending.
-bool ReadPositions(JNIEnv* env, jobject configuration, sf_config* config) {
+bool ReadPositions(JNIEnv* env, jobject configuration, starfocus_config* config) {
   const auto positions =
       static_cast<jdoubleArray>(ReadObject(env, configuration, "positions", "[D"));
   if (positions == nullptr) return !env->ExceptionCheck();
-  if (config->views < 1 || config->views > SF_MAX_VIEWS) return true;  // the library refuses that
+  if (config->views < 1 || config->views > STARFOCUS_MAX_VIEWS)
+    return true;  // the library refuses that
   const jsize found = env->GetArrayLength(positions), expected = 2 * config->views;
   if (found != expected) {
     ThrowArgument(env, "positions: expected %d numbers, found %d", int{expected}, int{found});
     return false;
   }
-  double places[2 * SF_MAX_VIEWS];
+  double places[2 * STARFOCUS_MAX_VIEWS];
   env->GetDoubleArrayRegion(positions, 0, expected, places);
   for (int k = 0; k < config->views; ++k) config->positions[k] = {places[2 * k], places[2 * k + 1]};
   return true;
@@ -114,54 +115,55 @@ struct JavaTask {
 };
 
 // Reads a task; false with an exception pending.
-bool ReadTask(JNIEnv* env, Session* session, const JavaTask& task, sf_params* params,
-              sf_image* image) {
+bool ReadTask(JNIEnv* env, Session* session, const JavaTask& task, starfocus_params* params,
+              starfocus_image* image) {
   const int32_t shift = task.shift;
   const jobject parameters = task.parameters, out = task.out;
-  sf_params_init(params);
+  starfocus_params_init(params);
   if (!ReadFields(env, parameters, kParamsFields, std::size(kParamsFields), params)) return false;
   params->preview_shift = shift;
-  const sf_region& region = params->region;
+  const starfocus_region& region = params->region;
   const bool whole = region.width == 0 && region.height == 0;
   // The library has looked at neither the region, without pixels of which no buffer is needed, nor
   // the shift yet.
   const int32_t width = whole ? session->config.width : region.width < 1 ? 1 : region.width;
   const int32_t height = whole ? session->config.height : region.height < 1 ? 1 : region.height;
-  const int32_t known = shift < 0 || shift > SF_MAX_PREVIEW ? 0 : shift;
+  const int32_t known = shift < 0 || shift > STARFOCUS_MAX_PREVIEW ? 0 : shift;
   return ReadImage(env, out, "out", Reduced(region.x, width, known),
                    Reduced(region.y, height, known), image);
 }
 
 // Makes the pool and the engine of a session whose configuration is read.
-sf_status Start(Session* session) {
-  sf_config* const config = &session->config;
-  config->features |= SF_FEATURE_IMAGES;
+starfocus_status Start(Session* session) {
+  starfocus_config* const config = &session->config;
+  config->features |= STARFOCUS_FEATURE_IMAGES;
   if (config->max_workers != 1) {
-    session->pool = sf_pool_create(config->max_workers);
-    if (session->pool == nullptr) return SF_ERROR_MEMORY;
-    config->max_workers = sf_pool_workers(session->pool);
+    session->pool = starfocus_pool_create(config->max_workers);
+    if (session->pool == nullptr) return STARFOCUS_ERROR_MEMORY;
+    config->max_workers = starfocus_pool_workers(session->pool);
   }
-  const sf_status status = sf_create(config, nullptr, &session->engine);
-  if (status != SF_OK) return status;
-  sf_callbacks callbacks = {};
-  callbacks.runner = session->pool != nullptr ? sf_pool_run : nullptr;
+  const starfocus_status status = starfocus_create(config, nullptr, &session->engine);
+  if (status != STARFOCUS_OK) return status;
+  starfocus_callbacks callbacks = {};
+  callbacks.runner = session->pool != nullptr ? starfocus_pool_run : nullptr;
   callbacks.runner_data = session->pool;
   callbacks.progress = Tell;
   callbacks.progress_data = session;
-  return sf_set_callbacks(session->engine, &callbacks);
+  return starfocus_set_callbacks(session->engine, &callbacks);
 }
 
-sf_status Prepare(Session* session, const sf_light_field& field) {
+starfocus_status Prepare(Session* session, const starfocus_light_field& field) {
   size_t bytes = 0;
-  const sf_status status = sf_prepared_size(&session->config, &bytes);
-  if (status != SF_OK) return status;
+  const starfocus_status status = starfocus_prepared_size(&session->config, &bytes);
+  if (status != STARFOCUS_OK) return status;
   session->prepared = nullptr;
   if (session->prepared_memory == nullptr &&
-      posix_memalign(&session->prepared_memory, SF_ALIGNMENT, bytes) != 0) {
-    return SF_ERROR_MEMORY;
+      posix_memalign(&session->prepared_memory, STARFOCUS_ALIGNMENT, bytes) != 0) {
+    return STARFOCUS_ERROR_MEMORY;
   }
   Begin(session);
-  return sf_prepare(session->engine, &field, session->prepared_memory, bytes, &session->prepared);
+  return starfocus_prepare(session->engine, &field, session->prepared_memory, bytes,
+                           &session->prepared);
 }
 
 }  // namespace
@@ -174,40 +176,40 @@ using namespace starfocus;
 
 STARFOCUS_NATIVE(void, initialize__Ldev_starfocus_Configuration_2)
 (JNIEnv* env, jclass, jobject object) {
-  sf_config config;
-  sf_config_init(&config);
+  starfocus_config config;
+  starfocus_config_init(&config);
   config.max_workers = 0;
   WriteFields(env, &config, kConfigFields, std::size(kConfigFields), object);
 }
 
 STARFOCUS_NATIVE(void, initialize__Ldev_starfocus_Parameters_2)
 (JNIEnv* env, jclass, jobject object) {
-  sf_params params;
-  sf_params_init(&params);
+  starfocus_params params;
+  starfocus_params_init(&params);
   WriteFields(env, &params, kParamsFields, std::size(kParamsFields), object);
 }
 
 STARFOCUS_NATIVE(jlong, create)(JNIEnv* env, jclass, jobject configuration) {
   void* const memory = std::malloc(sizeof(Session));
   if (memory == nullptr) {
-    ThrowStatus(env, SF_ERROR_MEMORY);
+    ThrowStatus(env, STARFOCUS_ERROR_MEMORY);
     return 0;
   }
   auto* const session = new (memory) Session;
-  sf_config_init(&session->config);
+  starfocus_config_init(&session->config);
   if (ReadFields(env, configuration, kConfigFields, std::size(kConfigFields), &session->config) &&
       ReadPositions(env, configuration, &session->config)) {
     if (ReadInt(env, configuration, "fillUnknown") != 0) {
-      session->config.features |= SF_FEATURE_FILL_UNKNOWN;
+      session->config.features |= STARFOCUS_FEATURE_FILL_UNKNOWN;
     }
     if (ReadInt(env, configuration, "shapes") != 0) {
-      session->config.features |= SF_FEATURE_SHAPES;
+      session->config.features |= STARFOCUS_FEATURE_SHAPES;
     }
-    sf_problem problem = {};
+    starfocus_problem problem = {};
     session->config.problem = &problem;
-    const sf_status status = Start(session);
+    const starfocus_status status = Start(session);
     session->config.problem = nullptr;
-    if (status == SF_OK) return reinterpret_cast<jlong>(session);
+    if (status == STARFOCUS_OK) return reinterpret_cast<jlong>(session);
     ThrowStatus(env, status, &problem);
   }
   End(session);
@@ -219,49 +221,49 @@ STARFOCUS_NATIVE(void, destroy)(JNIEnv*, jclass, jlong handle) { End(From(handle
 STARFOCUS_NATIVE(void, refocus)
 (JNIEnv* env, jclass, jlong handle, jobject light_field, jobject parameters, jobject out) {
   Session* const session = From(handle);
-  sf_light_field field;
-  sf_params params;
-  sf_image image;
+  starfocus_light_field field;
+  starfocus_params params;
+  starfocus_image image;
   if (!ReadLightField(env, light_field, session->config, &field) ||
       !ReadTask(env, session, {0, parameters, out}, &params, &image)) {
     return;
   }
   Begin(session);
-  ThrowStatus(env, sf_refocus(session->engine, &params, &field, &image, nullptr),
-              sf_engine_problem(session->engine));
+  ThrowStatus(env, starfocus_refocus(session->engine, &params, &field, &image, nullptr),
+              starfocus_engine_problem(session->engine));
 }
 
 STARFOCUS_NATIVE(void, prepare)
 (JNIEnv* env, jclass, jlong handle, jobject light_field) {
   Session* const session = From(handle);
-  sf_light_field field;
+  starfocus_light_field field;
   if (ReadLightField(env, light_field, session->config, &field)) {
-    ThrowStatus(env, Prepare(session, field), sf_engine_problem(session->engine));
+    ThrowStatus(env, Prepare(session, field), starfocus_engine_problem(session->engine));
   }
 }
 
 STARFOCUS_NATIVE(void, refocusPrepared)
 (JNIEnv* env, jclass, jlong handle, jobject parameters, jobject out) {
   Session* const session = From(handle);
-  sf_params params;
-  sf_image image;
+  starfocus_params params;
+  starfocus_image image;
   if (!ReadTask(env, session, {0, parameters, out}, &params, &image)) return;
   Begin(session);
-  ThrowStatus(env,
-              sf_refocus_prepared(session->engine, &params, session->prepared, &image, nullptr),
-              sf_engine_problem(session->engine));
+  ThrowStatus(
+      env, starfocus_refocus_prepared(session->engine, &params, session->prepared, &image, nullptr),
+      starfocus_engine_problem(session->engine));
 }
 
 STARFOCUS_NATIVE(void, preview)
 (JNIEnv* env, jclass, jlong handle, jint shift, jobject parameters, jobject out) {
   Session* const session = From(handle);
-  sf_params params;
-  sf_image image;
+  starfocus_params params;
+  starfocus_image image;
   if (!ReadTask(env, session, {shift, parameters, out}, &params, &image)) return;
   Begin(session);
-  ThrowStatus(env,
-              sf_refocus_prepared(session->engine, &params, session->prepared, &image, nullptr),
-              sf_engine_problem(session->engine));
+  ThrowStatus(
+      env, starfocus_refocus_prepared(session->engine, &params, session->prepared, &image, nullptr),
+      starfocus_engine_problem(session->engine));
 }
 
 STARFOCUS_NATIVE(void, cancel)(JNIEnv*, jclass, jlong handle) {
@@ -273,25 +275,25 @@ STARFOCUS_NATIVE(jint, rowsDone)(JNIEnv*, jclass, jlong handle) {
 }
 
 STARFOCUS_NATIVE(jdouble, focusAt)(JNIEnv* env, jclass, jobject disparity, jint x, jint y) {
-  sf_depth_map map;
+  starfocus_depth_map map;
   if (!ReadDepthMap(env, disparity, &map)) return 0;
-  if (map.type != SF_DEPTH_FLOAT || map.meaning != SF_DEPTH_LINEAR || map.scale != 1 ||
-      map.offset != 0 || map.has_invalid != 0) {
+  if (map.type != STARFOCUS_DEPTH_FLOAT || map.meaning != STARFOCUS_DEPTH_LINEAR ||
+      map.scale != 1 || map.offset != 0 || map.has_invalid != 0) {
     ThrowArgument(env,
                   "focusAt: expected a map of FLOAT, LINEAR of scale 1 and offset 0, without an "
                   "invalid value");
     return 0;
   }
   double focus = 0;
-  ThrowStatus(env, sf_focus_at(static_cast<const float*>(map.data), map.stride, map.width,
-                               map.height, x, y, &focus));
+  ThrowStatus(env, starfocus_focus_at(static_cast<const float*>(map.data), map.stride, map.width,
+                                      map.height, x, y, &focus));
   return focus;
 }
 
 STARFOCUS_NATIVE(jdoubleArray, viewPosition)(JNIEnv* env, jclass, jint index) {
   double place[2] = {};
-  if (!sf_view_position(index, &place[0], &place[1])) {
-    ThrowStatus(env, SF_ERROR_RANGE);
+  if (!starfocus_view_position(index, &place[0], &place[1])) {
+    ThrowStatus(env, STARFOCUS_ERROR_RANGE);
     return nullptr;
   }
   const jdoubleArray array = env->NewDoubleArray(2);
@@ -301,6 +303,6 @@ STARFOCUS_NATIVE(jdoubleArray, viewPosition)(JNIEnv* env, jclass, jint index) {
 
 STARFOCUS_NATIVE(jstring, version)(JNIEnv* env, jclass) {
   char text[100];
-  std::snprintf(text, sizeof text, "%s, %s", sf_version(), sf_simd_target());
+  std::snprintf(text, sizeof text, "%s, %s", starfocus_version(), starfocus_simd_target());
   return env->NewStringUTF(text);
 }

@@ -2,9 +2,9 @@
 package dev.starfocus;
 
 /**
- * What a {@link Refocuser} is made for: fields of the C structure sf_config, of which starfocus.h
- * has the units and ranges. They begin with its defaults; width, height and the range of
- * disparities must be filled in.
+ * What a {@link Refocuser} is made for: fields of the C structure starfocus_config, of which
+ * starfocus.h has the units and ranges. They begin with its defaults; width, height and the range
+ * of disparities must be filled in.
  */
 public final class Configuration {
   public static final int TRANSFER_SRGB = 0, TRANSFER_NONE = 1;
@@ -29,11 +29,13 @@ public final class Configuration {
   public double nScale;
   public int transfer;
   public double highlights;
-  /** Not 0: disparities that are not finite, and invalid depths, are unknown; 0: they are refused. */
+  /**
+   * Not 0: disparities that are not finite, and invalid depths, are unknown; 0: they are refused.
+   */
   public int fillUnknown;
   /**
-   * Not 0: lenses may be polygons and have cat's eyes, for which memory is reserved; 0, the default:
-   * they are refused.
+   * Not 0: lenses may be polygons and have cat's eyes, for which memory is reserved; 0, the
+   * default: they are refused.
    */
   public int shapes;
   /** Largest shift of {@link Refocuser#preview}, 0 to 3; 0, the default: there are no previews. */

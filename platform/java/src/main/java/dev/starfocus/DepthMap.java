@@ -5,7 +5,7 @@ import java.nio.ByteBuffer;
 
 /**
  * Depths of the centre view in a direct buffer of the machine's byte order, as large as the picture
- * or smaller: the C structure sf_depth_map of image.h.
+ * or smaller: the C structure starfocus_depth_map of image.h.
  */
 public final class DepthMap {
   public static final int FLOAT = 0, U16 = 1, U8 = 2, HALF = 3;

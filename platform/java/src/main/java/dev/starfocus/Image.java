@@ -4,9 +4,9 @@ package dev.starfocus;
 import java.nio.ByteBuffer;
 
 /**
- * A picture in direct buffers, which are read and written where they are: the C structure sf_image
- * of image.h. A plane begins at its buffer's position and ends before its limit, as they are when
- * the image is made.
+ * A picture in direct buffers, which are read and written where they are: the C structure
+ * starfocus_image of image.h. A plane begins at its buffer's position and ends before its limit, as
+ * they are when the image is made.
  */
 public final class Image {
   public static final int RGB = 0, BGR = 1, RGBX = 2, BGRX = 3;

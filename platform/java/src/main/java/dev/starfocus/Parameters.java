@@ -2,8 +2,8 @@
 package dev.starfocus;
 
 /**
- * What to render: fields of the C structures sf_params and sf_lens, of which starfocus.h has the
- * units and ranges.
+ * What to render: fields of the C structures starfocus_params and starfocus_lens, of which
+ * starfocus.h has the units and ranges.
  */
 public final class Parameters {
   public static final int MODE_FRAME = 0, MODE_BENCHMARK = 1, MODE_BLOCK = 2, MODE_BLUR = 3;

@@ -14,7 +14,7 @@ public class StarfocusException extends RuntimeException {
     this.status = status;
   }
 
-  /** The sf_status of status.h. */
+  /** The starfocus_status of status.h. */
   public int status() {
     return status;
   }
