@@ -16,7 +16,7 @@ inline double Seconds() {
 }
 
 // Nanoseconds that the calling thread has run on a processor, from some start: what other programs
-// take is not counted. An starfocus_clock.
+// take is not counted. A starfocus_clock.
 inline uint64_t ThreadNanoseconds() {
   timespec time = {};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);

@@ -8,7 +8,7 @@
 #include "lib/engine/engine.h"
 #include "starfocus/starfocus.h"
 
-using starfocus::EngineState;
+using namespace starfocus;
 
 namespace starfocus {
 namespace {
@@ -38,20 +38,19 @@ const void* Address(Function* function) {
 starfocus_status starfocus_create(const starfocus_config* config,
                                   const starfocus_allocator* allocator, starfocus_engine** engine) {
   if (engine != nullptr) *engine = nullptr;
-  const starfocus_allocator heap = {nullptr, starfocus::AllocateFromHeap, starfocus::ReleaseToHeap};
+  const starfocus_allocator heap = {nullptr, AllocateFromHeap, ReleaseToHeap};
   const starfocus_allocator& from = allocator != nullptr ? *allocator : heap;
-  starfocus_config full = starfocus::DefaultConfig();
-  starfocus_status status =
-      starfocus::EnterConfig(config,
-                             {{"engine", engine},
-                              {"allocator.allocate", starfocus::Address(from.allocate)},
-                              {"allocator.release", starfocus::Address(from.release)}},
-                             &full);
+  starfocus_config full = DefaultConfig();
+  starfocus_status status = EnterConfig(config,
+                                        {{"engine", engine},
+                                         {"allocator.allocate", Address(from.allocate)},
+                                         {"allocator.release", Address(from.release)}},
+                                        &full);
   size_t bytes = 0;
   if (status == STARFOCUS_OK) status = starfocus_workspace_size(config, &bytes);
   if (status != STARFOCUS_OK) return status;
   void* const memory = from.allocate(from.data, bytes, STARFOCUS_ALIGNMENT);
-  if (memory == nullptr) return starfocus::TellStatus(STARFOCUS_ERROR_MEMORY, full.problem);
+  if (memory == nullptr) return TellStatus(STARFOCUS_ERROR_MEMORY, full.problem);
   status = starfocus_init(config, memory, bytes, engine);
   if (status != STARFOCUS_OK) {
     from.release(from.data, memory, bytes);

@@ -26,51 +26,30 @@ starfocus_status CheckDepthConfig(const starfocus_depth_config& config, bool rep
   return check.status();
 }
 
-// The planes of a call: what is written, then what is read.
-struct DepthPlanes {
-  Extent written[3], read[STARFOCUS_MAX_VIEWS + 2];
-  int writes = 0, reads = 0;
-};
-
-// Those of all that a call writes and reads, but its workspace.
-DepthPlanes PlanesOf(const starfocus_depth_config& config, const starfocus_light_field& light_field,
-                     bool repairs, const starfocus_map& map) {
+// Checks that the outputs overlap nothing that is read, nor the workspace, nor each other.
+starfocus_status CheckOverlap(const starfocus_depth_config& config,
+                              const starfocus_light_field& light_field, bool repairs,
+                              const starfocus_map& map, const Extent& workspace) {
   const auto width = static_cast<size_t>(config.width), floats = width * sizeof(float);
   const int32_t height = config.height;
-  DepthPlanes planes;
-  planes.written[planes.writes++] = ExtentOf(map.disparity, map.disparity_stride, height, floats);
-  if (map.confidence != nullptr) {
-    planes.written[planes.writes++] =
-        ExtentOf(map.confidence, map.confidence_stride, height, width);
-  }
-  if (map.coverage != nullptr) {
-    planes.written[planes.writes++] = ExtentOf(map.coverage, map.coverage_stride, height, width);
-  }
+  Extents taken;
   for (int view = 0; view < config.views; ++view) {
-    const Plane<const uint8_t> rows = RowsOf(light_field.views[view]);
-    planes.read[planes.reads++] = ExtentOf(rows.data, rows.stride, height, 3 * width);
+    AddImage(light_field.views[view], {config.width, height}, &taken);
   }
-  if (repairs) {
-    planes.read[planes.reads++] =
-        ExtentOf(light_field.depth.data, light_field.depth.stride, height, floats);
+  const starfocus_depth_map& depth = light_field.depth;
+  if (repairs) taken.AddRows(depth.data, depth.stride, height, floats);
+  const Extent written[] = {workspace,
+                            ExtentOf(map.disparity, map.disparity_stride, height, floats),
+                            ExtentOf(map.confidence, map.confidence_stride, height, width),
+                            ExtentOf(map.coverage, map.coverage_stride, height, width)};
+  const bool wanted[] = {true, true, map.confidence != nullptr, map.coverage != nullptr};
+  starfocus_status status = STARFOCUS_OK;
+  for (int k = 0; k < 4 && status == STARFOCUS_OK; ++k) {
+    if (!wanted[k]) continue;
+    status = CheckApart(written[k], taken, "map", config.problem);
+    taken.Add(written[k]);
   }
-  return planes;
-}
-
-bool AreApart(const DepthPlanes& planes, const Extent& workspace) {
-  for (int k = 0; k < planes.writes; ++k) {
-    if (Overlaps(planes.written[k], workspace)) return false;
-    for (int other = 0; other < k; ++other) {
-      if (Overlaps(planes.written[k], planes.written[other])) return false;
-    }
-    for (int read = 0; read < planes.reads; ++read) {
-      if (Overlaps(planes.written[k], planes.read[read])) return false;
-    }
-  }
-  for (int read = 0; read < planes.reads; ++read) {
-    if (Overlaps(planes.read[read], workspace)) return false;
-  }
-  return true;
+  return status;
 }
 
 // Checks the map that is to be repaired: its finite values lie in the configured range, and there
@@ -165,9 +144,7 @@ starfocus_status CheckCall(const DepthCall& call, bool repairs, const starfocus_
   if (status == STARFOCUS_OK) status = CheckStrides(config, map);
   if (status != STARFOCUS_OK) return status;
   const auto begin = reinterpret_cast<uintptr_t>(call.workspace);
-  if (!AreApart(PlanesOf(config, light_field, repairs, map), {begin, begin + needed})) {
-    return Refuse(STARFOCUS_ERROR_OVERLAP, {"map"}, {"apart from inputs and workspace"}, problem);
-  }
+  status = CheckOverlap(config, light_field, repairs, map, {begin, begin + needed});
   return status == STARFOCUS_OK && repairs ? CheckGiven(config, light_field) : status;
 }
 
@@ -236,26 +213,28 @@ starfocus_status RunCall(DepthCall call, bool repairs, starfocus_map* map) {
 }  // namespace
 }  // namespace starfocus
 
+using namespace starfocus;
+
 void starfocus_depth_config_init_sized(starfocus_depth_config* config, uint32_t size) {
-  starfocus::InitSized(starfocus::DefaultDepthConfig(), size, config);
+  InitSized(DefaultDepthConfig(), size, config);
 }
 
 starfocus_status starfocus_estimate_size(const starfocus_depth_config* config, size_t* bytes) {
-  return starfocus::SizeOf(config, false, bytes);
+  return SizeOf(config, false, bytes);
 }
 
 starfocus_status starfocus_repair_size(const starfocus_depth_config* config, size_t* bytes) {
-  return starfocus::SizeOf(config, true, bytes);
+  return SizeOf(config, true, bytes);
 }
 
 starfocus_status starfocus_estimate_disparity(const starfocus_depth_config* config,
                                               const starfocus_light_field* light_field,
                                               starfocus_map* map, void* workspace, size_t bytes) {
-  return starfocus::RunCall({config, light_field, workspace, bytes}, false, map);
+  return RunCall({config, light_field, workspace, bytes}, false, map);
 }
 
 starfocus_status starfocus_repair_disparity(const starfocus_depth_config* config,
                                             const starfocus_light_field* light_field,
                                             starfocus_map* map, void* workspace, size_t bytes) {
-  return starfocus::RunCall({config, light_field, workspace, bytes}, true, map);
+  return RunCall({config, light_field, workspace, bytes}, true, map);
 }

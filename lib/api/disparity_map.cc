@@ -21,10 +21,12 @@ void FillLine(const MapLine& line) { FillGaps(line, line.length, IsFinite); }
 }  // namespace
 }  // namespace starfocus
 
+using namespace starfocus;
+
 starfocus_status starfocus_measure_disparity(const float* disparity, size_t stride, int32_t width,
                                              int32_t height, starfocus_disparity_stats* stats) {
   if (stats == nullptr) return STARFOCUS_ERROR_NULL;
-  const starfocus_status status = starfocus::CheckMap({disparity, stride}, width, height, nullptr);
+  const starfocus_status status = CheckMap({disparity, stride}, width, height, nullptr);
   if (status != STARFOCUS_OK) return status;
   starfocus_disparity_stats found = {0, 0, 0};
   bool any = false;
@@ -32,7 +34,7 @@ starfocus_status starfocus_measure_disparity(const float* disparity, size_t stri
     const float* row = disparity + static_cast<size_t>(y) * (stride / sizeof(float));
     for (int32_t x = 0; x < width; ++x) {
       const double d = row[x];
-      if (!starfocus::IsFinite(row[x])) {
+      if (!IsFinite(row[x])) {
         ++found.invalid;
       } else if (!any) {
         found.min = found.max = d;
@@ -56,9 +58,9 @@ starfocus_status starfocus_fill_disparity(float* disparity, size_t stride, int32
   const size_t row_step = stride / sizeof(float);
   if (stats.invalid == int64_t{width} * height) return STARFOCUS_ERROR_ALL_INVALID;
   for (int32_t y = 0; y < height; ++y) {
-    starfocus::FillLine({disparity + static_cast<size_t>(y) * row_step, 1, width});
+    FillLine({disparity + static_cast<size_t>(y) * row_step, 1, width});
   }
   // Rows that had nothing are still wholly invalid, so every column has the same gaps.
-  for (int32_t x = 0; x < width; ++x) starfocus::FillLine({disparity + x, row_step, height});
+  for (int32_t x = 0; x < width; ++x) FillLine({disparity + x, row_step, height});
   return STARFOCUS_OK;
 }

@@ -8,7 +8,7 @@
 #include "starfocus/depth.h"
 #include "starfocus/starfocus.h"
 
-using starfocus::EngineState;
+using namespace starfocus;
 
 namespace starfocus {
 namespace {
@@ -31,6 +31,33 @@ bool AreEqual(const char* a, const char* b) {
 }
 
 }  // namespace
+
+starfocus_config DefaultConfig() {
+  starfocus_config config = {};
+  config.views = 5;
+  config.max_blur = 32.0;
+  config.max_workers = 1;
+  config.tuning.max_layer = STARFOCUS_LAYERS - 1;
+  config.tuning.deblocking = 35;
+  config.tuning.timing = DefaultTiming();
+  config.tuning.n_scale = 1.0;
+  config.tuning.skips = 1;
+  config.tuning.gather = 1;
+  config.highlights = 1;
+  config.features = STARFOCUS_FEATURE_LINE_SCAN | STARFOCUS_FEATURE_COVERAGE;
+  return config;
+}
+
+starfocus_params DefaultParams() {
+  starfocus_params params = {};
+  params.mode = STARFOCUS_MODE_BLOCK;
+  params.lens.aperture = 1.0;
+  params.lens.blades = 5;
+  params.lens.theta = 0.26 * 3.14159265358979323846;
+  params.lens.ring_inner = 0.5;
+  return params;
+}
+
 }  // namespace starfocus
 
 uint32_t starfocus_abi_version(void) { return STARFOCUS_ABI_VERSION; }
@@ -68,62 +95,35 @@ size_t starfocus_struct_size(const char* name) {
 #undef SIZE_OF
   if (name == nullptr) return 0;
   for (const Entry& entry : kSizes) {
-    if (starfocus::AreEqual(entry.name, name)) return entry.size;
+    if (AreEqual(entry.name, name)) return entry.size;
   }
   return 0;
 }
 
-starfocus_config starfocus::DefaultConfig() {
-  starfocus_config config = {};
-  config.views = 5;
-  config.max_blur = 32.0;
-  config.max_workers = 1;
-  config.tuning.max_layer = STARFOCUS_LAYERS - 1;
-  config.tuning.deblocking = 35;
-  config.tuning.timing = DefaultTiming();
-  config.tuning.n_scale = 1.0;
-  config.tuning.skips = 1;
-  config.tuning.gather = 1;
-  config.highlights = 1;
-  config.features = STARFOCUS_FEATURE_LINE_SCAN | STARFOCUS_FEATURE_COVERAGE;
-  return config;
-}
-
 void starfocus_config_init_sized(starfocus_config* config, uint32_t size) {
-  starfocus::InitSized(starfocus::DefaultConfig(), size, config);
-}
-
-starfocus_params starfocus::DefaultParams() {
-  starfocus_params params = {};
-  params.mode = STARFOCUS_MODE_BLOCK;
-  params.lens.aperture = 1.0;
-  params.lens.blades = 5;
-  params.lens.theta = 0.26 * 3.14159265358979323846;
-  params.lens.ring_inner = 0.5;
-  return params;
+  InitSized(DefaultConfig(), size, config);
 }
 
 void starfocus_params_init_sized(starfocus_params* params, uint32_t size) {
-  starfocus::InitSized(starfocus::DefaultParams(), size, params);
+  InitSized(DefaultParams(), size, params);
 }
 
 int starfocus_view_position(int32_t index, double* u, double* v) {
   if (index < 0 || index >= STARFOCUS_MAX_VIEWS || u == nullptr || v == nullptr) return 0;
-  const starfocus::ViewPosition position = starfocus::StarPosition(index);
-  *u = position.u / static_cast<double>(starfocus::kViewOne);
-  *v = position.v / static_cast<double>(starfocus::kViewOne);
+  const ViewPosition position = StarPosition(index);
+  *u = position.u / static_cast<double>(kViewOne);
+  *v = position.v / static_cast<double>(kViewOne);
   return 1;
 }
 
 starfocus_status starfocus_workspace_size(const starfocus_config* config, size_t* bytes) {
-  starfocus_config full = starfocus::DefaultConfig();
-  starfocus_status status = starfocus::EnterConfig(config, {{"bytes", bytes}}, &full);
-  if (status == STARFOCUS_OK) status = starfocus::CheckConfig(full);
+  starfocus_config full = DefaultConfig();
+  starfocus_status status = EnterConfig(config, {{"bytes", bytes}}, &full);
+  if (status == STARFOCUS_OK) status = CheckConfig(full);
   if (status != STARFOCUS_OK) return status;
   EngineState* counted = nullptr;
-  const size_t needed = starfocus::LayOut(starfocus::Choose(full), nullptr, &counted);
-  if (needed == starfocus::kTooLarge)
-    return starfocus::TellStatus(STARFOCUS_ERROR_TOO_LARGE, full.problem);
+  const size_t needed = LayOut(Choose(full), nullptr, &counted);
+  if (needed == kTooLarge) return TellStatus(STARFOCUS_ERROR_TOO_LARGE, full.problem);
   *bytes = needed;
   return STARFOCUS_OK;
 }
@@ -131,20 +131,20 @@ starfocus_status starfocus_workspace_size(const starfocus_config* config, size_t
 starfocus_status starfocus_init(const starfocus_config* config, void* workspace, size_t bytes,
                                 starfocus_engine** engine) {
   if (engine != nullptr) *engine = nullptr;
-  starfocus_config full = starfocus::DefaultConfig();
-  starfocus_status status = starfocus::EnterConfig(config, {{"engine", engine}}, &full);
+  starfocus_config full = DefaultConfig();
+  starfocus_status status = EnterConfig(config, {{"engine", engine}}, &full);
   size_t needed = 0;
   if (status == STARFOCUS_OK) status = starfocus_workspace_size(config, &needed);
   if (status != STARFOCUS_OK) return status;
-  status = starfocus::CheckMemory({"workspace", workspace, bytes}, needed, full.problem);
+  status = CheckMemory({"workspace", workspace, bytes}, needed, full.problem);
   if (status != STARFOCUS_OK) return status;
   new (workspace) EngineState();
   EngineState* made = nullptr;
-  const starfocus_config chosen = starfocus::Choose(full);
-  starfocus::LayOut(chosen, workspace, &made);
+  const starfocus_config chosen = Choose(full);
+  LayOut(chosen, workspace, &made);
   made->config = chosen;
   made->config.problem = &made->problem;
-  made->kernels = &starfocus::simd::BestKernels();
+  made->kernels = &simd::BestKernels();
   *engine = reinterpret_cast<starfocus_engine*>(made);
   return STARFOCUS_OK;
 }
@@ -155,7 +155,7 @@ const starfocus_problem* starfocus_engine_problem(const starfocus_engine* engine
 
 starfocus_status starfocus_set_callbacks(starfocus_engine* engine,
                                          const starfocus_callbacks* callbacks) {
-  const starfocus_status status = starfocus::EnterEngine(engine, {{"callbacks", callbacks}});
+  const starfocus_status status = EnterEngine(engine, {{"callbacks", callbacks}});
   if (status != STARFOCUS_OK) return status;
   EngineState& e = *reinterpret_cast<EngineState*>(engine);
   e.workers.jobs.runner = {callbacks->runner, callbacks->runner_data};
@@ -166,4 +166,4 @@ starfocus_status starfocus_set_callbacks(starfocus_engine* engine,
   return STARFOCUS_OK;
 }
 
-const char* starfocus_simd_target(void) { return starfocus::simd::BestKernels().name; }
+const char* starfocus_simd_target(void) { return simd::BestKernels().name; }

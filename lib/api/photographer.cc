@@ -102,20 +102,21 @@ double MostCommon(const Sorted& sorted) {
 }  // namespace
 }  // namespace starfocus
 
+using namespace starfocus;
+
 starfocus_status starfocus_focus_at(const float* disparity, size_t stride, int32_t width,
                                     int32_t height, int32_t x, int32_t y, double* focus) {
   if (focus == nullptr) return STARFOCUS_ERROR_NULL;
-  const starfocus_status status = starfocus::CheckMap({disparity, stride}, width, height, nullptr);
+  const starfocus_status status = CheckMap({disparity, stride}, width, height, nullptr);
   if (status != STARFOCUS_OK) return status;
   if (x < 0 || x >= width || y < 0 || y >= height) return STARFOCUS_ERROR_RANGE;
-  const starfocus::Map map = {disparity, stride / sizeof(float), width, height};
-  starfocus::Sorted sorted;
-  if (!starfocus::SortAround(map, x, y, &sorted)) return STARFOCUS_ERROR_NOT_FINITE;
-  double surface =
-      starfocus::HasNeighbour(map, x, y) ? double{map.At(x, y)} : starfocus::MostCommon(sorted);
+  const Map map = {disparity, stride / sizeof(float), width, height};
+  Sorted sorted;
+  if (!SortAround(map, x, y, &sorted)) return STARFOCUS_ERROR_NOT_FINITE;
+  double surface = HasNeighbour(map, x, y) ? double{map.At(x, y)} : MostCommon(sorted);
   // Once more, since what is near the first median depends less on the noise of the pixel itself.
   for (int round = 0; round < 2; ++round) {
-    surface = starfocus::Median(sorted, starfocus::PartNear(sorted, surface));
+    surface = Median(sorted, PartNear(sorted, surface));
   }
   *focus = surface;
   return STARFOCUS_OK;

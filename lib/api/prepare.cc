@@ -27,18 +27,16 @@ starfocus_status CheckPreparedMemory(const EngineState& engine, const PrepareCal
 }  // namespace
 }  // namespace starfocus
 
-using starfocus::EngineState;
-using starfocus::Prepared;
+using namespace starfocus;
 
 starfocus_status starfocus_prepared_size(const starfocus_config* config, size_t* bytes) {
-  starfocus_config full = starfocus::DefaultConfig();
-  starfocus_status status = starfocus::EnterConfig(config, {{"bytes", bytes}}, &full);
-  if (status == STARFOCUS_OK) status = starfocus::CheckConfig(full);
+  starfocus_config full = DefaultConfig();
+  starfocus_status status = EnterConfig(config, {{"bytes", bytes}}, &full);
+  if (status == STARFOCUS_OK) status = CheckConfig(full);
   if (status != STARFOCUS_OK) return status;
   Prepared* counted = nullptr;
-  const size_t needed = starfocus::LayOutPrepared(full, nullptr, &counted);
-  if (needed == starfocus::kTooLarge)
-    return starfocus::TellStatus(STARFOCUS_ERROR_TOO_LARGE, full.problem);
+  const size_t needed = LayOutPrepared(full, nullptr, &counted);
+  if (needed == kTooLarge) return TellStatus(STARFOCUS_ERROR_TOO_LARGE, full.problem);
   *bytes = needed;
   return STARFOCUS_OK;
 }
@@ -48,22 +46,22 @@ starfocus_status starfocus_prepare(starfocus_engine* engine,
                                    size_t bytes, starfocus_prepared** prepared) {
   if (prepared != nullptr) *prepared = nullptr;
   starfocus_status status =
-      starfocus::EnterEngine(engine, {{"light_field", light_field}, {"prepared", prepared}});
+      EnterEngine(engine, {{"light_field", light_field}, {"prepared", prepared}});
   if (status != STARFOCUS_OK) return status;
   EngineState& e = *reinterpret_cast<EngineState*>(engine);
-  const starfocus::PrepareCall call = {memory, bytes};
-  status = starfocus::CheckLightField(e.config, *light_field);
+  const PrepareCall call = {memory, bytes};
+  status = CheckLightField(e.config, *light_field);
   if (status != STARFOCUS_OK) return status;
-  starfocus::Extents read;
-  starfocus::AddLightField(e.config, *light_field, &read);
-  status = starfocus::CheckPreparedMemory(e, call, &read);
+  Extents read;
+  AddLightField(e.config, *light_field, &read);
+  status = CheckPreparedMemory(e, call, &read);
   if (status != STARFOCUS_OK) return status;
-  starfocus::LightField field;
-  starfocus::MakeLightField(*light_field, 0, &e, &field);
-  starfocus::UseLightField(field, &e);
+  LightField field;
+  MakeLightField(*light_field, 0, &e, &field);
+  UseLightField(field, &e);
   Prepared* made = nullptr;
-  status = starfocus::Prepare(call, starfocus::SourceOf(field), &e, &made);
-  if (status != STARFOCUS_OK) return starfocus::TellStatus(status, &e.problem);
+  status = Prepare(call, SourceOf(field), &e, &made);
+  if (status != STARFOCUS_OK) return TellStatus(status, &e.problem);
   made->light_field = *light_field;
   *prepared = reinterpret_cast<starfocus_prepared*>(made);
   return STARFOCUS_OK;

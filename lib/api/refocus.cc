@@ -96,21 +96,21 @@ starfocus_status Refocus(const Request& request, EngineState* engine, starfocus_
 }  // namespace
 }  // namespace starfocus
 
-using starfocus::EngineState;
+using namespace starfocus;
 
 starfocus_status starfocus_refocus(starfocus_engine* engine, const starfocus_params* params,
                                    const starfocus_light_field* light_field,
                                    const starfocus_image* out, starfocus_report* report) {
   starfocus_params full;
-  const starfocus_status status = starfocus::EnterCall(
+  const starfocus_status status = EnterCall(
       engine, {{"params", params}, {"light_field", light_field}, {"out", out}}, params, &full);
   if (status != STARFOCUS_OK) return status;
   auto& e = *reinterpret_cast<EngineState*>(engine);
   if (full.preview_shift != 0) {
-    return starfocus::Refuse(STARFOCUS_ERROR_RANGE, {"preview_shift", double(full.preview_shift)},
-                             {"0 without a prepared light field", 0, 0}, &e.problem);
+    return Refuse(STARFOCUS_ERROR_RANGE, {"preview_shift", double(full.preview_shift)},
+                  {"0 without a prepared light field", 0, 0}, &e.problem);
   }
-  return starfocus::Refocus({full, *light_field, nullptr, *out}, &e, report);
+  return Refocus({full, *light_field, nullptr, *out}, &e, report);
 }
 
 starfocus_status starfocus_refocus_prepared(starfocus_engine* engine,
@@ -118,13 +118,13 @@ starfocus_status starfocus_refocus_prepared(starfocus_engine* engine,
                                             const starfocus_prepared* prepared,
                                             const starfocus_image* out, starfocus_report* report) {
   starfocus_params full;
-  const starfocus_status status = starfocus::EnterCall(
-      engine, {{"params", params}, {"prepared", prepared}, {"out", out}}, params, &full);
+  const starfocus_status status =
+      EnterCall(engine, {{"params", params}, {"prepared", prepared}, {"out", out}}, params, &full);
   if (status != STARFOCUS_OK) return status;
   auto& e = *reinterpret_cast<EngineState*>(engine);
-  const auto& p = *reinterpret_cast<const starfocus::Prepared*>(prepared);
+  const auto& p = *reinterpret_cast<const Prepared*>(prepared);
   if (full.preview_shift != 0) {
-    return starfocus::RefocusPreview({full, p, full.preview_shift}, *out, &e, report);
+    return RefocusPreview({full, p, full.preview_shift}, *out, &e, report);
   }
-  return starfocus::Refocus({full, p.light_field, &p, *out}, &e, report);
+  return Refocus({full, p.light_field, &p, *out}, &e, report);
 }

@@ -26,7 +26,8 @@ const char* starfocus_status_string(starfocus_status status) {
     case STARFOCUS_ERROR_OVERLAP:
       return "an output overlaps an input or the workspace";
     case STARFOCUS_ERROR_BLUR:
-      return "aperture times the distance of the disparity range from the focus exceeds max_blur";
+      return "aperture times the distance of the focus from the farther end of the disparity range "
+             "exceeds max_blur";
     case STARFOCUS_ERROR_DISPARITY:
       return "disparity map holds a value outside the configured disparity range";
     case STARFOCUS_ERROR_NOT_FINITE:

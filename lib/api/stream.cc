@@ -136,28 +136,27 @@ starfocus_status PullRows(const RowSink& sink, int32_t rows, EngineState* engine
 }  // namespace
 }  // namespace starfocus
 
-using starfocus::EngineState;
+using namespace starfocus;
 
 starfocus_status starfocus_stream_begin(starfocus_engine* engine, const starfocus_params* params) {
   starfocus_params full;
-  starfocus_status status = starfocus::EnterCall(engine, {{"params", params}}, params, &full);
+  starfocus_status status = EnterCall(engine, {{"params", params}}, params, &full);
   if (status != STARFOCUS_OK) return status;
   EngineState& e = *reinterpret_cast<EngineState*>(engine);
-  status = starfocus::CheckParams(e.config, full);
+  status = CheckParams(e.config, full);
   if (status != STARFOCUS_OK) return status;
-  starfocus::Checker check(&e.problem);
-  check.Need(starfocus::Has(e.config.features, STARFOCUS_FEATURE_STREAMING),
-             STARFOCUS_ERROR_FEATURE, {"features", double(e.config.features)},
-             {"STARFOCUS_FEATURE_STREAMING"});
-  check.Need(starfocus::IsWhole(full.region), STARFOCUS_ERROR_RANGE, {"region"}, {"all 0"});
+  Checker check(&e.problem);
+  check.Need(Has(e.config.features, STARFOCUS_FEATURE_STREAMING), STARFOCUS_ERROR_FEATURE,
+             {"features", double(e.config.features)}, {"STARFOCUS_FEATURE_STREAMING"});
+  check.Need(IsWhole(full.region), STARFOCUS_ERROR_RANGE, {"region"}, {"all 0"});
   check.Need(full.preview_shift == 0, STARFOCUS_ERROR_RANGE, {"preview_shift"}, {"0 for a stream"});
   check.Need(full.previous == nullptr, STARFOCUS_ERROR_RANGE, {"previous"}, {"null for a stream"});
   if (check.status() != STARFOCUS_OK) return check.status();
-  e.stream = starfocus::Stream();
+  e.stream = Stream();
   e.workers.jobs.call_progress.Begin(0, e.config.height);
-  status = starfocus::SetLens(full, &e);
-  if (status != STARFOCUS_OK) return starfocus::TellStatus(status, &e.problem);
-  starfocus::SetPlanes(e.config, *e.kernels, e.rings, &e.row_store);
+  status = SetLens(full, &e);
+  if (status != STARFOCUS_OK) return TellStatus(status, &e.problem);
+  SetPlanes(e.config, *e.kernels, e.rings, &e.row_store);
   e.stream.active = true;
   return STARFOCUS_OK;
 }
@@ -167,36 +166,36 @@ starfocus_status starfocus_stream_push(starfocus_engine* engine,
                                        int32_t* consumed) {
   if (consumed != nullptr) *consumed = 0;
   starfocus_status status =
-      starfocus::EnterEngine(engine, {{"light_field", light_field}, {"consumed", consumed}});
+      EnterEngine(engine, {{"light_field", light_field}, {"consumed", consumed}});
   if (status != STARFOCUS_OK) return status;
   EngineState& e = *reinterpret_cast<EngineState*>(engine);
-  status = starfocus::CheckPush(e, *light_field, rows);
+  status = CheckPush(e, *light_field, rows);
   if (status != STARFOCUS_OK) return status;
-  starfocus::LightField field;
-  starfocus::MakeLightField(*light_field, e.stream.pushed, &e, &field);
-  const int32_t unit = starfocus::AnyYuv(e.config, *light_field) ? 2 : 1;
-  return starfocus::PushRows(starfocus::SourceOf(field), rows, unit, &e, consumed);
+  LightField field;
+  MakeLightField(*light_field, e.stream.pushed, &e, &field);
+  const int32_t unit = AnyYuv(e.config, *light_field) ? 2 : 1;
+  return PushRows(SourceOf(field), rows, unit, &e, consumed);
 }
 
 starfocus_status starfocus_stream_pull(starfocus_engine* engine, const starfocus_image* out,
                                        int32_t rows, int32_t* written, starfocus_report* report) {
   if (written != nullptr) *written = 0;
-  starfocus_status status = starfocus::EnterEngine(engine, {{"out", out}, {"written", written}});
+  starfocus_status status = EnterEngine(engine, {{"out", out}, {"written", written}});
   if (status != STARFOCUS_OK) return status;
   EngineState& e = *reinterpret_cast<EngineState*>(engine);
-  status = starfocus::CheckCount(e, rows, INT32_MAX);
+  status = CheckCount(e, rows, INT32_MAX);
   if (status != STARFOCUS_OK) return status;
   const int32_t first = e.stream.written, left = e.config.height - first;
-  const int32_t most = starfocus::Min(rows, left);
-  status = starfocus::CheckPull(e, *out, most);
+  const int32_t most = Min(rows, left);
+  status = CheckPull(e, *out, most);
   if (status != STARFOCUS_OK) return status;
-  const starfocus::Plane<uint8_t>& alpha = e.images.alpha;
-  const starfocus::PictureOutput output = {&starfocus::simd::BestImageKernels(),
-                                           starfocus::PlanesOf<uint8_t>(*out),
-                                           {0, first, e.config.width, left},
-                                           {{alpha.data, alpha.stride, alpha.rows, 0}, 1},
-                                           nullptr};
-  status = starfocus::PullRows(starfocus::SinkOf(output), most, &e, written);
+  const Plane<uint8_t>& alpha = e.images.alpha;
+  const PictureOutput output = {&simd::BestImageKernels(),
+                                PlanesOf<uint8_t>(*out),
+                                {0, first, e.config.width, left},
+                                {{alpha.data, alpha.stride, alpha.rows, 0}, 1},
+                                nullptr};
+  status = PullRows(SinkOf(output), most, &e, written);
   if (status == STARFOCUS_OK && report != nullptr) *report = e.report;
-  return starfocus::TellStatus(status, &e.problem);
+  return TellStatus(status, &e.problem);
 }

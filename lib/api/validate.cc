@@ -12,7 +12,7 @@ void CheckLens(const starfocus_config& config, const starfocus_lens& lens, Check
   check->In({"lens.focus", lens.focus},
             STARFOCUS_FROM_TO(-STARFOCUS_MAX_FOCUS, STARFOCUS_MAX_FOCUS));
   check->In({"lens.aperture", lens.aperture}, STARFOCUS_FROM_TO(0, 1));
-  check->In({"lens.shape", double(lens.shape)}, {"an starfocus_shape", 0, STARFOCUS_SHAPE_RING});
+  check->In({"lens.shape", double(lens.shape)}, {"a starfocus_shape", 0, STARFOCUS_SHAPE_RING});
   check->In({"lens.blades", double(lens.blades)},
             STARFOCUS_FROM_TO(STARFOCUS_MIN_BLADES, STARFOCUS_MAX_BLADES));
   check->In({"lens.theta", lens.theta},
@@ -108,16 +108,16 @@ starfocus_status CheckConfig(const starfocus_config& config) {
              {"features", double(config.features)}, {"bits of STARFOCUS_FEATURE_"});
   check.In({"previews", double(config.previews)}, STARFOCUS_FROM_TO(0, STARFOCUS_MAX_PREVIEW));
   check.In({"transfer", double(config.transfer)},
-           {"an starfocus_transfer", 0, STARFOCUS_TRANSFER_NONE});
+           {"a starfocus_transfer", 0, STARFOCUS_TRANSFER_NONE});
   check.In({"highlights", config.highlights}, STARFOCUS_FROM_TO(1, STARFOCUS_MAX_HIGHLIGHTS));
   return check.status();
 }
 
 starfocus_status CheckParams(const starfocus_config& config, const starfocus_params& params) {
   Checker check(config.problem);
-  check.In({"mode", double(params.mode)}, {"an starfocus_mode", 0, STARFOCUS_MODE_BLUR});
+  check.In({"mode", double(params.mode)}, {"a starfocus_mode", 0, STARFOCUS_MODE_BLUR});
   check.In({"renderer", double(params.renderer)},
-           {"an starfocus_renderer", 0, STARFOCUS_RENDERER_SLICES});
+           {"a starfocus_renderer", 0, STARFOCUS_RENDERER_SLICES});
   CheckLens(config, params.lens, &check);
   if (params.renderer == STARFOCUS_RENDERER_LINE_SCAN && params.mode != STARFOCUS_MODE_BLUR) {
     check.Need(HasLineScan(config), STARFOCUS_ERROR_FEATURE, {"renderer", double(params.renderer)},

@@ -54,13 +54,13 @@ void CheckImage(const starfocus_image& image, const PictureSize& size, const Ima
                 int32_t index, Checker* check) {
   const int32_t format = image.format;
   check->In({names.format, double(format), index},
-            {"an starfocus_format", 0, STARFOCUS_FORMAT_YUV_420_888});
+            {"a starfocus_format", 0, STARFOCUS_FORMAT_YUV_420_888});
   if (check->status() != STARFOCUS_OK) return;
   if (IsYuv(format)) {
     check->In({names.matrix, double(image.matrix), index},
-              {"an starfocus_matrix", STARFOCUS_MATRIX_BT601, STARFOCUS_MATRIX_BT709});
+              {"a starfocus_matrix", STARFOCUS_MATRIX_BT601, STARFOCUS_MATRIX_BT709});
     check->In({names.range, double(image.range), index},
-              {"an starfocus_range", STARFOCUS_RANGE_LIMITED, STARFOCUS_RANGE_FULL});
+              {"a starfocus_range", STARFOCUS_RANGE_LIMITED, STARFOCUS_RANGE_FULL});
   }
   check->Need(ValidPixelStride(format, image.pixel_stride), STARFOCUS_ERROR_RANGE,
               {names.pixel_stride, double(image.pixel_stride), index},
@@ -96,9 +96,9 @@ starfocus_status CheckDepthMap(const starfocus_depth_map& map, const PictureSize
                                starfocus_problem* problem) {
   Checker check(problem);
   check.NotNull(map.data, "depth.data");
-  check.In({"depth.type", double(map.type)}, {"an starfocus_depth_type", 0, STARFOCUS_DEPTH_HALF});
+  check.In({"depth.type", double(map.type)}, {"a starfocus_depth_type", 0, STARFOCUS_DEPTH_HALF});
   check.In({"depth.meaning", double(map.meaning)},
-           {"an starfocus_depth_meaning", 0, STARFOCUS_DEPTH_RECIPROCAL});
+           {"a starfocus_depth_meaning", 0, STARFOCUS_DEPTH_RECIPROCAL});
   check.In({"depth.has_invalid", double(map.has_invalid)}, STARFOCUS_FROM_TO(0, 1));
   const auto scale = static_cast<float>(map.scale), offset = static_cast<float>(map.offset);
   check.Need(IsFinite(scale) && scale != 0, STARFOCUS_ERROR_RANGE, {"depth.scale", map.scale},

@@ -9,7 +9,7 @@
 
 namespace starfocus {
 
-// Whether an STARFOCUS_FEATURE_ is among those of a configuration.
+// Whether a STARFOCUS_FEATURE_ is among those of a configuration.
 constexpr bool Has(uint32_t features, uint32_t feature) { return (features & feature) != 0; }
 
 // Whether lenses may be polygons and have cat's eyes.

@@ -10,7 +10,7 @@
 
 namespace starfocus {
 
-// An starfocus_block_visitor; `data` is a std::vector<starfocus_block> that the block is added to.
+// A starfocus_block_visitor; `data` is a std::vector<starfocus_block> that the block is added to.
 void CollectBlock(void* data, const starfocus_block* block);
 
 // The picture in grey, or the region of it whose first pixel is (left, top), every block tinted by

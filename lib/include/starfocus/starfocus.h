@@ -30,7 +30,7 @@
  * SIMD target nor the way the rows come in.
  *
  * Errors: every function checks all its arguments before it writes anything but its own state. It
- * returns an starfocus_status, which says what kind of error it is. An starfocus_problem says which
+ * returns a starfocus_status, which says what kind of error it is. A starfocus_problem says which
  * field or argument was refused, what its value was and what was expected: set
  * starfocus_config.problem and starfocus_depth_config.problem for calls that take a configuration,
  * and ask starfocus_engine_problem after calls with an engine. STARFOCUS_ERROR_STRUCTURE leaves

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Thin C++17 wrapper of starfocus.h: owns the workspace, adds nothing else. Header-only; no
-// exceptions: every call returns an starfocus_status.
+// exceptions: every call returns a starfocus_status.
 #ifndef STARFOCUS_STARFOCUS_HPP_
 #define STARFOCUS_STARFOCUS_HPP_
 

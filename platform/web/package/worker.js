@@ -6,7 +6,7 @@ import {compile, instantiate, makeMemory, readText, writeText} from './engine.js
 import {canShare, listen, parentOfWorker, startWorker} from './host.js';
 
 const OK = 0, CANCELLED = 17;
-const BLOCK_NUMBERS = 6;  // of an starfocus_block
+const BLOCK_NUMBERS = 6;  // of a starfocus_block
 
 // Where nothing is shared, messages are looked at after so many rows, which costs some 10 % of the time.
 const ROWS_AT_ONCE = 512;

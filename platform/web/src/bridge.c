@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* What JavaScript calls: one engine with one light field in the memory of one module. Functions
- * answer with an starfocus_status unless they say otherwise. All memory is what lies behind the
+ * answer with a starfocus_status unless they say otherwise. All memory is what lies behind the
  * module's own data: first the helpers' stacks, then the light field and what was prepared of it,
  * then the engine, which may be made anew for the same light field. */
 #include <string.h>

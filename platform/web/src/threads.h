@@ -12,7 +12,7 @@ void SetHelpers(int32_t helpers);
 /* Takes part in all runs as that worker, in [1, helpers]; never returns. */
 void Help(int32_t worker);
 
-/* An starfocus_runner: the calling thread is worker 0. */
+/* A starfocus_runner: the calling thread is worker 0. */
 int RunOnWorkers(void* data, starfocus_job job, void* job_data, int32_t count);
 
 #endif /* STARFOCUS_PLATFORM_WEB_SRC_THREADS_H_ */

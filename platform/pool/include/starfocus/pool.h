@@ -39,7 +39,7 @@ STARFOCUS_API starfocus_pool* starfocus_pool_create(int32_t workers);
 /** Workers of the pool: what starfocus_config.max_workers must be at least. */
 STARFOCUS_API int32_t starfocus_pool_workers(const starfocus_pool* pool);
 
-/** An starfocus_runner, whose runner_data is the pool: calls the job with every index in [0, count)
+/** A starfocus_runner, whose runner_data is the pool: calls the job with every index in [0, count)
  * and returns when all are done, 0; not 0 for a null pool or job or a negative count. The caller is
  *  worker 0. Calls from several threads take turns; a job must not call it with the same pool.
  *  Threads that have nothing to do look for more for a tenth of a millisecond and then sleep. */

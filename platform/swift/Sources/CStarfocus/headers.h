@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* What the Swift module CStarfocus has; threads are the caller's (DispatchQueue.concurrentPerform
- * makes an starfocus_runner). */
+ * makes a starfocus_runner). */
 #include <starfocus/depth.h>
 #include <starfocus/starfocus.h>
