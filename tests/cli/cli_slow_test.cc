@@ -92,7 +92,6 @@ TEST_CASE("cli: refocus, stream, report, compare, info and sheet work together")
                             "rendered_samples",
                             "seconds_refocus",
                             "copied_blocks",
-                            "filled_blocks",
                             "layer_columns",
                             "gathered_pixels",
                             "side_bytes_read",

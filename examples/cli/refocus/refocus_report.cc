@@ -42,10 +42,7 @@ Json SkippedJson(const EngineTask& task, const starfocus_report& report) {
   Json json;
   json.Set("copied_blocks", skipped.copied_blocks);
   json.Set("copied_pixels", skipped.copied_pixels);
-  json.Set("filled_blocks", skipped.filled_blocks);
-  json.Set("filled_pixels", skipped.filled_pixels);
   json.Set("layer_columns", skipped.layer_columns);
-  json.Set("boundaries", skipped.boundaries);
   json.Set("gathered_pixels", report.gathered_pixels);
   json.Set("side_bytes_read", report.side_bytes);
   json.Set("side_bytes", uint64_t{3} * uint64_t(task.config.views - 1) *

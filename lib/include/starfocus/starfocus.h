@@ -311,9 +311,7 @@ typedef struct starfocus_layer_report {
 typedef struct starfocus_skipped {
   uint64_t copied_blocks; /**< no rendered view moves a pixel: copied from the centre view */
   uint64_t copied_pixels; /**< picture pixels they cover */
-  uint64_t filled_blocks, filled_pixels; /**< always 0: blocks of one colour are rendered */
   uint64_t layer_columns; /**< layers, columns of superblocks and stripes that no block reads */
-  uint64_t boundaries;    /**< always 0: stripes of one layer are deblocked like others */
 } starfocus_skipped;
 
 /** What a refocusing did. */

@@ -126,8 +126,7 @@ class LayerReport(Structure):
 class Skipped(Structure):
     """starfocus_skipped"""
 
-    _fields_ = [(name, c_uint64) for name in ("copied_blocks", "copied_pixels", "filled_blocks",
-                                              "filled_pixels", "layer_columns", "boundaries")]
+    _fields_ = [(name, c_uint64) for name in ("copied_blocks", "copied_pixels", "layer_columns")]
 
 
 class Report(Structure):
