@@ -29,7 +29,7 @@ starfocus_status CheckDepthConfig(const starfocus_depth_config& config, bool rep
 // Checks that the outputs overlap nothing that is read, nor the workspace, nor each other.
 starfocus_status CheckOverlap(const starfocus_depth_config& config,
                               const starfocus_light_field& light_field, bool repairs,
-                              const starfocus_map& map, const Extent& workspace) {
+                              const starfocus_disparity_output& map, const Extent& workspace) {
   const auto width = static_cast<size_t>(config.width), floats = width * sizeof(float);
   const int32_t height = config.height;
   Extents taken;
@@ -110,7 +110,8 @@ struct DepthCall {
   size_t bytes;
 };
 
-starfocus_status CheckStrides(const starfocus_depth_config& config, const starfocus_map& map) {
+starfocus_status CheckStrides(const starfocus_depth_config& config,
+                              const starfocus_disparity_output& map) {
   const auto width = static_cast<size_t>(config.width);
   Checker check(config.problem);
   check.Stride(
@@ -122,7 +123,8 @@ starfocus_status CheckStrides(const starfocus_depth_config& config, const starfo
 }
 
 // Checks all arguments of a call.
-starfocus_status CheckCall(const DepthCall& call, bool repairs, const starfocus_map& map) {
+starfocus_status CheckCall(const DepthCall& call, bool repairs,
+                           const starfocus_disparity_output& map) {
   size_t needed = 0;
   starfocus_status status = SizeOf(call.config, repairs, &needed);
   starfocus_problem* const problem = call.config->problem;
@@ -188,7 +190,7 @@ starfocus_status SweepViews(const DepthCall& call, bool repairs, const MapOutput
 }
 
 // Checks a call and does it.
-starfocus_status RunCall(DepthCall call, bool repairs, starfocus_map* map) {
+starfocus_status RunCall(DepthCall call, bool repairs, starfocus_disparity_output* map) {
   starfocus_depth_config full = DefaultDepthConfig();
   starfocus_status status = EnterConfig(
       call.config, {{"light_field", call.light_field}, {"map", map}, {"workspace", call.workspace}},
@@ -219,22 +221,26 @@ void starfocus_depth_config_init_sized(starfocus_depth_config* config, uint32_t 
   InitSized(DefaultDepthConfig(), size, config);
 }
 
-starfocus_status starfocus_estimate_size(const starfocus_depth_config* config, size_t* bytes) {
+starfocus_status starfocus_estimate_workspace_size(const starfocus_depth_config* config,
+                                                   size_t* bytes) {
   return SizeOf(config, false, bytes);
 }
 
-starfocus_status starfocus_repair_size(const starfocus_depth_config* config, size_t* bytes) {
+starfocus_status starfocus_repair_workspace_size(const starfocus_depth_config* config,
+                                                 size_t* bytes) {
   return SizeOf(config, true, bytes);
 }
 
 starfocus_status starfocus_estimate_disparity(const starfocus_depth_config* config,
                                               const starfocus_light_field* light_field,
-                                              starfocus_map* map, void* workspace, size_t bytes) {
+                                              starfocus_disparity_output* map, void* workspace,
+                                              size_t bytes) {
   return RunCall({config, light_field, workspace, bytes}, false, map);
 }
 
 starfocus_status starfocus_repair_disparity(const starfocus_depth_config* config,
                                             const starfocus_light_field* light_field,
-                                            starfocus_map* map, void* workspace, size_t bytes) {
+                                            starfocus_disparity_output* map, void* workspace,
+                                            size_t bytes) {
   return RunCall({config, light_field, workspace, bytes}, true, map);
 }

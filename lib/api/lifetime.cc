@@ -90,7 +90,7 @@ size_t starfocus_struct_size(const char* name) {
                               SIZE_OF(starfocus_tuning),
                               SIZE_OF(starfocus_image),
                               SIZE_OF(starfocus_depth_map),
-                              SIZE_OF(starfocus_map),
+                              SIZE_OF(starfocus_disparity_output),
                               SIZE_OF(starfocus_lens)};
 #undef SIZE_OF
   if (name == nullptr) return 0;

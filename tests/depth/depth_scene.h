@@ -100,15 +100,15 @@ struct MadeMap {
 inline MadeMap MakeMap(const PlaneField& field, const starfocus_depth_config& config,
                        const std::vector<float>& given = {}) {
   size_t bytes = 0;
-  REQUIRE((given.empty() ? starfocus_estimate_size : starfocus_repair_size)(&config, &bytes) ==
-          STARFOCUS_OK);
+  REQUIRE((given.empty() ? starfocus_estimate_workspace_size : starfocus_repair_workspace_size)(
+              &config, &bytes) == STARFOCUS_OK);
   const Memory memory(bytes);
   const auto width = size_t(field.width), pixels = width * size_t(field.height);
   MadeMap made = {std::vector<float>(pixels, NAN), std::vector<uint8_t>(pixels, 77)};
   starfocus_light_field light_field = field.Get();
   light_field.depth =
       starfocus_depth_float(given.data(), sizeof(float) * width, field.width, field.height);
-  starfocus_map map = {
+  starfocus_disparity_output map = {
       made.disparity.data(), sizeof(float) * width, made.confidence.data(), width, nullptr, 0, 0};
   const auto make = given.empty() ? starfocus_estimate_disparity : starfocus_repair_disparity;
   REQUIRE(make(&config, &light_field, &map, memory.data, memory.bytes) == STARFOCUS_OK);

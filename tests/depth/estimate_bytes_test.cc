@@ -86,12 +86,12 @@ TEST_CASE("estimate: bad configurations have their errors") {
   const PlaneField field = RenderPlanes(PlaneScene());
   const starfocus_depth_config good = ConfigOf(field, -3, 3);
   size_t bytes = 0;
-  CHECK(starfocus_estimate_size(nullptr, &bytes) == STARFOCUS_ERROR_NULL);
-  CHECK(starfocus_estimate_size(&good, nullptr) == STARFOCUS_ERROR_NULL);
+  CHECK(starfocus_estimate_workspace_size(nullptr, &bytes) == STARFOCUS_ERROR_NULL);
+  CHECK(starfocus_estimate_workspace_size(&good, nullptr) == STARFOCUS_ERROR_NULL);
   const auto status = [&](auto change) {
     starfocus_depth_config config = good;
     change(&config);
-    return starfocus_estimate_size(&config, &bytes);
+    return starfocus_estimate_workspace_size(&config, &bytes);
   };
   CHECK(status([](starfocus_depth_config*) {}) == STARFOCUS_OK);
   CHECK(status([](starfocus_depth_config* c) { c->size = 0; }) == STARFOCUS_ERROR_STRUCTURE);
@@ -110,7 +110,7 @@ TEST_CASE("estimate: bad memory has its errors, and nothing is written") {
   const PlaneField field = RenderPlanes(PlaneScene());
   const starfocus_depth_config config = ConfigOf(field, -3, 3);
   size_t bytes = 0;
-  REQUIRE(starfocus_estimate_size(&config, &bytes) == STARFOCUS_OK);
+  REQUIRE(starfocus_estimate_workspace_size(&config, &bytes) == STARFOCUS_OK);
   const Memory memory(bytes + STARFOCUS_ALIGNMENT);
   const auto width = size_t(field.width), pixels = width * size_t(field.height);
   std::vector<float> map(pixels, 42);
@@ -119,7 +119,7 @@ TEST_CASE("estimate: bad memory has its errors, and nothing is written") {
   starfocus_light_field views = whole;
   const auto status = [&](float* to, size_t stride, uint8_t* sure, size_t sure_stride, void* at,
                           size_t size) {
-    starfocus_map out = {to, stride, sure, sure_stride, nullptr, 0, 0};
+    starfocus_disparity_output out = {to, stride, sure, sure_stride, nullptr, 0, 0};
     return starfocus_estimate_disparity(&config, &views, &out, at, size);
   };
   float* const to = map.data();
@@ -147,7 +147,7 @@ TEST_CASE("estimate: bad memory has its errors, and nothing is written") {
   for (const float value : map) REQUIRE(value == 42);
   for (const uint8_t value : confidence) REQUIRE(value == 42);
   views = whole;
-  starfocus_map out = {to, row, nullptr, 0, nullptr, 0, 0};
+  starfocus_disparity_output out = {to, row, nullptr, 0, nullptr, 0, 0};
   starfocus_depth_config fails = config;
   fails.runner = [](void*, starfocus_job, void*, int32_t) { return 0; };
   CHECK(starfocus_estimate_disparity(&fails, &views, &out, at, bytes) == STARFOCUS_ERROR_RUNNER);

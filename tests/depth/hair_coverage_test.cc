@@ -53,7 +53,7 @@ Found Repair(const Portrait& portrait, const Call& call = {}) {
     };
   }
   size_t bytes = 0;
-  REQUIRE(starfocus_repair_size(&config, &bytes) == STARFOCUS_OK);
+  REQUIRE(starfocus_repair_workspace_size(&config, &bytes) == STARFOCUS_OK);
   const test::Memory memory(bytes);
   const size_t width = Portrait::kWidth, pixels = portrait.map.size();
   starfocus_light_field field = {};
@@ -62,13 +62,13 @@ Found Repair(const Portrait& portrait, const Call& call = {}) {
                                       Portrait::kHeight);
   Found found = {STARFOCUS_OK, 0, std::vector<float>(pixels, NAN), std::vector<uint8_t>(pixels, 77),
                  std::vector<uint8_t>(pixels, 77)};
-  starfocus_map map = {found.map.data(),
-                       sizeof(float) * width,
-                       found.confidence.data(),
-                       width,
-                       call.covers ? found.coverage.data() : nullptr,
-                       width,
-                       -1};
+  starfocus_disparity_output map = {found.map.data(),
+                                    sizeof(float) * width,
+                                    found.confidence.data(),
+                                    width,
+                                    call.covers ? found.coverage.data() : nullptr,
+                                    width,
+                                    -1};
   found.status = starfocus_repair_disparity(&config, &field, &map, memory.data, bytes);
   found.has_coverage = map.has_coverage;
   return found;
@@ -214,7 +214,7 @@ TEST_CASE("hair coverage: bad planes have their errors, and nothing is written")
   config.width = Portrait::kWidth, config.height = Portrait::kHeight, config.views = 1;
   config.disparity_min = -12, config.disparity_max = 12;
   size_t bytes = 0;
-  REQUIRE(starfocus_repair_size(&config, &bytes) == STARFOCUS_OK);
+  REQUIRE(starfocus_repair_workspace_size(&config, &bytes) == STARFOCUS_OK);
   const test::Memory memory(bytes);
   const size_t width = Portrait::kWidth;
   starfocus_light_field field = {};
@@ -224,7 +224,8 @@ TEST_CASE("hair coverage: bad planes have their errors, and nothing is written")
   std::vector<float> to(portrait.map.size(), 42);
   std::vector<uint8_t> sure(to.size(), 42), coverage(to.size(), 42);
   const auto status = [&](uint8_t* covers, size_t stride) {
-    starfocus_map map = {to.data(), sizeof(float) * width, sure.data(), width, covers, stride, -1};
+    starfocus_disparity_output map = {
+        to.data(), sizeof(float) * width, sure.data(), width, covers, stride, -1};
     const starfocus_status got =
         starfocus_repair_disparity(&config, &field, &map, memory.data, bytes);
     CHECK(map.has_coverage == -1);

@@ -66,7 +66,8 @@ struct Maps {
     config = test::ConfigOf(input.field, input.low, input.high);
     config.max_workers = setup.workers;
     size_t bytes = 0;
-    const auto size = input.given.empty() ? starfocus_estimate_size : starfocus_repair_size;
+    const auto size =
+        input.given.empty() ? starfocus_estimate_workspace_size : starfocus_repair_workspace_size;
     REQUIRE(size(&config, &bytes) == STARFOCUS_OK);
     memory = std::make_unique<test::Memory>(bytes);
     if (setup.used) std::memset(memory->data, 0x11, bytes);
@@ -106,7 +107,7 @@ struct Maps {
     } else {
       const auto make =
           input.given.empty() ? starfocus_estimate_disparity : starfocus_repair_disparity;
-      starfocus_map map = {
+      starfocus_disparity_output map = {
           disparity.data(), sizeof(float) * width, confidence.data(), width, nullptr, 0, 0};
       status = make(&config, &field, &map, memory->data, memory->bytes);
     }

@@ -239,12 +239,12 @@ TEST_CASE("repair: a noisy map of one view stays in its range") {
   config.views = 1;
   config.disparity_min = low, config.disparity_max = high;
   size_t bytes = 0;
-  REQUIRE(starfocus_repair_size(&config, &bytes) == STARFOCUS_OK);
+  REQUIRE(starfocus_repair_workspace_size(&config, &bytes) == STARFOCUS_OK);
   const Memory memory(bytes);
   starfocus_light_field field = {};
   field.views[0] = starfocus_image_rgb(picture.data(), 3 * kSide);
   field.depth = starfocus_depth_float(given.data(), sizeof(float) * kSide, kSide, kSide);
-  starfocus_map map = {found.data(), sizeof(float) * kSide, nullptr, 0, nullptr, 0, 0};
+  starfocus_disparity_output map = {found.data(), sizeof(float) * kSide, nullptr, 0, nullptr, 0, 0};
   REQUIRE(starfocus_repair_disparity(&config, &field, &map, memory.data, bytes) == STARFOCUS_OK);
   CHECK(found != given);
   for (const float value : found) REQUIRE((value >= low && value <= high));
@@ -255,8 +255,8 @@ TEST_CASE("repair: bad maps have their errors, and nothing is written") {
   const PlaneField field = RenderPlanes(scene);
   const starfocus_depth_config config = ConfigOf(field, kLow, kHigh);
   size_t bytes = 0;
-  REQUIRE(starfocus_repair_size(&config, &bytes) == STARFOCUS_OK);
-  CHECK(starfocus_repair_size(nullptr, &bytes) == STARFOCUS_ERROR_NULL);
+  REQUIRE(starfocus_repair_workspace_size(&config, &bytes) == STARFOCUS_OK);
+  CHECK(starfocus_repair_workspace_size(nullptr, &bytes) == STARFOCUS_ERROR_NULL);
   const Memory memory(bytes);
   const auto width = size_t(field.width);
   const size_t row = sizeof(float) * width;
@@ -264,7 +264,7 @@ TEST_CASE("repair: bad maps have their errors, and nothing is written") {
   starfocus_light_field light_field = field.Get();
   const auto status = [&](const float* from, size_t stride, size_t size) {
     light_field.depth = starfocus_depth_float(from, stride, field.width, field.height);
-    starfocus_map to = {map.data(), row, nullptr, 0, nullptr, 0, 0};
+    starfocus_disparity_output to = {map.data(), row, nullptr, 0, nullptr, 0, 0};
     return starfocus_repair_disparity(&config, &light_field, &to, memory.data, size);
   };
   CHECK(status(nullptr, row, bytes) == STARFOCUS_ERROR_NULL);

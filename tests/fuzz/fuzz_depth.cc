@@ -122,7 +122,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const starfocus_depth_config config = MakeConfig(&input);
   const bool repairs = input.Int(0, 1) == 1;
   size_t bytes = 0;
-  const auto size_of = repairs ? starfocus_repair_size : starfocus_estimate_size;
+  const auto size_of =
+      repairs ? starfocus_repair_workspace_size : starfocus_estimate_workspace_size;
   if (size_of(&config, &bytes) != STARFOCUS_OK || bytes > (size_t{300} << 20)) return 0;
   if (int64_t{config.width} * config.height > 20000) return 0;
   void* workspace = nullptr;
@@ -145,13 +146,13 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   field.depth = starfocus_depth_float(given.values.get(), given.stride * sizeof(float),
                                       config.width, config.height);
   const auto make = repairs ? starfocus_repair_disparity : starfocus_estimate_disparity;
-  starfocus_map out = {map.values.get(),
-                       map.stride * sizeof(float),
-                       sure.values.get(),
-                       sure.stride,
-                       coverage.values.get(),
-                       coverage.stride,
-                       -1};
+  starfocus_disparity_output out = {map.values.get(),
+                                    map.stride * sizeof(float),
+                                    sure.values.get(),
+                                    sure.stride,
+                                    coverage.values.get(),
+                                    coverage.stride,
+                                    -1};
   if (input.Rarely()) out.confidence = nullptr;
   if (input.Rarely()) out.coverage = nullptr;
   const starfocus_status status = make(&config, &field, &out, workspace, bytes);

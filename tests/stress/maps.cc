@@ -60,8 +60,8 @@ Map Make(const Question& question, starfocus_runner runner, test::Random* random
   config.runner = runner;
   size_t bytes = 0;
   Map map;
-  map.status =
-      (question.repairs ? starfocus_repair_size : starfocus_estimate_size)(&config, &bytes);
+  map.status = (question.repairs ? starfocus_repair_workspace_size
+                                 : starfocus_estimate_workspace_size)(&config, &bytes);
   if (map.status != STARFOCUS_OK) return map;
   const Memory memory(bytes, random->Int(0, 256), random);
   const auto width = static_cast<size_t>(scene.width);
@@ -69,7 +69,7 @@ Map Make(const Question& question, starfocus_runner runner, test::Random* random
   map.confidence.assign(map.disparity.size(), 0);
   const starfocus_light_field field = scene.Field();
   const auto make = question.repairs ? starfocus_repair_disparity : starfocus_estimate_disparity;
-  starfocus_map out = {
+  starfocus_disparity_output out = {
       map.disparity.data(), sizeof(float) * width, map.confidence.data(), width, nullptr, 0, 0};
   map.status = make(&config, &field, &out, memory.get(), bytes);
   return map;

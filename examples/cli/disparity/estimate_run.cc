@@ -65,8 +65,8 @@ Error MakeMap(const std::string& where, const Images& views, const FloatMap* giv
   config.progress = PictureProgress::Tell;
   config.progress_data = &maker->progress;
   size_t bytes = 0;
-  starfocus_status status = given == nullptr ? starfocus_estimate_size(&config, &bytes)
-                                             : starfocus_repair_size(&config, &bytes);
+  starfocus_status status = given == nullptr ? starfocus_estimate_workspace_size(&config, &bytes)
+                                             : starfocus_repair_workspace_size(&config, &bytes);
   if (status == STARFOCUS_ERROR_TOO_LARGE) return OutOfMemory(where, task);
   if (status == STARFOCUS_OK) {
     const Workspace workspace(::operator new (bytes, std::align_val_t{STARFOCUS_ALIGNMENT}));
@@ -78,7 +78,7 @@ Error MakeMap(const std::string& where, const Images& views, const FloatMap* giv
     map->width = centre.width;
     map->height = centre.height;
     map->values.resize(pixels);
-    starfocus_map out = {
+    starfocus_disparity_output out = {
         map->values.data(), sizeof(float) * width, nullptr, width, nullptr, width, 0};
     if (confidence != nullptr) {
       confidence->resize(pixels);

@@ -3,9 +3,9 @@
  * that makes no disparity maps does not need this header. Views are of STARFOCUS_FORMAT_RGB without
  * gaps between pixels.
  *
- * Use: starfocus_depth_config_init, fill the fields in, starfocus_estimate_size, allocate that many
- * bytes aligned to STARFOCUS_ALIGNMENT, starfocus_estimate_disparity. The bytes of a map depend on
- * the configuration and the pictures alone, and not on workers, runner or SIMD target.
+ * Use: starfocus_depth_config_init, fill the fields in, starfocus_estimate_workspace_size, allocate
+ * that many bytes aligned to STARFOCUS_ALIGNMENT, starfocus_estimate_disparity. The bytes of a map
+ * depend on the configuration and the pictures alone, and not on workers, runner or SIMD target.
  */
 #ifndef STARFOCUS_DEPTH_H_
 #define STARFOCUS_DEPTH_H_
@@ -41,7 +41,7 @@ typedef struct starfocus_depth_config {
 
 /** Output planes of a map. They must not overlap the views, the given map, the workspace or each
  *  other. A call writes nothing until it has checked its arguments. */
-typedef struct starfocus_map {
+typedef struct starfocus_disparity_output {
   float* disparity;         /**< aligned for float */
   size_t disparity_stride;  /**< bytes from row to row, >= 4 * width, multiple of 4 */
   uint8_t* confidence;      /**< confidence of each disparity, 0: none; null: not wanted */
@@ -51,7 +51,7 @@ typedef struct starfocus_map {
   size_t coverage_stride;   /**< bytes from row to row, >= width */
   int32_t has_coverage; /**< output: 1 if coverage was found and belongs to the map; 0: the bytes
                              of `coverage` are unspecified */
-} starfocus_map;
+} starfocus_disparity_output;
 
 /** As starfocus_config_init_sized. */
 STARFOCUS_API void starfocus_depth_config_init_sized(starfocus_depth_config* config, uint32_t size);
@@ -63,8 +63,8 @@ static inline void starfocus_depth_config_init(starfocus_depth_config* config) {
 /** Bytes of workspace of starfocus_estimate_disparity into *bytes: 5 for each pixel of the picture,
  * and for each worker up to 1.2 MB for each pixel of the range and about 10, 20 or 45 MB with 5, 9
  * or 17 views. */
-STARFOCUS_API starfocus_status starfocus_estimate_size(const starfocus_depth_config* config,
-                                                       size_t* bytes);
+STARFOCUS_API starfocus_status
+starfocus_estimate_workspace_size(const starfocus_depth_config* config, size_t* bytes);
 
 /** Estimates the disparity of each pixel of the centre view: the one at which all views that see
  *  the pixel agree best, smooth between neighbours. Every value lies in the configured range.
@@ -75,12 +75,12 @@ STARFOCUS_API starfocus_status starfocus_estimate_size(const starfocus_depth_con
  * pixels that hardly any view sees), 255 if none is. */
 STARFOCUS_API starfocus_status starfocus_estimate_disparity(
     const starfocus_depth_config* config, const starfocus_light_field* light_field,
-    starfocus_map* map, void* workspace, size_t bytes);
+    starfocus_disparity_output* map, void* workspace, size_t bytes);
 
 /** Bytes of workspace of starfocus_repair_disparity into *bytes: 12 for each pixel of the picture,
- * and for each worker about as much as starfocus_estimate_size has. */
-STARFOCUS_API starfocus_status starfocus_repair_size(const starfocus_depth_config* config,
-                                                     size_t* bytes);
+ * and for each worker about as much as starfocus_estimate_workspace_size has. */
+STARFOCUS_API starfocus_status starfocus_repair_workspace_size(const starfocus_depth_config* config,
+                                                               size_t* bytes);
 
 /** Repairs light_field->depth, a map as of starfocus_depth_float: edges that differ from those of
  * the picture, are blurred or come from a smaller map, noise, and unknown values (NaN, infinite).
@@ -103,8 +103,8 @@ STARFOCUS_API starfocus_status starfocus_repair_size(const starfocus_depth_confi
  */
 STARFOCUS_API starfocus_status starfocus_repair_disparity(const starfocus_depth_config* config,
                                                           const starfocus_light_field* light_field,
-                                                          starfocus_map* map, void* workspace,
-                                                          size_t bytes);
+                                                          starfocus_disparity_output* map,
+                                                          void* workspace, size_t bytes);
 
 #ifdef __cplusplus
 }

@@ -158,7 +158,7 @@ class DepthConfig(Structure):
 
 
 class Map(Structure):
-    """starfocus_map"""
+    """starfocus_disparity_output"""
 
     _fields_ = [
         ("disparity", c_void_p), ("disparity_stride", c_size_t), ("confidence", c_void_p),
@@ -173,7 +173,7 @@ STRUCTURES = {
     "starfocus_layer_report": LayerReport,
     "starfocus_skipped": Skipped, "starfocus_report": Report, "starfocus_disparity_stats": DisparityStats,
     "starfocus_depth_config": DepthConfig, "starfocus_image": Image,
-    "starfocus_depth_map": DepthMap, "starfocus_map": Map, "starfocus_callbacks": Callbacks,
+    "starfocus_depth_map": DepthMap, "starfocus_disparity_output": Map, "starfocus_callbacks": Callbacks,
 }
 
 _ENGINE_CALLS = {
@@ -189,8 +189,8 @@ _MAP_CALLS = {
     "starfocus_fill_disparity": (c_void_p, c_size_t, c_int32, c_int32),
     "starfocus_focus_at": (c_void_p, c_size_t, c_int32, c_int32, c_int32, c_int32, POINTER(c_double)),
     "starfocus_aperture_of_f_stop": (c_double, c_double, POINTER(c_double)),
-    "starfocus_estimate_size": (POINTER(DepthConfig), POINTER(c_size_t)),
-    "starfocus_repair_size": (POINTER(DepthConfig), POINTER(c_size_t)),
+    "starfocus_estimate_workspace_size": (POINTER(DepthConfig), POINTER(c_size_t)),
+    "starfocus_repair_workspace_size": (POINTER(DepthConfig), POINTER(c_size_t)),
     "starfocus_estimate_disparity": (POINTER(DepthConfig), POINTER(LightField), POINTER(Map), c_void_p, c_size_t),
     "starfocus_repair_disparity": (POINTER(DepthConfig), POINTER(LightField), POINTER(Map), c_void_p, c_size_t),
     "starfocus_view_position": (c_int32, POINTER(c_double), POINTER(c_double)),

@@ -77,7 +77,7 @@ def aperture_of_f_stop(f_stop: float, widest: float = 1.0) -> float:
 def estimate_disparity(views: Views, disparity_min: float, disparity_max: float, *, workers: int = 0,
                        progress: Optional[ProgressFunction] = None) -> DisparityMap:
     """The disparity of each pixel of the centre view, from 5, 9 or 17 views, looked for in this range."""
-    return _make_map(library.starfocus_estimate_size, library.starfocus_estimate_disparity, views, None,
+    return _make_map(library.starfocus_estimate_workspace_size, library.starfocus_estimate_disparity, views, None,
                      (disparity_min, disparity_max), workers, progress)
 
 
@@ -90,7 +90,7 @@ def repair_disparity(views: Views, disparity: np.ndarray, disparity_min: Optiona
     stats = measure_disparity(disparity)
     span = (stats.min if disparity_min is None else disparity_min,
             stats.max if disparity_max is None else disparity_max)
-    return _make_map(library.starfocus_repair_size, library.starfocus_repair_disparity, views, disparity, span, workers,
+    return _make_map(library.starfocus_repair_workspace_size, library.starfocus_repair_disparity, views, disparity, span, workers,
                      progress)
 
 
