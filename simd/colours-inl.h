@@ -7,8 +7,8 @@
 #define STARFOCUS_SIMD_COLOURS_INL_H_
 #endif
 
-#include "simd/chunk-inl.h"
 #include "simd/colours.h"
+#include "simd/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
@@ -49,8 +49,8 @@ HWY_INLINE BlockColours ColoursOf(const ColourSample* block, size_t stride) {
 inline void CompareColours(const ColourSample* HWY_RESTRICT window, size_t stride,
                            uint16_t* HWY_RESTRICT least) {
   static constexpr OutOfReach kOut;
-  const ChunkTag d16;
-  const hn::RebindToUnsigned<ChunkTag> du16;
+  const LanesTag d16;
+  const hn::RebindToUnsigned<LanesTag> du16;
   const BlockColours own = ColoursOf(window + kColourReach * (stride + 1), stride);
   for (size_t n = 0; n < kSliceLanes; n += hn::Lanes(d16)) {
     const auto sum = hn::LoadU(d16, own.sum + n);

@@ -7,16 +7,16 @@
 #define STARFOCUS_SIMD_COVERAGE_INL_H_
 #endif
 
-#include "simd/chunk-inl.h"
 #include "simd/coverage.h"
+#include "simd/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
 // Tells which differences lie in [-limit, limit].
-HWY_INLINE hn::Mask<ChunkTag> IsWithin(ChunkVec difference, int16_t limit) {
-  const ChunkTag d16;
+HWY_INLINE hn::Mask<LanesTag> IsWithin(LanesVec difference, int16_t limit) {
+  const LanesTag d16;
   return hn::Not(hn::Or(hn::Gt(difference, hn::Set(d16, limit)),
                         hn::Lt(difference, hn::Set(d16, static_cast<int16_t>(-limit)))));
 }
@@ -24,8 +24,8 @@ HWY_INLINE hn::Mask<ChunkTag> IsWithin(ChunkVec difference, int16_t limit) {
 inline void CoverPlaces(const int16_t* HWY_RESTRICT near, const uint8_t* HWY_RESTRICT coverage,
                         const int16_t* HWY_RESTRICT far, const CoverView& view,
                         int16_t* HWY_RESTRICT covered) {
-  const ChunkTag d16;
-  const hn::Rebind<uint8_t, ChunkTag> d8;
+  const LanesTag d16;
+  const hn::Rebind<uint8_t, LanesTag> d8;
   for (size_t n = 0; n < kSliceLanes; n += hn::Lanes(d16)) {
     const auto nearer = hn::SaturatedSub(hn::LoadU(d16, near + n), hn::LoadU(d16, far + n));
     const auto moved = hn::MulFixedPoint15(nearer, hn::Set(d16, view.along));
@@ -39,7 +39,7 @@ inline void CoverPlaces(const int16_t* HWY_RESTRICT near, const uint8_t* HWY_RES
 }
 
 inline void SumNear(const NearRows& rows, NearSums* sums) {
-  const ChunkTag d16;
+  const LanesTag d16;
   for (size_t n = 0; n < kSliceLanes; n += hn::Lanes(d16)) {
     const auto here = hn::LoadU(d16, rows.disparity + n);
     auto r = hn::Zero(d16), g = r, b = r, weights = r;

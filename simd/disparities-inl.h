@@ -7,8 +7,8 @@
 #define STARFOCUS_SIMD_DISPARITIES_INL_H_
 #endif
 
-#include "simd/chunk-inl.h"
 #include "simd/disparities.h"
+#include "simd/lanes-inl.h"
 #include "simd/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -37,7 +37,7 @@ inline bool ConvertDisparity(const float* HWY_RESTRICT disparity, size_t count, 
 // Returns the range of `count` columns, which are kSliceLanes at most.
 HWY_INLINE DisparityRange RangeOfColumns(const int16_t* HWY_RESTRICT disparity, size_t stride,
                                          size_t rows, size_t count) {
-  const ChunkTag d16;
+  const LanesTag d16;
   const auto none = hn::Set(d16, kNoSurface), one = hn::Set(d16, int16_t{1});
   // `below` is one less than the lowest, as kNoSurface minus one wraps round to the largest.
   auto below = hn::Set(d16, int16_t{INT16_MAX}), high = none;
@@ -65,7 +65,7 @@ inline void FindRanges(const int16_t* disparity, size_t stride, size_t rows, siz
 
 inline void FindWithin(const int16_t* HWY_RESTRICT disparity, size_t stride, size_t rows,
                        const DisparityRange& range, uint16_t* HWY_RESTRICT within) {
-  const ChunkTag d16;
+  const LanesTag d16;
   const auto low = hn::Set(d16, range.low), high = hn::Set(d16, range.high);
   for (size_t row = 0; row < rows; ++row, disparity += stride) {
     uint32_t bits = 0;

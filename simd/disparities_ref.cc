@@ -16,17 +16,17 @@ bool ConvertDisparity(const float* disparity, size_t count, float low, float hig
 
 void FindRanges(const int16_t* disparity, size_t stride, size_t rows, size_t count,
                 DisparityRange* ranges) {
-  for (size_t chunk = 0; chunk < count; chunk += kSliceLanes) {
+  for (size_t strip = 0; strip < count; strip += kSliceLanes) {
     DisparityRange range = {INT16_MAX, INT16_MIN};
     for (size_t row = 0; row < rows; ++row) {
-      for (size_t n = chunk; n < count && n < chunk + kSliceLanes; ++n) {
+      for (size_t n = strip; n < count && n < strip + kSliceLanes; ++n) {
         const int16_t value = disparity[row * stride + n];
         if (value == kNoSurface) continue;
         range.low = value < range.low ? value : range.low;
         range.high = value > range.high ? value : range.high;
       }
     }
-    ranges[chunk / kSliceLanes] = range;
+    ranges[strip / kSliceLanes] = range;
   }
 }
 

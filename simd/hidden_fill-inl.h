@@ -7,8 +7,8 @@
 #define STARFOCUS_SIMD_HIDDEN_FILL_INL_H_
 #endif
 
-#include "simd/chunk-inl.h"
 #include "simd/hidden_fill.h"
+#include "simd/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
@@ -16,9 +16,9 @@ namespace HWY_NAMESPACE {
 
 // The farthest surface of a group of pixels: masks tell which of the hidden ones it is.
 HWY_INLINE int32_t TakeHidden(const SourcedRow& row, size_t n, const FarRow& far) {
-  const ChunkTag d16;
-  const hn::RebindToUnsigned<ChunkTag> du16;
-  const hn::Rebind<uint8_t, ChunkTag> d8;
+  const LanesTag d16;
+  const hn::RebindToUnsigned<LanesTag> du16;
+  const hn::Rebind<uint8_t, LanesTag> d8;
   const SurfaceRow& from = row.surfaces;
   const auto nothing = hn::Set(d16, kNoSurface);
   const auto first = hn::LoadU(d16, from.disparity[0] + n);
@@ -50,8 +50,8 @@ HWY_INLINE int32_t TakeHidden(const SourcedRow& row, size_t n, const FarRow& far
 }
 
 inline int32_t TakeFarthest(const SourcedRow& row, size_t count, const FarRow& far) {
-  const ChunkTag d16;
-  const hn::RebindToUnsigned<ChunkTag> du16;
+  const LanesTag d16;
+  const hn::RebindToUnsigned<LanesTag> du16;
   const SurfaceRow& from = row.surfaces;
   int32_t most = 0;
   for (size_t n = 0; n < SliceSamples(count); n += hn::Lanes(d16)) {
@@ -72,11 +72,11 @@ inline int32_t TakeFarthest(const SourcedRow& row, size_t count, const FarRow& f
 
 inline void PutFarthest(const FarRow& far, const int16_t* HWY_RESTRICT disparity, uint64_t hiding,
                         size_t plane, int16_t* HWY_RESTRICT rgb) {
-  const ChunkTag d16;
-  const hn::RebindToUnsigned<ChunkTag> du16;
-  for (size_t chunk = 0; hiding != 0; hiding >>= 1, chunk += kSliceLanes) {
+  const LanesTag d16;
+  const hn::RebindToUnsigned<LanesTag> du16;
+  for (size_t strip = 0; hiding != 0; hiding >>= 1, strip += kSliceLanes) {
     if ((hiding & 1) == 0) continue;
-    for (size_t n = chunk; n < chunk + kSliceLanes; n += hn::Lanes(d16)) {
+    for (size_t n = strip; n < strip + kSliceLanes; n += hn::Lanes(d16)) {
       const auto source = hn::BitCast(d16, hn::LoadU(du16, far.source + n));
       const auto same = hn::Eq(hn::LoadU(d16, disparity + n), hn::LoadU(d16, far.disparity + n));
       const auto puts = hn::And(same, hn::Ne(source, hn::Zero(d16)));
@@ -92,11 +92,11 @@ inline void PutFarthest(const FarRow& far, const int16_t* HWY_RESTRICT disparity
 
 inline void SmoothFar(const FarRows& rows, int16_t unit, int32_t step, size_t count,
                       int16_t* HWY_RESTRICT rgb) {
-  const ChunkTag d16;
-  const hn::RebindToUnsigned<ChunkTag> du16;
+  const LanesTag d16;
+  const hn::RebindToUnsigned<LanesTag> du16;
   const auto most = hn::Set(d16, unit), least = hn::Set(d16, static_cast<int16_t>(-unit));
   const auto short_of = hn::Set(d16, static_cast<int16_t>((step - 1) / 2));  // 2 n < step
-  const auto mean = [&](ChunkVec a, ChunkVec b) HWY_ATTR {
+  const auto mean = [&](LanesVec a, LanesVec b) HWY_ATTR {
     return hn::BitCast(d16, hn::AverageRound(hn::BitCast(du16, a), hn::BitCast(du16, b)));
   };
   for (size_t n = 0; n < SliceSamples(count); n += hn::Lanes(d16)) {

@@ -9,7 +9,7 @@
 
 #include <initializer_list>
 
-#include "simd/chunk-inl.h"
+#include "simd/lanes-inl.h"
 #include "simd/layered_depth.h"
 #include "simd/vectors-inl.h"
 
@@ -19,9 +19,9 @@ namespace HWY_NAMESPACE {
 
 inline void Split(const int16_t* HWY_RESTRICT rgb, size_t count, size_t plane,
                   int16_t* HWY_RESTRICT out) {
-  const ChunkTag d16;
+  const LanesTag d16;
   const bool done = ForVectors(count, hn::Lanes(d16), [&](size_t n) HWY_ATTR {
-    ChunkVec r, g, b;
+    LanesVec r, g, b;
     hn::LoadInterleaved3(d16, rgb + 3 * n, r, g, b);
     hn::StoreU(r, d16, out + n);
     hn::StoreU(g, d16, out + plane + n);
@@ -34,7 +34,7 @@ inline void FindEdges(const EdgeRows& rows, const EdgeLimits& limits, size_t cou
   const int16_t *HWY_RESTRICT near = rows.near, *HWY_RESTRICT far = rows.far;
   int16_t *HWY_RESTRICT moved = rows.moved, *HWY_RESTRICT behind = rows.behind;
   uint8_t* HWY_RESTRICT distance = rows.distance;
-  const ChunkTag d16;
+  const LanesTag d16;
   const hn::Rebind<uint8_t, decltype(d16)> d8;
   const size_t lanes = hn::Lanes(d16);
   const auto step = hn::Set(d16, limits.step);
@@ -66,7 +66,7 @@ inline constexpr int kEdges = 8;
 
 // What edges show behind a group of pixels; edge k, on side k % 4, is set if bit k of `some` is. It
 // is kept in memory, since some vectors have no size at compile time.
-struct ChunkSides {
+struct StripSides {
   uint32_t some;
   int16_t unit;  // disparity of a pixel
   int16_t rank[kEdges][kSliceLanes], disparity[kEdges][kSliceLanes], second[kEdges][kSliceLanes];
@@ -170,11 +170,11 @@ HWY_INLINE ptrdiff_t LowestLane(uint32_t lanes) {
 // Finds the distances of those `lanes` of a group of pixels that have an edge to what the far side
 // of their edge hides in turn, which the others do not change. Returns the lanes that have one:
 // most far sides hide nothing.
-HWY_INLINE uint32_t FollowEdges(const DepthRow& row, int side, size_t chunk, uint32_t lanes,
+HWY_INLINE uint32_t FollowEdges(const DepthRow& row, int side, size_t strip, uint32_t lanes,
                                 uint8_t* HWY_RESTRICT distances) {
   const ptrdiff_t step = StepOf(row, side);
-  const uint8_t* const edges = row.edges[side] + chunk;
-  const int16_t* const pixels = row.disparity + chunk;
+  const uint8_t* const edges = row.edges[side] + strip;
+  const int16_t* const pixels = row.disparity + strip;
   uint32_t found = 0;
   for (; lanes != 0; lanes &= lanes - 1) {
     const ptrdiff_t k = LowestLane(lanes);
@@ -214,15 +214,15 @@ HWY_INLINE hn::Mask<D> IsCovered(D d16, const DepthRow& row, const ViewLook& loo
 
 // Looks behind an edge of each pixel of `lanes`, at these distances, which are 0 in other lanes,
 // and writes it as edge `index`. Sides are numbered as in DepthRow::edges.
-HWY_INLINE void LookBehindSide(const DepthRow& row, size_t chunk, const uint8_t* distances,
-                               uint32_t lanes, int index, ChunkSides* sides) {
-  const ChunkTag d16;
+HWY_INLINE void LookBehindSide(const DepthRow& row, size_t strip, const uint8_t* distances,
+                               uint32_t lanes, int index, StripSides* sides) {
+  const LanesTag d16;
   const hn::Rebind<uint8_t, decltype(d16)> d8;
   const int side = index % 4;
   const ptrdiff_t step = StepOf(row, side);
   const ViewLook* const looks = row.looks[side];
   int16_t* const behind = sides->disparity[index];
-  const int16_t* const pixels = row.disparity + chunk;
+  const int16_t* const pixels = row.disparity + strip;
   for (size_t k = 0; k < kSliceLanes; k += hn::Lanes(d16)) {
     hn::StoreU(hn::LoadU(d16, pixels + k), d16, behind + k);
   }
@@ -231,7 +231,7 @@ HWY_INLINE void LookBehindSide(const DepthRow& row, size_t chunk, const uint8_t*
     behind[k] = pixels[k + step * distances[k]];
   }
   for (size_t k = 0; k < kSliceLanes; k += hn::Lanes(d16)) {
-    const auto column = static_cast<int32_t>(chunk + k);
+    const auto column = static_cast<int32_t>(strip + k);
     const auto distance = hn::PromoteTo(d16, hn::LoadU(d8, distances + k));
     const auto hides = hn::Gt(distance, hn::Zero(d16));
     const auto disparity = hn::LoadU(d16, behind + k);
@@ -255,7 +255,7 @@ HWY_INLINE void LookBehindSide(const DepthRow& row, size_t chunk, const uint8_t*
 
 // Returns where the colour of the surface of rank `best` is found, see HiddenRow.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V SourceOf(D d16, const ChunkSides& sides, size_t k, V best, V disparity) {
+HWY_INLINE V SourceOf(D d16, const StripSides& sides, size_t k, V best, V disparity) {
   auto source = hn::Zero(d16);
   for (uint32_t rest = sides.some; rest != 0; rest &= rest - 1) {
     const ptrdiff_t edge = LowestLane(rest);
@@ -276,10 +276,10 @@ HWY_INLINE V SourceOf(D d16, const ChunkSides& sides, size_t k, V best, V dispar
 // Writes vector k of a hidden surface at pixel `n`: that of the lowest rank, of the edges whose
 // surface differs from the one above, of which there is none in front of the first, by more than a
 // unit. Returns it.
-HWY_INLINE ChunkVec ChooseSurface(const ChunkSides& sides, size_t k, int surface, ChunkVec above,
+HWY_INLINE LanesVec ChooseSurface(const StripSides& sides, size_t k, int surface, LanesVec above,
                                   size_t n, const HiddenRow& hidden) {
-  const ChunkTag d16;
-  const hn::RebindToUnsigned<ChunkTag> du16;
+  const LanesTag d16;
+  const hn::RebindToUnsigned<LanesTag> du16;
   const auto unit = hn::Set(d16, sides.unit);
   const auto none = hn::Set(d16, kNoRank), nothing = hn::Set(d16, kNoSurface);
   auto best = none, disparity = nothing;
@@ -306,31 +306,31 @@ HWY_INLINE ChunkVec ChooseSurface(const ChunkSides& sides, size_t k, int surface
 }
 
 // Writes the hidden surfaces of a group of pixels. Returns whether there are any.
-HWY_INLINE bool ChooseSurfaces(const ChunkSides& sides, size_t chunk, const HiddenRow& hidden) {
-  const ChunkTag d16;
+HWY_INLINE bool ChooseSurfaces(const StripSides& sides, size_t strip, const HiddenRow& hidden) {
+  const LanesTag d16;
   const auto nothing = hn::Set(d16, kNoSurface);
   uint32_t found[kSurfaces - 1] = {};
   for (size_t k = 0; k < kSliceLanes; k += hn::Lanes(d16)) {
     auto above = nothing;
     for (int surface = 0; surface < kSurfaces - 1; ++surface) {
-      above = ChooseSurface(sides, k, surface, above, chunk + k, hidden);
+      above = ChooseSurface(sides, k, surface, above, strip + k, hidden);
       found[surface] |= BitsOf(d16, hn::Ne(above, nothing)) << k;
     }
   }
   for (int surface = 0; surface < kSurfaces - 1; ++surface) {
-    hidden.found[surface][chunk / kSliceLanes] = static_cast<uint16_t>(found[surface]);
+    hidden.found[surface][strip / kSliceLanes] = static_cast<uint16_t>(found[surface]);
   }
   return found[0] != 0;  // the first of them is nowhere missing
 }
 
 // Writes the shares of a group of pixels, which tell where surfaces end. Returns the sides that
 // hide something, bit by bit: most groups hide nothing.
-HWY_INLINE uint32_t MarkEnds(const DepthRow& row, size_t chunk, uint8_t* HWY_RESTRICT share) {
+HWY_INLINE uint32_t MarkEnds(const DepthRow& row, size_t strip, uint8_t* HWY_RESTRICT share) {
   const hn::CappedTag<uint8_t, kSliceLanes> d8;
   const auto one = hn::Set(d8, uint8_t{1}), none = hn::Zero(d8);
   const auto whole = hn::Set(d8, static_cast<uint8_t>(kSliceWhole));
   uint32_t sides = 0;
-  for (size_t n = chunk; n < chunk + kSliceLanes; n += hn::Lanes(d8)) {
+  for (size_t n = strip; n < strip + kSliceLanes; n += hn::Lanes(d8)) {
     const auto right = hn::LoadU(d8, row.edges[0] + n), left = hn::LoadU(d8, row.edges[1] + n);
     const auto bottom = hn::LoadU(d8, row.edges[2] + n), top = hn::LoadU(d8, row.edges[3] + n);
     if (hn::AllTrue(d8, hn::Eq(hn::Or(hn::Or(right, left), hn::Or(bottom, top)), none))) {
@@ -349,47 +349,47 @@ HWY_INLINE uint32_t MarkEnds(const DepthRow& row, size_t chunk, uint8_t* HWY_RES
 }
 
 inline uint64_t LookBehind(const DepthRow& row, const HiddenRow& hidden) {
-  const ChunkTag d16;
-  ChunkSides sides;
+  const LanesTag d16;
+  StripSides sides;
   sides.unit = static_cast<int16_t>(1 << row.unit_bits);
-  uint64_t chunks = 0, bit = 1;
+  uint64_t strips = 0, bit = 1;
   const auto nothing = hn::Set(d16, kNoSurface);
   const auto width = static_cast<size_t>(row.width);
-  for (size_t chunk = 0; chunk < width; chunk += kSliceLanes, bit <<= 1) {
-    sides.some = MarkEnds(row, chunk, hidden.share);
+  for (size_t strip = 0; strip < width; strip += kSliceLanes, bit <<= 1) {
+    sides.some = MarkEnds(row, strip, hidden.share);
     if (sides.some == 0) {
-      for (size_t n = chunk; n < chunk + kSliceLanes; n += hn::Lanes(d16)) {
+      for (size_t n = strip; n < strip + kSliceLanes; n += hn::Lanes(d16)) {
         for (int16_t* disparity : hidden.disparity) hn::StoreU(nothing, d16, disparity + n);
       }
       continue;
     }
     for (int side = 0; side < 4; ++side) {
       if ((sides.some >> side & 1) == 0) continue;
-      const uint8_t* const edges = row.edges[side] + chunk;
+      const uint8_t* const edges = row.edges[side] + strip;
       const uint32_t lanes = LanesOf(edges);
-      LookBehindSide(row, chunk, edges, lanes, side, &sides);
+      LookBehindSide(row, strip, edges, lanes, side, &sides);
       uint8_t next[kSliceLanes] = {};
-      const uint32_t more = FollowEdges(row, side, chunk, lanes, next);
+      const uint32_t more = FollowEdges(row, side, strip, lanes, next);
       if (more == 0) continue;
       sides.some |= 16u << side;
-      LookBehindSide(row, chunk, next, more, 4 + side, &sides);
+      LookBehindSide(row, strip, next, more, 4 + side, &sides);
     }
-    if (ChooseSurfaces(sides, chunk, hidden)) chunks |= bit;
+    if (ChooseSurfaces(sides, strip, hidden)) strips |= bit;
   }
-  return chunks;
+  return strips;
 }
 
 // Lanes beyond `count` are masked before anything depends on them, as what lies there may never
 // have been written.
 inline void FindSteps(const int16_t* HWY_RESTRICT row, size_t count, int16_t step,
                       StepBits* HWY_RESTRICT steps) {
-  const ChunkTag d16;
+  const LanesTag d16;
   const auto least = hn::Set(d16, step);
-  for (size_t chunk = 0; chunk < count; chunk += kSliceLanes, ++steps) {
+  for (size_t strip = 0; strip < count; strip += kSliceLanes, ++steps) {
     uint32_t falls = 0, rises = 0;
-    const size_t end = count - chunk < kSliceLanes ? count - chunk : kSliceLanes;
+    const size_t end = count - strip < kSliceLanes ? count - strip : kSliceLanes;
     for (size_t k = 0; k < end; k += hn::Lanes(d16)) {
-      const int16_t* at = row + chunk + k;
+      const int16_t* at = row + strip + k;
       const auto here = hn::LoadU(d16, at), next = hn::LoadU(d16, at + 1);
       const auto counted = hn::FirstN(d16, end - k);
       const auto fall = hn::And(hn::Gt(hn::SaturatedSub(here, next), least), counted);
@@ -404,13 +404,13 @@ inline void FindSteps(const int16_t* HWY_RESTRICT row, size_t count, int16_t ste
 
 inline void BesideSteps(const int16_t* HWY_RESTRICT row, ptrdiff_t stride, size_t count,
                         int16_t step, uint16_t* HWY_RESTRICT beside) {
-  const ChunkTag d16;
+  const LanesTag d16;
   const auto least = hn::Set(d16, step);
-  for (size_t chunk = 0; chunk < count; chunk += kSliceLanes, ++beside) {
+  for (size_t strip = 0; strip < count; strip += kSliceLanes, ++beside) {
     uint32_t bits = 0;
-    const size_t end = count - chunk < kSliceLanes ? count - chunk : kSliceLanes;
+    const size_t end = count - strip < kSliceLanes ? count - strip : kSliceLanes;
     for (size_t k = 0; k < end; k += hn::Lanes(d16)) {
-      const int16_t* at = row + chunk + k;
+      const int16_t* at = row + strip + k;
       const auto sides = hn::Max(hn::LoadU(d16, at - 1), hn::LoadU(d16, at + 1));
       const auto ends = hn::Max(hn::LoadU(d16, at - stride), hn::LoadU(d16, at + stride));
       const auto nearer = hn::SaturatedSub(hn::Max(sides, ends), hn::LoadU(d16, at));
@@ -423,10 +423,10 @@ inline void BesideSteps(const int16_t* HWY_RESTRICT row, ptrdiff_t stride, size_
 
 inline uint64_t FindCopies(const int16_t* HWY_RESTRICT row, ptrdiff_t stride, size_t count,
                            const CopyLimits& limits, int16_t* HWY_RESTRICT copies) {
-  const ChunkTag d16;
+  const LanesTag d16;
   const auto most = hn::Set(d16, limits.most), none = hn::Set(d16, kNoSurface);
   const auto below_least = hn::Set(d16, static_cast<int16_t>(limits.least - 1));
-  uint64_t chunks = 0;
+  uint64_t strips = 0;
   for (size_t n = 0; n < SliceSamples(count); n += hn::Lanes(d16)) {
     const auto here = hn::LoadU(d16, row + n);
     auto farthest = hn::Zero(d16);
@@ -438,9 +438,9 @@ inline uint64_t FindCopies(const int16_t* HWY_RESTRICT row, ptrdiff_t stride, si
     const auto inside = hn::FirstN(d16, n < count ? count - n : 0);
     const auto copied = hn::And(hn::Gt(farthest, below_least), inside);
     hn::StoreU(hn::IfThenElse(copied, hn::Sub(here, farthest), none), d16, copies + n);
-    if (!hn::AllFalse(d16, copied)) chunks |= uint64_t{1} << (n / kSliceLanes);
+    if (!hn::AllFalse(d16, copied)) strips |= uint64_t{1} << (n / kSliceLanes);
   }
-  return chunks;
+  return strips;
 }
 
 }  // namespace HWY_NAMESPACE

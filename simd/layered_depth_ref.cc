@@ -129,7 +129,7 @@ void BesideSteps(const int16_t* row, ptrdiff_t stride, size_t count, int16_t ste
 
 uint64_t FindCopies(const int16_t* row, ptrdiff_t stride, size_t count, const CopyLimits& limits,
                     int16_t* copies) {
-  uint64_t chunks = 0;
+  uint64_t strips = 0;
   for (size_t n = 0; n < SliceSamples(count); ++n) {
     copies[n] = kNoSurface;
     if (n >= count) continue;
@@ -140,13 +140,13 @@ uint64_t FindCopies(const int16_t* row, ptrdiff_t stride, size_t count, const Co
     }
     if (farthest == 0) continue;
     copies[n] = static_cast<int16_t>(row[n] - farthest);
-    chunks |= uint64_t{1} << (n / kSliceLanes);
+    strips |= uint64_t{1} << (n / kSliceLanes);
   }
-  return chunks;
+  return strips;
 }
 
 uint64_t LookBehind(const DepthRow& row, const HiddenRow& hidden) {
-  uint64_t chunks = 0;
+  uint64_t strips = 0;
   for (int32_t x = 0; x < static_cast<int32_t>(SliceSamples(static_cast<size_t>(row.width))); ++x) {
     HiddenSide sides[4 * kEdges];
     bool end = false;
@@ -157,17 +157,17 @@ uint64_t LookBehind(const DepthRow& row, const HiddenRow& hidden) {
       end = end || row.edges[side][x] == 1;
     }
     hidden.share[x] = end ? kSliceEnd : static_cast<uint8_t>(kSliceWhole);
-    const size_t chunk = static_cast<size_t>(x) / kSliceLanes;
+    const size_t strip = static_cast<size_t>(x) / kSliceLanes;
     int16_t above = kNoSurface;
     for (int behind = 0; behind < kSurfaces - 1; ++behind) {
       above = ChooseSurface(sides, x, behind, 1 << row.unit_bits, above, hidden);
       const int bit = above != kNoSurface ? 1 << static_cast<size_t>(x) % kSliceLanes : 0;
-      uint16_t& found = hidden.found[behind][chunk];
+      uint16_t& found = hidden.found[behind][strip];
       found = static_cast<uint16_t>((static_cast<size_t>(x) % kSliceLanes == 0 ? 0 : found) | bit);
-      if (bit != 0) chunks |= uint64_t{1} << chunk;
+      if (bit != 0) strips |= uint64_t{1} << strip;
     }
   }
-  return chunks;
+  return strips;
 }
 
 }  // namespace starfocus::simd::reference

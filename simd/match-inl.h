@@ -7,14 +7,14 @@
 #define STARFOCUS_SIMD_MATCH_INL_H_
 #endif
 
-#include "simd/chunk-inl.h"
+#include "simd/lanes-inl.h"
 #include "simd/match.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
-using MatchTag = hn::RebindToUnsigned<ChunkTag>;
+using MatchTag = hn::RebindToUnsigned<LanesTag>;
 using MatchVec = hn::Vec<MatchTag>;
 using MatchBytes = hn::Rebind<uint8_t, MatchTag>;
 

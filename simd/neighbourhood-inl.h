@@ -7,7 +7,7 @@
 #define STARFOCUS_SIMD_NEIGHBOURHOOD_INL_H_
 #endif
 
-#include "simd/chunk-inl.h"
+#include "simd/lanes-inl.h"
 #include "simd/neighbourhood.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -26,7 +26,7 @@ using reference::SurroundCells;
 // where column 0 lies `around` cells before the block. Columns after the last one reach nothing.
 struct ColumnGaps {
   ColumnGaps(int32_t around, int32_t first) {
-    const ChunkTag d16;
+    const LanesTag d16;
     const auto column = hn::Iota(d16, static_cast<int16_t>(first));
     const auto before = hn::Sub(hn::Set(d16, static_cast<int16_t>(around - 1)), column);
     const auto behind = hn::Sub(column, hn::Set(d16, static_cast<int16_t>(around + 2)));
@@ -39,9 +39,9 @@ struct ColumnGaps {
     needed = hn::IfThenElse(beyond, hn::Set(d16, int16_t{INT16_MAX}), needed);
   }
 
-  ChunkVec left, right;  // all bits set for columns on that side of the block
-  ChunkVec gap;
-  ChunkVec needed;  // a reach must exceed this; INT16_MIN in the block's own columns
+  LanesVec left, right;  // all bits set for columns on that side of the block
+  LanesVec gap;
+  LanesVec needed;  // a reach must exceed this; INT16_MIN in the block's own columns
 };
 
 // Collects what reaches a block from a vector of columns of cells.
@@ -54,7 +54,7 @@ class ColumnReach {
   // towards it is the plane `from`, and `border` at `to` is the side.
   HWY_INLINE void AddRows(int32_t row, int32_t end, CellPlane from, int16_t (*border)[4],
                           CellPlane to) {
-    const ChunkTag d16;
+    const LanesTag d16;
     auto y0 = hn::Zero(d16), y1 = y0, y2 = y0;
     const auto whole = hn::Set(d16, kCellPixels);
     const auto least = [&](int layer) HWY_ATTR {
@@ -113,12 +113,12 @@ class ColumnReach {
     return INT16_MIN;
   }
 
-  static HWY_INLINE void Store(ChunkVec values, int16_t* largest) {
-    const int16_t value = hn::GetLane(hn::MaxOfLanes(ChunkTag(), values));
+  static HWY_INLINE void Store(LanesVec values, int16_t* largest) {
+    const int16_t value = hn::GetLane(hn::MaxOfLanes(LanesTag(), values));
     if (value > *largest) *largest = value;
   }
 
-  HWY_INLINE void StoreSides(ChunkVec values, int16_t (&border)[4]) const {
+  HWY_INLINE void StoreSides(LanesVec values, int16_t (&border)[4]) const {
     Store(hn::And(values, gaps_.left), &border[kReachLeft]);
     Store(hn::And(values, gaps_.right), &border[kReachRight]);
   }
@@ -128,15 +128,15 @@ class ColumnReach {
   const int16_t* const margins_;
   const int32_t first_;
   const ColumnGaps gaps_;
-  ChunkVec x0_ = hn::Zero(ChunkTag()), x1_ = x0_, x2_ = x0_;  // how far pixels lie away, by layer
-  ChunkVec radius_ = x0_, edge_ = x0_;
+  LanesVec x0_ = hn::Zero(LanesTag()), x1_ = x0_, x2_ = x0_;  // how far pixels lie away, by layer
+  LanesVec radius_ = x0_, edge_ = x0_;
 };
 
 inline void ReachBlock(const CellPlanes& planes, int32_t around, const int16_t margins[3],
                        BlockReach* reach) {
   *reach = {};
   const int32_t side = 2 * around + 2;
-  for (int32_t first = 0; first < side; first += static_cast<int32_t>(hn::Lanes(ChunkTag()))) {
+  for (int32_t first = 0; first < side; first += static_cast<int32_t>(hn::Lanes(LanesTag()))) {
     ColumnReach columns(planes, around, margins, first);
     columns.AddRows(0, around, kReachBottom, reach->border, kReachTop);
     columns.AddRows(around, around + 2, kReachTop, nullptr, kReachTop);
@@ -148,7 +148,7 @@ inline void ReachBlock(const CellPlanes& planes, int32_t around, const int16_t m
 // Returns how many cells away the cells are, at most, that a vector of cells reaches or is reached
 // by. `at` is the first of these cells in the plane of reaches.
 HWY_INLINE int32_t FarthestCells(const int16_t* at, size_t stride, int32_t around) {
-  const ChunkTag d16;
+  const LanesTag d16;
   const auto lanes = static_cast<int32_t>(hn::Lanes(d16));
   auto most = hn::Zero(d16);
   for (int32_t y = -around; y <= around; ++y) {
@@ -164,8 +164,8 @@ HWY_INLINE int32_t FarthestCells(const int16_t* at, size_t stride, int32_t aroun
 
 inline void SurroundCells(const CellPlanes& planes, int32_t around, size_t count,
                           const CellRanges& ranges) {
-  const ChunkTag d16;
-  const hn::RebindToUnsigned<ChunkTag> du16;
+  const LanesTag d16;
+  const hn::RebindToUnsigned<LanesTag> du16;
   const auto load = [&](const int16_t* at, int plane)
                         HWY_ATTR { return hn::LoadU(d16, at + plane * planes.plane); };
   for (size_t n = 0; n < SliceSamples(count); n += hn::Lanes(d16)) {

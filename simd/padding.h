@@ -4,6 +4,7 @@
 #define STARFOCUS_SIMD_PADDING_H_
 
 #include <cstddef>
+#include <cstdint>
 
 namespace starfocus::simd {
 
@@ -15,6 +16,7 @@ inline constexpr size_t kPadding = 64;
 // Samples that kernels of surfaces, slices and cells handle as one group. Where a contract says
 // that they read or write whole groups, a row of n samples takes SliceSamples(n) of them in memory.
 inline constexpr size_t kSliceLanes = 16;
+inline constexpr int32_t kStripColumns = static_cast<int32_t>(kSliceLanes);
 constexpr size_t SliceSamples(size_t count) {
   return (count + kSliceLanes - 1) / kSliceLanes * kSliceLanes;
 }

@@ -7,21 +7,21 @@
 #define STARFOCUS_SIMD_PATHS_INL_H_
 #endif
 
-#include "simd/chunk-inl.h"
+#include "simd/lanes-inl.h"
 #include "simd/paths.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
-HWY_INLINE ChunkVec LoadCost(const uint8_t* at) {
-  const ChunkTag d16;
-  return hn::PromoteTo(d16, hn::LoadU(hn::Rebind<uint8_t, ChunkTag>(), at));
+HWY_INLINE LanesVec LoadCost(const uint8_t* at) {
+  const LanesTag d16;
+  return hn::PromoteTo(d16, hn::LoadU(hn::Rebind<uint8_t, LanesTag>(), at));
 }
 
 template <bool kAdds>
 HWY_INLINE void AddPathsOf(const PathRow& row, size_t labels, ptrdiff_t step, size_t count) {
-  const ChunkTag d16;
+  const LanesTag d16;
   const size_t lanes = hn::Lanes(d16), places = PathLabels(labels);
   // Vectors that are labels alone, and those of the next one that are.
   const size_t whole = labels / lanes * lanes;
@@ -96,7 +96,7 @@ inline void FindJumps(const uint8_t* pixels, const uint8_t* before, size_t plane
 
 // Returns the first of the labels with the least sum, which becomes *least_sum.
 HWY_INLINE size_t BestLabel(const int16_t* sum, size_t labels, int16_t* least_sum) {
-  const ChunkTag d16;
+  const LanesTag d16;
   auto least = hn::LoadU(d16, sum);
   for (size_t l = hn::Lanes(d16); l < labels; l += hn::Lanes(d16)) {
     least = hn::Min(least, hn::LoadU(d16, sum + l));
@@ -111,7 +111,7 @@ HWY_INLINE size_t BestLabel(const int16_t* sum, size_t labels, int16_t* least_su
 
 // Returns the least sum of the labels 2 or more away from `best`, or kNoLabel.
 HWY_INLINE int16_t LeastAway(const int16_t* sum, size_t labels, size_t best) {
-  const ChunkTag d16;
+  const LanesTag d16;
   const auto none = hn::Set(d16, kNoLabel);
   const auto low = hn::Set(d16, static_cast<int16_t>(static_cast<int>(best) - 2));
   const auto high = hn::Set(d16, static_cast<int16_t>(best + 2));

@@ -7,7 +7,7 @@
 #define STARFOCUS_SIMD_SLICES_INL_H_
 #endif
 
-#include "simd/chunk-inl.h"
+#include "simd/lanes-inl.h"
 #include "simd/slices.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -19,9 +19,9 @@ struct GroupCover {
   bool some = false, all = true;
 
   // Adds a vector of pixels from n on, of which those before `count` count.
-  HWY_INLINE void Add(hn::Mask<ChunkTag> covered, hn::Mask<ChunkTag> whole, size_t n,
+  HWY_INLINE void Add(hn::Mask<LanesTag> covered, hn::Mask<LanesTag> whole, size_t n,
                       size_t count) {
-    const ChunkTag d16;
+    const LanesTag d16;
     if (n + hn::Lanes(d16) > count) {  // seldom: only the last group of a row has others
       const auto counted = hn::FirstN(d16, n < count ? count - n : 0);
       covered = hn::And(covered, counted);
@@ -33,19 +33,19 @@ struct GroupCover {
 };
 
 // Tells which pixels have a disparity in [low, high].
-HWY_INLINE hn::Mask<ChunkTag> LiesIn(const int16_t* disparity, ChunkVec low, ChunkVec high) {
-  const ChunkTag d16;
+HWY_INLINE hn::Mask<LanesTag> LiesIn(const int16_t* disparity, LanesVec low, LanesVec high) {
+  const LanesTag d16;
   const auto value = hn::LoadU(d16, disparity);
   return hn::Not(hn::Or(hn::Lt(value, low), hn::Gt(value, high)));
 }
 
-HWY_INLINE ChunkVec LoadBytes(const uint8_t* at) {
-  const ChunkTag d16;
-  return hn::PromoteTo(d16, hn::LoadU(hn::Rebind<uint8_t, ChunkTag>(), at));
+HWY_INLINE LanesVec LoadBytes(const uint8_t* at) {
+  const LanesTag d16;
+  return hn::PromoteTo(d16, hn::LoadU(hn::Rebind<uint8_t, LanesTag>(), at));
 }
 
 HWY_INLINE void StoreNothing(size_t plane, int16_t* HWY_RESTRICT out) {
-  const ChunkTag d16;
+  const LanesTag d16;
   for (size_t c = 0; c < 4; ++c) hn::StoreU(hn::Zero(d16), d16, out + c * plane);
 }
 
@@ -58,7 +58,7 @@ struct SliceTarget {
 // Selects a vector of pixels from n on, whose first surfaces cover all of them.
 HWY_INLINE void SelectFirst(const SurfaceRow& row, const SliceRange& range, size_t n,
                             const SliceTarget& target, GroupCover& cover) {
-  const ChunkTag d16;
+  const LanesTag d16;
   const auto low = hn::Set(d16, range.low), overlap = hn::Set(d16, range.overlap);
   const size_t count = target.count, plane = target.plane;
   int16_t* HWY_RESTRICT out = target.out;
@@ -79,7 +79,7 @@ HWY_INLINE void SelectFirst(const SurfaceRow& row, const SliceRange& range, size
 // Selects a vector of pixels from n on, of whose surfaces any may be seen.
 HWY_INLINE void SelectAny(const SurfaceRow& row, const SliceRange& range, size_t n,
                           const SliceTarget& target, GroupCover& cover) {
-  const ChunkTag d16;
+  const LanesTag d16;
   const auto low = hn::Set(d16, range.low), high = hn::Set(d16, range.high);
   const auto overlap = hn::Set(d16, range.overlap);
   const size_t count = target.count, plane = target.plane;
@@ -122,19 +122,19 @@ HWY_INLINE void SelectAny(const SurfaceRow& row, const SliceRange& range, size_t
 
 inline SliceCover SelectSlice(const SurfaceRow& row, const SliceRange& range, size_t count,
                               size_t plane, int16_t* HWY_RESTRICT out) {
-  const ChunkTag d16;
+  const LanesTag d16;
   const size_t lanes = hn::Lanes(d16);
   const SliceTarget target = {out, plane, count};
   SliceCover cover = {0, 0};
   uint64_t bit = 1;
-  for (size_t chunk = 0; chunk < count; chunk += kSliceLanes, bit <<= 1) {
+  for (size_t strip = 0; strip < count; strip += kSliceLanes, bit <<= 1) {
     GroupCover group;
     if ((row.hiding & bit) == 0) {  // as in most groups
-      for (size_t n = chunk; n < chunk + kSliceLanes; n += lanes) {
+      for (size_t n = strip; n < strip + kSliceLanes; n += lanes) {
         SelectFirst(row, range, n, target, group);
       }
     } else {
-      for (size_t n = chunk; n < chunk + kSliceLanes; n += lanes) {
+      for (size_t n = strip; n < strip + kSliceLanes; n += lanes) {
         SelectAny(row, range, n, target, group);
       }
     }
@@ -148,7 +148,7 @@ inline SliceCover SelectSlice(const SurfaceRow& row, const SliceRange& range, si
 template <int32_t kReach>
 HWY_INLINE void SpreadBy(const int16_t* HWY_RESTRICT in, ptrdiff_t step, const SliceTaps& taps,
                          size_t count, int16_t* HWY_RESTRICT out) {
-  const ChunkTag d16;
+  const LanesTag d16;
   const hn::RebindToUnsigned<decltype(d16)> du16;
   const size_t lanes = hn::Lanes(d16), whole = SliceSamples(count);
   const auto centre = hn::Set(d16, taps.centre), inner = hn::Set(d16, taps.inner),

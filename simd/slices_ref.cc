@@ -7,10 +7,10 @@ namespace starfocus::simd::reference {
 SliceCover SelectSlice(const SurfaceRow& row, const SliceRange& range, size_t count, size_t plane,
                        int16_t* out) {
   SliceCover cover = {0, 0};
-  for (size_t chunk = 0; chunk < count; chunk += kSliceLanes) {
-    const uint64_t bit = uint64_t{1} << (chunk / kSliceLanes);
+  for (size_t strip = 0; strip < count; strip += kSliceLanes) {
+    const uint64_t bit = uint64_t{1} << (strip / kSliceLanes);
     cover.all |= bit;
-    for (size_t n = chunk; n < chunk + kSliceLanes; ++n) {
+    for (size_t n = strip; n < strip + kSliceLanes; ++n) {
       const bool hiding = (row.hiding & bit) != 0;
       const auto inside = [&](int surface) {
         const bool end = hiding && surface == 0 && row.share[n] != kSliceWhole;

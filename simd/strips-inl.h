@@ -10,7 +10,7 @@
 #include <cstring>
 #include <type_traits>
 
-#include "simd/chunk-inl.h"
+#include "simd/lanes-inl.h"
 #include "simd/strips.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -24,7 +24,7 @@ namespace HWY_NAMESPACE {
 using StripTag = hn::CappedTag<int16_t, 2 * kSliceLanes>;
 #else
 #define STARFOCUS_WIDE_TILES 0
-using StripTag = ChunkTag;
+using StripTag = LanesTag;
 #endif
 
 // Whether Composite has a way of its own for rows that are covered all over. With narrower vectors
@@ -46,8 +46,8 @@ HWY_INLINE size_t RowsOf(D d) {
 class RowMarks {
  public:
   // Adds a row, given the most and the least coverage over all vectors that hold it.
-  HWY_INLINE void Add(ChunkVec most, ChunkVec least, int8_t* HWY_RESTRICT near) {
-    const ChunkTag d16;
+  HWY_INLINE void Add(LanesVec most, LanesVec least, int8_t* HWY_RESTRICT near) {
+    const LanesTag d16;
     const bool some = !hn::AllTrue(d16, hn::Eq(most, hn::Zero(d16)));
     const bool all = hn::AllTrue(d16, hn::Eq(least, hn::Set(d16, kSliceOne)));
     if (some) near[0] = 0;
@@ -70,7 +70,7 @@ class RowMarks {
 template <int kTaps>
 HWY_INLINE void ShiftRows(const SlicePlanes& in, const SliceFraction& fraction, size_t rows,
                           size_t plane, int16_t* HWY_RESTRICT out, int8_t* HWY_RESTRICT near) {
-  const ChunkTag d;
+  const LanesTag d;
   const size_t lanes = hn::Lanes(d);
   const auto inside = hn::Set(d, fraction.inside), edge = hn::Set(d, fraction.edge);
   const auto third = hn::Set(d, fraction.third), fourth = hn::Set(d, fraction.fourth);

@@ -66,17 +66,18 @@ int32_t FadedShareOf(const Colour& near, const Colour& far, const Colour& mixed)
 template <class Visit>
 void ForEachBesideEdge(const simd::Kernels& kernels, const Window& window, const BlockPixels& field,
                        int16_t step, const Visit& visit) {
-  constexpr int32_t kChunk = static_cast<int32_t>(simd::kSliceLanes), kAtOnce = 16 * kChunk;
+  constexpr int32_t kStripColumns = static_cast<int32_t>(simd::kSliceLanes),
+                    kAtOnce = 16 * kStripColumns;
   const int32_t left = Max(1, -field.x), right = Min(field.width - 1, window.width - field.x);
   const int32_t top = Max(1, -field.y), bottom = Min(field.height - 1, window.height - field.y);
-  uint16_t beside[kAtOnce / kChunk];
+  uint16_t beside[kAtOnce / kStripColumns];
   for (int32_t row = top; row < bottom; ++row) {
     for (int32_t from = left; from < right; from += kAtOnce) {
       const int32_t count = Min(kAtOnce, right - from);
       kernels.BesideSteps(field.Disparity(from, row), field.width, static_cast<size_t>(count), step,
                           beside);
-      for (int32_t k = 0; k < count; k += kChunk) {
-        ForEachBit(beside[k / kChunk], [&](int32_t bit) { visit(from + k + bit, row); });
+      for (int32_t k = 0; k < count; k += kStripColumns) {
+        ForEachBit(beside[k / kStripColumns], [&](int32_t bit) { visit(from + k + bit, row); });
       }
     }
   }

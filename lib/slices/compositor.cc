@@ -10,8 +10,6 @@
 namespace starfocus {
 namespace {
 
-constexpr int32_t kChunk = static_cast<int32_t>(simd::kSliceLanes);  // columns of a strip
-
 // A rectangle, the slices of its tile under way, and where its picture goes: what sections share.
 struct Rectangle {
   const RenderJob* job;
@@ -40,7 +38,7 @@ class Section {
     const StripJob job = {job_.kernels, &stack_,       planes_,    scratch_.weights,
                           strip_memory, scratch_.sums, job_.cancel};
     const SectionPart *part = scratch_.parts, *last = part + parts_;
-    for (int32_t x = 0; x < rect_.width && GoesOn(job_.cancel, 0); x += kChunk) {
+    for (int32_t x = 0; x < rect_.width && GoesOn(job_.cancel, 0); x += simd::kStripColumns) {
       StripParts strip = {x, part, part};
       while (strip.end < last && strip.end->x == x) ++strip.end;
       part = strip.end;
@@ -62,7 +60,7 @@ class Section {
       PlaceSlice(*stack_.grid, stack_.slices[k].disparity, rect, &placed);
       const auto rows = static_cast<size_t>(placed.rows);
       placed.cover = reinterpret_cast<simd::SliceCover*>(next);
-      placed.samples = reinterpret_cast<int16_t*>(next + CoverBytes(rows)) + kChunk;
+      placed.samples = reinterpret_cast<int16_t*>(next + CoverBytes(rows)) + simd::kStripColumns;
       next += SliceBytes(static_cast<size_t>(rect.width), static_cast<size_t>(rect.height),
                          static_cast<size_t>(placed.reach));
     }
@@ -78,14 +76,15 @@ class Section {
     if (job_.gathered == nullptr) return false;
     return job_.gathered->AreGathered({job_.rect.x + rect_.x + part.x,
                                        job_.rect.y + rect_.y + part.y,
-                                       Min(kChunk, rect_.width - part.x), part.rows});
+                                       Min(simd::kStripColumns, rect_.width - part.x), part.rows});
   }
 
   // Finds what each part of the section sees of the slices. Returns their pixels.
   uint64_t FindParts() {
-    static_assert(kLeastRows == kCellSize && kChunk % kCellSize == 0, "parts are whole cells");
+    static_assert(kLeastRows == kCellSize && simd::kStripColumns % kCellSize == 0,
+                  "parts are whole cells");
     uint64_t pixels = 0;
-    for (int32_t x = 0; x < rect_.width; x += kChunk) {
+    for (int32_t x = 0; x < rect_.width; x += simd::kStripColumns) {
       for (int32_t y = 0; y < rect_.height; y += kLeastRows) {
         SectionPart& part = scratch_.parts[parts_];
         part = {x, y, Min(kLeastRows, rect_.height - y), 0, {}};
@@ -97,7 +96,7 @@ class Section {
           if (cover.all != 0) break;
         }
         pixels += static_cast<uint64_t>(part.count) *
-                  static_cast<uint64_t>(part.rows * Min(kChunk, rect_.width - x));
+                  static_cast<uint64_t>(part.rows * Min(simd::kStripColumns, rect_.width - x));
       }
     }
     return pixels;
@@ -105,13 +104,13 @@ class Section {
 
   // Tells whether some, or all, of the slice's pixels that a part may see in any view are covered.
   static simd::SliceCover CoverOf(const SlicePlane& placed, const SectionPart& part) {
-    const uint64_t chunks = ChunksOf(placed, part.x);
-    simd::SliceCover cover = {0, chunks};
+    const uint64_t strips = StripsOf(placed, part.x);
+    simd::SliceCover cover = {0, strips};
     for (int32_t row = part.y; row < part.y + part.rows + 2 * placed.reach; ++row) {
       cover.some |= placed.cover[row].some;
       cover.all &= placed.cover[row].all;
     }
-    return {cover.some & chunks, cover.all == chunks ? uint64_t{1} : 0};
+    return {cover.some & strips, cover.all == strips ? uint64_t{1} : 0};
   }
 
   void FinishStrip(const StripParts& strip) {
@@ -129,7 +128,7 @@ class Section {
   void FinishRows(int32_t x, int32_t first, int32_t end) {
     const simd::CompositeFinish finish = {stack_.weights.least_covered, kCompositeBits};
     const size_t columns = Columns(x), left = 3 * static_cast<size_t>(rect_.x + x);
-    int16_t centre[3 * kChunk + simd::kPadding / sizeof(int16_t)] = {};
+    int16_t centre[3 * simd::kStripColumns + simd::kPadding / sizeof(int16_t)] = {};
     for (int32_t row = first; row < end; ++row) {
       const size_t at = FirstSample(x, row);
       std::memcpy(centre, CentreRow(all_.accumulators + at - left, job_.rect.width) + left,
@@ -152,7 +151,9 @@ class Section {
     return 3 * static_cast<size_t>((rect_.y + row) * job_.rect.width + rect_.x + x);
   }
 
-  size_t Columns(int32_t x) const { return static_cast<size_t>(Min(kChunk, rect_.width - x)); }
+  size_t Columns(int32_t x) const {
+    return static_cast<size_t>(Min(simd::kStripColumns, rect_.width - x));
+  }
 
   const Rectangle& all_;
   const RenderJob& job_;

@@ -13,8 +13,6 @@ namespace {
 constexpr int kOverlapParts = 10;
 
 // Columns of a band whose bins are looked at together.
-constexpr int32_t kChunk = static_cast<int32_t>(simd::kSliceLanes);
-
 class SliceFinder {
  public:
   SliceFinder(const SliceJob& job, SurfaceBands* bands)
@@ -53,14 +51,14 @@ class SliceFinder {
   }
 
   // Finds what of the surfaces slices of the tile may be made of, from the first pixel of a band
-  // and of a chunk on.
+  // and of a strip on.
   void FindAround() {
     const int64_t move = grid_.Move(grid_.n());
     const int32_t rim =
         Max(Abs(grid_.Shift(move, surfaces_.low)), Abs(grid_.Shift(move, surfaces_.high)));
     const int32_t reach = SliceReach(rim, kWidestSubaperture) + 1;
     const Rect& tile = job_.tile;
-    around_.x = Max(tile.x - reach, 0) / kChunk * kChunk;
+    around_.x = Max(tile.x - reach, 0) / simd::kStripColumns * simd::kStripColumns;
     around_.y = Max(tile.y - reach, 0) / kBandRows * kBandRows;
     around_.width = Min(tile.x + tile.width + reach, surfaces_.width) - around_.x;
     around_.height = Min(tile.y + tile.height + reach, surfaces_.height) - around_.y;
@@ -86,14 +84,14 @@ class SliceFinder {
   }
 
   void MarkRows(int surface, int32_t y, int32_t end) {
-    simd::DisparityRange ranges[kMaxChunks];
+    simd::DisparityRange ranges[kMaxStrips];
     job_.kernels->FindRanges(surfaces_.disparity[surface] + surfaces_.At(around_.x, y),
                              static_cast<size_t>(surfaces_.stride), static_cast<size_t>(end - y),
                              static_cast<size_t>(around_.width), ranges);
-    for (int32_t x = 0; x < around_.width; x += kChunk) {
-      const simd::DisparityRange& range = ranges[x / kChunk];
+    for (int32_t x = 0; x < around_.width; x += simd::kStripColumns) {
+      const simd::DisparityRange& range = ranges[x / simd::kStripColumns];
       Widen(range, &bands_.At(y));
-      const Rect pixels = {around_.x + x, y, Min(kChunk, around_.width - x), end - y};
+      const Rect pixels = {around_.x + x, y, Min(simd::kStripColumns, around_.width - x), end - y};
       const int32_t least = job_.least_blur[Beyond(pixels)];
       if (least == 0) {
         MarkPixels(surface, pixels, range.low, range.high);

@@ -8,7 +8,6 @@
 namespace starfocus {
 namespace {
 
-constexpr int32_t kChunk = static_cast<int32_t>(simd::kSliceLanes);
 constexpr int32_t kAtOnce = 4;  // pixels whose sources are looked at together
 
 class HiddenFiller {
@@ -85,9 +84,10 @@ class HiddenFiller {
     if (scratch_.farthest[y] == 0) return;
     const uint16_t* const sources = scratch_.source + RowAt(y) + Column(0);
     int32_t first = 0;
-    for (uint64_t chunks = surfaces_.hiding[y]; chunks != 0; chunks >>= 1, first += kChunk) {
-      if ((chunks & 1) == 0) continue;
-      for (int32_t x = first; x < first + kChunk; x += kAtOnce) {
+    for (uint64_t strips = surfaces_.hiding[y]; strips != 0;
+         strips >>= 1, first += simd::kStripColumns) {
+      if ((strips & 1) == 0) continue;
+      for (int32_t x = first; x < first + simd::kStripColumns; x += kAtOnce) {
         if (HasSource(sources + x)) TakeFew(x, y, sources);
       }
     }

@@ -8,35 +8,35 @@
 namespace starfocus {
 namespace {
 
-constexpr int32_t kChunk = static_cast<int32_t>(simd::kSliceLanes);
+constexpr int32_t kStripColumns = static_cast<int32_t>(simd::kSliceLanes);
 static_assert(kOcclusionViews == simd::kViewLooks, "views that are looked into on a side");
 
 // Writes that there is no surface behind a row's end, where kernels look at whole vectors.
-void ClearChunk(int16_t* disparity) {
-  for (int32_t k = 0; k < kChunk; ++k) disparity[k] = kNoSurface;
+void ClearStrip(int16_t* disparity) {
+  for (int32_t k = 0; k < kStripColumns; ++k) disparity[k] = kNoSurface;
 }
 
-// Hidden pixels of a chunk: the first one's place in the field, their disparities, and where their
+// Hidden pixels of a strip: the first one's place in the field, their disparities, and where their
 // colours are found as LookBehind tells it.
-struct HiddenChunk {
+struct HiddenStrip {
   int32_t x, y;
   const int16_t* disparity;
   const uint16_t* source;
 };
 
-// The colours of hidden pixels of a chunk.
+// The colours of hidden pixels of a strip.
 class HiddenColours {
  public:
-  int16_t rgb[3 * kChunk + simd::kPadding / sizeof(int16_t)] = {};
+  int16_t rgb[3 * kStripColumns + simd::kPadding / sizeof(int16_t)] = {};
 
   HiddenColours(const Window& window, const BlockPixels& field) : window_(window), field_(field) {}
 
   // Reads the colours of the pixels k of which bit k is set. Behind one edge many follow each
   // other.
-  void Read(const HiddenChunk& chunk, uint32_t pixels) {
+  void Read(const HiddenStrip& strip, uint32_t pixels) {
     while (pixels != 0) {
       const int32_t first = LowestBit(pixels);
-      pixels &= ~uint32_t{0} << ReadFrom(chunk, first);
+      pixels &= ~uint32_t{0} << ReadFrom(strip, first);
     }
   }
 
@@ -46,27 +46,27 @@ class HiddenColours {
  private:
   // Reads pixel k, and those after it that have the same disparity and source. Returns the first
   // that is not read.
-  int32_t ReadFrom(const HiddenChunk& chunk, int32_t k) {
-    const uint32_t source = chunk.source[k], sides = source & 15;
+  int32_t ReadFrom(const HiddenStrip& strip, int32_t k) {
+    const uint32_t source = strip.source[k], sides = source & 15;
     if ((sides & (sides - 1)) != 0) {
-      ReadMean(chunk, k);
+      ReadMean(strip, k);
       return k + 1;
     }
     int32_t end = k + 1;
-    while (end < kChunk && chunk.source[end] == source &&
-           chunk.disparity[end] == chunk.disparity[k]) {
+    while (end < kStripColumns && strip.source[end] == source &&
+           strip.disparity[end] == strip.disparity[k]) {
       ++end;
     }
-    ReadSide(chunk, k, end - k, LowestBit(sides), rgb + 3 * k);
+    ReadSide(strip, k, end - k, LowestBit(sides), rgb + 3 * k);
     return end;
   }
 
   // Reads pixel k from all of its sides, and takes their mean.
-  void ReadMean(const HiddenChunk& chunk, int32_t k) {
+  void ReadMean(const HiddenStrip& strip, int32_t k) {
     int32_t sums[3] = {0, 0, 0}, count = 0;
-    ForEachBit(chunk.source[k] & 15, [&](int32_t side) {
+    ForEachBit(strip.source[k] & 15, [&](int32_t side) {
       int16_t shown[3];
-      ReadSide(chunk, k, 1, side, shown);
+      ReadSide(strip, k, 1, side, shown);
       for (int c = 0; c < 3; ++c) sums[c] += shown[c];
       ++count;
     });
@@ -76,20 +76,20 @@ class HiddenColours {
   }
 
   // Reads the colours of `count` pixels from k on, which have one disparity and source.
-  void ReadSide(const HiddenChunk& chunk, int32_t k, int32_t count, int32_t side, int16_t* to) {
+  void ReadSide(const HiddenStrip& strip, int32_t k, int32_t count, int32_t side, int16_t* to) {
     const int dx = kSides[side][0], dy = kSides[side][1];
-    const uint32_t source = chunk.source[k];
+    const uint32_t source = strip.source[k];
     const auto distance = static_cast<int32_t>(source >> simd::kSourceDistance);
     if (distance != 0) {
       repeats_ = true;
-      std::memcpy(to, field_.Rgb(chunk.x + k + dx * distance, chunk.y + dy * distance),
+      std::memcpy(to, field_.Rgb(strip.x + k + dx * distance, strip.y + dy * distance),
                   3 * static_cast<size_t>(count) * sizeof(*to));
       return;
     }
     const OcclusionView& look = LookOf(side, source);
-    const int16_t disparity = chunk.disparity[k];
-    const CapturedLine line = {(field_.x + chunk.x + k) * kShiftOne - Moved(look.at.u, disparity),
-                               (field_.y + chunk.y) * kShiftOne - Moved(look.at.v, disparity), 1,
+    const int16_t disparity = strip.disparity[k];
+    const CapturedLine line = {(field_.x + strip.x + k) * kShiftOne - Moved(look.at.u, disparity),
+                               (field_.y + strip.y) * kShiftOne - Moved(look.at.v, disparity), 1,
                                0};
     ReadCaptured(window_, look.view, line, count, to);
   }
@@ -156,13 +156,13 @@ class SurfaceFinder {
 
  private:
   void FindRange() {
-    simd::DisparityRange ranges[kMaxChunks];
+    simd::DisparityRange ranges[kMaxStrips];
     kernels_.FindRanges(Row(0), static_cast<size_t>(surfaces_.stride),
                         static_cast<size_t>(surfaces_.height), static_cast<size_t>(surfaces_.width),
                         ranges);
     simd::DisparityRange all = ranges[0];
-    for (int32_t x = kChunk; x < surfaces_.width; x += kChunk) {
-      const simd::DisparityRange& range = ranges[x / kChunk];
+    for (int32_t x = kStripColumns; x < surfaces_.width; x += kStripColumns) {
+      const simd::DisparityRange& range = ranges[x / kStripColumns];
       all.low = range.low < all.low ? range.low : all.low;
       all.high = range.high > all.high ? range.high : all.high;
     }
@@ -183,16 +183,16 @@ class SurfaceFinder {
     const int32_t steps = surfaces_.width - 1;
     kernels_.FindSteps(row, static_cast<size_t>(steps), static_cast<int16_t>(step_),
                        surfaces_.steps);
-    const int32_t chunks = (steps + kChunk - 1) / kChunk;
-    for (int32_t from = (chunks - 1) * kChunk; from >= 0; from -= kChunk) {
-      uint32_t falls = surfaces_.steps[from / kChunk].falls;
+    const int32_t strips = (steps + kStripColumns - 1) / kStripColumns;
+    for (int32_t from = (strips - 1) * kStripColumns; from >= 0; from -= kStripColumns) {
+      uint32_t falls = surfaces_.steps[from / kStripColumns].falls;
       for (; falls != 0; falls &= ~(uint32_t{1} << HighestBit(falls))) {
         const int32_t x = from + HighestBit(falls);
         FollowEdge(row + x, -1, x + 1, Edges(0, y) + x);
       }
     }
-    for (int32_t from = 0; from < steps; from += kChunk) {
-      ForEachBit(surfaces_.steps[from / kChunk].rises, [&](int32_t k) {
+    for (int32_t from = 0; from < steps; from += kStripColumns) {
+      ForEachBit(surfaces_.steps[from / kStripColumns].rises, [&](int32_t k) {
         const int32_t x = from + k + 1;
         FollowEdge(row + x, 1, steps + 1 - x, Edges(1, y) + x);
       });
@@ -248,18 +248,18 @@ class SurfaceFinder {
     row.unit_bits = kDisparityBits + window_.layer;
     std::memcpy(row.looks, looks_, sizeof(looks_));
     for (int side = 0; side < 4; ++side) row.edges[side] = Edges(side, y);
-    uint16_t found[simd::kSurfaces - 1][kMaxChunks];
+    uint16_t found[simd::kSurfaces - 1][kMaxStrips];
     const simd::HiddenRow hidden = {{surfaces_.disparity[1] + at, surfaces_.disparity[2] + at},
                                     {surfaces_.sources[0] + at, surfaces_.sources[1] + at},
                                     {found[0], found[1]},
                                     surfaces_.share + at};
-    const uint64_t chunks = kernels_.LookBehind(row, hidden);
-    surfaces_.hiding[y] = chunks;
+    const uint64_t strips = kernels_.LookBehind(row, hidden);
+    surfaces_.hiding[y] = strips;
     for (int behind = 1; behind < simd::kSurfaces; ++behind) {
-      int32_t chunk = 0;
-      for (uint64_t rest = chunks; rest != 0; rest >>= 1, ++chunk) {
-        const uint32_t pixels = (rest & 1) != 0 ? found[behind - 1][chunk] : 0;
-        if (pixels != 0) SetColours(chunk * kChunk, y, behind, pixels);
+      int32_t strip = 0;
+      for (uint64_t rest = strips; rest != 0; rest >>= 1, ++strip) {
+        const uint32_t pixels = (rest & 1) != 0 ? found[behind - 1][strip] : 0;
+        if (pixels != 0) SetColours(strip * kStripColumns, y, behind, pixels);
       }
     }
     if (y > 0 && y < surfaces_.height - 1) CloseRow(y);
@@ -272,32 +272,33 @@ class SurfaceFinder {
                                      static_cast<int16_t>(kMostCopy << window_.layer)};
     const size_t at = surfaces_.At(0, y);
     int16_t* const copies = surfaces_.moved;  // which is not used any more
-    uint64_t chunks = kernels_.FindCopies(Row(y), surfaces_.stride,
+    uint64_t strips = kernels_.FindCopies(Row(y), surfaces_.stride,
                                           static_cast<size_t>(surfaces_.width), limits, copies);
     copies[0] = copies[surfaces_.width - 1] = kNoSurface;
-    for (int32_t x = 0; chunks != 0; chunks >>= 1, x += kChunk) {
-      if ((chunks & 1) == 0) continue;
-      const uint64_t bit = uint64_t{1} << (x / kChunk);
+    for (int32_t x = 0; strips != 0; strips >>= 1, x += kStripColumns) {
+      if ((strips & 1) == 0) continue;
+      const uint64_t bit = uint64_t{1} << (x / kStripColumns);
       if ((surfaces_.hiding[y] & bit) == 0) {
         surfaces_.hiding[y] |= bit;
-        CopyChunk(at + static_cast<size_t>(x), copies + x);
+        CopyStrip(at + static_cast<size_t>(x), copies + x);
       } else {
-        for (int32_t k = x; k < x + kChunk; ++k) CopyPixel(at + static_cast<size_t>(k), copies[k]);
+        for (int32_t k = x; k < x + kStripColumns; ++k)
+          CopyPixel(at + static_cast<size_t>(k), copies[k]);
       }
     }
   }
 
   // Of pixels that hide nothing else.
-  void CopyChunk(size_t at, const int16_t* copies) {
+  void CopyStrip(size_t at, const int16_t* copies) {
     for (uint16_t* sources : surfaces_.sources) {
-      std::memset(sources + at, 0, kChunk * sizeof(*sources));
+      std::memset(sources + at, 0, kStripColumns * sizeof(*sources));
     }
-    std::memcpy(surfaces_.disparity[1] + at, copies, kChunk * sizeof(*copies));
-    ClearChunk(surfaces_.disparity[2] + at);
+    std::memcpy(surfaces_.disparity[1] + at, copies, kStripColumns * sizeof(*copies));
+    ClearStrip(surfaces_.disparity[2] + at);
     for (size_t c = 0; c < 3; ++c) {
       const size_t sample = c * surfaces_.plane + at;
       std::memcpy(surfaces_.rgb[1] + sample, surfaces_.rgb[0] + sample,
-                  kChunk * sizeof(*surfaces_.rgb[0]));
+                  kStripColumns * sizeof(*surfaces_.rgb[0]));
     }
   }
 
@@ -316,12 +317,12 @@ class SurfaceFinder {
     }
   }
 
-  // Sets the colours of those pixels of a chunk that are `found`.
+  // Sets the colours of those pixels of a strip that are `found`.
   void SetColours(int32_t x, int32_t y, int behind, uint32_t found) {
     const size_t at = surfaces_.At(x, y);
     colours_.Read({x, y, surfaces_.disparity[behind] + at, surfaces_.sources[behind - 1] + at},
                   found);
-    kernels_.Split(colours_.rgb, kChunk, surfaces_.plane, surfaces_.rgb[behind] + at);
+    kernels_.Split(colours_.rgb, kStripColumns, surfaces_.plane, surfaces_.rgb[behind] + at);
   }
 
   const simd::Kernels& kernels_;
@@ -345,11 +346,11 @@ void FindLayeredDepth(const simd::Kernels& kernels, const Window& window, const 
     const size_t at = surfaces->At(0, y);
     std::memcpy(surfaces->disparity[0] + at, field.Disparity(0, y),
                 static_cast<size_t>(field.width) * sizeof(int16_t));
-    ClearChunk(surfaces->disparity[0] + at + field.width);  // the next row is copied over it
+    ClearStrip(surfaces->disparity[0] + at + field.width);  // the next row is copied over it
     kernels.Split(field.Rgb(0, y), static_cast<size_t>(field.width), surfaces->plane,
                   surfaces->rgb[0] + at);
   }
-  for (int16_t* disparity : surfaces->disparity) ClearChunk(disparity + surfaces->plane);
+  for (int16_t* disparity : surfaces->disparity) ClearStrip(disparity + surfaces->plane);
   std::memset(surfaces->share + surfaces->plane, simd::kSliceWhole, simd::kSliceLanes);
   SurfaceFinder(kernels, window, field, surfaces).Find();
 }

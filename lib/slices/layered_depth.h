@@ -24,7 +24,7 @@ inline constexpr int16_t kDepthEdge = (3 << kDisparityBits) / 4;
 inline constexpr int16_t kLeastCopy = 2, kMostCopy = 1 << (kDisparityBits - 1);
 
 // The widest surfaces, by kSliceLanes columns.
-inline constexpr int32_t kMaxChunks = 64;
+inline constexpr int32_t kMaxStrips = 64;
 
 // Surface 0 is the field itself, the nearest one. Rows of `stride` pixels, then kSliceLanes more;
 // colours in three planes, `plane` apart.
@@ -56,7 +56,7 @@ inline constexpr int32_t kBandRows = 8;
 
 // The disparities of all surfaces of each band, around a tile.
 struct SurfaceBands {
-  static constexpr int32_t kMost = kMaxChunks * static_cast<int32_t>(simd::kSliceLanes) / kBandRows;
+  static constexpr int32_t kMost = kMaxStrips * static_cast<int32_t>(simd::kSliceLanes) / kBandRows;
   simd::DisparityRange ranges[kMost];
 
   const simd::DisparityRange& At(int32_t row) const { return ranges[row / kBandRows]; }

@@ -9,7 +9,7 @@ namespace {
 using simd::SliceOffset;
 
 constexpr int32_t kFractionOne = 1 << 15;
-constexpr auto kChunk = static_cast<int32_t>(simd::kSliceLanes);
+constexpr auto kStripColumns = static_cast<int32_t>(simd::kSliceLanes);
 
 // What a box of `subaperture` pixels (kShiftBits), more than kBoxSubaperture, covers of the pixels
 // around it.
@@ -74,9 +74,10 @@ SliceOffset OffsetOf(int32_t shift, int32_t subaperture) {
 // which the last two overlap: as they are of one length, they are cleared without a call.
 void ClearTail(size_t width, size_t plane, int16_t* row) {
   for (size_t c = 0; c < 4; ++c, row += plane) {
-    int16_t *const last = row + plane - kChunk, *group = row + width;
-    for (; group < last; group += kChunk) std::memset(group, 0, kChunk * sizeof(*group));
-    std::memset(last, 0, kChunk * sizeof(*last));
+    int16_t *const last = row + plane - kStripColumns, *group = row + width;
+    for (; group < last; group += kStripColumns)
+      std::memset(group, 0, kStripColumns * sizeof(*group));
+    std::memset(last, 0, kStripColumns * sizeof(*last));
   }
 }
 
@@ -91,8 +92,8 @@ simd::SliceCover SelectRow(const SliceInput& input, const Slice& slice, const Re
   simd::SurfaceRow from;
   from.plane = surfaces.plane;
   from.share = surfaces.share + at;
-  const uint64_t hiding = surfaces.hiding[y] >> (x + first) / kChunk;
-  from.hiding = (x + first) % kChunk == 0 ? hiding : hiding | hiding >> 1;
+  const uint64_t hiding = surfaces.hiding[y] >> (x + first) / kStripColumns;
+  from.hiding = (x + first) % kStripColumns == 0 ? hiding : hiding | hiding >> 1;
   for (int k = 0; k < simd::kSurfaces; ++k) {
     from.disparity[k] = surfaces.disparity[k] + at;
     from.rgb[k] = surfaces.rgb[k] + at;
@@ -187,9 +188,9 @@ void FillSlice(const SliceInput& input, const Slice& slice, const Rect& rect, in
 }
 
 void PlaceStrip(const SlicePlane& placed, int32_t x, const RowRange& seen, ShiftedSlice* shifted) {
-  const uint64_t chunks = ChunksOf(placed, x);
+  const uint64_t strips = StripsOf(placed, x);
   const int32_t top = seen.first, last_row = seen.last + 2 * placed.reach;
-  const auto empty = [&](int32_t row) { return (placed.cover[row].some & chunks) == 0; };
+  const auto empty = [&](int32_t row) { return (placed.cover[row].some & strips) == 0; };
   int32_t first = top, end = last_row;
   while (first < end && empty(first)) ++first;
   while (end > first && empty(end - 1)) --end;

@@ -130,10 +130,11 @@ struct ShiftedSlice {
   RowRange filled = {0, 0};  // rows outside of these are empty in all views
 };
 
-// Chunks of a row (bits of SliceCover) that some view shows in the strip at column `x`.
-constexpr uint64_t ChunksOf(const SlicePlane& placed, int32_t x) {
-  constexpr auto kChunk = static_cast<int32_t>(simd::kSliceLanes);
-  const int32_t first = x / kChunk, last = (x + kChunk - 1 + 2 * placed.reach) / kChunk;
+// Strips of a row (bits of SliceCover) that some view shows in the strip at column `x`.
+constexpr uint64_t StripsOf(const SlicePlane& placed, int32_t x) {
+  constexpr auto kStripColumns = static_cast<int32_t>(simd::kSliceLanes);
+  const int32_t first = x / kStripColumns,
+                last = (x + kStripColumns - 1 + 2 * placed.reach) / kStripColumns;
   return (uint64_t{2} << last) - (uint64_t{1} << first);
 }
 

@@ -6,7 +6,6 @@
 namespace starfocus {
 namespace {
 
-constexpr int32_t kChunk = static_cast<int32_t>(simd::kSliceLanes);
 constexpr int32_t kRowsAhead = static_cast<int32_t>(simd::kRowsAhead);
 
 class Strip {
@@ -34,7 +33,7 @@ class Strip {
         if (rows.last == 0) rows.first = part->y;
         rows.last = part->y + part->rows;
       }
-      const size_t sums = kPixelSums * static_cast<size_t>(part->rows * kChunk);
+      const size_t sums = kPixelSums * static_cast<size_t>(part->rows * simd::kStripColumns);
       samples_ += static_cast<int64_t>(sums) * part->count;
       std::memset(SumsOfRow(job_.sums, part->y), 0, sums * sizeof(*job_.sums));
     }
@@ -51,7 +50,8 @@ class Strip {
       rows += static_cast<size_t>(job_.planes[seen_slices_[n]].rows) + simd::kRowsAhead;
     }
     int16_t* samples = job_.memory;
-    int8_t* near = reinterpret_cast<int8_t*>(samples + 4 * rows * kChunk) + simd::kRowsAhead;
+    int8_t* near =
+        reinterpret_cast<int8_t*>(samples + 4 * rows * simd::kStripColumns) + simd::kRowsAhead;
     for (int32_t n = 0; n < seen_; ++n) {
       const int32_t k = seen_slices_[n];
       const SlicePlane& placed = job_.planes[k];
@@ -59,9 +59,10 @@ class Strip {
       shifted.samples = samples;
       shifted.near = near;
       PlaceStrip(placed, parts_.x, rows_[k], &shifted);
-      shown_[k] = {samples + placed.reach * kChunk, near + placed.reach, shifted.plane};
+      shown_[k] = {samples + placed.reach * simd::kStripColumns, near + placed.reach,
+                   shifted.plane};
       samples += 4 * shifted.plane;
-      near += shifted.plane / kChunk;
+      near += shifted.plane / simd::kStripColumns;
     }
   }
 

@@ -64,13 +64,13 @@ void FindEdges(Draw* draw, KernelCall* call) {
 
 void FindSteps(Draw* draw, KernelCall* call) {
   const size_t count = draw->Length(1, 70, kTimedSamples),
-               chunks = SliceSamples(count) / kSliceLanes;
+               strips = SliceSamples(count) / kSliceLanes;
   const int16_t* row = call->Input("row", Disparities(count + 1, draw), kPadding);
-  auto* steps = call->Results<StepBits>("steps", chunks);
+  auto* steps = call->Results<StepBits>("steps", strips);
   call->Runs([=](const Kernels& kernels) { kernels.FindSteps(row, count, kStep, steps); });
   call->is_right = [=](uint64_t, Met* met) {
     bool right = true;
-    for (size_t n = 0; n < chunks * kSliceLanes; ++n) {
+    for (size_t n = 0; n < strips * kSliceLanes; ++n) {
       const StepBits& bits = steps[n / kSliceLanes];
       const bool fall = n < count && row[n] - row[n + 1] > kStep;
       const bool rise = n < count && row[n + 1] - row[n] > kStep;
@@ -91,11 +91,11 @@ void FindCopies(Draw* draw, KernelCall* call) {
   const int16_t* field = call->Input("field", disparities, kPadding);
   const CopyLimits limits = {int16_t(draw->Int(1, 20)), int16_t(draw->Int(20, 100))};
   auto* copies = call->Results<int16_t>("copies", rows * samples);
-  auto* chunks = call->Results<uint64_t>("chunks", rows);
+  auto* strips = call->Results<uint64_t>("strips", rows);
   const int16_t* first = field + stride + 1;
   call->Runs([=](const Kernels& kernels) {
     for (size_t y = 0; y < rows; ++y) {
-      chunks[y] = kernels.FindCopies(first + y * stride, ptrdiff_t(stride), count, limits,
+      strips[y] = kernels.FindCopies(first + y * stride, ptrdiff_t(stride), count, limits,
                                      copies + y * samples);
     }
   });
@@ -111,7 +111,7 @@ void FindCopies(Draw* draw, KernelCall* call) {
         expected = expected == kNoSurface ? next : std::min<int>(expected, next);
       }
       right = right && copies[i] == expected;
-      right = right && (expected == kNoSurface || (chunks[y] >> (n / kSliceLanes) & 1) != 0);
+      right = right && (expected == kNoSurface || (strips[y] >> (n / kSliceLanes) & 1) != 0);
       (*met)["copies"] += expected != kNoSurface;
     }
     return right;
@@ -119,21 +119,21 @@ void FindCopies(Draw* draw, KernelCall* call) {
 }
 
 void BesideSteps(Draw* draw, KernelCall* call) {
-  const size_t count = draw->Length(1, 70, 96), chunks = SliceSamples(count) / kSliceLanes;
+  const size_t count = draw->Length(1, 70, 96), strips = SliceSamples(count) / kSliceLanes;
   const size_t rows = draw->Size(1, 3, kTimedSamples / 96);
   const size_t stride = count + 2 + draw->Size(0, 7, 0);
   const int16_t* field = call->Input("field", Disparities((rows + 2) * stride, draw), kPadding);
-  auto* beside = call->Results<uint16_t>("beside", rows * chunks);
+  auto* beside = call->Results<uint16_t>("beside", rows * strips);
   const int16_t* first = field + stride + 1;
   call->Runs([=](const Kernels& kernels) {
     for (size_t y = 0; y < rows; ++y) {
-      kernels.BesideSteps(first + y * stride, ptrdiff_t(stride), count, kStep, beside + y * chunks);
+      kernels.BesideSteps(first + y * stride, ptrdiff_t(stride), count, kStep, beside + y * strips);
     }
   });
   call->is_right = [=](uint64_t, Met* met) {
     bool right = true;
-    for (size_t i = 0; i < rows * chunks * kSliceLanes; ++i) {
-      const size_t n = i % (chunks * kSliceLanes), y = i / (chunks * kSliceLanes);
+    for (size_t i = 0; i < rows * strips * kSliceLanes; ++i) {
+      const size_t n = i % (strips * kSliceLanes), y = i / (strips * kSliceLanes);
       const int16_t* at = first + y * stride + n;
       const bool expected =
           n < count &&
@@ -246,7 +246,7 @@ struct HiddenField {
   uint16_t* source[kSurfaces - 1];
   uint16_t* found[kSurfaces - 1];
   uint8_t* share;
-  uint64_t* chunks;  // what it returns of each row
+  uint64_t* strips;  // what it returns of each row
 
   HiddenField(const DepthField& field, KernelCall* call) {
     const auto rows = size_t(field.height), samples = field.stride * rows;
@@ -259,9 +259,9 @@ struct HiddenField {
       call->Result(found[k], samples / kSliceLanes);
     }
     share = call->Output<uint8_t>("share", samples);
-    chunks = call->Output<uint64_t>("returned", rows);
+    strips = call->Output<uint64_t>("returned", rows);
     call->Result(share, samples);
-    call->Result(chunks, rows);
+    call->Result(strips, rows);
   }
 
   HiddenRow Row(size_t first) const {
@@ -308,14 +308,14 @@ void LookBehind(Draw* draw, KernelCall* call) {
   const HiddenField hidden(field, call);
   call->Runs([=](const Kernels& kernels) {
     for (int y = 0; y < field.height; ++y) {
-      hidden.chunks[y] = kernels.LookBehind(field.Row(y), hidden.Row(field.stride * size_t(y)));
+      hidden.strips[y] = kernels.LookBehind(field.Row(y), hidden.Row(field.stride * size_t(y)));
     }
   });
   call->is_right = [=](uint64_t, Met* met) {
     bool right = true;
     const size_t groups = field.stride / kSliceLanes;
     for (size_t n = 0; n < groups * size_t(field.height); ++n) {
-      const bool any = (hidden.chunks[n / groups] >> n % groups & 1) != 0;
+      const bool any = (hidden.strips[n / groups] >> n % groups & 1) != 0;
       right = hidden.IsRight(n, any, call, met) && right;
     }
     return right;

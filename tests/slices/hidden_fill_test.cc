@@ -107,7 +107,7 @@ TEST_CASE("hidden fill: of a parted boundary pixel the far colour goes on") {
   CHECK(scene.Colour(24, 20, 0) == 100);
   for (int y = 0; y < kSize; ++y) {
     const size_t at = scene.surfaces.At(19, y);
-    scene.surfaces.hiding[y] |= uint64_t{1} << 19 / test::kChunk;
+    scene.surfaces.hiding[y] |= uint64_t{1} << 19 / test::kStripColumns;
     scene.share[at] = starfocus::simd::kSliceWhole / 4;
     scene.surfaces.disparity[1][at] = 0;
     scene.surfaces.disparity[0][at] = 12 * 64;

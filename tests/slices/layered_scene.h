@@ -18,7 +18,7 @@ using starfocus::LayeredDepth;
 
 inline constexpr int kSize = 40;
 inline constexpr int kStride = 48;  // SliceSamples
-inline constexpr int kChunk = int(starfocus::simd::kSliceLanes);
+inline constexpr int kStripColumns = int(starfocus::simd::kSliceLanes);
 inline constexpr int kArea = kStride * kSize + 16;
 
 // A disparity map in pixels per unit, the centre view in one grey level, captured views that say
@@ -72,9 +72,9 @@ struct LayeredScene {
     test::ReadPlanes(&views_of, &window);
     window.disparity = {disparity.data(), kSize, 0, 0};
     for (int k = 0; k < 3; ++k) {
-      planes[k].assign(kArea + 2 * kChunk, 0);
+      planes[k].assign(kArea + 2 * kStripColumns, 0);
       colours[k].assign(3 * kArea, 0);
-      surfaces.disparity[k] = planes[k].data() + kChunk;
+      surfaces.disparity[k] = planes[k].data() + kStripColumns;
       surfaces.rgb[k] = colours[k].data();
     }
     for (int k = 0; k < 4; ++k) {
@@ -86,7 +86,7 @@ struct LayeredScene {
       sources[k].assign(kArea, 0);
       surfaces.sources[k] = sources[k].data();
     }
-    steps.resize(kStride / kChunk);
+    steps.resize(kStride / kStripColumns);
     surfaces.steps = steps.data();
     share.assign(kArea, 0);
     surfaces.share = share.data();

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Vectors of a group of kSliceLanes samples, and their masks as bits. Included once per target.
-#if defined(STARFOCUS_SIMD_CHUNK_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef STARFOCUS_SIMD_CHUNK_INL_H_
-#undef STARFOCUS_SIMD_CHUNK_INL_H_
+#if defined(STARFOCUS_SIMD_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef STARFOCUS_SIMD_LANES_INL_H_
+#undef STARFOCUS_SIMD_LANES_INL_H_
 #else
-#define STARFOCUS_SIMD_CHUNK_INL_H_
+#define STARFOCUS_SIMD_LANES_INL_H_
 #endif
 
 #include "simd/compat-inl.h"
@@ -16,8 +16,8 @@ namespace HWY_NAMESPACE {
 
 // A vector holds a group at most: rows are padded to whole groups only, and bits of a mask become
 // those of a group.
-using ChunkTag = hn::CappedTag<int16_t, kSliceLanes>;
-using ChunkVec = hn::Vec<ChunkTag>;
+using LanesTag = hn::CappedTag<int16_t, kSliceLanes>;
+using LanesVec = hn::Vec<LanesTag>;
 
 // Returns the mask as bits: bit k is lane k.
 template <class D>
