@@ -53,14 +53,14 @@ bool SortAround(const Map& map, int32_t x, int32_t y, Sorted* sorted) {
 }
 
 // Indices from `first` up to, not including, `last`.
-struct Part {
+struct SortedPart {
   int32_t first, last;
   int32_t count() const { return last - first; }
 };
 
 // The part that is near `disparity`, which one at least must be.
-Part PartNear(const Sorted& sorted, double disparity) {
-  Part part = {0, 0};
+SortedPart PartNear(const Sorted& sorted, double disparity) {
+  SortedPart part = {0, 0};
   while (part.first + 1 < sorted.count && sorted.values[part.first] < disparity - kNear) {
     ++part.first;
   }
@@ -69,7 +69,7 @@ Part PartNear(const Sorted& sorted, double disparity) {
   return part;
 }
 
-double Median(const Sorted& sorted, const Part& part) {
+double Median(const Sorted& sorted, const SortedPart& part) {
   const float* middle = sorted.values + part.first + part.count() / 2;
   return part.count() % 2 != 0 ? double{middle[0]} : (double{middle[-1]} + middle[0]) / 2;
 }

@@ -14,12 +14,12 @@ constexpr double kPi = 3.14159265358979323846;
 // would have to lie within that of a half to differ.
 int32_t Round(double value) { return static_cast<int32_t>(std::floor(value * kOpeningOne + 0.5)); }
 
-struct Direction {
+struct UnitVector {
   double sine, cosine;
 };
 
 // Returns the direction of an angle, computed by the tangent of half of it.
-Direction DirectionOf(double angle) {
+UnitVector DirectionOf(double angle) {
   const double tangent = std::tan(angle / 2), square = tangent * tangent;
   return {2 * tangent / (1 + square), (1 - square) / (1 + square)};
 }
@@ -37,7 +37,7 @@ void SetPolygon(const starfocus_lens& lens, ApertureShape* opening) {
   opening->slope = Round(2 * (root - curvature * cosine));
   opening->limit = Round(2 * cosine * root - curvature * (cosine * cosine - sine * sine));
   for (int32_t edge = 0; edge < lens.blades; ++edge) {
-    const Direction normal = DirectionOf(turn + (2 * edge + 1) * half);
+    const UnitVector normal = DirectionOf(turn + (2 * edge + 1) * half);
     opening->normals[edge][0] = Round(normal.sine);
     opening->normals[edge][1] = Round(-normal.cosine);
   }

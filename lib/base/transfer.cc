@@ -24,11 +24,11 @@ constexpr double LinearOf(double code) {
   return square * FifthRoot(square);
 }
 
-struct Tables {
+struct CodeTables {
   int16_t srgb[kCodes] = {}, same[kCodes] = {};
   uint16_t entries[simd::kEncodeEntries] = {};
 
-  constexpr Tables() {
+  constexpr CodeTables() {
     for (int code = 0; code < kCodes; ++code) {
       srgb[code] = static_cast<int16_t>(LinearOf(code) * kLightWhite + 0.5);
       same[code] = static_cast<int16_t>(code << kLightBits);
@@ -51,7 +51,7 @@ struct Tables {
   }
 };
 
-constexpr Tables kTables;
+constexpr CodeTables kTables;
 constexpr Transfer kSrgb = {kTables.srgb, {kTables.srgb, kTables.entries}};
 constexpr Transfer kNone = {kTables.same, {nullptr, nullptr}};
 

@@ -17,13 +17,13 @@ using BandPatch = Patch<kBandReach + 2>;
 constexpr int32_t kLeastRagged = 36;
 
 // The offsets of pixels within kBandReach, nearest first.
-struct Offset {
+struct BandOffset {
   int8_t x, y;
   int16_t at;
 };
 constexpr int32_t kOffsets = (2 * kBandReach + 1) * (2 * kBandReach + 1) - 1;
 struct Offsets {
-  Offset by_distance[kOffsets] = {};
+  BandOffset by_distance[kOffsets] = {};
   constexpr Offsets() {
     int32_t count = 0;
     for (int32_t square = 1; square <= 2 * kBandReach * kBandReach; ++square) {
@@ -48,7 +48,7 @@ struct BandPixel {
 
 BandPixel FindBandPixel(const BandPatch& patch, int32_t at) {
   const int32_t here = patch.disparity[at];
-  for (const Offset& offset : kNearestFirst.by_distance) {
+  for (const BandOffset& offset : kNearestFirst.by_distance) {
     const int32_t other = patch.disparity[at + offset.at];
     if (Abs(other - here) <= kThinStep) continue;
     return {other < here ? 1 : -1, other, offset.x * offset.x + offset.y * offset.y};
@@ -73,7 +73,7 @@ class TileRow {
   TileRow(const Window& window, int32_t left, int32_t top, int32_t columns) {
     const int32_t right = window.picture_width - 1;
     const int32_t first = Max(left - 1, 0), end = Min(left + columns, right) + 1;
-    for (int32_t y = 0; y < kTileSide + 2; ++y) {
+    for (int32_t y = 0; y < kCoverageTile + 2; ++y) {
       const int16_t* from = window.disparity.Row(Clamp(top + y - 1, 0, window.picture_height - 1));
       int16_t* to = At(-1, y - 1);
       std::memcpy(to + first - left + 1, from + first,
@@ -83,23 +83,23 @@ class TileRow {
     }
   }
 
-  int16_t* At(int32_t x, int32_t y) { return samples_ + (y + 1) * kStride + x + kTileSide; }
+  int16_t* At(int32_t x, int32_t y) { return samples_ + (y + 1) * kStride + x + kCoverageTile; }
 
   // Finds the range of a tile and of the pixels around it.
   void FindRange(int32_t x, int32_t* low, int32_t* high) {
-    int16_t lows[kTileSide + 2], highs[kTileSide + 2];
+    int16_t lows[kCoverageTile + 2], highs[kCoverageTile + 2];
     std::memcpy(lows, At(x - 1, -1), sizeof(lows));
     std::memcpy(highs, lows, sizeof(highs));
-    for (int32_t y = 0; y <= kTileSide; ++y) {
+    for (int32_t y = 0; y <= kCoverageTile; ++y) {
       const int16_t* row = At(x - 1, y);
-      for (int32_t k = 0; k < kTileSide + 2; ++k) {
+      for (int32_t k = 0; k < kCoverageTile + 2; ++k) {
         lows[k] = row[k] < lows[k] ? row[k] : lows[k];
         highs[k] = row[k] > highs[k] ? row[k] : highs[k];
       }
     }
     *low = INT16_MAX;
     *high = INT16_MIN;
-    for (int32_t k = 0; k < kTileSide + 2; ++k) {
+    for (int32_t k = 0; k < kCoverageTile + 2; ++k) {
       *low = Min(*low, lows[k]);
       *high = Max(*high, highs[k]);
     }
@@ -108,9 +108,9 @@ class TileRow {
   // Returns how many pixels of a tile lie beside nearer ones.
   int32_t CountRagged(const simd::Kernels& kernels, int32_t x) {
     int32_t count = 0;
-    for (int32_t y = 0; y < kTileSide; ++y) {
+    for (int32_t y = 0; y < kCoverageTile; ++y) {
       uint16_t bits;
-      kernels.BesideSteps(At(x, y), kStride, kTileSide, static_cast<int16_t>(kThinStep), &bits);
+      kernels.BesideSteps(At(x, y), kStride, kCoverageTile, static_cast<int16_t>(kThinStep), &bits);
       ForEachBit(bits, [&](int32_t) { ++count; });
     }
     return count;
@@ -119,8 +119,8 @@ class TileRow {
   static constexpr int32_t kMostTiles = 16;
 
  private:
-  static constexpr int32_t kStride = (kMostTiles + 2) * kTileSide;
-  int16_t samples_[(kTileSide + 3) * kStride];
+  static constexpr int32_t kStride = (kMostTiles + 2) * kCoverageTile;
+  int16_t samples_[(kCoverageTile + 3) * kStride];
 };
 
 }  // namespace
@@ -129,14 +129,14 @@ void FindRagged(const CoverageInput& in, int32_t first, int32_t last, int32_t ro
   const CoverageMap& map = *in.map;
   for (int32_t from = first; from < last; from += TileRow::kMostTiles) {
     const int32_t count = Min(TileRow::kMostTiles, last - from);
-    TileRow tiles(*in.window, from * kTileSide, row * kTileSide, count * kTileSide);
+    TileRow tiles(*in.window, from * kCoverageTile, row * kCoverageTile, count * kCoverageTile);
     for (int32_t k = 0; k < count; ++k) {
       CoverageTile& tile = map.Tile(from + k, row);
       int32_t low, high;
-      tiles.FindRange(k * kTileSide, &low, &high);
+      tiles.FindRange(k * kCoverageTile, &low, &high);
       const bool ragged =
           high - low > kThinStep &&
-          (HasGiven(in) || tiles.CountRagged(*in.kernels, k * kTileSide) >= kLeastRagged);
+          (HasGiven(in) || tiles.CountRagged(*in.kernels, k * kCoverageTile) >= kLeastRagged);
       tile = {BinsOf(map, low, high), INT16_MAX, INT16_MIN, ragged ? uint8_t{1} : uint8_t{0}, 0, 0};
     }
   }
@@ -145,13 +145,14 @@ void FindRagged(const CoverageInput& in, int32_t first, int32_t last, int32_t ro
 void ClearTile(const CoverageInput& in, int32_t column, int32_t row) {
   const Window& window = *in.window;
   const CoverageMap& map = *in.map;
-  const int32_t left = column * kTileSide, count = Min(kTileSide, map.width - left);
-  for (int32_t y = row * kTileSide; y < Min((row + 1) * kTileSide, map.height); ++y) {
+  const int32_t left = column * kCoverageTile, count = Min(kCoverageTile, map.width - left);
+  for (int32_t y = row * kCoverageTile; y < Min((row + 1) * kCoverageTile, map.height); ++y) {
     const size_t to = map.At(left, y);
-    for (int32_t x = count; x < kTileSide; ++x) map.near[to + static_cast<size_t>(x)] = kNowhere;
+    for (int32_t x = count; x < kCoverageTile; ++x)
+      map.near[to + static_cast<size_t>(x)] = kNowhere;
     std::memcpy(map.near + to, window.disparity.Row(y) + left,
                 static_cast<size_t>(count) * sizeof(*map.near));
-    std::memset(map.first + to, kWhole, kTileSide);
+    std::memset(map.first + to, kWhole, kCoverageTile);
   }
 }
 
@@ -161,13 +162,13 @@ void StartTile(const CoverageInput& in, int32_t column, int32_t row) {
   const BandPatch patch(window, column, row);
   CoverageTile& tile = map.Tile(column, row);
   tile.near_bins = 0;
-  const int32_t left = column * kTileSide, top = row * kTileSide;
-  const int32_t columns = Min(kTileSide, window.picture_width - left);
-  const int32_t rows = Min(kTileSide, window.picture_height - top);
-  for (int32_t y = 0; y < kTileSide; ++y) {
-    int16_t light[3 * kTileSide];
+  const int32_t left = column * kCoverageTile, top = row * kCoverageTile;
+  const int32_t columns = Min(kCoverageTile, window.picture_width - left);
+  const int32_t rows = Min(kCoverageTile, window.picture_height - top);
+  for (int32_t y = 0; y < kCoverageTile; ++y) {
+    int16_t light[3 * kCoverageTile];
     if (y < rows) window.reader.Light(0, left, top + y, columns, light);
-    for (int32_t x = 0; x < kTileSide; ++x) {
+    for (int32_t x = 0; x < kCoverageTile; ++x) {
       const size_t to = map.At(left + x, top + y);
       const int32_t at = BandPatch::At(x, y);
       const int16_t here = patch.disparity[at];

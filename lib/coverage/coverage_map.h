@@ -14,7 +14,7 @@
 namespace starfocus {
 
 // Side of a tile in pixels: whether structure is thin is decided by tile.
-inline constexpr int32_t kTileSide = 16;
+inline constexpr int32_t kCoverageTile = 16;
 
 // Coverage has 7 fractional bits: 0 to kWhole. kUnparted: the pixel is not near a depth edge.
 inline constexpr int kAlphaBits = 7;
@@ -34,8 +34,8 @@ struct FarCell {
   int16_t weight;     // [0, kKnown]
   int16_t disparity;  // kDisparityBits
 };
-inline constexpr int32_t kKnownBits = 8;
-inline constexpr int32_t kKnown = 1 << kKnownBits;
+inline constexpr int32_t kFarKnownBits = 8;
+inline constexpr int32_t kKnown = 1 << kFarKnownBits;
 
 // Pixels that a nearer surface may move to one side, in a view, before the far one; views in which
 // it moves farther are not looked into.
@@ -43,7 +43,7 @@ inline constexpr int32_t kMostMove = 32;
 
 // Columns beyond the picture that are looked at.
 inline constexpr int32_t kAside = 48;
-static_assert(kAside >= kMostMove + 2 && kAside % kTileSide == 0,
+static_assert(kAside >= kMostMove + 2 && kAside % kCoverageTile == 0,
               "what moves over comes from there");
 inline constexpr int16_t kNowhere = INT16_MIN;
 
@@ -72,22 +72,22 @@ struct CoverageMap {
   int16_t* near = nullptr;   // disparity of the nearer surface, kNowhere beyond the picture
   FarCell* far[kFarLevels] = {};
 
-  int32_t Rows() const { return (height + kTileSide - 1) / kTileSide; }
+  int32_t Rows() const { return (height + kCoverageTile - 1) / kCoverageTile; }
   CoverageTile& Tile(int32_t column, int32_t row) const {
     return tiles[static_cast<size_t>(row % tile_rows) * static_cast<size_t>(columns) +
                  static_cast<size_t>(column)];
   }
   // Samples from row to row of planes of pixels.
-  size_t Stride() const { return static_cast<size_t>(columns * kTileSide + 2 * kAside); }
+  size_t Stride() const { return static_cast<size_t>(columns * kCoverageTile + 2 * kAside); }
   // The place of pixel (x, y), up to kAside columns beyond the picture.
   size_t At(int32_t x, int32_t y) const {
-    return static_cast<size_t>(y % (tile_rows * kTileSide)) * Stride() +
+    return static_cast<size_t>(y % (tile_rows * kCoverageTile)) * Stride() +
            static_cast<size_t>(x + kAside);
   }
   // The place of cell (x, y) of a level.
   size_t CellAt(int32_t x, int32_t y, int level) const {
-    const int32_t rows = (tile_rows * kTileSide) >> level;
-    const size_t stride = static_cast<size_t>((columns * kTileSide) >> level);
+    const int32_t rows = (tile_rows * kCoverageTile) >> level;
+    const size_t stride = static_cast<size_t>((columns * kCoverageTile) >> level);
     return static_cast<size_t>(y % rows) * stride + static_cast<size_t>(x);
   }
   uint64_t BinOf(int32_t disparity) const {

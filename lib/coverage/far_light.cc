@@ -60,7 +60,7 @@ void PushCell(const FourCells& above, int32_t disparity, FarCell* cell) {
   const FarCell mean = sum.Mean(kKnown);
   for (int c = 0; c < 3; ++c) {
     const int32_t more = (cell->rgb[c] - mean.rgb[c]) * cell->weight;
-    cell->rgb[c] = static_cast<int16_t>(mean.rgb[c] + RoundShift(more, kKnownBits));
+    cell->rgb[c] = static_cast<int16_t>(mean.rgb[c] + RoundShift(more, kFarKnownBits));
   }
   if (cell->weight == 0) cell->disparity = mean.disparity;
   cell->weight = kKnown;
@@ -68,7 +68,7 @@ void PushCell(const FourCells& above, int32_t disparity, FarCell* cell) {
 
 // Cells of one level in a tile, with one around it.
 struct LevelCells {
-  static constexpr int32_t kMost = kTileSide + 2;
+  static constexpr int32_t kMost = kCoverageTile + 2;
   FarCell cells[kMost * kMost];
   int32_t side = 0;
 
@@ -98,7 +98,7 @@ void Above(Cells* cells, int32_t x, int32_t y, FourCells* above) {
 
 void PullTile(int32_t column, int32_t row, const CoverageMap& map) {
   for (int level = 1; level < kFarLevels; ++level) {
-    const int32_t side = kTileSide >> level;
+    const int32_t side = kCoverageTile >> level;
     for (int32_t y = row * side; y < (row + 1) * side; ++y) {
       for (int32_t x = column * side; x < (column + 1) * side; ++x) {
         const FarCell* const below = map.far[level - 1];
@@ -116,7 +116,7 @@ void PushTile(int32_t column, int32_t row, const CoverageMap& map, FarTile* far)
   LevelCells levels[2];
   for (int level = kFarLevels - 1; level > 0; --level) {
     LevelCells& cells = levels[level & 1];
-    const int32_t side = kTileSide >> level;
+    const int32_t side = kCoverageTile >> level;
     for (int32_t y = -1; y <= side; ++y) {
       for (int32_t x = -1; x <= side; ++x) {
         FarCell& cell = cells.At(x, y) = LoadCell(map, level, column * side + x, row * side + y);
@@ -127,10 +127,10 @@ void PushTile(int32_t column, int32_t row, const CoverageMap& map, FarTile* far)
       }
     }
   }
-  for (int32_t y = 0; y < kTileSide; ++y) {
-    for (int32_t x = 0; x < kTileSide; ++x) {
-      FarCell& cell = far->cells[y * kTileSide + x] =
-          map.FarAt(column * kTileSide + x, row * kTileSide + y);
+  for (int32_t y = 0; y < kCoverageTile; ++y) {
+    for (int32_t x = 0; x < kCoverageTile; ++x) {
+      FarCell& cell = far->cells[y * kCoverageTile + x] =
+          map.FarAt(column * kCoverageTile + x, row * kCoverageTile + y);
       const int16_t disparity = cell.disparity;
       FourCells above;
       Above(&levels[1], x, y, &above);

@@ -14,16 +14,16 @@ void PullTile(int32_t column, int32_t row, const CoverageMap& map);
 
 // The far light of a tile's pixels; weight 0 where none is known around.
 struct FarTile {
-  FarCell cells[kTileSide * kTileSide];
+  FarCell cells[kCoverageTile * kCoverageTile];
 };
 
 // Fills what is not known at level 0 from the levels above, of this tile and those around it.
 void PushTile(int32_t column, int32_t row, const CoverageMap& map, FarTile* far);
 
-// a to the power of 8; kAlphaBits to kKnownBits.
+// a to the power of 8; kAlphaBits to kFarKnownBits.
 constexpr int32_t EighthPower(int32_t a) {
   const int32_t square = a * a >> kAlphaBits, fourth = square * square >> kAlphaBits;
-  return fourth * fourth >> (2 * kAlphaBits - kKnownBits);
+  return fourth * fourth >> (2 * kAlphaBits - kFarKnownBits);
 }
 
 // How much of the far surface's light a pixel shows that a nearer one covers by alpha.

@@ -87,20 +87,20 @@ class GivenStarter {
   GivenStarter(const CoverageInput& in, int32_t column, int32_t row)
       : window_(*in.window),
         map_(*in.map),
-        left_(column * kTileSide),
-        top_(row * kTileSide),
+        left_(column * kCoverageTile),
+        top_(row * kCoverageTile),
         patch_(window_, column, row),
         ramps_(patch_),
         tile_(map_.Tile(column, row)) {}
 
   void Start() {
     tile_.near_bins = 0;
-    const int32_t columns = Min(kTileSide, map_.width - left_);
-    for (int32_t y = top_; y < top_ + kTileSide; ++y) {
-      int16_t light[3 * kTileSide] = {};
+    const int32_t columns = Min(kCoverageTile, map_.width - left_);
+    for (int32_t y = top_; y < top_ + kCoverageTile; ++y) {
+      int16_t light[3 * kCoverageTile] = {};
       const bool inside = y < map_.height;
       if (inside) window_.reader.Light(0, left_, y, columns, light);
-      for (int32_t k = 0; k < kTileSide; ++k) {
+      for (int32_t k = 0; k < kCoverageTile; ++k) {
         StartPixel(left_ + k, y);
         FarCell& far = map_.FarAt(left_ + k, y);
         std::memcpy(far.rgb, light + 3 * k, sizeof(far.rgb));
@@ -182,15 +182,15 @@ void TakeGiven(const CoverageInput& in, int32_t column, int32_t row) {
   const CoverageMap& map = *in.map;
   FarTile far;
   PushTile(column, row, map, &far);
-  for (int32_t y = 0; y < Min(kTileSide, map.height - row * kTileSide); ++y) {
-    for (int32_t k = 0; k < Min(kTileSide, map.width - column * kTileSide); ++k) {
-      const int32_t x = column * kTileSide + k;
-      const size_t to = map.At(x, row * kTileSide + y);
-      const FarCell& cell = far.cells[y * kTileSide + k];
+  for (int32_t y = 0; y < Min(kCoverageTile, map.height - row * kCoverageTile); ++y) {
+    for (int32_t k = 0; k < Min(kCoverageTile, map.width - column * kCoverageTile); ++k) {
+      const int32_t x = column * kCoverageTile + k;
+      const size_t to = map.At(x, row * kCoverageTile + y);
+      const FarCell& cell = far.cells[y * kCoverageTile + k];
       if (map.alpha[to] == kUnparted) continue;
       // A pixel without known far light nearby cannot be split.
       map.alpha[to] = cell.weight == 0 ? kUnparted : map.first[to];
-      std::memcpy(map.FarAt(x, row * kTileSide + y).rgb, cell.rgb, sizeof(cell.rgb));
+      std::memcpy(map.FarAt(x, row * kCoverageTile + y).rgb, cell.rgb, sizeof(cell.rgb));
     }
   }
 }

@@ -18,7 +18,7 @@ constexpr int kCentreBits = 3;
 constexpr int kEnoughBits = 1;
 
 // A view beside the centre.
-struct SideView {
+struct SideLook {
   OcclusionView look;
   bool down;      // whether places follow each other along columns
   int32_t along;  // the view's distance on that axis, kViewBits
@@ -31,8 +31,8 @@ class TileLooker {
       : kernels_(*in.kernels),
         window_(*in.window),
         map_(*in.map),
-        left_(column * kTileSide),
-        columns_(Min(kTileSide, map_.width - left_)) {
+        left_(column * kCoverageTile),
+        columns_(Min(kCoverageTile, map_.width - left_)) {
     for (int side = 0; side < kSideCount; ++side) {
       for (const OcclusionView& look : window_.occlusion_views.on[side]) AddView(look);
     }
@@ -41,14 +41,14 @@ class TileLooker {
 
   void LookRow(int32_t y) {
     bool any = false;
-    for (int32_t k = 0; k < kTileSide; ++k) {
+    for (int32_t k = 0; k < kCoverageTile; ++k) {
       sums_[k] = {};
       far_[k] = map_.FarAt(left_ + k, y).disparity;
       parted_[k] = k < columns_ && map_.alpha[map_.At(left_ + k, y)] != kUnparted;
       any = any || parted_[k];
     }
     if (!any) return;
-    int16_t light[3 * kTileSide];
+    int16_t light[3 * kCoverageTile];
     window_.reader.Light(0, left_, y, columns_, light);
     for (int32_t k = 0; k < columns_; ++k) {
       Add(light + 3 * k, FarWeight(map_.first[map_.At(left_ + k, y)]) >> kCentreBits, &sums_[k]);
@@ -76,7 +76,7 @@ class TileLooker {
 
   // Finds which disparities nearer surfaces have around the tile.
   void FindBins(int32_t column, int32_t row) {
-    constexpr int32_t kAround = (kMostMove + kTileSide - 1) / kTileSide;
+    constexpr int32_t kAround = (kMostMove + kCoverageTile - 1) / kCoverageTile;
     for (int32_t y = row - kAround; y <= row + kAround; ++y) {
       for (int32_t x = column - kAround; x <= column + kAround; ++x) {
         if (map_.HasTile(x, y)) bins_ |= map_.Tile(x, y).near_bins;
@@ -97,21 +97,21 @@ class TileLooker {
   }
 
   // Adds what a view shows of row y, each run of pixels of one disparity at once.
-  void LookInto(const SideView& view, int32_t y) {
-    int16_t covered[kTileSide] = {};
+  void LookInto(const SideLook& view, int32_t y) {
+    int16_t covered[kCoverageTile] = {};
     if (!FindCovered(view, y, covered)) return;
     for (int32_t k = 0, end; k < columns_; k = end) {
       end = k + 1;
       if (!parted_[k]) continue;
       while (end < columns_ && parted_[end] && far_[end] == far_[k]) ++end;
-      int32_t all = 0, weights[kTileSide];
+      int32_t all = 0, weights[kCoverageTile];
       for (int32_t n = k; n < end; ++n) all |= weights[n] = FarWeight(covered[n]);
       if (all == 0) continue;
       constexpr int kBits = kViewBits + kDisparityBits - kShiftBits;
       const CapturedLine line = {
           (left_ + k) * kShiftOne - ScaledByView(view.look.at.u, far_[k], kBits),
           y * kShiftOne - ScaledByView(view.look.at.v, far_[k], kBits), 1, 0};
-      int16_t light[3 * kTileSide];
+      int16_t light[3 * kCoverageTile];
       ReadCaptured(window_, view.look.view, line, end - k, light);
       for (int32_t n = k; n < end; ++n) Add(light + 3 * (n - k), weights[n], &sums_[n]);
     }
@@ -119,7 +119,7 @@ class TileLooker {
 
   // Finds how much of each place of a row nearer surfaces cover at most in the view. Returns false
   // if some may come from farther away than is looked at.
-  bool FindCovered(const SideView& view, int32_t y, int16_t* covered) const {
+  bool FindCovered(const SideLook& view, int32_t y, int16_t* covered) const {
     bool comes[kMostMove + 1] = {};  // whether some may come from so far away
     if (!FindMoves(view, comes)) return false;
     const int32_t sign = view.along < 0 ? -1 : 1;
@@ -129,7 +129,7 @@ class TileLooker {
     return true;
   }
 
-  bool FindMoves(const SideView& view, bool* comes) const {
+  bool FindMoves(const SideLook& view, bool* comes) const {
     const int32_t size = Abs(view.along);
     int32_t nearest_far = INT16_MAX, farthest_far = INT16_MIN;
     for (int32_t k = 0; k < columns_; ++k) {
@@ -152,7 +152,7 @@ class TileLooker {
   }
 
   // Takes what may come to a row from `m` pixels along the view's axis.
-  void CoverFrom(const SideView& view, int32_t y, int32_t m, int16_t* covered) const {
+  void CoverFrom(const SideLook& view, int32_t y, int32_t m, int16_t* covered) const {
     // Moves are compared in halves of a disparity, as a view at distance 1 has 14 bits.
     const simd::CoverView cover = {
         static_cast<int16_t>(view.along), static_cast<int16_t>(m * (1 << (kDisparityBits - 1))),
@@ -170,21 +170,21 @@ class TileLooker {
   const Window& window_;
   const CoverageMap& map_;
   const int32_t left_, columns_;
-  SideView views_[kSideCount * kOcclusionViews];
+  SideLook views_[kSideCount * kOcclusionViews];
   int count_ = 0;
   uint64_t bins_ = 0;
   // Of a row of the tile:
-  int16_t far_[kTileSide];  // disparities
-  bool parted_[kTileSide];
-  Sum sums_[kTileSide];
+  int16_t far_[kCoverageTile];  // disparities
+  bool parted_[kCoverageTile];
+  Sum sums_[kCoverageTile];
 };
 
 }  // namespace
 
 void LookBehindTile(const CoverageInput& in, int32_t column, int32_t row) {
   TileLooker looker(in, column, row);
-  const int32_t end = Min((row + 1) * kTileSide, in.map->height);
-  for (int32_t y = row * kTileSide; y < end; ++y) looker.LookRow(y);
+  const int32_t end = Min((row + 1) * kCoverageTile, in.map->height);
+  for (int32_t y = row * kCoverageTile; y < end; ++y) looker.LookRow(y);
   PullTile(column, row, *in.map);
 }
 

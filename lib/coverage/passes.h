@@ -33,7 +33,7 @@ inline int32_t LargestMoveBefore(const starfocus_config& config) {
 
 // Rows of tiles that a pass is ahead of the last one.
 inline int32_t TilesAhead(const starfocus_config& config, int pass) {
-  const int32_t moved = (LargestMoveBefore(config) + kTileSide - 1) / kTileSide;
+  const int32_t moved = (LargestMoveBefore(config) + kCoverageTile - 1) / kCoverageTile;
   switch (pass) {
     case kUnmixAgain:
       return 0;
@@ -51,7 +51,7 @@ inline int32_t TilesAhead(const starfocus_config& config, int pass) {
 // Pixels beyond what is parted that the passes read.
 inline int32_t CoverageBorder(const starfocus_config& config) {
   if (!HasCoverage(config)) return 0;
-  return (TilesAhead(config, kFindRagged) + 1) * kTileSide + kBandReach + 2;
+  return (TilesAhead(config, kFindRagged) + 1) * kCoverageTile + kBandReach + 2;
 }
 
 }  // namespace starfocus

@@ -13,11 +13,11 @@ namespace starfocus {
 // beyond it.
 template <int32_t kAround>
 struct Patch {
-  static constexpr int32_t kSide = kTileSide + 2 * kAround;
+  static constexpr int32_t kSide = kCoverageTile + 2 * kAround;
   int16_t disparity[kSide * kSide];
 
   Patch(const Window& window, int32_t column, int32_t row) {
-    const int32_t left = column * kTileSide - kAround, top = row * kTileSide - kAround;
+    const int32_t left = column * kCoverageTile - kAround, top = row * kCoverageTile - kAround;
     for (int32_t y = 0; y < kSide; ++y) {
       const int16_t* from = window.disparity.Row(Clamp(top + y, 0, window.picture_height - 1));
       int16_t* to = disparity + y * kSide;

@@ -9,10 +9,10 @@ namespace starfocus {
 namespace {
 
 constexpr int32_t kAround = simd::kNearReach;
-constexpr int32_t kPatch = kTileSide + 2 * kAround;
+constexpr int32_t kPatch = kCoverageTile + 2 * kAround;
 
 // A tile is mixed if its mean of 4 alpha (1 - alpha) is above 3/16.
-constexpr int32_t kMixedShare = kTileSide * kTileSide * kWhole * kWhole / 64 * 3;
+constexpr int32_t kMixedShare = kCoverageTile * kCoverageTile * kWhole * kWhole / 64 * 3;
 
 // Colours are compared in 255ths of white with 3 fractional bits.
 constexpr int kColourBits = 3;
@@ -49,7 +49,7 @@ template <class Weight>
 void LoadPatch(const CoverageInput& in, int32_t column, int32_t row, const Weight& weight_of,
                NearPatch* patch) {
   const CoverageMap& map = *in.map;
-  const int32_t left = column * kTileSide - kAround, top = row * kTileSide - kAround;
+  const int32_t left = column * kCoverageTile - kAround, top = row * kCoverageTile - kAround;
   const int32_t first = Max(0, -left), last = Min(kPatch, map.width - left);
   std::memset(patch->weight, 0, sizeof(patch->weight));
   std::memset(patch->light, 0, sizeof(patch->light));
@@ -98,15 +98,15 @@ template <class Visit>
 void ForEachParted(const CoverageInput& in, const NearPatch& patch, int32_t column, int32_t row,
                    const Visit& visit) {
   const CoverageMap& map = *in.map;
-  const int32_t left = column * kTileSide, top = row * kTileSide;
+  const int32_t left = column * kCoverageTile, top = row * kCoverageTile;
   FarTile far;
   PushTile(column, row, map, &far);
-  for (int32_t y = 0; y < Min(kTileSide, map.height - top); ++y) {
+  for (int32_t y = 0; y < Min(kCoverageTile, map.height - top); ++y) {
     simd::NearSums sums;
     patch.SumRow(*in.kernels, y, &sums);
-    for (int32_t x = 0; x < Min(kTileSide, map.width - left); ++x) {
+    for (int32_t x = 0; x < Min(kCoverageTile, map.width - left); ++x) {
       const size_t to = map.At(left + x, top + y);
-      const FarCell& cell = far.cells[y * kTileSide + x];
+      const FarCell& cell = far.cells[y * kCoverageTile + x];
       if (map.alpha[to] == kUnparted || cell.weight == 0) continue;
       int32_t alpha = map.first[to];
       const int32_t weight = sums.weight[x];

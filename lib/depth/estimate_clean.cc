@@ -54,13 +54,13 @@ int32_t Apart(const uint8_t* a, const uint8_t* b) {
   return std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2]);
 }
 
-struct Range {
+struct AroundRange {
   int32_t low, high;
 };
 
 // The disparities around a pixel.
-Range RangeOf(const EstimatePlan& plan, const int16_t* map, const Rect& around) {
-  Range range = {INT16_MAX, INT16_MIN};
+AroundRange RangeOf(const EstimatePlan& plan, const int16_t* map, const Rect& around) {
+  AroundRange range = {INT16_MAX, INT16_MIN};
   for (int32_t row = around.y; row < around.y + around.height; ++row) {
     const int16_t* disparity = map + static_cast<size_t>(row) * static_cast<size_t>(plan.width);
     for (int32_t column = around.x; column < around.x + around.width; ++column) {
@@ -78,7 +78,7 @@ int16_t WithoutStray(const EstimatePlan& plan, const Plane<const uint8_t>& centr
   const Rect around = Widened(plan, {x, y, 1, 1}, kRadius);
   const int16_t own =
       map[static_cast<size_t>(y) * static_cast<size_t>(plan.width) + static_cast<size_t>(x)];
-  const Range range = RangeOf(plan, map, around);
+  const AroundRange range = RangeOf(plan, map, around);
   // No median of what is within kStray is further away.
   if (range.low >= own - kStray && range.high <= own + kStray) return own;
   const uint8_t* here = centre.data + static_cast<size_t>(y) * centre.stride + 3 * x;

@@ -10,11 +10,11 @@ namespace starfocus {
 namespace {
 
 // A direction that paths go in.
-struct Direction {
+struct PathStep {
   int32_t x, y;
 };
-constexpr Direction kDirections[8] = {{1, 0}, {-1, 0},  {0, 1},  {0, -1},
-                                      {1, 1}, {-1, -1}, {1, -1}, {-1, 1}};
+constexpr PathStep kDirections[8] = {{1, 0}, {-1, 0},  {0, 1},  {0, -1},
+                                     {1, 1}, {-1, -1}, {1, -1}, {-1, 1}};
 
 // Rows of paths: of the row before, and of this one.
 struct PathRows {
@@ -49,7 +49,7 @@ void BeginBeside(const EstimateTile& tile, int32_t y, int32_t first, int32_t las
 
 // Adds the paths of row y of the region, which go on from the swept pixels of the row before, to
 // what is there if anything is.
-void AddRow(const EstimateTile& tile, int32_t y, const Direction& direction, bool adds,
+void AddRow(const EstimateTile& tile, int32_t y, const PathStep& direction, bool adds,
             const PathRows& rows) {
   const EstimatePlan& plan = tile.plan;
   const Rect& region = tile.region;
@@ -101,7 +101,7 @@ void AddAllPaths(const EstimateTile& tile) {
     for (ptrdiff_t k = -1; k <= region.width; ++k) path[k * places - 1] = simd::kNoLabel;
   }
   for (int32_t n = 0; n < plan.directions; ++n) {
-    const Direction& direction = kDirections[n];
+    const PathStep& direction = kDirections[n];
     PathRows rows = {{memory.path[0], memory.path[1]}, {memory.least[0], memory.least[1]}};
     for (int32_t k = 0; k < region.height; ++k) {
       const int32_t y = region.y + (direction.y < 0 ? region.height - 1 - k : k);

@@ -14,10 +14,10 @@ constexpr int32_t kWidths[kRadius + 1] = {5, 4, 4, 4, 3, 0};
 constexpr int32_t kNearWeight = 36, kColourWeight = 64;
 
 // The disparities around a pixel, or of a column.
-struct Range {
+struct MajorityRange {
   int32_t low = INT16_MAX, high = INT16_MIN;
 
-  void Add(const Range& range) {
+  void Add(const MajorityRange& range) {
     low = Min(low, range.low);
     high = Max(high, range.high);
   }
@@ -25,27 +25,28 @@ struct Range {
 };
 
 // The ranges of the columns around a row of pixels, kMajorityReach rows up and down.
-struct Columns {
+struct ColumnRanges {
   Rect around;
-  Range ranges[kMostMajority + 2 * kMajorityReach], all;
+  MajorityRange ranges[kMostMajority + 2 * kMajorityReach], all;
 
-  Columns(const ColourMap& map, const Rect& row) : around(Widened(map.plan, row, kMajorityReach)) {
+  ColumnRanges(const ColourMap& map, const Rect& row)
+      : around(Widened(map.plan, row, kMajorityReach)) {
     for (int32_t y = around.y; y < around.y + around.height; ++y) {
       const int16_t* disparities = map.disparity + map.At(around.x, y);
       for (int32_t k = 0; k < around.width; ++k) ranges[k].Add({disparities[k], disparities[k]});
     }
     for (int32_t k = 0; k < around.width; ++k) all.Add(ranges[k]);
   }
-  Range Around(int32_t x) const {
+  MajorityRange Around(int32_t x) const {
     const int32_t first = Max(x - kMajorityReach - around.x, 0);
     const int32_t last = Min(x + kMajorityReach - around.x, around.width - 1);
-    Range range;
+    MajorityRange range;
     for (int32_t k = first; k <= last; ++k) range.Add(ranges[k]);
     return range;
   }
 };
 
-int16_t MajorityAt(const ColourMap& map, int32_t x, int32_t y, const Range& range) {
+int16_t MajorityAt(const ColourMap& map, int32_t x, int32_t y, const MajorityRange& range) {
   const int32_t own = map.disparity[map.At(x, y)], middle = (range.low + range.high) / 2;
   const uint8_t* colour = map.Pixel(x, y);
   int64_t sums[2] = {};
@@ -71,10 +72,10 @@ int16_t MajorityAt(const ColourMap& map, int32_t x, int32_t y, const Range& rang
 
 void TakeMajority(const ColourMap& map, const Rect& row, int16_t* disparity) {
   std::copy_n(map.disparity + map.At(row.x, row.y), row.width, disparity);
-  const Columns columns(map, row);
+  const ColumnRanges columns(map, row);
   if (columns.all.IsOneSurface()) return;
   for (int32_t k = 0; k < row.width; ++k) {
-    const Range range = columns.Around(row.x + k);
+    const MajorityRange range = columns.Around(row.x + k);
     if (!range.IsOneSurface()) disparity[k] = MajorityAt(map, row.x + k, row.y, range);
   }
 }

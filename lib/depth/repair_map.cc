@@ -34,7 +34,7 @@ size_t IndexOf(const EstimatePlan& plan, int32_t x, int32_t y) {
 }
 
 // Disparities above, at and below each pixel of a row: the least and the largest of them.
-struct Columns {
+struct ColumnExtremes {
   int16_t low[kMostTileSide + 2], high[kMostTileSide + 2];
 
   void Copy(int32_t from, int32_t to) {
@@ -46,7 +46,7 @@ struct Columns {
 // Fills columns [begin, end) from the disparities `at` of a row; the next rows lie `above` before
 // and `below` behind.
 void FindColumns(const int16_t* at, ptrdiff_t above, ptrdiff_t below, int32_t begin, int32_t end,
-                 Columns* columns) {
+                 ColumnExtremes* columns) {
   for (int32_t k = begin; k < end; ++k) {
     const int16_t up = at[k - above], here = at[k], down = at[k + below];
     columns->low[k] = std::min(std::min(up, down), here);
@@ -113,7 +113,7 @@ void ReadGiven(const EstimatePlan& plan, const starfocus_light_field& light_fiel
 
 void FindTrusted(const EstimatePlan& plan, const Rect& tile, const int16_t* given,
                  int16_t* trusted) {
-  Columns columns;
+  ColumnExtremes columns;
   // Column 0 is the one left of the tile. Beyond the picture there are none.
   const int32_t begin = tile.x > 0 ? 0 : 1,
                 end = tile.width + (tile.x + tile.width < plan.width ? 2 : 1);

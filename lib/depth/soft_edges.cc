@@ -19,11 +19,11 @@ constexpr int32_t kLeastContrast = 60 * 60, kLeastPixelContrast = 30 * 30;
 constexpr int32_t kLeastShare = 14, kLeastPixelShare = 8;
 
 // A pixel of the farther surface, and the step away from the nearer one.
-struct Edge {
+struct ProfileEdge {
   int32_t x, y, dx, dy;
 };
 
-bool IsProfile(const ColourMap& map, const Edge& edge) {
+bool IsProfile(const ColourMap& map, const ProfileEdge& edge) {
   const auto at = [&](int32_t k) {
     return map.disparity[map.At(edge.x + k * edge.dx, edge.y + k * edge.dy)];
   };
@@ -37,17 +37,17 @@ bool IsProfile(const ColourMap& map, const Edge& edge) {
 
 // Where a pixel's colour lies on the line between those of a profile's ends: `share` of `contrast`,
 // the squared length of that line, towards the nearer surface.
-struct Place {
+struct ProfilePlace {
   int32_t share, contrast;
 };
 
 // The place of the pixel k beyond the farther surface's first one.
-Place PlaceAt(const ColourMap& map, const Edge& edge, int32_t k) {
+ProfilePlace PlaceAt(const ColourMap& map, const ProfileEdge& edge, int32_t k) {
   const auto pixel = [&](int32_t at) {
     return map.Pixel(edge.x + at * edge.dx, edge.y + at * edge.dy);
   };
   const uint8_t *const near = pixel(-kInside), *const far = pixel(kOutside), *const here = pixel(k);
-  Place place = {0, 0};
+  ProfilePlace place = {0, 0};
   for (int c = 0; c < 3; ++c) {
     place.contrast += (near[c] - far[c]) * (near[c] - far[c]);
     place.share += (here[c] - far[c]) * (near[c] - far[c]);
@@ -55,16 +55,16 @@ Place PlaceAt(const ColourMap& map, const Edge& edge, int32_t k) {
   return place;
 }
 
-void CountProfile(const ColourMap& map, const Edge& edge, SoftCount* count) {
+void CountProfile(const ColourMap& map, const ProfileEdge& edge, SoftCount* count) {
   if (PlaceAt(map, edge, 0).contrast < kLeastContrast) return;
   ++count->edges;
   for (int32_t k = 1; k <= kMostSoft; ++k) {
-    const Place place = PlaceAt(map, edge, k);
+    const ProfilePlace place = PlaceAt(map, edge, k);
     count->mixed[k - 1] += kLeastShare * place.share >= place.contrast ? 1 : 0;
   }
 }
 
-bool ShowsNear(const Place& place) {
+bool ShowsNear(const ProfilePlace& place) {
   return place.contrast >= kLeastPixelContrast && kLeastPixelShare * place.share >= place.contrast;
 }
 
@@ -81,7 +81,7 @@ void CountSoft(const ColourMap& map, const Rect& rect, SoftCount* count) {
     for (int32_t x = rect.x; x < rect.x + rect.width; ++x) {
       if (!IsInside(map, x, y)) continue;
       for (const auto& side : kSides) {
-        const Edge edge = {x, y, side[0], side[1]};
+        const ProfileEdge edge = {x, y, side[0], side[1]};
         if (IsProfile(map, edge)) CountProfile(map, edge, count);
       }
     }
@@ -104,7 +104,7 @@ int16_t WidenedAt(const ColourMap& map, int32_t softness, int32_t x, int32_t y) 
   int16_t nearest = own;
   for (const auto& side : kSides) {
     for (int32_t k = 0; k < softness; ++k) {
-      const Edge edge = {x - k * side[0], y - k * side[1], side[0], side[1]};
+      const ProfileEdge edge = {x - k * side[0], y - k * side[1], side[0], side[1]};
       if (!IsInside(map, edge.x, edge.y)) break;
       const int16_t near = map.disparity[map.At(edge.x - side[0], edge.y - side[1])];
       if (near - own <= kSoftStep) continue;

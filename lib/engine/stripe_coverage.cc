@@ -21,24 +21,26 @@ void RunPassJob(const PassJob& job, int32_t index, Scratch* scratch) {
   window.reads = &scratch->counts.reads;
   const int32_t first = index * job.tiles, last = Min(first + job.tiles, job.in.map->columns);
   for (int32_t row = job.rows.first; row < job.rows.last; ++row) {
-    if (!scratch->cancel.Spend(int64_t{last - first} * kTileSide * kTileSide)) return;
+    if (!scratch->cancel.Spend(int64_t{last - first} * kCoverageTile * kCoverageTile)) return;
     RunPass({job.in.kernels, &window, job.in.map}, job.pass, first, last, row);
   }
 }
 
-int32_t TilesOfSuperblock(const starfocus_config& config) { return config.superblock / kTileSide; }
+int32_t TilesOfSuperblock(const starfocus_config& config) {
+  return config.superblock / kCoverageTile;
+}
 
 // Rows of tiles of which some pass may need what another has left there.
 int32_t MostTileRows(const starfocus_config& config, int32_t border) {
-  const int32_t read = (config.superblock + 2 * border) / kTileSide + 2;
-  const int32_t looked_at = TilesOfSuperblock(config) + kMostMove / kTileSide + 1;
+  const int32_t read = (config.superblock + 2 * border) / kCoverageTile + 2;
+  const int32_t looked_at = TilesOfSuperblock(config) + kMostMove / kCoverageTile + 1;
   return Max(read, looked_at) + TilesAhead(config, kFindRagged) + 1;
 }
 
 // Writes that nothing lies beyond the picture's left and right edge.
 void ClearAside(const CoverageMap& map) {
-  for (int32_t y = 0; y < map.tile_rows * kTileSide; ++y) {
-    for (const int32_t x : {-kAside, map.columns * kTileSide}) {
+  for (int32_t y = 0; y < map.tile_rows * kCoverageTile; ++y) {
+    for (const int32_t x : {-kAside, map.columns * kCoverageTile}) {
       int16_t* const near = map.near + map.At(x, y);
       for (int32_t k = 0; k < kAside; ++k) near[k] = kNowhere;
     }
@@ -83,7 +85,7 @@ void TakeCoverage(const starfocus_config& config, int32_t border, Arena* arena,
   CoverageMap& map = state->map;
   map.width = config.width;
   map.height = config.height;
-  map.columns = (config.width + kTileSide - 1) / kTileSide;
+  map.columns = (config.width + kCoverageTile - 1) / kCoverageTile;
   map.tile_rows = MostTileRows(config, border);
   const DisparityRange disparities = RangeOf(config);
   map.disparity_min = static_cast<int16_t>(disparities.min * (1 << kDisparityBits));
@@ -92,13 +94,13 @@ void TakeCoverage(const starfocus_config& config, int32_t border, Arena* arena,
   map.bin_bits = 0;
   while (range >> map.bin_bits >= 64) ++map.bin_bits;
   const auto tiles = static_cast<size_t>(map.columns) * static_cast<size_t>(map.tile_rows);
-  const size_t pixels = map.Stride() * static_cast<size_t>(map.tile_rows) * kTileSide;
+  const size_t pixels = map.Stride() * static_cast<size_t>(map.tile_rows) * kCoverageTile;
   map.tiles = arena->Take<CoverageTile>(tiles);
   map.first = arena->Take<uint8_t>(pixels);
   map.alpha = arena->Take<uint8_t>(pixels);
   map.near = arena->Take<int16_t>(pixels);
   for (int level = 0; level < kFarLevels; ++level) {
-    map.far[level] = arena->Take<FarCell>((tiles * kTileSide * kTileSide) >> (2 * level));
+    map.far[level] = arena->Take<FarCell>((tiles * kCoverageTile * kCoverageTile) >> (2 * level));
   }
 }
 
@@ -110,8 +112,9 @@ starfocus_status FindCoverage(const Stripe& stripe, EngineState* engine) {
   const bool given = engine->row_store.windows[0].given_coverage.data != nullptr;
   state.map.around = given ? kAroundGiven : 1;
   const int32_t border = engine->lens.borders.parted;
-  const int32_t top = Max(0, stripe.y - border) / kTileSide;
-  const int32_t end = Min(state.map.Rows(), (stripe.y + stripe.height + border) / kTileSide + 1);
+  const int32_t top = Max(0, stripe.y - border) / kCoverageTile;
+  const int32_t end =
+      Min(state.map.Rows(), (stripe.y + stripe.height + border) / kCoverageTile + 1);
   if (state.done[kFindRagged] < 0) ClearAside(state.map);
   // A superblock's rows at a time, so that few rows are in memory.
   starfocus_status status = STARFOCUS_OK;

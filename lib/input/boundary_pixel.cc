@@ -21,10 +21,10 @@ int32_t Compared(int32_t light) {
 
 // Where a colour lies beside the line from `far` to `near`: its place along the line and its
 // squared distance from it, both times `contrast`, the squared length of the line.
-struct Place {
+struct LinePlace {
   int64_t along = 0, contrast = 0, beside = 0;
 
-  Place(const Colour& near, const Colour& far, const Colour& mixed) {
+  LinePlace(const Colour& near, const Colour& far, const Colour& mixed) {
     int64_t distance = 0;
     for (int c = 0; c < 3; ++c) {
       const int64_t whole = Compared(near[c]) - Compared(far[c]);
@@ -50,7 +50,7 @@ struct Place {
 // something else. The share is rounded down, so that to round it once more, to fewer bits, rounds
 // what it really is.
 int32_t ShareOf(const Colour& near, const Colour& far, const Colour& mixed) {
-  const Place place(near, far, mixed);
+  const LinePlace place(near, far, mixed);
   if (place.contrast < kLeastContrast || place.along <= 0) return 0;
   if (5 * place.along > 4 * place.contrast) return 0;
   return kContrastParts * place.beside > place.Limit() ? 0 : place.Share();
@@ -124,7 +124,7 @@ Mixture FindMixture(const CentreView& centre, const BoundaryPixel& pixel) {
 int32_t FadedShareOf(const Colour& near, const Colour& far, const Colour& mixed) {
   constexpr int64_t kOne = 1 << kShareBits;
   const auto limited = [](int64_t fade) { return fade < 0 ? 0 : fade > kOne ? kOne : fade; };
-  const Place place(near, far, mixed);
+  const LinePlace place(near, far, mixed);
   if (place.contrast <= kLeastContrast || place.along <= 0 || place.along >= place.contrast) {
     return 0;
   }

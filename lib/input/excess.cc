@@ -16,7 +16,7 @@ int32_t ExcessOf(uint8_t code) {
 }
 
 // A row or a column of a view.
-struct Line {
+struct ViewLine {
   const ExcessViews& of;
   int view;
   bool is_row;
@@ -31,7 +31,7 @@ struct Line {
 
 // Counts the highlights that follow each other through `at`, which is one: LampReach at most, and
 // as many also where they reach the picture's edge.
-LampRun CountRun(const Line& line, int32_t at) {
+LampRun CountRun(const ViewLine& line, int32_t at) {
   const int32_t most = LampReach(line.of.lamp), size = line.Size();
   int32_t first = at, last = at;
   while (last - first + 1 < most && last + 1 < size && line.HasHighlight(last + 1)) ++last;
@@ -44,7 +44,7 @@ LampRun CountRun(const Line& line, int32_t at) {
 }
 
 // Returns the length of the run through `at`.
-int32_t RunThrough(const Line& line, int32_t at) {
+int32_t RunThrough(const ViewLine& line, int32_t at) {
   LampRun* const runs = line.is_row ? line.of.runs->along : line.of.runs->down;
   const int32_t span = at >> LampRuns::kSpanBits;
   LampRun& run = runs[(line.index + 127 * span + 331 * line.view) & (LampRuns::kCount - 1)];

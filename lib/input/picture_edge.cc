@@ -10,10 +10,10 @@ namespace {
 
 // The part of a rectangle of the layer that lies in the picture, in pixels of the rectangle; right
 // and bottom are exclusive.
-struct Part {
+struct InsidePart {
   int32_t left, right, top, bottom;
 
-  Part(const Window& window, const Rect& rect)
+  InsidePart(const Window& window, const Rect& rect)
       : left(Clamp(-rect.x, 0, rect.width)),
         right(Clamp(Inside(window.picture_width, window.layer) - rect.x, 0, rect.width)),
         top(Clamp(-rect.y, 0, rect.height)),
@@ -24,7 +24,7 @@ struct Part {
 };
 
 // A pixel at the picture's edge, in a rectangle, and the rectangle's pixels beyond it.
-struct Edge {
+struct EdgePixel {
   int32_t column, row;
   int side;  // of kSides
   int32_t beyond;
@@ -33,7 +33,7 @@ struct Edge {
 };
 
 // A place or a move, kShiftBits.
-struct Place {
+struct ShiftedPlace {
   int32_t x, y;
 };
 
@@ -45,7 +45,7 @@ class Beyond {
 
   void Look() {
     const int32_t width = rect_.width, height = rect_.height;
-    const Part part(window_, rect_);
+    const InsidePart part(window_, rect_);
     const bool inside = part.right - part.left == width && part.bottom - part.top == height;
     if (inside) return;  // most rectangles are
     for (int32_t row = part.top; row < part.bottom; ++row) {
@@ -63,7 +63,7 @@ class Beyond {
     return window_.disparity.Row(y << window_.layer)[x << window_.layer];
   }
 
-  void LookOver(const Edge& edge) {
+  void LookOver(const EdgePixel& edge) {
     if (edge.beyond == 0) return;
     const int32_t disparity = DisparityAt(rect_.x + edge.column, rect_.y + edge.row);
     // Nearer surfaces go on where views look over the edge, those behind the focus where views on
@@ -71,7 +71,7 @@ class Beyond {
     const OcclusionView& look =
         window_.occlusion_views.on[disparity < 0 ? edge.side ^ 1 : edge.side][0];
     if (look.view == 0) return;
-    const Place moved = {Moved(look.at.u, disparity), Moved(look.at.v, disparity)};
+    const ShiftedPlace moved = {Moved(look.at.u, disparity), Moved(look.at.v, disparity)};
     const int32_t along = edge.out()[0] != 0 ? moved.x : moved.y;
     int32_t seen = Min(edge.beyond, Abs(along) >> kShiftBits);
     if (disparity < 0 && seen > 0) seen = Uncovered(edge, look, disparity, seen);
@@ -90,12 +90,12 @@ class Beyond {
   // How many of the `seen` pixels beyond the edge lie before the first that, in the captured view,
   // a nearer pixel inside the picture comes within 3/4 of a pixel of. Surfaces of positive
   // disparity are seen from the side on which nearer ones move farther away.
-  int32_t Uncovered(const Edge& edge, const OcclusionView& look, int32_t disparity,
+  int32_t Uncovered(const EdgePixel& edge, const OcclusionView& look, int32_t disparity,
                     int32_t seen) const {
     const int layer = window_.layer;
     const int32_t unit = int32_t{1} << (kDisparityBits + layer);
-    const int32_t width = Part::Inside(window_.picture_width, layer);
-    const int32_t height = Part::Inside(window_.picture_height, layer);
+    const int32_t width = InsidePart::Inside(window_.picture_width, layer);
+    const int32_t height = InsidePart::Inside(window_.picture_height, layer);
     const int8_t* const out = edge.out();
     const int32_t position = out[0] != 0 ? Abs(look.at.u) : Abs(look.at.v);
     const int32_t room = Min(kLookBack >> layer, out[0] != 0 ? width : height);
@@ -110,7 +110,8 @@ class Beyond {
     return seen;
   }
 
-  void Read(const Edge& edge, const OcclusionView& look, const Place& moved, int32_t seen) {
+  void Read(const EdgePixel& edge, const OcclusionView& look, const ShiftedPlace& moved,
+            int32_t seen) {
     const int dx = edge.out()[0], dy = edge.out()[1];
     constexpr int32_t kAtOnce = 16;
     int16_t rgb[3 * kAtOnce];
@@ -124,14 +125,14 @@ class Beyond {
   }
 
   // Repeats the colour of pixel `last` beyond the edge in those farther away.
-  void RepeatLast(const Edge& edge, int32_t last) {
+  void RepeatLast(const EdgePixel& edge, int32_t last) {
     for (int32_t k = last + 1; k <= edge.beyond; ++k) {
       std::memcpy(Rgb(edge, k), Rgb(edge, last), kBytes);
     }
   }
 
   // Pixel k beyond an edge.
-  int16_t* Rgb(const Edge& edge, int32_t k) const {
+  int16_t* Rgb(const EdgePixel& edge, int32_t k) const {
     return field_.Rgb(edge.column + k * edge.out()[0], edge.row + k * edge.out()[1]);
   }
 

@@ -14,11 +14,11 @@ int64_t CapturedShift(const ViewGrid& grid, int32_t disparity, bool half) {
 
 // How far the same point of a surface lies from its place in the rendered view, in the centre view
 // and in the captured view, along one axis, kShiftBits.
-struct Offset {
+struct HoleOffset {
   int32_t centre, captured;
 };
 
-Offset OffsetOf(const HoleView& view, int sign, int64_t move, int32_t disparity) {
+HoleOffset OffsetOf(const HoleView& view, int sign, int64_t move, int32_t disparity) {
   const int64_t shift = view.grid->Shift(move, disparity);
   const int64_t captured = shift - CapturedShift(*view.grid, disparity, view.half);
   return {static_cast<int32_t>(sign * shift), static_cast<int32_t>(sign * captured)};
@@ -62,8 +62,8 @@ void FillHole(const HoleView& view, const HoleLine& line, const LinePart& part, 
     for (int32_t p = begin; p < end; ++p, out += 3) std::memcpy(out, colour, 3 * sizeof(*out));
     return;
   }
-  const Offset along = OffsetOf(view, view.u, view.move_u, disparity);
-  const Offset across = OffsetOf(view, view.v, view.move_v, disparity);
+  const HoleOffset along = OffsetOf(view, view.u, view.move_u, disparity);
+  const HoleOffset across = OffsetOf(view, view.v, view.move_v, disparity);
   const bool diagonal = view.u != 0 && view.v != 0;
   const auto read = [&](int u, int v, int32_t p, int32_t count, int16_t* rgb) {
     const int32_t x = (line.x + line.dx * p) * kShiftOne + (u != 0 ? along.captured : along.centre);

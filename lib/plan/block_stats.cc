@@ -145,7 +145,7 @@ class CellRow {
   // In thin structures a cell has both surfaces, and so an edge.
   void AddThin(int32_t x, simd::CellMeasure* found) const {
     const CoverageMap& map = *window_.coverage;
-    const int32_t column = x / kTileSide, row = y_ / kTileSide;
+    const int32_t column = x / kCoverageTile, row = y_ / kCoverageTile;
     const CoverageTile& tile = map.Tile(column, row);
     if (tile.thin == 0 || tile.low > tile.high) return;
     const auto widen = [&](int16_t* low, int16_t* high) {

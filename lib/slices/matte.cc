@@ -42,7 +42,7 @@ class MatteFinder {
   bool IsThin(int32_t x, int32_t y) const {
     const CoverageMap* const map = centre_.window.coverage;
     return map != nullptr && centre_.window.layer == 0 &&
-           map->Tile(x / kTileSide, y / kTileSide).thin != 0;
+           map->Tile(x / kCoverageTile, y / kCoverageTile).thin != 0;
   }
 
   // The mixtures with the surfaces on all sides, each by its share.

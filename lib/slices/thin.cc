@@ -90,8 +90,8 @@ void ForThin(const CoverageMap& map, const BlockPixels& field, const Act& act) {
   const int32_t top = Max(0, field.y), bottom = Min(field.y + field.height, map.height);
   for (int32_t y = top; y < bottom; ++y) {
     for (int32_t x = left, end; x < right; x = end) {
-      end = Min(right, (x / kTileSide + 1) * kTileSide);
-      if (map.Tile(x / kTileSide, y / kTileSide).thin == 0) continue;
+      end = Min(right, (x / kCoverageTile + 1) * kCoverageTile);
+      if (map.Tile(x / kCoverageTile, y / kCoverageTile).thin == 0) continue;
       for (int32_t k = x; k < end; ++k) act(k, y);
     }
   }

@@ -17,7 +17,7 @@ struct ReduceJob {
 };
 
 // A part of a picture's columns.
-struct Part {
+struct ColumnPart {
   int32_t x, width;
 };
 
@@ -30,7 +30,7 @@ void AddLight(const int16_t* light, size_t samples, bool is_first, uint32_t* sum
 }
 
 // Returns false when the caller cancels.
-bool ReduceView(const ReduceJob& job, int view, const Part& part, Scratch* scratch) {
+bool ReduceView(const ReduceJob& job, int view, const ColumnPart& part, Scratch* scratch) {
   const EngineState& engine = *job.engine;
   const Window& window = engine.row_store.windows[0];
   const simd::Encoding& encoding = window.transfer->encoding;
@@ -62,7 +62,7 @@ int16_t ConvertedEnd(const EngineState& engine, float end) {
 }
 
 // Returns false when the caller cancels.
-bool ReduceMap(const ReduceJob& job, int shift, const Part& part, Scratch* scratch) {
+bool ReduceMap(const ReduceJob& job, int shift, const ColumnPart& part, Scratch* scratch) {
   const starfocus_config reduced = ReducedConfig(job.engine->config, shift);
   // Rounding twice may leave the range by one step.
   const int16_t low = ConvertedEnd(*job.engine, static_cast<float>(reduced.disparity_min));
@@ -86,7 +86,7 @@ bool ReduceMap(const ReduceJob& job, int shift, const Part& part, Scratch* scrat
 }
 
 // Returns false when the caller cancels.
-bool ReduceCoverage(const ReduceJob& job, int shift, const Part& part, Scratch* scratch) {
+bool ReduceCoverage(const ReduceJob& job, int shift, const ColumnPart& part, Scratch* scratch) {
   const Plane<const uint8_t>& given = job.engine->row_store.windows[0].given_coverage;
   const Plane<uint8_t>& coverage = job.fields[shift].coverage;
   if (given.data == nullptr || coverage.data == nullptr) return true;
@@ -109,7 +109,7 @@ bool ReduceCoverage(const ReduceJob& job, int shift, const Part& part, Scratch* 
 void ReduceColumn(const ReduceJob& job, int32_t index, Scratch* scratch) {
   const starfocus_config& config = job.engine->config;
   const int32_t x = index * config.superblock;
-  const Part part = {x, Min(config.superblock, config.width - x)};
+  const ColumnPart part = {x, Min(config.superblock, config.width - x)};
   for (int view = 0; view < config.views; ++view) {
     if (!ReduceView(job, view, part, scratch)) return;
   }

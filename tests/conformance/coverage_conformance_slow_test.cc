@@ -114,7 +114,7 @@ std::vector<reference::PartedPixel> EnginesPixels(const test::Scene& scene) {
     for (int x = 0; x < scene.width; ++x) {
       const size_t at = map.At(x, y);
       const starfocus::CoverageTile& tile =
-          map.Tile(x / starfocus::kTileSide, y / starfocus::kTileSide);
+          map.Tile(x / starfocus::kCoverageTile, y / starfocus::kCoverageTile);
       reference::PartedPixel pixel;
       pixel.parted = tile.thin != 0 && map.alpha[at] != starfocus::kUnparted;
       if (pixel.parted) {

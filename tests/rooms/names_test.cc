@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// A name means one thing in lib.
+#include <doctest/doctest.h>
+
+#include <map>
+#include <regex>
+#include <string>
+
+#include "tests/rooms/tree.h"
+
+namespace names_test {
+namespace {
+
+// Definitions of structures and classes outside of others, by name.
+void CountStructures(const std::vector<std::string>& lines, std::map<std::string, int>* counts) {
+  static const std::regex kDefinition("(?:struct|class) ([A-Za-z0-9]+)(?: final)?(?: :.*)? \\{.*");
+  std::smatch match;
+  for (const std::string& line : lines) {
+    if (std::regex_match(line, match, kDefinition)) ++(*counts)[match[1]];
+  }
+}
+
+TEST_CASE("names: lib has one structure of a name") {
+  std::map<std::string, int> counts;
+  for (const std::filesystem::path& path : tree::Files({"lib"}, {".h", ".cc"})) {
+    CountStructures(tree::Lines(path), &counts);
+  }
+  CHECK(counts.size() > 200);
+  for (const auto& [name, count] : counts) {
+    CAPTURE(name);
+    CHECK(count == 1);
+  }
+}
+
+TEST_CASE("names: a structure that is defined twice is seen") {
+  std::map<std::string, int> counts;
+  CountStructures({"struct A {", "struct B;", "class A : public B {", "  struct C {"}, &counts);
+  CHECK(counts == std::map<std::string, int>{{"A", 2}});
+}
+
+}  // namespace
+}  // namespace names_test
