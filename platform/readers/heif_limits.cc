@@ -21,6 +21,9 @@ bool IsMadeOfOthers(const HeifItem& item) {
   return item.type == "grid" || item.type == "iovl" || item.type == "iden";
 }
 
+// Whether libheif decodes it. Version 1.15 ends the program when a picture is made of another kind.
+bool IsCoded(const HeifItem& item) { return item.type == "hvc1" || item.type == "av01"; }
+
 uint32_t WholeOf(const Bytes& bytes, size_t at, size_t size) {
   uint32_t value = 0;
   for (size_t k = 0; k < size; ++k) value = value << 8 | bytes[at + k];
@@ -49,7 +52,7 @@ Error CheckInputs(const std::string& where, const HeifItems& items, const HeifIt
   for (const uint32_t input : item.inputs) {
     const auto found = items.find(input);
     const bool whole = found != items.end() && item.type == "iden" && found->second.type == "grid";
-    if (found == items.end() || (IsMadeOfOthers(found->second) && !whole)) {
+    if (found == items.end() || (!IsCoded(found->second) && !whole)) {
       return Expected(where, "a " + name + " picture made of coded pictures",
                       found == items.end() ? "one that is not there"
                                            : "a '" + found->second.type + "' picture in it");
@@ -65,7 +68,7 @@ Error CheckCoded(const std::string& where, const HeifItem& item) {
   constexpr int64_t kPadding = 128;  // to whole blocks of either coder
   int64_t width = 0, height = 0;
   const bool hevc = item.type == "hvc1";
-  if (!hevc && item.type != "av01") return {};
+  if (!IsCoded(item)) return {};
   if (hevc ? !HevcSize(item.configuration, item.head, &width, &height)
            : !Av1Size(item.configuration, item.head, &width, &height)) {
     return {};  // libheif finds none either

@@ -437,6 +437,7 @@ TEST_CASE("HEIF: a picture made of itself, or declared larger than it is, is ref
   CHECK(error(Seed("heif/plain.avif")) == "");
   CHECK(Contains(error(Seed("heif/grid_of_itself.heic")), "'grid' picture in it"));
   CHECK(Contains(error(Seed("heif/malformed_references.heic")), "boxes"));
+  CHECK(Contains(error(Seed("heif/input_of_unknown_type.heic")), "'hvc2' picture in it"));
   const std::string depth = "heif/depth.heic", size("\0\0\0\0", 4);
   // idat: two columns of one tile; another width than ispe's.
   CHECK(Contains(error(Changed(depth, "idat", 3, "\1")), "grid"));
