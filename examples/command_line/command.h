@@ -63,8 +63,8 @@ struct Command {
 };
 
 struct Program {
-  Command main;                           // options without a subcommand
-  std::vector<Command> commands;          // one of them must be chosen, if there are any
+  Command main;                                // options without a subcommand
+  std::vector<Command> commands;               // one of them must be chosen, if there are any
   std::vector<std::string> lab_commands = {};  // names of subcommands of starfocus-lab
 };
 

@@ -50,8 +50,6 @@ starfocus_status CheckPreview(const PreviewRequest& request, const EngineState& 
   Checker check(config.problem);
   check.Need(request.shift >= 1 && request.shift <= most, STARFOCUS_ERROR_PREPARED,
              {"preview_shift", double(request.shift)}, {"1 to previews", 1, double(most)});
-  check.Need(request.params.previous == nullptr, STARFOCUS_ERROR_RANGE, {"previous"},
-             {"null for a prepared light field"});
   if (check.status() != STARFOCUS_OK) return check.status();
   return CheckBlur(config, request.params);
 }

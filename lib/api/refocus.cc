@@ -26,14 +26,12 @@ starfocus_status CheckPrevious(const starfocus_config& config, const Request& re
   const starfocus_previous* const previous = request.params.previous;
   if (previous == nullptr) return STARFOCUS_OK;
   Checker check(config.problem);
-  check.Need(request.prepared == nullptr, STARFOCUS_ERROR_RANGE, {"previous"},
-             {"null for a prepared light field"});
   check.Need(IsInPlace(request.out) && IsInPlace(previous->out), STARFOCUS_ERROR_FEATURE,
              {"previous.out.format", double(previous->out.format)},
              {"STARFOCUS_FORMAT_RGB without gaps, as that of out"});
   starfocus_status status = check.status();
+  if (status == STARFOCUS_OK) status = CheckLightField(config, previous->light_field);
   for (const starfocus_light_field* field : {&request.light_field, &previous->light_field}) {
-    if (status == STARFOCUS_OK) status = CheckLightField(config, *field);
     if (status == STARFOCUS_OK) status = CheckInPlace(*field, config.views, config.problem);
     if (status != STARFOCUS_OK) break;
     status = CheckInPlace(field->depth, {config.width, config.height}, config.problem);

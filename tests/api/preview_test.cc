@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "lib/base/transfer.h"
@@ -389,6 +390,9 @@ TEST_CASE("preview: bad input") {
   const starfocus_previous previous = {scene.Field(), image};
   after.previous = &previous;
   CHECK(run(e, &after, prepared.field(), to, out.stride) == STARFOCUS_ERROR_RANGE);
+  CHECK(starfocus_refocus_prepared(e, &after, prepared.field(), &image, nullptr) ==
+        STARFOCUS_ERROR_RANGE);
+  CHECK(std::string(starfocus_engine_problem(e)->field) == "previous");
   CHECK(out.Untouched());
   // An engine that was itself configured for none may show those of another.
   CHECK(run(none.engine.get(), &params, prepared.field(), to, out.stride) == STARFOCUS_OK);

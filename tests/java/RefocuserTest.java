@@ -192,8 +192,7 @@ public final class RefocuserTest {
         () -> refocusedFrom(new int[] {0, 1}, new double[] {0, 0, 1}));
     checkThrows(StarfocusException.class, "positions[",
         () -> refocusedFrom(new int[] {0, 1}, new double[] {0, 0, 1.5, 0}));
-    checkThrows(
-        StarfocusException.class, "views: ", () -> refocusedFrom(new int[] {0, 1}, null));
+    checkThrows(StarfocusException.class, "views: ", () -> refocusedFrom(new int[] {0, 1}, null));
   }
 
   /** The light field of picture() and ramp() at half its size, of codes as they are. */

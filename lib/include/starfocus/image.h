@@ -133,7 +133,7 @@ typedef struct starfocus_depth_map {
  *  are only read. */
 static inline starfocus_image starfocus_image_rgb(const void* data, size_t stride) {
   starfocus_image image = {STARFOCUS_FORMAT_RGB, 0, 0, 0, {NULL, NULL, NULL}, {0, 0, 0}};
-  image.planes[0] = (void*)data;
+  image.planes[0] = (void*)(uintptr_t)data; /* without a warning that const is cast away */
   image.strides[0] = stride;
   return image;
 }

@@ -17,8 +17,7 @@ final class Native {
 
   static native void destroy(long session);
 
-  static native void refocus(
-      long session, LightField lightField, Parameters parameters, Image out);
+  static native void refocus(long session, LightField lightField, Parameters parameters, Image out);
 
   static native void prepare(long session, LightField lightField);
 
