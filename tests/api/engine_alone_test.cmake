@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# cmake -DNM=… -DFOLDER=… -P engine_alone_test.cmake
+# cmake -DNM=… -DBUILD=… -P engine_alone_test.cmake
 # A static program that only refocuses, in memory of its own, holds nothing of lib/depth and nothing of starfocus_create's;
 # one that makes maps has the first. The program for users holds nothing of lib/analysis, of the ray tracer and of
 # tests, as that for developers does.
@@ -7,9 +7,9 @@ cmake_minimum_required(VERSION 3.20)
 
 # expect(PROGRAM has|lacks NAME...): of symbols that match each name.
 function(expect program expected)
-  execute_process(COMMAND "${NM}" -C "${FOLDER}/${program}" OUTPUT_VARIABLE listing RESULT_VARIABLE result)
+  execute_process(COMMAND "${NM}" -C "${BUILD}/${program}" OUTPUT_VARIABLE listing RESULT_VARIABLE result)
   if(NOT result EQUAL 0)
-    message(FATAL_ERROR "nm failed on ${FOLDER}/${program}")
+    message(FATAL_ERROR "nm failed on ${BUILD}/${program}")
   endif()
   foreach(name IN LISTS ARGN)
     set(found lacks)

@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
-# cmake -DNM=… -DLIBRARY=… -DHEADERS=… -P exports_test.cmake
+# cmake -DNM=… -DSHARED=… -DSOURCE=… -P exports_test.cmake
 # The shared library exports every STARFOCUS_API function of the headers and nothing else.
 cmake_minimum_required(VERSION 3.20)
-execute_process(COMMAND "${NM}" -D --defined-only "${LIBRARY}"
+execute_process(COMMAND "${NM}" -D --defined-only "${SHARED}"
                 OUTPUT_VARIABLE listing RESULT_VARIABLE result)
 if(NOT result EQUAL 0)
-  message(FATAL_ERROR "nm failed on ${LIBRARY}")
+  message(FATAL_ERROR "nm failed on ${SHARED}")
 endif()
 
-file(GLOB files "${HEADERS}/*.h")
+file(GLOB files "${SOURCE}/lib/include/starfocus/*.h")
 set(header "")
 foreach(file IN LISTS files)
   file(READ "${file}" text)
@@ -22,7 +22,7 @@ foreach(declaration IN LISTS declarations)
 endforeach()
 list(LENGTH expected count)
 if(count LESS 10)
-  message(FATAL_ERROR "only ${count} declarations found in ${HEADERS}")
+  message(FATAL_ERROR "only ${count} declarations found in the headers")
 endif()
 
 set(exported "")

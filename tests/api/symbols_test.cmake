@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-# cmake -DNM=… -DLIBRARY=… -P symbols_test.cmake
+# cmake -DNM=… -DSTATIC=… -P symbols_test.cmake
 # What lib/ and simd/ need of the outside: memory copies, a few functions of C's <math.h>, the
 # compiler's own helpers and Highway's choice of target. Nothing of libstdc++ (exceptions, RTTI,
 # streams, operator new), no I/O, and no heap but for what starfocus_create takes where it is given no allocator,
 # in a unit of its own.
 cmake_minimum_required(VERSION 3.20)
-execute_process(COMMAND "${NM}" -P "${LIBRARY}" OUTPUT_VARIABLE listing RESULT_VARIABLE result)
+execute_process(COMMAND "${NM}" -P "${STATIC}" OUTPUT_VARIABLE listing RESULT_VARIABLE result)
 if(NOT result EQUAL 0)
-  message(FATAL_ERROR "nm failed on ${LIBRARY}")
+  message(FATAL_ERROR "nm failed on ${STATIC}")
 endif()
 
 set(defined "")
@@ -28,7 +28,7 @@ foreach(line IN LISTS lines)
 endforeach()
 list(LENGTH defined defined_count)
 if(defined_count LESS 50)
-  message(FATAL_ERROR "only ${defined_count} symbols found in ${LIBRARY}")
+  message(FATAL_ERROR "only ${defined_count} symbols found in ${STATIC}")
 endif()
 
 list(REMOVE_DUPLICATES needed)

@@ -144,12 +144,13 @@ std::string Refocus(const Case& one, const test::Scene& scene,
   return text;
 }
 
+constexpr char kGolden[] = STARFOCUS_SOURCE_DIR "/tests/engine/golden.txt";
 using Golden = std::map<std::string, std::string>;
 
 Golden ReadGolden() {
   Golden golden;
-  std::FILE* file = std::fopen(STARFOCUS_GOLDEN_FILE, "r");
-  REQUIRE_MESSAGE(file != nullptr, "cannot read " STARFOCUS_GOLDEN_FILE);
+  std::FILE* file = std::fopen(kGolden, "r");
+  REQUIRE_MESSAGE(file != nullptr, "cannot read ", kGolden);
   char name[100], hash[20];
   while (std::fscanf(file, "%99s %19s", name, hash) == 2) golden[name] = hash;
   std::fclose(file);
@@ -157,8 +158,8 @@ Golden ReadGolden() {
 }
 
 void WriteGolden(const std::vector<Case>& cases, Golden golden) {
-  std::FILE* file = std::fopen(STARFOCUS_GOLDEN_FILE, "w");
-  REQUIRE_MESSAGE(file != nullptr, "cannot write " STARFOCUS_GOLDEN_FILE);
+  std::FILE* file = std::fopen(kGolden, "w");
+  REQUIRE_MESSAGE(file != nullptr, "cannot write ", kGolden);
   for (const Case& one : cases) {
     std::fprintf(file, "%s %s\n", one.name.c_str(), golden[one.name].c_str());
   }

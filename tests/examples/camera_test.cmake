@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-# cmake -DPROGRAM=camera -DOUT=FILE -P camera_test.cmake: 12 megapixels go through examples/camera in less
+# cmake -DBUILD=… -P camera_test.cmake: 12 megapixels go through examples/camera in less
 # than 64 MiB, and come out as they always have.
-execute_process(COMMAND ${PROGRAM} ${OUT} RESULT_VARIABLE result OUTPUT_VARIABLE said ERROR_VARIABLE said)
+set(OUT "${BUILD}/tests/camera.ppm")
+execute_process(COMMAND "${BUILD}/camera" ${OUT} RESULT_VARIABLE result OUTPUT_VARIABLE said ERROR_VARIABLE said)
 if(NOT result EQUAL 0)
   message(FATAL_ERROR "camera failed: ${said}")
 endif()

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-# cmake -DSOURCE=… -DFOLDER=… -DGENERATOR=… -DCXX=… -DCC=… -DMAKE=… -P highway_version_test.cmake
+# cmake -DSOURCE=… -DBUILD=… -DGENERATOR=… -DCXX=… -DCC=… -DMAKE=… -P highway_version_test.cmake
 # The build rejects a Highway older than 1.0.3, by its package and by its headers, and the documents
 # state the same version.
 cmake_minimum_required(VERSION 3.20)
 set(oldest 1.0.3)
 set(older 1.0.2)
+set(FOLDER "${BUILD}/tests/highway_version")
 file(REMOVE_RECURSE "${FOLDER}")
 
 file(READ "${SOURCE}/docs/third-party.md" text)
