@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bad input of every public function but the streaming ones: each illegal value is told by its
-// field, and nothing is written. Illegal values first, as callers meet them.
+// Illegal and extreme configurations, workspaces and outputs (refusals_bytes_test.cc has the other
+// arguments): each illegal value is told by its field, and nothing is written.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -9,7 +9,7 @@
 
 #include "starfocus/starfocus.h"
 #include "tests/api/illegal_values.h"
-#include "tests/support/prepared_memory.h"
+#include "tests/api/refusals.h"
 #include "tests/support/test_scene.h"
 
 namespace abi_bytes_test {
@@ -19,34 +19,14 @@ using namespace illegal_values;
 
 constexpr int kWidth = 20, kHeight = 12;
 
-template <class Structure>
-void CheckProblem(const Bad<Structure>& bad, const starfocus_problem* problem) {
-  REQUIRE(problem != nullptr);
-  if (bad.field[0] == 0) return;
-  CHECK(problem->status == bad.status);
-  CHECK(std::string(problem->field) == bad.field);
-  CHECK(problem->expected[0] != 0);
-  if (bad.status == STARFOCUS_ERROR_RANGE) {
-    CHECK(!(problem->value >= problem->low && problem->value <= problem->high));
-  }
-}
-
 struct Fixture {
   test::Scene scene = test::RandomScene(kWidth, kHeight, 17, -2, 2, 1);
   starfocus_config config = test::ConfigFor(scene, 8);
   starfocus_params params = test::Params(0.5);
   starfocus_light_field field = scene.Field();
   test::Output out{kWidth, kHeight, 4};
-  starfocus_report report;
-  starfocus_report report_before;
+  starfocus_report report = {};
 
-  Fixture() {
-    std::memset(&report, test::kPoison, sizeof report);
-    std::memcpy(&report_before, &report, sizeof report);
-  }
-  bool NothingWritten() const {
-    return out.Untouched() && std::memcmp(&report, &report_before, sizeof report) == 0;
-  }
   starfocus_status Refocus(starfocus_engine* engine) {
     return test::RefocusRgb(engine, &params, &field, out.bytes.data(), out.stride, &report);
   }
@@ -64,12 +44,12 @@ TEST_CASE("configuration: illegal values") {
     bad.spoil(&config);
     size_t bytes = 4711;
     CHECK(starfocus_workspace_size(&config, &bytes) == bad.status);
-    CheckProblem(bad, &problem);
+    CHECK(starfocus_prepared_size(&config, &bytes) == bad.status);
     CHECK(bytes == 4711);
     starfocus_engine* engine = legal.get();
     std::vector<uint8_t> before(legal.workspace(), legal.workspace() + legal.bytes());
     CHECK(starfocus_init(&config, legal.workspace(), legal.bytes(), &engine) == bad.status);
-    CheckProblem(bad, &problem);
+    if (bad.field[0] != 0) refusals::CheckProblem(&problem, bad.status, bad.field);
     CHECK(engine == nullptr);
     CHECK(std::memcmp(before.data(), legal.workspace(), before.size()) == 0);
   }
@@ -171,68 +151,9 @@ TEST_CASE("workspace: too small or misaligned") {
   CHECK(engine != nullptr);
 }
 
-// What takes parameters or light fields refuses them alike.
-struct Function {
-  const char* name;
-  bool takes_params, takes_field;
-  starfocus_status (*call)(Fixture* f, starfocus_engine* e, test::PreparedMemory* memory);
-};
-const Function kFunctions[] = {
-    {"starfocus_refocus", true, true,
-     [](Fixture* f, starfocus_engine* e, test::PreparedMemory*) { return f->Refocus(e); }},
-    {"starfocus_refocus_prepared", true, false,
-     [](Fixture* f, starfocus_engine* e, test::PreparedMemory* memory) {
-       return test::RefocusPreparedRgb(e, &f->params, memory->Prepare(e, f->field),
-                                       f->out.bytes.data(), f->out.stride, &f->report);
-     }},
-    {"starfocus_stream_begin", true, false,
-     [](Fixture* f, starfocus_engine* e, test::PreparedMemory*) {
-       return starfocus_stream_begin(e, &f->params);
-     }},
-    {"starfocus_prepare", false, true,
-     [](Fixture* f, starfocus_engine* e, test::PreparedMemory* memory) {
-       starfocus_prepared* made = nullptr;
-       return starfocus_prepare(e, &f->field, memory->get(), memory->bytes, &made);
-     }},
-    {"starfocus_stream_push", false, true,
-     [](Fixture* f, starfocus_engine* e, test::PreparedMemory*) {
-       int32_t taken = 0;
-       REQUIRE(starfocus_stream_begin(e, &f->params) == STARFOCUS_OK);
-       const starfocus_status status = starfocus_stream_push(e, &f->field, kHeight, &taken);
-       CHECK((taken == 0) == (status != STARFOCUS_OK));
-       return status;
-     }},
-};
-
-TEST_CASE("pictures: illegal parameters and light fields") {
+TEST_CASE("refocus: the limits of parameters are legal") {
   Fixture f;
-  f.config.features |= STARFOCUS_FEATURE_STREAMING;
   test::Engine engine(f.config);
-  REQUIRE(engine.status() == STARFOCUS_OK);
-  test::PreparedMemory memory(f.config);
-  const auto check = [&](const auto& bad, const Function& function) {
-    CAPTURE(bad.field);
-    CHECK(function.call(&f, engine.get(), &memory) == bad.status);
-    CheckProblem(bad, starfocus_engine_problem(engine.get()));
-    CHECK(f.NothingWritten());
-  };
-  for (const Function& function : kFunctions) {
-    CAPTURE(function.name);
-    for (const Bad<starfocus_params>& bad : kBadParams) {
-      const bool previews = std::string(bad.field) == "preview_shift";
-      if (!function.takes_params || (previews && function.call == kFunctions[1].call)) continue;
-      f.params = test::Params(0.5);
-      bad.spoil(&f.params);
-      check(bad, function);
-    }
-    f.params = test::Params(0.5);
-    for (const Bad<starfocus_light_field>& bad : kBadFields) {
-      if (!function.takes_field) continue;
-      bad.spoil(&f.field);
-      check(bad, function);
-      f.field = f.scene.Field();
-    }
-  }
   f.params = test::Params(6);  // r = 8: exactly the largest blur
   f.params.lens.curvature = 1;
   f.params.lens.ring_inner = STARFOCUS_MAX_RING_INNER;
@@ -242,51 +163,7 @@ TEST_CASE("pictures: illegal parameters and light fields") {
   CHECK(f.report.r_max == 8);
 }
 
-TEST_CASE("refocus: null pointers and output stride") {
-  Fixture f;
-  test::Engine engine(f.config);
-  REQUIRE(engine.status() == STARFOCUS_OK);
-  uint8_t* out = f.out.bytes.data();
-  const size_t stride = f.out.stride;
-  const auto run = [&](starfocus_engine* e, const starfocus_params* p,
-                       const starfocus_light_field* l, uint8_t* o,
-                       size_t s) { return test::RefocusRgb(e, p, l, o, s, nullptr); };
-  CHECK(run(nullptr, &f.params, &f.field, out, stride) == STARFOCUS_ERROR_NULL);
-  CHECK(run(engine.get(), nullptr, &f.field, out, stride) == STARFOCUS_ERROR_NULL);
-  CHECK(run(engine.get(), &f.params, nullptr, out, stride) == STARFOCUS_ERROR_NULL);
-  CHECK(run(engine.get(), &f.params, &f.field, nullptr, stride) == STARFOCUS_ERROR_NULL);
-  for (size_t bad : {size_t{0}, size_t{1}, size_t{59}, kHuge, kHuge / 4}) {
-    CHECK(run(engine.get(), &f.params, &f.field, out, bad) == STARFOCUS_ERROR_STRIDE);
-  }
-  CHECK(f.NothingWritten());
-}
-
-TEST_CASE("refocus: illegal disparity values, wherever they are") {
-  Fixture f;
-  test::Engine engine(f.config);
-  REQUIRE(engine.status() == STARFOCUS_OK);
-  const struct {
-    float value;
-    starfocus_status expected;
-  } kBad[] = {{kNanF, STARFOCUS_ERROR_NOT_FINITE},   {kInfF, STARFOCUS_ERROR_NOT_FINITE},
-              {-kInfF, STARFOCUS_ERROR_NOT_FINITE},  {2.0001f, STARFOCUS_ERROR_DISPARITY},
-              {-2.0001f, STARFOCUS_ERROR_DISPARITY}, {3e38f, STARFOCUS_ERROR_DISPARITY},
-              {-3e38f, STARFOCUS_ERROR_DISPARITY}};
-  for (const auto& bad : kBad) {
-    for (int y : {0, kHeight / 2, kHeight - 1}) {
-      for (int x : {0, 7, kWidth - 1}) {
-        const float good = f.scene.Disparity(x, y);
-        f.scene.Disparity(x, y) = bad.value;
-        CHECK(f.Refocus(engine.get()) == bad.expected);
-        CHECK(f.NothingWritten());
-        f.scene.Disparity(x, y) = good;
-      }
-    }
-  }
-  CHECK(f.Refocus(engine.get()) == STARFOCUS_OK);
-}
-
-TEST_CASE("refocus: output may overlap neither the inputs nor the workspace") {
+TEST_CASE("refocus: output may lie beside the inputs, and overlap no byte of them") {
   Fixture f;
   test::Engine engine(f.config);
   REQUIRE(engine.status() == STARFOCUS_OK);
@@ -295,16 +172,6 @@ TEST_CASE("refocus: output may overlap neither the inputs nor the workspace") {
     return test::RefocusRgb(engine.get(), &f.params, &f.field, static_cast<uint8_t*>(out), stride,
                             nullptr);
   };
-  const test::Scene before = f.scene;
-  CHECK(run(f.scene.pictures[0].data()) == STARFOCUS_ERROR_OVERLAP);
-  CHECK(run(f.scene.pictures[16].data() + stride * kHeight - 1) == STARFOCUS_ERROR_OVERLAP);
-  CHECK(run(f.scene.disparity.data()) == STARFOCUS_ERROR_OVERLAP);
-  CHECK(run(f.scene.disparity.data() + kWidth * kHeight - 1) == STARFOCUS_ERROR_OVERLAP);
-  CHECK(run(engine.workspace()) == STARFOCUS_ERROR_OVERLAP);
-  CHECK(run(engine.workspace() + engine.bytes() - 1) == STARFOCUS_ERROR_OVERLAP);
-  CHECK(f.scene.pictures == before.pictures);
-  CHECK(f.scene.disparity == before.disparity);
-
   // To the last byte of the map's last row.
   std::vector<float> map(size_t(kWidth * kHeight) + stride * kHeight);
   std::copy(f.scene.disparity.begin(), f.scene.disparity.end(), map.begin());

@@ -241,53 +241,5 @@ TEST_CASE("after: depth-dependent blur does not look at side views") {
   CHECK(first.bytes == second.bytes);
 }
 
-TEST_CASE("after: bad input") {
-  const test::Scene scene = test::LayeredScene(50, 40, 5, 3, 12);
-  starfocus_config config = test::ConfigFor(scene, 8);
-  config.features |= STARFOCUS_FEATURE_IMAGES;
-  test::Engine engine(config);
-  const starfocus_light_field field = scene.Field();
-  const starfocus_params params = test::Params(1);
-  test::Output out(50, 40), before(50, 40);
-  const starfocus_previous good = {field, starfocus_image_rgb(before.bytes.data(), before.stride)};
-  const auto run = [&](const starfocus_light_field* f, const starfocus_previous* previous,
-                       uint8_t* to) {
-    return test::RefocusAfterRgb(engine.get(), &params, f, previous, to, out.stride, nullptr);
-  };
-  uint8_t* to = out.bytes.data();
-  CHECK(run(nullptr, &good, to) == STARFOCUS_ERROR_NULL);
-  CHECK(run(&field, &good, nullptr) == STARFOCUS_ERROR_NULL);
-  starfocus_previous bad = good;
-  bad.out.planes[0] = nullptr;
-  CHECK(run(&field, &bad, to) == STARFOCUS_ERROR_NULL);
-  bad = good;
-  bad.out.strides[0] = 149;
-  CHECK(run(&field, &bad, to) == STARFOCUS_ERROR_STRIDE);
-  bad = good;
-  bad.light_field.views[4].planes[0] = nullptr;
-  CHECK(run(&field, &bad, to) == STARFOCUS_ERROR_NULL);
-  bad = good;
-  bad.light_field.depth.stride = 4;
-  CHECK(run(&field, &bad, to) == STARFOCUS_ERROR_STRIDE);
-  bad = good;
-  bad.out.planes[0] = to + 3;
-  CHECK(run(&field, &bad, to) == STARFOCUS_ERROR_OVERLAP);
-  bad = good;
-  bad.out.format = STARFOCUS_FORMAT_BGR;
-  CHECK(run(&field, &bad, to) == STARFOCUS_ERROR_FEATURE);
-  bad = good;
-  bad.light_field.views[2].format = STARFOCUS_FORMAT_BGR;
-  CHECK(run(&field, &bad, to) == STARFOCUS_ERROR_FEATURE);
-  bad = good;
-  bad.light_field.depth.scale = 2;
-  CHECK(run(&field, &bad, to) == STARFOCUS_ERROR_FEATURE);
-  test::Scene other = scene;
-  bad = good;
-  bad.light_field = other.Field();
-  CHECK(run(&field, &bad, other.pictures[2].data()) == STARFOCUS_ERROR_OVERLAP);
-  CHECK(out.Untouched());
-  CHECK(run(&field, &good, to) == STARFOCUS_OK);
-}
-
 }  // namespace
 }  // namespace after_test

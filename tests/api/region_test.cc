@@ -218,56 +218,5 @@ TEST_CASE("region: a bad row is refused before a pixel is written, or is not rea
   }
 }
 
-TEST_CASE("region: outside the picture") {
-  const test::Scene scene = test::LayeredScene(40, 30, 1, 4, 3);
-  test::Engine engine(test::ConfigFor(scene, 8));
-  REQUIRE(engine.status() == STARFOCUS_OK);
-  constexpr int kMost = std::numeric_limits<int32_t>::max(), kLeast = -kMost - 1;
-  const starfocus_region kBad[] = {
-      {0, 0, 1, 0},     {0, 0, 0, 1},         {1, 0, 0, 0},
-      {-1, 0, 4, 4},    {0, -1, 4, 4},        {0, 0, -1, 4},
-      {0, 0, 4, -1},    {0, 0, 41, 30},       {0, 0, 40, 31},
-      {40, 0, 1, 1},    {0, 30, 1, 1},        {39, 0, 2, 1},
-      {kMost, 0, 1, 1}, {1, 1, kMost, kMost}, {kLeast, kLeast, kMost, kMost}};
-  for (const starfocus_region& region : kBad) {
-    CAPTURE(Text(region));
-    starfocus_params params = test::Params(0);
-    params.region = region;
-    test::Output out(40, 30);
-    CHECK(test::Refocus(&engine, params, scene, &out) == STARFOCUS_ERROR_RANGE);
-    CHECK(out.Untouched());
-  }
-}
-
-TEST_CASE("region: output as large as the region, and no larger") {
-  const test::Scene scene = test::LayeredScene(40, 30, 1, 4, 3);
-  test::Engine engine(test::ConfigFor(scene, 8));
-  REQUIRE(engine.status() == STARFOCUS_OK);
-  const starfocus_light_field field = scene.Field();
-  starfocus_params params = test::Params(0);
-  params.region = {3, 4, 5, 6};
-  std::vector<uint8_t> out(15 * 6);
-  const auto run = [&](uint8_t* to, size_t stride) {
-    return test::RefocusRgb(engine.get(), &params, &field, to, stride, nullptr);
-  };
-  CHECK(run(out.data(), 14) == STARFOCUS_ERROR_STRIDE);
-  CHECK(run(out.data(), 15) == STARFOCUS_OK);
-  // Beside the workspace, but not into it.
-  CHECK(run(engine.workspace() - 1, 15) == STARFOCUS_ERROR_OVERLAP);
-}
-
-TEST_CASE("region: streaming has none") {
-  const test::Scene scene = test::LayeredScene(40, 30, 1, 4, 3);
-  starfocus_config config = test::ConfigFor(scene, 8);
-  config.features |= STARFOCUS_FEATURE_STREAMING;
-  test::Engine engine(config);
-  REQUIRE(engine.status() == STARFOCUS_OK);
-  starfocus_params params = test::Params(0);
-  params.region = {0, 0, 40, 30};
-  CHECK(starfocus_stream_begin(engine.get(), &params) == STARFOCUS_ERROR_RANGE);
-  params.region = {};
-  CHECK(starfocus_stream_begin(engine.get(), &params) == STARFOCUS_OK);
-}
-
 }  // namespace
 }  // namespace region_test

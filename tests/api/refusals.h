@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+// Calls whose arguments tables of tests spoil: one of each function that takes parameters, light
+// fields or pictures. A call must return the status of the table, name its field and write nothing.
+#ifndef STARFOCUS_TESTS_API_REFUSALS_H_
+#define STARFOCUS_TESTS_API_REFUSALS_H_
+
+#include <doctest/doctest.h>
+
+#include <cstring>
+#include <string>
+
+#include "tests/support/image_field.h"
+#include "tests/support/prepared_memory.h"
+
+namespace refusals {
+
+constexpr int kHeight = 12;
+
+// Sets of functions.
+enum : unsigned {
+  kRefocus = 1,
+  kAfter = 2,  // starfocus_refocus with params.previous
+  kPrepared = 4,
+  kPreview = 8,  // starfocus_refocus_prepared with params.preview_shift
+  kBegin = 16,
+  kPrepare = 32,
+  kPush = 64,
+  kPull = 128,
+  kAll = 255,
+  kTakesParams = kRefocus | kAfter | kPrepared | kPreview | kBegin,
+  kTakesField = kRefocus | kAfter | kPrepare | kPush,
+  kTakesOut = kRefocus | kAfter | kPrepared | kPreview | kPull,
+};
+
+// A light field of R, G, B or of images of three formats, and what calls need besides.
+struct Fixture {
+  explicit Fixture(bool with_images) : images(with_images) {}
+
+  test::ImageField MakeImages() const {
+    test::Random random(61);
+    test::ImageKind kinds[3];
+    kinds[1].format = STARFOCUS_FORMAT_NV12;
+    kinds[2].format = STARFOCUS_FORMAT_I420;
+    return test::MakeImageField(
+        scene, {kinds, kinds + 3},
+        test::MakeDepth(scene, 10, 9, STARFOCUS_DEPTH_U16, STARFOCUS_DEPTH_RECIPROCAL, 0), &random);
+  }
+  starfocus_config MakeConfig(uint32_t features) const {
+    starfocus_config made = images ? test::ImageConfig(image) : test::ConfigFor(scene, 8);
+    made.features = (made.features & ~STARFOCUS_FEATURE_IMAGES) | features;
+    made.previews = 2;
+    return made;
+  }
+
+  const bool images;
+  const int width = images ? 21 : 20;
+  test::Scene scene = images ? test::LayeredScene(width, kHeight, 5, 7, 3)
+                             : test::RandomScene(width, kHeight, 17, -2, 2, 1);
+  test::ImageField image = MakeImages();
+  starfocus_light_field field = images ? image.Field() : scene.Field();
+  starfocus_config config = MakeConfig(STARFOCUS_FEATURE_STREAMING | STARFOCUS_FEATURE_IMAGES);
+  test::Engine engine{config}, plain{MakeConfig(STARFOCUS_FEATURE_STREAMING)};
+  test::PreparedMemory memory{config}, free{config};
+  starfocus_prepared* prepared = memory.Prepare(engine.get(), field);
+  test::ImageMemory blank{width, kHeight, image.views[images ? 2 : 0].kind()};
+};
+
+// The arguments of a call, all of them legal.
+struct Call {
+  Call(Fixture* of, unsigned to) : f(*of), function(to) {
+    std::memset(&report, test::kPoison, sizeof report);
+    if (function == kAfter) params.previous = &before;
+    if (function == kPreview) params.preview_shift = 1;
+    for (test::Engine* one : {&f.engine, &f.plain}) {
+      if (function != kPush && function != kPull) continue;
+      REQUIRE(starfocus_stream_begin(one->get(), &params) == STARFOCUS_OK);
+      if (function != kPull || (f.images && one == &f.plain)) continue;
+      REQUIRE(starfocus_stream_push(one->get(), &field, kHeight, &count) == STARFOCUS_OK);
+    }
+    count = -1;
+  }
+  starfocus_status Run() {
+    switch (function) {
+      case kRefocus:
+      case kAfter:
+        return starfocus_refocus(engine, params_at, field_at, out_at, &report);
+      case kPrepared:
+      case kPreview:
+        return starfocus_refocus_prepared(engine, params_at, prepared, out_at, &report);
+      case kBegin:
+        return starfocus_stream_begin(engine, params_at);
+      case kPrepare:
+        return starfocus_prepare(engine, field_at, memory, bytes, made_at);
+      case kPush:
+        return starfocus_stream_push(engine, field_at, rows, count_at);
+      default:
+        return starfocus_stream_pull(engine, out_at, rows, count_at, &report);
+    }
+  }
+  // Whether no output was written.
+  bool Untouched() const {
+    starfocus_report poison;
+    std::memset(&poison, test::kPoison, sizeof poison);
+    return picture == f.blank && std::memcmp(&report, &poison, sizeof report) == 0;
+  }
+
+  Fixture& f;
+  unsigned function;
+  starfocus_engine* engine = f.engine.get();
+  starfocus_params params = test::Params(0.5);
+  starfocus_light_field field = f.field;
+  test::ImageMemory picture = f.blank, picture_before = f.blank;
+  starfocus_image out = picture.Out();
+  starfocus_previous before = {field, picture_before.Out()};
+  starfocus_report report;
+  uint8_t* memory = f.free.get();
+  size_t bytes = f.free.bytes;
+  starfocus_prepared* made = f.prepared;
+  int32_t rows = kHeight, count = -1;
+
+  const starfocus_params* params_at = &params;
+  const starfocus_light_field* field_at = &field;
+  const starfocus_image* out_at = &out;
+  const starfocus_prepared* prepared = f.prepared;
+  starfocus_prepared** made_at = &made;
+  int32_t* count_at = &count;
+};
+
+inline void CheckProblem(const starfocus_problem* problem, starfocus_status status,
+                         const std::string& field) {
+  REQUIRE(problem != nullptr);
+  CHECK(problem->status == status);
+  CHECK(std::string(problem->field) == field);
+  CHECK((problem->expected[0] != 0 || status == STARFOCUS_OK));
+  if (status != STARFOCUS_ERROR_RANGE) return;
+  CHECK(!(problem->value >= problem->low && problem->value <= problem->high));
+}
+
+// Checks a spoilt call of each of these functions.
+template <class Spoil>
+void Check(Fixture* f, unsigned functions, const Spoil& spoil, starfocus_status status,
+           const std::string& field) {
+  for (unsigned function = 1; function < kAll; function *= 2) {
+    if ((functions & function) == 0) continue;
+    CAPTURE(function);
+    CAPTURE(field);
+    Call call(f, function);
+    const test::Scene scene = f->scene;
+    spoil(&call);
+    const bool refused = status != STARFOCUS_OK;
+    CHECK(call.Run() == status);
+    if (call.engine != nullptr) {
+      CheckProblem(starfocus_engine_problem(call.engine), status, field);
+    }
+    CHECK(call.Untouched() == (refused || (function & kTakesOut) == 0));
+    CHECK(f->scene.pictures == scene.pictures);
+    CHECK(std::memcmp(f->scene.disparity.data(), scene.disparity.data(),
+                      4 * scene.disparity.size()) == 0);
+    if (function == kPrepare && call.made_at != nullptr) CHECK((call.made == nullptr) == refused);
+    if (function == kPush || function == kPull) CHECK((call.count <= 0) == refused);
+  }
+}
+
+}  // namespace refusals
+
+#endif  // STARFOCUS_TESTS_API_REFUSALS_H_
