@@ -52,7 +52,6 @@ starfocus_config ConfigOf(int side, const EngineProbe& probe) {
   config.tuning.gather = 0;  // the kernel of views is asked for
   config.tuning.max_layer = probe.layer;
   config.tuning.timing.block = STARFOCUS_MAX_TIMING;  // one block is the cheapest
-  config.tuning.skips = 0;                            // what is rendered is looked at
   return config;
 }
 
@@ -106,8 +105,8 @@ std::vector<double> ReadLevels(const Engine& measured) {
   std::vector<double> levels(measured.out().size() / 3);
   for (size_t k = 0; k < levels.size(); ++k) {
     const double sample = block.layer == 0 ? scratch.sums[3 * k] : scratch.picture_samples[3 * k];
-    // The centre view alone is copied.
-    levels[k] = aperture.n == 0 ? measured.out()[3 * k] : sample / one;
+    // Of what is copied nothing is rendered.
+    levels[k] = engine.report.copied_pixels > 0 ? measured.out()[3 * k] : sample / one;
   }
   return levels;
 }

@@ -41,7 +41,6 @@ starfocus_config DefaultConfig() {
   config.tuning.deblocking = 35;
   config.tuning.timing = DefaultTiming();
   config.tuning.n_scale = 1.0;
-  config.tuning.skips = 1;
   config.tuning.gather = 1;
   config.highlights = 1;
   config.features = STARFOCUS_FEATURE_LINE_SCAN | STARFOCUS_FEATURE_COVERAGE;
@@ -85,7 +84,6 @@ size_t starfocus_struct_size(const char* name) {
                               SIZE_OF(starfocus_previous),
                               SIZE_OF(starfocus_region),
                               SIZE_OF(starfocus_report),
-                              SIZE_OF(starfocus_skipped),
                               SIZE_OF(starfocus_timing),
                               SIZE_OF(starfocus_tuning),
                               SIZE_OF(starfocus_image),

@@ -44,7 +44,6 @@ void CheckTiming(const starfocus_timing& timing, Checker* check) {
 void CheckTuning(const starfocus_tuning& tuning, Checker* check) {
   check->In({"tuning.max_layer", double(tuning.max_layer)}, STARFOCUS_FROM_TO(0, 2));
   check->In({"tuning.deblocking", double(tuning.deblocking)}, STARFOCUS_FROM_TO(0, 255));
-  check->In({"tuning.skips", double(tuning.skips)}, STARFOCUS_FROM_TO(0, 1));
   check->In({"tuning.gather", double(tuning.gather)}, STARFOCUS_FROM_TO(0, 1));
   check->In({"tuning.n_scale", tuning.n_scale},
             STARFOCUS_FROM_TO(STARFOCUS_MIN_N_SCALE, STARFOCUS_MAX_N_SCALE));

@@ -93,13 +93,9 @@ size_t DepthBytes(int32_t type) {
                                        : sizeof(uint16_t);
 }
 
-uint32_t PlaceOfRow(const DepthSource& depth, int32_t y) {
-  return PlaceOf(y, depth.height, depth.map.height);
-}
-
 uint32_t ReadDepthRow(const simd::ImageKernels& kernels, const DepthSource& depth, int32_t y,
                       int16_t* out) {
-  const uint32_t place = PlaceOfRow(depth, y);
+  const uint32_t place = PlaceOf(y, depth.height, depth.map.height);
   const bool is_row = depth.map.width == depth.width && place % simd::kColumnOne == 0;
   const int32_t most = is_row ? kPiece : kPixels;
   uint32_t flags = 0;

@@ -31,10 +31,6 @@ DepthSource MakeDepthSource(const starfocus_config& config, const starfocus_dept
 // Returns the bytes of a value.
 size_t DepthBytes(int32_t type);
 
-// Returns where row y of the picture lies in the map: the upper row times kColumnOne, and the share
-// of the lower one.
-uint32_t PlaceOfRow(const DepthSource& depth, int32_t y);
-
 // Writes the disparities of row y of the picture, kDisparityBits; unknown ones are kNoSurface.
 // Returns simd::DepthFlags of the values they were made of.
 uint32_t ReadDepthRow(const simd::ImageKernels& kernels, const DepthSource& depth, int32_t y,

@@ -23,7 +23,7 @@ struct RowsJob {
 };
 
 void ReadMap(const RowsJob& job, int32_t y, int16_t* row, Counts* counts) {
-  counts->depth_flags |= job.source->map(job.source->self, y, row, &counts->disparity_bytes);
+  counts->depth_flags |= job.source->map(job.source->self, y, row);
 }
 
 // Job `index` overwrites one row of the ring, of which it has the only one.
@@ -119,7 +119,7 @@ starfocus_status CopyRow(const RowSource& source, int32_t y, EngineState* engine
   const starfocus_config& config = engine->config;
   int16_t* const row = engine->row_store.disparity.Row(y);
   Counts& counts = engine->workers.scratch[0].counts;
-  counts.depth_flags = source.map(source.self, y, row, &counts.disparity_bytes);
+  counts.depth_flags = source.map(source.self, y, row);
   const starfocus_status status = StatusOf(counts.depth_flags, config);
   if (status == STARFOCUS_OK) FinishMapRow(*engine, row, &counts);
   TakeCounts(engine);

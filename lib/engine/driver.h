@@ -19,9 +19,9 @@ namespace starfocus {
 struct RowSource {
   ViewReader views;              // null functions: the views are in memory
   bool converts_centre = false;  // rows of the centre view go into the engine's ring
-  // Writes row y of the disparity map to `out`, kDisparityBits, kNoSurface where it is unknown, and
-  // adds to *bytes what it read. Returns simd::DepthFlags. Null: the map is in memory.
-  uint32_t (*map)(const void* self, int32_t y, int16_t* out, uint64_t* bytes) = nullptr;
+  // Writes row y of the disparity map to `out`, kDisparityBits, kNoSurface where it is unknown.
+  // Returns simd::DepthFlags. Null: the map is in memory.
+  uint32_t (*map)(const void* self, int32_t y, int16_t* out) = nullptr;
   // Writes row y of the coverage, for streams. Null: the light field has none.
   void (*coverage)(const void* self, int32_t y, uint8_t* out) = nullptr;
   // Writes row y of the centre view's alpha. Null: it is 255.

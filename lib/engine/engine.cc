@@ -20,11 +20,7 @@ void Add(const Counts& counts, starfocus_report* report) {
     Add(counts.layers[layer], &report->layers[layer]);
     report->rendered_samples += counts.layers[layer].rendered_samples;
   }
-  report->skipped.copied_blocks += counts.skipped.copied_blocks;
-  report->skipped.copied_pixels += counts.skipped.copied_pixels;
-  report->centre_bytes += counts.reads.centre_bytes;
-  report->side_bytes += counts.reads.side_bytes;
-  report->disparity_bytes += counts.disparity_bytes;
+  report->copied_pixels += counts.copied_pixels;
   report->gathered_pixels += counts.gathered_pixels;
   report->unknown_pixels += counts.unknown_pixels;
 }

@@ -79,22 +79,13 @@ void CopyCentre(const Window& window, const Rect& rect, const Plane<uint8_t>& ou
   }
 }
 
-// The window, which counts for a worker what is read of its views.
-Window Counting(const Window& window, Scratch* scratch) {
-  Window counting = window;
-  counting.reads = &scratch->counts.reads;
-  return counting;
-}
-
 // How much of a block is rendered.
 struct Rendered {
   uint64_t views, samples;
 };
 
 // Renders the views of a job into the worker's sums. Returns the samples of a view.
-uint64_t RenderSums(const BlockInputs& in, RenderJob job, Scratch* scratch) {
-  const Window counting = Counting(*job.window, scratch);
-  job.window = &counting;
+uint64_t RenderSums(const BlockInputs& in, const RenderJob& job, Scratch* scratch) {
   const Renderer& renderer = *in.lens->renderer;
   return renderer.render(job, scratch->renderers[renderer.index], scratch->sums);
 }
@@ -168,12 +159,12 @@ void GatherBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>
   BlockPixels field;
   field.rgb = scratch->field.rgb;
   field.disparity = scratch->field.disparity;
-  const Window counting = Counting(in.windows[block.layer], scratch);
   const BlockCells cells = {in.gathered, block.rect, block.layer};
   const Tables& tables = *in.tables;
   const GatherKernels blur = {tables.psfs, LastGatherStep(*in.lens), tables.mean_square};
-  const GatherJob job = {&counting, in.cells,   cells,           in.lens->scale,
-                         blur,      in.kernels, &scratch->cancel};
+  const GatherJob job = {&in.windows[block.layer], in.cells, cells,
+                         in.lens->scale,           blur,     in.kernels,
+                         &scratch->cancel};
   const Rect frame = LayerFrame(block.rect, block.layer);
   const Gathered gathered = block.layer == 0 ? Gathered{At(out, block.rect, 0), nullptr, out.stride}
                                              : Gathered{nullptr, scratch->layer_samples,
@@ -190,11 +181,7 @@ Rendered CopyBlock(const BlockInputs& in, const Rect& rect, const Plane<uint8_t>
                    Scratch* scratch) {
   const uint64_t samples = Samples(rect);
   CopyCentre(in.windows[0], rect, out);
-  scratch->counts.reads.centre_bytes += samples;
-  if (in.config->tuning.skips != 0) {
-    scratch->counts.skipped.copied_blocks += 1;
-    scratch->counts.skipped.copied_pixels += samples / 3;
-  }
+  scratch->counts.copied_pixels += samples / 3;
   return {1, samples};
 }
 
@@ -202,7 +189,7 @@ Rendered RefocusViews(const BlockInputs& in, const Block& block, const Plane<uin
                       Scratch* scratch) {
   const Lens& lens = *in.lens;
   const ViewWeights& aperture = WeightsOf(lens, block.n);
-  // Without skips the one view of N = 0 is rendered as those of a lens that moves no pixel.
+  // Where the one view of N = 0 is rendered, it is as those of a lens that moves no pixel.
   const bool pinhole = aperture.n == 0;
   const ViewWeights& whole = pinhole ? lens.apertures[1] : aperture;
   const ApertureShape& opening = in.tables->opening;
@@ -223,21 +210,17 @@ Rendered RefocusViews(const BlockInputs& in, const Block& block, const Plane<uin
       &scratch->cancel,         gathered, lens.r_max, IsBenchmark(lens)};
   // The views' part of a layer is brought to the picture together with what is gathered.
   const bool in_part = block.layer > 0 && block.gathers;
-  if (in.config->tuning.skips == 0 || block.has_highlights || in_part) {
-    return Render(in, block, job, out, scratch);
-  }
-  if (pinhole || lens.renderer->nothing_moves(job)) {
-    return CopyBlock(in, ViewsRect(block), out, scratch);
-  }
-  return Render(in, block, job, out, scratch);
+  const bool copies =
+      !block.has_highlights && !in_part && (pinhole || lens.renderer->nothing_moves(job));
+  return copies ? CopyBlock(in, ViewsRect(block), out, scratch)
+                : Render(in, block, job, out, scratch);
 }
 
 void BlurBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>& out,
                Scratch* scratch) {
   const BlurScratch memory = {scratch->field.rgb, scratch->sums, scratch->spans};
   const auto blur = [&](const Window& window, const ExcessSum& excess) {
-    const Window counting = Counting(window, scratch);
-    const BlurJob job = {&counting,  in.lens->scale,    in.tables->psfs, in.kernels,
+    const BlurJob job = {&window,    in.lens->scale,    in.tables->psfs, in.kernels,
                          block.rect, block.border.left, excess,          &scratch->cancel};
     BlurRectangle(job, memory, At(out, block.rect, 0), out.stride);
   };
@@ -253,7 +236,6 @@ void RefocusBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t
   const uint64_t start = clock != nullptr ? clock() : 0;
   Rendered rendered = {1, 0};  // the centre, of a block gathered whole
   if (IsPinhole(*in.lens)) {
-    // Copied also without skips: whatever else becomes of samples, none is to change here.
     rendered = CopyBlock(in, block.rect, out, scratch);
   } else if (in.lens->params.mode == STARFOCUS_MODE_BLUR) {
     BlurBlock(in, block, out, scratch);

@@ -19,8 +19,6 @@ void SetViews(const starfocus_config& config, const ViewReader& reader,
   for (int layer = 0; layer < STARFOCUS_LAYERS; ++layer) {
     Window& window = row_store->windows[layer];
     window.layer = layer;
-    const int32_t taps = layer == 0 ? 2 : 2 * (1 << layer) - 1;
-    window.colour_bytes = 3 * taps * taps;
     window.width = LayerSize(config.width, layer);
     window.height = LayerSize(config.height, layer);
     window.picture_width = config.width;

@@ -18,9 +18,7 @@ namespace starfocus {
 // What a worker counts in one stripe.
 struct Counts {
   starfocus_layer_report layers[STARFOCUS_LAYERS];
-  starfocus_skipped skipped;
-  Reads reads;
-  uint64_t disparity_bytes;
+  uint64_t copied_pixels;
   uint64_t gathered_pixels;
   uint64_t unknown_pixels;
   uint32_t depth_flags;  // simd::DepthFlags of rows that were read

@@ -17,12 +17,10 @@ struct PassJob {
 };
 
 void RunPassJob(const PassJob& job, int32_t index, Scratch* scratch) {
-  Window window = *job.in.window;
-  window.reads = &scratch->counts.reads;
   const int32_t first = index * job.tiles, last = Min(first + job.tiles, job.in.map->columns);
   for (int32_t row = job.rows.first; row < job.rows.last; ++row) {
     if (!scratch->cancel.Spend(int64_t{last - first} * kCoverageTile * kCoverageTile)) return;
-    RunPass({job.in.kernels, &window, job.in.map}, job.pass, first, last, row);
+    RunPass(job.in, job.pass, first, last, row);
   }
 }
 

@@ -24,13 +24,6 @@ void DownsampleInto(const LayerJob& job, int32_t layer, int32_t index, Scratch* 
   const int32_t side = job.config->superblock >> layer, begin = index * side;
   // The last column takes what a layer has beyond the picture.
   const int32_t end = index + 1 == Columns(*job.config) ? missing.width : begin + side;
-  int32_t columns = end - begin, rows = missing.rows.last - missing.rows.first;
-  for (int32_t above = layer; above > 0; --above) {
-    columns = TapsOfLayer(columns);
-    rows = TapsOfLayer(rows);
-  }
-  scratch->counts.reads.centre_bytes +=
-      3 * static_cast<uint64_t>(columns) * static_cast<uint64_t>(rows);
   DownsamplePicture(*job.kernels, *job.picture, scratch->resample, {layer, begin, end, &missing});
 }
 

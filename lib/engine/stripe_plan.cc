@@ -205,7 +205,6 @@ void ReadPlan(const Stripe& stripe, EngineState* engine) {
   plan.used = 0;
   ClearMap(stripe, &engine->stripe.map);
   ClearLayerColumns(config, &row_store);
-  if (config.tuning.skips == 0) MarkLayerColumns(config, &row_store);
   for (int32_t column = 0; column < plan.columns; ++column) {
     const Block* const planned = plan.BlocksOf(column);
     for (int32_t k = 0; k < plan.counts[column]; ++k) {
@@ -214,16 +213,6 @@ void ReadPlan(const Stripe& stripe, EngineState* engine) {
       MarkLayerColumns(config, block, &row_store);
       MapBlock(stripe, block, engine->stripe.map);
       ReportBlock(block, engine);
-    }
-  }
-}
-
-// Counts the columns of layers that no block needs.
-void CountSpared(EngineState* engine) {
-  for (int layer = 1; layer <= engine->config.tuning.max_layer; ++layer) {
-    for (int32_t column = 0; column < engine->stripe.plan.columns; ++column) {
-      engine->report.skipped.layer_columns +=
-          (engine->row_store.needed[layer][column] & kNeeded) == 0;
     }
   }
 }
@@ -275,7 +264,6 @@ starfocus_status PlanStripe(const Stripe& rows, EngineState* engine) {
   const starfocus_status status = RunJobs<PlanJob, PlanBlocks>(job, columns, &engine->workers);
   if (status != STARFOCUS_OK) return status;
   ReadPlan(rows, engine);
-  if (IsBlockMode(lens)) CountSpared(engine);
   return STARFOCUS_OK;
 }
 

@@ -129,10 +129,6 @@ bool ForEachWeight(int32_t radius, const ApertureShape& opening, CancelToken* ca
 void LoadPixels(const BlurJob& job, int16_t* rgb) {
   const int32_t width = job.rect.width + 2 * job.border;
   const Window& window = *job.window;
-  if (window.reads != nullptr) {
-    window.reads->centre_bytes +=
-        3 * static_cast<uint64_t>(width) * static_cast<uint64_t>(job.rect.height + 2 * job.border);
-  }
   for (int32_t row = 0; row < job.rect.height + 2 * job.border; ++row) {
     const int32_t y = Clamp(job.rect.y - job.border + row, 0, window.height - 1);
     int16_t* to = rgb + 3 * static_cast<size_t>(row) * width;

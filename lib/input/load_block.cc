@@ -79,10 +79,6 @@ void LoadBlock(const Window& window, const Rect& rect, const Border& border, Blo
     CopyDisparity(window, from_disparity, field->x + first, last - first, disparity + first);
     RepeatEdges(first, last, field->width, rgb, disparity);
   }
-  if (window.reads != nullptr && window.layer == 0) {
-    window.reads->centre_bytes +=
-        3 * static_cast<uint64_t>(last - first) * static_cast<uint64_t>(field->height);
-  }
   ExtendEdges(window, field);
 }
 

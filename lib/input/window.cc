@@ -141,9 +141,6 @@ void ReadCaptured(const Window& window, int index, const CapturedLine& line, int
     Checked(ranges::kHolePosition, line.x + line.dx * last * kShiftOne);
     Checked(ranges::kHolePosition, line.y + line.dy * last * kShiftOne);
   }
-  if (window.reads != nullptr) {
-    window.reads->side_bytes += static_cast<uint64_t>(count * window.colour_bytes);
-  }
   constexpr int32_t kPlaces = 16;
   const bool is_row = line.dx == 1 && line.dy == 0;
   for (int32_t p = 0, some = 0; p < count; p += some) {
@@ -154,9 +151,6 @@ void ReadCaptured(const Window& window, int index, const CapturedLine& line, int
 }
 
 void InterpolateCaptured(const Window& window, int index, int32_t x, int32_t y, int32_t* rgb) {
-  if (window.reads != nullptr) {
-    window.reads->side_bytes += static_cast<uint64_t>(window.colour_bytes);
-  }
   InterpolateRow(window, index, Checked(ranges::kHolePosition, x),
                  Checked(ranges::kHolePosition, y), 1,
                  [&](int32_t n, int32_t sum) { rgb[n] = sum; });

@@ -15,12 +15,6 @@
 
 namespace starfocus {
 
-// Bytes that were read of the caller's pictures; those read twice count twice.
-struct Reads {
-  uint64_t centre_bytes = 0;  // of the centre view itself, not of its layers
-  uint64_t side_bytes = 0;    // of side views
-};
-
 struct CoverageMap;
 
 // A light field at one layer: pixel (x, y) of the layer stands at (x << L, y << L) in the pictures.
@@ -42,8 +36,6 @@ struct Window {
   Plane<const int16_t> disparity;         // of the pictures, kDisparityBits
   Plane<const uint8_t> given_coverage;    // of the light field, 255: whole; null: there is none
   const CoverageMap* coverage = nullptr;  // found of that, or of thin structures; null: none
-  int32_t colour_bytes = 12;              // bytes that a colour of a captured view is made of
-  Reads* reads = nullptr;                 // null: nobody counts
 };
 
 // Places one after the other in a captured view: the first at (x, y) of the layer, kShiftBits, each

@@ -35,11 +35,8 @@ void WindowLight(const void* self, int view, int32_t x, int32_t y, int32_t count
   }
 }
 
-uint32_t ReadMap(const void* self, int32_t y, int16_t* out, uint64_t* bytes) {
+uint32_t ReadMap(const void* self, int32_t y, int16_t* out) {
   const LightField& field = FieldOf(self);
-  const bool two = PlaceOfRow(field.depth, y) % simd::kColumnOne != 0;
-  const size_t row = DepthBytes(field.depth.map.type) * static_cast<size_t>(field.depth.map.width);
-  *bytes += two ? 2 * row : row;
   return ReadDepthRow(*field.kernels, field.depth, y, out);
 }
 

@@ -65,7 +65,6 @@ TEST_CASE("defaults are those that the header tells") {
   CHECK(config.tuning.max_layer == 2);
   CHECK(config.tuning.deblocking == 35);
   CHECK(config.tuning.n_scale == 1);
-  CHECK(config.tuning.skips == 1);
   CHECK(config.tuning.gather == 1);
   CHECK(config.transfer == STARFOCUS_TRANSFER_SRGB);
   CHECK(config.highlights == 1);

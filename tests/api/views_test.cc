@@ -74,8 +74,6 @@ TEST_CASE("views: a pair reads its second view, and another position of it elsew
   test::Scene other = pair;
   other.positions[1] = {1, 0.01};
   CHECK(Picture(pair) != Picture(other));
-  const starfocus_params params = test::Params(kFocus, 1, STARFOCUS_MODE_BLOCK);
-  CHECK(test::RefocusScene(pair, test::ConfigFor(pair), params).report.side_bytes > 0);
 }
 
 TEST_CASE("views: a mirrored scene with the pair's other side gives the mirrored picture") {

@@ -116,7 +116,6 @@ void SetConfig(Trial* trial, test::Random* random) {
   config.superblock = random->Int(0, 3) == 0 ? 64 : 32;
   config.tuning.max_layer = random->Int(0, STARFOCUS_LAYERS - 1);
   config.tuning.deblocking = 0;  // a decision by thresholds; deblock_test has it
-  config.tuning.skips = random->Int(0, 1);
   config.tuning.gather = random->Int(0, 3) == 0 ? 0 : 1;
   // A cheap or a dear block makes the partition fine or coarse.
   if (random->Int(0, 1) == 0) config.tuning.timing.block = 1u << random->Int(0, 26);

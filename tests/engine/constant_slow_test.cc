@@ -59,7 +59,6 @@ int Changed(const Trial& t) {
   config.superblock = t.block;
   config.tuning.n_scale = t.n_scale;
   config.transfer = t.transfer;
-  config.tuning.skips = 0;  // what is filled has passed no filter
   test::Random shapes(t.shape);
   starfocus_params params = test::Params(t.focus, t.aperture, t.mode);
   params.renderer = t.renderer;

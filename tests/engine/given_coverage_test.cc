@@ -205,7 +205,6 @@ TEST_CASE("given coverage: where nothing moves, colours that contradict it stay"
   test::Random random(3);
   for (uint8_t& coverage : scene.coverage) coverage = random.Byte();
   starfocus_config config = CombConfig(scene);
-  config.tuning.skips = 0;
   starfocus_params params = ThroughDisc(0);
   params.lens.aperture = 0.001;
   const test::Output out = Refocused(scene, config, params);

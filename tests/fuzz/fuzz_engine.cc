@@ -72,7 +72,6 @@ starfocus_config MakeConfig(bool strands, Input* input, starfocus_lens* lens) {
   config.tuning.timing.block = 1u << input->Int(0, 26);
   config.tuning.timing.c = static_cast<uint32_t>(input->Int(0, 100000));
   // From what another field drew: recorded inputs keep their meaning.
-  config.tuning.skips = config.tuning.deblocking % 4 != 0;
   config.tuning.gather = config.tuning.deblocking % 3 != 0;
   config.previews = config.tuning.deblocking / 4 % 4;
   config.tuning.n_scale = 0.5 + 0.25 * (config.tuning.deblocking % 7);

@@ -68,7 +68,6 @@ TEST_CASE("progress: a stream that was cancelled goes on with its rows, and the 
     cancelled += PullOn(f, every, &report, &again);
     CHECK(again.bytes == whole.bytes);
     CHECK(report.rendered_samples == expected.rendered_samples);
-    CHECK(report.disparity_bytes == expected.disparity_bytes);
   }
   CHECK(cancelled > 40);
 }

@@ -38,7 +38,6 @@ struct LayeredScene {
   LayeredDepth surfaces;
   starfocus::BlockPixels field;
   std::vector<int16_t> copy;
-  starfocus::Reads reads;
 
   explicit LayeredScene(int views) {
     for (int view = 1; view < views; ++view) {
@@ -53,7 +52,6 @@ struct LayeredScene {
     }
     window.width = window.picture_width = window.height = window.picture_height = kSize;
     test::SetStar(views, &window);
-    window.reads = &reads;
   }
 
   void Set(int x, int y, double pixels, int grey) {

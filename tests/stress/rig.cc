@@ -16,7 +16,6 @@ std::string Variant::Text() const {
          (order == 0 ? " workers" : " shuffled workers") +
          (stream ? ", streaming " + std::to_string(push_rows) + "/" + std::to_string(pull_rows)
                  : std::string(", whole")) +
-         (skips != 0 ? "" : ", nothing skipped") +
          (room == 1 ? "" : ", max_blur times " + std::to_string(room)) + ", memory of " +
          (poison < 0     ? "the heap"
           : poison > 255 ? "noise"
@@ -42,7 +41,6 @@ Variant RandomVariant(test::Random* random) {
   variant.poison = random->Int(-64, 320);
   variant.push_rows = random->Int(1, 40);
   variant.pull_rows = random->Int(1, 40);
-  variant.skips = random->Int(0, 1);
   if (random->Int(0, 2) == 0) variant.room = random->Real(1, 8);
   return variant;
 }
@@ -65,7 +63,6 @@ Rig::Rig(const starfocus_config& config, const Variant& variant)
     : config_(config), variant_(variant), random_(variant.order) {
   test::SetFeature(STARFOCUS_FEATURE_STREAMING, variant.stream, &config_.features);
   config_.max_workers = variant.workers;
-  config_.tuning.skips = variant.skips;
   config_.max_blur = std::min(STARFOCUS_MAX_BLUR, config.max_blur * variant.room);
   status_ = starfocus_workspace_size(&config_, &bytes_);
   if (status_ != STARFOCUS_OK) return;

@@ -21,7 +21,6 @@ struct Variant {
   bool stream = false;
   int push_rows = 1, pull_rows = 1;
   uint64_t order = 0;  // of the jobs; 0: no runner
-  int skips = 1;       // starfocus_tuning.skips
   double room = 1;     // factor of starfocus_config.max_blur
   int poison = -1;     // of the workspace, as Memory's
 

@@ -60,6 +60,31 @@ inline std::vector<uint8_t> RenderOne(const starfocus::Block& block, starfocus_e
   return out;
 }
 
+// The same of a renderer that copies no block, whatever moves in it.
+inline std::vector<uint8_t> RenderUncopied(const starfocus::Block& block,
+                                           starfocus_engine* engine) {
+  starfocus::Lens& lens = StateOf(engine).lens;
+  const starfocus::Renderer* const given = lens.renderer;
+  starfocus::Renderer renders = *given;
+  renders.nothing_moves = [](const starfocus::RenderJob&) { return false; };
+  lens.renderer = &renders;
+  std::vector<uint8_t> out = RenderOne(block, engine);
+  lens.renderer = given;
+  return out;
+}
+
+// Number of columns of superblocks, of all layers, that the stripe refocused last has subsampled.
+inline int LayerColumns(starfocus_engine* engine) {
+  const starfocus::EngineState& state = StateOf(engine);
+  int columns = 0;
+  for (int layer = 1; layer < STARFOCUS_LAYERS; ++layer) {
+    for (int32_t column = 0; column < starfocus::Columns(state.config); ++column) {
+      columns += (state.row_store.needed[layer][column] & starfocus::kNeeded) != 0;
+    }
+  }
+  return columns;
+}
+
 // Bytes of the first worker's pool of slices, which may be made less.
 inline size_t& PoolBytes(starfocus_engine* engine) {
   void* scratch = StateOf(engine).workers.scratch[0].renderers[starfocus::kSliceRenderer.index];

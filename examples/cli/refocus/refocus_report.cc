@@ -36,40 +36,6 @@ Json LayersJson(const starfocus_report& report, bool predicted) {
   return layers;
 }
 
-// Side views are read where holes open; beside it what they have in all.
-Json SkippedJson(const EngineTask& task, const starfocus_report& report) {
-  const starfocus_skipped& skipped = report.skipped;
-  Json json;
-  json.Set("copied_blocks", skipped.copied_blocks);
-  json.Set("copied_pixels", skipped.copied_pixels);
-  json.Set("layer_columns", skipped.layer_columns);
-  json.Set("gathered_pixels", report.gathered_pixels);
-  json.Set("side_bytes_read", report.side_bytes);
-  json.Set("side_bytes", uint64_t{3} * uint64_t(task.config.views - 1) *
-                             uint64_t(task.config.width) * uint64_t(task.config.height));
-  return json;
-}
-
-// Bytes of the pictures read and written, against each read once: a pixel of the centre view, its
-// disparity if that was not prepared, and a pixel written. Side views need none where no hole
-// opens.
-Json TrafficJson(const EngineTask& task, const starfocus_report& report) {
-  const starfocus_region& region = task.params.region;
-  const uint64_t pixels = region.width > 0
-                              ? uint64_t(region.width) * uint64_t(region.height)
-                              : uint64_t(task.config.width) * uint64_t(task.config.height);
-  const uint64_t output = 3 * pixels;
-  const uint64_t all = report.centre_bytes + report.disparity_bytes + report.side_bytes + output;
-  Json json;
-  json.Set("centre_bytes_read", report.centre_bytes);
-  json.Set("disparity_bytes_read", report.disparity_bytes);
-  json.Set("side_bytes_read", report.side_bytes);
-  json.Set("bytes_written", output);
-  json.Set("bytes_per_pixel", double(all) / double(pixels));
-  json.Set("least_bytes_per_pixel", report.disparity_bytes > 0 ? 3 + 4 + 3 : 3 + 3);
-  return json;
-}
-
 // Superblocks of the picture or region.
 uint64_t Superblocks(const EngineTask& task, int side) {
   const starfocus_config& config = task.config;
@@ -119,8 +85,8 @@ void AddFigures(const EngineTask& task, const EngineResult& result, Json* json) 
   json->Set("max_layer", task.config.tuning.max_layer);
   json->Set("deblocking", task.config.tuning.deblocking);
   json->Set("layers", LayersJson(result.report, task.params.mode == STARFOCUS_MODE_BLOCK));
-  json->Set("skipped", SkippedJson(task, result.report));
-  json->Set("traffic", TrafficJson(task, result.report));
+  json->Set("copied_pixels", result.report.copied_pixels);
+  json->Set("gathered_pixels", result.report.gathered_pixels);
   json->Set("seconds_refocus", result.seconds);
   json->Set("workspace_bytes", result.workspace_bytes);
   json->Set("simd_target", starfocus_simd_target());

@@ -23,7 +23,6 @@ starfocus_config MakeConfig(const LightField& light_field, const starfocus_dispa
   config.superblock = 256;  // the scratch then serves every smaller block
   config.tuning.n_scale =
       STARFOCUS_MAX_N_SCALE;  // and there are apertures of every N that is sampled
-  config.tuning.skips = 0;    // the model is one of rendering
   return config;
 }
 
@@ -131,6 +130,13 @@ BlockWork BlockBench::Work(const BlockTask& task) {
 
 uint64_t BlockBench::Time(const BlockTask& task) {
   Focus(task);
+  // The model is one of rendering: no block is copied.
+  static const Renderer kAlways = [] {
+    Renderer renderer = kSliceRenderer;
+    renderer.nothing_moves = [](const RenderJob&) { return false; };
+    return renderer;
+  }();
+  engine_->lens.renderer = &kAlways;
   const Plane<uint8_t> out = {picture_.pixels.data(), picture_.stride(), 0, 0};
   const uint64_t start = ThreadNanoseconds();
   RefocusBlock(InputsOf(*engine_), task.block, out, engine_->workers.scratch);

@@ -134,8 +134,8 @@ typedef struct starfocus_config {
                            square's area, from 1.15 MiB at 64 on. starfocus_report has what 0 chose */
   int32_t max_workers;  /**< workers the runner may use, [1, STARFOCUS_MAX_WORKERS]; default 1 */
   uint32_t features;    /**< bits of STARFOCUS_FEATURE_, what the workspace has memory for; default
-                           LINE_SCAN    and COVERAGE. Without LINE_SCAN, STARFOCUS_RENDERER_AUTO is
-                           SUBAPERTURE in all    modes, and STARFOCUS_RENDERER_LINE_SCAN is refused,
+                           LINE_SCAN and COVERAGE. Without LINE_SCAN, STARFOCUS_RENDERER_AUTO is
+                           SLICES in all modes, and STARFOCUS_RENDERER_LINE_SCAN is refused,
                            STARFOCUS_ERROR_FEATURE */
   int32_t
       previews;     /**< largest starfocus_params.preview_shift, [0, STARFOCUS_MAX_PREVIEW]:
@@ -307,13 +307,6 @@ typedef struct starfocus_layer_report {
   uint64_t measured_ns; /**< by starfocus_callbacks.clock, summed over workers; 0 without one */
 } starfocus_layer_report;
 
-/** Work that was left out because its result is known; all 0 with starfocus_tuning.skips = 0. */
-typedef struct starfocus_skipped {
-  uint64_t copied_blocks; /**< no rendered view moves a pixel: copied from the centre view */
-  uint64_t copied_pixels; /**< picture pixels they cover */
-  uint64_t layer_columns; /**< layers, columns of superblocks and stripes that no block reads */
-} starfocus_skipped;
-
 /** What a refocusing did. */
 typedef struct starfocus_report {
   double r_max;           /**< largest blur radius the configured disparity range allows, pixels */
@@ -323,14 +316,7 @@ typedef struct starfocus_report {
                                   chose */
   uint64_t rendered_samples; /**< R, G, B samples of all rendered views, summed over the layers */
   starfocus_layer_report layers[STARFOCUS_LAYERS]; /**< by L; frame modes use L = 0 only */
-  starfocus_skipped skipped;
-  uint64_t centre_bytes; /**< read of the centre view, counted every time: by blocks with what lies
-                              around them, and for layers 1 and 2; not what skips look at */
-  uint64_t disparity_bytes; /**< read of the disparity map: nothing of a prepared light field. Rows
-                                 of whole pictures and regions are read twice, first to be
-                                 checked */
-  uint64_t side_bytes;      /**< read of the views beside the centre, counted every time: in holes,
-                                 beside depth edges and beyond the edges of the picture only */
+  uint64_t copied_pixels; /**< copied from the centre view: no rendered view moves them */
   uint64_t
       gathered_pixels; /**< by starfocus_tuning.gather: blurred as a whole, no view is rendered */
   uint64_t
@@ -418,9 +404,8 @@ STARFOCUS_API starfocus_status starfocus_stream_push(starfocus_engine* engine,
  *  last row is written.
  *  After STARFOCUS_ERROR_RUNNER and STARFOCUS_ERROR_CANCELLED the rows counted by *written are
  * good, and the next pull goes on behind them. That pull tells on_block again of blocks that were
- * half done; the report counts them once (only centre_bytes may grow). starfocus_stream_begin and
- * every other call with the engine but starfocus_set_callbacks end the stream. progress counts rows
- * of the whole picture. */
+ * half done; the report counts them once. starfocus_stream_begin and every other call with the
+ * engine but starfocus_set_callbacks end the stream. progress counts rows of the whole picture. */
 STARFOCUS_API starfocus_status starfocus_stream_pull(starfocus_engine* engine,
                                                      const starfocus_image* out, int32_t rows,
                                                      int32_t* written, starfocus_report* report);

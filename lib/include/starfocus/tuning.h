@@ -32,8 +32,6 @@ typedef struct starfocus_tuning {
   int32_t
       max_layer; /**< largest subsampled layer L of STARFOCUS_MODE_BLOCK: 0, 1 or 2; default 2 */
   int32_t deblocking; /**< beta of (16), (17) in gray levels, [0, 255]; 0: off; default 35 */
-  int32_t skips; /**< 1, the default: what starfocus_skipped counts is left out; 0: all is done, for
-                    the same bytes */
   int32_t gather; /**< 1, the default: by STARFOCUS_RENDERER_SLICES STARFOCUS_MODE_BLOCK blurs the
                      centre view itself, with the kernel (4), where one surface is all that lies
                      within reach; 0: it renders views there too */

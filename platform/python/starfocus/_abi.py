@@ -34,7 +34,7 @@ class Position(Structure):
 class Tuning(Structure):
     """starfocus_tuning"""
 
-    _fields_ = [("max_layer", c_int32), ("deblocking", c_int32), ("skips", c_int32), ("gather", c_int32),
+    _fields_ = [("max_layer", c_int32), ("deblocking", c_int32), ("gather", c_int32),
                 ("n_scale", c_double), ("timing", Timing)]
 
 
@@ -123,20 +123,13 @@ class LayerReport(Structure):
                 ("blocks", "pixels", "views", "rendered_samples", "predicted_ps", "measured_ns")]
 
 
-class Skipped(Structure):
-    """starfocus_skipped"""
-
-    _fields_ = [(name, c_uint64) for name in ("copied_blocks", "copied_pixels", "layer_columns")]
-
-
 class Report(Structure):
     """starfocus_report"""
 
     _fields_ = [
         ("r_max", c_double), ("n", c_int32), ("rendered_views", c_int32), ("superblock", c_int32),
-        ("rendered_samples", c_uint64), ("layers", LayerReport * 3), ("skipped", Skipped),
-        ("centre_bytes", c_uint64), ("disparity_bytes", c_uint64), ("side_bytes", c_uint64),
-        ("gathered_pixels", c_uint64), ("reused_blocks", c_uint64), ("unknown_pixels", c_uint64),
+        ("rendered_samples", c_uint64), ("layers", LayerReport * 3),
+        ("copied_pixels", c_uint64), ("gathered_pixels", c_uint64), ("reused_blocks", c_uint64), ("unknown_pixels", c_uint64),
     ]
 
 
@@ -171,7 +164,7 @@ STRUCTURES = {
     "starfocus_problem": Problem, "starfocus_timing": Timing, "starfocus_tuning": Tuning, "starfocus_position": Position, "starfocus_config": Config,
     "starfocus_region": Region, "starfocus_lens": Lens, "starfocus_params": Params, "starfocus_light_field": LightField,
     "starfocus_layer_report": LayerReport,
-    "starfocus_skipped": Skipped, "starfocus_report": Report, "starfocus_disparity_stats": DisparityStats,
+    "starfocus_report": Report, "starfocus_disparity_stats": DisparityStats,
     "starfocus_depth_config": DepthConfig, "starfocus_image": Image,
     "starfocus_depth_map": DepthMap, "starfocus_disparity_output": Map, "starfocus_callbacks": Callbacks,
 }

@@ -28,7 +28,6 @@ export interface Settings {
   deblocking?: number;
   timing?: {block?: number, field?: number, a?: number, b?: number, c?: number, upsample?: number, span?: number, hole?: number};
   nScale?: number;
-  skips?: boolean;
   gather?: boolean;
   /** How many times white the lamps are that the pictures clip, from 1 to 64; default 1. */
   highlights?: number;

@@ -1,45 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// What starfocus_skipped counts: the same bytes as with starfocus_tuning.skips = 0, on scenes where
-// each of it is skipped, and nothing where it may not be.
+// What the engine leaves out because its result is known: blocks that no view moves are copied, and
+// layers that no block reads are not made.
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdio>
-#include <string>
 #include <vector>
 
-#include "lib/base/view_weights.h"
 #include "starfocus/starfocus.h"
+#include "tests/support/inside.h"
 #include "tests/support/refocused.h"
 #include "tests/support/rounds.h"
 #include "tests/support/test_scene.h"
 
-namespace skips_test {
+namespace left_out_test {
 namespace {
-
-using test::Refocused;
 
 constexpr int kViews[] = {1, 5, 9, 17};
 constexpr int kBlocks[] = {32, 64, 128, 256};
 constexpr starfocus_mode kModes[] = {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BENCHMARK,
                                      STARFOCUS_MODE_BLOCK};
-
-Refocused Refocus(const test::Scene& scene, starfocus_config config, const starfocus_params& params,
-                  int skips) {
-  config.tuning.skips = skips;
-  return test::RefocusScene(scene, config, params);
-}
-
-void Add(const starfocus_skipped& part, starfocus_skipped* sum) {
-  sum->copied_blocks += part.copied_blocks;
-  sum->copied_pixels += part.copied_pixels;
-  sum->layer_columns += part.layer_columns;
-}
-
-bool IsNothing(const starfocus_skipped& skipped) {
-  return skipped.copied_blocks + skipped.copied_pixels + skipped.layer_columns == 0;
-}
 
 // Noise in every view; the disparity map has areas in focus, flat, gently and steeply slanted ones,
 // and edges.
@@ -74,9 +54,25 @@ test::Scene VariedScene(int width, int height, int views, float limit, test::Ran
   return scene;
 }
 
-TEST_CASE("skips: the same bytes as with all the work done, in every mode") {
+// Refocuses, and renders each block of the last stripe anew without copying. Returns the pixels
+// that were copied.
+uint64_t CheckRendered(const test::Scene& scene, const starfocus_config& config,
+                       const starfocus_params& params) {
+  test::Engine engine(config);
+  test::Output out(scene.width, scene.height);
+  starfocus_report report = {};
+  REQUIRE(test::Refocus(&engine, params, scene, &out, nullptr, nullptr, &report) == STARFOCUS_OK);
+  for (const starfocus::Block& block : test::PlanOf(engine.get()).blocks) {
+    const bool same =
+        test::RenderOne(block, engine.get()) == test::RenderUncopied(block, engine.get());
+    CHECK(same);
+  }
+  return report.copied_pixels;
+}
+
+TEST_CASE("left out: a copied block has the bytes of a rendered one, in every mode") {
   test::Random random(51);
-  starfocus_skipped sum = {};
+  uint64_t copied = 0;
   for (int round = 0; round < test::Rounds(400); ++round) {
     const float limit = float(random.Int(1, 6));
     const int width = random.Int(1, 200), height = random.Int(1, 120);
@@ -93,25 +89,12 @@ TEST_CASE("skips: the same bytes as with all the work done, in every mode") {
     if (mode == STARFOCUS_MODE_BENCHMARK) aperture /= limit;
     starfocus_params params = test::Params(focus, aperture, mode);
     params.renderer = random.Int(0, 2);
-    const Refocused skipped = Refocus(scene, config, params, 1);
-    const Refocused whole = Refocus(scene, config, params, 0);
     CAPTURE(round);
     CAPTURE(mode);
-    const bool same = skipped.rgb == whole.rgb;
-    CHECK(same);
-    CHECK(IsNothing(whole.report.skipped));
-    CHECK(skipped.report.side_bytes <= whole.report.side_bytes);
-    CHECK(skipped.report.rendered_samples <= whole.report.rendered_samples);
-    Add(skipped.report.skipped, &sum);
+    copied += CheckRendered(scene, config, params);
   }
-  char text[200];
-  std::snprintf(text, sizeof(text), "%d copied, %d layer columns", int(sum.copied_blocks),
-                int(sum.layer_columns));
-  MESSAGE(std::string(text));
-  constexpr unsigned kSome = STARFOCUS_EMULATED ? 20 : 100;
-  CHECK(sum.copied_blocks > kSome);
-  CHECK(sum.copied_pixels > kSome * 256);
-  CHECK(sum.layer_columns > kSome);
+  constexpr uint64_t kSome = STARFOCUS_EMULATED ? 20 : 100;
+  CHECK(copied > kSome * 256);
 }
 
 // Noise at disparity 0 with a column of `other` at x.
@@ -125,34 +108,29 @@ test::Scene ColumnScene(int width, int height, int x, float other) {
   return scene;
 }
 
-TEST_CASE("skips: in frame modes a block in focus is copied, but for what splats into it") {
+TEST_CASE("left out: in frame modes a block in focus is copied, but for what splats into it") {
   for (const starfocus_mode mode : {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BENCHMARK}) {
     test::Scene scene = ColumnScene(256, 64, 250, 8);
     starfocus_params params = test::Params(0, 1, mode);
     params.renderer = STARFOCUS_RENDERER_LINE_SCAN;
     const starfocus_config config = test::ConfigFor(scene, 8);
-    const Refocused picture = Refocus(scene, config, params, 1);
-    CHECK(picture.report.skipped.copied_blocks == 3);
-    CHECK(picture.report.skipped.copied_pixels == 3 * 64 * 64);
+    const test::Refocused picture = test::RefocusScene(scene, config, params);
+    CHECK(picture.report.copied_pixels == 3 * 64 * 64);
     CHECK(picture.report.layers[0].views == 3 + uint64_t(picture.report.rendered_views));
     // 8 pixels beyond the third block's edge, and no more.
     scene = ColumnScene(256, 64, 192 + 7, 8);
-    CHECK(Refocus(scene, config, params, 1).report.skipped.copied_blocks == 2);
+    CHECK(test::RefocusScene(scene, config, params).report.copied_pixels == 2 * 64 * 64);
   }
 }
 
-TEST_CASE("skips: with N by (9) shifts of up to a third of a pixel move nothing, above they do") {
+TEST_CASE("left out: with N by (9) shifts of up to a third of a pixel move nothing") {
   for (const double radius : {0.1, 0.32, 0.36, 0.4}) {
     const test::Scene scene = test::RandomScene(64, 64, 5, 1, 1, 3);
     starfocus_params params = test::Params(1 - radius, 1, STARFOCUS_MODE_BLOCK);
     params.renderer = STARFOCUS_RENDERER_LINE_SCAN;
-    const starfocus_config config = test::ConfigFor(scene, 8);
-    const Refocused skipped = Refocus(scene, config, params, 1);
-    const bool copied = skipped.report.skipped.copied_pixels == 64 * 64;
-    const bool centre = Refocus(scene, config, params, 0).rgb == scene.pictures[0];
     CAPTURE(radius);
-    CHECK(copied == (radius < 1.0 / 3));
-    CHECK(centre == (radius < 1.0 / 3 + 0.01));
+    CHECK(CheckRendered(scene, test::ConfigFor(scene, 8), params) ==
+          (radius < 1.0 / 3 ? 64u * 64u : 0u));
   }
 }
 
@@ -165,42 +143,21 @@ test::Scene FlatScene() {
   return scene;
 }
 
-TEST_CASE("skips: levels that no block reads are not made") {
+TEST_CASE("left out: layers that no block reads") {
   const test::Scene scene = FlatScene();
   starfocus_config config = test::ConfigFor(scene, 40);
-  starfocus_params params = test::Params(2.25, 1, STARFOCUS_MODE_BLOCK);  // blur radius 0.25
-  const starfocus_skipped focused = Refocus(scene, config, params, 1).report.skipped;
-  CHECK(focused.layer_columns == 2 * 3);
-  params.lens.focus = 27;  // 25: all at layer 2, and no block reads layer 1
-  const starfocus_skipped far = Refocus(scene, config, params, 1).report.skipped;
-  CHECK(far.layer_columns == 3);
-  config.tuning.max_layer = 1;
-  CHECK(Refocus(scene, config, params, 1).report.skipped.layer_columns == 0);
-}
-
-TEST_CASE("skips: no view of an aperture has weight zero, so that there is none to leave out") {
-  // Beyond these N the rim has some, beside views that weigh little more: weights sum to 17 bits.
-  struct Lens {
-    double theta;
-    int most;
+  const auto columns = [&](double focus) {
+    test::Engine engine(config);
+    test::Output out(scene.width, scene.height);
+    REQUIRE(test::Refocus(&engine, test::Params(focus, 1, STARFOCUS_MODE_BLOCK), scene, &out) ==
+            STARFOCUS_OK);
+    return test::LayerColumns(engine.get());
   };
-  for (const auto [theta, most] :
-       {Lens{STARFOCUS_MIN_THETA, 146}, Lens{0.26 * 3.14159265358979, 117},
-        Lens{STARFOCUS_MAX_THETA, 31}}) {
-    for (int n = 0; n <= most; ++n) {
-      std::vector<uint16_t> weights(starfocus::ViewWeightsSize(n));
-      const starfocus::ViewWeights aperture =
-          starfocus::MakeViewWeights(n, starfocus::ApertureFallOff(theta), weights.data());
-      int zero = 0;
-      for (int i = 0; i <= n; ++i) {
-        for (int j = 0; j <= i; ++j) zero += i * i + j * j <= n * n && aperture.Weight(i, j) == 0;
-      }
-      CAPTURE(theta);
-      CAPTURE(n);
-      CHECK(zero == 0);
-    }
-  }
+  CHECK(columns(2.25) == 0);  // blur radius 0.25
+  CHECK(columns(27) == 3);    // 25: all at layer 2, and no block reads layer 1
+  config.tuning.max_layer = 1;
+  CHECK(columns(27) == 3);
 }
 
 }  // namespace
-}  // namespace skips_test
+}  // namespace left_out_test
