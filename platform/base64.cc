@@ -32,7 +32,7 @@ std::string EncodeBase64(const Bytes& bytes) {
   return text;
 }
 
-bool DecodeBase64(const std::string& text, Bytes* bytes) {
+std::optional<Bytes> DecodeBase64(const std::string& text) {
   Bytes result;
   result.reserve(text.size() / 4 * 3 + 3);
   uint32_t bits = 0;
@@ -41,7 +41,7 @@ bool DecodeBase64(const std::string& text, Bytes* bytes) {
   for (; at < text.size() && text[at] != '='; ++at) {
     if (IsSpace(text[at])) continue;
     const int six = BitsOf(text[at]);
-    if (six < 0) return false;
+    if (six < 0) return {};
     bits = (bits << 6 | static_cast<uint32_t>(six)) & 0xffff;
     count += 6;
     if (count < 8) continue;
@@ -49,10 +49,9 @@ bool DecodeBase64(const std::string& text, Bytes* bytes) {
     result.push_back(static_cast<uint8_t>(bits >> count));
   }
   for (; at < text.size(); ++at) {
-    if (text[at] != '=' && !IsSpace(text[at])) return false;
+    if (text[at] != '=' && !IsSpace(text[at])) return {};
   }
-  *bytes = std::move(result);
-  return true;
+  return result;
 }
 
 }  // namespace starfocus

@@ -3,6 +3,7 @@
 #ifndef STARFOCUS_PLATFORM_BASE64_H_
 #define STARFOCUS_PLATFORM_BASE64_H_
 
+#include <optional>
 #include <string>
 
 #include "platform/file.h"
@@ -12,9 +13,9 @@ namespace starfocus {
 // With padding, without line breaks.
 std::string EncodeBase64(const Bytes& bytes);
 
-// White space between characters is skipped; what pads the end may be missing. False for any other
-// character.
-bool DecodeBase64(const std::string& text, Bytes* bytes);
+// Skips white space between characters. Padding at the end may be missing. None if the text has any
+// other character.
+std::optional<Bytes> DecodeBase64(const std::string& text);
 
 }  // namespace starfocus
 

@@ -13,6 +13,7 @@
 
 #include "platform/standard_stream.h"
 #include "platform/temporary_file.h"
+#include "platform/text.h"
 
 namespace starfocus {
 namespace {
@@ -160,6 +161,14 @@ Error WriteFile(const std::string& path, const Bytes& bytes) {
   return IsSpecial(target) ? WriteInPlace(path, bytes) : Replace(path, target, bytes);
 }
 
+Error WriteFile(const std::string& path, const Result<Bytes>& encoded) {
+  return encoded ? WriteFile(path, *encoded) : encoded.error();
+}
+
+Error WriteText(const std::string& path, const std::string& text) {
+  return WriteFile(path, Bytes(text.begin(), text.end()));
+}
+
 Error CheckPlainFile(const std::string& path) {
   return IsSpecial(path) ? Cannot("read", path, "it is a device or pipe") : Error();
 }
@@ -191,11 +200,7 @@ Error CheckOutputPath(const std::string& path) {
 }
 
 std::string LowerExtension(const std::string& path) {
-  std::string extension = fs::path(path).extension().string();
-  for (char& c : extension) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return extension;
+  return Lower(fs::path(path).extension().string());
 }
 
 }  // namespace starfocus

@@ -32,6 +32,11 @@ Result<Bytes> ReadSmallFile(const std::string& path);
 // (standard_stream.h).
 Error WriteFile(const std::string& path, const Bytes& bytes);
 
+// Writes what an encoder made, or returns its error.
+Error WriteFile(const std::string& path, const Result<Bytes>& encoded);
+
+Error WriteText(const std::string& path, const std::string& text);
+
 // Whether a later WriteFile can be expected to work: the folder exists and may be written into, its
 // file system takes the name, and `path` is neither a folder nor read-only.
 Error CheckOutputPath(const std::string& path);

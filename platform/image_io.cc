@@ -76,8 +76,7 @@ Result<Image> ReadImage(const std::string& path) {
 Error WriteImage(const std::string& path, const Image& image, const PictureOptions& options) {
   if (Error error = CheckExtension(path)) return error;
   try {
-    const Result<Bytes> bytes = EncodePicture(path, image, options);
-    return bytes ? WriteFile(path, *bytes) : bytes.error();
+    return WriteFile(path, EncodePicture(path, image, options));
   } catch (const std::bad_alloc&) {
     return OutOfMemory(path, "write it");
   }

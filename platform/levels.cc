@@ -27,35 +27,36 @@ enum class Alpha {
   kTaken         // instead of the levels
 };
 
-// Grey levels of interleaved samples of 1 (grey) to 4 (RGB and alpha) channels.
+// Grey levels of interleaved samples of 1 (grey) to 4 (RGB and alpha) channels. `result` has the
+// size and the sample of white.
 template <class Sample>
-Error TakeGrey(const std::string& where, const Sample* pixel, int channels, Alpha alpha,
-               Samples* result) {
+Result<Samples> TakeGrey(const std::string& where, const Sample* pixel, int channels, Alpha alpha,
+                         Samples result) {
   const bool has_alpha = channels % 2 == 0, is_grey = channels < 3;
-  const size_t count = size_t(result->map.width) * size_t(result->map.height);
+  const size_t count = size_t(result.map.width) * size_t(result.map.height);
   size_t coloured = 0;
-  result->map.values.reserve(count);
+  result.map.values.reserve(count);
   for (size_t k = 0; k < count; ++k, pixel += channels) {
     if (has_alpha && alpha == Alpha::kTaken) {
-      result->map.values.push_back(static_cast<float>(pixel[channels - 1]));
+      result.map.values.push_back(static_cast<float>(pixel[channels - 1]));
     } else if (has_alpha && alpha == Alpha::kTransparent &&
-               2 * pixel[channels - 1] < result->largest) {
-      result->map.values.push_back(std::numeric_limits<float>::quiet_NaN());
+               2 * pixel[channels - 1] < result.largest) {
+      result.map.values.push_back(std::numeric_limits<float>::quiet_NaN());
     } else if (is_grey) {
-      result->map.values.push_back(static_cast<float>(pixel[0]));
+      result.map.values.push_back(static_cast<float>(pixel[0]));
     } else {
       const auto [low, high] = std::minmax({int{pixel[0]}, int{pixel[1]}, int{pixel[2]}});
-      if ((high - low) * kColourPart > result->largest) ++coloured;
-      result->map.values.push_back(static_cast<float>(pixel[0] + pixel[1] + pixel[2]) / 3);
+      if ((high - low) * kColourPart > result.largest) ++coloured;
+      result.map.values.push_back(static_cast<float>(pixel[0] + pixel[1] + pixel[2]) / 3);
     }
   }
-  if (coloured * kColouredPart < count) return {};
+  if (coloured * kColouredPart < count) return result;
   return Expected(where, "a picture in grey levels",
                   "one in colours: false colours do not say what is nearer");
 }
 
 // Decodes a PNG file that DecodeImage has read without an error.
-Error DecodePngSamples(const std::string& where, const Bytes& bytes, Alpha alpha, Samples* result) {
+Result<Samples> DecodePngSamples(const std::string& where, const Bytes& bytes, Alpha alpha) {
   const PngHeader header = *ReadPngHeader(bytes);
   constexpr int kHasAlpha = 4;  // this bit of the colour type
   if (alpha == Alpha::kTaken && (header.colour & kHasAlpha) == 0) alpha = Alpha::kIgnored;
@@ -63,44 +64,39 @@ Error DecodePngSamples(const std::string& where, const Bytes& bytes, Alpha alpha
   const int channels = (header.colour & kColour) != 0 ? 4 : 2;
   const auto size = static_cast<int>(bytes.size());
   const StbMemory memory;
-  int own = 0, *width = &result->map.width, *height = &result->map.height;
+  int width = 0, height = 0, own = 0;
   if (header.depth == 16) {
-    result->largest = 65535;
     const stbi_us* pixels =
-        stbi_load_16_from_memory(bytes.data(), size, width, height, &own, channels);
-    if (pixels != nullptr) return TakeGrey(where, pixels, channels, alpha, result);
+        stbi_load_16_from_memory(bytes.data(), size, &width, &height, &own, channels);
+    if (pixels != nullptr) {
+      return TakeGrey(where, pixels, channels, alpha, {{width, height, {}}, 65535});
+    }
   } else {
-    result->largest = 255;
     const stbi_uc* pixels =
-        stbi_load_from_memory(bytes.data(), size, width, height, &own, channels);
-    if (pixels != nullptr) return TakeGrey(where, pixels, channels, alpha, result);
+        stbi_load_from_memory(bytes.data(), size, &width, &height, &own, channels);
+    if (pixels != nullptr) {
+      return TakeGrey(where, pixels, channels, alpha, {{width, height, {}}, 255});
+    }
   }
   return Expected(where, "an undamaged picture",
                   "a broken one (" + std::string(stbi_failure_reason()) + ")");
 }
 
 Result<Samples> Decode(const std::string& where, Alpha alpha, const Bytes& bytes) {
-  Samples result;
   if (!bytes.empty() && bytes.front() == 'P') {
     const Result<PnmSamples> pnm = DecodePnmSamples(where, bytes);
     if (!pnm) return pnm.error();
-    result = {{pnm->width, pnm->height, {}}, pnm->largest};
-    if (Error error = TakeGrey(where, pnm->samples.data(), pnm->channels, alpha, &result)) {
-      return error;
-    }
-    return result;
+    return TakeGrey(where, pnm->samples.data(), pnm->channels, alpha,
+                    {{pnm->width, pnm->height, {}}, pnm->largest});
   }
   Result<DecodedPicture> picture = DecodeImage(where, bytes);
   if (!picture) return picture.error();
   Image& image = picture->image;
-  result = {{image.width, image.height, {}}, 255};
-  if (IsPng(bytes)) {
-    image = {};  // makes room
-    if (Error error = DecodePngSamples(where, bytes, alpha, &result)) return error;
-  } else if (Error error = TakeGrey(where, image.pixels.data(), 3, alpha, &result)) {
-    return error;
+  if (!IsPng(bytes)) {
+    return TakeGrey(where, image.pixels.data(), 3, alpha, {{image.width, image.height, {}}, 255});
   }
-  return result;
+  image = {};  // makes room
+  return DecodePngSamples(where, bytes, alpha);
 }
 
 }  // namespace

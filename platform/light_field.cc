@@ -10,6 +10,7 @@
 #include "platform/image_io.h"
 #include "platform/levels.h"
 #include "platform/progress.h"
+#include "platform/text.h"
 #include "platform/writers/png.h"
 #include "starfocus/starfocus.h"
 
@@ -20,10 +21,6 @@ namespace fs = std::filesystem;
 
 std::string Join(const std::string& folder, const std::string& name) {
   return (fs::path(folder) / name).string();
-}
-
-std::string SizeText(int width, int height) {
-  return std::to_string(width) + "x" + std::to_string(height);
 }
 
 constexpr char kDisparityName[] = "disparity.pfm";
@@ -67,8 +64,7 @@ Error SaveCoverage(const std::string& folder, const LightField& light_field) {
   image.height = light_field.views[0].height;
   image.levels.assign(light_field.coverage.begin(), light_field.coverage.end());
   const std::string path = Join(folder, kCoverageName);
-  const Result<Bytes> png = EncodeGreyPng(path, image);
-  return png ? WriteFile(path, *png) : png.error();
+  return WriteFile(path, EncodeGreyPng(path, image));
 }
 
 }  // namespace

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/pfm.h"
 
-#include <cmath>
-#include <cstdlib>
 #include <cstring>
 #include <new>
 
 #include "platform/image.h"
+#include "platform/text.h"
 #include "platform/text_header.h"
 
 namespace starfocus {
@@ -32,35 +31,37 @@ void AppendFloat(float value, ByteOrder order, Bytes* bytes) {
   }
 }
 
-Error ParseHeader(const std::string& path, TextHeader* header, FloatMap* map, ByteOrder* order) {
+struct Header {
+  int width, height;
+  ByteOrder order;
+};
+
+Result<Header> ParseHeader(const std::string& path, TextHeader* header) {
   const std::string magic = header->Token();
   if (magic != "Pf") return Expected(path, "a one-channel PFM (Pf)", "'" + magic + "'");
   const std::string width = header->Token(), height = header->Token(), scale = header->Token();
-  map->width = ParseSize(width);
-  map->height = ParseSize(height);
-  if (map->width == 0 || map->height == 0) {
+  const Header size = {ParseSize(width), ParseSize(height), ByteOrder::kBig};
+  if (size.width == 0 || size.height == 0) {
     return Expected(path, "width and height from 1 to 65535",
                     "'" + width + "' and '" + height + "'");
   }
-  char* end = nullptr;
-  const double factor = std::strtod(scale.c_str(), &end);
-  if (scale.empty() || *end != '\0' || !std::isfinite(factor) || factor == 0) {
+  const double factor = ParseNumber(scale).value_or(0);
+  if (factor == 0) {
     return Expected(path, "a scale that is a number other than 0", "'" + scale + "'");
   }
-  *order = factor < 0 ? ByteOrder::kLittle : ByteOrder::kBig;
-  return {};
+  return Header{size.width, size.height, factor < 0 ? ByteOrder::kLittle : ByteOrder::kBig};
 }
 
 Result<FloatMap> Decode(const std::string& path) {
   const Result<Bytes> bytes = ReadFile(path);
   if (!bytes) return bytes.error();
   TextHeader header(*bytes);
-  FloatMap result;
-  ByteOrder order = ByteOrder::kLittle;
-  if (Error error = ParseHeader(path, &header, &result, &order)) return error;
-  if (!FitsMemory(result.width, result.height, sizeof(float))) {
+  const Result<Header> parsed = ParseHeader(path, &header);
+  if (!parsed) return parsed.error();
+  if (!FitsMemory(parsed->width, parsed->height, sizeof(float))) {
     return OutOfMemory(path, "read it");
   }
+  FloatMap result = {parsed->width, parsed->height, {}};
   const size_t width = size_t(result.width), height = size_t(result.height);
   if (header.remaining() != 4 * width * height) {
     return Expected(path, std::to_string(4 * width * height) + " bytes of data",
@@ -70,7 +71,7 @@ Result<FloatMap> Decode(const std::string& path) {
   const uint8_t* data = header.data();
   for (size_t y = height; y-- > 0;) {
     float* row = result.values.data() + y * width;
-    for (size_t x = 0; x < width; ++x, data += 4) row[x] = LoadFloat(data, order);
+    for (size_t x = 0; x < width; ++x, data += 4) row[x] = LoadFloat(data, parsed->order);
   }
   return result;
 }

@@ -17,6 +17,7 @@ struct FloatMap {
   int height = 0;
   std::vector<float> values;  // rows from the top down, without padding
 
+  size_t stride() const { return sizeof(float) * size_t(width); }  // bytes from row to row
   float at(int x, int y) const { return values[size_t(y) * size_t(width) + size_t(x)]; }
 };
 

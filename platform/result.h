@@ -66,6 +66,13 @@ class [[nodiscard]] Result {
   T* operator->() { return &value_; }
   const T* operator->() const { return &value_; }
 
+  // Moves the value to `target`, which stays as it is where there is none. Returns the error:
+  //   if (Error error = ReadImage(path).MoveTo(&image)) return error;
+  Error MoveTo(T* target) {
+    if (!error_) *target = std::move(value_);
+    return error_;
+  }
+
  private:
   T value_ = {};
   Error error_;

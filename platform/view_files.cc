@@ -4,13 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <iterator>
+#include <optional>
 #include <system_error>
 
 #include "platform/file.h"
 #include "platform/folder.h"
+#include "platform/text.h"
 
 namespace starfocus {
 namespace {
@@ -33,31 +34,31 @@ std::string CoordinateText(double value) {
 }
 
 // Reads a sign, digits and decimals from `at` on, up to `end`.
-bool ReadCoordinate(const std::string& text, size_t at, size_t end, double* value) {
-  if (end > text.size() || at + 2 > end || (text[at] != '+' && text[at] != '-')) return false;
+std::optional<double> ReadCoordinate(const std::string& text, size_t at, size_t end) {
+  if (end > text.size() || at + 2 > end || (text[at] != '+' && text[at] != '-')) return {};
   const std::string number = text.substr(at, end - at);
-  if (number.find_first_not_of("0123456789.", 1) != std::string::npos) return false;
-  char* stop = nullptr;
-  *value = std::strtod(number.c_str(), &stop);
-  return *stop == '\0' && std::isfinite(*value);
+  if (number.find_first_not_of("0123456789.", 1) != std::string::npos) return {};
+  return ParseNumber(number);
 }
 
-// The position that a file's name tells, and which of kExtensions it has.
-bool ReadName(const std::string& name, starfocus_position* position, size_t* extension) {
+// What a view's name says.
+struct NameParts {
+  starfocus_position position;
+  size_t extension;  // which of kExtensions it has
+};
+
+// None if the name is not a view's.
+std::optional<NameParts> ReadName(const std::string& name) {
   constexpr char kPrefix[] = "view_";
   constexpr size_t kBegin = sizeof(kPrefix) - 1, kExtension = 4;
-  if (name.size() < kBegin + kExtension || name.compare(0, kBegin, kPrefix) != 0) return false;
+  if (name.size() < kBegin + kExtension || name.compare(0, kBegin, kPrefix) != 0) return {};
   const size_t end = name.size() - kExtension, middle = name.find('_', kBegin);
-  for (*extension = 0; *extension < std::size(kExtensions); ++*extension) {
-    if (name.compare(end, kExtension, kExtensions[*extension]) == 0) break;
-  }
-  double u = 0, v = 0;
-  if (*extension == std::size(kExtensions) || middle >= end ||
-      !ReadCoordinate(name, kBegin, middle, &u) || !ReadCoordinate(name, middle + 1, end, &v)) {
-    return false;
-  }
-  *position = RoundedPosition(u, v);
-  return true;
+  const auto* extension =
+      std::find(std::begin(kExtensions), std::end(kExtensions), name.substr(end));
+  if (extension == std::end(kExtensions) || middle >= end) return {};
+  const auto u = ReadCoordinate(name, kBegin, middle), v = ReadCoordinate(name, middle + 1, end);
+  if (!u || !v) return {};
+  return NameParts{RoundedPosition(*u, *v), static_cast<size_t>(extension - kExtensions)};
 }
 
 Error CheckFolder(const std::string& folder) {
@@ -88,18 +89,15 @@ Result<std::vector<ViewFile>> ListNames(const std::string& folder) {
   if (!names) return names.error();
   std::vector<ViewFile> files;
   for (const std::string& name : *names) {
-    ViewFile file;
-    size_t extension = 0;
-    if (!ReadName(name, &file.position, &extension)) continue;
+    const std::optional<NameParts> parts = ReadName(name);
+    if (!parts) continue;
     const std::string stem = name.substr(0, name.size() - 4);
     const auto has = [&](size_t other) {
       return std::binary_search(names->begin(), names->end(), stem + kExtensions[other]);
     };
     bool first = true;
-    for (size_t other = 0; other < extension; ++other) first = first && !has(other);
-    if (!first) continue;
-    file.path = (fs::path(folder) / name).string();
-    files.push_back(file);
+    for (size_t other = 0; other < parts->extension; ++other) first = first && !has(other);
+    if (first) files.push_back({parts->position, (fs::path(folder) / name).string()});
   }
   return files;
 }
@@ -151,9 +149,7 @@ std::string ViewName(const starfocus_position& position) {
 }
 
 bool IsViewFile(const std::string& name) {
-  starfocus_position position;
-  size_t extension = 0;
-  return ReadName(name, &position, &extension) || name == kPair[0] || name == kPair[1];
+  return ReadName(name) || name == kPair[0] || name == kPair[1];
 }
 
 Result<std::vector<ViewFile>> FindViewFiles(const std::string& folder) {

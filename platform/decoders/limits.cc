@@ -2,6 +2,7 @@
 #include "platform/decoders/limits.h"
 
 #include "platform/image.h"
+#include "platform/text.h"
 
 namespace starfocus {
 namespace {
@@ -13,7 +14,7 @@ constexpr int64_t kMostPixels = int64_t{1} << 28;
 }  // namespace
 
 Error CheckPictureSize(const std::string& where, int64_t width, int64_t height) {
-  const std::string size = std::to_string(width) + "x" + std::to_string(height);
+  const std::string size = SizeText(width, height);
   if (width < 1 || height < 1 || width > kMaxPictureSize || height > kMaxPictureSize) {
     return Expected(where, "width and height from 1 to 65535", size);
   }

@@ -10,6 +10,7 @@
 #include "platform/container.h"
 #include "platform/decoders/exif_bytes.h"
 #include "platform/decoders/limits.h"
+#include "platform/text.h"
 
 namespace starfocus {
 namespace {
@@ -70,7 +71,7 @@ Result<DecodedPicture> DecodeWebp(const std::string& where, const Bytes& webp) {
       kAnyFilesPixels + kMostPixelsPerByte * static_cast<int64_t>(webp.size())) {
     return Expected(where,
                     "a WebP picture of at most 2^24 pixels and 65536 for each byte of its file",
-                    std::to_string(width) + "x" + std::to_string(height));
+                    SizeText(width, height));
   }
   Image result(width, height);
   config.output.colorspace = MODE_RGB;

@@ -46,10 +46,9 @@ void UnderstandApple(const XmpNode& xmp, DepthPhoto* photo) {
   const bool disparity = TypeOf(xmp) != "depth";
   const std::string* low = FindProperty(xmp, kPixels + "FloatMinValue");
   const std::string* high = FindProperty(xmp, kPixels + "FloatMaxValue");
-  double from = 0, to = 0;
-  const bool both = ReadXmpNumber(low, &from) && ReadXmpNumber(high, &to);
-  if (!both || !(from >= 0) || !(to > from)) {
-    if (both) {
+  const std::optional<double> from = XmpNumber(low), to = XmpNumber(high);
+  if (!from || !to || *from < 0 || *to <= *from) {
+    if (from && to) {
       photo->notes.push_back("the range of the depth map is ignored (from " + *low + " to " +
                              *high + "): its levels are an order");
     }
@@ -57,7 +56,7 @@ void UnderstandApple(const XmpNode& xmp, DepthPhoto* photo) {
     ToOrder(disparity ? Near::kWhite : Near::kBlack, photo);
     return;
   }
-  ToRange(from, to, &photo->map);
+  ToRange(*from, *to, &photo->map);
   if (!disparity) Invert(&photo->map);
   const std::string* accuracy = FindProperty(xmp, kDepth + "Accuracy");
   const bool absolute = accuracy != nullptr && *accuracy == "absolute";
@@ -78,10 +77,8 @@ Error ReadAppleJpeg(Span file, const JpegParts& parts, DepthPhoto* photo) {
     gain_map = gain_map || type.find("gainmap") != std::string::npos;
     if (!IsMap(type) || !photo->map.values.empty()) continue;
     const Bytes bytes(picture.file.data, picture.file.data + picture.file.size);
-    Result<FloatMap> map = DecodeLevels("auxiliary picture", bytes);
-    error = map.error();
+    error = DecodeLevels("auxiliary picture", bytes).MoveTo(&photo->map);
     if (error) continue;
-    photo->map = std::move(*map);
     photo->format = "Apple depth photo (JPEG)";
     NoteIndex(parts, picture, photo);
     UnderstandApple(xmp, photo);

@@ -40,20 +40,20 @@ Names PicturesOf(const Names& names) {
   return pictures;
 }
 
-Error OpenOwn(const std::string& folder, const Names& names, Capture* capture) {
-  capture->format = "light-field folder";
-  Result<std::vector<ViewFile>> files = FindViewFiles(folder);
-  if (!files) return files.error();
-  capture->files = std::move(*files);
-  if (HasDisparity(folder)) capture->map_path = DisparityPath(folder);
-  capture->coverage_path = CoveragePath(folder);
+Result<Capture> OpenOwn(const std::string& folder, const Names& names) {
+  Capture capture;
+  capture.format = "light-field folder";
+  if (Error error = FindViewFiles(folder).MoveTo(&capture.files)) return error;
+  if (HasDisparity(folder)) capture.map_path = DisparityPath(folder);
+  capture.coverage_path = CoveragePath(folder);
   // Unknown disparities of a pair are infinite.
-  if (Has(names, "im0.png")) capture->care = MapCare::kFill;
-  const bool pair = Has(names, "im0.png") && Has(names, "calib.txt");
-  return pair ? ReadMiddlebury(folder, capture) : Error();
+  if (Has(names, "im0.png")) capture.care = MapCare::kFill;
+  if (!Has(names, "im0.png") || !Has(names, "calib.txt")) return capture;
+  if (Error error = ReadMiddlebury(folder, &capture)) return error;
+  return capture;
 }
 
-Error OpenArray(const std::string& folder, const Names& pictures, Capture* capture) {
+Result<Capture> OpenArray(const std::string& folder, const Names& pictures) {
   Result<ViewArray> found = FindArray(folder, pictures);
   if (!found) return found.error();
   ViewArray& array = *found;
@@ -65,24 +65,25 @@ Error OpenArray(const std::string& folder, const Names& pictures, Capture* captu
         std::to_string(pictures.size()) + " pictures, the first " + pictures[0]);
   }
   const bool stanford = IsStanford(pictures[0]) && array.rows > 1;
-  capture->format = stanford ? "Stanford light field" : "rows and columns of views";
+  Capture capture;
+  capture.format = stanford ? "Stanford light field" : "rows and columns of views";
   if (stanford) OrderStanford(&array);
-  Result<Star> star = ChooseStar(folder, array, &capture->facts);
+  Result<Star> star = ChooseStar(folder, array, &capture.facts);
   if (!star) return star.error();
-  capture->files = std::move(star->views);
-  if (HasDisparity(folder)) capture->map_path = DisparityPath(folder);
-  return {};
+  capture.files = std::move(star->views);
+  if (HasDisparity(folder)) capture.map_path = DisparityPath(folder);
+  return capture;
 }
 
-Error OpenFolder(const std::string& folder, Capture* capture) {
+Result<Capture> OpenFolder(const std::string& folder) {
   const Result<Names> names = ListFolder(folder);
   if (!names) return names.error();
-  if (FindGreyMapPair(folder, *names, capture)) return {};
+  if (std::optional<Capture> pair = FindGreyMapPair(folder, *names)) return std::move(*pair);
   const Names pictures = PicturesOf(*names);
   if (pictures.empty() || std::any_of(names->begin(), names->end(), IsViewFile)) {
-    return OpenOwn(folder, *names, capture);
+    return OpenOwn(folder, *names);
   }
-  return IsHci(*names) ? OpenHci(folder, *names, capture) : OpenArray(folder, pictures, capture);
+  return IsHci(*names) ? OpenHci(folder, *names) : OpenArray(folder, pictures);
 }
 
 // Takes the two views of a stereo pair, which have no map.
@@ -97,38 +98,40 @@ int PixelAt(double share, int pixels) {
   return std::min(static_cast<int>(share * pixels), pixels - 1);
 }
 
-Error OpenPhoto(const std::string& path, const CaptureOptions& options, Capture* capture) {
+Result<Capture> OpenPhoto(const std::string& path, const CaptureOptions& options) {
   Result<DepthPhoto> read = ReadDepthPhotoFile(path, options.map, options.depth);
   if (!read) return read.error();
   DepthPhoto& photo = *read;
   const bool pair = !photo.right.pixels.empty();
+  Capture capture;
   if (!pair) {
-    if (Error error = MakeSmallMap(capture->path, &photo, &capture->light_field)) return error;
+    Error error = MakePhotoField(InputName(path), &photo).MoveTo(&capture.light_field);
+    if (error) return error;
   }
-  capture->format = photo.format;
-  capture->metadata = std::move(photo.metadata);
-  capture->facts = std::move(photo.facts);
-  capture->notes = std::move(photo.notes);
+  capture.format = photo.format;
+  capture.metadata = std::move(photo.metadata);
+  capture.facts = std::move(photo.facts);
+  capture.notes = std::move(photo.notes);
   if (pair) {
-    TakePair(path, &photo, capture);
-    return {};
+    TakePair(path, &photo, &capture);
+    return capture;
   }
-  if (!options.small_map) FitMap(&capture->light_field);
-  const Image& picture = capture->light_field.views[0];
-  capture->photo = true;
-  capture->files = {{{0, 0}, path}};
-  capture->map_path = photo.depth_path.empty() ? path : photo.depth_path;
-  capture->care = photo.is_ready ? MapCare::kNone : MapCare::kRepair;
-  capture->widest = 1;
-  capture->f_stop = kPhotoFStop;
-  capture->has_focus = photo.has_focus;
-  capture->focus_x = PixelAt(photo.focus_x, picture.width);
-  capture->focus_y = PixelAt(photo.focus_y, picture.height);
-  capture->has_subject = photo.has_subject;
-  capture->subject_x = PixelAt(photo.subject_x, picture.width);
-  capture->subject_y = PixelAt(photo.subject_y, picture.height);
-  capture->focus = photo.focus_value;
-  return {};
+  if (!options.small_map) FitMap(&capture.light_field);
+  const Image& picture = capture.light_field.views[0];
+  capture.photo = true;
+  capture.files = {{{0, 0}, path}};
+  capture.map_path = photo.depth_path.empty() ? path : photo.depth_path;
+  capture.care = photo.is_ready ? MapCare::kNone : MapCare::kRepair;
+  capture.widest = 1;
+  capture.f_stop = kPhotoFStop;
+  capture.has_focus = photo.has_focus;
+  capture.focus_x = PixelAt(photo.focus_x, picture.width);
+  capture.focus_y = PixelAt(photo.focus_y, picture.height);
+  capture.has_subject = photo.has_subject;
+  capture.subject_x = PixelAt(photo.subject_x, picture.width);
+  capture.subject_y = PixelAt(photo.subject_y, picture.height);
+  capture.focus = photo.focus_value;
+  return capture;
 }
 
 // Leaves the chosen ones of views that are loaded.
@@ -167,9 +170,7 @@ Error LoadViews(const Positions& wanted, Capture* capture, ThreadRunner* runner)
     SelectViews(*chosen, &capture->light_field);
     return {};
   }
-  Result<LightField> loaded = LoadViewFiles(*chosen, runner);
-  if (!loaded) return loaded.error();
-  capture->light_field = std::move(*loaded);
+  if (Error error = LoadViewFiles(*chosen, runner).MoveTo(&capture->light_field)) return error;
   return capture->map_path.empty() ? Error() : LoadMapOf(capture);
 }
 
@@ -185,10 +186,8 @@ Result<Capture> OpenCapture(const std::string& path, const CaptureOptions& optio
       if (!fs::exists(status)) return Cannot("read", path, failure);
       folder = fs::is_directory(status);
     }
-    Capture capture;
-    capture.path = InputName(path);
-    Error error = folder ? OpenFolder(path, &capture) : OpenPhoto(path, options, &capture);
-    if (error) return error;
+    Result<Capture> capture = folder ? OpenFolder(path) : OpenPhoto(path, options);
+    if (capture) capture->path = InputName(path);
     return capture;
   } catch (const std::bad_alloc&) {
     return OutOfMemory(path, "read it");

@@ -33,9 +33,9 @@ class Bits {
   size_t at_ = 0;
 };
 
-void Widen(int64_t width, int64_t height, int64_t* most_width, int64_t* most_height) {
-  *most_width = std::max(*most_width, width);
-  *most_height = std::max(*most_height, height);
+void Widen(int64_t width, int64_t height, CodedSize* most) {
+  most->width = std::max(most->width, width);
+  most->height = std::max(most->height, height);
 }
 
 // A NAL unit without the bytes that keep start codes out of it.
@@ -54,7 +54,7 @@ Bytes Unescape(Span unit) {
 }
 
 // 23008-2, 7.3.2.2, up to the size.
-void ReadParameterSet(Span unit, int64_t* width, int64_t* height) {
+void ReadParameterSet(Span unit, CodedSize* most) {
   constexpr int kSequenceSet = 33;
   if (unit.size < 2 || (unit.data[0] >> 1 & 63) != kSequenceSet) return;
   unit.size = std::min(unit.size, size_t{512});
@@ -73,11 +73,11 @@ void ReadParameterSet(Span unit, int64_t* width, int64_t* height) {
   bits.ReadGolomb();                         // number of the set
   if (bits.ReadGolomb() == 3) bits.Skip(1);  // colour planes apart
   const uint32_t own_width = bits.ReadGolomb(), own_height = bits.ReadGolomb();
-  if (bits.good()) Widen(own_width, own_height, width, height);
+  if (bits.good()) Widen(own_width, own_height, most);
 }
 
 // AV1 specification, 5.5.1, up to the size.
-void ReadSequenceHeader(Span header, int64_t* width, int64_t* height) {
+void ReadSequenceHeader(Span header, CodedSize* most) {
   Bits bits(header);
   bits.Skip(3 + 1);
   if (bits.Read(1) != 0) {
@@ -107,11 +107,11 @@ void ReadSequenceHeader(Span header, int64_t* width, int64_t* height) {
   const int height_bits = static_cast<int>(bits.Read(4)) + 1;
   const int64_t own_width = int64_t{bits.Read(width_bits)} + 1;
   const int64_t own_height = int64_t{bits.Read(height_bits)} + 1;
-  if (bits.good()) Widen(own_width, own_height, width, height);
+  if (bits.good()) Widen(own_width, own_height, most);
 }
 
 // AV1 specification, 5.3: a header, its size in groups of seven bits, and what it is of.
-void ReadUnits(Span units, int64_t* width, int64_t* height) {
+void ReadUnits(Span units, CodedSize* most) {
   constexpr int kSequenceHeader = 1;
   while (units.size >= 2) {
     const uint8_t first = units.data[0];
@@ -128,7 +128,7 @@ void ReadUnits(Span units, int64_t* width, int64_t* height) {
     if (at > units.size) return;
     const size_t held = std::min(size, units.size - at);  // the head of an item may cut it
     if ((first >> 3 & 15) == kSequenceHeader) {
-      ReadSequenceHeader({units.data + at, held}, width, height);
+      ReadSequenceHeader({units.data + at, held}, most);
     }
     units = {units.data + at + held, units.size - at - held};
   }
@@ -137,7 +137,8 @@ void ReadUnits(Span units, int64_t* width, int64_t* height) {
 }  // namespace
 
 // 14496-15, 8.3.3.1: 22 bytes, then arrays of units.
-bool HevcSize(Span configuration, const Bytes& head, int64_t* width, int64_t* height) {
+CodedSize HevcSize(Span configuration, const Bytes& head) {
+  CodedSize most;
   constexpr size_t kArrays = 22;
   const Span all = configuration;
   size_t at = kArrays + 1;
@@ -148,8 +149,8 @@ bool HevcSize(Span configuration, const Bytes& head, int64_t* width, int64_t* he
     for (int i = 0; i < units && at + 2 <= all.size; ++i) {
       const size_t size = size_t{all.data[at]} * 256 + all.data[at + 1];
       at += 2;
-      if (size > all.size - at) return *width > 0;
-      ReadParameterSet({all.data + at, size}, width, height);
+      if (size > all.size - at) return most;
+      ReadParameterSet({all.data + at, size}, &most);
       at += size;
     }
   }
@@ -158,19 +159,20 @@ bool HevcSize(Span configuration, const Bytes& head, int64_t* width, int64_t* he
                         size_t{head[from + 2]} << 8 | head[from + 3];
     from += 4;
     const size_t held = std::min(size, head.size() - from);
-    ReadParameterSet({head.data() + from, held}, width, height);
+    ReadParameterSet({head.data() + from, held}, &most);
     from += held;
   }
-  return *width > 0;
+  return most;
 }
 
-bool Av1Size(Span configuration, const Bytes& head, int64_t* width, int64_t* height) {
+CodedSize Av1Size(Span configuration, const Bytes& head) {
+  CodedSize most;
   constexpr size_t kUnits = 4;
   if (configuration.size > kUnits) {
-    ReadUnits({configuration.data + kUnits, configuration.size - kUnits}, width, height);
+    ReadUnits({configuration.data + kUnits, configuration.size - kUnits}, &most);
   }
-  ReadUnits({head.data(), head.size()}, width, height);
-  return *width > 0;
+  ReadUnits({head.data(), head.size()}, &most);
+  return most;
 }
 
 }  // namespace starfocus

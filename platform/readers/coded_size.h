@@ -9,12 +9,16 @@
 
 namespace starfocus {
 
-// The largest size of the sequence parameter sets in a decoder configuration record (hvcC) and at
-// the beginning of a picture's data. False if there is none that can be read.
-bool HevcSize(Span configuration, const Bytes& head, int64_t* width, int64_t* height);
+struct CodedSize {
+  int64_t width = 0, height = 0;  // 0: none that can be read
+};
 
-// The same of the sequence headers of AV1 (av1C).
-bool Av1Size(Span configuration, const Bytes& head, int64_t* width, int64_t* height);
+// The largest size of the sequence parameter sets in a decoder configuration record (hvcC) and at
+// the beginning of a picture's data.
+CodedSize HevcSize(Span configuration, const Bytes& head);
+
+// The largest size of the sequence headers of AV1 (av1C).
+CodedSize Av1Size(Span configuration, const Bytes& head);
 
 }  // namespace starfocus
 

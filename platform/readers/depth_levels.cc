@@ -7,6 +7,7 @@
 #include "platform/image_io.h"
 #include "platform/readers/exif.h"
 #include "platform/readers/profile.h"
+#include "platform/text.h"
 
 namespace starfocus {
 namespace {
@@ -61,20 +62,19 @@ void ToOrder(Near near, DepthPhoto* photo) {
 }
 
 void TellMap(const std::string& text, DepthPhoto* photo) {
-  photo->facts.emplace_back("map", std::to_string(photo->map.width) + "x" +
-                                       std::to_string(photo->map.height) + ", " + text);
+  photo->facts.emplace_back("map", SizeText(photo->map.width, photo->map.height) + ", " + text);
 }
 
-Error ReadJpegPicture(const std::string& where, Span file, const JpegParts& parts,
-                      DepthPhoto* photo) {
+Result<DepthPhoto> ReadJpegPicture(const std::string& where, Span file, const JpegParts& parts) {
   Result<DecodedPicture> picture = DecodeImage(where, Bytes(file.data, file.data + file.size));
   if (!picture) return picture.error();
-  photo->picture = std::move(picture->image);
-  photo->metadata = parts.metadata;
-  if (!parts.ignored.empty()) photo->notes.push_back(parts.ignored);
-  ReadExif(photo);
-  CheckProfile(photo);
-  return {};
+  DepthPhoto photo;
+  photo.picture = std::move(picture->image);
+  photo.metadata = parts.metadata;
+  if (!parts.ignored.empty()) photo.notes.push_back(parts.ignored);
+  ReadExif(&photo);
+  CheckProfile(&photo);
+  return photo;
 }
 
 }  // namespace starfocus

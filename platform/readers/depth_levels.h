@@ -34,8 +34,7 @@ void ToOrder(Near near, DepthPhoto* photo);
 void TellMap(const std::string& text, DepthPhoto* photo);
 
 // The picture, EXIF and ICC of a JPEG file and its parts.
-Error ReadJpegPicture(const std::string& where, Span file, const JpegParts& parts,
-                      DepthPhoto* photo);
+Result<DepthPhoto> ReadJpegPicture(const std::string& where, Span file, const JpegParts& parts);
 
 }  // namespace starfocus
 

@@ -77,16 +77,16 @@ void ReadMap(Span file, const JpegParts& parts, const XmpNode& xmp, Near near, D
   read(ReadAppleJpeg(file, parts, photo));
 }
 
-Error DecodeJpegPhoto(const std::string& where, Span file, bool with_map, Near near,
-                      DepthPhoto* photo) {
+Result<DepthPhoto> DecodeJpegPhoto(const std::string& where, Span file, bool with_map, Near near) {
   const Result<JpegParts> parts = ReadJpegParts(where, file);
   if (!parts) return parts.error();
-  if (Error error = ReadJpegPicture(where, file, *parts, photo)) return error;
-  const XmpNode xmp = ReadXmp(*parts, false, photo);
+  Result<DepthPhoto> photo = ReadJpegPicture(where, file, *parts);
+  if (!photo) return photo;
+  const XmpNode xmp = ReadXmp(*parts, false, &*photo);
   photo->metadata.xmp = KeptXmp(xmp);
   if (FindProperty(xmp, kGainMap) != nullptr) photo->facts.emplace_back("gain map", "left out");
-  if (with_map) ReadMap(file, *parts, xmp, near, photo);
-  return {};
+  if (with_map) ReadMap(file, *parts, xmp, near, &*photo);
+  return photo;
 }
 
 // What a map within the photo says about itself, no option overrides.
@@ -146,13 +146,10 @@ void NoteProblem(DepthPhoto* photo) {
 
 Result<DepthPhoto> DecodeDepthPhoto(const std::string& where, Span file, bool with_map, Near near) {
   if (IsHeif(file)) return ReadHeif(where, file, near);
-  DepthPhoto photo;
-  if (IsJpeg(file)) {
-    if (Error error = DecodeJpegPhoto(where, file, with_map, near, &photo)) return error;
-    return photo;
-  }
+  if (IsJpeg(file)) return DecodeJpegPhoto(where, file, with_map, near);
   Result<DecodedPicture> picture = DecodeImage(where, Bytes(file.data, file.data + file.size));
   if (!picture) return picture.error();
+  DepthPhoto photo;
   photo.picture = std::move(picture->image);
   photo.metadata = std::move(picture->metadata);
   ReadExif(&photo);
@@ -178,9 +175,7 @@ Result<DepthPhoto> ReadDepthPhotoFile(const std::string& path, const DepthOption
   }
   photo.depth_path = depth;
   if (depth.empty() && !stream) {
-    Result<std::string> beside = FindDepthPicture(path, &photo);
-    if (!beside) return beside.error();
-    photo.depth_path = std::move(*beside);
+    if (Error error = FindDepthPicture(path, &photo).MoveTo(&photo.depth_path)) return error;
   }
   if (photo.depth_path.empty()) {
     if (ReadStrayMap(file, options.near, &photo) || ReadStereoPair(path, file, &photo)) {

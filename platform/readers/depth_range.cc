@@ -5,17 +5,12 @@
 #include <cstdlib>
 
 #include "platform/readers/depth_levels.h"
+#include "platform/text.h"
 
 namespace starfocus {
 namespace {
 
-std::string Lower(const std::string* text) {
-  std::string lower = text == nullptr ? "" : *text;
-  for (char& c : lower) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return lower;
-}
+std::string Lower(const std::string* text) { return text == nullptr ? "" : starfocus::Lower(*text); }
 
 std::string Quoted(const std::string* text) {
   return text == nullptr ? "absent" : "'" + text->substr(0, 40) + "'";

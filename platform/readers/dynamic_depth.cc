@@ -34,12 +34,9 @@ std::string TextOf(const XmpNode& node, const std::string& name) {
 
 // A whole number of bytes that a file can have; 0 if it is not there or not such a number.
 size_t LengthOf(const XmpNode& node, const std::string& name, size_t file) {
-  double value = 0;
-  if (!ReadXmpNumber(OwnProperty(node, name), &value) || value < 0 ||
-      value > static_cast<double>(file) || value != std::floor(value)) {
-    return 0;
-  }
-  return static_cast<size_t>(value);
+  const double value = XmpNumber(OwnProperty(node, name)).value_or(0);
+  const bool fits = value >= 0 && value <= static_cast<double>(file) && value == std::floor(value);
+  return fits ? static_cast<size_t>(value) : 0;
 }
 
 Result<std::vector<Item>> ReadItems(Span file, const XmpNode& xmp) {
@@ -72,9 +69,9 @@ Span From(Span file, size_t at) {
 
 // Where item `index` begins by the lengths of the directory: behind the first picture, or, where
 // something else was put between, as far from the end of the file as what follows it. Decoders skip
-// what lies behind the item.
-bool FindByLengths(Span file, const JpegParts& parts, const std::vector<Item>& items, size_t index,
-                   Span* found) {
+// what lies behind the item. Empty if no picture begins there.
+Span FindByLengths(Span file, const JpegParts& parts, const std::vector<Item>& items,
+                   size_t index) {
   size_t begin = parts.end + items[0].padding, behind = 0;
   for (size_t k = 1; k < items.size(); ++k) {
     const size_t size = items[k].length + items[k].padding;
@@ -82,28 +79,25 @@ bool FindByLengths(Span file, const JpegParts& parts, const std::vector<Item>& i
     if (k >= index) behind += size;
   }
   for (const size_t at : {begin, file.size - std::min(behind, file.size)}) {
-    *found = From(file, at);
-    if (BeginsPicture(*found)) return true;
+    const Span found = From(file, at);
+    if (BeginsPicture(found)) return found;
   }
-  return false;
+  return {};
 }
 
 // Where the lengths are wrong: the first PNG file behind the picture, or the JPEG file that comes
-// as many pictures behind it as in the directory.
-bool FindByBeginning(Span file, const JpegParts& parts, const std::vector<Item>& items,
-                     size_t index, Span* found) {
+// as many pictures behind it as in the directory. Empty if there is none.
+Span FindByBeginning(Span file, const JpegParts& parts, const std::vector<Item>& items,
+                     size_t index) {
   if (items[index].mime == "image/png") {
     const uint8_t* end = file.data + file.size;
     const uint8_t* png = std::search(file.data + parts.end, end, std::begin(kPng), std::end(kPng));
-    *found = From(file, static_cast<size_t>(png - file.data));
-    return png != end;
+    return From(file, static_cast<size_t>(png - file.data));
   }
   size_t jpeg = 0;
   for (size_t k = 1; k < index; ++k) jpeg += items[k].mime == "image/jpeg" ? 1 : 0;
   const std::vector<MultiPicture> pictures = ListMultiPictures(file, parts);
-  if (jpeg >= pictures.size()) return false;
-  *found = pictures[jpeg].file;
-  return true;
+  return jpeg < pictures.size() ? pictures[jpeg].file : Span{};
 }
 
 // The item that is the depth map, by its name or else by what it is; 0, the picture itself, if
@@ -162,15 +156,15 @@ Error ReadDynamicDepth(Span file, const JpegParts& parts, const XmpNode& xmp, Ne
   const std::vector<Item>& items = *listed;
   const size_t index =
       FindDepth(items, map == nullptr ? nullptr : OwnProperty(*map, kMap + "DepthURI"));
-  Span data;
-  const bool by_lengths = index > 0 && FindByLengths(file, parts, items, index, &data);
-  if (!by_lengths && (index == 0 || !FindByBeginning(file, parts, items, index, &data))) {
+  Span data = index > 0 ? FindByLengths(file, parts, items, index) : Span{};
+  const bool by_lengths = !data.empty();
+  if (!by_lengths && index > 0) data = FindByBeginning(file, parts, items, index);
+  if (data.empty()) {
     return Expected("Dynamic Depth", "the depth map that its XMP names, behind the picture",
                     index == 0 ? "no such item" : "no picture there");
   }
-  Result<FloatMap> levels = DecodeLevels("Dynamic Depth", Bytes(data.data, data.data + data.size));
-  if (!levels) return levels.error();
-  photo->map = std::move(*levels);
+  const Bytes bytes(data.data, data.data + data.size);
+  if (Error error = DecodeLevels("Dynamic Depth", bytes).MoveTo(&photo->map)) return error;
   if (!by_lengths) {
     photo->notes.push_back(
         "the lengths of its container are wrong and ignored: the depth map was found behind the "

@@ -19,8 +19,8 @@ const std::string kFocus = "http://ns.google.com/photos/1.0/focus/|";
 const std::string kImage = "http://ns.google.com/photos/1.0/image/|";
 
 Result<Bytes> DecodeData(const std::string& where, const std::string& text) {
-  Bytes bytes;
-  if (DecodeBase64(text, &bytes) && !bytes.empty()) return bytes;
+  std::optional<Bytes> bytes = DecodeBase64(text);
+  if (bytes && !bytes->empty()) return std::move(*bytes);
   return Expected(where, "a picture in base64", "something else");
 }
 
@@ -31,18 +31,13 @@ Error ReadMap(const XmpNode& xmp, Near near, DepthPhoto* photo) {
   }
   const Result<Bytes> bytes = DecodeData("GDepth:Data", *data);
   if (!bytes) return bytes.error();
-  Result<FloatMap> map = DecodeLevels("GDepth:Data", *bytes);
-  if (!map) return map.error();
-  photo->map = std::move(*map);
+  if (Error error = DecodeLevels("GDepth:Data", *bytes).MoveTo(&photo->map)) return error;
   const RangeProperties range = {
       FindProperty(xmp, kDepth + "Format"), FindProperty(xmp, kDepth + "Near"),
       FindProperty(xmp, kDepth + "Far"), FindProperty(xmp, kDepth + "Units")};
   const double unit = ApplyRange(range, near, photo);
-  double distance = 0;
-  if (unit > 0 && ReadXmpNumber(FindProperty(xmp, kFocus + "FocalDistance"), &distance) &&
-      distance > 0) {
-    photo->focus_value = 1 / (distance * unit);
-  }
+  const auto distance = XmpNumber(FindProperty(xmp, kFocus + "FocalDistance"));
+  if (unit > 0 && distance > 0.0) photo->focus_value = 1 / (*distance * unit);
   const std::string* measure = FindProperty(xmp, kDepth + "MeasureType");
   if (unit > 0 && measure != nullptr && *measure == "OpticRay") {
     photo->facts.emplace_back("distances", "along rays, taken for those along the axis");
@@ -54,17 +49,15 @@ Error ReadMap(const XmpNode& xmp, Near near, DepthPhoto* photo) {
 // photo->picture.
 void ReadOwnDisparities(const XmpNode& xmp, DepthPhoto* photo) {
   const std::string own = std::string(kOwnNamespace) + "|";
-  double low = 0, high = 0, near = 0, far = 0;
-  if (photo->meaning != MapMeaning::kInverse ||
-      !ReadXmpNumber(FindProperty(xmp, own + kFarDisparity), &low) ||
-      !ReadXmpNumber(FindProperty(xmp, own + kNearDisparity), &high) || !(low < high) ||
-      !ReadXmpNumber(FindProperty(xmp, kDepth + "Near"), &near) ||
-      !ReadXmpNumber(FindProperty(xmp, kDepth + "Far"), &far)) {
-    return;
-  }
+  const auto low = XmpNumber(FindProperty(xmp, own + kFarDisparity));
+  const auto high = XmpNumber(FindProperty(xmp, own + kNearDisparity));
+  const auto near = XmpNumber(FindProperty(xmp, kDepth + "Near"));
+  const auto far = XmpNumber(FindProperty(xmp, kDepth + "Far"));
+  const bool known = low && high && near && far && *low < *high;
+  if (!known || photo->meaning != MapMeaning::kInverse) return;
   const double diagonal = std::hypot(photo->picture.width, photo->picture.height);
-  const double factor = diagonal * (high - low) / (1 / near - 1 / far);
-  const double zero = diagonal * low - factor / far;
+  const double factor = diagonal * (*high - *low) / (1 / *near - 1 / *far);
+  const double zero = diagonal * *low - factor / *far;
   ToRange(zero, zero + factor, &photo->map);
   photo->focus_value = zero + factor * photo->focus_value;
   photo->meaning = MapMeaning::kDisparity;
@@ -87,13 +80,14 @@ void ReadSharp(const XmpNode& xmp, DepthPhoto* photo) {
 }
 
 void ReadFocus(const XmpNode& xmp, DepthPhoto* photo) {
-  const std::string* x = FindProperty(xmp, kFocus + "FocalPointX");
-  const std::string* y = FindProperty(xmp, kFocus + "FocalPointY");
-  photo->has_focus = ReadXmpNumber(x, &photo->focus_x) && ReadXmpNumber(y, &photo->focus_y) &&
-                     photo->focus_x >= 0 && photo->focus_x <= 1 && photo->focus_y >= 0 &&
-                     photo->focus_y <= 1;
+  const std::string* x_text = FindProperty(xmp, kFocus + "FocalPointX");
+  const std::string* y_text = FindProperty(xmp, kFocus + "FocalPointY");
+  const auto x = XmpNumber(x_text), y = XmpNumber(y_text);
+  photo->has_focus = x && y && *x >= 0 && *x <= 1 && *y >= 0 && *y <= 1;
   if (photo->has_focus) {
-    photo->facts.emplace_back("focus", "at " + *x + "," + *y + " of width and height");
+    photo->focus_x = *x;
+    photo->focus_y = *y;
+    photo->facts.emplace_back("focus", "at " + *x_text + "," + *y_text + " of width and height");
   } else if (std::isfinite(photo->focus_value)) {
     photo->facts.emplace_back("focus", *FindProperty(xmp, kFocus + "FocalDistance") + " away");
   }

@@ -31,12 +31,10 @@ Error ReadParameters(const std::string& path, int reach, Capture* capture) {
   Result<KeyValues> read = ReadKeyValues(path);
   if (!read) return read.error();
   KeyValues& values = *read;
-  double baseline = 0, focal = 0;
-  if (!NumberOf(values, "baseline_mm", &baseline) || !NumberOf(values, "focal_length_mm", &focal) ||
-      !(baseline > 0) || !(focal > 0)) {
-    return {};
-  }
-  capture->widest = focal / (2 * reach * baseline);
+  const auto baseline = NumberOf(values, "baseline_mm");
+  const auto focal = NumberOf(values, "focal_length_mm");
+  if (!(baseline > 0.0 && focal > 0.0)) return {};  // none compares less than any number
+  capture->widest = *focal / (2 * reach * *baseline);
   char f_stop[32];
   std::snprintf(f_stop, sizeof(f_stop), "%.3g", capture->widest);
   capture->facts.emplace_back("cameras", values["baseline_mm"] + " mm apart, lenses of " +
@@ -51,8 +49,9 @@ bool IsHci(const std::vector<std::string>& names) {
   return std::any_of(names.begin(), names.end(), IsView);
 }
 
-Error OpenHci(const std::string& folder, const std::vector<std::string>& names, Capture* capture) {
-  capture->format = "HCI 4D light field";
+Result<Capture> OpenHci(const std::string& folder, const std::vector<std::string>& names) {
+  Capture capture;
+  capture.format = "HCI 4D light field";
   ViewArray array;
   for (const std::string& name : names) {
     if (IsView(name)) array.paths.push_back((std::filesystem::path(folder) / name).string());
@@ -63,16 +62,17 @@ Error OpenHci(const std::string& folder, const std::vector<std::string>& names, 
                     std::to_string(array.paths.size()) + " named " + kPrefix + "000.png and so on");
   }
   array.rows = array.columns = side;
-  Result<Star> star = ChooseStar(folder, array, &capture->facts);
+  Result<Star> star = ChooseStar(folder, array, &capture.facts);
   if (!star) return star.error();
-  capture->files = std::move(star->views);
+  capture.files = std::move(star->views);
   if (Has(names, kMap)) {
-    capture->map_path = (std::filesystem::path(folder) / kMap).string();
-    capture->map_scale = star->reach;  // the file's disparities are those of neighbours
+    capture.map_path = (std::filesystem::path(folder) / kMap).string();
+    capture.map_scale = star->reach;  // the file's disparities are those of neighbours
   }
-  if (!Has(names, kParameters)) return {};
-  return ReadParameters((std::filesystem::path(folder) / kParameters).string(), star->reach,
-                        capture);
+  if (!Has(names, kParameters)) return capture;
+  const std::string parameters = (std::filesystem::path(folder) / kParameters).string();
+  if (Error error = ReadParameters(parameters, star->reach, &capture)) return error;
+  return capture;
 }
 
 }  // namespace starfocus

@@ -14,7 +14,7 @@ namespace starfocus {
 
 bool IsHci(const std::vector<std::string>& names);
 
-Error OpenHci(const std::string& folder, const std::vector<std::string>& names, Capture* capture);
+Result<Capture> OpenHci(const std::string& folder, const std::vector<std::string>& names);
 
 }  // namespace starfocus
 

@@ -61,12 +61,20 @@ Error CheckSize(const std::string& where, const heif_image_handle* handle, size_
                        heif_image_handle_get_height(handle), file);
 }
 
-Error DecodePicture(const std::string& where, const heif_image_handle* handle, Image* image) {
+Result<Decoded> Decode(const std::string& where, const heif_image_handle* handle,
+                       heif_colorspace colours, heif_chroma chroma) {
   heif_image* raw = nullptr;
-  const heif_error failure =
-      heif_decode_image(handle, &raw, heif_colorspace_RGB, heif_chroma_interleaved_RGB, nullptr);
-  const Decoded decoded(raw);
+  const heif_error failure = heif_decode_image(handle, &raw, colours, chroma, nullptr);
+  Decoded decoded(raw);
   if (failure.code != heif_error_Ok) return Broken(where, failure);
+  return decoded;
+}
+
+Result<Image> DecodePicture(const std::string& where, const heif_image_handle* handle) {
+  const Result<Decoded> decoded =
+      Decode(where, handle, heif_colorspace_RGB, heif_chroma_interleaved_RGB);
+  if (!decoded) return decoded.error();
+  const heif_image* raw = decoded->get();
   if (!heif_image_has_channel(raw, heif_channel_interleaved)) {
     return Expected(where, "a picture of pixels", "none in it");
   }
@@ -77,20 +85,19 @@ Error DecodePicture(const std::string& where, const heif_image_handle* handle, I
   if (rows == nullptr || width < 1 || height < 1) {
     return Expected(where, "a picture of pixels", "none in it");
   }
-  *image = Image(width, height);
+  Image image(width, height);
   for (int y = 0; y < height; ++y) {
-    std::memcpy(image->row(y), rows + size_t(y) * size_t(stride), image->stride());
+    std::memcpy(image.row(y), rows + size_t(y) * size_t(stride), image.stride());
   }
-  return {};
+  return image;
 }
 
 // The levels, 0 to 1, of 8 bits or of up to 16 in the machine's order.
-Error DecodePlane(const std::string& where, const heif_image_handle* handle, FloatMap* map) {
-  heif_image* raw = nullptr;
-  const heif_error failure =
-      heif_decode_image(handle, &raw, heif_colorspace_undefined, heif_chroma_undefined, nullptr);
-  const Decoded decoded(raw);
-  if (failure.code != heif_error_Ok) return Broken(where, failure);
+Result<FloatMap> DecodePlane(const std::string& where, const heif_image_handle* handle) {
+  const Result<Decoded> decoded =
+      Decode(where, handle, heif_colorspace_undefined, heif_chroma_undefined);
+  if (!decoded) return decoded.error();
+  const heif_image* raw = decoded->get();
   // libheif 1.15 ends the program when it is asked for a channel that is not there.
   const heif_channel channel =
       heif_image_has_channel(raw, heif_channel_Y) ? heif_channel_Y : heif_channel_G;
@@ -105,19 +112,18 @@ Error DecodePlane(const std::string& where, const heif_image_handle* handle, Flo
   if (rows == nullptr || bits < 1 || bits > 16 || width < 1 || height < 1) {
     return Expected(where, "a depth map of 8 to 16 bits", "another");
   }
-  map->width = width;
-  map->height = height;
-  map->values.reserve(size_t(width) * size_t(height));
+  FloatMap map = {width, height, {}};
+  map.values.reserve(size_t(width) * size_t(height));
   const float most = static_cast<float>((1 << bits) - 1);
   for (int y = 0; y < height; ++y) {
     const uint8_t* row = rows + size_t(y) * size_t(stride);
     for (int x = 0; x < width; ++x) {
       uint16_t level = row[x];
       if (bits > 8) std::memcpy(&level, row + 2 * size_t(x), sizeof(level));
-      map->values.push_back(static_cast<float>(level) / most);
+      map.values.push_back(static_cast<float>(level) / most);
     }
   }
-  return {};
+  return map;
 }
 
 // The first block of metadata of a type; empty if there is none.
@@ -256,7 +262,7 @@ Error ReadMap(const std::string& where, const heif_image_handle* primary, size_t
   const Handle depth(raw);
   if (failure.code != heif_error_Ok) return Broken(where, failure);
   if (Error error = CheckSize(where + " (depth map)", raw, file)) return error;
-  if (Error error = DecodePlane(where + " (depth map)", raw, &photo->map)) return error;
+  if (Error error = DecodePlane(where + " (depth map)", raw).MoveTo(&photo->map)) return error;
   return Understand(where, primary, raw, id, near, photo);
 }
 
@@ -276,7 +282,7 @@ bool EndsWithinBox(Span file) {
   return at < file.size;
 }
 
-Error Read(const std::string& where, Span file, Near near, DepthPhoto* photo) {
+Result<DepthPhoto> Read(const std::string& where, Span file, Near near) {
   if (Error error = CheckHeif(where, file)) return error;
   const Context context(heif_context_alloc());
   if (context == nullptr) return OutOfMemory(where, "read it");
@@ -288,25 +294,24 @@ Error Read(const std::string& where, Span file, Near near, DepthPhoto* photo) {
   failure = heif_context_get_primary_image_handle(context.get(), &raw);
   const Handle primary(raw);
   if (failure.code != heif_error_Ok) return Broken(where, failure);
-  photo->format = "HEIF depth photo";
+  DepthPhoto photo;
+  photo.format = "HEIF depth photo";
   if (Error error = CheckSize(where, raw, file.size)) return error;
-  if (Error error = DecodePicture(where, raw, &photo->picture)) return error;
-  ReadProfiles(raw, photo);
-  ReadCaptions(raw, photo);
-  TellGainMap(raw, photo);
-  photo->map_problem = ReadMap(where, raw, file.size, near, photo).line();
-  if (!photo->map_problem.empty()) photo->map = {};
-  return {};
+  if (Error error = DecodePicture(where, raw).MoveTo(&photo.picture)) return error;
+  ReadProfiles(raw, &photo);
+  ReadCaptions(raw, &photo);
+  TellGainMap(raw, &photo);
+  photo.map_problem = ReadMap(where, raw, file.size, near, &photo).line();
+  if (!photo.map_problem.empty()) photo.map = {};
+  return photo;
 }
 
 }  // namespace
 
 Result<DepthPhoto> ReadHeif(const std::string& where, Span file, Near near) {
   try {
-    DepthPhoto photo;
-    if (Error error = Read(where, file, near, &photo)) {
-      return EndsWithinBox(file) ? Truncated(where, "HEIF") : error;
-    }
+    Result<DepthPhoto> photo = Read(where, file, near);
+    if (!photo && EndsWithinBox(file)) return Truncated(where, "HEIF");
     return photo;
   } catch (const std::bad_alloc&) {
     throw;

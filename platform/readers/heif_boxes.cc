@@ -2,12 +2,18 @@
 #include "platform/readers/heif_boxes.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace starfocus {
 namespace {
 
 constexpr size_t kMostItems = 4096, kMostReferences = 65536;
 constexpr size_t kHead = 256;  // bytes of an item's data that are kept
+
+struct Box {
+  std::string type;
+  Span body;
+};
 
 // Whole numbers, the highest byte first; 0, and `good` false, beyond the end.
 class Cursor {
@@ -37,11 +43,11 @@ class Cursor {
     rest_ = {rest_.data + size, rest_.size - size};
     return taken;
   }
-  // The next box; false at the end, or if it is malformed.
-  bool Next(std::string* type, Span* body) {
-    if (rest_.size < 8) return false;
+  // The next box; none at the end, or if it is malformed.
+  std::optional<Box> Next() {
+    if (rest_.size < 8) return {};
     size_t size = Whole32(4), header = 8;
-    *type = Text(4);
+    Box box = {Text(4), {}};
     if (size == 1) {
       size = static_cast<size_t>(Whole(8));
       header = 16;
@@ -49,8 +55,8 @@ class Cursor {
       size = header + rest_.size;
     }
     if (size < header) good_ = false;
-    if (good_) *body = Take(size - header);
-    return good_;
+    if (good_) box.body = Take(size - header);
+    return good_ ? std::optional(box) : std::nullopt;
   }
 
  private:
@@ -70,10 +76,8 @@ FullBox ReadFullBox(Cursor* cursor) {
 // The first box of a type; empty if there is none.
 Span FindBox(Span boxes, const std::string& wanted) {
   Cursor cursor(boxes);
-  std::string type;
-  Span body;
-  while (cursor.Next(&type, &body)) {
-    if (type == wanted) return body;
+  while (const std::optional<Box> box = cursor.Next()) {
+    if (box->type == wanted) return box->body;
   }
   return {};
 }
@@ -82,11 +86,9 @@ bool ReadTypes(Span iinf, HeifItems* items) {
   Cursor cursor(iinf);
   const FullBox box = ReadFullBox(&cursor);
   cursor.Whole(box.version == 0 ? 2 : 4);  // how many
-  std::string type;
-  Span body;
-  while (cursor.Next(&type, &body)) {
-    if (type != "infe") continue;
-    Cursor entry(body);
+  while (const std::optional<Box> infe = cursor.Next()) {
+    if (infe->type != "infe") continue;
+    Cursor entry(infe->body);
     const FullBox own = ReadFullBox(&entry);
     if (own.version < 2) continue;  // of another kind of file
     const uint32_t id = entry.Whole32(own.version == 2 ? 2 : 4);
@@ -101,12 +103,10 @@ bool ReadInputs(Span iref, HeifItems* items) {
   if (iref.empty()) return true;
   Cursor cursor(iref);
   const size_t id_size = ReadFullBox(&cursor).version == 0 ? 2 : 4;
-  std::string type;
-  Span body;
   size_t references = 0;
-  while (cursor.Next(&type, &body)) {
-    if (type != "dimg") continue;
-    Cursor reference(body);
+  while (const std::optional<Box> dimg = cursor.Next()) {
+    if (dimg->type != "dimg") continue;
+    Cursor reference(dimg->body);
     const auto from = items->find(reference.Whole32(id_size));
     const uint32_t count = reference.Whole32(2);
     references += count;
@@ -120,12 +120,7 @@ bool ReadInputs(Span iref, HeifItems* items) {
   return cursor.good();
 }
 
-struct Property {
-  std::string type;
-  Span body;
-};
-
-bool SetProperty(const Property& property, HeifItem* item) {
+bool SetProperty(const Box& property, HeifItem* item) {
   if (property.type == "hvcC" || property.type == "av1C") item->configuration = property.body;
   if (property.type != "ispe") return true;
   Cursor cursor(property.body);
@@ -135,7 +130,7 @@ bool SetProperty(const Property& property, HeifItem* item) {
   return cursor.good();
 }
 
-bool ReadAssociations(Span ipma, const std::vector<Property>& properties, HeifItems* items) {
+bool ReadAssociations(Span ipma, const std::vector<Box>& properties, HeifItems* items) {
   Cursor cursor(ipma);
   const FullBox box = ReadFullBox(&cursor);
   const uint32_t entries = cursor.Whole32(4);
@@ -154,15 +149,14 @@ bool ReadAssociations(Span ipma, const std::vector<Property>& properties, HeifIt
 
 bool ReadProperties(Span iprp, HeifItems* items) {
   Cursor boxes(FindBox(iprp, "ipco"));
-  std::vector<Property> properties;
-  Property property;
-  while (boxes.Next(&property.type, &property.body)) properties.push_back(property);
+  std::vector<Box> properties;
+  while (const std::optional<Box> property = boxes.Next()) properties.push_back(*property);
+  if (!boxes.good()) return false;
   Cursor cursor(iprp);
-  while (boxes.good() && cursor.Next(&property.type, &property.body)) {
-    if (property.type == "ipma" && !ReadAssociations(property.body, properties, items))
-      return false;
+  while (const std::optional<Box> box = cursor.Next()) {
+    if (box->type == "ipma" && !ReadAssociations(box->body, properties, items)) return false;
   }
-  return boxes.good() && cursor.good();
+  return cursor.good();
 }
 
 void AppendHead(Span source, uint64_t offset, uint64_t length, Bytes* head) {
@@ -198,22 +192,22 @@ bool ReadHeads(Span file, Span idat, Span iloc, HeifItems* items) {
 
 }  // namespace
 
-bool ReadHeifItems(Span file, HeifItems* items) {
+std::optional<HeifItems> ReadHeifItems(Span file) {
+  HeifItems items;
   Cursor meta(FindBox(file, "meta"));
   ReadFullBox(&meta);
   const Span boxes = meta.rest();
-  return meta.good() && ReadTypes(FindBox(boxes, "iinf"), items) &&
-         ReadInputs(FindBox(boxes, "iref"), items) &&
-         ReadProperties(FindBox(boxes, "iprp"), items) &&
-         ReadHeads(file, FindBox(boxes, "idat"), FindBox(boxes, "iloc"), items);
+  const bool good = meta.good() && ReadTypes(FindBox(boxes, "iinf"), &items) &&
+                    ReadInputs(FindBox(boxes, "iref"), &items) &&
+                    ReadProperties(FindBox(boxes, "iprp"), &items) &&
+                    ReadHeads(file, FindBox(boxes, "idat"), FindBox(boxes, "iloc"), &items);
+  return good ? std::optional(std::move(items)) : std::nullopt;
 }
 
 std::vector<std::string> HeifBrands(Span file) {
-  Cursor cursor(file);
-  std::string type;
-  Span body;
-  if (!cursor.Next(&type, &body) || type != "ftyp") return {};
-  Cursor brands(body);
+  const std::optional<Box> first = Cursor(file).Next();
+  if (!first || first->type != "ftyp") return {};
+  Cursor brands(first->body);
   std::vector<std::string> result = {brands.Text(4)};
   brands.Whole(4);  // the version of the major one
   while (brands.good() && brands.rest().size >= 4) result.push_back(brands.Text(4));

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,8 +25,8 @@ struct HeifItem {
 
 using HeifItems = std::map<uint32_t, HeifItem>;  // by their numbers
 
-// Reads the items of a file; false if a box is malformed, or there are more than 4096 items.
-bool ReadHeifItems(Span file, HeifItems* items);
+// Reads the items of a file; none if a box is malformed, or there are more than 4096 items.
+std::optional<HeifItems> ReadHeifItems(Span file);
 
 // The brands of the file, the major one first; none if it does not begin with a box of them.
 std::vector<std::string> HeifBrands(Span file);

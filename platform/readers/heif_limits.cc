@@ -3,6 +3,7 @@
 
 #include "platform/readers/coded_size.h"
 #include "platform/readers/heif_boxes.h"
+#include "platform/text.h"
 
 namespace starfocus {
 namespace {
@@ -66,24 +67,20 @@ Error CheckInputs(const std::string& where, const HeifItems& items, const HeifIt
 
 Error CheckCoded(const std::string& where, const HeifItem& item) {
   constexpr int64_t kPadding = 128;  // to whole blocks of either coder
-  int64_t width = 0, height = 0;
-  const bool hevc = item.type == "hvc1";
   if (!IsCoded(item)) return {};
-  if (hevc ? !HevcSize(item.configuration, item.head, &width, &height)
-           : !Av1Size(item.configuration, item.head, &width, &height)) {
-    return {};  // libheif finds none either
-  }
-  if (width <= item.width + kPadding && height <= item.height + kPadding) return {};
-  return Expected(where,
-                  "a coded picture of " + std::to_string(item.width) + "x" +
-                      std::to_string(item.height) + ", as its item declares",
-                  std::to_string(width) + "x" + std::to_string(height));
+  const CodedSize size = item.type == "hvc1" ? HevcSize(item.configuration, item.head)
+                                             : Av1Size(item.configuration, item.head);
+  // Where the header has no size that can be read, libheif finds none either.
+  if (size.width <= item.width + kPadding && size.height <= item.height + kPadding) return {};
+  return Expected(
+      where, "a coded picture of " + SizeText(item.width, item.height) + ", as its item declares",
+      SizeText(size.width, size.height));
 }
 
 }  // namespace
 
 Error CheckHeifSize(const std::string& where, int64_t width, int64_t height, size_t file) {
-  const std::string found = std::to_string(width) + "x" + std::to_string(height);
+  const std::string found = SizeText(width, height);
   if (width < 1 || height < 1 || width > kMostSide || height > kMostSide) {
     return Expected(where, "a HEIF picture of at most 16384 pixels each way", found);
   }
@@ -93,17 +90,17 @@ Error CheckHeifSize(const std::string& where, int64_t width, int64_t height, siz
 }
 
 Error CheckHeif(const std::string& where, Span file) {
-  HeifItems items;
-  if (!ReadHeifItems(file, &items)) {
+  const std::optional<HeifItems> items = ReadHeifItems(file);
+  if (!items) {
     return Expected(where, "a HEIF file of at most 4096 items in whole boxes", "another");
   }
-  for (const auto& [id, item] : items) {  // before CheckInputs multiplies any
+  for (const auto& [id, item] : *items) {  // before CheckInputs multiplies any
     if (item.width == 0 || item.height == 0) continue;
     if (Error error = CheckHeifSize(where, item.width, item.height, file.size)) return error;
   }
-  for (const auto& [id, item] : items) {
+  for (const auto& [id, item] : *items) {
     if (Error error =
-            IsMadeOfOthers(item) ? CheckInputs(where, items, item) : CheckCoded(where, item))
+            IsMadeOfOthers(item) ? CheckInputs(where, *items, item) : CheckCoded(where, item))
       return error;
   }
   return {};

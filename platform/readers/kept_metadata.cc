@@ -6,6 +6,8 @@
 #include <iterator>
 #include <set>
 
+#include "platform/text.h"
+
 namespace starfocus {
 namespace {
 
@@ -33,61 +35,23 @@ constexpr Namespace kKept[] = {
 };
 
 // Properties of these namespaces that describe the file or its edits.
-constexpr const char* kLeftOut[] = {"xmp|ModifyDate",       "xmp|MetadataDate",
-                                    "xmp|Thumbnails",       "photoshop|ColorMode",
-                                    "photoshop|ICCProfile", "photoshop|DocumentAncestors",
-                                    "photoshop|History",    "photoshop|TextLayers"};
+constexpr const char* kLeftOut[] = {"xmp:ModifyDate",       "xmp:MetadataDate",
+                                    "xmp:Thumbnails",       "photoshop:ColorMode",
+                                    "photoshop:ICCProfile", "photoshop:DocumentAncestors",
+                                    "photoshop:History",    "photoshop:TextLayers"};
 
-bool Find(const std::string& uri, const Namespace** found) {
-  for (const Namespace& one : kKept) {
-    if (uri == one.uri) *found = &one;
-  }
-  return *found != nullptr;
-}
-
-// Splits "<namespace>|<name>" into "prefix" and the name. False where the name is not kept.
-bool Split(const std::string& full, std::string* prefix, std::string* name) {
+// "<namespace>|<name>" as "prefix:name"; empty if the property is not kept.
+std::string KeptName(const std::string& full) {
   const size_t bar = full.rfind('|');
-  if (bar == std::string::npos) return false;
-  const std::string uri = full.substr(0, bar);
-  *name = full.substr(bar + 1);
-  const Namespace* found = nullptr;
-  if (!Find(uri, &found)) return false;
-  *prefix = found->prefix;
-  const std::string both = *prefix + "|" + *name;
-  return std::find(std::begin(kLeftOut), std::end(kLeftOut), both) == std::end(kLeftOut);
-}
-
-std::string Escaped(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      case '\n':
-        escaped += "&#10;";
-        break;
-      case '\r':
-        escaped += "&#13;";
-        break;
-      case '\t':
-        escaped += "&#9;";
-        break;
-      default:
-        escaped += c;
-    }
+  if (bar == std::string::npos) return "";
+  const std::string uri = full.substr(0, bar), name = full.substr(bar + 1);
+  for (const Namespace& one : kKept) {
+    if (uri != one.uri) continue;
+    const std::string kept = std::string(one.prefix) + ":" + name;
+    const auto* end = std::end(kLeftOut);
+    return std::find(std::begin(kLeftOut), end, kept) == end ? kept : "";
   }
-  return escaped;
+  return "";
 }
 
 // The name as it is written within a kept property: with a prefix of kKept, rdf or xml. Empty for
@@ -99,8 +63,7 @@ std::string InnerName(const std::string& full) {
       return std::string(one.prefix) + ":" + full.substr(uri.size());
     }
   }
-  std::string prefix, name;
-  return Split(full, &prefix, &name) ? prefix + ":" + name : "";
+  return KeptName(full);
 }
 
 // An element with all that is within it but for names of other namespaces.
@@ -110,10 +73,10 @@ std::string Write(const XmpNode& node) {
   std::string text = "<" + name;
   for (const auto& attribute : node.attributes) {
     const std::string inner = InnerName(attribute.first);
-    if (!inner.empty()) text += " " + inner + "=\"" + Escaped(attribute.second) + "\"";
+    if (!inner.empty()) text += " " + inner + "=\"" + EscapeXml(attribute.second) + "\"";
   }
   text += ">";
-  if (node.children.empty()) text += Escaped(node.text);
+  if (node.children.empty()) text += EscapeXml(node.text);
   for (const XmpNode& child : node.children) text += Write(child);
   return text + "</" + name + ">";
 }
@@ -125,16 +88,13 @@ void WriteProperties(const XmpNode& node, std::set<std::string>* written, std::s
     for (const XmpNode& child : node.children) WriteProperties(child, written, text);
     return;
   }
-  std::string prefix, name;
   for (const auto& attribute : node.attributes) {
-    if (!Split(attribute.first, &prefix, &name) || !written->insert(attribute.first).second) {
-      continue;
-    }
-    name = prefix + ":" + name;
-    *text += "<" + name + ">" + Escaped(attribute.second) + "</" + name + ">";
+    const std::string name = KeptName(attribute.first);
+    if (name.empty() || !written->insert(attribute.first).second) continue;
+    *text += "<" + name + ">" + EscapeXml(attribute.second) + "</" + name + ">";
   }
   for (const XmpNode& child : node.children) {
-    if (!Split(child.name, &prefix, &name) || !written->insert(child.name).second) continue;
+    if (KeptName(child.name).empty() || !written->insert(child.name).second) continue;
     *text += Write(child);
   }
 }

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/readers/key_values.h"
 
-#include <cmath>
-#include <cstdlib>
-
 #include "platform/file.h"
+#include "platform/text.h"
 
 namespace starfocus {
 namespace {
@@ -22,34 +20,31 @@ void Take(const std::string& line, KeyValues* values) {
 
 }  // namespace
 
-void TakeKeyValues(const std::string& text, KeyValues* values) {
+KeyValues ParseKeyValues(const std::string& text) {
+  KeyValues values;
   std::string line;
   for (const char c : text) {
     if (c == '\n') {
-      Take(line, values);
+      Take(line, &values);
       line.clear();
     } else if (c >= 0x20 && c < 0x7f) {
       line += c;
     }
   }
-  Take(line, values);
+  Take(line, &values);
+  return values;
 }
 
 Result<KeyValues> ReadKeyValues(const std::string& path) {
   if (Error error = CheckPlainFile(path)) return error;
   const Result<Bytes> bytes = ReadSmallFile(path);
   if (!bytes) return bytes.error();
-  KeyValues values;
-  TakeKeyValues({bytes->begin(), bytes->end()}, &values);
-  return values;
+  return ParseKeyValues({bytes->begin(), bytes->end()});
 }
 
-bool NumberOf(const KeyValues& values, const std::string& key, double* number) {
+std::optional<double> NumberOf(const KeyValues& values, const std::string& key) {
   const auto found = values.find(key);
-  if (found == values.end() || found->second.empty()) return false;
-  char* end = nullptr;
-  *number = std::strtod(found->second.c_str(), &end);
-  return *end == '\0' && std::isfinite(*number);
+  return found == values.end() ? std::nullopt : ParseNumber(found->second);
 }
 
 }  // namespace starfocus

@@ -4,6 +4,7 @@
 #define STARFOCUS_PLATFORM_READERS_KEY_VALUES_H_
 
 #include <map>
+#include <optional>
 #include <string>
 
 #include "platform/result.h"
@@ -12,15 +13,15 @@ namespace starfocus {
 
 using KeyValues = std::map<std::string, std::string>;
 
-// Adds those of a text. Lines without "=" are skipped, of one key the first counts, and characters
-// that do not print are left out.
-void TakeKeyValues(const std::string& text, KeyValues* values);
+// Parses a text. Lines without "=" are skipped, of one key the first counts, and characters that do
+// not print are left out.
+KeyValues ParseKeyValues(const std::string& text);
 
-// Those of a file of at most 1 MiB (ReadSmallFile).
+// Parses a file of at most 1 MiB (ReadSmallFile).
 Result<KeyValues> ReadKeyValues(const std::string& path);
 
-// Whether the key is there and its value a finite number.
-bool NumberOf(const KeyValues& values, const std::string& key, double* number);
+// The value of a key; none if the key is absent or its value is not a finite number.
+std::optional<double> NumberOf(const KeyValues& values, const std::string& key);
 
 }  // namespace starfocus
 

@@ -61,8 +61,12 @@ double Agreement(const FloatMap& picture, const FloatMap& map) {
   return first > 0 && second > 0 ? both / std::sqrt(first * second) : 0;
 }
 
-// Whether the edges say that the map is upright already.
-bool EdgesSayUpright(const DepthPhoto& photo, bool* sure) {
+// What the edges say of a map: whether it is upright already, and whether they show it clearly.
+struct Uprightness {
+  bool upright, sure;
+};
+
+Uprightness JudgeByEdges(const DepthPhoto& photo) {
   constexpr double kSure = 1.05;
   const Image& picture = photo.picture;
   const int longer = std::max(picture.width, picture.height);
@@ -77,14 +81,13 @@ bool EdgesSayUpright(const DepthPhoto& photo, bool* sure) {
   const double turned = Agreement(small, Resize(map, small.width, small.height));
   TurnMap(photo.orientation, &small);
   const double upright = Agreement(small, Resize(map, small.width, small.height));
-  *sure = std::max(turned, upright) > kSure * std::min(turned, upright);
-  return *sure && upright > turned;
+  const bool sure = std::max(turned, upright) > kSure * std::min(turned, upright);
+  return {sure && upright > turned, sure};
 }
 
 // Whether the map is upright, where proportions leave the choice; a note reports it.
 bool ChooseByEdges(DepthPhoto* photo) {
-  bool sure = false;
-  const bool upright = EdgesSayUpright(*photo, &sure);
+  const auto [upright, sure] = JudgeByEdges(*photo);
   photo->notes.push_back(
       std::string("the depth picture is taken to be ") +
       (upright ? "upright already" : "turned as the photo's file is") +

@@ -93,32 +93,32 @@ Error ReadMiddlebury(const std::string& folder, Capture* capture) {
   if (!read) return read.error();
   KeyValues& values = *read;
   capture->format = "Middlebury stereo pair";
-  double baseline = 0, offset = 0;
-  if (NumberOf(values, "baseline", &baseline)) {
+  if (NumberOf(values, "baseline")) {
     capture->facts.emplace_back("cameras", values["baseline"] + " mm apart");
   }
-  if (NumberOf(values, "doffs", &offset)) {
+  if (const auto offset = NumberOf(values, "doffs")) {
     const std::string& text = values["doffs"];
-    const std::string there = offset > 0 ? "-" + text : offset < 0 ? text.substr(1) : "0";
+    const std::string there = *offset > 0 ? "-" + text : *offset < 0 ? text.substr(1) : "0";
     capture->facts.emplace_back("infinity", "at disparity " + there);
   }
   return {};
 }
 
-bool FindGreyMapPair(const std::string& folder, const std::vector<std::string>& names,
-                     Capture* capture) {
+std::optional<Capture> FindGreyMapPair(const std::string& folder,
+                                       const std::vector<std::string>& names) {
   for (const GreyMapPair& pair : kPairs) {
     const std::string left = Find(names, pair.left), right = Find(names, pair.right);
     const std::string map = Find(names, pair.map);
     if (left.empty() || right.empty() || map.empty()) continue;
     const std::filesystem::path path(folder);
-    capture->format = pair.format;
-    capture->care = MapCare::kFill;
-    capture->files = {{{0, 0}, (path / left).string()}, {{1, 0}, (path / right).string()}};
-    capture->map_path = (path / map).string();
-    return true;
+    Capture capture;
+    capture.format = pair.format;
+    capture.care = MapCare::kFill;
+    capture.files = {{{0, 0}, (path / left).string()}, {{1, 0}, (path / right).string()}};
+    capture.map_path = (path / map).string();
+    return capture;
   }
-  return false;
+  return {};
 }
 
 Error LoadGreyMap(Capture* capture) {

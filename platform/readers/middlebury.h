@@ -6,6 +6,7 @@
 #ifndef STARFOCUS_PLATFORM_READERS_MIDDLEBURY_H_
 #define STARFOCUS_PLATFORM_READERS_MIDDLEBURY_H_
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,10 +18,10 @@ namespace starfocus {
 // Adds what calib.txt says to a folder that is open already.
 Error ReadMiddlebury(const std::string& folder, Capture* capture);
 
-// Whether the folder has a pair whose map is a grey picture. Fills in its files and format.
-// `names` are sorted.
-bool FindGreyMapPair(const std::string& folder, const std::vector<std::string>& names,
-                     Capture* capture);
+// The pair of a folder whose map is a grey picture, its files and format; none if the folder has no
+// such pair. `names` are sorted.
+std::optional<Capture> FindGreyMapPair(const std::string& folder,
+                                       const std::vector<std::string>& names);
 
 // Loads the grey map of a pair whose views are loaded. The size of the pictures says which multiple
 // of the disparity its levels are, unless the two pictures agree clearly better by another.

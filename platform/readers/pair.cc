@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
+#include <optional>
 #include <system_error>
 #include <tuple>
 
@@ -11,6 +12,7 @@
 #include "platform/readers/depth_levels.h"
 #include "platform/readers/map_orientation.h"
 #include "platform/readers/unknown_depth.h"
+#include "platform/text.h"
 
 namespace starfocus {
 namespace {
@@ -20,13 +22,6 @@ namespace fs = std::filesystem;
 constexpr char kSeparators[] = "-_.", kDepth[] = "depth";
 constexpr size_t kDepthLength = sizeof(kDepth) - 1;
 constexpr const char* kExtensions[] = {".png", ".pgm", ".pfm", ".jpg", ".jpeg"};
-
-std::string Lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
-  return text;
-}
 
 bool EndsIn(const std::string& text, const std::string& end) {
   return text.size() > end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
@@ -52,25 +47,24 @@ struct Candidate {
   }
 };
 
-// Whether the file is a depth picture of the photo of that name.
-bool Fits(const std::string& photo, const std::string& file, Candidate* candidate) {
+// The file as a depth picture of the photo of that name; none if it is another one.
+std::optional<Candidate> Fit(const std::string& photo, const std::string& file) {
   const fs::path path(file);
   const std::string stem = path.stem().string(), name = NameBefore(stem);
   const auto* extension =
       std::find(std::begin(kExtensions), std::end(kExtensions), Lower(path.extension().string()));
   if (name.empty() || Lower(name) != Lower(photo) || extension == std::end(kExtensions)) {
-    return false;
+    return {};
   }
-  *candidate = {name != photo, std::string(kSeparators).find(stem[name.size()]),
-                static_cast<size_t>(extension - std::begin(kExtensions)), file};
-  return true;
+  return Candidate{name != photo, std::string(kSeparators).find(stem[name.size()]),
+                   static_cast<size_t>(extension - std::begin(kExtensions)), file};
 }
 
 Result<Samples> ReadSamples(const std::string& path, bool use_alpha) {
   if (LowerExtension(path) == ".pfm") {
-    Result<FloatMap> map = ReadPfm(path);
-    if (!map) return map.error();
-    return Samples{std::move(*map), 0};
+    Samples samples;
+    if (Error error = ReadPfm(path).MoveTo(&samples.map)) return error;
+    return samples;
   }
   const Result<Bytes> bytes = ReadFile(path);
   return bytes ? DecodeSamples(path, use_alpha, *bytes) : bytes.error();
@@ -109,13 +103,11 @@ Result<std::string> FindDepthPicture(const std::string& path, DepthPhoto* photo)
   std::error_code error, ignored;
   fs::directory_iterator at(folder, error);
   for (const fs::directory_iterator end; !error && at != end; at.increment(error)) {
-    Candidate candidate;
     const std::string beside = at->path().filename().string();
-    if (!Fits(name, beside, &candidate) || beside == file.filename().string() ||
-        !at->is_regular_file(ignored)) {
-      continue;
+    const std::optional<Candidate> candidate = Fit(name, beside);
+    if (candidate && beside != file.filename().string() && at->is_regular_file(ignored)) {
+      found.push_back(*candidate);
     }
-    found.push_back(candidate);
   }
   if (error) return Expected(folder.string(), "a folder that can be read", error.message());
   if (found.empty()) return std::string();

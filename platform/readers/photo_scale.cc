@@ -11,6 +11,7 @@
 #include "platform/readers/orientation.h"
 #include "platform/readers/robust_range.h"
 #include "platform/readers/unknown_depth.h"
+#include "platform/text.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
@@ -90,10 +91,6 @@ Error CheckDisparities(const std::string& where, DepthPhoto* photo) {
                   Rounded(double(*low)) + " to " + Rounded(double(*high)));
 }
 
-std::string SizeText(int width, int height) {
-  return std::to_string(width) + "x" + std::to_string(height);
-}
-
 // Fills what the map does not know, which a note reports.
 void FillUnknown(DepthPhoto* photo) {
   const size_t filled = FillBehind(&photo->map), all = photo->map.values.size();
@@ -134,7 +131,7 @@ FloatMap Resize(const FloatMap& map, int width, int height) {
   return result;
 }
 
-Error MakeSmallMap(const std::string& where, DepthPhoto* photo, LightField* light_field) {
+Result<LightField> MakePhotoField(const std::string& where, DepthPhoto* photo) {
   ApplyOrientation(photo);
   const Image& picture = photo->picture;
   FloatMap& map = photo->map;
@@ -151,10 +148,11 @@ Error MakeSmallMap(const std::string& where, DepthPhoto* photo, LightField* ligh
   } else {
     ToDisparity(range, std::hypot(picture.width, picture.height), photo);
   }
-  light_field->disparity = std::move(map);
-  light_field->views = {std::move(photo->picture)};
-  light_field->positions = {{0, 0}};
-  return {};
+  LightField light_field;
+  light_field.disparity = std::move(map);
+  light_field.views = {std::move(photo->picture)};
+  light_field.positions = {{0, 0}};
+  return light_field;
 }
 
 void FitMap(LightField* light_field) {
@@ -162,12 +160,6 @@ void FitMap(LightField* light_field) {
   FloatMap& map = light_field->disparity;
   if (map.width == picture.width && map.height == picture.height) return;
   map = Resize(map, picture.width, picture.height);
-}
-
-Error MakeLightField(const std::string& where, DepthPhoto* photo, LightField* light_field) {
-  const Error error = MakeSmallMap(where, photo, light_field);
-  if (!error) FitMap(light_field);
-  return error;
 }
 
 }  // namespace starfocus

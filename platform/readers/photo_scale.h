@@ -16,13 +16,10 @@ FloatMap Resize(const FloatMap& map, int width, int height);
 // Turns the photo upright and makes the map's values disparities of the picture such that an
 // aperture of radius 1 is a lens of f/1 on full frame (docs/formats.md). The light field takes over
 // picture and map, which keeps its own size; photo->focus_value becomes a disparity, too.
-Error MakeSmallMap(const std::string& where, DepthPhoto* photo, LightField* light_field);
+Result<LightField> MakePhotoField(const std::string& where, DepthPhoto* photo);
 
 // Brings the map of a photo to the picture's size.
 void FitMap(LightField* light_field);
-
-// MakeSmallMap and FitMap.
-Error MakeLightField(const std::string& where, DepthPhoto* photo, LightField* light_field);
 
 }  // namespace starfocus
 

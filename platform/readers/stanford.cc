@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 
 namespace starfocus {
 namespace {
@@ -11,11 +12,13 @@ struct Place {
   double y = 0, x = 0;
 };
 
-bool ReadPlace(const std::string& path, Place* place) {
+std::optional<Place> ReadPlace(const std::string& path) {
+  Place place;
   int row = 0, column = 0;
   const std::string name = std::filesystem::path(path).filename().string();
-  return std::sscanf(name.c_str(), "out_%6d_%6d_%20lf_%20lf", &row, &column, &place->y,
-                     &place->x) == 4;
+  const int parts =
+      std::sscanf(name.c_str(), "out_%6d_%6d_%20lf_%20lf", &row, &column, &place.y, &place.x);
+  return parts == 4 ? std::optional(place) : std::nullopt;
 }
 
 }  // namespace
@@ -23,12 +26,9 @@ bool ReadPlace(const std::string& path, Place* place) {
 bool IsStanford(const std::string& name) { return name.rfind("out_", 0) == 0; }
 
 void OrderStanford(ViewArray* array) {
-  Place first, last;
-  bool rows = true, columns = false;
-  if (ReadPlace(array->paths.front(), &first) && ReadPlace(array->paths.back(), &last)) {
-    rows = last.y < first.y;
-    columns = last.x < first.x;
-  }
+  const auto first = ReadPlace(array->paths.front()), last = ReadPlace(array->paths.back());
+  const bool known = first && last;
+  const bool rows = !known || last->y < first->y, columns = known && last->x < first->x;
   const size_t width = size_t(array->columns), height = size_t(array->rows);
   ViewArray turned = *array;
   for (size_t k = 0; k < turned.paths.size(); ++k) {

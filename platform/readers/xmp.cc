@@ -7,6 +7,7 @@
 #include <new>
 
 #include "platform/file.h"
+#include "platform/text.h"
 
 #ifdef STARFOCUS_HAS_EXPAT
 #include <expat.h>
@@ -164,11 +165,8 @@ void FindOwners(const XmpNode& node, const std::string& name, std::vector<const 
   for (const XmpNode& child : node.children) FindOwners(child, name, owners);
 }
 
-bool ReadXmpNumber(const std::string* text, double* value) {
-  if (text == nullptr || text->empty()) return false;
-  char* end = nullptr;
-  *value = std::strtod(text->c_str(), &end);
-  return *end == '\0' && std::isfinite(*value);
+std::optional<double> XmpNumber(const std::string* text) {
+  return text == nullptr ? std::nullopt : ParseNumber(*text);
 }
 
 }  // namespace starfocus

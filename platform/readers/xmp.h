@@ -4,6 +4,7 @@
 #define STARFOCUS_PLATFORM_READERS_XMP_H_
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,8 +35,8 @@ const std::string* FindProperty(const XmpNode& node, const std::string& name);
 // Every node at or below this one that has the property itself, in order.
 void FindOwners(const XmpNode& node, const std::string& name, std::vector<const XmpNode*>* owners);
 
-// A finite number, all of `text`, which may be null.
-bool ReadXmpNumber(const std::string* text, double* value);
+// The finite number that is all of `text`; none for null.
+std::optional<double> XmpNumber(const std::string* text);
 
 }  // namespace starfocus
 

@@ -3,6 +3,7 @@
 
 #include "platform/ppm.h"
 #include "platform/standard_stream.h"
+#include "platform/text.h"
 #include "platform/writers/jpeg.h"
 #include "platform/writers/png.h"
 #include "platform/writers/webp.h"
@@ -15,7 +16,7 @@ constexpr int64_t kMostPixels = int64_t{1} << 28;
 
 Error CheckSize(const std::string& path, const Image& image) {
   const int64_t width = image.width, height = image.height;
-  const std::string size = std::to_string(width) + "x" + std::to_string(height);
+  const std::string size = SizeText(width, height);
   if (width < 1 || height < 1 || width > kMaxPictureSize || height > kMaxPictureSize) {
     return Expected(path, "width and height from 1 to 65535", size);
   }

@@ -7,6 +7,7 @@
 
 #include <utility>
 
+#include "platform/text.h"
 #include "platform/writers/exif.h"
 #include "platform/writers/jpeg_segments.h"
 #include "starfocus/version.h"
@@ -62,8 +63,7 @@ WebpWriter::~WebpWriter() { WebPAnimEncoderDelete(state_->encoder); }
 
 Error WebpWriter::Check(const std::string& path, int width, int height) {
   if (width <= WEBP_MAX_DIMENSION && height <= WEBP_MAX_DIMENSION) return {};
-  return Expected(path, "width and height up to 16383 for WebP",
-                  std::to_string(width) + "x" + std::to_string(height));
+  return Expected(path, "width and height up to 16383 for WebP", SizeText(width, height));
 }
 
 Error WebpWriter::Add(const Image& picture) {

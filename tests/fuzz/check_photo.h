@@ -46,8 +46,10 @@ inline void CheckPhoto(const uint8_t* data, size_t size) {
   if (photo.map.values.size() != size_t(photo.map.width) * size_t(photo.map.height)) std::abort();
   // Small ones: the engine's own fuzz target is for what follows.
   if (photo.picture.pixels.size() > 1 << 20) return;
-  LightField field;
-  if (MakeLightField("photo", &photo, &field)) return;
+  Result<LightField> made = MakePhotoField("photo", &photo);
+  if (!made) return;
+  LightField& field = *made;
+  FitMap(&field);
   const Image& view = field.views[0];
   if (view.pixels.size() != view.stride() * size_t(view.height)) std::abort();
   if (field.width() != view.width || field.height() != view.height) std::abort();

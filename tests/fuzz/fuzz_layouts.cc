@@ -65,9 +65,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (data[0] == 'n') CheckArray(text);
   if (data[0] == 0xff) CheckParts(data, size);
   if (data[0] != 'k') return 0;
-  starfocus::KeyValues values;
-  double number = 0;
-  starfocus::TakeKeyValues(text, &values);
-  for (const auto& value : values) starfocus::NumberOf(values, value.first, &number);
+  const starfocus::KeyValues values = starfocus::ParseKeyValues(text);
+  for (const auto& value : values) starfocus::NumberOf(values, value.first);
   return 0;
 }

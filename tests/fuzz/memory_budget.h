@@ -59,10 +59,10 @@ inline int64_t PixelsOfWebp(const uint8_t* data, size_t size) {
 
 inline int64_t DeclaredPixels(const uint8_t* data, size_t size) {
   if (size >= 12 && std::memcmp(data, "RIFF", 4) == 0) return PixelsOfWebp(data, size);
-  HeifItems items;
-  if (!HeifBrands({data, size}).empty() && ReadHeifItems({data, size}, &items)) {
+  const auto items = HeifBrands({data, size}).empty() ? std::nullopt : ReadHeifItems({data, size});
+  if (items) {
     int64_t pixels = 0;
-    for (const auto& [id, item] : items) pixels += PixelsOf(item.width, item.height);
+    for (const auto& [id, item] : *items) pixels += PixelsOf(item.width, item.height);
     return pixels;
   }
   return PixelsOfHeaders(data, size);

@@ -308,10 +308,9 @@ TEST_CASE("XMP: limits are named, and nothing else than elements is read") {
   CHECK(Contains(parse("<a"), "well-formed"));
   CHECK(Contains(parse(std::string((size_t{1} << 26) + 1, ' ')), "at most 67108864 bytes"));
   const XmpNode root = ValueOf(parse("<a xmlns:n=\"space\" n:p=\" 1 \"><n:q> 2 </n:q></a>"));
-  double value = 0;
-  CHECK((ReadXmpNumber(FindProperty(root, "space|p"), &value) && value == 1));
-  CHECK((ReadXmpNumber(FindProperty(root, "space|q"), &value) && value == 2));
-  CHECK(!ReadXmpNumber(FindProperty(root, "space|r"), &value));
+  CHECK(XmpNumber(FindProperty(root, "space|p")) == 1.0);
+  CHECK(XmpNumber(FindProperty(root, "space|q")) == 2.0);
+  CHECK(!XmpNumber(FindProperty(root, "space|r")));
 }
 
 std::string Seed(const std::string& name) {
@@ -402,24 +401,19 @@ TEST_CASE("HEIF: the brands of still pictures and of sequences, anywhere in thei
 }
 
 TEST_CASE("HEIF: sizes in the headers of the coders") {
-  HeifItems items;
-  const std::string heic = Seed("heif/depth.heic");
-  REQUIRE(ReadHeifItems(SpanOf(heic), &items));
+  const std::string heic = Seed("heif/depth.heic"), avif = Seed("heif/plain.avif");
+  const HeifItems items = ReadHeifItems(SpanOf(heic)).value();
   REQUIRE(items.size() == 4);
-  CHECK(items[2].type == "grid");
-  CHECK(items[2].inputs == std::vector<uint32_t>{1});
-  int64_t width = 0, height = 0;
-  CHECK(items[1].width == 64);
-  REQUIRE(HevcSize(items[1].configuration, items[1].head, &width, &height));
-  CHECK(width == 64);
-  CHECK(height == 64);
-  items.clear();
-  width = height = 0;
-  const std::string avif = Seed("heif/plain.avif");
-  REQUIRE(ReadHeifItems(SpanOf(avif), &items));
-  REQUIRE(Av1Size(items[1].configuration, items[1].head, &width, &height));
-  CHECK(width == 24);
-  CHECK(height == 16);
+  CHECK(items.at(2).type == "grid");
+  CHECK(items.at(2).inputs == std::vector<uint32_t>{1});
+  CHECK(items.at(1).width == 64);
+  const CodedSize hevc = HevcSize(items.at(1).configuration, items.at(1).head);
+  CHECK(hevc.width == 64);
+  CHECK(hevc.height == 64);
+  const HeifItem item = ReadHeifItems(SpanOf(avif)).value().at(1);
+  const CodedSize av1 = Av1Size(item.configuration, item.head);
+  CHECK(av1.width == 24);
+  CHECK(av1.height == 16);
 }
 
 // The seed with the bytes behind a text changed.

@@ -304,8 +304,10 @@ TEST_CASE("disparities of a photo stay within the limit, also between the values
   photo.picture = Plain(97, 61, 128);
   photo.map = {5, 3, std::vector<float>(15, 1e6F)};  // micrometres away
   photo.meaning = MapMeaning::kInverseMetres;
-  LightField field;
-  REQUIRE(MakeLightField("photo", &photo, &field) == "");
+  Result<LightField> made = MakePhotoField("photo", &photo);
+  REQUIRE(made.error() == "");
+  LightField& field = *made;
+  FitMap(&field);
   REQUIRE(field.disparity.values.size() == 97 * 61);
   const auto [low, high] =
       std::minmax_element(field.disparity.values.begin(), field.disparity.values.end());
