@@ -41,7 +41,14 @@ bool Fits(PixelField field, int bits) {
   return field.length >= 1 && field.length <= 16 && field.offset + field.length <= bits;
 }
 
-Error Map(const std::string& path, int file, Screen* screen, size_t* bytes, void** memory) {
+// A screen whose memory is mapped.
+struct Mapping {
+  Screen screen;
+  void* memory = nullptr;
+  size_t bytes = 0;
+};
+
+Result<Mapping> Map(const std::string& path, int file) {
   fb_var_screeninfo shown = {};
   fb_fix_screeninfo fixed = {};
   if (ioctl(file, FBIOGET_VSCREENINFO, &shown) != 0 ||
@@ -49,30 +56,26 @@ Error Map(const std::string& path, int file, Screen* screen, size_t* bytes, void
     return Expected(path, "a framebuffer", "another kind of file");
   }
   const int bits = static_cast<int>(shown.bits_per_pixel);
-  screen->width = static_cast<int>(shown.xres);
-  screen->height = static_cast<int>(shown.yres);
-  screen->stride = fixed.line_length;
-  screen->bytes_per_pixel = bits / 8;
-  screen->red = FieldOf(shown.red);
-  screen->green = FieldOf(shown.green);
-  screen->blue = FieldOf(shown.blue);
+  Screen screen = {
+      nullptr,  static_cast<int>(shown.xres), static_cast<int>(shown.yres), fixed.line_length,
+      bits / 8, FieldOf(shown.red),           FieldOf(shown.green),         FieldOf(shown.blue)};
   const bool known = fixed.type == FB_TYPE_PACKED_PIXELS &&
-                     (bits == 16 || bits == 24 || bits == 32) && Fits(screen->red, bits) &&
-                     Fits(screen->green, bits) && Fits(screen->blue, bits);
+                     (bits == 16 || bits == 24 || bits == 32) && Fits(screen.red, bits) &&
+                     Fits(screen.green, bits) && Fits(screen.blue, bits);
   if (!known) {
     return Expected(path, "16, 24 or 32 bits per pixel in colour",
                     std::to_string(bits) + " of another kind");
   }
-  *bytes = fixed.smem_len;
+  const size_t bytes = fixed.smem_len;
   const size_t first =
-      shown.yoffset * screen->stride + shown.xoffset * static_cast<size_t>(screen->bytes_per_pixel);
-  if (first + screen->stride * static_cast<size_t>(screen->height) > *bytes) {
+      shown.yoffset * screen.stride + shown.xoffset * static_cast<size_t>(screen.bytes_per_pixel);
+  if (first + screen.stride * static_cast<size_t>(screen.height) > bytes) {
     return Expected(path, "memory for the whole screen", "less");
   }
-  *memory = mmap(nullptr, *bytes, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
-  if (*memory == MAP_FAILED) return Expected(path, "mappable memory", std::strerror(errno));
-  screen->memory = static_cast<uint8_t*>(*memory) + first;
-  return {};
+  void* const memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+  if (memory == MAP_FAILED) return Expected(path, "mappable memory", std::strerror(errno));
+  screen.memory = static_cast<uint8_t*>(memory) + first;
+  return Mapping{screen, memory, bytes};
 }
 
 }  // namespace
@@ -95,16 +98,13 @@ void Draw(const Image& picture, const Screen& screen) {
 Error ShowOnFramebuffer(const std::string& path, const Image& picture) {
   const int file = open(path.c_str(), O_RDWR | O_CLOEXEC);
   if (file < 0) return Expected(path, "a framebuffer", std::strerror(errno));
-  Screen screen;
-  size_t bytes = 0;
-  void* memory = nullptr;
-  const Error error = Map(path, file, &screen, &bytes, &memory);
-  if (!error) {
-    Draw(picture, screen);
-    munmap(memory, bytes);
+  const Result<Mapping> mapped = Map(path, file);
+  if (mapped) {
+    Draw(picture, mapped->screen);
+    munmap(mapped->memory, mapped->bytes);
   }
   close(file);
-  return error;
+  return mapped.error();
 }
 
 }  // namespace starfocus

@@ -183,9 +183,7 @@ struct GpioOutput::Line {
 Error GpioInputs::Open(const std::string& chip, const std::vector<int>& lines, GpioBias bias) {
   auto opened = std::make_unique<Lines>();
   opened->name = ChipPath(chip);
-  Result<Chip> own = OpenChip(chip);
-  if (!own) return own.error();
-  opened->chip = std::move(*own);
+  if (Error error = OpenChip(chip).MoveTo(&opened->chip)) return error;
   gpiod_line_bulk_init(&opened->bulk);
   for (const int line : lines) {
     if (Error error = CheckLine(chip, opened->chip.get(), line)) return error;
@@ -201,16 +199,15 @@ Error GpioInputs::Open(const std::string& chip, const std::vector<int>& lines, G
   return {};
 }
 
-Error GpioInputs::Read(int line, bool* high) {
+Result<bool> GpioInputs::Read(int line) {
   gpiod_line* found = gpiod_chip_get_line(lines_->chip.get(), static_cast<unsigned>(line));
   const int value = found == nullptr ? -1 : gpiod_line_get_value(found);
   if (value < 0) return Failure(LineName(lines_->name, line), "a readable line");
-  *high = value != 0;
-  return {};
+  return value != 0;
 }
 
-Error GpioInputs::Wait(int timeout, std::vector<GpioEdge>* edges) {
-  edges->clear();
+Result<std::vector<GpioEdge>> GpioInputs::Wait(int timeout) {
+  std::vector<GpioEdge> edges;
   const timespec limit = {timeout / 1000, timeout % 1000 * 1000000L};
   gpiod_line_bulk ready;
   int result = 0;
@@ -226,23 +223,21 @@ Error GpioInputs::Wait(int timeout, std::vector<GpioEdge>* edges) {
     const int count = gpiod_line_event_read_multiple(line, events, kEdgesAtOnce);
     if (count < 0) return Failure(lines_->name, "edges of its lines");
     for (int k = 0; k < count; ++k) {
-      edges->push_back({static_cast<int>(gpiod_line_offset(line)),
-                        events[k].event_type == GPIOD_LINE_EVENT_RISING_EDGE,
-                        int64_t{events[k].ts.tv_sec} * 1000000000 + events[k].ts.tv_nsec});
+      edges.push_back({static_cast<int>(gpiod_line_offset(line)),
+                       events[k].event_type == GPIOD_LINE_EVENT_RISING_EDGE,
+                       int64_t{events[k].ts.tv_sec} * 1000000000 + events[k].ts.tv_nsec});
     }
   }
-  std::stable_sort(edges->begin(), edges->end(), [](const GpioEdge& a, const GpioEdge& b) {
+  std::stable_sort(edges.begin(), edges.end(), [](const GpioEdge& a, const GpioEdge& b) {
     return a.nanoseconds < b.nanoseconds;
   });
-  return {};
+  return edges;
 }
 
 Error GpioOutput::Open(const std::string& chip, int line) {
   auto opened = std::make_unique<Line>();
   opened->name = LineName(chip, line);
-  Result<Chip> own = OpenChip(chip);
-  if (!own) return own.error();
-  opened->chip = std::move(*own);
+  if (Error error = OpenChip(chip).MoveTo(&opened->chip)) return error;
   if (Error error = CheckLine(chip, opened->chip.get(), line)) return error;
   opened->line = gpiod_chip_get_line(opened->chip.get(), static_cast<unsigned>(line));
   if (opened->line == nullptr || gpiod_line_request_output(opened->line, kConsumer, 0) != 0) {
@@ -257,11 +252,10 @@ Error GpioOutput::Set(bool high) {
   return Failure(line_->name, "an output that can be set");
 }
 
-Error GpioOutput::Read(bool* high) {
+Result<bool> GpioOutput::Read() {
   const int value = gpiod_line_get_value(line_->line);
   if (value < 0) return Failure(line_->name, "a readable line");
-  *high = value != 0;
-  return {};
+  return value != 0;
 }
 
 #else
@@ -283,9 +277,7 @@ struct GpioOutput::Line {
 Error GpioInputs::Open(const std::string& chip, const std::vector<int>& lines, GpioBias bias) {
   auto opened = std::make_unique<Lines>();
   opened->name = ChipPath(chip);
-  Result<Chip> own = OpenChip(chip);
-  if (!own) return own.error();
-  opened->chip = std::move(*own);
+  if (Error error = OpenChip(chip).MoveTo(&opened->chip)) return error;
   std::string names;
   for (const int line : lines) {
     if (Error error = CheckLine(chip, opened->chip.get(), line)) return error;
@@ -307,22 +299,21 @@ Error GpioInputs::Open(const std::string& chip, const std::vector<int>& lines, G
   return {};
 }
 
-Error GpioInputs::Read(int line, bool* high) {
+Result<bool> GpioInputs::Read(int line) {
   const gpiod_line_value value =
       gpiod_line_request_get_value(lines_->request.get(), static_cast<unsigned>(line));
   if (value == GPIOD_LINE_VALUE_ERROR) {
     return Failure(LineName(lines_->name, line), "a readable line");
   }
-  *high = value == GPIOD_LINE_VALUE_ACTIVE;
-  return {};
+  return value == GPIOD_LINE_VALUE_ACTIVE;
 }
 
-Error GpioInputs::Wait(int timeout, std::vector<GpioEdge>* edges) {
-  edges->clear();
+Result<std::vector<GpioEdge>> GpioInputs::Wait(int timeout) {
+  std::vector<GpioEdge> edges;
   const int64_t limit = timeout < 0 ? -1 : int64_t{timeout} * 1000000;
   const int result = gpiod_line_request_wait_edge_events(lines_->request.get(), limit);
   if (result < 0) return Failure(lines_->name, "edges of its lines");
-  if (result == 0) return {};
+  if (result == 0) return edges;
   const int count = gpiod_line_request_read_edge_events(
       lines_->request.get(), lines_->buffer.get(),
       gpiod_edge_event_buffer_get_capacity(lines_->buffer.get()));
@@ -330,20 +321,18 @@ Error GpioInputs::Wait(int timeout, std::vector<GpioEdge>* edges) {
   for (int i = 0; i < count; ++i) {
     gpiod_edge_event* event =
         gpiod_edge_event_buffer_get_event(lines_->buffer.get(), static_cast<unsigned long>(i));
-    edges->push_back({static_cast<int>(gpiod_edge_event_get_line_offset(event)),
-                      gpiod_edge_event_get_event_type(event) == GPIOD_EDGE_EVENT_RISING_EDGE,
-                      static_cast<int64_t>(gpiod_edge_event_get_timestamp_ns(event))});
+    edges.push_back({static_cast<int>(gpiod_edge_event_get_line_offset(event)),
+                     gpiod_edge_event_get_event_type(event) == GPIOD_EDGE_EVENT_RISING_EDGE,
+                     static_cast<int64_t>(gpiod_edge_event_get_timestamp_ns(event))});
   }
-  return {};
+  return edges;
 }
 
 Error GpioOutput::Open(const std::string& chip, int line) {
   auto opened = std::make_unique<Line>();
   opened->name = LineName(chip, line);
   opened->offset = static_cast<unsigned>(line);
-  Result<Chip> own = OpenChip(chip);
-  if (!own) return own.error();
-  opened->chip = std::move(*own);
+  if (Error error = OpenChip(chip).MoveTo(&opened->chip)) return error;
   if (Error error = CheckLine(chip, opened->chip.get(), line)) return error;
   gpiod_line_settings* settings = gpiod_line_settings_new();
   if (settings != nullptr) {
@@ -362,11 +351,10 @@ Error GpioOutput::Set(bool high) {
   return Failure(line_->name, "an output that can be set");
 }
 
-Error GpioOutput::Read(bool* high) {
+Result<bool> GpioOutput::Read() {
   const gpiod_line_value value = gpiod_line_request_get_value(line_->request.get(), line_->offset);
   if (value == GPIOD_LINE_VALUE_ERROR) return Failure(line_->name, "a readable line");
-  *high = value == GPIOD_LINE_VALUE_ACTIVE;
-  return {};
+  return value == GPIOD_LINE_VALUE_ACTIVE;
 }
 
 #endif

@@ -37,11 +37,11 @@ class GpioInputs {
   GpioInputs();
   ~GpioInputs();
   Error Open(const std::string& chip, const std::vector<int>& lines, GpioBias bias);
-  // Level of a line now.
-  Error Read(int line, bool* high);
-  // Waits for edges; empty after `timeout` milliseconds without one (-1: no limit). They come in
-  // the order of their times. The kernel drops edges when more than 16 per line wait.
-  Error Wait(int timeout, std::vector<GpioEdge>* edges);
+  // Returns true if the line is high now.
+  Result<bool> Read(int line);
+  // Waits for edges and returns them in the order of their times; none after `timeout` milliseconds
+  // without one (-1: no limit). The kernel drops edges when more than 16 per line wait.
+  Result<std::vector<GpioEdge>> Wait(int timeout);
 
  private:
   struct Lines;
@@ -55,8 +55,8 @@ class GpioOutput {
   ~GpioOutput();
   Error Open(const std::string& chip, int line);
   Error Set(bool high);
-  // The level on the line itself, where the chip can read its outputs.
-  Error Read(bool* high);
+  // Returns true if the line itself is high, where the chip can read its outputs.
+  Result<bool> Read();
 
  private:
   struct Line;

@@ -39,24 +39,25 @@ struct Options {
 constexpr int kLastLine = 100000;
 
 // Everything that can be refused before the light field is read.
-Error PlanLines(const Options& options, PanelLines* lines) {
+Result<PanelLines> PlanLines(const Options& options) {
+  PanelLines lines;
   if (options.encoder) {
-    lines->encoder_a = options.encoder->x;
-    lines->encoder_b = options.encoder->y;
+    lines.encoder_a = options.encoder->x;
+    lines.encoder_b = options.encoder->y;
   }
-  lines->aperture = options.aperture.value_or(-1);
-  lines->shutter = options.shutter.value_or(-1);
+  lines.aperture = options.aperture.value_or(-1);
+  lines.shutter = options.shutter.value_or(-1);
   if (!options.out.empty()) {
     if (Error error = CheckImageOutput(options.out)) return error;
   } else if (options.framebuffer.empty()) {
     return Error::Usage("--out", "a picture file to write, or --framebuffer", "neither");
   }
   if (!options.shutter) return Error::Usage("--shutter", "the line of the shutter button", "none");
-  std::vector<int> all = lines->All();
+  std::vector<int> all = lines.All();
   if (options.busy) all.push_back(*options.busy);
   std::sort(all.begin(), all.end());
   const auto twice = std::adjacent_find(all.begin(), all.end());
-  if (twice == all.end()) return {};
+  if (twice == all.end()) return lines;
   return Error::Usage("lines", "a line for each control", std::to_string(*twice) + " twice");
 }
 
@@ -99,22 +100,23 @@ class Board {
   // Serves the controls until the wanted number of pictures is taken.
   Error Run() {
     bool a = true, b = true;
-    Error error;
     if (lines_.encoder_a >= 0) {
-      error = inputs_.Read(lines_.encoder_a, &a);
-      if (!error) error = inputs_.Read(lines_.encoder_b, &b);
+      if (Error error = inputs_.Read(lines_.encoder_a).MoveTo(&a)) return error;
+      if (Error error = inputs_.Read(lines_.encoder_b).MoveTo(&b)) return error;
     }
     Panel panel(lines_, !options_.active_high, int64_t{options_.debounce} * 1000000, a, b);
-    std::vector<GpioEdge> edges;
-    while (!error && !Finished()) {
+    while (!Finished()) {
       const int64_t wait = panel.Wait(Nanoseconds());
-      error = inputs_.Wait(wait < 0 ? -1 : static_cast<int>(wait / 1000000 + 1), &edges);
-      for (size_t i = 0; i < edges.size() && !error && !Finished(); ++i) {
-        error = Act(panel.Edge(edges[i].line, edges[i].high, edges[i].nanoseconds));
+      const auto edges = inputs_.Wait(wait < 0 ? -1 : static_cast<int>(wait / 1000000 + 1));
+      if (!edges) return edges.error();
+      for (size_t i = 0; i < edges->size() && !Finished(); ++i) {
+        const GpioEdge& edge = (*edges)[i];
+        if (Error error = Act(panel.Edge(edge.line, edge.high, edge.nanoseconds))) return error;
       }
-      if (!error && edges.empty()) error = Act(panel.Settle(Nanoseconds()));
+      if (!edges->empty()) continue;
+      if (Error error = Act(panel.Settle(Nanoseconds()))) return error;
     }
-    return error;
+    return {};
   }
 
  private:
@@ -131,26 +133,28 @@ class Board {
     return {};
   }
 
-  Error SetBusy(bool high, bool* read_back) {
-    if (!options_.busy) return {};
+  // Returns the level that is read back; false without a busy line.
+  Result<bool> SetBusy(bool high) {
+    if (!options_.busy) return false;
     if (Error error = busy_.Set(high)) return error;
-    return busy_.Read(read_back);
+    return busy_.Read();
   }
 
   Error TakePicture() {
-    bool during = false, after = false;
-    if (Error error = SetBusy(true, &during)) return error;
+    const Result<bool> during = SetBusy(true);
+    if (!during) return during.error();
     const double start = Seconds();
     const starfocus_status status = camera_.Take(focus_, aperture());
     const double seconds = Seconds() - start;
-    if (Error error = SetBusy(false, &after)) return error;
+    const Result<bool> after = SetBusy(false);
+    if (!after) return after.error();
     if (status != STARFOCUS_OK) {
       return Error::Internal("picture", "a refocused one", starfocus_status_string(status));
     }
     ++taken_;
     std::printf("picture %d: focus %g, aperture %g, %.3f ms", taken_, focus_, aperture(),
                 1e3 * seconds);
-    if (options_.busy) std::printf(", busy line read back %d, then %d", during, after);
+    if (options_.busy) std::printf(", busy line read back %d, then %d", *during, *after);
     std::printf("\n");
     Keep();
     return {};
@@ -191,9 +195,9 @@ Error List() {
 Error Run(const Options& options) {
   if (options.list) return List();
   if (options.folder.empty()) return Error::Usage("DIR", "a light-field folder", "nothing");
-  PanelLines lines;
-  if (Error error = PlanLines(options, &lines)) return error;
-  Board board(options, lines);
+  const Result<PanelLines> lines = PlanLines(options);
+  if (!lines) return lines.error();
+  Board board(options, *lines);
   if (Error error = board.Open()) return error;
   return board.Run();
 }
