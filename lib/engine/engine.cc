@@ -56,7 +56,7 @@ void DropCounts(EngineState* engine) {
 }
 
 void ForgetStripe(StripeState* stripe) {
-  std::memset(stripe->map.units, kNoLayer, static_cast<size_t>(stripe->map.columns));
+  std::memset(stripe->map.layers, kNoLayer, static_cast<size_t>(stripe->map.columns));
   stripe->plan.all_measured = false;
   for (int32_t& done : stripe->coverage.done) done = -1;
 }

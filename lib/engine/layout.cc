@@ -130,8 +130,8 @@ void TakeStripe(const starfocus_config& config, Arena* arena, EngineState* engin
   changes.stripes = 2 * borders.views / side + 5;
   changes.flags = arena->Take<uint8_t>(blocks * static_cast<size_t>(changes.stripes));
   engine->stripe.map.columns = (config.width + kSmallestBlock - 1) / kSmallestBlock;
-  engine->stripe.map.units = arena->Take<uint8_t>(static_cast<size_t>(engine->stripe.map.columns) *
-                                                  static_cast<size_t>(side / kSmallestBlock + 1));
+  engine->stripe.map.layers = arena->Take<uint8_t>(static_cast<size_t>(engine->stripe.map.columns) *
+                                                   static_cast<size_t>(side / kSmallestBlock + 1));
 }
 
 // Takes what images need; `rows` are those of a ring.

@@ -30,13 +30,13 @@ void RefocusOneBlock(const RefocusJob& job, int32_t index, Scratch* scratch) {
 // superblocks; between columns, those in the next kSmallestBlock of the rows that are finished.
 struct JoinJob {
   DeblockJob deblock;
-  int32_t units;  // columns of units of a superblock
+  int32_t smallest;  // smallest blocks along a superblock
   RowRange finished;
 };
 
 void DeblockRowBoundaries(const JoinJob& job, int32_t column, Scratch*) {
-  DeblockRows(job.deblock, column * job.units,
-              Min((column + 1) * job.units, job.deblock.map->columns));
+  DeblockRows(job.deblock, column * job.smallest,
+              Min((column + 1) * job.smallest, job.deblock.map->columns));
 }
 
 void DeblockColumnBoundaries(const JoinJob& job, int32_t index, Scratch*) {
@@ -87,7 +87,7 @@ starfocus_status RefocusPhases(const Stripe& stripe, const Plane<uint8_t>& out,
 void KeepStripe(EngineState* engine) {
   TakeCounts(engine);
   const LayerMap& map = engine->stripe.map;
-  std::memcpy(map.units, &map.At(0, map.rows - 1), static_cast<size_t>(map.columns));
+  std::memcpy(map.layers, &map.At(0, map.rows - 1), static_cast<size_t>(map.columns));
 }
 
 // Leaves the engine as if the stripe had not been begun; what it shared with the one before is made

@@ -176,7 +176,7 @@ void MapBlock(const Stripe& stripe, const Block& block, const LayerMap& map) {
   }
 }
 
-// Takes all layers off the map: units that no block covers stay without one.
+// Takes all layers off the map: smallest blocks that no block covers stay without one.
 void ClearMap(const Stripe& stripe, LayerMap* map) {
   map->rows = (stripe.height + kSmallestBlock - 1) / kSmallestBlock;
   std::memset(&map->At(0, 0), kNoLayer,

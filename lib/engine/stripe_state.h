@@ -49,7 +49,7 @@ struct StripeState {
   CellGrid cells;          // of the stripe, and as far around it as pixels splat
   CoverageState coverage;  // of the stripe, and of the rows around it
   StripePlan plan;
-  LayerMap map;       // which layer each unit has, for deblocking
+  LayerMap map;       // which layer each smallest block has, for deblocking
   FrameDiff changes;  // which blocks differ from the light field before
   uint8_t* out;       // kDeblockRows and a stripe, packed
   // With streaming: the last kDeblockRows of the stripe before, as it left them. Else null: what

@@ -6,7 +6,7 @@
 namespace starfocus {
 namespace {
 
-// Tells whether units of these layers need joining.
+// Tells whether blocks of these layers need joining.
 bool Meet(int32_t before, int32_t after) {
   return before != after && before != kNoLayer && after != kNoLayer;
 }
@@ -49,7 +49,7 @@ struct BoundaryLine {
   int32_t room;
 };
 
-// Filters a boundary at which units of layers `before` and `after` meet.
+// Filters a boundary at which blocks of layers `before` and `after` meet.
 void FilterBoundary(const DeblockJob& job, const BoundaryLine& line, int32_t before,
                     int32_t after) {
   const bool lower_after = before > after;

@@ -16,19 +16,20 @@ namespace starfocus {
 // these it changes all but the first.
 inline constexpr int32_t kDeblockRows = 4;
 
-// The layer of units that are not refocused; nothing is joined to them.
+// The layer of smallest blocks that are not refocused; nothing is joined to them.
 inline constexpr uint8_t kNoLayer = 0xFF;
 
-// The layer of every 16x16 unit of the stripe before (its last row of units) and of this one.
+// The layer of every smallest block (kSmallestBlock) of the stripe before, of which it has the last
+// row, and of this one.
 struct LayerMap {
-  uint8_t* units = nullptr;
-  int32_t columns = 0;  // units per row
+  uint8_t* layers = nullptr;
+  int32_t columns = 0;  // smallest blocks per row
   int32_t rows = 0;     // of this stripe
 
   // row -1: the stripe before.
   uint8_t& At(int32_t column, int32_t row) const {
-    return units[static_cast<size_t>(row + 1) * static_cast<size_t>(columns) +
-                 static_cast<size_t>(column)];
+    return layers[static_cast<size_t>(row + 1) * static_cast<size_t>(columns) +
+                  static_cast<size_t>(column)];
   }
 };
 
@@ -42,11 +43,11 @@ struct DeblockJob {
   const simd::Kernels* kernels;
 };
 
-// Boundaries between rows of units, at the top of the stripe (y > 0) and inside it, for columns
-// [begin, end) of units. All of a row's must be done before its boundaries between columns.
+// Boundaries between rows of smallest blocks, at the top of the stripe (y > 0) and inside it, for
+// their columns [begin, end). All of a row's must be done before its boundaries between columns.
 void DeblockRows(const DeblockJob& job, int32_t begin, int32_t end);
 
-// Boundaries between columns of units, for picture rows [first, last).
+// Boundaries between columns of smallest blocks, for picture rows [first, last).
 void DeblockColumns(const DeblockJob& job, int32_t first, int32_t last);
 
 }  // namespace starfocus

@@ -76,7 +76,7 @@ class Partition {
     for (int32_t layer = 0; layer < STARFOCUS_LAYERS; ++layer) node.gathered[layer] = 0;
     for (int32_t layer = 0; layer < STARFOCUS_LAYERS; ++layer) node.gather[layer] = 0;
     if (level == 0) {
-      MeasureUnit(column, row, cells, surroundings, &node);
+      MeasureSmallest(column, row, cells, surroundings, &node);
       return;
     }
     const BlockStats* children[4];
@@ -122,8 +122,8 @@ class Partition {
     return smooth == CellKind::kSloped ? layer | kSlopeMark : layer;
   }
 
-  void MeasureUnit(int32_t column, int32_t row, const CellGrid& cells,
-                   const Surroundings& surroundings, PartitionNode* node) {
+  void MeasureSmallest(int32_t column, int32_t row, const CellGrid& cells,
+                       const Surroundings& surroundings, PartitionNode* node) {
     const int32_t cell_x = x_ / kCellSize + 2 * column, cell_y = y_ / kCellSize + 2 * row;
     node->stats = MeasureBlock(kernels_, cells, surroundings, cell_x, cell_y);
     for (int32_t y = cell_y; y < Min(cell_y + 2, cells.rows); ++y) {
@@ -240,7 +240,7 @@ class Partition {
     MeasureRendered(block);
   }
 
-  // Chooses N and the border by the units that hold those cells.
+  // Chooses N and the border by the smallest blocks that hold those cells.
   void MeasureRendered(Block* block) const {
     const int32_t layer = block->layer, scale = 1 << layer;
     const Rect& rect = block->rect;

@@ -72,16 +72,17 @@ void ScanLines(const simd::Kernels& kernels, benchmark::State& state) {
 // A chequerboard of layers, so that every boundary is worked on. Bytes: the picture read and
 // written twice.
 void Deblock(benchmark::State& state) {
-  constexpr int kUnits = kSide / 16;
-  std::vector<uint8_t> units(size_t(kUnits * (kUnits + 1))), picture(size_t(3 * kSide * kSide));
-  for (size_t i = 0; i < units.size(); ++i) {
-    units[i] = uint8_t((i % kUnits + i / kUnits) % STARFOCUS_LAYERS);
+  constexpr int kSmallestBlocks = kSide / 16;
+  std::vector<uint8_t> layers(size_t(kSmallestBlocks * (kSmallestBlocks + 1))),
+      picture(size_t(3 * kSide * kSide));
+  for (size_t i = 0; i < layers.size(); ++i) {
+    layers[i] = uint8_t((i % kSmallestBlocks + i / kSmallestBlocks) % STARFOCUS_LAYERS);
   }
   for (size_t i = 0; i < picture.size(); ++i) picture[i] = uint8_t(i / 48 * 9);
   LayerMap map;
-  map.units = units.data();
-  map.columns = kUnits;
-  map.rows = kUnits;
+  map.layers = layers.data();
+  map.columns = kSmallestBlocks;
+  map.rows = kSmallestBlocks;
   const DeblockJob job = {&map,
                           {picture.data(), 3 * kSide, 0, 0},
                           kSide,
@@ -91,7 +92,7 @@ void Deblock(benchmark::State& state) {
                           &TransferOf(STARFOCUS_TRANSFER_NONE),
                           &simd::BestKernels()};
   for (auto _ : state) {
-    DeblockRows(job, 0, kUnits);
+    DeblockRows(job, 0, kSmallestBlocks);
     DeblockColumns(job, 0, kSide);
     benchmark::ClobberMemory();
   }

@@ -14,7 +14,7 @@ namespace test {
 
 constexpr int kUnit = 16;
 
-// A picture and the layers of its 16x16 units.
+// A picture and the layers of its smallest blocks.
 struct LayeredPicture {
   LayeredPicture(int w, int h)
       : width(w),

@@ -21,16 +21,17 @@ using namespace starfocus;
 using test::DeblockPicture;
 using Picture = test::LayeredPicture;
 
-// As the engine does it: stripe by stripe, the columns of units in `parts` jobs from the right.
+// As the engine does it: stripe by stripe, the columns of smallest blocks in `parts` jobs from the
+// right.
 void DeblockStripes(Picture* picture, int stripe_height, int parts, int beta, int transfer) {
   const int most_rows = stripe_height / kSmallestBlock;
-  std::vector<uint8_t> units(size_t(picture->columns) * size_t(most_rows + 1), 0xEE);
+  std::vector<uint8_t> layers(size_t(picture->columns) * size_t(most_rows + 1), 0xEE);
   LayerMap map;
-  map.units = units.data();
+  map.layers = layers.data();
   map.columns = picture->columns;
   for (int y = 0; y < picture->height; y += stripe_height) {
     const int height = std::min(stripe_height, picture->height - y);
-    if (y > 0) std::copy_n(&map.At(0, map.rows - 1), map.columns, map.units);
+    if (y > 0) std::copy_n(&map.At(0, map.rows - 1), map.columns, map.layers);
     map.rows = (height + kSmallestBlock - 1) / kSmallestBlock;
     for (int row = 0; row < map.rows; ++row) {
       for (int column = 0; column < map.columns; ++column) {
@@ -93,7 +94,7 @@ TEST_CASE("deblock: stripes give what the whole picture gives") {
   CHECK(changed > 500);
 }
 
-// A row of pixels of levels, all rows alike, with two units of the layers given.
+// A row of pixels of levels, all rows alike, with two blocks of the layers given.
 std::vector<int> DeblockedRow(const std::vector<int>& levels, int before, int after, int beta,
                               bool vertical) {
   const int length = int(levels.size());
@@ -205,7 +206,7 @@ TEST_CASE("deblock: last rows and columns narrower than the filter") {
     CHECK(row({120, 120}, 2) == Step({110, 120}));
     CHECK(row({120, 120, 120}, 2) == Step({110, 120, 120}));
     CHECK(row({120, 120, 120, 120}, 2) == Step({105, 110, 115, 120}));
-    // A narrow unit of the higher layer still smooths its neighbour.
+    // A narrow block of the higher layer still smooths its neighbour.
     std::vector<int> strong = Step({120});
     strong[15] = 115;
     strong[14] = 110;
@@ -214,7 +215,7 @@ TEST_CASE("deblock: last rows and columns narrower than the filter") {
   }
 }
 
-TEST_CASE("deblock: constant pictures and pictures of one unit stay") {
+TEST_CASE("deblock: constant pictures and pictures of one block stay") {
   test::Random random(6);
   for (int round = 0; round < 50; ++round) {
     Picture picture = RandomPicture(random.Int(1, 80), random.Int(1, 80), &random);
