@@ -63,8 +63,8 @@ Scratch TakeScratch(const starfocus_config& config, Arena* arena) {
   arena->Reuse(shared);
   TakeResample(config, arena, &scratch.resample);
   arena->Reuse(shared);
-  scratch.partition.nodes =
-      arena->Take<PartitionNode>(static_cast<size_t>(PartitionNodes(config.superblock)));
+  scratch.partition.candidates =
+      arena->Take<PartitionCandidate>(static_cast<size_t>(PartitionCandidates(config.superblock)));
   scratch.partition.cells =
       arena->Take<int16_t>(SurroundingSamples(config.superblock / kCellSize, borders.cells));
   arena->GoOn();

@@ -44,7 +44,7 @@ class Partition {
       for (int32_t row = 0; row < count; ++row) {
         for (int32_t column = 0; column < count; ++column) {
           if (!Inside(level, column, row)) continue;
-          MeasureNode(level, column, row, cells, surroundings);
+          MeasureCandidate(level, column, row, cells, surroundings);
           Plan(level, column, row);
         }
       }
@@ -53,46 +53,45 @@ class Partition {
 
   int32_t Emit(Block* blocks) {
     count_ = 0;
-    EmitNode(levels_, 0, 0, blocks);
+    EmitBlocks(levels_, 0, 0, blocks);
     return count_;
   }
 
  private:
-  int32_t NodeSide(int level) const { return kSmallestBlock << level; }
-  PartitionNode& Node(int level, int32_t column, int32_t row) const {
+  int32_t SideOf(int level) const { return kSmallestBlock << level; }
+  PartitionCandidate& Candidate(int level, int32_t column, int32_t row) const {
     int32_t index = row * (side_ >> level) + column;
     for (int below = 0; below < level; ++below) index += (side_ >> below) * (side_ >> below);
-    return scratch_.nodes[index];
+    return scratch_.candidates[index];
   }
   bool Inside(int level, int32_t column, int32_t row) const {
-    return x_ + column * NodeSide(level) < config_.width &&
-           y_ + row * NodeSide(level) < config_.height;
+    return x_ + column * SideOf(level) < config_.width && y_ + row * SideOf(level) < config_.height;
   }
 
-  void MeasureNode(int level, int32_t column, int32_t row, const CellGrid& cells,
-                   const Surroundings& surroundings) {
-    PartitionNode& node = Node(level, column, row);
-    node.cells = 0;
-    for (int32_t layer = 0; layer < STARFOCUS_LAYERS; ++layer) node.gathered[layer] = 0;
-    for (int32_t layer = 0; layer < STARFOCUS_LAYERS; ++layer) node.gather[layer] = 0;
+  void MeasureCandidate(int level, int32_t column, int32_t row, const CellGrid& cells,
+                        const Surroundings& surroundings) {
+    PartitionCandidate& candidate = Candidate(level, column, row);
+    candidate.cells = 0;
+    for (int32_t layer = 0; layer < STARFOCUS_LAYERS; ++layer) candidate.gathered[layer] = 0;
+    for (int32_t layer = 0; layer < STARFOCUS_LAYERS; ++layer) candidate.gather[layer] = 0;
     if (level == 0) {
-      MeasureSmallest(column, row, cells, surroundings, &node);
+      MeasureSmallest(column, row, cells, surroundings, &candidate);
       return;
     }
     const BlockStats* children[4];
     for (int child = 0; child < 4; ++child) {
       const int32_t cx = 2 * column + (child & 1), cy = 2 * row + (child >> 1);
       const bool inside = Inside(level - 1, cx, cy);
-      children[child] = inside ? &Node(level - 1, cx, cy).stats : nullptr;
+      children[child] = inside ? &Candidate(level - 1, cx, cy).stats : nullptr;
       if (!inside) continue;
-      const PartitionNode& part = Node(level - 1, cx, cy);
-      node.cells += part.cells;
+      const PartitionCandidate& part = Candidate(level - 1, cx, cy);
+      candidate.cells += part.cells;
       for (int32_t layer = 0; layer < STARFOCUS_LAYERS; ++layer) {
-        node.gathered[layer] += part.gathered[layer];
-        node.gather[layer] += part.gather[layer];
+        candidate.gathered[layer] += part.gathered[layer];
+        candidate.gather[layer] += part.gather[layer];
       }
     }
-    node.stats = MergeBlocks(children, NodeSide(level - 1));
+    candidate.stats = MergeBlocks(children, SideOf(level - 1));
   }
 
   // Returns how many cells the smallest blocks have that hold this many pixels of the picture.
@@ -123,16 +122,16 @@ class Partition {
   }
 
   void MeasureSmallest(int32_t column, int32_t row, const CellGrid& cells,
-                       const Surroundings& surroundings, PartitionNode* node) {
+                       const Surroundings& surroundings, PartitionCandidate* candidate) {
     const int32_t cell_x = x_ / kCellSize + 2 * column, cell_y = y_ / kCellSize + 2 * row;
-    node->stats = MeasureBlock(kernels_, cells, surroundings, cell_x, cell_y);
+    candidate->stats = MeasureBlock(kernels_, cells, surroundings, cell_x, cell_y);
     for (int32_t y = cell_y; y < Min(cell_y + 2, cells.rows); ++y) {
       for (int32_t x = cell_x; x < Min(cell_x + 2, cells.columns); ++x) {
-        ++node->cells;
+        ++candidate->cells;
         const int32_t first = gathered_.FirstLayer(x * kCellSize, y * kCellSize);
         for (int32_t layer = first; layer < STARFOCUS_LAYERS; ++layer) {
-          ++node->gathered[layer];
-          node->gather[layer] += PredictGather(
+          ++candidate->gathered[layer];
+          candidate->gather[layer] += PredictGather(
               config_.tuning.timing, static_cast<uint64_t>(kCellSize * kCellSize) >> 2 * layer,
               cells.At(x, y)->r_max >> layer);
         }
@@ -141,38 +140,38 @@ class Partition {
   }
 
   Rect RectOf(int level, int32_t column, int32_t row) const {
-    const int32_t side = NodeSide(level);
+    const int32_t side = SideOf(level);
     const int32_t x = x_ + column * side, y = y_ + row * side;
     return {x, y, Min(side, config_.width - x), Min(side, config_.height - y)};
   }
 
-  // Plans the node as one block, and keeps the lesser of its time and that of its children.
+  // Plans the candidate as one block, and keeps the lesser of its time and that of its children.
   void Plan(int level, int32_t column, int32_t row) {
-    PartitionNode& node = Node(level, column, row);
-    Block& block = node.block;
+    PartitionCandidate& candidate = Candidate(level, column, row);
+    Block& block = candidate.block;
     block.rect = RectOf(level, column, row);
-    ChooseParameters(node.stats, NodeSide(level), &block);
-    if (block.n > 0) PlanGathering(node, &block);
-    if (NodeSide(level) > rules_.largest_node) block.cost = UINT64_MAX;
+    ChooseParameters(candidate.stats, SideOf(level), &block);
+    if (block.n > 0) PlanGathering(candidate, &block);
+    if (SideOf(level) > rules_.largest_side) block.cost = UINT64_MAX;
     uint64_t best = block.cost;
     if (level > 0) best = Smaller(best, ChildrenCost(level, column, row));
-    node.best = best;
+    candidate.best = best;
   }
 
   // Gathers the cells that can be, at the layer of the block's views. Where a whole block can be at
   // layer 0, it is: that is closer to the truth and takes little more time, if any
   // (docs/constants.md).
-  void PlanGathering(const PartitionNode& node, Block* block) const {
-    const auto cells = static_cast<uint64_t>(node.cells);
-    const auto gathered = static_cast<uint64_t>(node.gathered[block->layer]);
+  void PlanGathering(const PartitionCandidate& candidate, Block* block) const {
+    const auto cells = static_cast<uint64_t>(candidate.cells);
+    const auto gathered = static_cast<uint64_t>(candidate.gathered[block->layer]);
     if (gathered > 0) {
       const uint64_t upsample = config_.tuning.timing.upsample * UpsampledPixels(*block);
       const uint64_t views = block->cost - upsample;
-      block->cost = node.gather[block->layer] + upsample + views * (cells - gathered) / cells;
+      block->cost = candidate.gather[block->layer] + upsample + views * (cells - gathered) / cells;
       block->gathers = true;
     }
-    if (block->layer > 0 && node.gathered[0] == node.cells) {
-      block->cost = node.gather[0];
+    if (block->layer > 0 && candidate.gathered[0] == candidate.cells) {
+      block->cost = candidate.gather[0];
       block->layer = 0;
       block->gathers = true;
     }
@@ -189,7 +188,7 @@ class Partition {
     uint64_t sum = 0;
     for (int child = 0; child < 4; ++child) {
       const int32_t cx = 2 * column + (child & 1), cy = 2 * row + (child >> 1);
-      if (Inside(level - 1, cx, cy)) sum += Node(level - 1, cx, cy).best;
+      if (Inside(level - 1, cx, cy)) sum += Candidate(level - 1, cx, cy).best;
     }
     return sum;
   }
@@ -251,10 +250,11 @@ class Partition {
     Border border = {0, 0, 0, 0};  // in pixels of the picture
     for (int32_t y = rect.y; y < rect.y + rect.height; y += kSmallestBlock) {
       for (int32_t x = rect.x; x < rect.x + rect.width; x += kSmallestBlock) {
-        const PartitionNode& node = Node(0, (x - x_) / kSmallestBlock, (y - y_) / kSmallestBlock);
-        if (node.gathered[layer] == node.cells) continue;
-        const Border& part = node.stats.border[layer];
-        r_max = Max(r_max, node.stats.r_max);
+        const PartitionCandidate& candidate =
+            Candidate(0, (x - x_) / kSmallestBlock, (y - y_) / kSmallestBlock);
+        if (candidate.gathered[layer] == candidate.cells) continue;
+        const Border& part = candidate.stats.border[layer];
+        r_max = Max(r_max, candidate.stats.r_max);
         border.left = Max(border.left, part.left - (x - left));
         border.right = Max(border.right, x + kSmallestBlock + part.right - right);
         border.top = Max(border.top, part.top - (y - top));
@@ -267,17 +267,17 @@ class Partition {
                      beyond(border.bottom)};
   }
 
-  void EmitNode(int level, int32_t column, int32_t row, Block* blocks) {
+  void EmitBlocks(int level, int32_t column, int32_t row, Block* blocks) {
     if (!Inside(level, column, row)) return;
-    const PartitionNode& node = Node(level, column, row);
-    if (node.best == node.block.cost) {
+    const PartitionCandidate& candidate = Candidate(level, column, row);
+    if (candidate.best == candidate.block.cost) {
       Block& block = blocks[count_++];
-      block = node.block;
+      block = candidate.block;
       if (block.gathers) Shrink(&block);
       return;
     }
     for (int child = 0; child < 4; ++child) {
-      EmitNode(level - 1, 2 * column + (child & 1), 2 * row + (child >> 1), blocks);
+      EmitBlocks(level - 1, 2 * column + (child & 1), 2 * row + (child >> 1), blocks);
     }
   }
 

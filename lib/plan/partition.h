@@ -35,14 +35,14 @@ struct PartitionRules {
   int32_t max_n;
   Demand demand;  // of the opening
   BlurScale scale;
-  int32_t largest_node;  // side of the largest block that is made
+  int32_t largest_side;  // side of the largest block that is made
   int32_t max_layer;
   bool gathers;         // smooth cells, with cells
   bool has_highlights;  // of the blocks
 };
 
-// A node of the quadtree: what it is as one block, and the least time of it or its children.
-struct PartitionNode {
+// A square of the quadtree: what it is as one block, and the least time of it or its children.
+struct PartitionCandidate {
   BlockStats stats;
   Block block;
   uint64_t best;
@@ -56,16 +56,16 @@ constexpr int32_t MaxBlocks(int32_t superblock) {
   return (superblock / kSmallestBlock) * (superblock / kSmallestBlock);
 }
 
-// Nodes of the quadtree of a superblock.
-constexpr int32_t PartitionNodes(int32_t superblock) {
-  int32_t nodes = 0;
-  for (int32_t side = superblock / kSmallestBlock; side > 0; side /= 2) nodes += side * side;
-  return nodes;
+// Candidates in the quadtree of a superblock.
+constexpr int32_t PartitionCandidates(int32_t superblock) {
+  int32_t candidates = 0;
+  for (int32_t side = superblock / kSmallestBlock; side > 0; side /= 2) candidates += side * side;
+  return candidates;
 }
 
-// Memory for a superblock: PartitionNodes of it, SurroundingSamples of its cells.
+// Memory for a superblock: PartitionCandidates of it, SurroundingSamples of its cells.
 struct PartitionScratch {
-  PartitionNode* nodes;
+  PartitionCandidate* candidates;
   int16_t* cells;
 };
 

@@ -28,11 +28,11 @@ bool Same(const Border& a, const Border& b) {
   return a.left == b.left && a.right == b.right && a.top == b.top && a.bottom == b.bottom;
 }
 
-// Side of the quadtree's node that a block is: of the least that hold it.
+// Side of the quadtree's candidate that a block is: of the least that hold it.
 int SideOf(const Plan& plan, const Block& block, int x, int y) {
   int side = kSmallestBlock;
   while (side < block.rect.width || side < block.rect.height) side *= 2;
-  // At the picture's edge a clipped block may be that of a larger node.
+  // At the picture's edge a clipped block may be that of a larger candidate.
   for (; side <= plan.config.superblock; side *= 2) {
     if ((block.rect.x - x) % side == 0 && (block.rect.y - y) % side == 0 &&
         Planned(plan, block.rect.x, block.rect.y, side).cost == block.cost) {
@@ -56,13 +56,13 @@ void CheckBlocks(const Plan& plan, int x, int y, const std::vector<Block>& block
         covered[size_t(row - y) * size_t(side) + size_t(column - x)] += 1;
       }
     }
-    const int node = SideOf(plan, block, x, y);
+    const int candidate = SideOf(plan, block, x, y);
     CAPTURE(rect.x);
     CAPTURE(rect.y);
     CAPTURE(rect.width);
     CAPTURE(rect.height);
-    REQUIRE(node > 0);
-    const Block planned = Planned(plan, rect.x, rect.y, node);
+    REQUIRE(candidate > 0);
+    const Block planned = Planned(plan, rect.x, rect.y, candidate);
     CHECK(Same(rect, planned.rect));
     CHECK(Same(block.rendered, planned.rendered));
     CHECK(Same(block.border, planned.border));
@@ -276,7 +276,7 @@ TEST_CASE("partition: no block is larger than the largest that is made") {
   test::Random random(12);
   Plan flat(256, 256, 128, 0.001, &random);
   for (const int side : {16, 32, 64}) {
-    flat.rules.largest_node = side;
+    flat.rules.largest_side = side;
     const std::vector<Block> blocks = flat.Partition(128, 0);
     CHECK(blocks.size() == size_t(128 / side) * size_t(128 / side));
     for (const Block& block : blocks) CHECK(block.rect.width == side);

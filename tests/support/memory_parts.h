@@ -48,7 +48,7 @@ inline std::vector<MemoryPart> PartsOf(const starfocus::EngineState& e) {
       {"gathering, mode `blur`", true, scratch.field.rgb},
       {"layers up", true, scratch.upsample.line},
       {"layers down", true, scratch.resample.even},
-      {"splitting blocks", true, scratch.partition.nodes},
+      {"splitting blocks", true, scratch.partition.candidates},
       {"disparities: ring of rows", false, e.row_store.disparity.data},
       {"finished rows", false, e.stripe.out},
       {"views: rings of rows", false, e.rings[0].data},

@@ -30,7 +30,7 @@ using starfocus::kLayerMargin;
 using starfocus::kLineScanRenderer;
 using starfocus::kSliceRenderer;
 using starfocus::kSmallestBlock;
-using starfocus::PartitionNode;
+using starfocus::PartitionCandidate;
 using starfocus::PartitionRules;
 using starfocus::Rect;
 using starfocus::Renderer;
@@ -85,7 +85,7 @@ struct Plan {
     rules.max_layer = random->Int(0, 2);
     Use(random->Int(0, 1) == 1 ? kSliceRenderer : kLineScanRenderer);
     rules.demand = static_cast<starfocus::Demand>((width + rules.max_layer) % 4);
-    rules.largest_node = superblock;
+    rules.largest_side = superblock;
     config.tuning.n_scale = (2 + 2 * rules.max_layer + IsSlices()) / 4.0;
   }
   Plan(const Plan&) = delete;
@@ -100,14 +100,16 @@ struct Plan {
   }
 
   std::vector<Block> Partition(int x, int y) const {
-    std::vector<PartitionNode> nodes(size_t(starfocus::PartitionNodes(config.superblock)));
-    std::memset(static_cast<void*>(nodes.data()), kPoison, nodes.size() * sizeof(PartitionNode));
+    std::vector<PartitionCandidate> candidates(
+        size_t(starfocus::PartitionCandidates(config.superblock)));
+    std::memset(static_cast<void*>(candidates.data()), kPoison,
+                candidates.size() * sizeof(PartitionCandidate));
     std::vector<Block> blocks(size_t(starfocus::MaxBlocks(config.superblock)));
     std::vector<int16_t> samples(
         starfocus::SurroundingSamples(config.superblock / kCellSize, around), kPoison);
     const int count =
         starfocus::PartitionBlock({starfocus::simd::BestKernels(), rules, grid, around}, x, y,
-                                  {nodes.data(), samples.data()}, blocks.data(), gathered);
+                                  {candidates.data(), samples.data()}, blocks.data(), gathered);
     REQUIRE(count >= 1);
     REQUIRE(count <= int(blocks.size()));
     blocks.resize(size_t(count));
