@@ -10,7 +10,7 @@
 namespace starfocus {
 namespace {
 
-// A rectangle, the slices of its tile under way, and where its picture goes: what sections share.
+// A rectangle, the slices of its tile under way, and where its picture goes: what parts share.
 struct Rectangle {
   const RenderJob* job;
   const SliceStack* stack;
@@ -26,22 +26,22 @@ int16_t* CentreRow(uint32_t* accumulators, int32_t width) {
 }
 
 // A part of a tile of which slices are in memory.
-class Section {
+class TilePart {
  public:
-  Section(const Rectangle& all, const Rect& rect)
+  TilePart(const Rectangle& all, const Rect& rect)
       : all_(all), job_(*all.job), stack_(*all.stack), scratch_(*all.scratch), rect_(rect) {}
 
   // Returns the pixels that are rendered in each view, over all slices.
   uint64_t Refocus() {
     int16_t* const strip_memory = PlaceSlices();
-    const uint64_t pixels = FindParts();
+    const uint64_t pixels = FindPairs();
     const StripJob job = {job_.kernels, &stack_,       planes_,    scratch_.weights,
                           strip_memory, scratch_.sums, job_.cancel};
-    const SectionPart *part = scratch_.parts, *last = part + parts_;
+    const CellPair *pair = scratch_.pairs, *last = pair + pairs_;
     for (int32_t x = 0; x < rect_.width && GoesOn(job_.cancel, 0); x += simd::kStripColumns) {
-      StripParts strip = {x, part, part};
+      StripPairs strip = {x, pair, pair};
       while (strip.end < last && strip.end->x == x) ++strip.end;
-      part = strip.end;
+      pair = strip.end;
       if (strip.first < strip.end) CompositeStrip(job, strip);
       FinishStrip(strip);
     }
@@ -49,7 +49,7 @@ class Section {
   }
 
  private:
-  // Makes the slices of the section, one behind the other in the pool. Returns the memory behind
+  // Makes the slices of the part, one behind the other in the pool. Returns the memory behind
   // them, where a plane is filtered before.
   int16_t* PlaceSlices() {
     const Rect rect = {stack_.inner.x + rect_.x, stack_.inner.y + rect_.y, rect_.width,
@@ -72,53 +72,53 @@ class Section {
     return behind;
   }
 
-  bool IsGathered(const SectionPart& part) const {
+  bool IsGathered(const CellPair& pair) const {
     if (job_.gathered == nullptr) return false;
-    return job_.gathered->AreGathered({job_.rect.x + rect_.x + part.x,
-                                       job_.rect.y + rect_.y + part.y,
-                                       Min(simd::kStripColumns, rect_.width - part.x), part.rows});
+    return job_.gathered->AreGathered({job_.rect.x + rect_.x + pair.x,
+                                       job_.rect.y + rect_.y + pair.y,
+                                       Min(simd::kStripColumns, rect_.width - pair.x), pair.rows});
   }
 
-  // Finds what each part of the section sees of the slices. Returns their pixels.
-  uint64_t FindParts() {
+  // Finds what each pair of cells sees of the slices. Returns their pixels.
+  uint64_t FindPairs() {
     static_assert(kLeastRows == kCellSize && simd::kStripColumns % kCellSize == 0,
-                  "parts are whole cells");
+                  "pairs are whole cells");
     uint64_t pixels = 0;
     for (int32_t x = 0; x < rect_.width; x += simd::kStripColumns) {
       for (int32_t y = 0; y < rect_.height; y += kLeastRows) {
-        SectionPart& part = scratch_.parts[parts_];
-        part = {x, y, Min(kLeastRows, rect_.height - y), 0, {}};
-        if (IsGathered(part)) continue;
-        ++parts_;
+        CellPair& pair = scratch_.pairs[pairs_];
+        pair = {x, y, Min(kLeastRows, rect_.height - y), 0, {}};
+        if (IsGathered(pair)) continue;
+        ++pairs_;
         for (int32_t k = 0; k < stack_.count; ++k) {
-          const simd::SliceCover cover = CoverOf(planes_[k], part);
-          if (cover.some != 0) part.shown[part.count++] = static_cast<uint8_t>(k);
+          const simd::SliceCover cover = CoverOf(planes_[k], pair);
+          if (cover.some != 0) pair.shown[pair.count++] = static_cast<uint8_t>(k);
           if (cover.all != 0) break;
         }
-        pixels += static_cast<uint64_t>(part.count) *
-                  static_cast<uint64_t>(part.rows * Min(simd::kStripColumns, rect_.width - x));
+        pixels += static_cast<uint64_t>(pair.count) *
+                  static_cast<uint64_t>(pair.rows * Min(simd::kStripColumns, rect_.width - x));
       }
     }
     return pixels;
   }
 
-  // Tells whether some, or all, of the slice's pixels that a part may see in any view are covered.
-  static simd::SliceCover CoverOf(const SlicePlane& placed, const SectionPart& part) {
-    const uint64_t strips = StripsOf(placed, part.x);
+  // Tells whether some, or all, of the slice's pixels that a pair may see in any view are covered.
+  static simd::SliceCover CoverOf(const SlicePlane& placed, const CellPair& pair) {
+    const uint64_t strips = StripsOf(placed, pair.x);
     simd::SliceCover cover = {0, strips};
-    for (int32_t row = part.y; row < part.y + part.rows + 2 * placed.reach; ++row) {
+    for (int32_t row = pair.y; row < pair.y + pair.rows + 2 * placed.reach; ++row) {
       cover.some |= placed.cover[row].some;
       cover.all &= placed.cover[row].all;
     }
     return {cover.some & strips, cover.all == strips ? uint64_t{1} : 0};
   }
 
-  void FinishStrip(const StripParts& strip) {
+  void FinishStrip(const StripPairs& strip) {
     int32_t row = 0;
-    for (const SectionPart* part = strip.first; part < strip.end; ++part) {
-      ClearRows(strip.x, row, part->y);
-      row = part->y + part->rows;
-      FinishRows(strip.x, part->y, row);
+    for (const CellPair* pair = strip.first; pair < strip.end; ++pair) {
+      ClearRows(strip.x, row, pair->y);
+      row = pair->y + pair->rows;
+      FinishRows(strip.x, pair->y, row);
     }
     ClearRows(strip.x, row, rect_.height);
   }
@@ -146,7 +146,7 @@ class Section {
     }
   }
 
-  // The sample of the rectangle at column x of the section's row.
+  // The sample of the rectangle at column x of the part's row.
   size_t FirstSample(int32_t x, int32_t row) const {
     return 3 * static_cast<size_t>((rect_.y + row) * job_.rect.width + rect_.x + x);
   }
@@ -161,7 +161,7 @@ class Section {
   CompositorScratch& scratch_;
   const Rect rect_;  // in pixels of the rectangle
   SlicePlane planes_[kMaxSlices];
-  int32_t parts_ = 0;
+  int32_t pairs_ = 0;
 };
 
 // Finds the surfaces of the rectangle and copies its centre view to where CentreRow has it. Returns
@@ -204,7 +204,7 @@ void FindStack(const RenderJob& job, const Rect& tile, CompositorScratch* scratc
 
 int32_t RoundUp(int32_t size, int32_t least) { return (size + least - 1) / least * least; }
 
-// Bytes that sections of that size take of the pool.
+// Bytes that parts of that size take of the pool.
 size_t PoolBytes(const SliceStack& stack, int32_t columns, int32_t rows) {
   const auto width = static_cast<size_t>(columns), height = static_cast<size_t>(rows);
   size_t slices = 0, strips = 0, filtered = 0;
@@ -220,9 +220,9 @@ size_t PoolBytes(const SliceStack& stack, int32_t columns, int32_t rows) {
   return slices + (filtered > strips ? filtered : strips);
 }
 
-// Returns the size of sections of which all slices fit into the pool: as wide as possible, and then
+// Returns the size of parts of which all slices fit into the pool: as wide as possible, and then
 // as high as possible.
-Rect ChooseSection(const SliceStack& stack, const Rect& tile, size_t pool_bytes) {
+Rect ChoosePart(const SliceStack& stack, const Rect& tile, size_t pool_bytes) {
   int32_t width = RoundUp(tile.width, kLeastColumns), height = RoundUp(tile.height, kLeastRows);
   while (width > kLeastColumns && PoolBytes(stack, width, kLeastRows) > pool_bytes) {
     width -= kLeastColumns;
@@ -234,13 +234,13 @@ Rect ChooseSection(const SliceStack& stack, const Rect& tile, size_t pool_bytes)
 // Composites a tile by its slices. Returns the pixels that are rendered in each view, over all
 // slices.
 uint64_t CompositeTile(const Rectangle& all, const Rect& tile) {
-  const Rect largest = ChooseSection(*all.stack, tile, all.scratch->pool_bytes);
+  const Rect largest = ChoosePart(*all.stack, tile, all.scratch->pool_bytes);
   uint64_t pixels = 0;
   for (int32_t y = 0; y < tile.height; y += largest.height) {
     for (int32_t x = 0; x < tile.width && GoesOn(all.job->cancel, 0); x += largest.width) {
-      const Rect section = {tile.x + x, tile.y + y, Min(largest.width, tile.width - x),
-                            Min(largest.height, tile.height - y)};
-      pixels += Section(all, section).Refocus();
+      const Rect part = {tile.x + x, tile.y + y, Min(largest.width, tile.width - x),
+                         Min(largest.height, tile.height - y)};
+      pixels += TilePart(all, part).Refocus();
     }
   }
   return pixels;

@@ -29,16 +29,16 @@ struct CompositorScratch {
   int32_t* least_blur;         // E
   simd::SliceOffset* offsets;  // kMaxSlices (2 N + 1)
   int16_t* weights;            // G
-  SectionPart* parts;          // of a tile
+  CellPair* pairs;             // of a tile
   uint32_t* sums;              // kPixelSums of the pixels of a strip
-  uint8_t* pool;               // slices of a section, their covers, and what LeastPool says
-  size_t pool_bytes;           // at least LeastPool; with more, sections are larger
+  uint8_t* pool;               // slices of a part of a tile, their covers, and what LeastPool says
+  size_t pool_bytes;           // at least LeastPool; with more, parts are larger
 };
 
-// The most bytes that a slice of the least section and its strip take for each pixel of SliceArea.
+// The most bytes that a slice of the least part and its strip take for each pixel of SliceArea.
 inline constexpr size_t kAreaBytes = 33;
 
-// The least bytes of a pool: slices of the least section and their strips, for blur radii up to
+// The least bytes of a pool: slices of the least part and their strips, for blur radii up to
 // `max_blur`. A plane is filtered where the strips are afterwards, and may take more than the strip
 // of one slice.
 constexpr size_t LeastPool(double max_blur) {
@@ -49,8 +49,8 @@ constexpr size_t LeastPool(double max_blur) {
          (filtered > strip ? filtered - strip : 0);
 }
 
-// How many parts the largest tile of rectangles up to `side` has.
-constexpr size_t SectionParts(int32_t side) {
+// How many pairs of cells the largest tile of rectangles up to `side` has.
+constexpr size_t CellPairs(int32_t side) {
   constexpr size_t kRows = kLeastRows;
   const auto rows = static_cast<size_t>(LargestTile(side));
   return (rows + kRows - 1) / kRows * (simd::SliceSamples(rows) / simd::kSliceLanes);

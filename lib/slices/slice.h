@@ -39,7 +39,7 @@ constexpr int32_t LargestTile(int32_t side) {
   return side < kMostSliceTile ? side : kMostSliceTile;
 }
 
-// The least section of a tile that slices are made of.
+// The least part of a tile that slices are made of.
 inline constexpr int32_t kLeastColumns = static_cast<int32_t>(simd::kSliceLanes);
 inline constexpr int32_t kLeastRows = 8;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A slice of a section in memory: its pixels and those around it that some view shows, spread by
-// the subaperture where that is wide, and where each view shows it.
+// A slice of a part of a tile in memory: its pixels and those around it that some view shows,
+// spread by the subaperture where that is wide, and where each view shows it.
 #ifndef STARFOCUS_LIB_SLICES_SLICE_PLANE_H_
 #define STARFOCUS_LIB_SLICES_SLICE_PLANE_H_
 
@@ -46,7 +46,7 @@ constexpr int32_t LargestSliceReach(double max_blur) {
 }
 
 // The area that a slice counts for, where `reach` is the pixels that it reaches beyond a small
-// section of a tile. It stands for the memory and the time that the slice takes.
+// part of a tile. It stands for the memory and the time that the slice takes.
 constexpr int32_t SliceArea(int32_t reach) { return (reach + 16) * (reach + 16); }
 
 // The most that SliceArea of all slices of a tile may sum to, for a lens with blur radii up to

@@ -75,13 +75,13 @@ void TakeScratch(const starfocus_config& config, size_t extended, size_t max_n, 
   surfaces.hiding = arena->Take<uint64_t>(extended);
   scratch.offsets = arena->Take<simd::SliceOffset>(kMaxSlices * (2 * max_n + 1));
   scratch.weights = arena->Take<int16_t>(Min(2 * max_n + 1, size_t{kGroupViews}));
-  scratch.parts = arena->Take<SectionPart>(SectionParts(config.superblock));
+  scratch.pairs = arena->Take<CellPair>(CellPairs(config.superblock));
   const auto rows = static_cast<size_t>(LargestTile(config.superblock));
   scratch.sums = arena->Take<uint32_t>(kPixelSums * simd::kSliceLanes * rows);
   const size_t field = arena->Mark();
   TakeField(extended, arena, &scratch);
   arena->Reuse(field);
-  // Wider sections take less time: tiles of 64 pixels take 1.7 % fewer instructions.
+  // Wider parts take less time: tiles of 64 pixels take 1.7 % fewer instructions.
   const auto tile = static_cast<size_t>(Min(config.superblock, kSliceTile));
   const size_t pool = Max(LeastPool(config.max_blur), 119 * tile * tile);
   scratch.pool_bytes = Max(pool, arena->Shared());

@@ -10,8 +10,8 @@ constexpr int32_t kRowsAhead = static_cast<int32_t>(simd::kRowsAhead);
 
 class Strip {
  public:
-  Strip(const StripJob& job, const StripParts& parts)
-      : job_(job), stack_(*job.stack), parts_(parts) {}
+  Strip(const StripJob& job, const StripPairs& pairs)
+      : job_(job), stack_(*job.stack), pairs_(pairs) {}
 
   // Composites column by column of views.
   void Composite() {
@@ -27,15 +27,15 @@ class Strip {
   // Finds which slices are seen and in which rows, and clears the sums.
   void FindRows() {
     for (int32_t k = 0; k < stack_.count; ++k) rows_[k] = {0, 0};
-    for (const SectionPart* part = parts_.first; part < parts_.end; ++part) {
-      for (int32_t n = 0; n < part->count; ++n) {
-        RowRange& rows = rows_[part->shown[n]];
-        if (rows.last == 0) rows.first = part->y;
-        rows.last = part->y + part->rows;
+    for (const CellPair* pair = pairs_.first; pair < pairs_.end; ++pair) {
+      for (int32_t n = 0; n < pair->count; ++n) {
+        RowRange& rows = rows_[pair->shown[n]];
+        if (rows.last == 0) rows.first = pair->y;
+        rows.last = pair->y + pair->rows;
       }
-      const size_t sums = kPixelSums * static_cast<size_t>(part->rows * simd::kStripColumns);
-      samples_ += static_cast<int64_t>(sums) * part->count;
-      std::memset(SumsOfRow(job_.sums, part->y), 0, sums * sizeof(*job_.sums));
+      const size_t sums = kPixelSums * static_cast<size_t>(pair->rows * simd::kStripColumns);
+      samples_ += static_cast<int64_t>(sums) * pair->count;
+      std::memset(SumsOfRow(job_.sums, pair->y), 0, sums * sizeof(*job_.sums));
     }
     for (int32_t k = 0; k < stack_.count; ++k) {
       if (rows_[k].last != 0) seen_slices_[seen_++] = k;
@@ -58,7 +58,7 @@ class Strip {
       ShiftedSlice& shifted = shifted_[k];
       shifted.samples = samples;
       shifted.near = near;
-      PlaceStrip(placed, parts_.x, rows_[k], &shifted);
+      PlaceStrip(placed, pairs_.x, rows_[k], &shifted);
       shown_[k] = {samples + placed.reach * simd::kStripColumns, near + placed.reach,
                    shifted.plane};
       samples += 4 * shifted.plane;
@@ -93,7 +93,7 @@ class Strip {
     const int32_t a = stack_.Offset(k, -last).whole, b = stack_.Offset(k, last).whole;
     const RowRange rows = {seen.first + placed.reach + Min(a, b),
                            Min(seen.last + placed.reach + Max(a, b) + kRowsAhead, placed.rows)};
-    ShiftSlice(*job_.kernels, placed, stack_.Offset(k, i), parts_.x, rows, shifted_[k]);
+    ShiftSlice(*job_.kernels, placed, stack_.Offset(k, i), pairs_.x, rows, shifted_[k]);
   }
 
   // Adds views (i, first) to (i, last).
@@ -107,34 +107,34 @@ class Strip {
     for (int32_t j = first; j <= last; ++j) {
       job_.weights[j - first] = stack_.weights.Weight(i, j, extra_bits, share);
     }
-    for (const SectionPart* part = parts_.first; part < parts_.end; ++part) {
+    for (const CellPair* pair = pairs_.first; pair < pairs_.end; ++pair) {
       const simd::SliceViews views = {job_.weights,
                                       &stack_.Offset(0, first),
                                       static_cast<size_t>(last + 1 - first),
                                       shown_,
                                       static_cast<size_t>(stack_.count),
-                                      part->shown,
-                                      static_cast<size_t>(part->count),
-                                      static_cast<size_t>(part->y),
+                                      pair->shown,
+                                      static_cast<size_t>(pair->count),
+                                      static_cast<size_t>(pair->y),
                                       extra_bits};
-      job_.kernels->Composite(views, static_cast<size_t>(part->rows),
-                              SumsOfRow(job_.sums, part->y));
+      job_.kernels->Composite(views, static_cast<size_t>(pair->rows),
+                              SumsOfRow(job_.sums, pair->y));
     }
   }
 
   const StripJob& job_;
   const SliceStack& stack_;
-  const StripParts& parts_;
+  const StripPairs& pairs_;
   int64_t samples_ = 0;  // of a view, of all slices
   int32_t seen_ = 0;
   int32_t seen_slices_[kMaxSlices];
-  RowRange rows_[kMaxSlices];           // of the section, of the parts that see a slice
+  RowRange rows_[kMaxSlices];           // of the pairs that see a slice
   ShiftedSlice shifted_[kMaxSlices];    // as the column of views under way shows them
   simd::StripSlice shown_[kMaxSlices];  // the same, for the kernel
 };
 
 }  // namespace
 
-void CompositeStrip(const StripJob& job, const StripParts& parts) { Strip(job, parts).Composite(); }
+void CompositeStrip(const StripJob& job, const StripPairs& pairs) { Strip(job, pairs).Composite(); }
 
 }  // namespace starfocus

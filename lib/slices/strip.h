@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A strip: kSliceLanes columns of a section, all views of which are composited while its slices are
-// in the nearest cache.
+// A strip: kSliceLanes columns of a part of a tile, all views of which are composited while its
+// slices are in the nearest cache.
 #ifndef STARFOCUS_LIB_SLICES_STRIP_H_
 #define STARFOCUS_LIB_SLICES_STRIP_H_
 
@@ -14,9 +14,9 @@
 
 namespace starfocus {
 
-// Parts of a section, kLeastRows high and kSliceLanes wide, that see slices of their own.
-struct SectionPart {
-  int32_t x, y, rows;  // in the section
+// Two cells side by side in a part of a tile: they see slices of their own.
+struct CellPair {
+  int32_t x, y, rows;  // in the part of the tile
   int32_t count;       // slices seen
   uint8_t shown[kMaxSlices];
 };
@@ -24,27 +24,27 @@ struct SectionPart {
 // A pixel of light has sums of R, G, B and of what is covered.
 inline constexpr size_t kPixelSums = 4;
 
-// What all strips of a section share. G: the smaller of 2 N + 1 and kGroupViews.
+// What all strips of a part of a tile share. G: the smaller of 2 N + 1 and kGroupViews.
 struct StripJob {
   const simd::Kernels* kernels;
   const SliceStack* stack;
-  const SlicePlane* planes;  // of each slice, filled for the section
+  const SlicePlane* planes;  // of each slice, filled for the part
   int16_t* weights;          // G: of a group of views
   int16_t* memory;           // StripBytes of each slice
-  uint32_t* sums;       // kPixelSums of each pixel of the strip: output, by rows of the section
-  CancelToken* cancel;  // null: it goes on to the end
+  uint32_t* sums;            // kPixelSums of each pixel of the strip: output, by rows of the part
+  CancelToken* cancel;       // null: it goes on to the end
 };
 
-// The parts [first, end) of a section that lie at column x, at least one.
-struct StripParts {
+// The pairs [first, end) of a part of a tile that lie at column x, at least one.
+struct StripPairs {
   int32_t x;
-  const SectionPart *first, *end;
+  const CellPair *first, *end;
 };
 
-// Sums all views of the parts into job.sums.
-void CompositeStrip(const StripJob& job, const StripParts& parts);
+// Sums all views of the pairs into job.sums.
+void CompositeStrip(const StripJob& job, const StripPairs& pairs);
 
-// The sums of a row of the section.
+// The sums of a row of the part.
 inline uint32_t* SumsOfRow(uint32_t* sums, int32_t row) {
   return sums + kPixelSums * simd::kSliceLanes * static_cast<size_t>(row);
 }

@@ -133,7 +133,7 @@ TEST_CASE("stack: where slices of a slope overlap, its end covers no more than e
   CHECK(std::abs(most - kEdge) < 0.06);
 }
 
-TEST_CASE("stack: slices made section by section give the same picture") {
+TEST_CASE("stack: slices made part by part give the same picture") {
   test::Random random(4);
   test::Scene scene = HalfPlanes(9, -9, 5);
   for (auto& picture : scene.pictures) {
