@@ -3,14 +3,14 @@
 
 #include <cstring>
 
+#include "lib/coverage/disparities_around.h"
 #include "lib/coverage/far_light.h"
-#include "lib/coverage/patch.h"
 
 namespace starfocus {
 namespace {
 
 // The disparities that a tile's band and its near disparities are found with.
-using BandPatch = Patch<kBandReach + 2>;
+using BandDisparities = DisparitiesAround<kBandReach + 2>;
 
 // Pixels beside nearer ones in a tile of thin structure: of hair it has 38 and more, a straight
 // edge has 16 to 23, and a wire of two pixels up to 40.
@@ -30,8 +30,9 @@ struct Offsets {
       for (int32_t y = -kBandReach; y <= kBandReach; ++y) {
         for (int32_t x = -kBandReach; x <= kBandReach; ++x) {
           if (x * x + y * y != square) continue;
-          by_distance[count++] = {static_cast<int8_t>(x), static_cast<int8_t>(y),
-                                  static_cast<int16_t>(BandPatch::At(x, y) - BandPatch::At(0, 0))};
+          by_distance[count++] = {
+              static_cast<int8_t>(x), static_cast<int8_t>(y),
+              static_cast<int16_t>(BandDisparities::At(x, y) - BandDisparities::At(0, 0))};
         }
       }
     }
@@ -46,10 +47,10 @@ struct BandPixel {
   int32_t distance;  // to it, squared
 };
 
-BandPixel FindBandPixel(const BandPatch& patch, int32_t at) {
-  const int32_t here = patch.disparity[at];
+BandPixel FindBandPixel(const BandDisparities& around, int32_t at) {
+  const int32_t here = around.disparity[at];
   for (const BandOffset& offset : kNearestFirst.by_distance) {
-    const int32_t other = patch.disparity[at + offset.at];
+    const int32_t other = around.disparity[at + offset.at];
     if (Abs(other - here) <= kThinStep) continue;
     return {other < here ? 1 : -1, other, offset.x * offset.x + offset.y * offset.y};
   }
@@ -159,7 +160,7 @@ void ClearTile(const CoverageInput& in, int32_t column, int32_t row) {
 void StartTile(const CoverageInput& in, int32_t column, int32_t row) {
   const Window& window = *in.window;
   const CoverageMap& map = *in.map;
-  const BandPatch patch(window, column, row);
+  const BandDisparities around(window, column, row);
   CoverageTile& tile = map.Tile(column, row);
   tile.near_bins = 0;
   const int32_t left = column * kCoverageTile, top = row * kCoverageTile;
@@ -170,10 +171,10 @@ void StartTile(const CoverageInput& in, int32_t column, int32_t row) {
     if (y < rows) window.reader.Light(0, left, top + y, columns, light);
     for (int32_t x = 0; x < kCoverageTile; ++x) {
       const size_t to = map.At(left + x, top + y);
-      const int32_t at = BandPatch::At(x, y);
-      const int16_t here = patch.disparity[at];
-      const BandPixel pixel = FindBandPixel(patch, at);
-      map.near[to] = pixel.side == 0 ? here : SmoothNear(patch, at, Max(here, pixel.other));
+      const int32_t at = BandDisparities::At(x, y);
+      const int16_t here = around.disparity[at];
+      const BandPixel pixel = FindBandPixel(around, at);
+      map.near[to] = pixel.side == 0 ? here : SmoothNear(around, at, Max(here, pixel.other));
       FarCell& far = map.FarAt(left + x, top + y);
       far.disparity = static_cast<int16_t>(Min(here, pixel.other));
       map.alpha[to] = pixel.side == 0 ? kUnparted : pixel.side > 0 ? kWhole : 0;

@@ -3,8 +3,8 @@
 
 #include <cstring>
 
+#include "lib/coverage/disparities_around.h"
 #include "lib/coverage/far_light.h"
-#include "lib/coverage/patch.h"
 
 namespace starfocus {
 namespace {
@@ -28,29 +28,29 @@ bool IsRamp(int32_t before, int32_t here, int32_t after) {
 
 // Width in pixels of the border that IsRamp reads.
 constexpr int32_t kRampReach = 1;
-using GivenPatch = Patch<kGivenReach + kRampReach>;
+using GivenDisparities = DisparitiesAround<kGivenReach + kRampReach>;
 
 // A pixel is a mixture if its coverage differs by more from what the map says; kAlphaBits.
 constexpr int32_t kLeastMixed = kWhole / 16;
 
-// Marks the pixels of a patch that are on ramps, except within kRampReach of its rim.
+// Marks the pixels around a tile that are on ramps, except within kRampReach of its rim.
 struct Ramps {
-  static constexpr int32_t kSide = GivenPatch::kSide;
+  static constexpr int32_t kSide = GivenDisparities::kSide;
   bool at[kSide * kSide] = {};
 
-  explicit Ramps(const GivenPatch& patch) {
+  explicit Ramps(const GivenDisparities& around) {
     for (int32_t y = kRampReach; y < kSide - kRampReach; ++y) {
       for (int32_t x = kRampReach; x < kSide - kRampReach; ++x) {
-        at[y * kSide + x] = IsOnRamp(patch, y * kSide + x);
+        at[y * kSide + x] = IsOnRamp(around, y * kSide + x);
       }
     }
   }
 
  private:
-  static bool IsOnRamp(const GivenPatch& patch, int32_t at) {
+  static bool IsOnRamp(const GivenDisparities& around, int32_t at) {
     constexpr int32_t kOpposite[] = {1, kSide - 1, kSide, kSide + 1};
     for (const int32_t step : kOpposite) {
-      const int16_t* here = patch.disparity + at;
+      const int16_t* here = around.disparity + at;
       if (IsRamp(here[-step], here[0], here[step])) return true;
     }
     return false;
@@ -65,14 +65,15 @@ struct Found {
 };
 
 // Finds it within kGivenReach, with a disparity from low to high.
-Found FindNearest(const GivenPatch& patch, const Ramps& ramps, int32_t at, int32_t low,
+Found FindNearest(const GivenDisparities& around, const Ramps& ramps, int32_t at, int32_t low,
                   int32_t high) {
-  Found found = {patch.disparity[at], INT32_MAX};
+  Found found = {around.disparity[at], INT32_MAX};
   for (int32_t r = 1; r <= kGivenReach && r * r < found.distance; ++r) {
     for (int32_t y = -r; y <= r; ++y) {
       const int32_t step = Abs(y) == r ? 1 : 2 * r;
       for (int32_t x = -r; x <= r; x += step) {
-        const int32_t there = at + y * GivenPatch::kSide + x, disparity = patch.disparity[there];
+        const int32_t there = at + y * GivenDisparities::kSide + x,
+                      disparity = around.disparity[there];
         if (ramps.at[there] || disparity < low || disparity > high) continue;
         if (x * x + y * y >= found.distance) continue;
         found = {disparity, x * x + y * y};
@@ -89,8 +90,8 @@ class GivenStarter {
         map_(*in.map),
         left_(column * kCoverageTile),
         top_(row * kCoverageTile),
-        patch_(window_, column, row),
-        ramps_(patch_),
+        around_(window_, column, row),
+        ramps_(around_),
         tile_(map_.Tile(column, row)) {}
 
   void Start() {
@@ -115,14 +116,14 @@ class GivenStarter {
   // Finds the two surfaces of a pixel, those at both ends of a ramp or its own one and the nearest
   // other. Returns false if there is one only.
   bool FindSurfaces(int32_t at, int32_t* low, int32_t* high) const {
-    const int32_t here = patch_.disparity[at];
+    const int32_t here = around_.disparity[at];
     if (ramps_.at[at]) {
-      *high = FindNearest(patch_, ramps_, at, here + 1, INT16_MAX).disparity;
-      *low = FindNearest(patch_, ramps_, at, INT16_MIN, here - 1).disparity;
+      *high = FindNearest(around_, ramps_, at, here + 1, INT16_MAX).disparity;
+      *low = FindNearest(around_, ramps_, at, INT16_MIN, here - 1).disparity;
       if (*high - *low > kThinStep) return true;
     }
-    const Found nearer = FindNearest(patch_, ramps_, at, here + kThinStep + 1, INT16_MAX);
-    const Found farther = FindNearest(patch_, ramps_, at, INT16_MIN, here - kThinStep - 1);
+    const Found nearer = FindNearest(around_, ramps_, at, here + kThinStep + 1, INT16_MAX);
+    const Found farther = FindNearest(around_, ramps_, at, INT16_MIN, here - kThinStep - 1);
     const bool is_near = farther.distance <= nearer.distance;
     *high = is_near ? here : nearer.disparity;
     *low = is_near ? farther.disparity : here;
@@ -131,12 +132,12 @@ class GivenStarter {
 
   void StartPixel(int32_t x, int32_t y) {
     const size_t to = map_.At(x, y);
-    const int32_t at = GivenPatch::At(x - left_, y - top_);
-    const int16_t here = patch_.disparity[at];
+    const int32_t at = GivenDisparities::At(x - left_, y - top_);
+    const int16_t here = around_.disparity[at];
     FarCell& far = map_.FarAt(x, y);
     int32_t low, high;
     if (FindSurfaces(at, &low, &high)) {
-      map_.near[to] = SmoothNear(patch_, at, high);
+      map_.near[to] = SmoothNear(around_, at, high);
       far.disparity = static_cast<int16_t>(low);
       map_.alpha[to] = 2 * here >= low + high ? uint8_t{kWhole} : uint8_t{0};
       TakePixel(x, y);
@@ -166,7 +167,7 @@ class GivenStarter {
   const Window& window_;
   const CoverageMap& map_;
   const int32_t left_, top_;
-  const GivenPatch patch_;
+  const GivenDisparities around_;
   const Ramps ramps_;
   CoverageTile& tile_;
 };

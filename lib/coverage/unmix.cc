@@ -9,7 +9,7 @@ namespace starfocus {
 namespace {
 
 constexpr int32_t kAround = simd::kNearReach;
-constexpr int32_t kPatch = kCoverageTile + 2 * kAround;
+constexpr int32_t kSide = kCoverageTile + 2 * kAround;
 
 // A tile is mixed if its mean of 4 alpha (1 - alpha) is above 3/16.
 constexpr int32_t kMixedShare = kCoverageTile * kCoverageTile * kWhole * kWhole / 64 * 3;
@@ -26,44 +26,44 @@ constexpr int32_t kNoise = 81 * kSquareOne;
 constexpr int32_t kLeastNear = 32;
 
 // The pixels around a tile: light, near disparities, and how much each shows the near surface.
-struct NearPatch {
-  static constexpr size_t kPlane = kPatch * kPatch;
+struct NearTile {
+  static constexpr size_t kPlane = kSide * kSide;
   int16_t light[3 * kPlane];
   int16_t near[kPlane];
   int16_t weight[kPlane];
 
   // Sums the near light of a row of the tile's pixels.
   void SumRow(const simd::Kernels& kernels, int32_t y, simd::NearSums* sums) const {
-    const size_t at = static_cast<size_t>((y + kAround) * kPatch + kAround);
+    const size_t at = static_cast<size_t>((y + kAround) * kSide + kAround);
     const simd::NearRows rows = {{light + at, light + kPlane + at, light + 2 * kPlane + at},
                                  near + at,
                                  weight + at,
-                                 kPatch,
+                                 kSide,
                                  static_cast<int16_t>(kThinStep)};
     kernels.SumNear(rows, sums);
   }
 };
 
-// Loads the patch; weight_of(x, y) tells how much of the near light a pixel of the picture shows.
+// Loads the tile and what lies around it; weight_of(x, y) tells how much of the near light a pixel
+// of the picture shows.
 template <class Weight>
-void LoadPatch(const CoverageInput& in, int32_t column, int32_t row, const Weight& weight_of,
-               NearPatch* patch) {
+void LoadNearTile(const CoverageInput& in, int32_t column, int32_t row, const Weight& weight_of,
+                  NearTile* tile) {
   const CoverageMap& map = *in.map;
   const int32_t left = column * kCoverageTile - kAround, top = row * kCoverageTile - kAround;
-  const int32_t first = Max(0, -left), last = Min(kPatch, map.width - left);
-  std::memset(patch->weight, 0, sizeof(patch->weight));
-  std::memset(patch->light, 0, sizeof(patch->light));
-  std::memset(patch->near, 0, sizeof(patch->near));
-  for (int32_t y = Max(0, -top); y < Min(kPatch, map.height - top); ++y) {
-    int16_t light[3 * kPatch + simd::kPadding / sizeof(int16_t)];
-    const auto at = static_cast<size_t>(y * kPatch + first);
+  const int32_t first = Max(0, -left), last = Min(kSide, map.width - left);
+  std::memset(tile->weight, 0, sizeof(tile->weight));
+  std::memset(tile->light, 0, sizeof(tile->light));
+  std::memset(tile->near, 0, sizeof(tile->near));
+  for (int32_t y = Max(0, -top); y < Min(kSide, map.height - top); ++y) {
+    int16_t light[3 * kSide + simd::kPadding / sizeof(int16_t)];
+    const auto at = static_cast<size_t>(y * kSide + first);
     in.window->reader.Light(0, left + first, top + y, last - first, light);
-    in.kernels->Split(light, static_cast<size_t>(last - first), NearPatch::kPlane,
-                      patch->light + at);
-    std::memcpy(patch->near + at, map.near + map.At(left + first, top + y),
-                static_cast<size_t>(last - first) * sizeof(*patch->near));
+    in.kernels->Split(light, static_cast<size_t>(last - first), NearTile::kPlane, tile->light + at);
+    std::memcpy(tile->near + at, map.near + map.At(left + first, top + y),
+                static_cast<size_t>(last - first) * sizeof(*tile->near));
     for (int32_t x = first; x < last; ++x) {
-      patch->weight[y * kPatch + x] = static_cast<int16_t>(weight_of(left + x, top + y));
+      tile->weight[y * kSide + x] = static_cast<int16_t>(weight_of(left + x, top + y));
     }
   }
 }
@@ -95,7 +95,7 @@ int32_t AlphaOf(const Rgb& near, const Rgb& far, const Rgb& mixed, int32_t guess
 // Calls visit(x, y, alpha, far light) for the tile's pixels near edges of which the far light is
 // known; x and y are of the picture.
 template <class Visit>
-void ForEachParted(const CoverageInput& in, const NearPatch& patch, int32_t column, int32_t row,
+void ForEachParted(const CoverageInput& in, const NearTile& tile, int32_t column, int32_t row,
                    const Visit& visit) {
   const CoverageMap& map = *in.map;
   const int32_t left = column * kCoverageTile, top = row * kCoverageTile;
@@ -103,7 +103,7 @@ void ForEachParted(const CoverageInput& in, const NearPatch& patch, int32_t colu
   PushTile(column, row, map, &far);
   for (int32_t y = 0; y < Min(kCoverageTile, map.height - top); ++y) {
     simd::NearSums sums;
-    patch.SumRow(*in.kernels, y, &sums);
+    tile.SumRow(*in.kernels, y, &sums);
     for (int32_t x = 0; x < Min(kCoverageTile, map.width - left); ++x) {
       const size_t to = map.At(left + x, top + y);
       const FarCell& cell = far.cells[y * kCoverageTile + x];
@@ -113,11 +113,11 @@ void ForEachParted(const CoverageInput& in, const NearPatch& patch, int32_t colu
       if (weight >= kLeastNear) {
         Rgb near, beyond, mixed;
         for (int c = 0; c < 3; ++c) {
-          const size_t at = static_cast<size_t>(c) * NearPatch::kPlane;
+          const size_t at = static_cast<size_t>(c) * NearTile::kPlane;
           near[c] = Compared((sums.light[c][x] << 15) / weight);
           beyond[c] = Compared(cell.rgb[c]);
           mixed[c] =
-              Compared(patch.light[at + static_cast<size_t>((y + kAround) * kPatch + x + kAround)]);
+              Compared(tile.light[at + static_cast<size_t>((y + kAround) * kSide + x + kAround)]);
         }
         alpha = AlphaOf(near, beyond, mixed, alpha);
       }
@@ -142,10 +142,10 @@ void UnmixFirst(const CoverageInput& in, int32_t column, int32_t row) {
     }
     return 3 * count * count;
   };
-  NearPatch patch;
-  LoadPatch(in, column, row, weight_of, &patch);
+  NearTile tile;
+  LoadNearTile(in, column, row, weight_of, &tile);
   int32_t mixture = 0;
-  ForEachParted(in, patch, column, row, [&](int32_t x, int32_t y, int32_t alpha, const FarCell&) {
+  ForEachParted(in, tile, column, row, [&](int32_t x, int32_t y, int32_t alpha, const FarCell&) {
     map.first[map.At(x, y)] = static_cast<uint8_t>(alpha);
     mixture += alpha * (kWhole - alpha);
   });
@@ -154,11 +154,11 @@ void UnmixFirst(const CoverageInput& in, int32_t column, int32_t row) {
 
 void UnmixAgain(const CoverageInput& in, int32_t column, int32_t row) {
   const CoverageMap& map = *in.map;
-  NearPatch patch;
-  LoadPatch(
+  NearTile tile;
+  LoadNearTile(
       in, column, row, [&](int32_t x, int32_t y) { return EighthPower(map.first[map.At(x, y)]); },
-      &patch);
-  ForEachParted(in, patch, column, row,
+      &tile);
+  ForEachParted(in, tile, column, row,
                 [&](int32_t x, int32_t y, int32_t alpha, const FarCell& far) {
                   map.alpha[map.At(x, y)] = static_cast<uint8_t>(alpha);
                   std::memcpy(map.FarAt(x, y).rgb, far.rgb, sizeof(far.rgb));

@@ -6,16 +6,16 @@
 namespace starfocus {
 void MeasureCosts(const EstimatePlan& plan, const Rect& region, Seeing seeing,
                   const simd::DepthKernels& kernels, TileMemory* tile) {
-  const Patches& patches = tile->patches;
+  const TileViews& views = tile->views;
   const auto labels = static_cast<size_t>(plan.labels), places = simd::PathLabels(labels);
   simd::LabelRow row = {};
-  row.plane = patches.plane;
+  row.plane = views.plane;
   row.moves = tile->moves;
   row.labels = labels;
   row.arms = static_cast<size_t>(plan.arms);
   row.rings = static_cast<size_t>(plan.rings);
   row.one_side = seeing == Seeing::kOneSide;
-  row.ends = patches.ends;
+  row.ends = views.ends;
   // A view that ends before is stood in for by the one opposite. So is one that something nearer
   // hides, in an estimate; a repair, whose map may have that wrong, only limits it.
   row.limits = plan.repairs && seeing == Seeing::kAll;
@@ -24,9 +24,9 @@ void MeasureCosts(const EstimatePlan& plan, const Rect& region, Seeing seeing,
         tile->cost + static_cast<size_t>(y - region.y) * static_cast<size_t>(region.width) * places;
     ForRuns(plan, tile->swept, y, region.x, region.x + region.width,
             [&](int32_t begin, int32_t end) {
-              const size_t at = patches.At(begin, y);
-              row.pixels = patches.Centre(0) + at;
-              row.hidden = patches.all_seen ? nullptr : patches.hidden + at;
+              const size_t at = views.At(begin, y);
+              row.pixels = views.Centre(0) + at;
+              row.hidden = views.all_seen ? nullptr : views.hidden + at;
               kernels.CostLabels(row, static_cast<size_t>(end - begin), places,
                                  cost + static_cast<size_t>(begin - region.x) * places);
             });

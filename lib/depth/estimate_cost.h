@@ -11,10 +11,10 @@ namespace starfocus {
 // What the views that see a pixel are taken for.
 enum class Seeing {
   kOneSide,  // the views on one side of it, whichever fit best
-  kAll       // all but those that the patches know not to
+  kAll       // all but those that the views know not to
 };
 
-// Fills tile->cost for the pixels of `region`, around which the patches were loaded and marked.
+// Fills tile->cost for the pixels of `region`, around which the views were loaded and marked.
 void MeasureCosts(const EstimatePlan& plan, const Rect& region, Seeing seeing,
                   const simd::DepthKernels& kernels, TileMemory* tile);
 

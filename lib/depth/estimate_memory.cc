@@ -26,13 +26,12 @@ TileMemory TakeTile(const EstimatePlan& plan, const Rect& region, Arena* arena) 
   const size_t area = width * height, places = simd::PathLabels(static_cast<size_t>(plan.labels));
   const auto side_views = static_cast<size_t>(plan.side_views());
   const auto beyond = 2 * static_cast<size_t>(plan.reach) + 1;
-  Patches& patches = tile.patches;
-  patches.stride = simd::SliceSamples(width + beyond) + simd::kPadding;
-  patches.plane = patches.stride * (height + beyond);
-  patches.rgb =
-      arena->Take<uint8_t>(patches.plane, 3 * (static_cast<size_t>(plan.AllPhases()) + 1));
-  patches.split = arena->Take<uint8_t>(patches.stride, 2 * 3);
-  patches.hidden = arena->Take<uint8_t>(patches.plane, side_views);
+  TileViews& views = tile.views;
+  views.stride = simd::SliceSamples(width + beyond) + simd::kPadding;
+  views.plane = views.stride * (height + beyond);
+  views.rgb = arena->Take<uint8_t>(views.plane, 3 * (static_cast<size_t>(plan.AllPhases()) + 1));
+  views.split = arena->Take<uint8_t>(views.stride, 2 * 3);
+  views.hidden = arena->Take<uint8_t>(views.plane, side_views);
   tile.cost = arena->Take<uint8_t>(area, places);
   tile.prior = plan.repairs ? arena->Take<uint8_t>(area, places) : nullptr;
   tile.sum = arena->Take<int16_t>(area, places);

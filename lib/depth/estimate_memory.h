@@ -18,7 +18,7 @@ namespace starfocus {
 
 // Rectangles of all views around a tile, one plane after the other; outside the picture its nearest
 // pixels. Pixel (x, y) of the picture lies at (y - top) * stride + x - left of each plane.
-struct Patches {
+struct TileViews {
   int32_t left, top, rows;
   size_t stride, plane;  // samples
   // Planes R, G, B of the centre, then of each side view in the plan's order: moved by the parts of
@@ -40,7 +40,7 @@ struct Patches {
 
 // What a worker needs for one tile.
 struct TileMemory {
-  Patches patches;
+  TileViews views;
   uint8_t* cost;          // of each pixel and label, PathLabels apart
   uint8_t* prior;         // as cost: what a given map says; null when there is none
   int16_t* sum;           // of paths, as cost

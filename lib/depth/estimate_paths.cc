@@ -67,10 +67,10 @@ void AddRow(const EstimateTile& tile, int32_t y, const PathStep& direction, bool
       BeginBeside(tile, y - direction.y, begin - direction.x, end - direction.x, rows);
     }
     const auto count = static_cast<size_t>(end - begin);
-    const Patches& patches = memory.patches;
-    tile.kernels.FindJumps(patches.Centre(0) + patches.At(begin, y),
-                           patches.Centre(0) + patches.At(begin - direction.x, y - direction.y),
-                           patches.plane, count, memory.jump + (begin - region.x));
+    const TileViews& views = memory.views;
+    tile.kernels.FindJumps(views.Centre(0) + views.At(begin, y),
+                           views.Centre(0) + views.At(begin - direction.x, y - direction.y),
+                           views.plane, count, memory.jump + (begin - region.x));
     simd::PathRow paths = {};
     paths.cost = memory.cost + (row + k) * stride;
     paths.sum = memory.sum + (row + k) * stride;

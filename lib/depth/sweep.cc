@@ -2,9 +2,9 @@
 #include "lib/depth/sweep.h"
 
 #include "lib/depth/estimate_cost.h"
-#include "lib/depth/estimate_patch.h"
 #include "lib/depth/estimate_paths.h"
 #include "lib/depth/map_prior.h"
+#include "lib/depth/tile_views.h"
 
 namespace starfocus {
 namespace {
@@ -17,12 +17,12 @@ void SweepTile(const Sweep& sweep, Seeing seeing, int32_t index, int32_t worker)
   const Rect tile_rect = TileOf(plan, index);
   if (tile_rect.width == 0 || tile_rect.height == 0) return;
   const Rect region = RegionOf(plan, index);
-  LoadPatches(plan, sweep.light_field, region, sweep.kernels, &tile.patches);
-  FindMoves(plan, tile.patches, tile.moves);
+  LoadTileViews(plan, sweep.light_field, region, sweep.kernels, &tile.views);
+  FindMoves(plan, tile.views, tile.moves);
   if (first) {
-    MarkOutside(plan, &tile.patches);
+    MarkOutside(plan, &tile.views);
   } else {
-    MarkHidden(plan, memory.first, region, &tile.patches);
+    MarkHidden(plan, memory.first, region, &tile.views);
   }
   MeasureCosts(plan, region, seeing, sweep.kernels, &tile);
   if (plan.repairs) AddMapPrior(plan, region, memory.trusted, sweep.kernels, &tile);

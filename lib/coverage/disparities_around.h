@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The disparities around a tile.
-#ifndef STARFOCUS_LIB_COVERAGE_PATCH_H_
-#define STARFOCUS_LIB_COVERAGE_PATCH_H_
+#ifndef STARFOCUS_LIB_COVERAGE_DISPARITIES_AROUND_H_
+#define STARFOCUS_LIB_COVERAGE_DISPARITIES_AROUND_H_
 
 #include <cstring>
 
@@ -12,11 +12,11 @@ namespace starfocus {
 // The disparities of a tile and of kAround pixels around it; the picture's outermost pixels go on
 // beyond it.
 template <int32_t kAround>
-struct Patch {
+struct DisparitiesAround {
   static constexpr int32_t kSide = kCoverageTile + 2 * kAround;
   int16_t disparity[kSide * kSide];
 
-  Patch(const Window& window, int32_t column, int32_t row) {
+  DisparitiesAround(const Window& window, int32_t column, int32_t row) {
     const int32_t left = column * kCoverageTile - kAround, top = row * kCoverageTile - kAround;
     for (int32_t y = 0; y < kSide; ++y) {
       const int16_t* from = window.disparity.Row(Clamp(top + y, 0, window.picture_height - 1));
@@ -34,13 +34,13 @@ struct Patch {
 
 // The mean of disparities around within 2 pixels of the near one.
 template <class Disparities>
-int16_t SmoothNear(const Disparities& patch, int32_t at, int32_t near) {
+int16_t SmoothNear(const Disparities& around, int32_t at, int32_t near) {
   constexpr int32_t kWithin = 2 << kDisparityBits;
   constexpr int32_t kWeights[3] = {6, 4, 1};
   int32_t sum = 0, weights = 0;
   for (int32_t y = -2; y <= 2; ++y) {
     for (int32_t x = -2; x <= 2; ++x) {
-      const int32_t disparity = patch.disparity[at + y * Disparities::kSide + x];
+      const int32_t disparity = around.disparity[at + y * Disparities::kSide + x];
       if (Abs(disparity - near) > kWithin) continue;
       const int32_t weight = kWeights[Abs(x)] * kWeights[Abs(y)];
       sum += weight * (disparity - near);
@@ -54,4 +54,4 @@ int16_t SmoothNear(const Disparities& patch, int32_t at, int32_t near) {
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_COVERAGE_PATCH_H_
+#endif  // STARFOCUS_LIB_COVERAGE_DISPARITIES_AROUND_H_

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/depth/estimate_patch.h"
+#include "lib/depth/tile_views.h"
 
 #include <algorithm>
 
@@ -12,13 +12,13 @@ namespace {
 int32_t Inside(int32_t at, int32_t length) { return Max(0, Min(at, length - 1)); }
 
 // Splits a row of the picture into rows of the planes; beyond its ends they go on as they end.
-void SplitPictureRow(const uint8_t* row, int32_t picture_width, const Patches& patches,
+void SplitPictureRow(const uint8_t* row, int32_t picture_width, const TileViews& views,
                      const simd::DepthKernels& kernels, uint8_t* out) {
-  const auto stride = static_cast<int32_t>(patches.stride);
-  const int32_t first = Min(Max(0, -patches.left), stride);
-  const int32_t last = Max(first, Min(stride, picture_width - patches.left));
-  kernels.SplitRow(row + 3 * (patches.left + first), static_cast<size_t>(last - first),
-                   patches.stride, out + first);
+  const auto stride = static_cast<int32_t>(views.stride);
+  const int32_t first = Min(Max(0, -views.left), stride);
+  const int32_t last = Max(first, Min(stride, picture_width - views.left));
+  kernels.SplitRow(row + 3 * (views.left + first), static_cast<size_t>(last - first), views.stride,
+                   out + first);
   for (size_t c = 0; c < 3; ++c, out += stride) {
     std::fill_n(out, first, row[c]);
     std::fill(out + last, out + stride, row[3 * static_cast<size_t>(picture_width - 1) + c]);
@@ -34,19 +34,19 @@ struct MovedView {
 
 // Makes the planes of a view, those of each move from `out` on.
 void MakePlanes(const MovedView& view, const EstimatePlan& plan, const simd::DepthKernels& kernels,
-                const Patches& patches, uint8_t* out) {
+                const TileViews& views, uint8_t* out) {
   // One sample more is read at the end of a row. Nothing is looked for so far to the right.
-  const size_t stride = patches.stride, count = stride - simd::kSliceLanes;
-  for (int32_t row = 0; row <= patches.rows; ++row) {
-    uint8_t* next = patches.split + static_cast<size_t>(row % 2) * 3 * stride;
-    const int32_t y = Inside(patches.top + row, plan.height);
+  const size_t stride = views.stride, count = stride - simd::kSliceLanes;
+  for (int32_t row = 0; row <= views.rows; ++row) {
+    uint8_t* next = views.split + static_cast<size_t>(row % 2) * 3 * stride;
+    const int32_t y = Inside(views.top + row, plan.height);
     SplitPictureRow(view.picture.data + static_cast<size_t>(y) * view.picture.stride, plan.width,
-                    patches, kernels, next);
+                    views, kernels, next);
     if (row == 0) continue;
-    const uint8_t* here = patches.split + static_cast<size_t>((row - 1) % 2) * 3 * stride;
+    const uint8_t* here = views.split + static_cast<size_t>((row - 1) % 2) * 3 * stride;
     for (int32_t k = 0; k < view.moves; ++k) {
       for (size_t c = 0; c < 3; ++c) {
-        uint8_t* to = out + (3 * static_cast<size_t>(k) + c) * patches.plane +
+        uint8_t* to = out + (3 * static_cast<size_t>(k) + c) * views.plane +
                       static_cast<size_t>(row - 1) * stride;
         kernels.InterpolateRow(here + c * stride, next + c * stride, view.across[k], view.down[k],
                                count, to);
@@ -56,10 +56,10 @@ void MakePlanes(const MovedView& view, const EstimatePlan& plan, const simd::Dep
 }
 
 // The planes' rectangle in the picture that has samples of its own there.
-Rect PartInside(const EstimatePlan& plan, const Patches& patches) {
-  const int32_t x = Max(patches.left, 0), y = Max(patches.top, 0);
-  const int32_t right = Min(patches.left + static_cast<int32_t>(patches.stride), plan.width);
-  return {x, y, right - x, Min(patches.top + patches.rows, plan.height) - y};
+Rect PartInside(const EstimatePlan& plan, const TileViews& views) {
+  const int32_t x = Max(views.left, 0), y = Max(views.top, 0);
+  const int32_t right = Min(views.left + static_cast<int32_t>(views.stride), plan.width);
+  return {x, y, right - x, Min(views.top + views.rows, plan.height) - y};
 }
 
 // A view shows a pixel when nothing there is nearer than this beyond it, kDisparityBits: estimates
@@ -83,10 +83,10 @@ struct MapRow {
 // directions that the view has none in.
 template <bool kAcross, bool kDown>
 void HideBehindRow(const EstimatePlan& plan, const SideView& view, const MapRow& of_map,
-                   const Rect& inside, const Patches& patches, uint8_t* hidden) {
+                   const Rect& inside, const TileViews& views, uint8_t* hidden) {
   const auto columns = static_cast<uint32_t>(inside.width);
   const auto rows = static_cast<uint32_t>(inside.height);
-  hidden += patches.At(inside.x, inside.y);
+  hidden += views.At(inside.x, inside.y);
   int32_t last = plan.low;
   uint8_t behind = HiddenBehind(plan, last);
   for (int32_t x = of_map.from; x < of_map.to; ++x) {
@@ -97,7 +97,7 @@ void HideBehindRow(const EstimatePlan& plan, const SideView& view, const MapRow&
     const auto row = static_cast<uint32_t>(of_map.y + down - inside.y);
     if ((kAcross && column >= columns) || (kDown && row >= rows)) continue;
     if (d != last) behind = HiddenBehind(plan, last = d);
-    uint8_t& here = hidden[row * patches.stride + column];
+    uint8_t& here = hidden[row * views.stride + column];
     here = std::max(here, behind);
   }
 }
@@ -111,13 +111,13 @@ Rect WithReach(const EstimatePlan& plan, const SideView& view, const Rect& rect)
 
 }  // namespace
 
-void LoadPatches(const EstimatePlan& plan, const starfocus_light_field& light_field,
-                 const Rect& region, const simd::DepthKernels& kernels, Patches* patches) {
-  patches->left = region.x - plan.reach;
-  patches->top = region.y - plan.reach;
-  patches->rows = region.height + 2 * plan.reach + 1;
-  MakePlanes({RowsOf(light_field.views[0]), 1, {}, {}}, plan, kernels, *patches, patches->rgb);
-  uint8_t* planes = patches->rgb + 3 * patches->plane;
+void LoadTileViews(const EstimatePlan& plan, const starfocus_light_field& light_field,
+                   const Rect& region, const simd::DepthKernels& kernels, TileViews* views) {
+  views->left = region.x - plan.reach;
+  views->top = region.y - plan.reach;
+  views->rows = region.height + 2 * plan.reach + 1;
+  MakePlanes({RowsOf(light_field.views[0]), 1, {}, {}}, plan, kernels, *views, views->rgb);
+  uint8_t* planes = views->rgb + 3 * views->plane;
   for (int32_t k = 0; k < plan.side_views(); ++k) {
     const SideView& side = plan.side[k];
     MovedView view = {RowsOf(light_field.views[side.index]), plan.Phases(side), {}, {}};
@@ -125,14 +125,14 @@ void LoadPatches(const EstimatePlan& plan, const starfocus_light_field& light_fi
       view.across[phase] = MoveAcross(side, plan.Disparity(phase)) & 127;
       view.down[phase] = MoveDown(side, plan.Disparity(phase)) & 127;
     }
-    MakePlanes(view, plan, kernels, *patches, planes);
-    planes += 3 * static_cast<size_t>(view.moves) * patches->plane;
+    MakePlanes(view, plan, kernels, *views, planes);
+    planes += 3 * static_cast<size_t>(view.moves) * views->plane;
   }
 }
 
-void FindMoves(const EstimatePlan& plan, const Patches& patches, simd::ViewMove* moves) {
-  const auto stride = static_cast<int32_t>(patches.stride);
-  const auto plane = static_cast<int32_t>(patches.plane);
+void FindMoves(const EstimatePlan& plan, const TileViews& views, simd::ViewMove* moves) {
+  const auto stride = static_cast<int32_t>(views.stride);
+  const auto plane = static_cast<int32_t>(views.plane);
   for (int32_t l = 0; l < plan.labels; ++l) {
     const int32_t d = plan.Disparity(l);
     int32_t first = 1;  // of the view's planes
@@ -147,35 +147,34 @@ void FindMoves(const EstimatePlan& plan, const Patches& patches, simd::ViewMove*
   }
 }
 
-void MarkOutside(const EstimatePlan& plan, Patches* patches) {
-  const Rect inside = PartInside(plan, *patches);
-  patches->ends =
-      inside.height < patches->rows || static_cast<size_t>(inside.width) < patches->stride;
-  patches->all_seen = !patches->ends;
-  const auto rows = static_cast<size_t>(patches->rows);
+void MarkOutside(const EstimatePlan& plan, TileViews* views) {
+  const Rect inside = PartInside(plan, *views);
+  views->ends = inside.height < views->rows || static_cast<size_t>(inside.width) < views->stride;
+  views->all_seen = !views->ends;
+  const auto rows = static_cast<size_t>(views->rows);
   for (int32_t view = 0; view < plan.side_views(); ++view) {
-    uint8_t* hidden = patches->hidden + static_cast<size_t>(view) * patches->plane;
-    std::fill_n(hidden, rows * patches->stride, simd::kViewEnds);
+    uint8_t* hidden = views->hidden + static_cast<size_t>(view) * views->plane;
+    std::fill_n(hidden, rows * views->stride, simd::kViewEnds);
     for (int32_t y = inside.y; y < inside.y + inside.height; ++y) {
-      std::fill_n(hidden + patches->At(inside.x, y), inside.width, uint8_t{0});
+      std::fill_n(hidden + views->At(inside.x, y), inside.width, uint8_t{0});
     }
   }
 }
 
 void MarkHidden(const EstimatePlan& plan, const int16_t* map, const Rect& region,
-                Patches* patches) {
-  MarkOutside(plan, patches);
-  patches->all_seen = false;
+                TileViews* views) {
+  MarkOutside(plan, views);
+  views->all_seen = false;
   for (int32_t k = 0; k < plan.side_views(); ++k) {
     const SideView& view = plan.side[k];
     const Rect inside = WithReach(plan, view, region), from = WithReach(plan, view, inside);
-    uint8_t* hidden = patches->hidden + static_cast<size_t>(k) * patches->plane;
+    uint8_t* hidden = views->hidden + static_cast<size_t>(k) * views->plane;
     const auto hide = view.v2 == 0   ? HideBehindRow<true, false>
                       : view.u2 == 0 ? HideBehindRow<false, true>
                                      : HideBehindRow<true, true>;
     for (int32_t y = from.y; y < from.y + from.height; ++y) {
       const int16_t* row = map + static_cast<size_t>(y) * static_cast<size_t>(plan.width);
-      hide(plan, view, {row, y, from.x, from.x + from.width}, inside, *patches, hidden);
+      hide(plan, view, {row, y, from.x, from.x + from.width}, inside, *views, hidden);
     }
   }
 }
