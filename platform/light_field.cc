@@ -28,6 +28,12 @@ constexpr char kCoverageName[] = "coverage.png";
 // Maps of stereo pairs: Middlebury's and ETH3D's.
 constexpr const char* kPairDisparityNames[] = {"disp0.pfm", "disp0GT.pfm"};
 
+Error CheckSize(const std::string& path, int width, int height, const Image& centre) {
+  if (width == centre.width && height == centre.height) return {};
+  return Expected(path, SizeText(centre.width, centre.height) + " as the centre view",
+                  SizeText(width, height));
+}
+
 struct SaveJob {
   const std::string& folder;
   const LightField& light_field;
@@ -72,6 +78,29 @@ Error SaveCoverage(const std::string& folder, const LightField& light_field) {
 void ConfigureViews(const LightField& light_field, starfocus_config* config) {
   config->views = static_cast<int32_t>(light_field.views.size());
   std::copy(light_field.positions.begin(), light_field.positions.end(), config->positions);
+}
+
+starfocus_disparity_stats MeasureDisparity(const FloatMap& map) {
+  starfocus_disparity_stats stats = {};
+  starfocus_measure_disparity(map.values.data(), map.stride(), map.width, map.height, &stats);
+  return stats;
+}
+
+starfocus_light_field EngineRows(const LightField& light_field, int first) {
+  starfocus_light_field rows = {};
+  for (size_t i = 0; i < light_field.views.size(); ++i) {
+    const Image& view = light_field.views[i];
+    rows.views[i] = starfocus_image_rgb(view.row(first), view.stride());
+  }
+  const FloatMap& map = light_field.disparity;
+  const size_t before = size_t(first) * size_t(map.width);
+  rows.depth =
+      starfocus_depth_float(map.values.data() + before, map.stride(), map.width, map.height);
+  if (!light_field.coverage.empty()) {
+    rows.coverage = light_field.coverage.data() + before;
+    rows.coverage_stride = size_t(map.width);
+  }
+  return rows;
 }
 
 std::string DisparityPath(const std::string& folder) {
@@ -125,11 +154,9 @@ Result<LightField> LoadViewFiles(const std::vector<ViewFile>& files, ThreadRunne
     if (!load.views[k]) return load.views[k].error();
     result.positions.push_back(files[k].position);
     result.views.push_back(std::move(*load.views[k]));
-    const Image &centre = result.views[0], &view = result.views[k];
-    if (view.width != centre.width || view.height != centre.height) {
-      return Expected(files[k].path, SizeText(centre.width, centre.height) + " as the centre view",
-                      SizeText(view.width, view.height));
-    }
+    const Image& view = result.views[k];
+    Error error = CheckSize(files[k].path, view.width, view.height, result.views[0]);
+    if (error) return error;
   }
   return result;
 }
@@ -147,11 +174,7 @@ Error LoadMap(const std::string& path, LightField* light_field) {
 }
 
 Error TakeMap(const std::string& path, FloatMap map, LightField* light_field) {
-  const Image& centre = light_field->views[0];
-  if (map.width != centre.width || map.height != centre.height) {
-    return Expected(path, SizeText(centre.width, centre.height) + " as the centre view",
-                    SizeText(map.width, map.height));
-  }
+  if (Error error = CheckSize(path, map.width, map.height, light_field->views[0])) return error;
   light_field->disparity = std::move(map);
   return {};
 }
@@ -169,11 +192,7 @@ Error LoadCoverage(const std::string& path, LightField* light_field) {
   const Result<Samples> samples = DecodeCoverage(path, *bytes);
   if (!samples) return samples.error();
   const FloatMap& map = samples->map;
-  const Image& centre = light_field->views[0];
-  if (map.width != centre.width || map.height != centre.height) {
-    return Expected(path, SizeText(centre.width, centre.height) + " as the centre view",
-                    SizeText(map.width, map.height));
-  }
+  if (Error error = CheckSize(path, map.width, map.height, light_field->views[0])) return error;
   const float scale = 255 / static_cast<float>(samples->largest);
   light_field->coverage.clear();
   for (const float value : map.values) {

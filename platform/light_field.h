@@ -28,6 +28,12 @@ struct LightField {
 // Tells a configuration the views of a light field and where they lie.
 void ConfigureViews(const LightField& light_field, starfocus_config* config);
 
+// Measures a map; all is 0 of an empty one.
+starfocus_disparity_stats MeasureDisparity(const FloatMap& map);
+
+// The light field as the engine takes it, from row `first` on.
+starfocus_light_field EngineRows(const LightField& light_field, int first = 0);
+
 // The file of its map, there or not.
 std::string DisparityPath(const std::string& folder);
 

@@ -15,19 +15,14 @@ void Camera::FreeAligned::operator()(void* memory) const {
 }
 
 Error Camera::Load(const std::string& folder, starfocus_mode mode) {
-  Result<LightField> loaded = LoadLightField(folder, {});
-  if (!loaded) return loaded.error();
-  light_field_ = std::move(*loaded);
+  if (Error error = LoadLightField(folder, {}).MoveTo(&light_field_)) return error;
   FloatMap& map = light_field_.disparity;
-  const size_t stride = sizeof(float) * size_t(map.width);
   starfocus_status status =
-      starfocus_fill_disparity(map.values.data(), stride, map.width, map.height);
-  if (status == STARFOCUS_OK) {
-    status = starfocus_measure_disparity(map.values.data(), stride, map.width, map.height, &stats_);
-  }
+      starfocus_fill_disparity(map.values.data(), map.stride(), map.width, map.height);
   if (status != STARFOCUS_OK) {
     return Expected(DisparityPath(folder), "a disparity map", starfocus_status_string(status));
   }
+  stats_ = MeasureDisparity(map);
   const double range = double(stats_.max) - double(stats_.min);
   for (double aperture = 1; aperture > 0.1; aperture /= 2) {
     if (aperture * range <= STARFOCUS_MAX_BLUR) apertures_.push_back(aperture);
@@ -62,11 +57,7 @@ Error Camera::Load(const std::string& folder, starfocus_mode mode) {
     return Expected(folder, "a light field that the engine refocuses",
                     Describe(status, &problem).text);
   }
-  for (size_t i = 0; i < light_field_.views.size(); ++i) {
-    rows_.views[i] =
-        starfocus_image_rgb(light_field_.views[i].row(0), light_field_.views[i].stride());
-  }
-  rows_.depth = starfocus_depth_float(map.values.data(), stride, map.width, map.height);
+  rows_ = EngineRows(light_field_);
   picture_ = Image(config.width, config.height);
   mode_ = mode;
   return {};

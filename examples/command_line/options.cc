@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "platform/image.h"
+#include "platform/text.h"
 
 namespace starfocus {
 namespace {
@@ -22,27 +23,25 @@ std::vector<std::string> Split(const std::string& text, char separator) {
   return parts;
 }
 
-bool ReadWhole(const std::string& text, int* value) {
-  if (text.empty() || text.size() > 9) return false;
-  if (text.find_first_not_of("0123456789") != std::string::npos) return false;
-  *value = std::atoi(text.c_str());
-  return true;
+std::optional<int> ReadWhole(const std::string& text) {
+  if (text.empty() || text.size() > 9) return {};
+  if (text.find_first_not_of("0123456789") != std::string::npos) return {};
+  return std::atoi(text.c_str());
 }
 
-bool ReadNumber(const std::string& text, double* value) {
-  if (text.empty() || text.find_first_not_of("0123456789+-.eE") != std::string::npos) return false;
-  char* end = nullptr;
-  *value = std::strtod(text.c_str(), &end);
-  return *end == '\0' && std::isfinite(*value);
+// A decimal number.
+std::optional<double> ReadNumber(const std::string& text) {
+  if (text.find_first_not_of("0123456789+-.eE") != std::string::npos) return {};
+  return ParseNumber(text);
 }
 
 // Whole numbers up to the largest size of pictures; none where one is none.
 std::vector<int> ReadSizes(const std::string& text, char separator) {
   std::vector<int> sizes;
   for (const std::string& part : Split(text, separator)) {
-    int size = 0;
-    if (!ReadWhole(part, &size) || size > kMaxPictureSize) return {};
-    sizes.push_back(size);
+    const std::optional<int> size = ReadWhole(part);
+    if (!size || *size > kMaxPictureSize) return {};
+    sizes.push_back(*size);
   }
   return sizes;
 }
@@ -50,11 +49,11 @@ std::vector<int> ReadSizes(const std::string& text, char separator) {
 template <class T>
 Target ReadWholeInto(int low, int high, T* value, const std::string& shown) {
   const auto read = [low, high, value](const std::string& text) -> std::string {
-    int number = 0;
-    if (!ReadWhole(text, &number) || number < low || number > high) {
+    const std::optional<int> number = ReadWhole(text);
+    if (!number || *number < low || *number > high) {
       return "a whole number from " + std::to_string(low) + " to " + std::to_string(high);
     }
-    *value = number;
+    *value = *number;
     return "";
   };
   return Target(read, shown);
@@ -64,9 +63,9 @@ template <class T>
 Target ReadNumberInto(double low, double high, const std::string& expected, T* value,
                       const std::string& shown) {
   const auto read = [low, high, expected, value](const std::string& text) -> std::string {
-    double number = 0;
-    if (!ReadNumber(text, &number) || number < low || number > high) return expected;
-    *value = number;
+    const std::optional<double> number = ReadNumber(text);
+    if (!number || *number < low || *number > high) return expected;
+    *value = *number;
     return "";
   };
   return Target(read, shown);
@@ -89,9 +88,9 @@ bool IsFar(const starfocus_position& position) {
 }
 
 std::string ReadViews(const std::string& text, Positions* positions) {
-  int star = 0;
-  if (ReadWhole(text, &star) && IsStarSet(star)) {
-    *positions = StarPositions(star);
+  const std::optional<int> star = ReadWhole(text);
+  if (star && IsStarSet(*star)) {
+    *positions = StarPositions(*star);
     return "";
   }
   positions->clear();
@@ -170,9 +169,9 @@ Target Views(Positions* positions) {
 std::vector<double> ReadNumbers(const std::string& text, char separator) {
   std::vector<double> numbers;
   for (const std::string& part : Split(text, separator)) {
-    double number = 0;
-    if (!ReadNumber(part, &number)) return {};
-    numbers.push_back(number);
+    const std::optional<double> number = ReadNumber(part);
+    if (!number) return {};
+    numbers.push_back(*number);
   }
   return numbers;
 }

@@ -72,20 +72,18 @@ void AddShapeOptions(Command* command, ShapeOptions* options) {
       command);
 }
 
-Error ParseShape(const ShapeOptions& options, starfocus_lens* lens) {
+Result<starfocus_lens> ParseShape(const ShapeOptions& options) {
   starfocus_params defaults;
   starfocus_params_init(&defaults);
-  *lens = defaults.lens;
-  if (!SetShape(options.shape, lens)) return ShapeError(options.shape);
-  if (lens->shape != STARFOCUS_SHAPE_FALL_OFF && options.theta != ShapeOptions().theta) {
+  starfocus_lens lens = defaults.lens;
+  if (!SetShape(options.shape, &lens)) return ShapeError(options.shape);
+  if (lens.shape != STARFOCUS_SHAPE_FALL_OFF && options.theta != ShapeOptions().theta) {
     return Error::Usage("--theta", "--shape fall-off beside it", "'" + options.shape + "'");
   }
   // The ends of the range and the default are the library's to the last digit.
-  lens->theta = options.theta * kPi;
-  if (lens->theta < STARFOCUS_MIN_THETA) lens->theta = STARFOCUS_MIN_THETA;
-  if (lens->theta > STARFOCUS_MAX_THETA) lens->theta = STARFOCUS_MAX_THETA;
-  lens->cats_eye = options.cats_eye;
-  return {};
+  lens.theta = std::clamp(options.theta * kPi, STARFOCUS_MIN_THETA, STARFOCUS_MAX_THETA);
+  lens.cats_eye = options.cats_eye;
+  return lens;
 }
 
 std::string ShapeSuffix(const ShapeOptions& options) {

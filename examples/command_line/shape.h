@@ -18,8 +18,8 @@ struct ShapeOptions {
 
 void AddShapeOptions(Command* command, ShapeOptions* options);
 
-// Sets the lens: the shape that the options ask for, and defaults.
-Error ParseShape(const ShapeOptions& options, starfocus_lens* lens);
+// The lens of the shape that the options ask for, and defaults.
+Result<starfocus_lens> ParseShape(const ShapeOptions& options);
 
 // What tells the shape from the default one in a file's name, "" for that.
 std::string ShapeSuffix(const ShapeOptions& options);

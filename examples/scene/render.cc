@@ -274,7 +274,7 @@ FloatMap RayTracer::Disparity() const {
   return map;
 }
 
-uint16_t RayTracer::CoverageOf(const std::vector<size_t>& candidates, int x, int y) const {
+uint8_t RayTracer::CoverageOf(const std::vector<size_t>& candidates, int x, int y) const {
   constexpr int kSamples = kCoverageGrid * kCoverageGrid;
   int covered = 0;
   for (int k = 0; k < kSamples; ++k) {
@@ -283,20 +283,17 @@ uint16_t RayTracer::CoverageOf(const std::vector<size_t>& candidates, int x, int
     const Surface* surface = Trace(candidates, CentreRay(x + offset.x, y + offset.y), &hit);
     if (surface != nullptr && surface->foreground) ++covered;
   }
-  return static_cast<uint16_t>((255 * covered + kSamples / 2) / kSamples);
+  return static_cast<uint8_t>((255 * covered + kSamples / 2) / kSamples);
 }
 
-GreyImage RayTracer::Coverage(Progress* progress) const {
-  GreyImage coverage;
-  coverage.width = width_;
-  coverage.height = height_;
-  coverage.levels.resize(size_t(width_) * size_t(height_));
+std::vector<uint8_t> RayTracer::Coverage(Progress* progress) const {
+  std::vector<uint8_t> coverage(size_t(width_) * size_t(height_));
   const auto is_near = [](const Surface& surface) { return surface.foreground; };
-  ForCentrePixels(
-      progress, kCoverageCost, [&](const std::vector<size_t>& candidates, int x, int y) {
-        if (!Any(candidates, is_near)) return;
-        coverage.levels[size_t(y) * size_t(width_) + size_t(x)] = CoverageOf(candidates, x, y);
-      });
+  ForCentrePixels(progress, kCoverageCost,
+                  [&](const std::vector<size_t>& candidates, int x, int y) {
+                    if (!Any(candidates, is_near)) return;
+                    coverage[size_t(y) * size_t(width_) + size_t(x)] = CoverageOf(candidates, x, y);
+                  });
   return coverage;
 }
 

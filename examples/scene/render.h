@@ -11,7 +11,6 @@
 #include "platform/pfm.h"
 #include "platform/progress.h"
 #include "platform/runner.h"
-#include "platform/writers/png.h"
 
 namespace starfocus {
 
@@ -33,7 +32,7 @@ class RayTracer {
 
   // Share of every pixel of the centre view that the foreground covers: 255 for all of it. It is
   // the mean of 256 rays, each in another 256th of the pixel's columns and of its rows.
-  GreyImage Coverage(Progress* progress) const;
+  std::vector<uint8_t> Coverage(Progress* progress) const;
 
   // What a lens of radius `aperture` with this opening, focused at `focus`, sees.
   Image Truth(double focus, double aperture, const SceneOpening& opening, Progress* progress) const;
@@ -55,7 +54,7 @@ class RayTracer {
                   int grid) const;
   Color LensPixel(const Lens& lens, const std::vector<size_t>& candidates, int x, int y) const;
   // Returns 0 to 255.
-  uint16_t CoverageOf(const std::vector<size_t>& candidates, int x, int y) const;
+  uint8_t CoverageOf(const std::vector<size_t>& candidates, int x, int y) const;
   // Returns true if one of the candidates is of a kind.
   template <class Kind>
   bool Any(const std::vector<size_t>& candidates, const Kind& kind) const;

@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -89,9 +90,9 @@ struct Scene {
 
 inline constexpr uint32_t kSceneSeed = 1;  // the default
 
-// "portrait", "wires", "ramp", "lamps", "hair" or "grass"; false for any other name. The seed
+// "portrait", "wires", "ramp", "lamps", "hair" or "grass"; none for any other name. The seed
 // places the strands of hair and grass.
-bool MakeScene(const std::string& name, Scene* scene, uint32_t seed = kSceneSeed);
+std::optional<Scene> MakeScene(const std::string& name, uint32_t seed = kSceneSeed);
 
 Scene MakePortrait();
 Scene MakeWires();

@@ -104,23 +104,14 @@ bool Scene::HasForeground() const {
                      [](const Surface& surface) { return surface.foreground; });
 }
 
-bool MakeScene(const std::string& name, Scene* scene, uint32_t seed) {
-  if (name == "portrait") {
-    *scene = MakePortrait();
-  } else if (name == "wires") {
-    *scene = MakeWires();
-  } else if (name == "ramp") {
-    *scene = MakeRamp();
-  } else if (name == "lamps") {
-    *scene = MakeLamps();
-  } else if (name == "hair") {
-    *scene = MakeHair(seed);
-  } else if (name == "grass") {
-    *scene = MakeGrass(seed);
-  } else {
-    return false;
-  }
-  return true;
+std::optional<Scene> MakeScene(const std::string& name, uint32_t seed) {
+  if (name == "portrait") return MakePortrait();
+  if (name == "wires") return MakeWires();
+  if (name == "ramp") return MakeRamp();
+  if (name == "lamps") return MakeLamps();
+  if (name == "hair") return MakeHair(seed);
+  if (name == "grass") return MakeGrass(seed);
+  return {};
 }
 
 }  // namespace starfocus

@@ -18,6 +18,7 @@
 #include "platform/clock.h"
 #include "platform/image_io.h"
 #include "platform/light_field.h"
+#include "platform/text.h"
 #include "starfocus/starfocus.hpp"
 
 namespace starfocus {
@@ -32,16 +33,21 @@ struct Options {
   int shift = 2, frames = 12, threads = starfocus_pool_cores();
 };
 
-// The light field of a folder, or the portrait traced; and where to tap if nobody says.
-Error Open(const Options& options, ThreadRunner* runner, LightField* field, Pixel* first,
-           Pixel* second) {
+// A light field, and where it is tapped.
+struct Subject {
+  LightField field;
+  Pixel first, second;
+};
+
+// The light field of a folder, or the portrait traced; and where to tap by default.
+Result<Subject> Open(const Options& options, ThreadRunner* runner) {
+  Subject subject;
+  LightField& field = subject.field;
   if (!options.folder.empty()) {
-    Result<LightField> loaded = LoadLightField(options.folder, {});
-    if (!loaded) return loaded.error();
-    *field = std::move(*loaded);
-    *first = {field->width() / 2, field->height() / 2};
-    *second = {field->width() / 8, field->height() / 8};
-    return {};
+    if (Error error = LoadLightField(options.folder, {}).MoveTo(&field)) return error;
+    subject.first = {field.width() / 2, field.height() / 2};
+    subject.second = {field.width() / 8, field.height() / 8};
+    return subject;
   }
   const Scene scene = MakePortrait();
   const RayTracer renderer(scene, options.size.x, options.size.y, STARFOCUS_TRANSFER_SRGB, runner);
@@ -49,22 +55,19 @@ Error Open(const Options& options, ThreadRunner* runner, LightField* field, Pixe
   for (int view = 0; view < 5; ++view) {
     double u = 0, v = 0;
     starfocus_view_position(view, &u, &v);
-    field->views.push_back(renderer.View(u, v, &progress));
+    field.views.push_back(renderer.View(u, v, &progress));
   }
-  field->disparity = renderer.Disparity();
-  renderer.ToPixel(scene.points.front().x, scene.points.front().y, &first->x, &first->y);
-  renderer.ToPixel(scene.points.back().x, scene.points.back().y, &second->x, &second->y);
-  return {};
+  field.disparity = renderer.Disparity();
+  const NamedPoint &near = scene.points.front(), &far = scene.points.back();
+  renderer.ToPixel(near.x, near.y, &subject.first.x, &subject.first.y);
+  renderer.ToPixel(far.x, far.y, &subject.second.x, &subject.second.y);
+  return subject;
 }
 
-Error TakeTap(const std::string& option, const std::optional<Pixel>& tapped,
-              const LightField& field, Pixel* point) {
-  if (!tapped) return {};
-  *point = *tapped;
-  if (point->x < field.width() && point->y < field.height()) return {};
-  return Error::Usage(
-      option, "a pixel of " + std::to_string(field.width()) + "x" + std::to_string(field.height()),
-      "'" + std::to_string(point->x) + "," + std::to_string(point->y) + "'");
+Error CheckTap(const std::string& option, const Pixel& point, const LightField& field) {
+  if (point.x < field.width() && point.y < field.height()) return {};
+  return Error::Usage(option, "a pixel of " + SizeText(field.width(), field.height()),
+                      "'" + std::to_string(point.x) + "," + std::to_string(point.y) + "'");
 }
 
 class Session {
@@ -73,24 +76,18 @@ class Session {
       : options_(options),
         runner_(runner),
         map_(field.disparity),
+        views_(static_cast<int>(field.views.size())),
+        field_(EngineRows(field)),
         full_(field.width(), field.height()),
         preview_((field.width() - 1) / (1 << options.shift) + 1,
-                 (field.height() - 1) / (1 << options.shift) + 1) {
-    for (size_t k = 0; k < field.views.size(); ++k) {
-      field_.views[k] = starfocus_image_rgb(field.views[k].pixels.data(), field.views[k].stride());
-    }
-    field_.depth = starfocus_depth_float(map_.values.data(), Stride(), map_.width, map_.height);
-  }
+                 (field.height() - 1) / (1 << options.shift) + 1) {}
 
   Error Prepare() {
-    starfocus_disparity_stats stats = {};
-    if (Error error = Outcome(starfocus_measure_disparity(map_.values.data(), Stride(), map_.width,
-                                                          map_.height, &stats)))
-      return error;
+    const starfocus_disparity_stats stats = MeasureDisparity(map_);
     Config config;
     config.width = map_.width;
     config.height = map_.height;
-    config.views = Views();
+    config.views = views_;
     config.disparity_min = stats.min;
     config.disparity_max = stats.max;
     config.max_blur = kBlur;
@@ -112,13 +109,15 @@ class Session {
     return error;
   }
 
-  Error FocusAt(const Pixel& point, double* focus) {
+  Result<double> FocusAt(const Pixel& point) {
     const double start = Seconds();
-    const Error error = Outcome(starfocus_focus_at(map_.values.data(), Stride(), map_.width,
-                                                   map_.height, point.x, point.y, focus));
+    double focus = 0;
+    Error error = Outcome(starfocus_focus_at(map_.values.data(), map_.stride(), map_.width,
+                                             map_.height, point.x, point.y, &focus));
+    if (error) return error;
     const std::string tap = std::to_string(point.x) + "," + std::to_string(point.y);
-    if (!error) Say("tap at " + tap + ": focus " + Short(*focus), start);
-    return error;
+    Say("tap at " + tap + ": focus " + Short(focus), start);
+    return focus;
   }
 
   Error Preview(double focus, const std::string& what) {
@@ -164,13 +163,6 @@ class Session {
   }
 
  private:
-  size_t Stride() const { return sizeof(float) * size_t(map_.width); }
-  int Views() const {
-    int views = 0;
-    while (views < STARFOCUS_MAX_VIEWS && field_.views[views].planes[0] != nullptr) ++views;
-    return views;
-  }
-
   static Error Outcome(starfocus_status status) {
     return status == STARFOCUS_OK ? Error()
                                   : Error(ErrorKind::kInput, starfocus_status_string(status));
@@ -190,7 +182,8 @@ class Session {
   const Options& options_;
   ThreadRunner* const runner_;
   const FloatMap& map_;
-  starfocus_light_field field_ = {};
+  const int views_;
+  const starfocus_light_field field_;
   Image full_, preview_;
   Engine engine_;
   Params params_;
@@ -200,22 +193,24 @@ class Session {
 Error Tap(const Options& options) {
   if (options.size.x < 1 || options.size.y < 1) return Error::Usage("--size", "WxH", "0");
   ThreadRunner runner(options.threads);
-  LightField field;
-  Pixel first, second;
-  if (Error error = Open(options, &runner, &field, &first, &second)) return error;
-  if (Error error = TakeTap("--first", options.first, field, &first)) return error;
-  if (Error error = TakeTap("--second", options.second, field, &second)) return error;
+  const Result<Subject> subject = Open(options, &runner);
+  if (!subject) return subject.error();
+  const LightField& field = subject->field;
+  const Pixel first = options.first.value_or(subject->first);
+  const Pixel second = options.second.value_or(subject->second);
+  if (Error error = CheckTap("--first", first, field)) return error;
+  if (Error error = CheckTap("--second", second, field)) return error;
   if (!options.out.empty()) std::filesystem::create_directories(options.out);
   std::printf("%d x %d, %zu views, %d threads\n", field.width(), field.height(), field.views.size(),
               runner.workers());
   Session session(field, options, &runner);
   double from = 0, to = 0;
   Error error = session.Prepare();
-  if (!error) error = session.FocusAt(first, &from);
+  if (!error) error = session.FocusAt(first).MoveTo(&from);
   if (!error) error = session.Preview(from, "first preview");
   if (!error) error = session.Full(from);
   if (!error) session.SayNearness();
-  if (!error) error = session.FocusAt(second, &to);
+  if (!error) error = session.FocusAt(second).MoveTo(&to);
   if (!error) error = session.Pull(from, to);
   if (!error) error = session.Full(to);
   return error;

@@ -64,8 +64,7 @@ double WarpAgreement(const Image& centre, const Image& view, const FloatMap& map
 TEST_CASE("scene: views warped by the exact disparity give the centre view back") {
   ThreadRunner runner(2);
   for (const char* name : kNames) {
-    Scene scene;
-    REQUIRE(MakeScene(name, &scene));
+    const Scene scene = MakeScene(name).value();
     const RayTracer renderer(scene, kWidth, kHeight, STARFOCUS_TRANSFER_NONE, &runner);
     const Image centre = renderer.View(0, 0, nullptr);
     const FloatMap map = renderer.Disparity();
@@ -85,8 +84,7 @@ TEST_CASE("scene: views warped by the exact disparity give the centre view back"
 
 TEST_CASE("scene: a lens stopped down to a pinhole takes the centre view") {
   ThreadRunner runner(2);
-  Scene scene;
-  REQUIRE(MakeScene("portrait", &scene));
+  const Scene scene = MakeScene("portrait").value();
   const RayTracer renderer(scene, kWidth / 2, kHeight / 2, STARFOCUS_TRANSFER_NONE, &runner);
   const Image centre = renderer.View(0, 0, nullptr);
   CHECK(test::Psnr(centre.pixels, renderer.Truth(0.5, 1e-6, DefaultOpening(), nullptr).pixels) >
@@ -96,8 +94,7 @@ TEST_CASE("scene: a lens stopped down to a pinhole takes the centre view") {
 
 TEST_CASE("scene: what the lens focuses on is sharp, the rest is not") {
   ThreadRunner runner(2);
-  Scene scene;
-  REQUIRE(MakeScene("ramp", &scene));
+  const Scene scene = MakeScene("ramp").value();
   const RayTracer renderer(scene, kWidth, kHeight, STARFOCUS_TRANSFER_NONE, &runner);
   const FloatMap map = renderer.Disparity();
   const Image centre = renderer.View(0, 0, nullptr);
@@ -115,8 +112,7 @@ TEST_CASE("scene: the same pictures for any number of threads") {
   ThreadRunner one(1), three(3);
   constexpr int kOdd = 61;
   for (const char* name : kNames) {
-    Scene scene;
-    REQUIRE(MakeScene(name, &scene));
+    const Scene scene = MakeScene(name).value();
     const RayTracer a(scene, kOdd, 47, STARFOCUS_TRANSFER_NONE, &one),
         b(scene, kOdd, 47, STARFOCUS_TRANSFER_NONE, &three);
     CHECK(a.View(-0.5, 1, nullptr).pixels == b.View(-0.5, 1, nullptr).pixels);
@@ -129,8 +125,7 @@ TEST_CASE("scene: the same pictures for any number of threads") {
 TEST_CASE("scene: near, middle and far points lie in that order, at any size") {
   ThreadRunner runner(1);
   for (const char* name : kNames) {
-    Scene scene;
-    REQUIRE(MakeScene(name, &scene));
+    const Scene scene = MakeScene(name).value();
     REQUIRE(scene.points.size() == 3);
     for (const int width : {1024, 96, 40}) {
       const int height = width == 40 ? 90 : width * 3 / 4;
@@ -155,16 +150,14 @@ TEST_CASE("scene: near, middle and far points lie in that order, at any size") {
 TEST_CASE("scene: tiny pictures and every pixel finite") {
   ThreadRunner runner(1);
   for (const char* name : kNames) {
-    Scene scene;
-    REQUIRE(MakeScene(name, &scene));
+    const Scene scene = MakeScene(name).value();
     for (const int width : {1, 2, 300}) {
       const RayTracer renderer(scene, width, 3, STARFOCUS_TRANSFER_NONE, &runner);
       CHECK(renderer.View(1, -1, nullptr).pixels.size() == size_t(9 * width));
       for (float d : renderer.Disparity().values) CHECK(std::isfinite(d));
     }
   }
-  Scene scene;
-  CHECK_FALSE(MakeScene("other", &scene));
+  CHECK_FALSE(MakeScene("other"));
 }
 
 TEST_CASE("scene: rays meet planes and ellipsoids where algebra says") {
@@ -192,8 +185,7 @@ TEST_CASE("scene: rays meet planes and ellipsoids where algebra says") {
 
 TEST_CASE("scene: bounds hold every hit") {
   for (const char* name : kNames) {
-    Scene scene;
-    REQUIRE(MakeScene(name, &scene));
+    const Scene scene = MakeScene(name).value();
     int outside = 0;
     for (const Surface& surface : scene.surfaces) {
       const Bounds box = SurfaceBounds(surface, 1200);

@@ -23,9 +23,7 @@ constexpr int kWidth = 256, kHeight = 192;
 const char* const kNames[] = {"hair", "grass"};
 
 Scene Made(const std::string& name, uint32_t seed = kSceneSeed) {
-  Scene scene;
-  REQUIRE(MakeScene(name, &scene, seed));
-  return scene;
+  return MakeScene(name, seed).value();
 }
 
 // Returns 1 or 0 if the map has one side of the step alone within a pixel of (x, y), else -1.
@@ -38,11 +36,11 @@ int SideAround(const FloatMap& map, int x, int y) {
 }
 
 // Returns 1 or 0 if all or nothing is covered within a pixel of (x, y), else -1.
-int CoverAround(const GreyImage& coverage, int x, int y) {
+int CoverAround(const std::vector<uint8_t>& coverage, int x, int y) {
   int whole = 0, none = 0;
   for (int dy = -1; dy <= 1; ++dy) {
     for (int dx = -1; dx <= 1; ++dx) {
-      const int level = coverage.levels[size_t((y + dy) * kWidth + x + dx)];
+      const int level = coverage[size_t((y + dy) * kWidth + x + dx)];
       whole += level == 255 ? 1 : 0;
       none += level == 0 ? 1 : 0;
     }
@@ -117,12 +115,12 @@ TEST_CASE("strand scenes: coverage agrees with the map") {
     const Scene scene = Made(name);
     const RayTracer tracer(scene, kWidth, kHeight, STARFOCUS_TRANSFER_NONE, &runner);
     const FloatMap map = tracer.Disparity();
-    const GreyImage coverage = tracer.Coverage(nullptr);
+    const std::vector<uint8_t> coverage = tracer.Coverage(nullptr);
     int clear = 0, against = 0, fractions = 0, lost = 0;
     double covered = 0, near = 0;
     for (int y = 1; y + 1 < kHeight; ++y) {
       for (int x = 1; x + 1 < kWidth; ++x) {
-        const int level = coverage.levels[size_t(y * kWidth + x)];
+        const int level = coverage[size_t(y * kWidth + x)];
         const int cover = CoverAround(coverage, x, y);
         covered += level / 255.0;
         near += map.at(x, y) > 0 ? 1 : 0;
@@ -149,9 +147,9 @@ TEST_CASE("strand scenes: coverage is the area of a half plane") {
   scene.surfaces.back().foreground = true;
   ThreadRunner runner(1);
   const RayTracer tracer(scene, 1024, 768, STARFOCUS_TRANSFER_NONE, &runner);
-  const GreyImage coverage = tracer.Coverage(nullptr);
+  const std::vector<uint8_t> coverage = tracer.Coverage(nullptr);
   // Pixel 512 spans 0 to 1.
-  const auto level = [&](int x) { return coverage.levels[size_t(400 * 1024 + x)]; };
+  const auto level = [&](int x) { return coverage[size_t(400 * 1024 + x)]; };
   CHECK(level(511) == 0);
   CHECK(std::abs(level(512) - 0.7 * 255) <= 1);
   CHECK(level(513) == 255);
@@ -179,8 +177,8 @@ TEST_CASE("strand scenes: a seed gives the same scene again, another seed anothe
     const RayTracer a(scene, 120, 90, STARFOCUS_TRANSFER_NONE, &one);
     const RayTracer b(again, 120, 90, STARFOCUS_TRANSFER_NONE, &three);
     const RayTracer c(other, 120, 90, STARFOCUS_TRANSFER_NONE, &three);
-    CHECK(a.Coverage(nullptr).levels == b.Coverage(nullptr).levels);
-    CHECK(a.Coverage(nullptr).levels != c.Coverage(nullptr).levels);
+    CHECK(a.Coverage(nullptr) == b.Coverage(nullptr));
+    CHECK(a.Coverage(nullptr) != c.Coverage(nullptr));
     CHECK(a.View(1, 0, nullptr).pixels == b.View(1, 0, nullptr).pixels);
   }
 }

@@ -240,8 +240,7 @@ TEST_CASE("block conformance: parts of the demo's scenes") {
   Distance all;
   Covered covered;
   for (const char* name : {"portrait", "wires", "ramp"}) {
-    starfocus::Scene drawn;
-    REQUIRE(starfocus::MakeScene(name, &drawn));
+    const starfocus::Scene drawn = starfocus::MakeScene(name).value();
     const starfocus::RayTracer renderer(drawn, kWidth, kHeight, STARFOCUS_TRANSFER_NONE, &runner);
     starfocus::LightField field;
     for (int i = 0; i < 5; ++i) {

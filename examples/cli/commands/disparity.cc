@@ -27,9 +27,9 @@ struct DisparityOptions {
   bool repair = false;
 };
 
+// The files to write.
 struct Plan {
   std::string map, picture;
-  DisparityRange range;
 };
 
 // MIN:MAX.
@@ -43,20 +43,17 @@ std::string ReadRange(const std::string& text, std::optional<DisparityRange>* ra
   return "";
 }
 
-// The pictures that were asked for.
-std::vector<Output> PicturesOf(const DisparityOptions& options) {
-  std::vector<Output> pictures;
-  if (!options.confidence.empty()) pictures.push_back({"--confidence", options.confidence});
-  if (!options.coverage.empty()) pictures.push_back({"--coverage", options.coverage});
-  return pictures;
-}
-
-Error PlanOutputs(const DisparityOptions& options, Plan* plan) {
-  plan->map = options.out.empty() ? DisparityPath(options.folder) : options.out;
-  if (std::filesystem::path(plan->map).extension() != ".pfm") {
-    return Error::Usage("--output", "a name that ends in .pfm", plan->map);
+// Everything that can be refused before a file is read.
+Result<Plan> MakePlan(const DisparityOptions& options) {
+  if (!options.views.empty() && StarWithin(options.views) == 1 && !options.repair) {
+    return Error::Usage("--views", "17, 9 or 5: other views show no disparity here",
+                        std::to_string(options.views.size()));
   }
-  plan->picture = std::filesystem::path(plan->map).replace_extension(".png").string();
+  Plan plan = {options.out.empty() ? DisparityPath(options.folder) : options.out, ""};
+  if (std::filesystem::path(plan.map).extension() != ".pfm") {
+    return Error::Usage("--output", "a name that ends in .pfm", plan.map);
+  }
+  plan.picture = std::filesystem::path(plan.map).replace_extension(".png").string();
   if (options.repair && options.out.empty()) {
     return Error::Usage("--repair", "another map to write, by --output", "none");
   }
@@ -67,93 +64,76 @@ Error PlanOutputs(const DisparityOptions& options, Plan* plan) {
     return Error::Usage("--coverage", "--repair, which finds coverage", "none");
   }
   if (options.out.empty() && HasDisparity(options.folder)) {
-    return Expected(plan->map, "no map yet, or another name by --output", "one");
+    return Expected(plan.map, "no map yet, or another name by --output", "one");
   }
-  std::vector<Output> outputs = {{"--output", plan->picture}};
-  if (!options.out.empty()) outputs.push_back({"--output", plan->map});
-  for (const Output& picture : PicturesOf(options)) outputs.push_back(picture);
-  Error error = CheckOutputPath(plan->map);
-  if (!error) error = CheckImageOutput(plan->picture);
-  for (const Output& picture : PicturesOf(options)) {
+  std::vector<Output> outputs = {{"--output", plan.picture}};
+  if (!options.confidence.empty()) outputs.push_back({"--confidence", options.confidence});
+  if (!options.coverage.empty()) outputs.push_back({"--coverage", options.coverage});
+  Error error = CheckOutputPath(plan.map);
+  for (const Output& picture : outputs) {
     if (!error) error = CheckImageOutput(picture.path);
   }
-  return !error ? CheckApart(outputs, {{options.folder}, {}}) : error;
+  if (!options.out.empty()) outputs.insert(outputs.begin(), {"--output", plan.map});
+  if (!error) error = CheckApart(outputs, {{options.folder}, {}});
+  if (error) return error;
+  return plan;
 }
 
-Error MakePlan(const DisparityOptions& options, Plan* plan) {
-  if (!options.views.empty() && StarWithin(options.views) == 1 && !options.repair) {
-    return Error::Usage("--views", "17, 9 or 5: other views show no disparity here",
-                        std::to_string(options.views.size()));
-  }
-  if (options.range) plan->range = *options.range;
-  return PlanOutputs(options, plan);
-}
-
-// Estimates the map of a folder; says what was looked for.
-Result<DisparityEstimate> EstimateFolder(const DisparityOptions& options, Plan* plan,
+// Estimates the map of a folder; finds out what to look for unless that was typed.
+Result<DisparityEstimate> EstimateFolder(const DisparityOptions& options,
                                          const LightField& light_field) {
   if (Error error = CheckStar(options.folder, light_field)) return error;
-  if (!options.range) {
-    const Result<DisparityRange> range = FindRange(options.folder, light_field, options.threads);
-    if (!range) return range.error();
-    plan->range = *range;
-  }
-  return EstimateDisparity(options.folder, light_field, plan->range, options.threads);
+  const Result<DisparityRange> range =
+      options.range ? *options.range : FindRange(options.folder, light_field, options.threads);
+  if (!range) return range.error();
+  return EstimateDisparity(options.folder, light_field, *range, options.threads);
 }
 
 // Repairs the map of a folder.
-Result<DisparityEstimate> RepairFolder(const DisparityOptions& options, Plan* plan,
-                                       LightField* light_field) {
-  DisparityEstimate estimate;
-  Image* confidence = options.confidence.empty() ? nullptr : &estimate.confidence;
-  if (Error error = RepairDisparity(DisparityPath(options.folder), options.threads,
-                                    !options.coverage.empty(), light_field, confidence))
-    return error;
-  if (!options.coverage.empty() && light_field->coverage.empty()) {
+Result<DisparityEstimate> RepairFolder(const DisparityOptions& options,
+                                       const LightField& light_field) {
+  Result<DisparityEstimate> estimate =
+      RepairDisparity(DisparityPath(options.folder), light_field,
+                      {options.threads, !options.coverage.empty(), !options.confidence.empty()});
+  if (estimate && !options.coverage.empty() && estimate->coverage.empty()) {
     std::fprintf(stderr, "%s: no coverage to write: %s\n", options.folder.c_str(),
-                 light_field->views.size() > 1 ? "only a repair with one view (--views 1) finds it"
-                                               : "found no hair with a closed outline");
-  } else if (!options.coverage.empty()) {
-    estimate.coverage = DrawLevels(light_field->coverage, light_field->views[0]);
+                 light_field.views.size() > 1 ? "only a repair with one view (--views 1) finds it"
+                                              : "found no hair with a closed outline");
   }
-  estimate.map = std::move(light_field->disparity);
-  const auto ends = std::minmax_element(estimate.map.values.begin(), estimate.map.values.end());
-  plan->range = {*ends.first, *ends.second};
   return estimate;
 }
 
-Error WriteMap(const DisparityOptions& options, const Plan& plan,
+Error WriteMap(const DisparityOptions& options, const Plan& plan, const Image& centre,
                const DisparityEstimate& estimate) {
   Error error = WriteImage(plan.picture, DrawDisparity(estimate.map));
   if (!error && !options.confidence.empty()) {
     error = WriteImage(options.confidence, estimate.confidence);
   }
-  if (!error && estimate.coverage.width != 0) {
-    error = WriteImage(options.coverage, estimate.coverage);
+  if (!error && !estimate.coverage.empty()) {
+    error = WriteImage(options.coverage, DrawLevels(estimate.coverage, centre));
   }
   return error ? error : WritePfm(plan.map, estimate.map);
 }
 
 Error Run(const DisparityOptions& options) {
-  Plan plan;
-  if (Error error = MakePlan(options, &plan)) return error;
+  const Result<Plan> plan = MakePlan(options);
+  if (!plan) return plan.error();
   ThreadRunner runner(options.threads);
-  Result<LightField> loaded = options.repair
-                                  ? LoadLightField(options.folder, options.views, &runner)
-                                  : LoadCaptured(options.folder, options.views, &runner);
+  const Result<LightField> loaded = options.repair
+                                        ? LoadLightField(options.folder, options.views, &runner)
+                                        : LoadCaptured(options.folder, options.views, &runner);
   if (!loaded) return loaded.error();
-  LightField& light_field = *loaded;
+  const LightField& light_field = *loaded;
   const double start = Seconds();
-  const Result<DisparityEstimate> estimate = options.repair
-                                                 ? RepairFolder(options, &plan, &light_field)
-                                                 : EstimateFolder(options, &plan, light_field);
+  const Result<DisparityEstimate> estimate =
+      options.repair ? RepairFolder(options, light_field) : EstimateFolder(options, light_field);
   if (!estimate) return estimate.error();
   const double seconds = Seconds() - start;
-  if (Error error = WriteMap(options, plan, *estimate)) return error;
+  if (Error error = WriteMap(options, *plan, light_field.views[0], *estimate)) return error;
   const double megapixels = 1e-6 * estimate->map.width * estimate->map.height;
   const int count = StarWithin(light_field.positions);
-  std::printf("%s: %s to %s %s %d view%s, %.1f s, %.1f s per megapixel\n", plan.map.c_str(),
-              Short(plan.range.min).c_str(), Short(plan.range.max).c_str(),
+  std::printf("%s: %s to %s %s %d view%s, %.1f s, %.1f s per megapixel\n", plan->map.c_str(),
+              Short(estimate->range.min).c_str(), Short(estimate->range.max).c_str(),
               options.repair ? "repaired by" : "looked for in", count, count == 1 ? "" : "s",
               seconds, seconds / megapixels);
   return {};

@@ -12,6 +12,7 @@
 #include "examples/cli/json/json.h"
 #include "examples/command_line/options.h"
 #include "platform/light_field.h"
+#include "platform/text.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
@@ -47,15 +48,14 @@ void PrintText(const Capture& capture, const starfocus_disparity_stats& stats,
   PrintRow("format", capture.format);
   for (const auto& fact : capture.facts) PrintRow(fact.first, fact.second);
   const Image& view = light_field.views[0];
-  PrintRow("size", std::to_string(view.width) + "x" + std::to_string(view.height) + " pixels");
+  PrintRow("size", SizeText(view.width, view.height) + " pixels");
   PrintRow("views", views);
   if (light_field.disparity.values.empty()) {
     return PrintRow("disparity", "no map, and none is estimated from these views");
   }
   PrintRow("disparity", Short(stats.min) + " to " + Short(stats.max) + " pixels per unit u, " +
                             std::to_string(stats.invalid) + " invalid");
-  int64_t most = 1;
-  for (int64_t count : counts) most = count > most ? count : most;
+  const int64_t most = std::max<int64_t>(1, *std::max_element(counts.begin(), counts.end()));
   for (int bin = kBins - 1; bin >= 0; --bin) {
     const int64_t count = counts[size_t(bin)];
     const int length = static_cast<int>((count * kBarLength + most - 1) / most);
@@ -98,29 +98,15 @@ bool HasMap(const Capture& capture) {
   return !capture.map_path.empty() || StarWithin(positions) > 1;
 }
 
-Error Measure(const Capture& capture, starfocus_disparity_stats* stats,
-              std::vector<int64_t>* counts) {
-  const FloatMap& map = capture.light_field.disparity;
-  if (map.values.empty()) return {};
-  const starfocus_status status = starfocus_measure_disparity(
-      map.values.data(), sizeof(float) * size_t(map.width), map.width, map.height, stats);
-  if (status != STARFOCUS_OK) {
-    return Expected(MapName(capture), "disparities that can be measured",
-                    starfocus_status_string(status));
-  }
-  *counts = Histogram(map, *stats, kBins);
-  return {};
-}
-
 Error Run(const InfoOptions& options) {
-  starfocus_disparity_stats stats = {};
-  std::vector<int64_t> counts;
   Result<Capture> opened = OpenInput(options.input);
   if (!opened) return opened.error();
   Capture& capture = *opened;
   if (Error error = HasMap(capture) ? LoadInput({}, 1, &capture) : LoadCapture({}, &capture))
     return error;
-  if (Error error = Measure(capture, &stats, &counts)) return error;
+  const FloatMap& map = capture.light_field.disparity;
+  const starfocus_disparity_stats stats = MeasureDisparity(map);
+  const std::vector<int64_t> counts = Histogram(map, stats, kBins);
   if (options.json) {
     PrintJson(capture, stats, counts);
   } else {

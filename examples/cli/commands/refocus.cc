@@ -77,9 +77,9 @@ std::string ReadSweep(const std::string& text, std::vector<double>* foci) {
   return "";
 }
 
-Error PlanFoci(const RefocusOptions& options, LensPlan* plan) {
+// Replaces the focus by the foci of a sweep.
+Error PlanSweep(const RefocusOptions& options, LensPlan* plan) {
   const bool focus = bool(options.lens.focus), pixel = bool(options.lens.focus_at);
-  if (options.sweep.empty()) return PlanFocus(options.lens, plan);
   if (focus || pixel || options.stream || !options.map.empty()) {
     return Error::Usage("--sweep", "no other focus, no --stream and no --map",
                         focus            ? "--focus"
@@ -93,18 +93,18 @@ Error PlanFoci(const RefocusOptions& options, LensPlan* plan) {
 }
 
 // Everything that can be refused before a file is read.
-Error MakePlan(const RefocusOptions& options, LensPlan* plan, PictureOptions* how) {
-  const bool region = options.region.width > 0;
-  if (Error error = PlanFoci(options, plan)) return error;
-  if (Error error = PlanOutput(options.output, !options.sweep.empty(), region)) return error;
-  how->quality = options.output.quality;
-  if (options.output.small_png) how->png_size = PngSize::kSmall;
+Result<LensPlan> MakePlan(const RefocusOptions& options) {
+  const bool region = options.region.width > 0, sweep = !options.sweep.empty();
+  Result<LensPlan> plan = PlanLens(options.lens);
+  if (!plan) return plan;
+  if (Error error = sweep ? PlanSweep(options, &*plan) : Error()) return error;
+  if (Error error = PlanOutput(options.output, sweep, region)) return error;
   if (Error error = CheckOutputs(options)) return error;
   if (region && options.stream) {
     return Error::Usage("--region", "whole pictures in memory", "--stream");
   }
   plan->region = options.region;
-  return PlanLens(options.lens, plan);
+  return plan;
 }
 
 Error CheckRegion(const Image& picture, const starfocus_region& region) {
@@ -122,7 +122,7 @@ Result<Capture> Open(const RefocusOptions& options, LensPlan* plan) {
   if (!capture) return capture;
   Error error = CheckApart(ListOutputs(options),
                            {{}, CaptureFiles(*capture), GridsOf(options.input, *capture)});
-  if (!error) error = PlanAperture(options.lens.aperture, *capture, &plan->aperture);
+  if (!error) error = PlanAperture(options.lens.aperture, *capture).MoveTo(&plan->aperture);
   if (error) return error;
   return capture;
 }
@@ -140,25 +140,21 @@ Error Foresee(const RefocusOptions& options, const Capture& capture, LensPlan* p
   return ForeseeBlur(light_field, WillRepair(options.disparities, capture), plan);
 }
 
-Error Load(const RefocusOptions& options, LensPlan* plan, Loaded* loaded) {
-  Result<Capture> opened = Open(options, plan);
-  if (!opened) return opened.error();
-  loaded->capture = std::move(*opened);
-  Capture* capture = &loaded->capture;
+Result<Loaded> Load(const RefocusOptions& options, LensPlan* plan) {
+  Loaded loaded;
+  Capture* const capture = &loaded.capture;
   const FloatMap& map = capture->light_field.disparity;
-  Error error = capture->photo ? Foresee(options, *capture, plan) : Error();
+  Error error = Open(options, plan).MoveTo(capture);
+  if (!error && capture->photo) error = Foresee(options, *capture, plan);
   if (!error) error = LoadInput(plan->options.views, plan->options.threads, capture);
   if (!error && !capture->photo) error = Foresee(options, *capture, plan);
   if (!error) error = CareForMap(options.disparities, plan->options.threads, capture);
-  if (!error) error = PrepareDisparity(MapName(*capture), map, &loaded->stats);
+  if (!error) error = PrepareDisparity(MapName(*capture), map).MoveTo(&loaded.stats);
   if (!error) error = ChooseFocus(map, plan);
-  if (!error) error = ChooseBlur(loaded->stats, plan, &loaded->max_blur);
-  if (!error) TellAperture(capture->path, plan->aperture);
-  return error;
-}
-
-Error WriteReport(const RefocusOptions& options, const std::string& text) {
-  return WriteFile(options.report, Bytes(text.begin(), text.end()));
+  if (!error) error = ChooseBlur(loaded.stats, plan).MoveTo(&loaded.max_blur);
+  if (error) return error;
+  TellAperture(capture->path, plan->aperture);
+  return loaded;
 }
 
 Error RunOne(const RefocusOptions& options, const PictureOptions& how, double widest,
@@ -173,14 +169,14 @@ Error RunOne(const RefocusOptions& options, const PictureOptions& how, double wi
   EngineRun run(task.threads, 1);
   EngineResult result;
   Error error = run.Start(InputName(options.input.path), task);
-  if (!error) error = run.Refocus(InputName(options.input.path), task, &result);
+  if (!error) error = run.Refocus(InputName(options.input.path), task).MoveTo(&result);
   if (!error) error = WriteRefocused(options.output, how, widest, task, result.picture);
   if (!error && !options.map.empty()) {
     const starfocus_region& region = task.params.region;
     error = WriteImage(options.map, DrawPartition(result.picture, region.x, region.y, blocks));
   }
   if (error || options.report.empty()) return error;
-  return WriteReport(options, ReportText(task, result, Seconds() - start));
+  return WriteText(options.report, ReportText(task, result, Seconds() - start));
 }
 
 Error RunSweep(const RefocusOptions& options, const PictureOptions& how,
@@ -195,27 +191,27 @@ Error RunSweep(const RefocusOptions& options, const PictureOptions& how,
     task.params.lens.focus = foci[i];
     std::string out;
     EngineResult result;
-    error = run.Refocus(InputName(options.input.path), task, &result);
-    if (!error) error = stack.Add(std::move(result.picture), &out);
+    error = run.Refocus(InputName(options.input.path), task).MoveTo(&result);
+    if (!error) error = stack.Add(std::move(result.picture)).MoveTo(&out);
     report.Add(out, task, result);
   }
   if (!error) error = stack.Finish();
   if (error || options.report.empty()) return error;
-  return WriteReport(options, report.Text(Seconds() - start));
+  return WriteText(options.report, report.Text(Seconds() - start));
 }
 
 Error RunInput(const RefocusOptions& options) {
   const double start = Seconds();
-  LensPlan plan;
-  PictureOptions how;
-  Loaded loaded;
-  if (Error error = MakePlan(options, &plan, &how)) return error;
-  if (Error error = Load(options, &plan, &loaded)) return error;
-  how.metadata = loaded.capture.metadata;
-  const EngineTask task = MakeTask(plan, loaded.capture.light_field, loaded.stats, loaded.max_blur,
-                                   !options.report.empty());
-  return options.sweep.empty() ? RunOne(options, how, plan.aperture.widest, task, start)
-                               : RunSweep(options, how, plan.foci, task, start);
+  Result<LensPlan> plan = MakePlan(options);
+  if (!plan) return plan.error();
+  const Result<Loaded> loaded = Load(options, &*plan);
+  if (!loaded) return loaded.error();
+  const PictureOptions how = {options.output.quality, loaded->capture.metadata,
+                              options.output.small_png ? PngSize::kSmall : PngSize::kQuick};
+  const EngineTask task = MakeTask(*plan, loaded->capture.light_field, loaded->stats,
+                                   loaded->max_blur, !options.report.empty());
+  return options.sweep.empty() ? RunOne(options, how, plan->aperture.widest, task, start)
+                               : RunSweep(options, how, plan->foci, task, start);
 }
 
 Error RunInputs(const RefocusOptions& options) {
@@ -225,9 +221,9 @@ Error RunInputs(const RefocusOptions& options) {
                                     {"--sweep", !options.sweep.empty()}}) {
     if (typed) return Error::Usage(name, "one input and a file for --output", "several");
   }
-  std::vector<BatchItem> items;
-  if (Error error = PlanBatch(options.inputs, options.output.out, &items)) return error;
-  return RunBatch(items, options.jobs, [&options](const BatchItem& item) {
+  const Result<std::vector<BatchItem>> items = PlanBatch(options.inputs, options.output.out);
+  if (!items) return items.error();
+  return RunBatch(*items, options.jobs, [&options](const BatchItem& item) {
     RefocusOptions one = options;
     one.input.path = item.input;
     one.output.out = item.output;

@@ -16,6 +16,7 @@
 #include "platform/clock.h"
 #include "platform/folder.h"
 #include "platform/image_io.h"
+#include "platform/text.h"
 
 namespace starfocus {
 namespace {
@@ -48,11 +49,10 @@ std::string FramePath(const std::string& folder, size_t index) {
 
 // The folders given, or those in the only one when it is no light field itself, but for hidden ones
 // and that of the output.
-Error FindFrames(const VideoOptions& options, Video* video) {
-  std::vector<std::string>& folders = video->folders;
-  folders = options.folders;
+Result<std::vector<std::string>> FindFrames(const VideoOptions& options) {
+  std::vector<std::string> folders = options.folders;
   std::error_code error;
-  const std::string& only = folders[0];
+  const std::string only = folders[0];
   if (folders.size() == 1 && fs::is_directory(only, error) &&
       !fs::exists(DisparityPath(only), error)) {
     folders.clear();
@@ -62,9 +62,9 @@ Error FindFrames(const VideoOptions& options, Video* video) {
       if (entry.is_directory(error) && !hidden && !own) folders.push_back(entry.path().string());
     }
     std::sort(folders.begin(), folders.end());
-    if (folders.empty()) return Expected(options.folders[0], "light-field folders", "none");
+    if (folders.empty()) return Expected(only, "light-field folders", "none");
   }
-  if (folders.size() <= kMostFrames) return {};
+  if (folders.size() <= kMostFrames) return folders;
   return Error::Usage("DIR", "at most " + std::to_string(kMostFrames) + " frames",
                       std::to_string(folders.size()));
 }
@@ -96,20 +96,18 @@ Error CheckOutputs(const VideoOptions& options, const Video& video) {
 
 Error CheckSize(const std::string& folder, const FloatMap& map, const Video& video) {
   if (map.width == video.width && map.height == video.height) return {};
-  return Expected(folder,
-                  std::to_string(video.width) + "x" + std::to_string(video.height) +
-                      " pixels as the first frame",
-                  std::to_string(map.width) + "x" + std::to_string(map.height));
+  return Expected(folder, SizeText(video.width, video.height) + " pixels as the first frame",
+                  SizeText(map.width, map.height));
 }
 
 // Measures the map of a folder, its holes filled if asked to.
-Error Prepare(const VideoOptions& options, const std::string& folder, FloatMap* map,
-              starfocus_disparity_stats* stats) {
+Result<starfocus_disparity_stats> Prepare(const VideoOptions& options, const std::string& folder,
+                                          FloatMap* map) {
   const std::string path = DisparityPath(folder);
   if (options.fill_invalid) {
     if (Error error = FillHoles(path, map)) return error;
   }
-  return PrepareDisparity(path, *map, stats);
+  return PrepareDisparity(path, *map);
 }
 
 // The focus of all frames: that of the first one.
@@ -130,77 +128,69 @@ Error Scan(const VideoOptions& options, LensPlan* plan, Video* video) {
   if (Error error = CheckRenderer(video->folders[0], *plan, video->views)) return error;
   for (size_t i = 0; i < video->folders.size(); ++i) {
     const std::string& folder = video->folders[i];
-    starfocus_disparity_stats stats = {};
     if (Error error = ChooseViewFiles(folder, video->views).error()) return error;
-    Result<FloatMap> read = ReadDisparity(folder);
-    if (!read) return read.error();
-    FloatMap& map = *read;
+    FloatMap map;
+    if (Error error = ReadDisparity(folder).MoveTo(&map)) return error;
     if (i == 0) video->width = map.width, video->height = map.height;
     if (Error error = CheckSize(folder, map, *video)) return error;
-    if (Error error = Prepare(options, folder, &map, &stats)) return error;
+    const Result<starfocus_disparity_stats> stats = Prepare(options, folder, &map);
+    if (!stats) return stats.error();
     if (i == 0) {
       if (Error error = FocusFirst(folder, map, plan)) return error;
     }
-    video->stats.min = i == 0 ? stats.min : std::min(video->stats.min, stats.min);
-    video->stats.max = i == 0 ? stats.max : std::max(video->stats.max, stats.max);
+    video->stats.min = i == 0 ? stats->min : std::min(video->stats.min, stats->min);
+    video->stats.max = i == 0 ? stats->max : std::max(video->stats.max, stats->max);
   }
-  if (Error error = ChooseBlur(video->stats, plan, &video->max_blur)) return error;
+  if (Error error = ChooseBlur(video->stats, plan).MoveTo(&video->max_blur)) return error;
   TellAperture(video->folders[0], plan->aperture);
   return {};
 }
 
 Result<LightField> LoadFrame(const VideoOptions& options, const Video& video, size_t index) {
   const std::string& folder = video.folders[index];
-  starfocus_disparity_stats stats;
   Result<LightField> frame = LoadLightField(folder, video.views);
   if (!frame) return frame;
   if (Error error = CheckSize(folder, frame->disparity, video)) return error;
-  if (Error error = Prepare(options, folder, &frame->disparity, &stats)) return error;
+  if (Error error = Prepare(options, folder, &frame->disparity).error()) return error;
   return frame;
 }
 
-Error RefocusFrames(const VideoOptions& options, const LensPlan& plan, const Video& video,
-                    SeriesReport* report) {
+Result<SeriesReport> RefocusFrames(const VideoOptions& options, const LensPlan& plan,
+                                   const Video& video) {
+  SeriesReport report;
   EngineRun run(plan.options.threads, static_cast<int>(video.folders.size()));
   LightField now, before;
   Image picture;
   for (size_t i = 0; i < video.folders.size(); ++i) {
     const std::string &folder = video.folders[i], out = FramePath(options.out, i);
     before = std::move(now);
-    Result<LightField> frame = LoadFrame(options, video, i);
-    if (!frame) return frame.error();
-    now = std::move(*frame);
+    if (Error error = LoadFrame(options, video, i).MoveTo(&now)) return error;
     const EngineTask task = MakeTask(plan, now, video.stats, video.max_blur, true);
-    EngineResult result;
-    Error error = i == 0 ? run.Start(folder, task) : Error();
-    if (!error) {
-      error = i == 0 ? run.Refocus(folder, task, &result)
-                     : run.RefocusAfter(folder, task, before, picture, &result);
-    }
-    if (!error) error = WriteImage(out, result.picture);
-    if (error) return error;
-    report->Add(out, task, result);
-    picture = std::move(result.picture);
+    if (Error error = i == 0 ? run.Start(folder, task) : Error()) return error;
+    Result<EngineResult> result =
+        i == 0 ? run.Refocus(folder, task) : run.RefocusAfter(folder, task, before, picture);
+    if (!result) return result.error();
+    if (Error error = WriteImage(out, result->picture)) return error;
+    report.Add(out, task, *result);
+    picture = std::move(result->picture);
   }
-  return {};
+  return report;
 }
 
 Error Run(const VideoOptions& options) {
   const double start = Seconds();
-  LensPlan plan;
   Video video;
-  if (Error error = PlanFocus(options.lens, &plan)) return error;
-  if (Error error = PlanLens(options.lens, &plan)) return error;
-  if (Error error = PlanAperture(options.lens.aperture, {}, &plan.aperture)) return error;
-  if (Error error = FindFrames(options, &video)) return error;
-  if (Error error = CheckOutputs(options, video)) return error;
-  if (Error error = Scan(options, &plan, &video)) return error;
-  if (Error error = MakeFolder(options.out)) return error;
-  SeriesReport report;
-  Error error = RefocusFrames(options, plan, video, &report);
-  if (error || options.report.empty()) return error;
-  const std::string text = report.Text(Seconds() - start);
-  return WriteFile(options.report, Bytes(text.begin(), text.end()));
+  Result<LensPlan> plan = PlanLens(options.lens);
+  Error error = plan.error();
+  if (!error) error = PlanAperture(options.lens.aperture, {}).MoveTo(&plan->aperture);
+  if (!error) error = FindFrames(options).MoveTo(&video.folders);
+  if (!error) error = CheckOutputs(options, video);
+  if (!error) error = Scan(options, &*plan, &video);
+  if (!error) error = MakeFolder(options.out);
+  if (error) return error;
+  const Result<SeriesReport> report = RefocusFrames(options, *plan, video);
+  if (!report || options.report.empty()) return report.error();
+  return WriteText(options.report, report->Text(Seconds() - start));
 }
 
 }  // namespace

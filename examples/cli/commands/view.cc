@@ -111,8 +111,7 @@ Error WritePage(const ViewOptions& options, const Capture& capture,
   if (!error && !contents.errors.empty()) {
     error = page.AddFigures(out, "Against the truth", contents.errors, kLarge / 2);
   }
-  const std::string html = page.Html();
-  return error ? error : WriteFile(out, Bytes(html.begin(), html.end()));
+  return error ? error : WriteText(out, page.Html());
 }
 
 // The lenses of the strip, and of the truths that are within the limit of blur.
@@ -146,41 +145,47 @@ Error ForeseeAperture(const Capture& capture, ApertureChoice* aperture) {
   return error;
 }
 
-Error Open(const ViewOptions& options, ApertureChoice* aperture, Capture* capture) {
+// The light field or photo, and its aperture.
+struct Opened {
+  Capture capture;
+  ApertureChoice aperture;
+};
+
+Result<Opened> Open(const ViewOptions& options) {
+  const std::vector<Output> outputs = {{"--output", options.out}};
+  std::vector<std::string> files = {options.input.path, options.input.depth};
+  for (const TruthFile& truth : FindTruths(options.input.path)) files.push_back(truth.path);
+  Opened opened;
+  Capture* const capture = &opened.capture;
   Error error = CheckOutputPath(options.out);
-  if (!error) {
-    std::vector<std::string> files = {options.input.path, options.input.depth};
-    for (const TruthFile& truth : FindTruths(options.input.path)) files.push_back(truth.path);
-    error = CheckApart({{"--output", options.out}}, {{options.input.path}, files, {}});
-  }
-  if (error) return error;
-  Result<Capture> opened = OpenInput(options.input);
-  if (!opened) return opened.error();
-  *capture = std::move(*opened);
-  error = CheckApart({{"--output", options.out}}, {{}, CaptureFiles(*capture)});
-  if (!error) error = PlanAperture(options.aperture, *capture, aperture);
-  if (!error && capture->photo) error = ForeseeAperture(*capture, aperture);
+  if (!error) error = CheckApart(outputs, {{options.input.path}, files, {}});
+  if (!error) error = OpenInput(options.input).MoveTo(capture);
+  if (!error) error = CheckApart(outputs, {{}, CaptureFiles(*capture)});
+  if (!error) error = PlanAperture(options.aperture, *capture).MoveTo(&opened.aperture);
+  if (!error && capture->photo) error = ForeseeAperture(*capture, &opened.aperture);
   if (!error) error = LoadInput({}, options.threads, capture);
-  return !error && !capture->photo ? ForeseeAperture(*capture, aperture) : error;
+  if (!error && !capture->photo) error = ForeseeAperture(*capture, &opened.aperture);
+  if (error) return error;
+  return opened;
 }
 
 Error Run(const ViewOptions& options) {
-  Capture capture;
-  ApertureChoice aperture;
-  if (Error error = Open(options, &aperture, &capture)) return error;
-  starfocus_disparity_stats stats = {}, known = {};
+  Result<Opened> opened = Open(options);
+  if (!opened) return opened.error();
+  Capture& capture = opened->capture;
   const LightField& light_field = capture.light_field;
-  const FloatMap& map = light_field.disparity;
-  starfocus_measure_disparity(map.values.data(), sizeof(float) * size_t(map.width), map.width,
-                              map.height, &known);
+  const int64_t invalid = MeasureDisparity(light_field.disparity).invalid;
   MapOptions care;
-  care.fill = known.invalid > 0;
-  Error error = CareForMap(care, options.threads, &capture);
-  if (!error) error = PrepareDisparity(MapName(capture), map, &stats);
+  care.fill = invalid > 0;
+  starfocus_disparity_stats stats = {};
   Contents contents;
-  if (!error) error = ChooseLenses(capture, stats, &aperture, &contents);
+  Error error = CareForMap(care, options.threads, &capture);
+  if (!error) {
+    error = PrepareDisparity(MapName(capture), light_field.disparity).MoveTo(&stats);
+  }
+  if (!error) error = ChooseLenses(capture, stats, &opened->aperture, &contents);
   if (error) return error;
-  stats.invalid = known.invalid;  // of the map as it is; its holes are filled
+  stats.invalid = invalid;  // of the map as it is; its holes are filled
   error =
       RefocusEach(options.input.path, light_field, stats, options.threads, contents.lenses,
                   [&](size_t i, const Image& picture, const std::vector<starfocus_block>& blocks) {

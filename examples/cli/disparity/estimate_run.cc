@@ -36,67 +36,69 @@ struct Maker {
 
 using Bytes = std::vector<uint8_t>;
 
-// Where a map goes. `confidence` and `coverage` may be null; there may be no coverage.
-struct MadeMap {
-  FloatMap* map;
-  Bytes* confidence;
-  Bytes* coverage;
+// What a map is made of, and what is made beside it.
+struct MapTask {
+  const Images& views;
+  const FloatMap* given;  // is repaired; null: the map is estimated
+  DisparityRange range;
+  bool confidence, coverage;
 };
 
-// Estimates the map, or repairs the given one unless that is null.
-Error MakeMap(const std::string& where, const Images& views, const FloatMap* given,
-              const DisparityRange& range, Maker* maker, const MadeMap& made) {
-  FloatMap* const map = made.map;
-  Bytes *const confidence = made.confidence, *const coverage = made.coverage;
-  const Image& centre = views[0];
-  const char* task = given == nullptr ? "estimate its disparities" : "repair its disparities";
+struct MadeMap {
+  FloatMap map;
+  Bytes confidence, coverage;  // empty: not asked for; there may be no coverage
+};
+
+Result<MadeMap> MakeMap(const std::string& where, const MapTask& task, Maker* maker) {
+  const bool repair = task.given != nullptr;
+  const Image& centre = task.views[0];
   starfocus_depth_config config;
   starfocus_depth_config_init(&config);
   starfocus_problem problem = {};
   config.problem = &problem;
   config.width = centre.width;
   config.height = centre.height;
-  config.views = static_cast<int32_t>(views.size());
-  config.disparity_min = range.min;
-  config.disparity_max = range.max;
+  config.views = static_cast<int32_t>(task.views.size());
+  config.disparity_min = task.range.min;
+  config.disparity_max = task.range.max;
   config.max_workers = maker->pool.workers();
   config.runner = ThreadRunner::Run;
   config.runner_data = &maker->pool;
   config.progress = PictureProgress::Tell;
   config.progress_data = &maker->progress;
   size_t bytes = 0;
-  starfocus_status status = given == nullptr ? starfocus_estimate_workspace_size(&config, &bytes)
-                                             : starfocus_repair_workspace_size(&config, &bytes);
-  if (status == STARFOCUS_ERROR_TOO_LARGE) return OutOfMemory(where, task);
+  MadeMap made = {{centre.width, centre.height, {}}, {}, {}};
+  starfocus_status status = repair ? starfocus_repair_workspace_size(&config, &bytes)
+                                   : starfocus_estimate_workspace_size(&config, &bytes);
+  if (status == STARFOCUS_ERROR_TOO_LARGE) {
+    return OutOfMemory(where, repair ? "repair its disparities" : "estimate its disparities");
+  }
   if (status == STARFOCUS_OK) {
     const Workspace workspace(::operator new (bytes, std::align_val_t{STARFOCUS_ALIGNMENT}));
     starfocus_light_field light_field = {};
-    for (size_t i = 0; i < views.size(); ++i) {
-      light_field.views[i] = starfocus_image_rgb(views[i].row(0), views[i].stride());
+    for (size_t i = 0; i < task.views.size(); ++i) {
+      light_field.views[i] = starfocus_image_rgb(task.views[i].row(0), task.views[i].stride());
     }
     const auto width = size_t(centre.width), pixels = width * size_t(centre.height);
-    map->width = centre.width;
-    map->height = centre.height;
-    map->values.resize(pixels);
-    starfocus_disparity_output out = {
-        map->values.data(), sizeof(float) * width, nullptr, width, nullptr, width, 0};
-    if (confidence != nullptr) {
-      confidence->resize(pixels);
-      out.confidence = confidence->data();
+    made.map.values.resize(pixels);
+    made.confidence.resize(task.confidence ? pixels : 0);
+    made.coverage.resize(task.coverage ? pixels : 0);
+    starfocus_disparity_output out = {made.map.values.data(),
+                                      made.map.stride(),
+                                      task.confidence ? made.confidence.data() : nullptr,
+                                      width,
+                                      task.coverage ? made.coverage.data() : nullptr,
+                                      width,
+                                      0};
+    if (repair) {
+      light_field.depth = starfocus_depth_float(task.given->values.data(), task.given->stride(),
+                                                task.given->width, task.given->height);
     }
-    if (coverage != nullptr) {
-      coverage->resize(pixels);
-      out.coverage = coverage->data();
-    }
-    if (given != nullptr) {
-      light_field.depth = starfocus_depth_float(given->values.data(), sizeof(float) * width,
-                                                given->width, given->height);
-    }
-    const auto make = given == nullptr ? starfocus_estimate_disparity : starfocus_repair_disparity;
+    const auto make = repair ? starfocus_repair_disparity : starfocus_estimate_disparity;
     status = make(&config, &light_field, &out, workspace.get(), bytes);
-    if (coverage != nullptr && out.has_coverage == 0) coverage->clear();
+    if (out.has_coverage == 0) made.coverage.clear();
   }
-  if (status == STARFOCUS_OK) return {};
+  if (status == STARFOCUS_OK) return made;
   return Error::Internal(where, "views whose disparities it can make",
                          Describe(status, &problem).text);
 }
@@ -155,14 +157,11 @@ Result<DisparityRange> FindRange(const std::string& where, const LightField& lig
       std::min(static_cast<float>(small[0].width) / 8,
                static_cast<float>(STARFOCUS_MAX_DISPARITY) / static_cast<float>(factor));
   Maker maker(threads, "looking for the disparities");
-  FloatMap map;
-  Bytes confidence;
-  if (Error error =
-          MakeMap(where, small, nullptr, {-most, most}, &maker, {&map, &confidence, nullptr}))
-    return error;
+  const Result<MadeMap> made = MakeMap(where, {small, nullptr, {-most, most}, true, false}, &maker);
+  if (!made) return made.error();
   std::vector<float> sure;
-  for (size_t i = 0; i < map.values.size(); ++i) {
-    if (confidence[i] >= kLeastConfidence) sure.push_back(map.values[i]);
+  for (size_t i = 0; i < made->confidence.size(); ++i) {
+    if (made->confidence[i] >= kLeastConfidence) sure.push_back(made->map.values[i]);
   }
   if (sure.empty()) sure.push_back(0);  // one colour: whatever its disparity
   std::sort(sure.begin(), sure.end());
@@ -177,22 +176,16 @@ Result<DisparityEstimate> EstimateDisparity(const std::string& where, const Ligh
                                             const DisparityRange& range, int threads) {
   const Images views = StarOf(light_field);
   Maker maker(threads, "estimating disparities");
-  Bytes confidence;
-  DisparityEstimate estimate;
-  const MadeMap made = {&estimate.map, &confidence, nullptr};
-  const Error error = MakeMap(where, views, nullptr, range, &maker, made);
-  if (error) return error;
-  estimate.confidence = DrawLevels(confidence, views[0]);
-  return estimate;
+  Result<MadeMap> made = MakeMap(where, {views, nullptr, range, true, false}, &maker);
+  if (!made) return made.error();
+  return DisparityEstimate{std::move(made->map), range, DrawLevels(made->confidence, views[0]), {}};
 }
 
-Error RepairDisparity(const std::string& where, int threads, bool covers, LightField* light_field,
-                      Image* confidence) {
-  const FloatMap& given = light_field->disparity;
-  starfocus_disparity_stats stats = {};
-  const starfocus_status status = starfocus_measure_disparity(
-      given.values.data(), sizeof(float) * size_t(given.width), given.width, given.height, &stats);
-  if (status != STARFOCUS_OK || stats.invalid == int64_t{given.width} * given.height) {
+Result<DisparityEstimate> RepairDisparity(const std::string& where, const LightField& light_field,
+                                          const RepairOptions& options) {
+  const FloatMap& given = light_field.disparity;
+  const starfocus_disparity_stats stats = MeasureDisparity(given);
+  if (stats.invalid == int64_t{given.width} * given.height) {
     return Expected(where, "a disparity map with a value", "none");
   }
   constexpr double kMost = STARFOCUS_MAX_DISPARITY;
@@ -202,15 +195,18 @@ Error RepairDisparity(const std::string& where, int threads, bool covers, LightF
   }
   const DisparityRange range = {float(std::max(stats.min - kRepairReach, -kMost)),
                                 float(std::min(stats.max + kRepairReach, kMost))};
-  Maker maker(threads, "repairing disparities");
-  FloatMap map;
-  Bytes sure;
-  const MadeMap made = {&map, confidence == nullptr ? nullptr : &sure,
-                        covers ? &light_field->coverage : nullptr};
-  if (Error error = MakeMap(where, StarOf(*light_field), &given, range, &maker, made)) return error;
-  if (confidence != nullptr) *confidence = DrawLevels(sure, light_field->views[0]);
-  light_field->disparity = std::move(map);
-  return {};
+  const Images views = StarOf(light_field);
+  Maker maker(options.threads, "repairing disparities");
+  Result<MadeMap> made =
+      MakeMap(where, {views, &given, range, options.confidence, options.coverage}, &maker);
+  if (!made) return made.error();
+  DisparityEstimate estimate;
+  if (options.confidence) estimate.confidence = DrawLevels(made->confidence, views[0]);
+  estimate.map = std::move(made->map);
+  estimate.coverage = std::move(made->coverage);
+  const auto ends = std::minmax_element(estimate.map.values.begin(), estimate.map.values.end());
+  estimate.range = {*ends.first, *ends.second};
+  return estimate;
 }
 
 }  // namespace starfocus

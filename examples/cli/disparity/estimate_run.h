@@ -23,8 +23,14 @@ struct DisparityRange {
 
 struct DisparityEstimate {
   FloatMap map;
-  Image confidence;  // gray: 0 unknown, 255 sure (starfocus_estimate_disparity)
-  Image coverage;    // of a repair, gray; empty: none was asked for, or found
+  DisparityRange range;           // that was looked for; of a repair, that of the map
+  Image confidence;               // gray: 0 unknown, 255 sure (starfocus_estimate_disparity)
+  std::vector<uint8_t> coverage;  // of a repair; empty: none was asked for, or found
+};
+
+struct RepairOptions {
+  int threads = 1;
+  bool coverage = false, confidence = false;  // what is made beside the map
 };
 
 // A gray picture of the size of `centre`, of a level for each pixel: confidence or coverage.
@@ -45,11 +51,10 @@ Result<DisparityRange> FindRange(const std::string& where, const LightField& lig
 Result<DisparityEstimate> EstimateDisparity(const std::string& where, const LightField& light_field,
                                             const DisparityRange& range, int threads);
 
-// Repairs the map of a light field by the star among its views, which may be the centre alone. If
-// `covers`, its coverage becomes what the repair finds, which may be none. `confidence` may be
-// null. Errors are about `where`.
-Error RepairDisparity(const std::string& where, int threads, bool covers, LightField* light_field,
-                      Image* confidence);
+// Repairs the map of a light field by the star among its views, which may be the centre alone, with
+// a progress line. Errors are about `where`.
+Result<DisparityEstimate> RepairDisparity(const std::string& where, const LightField& light_field,
+                                          const RepairOptions& options);
 
 }  // namespace starfocus
 

@@ -13,23 +13,6 @@ namespace {
 
 constexpr int kStreamRows = 8;  // pushed and pulled at a time
 
-// The light field from row `first` on.
-starfocus_light_field Rows(const LightField& light_field, int first) {
-  starfocus_light_field rows = {};
-  for (size_t i = 0; i < light_field.views.size(); ++i) {
-    const Image& view = light_field.views[i];
-    rows.views[i] = starfocus_image_rgb(view.row(first), view.stride());
-  }
-  const FloatMap& map = light_field.disparity;
-  rows.depth = starfocus_depth_float(map.values.data() + size_t(first) * size_t(map.width),
-                                     sizeof(float) * size_t(map.width), map.width, map.height);
-  if (!light_field.coverage.empty()) {
-    rows.coverage = light_field.coverage.data() + size_t(first) * size_t(map.width);
-    rows.coverage_stride = size_t(map.width);
-  }
-  return rows;
-}
-
 // What the engine could refuse, the program has looked at before; the address space alone limits
 // sizes beyond that.
 Error Outcome(const std::string& where, starfocus_status status, const starfocus_problem* problem) {
@@ -84,21 +67,20 @@ Error EngineRun::Prepare(const std::string& where, const EngineTask& task) {
   }
   status = SetCallbacks(task, false);
   if (status != STARFOCUS_OK) return Outcome(where, status, starfocus_engine_problem(engine_));
-  const starfocus_light_field rows = Rows(*task.light_field, 0);
+  const starfocus_light_field rows = EngineRows(*task.light_field);
   status = starfocus_prepare(engine_, &rows, prepared_memory_.get(), prepared_bytes_, &prepared_);
   return Outcome(where, status, starfocus_engine_problem(engine_));
 }
 
-Error EngineRun::Refocus(const std::string& where, const EngineTask& task, EngineResult* result) {
-  return Run(where, task, nullptr, result);
+Result<EngineResult> EngineRun::Refocus(const std::string& where, const EngineTask& task) {
+  return Run(where, task, nullptr);
 }
 
-Error EngineRun::RefocusAfter(const std::string& where, const EngineTask& task,
-                              const LightField& before, const Image& picture,
-                              EngineResult* result) {
+Result<EngineResult> EngineRun::RefocusAfter(const std::string& where, const EngineTask& task,
+                                             const LightField& before, const Image& picture) {
   const starfocus_previous previous = {
-      Rows(before, 0), starfocus_image_rgb(picture.pixels.data(), picture.stride())};
-  return Run(where, task, &previous, result);
+      EngineRows(before), starfocus_image_rgb(picture.pixels.data(), picture.stride())};
+  return Run(where, task, &previous);
 }
 
 starfocus_status EngineRun::SetCallbacks(const EngineTask& task, bool is_picture) {
@@ -119,7 +101,7 @@ starfocus_status EngineRun::RunStream(const EngineTask& task, EngineResult* resu
   while (status == STARFOCUS_OK && pulled < out->height) {
     int32_t consumed = 0, written = 0;
     if (pushed < out->height) {
-      const starfocus_light_field rows = Rows(*task.light_field, pushed);
+      const starfocus_light_field rows = EngineRows(*task.light_field, pushed);
       status = starfocus_stream_push(engine_, &rows, std::min(kStreamRows, out->height - pushed),
                                      &consumed);
       pushed += consumed;
@@ -134,15 +116,16 @@ starfocus_status EngineRun::RunStream(const EngineTask& task, EngineResult* resu
   return status;
 }
 
-Error EngineRun::Run(const std::string& where, const EngineTask& task,
-                     const starfocus_previous* previous, EngineResult* result) {
+Result<EngineResult> EngineRun::Run(const std::string& where, const EngineTask& task,
+                                    const starfocus_previous* previous) {
   const starfocus_region& region = task.params.region;
-  Image& out = result->picture;
+  EngineResult result;
+  Image& out = result.picture;
   out = region.width > 0 ? Image(region.width, region.height)
                          : Image(task.config.width, task.config.height);
-  result->workspace_bytes = workspace_bytes_;
-  result->prepared_bytes = prepared_bytes_;
-  const starfocus_light_field rows = Rows(*task.light_field, 0);
+  result.workspace_bytes = workspace_bytes_;
+  result.prepared_bytes = prepared_bytes_;
+  const starfocus_light_field rows = EngineRows(*task.light_field);
   const starfocus_image to = starfocus_image_rgb(out.pixels.data(), out.stride());
   starfocus_params params = task.params;
   params.previous = previous;
@@ -150,14 +133,15 @@ Error EngineRun::Run(const std::string& where, const EngineTask& task,
   if (status != STARFOCUS_OK) return Outcome(where, status, starfocus_engine_problem(engine_));
   const double start = Seconds();
   if (task.stream) {
-    status = RunStream(task, result);
+    status = RunStream(task, &result);
   } else if (prepared_ != nullptr) {
-    status = starfocus_refocus_prepared(engine_, &params, prepared_, &to, &result->report);
+    status = starfocus_refocus_prepared(engine_, &params, prepared_, &to, &result.report);
   } else {
-    status = starfocus_refocus(engine_, &params, &rows, &to, &result->report);
+    status = starfocus_refocus(engine_, &params, &rows, &to, &result.report);
   }
-  result->seconds = Seconds() - start;
-  return Outcome(where, status, starfocus_engine_problem(engine_));
+  result.seconds = Seconds() - start;
+  if (Error error = Outcome(where, status, starfocus_engine_problem(engine_))) return error;
+  return result;
 }
 
 }  // namespace starfocus

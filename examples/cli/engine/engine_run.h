@@ -54,11 +54,11 @@ class EngineRun {
   // Prepares the task's light field for all further calls of Refocus.
   Error Prepare(const std::string& where, const EngineTask& task);
 
-  Error Refocus(const std::string& where, const EngineTask& task, EngineResult* result);
+  Result<EngineResult> Refocus(const std::string& where, const EngineTask& task);
 
   // As Refocus, after `before`, of which `picture` was made with the same params.
-  Error RefocusAfter(const std::string& where, const EngineTask& task, const LightField& before,
-                     const Image& picture, EngineResult* result);
+  Result<EngineResult> RefocusAfter(const std::string& where, const EngineTask& task,
+                                    const LightField& before, const Image& picture);
 
   // The threads of the engine, for other work between its pictures.
   ThreadRunner* runner() { return &runner_; }
@@ -67,8 +67,8 @@ class EngineRun {
   // The task's callbacks, with the threads and, for a picture, the progress line.
   starfocus_status SetCallbacks(const EngineTask& task, bool is_picture);
   starfocus_status RunStream(const EngineTask& task, EngineResult* result);
-  Error Run(const std::string& where, const EngineTask& task, const starfocus_previous* previous,
-            EngineResult* result);
+  Result<EngineResult> Run(const std::string& where, const EngineTask& task,
+                           const starfocus_previous* previous);
 
   ThreadRunner runner_;
   PictureProgress progress_;

@@ -8,8 +8,8 @@ namespace starfocus {
 namespace {
 
 // Coefficient `name` of the object, in picoseconds.
-Error ReadCoefficient(const std::string& path, const JsonObject& object, const std::string& name,
-                      uint32_t* value) {
+Result<uint32_t> ReadCoefficient(const std::string& path, const JsonObject& object,
+                                 const std::string& name) {
   const auto expected = [&](const std::string& found) {
     return Expected(
         path,
@@ -21,8 +21,7 @@ Error ReadCoefficient(const std::string& path, const JsonObject& object, const s
     if (!member.is_whole || member.whole > STARFOCUS_MAX_TIMING) {
       return expected(member.text.substr(0, 60));
     }
-    *value = static_cast<uint32_t>(member.whole);
-    return {};
+    return static_cast<uint32_t>(member.whole);
   }
   return expected("none");
 }
@@ -45,8 +44,8 @@ Result<starfocus_timing> ReadTiming(const std::string& path) {
   }
   starfocus_timing timing = {};
   for (const TimingTerm& term : kTimingTerms) {
-    if (Error error = ReadCoefficient(path, object, term.name, &(timing.*term.coefficient)))
-      return error;
+    Error error = ReadCoefficient(path, object, term.name).MoveTo(&(timing.*term.coefficient));
+    if (error) return error;
   }
   for (const JsonMember& member : object.members) {
     bool known = false;

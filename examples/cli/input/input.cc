@@ -183,16 +183,22 @@ Error CareForMap(const MapOptions& options, int threads, Capture* capture) {
   if (capture->map_path.empty()) return {};
   if (WillRepair(options, *capture)) {
     // Coverage that was given stays.
-    const bool covers = capture->light_field.coverage.empty();
-    return RepairDisparity(MapName(*capture), threads, covers, &capture->light_field, nullptr);
+    LightField& light_field = capture->light_field;
+    const bool covers = light_field.coverage.empty();
+    Result<DisparityEstimate> repaired =
+        RepairDisparity(MapName(*capture), light_field, {threads, covers, false});
+    if (!repaired) return repaired.error();
+    light_field.disparity = std::move(repaired->map);
+    if (covers) light_field.coverage = std::move(repaired->coverage);
+    return {};
   }
   if (!options.fill && capture->care == MapCare::kNone) return {};
   return FillHoles(MapName(*capture), &capture->light_field.disparity);
 }
 
 Error FillHoles(const std::string& where, FloatMap* map) {
-  const starfocus_status status = starfocus_fill_disparity(
-      map->values.data(), sizeof(float) * size_t(map->width), map->width, map->height);
+  const starfocus_status status =
+      starfocus_fill_disparity(map->values.data(), map->stride(), map->width, map->height);
   return status == STARFOCUS_OK
              ? Error()
              : Expected(where, "a disparity map", starfocus_status_string(status));

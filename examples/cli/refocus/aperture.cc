@@ -75,28 +75,27 @@ std::string WhatFits(double range, const ApertureChoice& aperture) {
 
 }  // namespace
 
-Error PlanAperture(const ApertureOptions& options, const Capture& capture,
-                   ApertureChoice* aperture) {
+Result<ApertureChoice> PlanAperture(const ApertureOptions& options, const Capture& capture) {
   if (options.aperture && options.f_stop) {
     return Error::Usage("--f-stop", "either --aperture U or --f-stop N", "both");
   }
   if (options.widest && !options.f_stop) {
     return Error::Usage("--widest", "--f-stop N beside it", "none");
   }
-  *aperture = {};
-  if (capture.widest > 0) aperture->widest = capture.widest;
-  if (capture.f_stop > 0) aperture->radius = capture.widest / capture.f_stop;
-  if (options.aperture) aperture->radius = *options.aperture;
-  if (options.widest) aperture->widest = *options.widest;
-  if (options.f_stop && starfocus_aperture_of_f_stop(*options.f_stop, aperture->widest,
-                                                     &aperture->radius) != STARFOCUS_OK) {
-    return Error::Usage("--f-stop", "an f-stop from the widest on, " + Short(aperture->widest),
+  ApertureChoice aperture;
+  if (capture.widest > 0) aperture.widest = capture.widest;
+  if (capture.f_stop > 0) aperture.radius = capture.widest / capture.f_stop;
+  if (options.aperture) aperture.radius = *options.aperture;
+  if (options.widest) aperture.widest = *options.widest;
+  if (options.f_stop && starfocus_aperture_of_f_stop(*options.f_stop, aperture.widest,
+                                                     &aperture.radius) != STARFOCUS_OK) {
+    return Error::Usage("--f-stop", "an f-stop from the widest on, " + Short(aperture.widest),
                         Short(*options.f_stop));
   }
-  aperture->strength = options.strength.value_or(100) / 100;
-  aperture->radius *= aperture->strength;
-  NameOption(options, aperture);
-  return {};
+  aperture.strength = options.strength.value_or(100) / 100;
+  aperture.radius *= aperture.strength;
+  NameOption(options, &aperture);
+  return aperture;
 }
 
 double FarthestFromFocus(const starfocus_disparity_stats& stats, const std::vector<double>& foci) {

@@ -29,8 +29,7 @@ struct ApertureChoice {
 };
 
 // Reads the options, whose default is the f-stop of the input, if it has one, else radius 1.
-Error PlanAperture(const ApertureOptions& options, const Capture& capture,
-                   ApertureChoice* aperture);
+Result<ApertureChoice> PlanAperture(const ApertureOptions& options, const Capture& capture);
 
 // Largest difference between a disparity of the map and one of the foci.
 double FarthestFromFocus(const starfocus_disparity_stats& stats, const std::vector<double>& foci);

@@ -112,11 +112,12 @@ bool IsBatch(const std::vector<std::string>& inputs, const std::string& out) {
          FormatExtension(out).empty() && !IsLightField(inputs[0]);
 }
 
-Error PlanBatch(const std::vector<std::string>& inputs, const std::string& folder,
-                std::vector<BatchItem>* items) {
+Result<std::vector<BatchItem>> PlanBatch(const std::vector<std::string>& inputs,
+                                         const std::string& folder) {
   if (IsPictureExtension(FormatExtension(folder))) {
     return Error::Usage("--output", "a folder for the pictures of several inputs", folder);
   }
+  std::vector<BatchItem> items;
   std::vector<Output> outputs;
   Inputs read;
   for (const std::string& input : inputs) {
@@ -129,14 +130,15 @@ Error PlanBatch(const std::vector<std::string>& inputs, const std::string& folde
       return Expected(input, "a light field, or photographs or such in it", "none");
     for (const std::string& part : parts) {
       std::error_code ignored;
-      items->push_back({part, OutputOf(part, folder)});
-      outputs.push_back({"--output", items->back().output});
+      items.push_back({part, OutputOf(part, folder)});
+      outputs.push_back({"--output", items.back().output});
       (fs::is_directory(part, ignored) ? read.folders : read.files).push_back(part);
     }
   }
   if (Error error = CheckFolderApart({"--output", folder}, read.folders)) return error;
   if (Error error = CheckApart(outputs, read)) return error;
-  return MakeFolder(folder);
+  if (Error error = MakeFolder(folder)) return error;
+  return items;
 }
 
 Error RunBatch(const std::vector<BatchItem>& items, int jobs,

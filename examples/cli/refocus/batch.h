@@ -23,8 +23,8 @@ bool IsBatch(const std::vector<std::string>& inputs, const std::string& out);
 // .ppm or .webp; .jpg of other files and .png of light fields. In place of a folder that is no
 // light field stand the photographs and light fields in it. Refuses outputs of one name and those
 // that are inputs, then makes the folder.
-Error PlanBatch(const std::vector<std::string>& inputs, const std::string& folder,
-                std::vector<BatchItem>* items);
+Result<std::vector<BatchItem>> PlanBatch(const std::vector<std::string>& inputs,
+                                         const std::string& folder);
 
 // Runs all of them, `jobs` at a time, with a progress line. The error of each is told on stderr
 // where it happens; the one that is returned names the inputs that failed.

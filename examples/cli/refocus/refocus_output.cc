@@ -113,9 +113,8 @@ Error WriteRefocused(const OutputOptions& options, const PictureOptions& how, do
   photo.focus = task.params.lens.focus;
   photo.aperture = task.params.lens.aperture;
   photo.widest = widest;
-  const Result<Bytes> bytes =
-      EncodeDepthPhoto(options.out, picture, photo, how.quality, how.metadata);
-  return bytes ? WriteFile(options.out, *bytes) : bytes.error();
+  return WriteFile(options.out,
+                   EncodeDepthPhoto(options.out, picture, photo, how.quality, how.metadata));
 }
 
 Error WritePair(const OutputOptions& options, const PictureOptions& how,
@@ -126,9 +125,8 @@ Error WritePair(const OutputOptions& options, const PictureOptions& how,
     index.levels.reserve(map.size());
     std::transform(map.begin(), map.end(), std::back_inserter(index.levels),
                    [&](float disparity) { return Nearest(foci, disparity); });
-    const Result<Bytes> bytes = EncodeGreyPng(options.focus_index, index);
-    if (!bytes) return bytes.error();
-    if (Error error = WriteFile(options.focus_index, *bytes)) return error;
+    Error error = WriteFile(options.focus_index, EncodeGreyPng(options.focus_index, index));
+    if (error) return error;
   }
   if (options.all_in_focus.empty()) return {};
   return WriteImage(options.all_in_focus, light_field.views[0], how);
@@ -142,16 +140,18 @@ StackWriter::StackWriter(const OutputOptions& options, const PictureOptions& how
   }
 }
 
-Error StackWriter::Add(Image picture, std::string* name) {
+Result<std::string> StackWriter::Add(Image picture) {
   if (animation_) {
-    *name = out_;
-    return animation_->Add(picture);
+    if (Error error = animation_->Add(picture)) return error;
+    return out_;
   }
-  *name = NumberedName(out_, pictures_++);
+  const std::string name = NumberedName(out_, pictures_++);
   const size_t bytes = std::max(size_t{1}, picture.pixels.size());
   const size_t most = std::min(static_cast<size_t>(runner_->workers()), kMostWaiting / bytes);
-  waiting_.push_back({*name, std::move(picture), {}});
-  return waiting_.size() >= most ? WriteWaiting() : Error();
+  waiting_.push_back({name, std::move(picture), {}});
+  if (waiting_.size() < most) return name;
+  if (Error error = WriteWaiting()) return error;
+  return name;
 }
 
 void StackWriter::Write(void* self, int32_t index, int32_t) {
@@ -171,9 +171,7 @@ Error StackWriter::WriteWaiting() {
 }
 
 Error StackWriter::Finish() {
-  if (!animation_) return WriteWaiting();
-  const Result<Bytes> bytes = animation_->Finish(how_.metadata);
-  return bytes ? WriteFile(out_, *bytes) : bytes.error();
+  return animation_ ? WriteFile(out_, animation_->Finish(how_.metadata)) : WriteWaiting();
 }
 
 }  // namespace starfocus

@@ -48,8 +48,8 @@ class StackWriter {
  public:
   StackWriter(const OutputOptions& options, const PictureOptions& how, ThreadRunner* runner);
 
-  // Takes the picture; `name` is that of its file, which may be written by a later call.
-  Error Add(Image picture, std::string* name);
+  // Takes the picture. Returns the name of its file, which may be written by a later call.
+  Result<std::string> Add(Image picture);
   Error Finish();
 
  private:

@@ -43,9 +43,9 @@ void AddOpticsOptions(Command* command, LensOptions* options) {
   AddShapeOptions(command, &options->shape);
 }
 
-// The disparity at a pixel of the picture, whose unknown neighbours are filled. Returns false where
-// nothing around is known.
-bool FocusAround(const FloatMap& map, int x, int y, double* focus) {
+// The disparity at a pixel of the picture, whose unknown neighbours are filled. None where nothing
+// around is known.
+std::optional<double> FocusAround(const FloatMap& map, int x, int y) {
   constexpr int kAround = 16;  // pixels: more than starfocus_focus_at looks at
   const int left = std::max(0, x - kAround), top = std::max(0, y - kAround);
   FloatMap part;
@@ -56,11 +56,14 @@ bool FocusAround(const FloatMap& map, int x, int y, double* focus) {
       part.values.push_back(map.at(column, row));
     }
   }
-  const size_t stride = sizeof(float) * size_t(part.width);
-  return starfocus_fill_disparity(part.values.data(), stride, part.width, part.height) ==
-             STARFOCUS_OK &&
-         starfocus_focus_at(part.values.data(), stride, part.width, part.height, x - left, y - top,
-                            focus) == STARFOCUS_OK;
+  float* const values = part.values.data();
+  double focus = 0;
+  if (starfocus_fill_disparity(values, part.stride(), part.width, part.height) != STARFOCUS_OK ||
+      starfocus_focus_at(values, part.stride(), part.width, part.height, x - left, y - top,
+                         &focus) != STARFOCUS_OK) {
+    return {};
+  }
+  return focus;
 }
 
 Error CheckPixel(int width, int height, const LensPlan& plan) {
@@ -158,32 +161,25 @@ void AddLensOptions(Command* command, LensOptions* options) {
       command);
 }
 
-Error PlanLens(const LensOptions& options, LensPlan* plan) {
-  plan->options = options;
-  starfocus_config_init(&plan->config);
-  if (Error error = ParseShape(options.shape, &plan->lens)) return error;
-  if (plan->lens.shape == STARFOCUS_SHAPE_POLYGON || plan->lens.cats_eye > 0) {
-    plan->config.features |= STARFOCUS_FEATURE_SHAPES;
-  }
-  if (options.timing.empty()) return {};
-  const Result<starfocus_timing> timing = ReadTiming(options.timing);
-  plan->config.tuning.timing = *timing;
-  return timing.error();
-}
-
-Error PlanFocus(const LensOptions& options, LensPlan* plan) {
+Result<LensPlan> PlanLens(const LensOptions& options) {
   if (options.focus && options.focus_at) {
     return Error::Usage("--focus", "either --focus D or --focus-at X,Y", "both");
   }
+  LensPlan plan;
+  plan.options = options;
   if (options.focus_at) {
-    plan->focus_option = "--focus-at";
-    plan->x = options.focus_at->x;
-    plan->y = options.focus_at->y;
+    UseFocus({true, options.focus_at->x, options.focus_at->y, 0, ""}, &plan);
   } else if (options.focus) {
-    plan->focus_option = "--focus";
-    plan->foci = {*options.focus};
+    UseFocus({false, 0, 0, *options.focus, ""}, &plan);
   }
-  return {};
+  starfocus_config_init(&plan.config);
+  if (Error error = ParseShape(options.shape).MoveTo(&plan.lens)) return error;
+  if (plan.lens.shape == STARFOCUS_SHAPE_POLYGON || plan.lens.cats_eye > 0) {
+    plan.config.features |= STARFOCUS_FEATURE_SHAPES;
+  }
+  if (options.timing.empty()) return plan;
+  if (Error error = ReadTiming(options.timing).MoveTo(&plan.config.tuning.timing)) return error;
+  return plan;
 }
 
 void UseFocus(const DefaultFocus& focus, LensPlan* plan) {
@@ -202,19 +198,15 @@ Error CheckRenderer(const std::string& where, const LensPlan& plan, const Positi
                       "line-scan for the " + std::to_string(views.size()) + " views of " + where);
 }
 
-Error PrepareDisparity(const std::string& where, const FloatMap& map,
-                       starfocus_disparity_stats* stats) {
-  const starfocus_status status = starfocus_measure_disparity(
-      map.values.data(), sizeof(float) * size_t(map.width), map.width, map.height, stats);
-  if (status != STARFOCUS_OK)
-    return Expected(where, "a disparity map", starfocus_status_string(status));
-  if (stats->invalid != 0) {
-    return Expected(where, "finite disparities", FirstInvalid(map, stats->invalid));
+Result<starfocus_disparity_stats> PrepareDisparity(const std::string& where, const FloatMap& map) {
+  const starfocus_disparity_stats stats = MeasureDisparity(map);
+  if (stats.invalid != 0) {
+    return Expected(where, "finite disparities", FirstInvalid(map, stats.invalid));
   }
-  const double largest = std::max(std::fabs(double(stats->min)), std::fabs(double(stats->max)));
-  if (largest <= STARFOCUS_MAX_DISPARITY) return {};
+  const double largest = std::max(std::fabs(double(stats.min)), std::fabs(double(stats.max)));
+  if (largest <= STARFOCUS_MAX_DISPARITY) return stats;
   return Expected(where, "disparities within +-" + Short(STARFOCUS_MAX_DISPARITY),
-                  Short(stats->min) + " to " + Short(stats->max));
+                  Short(stats.min) + " to " + Short(stats.max));
 }
 
 Error ChooseFocus(const FloatMap& map, LensPlan* plan) {
@@ -222,8 +214,8 @@ Error ChooseFocus(const FloatMap& map, LensPlan* plan) {
   double focus = 0;
   if (Error error = CheckPixel(map.width, map.height, *plan)) return error;
   // The map is a good one (PrepareDisparity).
-  starfocus_focus_at(map.values.data(), sizeof(float) * size_t(map.width), map.width, map.height,
-                     plan->x, plan->y, &focus);
+  starfocus_focus_at(map.values.data(), map.stride(), map.width, map.height, plan->x, plan->y,
+                     &focus);
   plan->foci = {focus};
   return {};
 }
@@ -236,16 +228,13 @@ Error ForeseeBlur(const LightField& light_field, bool repaired, LensPlan* plan) 
     if (Error error = CheckPixel(picture.width, picture.height, *plan)) return error;
     const auto x = static_cast<int>(int64_t{plan->x} * map.width / picture.width);
     const auto y = static_cast<int>(int64_t{plan->y} * map.height / picture.height);
-    foci.resize(1);
-    if (!FocusAround(map, x, y, &foci[0])) return {};
+    const std::optional<double> focus = FocusAround(map, x, y);
+    if (!focus) return {};
+    foci = {*focus};
   }
-  starfocus_disparity_stats stats = {};
+  starfocus_disparity_stats stats = MeasureDisparity(map);
   // Where nothing is known, the care of the map reports it.
-  if (starfocus_measure_disparity(map.values.data(), sizeof(float) * size_t(map.width), map.width,
-                                  map.height, &stats) != STARFOCUS_OK ||
-      stats.invalid == int64_t{map.width} * map.height) {
-    return {};
-  }
+  if (stats.invalid == int64_t{map.width} * map.height) return {};
   if (repaired) {
     stats.min -= kRepairReach;
     stats.max += kRepairReach;
@@ -253,16 +242,15 @@ Error ForeseeBlur(const LightField& light_field, bool repaired, LensPlan* plan) 
   return FitAperture(FarthestFromFocus(stats, foci), &plan->aperture);
 }
 
-Error ChooseBlur(const starfocus_disparity_stats& stats, LensPlan* plan, double* max_blur) {
+Result<double> ChooseBlur(const starfocus_disparity_stats& stats, LensPlan* plan) {
   for (const double focus : plan->foci) {
     if (std::fabs(focus) <= STARFOCUS_MAX_FOCUS) continue;
     return Error::Usage(plan->focus_option, "a disparity within +-" + Short(STARFOCUS_MAX_FOCUS),
                         Short(focus));
   }
   const double range = FarthestFromFocus(stats, plan->foci);
-  const Error error = FitAperture(range, &plan->aperture);
-  *max_blur = std::max(1.0, std::ceil(plan->aperture.radius * range));
-  return error;
+  if (Error error = FitAperture(range, &plan->aperture)) return error;
+  return std::max(1.0, std::ceil(plan->aperture.radius * range));
 }
 
 EngineTask MakeTask(const LensPlan& plan, const LightField& light_field,

@@ -51,18 +51,16 @@ struct LensPlan {
   starfocus_lens lens = {};      // the shape of the opening, and defaults
 };
 
-// All that can be refused before a light field is read, but for the aperture and the focus.
-Error PlanLens(const LensOptions& options, LensPlan* plan);
-// --focus or --focus-at, if one of them is there.
-Error PlanFocus(const LensOptions& options, LensPlan* plan);
+// All that can be refused before a light field is read, but for the aperture: --focus or
+// --focus-at, if one of them is there, the shape and the timing.
+Result<LensPlan> PlanLens(const LensOptions& options);
 void UseFocus(const DefaultFocus& focus, LensPlan* plan);
 
 // Checks that the renderer is one for these views: line scans need a star.
 Error CheckRenderer(const std::string& where, const LensPlan& plan, const Positions& views);
 
 // Measures a map, which is to have no holes. Errors are about `where`.
-Error PrepareDisparity(const std::string& where, const FloatMap& map,
-                       starfocus_disparity_stats* stats);
+Result<starfocus_disparity_stats> PrepareDisparity(const std::string& where, const FloatMap& map);
 
 // The disparity of what is at the chosen pixel, if the focus depends on it.
 Error ChooseFocus(const FloatMap& map, LensPlan* plan);
@@ -73,7 +71,7 @@ Error ForeseeBlur(const LightField& light_field, bool repaired, LensPlan* plan);
 
 // Fits the aperture to the blur of the map that is used. Returns the largest blur radius of any
 // focus, rounded up to whole pixels.
-Error ChooseBlur(const starfocus_disparity_stats& stats, LensPlan* plan, double* max_blur);
+Result<double> ChooseBlur(const starfocus_disparity_stats& stats, LensPlan* plan);
 
 // The task of the first focus; with a clock when it is to be reported.
 EngineTask MakeTask(const LensPlan& plan, const LightField& light_field,

@@ -7,6 +7,7 @@
 #include "examples/cli/pictures/shrink.h"
 #include "examples/command_line/options.h"
 #include "platform/base64.h"
+#include "platform/text.h"
 #include "platform/writers/jpeg.h"
 
 namespace starfocus {
@@ -40,26 +41,9 @@ constexpr char kHead[] =
     "svg text { fill: var(--text); font-size: 14px; } svg line { stroke: var(--soft); }\n"
     "</style>\n";
 
-std::string Escape(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) {
-    if (c == '&') {
-      escaped += "&amp;";
-    } else if (c == '<') {
-      escaped += "&lt;";
-    } else if (c == '>') {
-      escaped += "&gt;";
-    } else if (c == '"') {
-      escaped += "&quot;";
-    } else {
-      escaped += c;
-    }
-  }
-  return escaped;
-}
-
 std::string Row(const std::string& name, const std::string& value) {
-  return "<tr><th scope=\"row\">" + Escape(name) + "</th><td>" + Escape(value) + "</td></tr>\n";
+  return "<tr><th scope=\"row\">" + EscapeXml(name) + "</th><td>" + EscapeXml(value) +
+         "</td></tr>\n";
 }
 
 std::string Bar(int bar, int64_t count, int64_t most) {
@@ -73,8 +57,8 @@ std::string Bar(int bar, int64_t count, int64_t most) {
 }  // namespace
 
 Page::Page(const std::string& title, const Bytes& icc)
-    : head_("<meta charset=\"utf-8\">\n<title>" + Escape(title) + "</title>\n" + kHead),
-      body_("<h1>" + Escape(title) + "</h1>\n"),
+    : head_("<meta charset=\"utf-8\">\n<title>" + EscapeXml(title) + "</title>\n" + kHead),
+      body_("<h1>" + EscapeXml(title) + "</h1>\n"),
       icc_(icc) {}
 
 void Page::AddTable(const std::vector<std::pair<std::string, std::string>>& rows) {
@@ -85,15 +69,15 @@ void Page::AddTable(const std::vector<std::pair<std::string, std::string>>& rows
 
 Error Page::AddFigures(const std::string& path, const std::string& heading,
                        const std::vector<PageFigure>& figures, int width) {
-  body_ += "<section>\n<h2>" + Escape(heading) + "</h2>\n<div class=\"figures\">\n";
+  body_ += "<section>\n<h2>" + EscapeXml(heading) + "</h2>\n<div class=\"figures\">\n";
   for (const PageFigure& figure : figures) {
     const Image small = Shrink(figure.picture, width);
     const Result<Bytes> jpeg = EncodeJpeg(path, small, kQuality, {{}, icc_}, {});
     if (!jpeg) return jpeg.error();
     body_ += "<figure style=\"max-width: " + std::to_string(small.width) + "px\"><img width=\"" +
              std::to_string(small.width) + "\" height=\"" + std::to_string(small.height) +
-             "\" alt=\"" + Escape(figure.says) + "\" src=\"data:image/jpeg;base64," +
-             EncodeBase64(*jpeg) + "\"><figcaption>" + Escape(figure.caption) +
+             "\" alt=\"" + EscapeXml(figure.says) + "\" src=\"data:image/jpeg;base64," +
+             EncodeBase64(*jpeg) + "\"><figcaption>" + EscapeXml(figure.caption) +
              "</figcaption></figure>\n";
   }
   body_ += "</div>\n</section>\n";
@@ -111,7 +95,7 @@ void Page::AddHistogram(const std::string& heading, const std::vector<int64_t>& 
     return std::string(text);
   };
   const std::string width = std::to_string(bars * kBarWidth), axis = std::to_string(kBarsHeight);
-  body_ += "<section>\n<h2>" + Escape(heading) + "</h2>\n<svg viewBox=\"0 0 " + width + " " +
+  body_ += "<section>\n<h2>" + EscapeXml(heading) + "</h2>\n<svg viewBox=\"0 0 " + width + " " +
            std::to_string(kBarsHeight + 24) +
            "\" role=\"img\" aria-label=\"Pixels by disparity, from " + edge(0) +
            ", the farthest, to " + edge(bars) + ", the nearest; the numbers are in the table\">\n";

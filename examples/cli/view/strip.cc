@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <iterator>
+#include <optional>
 
 #include "examples/cli/refocus/partition_map.h"
 #include "examples/cli/refocus/refocus_plan.h"
@@ -17,13 +18,15 @@ namespace {
 namespace fs = std::filesystem;
 
 // truth_dt<D>_ut<U>.png and nothing else: other shapes of the opening are named behind it.
-bool ParseTruthName(const fs::path& name, LensAt* lens) {
+std::optional<LensAt> ParseTruthName(const fs::path& name) {
   const std::string stem = name.stem().string();
+  LensAt lens;
   int end = 0;
   const int parts =
-      std::sscanf(stem.c_str(), "truth_dt%lf_ut%lf%n", &lens->focus, &lens->aperture, &end);
-  return parts == 2 && size_t(end) == stem.size() && name.extension() == ".png" &&
-         std::fabs(lens->focus) <= STARFOCUS_MAX_FOCUS && lens->aperture > 0 && lens->aperture <= 1;
+      std::sscanf(stem.c_str(), "truth_dt%lf_ut%lf%n", &lens.focus, &lens.aperture, &end);
+  const bool whole = parts == 2 && size_t(end) == stem.size() && name.extension() == ".png";
+  if (!whole || std::fabs(lens.focus) > STARFOCUS_MAX_FOCUS) return {};
+  return lens.aperture > 0 && lens.aperture <= 1 ? std::optional(lens) : std::nullopt;
 }
 
 // Whether the folder's meta.txt says that pictures average codes.
@@ -62,10 +65,8 @@ std::vector<TruthFile> FindTruths(const std::string& folder) {
   std::vector<TruthFile> truths;
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(folder, ignored)) {
-    TruthFile truth;
-    if (!ParseTruthName(entry.path().filename(), &truth.lens)) continue;
-    truth.path = entry.path().string();
-    truths.push_back(truth);
+    const std::optional<LensAt> lens = ParseTruthName(entry.path().filename());
+    if (lens) truths.push_back({entry.path().string(), *lens});
   }
   std::sort(truths.begin(), truths.end(),
             [](const TruthFile& a, const TruthFile& b) { return a.path < b.path; });
@@ -78,14 +79,14 @@ Error RefocusEach(
     const std::function<Error(size_t, const Image&, const std::vector<starfocus_block>&)>& show) {
   LensOptions options;
   options.transfer = TransferOf(where);
-  LensPlan plan;
+  Result<LensPlan> plan = PlanLens(options);
+  if (!plan) return plan.error();
   double max_blur = 1;
-  if (Error error = PlanLens(options, &plan)) return error;
   for (const LensAt& lens : lenses) {
     max_blur = std::max(max_blur, std::ceil(BlurOf(lens, stats)));
-    plan.foci.push_back(lens.focus);
+    plan->foci.push_back(lens.focus);
   }
-  EngineTask task = MakeTask(plan, light_field, stats, max_blur, false);
+  EngineTask task = MakeTask(*plan, light_field, stats, max_blur, false);
   std::vector<starfocus_block> blocks;
   task.threads = threads;
   task.callbacks.on_block = CollectBlock;
@@ -98,7 +99,7 @@ Error RefocusEach(
     task.params.lens.aperture = lenses[i].aperture;
     blocks.clear();
     EngineResult result;
-    error = run.Refocus(where, task, &result);
+    error = run.Refocus(where, task).MoveTo(&result);
     if (!error) error = show(i, result.picture, blocks);
   }
   return error;

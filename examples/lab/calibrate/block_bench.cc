@@ -31,10 +31,8 @@ starfocus_config MakeConfig(const LightField& light_field, const starfocus_dispa
 Error BlockBench::Open(const std::string& where, const LightField& light_field) {
   light_field_ = &light_field;
   const FloatMap& map = light_field.disparity;
-  starfocus_disparity_stats stats = {};
-  starfocus_status status = starfocus_measure_disparity(
-      map.values.data(), sizeof(float) * size_t(map.width), map.width, map.height, &stats);
-  if (status == STARFOCUS_OK && stats.invalid != 0) status = STARFOCUS_ERROR_NOT_FINITE;
+  const starfocus_disparity_stats stats = MeasureDisparity(map);
+  starfocus_status status = stats.invalid != 0 ? STARFOCUS_ERROR_NOT_FINITE : STARFOCUS_OK;
   starfocus_engine* engine = nullptr;
   size_t bytes = 0;
   if (status == STARFOCUS_OK) {
@@ -63,8 +61,8 @@ void BlockBench::HoldDisparity() {
   const FloatMap& map = light_field_->disparity;
   disparity_.resize(map.values.size() + simd::kPadding);
   engine_->row_store.disparity = {disparity_.data(), size_t(map.width), 0, 0};
-  const starfocus_depth_map given = starfocus_depth_float(
-      map.values.data(), sizeof(float) * size_t(map.width), map.width, map.height);
+  const starfocus_depth_map given =
+      starfocus_depth_float(map.values.data(), map.stride(), map.width, map.height);
   const DepthSource source = MakeDepthSource(engine_->config, given, nullptr);
   for (int y = 0; y < map.height; ++y) {
     // The range is the map's own, so that no value can be outside.

@@ -21,18 +21,14 @@ struct AnalyzeOptions {
   int max_blur = 40;
 };
 
-Error WriteText(const fs::path& path, const std::string& text) {
-  return WriteFile(path.string(), Bytes(text.begin(), text.end()));
-}
-
 Error Write(const fs::path& folder, const Figure& figure, bool draw) {
   for (const Table& table : figure.tables) {
-    if (Error error = WriteText(folder / (table.name() + ".csv"), table.Csv())) return error;
+    const std::string path = (folder / (table.name() + ".csv")).string();
+    if (Error error = WriteText(path, table.Csv())) return error;
   }
   if (!draw || figure.name.empty()) return {};
-  const Result<Bytes> picture = RunGnuplot(figure.name + ".svg", figure.Script());
-  if (!picture) return picture.error();
-  return WriteFile((folder / (figure.name + ".svg")).string(), *picture);
+  const std::string name = figure.name + ".svg";
+  return WriteFile((folder / name).string(), RunGnuplot(name, figure.Script()));
 }
 
 Error Run(const AnalyzeOptions& options) {

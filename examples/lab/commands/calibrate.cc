@@ -25,10 +25,9 @@ struct CalibrateOptions {
   std::string out, folder, check;
 };
 
-Error Trace(const std::string& name, SceneTimes* times) {
+LightField Trace(const std::string& name) {
   ThreadRunner runner(starfocus_pool_cores());
-  Scene scene;
-  MakeScene(name, &scene);
+  const Scene scene = MakeScene(name).value();
   const RayTracer renderer(scene, kWidth, kHeight, STARFOCUS_TRANSFER_SRGB, &runner);
   LightField light_field;
   {
@@ -40,32 +39,38 @@ Error Trace(const std::string& name, SceneTimes* times) {
     }
   }
   light_field.disparity = renderer.Disparity();
-  return times->Open(name, std::move(light_field));
+  return light_field;
 }
 
-Error Load(const std::string& folder, SceneTimes* times) {
+Result<LightField> Load(const std::string& folder) {
   InputOptions input;
   input.path = folder;
   Result<Capture> capture = OpenInput(input);
   if (!capture) return capture.error();
   if (Error error = LoadInput({}, 1, &*capture)) return error;
-  return times->Open(folder, std::move(capture->light_field));
+  return std::move(capture->light_field);
 }
 
 using Scenes = std::vector<std::unique_ptr<SceneTimes>>;
 
 // The scene to fit first, then those to check.
-Error OpenScenes(const CalibrateOptions& options, Scenes* scenes) {
-  const auto add = [&](const std::string& folder, const std::string& name) {
-    scenes->push_back(std::make_unique<SceneTimes>());
-    return folder.empty() ? Trace(name, scenes->back().get()) : Load(folder, scenes->back().get());
+Result<Scenes> OpenScenes(const CalibrateOptions& options) {
+  Scenes scenes;
+  const auto add = [&](const std::string& folder, const std::string& name) -> Error {
+    Result<LightField> light_field = folder.empty() ? Trace(name) : Load(folder);
+    if (!light_field) return light_field.error();
+    scenes.push_back(std::make_unique<SceneTimes>());
+    return scenes.back()->Open(folder.empty() ? name : folder, std::move(*light_field));
   };
-  if (Error error = add(options.folder, "portrait")) return error;
-  if (!options.check.empty()) return add(options.check, "");
-  for (const char* name : {"wires", "ramp"}) {
-    if (Error error = add("", name)) return error;
+  Error error = add(options.folder, "portrait");
+  if (!options.check.empty()) {
+    if (!error) error = add(options.check, "");
+  } else {
+    if (!error) error = add("", "wires");
+    if (!error) error = add("", "ramp");
   }
-  return {};
+  if (error) return error;
+  return scenes;
 }
 
 // In turns, so that a slow spell of the machine meets all scenes and sizes alike.
@@ -113,9 +118,10 @@ Error CheckOutput(const CalibrateOptions& options) {
 }
 
 Error Calibrate(const CalibrateOptions& options) {
-  Scenes scenes;
   if (Error error = CheckOutput(options)) return error;
-  if (Error error = OpenScenes(options, &scenes)) return error;
+  const Result<Scenes> opened = OpenScenes(options);
+  if (!opened) return opened.error();
+  const Scenes& scenes = *opened;
   Measure(scenes);
   const starfocus_timing timing = FitTiming(scenes[0]->Configurations());
   PrintCoefficients(timing);
@@ -128,9 +134,7 @@ Error Calibrate(const CalibrateOptions& options) {
     checks.Add(Judge("check", *scenes[i], timing));
   }
   json.Set("checks", std::move(checks));
-  if (options.out.empty()) return {};
-  const std::string text = json.Text(2) + "\n";
-  return WriteFile(options.out, Bytes(text.begin(), text.end()));
+  return options.out.empty() ? Error() : WriteText(options.out, json.Text(2) + "\n");
 }
 
 }  // namespace

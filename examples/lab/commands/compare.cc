@@ -10,6 +10,7 @@
 #include "examples/lab/commands.h"
 #include "platform/image_io.h"
 #include "platform/standard_stream.h"
+#include "platform/text.h"
 
 namespace starfocus {
 namespace {
@@ -18,10 +19,6 @@ struct CompareOptions {
   std::string first, second, map;
   bool json = false;
 };
-
-std::string SizeText(const Image& image) {
-  return std::to_string(image.width) + "x" + std::to_string(image.height);
-}
 
 Error CheckMap(const CompareOptions& options) {
   if (options.map.empty()) return {};
@@ -39,7 +36,8 @@ Error Run(const CompareOptions& options) {
   if (!second) return second.error();
   const Image &a = *first, &b = *second;
   if (a.width != b.width || a.height != b.height) {
-    return Expected(options.second, SizeText(a) + " as " + options.first, SizeText(b));
+    return Expected(options.second, SizeText(a.width, a.height) + " as " + options.first,
+                    SizeText(b.width, b.height));
   }
   const Difference difference = MeasureDifference(a, b);
   if (!options.map.empty()) {

@@ -15,6 +15,7 @@
 #include "examples/scene/render.h"
 #include "platform/image_io.h"
 #include "platform/light_field.h"
+#include "platform/text.h"
 #include "platform/writers/png.h"
 #include "starfocus/starfocus.h"
 
@@ -29,7 +30,7 @@ constexpr char kSceneNames[] = "portrait, wires, ramp, lamps, hair or grass";
 constexpr char kCoverageFile[] = "coverage.png";
 
 struct Truth {
-  double focus, aperture;
+  double focus = 0, aperture = 1;
 };
 
 struct SceneOptions {
@@ -46,10 +47,10 @@ struct SceneOptions {
 struct Plan {
   Scene scene;
   std::vector<Truth> truths;
-  starfocus_lens lens;  // of the truths, but for focus and aperture
+  starfocus_lens lens = {};  // of the truths, but for focus and aperture
 };
 
-Error ParseTruth(const std::string& text, Truth* truth) {
+Result<Truth> ParseTruth(const std::string& text) {
   const std::vector<double> numbers = ReadNumbers(text, ',');
   if (numbers.size() != 2 || std::fabs(numbers[0]) > STARFOCUS_MAX_DISPARITY || !(numbers[1] > 0) ||
       numbers[1] > 1) {
@@ -58,32 +59,33 @@ Error ParseTruth(const std::string& text, Truth* truth) {
                             " and aperture above 0 and at most 1",
                         "'" + text + "'");
   }
-  *truth = {numbers[0], numbers[1]};
-  return {};
+  return Truth{numbers[0], numbers[1]};
 }
 
-Error ChooseScene(const SceneOptions& options, Scene* scene) {
-  if (!MakeScene(options.name, scene, uint32_t(options.seed.value_or(kSceneSeed)))) {
-    return Error::Usage("--name", kSceneNames, "'" + options.name + "'");
-  }
+Result<Scene> ChooseScene(const SceneOptions& options) {
+  std::optional<Scene> scene = MakeScene(options.name, uint32_t(options.seed.value_or(kSceneSeed)));
+  if (!scene) return Error::Usage("--name", kSceneNames, "'" + options.name + "'");
   if (options.seed && !scene->seeded) {
     return Error::Usage("--seed", "the scene hair or grass", "'" + options.name + "'");
   }
-  return {};
+  return std::move(*scene);
 }
 
-Error MakePlan(const SceneOptions& options, Plan* plan) {
-  if (Error error = ChooseScene(options, &plan->scene)) return error;
+Result<Plan> MakePlan(const SceneOptions& options) {
+  Plan plan;
+  if (Error error = ChooseScene(options).MoveTo(&plan.scene)) return error;
   const auto& [width, height] = options.size;
   if (width < 1 || height < 1 || int64_t(width) * height > kMostPixels) {
     return Error::Usage("--size", "WxH from 1x1 to " + std::to_string(kMostPixels) + " pixels",
-                        "'" + std::to_string(width) + "x" + std::to_string(height) + "'");
+                        "'" + SizeText(width, height) + "'");
   }
   for (const std::string& text : options.truths) {
-    plan->truths.emplace_back();
-    if (Error error = ParseTruth(text, &plan->truths.back())) return error;
+    const Result<Truth> truth = ParseTruth(text);
+    if (!truth) return truth.error();
+    plan.truths.push_back(*truth);
   }
-  return ParseShape(options.shape, &plan->lens);
+  if (Error error = ParseShape(options.shape).MoveTo(&plan.lens)) return error;
+  return plan;
 }
 
 // Views of an earlier, larger set or in another format would mix with the new ones, and so would
@@ -111,7 +113,7 @@ Error CheckFolder(const SceneOptions& options, const Plan& plan) {
 std::string MetaText(const SceneOptions& options, const Plan& plan, const RayTracer& renderer,
                      const FloatMap& disparity) {
   std::string text = "scene: " + plan.scene.name + ", " + plan.scene.description + "\n";
-  text += "size: " + std::to_string(options.size.x) + "x" + std::to_string(options.size.y) + "\n";
+  text += "size: " + SizeText(options.size.x, options.size.y) + "\n";
   text += "views: " + std::to_string(options.views.size()) + "\n";
   text += std::string("transfer: ") +
           (options.transfer == STARFOCUS_TRANSFER_NONE ? "none" : "srgb") + "\n";
@@ -145,7 +147,6 @@ std::string MetaText(const SceneOptions& options, const Plan& plan, const RayTra
 
 struct Pictures {
   LightField light_field;
-  GreyImage coverage;  // if the scene has a foreground
   std::vector<Image> truths;
 };
 
@@ -161,30 +162,22 @@ Pictures Render(const SceneOptions& options, const Plan& plan, const RayTracer& 
     pictures.light_field.views.push_back(renderer.View(view.u, view.v, &progress));
   }
   pictures.light_field.disparity = renderer.Disparity();
-  if (covers) pictures.coverage = renderer.Coverage(&progress);
+  if (covers) pictures.light_field.coverage = renderer.Coverage(&progress);
   for (const Truth& truth : plan.truths) {
     pictures.truths.push_back(renderer.Truth(truth.focus, truth.aperture, opening, &progress));
   }
   return pictures;
 }
 
-Error SaveCoverage(const std::string& folder, const GreyImage& coverage) {
-  const std::string path = (fs::path(folder) / kCoverageFile).string();
-  const Result<Bytes> png = EncodeGreyPng(path, coverage);
-  return png ? WriteFile(path, *png) : png.error();
-}
-
 Error Run(const SceneOptions& options) {
-  Plan plan;
-  if (Error error = MakePlan(options, &plan)) return error;
+  const Result<Plan> made = MakePlan(options);
+  if (!made) return made.error();
+  const Plan& plan = *made;
   if (Error error = CheckFolder(options, plan)) return error;
   ThreadRunner runner(options.threads);
   const RayTracer renderer(plan.scene, options.size.x, options.size.y, options.transfer, &runner);
   const Pictures pictures = Render(options, plan, renderer);
   Error error = SaveLightField(options.folder, pictures.light_field, &runner);
-  if (!error && plan.scene.HasForeground()) {
-    error = SaveCoverage(options.folder, pictures.coverage);
-  }
   for (size_t i = 0; i < pictures.truths.size() && !error; ++i) {
     const std::string name = "truth_dt" + Short(plan.truths[i].focus) + "_ut" +
                              Short(plan.truths[i].aperture) + ShapeSuffix(options.shape) + ".png";
@@ -192,8 +185,7 @@ Error Run(const SceneOptions& options) {
   }
   if (error) return error;
   const std::string meta = MetaText(options, plan, renderer, pictures.light_field.disparity);
-  return WriteFile((fs::path(options.folder) / "meta.txt").string(),
-                   Bytes(meta.begin(), meta.end()));
+  return WriteText((fs::path(options.folder) / "meta.txt").string(), meta);
 }
 
 }  // namespace
