@@ -51,20 +51,6 @@ Container CheckPng(const Bytes& bytes, bool checksums) {
   return Container::kTruncated;
 }
 
-enum Marker : uint8_t {
-  kStuffed = 0x00,  // a byte of coded data, 0xff
-  kTemporary = 0x01,
-  kHuffmanTables = 0xc4,
-  kFirstRestart = 0xd0,
-  kLastRestart = 0xd7,
-  kEndOfImage = 0xd9
-};
-
-bool HasNoLength(uint8_t marker) {
-  return marker == kStuffed || marker == kTemporary ||
-         (marker >= kFirstRestart && marker <= kLastRestart);
-}
-
 // The Huffman tables in [at, end): each has a byte of its class, 16 numbers of codes and the codes'
 // values. stb_image 2.27 writes beyond its table when there are more than 256.
 Container CheckHuffmanTables(const Bytes& bytes, size_t at, size_t end) {
@@ -77,26 +63,16 @@ Container CheckHuffmanTables(const Bytes& bytes, size_t at, size_t end) {
   return Container::kWhole;
 }
 
-// stb_image fills the missing part of a truncated JPEG with grey. Between the segments lies coded
-// data, where a 0xff is stuffed or restarts the coder.
+// stb_image fills the missing part of a truncated JPEG with grey.
 Container CheckJpeg(const Bytes& bytes) {
-  for (size_t at = sizeof(kJpegSignature); at + 1 < bytes.size();) {
-    if (bytes[at] != 0xff || bytes[at + 1] == 0xff) {
-      ++at;
-      continue;
-    }
-    const uint8_t marker = bytes[at + 1];
-    at += 2;
-    if (HasNoLength(marker)) continue;
-    if (marker == kEndOfImage) return Container::kWhole;
-    if (at + 2 > bytes.size()) break;
-    const size_t end = at + size_t(bytes[at]) * 256 + bytes[at + 1];
-    if (end > bytes.size()) break;
-    if (marker == kHuffmanTables) {
-      const Container tables = CheckHuffmanTables(bytes, at + 2, end);
-      if (tables != Container::kWhole) return tables;
-    }
-    at = end;
+  constexpr uint8_t kHuffmanTables = 0xc4;
+  size_t at = sizeof(kJpegSignature);
+  while (const auto segment = NextJpegSegment(bytes.data(), bytes.size(), at)) {
+    if (segment->marker == kJpegEndOfImage) return Container::kWhole;
+    at = segment->end;
+    if (segment->marker != kHuffmanTables) continue;
+    const Container tables = CheckHuffmanTables(bytes, segment->begin, segment->end);
+    if (tables != Container::kWhole) return tables;
   }
   return Container::kTruncated;
 }
@@ -150,6 +126,24 @@ std::string DescribeFile(const Bytes& bytes) {
   const bool blank = std::all_of(bytes.begin(), bytes.end(), [](uint8_t c) { return c == 0; });
   if (blank) return "a file of zeros";
   return IsText(bytes) ? "a text file" : "a file of an unknown format";
+}
+
+std::optional<JpegSegment> NextJpegSegment(const uint8_t* jpeg, size_t size, size_t at) {
+  constexpr uint8_t kStuffed = 0x00, kTemporary = 0x01, kFirstRestart = 0xd0, kLastRestart = 0xd7;
+  for (; at + 1 < size; ++at) {
+    const uint8_t marker = jpeg[at + 1];
+    if (jpeg[at] != 0xff || marker == 0xff) continue;
+    if (marker == kJpegEndOfImage) return JpegSegment{marker, at + 2, at + 2};
+    if (marker == kStuffed || marker == kTemporary ||
+        (marker >= kFirstRestart && marker <= kLastRestart)) {
+      ++at;
+      continue;
+    }
+    if (at + 4 > size) break;
+    const size_t end = at + 2 + size_t(jpeg[at + 2]) * 256 + jpeg[at + 3];
+    return end <= size ? std::optional(JpegSegment{marker, at + 4, end}) : std::nullopt;
+  }
+  return {};
 }
 
 uint32_t ReadBigEndian32(const uint8_t* bytes) {

@@ -4,6 +4,7 @@
 #define STARFOCUS_PLATFORM_CONTAINER_H_
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "platform/file.h"
@@ -35,6 +36,17 @@ bool MayBePicture(const Bytes& beginning);
 
 // Whether the file begins as a PNG file does.
 bool IsPng(const Bytes& bytes);
+
+// A segment of a JPEG file: its marker, and where what follows its length begins and ends.
+struct JpegSegment {
+  uint8_t marker;
+  size_t begin, end;
+};
+constexpr uint8_t kJpegEndOfImage = 0xd9;  // a marker without a length
+
+// The first segment from byte `at` on. Coded data lies between segments, where 0xff is stuffed or
+// restarts the coder. None if the file ends before the segment does.
+std::optional<JpegSegment> NextJpegSegment(const uint8_t* jpeg, size_t size, size_t at);
 
 // The whole number in four bytes, the highest first.
 uint32_t ReadBigEndian32(const uint8_t* bytes);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "platform/container.h"
+
 namespace starfocus {
 namespace {
 
@@ -155,8 +157,7 @@ CodedSize HevcSize(Span configuration, const Bytes& head) {
     }
   }
   for (size_t from = 0; from + 4 < head.size();) {  // units with their size in four bytes
-    const size_t size = size_t{head[from]} << 24 | size_t{head[from + 1]} << 16 |
-                        size_t{head[from + 2]} << 8 | head[from + 3];
+    const size_t size = ReadBigEndian32(&head[from]);
     from += 4;
     const size_t held = std::min(size, head.size() - from);
     ReadParameterSet({head.data() + from, held}, &most);

@@ -15,16 +15,7 @@ namespace {
 constexpr size_t kMostSegments = 4096;  // 256 MiB of them
 constexpr size_t kGuidSize = 32;
 
-enum Marker : uint8_t {
-  kStuffed = 0x00,
-  kTemporary = 0x01,
-  kFirstRestart = 0xd0,
-  kLastRestart = 0xd7,
-  kEndOfImage = 0xd9,
-  kApp1 = 0xe1,
-  kApp2 = 0xe2,
-  kApp13 = 0xed
-};
+constexpr uint8_t kApp1 = 0xe1, kApp2 = 0xe2, kApp13 = 0xed;
 
 // The rest of a segment that begins with `name` and its zero byte.
 template <size_t kSize>
@@ -115,11 +106,6 @@ bool SameHex(const std::string& a, const std::string& b) {
   return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), same);
 }
 
-bool HasNoLength(uint8_t marker) {
-  return marker == kStuffed || marker == kTemporary ||
-         (marker >= kFirstRestart && marker <= kLastRestart);
-}
-
 }  // namespace
 
 bool IsJpeg(Span file) {
@@ -130,35 +116,26 @@ Result<JpegParts> ReadJpegParts(const std::string& where, Span file) {
   JpegParts result;
   std::vector<Span> profile, resources;
   size_t segments = 0;
-  for (size_t at = 2; at + 1 < file.size;) {
-    const uint8_t marker = file.data[at + 1];
-    if (file.data[at] != 0xff || marker == 0xff) {
-      ++at;
-      continue;
-    }
-    at += 2;
-    if (HasNoLength(marker)) continue;
-    if (marker == kEndOfImage) {
+  size_t at = 2;
+  while (const auto next = NextJpegSegment(file.data, file.size, at)) {
+    at = next->end;
+    if (next->marker == kJpegEndOfImage) {
       result.end = at;
       JoinProfile(std::move(profile), &result);
       result.metadata.iptc = FindIptc(resources);
       return result;
     }
-    if (at + 2 > file.size) break;
-    const size_t length = size_t(file.data[at]) * 256 + file.data[at + 1];
-    if (length > file.size - at) break;
-    if (length < 2) {
+    if (next->end < next->begin) {
       return Expected(where, "an undamaged JPEG file",
-                      "a segment of " + std::to_string(length) + " bytes");
+                      "a segment of " + std::to_string(next->end + 2 - next->begin) + " bytes");
     }
     if (++segments > kMostSegments) {
       return Expected(where, "at most " + std::to_string(kMostSegments) + " segments", "more");
     }
-    Span segment = {file.data + at + 2, length - 2};
-    if (marker == kApp1) TakeApp1(segment, &result);
-    if (marker == kApp2) TakeApp2(segment, &profile, &result);
-    if (marker == kApp13 && Strip("Photoshop 3.0", &segment)) resources.push_back(segment);
-    at += length;
+    Span segment = {file.data + next->begin, next->end - next->begin};
+    if (next->marker == kApp1) TakeApp1(segment, &result);
+    if (next->marker == kApp2) TakeApp2(segment, &profile, &result);
+    if (next->marker == kApp13 && Strip("Photoshop 3.0", &segment)) resources.push_back(segment);
   }
   return Truncated(where, "JPEG");
 }
