@@ -10,10 +10,6 @@
 
 namespace starfocus {
 
-void Camera::FreeAligned::operator()(void* memory) const {
-  ::operator delete (memory, std::align_val_t{STARFOCUS_ALIGNMENT});
-}
-
 Error Camera::Load(const std::string& folder, starfocus_mode mode) {
   if (Error error = LoadLightField(folder, {}).MoveTo(&light_field_)) return error;
   FloatMap& map = light_field_.disparity;
@@ -31,8 +27,7 @@ Error Camera::Load(const std::string& folder, starfocus_mode mode) {
     return Expected(DisparityPath(folder), "disparities no further than 1000 pixels apart",
                     std::to_string(range));
   }
-  starfocus_config config;
-  starfocus_config_init(&config);
+  Config config;
   config.width = light_field_.width();
   config.height = light_field_.height();
   ConfigureViews(light_field_, &config);
@@ -42,35 +37,29 @@ Error Camera::Load(const std::string& folder, starfocus_mode mode) {
   config.max_workers = runner_.workers();
   starfocus_problem problem = {};
   config.problem = &problem;
-  status = starfocus_workspace_size(&config, &bytes_);
-  if (status == STARFOCUS_OK) {
-    workspace_.reset(::operator new (bytes_, std::align_val_t{STARFOCUS_ALIGNMENT}));
-    status = starfocus_init(&config, workspace_.get(), bytes_, &engine_);
-  }
+  status = engine_.Init(config);
   if (status == STARFOCUS_OK) {
     starfocus_callbacks callbacks = {};
     callbacks.runner = ThreadRunner::Run;
     callbacks.runner_data = &runner_;
-    status = starfocus_set_callbacks(engine_, &callbacks);
+    status = engine_.SetCallbacks(callbacks);
   }
   if (status != STARFOCUS_OK) {
     return Expected(folder, "a light field that the engine refocuses",
                     Describe(status, &problem).text);
   }
-  rows_ = EngineRows(light_field_);
   picture_ = Image(config.width, config.height);
   mode_ = mode;
   return {};
 }
 
 starfocus_status Camera::Take(double focus, double aperture) {
-  starfocus_params params;
-  starfocus_params_init(&params);
+  Params params;
   params.mode = mode_;
   params.lens.focus = focus;
   params.lens.aperture = aperture;
-  const starfocus_image out = starfocus_image_rgb(picture_.pixels.data(), picture_.stride());
-  return starfocus_refocus(engine_, &params, &rows_, &out, nullptr);
+  return engine_.Refocus(params, EngineRows(light_field_),
+                         starfocus_image_rgb(picture_.pixels.data(), picture_.stride()));
 }
 
 }  // namespace starfocus

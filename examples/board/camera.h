@@ -3,7 +3,6 @@
 #ifndef STARFOCUS_EXAMPLES_BOARD_CAMERA_H_
 #define STARFOCUS_EXAMPLES_BOARD_CAMERA_H_
 
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -11,7 +10,7 @@
 #include "platform/light_field.h"
 #include "platform/result.h"
 #include "platform/runner.h"
-#include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
 
 namespace starfocus {
 
@@ -26,25 +25,18 @@ class Camera {
   double farthest() const { return stats_.min; }
   // Apertures that the engine's largest blur allows, the widest first.
   const std::vector<double>& apertures() const { return apertures_; }
-  size_t workspace_bytes() const { return bytes_; }
+  size_t workspace_bytes() const { return engine_.workspace_bytes(); }
 
   // Refocuses; the result is picture().
   starfocus_status Take(double focus, double aperture);
   const Image& picture() const { return picture_; }
 
  private:
-  struct FreeAligned {
-    void operator()(void* memory) const;
-  };
-
   ThreadRunner runner_;
   LightField light_field_;
-  starfocus_light_field rows_ = {};
   starfocus_disparity_stats stats_ = {};
   std::vector<double> apertures_;
-  std::unique_ptr<void, FreeAligned> workspace_;
-  size_t bytes_ = 0;
-  starfocus_engine* engine_ = nullptr;
+  Engine engine_;
   starfocus_mode mode_ = STARFOCUS_MODE_FRAME;
   Image picture_;
 };

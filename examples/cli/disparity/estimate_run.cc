@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <memory>
+#include <new>
 
-#include "examples/cli/engine/engine_run.h"
 #include "examples/command_line/options.h"
 #include "platform/file.h"
 #include "platform/problem.h"
@@ -35,6 +36,12 @@ struct Maker {
 };
 
 using Bytes = std::vector<uint8_t>;
+
+struct FreeAligned {
+  void operator()(void* memory) const {
+    ::operator delete (memory, std::align_val_t{STARFOCUS_ALIGNMENT});
+  }
+};
 
 // What a map is made of, and what is made beside it.
 struct MapTask {
@@ -74,7 +81,8 @@ Result<MadeMap> MakeMap(const std::string& where, const MapTask& task, Maker* ma
     return OutOfMemory(where, repair ? "repair its disparities" : "estimate its disparities");
   }
   if (status == STARFOCUS_OK) {
-    const Workspace workspace(::operator new (bytes, std::align_val_t{STARFOCUS_ALIGNMENT}));
+    const std::unique_ptr<void, FreeAligned> workspace(
+        ::operator new (bytes, std::align_val_t{STARFOCUS_ALIGNMENT}));
     starfocus_light_field light_field = {};
     for (size_t i = 0; i < task.views.size(); ++i) {
       light_field.views[i] = starfocus_image_rgb(task.views[i].row(0), task.views[i].stride());

@@ -2,7 +2,6 @@
 #include "examples/cli/engine/engine_run.h"
 
 #include <algorithm>
-#include <new>
 
 #include "platform/clock.h"
 #include "platform/file.h"
@@ -15,30 +14,18 @@ constexpr int kStreamRows = 8;  // pushed and pulled at a time
 
 // What the engine could refuse, the program has looked at before; the address space alone limits
 // sizes beyond that.
-Error Outcome(const std::string& where, starfocus_status status, const starfocus_problem* problem) {
+Error Outcome(const std::string& where, starfocus_status status, const starfocus_problem* problem,
+              size_t bytes = 0) {
   if (status == STARFOCUS_OK) return {};
   if (status == STARFOCUS_ERROR_TOO_LARGE) return OutOfMemory(where, "refocus it");
+  if (status == STARFOCUS_ERROR_MEMORY) {
+    return OutOfMemory(where, "refocus it (" + std::to_string(bytes) + " bytes at once)");
+  }
   return Error::Internal(where, "a light field that the engine refocuses",
                          Describe(status, problem).text);
 }
 
-Error NoMemory(const std::string& where, size_t bytes) {
-  return OutOfMemory(where, "refocus it (" + std::to_string(bytes) + " bytes at once)");
-}
-
 }  // namespace
-
-void FreeAligned::operator()(void* memory) const {
-  ::operator delete (memory, std::align_val_t{STARFOCUS_ALIGNMENT});
-}
-
-starfocus_status MakeEngine(const starfocus_config& config, Workspace* workspace, size_t* bytes,
-                            starfocus_engine** engine) {
-  const starfocus_status status = starfocus_workspace_size(&config, bytes);
-  if (status != STARFOCUS_OK) return status;
-  workspace->reset(::operator new (*bytes, std::align_val_t{STARFOCUS_ALIGNMENT}));
-  return starfocus_init(&config, workspace->get(), *bytes, engine);
-}
 
 EngineRun::EngineRun(int threads, int pictures)
     : runner_(threads), progress_("refocusing", pictures) {}
@@ -49,27 +36,17 @@ Error EngineRun::Start(const std::string& where, const EngineTask& task) {
   if (task.stream) config.features |= STARFOCUS_FEATURE_STREAMING;
   starfocus_problem problem = {};
   config.problem = &problem;
-  try {
-    const starfocus_status status = MakeEngine(config, &workspace_, &workspace_bytes_, &engine_);
-    return Outcome(where, status, &problem);
-  } catch (const std::bad_alloc&) {
-    return NoMemory(where, workspace_bytes_);
-  }
+  const starfocus_status status = engine_.Init(config);
+  size_t bytes = 0;
+  if (status == STARFOCUS_ERROR_MEMORY) starfocus_workspace_size(&config, &bytes);
+  return Outcome(where, status, &problem, bytes);
 }
 
 Error EngineRun::Prepare(const std::string& where, const EngineTask& task) {
-  starfocus_status status = starfocus_prepared_size(&task.config, &prepared_bytes_);
-  if (status != STARFOCUS_OK) return Outcome(where, status, nullptr);
-  try {
-    prepared_memory_.reset(::operator new (prepared_bytes_, std::align_val_t{STARFOCUS_ALIGNMENT}));
-  } catch (const std::bad_alloc&) {
-    return NoMemory(where, prepared_bytes_);
-  }
-  status = SetCallbacks(task, false);
-  if (status != STARFOCUS_OK) return Outcome(where, status, starfocus_engine_problem(engine_));
-  const starfocus_light_field rows = EngineRows(*task.light_field);
-  status = starfocus_prepare(engine_, &rows, prepared_memory_.get(), prepared_bytes_, &prepared_);
-  return Outcome(where, status, starfocus_engine_problem(engine_));
+  starfocus_status status = SetCallbacks(task, false);
+  if (status == STARFOCUS_OK) status = engine_.Prepare(EngineRows(*task.light_field));
+  starfocus_prepared_size(&task.config, &prepared_bytes_);
+  return Outcome(where, status, engine_.problem(), prepared_bytes_);
 }
 
 Result<EngineResult> EngineRun::Refocus(const std::string& where, const EngineTask& task) {
@@ -91,25 +68,24 @@ starfocus_status EngineRun::SetCallbacks(const EngineTask& task, bool is_picture
     callbacks.progress = PictureProgress::Tell;
     callbacks.progress_data = &progress_;
   }
-  return starfocus_set_callbacks(engine_, &callbacks);
+  return engine_.SetCallbacks(callbacks);
 }
 
 starfocus_status EngineRun::RunStream(const EngineTask& task, EngineResult* result) {
   Image* out = &result->picture;
-  starfocus_status status = starfocus_stream_begin(engine_, &task.params);
+  starfocus_status status = engine_.StreamBegin(task.params);
   int pushed = 0, pulled = 0;
   while (status == STARFOCUS_OK && pulled < out->height) {
     int32_t consumed = 0, written = 0;
     if (pushed < out->height) {
-      const starfocus_light_field rows = EngineRows(*task.light_field, pushed);
-      status = starfocus_stream_push(engine_, &rows, std::min(kStreamRows, out->height - pushed),
-                                     &consumed);
+      status = engine_.StreamPush(EngineRows(*task.light_field, pushed),
+                                  std::min(kStreamRows, out->height - pushed), &consumed);
       pushed += consumed;
     }
     if (status != STARFOCUS_OK) break;
     const starfocus_image to = starfocus_image_rgb(out->row(pulled), out->stride());
-    status = starfocus_stream_pull(engine_, &to, std::min(kStreamRows, out->height - pulled),
-                                   &written, &result->report);
+    status = engine_.StreamPull(to, std::min(kStreamRows, out->height - pulled), &written,
+                                &result->report);
     pulled += written;
     if (status == STARFOCUS_OK && consumed == 0 && written == 0) return STARFOCUS_ERROR_STATE;
   }
@@ -123,24 +99,23 @@ Result<EngineResult> EngineRun::Run(const std::string& where, const EngineTask& 
   Image& out = result.picture;
   out = region.width > 0 ? Image(region.width, region.height)
                          : Image(task.config.width, task.config.height);
-  result.workspace_bytes = workspace_bytes_;
+  result.workspace_bytes = engine_.workspace_bytes();
   result.prepared_bytes = prepared_bytes_;
-  const starfocus_light_field rows = EngineRows(*task.light_field);
   const starfocus_image to = starfocus_image_rgb(out.pixels.data(), out.stride());
   starfocus_params params = task.params;
   params.previous = previous;
   starfocus_status status = SetCallbacks(task, true);
-  if (status != STARFOCUS_OK) return Outcome(where, status, starfocus_engine_problem(engine_));
+  if (status != STARFOCUS_OK) return Outcome(where, status, engine_.problem());
   const double start = Seconds();
   if (task.stream) {
     status = RunStream(task, &result);
-  } else if (prepared_ != nullptr) {
-    status = starfocus_refocus_prepared(engine_, &params, prepared_, &to, &result.report);
+  } else if (prepared_bytes_ > 0) {
+    status = engine_.RefocusPrepared(params, to, &result.report);
   } else {
-    status = starfocus_refocus(engine_, &params, &rows, &to, &result.report);
+    status = engine_.Refocus(params, EngineRows(*task.light_field), to, &result.report);
   }
   result.seconds = Seconds() - start;
-  if (Error error = Outcome(where, status, starfocus_engine_problem(engine_))) return error;
+  if (Error error = Outcome(where, status, engine_.problem())) return error;
   return result;
 }
 

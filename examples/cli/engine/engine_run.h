@@ -12,23 +12,14 @@
 #include "platform/progress.h"
 #include "platform/result.h"
 #include "platform/runner.h"
-#include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
 
 namespace starfocus {
-
-struct FreeAligned {
-  void operator()(void* memory) const;
-};
-using Workspace = std::unique_ptr<void, FreeAligned>;
-
-// An engine in memory of its own, *bytes of it.
-starfocus_status MakeEngine(const starfocus_config& config, Workspace* workspace, size_t* bytes,
-                            starfocus_engine** engine);
 
 struct EngineTask {
   const LightField* light_field = nullptr;
   starfocus_config config;  // version, sizes, views, disparity range and max_blur filled in
-  starfocus_params params;
+  Params params;
   starfocus_callbacks callbacks = {};  // clock and on_block; EngineRun sets the others
   int threads = 1;
   bool stream = false;  // rows in, rows out instead of whole pictures
@@ -72,10 +63,8 @@ class EngineRun {
 
   ThreadRunner runner_;
   PictureProgress progress_;
-  Workspace workspace_, prepared_memory_;
-  size_t workspace_bytes_ = 0, prepared_bytes_ = 0;
-  starfocus_engine* engine_ = nullptr;
-  starfocus_prepared* prepared_ = nullptr;
+  Engine engine_;
+  size_t prepared_bytes_ = 0;  // 0: nothing is prepared
 };
 
 }  // namespace starfocus

@@ -172,7 +172,6 @@ Result<LensPlan> PlanLens(const LensOptions& options) {
   } else if (options.focus) {
     UseFocus({false, 0, 0, *options.focus, ""}, &plan);
   }
-  starfocus_config_init(&plan.config);
   if (Error error = ParseShape(options.shape).MoveTo(&plan.lens)) return error;
   if (plan.lens.shape == STARFOCUS_SHAPE_POLYGON || plan.lens.cats_eye > 0) {
     plan.config.features |= STARFOCUS_FEATURE_SHAPES;
@@ -270,7 +269,6 @@ EngineTask MakeTask(const LensPlan& plan, const LightField& light_field,
   task.config.tuning.n_scale = plan.options.n_scale;
   task.config.transfer = plan.options.transfer;
   task.config.highlights = plan.options.highlights;
-  starfocus_params_init(&task.params);
   task.params.mode = plan.options.mode;
   task.params.renderer = plan.options.renderer;
   task.params.lens = plan.lens;

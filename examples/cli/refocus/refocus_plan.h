@@ -47,7 +47,7 @@ struct LensPlan {
   int x = 0, y = 0;          // that pixel
   ApertureChoice aperture;
   starfocus_region region = {};  // all 0: the whole picture
-  starfocus_config config = {};  // what the shape needs, the timing, and defaults
+  Config config;                 // what the shape needs, the timing, and defaults
   starfocus_lens lens = {};      // the shape of the opening, and defaults
 };
 

@@ -33,13 +33,9 @@ Error BlockBench::Open(const std::string& where, const LightField& light_field) 
   const FloatMap& map = light_field.disparity;
   const starfocus_disparity_stats stats = MeasureDisparity(map);
   starfocus_status status = stats.invalid != 0 ? STARFOCUS_ERROR_NOT_FINITE : STARFOCUS_OK;
-  starfocus_engine* engine = nullptr;
-  size_t bytes = 0;
+  if (status == STARFOCUS_OK) status = owner_.Init(MakeConfig(light_field, stats));
   if (status == STARFOCUS_OK) {
-    status = MakeEngine(MakeConfig(light_field, stats), &workspace_, &bytes, &engine);
-  }
-  if (status == STARFOCUS_OK) {
-    engine_ = reinterpret_cast<EngineState*>(engine);
+    engine_ = reinterpret_cast<EngineState*>(owner_.get());
     // Blocks of any N are timed, through the default shape as in Focus.
     starfocus_params params;
     starfocus_params_init(&params);

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "examples/cli/engine/engine_run.h"
 #include "lib/engine/engine.h"
 #include "lib/plan/timing.h"
 #include "platform/light_field.h"
 #include "platform/result.h"
+#include "starfocus/starfocus.hpp"
 
 namespace starfocus {
 
@@ -40,7 +40,7 @@ class BlockBench {
   void Focus(const BlockTask& task);
 
   const LightField* light_field_ = nullptr;
-  Workspace workspace_;
+  Engine owner_;
   EngineState* engine_ = nullptr;
   PlaneViews views_;
   std::vector<int16_t> disparity_;
