@@ -10,7 +10,7 @@
 namespace starfocus {
 namespace {
 
-// A rectangle, the slices of its tile under way, and where its picture goes: what parts share.
+// The rectangle under way, the slices of its current tile, and the output. Shared by all parts.
 struct Rectangle {
   const RenderJob* job;
   const SliceStack* stack;
@@ -18,20 +18,22 @@ struct Rectangle {
   uint32_t* accumulators;
 };
 
-// The light of the rectangle's row in the centre view, 3 * width samples, lies in the second half
-// of the row's accumulators until these are written, from left to right: what lies behind 3 * n of
-// them begins at pixel 2 n - width, which is not behind pixel n.
+// Returns the centre view's light of a row of the rectangle: 3 * width samples in the second half
+// of the row's accumulators. The accumulators are written from left to right. Writing the first 3 *
+// n of them overwrites the light of pixels below 2 n - width. That is at most n, so no light is
+// lost that is still needed.
 int16_t* CentreRow(uint32_t* accumulators, int32_t width) {
   return reinterpret_cast<int16_t*>(accumulators) + 3 * static_cast<size_t>(width);
 }
 
-// A part of a tile of which slices are in memory.
+// A part of a tile whose slices are in memory.
 class TilePart {
  public:
   TilePart(const Rectangle& all, const Rect& rect)
       : all_(all), job_(*all.job), stack_(*all.stack), scratch_(*all.scratch), rect_(rect) {}
 
-  // Returns the pixels that are rendered in each view, over all slices.
+  // Composites the part. Returns the number of pixels rendered in each view, summed over all
+  // slices.
   uint64_t Refocus() {
     int16_t* const strip_memory = PlaceSlices();
     const uint64_t pixels = FindPairs();
@@ -49,8 +51,8 @@ class TilePart {
   }
 
  private:
-  // Makes the slices of the part, one behind the other in the pool. Returns the memory behind
-  // them, where a plane is filtered before.
+  // Makes the slices of the part, one after another in the pool. Returns the memory after them,
+  // which is the scratch memory for filtering a plane.
   int16_t* PlaceSlices() {
     const Rect rect = {stack_.inner.x + rect_.x, stack_.inner.y + rect_.y, rect_.width,
                        rect_.height};
@@ -79,7 +81,7 @@ class TilePart {
                                        Min(simd::kStripColumns, rect_.width - pair.x), pair.rows});
   }
 
-  // Finds what each pair of cells sees of the slices. Returns their pixels.
+  // Finds the slices that each pair of cells sees. Returns the number of their pixels.
   uint64_t FindPairs() {
     static_assert(kLeastRows == kCellSize && simd::kStripColumns % kCellSize == 0,
                   "pairs are whole cells");
@@ -102,7 +104,8 @@ class TilePart {
     return pixels;
   }
 
-  // Tells whether some, or all, of the slice's pixels that a pair may see in any view are covered.
+  // Returns whether a slice covers some, and whether it covers all, of the pixels that any view may
+  // show in a pair.
   static simd::SliceCover CoverOf(const SlicePlane& placed, const CellPair& pair) {
     const uint64_t strips = StripsOf(placed, pair.x);
     simd::SliceCover cover = {0, strips};
@@ -123,8 +126,8 @@ class TilePart {
     ClearRows(strip.x, row, rect_.height);
   }
 
-  // Gives what no slice covers the colour of what covers the rest. A pixel that hardly any view
-  // shows is that of the centre view.
+  // Divides the sums by their coverage. Pixels that hardly any view shows get the colour of the
+  // centre view.
   void FinishRows(int32_t x, int32_t first, int32_t end) {
     const simd::CompositeFinish finish = {stack_.weights.least_covered, kCompositeBits};
     const size_t columns = Columns(x), left = 3 * static_cast<size_t>(rect_.x + x);
@@ -138,7 +141,7 @@ class TilePart {
     }
   }
 
-  // Clears rows that are gathered afterwards.
+  // Clears rows that are gathered later.
   void ClearRows(int32_t x, int32_t first, int32_t end) {
     for (int32_t row = first; row < end; ++row) {
       std::memset(all_.accumulators + FirstSample(x, row), 0,
@@ -146,7 +149,7 @@ class TilePart {
     }
   }
 
-  // The sample of the rectangle at column x of the part's row.
+  // Returns the index in the rectangle of the sample at column x of a row of the part.
   size_t FirstSample(int32_t x, int32_t row) const {
     return 3 * static_cast<size_t>((rect_.y + row) * job_.rect.width + rect_.x + x);
   }
@@ -164,7 +167,7 @@ class TilePart {
   int32_t pairs_ = 0;
 };
 
-// Finds the surfaces of the rectangle and copies its centre view to where CentreRow has it. Returns
+// Finds the surfaces of the rectangle and copies its centre view to the rows of CentreRow. Returns
 // the rectangle in pixels of the surfaces.
 Rect LoadSurfaces(const RenderJob& job, CompositorScratch* scratch, uint32_t* accumulators) {
   BlockPixels field;
@@ -185,7 +188,7 @@ Rect LoadSurfaces(const RenderJob& job, CompositorScratch* scratch, uint32_t* ac
   return inner;
 }
 
-// Finds the slices of a tile, in pixels of the rectangle.
+// Finds the slices of a tile, which is in pixels of the rectangle.
 void FindStack(const RenderJob& job, const Rect& tile, CompositorScratch* scratch,
                SliceStack* stack) {
   SliceRule rule = job.is_benchmark ? kFineSlices : kSlices;
@@ -204,7 +207,7 @@ void FindStack(const RenderJob& job, const Rect& tile, CompositorScratch* scratc
 
 int32_t RoundUp(int32_t size, int32_t least) { return (size + least - 1) / least * least; }
 
-// Bytes that parts of that size take of the pool.
+// Returns the bytes of the pool that parts of this size need.
 size_t PoolBytes(const SliceStack& stack, int32_t columns, int32_t rows) {
   const auto width = static_cast<size_t>(columns), height = static_cast<size_t>(rows);
   size_t slices = 0, strips = 0, filtered = 0;
@@ -220,8 +223,8 @@ size_t PoolBytes(const SliceStack& stack, int32_t columns, int32_t rows) {
   return slices + (filtered > strips ? filtered : strips);
 }
 
-// Returns the size of parts of which all slices fit into the pool: as wide as possible, and then
-// as high as possible.
+// Returns the size of parts whose slices fit into the pool: as wide as possible, then as high as
+// possible.
 Rect ChoosePart(const SliceStack& stack, const Rect& tile, size_t pool_bytes) {
   int32_t width = RoundUp(tile.width, kLeastColumns), height = RoundUp(tile.height, kLeastRows);
   while (width > kLeastColumns && PoolBytes(stack, width, kLeastRows) > pool_bytes) {
@@ -231,8 +234,8 @@ Rect ChoosePart(const SliceStack& stack, const Rect& tile, size_t pool_bytes) {
   return {0, 0, width, height};
 }
 
-// Composites a tile by its slices. Returns the pixels that are rendered in each view, over all
-// slices.
+// Composites the slices of a tile. Returns the number of pixels rendered in each view, summed over
+// all slices.
 uint64_t CompositeTile(const Rectangle& all, const Rect& tile) {
   const Rect largest = ChoosePart(*all.stack, tile, all.scratch->pool_bytes);
   uint64_t pixels = 0;

@@ -8,11 +8,11 @@
 namespace starfocus {
 namespace {
 
-// Slices overlap by this part of their range, so that no crack opens between two of one slope.
-// None, half and twice as much were measured (docs/constants.md).
+// Slices overlap by 1 / kOverlapParts of their range, so that no gap opens between two slices of
+// one slope. No overlap, and half and twice the overlap, were measured (docs/constants.md).
 constexpr int kOverlapParts = 10;
 
-// Columns of a band whose bins are looked at together.
+// Finds the slices of a tile from the disparities of the surfaces around it.
 class SliceFinder {
  public:
   SliceFinder(const SliceJob& job, SurfaceBands* bands)
@@ -50,8 +50,8 @@ class SliceFinder {
     bins_ = (range >> bin_bits_) + 1;
   }
 
-  // Finds what of the surfaces slices of the tile may be made of, from the first pixel of a band
-  // and of a strip on.
+  // Finds the region of the surfaces that slices of the tile may show. It starts at the first row
+  // of a band and the first column of a strip.
   void FindAround() {
     const int64_t move = grid_.Move(grid_.n());
     const int32_t rim =
@@ -64,8 +64,8 @@ class SliceFinder {
     around_.height = Min(tile.y + tile.height + reach, surfaces_.height) - around_.y;
   }
 
-  // Marks the bins of a surface's pixels that may splat into the tile, at most a band at a time.
-  // Rows that hide nothing have no surface but the first.
+  // Marks the bins of the pixels of a surface that may splat into the tile, at most one band at a
+  // time. Rows that hide nothing have only the first surface.
   void Mark(int surface) {
     const auto has = [&](int32_t y) { return surface == 0 || surfaces_.hiding[y] != 0; };
     const int32_t last = around_.y + around_.height;
@@ -95,15 +95,15 @@ class SliceFinder {
       const int32_t least = job_.least_blur[Beyond(pixels)];
       if (least == 0) {
         MarkPixels(surface, pixels, range.low, range.high);
-      } else {  // what is too sharp does not reach the tile
+      } else {  // pixels too sharp to reach the tile are skipped
         MarkPixels(surface, pixels, range.low, Min(range.high, grid_.focus - least));
         MarkPixels(surface, pixels, Max(range.low, grid_.focus + least), range.high);
       }
     }
   }
 
-  // Marks the bins of those pixels whose disparities lie in [low, high]; most of them fall into
-  // bins that are marked already.
+  // Marks the bins of the pixels whose disparities lie in [low, high]. Most of these bins are
+  // marked already.
   void MarkPixels(int surface, const Rect& pixels, int32_t low, int32_t high) {
     if (low > high) return;
     const uint8_t *first = job_.bins + BinOf(low), *last = job_.bins + BinOf(high);
@@ -117,7 +117,7 @@ class SliceFinder {
     uint16_t within[kBandRows];
     job_.kernels->FindWithin(disparity, static_cast<size_t>(surfaces_.stride),
                              static_cast<size_t>(pixels.height), range, within);
-    // These are copies, since for the compiler a mark might change any member.
+    // Local copies: otherwise the compiler must assume that a mark may change any member.
     uint8_t* const bins = job_.bins;
     const int32_t* const least_blur = job_.least_blur;
     const int32_t base = base_, bits = bin_bits_, focus = grid_.focus;
@@ -140,7 +140,7 @@ class SliceFinder {
 
   int32_t BinOf(int32_t disparity) const { return (disparity - base_) >> bin_bits_; }
 
-  // Returns how far the nearest of the pixels lies beyond the tile.
+  // Returns the distance in pixels from the tile to the nearest of these pixels; 0 within the tile.
   int32_t Beyond(const Rect& pixels) const {
     const Rect& tile = job_.tile;
     const int32_t x =
@@ -150,7 +150,7 @@ class SliceFinder {
     return Max(Max(x, y), 0);
   }
 
-  // Returns how many bins a slice with this nearest bin may span.
+  // Returns the number of bins that a slice with this nearest bin may span.
   int32_t Span(int32_t bin, int coarser) const {
     const int32_t blur = Abs(grid_.Shift(grid_.step, base_ + (bin << bin_bits_)));
     const int64_t wider = Max(kSliceSharp, blur - kSliceSharp);
@@ -158,8 +158,8 @@ class SliceFinder {
     return static_cast<int32_t>(Limited(bins << coarser));
   }
 
-  // Parts the bins into slices, each spanning 2^coarser times as much as the rule says. Returns how
-  // many, or 0 when they are too many or too large.
+  // Divides the bins into slices, each spanning 2^coarser times the range of the rule. Returns the
+  // number of slices, or 0 if they exceed a limit of the rule.
   int32_t Part(int coarser, Slice* slices) const {
     int32_t count = 0;
     int32_t area = 0;
@@ -192,9 +192,9 @@ class SliceFinder {
   const LayeredDepth& surfaces_;
   const ViewGrid& grid_;
   SurfaceBands& bands_;
-  int32_t range_;         // of the rule, as a disparity
-  Rect around_;           // what is looked at, in pixels of the surfaces
-  int32_t bin_bits_ = 0;  // disparities of a bin
+  int32_t range_;         // range of the rule, as a disparity
+  Rect around_;           // region to search, in pixels of the surfaces
+  int32_t bin_bits_ = 0;  // log2 of the number of disparities in a bin
   int32_t base_ = 0, bins_ = 0;
 };
 

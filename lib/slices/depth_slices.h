@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Slices: the parts of a scene within ranges of disparity so small that each moves as one from view
-// to view.
+// Divides the surfaces of a tile into slices: ranges of disparity so narrow that the pixels of a
+// slice move together from view to view. The compositor calls FindSlices for each tile.
 #ifndef STARFOCUS_LIB_SLICES_DEPTH_SLICES_H_
 #define STARFOCUS_LIB_SLICES_DEPTH_SLICES_H_
 
@@ -13,7 +13,8 @@
 
 namespace starfocus {
 
-// Ranges of disparity that are told apart: single ones up to a blur of 64 pixels at full aperture.
+// Number of disparity bins. A bin holds a single disparity up to a blur of 64 pixels at full
+// aperture.
 inline constexpr int32_t kSliceBins = 2 * (64 << kDisparityBits) + 1;
 
 struct SliceJob {
@@ -22,13 +23,13 @@ struct SliceJob {
   const ViewGrid* grid;
   SliceRule rule;
   Rect tile;            // in pixels of the surfaces
-  uint8_t* bins;        // kSliceBins
-  int32_t* least_blur;  // largest side of surfaces: scratch
+  uint8_t* bins;        // kSliceBins: scratch
+  int32_t* least_blur;  // largest side of the surfaces: scratch
 };
 
-// Finds the slices, the nearest first, that hold all pixels of the surfaces that may splat into a
-// tile, and the disparities of the bands of the surfaces that FillSlice reads for it. Returns how
-// many slices, at most job.rule.most.
+// Finds the slices of a tile, the nearest first. They hold all pixels of the surfaces that may
+// splat into the tile. Also finds the disparities of each band of the surfaces, for FillSlice.
+// Returns the number of slices, at most job.rule.most.
 int32_t FindSlices(const SliceJob& job, Slice* slices, SurfaceBands* bands);
 
 }  // namespace starfocus

@@ -8,7 +8,7 @@
 namespace starfocus {
 namespace {
 
-constexpr int32_t kAtOnce = 4;  // pixels whose sources are looked at together
+constexpr int32_t kAtOnce = 4;  // pixels whose sources are tested together
 
 class HiddenFiller {
  public:
@@ -49,7 +49,7 @@ class HiddenFiller {
 
   bool Takes(int32_t y, int32_t step) const { return step <= 2 * scratch_.farthest[y]; }
 
-  // Writes that there are no surfaces between two rows.
+  // Marks the gap before a row as having no surface.
   void Separate(size_t at) const {
     for (size_t x = 0; x < Column(0); ++x) scratch_.disparity[at + x] = kNoSurface;
   }
@@ -79,7 +79,7 @@ class HiddenFiller {
     }
   }
 
-  // Takes the sources of the pixels of a row that are repeated.
+  // Copies the colours that the pixels of a row repeat.
   void TakeSources(int32_t y) {
     if (scratch_.farthest[y] == 0) return;
     const uint16_t* const sources = scratch_.source + RowAt(y) + Column(0);
@@ -93,7 +93,7 @@ class HiddenFiller {
     }
   }
 
-  // Tells whether any of kAtOnce pixels is repeated: most are not.
+  // Returns true if any of kAtOnce pixels repeats a colour. Most do not.
   static bool HasSource(const uint16_t* sources) {
     uint64_t all;
     static_assert(sizeof(all) == kAtOnce * sizeof(*sources), "looked at together");
@@ -107,8 +107,8 @@ class HiddenFiller {
     }
   }
 
-  // Takes the colour of the pixel that is repeated, or the mean over the sides, if it is known and
-  // of the same surface on all of them.
+  // Copies the colour of the pixel that is repeated, or the mean over the sides. The colours are
+  // copied only if they are known and belong to the same surface on all sides.
   void TakeSource(int32_t x, int32_t y, uint32_t source) {
     const auto distance = static_cast<int32_t>(source >> simd::kSourceDistance);
     const int16_t disparity = scratch_.disparity[RowAt(y) + Column(x)];
@@ -127,8 +127,9 @@ class HiddenFiller {
     }
   }
 
-  // Smooths a row from what it and those around it were before the step. It is saved until the row
-  // a step below has read it. Beyond the surfaces it stands in for its neighbours.
+  // Smooths a row, reading the colours of all rows as they were before the step. The old row is
+  // saved until the row `step` below has read it. Outside the surfaces, the row replaces its
+  // missing neighbours.
   void SmoothRow(int32_t y, int32_t step) {
     const int32_t above = y >= step ? y - step : y, below = y + step;
     const int32_t next = below < surfaces_.height ? below : y;
@@ -151,7 +152,7 @@ class HiddenFiller {
   const FillScratch& scratch_;
   LayeredDepth& surfaces_;
   const size_t stride_;
-  const int16_t unit_;  // disparity that a pixel of the layer is at distance 1
+  const int16_t unit_;  // disparity that moves a pixel of the layer by one pixel at distance 1
 };
 
 }  // namespace

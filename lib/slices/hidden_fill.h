@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What no captured view shows behind a depth edge: there the far surface goes on smoothly.
+// Inpaints hidden surfaces that no captured view shows, by continuing the farthest surface smoothly
+// behind a depth edge. Runs after FindLayeredDepth and FindMatte.
 #ifndef STARFOCUS_LIB_SLICES_HIDDEN_FILL_H_
 #define STARFOCUS_LIB_SLICES_HIDDEN_FILL_H_
 
@@ -11,19 +12,21 @@
 
 namespace starfocus {
 
-// Memory of InpaintHidden for surfaces of a width and height: the farthest surface of each pixel.
-// Rows of disparities lie FillStride(width) apart; a row of colours has R, G and B behind each
-// other, as far apart. All start kFillStep pixels before the row's first one.
+// Memory of InpaintHidden for the farthest surface of each pixel. Rows of disparities are
+// FillStride(width) apart. A row of colours holds the planes R, G and B, also FillStride(width)
+// apart. Each array starts kFillStep pixels before its first row.
 struct FillScratch {
-  int16_t* disparity;  // height rows, and kFillStep pixels, as behind all of these
+  int16_t* disparity;  // height rows, and kFillStep more pixels after the last, as in all of these
+                       // arrays
   int16_t* rgb;        // height rows
-  int16_t* saved;      // kFillStep + 1 rows: as they were before a step
-  uint16_t* source;    // height rows: as simd::FarRow has them
-  uint8_t* farthest;   // height: the largest distance over which a row's colours are repeated
+  int16_t* saved;      // kFillStep + 1 rows before the current step
+  uint16_t* source;    // height rows, in the format of simd::FarRow
+  uint8_t* farthest;   // height: largest distance over which a row repeats colours
 };
 
-// The widest step of the fill, in pixels of the layer: what is farther away is hardly seen. Pixels
-// of no surface as many lie between rows, since a group of kSliceLanes reads as far.
+// Largest step of the fill, in pixels of the layer. Views hardly show pixels farther behind an
+// edge. Rows are separated by as many pixels without a surface, since a vector of kSliceLanes reads
+// past a row's end.
 inline constexpr int32_t kFillStep = 16;
 static_assert(kFillStep == static_cast<int32_t>(simd::kSliceLanes), "the gap between rows");
 
@@ -31,13 +34,16 @@ constexpr size_t FillStride(size_t width) {
   return simd::SliceSamples(width) + static_cast<size_t>(kFillStep);
 }
 
-// Replaces the colours that FindLayeredDepth repeated, of pixels' farthest surfaces. Each one first
-// takes the far colour of the pixel that it repeats, which FindMatte may have parted from a
-// mixture. Then, in steps of 16, 8, 4, 2 and 1 pixels, every one of them that is repeated over at
-// least half a step takes the mean of itself, by half, and of its neighbours a step to the left,
-// right, top and bottom, by an eighth each: of their farthest surfaces, if these are within a pixel
-// of its disparity, else of itself. So colours beside the edge matter near it, and far from it the
-// mean of what lies around. docs/constants.md tells what was measured.
+// Replaces the colours of the farthest surfaces that FindLayeredDepth repeated. Each such pixel
+// first takes the far colour of the pixel that it repeats, which FindMatte may have separated from
+// a mixture.
+//
+// The colours are then smoothed in steps of 16, 8, 4, 2 and 1 pixels. A step changes the pixels
+// that are repeated over at least half a step. Such a pixel becomes half of itself plus an eighth
+// of each neighbour one step to the left, right, top and bottom. A neighbour counts if its farthest
+// surface is within a pixel of the same disparity; otherwise the pixel itself replaces it. Near the
+// edge the colours beside the edge dominate, and far from it their mean does. docs/constants.md
+// lists the measurements.
 void InpaintHidden(const simd::Kernels& kernels, int32_t layer, const FillScratch& scratch,
                    LayeredDepth* surfaces);
 

@@ -11,28 +11,29 @@ namespace {
 constexpr int32_t kStripColumns = static_cast<int32_t>(simd::kSliceLanes);
 static_assert(kOcclusionViews == simd::kViewLooks, "views that are looked into on a side");
 
-// Writes that there is no surface behind a row's end, where kernels look at whole vectors.
+// Marks the pixels after the end of a row, which kernels read in whole vectors, as having no
+// surface.
 void ClearStrip(int16_t* disparity) {
   for (int32_t k = 0; k < kStripColumns; ++k) disparity[k] = kNoSurface;
 }
 
-// Hidden pixels of a strip: the first one's place in the field, their disparities, and where their
-// colours are found as LookBehind tells it.
+// Hidden pixels of a strip: the position of the first in the field, their disparities, and the
+// sources of their colours in the format of LookBehind.
 struct HiddenStrip {
   int32_t x, y;
   const int16_t* disparity;
   const uint16_t* source;
 };
 
-// The colours of hidden pixels of a strip.
+// Colours of hidden pixels of a strip.
 class HiddenColours {
  public:
   int16_t rgb[3 * kStripColumns + simd::kPadding / sizeof(int16_t)] = {};
 
   HiddenColours(const Window& window, const BlockPixels& field) : window_(window), field_(field) {}
 
-  // Reads the colours of the pixels k of which bit k is set. Behind one edge many follow each
-  // other.
+  // Reads the colours of each pixel k whose bit k is set. Runs of pixels behind one edge are read
+  // together.
   void Read(const HiddenStrip& strip, uint32_t pixels) {
     while (pixels != 0) {
       const int32_t first = LowestBit(pixels);
@@ -40,12 +41,12 @@ class HiddenColours {
     }
   }
 
-  // Whether a pixel's colour was repeated, since no view shows what is behind it.
+  // Returns true if the colour of a pixel was repeated because no view shows it.
   bool Repeats() const { return repeats_; }
 
  private:
-  // Reads pixel k, and those after it that have the same disparity and source. Returns the first
-  // that is not read.
+  // Reads pixel k and the following pixels that have the same disparity and source. Returns the
+  // first pixel that was not read.
   int32_t ReadFrom(const HiddenStrip& strip, int32_t k) {
     const uint32_t source = strip.source[k], sides = source & 15;
     if ((sides & (sides - 1)) != 0) {
@@ -61,7 +62,7 @@ class HiddenColours {
     return end;
   }
 
-  // Reads pixel k from all of its sides, and takes their mean.
+  // Reads pixel k from each of its sides and takes the mean.
   void ReadMean(const HiddenStrip& strip, int32_t k) {
     int32_t sums[3] = {0, 0, 0}, count = 0;
     ForEachBit(strip.source[k] & 15, [&](int32_t side) {
@@ -94,14 +95,14 @@ class HiddenColours {
     ReadCaptured(window_, look.view, line, count, to);
   }
 
-  // How far a disparity moves along an axis between the centre view and one at that position, in
-  // pixels of the layer, kShiftBits.
+  // Returns the distance that a disparity moves along an axis between the centre view and a view at
+  // `position`, in pixels of the layer with kShiftBits.
   int32_t Moved(int32_t position, int32_t disparity) const {
     return ScaledByView(position, disparity,
                         kViewBits + kDisparityBits - kShiftBits + window_.layer);
   }
 
-  // The view that shows a pixel on that side, if any does.
+  // Returns the view that shows a pixel on that side. Meaningless if no view shows it.
   const OcclusionView& LookOf(int32_t side, uint32_t source) const {
     return window_.occlusion_views.on[side][source >> (simd::kSourceSecond + side) & 1];
   }
@@ -111,7 +112,7 @@ class HiddenColours {
   bool repeats_ = false;
 };
 
-// What the kernel needs to look into a view.
+// Converts a view to the form that the kernel LookBehind takes.
 simd::ViewLook ViewLookOf(const OcclusionView& look, int unit_bits) {
   const bool down = Abs(look.at.v) > Abs(look.at.u);
   const int32_t along = down ? look.at.v : look.at.u, across = down ? look.at.u : look.at.v;
@@ -173,8 +174,8 @@ class SurfaceFinder {
   uint8_t* Edges(int side, int32_t y) const { return surfaces_.edges[side] + surfaces_.At(0, y); }
   const int16_t* Row(int32_t y) const { return surfaces_.disparity[0] + surfaces_.At(0, y); }
 
-  // Does along a row what the kernel FindEdges does along columns, but from edge to edge: there are
-  // few.
+  // Finds the edges along a row. The kernel FindEdges does the same along columns for every pixel;
+  // here only the pixels behind an edge are visited, since there are few edges.
   void FindEdgesOfRow(int32_t y) {
     const auto stride = static_cast<size_t>(surfaces_.stride);
     std::memset(Edges(0, y), 0, stride);
@@ -199,9 +200,9 @@ class SurfaceFinder {
     }
   }
 
-  // Writes the distances of the edge's near pixel, at `near`, and of up to `count` in all that
-  // follow, away from the edge, as far as the next one. An edge that another one goes on behind
-  // is none (kSmallStepBits); the others come first.
+  // Writes the distances from an edge at `near` to its far side, for up to `count` pixels away from
+  // the edge, as far as the next edge. Edges that only continue the depth of another edge are
+  // skipped (kSmallStepBits). The edges that remain are visited in order.
   void FollowEdge(const int16_t* near, int direction, int32_t count, uint8_t* distance) const {
     if (*distance != 0) return;
     const int32_t far = near[-direction];
@@ -265,13 +266,13 @@ class SurfaceFinder {
     if (y > 0 && y < surfaces_.height - 1) CloseRow(y);
   }
 
-  // Where slices may part a surface, hides the near side's pixels once more behind themselves, at
-  // the far side's disparity: so the surface stays closed, whatever its slices move by.
+  // Hides a copy of the near side's pixels at the far side's disparity where slices may tear a
+  // surface. The surface then stays closed however far its slices move.
   void CloseRow(int32_t y) {
     const simd::CopyLimits limits = {static_cast<int16_t>(kLeastCopy << window_.layer),
                                      static_cast<int16_t>(kMostCopy << window_.layer)};
     const size_t at = surfaces_.At(0, y);
-    int16_t* const copies = surfaces_.moved;  // which is not used any more
+    int16_t* const copies = surfaces_.moved;  // no longer used by FindEdges
     uint64_t strips = kernels_.FindCopies(Row(y), surfaces_.stride,
                                           static_cast<size_t>(surfaces_.width), limits, copies);
     copies[0] = copies[surfaces_.width - 1] = kNoSurface;
@@ -288,7 +289,7 @@ class SurfaceFinder {
     }
   }
 
-  // Of pixels that hide nothing else.
+  // Copies a strip of pixels that hide nothing else.
   void CopyStrip(size_t at, const int16_t* copies) {
     for (uint16_t* sources : surfaces_.sources) {
       std::memset(sources + at, 0, kStripColumns * sizeof(*sources));
@@ -302,8 +303,8 @@ class SurfaceFinder {
     }
   }
 
-  // The copy lies before what else is hidden, unless that is nearer. Where a surface ends, its
-  // pixels are in one slice only.
+  // Inserts a copy of the pixel in front of the other hidden surfaces, unless these are nearer.
+  // Pixels where a surface ends get no copy, since they belong to one slice only.
   void CopyPixel(size_t at, int16_t copy) {
     if (copy <= surfaces_.disparity[1][at] || surfaces_.share[at] != simd::kSliceWhole) return;
     surfaces_.disparity[2][at] = surfaces_.disparity[1][at];
@@ -317,7 +318,7 @@ class SurfaceFinder {
     }
   }
 
-  // Sets the colours of those pixels of a strip that are `found`.
+  // Sets the colours of the pixels of a strip whose bits in `found` are set.
   void SetColours(int32_t x, int32_t y, int behind, uint32_t found) {
     const size_t at = surfaces_.At(x, y);
     colours_.Read({x, y, surfaces_.disparity[behind] + at, surfaces_.sources[behind - 1] + at},
@@ -329,8 +330,8 @@ class SurfaceFinder {
   const Window& window_;
   LayeredDepth& surfaces_;
   HiddenColours colours_;
-  const int32_t unit_;  // disparity that a pixel of the layer is at distance 1
-  const int32_t step_;  // a larger one from pixel to pixel may hide something
+  const int32_t unit_;  // disparity that moves a pixel of the layer by one pixel at distance 1
+  const int32_t step_;  // a larger step between pixels is a depth edge
   simd::ViewLook looks_[kSideCount][kOcclusionViews];
 };
 
@@ -346,7 +347,7 @@ void FindLayeredDepth(const simd::Kernels& kernels, const Window& window, const 
     const size_t at = surfaces->At(0, y);
     std::memcpy(surfaces->disparity[0] + at, field.Disparity(0, y),
                 static_cast<size_t>(field.width) * sizeof(int16_t));
-    ClearStrip(surfaces->disparity[0] + at + field.width);  // the next row is copied over it
+    ClearStrip(surfaces->disparity[0] + at + field.width);  // overwritten by the next row
     kernels.Split(field.Rgb(0, y), static_cast<size_t>(field.width), surfaces->plane,
                   surfaces->rgb[0] + at);
   }

@@ -7,8 +7,9 @@
 namespace starfocus {
 namespace {
 
-// Surfaces that move less against each other leave a mixture what it is; a quarter of a pixel
-// was no nearer to the truth, and two of them lose 0.2 dB (docs/constants.md).
+// Mixtures of surfaces that move less than this against each other are not split. A limit of a
+// quarter of a pixel was no closer to the truth, and one of two pixels loses 0.2 dB
+// (docs/constants.md).
 constexpr int32_t kLeastMove = kShiftOne;
 
 class MatteFinder {
@@ -38,14 +39,14 @@ class MatteFinder {
   }
 
  private:
-  // Whether the coverage map parts the pixel.
+  // Returns true if the coverage map splits the pixel.
   bool IsThin(int32_t x, int32_t y) const {
     const CoverageMap* const map = centre_.window.coverage;
     return map != nullptr && centre_.window.layer == 0 &&
            map->Tile(x / kCoverageTile, y / kCoverageTile).thin != 0;
   }
 
-  // The mixtures with the surfaces on all sides, each by its share.
+  // Mixtures with the surfaces on all sides, each weighted by its share.
   struct Parts {
     int32_t shares = 0, most = 0, nearest = INT16_MIN;
     int32_t near[3] = {0, 0, 0}, far[3] = {0, 0, 0};
@@ -65,7 +66,7 @@ class MatteFinder {
     }
   };
 
-  // `pixel` is in pixels of the field.
+  // Returns the mixture of a pixel, which is in pixels of the field.
   Mixture MixtureAt(const BoundaryPixel& pixel) const {
     if (centre_.window.layer > 0) return MixtureOfLevel(pixel);
     BoundaryPixel of_picture = pixel;
@@ -74,7 +75,7 @@ class MatteFinder {
     return FindMixture(centre_, of_picture);
   }
 
-  // The pixel of the field, or the nearest one in it.
+  // Returns the colour of a pixel of the field, or of the nearest pixel inside it.
   Colour ColourAt(int32_t column, int32_t row) const {
     const int16_t* rgb =
         field_.Rgb(Clamp(column, 0, field_.width - 1), Clamp(row, 0, field_.height - 1));
@@ -84,8 +85,8 @@ class MatteFinder {
     return *field_.Disparity(Clamp(column, 0, field_.width - 1), Clamp(row, 0, field_.height - 1));
   }
 
-  // The same as FindMixture of a subsampled pixel, but that what is left of the pixel without the
-  // near colour is its far one.
+  // FindMixture for a subsampled pixel. The far colour is the remainder of the pixel without the
+  // near colour.
   Mixture MixtureOfLevel(const BoundaryPixel& pixel) const {
     const int32_t x = pixel.x, y = pixel.y;
     const int dx = kSides[pixel.side][0], dy = kSides[pixel.side][1];
@@ -103,8 +104,9 @@ class MatteFinder {
     return mixture;
   }
 
-  // What the far surface of a subsampled pixel is estimated to be: as the captured view away from
-  // the edge shows it, else as the pixel on that side.
+  // Estimates the colour of the far surface of a subsampled pixel. The colour is read from the
+  // captured view away from the edge. Without such a view it is that of the next pixel away from
+  // the edge.
   Colour FarAt(const BoundaryPixel& pixel, const Colour& mixed) const {
     const Window& window = centre_.window;
     const OcclusionView& look = window.occlusion_views.Last(pixel.side ^ 1);
@@ -129,10 +131,11 @@ class MatteFinder {
     const size_t at = surfaces_.At(column, row);
     surfaces_.hiding[row] |= uint64_t{1} << (column / static_cast<int32_t>(simd::kSliceLanes));
     surfaces_.share[at] = static_cast<uint8_t>(share);
-    // A copy of the pixel (kLeastCopy) has the colour of the mixture, and gives way.
+    // A copy of the pixel (kLeastCopy) has the colour of the mixture and is replaced.
     const bool has_copy = disparity - surfaces_.disparity[1][at] <= step_;
     if (has_copy) {
-      surfaces_.sources[0][at] = surfaces_.sources[1][at];  // of the surface behind the far one
+      surfaces_.sources[0][at] =
+          surfaces_.sources[1][at];  // source of the surface behind the far one
     } else {
       surfaces_.disparity[2][at] = surfaces_.disparity[1][at];
     }
@@ -150,7 +153,7 @@ class MatteFinder {
   const ViewGrid& grid_;
   const BlockPixels& field_;
   LayeredDepth& surfaces_;
-  const int16_t step_;  // a larger one from pixel to pixel is a depth edge
+  const int16_t step_;  // a larger step between pixels is a depth edge
   const int64_t rim_;
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Boundary pixels (lib/input/boundary_pixel.h) of slices.
+// Splits the boundary pixels of a field (lib/input/boundary_pixel.h) into their surfaces. Runs
+// after FindLayeredDepth.
 #ifndef STARFOCUS_LIB_SLICES_MATTE_H_
 #define STARFOCUS_LIB_SLICES_MATTE_H_
 
@@ -10,11 +11,13 @@
 
 namespace starfocus {
 
-// Parts what the centre view mixes on the far side of depth edges: there the nearer surface covers
-// its share of the pixel, and behind it lies the far one in its own colour. Only where views show
-// the two moved against each other by more than a pixel, and neither what lies beyond the picture
-// nor the field's outermost pixels, which splat into no rectangle. `surfaces` as FindLayeredDepth
-// left them; of four surfaces the farthest is dropped.
+// Splits the mixed pixels on the far side of depth edges. The nearer surface then covers its share
+// of such a pixel, and the far surface lies behind it in its own colour.
+//
+// Only pixels of the picture are split where views show both surfaces moved against each other by
+// more than a pixel. The outermost pixels of the field are not split, since they splat into no
+// rectangle. `surfaces` is the output of FindLayeredDepth; if a pixel would have four surfaces, the
+// farthest is dropped.
 void FindMatte(const simd::Kernels& kernels, const Window& window, const ViewGrid& grid,
                const BlockPixels& field, LayeredDepth* surfaces);
 

@@ -10,8 +10,8 @@ int32_t LevelOf(const BlockStats& stats, Demand demand) {
   return LayerBySubaperture(radius, stats.has_edge, demand);
 }
 
-// The work of type A is to move slices along rows, once for each column of views. That of type C is
-// to composite all views. Each slice is moved as A and composited as C.
+// Work of type A shifts slices along rows, once for each column of views. Work of type C composites
+// all views. Each slice is shifted as type A and composited as type C.
 BlockWork MeasureWork(const Rect& rect, const Border& border, const ViewWeights& aperture,
                       const Content (&content)[2], int32_t layer) {
   const auto width = static_cast<uint64_t>(rect.width), height = static_cast<uint64_t>(rect.height);
@@ -29,8 +29,8 @@ BlockWork MeasureWork(const Rect& rect, const Border& border, const ViewWeights&
   return work;
 }
 
-// Takes the memory of what is found of a field before slices of a tile are made. Its surfaces are
-// filled when the field is no longer needed.
+// Takes the memory of everything that is computed from a field before the slices of a tile. The
+// memory for filling the surfaces overlays that of the field.
 void TakeField(size_t extended, Arena* arena, CompositorScratch* stack) {
   CompositorScratch& scratch = *stack;
   LayeredDepth& surfaces = scratch.surfaces;
@@ -57,7 +57,7 @@ void TakeField(size_t extended, Arena* arena, CompositorScratch* stack) {
   fill.farthest = arena->Take<uint8_t>(extended);
 }
 
-// E of CompositorScratch is `extended`.
+// Takes the scratch memory of one worker; see Renderer::take_scratch.
 void TakeScratch(const starfocus_config& config, size_t extended, size_t max_n, Arena* arena,
                  void* memory) {
   CompositorScratch counted;
@@ -66,7 +66,8 @@ void TakeScratch(const starfocus_config& config, size_t extended, size_t max_n, 
   LayeredDepth& surfaces = scratch.surfaces;
   const size_t area = extended * simd::SliceSamples(extended) + simd::kSliceLanes;
   for (int k = 0; k < simd::kSurfaces; ++k) {
-    // Looking behind a row's first pixels reads lanes before them, of which nothing is used.
+    // Looking behind the first pixels of a row reads kSliceLanes samples before them, and ignores
+    // their values.
     int16_t* before = arena->Take<int16_t>(simd::kSliceLanes + area);
     surfaces.disparity[k] = before == nullptr ? nullptr : before + simd::kSliceLanes;
     surfaces.rgb[k] = arena->Take<int16_t>(3 * area);
@@ -81,7 +82,7 @@ void TakeScratch(const starfocus_config& config, size_t extended, size_t max_n, 
   const size_t field = arena->Mark();
   TakeField(extended, arena, &scratch);
   arena->Reuse(field);
-  // Wider parts take less time: tiles of 64 pixels take 1.7 % fewer instructions.
+  // Larger parts take less time: tiles of 64 pixels take 1.7 % fewer instructions.
   const auto tile = static_cast<size_t>(Min(config.superblock, kSliceTile));
   const size_t pool = Max(LeastPool(config.max_blur), 119 * tile * tile);
   scratch.pool_bytes = Max(pool, arena->Shared());
@@ -91,17 +92,12 @@ void TakeScratch(const starfocus_config& config, size_t extended, size_t max_n, 
 }  // namespace
 
 const Renderer kSliceRenderer = {
-    0,
-    true,
-    32,  // fine slices of small blocks are fewer, and fit the memory that coarser ones have
-    ViewsBySubaperture,
-    LevelOf,
-    MakeSubapertures,
-    MeasureWork,
-    sizeof(CompositorScratch),
+    0, true,
+    // Side of the benchmark's superblocks: small blocks have fewer fine slices, which fit into the
+    // memory of the coarse slices.
+    32, ViewsBySubaperture, LevelOf, MakeSubapertures, MeasureWork, sizeof(CompositorScratch),
     TakeScratch,
-    [](const RenderJob&) { return false; },  // slices have ends, which always move a little
-    CompositeRectangle,
-    [](const ViewWeights&) { return kCompositeBits; }};
+    [](const RenderJob&) { return false; },  // false: the ends of slices always move a little
+    CompositeRectangle, [](const ViewWeights&) { return kCompositeBits; }};
 
 }  // namespace starfocus

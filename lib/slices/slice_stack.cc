@@ -4,23 +4,26 @@
 namespace starfocus {
 namespace {
 
-// A pixel of which slices cover less than this part of all views' light is not made of them. Scenes
-// hardly have any, whatever the part (docs/constants.md).
+// A pixel of which slices cover less than 1 / kLeastShare of the light of all views takes the
+// colour of the centre view. Scenes have hardly any such pixels, whatever the limit
+// (docs/constants.md).
 constexpr uint32_t kLeastShare = 4;
 
-// What weights of a group of views are together: in 16 bits with room for a ninth more, which the
-// share of the last light may be too large by, and for the rounding of each slice.
+// Largest sum of the weights of a group of views. 16 bits leave headroom for a ninth more, by which
+// the share of the last light may be too large. The rest is headroom for the rounding of each
+// slice.
 constexpr uint32_t kGroupSum = 58000;
 
-// Steep openings, whose middle view weighs more than kSteep times the mean (theta from 0.3 pi
-// on): their views weigh at least kLeastMean on average, up to kMostShares times what a group takes
-// at once. The product of each view with light is rounded, and small weights would turn dark codes
-// into others.
+// Limits for steep openings: the weight of their middle view is more than kSteep times the mean
+// (theta from 0.3 pi). Their views weigh at least kLeastMean on average, but at most kMostShares
+// times the sum that a group takes at once. Each product of a weight with light is rounded, and
+// small weights would change dark codes.
 constexpr uint64_t kSteep = 3;
 constexpr uint64_t kLeastMean = 2 * kGroupSum / kGroupViews;
 constexpr uint64_t kMostShares = 32;
 
-// Returns the sum of the weights of views (i, first) to (i, last), or four times the largest.
+// Returns the sum of the weights of views (i, first) to (i, last), or four times the largest weight
+// if that is more.
 uint32_t GroupSum(const ViewWeights& aperture, int32_t i, int32_t first, int32_t last) {
   uint32_t sum = 0, most = 0;
   for (int32_t j = first; j <= last; ++j) {
@@ -32,7 +35,7 @@ uint32_t GroupSum(const ViewWeights& aperture, int32_t i, int32_t first, int32_t
 }
 
 constexpr int kMostExtraBits = 4;
-constexpr int kNoLight = 99;  // the rank of weight 0
+constexpr int kNoLight = 99;  // rank of weight 0
 
 // Returns how many times a weight can be multiplied by sixteen without exceeding the largest one.
 int RankOf(uint32_t weight, uint32_t largest) {
@@ -70,7 +73,7 @@ ScaledWeights ScaleWeights(const ViewWeights& aperture) {
   ScaledWeights weights = {&aperture, 0, 0, 0};
   uint32_t largest = 0;
   uint64_t views = 0;
-  // Columns on either side of the middle are alike but in full apertures.
+  // Columns on either side of the middle are equal, except in full apertures.
   for (int32_t i = aperture.full ? -aperture.last : 0; i <= aperture.last; ++i) {
     const int32_t last = weights.LastAcross(Abs(i));
     for (int32_t j = -last; j <= last; ++j) {

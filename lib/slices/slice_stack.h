@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The slices of a tile, as all views of the aperture show them.
+// The slices of a tile with the weights and offsets of all views of the aperture. Input of the
+// compositor's strips.
 #ifndef STARFOCUS_LIB_SLICES_SLICE_STACK_H_
 #define STARFOCUS_LIB_SLICES_SLICE_STACK_H_
 
@@ -14,8 +15,8 @@
 
 namespace starfocus {
 
-// Views of a column that are summed in 16 bits. Of more, and so smaller, weights products with
-// faint light would be rounded to nothing.
+// Number of views of a column that are summed in 16 bits. With more views the weights would be
+// smaller, and their products with faint light would round to zero.
 inline constexpr int32_t kGroupViews = 16;
 
 // One of the equal shares of the weights of a group.
@@ -23,13 +24,14 @@ struct WeightShare {
   uint32_t index, count;
 };
 
-// Weights of views as the kernels sum them: aperture weights times scale / 2^16. A group of larger
-// weights than the kernels take is added share by share.
+// Weights of views in the units of the kernels: aperture weights times scale / 2^16. A group whose
+// weights exceed the limit of the kernels is added in several shares.
 struct ScaledWeights {
   const ViewWeights* aperture;
-  uint64_t scale;          // 21 bits
-  uint32_t largest;        // weight of the aperture
-  uint32_t least_covered;  // sums of less than this are no colour: what rounding adds would show
+  uint64_t scale;    // 21 bits
+  uint32_t largest;  // largest weight of the aperture
+  uint32_t
+      least_covered;  // smaller sums of coverage give no colour, since rounding errors would show
 
   int16_t Weight(int32_t i, int32_t j, int extra_bits, const WeightShare& share) const {
     const uint64_t weight = (aperture->Weight(i, j) * (scale << extra_bits)) >> 16;
@@ -37,20 +39,20 @@ struct ScaledWeights {
                                 weight * share.index / share.count);
   }
 
-  // Returns the number of shares that the weights of views (i, first) to (i, last) are added in.
+  // Returns the number of shares in which the weights of views (i, first) to (i, last) are added.
   uint32_t Shares(int32_t i, int32_t first, int32_t last) const;
 
-  // Returns the last j of the views from (i, first) to at most (i, last) whose weights are alike:
-  // of the same power of sixteen below the aperture's largest. Steep openings have views of much
-  // less weight than the middle one; summed with it, their products with faint light would be
-  // rounded to nothing.
+  // Returns the last j of the views from (i, first) to at most (i, last) whose weights have the
+  // same magnitude. The magnitude is counted in powers of sixteen below the largest weight. In
+  // steep openings, outer views weigh much less than the middle one. Summed with it, their products
+  // with faint light would round to zero.
   int32_t LastAlike(int32_t i, int32_t first, int32_t last) const;
 
-  // Bits that the weights of views (i, first) to (i, last) can have more than the scale gives them:
-  // none with a group a column, unless all are of a lower power of sixteen.
+  // Returns the number of bits by which the scaled weights of views (i, first) to (i, last) can be
+  // raised. It is 0 if a column is one group, unless all weights are of a lower power of sixteen.
   int ExtraBits(int32_t i, int32_t first, int32_t last) const;
 
-  // Largest j of the views (i, j).
+  // Returns the largest j of the views (i, j).
   int32_t LastAcross(int32_t i) const {
     int32_t j = aperture->last;
     while (i * i + j * j > aperture->most) --j;
@@ -58,21 +60,21 @@ struct ScaledWeights {
   }
 };
 
-// Scales the weights of an aperture so that those of a group are at most kGroupSum together, and
-// each of them a quarter of it; of steep openings a multiple of that.
+// Scales the weights of an aperture so that the sum of a group is at most kGroupSum, and each
+// weight at most a quarter of it. For steep openings the limits are a multiple of that.
 ScaledWeights ScaleWeights(const ViewWeights& aperture);
 
-// The nearest slice comes first.
+// A stack of slices; the nearest is the first.
 struct SliceStack {
   const ViewGrid* grid;
   ScaledWeights weights;
-  Rect inner;  // the rectangle that the tile is a part of, in pixels of its surfaces
+  Rect inner;  // rectangle that contains the tile, in pixels of its surfaces
   int32_t count;
   Slice slices[kMaxSlices];
-  SurfaceBands bands;                // of the surfaces that they are cut from
+  SurfaceBands bands;                // bands of the surfaces of the slices
   const simd::SliceOffset* offsets;  // of views -N to N, `count` each
 
-  // Where views (i, .) or (., i) show slice k.
+  // Returns the position of slice k in views (i, .) or (., i).
   const simd::SliceOffset& Offset(int32_t k, int32_t i) const {
     return offsets[(i + grid->n()) * count + k];
   }

@@ -13,7 +13,7 @@ class Strip {
   Strip(const StripJob& job, const StripPairs& pairs)
       : job_(job), stack_(*job.stack), pairs_(pairs) {}
 
-  // Composites column by column of views.
+  // Composites one column of views at a time.
   void Composite() {
     FindRows();
     PlaceSlices();
@@ -24,7 +24,7 @@ class Strip {
   }
 
  private:
-  // Finds which slices are seen and in which rows, and clears the sums.
+  // Finds the slices that are seen and their rows, and clears the sums.
   void FindRows() {
     for (int32_t k = 0; k < stack_.count; ++k) rows_[k] = {0, 0};
     for (const CellPair* pair = pairs_.first; pair < pairs_.end; ++pair) {
@@ -42,8 +42,8 @@ class Strip {
     }
   }
 
-  // Places the seen slices one behind the other in the strip's memory; the marks of their rows
-  // follow all samples.
+  // Places the seen slices in the memory of the strip. The marks of their rows follow the samples
+  // of all slices.
   void PlaceSlices() {
     size_t rows = 0;
     for (int32_t n = 0; n < seen_; ++n) {
@@ -66,11 +66,11 @@ class Strip {
     }
   }
 
-  // Adds views (i, j) of all j.
+  // Adds all views (i, j) of column i.
   void AddColumn(int32_t i) {
     const int32_t last = stack_.weights.LastAcross(Abs(i));
     for (int32_t n = 0; n < seen_; ++n) MoveSlice(seen_slices_[n], i, last);
-    // Views that no light comes through are left out at either end.
+    // Views at either end that let no light through are skipped.
     const ViewWeights& aperture = *stack_.weights.aperture;
     int32_t begin = -last, end = last;
     while (begin <= end && aperture.Weight(i, begin) == 0) ++begin;
@@ -80,7 +80,7 @@ class Strip {
       for (int32_t first = Max(group, begin); first <= most;) {
         const int32_t alike = stack_.weights.LastAlike(i, first, most);
         if (aperture.Weight(i, first) != 0)
-          AddGroup(i, first, alike);  // else no light comes through
+          AddGroup(i, first, alike);  // otherwise no light comes through
         first = alike + 1;
       }
     }
@@ -125,12 +125,12 @@ class Strip {
   const StripJob& job_;
   const SliceStack& stack_;
   const StripPairs& pairs_;
-  int64_t samples_ = 0;  // of a view, of all slices
+  int64_t samples_ = 0;  // samples of one view, over all slices
   int32_t seen_ = 0;
   int32_t seen_slices_[kMaxSlices];
-  RowRange rows_[kMaxSlices];           // of the pairs that see a slice
-  ShiftedSlice shifted_[kMaxSlices];    // as the column of views under way shows them
-  simd::StripSlice shown_[kMaxSlices];  // the same, for the kernel
+  RowRange rows_[kMaxSlices];           // rows of the pairs that see a slice
+  ShiftedSlice shifted_[kMaxSlices];    // as the current column of views shows them
+  simd::StripSlice shown_[kMaxSlices];  // `shifted_` in the form of the kernel
 };
 
 }  // namespace

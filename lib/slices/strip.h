@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A strip: kSliceLanes columns of a part of a tile, all views of which are composited while its
-// slices are in the nearest cache.
+// Composites a strip: kSliceLanes columns of a part of a tile. All views of a strip are composited
+// while its slices are in the L1 cache.
 #ifndef STARFOCUS_LIB_SLICES_STRIP_H_
 #define STARFOCUS_LIB_SLICES_STRIP_H_
 
@@ -14,28 +14,29 @@
 
 namespace starfocus {
 
-// Two cells side by side in a part of a tile: they see slices of their own.
+// Two adjacent cells in a part of a tile, with the slices that they see.
 struct CellPair {
-  int32_t x, y, rows;  // in the part of the tile
-  int32_t count;       // slices seen
+  int32_t x, y, rows;  // position and height in the part of the tile
+  int32_t count;       // number of slices seen
   uint8_t shown[kMaxSlices];
 };
 
-// A pixel of light has sums of R, G, B and of what is covered.
+// Sums of a pixel: R, G, B and coverage.
 inline constexpr size_t kPixelSums = 4;
 
-// What all strips of a part of a tile share. G: the smaller of 2 N + 1 and kGroupViews.
+// Input, scratch memory and output of the strips of a part of a tile. G is the smaller of 2 N + 1
+// and kGroupViews.
 struct StripJob {
   const simd::Kernels* kernels;
   const SliceStack* stack;
   const SlicePlane* planes;  // of each slice, filled for the part
-  int16_t* weights;          // G: of a group of views
+  int16_t* weights;          // G: weights of a group of views
   int16_t* memory;           // StripBytes of each slice
-  uint32_t* sums;            // kPixelSums of each pixel of the strip: output, by rows of the part
-  CancelToken* cancel;       // null: it goes on to the end
+  uint32_t* sums;            // output: kPixelSums per pixel of the strip, by rows of the part
+  CancelToken* cancel;       // null: the job is never cancelled
 };
 
-// The pairs [first, end) of a part of a tile that lie at column x, at least one.
+// The pairs [first, end) of a part of a tile that lie at column x; at least one.
 struct StripPairs {
   int32_t x;
   const CellPair *first, *end;
@@ -44,7 +45,7 @@ struct StripPairs {
 // Sums all views of the pairs into job.sums.
 void CompositeStrip(const StripJob& job, const StripPairs& pairs);
 
-// The sums of a row of the part.
+// Returns the sums of a row of the part.
 inline uint32_t* SumsOfRow(uint32_t* sums, int32_t row) {
   return sums + kPixelSums * simd::kSliceLanes * static_cast<size_t>(row);
 }

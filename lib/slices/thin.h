@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pixels of thin structures (lib/coverage) as surfaces of slices.
+// Turns the coverage map of thin structures (lib/coverage) into surfaces for slices.
 #ifndef STARFOCUS_LIB_SLICES_THIN_H_
 #define STARFOCUS_LIB_SLICES_THIN_H_
 
@@ -9,12 +9,12 @@
 
 namespace starfocus {
 
-// Gives pixels of thin tiles the disparity of the surface that covers most of them, so that hidden
-// surfaces end there. Call it before FindLayeredDepth.
+// Gives each pixel of thin tiles the disparity of the surface that covers most of it, so that
+// hidden surfaces end there. Must be called before FindLayeredDepth.
 void TakeThinDisparities(const Window& window, BlockPixels* field);
 
-// Gives pixels of thin tiles the two surfaces that the coverage map has found there, in place of
-// those that FindLayeredDepth and FindMatte left. Call it before InpaintHidden.
+// Gives each pixel of thin tiles the two surfaces that the coverage map found there. They replace
+// those of FindLayeredDepth and FindMatte. Must be called before InpaintHidden.
 void PartThin(const Window& window, const BlockPixels& field, LayeredDepth* surfaces);
 
 }  // namespace starfocus
