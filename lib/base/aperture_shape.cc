@@ -10,23 +10,24 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-// Machines may disagree about a tangent's last digit, as in ApertureFallOff; what is rounded here
-// would have to lie within that of a half to differ.
+// Machines may disagree about the last digit of a tangent, as in ApertureFallOff. The result
+// differs only if the value is within that error of a half.
 int32_t Round(double value) { return static_cast<int32_t>(std::floor(value * kOpeningOne + 0.5)); }
 
 struct UnitVector {
   double sine, cosine;
 };
 
-// Returns the direction of an angle, computed by the tangent of half of it.
+// Returns the direction of an angle, computed from the tangent of its half.
 UnitVector DirectionOf(double angle) {
   const double tangent = std::tan(angle / 2), square = tangent * tangent;
   return {2 * tangent / (1 + square), (1 - square) / (1 + square)};
 }
 
-// An edge is an arc through two corners of the unit circle, `curvature` over its radius: with
-// `half` of the angle between them, its circle's centre lies at cos(half) - sqrt(1 / curvature^2 -
-// sin(half)^2) along the edge's normal. Times the curvature, that has a limit for straight edges.
+// Each edge is an arc through two corners of the unit circle with radius 1 / `curvature`. `half` is
+// half the angle between the corners. The centre of the arc lies on the edge's normal, at
+// cos(half) - sqrt(1 / curvature^2 - sin(half)^2). Multiplied by the curvature, this has a limit
+// for straight edges.
 void SetPolygon(const starfocus_lens& lens, ApertureShape* opening) {
   opening->blades = lens.blades;
   const double half = kPi / lens.blades;
@@ -41,7 +42,8 @@ void SetPolygon(const starfocus_lens& lens, ApertureShape* opening) {
     opening->normals[edge][0] = Round(normal.sine);
     opening->normals[edge][1] = Round(-normal.cosine);
   }
-  // A point that far along a normal, which rounding makes a little longer than 1, is inside.
+  // Returns true if points at distance `radius` along a normal are inside. Rounding may make a
+  // normal longer than 1 by one unit.
   const auto is_inside = [&](int64_t radius) {
     return opening->bulge * radius * radius + opening->slope * radius * (kOpeningOne + 1) <=
            int64_t{opening->limit} * kOpeningOne * kOpeningOne;
@@ -79,8 +81,8 @@ int32_t MeanSquare(const ApertureShape& opening) {
     const double inner = static_cast<double>(opening.inner) / kOpeningOne;
     return Round((1 + inner * inner) / 4);
   }
-  // Rings of equal area at the square distances `square`, by the midpoint rule. An axis has half of
-  // it.
+  // Rings of equal area at the square distances `square`, by the midpoint rule. One coordinate has
+  // half of the mean square distance.
   constexpr int kRings = 256;
   const double fall_off = opening.fall_off / 65536.0;
   double light = 0, sum = 0;
@@ -127,7 +129,7 @@ bool IsDark(const ApertureShape& opening, int64_t x, int64_t y, int64_t half, in
 RimShift ShiftOfRim(const ApertureShape& opening, const Rect& rect, int32_t width, int32_t height) {
   const double diagonal =
       std::sqrt(static_cast<double>(width) * width + static_cast<double>(height) * height);
-  // Both are even about the picture's middle, so that mirrored places have mirrored rims.
+  // Both functions are odd about the middle of the picture, so mirrored places get mirrored rims.
   const auto shift = [&](int32_t doubled) {
     return static_cast<int32_t>(-opening.cats_eye * (doubled / diagonal));
   };

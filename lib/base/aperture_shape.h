@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The opening of a lens: where in its disc light comes through. Integers but for what is rounded
-// once, so that every machine makes the same weights of it.
+// Opening of a lens: the part of the lens disc that lets light through. The lens setup makes it
+// from a starfocus_lens, and lib/base/view_weights.h derives the weights of the views from it.
+// After one rounding all arithmetic uses integers, so every machine computes the same weights.
 #ifndef STARFOCUS_LIB_BASE_APERTURE_SHAPE_H_
 #define STARFOCUS_LIB_BASE_APERTURE_SHAPE_H_
 
@@ -11,7 +12,7 @@
 
 namespace starfocus {
 
-// Fractional bits of what an opening is described by, in radii of the lens.
+// Fractional bits of the numbers that describe an opening, in radii of the lens.
 inline constexpr int kOpeningBits = 14;
 inline constexpr int32_t kOpeningOne = 1 << kOpeningBits;
 
@@ -19,53 +20,55 @@ inline constexpr int32_t kOpeningOne = 1 << kOpeningBits;
 uint32_t ApertureFallOff(double theta);
 
 struct ApertureShape {
-  // The paper's (3), of what ApertureFallOff gives: an opening that is nothing else.
+  // The opening (3) of the paper. `cot_square` is a result of ApertureFallOff.
   ApertureShape(uint32_t cot_square = 1 << 16) : fall_off(cot_square) {}  // NOLINT: converts
 
   starfocus_shape shape = STARFOCUS_SHAPE_FALL_OFF;
-  uint32_t fall_off;     // of STARFOCUS_SHAPE_FALL_OFF: cot^2(theta), 16 bits
-  int32_t inner = 0;     // of a ring: the radius of its hole
-  int32_t cats_eye = 0;  // how far the rim behind the lens moves up to a corner of the picture
-  // A polygon has the points p of `bulge` |p|^2 + `slope` p * normal <= `limit` for the normal of
-  // each of its edges, which are arcs through the corners.
+  uint32_t fall_off;  // STARFOCUS_SHAPE_FALL_OFF: cot^2(theta), 16 fractional bits
+  int32_t inner = 0;  // STARFOCUS_SHAPE_RING: radius of the hole
+  // Displacement of the rim behind the lens as seen from a corner of the picture.
+  int32_t cats_eye = 0;
+  // A polygon consists of the points p with `bulge` |p|^2 + `slope` p * normal <= `limit` for the
+  // normal of each edge. The edges are arcs through the corners.
   int32_t blades = 0;
   int32_t normals[STARFOCUS_MAX_BLADES][2] = {};
   int32_t bulge = 0, slope = 0, limit = 0;
-  int32_t inscribed = 0;  // radius of a disc in it: kOpeningBits, rounded down
+  int32_t inscribed = 0;  // radius of an inscribed disc of the polygon: kOpeningBits, rounded down
 
-  // Whether the opening is its own mirror image about both axes and both diagonals, so that an
-  // octant tells all of it. What cat's eyes leave of it isn't.
+  // True if the opening is symmetric about both axes and both diagonals, so that one octant
+  // describes it. The part that cat's eyes leave open is not symmetric.
   bool IsSymmetric() const { return shape != STARFOCUS_SHAPE_POLYGON; }
-  // Whether the octant's centre may be dark.
+  // True if the centre of the lens may be dark.
   bool IsRing() const { return shape == STARFOCUS_SHAPE_RING; }
 };
 
-// The opening of a valid lens.
+// Returns the opening of a valid lens.
 ApertureShape ShapeOf(const starfocus_lens& lens);
 
-// Whether two openings of ShapeOf are the same but for their cat's eyes.
+// Returns true if two results of ShapeOf differ at most in their cat's eyes.
 bool AreAlike(ApertureShape a, const ApertureShape& b);
 
-// The mean square of a coordinate of the light that an opening other than a polygon lets through,
-// of the lens's radius: kOpeningBits.
+// Returns the mean square of one coordinate of the transmitted light, in radii of the lens
+// (kOpeningBits). The opening must not be a polygon.
 int32_t MeanSquare(const ApertureShape& opening);
 
-// Whether light comes through at (x, y), of a lens whose radius is `radius`; all at most 2^14.
+// Returns true if light passes at (x, y) through a lens of the given radius. All arguments are at
+// most 2^14.
 bool LetsThrough(const ApertureShape& opening, int64_t x, int64_t y, int64_t radius);
 
-// Whether a polygon surely lets no light through the square of points up to `half` beside (x, y)
-// and above and below it.
+// Returns true if a polygon certainly lets no light through the square of points that are at most
+// `half` away from (x, y) horizontally and vertically. May return false for a dark square.
 bool IsDark(const ApertureShape& opening, int64_t x, int64_t y, int64_t half, int64_t radius);
 
-// The centre of the rim behind the lens, as it is seen from a part of the picture: kOpeningBits.
+// Centre of the rim behind the lens as seen from a part of the picture: kOpeningBits.
 struct RimShift {
   int32_t x = 0, y = 0;
 };
 
-// That of the pixels of `rect`: of those in its middle.
+// Returns the shift of the rim for the pixels of `rect`, computed at the middle of `rect`.
 RimShift ShiftOfRim(const ApertureShape& opening, const Rect& rect, int32_t width, int32_t height);
 
-// Whether a point that the opening lets through passes the rim behind it as well.
+// Returns true if a point of the opening also lies inside the rim behind the lens.
 constexpr bool PassesRim(const RimShift& shift, int64_t x, int64_t y, int64_t radius) {
   const int64_t dx = x * kOpeningOne - shift.x * radius;
   const int64_t dy = y * kOpeningOne - shift.y * radius;
@@ -73,8 +76,8 @@ constexpr bool PassesRim(const RimShift& shift, int64_t x, int64_t y, int64_t ra
   return dx * dx + dy * dy <= whole * whole;
 }
 
-// Calls visit(i, j) for 0 <= j <= i <= last, the centre last; `by_size`: those that stand for eight
-// points of the plane before those that stand for four.
+// Calls visit(i, j) for 0 <= j <= i <= last, with the centre last. With `by_size`, points that
+// represent eight points of the plane come before those that represent four.
 template <class Visit>
 void ForEachOfOctant(int32_t last, bool by_size, const Visit& visit) {
   for (int32_t i = by_size ? last : 0; i > 1; --i) {
@@ -90,15 +93,15 @@ void ForEachOfOctant(int32_t last, bool by_size, const Visit& visit) {
   }
 }
 
-// Returns how many different points (+-i, +-j), (+-j, +-i) are.
+// Returns the number of different points (+-i, +-j), (+-j, +-i).
 constexpr int32_t PointsOfOctant(int32_t i, int32_t j) {
   if (i == 0) return 1;
   return j == 0 || i == j ? 4 : 8;
 }
 
-// What is left of a whole for the points of an octant's (i, j), `points` of them, when `left` is
-// the share of these and what is owed from those before. An opening whose centre may be dark owes
-// only: nothing must be left for the centre to take back.
+// Returns the share of each of the `points` points that (i, j) represents. `left` is the share of
+// all of them, plus the rounding error of earlier points. With `by_size` the share is rounded down:
+// if the centre may be dark, it cannot compensate for earlier shares that were too large.
 constexpr int64_t ShareOfPoints(int64_t left, int64_t points, bool by_size) {
   const int64_t share = (left + (by_size ? 0 : points / 2)) / points;
   return share < 0 ? 0 : share;

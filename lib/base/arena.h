@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hands out pieces of the caller's memory, or only counts them: one routine sizes a workspace and
-// carves it.
+// Bump allocator over memory of the caller. Without a base address it only counts bytes, so the
+// same code computes the size of a workspace and divides it into pieces.
 #ifndef STARFOCUS_LIB_BASE_ARENA_H_
 #define STARFOCUS_LIB_BASE_ARENA_H_
 
@@ -12,12 +12,12 @@
 
 namespace starfocus {
 
-// Bytes of what is larger than memory can be.
+// Size of objects that exceed the address space.
 inline constexpr size_t kTooLarge = SIZE_MAX;
 
-// In builds with AddressSanitizer this many bytes behind each piece and its padding, a multiple of
-// STARFOCUS_ALIGNMENT, are a red zone: whatever reads or writes it while jobs run is reported.
-// Pieces share no memory there, so that each has neighbours of its own.
+// In builds with AddressSanitizer, each piece and its padding are followed by a red zone of this
+// many bytes, a multiple of STARFOCUS_ALIGNMENT. Accesses to it while jobs run are reported. Pieces
+// share no memory in these builds.
 #if defined(__has_feature)
 #if __has_feature(address_sanitizer)
 #define STARFOCUS_RED_ZONES
@@ -31,26 +31,25 @@ inline constexpr size_t kRedZone = 1024;
 inline constexpr size_t kRedZone = 0;
 #endif
 
-// Is told of each piece, in the order they are taken: the bytes before it, and those up to its end,
-// which are more by it, its padding and its red zone.
+// Receives each piece in the order of allocation. `begin` is the number of bytes before the piece;
+// `end` also counts the piece, its padding and its red zone.
 struct PieceVisitor {
   void (*visit)(void* data, size_t begin, size_t end);
   void* data;
 };
 
-// Poisons the red zone that ends `end` bytes behind `base`, or makes it memory again; nothing in
-// other builds.
+// Poisons or unpoisons the red zone that ends `end` bytes after `base`. No-op in other builds.
 void PoisonZone(void* base, size_t begin, size_t end);
 void UnpoisonZone(void* base, size_t begin, size_t end);
 
-// Hands out aligned pieces of a block of memory, each followed by simd::kPadding bytes, as long as
-// all of them together take `most` bytes: no object is larger than half of the addresses.
+// Allocates aligned pieces of a block of memory, each followed by simd::kPadding bytes. All pieces
+// together take at most `most` bytes; by default no object is larger than half the address space.
 class Arena {
  public:
   explicit Arena(void* base, size_t most = PTRDIFF_MAX, const PieceVisitor* pieces = nullptr)
       : base_(static_cast<uint8_t*>(base)), most_(most), pieces_(pieces) {}
 
-  // Takes `count` times `times` of them.
+  // Allocates count * times elements. Returns null if the arena only counts.
   template <class T>
   T* Take(size_t count, size_t times = 1) {
     T* piece = base_ == nullptr ? nullptr : reinterpret_cast<T*>(base_ + used_);
@@ -58,23 +57,23 @@ class Arena {
     return piece;
   }
 
-  // Returns the bytes of all pieces, or kTooLarge; the pieces handed out by then lie anywhere.
+  // Returns the size of all pieces, or kTooLarge. In that case earlier pieces may lie anywhere.
   size_t Bytes() const { return too_large_ ? kTooLarge : used_ > largest_ ? used_ : largest_; }
 
-  // What is taken from here on shares memory with what was taken since `mark` was.
+  // Reuse() lets later pieces share the memory of those allocated since Mark() returned `mark`.
   size_t Mark() const { return used_; }
   void Reuse(size_t mark) {
     if (kRedZone > 0) return;
     largest_ = used_ > largest_ ? used_ : largest_;
     used_ = mark;
   }
-  // Returns the bytes from here on that a piece may take without more memory, in what it shares.
+  // Returns the number of bytes that a piece may take here without enlarging the shared memory.
   size_t Shared() const { return largest_ < used_ + kExtra ? 0 : largest_ - used_ - kExtra; }
-  // What is taken from here on lies behind all of that.
+  // Ends sharing: later pieces lie after all earlier ones.
   void GoOn() { used_ = used_ > largest_ ? used_ : largest_; }
 
  private:
-  // Returns the product, or SIZE_MAX for all that is larger.
+  // Returns the product, or SIZE_MAX if it overflows.
   static constexpr size_t Product(size_t a, size_t b) {
     return a != 0 && b > SIZE_MAX / a ? SIZE_MAX : a * b;
   }
@@ -90,7 +89,7 @@ class Arena {
     }
   }
 
-  // Padding, a red zone, and what rounding up to STARFOCUS_ALIGNMENT adds at most.
+  // Padding, a red zone, and the most that rounding up to STARFOCUS_ALIGNMENT adds.
   static constexpr size_t kExtra = simd::kPadding + kRedZone + STARFOCUS_ALIGNMENT - 1;
 
   uint8_t* base_;

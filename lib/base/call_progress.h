@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The caller's progress function, which is told how far a call has come and says whether to go on.
+// Progress and cancellation of a call: calls the caller's progress function.
 #ifndef STARFOCUS_LIB_BASE_CALL_PROGRESS_H_
 #define STARFOCUS_LIB_BASE_CALL_PROGRESS_H_
 
@@ -10,32 +10,32 @@
 
 namespace starfocus {
 
-// Asks the caller, from any of the threads that run jobs, but never two at a time. It lies in the
-// workspace, for one call after the other.
+// Calls the progress function from any thread that runs jobs, but from only one at a time. The
+// object lies in the workspace and is used again for each call.
 class CallProgress {
  public:
-  // Sets the function of the calls that follow; null: nobody is asked.
+  // Sets the progress function for later calls; null: no function is called.
   void SetProgress(starfocus_progress progress, void* data) {
     progress_ = progress;
     data_ = data;
   }
 
-  // Begins a call that makes `rows` rows, of which the first `done` are there. No job may be
-  // running, here and in SetRows and SetPart.
+  // Starts a call that produces `rows` rows, of which the first `done` are finished. No job may run
+  // during Begin, SetRows and SetPart.
   void Begin(int32_t done, int32_t rows);
 
-  // Says that the rows up to `done` are made.
+  // Reports that the rows before `done` are finished.
   void SetRows(int32_t done);
-  // Says that the next set of jobs is part `part` of `parts` of what all rows take. Its rows are
-  // made as its jobs are.
+  // Declares the next set of jobs as part `part` of `parts` equal parts of the call. The reported
+  // rows of this part are proportional to its finished jobs.
   void SetPart(int32_t part, int32_t parts);
 
-  // The same from a set's jobs: `jobs` are begun, and one is done.
+  // BeginJobs starts a set of `jobs` jobs. CountJob counts a finished job of the set.
   void BeginJobs(int32_t jobs);
   void CountJob() { jobs_done_.fetch_add(1, std::memory_order_relaxed); }
 
-  // Asks the caller whether to go on, unless another thread is doing so. Once he has said no,
-  // nobody is asked any more, and it is no for all.
+  // Calls the progress function unless another thread is calling it. Returns false after
+  // cancellation; the function is not called again then.
   bool Ask();
 
   bool IsCancelled() const { return cancelled_.load(std::memory_order_relaxed) != 0; }
@@ -48,15 +48,15 @@ class CallProgress {
   std::atomic<uint32_t> asking_{0}, cancelled_{0};
 };
 
-// How long a thread works before it asks: by what it does, and not by a clock, which the library
-// has none of.
+// Limits the work between two calls of the progress function. The limit is a number of samples
+// because the library has no clock.
 class CancelToken {
  public:
   CancelToken() = default;
   explicit CancelToken(CallProgress* call_progress) : call_progress_(call_progress) {}
 
-  // Counts about so many samples read, filtered or added up. Returns whether to go on; no once, it
-  // is no until the next call.
+  // Counts approximately `samples` samples that were read, filtered or accumulated. Returns true to
+  // continue. After it returned false, it returns false until the next call of the engine.
   bool Spend(int64_t samples) {
     left_ -= samples;
     return left_ > 0 || Ask();
@@ -69,14 +69,14 @@ class CancelToken {
     return goes_on;
   }
 
-  // A fraction of a millisecond's on a desktop, a millisecond's on a board.
+  // A fraction of a millisecond on a desktop, about one millisecond on a single-board computer.
   static constexpr int64_t kSamples = 1 << 19;
 
-  CallProgress* call_progress_ = nullptr;  // null: nobody is asked
+  CallProgress* call_progress_ = nullptr;  // null: never cancelled
   int64_t left_ = kSamples;
 };
 
-// The same where there may be nobody to ask.
+// Returns true to continue, also without a cancel token.
 inline bool GoesOn(CancelToken* cancel, int64_t samples) {
   return cancel == nullptr || cancel->Spend(samples);
 }

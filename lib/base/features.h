@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a configuration asks for.
+// Queries of a configuration.
 #ifndef STARFOCUS_LIB_BASE_FEATURES_H_
 #define STARFOCUS_LIB_BASE_FEATURES_H_
 
@@ -9,15 +9,15 @@
 
 namespace starfocus {
 
-// Whether a STARFOCUS_FEATURE_ is among those of a configuration.
+// Returns true if `features` contains the STARFOCUS_FEATURE_ bit `feature`.
 constexpr bool Has(uint32_t features, uint32_t feature) { return (features & feature) != 0; }
 
-// Whether lenses may be polygons and have cat's eyes.
+// Returns true if lenses may be polygons and have cat's eyes.
 inline bool HasShapes(const starfocus_config& config) {
   return Has(config.features, STARFOCUS_FEATURE_SHAPES);
 }
 
-// The range of disparities as maps have them: single precision.
+// Range of disparities in single precision, the type of depth maps.
 struct DisparityRange {
   float min, max;
 };

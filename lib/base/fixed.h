@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every fixed-point value of the engine: its scale, range and headroom, once.
+// Scale, range and headroom of every fixed-point value of the engine.
 //
 // clang-format off
 // | value                | type   | scale   | range                     | headroom                  |
@@ -64,14 +64,14 @@ inline constexpr int kShiftBits = 8;
 inline constexpr int32_t kShiftOne = 1 << kShiftBits;
 inline constexpr int kShareBits = 14;
 inline constexpr int kMaxWeightBits = 24;
-// What weights of light may sum to in an accumulator.
+// Largest sum of light weights in an accumulator, in bits.
 inline constexpr int kMaxLightBits = 17;
 inline constexpr int32_t kMaxWeight = 32767;
 
-// Two neighbouring pixels belong to one surface when their disparities differ by at most this.
+// Two neighbouring pixels belong to one surface if their disparities differ by at most this value.
 inline constexpr int32_t kSurfaceStep = (3 << kDisparityBits) / 2;
 
-// What the table promises, for the values that several lines of code make.
+// A range of the table above, for values that several functions compute.
 struct FixedRange {
   const char* name;
   int64_t low, high;
@@ -82,7 +82,7 @@ inline constexpr int64_t kPixel = 1 << kShiftBits;
 inline constexpr int64_t kBlurEnd = 129;
 inline constexpr FixedRange kDisparity = {"disparity", -500 * 64, 500 * 64};
 inline constexpr FixedRange kFocus = {"focus", -1000000 * 64, 1000000 * 64};
-// Views of N = 4 lie 128/123 of the radius out (LensInSubapertures).
+// The outermost views of N = 4 lie at 128/123 of the radius (LensInSubapertures).
 inline constexpr int64_t kShiftEnd = 134;
 inline constexpr FixedRange kShift = {"shift", -kShiftEnd* kPixel, kShiftEnd* kPixel};
 inline constexpr FixedRange kRadius = {"blur radius of a cell", 0, kBlurEnd << kDisparityBits};
@@ -99,8 +99,9 @@ inline constexpr FixedRange kUnmixed = {"unmixed pixel", 0, 255 << 7};
 inline constexpr FixedRange kRemainder = {"weight left after all orbits", 0, 0};
 }  // namespace ranges
 
-// Returns `value`. With STARFOCUS_CHECK_RANGES, a debug build of its own, a value outside its range
-// is told to on_range_failure; without a listener the program ends. Otherwise nothing is checked.
+// Returns `value`. With STARFOCUS_CHECK_RANGES, which only one debug build defines, values outside
+// their range are passed to on_range_failure, or abort the program if that is null. Other builds do
+// not check.
 #ifdef STARFOCUS_CHECK_RANGES
 inline constexpr bool kCheckRanges = true;
 extern void (*on_range_failure)(const FixedRange& range, int64_t value);
@@ -119,14 +120,14 @@ constexpr T Checked(const FixedRange&, T value) {
 }
 #endif
 
-// Checks an array.
+// Applies Checked to the elements of an array.
 template <class T>
 void CheckAll(const FixedRange& range, const T* values, size_t count) {
   if (!kCheckRanges) return;
   for (size_t n = 0; n < count; ++n) Checked(range, values[n]);
 }
 
-// Accumulators of pixels whose weights sum to 2^sum_bits.
+// Checks accumulators of pixels whose weights sum to 2^sum_bits.
 inline void CheckSums(const uint32_t* sums, size_t count, int sum_bits) {
   CheckAll({"accumulator", 0, int64_t{255} << sum_bits}, sums, count);
 }
@@ -142,7 +143,7 @@ constexpr int32_t Clamp(int32_t value, int32_t low, int32_t high) {
   return value < low ? low : value > high ? high : value;
 }
 
-// Index of the lowest bit set; bits != 0.
+// Returns the index of the lowest set bit; bits != 0.
 inline int32_t LowestBit(uint32_t bits) {
 #if defined(__GNUC__)
   return __builtin_ctz(bits);
@@ -153,7 +154,7 @@ inline int32_t LowestBit(uint32_t bits) {
 #endif
 }
 
-// Index of the highest bit set; bits != 0.
+// Returns the index of the highest set bit; bits != 0.
 inline int32_t HighestBit(uint32_t bits) {
 #if defined(__GNUC__)
   return 31 - __builtin_clz(bits);
@@ -164,7 +165,7 @@ inline int32_t HighestBit(uint32_t bits) {
 #endif
 }
 
-// Calls visit(index) for every bit set, from the lowest on.
+// Calls visit(index) for each set bit, in ascending order.
 template <class Visit>
 void ForEachBit(uint32_t bits, const Visit& visit) {
   for (; bits != 0; bits &= bits - 1) visit(LowestBit(bits));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gaps in lines of disparities, where the map does not know them.
+// Fills unknown disparities in lines of a depth map.
 #ifndef STARFOCUS_LIB_BASE_GAPS_H_
 #define STARFOCUS_LIB_BASE_GAPS_H_
 
@@ -7,12 +7,12 @@
 
 namespace starfocus {
 
-// Tells whether a disparity is known: neither NaN nor infinite.
+// Returns true if a disparity is known, that is, neither NaN nor infinite.
 inline bool IsFinite(float value) { return value - value == 0.0f; }
 
-// Fills the gap (left, right) between known elements of a line; -1 and length stand for none.
-// Between two, the farther surface goes on: what is unknown beside an edge is mostly what the edge
-// hides.
+// Fills the elements between the known elements `left` and `right`. -1 and `length` mean that there
+// is no known element on that side. A gap between two surfaces gets the farther disparity, because
+// unknown values at an edge mostly belong to the surface that the edge hides.
 template <class Line>
 void FillGap(const Line& line, int32_t length, int32_t left, int32_t right) {
   if (left < 0 && right >= length) return;
@@ -21,8 +21,8 @@ void FillGap(const Line& line, int32_t length, int32_t left, int32_t right) {
   for (int32_t k = left + 1; k < right; ++k) line[k] = farther;
 }
 
-// Fills the gaps of a line of `length` elements, of which is_known(element) tells which ones are
-// none. Returns whether there was a known one; else the line stays as it is.
+// Fills all gaps of a line of `length` elements. is_known(element) returns false in gaps. Returns
+// false and leaves the line unchanged if it has no known element.
 template <class Line, class IsKnown>
 bool FillGaps(const Line& line, int32_t length, const IsKnown& is_known) {
   int32_t last = -1;

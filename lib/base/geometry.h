@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rectangles, rows and ranges of addresses.
+// Rectangles, planes of rows, and address ranges.
 #ifndef STARFOCUS_LIB_BASE_GEOMETRY_H_
 #define STARFOCUS_LIB_BASE_GEOMETRY_H_
 
@@ -12,12 +12,12 @@ struct Rect {
   int32_t x, y, width, height;
 };
 
-// Pixels beyond the sides of a rectangle.
+// Number of pixels that are added at each side of a rectangle.
 struct Border {
   int32_t left, right, top, bottom;
 };
 
-// The rectangle with its border.
+// Returns the rectangle extended by its border.
 constexpr Rect Extended(const Rect& rect, const Border& border) {
   return {rect.x - border.left, rect.y - border.top, border.left + rect.width + border.right,
           border.top + rect.height + border.bottom};
@@ -28,11 +28,11 @@ struct RowRange {
   int32_t first, last;
 };
 
-// Rows of T, from row `first` on; a ring (rows > 0) holds row y at y modulo `rows` instead.
+// Rows of T, starting at row `first`. A ring (rows > 0) stores row y at index y modulo `rows`.
 template <class T>
 struct Plane {
   T* data = nullptr;
-  size_t stride = 0;  // in T
+  size_t stride = 0;  // in elements of T
   int32_t rows = 0;
   int32_t first = 0;
 
@@ -42,12 +42,12 @@ struct Plane {
   }
 };
 
-// The addresses [begin, end).
+// Address range [begin, end).
 struct Extent {
   uintptr_t begin, end;
 };
 
-// The addresses from the first byte of `rows` rows to the last one's; those between rows count.
+// Returns the address range from the first byte of the first row to the last byte of the last one.
 inline Extent ExtentOf(const void* data, size_t stride, int32_t rows, size_t row_bytes) {
   const auto begin = reinterpret_cast<uintptr_t>(data);
   const uintptr_t bytes = rows == 0 ? 0 : static_cast<uintptr_t>(rows - 1) * stride + row_bytes;

@@ -4,7 +4,7 @@
 namespace starfocus {
 namespace {
 
-// The bits of a job.
+// The word and the bits of a job.
 struct Progress {
   std::atomic<uint32_t>& word;
   uint32_t taken, done;
@@ -22,7 +22,7 @@ void RunJob(int32_t index, int32_t worker, JobSet* set) {
   set->call_progress.CountJob();
 }
 
-// Takes a job and runs it; false when it has been taken before or does not exist.
+// Takes a job and runs it. Returns false if the job was taken before or does not exist.
 bool TakeJob(JobSet* set, int32_t index, int32_t worker) {
   if (index < 0 || index >= set->count) return false;
   const Progress progress = ProgressOf(*set, index);
@@ -32,8 +32,8 @@ bool TakeJob(JobSet* set, int32_t index, int32_t worker) {
   return true;
 }
 
-// The starfocus_job. Whoever has a worker's memory reads the set, which changes only while nobody
-// has any.
+// The starfocus_job. A thread reads the set only while it holds a worker, and the set changes only
+// while no worker is held.
 void CallJob(void* data, int32_t index, int32_t worker) {
   JobSet& set = *static_cast<JobSet*>(data);
   if (worker < 0 || worker >= set.max_workers || set.busy[worker].exchange(1) != 0) {
@@ -44,8 +44,8 @@ void CallJob(void* data, int32_t index, int32_t worker) {
   set.busy[worker].store(0);
 }
 
-// Whether every job of the set was run once. Jobs that still run, although the runner has returned,
-// are waited for: they use memory of the call.
+// Returns true if each job of the set was run exactly once. Waits for jobs that still run after the
+// runner has returned, because they use memory of the call.
 bool Close(JobSet* set) {
   set->open.store(0);
   for (int32_t worker = 0; worker < set->max_workers; ++worker) {
@@ -78,7 +78,7 @@ starfocus_status RunJobSet(JobFunction function, const void* data, int32_t count
   set->open.store(1);
   const int result = set->runner.run(set->runner.data, CallJob, set, count);
   const bool all = Close(set);
-  // A runner may have left jobs out because it knows.
+  // A runner may have skipped jobs because it was cancelled.
   if (set->call_progress.IsCancelled()) return STARFOCUS_ERROR_CANCELLED;
   return result == 0 && all ? STARFOCUS_OK : STARFOCUS_ERROR_RUNNER;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks that say which field or argument they refuse, and what was expected of it.
+// Argument checks that report the rejected field and its allowed values.
 #ifndef STARFOCUS_LIB_BASE_PROBLEM_H_
 #define STARFOCUS_LIB_BASE_PROBLEM_H_
 
@@ -13,7 +13,7 @@ namespace starfocus {
 
 constexpr double kNoNumber = __builtin_nan("");
 
-// What is allowed, in words and in numbers.
+// Allowed values, in words and as a range.
 struct Allowed {
   const char* words;
   double low = kNoNumber, high = kNoNumber;
@@ -24,37 +24,38 @@ struct Allowed {
 
 #define STARFOCUS_TEXT(text) #text
 #define STARFOCUS_TEXT_OF(macro) STARFOCUS_TEXT(macro)
-// From `least` to `most`, two numbers or macros of numbers.
+// Range from `least` to `most`, two numbers or macros that expand to numbers.
 #define STARFOCUS_FROM_TO(least, most)                                                    \
   ::starfocus::Allowed {                                                                  \
     STARFOCUS_TEXT_OF(least)                                                              \
     " to " STARFOCUS_TEXT_OF(most), static_cast<double>(least), static_cast<double>(most) \
   }
 
-// A field or an argument: its name, its value, and its index if the name has [].
+// Name and value of a field or argument, and its index if the name contains [].
 struct FieldValue {
   const char* name;
   double value = kNoNumber;
   int32_t index = 0;
 };
 
-// Fills *problem in, unless it is null. Returns the status.
+// Fills *problem, unless it is null. Returns `status`.
 starfocus_status Refuse(starfocus_status status, const FieldValue& field, const Allowed& allowed,
                         starfocus_problem* problem);
 
-// Fills *problem in for a status that no check has told of: runner, progress or memory. Returns it.
+// Fills *problem if no check has filled it: for errors of the runner, the progress function or
+// memory. Returns `status`.
 starfocus_status TellStatus(starfocus_status status, starfocus_problem* problem);
 
-// Checks values one after the other. The first one that it refuses is the problem.
+// Checks a sequence of values. The first rejected value becomes the problem.
 class Checker {
  public:
   explicit Checker(starfocus_problem* problem) : problem_(problem) {}
 
-  // Refuses the field unless `good`.
+  // Rejects the field unless `good`.
   void Need(bool good, starfocus_status status, const FieldValue& field, const Allowed& allowed) {
     if (!good && status_ == STARFOCUS_OK) status_ = Refuse(status, field, allowed, problem_);
   }
-  // A number between two others.
+  // Rejects numbers outside the allowed range.
   void In(const FieldValue& field, const Allowed& allowed) {
     Need(allowed.Has(field.value), STARFOCUS_ERROR_RANGE, field, allowed);
   }
@@ -76,7 +77,7 @@ struct Pointer {
   const void* pointer;
 };
 
-// Begins a call: forgets the problem of the call before, unless it is null, and checks arguments.
+// Starts a call: clears *problem, unless it is null, and checks that all arguments are not null.
 starfocus_status CheckPointers(std::initializer_list<Pointer> pointers, starfocus_problem* problem);
 
 }  // namespace starfocus

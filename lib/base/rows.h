@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures and maps of the formats that are read in place: R, G, B bytes, and float disparities.
+// Access to formats that the engine reads in place, without conversion: packed RGB and float
+// disparities.
 #ifndef STARFOCUS_LIB_BASE_ROWS_H_
 #define STARFOCUS_LIB_BASE_ROWS_H_
 
@@ -22,12 +23,12 @@ inline bool IsInPlace(const starfocus_depth_map& map, int32_t width, int32_t hei
          map.height == height;
 }
 
-// Rows of an image that is in place; the first one is row `first` of the picture.
+// Returns the rows of an image in such a format; its first row is row `first` of the picture.
 inline Plane<const uint8_t> RowsOf(const starfocus_image& image, int32_t first = 0) {
   return {static_cast<const uint8_t*>(image.planes[0]), image.strides[0], 0, first};
 }
 
-// Rows of a map that is in place.
+// Returns the rows of a depth map in such a format.
 inline Plane<const float> RowsOf(const starfocus_depth_map& map) {
   return {static_cast<const float*>(map.data), map.stride / sizeof(float), 0, 0};
 }

@@ -6,7 +6,7 @@
 namespace starfocus {
 namespace {
 
-// Lowest N / r_max without more aliasing than over-sampling has (Fig. 6).
+// Smallest N / r_max whose aliasing does not exceed that of over-sampling (Fig. 6).
 constexpr double kUnderSampling = 0.787;
 
 // Smallest blur radius that survives subsampling by two (Table I).
@@ -21,30 +21,31 @@ struct SubapertureStep {
   double r_max;
   int32_t n;
 };
-// The criterion would let 3 serve up to 7: 0.2 dB farther from truth on wires, 0.1 from the
-// benchmark mode on real maps, for 1 to 3 % of the instructions; and 4 up to 18: 0.1 to 0.4 dB for
-// 4 %.
+// The criterion would allow N = 3 up to 7 pixels. That is 0.2 dB farther from ground truth on wires
+// and 0.1 dB farther from benchmark mode on real maps, and saves 1 to 3 % of the instructions.
+// N = 4 up to 18 pixels costs 0.1 to 0.4 dB for 4 %.
 constexpr SubapertureStep kSubapertureSteps[] = {{0.5, 0},  {5.5, 3}, {11, 4}, {25, 5},
                                                  {34, 6},   {49, 7},  {68, 9}, {83, 11},
                                                  {119, 12}, {128, 13}};
 
-// What openings that don't fall off take at least: their error with 3 is beyond the threshold.
+// Smallest N of openings without fall-off: with N = 3 their error exceeds the threshold.
 constexpr int32_t kEvenViews = 4;
 
-// What openings with corners or narrow parts take beyond kMoreFrom px at least, by the error of
-// their subapertures there; with them up to that radius, too, the portrait is up to 0.3 dB farther
-// from truth.
+// Smallest N above kMoreFrom pixels for openings with corners or narrow parts, by the error of
+// their subapertures. With this N at smaller radii, too, the portrait is up to 0.3 dB farther from
+// truth.
 constexpr int32_t kMoreViews = 6;
 constexpr double kMoreFrom = 5.0;
 
-// With subapertures the rest of the error is smaller, and so must that of layers be: against truth
-// on the portrait layer 2 from 8 or 16 up costs 0.2 to 0.35 dB and saves 4 % of the instructions,
-// layer 1 from 5 up 0.1 to 0.2 dB and saves up to 19 %. Layer 2 rounds silhouettes to four pixels.
+// Subapertures leave a smaller error, so that of the layers must be smaller, too. On the portrait,
+// layer 2 from 8 or 16 pixels on loses 0.2 to 0.35 dB and saves 4 % of the instructions. Layer 1
+// from 5 pixels on loses 0.1 to 0.2 dB and saves up to 19 %. Layer 2 rounds silhouettes to four
+// pixels.
 constexpr double kSubapertureLayerRadius = 7.0;
 constexpr double kSubapertureCoarseRadius = 24.0;
 
-// The smallest blur radii of layer 1 by the paper's rule and by that of subapertures, of each
-// Demand; of layer 2 they grow alike.
+// Smallest blur radii of layer 1 for each Demand, by the rule of the paper and by that of
+// subapertures. The radii of layer 2 grow in proportion.
 struct LayerRadii {
   double paper, subaperture;
 };
@@ -77,7 +78,7 @@ int32_t ViewsBySubaperture(double r_max, Demand demand) {
 }
 
 int32_t ScaleViews(int32_t n, double scale) {
-  // 1.1 has no exact double: 10 views are to become 11, not 12.
+  // 1.1 has no exact double: 10 views should become 11, not 12.
   constexpr double kSlack = 1e-6;
   return n == 0 ? 0 : Ceil(n * scale - kSlack);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How codes of the pictures stand for light, which is what a lens adds.
+// Tables between the codes of pictures and light. Light is the quantity that a lens adds up.
 #ifndef STARFOCUS_LIB_BASE_TRANSFER_H_
 #define STARFOCUS_LIB_BASE_TRANSFER_H_
 
@@ -14,13 +14,13 @@ using simd::kLightBits;
 using simd::kLightWhite;
 
 struct Transfer {
-  const int16_t* light;     // of each of the 256 codes
-  simd::Encoding encoding;  // the same for kernels, which do without tables where they can
+  const int16_t* light;     // light of each of the 256 codes
+  simd::Encoding encoding;  // the same mapping for SIMD kernels, which avoid tables where possible
 };
 
-// The tables of a transfer: STARFOCUS_TRANSFER_SRGB those of IEC 61966-2-1, STARFOCUS_TRANSFER_NONE
-// those of light that is the code itself. Light of a code is rounded to the nearest level; of
-// light, the code is that whose own light is nearest in codes.
+// Returns the tables of a transfer function. STARFOCUS_TRANSFER_SRGB follows IEC 61966-2-1; with
+// STARFOCUS_TRANSFER_NONE, light is proportional to the code. The light of a code is rounded to the
+// nearest level. The code of a light level is the nearest one on the scale of codes.
 const Transfer& TransferOf(int32_t transfer);
 
 }  // namespace starfocus

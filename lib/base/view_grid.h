@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The grid of rendered views of one lens: N, the aperture's weights, and how far a pixel moves from
-// view to view.
+// Grid of the rendered views of one lens: N, the weights of the views, and the displacement of
+// pixels between views.
 #ifndef STARFOCUS_LIB_BASE_VIEW_GRID_H_
 #define STARFOCUS_LIB_BASE_VIEW_GRID_H_
 
@@ -12,20 +12,23 @@
 namespace starfocus {
 
 struct ViewGrid {
-  ViewWeights aperture;    // N views along the radius
-  int32_t focus = 0;       // d_t, kDisparityBits
-  int64_t step = 0;        // u_t / 2^layer, kStepBits
-  int layer = 0;           // L
-  int32_t half_views = 0;  // views |i| <= half_views take holes from the views at half distance
-  int32_t spread = 0;      // disparity range of a run, kDisparityBits
+  ViewWeights aperture;  // N views along the radius
+  int32_t focus = 0;     // d_t, kDisparityBits
+  int64_t step = 0;      // u_t / 2^layer, kStepBits
+  int layer = 0;         // L
+  // Views with |i| <= half_views fill holes from the captured views at half distance.
+  int32_t half_views = 0;
+  int32_t spread = 0;  // largest disparity range of a run, kDisparityBits
 
-  // Number of the outermost view along an axis.
+  // Index of the outermost view along an axis.
   int32_t n() const { return aperture.last; }
 
-  // u of view i in pixels of the layer per unit of disparity, kStepBits; i in [0, N], N > 0.
+  // Returns the position u of view i in pixels of the layer per unit of disparity, kStepBits; i in
+  // [0, N], N > 0.
   int64_t Move(int32_t i) const { return (i * step + n() / 2) / n(); }
 
-  // Pixels that disparity d moves by under `move`, kShiftBits. |result| is within the blur radius.
+  // Returns the displacement in pixels (kShiftBits) of disparity `disparity` in a view at `move`.
+  // Its absolute value is at most the blur radius.
   int32_t Shift(int64_t move, int32_t disparity) const {
     return static_cast<int32_t>(
         Checked(ranges::kShift,
@@ -33,7 +36,7 @@ struct ViewGrid {
   }
 };
 
-// The grid for aperture radius u_t in (0, 1], focus d_t with |d_t| <= 10^6.
+// Returns the grid for aperture radius u_t in (0, 1] and focus d_t, |d_t| <= 10^6.
 ViewGrid MakeViewGrid(const ViewWeights& aperture, double focus, double aperture_radius, int layer,
                       bool has_half_views);
 

@@ -24,21 +24,21 @@ int16_t Converted(double coordinate) {
   return static_cast<int16_t>(scaled < 0 ? scaled - 0.5 : scaled + 0.5);
 }
 
-// Views at least so many times as far beside the side's axis as along it are no help.
+// Views are ignored if they lie at least this many times as far from the side's axis as along it.
 constexpr int32_t kTooFarBeside = 8;
 
-// How well a view looks behind edges on a side.
+// Rates how well a view sees behind edges on a side.
 struct Rating {
-  int32_t along, across;  // how far it lies towards the side, and beside the axis
+  int32_t along, across;  // distance along the axis of the side, and from the axis
   ViewPosition at;
 
   bool Helps() const { return across < kTooFarBeside * along; }
-  // Whether it lies nearer to the side's direction than to any other.
+  // True if the view lies closer to the direction of this side than to any other.
   bool Own() const { return across < along; }
-  // How far out it lies, less for what it lies beside the axis.
+  // Distance along the axis, reduced for the distance from it.
   int32_t Merit() const { return 2 * along - across; }
 
-  // The order in which views are given decides nothing.
+  // True if this view is better. The order does not depend on the order of the captured views.
   bool Before(const Rating& other) const {
     if (Own() != other.Own()) return Own();
     if (Merit() != other.Merit()) return Merit() > other.Merit();
@@ -56,7 +56,7 @@ Rating Rate(const ViewPosition& at, const int8_t* side) {
 ViewPosition StarPosition(int index) { return kStar[index]; }
 
 int CapturedView(int u, int v, bool half) {
-  // Indexed by u + 1 and v + 1, at full distance; the views at half distance are in the same order.
+  // Indexed by u + 1 and v + 1, at full distance. Views at half distance have the same order.
   constexpr int8_t kIndex[3][3] = {{8, 2, 6}, {4, 0, 3}, {7, 1, 5}};
   const int index = kIndex[u + 1][v + 1];
   return half && index != 0 ? index + 8 : index;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the captured views lie, and which of them look round depth edges on each side of a pixel.
+// Positions of the captured views, and the choice of views that see behind depth edges.
 #ifndef STARFOCUS_LIB_BASE_VIEW_SET_H_
 #define STARFOCUS_LIB_BASE_VIEW_SET_H_
 
@@ -12,67 +12,67 @@ namespace starfocus {
 
 inline constexpr int kMaxViews = STARFOCUS_MAX_VIEWS;
 
-// The sides of a pixel.
+// Directions from a pixel in which surfaces may be hidden.
 inline constexpr int kSideCount = 4;
 inline constexpr int8_t kSides[kSideCount][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
 
-// Position of a captured view: (u, v), kViewBits, each in [-1, 1].
+// Position (u, v) of a captured view; each coordinate is in [-1, 1], kViewBits.
 struct ViewPosition {
   int16_t u, v;
 };
 
-// A captured view beside the centre one; view 0 stands for none.
+// A captured side view; 0 stands for a missing view.
 struct OcclusionView {
   int8_t view;
   ViewPosition at;
 };
 
-// How many views are looked into behind an edge, one after the other.
+// Largest number of views that are read behind an edge.
 inline constexpr int kOcclusionViews = 2;
 
-// The views that look behind depth edges on each side: as of kSides, the best first.
+// Views that see behind depth edges in each direction, in the order of kSides, best view first.
 struct OcclusionViews {
   OcclusionView on[kSideCount][kOcclusionViews] = {};
 
-  // The last view of a side, which is the nearest one where they lie on its axis.
+  // Returns the last view of a side. If the views lie on the axis of the side, it is the nearest
+  // one.
   const OcclusionView& Last(int side) const {
     return on[side][on[side][kOcclusionViews - 1].view != 0 ? kOcclusionViews - 1 : 0];
   }
 };
 
-// The captured views of a configuration.
+// Captured views of a configuration.
 struct ViewSet {
   int32_t count = 0;
-  bool star = false;  // whether they are those of starfocus_view_position
+  bool star = false;  // true if the positions are those of starfocus_view_position
   ViewPosition at[kMaxViews] = {};
 };
 
-// Position `index` of the star.
+// Returns position `index` of the star.
 ViewPosition StarPosition(int index);
 
-// Index of the star's view in direction (u, v), each -1, 0 or 1 and not both 0, at full or half
-// distance.
+// Returns the index of the star's view in direction (u, v) at full or half distance. u and v are
+// -1, 0 or 1, and not both 0.
 int CapturedView(int u, int v, bool half);
 
-// Finds the views of a configuration. Refuses views and positions that are none,
-// STARFOCUS_ERROR_RANGE.
+// Finds the views of a configuration. Returns STARFOCUS_ERROR_RANGE for an invalid number of views
+// or invalid positions.
 starfocus_status FindViews(const starfocus_config& config, ViewSet* views);
 
-// Whether the views of a configuration, which was checked, are those of starfocus_view_position.
+// Returns true if the views of a valid configuration are those of starfocus_view_position.
 bool HasStar(const starfocus_config& config);
 
-// Whether two configurations, which were checked, have the same views in the same order.
+// Returns true if two valid configurations have the same views in the same order.
 bool SameViews(const starfocus_config& a, const starfocus_config& b);
 
-// Chooses the views that look behind edges on each side: those that lie nearer to its direction
-// than to any other. Of these the farthest out come first, as far as they lie on the side's axis:
-// they look behind more. Where there are none, others up to 83 degrees from the axis stand in:
-// they look behind what is thin or slanted, and those farther beside it behind next to nothing
-// (docs/constants.md).
+// Chooses the views that see behind edges on each side: the views whose direction is closer to that
+// side than to any other. The farthest views near the axis of the side come first, because they see
+// the most. A side without such a view uses others up to 83 degrees from its axis. They see behind
+// thin or slanted edges; views at larger angles would see next to nothing (docs/constants.md).
 OcclusionViews ChooseOcclusionViews(const ViewSet& views);
 
-// A distance of the centre view's pixels, kDisparityBits or any other, as a view at `position` of
-// one axis shows it; halves away from 0.
+// Returns a distance between pixels of the centre view, scaled to a view at `position` (kViewBits)
+// on an axis. Rounds halves away from 0.
 constexpr int32_t ScaledByView(int32_t position, int32_t distance, int bits) {
   const int64_t product = int64_t{position < 0 ? -position : position} * distance;
   const auto scaled = static_cast<int32_t>(RoundShift(product, bits));

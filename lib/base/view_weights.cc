@@ -8,22 +8,22 @@
 namespace starfocus {
 namespace {
 
-// (3) relative to its centre, (c / (rho^2 + c))^2 with rho^2 = square / n^2, with 20 fractional
-// bits. Integers only, so that every machine makes the same weights.
+// Returns (3) relative to its centre, (c / (rho^2 + c))^2 with rho^2 = square / n^2, with 20
+// fractional bits. It uses only integers, so every machine computes the same weights.
 uint64_t Relative(uint64_t square, uint64_t n_square, uint64_t fall_off) {
   const uint64_t denominator = (square << 16) + fall_off * n_square;   // < 2^40
   const uint64_t ratio = ((fall_off * n_square) << 24) / denominator;  // 2^24 at the centre
   return (ratio * ratio) >> 28;
 }
 
-// Where the weight of view (i, j) is stored.
+// Returns the index of the weight of view (i, j).
 size_t IndexOf(const ViewWeights& aperture, int32_t i, int32_t j) {
   const int32_t n = aperture.n;
   return static_cast<size_t>(aperture.full ? (i + n) * (2 * n + 1) + j + n : i * (i + 1) / 2 + j);
 }
 
-// Calls visit(i, j, views) for the views i^2 + j^2 <= most, |i|, |j| <= last, that have weights of
-// their own, each with the number of views that share it.
+// Calls visit(i, j, views) for the views i^2 + j^2 <= most, |i|, |j| <= last, whose weights are
+// stored. `views` is the number of views that share the weight.
 template <class Visit>
 void ForEachWeight(const ViewWeights& aperture, bool by_size, const Visit& visit) {
   const int32_t last = aperture.last, most = aperture.most;
@@ -45,8 +45,8 @@ void Clear(const ViewWeights& aperture, uint16_t* weights) {
   for (size_t index = 0; index < size; ++index) weights[index] = 0;
 }
 
-// Makes the weights of the aperture's views, those of no view being clear, in proportion to their
-// light `light(i, j)`, 20 bits: which may be what lies there until then.
+// Computes the weights in proportion to the light `light(i, j)`, 20 bits. Weights outside the disc
+// must be clear. `light` may read the old contents of `weights`.
 template <class Light>
 void Weigh(bool by_size, const Light& light, uint16_t* weights, ViewWeights* aperture) {
   aperture->weights = weights;
@@ -58,13 +58,13 @@ void Weigh(bool by_size, const Light& light, uint16_t* weights, ViewWeights* ape
     largest = one > largest ? one : largest;
     aperture->views += views;
   });
-  // The largest sum for which the largest weight, with a margin for the rounding of the others,
-  // fits 15 bits.
+  // The largest sum for which the largest weight fits 15 bits, with a margin for the rounding of
+  // the others.
   int bits = aperture->most_bits;
   while (bits > 1 && (largest << bits) / total > static_cast<uint64_t>(kMaxWeight - 8)) --bits;
   aperture->sum_bits = bits;
-  // Each orbit takes up the rounding error of those before it; the centre, alone in its orbit,
-  // leaves none, and neither does any view that shares its weight with no other.
+  // Each orbit absorbs the rounding error of the orbits before it. The centre is alone in its orbit
+  // and leaves no error, nor does any view that shares its weight with no other.
   uint64_t wanted = 0;
   int64_t given = 0;
   ForEachWeight(*aperture, by_size, [&](int32_t i, int32_t j, int32_t views) {
@@ -77,10 +77,11 @@ void Weigh(bool by_size, const Light& light, uint16_t* weights, ViewWeights* ape
   Checked(ranges::kRemainder, given - (int64_t{1} << bits));
 }
 
-// The points of a square grid in the subaperture around each view.
+// Step and number of points per side of the sampling grid in each subaperture.
 constexpr int32_t kStep = 2, kPoints = kSubapertureUnits / kStep;
 
-// Calls visit(x, y) for the points of the subaperture around (i, j), kSubapertureUnits.
+// Calls visit(x, y) for the sampling points of the subaperture around (i, j), in units of 1 /
+// kSubapertureUnits.
 template <class Visit>
 void ForEachPoint(int32_t i, int32_t j, const Visit& visit) {
   for (int32_t a = 0; a < kPoints; ++a) {
@@ -91,11 +92,11 @@ void ForEachPoint(int32_t i, int32_t j, const Visit& visit) {
   }
 }
 
-// Returns the light, 20 bits, that goes through the subaperture around (i, j) of a lens whose
-// radius is `radius` (kSubapertureUnits): summed over its points.
+// Returns the light, 20 bits, that passes through the subaperture around (i, j): the mean over its
+// points. `radius` is the radius of the lens in kSubapertureUnits.
 uint64_t LightOfSubaperture(int32_t i, int32_t j, int32_t radius, uint32_t fall_off) {
   const auto lens = static_cast<uint64_t>(radius) * static_cast<uint64_t>(radius);
-  int bits = 0;  // that (3) does without
+  int bits = 0;  // bits that are dropped so that Relative does not overflow
   while (lens >> bits >= uint64_t{1} << 18) ++bits;
   uint64_t light = 0;
   ForEachPoint(i, j, [&](int64_t x, int64_t y) {
@@ -105,7 +106,8 @@ uint64_t LightOfSubaperture(int32_t i, int32_t j, int32_t radius, uint32_t fall_
   return light / (kPoints * kPoints);
 }
 
-// Returns how many points of the subaperture an opening lets through that is as bright everywhere.
+// Returns the number of sampling points in the subaperture that an evenly bright opening lets
+// through.
 uint32_t OpenPoints(int32_t i, int32_t j, int32_t radius, const ApertureShape& opening) {
   uint32_t open = 0;
   ForEachPoint(i, j,
@@ -113,7 +115,8 @@ uint32_t OpenPoints(int32_t i, int32_t j, int32_t radius, const ApertureShape& o
   return open;
 }
 
-// A polygon has no dents: where the corners of a subaperture are inside, all of it is.
+// Same as OpenPoints for polygons. A polygon is convex: if the corners of a subaperture are inside,
+// the whole subaperture is.
 uint32_t OpenPointsOfPolygon(int32_t i, int32_t j, int32_t radius, const ApertureShape& opening) {
   constexpr int32_t kHalf = kSubapertureUnits / 2;
   const int64_t x = kSubapertureUnits * (i < 0 ? -i : i) + kHalf;
@@ -154,12 +157,13 @@ void WeighSubapertures(const ApertureShape& opening, uint16_t* weights, ViewWeig
       aperture);
 }
 
-// How far from the middle of a subaperture its points lie at most: half of its diagonal.
+// Upper bound of the distance of sampling points from the middle of a subaperture: half its
+// diagonal.
 constexpr int64_t kNear = 23;
 static_assert(2 * kNear * kNear >= kSubapertureUnits * kSubapertureUnits / 2, "half a diagonal");
 
-// Returns the part of the light through the subaperture around (i, j) that passes the rim behind
-// the opening, of kPoints^2.
+// Returns the fraction of the light through the subaperture around (i, j) that passes the rim
+// behind the opening, times kPoints^2.
 uint32_t PassingPoints(int32_t i, int32_t j, int32_t lens, const ApertureShape& opening,
                        const RimShift& shift) {
   constexpr uint32_t kAll = kPoints * kPoints;
@@ -169,7 +173,7 @@ uint32_t PassingPoints(int32_t i, int32_t j, int32_t lens, const ApertureShape& 
   const int64_t square = dx * dx + dy * dy;
   if (square > outer * outer) return 0;
   if (inner > 0 && square < inner * inner) return kAll;
-  // Within the disc all points are those of an opening that has no edges there.
+  // Inside the disc, all points of an opening without inner edges let light through.
   const bool plain =
       opening.shape == STARFOCUS_SHAPE_FALL_OFF || opening.shape == STARFOCUS_SHAPE_DISC;
   const bool all = plain && inner > 0 && x * x + y * y < inner * inner;
@@ -182,7 +186,7 @@ uint32_t PassingPoints(int32_t i, int32_t j, int32_t lens, const ApertureShape& 
   return inside == 0 ? 0 : kAll * both / inside;
 }
 
-// The weights of N = 0: all light comes from the centre view.
+// Computes the weights of N = 0: all light comes from the centre view.
 void WeighCentre(uint16_t* weights, ViewWeights* aperture) {
   Clear(*aperture, weights);
   Weigh(

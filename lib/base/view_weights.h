@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The aperture, (3) or another opening, sampled on the grid of rendered views, as integer weights.
+// Integer weights of the rendered views: the aperture (3), or another opening, sampled on their
+// grid.
 #ifndef STARFOCUS_LIB_BASE_VIEW_WEIGHTS_H_
 #define STARFOCUS_LIB_BASE_VIEW_WEIGHTS_H_
 
@@ -11,23 +12,24 @@
 
 namespace starfocus {
 
-// Weights of the views (i, j), i^2 + j^2 <= most. All views together sum to exactly
-// 2^sum_bits, so that a constant picture comes out unchanged.
+// Weights of the views (i, j) with i^2 + j^2 <= most. They sum to exactly 2^sum_bits, so that a
+// picture of one colour remains unchanged.
 struct ViewWeights {
   int32_t n = 0;     // N
   int32_t last = 0;  // i of the outermost view (i, 0)
   int32_t most = 0;
   int sum_bits = 1;
-  int most_bits = kMaxLightBits;  // that they may be
+  int most_bits = kMaxLightBits;  // largest allowed sum_bits
   int32_t views = 1;
-  double extent = 1;   // of the outermost views of subapertures, of the lens's radius
-  int32_t radius = 0;  // of the lens, kSubapertureUnits from view to view
-  // Weights hold those of the views 0 <= j <= i <= n at index i (i + 1) / 2 + j, or, when `full`,
-  // those of all i, j in [-n, n], columns i one after the other.
+  double extent = 1;  // distance of the outermost subapertures, in radii of the lens
+  // Radius of the lens, in 1 / kSubapertureUnits of the distance between views.
+  int32_t radius = 0;
+  // If `full` is false, the weight of view 0 <= j <= i <= n is at index i (i + 1) / 2 + j. If it is
+  // true, the weights of all i, j in [-n, n] are stored, column by column.
   bool full = false;
   const uint16_t* weights = nullptr;
 
-  // Any i, j in [-n, n]; zero outside the disc.
+  // Returns the weight of view (i, j), i, j in [-n, n]; 0 outside the disc.
   uint32_t Weight(int32_t i, int32_t j) const {
     if (full) return weights[(i + n) * (2 * n + 1) + j + n];
     if (i < 0) i = -i;
@@ -37,22 +39,22 @@ struct ViewWeights {
   }
 };
 
-// The radius of the lens in subapertures, kSubapertureUnits of each, for the N of
-// ViewsBySubaperture. All are computed: over all radii that N serves, no lens with as many views
-// has less than half of the worst error that 123 has at N = 4, and none has less than 32 * 5 - 11
-// at N = 5, nor than 94 at N = 3 of those that keep the threshold at every radius
-// (lib/analysis/subaperture_rule.h, WorstOfLens; docs/constants.md has the tables).
+// Radius of the lens in subapertures, times kSubapertureUnits, for the N of ViewsBySubaperture. The
+// values are computed, not tuned. At N = 4, over all radii that N serves, no lens with as many
+// views has less than half of the worst error of 123. At N = 5 none has a smaller error than
+// 32 * 5 - 11. At N = 3 none has a smaller error than 94, among those within the threshold at every
+// radius. See WorstOfLens in lib/analysis/subaperture_rule.h, and the tables in docs/constants.md.
 inline constexpr int32_t kSubapertureUnits = 32;
 constexpr int32_t LensInSubapertures(int32_t n) {
   return n == 1 ? kSubapertureUnits : n == 3 ? 94 : n == 4 ? 123 : kSubapertureUnits * n - 11;
 }
 
-// Subapertures whose centres lie up to this far beyond the rim are rendered, too: at N = 4 that
-// halves the worst error, for the four views on the axes.
+// Subapertures whose centres lie up to this far outside the rim are rendered, too. At N = 4 this
+// halves the worst error with the four views on the axes.
 inline constexpr int32_t kBeyondRim = 5;
 
-// How far from the axis of a lens the centres of its subapertures lie, kSubapertureUnits; `last`
-// and `most` of their ViewWeights.
+// Largest distance of the centre of a subaperture from the axis of the lens, kSubapertureUnits, and
+// the corresponding `last` and `most` of ViewWeights.
 constexpr int32_t FarthestOfLens(int32_t lens) { return lens + kBeyondRim; }
 constexpr int32_t LastOfLens(int32_t lens) { return FarthestOfLens(lens) / kSubapertureUnits; }
 constexpr int32_t MostOfLens(int32_t lens) {
@@ -64,7 +66,7 @@ constexpr int32_t LastSubaperture(int32_t n) {
 constexpr int32_t MostOfSubapertures(int32_t n) {
   return n == 0 ? 0 : MostOfLens(LensInSubapertures(n));
 }
-// Where the last one lies, of the lens's radius.
+// Distance of the last subaperture, in radii of the lens.
 constexpr double SubapertureExtent(int32_t n) {
   return n == 0
              ? 1
@@ -73,7 +75,7 @@ constexpr double SubapertureExtent(int32_t n) {
 
 inline constexpr int32_t kMaxViewsAlongRadius = 256;
 
-// The farthest that the last one lies for any N: 4 views reach beyond the rim.
+// Largest SubapertureExtent of any N. It exceeds 1 because the views of N = 4 reach beyond the rim.
 constexpr double LargestSubapertureExtent() {
   double largest = 1;
   for (int32_t n = 1; n <= kMaxViewsAlongRadius; ++n) {
@@ -82,7 +84,7 @@ constexpr double LargestSubapertureExtent() {
   return largest;
 }
 
-// Number of weights ViewWeights of n stores, of an octant or full.
+// Number of weights that ViewWeights stores for n: of an octant, or of all views.
 constexpr size_t ViewWeightsSize(int32_t n) {
   return (static_cast<size_t>(n) + 1) * (static_cast<size_t>(n) + 2) / 2;
 }
@@ -93,19 +95,18 @@ inline size_t ViewWeightsSize(const ApertureShape& opening, int32_t n) {
   return opening.IsSymmetric() ? ViewWeightsSize(n) : FullApertureSize(n);
 }
 
-// The views i^2 + j^2 <= N^2 as in a_{d,N} of (5); of openings other than (3) by what of the light
-// through the subaperture around each of them is let through. Fills
-// weights[ViewWeightsSize(opening, n)]; n in [0, kMaxViewsAlongRadius]. Before what cat's eyes
-// take.
+// Computes the weights of the views i^2 + j^2 <= N^2: a_{d,N} of (5), or for openings other than
+// (3) the light that passes through the subaperture around each view. Fills
+// weights[ViewWeightsSize(opening, n)]; n in [0, kMaxViewsAlongRadius]. Cat's eyes are not applied.
 ViewWeights MakeViewWeights(int32_t n, const ApertureShape& opening, uint16_t* weights);
 
-// Views that stand for their subapertures of a lens LensInSubapertures(n) wide, by what of its
-// light is theirs: of the subapertures that straddle its rim the part within. n in
-// [0, kMaxViewsAlongRadius]; 0 is the centre view alone.
+// Computes the weights of views that represent subapertures of a lens of radius
+// LensInSubapertures(n). A subaperture that straddles the rim counts only with the part inside. n
+// is in [0, kMaxViewsAlongRadius]; 0 is the centre view alone.
 ViewWeights MakeSubapertures(int32_t n, const ApertureShape& opening, uint16_t* weights);
 
-// What a rim behind the opening leaves of the light of `whole`, of N >= 1: all light together stays
-// as it is. Fills weights[FullApertureSize(n)].
+// Applies a rim behind the opening to the weights `whole` of N >= 1. The sum of all weights stays
+// the same. Fills weights[FullApertureSize(n)].
 ViewWeights MakeCatsEye(const ViewWeights& whole, const ApertureShape& opening,
                         const RimShift& shift, uint16_t* weights);
 
