@@ -9,14 +9,14 @@
 namespace starfocus {
 namespace {
 
-// The disparities that a tile's band and its near disparities are found with.
+// Disparities around a tile, from which its band and its near disparities are found.
 using BandDisparities = DisparitiesAround<kBandReach + 2>;
 
-// Pixels beside nearer ones in a tile of thin structure: of hair it has 38 and more, a straight
-// edge has 16 to 23, and a wire of two pixels up to 40.
+// Smallest number of pixels next to nearer ones in a tile of thin structure. Tiles of hair have 38
+// and more, straight edges 16 to 23, and wires of two pixels up to 40.
 constexpr int32_t kLeastRagged = 36;
 
-// The offsets of pixels within kBandReach, nearest first.
+// Lists the offsets of the pixels within kBandReach, the nearest first.
 struct BandOffset {
   int8_t x, y;
   int16_t at;
@@ -40,11 +40,11 @@ struct Offsets {
 };
 constexpr Offsets kNearestFirst;
 
-// Which side of an edge a pixel is on.
+// Position of a pixel relative to the nearest edge.
 struct BandPixel {
-  int32_t side;      // 1: the near one, -1: the far one, 0: no edge is near
+  int32_t side;      // 1: near side, -1: far side, 0: no edge is within kBandReach
   int32_t other;     // disparity of the nearest pixel beyond the edge
-  int32_t distance;  // to it, squared
+  int32_t distance;  // squared distance to that pixel
 };
 
 BandPixel FindBandPixel(const BandDisparities& around, int32_t at) {
@@ -57,8 +57,8 @@ BandPixel FindBandPixel(const BandDisparities& around, int32_t at) {
   return {0, here, 0};
 }
 
-// How much of the far surface's light a far pixel shows, by its squared distance to the edge:
-// beside a strand of the map there may be one that it lacks.
+// Returns the weight of a far pixel's light, given its squared distance to the edge. Pixels near an
+// edge count less, because the map may lack a strand next to one that it has.
 int16_t WeightByDistance(int32_t square) {
   return static_cast<int16_t>(square <= 2 ? kKnown / 16 : square <= 5 ? kKnown / 4 : kKnown);
 }
@@ -67,8 +67,8 @@ uint64_t BinsOf(const CoverageMap& map, int32_t low, int32_t high) {
   return (map.BinOf(high) << 1) - map.BinOf(low);
 }
 
-// The disparities of tiles side by side and one pixel around them; the picture's outermost pixels
-// go on beyond it.
+// Disparities of a row of adjacent tiles and of one pixel around them. Beyond the picture its
+// outermost pixels are repeated.
 class TileRow {
  public:
   TileRow(const Window& window, int32_t left, int32_t top, int32_t columns) {
@@ -86,7 +86,7 @@ class TileRow {
 
   int16_t* At(int32_t x, int32_t y) { return samples_ + (y + 1) * kStride + x + kCoverageTile; }
 
-  // Finds the range of a tile and of the pixels around it.
+  // Finds the range of the disparities of a tile and of the pixels around it.
   void FindRange(int32_t x, int32_t* low, int32_t* high) {
     int16_t lows[kCoverageTile + 2], highs[kCoverageTile + 2];
     std::memcpy(lows, At(x - 1, -1), sizeof(lows));
@@ -106,7 +106,7 @@ class TileRow {
     }
   }
 
-  // Returns how many pixels of a tile lie beside nearer ones.
+  // Returns the number of pixels of a tile that are next to nearer ones.
   int32_t CountRagged(const simd::Kernels& kernels, int32_t x) {
     int32_t count = 0;
     for (int32_t y = 0; y < kCoverageTile; ++y) {

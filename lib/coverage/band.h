@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pixels near large depth edges, and the disparities of the two surfaces that meet there.
+// Finds the pixels near large depth edges, and the disparities of the two surfaces that meet there.
+// The first passes of lib/coverage (passes.h) call these functions.
 #ifndef STARFOCUS_LIB_COVERAGE_BAND_H_
 #define STARFOCUS_LIB_COVERAGE_BAND_H_
 
@@ -7,15 +8,15 @@
 
 namespace starfocus {
 
-// Marks those of the tiles [first, last) of a row `ragged` in which edges are so many that they may
-// be thin structure, or where coverage is given those that have any.
+// Sets `ragged` of those of the tiles [first, last) of a row that have enough edges for thin
+// structure. If coverage is given, one edge is enough.
 void FindRagged(const CoverageInput& in, int32_t first, int32_t last, int32_t row);
 
-// Makes all of a tile one surface, at the map's disparities.
+// Makes a tile a single surface with the disparities of the map.
 void ClearTile(const CoverageInput& in, int32_t column, int32_t row);
 
-// Writes the tile's first guess of alpha by the map alone (0, kWhole, kUnparted), its near
-// disparities, and its far light by the centre view, at all levels.
+// Writes the tile's initial alpha (0, kWhole or kUnparted) and its near disparities, both from the
+// disparity map alone. Also writes the far light that the centre view shows, at all levels.
 void StartTile(const CoverageInput& in, int32_t column, int32_t row);
 
 }  // namespace starfocus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the passes that find a coverage map work on.
+// Input of the passes that compute a coverage map.
 #ifndef STARFOCUS_LIB_COVERAGE_COVERAGE_INPUT_H_
 #define STARFOCUS_LIB_COVERAGE_COVERAGE_INPUT_H_
 
@@ -9,14 +9,14 @@
 
 namespace starfocus {
 
-// What all passes read, and the map that they write.
+// Data that all passes read, and the map that they write.
 struct CoverageInput {
   const simd::Kernels* kernels;
-  const Window* window;  // at level 0
+  const Window* window;  // at layer 0
   const CoverageMap* map;
 };
 
-// Whether the light field has coverage; else it is found.
+// Returns true if the light field has coverage; otherwise the passes estimate it.
 inline bool HasGiven(const CoverageInput& in) { return in.window->given_coverage.data != nullptr; }
 
 }  // namespace starfocus

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Coverage of pixels near depth edges in thin structures (hair, twigs, grass): there every pixel is
-// parted into a near and a far surface, on both sides of an edge. The map is found once per row of
-// the picture, in tiles, before blocks are planned and rendered.
+// Coverage of the pixels near depth edges in thin structures, such as hair, twigs and grass. Each
+// of these pixels, on both sides of an edge, is split into a near and a far surface. The map is
+// computed in tiles, once for each row of the picture, before blocks are planned and rendered.
 #ifndef STARFOCUS_LIB_COVERAGE_COVERAGE_MAP_H_
 #define STARFOCUS_LIB_COVERAGE_COVERAGE_MAP_H_
 
@@ -13,7 +13,7 @@
 
 namespace starfocus {
 
-// Side of a tile in pixels: whether structure is thin is decided by tile.
+// Side of a tile in pixels. A tile as a whole is thin structure or not.
 inline constexpr int32_t kCoverageTile = 16;
 
 // Coverage has 7 fractional bits: 0 to kWhole. kUnparted: the pixel is not near a depth edge.
@@ -21,55 +21,57 @@ inline constexpr int kAlphaBits = 7;
 inline constexpr int32_t kWhole = 1 << kAlphaBits;
 inline constexpr uint8_t kUnparted = 255;
 
-// A larger step of disparity is an edge of thin structure, kDisparityBits. Two pixels closer than
-// that are of one surface.
+// A larger step of disparity is an edge of thin structure, kDisparityBits. Pixels with a smaller
+// step belong to one surface.
 inline constexpr int32_t kThinStep = 5 << kDisparityBits;
 
-// Pixels from an edge within which pixels are parted.
+// Largest distance in pixels from an edge to a pixel that is split.
 inline constexpr int32_t kBandReach = 3;
 
-// The light of the far surface in a cell of 2^level pixels a side, and how much of it is known.
+// Light of the far surface in a cell with a side of 2^level pixels, and the confidence of this
+// light.
 struct FarCell {
   int16_t rgb[3];     // light
-  int16_t weight;     // [0, kKnown]
+  int16_t weight;     // confidence of the light: [0, kKnown]
   int16_t disparity;  // kDisparityBits
 };
 inline constexpr int32_t kFarKnownBits = 8;
 inline constexpr int32_t kKnown = 1 << kFarKnownBits;
 
-// Pixels that a nearer surface may move to one side, in a view, before the far one; views in which
-// it moves farther are not looked into.
+// Largest distance in pixels that a nearer surface may move to one side, in a view, relative to the
+// far surface. Views in which it moves farther are not used.
 inline constexpr int32_t kMostMove = 32;
 
-// Columns beyond the picture that are looked at.
+// Number of columns beyond the picture that may be read.
 inline constexpr int32_t kAside = 48;
 static_assert(kAside >= kMostMove + 2 && kAside % kCoverageTile == 0,
               "what moves over comes from there");
 inline constexpr int16_t kNowhere = INT16_MIN;
 
-// Levels of cells: 1, 2, 4, 8 and 16 pixels a side.
+// Levels of cells, with sides of 1, 2, 4, 8 and 16 pixels.
 inline constexpr int kFarLevels = 5;
 
 struct CoverageTile {
-  uint64_t near_bins;  // which disparities nearer surfaces of the tile have, by BinOf
-  int16_t low, high;   // disparities of both surfaces of its parted pixels
-  uint8_t ragged;      // many of its pixels lie beside edges; where coverage is given, any
-  uint8_t mixed;       // and much of it is a mixture; where coverage is given, any pixel
-  uint8_t thin;        // its pixels are parted: it or a tile beside it is mixed
+  uint64_t near_bins;  // set of the disparities of near surfaces in the tile: BinOf
+  int16_t low, high;   // range of the disparities of both surfaces of split pixels
+  uint8_t ragged;      // many pixels are next to edges; with given coverage: any pixel is
+  uint8_t mixed;  // it is ragged and many pixels are mixtures; with given coverage: any pixel is
+  uint8_t thin;   // its pixels are split: it or a neighbouring tile is mixed
 };
 
-// Rows of tiles; ring row t % tile_rows has row t. Pixels of a tile beyond the picture are unused.
+// A ring buffer of rows of tiles: ring row t % tile_rows holds row t. Pixels of a tile beyond the
+// picture are unused.
 struct CoverageMap {
-  int32_t width = 0, height = 0;       // of the picture
-  int32_t columns = 0, tile_rows = 0;  // of tiles; tile_rows: in memory
-  int16_t disparity_min = 0;           // of the configuration
-  int bin_bits = 0;                    // of disparities in a bin of near_bins
-  int32_t around = 1;                  // tiles around a ragged one that the passes look at
+  int32_t width = 0, height = 0;       // size of the picture
+  int32_t columns = 0, tile_rows = 0;  // numbers of tiles; tile_rows: rows in memory
+  int16_t disparity_min = 0;           // from the configuration
+  int bin_bits = 0;                    // log2 of the disparities in a bin of near_bins
+  int32_t around = 1;  // number of tiles around a ragged one that the passes process
   CoverageTile* tiles = nullptr;
-  // Planes of pixels, with kAside unused ones before and behind each row.
+  // Planes of pixels, with kAside unused pixels before and after each row.
   uint8_t* first = nullptr;  // coverage after the first pass
-  uint8_t* alpha = nullptr;  // after the second one, or kUnparted
-  int16_t* near = nullptr;   // disparity of the nearer surface, kNowhere beyond the picture
+  uint8_t* alpha = nullptr;  // coverage after the second pass, or kUnparted
+  int16_t* near = nullptr;   // disparity of the near surface; kNowhere beyond the picture
   FarCell* far[kFarLevels] = {};
 
   int32_t Rows() const { return (height + kCoverageTile - 1) / kCoverageTile; }
@@ -77,14 +79,14 @@ struct CoverageMap {
     return tiles[static_cast<size_t>(row % tile_rows) * static_cast<size_t>(columns) +
                  static_cast<size_t>(column)];
   }
-  // Samples from row to row of planes of pixels.
+  // Samples from row to row of the planes of pixels.
   size_t Stride() const { return static_cast<size_t>(columns * kCoverageTile + 2 * kAside); }
-  // The place of pixel (x, y), up to kAside columns beyond the picture.
+  // Returns the index of pixel (x, y), which may be up to kAside columns beyond the picture.
   size_t At(int32_t x, int32_t y) const {
     return static_cast<size_t>(y % (tile_rows * kCoverageTile)) * Stride() +
            static_cast<size_t>(x + kAside);
   }
-  // The place of cell (x, y) of a level.
+  // Returns the index of cell (x, y) of a level.
   size_t CellAt(int32_t x, int32_t y, int level) const {
     const int32_t rows = (tile_rows * kCoverageTile) >> level;
     const size_t stride = static_cast<size_t>((columns * kCoverageTile) >> level);
@@ -96,7 +98,7 @@ struct CoverageMap {
   bool HasTile(int32_t column, int32_t row) const {
     return column >= 0 && column < columns && row >= 0 && row < Rows();
   }
-  // Whether a tile within `reach` of this one has the mark.
+  // Returns true if a tile within `reach` tiles of this one has the mark.
   bool AnyAround(int32_t column, int32_t row, int32_t reach, uint8_t CoverageTile::*mark) const {
     for (int32_t y = row - reach; y <= row + reach; ++y) {
       for (int32_t x = column - reach; x <= column + reach; ++x) {
@@ -105,11 +107,11 @@ struct CoverageMap {
     }
     return false;
   }
-  // Whether the passes look at the tile.
+  // Returns true if the passes process the tile.
   bool IsStarted(int32_t column, int32_t row) const {
     return AnyAround(column, row, around, &CoverageTile::ragged);
   }
-  // The far light of pixel (x, y).
+  // Returns the far light of pixel (x, y).
   FarCell& FarAt(int32_t x, int32_t y) const { return far[0][CellAt(x, y, 0)]; }
 };
 

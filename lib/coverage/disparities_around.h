@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The disparities around a tile.
+// A copy of the disparities of a tile and its surroundings.
 #ifndef STARFOCUS_LIB_COVERAGE_DISPARITIES_AROUND_H_
 #define STARFOCUS_LIB_COVERAGE_DISPARITIES_AROUND_H_
 
@@ -9,8 +9,8 @@
 
 namespace starfocus {
 
-// The disparities of a tile and of kAround pixels around it; the picture's outermost pixels go on
-// beyond it.
+// Disparities of a tile and of kAround pixels around it. Beyond the picture its outermost pixels
+// are repeated.
 template <int32_t kAround>
 struct DisparitiesAround {
   static constexpr int32_t kSide = kCoverageTile + 2 * kAround;
@@ -32,7 +32,7 @@ struct DisparitiesAround {
   static constexpr int32_t At(int32_t x, int32_t y) { return (y + kAround) * kSide + x + kAround; }
 };
 
-// The mean of disparities around within 2 pixels of the near one.
+// Returns the weighted mean of the surrounding disparities that are within 2 pixels of `near`.
 template <class Disparities>
 int16_t SmoothNear(const Disparities& around, int32_t at, int32_t near) {
   constexpr int32_t kWithin = 2 << kDisparityBits;

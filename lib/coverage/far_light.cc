@@ -4,7 +4,7 @@
 namespace starfocus {
 namespace {
 
-// The light of several cells of one surface, each with a weight.
+// Weighted sum of the light of several cells of one surface.
 struct FarSum {
   int64_t rgb[3] = {0, 0, 0}, disparity = 0;
   int32_t weight = 0;
@@ -27,7 +27,7 @@ struct FarSum {
 
 using FourCells = const FarCell* [4];
 
-// The disparity of the farthest of those cells that know any; INT16_MAX: none does.
+// Returns the disparity of the farthest cell with a nonzero weight; INT16_MAX if all weights are 0.
 int32_t FarthestOf(const FourCells& cells) {
   int32_t farthest = INT16_MAX;
   for (const FarCell* cell : cells) {
@@ -36,7 +36,8 @@ int32_t FarthestOf(const FourCells& cells) {
   return farthest;
 }
 
-// The sum of those cells, by parts and by what they know, that have the surface at a disparity.
+// Returns the sum of the cells whose surface is at `disparity`, weighted by `parts` and by their
+// own weights.
 FarSum SumOf(const FourCells& cells, const int32_t (&parts)[4], int32_t disparity) {
   FarSum sum;
   for (int k = 0; k < 4; ++k) {
@@ -51,8 +52,8 @@ FarCell Pull(const FourCells& children) {
   return sum.Mean(Min(sum.weight, kKnown));
 }
 
-// Fills what a cell does not know with the mean of the four cells above around it that have the
-// surface at `disparity`.
+// Fills the unknown part of a cell with the mean of the four nearest cells of the level above that
+// show the surface at `disparity`.
 void PushCell(const FourCells& above, int32_t disparity, FarCell* cell) {
   if (cell->weight >= kKnown) return;
   const FarSum sum = SumOf(above, {9, 3, 3, 1}, disparity);
@@ -66,7 +67,7 @@ void PushCell(const FourCells& above, int32_t disparity, FarCell* cell) {
   cell->weight = kKnown;
 }
 
-// Cells of one level in a tile, with one around it.
+// Cells of one level in a tile, and one cell around it.
 struct LevelCells {
   static constexpr int32_t kMost = kCoverageTile + 2;
   FarCell cells[kMost * kMost];
@@ -83,7 +84,7 @@ FarCell LoadCell(const CoverageMap& map, int level, int32_t x, int32_t y) {
   return map.far[level][map.CellAt(x, y, level)];
 }
 
-// The four cells above around cell (x, y), the nearest first.
+// Finds the four cells of the level above nearest to cell (x, y), the nearest first.
 template <class Cells>
 void Above(Cells* cells, int32_t x, int32_t y, FourCells* above) {
   const int32_t column = x >> 1, row = y >> 1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The far surface's light where few pixels show it: means over growing cells, each of what is known
-// of it, continued smoothly to where nothing is.
+// Estimates the light of the far surface where few pixels show it. Means over growing cells collect
+// the known light, and continue it smoothly to pixels without any (pull and push).
 #ifndef STARFOCUS_LIB_COVERAGE_FAR_LIGHT_H_
 #define STARFOCUS_LIB_COVERAGE_FAR_LIGHT_H_
 
@@ -8,25 +8,25 @@
 
 namespace starfocus {
 
-// Makes the cells of levels 1 to 4 of a tile from those of level 0. A cell has the light of the
-// farthest surface in it.
+// Computes levels 1 to 4 of a tile from level 0. A cell has the light of the farthest surface in
+// it.
 void PullTile(int32_t column, int32_t row, const CoverageMap& map);
 
-// The far light of a tile's pixels; weight 0 where none is known around.
+// Far light of the pixels of a tile; weight 0 where none is known nearby.
 struct FarTile {
   FarCell cells[kCoverageTile * kCoverageTile];
 };
 
-// Fills what is not known at level 0 from the levels above, of this tile and those around it.
+// Fills the unknown light at level 0 from the levels above, of this tile and of those around it.
 void PushTile(int32_t column, int32_t row, const CoverageMap& map, FarTile* far);
 
-// a to the power of 8; kAlphaBits to kFarKnownBits.
+// Returns the eighth power of `a`: kAlphaBits to kFarKnownBits.
 constexpr int32_t EighthPower(int32_t a) {
   const int32_t square = a * a >> kAlphaBits, fourth = square * square >> kAlphaBits;
   return fourth * fourth >> (2 * kAlphaBits - kFarKnownBits);
 }
 
-// How much of the far surface's light a pixel shows that a nearer one covers by alpha.
+// Returns the weight of the far surface's light in a pixel of which a nearer surface covers alpha.
 constexpr int32_t FarWeight(int32_t alpha) { return EighthPower(kWhole - alpha); }
 
 }  // namespace starfocus

@@ -9,12 +9,12 @@
 namespace starfocus {
 namespace {
 
-// Pixels of the far and the near surface are looked for within so many pixels of a pixel: the
-// outlines of maps of networks are off by as many.
+// Largest distance in pixels to search for the far and the near surface of a pixel. Outlines in
+// maps of networks are off by up to this distance.
 constexpr int32_t kGivenReach = 32;
 
-// A pixel is on a ramp if its disparity lies between the disparities of two opposite neighbours,
-// both steps are at least kLeastRamp, and the larger step is at most kRampRatio times the smaller
+// A pixel is on a ramp if its disparity lies between the disparities of two opposite neighbours.
+// Both steps are at least kLeastRamp, and the larger step is at most kRampRatio times the smaller
 // one.
 constexpr int32_t kLeastRamp = 1 << (kDisparityBits - 1);
 constexpr int32_t kRampRatio = 4;
@@ -30,7 +30,8 @@ bool IsRamp(int32_t before, int32_t here, int32_t after) {
 constexpr int32_t kRampReach = 1;
 using GivenDisparities = DisparitiesAround<kGivenReach + kRampReach>;
 
-// A pixel is a mixture if its coverage differs by more from what the map says; kAlphaBits.
+// A pixel is a mixture if its coverage differs by more than this from the one that the map implies,
+// kAlphaBits.
 constexpr int32_t kLeastMixed = kWhole / 16;
 
 // Marks the pixels around a tile that are on ramps, except within kRampReach of its rim.
@@ -57,14 +58,15 @@ struct Ramps {
   }
 };
 
-// The nearest pixel of a surface; of those equally near it is the one in the smallest square around
-// the pixel, and then the first by rows.
+// The nearest pixel of a surface. Among equally near ones it is the one in the smallest square
+// around the pixel, and then the first by rows.
 struct Found {
-  int32_t disparity;  // the pixel's own if none is found
+  int32_t disparity;  // the pixel's own disparity if none is found
   int32_t distance;   // squared; INT32_MAX if none is found
 };
 
-// Finds it within kGivenReach, with a disparity from low to high.
+// Finds the nearest pixel within kGivenReach whose disparity lies in [low, high] and that is not on
+// a ramp.
 Found FindNearest(const GivenDisparities& around, const Ramps& ramps, int32_t at, int32_t low,
                   int32_t high) {
   Found found = {around.disparity[at], INT32_MAX};
@@ -113,8 +115,8 @@ class GivenStarter {
   }
 
  private:
-  // Finds the two surfaces of a pixel, those at both ends of a ramp or its own one and the nearest
-  // other. Returns false if there is one only.
+  // Finds the two surfaces of a pixel: those at both ends of its ramp, or its own surface and the
+  // nearest other one. Returns false if there is only one surface.
   bool FindSurfaces(int32_t at, int32_t* low, int32_t* high) const {
     const int32_t here = around_.disparity[at];
     if (ramps_.at[at]) {
@@ -151,7 +153,7 @@ class GivenStarter {
     tile_.near_bins |= map_.BinOf(map_.near[to]);
   }
 
-  // Takes the coverage of a pixel that has two surfaces.
+  // Stores the given coverage of a pixel that has two surfaces.
   void TakePixel(int32_t x, int32_t y) {
     if (x >= map_.width || y >= map_.height) return;
     const size_t to = map_.At(x, y);

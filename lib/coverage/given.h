@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Coverage that the light field has: it tells what the map does not, and so farther from the map's
-// edges.
+// Uses the coverage that a light field provides. It holds detail that the disparity map lacks, so
+// surfaces are searched farther from the map's edges than by band.h.
 #ifndef STARFOCUS_LIB_COVERAGE_GIVEN_H_
 #define STARFOCUS_LIB_COVERAGE_GIVEN_H_
 
@@ -8,8 +8,8 @@
 
 namespace starfocus {
 
-// Writes both surfaces of the pixels of a tile near edges and their given coverage, and marks the
-// tile `mixed` if the map says something else of any of them.
+// Writes both surfaces of the tile's pixels near edges, and their given coverage. Sets `mixed` if
+// any of them differs from the coverage that the map implies.
 void StartGiven(const CoverageInput& in, int32_t column, int32_t row);
 
 // Writes the tile's coverage and its far light, from the far light of all views (look.h).

@@ -6,23 +6,24 @@
 namespace starfocus {
 namespace {
 
-// A nearer surface lies before another one from this step of disparity on.
+// Smallest difference of disparity with which a nearer surface occludes another one.
 constexpr int32_t kBefore = 1 << kDisparityBits;
-// What moves to within a pixel and a half of a place may cover it: views are interpolated, and
-// strands are wider than the map has them.
+// A pixel that moves to within a pixel and a half of another one may cover it. Views are
+// interpolated, and strands are wider than in the map.
 constexpr int32_t kWithin = 3 << (kDisparityBits - 1);
 
-// How much less the centre view counts than others: it is there that all is mixed.
+// log2 of the factor by which the centre view counts less than others: near edges all of its pixels
+// are mixtures.
 constexpr int kCentreBits = 3;
-// Readings of this weight together are all that there is to know.
+// Readings with a total weight of 2^kEnoughBits * kKnown make a pixel fully known.
 constexpr int kEnoughBits = 1;
 
-// A view beside the centre.
+// A side view.
 struct SideLook {
   OcclusionView look;
-  bool down;      // whether places follow each other along columns
-  int32_t along;  // the view's distance on that axis, kViewBits
-  int32_t slant;  // across it for one pixel along it, kViewBits
+  bool down;      // true: occluders are searched along columns
+  int32_t along;  // distance of the view on that axis, kViewBits
+  int32_t slant;  // movement across the axis for each pixel along it, kViewBits
 };
 
 class TileLooker {
@@ -74,7 +75,7 @@ class TileLooker {
     views_[count_++] = {look, down, along, across * kViewOne / along};
   }
 
-  // Finds which disparities nearer surfaces have around the tile.
+  // Collects the disparities of near surfaces around the tile.
   void FindBins(int32_t column, int32_t row) {
     constexpr int32_t kAround = (kMostMove + kCoverageTile - 1) / kCoverageTile;
     for (int32_t y = row - kAround; y <= row + kAround; ++y) {
@@ -96,7 +97,7 @@ class TileLooker {
     }
   }
 
-  // Adds what a view shows of row y, each run of pixels of one disparity at once.
+  // Adds the light of row y in a view, one run of pixels of equal disparity at a time.
   void LookInto(const SideLook& view, int32_t y) {
     int16_t covered[kCoverageTile] = {};
     if (!FindCovered(view, y, covered)) return;
@@ -117,10 +118,10 @@ class TileLooker {
     }
   }
 
-  // Finds how much of each place of a row nearer surfaces cover at most in the view. Returns false
-  // if some may come from farther away than is looked at.
+  // Finds, for each pixel of a row, an upper bound of the coverage by nearer surfaces in the view.
+  // Returns false if a surface may move farther than kMostMove.
   bool FindCovered(const SideLook& view, int32_t y, int16_t* covered) const {
-    bool comes[kMostMove + 1] = {};  // whether some may come from so far away
+    bool comes[kMostMove + 1] = {};  // comes[m]: a surface may come from m pixels away
     if (!FindMoves(view, comes)) return false;
     const int32_t sign = view.along < 0 ? -1 : 1;
     for (int32_t m = 0; m <= kMostMove; ++m) {
@@ -151,9 +152,9 @@ class TileLooker {
     return true;
   }
 
-  // Takes what may come to a row from `m` pixels along the view's axis.
+  // Adds the coverage by surfaces that may move to a row from `m` pixels along the view's axis.
   void CoverFrom(const SideLook& view, int32_t y, int32_t m, int16_t* covered) const {
-    // Moves are compared in halves of a disparity, as a view at distance 1 has 14 bits.
+    // Moves are in halves of a unit of disparity, because kViewOne has 14 bits.
     const simd::CoverView cover = {
         static_cast<int16_t>(view.along), static_cast<int16_t>(m * (1 << (kDisparityBits - 1))),
         static_cast<int16_t>(kWithin / 2), static_cast<int16_t>(kBefore)};
@@ -173,8 +174,8 @@ class TileLooker {
   SideLook views_[kSideCount * kOcclusionViews];
   int count_ = 0;
   uint64_t bins_ = 0;
-  // Of a row of the tile:
-  int16_t far_[kCoverageTile];  // disparities
+  // State of one row of the tile.
+  int16_t far_[kCoverageTile];  // disparities of the far surface
   bool parted_[kCoverageTile];
   Sum sums_[kCoverageTile];
 };

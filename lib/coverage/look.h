@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The far surface's light as all views show it.
+// Reads the light of the far surface from all views.
 #ifndef STARFOCUS_LIB_COVERAGE_LOOK_H_
 #define STARFOCUS_LIB_COVERAGE_LOOK_H_
 
@@ -7,8 +7,9 @@
 
 namespace starfocus {
 
-// Reads the far light of the tile's parted pixels from the centre view and those beside it, each by
-// how little covers it there after the first pass, and makes the cells of all levels anew.
+// Reads the far light of the tile's split pixels from the centre view and the side views, and
+// recomputes the cells of all levels. Each reading is weighted by how little nearer surfaces cover
+// the pixel in that view, after the first pass.
 void LookBehindTile(const CoverageInput& in, int32_t column, int32_t row);
 
 }  // namespace starfocus

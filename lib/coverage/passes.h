@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The passes that find a coverage map, tile by tile, and how far each is ahead of the next one.
+// Runs the passes that compute a coverage map, tile by tile. Also defines how many rows of tiles
+// each pass is ahead of the next one.
 #ifndef STARFOCUS_LIB_COVERAGE_PASSES_H_
 #define STARFOCUS_LIB_COVERAGE_PASSES_H_
 
@@ -12,35 +13,38 @@ namespace starfocus {
 
 enum CoveragePass { kFindRagged, kStart, kUnmixFirst, kLook, kUnmixAgain, kCoveragePasses };
 
-// Does a pass in the tiles [first, last) of a row. The passes before it have been done as far ahead
-// as TilesAhead says.
+// Runs a pass on the tiles [first, last) of a row. The earlier passes must be as far ahead as
+// TilesAhead requires.
 void RunPass(const CoverageInput& in, int pass, int32_t first, int32_t last, int32_t row);
 
-// Whether the engine has memory for coverage.
+// Returns true if the engine has memory for coverage.
 inline bool HasCoverage(const starfocus_config& config) {
   return Has(config.features, STARFOCUS_FEATURE_COVERAGE);
 }
 
-// CoverageMap::around where coverage is given: pixels look two tiles far for edges.
+// Value of CoverageMap::around if coverage is given: edges are searched up to two tiles away.
 inline constexpr int32_t kAroundGiven = 2;
 
-// The farthest that a nearer surface moves before a farther one in any view that is looked into.
+// Returns the largest distance in pixels that a nearer surface moves relative to a farther one, in
+// any view that is read.
 inline int32_t LargestMoveBefore(const starfocus_config& config) {
   if (config.views == 1) return 0;
   const DisparityRange range = RangeOf(config);
   return Min(static_cast<int32_t>(range.max - range.min) + 3, kMostMove + 1);
 }
 
-// Rows of tiles that a pass is ahead of the last one.
+// Returns the number of rows of tiles that a pass is ahead of the last pass.
 inline int32_t TilesAhead(const starfocus_config& config, int pass) {
   const int32_t moved = (LargestMoveBefore(config) + kCoverageTile - 1) / kCoverageTile;
   switch (pass) {
     case kUnmixAgain:
       return 0;
     case kLook:
-      return 1;  // what is not known of a pixel is taken from the tiles around
+      // Unknown far light is taken from the surrounding tiles.
+      return 1;
     case kUnmixFirst:
-      return 1 + Max(1, moved);  // a tile beside a mixed one is thin
+      // A tile next to a mixed one is thin.
+      return 1 + Max(1, moved);
     case kStart:
       return TilesAhead(config, kUnmixFirst) + 1;
     default:
@@ -48,7 +52,7 @@ inline int32_t TilesAhead(const starfocus_config& config, int pass) {
   }
 }
 
-// Pixels beyond what is parted that the passes read.
+// Returns the number of pixels around the split ones that the passes read.
 inline int32_t CoverageBorder(const starfocus_config& config) {
   if (!HasCoverage(config)) return 0;
   return (TilesAhead(config, kFindRagged) + 1) * kCoverageTile + kBandReach + 2;

@@ -17,22 +17,24 @@ constexpr int32_t kMixedShare = kCoverageTile * kCoverageTile * kWhole * kWhole 
 // Colours are compared in 255ths of white with 3 fractional bits.
 constexpr int kColourBits = 3;
 constexpr int32_t kSquareOne = 1 << (2 * kColourBits);
-// Colours whose squared distance is less tell no mixture apart.
+// Smallest squared distance between near and far colours that allows alpha to be computed.
 constexpr int32_t kLeastContrast = 300 * kSquareOne;
-// A colour off the line between near and far is a mixture up to s / 2, and none from 3 s / 2 on;
-// s^2 is this and a sixteenth of the squared contrast.
+// Noise term of the trust in a mixed colour. Let s^2 be kNoise plus a sixteenth of the squared
+// contrast. A colour is fully trusted up to a distance of s / 2 from the line between the near and
+// far colours, and ignored from 3 s / 2 on.
 constexpr int32_t kNoise = 81 * kSquareOne;
-// Of the near light around a pixel, at least; of 2^15.
+// Smallest sum of near weights around a pixel, in units of 2^-15.
 constexpr int32_t kLeastNear = 32;
 
-// The pixels around a tile: light, near disparities, and how much each shows the near surface.
+// Pixels of a tile and around it: light, near disparities, and the share of the near surface in
+// each.
 struct NearTile {
   static constexpr size_t kPlane = kSide * kSide;
   int16_t light[3 * kPlane];
   int16_t near[kPlane];
   int16_t weight[kPlane];
 
-  // Sums the near light of a row of the tile's pixels.
+  // Sums the near light around each pixel of a row of the tile.
   void SumRow(const simd::Kernels& kernels, int32_t y, simd::NearSums* sums) const {
     const size_t at = static_cast<size_t>((y + kAround) * kSide + kAround);
     const simd::NearRows rows = {{light + at, light + kPlane + at, light + 2 * kPlane + at},
@@ -44,8 +46,7 @@ struct NearTile {
   }
 };
 
-// Loads the tile and what lies around it; weight_of(x, y) tells how much of the near light a pixel
-// of the picture shows.
+// Loads a tile and its surroundings. weight_of(x, y) returns the weight of a pixel's near light.
 template <class Weight>
 void LoadNearTile(const CoverageInput& in, int32_t column, int32_t row, const Weight& weight_of,
                   NearTile* tile) {
@@ -72,7 +73,8 @@ using Rgb = int32_t[3];
 
 constexpr int32_t Compared(int32_t light) { return light >> (kLightBits - kColourBits); }
 
-// Coverage of a mixture of near and far; where it is none, or cannot be told, `guess`.
+// Returns the coverage of a mixture of `near` and `far`. Returns `guess` if the colour is no
+// mixture of them or the contrast is too small.
 int32_t AlphaOf(const Rgb& near, const Rgb& far, const Rgb& mixed, int32_t guess) {
   int32_t contrast = 0, along = 0, distance = 0;
   for (int c = 0; c < 3; ++c) {
@@ -92,8 +94,8 @@ int32_t AlphaOf(const Rgb& near, const Rgb& far, const Rgb& mixed, int32_t guess
   return guess + static_cast<int32_t>(RoundShift((alpha - guess) * trust, kAlphaBits));
 }
 
-// Calls visit(x, y, alpha, far light) for the tile's pixels near edges of which the far light is
-// known; x and y are of the picture.
+// Calls visit(x, y, alpha, far light) for the tile's pixels near edges whose far light is known; x
+// and y are in pixels of the picture.
 template <class Visit>
 void ForEachParted(const CoverageInput& in, const NearTile& tile, int32_t column, int32_t row,
                    const Visit& visit) {
@@ -130,7 +132,8 @@ void ForEachParted(const CoverageInput& in, const NearTile& tile, int32_t column
 
 void UnmixFirst(const CoverageInput& in, int32_t column, int32_t row) {
   const CoverageMap& map = *in.map;
-  // The near side of an edge, by how many of the pixels around are of it.
+  // Weight on the near side of an edge, by the number of surrounding pixels that are on the near
+  // side, too.
   const auto weight_of = [&](int32_t x, int32_t y) {
     if (map.alpha[map.At(x, y)] == 0) return 0;
     int32_t count = 0;

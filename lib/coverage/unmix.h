@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much of each pixel near an edge the nearer surface covers.
+// Estimates the share of each pixel near an edge that the nearer surface covers.
 #ifndef STARFOCUS_LIB_COVERAGE_UNMIX_H_
 #define STARFOCUS_LIB_COVERAGE_UNMIX_H_
 
@@ -7,8 +7,8 @@
 
 namespace starfocus {
 
-// Writes the tile's coverage of the first pass from its first guess, and marks it `mixed` if its
-// pixels are on the average such mixtures as there are in thin structure.
+// Writes the tile's coverage of the first pass, starting from its initial alpha. Sets `mixed` if
+// the mean of its pixels is as mixed as in thin structures.
 void UnmixFirst(const CoverageInput& in, int32_t column, int32_t row);
 
 // Writes the tile's coverage of the second pass and its far light, from the first pass and the far
