@@ -22,14 +22,16 @@ int32_t CeilPixels(double value) {
 
 int32_t ToWholeCells(int32_t pixels) { return (pixels + kCellSize - 1) / kCellSize * kCellSize; }
 
-// The largest disparity, rounded up: how far side views show a point from its place.
+// Returns the largest absolute disparity, rounded up: the distance by which side views move a
+// point.
 int32_t LargestMove(const starfocus_config& config) {
   const double nearer = config.disparity_max, farther = -config.disparity_min;
   return CeilPixels(nearer > farther ? nearer : farther);
 }
 
-// Blocks are rendered from whole cells of which some pixel reaches them, and upsampling's border;
-// or gathered.
+// Returns the border of a block at `layer`. Rendering reads whole cells with a pixel that reaches
+// the block, plus the border of upsampling. Gathering reads the blur radius and the upsampling
+// margin.
 int32_t BorderOfLevel(int32_t blur, int layer) {
   const int32_t reach = ReachOf(blur << kDisparityBits);
   const int32_t rendered = (ToWholeCells(reach + kLayerMargin[layer]) >> layer) + kRenderBorder;
@@ -51,7 +53,8 @@ Borders AddBorders(const starfocus_config& config, double max_blur, bool joins) 
   borders.joined = joins ? kDeblockRows : 0;
   borders.whole_block = reach + kRenderBorder;
   borders.cells = ToWholeCells(reach + kLayerMargin[config.tuning.max_layer]) / kCellSize;
-  // Depth edges of a cell count as far as blur reaches, the rest of it also for upsampling.
+  // Depth edges of a cell matter within the blur radius; other statistics also within the border of
+  // upsampling.
   borders.centre = Max(borders.cells * kCellSize, ToWholeCells(reach) + kCellBorder);
   if (!one_view) borders.centre = Max(borders.centre, kLookBack - 1);
   for (int layer = 0; layer <= config.tuning.max_layer; ++layer) {
@@ -67,8 +70,8 @@ Borders AddBorders(const starfocus_config& config, double max_blur, bool joins) 
       one_view || !HasCoverage(config) ? 0 : LargestMove(config) + CapturedBorder(0);
   borders.views = Max(borders.views, borders.centre + read);
   if (config.highlights > 1) {
-    // It decides how blocks are split, and so the bytes of pictures: as far as blur and disparity
-    // bring highlights, and somewhat farther.
+    // This border affects how blocks are split, and therefore the bytes of the output. It covers
+    // the distance that blur and disparity move highlights, and some more.
     borders.highlights =
         ToWholeCells(reach + kLayerMargin[2]) + 5 * kCellSize + blur + LargestMove(config);
     borders.views = Max(borders.views, borders.highlights + LampReach(LargestLamp(config.width)));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// How many pixels the engine reads beyond what it makes, added up over its steps. Each step
-// declares its own border beside its code; borders.cc has the list of steps, and nothing else adds
-// borders.
+// Number of pixels that the engine reads outside the pixels it produces, accumulated over its
+// processing steps. Each step declares its own border next to its code. borders.cc lists the steps
+// and is the only place that adds borders.
 #ifndef STARFOCUS_LIB_ENGINE_BORDERS_H_
 #define STARFOCUS_LIB_ENGINE_BORDERS_H_
 
@@ -11,34 +11,34 @@
 
 namespace starfocus {
 
-// Pixels on every side of a superblock, or of the stripe that it lies in. A border of a step's
-// input holds all that the steps after it need.
+// Borders in pixels on each side of a superblock, or of its stripe. The border of a step's input
+// includes everything that later steps need.
 struct Borders {
-  int32_t joined = 0;                    // of the finished picture, around a region
-  int32_t whole_block = 0;               // of a block at level 0 that is planned without cells
-  int32_t level[STARFOCUS_LAYERS] = {};  // of pixels of the level, by blocks of any plan
-  int32_t cells = 0;                     // of cells
-  int32_t parted = 0;                    // of the coverage map
-  int32_t centre = 0;                    // of the centre view and the disparity map
-  int32_t highlights = 0;  // where highlights count as the superblock's own; 0: nowhere
-  int32_t views = 0;       // of any view
-  int32_t streamed = 0;    // of rows that are pushed; of images an even number
+  int32_t joined = 0;                    // finished picture around a region, for deblocking
+  int32_t whole_block = 0;               // block at level 0 that is planned without cells
+  int32_t level[STARFOCUS_LAYERS] = {};  // pixels of the level, for blocks of any plan
+  int32_t cells = 0;                     // cells
+  int32_t parted = 0;                    // coverage map
+  int32_t centre = 0;                    // centre view and disparity map
+  int32_t highlights = 0;                // highlights within it count for the superblock; 0: none
+  int32_t views = 0;                     // any view
+  int32_t streamed = 0;                  // pushed rows; even if images are enabled
 };
 
-// Adds the borders for blur radii up to `max_blur`, and for deblocking if it `joins` blocks.
+// Adds the borders for blur radii up to `max_blur`. `joins` is true if blocks are deblocked.
 Borders AddBorders(const starfocus_config& config, double max_blur, bool joins);
 
-// The largest that any lens has.
+// Returns the borders for the largest blur of any lens.
 inline Borders LargestBorders(const starfocus_config& config) {
   return AddBorders(config, config.max_blur, true);
 }
 
-// Superblocks side by side.
+// Number of columns of superblocks.
 inline int32_t Columns(const starfocus_config& config) {
   return (config.width + config.superblock - 1) / config.superblock;
 }
 
-// Rows of a level that a stripe may need.
+// Largest number of rows of a layer that a stripe reads.
 inline int32_t LayerRows(const starfocus_config& config, int layer) {
   return (config.superblock >> layer) + 2 * LargestBorders(config).level[layer];
 }

@@ -12,8 +12,7 @@
 namespace starfocus {
 namespace {
 
-// Reads rows of the map and the centre view: job `index` of `jobs` has as many as the others, but
-// for one.
+// Reads rows of the map and the centre view. Job `index` of `jobs` reads PartOf the rows.
 struct RowsJob {
   const RowSource* source;
   const EngineState* engine;
@@ -26,7 +25,7 @@ void ReadMap(const RowsJob& job, int32_t y, int16_t* row, Counts* counts) {
   counts->depth_flags |= job.source->map(job.source->self, y, row);
 }
 
-// Job `index` overwrites one row of the ring, of which it has the only one.
+// Each job overwrites its own row of the ring.
 void CheckPart(const RowsJob& job, int32_t index, Scratch* scratch) {
   const RowRange rows = PartOf(job.rows, index, job.jobs);
   for (int32_t y = rows.first; y < rows.last; ++y) {
@@ -41,7 +40,7 @@ void CopyCodes(const RowSource& source, int view, int32_t y, int32_t width, uint
   if (codes != to) std::memcpy(to, codes, 3 * static_cast<size_t>(width));
 }
 
-// Fills a row's unknown disparities, if the configuration says so.
+// Fills the unknown disparities of a row if the configuration enables it.
 void FinishMapRow(const EngineState& engine, int16_t* row, Counts* counts) {
   if (Has(engine.config.features, STARFOCUS_FEATURE_FILL_UNKNOWN)) {
     counts->unknown_pixels +=
@@ -145,7 +144,7 @@ starfocus_status RefocusRows(const RowSource& source, const RowSink& sink, Engin
   const int32_t bottom = top + lens.region.height;
   const RowRange stripes = StripeRows(*engine);
   RowRange rows = {Max(0, stripes.first - reach), 0};
-  const int32_t last = (stripes.last - 1) / side * side;  // stripe
+  const int32_t last = (stripes.last - 1) / side * side;  // first row of the last stripe
   rows.last = Min(config.height, last + side + reach);
   starfocus_status status = CheckRows(source, rows, engine);
   for (int32_t y = stripes.first; y <= last && status == STARFOCUS_OK; y += side) {
@@ -157,7 +156,8 @@ starfocus_status RefocusRows(const RowSource& source, const RowSink& sink, Engin
     }
     if (status == STARFOCUS_OK) status = RefocusStripe(engine, y);
     if (status != STARFOCUS_OK) break;
-    // The stripe after the last one changes nothing of the region.
+    // The next stripe may change the last rows of this stripe, unless it is the last one of the
+    // region.
     const int32_t end = y == last ? bottom : Min(FinishedRows(config, y), bottom);
     const RowRange finished = {Max(y - kDeblockRows, top), end};
     if (finished.first < end) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An engine: what it is made of, by how long that lives.
+// State of an engine, grouped by lifetime.
 #ifndef STARFOCUS_LIB_ENGINE_ENGINE_H_
 #define STARFOCUS_LIB_ENGINE_ENGINE_H_
 
@@ -19,59 +19,60 @@ namespace starfocus {
 // Progress of a streamed refocusing, in rows.
 struct Stream {
   bool active = false;
-  bool covers = false;   // whether the rows pushed have coverage
-  int32_t pushed = 0;    // input rows taken
+  bool covers = false;   // true: the pushed rows have coverage
+  int32_t pushed = 0;    // number of pushed input rows
   int32_t next = 0;      // first row of the next stripe
-  int32_t finished = 0;  // output rows that no later stripe changes
-  int32_t written = 0;   // output rows the caller has pulled
+  int32_t finished = 0;  // number of output rows that no later stripe changes
+  int32_t written = 0;   // number of output rows that the caller has pulled
 };
 
-// What images need besides the ring of the centre view's rows.
+// Memory for images, in addition to the ring for the rows of the centre view.
 struct ImageMemory {
-  uint32_t* columns = nullptr;  // of the picture, in a depth map
-  int32_t map_width = 0;        // of that map; 0: there was none yet
-  uint8_t* odd_row = nullptr;   // of the output: a row whose chroma waits for the one below
-  Plane<uint8_t> alpha;         // with streaming: ring of the centre view's
+  uint32_t* columns = nullptr;  // for each column of the picture, its place in the depth map
+  int32_t map_width = 0;        // width of that depth map; 0: `columns` is not set yet
+  uint8_t* odd_row = nullptr;   // output row whose chroma waits for the row below
+  Plane<uint8_t> alpha;         // with streaming: ring of the alpha of the centre view
 };
 
 struct EngineState {
-  // For the engine's life:
-  starfocus_config config;         // whose problem is the engine's own
-  starfocus_problem problem = {};  // of the last call
+  // Valid for the life of the engine:
+  starfocus_config config;         // `problem` is the engine's own
+  starfocus_problem problem = {};  // problem of the last call
   const simd::Kernels* kernels;
   Tables tables;
-  starfocus_allocator allocator = {};  // of the memory; without functions: the caller's own
-  size_t bytes = 0;                    // of that, from the allocator
-  Workers workers;                     // the workers' memory
-  Plane<uint8_t> rings[kMaxViews];     // with streaming: rows that were pushed
-  ImageMemory images;                  // and rings[0]: of images
+  // Allocated the memory; null functions: the memory belongs to the caller.
+  starfocus_allocator allocator = {};
+  size_t bytes = 0;                 // size of the memory from the allocator
+  Workers workers;                  // memory of the workers
+  Plane<uint8_t> rings[kMaxViews];  // with streaming: pushed rows
+  ImageMemory images;               // with images; they also use rings[0]
 
-  // Until the next starfocus_set_callbacks, beside the runner and progress function in
+  // Valid until the next starfocus_set_callbacks, like the runner and the progress function in
   // workers.jobs:
   starfocus_clock clock = nullptr;
   starfocus_block_visitor on_block = nullptr;
   void* on_block_data = nullptr;
 
-  // For one refocusing:
+  // Valid for one refocusing:
   Lens lens;
   RowStore row_store;
   Stream stream;
   starfocus_report report;
 
-  // For one stripe:
+  // Valid for one stripe:
   StripeState stripe;
 };
 
-// Sets up the lens for params, told to the workers' CallProgress, and forgets all of the refocusing
-// before. Returns STARFOCUS_ERROR_BLUR, STARFOCUS_ERROR_CANCELLED or STARFOCUS_OK. The other fields
-// of params must have been checked.
+// Sets up the lens for `params` and discards the state of the previous refocusing. Reports to the
+// workers' CallProgress. Returns STARFOCUS_ERROR_BLUR, STARFOCUS_ERROR_CANCELLED or STARFOCUS_OK.
+// The other fields of `params` must have been checked.
 starfocus_status SetLens(const starfocus_params& params, EngineState* engine);
 
-// Adds to the report what the workers counted since the last time; or forgets it.
+// TakeCounts moves the workers' counts to the report. DropCounts discards them.
 void TakeCounts(EngineState* engine);
 void DropCounts(EngineState* engine);
 
-// Forgets the stripe before the next one: nothing that it made is of use.
+// Discards the state of the previous stripe, so that the next stripe reuses none of it.
 void ForgetStripe(StripeState* stripe);
 
 }  // namespace starfocus

@@ -10,10 +10,10 @@
 namespace starfocus {
 namespace {
 
-// How many pixels are compared at once.
+// Number of pixels that are compared at once.
 constexpr int32_t kUnit = 16;
 
-// The stripes that depend on row y.
+// Stripes that depend on row y.
 struct StripeRange {
   int32_t first, last;
 };
@@ -22,8 +22,8 @@ StripeRange StripesOf(const FrameDiff& changes, int32_t y, int32_t reach) {
   return {Max(0, y - reach) / changes.side, Min(changes.height - 1, y + reach) / changes.side};
 }
 
-// Whether all blocks of the stripes are flagged already: where much changes, most rows need no
-// look.
+// Returns true if all blocks of the stripes are flagged already. If much changes, most rows need no
+// comparison.
 bool AllFlagged(const FrameDiff& changes, const StripeRange& stripes) {
   for (int32_t stripe = stripes.first; stripe <= stripes.last; ++stripe) {
     if (std::memchr(changes.Flags(stripe), 0, static_cast<size_t>(changes.columns)) != nullptr) {
@@ -33,12 +33,12 @@ bool AllFlagged(const FrameDiff& changes, const StripeRange& stripes) {
   return true;
 }
 
-// A row of both pictures, `pixel_bytes` a pixel.
+// A row of both pictures, with `pixel_bytes` bytes per pixel.
 struct RowPair {
   const void *before, *now;
   size_t pixel_bytes;
 
-  // Whether pixels [first, end) differ.
+  // Returns true if pixels [first, end) differ.
   bool Differs(int32_t first, int32_t end) const {
     const size_t offset = pixel_bytes * static_cast<size_t>(first);
     return std::memcmp(static_cast<const uint8_t*>(before) + offset,
@@ -47,14 +47,14 @@ struct RowPair {
   }
 };
 
-// Compares row y and flags the blocks that depend on what differs. widen(&first, &end) may add
-// pixels that change with those of [first, end).
+// Compares row y and flags the blocks that depend on different pixels. widen(&first, &end) may add
+// pixels that change together with [first, end).
 template <class Widen>
 void CompareRow(const FrameDiff& changes, const RowPair& rows, int32_t y, int32_t reach,
                 const Widen& widen) {
   const StripeRange stripes = StripesOf(changes, y, reach);
   if (AllFlagged(changes, stripes) || !rows.Differs(0, changes.width)) return;
-  int32_t flagged = -1;  // last column of this row's, beyond which filled pixels may still change
+  int32_t flagged = -1;  // last column flagged by this row; filled pixels may change beyond it
   for (int32_t x = 0; x < changes.width; x += kUnit) {
     int32_t left = x, right = Min(x + kUnit, changes.width);
     const int32_t column = Min(changes.width - 1, right - 1 + reach) / changes.side;
@@ -69,7 +69,7 @@ void CompareRow(const FrameDiff& changes, const RowPair& rows, int32_t y, int32_
   }
 }
 
-// Compares row y of the maps. What is filled changes with the known values beside the gap.
+// Compares row y of the maps. Filled disparities change with the known values next to their gap.
 void CompareMaps(const FrameDiff& changes, int32_t y) {
   const float* const before = RowsOf(changes.before->depth).Row(y);
   const float* const now = RowsOf(changes.now->depth).Row(y);
@@ -83,7 +83,7 @@ void CompareMaps(const FrameDiff& changes, int32_t y) {
              });
 }
 
-// Compares row y of coverage, of which there is as much in both.
+// Compares row y of the coverage. Either both light fields have coverage or neither has it.
 void CompareCoverage(const FrameDiff& changes, int32_t y) {
   const auto row = static_cast<size_t>(y);
   const starfocus_light_field &a = *changes.before, &b = *changes.now;

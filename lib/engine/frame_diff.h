@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which superblocks depend on pixels that differ between two light fields.
+// Finds the superblocks that depend on pixels that differ between two light fields, for videos.
 #ifndef STARFOCUS_LIB_ENGINE_FRAME_DIFF_H_
 #define STARFOCUS_LIB_ENGINE_FRAME_DIFF_H_
 
@@ -12,35 +12,37 @@
 
 namespace starfocus {
 
-// Rows are compared from the first one that is needed to the last; blocks of a stripe and of those
-// beside it are known once all rows within their reach are compared.
+// Rows are compared in order, starting at the first row that is needed. The flags of a stripe and
+// its neighbours are complete when all rows within their reach have been compared.
 struct FrameDiff {
-  bool active = false;  // there is something to compare with
+  bool active = false;  // true: `before` is valid
   const starfocus_light_field *before, *now;
-  int32_t views;                     // that matter
-  int32_t width, height, side;       // of the picture and its superblocks
-  int32_t columns;                   // of superblocks
-  int32_t centre_reach, side_reach;  // pixels around a block that it may depend on
-  bool fills;                        // whether unknown disparities are filled along their row
-  int32_t rows;                      // compared so far
-  int32_t known;                     // stripes whose flags are set up
-  uint8_t* flags = nullptr;          // ring of stripes, by column: 1 where something changed
-  int32_t stripes = 0;               // of the ring
+  int32_t views;                // number of views to compare
+  int32_t width, height, side;  // size of the picture, and side of a superblock, in pixels
+  int32_t columns;              // number of columns of superblocks
+  // Pixels around a block that the block may depend on: of the centre view, of side views.
+  int32_t centre_reach, side_reach;
+  bool fills;     // true: unknown disparities are filled along their row
+  int32_t rows;   // number of rows compared
+  int32_t known;  // number of stripes whose flags are initialised
+  // Ring of stripes with one flag per column: 1 if the superblock changed.
+  uint8_t* flags = nullptr;
+  int32_t stripes = 0;  // number of stripes in the ring
 
   uint8_t* Flags(int32_t stripe) const {
     return flags + static_cast<size_t>(stripe % stripes) * static_cast<size_t>(columns);
   }
 };
 
-// Starts anew, for stripes from row y on.
+// Restarts the comparison for stripes from row y on.
 void StartFrameDiff(int32_t y, FrameDiff* changes);
 
-// Compares all rows that blocks of the stripe at row y, and of those before and after it, depend
-// on. Returns STARFOCUS_OK or STARFOCUS_ERROR_CANCELLED.
+// Compares all rows that affect blocks of the stripe at row y, or of the stripes before and after
+// it. Returns STARFOCUS_OK or STARFOCUS_ERROR_CANCELLED.
 starfocus_status CompareRows(int32_t y, CancelToken* cancel, FrameDiff* changes);
 
-// Whether a superblock that has pixels in `rect`, or less than a stripe away from those last
-// compared, has changed.
+// Returns true if a superblock that overlaps `rect` has changed. `rect` must be less than a stripe
+// away from the stripe compared last.
 bool HasChanged(const FrameDiff& changes, const Rect& rect);
 
 }  // namespace starfocus

@@ -8,9 +8,8 @@ namespace starfocus {
 
 int32_t MaxJobs(const starfocus_config& config) {
   const int32_t side = config.superblock;
-  // Sets of jobs go by blocks of a stripe, by columns of superblocks, or in deblocking by rows
-  // of smallest blocks of one stripe and of what waits above. There are no more columns than
-  // blocks.
+  // A set has one job per block of a stripe, per column of superblocks, or, in deblocking, per row
+  // of smallest blocks of a stripe and the rows kept above it. Columns never outnumber blocks.
   return Max(Columns(config) * MaxBlocks(side), side / kSmallestBlock + 1);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Jobs of an engine: each gets the scratch memory of its worker.
+// Typed jobs of an engine. Each job receives the scratch memory of its worker.
 #ifndef STARFOCUS_LIB_ENGINE_JOBS_H_
 #define STARFOCUS_LIB_ENGINE_JOBS_H_
 
@@ -11,17 +11,17 @@
 
 namespace starfocus {
 
-// The workers' memory, and the jobs that use it.
+// Memory of all workers, and the set of jobs that use it.
 struct Workers {
   Scratch* scratch = nullptr;
-  JobSet jobs;  // there is room for MaxJobs
+  JobSet jobs;  // has room for MaxJobs jobs
 };
 
-// Most jobs of any set of an engine.
+// Returns the largest number of jobs in any set of an engine.
 int32_t MaxJobs(const starfocus_config& config);
 
-// Runs kJob(data, index, memory of a worker) for all indices as RunJobSet does: its data are its
-// input and say where its output goes.
+// Runs kJob(data, index, scratch memory of the worker) for all indices, like RunJobSet. `data`
+// holds the input of the jobs and the location of their output.
 template <class Data, void (*kJob)(const Data&, int32_t, Scratch*)>
 starfocus_status RunJobs(const Data& data, int32_t count, Workers* workers) {
   struct Set {

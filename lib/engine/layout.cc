@@ -9,9 +9,9 @@
 namespace starfocus {
 namespace {
 
-// Takes the memory that a column of superblocks is subsampled in.
+// Allocates the memory for subsampling a column of superblocks.
 void TakeResample(const starfocus_config& config, Arena* arena, ResampleScratch* resample) {
-  // The last column has what a layer has beyond the picture, a pixel or two.
+  // The last column includes the pixels of a layer beyond the picture: one or two.
   const auto side = config.superblock;
   const auto columns = static_cast<size_t>(Max(side / 2 + 1, TapsOfLayer(side / 4 + 2)));
   const int32_t above_two = TapsOfLayer(LayerRows(config, 2));
@@ -22,8 +22,8 @@ void TakeResample(const starfocus_config& config, Arena* arena, ResampleScratch*
   resample->above = arena->Take<int16_t>(3 * columns, static_cast<size_t>(above_two));
 }
 
-// Blocks are rendered, or parted, one after the other, and only sums are handed on: all the rest of
-// a worker's memory is shared.
+// Rendering and partitioning use the same memory, because a worker does them in turn and keeps only
+// the sums.
 Scratch TakeScratch(const starfocus_config& config, Arena* arena) {
   const auto side = static_cast<size_t>(config.superblock);
   const Borders borders = LargestBorders(config);
@@ -41,13 +41,13 @@ Scratch TakeScratch(const starfocus_config& config, Arena* arena) {
   if (HasShapes(config)) scratch.aperture_weights = arena->Take<uint16_t>(FullApertureSize(most));
   if (config.highlights > 1) scratch.lamp_runs = arena->Take<LampRuns>(1);
   const size_t shared = arena->Mark();
-  // The pool of slices, which comes last, takes all that others need.
+  // The slice renderer comes last: its pool of slices takes all memory that other users need.
   for (int32_t k = renderers - 1; k >= 0; --k) {
     kRenderers[k]->take_scratch(config, extended, static_cast<size_t>(max_n[k]), arena,
                                 scratch.renderers[k]);
     arena->Reuse(shared);
   }
-  // What is gathered comes to a rendered rectangle from the field.
+  // Gathering reads `field` and writes to the rendered rectangle.
   const size_t half = side / 2 + 2 * static_cast<size_t>(LayerMargin(1));
   scratch.layer_samples = arena->Take<int16_t>(3 * half * half);
   const size_t behind = arena->Mark();
@@ -90,7 +90,7 @@ void TakeTables(const starfocus_config& config, Arena* arena, Tables* tables) {
   tables->blur_weights = arena->Take<uint16_t>(BlurWeightCount(full, config.max_blur));
 }
 
-// Takes the planes of layers 1 and 2 around a stripe.
+// Allocates the planes of layers 1 and 2 around a stripe.
 void TakeLayers(const starfocus_config& config, Arena* arena, EngineState* engine) {
   for (int layer = 1; layer <= config.tuning.max_layer; ++layer) {
     LayerPlane& plane = engine->row_store.layers[layer];
@@ -125,8 +125,8 @@ void TakeStripe(const starfocus_config& config, Arena* arena, EngineState* engin
   }
   FrameDiff& changes = engine->stripe.changes;
   changes.columns = static_cast<int32_t>(blocks);
-  // Rows up to a border beyond the stripe after the current one are compared, which flag stripes up
-  // to as much again beyond; the one before the current is still asked for.
+  // Rows up to one border below the next stripe are compared, and flag stripes up to another border
+  // below. Flags of the previous stripe are still read.
   changes.stripes = 2 * borders.views / side + 5;
   changes.flags = arena->Take<uint8_t>(blocks * static_cast<size_t>(changes.stripes));
   engine->stripe.map.columns = (config.width + kSmallestBlock - 1) / kSmallestBlock;
@@ -134,13 +134,13 @@ void TakeStripe(const starfocus_config& config, Arena* arena, EngineState* engin
                                                    static_cast<size_t>(side / kSmallestBlock + 1));
 }
 
-// Takes what images need; `rows` are those of a ring.
+// Allocates the memory for images. `rows` is the number of rows of a ring.
 void TakeImages(const starfocus_config& config, int32_t rows, Arena* arena, ImageMemory* images) {
   const auto width = static_cast<size_t>(config.width);
   images->columns = arena->Take<uint32_t>(width);
   images->odd_row = arena->Take<uint8_t>(3 * width);
   if (!Has(config.features, STARFOCUS_FEATURE_STREAMING)) return;
-  // Alpha is read when finished rows are written, which may be those of a stripe before.
+  // Alpha is read when finished rows are written, which may belong to the previous stripe.
   images->alpha.rows = rows + config.superblock + kDeblockRows;
   images->alpha.stride = width;
   images->alpha.data = arena->Take<uint8_t>(width, static_cast<size_t>(images->alpha.rows));
@@ -156,7 +156,7 @@ void TakeRows(const starfocus_config& config, Arena* arena, EngineState* engine)
   engine->row_store.disparity.data = arena->Take<int16_t>(width, static_cast<size_t>(rows));
   engine->stripe.out =
       arena->Take<uint8_t>(3 * width, static_cast<size_t>(config.superblock + kDeblockRows));
-  // Null without streaming also where LayOutAnew made it of an engine that streams.
+  // Set to null without streaming, because LayOutAnew may reuse a streaming engine.
   engine->stripe.last_rows = streaming ? arena->Take<uint8_t>(3 * width, kDeblockRows) : nullptr;
   const int rings = streaming                                        ? config.views
                     : Has(config.features, STARFOCUS_FEATURE_IMAGES) ? 1
@@ -177,7 +177,7 @@ void TakeRows(const starfocus_config& config, Arena* arena, EngineState* engine)
 
 size_t Carve(const starfocus_config& config, Arena arena, EngineState** engine) {
   *engine = arena.Take<EngineState>(1);
-  EngineState counted;  // stands in for *engine while counting
+  EngineState counted;  // used instead of *engine while counting
   EngineState& e = *engine == nullptr ? counted : **engine;
   TakeTables(config, &arena, &e.tables);
   e.workers.jobs.max_workers = config.max_workers;
@@ -188,7 +188,8 @@ size_t Carve(const starfocus_config& config, Arena arena, EngineState** engine) 
     e.workers.scratch[worker] = taken;
     e.workers.scratch[worker].cancel = CancelToken(&e.workers.jobs.call_progress);
   }
-  // What grows with the picture comes last: LayOut for a smaller one leaves all else in place.
+  // Pieces that depend on the size of the picture come last, so that LayOutAnew for a smaller
+  // picture does not move the others.
   TakeRows(config, &arena, &e);
   TakeLayers(config, &arena, &e);
   TakeStripe(config, &arena, &e);

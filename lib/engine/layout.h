@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One routine sizes the workspace of an engine and carves it: run with a null base it only counts.
+// Memory layout of an engine. One function computes the size of the workspace and divides it.
 #ifndef STARFOCUS_LIB_ENGINE_LAYOUT_H_
 #define STARFOCUS_LIB_ENGINE_LAYOUT_H_
 
@@ -13,19 +13,19 @@
 
 namespace starfocus {
 
-// Lays out an engine for a valid configuration at `base` (aligned to STARFOCUS_ALIGNMENT), or
-// counts when base is null. Returns the bytes used, or kTooLarge; *engine is null when counting.
-// `pieces` (null: nobody) is told of what is taken.
+// Lays out an engine for a valid configuration at `base`, aligned to STARFOCUS_ALIGNMENT. If `base`
+// is null, it only counts and sets *engine to null. Returns the number of bytes, or kTooLarge.
+// `pieces` receives each piece unless it is null.
 size_t LayOut(const starfocus_config& config, void* base, EngineState** engine,
               const PieceVisitor* pieces = nullptr);
 
-// Lays an engine out anew for pictures that are no larger than those that its memory was made for:
-// `config` differs from that engine's in its size and range of disparities alone, and does not
-// stream. Tables stay; nothing of what a refocusing keeps does.
+// Lays out an engine again for pictures that are not larger than before. `config` may differ from
+// the engine's configuration only in the size and the range of disparities, and must not stream.
+// Tables remain valid; all state of a refocusing is lost.
 void LayOutAnew(const starfocus_config& config, EngineState* engine);
 
-// Makes the red zones of an engine's memory, if this build has any, ones that nobody may touch, as
-// long as the object lives: the memory is the caller's and may become something else afterwards.
+// Poisons the red zones of an engine's memory, if this build has them, during the lifetime of the
+// object. The memory belongs to the caller, who may use it for another purpose afterwards.
 class RedZones {
  public:
   explicit RedZones(EngineState* engine);
@@ -37,7 +37,7 @@ class RedZones {
   [[maybe_unused]] EngineState* const engine_;
 };
 
-// The memory an engine lives in.
+// Returns the address range of the memory that an engine occupies.
 Extent Workspace(const EngineState& engine);
 
 }  // namespace starfocus

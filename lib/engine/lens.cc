@@ -10,7 +10,7 @@
 namespace starfocus {
 namespace {
 
-// The line scan shows a halo, as wide as the blur, where no view sees what is behind edges.
+// The line scan shows a halo as wide as the blur if no captured view sees behind edges.
 const Renderer& RendererOf(const starfocus_config& config, const starfocus_params& params) {
   const bool by_default = params.renderer == STARFOCUS_RENDERER_AUTO &&
                           params.mode == STARFOCUS_MODE_FRAME && config.views > 1 &&
@@ -19,8 +19,8 @@ const Renderer& RendererOf(const starfocus_config& config, const starfocus_param
   return is_paper && HasLineScan(config) ? kLineScanRenderer : kSliceRenderer;
 }
 
-// Returns the one aperture of the frame modes. That of the benchmark is made in memory of its own.
-// STARFOCUS_MODE_BLUR shows the centre view alone.
+// Returns the aperture of the frame modes, which have a single N. Benchmark mode has its own memory
+// for it. STARFOCUS_MODE_BLUR reads only the centre view.
 ViewWeights FrameWeights(const starfocus_config& config, const Tables& tables, const Lens& lens) {
   const Renderer& renderer = *lens.renderer;
   if (lens.params.mode == STARFOCUS_MODE_BLUR) return lens.apertures[0];
@@ -68,7 +68,7 @@ starfocus_status MakeLens(const starfocus_config& config, const starfocus_params
   lens->renderer = &RendererOf(config, params);
   lens->r_max = r_max;
   lens->borders = AddBorders(config, r_max, IsDeblocking(config, *lens));
-  // The benchmark has an aperture of its own, and STARFOCUS_MODE_BLUR needs only that of N = 0.
+  // Benchmark mode has its own aperture, and STARFOCUS_MODE_BLUR needs only that of N = 0.
   const bool has_own = IsBenchmark(*lens) || params.mode == STARFOCUS_MODE_BLUR;
   lens->largest_n =
       LargestN(config, *lens->renderer, DemandOf(tables->opening), has_own ? 0 : r_max);

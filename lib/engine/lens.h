@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lens of a refocusing.
+// Lens of a refocusing: the checked parameters and the values derived from them.
 #ifndef STARFOCUS_LIB_ENGINE_LENS_H_
 #define STARFOCUS_LIB_ENGINE_LENS_H_
 
@@ -18,62 +18,61 @@ namespace starfocus {
 
 struct Lens {
   starfocus_params params;
-  Rect region;  // of params, the whole picture when they have none
+  Rect region;  // region of `params`; the whole picture if they have none
   const Renderer* renderer;
-  double r_max;  // largest blur radius of the configured range of disparities, pixels
-  const ViewWeights* apertures;  // the renderer's, by N
-  int32_t largest_n;             // of these
-  ViewWeights aperture;          // frame modes: of the one N
+  double r_max;                  // largest blur radius for the configured disparities, in pixels
+  const ViewWeights* apertures;  // apertures of the renderer, indexed by N
+  int32_t largest_n;             // largest N of `apertures`
+  ViewWeights aperture;          // frame modes: aperture of their single N
   BlurScale scale;
   Borders borders;
 };
 
-// Whether no region is asked for, which means the whole picture.
+// Returns true if no region is set, which means the whole picture.
 inline bool IsWhole(const starfocus_region& region) {
   return region.x == 0 && region.y == 0 && region.width == 0 && region.height == 0;
 }
 
-// The rectangle that params ask for.
+// Returns the rectangle of the picture that `params` select.
 Rect RegionOf(const starfocus_config& config, const starfocus_params& params);
 
-// Whether the picture is the centre view itself, in any mode.
+// Returns true if the result is a copy of the centre view, in any mode.
 inline bool IsPinhole(const Lens& lens) { return lens.params.lens.aperture == 0; }
 
 inline bool IsBlockMode(const Lens& lens) { return lens.params.mode == STARFOCUS_MODE_BLOCK; }
 
 inline bool IsBenchmark(const Lens& lens) { return lens.params.mode == STARFOCUS_MODE_BENCHMARK; }
 
-// Whether smooth cells are gathered: the kernel for that knows no lens but those that an octant
-// tells.
+// Returns true if smooth cells are gathered. The gathering kernel supports only openings that one
+// octant describes.
 inline bool Gathers(const starfocus_config& config, const Lens& lens) {
   const starfocus_lens& asked = lens.params.lens;
   const bool octant = asked.shape != STARFOCUS_SHAPE_POLYGON && asked.cats_eye == 0;
   return IsBlockMode(lens) && lens.renderer->gathers && config.tuning.gather != 0 && octant;
 }
 
-// The last step of the kernels that are made for gathering.
+// Index of the last PSF that gathering uses.
 int32_t LastGatherStep(const Lens& lens);
 
-// The aperture of a block with the rule's N.
+// Returns the weights of a block with N = n.
 inline const ViewWeights& WeightsOf(const Lens& lens, int32_t n) {
   return IsBlockMode(lens) ? lens.apertures[n] : lens.aperture;
 }
 
-// Whether blocks of different layers are joined.
+// Returns true if the boundaries between blocks of different layers are smoothed.
 inline bool IsDeblocking(const starfocus_config& config, const Lens& lens) {
   return IsBlockMode(lens) && config.tuning.max_layer > 0 && config.tuning.deblocking > 0;
 }
 
-// Blur radius of the configured range's farther end.
+// Returns the largest blur radius in pixels for the configured range of disparities.
 double LargestBlur(const starfocus_config& config, const starfocus_params& params);
 
-// Returns STARFOCUS_ERROR_BLUR if the engine is not made for the largest blur of the params, else
-// STARFOCUS_OK.
+// Returns STARFOCUS_ERROR_BLUR if the largest blur radius exceeds max_blur, otherwise STARFOCUS_OK.
 starfocus_status CheckBlur(const starfocus_config& config, const starfocus_params& params);
 
-// Makes the lens for params, and the tables that it needs and that are not there yet. Returns
-// STARFOCUS_ERROR_BLUR, STARFOCUS_ERROR_CANCELLED or STARFOCUS_OK. The other fields of params must
-// have been checked.
+// Makes the lens for `params`, and the tables that it needs and that do not exist yet. Returns
+// STARFOCUS_ERROR_BLUR, STARFOCUS_ERROR_CANCELLED or STARFOCUS_OK. The other fields of `params`
+// must have been checked.
 starfocus_status MakeLens(const starfocus_config& config, const starfocus_params& params,
                           CallProgress* call_progress, Tables* tables, Lens* lens);
 

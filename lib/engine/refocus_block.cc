@@ -30,7 +30,7 @@ void FinishPicture(const BlockInputs& in, const Rect& rect, int shift, const Pla
   }
 }
 
-// Makes samples of the layer of the sums of a block, in what it has of LayerFrame.
+// Converts the sums of a block to samples of its layer, at their place in LayerFrame.
 void KeepLayer(const BlockInputs& in, const Block& block, int shift, const Scratch& scratch) {
   const Rect frame = LayerFrame(block.rect, block.layer), &rendered = block.rendered;
   const size_t samples = 3 * static_cast<size_t>(rendered.width);
@@ -44,8 +44,8 @@ void KeepLayer(const BlockInputs& in, const Block& block, int shift, const Scrat
   }
 }
 
-// Brings what a block has at its layer to the picture: from layer 2 by way of layer 1, with the
-// margin that the next step reads.
+// Upsamples a block from its layer to the picture. Layer 2 is upsampled through layer 1, including
+// the margin that the next step reads.
 void FinishLayer(const BlockInputs& in, const Block& block, const Plane<uint8_t>& out,
                  const Scratch& scratch) {
   const simd::Kernels& kernels = *in.kernels;
@@ -79,18 +79,18 @@ void CopyCentre(const Window& window, const Rect& rect, const Plane<uint8_t>& ou
   }
 }
 
-// How much of a block is rendered.
+// Amount of rendering for a block.
 struct Rendered {
   uint64_t views, samples;
 };
 
-// Renders the views of a job into the worker's sums. Returns the samples of a view.
+// Renders the views of a job into the worker's sums. Returns the number of samples of a view.
 uint64_t RenderSums(const BlockInputs& in, const RenderJob& job, Scratch* scratch) {
   const Renderer& renderer = *in.lens->renderer;
   return renderer.render(job, scratch->renderers[renderer.index], scratch->sums);
 }
 
-// The fractional bits of the sums that RenderSums leaves.
+// Returns the fractional bits of the sums of RenderSums.
 int SumBits(const BlockInputs& in, const RenderJob& job) {
   return in.lens->renderer->sum_bits(job.grid->aperture);
 }
@@ -100,7 +100,7 @@ ExcessSum ExcessOf(const BlockInputs& in) {
           ExcessFactor(static_cast<float>(in.config->highlights))};
 }
 
-// The pictures as a window of what highlights have beyond white.
+// Window whose pictures contain only the light of highlights beyond white.
 class ExcessWindow {
  public:
   ExcessWindow(const BlockInputs& in, Scratch* scratch)
@@ -122,8 +122,8 @@ class ExcessWindow {
   Window window_;
 };
 
-// Renders what highlights are beyond white, too, and adds it to the block. Returns the samples of a
-// view.
+// Renders the light of highlights beyond white and adds it to the block. Returns the number of
+// samples of a view.
 uint64_t RenderExcess(const BlockInputs& in, RenderJob job, const Plane<uint8_t>& out,
                       Scratch* scratch) {
   const ExcessWindow excess(in, scratch);
@@ -141,7 +141,7 @@ uint64_t RenderExcess(const BlockInputs& in, RenderJob job, const Plane<uint8_t>
 Rendered Render(const BlockInputs& in, const Block& block, const RenderJob& job,
                 const Plane<uint8_t>& out, Scratch* scratch) {
   uint64_t samples = RenderSums(in, job, scratch);
-  if (!scratch->cancel.Spend(0)) return {0, 0};  // of sums that nobody has finished
+  if (!scratch->cancel.Spend(0)) return {0, 0};  // cancelled: the sums are incomplete
   if (block.layer == 0) {
     FinishPicture(in, job.rect, SumBits(in, job), out, *scratch);
   } else {
@@ -153,7 +153,7 @@ Rendered Render(const BlockInputs& in, const Block& block, const RenderJob& job,
   return {views, views * samples};
 }
 
-// Gathers the cells of a block and brings what is then complete to the picture.
+// Gathers the cells of a block and writes the completed block to the picture.
 void GatherBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>& out,
                  Scratch* scratch) {
   BlockPixels field;
@@ -173,10 +173,10 @@ void GatherBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>
   if (block.layer > 0 && scratch->cancel.Spend(0)) FinishLayer(in, block, out, *scratch);
 }
 
-// The part of a block that views give: at layer 0 they need not be rendered for all of it.
+// Returns the part of a block that views render. At layer 0 it may be smaller than the block.
 const Rect& ViewsRect(const Block& block) { return block.layer == 0 ? block.rendered : block.rect; }
 
-// Copies a part of the block from the centre view, which is its one view.
+// Copies a part of the block from the centre view, which is its only view.
 Rendered CopyBlock(const BlockInputs& in, const Rect& rect, const Plane<uint8_t>& out,
                    Scratch* scratch) {
   const uint64_t samples = Samples(rect);
@@ -189,7 +189,7 @@ Rendered RefocusViews(const BlockInputs& in, const Block& block, const Plane<uin
                       Scratch* scratch) {
   const Lens& lens = *in.lens;
   const ViewWeights& aperture = WeightsOf(lens, block.n);
-  // Where the one view of N = 0 is rendered, it is as those of a lens that moves no pixel.
+  // If the centre view of N = 0 has to be rendered, the weights of N = 1 are used with a step of 0.
   const bool pinhole = aperture.n == 0;
   const ViewWeights& whole = pinhole ? lens.apertures[1] : aperture;
   const ApertureShape& opening = in.tables->opening;
@@ -208,7 +208,8 @@ Rendered RefocusViews(const BlockInputs& in, const Block& block, const Plane<uin
   const RenderJob job = {
       &in.windows[block.layer], &grid,    in.kernels, block.rendered,   block.border,
       &scratch->cancel,         gathered, lens.r_max, IsBenchmark(lens)};
-  // The views' part of a layer is brought to the picture together with what is gathered.
+  // With gathering, the rendered part of a layer is upsampled later, together with the gathered
+  // part.
   const bool in_part = block.layer > 0 && block.gathers;
   const bool copies =
       !block.has_highlights && !in_part && (pinhole || lens.renderer->nothing_moves(job));
@@ -234,7 +235,7 @@ void RefocusBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t
                   Scratch* scratch) {
   const starfocus_clock clock = in.clock;
   const uint64_t start = clock != nullptr ? clock() : 0;
-  Rendered rendered = {1, 0};  // the centre, of a block gathered whole
+  Rendered rendered = {1, 0};  // of a block that is gathered completely: the centre view
   if (IsPinhole(*in.lens)) {
     rendered = CopyBlock(in, block.rect, out, scratch);
   } else if (in.lens->params.mode == STARFOCUS_MODE_BLUR) {
@@ -244,7 +245,7 @@ void RefocusBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t
     if (block.rendered.width > 0) {
       rendered = RefocusViews(in, block, out, scratch);
     }
-    // Cells are gathered after views, which know nothing of them.
+    // Gathering follows the views, which do not distinguish gathered cells.
     if (block.gathers) GatherBlock(in, block, out, scratch);
   }
   starfocus_layer_report& report = scratch->counts.layers[block.layer];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One block: refocused at its layer and brought back to the picture.
+// Refocuses one block: renders it at its layer and upsamples the result to the picture.
 #ifndef STARFOCUS_LIB_ENGINE_REFOCUS_BLOCK_H_
 #define STARFOCUS_LIB_ENGINE_REFOCUS_BLOCK_H_
 
@@ -15,19 +15,19 @@
 
 namespace starfocus {
 
-// What the blocks of a stripe are made from.
+// Inputs that the blocks of a stripe share.
 struct BlockInputs {
   const starfocus_config* config;
   const simd::Kernels* kernels;
   const Tables* tables;
   const Lens* lens;
-  const Window* windows;  // of each layer
+  const Window* windows;  // one per layer
   const CellGrid* cells;
   const GatherMap* gathered;
-  starfocus_clock clock;  // null: blocks are not timed
+  starfocus_clock clock;  // null: the time of blocks is not measured
 };
 
-// Writes the block's rectangle of the picture into `out` and counts it in scratch->counts.
+// Writes the rectangle of the block to `out` and adds the block to scratch->counts.
 void RefocusBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>& out,
                   Scratch* scratch);
 

@@ -14,7 +14,7 @@ namespace starfocus {
 void SetViews(const starfocus_config& config, const ViewReader& reader,
               const Plane<const uint8_t>& centre, RowStore* row_store) {
   ViewSet set;
-  FindViews(config, &set);  // which were checked when the engine was made
+  FindViews(config, &set);  // validated when the engine was created
   const OcclusionViews occlusion_views = ChooseOcclusionViews(set);
   for (int layer = 0; layer < STARFOCUS_LAYERS; ++layer) {
     Window& window = row_store->windows[layer];
@@ -60,7 +60,7 @@ int32_t FillUnknown(const starfocus_config& config, const simd::Kernels& kernels
 
 void ForgetLayers(const starfocus_config& config, RowStore* row_store) {
   for (int layer = 1; layer < STARFOCUS_LAYERS; ++layer) {
-    // A ring of as many rows as a stripe may need: what the stripe before made stays.
+    // Ring with as many rows as a stripe may need, so that rows of the previous stripe are kept.
     row_store->layers[layer].samples.rows = LayerRows(config, layer);
     row_store->layers[layer].rows = {0, 0};
     std::memset(row_store->needed[layer], 0, static_cast<size_t>(Columns(config)));

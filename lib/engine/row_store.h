@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pictures of a call: views, layers and converted disparities, as windows onto them.
+// Pictures of a call: views, layers and converted disparities, and windows onto them.
 #ifndef STARFOCUS_LIB_ENGINE_ROW_STORE_H_
 #define STARFOCUS_LIB_ENGINE_ROW_STORE_H_
 
@@ -13,31 +13,33 @@
 
 namespace starfocus {
 
-// Whether the columns of a layer are read by the stripe, and whether they were by the one before.
+// Flags of a column of a layer: the current stripe reads it, and the previous stripe read it.
 enum ColumnNeed : uint8_t { kNeeded = 1, kNeededBefore = 2 };
 
 struct RowStore {
-  PlaneViews planes;  // what the windows read, if all views are rows of codes in memory
+  PlaneViews planes;  // source of the windows if all views are rows of codes in memory
   Window windows[STARFOCUS_LAYERS];
-  LayerPlane layers[STARFOCUS_LAYERS];  // layers 1 and 2, around a stripe
-  uint8_t* needed[STARFOCUS_LAYERS];    // per column of superblocks: ColumnNeed of its layer 1, 2
-  Plane<int16_t> disparity;             // ring of converted rows
-  bool prepared;  // disparities and layers of the windows are a prepared field's
+  LayerPlane layers[STARFOCUS_LAYERS];  // layers 1 and 2 around a stripe
+  // ColumnNeed for each column of superblocks, for layers 1 and 2.
+  uint8_t* needed[STARFOCUS_LAYERS];
+  Plane<int16_t> disparity;  // ring of converted rows
+  bool prepared;  // true: disparities and layers of the windows come from a prepared light field
 };
 
-// Points the windows at views: `reader` must stay valid, `centre` has the codes of the centre view.
+// Makes the windows read from `reader`, which must stay valid. `centre` has the codes of the centre
+// view.
 void SetViews(const starfocus_config& config, const ViewReader& reader,
               const Plane<const uint8_t>& centre, RowStore* row_store);
 
-// Points the windows at views in memory of the library: reduced pictures or rings of rows.
+// Makes the windows read views in memory of the library: reduced pictures or rings of rows.
 void SetPlanes(const starfocus_config& config, const simd::Kernels& kernels,
                const Plane<uint8_t>* views, RowStore* row_store);
 
-// Fills the unknown pixels (kNoSurface) of a converted row, as STARFOCUS_FEATURE_FILL_UNKNOWN says.
-// Returns their number.
+// Fills the unknown pixels (kNoSurface) of a converted row according to
+// STARFOCUS_FEATURE_FILL_UNKNOWN. Returns the number of unknown pixels.
 int32_t FillUnknown(const starfocus_config& config, const simd::Kernels& kernels, int16_t* row);
 
-// Forgets the layers' rows, which are of another picture, or of which not all were made.
+// Discards the rows of the layers, which belong to another picture or are incomplete.
 void ForgetLayers(const starfocus_config& config, RowStore* row_store);
 
 }  // namespace starfocus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What belongs to one worker: memory that its jobs use one after the other, and what it counts.
+// Data of one worker: scratch memory that its jobs use in turn, and its counts.
 #ifndef STARFOCUS_LIB_ENGINE_SCRATCH_H_
 #define STARFOCUS_LIB_ENGINE_SCRATCH_H_
 
@@ -15,36 +15,36 @@
 
 namespace starfocus {
 
-// What a worker counts in one stripe.
+// Counts of one worker in one stripe.
 struct Counts {
   starfocus_layer_report layers[STARFOCUS_LAYERS];
   uint64_t copied_pixels;
   uint64_t gathered_pixels;
   uint64_t unknown_pixels;
-  uint32_t depth_flags;  // simd::DepthFlags of rows that were read
+  uint32_t depth_flags;  // simd::DepthFlags of the rows that were read
 };
 
-// The extended rectangle of a block in the centre view. E: largest side of one.
+// Memory for the extended rectangle of a block in the centre view. E: its largest side.
 struct BlockPixelsMemory {
-  int16_t* rgb;        // light: E rows of RgbStride(E)
-  int16_t* disparity;  // E^2
+  int16_t* rgb;        // light: E rows of RgbStride(E) samples
+  int16_t* disparity;  // E^2 samples
 };
 
-// Every renderer leaves the weighted sums of a block in `sums`; but for these and weights all
-// memory of a worker is shared, since a worker does one thing at a time (layout.cc). R: largest
-// side of a rectangle.
+// Scratch memory of one worker. Each renderer leaves the weighted sums of a block in `sums`. All
+// memory except `sums` and the weights is shared, because a worker runs one step at a time
+// (layout.cc). R: largest side of a rectangle.
 struct Scratch {
-  void* renderers[kMaxRenderers];  // of each
-  uint32_t* sums;                  // 3 R^2
-  uint16_t* aperture_weights;      // with cat's eyes: of a block, of the largest N
+  void* renderers[kMaxRenderers];  // scratch of each renderer
+  uint32_t* sums;                  // 3 R^2 samples
+  uint16_t* aperture_weights;      // with cat's eyes: weights of a block, for the largest N
   LampRuns* lamp_runs;             // with highlights
-  BlockPixelsMemory field;         // of blocks that are gathered, or blurred by depth
-  SpanMemory spans;                // of blocks blurred by depth
+  BlockPixelsMemory field;         // for blocks that are gathered, or blurred by depth
+  SpanMemory spans;                // for blocks blurred by depth
   ResampleScratch resample;
   UpsampleScratch upsample;
-  int16_t* layer_samples;    // a rendered rectangle
-  int16_t* middle_samples;   // at layer 1, on the way up from layer 2
-  int16_t* picture_samples;  // 3 R^2: the block at layer 0
+  int16_t* layer_samples;    // rendered rectangle
+  int16_t* middle_samples;   // result at layer 1 while upsampling from layer 2
+  int16_t* picture_samples;  // 3 R^2 samples: the block at layer 0
   PartitionScratch partition;
   Counts counts;
   CancelToken cancel;

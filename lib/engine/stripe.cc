@@ -12,25 +12,26 @@
 namespace starfocus {
 namespace {
 
-// Refocuses the blocks of a stripe: job `index` has that one.
+// Refocuses the blocks of a stripe. Job `index` refocuses block `index`.
 struct RefocusJob {
   BlockInputs in;
   const Block* blocks;
-  Plane<uint8_t> out;  // the picture's rows: output
+  Plane<uint8_t> out;  // output: rows of the picture
 };
 
 void RefocusOneBlock(const RefocusJob& job, int32_t index, Scratch* scratch) {
   const Block& block = job.blocks[index];
-  // What is read and filtered whatever becomes of the block; renderers count what they do.
+  // Counts the samples that every block reads and filters. Renderers count their own work.
   if (!scratch->cancel.Spend(3 * int64_t{block.rect.width} * block.rect.height)) return;
   RefocusBlock(job.in, block, job.out, scratch);
 }
 
-// Joins blocks of different layers. Between rows, job `index` joins the boundaries of a column of
-// superblocks; between columns, those in the next kSmallestBlock of the rows that are finished.
+// Deblocks the boundaries between blocks of different layers. For boundaries between rows, job
+// `index` processes a column of superblocks. For boundaries between columns, it processes
+// kSmallestBlock of the finished rows.
 struct JoinJob {
   DeblockJob deblock;
-  int32_t smallest;  // smallest blocks along a superblock
+  int32_t smallest;  // number of smallest blocks along the side of a superblock
   RowRange finished;
 };
 
@@ -71,8 +72,8 @@ starfocus_status RefocusPhases(const Stripe& stripe, const Plane<uint8_t>& out,
   }
   if (status != STARFOCUS_OK) return status;
   const StripePlan& plan = engine->stripe.plan;
-  // Blocks of the most predicted time come first, so that no worker is left with a long one when
-  // the others have none any more.
+  // Blocks with the largest predicted time come first, so that no worker starts a long block when
+  // the others are out of work.
   std::sort(plan.blocks, plan.blocks + plan.used,
             [](const Block& a, const Block& b) { return a.cost > b.cost; });
   const RefocusJob job = {InputsOf(*engine), plan.blocks, out};
@@ -83,15 +84,14 @@ starfocus_status RefocusPhases(const Stripe& stripe, const Plane<uint8_t>& out,
   return Deblock(stripe, out, engine);
 }
 
-// Keeps what the next stripe takes over from this one.
+// Keeps the state that the next stripe reuses.
 void KeepStripe(EngineState* engine) {
   TakeCounts(engine);
   const LayerMap& map = engine->stripe.map;
   std::memcpy(map.layers, &map.At(0, map.rows - 1), static_cast<size_t>(map.columns));
 }
 
-// Leaves the engine as if the stripe had not been begun; what it shared with the one before is made
-// again.
+// Restores the state before the stripe. Data shared with the previous stripe is computed again.
 void WithdrawStripe(const starfocus_report& report, EngineState* engine) {
   engine->report = report;
   DropCounts(engine);
@@ -129,12 +129,12 @@ starfocus_status RefocusStripe(EngineState* engine, int32_t y) {
   uint8_t* const ends = rows.Row(y + config.superblock - kDeblockRows);
   uint8_t* const last_rows = engine->stripe.last_rows;
   const size_t bytes = kDeblockRows * rows.stride;
-  // The last rows of the stripe before may still change, and anew when a stripe that failed is
-  // refocused again.
+  // The stripe may change the last rows of the previous stripe. A retry after a failure needs the
+  // original rows.
   std::memcpy(rows.Row(y - kDeblockRows), last_rows != nullptr ? last_rows : ends, bytes);
   const starfocus_report report = engine->report;
   if (!ChooseColumns(stripe, engine)) {
-    ForgetStripe(&engine->stripe);  // nothing for the next stripe to join
+    ForgetStripe(&engine->stripe);  // the next stripe has no neighbour to join
     return STARFOCUS_OK;
   }
   const starfocus_status status = RefocusPhases(stripe, rows, engine);

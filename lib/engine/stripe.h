@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The stripe loop's body: plans the blocks of one stripe, refocuses them and joins them.
+// Refocuses one stripe: plans its blocks, renders them and deblocks their boundaries.
 #ifndef STARFOCUS_LIB_ENGINE_STRIPE_H_
 #define STARFOCUS_LIB_ENGINE_STRIPE_H_
 
@@ -12,20 +12,20 @@
 
 namespace starfocus {
 
-// What the engine makes the blocks of a stripe from.
+// Returns the inputs of the blocks of a stripe.
 BlockInputs InputsOf(const EngineState& engine);
 
-// Output rows that are final once the stripe that starts at row y is done.
+// Returns the number of output rows that are final after the stripe at row y.
 int32_t FinishedRows(const starfocus_config& config, int32_t y);
 
-// The engine's own rows for the stripe that starts at row y, and those before it that it may still
-// change.
+// Returns the output buffer for the stripe at row y. It also contains the rows above the stripe
+// that the stripe may still change.
 Plane<uint8_t> BufferRows(const EngineState& engine, int32_t y);
 
-// Refocuses what the lens's region needs of the stripe that starts at row y, a multiple of the
-// superblock, into BufferRows; stripes come one after the other. All rows within reach are in
-// the windows. After STARFOCUS_ERROR_RUNNER and STARFOCUS_ERROR_CANCELLED the rows are half made
-// and the engine is as it was, so that a stripe of a stream can be refocused again.
+// Refocuses the part of the stripe at row y that the lens's region needs, into BufferRows. y is a
+// multiple of the superblock size, and stripes follow in order. The windows must contain all rows
+// within reach. After STARFOCUS_ERROR_RUNNER and STARFOCUS_ERROR_CANCELLED the rows are unspecified
+// and the state of the engine is restored, so that a stream can refocus the stripe again.
 starfocus_status RefocusStripe(EngineState* engine, int32_t y);
 
 }  // namespace starfocus

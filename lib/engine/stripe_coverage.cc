@@ -8,12 +8,12 @@
 namespace starfocus {
 namespace {
 
-// A pass over rows of tiles: job `index` has the tiles of that column of superblocks.
+// A pass over rows of tiles. Job `index` processes the tiles of column `index` of superblocks.
 struct PassJob {
   CoverageInput in;
   int pass;
-  RowRange rows;  // of tiles
-  int32_t tiles;  // of a superblock
+  RowRange rows;  // rows of tiles
+  int32_t tiles;  // number of tiles along the side of a superblock
 };
 
 void RunPassJob(const PassJob& job, int32_t index, Scratch* scratch) {
@@ -28,14 +28,14 @@ int32_t TilesOfSuperblock(const starfocus_config& config) {
   return config.superblock / kCoverageTile;
 }
 
-// Rows of tiles of which some pass may need what another has left there.
+// Largest number of rows of tiles that some pass may read after another pass wrote them.
 int32_t MostTileRows(const starfocus_config& config, int32_t border) {
   const int32_t read = (config.superblock + 2 * border) / kCoverageTile + 2;
   const int32_t looked_at = TilesOfSuperblock(config) + kMostMove / kCoverageTile + 1;
   return Max(read, looked_at) + TilesAhead(config, kFindRagged) + 1;
 }
 
-// Writes that nothing lies beyond the picture's left and right edge.
+// Marks the columns left and right of the picture as empty.
 void ClearAside(const CoverageMap& map) {
   for (int32_t y = 0; y < map.tile_rows * kCoverageTile; ++y) {
     for (const int32_t x : {-kAside, map.columns * kCoverageTile}) {
@@ -45,20 +45,20 @@ void ClearAside(const CoverageMap& map) {
   }
 }
 
-// Whether coverage is found for the lens: slices show it.
+// Returns true if coverage is computed for the lens. Only slices use it.
 bool FindsCoverage(const EngineState& engine) {
   const Lens& lens = engine.lens;
   return HasCoverage(engine.config) && lens.renderer->gathers &&
          lens.params.mode != STARFOCUS_MODE_BLUR && !IsPinhole(lens);
 }
 
-// Does all passes up to the one before last in row `end` of tiles.
+// Runs all passes, so that the last one completes the rows of tiles before row `end`.
 starfocus_status RunPasses(int32_t top, int32_t end, EngineState* engine) {
   CoverageState& state = engine->stripe.coverage;
   for (int pass = 0; pass < kCoveragePasses; ++pass) {
     const int32_t ahead = TilesAhead(engine->config, pass);
     int32_t& done = state.done[pass];
-    // The first stripe needs as many rows above it.
+    // The first stripe also needs `ahead` rows above it.
     const RowRange rows = {done >= 0 ? done : Max(0, top - ahead),
                            Min(state.map.Rows(), end + ahead)};
     if (rows.first < rows.last) {
@@ -114,7 +114,7 @@ starfocus_status FindCoverage(const Stripe& stripe, EngineState* engine) {
   const int32_t end =
       Min(state.map.Rows(), (stripe.y + stripe.height + border) / kCoverageTile + 1);
   if (state.done[kFindRagged] < 0) ClearAside(state.map);
-  // A superblock's rows at a time, so that few rows are in memory.
+  // Processes one superblock's height at a time, so that few rows are in memory.
   starfocus_status status = STARFOCUS_OK;
   while (status == STARFOCUS_OK && state.done[kUnmixAgain] < end) {
     const int32_t from = Max(top, state.done[kUnmixAgain]);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the coverage map (lib/coverage) of the rows that a stripe needs, pass by pass.
+// Computes the coverage map (lib/coverage) for the rows that a stripe needs.
 #ifndef STARFOCUS_LIB_ENGINE_STRIPE_COVERAGE_H_
 #define STARFOCUS_LIB_ENGINE_STRIPE_COVERAGE_H_
 
@@ -11,11 +11,11 @@
 
 namespace starfocus {
 
-// Takes the memory of a coverage map for stripes that need `border` rows around them.
+// Allocates the coverage map for stripes that read `border` rows above and below.
 void TakeCoverage(const starfocus_config& config, int32_t border, Arena* arena,
                   CoverageState* state);
 
-// Finds the coverage of the rows that the stripe's blocks read.
+// Computes the coverage of the rows that the blocks of the stripe read.
 starfocus_status FindCoverage(const Stripe& stripe, EngineState* engine);
 
 }  // namespace starfocus

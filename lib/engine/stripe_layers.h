@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Layers 1 and 2 of the centre view around a stripe, as jobs for the runner.
+// Subsamples the centre view around a stripe to layers 1 and 2.
 #ifndef STARFOCUS_LIB_ENGINE_STRIPE_LAYERS_H_
 #define STARFOCUS_LIB_ENGINE_STRIPE_LAYERS_H_
 
@@ -12,22 +12,22 @@
 
 namespace starfocus {
 
-// Begins the stripe's marks of the columns of superblocks in which layers are needed: none are,
-// and those of the stripe before were.
+// Clears the marks of the columns that need layers, for a new stripe. The old marks become those of
+// the previous stripe.
 void ClearLayerColumns(const starfocus_config& config, RowStore* row_store);
 
-// Marks all columns of the layers that the engine may use.
+// Marks all columns of all layers that the engine may use.
 void MarkLayerColumns(const starfocus_config& config, RowStore* row_store);
 
 // Marks the columns that `block` reads.
 void MarkLayerColumns(const starfocus_config& config, const Block& block, RowStore* row_store);
 
-// Makes room in the layers and their windows for the rows that rows `of_picture` subsample to and
-// `borders` has beyond them, and keeps those that are there.
+// Moves the layers and their windows to the rows `of_picture`, at their scale, extended by
+// `borders`. Rows that exist already are kept.
 void PlaceLayers(const RowRange& of_picture, const Borders& borders, RowStore* row_store);
 
-// Subsamples into the marked columns of placed layers. Returns STARFOCUS_OK, STARFOCUS_ERROR_RUNNER
-// or STARFOCUS_ERROR_CANCELLED.
+// Subsamples the marked columns into the layers after PlaceLayers. Returns STARFOCUS_OK,
+// STARFOCUS_ERROR_RUNNER or STARFOCUS_ERROR_CANCELLED.
 starfocus_status FillLayers(const starfocus_config& config, const simd::Kernels& kernels,
                             Workers* workers, RowStore* row_store);
 

@@ -9,42 +9,43 @@
 namespace starfocus {
 namespace {
 
-// Measures the cells of columns of superblocks: job `index` has that column.
+// Measures the cells of columns of superblocks. Job `index` processes column `index`.
 struct MeasureJob {
   const simd::Kernels* kernels;
-  const Window* window;  // at layer 0
+  const Window* window;  // layer 0
   BlurScale scale;
-  int32_t per_block;  // columns of cells of a superblock
-  int32_t first_row;  // the first row of cells that no stripe before has measured
+  int32_t per_block;  // number of columns of cells in a superblock
+  int32_t first_row;  // first row of cells that no earlier stripe has measured
   const uint8_t* measured;
   CellGrid cells;  // output
 };
 
-// Splits superblocks: job `index` has that column.
+// Splits superblocks. Job `index` processes column `index`.
 struct PlanJob {
   const starfocus_config* config;
   const simd::Kernels* kernels;
   const ApertureShape* opening;
   const Lens* lens;
   const CellGrid* cells;
-  const Window* window;  // at layer 0
+  const Window* window;  // layer 0
   Stripe rows;
-  StripePlan plan;  // blocks, counts and gathered cells are the output
+  StripePlan plan;  // output: blocks, counts and gathered cells
 };
 
-// Whether the picture decides how superblocks are split.
+// Returns true if superblocks are split according to the picture.
 bool IsPartitioned(const Lens& lens) { return IsBlockMode(lens) && !IsPinhole(lens); }
 
-// Returns the side of the superblocks. Cat's eyes are those of a block's middle, and change
-// towards its corners.
+// Returns the largest side of a block. A block uses the cat's eye of its middle, which changes
+// towards its corners, so blocks with cat's eyes are small.
 int32_t LargestSide(const PlanJob& job) {
   constexpr int32_t kCatsEyeSide = 32;
   const int32_t largest = job.opening->cats_eye > 0 ? kCatsEyeSide : job.plan.side;
   return IsBenchmark(*job.lens) ? Min(largest, job.lens->renderer->benchmark_side) : largest;
 }
 
-// Whether blocks in `rect` may show what highlights are beyond white: some view has any as far away
-// as blur and disparity bring them. Where all of it is a highlight larger than a lamp, none is.
+// Returns true if blocks in `rect` may show light of highlights beyond white, that is, if some view
+// has a highlight within the reach of blur and disparity. Returns false if that whole area is one
+// highlight larger than a lamp.
 bool HasHighlights(const PlanJob& job, const Rect& rect) {
   const starfocus_config& config = *job.config;
   if (!(config.highlights > 1)) return false;
@@ -70,7 +71,7 @@ Block WholeBlock(const PlanJob& job, const Rect& rect) {
   return block;
 }
 
-// Plans the frame modes, blur and pinholes: blocks of one size, at layer 0.
+// Plans the frame modes, blur mode and pinholes: blocks of one size at layer 0.
 void PlanWhole(const PlanJob& job, int32_t column) {
   const Lens& lens = *job.lens;
   const int32_t largest = job.plan.side;
@@ -102,7 +103,7 @@ void PlanBlocks(const PlanJob& job, int32_t column, Scratch* scratch) {
   const int32_t left = column * plan.side;
   const bool has_highlights = HasHighlights(
       job, {left, job.rows.y, Min(plan.side, job.config->width - left), job.rows.height});
-  // What highlights are beyond white is in no layer, and is not gathered.
+  // The light of highlights beyond white exists only at layer 0, and is not gathered.
   const PartitionRules rules = {job.config,
                                 lens.renderer,
                                 lens.apertures,
@@ -128,7 +129,7 @@ void MeasureColumn(const MeasureJob& job, int32_t index, Scratch*) {
   }
 }
 
-// Whether the region depends on pixels of `rect`.
+// Returns true if the region depends on pixels of `rect`.
 bool IsInRegion(const EngineState& engine, const Rect& rect) {
   const Rect& region = engine.lens.region;
   const int32_t reach = engine.lens.borders.joined;
@@ -136,8 +137,9 @@ bool IsInRegion(const EngineState& engine, const Rect& rect) {
          rect.y - reach < region.y + region.height && region.y < rect.y + rect.height + reach;
 }
 
-// Whether pixels that are not copied from the picture before depend on pixels of `rect`. Those are
-// what has changed and as far around it as joins reach, and joins reach there from as far again.
+// Returns true if pixels of `rect` affect pixels that are not copied from the previous picture. The
+// latter are the changed pixels and those within reach of joins around them. Joins then read as far
+// again.
 bool IsNew(const EngineState& engine, const Rect& rect) {
   const int32_t reach = 2 * engine.lens.borders.joined;
   const FrameDiff& changes = engine.stripe.changes;
@@ -145,8 +147,8 @@ bool IsNew(const EngineState& engine, const Rect& rect) {
                                                  rect.width + 2 * reach, rect.height + 2 * reach});
 }
 
-// Makes room for the cells around the stripe. Returns the first row that has to be measured: the
-// rows above it are known from the stripe before.
+// Moves the grid of cells to the stripe and its surroundings. Returns the first row to measure;
+// rows above it are known from the previous stripe.
 int32_t PlaceCells(const Stripe& stripe, const Lens& lens, StripeState* state) {
   CellGrid& cells = state->cells;
   StripePlan& plan = state->plan;
@@ -176,14 +178,14 @@ void MapBlock(const Stripe& stripe, const Block& block, const LayerMap& map) {
   }
 }
 
-// Takes all layers off the map: smallest blocks that no block covers stay without one.
+// Clears the map. Smallest blocks that no block covers keep kNoLayer.
 void ClearMap(const Stripe& stripe, LayerMap* map) {
   map->rows = (stripe.height + kSmallestBlock - 1) / kSmallestBlock;
   std::memset(&map->At(0, 0), kNoLayer,
               static_cast<size_t>(map->columns) * static_cast<size_t>(map->rows));
 }
 
-// Counts a block that will be refocused, and tells the caller of it.
+// Adds a block to the report and passes it to the caller's visitor.
 void ReportBlock(const Block& block, EngineState* engine) {
   starfocus_report& report = engine->report;
   if (block.n > report.n || report.rendered_views == 0) {
@@ -196,8 +198,8 @@ void ReportBlock(const Block& block, EngineState* engine) {
   engine->on_block(engine->on_block_data, &told);
 }
 
-// Keeps the blocks that something asked for depends on, and finds what they mean for the phases
-// that follow.
+// Keeps the blocks that affect the requested pixels, and derives the inputs of the later phases
+// from them.
 void ReadPlan(const Stripe& stripe, EngineState* engine) {
   const starfocus_config& config = engine->config;
   RowStore& row_store = engine->row_store;

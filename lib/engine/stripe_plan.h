@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The plan of a stripe: which superblocks it needs, what their cells know, and the blocks each
-// is split into.
+// Plans a stripe: selects the superblocks that are needed, measures their cells, and splits them
+// into blocks.
 #ifndef STARFOCUS_LIB_ENGINE_STRIPE_PLAN_H_
 #define STARFOCUS_LIB_ENGINE_STRIPE_PLAN_H_
 
@@ -12,13 +12,13 @@
 
 namespace starfocus {
 
-// Marks in the stripe's plan the columns that are refocused and those whose cells they need.
-// Returns whether there are any.
+// Marks the columns of superblocks to refocus, and the columns whose cells they need. Returns false
+// if there are none.
 bool ChooseColumns(const Stripe& rows, EngineState* engine);
 
-// Measures cells, splits the superblocks, drops blocks that nothing asked for depends on, and
-// tells the caller of the others. Returns STARFOCUS_OK, STARFOCUS_ERROR_RUNNER or
-// STARFOCUS_ERROR_CANCELLED.
+// Measures cells, splits superblocks, and drops blocks that do not affect the requested pixels.
+// Reports the remaining blocks to the caller's visitor. Returns STARFOCUS_OK,
+// STARFOCUS_ERROR_RUNNER or STARFOCUS_ERROR_CANCELLED.
 starfocus_status PlanStripe(const Stripe& rows, EngineState* engine);
 
 }  // namespace starfocus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The state of a stripe, and what the next one takes over from it.
+// State of a stripe, including the parts that the next stripe reuses.
 #ifndef STARFOCUS_LIB_ENGINE_STRIPE_STATE_H_
 #define STARFOCUS_LIB_ENGINE_STRIPE_STATE_H_
 
@@ -14,46 +14,46 @@
 
 namespace starfocus {
 
-// A stripe of superblocks: rows [y, y + height) of the picture.
+// Stripe of superblocks: rows [y, y + height) of the picture.
 struct Stripe {
   int32_t y, height;
 };
 
-// The blocks of a stripe. Each superblock is planned into memory of its own; those that are to
-// be refocused then lie one behind the other at the beginning.
+// Blocks of a stripe. Each superblock is planned into its own part of `blocks`. Afterwards the
+// blocks to refocus are moved to the start of `blocks`.
 struct StripePlan {
-  int32_t side;        // of superblocks, pixels
-  int32_t columns;     // of superblocks
-  uint8_t* wanted;     // per superblock: some of its pixels are needed
-  uint8_t* measured;   // per superblock: its cells are needed
-  bool all_measured;   // whether the stripe before needed the cells of every column
+  int32_t side;        // side of a superblock in pixels
+  int32_t columns;     // number of columns of superblocks
+  uint8_t* wanted;     // per superblock: 1 if some of its pixels are needed
+  uint8_t* measured;   // per superblock: 1 if its cells are needed
+  bool all_measured;   // true: the previous stripe needed the cells of every column
   Block* blocks;       // MaxBlocks per superblock
-  int32_t* counts;     // how many blocks each was split into
-  int32_t used;        // how many blocks are to be refocused
-  GatherMap gathered;  // which cells are gathered, in block mode
+  int32_t* counts;     // number of blocks of each superblock
+  int32_t used;        // number of blocks to refocus
+  GatherMap gathered;  // cells that are gathered, in block mode
 
   Block* BlocksOf(int32_t column) const {
     return blocks + static_cast<size_t>(column) * static_cast<size_t>(MaxBlocks(side));
   }
 };
 
-// The coverage map, and the first row of tiles that each pass has not done yet; below 0: it has
-// done none.
+// Coverage map, and the first row of tiles that each pass has not processed yet. Negative: the pass
+// has not processed any row.
 struct CoverageState {
-  Plane<uint8_t> given;  // with streaming: ring of the light field's coverage
+  Plane<uint8_t> given;  // with streaming: ring of the coverage of the light field
   CoverageMap map;
   int32_t done[kCoveragePasses];
 };
 
 struct StripeState {
-  CellGrid cells;          // of the stripe, and as far around it as pixels splat
-  CoverageState coverage;  // of the stripe, and of the rows around it
+  CellGrid cells;          // the stripe and its surroundings within reach of splats
+  CoverageState coverage;  // the stripe and the rows around it
   StripePlan plan;
-  LayerMap map;       // which layer each smallest block has, for deblocking
-  FrameDiff changes;  // which blocks differ from the light field before
-  uint8_t* out;       // kDeblockRows and a stripe, packed
-  // With streaming: the last kDeblockRows of the stripe before, as it left them. Else null: what
-  // fails is not gone on with, so that they can stay where they are.
+  LayerMap map;       // layer of each smallest block, for deblocking
+  FrameDiff changes;  // blocks that differ from the previous light field
+  uint8_t* out;       // kDeblockRows rows and a stripe, packed
+  // With streaming: the last kDeblockRows rows of the previous stripe, as that stripe left them.
+  // Otherwise null: a failed call is not resumed, so these rows can stay in `out`.
   uint8_t* last_rows;
 };
 

@@ -4,7 +4,7 @@
 namespace starfocus {
 namespace {
 
-// Points of the opening that a weight of an aperture is summed over, at most.
+// Largest number of points of the opening that are summed for one weight.
 constexpr int64_t kAperturePoints = 256;
 
 }  // namespace
