@@ -10,24 +10,25 @@ namespace {
 
 constexpr int32_t kRadiusOne = 1 << kDisparityBits;
 
-// Largest |d - focus| of disparities in [low, high].
+// Returns the largest |d - focus| of disparities in [low, high].
 int32_t Farthest(int32_t low, int32_t high, int32_t focus) {
   return Max(Abs(low - focus), Abs(high - focus));
 }
 
 // By the paper's rule a run ends when its pixels drift apart by a quarter pixel (kRunSpread of
-// view_grid.cc). Slices range over more: coefficients tell what a step costs by either rule.
+// view_grid.cc). Slices cover a larger range. The timing coefficients account for either rule.
 constexpr int32_t kRunDrift = kRadiusOne / 4;
 constexpr int32_t kLargestGap = 8;
 
-// Disparity that moves by `distance` (kDisparityBits of a pixel) in the outermost view.
+// Returns the disparity that moves a pixel by `distance` (kDisparityBits) in the outermost view.
 int32_t DisparityOf(int32_t distance, int64_t step) {
   const int64_t disparity = (int64_t{distance} << kStepBits) / step;
   return static_cast<int32_t>(disparity < INT16_MAX ? disparity : INT16_MAX);
 }
 
 void StoreContent(const simd::CellMeasure& measure, int32_t slope_limit, int64_t step, Cell* cell) {
-  // Of eight steps along a line one leads out of the cell; the seven inside stand for all eight.
+  // One of eight steps along a line leads out of the cell. The seven inner steps are scaled to
+  // eight.
   const auto scaled = [](uint32_t sum, uint32_t one) {
     return static_cast<uint16_t>(sum * kContentOne * kCellSize / (one * (kCellSize - 1)));
   };
@@ -44,7 +45,7 @@ uint8_t SpanOf(int32_t reach) {
   return static_cast<uint8_t>(Checked(ranges::kReach, reach) + kCellSize);
 }
 
-// Stores the reach of a cell whose pixels all reach equally far.
+// Stores the reach of a cell whose pixels all have the same reach.
 void StoreSides(int32_t reach, Cell* cell) {
   for (int side = 0; side < 4; ++side) {
     cell->span[side] = SpanOf(reach);
@@ -52,8 +53,8 @@ void StoreSides(int32_t reach, Cell* cell) {
   }
 }
 
-// Stores how far 8 columns or rows of disparities reach beyond either end of their line, and how
-// deep inside lie those that do.
+// Measures 8 columns or rows of disparities: how far they reach beyond either end of their line,
+// and the depth of those that do.
 void MeasureSides(const BlurScale& scale, const int16_t (&lows)[kCellSize],
                   const int16_t (&highs)[kCellSize], Side low, Side high, Cell* cell) {
   for (int32_t k = 0; k < kCellSize; ++k) {
@@ -96,7 +97,7 @@ class CellRow {
       cell.low = found.column_low[k] < cell.low ? found.column_low[k] : cell.low;
       cell.high = found.column_high[k] > cell.high ? found.column_high[k] : cell.high;
     }
-    // A focus beyond int16 lies beyond every disparity, all on one side of it.
+    // A focus outside the range of int16 lies on one side of all disparities.
     const int32_t nearest = found.nearest + Abs(scale_.focus - near_focus_);
     const int32_t farthest = Farthest(cell.low, cell.high, scale_.focus);
     cell.r_min = static_cast<uint16_t>(scale_.Radius(nearest));
@@ -123,7 +124,7 @@ class CellRow {
  private:
   static constexpr int32_t kRows = kCellSize + 2;
 
-  // What the kernel finds at column x of the picture, whose edge is repeated around it.
+  // Measures the cell at column x of the picture, whose edge is repeated.
   simd::CellMeasure Find(int32_t x) const {
     const int16_t* rows[kRows];
     int16_t copies[kRows][kRows];
@@ -142,7 +143,7 @@ class CellRow {
     return measure;
   }
 
-  // In thin structures a cell has both surfaces, and so an edge.
+  // A cell with thin structures contains both surfaces, and therefore an edge.
   void AddThin(int32_t x, simd::CellMeasure* found) const {
     const CoverageMap& map = *window_.coverage;
     const int32_t column = x / kCoverageTile, row = y_ / kCoverageTile;
@@ -166,10 +167,10 @@ class CellRow {
   const simd::Kernels& kernels_;
   const Window& window_;
   const BlurScale& scale_;
-  const int32_t y_;  // of the cells
+  const int32_t y_;  // first row of the cells
   const int32_t near_focus_;
   const simd::CellLimits limits_;
-  const int16_t* rows_[kRows];  // with those above and below the cells
+  const int16_t* rows_[kRows];  // rows of the cells, and one row above and below
 };
 
 void AddContent(const Content (&part)[2], Content (*sum)[2]) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Variable-size block analysis (paper, V-A): what 8x8 cells know of the blur, and blocks made of
-// them.
+// Analysis of blocks of variable size (paper, V-A). It measures the blur of 8x8 cells and combines
+// cells to blocks. The partition uses the results to choose blocks.
 #ifndef STARFOCUS_LIB_PLAN_BLOCK_STATS_H_
 #define STARFOCUS_LIB_PLAN_BLOCK_STATS_H_
 
@@ -15,65 +15,66 @@ namespace starfocus {
 
 inline constexpr int32_t kCellSize = 8;
 
-// What line scans meet in a cell or block at layer 0, along rows or along columns, in units of
-// 1 / kContentOne: every step from pixel to pixel counts.
+// Statistics for the timing model of line scans in a cell or block at layer 0, along rows or along
+// columns, in units of 1 / kContentOne. Each step between neighbouring pixels counts.
 inline constexpr int32_t kContentOne = 16;
 struct Content {
-  uint32_t slopes;  // runs that steps within a surface start; a fraction where it takes several
-  uint32_t edges;   // runs that depth edges start
-  uint32_t gaps;    // pixels that depth edges uncover in the outermost view, 8 at most each
+  uint32_t slopes;  // runs started by steps within a surface; a fraction if several steps start one
+  uint32_t edges;   // runs started by depth edges
+  uint32_t gaps;    // pixels that depth edges uncover in the outermost view, at most 8 each
 };
 
-// Blur radii carry kDisparityBits fractional bits: 128 px are 8192.
+// Statistics of a cell. Blur radii have kDisparityBits fractional bits: 128 px are 8192.
 struct Cell {
-  uint16_t r_min, r_max;  // rounded down, up
-  // The least blur of what pixels show, rounded down: beside a depth edge they also show a part of
-  // the nearer surface.
+  uint16_t r_min, r_max;  // rounded down, rounded up
+  // Smallest blur of everything that the pixels show, rounded down. Pixels next to a depth edge
+  // also show a part of the nearer surface.
   uint16_t r_shown : 15;
-  uint16_t has_edge : 1;  // a depth edge inside or at a side
-  int16_t low, high;      // disparities, kDisparityBits
-  // How many pixels from its right, left, bottom and top edge on the cell splats to the left,
-  // right, top and bottom, and how deep inside lie the pixels that splat beyond it.
+  uint16_t has_edge : 1;  // 1: a depth edge lies inside or at a side
+  int16_t low, high;      // range of disparities, kDisparityBits
+  // Number of pixels that the cell splats to the left, right, top and bottom, measured from the
+  // opposite edge of the cell. `inside` is the depth of the pixels that splat beyond each side.
   uint8_t span[4];
   uint8_t inside[4];
   uint16_t slopes[2], edges[2], gaps[2];  // Content along rows and along columns
 
-  // How many pixels beyond an edge it splats; <= 0: not at all.
+  // Number of pixels that the cell splats beyond a side; <= 0: none.
   int32_t Reach(size_t side) const { return span[side] - kCellSize; }
 };
 
 enum Side { kLeft, kRight, kTop, kBottom };
 
-// The lens as the analysis sees it.
+// Parameters of the lens that determine the blur radius.
 struct BlurScale {
   int32_t focus;  // kDisparityBits
   int64_t step;   // u_t, kStepBits
 
-  // |d - d_t| (kDisparityBits) to a blur radius, rounded down.
+  // Converts |d - d_t| (kDisparityBits) to a blur radius, rounded down.
   int32_t Radius(int32_t distance) const {
     return static_cast<int32_t>(Checked(ranges::kRadius, (step * distance) >> kStepBits));
   }
-  // The blur radius rounded up, which is 0 only for what is in focus.
+  // Converts |d - d_t| to a blur radius, rounded up. Only disparities in focus give 0.
   int32_t RadiusAbove(int32_t distance) const {
     return static_cast<int32_t>((step * distance + (int64_t{1} << kStepBits) - 1) >> kStepBits);
   }
 };
 
-// Pixels that blur of radius r (kDisparityBits) reaches, with half a pixel of rounding.
+// Returns the number of pixels that a blur of radius r (kDisparityBits) reaches, including half a
+// pixel for rounding.
 constexpr int32_t ReachOf(int32_t r) {
   return (r + (3 << kDisparityBits) / 2 - 1) >> kDisparityBits;
 }
 
-// Pixels of the level around what blur reaches that are rendered, too, for the neighbour of a
-// subaperture.
+// Number of extra pixels of the layer that are rendered around the reach of the blur. They are the
+// neighbours of a subaperture.
 inline constexpr int32_t kRenderBorder = 1;
 
-// A grid of cells over rows of the picture, all columns. Positions outside the picture, and only
-// those, take the nearest cell, whose edge the picture repeats.
+// Grid of cells over rows of the picture, all columns. Only positions outside the picture use the
+// nearest cell, because the picture repeats its edge there.
 struct CellGrid {
   Cell* cells = nullptr;
-  int32_t columns = 0;    // of the picture
-  int32_t rows = 0;       // of the picture
+  int32_t columns = 0;    // of the whole picture
+  int32_t rows = 0;       // of the whole picture
   int32_t first_row = 0;  // rows [first_row, last_row) are stored
   int32_t last_row = 0;
 
@@ -82,37 +83,37 @@ struct CellGrid {
   }
 };
 
-// Adds what line scans meet in a cell.
+// Adds the content of a cell to *sum.
 void AddCell(const Cell& cell, Content (*sum)[2]);
 
-// Pixels around a cell that it is measured with.
+// Number of pixels around a cell that its measurement reads.
 inline constexpr int32_t kCellBorder = 1;
 
-// Cells at columns [first, last) of a row of the grid.
+// Cells in columns [first, last) of one row of the grid.
 struct CellRange {
   int32_t row, first, last;
   Cell* cells;
 };
 
-// Measures cells; the window is at layer 0.
+// Measures cells. The window must be at layer 0.
 void MeasureCells(const simd::Kernels& kernels, const Window& window, const BlurScale& scale,
                   const CellRange& range);
 
-// Pixels of a layer around what twice as many become that upsampling reads.
+// Number of extra pixels of a layer that upsampling by two reads on each side.
 inline constexpr int32_t kUpBorder = 2;
 
-// Pixels that a block refocused at layer L renders beyond its sides, because upsampling reads them
-// from layer to layer.
+// Returns the number of pixels beyond its sides that a block at layer L renders. Upsampling from
+// layer to layer reads them.
 constexpr int32_t LayerMargin(int32_t layer) {
   return layer == 0 ? 0 : (LayerMargin(layer - 1) + 1) / 2 + kUpBorder;
 }
 
-// The same in pixels of the picture.
+// LayerMargin in pixels of the picture.
 inline constexpr int16_t kLayerMargin[3] = {0, LayerMargin(1) << 1, LayerMargin(2) << 2};
 
-// What a block knows: radii of the pixels inside and (but for r_min and r_shown) of those that
-// splat into it, and for each layer the border beyond which no pixel splats into the block and its
-// margin.
+// Statistics of a block. r_max and has_edge include the pixels that splat into the block; r_min and
+// r_shown do not. `border` contains, for each layer, the distance beyond which no pixel splats into
+// the block with its margin.
 struct BlockStats {
   int32_t r_min, r_shown, r_max;
   bool has_edge;
@@ -120,8 +121,8 @@ struct BlockStats {
   Content content[2];  // of the pixels inside, along rows and along columns
 };
 
-// Stats of the block of twice the side `side` made of children in z-order. Children outside the
-// picture are null.
+// Returns the statistics of a block made of four children with side `side`, in z-order. Children
+// outside the picture are null.
 BlockStats MergeBlocks(const BlockStats* const children[4], int32_t side);
 
 }  // namespace starfocus

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which cells are gathered (lib/filter/gather.h) instead of refocused by views, and what of a block
-// at its layer they are.
+// Map of the cells that are gathered (lib/filter/gather.h) instead of rendered from views, and the
+// pixels of a block that belong to them.
 #ifndef STARFOCUS_LIB_PLAN_GATHERED_CELLS_H_
 #define STARFOCUS_LIB_PLAN_GATHERED_CELLS_H_
 
@@ -12,17 +12,17 @@
 
 namespace starfocus {
 
-// Of each cell of a stripe, the lowest layer at which it can be gathered: blocks of that layer and
-// of those above it do. kByViews: no block does. Cells that have kSlopeMark besides are gathered
-// with the radius of each pixel (lib/filter/slope.h), others with that of their middle.
+// Lowest layer at which each cell of a stripe can be gathered. Blocks at that layer or above gather
+// the cell. kByViews: no block gathers it. Cells with kSlopeMark are gathered with a radius per
+// pixel (lib/filter/slope.h), others with the radius of their middle.
 inline constexpr uint8_t kByViews = 3;
 inline constexpr uint8_t kSlopeMark = 4;
 struct GatherMap {
   uint8_t* cells = nullptr;
   int32_t columns = 0;
-  int32_t first_row = 0;  // of the cells of the picture
+  int32_t first_row = 0;  // first row of cells, counted in the picture
 
-  // The cell that holds pixel (x, y) of the picture.
+  // Returns the cell that contains pixel (x, y) of the picture.
   uint8_t& At(int32_t x, int32_t y) const {
     return cells[static_cast<size_t>(y / kCellSize - first_row) * static_cast<size_t>(columns) +
                  static_cast<size_t>(x / kCellSize)];
@@ -30,26 +30,27 @@ struct GatherMap {
   int32_t FirstLayer(int32_t x, int32_t y) const { return At(x, y) & kByViews; }
 };
 
-// The part of a layer that a block makes its pixels of: with the margin that upsampling reads.
+// Returns the part of a layer that a block is made from, including the margin that upsampling
+// reads.
 Rect LayerFrame(const Rect& block, int32_t layer);
 
-// The cells of a block that gathers, at its layer. What lies in the margin goes the way of the
-// nearest cell of the block, so that a block is the same whatever lies around it.
+// Cells of a gathering block, at its layer. Pixels in the margin are treated like the nearest cell
+// of the block, so that a block does not depend on its neighbours.
 struct BlockCells {
   const GatherMap* map;
   Rect block;  // in pixels of the picture
   int32_t layer;
 
-  // Whether the cell that holds pixel (x, y) of the picture is gathered.
+  // Returns true if the cell that contains pixel (x, y) of the picture is gathered.
   bool IsGathered(int32_t x, int32_t y) const { return map->FirstLayer(x, y) <= layer; }
-  // Whether it is gathered with one kernel and not with the radius of each pixel: kSlopeMark is
-  // beyond all layers.
+  // Returns true if the cell is gathered with a single PSF instead of a radius per pixel.
+  // kSlopeMark is larger than any layer.
   bool IsFlat(int32_t x, int32_t y) const { return map->At(x, y) <= layer; }
 
-  // The pixels of the layer that belong to the cell of the block at (x, y) in the picture.
+  // Returns the pixels of the layer that belong to the block's cell at (x, y) in the picture.
   Rect PixelsOf(int32_t x, int32_t y) const;
 
-  // Whether all pixels of a part of the layer belong to gathered cells.
+  // Returns true if all pixels of `part` belong to gathered cells.
   bool AreGathered(const Rect& part) const;
 };
 

@@ -6,8 +6,8 @@
 namespace starfocus {
 namespace {
 
-// Stores a cell as the kernels read it. A cell `outside` the picture repeats its edge, whose pixels
-// may lie anywhere inside the cell.
+// Stores a cell for the SIMD kernels. A cell outside the picture represents the repeated edge,
+// whose pixels may lie anywhere inside the cell.
 void StorePlanes(const Cell& cell, const BlurScale& scale, bool outside, size_t plane,
                  int16_t* out) {
   const auto reach = static_cast<int16_t>(ReachOf(cell.r_max));
@@ -25,7 +25,7 @@ void StorePlanes(const Cell& cell, const BlurScale& scale, bool outside, size_t 
   out[simd::kHighPlane * plane] = cell.high;
 }
 
-// `widest`: the largest range of one cell.
+// Classifies a cell. `widest` is the largest range of any single cell.
 CellKind KindOf(const BlurScale& scale, int32_t low, int32_t high, int32_t widest) {
   const int32_t range = high - low;
   const auto is_within = [&](int32_t disparities, int32_t limit) {
@@ -39,7 +39,7 @@ CellKind KindOf(const BlurScale& scale, int32_t low, int32_t high, int32_t wides
   if (is_within(range, kSmoothRange) && is_gradual_or_low(2 * widest > range)) {
     return CellKind::kFlat;
   }
-  // A slope goes on from cell to cell, and so may its blur.
+  // A slope and its blur may continue from cell to cell.
   const bool is_slope = is_within(widest, kSlopeRange) && is_gradual_or_low(3 * widest > 2 * range);
   return is_slope ? CellKind::kSloped : CellKind::kMixed;
 }
@@ -79,7 +79,7 @@ BlockStats MeasureBlock(const simd::Kernels& kernels, const CellGrid& grid,
       AddCell(cell, &stats.content);
     }
   }
-  // Upsampling from level 1 also reads what lies up to kLayerMargin[1] pixels around the block.
+  // Upsampling from layer 1 also reads up to kLayerMargin[1] pixels around the block.
   static_assert(kLayerMargin[1] <= kCellSize, "the cells around the block hold the margin");
   const int32_t top = Max(row - 1, grid.first_row), bottom = Min(row + 3, grid.last_row);
   for (int32_t y = top; y < bottom; ++y) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What lies around cells within reach: the borders it gives to blocks, and which cells are smooth.
+// Analysis of the cells within reach of a block or cell: computes the borders of blocks, and finds
+// smooth cells.
 #ifndef STARFOCUS_LIB_PLAN_NEIGHBOURHOOD_H_
 #define STARFOCUS_LIB_PLAN_NEIGHBOURHOOD_H_
 
@@ -11,10 +12,10 @@
 
 namespace starfocus {
 
-// A rectangle of cells and those up to `around` away, in planes as the kernels read them, with the
-// picture's edge repeated around it.
+// A rectangle of cells and the cells up to `around` away, as planes for the SIMD kernels. The edge
+// of the picture is repeated.
 struct Surroundings {
-  simd::CellPlanes planes;  // from the first cell of the rectangle on
+  simd::CellPlanes planes;  // start at the first cell of the rectangle
   int32_t column, row, columns, rows;
   int32_t around;
 
@@ -25,37 +26,41 @@ struct Surroundings {
   }
 };
 
-// Of a square of `side` cells: with what kernels read beyond it.
+// Number of samples for a square of `side` cells, including the samples that kernels read beyond
+// it.
 constexpr size_t SurroundingSamples(int32_t side, int32_t around) {
   const auto all = static_cast<size_t>(side + 2 * around);
   return simd::kCellPlanes * all * all + 2 * simd::kSliceLanes;
 }
 
-// Cells of the rectangle may lie outside the picture; those of its rows that are inside, and the
-// ones around, must be stored. `scale` is what they were measured with. `samples`:
-// SurroundingSamples.
+// Loads the surroundings of a rectangle of cells, which may extend beyond the picture. The grid
+// must contain its rows inside the picture and those around them. `scale` is the scale of the
+// measurement. `samples` has SurroundingSamples.
 Surroundings LoadSurroundings(const CellGrid& grid, const BlurScale& scale, const Rect& cells,
                               int32_t around, int16_t* samples);
 
-// A cell is smooth when it can be gathered (lib/filter/gather.h): one surface without depth edges
-// is all that lies within reach of its pixels, or reaches them from nearer by, and in no cell there
-// does the blur, nearer than the focus counted as negative, differ by more than kSlopeRange,
-// kDisparityBits. What lies farther may reach them, too: in no view does it show before the
-// surface. Where two thirds of what the blur differs by are within one cell, it is a step: then by
-// no more than half the largest blur or kSharpSmoothRange, since the blur may be sharp on one side.
-// A cell is flat, and one kernel serves all of its pixels, where the blur differs by at most
-// kSmoothRange, and half of that within one cell counts as a step.
+// A cell is smooth if it can be gathered (lib/filter/gather.h). All pixels within its reach, and
+// nearer pixels that reach it, must belong to one surface without depth edges. The signed blur
+// radius is negative for pixels nearer than the focus. It must not vary by more than kSlopeRange
+// (kDisparityBits) within any of these cells. Farther pixels that reach the cell are ignored,
+// because no view shows them in front of the surface.
+//
+// If more than two thirds of the variation lie within one cell, it is a step. A step must not
+// exceed half of the largest blur or kSharpSmoothRange, because the blur may be sharp on one side.
+//
+// A cell is flat, and uses one PSF for all pixels, if the blur varies by at most kSmoothRange. For
+// flat cells more than half of the variation within one cell is a step.
 inline constexpr int32_t kSmoothRange = (5 << kDisparityBits) / 4;
 inline constexpr int32_t kSlopeRange = 2 << kDisparityBits;
 inline constexpr int32_t kSharpSmoothRange = (1 << kDisparityBits) / 2;
 enum class CellKind : uint8_t { kMixed, kSloped, kFlat };
 
-// Stats of the 2x2 cells of the grid at (column, row) of the surroundings.
+// Returns the statistics of the 2x2 cells at (column, row) of the grid.
 BlockStats MeasureBlock(const simd::Kernels& kernels, const CellGrid& grid,
                         const Surroundings& surroundings, int32_t column, int32_t row);
 
-// How smooth the cells of a row of the surroundings are, at most kMaxRowCells. `scale` is what they
-// were measured with.
+// Classifies the cells of a row of the surroundings, at most kMaxRowCells. `scale` is the scale of
+// the measurement.
 inline constexpr int32_t kMaxRowCells = 32;
 void FindSmooth(const simd::Kernels& kernels, const Surroundings& surroundings,
                 const BlurScale& scale, int32_t row, CellKind* smooth);

@@ -10,8 +10,8 @@ constexpr double kRadiusOne = 1 << kDisparityBits;
 
 int32_t CeilShift(int32_t value, int32_t layer) { return (value + (1 << layer) - 1) >> layer; }
 
-// A border of a block to one of its rendered rectangle, at the layer: `beyond` pixels of the
-// nominal block were clipped off at the picture's edge. One pixel more for the neighbour of a
+// Converts a border of a block to a border of its rendered rectangle, at the layer. `beyond` is the
+// number of pixels of the nominal block outside the picture. Adds one pixel for the neighbour of a
 // subaperture.
 int32_t LayerBorder(int32_t border, int32_t beyond, int32_t layer) {
   return Max(0, CeilShift(border + beyond, layer) - LayerMargin(layer)) + 1;
@@ -33,7 +33,7 @@ class Partition {
   void Measure(const CellGrid& cells, int32_t x, int32_t y, int32_t around) {
     x_ = x;
     y_ = y;
-    // The cells are those of whole smallest blocks, which may hang over the picture's edges.
+    // The cells of whole smallest blocks, which may extend beyond the picture.
     const Rect inside = {x / kCellSize, y / kCellSize, CellsWithin(config_.width - x),
                          CellsWithin(config_.height - y)};
     const Surroundings surroundings =
@@ -94,7 +94,7 @@ class Partition {
     candidate.stats = MergeBlocks(children, SideOf(level - 1));
   }
 
-  // Returns how many cells the smallest blocks have that hold this many pixels of the picture.
+  // Returns the number of cells in the smallest blocks that cover `pixels` pixels of the picture.
   int32_t CellsWithin(int32_t pixels) const {
     constexpr int32_t kCells = kSmallestBlock / kCellSize;
     return kCells * Min(side_, (pixels + kSmallestBlock - 1) / kSmallestBlock);
@@ -103,7 +103,7 @@ class Partition {
   void FindGathered(const CellGrid& cells, const Surroundings& inside) {
     const int32_t right = Min(inside.column + inside.columns, cells.columns);
     const int32_t bottom = Min(inside.row + inside.rows, cells.rows);
-    CellKind smooth[kMaxRowCells] = {};  // rough
+    CellKind smooth[kMaxRowCells] = {};  // initially kMixed
     for (int32_t y = inside.row; y < bottom; ++y) {
       if (rules_.gathers) FindSmooth(kernels_, inside, rules_.scale, y, smooth);
       for (int32_t x = inside.column; x < right; ++x) {
@@ -113,7 +113,7 @@ class Partition {
     }
   }
 
-  // Returns the lowest layer at which a kernel is large enough for the cell, as GatherMap has it.
+  // Returns the GatherMap entry of a cell: the lowest layer whose PSFs are large enough for it.
   static uint8_t MarkOf(const Cell& cell, CellKind smooth) {
     if (smooth == CellKind::kMixed) return kByViews;
     uint8_t layer = 0;
@@ -145,7 +145,7 @@ class Partition {
     return {x, y, Min(side, config_.width - x), Min(side, config_.height - y)};
   }
 
-  // Plans the candidate as one block, and keeps the lesser of its time and that of its children.
+  // Plans the candidate as one block, and stores the smaller of its time and that of its children.
   void Plan(int level, int32_t column, int32_t row) {
     PartitionCandidate& candidate = Candidate(level, column, row);
     Block& block = candidate.block;
@@ -158,9 +158,9 @@ class Partition {
     candidate.best = best;
   }
 
-  // Gathers the cells that can be, at the layer of the block's views. Where a whole block can be at
-  // layer 0, it is: that is closer to the truth and takes little more time, if any
-  // (docs/constants.md).
+  // Gathers the possible cells at the layer of the block's views. A block that can be gathered
+  // completely at layer 0 is gathered there. That is closer to ground truth and takes little or no
+  // extra time (docs/constants.md).
   void PlanGathering(const PartitionCandidate& candidate, Block* block) const {
     const auto cells = static_cast<uint64_t>(candidate.cells);
     const auto gathered = static_cast<uint64_t>(candidate.gathered[block->layer]);
@@ -216,7 +216,7 @@ class Partition {
     block->cost = PredictTime(config_.tuning.timing, work);
   }
 
-  // Leaves to views the least rectangle around the cells that are not gathered.
+  // Limits the rendered rectangle to the cells that are not gathered.
   void Shrink(Block* block) const {
     const BlockCells cells = {&gathered_, block->rect, block->layer};
     const Rect& rect = block->rect;
@@ -239,7 +239,7 @@ class Partition {
     MeasureRendered(block);
   }
 
-  // Chooses N and the border by the smallest blocks that hold those cells.
+  // Chooses N and the border from the smallest blocks that contain those cells.
   void MeasureRendered(Block* block) const {
     const int32_t layer = block->layer, scale = 1 << layer;
     const Rect& rect = block->rect;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Timing-based quadtree partition of a superblock (paper, V-B).
+// Quadtree partition of a superblock by predicted time (paper, V-B).
 #ifndef STARFOCUS_LIB_PLAN_PARTITION_H_
 #define STARFOCUS_LIB_PLAN_PARTITION_H_
 
@@ -14,72 +14,72 @@ namespace starfocus {
 
 inline constexpr int32_t kSmallestBlock = 16;
 
-// A block to refocus: a rectangle of the picture with its parameters.
+// A block to refocus: a rectangle of the picture and its parameters.
 struct Block {
   Rect rect;  // in pixels of the picture, clipped to it
-  // Of views, at the layer: LayerFrame, or what of it holds the cells that are not gathered, and
-  // empty when all are.
+  // Rectangle that views render, at the layer: LayerFrame, or the part of it with cells that are
+  // not gathered. Empty if all cells are gathered.
   Rect rendered;
   Border border;        // of `rendered`, at the layer
   int32_t layer;        // L
   int32_t n;            // N
-  bool gathers;         // the cells of the map
-  bool has_highlights;  // views may show some: rendered twice
-  uint64_t cost;        // predicted, picoseconds
+  bool gathers;         // true: cells of the GatherMap are gathered
+  bool has_highlights;  // true: views may show highlights, and the block is rendered twice
+  uint64_t cost;        // predicted time in picoseconds
 };
 
 struct PartitionRules {
   const starfocus_config* config;
   const Renderer* renderer;
-  const ViewWeights* apertures;  // of the renderer by N, up to max_n
+  const ViewWeights* apertures;  // apertures of the renderer, indexed by N up to max_n
   int32_t max_n;
   Demand demand;  // of the opening
   BlurScale scale;
-  int32_t largest_side;  // side of the largest block that is made
+  int32_t largest_side;  // largest allowed side of a block
   int32_t max_layer;
-  bool gathers;         // smooth cells, with cells
-  bool has_highlights;  // of the blocks
+  bool gathers;         // true: smooth cells are gathered
+  bool has_highlights;  // Block::has_highlights of all blocks
 };
 
-// A square of the quadtree: what it is as one block, and the least time of it or its children.
+// Node of the quadtree. `best` is the smaller of the time of one block and of its children.
 struct PartitionCandidate {
   BlockStats stats;
   Block block;
   uint64_t best;
-  int32_t cells;                       // inside the picture
-  int32_t gathered[STARFOCUS_LAYERS];  // those of them that could be, at each layer
-  uint64_t gather[STARFOCUS_LAYERS];   // predicted time of that
+  int32_t cells;                       // number of cells inside the picture
+  int32_t gathered[STARFOCUS_LAYERS];  // number of cells that can be gathered, for each layer
+  uint64_t gather[STARFOCUS_LAYERS];   // predicted time of gathering them
 };
 
-// Blocks a superblock can split into.
+// Returns the largest number of blocks that a superblock splits into.
 constexpr int32_t MaxBlocks(int32_t superblock) {
   return (superblock / kSmallestBlock) * (superblock / kSmallestBlock);
 }
 
-// Candidates in the quadtree of a superblock.
+// Returns the number of candidates in the quadtree of a superblock.
 constexpr int32_t PartitionCandidates(int32_t superblock) {
   int32_t candidates = 0;
   for (int32_t side = superblock / kSmallestBlock; side > 0; side /= 2) candidates += side * side;
   return candidates;
 }
 
-// Memory for a superblock: PartitionCandidates of it, SurroundingSamples of its cells.
+// Scratch memory for one superblock: PartitionCandidates, and SurroundingSamples for its cells.
 struct PartitionScratch {
   PartitionCandidate* candidates;
   int16_t* cells;
 };
 
-// What a partition is made from.
+// Inputs of a partition.
 struct PlanInput {
   const simd::Kernels& kernels;
   const PartitionRules& rules;
   const CellGrid& cells;
-  int32_t around;  // how many cells away a pixel may splat from
+  int32_t around;  // largest distance in cells from which a pixel may splat
 };
 
-// Splits the superblock at (x, y), multiples of superblock, into the blocks of least
-// predicted time. Writes at most MaxBlocks blocks in z-order, and what of `gathered` belongs to the
-// superblock; returns the number of blocks.
+// Splits the superblock at (x, y) into the blocks with the smallest predicted time. x and y are
+// multiples of the superblock size. Writes at most MaxBlocks blocks in z-order, and the part of
+// `gathered` that belongs to the superblock. Returns the number of blocks.
 int32_t PartitionBlock(const PlanInput& input, int32_t x, int32_t y,
                        const PartitionScratch& scratch, Block* blocks, const GatherMap& gathered);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The interface of the two renderers: slices, and the paper's line scan. A lens has one of them,
-// and everything that differs between both is in it.
+// Interface of the two renderers: slices, and the paper's line scan. Each lens uses one renderer.
+// All differences between them are behind this interface.
 #ifndef STARFOCUS_LIB_PLAN_RENDERER_H_
 #define STARFOCUS_LIB_PLAN_RENDERER_H_
 
@@ -22,8 +22,8 @@
 
 namespace starfocus {
 
-// All views of one rectangle of the window's layer. `border` is the distance from which pixels
-// splat into the rectangle.
+// Renders all views of one rectangle of the window's layer. `border` is the distance from which
+// pixels splat into the rectangle.
 struct RenderJob {
   const Window* window;
   const ViewGrid* grid;
@@ -31,46 +31,46 @@ struct RenderJob {
   Rect rect;
   Border border;
   CancelToken* cancel;         // null: the job is never cancelled
-  const BlockCells* gathered;  // null: no pixel is left out
-  double r_max;                // largest blur radius of the lens, pixels
-  bool is_benchmark;           // the benchmark mode asks for more detail
+  const BlockCells* gathered;  // null: no cell is gathered
+  double r_max;                // largest blur radius of the lens in pixels
+  bool is_benchmark;           // true: benchmark mode, which needs more detail
 };
 
 struct Renderer {
-  int32_t index;           // of its tables and scratch memory in an engine
-  bool gathers;            // block mode gathers smooth cells instead of rendering them
-  int32_t benchmark_side;  // side of the superblocks of the benchmark mode, pixels
+  int32_t index;           // index of its tables and scratch memory in an engine
+  bool gathers;            // true: block mode gathers smooth cells instead of rendering them
+  int32_t benchmark_side;  // side of the blocks in benchmark mode, in pixels
 
   // Returns N for a blur radius in pixels.
   int32_t (*view_count)(double r_max, Demand demand);
-  // Returns the subsampled layer for a block.
+  // Returns the layer for a block.
   int32_t (*level)(const BlockStats& stats, Demand demand);
-  // Makes the aperture of N: fills weights[ViewWeightsSize(opening, n)].
+  // Computes the aperture of N. Fills weights[ViewWeightsSize(opening, n)].
   ViewWeights (*make_aperture)(int32_t n, const ApertureShape& opening, uint16_t* weights);
-  // Returns the work of `rect` with `border`, both in pixels of the layer, without upsampling.
-  // `content`: what the block holds at layer 0 along rows and along columns.
+  // Returns the work for `rect` with `border`, both in pixels of the layer, without upsampling.
+  // `content` is the content of the block at layer 0, along rows and along columns.
   BlockWork (*measure_work)(const Rect& rect, const Border& border, const ViewWeights& aperture,
                             const Content (&content)[2], int32_t layer);
 
   size_t scratch_bytes;
-  // Takes the memory of one worker's scratch, which lies at `scratch` (null: only counted).
-  // `extended`: largest side of a rectangle with its border; max_n: largest N.
+  // Allocates the scratch memory of one worker and stores it at `scratch`; null: only counts.
+  // `extended` is the largest side of a rectangle with its border, max_n the largest N.
   void (*take_scratch)(const starfocus_config& config, size_t extended, size_t max_n, Arena* arena,
                        void* scratch);
 
-  // Returns true if every view shows every pixel of the rectangle where the centre view has it, so
-  // that the centre view is the result, to the byte.
+  // Returns true if no view moves any pixel of the rectangle. The result is then an exact copy of
+  // the centre view.
   bool (*nothing_moves)(const RenderJob& job);
-  // Sums the weighted views over job.rect into `sums`: rows of 3 * width values with
-  // sum_bits(aperture) fractional bits. Returns the samples rendered in each view. After a
+  // Adds up the weighted views over job.rect into `sums`: rows of 3 * width values with
+  // sum_bits(aperture) fractional bits. Returns the number of samples rendered in each view. After
   // cancellation `sums` is unspecified.
   uint64_t (*render)(const RenderJob& job, void* scratch, uint32_t* sums);
   int (*sum_bits)(const ViewWeights& aperture);
 };
 
-// Slices: each view stands for its subaperture of the lens (lib/slices).
+// Renderer with slices: each view represents a subaperture of the lens (lib/slices).
 extern const Renderer kSliceRenderer;
-// The paper's line scan: views at most about a pixel apart (lib/line_scan).
+// The paper's line scan: views at most about one pixel apart (lib/line_scan).
 extern const Renderer kLineScanRenderer;
 
 }  // namespace starfocus

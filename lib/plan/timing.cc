@@ -6,8 +6,8 @@
 namespace starfocus {
 namespace {
 
-// Taps of the gathering kernel for blur radius r (kDisparityBits) in a quarter plane. The disc
-// covers pi / 4 = 0.785 of its square, and a rim of pixels in part; 51/64 is 0.797.
+// Returns the number of filter taps in a quarter plane for blur radius r (kDisparityBits). A disc
+// covers pi / 4 = 0.785 of its square, and pixels at its rim partially; 51/64 is 0.797.
 uint64_t GatherTaps(int32_t radius) {
   const int32_t size = (radius + (3 << kDisparityBits) / 2) >> kDisparityBits;
   return static_cast<uint64_t>((size + 1) * (size + 1) * 51 / 64);
@@ -17,8 +17,8 @@ uint64_t GatherTaps(int32_t radius) {
 
 void AddScans(uint64_t views, uint64_t lines, const Content& content, int32_t layer,
               BlockWork* work) {
-  // A layer has 1 / 2^L of the lines; along one of them a slope makes as many fewer runs and a gap
-  // is as many times narrower, but an edge stays an edge.
+  // A layer has 1 / 2^L of the lines. Along a line, slopes make 1 / 2^L of the runs and gaps have
+  // 1 / 2^L of the width, but the number of edges stays the same.
   const uint64_t runs = (content.slopes >> 2 * layer) + (content.edges >> layer);
   work->span += views * lines + views * runs / kContentOne;
   work->hole += views * (content.gaps >> 2 * layer) / kContentOne;
@@ -31,14 +31,15 @@ uint64_t PredictTime(const starfocus_timing& timing, const BlockWork& work) {
 }
 
 uint64_t PredictGather(const starfocus_timing& timing, uint64_t pixels, int32_t radius) {
-  // This is an estimate: any radius costs the time of 16 taps besides its own, and a tap costs a
-  // 64th of an upsampled pixel.
+  // Estimate: each pixel costs 16 taps in addition to those of its radius. A tap costs 1/64 of an
+  // upsampled pixel.
   return timing.upsample * pixels * (GatherTaps(radius) + 16) / 64;
 }
 
-// block, field, a, b, c, upsample, span, hole: measured by `starfocus-lab calibrate` on an x86-64
-// processor with AVX-512. With those of boards, which were fitted to instruction counts, block mode
-// took between 1.7 % more and 0.4 % fewer instructions on AArch64 and ARMv6.
+// Coefficients block, field, a, b, c, upsample, span and hole, measured by `starfocus-lab
+// calibrate` on an x86-64 processor with AVX-512. With coefficients of boards, fitted to
+// instruction counts, block mode took between 1.7 % more and 0.4 % fewer instructions on AArch64
+// and ARMv6.
 starfocus_timing DefaultTiming() { return {5659266, 0, 2354, 0, 106, 3266, 720, 507}; }
 
 }  // namespace starfocus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The timing model (13)-(15).
+// Timing model (13)-(15): predicts the time of a block.
 #ifndef STARFOCUS_LIB_PLAN_TIMING_H_
 #define STARFOCUS_LIB_PLAN_TIMING_H_
 
@@ -10,30 +10,32 @@
 
 namespace starfocus {
 
-// The work of refocusing one block, all at its layer: what the coefficients of starfocus_timing
-// multiply.
+// Work of refocusing one block at its layer. PredictTime multiplies the fields by the coefficients
+// of starfocus_timing.
 struct BlockWork {
   uint64_t field;     // pixels of the extended rectangle
   uint64_t a, b, c;   // rendered pixels P_A, P_B, P_C of (13)
   uint64_t upsample;  // picture pixels, 0 at layer 0
-  uint64_t span;      // stretches of one disparity in all rendered lines
-  uint64_t hole;      // pixels that they leave uncovered, as if each view were an outermost one
+  uint64_t span;      // runs of equal disparity in all rendered lines
+  uint64_t hole;      // uncovered pixels, as if each view were an outermost one
 };
 
-// Adds the spans and holes of `views` views of a block with `content` at layer 0 that are scanned
-// along `lines` lines of the layer, all in one direction.
+// Adds the spans and holes of `views` views that are scanned along `lines` lines of the layer in
+// one direction. `content` is the content of the block at layer 0.
 void AddScans(uint64_t views, uint64_t lines, const Content& content, int32_t layer,
               BlockWork* work);
 
-// Picoseconds; exact in integers, so that a partition is the same on every machine.
+// Returns the predicted time in picoseconds. It is exact in integers, so that all machines choose
+// the same partition.
 uint64_t PredictTime(const starfocus_timing& timing, const BlockWork& work);
 
-// The same for gathering `pixels` of a layer, which is as much a filter as upsampling, so that this
-// has no coefficient of its own; for pixels that are blurred by `radius` pixels of that layer
-// (kDisparityBits) at most.
+// Returns the predicted time of gathering `pixels` pixels of a layer, in picoseconds. `radius` is
+// their largest blur radius in pixels of that layer (kDisparityBits). Gathering is a filter like
+// upsampling, so it uses the coefficient of upsampling.
 uint64_t PredictGather(const starfocus_timing& timing, uint64_t pixels, int32_t radius);
 
-// The same coefficients on every machine, so that all of them part a picture alike.
+// Returns the default coefficients. They are the same on all machines, so that all split a picture
+// alike.
 starfocus_timing DefaultTiming();
 
 }  // namespace starfocus
