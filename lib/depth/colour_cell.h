@@ -13,11 +13,12 @@
 
 namespace starfocus {
 
-// The cost of a pixel's disparity by its doubt. Pixels of doubt 0 lie on a ramp and are not
-// compared with others; steps may be displaced by as much as doubts 1 to 3 say.
+// Cost of a pixel's own disparity by its doubt. Pixels of doubt 0 lie on a ramp, and no pixel is
+// compared with them. Doubts 1 to 3 cost the same, because steps may be displaced by up to 3
+// pixels.
 inline constexpr int16_t kDoubtCosts[kDoubtReach + 2] = {80, 45, 45, 45, 22, 11, 0};
 
-// Width and height in pixels of the largest cell, and of a block: every second pixel of a block is
+// Width and height in pixels of the largest cell, and of a block. Every second pixel of a block is
 // compared at once.
 inline constexpr int32_t kColourCell = 64, kCellBlock = 2 * simd::kColourBlock;
 
@@ -31,19 +32,20 @@ inline constexpr int32_t kGroups = 1024;
 
 struct ColourCell {
   static constexpr int32_t kHalf = (kColourCell + 4 * simd::kColourReach) / 2;
-  // Each group that occurs has a place. An unused place parts groups that are not adjacent.
+  // Each group that occurs has a place. An unused place separates groups that are not adjacent.
   static constexpr int32_t kMostPlaces = kGroups + 2;
 
   // The cell and the pixels around it. The indices are the lowest bits of row and column.
   simd::ColourSample samples[2][2][kHalf * kHalf];
-  // Number of places. They are in order from the nearest group to the farthest. The first and the
-  // last one are unused.
+  // Number of places, in order from the nearest group to the farthest. The first and the last one
+  // are unused.
   int32_t places;
   int16_t highest[kMostPlaces];  // largest disparity of the group at each place
   uint16_t place[kGroups];       // place of each group times kSliceLanes; 0: it does not occur
   uint16_t least[kMostPlaces * simd::kSliceLanes];  // result of CompareColours for a block
 
-  // Returns the window of the block whose first pixel is (x, y) from the cell's first one.
+  // Returns the window of the block whose first pixel is (x, y), relative to the first pixel of the
+  // cell.
   const simd::ColourSample* Window(int32_t x, int32_t y) const {
     return samples[y & 1][x & 1] + y / 2 * kHalf + x / 2;
   }

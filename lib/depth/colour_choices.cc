@@ -10,8 +10,8 @@ namespace starfocus {
 namespace {
 
 constexpr int32_t kPixel = 1 << kDisparityBits;
-// A step to another surface costs this between pixels of one colour, half of it where colours
-// differ by the second number.
+// Cost of a step to another surface between pixels of the same colour. It halves where the colours
+// differ by kColourEdge.
 constexpr int32_t kJump = 120, kColourEdge = 12;
 
 // Arguments of WeighChoices.
@@ -23,7 +23,7 @@ struct ChoiceJob {
   const ChoiceMemory& memory;
 };
 
-// Puts a choice where it belongs by cost; of those that cost as much the nearest comes first.
+// Inserts a choice in order of cost. Among equal costs the nearest disparity is the first.
 void Insert(int32_t disparity, int32_t cost, Choices* choices) {
   int32_t at = Min(choices->count, kMostChoices - 1);
   const bool full = choices->count == kMostChoices;
@@ -37,7 +37,7 @@ void Insert(int32_t disparity, int32_t cost, Choices* choices) {
   choices->count += full ? 0 : 1;
 }
 
-// Takes the groups that cost less than their neighbours do, from the nearest to the farthest, for
+// Takes the groups that cost less than both adjacent groups, from the nearest to the farthest, for
 // pixel `lane` of the block.
 void TakeBest(const ColourCell& cell, size_t lane, Choices* choices) {
   choices->count = 0;
@@ -57,7 +57,7 @@ void TakeBest(const ColourCell& cell, size_t lane, Choices* choices) {
   }
 }
 
-// Makes sure that the map's disparity, or one nearly as high, is among the choices.
+// Makes sure that the map's disparity, or one within a pixel of it, is among the choices.
 void KeepOwn(int32_t own, int32_t cost, Choices* choices) {
   for (int32_t k = 0; k < choices->count; ++k) {
     if (Abs(choices->disparity[k] - own) <= kPixel) return;
@@ -72,8 +72,8 @@ bool IsDoubtful(const ChoiceJob& job, const Rect& area, int32_t x, int32_t y) {
          job.doubt[job.map.At(area.x + x, area.y + y)] <= kDoubtReach;
 }
 
-// Fills the choices of the doubtful pixels of a block. The block has every second pixel from (x, y)
-// in the cell on.
+// Fills the choices of the doubtful pixels of a block. The block consists of every second pixel
+// from (x, y) in the cell on.
 void ChooseInBlock(const ChoiceJob& job, const Rect& area, int32_t x, int32_t y) {
   ColourCell* cell = job.memory.cell;
   std::memset(cell->least, 0xFF,
@@ -108,7 +108,7 @@ void ChooseInRow(const ChoiceJob& job, const Rect& area, int32_t first, int32_t 
   }
 }
 
-// Gives each pixel that is not in doubt its own disparity. Returns whether any pixel is in doubt.
+// Gives each pixel that is not in doubt its own disparity. Returns true if any pixel is in doubt.
 bool ChooseOwn(const ChoiceJob& job, const Rect& area) {
   bool doubtful = false;
   for (int32_t y = area.y; y < area.y + area.height; ++y) {
@@ -139,8 +139,8 @@ int32_t JumpBetween(const uint8_t* a, const uint8_t* b) {
   return kJump * kColourEdge / (kColourEdge + ColourDifference(a, b));
 }
 
-// Goes on along a path: from a pixel's choices, with the costs up to it, to those of the next one.
-// `jump` is what another surface costs. Adds the costs to the sums.
+// Continues a path from the choices of one pixel, with the costs up to it, to those of the next
+// pixel. A change of surface costs `jump`. Adds the costs to the sums.
 void ContinueAmong(const Choices& from, int32_t jump, Choices* to, ChoicePath* path) {
   int32_t least = path->cost[0];
   for (int32_t k = 1; k < from.count; ++k) least = Min(least, path->cost[k]);
@@ -158,8 +158,8 @@ void ContinueAmong(const Choices& from, int32_t jump, Choices* to, ChoicePath* p
   *path = next;
 }
 
-// Continues from a pixel of the first colour to one of the second. Most pixels have one choice, of
-// the same surface: then a path costs nothing, whatever the colours.
+// Continues a path from a pixel to the next one, given their colours. Most pixels have one choice,
+// of the same surface. In that case the path adds no cost, whatever the colours.
 inline void Continue(const Choices& from, const uint8_t* colour, const uint8_t* next, Choices* to,
                      ChoicePath* path) {
   if (from.count > 1 || to->count > 1 || Abs(to->disparity[0] - from.disparity[0]) > kPixel) {

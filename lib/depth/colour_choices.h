@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which surface a doubtful pixel is of, by colour: of the disparities around it those whose pixels
-// have its colour cost least, and neighbours of one colour go on with each other's.
+// Chooses the surface of each doubtful pixel by colour. The candidates are the surrounding
+// disparities; those whose pixels have a similar colour cost least. Paths then make neighbours of
+// one colour prefer the same surface.
 #ifndef STARFOCUS_LIB_DEPTH_COLOUR_CHOICES_H_
 #define STARFOCUS_LIB_DEPTH_COLOUR_CHOICES_H_
 
@@ -14,8 +15,8 @@ namespace starfocus {
 
 inline constexpr int32_t kMostChoices = 6;
 
-// The disparities that a pixel may have, kDisparityBits, and what each costs, in steps of colour:
-// alone and summed along paths.
+// Candidate disparities of a pixel, kDisparityBits. `cost` is the cost of each one alone, `sum` its
+// sum over paths, both in codes of colour difference.
 struct Choices {
   int32_t count;
   int16_t disparity[kMostChoices], cost[kMostChoices], sum[kMostChoices];
@@ -29,11 +30,11 @@ struct ChoicePath {
 // Scratch memory of a worker for one region.
 struct ChoiceMemory {
   Choices* choices;
-  ChoicePath* paths;  // a row
+  ChoicePath* paths;  // one row
   ColourCell* cell;
 };
 
-// Fills the choices of `region`, row after row, and their sums.
+// Fills the choices of `region`, row by row, and their sums.
 void WeighChoices(const ColourMap& map, const uint8_t* doubt, const Rect& region,
                   const simd::DepthKernels& kernels, const ChoiceMemory& memory);
 

@@ -10,17 +10,19 @@ namespace {
 
 constexpr int32_t kPixel = 1 << kDisparityBits;
 constexpr int16_t kUnknown = INT16_MIN;
-// What differs by up to this is as flat as surfaces are; blurred edges are steeper.
+// Disparities that differ by at most this are flat; blurred edges are steeper.
 constexpr int32_t kFlat = kPixel / 2;
-// Of 25 pixels this many are as flat at a corner, and no more than 5 on a ramp.
+// Smallest number of flat pixels, out of 25, around a pixel that is not on a ramp. Corners have 8
+// flat pixels, and ramps at most 5.
 constexpr int32_t kLeastFlat = 8;
 constexpr int32_t kFlatRadius = 2;
-// Pixels of a cell, each way, that are as flat together as most are.
+// Width and height in pixels of cells that are tested for flatness as a whole. Most of them are
+// flat.
 constexpr int32_t kFlatCell = 4;
-// Noise that no one sees in a refocused picture.
+// Noise that is invisible in a refocused picture.
 constexpr int32_t kLeastNoise = 6;
 
-// Fills unknown pixels of a row. Returns whether it has any known one.
+// Fills the unknown pixels of a row. Returns false if no pixel is known.
 bool FillRow(int32_t width, int16_t* row) {
   int32_t last = -1;
   for (int32_t x = 0; x <= width; ++x) {
@@ -37,7 +39,8 @@ bool FillRow(int32_t width, int16_t* row) {
   return true;
 }
 
-// Fills rows [first, end), which lie between two known rows or between one and the map's edge.
+// Fills rows [first, end), which lie between two known rows, or between a known row and the edge of
+// the map.
 void FillRows(const EstimatePlan& plan, int32_t first, int32_t end, int16_t* map) {
   const auto width = static_cast<size_t>(plan.width);
   // At an edge the pointer stays inside the map and is not read.
@@ -55,7 +58,8 @@ void FillRows(const EstimatePlan& plan, int32_t first, int32_t end, int16_t* map
   }
 }
 
-// What a pixel alone says: 0 on a ramp or unknown, 1 at a step, otherwise more than is asked for.
+// Returns the doubt of a pixel from its surroundings alone: 0 on a ramp or unknown, 1 at a step,
+// otherwise the largest doubt.
 uint8_t DoubtAt(const ColourMap& map, int32_t x, int32_t y) {
   if (!std::isfinite(GivenAt(map.light_field, y)[x])) return 0;
   const int32_t own = map.disparity[map.At(x, y)];
@@ -82,7 +86,7 @@ bool IsFlat(const ColourMap& map, const Rect& cell) {
   return true;
 }
 
-// Fills the doubt of a region's pixels by what each says alone.
+// Fills the doubt of each pixel of a region from its own surroundings.
 void FillAlone(const ColourMap& map, const Rect& region, uint8_t* doubt) {
   for (int32_t top = 0; top < region.height; top += kFlatCell) {
     for (int32_t left = 0; left < region.width; left += kFlatCell) {
@@ -99,7 +103,7 @@ void FillAlone(const ColourMap& map, const Rect& region, uint8_t* doubt) {
   }
 }
 
-// Carries doubts on to the pixels that come later in a scan of the region, or earlier.
+// Propagates doubts to the following pixels of a scan over the region, forwards or backwards.
 void CarryOn(const Rect& region, int32_t direction, uint8_t* doubt) {
   const int32_t width = region.width, height = region.height;
   for (int32_t k = 0; k < height; ++k) {
@@ -118,8 +122,9 @@ void CarryOn(const Rect& region, int32_t direction, uint8_t* doubt) {
   }
 }
 
-// Whether a pixel beside a step is of a surface that has no core here. One that has grown on all
-// sides has one within that distance of each of its pixels, so this one has not grown.
+// Returns true if a pixel next to a step belongs to a surface without a core nearby. A surface that
+// was grown on all sides has a core within kDisplacement of each of its pixels, so this one was not
+// grown.
 bool IsThin(const ColourMap& map, const Rect& region, const uint8_t* doubt, int32_t x, int32_t y) {
   const int32_t own = map.disparity[map.At(x, y)];
   const Rect around = Widened(map.plan, {x, y, 1, 1}, kDisplacement);
@@ -138,7 +143,7 @@ bool IsThin(const ColourMap& map, const Rect& region, const uint8_t* doubt, int3
 void ReadMap(const EstimatePlan& plan, const starfocus_light_field& light_field,
              int16_t* disparity) {
   const ColourMap map = {plan, light_field, disparity};
-  int32_t unknown = 0;  // rows before this one that wait for the next one
+  int32_t unknown = 0;  // unknown rows before this one, to be filled
   for (int32_t y = 0; y < plan.height; ++y) {
     int16_t* row = disparity + map.At(0, y);
     const float* given = GivenAt(light_field, y);
@@ -156,7 +161,7 @@ void ReadMap(const EstimatePlan& plan, const starfocus_light_field& light_field,
 }
 
 int32_t MeasureNoise(const EstimatePlan& plan, const int16_t* disparity) {
-  constexpr int32_t kMost = 1023;  // stands for all above, too
+  constexpr int32_t kMost = 1023;  // also counts all larger values
   uint32_t counts[kMost + 1] = {};
   const auto width = static_cast<size_t>(plan.width), height = static_cast<size_t>(plan.height);
   size_t total = 0;
@@ -170,7 +175,7 @@ int32_t MeasureNoise(const EstimatePlan& plan, const int16_t* disparity) {
   }
   int32_t median = 0;
   for (size_t below = counts[0]; 2 * below < total; below += counts[median]) ++median;
-  // Of normal noise the median is 0.6745 times sqrt(20) times its standard deviation.
+  // For normally distributed noise, the median is 0.6745 * sqrt(20) standard deviations.
   const int32_t noise = median / 3;
   return noise > kLeastNoise ? noise : 0;
 }

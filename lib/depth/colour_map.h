@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A given disparity map as it is before colours are asked: in fixed point, unknown pixels filled
-// for a start, noise measured, and how far each pixel is from where the map may be
-// wrong.
+// A given disparity map, prepared for a repair by colour: converted to fixed point, with unknown
+// pixels filled and its noise measured. Each pixel also gets its distance from the places where the
+// map may be wrong.
 #ifndef STARFOCUS_LIB_DEPTH_COLOUR_MAP_H_
 #define STARFOCUS_LIB_DEPTH_COLOUR_MAP_H_
 
@@ -15,9 +15,9 @@
 
 namespace starfocus {
 
-// Beyond this many pixels from a step or a ramp the map is taken for right.
+// Pixels farther than this from all steps and ramps are taken as correct.
 inline constexpr int32_t kDoubtReach = 5;
-// Steps are displaced by this many pixels at most.
+// Largest displacement of a step, in pixels.
 inline constexpr int32_t kDisplacement = 3;
 inline constexpr int32_t kThinDoubt = kDisplacement + 1;
 inline constexpr int32_t kDoubtMargin = kDoubtReach + 1 + kDisplacement;
@@ -28,13 +28,13 @@ inline int32_t ColourDifference(const uint8_t* a, const uint8_t* b) {
   return simd::ColourDifference(red + green + blue, red - green, green - blue);
 }
 
-// Rounds halves away from zero.
+// Converts a disparity to kDisparityBits. Rounds halves away from zero.
 inline int16_t ToFixed(float disparity) {
   const float scaled = disparity * (1 << kDisparityBits);
   return static_cast<int16_t>(scaled < 0 ? scaled - 0.5F : scaled + 0.5F);
 }
 
-// A map that jobs read: the picture, what was given, and rows of `width` 16-bit disparities.
+// Input of jobs: the picture, the given map, and rows of `width` 16-bit disparities.
 struct ColourMap {
   const EstimatePlan& plan;
   const starfocus_light_field& light_field;
@@ -50,14 +50,15 @@ struct ColourMap {
   }
 };
 
-// Converts light_field.depth, of which one pixel at least is finite. The others get the nearest
-// one of their row, or the nearest row that has one; of two that are as near the farther surface.
+// Converts light_field.depth, which has at least one finite pixel. Other pixels get the nearest
+// finite one of their row; rows without any get the nearest row that has one. Among two equally
+// near ones the farther surface is taken.
 void ReadMap(const EstimatePlan& plan, const starfocus_light_field& light_field,
              int16_t* disparity);
 
-// Returns the standard deviation of the map's noise, kDisparityBits: from the median of what a
-// pixel differs from the mean of its neighbours, so that edges don't count. 0 if there is hardly
-// any.
+// Returns the standard deviation of the map's noise, kDisparityBits, or 0 if it is invisible. It is
+// computed from the median difference of pixels from the mean of their neighbours, which edges do
+// not affect.
 int32_t MeasureNoise(const EstimatePlan& plan, const int16_t* disparity);
 
 // Returns true if two disparities in the rectangle, extended by `margin` pixels, differ by more
@@ -67,9 +68,10 @@ bool HasStep(const ColourMap& map, const Rect& rect, int32_t margin, int32_t ste
 // Returns true if one of the pixel's neighbours in the tile belongs to another surface.
 bool IsBesideStep(const ColourMap& map, const Rect& tile, int32_t x, int32_t y);
 
-// Fills `tile` of `doubt`: 0 on ramps and where nothing was given, 1 at steps, and so on up to
-// kDoubtReach + 1; kThinDoubt where a surface is too thin to have grown by as much as steps are
-// displaced. `scratch` has room for the tile and kDoubtMargin pixels around.
+// Fills `tile` of `doubt`. The doubt is 0 on ramps and unknown pixels and 1 at steps. It grows by
+// one for each pixel away from these, up to kDoubtReach + 1. kThinDoubt marks surfaces too thin to
+// have been grown by as much as steps are displaced. `scratch` has room for the tile and
+// kDoubtMargin pixels around it.
 void MeasureDoubt(const ColourMap& map, const Rect& tile, uint8_t* scratch, uint8_t* doubt);
 
 }  // namespace starfocus

@@ -6,7 +6,7 @@
 namespace starfocus {
 namespace {
 
-// Cells outside a level repeat its edge.
+// Returns a cell of a level. Cells outside the level repeat its edge.
 const ColourMean& Inside(const ColourLevel& level, int32_t x, int32_t y) {
   return level.At(Clamp(x, 0, level.columns - 1), Clamp(y, 0, level.rows - 1));
 }

@@ -13,9 +13,9 @@ namespace starfocus {
 
 // Side of a cell of the lowest level, in pixels.
 inline constexpr int32_t kHairCell = 4;
-// Fraction bits of mean colours. Sums of three squared differences fit 31 bits.
+// Fractional bits of mean colours. Sums of three squared differences fit 31 bits.
 inline constexpr int kMeanBits = 6;
-// Largest weight: a pixel that shows the surface only, a cell whose colour is known.
+// Largest weight: that of a pixel that shows only this surface, or of a cell whose colour is known.
 inline constexpr int kKnownBits = 8;
 inline constexpr int32_t kFullyKnown = 1 << kKnownBits;
 
@@ -48,7 +48,7 @@ struct ColourLevel {
   }
 };
 
-// levels[0] has the cells of the picture, levels[count - 1] a single cell.
+// levels[0] has the cells of the picture; levels[count - 1] is a single cell.
 struct ColourPyramid {
   static constexpr int kMostLevels = 16;
   int32_t count;

@@ -14,24 +14,24 @@ namespace starfocus {
 namespace {
 
 constexpr int32_t kPixel = 1 << kDisparityBits;
-// A choice within this of the map's disparity is the map's.
+// A choice within this distance of the map's disparity counts as the map's.
 constexpr int32_t kSameSurface = kPixel;
-// What must be gained together by the changed pixels within the radius: a change of one or two
-// pixels is rather a speckle of the surface than the edge of another. Much more where a map is
-// right but for objects of the colour of what lies behind them.
+// Smallest total gain of the changed pixels within kGainRadius. One or two changed pixels are more
+// likely a speckle of their surface than the edge of another one. Maps that are mostly right need a
+// much larger gain: they are wrong only at objects whose colour is that of their background.
 constexpr int32_t kGainRadius = 3;
 constexpr EvidenceScale kGains = {18, 22, 1000, 60};
-// Paths that the sums of choices are of.
+// Number of paths in the sums of choices.
 constexpr int32_t kPaths = 4;
 constexpr int32_t kColourPhases = 9;
-// Changed pixels get the mean of the surface around them; those beside steps count little.
+// Changed pixels get the mean of the surface around them; pixels next to steps count less.
 constexpr int32_t kMeanRadius = 5, kSureWeight = 4;
 
 struct ColourJob {
   const ColourMap& map;
   const MapOutput& output;
   const Smoothing& smoothing;
-  int16_t* to;  // what the phase writes
+  int16_t* to;  // output of the phase
   int16_t* chosen;
   ColourMemory* memory;
   const simd::DepthKernels& kernels;
@@ -51,7 +51,7 @@ void DoubtTile(const void* data, int32_t index, int32_t worker) {
                job.memory->doubt);
 }
 
-// Chooses among a pixel's disparities, which cost least in sum.
+// Chooses the disparity of a pixel with the smallest sum.
 void Choose(const ColourJob& job, size_t at, const Choices& choices) {
   const int32_t given = job.map.disparity[at];
   int32_t best = 0, own = 0;
@@ -106,7 +106,8 @@ void ChooseTile(const void* data, int32_t index, int32_t worker) {
   CountBeside(grid, job.map.disparity, tile, index, job.memory->thin);
 }
 
-// What the choices of all tiles say together. Hair is left as it is, too.
+// Decides, from the counts of all tiles, how much gain a change needs and which cells are kept.
+// Cells with hair are kept, too.
 void JudgeMap(const EstimatePlan& plan, ColourMemory* memory) {
   memory->least_gain = LeastEvidence(kGains, memory->counts, plan.columns * plan.rows);
   const ThinGrid grid = GridOf(plan);
@@ -118,7 +119,7 @@ void JudgeMap(const EstimatePlan& plan, ColourMemory* memory) {
   }
 }
 
-// Whether enough is gained around a pixel of which something else than the map says was chosen.
+// Returns true if the changes around a pixel gain enough to contradict the map.
 bool IsGainsaid(const ColourJob& job, int32_t x, int32_t y) {
   const Rect around = Widened(job.map.plan, {x, y, 1, 1}, kGainRadius);
   int32_t gain = 0;
@@ -130,7 +131,7 @@ bool IsGainsaid(const ColourJob& job, int32_t x, int32_t y) {
   return gain >= job.memory->least_gain;
 }
 
-// The mean of the map's pixels around (x, y) that are of the surface chosen there.
+// Returns the mean of the map's pixels around (x, y) that belong to the surface chosen there.
 float MeanOfSurface(const ColourJob& job, int32_t x, int32_t y) {
   const int32_t own = job.chosen[job.map.At(x, y)];
   const Rect around = Widened(job.map.plan, {x, y, 1, 1}, kMeanRadius);
@@ -149,7 +150,7 @@ float MeanOfSurface(const ColourJob& job, int32_t x, int32_t y) {
   return static_cast<float>(sum) / static_cast<float>(weights * kPixel);
 }
 
-// `keeps`: whether all that is known stays.
+// Writes a pixel of the result. `keeps`: known disparities are not changed.
 void WritePixel(const ColourJob& job, bool keeps, int32_t x, int32_t y) {
   const size_t at = job.map.At(x, y), row = static_cast<size_t>(y), column = static_cast<size_t>(x);
   const float given = GivenAt(job.map.light_field, y)[x];
@@ -166,8 +167,8 @@ void WritePixel(const ColourJob& job, bool keeps, int32_t x, int32_t y) {
       differs && !changes ? uint8_t{0} : job.memory->certainty[at];
 }
 
-// Writes the disparity of a pixel if it is another one than in the job's map. Its colour alone does
-// not say so, and confidence is 0.
+// Writes the disparity of a pixel if it differs from the one in the job's map. Its confidence
+// becomes 0, because its colour alone does not support the change.
 void Change(const ColourJob& job, int32_t x, int32_t y, int16_t disparity) {
   if (disparity == job.map.disparity[job.map.At(x, y)]) return;
   const auto row = static_cast<size_t>(y), column = static_cast<size_t>(x);
@@ -188,8 +189,8 @@ void WriteTile(const void* data, int32_t index, int32_t) {
   });
 }
 
-// Calls act(cell) for each cell of a tile that has a larger step than `step`, or within `margin`,
-// but not in thin structure.
+// Calls act(cell) for each cell of a tile with a step larger than `step` inside it or within
+// `margin` pixels. Skips thin structure.
 template <class Act>
 void ForSteps(const ColourJob& job, int32_t index, int32_t margin, int32_t step, const Act& act) {
   ForCells(GridOf(job.map.plan), index, [&](const Rect& cell, int32_t number) {
@@ -207,7 +208,7 @@ void CountSoftEdges(const void* data, int32_t index, int32_t) {
   job.memory->soft[index] = count;
 }
 
-// Widens nearer surfaces by what the edges of the picture are soft.
+// Widens nearer surfaces by the softness of the picture's edges.
 void WidenTile(const void* data, int32_t index, int32_t) {
   const ColourJob& job = JobOf(data);
   const EstimatePlan& plan = job.map.plan;
@@ -247,7 +248,7 @@ void CompleteTile(const void* data, int32_t index, int32_t) {
   CompleteCoverage(job.map, job.output, job.memory->hair_cells, TileOf(job.map.plan, index));
 }
 
-// Repairs the map, but not where hair was found.
+// Repairs the map, except where hair was found.
 starfocus_status ChooseByColour(const ColourMap& given, const simd::DepthKernels& kernels,
                                 const MapOutput& output, Phases* phases, ColourMemory* memory) {
   const EstimatePlan& plan = given.plan;
@@ -258,7 +259,7 @@ starfocus_status ChooseByColour(const ColourMap& given, const simd::DepthKernels
   const ColourMap map = {plan, light_field, maps[noise > 0 ? 2 : 0]};
   int16_t* const written = maps[noise > 0 ? 0 : 2];
   const ColourMap repaired = {plan, light_field, written}, wide = {plan, light_field, maps[1]};
-  // Within three standard deviations first; what that leaves is a third as noisy.
+  // The first pass averages within three standard deviations; its result is a third as noisy.
   const Smoothing first = {3, 1, 3 * noise}, second = {4, 2, 3 * noise / 2};
   const struct {
     JobFunction function;
@@ -327,7 +328,7 @@ size_t LayOutColourRepair(const EstimatePlan& plan, int32_t max_workers, void* b
   auto* counts = arena.Take<TileCount>(tiles);
   auto* soft = arena.Take<SoftCount>(tiles);
   const ThinCells thin = TakeThinCells(GridOf(plan), &arena);
-  // Coverage is looked for before anything else is.
+  // The search for coverage is the first step, so its memory overlaps that of all others.
   arena.Reuse(mark);
   const HairMemory hair = TakeHairMemory(plan, &arena);
   arena.GoOn();

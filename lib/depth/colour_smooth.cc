@@ -4,7 +4,7 @@
 namespace starfocus {
 namespace {
 
-constexpr int32_t kOutside = INT32_MIN / 2;  // not within the tolerance of any disparity
+constexpr int32_t kOutside = INT32_MIN / 2;  // outside the tolerance of any disparity
 constexpr uint8_t kBlack[3] = {};
 constexpr int32_t kPlane = SmoothMemory::kPlane;
 

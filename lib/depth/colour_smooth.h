@@ -12,7 +12,7 @@ namespace starfocus {
 
 inline constexpr int32_t kMostSmoothRadius = 4;
 
-// The neighbours that a pixel is averaged with: every `step`th one within `radius` pixels whose
+// Neighbours that a pixel is averaged with: every `step`th one within `radius` pixels whose
 // disparity differs by at most `tolerance`. Neighbours of similar colour have the largest weights.
 struct Smoothing {
   int32_t radius, step, tolerance;

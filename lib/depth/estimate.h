@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Estimates the disparities of a light field's centre view: a sweep over all of them, twice. The
-// first one takes the views on one side of each pixel; what it finds tells which views see a pixel,
-// and these alone are asked by the second one.
+// Estimates the disparities of a light field's centre view with two sweeps over all labels. The
+// first sweep uses the views on one side of each pixel. Its result shows which views see a pixel,
+// and the second sweep uses only these.
 #ifndef STARFOCUS_LIB_DEPTH_ESTIMATE_H_
 #define STARFOCUS_LIB_DEPTH_ESTIMATE_H_
 
@@ -11,7 +11,7 @@
 
 namespace starfocus {
 
-// STARFOCUS_OK, or STARFOCUS_ERROR_RUNNER.
+// Estimates a map. Returns STARFOCUS_OK, STARFOCUS_ERROR_CANCELLED or STARFOCUS_ERROR_RUNNER.
 starfocus_status Estimate(const EstimatePlan& plan, const starfocus_light_field& light_field,
                           const simd::DepthKernels& kernels, const MapOutput& output,
                           EstimateMemory* memory);

@@ -11,13 +11,13 @@ namespace {
 
 constexpr int32_t kRadius = 2;
 constexpr int32_t kMostVotes = (2 * kRadius + 1) * (2 * kRadius + 1);
-// The weight of a pixel of the same colour; it halves with each kHalving gray levels, of all three
-// colours together, that a pixel differs by.
-// A pixel further from the median than this is wrong, kDisparityBits; others keep what slopes them.
+// kStray: a pixel farther than this from the median is wrong, kDisparityBits. Other pixels keep
+// their disparity, so that slopes are preserved. kVote: weight of a pixel of the same colour. It
+// halves with each kHalving gray levels of difference, summed over R, G and B.
 constexpr int32_t kStray = 1 << (kDisparityBits - 2);
 constexpr int32_t kVote = 64, kHalving = 14;
 
-// Disparities with weights; places that aren't taken weigh nothing.
+// Disparities with weights. Unused places have weight 0.
 struct Votes {
   static constexpr int32_t kPlaces = (kMostVotes + 7) / 8 * 8;  // whole vectors
 
@@ -31,7 +31,7 @@ struct Votes {
     weight += vote;
   }
 
-  // The least disparity which no more than half of the weight lies above.
+  // Returns the smallest disparity above which lies at most half of the weight.
   int16_t Median(int32_t low, int32_t high) const {
     while (low < high) {
       const int32_t middle = (low + high) >> 1;
@@ -58,7 +58,7 @@ struct AroundRange {
   int32_t low, high;
 };
 
-// The disparities around a pixel.
+// Returns the range of the disparities around a pixel.
 AroundRange RangeOf(const EstimatePlan& plan, const int16_t* map, const Rect& around) {
   AroundRange range = {INT16_MAX, INT16_MIN};
   for (int32_t row = around.y; row < around.y + around.height; ++row) {
@@ -79,7 +79,7 @@ int16_t WithoutStray(const EstimatePlan& plan, const Plane<const uint8_t>& centr
   const int16_t own =
       map[static_cast<size_t>(y) * static_cast<size_t>(plan.width) + static_cast<size_t>(x)];
   const AroundRange range = RangeOf(plan, map, around);
-  // No median of what is within kStray is further away.
+  // A median of values within kStray is within kStray, too.
   if (range.low >= own - kStray && range.high <= own + kStray) return own;
   const uint8_t* here = centre.data + static_cast<size_t>(y) * centre.stride + 3 * x;
   Votes votes;

@@ -16,8 +16,9 @@ void MeasureCosts(const EstimatePlan& plan, const Rect& region, Seeing seeing,
   row.rings = static_cast<size_t>(plan.rings);
   row.one_side = seeing == Seeing::kOneSide;
   row.ends = views.ends;
-  // A view that ends before is stood in for by the one opposite. So is one that something nearer
-  // hides, in an estimate; a repair, whose map may have that wrong, only limits it.
+  // If a view does not cover a place, the opposite view replaces it. In an estimate this is also
+  // done for views in which a nearer surface hides the place. A repair only limits the cost of such
+  // views, because its map may be wrong there.
   row.limits = plan.repairs && seeing == Seeing::kAll;
   for (int32_t y = region.y; y < region.y + region.height; ++y) {
     uint8_t* cost =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How badly each disparity fits the views at each pixel of a region.
+// Measures how well each disparity fits the views at each pixel of a region.
 #ifndef STARFOCUS_LIB_DEPTH_ESTIMATE_COST_H_
 #define STARFOCUS_LIB_DEPTH_ESTIMATE_COST_H_
 
@@ -8,13 +8,14 @@
 
 namespace starfocus {
 
-// What the views that see a pixel are taken for.
+// Views that are assumed to see a pixel.
 enum class Seeing {
-  kOneSide,  // the views on one side of it, whichever fit best
-  kAll       // all but those that the views know not to
+  kOneSide,  // the views on the side that fits best
+  kAll       // all views except those known to be hidden
 };
 
-// Fills tile->cost for the pixels of `region`, around which the views were loaded and marked.
+// Fills tile->cost for the pixels of `region`, for which the views have been loaded and marked
+// (tile_views.h).
 void MeasureCosts(const EstimatePlan& plan, const Rect& region, Seeing seeing,
                   const simd::DepthKernels& kernels, TileMemory* tile);
 

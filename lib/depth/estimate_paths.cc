@@ -9,20 +9,20 @@
 namespace starfocus {
 namespace {
 
-// A direction that paths go in.
+// Direction of a path.
 struct PathStep {
   int32_t x, y;
 };
 constexpr PathStep kDirections[8] = {{1, 0}, {-1, 0},  {0, 1},  {0, -1},
                                      {1, 1}, {-1, -1}, {1, -1}, {-1, 1}};
 
-// Rows of paths: of the row before, and of this one.
+// Paths of the previous row and of the current one.
 struct PathRows {
   int16_t* path[2];
   int16_t* least[2];
 };
 
-// Lets paths begin behind pixel k of a row: from there, no label costs more than another one.
+// Starts paths at pixel k of a row, with a cost of 0 for all labels.
 void BeginAt(const PathRows& rows, int from, size_t labels, int32_t k) {
   const size_t places = simd::PathLabels(labels);
   int16_t* path = rows.path[from] + k * static_cast<ptrdiff_t>(places);
@@ -31,7 +31,7 @@ void BeginAt(const PathRows& rows, int from, size_t labels, int32_t k) {
   rows.least[from][k] = 0;
 }
 
-// Lets paths begin behind those of the pixels [first, last) of the row before that are not swept.
+// Starts paths at those of the pixels [first, last) of the previous row that are not swept.
 void BeginBeside(const EstimateTile& tile, int32_t y, int32_t first, int32_t last,
                  const PathRows& rows) {
   const EstimatePlan& plan = tile.plan;
@@ -47,8 +47,8 @@ void BeginBeside(const EstimateTile& tile, int32_t y, int32_t first, int32_t las
   }
 }
 
-// Adds the paths of row y of the region, which go on from the swept pixels of the row before, to
-// what is there if anything is.
+// Adds the paths of row y of the region. They continue from the swept pixels of the previous row.
+// `adds`: the sums already hold other paths.
 void AddRow(const EstimateTile& tile, int32_t y, const PathStep& direction, bool adds,
             const PathRows& rows) {
   const EstimatePlan& plan = tile.plan;
@@ -95,7 +95,7 @@ void AddAllPaths(const EstimateTile& tile) {
   const EstimatePlan& plan = tile.plan;
   const Rect& region = tile.region;
   const TileMemory& memory = tile.memory;
-  // What lies before the first label of a pixel is none.
+  // The entry before the first label of a pixel is no label.
   const auto places = static_cast<ptrdiff_t>(simd::PathLabels(static_cast<size_t>(plan.labels)));
   for (int16_t* path : memory.path) {
     for (ptrdiff_t k = -1; k <= region.width; ++k) path[k * places - 1] = simd::kNoLabel;

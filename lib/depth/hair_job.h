@@ -18,8 +18,9 @@ struct InsideCount {
 
 struct HairMemory {
   ColourPyramid far, near;
-  // Of each cell: the largest squared contrast of its near pixels to the background, later the
-  // number of them that look like background; the number of near pixels.
+  // Each of these has one value per cell. `contrast` is the largest squared contrast of the near
+  // pixels to the background, and later the number of near pixels that look like background.
+  // `near_pixels` is the number of near pixels.
   int32_t *contrast, *near_pixels;
   InsideCount* counts;  // one for each tile
 };

@@ -6,14 +6,14 @@
 namespace starfocus {
 namespace {
 
-// So far away pixels vote.
+// Distance in pixels within which pixels vote.
 constexpr int32_t kRadius = 5;
-// Half the width of each row of the disc of that radius, from the middle row on.
+// Half the width of each row of a disc of that radius, from the middle row on.
 constexpr int32_t kWidths[kRadius + 1] = {5, 4, 4, 4, 3, 0};
-// A pixel counts less with its squared distance, and with how its colour differs.
+// The weight of a pixel decreases with its squared distance and with its difference of colour.
 constexpr int32_t kNearWeight = 36, kColourWeight = 64;
 
-// The disparities around a pixel, or of a column.
+// Range of the disparities around a pixel, or of a column.
 struct MajorityRange {
   int32_t low = INT16_MAX, high = INT16_MIN;
 
@@ -24,7 +24,7 @@ struct MajorityRange {
   bool IsOneSurface() const { return high - low <= kMajorityStep; }
 };
 
-// The ranges of the columns around a row of pixels, kMajorityReach rows up and down.
+// Ranges of the columns around a row of pixels, each kMajorityReach rows up and down.
 struct ColumnRanges {
   Rect around;
   MajorityRange ranges[kMostMajority + 2 * kMajorityReach], all;

@@ -11,10 +11,11 @@
 namespace starfocus {
 namespace {
 
-// Labels this near to a trusted disparity are its own, kDisparityBits.
+// Labels within this distance of a trusted disparity have no prior cost, kDisparityBits.
 constexpr int32_t kOwnLabels = 1 << (kDisparityBits - 1);
 
-// Enters the prior of one pixel by itself: nothing for the labels of its disparity.
+// Writes the prior of one pixel before it is spread: 0 for the labels near its disparity, and the
+// largest cost for all others.
 void SeedPrior(const EstimatePlan& plan, int32_t d, size_t places, uint8_t* prior) {
   std::fill_n(prior, places, simd::kMostPrior);
   if (d == simd::kNoSurface) return;
@@ -24,7 +25,7 @@ void SeedPrior(const EstimatePlan& plan, int32_t d, size_t places, uint8_t* prio
   for (int32_t l = first; l <= last; ++l) prior[l] = 0;
 }
 
-// The label next to a disparity.
+// Returns the label nearest to a disparity.
 int32_t LabelOf(const EstimatePlan& plan, int32_t d) {
   const int32_t label = (d - plan.low + plan.step / 2) / plan.step;
   return Max(0, Min(label, plan.labels - 1));
@@ -37,14 +38,14 @@ void AddMapPrior(const EstimatePlan& plan, const Rect& region, const int16_t* tr
   const size_t places = simd::PathLabels(static_cast<size_t>(plan.labels));
   const auto width = static_cast<size_t>(region.width), height = static_cast<size_t>(region.height);
   const size_t row_places = width * places;
-  // Spreads the prior of a row, along it in direction `step`.
+  // Spreads the prior along a row in direction `step`.
   const auto spread = [&](size_t y, bool goes_on, ptrdiff_t step, ptrdiff_t from) {
     uint8_t* prior = tile->prior + y * row_places;
     const ptrdiff_t before = from * static_cast<ptrdiff_t>(row_places);
     const uint8_t* swept = tile->swept + (region.y + static_cast<ptrdiff_t>(y) + from) * plan.width;
     ForRuns(plan, tile->swept, region.y + static_cast<int32_t>(y), region.x,
             region.x + region.width, [&](int32_t begin, int32_t end) {
-              // What was not swept tells nothing.
+              // Pixels that were not swept contribute nothing.
               for (int32_t x = begin; goes_on && x < end; ++x) {
                 if (swept[x] != 0) continue;
                 std::fill_n(prior + before + (x - region.x) * static_cast<ptrdiff_t>(places),
@@ -67,7 +68,7 @@ void AddMapPrior(const EstimatePlan& plan, const Rect& region, const int16_t* tr
                           prior + static_cast<size_t>(x - region.x) * places);
               }
             });
-    // Forwards along this row by what lies above, and backwards by the row alone.
+    // Forwards along this row, including the row above; then backwards along the row alone.
     spread(y, y > 0, 1, -1);
     spread(y, false, -1, 0);
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a given disparity map says of the labels of a tile's pixels, and how far the views gainsay
-// it.
+// Converts a given disparity map to costs of the labels of a tile's pixels, and measures how
+// strongly the views contradict the map.
 #ifndef STARFOCUS_LIB_DEPTH_MAP_PRIOR_H_
 #define STARFOCUS_LIB_DEPTH_MAP_PRIOR_H_
 
@@ -11,13 +11,14 @@
 
 namespace starfocus {
 
-// Adds to the costs of the pixels of `region` what each label costs by the map: the more, the
-// further away the next trusted pixel of that disparity is. `trusted` has the picture's size.
+// Adds the cost of each label by the map to the costs of the pixels of `region`. The cost grows
+// with the distance to the nearest trusted pixel of that disparity. `trusted` has the picture's
+// size.
 void AddMapPrior(const EstimatePlan& plan, const Rect& region, const int16_t* trusted,
                  const simd::DepthKernels& kernels, TileMemory* tile);
 
-// Fills memory->given_cost and found_cost of the pixels of `tile_rect`: the costs of the given
-// disparity and of memory->second, without the prior.
+// Fills memory->given_cost and memory->found_cost for the pixels of `tile_rect`: the costs of the
+// given disparity and of memory->second, without the prior.
 void WeighEvidence(const EstimatePlan& plan, const Rect& region, const Rect& tile_rect,
                    const TileMemory& tile, EstimateMemory* memory);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where disparities come from and go to.
+// Access to the given map of a repair and to the output planes of a map.
 #ifndef STARFOCUS_LIB_DEPTH_MAP_ROWS_H_
 #define STARFOCUS_LIB_DEPTH_MAP_ROWS_H_
 
@@ -11,11 +11,11 @@
 
 namespace starfocus {
 
-// Where a map goes. Disparities are clamped to [lowest, highest]; confidence and coverage may be
-// null.
+// Output planes of a map. Disparities are clamped to [lowest, highest]; confidence and coverage may
+// be null.
 struct MapOutput {
   float* disparity;
-  size_t stride;  // floats
+  size_t stride;  // in floats
   float lowest, highest;
   uint8_t* confidence;
   size_t confidence_stride;
@@ -27,7 +27,7 @@ struct MapOutput {
   }
 };
 
-// Row y of the given map.
+// Returns row y of the given map.
 inline const float* GivenAt(const starfocus_light_field& light_field, int32_t y) {
   return RowsOf(light_field.depth).Row(y);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs job sets one after the other, each with one job per tile of the picture, and reports
+// Runs several sets of jobs in sequence, each with one job per tile of the picture, and reports
 // progress.
 #ifndef STARFOCUS_LIB_DEPTH_PHASES_H_
 #define STARFOCUS_LIB_DEPTH_PHASES_H_

@@ -49,7 +49,8 @@ void SweepSecond(const void* data, int32_t index, int32_t worker) {
   SweepAllViews(&JobOf(data).sweep, index, worker);
 }
 
-// Writes what a tile is of by the sweeps over the first map, which is no longer needed.
+// Writes the evened result of the sweeps to the first map, which is no longer needed, and counts
+// its edges.
 void ValueTile(const void* data, int32_t index, int32_t) {
   const Sweep& sweep = JobOf(data).sweep;
   const Rect tile = TileOf(sweep.plan, index);
@@ -61,7 +62,7 @@ void ValueTile(const void* data, int32_t index, int32_t) {
   CountBeside(grid, sweep.memory->first, tile, index, sweep.memory->found_cells);
 }
 
-// What the maps of all tiles say together.
+// Combines the counts of all tiles.
 void JudgeMaps(const Sweep& sweep) {
   EstimateMemory& memory = *sweep.memory;
   const EstimatePlan& plan = sweep.plan;
@@ -81,12 +82,13 @@ void WritePixel(const RepairJob& job, int32_t x, int32_t y, int16_t disparity) {
         output.Clamped(static_cast<float>(disparity) * kPixel);
   }
   if (output.confidence != nullptr && disparity != memory.first[at] && Differs(memory, at)) {
-    // What was gainsaid and yet is not what the sweeps found nobody is sure of.
+    // Pixels that contradict the map but keep another disparity than the sweeps found get
+    // confidence 0.
     output.confidence[row * output.confidence_stride + column] = 0;
   }
 }
 
-// Writes a cell of thin structure that the given map does not have.
+// Writes a cell of thin structure that the given map lacks.
 void WriteParted(const RepairJob& job, const Rect& cell) {
   const Sweep& sweep = job.sweep;
   for (int32_t y = cell.y; y < cell.y + cell.height; ++y) {

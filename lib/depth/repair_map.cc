@@ -15,25 +15,25 @@ namespace starfocus {
 namespace {
 
 constexpr int32_t kPixel = 1 << kDisparityBits;
-// Neighbours of one surface differ by this at most; wider slopes are edges that were blurred.
+// Largest difference between neighbours of one surface; steeper slopes are blurred edges.
 constexpr int32_t kMostSlope = kPixel / 2;
-// Disparities within this of each other are of one surface when they are averaged.
+// Disparities within this distance belong to one surface when they are averaged.
 constexpr int32_t kSameSurface = 38;
-// What differs by less is the given disparity.
+// Smaller differences count as the given disparity.
 constexpr int32_t kSame = kPixel / 4;
 constexpr int32_t kMeanRadius = 3, kEvidenceRadius = 2;
-// Trusted disparities this near to a mixture may be of its nearer surface: a ramp of 12 pixels and
-// the untrusted ones at its ends.
+// Largest distance in pixels from a mixture to trusted disparities of its nearer surface: a ramp of
+// 12 pixels and the untrusted pixels at its ends.
 constexpr int32_t kNearReach = 16;
-// Views show clearly what costs no more than this, 11 gray levels: where hair is, half of
-// the wall and a twentieth of the mixtures do.
+// Largest cost of pixels that the views show clearly, 11 gray levels. In images of hair, half of
+// the wall and a twentieth of the mixtures are below it.
 constexpr int32_t kClearCost = 44;
 
 size_t IndexOf(const EstimatePlan& plan, int32_t x, int32_t y) {
   return static_cast<size_t>(y) * static_cast<size_t>(plan.width) + static_cast<size_t>(x);
 }
 
-// Disparities above, at and below each pixel of a row: the least and the largest of them.
+// Smallest and largest disparity of each pixel of a row and the pixels above and below it.
 struct ColumnExtremes {
   int16_t low[kMostTileSide + 2], high[kMostTileSide + 2];
 
@@ -43,8 +43,8 @@ struct ColumnExtremes {
   }
 };
 
-// Fills columns [begin, end) from the disparities `at` of a row; the next rows lie `above` before
-// and `below` behind.
+// Fills columns [begin, end) from the disparities `at` of a row. The previous row lies `above`
+// samples before it, the next row `below` samples after it.
 void FindColumns(const int16_t* at, ptrdiff_t above, ptrdiff_t below, int32_t begin, int32_t end,
                  ColumnExtremes* columns) {
   for (int32_t k = begin; k < end; ++k) {
@@ -61,11 +61,11 @@ struct Mean {
     sum += value;
     ++count;
   }
-  // Halves away from 0.
+  // Rounds halves away from 0.
   int32_t Value() const { return (2 * sum + (sum < 0 ? -count : count)) / (2 * count); }
 };
 
-// The mean around pixel (x, y) of the surface at disparity `own`.
+// Returns the mean around pixel (x, y) of the surface at disparity `own`.
 int32_t MeanOfSurface(const EstimatePlan& plan, const EstimateMemory& memory, int32_t x, int32_t y,
                       int32_t own) {
   const Rect around = Widened(plan, {x, y, 1, 1}, kMeanRadius);
@@ -82,8 +82,8 @@ int32_t MeanOfSurface(const EstimatePlan& plan, const EstimateMemory& memory, in
   return trusted.count > 0 ? trusted.Value() : found.Value();
 }
 
-// Whether the map is smooth next to nowhere around pixel (x, y): it is noise, or a wide slope in
-// place of an edge, which there is no reason to keep.
+// Returns true if the map is smooth almost nowhere around pixel (x, y). It is then noise, or a wide
+// slope in place of an edge, and there is no reason to keep it.
 bool IsRough(const EstimatePlan& plan, const EstimateMemory& memory, int32_t x, int32_t y) {
   const Rect around = Widened(plan, {x, y, 1, 1}, kMeanRadius);
   int32_t smooth = 0;
@@ -114,7 +114,7 @@ void ReadGiven(const EstimatePlan& plan, const starfocus_light_field& light_fiel
 void FindTrusted(const EstimatePlan& plan, const Rect& tile, const int16_t* given,
                  int16_t* trusted) {
   ColumnExtremes columns;
-  // Column 0 is the one left of the tile. Beyond the picture there are none.
+  // Column 0 is the one to the left of the tile. Columns beyond the picture do not exist.
   const int32_t begin = tile.x > 0 ? 0 : 1,
                 end = tile.width + (tile.x + tile.width < plan.width ? 2 : 1);
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
@@ -185,7 +185,7 @@ int16_t RepairedAt(const EstimatePlan& plan, const EstimateMemory& memory, int32
 void FindNearest(const EstimatePlan& plan, const int16_t* trusted, const Rect& cell, int32_t y,
                  int16_t* nearest) {
   const Rect around = Widened(plan, {cell.x, y, cell.width, 1}, kNearReach);
-  // From kNearReach before the cell on.
+  // Columns from kNearReach before the cell on.
   int16_t columns[kMostCellSide + 2 * kNearReach];
   std::fill_n(columns, cell.width + 2 * kNearReach, simd::kNoSurface);
   int16_t* to = columns + kNearReach - (cell.x - around.x);

@@ -6,16 +6,16 @@
 namespace starfocus {
 namespace {
 
-// Pixels closer than that are of one surface.
+// Pixels whose disparities differ by less belong to one surface.
 constexpr int32_t kSame = 2 << kDisparityBits;
 // A profile goes from the nearer surface's third pixel to the farther one's seventh.
 constexpr int32_t kInside = 3, kOutside = 6;
-// Squared distance of the two ends' colours, in gray levels, from which a profile of the picture's
-// edges tells something, and one that tells something of a pixel.
+// Smallest squared distance between the colours of both ends, in gray levels. The first one is for
+// profiles that measure the picture's edges, the second one for those that decide about a pixel.
 constexpr int32_t kLeastContrast = 60 * 60, kLeastPixelContrast = 30 * 30;
-// A pixel shows some of the nearer surface from a fourteenth of the way on. Edges as sharp as rays
-// make them have less than 0.06 at half of all places, those of photographs 0.09 to 0.34. An eighth
-// is needed to widen a surface.
+// Smallest share of the nearer surface in a pixel, as a fraction 1 / n: for measuring edges, and
+// for widening a surface. Sharp ray-traced edges have less than 0.06 at half of all places, edges
+// of photographs 0.09 to 0.34.
 constexpr int32_t kLeastShare = 14, kLeastPixelShare = 8;
 
 // A pixel of the farther surface, and the step away from the nearer one.
@@ -35,13 +35,13 @@ bool IsProfile(const ColourMap& map, const ProfileEdge& edge) {
   return true;
 }
 
-// Where a pixel's colour lies on the line between those of a profile's ends: `share` of `contrast`,
-// the squared length of that line, towards the nearer surface.
+// Position of a pixel's colour on the line between those of a profile's ends. `share` of
+// `contrast`, the squared length of that line, is the part towards the nearer surface.
 struct ProfilePlace {
   int32_t share, contrast;
 };
 
-// The place of the pixel k beyond the farther surface's first one.
+// Returns the position of the pixel that lies k pixels beyond the first one of the farther surface.
 ProfilePlace PlaceAt(const ColourMap& map, const ProfileEdge& edge, int32_t k) {
   const auto pixel = [&](int32_t at) {
     return map.Pixel(edge.x + at * edge.dx, edge.y + at * edge.dy);
@@ -68,7 +68,7 @@ bool ShowsNear(const ProfilePlace& place) {
   return place.contrast >= kLeastPixelContrast && kLeastPixelShare * place.share >= place.contrast;
 }
 
-// Whether the profiles at a pixel lie in the picture.
+// Returns true if the profiles at a pixel lie in the picture.
 bool IsInside(const ColourMap& map, int32_t x, int32_t y) {
   return x >= kOutside && x < map.plan.width - kOutside && y >= kOutside &&
          y < map.plan.height - kOutside;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measures how soft the edges of a picture are, and widens the nearer surfaces of its repaired map.
-// A lens and a sharpening filter mix several pixels beside an outline. These pixels belong to the
-// nearer surface: left to the farther one, they would stay sharp inside its blur.
+// Lenses and sharpening filters mix several pixels next to an outline. These pixels belong to the
+// nearer surface: as part of the farther one, they would stay sharp inside its blur.
 #ifndef STARFOCUS_LIB_DEPTH_SOFT_EDGES_H_
 #define STARFOCUS_LIB_DEPTH_SOFT_EDGES_H_
 
@@ -11,14 +11,14 @@
 
 namespace starfocus {
 
-// Pixels that the nearer surface is widened by at most.
+// Largest number of pixels by which the nearer surface is widened.
 inline constexpr int32_t kMostSoft = 3;
 
 // Smallest step of disparity of an edge.
 inline constexpr int32_t kSoftStep = 5 << kDisparityBits;
 
-// Edges of a tile at which a profile could be taken, and those at which the pixel one, two or three
-// pixels beyond the first one of the farther surface still shows some of the nearer one.
+// Number of edges of a tile at which a profile was taken. mixed[k] counts those at which the pixel
+// k + 1 pixels beyond the first one of the farther surface still shows some of the nearer surface.
 struct SoftCount {
   int32_t edges;
   int32_t mixed[kMostSoft];
@@ -27,12 +27,13 @@ struct SoftCount {
 // Adds the edges of a rectangle to *count.
 void CountSoft(const ColourMap& map, const Rect& rect, SoftCount* count);
 
-// Returns by how many pixels nearer surfaces are to be widened: one more than those that show some
-// of the nearer surface at half of the edges or more, or 0.
+// Returns the number of pixels by which nearer surfaces should be widened. It is one more than the
+// number of pixels that show some of the nearer surface at half of the edges or more, or 0.
 int32_t SoftnessOf(const SoftCount* counts, int32_t tiles);
 
-// Returns the disparity of the nearest surface within `softness` pixels of (x, y), along its row or
-// column, that is much nearer than the pixel and some of which the pixel shows; else its own.
+// Returns the disparity of the nearest surface that pixel (x, y) shows in part and that is much
+// nearer than the pixel. It is searched along the row and column within `softness` pixels. Returns
+// the pixel's own disparity if there is no such surface.
 int16_t WidenedAt(const ColourMap& map, int32_t softness, int32_t x, int32_t y);
 
 }  // namespace starfocus

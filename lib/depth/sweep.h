@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A sweep over all labels of a tile: costs, what a given map says of them, paths, and the choice.
+// Sweeps over all labels of a tile: costs, the prior of a given map, paths, and the choice of a
+// disparity.
 #ifndef STARFOCUS_LIB_DEPTH_SWEEP_H_
 #define STARFOCUS_LIB_DEPTH_SWEEP_H_
 
@@ -13,14 +14,14 @@ struct Sweep {
   const starfocus_light_field& light_field;
   const simd::DepthKernels& kernels;
   EstimateMemory* memory;
-  bool rates;  // whether anybody asks for certainty
+  bool rates;  // true: certainty is computed
 };
 
-// Fills memory->first of tile `index`, by the views on one side of each pixel. A JobFunction, whose
-// data are a Sweep.
+// Fills memory->first of tile `index` from the views on one side of each pixel. A JobFunction whose
+// data is a Sweep.
 void SweepOneSide(const void* data, int32_t index, int32_t worker);
-// Fills memory->second, certainty and, of a map that is repaired, costs: by the views that see
-// each pixel when the first map is right. A JobFunction, too.
+// Fills memory->second, the certainty and, for a repair, the costs. Uses the views that see each
+// pixel according to the first map. A JobFunction whose data is a Sweep.
 void SweepAllViews(const void* data, int32_t index, int32_t worker);
 
 }  // namespace starfocus

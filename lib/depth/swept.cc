@@ -12,17 +12,18 @@
 namespace starfocus {
 namespace {
 
-// A pixel doesn't fit a side of the views whose differences, summed over R, G and B, are more than
-// this in the mean.
+// Largest mean difference, summed over R, G and B, at which a pixel fits the views on one side.
 constexpr int32_t kMostMisfit = 20;
-// Every other pixel in every other row is tested, and so many of the 5x5 around one must fit badly.
+// Every second pixel of every second row is tested. At least kLeastMisfits of the 5x5 pixels around
+// one must fit badly.
 constexpr int32_t kLeastMisfits = 2, kMisfitRadius = 2;
 constexpr uint8_t kMisfit = 1, kDoubt = 2;
-// Whether column or row `at` of `length` is tested: alike in a mirrored picture.
+// Returns true if column or row `at` of `length` is tested. A mirrored picture is tested at the
+// mirrored places.
 bool IsTested(int32_t at, int32_t length) { return (std::abs(2 * at - (length - 1)) & 2) == 0; }
 
-// Returns how much a pixel differs from the view's place (x, y), in 128ths of a pixel:
-// simd::kMostDifference where the view ends before.
+// Returns the difference of a pixel from the view at (x, y), in 128ths of a pixel;
+// simd::kMostDifference if the view does not cover that place.
 int32_t Misfit(const EstimatePlan& plan, const Plane<const uint8_t>& view, int32_t x, int32_t y,
                const uint8_t* pixel) {
   const int32_t column = x >> 7, row = y >> 7, across = x & 127, down = y & 127;
@@ -44,12 +45,12 @@ int32_t Misfit(const EstimatePlan& plan, const Plane<const uint8_t>& view, int32
   return Min(misfit, simd::kMostDifference);
 }
 
-// Whether the views on one side of pixel (x, y), whichever, show it at disparity d.
+// Returns true if the views on any side of pixel (x, y) show the pixel at disparity d.
 bool Fits(const EstimatePlan& plan, const starfocus_light_field& light_field, int32_t x, int32_t y,
           int32_t d) {
   const Plane<const uint8_t> centre = RowsOf(light_field.views[0]);
   const uint8_t* pixel = centre.data + static_cast<size_t>(y) * centre.stride + 3 * x;
-  const int32_t along = plan.arms == 4 ? 2 : 3;  // as for simd::LabelRow
+  const int32_t along = plan.arms == 4 ? 2 : 3;  // as in simd::LabelRow
   int32_t misfit[8];
   for (int32_t arm = 0; arm < plan.arms + along - 1; ++arm) {
     if (arm < plan.arms) {
@@ -65,13 +66,13 @@ bool Fits(const EstimatePlan& plan, const starfocus_light_field& light_field, in
   return false;
 }
 
-// How much two pixels differ, simd::kMostDifference at most.
+// Returns the difference of two pixels, at most simd::kMostDifference.
 int32_t Apart(const uint8_t* a, const uint8_t* b) {
   const int32_t sum = std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2]);
   return Min(sum, simd::kMostDifference);
 }
 
-// Whether enough pixels around one that fits badly do so, too.
+// Returns true if enough pixels around one that fits badly fit badly, too.
 bool IsGainsaid(const EstimatePlan& plan, const uint8_t* doubt, int32_t x, int32_t y) {
   const Rect around = Widened(plan, {x, y, 1, 1}, kMisfitRadius);
   int32_t misfits = 0;
@@ -82,10 +83,10 @@ bool IsGainsaid(const EstimatePlan& plan, const uint8_t* doubt, int32_t x, int32
   return misfits >= kLeastMisfits;
 }
 
-// A row of a tile and what lies around it; beyond the picture nothing is in doubt.
+// A row of a tile with its surroundings. No pixel beyond the picture is in doubt.
 using DoubtRow = uint8_t[kMostTileSide + 2 * kSweptRadius];
 
-// Fills `row` with 1 where row y is in doubt, `left` of the tile before its first pixel.
+// Sets row[k] to 1 where row y is in doubt. `row` starts at the first pixel of `around`.
 void ReadDoubts(const EstimatePlan& plan, const uint8_t* doubt, const Rect& around, int32_t y,
                 uint8_t* row) {
   const uint8_t* from = doubt + static_cast<size_t>(y) * static_cast<size_t>(plan.width);
@@ -120,7 +121,7 @@ void FindSwept(const EstimatePlan& plan, const Rect& tile, uint8_t* scratch,
   const auto width = static_cast<size_t>(plan.width), stride = static_cast<size_t>(tile.width);
   DoubtRow row = {};
   uint8_t* inside = row + kSweptRadius - (tile.x - around.x);
-  // What has anything in doubt around it in its row.
+  // Pixels with any pixel in doubt around them in their row.
   for (int32_t y = 0; y < around.height; ++y) {
     ReadDoubts(plan, memory->doubt, around, around.y + y, inside);
     uint8_t* near = scratch + static_cast<size_t>(y) * stride;
@@ -147,7 +148,7 @@ void RateUnswept(const EstimatePlan& plan, const Plane<const uint8_t>& centre, c
     const size_t row = static_cast<size_t>(y) * static_cast<size_t>(plan.width);
     const uint8_t* line = centre.data + static_cast<size_t>(y) * centre.stride;
     const auto stride = static_cast<ptrdiff_t>(centre.stride);
-    // At an end of the picture the other neighbour is taken twice.
+    // At an edge of the picture the opposite neighbour is used twice.
     const ptrdiff_t down = y + 1 < plan.height ? stride : y > 0 ? -stride : 0;
     const ptrdiff_t up = y > 0 ? -stride : down;
     for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which pixels of a given map the sweeps look at: those around steps and noise of the map, and
-// around what the views gainsay. All others keep their disparity.
+// Decides which pixels of a given map the sweeps process: those around steps and noise of the map,
+// and around pixels that the views contradict. All other pixels keep their disparity.
 #ifndef STARFOCUS_LIB_DEPTH_SWEPT_H_
 #define STARFOCUS_LIB_DEPTH_SWEPT_H_
 
@@ -13,26 +13,27 @@
 
 namespace starfocus {
 
-// Pixels this near to one in doubt are looked at. Further away it tells nothing (simd::kMostPrior).
+// Pixels within this distance of one in doubt are swept. Trusted pixels farther away do not
+// influence a pixel's prior (simd::kMostPrior).
 inline constexpr int32_t kSweptRadius = 5;
 
-// Enters whether each pixel of a tile is in doubt; memory->trusted of it is known.
+// Marks the pixels of a tile that are in doubt. Needs memory->trusted of the tile.
 void FindDoubts(const EstimatePlan& plan, const starfocus_light_field& light_field,
                 const Rect& tile, EstimateMemory* memory);
 
-// Enters which pixels of a tile are swept; the doubts of all tiles are known. `scratch` has a
-// byte for each pixel of the tile widened by kSweptRadius.
+// Marks the pixels of a tile that are swept. Needs the doubts of all tiles. `scratch` has one byte
+// for each pixel of the tile enlarged by kSweptRadius.
 void FindSwept(const EstimatePlan& plan, const Rect& tile, uint8_t* scratch,
                EstimateMemory* memory);
 
-// Enters the certainty of the pixels of a tile that were not swept: how much the centre view
-// differs a pixel away, across and along, which is how much worse views fit a pixel nearer or
-// further away.
+// Writes the certainty of the pixels of a tile that were not swept. It is the difference of the
+// centre view from itself one pixel away, across and along. Views fit a wrong disparity worse by
+// about that difference.
 void RateUnswept(const EstimatePlan& plan, const Plane<const uint8_t>& centre, const Rect& tile,
                  EstimateMemory* memory);
 
-// Calls act(begin, end) for each run of pixels of row y in [from, to) that are swept, from left to
-// right: for all of them as one when `swept` is null.
+// Calls act(begin, end) for each run of swept pixels of row y in [from, to), from left to right. If
+// `swept` is null, all pixels are one run.
 template <class Act>
 void ForRuns(const EstimatePlan& plan, const uint8_t* swept, int32_t y, int32_t from, int32_t to,
              const Act& act) {

@@ -12,12 +12,13 @@ namespace {
 
 // Cells are half to one and a half times this wide and high.
 constexpr int32_t kCellSide = 16;
-// A pixel so much nearer is of another surface (lib/coverage parts the same steps).
+// A pixel that is nearer by more than this belongs to another surface. lib/coverage uses the same
+// step.
 constexpr int32_t kStep = 5 << kDisparityBits;
-// Cells this near to a dense one are thin: strands are fewer at a rim.
+// Cells within this distance of a dense one are thin, since there are fewer strands at the rim.
 constexpr int32_t kReach = 6;
 
-// Calls act(number) for the cells within `reach` of one.
+// Calls act(column, row, number) for the cells within `reach` of a cell.
 template <class Act>
 void ForAround(const ThinGrid& grid, int32_t column, int32_t row, int32_t reach, const Act& act) {
   const int32_t right = Min(column + reach, grid.columns - 1);
@@ -27,7 +28,7 @@ void ForAround(const ThinGrid& grid, int32_t column, int32_t row, int32_t reach,
   }
 }
 
-// Marks the pixels of row y of a tile that lie beside nearer ones of the tile.
+// Marks the pixels of row y of a tile that are next to nearer ones of the tile.
 void MarkBeside(const ThinGrid& grid, const int16_t* map, const Rect& tile, int32_t y,
                 uint8_t* beside) {
   const auto at =

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a map has thin structure (hair, twigs, grass), by how many of its pixels lie beside much
-// nearer ones. Nearly every pixel is a mixture there, and no view shows a mixture of the same kind:
-// a search for what fits best finds anything.
+// Finds the thin structures of a map (hair, twigs, grass) by the number of pixels that are next to
+// much nearer ones. Nearly every pixel of such structures is a mixture that no other view shows. A
+// search for the best fit therefore gives arbitrary results there.
 #ifndef STARFOCUS_LIB_DEPTH_THIN_CELLS_H_
 #define STARFOCUS_LIB_DEPTH_THIN_CELLS_H_
 
@@ -12,14 +12,14 @@
 
 namespace starfocus {
 
-// Cells are no wider and no higher than this.
+// Largest width and height of a cell.
 inline constexpr int32_t kMostCellSide = 25;
 
-// Each tile is divided into cells of about 16 x 16 pixels, a mirrored picture into mirrored ones.
+// Each tile is divided into cells of about 16 x 16 pixels. A mirrored picture has mirrored cells.
 struct ThinGrid {
-  int32_t width, height;          // of the picture
-  int32_t columns, rows;          // of cells
-  int32_t tile_columns;           // of tiles
+  int32_t width, height;          // size of the picture
+  int32_t columns, rows;          // numbers of cells
+  int32_t tile_columns;           // number of tiles in a row
   int32_t tile_width, tile_rows;  // cells of a tile, across and down
 
   int32_t Cells() const { return columns * rows; }
@@ -27,25 +27,27 @@ struct ThinGrid {
 };
 ThinGrid GridOf(const EstimatePlan& plan);
 
-// What is known of the cells of a map, row by row.
+// Properties of the cells of a map, row by row.
 struct ThinCells {
-  uint16_t* beside;  // how many of its pixels lie beside much nearer ones
-  uint8_t* dense;    // whether they do so densely in it and the cells around
-  uint8_t* thin;     // whether a cell within reach is dense
+  uint16_t* beside;  // number of pixels that are next to much nearer ones
+  // true if many pixels of the cell and its neighbours are next to much nearer ones
+  uint8_t* dense;
+  uint8_t* thin;  // true if a cell within reach is dense
 };
 ThinCells TakeThinCells(const ThinGrid& grid, Arena* arena);
 
-// Counts the pixels of the cells of tile `index`, the whole of which is the rectangle `tile`. No
-// pixel beyond it is read.
+// Counts the pixels of the cells of tile `index`, whose rectangle is `tile`. No pixel outside it is
+// read.
 void CountBeside(const ThinGrid& grid, const int16_t* map, const Rect& tile, int32_t index,
                  const ThinCells& cells);
 
-// Of the pixels of a cell and the eight around it so many percent lie beside nearer ones where
-// strands are dense. A given map is thin from kThinGiven on: crossing wires have 15, 20 if the rows
-// of their map are moved, and a head of hair up to 45. In what is found rows are no longer moved.
+// Strands are dense if this percentage of the pixels of a cell and the eight cells around it are
+// next to nearer ones. kThinGiven is for given maps. Crossing wires have 15, or 20 if the rows of
+// their map are displaced, and a head of hair up to 45. kThinFound is for maps of the sweeps, whose
+// rows are not displaced.
 inline constexpr int32_t kThinGiven = 24, kThinFound = 17;
 
-// Finds the thin cells when those of all tiles are counted.
+// Finds the thin cells after all tiles are counted.
 void FindThin(const ThinGrid& grid, int32_t percent, const ThinCells& cells);
 
 // Calls act(rectangle, number) for each cell of tile `index`.

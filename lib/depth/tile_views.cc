@@ -11,7 +11,8 @@ namespace {
 
 int32_t Inside(int32_t at, int32_t length) { return Max(0, Min(at, length - 1)); }
 
-// Splits a row of the picture into rows of the planes; beyond its ends they go on as they end.
+// Splits a row of the picture into rows of the planes. Beyond the ends of the picture its outermost
+// pixels are repeated.
 void SplitPictureRow(const uint8_t* row, int32_t picture_width, const TileViews& views,
                      const simd::DepthKernels& kernels, uint8_t* out) {
   const auto stride = static_cast<int32_t>(views.stride);
@@ -25,17 +26,17 @@ void SplitPictureRow(const uint8_t* row, int32_t picture_width, const TileViews&
   }
 }
 
-// A view whose planes are made: moved by parts of a pixel, 128ths.
+// A view whose planes are made, with its moves by fractions of a pixel, in 128ths.
 struct MovedView {
   Plane<const uint8_t> picture;
   int32_t moves;
   int32_t across[4], down[4];
 };
 
-// Makes the planes of a view, those of each move from `out` on.
+// Makes the planes of a view; those of each move start at `out`.
 void MakePlanes(const MovedView& view, const EstimatePlan& plan, const simd::DepthKernels& kernels,
                 const TileViews& views, uint8_t* out) {
-  // One sample more is read at the end of a row. Nothing is looked for so far to the right.
+  // One more sample is read at the end of a row. No label moves a pixel that far to the right.
   const size_t stride = views.stride, count = stride - simd::kSliceLanes;
   for (int32_t row = 0; row <= views.rows; ++row) {
     uint8_t* next = views.split + static_cast<size_t>(row % 2) * 3 * stride;
@@ -55,32 +56,32 @@ void MakePlanes(const MovedView& view, const EstimatePlan& plan, const simd::Dep
   }
 }
 
-// The planes' rectangle in the picture that has samples of its own there.
+// Returns the part of the planes' rectangle that lies in the picture.
 Rect PartInside(const EstimatePlan& plan, const TileViews& views) {
   const int32_t x = Max(views.left, 0), y = Max(views.top, 0);
   const int32_t right = Min(views.left + static_cast<int32_t>(views.stride), plan.width);
   return {x, y, right - x, Min(views.top + views.rows, plan.height) - y};
 }
 
-// A view shows a pixel when nothing there is nearer than this beyond it, kDisparityBits: estimates
-// of one surface differ by less.
+// A surface hides a pixel of a view if it is nearer by more than this, kDisparityBits. Estimates of
+// one surface differ by less.
 constexpr int32_t kSurfaceDepth = 1 << kDisparityBits;
 
-// How many labels a pixel at disparity d hides.
+// Returns the number of labels that a pixel at disparity d hides.
 uint8_t HiddenBehind(const EstimatePlan& plan, int32_t d) {
   const int32_t beyond = Max(d - kSurfaceDepth - plan.low, 0) + plan.step - 1;
   const int32_t labels = plan.step == kLabelStep ? beyond / kLabelStep : beyond / plan.step;
   return static_cast<uint8_t>(Min(labels, plan.labels));
 }
 
-// Pixels [from, to) of row y of a map, which begins at `disparity`.
+// Pixels [from, to) of row y of a map, which starts at `disparity`.
 struct MapRow {
   const int16_t* disparity;
   int32_t y, from, to;
 };
 
-// Enters what the pixels of a row hide of a view within `inside`. The compiler leaves out moves in
-// directions that the view has none in.
+// Marks the labels that the pixels of a row hide in a view within `inside`. The template parameters
+// remove the directions in which the view does not move.
 template <bool kAcross, bool kDown>
 void HideBehindRow(const EstimatePlan& plan, const SideView& view, const MapRow& of_map,
                    const Rect& inside, const TileViews& views, uint8_t* hidden) {
@@ -102,7 +103,7 @@ void HideBehindRow(const EstimatePlan& plan, const SideView& view, const MapRow&
   }
 }
 
-// The part of a view that labels of the region's pixels can lie in, and what may hide it.
+// Returns the part of a view in which the region's pixels can lie, or which can hide them.
 Rect WithReach(const EstimatePlan& plan, const SideView& view, const Rect& rect) {
   const Rect across = Widened(plan, rect, view.u2 != 0 ? plan.reach : 0);
   const Rect down = Widened(plan, rect, view.v2 != 0 ? plan.reach : 0);
@@ -135,7 +136,7 @@ void FindMoves(const EstimatePlan& plan, const TileViews& views, simd::ViewMove*
   const auto plane = static_cast<int32_t>(views.plane);
   for (int32_t l = 0; l < plan.labels; ++l) {
     const int32_t d = plan.Disparity(l);
-    int32_t first = 1;  // of the view's planes
+    int32_t first = 1;  // first of the view's planes
     for (int32_t k = 0; k < plan.side_views(); ++k) {
       const SideView& side = plan.side[k];
       const int32_t across = MoveAcross(side, d), down = MoveDown(side, d);

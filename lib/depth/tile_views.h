@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a tile sees of the views, and which disparities are hidden there.
+// Loads the views around a tile, and marks the disparities that are hidden in them.
 #ifndef STARFOCUS_LIB_DEPTH_TILE_VIEWS_H_
 #define STARFOCUS_LIB_DEPTH_TILE_VIEWS_H_
 
@@ -13,14 +13,14 @@ namespace starfocus {
 void LoadTileViews(const EstimatePlan& plan, const starfocus_light_field& light_field,
                    const Rect& region, const simd::DepthKernels& kernels, TileViews* views);
 
-// Fills in where the views show each label in each side view.
+// Fills in where each side view shows each label.
 void FindMoves(const EstimatePlan& plan, const TileViews& views, simd::ViewMove* moves);
 
-// Where views end, nothing else is known to be hidden: the first estimate.
+// Marks only where views end; nothing else is known to be hidden. For the first sweep.
 void MarkOutside(const EstimatePlan& plan, TileViews* views);
 
-// What the pixels of a map (width * height disparities) hide of the views when each of them is
-// where its disparity says: wherever pixels of the region can lie.
+// Marks where the pixels of a map (width * height disparities) hide labels in the views, for all
+// places that pixels of the region can move to.
 void MarkHidden(const EstimatePlan& plan, const int16_t* map, const Rect& region, TileViews* views);
 
 }  // namespace starfocus
