@@ -4,14 +4,14 @@
 namespace starfocus {
 namespace {
 
-// Fractional bits of a 255th of white that colours are compared with: their products fit 64 bits.
+// Fractional bits of colours in comparisons, in units of white / 255. Their products fit 64 bits.
 constexpr int kColourBits = 4;
 constexpr int64_t kSquareOne = 1 << (2 * kColourBits);
-// Two colours whose squared distance is less than this tell no mixture apart: eight 255ths of white
-// in one channel. docs/constants.md has what these three were measured on.
+// Smallest squared distance of two colours whose mixtures can be recognised: 8/255 of white in one
+// channel. docs/constants.md describes the measurements of these three constants.
 constexpr int64_t kLeastContrast = 64 * kSquareOne;
-// Up to this distance from the line between the two colours a pixel is their mixture, squared: a
-// noise of three 255ths of white in each channel, and a sixteenth of their contrast's square.
+// A pixel is a mixture up to this squared distance from the line between the two colours: noise of
+// 3/255 of white in each channel, plus 1/16 of the squared contrast.
 constexpr int64_t kNoise = 27 * kSquareOne;
 constexpr int64_t kContrastParts = 16;
 
@@ -19,8 +19,8 @@ int32_t Compared(int32_t light) {
   return static_cast<int32_t>(RoundShift(light, kLightBits - kColourBits));
 }
 
-// Where a colour lies beside the line from `far` to `near`: its place along the line and its
-// squared distance from it, both times `contrast`, the squared length of the line.
+// Position of a colour relative to the line from `far` to `near`: the position along the line and
+// the squared distance from it. Both are multiplied by `contrast`, the squared length of the line.
 struct LinePlace {
   int64_t along = 0, contrast = 0, beside = 0;
 
@@ -36,7 +36,7 @@ struct LinePlace {
     beside = distance * contrast - along * along;
   }
 
-  // The largest kContrastParts * beside of a mixture.
+  // Upper bound of `kContrastParts * beside` for mixtures.
   int64_t Limit() const { return contrast * (kContrastParts * kNoise + contrast); }
 
   int32_t Share() const {
@@ -45,10 +45,10 @@ struct LinePlace {
   }
 };
 
-// Returns how much of `mixed` shows `near`, the rest being `far`: kShareBits, 0 when it is no
-// mixture. The far surface has the pixel's centre, so that more than 4/5 says that `far` is
-// something else. The share is rounded down, so that to round it once more, to fewer bits, rounds
-// what it really is.
+// Returns the share of `near` in `mixed`, kShareBits; the rest is `far`. It is 0 if `mixed` is not
+// a mixture. The far surface covers the centre of the pixel, so a share above 4/5 means that `far`
+// is wrong. The share is rounded down, so that rounding it again to fewer bits rounds the exact
+// value.
 int32_t ShareOf(const Colour& near, const Colour& far, const Colour& mixed) {
   const LinePlace place(near, far, mixed);
   if (place.contrast < kLeastContrast || place.along <= 0) return 0;
@@ -56,8 +56,8 @@ int32_t ShareOf(const Colour& near, const Colour& far, const Colour& mixed) {
   return kContrastParts * place.beside > place.Limit() ? 0 : place.Share();
 }
 
-// The pixel beside it, away from the nearer surface, if it is of the same surface, else the pixel
-// itself: that is no mixture.
+// Returns the colour of the next pixel away from the nearer surface if it is on the same surface.
+// Otherwise returns the colour of the pixel, which gives no mixture.
 Colour ReadBeside(const CentreView& centre, const BoundaryPixel& pixel, const Colour& mixed) {
   const int8_t* const side = kSides[pixel.side];
   const int32_t x = pixel.x - side[0], y = pixel.y - side[1];
@@ -65,12 +65,13 @@ Colour ReadBeside(const CentreView& centre, const BoundaryPixel& pixel, const Co
   return same ? centre.ColourAt(x, y) : mixed;
 }
 
-// The view on the side away from the nearer surface, which it shows out of the way.
+// Returns the captured view on the side away from the nearer surface. In that view the nearer
+// surface has moved away from the pixel.
 const OcclusionView& OcclusionViewAway(const Window& window, const BoundaryPixel& pixel) {
   return window.occlusion_views.Last(pixel.side ^ 1);
 }
 
-// The point of the far surface in that view.
+// Reads the point of the far surface in that view.
 Colour ReadFar(const Window& window, const BoundaryPixel& pixel, const Colour& mixed) {
   const OcclusionView& look = OcclusionViewAway(window, pixel);
   constexpr int kBits = kViewBits + kDisparityBits - kShiftBits;
@@ -78,7 +79,7 @@ Colour ReadFar(const Window& window, const BoundaryPixel& pixel, const Colour& m
   const int32_t y = pixel.y * kShiftOne - ScaledByView(look.at.v, pixel.disparity, kBits);
   int32_t sums[3];
   InterpolateCaptured(window, look.view, x, y, sums);
-  // Halves are rounded towards the pixel, so that an inverted picture is decided on alike.
+  // Halves are rounded towards the pixel, so that an inverted picture gives the same shares.
   constexpr uint32_t kHalf = 1 << (2 * kShiftBits - 1);
   Colour far;
   for (int c = 0; c < 3; ++c) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Boundary pixels: on the far side of a depth edge a captured pixel is a mixture of both surfaces.
+// Separates boundary pixels at depth edges, which are mixtures of both surfaces.
 #ifndef STARFOCUS_LIB_INPUT_BOUNDARY_PIXEL_H_
 #define STARFOCUS_LIB_INPUT_BOUNDARY_PIXEL_H_
 
@@ -12,7 +12,7 @@
 
 namespace starfocus {
 
-// Pixels beyond a field that tell what the boundary pixels in it are made of.
+// Pixels around a field that are read to separate its boundary pixels.
 inline constexpr int32_t kMixedPixelBorder = 1;
 
 // Light of R, G and B.
@@ -22,7 +22,7 @@ struct Colour {
   int32_t operator[](int c) const { return rgb[c]; }
 };
 
-// The centre view at layer 0; beyond its edges it repeats them.
+// The centre view at layer 0, with its edges repeated.
 struct CentreView {
   const Window& window;
 
@@ -30,39 +30,40 @@ struct CentreView {
     return window.disparity.Row(
         Clamp(y, 0, window.picture_height - 1))[Clamp(x, 0, window.picture_width - 1)];
   }
-  // Light of a pixel, or its excess (window.is_excess).
+  // Returns the light of a pixel, or its excess if window.is_excess.
   Colour ColourAt(int32_t x, int32_t y) const;
 };
 
-// A pixel and the depth edge beside it: a step of more than `step` up to `near`, kDisparityBits.
+// A pixel next to a depth edge: a step of more than `step` up to disparity `near`, kDisparityBits.
 struct BoundaryPixel {
   int32_t x, y;
-  int side;  // of kSides, where the nearer surface is
+  int side;  // index into kSides: direction of the nearer surface
   int32_t disparity, near, step;
 };
 
-// What it is made of: how much of it is the nearer surface (kShareBits), and the colours of both. A
-// share of 0: it is no mixture of them.
+// Result of the separation: the share of the nearer surface (kShareBits) and the colours of both
+// surfaces. Share 0: the pixel is not a mixture.
 struct Mixture {
   int32_t share;
   Colour near, far;
 };
 
-// The near colour is that of the pixel behind the edge, or one pixel on where the surface goes on;
-// the far one is read from the captured view beside the centre in which the nearer surface has
-// moved out of the way; without such a view it is that of the pixel on the other side. Of a window
-// of excess the share is that of light, and the colours are excess.
+// Separates a boundary pixel. The near colour is that of the next pixel behind the edge, or of the
+// one after it if that is on the same surface. The far colour comes from the captured side view in
+// which the nearer surface does not cover it. Without such a view, it is the colour of the pixel on
+// the other side. If the window contains excess, the colours are excess and the share is that of
+// light.
 Mixture FindMixture(const CentreView& centre, const BoundaryPixel& pixel);
 
-// Returns the share of `near` in a pixel of level 1 or 2, kShareBits. Filtered pixels differ by
-// rounding, so the share fades to 0 where FindMixture's has limits: from twice the least contrast,
-// between one and two times the largest distance from the line between both colours, and from 4/5
-// to 1.
+// Returns the share of `near` in a pixel of layer 1 or 2, kShareBits. Filtered pixels differ by
+// rounding, so the share fades to 0 at the limits of FindMixture instead of stopping abruptly. It
+// fades below twice the smallest contrast, between one and two times the largest distance from the
+// line between both colours, and from 4/5 to 1.
 int32_t FadedShareOf(const Colour& near, const Colour& far, const Colour& mixed);
 
-// Calls visit(column, row) for those pixels of a field that are farther away, by more
-// than `step`, than one beside, above or below them; of those in the picture, but for the field's
-// outermost ones.
+// Calls visit(column, row) for the pixels of a field that are farther than one of their four
+// neighbours by more than `step`. Only pixels inside the picture count, without the outermost ones
+// of the field.
 template <class Visit>
 void ForEachBesideEdge(const simd::Kernels& kernels, const Window& window, const BlockPixels& field,
                        int16_t step, const Visit& visit) {

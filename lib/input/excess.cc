@@ -15,7 +15,7 @@ int32_t ExcessOf(uint8_t code) {
   return kLightWhite * step * step / (kSteps * kSteps);
 }
 
-// A row or a column of a view.
+// A row or column of a view.
 struct ViewLine {
   const ExcessViews& of;
   int view;
@@ -29,8 +29,8 @@ struct ViewLine {
   }
 };
 
-// Counts the highlights that follow each other through `at`, which is one: LampReach at most, and
-// as many also where they reach the picture's edge.
+// Counts the consecutive highlights through `at`, which must be one. The length is at most
+// LampReach. Runs that reach the edge of the picture have this length.
 LampRun CountRun(const ViewLine& line, int32_t at) {
   const int32_t most = LampReach(line.of.lamp), size = line.Size();
   int32_t first = at, last = at;
@@ -53,14 +53,14 @@ int32_t RunThrough(const ViewLine& line, int32_t at) {
   if (!known) {
     run = CountRun(line, at);
   } else if (at < run.first) {
-    run.first = static_cast<uint16_t>(at);  // beside a run is the same run
+    run.first = static_cast<uint16_t>(at);  // the next pixel belongs to the same run
   } else if (at > run.last) {
     run.last = static_cast<uint16_t>(at);
   }
   return run.length;
 }
 
-// Writes the excess of a pixel with these codes.
+// Writes the excess of a pixel with the given codes.
 void ReadPixel(const ExcessViews& of, int view, int32_t x, int32_t y, const uint8_t* codes,
                int16_t* rgb) {
   rgb[0] = rgb[1] = rgb[2] = 0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Highlights: what clipped samples stand for beyond white (starfocus_config.highlights).
+// Highlights: computes the light beyond white that clipped samples represent
+// (starfocus_config.highlights).
 #ifndef STARFOCUS_LIB_INPUT_EXCESS_H_
 #define STARFOCUS_LIB_INPUT_EXCESS_H_
 
@@ -11,30 +12,30 @@
 
 namespace starfocus {
 
-// Lamps are no larger than this, in pixels: a 32nd of the picture's width, 16 to 128. Highlights of
-// more are bright walls or sky, which are as white as they look.
+// Returns the largest size of a lamp in pixels: 1/32 of the picture's width, from 16 to 128. Larger
+// highlights are bright walls or sky and keep their captured brightness.
 constexpr int32_t LargestLamp(int32_t width) { return Clamp(width / 32, 16, 128); }
 
-// Pixels around a highlight that decide whether it is a lamp.
+// Returns the number of pixels around a highlight that decide whether it is a lamp.
 constexpr int32_t LampReach(int32_t lamp) { return 2 * lamp; }
 
-// A pixel is a highlight when two of its codes are at least kFirstExcess: nearly clipped are lamps
-// of any colour, and of saturated colours that are not so bright one code at most.
+// A pixel is a highlight if at least two of its codes are kFirstExcess or more. Lamps of any colour
+// satisfy this; darker saturated colours have at most one such code.
 inline constexpr int32_t kFirstExcess = 251;
 bool IsHighlight(const uint8_t* codes);
 
-// Highlights that follow each other along a row or a column: pixels [first, last] of one such run,
-// which all have its length, LampReach at most.
+// Run of highlights in a row or column: pixels [first, last]. All of them have the same `length`,
+// at most LampReach.
 struct LampRun {
-  int16_t view = -1;  // -1: none
+  int16_t view = -1;  // -1: no run
   uint16_t line = 0, first = 0, last = 0, length = 0;
 };
 
-// The runs that were found last, so that neighbours do not count the same pixels again. A worker
-// has one for as long as it renders a block.
+// Cache of runs, so that neighbours do not count the same pixels again. Each worker uses one cache
+// while it renders a block.
 struct LampRuns {
   static constexpr int32_t kCount = 1024;  // a power of two
-  static constexpr int kSpanBits = 6;      // a line has a place for each 64 pixels
+  static constexpr int kSpanBits = 6;      // one entry per 64 pixels of a line
 
   LampRun along[kCount], down[kCount];
 
@@ -44,18 +45,19 @@ struct LampRuns {
   }
 };
 
-// Captured views of which highlights up to `lamp` pixels are lamps, at layer 0.
+// Captured views at layer 0. Their highlights are lamps if they are at most `lamp` pixels large.
 struct ExcessViews {
   ViewReader views;
-  int32_t width, height, lamp;  // of the picture; LargestLamp
-  LampRuns* runs;               // of any views of these pictures
+  int32_t width, height, lamp;  // size of the picture; LargestLamp
+  LampRuns* runs;               // cache for views of these pictures only
 };
 
-// Returns a reader of what highlights have beyond white, as light; `views` must outlive it. For a
-// clipped sample that is one more white: it rises with the square of the code from kFirstExcess on.
-// Other pixels are 0. All of it counts where the highlight is at most views.lamp pixels high or
-// wide, less beyond, and nothing from twice as many on, or where it goes on beyond the picture's
-// edges.
+// Returns a reader of the excess light of highlights. `views` must outlive it. The excess of a
+// clipped sample is as much as white. It rises with the square of the code, starting at
+// kFirstExcess. Other pixels have no excess.
+//
+// The full excess counts if the highlight is at most views.lamp pixels high or wide. It decreases
+// to 0 at twice that size. Highlights that reach the edge of the picture count as large.
 ViewReader ReaderOf(const ExcessViews& views);
 
 }  // namespace starfocus

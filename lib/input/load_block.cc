@@ -8,7 +8,8 @@
 namespace starfocus {
 namespace {
 
-// Fills what lies outside [first, last) of a row, which is not empty, with its ends.
+// Fills the pixels outside [first, last) of a row with the nearest ones inside. The range is not
+// empty.
 void RepeatEdges(int32_t first, int32_t last, int32_t width, int16_t* rgb, int16_t* disparity) {
   for (int32_t column = 0; column < first; ++column) {
     std::memcpy(rgb + 3 * column, rgb + 3 * first, 3 * sizeof(*rgb));
@@ -20,7 +21,7 @@ void RepeatEdges(int32_t first, int32_t last, int32_t width, int16_t* rgb, int16
   }
 }
 
-// Copies every 2^kLayer-th value, in groups of a fixed length that need no loop.
+// Copies every 2^kLayer-th value in groups of fixed length, which the compiler unrolls.
 template <int kLayer>
 void CopyEvery(const int16_t* from, int32_t count, int16_t* to) {
   constexpr int32_t kGroup = 8;
@@ -31,8 +32,8 @@ void CopyEvery(const int16_t* from, int32_t count, int16_t* to) {
   for (int32_t k = 0; n + k < count; ++k) to[k] = from[k << kLayer];
 }
 
-// Copies the disparities of `count` pixels of the layer from column x of a row on. Of a layer's
-// last column the picture may have no pixel.
+// Copies the disparities of `count` pixels of the layer from column x on. The last column of a
+// layer may lie outside the picture.
 void CopyDisparity(const Window& window, const int16_t* row, int32_t x, int32_t count,
                    int16_t* disparity) {
   const int32_t column = x * (1 << window.layer), last = window.picture_width - 1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The way from the window to the field of a block.
+// Copies pixels from a window to the field of a block.
 #ifndef STARFOCUS_LIB_INPUT_LOAD_BLOCK_H_
 #define STARFOCUS_LIB_INPUT_LOAD_BLOCK_H_
 
@@ -9,13 +9,13 @@
 
 namespace starfocus {
 
-// Writes the light of `count` pixels of the centre view, inside the picture, from (x, y) of the
-// layer on, or their excess (window.is_excess).
+// Writes the light of `count` pixels of the centre view, or their excess if window.is_excess. The
+// pixels start at (x, y) of the layer and must be inside the picture.
 void LoadLight(const Window& window, int32_t x, int32_t y, int32_t count, int16_t* rgb);
 
-// Copies `rect` and its border from the window into field->rgb and ->disparity, which must be set.
-// Codes are decoded here: every sample of the centre view, once for all views of the aperture.
-// Pixels outside the picture repeat its edge, or show what side views see there (picture_edge.h).
+// Copies `rect` and its border from the window to field->rgb and field->disparity, which must be
+// set. It decodes each sample of the centre view once for all views of the aperture. Pixels outside
+// the picture repeat its edge, or contain the content of side views (picture_edge.h).
 void LoadBlock(const Window& window, const Rect& rect, const Border& border, BlockPixels* field);
 
 }  // namespace starfocus

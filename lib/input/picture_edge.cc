@@ -8,8 +8,8 @@
 namespace starfocus {
 namespace {
 
-// The part of a rectangle of the layer that lies in the picture, in pixels of the rectangle; right
-// and bottom are exclusive.
+// The part of a rectangle of the layer inside the picture, in pixels of the rectangle. `right` and
+// `bottom` are exclusive.
 struct InsidePart {
   int32_t left, right, top, bottom;
 
@@ -19,25 +19,26 @@ struct InsidePart {
         top(Clamp(-rect.y, 0, rect.height)),
         bottom(Clamp(Inside(window.picture_height, window.layer) - rect.y, 0, rect.height)) {}
 
-  // Pixels of the layer along an axis of `size` pixels of the picture; layers store more.
+  // Returns the number of pixels of the layer for `size` pixels of the picture. Layers store more.
   static int32_t Inside(int32_t size, int layer) { return (size + (1 << layer) - 1) >> layer; }
 };
 
-// A pixel at the picture's edge, in a rectangle, and the rectangle's pixels beyond it.
+// A pixel at the edge of the picture, in a rectangle, and the number of pixels of the rectangle
+// beyond it.
 struct EdgePixel {
   int32_t column, row;
-  int side;  // of kSides
+  int side;  // index into kSides
   int32_t beyond;
 
   const int8_t* out() const { return kSides[side]; }
 };
 
-// A place or a move, kShiftBits.
+// A place or displacement, kShiftBits.
 struct ShiftedPlace {
   int32_t x, y;
 };
 
-// Fills a field's pixels beyond the picture's edges.
+// Fills the pixels of a field beyond the edges of the picture.
 class Beyond {
  public:
   Beyond(const Window& window, BlockPixels* field)
@@ -47,7 +48,7 @@ class Beyond {
     const int32_t width = rect_.width, height = rect_.height;
     const InsidePart part(window_, rect_);
     const bool inside = part.right - part.left == width && part.bottom - part.top == height;
-    if (inside) return;  // most rectangles are
+    if (inside) return;  // the most frequent case
     for (int32_t row = part.top; row < part.bottom; ++row) {
       LookOver({part.right - 1, row, 0, width - part.right});
       LookOver({part.left, row, 1, part.left});
@@ -66,8 +67,8 @@ class Beyond {
   void LookOver(const EdgePixel& edge) {
     if (edge.beyond == 0) return;
     const int32_t disparity = DisparityAt(rect_.x + edge.column, rect_.y + edge.row);
-    // Nearer surfaces go on where views look over the edge, those behind the focus where views on
-    // the other side do.
+    // Surfaces nearer than disparity 0 continue in views on the side of the edge, others in views
+    // on the opposite side.
     const OcclusionView& look =
         window_.occlusion_views.on[disparity < 0 ? edge.side ^ 1 : edge.side][0];
     if (look.view == 0) return;
@@ -80,16 +81,17 @@ class Beyond {
     RepeatLast(edge, seen);
   }
 
-  // How a surface moves along an axis between the centre view and one at that position, in pixels
-  // of the layer, kShiftBits.
+  // Returns the displacement of a surface along an axis between the centre view and a view at
+  // `position`, in pixels of the layer, kShiftBits.
   int32_t Moved(int32_t position, int32_t disparity) const {
     return ScaledByView(position, disparity,
                         kViewBits + kDisparityBits - kShiftBits + window_.layer);
   }
 
-  // How many of the `seen` pixels beyond the edge lie before the first that, in the captured view,
-  // a nearer pixel inside the picture comes within 3/4 of a pixel of. Surfaces of positive
-  // disparity are seen from the side on which nearer ones move farther away.
+  // Returns the number of the `seen` pixels beyond the edge before the first covered one. A pixel
+  // is covered if, in the captured view, a nearer pixel of the picture comes within 3/4 of a pixel.
+  // Surfaces of positive disparity are never covered: they are seen from the side on which nearer
+  // surfaces move farther away.
   int32_t Uncovered(const EdgePixel& edge, const OcclusionView& look, int32_t disparity,
                     int32_t seen) const {
     const int layer = window_.layer;
@@ -124,19 +126,19 @@ class Beyond {
     }
   }
 
-  // Repeats the colour of pixel `last` beyond the edge in those farther away.
+  // Repeats the colour of pixel `last` beyond the edge in all pixels after it.
   void RepeatLast(const EdgePixel& edge, int32_t last) {
     for (int32_t k = last + 1; k <= edge.beyond; ++k) {
       std::memcpy(Rgb(edge, k), Rgb(edge, last), kBytes);
     }
   }
 
-  // Pixel k beyond an edge.
+  // Returns pixel k beyond an edge.
   int16_t* Rgb(const EdgePixel& edge, int32_t k) const {
     return field_.Rgb(edge.column + k * edge.out()[0], edge.row + k * edge.out()[1]);
   }
 
-  static constexpr size_t kBytes = 3 * sizeof(int16_t);  // of a pixel
+  static constexpr size_t kBytes = 3 * sizeof(int16_t);  // of one pixel
 
   const Window& window_;
   const BlockPixels& field_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What lies beyond the picture's edges, where captured views look.
+// Extends surfaces beyond the edges of the picture with the content of side views.
 #ifndef STARFOCUS_LIB_INPUT_PICTURE_EDGE_H_
 #define STARFOCUS_LIB_INPUT_PICTURE_EDGE_H_
 
@@ -8,15 +8,15 @@
 
 namespace starfocus {
 
-// How many pixels of the picture, from its edge on, are looked at for what may cover a pixel beyond
-// it: no more than the rows that are kept around a stripe. On scenes whose disparities differ by
-// less, fewer give the same pictures (docs/constants.md).
+// Number of pixels inside the edge that are searched for surfaces that may cover a pixel outside.
+// At most as many rows are stored around a stripe. If disparities differ by less, fewer pixels give
+// the same result (docs/constants.md).
 inline constexpr int32_t kLookBack = 32;
 
-// Where a field repeats an edge of the picture, the edge's surface goes on instead: pixels as far
-// beyond the edge as its disparity moves it from unit to unit take their colour from the captured
-// view that shows them, up to where something nearer covers them there. What lies farther away
-// repeats the last of them. Without side views, and beyond corners, nothing changes.
+// Replaces repeated edges of the picture in a field by the continued surface. Pixels get their
+// colour from the captured view that shows them, up to the distance by which the disparity of the
+// edge moves them in that view. They end where a nearer surface covers them in the view. Pixels
+// farther outside repeat the last one. Without side views and beyond corners, nothing changes.
 void ExtendEdges(const Window& window, BlockPixels* field);
 
 }  // namespace starfocus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads pixels of captured views in any format: a format is one reader.
+// Interface for reading pixels of captured views. Each picture format has one reader.
 #ifndef STARFOCUS_LIB_INPUT_VIEW_READER_H_
 #define STARFOCUS_LIB_INPUT_VIEW_READER_H_
 
@@ -12,13 +12,14 @@
 
 namespace starfocus {
 
-// Both functions read `count` pixels of a view from (x, y) on along its row, R, G and B each. All
-// pixels are inside the picture.
+// Both functions read `count` RGB pixels of a view, starting at (x, y) and continuing along the
+// row. All pixels must be inside the picture.
 struct ViewReader {
-  // Writes their light.
+  // Writes the light of the pixels.
   void (*light)(const void* self, int view, int32_t x, int32_t y, int32_t count,
                 int16_t* rgb) = nullptr;
-  // Returns their codes: in place, or in `room` (3 * count), to which it writes them.
+  // Returns the codes of the pixels. The result points to the picture, or to `room` if the function
+  // wrote the codes there. `room` has 3 * count bytes.
   const uint8_t* (*codes)(const void* self, int view, int32_t x, int32_t y, int32_t count,
                           uint8_t* room) = nullptr;
   const void* self = nullptr;
@@ -31,14 +32,14 @@ struct ViewReader {
   }
 };
 
-// Views that lie in memory as rows of codes R, G, B.
+// Views in memory as rows of packed RGB codes.
 struct PlaneViews {
   const simd::Kernels* kernels = nullptr;
   const Transfer* transfer = nullptr;
   Plane<const uint8_t> view[kMaxViews];
 };
 
-// Returns the reader of `views`, which must outlive it.
+// Returns a reader of `views`, which must outlive it.
 ViewReader ReaderOf(const PlaneViews& views);
 
 }  // namespace starfocus

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rows of all views and of the disparity map that a stripe needs, whether they lie in the
-// caller's pictures or in a ring of lines.
+// Rows of all views and of the disparity map that a stripe needs. They are in the caller's pictures
+// or in a ring buffer.
 #ifndef STARFOCUS_LIB_INPUT_WINDOW_H_
 #define STARFOCUS_LIB_INPUT_WINDOW_H_
 
@@ -17,50 +17,51 @@ namespace starfocus {
 
 struct CoverageMap;
 
-// A light field at one layer: pixel (x, y) of the layer stands at (x << L, y << L) in the pictures.
-// Only the centre view is subsampled as a whole; of the others a few pixels are read, in holes.
+// A light field at one layer. Pixel (x, y) of the layer is at (x << L, y << L) in the pictures.
+// Only the centre view is subsampled completely; of side views a few pixels in holes are read.
 struct Window {
-  int32_t width = 0;  // of the layer
+  int32_t width = 0;  // size of the layer
   int32_t height = 0;
   int layer = 0;                       // L
-  int32_t views = 0;                   // captured, the centre one included
-  OcclusionViews occlusion_views;      // which of them look behind edges
-  const Transfer* transfer = nullptr;  // of the codes of the pictures
-  Plane<const uint8_t> centre;         // codes; layer 0
-  Plane<const int16_t> samples;        // of the centre view, simd::kLayerBits; layers 1 and 2
+  int32_t views = 0;                   // number of captured views, including the centre view
+  OcclusionViews occlusion_views;      // views that see behind edges
+  const Transfer* transfer = nullptr;  // transfer function of the pictures
+  Plane<const uint8_t> centre;         // codes at layer 0
+  Plane<const int16_t> samples;        // centre view at layers 1 and 2, simd::kLayerBits
   int32_t picture_width = 0;
   int32_t picture_height = 0;
-  ViewReader reader;                      // of the views' light, or of their excess (excess.h)
-  bool is_excess = false;                 // which of both; layer 0
-  ViewReader light;                       // with is_excess: of light
-  Plane<const int16_t> disparity;         // of the pictures, kDisparityBits
-  Plane<const uint8_t> given_coverage;    // of the light field, 255: whole; null: there is none
-  const CoverageMap* coverage = nullptr;  // found of that, or of thin structures; null: none
+  ViewReader reader;                      // reads light of the views, or excess (excess.h)
+  bool is_excess = false;                 // true: `reader` reads excess, at layer 0
+  ViewReader light;                       // reads light if is_excess
+  Plane<const int16_t> disparity;         // at the size of the pictures, kDisparityBits
+  Plane<const uint8_t> given_coverage;    // coverage of the light field, 255: covered; null: none
+  const CoverageMap* coverage = nullptr;  // computed from it, or for thin structures; null: none
 };
 
-// Places one after the other in a captured view: the first at (x, y) of the layer, kShiftBits, each
-// (dx, dy) pixels of the layer after the one before.
+// Sequence of places in a captured view. The first place is (x, y) of the layer, kShiftBits. Each
+// step adds (dx, dy) pixels of the layer.
 struct CapturedLine {
   int32_t x, y, dx, dy;
 };
 
-// The light at the first `count` places of a line in captured view `index`, R, G and B each; places
-// outside the picture take the nearest pixel inside. Interpolated linearly at L = 0; at L > 0 a
-// binomial of 2^(L+1) - 1 taps per axis around the nearest pixel of the picture subsamples: what
-// shows in a hole of a defocused block is blurred by at least 3 pixels of the layer afterwards.
+// Reads the light at the first `count` places of a line in captured view `index`, in RGB order.
+// Places outside the picture use the nearest pixel inside. At L = 0 it interpolates linearly. At L
+// > 0 it subsamples with a triangular filter of 2^(L+1) - 1 taps per axis around the nearest pixel
+// of the picture. That is sufficient because a hole in a defocused block is blurred by at least 3
+// pixels of the layer afterwards.
 void ReadCaptured(const Window& window, int index, const CapturedLine& line, int32_t count,
                   int16_t* rgb);
 
-// Pixels of the picture around such a place that it is made of.
+// Returns the number of pixels of the picture that ReadCaptured reads around a place.
 constexpr int32_t CapturedBorder(int layer) { return layer == 0 ? 1 : (1 << layer) - 1; }
 
-// One such colour at L = 0 before it is rounded, with 2 * kShiftBits more.
+// Reads one place at L = 0 without rounding, with 2 * kShiftBits more fractional bits.
 void InterpolateCaptured(const Window& window, int index, int32_t x, int32_t y, int32_t* rgb);
 
-// Whether any of the views has codes of kFirstExcess or more in the columns and rows of `rect`.
+// Returns true if any view has a code of at least kFirstExcess in `rect`.
 bool MayHaveHighlights(const Window& window, const Rect& rect);
 
-// Whether all pixels of all views in the columns and rows of `rect` are highlights.
+// Returns true if all pixels of all views in `rect` are highlights.
 bool AreAllHighlights(const Window& window, const Rect& rect);
 
 }  // namespace starfocus
