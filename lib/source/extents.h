@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The memory that a call reads or writes, to find overlaps.
+// Address ranges that a call reads or writes, to detect overlaps.
 #ifndef STARFOCUS_LIB_SOURCE_EXTENTS_H_
 #define STARFOCUS_LIB_SOURCE_EXTENTS_H_
 
@@ -10,7 +10,8 @@
 
 namespace starfocus {
 
-// All planes of a light field in any format, or of two that are in place, and four more pieces.
+// Capacity: all planes of a light field in any format, or of two in-place light fields, and four
+// more.
 struct Extents {
   Extent of[3 * kMaxViews + 4];
   int count = 0;
@@ -32,7 +33,7 @@ inline bool Overlaps(const Extent& a, const Extents& b) {
   return false;
 }
 
-// Checks that an output does not overlap what is read; `name` is its argument's.
+// Checks that an output does not overlap the inputs. `name` is the name of the output argument.
 inline starfocus_status CheckApart(const Extent& out, const Extents& read, const char* name,
                                    starfocus_problem* problem) {
   if (!Overlaps(out, read)) return STARFOCUS_OK;

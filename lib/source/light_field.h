@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A light field of the caller's during a call. Disparities are converted as they are loaded. Views
-// that are all rows of R, G, B are read in place; else rows of the centre view are converted into
-// the engine's ring, and pixels of side views where they are read.
+// Light field of the caller during a call. Disparities are converted when they are loaded. If all
+// views are packed RGB, they are read in place. Otherwise rows of the centre view are converted to
+// the engine's ring, and pixels of side views are converted when they are read.
 #ifndef STARFOCUS_LIB_SOURCE_LIGHT_FIELD_H_
 #define STARFOCUS_LIB_SOURCE_LIGHT_FIELD_H_
 
@@ -16,22 +16,22 @@ namespace starfocus {
 struct LightField {
   const simd::ImageKernels* kernels;
   ImageSource views[kMaxViews];
-  int32_t first;  // row of the picture that the views begin with
-  bool in_place;
+  int32_t first;  // row of the picture where the views start
+  bool in_place;  // true: all views are packed RGB
   DepthSource depth;
-  Plane<const uint8_t> coverage;  // null: there is none
-  PlaneViews planes;              // in place: the views; else view 0 alone, the engine's ring
+  Plane<const uint8_t> coverage;  // null: no coverage
+  PlaneViews planes;              // in place: all views; otherwise only view 0, the engine's ring
 };
 
-// Makes *field of a light field that has been checked, whose rows begin with row `first` of the
-// picture. Columns of a smaller map go into the engine's memory.
+// Initialises *field from a valid light field whose rows start with row `first` of the picture. The
+// column table for a smaller map is stored in the engine's memory.
 void MakeLightField(const starfocus_light_field& given, int32_t first, EngineState* engine,
                     LightField* field);
 
-// Returns a source of the field's rows; the field must outlive it.
+// Returns a source of the field's rows. The field must outlive it.
 RowSource SourceOf(const LightField& field);
 
-// Points the engine's windows at the field, which must stay unless it is in place.
+// Makes the engine's windows read from the field. The field must stay valid unless it is in place.
 void UseLightField(const LightField& field, EngineState* engine);
 
 }  // namespace starfocus

@@ -9,12 +9,12 @@
 namespace starfocus {
 namespace {
 
-// Converts pairs of the image's rows: job `index` of `jobs` has as many as the others, but for one.
+// Converts pairs of rows of the image. Job `index` of `jobs` converts PartOf the pairs.
 struct PairsJob {
   const PictureOutput* out;
   Plane<uint8_t> from;
-  const uint8_t* odd_row;  // of the pair that the rows before have begun
-  RowRange rows;           // of the image
+  const uint8_t* odd_row;  // upper row of a pair that an earlier call started
+  RowRange rows;           // rows of the image
   int32_t jobs;
 };
 
@@ -54,7 +54,8 @@ void CopyColumns(const PictureOutput& out, const Plane<uint8_t>& from, int32_t y
               from.Row(y) + 3 * static_cast<size_t>(first), 3 * static_cast<size_t>(last - first));
 }
 
-// Copies row y, or what changed of it, and the rest from the picture before.
+// Copies row y. If there is a previous picture, it copies the row of that picture and overwrites
+// the changed columns.
 void StoreRow(const PictureOutput& out, const Plane<uint8_t>& from, int32_t y,
               const EngineState& engine) {
   const Rect& rect = out.rect;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The way from finished rows of R, G, B to a picture of the caller's, in any format.
+// Writes finished RGB rows to a picture of the caller in any format.
 #ifndef STARFOCUS_LIB_SOURCE_PICTURE_OUTPUT_H_
 #define STARFOCUS_LIB_SOURCE_PICTURE_OUTPUT_H_
 
@@ -8,18 +8,18 @@
 
 namespace starfocus {
 
-// A picture for `rect` of the whole one.
+// Output picture for the part `rect` of the whole picture.
 struct PictureOutput {
   const simd::ImageKernels* kernels;
   ImageTarget image;
   Rect rect;
-  AlphaSource alpha;  // of the whole picture; none: it is 255
-  // Where what has not changed comes from; null: nowhere. Both pictures are in place then.
+  AlphaSource alpha;  // alpha of the whole picture; null rows: alpha is 255
+  // Source of unchanged pixels, or null. If it is set, both pictures are packed RGB.
   const starfocus_image* previous = nullptr;
 };
 
-// Returns a sink that writes to `out`, which must outlive it. Chroma of a last row that has its
-// partner below waits for that.
+// Returns a sink that writes to `out`, which must outlive it. If the last row shares its chroma
+// with the row below, the chroma is written with that row.
 RowSink SinkOf(const PictureOutput& out);
 
 }  // namespace starfocus

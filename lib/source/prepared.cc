@@ -10,15 +10,15 @@
 namespace starfocus {
 namespace {
 
-// Makes the layers and reduced light fields in the planes of `prepared`, and converts the map.
+// Converts the map and computes the layers and reduced light fields into the planes of `prepared`.
 starfocus_status MakeLayers(const Prepared& prepared, const RowSource& source,
                             EngineState* engine) {
   LayerPlane own[STARFOCUS_LAYERS];
   for (int layer = 0; layer < STARFOCUS_LAYERS; ++layer)
     own[layer] = engine->row_store.layers[layer];
   const int32_t height = engine->config.height, side = engine->config.superblock;
-  // Layers end beyond the picture (LayerSize), by fewer than so many of its pixels; PlaceLayers
-  // leaves out what lies beyond them.
+  // Layers extend beyond the picture (LayerSize) by fewer than kBeyond of its pixels. PlaceLayers
+  // omits rows beyond the layers.
   constexpr int32_t kBeyond = 16;
   RowRange read = {0, 0};
   starfocus_status status = STARFOCUS_OK;
@@ -33,7 +33,7 @@ starfocus_status MakeLayers(const Prepared& prepared, const RowSource& source,
           prepared.layers[layer].Row(engine->row_store.layers[layer].rows.first);
     }
     engine->workers.jobs.call_progress.SetRows(y);
-    // The filters' taps reach as far below the stripe.
+    // The filters read up to kBeyond rows below the stripe.
     read = {read.last, Min(height, y + side + kBeyond)};
     status = LoadRows(source, read, prepared.disparity, engine);
     if (status != STARFOCUS_OK) break;
@@ -53,7 +53,7 @@ starfocus_status MakeLayers(const Prepared& prepared, const RowSource& source,
 size_t LayOutPrepared(const starfocus_config& config, void* base, Prepared** prepared) {
   Arena arena(base);
   *prepared = arena.Take<Prepared>(1);
-  Prepared counted;  // stands in for **prepared while counting
+  Prepared counted;  // used instead of **prepared while counting
   Prepared& p = *prepared == nullptr ? counted : **prepared;
   const auto width = static_cast<size_t>(config.width), height = static_cast<size_t>(config.height);
   p.disparity.stride = width;

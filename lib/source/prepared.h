@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What of a light field depends on no lens, in memory of its own: checked and converted disparities
-// and the layers of the centre view.
+// Prepared light field: data that does not depend on the lens, in its own memory. It consists of
+// checked and converted disparities, the layers of the centre view and reduced light fields.
 #ifndef STARFOCUS_LIB_SOURCE_PREPARED_H_
 #define STARFOCUS_LIB_SOURCE_PREPARED_H_
 
@@ -14,39 +14,39 @@
 namespace starfocus {
 
 struct Prepared {
-  starfocus_config config;  // of the engine that made it
+  starfocus_config config;  // configuration of the engine that made it
   starfocus_light_field light_field;
-  bool covers = false;       // whether the light field has coverage
+  bool covers = false;       // true: the light field has coverage
   Plane<int16_t> disparity;  // all rows
   Plane<int16_t>
       layers[STARFOCUS_LAYERS];  // samples: all rows of layers 1 to config.tuning.max_layer
-  ReducedField reduced[STARFOCUS_MAX_PREVIEW + 1];  // by shift, from 1 to config.previews
+  ReducedField reduced[STARFOCUS_MAX_PREVIEW + 1];  // indexed by shift, from 1 to config.previews
 };
 
-// Lays out a prepared light field for a valid configuration at `base`, or counts when base is null.
-// Returns the bytes used, or kTooLarge; *prepared is null when counting.
+// Lays out a prepared light field for a valid configuration at `base`. If `base` is null, it only
+// counts and sets *prepared to null. Returns the number of bytes, or kTooLarge.
 size_t LayOutPrepared(const starfocus_config& config, void* base, Prepared** prepared);
 
-// A call that prepares a light field, whatever its format.
+// Memory for a prepared light field, from a call with any format.
 struct PrepareCall {
   void* memory;
   size_t bytes;
 };
 
-// Prepares the light field that the engine's views show and `source` gives: checks and converts the
-// map, and makes the layers and the reduced light fields stripe by stripe, in the engine's own
-// planes but for the pixels. *prepared is null on error; the memory stays as it is when a row of
-// the map is bad.
+// Prepares the light field of the engine's views and of `source`. It checks and converts the map,
+// and computes the layers and reduced light fields stripe by stripe. It uses the engine's planes
+// except for the pixels. On error *prepared is null. If a row of the map is invalid, the memory is
+// not changed.
 starfocus_status Prepare(const PrepareCall& call, const RowSource& source, EngineState* engine,
                          Prepared** prepared);
 
-// Whether an engine of `config` may refocus it.
+// Returns true if an engine of `config` can refocus the prepared light field.
 bool Fits(const Prepared& prepared, const starfocus_config& config);
 
-// Returns the memory it lives in.
+// Returns the address range of the prepared light field.
 Extent PreparedMemory(const Prepared& prepared);
 
-// Has the engine, whose views and lens are set, read its disparities and layers there.
+// Makes the engine read disparities and layers from `prepared`. Its views and lens must be set.
 void UsePrepared(const Prepared& prepared, EngineState* engine);
 
 }  // namespace starfocus

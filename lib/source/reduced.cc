@@ -7,7 +7,7 @@
 namespace starfocus {
 namespace {
 
-// Reduces the columns of a superblock.
+// Reduces the columns of one superblock.
 struct ReduceJob {
   const EngineState* engine;
   Plane<int16_t> disparity;
@@ -16,7 +16,7 @@ struct ReduceJob {
   const ReducedField* fields;
 };
 
-// A part of a picture's columns.
+// A range of columns of the picture.
 struct ColumnPart {
   int32_t x, width;
 };
@@ -29,7 +29,7 @@ void AddLight(const int16_t* light, size_t samples, bool is_first, uint32_t* sum
   }
 }
 
-// Returns false when the caller cancels.
+// Returns false after cancellation.
 bool ReduceView(const ReduceJob& job, int view, const ColumnPart& part, Scratch* scratch) {
   const EngineState& engine = *job.engine;
   const Window& window = engine.row_store.windows[0];
@@ -54,17 +54,17 @@ bool ReduceView(const ReduceJob& job, int view, const ColumnPart& part, Scratch*
   return true;
 }
 
-// An end of a range, which lies in it.
+// Converts an end of the range of disparities, which lies in the range.
 int16_t ConvertedEnd(const EngineState& engine, float end) {
   int16_t converted = 0;
   engine.kernels->ConvertDisparity(&end, 1, end, end, &converted);
   return converted;
 }
 
-// Returns false when the caller cancels.
+// Returns false after cancellation.
 bool ReduceMap(const ReduceJob& job, int shift, const ColumnPart& part, Scratch* scratch) {
   const starfocus_config reduced = ReducedConfig(job.engine->config, shift);
-  // Rounding twice may leave the range by one step.
+  // The second rounding may leave the range by one step.
   const int16_t low = ConvertedEnd(*job.engine, static_cast<float>(reduced.disparity_min));
   const int16_t high = ConvertedEnd(*job.engine, static_cast<float>(reduced.disparity_max));
   const int32_t side = 1 << shift;
@@ -85,7 +85,7 @@ bool ReduceMap(const ReduceJob& job, int shift, const ColumnPart& part, Scratch*
   return true;
 }
 
-// Returns false when the caller cancels.
+// Returns false after cancellation.
 bool ReduceCoverage(const ReduceJob& job, int shift, const ColumnPart& part, Scratch* scratch) {
   const Plane<const uint8_t>& given = job.engine->row_store.windows[0].given_coverage;
   const Plane<uint8_t>& coverage = job.fields[shift].coverage;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A prepared light field's own light fields of 1/2, 1/4 and 1/8 of the size, for previews.
+// Copies of a prepared light field at 1/2, 1/4 and 1/8 of its size, for previews.
 #ifndef STARFOCUS_LIB_SOURCE_REDUCED_H_
 #define STARFOCUS_LIB_SOURCE_REDUCED_H_
 
@@ -15,17 +15,17 @@ static_assert(STARFOCUS_MAX_PREVIEW == kMaxReduction, "every preview is a reduct
 struct ReducedField {
   Plane<uint8_t> views[kMaxViews];  // codes of all rows
   Plane<int16_t> disparity;         // kDisparityBits, in pixels of the reduced picture
-  Plane<uint8_t> coverage;          // null: the configuration finds none
+  Plane<uint8_t> coverage;          // null: the configuration has no coverage
 };
 
-// The configuration of an engine for the light field of `config`, an engine's own, reduced.
+// Returns the configuration of an engine for the light field of `config`, reduced by `shift`.
 starfocus_config ReducedConfig(const starfocus_config& config, int shift);
 
 void TakeReduced(const starfocus_config& config, int shift, Arena* arena, ReducedField* field);
 
-// Reduces rows [rows.first, rows.last) of the light field that the engine's windows show, by all
-// shifts from 1 to `previews` into fields[shift]; disparities are those of `disparity`. The first
-// row is a multiple of the superblock, and so is the last one but at the picture's end.
+// Reduces rows [rows.first, rows.last) of the light field in the engine's windows by all shifts
+// from 1 to `previews`. Results go to fields[shift]; disparities are read from `disparity`. Both
+// ends of the rows are multiples of the superblock size, except at the bottom of the picture.
 starfocus_status ReduceRows(const Plane<int16_t>& disparity, const RowRange& rows, int32_t previews,
                             const ReducedField* fields, EngineState* engine);
 
