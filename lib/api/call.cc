@@ -8,14 +8,14 @@
 namespace starfocus {
 namespace {
 
-// Sets up the comparison with the light field before.
+// Sets up the comparison with the previous light field.
 void CompareWith(const Call& call, EngineState* engine) {
   const starfocus_config& config = engine->config;
   FrameDiff& changes = engine->stripe.changes;
   changes.active = true;
   changes.before = call.before;
   changes.now = call.now;
-  // Depth-dependent blur is that of the centre view.
+  // Blur by depth reads only the centre view.
   changes.views = call.params.mode == STARFOCUS_MODE_BLUR ? 1 : config.views;
   changes.fills = Has(config.features, STARFOCUS_FEATURE_FILL_UNKNOWN);
   changes.width = config.width;

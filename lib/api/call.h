@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A refocusing as all functions of the C ABI start it, whatever their formats.
+// Common part of all functions of the C API that refocus, for all formats.
 #ifndef STARFOCUS_LIB_API_CALL_H_
 #define STARFOCUS_LIB_API_CALL_H_
 
@@ -14,18 +14,20 @@ struct Call {
   const starfocus_params& params;
   RowSource source;
   RowSink sink;
-  const Prepared* prepared = nullptr;                             // null: there is none
-  const starfocus_light_field *before = nullptr, *now = nullptr;  // null: nothing to compare with
+  const Prepared* prepared = nullptr;                             // null: not prepared
+  const starfocus_light_field *before = nullptr, *now = nullptr;  // null: no comparison
 };
 
-// Checks params, and the prepared light field (null: none) against the engine's configuration.
+// Checks `params` and the prepared light field (null: none) against the configuration of the
+// engine.
 starfocus_status CheckCall(const starfocus_config& config, const starfocus_params& params,
                            const Prepared* prepared);
 
-// The memory of the engine and of a prepared light field, which no output may overlap.
+// Returns the memory of the engine and of a prepared light field. Outputs must not overlap it.
 Extents MemoryOf(const EngineState& engine, const Prepared* prepared);
 
-// Refocuses. The views must be set and everything checked but the values of the map.
+// Runs a refocusing. The views must be set, and everything except the values of the map must have
+// been checked.
 starfocus_status RunCall(const Call& call, EngineState* engine, starfocus_report* report);
 
 }  // namespace starfocus

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The C ABI of engines in memory of an allocator's. The library's only calls of the heap are here,
-// in a unit of its own, so that a static program that gives its memory links none.
+// C API: engines in memory from an allocator. All calls of malloc and free are in this file, so
+// that static programs that provide the memory do not link the heap.
 #include <cstdint>
 #include <cstdlib>
 
@@ -13,8 +13,8 @@ using namespace starfocus;
 namespace starfocus {
 namespace {
 
-// The heap's memory is aligned by hand, since not every C library has a function for that: before
-// what is given out lies what malloc gave.
+// Not every C library can allocate aligned memory. The block is therefore aligned by hand; the
+// pointer from malloc is stored before the result.
 void* AllocateFromHeap(void*, size_t bytes, size_t alignment) {
   if (bytes > SIZE_MAX - alignment) return nullptr;
   void* const memory = std::malloc(bytes + alignment);
@@ -26,7 +26,7 @@ void* AllocateFromHeap(void*, size_t bytes, size_t alignment) {
 
 void ReleaseToHeap(void*, void* memory, size_t) { std::free(static_cast<void**>(memory)[-1]); }
 
-// Whether a function is there, as a pointer that is null or not.
+// Converts a function to a pointer, for null checks.
 template <class Function>
 const void* Address(Function* function) {
   return reinterpret_cast<const void*>(function);
@@ -66,7 +66,7 @@ void starfocus_destroy(starfocus_engine* engine) {
   if (engine == nullptr) return;
   const EngineState& state = *reinterpret_cast<EngineState*>(engine);
   if (state.allocator.release == nullptr) return;
-  // The engine ends with its memory, where the allocator is kept as well.
+  // The engine contains a copy of the allocator, which must outlive the engine.
   const starfocus_allocator allocator = state.allocator;
   allocator.release(allocator.data, engine, state.bytes);
 }

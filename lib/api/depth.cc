@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The C ABI of estimating and repairing disparities: checks, memory.
+// C API: estimates and repairs disparity maps. This file checks arguments and lays out memory.
 #include "starfocus/depth.h"
 
 #include <cmath>
@@ -26,7 +26,7 @@ starfocus_status CheckDepthConfig(const starfocus_depth_config& config, bool rep
   return check.status();
 }
 
-// Checks that the outputs overlap nothing that is read, nor the workspace, nor each other.
+// Checks that the outputs do not overlap the inputs, the workspace or each other.
 starfocus_status CheckOverlap(const starfocus_depth_config& config,
                               const starfocus_light_field& light_field, bool repairs,
                               const starfocus_disparity_output& map, const Extent& workspace) {
@@ -52,8 +52,8 @@ starfocus_status CheckOverlap(const starfocus_depth_config& config,
   return status;
 }
 
-// Checks the map that is to be repaired: its finite values lie in the configured range, and there
-// is one.
+// Checks the map to repair: at least one value is finite, and all finite values lie in the
+// configured range.
 starfocus_status CheckGiven(const starfocus_depth_config& config,
                             const starfocus_light_field& light_field) {
   const auto low = static_cast<float>(config.disparity_min);
@@ -102,7 +102,7 @@ starfocus_status SizeOf(const starfocus_depth_config* config, bool repairs, size
   return STARFOCUS_OK;
 }
 
-// What a call works with.
+// Arguments of a call.
 struct DepthCall {
   const starfocus_depth_config* config;
   const starfocus_light_field* light_field;
@@ -150,7 +150,7 @@ starfocus_status CheckCall(const DepthCall& call, bool repairs,
   return status == STARFOCUS_OK && repairs ? CheckGiven(config, light_field) : status;
 }
 
-// Makes a map with the caller's runner and progress function.
+// Computes a map with the caller's runner and progress function.
 template <class Make>
 starfocus_status Watched(const starfocus_depth_config& config, JobSet* jobs, const Make& make) {
   jobs->runner = {config.runner, config.runner_data};
@@ -163,7 +163,7 @@ starfocus_status Watched(const starfocus_depth_config& config, JobSet* jobs, con
   return call_progress->Ask() ? STARFOCUS_OK : STARFOCUS_ERROR_CANCELLED;
 }
 
-// Repairs by colour. Says whether there is coverage.
+// Repairs a map by colour. Sets *has_coverage to 1 if it finds coverage, otherwise to 0.
 starfocus_status RepairOneView(const DepthCall& call, const MapOutput& output,
                                int32_t* has_coverage) {
   const EstimatePlan plan = PlanOf(*call.config, true);
@@ -176,7 +176,7 @@ starfocus_status RepairOneView(const DepthCall& call, const MapOutput& output,
   return status;
 }
 
-// Estimates, or repairs by all views.
+// Estimates a map, or repairs one with all views.
 starfocus_status SweepViews(const DepthCall& call, bool repairs, const MapOutput& output) {
   const EstimatePlan plan = PlanOf(*call.config, repairs);
   const simd::DepthKernels& kernels = simd::BestDepthKernels();
@@ -189,7 +189,7 @@ starfocus_status SweepViews(const DepthCall& call, bool repairs, const MapOutput
   });
 }
 
-// Checks a call and does it.
+// Checks and runs a call.
 starfocus_status RunCall(DepthCall call, bool repairs, starfocus_disparity_output* map) {
   starfocus_depth_config full = DefaultDepthConfig();
   starfocus_status status = EnterConfig(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measuring and mending whole disparity maps, before any engine exists.
+// C API: measures disparity maps and fills their gaps. Needs no engine.
 #include "lib/api/validate.h"
 #include "lib/base/gaps.h"
 #include "starfocus/starfocus.h"
@@ -7,7 +7,7 @@
 namespace starfocus {
 namespace {
 
-// A line of a map: elements `step` floats apart.
+// A line of a map, whose elements are `step` floats apart.
 struct MapLine {
   float* data;
   size_t step;
@@ -60,7 +60,7 @@ starfocus_status starfocus_fill_disparity(float* disparity, size_t stride, int32
   for (int32_t y = 0; y < height; ++y) {
     FillLine({disparity + static_cast<size_t>(y) * row_step, 1, width});
   }
-  // Rows that had nothing are still wholly invalid, so every column has the same gaps.
+  // Rows without a known value are still completely unknown, so all columns have the same gaps.
   for (int32_t x = 0; x < width; ++x) FillLine({disparity + x, row_step, height});
   return STARFOCUS_OK;
 }

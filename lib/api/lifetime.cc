@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The C ABI of an engine's life: defaults, sizes, init.
+// C API: default values, sizes and initialisation of engines.
 #include <new>
 
 #include "lib/api/validate.h"
@@ -13,9 +13,9 @@ using namespace starfocus;
 namespace starfocus {
 namespace {
 
-// The configuration with a superblock in place of 0. Wide pictures are up to an eighth faster in
-// blocks of 128, which share what lies around them, and leave enough blocks for all workers; a
-// worker takes four times the memory then.
+// Returns the configuration with a superblock size in place of 0. Superblocks of 128 pixels make
+// wide pictures up to 1/8 faster, because they share more of their surroundings. Wide pictures
+// still have enough superblocks for all workers. A worker needs four times the memory.
 starfocus_config Choose(const starfocus_config& config) {
   constexpr int32_t kWide = 1536;
   starfocus_config chosen = config;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A lens in a photographer's words: focused on what is at a pixel, stopped down to an f-stop.
+// C API: converts a photographer's settings, a tapped pixel and an f-stop, to lens parameters.
 #include <cmath>
 
 #include "lib/api/validate.h"
@@ -9,17 +9,17 @@
 namespace starfocus {
 namespace {
 
-// Pixels around the tap on each side: docs/constants.md.
+// Number of pixels on each side of the tapped one that are read (docs/constants.md).
 constexpr int32_t kAround = 3;
 constexpr int32_t kSide = 2 * kAround + 1;
 
-// Pixels whose disparities lie this near to one are of its surface: between two of them there is no
-// depth edge.
+// Two pixels belong to the same surface as a disparity if both differ from it by at most this
+// value. There is no depth edge between such pixels.
 constexpr double kNear = kSurfaceStep / 2.0 / (1 << kDisparityBits);
 
 struct Map {
   const float* data;
-  size_t row_step;  // floats from row to row
+  size_t row_step;  // in floats
   int32_t width, height;
 
   float At(int32_t x, int32_t y) const {
@@ -27,7 +27,7 @@ struct Map {
   }
 };
 
-// The disparities around a pixel.
+// Disparities around a pixel.
 struct Sorted {
   float values[kSide * kSide];  // ascending
   int32_t count = 0;
@@ -39,7 +39,7 @@ struct Sorted {
   }
 };
 
-// Returns false when one of them is not finite.
+// Returns false if one of the disparities is not finite.
 bool SortAround(const Map& map, int32_t x, int32_t y, Sorted* sorted) {
   for (int32_t row = Max(0, y - kAround); row <= Min(map.height - 1, y + kAround); ++row) {
     for (int32_t column = Max(0, x - kAround); column <= Min(map.width - 1, x + kAround);
@@ -52,13 +52,13 @@ bool SortAround(const Map& map, int32_t x, int32_t y, Sorted* sorted) {
   return true;
 }
 
-// Indices from `first` up to, not including, `last`.
+// Indices [first, last).
 struct SortedPart {
   int32_t first, last;
   int32_t count() const { return last - first; }
 };
 
-// The part that is near `disparity`, which one at least must be.
+// Returns the values near `disparity`. There must be at least one.
 SortedPart PartNear(const Sorted& sorted, double disparity) {
   SortedPart part = {0, 0};
   while (part.first + 1 < sorted.count && sorted.values[part.first] < disparity - kNear) {
@@ -74,8 +74,8 @@ double Median(const Sorted& sorted, const SortedPart& part) {
   return part.count() % 2 != 0 ? double{middle[0]} : (double{middle[-1]} + middle[0]) / 2;
 }
 
-// Whether a neighbour of the pixel is of its surface. A wire one pixel wide has such neighbours, a
-// wrong value has none.
+// Returns true if a neighbour of the pixel is on the same surface. This holds for a wire one pixel
+// wide, but not for a wrong value.
 bool HasNeighbour(const Map& map, int32_t x, int32_t y) {
   const double disparity = map.At(x, y);
   for (int32_t row = Max(0, y - 1); row <= Min(map.height - 1, y + 1); ++row) {
@@ -87,7 +87,7 @@ bool HasNeighbour(const Map& map, int32_t x, int32_t y) {
   return false;
 }
 
-// The disparity that most are near to; of several the smallest.
+// Returns the disparity with the most values near it; of several, the smallest.
 double MostCommon(const Sorted& sorted) {
   int32_t most = 0, best = 0;
   for (int32_t k = 0; k < sorted.count; ++k) {
@@ -114,7 +114,7 @@ starfocus_status starfocus_focus_at(const float* disparity, size_t stride, int32
   Sorted sorted;
   if (!SortAround(map, x, y, &sorted)) return STARFOCUS_ERROR_NOT_FINITE;
   double surface = HasNeighbour(map, x, y) ? double{map.At(x, y)} : MostCommon(sorted);
-  // Once more, since what is near the first median depends less on the noise of the pixel itself.
+  // A second iteration makes the result less dependent on the noise of the pixel itself.
   for (int round = 0; round < 2; ++round) {
     surface = Median(sorted, PartNear(sorted, surface));
   }

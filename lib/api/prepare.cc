@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The C ABI for light fields that are prepared once.
+// C API: prepared light fields.
 #include "lib/api/validate.h"
 #include "lib/api/validate_image.h"
 #include "lib/engine/layout.h"
@@ -10,8 +10,7 @@
 namespace starfocus {
 namespace {
 
-// Checks the memory that a prepared light field is to be made in, which must not overlap what is
-// `read`.
+// Checks the memory for a prepared light field. It must not overlap the inputs in `read`.
 starfocus_status CheckPreparedMemory(const EngineState& engine, const PrepareCall& call,
                                      Extents* read) {
   Prepared* counted = nullptr;

@@ -10,7 +10,7 @@
 namespace starfocus {
 namespace {
 
-// As long as it lives, the engine is one of the size of previews.
+// Changes the engine to the size of previews during the lifetime of the object.
 class Reduction {
  public:
   Reduction(int32_t shift, EngineState* engine) : config_(engine->config), engine_(engine) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Previews: an engine that for the time of a call is one of a reduced light field's size.
+// Previews: the engine temporarily changes to the size of a reduced light field.
 #ifndef STARFOCUS_LIB_API_PREVIEW_H_
 #define STARFOCUS_LIB_API_PREVIEW_H_
 

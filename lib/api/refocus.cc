@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The C ABI for whole pictures, regions of them, and previews.
+// C API: refocuses whole pictures, regions and previews.
 #include "lib/api/call.h"
 #include "lib/api/preview.h"
 #include "lib/api/validate.h"
@@ -12,7 +12,7 @@
 namespace starfocus {
 namespace {
 
-// A refocusing as the C ABI asks for it; prepared may be null.
+// Arguments of a refocusing. `prepared` may be null.
 struct Request {
   const starfocus_params& params;
   const starfocus_light_field& light_field;
@@ -20,7 +20,7 @@ struct Request {
   const starfocus_image& out;
 };
 
-// Checks the frame before, if there is one: it can be compared only in place.
+// Checks the previous frame, if there is one. Frames can be compared only if all are read in place.
 starfocus_status CheckPrevious(const starfocus_config& config, const Request& request,
                                const PictureSize& size) {
   const starfocus_previous* const previous = request.params.previous;
@@ -39,7 +39,7 @@ starfocus_status CheckPrevious(const starfocus_config& config, const Request& re
   return status == STARFOCUS_OK ? CheckOutput(config, previous->out, size) : status;
 }
 
-// All that `out` may not overlap: all that is read, and the engine.
+// Returns the memory that `out` must not overlap: the inputs and the engine.
 Extents ReadBy(const Request& request, const PictureSize& size, const EngineState& engine) {
   Extents read = MemoryOf(engine, request.prepared);
   AddLightField(engine.config, request.light_field, &read);
@@ -50,7 +50,8 @@ Extents ReadBy(const Request& request, const PictureSize& size, const EngineStat
   return read;
 }
 
-// What the picture before can be compared with: both light fields have coverage, or none has.
+// Returns the previous frame if it is comparable: both light fields have coverage, or neither has
+// it.
 const starfocus_previous* ComparableOf(const Request& request) {
   const starfocus_previous* const previous = request.params.previous;
   if (previous == nullptr) return nullptr;

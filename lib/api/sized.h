@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Structures that begin with their size, of callers whose headers may be older than the library.
+// Access to structures that start with their size. The caller's header may be older than the
+// library.
 #ifndef STARFOCUS_LIB_API_SIZED_H_
 #define STARFOCUS_LIB_API_SIZED_H_
 
@@ -8,7 +9,8 @@
 
 namespace starfocus {
 
-// Writes the defaults as far as the caller's structure goes, zeros beyond, and its size.
+// Writes the defaults to the known part of the caller's structure, zeros to the rest, and sets
+// `size`.
 template <class Structure>
 void InitSized(Structure defaults, uint32_t size, Structure* given) {
   if (given == nullptr || size < sizeof size) return;
@@ -18,8 +20,8 @@ void InitSized(Structure defaults, uint32_t size, Structure* given) {
               size < sizeof defaults ? size : sizeof defaults);
 }
 
-// Reads what the caller's structure has into *full, which holds defaults for the rest. Returns
-// false if it was not initialized, or by a newer header.
+// Copies the caller's structure to *full, which must contain defaults for newer fields. Returns
+// false if the structure was not initialised, or was initialised by a newer header.
 template <class Structure>
 bool ReadSized(const Structure& given, Structure* full) {
   const uint32_t size = given.size;

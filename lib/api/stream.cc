@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The streaming half of the C ABI: rows in, finished rows out, through the engine's line rings.
+// C API: streams. Input rows go to ring buffers, and finished rows can be pulled.
 #include "lib/api/call.h"
 #include "lib/api/validate.h"
 #include "lib/api/validate_image.h"
@@ -13,7 +13,7 @@
 namespace starfocus {
 namespace {
 
-// Input rows that the next stripe reads.
+// Returns the number of input rows that must be pushed before the next stripe.
 int32_t NeededRows(const EngineState& engine) {
   return Min(engine.config.height, engine.stream.next + engine.config.superblock +
                                        LargestBorders(engine.config).streamed);
@@ -40,7 +40,7 @@ starfocus_status CheckCount(const EngineState& engine, int32_t rows, int32_t mos
   return check.status();
 }
 
-// Checks that `rows` rows from row `first` of the picture on are as many as a format takes.
+// Checks the number of rows from row `first` on: YUV formats need pairs of rows.
 starfocus_status CheckPairs(const starfocus_config& config, bool is_yuv, int32_t first,
                             int32_t rows) {
   Checker check(config.problem);
@@ -67,7 +67,7 @@ starfocus_status CheckPush(const EngineState& engine, const starfocus_light_fiel
   return CheckPairs(config, AnyYuv(config, light_field), pushed, rows);
 }
 
-// `rows` are at most as many as are left.
+// Checks a pull of `rows` rows, at most the number of remaining rows.
 starfocus_status CheckPull(const EngineState& engine, const starfocus_image& out, int32_t rows) {
   const starfocus_config& config = engine.config;
   starfocus_status status = CheckOutput(config, out, {config.width, config.height});
@@ -78,8 +78,8 @@ starfocus_status CheckPull(const EngineState& engine, const starfocus_image& out
   return CheckOutputApart(out, {config.width, rows}, MemoryOf(engine, nullptr), config.problem);
 }
 
-// Copies up to `rows` next rows of the source, `unit` (1 or 2) at a time, as long as the next
-// stripe needs some. *consumed counts them.
+// Copies up to `rows` rows of the source while the next stripe needs more, `unit` (1 or 2) at a
+// time. Adds the number of copied rows to *consumed.
 starfocus_status PushRows(const RowSource& source, int32_t rows, int32_t unit, EngineState* engine,
                           int32_t* consumed) {
   Stream& stream = engine->stream;
@@ -98,7 +98,7 @@ starfocus_status PushRows(const RowSource& source, int32_t rows, int32_t unit, E
   while (*consumed < rows && stream.pushed < NeededRows(*engine)) {
     const int32_t some = Min(unit, rows - *consumed);
     const starfocus_report report = engine->report;
-    // Both rows of a pair, or none.
+    // copies both rows of a pair or none
     for (int32_t k = 0; k < some; ++k) {
       const starfocus_status status = CopyRow(source, stream.pushed + k, engine);
       if (status == STARFOCUS_OK) continue;
@@ -111,8 +111,8 @@ starfocus_status PushRows(const RowSource& source, int32_t rows, int32_t unit, E
   return STARFOCUS_OK;
 }
 
-// Stores up to `rows` next rows, and refocuses the stripes that these need and whose rows are
-// there. *written counts the rows.
+// Stores up to `rows` rows, and refocuses the stripes that they need if all input rows are
+// available. Adds the number of stored rows to *written.
 starfocus_status PullRows(const RowSink& sink, int32_t rows, EngineState* engine,
                           int32_t* written) {
   Stream& stream = engine->stream;

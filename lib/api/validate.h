@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks of everything that comes from outside, before anything is written.
+// Checks of all arguments of the C API. They run before anything is written.
 #ifndef STARFOCUS_LIB_API_VALIDATE_H_
 #define STARFOCUS_LIB_API_VALIDATE_H_
 
@@ -13,8 +13,8 @@
 
 namespace starfocus {
 
-// Begins a call with a configuration: reads it into *full, which holds defaults, forgets the
-// problem of the call before, and checks that no pointer is null.
+// Starts a call with a configuration. Copies the configuration to *full, which must contain
+// defaults, clears the problem of the previous call, and checks that no pointer is null.
 template <class Config>
 starfocus_status EnterConfig(const Config* config, std::initializer_list<Pointer> pointers,
                              Config* full) {
@@ -27,14 +27,14 @@ starfocus_config DefaultConfig();
 
 starfocus_params DefaultParams();
 
-// Begins a call with an engine.
+// Starts a call with an engine: clears its problem and checks that no pointer is null.
 starfocus_status EnterEngine(starfocus_engine* engine, std::initializer_list<Pointer> pointers);
 
-// Begins a call that refocuses: reads the params, one of the pointers, into *full.
+// Starts a call that refocuses. Also copies `params`, which must be one of the pointers, to *full.
 starfocus_status EnterCall(starfocus_engine* engine, std::initializer_list<Pointer> pointers,
                            const starfocus_params* params, starfocus_params* full);
 
-// What configurations of engines and of maps have in common.
+// Fields that configurations of engines and of depth maps share.
 struct PictureRange {
   int32_t width, height;
   double disparity_min, disparity_max;
@@ -42,18 +42,18 @@ struct PictureRange {
 };
 void CheckPictureRange(const PictureRange& picture, Checker* check);
 
-// The checks below tell config.problem what they refuse, or `problem` (null: nobody).
+// The checks below report a rejected field to config.problem or to `problem`, which may be null.
 starfocus_status CheckConfig(const starfocus_config& config);
 starfocus_status CheckParams(const starfocus_config& config, const starfocus_params& params);
 
-// Memory of a caller's; the name is that of the argument.
+// Memory of the caller. `name` is the name of the argument.
 struct Memory {
   const char* name;
   const void* data;
   size_t bytes;
 };
 
-// Checks memory to lay something of `needed` bytes out in.
+// Checks that memory is aligned and has at least `needed` bytes.
 starfocus_status CheckMemory(const Memory& memory, size_t needed, starfocus_problem* problem);
 
 struct MapPlane {
@@ -61,14 +61,14 @@ struct MapPlane {
   size_t stride;
 };
 
-// Checks a disparity map by itself.
+// Checks the pointer, size and stride of a disparity map.
 starfocus_status CheckMap(const MapPlane& map, int32_t width, int32_t height,
                           starfocus_problem* problem);
 
-// Tells whether rows are as wide as `row_bytes`, and all of them addressable.
+// Returns true if a stride is at least `row_bytes` and all rows are addressable.
 bool ValidStride(size_t stride, size_t row_bytes, int32_t rows);
 
-// Whether a light field may have that coverage, or none: null.
+// Checks the stride of the coverage of a light field; null: no coverage.
 starfocus_status CheckCoverage(const starfocus_config& config, const uint8_t* coverage,
                                size_t stride);
 

@@ -13,7 +13,7 @@ namespace {
 
 int PlanesOfFormat(int32_t format) { return !IsYuv(format) ? 1 : IsPaired(format) ? 2 : 3; }
 
-// The rows of a plane and the bytes of each.
+// Number of rows of a plane, and bytes per row.
 struct PlaneSize {
   int32_t rows;
   size_t row_bytes;
@@ -39,7 +39,7 @@ bool ValidPixelStride(int32_t format, int32_t stride) {
   return stride > LeastStep(format) && stride <= STARFOCUS_MAX_PIXEL_STRIDE;
 }
 
-// The fields of an image by their names.
+// Names of the fields of an image.
 struct ImageNames {
   const char *format, *matrix, *range, *pixel_stride, *planes, *strides;
 };

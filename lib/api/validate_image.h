@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks of images and depth maps, and where their bytes lie.
+// Checks of images and depth maps, and the address ranges of their planes.
 #ifndef STARFOCUS_LIB_API_VALIDATE_IMAGE_H_
 #define STARFOCUS_LIB_API_VALIDATE_IMAGE_H_
 
@@ -16,34 +16,34 @@ struct PictureSize {
 starfocus_status CheckViews(const starfocus_light_field& light_field, int32_t count,
                             const PictureSize& size, starfocus_problem* problem);
 
-// Checks the map of a picture of that size.
+// Checks the depth map of a picture of the given size.
 starfocus_status CheckDepthMap(const starfocus_depth_map& map, const PictureSize& size,
                                starfocus_problem* problem);
 
-// Checks that `count` views are of formats that are read in place.
+// Checks that `count` views have formats that are read in place.
 starfocus_status CheckInPlace(const starfocus_light_field& light_field, int32_t count,
                               starfocus_problem* problem);
 
-// Checks that a map is, too.
+// Checks that a depth map has a format that is read in place.
 starfocus_status CheckInPlace(const starfocus_depth_map& map, const PictureSize& size,
                               starfocus_problem* problem);
 
-// Checks a light field for pictures of `config`.
+// Checks a light field for an engine of `config`.
 starfocus_status CheckLightField(const starfocus_config& config,
                                  const starfocus_light_field& light_field);
 
-// Adds all planes of a light field.
+// Adds the address ranges of all planes of a light field.
 void AddLightField(const starfocus_config& config, const starfocus_light_field& light_field,
                    Extents* extents);
 
-// Adds the planes of a picture of that size.
+// Adds the address ranges of the planes of a picture of the given size.
 void AddImage(const starfocus_image& image, const PictureSize& size, Extents* extents);
 
-// Checks a picture of that size for the engine to write, by itself.
+// Checks an output picture of the given size, without overlaps.
 starfocus_status CheckOutput(const starfocus_config& config, const starfocus_image& image,
                              const PictureSize& size);
 
-// Checks that it does not overlap what is read.
+// Checks that an output picture does not overlap the inputs.
 starfocus_status CheckOutputApart(const starfocus_image& image, const PictureSize& size,
                                   const Extents& read, starfocus_problem* problem);
 
