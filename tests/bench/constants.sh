@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# A row of docs/constants.md: how near the pictures of a program come to ray-traced truth (wires,
-# leaves) and to the benchmark mode (stilllife), in dB, and millions of samples rendered at the last
-# focus of each scene. Change a constant, build, and compare with the row of the program before, whose
+# Prints a row of docs/lab-notebook.md: PSNR in dB of the pictures of a program against ray-traced truth
+# (wires, leaves) and against the benchmark mode (stilllife), and millions of samples rendered at the
+# last focus of each scene. Change a constant, build, and compare with the row of the program before, whose
 # benchmark mode is the yardstick of both.
 # Beside PROGRAM is starfocus-lab.
 # usage: constants.sh PROGRAM PROGRAM-BEFORE [REFOCUS-OPTION...]

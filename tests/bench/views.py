@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What other sets of views are worth against five of the star, as rows of docs/constants.md: PSNR in dB.
+"""What other sets of views are worth against five of the star, as rows of docs/lab-notebook.md: PSNR in dB.
 
 views.py PROGRAM FOLDER...: folders of 17 views with truths, as `starfocus-lab scene DIR --truth=D,1 --transfer none`
 makes them. For each truth a row of whole pictures, and for either pair a row of the pixels that change when the
