@@ -6,14 +6,14 @@
 namespace starfocus {
 namespace {
 
-// Disparity times the distance of the captured view, kShiftBits, in pixels of the layer.
+// Returns the displacement of a disparity in the captured view, in pixels of the layer, kShiftBits.
 int64_t CapturedShift(const ViewGrid& grid, int32_t disparity, bool half) {
   const int64_t full = int64_t{disparity} * (1 << (kShiftBits - kDisparityBits));
   return RoundShift(full * 2, 1 + grid.layer + (half ? 1 : 0));
 }
 
-// How far the same point of a surface lies from its place in the rendered view, in the centre view
-// and in the captured view, along one axis, kShiftBits.
+// Displacement of a surface point from its place in the rendered view, along one axis: in the
+// centre view and in the captured view, kShiftBits.
 struct HoleOffset {
   int32_t centre, captured;
 };
@@ -24,7 +24,7 @@ HoleOffset OffsetOf(const HoleView& view, int sign, int64_t move, int32_t dispar
   return {static_cast<int32_t>(sign * shift), static_cast<int32_t>(sign * captured)};
 }
 
-// Reads captured view (u, v), all in the orientation of the lines.
+// Reads captured view (u, v). All arguments are in the orientation of the lines.
 void Read(const HoleView& view, int u, int v, const CapturedLine& line, int32_t count,
           int16_t* rgb) {
   if (view.transposed) {
@@ -41,11 +41,12 @@ int64_t Difference(const int16_t* a, const int16_t* b) {
   return sum * sum;
 }
 
-// The diagonal view is missing: of the two views beside it, the more a pixel looks like
-// the background the more it counts. This is nearly a choice, but without a jump, and transposing
+// Replaces a missing diagonal view by its two neighbours. The neighbour that looks more like the
+// background gets the larger weight. This is almost a selection, but continuous, and transposing
 // the picture transposes the result.
 void MixNeighbours(const int16_t* a, const int16_t* b, const int16_t* colour, int16_t* out) {
-  constexpr int64_t kLeast = 1 << (2 * kLightBits);  // decides where both are like the background
+  // Determines the result if both neighbours look like the background.
+  constexpr int64_t kLeast = 1 << (2 * kLightBits);
   const int64_t weight_a = Difference(b, colour) + kLeast;
   const int64_t weight_b = Difference(a, colour) + kLeast, sum = weight_a + weight_b;
   for (int c = 0; c < 3; ++c) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hole filling: the colours of what the centre view does not see, from the captured views.
+// Fills holes: reads the colours that the centre view does not show from the captured views.
 #ifndef STARFOCUS_LIB_LINE_SCAN_HOLES_H_
 #define STARFOCUS_LIB_LINE_SCAN_HOLES_H_
 
@@ -11,27 +11,27 @@
 
 namespace starfocus {
 
-// Where a rendered view lies, and which captured view it is filled from: the one at (u, v), each
-// -1, 0 or 1, at full or half distance. Everything is in the orientation of the view's lines.
+// Position of a rendered view, and the captured view (u, v) that fills its holes: u and v are -1, 0
+// or 1, at full or half distance. All fields are in the orientation of the view's lines.
 struct HoleView {
   const Window* window;
   const ViewGrid* grid;
   bool transposed;
   int u, v;
-  int64_t move_u, move_v;  // ViewGrid::Move of |u| and |v| of the rendered view; 0 where u, v are
+  int64_t move_u, move_v;  // ViewGrid::Move of |u| and |v| of the rendered view; 0 if u or v is 0
   bool half;
 };
 
-// A line of that view: picture position of its pixel 0 and the step from pixel to pixel.
+// A line of the rendered view: picture position of its pixel 0, and the step between pixels.
 struct HoleLine {
   int32_t x, y, dx, dy;
 };
 
-// Writes the colours of the rendered pixels `part` of a line, 3 samples each, where a background of
-// `disparity` shows. The captured view is read at the index that the disparity implies (IV-A). A
-// diagonal view that was not captured (5 views) is interpolated from its horizontal and its
-// vertical neighbour, by how well each agrees with the visible background `colour`; with the centre
-// view alone the background is extended.
+// Writes the colours of rendered pixels `part` of a line, 3 samples each. The pixels show a
+// background of disparity `disparity`. The captured view is read at the index that the disparity
+// implies (IV-A). With 5 views, a diagonal view is interpolated from its horizontal and its
+// vertical neighbour, weighted by their similarity to the visible background `colour`. With only
+// the centre view, the background colour is repeated.
 void FillHole(const HoleView& view, const HoleLine& line, const LinePart& part, int32_t disparity,
               const int16_t* colour, int16_t* out);
 

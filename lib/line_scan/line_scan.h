@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Center-based line scan (paper, IV-A): the surfaces and holes of one rendered view along a line,
-// in a single pass without z-buffer.
+// Center-based line scan (paper, IV-A). It finds the surfaces and holes of a rendered view along a
+// line in a single pass without z-buffer, and passes them to a sink.
 #ifndef STARFOCUS_LIB_LINE_SCAN_LINE_SCAN_H_
 #define STARFOCUS_LIB_LINE_SCAN_LINE_SCAN_H_
 
@@ -12,20 +12,20 @@
 
 namespace starfocus {
 
-// A line of the centre view (or of a type A view) with its disparity.
+// A line of the centre view or of a type A view, with its disparities.
 struct Line {
   const int16_t* rgb;  // light
   const int16_t* disparity;
-  ptrdiff_t step;  // from one pixel's disparity to the next one's
+  ptrdiff_t step;  // distance between the disparities of neighbouring pixels
   int32_t length;
 };
 
-// The part of the views of a line that is wanted: rendered pixels [begin, end), begin < end.
+// Required part of the rendered lines: pixels [begin, end), begin < end.
 struct LinePart {
   int32_t begin, end;
 };
 
-// What is scanned: a line whose surfaces are `run_count` runs, for the wanted part of views
+// Input of a scan: a line with `run_count` runs, the required part, and the range of views
 // first_view .. last_view.
 struct ScanTask {
   Line line;
@@ -36,12 +36,12 @@ struct ScanTask {
   int32_t first_view, last_view;
 };
 
-// A gap wider than this is no stretched surface, whatever the disparities say, in pixels. Twice and
-// half of it were measured (docs/constants.md).
+// Widest gap in pixels that may be a stretched surface, regardless of the disparities. Twice and
+// half of this value were measured (docs/constants.md).
 inline constexpr int32_t kMaxStretch = 4;
 
-// 2^23 / subaperture, rounded, for subapertures of [0, kShiftOne]; 0 at 0, where no neighbour
-// counts.
+// 2^23 / subaperture, rounded, for subapertures in [0, kShiftOne]. 0 for a subaperture of 0, which
+// gives neighbours no weight.
 struct SubapertureReciprocals {
   uint32_t of[kShiftOne + 1] = {};
   constexpr SubapertureReciprocals() {
@@ -51,9 +51,9 @@ struct SubapertureReciprocals {
 };
 inline constexpr SubapertureReciprocals kSubapertureReciprocals;
 
-// Weight of the neighbour (simd::kBlendBits) in a subaperture of width L = `subaperture`
-// (kShiftBits, at most a pixel) for a sample t = `offset` away from its pixel's centre: clamp((|t|
-// - 1/2) / L + 1/2, 0, 1).
+// Returns the weight of the neighbour (simd::kBlendBits) for a sample at distance t = `offset` from
+// the centre of its pixel: clamp((|t| - 1/2) / L + 1/2, 0, 1). L = `subaperture` is the width of
+// the subaperture in kShiftBits, at most one pixel.
 inline int32_t SubapertureWeight(int32_t offset, int32_t subaperture) {
   const int32_t twice = 2 * Abs(offset) - kShiftOne + subaperture;  // <= subaperture
   if (twice <= 0) return 0;
@@ -61,22 +61,26 @@ inline int32_t SubapertureWeight(int32_t offset, int32_t subaperture) {
   return static_cast<int32_t>(Checked(ranges::kSubapertureWeight, (scaled + (1u << 9)) >> 10));
 }
 
-// The surface whose end covers a part of a hole's outermost pixel, on the side where the scan goes
-// on.
+// Surface whose end covers part of the outermost pixel of a hole, on the side where the scan
+// continues.
 struct Rim {
-  int32_t pixel;    // of the line; -1: none
-  int32_t covered;  // kShiftBits
+  int32_t pixel;    // pixel of the line; -1: none
+  int32_t covered;  // covered part, kShiftBits
 };
 
-// Scans the line of a task for views, one after the other. Calls, in pixels of the line (never
-// mirrored),
-//   sink.Surface(begin, end, source, neighbour, weight): rendered pixel p is line pixel
-//     source + (p - begin), and its neighbour at +-1 with `weight` (simd::kBlendBits);
-//   sink.Mix(p, source, other, weight): rendered pixel p is line pixel `source`, but `weight`
-//     (kShiftBits) of it is covered by, or lets shine through, line pixel `other`;
-//   sink.Hole(begin, end, pixel, rim): uncovered; what is behind continues the surface of the
-//     visible line pixel `pixel`.
-// Every wanted pixel comes exactly once, in scan order.
+// Scans the line of a task for several views. It calls the following functions of the sink.
+// Positions are pixels of the line, and are never mirrored.
+//
+// sink.Surface(begin, end, source, neighbour, weight): rendered pixel p shows line pixel source +
+// (p - begin), and its neighbour at +-1 with `weight` (simd::kBlendBits).
+//
+// sink.Mix(p, source, other, weight): rendered pixel p shows line pixel `source`. The part `weight`
+// (kShiftBits) shows line pixel `other`, which covers it or shines through.
+//
+// sink.Hole(begin, end, pixel, rim): uncovered pixels. The surface behind them continues that of
+// the visible line pixel `pixel`.
+//
+// Each required pixel is passed exactly once, in scan order.
 template <Direction kDirection, class Sink>
 class LineScan {
  public:
@@ -89,12 +93,12 @@ class LineScan {
         begin_(kMirrored ? line_.length - task.part.end : task.part.begin),
         end_(kMirrored ? line_.length - task.part.begin : task.part.end) {}
 
-  // move: ViewGrid::Move of the view's distance along the line.
+  // `move` is ViewGrid::Move of the view's distance along the line.
   void Scan(int64_t move) {
     move_ = move;
     edge_ = {nullptr, 0, 0};
-    // The scan starts from the line's own end, since what a gap borders on may lie beyond the
-    // wanted part.
+    // The scan starts at the end of the line, because the surface next to a gap may lie outside the
+    // required part.
     filled_ = {Max(end_, line_.length - Whole(Shift(*runs_))), line_.length - 1};
     int32_t run_end = line_.length;
     for (const Run* run = runs_; run != runs_end_; ++run) {
@@ -103,7 +107,7 @@ class LineScan {
       const int32_t low = begin - whole;
       if (low < filled_.from) {
         if (low >= end_) {
-          // The run is not wanted itself, but it may cover a part of the last pixel that is.
+          // The run is outside the required part, but may cover part of the last required pixel.
           edge_ = {EndsAtEdge(run) ? run : nullptr, shift - whole * kShiftOne, whole};
         } else if (IsPlain(run, run_end, whole)) {
           const int32_t offset = shift - whole * kShiftOne;
@@ -123,8 +127,8 @@ class LineScan {
  private:
   static constexpr bool kMirrored = kDirection == Direction::kLeftToRight;
 
-  // The lowest position filled so far, and the line position that filled it: whatever lands at or
-  // above it is hidden.
+  // Lowest position filled so far, and the line position that filled it. Later pixels at or above
+  // it are hidden.
   struct Filled {
     int32_t from = 0, pixel = 0;
   };
@@ -134,26 +138,29 @@ class LineScan {
   int32_t Shift(const Run& run) const { return grid_.Shift(move_, run.disparity); }
   static int32_t Whole(int32_t shift) { return (shift + kShiftOne / 2) >> kShiftBits; }
 
-  // The lower end of a surface that may cover a farther one: the last run added. Between rendered
-  // pixels it covers a part of one only.
+  // Lower end of the last added run, if a farther surface follows. Between rendered pixels it
+  // covers only a part of a pixel.
   struct Edge {
-    const Run* run;  // null: there is none
-    int32_t offset;  // kShiftBits: < 0, of its last pixel that part is missing, and the pixel waits
-                     // to be mixed; > 0, so much it covers of the next pixel
+    const Run* run;  // null: none
+    // Offset from a rendered pixel, kShiftBits. If it is negative, that part of the last pixel is
+    // missing, and the pixel waits to be mixed. If it is positive, the edge covers that part of the
+    // next pixel.
+    int32_t offset;
     int32_t whole;
   };
 
-  // Whether another surface follows below.
+  // Returns true if another surface follows below the run.
   bool EndsAtEdge(const Run* run) const {
     return run + 1 != runs_end_ && run[1].surface_end == run->begin;
   }
 
-  // Whether the last wanted pixel waits for what is behind it.
+  // Returns true if the last required pixel waits for the surface behind it.
   bool AwaitsBehind() const {
     return filled_.from == begin_ && edge_.run != nullptr && edge_.offset < 0;
   }
 
-  // Whether what is visible of a run lies inside one surface, beside no gap: most runs do.
+  // Returns true if the visible part of a run is inside one surface and not next to a gap. This is
+  // the most frequent case.
   bool IsPlain(const Run* run, int32_t run_end, int32_t whole) const {
     const int32_t begin = run->begin, end = Min(filled_.from, end_);
     const bool inside = begin - whole < begin_ || (run + 1 != runs_end_ && !EndsAtEdge(run));
@@ -161,8 +168,9 @@ class LineScan {
            end + whole < run->surface_end;
   }
 
-  // The run's positions up to `run_end` move together. Emits those that are not hidden, up to what
-  // is filled; positions beyond the run's own stretch it over source pixels beyond it.
+  // Adds a run, whose positions up to `run_end` move together. Emits the visible ones up to the
+  // filled position. Positions beyond the end of the run stretch it over the following source
+  // pixels.
   [[gnu::noinline]] void AddRun(const Run* run, int32_t run_end, int32_t shift) {
     const int32_t whole = Whole(shift);
     const int32_t offset = shift - whole * kShiftOne;
@@ -196,7 +204,7 @@ class LineScan {
     }
   }
 
-  // Mixes the edge with `run` behind it, which goes on at `end`. Returns where the rest of it does.
+  // Mixes the edge with `run` behind it, which is visible up to `end`. Returns the new end.
   int32_t CoverEdge(const Run& run, int32_t run_end, int32_t whole, int32_t end) {
     const Edge edge = edge_;
     if (edge.run->disparity - run.disparity <= kSurfaceStep) {
@@ -215,7 +223,7 @@ class LineScan {
     return end;
   }
 
-  // Ends the edge without covering anything: its last pixel stays whole.
+  // Ends the edge without covering anything. Its last pixel becomes a whole pixel.
   void FlushEdge() {
     if (edge_.run != nullptr && edge_.offset < 0) {
       const int32_t p = edge_.run->begin - edge_.whole;
@@ -224,8 +232,8 @@ class LineScan {
     edge_.run = nullptr;
   }
 
-  // Emits positions [first, end) with their neighbours; a pixel at the upper end of its surface or
-  // at the line's lower end has none there.
+  // Emits positions [first, end) with their neighbours. A pixel at the upper end of its surface or
+  // at the lower end of the line has no neighbour there.
   void AddBlended(const Run& run, int32_t first, int32_t end, int32_t whole, int32_t offset,
                   int32_t weight) const {
     if (offset > 0) {
@@ -253,9 +261,10 @@ class LineScan {
     return q >= 0 && q + 1 < line_.length && Abs(Disparity(q) - Disparity(q + 1)) <= kSurfaceStep;
   }
 
-  // Decides what lies between a run's last pixel `q` and what is filled: a stretched surface, which
-  // the run then covers, or a hole. Returns where the run ends. A nearer run ends between pixels:
-  // the one it covers in part belongs to the hole, whose rim it is.
+  // Closes the gap between the last pixel `q` of a run and the filled position. The gap is either a
+  // stretched surface, which the run then covers, or a hole. Returns the end of the run. A nearer
+  // run ends between pixels; the pixel that it covers in part belongs to the hole, and the run is
+  // its rim.
   int32_t CloseGap(int32_t q, int32_t whole, int32_t offset) const {
     const int32_t gap = q + 1 - whole;
     const int32_t step = Disparity(q) - Disparity(filled_.pixel);
@@ -273,7 +282,7 @@ class LineScan {
     return begin;
   }
 
-  // Emits a hole in which the surface of position q goes on.
+  // Emits a hole that continues the surface of position q.
   void Hole(int32_t begin, int32_t end, int32_t q, const Rim& rim) const {
     end = Min(end, end_);
     if (begin >= end) return;
@@ -302,14 +311,14 @@ class LineScan {
   const Run* const runs_end_;
   const ViewGrid& grid_;
   Sink* const sink_;
-  const int32_t begin_;  // wanted positions [begin_, end_)
+  const int32_t begin_;  // required positions [begin_, end_)
   const int32_t end_;
   int64_t move_ = 0;
   Filled filled_;
   Edge edge_ = {nullptr, 0, 0};
 };
 
-// Scans a line. next(k) makes the sink ready for view k and returns its move.
+// Scans a line for all views of a task. next(k) prepares the sink for view k and returns its move.
 template <class Sink, class Next>
 void ScanLine(const ScanTask& task, const ViewGrid& grid, Sink* sink, const Next& next) {
   const int32_t first = task.first_view, last = task.last_view;

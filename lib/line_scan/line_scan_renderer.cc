@@ -9,8 +9,8 @@ int32_t LevelOf(const BlockStats& stats, Demand demand) {
   return LayerByPaper(static_cast<double>(stats.r_min) / (1 << kDisparityBits), demand);
 }
 
-// Half of the type A views lie on either axis. Each is rendered over the border of the other. Half
-// of all views are scanned along rows and half along columns, those of type B along both.
+// Half of the type A views lie on each axis. Each is rendered with the border of the other axis.
+// Half of all views are scanned along rows and half along columns; type B is scanned along both.
 BlockWork MeasureWork(const Rect& rect, const Border& border, const ViewWeights& aperture,
                       const Content (&content)[2], int32_t layer) {
   const auto width = static_cast<uint64_t>(rect.width), height = static_cast<uint64_t>(rect.height);
@@ -58,20 +58,20 @@ void TakeScratch(const starfocus_config& config, size_t extended, size_t max_n, 
   scratch.spans = TakeSpans(extended, arena);
 }
 
-// A pixel stays in its place in all views, and its neighbour has weight 0, where
-// 2 |t| + L <= 1 (SubapertureWeight) for its shift t and subaperture L <= |t|. In kShiftBits, less
+// Largest shift t that leaves a pixel unchanged: it stays in place and its neighbour has weight 0
+// if 2 |t| + L <= 1 (SubapertureWeight), and the subaperture L is at most |t|. In kShiftBits, minus
 // one for rounding.
 constexpr int32_t kStill = kShiftOne / 3 - 1;
 
-// Always false at layers 1 and 2, which are resampled.
+// Always false at layers 1 and 2, because they are resampled.
 bool NothingMoves(const RenderJob& job) {
   const Window& window = *job.window;
   if (window.layer != 0) return false;
   const int64_t still =
       (int64_t{kStill} << (kStepBits + kDisparityBits - kShiftBits)) / job.grid->step;
-  // Disparities within this range have no depth edge, so that no pixel is mixed.
+  // Disparities in this range have no depth edge, so no pixel is mixed.
   const auto limit = static_cast<int32_t>(still < kSurfaceStep / 2 ? still : kSurfaceStep / 2);
-  // At least one row and column lie in the picture.
+  // At least one row and one column are inside the picture.
   const Rect rect = Extended(job.rect, job.border);
   const int32_t left = Clamp(rect.x, 0, window.width - 1);
   const int32_t right = Clamp(rect.x + rect.width, 1, window.width);
@@ -91,7 +91,7 @@ bool NothingMoves(const RenderJob& job) {
 const Renderer kLineScanRenderer = {
     1,
     false,
-    256,  // of any side
+    256,  // largest side of a superblock
     [](double r_max, Demand) { return ViewsByPaper(r_max); },
     LevelOf,
     MakeViewWeights,

@@ -18,7 +18,7 @@ int32_t ReadRuns(const simd::RunMarks& marks, int32_t k, int32_t length, const V
                  int64_t subaperture_move, Run* runs) {
   Run* run = runs;
   int32_t surface_end = length;
-  // A run's middle stands at its last position in scan order.
+  // The middle of a run is stored at its last position in scan order.
   const int16_t* const middles = marks.middles + static_cast<ptrdiff_t>(k);
   const auto add = [&](int32_t begin) {
     const int16_t disparity = middles[static_cast<size_t>(length - 1 - begin) * marks.stride];
@@ -30,7 +30,7 @@ int32_t ReadRuns(const simd::RunMarks& marks, int32_t k, int32_t length, const V
   };
   size_t word = static_cast<size_t>(k);
   for (int32_t begin = length; begin > 0; begin -= 16, word += marks.stride) {
-    // An edge starts a run: the spread of runs is at most the step of edges.
+    // Each edge starts a run, because the spread of runs is at most the step of edges.
     for (uint32_t starts = marks.starts[word]; starts != 0; starts &= starts - 1) {
       const int32_t bit = LowestBit(starts);
       add(begin - bit);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Turns what a line scan finds into spans for the kernels.
+// Converts the results of a line scan to spans for the SIMD kernels.
 #ifndef STARFOCUS_LIB_LINE_SCAN_SPAN_SINK_H_
 #define STARFOCUS_LIB_LINE_SCAN_SPAN_SINK_H_
 
@@ -11,24 +11,25 @@
 
 namespace starfocus {
 
-// Where the pixels of a rendered line go.
+// Destination of the pixels of a rendered line.
 struct SpanTarget {
-  int32_t out_begin;   // the first rendered pixel
-  uint32_t pixel;      // of the list's target, for that pixel
-  uint32_t weight;     // of each pixel: 2^simd::kBlendBits when the list blends
-  int16_t* disparity;  // receives the rendered view's disparity from out_begin on; null: not wanted
+  int32_t out_begin;  // first rendered pixel
+  uint32_t pixel;     // pixel of the list's target for out_begin
+  uint32_t weight;    // weight of each pixel; 2^simd::kBlendBits if the list blends
+  // Receives the disparities of the rendered view from out_begin on; may be null.
+  int16_t* disparity;
 };
 
-// A sink of LineScan. holes.Fill(begin, end, disparity, colour, out) writes the colours of rendered
-// pixels [begin, end), behind which a surface of `disparity` and `colour` goes on.
+// Sink of LineScan. holes.Fill(begin, end, disparity, colour, out) writes the colours of rendered
+// pixels [begin, end) that show a surface of `disparity`, with `colour` where it is visible.
 template <class Holes>
 class SpanSink {
  public:
-  // When target.disparity is given, line.step has to be 1.
+  // line.step must be 1 if target.disparity is set.
   SpanSink(const Line& line, const SpanTarget& target, const Holes& holes, SpanList* list)
       : line_(line), target_(target), holes_(holes), list_(list) {}
 
-  // Sets the weight of the pixels that follow.
+  // Sets the weight of subsequent pixels.
   void SetWeight(uint32_t weight) { target_.weight = weight; }
 
   void Surface(int32_t begin, int32_t end, int32_t source, int32_t neighbour, int32_t weight) {
@@ -75,7 +76,7 @@ class SpanSink {
   }
 
  private:
-  // Most are short: a call of memcpy takes as long as several of these moves.
+  // Most copies are short, and a call of memcpy takes as long as several of these moves.
   static void CopyDisparities(const int16_t* from, int32_t count, int16_t* to) {
     constexpr int32_t kAtOnce = 4;
     constexpr size_t kBytes = kAtOnce * sizeof(int16_t);

@@ -19,8 +19,7 @@ Direction DirectionOf(int sign) {
   return sign > 0 ? Direction::kRightToLeft : Direction::kLeftToRight;
 }
 
-// The rectangle's job, its field and the rendered view (u * i, v * j) in the field's orientation,
-// and a line of it.
+// Hole filler for a line of the rendered view (u * i, v * j), in the orientation of the field.
 struct LineHoles {
   const RenderJob& job;
   const BlockPixels& field;
@@ -43,7 +42,8 @@ struct LineHoles {
   }
 };
 
-// The star over one rectangle. "Along" is the direction of type A's parallax, "across" of type C's.
+// Renders the star for one rectangle. "Along" is the direction of the parallax of type A, "across"
+// the additional direction of type C.
 class Star {
  public:
   Star(const RenderJob& job, LineScanScratch* scratch, uint32_t* sums)
@@ -68,7 +68,7 @@ class Star {
   }
 
  private:
-  // The rows of a field that some views are rendered in.
+  // Range of rows of a field that some views read.
   struct Rows {
     int32_t begin, end;
   };
@@ -90,7 +90,7 @@ class Star {
   }
   SpanList Blending(int16_t* line) const { return SpanList(*job_.kernels, scratch_->spans, line); }
 
-  // Adds `pixels` pixels with one weight.
+  // Adds `pixels` pixels with the same weight.
   static void AddLine(const int16_t* rgb, int32_t pixels, uint32_t weight, uint32_t target,
                       SpanList* list) {
     list->Add(
@@ -107,15 +107,15 @@ class Star {
     list.Flush();
   }
 
-  // The weight of view (i, j) of a field, in its orientation.
+  // Returns the weight of view (i, j), in the orientation of a field.
   uint32_t WeightOf(const BlockPixels& field, int32_t i, int32_t j) const {
     return field.transposed ? grid_.aperture.Weight(j, i) : grid_.aperture.Weight(i, j);
   }
 
-  // Adds types A and C along the rows of `field`, in the triangles on either side of that axis;
-  // `other` is the same field in the other orientation.
+  // Adds the views of types A and C along the rows of `field`, in the triangles on both sides of
+  // that axis. `other` is the transposed field.
   void AddViews(const BlockPixels& field, const BlockPixels& other, uint32_t* accumulators) {
-    const int64_t samples = 3 * int64_t{field.width} * field.height;  // of a type A view
+    const int64_t samples = 3 * int64_t{field.width} * field.height;  // samples of a type A view
     for (const int sign : {1, -1}) {
       FindAllRuns(field, other, DirectionOf(sign));
       for (int32_t i = 1; i <= grid_.n() && GoesOn(job_.cancel, samples); ++i) {
@@ -140,7 +140,7 @@ class Star {
     return scratch_->runs + static_cast<size_t>(row) * static_cast<size_t>(field.width);
   }
 
-  // Returns the largest j of the type C views (i, j) that lie inside the triangle and the disc.
+  // Returns the largest j of the type C views (i, j) inside the triangle and the disc.
   int32_t LastAcross(int32_t i) const {
     const int32_t n = grid_.n();
     int32_t j = i - 1;
@@ -148,7 +148,7 @@ class Star {
     return Max(j, 0);
   }
 
-  // Rows that the type C views (i, j), j <= last, can reach from.
+  // Returns the rows that the type C views (i, j), j <= last, read.
   Rows RowsFor(const BlockPixels& field, int32_t last) const {
     const Rect& inner = field.inner;
     const int32_t n = grid_.n(), above = inner.y, end = inner.y + inner.height;
@@ -159,7 +159,7 @@ class Star {
     return {inner.y - reach(above), end + reach(field.height - end)};
   }
 
-  // Renders view (sign * i, 0), one line per column of the rectangle, and its disparity.
+  // Renders view (sign * i, 0) and its disparity, one line per column of the rectangle.
   void RenderTypeA(const BlockPixels& field, int sign, int32_t i, const Rows& rows) {
     const int32_t width = field.inner.width, height = rows.end - rows.begin;
     for (int32_t row = 0; row < height; row += kStripRows) {
@@ -188,7 +188,7 @@ class Star {
     ScanLine(task, grid_, &sink, [&](int32_t k) { return scratch_->moves[k]; });
   }
 
-  // Adds the views (sign * i, j), |j| <= last, from the columns of the type A view.
+  // Adds the views (sign * i, j), |j| <= last, scanned along the columns of the type A view.
   void AddColumns(const BlockPixels& field, int sign, int32_t i, int32_t last, const Rows& rows,
                   uint32_t* accumulators) {
     const int32_t width = field.inner.width, height = rows.end - rows.begin;
@@ -232,7 +232,7 @@ class Star {
     list.Flush();
   }
 
-  // Adds the pixels of a part of the views j on one side of a column.
+  // Adds a part of a column for the views j on one side.
   void AddColumn(const ScanTask& task, uint32_t pixel, LineHoles* view, SpanList* list) {
     LineHoles& holes = *view;
     const SpanTarget target = {task.part.begin, pixel, 0, nullptr};
@@ -308,7 +308,7 @@ class Star {
     }
   }
 
-  // The pass over rows left its sums in the order of columns, which type C was added in.
+  // Adds the sums of the pass over rows, which are stored in column order.
   void AddTransposed() {
     const int32_t width = job_.rect.width, height = job_.rect.height;
     for (int32_t y = 0; y < height; ++y) {

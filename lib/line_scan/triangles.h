@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The paper's primitive: one rectangle of the picture refocused with a given N at one layer, by
-// rendering the views of the aperture as types A, B and C of eight triangles (IV-B).
+// The paper's primitive: refocuses one rectangle of the picture with a given N at one layer. It
+// renders the views of the aperture as types A, B and C of eight triangles (IV-B).
 #ifndef STARFOCUS_LIB_LINE_SCAN_TRIANGLES_H_
 #define STARFOCUS_LIB_LINE_SCAN_TRIANGLES_H_
 
@@ -14,11 +14,11 @@
 
 namespace starfocus {
 
-// Type A lines that are rendered before they are transposed together.
+// Number of type A lines that are rendered before they are transposed together.
 inline constexpr int32_t kStripRows = 16;
 
-// Memory of one worker. E: largest side of an extended rectangle; R: of a rectangle. Every buffer
-// is followed by simd::kPadding bytes.
+// Scratch memory of one worker. E: largest side of an extended rectangle; R: of a rectangle. Each
+// buffer is followed by simd::kPadding bytes.
 struct LineScanScratch {
   int16_t* field_rgb[2];        // E rows of RgbStride(E): rows and columns
   int16_t* field_disparity[2];  // E^2 each
@@ -26,26 +26,26 @@ struct LineScanScratch {
   int16_t* diagonal_disparity;  // E^2
   uint32_t* diagonal_offsets;   // 2 E
   int64_t* moves;               // N + 1: ViewGrid::Move of each view
-  simd::RunMarks marks;         // of E lines of E positions
-  Run* runs;                    // E^2: of all lines of a field
+  simd::RunMarks marks;         // for E lines of E positions
+  Run* runs;                    // E^2: all lines of a field
   int32_t* run_counts;          // E
-  Run* line_runs;               // E: of one line
+  Run* line_runs;               // E: one line
   int16_t* strip_rgb;           // 3 R kStripRows: type A lines before they are transposed
-  int16_t* view_disparity;      // R E: of the type A view, one line per row
+  int16_t* view_disparity;      // R E: the type A view, one line per row
   int16_t* columns_rgb;         // R rows of RgbStride(E): the type A view, one line per column
-  uint32_t* column_sums;        // 3 R^2: of the pass over columns
+  uint32_t* column_sums;        // 3 R^2: sums of the pass over rows, in column order
   uint32_t* line_accumulators;  // 3 E
   SpanMemory spans;
 };
 
-// Returns the largest i of the type B views (i, i) of N views along the radius.
+// Returns the largest i of the type B views (i, i) for N views along the radius.
 constexpr int32_t LastOnDiagonal(int32_t n) {
   int32_t last = 0;
   while (2 * (last + 1) * (last + 1) <= n * n) ++last;
   return last;
 }
 
-// Renderer::render of line scans. `scratch`: a LineScanScratch. N > 0.
+// Implements Renderer::render for line scans. `scratch` is a LineScanScratch. N > 0.
 uint64_t RefocusRectangle(const RenderJob& job, void* scratch, uint32_t* sums);
 
 }  // namespace starfocus

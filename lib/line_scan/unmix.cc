@@ -8,13 +8,13 @@ namespace {
 
 constexpr int32_t kShareOne = 1 << kShareBits;
 
-// Blur radius, kShiftBits, up to which a surface counts as sharp. With a pixel more, where the
-// paper's subsampled layers begin, no outline shows (docs/constants.md).
+// Largest blur radius of a sharp surface, kShiftBits. One pixel more, where the paper's subsampled
+// layers begin, hides outlines (docs/constants.md).
 constexpr int32_t kSharp = 2 * kShiftOne;
 
-// Returns how much of the near surface to take out of the pixel, kShiftBits, none below 0: all
-// where the near surface is defocused by a pixel more than the far one, and that by no more than
-// kSharp.
+// Returns the part of the near surface to remove from the pixel, kShiftBits; negative values count
+// as 0. It is 1 if the near blur radius is at least one pixel larger than the far one, and the far
+// one is at most kSharp.
 int32_t StrengthOf(int32_t near_radius, int32_t far_radius) {
   return Min(Min(near_radius - far_radius, kSharp + kShiftOne - far_radius), kShiftOne);
 }
@@ -24,8 +24,8 @@ class Unmixer {
   Unmixer(const Window& window, const ViewGrid& grid)
       : centre_{window}, grid_(grid), rim_(grid.Move(grid.n())) {}
 
-  // Writes the far surface's colour of pixel (x, y): the mean over the depth edges beside it, each
-  // by the share that the nearer surface has there.
+  // Writes the colour of the far surface at pixel (x, y): the mean over the adjacent depth edges,
+  // weighted by the share of the nearer surface.
   void Unmix(int32_t x, int32_t y, int16_t* out) const {
     const Colour mixed = centre_.ColourAt(x, y);
     const int32_t disparity = centre_.Disparity(x, y);
@@ -51,10 +51,10 @@ class Unmixer {
  private:
   int32_t Radius(int32_t disparity) const { return Abs(grid_.Shift(rim_, disparity)); }
 
-  // Returns how much of the pixel (kShareBits) is to become the far colour: all of it from a share
-  // of a half on. Below that it is less, since what is taken away there is mostly missing from the
-  // nearer surface's own pixels on the other side of the edge. It is less, too, where nothing would
-  // show (StrengthOf).
+  // Returns the part of the pixel (kShareBits) to replace by the far colour. It is 1 for shares of
+  // at least one half. Smaller shares are replaced in part, because the light removed there is
+  // mostly missing from the pixels of the nearer surface on the other side of the edge. `strength`
+  // reduces the part where no outline would be visible.
   static int32_t AmountOf(int32_t share, int32_t strength) {
     return (Min(2 * share, kShareOne) * strength + kShiftOne / 2) >> kShiftBits;
   }

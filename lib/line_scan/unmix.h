@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Boundary pixels (lib/input/boundary_pixel.h) of line scans.
+// Separates boundary pixels (lib/input/boundary_pixel.h) for line scans.
 #ifndef STARFOCUS_LIB_LINE_SCAN_UNMIX_H_
 #define STARFOCUS_LIB_LINE_SCAN_UNMIX_H_
 
@@ -10,13 +10,15 @@
 
 namespace starfocus {
 
-// Takes the nearer surface out of the field's pixels beside it, where that surface is the more
-// defocused one and they are sharp: its part of them would stay sharp and outline an object that
-// has vanished. What the far surface looks like there is read from the captured view
-// beside the centre in which the nearer one has moved out of the way; a pixel that is no mixture of
-// the two colours stays as it is. The field is as LoadBlock left it; only what lies beyond the
-// picture and its outermost pixels, which splat into no rectangle, are not looked at. Only layer 0
-// needs it: what is subsampled is blurred enough.
+// Removes the nearer surface from adjacent pixels of a sharp farther surface, if the nearer one is
+// more defocused. Otherwise its part of these pixels would remain sharp and outline an object that
+// the blur has dissolved. The colour of the far surface comes from the captured side view in which
+// the nearer surface does not cover it. Pixels that are not mixtures of both colours are not
+// changed.
+//
+// The field must come from LoadBlock. Pixels outside the picture and the outermost pixels, which do
+// not splat into the rectangle, are not changed. Only layer 0 needs this step, because subsampled
+// layers are sufficiently blurred.
 void UnmixEdges(const simd::Kernels& kernels, const Window& window, const ViewGrid& grid,
                 BlockPixels* field);
 
