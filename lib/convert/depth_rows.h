@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rows of depth maps as rows of a picture's disparities.
+// Converts rows of depth maps to rows of disparities at the size of the picture.
 #ifndef STARFOCUS_LIB_CONVERT_DEPTH_ROWS_H_
 #define STARFOCUS_LIB_CONVERT_DEPTH_ROWS_H_
 
@@ -11,28 +11,30 @@
 
 namespace starfocus {
 
-// A depth map for a picture.
+// A depth map and the size of its picture.
 struct DepthSource {
   starfocus_depth_map map;
   simd::DepthRule rule;
-  int32_t width, height;  // of the picture
+  int32_t width, height;  // size of the picture
   const uint32_t*
-      columns;        // of the picture, in the map (simd::SpreadRow); null: the map is as wide
-  int32_t first = 0;  // row of the picture that `map` begins with, if it is as high
+      // Position of each column in the map (simd::SpreadRow); null: the map has the width of the
+      // picture.
+      columns;
+  int32_t first = 0;  // row of the picture where `map` starts, if it has the height of the picture
 };
 
-// Fills in where each column of pictures of that width lies in the map.
+// Computes the position in the map for each column of a picture.
 void FillColumns(int32_t width, int32_t map_width, uint32_t* columns);
 
-// Returns the map for pictures of `config`, with the columns that FillColumns made.
+// Returns the source for pictures of `config`. `columns` is the result of FillColumns.
 DepthSource MakeDepthSource(const starfocus_config& config, const starfocus_depth_map& map,
                             const uint32_t* columns);
 
-// Returns the bytes of a value.
+// Returns the number of bytes per value.
 size_t DepthBytes(int32_t type);
 
 // Writes the disparities of row y of the picture, kDisparityBits; unknown ones are kNoSurface.
-// Returns simd::DepthFlags of the values they were made of.
+// Returns simd::DepthFlags of the source values.
 uint32_t ReadDepthRow(const simd::ImageKernels& kernels, const DepthSource& depth, int32_t y,
                       int16_t* out);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Images of any format as what their bytes are: pixels of three colours, or luma and chroma.
+// Layout of images in memory: RGB pixels, or planes of luma and chroma, for any format.
 #ifndef STARFOCUS_LIB_CONVERT_IMAGE_PLANES_H_
 #define STARFOCUS_LIB_CONVERT_IMAGE_PLANES_H_
 
@@ -11,8 +11,9 @@
 
 namespace starfocus {
 
-// The planes of an image; Byte is const where it is read. Pixels of R, G, B have planes[0] alone,
-// `step` bytes from pixel to pixel; else planes are luma, U and V, whose samples are `step` apart.
+// Planes of an image. Byte is const for input images. RGB formats use only planes[0]; `step` is the
+// number of bytes from pixel to pixel. YUV formats have planes for luma, U and V; `step` is the
+// distance of chroma samples in bytes.
 template <class Byte>
 struct ImagePlanes {
   bool is_yuv, blue_first, has_alpha;
@@ -21,7 +22,7 @@ struct ImagePlanes {
   Byte* planes[3];
   size_t strides[3];
 
-  // Whether rows are R, G, B without gaps.
+  // Returns true if rows are packed RGB.
   bool IsPacked() const { return !is_yuv && !blue_first && step == 3; }
 
   Byte* Pixel(int32_t x, int32_t y) const {
@@ -30,7 +31,7 @@ struct ImagePlanes {
   Byte* Luma(int32_t x, int32_t y) const {
     return planes[0] + static_cast<size_t>(y) * strides[0] + static_cast<size_t>(x);
   }
-  // The sample of chroma plane 1 or 2 for pixel (x, y).
+  // Returns the sample of chroma plane 1 or 2 for pixel (x, y).
   Byte* Chroma(int plane, int32_t x, int32_t y) const {
     return planes[plane] + static_cast<size_t>(y / 2) * strides[plane] +
            static_cast<size_t>(x / 2) * step;
@@ -48,13 +49,13 @@ constexpr bool HasAlpha(int32_t format) {
   return format == STARFOCUS_FORMAT_RGBX || format == STARFOCUS_FORMAT_BGRX;
 }
 
-// Returns what pixel_stride 0 stands for.
+// Returns the pixel_stride that 0 stands for.
 constexpr int32_t LeastStep(int32_t format) {
   if (!IsYuv(format)) return HasAlpha(format) ? 4 : 3;
   return IsPaired(format) ? 2 : 1;
 }
 
-// Returns the planes of an image that has been checked. Byte is const for images that are read.
+// Returns the planes of a valid image. Byte is const for input images.
 template <class Byte>
 ImagePlanes<Byte> PlanesOf(const starfocus_image& image) {
   ImagePlanes<Byte> of = {};

@@ -8,10 +8,10 @@
 namespace starfocus {
 namespace {
 
-// Rows are converted in pieces of so many chroma samples, which lie on the stack.
+// Number of chroma samples that are converted at once, on the stack.
 constexpr int32_t kPiece = 256;
 
-// Whether samples of U and V lie in pairs; *first is the plane whose samples come first.
+// Returns true if samples of U and V alternate. *first is the plane of the first sample.
 template <class Byte>
 bool ArePairs(const ImagePlanes<Byte>& image, int* first) {
   if (image.step != 2 || image.strides[1] != image.strides[2]) return false;
@@ -21,7 +21,7 @@ bool ArePairs(const ImagePlanes<Byte>& image, int* first) {
   return u + 1 == v || v + 1 == u;
 }
 
-// Up to kPiece chroma samples beside each other: in place, or copied.
+// Up to kPiece consecutive chroma samples, in place or copied.
 class ChromaSamples {
  public:
   ChromaSamples(const simd::ImageKernels& kernels, const ImageSource& image, int32_t x, int32_t y,
@@ -52,7 +52,7 @@ class ChromaSamples {
 void ReadYuv(const simd::ImageKernels& kernels, const ImageSource& image, int32_t x, int32_t y,
              int32_t count, uint8_t* rgb) {
   for (const int32_t end = x + count; x < end;) {
-    // The second of the two pixels of a chroma sample comes first alone.
+    // If x is odd, convert one pixel first to align with the chroma samples.
     const int32_t piece = x % 2 != 0 ? 1 : Min(2 * kPiece, end - x);
     const ChromaSamples chroma(kernels, image, x, y, (piece + 1) / 2);
     kernels.YuvToRgb(image.Luma(x, y), chroma.u(), chroma.v(), static_cast<size_t>(piece),
@@ -64,7 +64,7 @@ void ReadYuv(const simd::ImageKernels& kernels, const ImageSource& image, int32_
 
 bool IsPacked(const simd::PixelOrder& order) { return order.step == 3 && !order.blue_first; }
 
-// Pixels as far apart as no kernel writes them.
+// Fallback for pixel strides that no SIMD kernel supports.
 void WritePixels(const uint8_t* rgb, size_t count, const ImageTarget& image, uint8_t* pixels) {
   const size_t red = image.blue_first ? 2 : 0;
   for (size_t n = 0; n < count; ++n, rgb += 3, pixels += image.step) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rows of images to and from codes R, G, B.
+// Converts rows of images to and from RGB codes.
 #ifndef STARFOCUS_LIB_CONVERT_IMAGE_ROWS_H_
 #define STARFOCUS_LIB_CONVERT_IMAGE_ROWS_H_
 
@@ -11,28 +11,29 @@
 
 namespace starfocus {
 
-// Writes the codes of `count` pixels from (x, y) on.
+// Reads `count` pixels from (x, y) on and writes their codes to `rgb`.
 void ReadCodes(const simd::ImageKernels& kernels, const ImageSource& image, int32_t x, int32_t y,
                int32_t count, uint8_t* rgb);
 
-// Writes the first `width` pixels of row y, but for chroma; alpha becomes 255.
+// Writes the first `width` pixels of row y, without chroma. Alpha is set to 255.
 void WriteCodes(const simd::ImageKernels& kernels, const uint8_t* rgb, int32_t width, int32_t y,
                 const ImageTarget& image);
 
-// Writes the chroma of rows y and y + 1, y being even; `lower` is `upper` for a last row.
+// Writes the chroma of rows y and y + 1; y is even. For a last row without partner, pass it twice.
 void WriteChroma(const simd::ImageKernels& kernels, const uint8_t* upper, const uint8_t* lower,
                  int32_t width, int32_t y, const ImageTarget& image);
 
-// Alpha of a picture, `step` bytes from pixel to pixel; without rows there is none.
+// Alpha of a picture. `step` is the number of bytes from pixel to pixel. Null rows: no alpha.
 struct AlphaSource {
   Plane<const uint8_t> rows;
   size_t step = 0;
 };
 
-// Returns the alpha of an image, which may have none.
+// Returns the alpha of an image.
 AlphaSource AlphaOf(const ImageSource& image);
 
-// Copies alpha of `count` pixels from (x, y) on to the first ones of row `to_y`; both have some.
+// Copies the alpha of `count` pixels from (x, y) on to the start of row `to_y`. Both must have
+// alpha.
 void CopyAlpha(const AlphaSource& from, int32_t x, int32_t y, int32_t count, int32_t to_y,
                const ImageTarget& to);
 
