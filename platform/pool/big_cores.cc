@@ -8,15 +8,16 @@
 namespace starfocus {
 namespace {
 
-// A kind of file that tells how strong a core is, and the share of the strongest one's number that
-// a big core has. Small cores have a third of the capacity, but two thirds of the clock.
+// A file with the performance of a core. A core is big if its number is at least numerator /
+// denominator of the largest number. Small cores have about 1/3 of the capacity of big cores, but
+// 2/3 of the clock frequency, so the two files need different limits.
 struct Measure {
   const char* file;
   int64_t numerator, denominator;
 };
 constexpr Measure kMeasures[] = {{"cpu_capacity", 1, 2}, {"cpufreq/cpuinfo_max_freq", 3, 4}};
 
-// Returns the number in a core's file; 0 when there is none.
+// Returns the number in the file `name` of a core, or 0 if the file is missing or has no number.
 int64_t ReadNumber(const char* folder, int core, const char* name) {
   char path[512];
   const int length = std::snprintf(path, sizeof path, "%s/cpu%d/%s", folder, core, name);
@@ -78,7 +79,7 @@ void RunOn(const CoreSet& cores) {
   for (int core = 0; core < CPU_SETSIZE && core < kMaxCores; ++core) {
     if (cores.Has(core)) CPU_SET(core, &set);
   }
-  sched_setaffinity(0, sizeof set, &set);  // of the thread; refused, it runs anywhere
+  sched_setaffinity(0, sizeof set, &set);  // on failure the thread keeps its cores
 }
 
 #else

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which cores of a machine are its big ones.
+// Finds the big cores of machines that have cores of different speeds, and restricts threads to
+// them. Used by the pool (pool.cc). On systems other than Linux, BigCores returns an empty set.
 #ifndef STARFOCUS_PLATFORM_POOL_BIG_CORES_H_
 #define STARFOCUS_PLATFORM_POOL_BIG_CORES_H_
 
@@ -7,9 +8,9 @@
 
 namespace starfocus {
 
-inline constexpr int kMaxCores = 1024;  // those beyond are not asked about
+inline constexpr int kMaxCores = 1024;  // cores with larger numbers are ignored
 
-// A core is named by its number in the system.
+// A set of cores, identified by their numbers in the operating system.
 struct CoreSet {
   uint64_t words[kMaxCores / 64] = {};
 
@@ -18,15 +19,16 @@ struct CoreSet {
   int Count() const;
 };
 
-// The cores of `allowed` that the files below `folder` (/sys/devices/system/cpu) tell are big: by
-// cpu<N>/cpu_capacity of all of them or, where that is missing, cpu<N>/cpufreq/cpuinfo_max_freq.
-// All of `allowed` when neither is there of each.
+// Returns the big cores of `allowed`. Reads `folder`/cpu<N>/cpu_capacity of all cores or, if a core
+// lacks it, `folder`/cpu<N>/cpufreq/cpuinfo_max_freq; `folder` is /sys/devices/system/cpu, except
+// in tests. Returns `allowed` if neither file exists for every core.
 CoreSet FindBigCores(const char* folder, const CoreSet& allowed);
 
-// Those of this process; empty where the system does not say what it may run on.
+// Returns the big cores that this process may run on. The set is empty if the system does not
+// report which cores the process may run on.
 CoreSet BigCores();
 
-// Lets the calling thread run on `cores` alone, if it may.
+// Restricts the calling thread to `cores`. If the system rejects this, the thread keeps its cores.
 void RunOn(const CoreSet& cores);
 
 }  // namespace starfocus

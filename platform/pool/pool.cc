@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pool, on POSIX threads: C++ whose run time a C program does not link.
+// Implements starfocus/pool.h with POSIX threads. The code uses no function of the C++ run time, so
+// C programs can link it.
 #include "starfocus/pool.h"
 
 #include <pthread.h>
@@ -15,8 +16,9 @@
 
 namespace {
 
-// Longer than the engine's own work between two batches, shorter than a thread may waste.
-constexpr int64_t kPatience = 100000;  // ns
+// Time for which a thread polls before it sleeps, in ns. It is longer than the work of the engine
+// between two batches, and short enough that polling wastes little processor time.
+constexpr int64_t kPatience = 100000;
 
 int64_t Now() {
   timespec now;
@@ -24,14 +26,14 @@ int64_t Now() {
   return int64_t{now.tv_sec} * 1000000000 + now.tv_nsec;
 }
 
-// Looks for `ready` until it is true or patience ends.
+// Polls `ready` until it returns true, for at most kPatience.
 template <class Ready>
 void LookFor(const Ready& ready) {
   const int64_t end = Now() + kPatience;
   while (!ready() && Now() < end) sched_yield();
 }
 
-// Holds a mutex while it lives.
+// Locks a mutex in the constructor and unlocks it in the destructor.
 class Lock {
  public:
   explicit Lock(pthread_mutex_t* mutex) : mutex_(mutex) { pthread_mutex_lock(mutex_); }
@@ -43,6 +45,7 @@ class Lock {
   pthread_mutex_t* const mutex_;
 };
 
+// The arguments of a call of starfocus_pool_run.
 struct Batch {
   starfocus_job job;
   void* data;
@@ -57,25 +60,27 @@ struct Thread {
 
 }  // namespace
 
-// A batch follows the one before within microseconds, less than it takes to wake a thread, so who
-// has nothing to do looks again for a while, giving way to other threads, before it sleeps.
+// Batches follow each other within microseconds, which is less than the time to wake a thread. A
+// thread without work therefore polls for kPatience and yields to other threads before it sleeps.
 struct starfocus_pool {
-  int32_t threads = 0;  // started
+  int32_t threads = 0;  // number of started threads
   Thread started[STARFOCUS_MAX_WORKERS - 1];
-  starfocus::CoreSet cores;  // that threads run on; empty: any
+  starfocus::CoreSet cores;  // cores that the threads run on; empty: any
 
-  pthread_mutex_t turn = PTHREAD_MUTEX_INITIALIZER;  // held for a whole batch
+  pthread_mutex_t turn = PTHREAD_MUTEX_INITIALIZER;  // held by the caller during its batch
   Batch batch = {nullptr, nullptr, 0};
-  // Jobs of the batch that nobody has taken. Whoever takes one may read the batch until that job
-  // counts as done.
+  // Number of jobs of the batch that no thread has taken. A thread that took a job may read `batch`
+  // until it decrements `undone` for that job.
   std::atomic<int32_t> left{0};
-  std::atomic<int32_t> undone{0};
-  std::atomic<int32_t> stop{0};
+  std::atomic<int32_t> undone{0};  // number of jobs that are not done
+  std::atomic<int32_t> stop{0};    // 1: the threads end
 
-  // Who sleeps says so before the last look at the above; who changes that looks here afterwards.
-  std::atomic<int32_t> idle{0};                       // threads at `wake`
-  std::atomic<int32_t> waiting{0};                    // 1: the caller, at `finished`
-  pthread_mutex_t sleep = PTHREAD_MUTEX_INITIALIZER;  // of both
+  // A thread that is about to sleep first sets `idle` or `waiting` and then checks the counters
+  // above again. A thread that changes a counter checks `idle` or `waiting` afterwards. So no
+  // wake-up is lost.
+  std::atomic<int32_t> idle{0};                       // number of threads that wait for `wake`
+  std::atomic<int32_t> waiting{0};                    // 1: the caller waits for `finished`
+  pthread_mutex_t sleep = PTHREAD_MUTEX_INITIALIZER;  // mutex of both condition variables
   pthread_cond_t wake = PTHREAD_COND_INITIALIZER;
   pthread_cond_t finished = PTHREAD_COND_INITIALIZER;
 
@@ -85,13 +90,15 @@ struct starfocus_pool {
 
 namespace {
 
+// Takes and runs jobs until none are left. Wakes the caller after the last job.
 void Work(starfocus_pool* pool, int32_t worker) {
   int32_t left = pool->left;
   while (left > 0) {
     if (!pool->left.compare_exchange_weak(left, left - 1)) continue;
     pool->batch.job(pool->batch.data, pool->batch.count - left, worker);
     if (--pool->undone == 0 && pool->waiting != 0) {
-      // The caller is asleep, or will look again once it has the lock.
+      // The caller either sleeps, or holds the lock and checks `undone` before it sleeps. Locking
+      // waits for that check, so the signal is not lost.
       { const Lock lock(&pool->sleep); }
       pthread_cond_signal(&pool->finished);
     }
