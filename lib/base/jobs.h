@@ -45,9 +45,9 @@ struct JobSet {
 // Runs function(data, index, worker) for all indices in [0, count), count > 0. It calls the
 // progress function before each job. No job runs after the return, even if the runner misbehaves.
 //
-// Returns STARFOCUS_OK, STARFOCUS_ERROR_CANCELLED if the progress function cancelled the call and
-// jobs were skipped, or STARFOCUS_ERROR_RUNNER if the runner failed or did not run each job exactly
-// once.
+// Returns STARFOCUS_OK or an error:
+// STARFOCUS_ERROR_CANCELLED: the progress function cancelled the call, and jobs were skipped.
+// STARFOCUS_ERROR_RUNNER: the runner failed or did not run each job exactly once.
 starfocus_status RunJobSet(JobFunction function, const void* data, int32_t count, JobSet* set);
 
 }  // namespace starfocus

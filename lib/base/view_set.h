@@ -51,8 +51,8 @@ struct ViewSet {
 // Returns position `index` of the star.
 ViewPosition StarPosition(int index);
 
-// Returns the index of the star's view in direction (u, v) at full or half distance. u and v are
-// -1, 0 or 1, and not both 0.
+// Returns the index of the star's view in direction (u, v) at full or half distance. The values u
+// and v are -1, 0 or 1, and not both 0.
 int CapturedView(int u, int v, bool half);
 
 // Finds the views of a configuration. Returns STARFOCUS_ERROR_RANGE for an invalid number of views

@@ -16,11 +16,11 @@ struct DepthSource {
   starfocus_depth_map map;
   simd::DepthRule rule;
   int32_t width, height;  // size of the picture
-  const uint32_t*
-      // Position of each column in the map (simd::SpreadRow); null: the map has the width of the
-      // picture.
-      columns;
-  int32_t first = 0;  // row of the picture where `map` starts, if it has the height of the picture
+  // Position of each column in the map (simd::SpreadRow); null: the map has the width of the
+  // picture.
+  const uint32_t* columns;
+  // Row of the picture where `map` starts, if the map has the height of the picture.
+  int32_t first = 0;
 };
 
 // Computes the position in the map for each column of a picture.

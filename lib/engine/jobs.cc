@@ -8,8 +8,8 @@ namespace starfocus {
 
 int32_t MaxJobs(const starfocus_config& config) {
   const int32_t side = config.superblock;
-  // A set has one job per block of a stripe, per column of superblocks, or, in deblocking, per row
-  // of smallest blocks of a stripe and the rows kept above it. Columns never outnumber blocks.
+  // A set has one job per block of a stripe or per column of superblocks. Deblocking has one per
+  // row of smallest blocks of a stripe and the rows kept above it. Columns never outnumber blocks.
   return Max(Columns(config) * MaxBlocks(side), side / kSmallestBlock + 1);
 }
 

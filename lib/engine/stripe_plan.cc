@@ -43,8 +43,8 @@ int32_t LargestSide(const PlanJob& job) {
   return IsBenchmark(*job.lens) ? Min(largest, job.lens->renderer->benchmark_side) : largest;
 }
 
-// Returns true if blocks in `rect` may show light of highlights beyond white, that is, if some view
-// has a highlight within the reach of blur and disparity. Returns false if that whole area is one
+// Returns true if blocks in `rect` may show light of highlights beyond white: some view has a
+// highlight within the reach of blur and disparity. Returns false if that whole area is one
 // highlight larger than a lamp.
 bool HasHighlights(const PlanJob& job, const Rect& rect) {
   const starfocus_config& config = *job.config;

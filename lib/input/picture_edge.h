@@ -14,9 +14,10 @@ namespace starfocus {
 inline constexpr int32_t kLookBack = 32;
 
 // Replaces repeated edges of the picture in a field by the continued surface. Pixels get their
-// colour from the captured view that shows them, up to the distance by which the disparity of the
-// edge moves them in that view. They end where a nearer surface covers them in the view. Pixels
-// farther outside repeat the last one. Without side views and beyond corners, nothing changes.
+// colour from the captured view that shows them. That view shows as many pixels beyond the edge as
+// the disparity of the edge moves it. The surface ends earlier where a nearer one covers it in that
+// view. Pixels farther outside repeat the last one. Without side views and beyond corners, nothing
+// changes.
 void ExtendEdges(const Window& window, BlockPixels* field);
 
 }  // namespace starfocus

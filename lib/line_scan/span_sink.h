@@ -20,8 +20,9 @@ struct SpanTarget {
   int16_t* disparity;
 };
 
-// Sink of LineScan. holes.Fill(begin, end, disparity, colour, out) writes the colours of rendered
-// pixels [begin, end) that show a surface of `disparity`, with `colour` where it is visible.
+// Sink of LineScan. It calls holes.Fill(begin, end, disparity, colour, out) to write the colours of
+// the rendered pixels [begin, end). They show a surface of `disparity`, whose visible part has
+// `colour`.
 template <class Holes>
 class SpanSink {
  public:

@@ -52,9 +52,9 @@ class Unmixer {
   int32_t Radius(int32_t disparity) const { return Abs(grid_.Shift(rim_, disparity)); }
 
   // Returns the part of the pixel (kShareBits) to replace by the far colour. It is 1 for shares of
-  // at least one half. Smaller shares are replaced in part, because the light removed there is
-  // mostly missing from the pixels of the nearer surface on the other side of the edge. `strength`
-  // reduces the part where no outline would be visible.
+  // at least one half. Smaller shares are replaced only in part: most of the light removed there is
+  // missing from the nearer surface's pixels on the other side of the edge. `strength` reduces the
+  // part where no outline would be visible.
   static int32_t AmountOf(int32_t share, int32_t strength) {
     return (Min(2 * share, kShareOne) * strength + kShiftOne / 2) >> kShiftBits;
   }

@@ -18,8 +18,8 @@ struct Prepared {
   starfocus_light_field light_field;
   bool covers = false;       // true: the light field has coverage
   Plane<int16_t> disparity;  // all rows
-  Plane<int16_t>
-      layers[STARFOCUS_LAYERS];  // samples: all rows of layers 1 to config.tuning.max_layer
+  // Samples: all rows of layers 1 to config.tuning.max_layer.
+  Plane<int16_t> layers[STARFOCUS_LAYERS];
   ReducedField reduced[STARFOCUS_MAX_PREVIEW + 1];  // indexed by shift, from 1 to config.previews
 };
 
