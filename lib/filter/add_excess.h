@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The last step of highlights: what they are beyond white is added to a picture.
+// Last step of highlights: adds their light beyond white to a picture.
 #ifndef STARFOCUS_LIB_FILTER_ADD_EXCESS_H_
 #define STARFOCUS_LIB_FILTER_ADD_EXCESS_H_
 
@@ -11,7 +11,7 @@
 
 namespace starfocus {
 
-// What is added, with kExcessBits: highlights - 1.
+// Factor of the excess, kExcessBits: highlights - 1.
 inline constexpr int kExcessBits = 8;
 int32_t ExcessFactor(float highlights);
 
@@ -21,8 +21,8 @@ struct ExcessSum {
   int32_t factor;  // 0: nothing is added
 };
 
-// Adds the excess of sums (lib/input/excess.h), which have `shift` fractional bits, to codes, as
-// light. Light beyond white becomes white; where the sums are 0, codes stay.
+// Adds the excess in `sums` (lib/input/excess.h) to codes, as light. The sums have `shift`
+// fractional bits. Results beyond white are clipped to white. Sums of 0 do not change the codes.
 void AddExcess(const ExcessSum& excess, const uint32_t* sums, size_t count, int shift,
                uint8_t* codes);
 

@@ -6,7 +6,7 @@
 namespace starfocus {
 namespace {
 
-// Tells whether blocks of these layers need joining.
+// Returns true if the boundary between blocks of these layers must be deblocked.
 bool Meet(int32_t before, int32_t after) {
   return before != after && before != kNoLayer && after != kNoLayer;
 }
@@ -15,8 +15,9 @@ bool Close(const uint8_t* a, const uint8_t* b, int32_t beta) {
   return Abs(a[0] - b[0]) < beta && Abs(a[1] - b[1]) < beta && Abs(a[2] - b[2]) < beta;
 }
 
-// Filters the pixels q0, q1, ... on the lower layer's side of a boundary; `q` is `step` bytes from
-// pixel to pixel, away from the boundary, and p0 the pixel before it. `available`: pixels q has.
+// Filters pixels q0, q1, ... on the finer side of a boundary. `step` is the distance of pixels in
+// bytes, away from the boundary, and p0 is the pixel before q0. `available` is the number of pixels
+// on this side.
 void FilterLine(const DeblockJob& job, uint8_t* q, ptrdiff_t step, int32_t available, bool strong) {
   const uint8_t* p0 = q - step;
   const int16_t* light = job.transfer->light;
@@ -39,9 +40,8 @@ void FilterLine(const DeblockJob& job, uint8_t* q, ptrdiff_t step, int32_t avail
   }
 }
 
-// A boundary: a run of `count` pixels `along` bytes apart, of which `at` is the first. Those of
-// both sides lie `across` bytes apart, and `room` of them on the side of `at` belong to the
-// picture.
+// A boundary: a run of `count` pixels, `along` bytes apart, starting at `at`. Pixels across the
+// boundary are `across` bytes apart, and `room` pixels on the side of `at` are inside the picture.
 struct BoundaryLine {
   uint8_t* at;
   int32_t count;
@@ -49,7 +49,7 @@ struct BoundaryLine {
   int32_t room;
 };
 
-// Filters a boundary at which blocks of layers `before` and `after` meet.
+// Filters a boundary between blocks of layers `before` and `after`.
 void FilterBoundary(const DeblockJob& job, const BoundaryLine& line, int32_t before,
                     int32_t after) {
   const bool lower_after = before > after;

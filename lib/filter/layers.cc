@@ -9,8 +9,8 @@ namespace {
 using simd::Kernels;
 using simd::kLayerWhite;
 
-// Pixels of a line by pairs, as the filter needs them for pixels [begin, end) of the layer: pair k
-// is pixels 2 k and 2 k + 1.
+// Pairs of pixels of a line that the filter reads for pixels [begin, end) of the layer. Pair k
+// consists of pixels 2 k and 2 k + 1.
 struct PairRange {
   int32_t begin, end;
   int32_t First() const { return begin - 2; }
@@ -43,7 +43,7 @@ struct SampleRow {
   int16_t Sample(int32_t n) const { return samples[n]; }
 };
 
-// Parts a row of `width` pixels, repeating its edge pixels where the pairs leave it.
+// Splits a row of `width` pixels into even and odd pixels. Repeats its edge pixels outside the row.
 template <class Row>
 void PartLine(const Kernels& kernels, const Row& row, int32_t width, const PairRange& pairs,
               const ResampleScratch& phases) {
@@ -71,8 +71,8 @@ struct LayerPart {
   size_t RowSamples() const { return 3 * static_cast<size_t>(end - begin); }
 };
 
-// Filters along columns: `half` holds the rows from 2 * rows.first - 3 on, packed, the edge rows of
-// what they are made of repeated.
+// Filters along columns. `half` has packed rows, starting at row 2 * rows.first - 3 of the source,
+// with repeated edge rows.
 void HalveRows(const Kernels& kernels, const int16_t* half, const LayerPart& to) {
   const size_t count = to.RowSamples();
   half += 3 * count;
@@ -84,8 +84,8 @@ void HalveRows(const Kernels& kernels, const int16_t* half, const LayerPart& to)
   }
 }
 
-// Subsamples a plane of width x height pixels, first along rows: of all that the part's rows are
-// made of.
+// Subsamples a plane of width x height pixels: first along rows, for all rows that `to` needs, then
+// along columns.
 template <class RowAt>
 void Downsample(const Kernels& kernels, const RowAt& row_at, int32_t width, int32_t height,
                 const ResampleScratch& scratch, const LayerPart& to) {
@@ -121,8 +121,8 @@ void DownsampleTwice(const Kernels& kernels, const Window& picture, const Resamp
   Downsample(kernels, row, width, height, scratch, to);
 }
 
-// Writes pixels of `even` and `odd` in turn, `width` in all. Copies a fourth sample of each, which
-// the next pixel overwrites: one move instead of two.
+// Writes `width` pixels alternately from `even` and `odd`. It copies four samples per pixel, which
+// is one move instead of two; the next pixel overwrites the fourth.
 void Interleave(const int16_t* even, const int16_t* odd, int32_t width, int16_t* out) {
   for (int32_t x = 0; x + 1 < width; x += 2, even += 3, odd += 3, out += 6) {
     std::memcpy(out, even, 4 * sizeof(*out));

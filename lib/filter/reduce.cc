@@ -20,7 +20,7 @@ void MeanOfWhole(const uint32_t* sums, int32_t blocks, int16_t* light) {
   }
 }
 
-// Of a block that the picture has a part of.
+// Computes the mean of a block that is partly outside the picture.
 void MeanOfPart(const uint32_t* sums, int32_t columns, int32_t rows, int16_t* light) {
   const uint32_t count = static_cast<uint32_t>(columns) * static_cast<uint32_t>(rows);
   for (int c = 0; c < 3; ++c) {
@@ -58,7 +58,8 @@ int16_t MedianOf(const int16_t* values, int32_t count) {
     low = values[n] < low ? values[n] : low;
     high = values[n] > high ? values[n] : high;
   }
-  // The smallest value that more than half of them do not exceed lies in [low, high].
+  // Bisection: the smallest value that more than half of the values do not exceed is in [low,
+  // high].
   while (low < high) {
     const auto middle = static_cast<int16_t>((low + high) >> 1);
     int32_t not_above = 0;

@@ -6,9 +6,9 @@
 namespace starfocus {
 namespace {
 
-constexpr int32_t kHalves = 2 * kCellSize;  // half pixels of a cell's side
+constexpr int32_t kHalves = 2 * kCellSize;  // half pixels along the side of a cell
 
-// The signed blur radius at the upper left corner of a cell.
+// Returns the signed blur radius at the upper left corner of a cell.
 int32_t RadiusAtCorner(const CellGrid& grid, const BlurScale& scale, int32_t column, int32_t row) {
   constexpr int kSummedBits = 3;  // four cells, two disparities each
   int64_t distance = -int64_t{scale.focus} * (1 << kSummedBits);
@@ -32,7 +32,8 @@ Slope::Slope(const CellGrid& grid, const BlurScale& scale, int32_t column, int32
   }
 }
 
-// The signed radius of a pixel of the layer, in pixels of the layer, with ScaledBits more bits.
+// Returns the signed radius of a pixel of the layer, in pixels of the layer, with ScaledBits extra
+// fractional bits.
 int64_t Slope::Scaled(int32_t x, int32_t y) const {
   const int32_t across = (2 * x + 1) * (1 << layer_) - left_;
   const int32_t down = (2 * y + 1) * (1 << layer_) - top_;
@@ -82,10 +83,11 @@ void Slope::FindShares(const RadiusRange& between, const Rect& pixels, size_t st
 simd::HalfMove Slope::Move(int32_t spread) const {
   constexpr int32_t kMost = INT16_MAX;
   const int64_t radii = int64_t{corners_[0]} + corners_[1] + corners_[2] + corners_[3];
-  // The mean radius is a fourth of their sum, at the layer; a gradient a sixteenth of a difference.
+  // The mean radius at the layer is 1/4 of their sum; a gradient is 1/16 of a difference.
   const auto half_move = [&](int32_t difference) {
     const int bits = kOpeningBits + 2 * kSlopeBits + 2 + 4 + 1 - 15 + layer_;
-    // A slope that is mirrored moves as far the other way.
+    // Rounds the absolute value, so that a mirrored slope moves exactly as far in the other
+    // direction.
     const int64_t product = radii * difference * spread;
     const int64_t move = RoundShift(product < 0 ? -product : product, bits);
     const auto limited = static_cast<int32_t>(move < kMost ? move : kMost);

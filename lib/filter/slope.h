@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How blur changes across a cell that is gathered, as the cells around it tell: the radius of each
-// pixel, and how far a surface that leans moves what it blurs (docs/method.md, Gathering).
+// Blur across a gathered cell on a slope, derived from the cells around it. It computes the radius
+// of each pixel, and how far a slanted surface moves its blurred image (docs/method.md, Gathering).
 #ifndef STARFOCUS_LIB_FILTER_SLOPE_H_
 #define STARFOCUS_LIB_FILTER_SLOPE_H_
 
@@ -16,42 +16,41 @@ namespace starfocus {
 // Fractional bits of radii on a slope.
 inline constexpr int kSlopeBits = 10;
 
-// The smallest and the largest blur radius of some pixels, kSlopeBits.
+// Smallest and largest blur radius of a set of pixels, kSlopeBits.
 struct RadiusRange {
   int32_t low, high;
 };
 
 class Slope {
  public:
-  // Of the cell at (column, row) of the grid at a layer. The cells around it must be stored. At a
-  // corner of cells the radius is the mean of the four that meet there, nearer than the focus
-  // counted as negative, and between them it is bilinear.
+  // Describes the cell at (column, row) of the grid, at a layer. The cells around it must be
+  // stored. The radius at a corner is the mean of the four adjacent cells, with opposite signs in
+  // front of and behind the focus. It is interpolated bilinearly in between.
   Slope(const CellGrid& grid, const BlurScale& scale, int32_t column, int32_t row, int32_t layer);
 
-  // The radii of pixels of the layer, which may lie beyond the cell.
+  // Returns the range of radii of pixels of the layer, which may lie outside the cell.
   RadiusRange RangeOf(const Rect& pixels) const;
 
-  // Writes by how much each of some pixels of the layer lies between two radii: share[3 n] to
-  // share[3 n + 2] are that of pixel n of a row, in [0, 1], 15 fractional bits, and rows are
-  // `stride` samples apart. The square of the radius counts: what lies between two kernels is as
-  // wide as the one between their radii, in the mean square.
+  // Writes the position of each pixel's radius between two radii, in [0, 1] with 15 fractional
+  // bits. share[3 n] to share[3 n + 2] belong to pixel n of a row, and rows are `stride` samples
+  // apart. The position is measured in squared radii, so that a mixture of two PSFs has the mean
+  // square width of the intermediate PSF.
   void FindShares(const RadiusRange& between, const Rect& pixels, size_t stride,
                   int16_t* share) const;
 
-  // How far all views together see the cell's pixels moved, of a lens whose light has the mean
-  // square `spread` (MeanSquare) along an axis: `spread` times the radius times its gradient, up to
-  // two pixels.
+  // Returns the displacement of the cell's pixels in the mean of all views. It is `spread` times
+  // the radius times its gradient, at most two pixels. `spread` is the mean square of the lens's
+  // light along an axis (MeanSquare).
   simd::HalfMove Move(int32_t spread) const;
 
  private:
   int64_t Scaled(int32_t x, int32_t y) const;
-  int ScaledBits() const {
-    return 8 + layer_;
-  }  // the square of a cell's half pixels, and the layer
+  // Bits of the squared number of half pixels along a cell, plus the layer.
+  int ScaledBits() const { return 8 + layer_; }
   int32_t At(int32_t x, int32_t y) const;
 
   int32_t layer_;
-  int32_t left_, top_;  // of the cell, in half pixels of the picture
+  int32_t left_, top_;  // corner of the cell, in half pixels of the picture
   int32_t corners_[4];  // signed radii in pixels of the picture, kSlopeBits, row by row
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Spans waiting for a kernel, so that one call serves many views of a line.
+// Buffer of spans for a SIMD kernel, so that one call processes many views of a line.
 #ifndef STARFOCUS_LIB_FILTER_SPAN_LIST_H_
 #define STARFOCUS_LIB_FILTER_SPAN_LIST_H_
 
@@ -11,15 +11,15 @@
 
 namespace starfocus {
 
-// Memory of a list, and of the hole colours its spans point at.
+// Memory of a list, and of the hole colours that its spans point to.
 struct SpanMemory {
   simd::Span* spans;
   size_t span_capacity;
   int16_t* pixels;
-  size_t pixel_capacity;  // samples; at least one line
+  size_t pixel_capacity;  // in samples; at least one line
 };
 
-// Takes the memory for lines of up to `side` pixels.
+// Allocates the memory for lines of up to `side` pixels.
 inline SpanMemory TakeSpans(size_t side, Arena* arena) {
   SpanMemory memory;
   memory.span_capacity = 512;
@@ -31,22 +31,22 @@ inline SpanMemory TakeSpans(size_t side, Arena* arena) {
 
 class SpanList {
  public:
-  // Spans are accumulated.
+  // Creates a list that adds spans to accumulators.
   SpanList(const simd::Kernels& kernels, const SpanMemory& memory, uint32_t* accumulators)
       : SpanList(kernels, memory, accumulators, nullptr) {}
-  // Spans are blended into a line.
+  // Creates a list that blends spans into a line.
   SpanList(const simd::Kernels& kernels, const SpanMemory& memory, int16_t* line)
       : SpanList(kernels, memory, nullptr, line) {}
 
-  // The next span, for the caller to fill in.
+  // Returns the next span, which the caller must fill in.
   simd::Span* Next() {
     if (count_ == capacity_) Flush();
     return spans_ + count_++;
   }
   void Add(const simd::Span& span) { *Next() = span; }
 
-  // Room for the colours of one span of a hole, which the caller adds next; samples <=
-  // pixel_capacity.
+  // Returns room for the colours of one span of a hole, which the caller must add next. `samples`
+  // is at most pixel_capacity.
   int16_t* Pixels(size_t samples) {
     if (used_ + samples > pixel_capacity_ || count_ == capacity_) Flush();
     int16_t* pixels = pixels_ + used_;

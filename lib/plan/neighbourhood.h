@@ -40,8 +40,8 @@ Surroundings LoadSurroundings(const CellGrid& grid, const BlurScale& scale, cons
                               int32_t around, int16_t* samples);
 
 // A cell is smooth if it can be gathered (lib/filter/gather.h). All pixels within its reach, and
-// nearer pixels that reach it, must belong to one surface without depth edges. The signed blur
-// radius is negative for pixels nearer than the focus. It must not vary by more than kSlopeRange
+// nearer pixels that reach it, must belong to one surface without depth edges. Blur radii have
+// opposite signs in front of and behind the focus. They must not vary by more than kSlopeRange
 // (kDisparityBits) within any of these cells. Farther pixels that reach the cell are ignored,
 // because no view shows them in front of the surface.
 //
