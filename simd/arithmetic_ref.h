@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fixed-point arithmetic that references of several families are defined by.
+// Fixed-point arithmetic shared by the references of several kernel families.
 #ifndef STARFOCUS_SIMD_ARITHMETIC_REF_H_
 #define STARFOCUS_SIMD_ARITHMETIC_REF_H_
 

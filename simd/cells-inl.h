@@ -14,7 +14,8 @@ HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
-// Vectors whose length is unknown at compile time can't be kept in arrays and structs, as below.
+// Vectors of unknown size at compile time cannot be stored in arrays or structs, as the code below
+// does.
 #if HWY_TARGET == HWY_SCALAR || HWY_HAVE_SCALABLE
 
 using reference::MeasureCell;
@@ -33,8 +34,8 @@ HWY_INLINE UnsignedRow Distance(CellRow a, CellRow b) {
   return hn::Sub(hn::BitCast(du16, hn::Max(a, b)), hn::BitCast(du16, hn::Min(a, b)));
 }
 
-// Reduces each of eight vectors to one lane by `take` (minimum or maximum): lane k is that of
-// vector k.
+// Reduces each of eight vectors to one lane with `take` (minimum or maximum). Lane k is the result
+// of vector k.
 template <class Take>
 HWY_INLINE CellRow ReduceRows(const CellRow (&rows)[8], const Take& take) {
   const CellTag d16;
@@ -63,14 +64,14 @@ HWY_INLINE uint32_t SumOf(UnsignedRow row) {
   return hn::GetLane(hn::SumOfLanes(d32, pairs));
 }
 
-// Sums up steps, in 32-bit lanes where 16 bits may not hold the sum.
+// Sums of steps, in 32-bit lanes where 16 bits may not hold the sum.
 struct Steps {
   explicit Steps(const CellLimits& limits)
       : edge(hn::Set(UnsignedTag(), static_cast<uint16_t>(limits.edge))),
         slope_limit(hn::Set(UnsignedTag(), static_cast<uint16_t>(limits.slope_limit))),
         gap_limit(hn::Set(UnsignedTag(), static_cast<uint16_t>(limits.gap_limit))) {}
 
-  // Adds the steps between a and b. They count as inside the cell where `inside` has all bits set.
+  // Adds the steps between a and b. Steps count as inside the cell where `inside` has all bits set.
   HWY_INLINE void Add(CellRow a, CellRow b, UnsignedRow inside) {
     const CellTag d16;
     const UnsignedTag du16;
@@ -105,7 +106,8 @@ struct Steps {
       hn::Zero(hn::Repartition<uint32_t, UnsignedTag>());
 };
 
-// Measures the steps of a cell without depth edges, as most cells are. Returns false if it has one.
+// Measures the steps of a cell without depth edges, which most cells are. Returns false if the cell
+// has a depth edge.
 HWY_INLINE bool MeasureSlopes(const int16_t* const rows[10], const CellRow (&here)[8],
                               UnsignedRow all_but_first, const CellLimits& limits,
                               CellMeasure* measure) {
@@ -162,7 +164,7 @@ inline void MeasureCell(const int16_t* const rows[10], const CellLimits& limits,
   const UnsignedTag du16;
   const auto min = [](CellRow a, CellRow b) HWY_ATTR { return hn::Min(a, b); };
   const auto max = [](CellRow a, CellRow b) HWY_ATTR { return hn::Max(a, b); };
-  // The step from column -1 to column 0 leads into the cell, and so is not inside it.
+  // The step from column -1 to column 0 leads into the cell, and therefore is not inside it.
   const auto all_but_first = hn::VecFromMask(du16, hn::Gt(hn::Iota(du16, 0), hn::Zero(du16)));
   const auto focus = hn::Set(d16, limits.focus);
   CellRow here[8];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// This file hides what differs between Highway versions and targets. Included once per target.
+// Hides differences between Highway versions and targets. Included once per target.
 #if defined(STARFOCUS_SIMD_COMPAT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef STARFOCUS_SIMD_COMPAT_INL_H_
 #undef STARFOCUS_SIMD_COMPAT_INL_H_
@@ -15,8 +15,8 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Whether a widening multiply-add of 16-bit lanes adds up the products of two lanes side by side,
-// as it does on x86 and WebAssembly. Elsewhere it adds each product to a sum of its own.
+// 1 if a widening multiply-add of 16-bit lanes adds the products of two adjacent lanes, as on x86
+// and WebAssembly. On other targets it adds each product to a separate sum.
 #undef STARFOCUS_HAVE_PAIR_MULTIPLY
 #if (HWY_ARCH_X86 || HWY_ARCH_WASM) && HWY_TARGET != HWY_SCALAR
 #define STARFOCUS_HAVE_PAIR_MULTIPLY 1
@@ -24,7 +24,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 #define STARFOCUS_HAVE_PAIR_MULTIPLY 0
 #endif
 
-// WeighPair returns a * wa + b * wb in 32-bit lanes, for a, b, wa, wb <= 32767.
+// Returns a * wa + b * wb in 32-bit lanes, for a, b, wa, wb <= 32767.
 template <class D32, class V32 = hn::Vec<D32>>
 HWY_INLINE V32 WeighPair(D32 d32, V32 a, V32 b, V32 wa, V32 wb) {
 #if STARFOCUS_HAVE_PAIR_MULTIPLY
@@ -43,8 +43,8 @@ HWY_INLINE V32 WeighPair(D32 d32, V32 a, V32 b, V32 wa, V32 wb) {
 
 #if HWY_TARGET != HWY_SCALAR
 
-// AddWeighed adds a * wa + b * wb of 16-bit lanes to sums of 32 bits. Which lanes are in which of
-// the two vectors of sums depends on the target: only DemoteSums knows.
+// Adds a * wa + b * wb of 16-bit lanes to 32-bit sums. The order of the lanes in the two vectors of
+// sums depends on the target; use DemoteSums to read them.
 template <class V16, class V32>
 HWY_INLINE void AddWeighed(V16 a, V16 b, int32_t wa, int32_t wb, V32& low, V32& high) {
   const hn::DFromV<V16> d16;
@@ -64,10 +64,10 @@ HWY_INLINE void AddWeighed(V16 a, V16 b, int32_t wa, int32_t wb, V32& low, V32& 
 #endif
 }
 
-// DemoteSums returns the sums of AddWeighed as a vector of 16-bit lanes in their order, saturated.
+// Returns the sums of AddWeighed as one vector of 16-bit lanes in their original order, saturated.
 template <class D16, class V32>
 HWY_INLINE hn::Vec<D16> DemoteSums(D16 d16, V32 low, V32 high) {
-#if HWY_ARCH_ARM_V7  // where Highway 1.0.3 puts the first vector into the upper half
+#if HWY_ARCH_ARM_V7  // Highway 1.0.3 puts the first vector into the upper half
   const hn::Half<D16> half;
   return hn::Combine(d16, hn::DemoteTo(half, high), hn::DemoteTo(half, low));
 #else

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Kernels of the coverage map (lib/coverage). Each works on a row of kSliceLanes pixels.
+// SIMD kernels of the coverage map (lib/coverage). Each processes a row of kSliceLanes pixels.
 #ifndef STARFOCUS_SIMD_COVERAGE_H_
 #define STARFOCUS_SIMD_COVERAGE_H_
 
@@ -10,27 +10,28 @@
 
 namespace starfocus::simd {
 
-// Where a nearer pixel lies before a place of a view. Disparities have any scale.
+// Geometry of a view for CoverPlaces, which finds the nearer pixels that occlude a place in the
+// view. Disparities may have any scale.
 struct CoverView {
-  int16_t along;   // what a unit of disparity moves by in the view, 15 fractional bits
-  int16_t place;   // the move that leads to the place, in the scale of disparities
-  int16_t within;  // moves that differ from it by at most this lead there, too
+  int16_t along;   // move of a unit of disparity in the view, 15 fractional bits
+  int16_t place;   // move that leads to the place, in the scale of disparities
+  int16_t within;  // largest deviation from that move which still covers the place
   int16_t least;   // a nearer pixel is nearer by more than this
 };
 
-// Pixels around one that SumNear takes.
+// Distance in pixels within which SumNear adds pixels.
 inline constexpr int32_t kNearReach = 2;
 
 // Rows of pixels around the first of kSliceLanes pixels, `stride` samples apart.
 struct NearRows {
   const int16_t* light[3];
-  const int16_t* disparity;  // of the near surface
-  const int16_t* weight;     // [0, 256]: how much a pixel shows of the near surface's light
+  const int16_t* disparity;  // disparity of the near surface
+  const int16_t* weight;     // [0, 256]: weight of the near surface's light in the pixel
   ptrdiff_t stride;
   int16_t step;  // disparities of one surface differ by at most this
 };
 
-// The sums of light and of weights that SumNear writes; the latter have 15 fractional bits.
+// Output of SumNear: sums of light, and sums of weights with 15 fractional bits.
 struct NearSums {
   int16_t light[3][kSliceLanes];
   int16_t weight[kSliceLanes];
@@ -38,19 +39,20 @@ struct NearSums {
 
 namespace reference {
 
-// Raises covered[n] to coverage[n] for those pixels n < kSliceLanes of which a nearer surface, at
-// disparity near[n], lies before the place of the far one, at far[n].
+// Raises covered[n] to coverage[n] for each pixel n < kSliceLanes whose near surface, at disparity
+// near[n], occludes the place of the far surface, at disparity far[n].
 void CoverPlaces(const int16_t* near, const uint8_t* coverage, const int16_t* far,
                  const CoverView& view, int16_t* covered);
 
-// Sums the light of the pixels within kNearReach of each pixel n < kSliceLanes that are of its near
-// surface: by weight, and the more the closer they are. Each product is rounded halves up.
+// Sums the light of the pixels within kNearReach of each pixel n < kSliceLanes that belong to the
+// same near surface. Light is multiplied by its weight and by kNearTaps. Each product is rounded
+// halves up.
 void SumNear(const NearRows& rows, NearSums* sums);
 
 }  // namespace reference
 
-// How much a pixel so many pixels aside and below counts; those of all of them sum to 118, so that
-// with weights of 256 all weigh less than 1.
+// Weights of pixels by their distance in columns and rows. The weights of all pixels sum to 118, so
+// that with weights of 256 the total is less than 1.
 inline constexpr int16_t kNearTaps[kNearReach + 1][kNearReach + 1] = {
     {10, 8, 4}, {8, 7, 3}, {4, 3, 2}};
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compiles the table of the kernels that make disparity maps for every SIMD target.
+// Compiles the table of the disparity map kernels for every SIMD target.
 #include "simd/depth_kernels.h"
 
 #undef HWY_TARGET_INCLUDE

@@ -20,7 +20,8 @@ namespace HWY_NAMESPACE {
 inline constexpr size_t kDiscChunk = 192;  // samples filtered together
 inline constexpr size_t kDiscMargin = 3 * kMaxDisc;
 
-// Stores the means of two rows that the disc weighs alike; the middle row comes alone.
+// Stores the means of two rows that have the same weights in the disc. The middle row has no
+// counterpart and is copied.
 HWY_INLINE void AverageRows(const int16_t* above, const int16_t* below, size_t count,
                             uint16_t* HWY_RESTRICT means) {
   if (above == below) {
@@ -36,15 +37,15 @@ HWY_INLINE void AverageRows(const int16_t* above, const int16_t* below, size_t c
   }
 }
 
-// Means of rows that the disc weighs alike: row y has those of the taps y above and below. A tap
-// on each side is read, and weighed with zero, where the second column of a pair lies beyond the
-// disc.
+// Means of rows with equal weights in the disc: row y has the means of the rows y above and y below
+// the middle one. One more tap on each side is read, with weight zero, if the second column of a
+// pair lies beyond the disc.
 struct DiscMeans {
   static constexpr size_t kPixel = 3, kTap = 2 * kPixel, kSpare = HWY_MAX_BYTES;
   static constexpr size_t kStride = kTap + kDiscChunk + 2 * kDiscMargin + kTap + kSpare;
   uint16_t rows[(kMaxDisc + 1) * kStride];
 
-  // Fills so many of them for `count` samples from `middle` on, as far as the disc reaches.
+  // Fills `row_count` rows for `count` samples from `middle` on, extended by the reach of the disc.
   void Fill(const int16_t* middle, size_t in_stride, const Disc& disc, int32_t row_count,
             size_t count) {
     const size_t margin = Margin(disc), all = count + 2 * margin;
@@ -57,27 +58,27 @@ struct DiscMeans {
     }
   }
 
-  // The first of those samples in row 0.
+  // Returns the first of the `count` samples in row 0.
   const uint16_t* First(const Disc& disc) const { return rows + kTap + Margin(disc); }
 
   static size_t Margin(const Disc& disc) { return kPixel * static_cast<size_t>(disc.size); }
 };
 
-// DiscTaps holds a quarter of one or two discs in pairs of columns that are multiplied together. A
-// weight is that of all pixels that mirror each other there.
+// A quarter of one or two discs, in pairs of columns that are multiplied together. A weight is the
+// sum over all pixels that mirror each other.
 struct DiscTaps {
   struct Pair {
     uint16_t first, second;
   };
   struct Tap {
     Pair weights, second_weights;
-    int32_t right, left;  // of the first column and of its mirror image, in DiscMeans
+    int32_t right, left;  // offsets of the first column and of its mirror image in DiscMeans
   };
   Tap taps[(kMaxDisc + 1) * (kMaxDisc / 2 + 1)];
   size_t count = 0;
-  int32_t rows = 0;  // of the quarter, up to the last one with taps
+  int32_t rows = 0;  // rows of the quarter, up to the last one with taps
 
-  // Holds taps where either disc has weights.
+  // Makes taps wherever either disc has weights.
   DiscTaps(const Disc& disc, const Disc& second) {
     const auto pair_of = [](const Disc& of, int32_t x, int32_t y) {
       return Pair{Weight(of, x, y), Weight(of, x + 1, y)};
@@ -95,7 +96,8 @@ struct DiscTaps {
   }
 
  private:
-  // The weight at column x of row y of the disc, with those of the pixels that mirror it.
+  // Returns the weight at column x of row y of the disc, including the weights of its mirror
+  // images.
   static uint16_t Weight(const Disc& disc, int32_t x, int32_t y) {
     if (x > disc.size || y > disc.size) return 0;
     const int32_t high = x > y ? x : y, low = x > y ? y : x;
@@ -103,8 +105,8 @@ struct DiscTaps {
     return static_cast<uint16_t>(disc.weights[high * (high + 1) / 2 + low] << bits);
   }
 
-  // The last column of a row with a weight, -1 if there is none. Weights of a row lie one after the
-  // other up to the diagonal, and beyond it as far apart as their octant's rows are long.
+  // Returns the last column of a row with a nonzero weight, or -1. Weights of a row are contiguous
+  // up to the diagonal. Beyond it their distance is the length of the octant's rows.
   static int32_t LastOf(const Disc& disc, int32_t y) {
     if (y > disc.size) return -1;
     int32_t x = disc.size;
@@ -119,20 +121,19 @@ struct DiscTaps {
   }
 };
 
-// What a disc's sums become: they are divided by 2^bits and multiplied by 2^whole.
+// Scale of the sums of a disc: they are divided by 2^bits and multiplied by 2^whole.
 struct DiscScale {
   int bits, whole;
 };
 
-// Light that a disc's sums become, and their scale. It is written by vectors, beyond the last
-// sample.
+// Output buffer for the light of a disc, and its scale. Vectors write past the last sample.
 struct DiscTarget {
   DiscScale scale;
   int16_t* light;
 };
 
-// FilterMeans makes light of `count` samples of the means: those weighed by the disc and, with
-// kTwo, by a second disc as well.
+// Computes the light of `count` samples from the means, weighted by the disc and, with kTwo, also
+// by a second disc.
 #if HWY_TARGET == HWY_SCALAR
 
 template <bool kTwo>
@@ -161,7 +162,7 @@ inline void FilterMeans(const DiscTaps& disc, const uint16_t* HWY_RESTRICT means
 
 #else
 
-// The sums of a vector of means are two vectors, of which DemoteSums makes one again.
+// The sums of a vector of means take two vectors, which DemoteSums joins again.
 struct DiscSums {
   static constexpr hn::ScalableTag<uint16_t> d16{};
   static constexpr hn::RebindToSigned<decltype(d16)> di16{};
@@ -170,12 +171,12 @@ struct DiscSums {
   using V16 = hn::Vec<decltype(d16)>;
   using V32 = hn::Vec<decltype(di32)>;
 
-  // Returns the mean of the samples on both sides, which mirror each other.
+  // Returns the means of the samples on both sides, which mirror each other.
   static HWY_INLINE V16 Mean(const uint16_t* right, const uint16_t* left) {
     return hn::AverageRound(hn::LoadU(d16, right), hn::LoadU(d16, left));
   }
 
-  // Adds two means times their weights.
+  // Adds two means multiplied by their weights.
   static HWY_INLINE void Add(V16 first, V16 second, const DiscTaps::Pair& pair, V32& low,
                              V32& high) {
     AddWeighed(hn::BitCast(di16, first), hn::BitCast(di16, second), pair.first, pair.second, low,
@@ -193,10 +194,11 @@ struct DiscSums {
   }
 };
 
-// What is made together with a vector, so that loads of means or weights serve both.
+// Second result that is computed together with a vector, so that loads of means or weights are
+// shared.
 enum class Beside { kNothing, kNextVector, kSecondDisc };
 
-// Filters a vector of means. It stays a function, so that the modules of the web stay small.
+// Filters a vector of means. Not inlined, to keep WebAssembly modules small.
 template <Beside kBeside>
 HWY_NOINLINE void FilterMeansVector(const DiscTaps& disc, const uint16_t* HWY_RESTRICT means,
                                     const DiscScale& scale, int16_t* HWY_RESTRICT light,
@@ -251,7 +253,7 @@ inline void FilterMeans(const DiscTaps& disc, const uint16_t* HWY_RESTRICT means
 
 #endif
 
-// What light becomes: codes, or samples of a layer where these are null.
+// Destination of the light: codes or, if `codes` is null, samples of a layer.
 struct DiscOutput {
   uint8_t* codes;
   int16_t* samples;
@@ -272,7 +274,7 @@ inline DiscOutput SamplesOf(const Disc& disc, int16_t* samples, size_t stride) {
   return {nullptr, samples, stride, {nullptr, nullptr}, {disc.bits + kLightBits - kLayerBits, 0}};
 }
 
-// Filters rows of samples by chunks, with kTwo by a second, smaller disc as well.
+// Filters rows of samples in chunks; with kTwo, also by a second, smaller disc.
 template <bool kTwo>
 inline void FilterRows(const SampleRows& in, const Disc& disc, const Disc& smaller,
                        const DiscOutput& out, const DiscOutput& second_out) {
@@ -295,7 +297,8 @@ inline void FilterRows(const SampleRows& in, const Disc& disc, const Disc& small
 
 inline void FilterDisc(const SampleRows& in, const Disc& disc, const Encoding& encoding,
                        uint8_t* HWY_RESTRICT out, size_t out_stride) {
-  const int whole = encoding.entries == nullptr ? kLightBits : 0;  // bits of light that are none
+  // fractional bits of light to drop
+  const int whole = encoding.entries == nullptr ? kLightBits : 0;
   const DiscOutput codes = {out, nullptr, out_stride, encoding, {disc.bits + whole, whole}};
   FilterRows<false>(in, disc, disc, codes, codes);
 }

@@ -36,7 +36,8 @@ int32_t LightOf(uint32_t sum, const Disc& disc, int dropped) {
 
 void FilterDisc(const SampleRows& in, const Disc& disc, const Encoding& encoding, uint8_t* out,
                 size_t out_stride) {
-  const int whole = encoding.entries == nullptr ? kLightBits : 0;  // bits of light that are none
+  // fractional bits of light to drop
+  const int whole = encoding.entries == nullptr ? kLightBits : 0;
   for (size_t row = 0; row < in.rows; ++row, out += out_stride) {
     for (size_t n = 0; n < in.count; ++n) {
       const uint32_t sum = DiscSum(in, row, n, disc);

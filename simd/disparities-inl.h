@@ -34,12 +34,12 @@ inline bool ConvertDisparity(const float* HWY_RESTRICT disparity, size_t count, 
   return done ? all_inside : reference::ConvertDisparity(disparity, count, low, high, out);
 }
 
-// Returns the range of `count` columns, which are kSliceLanes at most.
+// Returns the range of `count` columns, at most kSliceLanes.
 HWY_INLINE DisparityRange RangeOfColumns(const int16_t* HWY_RESTRICT disparity, size_t stride,
                                          size_t rows, size_t count) {
   const LanesTag d16;
   const auto none = hn::Set(d16, kNoSurface), one = hn::Set(d16, int16_t{1});
-  // `below` is one less than the lowest, as kNoSurface minus one wraps round to the largest.
+  // `below` is the lowest disparity minus one: kNoSurface minus one wraps to the largest value.
   auto below = hn::Set(d16, int16_t{INT16_MAX}), high = none;
   for (size_t n = 0; n < count; n += hn::Lanes(d16)) {
     const auto counted = hn::FirstN(d16, count - n);

@@ -7,7 +7,7 @@ namespace starfocus::simd::reference {
 
 bool ConvertDisparity(const float* disparity, size_t count, float low, float high, int16_t* out) {
   for (size_t n = 0; n < count; ++n) {
-    const bool inside = disparity[n] >= low && disparity[n] <= high;  // NaN is not
+    const bool inside = disparity[n] >= low && disparity[n] <= high;  // false for NaN
     if (!inside) return false;
     out[n] = static_cast<int16_t>(std::floor(disparity[n] * 64.0f + 0.5f));
   }

@@ -24,8 +24,9 @@ using reference::FinishComposite;
 using CompositeTag = hn::CappedTag<uint32_t, kSliceLanes>;
 using CompositeVec = hn::Vec<CompositeTag>;
 
-// Inverses of coverages, in two halves of 32 bits. There is no division in SIMD, and most pixels
-// are covered like the one beside them: an inverse is only computed where the coverage changes.
+// Inverses of coverages, in two halves of 32 bits. SIMD has no integer division, and most pixels
+// have the same coverage as their neighbours. An inverse is therefore only computed where the
+// coverage changes.
 class Inverses {
  public:
   explicit Inverses(uint32_t least) : least_(least) {}
@@ -57,7 +58,7 @@ class Inverses {
   uint64_t inverse_ = 0;
 };
 
-// Returns min((sum * inverse + half) >> shift, white) of every other lane.
+// Returns min((sum * inverse + half) >> shift, white) of the even lanes.
 template <class V64, class VI64>
 HWY_INLINE V64 DivideEven(CompositeVec sum, CompositeVec low, CompositeVec high, V64 half,
                           int shift, VI64 white) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The kernel that turns the sums of composited views into a picture's accumulators.
+// SIMD kernel that converts the sums of composited views to a picture's accumulators.
 #ifndef STARFOCUS_SIMD_FINISH_COMPOSITE_H_
 #define STARFOCUS_SIMD_FINISH_COMPOSITE_H_
 
@@ -21,11 +21,11 @@ inline constexpr int kInverseBits = 48;
 
 namespace reference {
 
-// Divides colours by coverage, of which sums[c * plane + n] are the planes: out[3 n + c] is
-// sums[c * plane + n] * (2^kInverseBits / covered) in units of 2^-bits, rounded halves up and 255
-// at most, where covered = sums[3 * plane + n] >= least; the division truncates. Elsewhere out[3 n
-// + c] is the light centre[3 n + c] in the same units. Sums are read in whole groups of
-// kSliceLanes; nothing past out[3 count - 1] is written.
+// Divides colours by coverage. sums[c * plane + n] are the colours, covered = sums[3 * plane + n]
+// is the coverage. If covered >= least, out[3 n + c] is sums[c * plane + n] * (2^kInverseBits /
+// covered) in units of 2^-bits. The division truncates; the result is rounded halves up, and is at
+// most 255. Otherwise out[3 n + c] is the light centre[3 n + c] in the same units. Sums are read in
+// whole groups of kSliceLanes; nothing past out[3 count - 1] is written.
 void FinishComposite(const uint32_t* sums, size_t plane, const int16_t* centre,
                      const CompositeFinish& finish, size_t count, uint32_t* out);
 

@@ -14,7 +14,8 @@ HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
-// The farthest surface of a group of pixels: masks tell which of the hidden ones it is.
+// Copies the farthest surface of a vector of pixels, of which some hide surfaces. Returns the
+// largest distance over which a colour is repeated.
 HWY_INLINE int32_t TakeHidden(const SourcedRow& row, size_t n, const FarRow& far) {
   const LanesTag d16;
   const hn::RebindToUnsigned<LanesTag> du16;

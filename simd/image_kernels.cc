@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compiles the table of the kernels that convert pictures and depth maps for every SIMD target.
+// Compiles the table of the picture and depth map conversion kernels for every SIMD target.
 #include "simd/image_kernels.h"
 
 #undef HWY_TARGET_INCLUDE

@@ -16,8 +16,8 @@
 // - Best##Table: the best target of this machine, which Highway chooses once.
 // - Reference##Table: the references.
 // - Table##OfTarget: target `index` of those compiled in and supported here, the best first; null
-//   past the last. It is for tests and the bench only: it is slow, and changes Highway's choice for
-//   other threads while it runs.
+//   past the last. For tests and the bench only: it is slow, and changes Highway's choice for other
+//   threads while it runs.
 #define STARFOCUS_DECLARE_TABLE(Table, LIST) \
   struct Table {                             \
     const char* name; /* of the target */    \

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The table of SIMD kernels. Each family has three files: `x.h` holds the contracts, `x_ref.cc` the
-// plain C++ that defines every result, and `x-inl.h` the vector code, which gives the same bits on
-// each target. Pointers need no more alignment than their type has; vector types never appear in a
-// header.
+// Table of the engine's SIMD kernels. Each family has three files. `x.h` holds the contracts,
+// `x_ref.cc` the plain C++ that defines every result, and `x-inl.h` the vector code, which gives
+// the same bits on each target. Pointers need only the alignment of their type. Vector types never
+// appear in a header.
 #ifndef STARFOCUS_SIMD_KERNELS_H_
 #define STARFOCUS_SIMD_KERNELS_H_
 
@@ -24,8 +24,8 @@
 #include "simd/spans.h"
 #include "simd/strips.h"
 
-// All kernels. A kernel has one name: of its entry in the table, its reference, its vector code and
-// its test case. What this list names must exist under that name everywhere, or nothing compiles.
+// List of all kernels. A kernel has the same name in the table, its reference, its vector code and
+// its test case. Each name in this list must exist in all of them, or the build fails.
 #define STARFOCUS_KERNELS(KERNEL) \
   KERNEL(Accumulate)              \
   KERNEL(Blend)                   \
@@ -72,7 +72,7 @@ namespace starfocus::simd {
 
 STARFOCUS_DECLARE_TABLE(Kernels, STARFOCUS_KERNELS)
 
-// Returns the table of the target of that name as KernelsOfTarget does; null if there is none.
+// Returns the table of the target with this name, like KernelsOfTarget. Null if no target has it.
 const Kernels* FindKernels(const char* name);
 
 }  // namespace starfocus::simd

@@ -20,7 +20,7 @@ struct ViewDifferences {
   uint8_t* rows[kMostMatched];
 };
 
-// Changes the differences of views that don't see the pixels from n on at a label.
+// Replaces or limits the differences of views that do not see the pixels from n on at a label.
 HWY_INLINE void ChangeHidden(const LabelRow& row, const ViewMove* moves, size_t n, uint8_t label,
                              ViewDifferences* differences) {
   const size_t views = row.arms * row.rings, half = row.arms / 2;

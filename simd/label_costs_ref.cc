@@ -4,7 +4,7 @@
 namespace starfocus::simd::reference {
 namespace {
 
-// What label l costs at pixel n.
+// Returns the cost of label l at pixel n.
 uint8_t CostLabel(const LabelRow& row, size_t n, size_t l) {
   const size_t views = row.arms * row.rings;
   const ViewMove* moves = row.moves + l * views;

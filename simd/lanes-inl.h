@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vectors of a group of kSliceLanes samples, and their masks as bits. Included once per target.
+// Vectors of at most kSliceLanes samples, and their masks as bits. Included once per target.
 #if defined(STARFOCUS_SIMD_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef STARFOCUS_SIMD_LANES_INL_H_
 #undef STARFOCUS_SIMD_LANES_INL_H_
@@ -14,8 +14,8 @@ HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
-// A vector holds a group at most: rows are padded to whole groups only, and bits of a mask become
-// those of a group.
+// A vector holds at most one group: rows are padded to whole groups only, and the bits of a mask
+// become those of a group.
 using LanesTag = hn::CappedTag<int16_t, kSliceLanes>;
 using LanesVec = hn::Vec<LanesTag>;
 

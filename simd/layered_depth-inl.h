@@ -61,29 +61,29 @@ inline void FindEdges(const EdgeRows& rows, const EdgeLimits& limits, size_t cou
   }
 }
 
-// Edges that are looked behind: the next one of each side, and those behind its far side.
+// Edges that are looked behind: the next edge on each side, and the edge behind its far side.
 inline constexpr int kEdges = 8;
 
-// What edges show behind a group of pixels; edge k, on side k % 4, is set if bit k of `some` is. It
-// is kept in memory, since some vectors have no size at compile time.
+// Surfaces that edges show behind a group of pixels. Edge k, on side k % 4, is set if bit k of
+// `some` is set. Stored in memory, since vectors of some targets have no size at compile time.
 struct StripSides {
   uint32_t some;
-  int16_t unit;  // disparity of a pixel
+  int16_t unit;  // disparity that moves a pixel by one pixel
   int16_t rank[kEdges][kSliceLanes], disparity[kEdges][kSliceLanes], second[kEdges][kSliceLanes];
 };
 
-// The pixels that may cover a place behind a pixel, in a view that moves by a pixel per `unit`.
-// They follow each other towards a side, `step` apart.
+// Pixels that may cover a place behind a pixel, in a view that moves pixels by one per `unit`. The
+// pixels lie in a line towards one side, `step` samples apart.
 struct OcclusionQuery {
   const int16_t* at;
   ptrdiff_t step;
   int16_t unit;
-  int32_t sure;  // how many lie in the field in every lane
-  int32_t last;  // pixels after this number never come so far
+  int32_t sure;  // number of pixels that lie in the field in all lanes
+  int32_t last;  // last pixel that can reach the place
 };
 
-// Finds the lanes whose place behind the pixel is covered. `room` pixels of a lane lie in the
-// field.
+// Finds the lanes in which the place behind the pixel is covered. `room`: number of pixels of each
+// lane that lie in the field.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE hn::Mask<D> FindCovered(D d16, const OcclusionQuery& query, V disparity, V room) {
   const int16_t* at = query.at;
@@ -92,8 +92,8 @@ HWY_INLINE hn::Mask<D> FindCovered(D d16, const OcclusionQuery& query, V dispari
   const int16_t unit = query.unit;
   const auto reach = static_cast<int16_t>((3 * unit - 1) / 4);
   const auto nearer = hn::SaturatedAdd(disparity, hn::Set(d16, static_cast<int16_t>(unit / 2)));
-  // One comparison of unsigned numbers tells whether the place is within `reach` of where the pixel
-  // moves; the other one, whether the pixel is nearer at all.
+  // One comparison of unsigned numbers tests whether the place is within `reach` of the pixel's
+  // move. The other one tests whether the pixel is nearer at all.
   auto start = hn::Sub(hn::Sub(disparity, hn::Set(d16, reach)), hn::Set(d16, INT16_MIN));
   const auto end = hn::Set(d16, static_cast<int16_t>(INT16_MIN + 2 * reach + 1));
   const auto next = hn::Set(d16, unit);
@@ -115,8 +115,8 @@ HWY_INLINE hn::Mask<D> FindCovered(D d16, const OcclusionQuery& query, V dispari
   return hn::MaskFromVec(covered);
 }
 
-// The same of a view whose pixels do not follow each other along a row or a column. The first of
-// them is in column `column` of the row, and those after number `last` never come so far.
+// FindCovered for a view whose pixels do not lie along a row or a column. The first pixel is in
+// column `column` of the row. Pixels after number `last` cannot reach the place.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE hn::Mask<D> FindCoveredAslant(D d16, const DepthRow& row, const ViewLook& look,
                                          int32_t column, V disparity, int32_t last) {
@@ -146,14 +146,14 @@ HWY_INLINE hn::Mask<D> FindCoveredAslant(D d16, const DepthRow& row, const ViewL
   return hn::MaskFromVec(covered);
 }
 
-// Pixels from one to the next towards a side.
+// Returns the number of samples from one pixel to the next towards a side.
 HWY_INLINE ptrdiff_t StepOf(const DepthRow& row, int side) {
   const ptrdiff_t along = side < 2 ? 1 : row.stride;
   return side % 2 == 0 ? along : -along;
 }
 
-// Returns the lanes of a group that have a distance: bit k is lane k. Few have one behind an
-// upright edge.
+// Returns the lanes of a group that have a distance: bit k is lane k. Only a few have one behind a
+// vertical edge.
 HWY_INLINE uint32_t LanesOf(const uint8_t* distances) {
   const hn::CappedTag<uint8_t, kSliceLanes> d8;
   uint32_t lanes = 0;
@@ -167,9 +167,9 @@ HWY_INLINE ptrdiff_t LowestLane(uint32_t lanes) {
   return static_cast<ptrdiff_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(lanes));
 }
 
-// Finds the distances of those `lanes` of a group of pixels that have an edge to what the far side
-// of their edge hides in turn, which the others do not change. Returns the lanes that have one:
-// most far sides hide nothing.
+// Finds, for the pixels of `lanes`, the distance to the surface that the far side of their edge
+// hides in turn. Other distances are not changed. Returns the lanes that have such a distance; most
+// far sides hide nothing.
 HWY_INLINE uint32_t FollowEdges(const DepthRow& row, int side, size_t strip, uint32_t lanes,
                                 uint8_t* HWY_RESTRICT distances) {
   const ptrdiff_t step = StepOf(row, side);
@@ -189,7 +189,7 @@ HWY_INLINE uint32_t FollowEdges(const DepthRow& row, int side, size_t strip, uin
   return found;
 }
 
-// Finds the lanes whose place, of `disparity`, is covered in a view; none is farther than `low`.
+// Finds the lanes whose place, at `disparity`, is covered in a view. No disparity is below `low`.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE hn::Mask<D> IsCovered(D d16, const DepthRow& row, const ViewLook& look, int32_t column,
                                  V disparity, int32_t low) {
@@ -212,8 +212,8 @@ HWY_INLINE hn::Mask<D> IsCovered(D d16, const DepthRow& row, const ViewLook& loo
   return FindCovered(d16, query, disparity, room);
 }
 
-// Looks behind an edge of each pixel of `lanes`, at these distances, which are 0 in other lanes,
-// and writes it as edge `index`. Sides are numbered as in DepthRow::edges.
+// Looks behind an edge of each pixel of `lanes`, at the given distances, which are 0 in other
+// lanes. Writes the result as edge `index`. Sides are numbered as in DepthRow::edges.
 HWY_INLINE void LookBehindSide(const DepthRow& row, size_t strip, const uint8_t* distances,
                                uint32_t lanes, int index, StripSides* sides) {
   const LanesTag d16;
@@ -253,7 +253,7 @@ HWY_INLINE void LookBehindSide(const DepthRow& row, size_t strip, const uint8_t*
   }
 }
 
-// Returns where the colour of the surface of rank `best` is found, see HiddenRow.
+// Returns the source of the colour of the surface of rank `best` (HiddenRow::source).
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V SourceOf(D d16, const StripSides& sides, size_t k, V best, V disparity) {
   auto source = hn::Zero(d16);
@@ -273,9 +273,9 @@ HWY_INLINE V SourceOf(D d16, const StripSides& sides, size_t k, V best, V dispar
   return hn::IfThenElseZero(some, hn::Or(source, distance));
 }
 
-// Writes vector k of a hidden surface at pixel `n`: that of the lowest rank, of the edges whose
-// surface differs from the one above, of which there is none in front of the first, by more than a
-// unit. Returns it.
+// Writes vector k of a hidden surface at pixel `n` and returns it. The surface has the lowest rank
+// among the edges whose disparity differs from `above` by more than a unit. For the first hidden
+// surface, `above` is ignored.
 HWY_INLINE LanesVec ChooseSurface(const StripSides& sides, size_t k, int surface, LanesVec above,
                                   size_t n, const HiddenRow& hidden) {
   const LanesTag d16;
@@ -298,14 +298,14 @@ HWY_INLINE LanesVec ChooseSurface(const StripSides& sides, size_t k, int surface
   }
   const auto some = hn::Lt(best, none);
   const auto chosen = hn::IfThenElse(some, disparity, nothing);
-  const bool any = !hn::AllFalse(d16, some);  // behind the first surface there is seldom another
+  const bool any = !hn::AllFalse(d16, some);  // few pixels have a second hidden surface
   const auto source = any ? SourceOf(d16, sides, k, best, chosen) : hn::Zero(d16);
   hn::StoreU(chosen, d16, hidden.disparity[surface] + n);
   hn::StoreU(hn::BitCast(du16, source), du16, hidden.source[surface] + n);
   return chosen;
 }
 
-// Writes the hidden surfaces of a group of pixels. Returns whether there are any.
+// Writes the hidden surfaces of a group of pixels. Returns true if there are any.
 HWY_INLINE bool ChooseSurfaces(const StripSides& sides, size_t strip, const HiddenRow& hidden) {
   const LanesTag d16;
   const auto nothing = hn::Set(d16, kNoSurface);
@@ -320,11 +320,11 @@ HWY_INLINE bool ChooseSurfaces(const StripSides& sides, size_t strip, const Hidd
   for (int surface = 0; surface < kSurfaces - 1; ++surface) {
     hidden.found[surface][strip / kSliceLanes] = static_cast<uint16_t>(found[surface]);
   }
-  return found[0] != 0;  // the first of them is nowhere missing
+  return found[0] != 0;  // a second hidden surface implies a first
 }
 
-// Writes the shares of a group of pixels, which tell where surfaces end. Returns the sides that
-// hide something, bit by bit: most groups hide nothing.
+// Writes the shares of a group of pixels, which mark where surfaces end. Returns the sides that
+// hide something, one bit each. Most groups hide nothing.
 HWY_INLINE uint32_t MarkEnds(const DepthRow& row, size_t strip, uint8_t* HWY_RESTRICT share) {
   const hn::CappedTag<uint8_t, kSliceLanes> d8;
   const auto one = hn::Set(d8, uint8_t{1}), none = hn::Zero(d8);
@@ -379,8 +379,8 @@ inline uint64_t LookBehind(const DepthRow& row, const HiddenRow& hidden) {
   return strips;
 }
 
-// Lanes beyond `count` are masked before anything depends on them, as what lies there may never
-// have been written.
+// Lanes beyond `count` are masked before they are used, since their memory may never have been
+// written.
 inline void FindSteps(const int16_t* HWY_RESTRICT row, size_t count, int16_t step,
                       StepBits* HWY_RESTRICT steps) {
   const LanesTag d16;

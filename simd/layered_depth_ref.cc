@@ -8,14 +8,14 @@
 namespace starfocus::simd::reference {
 namespace {
 
-// What one side shows behind a pixel.
+// The surface that one side shows behind a pixel.
 struct HiddenSide {
   int rank;  // see kUnseen
   int16_t disparity;
-  bool second;  // whether only the side's second view shows it
+  bool second;  // true: only the side's second view shows it
 };
 
-// Tells whether something lies before the place behind pixel x of a row in a view.
+// Returns true if the place behind pixel x of a row is covered in a view.
 bool IsCovered(const DepthRow& row, int32_t x, int16_t disparity, const ViewLook& look) {
   for (int32_t m = 0;; ++m) {
     const int32_t along = look.side % 2 == 0 ? m : -m;
@@ -31,7 +31,7 @@ bool IsCovered(const DepthRow& row, int32_t x, int16_t disparity, const ViewLook
 // Edges that are followed on each side: the next one, and the one behind its far side.
 constexpr int kEdges = 2;
 
-// Returns the distance of the far side of an edge of pixel x, 0 if it has none.
+// Returns the distance to the far side of an edge of pixel x, or 0 if there is no edge.
 int DistanceOf(const DepthRow& row, int32_t x, int side, ptrdiff_t step, int edge) {
   const uint8_t* first = row.edges[side] + x;
   if (edge == 0 || *first == 0) return *first;
@@ -55,8 +55,8 @@ HiddenSide LookBehindSide(const DepthRow& row, int32_t x, int side, int edge) {
   return {distance + kUnseen, disparity, false};
 }
 
-// Writes pixel x of hidden surface `behind`, which must differ from the one before it, `above`.
-// Returns its disparity.
+// Writes pixel x of hidden surface `behind`, which must differ from the surface in front of it,
+// `above`. Returns its disparity.
 int16_t ChooseSurface(const HiddenSide* sides, int32_t x, int behind, int32_t unit, int16_t above,
                       const HiddenRow& hidden) {
   const HiddenSide* best = nullptr;

@@ -14,7 +14,7 @@ HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
-// Vectors whose length is unknown at compile time can't be kept in structs, as below.
+// Vectors of unknown size at compile time cannot be stored in structs, as the code below does.
 #if HWY_TARGET == HWY_SCALAR || HWY_HAVE_SCALABLE
 
 using reference::ReachBlock;
@@ -22,8 +22,8 @@ using reference::SurroundCells;
 
 #else
 
-// How many pixels lie between a block and columns of cells: lane k stands for column first + k,
-// where column 0 lies `around` cells before the block. Columns after the last one reach nothing.
+// Gaps in pixels between a block and columns of cells. Lane k is column first + k, where column 0
+// is `around` cells before the block. Columns after the last one reach nothing.
 struct ColumnGaps {
   ColumnGaps(int32_t around, int32_t first) {
     const LanesTag d16;
@@ -39,9 +39,9 @@ struct ColumnGaps {
     needed = hn::IfThenElse(beyond, hn::Set(d16, int16_t{INT16_MAX}), needed);
   }
 
-  LanesVec left, right;  // all bits set for columns on that side of the block
+  LanesVec left, right;  // all bits set in columns on that side of the block
   LanesVec gap;
-  LanesVec needed;  // a reach must exceed this; INT16_MIN in the block's own columns
+  LanesVec needed;  // a reach must exceed this; INT16_MIN in the columns of the block
 };
 
 // Collects what reaches a block from a vector of columns of cells.
@@ -50,8 +50,8 @@ class ColumnReach {
   ColumnReach(const CellPlanes& planes, int32_t around, const int16_t* margins, int32_t first)
       : planes_(planes), around_(around), margins_(margins), first_(first), gaps_(around, first) {}
 
-  // Adds rows [row, end) of cells, which lie on one side of the block or beside it: their reach
-  // towards it is the plane `from`, and `border` at `to` is the side.
+  // Adds rows [row, end) of cells, which are all above, below or level with the block. Their reach
+  // towards the block is the plane `from`. `border` at `to` is the side to update, if any.
   HWY_INLINE void AddRows(int32_t row, int32_t end, CellPlane from, int16_t (*border)[4],
                           CellPlane to) {
     const LanesTag d16;
@@ -128,7 +128,8 @@ class ColumnReach {
   const int16_t* const margins_;
   const int32_t first_;
   const ColumnGaps gaps_;
-  LanesVec x0_ = hn::Zero(LanesTag()), x1_ = x0_, x2_ = x0_;  // how far pixels lie away, by layer
+  // distance of pixels from the block, by layer
+  LanesVec x0_ = hn::Zero(LanesTag()), x1_ = x0_, x2_ = x0_;
   LanesVec radius_ = x0_, edge_ = x0_;
 };
 
@@ -145,8 +146,8 @@ inline void ReachBlock(const CellPlanes& planes, int32_t around, const int16_t m
   }
 }
 
-// Returns how many cells away the cells are, at most, that a vector of cells reaches or is reached
-// by. `at` is the first of these cells in the plane of reaches.
+// Returns the largest distance, in cells, from a vector of cells to the cells that it reaches or
+// that reach it. `at` is the first of these cells in the plane of reaches.
 HWY_INLINE int32_t FarthestCells(const int16_t* at, size_t stride, int32_t around) {
   const LanesTag d16;
   const auto lanes = static_cast<int32_t>(hn::Lanes(d16));

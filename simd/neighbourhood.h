@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Kernels that look at the cells around a block or a cell: what of them its blur reaches, and what
-// of theirs reaches it.
+// SIMD kernels that examine the cells around a block or a cell: which of them its blur reaches, and
+// which of them reach it.
 #ifndef STARFOCUS_SIMD_NEIGHBOURHOOD_H_
 #define STARFOCUS_SIMD_NEIGHBOURHOOD_H_
 
@@ -13,21 +13,22 @@ namespace starfocus::simd {
 
 inline constexpr int16_t kCellPixels = 8;
 
-// What is known of each cell, a plane each. Reaches and insides are pixels.
+// Properties of a cell, one plane each. Reaches and insides are in pixels.
 enum CellPlane {
-  kReachLeft,  // how far beyond each side the cell's pixels are splatted
+  kReachLeft,  // distance beyond each side to which the cell's pixels are splatted
   kReachRight,
   kReachTop,
   kReachBottom,
-  kInsideLeft,  // how deep inside that side the pixels lie that reach beyond it, [0, kCellPixels]
+  // largest distance inside that side of the pixels that reach beyond it, [0, kCellPixels]
+  kInsideLeft,
   kInsideRight,
   kInsideTop,
   kInsideBottom,
-  kReachPlane,   // how far the cell's blur reaches at most, to any side
-  kNearPlane,    // how far that of its nearest pixels does
-  kRadiusPlane,  // the largest blur radius
-  kEdgePlane,    // the largest blur radius at depth edges, 0 where there is none
-  kLowPlane,     // the lowest and the highest disparity
+  kReachPlane,   // largest reach of the cell's blur, to any side
+  kNearPlane,    // reach of the blur of its nearest pixels
+  kRadiusPlane,  // largest blur radius
+  kEdgePlane,    // largest blur radius at depth edges, 0 without edges
+  kLowPlane,     // lowest and highest disparity
   kHighPlane,
   kCellPlanes
 };
@@ -38,36 +39,38 @@ struct CellPlanes {
   size_t plane, stride;
 };
 
-// What reaches a block of 2 x 2 cells.
+// Pixels that reach a block of 2 x 2 cells.
 struct BlockReach {
   int16_t radius,
-      edge;  // the largest kRadiusPlane and kEdgePlane of its cells and what reaches them
-  // For each layer, how far beyond the sides kReachLeft, .. kReachBottom pixels lie that are
-  // splatted into the block or into the layer's margin around it.
+      edge;  // largest kRadiusPlane and kEdgePlane of the block's cells and of those that reach it
+  // For each layer, the distance beyond the sides kReachLeft, .. kReachBottom of the pixels that
+  // reach the block or the layer's margin around it.
   int16_t border[3][4];
 };
 
-// What lies around each cell of a row.
+// Summary of the surroundings of each cell of a row.
 struct CellRanges {
-  int16_t *low, *high;  // the lowest and the highest disparity
-  uint16_t* widest;     // the largest range of disparities that one of the cells has
-  int16_t* edge;        // the largest blur radius at depth edges
+  int16_t *low, *high;  // lowest and highest disparity
+  uint16_t* widest;     // largest range of disparities of one of the cells
+  int16_t* edge;        // largest blur radius at depth edges
 };
 
 namespace reference {
 
-// Finds what reaches the block whose first cell is at planes.cells, from `around` cells away at
-// most. margins[layer] is a layer's margin in pixels, ascending from 0; pixels that reach only a
-// margin count by whole cells.
+// Finds the pixels that reach the block whose first cell is at planes.cells. Cells up to `around`
+// cells away are considered. margins[layer] is the margin of a layer in pixels, ascending from 0.
+// Pixels that only reach a margin count as whole cells.
 void ReachBlock(const CellPlanes& planes, int32_t around, const int16_t margins[3],
                 BlockReach* reach);
 
-// Finds what each of `count` cells of a row, from planes.cells on, may show and what may hide it. A
-// cell that lies d <= around cells away (in columns or rows, whichever are more) counts if the
-// kReachPlane of the cell in the middle exceeds (d - 1) kCellPixels; and, if its kHighPlane exceeds
-// that of the cell in the middle, if its own kNearPlane does. What lies farther stays hidden,
-// however far it reaches. kNearPlane is at most kReachPlane. Whole groups of kSliceLanes are read
-// and written.
+// Finds the surroundings that each of `count` cells of a row, from planes.cells on, may show or be
+// hidden by.
+//
+// A cell that is d <= around cells away (the larger of columns and rows) counts if the kReachPlane
+// of the middle cell exceeds (d - 1) kCellPixels. If its kHighPlane exceeds that of the middle
+// cell, it also counts if its own kNearPlane exceeds that value. Farther surfaces stay hidden,
+// whatever their reach. kNearPlane is at most kReachPlane. Whole groups of kSliceLanes are read and
+// written.
 void SurroundCells(const CellPlanes& planes, int32_t around, size_t count,
                    const CellRanges& ranges);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every buffer that a kernel works on must provide beyond its own samples.
+// Padding that every buffer of a kernel must provide beyond its own samples.
 #ifndef STARFOCUS_SIMD_PADDING_H_
 #define STARFOCUS_SIMD_PADDING_H_
 
@@ -8,13 +8,14 @@
 
 namespace starfocus::simd {
 
-// Kernels work with whole vectors. They may read this many bytes past the end of any source, and
-// add zero to as many bytes past the end of accumulators. Whatever those bytes hold changes no
-// result.
+// Number of bytes past the end of any source that kernels may read, since they process whole
+// vectors. They may also add zero to as many bytes past the end of accumulators. The contents of
+// those bytes do not affect results.
 inline constexpr size_t kPadding = 64;
 
-// Samples that kernels of surfaces, slices and cells handle as one group. Where a contract says
-// that they read or write whole groups, a row of n samples takes SliceSamples(n) of them in memory.
+// Number of samples that kernels for surfaces, slices and cells process as one group. If a contract
+// says that whole groups are read or written, a row of n samples needs SliceSamples(n) samples of
+// memory.
 inline constexpr size_t kSliceLanes = 16;
 inline constexpr int32_t kStripColumns = static_cast<int32_t>(kSliceLanes);
 constexpr size_t SliceSamples(size_t count) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Kernels between pixels of three bytes, R, G, B, and of other orders and sizes.
+// SIMD kernels that convert between pixels of three bytes, R, G, B, and pixels of other orders and
+// sizes.
 #ifndef STARFOCUS_SIMD_PIXELS_H_
 #define STARFOCUS_SIMD_PIXELS_H_
 
@@ -8,7 +9,8 @@
 
 namespace starfocus::simd {
 
-// Pixels that lie `step` bytes apart, 3 or 4, and begin with R, G, B, or B, G, R if `blue_first`.
+// Layout of pixels that are `step` bytes apart, 3 or 4, and begin with R, G, B, or with B, G, R if
+// `blue_first`.
 struct PixelOrder {
   size_t step;
   bool blue_first;
@@ -16,10 +18,11 @@ struct PixelOrder {
 
 namespace reference {
 
-// Copies the colours of `count` pixels. A fourth byte of the last pixel is not read.
+// Converts `count` pixels to R, G, B. A fourth byte of the last pixel is not read.
 void PixelsToRgb(const uint8_t* pixels, size_t count, const PixelOrder& order, uint8_t* rgb);
 
-// And back; the fourth byte of each pixel, where there is one, becomes 255.
+// Converts `count` pixels from R, G, B. The fourth byte of each pixel, if it has one, is set to
+// 255.
 void RgbToPixels(const uint8_t* rgb, size_t count, const PixelOrder& order, uint8_t* pixels);
 
 }  // namespace reference

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Kernels that make planes of R, G and B from rows of pixels, and planes moved by parts of a pixel.
+// SIMD kernels that make planes of R, G and B from rows of pixels, and planes moved by fractions of
+// a pixel.
 #ifndef STARFOCUS_SIMD_PLANES_H_
 #define STARFOCUS_SIMD_PLANES_H_
 
@@ -10,12 +11,12 @@
 
 namespace starfocus::simd::reference {
 
-// Splits pixels of R, G and B into rows: plane[n] = rgb[3 n], plane[n + stride] = rgb[3 n + 1],
+// Splits pixels into rows of R, G and B: plane[n] = rgb[3 n], plane[n + stride] = rgb[3 n + 1],
 // plane[n + 2 stride] = rgb[3 n + 2], n < count. Nothing else is written.
 void SplitRow(const uint8_t* rgb, size_t count, size_t stride, uint8_t* plane);
 
-// out[n] becomes the sample `across` to the right of n and `down` from `row` to `next`, both
-// [0, 128) in 128ths: bilinearly, with one rounding (halves up) after each direction, down first.
+// Sets out[n] to the sample `across` to the right of n and `down` from `row` to `next`, both in [0,
+// 128) in 128ths. Interpolation is bilinear, down first, and rounds halves up after each direction.
 // The rows have count + 1 samples; `out` is written in whole groups of kSliceLanes.
 void InterpolateRow(const uint8_t* row, const uint8_t* next, int32_t across, int32_t down,
                     size_t count, uint8_t* out);

@@ -21,7 +21,7 @@ HWY_INLINE hn::Vec<PriorTag> WayFrom(const uint8_t* from, uint8_t way) {
   return hn::SaturatedAdd(hn::LoadU(d8, from), hn::Set(d8, way));
 }
 
-// A neighbour that isn't there is stood in for by one from which the way is shorter.
+// A missing neighbour is replaced by one that is closer, and therefore has no effect.
 template <bool kBefore>
 HWY_INLINE void SpreadPriorOf(const PriorRow& row) {
   const PriorTag d8;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Kernels of what a given disparity map says about each label of a pixel: how far away the next
-// pixel is that it trusts to be of that disparity. Distances are a cost, and spread from pixel to
-// pixel for all labels at once.
+// SIMD kernels for the prior of a given disparity map: the cost of each label of a pixel. The cost
+// is the distance to the nearest pixel that is trusted to have that disparity. Distances spread
+// from pixel to pixel, for all labels at once.
 #ifndef STARFOCUS_SIMD_PRIOR_H_
 #define STARFOCUS_SIMD_PRIOR_H_
 
@@ -12,15 +12,15 @@
 
 namespace starfocus::simd {
 
-// The cost of a label that a pixel beside this one has, of one diagonally beside it, and of one
-// that none has within 8 pixels.
+// Cost of a label that an adjacent pixel has, of one that a diagonally adjacent pixel has, and of
+// one that no pixel within 8 pixels has.
 inline constexpr uint8_t kBesideCost = 3, kDiagonalCost = 4, kMostPrior = 24;
 
-// A row of pixels with `places` labels each, a multiple of kSliceLanes. Pixel k lies k * step
-// pixels behind the first one; step is 1 or -1.
+// A row of pixels with `places` labels each, a multiple of kSliceLanes. Pixel k is k * step pixels
+// after the first one; step is 1 or -1.
 struct PriorRow {
-  uint8_t* prior;         // [0, kMostPrior], lessened
-  const uint8_t* before;  // the same pixels of the row before, finished; null: there is none
+  uint8_t* prior;         // in and out: [0, kMostPrior], reduced
+  const uint8_t* before;  // the same pixels of the previous row, finished; null: no previous row
   size_t places;
   ptrdiff_t step;
   size_t count;
@@ -28,11 +28,11 @@ struct PriorRow {
 
 namespace reference {
 
-// Lessens the prior of each pixel, in their order, to what the pixel before it and the three beside
-// it in the row before have, and the way from there.
+// Reduces the prior of each pixel, in order. It becomes at most the prior of the previous pixel, or
+// of one of the three adjacent pixels in the previous row, plus the cost of the step from there.
 void SpreadPrior(const PriorRow& row);
 
-// cost[n] becomes cost[n] + prior[n], 255 at most, for n < count, a multiple of kSliceLanes.
+// Sets cost[n] to cost[n] + prior[n], at most 255, for n < count, a multiple of kSliceLanes.
 void AddPrior(const uint8_t* prior, size_t count, uint8_t* cost);
 
 }  // namespace reference

@@ -21,8 +21,9 @@ using reference::WidenPhases;
 
 #else
 
-// Takes five pairs of pixels at once, which are 15 samples of each phase: a vector of the first 8
-// and one of the last 8. A byte becomes the high one of its lane, which is then shifted right.
+// Processes five pairs of pixels at once, which are 15 samples of each phase: one vector of the
+// first 8 samples and one of the last 8. Each byte becomes the high byte of its lane, which is then
+// shifted right.
 inline void ShiftPhases(const uint8_t* HWY_RESTRICT in, size_t pairs, int16_t* HWY_RESTRICT even,
                         int16_t* HWY_RESTRICT odd) {
   constexpr uint8_t kZero = 0x80;
@@ -69,7 +70,7 @@ inline void WidenPhases(const uint8_t* HWY_RESTRICT in, size_t pairs, const Enco
   }
 }
 
-// A fourth sample is copied with each pixel, and the next pixel overwrites it.
+// Copies a fourth sample with each pixel; the next pixel overwrites it.
 inline void SplitPhases(const int16_t* HWY_RESTRICT in, size_t pairs, int16_t* HWY_RESTRICT even,
                         int16_t* HWY_RESTRICT odd) {
   const hn::FixedTag<int16_t, 4> d16;
@@ -131,7 +132,7 @@ using WideTag = hn::Repartition<int32_t, FilterTag>;
 using FilterVec = hn::Vec<FilterTag>;
 using WideVec = hn::Vec<WideTag>;
 
-// Begins sums with the centre, and the half that makes dropping kTapBits round.
+// Starts the sums with the centre, and with the half that makes dropping kTapBits round.
 HWY_INLINE void BeginTaps(FilterVec centre, int32_t tap, WideVec& low, WideVec& high) {
 #if STARFOCUS_HAVE_PAIR_MULTIPLY
   low = high = hn::Zero(WideTag());
@@ -156,7 +157,7 @@ HWY_INLINE FilterVec HalfBandOf(const HalfBand& taps, FilterVec c, FilterVec a, 
   return EndTaps(low, high);
 }
 
-// Takes the sums a + b and d + e, where they fit 16 bits.
+// Takes the sums a + b and d + e, which must fit 16 bits.
 HWY_INLINE FilterVec HalfBandOf(const HalfBand& taps, FilterVec c, FilterVec ab, FilterVec de) {
   WideVec low, high;
   BeginTaps(c, taps.centre, low, high);
@@ -197,7 +198,7 @@ HWY_INLINE FilterVec HalfBandOf(const HalfBand& taps, FilterVec c, FilterVec a, 
   return EndTaps(hn::Add(Weighed(taps.centre, Wide(c)), hn::Add(beside, beyond)));
 }
 
-// Takes the sums a + b and d + e, where they fit 16 bits.
+// Takes the sums a + b and d + e, which must fit 16 bits.
 HWY_INLINE FilterVec HalfBandOf(const HalfBand& taps, FilterVec c, FilterVec ab, FilterVec de) {
   const auto beside = Weighed(taps.near, Wide(ab)), beyond = Weighed(taps.far, Wide(de));
   return EndTaps(hn::Add(Weighed(taps.centre, Wide(c)), hn::Add(beside, beyond)));
@@ -213,7 +214,7 @@ HWY_INLINE FilterVec BetweenOf(const HalfBand& taps, FilterVec a, FilterVec b, F
 
 inline void FilterHalfBand(const int16_t* in, ptrdiff_t step, const HalfBand& filter, size_t count,
                            const SampleRange& range, int16_t* out) {
-  const HalfBand taps = filter;  // stays in registers: what is written cannot alias a copy
+  const HalfBand taps = filter;  // a copy stays in registers, because the output cannot alias it
   const FilterTag d16;
   const auto low = hn::Set(d16, range.low), high = hn::Set(d16, range.high);
   const auto load = [&](const int16_t* at) HWY_ATTR { return hn::LoadU(d16, at); };

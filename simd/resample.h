@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Kernels that halve pictures into layers and bring layers back to full size.
+// SIMD kernels that halve pictures into layers, and that bring layers back to full size.
 #ifndef STARFOCUS_SIMD_RESAMPLE_H_
 #define STARFOCUS_SIMD_RESAMPLE_H_
 
@@ -10,25 +10,25 @@
 
 namespace starfocus::simd {
 
-// Samples of layers have kLayerBits fractional bits. Those in range are [0, kLayerWhite]; filters
-// leave it by less than a fifth of white on either side.
+// Samples of layers have kLayerBits fractional bits. The valid range is [0, kLayerWhite]. Filters
+// exceed it by less than a fifth of white on either side.
 inline constexpr int kLayerBits = kLightBits - 1;
 inline constexpr int16_t kLayerWhite = 255 << kLayerBits;
 
-// Taps of a symmetric half-band filter with kTapBits fractional bits. Its seven taps are `centre`
-// in the middle, `near` beside it, `far` at the ends, and zeros between those. |tap| <= 2^kTapBits,
-// and no sum of products leaves 32 bits.
+// Taps of a symmetric half-band filter with kTapBits fractional bits. The seven taps are `centre`
+// in the middle, `near` on both sides of it, `far` at the ends, and zeros in between. |tap| <=
+// 2^kTapBits, and no sum of products exceeds 32 bits.
 inline constexpr int kTapBits = 14;
 struct HalfBand {
   int32_t centre, near, far;
 };
 
-// Samples of a row of which values outside of [low, high] become low or high.
+// Range to which the samples of a row are clamped.
 struct SampleRange {
   int16_t low, high;
 };
 
-// `rows` rows of `count` samples that lie `stride` samples apart.
+// `rows` rows of `count` samples; rows are `stride` samples apart.
 struct SampleRows {
   const int16_t* samples;
   size_t stride, rows, count;
@@ -36,39 +36,39 @@ struct SampleRows {
 
 namespace reference {
 
-// Parts a line of codes into even and odd pixels, as samples: even[3 n + c] is the light of
-// in[6 n + c] and odd[3 n + c] that of in[6 n + 3 + c], rounded halves up, for n < pairs. Nothing
-// past `in` is read, and nothing past the phases is written.
+// Splits a line of codes into samples of even and odd pixels, for n < pairs. even[3 n + c] is the
+// light of in[6 n + c], and odd[3 n + c] that of in[6 n + 3 + c], rounded halves up. Nothing past
+// `in` is read, and nothing past the phases is written.
 void WidenPhases(const uint8_t* in, size_t pairs, const Encoding& encoding, int16_t* even,
                  int16_t* odd);
 
-// Does the same for samples, which stay as they are. One sample past the end of each phase may be
-// written.
+// Splits a line of samples in the same way, without a conversion. One sample past the end of each
+// phase may be written.
 void SplitPhases(const int16_t* in, size_t pairs, int16_t* even, int16_t* odd);
 
-// out[n] is the code of the sample in[n], which is in range; where light is the code itself, halves
-// are rounded to even.
+// Sets out[n] to the code of the sample in[n], which is in range. If light is the code itself,
+// halves are rounded to even.
 void Narrow(const int16_t* in, size_t count, const Encoding& encoding, uint8_t* out);
 
-// Makes samples of accumulators: out[n] = (accumulators[n] + 2^(shift - 7)) >> (shift - 6). `shift`
-// lies in [7, 24], and results are in range.
+// Converts accumulators to samples: out[n] = (accumulators[n] + 2^(shift - 7)) >> (shift - 6).
+// `shift` is in [7, 24], and results are in range.
 void FinishLayer(const uint32_t* accumulators, size_t count, int shift, int16_t* out);
 
-// Filters samples that lie `step` apart: out[n] is centre in[n] + near (in[n - step] + in[n +
-// step])
-// + far (in[n - 3 step] + in[n + 3 step]), rounded halves up to a sample and clamped to `range`.
+// Filters samples that are `step` apart. out[n] is
+//   centre in[n] + near (in[n - step] + in[n + step]) + far (in[n - 3 step] + in[n + 3 step]),
+// rounded halves up to a sample and clamped to `range`.
 void FilterHalfBand(const int16_t* in, ptrdiff_t step, const HalfBand& taps, size_t count,
                     const SampleRange& range, int16_t* out);
 
-// Filters a line and keeps the even pixels, given both phases of the line: out[n] is centre even[n]
-// + near (odd[n - 3] + odd[n]) + far (odd[n - 6] + odd[n + 3]), rounded as above and saturated to
-// 16 bits. Samples are in range.
+// Filters a line and keeps the even pixels, given both phases of the line. out[n] is
+//   centre even[n] + near (odd[n - 3] + odd[n]) + far (odd[n - 6] + odd[n + 3]),
+// rounded as above and saturated to 16 bits. Samples are in range.
 void Halve(const int16_t* even, const int16_t* odd, const HalfBand& taps, size_t count,
            int16_t* out);
 
-// Interpolates the samples half way between in[n] and in[n + step]: out[n] is
-// near (in[n] + in[n + step]) + far (in[n - step] + in[n + 2 step]), rounded as above and clamped
-// to `range`.
+// Interpolates the samples half way between in[n] and in[n + step]. out[n] is
+//   near (in[n] + in[n + step]) + far (in[n - step] + in[n + 2 step]),
+// rounded as above and clamped to `range`.
 void Between(const int16_t* in, ptrdiff_t step, const HalfBand& taps, size_t count,
              const SampleRange& range, int16_t* out);
 

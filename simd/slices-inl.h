@@ -14,15 +14,15 @@ HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
-// Whether a slice covers some of a group's pixels, and all of each.
+// True if a slice covers some of a group's pixels, and if it covers all of them.
 struct GroupCover {
   bool some = false, all = true;
 
-  // Adds a vector of pixels from n on, of which those before `count` count.
+  // Adds a vector of pixels from n on; pixels at or after `count` are ignored.
   HWY_INLINE void Add(hn::Mask<LanesTag> covered, hn::Mask<LanesTag> whole, size_t n,
                       size_t count) {
     const LanesTag d16;
-    if (n + hn::Lanes(d16) > count) {  // seldom: only the last group of a row has others
+    if (n + hn::Lanes(d16) > count) {  // rare: only in the last group of a row
       const auto counted = hn::FirstN(d16, n < count ? count - n : 0);
       covered = hn::And(covered, counted);
       whole = hn::Or(whole, hn::Not(counted));
@@ -32,7 +32,7 @@ struct GroupCover {
   }
 };
 
-// Tells which pixels have a disparity in [low, high].
+// Returns a mask of the pixels whose disparity is in [low, high].
 HWY_INLINE hn::Mask<LanesTag> LiesIn(const int16_t* disparity, LanesVec low, LanesVec high) {
   const LanesTag d16;
   const auto value = hn::LoadU(d16, disparity);
@@ -49,13 +49,13 @@ HWY_INLINE void StoreNothing(size_t plane, int16_t* HWY_RESTRICT out) {
   for (size_t c = 0; c < 4; ++c) hn::StoreU(hn::Zero(d16), d16, out + c * plane);
 }
 
-// Where a row of a slice goes: `count` pixels in planes that lie `plane` samples apart.
+// Output of a row of a slice: `count` pixels in planes that are `plane` samples apart.
 struct SliceTarget {
   int16_t* out;
   size_t plane, count;
 };
 
-// Selects a vector of pixels from n on, whose first surfaces cover all of them.
+// Selects a vector of pixels from n on that are fully covered by their first surfaces.
 HWY_INLINE void SelectFirst(const SurfaceRow& row, const SliceRange& range, size_t n,
                             const SliceTarget& target, GroupCover& cover) {
   const LanesTag d16;
@@ -76,7 +76,7 @@ HWY_INLINE void SelectFirst(const SurfaceRow& row, const SliceRange& range, size
   cover.Add(found, found, n, count);
 }
 
-// Selects a vector of pixels from n on, of whose surfaces any may be seen.
+// Selects a vector of pixels from n on, considering all of their surfaces.
 HWY_INLINE void SelectAny(const SurfaceRow& row, const SliceRange& range, size_t n,
                           const SliceTarget& target, GroupCover& cover) {
   const LanesTag d16;
@@ -88,7 +88,7 @@ HWY_INLINE void SelectAny(const SurfaceRow& row, const SliceRange& range, size_t
   const auto next = LiesIn(row.disparity[1] + n, low, overlap);
   const auto last = LiesIn(row.disparity[2] + n, low, overlap);
   int16_t* HWY_RESTRICT to = target.out + n;
-  if (hn::AllFalse(d16, hn::Or(nearest, hn::Or(next, last)))) {  // as in most vectors
+  if (hn::AllFalse(d16, hn::Or(nearest, hn::Or(next, last)))) {  // true for most vectors
     StoreNothing(plane, to);
     cover.all = cover.all && n >= count;
     return;
@@ -102,12 +102,12 @@ HWY_INLINE void SelectAny(const SurfaceRow& row, const SliceRange& range, size_t
   const auto together = hn::Add(front, behind);
   cover.Add(hn::Ne(together, hn::Zero(d16)), hn::Eq(together, pixel), n, count);
   const auto whole = hn::Eq(front, pixel), shows = hn::Ne(behind, hn::Zero(d16));
-  // A whole pixel, of which 16 bits with sign hold no such part, takes no part of the product.
+  // Signed 16 bits cannot hold the weight of a whole pixel, so whole pixels do not use the product.
   const auto parts = hn::ShiftLeft<15 - kSliceBits>(hn::IfThenZeroElse(whole, front));
   for (size_t c = 0; c < 3; ++c) {
     const size_t at = c * row.plane + n;
-    // Colours of a surface that is not there were never written. They are masked, not multiplied by
-    // zero, which valgrind would not see through.
+    // Colours of missing surfaces are uninitialized. They are masked rather than multiplied by
+    // zero, which valgrind would report.
     const auto deepest = hn::IfThenElseZero(last, hn::LoadU(d16, row.rgb[2] + at));
     const auto hidden =
         hn::IfThenElseZero(shows, hn::IfThenElse(next, hn::LoadU(d16, row.rgb[1] + at), deepest));
@@ -115,7 +115,7 @@ HWY_INLINE void SelectAny(const SurfaceRow& row, const SliceRange& range, size_t
     const auto part = hn::MulFixedPoint15(hn::Sub(nearest_light, hidden), parts);
     hn::StoreU(hn::IfThenElse(whole, nearest_light, hn::Add(hidden, part)), d16, to + c * plane);
   }
-  // The whole pixel times 2^8 is one more than kSliceOne.
+  // A whole pixel times 2^8 is one more than kSliceOne.
   const auto covered = hn::Sub(hn::ShiftLeft<8>(together), hn::ShiftRight<kSliceBits>(together));
   hn::StoreU(covered, d16, to + 3 * plane);
 }
@@ -129,7 +129,7 @@ inline SliceCover SelectSlice(const SurfaceRow& row, const SliceRange& range, si
   uint64_t bit = 1;
   for (size_t strip = 0; strip < count; strip += kSliceLanes, bit <<= 1) {
     GroupCover group;
-    if ((row.hiding & bit) == 0) {  // as in most groups
+    if ((row.hiding & bit) == 0) {  // true for most groups
       for (size_t n = strip; n < strip + kSliceLanes; n += lanes) {
         SelectFirst(row, range, n, target, group);
       }
@@ -144,7 +144,7 @@ inline SliceCover SelectSlice(const SurfaceRow& row, const SliceRange& range, si
   return cover;
 }
 
-// SpreadSlice of taps that reach so far.
+// Implements SpreadSlice for taps with this reach.
 template <int32_t kReach>
 HWY_INLINE void SpreadBy(const int16_t* HWY_RESTRICT in, ptrdiff_t step, const SliceTaps& taps,
                          size_t count, int16_t* HWY_RESTRICT out) {

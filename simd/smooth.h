@@ -12,8 +12,8 @@ namespace starfocus::simd {
 
 // Largest number of rows that a pixel is averaged over.
 inline constexpr size_t kMostSmoothRows = 7;
-// Weight of a neighbour of the same colour. It falls by the difference of the colours, to 1 at
-// least.
+// Weight of a neighbour of the same colour. It decreases with the difference of the colours, to at
+// least 1.
 inline constexpr int32_t kMostSmoothWeight = 64;
 
 // A row of pixels and the rows that it is averaged over. All pointers are to the row's first pixel,
@@ -41,7 +41,7 @@ struct SmoothSums {
 
 namespace reference {
 
-// smooth[n] becomes the mean disparity of the neighbours of pixel n < count whose disparities are
+// Sets smooth[n] to the mean disparity of the neighbours of pixel n < count whose disparities are
 // within the tolerance of its own. Pixel n itself is one of them.
 void SmoothDisparity(const SmoothRows& rows, size_t count, int16_t* smooth);
 

@@ -17,7 +17,7 @@ HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
-// Rows of a strip follow each other in memory, so that the widest vectors hold two of them.
+// Rows of a strip are contiguous in memory, so that the widest vectors hold two of them.
 #undef STARFOCUS_WIDE_TILES
 #if HWY_TARGET != HWY_SCALAR && HWY_MAX_BYTES >= 64
 #define STARFOCUS_WIDE_TILES 1
@@ -27,25 +27,25 @@ using StripTag = hn::CappedTag<int16_t, 2 * kSliceLanes>;
 using StripTag = LanesTag;
 #endif
 
-// Whether Composite has a way of its own for rows that are covered all over. With narrower vectors
-// it takes more instructions than it saves.
+// True if Composite has a separate path for fully covered rows. With narrower vectors, it takes
+// more instructions than it saves.
 constexpr bool kCoveredApart = HWY_MAX_BYTES >= 32;
 
-// Whether Composite looks first whether a vector shows nothing, or has nothing before it, to save
-// the work. Branch prediction can't foresee that: on x86 wrong guesses take up to 12 % more time.
-// There it goes by the marks of rows alone, which on ARM take 3 to 5 % more instructions.
+// True if Composite tests each vector for coverage, and for slices in front of it, to skip work.
+// The branches are unpredictable: on x86, mispredictions cost up to 12 % of the time, so Composite
+// uses only the marks of rows there. On ARM, using only the marks takes 3 to 5 % more instructions.
 constexpr bool kLooksFirst = !HWY_ARCH_X86;
 
-// Returns how many rows of a strip a vector holds: 1 also if it holds a part of one.
+// Returns the number of rows of a strip in a vector; 1 also if it holds a part of a row.
 template <class D>
 HWY_INLINE size_t RowsOf(D d) {
   return hn::Lanes(d) > kSliceLanes ? hn::Lanes(d) / kSliceLanes : 1;
 }
 
-// Writes the marks of rows, one after the other from the first on.
+// Writes the marks of rows in order, starting with the first.
 class RowMarks {
  public:
-  // Adds a row, given the most and the least coverage over all vectors that hold it.
+  // Adds a row, given the largest and the smallest coverage over all vectors that hold it.
   HWY_INLINE void Add(LanesVec most, LanesVec least, int8_t* HWY_RESTRICT near) {
     const LanesTag d16;
     const bool some = !hn::AllTrue(d16, hn::Eq(most, hn::Zero(d16)));
@@ -61,12 +61,12 @@ class RowMarks {
 
  private:
   static constexpr int kAhead = kRowsAhead;
-  bool shown_ = false;   // whether the last row shows something
-  int all_covered_ = 0;  // how many rows up to the last one are covered all over
+  bool shown_ = false;   // true: the last row shows something
+  int all_covered_ = 0;  // number of fully covered rows up to the last one
 };
 
-// Moves rows one by one, with vectors of a row at most: gathered from the planes of two, wider ones
-// take longer.
+// Moves rows one at a time, with vectors of at most one row. Wider vectors, gathered from the
+// planes of two rows, are slower.
 template <int kTaps>
 HWY_INLINE void ShiftRows(const SlicePlanes& in, const SliceFraction& fraction, size_t rows,
                           size_t plane, int16_t* HWY_RESTRICT out, int8_t* HWY_RESTRICT near) {
@@ -131,7 +131,7 @@ HWY_INLINE SliceVec DividedSums(SliceVec value, int bits) {
   return hn::BitCast(d, hn::ShiftRightSame(hn::Add(hn::BitCast(d16, value), half), bits));
 }
 
-// Adds values of 16 bits to sums of 32 bits, of `rows` at most.
+// Adds 16-bit values to 32-bit sums, for at most `rows` rows.
 HWY_INLINE void AddSums(SliceVec value, size_t rows, uint32_t* HWY_RESTRICT sums) {
   const StripTag d;
   const hn::RebindToUnsigned<StripTag> d16;
@@ -149,7 +149,7 @@ HWY_INLINE void AddSums(SliceVec value, size_t rows, uint32_t* HWY_RESTRICT sums
   }
 }
 
-// Returns light / covered where that is less than one; the reference's SliceShare tells how.
+// Returns light / covered where that is less than one, as the reference's SliceShare computes it.
 HWY_INLINE SliceVec ShareOfLight(SliceVec covered, SliceVec light, SliceVec excess) {
   const StripTag d16;
   const auto one = hn::Set(d16, kSliceOne);
@@ -161,22 +161,22 @@ HWY_INLINE SliceVec ShareOfLight(SliceVec covered, SliceVec light, SliceVec exce
   return hn::Min(hn::Sub(one, taken), hn::SaturatedAdd(twice, twice));
 }
 
-// What is known of a view and a slice before the slice is looked at.
+// Prior knowledge about a view and a slice.
 enum class Known {
-  kLit,      // no slice has taken of the view's light
-  kCovered,  // nor is there anything to be seen behind this one, all of whose rows are covered
+  kLit,      // no slice has covered any part of the view
+  kCovered,  // as kLit, and the slice covers all rows completely, so no slice behind it is visible
   kNothing,
 };
 
-// Colours and coverage of a slice, or their sums over views. They are references, since some
+// Colours and coverage of a slice, or their sums over views. The members are references, since some
 // vectors cannot be members.
 struct ViewSums {
   SliceVec &r, &g, &b, &covered;
 };
 
-// Adds a slice's colours and coverage to the sums of a view, and takes the light that they cover.
-// `excess` is by how much the coverage exceeds the light that is left; the slice gives nothing for
-// that.
+// Adds a slice's colours and coverage to the sums of a view, and subtracts the coverage from the
+// remaining light. `excess` is the part of the coverage that exceeds the remaining light; that part
+// contributes nothing.
 template <Known kKnown>
 HWY_INLINE void TakeLight(SliceVec weight, const ViewSums& slice, SliceVec excess, SliceVec& light,
                           const ViewSums& sums) {
@@ -201,8 +201,8 @@ HWY_INLINE void TakeLight(SliceVec weight, const ViewSums& slice, SliceVec exces
   sums.covered = hn::Add(sums.covered, hn::MulFixedPoint15(weight, slice.covered));
 }
 
-// Adds what a slice gives to a vector of rows of a view, where `at` is the slice's first sample.
-// Each row of the view sees kTaps rows of the slice, 2 to 4.
+// Adds the contribution of a slice to a vector of rows of a view, where `at` is the slice's first
+// sample. Each row of the view sees kTaps rows of the slice, 2 to 4.
 template <int kTaps, Known kKnown>
 HWY_INLINE void TakeRows(const SliceFraction& fraction, size_t plane,
                          const int16_t* HWY_RESTRICT at, SliceVec weight, SliceVec& light,
@@ -231,7 +231,8 @@ HWY_INLINE void TakeRows(const SliceFraction& fraction, size_t plane,
     return hn::Add(value, hn::MulFixedPoint15(last, fourth));
   };
   auto covered = kCovered ? hn::Set(d16, kSliceOne) : between(cover);
-  // Colours there are roundings at most; times a weight below a half they are nothing, too.
+  // Colours of such pixels are at most rounding errors; multiplied by a weight below one half they
+  // are 0, too.
   if (kLooksFirst && !kCovered && hn::AllTrue(d16, hn::Eq(covered, hn::Zero(d16)))) return;
   const auto excess =
       kKnown == Known::kNothing ? hn::Max(hn::Sub(covered, light), hn::Zero(d16)) : hn::Zero(d16);
@@ -247,7 +248,7 @@ HWY_INLINE void AddLight(const ViewSums& view, size_t rows, uint32_t* HWY_RESTRI
   AddSums(view.covered, rows, sums + 3 * kSliceLanes);
 }
 
-// A slice that is seen, and where the first view shows it.
+// A visible slice and its offset in the first view.
 struct SeenSlice {
   StripSlice slice;
   const SliceOffset* offsets;

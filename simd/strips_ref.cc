@@ -12,7 +12,8 @@ int16_t Between15(int16_t from, int16_t to, int16_t fraction) {
   return static_cast<int16_t>(to + Product15(to - from, fraction));
 }
 
-// Returns what is seen of a sample and the next ones, `next` apart; `covered` is their coverage.
+// Interpolates between a sample and the following ones, which are `next` apart; `covered` is their
+// coverage.
 int16_t Between15(const int16_t* at, const int16_t* covered, size_t next,
                   const SliceFraction& fraction) {
   const bool alike = covered[0] == covered[next];
@@ -22,9 +23,9 @@ int16_t Between15(const int16_t* at, const int16_t* covered, size_t next,
   return static_cast<int16_t>(value);
 }
 
-// Returns light / covered, both in units of kSliceOne, as a series: 1 - excess (1 + open + open^2),
-// where the slice leaves `open` of the pixel. It is exact where that is nothing or the excess is
-// small, and 4 * light at most.
+// Approximates light / covered, both in units of kSliceOne, by the series 1 - excess (1 + open +
+// open^2). `open` is the part of the pixel that the slice does not cover. The result is exact if
+// `open` is 0 or the excess is small, and at most 4 * light.
 int16_t SliceShare(int16_t covered, int16_t light) {
   const int32_t excess = covered - light, open = kSliceOne - covered;
   const int16_t first = Product15(excess, open), second = Product15(first, open);
@@ -36,7 +37,7 @@ int16_t SliceShare(int16_t covered, int16_t light) {
 
 void ShiftSlice(const SlicePlanes& in, const SliceFraction& fraction, size_t rows, size_t plane,
                 int16_t* out, int8_t* near) {
-  size_t all_covered = 0;  // how many rows up to this one are covered all over
+  size_t all_covered = 0;  // number of fully covered rows up to this one
   for (size_t row = 0; row < rows; ++row) {
     const int16_t* covered = in.samples + (4 * row + 3) * in.plane;
     for (size_t c = 0; c < 4; ++c) {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Defines a table of kernels for the current SIMD target, and for the last one Best##Table, which
-// returns the table of the best target of the machine. The unit that includes this once per target
-// defines STARFOCUS_TABLE (the type of the table) and STARFOCUS_LIST (the list of its kernels).
+// Defines a table of kernels for the current SIMD target. For the last target, it also defines
+// Best##Table, which returns the table of the machine's best target. The unit that includes this
+// file once per target defines STARFOCUS_TABLE (the type of the table) and STARFOCUS_LIST (the list
+// of its kernels).
 HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
-// HWY_NAMESPACE is N_ and the target's name.
+// HWY_NAMESPACE is N_ followed by the target's name.
 #undef STARFOCUS_TEXT
 #undef STARFOCUS_TEXT_OF
 #define STARFOCUS_TEXT(name) #name

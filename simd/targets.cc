@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lists the kernel tables of the machine's SIMD targets. Kept out of the engine's library: it
-// changes Highway's process-wide choice while it looks.
+// Lists the kernel tables of the machine's SIMD targets. Not part of the engine's library, because
+// it changes Highway's process-wide choice of a target while it runs.
 #include <hwy/highway.h>
 
 #include <cstring>
@@ -13,15 +13,15 @@ namespace starfocus::simd {
 
 namespace {
 
-// Table `index` of those that `best` returns for the targets of this machine.
+// Returns table `index` of those that `best` returns for the targets of this machine.
 template <class Table>
 const Table* TableOfTarget(const Table& (*best)(), size_t index) {
 #ifdef HWY_COMPILE_ONLY_STATIC
   return index == 0 ? &best() : nullptr;
 #else
   const Table* found = nullptr;
-  // Highway numbers better targets lower. One that was not compiled falls back to a worse one,
-  // which comes up again as itself.
+  // Highway assigns lower bits to better targets. A target that was not compiled falls back to a
+  // worse one, which is listed later under its own name.
   for (int64_t rest = hwy::SupportedTargets(); rest != 0 && found == nullptr; rest &= rest - 1) {
     hwy::SetSupportedTargetsForTest(rest & -rest);
     const Table* kernels = &best();

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// The SIMD targets that Highway compiles a table of kernels for. A unit defines HWY_TARGET_INCLUDE
-// as its own file name and then includes this header, before any other header of Highway.
+// Selects the SIMD targets for which Highway compiles a table of kernels. A unit defines
+// HWY_TARGET_INCLUDE as its own file name and then includes this header, before any other header of
+// Highway.
 #ifndef STARFOCUS_SIMD_TARGETS_H_
 #define STARFOCUS_SIMD_TARGETS_H_
 
-// Highway 1.0.3 truncates 16-bit numbers wrongly on AVX3_DL, which -march=native can bring in; AVX3
-// stands in for it.
+// Highway 1.0.3 truncates 16-bit numbers incorrectly on AVX3_DL, which -march=native may enable.
+// AVX3 is used instead.
 #ifndef HWY_DISABLED_TARGETS
 #define HWY_DISABLED_TARGETS HWY_AVX3_DL
 #endif
 
-// Vectors emulated without SIMD, which clang has instead of single numbers, give other results.
+// The emulated vectors that clang uses without SIMD, instead of scalars, give different results.
 #ifndef HWY_BROKEN_EMU128
 #define HWY_BROKEN_EMU128 1
 #endif
@@ -18,7 +19,7 @@
 #include "hwy/foreach_target.h"  // must precede highway.h
 #include "hwy/highway.h"
 
-// The oldest supported version, as cmake/highway.cmake and docs/third-party.md state it.
+// Oldest supported version, as stated in cmake/highway.cmake and docs/third-party.md.
 #if HWY_MAJOR * 1000000 + HWY_MINOR * 1000 + HWY_PATCH < 1000003
 #error "Highway: unsupported version (expected 1.0.3 or newer)"
 #endif

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// How kernels handle samples that do not fill a vector. Included once per target.
+// Loops over samples that do not fill a whole number of vectors. Included once per target.
 //
-// - Rows that the contract pads to whole groups of kSliceLanes have no remainder.
-// - All other kernels store with ForVectors, whose last vector overlaps the one before it and
-// stores
-//   the same values again. If there are fewer samples than lanes, they call their reference. Blend
-//   alone stores a part of a vector: most of its spans are short.
+// - Rows that are padded to whole groups of kSliceLanes by contract have no remainder.
+// - All other kernels store with ForVectors. Its last vector overlaps the previous one and stores
+//   the same values again. If there are fewer samples than lanes, they call their reference. Only
+//   Blend stores a part of a vector, because most of its spans are short.
 // - Kernels that add to accumulators must add each sample once. They mask the last vector
 //   (`AddSpan` in spans-inl.h).
 #if defined(STARFOCUS_SIMD_VECTORS_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -21,8 +20,8 @@ HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
-// Runs step(n) for each vector of `count` samples. The last vector ends with the samples. Returns
-// false, without a step, if there are fewer samples than lanes.
+// Calls step(n) for each vector of `count` samples. The last vector ends with the samples. Returns
+// false, without a call, if there are fewer samples than lanes.
 template <class Step>
 HWY_INLINE bool ForVectors(size_t count, size_t lanes, const Step& step) {
   if (count < lanes) return false;

@@ -15,14 +15,14 @@ HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
-#if HWY_TARGET == HWY_SCALAR  // A vector is one lane, which holds no pair.
+#if HWY_TARGET == HWY_SCALAR  // a vector is one lane, which holds no pair
 using reference::RgbToChroma;
 using reference::RgbToLuma;
 using reference::YuvToRgb;
 #else
 
-// A vector of codes is one of pairs of neighbours: even and odd pixels are 16-bit lanes of their
-// own, in the order of the chroma that they share.
+// A vector of codes consists of pairs of neighbours. Even and odd pixels are separate vectors of
+// 16-bit lanes, in the order of the chroma that they share.
 using YuvCodes = hn::ScalableTag<uint8_t>;
 using YuvPairs = hn::Repartition<int16_t, YuvCodes>;
 
@@ -35,7 +35,7 @@ HWY_INLINE hn::Vec<YuvPairs> OddCodes(V codes) {
   const hn::RebindToUnsigned<YuvPairs> du16;
   return hn::BitCast(YuvPairs(), hn::ShiftRight<8>(hn::BitCast(du16, codes)));
 }
-// Of numbers in [0, 255].
+// Joins numbers in [0, 255].
 template <class V>
 HWY_INLINE hn::Vec<YuvCodes> JoinCodes(V even, V odd) {
   return hn::BitCast(YuvCodes(), hn::Or(even, hn::ShiftLeft<8>(odd)));
@@ -46,8 +46,8 @@ HWY_INLINE V ClampCodes(V value) {
   return hn::Min(hn::Max(value, hn::Zero(d16)), hn::Set(d16, int16_t{255}));
 }
 
-// Runs step(n) for each vector of `count` pixels in whole pairs, so that n is even. Returns how
-// many pixels are done: none, or all but the last of an odd count.
+// Calls step(n) for each vector of `count` pixels in whole pairs, so that n is even. Returns the
+// number of pixels that are done: 0, or all except the last one of an odd count.
 template <class Step>
 HWY_INLINE size_t ForPairs(size_t count, const Step& step) {
   const bool done =
@@ -55,7 +55,7 @@ HWY_INLINE size_t ForPairs(size_t count, const Step& step) {
   return done ? count / 2 * 2 : 0;
 }
 
-// Sums that leave 16 bits are above white, and so is what they saturate to.
+// Sums that exceed 16 bits are above white, and so is the value to which they saturate.
 template <class V>
 HWY_INLINE hn::Vec<YuvCodes> AddChroma(V even, V odd, V chroma) {
   return JoinCodes(ClampCodes(hn::ShiftRight<6>(hn::SaturatedAdd(even, chroma))),
@@ -90,7 +90,7 @@ inline void YuvToRgb(const uint8_t* HWY_RESTRICT y, const uint8_t* HWY_RESTRICT 
   reference::YuvToRgb(y + done, u + done / 2, v + done / 2, count - done, m, rgb + 3 * done);
 }
 
-// The weighted sum of three colours with 7 fractional bits, rounded to whole ones.
+// Returns the weighted sum of three colours with 7 fractional bits, rounded to integers.
 template <class V>
 HWY_INLINE V WeighColours(V r, V g, V b, int16_t of_r, int16_t of_g, int16_t of_b) {
   const YuvPairs d16;
@@ -119,7 +119,7 @@ inline void RgbToLuma(const uint8_t* HWY_RESTRICT rgb, size_t count, const YuvMa
   if (!done) reference::RgbToLuma(rgb, count, m, y);
 }
 
-// 32 times the sums of two pixels beside each other and the two below them.
+// Returns 32 times the sum of two adjacent pixels and the two below them.
 template <class V>
 HWY_INLINE hn::Vec<YuvPairs> SumPairs(V upper, V lower) {
   const auto sum = hn::Add(hn::Add(EvenCodes(upper), OddCodes(upper)),

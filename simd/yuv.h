@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Kernels between R, G, B and luma with chroma of half the resolution (4:2:0), a byte each. P(a, c)
-// below is (a * c + 2^14) >> 15, the product of two numbers of 15 fractional bits rounded halves
-// up, and clamp() takes a number to [0, 255].
+// SIMD kernels that convert between R, G, B and luma with chroma of half the resolution (4:2:0),
+// one byte each. Below, P(a, c) is (a * c + 2^14) >> 15, the product of two numbers with 15
+// fractional bits, rounded halves up. clamp() clamps a number to [0, 255].
 #ifndef STARFOCUS_SIMD_YUV_H_
 #define STARFOCUS_SIMD_YUV_H_
 
@@ -10,35 +10,37 @@
 
 namespace starfocus::simd {
 
-// What luma and chroma mean (lib/convert/yuv_matrix.h makes them).
+// Coefficients of a YUV format, made by lib/convert/yuv_matrix.h.
 struct YuvMatrix {
   int16_t black;           // luma of black: 16 or 0
-  int16_t y;               // to R, G and B: 14 fractional bits
-  int16_t rv, gu, gv, bu;  // to R, G and B: 13 fractional bits
-  int16_t yr, yg, yb;      // of R, G and B: 15 fractional bits; white's luma is 255 at most
-  int16_t ur, ug, ub;      // their sum is 0
-  int16_t vr, vg, vb;      // their sum is 0
+  int16_t y;               // luma to R, G and B: 14 fractional bits
+  int16_t rv, gu, gv, bu;  // chroma to R, G and B: 13 fractional bits
+  int16_t yr, yg, yb;      // R, G and B to luma: 15 fractional bits; white's luma is at most 255
+  int16_t ur, ug, ub;      // R, G and B to U; the sum is 0
+  int16_t vr, vg, vb;      // R, G and B to V; the sum is 0
 };
 
 namespace reference {
 
-// Pixel n < count has luma y[n] and the chroma u[n / 2], v[n / 2]. With
-//   Y = P(128 (y - black), m.y), U = 256 (u - 128) and V = 256 (v - 128)
-// its R, G and B are clamp((Y + P(V, rv) + 32) >> 6), clamp((Y + P(U, gu) + P(V, gv) + 32) >> 6)
-// and clamp((Y + P(U, bu) + 32) >> 6).
+// Converts pixels n < count with luma y[n] and chroma u[n / 2], v[n / 2]. With
+//   Y = P(128 (y - black), m.y), U = 256 (u - 128) and V = 256 (v - 128),
+// R, G and B are clamp((Y + P(V, rv) + 32) >> 6), clamp((Y + P(U, gu) + P(V, gv) + 32) >> 6) and
+// clamp((Y + P(U, bu) + 32) >> 6).
 void YuvToRgb(const uint8_t* y, const uint8_t* u, const uint8_t* v, size_t count,
               const YuvMatrix& m, uint8_t* rgb);
 
-// y[n] = black + ((P(128 R, yr) + P(128 G, yg) + P(128 B, yb) + 64) >> 7).
+// Computes y[n] = black + ((P(128 R, yr) + P(128 G, yg) + P(128 B, yb) + 64) >> 7).
 void RgbToLuma(const uint8_t* rgb, size_t count, const YuvMatrix& m, uint8_t* y);
 
-// The chroma of two rows of `count` pixels, (count + 1) / 2 of each. With R, G and B the sums of
-// two pixels of `upper` and the two below them in `lower`, of which an odd count repeats the last,
-//   u[n] = clamp(128 + ((P(32 R, ur) + P(32 G, ug) + P(32 B, ub) + 64) >> 7)), and v[n] likewise.
+// Computes the chroma of two rows of `count` pixels, (count + 1) / 2 samples each. R, G and B are
+// the sums of two pixels of `upper` and the two pixels below them in `lower`. The last pixel is
+// repeated if the count is odd. Then
+//   u[n] = clamp(128 + ((P(32 R, ur) + P(32 G, ug) + P(32 B, ub) + 64) >> 7)),
+// and v[n] is computed in the same way.
 void RgbToChroma(const uint8_t* upper, const uint8_t* lower, size_t count, const YuvMatrix& m,
                  uint8_t* u, uint8_t* v);
 
-// first[n] = pairs[2 n], second[n] = pairs[2 n + 1]; and back.
+// SplitPairs computes first[n] = pairs[2 n], second[n] = pairs[2 n + 1]. JoinPairs is its inverse.
 void SplitPairs(const uint8_t* pairs, size_t count, uint8_t* first, uint8_t* second);
 void JoinPairs(const uint8_t* first, const uint8_t* second, size_t count, uint8_t* pairs);
 
