@@ -8,53 +8,53 @@
 #include "lib/analysis/half_band.h"
 #include "lib/analysis/ideal.h"
 #include "lib/analysis/selection.h"
-#include "lib/analysis/star_kernel.h"
+#include "lib/analysis/star_psf.h"
 #include "lib/analysis/subsampled.h"
 
 namespace starfocus::analysis {
 
 namespace {
 
-Kernel Through(Kernel kernel, int layer) {
-  for (int k = 0; k < layer; ++k) kernel = ThroughLayer(kernel, kBetaDown);
-  return kernel;
+SampledPsf Through(SampledPsf psf, int layer) {
+  for (int k = 0; k < layer; ++k) psf = ThroughLayer(psf, kBetaDown);
+  return psf;
 }
 
 }  // namespace
 
 LayerTheory MakeLayerTheory(double r, int layer) {
   if (layer == 0) return {0, 0};
-  const Kernel small = IdealKernel(r / (1 << layer), kDefaultTheta);
-  return {SquaredError(Through(small, layer), IdealKernel(r, kDefaultTheta)),
+  const SampledPsf small = IdealPsf(r / (1 << layer), kDefaultTheta);
+  return {SquaredError(Through(small, layer), IdealPsf(r, kDefaultTheta)),
           LayerAliasing(small, layer, kBetaDown)};
 }
 
 starfocus_status MeasureStep(const EngineProbe& probe, EngineStep* step) {
-  EngineKernel measured = {Kernel(0), 0, 0, 0};
-  const starfocus_status status = MeasureEngineKernel(probe, &measured);
+  EnginePsf measured = {SampledPsf(0), 0, 0, 0};
+  const starfocus_status status = MeasureEnginePsf(probe, &measured);
   if (status != STARFOCUS_OK) return status;
   const double theta = kDefaultTheta;
   const int n = measured.n, layer = measured.layer;
   const double r = std::fabs(probe.r), small = r / (1 << layer);
   const bool wide = probe.renderer == STARFOCUS_RENDERER_SLICES;
-  const Kernel ideal = IdealKernel(r, theta);
-  const Kernel star = Through(
-      StarKernel(small, n, theta, wide ? Subapertures::kWide : Subapertures::kNarrow), layer);
-  const auto error = [&](const Kernel& kernel) {
-    return SquaredError(Through(kernel, layer), ideal);
+  const SampledPsf ideal = IdealPsf(r, theta);
+  const SampledPsf star =
+      Through(StarPsf(small, n, theta, wide ? Subapertures::kWide : Subapertures::kNarrow), layer);
+  const auto error = [&](const SampledPsf& psf) {
+    return SquaredError(Through(psf, layer), ideal);
   };
-  const Kernel both = n == 0 ? IdealKernel(0, theta)
-                             : ViewKernel(small, n, theta, std::clamp(small / n, 1e-6, 1.0));
+  const SampledPsf both =
+      n == 0 ? IdealPsf(0, theta) : ViewPsf(small, n, theta, std::clamp(small / n, 1e-6, 1.0));
   *step = {probe.r,
            n,
            layer,
            wide,
-           SquaredError(measured.kernel, ideal),
+           SquaredError(measured.psf, ideal),
            SquaredError(star, ideal),
-           error(SubapertureKernel(small, n, theta)),
-           error(n == 0 ? IdealKernel(0, theta) : PaperKernel(small, n, theta)),
+           error(SubaperturePsf(small, n, theta)),
+           error(n == 0 ? IdealPsf(0, theta) : PaperPsf(small, n, theta)),
            error(both),
-           SquaredError(measured.kernel, star),
+           SquaredError(measured.psf, star),
            measured.aliasing};
   return STARFOCUS_OK;
 }
@@ -62,13 +62,13 @@ starfocus_status MeasureStep(const EngineProbe& probe, EngineStep* step) {
 std::string Explain(const EngineStep& step) {
   if (step.engine <= kThreshold) return "";
   if (step.apart > kExplained[step.layer]) {
-    return "unexplained: not the kernel the engine is meant to have";
+    return "unexplained: not the PSF the engine is meant to have";
   }
   // The causes are asked from the most to the least fundamental one, and the first that suffices is
   // told.
   const double r = std::fabs(step.r);
   if (MakeLayerTheory(r, step.layer).error > kThreshold) {
-    return "the layers' filters: the ideal kernel through them exceeds it too";
+    return "the layers' filters: the ideal PSF through them exceeds it too";
   }
   if (step.subapertures > kThreshold) {
     return "too few views: exact subapertures exceed it with this N too";

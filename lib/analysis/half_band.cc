@@ -28,18 +28,18 @@ double HalfSinc(int n) { return n == 0 ? 1 : std::sin(kPi * n / 2) / (kPi * n / 
 
 }  // namespace
 
-Kernel1 HalfBand(double beta) {
-  Kernel1 kernel(kHalfBandRadius);
+Taps HalfBand(double beta) {
+  Taps psf(kHalfBandRadius);
   for (int n = -kHalfBandRadius; n <= kHalfBandRadius; ++n) {
-    kernel.at(n) = n != 0 && n % 2 == 0 ? 0 : HalfSinc(n) * Kaiser(n, beta);
+    psf.at(n) = n != 0 && n % 2 == 0 ? 0 : HalfSinc(n) * Kaiser(n, beta);
   }
-  kernel.Scale(1 / kernel.Sum());
-  return kernel;
+  psf.Scale(1 / psf.Sum());
+  return psf;
 }
 
-double GainAtPi(const Kernel1& kernel) {
+double GainAtPi(const Taps& psf) {
   double gain = 0;
-  for (int n = -kernel.radius(); n <= kernel.radius(); ++n) gain += n % 2 ? -kernel(n) : kernel(n);
+  for (int n = -psf.radius(); n <= psf.radius(); ++n) gain += n % 2 ? -psf(n) : psf(n);
   return gain;
 }
 

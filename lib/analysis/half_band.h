@@ -3,7 +3,7 @@
 #ifndef STARFOCUS_LIB_ANALYSIS_HALF_BAND_H_
 #define STARFOCUS_LIB_ANALYSIS_HALF_BAND_H_
 
-#include "lib/analysis/kernel.h"
+#include "lib/analysis/sampled_psf.h"
 
 namespace starfocus::analysis {
 
@@ -14,10 +14,10 @@ inline constexpr double kBetaUp = 2.17;
 inline constexpr double kBetaDown = 1.28;
 
 // sinc(n / 2) times the Kaiser window of `beta` >= 0, unit sum.
-Kernel1 HalfBand(double beta);
+Taps HalfBand(double beta);
 
-// G(e^{j omega}) of a symmetric kernel at omega = pi: the gain of the highest frequency.
-double GainAtPi(const Kernel1& kernel);
+// G(e^{j omega}) of a symmetric PSF at omega = pi: the gain of the highest frequency.
+double GainAtPi(const Taps& psf);
 
 // The beta for which GainAtPi(HalfBand(beta)) = 0.
 double BetaWithoutPi();

@@ -59,35 +59,35 @@ double Pixel(int n, int m, double r, double theta) {
 
 }  // namespace
 
-Kernel IdealKernel(double r, double theta) {
-  Kernel kernel(RadiusOf(r));
+SampledPsf IdealPsf(double r, double theta) {
+  SampledPsf psf(RadiusOf(r));
   if (r == 0) {
-    kernel.at(0, 0) = 1;
-    return kernel;
+    psf.at(0, 0) = 1;
+    return psf;
   }
-  for (int n = 0; n <= kernel.radius(); ++n) {
+  for (int n = 0; n <= psf.radius(); ++n) {
     for (int m = 0; m <= n; ++m) {
       const double tap = Pixel(n, m, r, theta);
       for (const int x : {n, -n}) {
-        for (const int y : {m, -m}) kernel.at(x, y) = kernel.at(y, x) = tap;
+        for (const int y : {m, -m}) psf.at(x, y) = psf.at(y, x) = tap;
       }
     }
   }
-  return kernel;
+  return psf;
 }
 
-Kernel1 IdealKernel1(double r, double theta) {
-  Kernel1 kernel(RadiusOf(r));
+Taps IdealPsf1(double r, double theta) {
+  Taps psf(RadiusOf(r));
   if (r == 0) {
-    kernel.at(0) = 1;
-    return kernel;
+    psf.at(0) = 1;
+    return psf;
   }
   const double c = FallOff(theta), whole = InverseSquare(-1, 1, c);
-  for (int n = -kernel.radius(); n <= kernel.radius(); ++n) {
+  for (int n = -psf.radius(); n <= psf.radius(); ++n) {
     const double low = std::max((n - 0.5) / r, -1.0), high = std::min((n + 0.5) / r, 1.0);
-    if (low < high) kernel.at(n) = InverseSquare(low, high, c) / whole;
+    if (low < high) psf.at(n) = InverseSquare(low, high, c) / whole;
   }
-  return kernel;
+  return psf;
 }
 
 }  // namespace starfocus::analysis

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// The discrete kernel of the ideal defocusing blur (4).
+// The discrete PSF of the ideal defocusing blur (4).
 #ifndef STARFOCUS_LIB_ANALYSIS_IDEAL_H_
 #define STARFOCUS_LIB_ANALYSIS_IDEAL_H_
 
-#include "lib/analysis/kernel.h"
+#include "lib/analysis/sampled_psf.h"
 
 namespace starfocus::analysis {
 
 // (4) for blur radius r >= 0 in pixels; exact to about 1e-12. r = 0 is the unit impulse.
-Kernel IdealKernel(double r, double theta);
+SampledPsf IdealPsf(double r, double theta);
 
-// The ideal kernel of the 1D aperture, as exact.
-Kernel1 IdealKernel1(double r, double theta);
+// The ideal PSF of the 1D aperture, as exact.
+Taps IdealPsf1(double r, double theta);
 
 }  // namespace starfocus::analysis
 

@@ -6,7 +6,7 @@
 
 #include "lib/analysis/aperture.h"
 #include "lib/analysis/subsampled.h"
-#include "lib/analysis/view_kernel.h"
+#include "lib/analysis/view_psf.h"
 #include "lib/base/view_weights.h"
 
 namespace starfocus::analysis {
@@ -46,22 +46,22 @@ bool BrightOpening::Contains(double u, double v) const {
   return true;
 }
 
-Kernel IdealKernel(double r, const BrightOpening& opening) {
-  Kernel kernel(static_cast<int>(std::ceil(r + 0.5)));
-  for (int n = -kernel.radius(); n <= kernel.radius(); ++n) {
-    for (int m = -kernel.radius(); m <= kernel.radius(); ++m) {
-      kernel.at(n, m) = Share(opening, n / r, m / r, 1 / r);
+SampledPsf IdealPsf(double r, const BrightOpening& opening) {
+  SampledPsf psf(static_cast<int>(std::ceil(r + 0.5)));
+  for (int n = -psf.radius(); n <= psf.radius(); ++n) {
+    for (int m = -psf.radius(); m <= psf.radius(); ++m) {
+      psf.at(n, m) = Share(opening, n / r, m / r, 1 / r);
     }
   }
-  kernel.Scale(1 / kernel.Sum());
-  return kernel;
+  psf.Scale(1 / psf.Sum());
+  return psf;
 }
 
-Kernel SubapertureKernel(double r, int n, const BrightOpening& opening) {
+SampledPsf SubaperturePsf(double r, int n, const BrightOpening& opening) {
   const double lens = double(LensInSubapertures(n)) / kSubapertureUnits;
   const int last = LastSubaperture(n), most = MostOfSubapertures(n);
   const double width = r / lens;  // of a subaperture, pixels
-  Kernel kernel(static_cast<int>(std::ceil(last * width + (width + 1) / 2)));
+  SampledPsf psf(static_cast<int>(std::ceil(last * width + (width + 1) / 2)));
   for (int i = -last; i <= last; ++i) {
     for (int j = -last; j <= last; ++j) {
       if (i * i + j * j > most) continue;
@@ -69,27 +69,25 @@ Kernel SubapertureKernel(double r, int n, const BrightOpening& opening) {
       const double x = i * width, y = j * width, reach = (width + 1) / 2;
       for (int k = int(std::ceil(x - reach)); k <= int(std::floor(x + reach)); ++k) {
         for (int m = int(std::ceil(y - reach)); m <= int(std::floor(y + reach)); ++m) {
-          kernel.at(k, m) += light * Trapezoid(k - x, width) * Trapezoid(m - y, width);
+          psf.at(k, m) += light * Trapezoid(k - x, width) * Trapezoid(m - y, width);
         }
       }
     }
   }
-  kernel.Scale(1 / kernel.Sum());
-  return kernel;
+  psf.Scale(1 / psf.Sum());
+  return psf;
 }
 
 double WorstOfSubapertures(int n, double r_min, double r_max, const BrightOpening& opening) {
   double worst = 0;
   for (double r = r_min; r <= r_max; r += 0.5) {
-    worst =
-        std::max(worst, SquaredError(SubapertureKernel(r, n, opening), IdealKernel(r, opening)));
+    worst = std::max(worst, SquaredError(SubaperturePsf(r, n, opening), IdealPsf(r, opening)));
   }
   return worst;
 }
 
 double LayerError(double r, const BrightOpening& opening) {
-  return SquaredError(ThroughLayer(IdealKernel(r / 2, opening), kBetaDown),
-                      IdealKernel(r, opening));
+  return SquaredError(ThroughLayer(IdealPsf(r / 2, opening), kBetaDown), IdealPsf(r, opening));
 }
 
 }  // namespace starfocus::analysis

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Openings other than (3), in double precision: their ideal kernels, what subapertures make of
+// Openings other than (3), in double precision: their ideal PSFs, what subapertures make of
 // them and what layers do. What says which N and layers they need (docs/constants.md, Openings).
 #ifndef STARFOCUS_LIB_ANALYSIS_OPENING_H_
 #define STARFOCUS_LIB_ANALYSIS_OPENING_H_
 
-#include "lib/analysis/kernel.h"
+#include "lib/analysis/sampled_psf.h"
 
 namespace starfocus::analysis {
 
@@ -15,12 +15,12 @@ struct BrightOpening {
   bool Contains(double u, double v) const;
 };
 
-// The kernel (4) of the opening for r > 0.
-Kernel IdealKernel(double r, const BrightOpening& opening);
+// The PSF (4) of the opening for r > 0.
+SampledPsf IdealPsf(double r, const BrightOpening& opening);
 
-// The kernel of the views of ViewsBySubaperture's N >= 1, each as wide as its subaperture and with
+// The PSF of the views of ViewsBySubaperture's N >= 1, each as wide as its subaperture and with
 // the part of the light that goes through it.
-Kernel SubapertureKernel(double r, int n, const BrightOpening& opening);
+SampledPsf SubaperturePsf(double r, int n, const BrightOpening& opening);
 
 // The largest SSE (8) of it over the radii from `r_min` to `r_max`, in steps of half a pixel.
 double WorstOfSubapertures(int n, double r_min, double r_max, const BrightOpening& opening);

@@ -7,11 +7,11 @@
 namespace starfocus::analysis {
 
 double PaperError(double r, int n, double theta, Rim rim) {
-  return SquaredError(PaperKernel(r, n, theta, rim), IdealKernel(r, theta));
+  return SquaredError(PaperPsf(r, n, theta, rim), IdealPsf(r, theta));
 }
 
 double SubapertureError(double r, int n, double theta) {
-  return SquaredError(SubapertureKernel(r, n, theta), IdealKernel(r, theta));
+  return SquaredError(SubaperturePsf(r, n, theta), IdealPsf(r, theta));
 }
 
 RatioPoint WorstOverSampling(int n, double theta, Rim rim) {

@@ -3,14 +3,14 @@
 #ifndef STARFOCUS_LIB_ANALYSIS_SELECTION_H_
 #define STARFOCUS_LIB_ANALYSIS_SELECTION_H_
 
-#include "lib/analysis/view_kernel.h"
+#include "lib/analysis/view_psf.h"
 
 namespace starfocus::analysis {
 
 // The paper's epsilon: a blur may differ from the ideal one by this SSE.
 inline constexpr double kThreshold = 1e-3;
 
-// The SSE (8) of the paper's kernel, and of the kernel of subapertures.
+// The SSE (8) of the paper's PSF, and of the PSF of subapertures.
 double PaperError(double r, int n, double theta, Rim rim = Rim::kIncluded);
 double SubapertureError(double r, int n, double theta);
 

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Frequency responses of 1D kernels (Figs. 5 and 8).
+// Frequency responses of 1D PSFs (Figs. 5 and 8).
 #ifndef STARFOCUS_LIB_ANALYSIS_SPECTRUM_H_
 #define STARFOCUS_LIB_ANALYSIS_SPECTRUM_H_
 
 #include <cmath>
 
 #include "lib/analysis/aperture.h"
-#include "lib/analysis/kernel.h"
+#include "lib/analysis/sampled_psf.h"
 
 namespace starfocus::analysis {
 
-// B(e^{j omega}) of a symmetric kernel; real.
-inline double Response(const Kernel1& kernel, double omega) {
-  double sum = kernel(0);
-  for (int n = 1; n <= kernel.radius(); ++n) sum += 2 * kernel(n) * std::cos(n * omega);
+// B(e^{j omega}) of a symmetric PSF; real.
+inline double Response(const Taps& psf, double omega) {
+  double sum = psf(0);
+  for (int n = 1; n <= psf.radius(); ++n) sum += 2 * psf(n) * std::cos(n * omega);
   return sum;
 }
 

@@ -6,7 +6,7 @@
 
 #include "lib/analysis/ideal.h"
 #include "lib/analysis/selection.h"
-#include "lib/analysis/view_kernel.h"
+#include "lib/analysis/view_psf.h"
 #include "lib/base/rules.h"
 
 namespace starfocus::analysis {
@@ -23,14 +23,14 @@ double WorstOfLens(int lens, double r_max, double theta) {
   const SubapertureLights lights = SubapertureLights::OfLens(lens, theta);
   double worst = 0;
   for (double r = kFirst; r <= r_max; r += kStep) {
-    worst = std::max(worst, SquaredError(SubapertureKernel(r, lights), IdealKernel(r, theta)));
+    worst = std::max(worst, SquaredError(SubaperturePsf(r, lights), IdealPsf(r, theta)));
   }
   return worst;
 }
 
 SubapertureStudy::SubapertureStudy(double r_limit, double step, double theta)
     : step_(step), theta_(theta) {
-  for (int k = 1; k * step <= r_limit; ++k) ideal_.push_back(IdealKernel(k * step, theta));
+  for (int k = 1; k * step <= r_limit; ++k) ideal_.push_back(IdealPsf(k * step, theta));
 }
 
 double SubapertureStudy::Margin(int k_max, int n, double* worst) {
@@ -60,8 +60,8 @@ const std::vector<double>& SubapertureStudy::SubapertureErrors(int n) {
   std::vector<double>& errors = subapertures_[index];
   const SubapertureLights lights(n, theta_);
   for (int k = static_cast<int>(errors.size()); k < count(); ++k) {
-    const Kernel kernel = n == 0 ? IdealKernel(0, theta_) : SubapertureKernel(Radius(k), lights);
-    errors.push_back(SquaredError(kernel, ideal_[static_cast<size_t>(k)]));
+    const SampledPsf psf = n == 0 ? IdealPsf(0, theta_) : SubaperturePsf(Radius(k), lights);
+    errors.push_back(SquaredError(psf, ideal_[static_cast<size_t>(k)]));
   }
   return errors;
 }
@@ -75,8 +75,7 @@ const std::vector<double>& SubapertureStudy::PaperErrors(int n) {
   std::vector<double>& errors = paper_[index];
   if (errors.empty()) over_sampling_[index] = WorstOverSampling(n, theta_).error;
   for (int k = static_cast<int>(errors.size()); k < count(); ++k) {
-    errors.push_back(
-        SquaredError(PaperKernel(Radius(k), n, theta_), ideal_[static_cast<size_t>(k)]));
+    errors.push_back(SquaredError(PaperPsf(Radius(k), n, theta_), ideal_[static_cast<size_t>(k)]));
   }
   return errors;
 }

@@ -6,24 +6,24 @@
 
 #include <vector>
 
-#include "lib/analysis/kernel.h"
+#include "lib/analysis/sampled_psf.h"
 
 namespace starfocus::analysis {
 
-// The rule is ViewsBySubaperture of lib/rules.h. Up to half a pixel the ideal kernel (4) is the
+// The rule is ViewsBySubaperture of lib/rules.h. Up to half a pixel the ideal PSF (4) is the
 // unit impulse, so the centre view alone is exact. Beyond, for every r <= r_max, the SSE (8) is
-// below 10^-3, and below either that of the paper's kernel with (9)'s N at the same r or the worst
+// below 10^-3, and below either that of the paper's PSF with (9)'s N at the same r or the worst
 // over-sampling SSE of that N, (9)'s own limit: SubapertureStudy::Margin measures it.
 
-// Least N whose subapertures are no worse at r than the paper's kernel with N from (9).
+// Least N whose subapertures are no worse at r than the paper's PSF with N from (9).
 int FewestSubapertures(double r, double theta);
 
-// The largest SSE (8) of the kernel of a lens `lens` / kSubapertureUnits subapertures wide, over
+// The largest SSE (8) of the PSF of a lens `lens` / kSubapertureUnits subapertures wide, over
 // the radii from 5/8 of a pixel on (below, the centre view alone is rendered) up to r_max. It is
 // what LensInSubapertures keeps small.
 double WorstOfLens(int lens, double r_max, double theta);
 
-// Errors of the kernels at every r, for searching rules.
+// Errors of the PSFs at every r, for searching rules.
 class SubapertureStudy {
  public:
   // r = k * step, 0 < r <= r_limit.
@@ -44,7 +44,7 @@ class SubapertureStudy {
   const std::vector<double>& PaperErrors(int n);
 
   double step_, theta_;
-  std::vector<Kernel> ideal_;
+  std::vector<SampledPsf> ideal_;
   std::vector<std::vector<double>> subapertures_, paper_;  // by N; empty until asked for
   std::vector<double> over_sampling_;                      // of each N of paper_
 };

@@ -17,15 +17,15 @@ constexpr double kBetaStep = 0.01, kThetaStep = 0.01 * kPi;
 constexpr double kLowestTheta = 0.05 * kPi, kHighestTheta = 0.45 * kPi;
 
 // a[n] with the sign of odd taps turned: G(-z).
-Kernel1 Alternated(Kernel1 kernel) {
-  for (int n = -kernel.radius(); n <= kernel.radius(); ++n) {
-    if (n % 2) kernel.at(n) = -kernel(n);
+Taps Alternated(Taps psf) {
+  for (int n = -psf.radius(); n <= psf.radius(); ++n) {
+    if (n % 2) psf.at(n) = -psf(n);
   }
-  return kernel;
+  return psf;
 }
 
-Kernel1 Convolve(const Kernel1& a, const Kernel1& b) {
-  Kernel1 result(a.radius() + b.radius());
+Taps Convolve(const Taps& a, const Taps& b) {
+  Taps result(a.radius() + b.radius());
   for (int n = -a.radius(); n <= a.radius(); ++n) {
     for (int k = -b.radius(); k <= b.radius(); ++k) result.at(n + k) += a(n) * b(k);
   }
@@ -33,9 +33,9 @@ Kernel1 Convolve(const Kernel1& a, const Kernel1& b) {
 }
 
 // b[n, m] upsampled by zeros, then filtered with x along the first axis and y along the second.
-Kernel Spread(const Kernel& half, const Kernel1& x, const Kernel1& y) {
+SampledPsf Spread(const SampledPsf& half, const Taps& x, const Taps& y) {
   const int inner = 2 * half.radius(), radius = inner + x.radius();
-  Kernel rows(radius), result(radius);
+  SampledPsf rows(radius), result(radius);
   for (int n = -half.radius(); n <= half.radius(); ++n) {
     for (int m = -half.radius(); m <= half.radius(); ++m) {
       for (int k = -y.radius(); k <= y.radius(); ++k)
@@ -51,28 +51,28 @@ Kernel Spread(const Kernel& half, const Kernel1& x, const Kernel1& y) {
 }
 
 // G_U(z) G_D(+-z) along one axis. G_U's gain of 2 makes up for the zeros of upsampling.
-Kernel1 AxisFilter(double beta_down, bool alias) {
-  const Kernel1 down = HalfBand(beta_down);
-  Kernel1 up = HalfBand(kBetaUp);
+Taps AxisFilter(double beta_down, bool alias) {
+  const Taps down = HalfBand(beta_down);
+  Taps up = HalfBand(kBetaUp);
   up.Scale(2);
-  Kernel1 filter = Convolve(up, alias ? Alternated(down) : down);
+  Taps filter = Convolve(up, alias ? Alternated(down) : down);
   filter.Scale(0.5);  // downsampling and upsampling pass half signal, half alias
   return filter;
 }
 
-Kernel Subsampled(const Kernel& half, double beta_down, Alias alias) {
+SampledPsf Subsampled(const SampledPsf& half, double beta_down, Alias alias) {
   return Spread(half, AxisFilter(beta_down, alias == Alias::kX || alias == Alias::kBoth),
                 AxisFilter(beta_down, alias == Alias::kY || alias == Alias::kBoth));
 }
 
 // An impulse at `place`, down to the layer: taps at n stand for the layer's pixel n.
-Kernel1 LayersDown(int place, int layer, double beta_down) {
-  Kernel1 line(0);
+Taps LayersDown(int place, int layer, double beta_down) {
+  Taps line(0);
   line.at(0) = 1;
   int origin = place;  // of line(0) in the pixels of its layer
   for (int k = 0; k < layer; ++k) {
-    const Kernel1 filtered = Convolve(line, HalfBand(beta_down));
-    Kernel1 kept(filtered.radius());  // room enough
+    const Taps filtered = Convolve(line, HalfBand(beta_down));
+    Taps kept(filtered.radius());  // room enough
     for (int n = -filtered.radius(); n <= filtered.radius(); ++n) {
       if ((n + origin) % 2 == 0) kept.at((n + origin) / 2) = filtered(n);
     }
@@ -82,13 +82,13 @@ Kernel1 LayersDown(int place, int layer, double beta_down) {
   return line;
 }
 
-Kernel1 LayersUp(int layer) {
-  Kernel1 filter(0);
+Taps LayersUp(int layer) {
+  Taps filter(0);
   filter.at(0) = 1;
-  Kernel1 up = HalfBand(kBetaUp);
+  Taps up = HalfBand(kBetaUp);
   up.Scale(2);
   for (int k = 0; k < layer; ++k) {
-    Kernel1 spread(2 * filter.radius());
+    Taps spread(2 * filter.radius());
     for (int n = -filter.radius(); n <= filter.radius(); ++n) spread.at(2 * n) = filter(n);
     filter = Convolve(spread, up);
   }
@@ -97,8 +97,8 @@ Kernel1 LayersUp(int layer) {
 
 // sum over s of f(n + s) f(n + t) along the places of a layer's pixels: what their upsampled
 // responses have in common.
-Kernel1 Correlation(const Kernel1& filter, int step) {
-  Kernel1 result(2 * filter.radius() / step);
+Taps Correlation(const Taps& filter, int step) {
+  Taps result(2 * filter.radius() / step);
   for (int k = -result.radius(); k <= result.radius(); ++k) {
     for (int n = -filter.radius(); n <= filter.radius(); ++n) {
       result.at(k) += filter(n) * filter(n + k * step);
@@ -107,12 +107,12 @@ Kernel1 Correlation(const Kernel1& filter, int step) {
   return result;
 }
 
-Kernel ConvolveAxes(const Kernel& kernel, const Kernel1& x, const Kernel1& y) {
-  const int inner = kernel.radius(), more = std::max(x.radius(), y.radius());
-  Kernel rows(inner + more), result(inner + more);
+SampledPsf ConvolveAxes(const SampledPsf& psf, const Taps& x, const Taps& y) {
+  const int inner = psf.radius(), more = std::max(x.radius(), y.radius());
+  SampledPsf rows(inner + more), result(inner + more);
   for (int n = -inner; n <= inner; ++n) {
     for (int m = -inner; m <= inner; ++m) {
-      for (int k = -y.radius(); k <= y.radius(); ++k) rows.at(n, m + k) += kernel(n, m) * y(k);
+      for (int k = -y.radius(); k <= y.radius(); ++k) rows.at(n, m + k) += psf(n, m) * y(k);
     }
   }
   for (int n = -inner; n <= inner; ++n) {
@@ -125,7 +125,7 @@ Kernel ConvolveAxes(const Kernel& kernel, const Kernel1& x, const Kernel1& y) {
 
 // The error (10) at theta and the beta that makes it least.
 double LeastError(double r, double theta, double* beta) {
-  const Kernel ideal = IdealKernel(r, theta), half = IdealKernel(r / 2, theta);
+  const SampledPsf ideal = IdealPsf(r, theta), half = IdealPsf(r / 2, theta);
   const auto error = [&](double b) {
     return SquaredError(Subsampled(half, b, Alias::kNone), ideal);
   };
@@ -139,23 +139,23 @@ Optimum MakeOptimum(double r, const Filters& filters) {
 
 }  // namespace
 
-Kernel SubsampledKernel(double r, const Filters& filters, Alias alias) {
-  return Subsampled(IdealKernel(r / 2, filters.theta), filters.beta_down, alias);
+SampledPsf SubsampledPsf(double r, const Filters& filters, Alias alias) {
+  return Subsampled(IdealPsf(r / 2, filters.theta), filters.beta_down, alias);
 }
 
-Kernel ThroughLayer(const Kernel& half, double beta_down) {
+SampledPsf ThroughLayer(const SampledPsf& half, double beta_down) {
   return Subsampled(half, beta_down, Alias::kNone);
 }
 
-double LayerAliasing(const Kernel& kernel, int layer, double beta_down) {
+double LayerAliasing(const SampledPsf& psf, int layer, double beta_down) {
   const int places = 1 << layer;
-  const Kernel1 common = Correlation(LayersUp(layer), places);
+  const Taps common = Correlation(LayersUp(layer), places);
   double mean = 0;  // of the responses' squares
   for (int a = 0; a < places; ++a) {
     for (int b = 0; b < places; ++b) {
-      const Kernel blurred =
-          ConvolveAxes(kernel, LayersDown(a, layer, beta_down), LayersDown(b, layer, beta_down));
-      const Kernel seen = ConvolveAxes(blurred, common, common);
+      const SampledPsf blurred =
+          ConvolveAxes(psf, LayersDown(a, layer, beta_down), LayersDown(b, layer, beta_down));
+      const SampledPsf seen = ConvolveAxes(blurred, common, common);
       for (int n = -blurred.radius(); n <= blurred.radius(); ++n) {
         for (int m = -blurred.radius(); m <= blurred.radius(); ++m) {
           mean += blurred(n, m) * seen(n, m) / (places * places);
@@ -163,26 +163,26 @@ double LayerAliasing(const Kernel& kernel, int layer, double beta_down) {
       }
     }
   }
-  Kernel through = kernel;
+  SampledPsf through = psf;
   for (int k = 0; k < layer; ++k) through = ThroughLayer(through, beta_down);
   return mean - Energy(through);
 }
 
-Kernel1 SubsampledKernel1(double r, const Filters& filters, bool alias) {
-  const Kernel1 half = IdealKernel1(r / 2, filters.theta);
-  Kernel1 spread(2 * half.radius());
+Taps SubsampledPsf1(double r, const Filters& filters, bool alias) {
+  const Taps half = IdealPsf1(r / 2, filters.theta);
+  Taps spread(2 * half.radius());
   for (int n = -half.radius(); n <= half.radius(); ++n) spread.at(2 * n) = half(n);
   return Convolve(spread, AxisFilter(filters.beta_down, alias));
 }
 
 double SubsampledError(double r, const Filters& filters) {
-  return SquaredError(SubsampledKernel(r, filters, Alias::kNone), IdealKernel(r, filters.theta));
+  return SquaredError(SubsampledPsf(r, filters, Alias::kNone), IdealPsf(r, filters.theta));
 }
 
 double AliasingError(double r, const Filters& filters) {
   double sum = 0;
   for (const Alias alias : {Alias::kX, Alias::kY, Alias::kBoth}) {
-    sum += Energy(SubsampledKernel(r, filters, alias));
+    sum += Energy(SubsampledPsf(r, filters, alias));
   }
   return sum;
 }
@@ -198,7 +198,7 @@ Optimum Optimise(double r) {
 
 Optimum OptimiseOnGrid(double r) {
   Filters best = {0, 0};
-  double least = 1;  // more than any kernel of unit sum is wrong by
+  double least = 1;  // more than any PSF of unit sum is wrong by
   const int first = static_cast<int>(std::round(kLowestTheta / kThetaStep));
   const int last = static_cast<int>(std::round(kHighestTheta / kThetaStep));
   for (int k = first; k <= last; ++k) {

@@ -4,11 +4,11 @@
 #ifndef STARFOCUS_LIB_ANALYSIS_SUBSAMPLED_H_
 #define STARFOCUS_LIB_ANALYSIS_SUBSAMPLED_H_
 
-#include "lib/analysis/kernel.h"
+#include "lib/analysis/sampled_psf.h"
 
 namespace starfocus::analysis {
 
-// Which axes alias: B_{down 2} itself, or one of the kernels E_i, whose G_D(z) is G_D(-z) along x,
+// Which axes alias: B_{down 2} itself, or one of the PSFs E_i, whose G_D(z) is G_D(-z) along x,
 // along y or along both.
 enum class Alias { kNone, kX, kY, kBoth };
 
@@ -18,17 +18,17 @@ struct Filters {
   double theta;
 };
 
-// G_U(z) B(z^2; r / 2) G_D(+-z), B being the ideal kernel.
-Kernel SubsampledKernel(double r, const Filters& filters, Alias alias);
-Kernel1 SubsampledKernel1(double r, const Filters& filters, bool alias);
+// G_U(z) B(z^2; r / 2) G_D(+-z), B being the ideal PSF.
+SampledPsf SubsampledPsf(double r, const Filters& filters, Alias alias);
+Taps SubsampledPsf1(double r, const Filters& filters, bool alias);
 
 // What the picture sees of a blur `half` of the layer below: G_U(z) half(z^2) G_D(z).
-Kernel ThroughLayer(const Kernel& half, double beta_down);
+SampledPsf ThroughLayer(const SampledPsf& half, double beta_down);
 
-// The aliasing of a blur `kernel` of layer L in [0, 2] when L layers lead down to it and up again:
+// The aliasing of a blur `PSF` of layer L in [0, 2] when L layers lead down to it and up again:
 // how far the response to an impulse varies with its place, in mean square over the 4^L places.
-// (11) for L = 1 and the ideal kernel.
-double LayerAliasing(const Kernel& kernel, int layer, double beta_down);
+// (11) for L = 1 and the ideal PSF.
+double LayerAliasing(const SampledPsf& psf, int layer, double beta_down);
 
 // SSE of (10) and (11).
 double SubsampledError(double r, const Filters& filters);

@@ -11,10 +11,10 @@
 #include "lib/analysis/ideal.h"
 #include "lib/analysis/integral.h"
 #include "lib/analysis/selection.h"
-#include "lib/analysis/star_kernel.h"
+#include "lib/analysis/star_psf.h"
 #include "lib/analysis/subaperture_rule.h"
 #include "lib/analysis/subsampled.h"
-#include "lib/analysis/view_kernel.h"
+#include "lib/analysis/view_psf.h"
 #include "lib/base/rules.h"
 #include "lib/base/view_weights.h"
 
@@ -55,37 +55,36 @@ TEST_CASE("analysis: aperture (3)") {
   }
 }
 
-TEST_CASE("analysis: ideal kernel (4)") {
+TEST_CASE("analysis: ideal PSF (4)") {
   for (const double r : {0.1, 0.5, 0.7, 1.0, 1.5, 3.0, 7.3, 40.0}) {
     CAPTURE(r);
-    CHECK(IdealKernel(r, kTheta).Sum() == doctest::Approx(1).epsilon(1e-11));
-    CHECK(IdealKernel1(r, kTheta).Sum() == doctest::Approx(1).epsilon(1e-11));
+    CHECK(IdealPsf(r, kTheta).Sum() == doctest::Approx(1).epsilon(1e-11));
+    CHECK(IdealPsf1(r, kTheta).Sum() == doctest::Approx(1).epsilon(1e-11));
   }
-  CHECK(IdealKernel(0.5, kTheta)(0, 0) == doctest::Approx(1).epsilon(1e-12));
-  const Kernel kernel = IdealKernel(2.3, kTheta);
+  CHECK(IdealPsf(0.5, kTheta)(0, 0) == doctest::Approx(1).epsilon(1e-12));
+  const SampledPsf psf = IdealPsf(2.3, kTheta);
   for (int n = -3; n <= 3; ++n) {
     for (int m = -3; m <= 3; ++m) {
-      CHECK(std::fabs(kernel(n, m) - SampledPixel(n, m, 2.3, kTheta)) < 3e-5);
+      CHECK(std::fabs(psf(n, m) - SampledPixel(n, m, 2.3, kTheta)) < 3e-5);
     }
   }
 }
 
-TEST_CASE("analysis: view-interpolation kernels tend to their limits") {
-  // Many subapertures tile the aperture; many views give the ideal kernel blurred by h.
+TEST_CASE("analysis: view-interpolation PSFs tend to their limits") {
+  // Many subapertures tile the aperture; many views give the ideal PSF blurred by h.
   CHECK(SubapertureError(6, 40, kTheta) < 2e-6);
   CHECK(SubapertureError(6, 80, kTheta) < SubapertureError(6, 40, kTheta));
-  CHECK(SquaredError(StarKernel(4, 4, kTheta, Subapertures::kNarrow), PaperKernel(4, 4, kTheta)) <
-        1e-12);
+  CHECK(SquaredError(StarPsf(4, 4, kTheta, Subapertures::kNarrow), PaperPsf(4, 4, kTheta)) < 1e-12);
   for (const Subapertures subapertures : {Subapertures::kNarrow, Subapertures::kWide}) {
-    CHECK(StarKernel(11, 4, kTheta, subapertures).Sum() == doctest::Approx(1));
+    CHECK(StarPsf(11, 4, kTheta, subapertures).Sum() == doctest::Approx(1));
   }
   // Where views lie whole pixels apart boxes on whole pixels are exact.
   for (const int n : {4, 5, 6}) {
     for (const int width : {1, 2, 3, 5}) {
       const double r = width * double(LensInSubapertures(n)) / kSubapertureUnits;
       CAPTURE(r);
-      CHECK(SquaredError(StarKernel(r, n, kTheta, Subapertures::kWide),
-                         SubapertureKernel(r, n, kTheta)) < 1e-12);
+      CHECK(SquaredError(StarPsf(r, n, kTheta, Subapertures::kWide), SubaperturePsf(r, n, kTheta)) <
+            1e-12);
     }
   }
   for (const double width : {0.1, 0.5, 1.0, 2.5}) {
@@ -96,7 +95,7 @@ TEST_CASE("analysis: view-interpolation kernels tend to their limits") {
 }
 
 TEST_CASE("analysis: half-band filters") {
-  const Kernel1 up = HalfBand(kBetaUp);
+  const Taps up = HalfBand(kBetaUp);
   CHECK(up.Sum() == doctest::Approx(1));
   CHECK(up(2) == 0);
   CHECK(2 * GainAtPi(up) == doctest::Approx(-2e-4).epsilon(0.02));
@@ -124,7 +123,7 @@ TEST_CASE("analysis: Table I to every printed digit, optimiser included") {
     const Optimum free = Optimise(row.r);
     CHECK(free.error <= found.error);
     CHECK(free.error > 0.99 * found.error);
-    CHECK(SubsampledKernel(row.r, found.filters, Alias::kNone).Sum() == doctest::Approx(1));
+    CHECK(SubsampledPsf(row.r, found.filters, Alias::kNone).Sum() == doctest::Approx(1));
   }
 }
 

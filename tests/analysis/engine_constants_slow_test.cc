@@ -15,10 +15,10 @@
 #include "lib/analysis/ideal.h"
 #include "lib/analysis/search.h"
 #include "lib/analysis/selection.h"
-#include "lib/analysis/star_kernel.h"
+#include "lib/analysis/star_psf.h"
 #include "lib/analysis/subaperture_rule.h"
 #include "lib/analysis/subsampled.h"
-#include "lib/analysis/view_kernel.h"
+#include "lib/analysis/view_psf.h"
 #include "lib/base/fixed.h"
 #include "lib/base/rules.h"
 #include "lib/base/view_weights.h"
@@ -113,7 +113,7 @@ TEST_CASE("constants: the footprint of a view is its subaperture") {
 
 TEST_CASE("constants: the layers' filters are Table I's at r = 3, and beta_U's") {
   const auto check = [](const simd::HalfBand& taps, double beta, double gain, const char* moves) {
-    const Kernel1 exact = HalfBand(beta);
+    const Taps exact = HalfBand(beta);
     const double one = gain * (1 << simd::kTapBits);
     CHECK_MESSAGE(std::fabs(taps.near - one * exact(1)) < 1, "tap 1 of " << moves);
     CHECK_MESSAGE(std::fabs(taps.far - one * exact(3)) < 1, "tap 3 of " << moves);
@@ -122,9 +122,9 @@ TEST_CASE("constants: the layers' filters are Table I's at r = 3, and beta_U's")
                   "tap 0 of " << moves);
   };
   check(kDownFilter, OptimiseOnGrid(3).filters.beta_down, 1,
-        "G_D moves: Table I, Fig. 8, (12) and the kernels of the layers");
+        "G_D moves: Table I, Fig. 8, (12) and the PSFs of the layers");
   check(kUpFilter, std::round(100 * BetaWithoutPi()) / 100, 2,
-        "G_U moves: Table I, Fig. 8 and the kernels of the layers");
+        "G_U moves: Table I, Fig. 8 and the PSFs of the layers");
   CHECK_MESSAGE(kBetaDown == doctest::Approx(OptimiseOnGrid(3).filters.beta_down).epsilon(1e-9),
                 "lib/analysis draws Fig. 8 with another beta_D than Table I's");
 }
@@ -154,15 +154,15 @@ TEST_CASE("constants: the layers beside the rule for subapertures") {
 
 TEST_CASE("constants: the filters go down and up as (10) and (11) have it") {
   for (const double r : {3.0, 4.5, 7.0}) {
-    const Kernel half = IdealKernel(r / 2, kDefaultTheta);
+    const SampledPsf half = IdealPsf(r / 2, kDefaultTheta);
     const Filters filters = {kBetaDown, kDefaultTheta};
-    CHECK(SquaredError(ThroughLayer(half, kBetaDown), SubsampledKernel(r, filters, Alias::kNone)) <
+    CHECK(SquaredError(ThroughLayer(half, kBetaDown), SubsampledPsf(r, filters, Alias::kNone)) <
           1e-20);
     CHECK(LayerAliasing(half, 1, kBetaDown) ==
           doctest::Approx(AliasingError(r, filters)).epsilon(1e-9));
     CHECK(MakeLayerTheory(r, 1).error == doctest::Approx(SubsampledError(r, filters)));
   }
-  CHECK(std::fabs(LayerAliasing(IdealKernel(2, kDefaultTheta), 0, kBetaDown)) < 1e-15);
+  CHECK(std::fabs(LayerAliasing(IdealPsf(2, kDefaultTheta), 0, kBetaDown)) < 1e-15);
 }
 
 // Radii in both directions; `least` is where the rule's layer begins.
@@ -178,12 +178,12 @@ void CheckEngine(starfocus_renderer renderer, int layer, int least, int most) {
               STARFOCUS_OK);
       CHECK(step.layer == layer);
       CHECK_MESSAGE(step.apart <= kExplained[layer],
-                    "N = " << step.n << ": the impulse response is not StarKernel's; `starfocus "
+                    "N = " << step.n << ": the impulse response is not StarPsf's; `starfocus "
                            << "analyze` shows which radii move");
       CHECK(Explain(step).find("unexplained") == std::string::npos);
       if (layer > 0) {
         const LayerTheory theory = MakeLayerTheory(r < 0 ? -r : r, layer);
-        // N by (9) is 2 and 3 at first: what aliases is not quite the ideal kernel.
+        // N by (9) is 2 and 3 at first: what aliases is not quite the ideal PSF.
         CHECK(std::fabs(step.aliasing - theory.aliasing) <
               (renderer == STARFOCUS_RENDERER_LINE_SCAN ? 2e-4 : 1e-4));
       }
@@ -197,7 +197,7 @@ void CheckEngine(starfocus_renderer renderer, int layer, int least, int most) {
   }
 }
 
-TEST_CASE("constants: the running engine has the kernel it is described by") {
+TEST_CASE("constants: the running engine has the PSF it is described by") {
   constexpr int kMost = 40;
   for (const starfocus_renderer renderer :
        {STARFOCUS_RENDERER_LINE_SCAN, STARFOCUS_RENDERER_SLICES}) {
@@ -212,8 +212,8 @@ TEST_CASE("constants: the engine's subapertures keep the threshold at every radi
     const int n = ViewsBySubaperture(r_max);
     double worst = 0, worst_r = 0;
     for (double r = 0.5 + 1.0 / 64; r <= r_max; r += 1.0 / 16) {
-      const double error = SquaredError(StarKernel(r, n, kDefaultTheta, Subapertures::kWide),
-                                        IdealKernel(r, kDefaultTheta));
+      const double error = SquaredError(StarPsf(r, n, kDefaultTheta, Subapertures::kWide),
+                                        IdealPsf(r, kDefaultTheta));
       if (error > worst) worst = error, worst_r = r;
     }
     CHECK_MESSAGE(worst <= kThreshold, "the rule for subapertures: N = " << n << " misses (4) by "
@@ -228,14 +228,13 @@ double WorstOfThree(int lens, double first) {
   const SubapertureLights lights = SubapertureLights::OfLens(lens, kDefaultTheta);
   double worst = 0;
   for (double r = first; r <= 5.5; r += 1.0 / 32) {
-    worst =
-        std::max(worst, SquaredError(SubapertureKernel(r, lights), IdealKernel(r, kDefaultTheta)));
+    worst = std::max(worst, SquaredError(SubaperturePsf(r, lights), IdealPsf(r, kDefaultTheta)));
   }
   return worst;
 }
 
 TEST_CASE("constants: the width of the lens in three subapertures") {
-  // From half a pixel on, where the centre view alone ends, and from where kernels are wider.
+  // From half a pixel on, where the centre view alone ends, and from where PSFs are wider.
   constexpr double kFirst = 0.5 + 1.0 / 64, kWider = 0.625;
   const int own = LensInSubapertures(3);
   CHECK(WorstOfThree(own, kFirst) < kThreshold);
@@ -276,54 +275,53 @@ TEST_CASE("constants: the width of the lens in subapertures") {
   }
 }
 
-// The kernels (4) that gather, and those of the blur mode up to as far.
-struct GatherKernels {
+// The PSFs (4) that gather, and those of the blur mode up to as far.
+struct GatherPsfs {
   std::vector<uint16_t> weights = std::vector<uint16_t>(BlurWeightCount(false, kMaxGather));
-  std::vector<Psf> kernels = std::vector<Psf>(static_cast<size_t>(BlurStepCount(kMaxGather)));
+  std::vector<Psf> psfs = std::vector<Psf>(static_cast<size_t>(BlurStepCount(kMaxGather)));
 
-  GatherKernels() {
+  GatherPsfs() {
     MakePsfs(0, BlurStepCount(kMaxGather), ApertureFallOff(kDefaultTheta), nullptr, weights.data(),
-             kernels.data());
+             psfs.data());
   }
   // Of a radius with kDisparityBits.
-  const Psf& Of(int32_t r) const { return kernels[static_cast<size_t>(BlurStep(r))]; }
+  const Psf& Of(int32_t r) const { return psfs[static_cast<size_t>(BlurStep(r))]; }
 };
 
-TEST_CASE("constants: steps between the radii of kernels that gather") {
-  const GatherKernels made;
+TEST_CASE("constants: steps between the radii of PSFs that gather") {
+  const GatherPsfs made;
   double near_focus = 0, fine = 0, coarse = 0;
   for (int32_t r = 1; r <= kMaxGather << kDisparityBits; ++r) {
-    const Psf& kernel = made.Of(r);
-    Kernel engine(kernel.size);
-    for (int n = -kernel.size; n <= kernel.size; ++n) {
-      for (int m = -kernel.size; m <= kernel.size; ++m) {
-        engine.at(n, m) = std::ldexp(kernel.Weight(n, m), -kernel.sum_bits);
+    const Psf& psf = made.Of(r);
+    SampledPsf engine(psf.size);
+    for (int n = -psf.size; n <= psf.size; ++n) {
+      for (int m = -psf.size; m <= psf.size; ++m) {
+        engine.at(n, m) = std::ldexp(psf.Weight(n, m), -psf.sum_bits);
       }
     }
     const double radius = double(r) / (1 << kDisparityBits);
-    const double error = SquaredError(engine, IdealKernel(radius, kDefaultTheta));
+    const double error = SquaredError(engine, IdealPsf(radius, kDefaultTheta));
     double& worst = radius < 1 ? near_focus : radius < 4 ? fine : coarse;
     worst = std::max(worst, error);
   }
-  CHECK_MESSAGE(near_focus < 7.5e-3,
-                "kFineSteps: below one pixel the kernel moves by " << near_focus);
-  CHECK_MESSAGE(fine < 1.6e-3, "kFineSteps: up to 4 pixels the kernel moves by " << fine);
-  CHECK_MESSAGE(coarse < 1.6e-5, "kCoarseSteps: the kernel moves by " << coarse);
+  CHECK_MESSAGE(near_focus < 7.5e-3, "kFineSteps: below one pixel the PSF moves by " << near_focus);
+  CHECK_MESSAGE(fine < 1.6e-3, "kFineSteps: up to 4 pixels the PSF moves by " << fine);
+  CHECK_MESSAGE(coarse < 1.6e-5, "kCoarseSteps: the PSF moves by " << coarse);
 }
 
-TEST_CASE("constants: taps of a kernel that gathers") {
+TEST_CASE("constants: taps of a PSF that gathers") {
   constexpr int32_t kOne = 1 << kDisparityBits;
-  // The model counts no fewer taps than kernels have, and not half as many again but for the
+  // The model counts no fewer taps than PSFs have, and not half as many again but for the
   // smallest. It adds the time of 16 taps and takes a tap for a 64th of an upsampled pixel.
   starfocus_timing timing = {};
   timing.upsample = 64;
-  const GatherKernels made;
+  const GatherPsfs made;
   for (int32_t r = kOne; r <= kMaxGather * kOne; r += kOne / 4) {
-    const Psf& kernel = made.Of(r);
+    const Psf& psf = made.Of(r);
     const auto counted = static_cast<int32_t>(PredictGather(timing, 1, r)) - 16;
     int32_t taps = 0;
-    for (int32_t n = 0; n <= kernel.size; ++n) {
-      for (int32_t m = 0; m <= kernel.size; ++m) taps += kernel.Weight(n, m) != 0 ? 1 : 0;
+    for (int32_t n = 0; n <= psf.size; ++n) {
+      for (int32_t m = 0; m <= psf.size; ++m) taps += psf.Weight(n, m) != 0 ? 1 : 0;
     }
     CHECK_MESSAGE(counted >= taps, "PredictGather: radius " << r << " / 64 has " << taps);
     CHECK_MESSAGE(counted <= taps + taps / 2 + 6,
@@ -331,7 +329,7 @@ TEST_CASE("constants: taps of a kernel that gathers") {
   }
 }
 
-TEST_CASE("constants: one N for a picture has the kernel it is described by") {
+TEST_CASE("constants: one N for a picture has the PSF it is described by") {
   for (const double r : {0.0, 0.5, 3.25, 11.0, 24.5}) {
     EngineStep step;
     REQUIRE(MeasureStep({r, 40, STARFOCUS_MODE_FRAME, STARFOCUS_RENDERER_LINE_SCAN, 0}, &step) ==

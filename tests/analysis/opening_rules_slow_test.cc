@@ -55,7 +55,7 @@ TEST_CASE("openings: subapertures keep the threshold, and a quarter of it where 
     for (double r = 1.5; r <= 34; r += 0.5) {
       const int n = ViewsBySubaperture(r, asked.demand);
       const double error =
-          SquaredError(SubapertureKernel(r, n, asked.opening), IdealKernel(r, asked.opening));
+          SquaredError(SubaperturePsf(r, n, asked.opening), IdealPsf(r, asked.opening));
       worst = std::max(worst, error);
       if (r > 5) beyond = std::max(beyond, error);
     }
@@ -71,9 +71,9 @@ TEST_CASE("openings: subapertures keep the threshold, and a quarter of it where 
 
 TEST_CASE("openings: a disc without blades, a ring without a hole and many blades are alike") {
   const double r = 6.25;
-  const Kernel disc = IdealKernel(r, BrightOpening{0, 0});
-  CHECK(SquaredError(disc, IdealKernel(r, BrightOpening{1e-9, 0})) < 1e-9);
-  CHECK(SquaredError(disc, IdealKernel(r, BrightOpening{0, 60})) < 1e-6);
+  const SampledPsf disc = IdealPsf(r, BrightOpening{0, 0});
+  CHECK(SquaredError(disc, IdealPsf(r, BrightOpening{1e-9, 0})) < 1e-9);
+  CHECK(SquaredError(disc, IdealPsf(r, BrightOpening{0, 60})) < 1e-6);
   CHECK(disc.Sum() == doctest::Approx(1));
   const double area = 3.14159265358979 * r * r;
   CHECK(disc(0, 0) == doctest::Approx(1 / area).epsilon(1e-3));

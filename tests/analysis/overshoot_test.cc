@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "lib/analysis/engine_kernel.h"
+#include "lib/analysis/engine_psf.h"
 #include "tests/support/test_scene.h"
 #include "tests/support/transfer_curve.h"
 
@@ -20,32 +20,32 @@ using namespace starfocus::analysis;
 
 constexpr int kSide = 128, kMiddle = 64, kLow = 60, kHigh = 200;
 
-EngineKernel Measure(double r, starfocus_renderer renderer, int layer) {
+EnginePsf Measure(double r, starfocus_renderer renderer, int layer) {
   const EngineProbe probe = {r, r, STARFOCUS_MODE_BLOCK, renderer, layer};
-  EngineKernel measured = {Kernel(0), 0, 0, 0};
-  REQUIRE(starfocus::analysis::MeasureEngineKernel(probe, &measured) == STARFOCUS_OK);
+  EnginePsf measured = {SampledPsf(0), 0, 0, 0};
+  REQUIRE(starfocus::analysis::MeasureEnginePsf(probe, &measured) == STARFOCUS_OK);
   return measured;
 }
 
-// The sum of a kernel's negative taps: what the worst picture of contrast 1 overshoots by.
-double NegativeSum(Kernel kernel) {
+// The sum of a PSF's negative taps: what the worst picture of contrast 1 overshoots by.
+double NegativeSum(SampledPsf psf) {
   double sum = 0;
-  for (int m = -kernel.radius(); m <= kernel.radius(); ++m) {
-    for (int n = -kernel.radius(); n <= kernel.radius(); ++n) sum -= std::min(0.0, kernel.at(n, m));
+  for (int m = -psf.radius(); m <= psf.radius(); ++m) {
+    for (int n = -psf.radius(); n <= psf.radius(); ++n) sum -= std::min(0.0, psf.at(n, m));
   }
   return sum;
 }
 
-// Refocuses the picture that is bright where the kernel around (x, y) is negative. Returns how far
+// Refocuses the picture that is bright where the PSF around (x, y) is negative. Returns how far
 // the pixel there falls below the darker level, in parts of the contrast of light.
 double Undershoot(double r, starfocus_renderer renderer, int layer, starfocus_transfer transfer,
-                  Kernel kernel, int x, int y) {
+                  SampledPsf psf, int x, int y) {
   test::Scene scene = test::EmptyScene(kSide, kSide, 1, float(r), float(r));
   for (int v = 0; v < kSide; ++v) {
     for (int u = 0; u < kSide; ++u) {
       const int n = x - u, m = y - v;
-      const bool inside = std::max(std::abs(n), std::abs(m)) <= kernel.radius();
-      const bool bright = inside && kernel.at(n, m) < 0;
+      const bool inside = std::max(std::abs(n), std::abs(m)) <= psf.radius();
+      const bool bright = inside && psf.at(n, m) < 0;
       std::fill_n(scene.Pixel(0, u, v), 3, uint8_t(bright ? kHigh : kLow));
     }
   }
@@ -65,23 +65,23 @@ double Undershoot(double r, starfocus_renderer renderer, int layer, starfocus_tr
   return (light(kLow) - light(darkest)) / (light(kHigh) - light(kLow));
 }
 
-// The most that the kernels of these radii overshoot by, near where each layer begins, and that
+// The most that the PSFs of these radii overshoot by, near where each layer begins, and that
 // pictures made for them do at all places on a layer's grid.
 double Worst(starfocus_renderer renderer, const std::vector<double>& radii) {
   double worst = 0;
   for (const double r : radii) {
-    const EngineKernel measured = Measure(r, renderer, 2);
+    const EnginePsf measured = Measure(r, renderer, 2);
     double worst_here = 0;
     const int step = 1 << measured.layer;
     for (int k = 0; k < step; ++k) {
       for (const starfocus_transfer transfer : {STARFOCUS_TRANSFER_NONE, STARFOCUS_TRANSFER_SRGB}) {
         worst_here = std::max(worst_here, Undershoot(r, renderer, measured.layer, transfer,
-                                                     measured.kernel, kMiddle + k, kMiddle + k));
+                                                     measured.psf, kMiddle + k, kMiddle + k));
       }
     }
     std::printf("rule %d, blur %.2f, layer %d: negative taps %.4f, undershoot %.4f\n",
-                int(renderer), r, measured.layer, NegativeSum(measured.kernel), worst_here);
-    worst = std::max({worst, worst_here, NegativeSum(measured.kernel)});
+                int(renderer), r, measured.layer, NegativeSum(measured.psf), worst_here);
+    worst = std::max({worst, worst_here, NegativeSum(measured.psf)});
   }
   return worst;
 }
@@ -94,7 +94,7 @@ TEST_CASE("overshoot: no picture leaves the range of its views by more than the 
   CHECK(subapertures <= 0.04);
   CHECK(paper <= 0.13);
   // Without layers no tap is negative but by rounding.
-  CHECK(NegativeSum(Measure(7.5, STARFOCUS_RENDERER_SLICES, 0).kernel) < 1e-3);
+  CHECK(NegativeSum(Measure(7.5, STARFOCUS_RENDERER_SLICES, 0).psf) < 1e-3);
 }
 
 }  // namespace overshoot_test

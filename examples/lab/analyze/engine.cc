@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The running engine's kernels beside the theory.
+// The running engine's PSFs beside the theory.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -67,7 +67,7 @@ Error Measure(const Series& series, int sign, Table* table, Table* layers) {
   std::printf("  layer %d, renderer %s, r = %g to %d%s\n", series.layer, NameOf(series.renderer),
               least == 0 ? 0 : sign * least, sign * series.largest,
               series.r_max > 0 ? " in a picture whose r_max is that" : "");
-  Progress progress("the engine's kernels", count);
+  Progress progress("the engine's PSFs", count);
   std::vector<Stretch> stretches;
   double apart = 0, aliasing = 0, aliasing_r = 0;
   bool joined = false;
@@ -78,7 +78,7 @@ Error Measure(const Series& series, int sign, Table* table, Table* layers) {
     EngineStep step;
     const starfocus_status status = MeasureStep(probe, &step);
     if (status != STARFOCUS_OK || step.layer != series.layer) {
-      return Expected("engine", "a kernel at r = " + std::to_string(r),
+      return Expected("engine", "a PSF at r = " + std::to_string(r),
                       starfocus_status_string(status));
     }
     const std::string reason = Explain(step);
@@ -100,7 +100,7 @@ Error Measure(const Series& series, int sign, Table* table, Table* layers) {
     std::printf("    |r| %6.3f to %6.3f  SSE up to %.2e (at %.3f)  %s\n", stretch.first,
                 stretch.last, stretch.worst, stretch.worst_r, stretch.reason.c_str());
   }
-  std::printf("    %s above 1e-3; measured and described kernels differ by at most %.1e\n",
+  std::printf("    %s above 1e-3; measured and described PSFs differ by at most %.1e\n",
               stretches.empty() ? "no step" : "no other step", apart);
   if (series.layer > 0) {
     std::printf("    aliasing up to %.2e (at %.3f; theory %.2e)\n", aliasing, aliasing_r,
@@ -109,7 +109,7 @@ Error Measure(const Series& series, int sign, Table* table, Table* layers) {
   return {};
 }
 
-// Draws one table of kernels at layer 0.
+// Draws one table of PSFs at layer 0.
 std::string Panel(const std::string& title, const std::string& table, const std::string& range) {
   return "set title '" + title + "'\nset xrange [" + range + "]\nplot $" + table +
          " using 1:8 with lines lt 6 lw 1 title 'paper', "
@@ -138,7 +138,7 @@ RuleTables MakeTables(starfocus_renderer renderer) {
 
 Result<Figure> AnalyseEngine(int largest) {
   Figure figure = {"engine", 860, 1240, {}, ""};
-  std::printf("The running engine: SSE of its kernels against (4), and why where above 1e-3\n");
+  std::printf("The running engine: SSE of its PSFs against (4), and why where above 1e-3\n");
   for (const starfocus_renderer renderer :
        {STARFOCUS_RENDERER_LINE_SCAN, STARFOCUS_RENDERER_SLICES}) {
     RuleTables tables = MakeTables(renderer);
@@ -158,7 +158,7 @@ Result<Figure> AnalyseEngine(int largest) {
   std::printf("\n");
   const std::string to = std::to_string(largest), range = "-" + to + ":" + to;
   figure.commands =
-      "set multiplot layout 4,1 title 'Kernels of the running engine'\n"
+      "set multiplot layout 4,1 title 'PSFs of the running engine'\n"
       "set logscale y\nset format y '%.0e'\nset yrange [1e-7:0.2]\n"
       "set ylabel 'SSE (8)'\nset xlabel 'r = d - d_t'\n"
       "set arrow 1 from graph 0, first 1e-3 to graph 1, first 1e-3 nohead dt 2 lc rgb '#888888'\n" +

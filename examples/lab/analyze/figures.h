@@ -15,14 +15,14 @@ Figure AnalyseTableOne();
 Figure AnalyseViewNumber();  // Fig. 6 and the thresholds of (9)
 
 // Nothing to print.
-Figure DrawViewKernels();      // Fig. 4
+Figure DrawViewPsfs();         // Fig. 4
 Figure DrawViewResponses();    // Fig. 5
 Figure DrawSubsampledBlurs();  // Fig. 8
 
 // The subapertures' table and rule, for blur radii up to max_blur.
 Figure AnalyseSubapertures(double max_blur);
 
-// The running engine's kernels of blur radii up to `largest`; *error is set when it could not be
+// The running engine's PSFs of blur radii up to `largest`; *error is set when it could not be
 // run.
 Result<Figure> AnalyseEngine(int largest);
 

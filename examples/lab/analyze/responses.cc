@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Figs. 4, 5 and 8: 1D kernels and their frequency responses.
+// Figs. 4, 5 and 8: 1D PSFs and their frequency responses.
 #include <cmath>
 
 #include "examples/lab/analyze/figures.h"
@@ -8,7 +8,7 @@
 #include "lib/analysis/ideal.h"
 #include "lib/analysis/spectrum.h"
 #include "lib/analysis/subsampled.h"
-#include "lib/analysis/view_kernel.h"
+#include "lib/analysis/view_psf.h"
 
 namespace starfocus {
 namespace {
@@ -18,7 +18,7 @@ using namespace analysis;
 constexpr double kRadius = 4;  // r of Figs. 4 and 5
 
 // b_vi,c(x) of (6).
-double Continuous(const Kernel1& samples, double x) {
+double Continuous(const Taps& samples, double x) {
   double sum = 0;
   for (int i = -samples.radius(); i <= samples.radius(); ++i) {
     sum += samples(i) * Trapezoid(x - i * kRadius / samples.radius(), 1);
@@ -27,40 +27,40 @@ double Continuous(const Kernel1& samples, double x) {
 }
 
 // A_vi(f): the views' spectrum, repeated every N / r.
-double ViewResponse(const Kernel1& samples, double f) {
+double ViewResponse(const Taps& samples, double f) {
   return Response(samples, 2 * kPi * f * kRadius / samples.radius());
 }
 
-double Peak(const Kernel1& kernel) {
+double Peak(const Taps& psf) {
   double peak = 0;
-  for (int n = -kernel.radius(); n <= kernel.radius(); ++n) peak = std::fmax(peak, kernel(n));
+  for (int n = -psf.radius(); n <= psf.radius(); ++n) peak = std::fmax(peak, psf(n));
   return peak;
 }
 
 }  // namespace
 
-Figure DrawViewKernels() {
+Figure DrawViewPsfs() {
   constexpr int kViews[] = {3, 4, 6, 16};
   Table taps("fig4", {"n", "ideal", "N3", "N4", "N6", "N16"});
   Table curves("fig4_curves", {"x", "N3", "N4", "N6", "N16"});
-  const Kernel1 ideal = IdealKernel1(kRadius, kDefaultTheta);
+  const Taps ideal = IdealPsf1(kRadius, kDefaultTheta);
   for (int n = -6; n <= 6; ++n) {
     taps.Row().Add(n).Add(ideal(n) / Peak(ideal));
     for (const int views : kViews) {
-      const Kernel1 kernel = PaperKernel1(kRadius, views, kDefaultTheta);
-      taps.Add(kernel(n) / Peak(kernel));
+      const Taps psf = PaperPsf1(kRadius, views, kDefaultTheta);
+      taps.Add(psf(n) / Peak(psf));
     }
   }
   for (int k = -240; k <= 240; ++k) {
     curves.Row().Add(k / 40.0);
     for (const int views : kViews) {
-      const double peak = Peak(PaperKernel1(kRadius, views, kDefaultTheta));
+      const double peak = Peak(PaperPsf1(kRadius, views, kDefaultTheta));
       curves.Add(Continuous(SampledAperture1(views, kDefaultTheta), k / 40.0) / peak);
     }
   }
   Figure figure = {"fig4", 900, 620, {taps, curves}, ""};
   figure.commands =
-      "set multiplot layout 2,2 title 'Fig. 4: view-interpolation kernels, r = 4, 1D, equal "
+      "set multiplot layout 2,2 title 'Fig. 4: view-interpolation PSFs, r = 4, 1D, equal "
       "height'\nset xrange [-6:6]\nset yrange [0:1.5]\nset xtics 2\n"
       "do for [i=1:4] {\nset title sprintf('N = %s', word('3 4 6 16', i))\n"
       "plot $fig4 using 1:2 with boxes lc rgb '#c8d8e8' fs solid 1 title 'b[n] ideal', "
@@ -74,16 +74,14 @@ Figure DrawViewKernels() {
 Figure DrawViewResponses() {
   Table continuous("fig5a", {"f", "H", "A_N3", "B_N3", "A_N6", "B_N6"});
   Table discrete("fig5b", {"omega_pi", "ideal", "N3", "N6"});
-  const Kernel1 three = SampledAperture1(3, kDefaultTheta),
-                six = SampledAperture1(6, kDefaultTheta);
+  const Taps three = SampledAperture1(3, kDefaultTheta), six = SampledAperture1(6, kDefaultTheta);
   for (int k = 0; k <= 500; ++k) {
     const double f = k / 200.0, h = TriangleResponse(f);
     const double a3 = std::fabs(ViewResponse(three, f)), a6 = std::fabs(ViewResponse(six, f));
     continuous.Row().Add(f).Add(h).Add(a3).Add(h * a3).Add(a6).Add(h * a6);
   }
-  const Kernel1 ideal = IdealKernel1(kRadius, kDefaultTheta);
-  const Kernel1 b3 = PaperKernel1(kRadius, 3, kDefaultTheta),
-                b6 = PaperKernel1(kRadius, 6, kDefaultTheta);
+  const Taps ideal = IdealPsf1(kRadius, kDefaultTheta);
+  const Taps b3 = PaperPsf1(kRadius, 3, kDefaultTheta), b6 = PaperPsf1(kRadius, 6, kDefaultTheta);
   for (int k = 0; k <= 400; ++k) {
     const double omega = k * kPi / 400;
     discrete.Row().Add(k / 400.0).Add(std::fabs(Response(ideal, omega)));
@@ -119,10 +117,10 @@ Figure DrawSubsampledBlurs() {
     const double omega = k * kPi / 400;
     table.Row().Add(k / 400.0);
     for (const double r : kRadii) {
-      table.Add(std::fabs(Response(IdealKernel1(r, kDefaultTheta), omega)));
-      table.Add(std::fabs(Response(IdealKernel1(r / 2, kDefaultTheta), 2 * omega)));
+      table.Add(std::fabs(Response(IdealPsf1(r, kDefaultTheta), omega)));
+      table.Add(std::fabs(Response(IdealPsf1(r / 2, kDefaultTheta), 2 * omega)));
       for (const bool alias : {false, true}) {
-        table.Add(std::fabs(Response(SubsampledKernel1(r, kFilters, alias), omega)));
+        table.Add(std::fabs(Response(SubsampledPsf1(r, kFilters, alias), omega)));
       }
     }
   }

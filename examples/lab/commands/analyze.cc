@@ -41,7 +41,7 @@ Error Run(const AnalyzeOptions& options) {
   const Result<Figure> engine = AnalyseEngine(std::min(options.max_blur, kEngineBlur));
   if (!engine || options.folder.empty()) return engine.error();
   figures.push_back(*engine);
-  figures.push_back(DrawViewKernels());
+  figures.push_back(DrawViewPsfs());
   figures.push_back(DrawViewResponses());
   figures.push_back(DrawSubsampledBlurs());
   const bool draw = HasGnuplot();

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The kernel of refocusing by rendered views (5)-(7): the paper's with the triangular h, and that
+// The PSF of refocusing by rendered views (5)-(7): the paper's with the triangular h, and that
 // of subapertures.
 #ifndef STARFOCUS_LIB_ANALYSIS_VIEW_KERNEL_H_
 #define STARFOCUS_LIB_ANALYSIS_VIEW_KERNEL_H_
 
 #include <vector>
 
-#include "lib/analysis/kernel.h"
+#include "lib/analysis/sampled_psf.h"
 
 namespace starfocus::analysis {
 
@@ -19,10 +19,10 @@ enum class Rim { kIncluded, kExcluded };
 
 // (5)-(7) for N views along the aperture radius, N >= 1, with h(x, y) the trapezoid of `width`
 // along either axis.
-Kernel ViewKernel(double r, int n, double theta, double width, Rim rim = Rim::kIncluded);
+SampledPsf ViewPsf(double r, int n, double theta, double width, Rim rim = Rim::kIncluded);
 
-// Returns the kernel with the triangular h of the paper.
-Kernel PaperKernel(double r, int n, double theta, Rim rim = Rim::kIncluded);
+// Returns the PSF with the triangular h of the paper.
+SampledPsf PaperPsf(double r, int n, double theta, Rim rim = Rim::kIncluded);
 
 // What of the light of a lens goes through the subaperture around each of its views (i, j).
 class SubapertureLights {
@@ -45,14 +45,14 @@ class SubapertureLights {
 
 // Each view stands for its subaperture: h is as wide as a pixel moves from view to
 // view. N = 0 is the centre view alone: the unit impulse.
-Kernel SubapertureKernel(double r, const SubapertureLights& lights);
-Kernel SubapertureKernel(double r, int n, double theta);
+SampledPsf SubaperturePsf(double r, const SubapertureLights& lights);
+SampledPsf SubaperturePsf(double r, int n, double theta);
 
-// The paper's kernel with the 1D aperture, whose views are |i| <= N.
-Kernel1 PaperKernel1(double r, int n, double theta);
+// The paper's PSF with the 1D aperture, whose views are |i| <= N.
+Taps PaperPsf1(double r, int n, double theta);
 
 // a_{d,N}[i] of (5) for the 1D aperture.
-Kernel1 SampledAperture1(int n, double theta);
+Taps SampledAperture1(int n, double theta);
 
 }  // namespace starfocus::analysis
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/analysis/engine_kernel.h"
+#include "lib/analysis/engine_psf.h"
 
 #include <cmath>
 #include <memory>
@@ -49,7 +49,7 @@ starfocus_config ConfigOf(int side, const EngineProbe& probe) {
   config.max_blur = std::fmax(probe.r_max, 1);
   config.superblock = kBlock;
   config.transfer = STARFOCUS_TRANSFER_NONE;
-  config.tuning.gather = 0;  // the kernel of views is asked for
+  config.tuning.gather = 0;  // the PSF of views is asked for
   config.tuning.max_layer = probe.layer;
   config.tuning.timing.block = STARFOCUS_MAX_TIMING;  // one block is the cheapest
   return config;
@@ -112,21 +112,21 @@ std::vector<double> ReadLevels(const Engine& measured) {
 }
 
 // What a white pixel at (x, y) adds to a picture of one gray level, `radius` around it.
-Kernel ReadKernel(const std::vector<double>& levels, const std::vector<double>& flat, int side,
-                  int x, int y, int radius) {
-  Kernel kernel(radius);
+SampledPsf ReadPsf(const std::vector<double>& levels, const std::vector<double>& flat, int side,
+                   int x, int y, int radius) {
+  SampledPsf psf(radius);
   for (int m = -radius; m <= radius; ++m) {
     for (int n = -radius; n <= radius; ++n) {
       const auto at = static_cast<size_t>((y + m) * side + x + n);
-      kernel.at(n, m) = levels[at] - flat[at];
+      psf.at(n, m) = levels[at] - flat[at];
     }
   }
-  return kernel;
+  return psf;
 }
 
 }  // namespace
 
-starfocus_status MeasureEngineKernel(const EngineProbe& probe, EngineKernel* result) {
+starfocus_status MeasureEnginePsf(const EngineProbe& probe, EnginePsf* result) {
   if (probe.layer < 0 || probe.layer >= STARFOCUS_LAYERS) return STARFOCUS_ERROR_RANGE;
   const int radius = static_cast<int>(std::ceil(std::fabs(probe.r))) + kReach[probe.layer];
   const int places = 1 << probe.layer;
@@ -140,21 +140,21 @@ starfocus_status MeasureEngineKernel(const EngineProbe& probe, EngineKernel* res
   const starfocus_status flat_status = engine.Refocus(impulse, probe);
   if (flat_status != STARFOCUS_OK) return flat_status;
   const std::vector<double> flat = ReadLevels(engine);
-  Kernel sum(radius);
+  SampledPsf sum(radius);
   double squares = 0;
-  // A flat picture transposed gives the transposed kernel: half of the places will do.
+  // A flat picture transposed gives the transposed PSF: half of the places will do.
   for (int a = 0; a < places; ++a) {
     for (int b = 0; b <= a; ++b) {
       impulse.Set(middle + a, middle + b, kWhite);
       const starfocus_status status = engine.Refocus(impulse, probe);
       if (status != STARFOCUS_OK) return status;
       impulse.Set(middle + a, middle + b, dark);
-      Kernel kernel = ReadKernel(ReadLevels(engine), flat, side, middle + a, middle + b, radius);
-      kernel.Scale(1.0 / (kWhite - dark));
-      squares += (a == b ? 1 : 2) * Energy(kernel);
+      SampledPsf psf = ReadPsf(ReadLevels(engine), flat, side, middle + a, middle + b, radius);
+      psf.Scale(1.0 / (kWhite - dark));
+      squares += (a == b ? 1 : 2) * Energy(psf);
       for (int n = -radius; n <= radius; ++n) {
         for (int m = -radius; m <= radius; ++m) {
-          sum.at(n, m) += kernel(n, m) + (a == b ? 0 : kernel(m, n));
+          sum.at(n, m) += psf(n, m) + (a == b ? 0 : psf(m, n));
         }
       }
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/analysis/star_kernel.h"
+#include "lib/analysis/star_psf.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include "lib/analysis/aperture.h"
 #include "lib/analysis/ideal.h"
-#include "lib/analysis/view_kernel.h"
+#include "lib/analysis/view_psf.h"
 #include "lib/base/fixed.h"
 #include "lib/base/view_weights.h"
 #include "lib/slices/slice_plane.h"
@@ -22,22 +22,22 @@ constexpr double kNarrowest = 1e-6, kWidest = 7;
 // interpolation.
 struct Footprint {
   double width;
-  Kernel1 taps;
+  Taps taps;
 };
 
 Footprint MakeFootprint(double subaperture, Subapertures subapertures) {
   const double width = std::min(kWidest, std::round(kShiftOne * subaperture) / kShiftOne);
   if (subapertures == Subapertures::kNarrow || width <= 1) {
-    Footprint narrow = {std::clamp(subaperture, kNarrowest, 1.0), Kernel1(0)};
+    Footprint narrow = {std::clamp(subaperture, kNarrowest, 1.0), Taps(0)};
     narrow.taps.at(0) = 1;
     return narrow;
   }
   if (width * kShiftOne <= kBoxSubaperture) {
-    Footprint box = {width, Kernel1(static_cast<int>(std::ceil((width - 1) / 2)))};
+    Footprint box = {width, Taps(static_cast<int>(std::ceil((width - 1) / 2)))};
     box.taps.at(0) = 1;
     return box;
   }
-  Footprint wide = {1, Kernel1(static_cast<int>(std::ceil((width - 1) / 2)))};
+  Footprint wide = {1, Taps(static_cast<int>(std::ceil((width - 1) / 2)))};
   for (int n = -wide.taps.radius(); n <= wide.taps.radius(); ++n) {
     wide.taps.at(n) = Trapezoid(n, width);
   }
@@ -59,36 +59,36 @@ void Spread(double x, const Footprint& footprint, const Visit& visit) {
 
 }  // namespace
 
-Kernel StarKernel(double radius, int n, double theta, Subapertures subapertures) {
-  if (n == 0) return IdealKernel(0, theta);
+SampledPsf StarPsf(double radius, int n, double theta, Subapertures subapertures) {
+  if (n == 0) return IdealPsf(0, theta);
   const bool narrow = subapertures == Subapertures::kNarrow;
   const SubapertureLights lights(narrow ? 0 : n, theta);
   const int last = narrow ? n : LastSubaperture(n), most = narrow ? n * n : MostOfSubapertures(n);
   const double step = narrow ? radius / n : radius * kSubapertureUnits / LensInSubapertures(n);
   const Footprint footprint = MakeFootprint(step, subapertures);
-  Kernel kernel(static_cast<int>(std::ceil(last * step)) + 1 + footprint.taps.radius());
+  SampledPsf psf(static_cast<int>(std::ceil(last * step)) + 1 + footprint.taps.radius());
   const auto place = [&](int i) { return std::round(i * step * kShiftOne) / kShiftOne; };
   for (int i = -last; i <= last; ++i) {
-    Kernel1 column(kernel.radius());
+    Taps column(psf.radius());
     for (int j = -last; j <= last; ++j) {
       if (i * i + j * j > most) continue;
       const double weight =
           narrow ? Aperture(double(i * i + j * j) / (double(n) * n), theta) : lights(i, j);
       if (subapertures == Subapertures::kNarrow && i != 0 && std::abs(i) == std::abs(j)) {
         Spread(place(i), footprint,
-               [&](int x, double share) { kernel.at(x, i == j ? x : -x) += weight * share; });
+               [&](int x, double share) { psf.at(x, i == j ? x : -x) += weight * share; });
       } else {
         Spread(place(j), footprint, [&](int y, double share) { column.at(y) += weight * share; });
       }
     }
     Spread(place(i), footprint, [&](int x, double share) {
-      for (int y = -kernel.radius(); y <= kernel.radius(); ++y) {
-        kernel.at(x, y) += share * column(y);
+      for (int y = -psf.radius(); y <= psf.radius(); ++y) {
+        psf.at(x, y) += share * column(y);
       }
     });
   }
-  kernel.Scale(1 / kernel.Sum());
-  return kernel;
+  psf.Scale(1 / psf.Sum());
+  return psf;
 }
 
 }  // namespace starfocus::analysis

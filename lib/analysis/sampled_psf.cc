@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/analysis/kernel.h"
+#include "lib/analysis/sampled_psf.h"
 
 #include <algorithm>
 #include <numeric>
 
 namespace starfocus::analysis {
 
-double Kernel1::Sum() const { return std::accumulate(taps_.begin(), taps_.end(), 0.0); }
+double Taps::Sum() const { return std::accumulate(taps_.begin(), taps_.end(), 0.0); }
 
-void Kernel1::Scale(double factor) {
+void Taps::Scale(double factor) {
   for (double& tap : taps_) tap *= factor;
 }
 
-double Kernel::Sum() const { return std::accumulate(taps_.begin(), taps_.end(), 0.0); }
+double SampledPsf::Sum() const { return std::accumulate(taps_.begin(), taps_.end(), 0.0); }
 
-void Kernel::Scale(double factor) {
+void SampledPsf::Scale(double factor) {
   for (double& tap : taps_) tap *= factor;
 }
 
-double SquaredError(const Kernel& a, const Kernel& b) {
+double SquaredError(const SampledPsf& a, const SampledPsf& b) {
   const int radius = std::max(a.radius(), b.radius());
   double sum = 0;
   for (int n = -radius; n <= radius; ++n) {
@@ -30,13 +30,13 @@ double SquaredError(const Kernel& a, const Kernel& b) {
   return sum;
 }
 
-double SquaredError(const Kernel1& a, const Kernel1& b) {
+double SquaredError(const Taps& a, const Taps& b) {
   const int radius = std::max(a.radius(), b.radius());
   double sum = 0;
   for (int n = -radius; n <= radius; ++n) sum += (a(n) - b(n)) * (a(n) - b(n));
   return sum;
 }
 
-double Energy(const Kernel& kernel) { return SquaredError(kernel, Kernel(0)); }
+double Energy(const SampledPsf& psf) { return SquaredError(psf, SampledPsf(0)); }
 
 }  // namespace starfocus::analysis

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Discrete filter kernels and their squared differences.
-#ifndef STARFOCUS_LIB_ANALYSIS_KERNEL_H_
-#define STARFOCUS_LIB_ANALYSIS_KERNEL_H_
+// Discrete filter PSFs and their squared differences.
+#ifndef STARFOCUS_LIB_ANALYSIS_SAMPLED_PSF_H_
+#define STARFOCUS_LIB_ANALYSIS_SAMPLED_PSF_H_
 
 #include <cstddef>
 #include <vector>
@@ -9,9 +9,9 @@
 namespace starfocus::analysis {
 
 // b[n], |n| <= radius; zero beyond.
-class Kernel1 {
+class Taps {
  public:
-  explicit Kernel1(int radius) : radius_(radius), taps_(static_cast<size_t>(2 * radius + 1)) {}
+  explicit Taps(int radius) : radius_(radius), taps_(static_cast<size_t>(2 * radius + 1)) {}
 
   int radius() const { return radius_; }
   double& at(int n) { return taps_[static_cast<size_t>(n + radius_)]; }
@@ -27,9 +27,9 @@ class Kernel1 {
 };
 
 // b[n, m], |n|, |m| <= radius; zero beyond.
-class Kernel {
+class SampledPsf {
  public:
-  explicit Kernel(int radius)
+  explicit SampledPsf(int radius)
       : radius_(radius), taps_(static_cast<size_t>(2 * radius + 1) * (2 * radius + 1)) {}
 
   int radius() const { return radius_; }
@@ -51,12 +51,12 @@ class Kernel {
 };
 
 // The sum of squared errors of (8) and (10).
-double SquaredError(const Kernel& a, const Kernel& b);
-double SquaredError(const Kernel1& a, const Kernel1& b);
+double SquaredError(const SampledPsf& a, const SampledPsf& b);
+double SquaredError(const Taps& a, const Taps& b);
 
 // The sum of squares, as in (11).
-double Energy(const Kernel& kernel);
+double Energy(const SampledPsf& psf);
 
 }  // namespace starfocus::analysis
 
-#endif  // STARFOCUS_LIB_ANALYSIS_KERNEL_H_
+#endif  // STARFOCUS_LIB_ANALYSIS_SAMPLED_PSF_H_

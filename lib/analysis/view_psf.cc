@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/analysis/view_kernel.h"
+#include "lib/analysis/view_psf.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,10 +24,10 @@ int RadiusOf(double r, double width) { return static_cast<int>(std::ceil(r + (wi
 
 // The views (i, j), |i| <= last, i^2 + j^2 <= most, `step` pixels apart.
 template <class Weight>
-Kernel SumViews(int last, int most, double step, double width, const Weight& weight) {
-  Kernel kernel(RadiusOf(last * step, width));
+SampledPsf SumViews(int last, int most, double step, double width, const Weight& weight) {
+  SampledPsf psf(RadiusOf(last * step, width));
   for (int i = -last; i <= last; ++i) {
-    Kernel1 column(kernel.radius());
+    Taps column(psf.radius());
     for (int j = -last; j <= last; ++j) {
       if (i * i + j * j > most) continue;
       const double y = j * step, light = weight(i, j);
@@ -36,12 +36,11 @@ Kernel SumViews(int last, int most, double step, double width, const Weight& wei
     const double x = i * step;
     ForEachTap(x, width, [&](int k) {
       const double share = Trapezoid(k - x, width);
-      for (int m = -kernel.radius(); m <= kernel.radius(); ++m)
-        kernel.at(k, m) += share * column(m);
+      for (int m = -psf.radius(); m <= psf.radius(); ++m) psf.at(k, m) += share * column(m);
     });
   }
-  kernel.Scale(1 / kernel.Sum());
-  return kernel;
+  psf.Scale(1 / psf.Sum());
+  return psf;
 }
 
 }  // namespace
@@ -51,15 +50,13 @@ double Trapezoid(double t, double width) {
   return std::clamp(overlap, 0.0, std::min(width, 1.0)) / width;
 }
 
-Kernel ViewKernel(double r, int n, double theta, double width, Rim rim) {
+SampledPsf ViewPsf(double r, int n, double theta, double width, Rim rim) {
   return SumViews(n, n * n - (rim == Rim::kExcluded ? 1 : 0), r / n, width, [&](int i, int j) {
     return Aperture(double(i * i + j * j) / (double(n) * n), theta);
   });
 }
 
-Kernel PaperKernel(double r, int n, double theta, Rim rim) {
-  return ViewKernel(r, n, theta, 1, rim);
-}
+SampledPsf PaperPsf(double r, int n, double theta, Rim rim) { return ViewPsf(r, n, theta, 1, rim); }
 
 SubapertureLights::SubapertureLights(int n, double theta)
     : SubapertureLights(theta, LensInSubapertures(n)) {}
@@ -94,33 +91,33 @@ double SubapertureLights::operator()(int i, int j) const {
   return lights_[size_t(high * (high + 1) / 2 + low)];
 }
 
-Kernel SubapertureKernel(double r, const SubapertureLights& lights) {
+SampledPsf SubaperturePsf(double r, const SubapertureLights& lights) {
   constexpr double kNarrowest = 1e-6;
   const double subaperture = r * kSubapertureUnits / lights.lens();
   return SumViews(LastOfLens(lights.lens()), MostOfLens(lights.lens()), subaperture,
                   std::max(subaperture, kNarrowest), lights);
 }
 
-Kernel SubapertureKernel(double r, int n, double theta) {
-  return n == 0 ? IdealKernel(0, theta) : SubapertureKernel(r, SubapertureLights(n, theta));
+SampledPsf SubaperturePsf(double r, int n, double theta) {
+  return n == 0 ? IdealPsf(0, theta) : SubaperturePsf(r, SubapertureLights(n, theta));
 }
 
-Kernel1 SampledAperture1(int n, double theta) {
-  Kernel1 samples(n);
+Taps SampledAperture1(int n, double theta) {
+  Taps samples(n);
   for (int i = -n; i <= n; ++i) samples.at(i) = Aperture1(double(i) / n, theta);
   samples.Scale(1 / samples.Sum());
   return samples;
 }
 
-Kernel1 PaperKernel1(double r, int n, double theta) {
-  Kernel1 kernel(RadiusOf(r, 1));
-  const Kernel1 samples = SampledAperture1(n, theta);
+Taps PaperPsf1(double r, int n, double theta) {
+  Taps psf(RadiusOf(r, 1));
+  const Taps samples = SampledAperture1(n, theta);
   for (int i = -n; i <= n; ++i) {
     const double x = i * r / n;
-    ForEachTap(x, 1, [&](int k) { kernel.at(k) += samples(i) * Trapezoid(k - x, 1); });
+    ForEachTap(x, 1, [&](int k) { psf.at(k) += samples(i) * Trapezoid(k - x, 1); });
   }
-  kernel.Scale(1 / kernel.Sum());
-  return kernel;
+  psf.Scale(1 / psf.Sum());
+  return psf;
 }
 
 }  // namespace starfocus::analysis

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The kernel of the running engine: its answer to one white pixel on a flat surface.
+// The PSF of the running engine: its answer to one white pixel on a flat surface.
 #ifndef STARFOCUS_LIB_ANALYSIS_ENGINE_KERNEL_H_
 #define STARFOCUS_LIB_ANALYSIS_ENGINE_KERNEL_H_
 
-#include "lib/analysis/kernel.h"
+#include "lib/analysis/sampled_psf.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus::analysis {
@@ -17,8 +17,8 @@ struct EngineProbe {
   int layer;                    // the largest L that block mode may use, in [0, 2]
 };
 
-struct EngineKernel {
-  Kernel kernel;    // unit white: taps sum to 1; the mean over all places of the white pixel
+struct EnginePsf {
+  SampledPsf psf;   // unit white: taps sum to 1; the mean over all places of the white pixel
   double aliasing;  // of layers: how far it varies with that place, in mean square
   int n;            // N the engine chose
   int layer;        // L the engine chose
@@ -28,7 +28,7 @@ struct EngineKernel {
 // to bytes hides all taps below 1/510; from a layer, samples to 1/64 gray level before they are
 // rounded. *result is valid for STARFOCUS_OK only. STARFOCUS_ERROR_STATE: the picture was split
 // into blocks.
-starfocus_status MeasureEngineKernel(const EngineProbe& probe, EngineKernel* result);
+starfocus_status MeasureEnginePsf(const EngineProbe& probe, EnginePsf* result);
 
 }  // namespace starfocus::analysis
 
