@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# Everything a newcomer does with starfocus: ./do help
+# Runs the tasks of a developer: ./do help lists them.
 set -u
 cd "$(dirname "$0")" || exit 1
 
@@ -10,7 +10,7 @@ PROGRAM=$BUILD/starfocus
 LAB=$BUILD/starfocus-lab
 PACKAGES="g++ cmake ninja-build pkg-config libhwy-dev libstb-dev doctest-dev libcli11-dev nlohmann-json3-dev
   libjpeg62-turbo-dev libpng-dev libdeflate-dev libwebp-dev libexpat1-dev libexif-dev libheif-dev"
-# Programs by which tests judge what starfocus reads and writes.
+# Programs that tests use to check the files of starfocus.
 JUDGES="libimage-exiftool-perl webp"
 FUZZ_PACKAGES="clang libclang-rt-14-dev"
 FUZZ_TARGETS="engine depth images files folder heif layouts photo xmp differential"
@@ -46,6 +46,7 @@ usage: ./do COMMAND
   web [PORT]  build the npm package and a page to tap, and serve it on the loopback (8080)
           build   only makes them: build/web/npm and build/web/site, a static folder
           test    tries the package in node and the page in Chromium
+  docs    make the HTML reference of the public headers: build/docs/html/index.html
   golden  record tests/engine/golden.txt anew, after an intended change of the engine's output
   format  clang-format every source file, and name the licence in new ones
   help    this text
@@ -59,7 +60,7 @@ fail() {
   exit 1
 }
 
-# watch LABEL LOG: shows the log's last line for as long as this script waits for a step.
+# watch LABEL LOG: prints the last line of the log while a step runs.
 watch() {
   while kill -0 $$ 2>/dev/null; do
     printf '\r\033[K%s: %s' "$1" "$(tail -n 1 "$2" | tr -d '\r\033' | cut -c 1-60)"
@@ -67,7 +68,7 @@ watch() {
   done
 }
 
-# step NAME LABEL COMMAND...: runs quietly into build/log/NAME.log; shows it when it fails.
+# step NAME LABEL COMMAND...: runs a command with its output in build/log/NAME.log. Prints the log on failure.
 step() {
   local label=$2 log=$LOGS/$1.log start=$SECONDS watcher= result=0
   shift 2
@@ -89,14 +90,14 @@ step() {
   printf '%s (%d s)\n' "$label" $((SECONDS - start))
 }
 
-# has_header NAME: whether the compiler finds it, also where CMake looks first.
+# has_header NAME: true if the compiler finds the header, also in the folders that CMake searches first.
 has_header() {
   local IFS=: prefix folders=()
   for prefix in ${CMAKE_PREFIX_PATH:-}; do folders+=("-I$prefix/include"); done
   echo "#include <$1>" | "${CXX:-c++}" "${folders[@]}" -E -x c++ - >/dev/null 2>&1
 }
 
-# has PACKAGE: whether what starfocus needs of a package is there, whoever installed it.
+# has PACKAGE: true if the files of the package that starfocus needs exist, from whatever source.
 has() {
   case "$1" in
     g++) command -v "${CXX:-c++}" ;;
@@ -128,8 +129,8 @@ has() {
   esac >/dev/null
 }
 
-# Names of the packages of $PACKAGES that are not there, in $missing. Debian's database is asked only
-# about what was not found.
+# Sets $missing to the packages of $PACKAGES that are missing. The database of Debian is queried only for
+# packages whose files were not found.
 find_missing() {
   local package
   missing=
@@ -149,7 +150,7 @@ apt() {
   fi
 }
 
-# The package lists are fetched only when they cannot serve the packages as they are.
+# Updates the package lists only if installation fails without that.
 install_packages() {
   apt install --no-install-recommends $missing && return
   apt update && apt install --no-install-recommends $missing
@@ -178,14 +179,14 @@ configure() {
   fi
 }
 
-# build [TARGET...]: everything, or these targets.
+# build [TARGET...]: builds everything, or the given targets.
 build() {
   configure
   step build "building ${*:-everything} in $BUILD" \
     cmake --build $BUILD --parallel "$(nproc)" --target "${@:-all}"
 }
 
-# lab LABEL ARGUMENT...: runs starfocus-lab, which shows its progress on a terminal by itself.
+# lab LABEL ARGUMENT...: runs starfocus-lab, which prints its own progress on a terminal.
 lab() {
   local label=$1 start=$SECONDS
   shift
@@ -193,7 +194,7 @@ lab() {
   printf '%s (%d s)\n' "$label" $((SECONDS - start))
 }
 
-# refocus NAME: the demo's picture focused at an object whose place meta.txt tells.
+# refocus NAME: focuses the demo at an object whose position is in meta.txt.
 refocus() {
   local place seconds
   place=$(sed -n "s/^$1: *\([0-9,]*\).*/\1/p" demo/portrait/meta.txt)
@@ -215,10 +216,10 @@ demo() {
     sheet demo/near.png demo/middle.png demo/far.png --labels near,middle,far -o demo/sheet.png
 }
 
-# The tests under AddressSanitizer and UBSan with range checks; data sets, what lib/analysis computes
-# and what reads sources alone are left out, they would only be slower. AddressSanitizer keeps one frame of
-# each allocation's stack: whole stacks take four times the test's time (the conformance tests). For a
-# report with whole stacks: ASAN_OPTIONS=malloc_context_size=30.
+# Runs the tests under AddressSanitizer and UBSan with range checks. Tests with data sets, of lib/analysis and of
+# the sources are skipped, since sanitizers find nothing there. AddressSanitizer keeps one stack frame per
+# allocation, because whole stacks make the conformance tests four times slower. To get whole stacks, set
+# ASAN_OPTIONS=malloc_context_size=30.
 sanitize() {
   export ASAN_OPTIONS=${ASAN_OPTIONS:-malloc_context_size=1}
   step configure-sanitize "configuring build/sanitize" \
@@ -235,19 +236,19 @@ run_tests() {
   ctest --test-dir $BUILD --output-on-failure --parallel "$(nproc)"
 }
 
-# The same under sanitizers with range checks, then a few cases under valgrind.
+# Runs the tests under sanitizers with range checks, and a few cases under valgrind.
 check() {
   PACKAGES="$PACKAGES valgrind"
   install_missing
   build
   sanitize
-  # Addresses and undefined values: the family compares all output bytes, and leaves the workspace
-  # of some cases as the heap gives it.
+  # valgrind finds invalid addresses and undefined values. This family compares all output bytes, and does not
+  # initialize the workspace in some cases.
   step valgrind "refocusing under valgrind" tests/support/valgrind.sh $BUILD --quiet \
     --error-exitcode=1 $LAB stress --seconds 30 --family differential
 }
 
-# What the Java test on an emulated board needs: the library, and a Java for it.
+# Builds the library and installs a Java for the Java test on an emulated board.
 java_aarch64() {
   prepare_board aarch64
   step java-aarch64 "fetching Java for aarch64" \
@@ -255,7 +256,7 @@ java_aarch64() {
   cross_build aarch64 starfocus_jni
 }
 
-# consumers [KIND...]: projects outside the tree that use starfocus as others do.
+# consumers [KIND...]: builds and runs projects outside the tree that use starfocus.
 consumers() {
   local kind target targets='starfocus starfocus_lab starfocus_shared' python=python3
   if [ $# = 0 ]; then
@@ -284,7 +285,7 @@ consumers() {
   tests/consumers/run.sh $BUILD "$@" || exit 1
 }
 
-# side_by_side COMMAND ITEM...: the command with each of the items, as many at a time as there are cores.
+# side_by_side COMMAND ITEM...: runs the command with each item, in parallel on all cores.
 side_by_side() {
   local command=$1 item running=() result=0
   shift
@@ -300,8 +301,8 @@ side_by_side() {
   return $result
 }
 
-# fuzz_target SECONDS NAME: from the seeds and what earlier runs found. A clean checkout takes the
-# same way each time, so that a change which fails is to blame for it.
+# fuzz_target SECONDS NAME: fuzzes from the seeds and from inputs that earlier runs found. In a clean checkout all
+# runs are equal, so that a failure is the fault of the change.
 fuzz_target() {
   local work=build/fuzz/inputs/$2 length=1024
   case "$2" in heif | layouts | photo | xmp) length=4096 ;; esac
@@ -329,18 +330,24 @@ fuzz() {
   done
 }
 
+docs() {
+  require doxygen
+  rm -rf build/docs && mkdir -p build/docs
+  step docs "making build/docs/html/index.html" doxygen docs/Doxyfile
+}
+
 mutate() {
   require ninja-build python3
   tests/mutation/mutate "$@"
 }
 
-# require PACKAGE...: these too, for the commands that follow.
+# require PACKAGE...: installs further packages.
 require() {
   PACKAGES="$PACKAGES $*"
   install_missing
 }
 
-# bench_scene NAME ARGUMENT...: a scene of the bench, made once.
+# bench_scene NAME ARGUMENT...: renders a scene for the bench unless it exists.
 bench_scene() {
   local folder=build/bench/$1
   shift
@@ -417,6 +424,7 @@ case "${1:-help}" in
   mutate) shift && mutate "$@" ;;
   bench) bench "${2:-}" ;;
   cross) shift && cross "$@" ;;
+  docs) docs ;;
   golden) golden ;;
   boot) boot ;;
   web) web "${2:-}" ;;

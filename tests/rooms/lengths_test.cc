@@ -44,11 +44,12 @@ std::vector<std::string> FindLong(const std::vector<std::string>& lines, size_t 
 
 }  // namespace
 
-TEST_CASE("lengths: no file has more than 500 lines") {
+TEST_CASE("lengths: no file but public headers has more than 500 lines") {
   const std::vector<fs::path> sources =
       tree::Files({"lib", "simd", "platform", "examples", "tests"}, kSources);
   REQUIRE(sources.size() > 300);
   for (const fs::path& path : sources) {
+    if (path.string().find("lib/include/") != std::string::npos) continue;
     CHECK_MESSAGE(tree::Lines(path).size() <= kFileLines, path.string());
   }
 }

@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* starfocus: functions of the caller that the engine calls. Part of starfocus.h. They must return:
- * no exception and no longjmp may leave them. */
+/** @file
+ * Functions of the caller that an engine calls. Part of starfocus.h.
+ *
+ * No exception and no longjmp may leave a callback.
+ */
 #ifndef STARFOCUS_CALLBACKS_H_
 #define STARFOCUS_CALLBACKS_H_
 
@@ -10,52 +13,66 @@
 extern "C" {
 #endif
 
-/** A job of the engine: call it with every index in [0, count) exactly once. `worker` is in
- *  [0, max_workers); two jobs that run at the same time must have different workers. A call that
- *  breaks this does nothing, and the engine's call then returns STARFOCUS_ERROR_RUNNER. */
+/** A set of jobs of the engine. The runner calls it once with every index in [0, count). An invalid
+ *  call does nothing, and the engine's call returns STARFOCUS_ERROR_RUNNER.
+ *  @param job_data pointer that the runner received
+ *  @param index index of the job
+ *  @param worker worker in [0, max_workers); jobs that run at the same time need different workers
+ */
 typedef void (*starfocus_job)(void* job_data, int32_t index, int32_t worker);
 
-/** Runs a set of jobs, in any order (the longest come first), and returns when all are done; 0 for
- *  success. Never called with count 0. Jobs that it has left running are waited for, and those it
- *  has left out are no longer run: both are STARFOCUS_ERROR_RUNNER. */
+/** Runs a set of jobs in any order and returns when all of them are done. Jobs with a small index
+ *  take longest. If the runner returns early, the engine waits for the jobs that still run, rejects
+ *  jobs that start later, and its call returns STARFOCUS_ERROR_RUNNER.
+ *  @param runner_data starfocus_callbacks.runner_data
+ *  @param job function to call
+ *  @param job_data first argument of `job`
+ *  @param count number of jobs, > 0
+ *  @return 0 for success; another value makes the engine's call return STARFOCUS_ERROR_RUNNER */
 typedef int (*starfocus_runner)(void* runner_data, starfocus_job job, void* job_data,
                                 int32_t count);
 
-/** Receives the number of finished rows, of `rows`. Returns 0 to continue, anything else to cancel:
- * the call then returns STARFOCUS_ERROR_CANCELLED as soon as all of its threads have stopped, and
- * the function is not called again. The output is unspecified then; the engine is as before the
- * call (of streams see starfocus_stream_pull). Within a call rows_done never decreases and ends at
- * `rows`. The function is called at every job and after approximately every 500,000 samples, a
- * fraction of a millisecond on a desktop: by the thread of the call or, with a runner, by any
- * thread that runs a job, but never by two at a time. It must not call anything with the same
- * engine or memory. */
+/** Receives the progress of a call and may cancel the call. The engine calls it at every job and
+ *  about every 500,000 samples, which is a fraction of a millisecond on a desktop. Only one thread
+ *  at a time calls it: that of the call or, with a runner, any that runs a job. It must not use the
+ *  engine or its memory.
+ *
+ *  After cancellation the callback is not called again, and the engine's call returns
+ *  STARFOCUS_ERROR_CANCELLED as soon as all workers have stopped. The output is unspecified then,
+ * and the engine can be used again. For streams, see starfocus_stream_pull.
+ *  @param data starfocus_callbacks.progress_data
+ *  @param rows_done number of finished rows; never decreases within a call and ends at `rows`
+ *  @param rows number of all rows
+ *  @return 0 to continue; another value cancels the call */
 typedef int (*starfocus_progress)(void* data, int32_t rows_done, int32_t rows);
 
-/** A clock in nanoseconds, from any start; called from the runner's threads. */
+/** Returns a time in nanoseconds, from any start. Called by the threads of the runner. */
 typedef uint64_t (*starfocus_clock)(void);
 
-/** A block of STARFOCUS_MODE_BLOCK as it was refocused. */
+/** A block of a refocusing. */
 typedef struct starfocus_block {
-  int32_t x, y;   /**< top left corner in the picture, pixels */
-  int32_t width;  /**< pixels; less than the side at the right edge of the picture */
-  int32_t height; /**< pixels; less than the side at the bottom edge of the picture */
-  int32_t layer;  /**< L: rendered at 1 / 2^L of the size */
-  int32_t n;      /**< N; 0: no views but the centre */
+  int32_t x;      /**< left column in the picture */
+  int32_t y;      /**< top row in the picture */
+  int32_t width;  /**< columns; fewer than rows at the right edge of the picture */
+  int32_t height; /**< rows; fewer than columns at the bottom edge of the picture */
+  int32_t layer;  /**< layer L: the block is rendered at 1 / 2^L of its size */
+  int32_t n;      /**< N, the number of views along the radius; 0: the centre view only */
 } starfocus_block;
 
-/** Is told of each block, by the thread of the call, before the block is refocused. */
+/** Receives each block before it is refocused. Called by the thread of the call.
+ *  @param data starfocus_callbacks.on_block_data
+ *  @param block the block, valid during the callback */
 typedef void (*starfocus_block_visitor)(void* data, const starfocus_block* block);
 
-/** The caller's functions, each of which may be null, and the data that each receives. */
+/** Callbacks of an engine. Each function may be null. */
 typedef struct starfocus_callbacks {
-  starfocus_runner runner;     /**< runs the jobs of a call; null: the calling thread runs them one
-                             after the other as worker 0 */
-  void* runner_data;           /**< passed to runner */
-  starfocus_progress progress; /**< receives the finished rows of the picture, region or preview */
-  void* progress_data;         /**< passed to progress */
-  starfocus_clock clock;       /**< fills the times of starfocus_report; null: they stay 0 */
-  starfocus_block_visitor on_block; /**< receives each block of a refocusing */
-  void* on_block_data;              /**< passed to on_block */
+  starfocus_runner runner;     /**< runs jobs; null: the calling thread runs them as worker 0 */
+  void* runner_data;           /**< passed to `runner` */
+  starfocus_progress progress; /**< receives finished rows of the picture, region or preview */
+  void* progress_data;         /**< passed to `progress` */
+  starfocus_clock clock;       /**< measures the times of starfocus_report; null: they are 0 */
+  starfocus_block_visitor on_block; /**< receives the blocks of a refocusing */
+  void* on_block_data;              /**< passed to `on_block` */
 } starfocus_callbacks;
 
 #ifdef __cplusplus

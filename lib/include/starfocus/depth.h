@@ -1,11 +1,35 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* starfocus: disparity maps from captured views. C ABI; conventions as in starfocus.h. A program
- * that makes no disparity maps does not need this header. Views are of STARFOCUS_FORMAT_RGB without
- * gaps between pixels.
+/** @file
+ * Disparity maps: estimates them from the views of a light field, and repairs given ones. Programs
+ * that already have maps do not need this header. Conventions are those of starfocus.h. Views are
+ * packed RGB.
  *
- * Use: starfocus_depth_config_init, fill the fields in, starfocus_estimate_workspace_size, allocate
- * that many bytes aligned to STARFOCUS_ALIGNMENT, starfocus_estimate_disparity. The bytes of a map
- * depend on the configuration and the pictures alone, and not on workers, runner or SIMD target.
+ * @code
+ * // Estimates a map of disparities from -8 to 8 from 5 views. Returns a starfocus_status.
+ * int Estimate(const starfocus_light_field* light_field, int width, int height, float* disparity) {
+ *   starfocus_depth_config config;
+ *   starfocus_depth_config_init(&config);
+ *   config.width = width;
+ *   config.height = height;
+ *   config.disparity_min = -8;
+ *   config.disparity_max = 8;
+ *   size_t bytes = 0;
+ *   starfocus_status status = starfocus_estimate_workspace_size(&config, &bytes);
+ *   if (status != STARFOCUS_OK) return status;
+ *   void* workspace = aligned_alloc(STARFOCUS_ALIGNMENT,
+ *                                   (bytes + STARFOCUS_ALIGNMENT - 1) & ~(size_t)63);
+ *   if (workspace == NULL) return STARFOCUS_ERROR_MEMORY;
+ *   starfocus_disparity_output map = {0};
+ *   map.disparity = disparity;
+ *   map.disparity_stride = sizeof(float) * (size_t)width;
+ *   status = starfocus_estimate_disparity(&config, light_field, &map, workspace, bytes);
+ *   free(workspace);
+ *   return status;
+ * }
+ * @endcode
+ *
+ * The bytes of a map depend only on the configuration and the pictures, not on the runner, the
+ * number of workers or the SIMD target.
  */
 #ifndef STARFOCUS_DEPTH_H_
 #define STARFOCUS_DEPTH_H_
@@ -16,91 +40,113 @@
 extern "C" {
 #endif
 
-/** What a map is made from. Call starfocus_depth_config_init first. */
+/** Configuration of a disparity map. Call starfocus_depth_config_init first. */
 typedef struct starfocus_depth_config {
-  uint32_t size;  /**< of the structure in bytes, set by starfocus_depth_config_init */
-  int32_t width;  /**< pixels, [1, STARFOCUS_MAX_SIZE] */
-  int32_t height; /**< pixels, [1, STARFOCUS_MAX_SIZE] */
-  int32_t views;  /**< captured views: 5, 9 or 17 (see starfocus_view_position), and 1 for
-                       starfocus_repair_disparity; default 5 */
-  double
-      disparity_min; /**< least disparity of the map, within +-STARFOCUS_MAX_DISPARITY; default 0 */
-  double disparity_max; /**< largest one; default 0. The range is searched in steps of half a pixel,
-                            or if it is wider than 64, of a pixel or more (at most 128 steps).
-                           Values between two steps are interpolated */
-  int32_t max_workers;  /**< workers the runner may use, [1, STARFOCUS_MAX_WORKERS]; default 1 */
-  starfocus_runner runner; /**< runs the jobs; null, the default: the calling thread runs them */
-  void* runner_data;       /**< passed to runner */
-  starfocus_progress progress; /**< receives rows of the map as the work proceeds; null, the
-                           default: no progress is reported. It is called after each tile of the
-                           picture, which takes up to 50 ms; after STARFOCUS_ERROR_CANCELLED the
-                           outputs and the workspace are unspecified */
-  void* progress_data;         /**< passed to progress */
-  starfocus_problem* problem; /**< where a call tells what it refuses; null, the default: nowhere */
+  uint32_t size;  /**< size of the structure in bytes; set by starfocus_depth_config_init */
+  int32_t width;  /**< width of the views in pixels, [1, STARFOCUS_MAX_SIZE] */
+  int32_t height; /**< height of the views in pixels, [1, STARFOCUS_MAX_SIZE] */
+  int32_t views;  /**< number of views in the order of starfocus_view_position: 5, 9 or 17, and for
+                       starfocus_repair_disparity also 1; default 5 */
+  double disparity_min; /**< smallest disparity, within +-STARFOCUS_MAX_DISPARITY; default 0 */
+  /** Largest disparity, within +-STARFOCUS_MAX_DISPARITY; default 0. The range is searched in steps
+   *  of half a pixel, or of one pixel and more if it is wider than 64 pixels (at most 128 steps).
+   *  Disparities between two steps are interpolated. */
+  double disparity_max;
+  int32_t max_workers;     /**< number of workers, [1, STARFOCUS_MAX_WORKERS]; default 1 */
+  starfocus_runner runner; /**< runs jobs; default null: the calling thread runs them */
+  void* runner_data;       /**< passed to `runner` */
+  /** Receives finished rows of the map after each tile, which takes up to 50 ms; default null.
+   * After STARFOCUS_ERROR_CANCELLED the outputs and the workspace are unspecified. */
+  starfocus_progress progress;
+  void* progress_data;        /**< passed to `progress` */
+  starfocus_problem* problem; /**< receives the problem of a call; default null */
 } starfocus_depth_config;
 
-/** Output planes of a map. They must not overlap the views, the given map, the workspace or each
- *  other. A call writes nothing until it has checked its arguments. */
+/** Output of a disparity map. The planes must not overlap the views, the given map, the workspace
+ * or each other. */
 typedef struct starfocus_disparity_output {
-  float* disparity;         /**< aligned for float */
-  size_t disparity_stride;  /**< bytes from row to row, >= 4 * width, multiple of 4 */
-  uint8_t* confidence;      /**< confidence of each disparity, 0: none; null: not wanted */
+  float* disparity;         /**< disparities, aligned to 4 bytes */
+  size_t disparity_stride;  /**< bytes from row to row, >= 4 * width, a multiple of 4 */
+  uint8_t* confidence;      /**< confidence of each disparity, 0: none; may be null */
   size_t confidence_stride; /**< bytes from row to row, >= width */
-  uint8_t* coverage;        /**< starfocus_repair_disparity of one view: coverage of hair, as
-                                 starfocus_light_field.coverage; null: not wanted */
+  uint8_t* coverage;        /**< receives starfocus_light_field.coverage of hair, from
+                                 starfocus_repair_disparity of one view; may be null */
   size_t coverage_stride;   /**< bytes from row to row, >= width */
-  int32_t has_coverage; /**< output: 1 if coverage was found and belongs to the map; 0: the bytes
-                             of `coverage` are unspecified */
+  int32_t has_coverage; /**< set by the call: 1 if it found coverage, which belongs to the map; 0
+                             if it did not, and `coverage` is unspecified */
 } starfocus_disparity_output;
 
-/** As starfocus_config_init_sized. */
+/** Sets the first `size` bytes of a configuration to the defaults. For bindings; programs in C and
+ *  C++ call starfocus_depth_config_init.
+ *  @param config configuration; no-op if null
+ *  @param size size in bytes of the structure that the caller knows */
 STARFOCUS_API void starfocus_depth_config_init_sized(starfocus_depth_config* config, uint32_t size);
 
+/** Sets a configuration to the defaults.
+ *  @param config configuration; no-op if null */
 static inline void starfocus_depth_config_init(starfocus_depth_config* config) {
   starfocus_depth_config_init_sized(config, (uint32_t)sizeof(starfocus_depth_config));
 }
 
-/** Bytes of workspace of starfocus_estimate_disparity into *bytes: 5 for each pixel of the picture,
- * and for each worker up to 1.2 MB for each pixel of the range and about 10, 20 or 45 MB with 5, 9
- * or 17 views. */
+/** Computes the workspace size of starfocus_estimate_disparity: 5 bytes per pixel of the picture,
+ *  and for each worker up to 1.2 MB per pixel of the disparity range and about 10, 20 or 45 MB with
+ *  5, 9 or 17 views.
+ *  @param config configuration
+ *  @param bytes receives the size in bytes
+ *  @return STARFOCUS_OK, or an error of the configuration */
 STARFOCUS_API starfocus_status
 starfocus_estimate_workspace_size(const starfocus_depth_config* config, size_t* bytes);
 
-/** Estimates the disparity of each pixel of the centre view: the one at which all views that see
- *  the pixel agree best, smooth between neighbours. Every value lies in the configured range.
- *  light_field->depth is not read. The
- * views and the workspace must not change during the call. Confidence is the cost of the best
- * disparity that differs by a step or more, minus the cost of the result, in quarters of a gray
- * level, summed over the three colours: 0 if another disparity is as good (a wall of one colour,
- * pixels that hardly any view sees), 255 if none is. */
+/** Estimates the disparity of each pixel of the centre view. The result is the disparity at which
+ *  the views that see the pixel agree best, smoothed between neighbours, and lies in the configured
+ *  range.
+ *
+ *  The confidence is the cost of the best disparity that differs by one step or more, minus the
+ * cost of the result, in quarters of a code, summed over R, G and B. It is 0 if another disparity
+ * fits as well, for example on a wall of one colour, and at most 255.
+ *  @param config configuration
+ *  @param light_field views; `depth` is ignored
+ *  @param map output planes
+ *  @param workspace memory aligned to STARFOCUS_ALIGNMENT
+ *  @param bytes size of the workspace, at least starfocus_estimate_workspace_size
+ *  @return STARFOCUS_OK, an error of the arguments, STARFOCUS_ERROR_CANCELLED or
+ *          STARFOCUS_ERROR_RUNNER */
 STARFOCUS_API starfocus_status starfocus_estimate_disparity(
     const starfocus_depth_config* config, const starfocus_light_field* light_field,
     starfocus_disparity_output* map, void* workspace, size_t bytes);
 
-/** Bytes of workspace of starfocus_repair_disparity into *bytes: 12 for each pixel of the picture,
- * and for each worker about as much as starfocus_estimate_workspace_size has. */
+/** Computes the workspace size of starfocus_repair_disparity: 12 bytes per pixel of the picture,
+ * and for each worker about as much as starfocus_estimate_workspace_size.
+ *  @param config configuration
+ *  @param bytes receives the size in bytes
+ *  @return STARFOCUS_OK, or an error of the configuration */
 STARFOCUS_API starfocus_status starfocus_repair_workspace_size(const starfocus_depth_config* config,
                                                                size_t* bytes);
 
-/** Repairs light_field->depth, a map as of starfocus_depth_float: edges that differ from those of
- * the picture, are blurred or come from a smaller map, noise, and unknown values (NaN, infinite).
- * With side views it works like starfocus_estimate_disparity, with a cost that grows with the
- * distance from the given disparity; with one view it compares colours. Values that the pictures do
- * not contradict keep their bits, unless one view has a noisy map. With one view, outlines become
- * as smooth as those of the picture, and foreground surfaces grow where the picture's edges are
- * soft.
+/** Repairs the disparity map of a light field: noise, unknown values, and edges that are blurred,
+ * too coarse, or not at the edges of the picture.
  *
- *  Finite values of the given map must lie in the configured range, which may be wider (else
- *  STARFOCUS_ERROR_DISPARITY); STARFOCUS_ERROR_ALL_INVALID if no value is finite. Confidence is 0
- * also where the pictures contradict a kept value, but too weakly to change it. Where nothing
- * contradicts a value and no edge is near, it is the difference of the centre view from itself one
- * pixel away, in the same unit.
+ *  With side views, it estimates disparities with a cost that grows with the distance from the
+ * given ones. With one view, it compares colours: outlines become as smooth as those of the
+ * picture, and foreground surfaces grow where the picture's edges are soft. Values that the
+ * pictures do not contradict keep their bits, except in noisy maps of one view.
  *
- *  Maps of monocular networks have hair as one closed outline, which no disparities can repair. If
- *  map->coverage is not null and the only view shows such hair, its coverage is found by colour.
- *  There, known disparities keep their bits, and confidence is 255 minus the difference between the
- *  coverage and the 0 or 255 that the map alone would mean. Elsewhere, coverage is that 0 or 255.
- */
+ *  The confidence is that of starfocus_estimate_disparity. It is 0 where the pictures contradict a
+ *  value, but too weakly to change it. Where nothing contradicts a value and no edge is near, it is
+ *  the difference between the centre view and the same view moved by one pixel.
+ *
+ *  Maps of monocular networks show hair as one closed outline. If `map->coverage` is not null and
+ *  the only view shows such hair, its coverage is found by colour. Disparities of hair then keep
+ *  their bits, and their confidence is 255 minus the change of coverage. Outside hair, coverage is
+ * 0 or 255, as the map alone implies.
+ *  @param config configuration
+ *  @param light_field views, and in `depth` the map to repair, as of starfocus_depth_float. Its
+ *         finite values lie in the configured range, which may be wider
+ *  @param map output planes
+ *  @param workspace memory aligned to STARFOCUS_ALIGNMENT
+ *  @param bytes size of the workspace, at least starfocus_repair_workspace_size
+ *  @return STARFOCUS_OK, an error of the arguments, STARFOCUS_ERROR_DISPARITY,
+ *          STARFOCUS_ERROR_ALL_INVALID, STARFOCUS_ERROR_CANCELLED or STARFOCUS_ERROR_RUNNER */
 STARFOCUS_API starfocus_status starfocus_repair_disparity(const starfocus_depth_config* config,
                                                           const starfocus_light_field* light_field,
                                                           starfocus_disparity_output* map,

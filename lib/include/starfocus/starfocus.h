@@ -1,45 +1,80 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* starfocus: refocusing for sparse light fields. C ABI.
+/** @file
+ * Refocusing of sparse light fields: the C API of starfocus.
  *
- * Given 1 to 17 rectified 8-bit views, those of the paper's star or any others such as a stereo
- * pair, and the disparity map of the centre view, the engine computes the picture that a lens of
- * aperture radius `aperture`, focused at disparity `focus`, would have taken (Huang et al., "Fast
- * Physically-Correct Refocusing for Sparse Light Fields Using Block-Based Multi-Rate View
- * Interpolation"; equations are cited as in the paper).
+ * The engine takes a light field: 1 to 17 rectified views with 8 bits per sample, and the disparity
+ * map of the centre view. It computes the picture that a lens would have taken with another focus
+ * and another aperture. The views are those of the paper's star, or lie at any positions, as those
+ * of a stereo pair do. The paper is Huang et al., "Fast Physically-Correct Refocusing for Sparse
+ * Light Fields Using Block-Based Multi-Rate View Interpolation"; numbers in parentheses, such as
+ * (9), are its equations.
  *
- * Use:
- *   1. starfocus_config_init, fill the fields in, starfocus_workspace_size.
- *   2. Allocate that many bytes, aligned to STARFOCUS_ALIGNMENT, and starfocus_init. The engine
- * lives in that memory: it never allocates, owns nothing else and needs no destructor. Free the
- * memory when no call is running. Or starfocus_create, which has an allocator do that, and
- * starfocus_destroy.
- *   3. starfocus_refocus with whole pictures, or starfocus_stream_begin / starfocus_stream_push /
- * starfocus_stream_pull with rows. Both give the same bytes. For many pictures of one light field
- * there is starfocus_prepare, for a part of one starfocus_params.region, for frames of a video
- * starfocus_params.previous.
+ * A complete program that focuses a picture at disparity 3.5:
  *
- * Conventions: u grows to the right, v downwards; no view lies beyond |u|, |v| = 1, where the
- * star's outermost ones are. Disparity d is in pixels per unit u, larger is nearer: a point seen at
- * (x, y) in the centre view is seen at (x - u*d, y - v*d) in view (u, v). The lens blurs it to a
- * disc of radius aperture * |d - focus| pixels. Strides are in bytes and may exceed the row length.
- * Zero all structures that have no init function, as by `= {0}`, and set what you need.
+ * @code
+ * #include <starfocus/starfocus.h>
+ * #include <stdlib.h>
  *
- * Threads: an engine is used by one call at a time, of any thread; several engines are independent.
- * The engine starts no threads; it hands jobs to the runner of starfocus_set_callbacks, for which
- * starfocus/pool.h is one. Output bytes depend on neither the runner, the number of workers, the
- * SIMD target nor the way the rows come in.
+ * // Focuses 5 packed RGB views with float disparities from -8 to 8. Returns a starfocus_status.
+ * int Refocus(const unsigned char* views[5], const float* disparity, int width, int height,
+ *             unsigned char* out) {
+ *   const size_t stride = 3 * (size_t)width;
+ *   starfocus_config config;
+ *   starfocus_config_init(&config);
+ *   config.width = width;
+ *   config.height = height;
+ *   config.disparity_min = -8;
+ *   config.disparity_max = 8;
+ *   starfocus_engine* engine = NULL;
+ *   starfocus_status status = starfocus_create(&config, NULL, &engine);
+ *   if (status != STARFOCUS_OK) return status;
  *
- * Errors: every function checks all its arguments before it writes anything but its own state. It
- * returns a starfocus_status, which says what kind of error it is. A starfocus_problem says which
- * field or argument was refused, what its value was and what was expected: set
- * starfocus_config.problem and starfocus_depth_config.problem for calls that take a configuration,
- * and ask starfocus_engine_problem after calls with an engine. STARFOCUS_ERROR_STRUCTURE leaves
- * starfocus_config.problem as it is.
+ *   starfocus_light_field light_field = {0};
+ *   for (int i = 0; i < 5; ++i) light_field.views[i] = starfocus_image_rgb(views[i], stride);
+ *   light_field.depth =
+ *       starfocus_depth_float(disparity, sizeof(float) * (size_t)width, width, height);
+ *   const starfocus_image picture = starfocus_image_rgb(out, stride);
+ *   starfocus_params params;
+ *   starfocus_params_init(&params);
+ *   params.lens.focus = 3.5;
+ *   status = starfocus_refocus(engine, &params, &light_field, &picture, NULL);
+ *   starfocus_destroy(engine);
+ *   return status;
+ * }
+ * @endcode
  *
- * Bindings: refuse to run if starfocus_abi_version() is not STARFOCUS_ABI_VERSION. Structures with
- * `size` may get fields at their end without a new version, all others are fixed within one.
- * Enumerators are passed as int. static inline functions are not exported: bindings call those with
- * _sized instead.
+ * **Coordinates.** View (u, v) lies u units to the right of the centre view and v units below it,
+ * and |u|, |v| <= 1. Disparity d is in pixels per unit; nearer points have larger disparities. A
+ * point at (x, y) of the centre view appears at (x - u d, y - v d) of view (u, v). The lens blurs
+ * the point to a disc of radius aperture * |d - focus| pixels. Strides are in bytes and may be
+ * larger than a row.
+ *
+ * **Structures.** Structures with an init function have a field `size`, which that function sets
+ * together with the defaults. Set all other structures to zero, for example with `= {0}`, before
+ * setting fields. A structure that is shorter than the library's gets defaults for the missing
+ * fields. A structure that is longer is refused with STARFOCUS_ERROR_STRUCTURE.
+ *
+ * **Memory.** The engine lives in one block of memory, its workspace. It allocates nothing else.
+ * Either starfocus_create allocates the workspace and starfocus_destroy frees it, or the caller
+ * allocates starfocus_workspace_size bytes and calls starfocus_init; such an engine needs no
+ * destructor.
+ *
+ * **Threads.** One call at a time may use an engine, from any thread. Different engines are
+ * independent. The engine starts no threads; it gives jobs to the runner of
+ * starfocus_set_callbacks. starfocus/pool.h has a runner with a pool of threads. The output bytes
+ * do not depend on the runner, the number of workers, the SIMD target, or whether rows are
+ * streamed.
+ *
+ * **Errors.** Functions that can fail return a starfocus_status. A function checks all its
+ * arguments before it writes any output. The status is the kind of error; a starfocus_problem names
+ * the field or argument, its value, and the allowed range. After a call with an engine,
+ * starfocus_engine_problem returns it. Calls that take a configuration write it to
+ * starfocus_config.problem, if that is not null.
+ *
+ * **Bindings.** Compare starfocus_abi_version() with STARFOCUS_ABI_VERSION, and the size of each
+ * declared structure with starfocus_struct_size(). Within one ABI version, only structures with a
+ * field `size` grow, and only at their end. Enumerators are passed as int32_t. Inline functions are
+ * not exported: call the functions with the suffix _sized instead.
  */
 #ifndef STARFOCUS_STARFOCUS_H_
 #define STARFOCUS_STARFOCUS_H_
@@ -58,393 +93,490 @@
 extern "C" {
 #endif
 
-#define STARFOCUS_ABI_VERSION \
-  1u /**< grows when a public structure or the meaning of a call changes */
-#define STARFOCUS_ALIGNMENT 64        /**< of the workspace, bytes: the widest vector (AVX-512) */
-#define STARFOCUS_MAX_VIEWS 17        /**< largest number of captured views */
-#define STARFOCUS_MAX_SIZE 65535      /**< largest width and height in pixels */
-#define STARFOCUS_MAX_DISPARITY 500.0 /**< largest |disparity| in pixels per unit u */
-#define STARFOCUS_MAX_BLUR \
-  128.0                    /**< largest blur radius in pixels that a configuration may ask for */
-#define STARFOCUS_LAYERS 3 /**< number of subsampled layers, the original one included */
-#define STARFOCUS_MAX_WORKERS 64 /**< largest number of workers */
+/** Version of the ABI. Grows when a public structure or the meaning of a function changes. */
+#define STARFOCUS_ABI_VERSION 1u
+/** Alignment of workspaces and prepared light fields in bytes: the widest vector (AVX-512). */
+#define STARFOCUS_ALIGNMENT 64
+/** Largest number of captured views. */
+#define STARFOCUS_MAX_VIEWS 17
+/** Largest width and height of a picture in pixels. */
+#define STARFOCUS_MAX_SIZE 65535
+/** Largest absolute disparity in pixels per unit of u. */
+#define STARFOCUS_MAX_DISPARITY 500.0
+/** Largest blur radius in pixels. */
+#define STARFOCUS_MAX_BLUR 128.0
+/** Number of layers L: the picture itself (L = 0) and two subsampled copies of it. */
+#define STARFOCUS_LAYERS 3
+/** Largest number of workers. */
+#define STARFOCUS_MAX_WORKERS 64
+/** Largest value of starfocus_config.highlights. */
+#define STARFOCUS_MAX_HIGHLIGHTS 64.0
+/** Largest value of starfocus_params.preview_shift. */
+#define STARFOCUS_MAX_PREVIEW 3
 
-/** STARFOCUS_ABI_VERSION the library was built with. */
+/** Bits of starfocus_config.features: what the workspace reserves memory for.
+ *  @{ */
+/** The paper's renderer, STARFOCUS_RENDERER_LINE_SCAN. */
+#define STARFOCUS_FEATURE_LINE_SCAN 1u
+/** Separates hair and thin structures from the background. */
+#define STARFOCUS_FEATURE_COVERAGE 2u
+/** The functions starfocus_stream_*: reserves ring buffers of rows. */
+#define STARFOCUS_FEATURE_STREAMING 4u
+/** Image formats other than packed RGB, and depth maps of other types or sizes. */
+#define STARFOCUS_FEATURE_IMAGES 8u
+/** Fills unknown values of disparity maps (NaN, infinite, or the map's invalid value). An unknown
+ *  value gets the nearest known value of its row; between two known values, the smaller one. A row
+ *  without a known value gets disparity_min. Without this feature, unknown values are refused with
+ *  STARFOCUS_ERROR_NOT_FINITE. Alternatives: starfocus_repair_disparity takes the values from the
+ *  views, and starfocus_fill_disparity fills a whole map. */
+#define STARFOCUS_FEATURE_FILL_UNKNOWN 16u
+/** Lenses may be polygons and have cat's eyes: reserves larger tables. Without this feature, such
+ *  lenses are refused with STARFOCUS_ERROR_FEATURE. */
+#define STARFOCUS_FEATURE_SHAPES 32u
+/** @} */
+
+/** Returns the version of the library's ABI.
+ *  @return the STARFOCUS_ABI_VERSION that the library was built with */
 STARFOCUS_API uint32_t starfocus_abi_version(void);
 
-/** STARFOCUS_VERSION_STRING the library was built with, e.g. "0.1.0"; static storage. */
+/** Returns the version of the library.
+ *  @return the STARFOCUS_VERSION_STRING that it was built with, for example "0.1.0", in static
+ *          storage */
 STARFOCUS_API const char* starfocus_version(void);
 
-/** Size in bytes of a public structure in the library, by its name, such as "starfocus_config"; 0
- * for unknown names. Bindings compare it with the structures they declare. */
+/** Returns the size of a public structure in the library, for bindings to compare with their own.
+ *  @param name name of the structure, for example "starfocus_config"
+ *  @return size in bytes, or 0 if the name is unknown or null */
 STARFOCUS_API size_t starfocus_struct_size(const char* name);
 
-#define STARFOCUS_MAX_HIGHLIGHTS 64.0
-#define STARFOCUS_MAX_PREVIEW 3
-#define STARFOCUS_FEATURE_LINE_SCAN 1u /**< the paper's renderer, STARFOCUS_RENDERER_LINE_SCAN */
-#define STARFOCUS_FEATURE_COVERAGE \
-  2u /**< separates hair and thin structures from what is behind them */
-#define STARFOCUS_FEATURE_STREAMING 4u /**< starfocus_stream_*: reserves rings of rows */
-#define STARFOCUS_FEATURE_IMAGES \
-  8u /**< formats other than rows of R, G, B and of float disparities */
-/** NaN and infinite values of disparity maps are unknown: each takes the nearest known value of its
- *  row; between two, that of the farther surface. A row without any is at disparity_min. Without
- * the feature they are refused, STARFOCUS_ERROR_NOT_FINITE. starfocus_repair_disparity finds what
- * the views show there, and starfocus_fill_disparity fills whole maps. */
-#define STARFOCUS_FEATURE_FILL_UNKNOWN 16u
-/** Lenses may be polygons and have cat's eyes: reserves larger tables. Without it such lenses are
- *  refused, STARFOCUS_ERROR_FEATURE. */
-#define STARFOCUS_FEATURE_SHAPES 32u
-
-/** Where a captured view lies, in units of u. */
+/** Position of a captured view in units of u. */
 typedef struct starfocus_position {
-  double u; /**< grows to the right */
-  double v; /**< grows downwards */
+  double u; /**< to the right, [-1, 1] */
+  double v; /**< downwards, [-1, 1] */
 } starfocus_position;
 
-/** How the codes 0 to 255 of a picture stand for light, which is what a lens adds. A picture of one
- *  code keeps it; docs/library.md says when dark pixels may be one code off. */
+/** How the codes 0 to 255 of a picture represent light. A lens adds light, so the engine decodes
+ *  codes before it averages them. A picture of one colour keeps its codes. */
 typedef enum starfocus_transfer {
-  STARFOCUS_TRANSFER_SRGB = 0, /**< the curve of sRGB (IEC 61966-2-1), as in pictures of cameras:
-                             codes are decoded to light of 15 bits as they are read, and light is
-                             coded where a picture is written */
-  STARFOCUS_TRANSFER_NONE =
-      1 /**< light is the code itself: codes are averaged as they are (the paper's) */
+  /** The sRGB curve (IEC 61966-2-1), as in pictures of cameras. Light has 15 bits; docs/library.md
+   *  says when dark pixels may differ by one code. */
+  STARFOCUS_TRANSFER_SRGB = 0,
+  /** Light is the code itself. The paper averages codes. */
+  STARFOCUS_TRANSFER_NONE = 1
 } starfocus_transfer;
 
-/** What a workspace is made for. Call starfocus_config_init first: it sets `size` and the defaults.
- * A program whose header has fewer fields than the library gets their defaults; one whose header
- * has more is refused, STARFOCUS_ERROR_STRUCTURE. */
+/** Configuration of an engine. Call starfocus_config_init first. */
 typedef struct starfocus_config {
-  uint32_t size;  /**< of the structure in bytes, set by starfocus_config_init */
-  int32_t width;  /**< pixels, [1, STARFOCUS_MAX_SIZE] */
-  int32_t height; /**< pixels, [1, STARFOCUS_MAX_SIZE]; the workspace does not depend on it */
-  int32_t views; /**< captured views: 1, 5, 9 or 17 (see starfocus_view_position), or with positions
-                      any number from 1 to STARFOCUS_MAX_VIEWS; default 5 */
-  double disparity_min; /**< smallest disparity any map may hold; default 0. A range wider than that
-                            of the maps changes pictures: it raises N of the frame modes, and beyond
-                            32 pixels of blur, slices get thicker */
-  double disparity_max; /**< largest disparity any map may hold, >= disparity_min; default 0 */
-  double max_blur;      /**< largest blur radius r = aperture * |d - focus| in pixels that will be
-                             asked for, (0, STARFOCUS_MAX_BLUR]; default 32. It reserves room and changes
-                             no picture */
-  int32_t superblock;   /**< side of the squares that a plan of blocks starts from, pixels: 32, 64,
-                           128, 256, or 0, the default: 128 from a width of 1536 on, else 64. For wide
-                           pictures 128 is up to an eighth faster; a worker's memory grows with the
-                           square's area, from 1.15 MiB at 64 on. starfocus_report has what 0 chose */
-  int32_t max_workers;  /**< workers the runner may use, [1, STARFOCUS_MAX_WORKERS]; default 1 */
-  uint32_t features;    /**< bits of STARFOCUS_FEATURE_, what the workspace has memory for; default
-                           LINE_SCAN and COVERAGE. Without LINE_SCAN, STARFOCUS_RENDERER_AUTO is
-                           SLICES in all modes, and STARFOCUS_RENDERER_LINE_SCAN is refused,
-                           STARFOCUS_ERROR_FEATURE */
-  int32_t
-      previews;     /**< largest starfocus_params.preview_shift, [0, STARFOCUS_MAX_PREVIEW]:
-                       starfocus_prepare then     keeps the light field at 1/2, 1/4 and 1/8 of its
-                       size,     up to that; default     0: none. The workspace does not grow by it */
-  int32_t transfer; /**< starfocus_transfer: how codes of the pictures stand for light; default
-                       STARFOCUS_TRANSFER_SRGB */
+  uint32_t size;  /**< size of the structure in bytes; set by starfocus_config_init */
+  int32_t width;  /**< width of the views in pixels, [1, STARFOCUS_MAX_SIZE] */
+  int32_t height; /**< height of the views in pixels, [1, STARFOCUS_MAX_SIZE]; the size of the
+                       workspace does not depend on it */
+  /** Number of captured views. Without `positions`: 1, 5, 9 or 17, in the order of
+   *  starfocus_view_position. With `positions`: 1 to STARFOCUS_MAX_VIEWS. Default 5. */
+  int32_t views;
+  /** Smallest disparity that a map may contain; default 0. A range wider than that of the maps may
+   *  change pictures: it raises N in the frame modes, and above 32 pixels of blur it makes slices
+   *  thicker. */
+  double disparity_min;
   double
-      highlights; /**< how many times white the lamps are that pictures clip,
-                    [1, STARFOCUS_MAX_HIGHLIGHTS]; default 1: as white as they look. Pixels two of
-                    whose codes are 251 or more count, the brighter the more, up to clipped ones.
-                    White areas wider and higher than a 32nd of the picture's width (16 to 128
-                    pixels) count less, from twice as much on not at all: walls do not glow */
-  /** Where the `views` captured views lie: each coordinate in [-1, 1], rounded to 1/16384, no two
-   *  alike, the first one (0, 0). All 0, the default: where starfocus_view_position tells. What
-   * lies behind an edge is read from the best view that sees it, and filled where none does.
-   *  STARFOCUS_RENDERER_LINE_SCAN and starfocus/depth.h need the star. */
+      disparity_max; /**< largest disparity that a map may contain, >= disparity_min; default 0 */
+  /** Upper limit of the blur radius aperture * |d - focus| in pixels, (0, STARFOCUS_MAX_BLUR];
+   *  default 32. It decides the size of the workspace and changes no picture. */
+  double max_blur;
+  /** Side of the superblocks, from which blocks are split, in pixels: 32, 64, 128, 256, or 0. The
+   *  default 0 means 128 from a width of 1536 pixels on, and 64 below. In wide pictures 128 is up
+   *  to an eighth faster. The memory of a worker grows with the area of a superblock, from 1.15 MiB
+   *  at 64. starfocus_report.superblock is the side that 0 stands for. */
+  int32_t superblock;
+  int32_t max_workers; /**< number of workers, [1, STARFOCUS_MAX_WORKERS]; default 1 */
+  /** Bits STARFOCUS_FEATURE_*; default LINE_SCAN and COVERAGE. Without LINE_SCAN,
+   *  STARFOCUS_RENDERER_AUTO always selects slices, and STARFOCUS_RENDERER_LINE_SCAN is refused
+   * with STARFOCUS_ERROR_FEATURE. */
+  uint32_t features;
+  /** Largest starfocus_params.preview_shift, [0, STARFOCUS_MAX_PREVIEW]; default 0.
+   *  starfocus_prepare then also stores the light field at 1/2, 1/4 and 1/8 of its size, up to this
+   *  shift. It does not enlarge the workspace. */
+  int32_t previews;
+  int32_t transfer; /**< starfocus_transfer; default STARFOCUS_TRANSFER_SRGB */
+  /** Brightness of clipped lamps relative to white, [1, STARFOCUS_MAX_HIGHLIGHTS]; default 1. A
+   *  pixel is part of a lamp if at least two of its codes are 251 or more. White areas that are
+   * wider and higher than 1/32 of the picture's width (16 to 128 pixels) are brightened less, and
+   * from twice that size on not at all, so that walls do not glow. */
+  double highlights;
+  /** Positions of the views, rounded to 1/16384. The first one is (0, 0), and no two are equal.
+   *  Default all 0: the positions of starfocus_view_position. STARFOCUS_RENDERER_LINE_SCAN and
+   *  starfocus/depth.h need those. */
   starfocus_position positions[STARFOCUS_MAX_VIEWS];
-  starfocus_tuning tuning; /**< in the structure, so that copies of a configuration need no care */
-  /** Where a call with this configuration tells what it refuses; null, the default: nowhere. Calls
-   *  with an engine do not use it: see starfocus_engine_problem. */
+  starfocus_tuning tuning; /**< trade-offs between time and error */
+  /** Receives the problem of calls that take this configuration; default null. Calls with an engine
+   *  report it by starfocus_engine_problem instead. */
   starfocus_problem* problem;
 } starfocus_config;
 
-/** Sets the first `size` bytes of a configuration, as many as the caller's header knows. For
- *  bindings; programs in C and C++ call starfocus_config_init. */
+/** Sets the first `size` bytes of a configuration to the defaults. For bindings; programs in C and
+ *  C++ call starfocus_config_init.
+ *  @param config configuration; no-op if null
+ *  @param size size in bytes of the structure that the caller knows */
 STARFOCUS_API void starfocus_config_init_sized(starfocus_config* config, uint32_t size);
 
+/** Sets a configuration to the defaults.
+ *  @param config configuration; no-op if null */
 static inline void starfocus_config_init(starfocus_config* config) {
   starfocus_config_init_sized(config, (uint32_t)sizeof(starfocus_config));
 }
 
-/** Position (u, v) of view `index` of the star; those of 1, 5 and 9 are the first of the 17:
- *  0 centre; 1-4 (+1,0) (-1,0) (0,+1) (0,-1); 5-8 (+1,+1) (-1,+1) (+1,-1) (-1,-1); 9-16 the same
- *  eight at half the distance. False when index is outside [0, STARFOCUS_MAX_VIEWS) or u or v is
- * null. */
+/** Returns the position of a view of the star. Sets of 1, 5 and 9 views are the first ones of the
+ *  17 views: 0 is the centre; 1 to 4 are (1, 0), (-1, 0), (0, 1), (0, -1); 5 to 8 are (1, 1),
+ *  (-1, 1), (1, -1), (-1, -1); 9 to 16 are views 1 to 8 at half the distance.
+ *  @param index index of the view, [0, STARFOCUS_MAX_VIEWS)
+ *  @param u,v receive the position
+ *  @return 1, or 0 if `index` is out of range or a pointer is null */
 STARFOCUS_API int starfocus_view_position(int32_t index, double* u, double* v);
 
-/** Bytes of workspace for `config` into *bytes. Independent of config->height. */
+/** Computes the size of the workspace of a configuration.
+ *  @param config configuration
+ *  @param bytes receives the size in bytes
+ *  @return STARFOCUS_OK, or an error of the configuration */
 STARFOCUS_API starfocus_status starfocus_workspace_size(const starfocus_config* config,
                                                         size_t* bytes);
 
-/** The engine; lives inside the caller's workspace. */
+/** An engine, which lives in its workspace. */
 typedef struct starfocus_engine starfocus_engine;
 
-/** Makes an engine in `workspace` (`bytes` long, aligned to STARFOCUS_ALIGNMENT), which stays the
- *  caller's and must outlive the engine's use. *engine is null on error. */
+/** Creates an engine in memory of the caller. Such an engine needs no destructor.
+ *  @param config configuration; the engine keeps a copy
+ *  @param workspace memory aligned to STARFOCUS_ALIGNMENT, which must outlive the engine
+ *  @param bytes size of the workspace, at least starfocus_workspace_size
+ *  @param engine receives the engine, or null on error
+ *  @return STARFOCUS_OK, STARFOCUS_ERROR_WORKSPACE, or an error of the configuration */
 STARFOCUS_API starfocus_status starfocus_init(const starfocus_config* config, void* workspace,
                                               size_t bytes, starfocus_engine** engine);
 
-/** What the engine's last call refused, in the engine's memory; null if `engine` is. The next call
- *  with the engine overwrites it. */
+/** Returns the problem of the engine's last call. It lies in the workspace, and the next call with
+ *  the engine overwrites it.
+ *  @param engine engine
+ *  @return the problem, with status STARFOCUS_OK if the call succeeded; null if `engine` is null */
 STARFOCUS_API const starfocus_problem* starfocus_engine_problem(const starfocus_engine* engine);
 
-/** Sets the functions that all later calls with this engine use, in place of those set before; also
- *  between the calls of a stream. An engine starts without any. The structure need not stay. */
+/** Sets the callbacks of all later calls with the engine. They replace those set before, also
+ *  between two calls of a stream. A new engine has none.
+ *  @param engine engine
+ *  @param callbacks callbacks, of which the engine keeps a copy
+ *  @return STARFOCUS_OK or STARFOCUS_ERROR_NULL */
 STARFOCUS_API starfocus_status starfocus_set_callbacks(starfocus_engine* engine,
                                                        const starfocus_callbacks* callbacks);
 
-/** Where starfocus_create takes memory from. */
+/** Allocator of starfocus_create. */
 typedef struct starfocus_allocator {
-  void* data; /**< passed to both */
-  /** Returns `bytes` of memory aligned to `alignment`, STARFOCUS_ALIGNMENT, or null without any. */
+  void* data; /**< passed to both functions */
+  /** Returns `bytes` bytes aligned to `alignment` (STARFOCUS_ALIGNMENT), or null on failure. */
   void* (*allocate)(void* data, size_t bytes, size_t alignment);
-  /** Takes back what allocate gave, with the same `bytes`; never null. */
+  /** Frees memory of `allocate`; `memory` is not null and `bytes` is the size that was asked for.
+   */
   void (*release)(void* data, void* memory, size_t bytes);
 } starfocus_allocator;
 
-/** starfocus_workspace_size and starfocus_init in one: makes an engine in memory that it takes from
- * `allocator` (null: malloc and free), in one piece, and that starfocus_destroy gives back. Nothing
- * else ever allocates. *engine is null on error: one of those two functions',
- * STARFOCUS_ERROR_MEMORY when there is no memory, STARFOCUS_ERROR_NULL when a function of the
- * allocator is null. */
+/** Allocates a workspace and creates an engine in it. Free it with starfocus_destroy.
+ *  @param config configuration; the engine keeps a copy
+ *  @param allocator allocator; null: malloc and free
+ *  @param engine receives the engine, or null on error
+ *  @return STARFOCUS_OK, STARFOCUS_ERROR_MEMORY, STARFOCUS_ERROR_NULL if a function of the
+ * allocator is null, or an error of the configuration */
 STARFOCUS_API starfocus_status starfocus_create(const starfocus_config* config,
                                                 const starfocus_allocator* allocator,
                                                 starfocus_engine** engine);
 
-/** Ends an engine of starfocus_create's, in which no call may be running, and gives its memory
- * back. Of null and of engines of starfocus_init's, whose memory is the caller's, it does nothing.
- */
+/** Frees an engine of starfocus_create. No call with the engine may be running.
+ *  @param engine engine; no-op for a null pointer and for engines of starfocus_init */
 STARFOCUS_API void starfocus_destroy(starfocus_engine* engine);
 
+/** How the picture is divided, and how many views are rendered. */
 typedef enum starfocus_mode {
-  STARFOCUS_MODE_FRAME = 0, /**< one N for the whole picture, from (9) */
-  STARFOCUS_MODE_BENCHMARK =
-      1, /**< one N = 2 * ceil(r_max): the paper's objective quality benchmark; the
-            renderer says whether views show fine slices or are rendered line by line */
-  STARFOCUS_MODE_BLOCK = 2, /**< blocks of variable size, each with its own N and layer (section V).
-                        Half-band filters of layers 1 and 2 overshoot: a picture may leave the
-                        range of its views' light by 4 % of that range with slices and
-                        13 % with line scans, 4 and 40 % through other openings than the
-                        default. With STARFOCUS_TRANSFER_SRGB dark codes differ by more: 4 %
-                        of white are the codes up to 56. The other modes stay in the range */
-  STARFOCUS_MODE_BLUR =
-      3 /**< the centre view alone, blurred by (4): up to ten times the time of blocks */
+  /** One N for the whole picture, by (9). */
+  STARFOCUS_MODE_FRAME = 0,
+  /** N = 2 ceil(r_max) for the whole picture: the paper's benchmark of quality. With slices it also
+   *  uses thinner slices. */
+  STARFOCUS_MODE_BENCHMARK = 1,
+  /** Blocks of different sizes, each with its own N and layer (section V). The half-band filters of
+   *  layers 1 and 2 overshoot: pictures may exceed the range of the light around them by 4 % of
+   * that range with slices, and by 13 % with line scans (with shapes other than the default, 4 %
+   * and 40 %). With STARFOCUS_TRANSFER_SRGB, 4 % of white is the code 56. */
+  STARFOCUS_MODE_BLOCK = 2,
+  /** The centre view, blurred by (4) without other views. Takes up to ten times as long as blocks.
+   */
+  STARFOCUS_MODE_BLUR = 3
 } starfocus_mode;
 
-/** What renders views, and so how many of them a blur radius needs. */
+/** How views are rendered. */
 typedef enum starfocus_renderer {
-  STARFOCUS_RENDERER_AUTO =
-      0, /**< LINE_SCAN for STARFOCUS_MODE_FRAME of a star of 5 or more views, else SLICES */
-  STARFOCUS_RENDERER_LINE_SCAN = 1, /**< the paper's: views at most a pixel or so apart (9),
-                                  rendered line by line (IV). Needs STARFOCUS_FEATURE_LINE_SCAN and
-                                  the views of starfocus_view_position */
-  STARFOCUS_RENDERER_SLICES = 2 /**< each view stands for its subaperture, however wide, and shows
-                              slices of the scene */
+  /** Line scan for STARFOCUS_MODE_FRAME of a star of 5 or more views; slices otherwise. */
+  STARFOCUS_RENDERER_AUTO = 0,
+  /** The paper's line scan (IV), with views about one pixel apart (9). Needs
+   *  STARFOCUS_FEATURE_LINE_SCAN and the views of starfocus_view_position. */
+  STARFOCUS_RENDERER_LINE_SCAN = 1,
+  /** Slices of the scene, with fewer views: each view stands for a subaperture of the lens. */
+  STARFOCUS_RENDERER_SLICES = 2
 } starfocus_renderer;
 
-/** A rectangle inside the picture, in pixels; all 0: the whole picture. */
+/** A rectangle inside the picture, in pixels. All 0: the whole picture. */
 typedef struct starfocus_region {
-  int32_t x, y, width, height; /**< its left and top pixel, >= 0, and its size, >= 1 */
+  int32_t x;      /**< left column, >= 0 */
+  int32_t y;      /**< top row, >= 0 */
+  int32_t width;  /**< number of columns, >= 1 */
+  int32_t height; /**< number of rows, >= 1 */
 } starfocus_region;
 
-/** A light field. All views have the configured width and height; their formats may differ. */
+/** A light field. All views have the configured size. Their formats may differ. */
 typedef struct starfocus_light_field {
-  starfocus_image views[STARFOCUS_MAX_VIEWS]; /**< the configured number, in the order of
-                                     starfocus_view_position or starfocus_config.positions */
-  starfocus_depth_map depth;                  /**< of the centre view */
-  /** How much of each pixel of the centre view the nearer of two surfaces covers that meet there,
-   *  255: all; as a matting network finds it. Within 32 pixels of depth edges of over 5 pixels it
-   *  decides over the map. Null: there is none. Not looked at without STARFOCUS_FEATURE_COVERAGE.
-   */
+  /** The configured number of views, in the order of starfocus_view_position or
+   *  starfocus_config.positions. */
+  starfocus_image views[STARFOCUS_MAX_VIEWS];
+  starfocus_depth_map depth; /**< depth map of the centre view */
+  /** Optional alpha of the foreground, as matting networks compute it: for each pixel of the centre
+   *  view, the part that the nearer of two surfaces covers (255: all). Within 32 pixels of depth
+   *  edges of more than 5 pixels it takes precedence over the map. Null: none. Ignored without
+   *  STARFOCUS_FEATURE_COVERAGE. */
   const uint8_t* coverage;
-  size_t coverage_stride; /**< bytes from row to row, >= width */
+  size_t coverage_stride; /**< bytes from row to row of `coverage`, >= width */
 } starfocus_light_field;
 
-/** The frame before: a light field of the same configuration, and what was made of it with the same
- *  starfocus_params but for `previous`. That is not checked: the picture of another lens is copied
- * where nothing changed. */
+/** The previous frame of a video: its light field and its picture. Both must belong to the same
+ *  configuration and the same starfocus_params, except `previous`. This is not checked: where the
+ *  light field did not change, pixels of the given picture are copied. */
 typedef struct starfocus_previous {
-  starfocus_light_field light_field; /**< only compared */
-  starfocus_image out;               /**< the picture, or region, that starfocus_refocus wrote */
+  starfocus_light_field light_field; /**< compared with the current light field */
+  starfocus_image out;               /**< the picture or region that starfocus_refocus wrote */
 } starfocus_previous;
 
-/** What to render. Call starfocus_params_init first: it sets `size` and the defaults. Structures of
- * other sizes are treated as those of starfocus_config. */
+/** Parameters of one refocusing. Call starfocus_params_init first. */
 typedef struct starfocus_params {
-  uint32_t size;           /**< of the structure in bytes, set by starfocus_params_init */
+  uint32_t size;           /**< size of the structure in bytes; set by starfocus_params_init */
   int32_t mode;            /**< starfocus_mode; default STARFOCUS_MODE_BLOCK */
-  int32_t renderer;        /**< starfocus_renderer; STARFOCUS_MODE_BLUR ignores it; default
-                              STARFOCUS_RENDERER_AUTO */
-  starfocus_region region; /**< what is written; streaming: all 0; default all 0 */
-  starfocus_lens lens;     /**< what focuses the picture */
-  int32_t preview_shift;   /**< starfocus_refocus_prepared: at 1 / 2^shift of the size; default 0 */
-  /** starfocus_refocus: superblocks that depend on no pixel that changed since are copied from
-   * here, for the same bytes. Both light fields and both pictures are of the formats that need no
-   *  STARFOCUS_FEATURE_IMAGES (else STARFOCUS_ERROR_FEATURE). Default null: nothing is known of a
-   * frame before.
-   */
+  int32_t renderer;        /**< starfocus_renderer; default STARFOCUS_RENDERER_AUTO. Ignored by
+                                STARFOCUS_MODE_BLUR */
+  starfocus_region region; /**< part of the picture to compute; default all 0. Streams need all 0 */
+  starfocus_lens lens;     /**< the lens; see starfocus_lens for its defaults */
+  /** For starfocus_refocus_prepared: the picture has 1 / 2^preview_shift of the size, [0,
+   *  starfocus_config.previews]; default 0. */
+  int32_t preview_shift;
+  /** For starfocus_refocus: the previous frame, from which unchanged superblocks are copied. The
+   *  output bytes do not depend on it. Both light fields and pictures must have the formats that
+   *  need no STARFOCUS_FEATURE_IMAGES. Default null. */
   const starfocus_previous* previous;
 } starfocus_params;
 
-/** Sets the first `size` bytes of params, as many as the caller's header knows. For bindings;
- *  programs in C and C++ call starfocus_params_init. */
+/** Sets the first `size` bytes of parameters to the defaults. For bindings; programs in C and C++
+ *  call starfocus_params_init.
+ *  @param params parameters; no-op if null
+ *  @param size size in bytes of the structure that the caller knows */
 STARFOCUS_API void starfocus_params_init_sized(starfocus_params* params, uint32_t size);
 
+/** Sets parameters to the defaults.
+ *  @param params parameters; no-op if null */
 static inline void starfocus_params_init(starfocus_params* params) {
   starfocus_params_init_sized(params, (uint32_t)sizeof(starfocus_params));
 }
 
-/** What the blocks of one layer did. */
+/** Statistics of the blocks of one layer. */
 typedef struct starfocus_layer_report {
   uint64_t blocks; /**< number of blocks */
-  uint64_t pixels; /**< picture pixels they cover */
-  uint64_t views;  /**< rendered views, summed over the blocks: 1 of a block copied or gathered
-                        whole */
-  uint64_t rendered_samples; /**< R, G, B samples of those views, by slices in each of them */
-  uint64_t predicted_ps;     /**< by the timing model, picoseconds */
-  uint64_t measured_ns; /**< by starfocus_callbacks.clock, summed over workers; 0 without one */
+  uint64_t pixels; /**< pixels of the picture that the blocks cover */
+  uint64_t views;  /**< rendered views, summed over the blocks; 1 for a block that is copied
+                        or gathered as a whole */
+  uint64_t rendered_samples; /**< R, G and B samples rendered in all views and slices */
+  uint64_t predicted_ps;     /**< time predicted by starfocus_timing, picoseconds */
+  uint64_t measured_ns; /**< time measured by starfocus_callbacks.clock, summed over the workers,
+                             nanoseconds; 0 without a clock */
 } starfocus_layer_report;
 
-/** What a refocusing did. */
+/** Statistics of a refocusing. */
 typedef struct starfocus_report {
-  double r_max;           /**< largest blur radius the configured disparity range allows, pixels */
-  int32_t n;              /**< views along the aperture radius, N; the largest of any block */
-  int32_t rendered_views; /**< views of i^2 + j^2 <= N^2 for that N */
-  int32_t superblock;     /**< side of the superblocks in pixels: the configured one, or what 0
-                                  chose */
-  uint64_t rendered_samples; /**< R, G, B samples of all rendered views, summed over the layers */
-  starfocus_layer_report layers[STARFOCUS_LAYERS]; /**< by L; frame modes use L = 0 only */
-  uint64_t copied_pixels; /**< copied from the centre view: no rendered view moves them */
-  uint64_t
-      gathered_pixels; /**< by starfocus_tuning.gather: blurred as a whole, no view is rendered */
-  uint64_t
-      reused_blocks; /**< starfocus_params.previous: superblocks of which nothing was refocused */
-  uint64_t unknown_pixels; /**< values that STARFOCUS_FEATURE_FILL_UNKNOWN filled, in the rows of
-                              the map that were read; none of a prepared light field */
+  double r_max;              /**< largest blur radius that the disparity range allows, pixels */
+  int32_t n;                 /**< N, the number of views along the radius of the aperture: the
+                                  largest of all blocks */
+  int32_t rendered_views;    /**< number of views for that N */
+  int32_t superblock;        /**< side of the superblocks, pixels */
+  uint64_t rendered_samples; /**< samples of all views and layers */
+  starfocus_layer_report layers[STARFOCUS_LAYERS]; /**< by layer; the frame modes use layer 0 */
+  uint64_t copied_pixels;   /**< pixels that no view moves: copied from the centre view */
+  uint64_t gathered_pixels; /**< pixels blurred without views (starfocus_tuning.gather) */
+  uint64_t reused_blocks;   /**< superblocks copied from starfocus_params.previous */
+  uint64_t unknown_pixels;  /**< disparities filled by STARFOCUS_FEATURE_FILL_UNKNOWN in the rows
+                                 that were read; 0 for prepared light fields */
 } starfocus_report;
 
-/** Refocuses whole pictures, or the params' region of them, whose bytes are those of the whole
- *  picture there. Of a region, only the blocks of the whole picture that its pixels depend on are
- *  refocused, and only the disparity rows that these can read are checked. The light field is only
- *  read, during the call. `out` is a picture of the region's size and must overlap neither the
- * light field, `params->previous` nor the workspace. Its alpha is that of the centre view, 255 if
- * that has none; its chroma is that of its own 2 x 2 pixels, wherever the region lies. report may
- * be null. */
+/** Refocuses a light field. A region has the same bytes as that part of the whole picture; only the
+ *  blocks that it depends on are computed, and only the disparities that these blocks read are
+ *  checked.
+ *  @param engine engine
+ *  @param params lens and region
+ *  @param light_field light field; it is only read, during the call
+ *  @param out picture of the region's size. It must not overlap the light field,
+ *         `params->previous` or the workspace. Its alpha is that of the centre view, or 255. Its
+ *         chroma is that of its own 2 x 2 pixels, also in a region at an odd position
+ *  @param report receives statistics; may be null
+ *  @return STARFOCUS_OK, or an error of the arguments (`out` is unchanged);
+ *          STARFOCUS_ERROR_CANCELLED or STARFOCUS_ERROR_RUNNER (`out` is incomplete) */
 STARFOCUS_API starfocus_status starfocus_refocus(starfocus_engine* engine,
                                                  const starfocus_params* params,
                                                  const starfocus_light_field* light_field,
                                                  const starfocus_image* out,
                                                  starfocus_report* report);
 
-/** What is made of a light field for every lens alike; it lives inside the caller's memory. */
+/** A light field that was converted for refocusing with any lens, in memory of the caller. */
 typedef struct starfocus_prepared starfocus_prepared;
 
-/** Bytes that a prepared light field of `config` takes, into *bytes: 2 per pixel of the picture for
- *  disparities and about 1.9 for layers 1 and 2, as far as max_layer allows them; and for each
- *  preview up to starfocus_config.previews 3 per view and 3 per pixel of its own. */
+/** Computes the size of a prepared light field: 2 bytes per pixel for disparities, about 1.9 bytes
+ *  per pixel for layers 1 and 2 (less with a smaller starfocus_tuning.max_layer), and for each
+ *  preview 3 bytes per pixel of each of its views and 3 more.
+ *  @param config configuration
+ *  @param bytes receives the size in bytes
+ *  @return STARFOCUS_OK, or an error of the configuration */
 STARFOCUS_API starfocus_status starfocus_prepared_size(const starfocus_config* config,
                                                        size_t* bytes);
 
-/** Checks and converts the disparities and subsamples the centre view, once for many refocusings,
- * in `memory` (`bytes` long, aligned to STARFOCUS_ALIGNMENT), which stays the caller's. The
- * refocusings read the pictures of the light field again: what light_field points to must stay as
- * it is until the last one, the structure itself need not. `memory` must overlap neither it nor the
- * workspace. *prepared is null on error; `memory` is unspecified after STARFOCUS_ERROR_CANCELLED
- * and STARFOCUS_ERROR_RUNNER.
- */
+/** Converts and checks the disparities of a light field and subsamples its centre view, once for
+ *  many refocusings. Later calls read the views again: the pixels must stay unchanged until the
+ * last refocusing; the structure `light_field` need not.
+ *  @param engine engine
+ *  @param light_field light field
+ *  @param memory memory aligned to STARFOCUS_ALIGNMENT. It must not overlap the light field or the
+ *         workspace
+ *  @param bytes size of `memory`, at least starfocus_prepared_size
+ *  @param prepared receives the prepared light field, which lies in `memory`, or null on error
+ *  @return STARFOCUS_OK, or an error of the arguments; STARFOCUS_ERROR_CANCELLED or
+ *          STARFOCUS_ERROR_RUNNER (`memory` is unspecified) */
 STARFOCUS_API starfocus_status starfocus_prepare(starfocus_engine* engine,
                                                  const starfocus_light_field* light_field,
                                                  void* memory, size_t bytes,
                                                  starfocus_prepared** prepared);
 
-/** As starfocus_refocus, with the same bytes, of a prepared light field; of this engine or of any
- * of the same size, views and positions, disparity range, max_layer and transfer (else
- *  STARFOCUS_ERROR_PREPARED). Several engines may use one at a time. `params->previous` must be
- * null.
+/** Refocuses a prepared light field. The output bytes are those of starfocus_refocus.
  *
- *  With a preview_shift it refocuses at 1 / S of the size, S = 2^shift, in about 1 / S^2 of the
- *  time; else `params` are in pixels of the full size as ever. `out` has the pixels that have a
- * part of the region: from x / S to (x + width - 1) / S, both rounded down, and rows likewise; its
- * alpha is 255. STARFOCUS_ERROR_PREPARED when the light field was not prepared for that shift.
+ *  With a preview_shift s, the picture has 1 / S of the size, S = 2^s, and takes about 1 / S^2 of
+ *  the time. All parameters are still in pixels of the full size. The output has the pixels from
+ *  floor(x / S) to floor((x + width - 1) / S) of the region, and rows likewise; its alpha is 255.
+ *  The views are not read again.
  *
- *  The preview is, byte for byte, what starfocus_refocus gives of the reduced light field, by an
- * engine of its size and else of the same configuration (superblock as starfocus_report says), but
- * for a disparity range, max_blur, focus and region divided by S. There a pixel of a view is the
- * mean light, in 128ths of a 255th of white and then as a code, of the S x S pixels (fewer at the
- * right and bottom edges) that it stands for, and a disparity the median of theirs, the larger of
- * two in the middle, over S: a multiple of 1/64, halves rounded up, within the range. on_block,
- * progress and the report count pixels of the preview. The light field's pictures are not read. */
+ *  A preview is the picture of a reduced light field, byte for byte. In the reduced light field a
+ *  pixel of a view is the mean light of S x S pixels (fewer at the right and bottom edges), in
+ * steps of 1/128 code. A disparity is the median of the S x S disparities (the larger of the two in
+ * the middle) divided by S, rounded to 1/64 with halves up. Its engine has the reduced size, and
+ * the disparity range, max_blur and focus divided by S. Callbacks and the report count pixels of
+ * the preview.
+ *  @param engine engine with the size, views, positions, disparity range, max_layer and transfer of
+ *         the engine that prepared the light field. Several engines may use one prepared light
+ * field at the same time
+ *  @param params lens and region; `params->previous` must be null
+ *  @param prepared prepared light field
+ *  @param out picture, as for starfocus_refocus
+ *  @param report receives statistics; may be null
+ *  @return as starfocus_refocus; STARFOCUS_ERROR_PREPARED if the light field was prepared for
+ *          another configuration or without this preview */
 STARFOCUS_API starfocus_status starfocus_refocus_prepared(starfocus_engine* engine,
                                                           const starfocus_params* params,
                                                           const starfocus_prepared* prepared,
                                                           const starfocus_image* out,
                                                           starfocus_report* report);
 
-/** Starts (or restarts) a streamed refocusing; the engine needs STARFOCUS_FEATURE_STREAMING. */
+/** Starts a streamed refocusing and ends one that is under way. Push rows of the light field and
+ *  pull rows of the picture in turn, until all rows are written.
+ *  @param engine engine with STARFOCUS_FEATURE_STREAMING
+ *  @param params lens; `region` must be all 0 and `previous` null
+ *  @return STARFOCUS_OK, or an error of the arguments */
 STARFOCUS_API starfocus_status starfocus_stream_begin(starfocus_engine* engine,
                                                       const starfocus_params* params);
 
-/** Copies up to `rows` next rows of the light field, at most as many as are left. Planes of views
- * and coverage point to the first of them. depth.height is always that of the whole map: if that is
- * the picture's, depth.data points to the first of the rows, too; a smaller map is given whole in
- * every call. *consumed <= rows tells how many fitted: pull finished rows and push the rest. Rows
- * that share chroma come together: where a view has some, `rows` is even but at the picture's end
- * (else STARFOCUS_ERROR_RANGE), and so is *consumed. A row with a bad disparity value is refused:
- * the rows before it are consumed. Either all rows have coverage or none (else
- * STARFOCUS_ERROR_STATE). */
+/** Copies the next rows of the light field into the engine, as many as there is room for.
+ *  @param engine engine
+ *  @param light_field rows of the light field. Planes of views and coverage point to the first new
+ *         row. `depth.height` is the height of the whole map: if it is the picture's height,
+ *         `depth.data` points to the first new row, too; a smaller map is passed whole in every
+ *         call. Either all rows of a stream have coverage or none
+ *  @param rows number of rows, at most those that are left. If a view has chroma samples of 2 x 2
+ *         pixels, the number is even, except at the end of the picture
+ *  @param consumed receives the number of copied rows, at most `rows`. Pull rows before pushing the
+ *         rest
+ *  @return STARFOCUS_OK, or an error of the arguments. After STARFOCUS_ERROR_DISPARITY and
+ *          STARFOCUS_ERROR_NOT_FINITE the rows before the bad one are consumed.
+ *          STARFOCUS_ERROR_STATE if no stream was begun */
 STARFOCUS_API starfocus_status starfocus_stream_push(starfocus_engine* engine,
                                                      const starfocus_light_field* light_field,
                                                      int32_t rows, int32_t* consumed);
 
-/** Writes up to `rows` next finished rows to `out`, whose planes point to the first of them; where
- *  they share chroma, `rows` is even but at the picture's end. More rows than are left may be asked
- *  for. *written may be 0 until more rows are pushed. report may be null; it is complete once the
- *  last row is written.
- *  After STARFOCUS_ERROR_RUNNER and STARFOCUS_ERROR_CANCELLED the rows counted by *written are
- * good, and the next pull goes on behind them. That pull tells on_block again of blocks that were
- * half done; the report counts them once. starfocus_stream_begin and every other call with the
- * engine but starfocus_set_callbacks end the stream. progress counts rows of the whole picture. */
+/** Writes the next finished rows of the picture.
+ *
+ *  After STARFOCUS_ERROR_RUNNER and STARFOCUS_ERROR_CANCELLED the stream remains valid: `*written`
+ *  rows are complete, and the next pull resumes after these rows. It reports half-finished blocks
+ * to on_block again, but counts them once. All other calls with the engine, except
+ *  starfocus_set_callbacks, end the stream. The progress callback counts rows of the whole picture.
+ *  @param engine engine
+ *  @param out rows to write; its planes point to the first of them. It must not overlap the
+ *         workspace
+ *  @param rows largest number of rows to write; may exceed the rows that are left. If the rows
+ * share chroma samples, the number is even, except at the end of the picture
+ *  @param written receives the number of written rows; 0 if more rows must be pushed first
+ *  @param report receives statistics, which are complete after the last row; may be null
+ *  @return STARFOCUS_OK, or an error of the arguments; STARFOCUS_ERROR_CANCELLED or
+ *          STARFOCUS_ERROR_RUNNER; STARFOCUS_ERROR_STATE if no stream was begun */
 STARFOCUS_API starfocus_status starfocus_stream_pull(starfocus_engine* engine,
                                                      const starfocus_image* out, int32_t rows,
                                                      int32_t* written, starfocus_report* report);
 
-/** What starfocus_measure_disparity finds in a disparity map. */
+/** Range of a disparity map. */
 typedef struct starfocus_disparity_stats {
-  double min, max; /**< smallest and largest finite value; 0 when there is none */
-  int64_t invalid; /**< number of NaN and infinite values */
+  double min;      /**< smallest finite value; 0 without one */
+  double max;      /**< largest finite value; 0 without one */
+  int64_t invalid; /**< number of values that are NaN or infinite */
 } starfocus_disparity_stats;
 
+/** Measures the range of a disparity map.
+ *  @param disparity map, aligned to 4 bytes
+ *  @param stride bytes from row to row, a multiple of 4, >= 4 * width
+ *  @param width,height size of the map in pixels, [1, STARFOCUS_MAX_SIZE]
+ *  @param stats receives the range
+ *  @return STARFOCUS_OK, or an error of the arguments */
 STARFOCUS_API starfocus_status starfocus_measure_disparity(const float* disparity, size_t stride,
                                                            int32_t width, int32_t height,
                                                            starfocus_disparity_stats* stats);
 
-/** Replaces every non-finite value, in place, by its nearest valid neighbour to the left or right
- *  (of one on either side, the farther surface: the smaller disparity); rows without a valid value
- *  are filled from the nearest valid rows above and below by the same rule.
- * STARFOCUS_ERROR_ALL_INVALID when no value is finite. */
+/** Fills the values of a disparity map that are NaN or infinite, in place. A value gets the nearest
+ *  finite value to the left or right; between two, the smaller one, which belongs to the farther
+ *  surface. Rows without a finite value are filled from the rows above and below by the same rule.
+ *  @param disparity map, aligned to 4 bytes
+ *  @param stride bytes from row to row, a multiple of 4, >= 4 * width
+ *  @param width,height size of the map in pixels, [1, STARFOCUS_MAX_SIZE]
+ *  @return STARFOCUS_OK, an error of the arguments, or STARFOCUS_ERROR_ALL_INVALID if no value is
+ *          finite */
 STARFOCUS_API starfocus_status starfocus_fill_disparity(float* disparity, size_t stride,
                                                         int32_t width, int32_t height);
 
-/** The focus for what is at pixel (x, y) of a disparity map, into *focus: the median of the pixels
- *  up to 3 away whose disparities lie within 0.75 of that pixel's surface. Where none of its 8
- *  neighbours lies within 0.75 of it, its value is taken for wrong, and the surface that most of
- *  these pixels are of counts. STARFOCUS_ERROR_RANGE when (x, y) is outside the map,
- *  STARFOCUS_ERROR_NOT_FINITE when one of these pixels is NaN or infinite; no other pixel is read.
- */
+/** Finds the focus for a pixel, for example where a user tapped. It is the median of the
+ * disparities up to 3 pixels away that differ from the pixel's disparity by at most 0.75. If none
+ * of the 8 neighbours is that close, the pixel is an outlier, and the surface of most of the 7 x 7
+ * pixels is used instead. Other pixels are not read.
+ *  @param disparity map, aligned to 4 bytes
+ *  @param stride bytes from row to row, a multiple of 4, >= 4 * width
+ *  @param width,height size of the map in pixels, [1, STARFOCUS_MAX_SIZE]
+ *  @param x,y pixel inside the map
+ *  @param focus receives the disparity to focus at
+ *  @return STARFOCUS_OK, an error of the arguments, or STARFOCUS_ERROR_NOT_FINITE if one of the 7 x
+ * 7 disparities is NaN or infinite */
 STARFOCUS_API starfocus_status starfocus_focus_at(const float* disparity, size_t stride,
                                                   int32_t width, int32_t height, int32_t x,
                                                   int32_t y, double* focus);
 
-/** The aperture of a lens stopped down to `f_stop`, widest / f_stop, into *aperture. `widest` is
- *  the f-stop of aperture 1: the focal length over the diameter of the lens whose rim views (1, 0)
- *  and (-1, 0) lie on. With 1, f-stops are relative to that lens.
- *  STARFOCUS_ERROR_RANGE unless 0 < widest <= f_stop < infinity. */
+/** Computes the aperture of an f-stop: widest / f_stop.
+ *  @param f_stop f-stop of the wanted lens, finite, >= widest
+ *  @param widest f-stop of a lens with aperture 1, > 0: the focal length divided by the distance of
+ *         views (1, 0) and (-1, 0). With 1, f-stops are relative to that lens
+ *  @param aperture receives the aperture
+ *  @return STARFOCUS_OK, STARFOCUS_ERROR_NULL or STARFOCUS_ERROR_RANGE */
 STARFOCUS_API starfocus_status starfocus_aperture_of_f_stop(double f_stop, double widest,
                                                             double* aperture);
 
-/** Name of the SIMD target the kernels run on here, e.g. "AVX2"; static storage. */
+/** Returns the SIMD target that the kernels use on this machine.
+ *  @return its name, for example "AVX2", in static storage */
 STARFOCUS_API const char* starfocus_simd_target(void);
 
 #ifdef __cplusplus

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Thin C++17 wrapper of starfocus.h: owns the workspace, adds nothing else. Header-only; no
-// exceptions: every call returns a starfocus_status.
+/** @file
+ * C++17 wrapper of starfocus.h, header-only. It owns the memory of an engine and adds nothing else.
+ * It throws no exceptions: calls return a starfocus_status, as in C. */
 #ifndef STARFOCUS_STARFOCUS_HPP_
 #define STARFOCUS_STARFOCUS_HPP_
 
@@ -14,21 +15,24 @@
 
 namespace starfocus {
 
+/** Configuration with the defaults of starfocus_config_init. */
 struct Config : starfocus_config {
   Config() { starfocus_config_init(this); }
 };
 
+/** Parameters with the defaults of starfocus_params_init. */
 struct Params : starfocus_params {
   Params() { starfocus_params_init(this); }
 };
 
-// An engine together with its heap-allocated workspace. Movable; not for two threads at once.
-// Before Init, and after it was moved from, every other call returns STARFOCUS_ERROR_NULL.
+/** An engine and the memory it lives in. Movable. One thread at a time may use it. Before Init, and
+ *  after it was moved from, all other calls return STARFOCUS_ERROR_NULL. */
 class Engine {
  public:
-  // Allocates the workspace and makes the engine, in place of one made before;
-  // STARFOCUS_ERROR_MEMORY when memory is short. After an error the engine is what it was before
-  // the call.
+  /** Allocates a workspace and creates an engine, which replaces an earlier one. After an error the
+   *  earlier engine remains.
+   *  @param config configuration
+   *  @return as starfocus_create */
   starfocus_status Init(const starfocus_config& config) {
     size_t bytes = 0;
     starfocus_status status = starfocus_workspace_size(&config, &bytes);
@@ -40,26 +44,31 @@ class Engine {
     engine_ = std::move(fresh);
     prepared_ = Owned<starfocus_prepared>();
     config_ = config;
-    config_.problem = nullptr;  // which the caller may not keep
+    config_.problem = nullptr;  // may not outlive the call
     return STARFOCUS_OK;
   }
 
-  // Functions of the caller for all further calls. Init forgets them.
+  /** Sets the callbacks of all later calls, until the next Init.
+   *  @param callbacks callbacks, of which the engine keeps a copy
+   *  @return as starfocus_set_callbacks */
   starfocus_status SetCallbacks(const starfocus_callbacks& callbacks) {
     return starfocus_set_callbacks(get(), &callbacks);
   }
 
+  /** Calls starfocus_refocus. */
   starfocus_status Refocus(const starfocus_params& params, const starfocus_light_field& light_field,
                            const starfocus_image& out, starfocus_report* report = nullptr) {
     return starfocus_refocus(get(), &params, &light_field, &out, report);
   }
 
-  // What the last call refused; null before Init. That of Init is where config.problem points to.
+  /** Returns the problem of the last call. Init reports its problem by config.problem instead.
+   *  @return the problem; null before Init */
   const starfocus_problem* problem() const { return starfocus_engine_problem(engine_.handle); }
 
-  // Allocates the memory of a prepared light field and prepares it; STARFOCUS_ERROR_MEMORY when
-  // memory is short. One prepared before is freed first, so that there are never two: after an
-  // error there is none, and RefocusPrepared returns STARFOCUS_ERROR_NULL.
+  /** Allocates memory and prepares a light field in it. An earlier prepared light field is freed
+   *  first: after an error there is none, and RefocusPrepared returns STARFOCUS_ERROR_NULL.
+   *  @param light_field light field, whose pixels must stay unchanged until the last refocusing
+   *  @return as starfocus_prepare, or STARFOCUS_ERROR_MEMORY */
   starfocus_status Prepare(const starfocus_light_field& light_field) {
     prepared_ = Owned<starfocus_prepared>();
     if (get() == nullptr) return STARFOCUS_ERROR_NULL;
@@ -73,25 +82,31 @@ class Engine {
     return status;
   }
 
+  /** Calls starfocus_refocus_prepared. */
   starfocus_status RefocusPrepared(const starfocus_params& params, const starfocus_image& out,
                                    starfocus_report* report = nullptr) {
     return starfocus_refocus_prepared(get(), &params, prepared_.handle, &out, report);
   }
 
+  /** Calls starfocus_stream_begin. */
   starfocus_status StreamBegin(const starfocus_params& params) {
     return starfocus_stream_begin(get(), &params);
   }
 
+  /** Calls starfocus_stream_push. */
   starfocus_status StreamPush(const starfocus_light_field& rows, int32_t count, int32_t* consumed) {
     return starfocus_stream_push(get(), &rows, count, consumed);
   }
 
+  /** Calls starfocus_stream_pull. */
   starfocus_status StreamPull(const starfocus_image& out, int32_t rows, int32_t* written,
                               starfocus_report* report = nullptr) {
     return starfocus_stream_pull(get(), &out, rows, written, report);
   }
 
+  /** Returns the engine, for functions of the C API; null before Init. */
   starfocus_engine* get() const { return engine_.handle; }
+  /** Returns the size of the workspace in bytes. */
   size_t workspace_bytes() const { return engine_.bytes; }
 
  private:
@@ -101,7 +116,7 @@ class Engine {
     }
   };
 
-  // What was made in memory of its own; nothing once it was moved from.
+  // A handle and the memory it lies in; empty after it was moved from.
   template <class Handle>
   struct Owned {
     Owned() = default;

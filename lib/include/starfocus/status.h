@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* starfocus: what every call answers with, and what marks its functions. Part of starfocus.h. */
+/** @file
+ * Results of calls, and the mark of exported functions. Part of starfocus.h. */
 #ifndef STARFOCUS_STATUS_H_
 #define STARFOCUS_STATUS_H_
 
@@ -9,49 +10,53 @@
 extern "C" {
 #endif
 
+/** Marks the functions that the library exports. */
 #if defined(__GNUC__)
 #define STARFOCUS_API __attribute__((visibility("default")))
 #else
 #define STARFOCUS_API
 #endif
 
+/** Result of a call. */
 typedef enum starfocus_status {
-  STARFOCUS_OK = 0,
+  STARFOCUS_OK = 0,              /**< success */
   STARFOCUS_ERROR_NULL = 1,      /**< a required pointer is null */
   STARFOCUS_ERROR_STRUCTURE = 2, /**< a structure was not initialized by its init function */
-  STARFOCUS_ERROR_RANGE = 3,     /**< a field or an argument is outside its range */
-  STARFOCUS_ERROR_FEATURE =
-      4, /**< the call needs a feature or views that the engine is not made for */
-  STARFOCUS_ERROR_STATE =
-      5, /**< a call of a stream without starfocus_stream_begin, or coverage of some rows */
-  STARFOCUS_ERROR_WORKSPACE =
-      6, /**< memory is smaller than its size function says, or not aligned */
-  STARFOCUS_ERROR_TOO_LARGE = 7,    /**< more memory needed than half of the machine's addresses */
-  STARFOCUS_ERROR_MEMORY = 8,       /**< an allocator, or that of starfocus.hpp, has no memory */
-  STARFOCUS_ERROR_STRIDE = 9,       /**< a stride is smaller than a row, or misaligned */
-  STARFOCUS_ERROR_OVERLAP = 10,     /**< an output overlaps an input or the workspace */
-  STARFOCUS_ERROR_BLUR = 11,        /**< aperture * |disparity - focus| would exceed max_blur at
-                                  disparity_min or disparity_max */
-  STARFOCUS_ERROR_DISPARITY = 12,   /**< disparity map holds a value outside the configured range */
-  STARFOCUS_ERROR_NOT_FINITE = 13,  /**< disparity map holds NaN or infinity */
-  STARFOCUS_ERROR_ALL_INVALID = 14, /**< disparity map without a single finite value */
-  STARFOCUS_ERROR_PREPARED = 15,    /**< prepared light field of another configuration or format */
-  STARFOCUS_ERROR_RUNNER = 16,   /**< the runner failed or misused its jobs; output is incomplete */
-  STARFOCUS_ERROR_CANCELLED = 17 /**< the progress function cancelled; output is incomplete */
+  STARFOCUS_ERROR_RANGE = 3,     /**< a field or an argument is out of range */
+  STARFOCUS_ERROR_FEATURE = 4, /**< the engine lacks a feature, or the views, that the call needs */
+  STARFOCUS_ERROR_STATE = 5,   /**< no stream was begun, or only some rows of it have coverage */
+  STARFOCUS_ERROR_WORKSPACE = 6,   /**< the given memory is too small or not aligned */
+  STARFOCUS_ERROR_TOO_LARGE = 7,   /**< the configuration needs more memory than is addressable */
+  STARFOCUS_ERROR_MEMORY = 8,      /**< memory could not be allocated */
+  STARFOCUS_ERROR_STRIDE = 9,      /**< a stride is smaller than a row, or not aligned */
+  STARFOCUS_ERROR_OVERLAP = 10,    /**< an output overlaps an input or the workspace */
+  STARFOCUS_ERROR_BLUR = 11,       /**< aperture * |d - focus| exceeds max_blur for disparity_min or
+                                        disparity_max */
+  STARFOCUS_ERROR_DISPARITY = 12,  /**< a disparity is outside the configured range */
+  STARFOCUS_ERROR_NOT_FINITE = 13, /**< a disparity is NaN or infinite */
+  STARFOCUS_ERROR_ALL_INVALID = 14, /**< the disparity map has no finite value */
+  STARFOCUS_ERROR_PREPARED = 15,    /**< the prepared light field has another configuration */
+  STARFOCUS_ERROR_RUNNER = 16,      /**< the runner failed or misused its jobs; the output is
+                                         incomplete */
+  STARFOCUS_ERROR_CANCELLED = 17    /**< the progress callback cancelled the call; the output is
+                                         incomplete */
 } starfocus_status;
 
-/** What a call refused. Texts are static; there is always one. */
+/** The cause of an error. The texts are in static storage and never null. */
 typedef struct starfocus_problem {
-  int32_t status; /**< starfocus_status that the call returned; STARFOCUS_OK: nothing was refused */
-  int32_t index;  /**< of the element, where `field` has []; else 0 */
-  const char* field;    /**< a field, such as "width" or "views[].stride", or an argument; "" if no
-                             single one is at fault */
-  const char* expected; /**< its range in words, such as "1 to 65535" */
-  double value;         /**< what it was; NaN: unknown */
-  double low, high;     /**< smallest and largest allowed value; NaN: not known or not a number */
+  int32_t status;       /**< starfocus_status that the call returned */
+  int32_t index;        /**< index of the array element, if `field` contains []; otherwise 0 */
+  const char* field;    /**< wrong field or argument, for example "width" or "views[].strides"; ""
+                             if no single one is wrong */
+  const char* expected; /**< allowed values in words, for example "1 to 65535" */
+  double value;         /**< value that was given; NaN if unknown */
+  double low;           /**< smallest allowed value; NaN if there is no range */
+  double high;          /**< largest allowed value; NaN if there is no range */
 } starfocus_problem;
 
-/** One English sentence for a status; never null, static storage. */
+/** Describes a status.
+ *  @param status status; any value
+ *  @return a sentence in English, in static storage; never null */
 STARFOCUS_API const char* starfocus_status_string(starfocus_status status);
 
 #ifdef __cplusplus

@@ -1,16 +1,20 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The version of starfocus that a program is compiled with; starfocus_version() tells the one it
- * runs with. These three numbers are the only place that holds it: the build reads them here. */
+/** @file
+ * Version that a program is compiled with. starfocus_version() returns the version of the library
+ * that it runs with. The build reads the three numbers from this file. */
 #ifndef STARFOCUS_VERSION_H_
 #define STARFOCUS_VERSION_H_
 
+/** First number of the version. */
 #define STARFOCUS_VERSION_MAJOR 0
+/** Second number of the version. */
 #define STARFOCUS_VERSION_MINOR 1
+/** Third number of the version. */
 #define STARFOCUS_VERSION_PATCH 0
 
 #define STARFOCUS_VERSION_TEXT_(major, minor, patch) #major "." #minor "." #patch
 #define STARFOCUS_VERSION_TEXT(major, minor, patch) STARFOCUS_VERSION_TEXT_(major, minor, patch)
-/** The three of them with dots between. */
+/** Version as a text, for example "0.1.0". */
 #define STARFOCUS_VERSION_STRING \
   STARFOCUS_VERSION_TEXT(STARFOCUS_VERSION_MAJOR, STARFOCUS_VERSION_MINOR, STARFOCUS_VERSION_PATCH)
 

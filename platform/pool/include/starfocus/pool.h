@@ -1,15 +1,19 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* starfocus: a pool of threads for those who have none of their own. C ABI; a library by itself
- * (starfocus_pool, CMake starfocus::pool), which needs POSIX threads and nothing of the engine.
+/** @file
+ * A pool of threads for callers that have none: the library starfocus_pool (CMake:
+ * starfocus::pool). It needs POSIX threads and nothing of the engine.
  *
- *   starfocus_pool* pool = starfocus_pool_create(0);
- *   config.max_workers = starfocus_pool_workers(pool);
- *   ...
- *   callbacks.runner = starfocus_pool_run;
- *   callbacks.runner_data = pool;
- *   starfocus_set_callbacks(engine, &callbacks);
- *   starfocus_refocus(engine, &params, &light_field, &out, NULL);
- *   starfocus_pool_destroy(pool);
+ * @code
+ * starfocus_pool* pool = starfocus_pool_create(0);
+ * config.max_workers = starfocus_pool_workers(pool);
+ * // ... create the engine ...
+ * starfocus_callbacks callbacks = {0};
+ * callbacks.runner = starfocus_pool_run;
+ * callbacks.runner_data = pool;
+ * starfocus_set_callbacks(engine, &callbacks);
+ * starfocus_refocus(engine, &params, &light_field, &out, NULL);
+ * starfocus_pool_destroy(pool);
+ * @endcode
  */
 #ifndef STARFOCUS_POOL_H_
 #define STARFOCUS_POOL_H_
@@ -20,32 +24,42 @@
 extern "C" {
 #endif
 
-/** Threads that wait for jobs, among them whoever calls starfocus_pool_run. */
+/** A pool of threads. */
 typedef struct starfocus_pool starfocus_pool;
 
-/** The cores that are worth a worker here: those that this process may run on and, where the system
- *  tells (Linux: cpu_capacity, else cpuinfo_max_freq), at least half as strong as the strongest or
- *  clocked at three quarters of the fastest; in [1, STARFOCUS_MAX_WORKERS]. A stripe of a picture
- * is done when its last job is, so that a small core costs more time than it saves. */
+/** Counts the cores that are worth a worker: the cores that this process may use and, on Linux,
+ * that have at least half the capacity of the strongest core (cpu_capacity), or 3/4 of the highest
+ * clock (cpuinfo_max_freq). A stripe of a picture waits for its last job, so that a small core
+ * would cost more time than it saves.
+ *  @return number of cores, [1, STARFOCUS_MAX_WORKERS] */
 STARFOCUS_API int32_t starfocus_pool_cores(void);
 
-/** Makes a pool of `workers`, the caller of starfocus_pool_run included, so that one thread less is
- *  started; 0 or less: starfocus_pool_cores(), more than STARFOCUS_MAX_WORKERS: that many. Where
- * the system tells which cores are the big ones, and there are enough of them, threads run on those
- * alone; the caller's thread stays as it is. Where the system refuses a thread there are fewer
- * workers. Null when there is no memory. */
+/** Creates a pool. On systems with big and small cores, and if there are enough big ones, its
+ * threads run on the big ones only. Free it with starfocus_pool_destroy.
+ *  @param workers number of workers, at most STARFOCUS_MAX_WORKERS; 0 or less:
+ *         starfocus_pool_cores(). The caller of starfocus_pool_run is one of them, so that one
+ *         thread fewer is started. There are fewer workers if the system refuses threads
+ *  @return the pool, or null if there is no memory */
 STARFOCUS_API starfocus_pool* starfocus_pool_create(int32_t workers);
 
-/** Workers of the pool: what starfocus_config.max_workers must be at least. */
+/** Returns the number of workers, for starfocus_config.max_workers.
+ *  @param pool pool
+ *  @return number of workers; 0 for a null pool */
 STARFOCUS_API int32_t starfocus_pool_workers(const starfocus_pool* pool);
 
-/** A starfocus_runner, whose runner_data is the pool: calls the job with every index in [0, count)
- * and returns when all are done, 0; not 0 for a null pool or job or a negative count. The caller is
- *  worker 0. Calls from several threads take turns; a job must not call it with the same pool.
- *  Threads that have nothing to do look for more for a tenth of a millisecond and then sleep. */
+/** Runs jobs: a starfocus_runner. The calling thread is worker 0. Calls from several threads take
+ *  turns. A job must not call this function with the same pool. Idle threads wait for a tenth of a
+ *  millisecond and then sleep.
+ *  @param pool the pool, as starfocus_callbacks.runner_data
+ *  @param job called with every index in [0, count)
+ *  @param job_data first argument of `job`
+ *  @param count number of jobs
+ *  @return 0 when all jobs are done; another value for a null pool, a null job or a negative count
+ */
 STARFOCUS_API int starfocus_pool_run(void* pool, starfocus_job job, void* job_data, int32_t count);
 
-/** Ends the threads and frees the pool, in which no call may be running; null: nothing happens. */
+/** Ends the threads and frees the pool. No call with the pool may be running.
+ *  @param pool pool; no-op if null */
 STARFOCUS_API void starfocus_pool_destroy(starfocus_pool* pool);
 
 #ifdef __cplusplus
