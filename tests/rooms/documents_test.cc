@@ -73,9 +73,9 @@ std::set<std::string> WordsOfCode() {
   return words;
 }
 
-TEST_CASE("documents: the README has 150 lines at most") {
+TEST_CASE("documents: the README has 110 lines at most") {
   const std::string text = Read(kRoot / "README.md");
-  CHECK(std::count(text.begin(), text.end(), '\n') <= 150);
+  CHECK(std::count(text.begin(), text.end(), '\n') <= 110);
   CHECK(text.size() > 1000);
 }
 
