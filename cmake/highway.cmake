@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# starfocus_highway: Highway with the definitions every unit that names its targets must agree on.
-# The oldest supported version is that of Debian 12; simd/targets.h checks the headers.
+# Target starfocus_highway: Highway, with the definitions that all sources with Highway code must share. The oldest
+# supported version is that of Debian 12; simd/targets.h checks the version of the headers.
 add_library(starfocus_highway INTERFACE)
 set(STARFOCUS_HIGHWAY_OLDEST 1.0.3)
 
@@ -13,14 +13,14 @@ if(NOT STARFOCUS_STATIC_DISPATCH)
   return()
 endif()
 
-# With a single target Highway is headers only, and these are the same for every machine: where the
-# target's own folders hold none, the host's do.
+# With a single target, Highway needs only headers, which are the same for all machines. The host's headers are used
+# if the target's folders have none.
 find_path(STARFOCUS_HIGHWAY_INCLUDE_DIR hwy/highway.h)
 find_path(STARFOCUS_HIGHWAY_INCLUDE_DIR hwy/highway.h PATHS /usr/local/include /usr/include
   NO_DEFAULT_PATH NO_CMAKE_FIND_ROOT_PATH)
 mark_as_advanced(STARFOCUS_HIGHWAY_INCLUDE_DIR)
 starfocus_require(STARFOCUS_HIGHWAY_INCLUDE_DIR libhwy-dev "Highway")
-# The compiler gets a folder with Highway alone: other headers of the host would hide the target's.
+# Uses a folder that contains only Highway, since other headers of the host would hide the target's.
 file(MAKE_DIRECTORY "${PROJECT_BINARY_DIR}/highway")
 file(CREATE_LINK "${STARFOCUS_HIGHWAY_INCLUDE_DIR}/hwy" "${PROJECT_BINARY_DIR}/highway/hwy" SYMBOLIC)
 target_include_directories(starfocus_highway SYSTEM INTERFACE "${PROJECT_BINARY_DIR}/highway")

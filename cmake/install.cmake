@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# What `cmake --install` puts where: headers, both libraries, their CMake package, the pkg-config
-# file, and the program with its manual page and completion.
+# Files of `cmake --install`: headers, both libraries, their CMake package, the pkg-config files, and the program with
+# its manual page and completion.
 include(CMakePackageConfigHelpers)
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/starfocus")
 
@@ -8,7 +8,7 @@ install(DIRECTORY lib/include/starfocus TYPE INCLUDE FILES_MATCHING PATTERN "*.h
 if(TARGET starfocus_pool)
   install(DIRECTORY platform/pool/include/starfocus TYPE INCLUDE)
 endif()
-# One set of targets a library: each is of use without the others.
+# Exports each library separately, since each can be used without the others.
 foreach(kind static shared pool)
   if(TARGET starfocus_${kind})
     install(TARGETS starfocus_${kind} EXPORT starfocus_${kind})
@@ -24,7 +24,7 @@ install(FILES "${PROJECT_BINARY_DIR}/package/starfocus-config.cmake"
               "${PROJECT_BINARY_DIR}/package/starfocus-config-version.cmake"
   DESTINATION "${package_dir}")
 
-# The installed tree can be moved as a whole: the file finds the prefix from its own place.
+# The pkg-config file computes the prefix from its own location, so that the installed tree can be moved.
 if(IS_ABSOLUTE "${CMAKE_INSTALL_LIBDIR}" OR IS_ABSOLUTE "${CMAKE_INSTALL_INCLUDEDIR}")
   set(pc_prefix "${CMAKE_INSTALL_PREFIX}")
   set(pc_libdir "${CMAKE_INSTALL_FULL_LIBDIR}")
@@ -50,7 +50,7 @@ endif()
 
 if(TARGET starfocus)
   install(TARGETS starfocus)
-  # Written by the program itself when it is built.
+  # The program writes these files when it is built.
   install(FILES "${PROJECT_BINARY_DIR}/starfocus.1" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" OPTIONAL)
   install(FILES "${PROJECT_BINARY_DIR}/starfocus.bash" OPTIONAL RENAME starfocus
     DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions")

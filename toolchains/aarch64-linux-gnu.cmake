@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# 64-bit boards (Raspberry Pi 3 to 5 and their like). NEON by static dispatch: Highway's detection
-# asks for AES as well, which a Raspberry Pi 4 has not, and would fall back to scalar there.
+# 64-bit Arm boards, for example Raspberry Pi 3 to 5. NEON is dispatched statically: the detection of Highway
+# requires AES, which a Raspberry Pi 4 lacks, and would choose scalar code there.
 set(CMAKE_SYSTEM_PROCESSOR aarch64)
 set(STARFOCUS_TRIPLE aarch64-linux-gnu)
 set(STARFOCUS_ARCHITECTURE arm64)

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Android on 64-bit ARM, by the NDK's own toolchain file. Untested: no NDK where this was written.
-# Set ANDROID_NDK_HOME. Highway's headers come from a sysroot made by
-# "toolchains/sysroot.sh headers build/sysroot/headers"; only the library is built.
+# Android on 64-bit Arm, with the toolchain file of the NDK in ANDROID_NDK_HOME. Not tested with an NDK. Builds only
+# the library. Highway's headers come from a sysroot: "toolchains/sysroot.sh headers build/sysroot/headers".
 if(NOT DEFINED ENV{ANDROID_NDK_HOME})
   message(FATAL_ERROR "Set the environment variable ANDROID_NDK_HOME to the folder of the NDK.")
 endif()

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-# The commands of ./do that build for boards; sourced by it.
+# Commands of ./do for boards; sourced by ./do.
 
-# board ARCHITECTURE: the compiler's Debian package, the emulator and the sysroot of a preset.
+# board ARCHITECTURE: sets the compiler's Debian package, the emulator and the sysroot of a preset.
 board() {
   case "$1" in
     aarch64) board_compiler=g++-aarch64-linux-gnu board_sysroot=arm64 ;;
@@ -12,7 +12,7 @@ board() {
   esac
 }
 
-# emulator PRESET: the program that runs statically linked programs as on a board.
+# emulator PRESET: prints the emulator of statically linked programs for a board.
 emulator() {
   case "$1" in
     aarch64) echo qemu-aarch64 -cpu cortex-a53 ;;
@@ -22,7 +22,7 @@ emulator() {
   esac
 }
 
-# cross_build PRESET [TARGET...]
+# cross_build PRESET [TARGET...]: cross-builds everything, or the given targets.
 cross_build() {
   local preset=$1
   shift
@@ -31,7 +31,7 @@ cross_build() {
     cmake --build --preset "$preset" --parallel "$(nproc)" ${1:+--target "$@"}
 }
 
-# sve_test BYTES:NAME: one of by_sve_length.
+# sve_test BYTES:NAME: runs one test with SVE registers of that length.
 sve_test() {
   local bytes=${1%:*} name=${1#*:}
   qemu-aarch64 -cpu max,sve-default-vector-length=$bytes -L /usr/aarch64-linux-gnu \
@@ -42,8 +42,8 @@ sve_test() {
   return 1
 }
 
-# Whatever vector lengths the emulator has, every kernel must give the reference's results; pictures
-# are as their kernels.
+# Runs the kernel tests with several lengths of SVE registers. Pictures need no test, since they consist of
+# kernel results.
 by_sve_length() {
   local bytes tests=
   cross_build aarch64-max starfocus_simd_byte_tests
@@ -54,7 +54,7 @@ by_sve_length() {
   grep -h '^SIMD targets:' "$LOGS"/kernels-??.log
 }
 
-# into_boards NAME FILE: puts the file between the marks of that name in docs/boards.md.
+# into_boards NAME FILE: replaces the text between the marks of that name in docs/boards.md by the file.
 into_boards() {
   awk -v name="$1" -v tables="$2" '
     $0 == "<!-- " name ": end -->" { skip = 0 }
@@ -69,7 +69,7 @@ build_counter() {
     cc -O2 -Wall -Wextra -shared -fPIC -o "$LOGS/count.so" tests/board/count_instructions.c
 }
 
-# instructions PRESET CASE KERNELS: of one refocusing, on the emulated board.
+# instructions PRESET CASE KERNELS: prints the instructions of one refocusing on the emulated board.
 instructions() {
   local runs preset=$1 name=$2 kernels=$3
   for runs in 1 2; do
@@ -80,7 +80,7 @@ instructions() {
   done | awk 'NR == 1 { first = $1 } NR == 2 { print $1 - first }'
 }
 
-# count_case NAME:PIXELS:KERNELS: a line "NAME KERNELS PIXELS INSTRUCTIONS" in a file of its own.
+# count_case NAME:PIXELS:KERNELS: writes the line "NAME KERNELS PIXELS INSTRUCTIONS" to a separate file.
 count_case() {
   local name=${1%%:*} pixels=${1#*:} kernels=${1##*:}
   pixels=${pixels%:*}
@@ -88,9 +88,8 @@ count_case() {
     >"$LOGS/count-$name-$kernels"
 }
 
-# Instructions per pixel with NEON and with the plain reference kernels. Fails when any is more than
-# 3 % above tests/board/instruction_counts.txt, if that is of the same compiler; `record` writes that file
-# and docs/boards.md.
+# Counts instructions per pixel with NEON and with the reference kernels. Fails if a count is more than 3 % above
+# that in tests/board/instruction_counts.txt of the same compiler. `record` writes that file and docs/boards.md.
 count() {
   local baseline=tests/board/instruction_counts.txt now=$LOGS/instruction_counts.txt cases item
   local compiler recorded
@@ -137,7 +136,7 @@ count() {
     echo "SKIPPED the comparison: $baseline is of $recorded, this is $compiler"
 }
 
-# count_command [record]
+# count_command [record]: prepares the board and counts.
 count_command() {
   case "${1:-}" in '' | record) ;; *) fail "usage: ./do count [record]" ;; esac
   prepare_board aarch64
@@ -145,7 +144,7 @@ count_command() {
   count "${1:-}"
 }
 
-# prepare_board PRESET: its compiler, emulator and sysroot.
+# prepare_board PRESET: installs the compiler and the emulator, and makes the sysroot.
 prepare_board() {
   local PACKAGES="g++ cmake ninja-build pkg-config qemu-user" board_compiler board_sysroot
   board "$1"
@@ -155,8 +154,8 @@ prepare_board() {
     toolchains/sysroot.sh $board_sysroot build/sysroot/$board_sysroot
 }
 
-# cross ARCHITECTURE [build|bytes]: builds everything for a board and runs every test on an emulated one,
-# or those alone that compare all bytes (the label bytes).
+# cross ARCHITECTURE [build|bytes]: builds everything for a board and runs all tests on an emulated one. With `bytes`
+# it runs only the tests with the label bytes, which compare all output bytes.
 cross() {
   local PACKAGES="g++ cmake ninja-build pkg-config" preset=${1:-} board_compiler board_sysroot
   case "${2:-}" in '' | build | bytes) ;; *) fail "usage: ./do cross ARCH [build|bytes]" ;; esac
@@ -181,15 +180,15 @@ cross() {
   fi
 }
 
-# Records the checksums of tests/engine/golden.txt anew, after an intended change of the engine's output.
+# Updates the checksums in tests/engine/golden.txt, after an intended change of the engine's output.
 golden() {
   install_missing
   build starfocus_engine_byte_tests
   STARFOCUS_RECORD_GOLDEN=1 $BUILD/tests/engine_byte_tests --no-intro=true '--source-file=*/golden_bytes_test.cc'
 }
 
-# code_bytes TRIPLE LIBRARY: bytes of code and of read-only data that a program which calls
-# everything the engine offers for refocusing keeps after its linker's garbage collection.
+# code_bytes TRIPLE LIBRARY: prints the bytes of code and read-only data of a program that calls all functions for
+# refocusing, after the linker removed unused sections.
 code_bytes() {
   local object=build/log/collected.o
   "$1-ld" -r --gc-sections -e starfocus_refocus -u starfocus_workspace_size -u starfocus_init -u starfocus_stream_begin \
@@ -198,7 +197,7 @@ code_bytes() {
     awk '/^\.text/ { code += $2 } /^\.(rodata|data)/ { data += $2 } END { printf "%d | %d", code, data }'
 }
 
-# size_rows PRESET TRIPLE EMULATOR NAME
+# size_rows PRESET TRIPLE EMULATOR NAME: prints the rows of the tables for a board.
 size_rows() {
   local type
   for type in Release MinSizeRel; do
@@ -222,7 +221,7 @@ size_tables() {
   qemu-aarch64 build/embedded-aarch64-Release/size_probe parts
 }
 
-# How far the workspaces of the two architectures lie apart.
+# Prints the largest difference between the workspaces of the two architectures.
 workspace_difference() {
   qemu-aarch64 build/embedded-aarch64-Release/size_probe workspace >$LOGS/workspace-64
   qemu-arm build/embedded-armhf-Release/size_probe workspace >$LOGS/workspace-32
@@ -237,7 +236,7 @@ workspace_difference() {
     END { printf "at most %d KiB less", most }'
 }
 
-# size [write]
+# size [write]: prints sizes of code, stack and memory, or writes them to docs/boards.md.
 size() {
   local PACKAGES="cmake ninja-build pkg-config qemu-user g++-aarch64-linux-gnu g++-arm-linux-gnueabihf"
   install_missing
@@ -255,7 +254,7 @@ size() {
   fi
 }
 
-# boot: the board program on an emulated board with a real kernel.
+# boot: runs the board program on an emulated board with a Linux kernel.
 boot() {
   local PACKAGES="$PACKAGES g++-aarch64-linux-gnu qemu-system-arm cpio"
   find_missing

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# What the toolchain files of Debian's cross compilers share. Included by them after they have set
+# Common part of the toolchain files for Debian's cross compilers, which set these variables first:
 #   STARFOCUS_TRIPLE       prefix of the compiler's programs
 #   STARFOCUS_ARCHITECTURE of sysroot.sh
 #   STARFOCUS_QEMU         the user emulator that runs the tests
@@ -18,7 +18,7 @@ if(NOT EXISTS "${STARFOCUS_SYSROOT}/.complete")
 endif()
 list(APPEND CMAKE_TRY_COMPILE_PLATFORM_VARIABLES STARFOCUS_SYSROOT STARFOCUS_CPU)
 
-# Nothing of the host's /usr is ever searched; even what is the same everywhere is in the sysroot.
+# Searches only the sysroot, never the host's /usr.
 set(CMAKE_FIND_ROOT_PATH "${STARFOCUS_SYSROOT}" "/usr/${STARFOCUS_TRIPLE}")
 set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
 set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
@@ -28,13 +28,13 @@ set(CMAKE_LIBRARY_ARCHITECTURE ${STARFOCUS_TRIPLE})
 set(ENV{PKG_CONFIG_SYSROOT_DIR} "${STARFOCUS_SYSROOT}")
 set(ENV{PKG_CONFIG_LIBDIR} "${STARFOCUS_SYSROOT}/usr/lib/${STARFOCUS_TRIPLE}/pkgconfig:\
 ${STARFOCUS_SYSROOT}/usr/share/pkgconfig")
-# The sysroot's libraries need others beside them, which only the linker looks for.
+# Lets the linker find the libraries that the sysroot's libraries depend on.
 set(CMAKE_EXE_LINKER_FLAGS_INIT
     "-Wl,-rpath-link,${STARFOCUS_SYSROOT}/usr/lib/${STARFOCUS_TRIPLE}")
 
 set(CMAKE_CROSSCOMPILING_EMULATOR "${STARFOCUS_QEMU};-cpu;${STARFOCUS_CPU};\
 -L;/usr/${STARFOCUS_TRIPLE};-E;LD_LIBRARY_PATH=${STARFOCUS_SYSROOT}/usr/lib/${STARFOCUS_TRIPLE}")
 
-# One binary per board: no detection at run time, and nothing to install beside it.
+# Builds one static binary per board, without detection at run time.
 set(STARFOCUS_STATIC_DISPATCH ON CACHE BOOL "One SIMD target, chosen when compiling")
 set(STARFOCUS_STATIC_PROGRAMS ON CACHE BOOL "Link the programs statically")

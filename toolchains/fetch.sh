@@ -1,12 +1,11 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# fetch.sh ARCHITECTURE FOLDER PATTERN PACKAGE...: unpacks Debian packages of any architecture into
-# FOLDER, with those of their direct dependencies whose names match PATTERN (an extended regular
-# expression for the whole name). Nothing is done when FOLDER holds them already.
+# fetch.sh ARCHITECTURE FOLDER PATTERN PACKAGE...: unpacks Debian packages of any architecture into FOLDER, together
+# with their direct dependencies whose whole names match PATTERN, an extended regular expression. Does nothing if
+# FOLDER contains them already.
 #
-# Nothing of the host changes: a private apt, with its own lists, cache and empty package database,
-# reads copies of the host's own sources (and its trust and proxy settings). Needs apt-get and
-# dpkg-deb, and no root.
+# The host does not change: a private apt with its own lists, cache and package database reads copies of the host's
+# sources, keys and proxy settings. Needs apt-get and dpkg-deb, but not root.
 set -eu
 
 [ $# -ge 4 ] || { echo "usage: $0 ARCHITECTURE FOLDER PATTERN PACKAGE..." >&2; exit 2; }
@@ -23,7 +22,7 @@ trap 'exit 1' HUP INT TERM
 mkdir -p "$work/parts" "$work/lists/partial" "$work/archives/partial" "$work/packages"
 : >"$work/status"
 
-# The host's sources may be restricted to its own architectures: the copies are not.
+# Removes restrictions to the host's architectures from the copies.
 eval "$(apt-config shell list Dir::Etc::sourcelist/f parts Dir::Etc::sourceparts/d)"
 for source in "$list" "$parts"*.list "$parts"*.sources; do
   [ -f "$source" ] || continue
@@ -40,7 +39,7 @@ private_apt() {
     -o "Dir::Cache=$work" -o "Dir::Cache::archives=$work/archives" -o APT::Sandbox::User=root "$@"
 }
 
-# A source without this architecture makes the update complain; whether it matters shows below.
+# Ignores errors of sources without this architecture. Missing packages are reported below.
 private_apt apt-get update || echo "fetch: continuing with the lists there are" >&2
 more=$(private_apt apt-cache depends --no-recommends --no-suggests "$@" |
   sed -n 's/^ *Depends: //p' | grep -Ex "$pattern" | sort -u) || more=

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-# The commands of ./do for browsers and node; sourced by it.
+# Commands of ./do for browsers and node; sourced by ./do.
 
-# What the npm package and the page are made of: the package in build/web/npm, the page with it and a demo
-# light field in build/web/site. The demo takes longest, and is made once.
+# Builds the npm package in build/web/npm, and the page with the package and a demo light field in build/web/site. The
+# demo takes longest and is made only once.
 build_web() {
   local site=build/web/site
   NODE_PATH=/usr/share/nodejs step configure-web "configuring build/web" cmake --preset web
@@ -18,7 +18,7 @@ build_web() {
   cp examples/web/*.html examples/web/*.css examples/web/*.js $site || exit 1
 }
 
-# web [PORT]: serves the page on the loopback; web build makes it alone; web test tests package and page.
+# web [PORT]: serves the page on the loopback interface. `web build` only builds it; `web test` tests package and page.
 web() {
   local port=8080
   case "${1:-}" in
