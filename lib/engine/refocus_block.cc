@@ -161,7 +161,7 @@ void GatherBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>
   field.disparity = scratch->field.disparity;
   const BlockCells cells = {in.gathered, block.rect, block.layer};
   const Tables& tables = *in.tables;
-  const GatherKernels blur = {tables.psfs, LastGatherStep(*in.lens), tables.mean_square};
+  const GatherPsfs blur = {tables.psfs, LastGatherStep(*in.lens), tables.mean_square};
   const GatherJob job = {&in.windows[block.layer], in.cells, cells,
                          in.lens->scale,           blur,     in.kernels,
                          &scratch->cancel};

@@ -106,7 +106,7 @@ double PixelIntegral(int32_t n, int32_t m, int32_t radius, const ApertureShape& 
   return Larger(0, whole - DiscIntegral<STARFOCUS_SHAPE_DISC>(n, m, hole, lines, opening));
 }
 
-// Calls visit(n, m, how many pixels share the weight, integral of (4)) for the weights of a kernel
+// Calls visit(n, m, how many pixels share the weight, integral of (4)) for the weights of a PSF
 // that are stored. Returns false if the call was cancelled.
 template <class Visit>
 bool ForEachWeight(int32_t radius, const ApertureShape& opening, CancelToken* cancel,
@@ -140,7 +140,7 @@ void LoadPixels(const BlurJob& job, int16_t* rgb) {
   }
 }
 
-// Adds a kernel of `weight(n, m)` over `count` pixels of one radius; two weights side by side go in
+// Adds a PSF of `weight(n, m)` over `count` pixels of one radius; two weights side by side go in
 // one span.
 template <class Weight>
 void AddRun(int32_t size, const Weight& weight, const int16_t* at, size_t stride, int32_t count,
@@ -158,27 +158,27 @@ void AddRun(int32_t size, const Weight& weight, const int16_t* at, size_t stride
 }
 
 // Adds it turned by half a turn with `side` -1.
-void AddKernel(const Psf& kernel, int32_t side, const int16_t* at, size_t stride, int32_t count,
-               SpanList* list) {
-  if (kernel.full) {
+void AddPsf(const Psf& psf, int32_t side, const int16_t* at, size_t stride, int32_t count,
+            SpanList* list) {
+  if (psf.full) {
     AddRun(
-        kernel.size, [&](int32_t n, int32_t m) { return kernel.Weight(side * n, side * m); }, at,
-        stride, count, list);
+        psf.size, [&](int32_t n, int32_t m) { return psf.Weight(side * n, side * m); }, at, stride,
+        count, list);
   } else {
     AddRun(
-        kernel.size, [&](int32_t n, int32_t m) { return kernel.OctantWeight(n, m); }, at, stride,
-        count, list);
+        psf.size, [&](int32_t n, int32_t m) { return psf.OctantWeight(n, m); }, at, stride, count,
+        list);
   }
 }
 
-// Makes the kernel of a radius (kDisparityBits). Returns false if the call was cancelled. Every
+// Makes the PSF of a radius (kDisparityBits). Returns false if the call was cancelled. Every
 // orbit takes up the rounding of those before it and the last one the rest, as in MakeViewWeights.
 bool MakePsf(int32_t radius, const ApertureShape& opening, CancelToken* cancel, uint16_t* weights,
-             Psf* kernel) {
-  kernel->size = SizeOf(radius);
-  kernel->weights = weights;
-  kernel->sum_bits = 14;
-  kernel->full = !opening.IsSymmetric();
+             Psf* psf) {
+  psf->size = SizeOf(radius);
+  psf->weights = weights;
+  psf->sum_bits = 14;
+  psf->full = !opening.IsSymmetric();
   if (radius == 0) {
     weights[0] = 1 << 14;
     return true;
@@ -186,15 +186,14 @@ bool MakePsf(int32_t radius, const ApertureShape& opening, CancelToken* cancel, 
   double total = 0, largest = 0;  // of pixels that simd::Disc weighs together
   const auto add = [&](int32_t n, int32_t m, int32_t points, double integral) {
     total += points * integral;
-    const int32_t together = kernel->full ? 1 : (n > 0 ? 2 : 1) * (m > 0 ? 2 : 1);
+    const int32_t together = psf->full ? 1 : (n > 0 ? 2 : 1) * (m > 0 ? 2 : 1);
     largest = Larger(largest, together * integral);
   };
   if (!ForEachWeight(radius, opening, cancel, add)) return false;
-  while (kernel->sum_bits < kMaxLightBits &&
-         largest / total * (2 << kernel->sum_bits) < kMaxWeight - 8) {
-    ++kernel->sum_bits;
+  while (psf->sum_bits < kMaxLightBits && largest / total * (2 << psf->sum_bits) < kMaxWeight - 8) {
+    ++psf->sum_bits;
   }
-  const int32_t one = 1 << kernel->sum_bits, size = kernel->size;
+  const int32_t one = 1 << psf->sum_bits, size = psf->size;
   double wanted = 0;
   int32_t given = 0;
   const auto give = [&](int32_t n, int32_t m, int32_t points, double integral) {
@@ -203,7 +202,7 @@ bool MakePsf(int32_t radius, const ApertureShape& opening, CancelToken* cancel, 
     const auto target = wanted == total ? one : static_cast<int32_t>(wanted / total * one + 0.5);
     const auto weight =
         static_cast<int32_t>(ShareOfPoints(target - given, points, opening.IsRing()));
-    weights[kernel->full ? (m + size) * (2 * size + 1) + n + size : n * (n + 1) / 2 + m] =
+    weights[psf->full ? (m + size) * (2 * size + 1) + n + size : n * (n + 1) / 2 + m] =
         static_cast<uint16_t>(Checked(ranges::kBlurWeight, weight));
     given += weight * points;
   };
@@ -284,14 +283,14 @@ void BlurRectangle(const BlurJob& job, const BlurScratch& scratch, uint8_t* out,
       const int32_t begin = x, step = step_at(x), side = side_of(x);
       while (++x < rect.width && step_at(x) == step && side_of(x) == side) {
       }
-      const Psf& kernel = job.psfs_of_radius[step];
+      const Psf& psf = job.psfs_of_radius[step];
       const size_t samples = 3 * static_cast<size_t>(x - begin);
-      const int64_t points = (2 * kernel.size + 1) * (2 * kernel.size + 1);
+      const int64_t points = (2 * psf.size + 1) * (2 * psf.size + 1);
       if (!GoesOn(job.cancel, points * static_cast<int64_t>(samples))) return;
       std::memset(scratch.accumulators, 0, samples * sizeof(uint32_t));
-      AddKernel(kernel, side, row + 3 * begin, stride, x - begin, &list);
+      AddPsf(psf, side, row + 3 * begin, stride, x - begin, &list);
       list.Flush();
-      const int bits = kernel.sum_bits + kLightBits;
+      const int bits = psf.sum_bits + kLightBits;
       CheckSums(scratch.accumulators, samples, bits);
       if (job.excess.factor != 0) {
         AddExcess(job.excess, scratch.accumulators, samples, bits, out + 3 * begin);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Depth-dependent image blurring of the centre view alone (the paper's [13], [14]): the classical
-// rival, each output pixel the ideal kernel (4) of its own blur radius.
+// rival, each output pixel the ideal PSF (4) of its own blur radius.
 #ifndef STARFOCUS_LIB_FILTER_BLUR_H_
 #define STARFOCUS_LIB_FILTER_BLUR_H_
 
@@ -25,7 +25,7 @@ int32_t RadiusOfStep(int32_t step);  // kDisparityBits
 int32_t BlurStepBelow(int32_t radius);
 int32_t BlurStepAbove(int32_t radius);
 
-// The octant 0 <= m <= n of one kernel, or, when `full`, all of it; weights sum to exactly
+// The octant 0 <= m <= n of one PSF, or, when `full`, all of it; weights sum to exactly
 // 2^sum_bits over the plane, and those of an octant that four pixels share, or two on an axis, fit
 // 15 bits together. What is farther than the focus sees it turned by half a turn.
 struct Psf {
@@ -58,7 +58,7 @@ struct BlurJob {
   const Psf* psfs_of_radius;
   const simd::Kernels* kernels;
   Rect rect;
-  int32_t border;       // largest kernel size in the picture
+  int32_t border;       // largest PSF size in the picture
   ExcessSum excess;     // with a factor the window's excess is added to `out`
   CancelToken* cancel;  // once it ends, `out` is left half made
 };

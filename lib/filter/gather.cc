@@ -45,7 +45,7 @@ class Gather {
         Steps& steps = At(x, y) = kNone;
         if (!job_.cells.IsGathered(x, y)) continue;
         steps = StepsOf(x, y);
-        border_ = Max(border_, KernelOf(steps.more).size);
+        border_ = Max(border_, PsfOf(steps.more).size);
         const Rect pixels = job_.cells.PixelsOf(x, y);
         left = Min(left, pixels.x);
         top = Min(top, pixels.y);
@@ -88,8 +88,8 @@ class Gather {
   }
 
   // Returns false if the call was cancelled.
-  bool Spend(const Psf& kernel, const Rect& part) const {
-    const int64_t points = (2 * kernel.size + 1) * (2 * kernel.size + 1);
+  bool Spend(const Psf& psf, const Rect& part) const {
+    const int64_t points = (2 * psf.size + 1) * (2 * psf.size + 1);
     return GoesOn(job_.cancel, 3 * points * part.width * part.height);
   }
 
@@ -113,17 +113,17 @@ class Gather {
     return part;
   }
 
-  // Filters flat cells from (x, y) on that have the same kernel. Returns where they end, or x if
+  // Filters flat cells from (x, y) on that have the same PSF. Returns where they end, or x if
   // the call was cancelled.
   int32_t FilterFlat(int32_t x, int32_t y) {
     const Steps steps = At(x, y);
     int32_t end = x + kCellSize;
-    while (end < Right() && HasKernels(end, y, true, steps)) end += kCellSize;
+    while (end < Right() && HasPsfs(end, y, true, steps)) end += kCellSize;
     const Rect part = PixelsOf(x, end, y);
-    const Psf& kernel = KernelOf(steps.less);
-    if (!Spend(kernel, part)) return x;
+    const Psf& psf = PsfOf(steps.less);
+    if (!Spend(psf, part)) return x;
     const simd::SampleRows in = RowsOf(part);
-    const simd::Disc disc = DiscOf(kernel);
+    const simd::Disc disc = DiscOf(psf);
     if (job_.cells.layer == 0) {
       job_.kernels->FilterDisc(in, disc, job_.window->transfer->encoding,
                                out_.codes + FirstOut(part), out_.stride);
@@ -140,9 +140,9 @@ class Gather {
     const Steps steps = At(x, y);
     const int32_t most = Min(Right(), x + kSlopeCells * kCellSize);
     int32_t end = x + kCellSize;
-    while (end < most && HasKernels(end, y, false, steps)) end += kCellSize;
+    while (end < most && HasPsfs(end, y, false, steps)) end += kCellSize;
     const Rect part = PixelsOf(x, end, y);
-    const Psf &less = KernelOf(steps.less), &more = KernelOf(steps.more);
+    const Psf &less = PsfOf(steps.less), &more = PsfOf(steps.more);
     if (!Spend(more, part)) return x;
     job_.kernels->FilterTwoDiscs(RowsOf(part), DiscOf(less), DiscOf(more), rows_.less, rows_.more,
                                  SlopeRows::kStride);
@@ -237,16 +237,14 @@ class Gather {
     return steps_[(y - block_.y) / kCellSize * kMaxRowCells + (x - block_.x) / kCellSize];
   }
 
-  bool HasKernels(int32_t x, int32_t y, bool flat, const Steps& steps) {
+  bool HasPsfs(int32_t x, int32_t y, bool flat, const Steps& steps) {
     const Steps& here = At(x, y);
     return here.less == steps.less && here.more == steps.more && job_.cells.IsFlat(x, y) == flat;
   }
 
-  const Psf& KernelOf(int32_t step) const { return job_.blur.of_step[step]; }
+  const Psf& PsfOf(int32_t step) const { return job_.blur.of_step[step]; }
 
-  static simd::Disc DiscOf(const Psf& kernel) {
-    return {kernel.size, kernel.sum_bits, kernel.weights};
-  }
+  static simd::Disc DiscOf(const Psf& psf) { return {psf.size, psf.sum_bits, psf.weights}; }
 
   const GatherJob& job_;
   const Rect& block_;  // in the picture
@@ -254,7 +252,7 @@ class Gather {
   Rect loaded_ = {};   // of the layer: what cells are gathered of
   BlockPixels* field_;
   const Gathered& out_;
-  int32_t border_ = 0;  // of the field around it: as far as any kernel reaches
+  int32_t border_ = 0;  // of the field around it: as far as any PSF reaches
   uint64_t pixels_ = 0;
   Steps steps_[kMaxRowCells * kMaxRowCells];  // of the block's cells
   SlopeRows rows_;

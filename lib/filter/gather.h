@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// 8x8 cells of one surface: every pixel gathered from the centre view with the ideal kernel (4) of
+// 8x8 cells of one surface: every pixel gathered from the centre view with the ideal PSF (4) of
 // the blur around it. Where disparity hardly changes as far as the blur reaches, that is what all
 // views of the aperture together show.
 #ifndef STARFOCUS_LIB_FILTER_GATHER_H_
@@ -21,7 +21,7 @@ namespace starfocus {
 static_assert(kMaxGather <= simd::kMaxDisc, "");
 
 // The kernels of a lens.
-struct GatherKernels {
+struct GatherPsfs {
   const Psf* of_step;
   int32_t last_step;
   int32_t mean_square;  // of the opening
@@ -32,7 +32,7 @@ struct GatherJob {
   const CellGrid* grid;
   BlockCells cells;  // of a block, its corner a multiple of kCellSize
   BlurScale scale;
-  GatherKernels blur;
+  GatherPsfs blur;
   const simd::Kernels* kernels;
   CancelToken* cancel;  // once it ends, what is gathered into is left half made
 };
