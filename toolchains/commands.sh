@@ -217,7 +217,7 @@ size_tables() {
   size_rows embedded-armhf arm-linux-gnueabihf qemu-arm '32-bit ARM'
   printf '\nWorkspace in KiB on 64-bit ARM (on 32-bit ARM %s):\n\n' "$(workspace_difference)"
   qemu-aarch64 build/embedded-aarch64-Release/size_probe workspace
-  printf '\nWhat the KiB of a few of them are for:\n\n'
+  printf '\nSizes of the parts of some of these workspaces, in KiB:\n\n'
   qemu-aarch64 build/embedded-aarch64-Release/size_probe parts
 }
 

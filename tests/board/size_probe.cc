@@ -155,7 +155,7 @@ void PrintWorkspace() {
     starfocus_config config = test::BoardConfig(size.width, size.height, 17, 32, 8, 0);
     row(size.name, "whole pictures", config);
     config.features = 0;
-    row(size.name, "the same, no line scan", config);
+    row(size.name, "whole pictures, no line scan", config);
     for (const int views : {1, 5, 9, 17}) {
       char input[40];
       std::snprintf(input, sizeof(input), "%d streamed view%s", views, views == 1 ? "" : "s");
@@ -175,8 +175,8 @@ class PartsTable {
         {"VGA, 1 streamed view, 32, 8", test::BoardConfig(640, 480, 1, 32, 8, 1)},
         {"VGA, 5 streamed views, 64, 32", test::BoardConfig(640, 480, 5, 64, 32, 1)},
         {"Full HD, whole pictures, 64, 32", test::BoardConfig(1920, 1080, 17, 64, 32, 0)},
-        {"the same, 128, 128", test::BoardConfig(1920, 1080, 17, 128, 128, 0)},
-        {"the same, no line scan", [] {
+        {"Full HD, whole pictures, 128, 128", test::BoardConfig(1920, 1080, 17, 128, 128, 0)},
+        {"Full HD, whole pictures, 128, 128, no line scan", [] {
            starfocus_config config = test::BoardConfig(1920, 1080, 17, 128, 128, 0);
            config.features = 0;
            return config;
@@ -197,7 +197,7 @@ class PartsTable {
     for (const test::MemoryPart& part : streamed) {
       if (!part.shared) PrintPart(part.name, "%.1f");
     }
-    PrintRow("what a worker does one after the other", "%.1f",
+    PrintRow("tasks of a worker, which share memory", "%.1f",
              [](const auto& parts) { return test::SumOf(parts).shared; });
     for (const test::MemoryPart& part : streamed) {
       if (part.shared) PrintPart(part.name, "(%.1f)");
