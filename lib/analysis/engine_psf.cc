@@ -11,12 +11,13 @@
 namespace starfocus::analysis {
 namespace {
 
-// The whole picture is one block, so that one worker's memory holds all of it.
+// Side of the only block, so that one worker's memory holds the whole picture.
 constexpr int kBlock = 256;
 constexpr uint8_t kWhite = 255;
-// The dark surface is a gray from which the filters' negative lobes can still go down.
+// Level of the dark surface. Layers use a gray, because the negative lobes of their filters would
+// be clipped at black.
 constexpr uint8_t kDark[STARFOCUS_LAYERS] = {0, 64, 64};
-// Pixels that the filters reach beyond the blur.
+// Number of pixels that the filters reach beyond the blur.
 constexpr int kReach[STARFOCUS_LAYERS] = {2, 10, 24};
 
 struct FreeAligned {
@@ -43,19 +44,19 @@ starfocus_config ConfigOf(int side, const EngineProbe& probe) {
   starfocus_config config;
   starfocus_config_init(&config);
   config.width = config.height = side;
-  config.views = 1;  // a flat surface has no holes, so that no captured view is ever read
+  config.views = 1;  // a flat surface has no holes, so side views are never read
   config.disparity_min = static_cast<float>(probe.r < 0 ? -probe.r_max : 0);
   config.disparity_max = static_cast<float>(probe.r < 0 ? 0 : probe.r_max);
   config.max_blur = std::fmax(probe.r_max, 1);
   config.superblock = kBlock;
   config.transfer = STARFOCUS_TRANSFER_NONE;
-  config.tuning.gather = 0;  // the PSF of views is asked for
+  config.tuning.gather = 0;  // the PSF of views is measured
   config.tuning.max_layer = probe.layer;
-  config.tuning.timing.block = STARFOCUS_MAX_TIMING;  // one block is the cheapest
+  config.tuning.timing.block = STARFOCUS_MAX_TIMING;  // makes a single block the cheapest partition
   return config;
 }
 
-// An engine in memory of its own.
+// Owns an engine and the memory it lives in.
 class Engine {
  public:
   explicit Engine(const starfocus_config& config) {
@@ -93,7 +94,7 @@ class Engine {
   starfocus_status status_ = STARFOCUS_OK;
 };
 
-// Gray levels of the picture refocused last, before they are rounded to bytes.
+// Returns the gray levels of the last refocused picture before they are rounded to bytes.
 std::vector<double> ReadLevels(const Engine& measured) {
   const EngineState& engine = measured.state();
   const Block& block = engine.stripe.plan.blocks[0];
@@ -105,13 +106,13 @@ std::vector<double> ReadLevels(const Engine& measured) {
   std::vector<double> levels(measured.out().size() / 3);
   for (size_t k = 0; k < levels.size(); ++k) {
     const double sample = block.layer == 0 ? scratch.sums[3 * k] : scratch.picture_samples[3 * k];
-    // Of what is copied nothing is rendered.
+    // Copied pixels are not rendered; their level is that of the output.
     levels[k] = engine.report.copied_pixels > 0 ? measured.out()[3 * k] : sample / one;
   }
   return levels;
 }
 
-// What a white pixel at (x, y) adds to a picture of one gray level, `radius` around it.
+// Returns the change of a flat picture by a white pixel at (x, y), within `radius` of it.
 SampledPsf ReadPsf(const std::vector<double>& levels, const std::vector<double>& flat, int side,
                    int x, int y, int radius) {
   SampledPsf psf(radius);
@@ -136,13 +137,14 @@ starfocus_status MeasureEnginePsf(const EngineProbe& probe, EnginePsf* result) {
   Impulse impulse(side, probe.r, dark);
   Engine engine(ConfigOf(side, probe));
   if (engine.status() != STARFOCUS_OK) return engine.status();
-  // Where nothing is white, roundings of a layer add up to one or two 64ths of a gray level.
+  // The flat picture is the reference: rounding in a layer adds up to one or two 64ths of a gray
+  // level.
   const starfocus_status flat_status = engine.Refocus(impulse, probe);
   if (flat_status != STARFOCUS_OK) return flat_status;
   const std::vector<double> flat = ReadLevels(engine);
   SampledPsf sum(radius);
   double squares = 0;
-  // A flat picture transposed gives the transposed PSF: half of the places will do.
+  // Transposing a flat picture transposes the PSF, so that half of the positions are sufficient.
   for (int a = 0; a < places; ++a) {
     for (int b = 0; b <= a; ++b) {
       impulse.Set(middle + a, middle + b, kWhite);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The running engine's PSFs beside the theory, and why they differ.
+// Compares the PSFs of the running engine with the theory, and explains the differences.
 #ifndef STARFOCUS_LIB_ANALYSIS_ENGINE_STEPS_H_
 #define STARFOCUS_LIB_ANALYSIS_ENGINE_STEPS_H_
 
@@ -9,39 +9,41 @@
 
 namespace starfocus::analysis {
 
-// What theory says of blur radius r refocused at layer L: SSE against the ideal PSF (4) at r of
-// the ideal PSF at r / 2^L through the layers, (10), and its aliasing, (11). Both are 0 at layer
-// 0.
+// Theoretical values for blur radius r refocused at layer L. `error` is the SSE (10) of the ideal
+// PSF at r / 2^L through the layers, against the ideal PSF (4) at r. `aliasing` is (11). Both are 0
+// at layer 0.
 struct LayerTheory {
   double error;
   double aliasing;
 };
 LayerTheory MakeLayerTheory(double r, int layer);
 
-// SSE (8) against the ideal PSF (4) at one r, all through the layers where L > 0.
+// SSE (8) of several PSFs against the ideal PSF (4) at one r. If L > 0, all of them go through the
+// layers.
 struct EngineStep {
   double r;             // signed
-  int n;                // N the engine chose
-  int layer;            // L the engine chose
+  int n;                // N that the engine chose
+  int layer;            // L that the engine chose
   bool wide;            // subapertures may be wider than a pixel
   double engine;        // of the measured PSF
   double star;          // of StarPsf
   double subapertures;  // of SubaperturePsf
   double paper;         // of PaperPsf
-  double both_axes;     // of subapertures at most a pixel wide, every view spread along both axes
-  double apart;         // squared difference of the measured PSF and StarPsf
-  double aliasing;      // measured
+  // SSE of subapertures at most a pixel wide, with every view spread along both axes.
+  double both_axes;
+  double apart;     // squared difference of the measured PSF and StarPsf
+  double aliasing;  // measured aliasing
 };
 
 starfocus_status MeasureStep(const EngineProbe& probe, EngineStep* step);
 
-// Measured PSF and StarPsf may be this far apart: slices have 7 fractional bits of a gray
-// level, the weights of views 10 or so, and the samples of layers 6, of the few levels that a
-// pixel is left with when it is spread.
+// Largest difference between the measured PSF and StarPsf that rounding explains. Slices have 7
+// fractional bits of a gray level, weights of views about 10, and samples of layers 6. A pixel that
+// is spread has only a few levels left.
 inline constexpr double kExplained[] = {1.1e-5, 2e-5, 2e-5};  // by layer
 
-// Why step.engine exceeds kThreshold; empty when it does not. Starts with "unexplained" when the
-// measured PSF is not the one the engine's description gives.
+// Explains why step.engine exceeds kThreshold; empty if it does not. Starts with "unexplained" if
+// the measured PSF differs from the one that the engine's description gives.
 std::string Explain(const EngineStep& step);
 
 }  // namespace starfocus::analysis

@@ -9,7 +9,7 @@
 namespace starfocus::analysis {
 namespace {
 
-// Modified Bessel function of the first kind, order 0, by its power series.
+// Returns the modified Bessel function of the first kind, order 0, by its power series.
 double Bessel0(double x) {
   double sum = 1, term = 1;
   for (int k = 1; term > 1e-17 * sum; ++k) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The resampling filters of the subsampled layers: a half-band sinc under a Kaiser window.
+// The resampling filters of the subsampled layers: a half-band sinc with a Kaiser window.
 #ifndef STARFOCUS_LIB_ANALYSIS_HALF_BAND_H_
 #define STARFOCUS_LIB_ANALYSIS_HALF_BAND_H_
 
@@ -9,17 +9,17 @@ namespace starfocus::analysis {
 
 inline constexpr int kHalfBandRadius = 3;  // seven taps
 
-// The paper's parameters: beta_U makes G_U(-1) = 0; beta_D is Table I's at r = 3.
+// The paper's parameters: beta_U makes G_U(-1) = 0; beta_D is that of Table I at r = 3.
 inline constexpr double kBetaUp = 2.17;
 inline constexpr double kBetaDown = 1.28;
 
-// sinc(n / 2) times the Kaiser window of `beta` >= 0, unit sum.
+// Returns sinc(n / 2) times the Kaiser window of `beta` >= 0, scaled to a sum of 1.
 Taps HalfBand(double beta);
 
-// G(e^{j omega}) of a symmetric PSF at omega = pi: the gain of the highest frequency.
+// Returns G(e^{j omega}) of a symmetric PSF at omega = pi: the gain of the highest frequency.
 double GainAtPi(const Taps& psf);
 
-// The beta for which GainAtPi(HalfBand(beta)) = 0.
+// Returns the beta for which GainAtPi(HalfBand(beta)) = 0.
 double BetaWithoutPi();
 
 }  // namespace starfocus::analysis

@@ -11,13 +11,13 @@
 namespace starfocus::analysis {
 namespace {
 
-// Longest piece, in radians, that the quadrature takes at once.
+// Longest interval, in radians, of one quadrature.
 constexpr double kLongestPiece = 0.4;
 
 int RadiusOf(double r) { return static_cast<int>(std::ceil(r + 0.5)); }
 
-// Angles in [low, high] at which the circle of radius r crosses the pixel's left or right side;
-// between them the integrand is smooth.
+// Returns the angles in [low, high] at which the circle of radius r crosses the pixel's left or
+// right side. The integrand is smooth between them.
 std::vector<double> Breaks(double low, double high, double left, double right, double r) {
   std::vector<double> breaks = {low, high};
   for (const double x : {left, right}) {
@@ -31,8 +31,9 @@ std::vector<double> Breaks(double low, double high, double left, double right, d
   return breaks;
 }
 
-// The integral of (4) over the pixel [n - 1/2, n + 1/2] x [m - 1/2, m + 1/2]. Along x it has a
-// closed form; along y = r sin(phi), which leaves no singularity where the disc ends.
+// Returns the integral of (4) over the pixel [n - 1/2, n + 1/2] x [m - 1/2, m + 1/2]. The integral
+// along x has a closed form. Along y, the substitution y = r sin(phi) removes the singularity at
+// the edge of the disc.
 double Pixel(int n, int m, double r, double theta) {
   const double bottom = std::max(m - 0.5, -r), top = std::min(m + 0.5, r);
   if (bottom >= top) return 0;

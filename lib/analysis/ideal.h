@@ -7,10 +7,11 @@
 
 namespace starfocus::analysis {
 
-// (4) for blur radius r >= 0 in pixels; exact to about 1e-12. r = 0 is the unit impulse.
+// Returns (4) for a blur radius r >= 0 in pixels, exact to about 1e-12. r = 0 gives the unit
+// impulse.
 SampledPsf IdealPsf(double r, double theta);
 
-// The ideal PSF of the 1D aperture, as exact.
+// Returns the ideal PSF of the 1D aperture, with the same accuracy.
 Taps IdealPsf1(double r, double theta);
 
 }  // namespace starfocus::analysis

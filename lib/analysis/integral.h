@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The two integrals everything continuous is made from.
+// The two integrals from which the continuous quantities are computed.
 #ifndef STARFOCUS_LIB_ANALYSIS_INTEGRAL_H_
 #define STARFOCUS_LIB_ANALYSIS_INTEGRAL_H_
 
@@ -7,7 +7,7 @@
 
 namespace starfocus::analysis {
 
-// Integral of 1 / (x^2 + c)^2 over [low, high], c > 0.
+// Returns the integral of 1 / (x^2 + c)^2 over [low, high], c > 0.
 inline double InverseSquare(double low, double high, double c) {
   const double root = std::sqrt(c);
   const auto primitive = [&](double x) {
@@ -16,7 +16,7 @@ inline double InverseSquare(double low, double high, double c) {
   return primitive(high) - primitive(low);
 }
 
-// Gauss-Legendre quadrature with 8 points of a smooth f over [low, high].
+// Integrates a smooth f over [low, high] by Gauss-Legendre quadrature with 8 points.
 template <class Function>
 double Integrate(double low, double high, const Function& f) {
   constexpr double kPoints[] = {0.18343464249564980, 0.52553240991632899, 0.79666647741362674,

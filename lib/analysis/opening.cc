@@ -12,10 +12,10 @@
 namespace starfocus::analysis {
 namespace {
 
-constexpr double kBetaDown = 1.28;  // kDownFilter's
+constexpr double kBetaDown = 1.28;  // as in kDownFilter
 
-// Returns the share of the square of `side` around (u, v) that is open, by points of a grid where
-// its corners don't agree.
+// Returns the share of the square of `side` around (u, v) that is open. Counts points of a grid
+// unless the corners decide.
 double Share(const BrightOpening& opening, double u, double v, double side) {
   constexpr int kPoints = 64;
   int corners = 0;

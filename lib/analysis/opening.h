@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Openings other than (3), in double precision: their ideal PSFs, what subapertures make of
-// them and what layers do. What says which N and layers they need (docs/constants.md, Openings).
+// Openings other than (3), in double precision: their ideal PSFs, the PSFs of their subapertures,
+// and the errors of layers. The values of N and the layers that openings need follow from these
+// (docs/constants.md, Openings).
 #ifndef STARFOCUS_LIB_ANALYSIS_OPENING_H_
 #define STARFOCUS_LIB_ANALYSIS_OPENING_H_
 
@@ -8,24 +9,26 @@
 
 namespace starfocus::analysis {
 
-// A part of the unit disc that is as bright everywhere.
+// A part of the unit disc with uniform brightness.
 struct BrightOpening {
   double inner = 0;  // radius of its hole
-  int blades = 0;    // of a regular polygon with straight edges and a corner at (0, -1); 0: a disc
+  // Number of sides of a regular polygon with straight edges and a corner at (0, -1). 0: a disc.
+  int blades = 0;
   bool Contains(double u, double v) const;
 };
 
-// The PSF (4) of the opening for r > 0.
+// Returns the PSF (4) of the opening for r > 0.
 SampledPsf IdealPsf(double r, const BrightOpening& opening);
 
-// The PSF of the views of ViewsBySubaperture's N >= 1, each as wide as its subaperture and with
-// the part of the light that goes through it.
+// Returns the PSF of the views of ViewsBySubaperture's N >= 1. Each view is as wide as its
+// subaperture and has the light that passes through it.
 SampledPsf SubaperturePsf(double r, int n, const BrightOpening& opening);
 
-// The largest SSE (8) of it over the radii from `r_min` to `r_max`, in steps of half a pixel.
+// Returns the largest SSE (8) of SubaperturePsf over the radii from `r_min` to `r_max`, in steps of
+// half a pixel.
 double WorstOfSubapertures(int n, double r_min, double r_max, const BrightOpening& opening);
 
-// The SSE (10) of the opening's blur by r in layer 1, with the filters that the engine has.
+// Returns the SSE (10) of the opening's blur of radius r in layer 1, with the engine's filters.
 double LayerError(double r, const BrightOpening& opening);
 
 }  // namespace starfocus::analysis

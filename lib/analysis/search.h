@@ -5,7 +5,8 @@
 
 namespace starfocus::analysis {
 
-// Where f, with a single minimum in [low, high], is least; golden section to `tolerance`.
+// Returns the position of the minimum of f, which has a single one in [low, high], by
+// golden-section search to `tolerance`.
 template <class Function>
 double Minimise(double low, double high, double tolerance, const Function& f) {
   constexpr double kGolden = 0.61803398874989485;
@@ -23,7 +24,7 @@ double Minimise(double low, double high, double tolerance, const Function& f) {
   return (low + high) / 2;
 }
 
-// Where f changes sign in [low, high]; bisection to `tolerance`.
+// Returns the position of a sign change of f in [low, high], by bisection to `tolerance`.
 template <class Function>
 double Cross(double low, double high, double tolerance, const Function& f) {
   const bool positive = f(low) > 0;

@@ -10,14 +10,14 @@
 
 namespace starfocus::analysis {
 
-// B(e^{j omega}) of a symmetric PSF; real.
+// Returns B(e^{j omega}) of a symmetric PSF, which is real.
 inline double Response(const Taps& psf, double omega) {
   double sum = psf(0);
   for (int n = 1; n <= psf.radius(); ++n) sum += 2 * psf(n) * std::cos(n * omega);
   return sum;
 }
 
-// H(f) = sinc^2(f) of the triangular h.
+// Returns H(f) = sinc^2(f) of the triangular h.
 inline double TriangleResponse(double f) {
   if (f == 0) return 1;
   const double sinc = std::sin(kPi * f) / (kPi * f);

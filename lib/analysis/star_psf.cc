@@ -17,9 +17,9 @@ namespace {
 
 constexpr double kNarrowest = 1e-6, kWidest = 7;
 
-// A view's footprint on the line: one tap, or those of a box on whole pixels for subapertures wider
-// than kBoxSubaperture, each then spread by a box of `width`; up to a pixel that is the
-// interpolation.
+// Footprint of a view along a line: a single tap or, for subapertures wider than kBoxSubaperture,
+// the taps of a box on whole pixels. Each tap is then spread by a box of `width`, which up to one
+// pixel is the interpolation.
 struct Footprint {
   double width;
   Taps taps;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the engine's PSF should be, from its description: subapertures as line scans and slices
-// render them.
+// The PSF that the engine should have according to its description: subapertures as line scans and
+// slices render them.
 #ifndef STARFOCUS_LIB_ANALYSIS_STAR_KERNEL_H_
 #define STARFOCUS_LIB_ANALYSIS_STAR_KERNEL_H_
 
@@ -8,14 +8,15 @@
 
 namespace starfocus::analysis {
 
-// How views stand for their subapertures: at most a pixel wide, the type B views
-// (|i| = |j|) spread along their diagonal only; or as wide as r / N, all views along both axes.
+// Shapes of subapertures. Narrow ones are at most a pixel wide, and type B views (|i| = |j|) are
+// spread along their diagonal only. Wide ones are as wide as r / N, and all views are spread along
+// both axes.
 enum class Subapertures { kNarrow, kWide };
 
-// The PSF of N views at blur radius r, with positions and subapertures rounded to the engine's
-// 1/256 pixel. A subaperture of up to 3 pixels covers what a box of its width does; a wider one, at
-// most 7, is linear interpolation after a box on whole pixels. Wide subapertures lie as those of
-// MakeSubapertures.
+// Returns the PSF of N views at blur radius r, with positions and subapertures rounded to the
+// engine's 1/256 pixel. A subaperture of up to 3 pixels is a box of its width. A wider one, of at
+// most 7 pixels, is a box on whole pixels followed by linear interpolation. Wide subapertures have
+// the positions of MakeSubapertures.
 SampledPsf StarPsf(double r, int n, double theta, Subapertures subapertures);
 
 }  // namespace starfocus::analysis

@@ -16,7 +16,7 @@ constexpr double kHighestBeta = 8;
 constexpr double kBetaStep = 0.01, kThetaStep = 0.01 * kPi;
 constexpr double kLowestTheta = 0.05 * kPi, kHighestTheta = 0.45 * kPi;
 
-// a[n] with the sign of odd taps turned: G(-z).
+// Returns G(-z): a[n] with the signs of the odd taps inverted.
 Taps Alternated(Taps psf) {
   for (int n = -psf.radius(); n <= psf.radius(); ++n) {
     if (n % 2) psf.at(n) = -psf(n);
@@ -32,7 +32,8 @@ Taps Convolve(const Taps& a, const Taps& b) {
   return result;
 }
 
-// b[n, m] upsampled by zeros, then filtered with x along the first axis and y along the second.
+// Returns b[n, m] upsampled with zeros, then filtered with x along the first axis and with y along
+// the second.
 SampledPsf Spread(const SampledPsf& half, const Taps& x, const Taps& y) {
   const int inner = 2 * half.radius(), radius = inner + x.radius();
   SampledPsf rows(radius), result(radius);
@@ -50,7 +51,8 @@ SampledPsf Spread(const SampledPsf& half, const Taps& x, const Taps& y) {
   return result;
 }
 
-// G_U(z) G_D(+-z) along one axis. G_U's gain of 2 makes up for the zeros of upsampling.
+// Returns G_U(z) G_D(+-z) along one axis. The gain of 2 of G_U compensates for the zeros of
+// upsampling.
 Taps AxisFilter(double beta_down, bool alias) {
   const Taps down = HalfBand(beta_down);
   Taps up = HalfBand(kBetaUp);
@@ -65,14 +67,14 @@ SampledPsf Subsampled(const SampledPsf& half, double beta_down, Alias alias) {
                 AxisFilter(beta_down, alias == Alias::kY || alias == Alias::kBoth));
 }
 
-// An impulse at `place`, down to the layer: taps at n stand for the layer's pixel n.
+// Returns an impulse at `place` filtered down to the layer. Tap n is pixel n of the layer.
 Taps LayersDown(int place, int layer, double beta_down) {
   Taps line(0);
   line.at(0) = 1;
-  int origin = place;  // of line(0) in the pixels of its layer
+  int origin = place;  // position of line(0) in the pixels of its layer
   for (int k = 0; k < layer; ++k) {
     const Taps filtered = Convolve(line, HalfBand(beta_down));
-    Taps kept(filtered.radius());  // room enough
+    Taps kept(filtered.radius());  // larger than needed
     for (int n = -filtered.radius(); n <= filtered.radius(); ++n) {
       if ((n + origin) % 2 == 0) kept.at((n + origin) / 2) = filtered(n);
     }
@@ -95,8 +97,8 @@ Taps LayersUp(int layer) {
   return filter;
 }
 
-// sum over s of f(n + s) f(n + t) along the places of a layer's pixels: what their upsampled
-// responses have in common.
+// Returns the sum over n of f(n) f(n + k step) for each k. It is the correlation of the upsampled
+// responses of two pixels of a layer that are k pixels apart.
 Taps Correlation(const Taps& filter, int step) {
   Taps result(2 * filter.radius() / step);
   for (int k = -result.radius(); k <= result.radius(); ++k) {
@@ -123,7 +125,7 @@ SampledPsf ConvolveAxes(const SampledPsf& psf, const Taps& x, const Taps& y) {
   return result;
 }
 
-// The error (10) at theta and the beta that makes it least.
+// Returns the smallest error (10) at theta, and the beta that gives it.
 double LeastError(double r, double theta, double* beta) {
   const SampledPsf ideal = IdealPsf(r, theta), half = IdealPsf(r / 2, theta);
   const auto error = [&](double b) {
@@ -150,7 +152,7 @@ SampledPsf ThroughLayer(const SampledPsf& half, double beta_down) {
 double LayerAliasing(const SampledPsf& psf, int layer, double beta_down) {
   const int places = 1 << layer;
   const Taps common = Correlation(LayersUp(layer), places);
-  double mean = 0;  // of the responses' squares
+  double mean = 0;  // mean of the squared responses
   for (int a = 0; a < places; ++a) {
     for (int b = 0; b < places; ++b) {
       const SampledPsf blurred =
@@ -198,14 +200,14 @@ Optimum Optimise(double r) {
 
 Optimum OptimiseOnGrid(double r) {
   Filters best = {0, 0};
-  double least = 1;  // more than any PSF of unit sum is wrong by
+  double least = 1;  // larger than the error of any PSF with a sum of 1
   const int first = static_cast<int>(std::round(kLowestTheta / kThetaStep));
   const int last = static_cast<int>(std::round(kHighestTheta / kThetaStep));
   for (int k = first; k <= last; ++k) {
     const double theta = k * kThetaStep;
     double beta = 0;
     LeastError(r, theta, &beta);
-    // The error has one minimum in beta, so that the best step lies beside it.
+    // The error has a single minimum in beta, so the best step is next to it.
     for (const double step : {std::floor(beta / kBetaStep), std::ceil(beta / kBetaStep)}) {
       const Filters filters = {step * kBetaStep, theta};
       const double error = SubsampledError(r, filters);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The PSF of refocusing by rendered views (5)-(7): the paper's with the triangular h, and that
-// of subapertures.
+// The PSFs of refocusing by rendered views (5)-(7): the paper's with the triangular h, and that of
+// subapertures.
 #ifndef STARFOCUS_LIB_ANALYSIS_VIEW_KERNEL_H_
 #define STARFOCUS_LIB_ANALYSIS_VIEW_KERNEL_H_
 
@@ -10,26 +10,26 @@
 
 namespace starfocus::analysis {
 
-// A box of width L > 0 integrated over a pixel, at distance t from the pixel's centre. L = 1 is the
-// triangular h; L -> 0 the nearest pixel.
+// Returns a box of `width` > 0 integrated over a pixel, at distance t from the pixel's centre. A
+// width of 1 gives the triangular h, a width near 0 the nearest pixel.
 double Trapezoid(double t, double width);
 
-// Whether the views with u^2 + v^2 = 1 exactly are rendered. (3) includes them.
+// Selects whether views with u^2 + v^2 = 1 are rendered. (3) includes them.
 enum class Rim { kIncluded, kExcluded };
 
-// (5)-(7) for N views along the aperture radius, N >= 1, with h(x, y) the trapezoid of `width`
-// along either axis.
+// Returns the PSF (5)-(7) for N views along the aperture radius, N >= 1, where h(x, y) is the
+// trapezoid of `width` along either axis.
 SampledPsf ViewPsf(double r, int n, double theta, double width, Rim rim = Rim::kIncluded);
 
 // Returns the PSF with the triangular h of the paper.
 SampledPsf PaperPsf(double r, int n, double theta, Rim rim = Rim::kIncluded);
 
-// What of the light of a lens goes through the subaperture around each of its views (i, j).
+// Share of the light of a lens that passes through the subaperture around each of its views (i, j).
 class SubapertureLights {
  public:
-  // The lens of N views along the radius, as wide as LensInSubapertures says.
+  // Makes the lens of N views along the radius, as wide as LensInSubapertures computes.
   SubapertureLights(int n, double theta);
-  // A lens `lens` / kSubapertureUnits subapertures wide, > 0.
+  // Returns a lens `lens` / kSubapertureUnits subapertures wide, > 0.
   static SubapertureLights OfLens(int lens, double theta) { return {theta, lens}; }
 
   int lens() const { return lens_; }
@@ -43,15 +43,15 @@ class SubapertureLights {
   std::vector<double> lights_;  // of 0 <= j <= i
 };
 
-// Each view stands for its subaperture: h is as wide as a pixel moves from view to
-// view. N = 0 is the centre view alone: the unit impulse.
+// Returns the PSF of views that stand for their subapertures: h is as wide as the distance that a
+// pixel moves from view to view. N = 0 is the centre view alone, the unit impulse.
 SampledPsf SubaperturePsf(double r, const SubapertureLights& lights);
 SampledPsf SubaperturePsf(double r, int n, double theta);
 
-// The paper's PSF with the 1D aperture, whose views are |i| <= N.
+// Returns the paper's PSF with the 1D aperture, whose views are |i| <= N.
 Taps PaperPsf1(double r, int n, double theta);
 
-// a_{d,N}[i] of (5) for the 1D aperture.
+// Returns a_{d,N}[i] of (5) for the 1D aperture.
 Taps SampledAperture1(int n, double theta);
 
 }  // namespace starfocus::analysis
