@@ -56,8 +56,8 @@ int32_t MeanSquare(const ApertureShape& opening);
 // most 2^14.
 bool LetsThrough(const ApertureShape& opening, int64_t x, int64_t y, int64_t radius);
 
-// Returns true only if a polygon lets no light through the square of points that are at most `half`
-// away from (x, y) horizontally and vertically. May return false for a dark square.
+// Returns true only if a polygon lets no light through the square with centre (x, y) and side
+// 2 * half. May return false for a dark square.
 bool IsDark(const ApertureShape& opening, int64_t x, int64_t y, int64_t half, int64_t radius);
 
 // Centre of the rim behind the lens as seen from a part of the picture: kOpeningBits.

@@ -2,49 +2,49 @@
 // Scale, range and headroom of every fixed-point value of the engine.
 //
 // clang-format off
-// | value                | type   | scale   | range                     | headroom                  |
-// |----------------------|--------|---------|---------------------------|---------------------------|
-// | disparity d          | int16  | 2^6     | +-500 px per unit u       | 2.3 % below +-511.98      |
-// | focus d_t            | int32  | 2^6     | +-10^6 px per unit u      | 33 x                      |
-// | place (u, v) of views | int16  | 2^14    | [-1, 1]                   | 1 below 2 x               |
-// | step u_t / 2^L       | int64  | 2^24    | (0, 1]                    | only in products below    |
-// | step * (d - d_t)     | int64  | 2^30    | blur radius, +-134 px     | 2^26 x                    |
-// | shift s              | int32  | 2^8     | +-134 px                  | 2^16 x                    |
-// | blur radius of cells | uint16 | 2^6     | [0, 129] px               | 7.9 x                     |
-// | reach of cells       | int16  | 1       | [-8, 131] px              | 250 x                     |
-// | subaperture r / N    | int32  | 2^8     | [0, 1], clamped           | -                         |
-// | interpolation weight | int32  | 2^14    | [0, 1/2]                  | -                         |
-// | light                | int16  | 2^7     | [0, 255]: white is 32640  | 0.4 % below 2^15          |
-// | colour of a slice    | int16  | 2^7     | [0, 255], times coverage  | 0.4 % below 2^15          |
-// | coverage of a slice  | int16  | 2^15    | [0, 1]; 1 is 32767        | saturates                 |
-// | wide subaperture     | int32  | 2^8     | (1, 7], clamped           | -                         |
-// | parts of wide ones   | int16  | 2^15    | [-1, 0], one together     | none: 16 bits hold -1     |
-// | sum / coverage       | uint64 | 2^48    | 2^32 sums, 2^32 inverses  | none: colours <= coverage |
-// | weight of a view     | int16  | varies  | [0, 14500]                | 13 % below 2^14           |
-// | sums of a column     | uint16 | 2^8     | weights: 58000; 1/9 more  | 1 % below 2^16            |
-// | sums of slices       | uint32 | 2^8     | 58000 a column, N <= 41   | 800 x                     |
-// | mean of disc pixels  | uint16 | 2^7     | [0, 255], of two or four  | signed 16-bit multiplies  |
-// | their weight         | uint16 | 2^k     | [0, 32767], k <= 17       | signed 16-bit multiplies  |
-// | radius on a slope    | int32  | 2^10    | +-60 px, +-130 px beside  | 2^13 x                    |
-// | share of a kernel    | int16  | 2^15    | [0, 1); 1 is 32767        | saturates                 |
-// | half move of a slope | int16  | 2^15    | (-1, 1) px, clamped       | none                      |
-// | beyond mixed rows    | int16  | 2^6     | [-255, 510]               | 0.4 % below 511.98        |
-// | aperture weight      | uint16 | 2^k     | [0, 32767], k <= 17       | signed 16-bit multiplies  |
-// | of subapertures      | uint16 | 2^k     | [0, 32767], k <= 24       | signed 16-bit multiplies  |
-// | blur kernel weight   | uint16 | 2^k     | [0, 32767], k <= 17       | signed 16-bit multiplies  |
-// | accumulator          | uint32 | 2^(7+k) | [0, 255], k <= 17         | 0.4 % below 2^32          |
-// | layer sample         | int16  | 2^6     | [0, 255]                  | 2 x                       |
-// | two layer samples    | int16  | 2^6     | [0, 510]                  | 0.4 % below 511.98        |
-// | filtered along x     | int16  | 2^6     | [-39, 294]                | 74 % below 511            |
-// | sum of filter taps   | int32  | 2^20    | [-100, 410]: twice 1.33   | 5 x                       |
-// | upsampled along y    | int16  | 2^6     | [-43, 298]                | 71 % below 511            |
-// | hole's position      | int32  | 2^8     | +-66300 px                | 126 x                     |
-// | hole, layer 0        | int32  | 2^23    | [0, 255]                  | 0.4 % below 2^31          |
-// | hole, layer L        | int32  | 2^(7+4L)| [0, 255], L <= 2          | 2^8 x                     |
-// | share of a mixture   | int32  | 2^14    | [0, 4/5], four of a pixel | 1.6 x in its dividend      |
-// | share * light        | int32  | 2^21    | [0, 204], four of a pixel | 1.2 x in the sum of four  |
-// | mean colour of a cell | uint16 | 2^6    | [0, 255]                  | 4 x                       |
-// | squared differences  | int32  | 2^12    | [0, 195075], of three     | 2.6 x                     |
+// | value                   | type   | scale    | range                     | headroom                  |
+// |-------------------------|--------|----------|---------------------------|---------------------------|
+// | disparity d             | int16  | 2^6      | +-500 px per unit u       | 2.3 % below +-511.98      |
+// | focus d_t               | int32  | 2^6      | +-10^6 px per unit u      | 33 x                      |
+// | view position (u, v)    | int16  | 2^14     | [-1, 1]                   | 1 below 2 x               |
+// | step u_t / 2^L          | int64  | 2^24     | (0, 1]                    | only in products below    |
+// | step * (d - d_t)        | int64  | 2^30     | blur radius, +-134 px     | 2^26 x                    |
+// | shift s                 | int32  | 2^8      | +-134 px                  | 2^16 x                    |
+// | blur radius of cells    | uint16 | 2^6      | [0, 129] px               | 7.9 x                     |
+// | reach of cells          | int16  | 1        | [-8, 131] px              | 250 x                     |
+// | subaperture r / N       | int32  | 2^8      | [0, 1], clamped           | -                         |
+// | interpolation weight    | int32  | 2^14     | [0, 1/2]                  | -                         |
+// | light                   | int16  | 2^7      | [0, 255]: white is 32640  | 0.4 % below 2^15          |
+// | colour of a slice       | int16  | 2^7      | [0, 255], times coverage  | 0.4 % below 2^15          |
+// | coverage of a slice     | int16  | 2^15     | [0, 1]; 1 is 32767        | saturates                 |
+// | wide subaperture        | int32  | 2^8      | (1, 7], clamped           | -                         |
+// | wide subaperture part   | int16  | 2^15     | [-1, 0], their sum is -1  | none: 16 bits hold -1     |
+// | sum / coverage          | uint64 | 2^48     | 2^32 sums, 2^32 inverses  | none: colours <= coverage |
+// | weight of a view        | int16  | varies   | [0, 14500]                | 13 % below 2^14           |
+// | sum of a view column    | uint16 | 2^8      | weights: 58000; 1/9 more  | 1 % below 2^16            |
+// | sum of all slices       | uint32 | 2^8      | 58000 a column, N <= 41   | 800 x                     |
+// | mirrored pixels, mean   | uint16 | 2^7      | [0, 255], of two or four  | signed 16-bit multiplies  |
+// | mirrored pixels, weight | uint16 | 2^k      | [0, 32767], k <= 17       | signed 16-bit multiplies  |
+// | radius on a slope       | int32  | 2^10     | +-60 px, +-130 px around  | 2^13 x                    |
+// | share of larger PSF     | int16  | 2^15     | [0, 1); 1 is 32767        | saturates                 |
+// | half move of a slope    | int16  | 2^15     | (-1, 1) px, clamped       | none                      |
+// | mixed row, extended     | int16  | 2^6      | [-255, 510]               | 0.4 % below 511.98        |
+// | aperture weight         | uint16 | 2^k      | [0, 32767], k <= 17       | signed 16-bit multiplies  |
+// | subaperture weight      | uint16 | 2^k      | [0, 32767], k <= 24       | signed 16-bit multiplies  |
+// | PSF weight              | uint16 | 2^k      | [0, 32767], k <= 17       | signed 16-bit multiplies  |
+// | accumulator             | uint32 | 2^(7+k)  | [0, 255], k <= 17         | 0.4 % below 2^32          |
+// | layer sample            | int16  | 2^6      | [0, 255]                  | 2 x                       |
+// | two layer samples       | int16  | 2^6      | [0, 510]                  | 0.4 % below 511.98        |
+// | filtered along x        | int16  | 2^6      | [-39, 294]                | 74 % below 511            |
+// | sum of filter taps      | int32  | 2^20     | [-100, 410]: twice 1.33   | 5 x                       |
+// | upsampled along y       | int16  | 2^6      | [-43, 298]                | 71 % below 511            |
+// | position of a hole      | int32  | 2^8      | +-66300 px                | 126 x                     |
+// | hole sum, layer 0       | int32  | 2^23     | [0, 255]                  | 0.4 % below 2^31          |
+// | hole sum, layer L       | int32  | 2^(7+4L) | [0, 255], L <= 2          | 2^8 x                     |
+// | share of a mixture      | int32  | 2^14     | [0, 4/5], four of a pixel | 1.6 x in its dividend     |
+// | share * light           | int32  | 2^21     | [0, 204], four of a pixel | 1.2 x in the sum of four  |
+// | mean colour of a cell   | uint16 | 2^6      | [0, 255]                  | 4 x                       |
+// | squared differences     | int32  | 2^12     | [0, 195075], of three     | 2.6 x                     |
 // clang-format on
 //
 // Rounding: Round* rounds half up; a plain shift truncates towards minus infinity.

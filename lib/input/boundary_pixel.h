@@ -57,8 +57,8 @@ Mixture FindMixture(const CentreView& centre, const BoundaryPixel& pixel);
 
 // Returns the share of `near` in a pixel of layer 1 or 2, kShareBits. Filtered pixels differ by
 // rounding, so the share fades to 0 at the limits of FindMixture instead of stopping abruptly. It
-// fades below twice the smallest contrast, between one and two times the largest distance from the
-// line between both colours, and from 4/5 to 1.
+// fades below twice the smallest contrast, and for shares from 4/5 to 1. It also fades between one
+// and two times the largest distance from the line between both colours.
 int32_t FadedShareOf(const Colour& near, const Colour& far, const Colour& mixed);
 
 // Calls visit(column, row) for the pixels of a field that are farther than one of their four

@@ -13,8 +13,8 @@ constexpr int32_t kShareOne = 1 << kShareBits;
 constexpr int32_t kSharp = 2 * kShiftOne;
 
 // Returns the part of the near surface to remove from the pixel, kShiftBits; negative values count
-// as 0. It is 1 if the near blur radius is at least one pixel larger than the far one, and the far
-// one is at most kSharp.
+// as 0. It is 1 if the near blur radius exceeds the far one by at least one pixel, and the far one
+// is at most kSharp.
 int32_t StrengthOf(int32_t near_radius, int32_t far_radius) {
   return Min(Min(near_radius - far_radius, kSharp + kShiftOne - far_radius), kShiftOne);
 }

@@ -15,8 +15,8 @@ namespace starfocus {
 
 inline constexpr int32_t kCellSize = 8;
 
-// Statistics for the timing model of line scans in a cell or block at layer 0, along rows or along
-// columns, in units of 1 / kContentOne. Each step between neighbouring pixels counts.
+// Content of a cell or block at layer 0, for the timing model of line scans. It is counted along
+// rows or along columns, in units of 1 / kContentOne. Each step between neighbouring pixels counts.
 inline constexpr int32_t kContentOne = 16;
 struct Content {
   uint32_t slopes;  // runs started by steps within a surface; a fraction if several steps start one
