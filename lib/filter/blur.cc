@@ -12,17 +12,18 @@ namespace {
 constexpr int32_t kOne = 1 << kDisparityBits;
 constexpr int32_t kFineSteps = 8;     // per pixel
 constexpr int32_t kFineEnd = 4;       // pixels
-constexpr int32_t kCoarseSteps = 32;  // per octave's start
+constexpr int32_t kCoarseSteps = 32;  // per octave of radii
 double Smaller(double a, double b) { return a < b ? a : b; }
 double Larger(double a, double b) { return a > b ? a : b; }
 
-// Lines of a pixel, and points of a line, that integrate (4). Kernels of few pixels have more.
+// Lines per pixel, and points per line, for the integral of (4). PSFs of few pixels have more
+// lines.
 constexpr int32_t LinesOf(int32_t radius) { return radius <= kFineEnd * kOne ? 16 : 8; }
 constexpr int32_t kPoints = 8;
-// An integral takes as long as so many samples of other work.
+// Cost of an integral, in samples of CancelToken::Spend.
 constexpr int32_t kIntegralSamples = 256;
 
-// The last pixel that a disc covers some of.
+// Returns the last pixel that a disc covers in part.
 int32_t SizeOf(int32_t radius) { return radius == 0 ? 0 : (radius + kOne / 2 - 1) / kOne; }
 
 size_t WeightsOf(bool full, int32_t size) {
@@ -34,8 +35,8 @@ struct Interval {
   double from, to;
 };
 
-// Returns the part of `x` where light comes through the polygon of radius r along the line at y:
-// between the zeros of a square for each edge, which bulges, or beyond the one of a straight edge.
+// Returns the part of `x` on the line at y where light passes through a polygon of radius r. For
+// each edge it lies between the zeros of a quadratic function, or on one side of a straight edge.
 Interval WithinPolygon(const ApertureShape& opening, double y, double r, Interval x) {
   constexpr double kUnit = 1.0 / kOpeningOne;
   const double square = opening.bulge * kUnit;
@@ -53,7 +54,7 @@ Interval WithinPolygon(const ApertureShape& opening, double y, double r, Interva
     const double discriminant = half * half - square * rest;
     if (discriminant <= 0) return {0, 0};
     const double root = std::sqrt(discriminant);
-    // Neither zero is the difference of two numbers that are alike.
+    // Avoids cancellation: neither zero is computed as the difference of two similar numbers.
     const double sum = half > 0 ? -half - root : -half + root;
     const double other = sum == 0 ? 0 : rest / sum, zero = sum / square;
     x.from = Larger(x.from, Smaller(zero, other));
@@ -62,11 +63,10 @@ Interval WithinPolygon(const ApertureShape& opening, double y, double r, Interva
   return x;
 }
 
-// Returns the integral of (3), or of an opening that is as bright everywhere, over the pixel (n,
-// m), relative, for a disc of radius r in pixels. It goes by the midpoint rule along `lines` lines
-// that end where the opening does: points of a square grid, each inside or outside, are wrong by up
-// to 1.6 gray levels where the aperture ends without having fallen off. The arithmetic and the
-// square root are IEEE's, and so the same everywhere.
+// Returns the relative integral over pixel (n, m) of (3), or of an evenly bright opening. r is the
+// radius of the disc in pixels. It uses the midpoint rule along `lines` lines that end at the edge
+// of the opening. A square grid of points inside or outside would be wrong by up to 1.6 gray levels
+// at sharp edges. Arithmetic and square root follow IEEE, so all machines compute the same result.
 template <starfocus_shape kShape>
 double DiscIntegral(int32_t n, int32_t m, double r, int32_t lines, const ApertureShape& opening) {
   const double square = r * r, fall_off = opening.fall_off / 65536.0;
@@ -89,8 +89,8 @@ double DiscIntegral(int32_t n, int32_t m, double r, int32_t lines, const Apertur
   return sum * (high - low) / lines;
 }
 
-// Returns that integral for a radius in 1 / kOne pixels. A polygon's edges may lie along the lines
-// and then end between two of them, so that it has four times as many.
+// Returns the integral for a radius in 1 / kOne pixels. The edges of a polygon may be parallel to
+// the lines and end between two of them, so polygons use four times as many lines.
 double PixelIntegral(int32_t n, int32_t m, int32_t radius, const ApertureShape& opening) {
   const double r = static_cast<double>(radius) / kOne;
   const int32_t lines = LinesOf(radius);
@@ -106,8 +106,9 @@ double PixelIntegral(int32_t n, int32_t m, int32_t radius, const ApertureShape& 
   return Larger(0, whole - DiscIntegral<STARFOCUS_SHAPE_DISC>(n, m, hole, lines, opening));
 }
 
-// Calls visit(n, m, how many pixels share the weight, integral of (4)) for the weights of a PSF
-// that are stored. Returns false if the call was cancelled.
+// Calls visit(n, m, points, integral) for the stored weights of a PSF. `points` is the number of
+// pixels that share the weight, and `integral` the integral of (4). Returns false after
+// cancellation.
 template <class Visit>
 bool ForEachWeight(int32_t radius, const ApertureShape& opening, CancelToken* cancel,
                    const Visit& visit) {
@@ -125,7 +126,7 @@ bool ForEachWeight(int32_t radius, const ApertureShape& opening, CancelToken* ca
   return true;
 }
 
-// Copies the extended rectangle and repeats the picture's edge around it.
+// Copies the extended rectangle, and repeats the edge of the picture around it.
 void LoadPixels(const BlurJob& job, int16_t* rgb) {
   const int32_t width = job.rect.width + 2 * job.border;
   const Window& window = *job.window;
@@ -140,8 +141,8 @@ void LoadPixels(const BlurJob& job, int16_t* rgb) {
   }
 }
 
-// Adds a PSF of `weight(n, m)` over `count` pixels of one radius; two weights side by side go in
-// one span.
+// Adds a PSF with weights `weight(n, m)` for `count` pixels of the same radius. Each span contains
+// two adjacent weights.
 template <class Weight>
 void AddRun(int32_t size, const Weight& weight, const int16_t* at, size_t stride, int32_t count,
             SpanList* list) {
@@ -157,7 +158,7 @@ void AddRun(int32_t size, const Weight& weight, const int16_t* at, size_t stride
   }
 }
 
-// Adds it turned by half a turn with `side` -1.
+// Adds a PSF to the list, rotated by half a turn if `side` is -1.
 void AddPsf(const Psf& psf, int32_t side, const int16_t* at, size_t stride, int32_t count,
             SpanList* list) {
   if (psf.full) {
@@ -171,8 +172,9 @@ void AddPsf(const Psf& psf, int32_t side, const int16_t* at, size_t stride, int3
   }
 }
 
-// Makes the PSF of a radius (kDisparityBits). Returns false if the call was cancelled. Every
-// orbit takes up the rounding of those before it and the last one the rest, as in MakeViewWeights.
+// Computes the PSF of a radius (kDisparityBits). Returns false after cancellation. Each orbit
+// absorbs the rounding error of the orbits before it, and the last one the remainder, as in
+// MakeViewWeights.
 bool MakePsf(int32_t radius, const ApertureShape& opening, CancelToken* cancel, uint16_t* weights,
              Psf* psf) {
   psf->size = SizeOf(radius);
@@ -183,7 +185,7 @@ bool MakePsf(int32_t radius, const ApertureShape& opening, CancelToken* cancel, 
     weights[0] = 1 << 14;
     return true;
   }
-  double total = 0, largest = 0;  // of pixels that simd::Disc weighs together
+  double total = 0, largest = 0;  // `largest`: over the pixels that simd::Disc weighs together
   const auto add = [&](int32_t n, int32_t m, int32_t points, double integral) {
     total += points * integral;
     const int32_t together = psf->full ? 1 : (n > 0 ? 2 : 1) * (m > 0 ? 2 : 1);
@@ -198,7 +200,7 @@ bool MakePsf(int32_t radius, const ApertureShape& opening, CancelToken* cancel, 
   int32_t given = 0;
   const auto give = [&](int32_t n, int32_t m, int32_t points, double integral) {
     wanted += points * integral;
-    // What is wanted of all comes from the same sum as the total.
+    // The last value of `wanted` equals `total` exactly, because both are the same sum.
     const auto target = wanted == total ? one : static_cast<int32_t>(wanted / total * one + 0.5);
     const auto weight =
         static_cast<int32_t>(ShareOfPoints(target - given, points, opening.IsRing()));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Depth-dependent image blurring of the centre view alone (the paper's [13], [14]): the classical
-// rival, each output pixel the ideal PSF (4) of its own blur radius.
+// Depth-dependent blur of the centre view alone (the paper's [13], [14]), for comparison with
+// views. Each output pixel is the mean of its neighbours, weighted by the ideal PSF (4) of its blur
+// radius. Gathering uses the same PSFs.
 #ifndef STARFOCUS_LIB_FILTER_BLUR_H_
 #define STARFOCUS_LIB_FILTER_BLUR_H_
 
@@ -17,22 +18,24 @@
 
 namespace starfocus {
 
-// Kernels of a ladder of radii: steps of 1/8 px up to 4 px, of 1/32 of the radius beyond.
-int32_t BlurStep(int32_t radius);  // of a radius with kDisparityBits
+// Steps of the radii for which PSFs exist: 1/8 px up to 4 px, and 1/32 of the radius beyond. Radii
+// have kDisparityBits fractional bits.
+int32_t BlurStep(int32_t radius);  // radius: kDisparityBits
 int32_t BlurStepCount(double max_blur);
 int32_t RadiusOfStep(int32_t step);  // kDisparityBits
-// The steps of the largest radius that is not larger, and of the smallest that is not smaller.
+// Return the step of the largest radius that does not exceed `radius`, and of the smallest radius
+// that is not less.
 int32_t BlurStepBelow(int32_t radius);
 int32_t BlurStepAbove(int32_t radius);
 
-// The octant 0 <= m <= n of one PSF, or, when `full`, all of it; weights sum to exactly
-// 2^sum_bits over the plane, and those of an octant that four pixels share, or two on an axis, fit
-// 15 bits together. What is farther than the focus sees it turned by half a turn.
+// A PSF: the octant 0 <= m <= n, or all weights if `full`. The weights of the plane sum to exactly
+// 2^sum_bits. In an octant, the equal weights of four mirrored pixels, or of two on an axis, have a
+// sum of at most 15 bits. Pixels farther than the focus use the PSF rotated by half a turn.
 struct Psf {
-  int32_t size;  // n of the outermost weights
+  int32_t size;  // largest n with a weight
   int sum_bits;
   bool full;
-  const uint16_t* weights;  // at n (n + 1) / 2 + m, or rows m one after the other
+  const uint16_t* weights;  // octant: index n (n + 1) / 2 + m; full: row by row
 
   uint32_t Weight(int32_t n, int32_t m) const {
     return full ? weights[(m + size) * (2 * size + 1) + n + size] : OctantWeight(n, m);
@@ -43,12 +46,12 @@ struct Psf {
   }
 };
 
-// Weights that all kernels up to max_blur store together, of an octant or full.
+// Returns the number of weights of all PSFs up to max_blur, of an octant or full.
 size_t BlurWeightCount(bool full, double max_blur);
 
-// Makes the kernels of steps [first, last), first <= last, behind those before, which must have
-// been made; kernels[BlurStepCount], weights[BlurWeightCount]. Cat's eyes are left out. Returns
-// `last`, or the step at which the call was cancelled (a null token never cancels).
+// Computes the PSFs of steps [first, last), first <= last. Earlier PSFs must exist. The
+// arrays have room for kernels[BlurStepCount] and weights[BlurWeightCount]. Cat's eyes are ignored.
+// Returns `last`, or the step at which the call was cancelled. A null token never cancels.
 int32_t MakePsfs(int32_t first, int32_t last, const ApertureShape& opening, CancelToken* cancel,
                  uint16_t* weights, Psf* kernels);
 
@@ -59,17 +62,17 @@ struct BlurJob {
   const simd::Kernels* kernels;
   Rect rect;
   int32_t border;       // largest PSF size in the picture
-  ExcessSum excess;     // with a factor the window's excess is added to `out`
-  CancelToken* cancel;  // once it ends, `out` is left half made
+  ExcessSum excess;     // factor > 0: the excess of the window is added to `out`
+  CancelToken* cancel;  // after cancellation `out` is incomplete
 };
 
 struct BlurScratch {
   int16_t* rgb;            // light of the extended rectangle, rows packed
-  uint32_t* accumulators;  // 3 * rect.width
+  uint32_t* accumulators;  // 3 * rect.width sums
   SpanMemory spans;
 };
 
-// Blurs job.rect into `out`, whose first row is the rectangle's.
+// Blurs job.rect into `out`, which starts at the first pixel of the rectangle.
 void BlurRectangle(const BlurJob& job, const BlurScratch& scratch, uint8_t* out, size_t out_stride);
 
 }  // namespace starfocus

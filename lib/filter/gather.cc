@@ -10,11 +10,12 @@
 namespace starfocus {
 namespace {
 
-// Cells side by side on a slope that are filtered together, if they have the same two kernels.
+// Largest number of adjacent cells on a slope that are filtered together; they have the same PSFs.
 constexpr int32_t kSlopeCells = 4;
 
-// What is kept of such cells: rows of kStride samples of those that are filtered together, of kCell
-// of one of them, with a pixel on each side; and what kernels read beyond.
+// Intermediate rows of such cells. Rows of all cells have kStride samples, and rows of a single
+// cell have kCell, with one pixel on each side. Both include the samples that kernels read beyond
+// the end.
 struct SlopeRows {
   static constexpr size_t kPixel = 3;
   static constexpr size_t kStride =
@@ -22,7 +23,7 @@ struct SlopeRows {
   static constexpr size_t kCell = simd::SliceSamples(3 * kCellSize) + simd::kSliceLanes;
   int16_t less[kCellSize * kStride] = {}, more[kCellSize * kStride] = {};
   int16_t share[kCellSize * kCell] = {};
-  int16_t mixed[(kCellSize + 2) * kCell] = {};  // from a row above on
+  int16_t mixed[(kCellSize + 2) * kCell] = {};  // from one row above the cell on
   int16_t moved[kCellSize * kCell] = {};
 
   int16_t* Mixed(int32_t row) { return mixed + static_cast<size_t>(row + 1) * kCell + kPixel; }
@@ -37,7 +38,7 @@ class Gather {
         field_(field),
         out_(out) {}
 
-  // Finds the kernels of all cells, and loads what they read.
+  // Chooses the PSFs of all cells, and loads the pixels that they read.
   void Load() {
     int32_t left = INT32_MAX, top = INT32_MAX, right = INT32_MIN, bottom = INT32_MIN;
     for (int32_t y = block_.y; y < Bottom(); y += kCellSize) {
@@ -66,15 +67,15 @@ class Gather {
   uint64_t pixels() const { return pixels_; }
 
  private:
-  // The kernels of the least and of the largest radius of a cell, in bytes, since those of all
-  // cells of a block lie on the stack.
+  // Steps of the PSFs for the smallest and largest radius of a cell. They are bytes because those
+  // of all cells of a block are on the stack.
   struct Steps {
     int8_t less, more;
   };
   static_assert(kMaxGather <= 31, "step 127 is that of 31.5 pixels");
-  static constexpr Steps kNone = {-1, -1};  // of cells that are not gathered
+  static constexpr Steps kNone = {-1, -1};  // for cells that are not gathered
 
-  // Filters the row of cells at y; those side by side that have the same kernels go together.
+  // Filters the row of cells at y. Adjacent cells with the same PSFs are filtered together.
   void FilterRow(int32_t y) {
     for (int32_t x = block_.x; x < Right();) {
       const int32_t first = x;
@@ -87,7 +88,7 @@ class Gather {
     }
   }
 
-  // Returns false if the call was cancelled.
+  // Returns false after cancellation.
   bool Spend(const Psf& psf, const Rect& part) const {
     const int64_t points = (2 * psf.size + 1) * (2 * psf.size + 1);
     return GoesOn(job_.cancel, 3 * points * part.width * part.height);
@@ -99,13 +100,13 @@ class Gather {
             3 * static_cast<size_t>(part.width)};
   }
 
-  // Where a part goes, from the first sample of `out_` on.
+  // Returns the index of the first output sample of a part.
   size_t FirstOut(const Rect& part) const {
     return static_cast<size_t>(part.y - frame_.y) * out_.stride +
            3 * static_cast<size_t>(part.x - frame_.x);
   }
 
-  // The pixels of the layer that belong to the cells from `x` up to `end` of the row at y.
+  // Returns the pixels of the layer that belong to cells [x, end) of the row at y.
   Rect PixelsOf(int32_t x, int32_t end, int32_t y) const {
     Rect part = job_.cells.PixelsOf(x, y);
     const Rect last = job_.cells.PixelsOf(end - kCellSize, y);
@@ -113,8 +114,8 @@ class Gather {
     return part;
   }
 
-  // Filters flat cells from (x, y) on that have the same PSF. Returns where they end, or x if
-  // the call was cancelled.
+  // Filters adjacent flat cells with the same PSF, starting at (x, y). Returns the end of the
+  // cells, or x after cancellation.
   int32_t FilterFlat(int32_t x, int32_t y) {
     const Steps steps = At(x, y);
     int32_t end = x + kCellSize;
@@ -133,9 +134,9 @@ class Gather {
     return end;
   }
 
-  // Filters cells on a slope from (x, y) on that have the same two kernels: mixes the pictures of
-  // the least and of the largest one, pixel by pixel, and moves what that gives to where the views
-  // see it. Returns where the cells end, or x if the call was cancelled.
+  // Filters adjacent cells on a slope with the same two PSFs, starting at (x, y). It mixes the
+  // results of the smaller and the larger PSF pixel by pixel, and moves the mixture to its place in
+  // the mean of all views. Returns the end of the cells, or x after cancellation.
   int32_t FilterSlopes(int32_t x, int32_t y) {
     const Steps steps = At(x, y);
     const int32_t most = Min(Right(), x + kSlopeCells * kCellSize);
@@ -156,7 +157,7 @@ class Gather {
     return end;
   }
 
-  // Mixes the pixels of a cell, which begin at that sample of the filtered rows.
+  // Mixes the pixels of a cell. `first` is its first sample in the filtered rows.
   void Mix(const Slope& slope, const Steps& steps, const Rect& pixels, size_t first) {
     constexpr int kBits = kSlopeBits - kDisparityBits;
     const RadiusRange between = {RadiusOfStep(steps.less) << kBits, RadiusOfStep(steps.more)
@@ -170,7 +171,7 @@ class Gather {
     }
   }
 
-  // Sets the pixels around what is mixed so that the gradient at its rim is the one inside.
+  // Extrapolates the mixture by one pixel on each side, so that the gradient continues at its rim.
   void ContinueBeyond(int32_t height, size_t count) {
     const auto go_on = [](const int16_t* last, ptrdiff_t back) {
       return static_cast<int16_t>(2 * last[0] - last[back]);
@@ -192,7 +193,7 @@ class Gather {
     }
   }
 
-  // Moves what is mixed of a cell, and stores it.
+  // Moves the mixture of a cell and stores it.
   void Move(const simd::HalfMove& move, const Rect& pixels) {
     const size_t count = 3 * static_cast<size_t>(pixels.width);
     const auto rows = static_cast<size_t>(pixels.height);
@@ -215,8 +216,7 @@ class Gather {
     return Slope(*job_.grid, job_.scale, x / kCellSize, y / kCellSize, job_.cells.layer);
   }
 
-  // Returns the kernels of a cell that is gathered: the one of its middle, or the two that a cell
-  // on a slope is mixed of.
+  // Returns the PSFs of a gathered cell: the PSF of its middle, or the two PSFs to mix on a slope.
   Steps StepsOf(int32_t x, int32_t y) const {
     if (job_.cells.IsFlat(x, y)) {
       const Cell& cell = *job_.grid->At(x / kCellSize, y / kCellSize);
@@ -249,12 +249,12 @@ class Gather {
   const GatherJob& job_;
   const Rect& block_;  // in the picture
   const Rect frame_;   // at the layer
-  Rect loaded_ = {};   // of the layer: what cells are gathered of
+  Rect loaded_ = {};   // pixels of the layer that cells are gathered from
   BlockPixels* field_;
   const Gathered& out_;
-  int32_t border_ = 0;  // of the field around it: as far as any PSF reaches
+  int32_t border_ = 0;  // border of the field: the largest PSF size
   uint64_t pixels_ = 0;
-  Steps steps_[kMaxRowCells * kMaxRowCells];  // of the block's cells
+  Steps steps_[kMaxRowCells * kMaxRowCells];  // for the cells of the block
   SlopeRows rows_;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// 8x8 cells of one surface: every pixel gathered from the centre view with the ideal PSF (4) of
-// the blur around it. Where disparity hardly changes as far as the blur reaches, that is what all
-// views of the aperture together show.
+// Gathers 8x8 cells of a single surface: each pixel is the mean of its neighbours in the centre
+// view, weighted by the ideal PSF (4) of its blur. If disparity varies little within reach of the
+// blur, this equals the mean of all views of the aperture.
 #ifndef STARFOCUS_LIB_FILTER_GATHER_H_
 #define STARFOCUS_LIB_FILTER_GATHER_H_
 
@@ -20,33 +20,33 @@ namespace starfocus {
 
 static_assert(kMaxGather <= simd::kMaxDisc, "");
 
-// The kernels of a lens.
+// PSFs of a lens.
 struct GatherPsfs {
   const Psf* of_step;
   int32_t last_step;
-  int32_t mean_square;  // of the opening
+  int32_t mean_square;  // of the opening (MeanSquare)
 };
 
 struct GatherJob {
   const Window* window;  // at the layer of the cells
   const CellGrid* grid;
-  BlockCells cells;  // of a block, its corner a multiple of kCellSize
+  BlockCells cells;  // of a block whose corner is a multiple of kCellSize
   BlurScale scale;
   GatherPsfs blur;
   const simd::Kernels* kernels;
-  CancelToken* cancel;  // once it ends, what is gathered into is left half made
+  CancelToken* cancel;  // after cancellation the output is incomplete
 };
 
-// What is gathered into, from the first pixel of the block's LayerFrame on: codes at layer 0,
-// samples of kLayerBits at the others.
+// Output, starting at the first pixel of the block's LayerFrame: codes at layer 0, samples with
+// kLayerBits at other layers.
 struct Gathered {
   uint8_t* codes;
   int16_t* samples;
-  size_t stride;  // from row to row
+  size_t stride;  // samples from row to row
 };
 
-// Gathers the cells of a block that are to be; `field` has room for its LayerFrame and a border of
-// kMaxGather pixels. Returns their pixels in the picture.
+// Gathers the cells of a block that GatherMap selects. `field` has room for the LayerFrame of the
+// block and a border of kMaxGather pixels. Returns the number of gathered pixels of the picture.
 uint64_t GatherCells(const GatherJob& job, BlockPixels* field, const Gathered& out);
 
 }  // namespace starfocus
