@@ -61,7 +61,8 @@ inline void FindEdges(const EdgeRows& rows, const EdgeLimits& limits, size_t cou
   }
 }
 
-// Edges that are looked behind: the next edge on each side, and the edge behind its far side.
+// Number of edges that LookBehind evaluates: the next edge on each side, and the edge behind its
+// far side.
 inline constexpr int kEdges = 8;
 
 // Surfaces that edges show behind a group of pixels. Edge k, on side k % 4, is set if bit k of

@@ -157,9 +157,9 @@ uint64_t FindCopies(const int16_t* row, ptrdiff_t stride, size_t count, const Co
 // The second one is chosen in the same way from the surfaces that differ from the first by more
 // than 2^unit_bits.
 //
-// A view shows the place behind a pixel if no pixel of the ViewLook covers it. A pixel covers it
-// under two conditions: it is nearer by more than half of the view's unit, and it moves, in that
-// view, to less than 3/4 of a pixel from the place.
+// A view shows the place behind a pixel if no pixel of the ViewLook covers it. A pixel covers it if
+// two conditions hold. The pixel is nearer by more than half of the view's unit. In that view, it
+// moves to less than 3/4 of a pixel from the place.
 //
 // Returns the groups of kSliceLanes that have hidden surfaces, the first in bit 0. In other groups
 // `source` and `found` are unspecified.

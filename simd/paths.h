@@ -33,7 +33,7 @@ struct PathRow {
   const uint8_t* cost;  // [0, 255]; anything in elements that are no label
   // paths of the previous pixels, [0, 1300]; may be `path` itself, one pixel earlier
   const int16_t* before;
-  const int16_t* before_least;  // smallest cost of each of those
+  const int16_t* before_least;  // smallest cost of each of these paths
   const int16_t* jump;          // largest cost of any other disparity, [kSlopeCost, 1000]
   int16_t* path;                // output: paths
   int16_t* least;               // output: smallest cost of each pixel's path

@@ -12,8 +12,8 @@
 
 namespace starfocus::simd {
 
-// Cost of a label that an adjacent pixel has, of one that a diagonally adjacent pixel has, and of
-// one that no pixel within 8 pixels has.
+// Cost of a label that an adjacent or a diagonally adjacent pixel has, and of a label that no pixel
+// within 8 pixels has.
 inline constexpr uint8_t kBesideCost = 3, kDiagonalCost = 4, kMostPrior = 24;
 
 // A row of pixels with `places` labels each, a multiple of kSliceLanes. Pixel k is k * step pixels
@@ -28,8 +28,9 @@ struct PriorRow {
 
 namespace reference {
 
-// Reduces the prior of each pixel, in order. It becomes at most the prior of the previous pixel, or
-// of one of the three adjacent pixels in the previous row, plus the cost of the step from there.
+// Reduces the prior of each pixel, in order. The sources are the previous pixel and the three
+// adjacent pixels in the previous row. The result is at most the prior of each source plus the cost
+// of the step from there.
 void SpreadPrior(const PriorRow& row);
 
 // Sets cost[n] to cost[n] + prior[n], at most 255, for n < count, a multiple of kSliceLanes.

@@ -8,7 +8,7 @@
 
 namespace starfocus {
 
-// Sets `ragged` of those of the tiles [first, last) of a row that have enough edges for thin
+// Sets `ragged` of the tiles [first, last) of a row: true if a tile has enough edges for thin
 // structure. If coverage is given, one edge is enough.
 void FindRagged(const CoverageInput& in, int32_t first, int32_t last, int32_t row);
 

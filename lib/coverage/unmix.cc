@@ -20,8 +20,8 @@ constexpr int32_t kSquareOne = 1 << (2 * kColourBits);
 // Smallest squared distance between near and far colours that allows alpha to be computed.
 constexpr int32_t kLeastContrast = 300 * kSquareOne;
 // Noise term of the trust in a mixed colour. Let s^2 be kNoise plus a sixteenth of the squared
-// contrast. A colour is fully trusted up to a distance of s / 2 from the line between the near and
-// far colours, and ignored from 3 s / 2 on.
+// contrast. The trust depends on the distance from the line between the near and far colours. It is
+// full up to s / 2, and 0 from 3 s / 2 on.
 constexpr int32_t kNoise = 81 * kSquareOne;
 // Smallest sum of near weights around a pixel, in units of 2^-15.
 constexpr int32_t kLeastNear = 32;

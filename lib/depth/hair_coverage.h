@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds the coverage of hair whose outline a map has closed, as maps of monocular networks have.
-// Pyramids extend the pure colours of foreground and background to each pixel near an outline; the
+// Pyramids extend the pure colours of foreground and background to each pixel near an outline. The
 // coverage is the position of the pixel's colour between the two. Called by RepairByColour.
 #ifndef STARFOCUS_LIB_DEPTH_HAIR_COVERAGE_H_
 #define STARFOCUS_LIB_DEPTH_HAIR_COVERAGE_H_

@@ -17,7 +17,7 @@ inline constexpr int32_t kMajorityReach = 2, kMajorityStep = 2 * kSurfaceStep;
 inline constexpr int32_t kMostMajority = 32;
 
 // Writes the disparities of a row of pixels. A pixel keeps its own disparity unless more pixels of
-// its colour belong to the other surface; then it gets the mean of that surface around it.
+// its colour belong to the other surface. In that case it gets the mean of that surface around it.
 void TakeMajority(const ColourMap& map, const Rect& row, int16_t* disparity);
 
 }  // namespace starfocus

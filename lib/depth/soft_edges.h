@@ -17,8 +17,8 @@ inline constexpr int32_t kMostSoft = 3;
 // Smallest step of disparity of an edge.
 inline constexpr int32_t kSoftStep = 5 << kDisparityBits;
 
-// Number of edges of a tile at which a profile was taken. mixed[k] counts those at which the pixel
-// k + 1 pixels beyond the first one of the farther surface still shows some of the nearer surface.
+// Number of edges of a tile at which a profile was taken. The pixel k + 1 pixels beyond the first
+// one of the farther surface still shows some of the nearer surface at mixed[k] of these edges.
 struct SoftCount {
   int32_t edges;
   int32_t mixed[kMostSoft];

@@ -13,7 +13,7 @@
 
 namespace starfocus {
 
-// Pixels within this distance of one in doubt are swept. Trusted pixels farther away do not
+// Pixels within this distance of one in doubt are swept. Trusted pixels farther away hardly
 // influence a pixel's prior (simd::kMostPrior).
 inline constexpr int32_t kSweptRadius = 5;
 

@@ -9,8 +9,8 @@ namespace {
 // (docs/constants.md).
 constexpr uint32_t kLeastShare = 4;
 
-// Largest sum of the weights of a group of views. 16 bits leave headroom for a ninth more, by which
-// the share of the last light may be too large. The rest is headroom for the rounding of each
+// Largest sum of the weights of a group of views. The sums have 16 bits. Their headroom covers a
+// ninth more, by which the share of the last light may be too large, and the rounding of each
 // slice.
 constexpr uint32_t kGroupSum = 58000;
 
