@@ -40,7 +40,7 @@ struct EngineState {
   starfocus_problem problem = {};  // problem of the last call
   const simd::Kernels* kernels;
   Tables tables;
-  // Allocated the memory; null functions: the memory belongs to the caller.
+  // Owns the memory. Null functions: the caller owns it.
   starfocus_allocator allocator = {};
   size_t bytes = 0;                 // size of the memory from the allocator
   Workers workers;                  // memory of the workers

@@ -135,8 +135,8 @@ class Gather {
   }
 
   // Filters adjacent cells on a slope with the same two PSFs, starting at (x, y). It mixes the
-  // results of the smaller and the larger PSF pixel by pixel, and moves the mixture to its place in
-  // the mean of all views. Returns the end of the cells, or x after cancellation.
+  // results of the smaller and the larger PSF pixel by pixel. Then it moves the mixture to its
+  // place in the mean of all views. Returns the end of the cells, or x after cancellation.
   int32_t FilterSlopes(int32_t x, int32_t y) {
     const Steps steps = At(x, y);
     const int32_t most = Min(Right(), x + kSlopeCells * kCellSize);

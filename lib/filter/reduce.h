@@ -26,7 +26,7 @@ Rect ReducedRect(const Rect& rect, int shift);
 void MeanOfBlocks(const uint32_t* sums, int32_t columns, int32_t rows, int shift, int16_t* light);
 
 // Returns the median of `count` values, at most 4^kMaxReduction. For an even count it is the larger
-// of the two middle values, so that the result always lies on a surface, not between two surfaces.
+// of the two middle values. The result therefore lies on a surface, not between two surfaces.
 int16_t MedianOf(const int16_t* values, int32_t count);
 
 // Converts a disparity to pixels of the reduced picture, with halves rounded up.

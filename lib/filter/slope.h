@@ -32,9 +32,9 @@ class Slope {
   RadiusRange RangeOf(const Rect& pixels) const;
 
   // Writes the position of each pixel's radius between two radii, in [0, 1] with 15 fractional
-  // bits. share[3 n] to share[3 n + 2] belong to pixel n of a row, and rows are `stride` samples
-  // apart. The position is measured in squared radii, so that a mixture of two PSFs has the mean
-  // square width of the intermediate PSF.
+  // bits. Elements share[3 n] to share[3 n + 2] belong to pixel n of a row. Rows are `stride`
+  // samples apart. The position is measured in squared radii, so that a mixture of two PSFs has the
+  // mean square width of the intermediate PSF.
   void FindShares(const RadiusRange& between, const Rect& pixels, size_t stride,
                   int16_t* share) const;
 
