@@ -76,8 +76,8 @@ struct starfocus_pool {
   std::atomic<int32_t> stop{0};    // 1: the threads end
 
   // A thread that is about to sleep first sets `idle` or `waiting` and then checks the counters
-  // above again. A thread that changes a counter checks `idle` or `waiting` afterwards. So no
-  // wake-up is lost.
+  // above again. A thread that changes a counter checks `idle` or `waiting` afterwards. This order
+  // ensures that no wake-up is lost.
   std::atomic<int32_t> idle{0};                       // number of threads that wait for `wake`
   std::atomic<int32_t> waiting{0};                    // 1: the caller waits for `finished`
   pthread_mutex_t sleep = PTHREAD_MUTEX_INITIALIZER;  // mutex of both condition variables

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The engine's module and its memory.
+// Loads the WebAssembly module of the engine, and creates its memory and its instances. Used by worker.js.
 
 import {readFile} from './host.js';
 
 const PAGE = 65536;
 const MEMORY_IMPORT = 2;
 
-/** Reads a whole number of 7 bits a byte (LEB128); returns it and where it ends. */
+/** Reads an unsigned LEB128 number (7 bits per byte). Returns the number and the offset behind it. */
 function readNumber(bytes, at) {
   let value = 0;
   for (let shift = 0;; shift += 7) {
@@ -16,7 +16,7 @@ function readNumber(bytes, at) {
   }
 }
 
-/** Returns where the flags of the memory are that the module imports, its only import. */
+/** Returns the offset of the flags of the imported memory, which is the only import of the module. */
 function findMemoryFlags(bytes) {
   for (let at = 8; at < bytes.length;) {
     const section = bytes[at++];
@@ -36,8 +36,8 @@ function findMemoryFlags(bytes) {
   throw new Error('The module of starfocus is damaged: it imports no memory.');
 }
 
-/** Compiles the engine. It is built for shared memory, which is one flag of a module: cleared, the same
- *  module takes memory of its own, where nothing may be shared. */
+/** Compiles the engine. The module is linked for shared memory, which one flag declares. If `shared` is false, the flag
+ *  is cleared, and the module accepts memory that is not shared. */
 export async function compile(shared) {
   const bytes = new Uint8Array(await readFile('starfocus.wasm'));
   if (!shared) bytes[findMemoryFlags(bytes)] = 1;
@@ -48,8 +48,8 @@ export async function compile(shared) {
   return WebAssembly.compile(bytes);
 }
 
-/** Memory for an engine. It grows up to what a module can address; of shared memory browsers reserve
- *  all of that at once, and phones have less to give. */
+/** Creates the memory of an engine, which can grow to 4 GiB. Browsers reserve the maximum of shared memory at once, and
+ *  phones cannot reserve 4 GiB. Shared memory therefore gets the largest maximum that can be reserved. */
 export function makeMemory(shared) {
   if (!shared) return new WebAssembly.Memory({initial: 8, maximum: 65536});
   for (let maximum = 65536;; maximum /= 2) {
@@ -61,18 +61,18 @@ export function makeMemory(shared) {
   }
 }
 
-/** Returns the functions of an engine on this memory. */
+/** Instantiates the module with this memory, and returns its exports. */
 export async function instantiate(module, memory) {
   return (await WebAssembly.instantiate(module, {env: {memory}})).exports;
 }
 
-/** Returns the text that ends with a 0 at an address. */
+/** Returns the null-terminated string at an address. */
 export function readText(memory, address) {
   const bytes = new Uint8Array(memory.buffer);
   return String.fromCharCode(...bytes.slice(address, bytes.indexOf(0, address)));
 }
 
-/** Writes it there, with a 0. */
+/** Writes an ASCII string and a terminating 0 to an address. */
 export function writeText(memory, address, text) {
   const bytes = new Uint8Array(memory.buffer);
   for (let i = 0; i < text.length; ++i) bytes[address + i] = text.charCodeAt(i);

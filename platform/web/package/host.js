@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What browsers and node do differently: files, workers and their messages.
+// Hides the differences between browsers and node: files, workers and their messages.
 
 const inNode = typeof process === 'object' && process.release?.name === 'node';
 
@@ -12,7 +12,7 @@ export async function readFile(name) {
   return response.arrayBuffer();
 }
 
-/** Starts another worker.js. */
+/** Starts a worker that runs worker.js. */
 export async function startWorker() {
   if (inNode) {
     const {Worker} = await import('node:worker_threads');
@@ -21,12 +21,12 @@ export async function startWorker() {
   return new Worker(new URL('./worker.js', import.meta.url), {type: 'module'});
 }
 
-/** Returns what a worker exchanges messages with its parent by. */
+/** Returns the port through which a worker exchanges messages with its parent. */
 export async function parentOfWorker() {
   return inNode ? (await import('node:worker_threads')).parentPort : self;
 }
 
-/** Calls onMessage with what the other side posts, and onError with a sentence if it fails. */
+/** Calls onMessage with each message from the other side, and onError with an error message if the other side fails. */
 export function listen(port, onMessage, onError = () => {}) {
   if (inNode) {
     port.on('message', onMessage);
@@ -37,10 +37,10 @@ export function listen(port, onMessage, onError = () => {}) {
   port.onerror = event => onError(event.message ?? 'A worker of starfocus could not be loaded.');
 }
 
-/** Whether memory may be shared with workers: of pages, only those that are isolated. */
+/** True if memory can be shared with workers: in node, and in pages that are cross-origin isolated. */
 export const canShare = inNode || globalThis.crossOriginIsolated === true;
 
-/** Returns the number of cores that the machine tells. */
+/** Returns the number of cores that the system reports. */
 export async function countCores() {
   if (inNode) return (await import('node:os')).cpus().length;
   return navigator.hardwareConcurrency ?? 1;

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light fields as callers give them, checked and as the engine reads them.
+// Checks the views, depth map and coverage of a caller, and converts them to the layout that the engine reads. Used by
+// starfocus.js.
 
-/** Throws one sentence: what, what was expected and what was found. */
+/** Throws a TypeError that names the argument, the expected value and the actual value, unless `holds` is true. */
 function expect(holds, what, expected, found) {
   if (!holds) throw new TypeError(`${what}: expected ${expected}, found ${found}.`);
 }
 
-/** Returns the bytes of a view: an ImageData, or an array of bytes with 3 or 4 a pixel. */
+/** Returns the bytes of a view, which is an ImageData or an array with 3 or 4 bytes per pixel. */
 function bytesOfView(view, index, width, height) {
   const what = `views[${index}]`;
   if (view?.data !== undefined) {
@@ -22,7 +23,7 @@ function bytesOfView(view, index, width, height) {
   return view;
 }
 
-/** Returns the views as arrays of bytes, and how many bytes a pixel of all of them has. */
+/** Returns the views as arrays of bytes, and the number of bytes per pixel, which is the same for all views. */
 export function checkViews(views, config) {
   expect(Array.isArray(views) && views.length === config.views, 'views', `an array of ${config.views}`,
          Array.isArray(views) ? views.length : typeof views);
@@ -34,7 +35,7 @@ export function checkViews(views, config) {
   return {pixels, pixelBytes};
 }
 
-/** Checks coverage, of which there may be none: a byte a pixel. */
+/** Checks the coverage, which is one byte per pixel or undefined. */
 export function checkCoverage(coverage, config) {
   if (coverage === undefined) return;
   expect(coverage instanceof Uint8Array || coverage instanceof Uint8ClampedArray, 'coverage',
@@ -43,8 +44,8 @@ export function checkCoverage(coverage, config) {
          `${config.width * config.height} bytes`, coverage.length);
 }
 
-/** Returns the disparity map {data: Float32Array, width, height} of a depth map: a Float32Array as large
- *  as the picture, or an object as starfocus.d.ts has it. Unknown values become NaN. */
+/** Converts a depth map to a disparity map {data: Float32Array, width, height}. The depth map is a Float32Array of the
+ *  picture's size or a DepthMap of starfocus.d.ts. Unknown values become NaN. */
 export function readDepth(depth, config) {
   const map = depth instanceof Float32Array ? {data: depth} : depth;
   const {data, width = config.width, height = config.height, scale = 1, offset = 0, invalid} = map ?? {};
@@ -55,7 +56,7 @@ export function readDepth(depth, config) {
   expect(Number.isInteger(width) && width >= 1 && width <= config.width && Number.isInteger(height) &&
              height >= 1 && height <= config.height,
          'depth', `at most ${config.width} x ${config.height} values`, `${width} x ${height}`);
-  // In single precision, each operation rounded, as in starfocus/image.h.
+  // Each operation rounds to single precision, as starfocus/image.h requires.
   const f = Math.fround, a = f(scale), b = f(offset), unknown = f(invalid);
   expect(Number.isFinite(a) && a !== 0 && Number.isFinite(b), 'depth',
          'a finite scale other than 0 and a finite offset', `${scale} and ${offset}`);

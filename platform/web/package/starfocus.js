@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// starfocus for browsers and node: see starfocus.d.ts. The engine works in a worker; this side checks
-// what it is given, sends it one call after the other and hands back what it answers.
+// Implements starfocus.d.ts for browsers and node. The engine runs in a worker (worker.js). This module checks the
+// arguments of calls, sends the calls to the worker one at a time, and settles their promises with its answers.
 
 import {canShare, countCores, listen, startWorker} from './host.js';
 import {checkCoverage, checkViews, readDepth} from './light_field.js';
@@ -13,10 +13,10 @@ export const Transfer = {SRGB: 0, NONE: 1};
 const MAX_WORKERS = 64;
 const PROGRESS_INTERVAL = 50;  // ms
 
-// What the memory of a light field is sized by, or what was made of it depends on.
+// Options that determine the size or the contents of a prepared light field. They cannot change after creation.
 const FIXED = ['width', 'height', 'views', 'disparityMin', 'disparityMax', 'previews', 'maxLayer', 'transfer'];
 
-/** What the library refuses, with the number of its starfocus_status and the field or argument at fault. */
+/** See starfocus.d.ts. */
 export class StarfocusError extends Error {
   constructor(message, status, field) {
     super(message);
@@ -28,10 +28,10 @@ export class StarfocusError extends Error {
 
 class Refocuser {
   #worker;
-  #calls = [];  // that have not been answered; the first one is with the worker
+  #calls = [];  // calls without an answer; the worker runs the first one
   #lastId = 0;
   #failure = null;
-  #shared = null;  // with the worker: the call that is to end, rows done, rows
+  #shared = null;  // memory shared with the worker: id of the call to cancel, finished rows, number of rows
   #config;
 
   constructor(worker, config) {
@@ -108,12 +108,12 @@ class Refocuser {
     }
     try {
       this.#worker.postMessage({id, name, values}, transfer);
-    } catch (error) {  // what cannot be sent
+    } catch (error) {  // an argument that cannot be cloned
       this.#end(call, () => call.reject(error));
     }
   }
 
-  /** A call that waits is left out; one that runs is told. */
+  /** Removes a call that has not started, or asks the worker to cancel a running call. */
   #cancel(call) {
     if (call !== this.#calls[0]) return this.#end(call, () => call.reject(call.signal.reason));
     if (this.#shared) Atomics.store(this.#shared, 0, call.id);

@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// The worker that has the engine, and the helpers that share its memory. Messages to it are
-// {id, name, values} and {cancel: id}; it answers {id, result}, {id, error} and {id, progress}.
+// Worker that runs the engine for starfocus.js. It receives the messages {id, name, values} and {cancel: id}, and sends
+// {id, result}, {id, error} and {id, progress}. With several threads it starts helpers: workers with this script that
+// share its memory and run jobs of the engine.
 
 import {compile, instantiate, makeMemory, readText, writeText} from './engine.js';
 import {canShare, listen, parentOfWorker, startWorker} from './host.js';
 
 const OK = 0, CANCELLED = 17;
-const BLOCK_NUMBERS = 6;  // of a starfocus_block
+const BLOCK_NUMBERS = 6;  // number of int32 fields of a starfocus_block
 
-// Where nothing is shared, messages are looked at after so many rows, which costs some 10 % of the time.
+// Without shared memory, the worker reads its messages each time it has computed this number of rows. docs/web.md has
+// the cost.
 const ROWS_AT_ONCE = 512;
 
 const parent = await parentOfWorker();
 let memory, engine, workers;
-let size;  // of the picture
-let prepared = false;  // whether there is a light field
-let current = 0;  // the call that runs
+let size;  // size of the picture
+let prepared = false;  // true if a light field is prepared
+let current = 0;  // id of the running call
 
 const bytesAt = (address, length) => new Uint8Array(memory.buffer, address, length);
 
@@ -25,7 +27,7 @@ function check(status) {
   throw Object.assign(new Error(message), {status, field, cancelled: status === CANCELLED});
 }
 
-/** The message for a status, and the field or argument that its starfocus_problem names. */
+/** Returns the error message for a status, and the field or argument that the starfocus_problem names. */
 function describe(status, sentence) {
   const address = engine.problem();
   if (!address) return {message: sentence, field: ''};
@@ -38,7 +40,7 @@ function describe(status, sentence) {
   return {message: `${field}: ${sentence} (expected ${range})`, field};
 }
 
-/** Sets fields of one of the engine's structures: {maxBlur: 8, region: {x: 0}} is max_blur and region.x. */
+/** Sets fields of a C structure by JavaScript names: {maxBlur: 8, region: {x: 0}} sets max_blur and region.x. */
 function setFields(set, values, what, prefix = '') {
   for (const [key, value] of Object.entries(values)) {
     if (value === undefined) continue;
@@ -61,7 +63,7 @@ function expectPrepared(what) {
   if (!prepared) throw new Error(`${what}: there is no light field yet; call prepare first.`);
 }
 
-/** Lets messages come in. */
+/** Returns a promise that resolves after the messages that have arrived are handled. */
 const channel = new MessageChannel();
 function turn() {
   return new Promise(resolve => {
@@ -147,7 +149,8 @@ function refocusAtOnce(shift) {
   return {data: new Uint8ClampedArray(bytesAt(engine.picture(), 4 * width * height)), width, height};
 }
 
-/** The same picture by regions, between which messages come in and progress is told. */
+/** Computes the picture in regions of ROWS_AT_ONCE rows. After each region, it reports progress and handles messages,
+ *  so that the call can be cancelled. */
 async function refocusInParts() {
   const {width, height} = size;
   const data = new Uint8ClampedArray(4 * width * height);
@@ -169,7 +172,7 @@ function readBlocks() {
   });
 }
 
-/** Runs jobs of another worker's engine for as long as there is one. */
+/** Runs jobs of the engine of another worker. Never returns. */
 async function help({module, memory: shared, worker, stack}) {
   const helper = await instantiate(module, shared);
   helper.__stack_pointer.value = stack;

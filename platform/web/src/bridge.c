@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What JavaScript calls: one engine with one light field in the memory of one module. Functions
- * answer with a starfocus_status unless they say otherwise. All memory is what lies behind the
- * module's own data: first the helpers' stacks, then the light field and what was prepared of it,
- * then the engine, which may be made anew for the same light field. */
+/* Functions that worker.js calls. A module has one engine and one light field. The memory behind
+ * the data of the module contains the stacks of the helpers, then the light field and the prepared
+ * light field, then the workspace of the engine. The engine can be replaced without changing the
+ * light field. */
 #include <string.h>
 
 #include "platform/web/src/fields.h"
@@ -12,36 +12,36 @@
 #define EXPORT(name) __attribute__((export_name(#name)))
 #define PAGE 65536u
 #define MAX_BLOCKS 65536
-#define STACK (2 * PAGE) /* of a helper */
+#define STACK (2 * PAGE) /* stack size of a helper in bytes */
 
-extern unsigned char __heap_base; /* the linker's: where the module's own data ends */
+extern unsigned char __heap_base; /* end of the module's data; defined by the linker */
 
-static char text[64];                    /* names of fields that JavaScript writes */
-static starfocus_problem problem;        /* of the last call with a configuration */
-static const starfocus_problem* refused; /* of the last call */
-static starfocus_config wanted;          /* what the next engine is to be */
-static starfocus_config config; /* what sizes the light field, and the engine if there is one */
+static char text[64];                    /* field name, written by JavaScript */
+static starfocus_problem problem;        /* problem of the last call with a configuration */
+static const starfocus_problem* refused; /* problem of the last call */
+static starfocus_config wanted;          /* configuration that is being set */
+static starfocus_config config;          /* configuration of the light field and the engine */
 static starfocus_params params;
 static starfocus_engine* engine;
 static int32_t workers;
-static uintptr_t top = (uintptr_t)&__heap_base; /* first byte that nobody uses */
-static uintptr_t stacks_end;                    /* top when there is no light field */
-static uintptr_t field_end;                     /* top when there is no engine */
+static uintptr_t top = (uintptr_t)&__heap_base; /* first unused byte */
+static uintptr_t stacks_end;                    /* end of the stacks; 0 before the first Room */
+static uintptr_t field_end;                     /* end of the light field */
 static starfocus_light_field field;
 static void* prepared_memory;
 static size_t prepared_bytes;
 static starfocus_prepared* prepared;
 static uint8_t* picture;
-static int32_t width, height; /* of the picture that was made last */
+static int32_t width, height; /* size of the last picture */
 static starfocus_block* blocks;
 static int32_t block_count;
-static int32_t call; /* the number of the call that runs */
+static int32_t call; /* number of the running call */
 
-/* What other threads see of it: they write the number of the call that is to end, and read how many
- * rows of how many are done. */
+/* Memory that JavaScript reads and writes during a call: `cancelled` is the number of the call to
+ * cancel, and `rows_done` of `rows` rows are finished. */
 static struct { int32_t cancelled, rows_done, rows; } shared;
 
-/* Returns memory aligned for the engine, or null when there is no more. */
+/* Returns memory aligned to STARFOCUS_ALIGNMENT, or null if the module's memory cannot grow. */
 static void* Allocate(size_t bytes) {
   const uintptr_t start = (top + STARFOCUS_ALIGNMENT - 1) & ~(uintptr_t)(STARFOCUS_ALIGNMENT - 1);
   if (bytes > UINTPTR_MAX - start - PAGE) return NULL;
@@ -64,17 +64,18 @@ static void KeepBlock(void* data, const starfocus_block* block) {
   if (block_count < MAX_BLOCKS) blocks[block_count++] = *block;
 }
 
-/* Sets the functions of the engine, if there is one; `on_block` may be null. */
+/* Sets the callbacks of the engine. `on_block` may be null. No-op without an engine. */
 static void SetCallbacks(starfocus_block_visitor on_block) {
   const starfocus_callbacks callbacks = {
       .runner = workers > 1 ? RunOnWorkers : NULL, .progress = Progress, .on_block = on_block};
   starfocus_set_callbacks(engine, &callbacks);
 }
 
-/* Where a name of a field is written, ended by 0; at most 63 bytes. */
+/* Returns the buffer for the name of a field: at most 63 bytes and a terminating 0. */
 EXPORT(text) char* Text(void) { return text; }
 
-/* Begins a configuration: the default one, then the one that was accepted. */
+/* Starts to change the configuration. It starts from the last accepted configuration, or from the
+ * defaults if none was accepted. */
 EXPORT(begin) void Begin(void) {
   if (workers == 0) {
     starfocus_config_init(&wanted);
@@ -84,10 +85,11 @@ EXPORT(begin) void Begin(void) {
   }
 }
 
-/* Returns whether starfocus_config has the field whose name is in the text. */
+/* Sets the field of starfocus_config that `text` names. Returns 0 if there is no such field. */
 EXPORT(configure) int Configure(double value) { return SetConfigField(&wanted, text, value); }
 
-/* Accepts the configuration, for that many workers, or leaves the one before. */
+/* Checks the configuration that was set, and makes it the current one, with `count` workers. On
+ * error the current configuration remains. */
 EXPORT(accept) starfocus_status Accept(int32_t count) {
   wanted.max_workers = count;
   wanted.features |= STARFOCUS_FEATURE_IMAGES;
@@ -102,7 +104,8 @@ EXPORT(accept) starfocus_status Accept(int32_t count) {
   return status;
 }
 
-/* Returns the end of a stack for a helper, or 0 without memory; before there is a light field. */
+/* Allocates the stack of a helper. Must be called before the first Room. Returns the end of the
+ * stack, where it starts to grow, or 0 if there is no memory. */
 EXPORT(stack) uintptr_t Stack(void) {
   char* const memory = (char*)Allocate(STACK);
   return memory == NULL ? 0 : (uintptr_t)(memory + STACK);
@@ -138,8 +141,9 @@ static int MakeRoomForCoverage(void) {
   return field.coverage != NULL;
 }
 
-/* Makes room for a light field of pictures with 3 or 4 bytes a pixel, a depth map of that size and,
- * if `covers` is 1, coverage. What was there before is no more, the engine neither. */
+/* Allocates memory for a light field whose views have `pixel_bytes` (3 or 4) bytes per pixel, for
+ * its depth map and, if `covers` is 1, for coverage. Frees the previous light field and the engine.
+ */
 EXPORT(room)
 starfocus_status Room(int32_t pixel_bytes, int32_t depth_width, int32_t depth_height,
                       int32_t covers) {
@@ -163,13 +167,15 @@ starfocus_status Room(int32_t pixel_bytes, int32_t depth_width, int32_t depth_he
                                                                       : STARFOCUS_ERROR_MEMORY;
 }
 
-/* Where the pixels of a view of the room go; the depth map's, of view -1; coverage, of view -2. */
+/* Returns the memory of the pixels of a view, of the depth map (view -1) or of coverage (view -2).
+ */
 EXPORT(place) const void* Place(int32_t view) {
   if (view == -2) return field.coverage;
   return view < 0 ? field.depth.data : field.views[view].planes[0];
 }
 
-/* Makes the engine that was configured, for the light field that there is room for. */
+/* Creates an engine with the current configuration behind the light field. Replaces the previous
+ * engine. */
 EXPORT(make_engine) starfocus_status MakeEngine(void) {
   size_t bytes = 0;
   const starfocus_status status = starfocus_workspace_size(&config, &bytes);
@@ -184,16 +190,17 @@ EXPORT(make_engine) starfocus_status MakeEngine(void) {
   return made;
 }
 
-/* What the last call refused; null when it was a call without a problem. */
+/* Returns the problem of the last call, or null if the last call reports none. */
 EXPORT(problem) const starfocus_problem* Problem(void) { return refused; }
 
-/* Prepares the light field whose pixels are in their places. */
+/* Prepares the light field, whose pixels JavaScript has written to the memory that Place returns.
+ */
 EXPORT(prepare) starfocus_status Prepare(void) {
   refused = starfocus_engine_problem(engine);
   return starfocus_prepare(engine, &field, prepared_memory, prepared_bytes, &prepared);
 }
 
-/* Begins a call of that number. */
+/* Starts call `number`: resets the parameters, the progress and the list of blocks. */
 EXPORT(aim) void Aim(int32_t number) {
   call = number;
   shared.rows_done = shared.rows = 0;
@@ -202,19 +209,20 @@ EXPORT(aim) void Aim(int32_t number) {
   SetCallbacks(NULL);
 }
 
-/* Returns whether starfocus_params has the field whose name is in the text. */
+/* Sets the field of starfocus_params that `text` names. Returns 0 if there is no such field. */
 EXPORT(set) int Set(double value) { return SetParamsField(&params, text, value); }
 
-/* Has the next refocusings note the blocks. */
+/* Makes the refocusings of the current call record their blocks. */
 EXPORT(watch) void WatchBlocks(void) { SetCallbacks(KeepBlock); }
 
-/* Pixels of the picture, of those of [start, start + size), at 1 / 2^shift of the size. */
+/* Returns the number of pixels that represent the range [start, start + size) of the picture at
+ * 1 / 2^shift of the size. */
 static int32_t Reduced(int64_t start, int64_t size, int32_t shift) {
   return size < 1 ? 0 : (int32_t)(((start + size - 1) >> shift) - (start >> shift) + 1);
 }
 
-/* Refocuses as params say, at 1 / 2^shift of the size, into rows of R, G, B, 255 one after the
- * other. */
+/* Refocuses with the current parameters at 1 / 2^shift of the size. Writes rows of R, G, B, A
+ * without gaps to the memory that Picture returns. */
 EXPORT(refocus) starfocus_status Refocus(int32_t shift) {
   const starfocus_region* const region = &params.region;
   const int whole = region->width == 0 && region->height == 0;
@@ -234,7 +242,7 @@ EXPORT(blocks) const starfocus_block* Blocks(void) { return blocks; }
 EXPORT(block_count) int32_t BlockCount(void) { return block_count; }
 EXPORT(shared) void* Shared(void) { return &shared; }
 
-/* The focus for a pixel of the depth map, into *text as a double. */
+/* Finds the focus for a pixel of the depth map, and writes it to `text` as a double. */
 EXPORT(focus_at) starfocus_status FocusAt(int32_t x, int32_t y) {
   double focus = 0;
   refused = NULL;

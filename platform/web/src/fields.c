@@ -39,8 +39,8 @@ static const Field kParamsFields[] = {
     LENS(curvature, kDouble), LENS(ring_inner, kDouble),    LENS(cats_eye, kDouble),
 };
 
-/* Returns `value`, or `wrong` if it is not a whole number in [low, high]. `wrong` is outside the
- * range of every field, so that the library rejects it. */
+/* Returns `value`, or `wrong` if it is not an integer in [low, high]. `wrong` is outside the valid
+ * range of every field, so the library rejects it. */
 static int64_t Whole(double value, int64_t low, int64_t high, int64_t wrong) {
   if (!(value >= (double)low && value <= (double)high)) return wrong;
   const int64_t whole = (int64_t)value;
@@ -71,7 +71,7 @@ static int Set(void* structure, const Field* fields, size_t count, const char* n
 }
 
 static int SetFeature(starfocus_config* config, uint32_t feature, double value) {
-  /* What is neither 0 nor 1 sets all bits, which the library rejects. */
+  /* A value other than 0 and 1 sets all bits, which the library rejects. */
   const uint32_t bits = value == 0 || value == 1 ? feature : UINT32_MAX;
   config->features = value == 0 ? config->features & ~bits : config->features | bits;
   return 1;

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Fields of starfocus_config, starfocus_params and starfocus_lens by their C names, for JavaScript,
- * which sees no structures. */
+/* Sets fields of starfocus_config, starfocus_params and starfocus_lens by their C names. Used by
+ * the bridge, since JavaScript does not know the layout of C structures. */
 #ifndef STARFOCUS_PLATFORM_WEB_SRC_FIELDS_H_
 #define STARFOCUS_PLATFORM_WEB_SRC_FIELDS_H_
 
 #include "starfocus/starfocus.h"
 
-/* Writes a number into the field of that name, such as "max_blur" or "timing.block". Whole numbers
- * that the field cannot hold become the nearest that it can. Returns 1, or 0 when there is no such
- * field. */
+/* Sets the field `name`, for example "max_blur" or "timing.block", to `value`. An integer field
+ * gets a value that the library rejects if `value` is not an integer of its type. Returns 1, or 0
+ * if the structure has no such field. */
 int SetConfigField(starfocus_config* config, const char* name, double value);
 int SetParamsField(starfocus_params* params, const char* name, double value);
 

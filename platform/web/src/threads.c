@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "platform/web/src/threads.h"
 
-/* The set of jobs that runs. Its first three fields change only while no helper looks at them:
- * after all have left a set, and before the next one is announced. */
+/* The current set of jobs. Its first three fields change only while no helper reads them, that is,
+ * between the end of a set and the announcement of the next one. */
 static struct {
   starfocus_job job;
   void* data;
   int32_t count;
-  int32_t next;    /* the next index that nobody has taken */
-  int32_t busy;    /* helpers that have not left the set yet */
-  int32_t sets;    /* how many there were: a new number announces a set */
-  int32_t helpers; /* that take part */
+  int32_t next;    /* smallest index of a job that is not taken */
+  int32_t busy;    /* number of helpers that have not finished the set */
+  int32_t sets;    /* number of sets so far; incrementing it announces a set */
+  int32_t helpers; /* number of helpers */
 } set;
 
 static void TakeJobs(int32_t worker) {
