@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Builds the shared library by CMake, from the tree that this folder lies in, into the package.
+"""Builds the Python package: the Python files, and the shared library, which CMake builds from this source tree.
 
-Environment: STARFOCUS_BUILD names a folder where CMake has configured the tree already (default: one
-of its own, build/python); CMAKE_ARGS are more arguments for configuring.
+Environment variables:
+    STARFOCUS_BUILD: a build folder that CMake has already configured for this tree (default: build/python, which
+        this script configures).
+    CMAKE_ARGS: additional arguments for configuring build/python.
 """
 import os
 import re
@@ -25,14 +27,14 @@ LIBRARY = "libstarfocus_python.so"
 
 
 def version() -> str:
-    """The version that the public header has."""
+    """Returns the version in the public header."""
     text = (ROOT / "lib/include/starfocus/version.h").read_text(encoding="utf-8")
     parts = (re.search(rf"define STARFOCUS_VERSION_{part} (\d+)", text) for part in ("MAJOR", "MINOR", "PATCH"))
     return ".".join(part.group(1) for part in parts)
 
 
 def build_library() -> Path:
-    """Builds the library and says where it is."""
+    """Builds the library and returns its path."""
     given = os.environ.get("STARFOCUS_BUILD")
     folder = Path(given) if given else ROOT / "build/python"
     if not given:
@@ -45,7 +47,7 @@ def build_library() -> Path:
 
 
 class BuildPackage(build_py):
-    """The Python files, and the library among them."""
+    """Builds the package: the Python files and the shared library."""
 
     def run(self):
         super().run()
@@ -54,7 +56,7 @@ class BuildPackage(build_py):
 
 
 class BuildWheel(bdist_wheel):
-    """A wheel of this machine's kind, for any Python 3: the library knows nothing of Python."""
+    """Builds a wheel for this platform and any Python 3. The shared library does not depend on Python."""
 
     def finalize_options(self):
         super().finalize_options()
@@ -64,7 +66,7 @@ class BuildWheel(bdist_wheel):
         return "py3", "none", super().get_tag()[2]
 
 
-# What is made on the way stays out of the source tree.
+# Intermediate files are written to this folder instead of the source folder.
 PARTS = ROOT / "build/python-package"
 PARTS.mkdir(parents=True, exist_ok=True)
 setup(version=version(), cmdclass={"build_py": BuildPackage, "bdist_wheel": BuildWheel},

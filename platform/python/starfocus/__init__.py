@@ -5,9 +5,13 @@
     refocuser = starfocus.Refocuser.for_light_field(views, disparity)
     picture = refocuser.refocus(views, disparity, focus=starfocus.focus_at(disparity, 422, 414))
 
-Pictures are arrays of uint8 and of the shape (height, width, 3), disparity maps of float32 and
-(height, width). A disparity is in pixels per unit of u, larger is nearer; views lie where
-`view_positions` tells, or at positions that are given.
+A light field consists of 1 to 17 rectified views and the disparity map of the centre view. Views and pictures
+are arrays of uint8 with the shape (height, width, 3). Disparity maps are arrays of float32 with the shape (height,
+width). Disparities are in pixels per unit of u; nearer points have larger disparities. Views lie at the
+positions that `view_positions` returns, or at positions that the caller passes to `Refocuser`.
+
+The package calls the C library through ctypes, and its pictures have the same bytes. The documentation of the C
+headers (starfocus/starfocus.h) applies to all fields that are mentioned here by their C names.
 """
 from ._abi import library as _library
 from .constants import (DepthMeaning, Format, Matrix, Mode, Range, Renderer, Shape, Status, Transfer)
@@ -22,7 +26,7 @@ __version__: str = _library.starfocus_version().decode()
 
 
 def simd_target() -> str:
-    """The SIMD instructions that this machine refocuses with, such as "AVX2"."""
+    """Returns the name of the SIMD target that the kernels use on this machine, for example "AVX2"."""
     return _library.starfocus_simd_target().decode()
 
 

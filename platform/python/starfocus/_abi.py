@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The C ABI as ctypes sees it: the shared library, its structures and its functions.
+"""Declares the structures and functions of the C ABI for ctypes, and loads the shared library.
 
-The structures repeat those of the C headers field by field. Their sizes are compared with the
-library's when it is loaded, so that one that has grown there is noticed here and nothing is read from
-a wrong place.
+The structures have the same fields as those of the C headers. When the library is loaded, their sizes are
+compared with the sizes that the library reports, so a structure that has changed raises ImportError.
 """
 from __future__ import annotations
 
@@ -206,7 +205,10 @@ _OTHERS = {
 
 
 def _load() -> ctypes.CDLL:
-    """The library, whose calls let other Python threads run, with the types of its functions."""
+    """Loads the library and declares the types of its functions. Calls release the GIL.
+
+    Raises ImportError if the library has another ABI version or a structure of another size.
+    """
     library = ctypes.CDLL(str(Path(__file__).with_name("libstarfocus_python.so")))
     for name, arguments in {**_ENGINE_CALLS, **_MAP_CALLS}.items():
         function = getattr(library, name)

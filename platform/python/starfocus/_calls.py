@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What calls of the library have in common: arrays as it reads them, threads, progress."""
+"""Converts arguments for calls of the library: arrays, regions and fields; also threads and progress."""
 from __future__ import annotations
 
 import ctypes
@@ -14,17 +14,17 @@ from ._abi import library
 from .constants import Status
 from .errors import ArgumentError, check
 
-#: Is told of the rows done and of all rows; what counts as true calls the work off.
+#: Receives the number of finished rows and the number of rows. A true result cancels the call.
 ProgressFunction = Callable[[int, int], Any]
-#: Views as one array of shape (views, height, width, 3), or as one of (height, width, 3) or an Image each. One
-#: array of (height, width, 3) is one view.
+#: An array of shape (views, height, width, 3), or a sequence whose items are arrays of shape (height, width, 3) or
+#: Images. A single array of shape (height, width, 3) is one view.
 Views = Union[np.ndarray, Sequence[Any]]
-#: x, y, width and height in pixels.
+#: A region of the picture: x, y, width and height in pixels.
 RegionOfPicture = Tuple[int, int, int, int]
 
 
 def whole(value: Any, what: str) -> int:
-    """The value as an int32_t; ctypes would cut off one that does not fit."""
+    """Returns the value as an int. Raises ValueError if it does not fit an int32_t, which ctypes would truncate."""
     try:
         number = operator.index(value)
     except TypeError:
@@ -35,7 +35,7 @@ def whole(value: Any, what: str) -> int:
 
 
 def set_field(structure: ctypes.Structure, name: str, value: Any) -> None:
-    """Sets a field of a structure; ValueError for an integer that ctypes would cut off."""
+    """Sets a field of a structure. Raises ValueError for an integer that ctypes would truncate."""
     setattr(structure, name, value)
     stored = getattr(structure, name)
     if isinstance(stored, ctypes.Structure) and isinstance(value, tuple):
@@ -46,7 +46,10 @@ def set_field(structure: ctypes.Structure, name: str, value: Any) -> None:
 
 
 def part_of(region: Optional[RegionOfPicture], width: int, height: int) -> RegionOfPicture:
-    """The region of a picture of this size. None and, as in starfocus_params, four zeros are the whole picture."""
+    """Returns the region of a picture of this size as (x, y, width, height).
+
+    None and, as in starfocus_params, four zeros mean the whole picture.
+    """
     if region is None:
         return 0, 0, width, height
     if len(region) != 4:
@@ -60,7 +63,10 @@ def part_of(region: Optional[RegionOfPicture], width: int, height: int) -> Regio
 
 
 def rows_of(array: Any, dtype: Any, shape: Tuple[int, ...], what: str) -> np.ndarray:
-    """The array itself if its rows are contiguous and follow each other, else a copy that is so."""
+    """Returns the array if the library can read it in place, otherwise a contiguous copy.
+
+    Raises TypeError or ValueError if the array has another type or shape.
+    """
     array = np.asarray(array)
     if array.dtype != dtype:
         raise TypeError(f"{what}: expected {np.dtype(dtype)}, found {array.dtype}")
@@ -70,7 +76,7 @@ def rows_of(array: Any, dtype: Any, shape: Tuple[int, ...], what: str) -> np.nda
 
 
 def has_rows(array: np.ndarray) -> bool:
-    """Whether the library can read or write the array where it is."""
+    """Returns True if the library can read or write the array in place: aligned, with contiguous rows."""
     inner = array.itemsize
     for size, stride in zip(array.shape[:0:-1], array.strides[:0:-1]):
         if size != 1 and stride != inner:
@@ -81,12 +87,12 @@ def has_rows(array: np.ndarray) -> bool:
 
 
 def stride_of(array: np.ndarray) -> int:
-    """Bytes from row to row, as long as a row even where numpy gives a single row another one."""
+    """Returns the bytes from row to row. They are at least one row, also if numpy reports less for a single row."""
     return max(array.strides[0], array.nbytes // array.shape[0])
 
 
 def output(out: Optional[np.ndarray], shape: Tuple[int, ...], what: str) -> np.ndarray:
-    """A new picture, or the one that was given if the library can write it where it is."""
+    """Returns `out`, or a new picture if `out` is None. Raises an error if the library cannot write `out` in place."""
     if out is None:
         return np.empty(shape, np.uint8)
     if not isinstance(out, np.ndarray) or out.dtype != np.uint8:
@@ -98,12 +104,12 @@ def output(out: Optional[np.ndarray], shape: Tuple[int, ...], what: str) -> np.n
 
 
 def as_list(views: Views) -> Union[np.ndarray, Sequence[np.ndarray]]:
-    """The views one by one: an array of (height, width, 3) is one view."""
+    """Returns the views as a sequence. A single array of shape (height, width, 3) becomes one view."""
     return [views] if isinstance(views, np.ndarray) and views.ndim == 3 else views
 
 
 def as_map(disparity: Any) -> np.ndarray:
-    """A disparity map of float32; maps of other floating-point types are converted."""
+    """Returns a disparity map as float32. Maps of other floating-point types are converted."""
     disparity = np.asarray(disparity)
     if disparity.ndim != 2 or 0 in disparity.shape:
         raise ValueError(f"disparity: expected the shape (height, width), found {disparity.shape}")
@@ -114,7 +120,10 @@ def as_map(disparity: Any) -> np.ndarray:
 
 
 def set_coverage(field: _abi.LightField, coverage: Any, height: int, width: int) -> List[np.ndarray]:
-    """Points starfocus_light_field to coverage, unless that is None; returns what must be kept."""
+    """Sets the coverage of a starfocus_light_field, unless it is None.
+
+    Returns the arrays that must stay alive while the library may read the light field.
+    """
     if coverage is None:
         return []
     coverage = rows_of(coverage, np.uint8, (height, width), "coverage")
@@ -123,7 +132,7 @@ def set_coverage(field: _abi.LightField, coverage: Any, height: int, width: int)
 
 
 def as_image(array: np.ndarray) -> _abi.Image:
-    """starfocus_image of rows of R, G, B."""
+    """Returns a starfocus_image for an array with rows of R, G, B."""
     image = _abi.Image()
     image.planes[0], image.strides[0] = array.ctypes.data, stride_of(array)
     return image
@@ -131,8 +140,10 @@ def as_image(array: np.ndarray) -> _abi.Image:
 
 def light_field(views: Views, disparity: Any, count: int, height: int,
                 width: int) -> Tuple[_abi.LightField, List[Any]]:
-    """starfocus_light_field of arrays, Images and a DepthMap, and what must be kept as long as the library may read it.
-    Without a disparity map (None) its place stays empty."""
+    """Returns a starfocus_light_field, and the arrays that must stay alive while the library may read it.
+
+    The views are arrays or Images. The disparity map is an array, a DepthMap, or None: no map.
+    """
     views = as_list(views)
     if len(views) != count:
         raise ValueError(f"views: expected {count}, found {len(views)}")
@@ -155,7 +166,7 @@ def light_field(views: Views, disparity: Any, count: int, height: int,
 
 
 def positions_of(positions: Any, count: int) -> Any:
-    """Where `count` views lie, as starfocus_config has it."""
+    """Returns the positions of `count` views as an array for starfocus_config.positions."""
     places = np.asarray(positions, np.float64)
     if places.shape != (count, 2):
         raise ValueError(f"positions: expected the shape ({count}, 2), found {places.shape}")
@@ -163,14 +174,17 @@ def positions_of(positions: Any, count: int) -> Any:
 
 
 def aligned(size: int) -> np.ndarray:
-    """Memory as the library wants it."""
+    """Allocates `size` bytes aligned to STARFOCUS_ALIGNMENT."""
     memory = np.empty(size + _abi.ALIGNMENT, np.uint8)
     first = -memory.ctypes.data % _abi.ALIGNMENT
     return memory[first:first + size]
 
 
 class Pool:
-    """Threads of the library's pool; with one worker none, and work is done by the caller."""
+    """Owns a pool of threads of the library (starfocus/pool.h).
+
+    0 workers mean one for each big core. With one worker there is no pool, and the calling thread does the work.
+    """
 
     def __init__(self, workers: int):
         self.handle = None
@@ -186,7 +200,10 @@ class Pool:
 
 
 class Watch:
-    """A caller's progress function as the library calls it, from whichever thread."""
+    """Wraps a progress function of the caller for the library, which may call it from any thread of the pool.
+
+    An exception in the function cancels the call, and `check` raises the exception again.
+    """
 
     def __init__(self, callback: Optional[ProgressFunction]):
         self._callback = callback
@@ -201,12 +218,12 @@ class Watch:
             return 1
 
     def check(self, status: int, problem: Optional[_abi.Problem] = None) -> None:
-        """Raises what the function raised, else the error of the status."""
+        """Raises the exception of the progress function, if there was one, otherwise the error of the status."""
         if self._error is not None:
             raise self._error
         check(status, problem)
 
 
 def pointer(array: Optional[np.ndarray]) -> Optional[ctypes.c_void_p]:
-    """Where an array begins; None for none."""
+    """Returns the address of an array, or None if the array is None."""
     return None if array is None else ctypes.c_void_p(array.ctypes.data)

@@ -1,10 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The enumerations of the C headers, where what each value means is told."""
+"""Enumerations of the C headers. The headers describe the values."""
 from enum import IntEnum
 
 
 class Mode(IntEnum):
-    """How a picture is refocused: starfocus_mode."""
+    """How the picture is divided, and how many views are rendered (starfocus_mode).
+
+    FRAME: one number of views for the whole picture. BENCHMARK: as FRAME, with more views. BLOCK: blocks of
+    different sizes, each with its own number of views. BLUR: the blurred centre view, without other views.
+    """
 
     FRAME = 0
     BENCHMARK = 1
@@ -13,7 +17,11 @@ class Mode(IntEnum):
 
 
 class Renderer(IntEnum):
-    """What renders views, and so how many of them a blur radius needs: starfocus_renderer."""
+    """How views are rendered (starfocus_renderer).
+
+    AUTO: line scan for Mode.FRAME of a star of 5 or more views, slices otherwise. LINE_SCAN: the paper's line scan.
+    SLICES: slices of the scene, with fewer views.
+    """
 
     AUTO = 0
     LINE_SCAN = 1
@@ -21,7 +29,11 @@ class Renderer(IntEnum):
 
 
 class Shape(IntEnum):
-    """The opening of the lens: starfocus_shape."""
+    """Shape of the aperture (starfocus_shape).
+
+    FALL_OFF: a disc that is darker towards its rim. DISC: a disc of constant brightness. POLYGON: a polygon, as of
+    a shutter with blades. RING: a disc with a hole, as of a mirror lens.
+    """
 
     FALL_OFF = 0
     DISC = 1
@@ -30,14 +42,20 @@ class Shape(IntEnum):
 
 
 class Transfer(IntEnum):
-    """How codes of pictures stand for light, for the configuration's transfer: starfocus_transfer."""
+    """How the codes 0 to 255 of a picture represent light (starfocus_transfer).
+
+    A value of the configuration's field `transfer`. SRGB: the sRGB curve. NONE: light is the code itself.
+    """
 
     SRGB = 0
     NONE = 1
 
 
 class Format(IntEnum):
-    """Where the bytes of an image lie: starfocus_format."""
+    """Layout of a picture with 8 bits per sample (starfocus_format).
+
+    RGB formats are named by the order of bytes in memory. YUV formats have chroma planes of half the width and height.
+    """
 
     RGB = 0
     BGR = 1
@@ -50,28 +68,34 @@ class Format(IntEnum):
 
 
 class Matrix(IntEnum):
-    """How luma and chroma are made of R, G, B: starfocus_matrix."""
+    """Matrix of YUV formats (starfocus_matrix): ITU-R BT.601 or BT.709."""
 
     BT601 = 0
     BT709 = 1
 
 
 class Range(IntEnum):
-    """Which codes luma and chroma have: starfocus_range."""
+    """Range of the codes of YUV formats (starfocus_range).
+
+    LIMITED: luma codes from 16 to 235. FULL: codes from 0 to 255, as in JPEG and Android's cameras.
+    """
 
     LIMITED = 0
     FULL = 1
 
 
 class DepthMeaning(IntEnum):
-    """What a value z of a depth map means, disparity = scale z + offset or scale / z + offset: starfocus_depth_meaning."""
+    """How a value z of a depth map gives a disparity (starfocus_depth_meaning).
+
+    LINEAR: scale * z + offset. RECIPROCAL: scale / z + offset, for distances z.
+    """
 
     LINEAR = 0
     RECIPROCAL = 1
 
 
 class Status(IntEnum):
-    """What calls of the library answer with: starfocus_status, without its prefix STARFOCUS_ERROR_."""
+    """Result of a call of the library (starfocus_status), named without the prefix STARFOCUS_ERROR_."""
 
     OK = 0
     NULL = 1

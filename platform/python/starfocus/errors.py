@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the functions of the package raise, beside TypeError and ValueError for arrays of a wrong kind or shape."""
+"""Exceptions of the package. Arrays of a wrong type or shape raise TypeError or ValueError instead."""
 from __future__ import annotations
 
 import math
@@ -10,8 +10,12 @@ from .constants import Status
 
 
 class StarfocusError(Exception):
-    """The library refused a call. `status` says why as a number, the text as a sentence. `field` is what was
-    refused, a field of a structure or an argument; "" if it is no single one."""
+    """The library reported an error. The message is a sentence with the cause.
+
+    Attributes:
+        status: the `Status` of the C call.
+        field: name of the wrong field or argument; "" if no single one is wrong.
+    """
 
     def __init__(self, status: int, problem: Optional[Problem] = None):
         text = library.starfocus_status_string(status).decode()
@@ -29,15 +33,15 @@ class ArgumentError(StarfocusError, ValueError):
 
 
 class DisparityError(ArgumentError):
-    """A disparity map holds values that are not finite or outside of the configured range."""
+    """A disparity map contains values that are not finite or outside the configured range."""
 
 
 class OutOfMemory(StarfocusError, MemoryError):
-    """There is not as much memory as the library needs."""
+    """The library needs more memory than is available."""
 
 
 class Cancelled(StarfocusError):
-    """The caller's progress function said so; what was to be written is unspecified."""
+    """The progress function cancelled the call. The contents of the output are unspecified."""
 
 
 _KINDS = {
@@ -52,6 +56,6 @@ _KINDS = {
 
 
 def check(status: int, problem: Optional[Problem] = None) -> None:
-    """Raises the error that a status stands for, if it is one."""
+    """Raises the exception for a status, unless it is OK."""
     if status != Status.OK:
         raise _KINDS.get(Status(status), ArgumentError)(status, problem)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Light-field folders, as the program `starfocus` writes and reads them."""
+"""Reads light-field folders of the program `starfocus`, pictures and PFM files."""
 from __future__ import annotations
 
 from pathlib import Path
@@ -14,8 +14,17 @@ _SETS = (17, 9, 5, 1)
 
 def read_light_field(folder: Union[str, Path], positions: Optional[Sequence[Tuple[float, float]]] = None
                      ) -> Tuple[List[np.ndarray], Optional[np.ndarray]]:
-    """The views of a folder at these positions, or of the largest star that is complete, and its disparity
-    map if it has one."""
+    """Reads a light-field folder (docs/formats.md).
+
+    Args:
+        folder: folder with views, for example view_+0.0_+0.0.png, and optionally disparity.pfm.
+        positions: (u, v) of the views to read. None: the positions of `view_positions`, as many as the
+            largest complete star of 17, 9, 5 or 1 views has.
+
+    Returns the list of views, and the disparity map, or None if the folder has none.
+
+    Raises FileNotFoundError if a view is missing, and ValueError for malformed files.
+    """
     folder = Path(folder)
     wanted = view_positions() if positions is None else positions
     paths = [_view_path(folder, u, v) for u, v in wanted]
@@ -29,7 +38,10 @@ def read_light_field(folder: Union[str, Path], positions: Optional[Sequence[Tupl
 
 
 def read_picture(path: Union[str, Path]) -> np.ndarray:
-    """A picture as (height, width, 3) uint8; other formats than PPM need the package pillow."""
+    """Reads a picture as uint8 of shape (height, width, 3).
+
+    Formats other than PPM need the package pillow. Raises ValueError for a malformed PPM.
+    """
     path = Path(path)
     if path.suffix != ".ppm":
         from PIL import Image  # pylint: disable=import-outside-toplevel
@@ -43,7 +55,10 @@ def read_picture(path: Union[str, Path]) -> np.ndarray:
 
 
 def read_pfm(path: Union[str, Path]) -> np.ndarray:
-    """A map of one channel as (height, width) float32, its first row on top."""
+    """Reads a PFM with one channel as float32 of shape (height, width).
+
+    The first row of the array is the top row of the map. Raises ValueError for a malformed PFM.
+    """
     path = Path(path)
     data = path.read_bytes()
     (magic, width, height, scale), first = _header(data, 4, path)
@@ -69,7 +84,7 @@ def _view_path(folder: Path, u: float, v: float) -> Optional[Path]:
 
 
 def _header(data: bytes, words: int, path: Path) -> Tuple[List[bytes], int]:
-    """The first words of a file, comments left out, and where what follows them begins."""
+    """Returns the first `words` words of a file without comments, and the offset of the data behind them."""
     found: List[bytes] = []
     at = 0
     while len(found) < words:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Pictures and depth maps as cameras have them: starfocus_image and starfocus_depth_map."""
+"""Pictures and depth maps in the formats of cameras (starfocus_image and starfocus_depth_map)."""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -18,11 +18,15 @@ _DEPTH_TYPES = {np.dtype(np.float32): 0, np.dtype(np.uint16): 1, np.dtype(np.uin
 
 @dataclass(frozen=True)
 class Image:
-    """A picture that is read, or written where its planes are writable.
+    """A picture in one of the formats of `Format`. It refers to the arrays of the caller and copies nothing.
 
-    Planes are arrays of uint8, one row of the plane each along their first axis, with contiguous rows.
-    `pixel_stride` is the distance of pixels of R, G, B, or of chroma samples of YUV_420_888, in bytes; 0: the
-    least that the format allows.
+    Attributes:
+        format: layout of the picture.
+        planes: arrays of uint8, one per plane. The first axis of an array counts rows, which are contiguous. Planes of
+            an output must be writable.
+        matrix, range: matrix and code range of YUV formats; ignored for RGB formats.
+        pixel_stride: bytes from pixel to pixel of an RGB format, at most 256, or bytes from chroma sample to chroma
+            sample of YUV_420_888, 1 or 2. 0: the smallest value that the format allows.
     """
 
     format: Format
@@ -34,12 +38,22 @@ class Image:
     @staticmethod
     def empty(form: Format, width: int, height: int, matrix: Matrix = Matrix.BT601,
               codes: Range = Range.LIMITED) -> "Image":
-        """A new picture whose rows follow each other."""
+        """Returns a new picture without gaps between rows. Its contents are undefined.
+
+        Args:
+            form: layout of the picture.
+            width, height: size in pixels.
+            matrix, codes: matrix and code range of YUV formats.
+        """
         sizes = _plane_sizes(form, 0, width, height)
         return Image(form, [np.empty(size, np.uint8) for size in sizes], matrix, codes)
 
     def as_structure(self, width: int, height: int, what: str, written: bool = False) -> _abi.Image:
-        """starfocus_image; ValueError when a plane is too small for a picture of this size."""
+        """Returns the starfocus_image of a picture of this size.
+
+        Raises TypeError or ValueError if a plane has the wrong type, is too small, or cannot be read or written in
+        place. `what` names the picture in messages; `written` is True for outputs.
+        """
         form, pixel_stride = Format(self.format), whole(self.pixel_stride, f"{what}, pixel_stride")
         image = _abi.Image(form, Matrix(self.matrix), Range(self.range), pixel_stride)
         sizes = _plane_sizes(form, pixel_stride, width, height)
@@ -53,11 +67,17 @@ class Image:
 
 @dataclass(frozen=True)
 class DepthMap:
-    """Depths of the centre view, as large as the picture or smaller.
+    """Depth map of the centre view, as large as the picture or smaller.
 
-    `values` are float32, float16, uint16 or uint8; float64 is converted to float32. Disparity is scale * z + offset (LINEAR) or
-    scale / z + offset (RECIPROCAL: z is a distance). `invalid` is the value that stands for an unknown depth,
-    if one does.
+    Attributes:
+        values: array of shape (height, width) with aligned, contiguous rows, of float32, float16, uint16 or uint8.
+            float64 and other byte orders are converted.
+        meaning: how a value z gives a disparity: scale * z + offset (LINEAR), or scale / z + offset for distances z
+            (RECIPROCAL).
+        scale: finite and not 0; rounded to float32.
+        offset: finite; rounded to float32.
+        invalid: value that stands for unknown depth; None: no such value. Maps with unknown values need
+            `fill_unknown=1` in the configuration.
     """
 
     values: np.ndarray
@@ -67,7 +87,10 @@ class DepthMap:
     invalid: Optional[float] = None
 
     def as_structure(self) -> Tuple[_abi.DepthMap, np.ndarray]:
-        """starfocus_depth_map, and the array that it points to."""
+        """Returns the starfocus_depth_map, and the array that it points to.
+
+        Raises TypeError or ValueError if the values have the wrong type or shape.
+        """
         values = np.asarray(self.values)
         native = np.dtype(np.float32) if values.dtype.type == np.float64 else values.dtype.newbyteorder("=")
         if values.dtype != native:
@@ -86,7 +109,7 @@ class DepthMap:
 
 
 def _plane_sizes(form: Format, pixel_stride: int, width: int, height: int) -> Sequence[Tuple[int, int]]:
-    """Rows, and bytes of each, of the planes of a picture."""
+    """Returns the number of rows and the bytes per row of each plane of a picture."""
     pixel = _PIXEL_BYTES.get(form)
     if pixel:
         return [(height, (width - 1) * max(pixel_stride, pixel) + pixel)]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Disparity maps: measuring, filling, estimating and repairing them, and what they say of a lens."""
+"""Measures, fills, estimates and repairs disparity maps, and finds the focus and aperture of a lens."""
 from __future__ import annotations
 
 import ctypes
@@ -16,7 +16,12 @@ from .errors import check
 
 
 class DisparityStats(NamedTuple):
-    """Smallest and largest finite value of a map, and how many are not finite."""
+    """Range of a disparity map.
+
+    Attributes:
+        min, max: smallest and largest finite value; 0 if no value is finite.
+        invalid: number of values that are NaN or infinite.
+    """
 
     min: float
     max: float
@@ -24,10 +29,15 @@ class DisparityStats(NamedTuple):
 
 
 class DisparityMap(NamedTuple):
-    """A map (float32) and how sure each of its pixels is (uint8): 0 means that another disparity is as good.
+    """An estimated or repaired disparity map. All arrays have the shape (height, width).
 
-    coverage (uint8; None: there is none) goes with a map that was repaired by one view and has hair as a closed
-    outline: how much of each pixel the nearer surface covers. Pass it to refocus, or prepare."""
+    Attributes:
+        disparity: disparities, float32.
+        confidence: confidence of each disparity, uint8; 0 means that another disparity fits as well.
+        coverage: alpha of the foreground, uint8: the part of each pixel that the nearer surface covers. It belongs to
+            the map; pass it to `Refocuser.refocus` or `Refocuser.prepare`. None, except for maps that were repaired
+            from one view that shows hair.
+    """
 
     disparity: np.ndarray
     confidence: np.ndarray
@@ -35,7 +45,10 @@ class DisparityMap(NamedTuple):
 
 
 def view_positions(count: int = 17) -> List[Tuple[float, float]]:
-    """Where the first `count` views lie, as (u, v): the centre comes first."""
+    """Returns the positions (u, v) of the first `count` views of the star, at most 17. The first one is the centre.
+
+    u grows to the right and v downwards, each from -1 to 1.
+    """
     u, v = ctypes.c_double(), ctypes.c_double()
     positions = []
     for index in range(count):
@@ -46,7 +59,7 @@ def view_positions(count: int = 17) -> List[Tuple[float, float]]:
 
 
 def measure_disparity(disparity: np.ndarray) -> DisparityStats:
-    """The range of a map."""
+    """Measures the range of a disparity map."""
     disparity = as_map(disparity)
     stats = _abi.DisparityStats()
     check(library.starfocus_measure_disparity(*_rows(disparity), byref(stats)))
@@ -54,21 +67,37 @@ def measure_disparity(disparity: np.ndarray) -> DisparityStats:
 
 
 def fill_disparity(disparity: np.ndarray) -> np.ndarray:
-    """A copy whose values that are not finite are those of the farther neighbour in their row."""
+    """Returns a copy of a disparity map in which values that are NaN or infinite are filled.
+
+    A value gets the nearest finite value to the left or right; between two, the smaller one, which belongs to the
+    farther surface. Rows without a finite value are filled from the rows above and below by the same rule. Raises
+    DisparityError if no value is finite.
+    """
     filled = np.array(as_map(disparity), order="C")
     check(library.starfocus_fill_disparity(*_rows(filled)))
     return filled
 
 
 def focus_at(disparity: np.ndarray, x: int, y: int) -> float:
-    """The focus for what is at the pixel (x, y): the median of its surface around there."""
+    """Returns the disparity to focus at for the pixel (x, y), for example where a user tapped.
+
+    It is the median of the disparities up to 3 pixels away that belong to the surface of the pixel. Raises
+    ArgumentError if the pixel lies outside the map, and DisparityError if one of the 7 x 7 disparities is not finite.
+    """
     focus = ctypes.c_double()
     check(library.starfocus_focus_at(*_rows(as_map(disparity)), whole(x, "x"), whole(y, "y"), byref(focus)))
     return focus.value
 
 
 def aperture_of_f_stop(f_stop: float, widest: float = 1.0) -> float:
-    """The aperture of a lens stopped down to `f_stop`, where `widest` is the f-stop of aperture 1."""
+    """Returns the aperture of an f-stop: widest / f_stop.
+
+    Args:
+        f_stop: f-stop of the lens, finite and at least `widest`.
+        widest: f-stop of a lens with aperture 1, above 0. With 1, f-stops are relative to that lens.
+
+    Raises ArgumentError for values out of range.
+    """
     aperture = ctypes.c_double()
     check(library.starfocus_aperture_of_f_stop(f_stop, widest, byref(aperture)))
     return aperture.value
@@ -76,7 +105,16 @@ def aperture_of_f_stop(f_stop: float, widest: float = 1.0) -> float:
 
 def estimate_disparity(views: Views, disparity_min: float, disparity_max: float, *, workers: int = 0,
                        progress: Optional[ProgressFunction] = None) -> DisparityMap:
-    """The disparity of each pixel of the centre view, from 5, 9 or 17 views, looked for in this range."""
+    """Estimates the disparity of each pixel of the centre view.
+
+    Args:
+        views: 5, 9 or 17 views at the positions of `view_positions`, each uint8 of shape (height, width, 3).
+        disparity_min, disparity_max: range of the disparities in pixels per unit of u, within +-500.
+        workers: number of threads; 0: one for each big core of the machine.
+        progress: receives the number of finished rows and the number of rows; a true result cancels the call.
+
+    Raises a subclass of StarfocusError, and TypeError or ValueError for arrays of a wrong type or shape.
+    """
     return _make_map(library.starfocus_estimate_workspace_size, library.starfocus_estimate_disparity, views, None,
                      (disparity_min, disparity_max), workers, progress)
 
@@ -84,9 +122,20 @@ def estimate_disparity(views: Views, disparity_min: float, disparity_max: float,
 def repair_disparity(views: Views, disparity: np.ndarray, disparity_min: Optional[float] = None,
                      disparity_max: Optional[float] = None, *, workers: int = 0,
                      progress: Optional[ProgressFunction] = None) -> DisparityMap:
-    """A map whose edges are wrong or blurred, which is noisy or has unknown (not finite) values, repaired by
-    1, 5, 9 or 17 views; all within this range, which is the map's own unless it is given. With one view it may have
-    coverage, without which it is no better where there is hair."""
+    """Repairs a disparity map: noise, values that are not finite, and edges that are blurred or displaced.
+
+    Args:
+        views: 1, 5, 9 or 17 views at the positions of `view_positions`, each uint8 of shape (height, width, 3).
+        disparity: map to repair, of shape (height, width). It is not changed.
+        disparity_min, disparity_max: range of the result in pixels per unit of u, within +-500. It contains all finite
+            values of the map. None: the smallest and the largest finite value of the map.
+        workers: number of threads; 0: one for each big core of the machine.
+        progress: receives the number of finished rows and the number of rows; a true result cancels the call.
+
+    With one view that shows hair, the result may have coverage, which is then needed to improve the hair.
+
+    Raises a subclass of StarfocusError, and TypeError or ValueError for arrays of a wrong type or shape.
+    """
     stats = measure_disparity(disparity)
     span = (stats.min if disparity_min is None else disparity_min,
             stats.max if disparity_max is None else disparity_max)
@@ -125,5 +174,5 @@ def _make_map(size_of: Any, make: Any, views: Views, given: Optional[np.ndarray]
 
 
 def _rows(disparity: np.ndarray) -> Tuple[Any, int, int, int]:
-    """Where a map begins, its stride, width and height, as calls of the library take them."""
+    """Returns the address, stride, width and height of a map, which are arguments of many calls."""
     return pointer(disparity), stride_of(disparity), disparity.shape[1], disparity.shape[0]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Refocusing."""
+"""Refocuses light fields: the engine and prepared light fields."""
 from __future__ import annotations
 
 import ctypes
@@ -21,12 +21,12 @@ from .images import DepthMap, Image
 from .maps import measure_disparity
 
 
-#: A disparity map as an array of (height, width), or depths in another form.
+#: A disparity map as an array of shape (height, width), or a depth map in another format.
 Disparity = Union[np.ndarray, DepthMap]
-#: A picture as an array of (height, width, 3), or in another format.
+#: A picture as an array of shape (height, width, 3), or in another format.
 Picture = Union[np.ndarray, Image]
 
-#: What `config` switches on by names of its own: bits of starfocus_config.features.
+#: Keywords of `config` for the bits of starfocus_config.features.
 _FEATURES = {"line_scan": 1, "coverage": 2, "images": 8, "fill_unknown": 16, "shapes": 32}
 
 
@@ -34,19 +34,26 @@ class Refocuser:
     """An engine for light fields of one size.
 
     Args:
-        width, height: of the pictures, in pixels.
-        views: 1, 5, 9 or 17, in the order of `view_positions`; with positions any number up to 17.
-        disparity_min, disparity_max: what values disparity maps may hold, in pixels per unit of u.
-        workers: threads that refocus; 0: one for each big core of the machine.
-        positions: (u, v) of each view where they are not those of `view_positions`, from -1 to 1, the centre
-            (0, 0) first: `[(0, 0), (1, 0)]` of a stereo pair.
-        config: other fields of starfocus_config and starfocus_tuning (starfocus.h) and features by their names, such as `max_blur`,
-            `transfer`, `highlights`, `fill_unknown=1`, `shapes=1` for lenses that are polygons or have cat's
-            eyes, `images=1` for other formats than RGB, or `previews=3` for `Prepared.preview` down to an
-            eighth of the size.
+        width, height: size of the views in pixels, from 1 to 65535.
+        views: number of views: 1, 5, 9 or 17 in the order of `view_positions`, or any number up to 17 with
+            `positions`.
+        disparity_min, disparity_max: range of the disparities of all maps, in pixels per unit of u, within +-500.
+        workers: number of threads, up to 64; 0: one for each big core of the machine.
+        positions: positions (u, v) of the views, each from -1 to 1, of which the first is (0, 0). For a stereo pair,
+            pass `[(0, 0), (1, 0)]`. None: the positions of `view_positions`.
+        config: other fields of starfocus_config and starfocus_tuning with their C names, for example `max_blur`
+            (default 32 pixels), `transfer`, `highlights`, or `previews=3` for `Prepared.preview` down to 1/8 of the
+            size. Also features with the value 0 or 1: `shapes` for lenses that are polygons or have cat's eyes,
+            `images` for formats other than RGB, `fill_unknown`, `line_scan` (default 1) and `coverage` (default 1).
 
-    Memory is taken here and nowhere else. Calls let other Python threads run; calls of several threads with
-    the same refocuser take turns. The bytes of pictures depend on neither the machine nor `workers`.
+    Attributes:
+        report: dictionary with the fields of starfocus_report of the last refocusing.
+
+    Raises a subclass of StarfocusError for values out of range, TypeError for unknown fields, ValueError for
+    integers that do not fit the C structure, and MemoryError.
+
+    The engine allocates all its memory when it is created. Calls release the GIL. Several threads may use a
+    refocuser; their calls take turns. The bytes of pictures depend neither on the machine nor on `workers`.
     """
 
     def __init__(self, width: int, height: int, views: int = 5, *, disparity_min: float,
@@ -77,14 +84,23 @@ class Refocuser:
         self._engine = engine.value
         weakref.finalize(self, library.starfocus_destroy, self._engine)
         self._lock = threading.Lock()
-        #: What the last refocusing did: the fields of starfocus_report.
+        #: Fields of starfocus_report of the last refocusing.
         self.report: Dict[str, Any] = {}
 
     @classmethod
     def for_light_field(cls, views: Views, disparity: np.ndarray, *, workers: int = 0,
                         **config: Any) -> "Refocuser":
-        """A refocuser for this light field and others like it: of its size, number of views and range of
-        disparities, with room for the blur of every focus among these."""
+        """Returns a refocuser for a light field, and for others with the same size, number of views and disparity
+        range.
+
+        `max_blur` is large enough for every focus in the disparity range, up to 128 pixels.
+
+        Args:
+            views: views, as for `refocus`.
+            disparity: disparity map of the size of the views, an array.
+            workers: number of threads; 0: one for each big core of the machine.
+            config: as for `Refocuser`; takes precedence over the derived `max_blur`.
+        """
         stats = measure_disparity(disparity)
         height, width = np.shape(disparity)
         views = as_list(views)
@@ -94,40 +110,49 @@ class Refocuser:
 
     @property
     def width(self) -> int:
-        """Of the pictures, in pixels."""
+        """Width of the pictures in pixels."""
         return self._config.width
 
     @property
     def height(self) -> int:
-        """Of the pictures, in pixels."""
+        """Height of the pictures in pixels."""
         return self._config.height
 
     @property
     def workers(self) -> int:
-        """Threads that refocus."""
+        """Number of threads, including the calling thread."""
         return self._pool.workers
 
     def refocus(self, views: Views, disparity: Disparity, *, focus: float, aperture: float = 1.0,
                 coverage: Optional[np.ndarray] = None, mode: Mode = Mode.BLOCK, renderer: Renderer = Renderer.AUTO,
                 region: Optional[RegionOfPicture] = None, out: Optional[Picture] = None,
                 progress: Optional[ProgressFunction] = None, **lens: Any) -> Picture:
-        """The picture that a lens of the radius `aperture`, from 0 to 1, focused at the disparity `focus`
-        would have taken, as (height, width, 3) uint8.
+        """Refocuses a light field. Returns the picture, uint8 of shape (height, width, 3).
 
         Args:
-            views: uint8 of (height, width, 3) or an Image each; Images other than RGB need `images=1` in the
-                configuration. Where rows are contiguous they are read where they are.
-            disparity: (height, width), of the centre view; float32, other floating-point types are converted. Or a
-                DepthMap, which needs `images=1` unless it is of float32 disparities and as large as the picture.
-            coverage: (height, width) uint8: how much of each pixel the nearer of two surfaces covers, 255: all,
-                as a matting network finds it; it decides over the map near depth edges. None: there is none.
-            region: only this part of the picture, with the same bytes. Four zeros, as None: the whole picture.
-            out: an array, or with `images=1` an Image, that is written and returned in place of a new array.
-            progress: is told of the rows done and of all; what counts as true calls it off (Cancelled).
-            lens: other fields of starfocus_lens (starfocus.h): `shape`, `blades`, `theta`, `rotation`, `curvature`,
-                `ring_inner`, `cats_eye`.
+            views: the configured number of views, each uint8 of shape (height, width, 3) or an Image. Images other
+                than RGB need `images=1` in the configuration. Arrays with contiguous rows are read in place.
+            disparity: disparity map of the centre view, of shape (height, width). float32 is read in place; other
+                floating-point types are converted. A DepthMap needs `images=1`, unless it contains float32
+                disparities and has the size of the picture.
+            focus: disparity in focus, in pixels per unit of u.
+            aperture: radius of the aperture, from 0 (the centre view) to 1 (as far as the outermost views).
+            coverage: alpha of the foreground, uint8 of shape (height, width): the part of each pixel that the nearer
+                of two surfaces covers (255: all), as matting networks compute it. Near depth edges it takes
+                precedence over the map. None: no coverage.
+            mode: how the picture is divided.
+            renderer: how views are rendered.
+            region: x, y, width and height in pixels of the part to compute. It has the same bytes as that part of the
+                whole picture. None or four zeros: the whole picture.
+            out: writable array, or with `images=1` an Image, of the size of the region. It is written and returned
+                instead of a new array. It must not overlap the light field.
+            progress: receives the number of finished rows and the number of rows. A true result cancels the call,
+                which raises Cancelled. An exception in the function cancels the call and is raised again.
+            lens: other fields of starfocus_lens with their C names: `shape`, `blades`, `theta`, `rotation`,
+                `curvature`, `ring_inner`, `cats_eye`.
 
-        Raises StarfocusError, of which there are kinds, and TypeError or ValueError for arrays.
+        Raises a subclass of StarfocusError, and TypeError or ValueError for arrays of a wrong type or shape. After
+        Cancelled the contents of `out` are unspecified.
         """
         field, kept = light_field(views, disparity, self._config.views, self.height, self.width)
         kept += set_coverage(field, coverage, self.height, self.width)
@@ -137,13 +162,19 @@ class Refocuser:
 
     def prepare(self, views: Views, disparity: Disparity, *, coverage: Optional[np.ndarray] = None,
                 progress: Optional[ProgressFunction] = None) -> "Prepared":
-        """What is the same for every lens, made once for many pictures of one light field."""
+        """Performs the work that does not depend on the lens, once for many pictures of one light field.
+
+        Args and exceptions are those of `refocus`. The arrays must not change while the result is used.
+        """
         return Prepared(self, views, disparity, progress, coverage)
 
     def _picture(self, params: _abi.Params, out: Optional[Picture], size: Tuple[int, int],
                  progress: Optional[ProgressFunction], function: Any, scene: Any, *, keep: List[Any]) -> Picture:
-        """The picture of that height and width by starfocus_refocus or its like, of the scene, which reads the arrays
-        to `keep`."""
+        """Calls starfocus_refocus or a similar function, and returns its picture.
+
+        `size` is the height and width of the picture. `scene` is the light field or prepared light field, and `keep`
+        are the arrays that it refers to.
+        """
         if isinstance(out, Image):
             picture, image = out, out.as_structure(size[1], size[0], "out", written=True)
         else:
@@ -168,13 +199,13 @@ class Refocuser:
         return params
 
     def _call(self, watch: Watch, function: Any, *arguments: Any) -> None:
-        """Calls the function with the engine, the arguments and a report."""
+        """Calls the function with the engine, the arguments and a report, and stores the report."""
         report = _abi.Report()
         self._run(watch, function, *arguments, byref(report))
         self.report = _as_dict(report)
 
     def _run(self, watch: Watch, function: Any, *arguments: Any) -> None:
-        """Calls the function with the engine and the arguments; the watch receives its progress."""
+        """Calls the function with the engine and the arguments, and reports its progress to `watch`."""
         callbacks = _abi.Callbacks(self._pool.runner, self._pool.handle, watch.function)
         with self._lock:
             status = library.starfocus_set_callbacks(self._engine, byref(callbacks))
@@ -184,8 +215,11 @@ class Refocuser:
 
 
 class Prepared:
-    """A light field of which all that is the same for every lens has been made: 3.89 bytes per pixel, and
-    for previews of 5 views up to 5.9 more. It keeps the arrays; they must stay as they are."""
+    """A light field that is prepared for refocusing with any lens. Created by `Refocuser.prepare`.
+
+    It takes 3.89 bytes per pixel, and up to 5.9 more for previews of 5 views. It keeps references to the arrays of
+    the light field, which must not change.
+    """
 
     def __init__(self, refocuser: Refocuser, views: Views, disparity: Disparity,
                  progress: Optional[ProgressFunction], coverage: Optional[np.ndarray] = None):
@@ -204,7 +238,7 @@ class Prepared:
     def refocus(self, *, focus: float, aperture: float = 1.0, mode: Mode = Mode.BLOCK,
                 renderer: Renderer = Renderer.AUTO, region: Optional[RegionOfPicture] = None, out: Optional[Picture] = None,
                 progress: Optional[ProgressFunction] = None, **lens: Any) -> Picture:
-        """As Refocuser.refocus of the light field, with the same bytes."""
+        """Refocuses the light field. Returns the same picture as `Refocuser.refocus`, which describes the arguments."""
         # pylint: disable=protected-access
         *_, width, height = part_of(region, self._refocuser.width, self._refocuser.height)
         params = self._refocuser._params(mode, renderer, region, focus=focus, aperture=aperture, **lens)
@@ -214,9 +248,14 @@ class Prepared:
     def preview(self, shift: int, *, focus: float, aperture: float = 1.0, mode: Mode = Mode.BLOCK,
                 renderer: Renderer = Renderer.AUTO, region: Optional[RegionOfPicture] = None, out: Optional[Picture] = None,
                 progress: Optional[ProgressFunction] = None, **lens: Any) -> Picture:
-        """As `refocus` at 1 / 2**shift of the size, from 1 to the `previews` of the refocuser's
-        configuration. Focus and region are in pixels of the full size; the picture has the pixels that
-        have a part of the region."""
+        """Refocuses the light field at 1 / 2**shift of its size, in about 1 / 4**shift of the time.
+
+        Args:
+            shift: from 1 to the field `previews` of the refocuser's configuration; otherwise raises ArgumentError.
+
+        The other arguments are those of `Refocuser.refocus`, in pixels of the full size. The preview of a region has
+        all pixels that contain a part of the region.
+        """
         # pylint: disable=protected-access
         x, y, width, height = part_of(region, self._refocuser.width, self._refocuser.height)
         if not 1 <= whole(shift, "shift") <= self._refocuser._config.previews:
