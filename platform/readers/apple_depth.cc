@@ -69,9 +69,10 @@ void UnderstandApple(const XmpNode& xmp, DepthPhoto* photo) {
 
 Error ReadAppleJpeg(Span file, const JpegParts& parts, DepthPhoto* photo) {
   if (!CanReadXmp()) return {};
-  bool gain_map = false, missing = false;
+  bool gain_map = false;
   Error error;
-  for (const MultiPicture& picture : ListMultiPictures(file, parts, &missing)) {
+  const MultiPictures listed = ListMultiPictures(file, parts);
+  for (const MultiPicture& picture : listed.pictures) {
     const XmpNode xmp = ReadPackets(picture.parts);
     const std::string type = TypeOf(xmp);
     gain_map = gain_map || type.find("gainmap") != std::string::npos;
@@ -85,7 +86,7 @@ Error ReadAppleJpeg(Span file, const JpegParts& parts, DepthPhoto* photo) {
   }
   if (gain_map) photo->facts.emplace_back("gain map", "left out");
   if (!photo->map.values.empty()) return {};
-  if (error || !missing) return error;
+  if (error || !listed.missing) return error;
   return Expected("multi-picture index", "all pictures that it names", "one cut off or not there");
 }
 

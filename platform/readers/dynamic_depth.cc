@@ -96,7 +96,7 @@ Span FindByBeginning(Span file, const JpegParts& parts, const std::vector<Item>&
   }
   size_t jpeg = 0;
   for (size_t k = 1; k < index; ++k) jpeg += items[k].mime == "image/jpeg" ? 1 : 0;
-  const std::vector<MultiPicture> pictures = ListMultiPictures(file, parts);
+  const std::vector<MultiPicture> pictures = ListMultiPictures(file, parts).pictures;
   return jpeg < pictures.size() ? pictures[jpeg].file : Span{};
 }
 

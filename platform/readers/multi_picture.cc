@@ -35,27 +35,31 @@ struct Entry {
   uint32_t type = 0;
 };
 
-// Lists the entries behind the first picture's. `counted` is how many of them the index counts; a
-// wrong count leaves out entries that are there.
-std::vector<Entry> ListEntries(Span file, Span index, size_t pictures, size_t* counted) {
+// The entries behind the first picture's, and how many of them the index counts: a wrong count
+// leaves out entries that are there.
+struct Index {
   std::vector<Entry> entries;
+  size_t counted = 0;
+};
+
+Index ReadIndex(Span file, Span index, size_t pictures) {
+  Index result;
   const Tiff tiff = {index, index.size > 0 && index.data[0] == 'I'};
   const size_t base = index.empty() ? 0 : static_cast<size_t>(index.data - file.data);
   const size_t directory = tiff.Whole(4, 4), tags = tiff.Whole(directory, 2);
-  *counted = 0;
   for (size_t k = 0; k < tags && directory + 12 * k < index.size; ++k) {
     const size_t tag = directory + 2 + 12 * k;
     if (tiff.Whole(tag, 2) != kEntryTag) continue;
     const size_t count = tiff.Whole(tag + 4, 4) / kEntrySize, first = tiff.Whole(tag + 8, 4);
-    *counted = std::max(count, size_t{1}) - 1;
+    result.counted = std::max(count, size_t{1}) - 1;
     for (size_t n = 1; n <= pictures; ++n) {
       const size_t at = first + n * kEntrySize;
       if (at > index.size || kEntrySize > index.size - at) break;
-      entries.push_back({base + tiff.Whole(at + 8, 4), tiff.Whole(at, 4) & kTypeBits});
+      result.entries.push_back({base + tiff.Whole(at + 8, 4), tiff.Whole(at, 4) & kTypeBits});
     }
     break;
   }
-  return entries;
+  return result;
 }
 
 // The next place from `at` on where a JPEG file may begin; the file's size if there is none.
@@ -78,15 +82,15 @@ bool IsType(uint32_t type) {
 }
 
 // Types by place; where the index has none of the places, they were moved, and types go by order.
-void TakeEntries(Span file, const std::vector<Entry>& entries, size_t counted,
-                 std::vector<MultiPicture>* pictures) {
+void TakeIndex(Span file, const Index& index, std::vector<MultiPicture>* pictures) {
+  const std::vector<Entry>& entries = index.entries;
   bool any = false;
   for (MultiPicture& picture : *pictures) {
     const auto begin = static_cast<size_t>(picture.file.data - file.data);
     for (size_t k = 0; k < entries.size(); ++k) {
       if (entries[k].begin != begin) continue;
       picture.type = entries[k].type;
-      picture.indexed = k < counted;
+      picture.indexed = k < index.counted;
       any = true;
     }
   }
@@ -99,7 +103,7 @@ void TakeEntries(Span file, const std::vector<Entry>& entries, size_t counted,
 
 }  // namespace
 
-std::vector<MultiPicture> ListMultiPictures(Span file, const JpegParts& parts, bool* missing) {
+MultiPictures ListMultiPictures(Span file, const JpegParts& parts) {
   std::vector<MultiPicture> pictures;
   size_t at = parts.end;
   for (size_t attempt = 0; attempt < kMostPictures; ++attempt) {
@@ -116,12 +120,10 @@ std::vector<MultiPicture> ListMultiPictures(Span file, const JpegParts& parts, b
     at += picture.parts.end;
     pictures.push_back(std::move(picture));
   }
-  size_t counted = 0;
-  const std::vector<Entry> entries =
-      ListEntries(file, parts.multi_picture, pictures.size(), &counted);
-  TakeEntries(file, entries, counted, &pictures);
-  if (missing != nullptr) *missing = counted > pictures.size();
-  return pictures;
+  const Index index = ReadIndex(file, parts.multi_picture, pictures.size());
+  TakeIndex(file, index, &pictures);
+  const bool missing = index.counted > pictures.size();
+  return {std::move(pictures), missing};
 }
 
 }  // namespace starfocus

@@ -19,11 +19,13 @@ struct MultiPicture {
   uint32_t type = 0;     // by the index: 0x020002 is one of a stereo pair, 0 unknown
 };
 
+struct MultiPictures {
+  std::vector<MultiPicture> pictures;
+  bool missing = false;  // the index names a picture that is cut off or not there
+};
+
 // Lists the whole JPEG files behind the first picture, 64 at most.
-//
-// @param missing set to true if the index names a picture that is cut off or not there; may be null
-std::vector<MultiPicture> ListMultiPictures(Span file, const JpegParts& parts,
-                                            bool* missing = nullptr);
+MultiPictures ListMultiPictures(Span file, const JpegParts& parts);
 
 }  // namespace starfocus
 

@@ -17,7 +17,7 @@ bool FromBelow(int orientation) {
 struct Turn {
   int orientation, width, height;
 
-  void Place(int x, int y, int* from_x, int* from_y) const {
+  std::pair<int, int> Place(int x, int y) const {
     int across = x, down = y, columns = width, rows = height;
     if (SwapsSides(orientation)) {
       across = y;
@@ -25,8 +25,8 @@ struct Turn {
       columns = height;
       rows = width;
     }
-    *from_x = FromRight(orientation) ? columns - 1 - across : across;
-    *from_y = FromBelow(orientation) ? rows - 1 - down : down;
+    return {FromRight(orientation) ? columns - 1 - across : across,
+            FromBelow(orientation) ? rows - 1 - down : down};
   }
 };
 
@@ -37,8 +37,7 @@ void TurnPicture(int orientation, Image* image) {
   for (int y = 0; y < result.height; ++y) {
     uint8_t* to = result.row(y);
     for (int x = 0; x < result.width; ++x) {
-      int from_x = 0, from_y = 0;
-      turn.Place(x, y, &from_x, &from_y);
+      const auto [from_x, from_y] = turn.Place(x, y);
       const uint8_t* from = image->row(from_y) + 3 * size_t(from_x);
       for (int c = 0; c < 3; ++c) *to++ = from[c];
     }
@@ -57,8 +56,7 @@ void TurnMap(int orientation, FloatMap* map) {
   const Turn turn = {orientation, result.width, result.height};
   for (int y = 0; y < result.height; ++y) {
     for (int x = 0; x < result.width; ++x) {
-      int from_x = 0, from_y = 0;
-      turn.Place(x, y, &from_x, &from_y);
+      const auto [from_x, from_y] = turn.Place(x, y);
       result.values.push_back(map->at(from_x, from_y));
     }
   }

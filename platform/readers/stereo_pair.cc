@@ -32,7 +32,7 @@ bool ReadStereoPair(const std::string& path, Span file, DepthPhoto* photo) {
   if (!IsJpeg(file)) return false;
   const Result<JpegParts> parts = ReadJpegParts(path, file);
   if (!parts || (parts->multi_picture.empty() && LowerExtension(path) != ".mpo")) return false;
-  const std::vector<MultiPicture> pictures = ListMultiPictures(file, *parts);
+  const std::vector<MultiPicture> pictures = ListMultiPictures(file, *parts).pictures;
   if (pictures.empty() || IsAuxiliary(pictures[0])) return false;
   const uint32_t type = pictures[0].type;
   if (type != kUndefined && type != kStereo) return false;

@@ -3,8 +3,12 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
+
+#include "starfocus/version.h"
 
 namespace starfocus {
 namespace {
@@ -43,12 +47,13 @@ class Tiff {
               bytes_.begin() + static_cast<ptrdiff_t>(entry));
     Set(folder, 2, static_cast<uint32_t>(count - 1));
   }
-  // The first entry of a folder's list and how many there are; false where they are not all there.
-  bool Entries(size_t folder, size_t* first, size_t* count) const {
-    if (!Has(folder, 2)) return false;
-    *first = folder + 2;
-    *count = Get(folder, 2);
-    return Has(*first, *count * kEntry + 4);
+  // Where the entries of a folder's list are; none where they are not all there.
+  std::optional<std::vector<size_t>> Entries(size_t folder) const {
+    const size_t count = Has(folder, 2) ? Get(folder, 2) : 0;
+    if (!Has(folder, 2 + count * kEntry + 4)) return {};
+    std::vector<size_t> places(count);
+    for (size_t k = 0; k < count; ++k) places[k] = folder + 2 + k * kEntry;
+    return places;
   }
 
  private:
@@ -64,10 +69,10 @@ bool IsTiff(const Bytes& bytes, const Tiff& tiff) {
 // Removes the subject, whose pixels are those of the picture as it was, unless the folder says that
 // it had this size.
 void RemoveSubject(size_t folder, int width, int height, bool turned, Tiff* tiff) {
-  size_t first = 0, count = 0;
-  if (!tiff->Entries(folder, &first, &count)) return;
+  const auto entries = tiff->Entries(folder);
+  if (!entries) return;
   bool same_width = false, same_height = false;
-  for (size_t at = first; at < first + count * kEntry; at += kEntry) {
+  for (const size_t at : *entries) {
     const uint32_t tag = tiff->Get(at, 2), type = tiff->Get(at + 2, 2);
     if (type != kShort && type != kLong) continue;
     const uint32_t value = tiff->Get(at + 8, type == kShort ? 2 : 4);
@@ -75,21 +80,20 @@ void RemoveSubject(size_t folder, int width, int height, bool turned, Tiff* tiff
     same_height = same_height || (tag == kPixelHeight && value == static_cast<uint32_t>(height));
   }
   if (!turned && same_width && same_height) return;
-  for (size_t at = first; at < first + count * kEntry;) {
+  size_t removed = 0;
+  for (const size_t place : *entries) {
+    const size_t at = place - removed * kEntry;
     const uint32_t tag = tiff->Get(at, 2);
-    if (tag == kSubjectArea || tag == kSubjectLocation) {
-      tiff->Remove(folder, at, count--);
-    } else {
-      at += kEntry;
-    }
+    if (tag != kSubjectArea && tag != kSubjectLocation) continue;
+    tiff->Remove(folder, at, entries->size() - removed++);
   }
 }
 
 // A width or height, where the folder has it.
 void SetSizes(size_t folder, int width, int height, Tiff* tiff) {
-  size_t first = 0, count = 0;
-  if (!tiff->Entries(folder, &first, &count)) return;
-  for (size_t at = first; at < first + count * kEntry; at += kEntry) {
+  const auto entries = tiff->Entries(folder);
+  if (!entries) return;
+  for (const size_t at : *entries) {
     const uint32_t tag = tiff->Get(at, 2), type = tiff->Get(at + 2, 2);
     if ((tag != kPixelWidth && tag != kPixelHeight) || (type != kShort && type != kLong)) continue;
     tiff->Set(at + 8, type == kShort ? 2 : 4,
@@ -99,13 +103,16 @@ void SetSizes(size_t folder, int width, int height, Tiff* tiff) {
 
 }  // namespace
 
-bool MarkEdited(const std::string& software, int width, int height, Bytes* bytes) {
-  Tiff tiff(bytes);
-  size_t first = 0, count = 0;
-  if (!IsTiff(*bytes, tiff) || !tiff.Entries(tiff.Get(4, 4), &first, &count)) return false;
+Bytes EditedExif(const Bytes& exif, int width, int height) {
+  const std::string software = "starfocus " STARFOCUS_VERSION_STRING;
+  Bytes bytes = exif;
+  Tiff tiff(&bytes);
+  if (!IsTiff(bytes, tiff)) return {};
+  const auto old_entries = tiff.Entries(tiff.Get(4, 4));
+  if (!old_entries) return {};
   std::vector<std::pair<uint32_t, size_t>> entries;  // tag, and where it is; tags are in order
   bool turned = false;
-  for (size_t at = first; at < first + count * kEntry; at += kEntry) {
+  for (const size_t at : *old_entries) {
     const uint32_t tag = tiff.Get(at, 2);
     if (tag == kOrientation) turned = tiff.Get(at + 8, 2) != 1;  // before the next folder's tag
     if (tag == kExifFolder) {
@@ -119,18 +126,18 @@ bool MarkEdited(const std::string& software, int width, int height, Bytes* bytes
   std::sort(entries.begin(), entries.end());
 
   // The new list stands at the end, so that nothing else moves: values are named by their places.
-  bytes->resize((bytes->size() + 1) & ~size_t{1});
-  const size_t folder = bytes->size(), text = folder + 2 + entries.size() * kEntry + 4;
-  bytes->resize(text);
-  bytes->insert(bytes->end(), software.begin(), software.end());
-  bytes->push_back(0);
+  bytes.resize((bytes.size() + 1) & ~size_t{1});
+  const size_t folder = bytes.size(), text = folder + 2 + entries.size() * kEntry + 4;
+  bytes.resize(text);
+  bytes.insert(bytes.end(), software.begin(), software.end());
+  bytes.push_back(0);
   tiff.Set(4, 4, static_cast<uint32_t>(folder));
   tiff.Set(folder, 2, static_cast<uint32_t>(entries.size()));
   size_t at = folder + 2;
   for (const auto& [tag, old] : entries) {
     if (old != 0) {
-      std::copy_n(bytes->begin() + static_cast<ptrdiff_t>(old), kEntry,
-                  bytes->begin() + static_cast<ptrdiff_t>(at));
+      std::copy_n(bytes.begin() + static_cast<ptrdiff_t>(old), kEntry,
+                  bytes.begin() + static_cast<ptrdiff_t>(at));
     } else {
       const bool name = tag == kSoftware;
       tiff.Set(at, 2, tag);
@@ -140,7 +147,7 @@ bool MarkEdited(const std::string& software, int width, int height, Bytes* bytes
     }
     at += kEntry;
   }
-  return true;  // the place of the next list, the thumbnail's, is 0: none
+  return bytes;  // the place of the next list, the thumbnail's, is 0: none
 }
 
 }  // namespace starfocus

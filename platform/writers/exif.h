@@ -3,17 +3,15 @@
 #ifndef STARFOCUS_PLATFORM_WRITERS_EXIF_H_
 #define STARFOCUS_PLATFORM_WRITERS_EXIF_H_
 
-#include <string>
-
 #include "platform/file.h"
 
 namespace starfocus {
 
-// Sets the Software tag, orientation 1 and the size, and leaves the thumbnail out, which shows the
-// picture as it was. Removes the subject unless the picture has its size and orientation still.
-// Everything else stays, at its place. False, and nothing changed, where `tiff`
-// is no TIFF structure that can be followed.
-bool MarkEdited(const std::string& software, int width, int height, Bytes* tiff);
+// Returns EXIF, a TIFF structure, with the Software tag, orientation 1 and the size set. The
+// thumbnail is left out, which shows the picture as it was, and the subject unless the picture has
+// its size and orientation still. Everything else stays, at its place. Empty if `exif` is no TIFF
+// structure that can be followed.
+Bytes EditedExif(const Bytes& exif, int width, int height);
 
 }  // namespace starfocus
 

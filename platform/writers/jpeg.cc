@@ -3,7 +3,6 @@
 
 #include "platform/writers/exif.h"
 #include "platform/writers/jpeg_segments.h"
-#include "starfocus/version.h"
 
 namespace starfocus {
 
@@ -11,10 +10,8 @@ Result<Bytes> EncodeJpeg(const std::string& path, const Image& image, int qualit
                          const Metadata& metadata, const Bytes& segments) {
   Result<Bytes> jpeg = EncodeJpegPixels(path, image, quality);
   if (!jpeg) return jpeg;
-  Bytes all, exif = metadata.exif;
-  if (MarkEdited("starfocus " STARFOCUS_VERSION_STRING, image.width, image.height, &exif)) {
-    AppendExif(exif, &all);
-  }
+  Bytes all;
+  AppendExif(EditedExif(metadata.exif, image.width, image.height), &all);
   AppendXmp(metadata.xmp, &all);
   AppendIptc(metadata.iptc, &all);
   AppendProfile(metadata.icc, &all);

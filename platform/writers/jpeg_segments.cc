@@ -57,7 +57,7 @@ std::string Wrapped(const std::string& packet) {
 
 bool AppendExif(const Bytes& tiff, Bytes* segments) {
   if (tiff.size() > kMostPayload - kExifHeader.size()) return false;
-  Append(kApp1, kExifHeader, tiff.begin(), tiff.end(), segments);
+  if (!tiff.empty()) Append(kApp1, kExifHeader, tiff.begin(), tiff.end(), segments);
   return true;
 }
 

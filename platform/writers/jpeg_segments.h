@@ -9,15 +9,15 @@
 
 namespace starfocus {
 
-// Each appends segments to others. False where the format has no room for so much: EXIF has one
-// segment, a profile 255 of them.
+// Each appends segments to others, nothing for empty metadata. False where the format has no room
+// for so much: EXIF has one segment, a profile 255 of them.
 bool AppendExif(const Bytes& tiff, Bytes* segments);
 bool AppendProfile(const Bytes& icc, Bytes* segments);
 
-// The records of IPTC-IIM. Appends nothing for no records, which has room.
+// The records of IPTC-IIM.
 bool AppendIptc(const Bytes& iptc, Bytes* segments);
 
-// A packet of XMP with these descriptions (Metadata::xmp). Appends nothing for no descriptions.
+// A packet of XMP with these descriptions (Metadata::xmp).
 bool AppendXmp(const std::string& descriptions, Bytes* segments);
 
 // The same as a whole packet, for the files of other formats. Empty for no descriptions.

@@ -15,7 +15,6 @@
 
 #include "platform/writers/exif.h"
 #include "platform/writers/jpeg_segments.h"
-#include "starfocus/version.h"
 
 namespace starfocus {
 namespace {
@@ -168,9 +167,7 @@ bool Write(const Rows& rows, const Pixels& pixels, const Metadata& metadata, Byt
 Result<Bytes> Encode(const std::string& path, const Rows& rows, const Metadata& metadata,
                      int level) {
   const Pixels pixels = Compress(rows, level);
-  Bytes exif = metadata.exif;
-  if (!MarkEdited("starfocus " STARFOCUS_VERSION_STRING, rows.width, rows.height, &exif))
-    exif.clear();
+  Bytes exif = EditedExif(metadata.exif, rows.width, rows.height);
   Call call;
   call.png.reserve(pixels.size + exif.size() + metadata.icc.size() + 1024);
   call.xmp = XmpPacket(metadata.xmp);

@@ -10,7 +10,6 @@
 #include "platform/text.h"
 #include "platform/writers/exif.h"
 #include "platform/writers/jpeg_segments.h"
-#include "starfocus/version.h"
 
 namespace starfocus {
 namespace {
@@ -101,9 +100,7 @@ Result<Bytes> WebpWriter::Finish(const Metadata& metadata) {
       !WebPAnimEncoderAssemble(state.encoder, &coded.data)) {
     return Failed(state.path, WebPAnimEncoderGetError(state.encoder));
   }
-  Bytes exif = metadata.exif;
-  if (!MarkEdited("starfocus " STARFOCUS_VERSION_STRING, state.width, state.height, &exif))
-    exif.clear();
+  const Bytes exif = EditedExif(metadata.exif, state.width, state.height);
   const std::string packet = XmpPacket(metadata.xmp);
   WebPMux* mux = WebPMuxCreate(&coded.data, 0);
   const bool made = mux != nullptr && SetChunk(mux, "ICCP", metadata.icc) &&

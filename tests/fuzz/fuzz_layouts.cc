@@ -44,7 +44,8 @@ void CheckParts(const uint8_t* data, size_t size) {
   if (!read) return;
   const starfocus::JpegParts& parts = *read;
   if (parts.end > size) std::abort();
-  for (const starfocus::MultiPicture& picture : starfocus::ListMultiPictures({data, size}, parts)) {
+  const starfocus::MultiPictures listed = starfocus::ListMultiPictures({data, size}, parts);
+  for (const starfocus::MultiPicture& picture : listed.pictures) {
     const starfocus::Span& file = picture.file;
     if (file.data < data + parts.end || file.data + file.size > data + size) std::abort();
     if (file.size != picture.parts.end) std::abort();
