@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <new>
+#include <vector>
 
 namespace starfocus {
 namespace {
@@ -33,6 +34,12 @@ Piece* Resize(Piece* old, size_t size) {
 }
 
 }  // namespace
+
+void AppendStb(void* bytes, void* data, int size) {
+  auto* const to = static_cast<std::vector<uint8_t>*>(bytes);
+  const auto* first = static_cast<const uint8_t*>(data);
+  to->insert(to->end(), first, first + size);
+}
 
 StbMemory::~StbMemory() {
   while (pieces != nullptr) Free(pieces + 1);

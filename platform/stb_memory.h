@@ -23,6 +23,9 @@ class StbMemory {
   static void Free(void* memory);
 };
 
+// A stbi_write_func: appends to the std::vector<uint8_t> that `bytes` points to.
+void AppendStb(void* bytes, void* data, int size);
+
 }  // namespace starfocus
 
 #endif  // STARFOCUS_PLATFORM_STB_MEMORY_H_

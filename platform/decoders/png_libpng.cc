@@ -6,34 +6,25 @@
 
 #include <algorithm>
 #include <csetjmp>
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <new>
 
 #include "platform/decoders/exif_bytes.h"
 #include "platform/decoders/png_text.h"
+#include "platform/png_call.h"
 
 namespace starfocus {
 namespace {
 
 // Where the library reads, and what went wrong.
-struct Call {
+struct Call : PngCall {
   const Bytes& png;
   size_t at = 0;
-  bool truncated = false, no_memory = false;
-  char reason[100] = "";
+  bool truncated = false;
   Bytes exif = {};  // of a text chunk
   std::string xmp = {};
 };
-
-png_voidp Allocate(png_structp png, png_alloc_size_t size) {
-  void* memory = std::malloc(size);
-  if (memory == nullptr) static_cast<Call*>(png_get_mem_ptr(png))->no_memory = true;
-  return memory;
-}
-
-void Free(png_structp, png_voidp memory) { std::free(memory); }
 
 void Take(png_structp png, png_bytep data, png_size_t size) {
   Call* call = static_cast<Call*>(png_get_io_ptr(png));
@@ -44,14 +35,6 @@ void Take(png_structp png, png_bytep data, png_size_t size) {
   std::copy_n(call->png.data() + call->at, size, data);
   call->at += size;
 }
-
-void Fail(png_structp png, png_const_charp reason) {
-  Call* call = static_cast<Call*>(png_get_error_ptr(png));
-  std::snprintf(call->reason, sizeof(call->reason), "%s", reason);
-  png_longjmp(png, 1);
-}
-
-void KeepSilent(png_structp, png_const_charp) {}
 
 // Chunks that libpng would store and, where they are compressed, inflate. They are read here, and
 // nothing of them is kept but EXIF and XMP.
@@ -86,9 +69,11 @@ struct Reader {
 // Functions that call setjmp are false with the reason in the call. Nothing in them has
 // a destructor: an error of the library jumps over them.
 bool ReadHeader(Call* call, Reader* reader) {
+  PngCall* const base = call;
   constexpr char kOwn[] = "tEXt\0zTXt\0iTXt\0sPLT";
   reader->png =
-      png_create_read_struct_2(PNG_LIBPNG_VER_STRING, call, Fail, KeepSilent, call, Allocate, Free);
+      png_create_read_struct_2(PNG_LIBPNG_VER_STRING, base, PngCall::Fail, PngCall::KeepSilent,
+                               base, PngCall::Allocate, PngCall::Free);
   if (reader->png != nullptr) reader->info = png_create_info_struct(reader->png);
   if (reader->info == nullptr) {
     call->no_memory = true;
@@ -169,7 +154,7 @@ Metadata TakeMetadata(const Reader& reader, Call* call) {
 }  // namespace
 
 Result<DecodedPicture> DecodePngPixels(const std::string& where, const Bytes& png) {
-  Call call = {png};
+  Call call = {{}, png};
   Reader reader;
   if (!ReadHeader(&call, &reader)) return Failed(where, call);
   const bool palette = png_get_color_type(reader.png, reader.info) == PNG_COLOR_TYPE_PALETTE;

@@ -6,20 +6,11 @@
 #include "platform/writers/jpeg.h"
 
 namespace starfocus {
-namespace {
-
-void Append(void* context, void* data, int size) {
-  const uint8_t* first = static_cast<const uint8_t*>(data);
-  Bytes* bytes = static_cast<Bytes*>(context);
-  bytes->insert(bytes->end(), first, first + size);
-}
-
-}  // namespace
 
 Result<Bytes> EncodeJpegPixels(const std::string& path, const Image& image, int quality) {
   const StbMemory memory;
   Bytes jpeg;
-  if (stbi_write_jpg_to_func(Append, &jpeg, image.width, image.height, 3, image.pixels.data(),
+  if (stbi_write_jpg_to_func(AppendStb, &jpeg, image.width, image.height, 3, image.pixels.data(),
                              quality)) {
     return jpeg;
   }

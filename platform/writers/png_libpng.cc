@@ -7,12 +7,11 @@
 
 #include <algorithm>
 #include <csetjmp>
-#include <cstdio>
-#include <cstdlib>
 #include <memory>
 #include <new>
 #include <string>
 
+#include "platform/png_call.h"
 #include "platform/writers/exif.h"
 #include "platform/writers/jpeg_segments.h"
 
@@ -30,21 +29,10 @@ struct Rows {
 };
 
 // What the library is given back with, and what went wrong.
-struct Call {
+struct Call : PngCall {
   Bytes png = {};
-  bool no_memory = false;
-  char reason[100] = "";
   std::string xmp = {};  // a packet, which must outlive the library's jumps
 };
-
-// The library and zlib say in words of their own that there is too little memory.
-png_voidp Allocate(png_structp png, png_alloc_size_t size) {
-  void* memory = std::malloc(size);
-  if (memory == nullptr) static_cast<Call*>(png_get_mem_ptr(png))->no_memory = true;
-  return memory;
-}
-
-void Free(png_structp, png_voidp memory) { std::free(memory); }
 
 void Append(png_structp png, png_bytep data, png_size_t size) {
   Call* call = static_cast<Call*>(png_get_io_ptr(png));
@@ -58,14 +46,6 @@ void Append(png_structp png, png_bytep data, png_size_t size) {
 }
 
 void Flush(png_structp) {}
-
-void Fail(png_structp png, png_const_charp reason) {
-  Call* call = static_cast<Call*>(png_get_error_ptr(png));
-  std::snprintf(call->reason, sizeof(call->reason), "%s", reason);
-  png_longjmp(png, 1);
-}
-
-void KeepSilent(png_structp, png_const_charp) {}
 
 // XMP is a text of a name of its own (XMP specification part 3, 1.1.5).
 void SetXmp(const std::string& packet, png_structp png, png_infop info) {
@@ -88,7 +68,7 @@ void SetMetadata(const Metadata& metadata, Bytes* exif, png_structp png, png_inf
   if (!exif->empty()) {
     png_set_eXIf_1(png, info, static_cast<png_uint_32>(exif->size()), exif->data());
   }
-  SetXmp(static_cast<const Call*>(png_get_error_ptr(png))->xmp, png, info);
+  SetXmp(static_cast<const Call*>(png_get_io_ptr(png))->xmp, png, info);
 }
 
 // The pixels as the format's IDAT chunk has them.
@@ -141,8 +121,10 @@ Pixels Compress(const Rows& rows, int level) {
 // False with the reason. Nothing here has a destructor: an error of the library jumps over them.
 bool Write(const Rows& rows, const Pixels& pixels, const Metadata& metadata, Bytes* exif,
            Call* call) {
-  png_structp png = png_create_write_struct_2(PNG_LIBPNG_VER_STRING, call, Fail, KeepSilent, call,
-                                              Allocate, Free);
+  PngCall* const base = call;
+  png_structp png =
+      png_create_write_struct_2(PNG_LIBPNG_VER_STRING, base, PngCall::Fail, PngCall::KeepSilent,
+                                base, PngCall::Allocate, PngCall::Free);
   png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
   if (info == nullptr || setjmp(png_jmpbuf(png)) != 0) {
     png_destroy_write_struct(&png, &info);

@@ -10,17 +10,11 @@
 namespace starfocus {
 namespace {
 
-void Append(void* context, void* data, int size) {
-  const uint8_t* first = static_cast<const uint8_t*>(data);
-  Bytes* bytes = static_cast<Bytes*>(context);
-  bytes->insert(bytes->end(), first, first + size);
-}
-
 Result<Bytes> Encode(const std::string& path, int width, int height, int channels,
                      const uint8_t* samples) {
   const StbMemory memory;
   Bytes png;
-  if (stbi_write_png_to_func(Append, &png, width, height, channels, samples, channels * width) &&
+  if (stbi_write_png_to_func(AppendStb, &png, width, height, channels, samples, channels * width) &&
       !png.empty()) {
     return png;
   }

@@ -120,23 +120,22 @@ Border BlockSampler::FindBorder(const Lens& lens, const Rect& rect, int r_max) c
   return border;
 }
 
-bool BlockSampler::Draw(int pass, const BlockKind& kind, BlockTask* task) {
+std::optional<BlockTask> BlockSampler::Draw(int pass, const BlockKind& kind) {
   const int side = kind.side, layer = kind.layer;
-  if (side > map_.width || side > map_.height) return false;
+  if (side > map_.width || side > map_.height) return {};
   const Lens lens = RandomLens(pass);
-  if (LargestRadius(lens, range_) > STARFOCUS_MAX_BLUR) return false;
+  if (LargestRadius(lens, range_) > STARFOCUS_MAX_BLUR) return {};
   const int grid = 1 << layer;
   const Rect rect = {RandomBelow(map_.width - side + 1) / kCellSize * kCellSize,
                      RandomBelow(map_.height - side + 1) / kCellSize * kCellSize, side, side};
   const int rule = LayerByPaper(SmallestRadius(lens, rect));
-  if (rule != layer && !(pass == kAnyLayer && rule > layer)) return false;
+  if (rule != layer && !(pass == kAnyLayer && rule > layer)) return {};
   const double r_max = SplattingRadius(lens, rect);
-  Block& block = task->block;
+  BlockTask task = {lens.focus, lens.aperture, {}};
+  Block& block = task.block;
   block.n = ViewsByPaper(r_max / grid);
-  if (block.n < 1 || block.n > kMostViews) return false;
-  if (kind.n != 0 && block.n != kind.n) return false;
-  task->focus = lens.focus;
-  task->aperture = lens.aperture;
+  if (block.n < 1 || block.n > kMostViews) return {};
+  if (kind.n != 0 && block.n != kind.n) return {};
   const int margin = kLayerMargin[layer];
   const Rect extended = {rect.x - margin, rect.y - margin, side + 2 * margin, side + 2 * margin};
   Border border = FindBorder(lens, extended, static_cast<int>(std::ceil(r_max)));
@@ -148,7 +147,7 @@ bool BlockSampler::Draw(int pass, const BlockKind& kind, BlockTask* task) {
                     extended.height >> layer};
   block.border = border;
   block.layer = layer;
-  return true;
+  return task;
 }
 
 std::vector<BlockGroup> BlockSampler::Sample(int count) {
@@ -164,8 +163,8 @@ std::vector<BlockGroup> BlockSampler::Sample(int count) {
       BlockGroup& group = groups[size_t(RandomBelow(static_cast<int>(groups.size())))];
       const size_t wanted = size_t(group.kind.layer == 0 ? count : 4 * count);
       if (group.tasks.size() >= wanted) continue;
-      BlockTask task = {};
-      if (Draw(pass, group.kind, &task)) group.tasks.push_back(task);
+      const std::optional<BlockTask> task = Draw(pass, group.kind);
+      if (task) group.tasks.push_back(*task);
     }
   }
   groups.erase(std::remove_if(groups.begin(), groups.end(),

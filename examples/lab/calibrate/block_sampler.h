@@ -4,6 +4,7 @@
 #define STARFOCUS_EXAMPLES_LAB_CALIBRATE_BLOCK_SAMPLER_H_
 
 #include <cstdint>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -48,7 +49,7 @@ class BlockSampler {
   double SmallestRadius(const Lens& lens, const Rect& rect) const;
   double SplattingRadius(const Lens& lens, const Rect& rect) const;
   Lens RandomLens(int pass);
-  bool Draw(int pass, const BlockKind& kind, BlockTask* task);
+  std::optional<BlockTask> Draw(int pass, const BlockKind& kind);
   Border FindBorder(const Lens& lens, const Rect& rect, int r_max) const;
 
   const FloatMap& map_;

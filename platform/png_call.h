@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the reader and the writer of PNG files hand to libpng: memory, and what went wrong.
+#ifndef STARFOCUS_PLATFORM_PNG_CALL_H_
+#define STARFOCUS_PLATFORM_PNG_CALL_H_
+
+#include <png.h>
+
+#include <cstdio>
+#include <cstdlib>
+
+namespace starfocus {
+
+struct PngCall {
+  bool no_memory = false;
+  char reason[100] = "";
+
+  // libpng and zlib have no common error for too little memory.
+  static png_voidp Allocate(png_structp png, png_alloc_size_t size) {
+    void* memory = std::malloc(size);
+    if (memory == nullptr) static_cast<PngCall*>(png_get_mem_ptr(png))->no_memory = true;
+    return memory;
+  }
+  static void Free(png_structp, png_voidp memory) { std::free(memory); }
+  static void Fail(png_structp png, png_const_charp message) {
+    PngCall* call = static_cast<PngCall*>(png_get_error_ptr(png));
+    std::snprintf(call->reason, sizeof(call->reason), "%s", message);
+    png_longjmp(png, 1);
+  }
+  static void KeepSilent(png_structp, png_const_charp) {}
+};
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_PLATFORM_PNG_CALL_H_
