@@ -1,9 +1,11 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# aar.sh OUT.aar CLASSES.jar ABI=LIBRARY...: packs an AAR without Gradle: the Java classes, the library
-# libstarfocus_jni.so of each ABI (arm64-v8a, x86_64), and the same with the C headers as a prefab package,
-# which C and C++ find by find_package(starfocus CONFIG) and link as starfocus::starfocus_jni. Needs zip.
-# ANDROID_NDK_MAJOR is the version of the NDK that built the libraries (27).
+# usage: aar.sh OUT.aar CLASSES.jar ABI=LIBRARY...
+# Packs an AAR without Gradle. It contains the Java classes, libstarfocus_jni.so for each ABI (arm64-v8a,
+# x86_64), and a prefab package with the C headers and the same libraries. C and C++ projects find the
+# package with find_package(starfocus CONFIG) and link starfocus::starfocus_jni. The script needs zip.
+# The environment variable ANDROID_NDK_MAJOR is the major version of the NDK that built the libraries;
+# default 27.
 set -eu
 [ $# -ge 3 ] || { echo "usage: $0 OUT.aar CLASSES.jar ABI=LIBRARY..." >&2; exit 2; }
 here=$(cd "$(dirname "$0")" && pwd)

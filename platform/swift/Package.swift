@@ -1,8 +1,8 @@
 // swift-tools-version:5.5
 // SPDX-License-Identifier: Apache-2.0
-// The C headers of an installed starfocus as the Swift module CStarfocus, with the library that pkg-config
-// knows. The manifest is untested: there was no Swift where this was written; the module map is compiled
-// by clang in ./do consumers swift.
+// Provides the C headers of an installed starfocus as the Swift module CStarfocus, and links the library
+// that pkg-config finds. This manifest is untested. clang compiles the module map in
+// ./do consumers swift.
 import PackageDescription
 
 let package = Package(

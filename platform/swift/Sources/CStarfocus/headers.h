@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What the Swift module CStarfocus has; threads are the caller's (DispatchQueue.concurrentPerform
- * makes a starfocus_runner). */
+/* Headers of the Swift module CStarfocus. The pool of threads is not included; a starfocus_runner
+ * can use DispatchQueue.concurrentPerform. */
 #include <starfocus/depth.h>
 #include <starfocus/starfocus.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The native methods of dev.starfocus.android.LockedBitmap.
+// Native methods of dev.starfocus.android.LockedBitmap.
 #include <android/bitmap.h>
 #include <jni.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The native methods of dev.starfocus.android.LockedHardwareBuffer. API level 29.
+// Native methods of dev.starfocus.android.LockedHardwareBuffer. They need API level 29.
 #include <android/hardware_buffer.h>
 #include <android/hardware_buffer_jni.h>
 #include <jni.h>
@@ -11,7 +11,8 @@ using namespace starfocus;
 
 namespace {
 
-// The library's format and the bytes of a pixel of the first plane; 0 for what it cannot read.
+// The starfocus_format of a buffer, and the bytes per pixel of its first plane. pixel_bytes is 0
+// for formats that the library does not support.
 struct Kind {
   jint format, pixel_bytes;
 };
@@ -30,7 +31,7 @@ Kind KindOf(uint32_t format) {
   }
 }
 
-// A buffer over a plane: Java sees the bytes up to the last one of its last pixel.
+// Returns a direct buffer for a plane. It ends with the last byte of the last pixel.
 jobject BufferOf(JNIEnv* env, const AHardwareBuffer_Plane& plane, jlong width, jlong height,
                  jlong pixel_bytes) {
   const jlong row = (width - 1) * jlong(plane.pixelStride) + pixel_bytes;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Java exceptions thrown from native code. After one is thrown the native method returns to Java,
-// where it takes effect.
+// Throws Java exceptions from native code. Each function makes an exception pending, which takes
+// effect when the native method returns to Java; the method must return without other JNI calls.
 #ifndef STARFOCUS_PLATFORM_JAVA_EXCEPTIONS_H_
 #define STARFOCUS_PLATFORM_JAVA_EXCEPTIONS_H_
 
@@ -10,11 +10,11 @@
 
 namespace starfocus {
 
-// IllegalArgumentException; the text is made as by printf.
+// Throws IllegalArgumentException. `format` and the arguments after it are those of printf.
 void ThrowArgument(JNIEnv* env, const char* format, ...) __attribute__((format(printf, 2, 3)));
 
-// OutOfMemoryError or StarfocusException, whichever the status is; STARFOCUS_OK throws nothing.
-// `problem` (null: none) is what the call refused.
+// Throws OutOfMemoryError or StarfocusException, depending on the status. No-op for STARFOCUS_OK.
+// `problem` is the cause that the call reported; may be null.
 void ThrowStatus(JNIEnv* env, starfocus_status status, const starfocus_problem* problem = nullptr);
 
 }  // namespace starfocus

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fields of Java objects that stand for those of C structures, by tables of their names.
+// Copies fields between Java objects and C structures. Tables list the names of the fields. Used by
+// refocuser.cc and pictures.cc.
 #ifndef STARFOCUS_PLATFORM_JAVA_FIELDS_H_
 #define STARFOCUS_PLATFORM_JAVA_FIELDS_H_
 
@@ -10,22 +11,23 @@
 
 namespace starfocus {
 
-// What a field is in C and in Java.
+// Type of a field in C (int32_t, float, double) and in Java (int, float, double).
 enum class FieldType { kInt32, kFloat, kDouble };
 
 struct Field {
-  const char* name;  // in Java
+  const char* name;  // name in Java
   FieldType type;
-  size_t offset;  // in the C structure
+  size_t offset;  // offset in the C structure, bytes
 };
 
-// Copies the fields of `count` entries of a table from the object into the structure, or back.
-// False when the object has not got one of them: an exception is pending then.
+// Copies the fields of a table with `count` entries from the object to the structure, or from the
+// structure to the object. Returns false, with an exception pending, if the object lacks a field.
 bool ReadFields(JNIEnv* env, jobject object, const Field* fields, size_t count, void* structure);
 bool WriteFields(JNIEnv* env, const void* structure, const Field* fields, size_t count,
                  jobject object);
 
-// One field of an object; 0 or null with an exception pending when it has no such one.
+// Return the value of a field of an object, or 0 or null, with an exception pending, if the object
+// lacks the field.
 int32_t ReadInt(JNIEnv* env, jobject object, const char* name);
 jobject ReadObject(JNIEnv* env, jobject object, const char* name, const char* signature);
 

@@ -28,7 +28,8 @@ int PlanesOf(int32_t format) {
   }
 }
 
-// Bytes from the first to the last of a row, also of a pixel_stride that the library will refuse.
+// Returns the number of rows of a plane, and the bytes from the first to the last byte of a row.
+// The result is safe to use for values of pixel_stride that the library will reject.
 PlaneSize SizeOf(const starfocus_image& image, int plane, int64_t width, int64_t height) {
   const int64_t step = std::max(image.pixel_stride, 0);
   const int planes = PlanesOf(image.format);
@@ -44,8 +45,8 @@ PlaneSize SizeOf(const starfocus_image& image, int plane, int64_t width, int64_t
   return {(height + 1) / 2, row};
 }
 
-// The address of a direct buffer that holds rows `stride` bytes apart; null with an exception
-// pending.
+// Returns the address of a direct buffer. Returns null, with an exception pending, if the buffer is
+// too small for rows that are `stride` bytes apart.
 void* AddressOf(JNIEnv* env, jobject buffer, const char* what, PlaneSize size, int64_t stride) {
   void* const address = buffer == nullptr ? nullptr : env->GetDirectBufferAddress(buffer);
   if (address == nullptr) {
@@ -67,7 +68,7 @@ void* AddressOf(JNIEnv* env, jobject buffer, const char* what, PlaneSize size, i
   return address;
 }
 
-// An Image, and what it is called in errors.
+// An Image, its name in messages, and its planes.
 struct NamedImage {
   jobject object;
   const char* what;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Java's images and depth maps as the library's: direct buffers, looked at where they are, each as
-// long as what is said to be in it.
+// Converts Java images, depth maps and light fields to C structures. The structures point into the
+// direct buffers of the Java objects, and every buffer is checked to be as large as its description
+// requires. Used by refocuser.cc.
 #ifndef STARFOCUS_PLATFORM_JAVA_PICTURES_H_
 #define STARFOCUS_PLATFORM_JAVA_PICTURES_H_
 
@@ -10,17 +11,17 @@
 
 namespace starfocus {
 
-// Each is false with an exception pending when an object is null or a buffer is not direct or too
-// small. What the library checks itself, such as formats and strides, is left to it.
+// Each function returns false, with an exception pending, if an object is null, or a buffer is not
+// direct or too small. The library itself checks the other values, such as formats and strides.
 
-// An Image that is read, or written, of this size in pixels.
+// Converts an Image with a size of `width` x `height` pixels. `what` names it in messages.
 bool ReadImage(JNIEnv* env, jobject object, const char* what, int32_t width, int32_t height,
                starfocus_image* image);
 
-// A DepthMap.
+// Converts a DepthMap.
 bool ReadDepthMap(JNIEnv* env, jobject object, starfocus_depth_map* map);
 
-// A LightField with the views of the configuration.
+// Converts a LightField with the number and size of views of the configuration.
 bool ReadLightField(JNIEnv* env, jobject light_field, const starfocus_config& config,
                     starfocus_light_field* field);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The native methods of dev.starfocus.Native.
+// Native methods of dev.starfocus.Native.
 #include <jni.h>
 
 #include <atomic>
@@ -17,8 +17,8 @@
 namespace starfocus {
 namespace {
 
-// An engine with its threads. Java's side sees to it that one call at a time uses it, apart from
-// what is atomic.
+// An engine, its threads and its prepared light field. Refocuser.java ensures that one call at a
+// time uses a session, except for the atomic fields.
 struct Session {
   starfocus_config config = {};
   starfocus_pool* pool = nullptr;
@@ -28,7 +28,8 @@ struct Session {
   std::atomic<int> cancelled{0}, rows_done{0};
 };
 
-// The library is to need no C++ run time, hence no delete; nor does a session need a destructor.
+// Frees a session. It uses free instead of delete, because the library must not need the C++ run
+// time. A session needs no destructor.
 void End(Session* session) {
   std::free(session->prepared_memory);
   starfocus_destroy(session->engine);
@@ -38,8 +39,8 @@ void End(Session* session) {
 
 Session* From(jlong handle) { return reinterpret_cast<Session*>(handle); }
 
-// Java is not called back, for which threads of the pool would have to be attached: whoever wants
-// to know asks.
+// Progress callback. It stores the progress for rowsDone() instead of calling Java, because the
+// threads of the pool are not attached to the virtual machine.
 int Tell(void* data, int32_t rows_done, int32_t) {
   auto* const session = static_cast<Session*>(data);
   session->rows_done.store(rows_done, std::memory_order_relaxed);
@@ -84,13 +85,14 @@ constexpr Field kParamsFields[] = {
     {"regionHeight", FieldType::kInt32, offsetof(starfocus_params, region.height)},
 };
 
-// The positions of views, if there are any; false with an exception pending.
+// Reads Configuration.positions, unless it is null. Returns false, with an exception pending, if
+// the array has the wrong length.
 bool ReadPositions(JNIEnv* env, jobject configuration, starfocus_config* config) {
   const auto positions =
       static_cast<jdoubleArray>(ReadObject(env, configuration, "positions", "[D"));
   if (positions == nullptr) return !env->ExceptionCheck();
   if (config->views < 1 || config->views > STARFOCUS_MAX_VIEWS)
-    return true;  // the library refuses that
+    return true;  // the library rejects this number of views
   const jsize found = env->GetArrayLength(positions), expected = 2 * config->views;
   if (found != expected) {
     ThrowArgument(env, "positions: expected %d numbers, found %d", int{expected}, int{found});
@@ -102,19 +104,19 @@ bool ReadPositions(JNIEnv* env, jobject configuration, starfocus_config* config)
   return true;
 }
 
-// How many pixels of 1 / 2^shift of the size have a part of `count` pixels, one at least, from
-// `first` on.
+// Returns the number of pixels at 1 / 2^shift of the size that contain a part of the range [first,
+// first + count); `count` is at least 1.
 int32_t Reduced(int32_t first, int32_t count, int32_t shift) {
   return static_cast<int32_t>(((int64_t{first} + count - 1) >> shift) - (first >> shift) + 1);
 }
 
-// What to render, at 1 / 2^shift of the size, and where to.
+// Arguments of a refocusing at 1 / 2^shift of the size.
 struct JavaTask {
   int32_t shift;
   jobject parameters, out;
 };
 
-// Reads a task; false with an exception pending.
+// Converts the arguments of a task. Returns false, with an exception pending, if they are invalid.
 bool ReadTask(JNIEnv* env, Session* session, const JavaTask& task, starfocus_params* params,
               starfocus_image* image) {
   const int32_t shift = task.shift;
@@ -124,8 +126,8 @@ bool ReadTask(JNIEnv* env, Session* session, const JavaTask& task, starfocus_par
   params->preview_shift = shift;
   const starfocus_region& region = params->region;
   const bool whole = region.width == 0 && region.height == 0;
-  // The library has looked at neither the region, without pixels of which no buffer is needed, nor
-  // the shift yet.
+  // The library has not checked the region and the shift yet. Invalid values are replaced here, so
+  // that the size of the buffer can be checked.
   const int32_t width = whole ? session->config.width : region.width < 1 ? 1 : region.width;
   const int32_t height = whole ? session->config.height : region.height < 1 ? 1 : region.height;
   const int32_t known = shift < 0 || shift > STARFOCUS_MAX_PREVIEW ? 0 : shift;
@@ -133,7 +135,7 @@ bool ReadTask(JNIEnv* env, Session* session, const JavaTask& task, starfocus_par
                    Reduced(region.y, height, known), image);
 }
 
-// Makes the pool and the engine of a session whose configuration is read.
+// Creates the pool and the engine of a session. Its configuration must be set.
 starfocus_status Start(Session* session) {
   starfocus_config* const config = &session->config;
   config->features |= STARFOCUS_FEATURE_IMAGES;
@@ -152,6 +154,7 @@ starfocus_status Start(Session* session) {
   return starfocus_set_callbacks(session->engine, &callbacks);
 }
 
+// Prepares a light field, in memory that the first call allocates.
 starfocus_status Prepare(Session* session, const starfocus_light_field& field) {
   size_t bytes = 0;
   const starfocus_status status = starfocus_prepared_size(&session->config, &bytes);

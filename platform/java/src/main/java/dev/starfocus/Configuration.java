@@ -2,45 +2,73 @@
 package dev.starfocus;
 
 /**
- * What a {@link Refocuser} is made for: fields of the C structure starfocus_config, of which
- * starfocus.h has the units and ranges. They begin with its defaults; width, height and the range
- * of disparities must be filled in.
+ * Configuration of a {@link Refocuser}: the fields of the C structure starfocus_config. A
+ * Refocuser copies the values; later changes have no effect on it. Values out of range are reported
+ * when the Refocuser is created.
  */
 public final class Configuration {
+  /**
+   * Values of {@link #transfer}: codes represent light by the sRGB curve, or light is the code
+   * itself.
+   */
   public static final int TRANSFER_SRGB = 0, TRANSFER_NONE = 1;
 
-  /** Size of the pictures in pixels. */
+  /** Width and height of the views in pixels, 1 to 65535. Must be set. */
   public int width, height;
-  /** Captured views: 1, 5, 9 or 17, or with positions any number from 1 to 17. */
+  /**
+   * Number of captured views. Without {@link #positions}: 1, 5, 9 or 17. With positions: 1 to 17.
+   * Default 5.
+   */
   public int views;
   /**
-   * Where the views lie: u and v of one after the other, each from -1 to 1, the centre (0, 0)
-   * first. Null, the default: where {@link Refocuser#viewPosition} tells.
+   * Positions of the views: u and v of each view, each from -1 to 1. The first view lies at (0, 0),
+   * and no two positions are equal. Null, the default: the positions of {@link
+   * Refocuser#viewPosition}.
    */
   public double[] positions;
-  /** What disparity maps may hold. */
+  /**
+   * Smallest and largest disparity that a map may contain, in pixels per unit of u, within +-500.
+   * Default 0.
+   */
   public double disparityMin, disparityMax;
-  /** Largest blur radius in pixels that will be asked for. */
+  /**
+   * Upper limit of the blur radius aperture * |disparity - focus| in pixels, above 0 and at most
+   * 128. Default 32. It decides how much memory the engine needs and changes no picture.
+   */
   public double maxBlur;
-  /** Threads that refocus; 0, the default: one for each big core. */
+  /** Number of threads, at most 64. 0, the default: one for each big core of the machine. */
   public int workers;
 
+  /**
+   * Side of the superblocks, from which blocks are split, in pixels: 32, 64, 128, 256, or 0. 0, the
+   * default, means 128 from a width of 1536 pixels on, and 64 below.
+   */
   public int superblock;
+  /**
+   * Factor of the number of views along the radius of the aperture, 0.5 to 2. Default 1. Affects
+   * {@link Parameters#MODE_BLOCK} and {@link Parameters#MODE_FRAME}.
+   */
   public double nScale;
+  /** {@link #TRANSFER_SRGB}, the default, or {@link #TRANSFER_NONE}. */
   public int transfer;
+  /** Brightness of clipped lamps relative to white, 1 to 64. Default 1. */
   public double highlights;
   /**
-   * Not 0: disparities that are not finite, and invalid depths, are unknown; 0: they are refused.
+   * Not 0: unknown disparities (NaN, infinite, or the invalid value of the {@link DepthMap}) are
+   * filled from their neighbours. 0, the default: they are reported as an error.
    */
   public int fillUnknown;
   /**
-   * Not 0: lenses may be polygons and have cat's eyes, for which memory is reserved; 0, the
-   * default: they are refused.
+   * Not 0: lenses may be polygons and have cat's eyes, which needs larger tables. 0, the default:
+   * such lenses are reported as an error.
    */
   public int shapes;
-  /** Largest shift of {@link Refocuser#preview}, 0 to 3; 0, the default: there are no previews. */
+  /**
+   * Largest shift of {@link Refocuser#preview}, 0 to 3. 0, the default: there are no previews.
+   */
   public int previews;
 
+  /** Creates a configuration with the default values. */
   public Configuration() {
     Native.initialize(this);
   }

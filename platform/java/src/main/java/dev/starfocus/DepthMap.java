@@ -4,25 +4,48 @@ package dev.starfocus;
 import java.nio.ByteBuffer;
 
 /**
- * Depths of the centre view in a direct buffer of the machine's byte order, as large as the picture
- * or smaller: the C structure starfocus_depth_map of image.h.
+ * Depth map of the centre view, as large as the picture or smaller: the C structure
+ * starfocus_depth_map. The values lie in a direct buffer in the native byte order and are not
+ * copied.
  */
 public final class DepthMap {
+  /**
+   * Types of values: 32-bit float, 16-bit unsigned integer, 8-bit unsigned integer, 16-bit float.
+   */
   public static final int FLOAT = 0, U16 = 1, U8 = 2, HALF = 3;
+  /** Values of {@link #meaning}. */
   public static final int LINEAR = 0, RECIPROCAL = 1;
 
+  /** Type of the values, and width and height of the map in values. */
   public final int type, width, height;
-  /** Disparity is scale * z + offset (LINEAR, the default) or scale / z + offset (RECIPROCAL). */
+  /**
+   * How a value z gives a disparity. {@link #LINEAR}, the default: scale * z + offset. {@link
+   * #RECIPROCAL}: scale / z + offset, for distances z.
+   */
   public int meaning = LINEAR;
+  /**
+   * Coefficients of {@link #meaning}; finite, and scale is not 0. They are rounded to float.
+   * Default 1 and 0.
+   */
   public double scale = 1, offset;
-  /** 1: `invalid` stands for an unknown depth; 0, the default: no value does. */
+  /** 1: values equal to {@link #invalid} are unknown. 0, the default: there is no such value. */
   public int hasInvalid;
+  /** Value that stands for unknown depth if {@link #hasInvalid} is 1; rounded to float. */
   public double invalid;
 
   final ByteBuffer values;
   final int stride;
 
-  /** Of width times height values of `type`, rows `stride` bytes apart. */
+  /**
+   * Describes a depth map. The buffer must not change while a call reads it.
+   *
+   * @param type {@link #FLOAT}, {@link #U16}, {@link #U8} or {@link #HALF}
+   * @param values direct buffer; the map starts at its position
+   * @param stride bytes from row to row, at least one row and a multiple of the size of a value
+   * @param width width in values, 1 to the width of the picture
+   * @param height height in values, 1 to the height of the picture
+   * @throws IllegalArgumentException if the buffer is not direct
+   */
   public DepthMap(int type, ByteBuffer values, int stride, int width, int height) {
     this.type = type;
     this.values = DirectBuffers.from(values, "DepthMap");

@@ -3,11 +3,16 @@ package dev.starfocus;
 
 import java.nio.ByteBuffer;
 
-/** Buffers as the library sees them. */
+/** Checks buffers for the native library. */
 final class DirectBuffers {
   private DirectBuffers() {}
 
-  /** The part from the position to the limit, nothing copied. */
+  /**
+   * Returns the part of a direct buffer from its position to its limit, without copying.
+   *
+   * @param what name of the argument in messages
+   * @throws IllegalArgumentException if the buffer is not direct
+   */
   static ByteBuffer from(ByteBuffer buffer, String what) {
     if (!buffer.isDirect()) {
       throw new IllegalArgumentException(

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 package dev.starfocus;
 
-/** The library's side of {@link Refocuser}. A session is an engine with its threads. */
+/**
+ * Native methods of {@link Refocuser}, which documents them. A session is the address of a native
+ * structure that owns an engine, its threads and the prepared light field. {@link #create} returns
+ * it, and {@link #destroy} frees it.
+ */
 final class Native {
   static {
     System.loadLibrary("starfocus_jni");

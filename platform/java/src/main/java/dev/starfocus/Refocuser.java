@@ -4,50 +4,87 @@ package dev.starfocus;
 import java.util.Objects;
 
 /**
- * An engine for light fields of one configuration. It takes memory when it is made and when a light
- * field is prepared, and gives it back in {@link #close}. Calls of several threads take turns;
- * {@link #cancel} and {@link #rowsDone} are for other threads than the one that refocuses.
+ * An engine for light fields of one configuration. It allocates native memory when it is created
+ * and when a light field is prepared first, and frees it in {@link #close}. Several threads may use
+ * a Refocuser; their calls take turns. {@link #cancel} and {@link #rowsDone} do not wait for a
+ * running call, so that other threads can use them during a call.
  *
- * <p>What is wrong is told by StarfocusException, and by IllegalArgumentException for buffers that
- * are not direct or smaller than what is in them. Bytes of pictures depend neither on the machine
- * nor on the number of workers.
+ * <p>Calls throw {@link StarfocusException} for errors that the library reports, for example
+ * values out of range or disparities outside the configured range; IllegalArgumentException for
+ * buffers that are not direct, too small, or read-only if they are outputs; NullPointerException
+ * for null arguments; OutOfMemoryError; and IllegalStateException after {@link #close}.
+ *
+ * <p>The bytes of pictures depend neither on the machine nor on the number of workers.
  */
 public final class Refocuser implements AutoCloseable {
-  /** Guards the session against its end while another thread asks or cancels. */
+  /**
+   * Prevents {@link #close} from freeing the session while {@link #cancel} or {@link #rowsDone}
+   * uses it.
+   */
   private final Object life = new Object();
 
   private long session;
-  /** Its buffers are read by {@link #refocusPrepared}. */
+  /** Keeps the buffers alive that {@link #refocusPrepared} reads. */
   private LightField prepared;
 
+  /**
+   * Creates an engine and its threads.
+   *
+   * @param configuration configuration, of which the Refocuser keeps a copy
+   */
   public Refocuser(Configuration configuration) {
     session = Native.create(Objects.requireNonNull(configuration, "configuration"));
   }
 
-  /** Refocuses into `out`, which is as large as the picture or the parameters' region. */
+  /**
+   * Refocuses a light field.
+   *
+   * @param field light field; it is only read, during the call
+   * @param parameters lens and region
+   * @param out receives the picture, in any format. It has the size of the picture, or of the
+   *     region of the parameters, and must not overlap the light field. Its alpha is that of the
+   *     centre view, or 255. After {@link #cancel} its contents are unspecified
+   */
   public synchronized void refocus(LightField field, Parameters parameters, Image out) {
     Objects.requireNonNull(parameters, "parameters");
     out.checkWritable();
     Native.refocus(open(), Objects.requireNonNull(field, "field"), parameters, out);
   }
 
-  /** Does once what is the same for every lens; what the light field's buffers hold must stay. */
+  /**
+   * Performs the work that does not depend on the lens, once for many refocusings. Replaces the
+   * light field that was prepared before, even if the call fails.
+   *
+   * @param field light field. The contents of its buffers must not change while it is prepared
+   */
   public synchronized void prepare(LightField field) {
     prepared = null;
     Native.prepare(open(), Objects.requireNonNull(field, "field"));
     prepared = field;
   }
 
-  /** As {@link #refocus} of the light field that was prepared last, with the same bytes. */
+  /**
+   * Refocuses the prepared light field. The picture has the same bytes as that of {@link #refocus}.
+   *
+   * @param parameters lens and region
+   * @param out receives the picture, as for {@link #refocus}
+   * @throws IllegalStateException if no light field is prepared
+   */
   public synchronized void refocusPrepared(Parameters parameters, Image out) {
     checkPrepared(parameters, out);
     Native.refocusPrepared(open(), parameters, out);
   }
 
   /**
-   * As {@link #refocusPrepared} at 1 / 2^shift of the size, from 1 to the previews of the
-   * configuration. Focus and region are in pixels of the full size; `out` has the pixels that have
-   * a part of the region, of a whole picture ceil(width / 2^shift) times ceil(height / 2^shift).
+   * Refocuses the prepared light field at 1 / 2^shift of the size, in about 1 / 4^shift of the
+   * time.
+   *
+   * @param shift 1 to {@link Configuration#previews}; 0 is the full size
+   * @param parameters lens and region, in pixels of the full size
+   * @param out receives the picture. It has all pixels that contain a part of the region; for a
+   *     whole picture its size is ceil(width / 2^shift) times ceil(height / 2^shift). Its alpha is
+   *     255
+   * @throws IllegalStateException if no light field is prepared
    */
   public synchronized void preview(int shift, Parameters parameters, Image out) {
     checkPrepared(parameters, out);
@@ -55,8 +92,9 @@ public final class Refocuser implements AutoCloseable {
   }
 
   /**
-   * Ends the call that another thread is in, within milliseconds, by a StarfocusException that is
-   * cancelled. Without such a call nothing happens.
+   * Cancels the call that another thread has running. That call ends within milliseconds and throws
+   * a StarfocusException for which {@link StarfocusException#isCancelled} is true. No-op if no call
+   * is running.
    */
   public void cancel() {
     synchronized (life) {
@@ -65,14 +103,20 @@ public final class Refocuser implements AutoCloseable {
     }
   }
 
-  /** Rows that the call has made which another thread is in, or that the last one made. */
+  /**
+   * Returns the number of rows that the running call has finished, or that the last call finished.
+   * Returns 0 after {@link #close}.
+   */
   public int rowsDone() {
     synchronized (life) {
       return session == 0 ? 0 : Native.rowsDone(session);
     }
   }
 
-  /** Gives the memory back, once no call is running; closing again does nothing. */
+  /**
+   * Waits for a running call, ends the threads and frees the native memory. No-op if the Refocuser
+   * is already closed.
+   */
   @Override
   public synchronized void close() {
     final long ended;
@@ -85,17 +129,40 @@ public final class Refocuser implements AutoCloseable {
       Native.destroy(ended);
   }
 
-  /** The focus for what is at a pixel of a map of FLOAT and LINEAR disparities, such as a tap. */
+  /**
+   * Finds the focus for a pixel, for example where a user tapped: the median of the disparities up
+   * to 3 pixels away that belong to the surface of the pixel.
+   *
+   * @param disparity map of type FLOAT and meaning LINEAR, with scale 1, offset 0 and no invalid
+   *     value
+   * @param x column of the map, 0 to its width - 1
+   * @param y row of the map, 0 to its height - 1
+   * @return the disparity to focus at
+   * @throws StarfocusException if the pixel lies outside the map, or a disparity up to 3 pixels
+   *     away is not finite
+   * @throws IllegalArgumentException for another kind of map
+   */
   public static double focusAt(DepthMap disparity, int x, int y) {
     return Native.focusAt(disparity, x, y);
   }
 
-  /** Where captured view `index` lies: u and v. */
+  /**
+   * Returns the position of a view of the star: 0 is the centre; 1 to 4 are (1, 0), (-1, 0), (0,
+   * 1), (0, -1); 5 to 8 are (1, 1), (-1, 1), (1, -1), (-1, -1); 9 to 16 are views 1 to 8 at half
+   * the distance. u grows to the right, and v downwards.
+   *
+   * @param index index of the view, 0 to 16
+   * @return an array of u and v
+   * @throws StarfocusException if the index is out of range
+   */
   public static double[] viewPosition(int index) {
     return Native.viewPosition(index);
   }
 
-  /** The library's version and the SIMD instructions it uses here, such as "0.1.0, NEON". */
+  /**
+   * Returns the version of the library and the SIMD target that it uses on this machine, for
+   * example "0.1.0, NEON".
+   */
   public static String version() {
     return Native.version();
   }

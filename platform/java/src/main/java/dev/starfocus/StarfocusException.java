@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 package dev.starfocus;
 
-/** The library refused a call; the message says why. */
+/** An error that the library reports. The message names the cause. */
 public class StarfocusException extends RuntimeException {
+  /** {@link #status} of a call that {@link Refocuser#cancel} cancelled. */
   public static final int ERROR_CANCELLED = 17;
 
   private static final long serialVersionUID = 1;
@@ -14,12 +15,15 @@ public class StarfocusException extends RuntimeException {
     this.status = status;
   }
 
-  /** The starfocus_status of status.h. */
+  /** Returns the starfocus_status of the C call; starfocus/status.h lists the values. */
   public int status() {
     return status;
   }
 
-  /** Whether {@link Refocuser#cancel} ended the call; what it was to write is unspecified then. */
+  /**
+   * Returns true if {@link Refocuser#cancel} cancelled the call. The contents of its output are
+   * then unspecified.
+   */
   public boolean isCancelled() {
     return status == ERROR_CANCELLED;
   }

@@ -7,25 +7,31 @@ import dev.starfocus.Refocuser;
 import java.nio.ByteBuffer;
 
 /**
- * The pixels of a Bitmap of ARGB_8888 where they are, as an {@link Image} of R, G, B and alpha, to
- * be read or written until it is closed. Colours are taken as they are stored: those of transparent
- * pixels are multiplied by alpha.
+ * Locks the pixels of an ARGB_8888 Bitmap and provides them in place as an {@link Image} of format
+ * RGBX, for reading and writing, until it is closed. Colours have the values that the Bitmap
+ * stores: those of transparent pixels are multiplied by alpha.
  */
 public final class LockedBitmap implements AutoCloseable {
   static {
     Refocuser.version(); // loads the library
   }
 
+  /** The pixels. Must not be used after {@link #close}. */
   public final Image image;
   private Bitmap bitmap;
 
+  /**
+   * Locks the pixels of a bitmap.
+   *
+   * @throws IllegalArgumentException if the bitmap is null, not ARGB_8888, or cannot be locked
+   */
   public LockedBitmap(Bitmap bitmap) {
     final int[] stride = new int[1];
     image = new Image(Image.RGBX, lock(bitmap, stride), stride[0]);
     this.bitmap = bitmap;
   }
 
-  /** Gives the pixels back; the image must not be used any more. */
+  /** Unlocks the pixels. No-op if the bitmap is already unlocked. */
   @Override
   public void close() {
     if (bitmap != null)
@@ -33,6 +39,7 @@ public final class LockedBitmap implements AutoCloseable {
     bitmap = null;
   }
 
+  /** Locks the pixels. {@code stride[0]} receives the bytes from row to row. */
   private static native ByteBuffer lock(Bitmap bitmap, int[] stride);
 
   private static native void unlock(Bitmap bitmap);

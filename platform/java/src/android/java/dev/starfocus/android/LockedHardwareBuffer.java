@@ -8,20 +8,28 @@ import java.nio.ByteBuffer;
 import java.util.Arrays;
 
 /**
- * What a HardwareBuffer holds where it is, as an {@link Image}, to be read or written until it is
- * closed. It has been made for that (USAGE_CPU_READ_OFTEN, USAGE_CPU_WRITE_OFTEN) and is of
- * RGBA_8888, RGBX_8888, RGB_888 or YCBCR_420_888; of that the image has full range and BT.601, what
- * Android's cameras give.
+ * Locks a HardwareBuffer and provides its pixels in place as an {@link Image}, for reading or for
+ * writing, until it is closed. The buffer has the format RGBA_8888, RGBX_8888, RGB_888 or
+ * YCBCR_420_888, and was created with USAGE_CPU_READ_OFTEN or USAGE_CPU_WRITE_OFTEN. Images of
+ * YCBCR_420_888 have full range and the matrix BT.601, as those of Android's cameras.
  */
 public final class LockedHardwareBuffer implements AutoCloseable {
   static {
     Refocuser.version(); // loads the library
   }
 
+  /** The pixels. Must not be used after {@link #close}. */
   public final Image image;
   private HardwareBuffer buffer;
 
-  /** To be written where `written` is true, else to be read. */
+  /**
+   * Locks a buffer.
+   *
+   * @param buffer buffer with one layer
+   * @param written true to write the pixels, false to read them
+   * @throws IllegalArgumentException if the buffer is null, has another format or several layers,
+   *     or cannot be locked
+   */
   public LockedHardwareBuffer(HardwareBuffer buffer, boolean written) {
     final ByteBuffer[] planes = new ByteBuffer[3];
     final int[] layout = new int[5];
@@ -33,8 +41,8 @@ public final class LockedHardwareBuffer implements AutoCloseable {
   }
 
   /**
-   * Gives the memory back and waits until what was written is there; the image must not be used
-   * any more.
+   * Unlocks the buffer, and waits until the written pixels have reached it. No-op if the buffer is
+   * already unlocked.
    */
   @Override
   public void close() {
@@ -43,7 +51,12 @@ public final class LockedHardwareBuffer implements AutoCloseable {
     buffer = null;
   }
 
-  /** Returns how many planes there are. `layout` becomes three strides, format and pixel stride. */
+  /**
+   * Locks the buffer and returns the number of planes.
+   *
+   * @param planes receives up to three planes
+   * @param layout receives three strides in bytes, the format, and the pixel stride
+   */
   private static native int lock(
       HardwareBuffer buffer, boolean written, ByteBuffer[] planes, int[] layout);
 
