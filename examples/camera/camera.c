@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* camera OUT.ppm: refocuses 12 megapixels while five sensors deliver them, NV12 rows in, rows of R,
- * G, B out. No picture is ever whole, so that all of it takes less than 64 MiB; says how much, and
- * how long. */
+/* usage: camera OUT.ppm
+ * Refocuses a light field of five views of 12 megapixels as a stream. Five simulated sensors
+ * deliver NV12 rows, and the program writes RGB rows. No picture is stored as a whole, so the
+ * process needs less than 64 MiB. Prints the time and the peak memory. */
 #define _POSIX_C_SOURCE 200112L
 #include <starfocus/pool.h>
 #include <starfocus/starfocus.h>
@@ -12,12 +13,14 @@
 
 #include "sensor.h"
 
-enum { kRows = 16 }; /* that a sensor delivers at a time, and that are pulled at a time */
+enum {
+  kRows = 16
+}; /* number of rows that a sensor delivers at once, and that are pulled at once */
 
 static uint8_t depth[kDepthWidth * kDepthHeight];
 static uint8_t luma[kCameras][kRows * kWidth], chroma[kCameras][kRows / 2 * kWidth];
 static uint8_t out[kRows * kWidth * 3];
-static uint32_t checksum = 2166136261u; /* FNV-1a */
+static uint32_t checksum = 2166136261u; /* FNV-1a of the output */
 
 static double Seconds(void) {
   struct timespec now;
@@ -33,15 +36,15 @@ static starfocus_status MakeEngine(starfocus_pool* pool, starfocus_engine** engi
   config.width = kWidth, config.height = kHeight, config.views = kCameras;
   config.disparity_min = kWall, config.disparity_max = kBall, config.max_blur = kBall - kWall;
   config.features |= STARFOCUS_FEATURE_STREAMING, config.features |= STARFOCUS_FEATURE_IMAGES;
-  config.superblock = 64; /* wide pictures would get 128, and four times the memory of a worker */
+  config.superblock = 64; /* the default, 128, needs four times the memory per worker */
   config.max_workers = starfocus_pool_workers(pool);
   callbacks.runner = starfocus_pool_run, callbacks.runner_data = pool;
   status = starfocus_create(&config, NULL, engine);
   return status == STARFOCUS_OK ? starfocus_set_callbacks(*engine, &callbacks) : status;
 }
 
-/* What the sensors have delivered from row `first` of these rows on, with the depth of the picture.
- */
+/* Returns the delivered rows of all views, starting at row `first` of the buffers, and the whole
+ * depth map. */
 static starfocus_light_field FieldFrom(int first) {
   starfocus_light_field field;
   int i;
@@ -58,7 +61,8 @@ static starfocus_light_field FieldFrom(int first) {
   return field;
 }
 
-/* Rows go in as they come, as far as there is room, and out as they are finished. */
+/* Pushes rows as the sensors deliver them, as many as the engine has room for, and writes finished
+ * rows to `file`. */
 static starfocus_status Stream(starfocus_engine* engine, FILE* file, double* sensor_seconds) {
   int delivered = 0, taken = 0, written = 0;
   starfocus_status status = STARFOCUS_OK;

@@ -3,14 +3,15 @@
 
 #include <starfocus/starfocus.h>
 
-/* Whether the first camera sees the ball at this place. */
+/* Returns 1 if the first camera sees the ball at pixel (x, y), otherwise 0. */
 static int IsBall(int x, int y) {
   const int dx = x - kWidth / 2, dy = y - kHeight / 2;
   return dx * dx + dy * dy < kHeight / 3 * (kHeight / 3);
 }
 
-/* A surface is known by the place where the first camera sees it. Another one at (u, v) sees it
- * disparity times that further to the left and up. */
+/* Finds the texture coordinates of the surface that the camera at (u, v) sees at pixel (x, y). They
+ * are the pixel where the first camera sees the surface, plus 1024, which keeps them positive.
+ * Returns 1 for the ball, 0 for the wall. */
 static int SeenByFirst(int x, int y, int u, int v, int* seen_x, int* seen_y) {
   const int is_ball = IsBall(x + u * kBall, y + v * kBall);
   const int disparity = is_ball ? kBall : kWall;
@@ -19,8 +20,8 @@ static int SeenByFirst(int x, int y, int u, int v, int* seen_x, int* seen_y) {
   return is_ball;
 }
 
-/* Chequers on the ball, stripes and white tiles on the wall, with a grain that is the same in all
- * views. */
+/* Returns the luma of a pixel: chequers on the ball, stripes and white tiles on the wall, and a
+ * grain that belongs to the surface. */
 static uint8_t LumaAt(int x, int y, int u, int v) {
   int seen_x, seen_y, grain;
   const int is_ball = SeenByFirst(x, y, u, v, &seen_x, &seen_y);

@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A camera's frame: NV12 with a map of millimetres of a quarter of its size is refocused into NV12;
- * writes its luma as yuv.pgm. */
+/* Refocuses a camera frame in NV12. The depth map has a quarter of its size and contains distances
+ * in millimetres. Writes the luma of the result to yuv.pgm and prints the status. */
 #include <starfocus/starfocus.h>
 #include <stdio.h>
 #include <stdlib.h>
 enum { W = 320, H = 200, MW = W / 4, MH = H / 4 };
 static uint8_t luma[W * H], chroma[W * H / 2], out_luma[W * H], out_chroma[W * H / 2];
-static uint16_t millimetres[MW * MH]; /* 0: the sensor saw nothing */
+static uint16_t millimetres[MW * MH]; /* distances; 0: unknown */
 
 int main(void) {
   for (int i = 0; i < W * H; ++i) luma[i] = (i % W / 8 + i / W / 8) % 2 ? 60 : 220;
   for (int i = 0; i < W * H / 2; ++i) chroma[i] = i % 2 ? 110 : 140;
   for (int i = 0; i < MW * MH; ++i) millimetres[i] = i % 37 ? (uint16_t)(500 + 40 * (i % MW)) : 0;
-  starfocus_config config; /* disparities 8000 / 3660 mm to 8000 / 500 mm */
+  starfocus_config config; /* distances 3660 mm to 500 mm: disparities 8000 / 3660 to 8000 / 500 */
   starfocus_config_init(&config);
   config.width = W, config.height = H, config.views = 1,
   config.features |= STARFOCUS_FEATURE_IMAGES;
@@ -20,8 +20,7 @@ int main(void) {
   config.features |= STARFOCUS_FEATURE_FILL_UNKNOWN;
   size_t bytes = 0;
   starfocus_status status = starfocus_workspace_size(&config, &bytes);
-  char* memory =
-      malloc(bytes + STARFOCUS_ALIGNMENT); /* the workspace begins at a multiple of that */
+  char* memory = malloc(bytes + STARFOCUS_ALIGNMENT); /* with room to align the workspace */
   void* workspace =
       memory ? memory + (STARFOCUS_ALIGNMENT - (uintptr_t)memory % STARFOCUS_ALIGNMENT) : NULL;
   starfocus_engine* engine = NULL;
@@ -40,7 +39,7 @@ int main(void) {
                                       .invalid = 0};
   starfocus_image out = {
       .format = STARFOCUS_FORMAT_NV12, .planes = {out_luma, out_chroma}, .strides = {W, W}};
-  starfocus_params params; /* what is a metre away is in focus */
+  starfocus_params params; /* focus 8000 / 1000 mm: objects at a distance of 1 m are sharp */
   starfocus_params_init(&params);
   params.lens.focus = 8;
   if (!status) status = starfocus_refocus(engine, &params, &field, &out, NULL);

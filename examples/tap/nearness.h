@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How near a preview comes to the full picture that it stands for.
+// Measures how similar a preview is to the full picture. Used by tap.cc.
 #ifndef STARFOCUS_EXAMPLES_TAP_NEARNESS_H_
 #define STARFOCUS_EXAMPLES_TAP_NEARNESS_H_
 
@@ -7,8 +7,8 @@
 
 namespace starfocus {
 
-// PSNR in dB over all samples of a preview at 1 / 2^shift of the size against the full picture
-// reduced by means of light; infinite when they are equal.
+// Returns the PSNR in dB of a preview at 1 / 2^shift of the size, over all its samples. The
+// reference is the full picture, reduced by averaging light. Returns infinity if both are equal.
 double PreviewPsnr(const Image& preview, const Image& full, int shift);
 
 }  // namespace starfocus

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tap to focus, as an app would do it: a light field is prepared once; a tap shows a preview at
-// once and the full picture after it; another tap pulls the focus there by previews, and ends with
-// the full picture. Prints the time of every step, and how near a preview comes to the full
-// picture.
+// Shows how an app implements tap to focus. It prepares a light field once. The first tap computes
+// a preview and then the full picture. The second tap moves the focus there in previews (a focus
+// pull), and then computes the full picture. The program prints the time of every step, and the
+// PSNR of a preview relative to the full picture.
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -24,22 +24,23 @@
 namespace starfocus {
 namespace {
 
-constexpr double kBlur = 32;  // pixels: how far the lens may blur, whatever is tapped
+// Largest blur radius in pixels. The aperture is chosen so that no focus exceeds it.
+constexpr double kBlur = 32;
 
 struct Options {
   std::string folder, out;
-  Pixel size = {4000, 3000};  // of the scene that is traced without a folder
+  Pixel size = {4000, 3000};  // size of the ray-traced scene, which is used without a folder
   std::optional<Pixel> first, second;
   int shift = 2, frames = 12, threads = starfocus_pool_cores();
 };
 
-// A light field, and where it is tapped.
+// A light field, and the default pixels of the two taps.
 struct Subject {
   LightField field;
   Pixel first, second;
 };
 
-// The light field of a folder, or the portrait traced; and where to tap by default.
+// Reads the light field of a folder. Without a folder, ray-traces the portrait.
 Result<Subject> Open(const Options& options, ThreadRunner* runner) {
   Subject subject;
   LightField& field = subject.field;
@@ -70,6 +71,7 @@ Error CheckTap(const std::string& option, const Pixel& point, const LightField& 
                       "'" + std::to_string(point.x) + "," + std::to_string(point.y) + "'");
 }
 
+// An engine with the prepared light field, and the pictures that it computes.
 class Session {
  public:
   Session(const LightField& field, const Options& options, ThreadRunner* runner)
@@ -140,13 +142,13 @@ class Session {
     return Keep(full_);
   }
 
-  // Of the same focus, both made last.
+  // Compares the last preview with the last full picture. Both must have the same focus.
   void SayNearness() const {
     std::printf("%8.1f dB  PSNR of the preview against the full picture reduced\n",
                 PreviewPsnr(preview_, full_, options_.shift));
   }
 
-  // Both ends are shown already, or will be in full.
+  // Computes previews of foci after `from`, up to `to`.
   Error Pull(double from, double to) {
     const double start = Seconds();
     for (int k = 1; k <= options_.frames; ++k) {

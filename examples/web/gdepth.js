@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// GDepth: the depth map that phones put into the XMP of a JPEG, mostly into its extension, which is cut into
-// segments of at most 64 KiB.
+// Reads GDepth, the depth map that phones store in the XMP of a JPEG. Most phones store it in extended XMP, which is
+// split into segments of at most 64 KiB.
 
 const STANDARD = 'http://ns.adobe.com/xap/1.0/\0';
 const EXTENSION = 'http://ns.adobe.com/xmp/extension/\0';
-const EXTENSION_HEADER = 32 + 4 + 4;  // a GUID, the whole length, where this part begins
+const EXTENSION_HEADER = 32 + 4 + 4;  // bytes of the GUID, the total length, and the offset of this part
 const APP1 = 0xE1, START_OF_SCAN = 0xDA;
 
 const latin = bytes => new TextDecoder('latin1').decode(bytes);
@@ -20,7 +20,7 @@ function readSegments(buffer) {
   return segments;
 }
 
-/** Returns all XMP of a JPEG as one text. */
+/** Returns the standard and extended XMP of a JPEG as one string. */
 function readXmp(buffer) {
   let standard = '';
   const parts = [];
@@ -36,13 +36,14 @@ function readXmp(buffer) {
   return standard + parts.map(part => part.text).join('');
 }
 
-/** Returns GDepth:name, as an attribute or as an element. */
+/** Returns the value of the property GDepth:`name`, which is an attribute or an element, or undefined. */
 function field(xmp, name) {
   return RegExp(`GDepth:${name}\\s*=\\s*["']([^"']*)["']`).exec(xmp)?.[1] ??
       RegExp(`<GDepth:${name}[^>]*>([^<]*)<`).exec(xmp)?.[1];
 }
 
-/** Returns {picture: Blob, near, far, inverse} of a JPEG, or null if it has no depth map. */
+/** Returns the depth map of a JPEG as {picture: Blob, near, far, inverse}, or null if it has none. `near` and `far` are
+ *  the limits of the distances. `inverse` is true if codes are linear in the inverse distance. */
 export function parseGDepth(buffer, name) {
   const xmp = readXmp(buffer), data = field(xmp, 'Data');
   if (data === undefined) return null;
@@ -64,7 +65,7 @@ export function parseGDepth(buffer, name) {
   return {picture: new Blob([bytes], {type}), near, far, inverse: format === 'RangeInverse'};
 }
 
-/** Returns 1 / distance of each code. */
+/** Converts the codes of a depth map to inverse distances. */
 export function inverseDistances(codes, {near, far, inverse}) {
   const table = Float32Array.from({length: 256}, (_, code) => {
     const share = code / 255;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page: what its controls do, and what it says.
+// Connects the controls of the page to the session and the viewer, and shows messages.
 
 import {fetchDemo, filesOfDrop, open} from './open.js';
 import {decode} from './pixels.js';
@@ -12,10 +12,10 @@ const query = new URLSearchParams(location.search);
 
 let session = null, field = null, opening = 0, times = '', pulling = null;
 
-// What tests and speed figures ask for: ?threads=1.
+// ?threads=N in the address sets the number of threads, for tests and measurements.
 const engine = {threads: query.has('threads') ? Number(query.get('threads')) : undefined};
 
-/** Screen readers hear of the last of several changes, when no more are to come. */
+/** Shows a status. If `more` is true, further changes follow soon, and screen readers wait for the last one. */
 function say(text, more = false) {
   get('status').setAttribute('aria-busy', more);
   get('status').textContent = text;
@@ -39,7 +39,7 @@ function lens() {
   };
 }
 
-/** Writes what the sliders mean beside them, and tells screen readers. */
+/** Shows the values of the sliders, also for screen readers. */
 function label() {
   const texts = {
     'focus': `disparity ${Number(get('focus').value).toFixed(1)}`,
@@ -85,7 +85,7 @@ async function focusAt(point) {
   await refocus();
 }
 
-/** Shows a light field, and takes it for the next refocusings. */
+/** Shows a light field and creates its session. If another light field is opened meanwhile, the session is closed. */
 async function take(next) {
   const turn = ++opening;
   session?.close();
@@ -104,7 +104,7 @@ async function take(next) {
   say(`Opened: ${field.name}, ${field.width} x ${field.height}. Tap to focus.`);
 }
 
-/** Opens what `find` resolves to; the light field that is open stays if that fails. */
+/** Opens the light field that `find` resolves to. If `find` fails, the current light field remains open. */
 async function openWith(find) {
   get('error').hidden = true;
   pulling?.abort();
@@ -155,7 +155,8 @@ async function download() {
   setTimeout(() => URL.revokeObjectURL(link.href), 60000);
 }
 
-/** Arrow keys move the cross, further with Shift; Enter and the space bar focus there. */
+/** Handles keys: arrow keys move the cross, in larger steps with Shift. Enter and the space bar focus at the cross.
+ *  Escape hides it. */
 function onKey(event) {
   const step = event.shiftKey ? 64 : 8, {width, height} = viewer.canvas;
   const moves = {ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, -step], ArrowDown: [0, step]};

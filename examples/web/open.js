@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// What people drop: a folder of ours, a depth photo, a picture with its depth picture. Each becomes a light
-// field {name, width, height, views: [ImageData], depth: {data: Float32Array, width, height}, low, high}, and
-// everything else an error that is a sentence.
+// Opens files that the user drops or chooses: a light-field folder, a depth photo, or a picture with its depth picture.
+// Returns a light field {name, width, height, views: [ImageData], depth: {data: Float32Array, width, height}, low,
+// high}, where low and high are the smallest and largest disparity. Other files cause an Error with a message.
 
 import {inverseDistances, parseGDepth} from './gdepth.js';
 import {parsePfm} from './pfm.js';
 import {decode, isGray, redOf} from './pixels.js';
 
-// Views in the order of starfocus_view_position; the sets that there may be are the first of them.
+// Positions in the order of starfocus_view_position. A set of views is a prefix of this list.
 const POSITIONS = [
   [0, 0], [1, 0], [-1, 0], [0, 1], [0, -1], [1, 1], [-1, 1], [1, -1], [-1, -1],
   [.5, 0], [-.5, 0], [0, .5], [0, -.5], [.5, .5], [-.5, .5], [.5, -.5], [-.5, -.5]
 ];
 const SETS = [17, 9, 5, 1];
 
-// A depth photo tells no blur: from its nearest to its farthest it becomes this share of the picture's width.
+// Depth photos store no blur scale. Their range of disparities becomes this share of the width of the picture.
 const BLUR_OF_PHOTO = 0.03;
 const LARGEST_DISPARITY = 500;
 
@@ -38,7 +38,7 @@ function checkDepth(name, depth) {
   return {depth, low, high};
 }
 
-/** A light field of our folder; `find` returns a file by its name without ending. */
+/** Opens a light-field folder. `find` returns the picture file with a name without extension. */
 async function openFolder(files, find) {
   const set = SETS.find(count => POSITIONS.slice(0, count).every(at => find(viewName(at))));
   if (!set) throw new Error(`The folder has no centre view: expected ${viewName([0, 0])}.png.`);
@@ -63,7 +63,7 @@ function checkSize(name, image, {width, height}) {
   throw new Error(`The depth of ${name} is ${width} x ${height}; expected at most ${image.width} x ${image.height}, as the picture is.`);
 }
 
-/** A photo with values that grow towards the viewer, of any unit. */
+/** Returns the light field of a photo with a map of values in any unit, larger for nearer points. */
 function depthPhoto(name, image, {data, width, height}) {
   checkSize(name, image, {width, height});
   const {low, high} = measure({data});
@@ -86,7 +86,7 @@ async function openJpeg(file) {
   return depthPhoto(`depth photo ${file.name}`, image, {data, width: map.width, height: map.height});
 }
 
-/** A picture and its depth: a PFM of disparities, or a gray picture, brighter where it is nearer. */
+/** Opens a picture and its depth, which is a PFM of disparities, or a gray picture in which near points are bright. */
 async function openPair(files) {
   const map = files.find(file => /\.pfm$/i.test(file.name));
   if (map) {
@@ -107,7 +107,7 @@ async function openPair(files) {
                     {data: Float32Array.from(redOf(images[index])), width, height});
 }
 
-/** Returns the light field of these files. */
+/** Returns the light field in the files. */
 export async function open(files) {
   const has = pattern => files.some(file => pattern.test(file.name));
   const find = stem => files.find(file => /\.(png|jpe?g)$/i.test(file.name) && file.name.replace(/\.\w+$/, '') === stem);
@@ -126,7 +126,7 @@ export async function open(files) {
   throw new Error(`Expected a folder of a light field, a depth photo or a picture with its depth, found ${files.length} files.`);
 }
 
-/** Returns promises of the demo's files, from where the page was loaded, the centre view first. */
+/** Loads the files of the demo from the server of the page. Returns their promises; the centre view is the first. */
 export function fetchDemo() {
   const names = [...POSITIONS.slice(0, 5).map(at => `${viewName(at)}.png`), 'disparity.pfm'];
   return names.map(async name => {
@@ -136,7 +136,7 @@ export function fetchDemo() {
   });
 }
 
-/** Returns all files below what was dropped. */
+/** Returns all dropped files, including those in dropped folders. */
 export async function filesOfDrop(transfer) {
   const entries = [...transfer.items].map(item => item.webkitGetAsEntry?.()).filter(Boolean);
   if (!entries.length) return [...transfer.files];

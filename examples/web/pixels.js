@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Picture files as pixels, by the browser's own decoders.
+// Decodes picture files with the decoders of the browser.
 
-/** Returns the ImageData of a picture file, with its codes as they are. */
+/** Returns the ImageData of a picture file, without conversion of colours. */
 export async function decode(file, name = file.name) {
   let bitmap;
   try {
@@ -18,12 +18,12 @@ export async function decode(file, name = file.name) {
   return context.getImageData(0, 0, canvas.width, canvas.height);
 }
 
-/** Returns one value of 0 to 255 for each pixel: its red one, which is the gray of a gray picture. */
+/** Returns the red code of each pixel, 0 to 255. In a gray picture it is the gray value. */
 export function redOf(image) {
   return Uint8Array.from({length: image.width * image.height}, (_, i) => image.data[4 * i]);
 }
 
-/** Whether red, green and blue are nearly the same everywhere. */
+/** Returns true if green and blue differ from red by at most 8 at every pixel. */
 export function isGray({data}) {
   for (let i = 0; i < data.length; i += 4) {
     if (Math.abs(data[i] - data[i + 1]) > 8 || Math.abs(data[i] - data[i + 2]) > 8) return false;

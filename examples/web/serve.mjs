@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// serve.mjs FOLDER [PORT [plain]]: a static server on the loopback, with the headers that let a page share
-// memory with its workers; `plain` leaves them out, as most hosts do. Says where it listens.
+// usage: serve.mjs FOLDER [PORT [plain]]
+// Serves static files on the loopback interface, and prints the address. It sends the headers that allow pages to share
+// memory with workers. With `plain` it omits them, as most servers do.
 
 import {createReadStream} from 'node:fs';
 import {stat} from 'node:fs/promises';

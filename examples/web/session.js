@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One opened light field with its refocuser. What is asked for last counts: previews follow as fast as they
-// are made, and the full picture when nobody asks any more; it is called off when somebody does.
+// A session owns the refocuser of one open light field. Only the last request counts. While requests arrive, the
+// session computes previews; after the last request it computes the full picture. A new request cancels that picture.
 
 import {createRefocuser, Shape} from './starfocus/starfocus.js';
 
@@ -16,9 +16,10 @@ const LARGEST_BLUR = 128;
 const LARGEST_SHIFT = 3;
 const FIRST_SHIFT = 2;
 
-// A preview that takes longer than a frame gets smaller, one that takes a quarter of it larger.
+// If a preview takes longer than FRAME, the next one is smaller. If it takes less than FRAME / 4, the next one is
+// larger.
 const FRAME = 16;  // ms
-const PULL = 3000;  // ms
+const PULL = 3000;  // duration of a focus pull, ms
 
 export class Session {
   #refocuser;
@@ -28,11 +29,12 @@ export class Session {
   #highlightsChanged = false;
   #asked = false;
   #working = null;
-  #full = null;  // AbortController of the full picture
+  #full = null;  // AbortController of the full picture, or null
   #shift = FIRST_SHIFT;
   #closed = false;
 
-  /** `options`: {onPicture(picture, {shift, milliseconds}), onProgress(share)}. */
+  /** Opens a light field of open.js. `options` are {onPicture(picture, {shift, milliseconds}), onProgress(share),
+   *  engine}, where `engine` contains additional options of createRefocuser. */
   static async open(field, lens, options) {
     const session = new Session();
     session.#field = field;
@@ -47,7 +49,7 @@ export class Session {
     });
     try {
       await session.#refocuser.prepare(field.views, field.depth);
-      // What runs for the first time is slow; the first tap shall not be.
+      // The first preview is slower than later ones. It is computed here, so that the first tap is fast.
       await session.#refocuser.preview({...session.#params(lens), shift: FIRST_SHIFT});
     } catch (error) {
       session.close();
@@ -60,13 +62,14 @@ export class Session {
     return this.#refocuser;
   }
 
-  /** Returns the focus for what is at a pixel of the picture. */
+  /** Returns the disparity to focus at for a pixel of the picture. */
   focusAt({x, y}) {
     const {width, height, depth} = this.#field;
     return this.#refocuser.focusAt(Math.floor(x * depth.width / width), Math.floor(y * depth.height / height));
   }
 
-  /** Refocuses with this lens: {focus, stops, highlights, shape, blocks}. Resolves when nothing is left to do. */
+  /** Requests a picture with the lens {focus, stops, highlights, shape, blocks}, where `stops` is the number of f-stops
+   *  that the lens is stopped down from its widest aperture. Resolves when all requests are finished. */
   refocus(lens) {
     this.#highlightsChanged ||= lens.highlights !== this.#lens.highlights;
     this.#lens = lens;
@@ -76,7 +79,8 @@ export class Session {
     return this.#working;
   }
 
-  /** Moves the focus from where it is to the nearest, the farthest and back, for as long as the signal lets it. */
+  /** Moves the focus from its current value to the nearest point, to the farthest point, and back. Stops early if the
+   *  signal is aborted. */
   async pull(lens, signal, onFocus) {
     const {low, high} = this.#field, stops = [lens.focus, high, low, lens.focus], start = performance.now();
     await this.#working;

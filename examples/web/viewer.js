@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the canvas shows: the picture, its depth or its blocks, and the original beside it.
+// Draws the canvas: the picture, its depth or its blocks, and the original picture to the left of the wipe.
 
 const LAYERS = ['rgb(255 80 60 / 40%)', 'rgb(70 220 90 / 40%)', 'rgb(80 120 255 / 40%)'];
 const LINE = '#ffc861';
 
-/** Returns a canvas that holds the picture. */
+/** Returns a canvas that contains the picture. */
 function toCanvas({data, width, height}) {
   const canvas = new OffscreenCanvas(width, height);
   canvas.getContext('2d').putImageData(new ImageData(data, width, height), 0, 0);
   return canvas;
 }
 
-/** Returns the depth map in gray, near bright. */
+/** Returns a canvas with the depth map in gray. Near points are bright. */
 function drawDepth({depth: {data, width, height}, low, high}) {
   const pixels = new Uint8ClampedArray(4 * width * height);
   for (let i = 0; i < data.length; ++i) {
@@ -38,7 +38,7 @@ export class Viewer {
     this.#context = canvas.getContext('2d', {alpha: false});
   }
 
-  /** Shows the centre view of a light field; its depth may come later. */
+  /** Shows the centre view of a light field. showField can add the depth later. */
   showView(view) {
     this.canvas.width = view.width;
     this.canvas.height = view.height;
@@ -54,7 +54,7 @@ export class Viewer {
     this.#field = field;
   }
 
-  /** Shows a picture of the light field, of any size, and keeps its blocks if it has some. */
+  /** Shows a refocused picture or preview, scaled to the canvas, and keeps its list of blocks. */
   showPicture(picture) {
     this.#picture = toCanvas(picture);
     this.#blocks = picture.blocks ?? [];
@@ -66,7 +66,7 @@ export class Viewer {
     this.#draw();
   }
 
-  /** How much of the left side is the original, 0 to 1. */
+  /** Share of the width that shows the original picture, from the left, 0 to 1. */
   set wipe(share) {
     this.#wipe = share;
     this.#draw();
@@ -82,7 +82,7 @@ export class Viewer {
     return this.#cross;
   }
 
-  /** Returns the pixel below a pointer, or null beside the picture. */
+  /** Returns the pixel under a pointer, or null if the pointer is outside the picture. */
   toPixel({clientX, clientY}) {
     const {width, height} = this.canvas, box = this.canvas.getBoundingClientRect();
     const scale = Math.min(box.width / width, box.height / height);
