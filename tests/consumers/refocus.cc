@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The same as refocus.c through the C++ wrapper.
+// Refocuses the scene as refocus.c does, through the C++ wrapper. Prints the same checksums.
 #include <cstdio>
 #include <initializer_list>
 #include <starfocus/starfocus.hpp>

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-# The program refocus of a consumer project, in its only LANGUAGE, and a target that lets it run, by the
-# emulator of a toolchain file if there is one, and keeps what it prints in the file sums.
+# Adds the program refocus to a consumer project, written in LANGUAGE, the only language of the project.
+# The target `run` runs it, with the emulator of the toolchain file if there is one, and writes its
+# output to the file sums.
 if(LANGUAGE STREQUAL "CXX")
   set(CMAKE_CXX_STANDARD 17)
   add_executable(refocus ${CMAKE_CURRENT_LIST_DIR}/refocus.cc)

@@ -1,17 +1,18 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# run.sh BUILD KIND...: installs what was built in BUILD and builds small projects outside the tree
-# that use starfocus in each way there is. All of them must print the same checksums, those of a
-# program linked by hand with the library of BUILD.
-#   package   CMake packages and pkg-config, both libraries, then uninstalls
-#   source    the source tree as a part of another project, or fetched
-#   m32       built for 32 bits, with GCC's -m32
-#   wasm      built for WebAssembly SIMD with emscripten, run by node
-#   python    the Python package, from a wheel and from the tree
+# usage: run.sh BUILD KIND...
+# Installs the build folder BUILD, and builds small projects outside the source tree that use starfocus
+# in all supported ways. All projects must print the same checksums as a program that is linked directly
+# with the library of BUILD.
+#   package   CMake packages and pkg-config, static and shared library, then uninstallation
+#   source    the source tree as a subfolder of another project, and through FetchContent
+#   m32       a build for 32 bits with GCC's -m32
+#   wasm      a build for WebAssembly SIMD with emscripten, run by node
+#   python    the Python package, from a wheel and from the source tree
 #   java      the Java API
-#   java-aarch64  the same with what was built beside BUILD for aarch64, by its emulator
+#   java-aarch64  the Java API with the aarch64 build in the folder next to BUILD, run by an emulator
 #   swift     the module map of the C headers
-#   PRESET    what was built beside BUILD by this preset for another machine, run by its emulator
+#   PRESET    the build of this preset for another machine, in the folder next to BUILD, run by its emulator
 set -eu
 [ $# -ge 2 ] || { echo "usage: $0 BUILD package|source|m32|wasm|python|java|java-aarch64|swift|PRESET..." >&2; exit 2; }
 sources=$(cd "$(dirname "$0")/../.." && pwd)
@@ -22,12 +23,12 @@ trap 'rm -rf "$work"' EXIT
 trap 'exit 1' HUP INT TERM
 cp -r "$sources/tests/consumers" "$work"
 
-# quietly COMMAND...: shows what it printed only when it fails.
+# quietly COMMAND...: runs a command. Prints its output only if it fails.
 quietly() {
   "$@" >"$work/log" 2>&1 || { cat "$work/log" >&2; echo "consumers: failed: $*" >&2; exit 1; }
 }
 
-# same KIND: what its program printed into the file sums is what the first one printed.
+# same KIND: checks that the file sums contains the checksums of the first program.
 same() {
   [ -f "$work/expected" ] || cp "$work/sums" "$work/expected"
   [ "$(wc -l <"$work/sums")" = 2 ] && cmp -s "$work/sums" "$work/expected" || {
@@ -49,7 +50,7 @@ project() {
   same "$kind"
 }
 
-# program KIND COMPILER-ARGUMENT...: compiles the program by hand and runs it.
+# program KIND COMPILER-ARGUMENT...: compiles the program without CMake and runs it.
 program() {
   kind=$1
   shift
@@ -59,7 +60,7 @@ program() {
   same "$kind"
 }
 
-# library FOLDER ARGUMENT...: builds the static library alone, with these options, and installs it.
+# library FOLDER ARGUMENT...: builds only the static library with these options, and installs it.
 library() {
   folder=$1
   shift
@@ -82,7 +83,7 @@ package() {
   done
   project 'CMake package, C++' cmake_package -DLANGUAGE=CXX -DCMAKE_PREFIX_PATH="$prefix"
 
-  # The prefix may be moved; without the shared library, pkg-config --static finds the other.
+  # Checks that the prefix can be moved, and that pkg-config --static works without the shared library.
   mv "$prefix" "$work/moved"
   PKG_CONFIG_PATH=$(dirname "$(find "$work/moved" -name starfocus.pc)")
   export PKG_CONFIG_PATH
@@ -101,7 +102,7 @@ package() {
   [ -z "$left" ] || { echo "consumers: uninstall left" $left >&2; exit 1; }
 }
 
-# Without optimisation, which is quicker to build and must not matter.
+# These projects are built without optimization. That is faster, and must not change the checksums.
 source_tree() {
   project 'add_subdirectory, C' subproject "-DSTARFOCUS_DIR=$sources" \
     -DSTARFOCUS_STATIC_DISPATCH=ON
@@ -111,7 +112,7 @@ source_tree() {
     -DSTARFOCUS_STATIC_DISPATCH=ON
 }
 
-# Kernels may be built without support for programs of 32 bits: then QEMU runs them.
+# Linux can be built without support for 32-bit programs. In that case QEMU runs the programs.
 m32() {
   library m32 -DCMAKE_C_FLAGS=-m32 -DCMAKE_CXX_FLAGS=-m32
   emulator=
@@ -132,7 +133,8 @@ wasm() {
     "-Dstarfocus_DIR=$(dirname "$(find "$work/wasm" -name starfocus-config.cmake)")"
 }
 
-# preset NAME: a toolchain file's folders are the only ones CMake searches, hence the exact one.
+# preset NAME: tests the build of a preset. With a toolchain file, CMake searches only the folders of the
+# toolchain, so the folder of the package is passed explicitly.
 preset() {
   other=$(dirname "$build")/$1
   toolchain=$(sed -n 's/^CMAKE_TOOLCHAIN_FILE:[A-Z]*=//p' "$other/CMakeCache.txt")
@@ -142,7 +144,7 @@ preset() {
     "-Dstarfocus_DIR=$(dirname "$(find "$work/$1" -name starfocus-config.cmake)")"
 }
 
-# Of the Swift package only the module map can be tried, by clang.
+# Compiles the module map of the Swift package with clang. No other part of the package is tested.
 swift() {
   cat >"$work/module.m" <<'TEXT'
 @import CStarfocus;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/* A light field of five views that every consumer refocuses: a near square before a slope, all of
- * it in numbers that each machine holds exactly; and the checksum of what came out. */
+/* Light field of five views that every consumer refocuses: a near square in front of a slope. All
+ * its numbers are exact on every machine. Also has the checksum of the output. */
 #ifndef STARFOCUS_TESTS_CONSUMERS_SCENE_H_
 #define STARFOCUS_TESTS_CONSUMERS_SCENE_H_
 
@@ -54,7 +54,7 @@ static void ConfigureFor(starfocus_config* config) {
   config->max_blur = 12;
 }
 
-/* FNV-1a. */
+/* Returns the 32-bit FNV-1a checksum. */
 static uint32_t Checksum(const uint8_t* bytes, size_t count) {
   uint32_t sum = 2166136261u;
   size_t i;

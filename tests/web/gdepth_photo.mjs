@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A depth photo as phones write them: GDepth in the XMP of a JPEG, its data in the extension, in segments.
+// Creates depth photos like those of phones: GDepth in the XMP of a JPEG, with the data in segments of extended XMP.
 
-const SEGMENT = 1000;  // bytes of data in each, so that there are several
+const SEGMENT = 1000;  // bytes of data per segment, small enough for several segments
 
 function segment(header, text) {
   const body = Buffer.concat([Buffer.from(header, 'latin1'), Buffer.from(text, 'latin1')]);
@@ -10,7 +10,7 @@ function segment(header, text) {
   return Buffer.concat([start, body]);
 }
 
-/** Returns the JPEG with a depth map in it, a PNG of inverse distances between 1 and 10. */
+/** Inserts a depth map into a JPEG. The depth map is a PNG of inverse distances between 1 and 10. */
 export function makeGDepth(jpeg, png) {
   const guid = '0123456789ABCDEF'.repeat(2);
   const standard = `<x:xmpmeta><rdf:Description GDepth:Format="RangeInverse" GDepth:Near="1" GDepth:Far="10" ` +

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The package gives the bytes of the library: every checksum of tests/engine/golden.txt, whose names tell
-// the light field and the lens, as tests/engine/golden_bytes_test.cc makes them.
+// Checks that the package computes the same bytes as the library: every checksum of tests/engine/golden.txt. The names
+// in that file encode the light field and the lens, as tests/engine/golden_bytes_test.cc defines them.
 
 import assert from 'node:assert/strict';
 import {readFileSync} from 'node:fs';
@@ -19,7 +19,7 @@ const shapes = {
   'cats-eye': {catsEye: 0.75},
   'pentagon-cats-eye': {shape: Shape.POLYGON, catsEye: 0.5}
 };
-const apertures = {'1.125': 0.8, '2.5': 1, '-27.5': 1};  // of the shapes' lenses, by their focus
+const apertures = {'1.125': 0.8, '2.5': 1, '-27.5': 1};  // apertures of the cases with a shape, by focus
 
 const scenes = new Map();
 function integerScene(views, depth) {
@@ -28,7 +28,7 @@ function integerScene(views, depth) {
   return scenes.get(name);
 }
 
-/** Returns the scene, configuration and parameters that a name of golden.txt stands for. */
+/** Returns the scene, configuration and parameters that a name in golden.txt encodes. */
 function readCase(name) {
   const levels = /^levels-(\d+)-(\d+)-(\d+)$/.exec(name);
   if (levels) {
@@ -61,7 +61,7 @@ function readCase(name) {
   };
 }
 
-/** Refocuses cases one after the other, with one refocuser for as long as the light field stays. */
+/** Refocuses cases in sequence. Consecutive cases with the same light field share a refocuser. */
 class Refocusings {
   #scene = null;
   #refocuser = null;
@@ -91,7 +91,7 @@ class Refocusings {
   }
 }
 
-/** FNV-1a of 64 bits, in halves of 32. */
+/** Returns the 64-bit FNV-1a checksum, computed in halves of 32 bits. */
 function hash(bytes) {
   let high = 0xCBF29CE4, low = 0x84222325;
   for (const byte of bytes) {
@@ -115,7 +115,7 @@ async function compare(cases, options) {
       if (hash(dropAlpha(picture.data)) !== expected) wrong.push(name);
     }
   } finally {
-    refocusings.close();  // or its threads would keep node from ending
+    refocusings.close();  // otherwise the workers would keep node running
   }
   assert.deepEqual(wrong, []);
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// tests/support/integer_scene.h once more, in JavaScript: light fields made with integers alone.
+// JavaScript version of tests/support/integer_scene.h: light fields that are computed with integers only.
 
 const mask = 0xFFFFFFFFFFFFFFFFn;
 
-/** xorshift64*, as test::Random. */
+/** Random numbers by xorshift64*, the same as those of test::Random. */
 class Random {
   constructor(seed) {
     this.state = (BigInt(seed) * 0x9E3779B97F4A7C15n + 0x1234567n) & mask;
@@ -18,7 +18,7 @@ class Random {
     return Number(((state * 0x2545F4914F6CDD1Dn) & mask) >> 32n);
   }
 
-  /** Integer in [low, high]. */
+  /** Returns an integer in [low, high]. */
   int(low, high) {
     return low + this.next() % (high - low + 1);
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The package as node installs it: the program's bytes, cancelling, progress, depth maps of all kinds, and
-// one sentence for everything that is wrong.
+// Tests the installed package in node: the bytes of pictures, cancellation, progress, types of depth maps, and error
+// messages.
 
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
@@ -17,7 +17,7 @@ const {width, height, low, high} = field, views = field.views.map(view => view.d
 const options = {width, height, views: 5, disparityMin: low, disparityMax: high, maxBlur: 20, previews: 3, shapes: true};
 let refocuser;
 
-/** Returns what the program makes of the folder. */
+/** Refocuses the light-field folder with the program, and returns the R, G, B bytes. */
 function refocusByProgram(...values) {
   const path = join(folder, 'out.png');
   execFileSync(program, ['refocus', folder, '-o', path, ...values]);

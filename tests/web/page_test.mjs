@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page in Chromium, as people use it: taps, sliders, dropped files, keys and a phone, with shared memory and
-// without. What the canvas shows is compared with the pictures of the program, byte for byte.
+// Tests the page in Chromium: taps, sliders, dropped files, keys, and the screen of a phone, with and without shared
+// memory. The bytes of the canvas are compared with the pictures of the program.
 
 import assert from 'node:assert/strict';
 import {execFileSync, spawn} from 'node:child_process';
@@ -18,7 +18,7 @@ const demo = join(site, 'demo'), scratch = mkdtempSync(join(tmpdir(), 'starfocus
 const servers = [];
 let browser, page, address;
 
-/** Returns the address of a server of the site. */
+/** Starts a server for the site, and returns its address. */
 async function serve(...values) {
   const server = spawn(process.execPath, [process.env.STARFOCUS_SERVER, site, '0', ...values]);
   servers.push(server);
@@ -43,10 +43,10 @@ async function waitFor(pattern) {
   }
 }
 
-/** Waits until nothing is left to do; what was asked for before is done then. */
+/** Waits until the page shows a full picture. All earlier requests are finished then. */
 const full = () => waitFor(/Full picture: [\d.]+ ms$/);
 
-/** Does something after which a new full picture comes. */
+/** Performs an action that starts a refocusing, and waits for the full picture. */
 async function andFull(action) {
   await page.evaluate(() => document.getElementById('status').textContent = '');
   await action();
@@ -91,7 +91,7 @@ const screenshot = name => page.screenshot({path: join(process.env.STARFOCUS_SCR
 const file = (name, buffer = readFileSync(join(small, name))) => ({name, mimeType: '', buffer});
 const openFiles = (...files) => page.setInputFiles('#files', files);
 
-/** The focus of the demo's far object by its meta.txt. */
+/** Returns the pixel [x, y] of a named object of the demo, from its meta.txt. */
 const place = name => /(\d+),(\d+)/.exec(
     readFileSync(join(demo, 'meta.txt'), 'utf8').split('\n').find(line => line.startsWith(`${name}:`))).slice(1).map(Number);
 

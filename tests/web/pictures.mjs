@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light-field folders and pictures of the program, read by node: what the package and the page are
-// compared with.
+// Reads light-field folders and pictures of the program in node. The tests compare the package and the page with
+// these pictures.
 
 import assert from 'node:assert/strict';
 import {readFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {inflateSync} from 'node:zlib';
 
-/** Which of left, upper and upper left byte is nearest to left + up - corner (PNG, section 9.4). */
+/** Paeth predictor of PNG (section 9.4): returns the left, upper or upper left byte, whichever is nearest to
+ *  left + up - corner. */
 function paeth(left, up, corner) {
   const a = Math.abs(up - corner), b = Math.abs(left - corner), c = Math.abs(left + up - 2 * corner);
   return a <= b && a <= c ? left : b <= c ? up : corner;
 }
 
-/** Returns {data, width, height} of a PNG of R, G, B bytes, the only kind that the program writes. */
+/** Reads a PNG of R, G, B bytes, the only kind that the program writes. Returns {data, width, height}. */
 export function readPng(path) {
   const file = readFileSync(path);
   const width = file.readUInt32BE(16), height = file.readUInt32BE(20);
@@ -37,7 +38,7 @@ export function readPng(path) {
   return {data, width, height};
 }
 
-/** Returns {data, width, height} of a little-endian map of floats; its file has the lowest row first. */
+/** Reads a little-endian PFM. Returns {data, width, height}, with the top row first. */
 function readPfm(path) {
   const file = readFileSync(path);
   const [header, width, height] = /^Pf\s+(\d+)\s+(\d+)\s+-\S+\s/.exec(file.toString('latin1', 0, 64));
@@ -49,7 +50,7 @@ function readPfm(path) {
   return {data, width: Number(width), height: Number(height)};
 }
 
-/** Returns the centre view and the four around it, and the disparity map, of a folder. */
+/** Reads five views and the disparity map of a light-field folder. Also returns the range of the disparities. */
 export function readLightField(folder) {
   const names = ['+0.0_+0.0', '+1.0_+0.0', '-1.0_+0.0', '+0.0_+1.0', '+0.0_-1.0'];
   const views = names.map(name => readPng(join(folder, `view_${name}.png`)));
@@ -59,12 +60,12 @@ export function readLightField(folder) {
   return {views, disparity, low, high, width: views[0].width, height: views[0].height};
 }
 
-/** Returns the R, G, B of R, G, B, A. */
+/** Converts R, G, B, A bytes to R, G, B bytes. */
 export function dropAlpha(data) {
   return data.filter((_, i) => i % 4 < 3);
 }
 
-/** Fails, with a number instead of all bytes, unless both are the same. */
+/** Fails unless both arrays are equal. The message has the number of different bytes instead of all bytes. */
 export function assertSameBytes(actual, expected) {
   assert.equal(actual.length, expected.length);
   const wrong = actual.reduce((count, byte, i) => count + (byte !== expected[i]), 0);

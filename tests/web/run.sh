@@ -1,8 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# run.sh BUILD WEB: packs the npm package of the build WEB, installs it into an empty project, and tries it
-# in node; then the page of WEB in Debian's Chromium, driven by playwright-core from npm. The programs of BUILD
-# make what they are compared with.
+# usage: run.sh BUILD WEB
+# Packs the npm package of the build folder WEB, installs it into an empty project, and tests it in node. Then
+# tests the page of WEB in Debian's Chromium, which playwright-core from npm controls. The programs of BUILD
+# compute the expected pictures.
 set -eu
 [ $# = 2 ] || { echo "usage: $0 BUILD WEB" >&2; exit 2; }
 sources=$(cd "$(dirname "$0")/../.." && pwd)
@@ -16,15 +17,15 @@ STARFOCUS_GOLDEN_FILE=$sources/tests/engine/golden.txt STARFOCUS_SERVER=$sources
 STARFOCUS_SCREENSHOTS=$web/screenshots
 export STARFOCUS_PROGRAM STARFOCUS_FIELD STARFOCUS_SITE STARFOCUS_GOLDEN_FILE STARFOCUS_SERVER STARFOCUS_SCREENSHOTS
 
-# The version is one that was tried with Debian's Chromium.
+# This version works with Debian's Chromium.
 PLAYWRIGHT=1.49.1
 
-# quietly COMMAND...: shows what it printed last only when it fails.
+# quietly COMMAND...: runs a command. Prints the end of its output only if it fails.
 quietly() {
   "$@" >"$work/log" 2>&1 || { tail -n 60 "$work/log" >&2; echo "web: failed: $*" >&2; exit 1; }
 }
 
-# run NAME: a test in the project; says how many cases passed.
+# run NAME: runs a test in the project, and prints the number of passed cases.
 run() {
   start=$(date +%s)
   quietly node --test --test-reporter=tap "$1"
