@@ -12,7 +12,6 @@
 
 #include "simd/depth_kernels.h"
 #include "simd/kernels.h"
-#include "tests/simd/depth_cases.h"
 #include "tests/simd/kernel_cases.h"
 
 namespace {
@@ -60,7 +59,7 @@ int main(int argc, char** argv) {
     starfocus::bench::RegisterWholePictures(kernels->name);
   }
   tables.push_back(&starfocus::simd::ReferenceKernels());
-  for (const test::KernelCase& one : test::kKernelCases) {
+  for (const auto& one : test::kernel_cases::kAll) {
     for (const Kernels* kernels : tables) Register(one, kernels);
   }
   std::vector<const DepthKernels*> depth_tables;
@@ -68,7 +67,7 @@ int main(int argc, char** argv) {
     depth_tables.push_back(kernels);
   }
   depth_tables.push_back(&starfocus::simd::ReferenceDepthKernels());
-  for (const test::DepthCase& one : test::kDepthCases) {
+  for (const auto& one : test::depth_cases::kAll) {
     for (const DepthKernels* kernels : depth_tables) Register(one, kernels);
   }
   for (const Kernels* kernels : tables) starfocus::bench::RegisterLineScan(kernels);

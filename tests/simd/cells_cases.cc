@@ -21,12 +21,10 @@ CellLimits DrawCellLimits(Draw* draw) {
 std::vector<int16_t> CellDisparities(size_t count, Draw* draw) {
   const int kind = draw->timed() ? 5 : draw->Int(0, 5);
   const int most = kind == 0 ? 32000 : kind == 1 ? 7000 : kind == 2 ? 200 : kind == 5 ? 0 : 60;
-  std::vector<int16_t> disparities(count);
-  for (int16_t& d : disparities) {
-    d = int16_t(draw->Int(-most, most));
-    if (kind == 4) d = int16_t(draw->Int(0, 1) == 0 ? -32000 : 32000);
-  }
-  return disparities;
+  return Filled<int16_t>(count, [&] {
+    const int any = draw->Int(-most, most);
+    return kind != 4 ? any : draw->Int(0, 1) == 0 ? -32000 : 32000;
+  });
 }
 
 using Rows = const int16_t* const*;
@@ -100,7 +98,7 @@ void MeasureCell(Draw* draw, KernelCall* call) {
   const size_t cells = draw->Size(1, 3, kTimedSamples / 64);  // beside each other
   const size_t width = 8 * cells + 2, stride = width + draw->Size(0, 9, 0);
   const int16_t* in = call->Input("disparity", CellDisparities(9 * stride + width, draw), kPadding);
-  for (size_t y = 0; y < 9; ++y) call->Ignore(in + y * stride + width, stride - width);
+  call->IgnoreRows(in + width, 9, stride, stride - width);
   std::vector<const int16_t*> all_rows;
   for (size_t n = 0; n < 10 * cells; ++n) {
     all_rows.push_back(in + 1 + n % 10 * stride + 8 * (n / 10));
@@ -119,13 +117,11 @@ void MeasureCell(Draw* draw, KernelCall* call) {
     }
   });
   call->is_right = [=](uint64_t, Met* met) {
-    bool right = true;
-    for (size_t cell = 0; cell < cells; ++cell) {
+    return AllRight(cells, [&](size_t cell) {
       const CellMeasure& measure = measures[cell];
       (*met)[measure.edge_low > measure.edge_high ? "no edge" : "edges"] += 1;
-      right = right && Fields(measure) == Fields(Measured(rows + 10 * cell, limits));
-    }
-    return right;
+      return Fields(measure) == Fields(Measured(rows + 10 * cell, limits));
+    });
   };
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the kernels of every table are checked for.
+// What the kernels of every table are checked for, and values by hand.
 #ifndef STARFOCUS_TESTS_SIMD_CHECK_KERNELS_H_
 #define STARFOCUS_TESTS_SIMD_CHECK_KERNELS_H_
 
@@ -38,6 +38,16 @@ void CheckKernels(const Cases& cases, const Table& reference,
       CAPTURE(what.first);
       CHECK(what.second > kRounds / 50);
     }
+  }
+}
+
+// Checks values one by one.
+template <class T>
+void CheckValues(const char* what, const T* found, const std::vector<int64_t>& expected) {
+  CAPTURE(what);
+  for (size_t n = 0; n < expected.size(); ++n) {
+    CAPTURE(n);
+    CHECK(int64_t(found[n]) == expected[n]);
   }
 }
 

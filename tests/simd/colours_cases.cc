@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "simd/colours.h"
-#include "tests/simd/depth_cases.h"
+#include "tests/simd/kernel_cases.h"
 
 namespace test::depth_cases {
 namespace {
@@ -29,11 +29,10 @@ ColourSample AnySample(int groups, int colours, int rarity, Draw* draw) {
 void CompareColours(Draw* draw, DepthCall* call) {
   const size_t groups = draw->Size(1, 9, 6), stride = kColourWindow + draw->Size(0, 9, 28);
   const int colours = draw->Int(1, 255), rarity = draw->timed() ? 1 : draw->Int(0, 1) * 99 + 1;
-  std::vector<ColourSample> samples(kColourWindow * stride);
-  for (ColourSample& sample : samples) sample = AnySample(int(groups), colours, rarity, draw);
+  const auto samples = Filled<ColourSample>(
+      kColourWindow * stride, [&] { return AnySample(int(groups), colours, rarity, draw); });
   const ColourSample* window = call->Input("window", samples);
-  uint16_t* least = call->Output<uint16_t>("least", groups * kSliceLanes);
-  call->Result(least, groups * kSliceLanes);
+  auto* least = call->Results<uint16_t>("least", groups * kSliceLanes);
   std::fill_n(least, groups * kSliceLanes, kNoColourKey);
   call->Runs([=](const DepthKernels& kernels) { kernels.CompareColours(window, stride, least); });
   // No key is less than that of a pixel of the group, which has the pixel's colour.
@@ -43,11 +42,10 @@ void CompareColours(Draw* draw, DepthCall* call) {
       uint16_t& of_group = lowest[sample.place / kSliceLanes];
       of_group = std::min(of_group, sample.key);
     }
-    for (size_t k = 0; k < groups * kSliceLanes; ++k) {
-      if (least[k] < lowest[k / kSliceLanes]) return false;
+    return AllRight(groups * kSliceLanes, [&](size_t k) {
       ++(*met)[least[k] == kNoColourKey ? "none" : "found"];
-    }
-    return true;
+      return least[k] >= lowest[k / kSliceLanes];
+    });
   };
 }
 

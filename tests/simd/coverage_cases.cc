@@ -21,22 +21,18 @@ CoverView DrawView(Draw* draw) {
 }
 
 std::vector<int16_t> Weights(size_t count, Draw* draw) {
-  std::vector<int16_t> weights(count);
-  for (int16_t& weight : weights) {
+  return Filled<int16_t>(count, [&] {
     const int kind = draw->Int(0, 3);
-    weight = int16_t(kind == 0 ? 0 : kind == 1 ? 256 : draw->Int(0, 256));
-  }
-  return weights;
+    return kind == 0 ? 0 : kind == 1 ? 256 : draw->Int(0, 256);
+  });
 }
 
 // Disparities of two surfaces, seldom any.
 std::vector<int16_t> TwoSurfaces(size_t count, Draw* draw) {
-  std::vector<int16_t> disparities(count);
-  for (int16_t& d : disparities) {
-    d = int16_t(draw->Rarely(20) ? draw->Int(-32768, 32767)
-                                 : (draw->Int(0, 1) == 1 ? 640 : -700) + draw->Int(-40, 40));
-  }
-  return disparities;
+  return Filled<int16_t>(count, [&] {
+    if (draw->Rarely(20)) return draw->Int(-32768, 32767);
+    return (draw->Int(0, 1) == 1 ? 640 : -700) + draw->Int(-40, 40);
+  });
 }
 
 }  // namespace
@@ -44,7 +40,7 @@ std::vector<int16_t> TwoSurfaces(size_t count, Draw* draw) {
 void CoverPlaces(Draw* draw, KernelCall* call) {
   const size_t rows = draw->Size(1, 4, 64);
   const int16_t* near = call->Input("near", TwoSurfaces(rows * kSliceLanes, draw));
-  const uint8_t* coverage = call->Input("coverage", Bytes(rows * kSliceLanes, draw));
+  const uint8_t* coverage = call->Input("coverage", RandomBytes(rows * kSliceLanes, draw));
   const int16_t* far = call->Input("far", TwoSurfaces(rows * kSliceLanes, draw));
   const CoverView view = DrawView(draw);
   auto* covered = call->Results<int16_t>("covered", rows * kSliceLanes);
@@ -56,15 +52,13 @@ void CoverPlaces(Draw* draw, KernelCall* call) {
     }
   });
   call->is_right = [=](uint64_t, Met* met) {
-    bool right = true;
-    for (size_t n = 0; n < rows * kSliceLanes; ++n) {
+    return AllRight(rows * kSliceLanes, [&](size_t n) {
       const int nearer = Saturated(near[n] - far[n]);
       const int beside = std::abs(Saturated(Product(nearer, view.along) - view.place));
       const bool covers = nearer > view.least && beside <= view.within;
-      right = right && covered[n] == (covers ? std::max<int>(100, coverage[n]) : 100);
       (*met)["covered"] += covers;
-    }
-    return right;
+      return covered[n] == (covers ? std::max<int>(100, coverage[n]) : 100);
+    });
   };
 }
 
@@ -80,11 +74,9 @@ void SumNear(Draw* draw, KernelCall* call) {
   first.weight = call->Input("weight", Weights(height * stride, draw)) + at;
   first.stride = ptrdiff_t(stride);
   first.step = int16_t(draw->Int(0, 400));
-  for (size_t y = 0; y < height; ++y) {
-    for (const int16_t* plane :
-         {first.light[0], first.light[1], first.light[2], first.disparity, first.weight}) {
-      call->Ignore(plane - at + y * stride + width, stride - width);
-    }
+  for (const int16_t* plane :
+       {first.light[0], first.light[1], first.light[2], first.disparity, first.weight}) {
+    call->IgnoreRows(plane - at + width, height, stride, stride - width);
   }
   auto* sums = call->Results<NearSums>("sums", rows);
   call->Runs([=](const Kernels& kernels) {
@@ -97,8 +89,7 @@ void SumNear(Draw* draw, KernelCall* call) {
     }
   });
   call->is_right = [=](uint64_t, Met* met) {
-    bool right = true;
-    for (size_t i = 0; i < rows * kSliceLanes; ++i) {
+    return AllRight(rows * kSliceLanes, [&](size_t i) {
       const size_t y = i / kSliceLanes, n = i % kSliceLanes, here = y * stride + n;
       int expected[4] = {0, 0, 0, 0};
       for (int dy = -kNearReach; dy <= kNearReach; ++dy) {
@@ -112,10 +103,10 @@ void SumNear(Draw* draw, KernelCall* call) {
           (*met)["same surface"] += dx != 0;
         }
       }
+      bool right = sums[y].weight[n] == expected[3];
       for (int c = 0; c < 3; ++c) right = right && sums[y].light[c][n] == expected[c];
-      right = right && sums[y].weight[n] == expected[3];
-    }
-    return right;
+      return right;
+    });
   };
 }
 

@@ -9,17 +9,18 @@
 
 #include "simd/depth_kernels.h"
 #include "tests/simd/check_kernels.h"
-#include "tests/simd/depth_cases.h"
+#include "tests/simd/kernel_cases.h"
 #include "tests/support/simd_targets.h"
 
 namespace depth_kernels_bytes_test {
 namespace {
 
 using namespace starfocus::simd;
+using test::CheckValues;
 
 TEST_CASE("depth kernels: every target gives the bits of the reference and writes nothing else") {
   CHECK(test::DepthTargets()[0] == &BestDepthKernels());
-  test::CheckKernels<test::DepthCall>(test::kDepthCases, ReferenceDepthKernels(),
+  test::CheckKernels<test::DepthCall>(test::depth_cases::kAll, ReferenceDepthKernels(),
                                       test::DepthTargets());
 }
 
@@ -28,14 +29,12 @@ TEST_CASE("depth kernels: samples between pixels, and how much pixels differ, by
   uint8_t sample[16];
   // Down a quarter: 15, 27.5 (28) and 99; across a half: 21.5 (22) and 63.5 (64).
   ReferenceDepthKernels().InterpolateRow(row, next, 64, 32, 2, sample);
-  CHECK(int(sample[0]) == 22);
-  CHECK(int(sample[1]) == 64);
+  CheckValues("samples", sample, {22, 64});
   // Two pixels, in planes.
   const uint8_t view[] = {22, 64, 5, 0, 0, 0}, centre[] = {25, 0, 3, 0, 1, 0};
   uint8_t difference[2];
   reference::MatchView(centre, view, 2, 2, difference);
-  CHECK(int(difference[0]) == 3 + 2 + 1);
-  CHECK(int(difference[1]) == 60);
+  CheckValues("differences", difference, {3 + 2 + 1, 60});
 }
 
 TEST_CASE("depth kernels: what labels cost, by hand") {
@@ -53,8 +52,7 @@ TEST_CASE("depth kernels: what labels cost, by hand") {
   costs.rings = 1;
   costs.one_side = true;
   ReferenceDepthKernels().CostLabels(costs, 1, 16, cost);
-  CHECK(int(cost[0]) == 2 * 60);
-  CHECK(int(cost[1]) == 4 * 7);
+  CheckValues("one side", cost, {2 * 60, 4 * 7});
   costs.one_side = false;
   ReferenceDepthKernels().CostLabels(costs, 1, 16, cost);
   CHECK(int(cost[1]) == 7 + 7 + 60 + 60);
@@ -73,11 +71,8 @@ TEST_CASE("depth kernels: who sees a pixel stands in for who doesn't, by hand") 
   const uint8_t hidden_a[] = {5, 6, 5, 6}, hidden_b[] = {5, 5, 6, 6};
   uint8_t a[16] = {1, 2, 3, 4}, b[16] = {11, 12, 13, 14};
   reference::StandIn(hidden_a, hidden_b, 5, 4, a, b);
-  const int as[] = {1, 12, 3, 48}, bs[] = {11, 12, 3, 48};
-  for (int n = 0; n < 4; ++n) {
-    CHECK(int(a[n]) == as[n]);
-    CHECK(int(b[n]) == bs[n]);
-  }
+  CheckValues("a", a, {1, 12, 3, 48});
+  CheckValues("b", b, {11, 12, 3, 48});
 }
 
 TEST_CASE(
@@ -87,22 +82,17 @@ TEST_CASE(
   const uint8_t* hidden[] = {rows[0], rows[1], rows[2], rows[3]};
   uint8_t* differences[] = {values[0], values[1], values[2], values[3]};
   reference::LimitHidden(hidden, 5, 4, 4, differences);
-  const int expected[4][4] = {{60, 18, 27, 3}, {50, 18, 27, 50}, {40, 40, 27, 40}, {2, 2, 2, 2}};
-  for (int k = 0; k < 4; ++k) {
-    for (int n = 0; n < 4; ++n) CHECK(int(values[k][n]) == expected[k][n]);
-  }
+  CheckValues("first", values[0], {60, 18, 27, 3});
+  CheckValues("second", values[1], {50, 18, 27, 50});
+  CheckValues("third", values[2], {40, 40, 27, 40});
+  CheckValues("fourth", values[3], {2, 2, 2, 2});
 }
 
 TEST_CASE("depth kernels: what a map says spreads to neighbours, by hand") {
   uint8_t row[2][3][16];
-  for (auto& line : row) {
-    for (auto& pixel : line) {
-      for (uint8_t& prior : pixel) prior = kMostPrior;
-    }
-  }
+  std::fill_n(row[0][0], sizeof(row), uint8_t{kMostPrior});
   row[0][1][7] = 0;  // the middle pixel of the row before
-  const DepthKernels& kernels = ReferenceDepthKernels();
-  kernels.SpreadPrior({row[1][2], row[0][2], 16, -1, 3});
+  ReferenceDepthKernels().SpreadPrior({row[1][2], row[0][2], 16, -1, 3});
   CHECK(int(row[1][2][7]) == 4);
   CHECK(int(row[1][1][7]) == 3);
   CHECK(int(row[1][0][7]) == 4);
@@ -125,10 +115,6 @@ TEST_CASE("depth kernels: costs of views on one side, and of all, by hand") {
 }
 
 TEST_CASE("depth kernels: the best of each group around a pixel, by hand") {
-  using starfocus::simd::ColourSample;
-  using starfocus::simd::kColourWindow;
-  using starfocus::simd::kNoColourKey;
-  using starfocus::simd::kSliceLanes;
   std::vector<ColourSample> samples(kColourWindow * kColourWindow, {90, 0, 0, kNoColourKey, 0});
   const auto set = [&](int row, int column, const ColourSample& sample) {
     samples[size_t(row * kColourWindow + column)] = sample;
@@ -190,30 +176,19 @@ TEST_CASE("depth kernels: a path goes on from the one before, by hand") {
   const PathRow row = {cost, before + 1, &before_least, &jump, path, &least, sum, true};
   ReferenceDepthKernels().AddPaths(row, kLabels, 1, 1);
   // From label 0 at no cost; to label 1 by a slope of 24; from 3 at 26; to 2 by 26 + 24.
-  const int expected[kLabels] = {1, 2 + 24, 3 + 50, 4 + 26};
-  for (size_t l = 0; l < kLabels; ++l) CHECK(path[l] == expected[l]);
-  CHECK(path[kLabels] == kNoLabel);
+  CheckValues("path", path, {1, 2 + 24, 3 + 50, 4 + 26, kNoLabel});
   CHECK(sum[3] == 70);
   CHECK(least == 1);
 }
 
 TEST_CASE("depth kernels: the label of the least sum, by hand") {
   constexpr size_t kLabels = 5, kPlaces = PathLabels(kLabels);
-  int16_t sum[3 * kPlaces] = {80, 60, 20, 40, 420};
-  const int16_t second[kLabels] = {3, 9, 9, 3, 3}, third[kLabels] = {50, 40, 30, 20, 10};
-  for (size_t l = 0; l < kLabels; ++l) {
-    sum[kPlaces + l] = second[l];
-    sum[2 * kPlaces + l] = third[l];
-  }
+  const int16_t sum[3][kPlaces] = {{80, 60, 20, 40, 420}, {3, 9, 9, 3, 3}, {50, 40, 30, 20, 10}};
   int16_t choice[3];
   uint8_t margin[3];
-  ReferenceDepthKernels().ChooseLabels(sum, kLabels, 3, choice, margin);
-  CHECK(choice[0] == 2 * 64 + 32 * (40 - 20) / 40);
-  CHECK(int(margin[0]) == (80 - 20) / 8);
-  CHECK(choice[1] == 0);
-  CHECK(int(margin[1]) == 0);
-  CHECK(choice[2] == 4 * 64);
-  CHECK(int(margin[2]) == 2);
+  ReferenceDepthKernels().ChooseLabels(sum[0], kLabels, 3, choice, margin);
+  CheckValues("choice", choice, {2 * 64 + 32 * (40 - 20) / 40, 0, 4 * 64});
+  CheckValues("margin", margin, {(80 - 20) / 8, 0, 2});
 }
 
 }  // namespace

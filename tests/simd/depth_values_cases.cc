@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "simd/depth_values.h"
-#include "tests/simd/image_cases.h"
+#include "tests/simd/kernel_cases.h"
 
 namespace test::image_cases {
 namespace {
@@ -14,21 +14,17 @@ constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 std::vector<uint16_t> Words(size_t count, Draw* draw) {
-  std::vector<uint16_t> words(count);
-  for (uint16_t& word : words) word = uint16_t(draw->Next());
-  return words;
+  return Filled<uint16_t>(count, [&] { return draw->Next(); });
 }
 
 // Disparities of 6 fractional bits near each other, far from each other, and unknown ones.
 std::vector<int16_t> Row(size_t count, Draw* draw) {
-  std::vector<int16_t> row(count);
   int value = draw->Int(-2000, 2000);
-  for (int16_t& element : row) {
+  return Filled<int16_t>(count, [&] {
     value += draw->Int(0, 3) == 0 ? draw->Int(-4000, 4000) : draw->Int(-kBlendStep, kBlendStep);
     value = std::clamp(value, -32000, 32000);
-    element = draw->Rarely(12) ? kNoSurface : int16_t(value);
-  }
-  return row;
+    return draw->Rarely(12) ? kNoSurface : int16_t(value);
+  });
 }
 
 DepthRule AnyRule(Draw* draw) {
@@ -46,15 +42,13 @@ DepthRule AnyRule(Draw* draw) {
 std::vector<float> Values(size_t count, const DepthRule& rule, Draw* draw) {
   const float bad[] = {kNan, kInfinity, -kInfinity, 0.0f, -0.0f, 1e-42f, 3e38f, 1e6f};
   const bool spoilt = draw->Rarely(3), invalid = draw->Rarely(2);
-  std::vector<float> values(count);
-  for (float& z : values) {
+  return Filled<float>(count, [&] {
     const float disparity = float(draw->Real(rule.low, rule.high)) - rule.offset;
-    z = rule.reciprocal ? rule.scale / disparity : disparity / rule.scale;
-    if (!(std::fabs(z) < 1e30f)) z = 1000;
-    if (invalid && draw->Int(0, 5) == 0) z = rule.invalid;
-    if (spoilt && draw->Int(0, 9) == 0) z = bad[draw->Int(0, 7)];
-  }
-  return values;
+    const float z = rule.reciprocal ? rule.scale / disparity : disparity / rule.scale;
+    if (spoilt && draw->Int(0, 9) == 0) return bad[draw->Int(0, 7)];
+    if (invalid && draw->Int(0, 5) == 0) return rule.invalid;
+    return std::fabs(z) < 1e30f ? z : 1000;
+  });
 }
 
 template <class T>
@@ -62,8 +56,7 @@ void WidenCase(const std::vector<T>& all, void (*ImageKernels::*kernel)(const T*
                ImageCall* call) {
   const size_t count = all.size();
   const T* values = call->Input("values", all);
-  float* z = call->Output<float>("z", count);
-  call->Result(z, count);
+  auto* z = call->Results<float>("z", count);
   call->Runs([=](const ImageKernels& kernels) { (kernels.*kernel)(values, count, z); });
 }
 
@@ -87,25 +80,22 @@ void DepthToDisparity(Draw* draw, ImageCall* call) {
   const std::vector<float> all = Values(draw->Length(1, kLongestDepths, 1024), rule, draw);
   const size_t count = all.size();
   const float* z = call->Input("z", all);
-  int16_t* out = call->Output<int16_t>("out", count);
-  call->Result(out, count);
+  auto* out = call->Results<int16_t>("out", count);
   call->run = [=](const ImageKernels& kernels) -> uint64_t {
     return kernels.DepthToDisparity(z, count, rule, out);
   };
   call->is_right = [=](uint64_t flags, Met* met) {
     ++(*met)[(flags & kUnknownDepth) != 0 ? "unknown" : "all known"];
     ++(*met)[(flags & kDepthOutside) != 0 ? "outside" : "inside"];
-    for (size_t n = 0; n < count; ++n) {
+    return AllRight(count, [&](size_t n) {
       const float d = (rule.reciprocal ? rule.scale / z[n] : rule.scale * z[n]) + rule.offset;
       const bool known = z[n] != rule.invalid && std::isfinite(d);
       if (known && (d < rule.low || d > rule.high)) {
         call->Free(out + n, 1);
-        if ((flags & kDepthOutside) == 0) return false;
-      } else if (known ? std::fabs(out[n] - 64.0 * double(d)) > 0.51 : out[n] != kNoSurface) {
-        return false;
+        return (flags & kDepthOutside) != 0;
       }
-    }
-    return true;
+      return known ? std::fabs(out[n] - 64.0 * double(d)) <= 0.51 : out[n] == kNoSurface;
+    });
   };
 }
 
@@ -124,17 +114,15 @@ void BlendRows(Draw* draw, ImageCall* call) {
   }
   const int16_t* a = call->Input("a", first);
   const int16_t* b = call->Input("b", second);
-  int16_t* out = call->Output<int16_t>("out", count);
-  call->Result(out, count);
+  auto* out = call->Results<int16_t>("out", count);
   call->Runs([=](const ImageKernels& kernels) { kernels.BlendRows(a, b, count, share, out); });
   call->is_right = [=](uint64_t, Met* met) {
-    for (size_t n = 0; n < count; ++n) {
+    return AllRight(count, [&](size_t n) {
       const bool apart = std::abs(a[n] - b[n]) > kBlendStep;
       ++(*met)[apart ? "nearer" : "between"];
-      if (out[n] < std::min(a[n], b[n]) || out[n] > std::max(a[n], b[n])) return false;
-      if (apart && out[n] != (share < kColumnOne / 2 ? a[n] : b[n])) return false;
-    }
-    return true;
+      if (apart) return out[n] == (share < kColumnOne / 2 ? a[n] : b[n]);
+      return out[n] >= std::min(a[n], b[n]) && out[n] <= std::max(a[n], b[n]);
+    });
   };
 }
 
@@ -147,15 +135,13 @@ void SpreadRow(Draw* draw, ImageCall* call) {
   for (size_t k = 0; k < small; ++k) {
     both[k] = int32_t(uint32_t(uint16_t(row[k])) | uint32_t(uint16_t(row[k + 1])) << 16);
   }
-  std::vector<uint32_t> places(count);
-  for (uint32_t& place : places) {
-    place = (first + uint32_t(draw->Int(0, int(small) - 1))) * kColumnOne +
-            uint32_t(draw->Int(0, kColumnOne - 1));
-  }
+  const auto places = Filled<uint32_t>(count, [&] {
+    return (first + uint32_t(draw->Int(0, int(small) - 1))) * kColumnOne +
+           uint32_t(draw->Int(0, kColumnOne - 1));
+  });
   const int32_t* pairs = call->Input("pairs", both);
   const uint32_t* columns = call->Input("columns", places);
-  int16_t* out = call->Output<int16_t>("out", count);
-  call->Result(out, count);
+  auto* out = call->Results<int16_t>("out", count);
   call->Runs(
       [=](const ImageKernels& kernels) { kernels.SpreadRow(pairs, columns, count, first, out); });
 }

@@ -56,16 +56,14 @@ struct Filtered {
     out_stride = count + size_t(draw->Int(0, 7));
     const int16_t* samples =
         call->Input("in", Light((rows + 2 * around - 1) * stride + width, draw), kPadding);
-    for (size_t y = 0; y + 1 < rows + 2 * around; ++y) {
-      call->Ignore(samples + y * stride + width, stride - width);
-    }
+    call->IgnoreRows(samples + width, rows + 2 * around - 1, stride, stride - width);
     in = {samples + around * stride + 3 * around, stride, rows, count};
   }
 
   template <class Sample>
   Sample* Output(KernelCall* call) const {
     auto* out = call->Output<Sample>("out", in.rows * out_stride);
-    for (size_t y = 0; y < in.rows; ++y) call->Result(out + y * out_stride, in.count);
+    call->ResultRows(out, in.rows, out_stride, in.count);
     return out;
   }
 };

@@ -11,14 +11,12 @@ namespace {
 
 // The ends of the range, halves of a step, and anything between.
 std::vector<float> DisparitiesWithin(size_t count, float low, float high, Draw* draw) {
-  std::vector<float> disparity(count);
-  for (float& d : disparity) {
+  return Filled<float>(count, [&] {
     const int kind = draw->Int(0, 4);
     const double exact = draw->Real(low, high), tie = (std::floor(exact * 64) + 0.5) / 64;
-    d = kind == 0 ? low : kind == 1 ? high : kind == 2 ? float(tie) : float(exact);
-    d = std::clamp(d, low, high);
-  }
-  return disparity;
+    if (kind < 2) return kind == 0 ? low : high;
+    return std::clamp(float(kind == 2 ? tie : exact), low, high);
+  });
 }
 
 }  // namespace
@@ -50,12 +48,11 @@ void FindRanges(Draw* draw, KernelCall* call) {
   const size_t rows = draw->Size(1, 9, kTimedSamples / 128);
   const size_t stride = count + size_t(draw->Int(0, 5));
   const int most = draw->Int(0, 2) == 0 ? 32767 : 90, absent = draw->Int(0, 4);
-  std::vector<int16_t> in((rows - 1) * stride + whole);
-  for (int16_t& d : in) d = int16_t(draw->Int(0, 3) < absent ? kNoSurface : draw->Int(-most, most));
+  const auto in = Filled<int16_t>((rows - 1) * stride + whole, [&] {
+    return draw->Int(0, 3) < absent ? kNoSurface : draw->Int(-most, most);
+  });
   const int16_t* disparity = call->Input("disparity", in);
-  for (size_t row = 0; row + 1 < rows; ++row) {
-    call->Ignore(disparity + row * stride + count, stride - count);
-  }
+  call->IgnoreRows(disparity + count, rows - 1, stride, stride - count);
   call->Ignore(disparity + (rows - 1) * stride + count, whole - count);
   auto* ranges = call->Results<DisparityRange>("ranges", whole / kSliceLanes);
   call->Runs(
@@ -71,8 +68,9 @@ void FindRanges(Draw* draw, KernelCall* call) {
 void FindWithin(Draw* draw, KernelCall* call) {
   const size_t rows = draw->Length(1, 9, kTimedSamples / kSliceLanes);
   const size_t stride = draw->Size(16, 40, kSliceLanes);
-  std::vector<int16_t> in((rows - 1) * stride + kSliceLanes);
-  for (int16_t& d : in) d = int16_t(draw->Int(-40, 40) * (draw->Int(0, 3) == 0 ? 819 : 1));
+  const auto in = Filled<int16_t>((rows - 1) * stride + kSliceLanes, [&] {
+    return draw->Int(-40, 40) * (draw->Int(0, 3) == 0 ? 819 : 1);
+  });
   const int16_t* disparity = call->Input("disparity", in);
   const auto low = int16_t(draw->Int(-45, 35));
   const auto high = int16_t(draw->Int(0, 3) == 0 ? INT16_MAX : draw->Int(low, 45));
@@ -81,13 +79,11 @@ void FindWithin(Draw* draw, KernelCall* call) {
     kernels.FindWithin(disparity, stride, rows, {low, high}, within);
   });
   call->is_right = [=](uint64_t, Met*) {
-    bool right = true;
-    for (size_t k = 0; k < rows * kSliceLanes; ++k) {
+    return AllRight(rows * kSliceLanes, [&](size_t k) {
       const int16_t d = disparity[k / kSliceLanes * stride + k % kSliceLanes];
       const int bit = within[k / kSliceLanes] >> k % kSliceLanes & 1;
-      right = right && bit == int(d >= low && d <= high);
-    }
-    return right;
+      return bit == int(d >= low && d <= high);
+    });
   };
 }
 

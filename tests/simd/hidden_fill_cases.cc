@@ -9,16 +9,12 @@ namespace {
 
 constexpr size_t kTimedWidth = 192;
 
-// Where a hidden surface was found: by views, or repeated from any distance, a short one as a rule.
-uint16_t AnySource(Draw* draw) {
-  const int distance = draw->Int(0, 2) == 0 ? 0 : draw->Int(1, draw->Rarely(5) ? 255 : 20);
-  return uint16_t(distance << kSourceDistance | draw->Int(1, 255));
-}
-
+// Where hidden surfaces were found: by views, or repeated from any distance, a short one as a rule.
 std::vector<uint16_t> AnySources(size_t count, Draw* draw) {
-  std::vector<uint16_t> sources(count);
-  for (uint16_t& source : sources) source = AnySource(draw);
-  return sources;
+  return Filled<uint16_t>(count, [&] {
+    const int distance = draw->Int(0, 2) == 0 ? 0 : draw->Int(1, draw->Rarely(5) ? 255 : 20);
+    return distance << kSourceDistance | draw->Int(1, 255);
+  });
 }
 
 // Surfaces behind those of `before`, some of which are not there; rarely in another order.
@@ -33,23 +29,19 @@ std::vector<int16_t> Behind(const std::vector<int16_t>& before, Draw* draw) {
 }
 
 std::vector<uint8_t> Shares(size_t count, Draw* draw) {
-  std::vector<uint8_t> shares(count);
-  for (uint8_t& share : shares) {
+  return Filled<uint8_t>(count, [&] {
     const int kind = draw->Int(0, 2);
-    share = kind == 0 ? kSliceEnd : uint8_t(kind == 1 ? kSliceWhole : draw->Int(1, kSliceWhole));
-  }
-  return shares;
+    return kind == 0 ? kSliceEnd : kind == 1 ? kSliceWhole : draw->Int(1, kSliceWhole);
+  });
 }
 
 // A row of farthest surfaces that is written.
 FarRow OutputOf(size_t whole, Draw* draw, KernelCall* call) {
   const size_t plane = whole + draw->Size(0, 9, 0);
-  const FarRow far = {call->Output<int16_t>("far disparity", whole),
+  const FarRow far = {call->Results<int16_t>("far disparity", whole),
                       call->Output<int16_t>("far rgb", 3 * plane),
-                      call->Output<uint16_t>("far source", whole), plane};
-  call->Result(far.disparity, whole);
-  call->Result(far.source, whole);
-  for (size_t c = 0; c < 3; ++c) call->Result(far.rgb + c * plane, whole);
+                      call->Results<uint16_t>("far source", whole), plane};
+  call->ResultRows(far.rgb, 3, plane, whole);
   return far;
 }
 
@@ -75,15 +67,14 @@ void TakeFarthest(Draw* draw, KernelCall* call) {
   };
   call->is_right = [=](uint64_t returned, Met* met) {
     int most = 0;
-    bool right = true;
-    for (size_t n = 0; n < whole; ++n) {
+    const bool right = AllRight(whole, [&](size_t n) {
       const int distance = far.source[n] >> kSourceDistance;
       most = std::max(most, distance);
-      right = right && far.disparity[n] <= row.surfaces.disparity[0][n];
-      right = right && (distance != 0) == (far.source[n] != 0);
       (*met)["repeated"] += distance != 0;
       (*met)["hidden"] += far.disparity[n] < row.surfaces.disparity[0][n];
-    }
+      return far.disparity[n] <= row.surfaces.disparity[0][n] &&
+             (distance != 0) == (far.source[n] != 0);
+    });
     return right && returned == uint64_t(most);
   };
 }
@@ -107,17 +98,14 @@ void SmoothFar(Draw* draw, KernelCall* call) {
   rows.source = call->Input("source", AnySources(whole, draw));
   auto* out = call->Output<int16_t>("out", 3 * row);
   std::fill_n(out, 3 * row, int16_t{77});
-  for (size_t c = 0; c < 3; ++c) call->Result(out + c * row, whole);
+  call->ResultRows(out, 3, row, whole);
   call->Runs([=](const Kernels& kernels) { kernels.SmoothFar(rows, unit, step, count, out); });
   call->is_right = [=](uint64_t, Met* met) {
-    bool right = true;
-    for (size_t n = 0; n < whole; ++n) {
+    return AllRight(whole, [&](size_t n) {
       const bool takes = 2 * (rows.source[n] >> kSourceDistance) >= step;
-      right = right && (takes || out[n] == 77);
-      (*met)["smoothed"] += takes;
-      (*met)["left"] += !takes;
-    }
-    return right;
+      ++(*met)[takes ? "smoothed" : "left"];
+      return takes || out[n] == 77;
+    });
   };
 }
 
@@ -130,26 +118,22 @@ void PutFarthest(Draw* draw, KernelCall* call) {
   for (int16_t& value : farthest) value = int16_t(value - (draw->Int(0, 2) == 0 ? 50 : 0));
   std::vector<uint16_t> sources = AnySources(whole, draw);
   for (uint16_t& source : sources) source = source >> kSourceDistance == 0 ? 0 : source;
-  int16_t* const far_disparity = call->Input("far disparity", farthest);
-  int16_t* const far_rgb = call->Input("far rgb", Light(3 * plane, draw));
-  uint16_t* const far_source = call->Input("far source", sources);
-  const FarRow far = {far_disparity, far_rgb, far_source, plane};
+  const FarRow far = {call->Input("far disparity", farthest),
+                      call->Input("far rgb", Light(3 * plane, draw)),
+                      call->Input("far source", sources), plane};
   const int16_t* surface = call->Input("disparity", disparity);
   auto* out = call->Output<int16_t>("out", 3 * plane);
   std::fill_n(out, 3 * plane, int16_t{-1});
-  for (size_t c = 0; c < 3; ++c) call->Result(out + c * plane, whole);
+  call->ResultRows(out, 3, plane, whole);
   call->Runs(
       [=](const Kernels& kernels) { kernels.PutFarthest(far, surface, hiding, plane, out); });
   call->is_right = [=](uint64_t, Met* met) {
-    bool right = true;
-    for (size_t n = 0; n < whole; ++n) {
+    return AllRight(whole, [&](size_t n) {
       const bool puts = (hiding >> n / kSliceLanes & 1) != 0 && far.source[n] != 0 &&
                         far.disparity[n] == surface[n];
-      right = right && out[n] == (puts ? far.rgb[n] : -1);
-      (*met)["put"] += puts;
-      (*met)["left"] += !puts;
-    }
-    return right;
+      ++(*met)[puts ? "put" : "left"];
+      return out[n] == (puts ? far.rgb[n] : -1);
+    });
   };
 }
 

@@ -10,17 +10,18 @@
 
 #include "simd/image_kernels.h"
 #include "tests/simd/check_kernels.h"
-#include "tests/simd/image_cases.h"
+#include "tests/simd/kernel_cases.h"
 #include "tests/support/simd_targets.h"
 
 namespace image_kernels_bytes_test {
 namespace {
 
 using namespace starfocus::simd;
+using test::CheckValues;
 
 TEST_CASE("image kernels: every target gives the bits of the reference and writes nothing else") {
   CHECK(test::ImageTargets()[0] == &BestImageKernels());
-  test::CheckKernels<test::ImageCall>(test::kImageCases, ReferenceImageKernels(),
+  test::CheckKernels<test::ImageCall>(test::image_cases::kAll, ReferenceImageKernels(),
                                       test::ImageTargets());
 }
 
@@ -51,17 +52,12 @@ TEST_CASE("image kernels: depths, by hand") {
   const float z[] = {1000, 4000, 0, 65535, 500};
   int16_t out[5];
   CHECK(kernels.DepthToDisparity(z, 5, metres, out) == kUnknownDepth);
-  CHECK(out[0] == 3 * 64);
-  CHECK(out[1] == 0);
-  CHECK(out[2] == kNoSurface);  // infinitely near
-  CHECK(out[3] == kNoSurface);
-  CHECK(out[4] == 7 * 64);
+  // The third one is infinitely near.
+  CheckValues("metres", out, {3 * 64, 0, kNoSurface, kNoSurface, 7 * 64});
   const DepthRule linear = {0.5f, 2, NAN, false, -10, 10};
   const float steps[] = {0, 1, 16, 17};
   CHECK(kernels.DepthToDisparity(steps, 3, linear, out) == 0);
-  CHECK(out[0] == 2 * 64);
-  CHECK(out[1] == 160);
-  CHECK(out[2] == 10 * 64);
+  CheckValues("linear", out, {2 * 64, 160, 10 * 64});
   CHECK(kernels.DepthToDisparity(steps, 4, linear, out) == kDepthOutside);
 }
 
@@ -70,20 +66,13 @@ TEST_CASE("image kernels: between rows and columns of a map, by hand") {
   const int16_t a[] = {0, 0, 0, kNoSurface}, b[] = {96, 97, -96, 5};
   int16_t out[4];
   kernels.BlendRows(a, b, 4, 64, out);
-  CHECK(out[0] == 24);
-  CHECK(out[1] == 0);
-  CHECK(out[2] == -24);
-  CHECK(out[3] == kNoSurface);
+  CheckValues("a quarter", out, {24, 0, -24, kNoSurface});
   kernels.BlendRows(a, b, 4, 128, out);
-  CHECK(out[1] == 97);
-  CHECK(out[3] == 5);
+  CheckValues("half", out, {48, 97, -48, 5});
   const int32_t pairs[] = {0 | 80 << 16, 80 | 1000 << 16};
   const uint32_t columns[] = {7 * 256, 7 * 256 + 128, 8 * 256 + 127, 8 * 256 + 128};
   kernels.SpreadRow(pairs, columns, 4, 7, out);
-  CHECK(out[0] == 0);
-  CHECK(out[1] == 40);
-  CHECK(out[2] == 80);
-  CHECK(out[3] == 1000);
+  CheckValues("columns", out, {0, 40, 80, 1000});
 }
 
 }  // namespace

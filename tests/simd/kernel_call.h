@@ -48,6 +48,23 @@ class Draw : public Random {
   int round_;
 };
 
+// Values that `make` returns one by one.
+template <class T, class Make>
+std::vector<T> Filled(size_t count, const Make& make) {
+  std::vector<T> values(count);
+  for (T& value : values) value = T(make());
+  return values;
+}
+
+// Returns whether all of `count` results are right.
+template <class IsRight>
+bool AllRight(size_t count, const IsRight& is_right) {
+  for (size_t n = 0; n < count; ++n) {
+    if (!is_right(n)) return false;
+  }
+  return true;
+}
+
 // How often the calls of a kernel met something that they must meet.
 using Met = std::map<std::string, int64_t>;
 
@@ -72,6 +89,10 @@ class CallMemory {
   void Ignore(const T* first, size_t count) {
     Mark(first, count, Role::kIgnored);
   }
+  template <class T>
+  void IgnoreRows(const T* first, size_t rows, size_t stride, size_t count) {
+    for (size_t y = 0; y < rows; ++y) Ignore(first + y * stride, count);
+  }
 
   // Room for `count` values, which hold anything, between wide margins. Kernels must leave all of
   // it as it is but for what Result and Free allow.
@@ -84,12 +105,20 @@ class CallMemory {
   void Result(const T* first, size_t count) {
     Mark(first, count, Role::kResult);
   }
-  // Room for values all of which the kernel determines.
+  // Room for values all of which the kernel determines, but for `free` more behind them.
   template <class T>
-  T* Results(const char* name, size_t count) {
-    T* first = Output<T>(name, count);
-    Result(first, count);
+  T* Results(const char* name, size_t count, size_t free = 0) {
+    T* first = Output<T>(name, count + free);
+    ResultRows(first, 1, 0, count, free);
     return first;
+  }
+  // Marks rows of `count` results that lie `stride` apart, and of `free` values behind each row.
+  template <class T>
+  void ResultRows(const T* first, size_t rows, size_t stride, size_t count, size_t free = 0) {
+    for (size_t y = 0; y < rows; ++y) {
+      Result(first + y * stride, count);
+      Free(first + y * stride + count, free);
+    }
   }
   // Says that the kernel may leave anything there.
   template <class T>

@@ -4,30 +4,41 @@
 #ifndef STARFOCUS_TESTS_SIMD_KERNEL_CASES_H_
 #define STARFOCUS_TESTS_SIMD_KERNEL_CASES_H_
 
-#include "simd/kernels.h"
 #include "tests/simd/kernel_call.h"
 
 namespace test {
 
-// Each case is defined beside those of its family, in spans_cases.cc and so on. A kernel of the
+// A case of a kernel of some table.
+template <class Call>
+struct CaseOf {
+  const char* kernel;
+  void (*make)(Draw* draw, Call* call);
+};
+
+// Each case is defined beside those of its family, in spans_cases.cc and so on. A kernel of a
 // table without a case is an error of the linker.
+#define STARFOCUS_DECLARE_CASE(Kernel) void Kernel(Draw* draw, Call* call);
+#define STARFOCUS_LIST_CASE(Kernel) {#Kernel, Kernel},
 namespace kernel_cases {
 using namespace starfocus::simd;
-#define STARFOCUS_DECLARE_CASE(Kernel) void Kernel(Draw* draw, KernelCall* call);
+using Call = KernelCall;
 STARFOCUS_KERNELS(STARFOCUS_DECLARE_CASE)
-#undef STARFOCUS_DECLARE_CASE
+inline constexpr CaseOf<Call> kAll[] = {STARFOCUS_KERNELS(STARFOCUS_LIST_CASE)};
 }  // namespace kernel_cases
-
-struct KernelCase {
-  const char* kernel;
-  void (*make)(Draw* draw, KernelCall* call);
-};
-
-inline constexpr KernelCase kKernelCases[] = {
-#define STARFOCUS_LIST_CASE(Kernel) {#Kernel, kernel_cases::Kernel},
-    STARFOCUS_KERNELS(STARFOCUS_LIST_CASE)
+namespace depth_cases {
+using namespace starfocus::simd;
+using Call = DepthCall;
+STARFOCUS_DEPTH_KERNELS(STARFOCUS_DECLARE_CASE)
+inline constexpr CaseOf<Call> kAll[] = {STARFOCUS_DEPTH_KERNELS(STARFOCUS_LIST_CASE)};
+}  // namespace depth_cases
+namespace image_cases {
+using namespace starfocus::simd;
+using Call = ImageCall;
+STARFOCUS_IMAGE_KERNELS(STARFOCUS_DECLARE_CASE)
+inline constexpr CaseOf<Call> kAll[] = {STARFOCUS_IMAGE_KERNELS(STARFOCUS_LIST_CASE)};
+}  // namespace image_cases
+#undef STARFOCUS_DECLARE_CASE
 #undef STARFOCUS_LIST_CASE
-};
 
 // Samples that a call of the bench works on, if its kernel does not say otherwise.
 inline constexpr int kTimedSamples = 3 * 1024;
@@ -35,18 +46,13 @@ inline constexpr int kTimedSamples = 3 * 1024;
 // Lengths that reach past two of the widest vectors, with all tails.
 inline constexpr int kLongestBytes = 2 * 64 + 3, kLongestSamples = 2 * 32 + 3;
 
-// Any bytes, or black and white ones.
-inline std::vector<uint8_t> Bytes(size_t count, Draw* draw) { return RandomBytes(count, draw); }
-
 // Any light, or black and white.
 inline std::vector<int16_t> Light(size_t count, Draw* draw) {
   constexpr int kWhite = starfocus::simd::kLightWhite;
-  std::vector<int16_t> light(count);
-  for (int16_t& value : light) {
+  return Filled<int16_t>(count, [&] {
     const int kind = draw->Int(0, 3);
-    value = int16_t(kind == 0 ? 0 : kind == 1 ? kWhite : draw->Int(0, kWhite));
-  }
-  return light;
+    return kind == 0 ? 0 : kind == 1 ? kWhite : draw->Int(0, kWhite);
+  });
 }
 
 // Light that is the code itself, or any table of it: codes follow each other at random, one at most
@@ -69,13 +75,11 @@ inline starfocus::simd::Encoding AnyEncoding(Draw* draw, KernelCall* call) {
 
 // Disparities with runs and edges, also at the ends of the range.
 inline std::vector<int16_t> Disparities(size_t count, Draw* draw) {
-  std::vector<int16_t> row(count);
   int value = draw->Int(-2000, 2000);
-  for (int16_t& disparity : row) {
+  return Filled<int16_t>(count, [&] {
     if (draw->Int(0, 5) == 0) value += draw->Int(-200, 200);
-    disparity = int16_t(draw->Rarely(60) ? draw->Int(-32000, 32000) : value);
-  }
-  return row;
+    return draw->Rarely(60) ? draw->Int(-32000, 32000) : value;
+  });
 }
 
 }  // namespace test

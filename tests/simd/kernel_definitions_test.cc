@@ -5,17 +5,18 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstring>
 #include <vector>
 
 #include "lib/filter/layers.h"
 #include "simd/kernels.h"
+#include "tests/simd/check_kernels.h"
 #include "tests/support/test_scene.h"
 
 namespace kernel_definitions_test {
 namespace {
 
 using namespace starfocus::simd;
+using test::CheckValues;
 
 TEST_CASE("kernel definitions: spans, composites, discs and disparities, by hand") {
   const int16_t source[] = {10, 20, 30, 40, 50, 60, 70, 80, 32640};
@@ -23,22 +24,17 @@ TEST_CASE("kernel definitions: spans, composites, discs and disparities, by hand
   int16_t line[5] = {1, 1, 1, 1, 1};
   ReferenceKernels().Blend(&blend, 1, line);
   // (3 * 40 + 70) / 4 = 47.5: halves up
-  const int16_t blended[5] = {1, 48, 58, 8205, 1};
-  CHECK(std::memcmp(line, blended, sizeof(line)) == 0);
+  CheckValues("blend", line, {1, 48, 58, 8205, 1});
   const Span span = {source + 3, 1, 3, 192, 64, 3};
   uint32_t sums[5] = {5, 5, 5, 5, 5};
   ReferenceKernels().Accumulate(&span, 1, sums);
-  CHECK(sums[0] == 5);
-  CHECK(sums[1] == 5 + 192 * 40 + 64 * 70);
-  CHECK(sums[3] == 5 + 192 * 60 + 64 * 32640);
-  CHECK(sums[4] == 5);
+  CheckValues("accumulate", sums,
+              {5, 5 + 192 * 40 + 64 * 70, 5 + 192 * 50 + 64 * 80, 5 + 192 * 60 + 64 * 32640, 5});
   const uint32_t wide[3] = {uint32_t{255} << 24, (7u << 24) + (1u << 23),
                             (7u << 24) + (1u << 23) - 1};
   uint8_t out[3];
   ReferenceKernels().Finish(wide, 3, 24, {nullptr, nullptr}, out);
-  CHECK(int(out[0]) == 255);
-  CHECK(int(out[1]) == 8);
-  CHECK(int(out[2]) == 7);
+  CheckValues("finish", out, {255, 8, 7});
   const uint32_t stack[4 * 16] = {3 << 16, 3 << 16};  // red of two pixels, planes of 16
   std::vector<uint32_t> covered(stack, stack + 4 * 16);
   covered[3 * 16] = 12 << 16;
@@ -56,19 +52,15 @@ TEST_CASE("kernel definitions: spans, composites, discs and disparities, by hand
   const uint16_t ring[3] = {4, 2, 1};  // the centre, beside it, at the corners: 16 in all
   uint8_t disc[2] = {0, 77};
   ReferenceKernels().FilterDisc({&rows[1][3], 9, 1, 1}, {1, 4, ring}, {nullptr, nullptr}, disc, 9);
-  CHECK(int(disc[0]) == (4 * 50 + 2 * (2 + 4 + 6 + 8) + 1 + 3 + 7 + 9 + 8) / 16);
-  CHECK(int(disc[1]) == 77);
+  CheckValues("disc", disc, {(4 * 50 + 2 * (2 + 4 + 6 + 8) + 1 + 3 + 7 + 9 + 8) / 16, 77});
   int16_t sample[2] = {0, 77};
   ReferenceKernels().FilterDiscLayer({&rows[1][3], 9, 1, 1}, {1, 4, ring}, sample, 9);
-  CHECK(sample[0] == (64 * (4 * 50 + 2 * (2 + 4 + 6 + 8) + 1 + 3 + 7 + 9) + 8) / 16);
-  CHECK(sample[1] == 77);
+  CheckValues("disc of a layer", sample,
+              {(64 * (4 * 50 + 2 * (2 + 4 + 6 + 8) + 1 + 3 + 7 + 9) + 8) / 16, 77});
   const float disparity[4] = {0.0078125f, -0.0078125f, -500, 500};
   int16_t converted[4];
   CHECK(ReferenceKernels().ConvertDisparity(disparity, 4, -500, 500, converted));
-  CHECK(converted[0] == 1);
-  CHECK(converted[1] == 0);
-  CHECK(converted[2] == -32000);
-  CHECK(converted[3] == 32000);
+  CheckValues("disparities", converted, {1, 0, -32000, 32000});
 }
 
 TEST_CASE("kernel definitions: light and codes, by hand") {
@@ -80,22 +72,17 @@ TEST_CASE("kernel definitions: light and codes, by hand") {
   const uint8_t codes[3] = {0, 10, 255};
   int16_t light[3];
   ReferenceKernels().Decode(codes, 3, encoding, light);
-  CHECK(light[1] == 50);
-  CHECK(light[2] == 32512);
+  CheckValues("decode", light, {0, 50, 32512});
   const int16_t levels[4] = {4, 5, 7, 32640};
   uint8_t out[4];
   ReferenceKernels().Encode(levels, 4, encoding, out);
-  CHECK(int(out[0]) == 2);
-  CHECK(int(out[1]) == 3);
-  CHECK(int(out[3]) == 3);
+  CheckValues("encode", out, {2, 3, 3, 3});
   const uint32_t sums[2] = {(4 << 3) + 3, (4 << 3) + 4};  // just below 4.5, and 4.5
   ReferenceKernels().Finish(sums, 2, 10, encoding, out);
-  CHECK(int(out[0]) == 2);
-  CHECK(int(out[1]) == 3);
+  CheckValues("finish", out, {2, 3});
   const int16_t halves[2] = {(7 << 7) + 63, (7 << 7) + 64};
   ReferenceKernels().Encode(halves, 2, {nullptr, nullptr}, out);
-  CHECK(int(out[0]) == 7);
-  CHECK(int(out[1]) == 8);
+  CheckValues("halves", out, {7, 8});
 }
 
 TEST_CASE("kernel definitions: ranges, by hand") {
@@ -119,13 +106,11 @@ TEST_CASE("kernel definitions: runs and cells, by hand") {
   int16_t middles[5 * kRunLanes];
   ReferenceKernels().FindRuns(lines[4], -2, 5, 2, {10, 10},
                               RunMarks{starts, edges, middles, kRunLanes});
-  CHECK(starts[0] == 0b11000);
-  CHECK(edges[0] == 0b11000);
-  CHECK(starts[1] == 0b11000);
-  CHECK(edges[1] == 0b10000);
+  CheckValues("starts", starts, {0b11000, 0b11000});
+  CheckValues("edges", edges, {0b11000, 0b10000});
   const int expected[5][2] = {{-5, 31989}, {0, 31989}, {0, 31992}, {11, 32000}, {40, -32000}};
   for (size_t q = 0; q < 5; ++q) {
-    for (size_t k = 0; k < 2; ++k) CHECK(middles[q * kRunLanes + k] == expected[q][k]);
+    CheckValues("middles", middles + q * kRunLanes, {expected[q][0], expected[q][1]});
   }
 
   // A flat cell but for one pixel inside, one in the corner, and another beyond the left side.
@@ -137,28 +122,22 @@ TEST_CASE("kernel definitions: runs and cells, by hand") {
   values[1 + 5][0] = 500;
   CellMeasure measure;
   ReferenceKernels().MeasureCell(rows, {100, 96, 15, 90}, &measure);
-  for (int k = 0; k < 8; ++k) {
-    CHECK(measure.column_low[k] == (k == 7 ? -20 : 0));
-    CHECK(measure.column_high[k] == (k == 4 ? 97 : 0));
-    CHECK(measure.row_low[k] == (k == 0 ? -20 : 0));
-    CHECK(measure.row_high[k] == (k == 3 ? 97 : 0));
-  }
+  CheckValues("columns, low", measure.column_low, {0, 0, 0, 0, 0, 0, 0, -20});
+  CheckValues("columns, high", measure.column_high, {0, 0, 0, 0, 97, 0, 0, 0});
+  CheckValues("rows, low", measure.row_low, {-20, 0, 0, 0, 0, 0, 0, 0});
+  CheckValues("rows, high", measure.row_high, {0, 0, 0, 97, 0, 0, 0, 0});
   CHECK(measure.nearest == 3);
   CHECK(measure.edge_low == 97);
   CHECK(measure.edge_high == 500);
-  for (int along = 0; along < 2; ++along) {
-    CHECK(measure.edges[along] == 2);
-    CHECK(measure.gaps[along] == 2 * 90);
-    CHECK(measure.slopes[along] == 15);
-  }
+  CheckValues("edges", measure.edges, {2, 2});
+  CheckValues("gaps", measure.gaps, {2 * 90, 2 * 90});
+  CheckValues("slopes", measure.slopes, {15, 15});
   values[1 + 5][0] = 0;
   values[1 + 3][1 + 4] = 96;
   ReferenceKernels().MeasureCell(rows, {100, 96, 15, 90}, &measure);
   CHECK(measure.edge_low > measure.edge_high);
-  for (int along = 0; along < 2; ++along) {
-    CHECK(measure.edges[along] == 0);
-    CHECK(measure.slopes[along] == 3 * 15);
-  }
+  CheckValues("edges", measure.edges, {0, 0});
+  CheckValues("slopes", measure.slopes, {3 * 15, 3 * 15});
 }
 
 // What is kept of a line filtered as a whole.
@@ -180,10 +159,8 @@ TEST_CASE("kernel definitions: layers, by hand") {
   const uint8_t bytes[12] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 255};
   int16_t even[6], odd[6];
   ReferenceKernels().WidenPhases(bytes, 2, {nullptr, nullptr}, even, odd);
-  const int16_t evens[6] = {64, 128, 192, 448, 512, 576};
-  const int16_t odds[6] = {256, 320, 384, 640, 704, kLayerWhite};
-  CHECK(std::memcmp(even, evens, sizeof(even)) == 0);
-  CHECK(std::memcmp(odd, odds, sizeof(odd)) == 0);
+  CheckValues("even", even, {64, 128, 192, 448, 512, 576});
+  CheckValues("odd", odd, {256, 320, 384, 640, 704, kLayerWhite});
   const int16_t beside[10] = {8, 0, 0, 10, 0, 0, 30, 0, 0, 16};
   const int16_t centre = 101;
   int16_t out = 0;

@@ -37,11 +37,12 @@ TEST_CASE("kernels: a test that would run on no SIMD target fails") {
 }
 
 TEST_CASE("kernels: every target gives the bits of the reference and writes nothing else") {
-  test::CheckKernels<test::KernelCall>(test::kKernelCases, ReferenceKernels(), test::SimdTargets());
+  test::CheckKernels<test::KernelCall>(test::kernel_cases::kAll, ReferenceKernels(),
+                                       test::SimdTargets());
 }
 
 TEST_CASE("kernels: the bench's calls are right, too") {
-  for (const test::KernelCase& one : test::kKernelCases) {
+  for (const auto& one : test::kernel_cases::kAll) {
     test::Draw draw = test::Draw::ForBench();
     test::KernelCall call(&draw);
     one.make(&draw, &call);
@@ -70,52 +71,38 @@ struct Counted<kKernel> {
 };
 
 TEST_CASE("kernels: a case calls the kernel whose name it has") {
-  const auto check = [](const test::KernelCase& one, const Kernels& table, const int* calls) {
+  const auto check = [](const auto& one, const Kernels& table, const int* calls) {
     test::Draw draw = test::Draw::ForBench();
     test::KernelCall call(&draw);
     one.make(&draw, &call);
     call.run(table);
     CHECK_MESSAGE(*calls > 0, std::string(one.kernel));
   };
-  const test::KernelCase* one = test::kKernelCases;
+  const auto* one = test::kernel_cases::kAll;
 #define STARFOCUS_COUNT_CALLS(Kernel) \
   check(*one++, Counted<&Kernels::Kernel>::Table(), &Counted<&Kernels::Kernel>::calls);
   STARFOCUS_KERNELS(STARFOCUS_COUNT_CALLS)
 #undef STARFOCUS_COUNT_CALLS
 }
 
-// Kernels that do one thing each that they may not do.
+// Things that Narrow may not do, after the reference, to its `count` samples.
 struct Spoilt {
   const char* complaint;
-  void (*narrow)(const int16_t* in, size_t count, const Encoding& encoding, uint8_t* out);
+  void (*spoil)(const int16_t* in, size_t count, uint8_t* out);
 };
 constexpr Spoilt kSpoilt[] = {
+    {"spoilt differs in out[0]", [](const int16_t*, size_t, uint8_t* out) { out[0] ^= 1; }},
+    // The sample behind the last one may hold anything.
     {"spoilt differs in out[0]",
-     [](const int16_t* in, size_t count, const Encoding& encoding, uint8_t* out) {
-       ReferenceKernels().Narrow(in, count, encoding, out);
-       out[0] ^= 1;
-     }},
-    {"spoilt differs in out[0]",
-     [](const int16_t* in, size_t count, const Encoding& encoding, uint8_t* out) {
-       ReferenceKernels().Narrow(in, count, encoding, out);
-       out[0] = uint8_t(out[0] + in[count]);  // which may hold anything
-     }},
+     [](const int16_t* in, size_t count, uint8_t* out) { out[0] = uint8_t(out[0] + in[count]); }},
     {"spoilt writes where it may not: out[",
-     [](const int16_t* in, size_t count, const Encoding& encoding, uint8_t* out) {
-       ReferenceKernels().Narrow(in, count, encoding, out);
-       out[count] ^= 1;
-     }},
+     [](const int16_t*, size_t count, uint8_t* out) { out[count] ^= 1; }},
     {"spoilt writes where it may not: out[-1]",
-     [](const int16_t* in, size_t count, const Encoding& encoding, uint8_t* out) {
-       ReferenceKernels().Narrow(in, count, encoding, out);
-       out[-1] ^= 1;
-     }},
+     [](const int16_t*, size_t, uint8_t* out) { out[-1] ^= 1; }},
     {"spoilt writes where it may not: in[0]",
-     [](const int16_t* in, size_t count, const Encoding& encoding, uint8_t* out) {
-       ReferenceKernels().Narrow(in, count, encoding, out);
-       const_cast<int16_t*>(in)[0] ^= 1;
-     }},
+     [](const int16_t* in, size_t, uint8_t*) { const_cast<int16_t*>(in)[0] ^= 1; }},
 };
+const Spoilt* spoilt_now = nullptr;
 
 // What a call of Narrow finds wrong with a kernel, or of Split with one that writes between planes.
 std::string Complaint(const Kernels& spoilt, void (*make)(test::Draw*, test::KernelCall*)) {
@@ -131,22 +118,22 @@ std::string Complaint(const Kernels& spoilt, void (*make)(test::Draw*, test::Ker
 }
 
 TEST_CASE("kernels: what a kernel may not do is noticed") {
+  Kernels spoilt = ReferenceKernels();
+  spoilt.name = "spoilt";
+  spoilt.Narrow = [](const int16_t* in, size_t count, const Encoding& encoding, uint8_t* out) {
+    ReferenceKernels().Narrow(in, count, encoding, out);
+    spoilt_now->spoil(in, count, out);
+  };
   for (const Spoilt& one : kSpoilt) {
-    Kernels spoilt = ReferenceKernels();
-    spoilt.name = "spoilt";
-    spoilt.Narrow = one.narrow;
+    spoilt_now = &one;
     const std::string wrong = Complaint(spoilt, test::kernel_cases::Narrow);
     CHECK_MESSAGE(wrong.find(one.complaint) == 0, wrong);
   }
-  Kernels spoilt = ReferenceKernels();
-  spoilt.name = "spoilt";
   spoilt.Split = [](const int16_t* rgb, size_t count, size_t plane, int16_t* out) {
     ReferenceKernels().Split(rgb, count, plane, out);
     if (plane > count) out[count] ^= 1;  // between two planes
   };
   CHECK(Complaint(spoilt, test::kernel_cases::Split).find("spoilt writes where") == 0);
-  spoilt = ReferenceKernels();
-  spoilt.name = "spoilt";
   spoilt.ConvertDisparity = [](const float* disparity, size_t count, float low, float high,
                                int16_t* out) {
     return !ReferenceKernels().ConvertDisparity(disparity, count, low, high, out);

@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "simd/label_costs.h"
-#include "tests/simd/depth_cases.h"
+#include "tests/simd/kernel_cases.h"
 
 namespace test::depth_cases {
 namespace {
@@ -27,16 +27,14 @@ void CostLabels(Draw* draw, DepthCall* call) {
   // Alike pictures as well: differences are cut off where others are.
   const int least = draw->Int(0, 1) == 0 ? 0 : 225;
   row.plane = count + 2 * kReach;
-  std::vector<uint8_t> planes(3 * (views + 1) * row.plane);
-  for (uint8_t& value : planes) value = uint8_t(draw->Int(least, 255));
+  const auto planes =
+      Filled<uint8_t>(3 * (views + 1) * row.plane, [&] { return draw->Int(least, 255); });
   row.pixels = call->Input("planes", planes, kPadding) + kReach;
   // What is hidden, and now and then in all views, which by chance is rare with many of them.
-  std::vector<uint8_t> hidden(views * row.plane);
   const int least_hidden = draw->Rarely(3) ? int(row.labels) / 2 : 0;
-  for (uint8_t& value : hidden) {
-    value = draw->Int(0, 5) == 0 && row.ends ? kViewEnds
-                                             : uint8_t(draw->Int(least_hidden, int(row.labels)));
-  }
+  const auto hidden = Filled<uint8_t>(views * row.plane, [&] {
+    return draw->Int(0, 5) == 0 && row.ends ? kViewEnds : draw->Int(least_hidden, int(row.labels));
+  });
   if (!draw->Rarely(4)) row.hidden = call->Input("hidden", hidden, kPadding) + kReach;
   std::vector<ViewMove> moves(row.labels * views);
   for (size_t k = 0; k < moves.size(); ++k) {
@@ -46,18 +44,14 @@ void CostLabels(Draw* draw, DepthCall* call) {
   row.moves = call->Input("moves", moves);
   const size_t places = SliceSamples(row.labels) + 16 * draw->Size(0, 1, 0);
   uint8_t* cost = call->Output<uint8_t>("cost", count * places);
-  for (size_t n = 0; n < count; ++n) {
-    call->Result(cost + n * places, row.labels);
-    call->Free(cost + n * places + row.labels, SliceSamples(row.labels) - row.labels);
-  }
+  call->ResultRows(cost, count, places, row.labels, SliceSamples(row.labels) - row.labels);
   call->Runs([=](const DepthKernels& kernels) { kernels.CostLabels(row, count, places, cost); });
   call->is_right = [=](uint64_t, Met* met) {
-    for (size_t n = 0; n < count * places; ++n) {
-      if (n % places >= row.labels) continue;
-      if (cost[n] > kMostDifference * kCostScale) return false;
+    return AllRight(count * places, [&](size_t n) {
+      if (n % places >= row.labels) return true;
       ++(*met)[cost[n] == kMostDifference * kCostScale ? "cut off" : "whole"];
-    }
-    return true;
+      return cost[n] <= kMostDifference * kCostScale;
+    });
   };
 }
 

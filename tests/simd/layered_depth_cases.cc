@@ -29,12 +29,10 @@ void Split(Draw* draw, KernelCall* call) {
   const size_t count = draw->Length(1, 70, kTimedSamples / 3), plane = count + draw->Size(0, 9, 0);
   const int16_t* rgb = call->Input("rgb", Light(3 * count, draw), kPadding);
   auto* out = call->Output<int16_t>("out", 3 * plane);
-  for (size_t c = 0; c < 3; ++c) call->Result(out + c * plane, count);
+  call->ResultRows(out, 3, plane, count);
   call->Runs([=](const Kernels& kernels) { kernels.Split(rgb, count, plane, out); });
   call->is_right = [=](uint64_t, Met*) {
-    bool right = true;
-    for (size_t i = 0; i < 3 * count; ++i) right = right && out[i % 3 * plane + i / 3] == rgb[i];
-    return right;
+    return AllRight(3 * count, [&](size_t i) { return out[i % 3 * plane + i / 3] == rgb[i]; });
   };
 }
 
@@ -69,16 +67,14 @@ void FindSteps(Draw* draw, KernelCall* call) {
   auto* steps = call->Results<StepBits>("steps", strips);
   call->Runs([=](const Kernels& kernels) { kernels.FindSteps(row, count, kStep, steps); });
   call->is_right = [=](uint64_t, Met* met) {
-    bool right = true;
-    for (size_t n = 0; n < strips * kSliceLanes; ++n) {
+    return AllRight(strips * kSliceLanes, [&](size_t n) {
       const StepBits& bits = steps[n / kSliceLanes];
       const bool fall = n < count && row[n] - row[n + 1] > kStep;
       const bool rise = n < count && row[n + 1] - row[n] > kStep;
-      right = right && (bits.falls >> n % kSliceLanes & 1) == int(fall) &&
-              (bits.rises >> n % kSliceLanes & 1) == int(rise);
       (*met)["steps"] += fall || rise;
-    }
-    return right;
+      return (bits.falls >> n % kSliceLanes & 1) == int(fall) &&
+             (bits.rises >> n % kSliceLanes & 1) == int(rise);
+    });
   };
 }
 
@@ -100,8 +96,7 @@ void FindCopies(Draw* draw, KernelCall* call) {
     }
   });
   call->is_right = [=](uint64_t, Met* met) {
-    bool right = true;
-    for (size_t i = 0; i < rows * samples; ++i) {
+    return AllRight(rows * samples, [&](size_t i) {
       const size_t n = i % samples, y = i / samples;
       const int16_t* at = first + y * stride + n;
       int expected = kNoSurface;
@@ -110,11 +105,10 @@ void FindCopies(Draw* draw, KernelCall* call) {
         if (n >= count || step < limits.least || step > limits.most) continue;
         expected = expected == kNoSurface ? next : std::min<int>(expected, next);
       }
-      right = right && copies[i] == expected;
-      right = right && (expected == kNoSurface || (strips[y] >> (n / kSliceLanes) & 1) != 0);
       (*met)["copies"] += expected != kNoSurface;
-    }
-    return right;
+      return copies[i] == expected &&
+             (expected == kNoSurface || (strips[y] >> (n / kSliceLanes) & 1) != 0);
+    });
   };
 }
 
@@ -131,17 +125,15 @@ void BesideSteps(Draw* draw, KernelCall* call) {
     }
   });
   call->is_right = [=](uint64_t, Met* met) {
-    bool right = true;
-    for (size_t i = 0; i < rows * strips * kSliceLanes; ++i) {
+    return AllRight(rows * strips * kSliceLanes, [&](size_t i) {
       const size_t n = i % (strips * kSliceLanes), y = i / (strips * kSliceLanes);
       const int16_t* at = first + y * stride + n;
       const bool expected =
           n < count &&
           std::max(std::max(at[-1], at[1]), std::max(*(at - stride), at[stride])) - *at > kStep;
-      right = right && (beside[i / kSliceLanes] >> n % kSliceLanes & 1) == int(expected);
       (*met)["steps"] += expected;
-    }
-    return right;
+      return (beside[i / kSliceLanes] >> n % kSliceLanes & 1) == int(expected);
+    });
   };
 }
 
@@ -251,17 +243,12 @@ struct HiddenField {
   HiddenField(const DepthField& field, KernelCall* call) {
     const auto rows = size_t(field.height), samples = field.stride * rows;
     for (int k = 0; k < kSurfaces - 1; ++k) {
-      disparity[k] = call->Output<int16_t>(k == 0 ? "first" : "second", samples);
-      source[k] = call->Output<uint16_t>(k == 0 ? "first source" : "second source", samples);
-      found[k] = call->Output<uint16_t>("found", samples / kSliceLanes);
-      call->Result(disparity[k], samples);
-      call->Result(source[k], samples);
-      call->Result(found[k], samples / kSliceLanes);
+      disparity[k] = call->Results<int16_t>(k == 0 ? "first" : "second", samples);
+      source[k] = call->Results<uint16_t>(k == 0 ? "first source" : "second source", samples);
+      found[k] = call->Results<uint16_t>("found", samples / kSliceLanes);
     }
-    share = call->Output<uint8_t>("share", samples);
-    strips = call->Output<uint64_t>("returned", rows);
-    call->Result(share, samples);
-    call->Result(strips, rows);
+    share = call->Results<uint8_t>("share", samples);
+    strips = call->Results<uint64_t>("returned", rows);
   }
 
   HiddenRow Row(size_t first) const {
@@ -312,13 +299,11 @@ void LookBehind(Draw* draw, KernelCall* call) {
     }
   });
   call->is_right = [=](uint64_t, Met* met) {
-    bool right = true;
     const size_t groups = field.stride / kSliceLanes;
-    for (size_t n = 0; n < groups * size_t(field.height); ++n) {
+    return AllRight(groups * size_t(field.height), [&](size_t n) {
       const bool any = (hidden.strips[n / groups] >> n % groups & 1) != 0;
-      right = hidden.IsRight(n, any, call, met) && right;
-    }
-    return right;
+      return hidden.IsRight(n, any, call, met);
+    });
   };
 }
 

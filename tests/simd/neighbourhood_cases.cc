@@ -53,15 +53,10 @@ void SurroundCells(Draw* draw, KernelCall* call) {
   const size_t count = draw->Length(1, 33, 48), whole = SliceSamples(count);
   const auto around = int32_t(draw->Size(1, 8, 2));
   const CellPlanes cells = MakeCells(count, 1, size_t(around), draw, call);
-  const CellRanges ranges = {
-      call->Output<int16_t>("low", whole), call->Output<int16_t>("high", whole),
-      call->Output<uint16_t>("widest", whole), call->Output<int16_t>("edge", whole)};
-  for (const int16_t* plane : {ranges.low, ranges.high, ranges.edge}) {
-    call->Result(plane, count);
-    call->Free(plane + count, whole - count);
-  }
-  call->Result(ranges.widest, count);
-  call->Free(ranges.widest + count, whole - count);
+  const CellRanges ranges = {call->Results<int16_t>("low", count, whole - count),
+                             call->Results<int16_t>("high", count, whole - count),
+                             call->Results<uint16_t>("widest", count, whole - count),
+                             call->Results<int16_t>("edge", count, whole - count)};
   call->Runs([=](const Kernels& kernels) { kernels.SurroundCells(cells, around, count, ranges); });
 }
 

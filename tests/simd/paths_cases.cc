@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "simd/paths.h"
-#include "tests/simd/depth_cases.h"
+#include "tests/simd/kernel_cases.h"
 
 namespace test::depth_cases {
 namespace {
@@ -17,43 +17,28 @@ int16_t FillPath(size_t labels, Draw* draw, int16_t* path) {
   return int16_t(least);
 }
 
-// Pixels of a row, in memory from left to right.
-struct Line {
-  size_t labels, count;
-  ptrdiff_t step;
-
-  size_t places() const { return PathLabels(labels); }
-  // Where the first pixel on the path lies.
-  size_t first() const { return step > 0 ? 0 : count - 1; }
-};
-
-// What the path of a row goes on from: the row before, or this row's pixel before.
-enum class From { kRowBefore, kPixelBefore };
-
 }  // namespace
 
 void AddPaths(Draw* draw, DepthCall* call) {
-  Line line = {};
-  line.labels = draw->Length(1, kMostPathLabels, kTimedPathLabels);
-  line.count = draw->Size(1, 9, 64);
-  line.step = draw->Int(0, 1) == 0 ? 1 : -1;
-  const size_t labels = line.labels, count = line.count, places = line.places();
-  const ptrdiff_t step = line.step;
-  const From from = draw->timed() ? From::kRowBefore : From(draw->Int(0, 1));
-  std::vector<uint8_t> costs(count * places);
-  for (uint8_t& cost : costs) cost = uint8_t(draw->Int(0, kMostCost));
-  std::vector<int16_t> jumps(count), before(1 + count * places, kNoLabel), before_least(count);
-  for (int16_t& jump : jumps) jump = int16_t(draw->Int(kSlopeCost, kMostJump));
+  const size_t labels = draw->Length(1, kMostPathLabels, kTimedPathLabels);
+  const size_t count = draw->Size(1, 9, 64), places = PathLabels(labels);
+  const ptrdiff_t step = draw->Int(0, 1) == 0 ? 1 : -1;
+  const size_t first = step > 0 ? 0 : count - 1;  // the first pixel on the path
+  // The path goes on from the row before, or from the pixel before.
+  const bool from_row = draw->timed() || draw->Int(0, 1) == 0;
+  const auto costs = Filled<uint8_t>(count * places, [&] { return draw->Int(0, kMostCost); });
+  const auto jumps = Filled<int16_t>(count, [&] { return draw->Int(kSlopeCost, kMostJump); });
+  std::vector<int16_t> before(1 + count * places, kNoLabel), before_least(count);
   for (size_t k = 0; k < count; ++k) {
     before_least[k] = FillPath(labels, draw, &before[1 + k * places]);
   }
   PathRow row = {};
-  row.cost = call->Input("cost", costs, kPadding) + line.first() * places;
-  row.jump = call->Input("jump", jumps) + line.first();
+  row.cost = call->Input("cost", costs, kPadding) + first * places;
+  row.jump = call->Input("jump", jumps) + first;
   // One pixel more on both sides, of which the paths of this row may go on.
   int16_t* path = call->Output<int16_t>("path", 1 + (count + 2) * places) + 1 + places;
   int16_t* least = call->Output<int16_t>("least", count + 2) + 1;
-  int16_t* sum = call->Output<int16_t>("sum", count * places);
+  auto* sum = call->Results<int16_t>("sum", count * places);
   row.adds = draw->timed() || draw->Int(0, 3) > 0;
   for (size_t k = 0; k < count * places; ++k) {
     sum[k] = k % places < labels ? int16_t(draw->Int(0, 30000)) : kNoLabel;
@@ -62,14 +47,13 @@ void AddPaths(Draw* draw, DepthCall* call) {
     path[ptrdiff_t(k * places) - ptrdiff_t(places) - 1] = kNoLabel;
   call->Result(path, count * places);
   call->Result(least, count);
-  call->Result(sum, count * places);
-  row.path = path + line.first() * places;
-  row.least = least + line.first();
-  row.sum = sum + line.first() * places;
-  if (from == From::kRowBefore) {
-    row.before = call->Input("before", before, kPadding) + 1 + line.first() * places;
-    row.before_least = call->Input("before_least", before_least) + line.first();
-  } else if (from == From::kPixelBefore) {
+  row.path = path + first * places;
+  row.least = least + first;
+  row.sum = sum + first * places;
+  if (from_row) {
+    row.before = call->Input("before", before, kPadding) + 1 + first * places;
+    row.before_least = call->Input("before_least", before_least) + first;
+  } else {
     int16_t* start = row.path - step * ptrdiff_t(places);
     row.least[-step] = FillPath(labels, draw, start);
     row.before = start;
@@ -82,22 +66,19 @@ void FindJumps(Draw* draw, DepthCall* call) {
   const size_t count = draw->Length(1, 70, 320), plane = count + draw->Size(0, 9, 0);
   const int least = draw->Int(0, 1) == 0 ? 0 : 240;
   const auto pixels = [&] {
-    std::vector<uint8_t> planes(2 * plane + count);
-    for (uint8_t& sample : planes) sample = uint8_t(draw->Int(least, 255));
+    const auto planes = Filled<uint8_t>(2 * plane + count, [&] { return draw->Int(least, 255); });
     return call->Input("pixels", planes, kPadding);
   };
   const uint8_t* here = pixels();
   const uint8_t* before = pixels();
-  int16_t* jump = call->Output<int16_t>("jump", count);
-  call->Result(jump, count);
+  auto* jump = call->Results<int16_t>("jump", count);
   call->Runs(
       [=](const DepthKernels& kernels) { kernels.FindJumps(here, before, plane, count, jump); });
   call->is_right = [=](uint64_t, Met* met) {
-    for (size_t n = 0; n < count; ++n) {
+    return AllRight(count, [&](size_t n) {
       ++(*met)[jump[n] == kLeastJump ? "other colours" : "alike"];
-      if (jump[n] < kLeastJump || jump[n] > kLargestJump) return false;
-    }
-    return true;
+      return jump[n] >= kLeastJump && jump[n] <= kLargestJump;
+    });
   };
 }
 
@@ -110,22 +91,19 @@ void ChooseLabels(Draw* draw, DepthCall* call) {
     sums[k] = k % places < labels ? int16_t(draw->Int(0, most)) : kNoLabel;
   }
   const int16_t* sum = call->Input("sum", sums, kPadding);
-  int16_t* choice = call->Output<int16_t>("choice", count);
+  auto* choice = call->Results<int16_t>("choice", count);
   const bool rates = draw->timed() || draw->Int(0, 3) > 0;
-  uint8_t* margin = rates ? call->Output<uint8_t>("margin", count) : nullptr;
-  call->Result(choice, count);
-  if (rates) call->Result(margin, count);
+  uint8_t* margin = rates ? call->Results<uint8_t>("margin", count) : nullptr;
   call->Runs([=](const DepthKernels& kernels) {
     kernels.ChooseLabels(sum, labels, count, choice, margin);
   });
   call->is_right = [=](uint64_t, Met* met) {
-    for (size_t n = 0; n < count; ++n) {
+    return AllRight(count, [&](size_t n) {
       const int label = (choice[n] + 32) >> 6;
-      if (label < 0 || label >= int(labels)) return false;
       ++(*met)[choice[n] % 64 == 0 ? "at a label" : "between labels"];
       if (rates) ++(*met)[margin[n] == 255 ? "sure" : "not sure"];
-    }
-    return true;
+      return label >= 0 && label < int(labels);
+    });
   };
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cases of the kernels of simd/pixels.h.
 #include "simd/pixels.h"
-#include "tests/simd/image_cases.h"
+#include "tests/simd/kernel_cases.h"
 
 namespace test::image_cases {
 namespace {
@@ -17,8 +17,7 @@ void PixelsToRgb(Draw* draw, ImageCall* call) {
   const PixelOrder order = AnyOrder(draw);
   // Memory ends with the colours of the last pixel.
   const uint8_t* pixels = call->Input("pixels", RandomBytes(order.step * (count - 1) + 3, draw));
-  uint8_t* rgb = call->Output<uint8_t>("rgb", 3 * count);
-  call->Result(rgb, 3 * count);
+  auto* rgb = call->Results<uint8_t>("rgb", 3 * count);
   call->Runs([=](const ImageKernels& kernels) { kernels.PixelsToRgb(pixels, count, order, rgb); });
 }
 
@@ -26,8 +25,7 @@ void RgbToPixels(Draw* draw, ImageCall* call) {
   const size_t count = draw->Length(1, kLongestPixels, 1024);
   const PixelOrder order = AnyOrder(draw);
   const uint8_t* rgb = call->Input("rgb", RandomBytes(3 * count, draw));
-  uint8_t* pixels = call->Output<uint8_t>("pixels", order.step * count);
-  call->Result(pixels, order.step * count);
+  auto* pixels = call->Results<uint8_t>("pixels", order.step * count);
   call->Runs([=](const ImageKernels& kernels) { kernels.RgbToPixels(rgb, count, order, pixels); });
 }
 

@@ -2,27 +2,21 @@
 #include <algorithm>
 
 #include "simd/planes.h"
-#include "tests/simd/depth_cases.h"
+#include "tests/simd/kernel_cases.h"
 
 namespace test::depth_cases {
 namespace {
 
 constexpr int kTimedPlane = 512, kLongestPlane = 2 * 64 + 3;
 
-std::vector<uint8_t> Samples(size_t count, Draw* draw) {
-  std::vector<uint8_t> samples(count);
-  for (uint8_t& sample : samples) sample = draw->Byte();
-  return samples;
-}
-
 }  // namespace
 
 void SplitRow(Draw* draw, DepthCall* call) {
   const size_t count = draw->Length(0, kLongestPlane, kTimedPlane),
                stride = count + draw->Size(0, 9, 0);
-  const uint8_t* rgb = call->Input("rgb", Samples(3 * count, draw));
+  const uint8_t* rgb = call->Input("rgb", RandomBytes(3 * count, draw));
   uint8_t* plane = call->Output<uint8_t>("planes", 3 * stride);
-  for (size_t c = 0; c < 3; ++c) call->Result(plane + c * stride, count);
+  call->ResultRows(plane, 3, stride, count);
   call->Runs([=](const DepthKernels& kernels) { kernels.SplitRow(rgb, count, stride, plane); });
 }
 
@@ -30,21 +24,18 @@ void InterpolateRow(Draw* draw, DepthCall* call) {
   const size_t count = draw->Length(1, kLongestPlane, kTimedPlane);
   const int32_t across = draw->Int(0, 2) == 0 ? 0 : draw->Int(0, 127);
   const int32_t down = draw->Int(0, 2) == 0 ? 0 : draw->Int(0, 127);
-  const uint8_t* row = call->Input("row", Samples(count + 1, draw), kPadding);
-  const uint8_t* next = call->Input("next", Samples(count + 1, draw), kPadding);
-  uint8_t* out = call->Output<uint8_t>("out", SliceSamples(count));
-  call->Result(out, count);
-  call->Free(out + count, SliceSamples(count) - count);
+  const uint8_t* row = call->Input("row", RandomBytes(count + 1, draw), kPadding);
+  const uint8_t* next = call->Input("next", RandomBytes(count + 1, draw), kPadding);
+  uint8_t* out = call->Results<uint8_t>("out", count, SliceSamples(count) - count);
   call->Runs([=](const DepthKernels& kernels) {
     kernels.InterpolateRow(row, next, across, down, count, out);
   });
   // Between the four around it.
   call->is_right = [=](uint64_t, Met*) {
-    for (size_t n = 0; n < count; ++n) {
+    return AllRight(count, [&](size_t n) {
       const auto range = std::minmax({row[n], row[n + 1], next[n], next[n + 1]});
-      if (out[n] < range.first || out[n] > range.second) return false;
-    }
-    return true;
+      return out[n] >= range.first && out[n] <= range.second;
+    });
   };
 }
 

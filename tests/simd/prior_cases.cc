@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "simd/prior.h"
-#include "tests/simd/depth_cases.h"
+#include "tests/simd/kernel_cases.h"
 
 namespace test::depth_cases {
 namespace {
 
 std::vector<uint8_t> Priors(size_t count, Draw* draw) {
-  std::vector<uint8_t> priors(count);
-  for (uint8_t& prior : priors) {
-    prior = draw->Int(0, 3) == 0 ? uint8_t(draw->Int(0, kMostPrior)) : kMostPrior;
-  }
-  return priors;
+  return Filled<uint8_t>(
+      count, [&] { return draw->Int(0, 3) == 0 ? draw->Int(0, kMostPrior) : kMostPrior; });
 }
 
 }  // namespace
@@ -23,8 +20,7 @@ void SpreadPrior(Draw* draw, DepthCall* call) {
   row.count = count;
   row.step = draw->Int(0, 1) == 0 ? 1 : -1;
   const size_t first = row.step > 0 ? 0 : size - places;
-  uint8_t* prior = call->Output<uint8_t>("prior", size);
-  call->Result(prior, size);
+  auto* prior = call->Results<uint8_t>("prior", size);
   const std::vector<uint8_t> own = Priors(size, draw);
   std::copy(own.begin(), own.end(), prior);
   row.prior = prior + first;
@@ -32,19 +28,17 @@ void SpreadPrior(Draw* draw, DepthCall* call) {
   call->Runs([=](const DepthKernels& kernels) { kernels.SpreadPrior(row); });
   // No label costs more than it did, nor more than it costs the pixel before it, and the way.
   call->is_right = [=](uint64_t, Met* met) {
-    for (size_t k = 0; k < size; ++k) {
-      if (prior[k] > own[k]) return false;
+    return AllRight(size, [&](size_t k) {
       ++(*met)[prior[k] < own[k] ? "lessened" : "as it was"];
-    }
-    return true;
+      return prior[k] <= own[k];
+    });
   };
 }
 
 void AddPrior(Draw* draw, DepthCall* call) {
   const size_t count = kSliceLanes * draw->Length(1, 9, 64);
   const uint8_t* prior = call->Input("prior", Priors(count, draw));
-  uint8_t* cost = call->Output<uint8_t>("cost", count);
-  call->Result(cost, count);
+  auto* cost = call->Results<uint8_t>("cost", count);
   call->Runs([=](const DepthKernels& kernels) { kernels.AddPrior(prior, count, cost); });
 }
 

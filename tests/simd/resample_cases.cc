@@ -8,13 +8,11 @@ namespace {
 
 // Black, white and anything between, or samples as far out of range as filters leave them.
 std::vector<int16_t> Samples(size_t count, bool in_range, Draw* draw) {
-  std::vector<int16_t> samples(count);
-  for (int16_t& sample : samples) {
-    const int kind = draw->Int(0, 3), below = in_range ? 0 : -43 * 64;
-    const int most = in_range ? kLayerWhite : 298 * 64;
-    sample = int16_t(kind == 0 ? below : kind == 1 ? most : draw->Int(below, most));
-  }
-  return samples;
+  const int below = in_range ? 0 : -43 * 64, most = in_range ? kLayerWhite : 298 * 64;
+  return Filled<int16_t>(count, [&] {
+    const int kind = draw->Int(0, 3);
+    return kind == 0 ? below : kind == 1 ? most : draw->Int(below, most);
+  });
 }
 
 HalfBand Taps(Draw* draw) {
@@ -25,13 +23,8 @@ HalfBand Taps(Draw* draw) {
 // Both phases of a line, where the kernel may leave anything in `more` samples past the end.
 struct Phases {
   Phases(size_t pairs, size_t more, KernelCall* call)
-      : even(call->Output<int16_t>("even", 3 * pairs + more)),
-        odd(call->Output<int16_t>("odd", 3 * pairs + more)) {
-    for (int16_t* phase : {even, odd}) {
-      call->Result(phase, 3 * pairs);
-      call->Free(phase + 3 * pairs, more);
-    }
-  }
+      : even(call->Results<int16_t>("even", 3 * pairs, more)),
+        odd(call->Results<int16_t>("odd", 3 * pairs, more)) {}
 
   int16_t *even, *odd;
 };
@@ -56,7 +49,7 @@ void FilterLine(Filter filter, Draw* draw, KernelCall* call) {
 
 void WidenPhases(Draw* draw, KernelCall* call) {
   const size_t pairs = draw->Length(0, kLongestSamples, kTimedSamples / 6);
-  const uint8_t* in = call->Input("in", Bytes(6 * pairs, draw));
+  const uint8_t* in = call->Input("in", RandomBytes(6 * pairs, draw));
   const auto encoding = AnyEncoding(draw, call);
   const Phases out(pairs, 0, call);
   call->Runs(
@@ -72,14 +65,11 @@ void SplitPhases(Draw* draw, KernelCall* call) {
 
 void Narrow(Draw* draw, KernelCall* call) {
   const size_t count = draw->Length(1, kLongestSamples, kTimedSamples);
-  std::vector<int16_t> samples(count);
-  for (int16_t& sample : samples) {
+  const auto samples = Filled<int16_t>(count, [&] {
     const int kind = draw->Int(0, 4), tie = 64 * draw->Int(0, 254) + 32;
-    sample = int16_t(kind == 0   ? 0
-                     : kind == 1 ? kLayerWhite
-                     : kind == 2 ? tie
-                                 : draw->Int(0, kLayerWhite));
-  }
+    if (kind < 2) return kind == 0 ? 0 : int{kLayerWhite};
+    return kind == 2 ? tie : draw->Int(0, kLayerWhite);
+  });
   const int16_t* in = call->Input("in", samples, kPadding);
   const auto encoding = AnyEncoding(draw, call);
   auto* out = call->Results<uint8_t>("out", count);
@@ -89,10 +79,9 @@ void Narrow(Draw* draw, KernelCall* call) {
 void FinishLayer(Draw* draw, KernelCall* call) {
   const size_t count = draw->Length(1, kLongestSamples, kTimedSamples);
   const int shift = draw->Int(7, 24);
-  std::vector<uint32_t> sums(count);
-  for (uint32_t& sum : sums) {
-    sum = draw->Int(0, 3) == 0 ? uint32_t{255} << shift : draw->Next() % (255u << shift);
-  }
+  const auto sums = Filled<uint32_t>(count, [&] {
+    return draw->Int(0, 3) == 0 ? uint32_t{255} << shift : draw->Next() % (255u << shift);
+  });
   const uint32_t* accumulators = call->Input("accumulators", sums, kPadding);
   auto* out = call->Results<int16_t>("out", count);
   call->Runs([=](const Kernels& kernels) { kernels.FinishLayer(accumulators, count, shift, out); });

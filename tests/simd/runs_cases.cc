@@ -54,12 +54,10 @@ bool MarksAreRight(const RunMarks& marks, const Lines& lines, int k, const RunLi
 std::vector<int16_t> LineDisparities(size_t count, Draw* draw) {
   const int kind = draw->timed() ? 2 : draw->Int(0, 3);
   const int most = kind == 0 ? 32000 : kind == 1 ? 300 : 40;
-  std::vector<int16_t> disparities(count);
-  for (int16_t& d : disparities) {
-    d = int16_t(draw->Int(-most, most));
-    if (kind == 3) d = int16_t(d < 0 ? -32000 : 32000);
-  }
-  return disparities;
+  return Filled<int16_t>(count, [&] {
+    const int d = draw->Int(-most, most);
+    return kind != 3 ? d : d < 0 ? -32000 : 32000;
+  });
 }
 
 }  // namespace
@@ -73,9 +71,7 @@ void FindRuns(Draw* draw, KernelCall* call) {
   const bool backwards = draw->Int(0, 1) == 1;
   const int16_t* disparity =
       call->Input("disparity", LineDisparities((length - 1) * stride + count, draw), kPadding);
-  for (size_t q = 0; q + 1 < length; ++q) {
-    call->Ignore(disparity + q * stride + count, stride - count);
-  }
+  call->IgnoreRows(disparity + count, length - 1, stride, stride - count);
   lines.first = disparity + (backwards ? (length - 1) * stride : 0);
   lines.step = backwards ? -ptrdiff_t(stride) : ptrdiff_t(stride);
   const RunLimits limits = DrawRunLimits(draw);
@@ -86,22 +82,15 @@ void FindRuns(Draw* draw, KernelCall* call) {
   marks.starts = call->Output<uint16_t>("starts", rows * marks.stride);
   marks.edges = call->Output<uint16_t>("edges", rows * marks.stride);
   marks.middles = call->Output<int16_t>("middles", length * marks.stride);
-  for (size_t q = 0; q < length; ++q) {
-    call->Result(marks.middles + q * marks.stride, count);
-    call->Free(marks.middles + q * marks.stride + count, whole - count);
-    if (q % 16 != 0) continue;
-    for (const uint16_t* words : {marks.starts, marks.edges}) {
-      call->Result(words + q / 16 * marks.stride, count);
-      call->Free(words + q / 16 * marks.stride + count, whole - count);
-    }
+  call->ResultRows(marks.middles, length, marks.stride, count, whole - count);
+  for (const uint16_t* words : {marks.starts, marks.edges}) {
+    call->ResultRows(words, rows, marks.stride, count, whole - count);
   }
   call->Runs([=](const Kernels& kernels) {
     kernels.FindRuns(lines.first, lines.step, length, count, limits, marks);
   });
   call->is_right = [=](uint64_t, Met*) {
-    bool right = true;
-    for (int k = 0; k < lines.count; ++k) right = right && MarksAreRight(marks, lines, k, limits);
-    return right;
+    return AllRight(count, [&](size_t k) { return MarksAreRight(marks, lines, int(k), limits); });
   };
 }
 

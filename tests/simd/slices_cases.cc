@@ -8,12 +8,10 @@ namespace test::kernel_cases {
 namespace {
 
 std::vector<uint8_t> MostlyWholeShares(size_t count, Draw* draw) {
-  std::vector<uint8_t> shares(count);
-  for (uint8_t& share : shares) {
+  return Filled<uint8_t>(count, [&] {
     const int kind = draw->Int(0, 3);
-    share = uint8_t(kind < 2 ? kSliceWhole : kind == 2 ? kSliceEnd : draw->Int(1, kSliceWhole - 1));
-  }
-  return shares;
+    return kind < 2 ? kSliceWhole : kind == 2 ? kSliceEnd : draw->Int(1, kSliceWhole - 1);
+  });
 }
 
 // `count` pixels, of which the surfaces behind the first one are often missing. What is not looked
@@ -58,10 +56,7 @@ void SelectSlice(Draw* draw, KernelCall* call) {
                             int16_t(std::min(32700, middle + more / 2)),
                             int16_t(std::min(32700, middle + more))};
   auto* out = call->Output<int16_t>("out", 3 * plane + whole);
-  for (size_t c = 0; c < 4; ++c) {
-    call->Result(out + c * plane, count);
-    call->Free(out + c * plane + count, whole - count);
-  }
+  call->ResultRows(out, 4, plane, count, whole - count);
   auto* cover = call->Results<SliceCover>("cover", 1);
   call->Runs(
       [=](const Kernels& kernels) { *cover = kernels.SelectSlice(row, range, count, plane, out); });
@@ -87,11 +82,10 @@ void SpreadSlice(Draw* draw, KernelCall* call) {
   taps.outer = int16_t(draw->Int(0, taps.inner == 0 ? 20000 : taps.inner));
   taps.centre = int16_t(std::min(32767, 32768 - (taps.reach - 1) * taps.inner - taps.outer));
   const size_t step = draw->Rarely(2) ? 4 * 48 : 1, before = size_t(taps.reach) * step;
-  std::vector<int16_t> samples(whole + 2 * before);
   const int bright = draw->Int(0, 4);
-  for (int16_t& sample : samples) {
-    sample = draw->Int(0, 4) < bright ? kSliceOne : int16_t(draw->Int(0, kSliceOne));
-  }
+  const auto samples = Filled<int16_t>(whole + 2 * before, [&] {
+    return draw->Int(0, 4) < bright ? kSliceOne : draw->Int(0, kSliceOne);
+  });
   const int16_t* in = call->Input("in", samples) + before;
   auto* out = call->Results<int16_t>("out", whole);
   call->Runs(

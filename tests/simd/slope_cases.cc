@@ -22,8 +22,7 @@ void MixSamples(Draw* draw, KernelCall* call) {
   const size_t count = draw->Size(1, 70, kTimedSamples), whole = SliceSamples(count);
   const int16_t* less = call->Input("less", Samples(whole, draw));
   const int16_t* more = call->Input("more", Samples(whole, draw));
-  std::vector<int16_t> shares(whole);
-  for (int16_t& share : shares) share = Between(draw, 0, 32767);
+  const auto shares = Filled<int16_t>(whole, [&] { return Between(draw, 0, 32767); });
   const int16_t* share = call->Input("share", shares);
   auto* out = call->Results<int16_t>("out", whole);
   call->Runs([=](const Kernels& kernels) { kernels.MixSamples(less, more, share, count, out); });
@@ -42,7 +41,7 @@ void MoveSamples(Draw* draw, KernelCall* call) {
   }
   const int16_t* in = call->Input("in", values);
   auto* out = call->Output<int16_t>("out", rows * out_stride);
-  for (size_t y = 0; y < rows; ++y) call->Result(out + y * out_stride, whole);
+  call->ResultRows(out, rows, out_stride, whole);
   call->Runs([=](const Kernels& kernels) {
     kernels.MoveSamples({in + stride + 3, stride, rows, count}, move, out, out_stride);
   });

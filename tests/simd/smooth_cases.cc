@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "simd/smooth.h"
-#include "tests/simd/depth_cases.h"
+#include "tests/simd/kernel_cases.h"
 
 namespace test::depth_cases {
 namespace {
@@ -44,15 +44,13 @@ void SmoothDisparity(Draw* draw, DepthCall* call) {
         call->Input("row", AnyRow(rows.plane, disparity, colours, draw), kPadding) + first;
   }
   rows.own = rows.rows[rows.count / 2];
-  int16_t* smooth = call->Output<int16_t>("smooth", count);
-  call->Result(smooth, count);
+  auto* smooth = call->Results<int16_t>("smooth", count);
   call->Runs([=](const DepthKernels& kernels) { kernels.SmoothDisparity(rows, count, smooth); });
   call->is_right = [=](uint64_t, Met* met) {
-    for (size_t n = 0; n < count; ++n) {
-      if (std::abs(smooth[n] - rows.own[n]) > rows.tolerance) return false;
+    return AllRight(count, [&](size_t n) {
       ++(*met)[smooth[n] != rows.own[n] ? "smoothed" : "as it was"];
-    }
-    return true;
+      return std::abs(smooth[n] - rows.own[n]) <= rows.tolerance;
+    });
   };
 }
 

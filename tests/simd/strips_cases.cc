@@ -54,7 +54,7 @@ void ShiftSlice(Draw* draw, KernelCall* call) {
   const SlicePlanes in = {call->Input("in", samples) + first, in_plane};
   const SliceFraction fraction = Fraction(draw);
   auto* out = call->Output<int16_t>("out", 3 * plane + rows * kSliceLanes);
-  for (size_t c = 0; c < 4; ++c) call->Result(out + c * plane, rows * kSliceLanes);
+  call->ResultRows(out, 4, plane, rows * kSliceLanes);
   auto* near = call->Results<int8_t>("near", kRowsAhead + rows);
   constexpr int8_t kLeft = 9;
   std::fill_n(near, kRowsAhead + rows, kLeft);
@@ -115,10 +115,8 @@ SliceViews MakeViews(size_t rows, Draw* draw, KernelCall* call, Met* met) {
     slices.push_back(
         MakeTile(kMost + kSkipped + rows + kMost + kRowsAhead, kMost, draw, call, met));
   }
-  std::vector<int16_t> weights(view_count);
-  for (int16_t& weight : weights) {
-    weight = int16_t(draw->Int(0, std::min(16383, 58000 / int(view_count))));
-  }
+  const auto weights = Filled<int16_t>(
+      view_count, [&] { return draw->Int(0, std::min(16383, 58000 / int(view_count))); });
   std::vector<SliceOffset> offsets;
   for (size_t n = 0; n < view_count * count; ++n) {
     offsets.push_back(SliceOffset::Of(draw->Int(-int(kMost), int(kMost)), Fraction(draw)));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cases of the kernels of simd/yuv.h.
 #include "simd/yuv.h"
-#include "tests/simd/image_cases.h"
+#include "tests/simd/kernel_cases.h"
 
 namespace test::image_cases {
 namespace {
@@ -30,59 +30,50 @@ YuvMatrix AnyMatrix(Draw* draw) {
   return m;
 }
 
-std::vector<uint8_t> Codes(size_t count, Draw* draw) { return RandomBytes(count, draw); }
-
 }  // namespace
 
 void YuvToRgb(Draw* draw, ImageCall* call) {
   const size_t count = draw->Length(1, kLongestRow, 1024), half = (count + 1) / 2;
   const YuvMatrix m = AnyMatrix(draw);
-  const uint8_t* y = call->Input("y", Codes(count, draw));
-  const uint8_t* u = call->Input("u", Codes(half, draw));
-  const uint8_t* v = call->Input("v", Codes(half, draw));
-  uint8_t* rgb = call->Output<uint8_t>("rgb", 3 * count);
-  call->Result(rgb, 3 * count);
+  const uint8_t* y = call->Input("y", RandomBytes(count, draw));
+  const uint8_t* u = call->Input("u", RandomBytes(half, draw));
+  const uint8_t* v = call->Input("v", RandomBytes(half, draw));
+  auto* rgb = call->Results<uint8_t>("rgb", 3 * count);
   call->Runs([=](const ImageKernels& kernels) { kernels.YuvToRgb(y, u, v, count, m, rgb); });
 }
 
 void RgbToLuma(Draw* draw, ImageCall* call) {
   const size_t count = draw->Length(1, kLongestRow, 1024);
   const YuvMatrix m = AnyMatrix(draw);
-  const uint8_t* rgb = call->Input("rgb", Codes(3 * count, draw));
-  uint8_t* y = call->Output<uint8_t>("y", count);
-  call->Result(y, count);
+  const uint8_t* rgb = call->Input("rgb", RandomBytes(3 * count, draw));
+  auto* y = call->Results<uint8_t>("y", count);
   call->Runs([=](const ImageKernels& kernels) { kernels.RgbToLuma(rgb, count, m, y); });
 }
 
 void RgbToChroma(Draw* draw, ImageCall* call) {
   const size_t count = draw->Length(1, kLongestRow, 1024), half = (count + 1) / 2;
   const YuvMatrix m = AnyMatrix(draw);
-  const uint8_t* upper = call->Input("upper", Codes(3 * count, draw));
-  const uint8_t* lower = call->Input("lower", Codes(3 * count, draw));
-  uint8_t* u = call->Output<uint8_t>("u", half);
-  uint8_t* v = call->Output<uint8_t>("v", half);
-  call->Result(u, half);
-  call->Result(v, half);
+  const uint8_t* upper = call->Input("upper", RandomBytes(3 * count, draw));
+  const uint8_t* lower = call->Input("lower", RandomBytes(3 * count, draw));
+  auto* u = call->Results<uint8_t>("u", half);
+  auto* v = call->Results<uint8_t>("v", half);
   call->Runs(
       [=](const ImageKernels& kernels) { kernels.RgbToChroma(upper, lower, count, m, u, v); });
 }
 
 void SplitPairs(Draw* draw, ImageCall* call) {
   const size_t count = draw->Length(1, kLongestRow, 1024);
-  const uint8_t* pairs = call->Input("pairs", Codes(2 * count, draw));
-  uint8_t* first = call->Output<uint8_t>("first", count);
-  uint8_t* second = call->Output<uint8_t>("second", count);
-  call->Result(first, count);
-  call->Result(second, count);
+  const uint8_t* pairs = call->Input("pairs", RandomBytes(2 * count, draw));
+  auto* first = call->Results<uint8_t>("first", count);
+  auto* second = call->Results<uint8_t>("second", count);
   call->Runs([=](const ImageKernels& kernels) { kernels.SplitPairs(pairs, count, first, second); });
 }
 
 void JoinPairs(Draw* draw, ImageCall* call) {
   const size_t count = draw->Length(1, kLongestRow, 1024);
-  const uint8_t* first = call->Input("first", Codes(count, draw));
-  const uint8_t* second = call->Input("second", Codes(count, draw));
-  uint8_t* pairs = call->Output<uint8_t>("pairs", 2 * count);
-  call->Result(pairs, 2 * count);
+  const uint8_t* first = call->Input("first", RandomBytes(count, draw));
+  const uint8_t* second = call->Input("second", RandomBytes(count, draw));
+  auto* pairs = call->Results<uint8_t>("pairs", 2 * count);
   call->Runs([=](const ImageKernels& kernels) { kernels.JoinPairs(first, second, count, pairs); });
 }
 
