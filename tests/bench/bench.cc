@@ -5,10 +5,8 @@
 #include <filesystem>
 
 #include "platform/file.h"
-#include "tests/bench/counts.h"
 #include "tests/bench/machine.h"
 #include "tests/bench/output.h"
-#include "tests/bench/report.h"
 #include "tests/bench/rivals.h"
 #include "tests/bench/studies.h"
 #include "tests/bench/timed_engine.h"
@@ -19,7 +17,7 @@ namespace {
 struct Options {
   std::string transfer = "srgb";
   std::vector<std::string> folders;
-  std::string csv, json, html, revision, sweep, x86_counts, arm_counts;
+  std::string csv, json, revision, sweep;
   Choice choice;
   Settings settings;
 };
@@ -34,7 +32,7 @@ Error Check(const Options& options) {
       return Expected("--modes", "block, frame, benchmark or blur", "'" + mode + "'");
     }
   }
-  for (const std::string& path : {options.csv, options.json, options.html}) {
+  for (const std::string& path : {options.csv, options.json}) {
     if (Error error = path.empty() ? Error() : CheckOutputPath(path)) return error;
   }
   for (const double scale : options.choice.n_scales) {
@@ -43,14 +41,6 @@ Error Check(const Options& options) {
   }
   if (options.choice.quantiles.empty()) return Expected("--quantiles", "at least one", "none");
   return {};
-}
-
-std::vector<std::string> MissingTools() {
-  std::vector<std::string> missing;
-  for (const Tool& tool : Tools()) {
-    if (!IsInstalled(tool)) missing.push_back(tool.name);
-  }
-  return missing;
 }
 
 Error MeasureSweeps(const Options& options, std::vector<Row>* rows) {
@@ -64,11 +54,9 @@ Error MeasureSweeps(const Options& options, std::vector<Row>* rows) {
 Error Run(Options options) {
   Error error = Check(options);
   options.settings.folder = std::filesystem::temp_directory_path().string();
-  if (!options.html.empty()) {
-    options.settings.folder = std::filesystem::absolute(options.html).parent_path().string();
+  if (!options.json.empty()) {
+    options.settings.folder = std::filesystem::absolute(options.json).parent_path().string();
   }
-  std::vector<Counts> counts;
-  if (!error) error = ReadCounts(options.x86_counts, options.arm_counts, &counts);
   std::vector<Row> rows;
   for (size_t i = 0; i < options.folders.size() && !error; ++i) {
     Field field;
@@ -80,11 +68,7 @@ Error Run(Options options) {
   if (error) return error;
   const Machine machine = ThisMachine(options.revision);
   error = Save(options.csv, ToCsv(machine, rows));
-  if (!error) error = Save(options.json, ToJson(machine, rows));
-  if (!error && !options.html.empty()) {
-    error = Save(options.html, MakeReport({machine, rows, MissingTools(), counts}));
-  }
-  return error;
+  return error ? error : Save(options.json, ToJson(machine, rows));
 }
 
 void AddOptions(CLI::App* app, Options* options) {
@@ -94,8 +78,7 @@ void AddOptions(CLI::App* app, Options* options) {
   app->add_option("--transfer", options->transfer, "That the truths were traced by")
       ->check(CLI::IsMember({"srgb", "none"}));
   app->add_option("--csv", options->csv, "Table to write");
-  app->add_option("--json", options->json, "The same as JSON");
-  app->add_option("--html", options->html, "Report to write (drawn by gnuplot)");
+  app->add_option("--json", options->json, "The same as JSON, for report.py");
   app->add_option("--modes", choice.modes, "block, frame, benchmark, blur")->delimiter(',');
   app->add_option("--apertures", choice.apertures, "Radii")->delimiter(',');
   app->add_option("--quantiles", choice.quantiles, "Of the disparity map, to focus at")
@@ -119,8 +102,6 @@ void AddOptions(CLI::App* app, Options* options) {
   app->add_option("--sweep", options->sweep, "Light field of the sweeps of radii and sizes");
   app->add_option("--largest-radius", choice.largest_radius, "Of that sweep, pixels; 0: none");
   app->add_option("--largest-size", choice.largest_megapixels, "Megapixels; 0: none");
-  app->add_option("--x86-counts", options->x86_counts, "Instruction counts for the report");
-  app->add_option("--arm-counts", options->arm_counts, "The same of AArch64");
   app->add_option("--revision", options->revision, "Said beside the version");
 }
 

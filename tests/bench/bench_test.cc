@@ -88,12 +88,5 @@ TEST_CASE("Median, spread and quantiles") {
   CHECK(Quantile({4, 0, 2}, 1) == 4);
 }
 
-TEST_CASE("Slope and Pareto front") {
-  CHECK(LogSlope({1, 2, 4}, {3, 12, 48}) == doctest::Approx(2));
-  CHECK(LogSlope({1}, {1}) == 0);
-  const std::vector<Point> points = {{5, 40}, {1, 30}, {2, 29}, {5, 45}, {9, 45}};
-  CHECK(ParetoFront(points) == std::vector<size_t>{1, 3});
-}
-
 }  // namespace
 }  // namespace bench_test

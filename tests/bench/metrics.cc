@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
 namespace starfocus::bench {
 namespace {
@@ -184,31 +183,6 @@ double Quantile(std::vector<float> values, double q) {
   const auto low = static_cast<size_t>(place);
   const size_t high = std::min(low + 1, values.size() - 1);
   return values[low] + (place - double(low)) * (double(values[high]) - values[low]);
-}
-
-double LogSlope(const std::vector<double>& x, const std::vector<double>& y) {
-  const auto n = double(x.size());
-  if (x.size() < 2) return 0;
-  double sx = 0, sy = 0, sxx = 0, sxy = 0;
-  for (size_t i = 0; i < x.size(); ++i) {
-    const double u = std::log(x[i]), v = std::log(y[i]);
-    sx += u, sy += v, sxx += u * u, sxy += u * v;
-  }
-  const double spread = n * sxx - sx * sx;
-  return spread == 0 ? 0 : (n * sxy - sx * sy) / spread;
-}
-
-std::vector<size_t> ParetoFront(const std::vector<Point>& points) {
-  std::vector<size_t> order(points.size()), front;
-  std::iota(order.begin(), order.end(), size_t{0});
-  std::sort(order.begin(), order.end(), [&](size_t a, size_t b) {
-    if (points[a].time != points[b].time) return points[a].time < points[b].time;
-    return points[a].quality > points[b].quality;
-  });
-  for (const size_t i : order) {
-    if (front.empty() || points[i].quality > points[front.back()].quality) front.push_back(i);
-  }
-  return front;
 }
 
 }  // namespace starfocus::bench

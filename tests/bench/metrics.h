@@ -35,14 +35,6 @@ double Median(std::vector<double> values);  // 0 of none
 double Spread(const std::vector<double>& values);
 // Linear interpolation between the sorted values, q in [0, 1].
 double Quantile(std::vector<float> values, double q);
-// Slope of the least-squares line of log y over log x; 0 with fewer than two points.
-double LogSlope(const std::vector<double>& x, const std::vector<double>& y);
-
-struct Point {
-  double time, quality;
-};
-// Indices of the points that no other beats in both, by rising time.
-std::vector<size_t> ParetoFront(const std::vector<Point>& points);
 
 }  // namespace starfocus::bench
 

@@ -32,6 +32,7 @@ Json Describe(const Machine& machine, const Row& row) {
   json["views"] = row.task.views;
   json["max_layer"] = row.task.max_layer;
   json["superblock"] = row.superblock;
+  json["superblock_option"] = row.task.superblock;
   json["renderer"] = row.task.renderer == STARFOCUS_RENDERER_AUTO        ? "auto"
                      : row.task.renderer == STARFOCUS_RENDERER_LINE_SCAN ? "line-scan"
                                                                          : "slices";
@@ -43,6 +44,7 @@ Json Describe(const Machine& machine, const Row& row) {
   json["r_max"] = Number(row.r_max);
   json["N"] = row.n;
   json["rendered_views"] = row.rendered_views;
+  json["rendered_samples"] = row.rendered_samples;
   AddQuality("benchmark", row.benchmark, &json);
   AddQuality("truth", row.truth, &json);
   json["ms"] = row.ms;
@@ -66,12 +68,6 @@ Json Describe(const Machine& machine, const Row& row) {
   return json;
 }
 
-// Texts never hold quotes but may hold commas.
-std::string Cell(const Json& value) {
-  if (value.is_null()) return "";
-  return value.dump();
-}
-
 }  // namespace
 
 std::string ToCsv(const Machine& machine, const std::vector<Row>& rows) {
@@ -81,7 +77,8 @@ std::string ToCsv(const Machine& machine, const std::vector<Row>& rows) {
     std::string head, line;
     for (const auto& item : json.items()) {
       head += (head.empty() ? "" : ",") + item.key();
-      line += (line.empty() ? "" : ",") + Cell(item.value());
+      // Texts never hold quotes but may hold commas.
+      line += (line.empty() ? "" : ",") + (item.value().is_null() ? "" : item.value().dump());
     }
     if (text.empty()) text = head + "\n";
     text += line + "\n";
