@@ -195,68 +195,34 @@ public final class RefocuserTest {
     checkThrows(StarfocusException.class, "views: ", () -> refocusedFrom(new int[] {0, 1}, null));
   }
 
-  /** The light field of picture() and ramp() at half its size, of codes as they are. */
-  private static LightField half() {
+  /** What a preview computes, the tests of the C API check. */
+  private static void aPreviewHasItsOwnSizeAndRegion() {
     final int width = WIDTH / 2, height = HEIGHT / 2;
-    final ByteBuffer whole = picture(), ramp = ramp();
-    final ByteBuffer pixels = bytes(3 * width * height), map = bytes(4 * width * height);
-    for (int y = 0; y < height; ++y) {
-      for (int i = 0; i < 3 * width; ++i) {
-        final int at = 3 * WIDTH * 2 * y + 6 * (i / 3) + i % 3, below = at + 3 * WIDTH;
-        final int sum = (whole.get(at) & 255) + (whole.get(at + 3) & 255) + (whole.get(below) & 255)
-            + (whole.get(below + 3) & 255);
-        pixels.put(3 * width * y + i, (byte) ((sum + 2) / 4));
-      }
-      for (int x = 0; x < width; ++x) {
-        // Of four, of which each column's are alike, the larger one in the middle.
-        final double larger = Math.floor(64 * ramp.getFloat(4 * (2 * x + 1)) + 0.5);
-        map.putFloat(4 * (width * y + x), (float) (Math.floor(larger / 2 + 0.5) / 64));
-      }
-    }
-    return new LightField(new Image[] {new Image(Image.RGB, pixels, 3 * width)},
-        new DepthMap(DepthMap.FLOAT, map, 4 * width, width, height));
-  }
-
-  private static void aPreviewIsOfTheReducedLightField() {
-    final int width = WIDTH / 2, height = HEIGHT / 2;
-    final Configuration configuration = configuration(), reduced = configuration();
-    configuration.transfer = reduced.transfer = Configuration.TRANSFER_NONE;
+    final Configuration configuration = configuration();
     configuration.previews = 2;
-    configuration.superblock = reduced.superblock = 32;
-    reduced.width = width;
-    reduced.height = height;
-    reduced.disparityMin /= 2;
-    reduced.disparityMax /= 2;
     final Parameters parameters = new Parameters();
-    final ByteBuffer expected = bytes(3 * width * height), found = bytes(3 * width * height);
-    parameters.focus = 0.5;
-    try (Refocuser refocuser = new Refocuser(reduced)) {
-      refocuser.refocus(half(), parameters, new Image(Image.RGB, expected, 3 * width));
-    }
-    parameters.focus = 1;
+    final ByteBuffer found = bytes(3 * width * height), part = bytes(12);
     try (Refocuser refocuser = new Refocuser(configuration)) {
       final Image out = new Image(Image.RGB, found, 3 * width);
       checkThrows(IllegalStateException.class, "no light field is prepared",
           () -> refocuser.preview(1, parameters, out));
       refocuser.prepare(field(picture()));
       refocuser.preview(1, parameters, out);
-      check(found.equals(expected), "a preview is of the reduced light field");
       checkThrows(StarfocusException.class, "shift: ", () -> refocuser.preview(3, parameters, out));
+      final Image small = new Image(Image.RGB, bytes(3 * width * height - 1), 3 * width);
       checkThrows(IllegalArgumentException.class, "expected a buffer of",
-          ()
-              -> refocuser.preview(
-                  1, parameters, new Image(Image.RGB, bytes(3 * width * height - 1), 3 * width)));
+          () -> refocuser.preview(1, parameters, small));
       parameters.regionX = 33;
       parameters.regionY = 21;
       parameters.regionWidth = parameters.regionHeight = 2;
-      final ByteBuffer part = bytes(12);
       refocuser.preview(1, parameters, new Image(Image.RGB, part, 6));
-      boolean equal = true;
-      for (int i = 0; i < 12; ++i) {
-        equal &= part.get(i) == found.get(3 * (width * (10 + i / 6) + 16) + i % 6);
-      }
-      check(equal, "a region of a preview is that of the preview");
     }
+    boolean equal = true, empty = true;
+    for (int i = 0; i < 12; ++i) {
+      equal &= part.get(i) == found.get(3 * (width * (10 + i / 6) + 16) + i % 6);
+      empty &= part.get(i) == 0;
+    }
+    check(equal && !empty, "a region of a preview is that of the preview");
   }
 
   private static void chromaOfACameraComesBack() {
@@ -290,56 +256,46 @@ public final class RefocuserTest {
         "one colour of a camera comes back");
   }
 
+  private interface Refusal {
+    void check(String part, LightField field, Image out);
+  }
+
   private static void buffersAreChecked() {
     final Parameters parameters = new Parameters();
     final int bytes = 3 * WIDTH * HEIGHT;
+    final ByteBuffer late = picture(), early = picture();
+    late.position(1);
+    early.limit(bytes - 1);
+    final LightField good = field(picture());
+    final Image out = out(bytes(bytes));
+    final DepthMap small =
+        new DepthMap(DepthMap.FLOAT, bytes(4 * WIDTH * HEIGHT - 1), 4 * WIDTH, WIDTH, HEIGHT);
     try (Refocuser refocuser = new Refocuser(configuration())) {
-      checkThrows(IllegalArgumentException.class,
-          "expected a buffer of 57600 bytes at least, found 57599",
-          () -> refocuser.refocus(field(picture()), parameters, out(bytes(bytes - 1))));
-      checkThrows(IllegalArgumentException.class, "view 0, plane 0: expected a buffer of",
-          () -> refocuser.refocus(field(bytes(bytes - 1)), parameters, out(bytes(bytes))));
-      final ByteBuffer late = picture();
-      late.position(1);
-      checkThrows(IllegalArgumentException.class, "view 0, plane 0: expected a buffer of",
-          () -> refocuser.refocus(field(late), parameters, out(bytes(bytes))));
-      final ByteBuffer early = picture();
-      early.limit(bytes - 1);
-      checkThrows(IllegalArgumentException.class, "view 0, plane 0: expected a buffer of",
-          () -> refocuser.prepare(field(early)));
+      final Refusal refuses = (part, field, to)
+          -> checkThrows(
+              IllegalArgumentException.class, part, () -> refocuser.refocus(field, parameters, to));
+      final String few = "view 0, plane 0: expected a buffer of";
+      refuses.check(
+          "expected a buffer of 57600 bytes at least, found 57599", good, out(bytes(bytes - 1)));
+      refuses.check(few, field(bytes(bytes - 1)), out);
+      refuses.check(few, field(late), out);
+      refuses.check("writable", good, out(bytes(bytes).asReadOnlyBuffer()));
+      refuses.check(
+          "depth: expected a buffer of", new LightField(new Image[] {out(picture())}, small), out);
+      refuses.check("views: expected 1, found 0", new LightField(new Image[0], depth(ramp())), out);
+      refuses.check("expected 2 planes, found 1", good, new Image(Image.NV12, bytes(bytes), WIDTH));
+      refuses.check("stride of 0 or more, found -1", good, new Image(Image.RGB, bytes(bytes), -1));
+      checkThrows(IllegalArgumentException.class, few, () -> refocuser.prepare(field(early)));
       checkThrows(IllegalArgumentException.class, "direct", () -> out(ByteBuffer.allocate(bytes)));
-      checkThrows(IllegalArgumentException.class, "writable",
-          ()
-              -> refocuser.refocus(
-                  field(picture()), parameters, out(bytes(bytes).asReadOnlyBuffer())));
-      checkThrows(IllegalArgumentException.class, "depth: expected a buffer of",
-          ()
-              -> refocuser.refocus(new LightField(new Image[] {out(picture())},
-                                       new DepthMap(DepthMap.FLOAT, bytes(4 * WIDTH * HEIGHT - 1),
-                                           4 * WIDTH, WIDTH, HEIGHT)),
-                  parameters, out(bytes(bytes))));
-      checkThrows(IllegalArgumentException.class, "views: expected 1, found 0",
-          ()
-              -> refocuser.refocus(
-                  new LightField(new Image[0], depth(ramp())), parameters, out(bytes(bytes))));
-      checkThrows(IllegalArgumentException.class, "expected 2 planes, found 1",
-          ()
-              -> refocuser.refocus(
-                  field(picture()), parameters, new Image(Image.NV12, bytes(bytes), WIDTH)));
-      checkThrows(IllegalArgumentException.class, "stride of 0 or more, found -1",
-          ()
-              -> refocuser.refocus(
-                  field(picture()), parameters, new Image(Image.RGB, bytes(bytes), -1)));
-      checkThrows(NullPointerException.class, "parameters",
-          () -> refocuser.refocus(field(picture()), null, out(bytes(bytes))));
-      checkThrows(StarfocusException.class, "stride",
-          ()
-              -> refocuser.refocus(
-                  field(picture()), parameters, new Image(Image.RGB, bytes(bytes), 7)));
+      checkThrows(
+          NullPointerException.class, "parameters", () -> refocuser.refocus(good, null, out));
+      final Image narrow = new Image(Image.RGB, bytes(bytes), 7);
+      checkThrows(
+          StarfocusException.class, "stride", () -> refocuser.refocus(good, parameters, narrow));
       parameters.regionX = WIDTH;
       parameters.regionWidth = parameters.regionHeight = 1;
-      checkThrows(StarfocusException.class, "region",
-          () -> refocuser.refocus(field(picture()), parameters, out(bytes(bytes))));
+      checkThrows(
+          StarfocusException.class, "region", () -> refocuser.refocus(good, parameters, out));
     }
   }
 
@@ -470,7 +426,7 @@ public final class RefocuserTest {
     theLensChangesItsShape();
     everyWayGivesTheSameBytes();
     viewsLieWhereTheyAreSaidTo();
-    aPreviewIsOfTheReducedLightField();
+    aPreviewHasItsOwnSizeAndRegion();
     chromaOfACameraComesBack();
     buffersAreChecked();
     randomArgumentsWriteNothingBeyondTheOutput();
