@@ -10,11 +10,11 @@
 #include <cstring>
 #include <initializer_list>
 #include <limits>
-#include <new>
 #include <vector>
 
 #include "lib/base/fixed.h"
 #include "lib/depth/colour_map.h"
+#include "tests/depth/depth_scene.h"
 #include "tests/depth/disc_photo.h"
 #include "tests/support/test_scene.h"
 
@@ -33,28 +33,34 @@ struct Repaired {
   std::vector<uint8_t> confidence;
 };
 
-Repaired Repair(const Photo& photo) {
+starfocus::EstimatePlan PlanOf(const Photo& photo) {
   starfocus_depth_config config;
   starfocus_depth_config_init(&config);
   config.width = photo.width;
   config.height = photo.height;
-  const starfocus::EstimatePlan plan = starfocus::MakePlan(config);
-  starfocus::ColourMemory* memory = nullptr;
-  const size_t bytes = starfocus::LayOutColourRepair(plan, 1, nullptr, &memory);
-  void* base = ::operator new(bytes, std::align_val_t(STARFOCUS_ALIGNMENT));
-  std::memset(base, 0xA5, bytes);
-  starfocus::LayOutColourRepair(plan, 1, base, &memory);
+  return starfocus::MakePlan(config);
+}
+
+starfocus_light_field FieldOf(const Photo& photo) {
   starfocus_light_field field = {};
   const auto width = size_t(photo.width);
   field.views[0] = starfocus_image_rgb(photo.rgb.data(), 3 * width);
   field.depth =
       starfocus_depth_float(photo.map.data(), width * sizeof(float), photo.width, photo.height);
+  return field;
+}
+
+Repaired Repair(const Photo& photo) {
+  const starfocus::EstimatePlan plan = PlanOf(photo);
+  starfocus::ColourMemory* memory = nullptr;
+  const test::Memory base(starfocus::LayOutColourRepair(plan, 1, nullptr, &memory));
+  starfocus::LayOutColourRepair(plan, 1, base.data, &memory);
+  const auto width = size_t(photo.width);
   Repaired result = {std::vector<float>(photo.map.size()), std::vector<uint8_t>(photo.map.size())};
   const starfocus::MapOutput output = {result.map.data(),        width, -500,    500,
                                        result.confidence.data(), width, nullptr, 0};
-  CHECK(RepairByColour(plan, field, starfocus::simd::BestDepthKernels(), output, memory) ==
+  CHECK(RepairByColour(plan, FieldOf(photo), starfocus::simd::BestDepthKernels(), output, memory) ==
         STARFOCUS_OK);
-  ::operator delete(base, std::align_val_t(STARFOCUS_ALIGNMENT));
   return result;
 }
 
@@ -200,15 +206,8 @@ TEST_CASE("colour repair: rows without a known value are those of the nearest kn
   std::fill(photo.map.begin(), photo.map.end(), kNan);
   photo.Map(0, 2) = 1, photo.Map(1, 2) = 4;
   photo.Map(0, 6) = 3, photo.Map(1, 6) = 2;
-  starfocus_depth_config config;
-  starfocus_depth_config_init(&config);
-  config.width = photo.width;
-  config.height = photo.height;
-  starfocus_light_field field = {};
-  field.depth =
-      starfocus_depth_float(photo.map.data(), 2 * sizeof(float), photo.width, photo.height);
   std::vector<int16_t> filled(photo.map.size());
-  starfocus::ReadMap(starfocus::MakePlan(config), field, filled.data());
+  starfocus::ReadMap(PlanOf(photo), FieldOf(photo), filled.data());
   // In the middle, as far from both, the farther surface counts.
   const int expected[] = {1, 4, 1, 4, 1, 4, 1, 4, 1, 2, 3, 2, 3, 2, 3, 2};
   for (size_t k = 0; k < filled.size(); ++k) CHECK(filled[k] == expected[k] << kDisparityBits);
@@ -221,12 +220,8 @@ TEST_CASE("colour repair: pixels beside steps are doubted, but not those of thin
   }
   std::vector<int16_t> fixed(photo.map.size());
   for (size_t k = 0; k < fixed.size(); ++k) fixed[k] = int16_t(64 * photo.map[k]);
-  starfocus_depth_config config;
-  starfocus_depth_config_init(&config);
-  config.width = 60, config.height = 40;
-  const starfocus::EstimatePlan plan = starfocus::MakePlan(config);
-  starfocus_light_field field = {};
-  field.depth = starfocus_depth_float(photo.map.data(), 60 * sizeof(float), 60, 40);
+  const starfocus::EstimatePlan plan = PlanOf(photo);
+  const starfocus_light_field field = FieldOf(photo);
   std::vector<uint8_t> scratch(fixed.size()), doubt(fixed.size());
   starfocus::MeasureDoubt({plan, field, fixed.data()}, {0, 0, 60, 40}, scratch.data(),
                           doubt.data());

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "starfocus/depth.h"
+#include "tests/support/symmetry.h"
 #include "tests/support/test_scene.h"
 
 namespace test {
@@ -52,18 +53,44 @@ struct PlaneField {
   }
 };
 
-inline PlaneField RenderPlanes(const PlaneScene& scene) {
-  PlaneField field = {scene.width, scene.height, {}};
-  for (int k = 0; k < scene.views; ++k) {
+// Views whose samples are pixel(u, v, x, y, c).
+template <class Pixel>
+PlaneField RenderViews(int width, int height, int views, const Pixel& pixel) {
+  PlaneField field = {width, height, {}};
+  for (int k = 0; k < views; ++k) {
     double u = 0, v = 0;
     starfocus_view_position(k, &u, &v);
     std::vector<uint8_t> view;
-    for (int y = 0; y < scene.height; ++y) {
-      for (int x = 0; x < 3 * scene.width; ++x) view.push_back(scene.Pixel(u, v, x / 3, y, x % 3));
+    for (int at = 0; at < 3 * width * height; ++at) {
+      view.push_back(pixel(u, v, at / 3 % width, at / 3 / width, at % 3));
     }
     field.views.push_back(view);
   }
   return field;
+}
+inline PlaneField RenderPlanes(const PlaneScene& scene) {
+  return RenderViews(
+      scene.width, scene.height, scene.views,
+      [&](double u, double v, int x, int y, int c) { return scene.Pixel(u, v, x, y, c); });
+}
+
+// The scene's map, its near plane wider by `grown` pixels on both sides.
+inline std::vector<float> MapOf(PlaneScene scene, int grown = 0) {
+  scene.near_left -= grown;
+  scene.near_right += grown;
+  std::vector<float> map;
+  for (int at = 0; at < scene.width * scene.height; ++at) {
+    map.push_back(float(scene.DisparityAt(at % scene.width)));
+  }
+  return map;
+}
+
+inline std::vector<PlaneScene> ScenesOfAnySize() {
+  std::vector<PlaneScene> scenes;
+  for (const int width : {1, 2, 17, 33}) {
+    for (const int height : {1, 3, 30}) scenes.push_back({width, height, 5});
+  }
+  return scenes;
 }
 
 inline starfocus_depth_config ConfigOf(const PlaneField& field, float low, float high) {
@@ -115,6 +142,10 @@ inline MadeMap MakeMap(const PlaneField& field, const starfocus_depth_config& co
   return made;
 }
 
+inline void CheckWithin(const std::vector<float>& disparity, float low, float high) {
+  for (const float value : disparity) REQUIRE((value >= low && value <= high));
+}
+
 inline double ShareOff(const PlaneScene& scene, const std::vector<float>& disparity, double by) {
   int off = 0;
   for (int y = 0; y < scene.height; ++y) {
@@ -126,35 +157,19 @@ inline double ShareOff(const PlaneScene& scene, const std::vector<float>& dispar
   return double(off) / (scene.width * scene.height);
 }
 
-// The light field mirrored at the x or the y axis.
-inline PlaneField MirroredField(const PlaneField& field, bool across) {
+// The light field mirrored.
+inline PlaneField MirroredField(const PlaneField& field, const Symmetry& mirror) {
   PlaneField mirrored = field;
   for (int k = 0; k < int(field.views.size()); ++k) {
-    double u = 0, v = 0;
-    starfocus_view_position(k, &u, &v);
-    int from = 0;
-    for (int other = 0; other < int(field.views.size()); ++other) {
-      double a = 0, b = 0;
-      starfocus_view_position(other, &a, &b);
-      if (a == (across ? -u : u) && b == (across ? v : -v)) from = other;
-    }
-    for (int y = 0; y < field.height; ++y) {
-      for (int x = 0; x < field.width; ++x) {
-        const int to_x = across ? field.width - 1 - x : x, to_y = across ? y : field.height - 1 - y;
-        for (int c = 0; c < 3; ++c) {
-          mirrored.views[size_t(k)][size_t(3 * (to_y * field.width + to_x) + c)] =
-              field.views[size_t(from)][size_t(3 * (y * field.width + x) + c)];
-        }
-      }
+    const std::vector<uint8_t>& from = field.views[size_t(k)];
+    std::vector<uint8_t>& to = mirrored.views[size_t(MoveView(mirror, k))];
+    for (int at = 0; at < field.width * field.height; ++at) {
+      const auto [x, y] =
+          Move(mirror, field.width, field.height, at % field.width, at / field.width);
+      std::copy_n(from.begin() + 3 * at, 3, to.begin() + 3 * (y * field.width + x));
     }
   }
   return mirrored;
-}
-
-// Jobs backwards, by two workers in turns.
-inline int RunBackwards(void*, starfocus_job job, void* data, int32_t count) {
-  for (int32_t index = count - 1; index >= 0; --index) job(data, index, index % 2);
-  return 0;
 }
 
 }  // namespace test

@@ -30,45 +30,20 @@ struct Found {
   std::vector<uint8_t> confidence, coverage;
 };
 
-struct Call {
-  bool covers = true;  // requests coverage
-  starfocus_runner runner = nullptr;
-  int* calls = nullptr;  // calls of the progress function before it cancels; null: none
-};
-
-Found Repair(const Portrait& portrait, const Call& call = {}) {
-  starfocus_depth_config config;
-  starfocus_depth_config_init(&config);
-  config.width = Portrait::kWidth;
-  config.height = Portrait::kHeight;
-  config.views = 1;
-  config.disparity_min = -12;
-  config.disparity_max = 12;
-  config.max_workers = call.runner != nullptr ? 2 : 1;
-  config.runner = call.runner;
-  config.progress_data = call.calls;
-  if (call.calls != nullptr) {
-    config.progress = [](void* data, int32_t, int32_t) -> int {
-      return --*static_cast<int*>(data) < 0 ? 1 : 0;
-    };
-  }
+Found Repair(const Portrait& portrait, bool covers = true) {
+  const test::PlaneField plane = {Portrait::kWidth, Portrait::kHeight, {portrait.rgb}};
+  const starfocus_depth_config config = test::ConfigOf(plane, -12, 12);
   size_t bytes = 0;
   REQUIRE(starfocus_repair_workspace_size(&config, &bytes) == STARFOCUS_OK);
   const test::Memory memory(bytes);
-  const size_t width = Portrait::kWidth, pixels = portrait.map.size();
-  starfocus_light_field field = {};
-  field.views[0] = starfocus_image_rgb(portrait.rgb.data(), 3 * width);
-  field.depth = starfocus_depth_float(portrait.map.data(), sizeof(float) * width, Portrait::kWidth,
-                                      Portrait::kHeight);
+  const size_t width = Portrait::kWidth, row = sizeof(float) * width, pixels = portrait.map.size();
+  starfocus_light_field field = plane.Get();
+  field.depth = starfocus_depth_float(portrait.map.data(), row, plane.width, plane.height);
   Found found = {STARFOCUS_OK, 0, std::vector<float>(pixels, NAN), std::vector<uint8_t>(pixels, 77),
                  std::vector<uint8_t>(pixels, 77)};
-  starfocus_disparity_output map = {found.map.data(),
-                                    sizeof(float) * width,
-                                    found.confidence.data(),
-                                    width,
-                                    call.covers ? found.coverage.data() : nullptr,
-                                    width,
-                                    -1};
+  starfocus_disparity_output map = {
+      found.map.data(), row, found.confidence.data(), width, nullptr, width, -1};
+  if (covers) map.coverage = found.coverage.data();
   found.status = starfocus_repair_disparity(&config, &field, &map, memory.data, bytes);
   found.has_coverage = map.has_coverage;
   return found;
@@ -135,7 +110,7 @@ TEST_CASE(
   Portrait portrait;
   portrait.Draw();
   for (size_t k = 0; k < portrait.map.size(); k += 7) portrait.map[k] += 0.01F;
-  const Found asked = Repair(portrait), unasked = Repair(portrait, {false});
+  const Found asked = Repair(portrait), unasked = Repair(portrait, false);
   CHECK(asked.has_coverage == 0);
   CHECK(unasked.has_coverage == 0);
   CHECK(asked.map == unasked.map);
@@ -166,33 +141,6 @@ TEST_CASE("hair coverage: a map without edges has none") {
   CHECK(Repair(portrait).has_coverage == 0);
 }
 
-TEST_CASE("hair coverage: the same bytes backwards by two workers") {
-  Portrait portrait = MakeClosedHair();
-  portrait.map[portrait.At(100, 80)] = NAN;
-  const Found one = Repair(portrait), two = Repair(portrait, {true, test::RunBackwards});
-  REQUIRE(one.has_coverage == 1);
-  CHECK(two.has_coverage == 1);
-  CHECK(one.map == two.map);
-  CHECK(one.confidence == two.confidence);
-  CHECK(one.coverage == two.coverage);
-  CHECK(one.map[portrait.At(100, 80)] == kNear);
-}
-
-TEST_CASE("hair coverage: a call can be cancelled in each phase") {
-  const Portrait portrait = MakeClosedHair();
-  int count = 1000;
-  REQUIRE(Repair(portrait, {true, nullptr, &count}).has_coverage == 1);
-  count = 1000 - count;
-  CHECK(count > starfocus::kHairPhases);
-  for (int stop = 0; stop < count; ++stop) {
-    CAPTURE(stop);
-    int left = stop;
-    const Found found = Repair(portrait, {true, nullptr, &left});
-    CHECK(found.status == STARFOCUS_ERROR_CANCELLED);
-    CHECK(found.has_coverage == 0);
-  }
-}
-
 TEST_CASE("hair coverage: hair across the whole picture, and no edge 40 pixels below it") {
   Portrait portrait = MakeClosedHair();
   portrait.hair = {0, 60, 240, 110};
@@ -205,41 +153,6 @@ TEST_CASE("hair coverage: hair across the whole picture, and no edge 40 pixels b
     REQUIRE(found.coverage[portrait.At(x, 112)] == 255);
     REQUIRE(found.coverage[portrait.At(x, 5)] == 255);
   }
-}
-
-TEST_CASE("hair coverage: bad planes have their errors, and nothing is written") {
-  const Portrait portrait = MakeClosedHair();
-  starfocus_depth_config config;
-  starfocus_depth_config_init(&config);
-  config.width = Portrait::kWidth, config.height = Portrait::kHeight, config.views = 1;
-  config.disparity_min = -12, config.disparity_max = 12;
-  size_t bytes = 0;
-  REQUIRE(starfocus_repair_workspace_size(&config, &bytes) == STARFOCUS_OK);
-  const test::Memory memory(bytes);
-  const size_t width = Portrait::kWidth;
-  starfocus_light_field field = {};
-  field.views[0] = starfocus_image_rgb(portrait.rgb.data(), 3 * width);
-  field.depth = starfocus_depth_float(portrait.map.data(), sizeof(float) * width, Portrait::kWidth,
-                                      Portrait::kHeight);
-  std::vector<float> to(portrait.map.size(), 42);
-  std::vector<uint8_t> sure(to.size(), 42), coverage(to.size(), 42);
-  const auto status = [&](uint8_t* covers, size_t stride) {
-    starfocus_disparity_output map = {
-        to.data(), sizeof(float) * width, sure.data(), width, covers, stride, -1};
-    const starfocus_status got =
-        starfocus_repair_disparity(&config, &field, &map, memory.data, bytes);
-    CHECK(map.has_coverage == -1);
-    return got;
-  };
-  CHECK(status(coverage.data(), width - 1) == STARFOCUS_ERROR_STRIDE);
-  CHECK(status(sure.data(), width) == STARFOCUS_ERROR_OVERLAP);
-  CHECK(status(reinterpret_cast<uint8_t*>(to.data()), width) == STARFOCUS_ERROR_OVERLAP);
-  CHECK(status(const_cast<uint8_t*>(portrait.rgb.data()), width) == STARFOCUS_ERROR_OVERLAP);
-  CHECK(status(static_cast<uint8_t*>(memory.data), width) == STARFOCUS_ERROR_OVERLAP);
-  CHECK(starfocus_repair_disparity(&config, &field, nullptr, memory.data, bytes) ==
-        STARFOCUS_ERROR_NULL);
-  for (const float value : to) REQUIRE(value == 42);
-  for (const uint8_t value : sure) REQUIRE(value == 42);
 }
 
 // A pyramid in which no colour is known.

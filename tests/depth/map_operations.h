@@ -15,11 +15,13 @@
 
 #include "lib/depth/colour_repair.h"
 #include "lib/depth/estimate.h"
+#include "lib/depth/hair_coverage.h"
 #include "lib/depth/repair.h"
 #include "starfocus/depth.h"
 #include "tests/depth/depth_scene.h"
 #include "tests/depth/disc_photo.h"
 #include "tests/properties/operations.h"
+#include "tests/support/closed_hair.h"
 
 namespace properties {
 
@@ -27,6 +29,7 @@ struct MapInput {
   test::PlaneField field;
   std::vector<float> given;  // empty: the map is estimated
   float low, high;
+  bool covers = false;  // the repair has to find coverage
 };
 
 // Two planes of some tiles; for a repair a noisy map, whose near plane is too wide.
@@ -37,12 +40,9 @@ inline MapInput Planes(int width, int height, int views, bool repairs) {
   scene.views = views;
   MapInput input = {test::RenderPlanes(scene), {}, -4, 7};
   if (!repairs) return input;
-  scene.near_left -= 3;
-  scene.near_right += 3;
+  input.given = test::MapOf(scene, 3);
   test::Random random(7);
-  for (int i = 0; i < width * height; ++i) {
-    input.given.push_back(float(scene.DisparityAt(i % width) + random.Real(-0.7, 0.7)));
-  }
+  for (float& disparity : input.given) disparity += float(random.Real(-0.7, 0.7));
   return input;
 }
 
@@ -55,12 +55,22 @@ inline MapInput Disc(bool noisy) {
   return {{photo.width, photo.height, {photo.rgb}}, photo.map, -500, 500};
 }
 
+// A portrait whose hair gets coverage: whole cells of pixels, which mirrored are cells again.
+inline MapInput Hair() {
+  constexpr int kWidth = test::ClosedHair::kWidth, kHeight = test::ClosedHair::kHeight / 4 * 4;
+  test::ClosedHair portrait = test::MakeClosedHair();
+  portrait.rgb.resize(3 * size_t(kWidth * kHeight));
+  portrait.map.resize(size_t(kWidth * kHeight));
+  portrait.map[portrait.At(100, 80)] = std::numeric_limits<float>::quiet_NaN();
+  return {{kWidth, kHeight, {portrait.rgb}}, portrait.map, -12, 12, true};
+}
+
 // A map in the making.
 struct Maps {
   Maps(MapInput of, const Setup& how) : input(std::move(of)), setup(how) {
     const test::Symmetry& mirror = setup.mirror;
     if (mirror.mirror_x || mirror.mirror_y) {
-      input.field = test::MirroredField(input.field, mirror.mirror_x);
+      input.field = test::MirroredField(input.field, mirror);
       if (!input.given.empty()) input.given = Mirrored(input.given);
     }
     config = test::ConfigOf(input.field, input.low, input.high);
@@ -99,18 +109,23 @@ struct Maps {
       field.depth = starfocus_depth_float(input.given.data(), sizeof(float) * width, config.width,
                                           config.height);
     }
+    std::vector<uint8_t> coverage(pixels, 0);
+    starfocus_disparity_output map = {
+        disparity.data(), sizeof(float) * width, confidence.data(), width, nullptr, width, -1};
+    if (input.covers) map.coverage = coverage.data();
     starfocus_status status = STARFOCUS_OK;
     if (setup.depth_kernels != nullptr) {
-      status = MakeBy(
-          *setup.depth_kernels, field,
-          {disparity.data(), width, input.low, input.high, confidence.data(), width, nullptr, 0});
+      status = MakeBy(*setup.depth_kernels, field,
+                      {disparity.data(), width, input.low, input.high, confidence.data(), width,
+                       map.coverage, width});
     } else {
       const auto make =
           input.given.empty() ? starfocus_estimate_disparity : starfocus_repair_disparity;
-      starfocus_disparity_output map = {
-          disparity.data(), sizeof(float) * width, confidence.data(), width, nullptr, 0, 0};
       status = make(&config, &field, &map, memory->data, memory->bytes);
+      CHECK(map.has_coverage == int(status == STARFOCUS_OK && input.covers));
     }
+    // The bytes of both.
+    for (size_t n = 0; n < pixels; ++n) confidence[n] = uint8_t(confidence[n] ^ coverage[n]);
     disparity = Mirrored(disparity);
     *out = Mirrored(confidence);
     out->resize(pixels * (1 + sizeof(float)));
@@ -160,6 +175,7 @@ inline std::vector<Operation> MapOperations() {
   }
   add("repair by colours", 6, Disc(false));
   add("repair by colours: noise", 6, Disc(true));
+  add("repair by colours: hair", starfocus::kHairPhases, Hair());
   return all;
 }
 

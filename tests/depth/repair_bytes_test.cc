@@ -6,10 +6,8 @@
 #include <limits>
 #include <vector>
 
-#include "lib/depth/repair.h"
 #include "starfocus/depth.h"
 #include "tests/depth/depth_scene.h"
-#include "tests/support/simd_targets.h"
 
 namespace repair_bytes_test {
 namespace {
@@ -17,18 +15,6 @@ namespace {
 using namespace test;
 
 constexpr float kLow = -6, kHigh = 8;
-
-// The scene's map, its near plane wider by `grown` pixels on both sides.
-std::vector<float> MapOf(const PlaneScene& scene, int grown) {
-  PlaneScene other = scene;
-  other.near_left -= grown;
-  other.near_right += grown;
-  std::vector<float> map;
-  for (int y = 0; y < scene.height; ++y) {
-    for (int x = 0; x < scene.width; ++x) map.push_back(float(other.DisparityAt(x)));
-  }
-  return map;
-}
 
 TEST_CASE("repair: edges that lie beside those of the picture go there") {
   for (const int views : {5, 9, 17}) {
@@ -113,19 +99,7 @@ struct StrandScene {
     }
     return uint8_t(sum / 16 + 0.5);
   }
-  static PlaneField Render(int views) {
-    PlaneField field = {kWidth, kHeight, {}};
-    for (int k = 0; k < views; ++k) {
-      double u = 0, v = 0;
-      starfocus_view_position(k, &u, &v);
-      std::vector<uint8_t> view;
-      for (int at = 0; at < 3 * kWidth * kHeight; ++at) {
-        view.push_back(Pixel(u, v, at / 3 % kWidth, at / 3 / kWidth, at % 3));
-      }
-      field.views.push_back(view);
-    }
-    return field;
-  }
+  static PlaneField Render(int views) { return RenderViews(kWidth, kHeight, views, Pixel); }
   static std::vector<float> Map() {
     std::vector<float> map;
     for (int at = 0; at < kWidth * kHeight; ++at) {
@@ -209,74 +183,24 @@ TEST_CASE("repair: what is unknown gets the disparity that the views show") {
 }
 
 TEST_CASE("repair: pictures of any size, within the range") {
-  for (const int width : {1, 2, 17, 33}) {
-    for (const int height : {1, 3, 30}) {
-      PlaneScene scene;
-      scene.width = width;
-      scene.height = height;
-      scene.views = 5;
-      const PlaneField field = RenderPlanes(scene);
-      const starfocus_depth_config config = ConfigOf(field, -500, 500);
-      for (const float value : MakeMap(field, config, MapOf(scene, 1)).disparity) {
-        CHECK((value >= -500 && value <= 500));
-      }
-    }
+  for (const PlaneScene& scene : ScenesOfAnySize()) {
+    const PlaneField field = RenderPlanes(scene);
+    CheckWithin(MakeMap(field, ConfigOf(field, -500, 500), MapOf(scene, 1)).disparity, -500, 500);
   }
 }
 
 TEST_CASE("repair: a noisy map of one view stays in its range") {
   constexpr int kSide = 64;
-  const std::vector<uint8_t> picture(3 * kSide * kSide, 90);
-  std::vector<float> given, found(kSide * kSide, NAN);
+  const PlaneField field = {kSide, kSide, {std::vector<uint8_t>(3 * kSide * kSide, 90)}};
+  std::vector<float> given;
   test::Random random(11);
   const float low = 1.003F, high = 7;  // 1.003 is not a multiple of 1/64
   for (int at = 0; at < kSide * kSide; ++at) {
     given.push_back(at % kSide < 16 ? low : float(random.Real(4, high)));
   }
-  starfocus_depth_config config;
-  starfocus_depth_config_init(&config);
-  config.width = config.height = kSide;
-  config.views = 1;
-  config.disparity_min = low, config.disparity_max = high;
-  size_t bytes = 0;
-  REQUIRE(starfocus_repair_workspace_size(&config, &bytes) == STARFOCUS_OK);
-  const Memory memory(bytes);
-  starfocus_light_field field = {};
-  field.views[0] = starfocus_image_rgb(picture.data(), 3 * kSide);
-  field.depth = starfocus_depth_float(given.data(), sizeof(float) * kSide, kSide, kSide);
-  starfocus_disparity_output map = {found.data(), sizeof(float) * kSide, nullptr, 0, nullptr, 0, 0};
-  REQUIRE(starfocus_repair_disparity(&config, &field, &map, memory.data, bytes) == STARFOCUS_OK);
+  const std::vector<float> found = MakeMap(field, ConfigOf(field, low, high), given).disparity;
   CHECK(found != given);
-  for (const float value : found) REQUIRE((value >= low && value <= high));
-}
-
-TEST_CASE("repair: bad maps have their errors, and nothing is written") {
-  const PlaneScene scene;
-  const PlaneField field = RenderPlanes(scene);
-  const starfocus_depth_config config = ConfigOf(field, kLow, kHigh);
-  size_t bytes = 0;
-  REQUIRE(starfocus_repair_workspace_size(&config, &bytes) == STARFOCUS_OK);
-  CHECK(starfocus_repair_workspace_size(nullptr, &bytes) == STARFOCUS_ERROR_NULL);
-  const Memory memory(bytes);
-  const auto width = size_t(field.width);
-  const size_t row = sizeof(float) * width;
-  std::vector<float> map(width * size_t(field.height), 42), given = MapOf(scene, 0);
-  starfocus_light_field light_field = field.Get();
-  const auto status = [&](const float* from, size_t stride, size_t size) {
-    light_field.depth = starfocus_depth_float(from, stride, field.width, field.height);
-    starfocus_disparity_output to = {map.data(), row, nullptr, 0, nullptr, 0, 0};
-    return starfocus_repair_disparity(&config, &light_field, &to, memory.data, size);
-  };
-  CHECK(status(nullptr, row, bytes) == STARFOCUS_ERROR_NULL);
-  CHECK(status(given.data(), row - 4, bytes) == STARFOCUS_ERROR_STRIDE);
-  CHECK(status(given.data(), row, bytes - 1) == STARFOCUS_ERROR_WORKSPACE);
-  CHECK(status(map.data(), row, bytes) == STARFOCUS_ERROR_OVERLAP);
-  CHECK(status(static_cast<const float*>(memory.data), row, bytes) == STARFOCUS_ERROR_OVERLAP);
-  given[100] = 8.01F;
-  CHECK(status(given.data(), row, bytes) == STARFOCUS_ERROR_DISPARITY);
-  given.assign(given.size(), NAN);
-  CHECK(status(given.data(), row, bytes) == STARFOCUS_ERROR_ALL_INVALID);
-  for (const float value : map) REQUIRE(value == 42);
+  CheckWithin(found, low, high);
 }
 
 }  // namespace

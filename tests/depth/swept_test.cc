@@ -37,14 +37,6 @@ std::vector<uint8_t> SweptOf(const PlaneScene& scene, const std::vector<float>& 
   return {memory->swept, memory->swept + given.size()};
 }
 
-std::vector<float> MapOf(const PlaneScene& scene) {
-  std::vector<float> map;
-  for (int y = 0; y < scene.height; ++y) {
-    for (int x = 0; x < scene.width; ++x) map.push_back(float(scene.DisparityAt(x)));
-  }
-  return map;
-}
-
 TEST_CASE("swept: around the steps of a map that is right, and nowhere else, across tiles") {
   PlaneScene scene;
   scene.width = 400;

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+// What starfocus_estimate_disparity and starfocus_repair_disparity refuse, by tables: each row
+// spoils one argument of a legal call, which then returns the row's status and writes nothing.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "starfocus/depth.h"
+#include "tests/depth/depth_scene.h"
+
+namespace map_refusals_bytes_test {
+namespace {
+
+enum : int { kEstimate = 1, kRepair = 2, kBoth = 3 };
+
+// The arguments of a call: an estimate by 17 views, or a repair of one view, with coverage.
+struct Call {
+  explicit Call(int to) : function(to) {
+    field.depth = starfocus_depth_float(given.data(), row, planes.width, planes.height);
+    if (function == kEstimate) out.coverage = nullptr;
+  }
+  test::PlaneField Planes() const {
+    test::PlaneScene scene;
+    scene.views = function == kEstimate ? 17 : 1;
+    return test::RenderPlanes(scene);
+  }
+  size_t Bytes() const {
+    size_t needed = 0;
+    REQUIRE(SizeOf(&config, &needed) == STARFOCUS_OK);
+    return needed;
+  }
+  starfocus_status SizeOf(const starfocus_depth_config* of, size_t* needed) const {
+    return (function == kEstimate ? starfocus_estimate_workspace_size
+                                  : starfocus_repair_workspace_size)(of, needed);
+  }
+  starfocus_status Run() {
+    return (function == kEstimate ? starfocus_estimate_disparity : starfocus_repair_disparity)(
+        &config, &field, out_at, at, bytes);
+  }
+  // Whether nothing was written.
+  bool Untouched() const {
+    const auto poisoned = [](const auto& plane) {
+      return std::all_of(plane.begin(), plane.end(), [](auto value) { return value == 42; });
+    };
+    return poisoned(map) && poisoned(sure) && poisoned(coverage) && out.has_coverage == -1;
+  }
+
+  const int function;
+  test::PlaneField planes = Planes();
+  starfocus_depth_config config = test::ConfigOf(planes, -6, 8);
+  const size_t width = size_t(planes.width), row = sizeof(float) * width;
+  const size_t pixels = width * size_t(planes.height);
+  std::vector<float> given = std::vector<float>(pixels, 1), map = std::vector<float>(pixels, 42);
+  std::vector<uint8_t> sure = std::vector<uint8_t>(pixels, 42), coverage = sure;
+  starfocus_light_field field = planes.Get();
+  starfocus_disparity_output out = {map.data(),      row,   sure.data(), width,
+                                    coverage.data(), width, -1};
+  starfocus_disparity_output* out_at = &out;
+  size_t bytes = Bytes();
+  test::Memory memory{bytes + STARFOCUS_ALIGNMENT};
+  char* at = static_cast<char*>(memory.data);
+};
+
+struct Refusal {
+  int functions;
+  starfocus_status status;
+  void (*spoil)(Call* call);
+};
+
+uint8_t* BytesOf(void* data) { return static_cast<uint8_t*>(data); }
+
+const Refusal kArguments[] = {
+    {kBoth, STARFOCUS_ERROR_NULL, [](Call* c) { c->out_at = nullptr; }},
+    {kBoth, STARFOCUS_ERROR_NULL, [](Call* c) { c->out.disparity = nullptr; }},
+    {kBoth, STARFOCUS_ERROR_NULL, [](Call* c) { c->at = nullptr; }},
+    {kBoth, STARFOCUS_ERROR_NULL, [](Call* c) { c->field.views[0].planes[0] = nullptr; }},
+    {kEstimate, STARFOCUS_ERROR_NULL, [](Call* c) { c->field.views[16].planes[0] = nullptr; }},
+    {kRepair, STARFOCUS_ERROR_NULL, [](Call* c) { c->field.depth.data = nullptr; }},
+    {kBoth, STARFOCUS_ERROR_STRIDE, [](Call* c) { c->out.disparity_stride -= 4; }},
+    {kBoth, STARFOCUS_ERROR_STRIDE, [](Call* c) { c->out.disparity_stride += 2; }},
+    {kBoth, STARFOCUS_ERROR_STRIDE, [](Call* c) { --c->out.confidence_stride; }},
+    {kRepair, STARFOCUS_ERROR_STRIDE, [](Call* c) { --c->out.coverage_stride; }},
+    {kBoth, STARFOCUS_ERROR_STRIDE, [](Call* c) { --c->field.views[0].strides[0]; }},
+    {kEstimate, STARFOCUS_ERROR_STRIDE, [](Call* c) { --c->field.views[3].strides[0]; }},
+    {kRepair, STARFOCUS_ERROR_STRIDE, [](Call* c) { c->field.depth.stride -= 4; }},
+    {kBoth, STARFOCUS_ERROR_WORKSPACE, [](Call* c) { --c->bytes; }},
+    {kBoth, STARFOCUS_ERROR_WORKSPACE, [](Call* c) { c->at += 4; }},
+    {kBoth, STARFOCUS_ERROR_OVERLAP,
+     [](Call* c) { c->out.disparity = static_cast<float*>(c->memory.data); }},
+    {kBoth, STARFOCUS_ERROR_OVERLAP, [](Call* c) { c->out.confidence = BytesOf(&c->map[1]); }},
+    {kEstimate, STARFOCUS_ERROR_OVERLAP,
+     [](Call* c) { c->out.confidence = c->planes.views[16].data(); }},
+    {kRepair, STARFOCUS_ERROR_OVERLAP, [](Call* c) { c->field.depth.data = c->map.data(); }},
+    {kRepair, STARFOCUS_ERROR_OVERLAP, [](Call* c) { c->field.depth.data = c->memory.data; }},
+    {kRepair, STARFOCUS_ERROR_OVERLAP, [](Call* c) { c->out.coverage = c->sure.data(); }},
+    {kRepair, STARFOCUS_ERROR_OVERLAP, [](Call* c) { c->out.coverage = BytesOf(c->map.data()); }},
+    {kRepair, STARFOCUS_ERROR_OVERLAP,
+     [](Call* c) { c->out.coverage = c->planes.views[0].data(); }},
+    {kRepair, STARFOCUS_ERROR_OVERLAP, [](Call* c) { c->out.coverage = BytesOf(c->memory.data); }},
+    {kRepair, STARFOCUS_ERROR_DISPARITY, [](Call* c) { c->given[100] = 8.01F; }},
+    {kRepair, STARFOCUS_ERROR_ALL_INVALID,
+     [](Call* c) { std::fill(c->given.begin(), c->given.end(), NAN); }},
+};
+
+const Refusal kConfigurations[] = {
+    {kBoth, STARFOCUS_ERROR_STRUCTURE, [](Call* c) { c->config.size = 0; }},
+    {kBoth, STARFOCUS_ERROR_STRUCTURE, [](Call* c) { ++c->config.size; }},
+    {kBoth, STARFOCUS_ERROR_RANGE, [](Call* c) { c->config.width = 0; }},
+    {kBoth, STARFOCUS_ERROR_RANGE, [](Call* c) { c->config.height = 65536; }},
+    {kEstimate, STARFOCUS_ERROR_RANGE, [](Call* c) { c->config.views = 1; }},
+    {kBoth, STARFOCUS_ERROR_RANGE, [](Call* c) { c->config.disparity_min = 9; }},
+    {kBoth, STARFOCUS_ERROR_RANGE, [](Call* c) { c->config.disparity_max = NAN; }},
+    {kBoth, STARFOCUS_ERROR_RANGE, [](Call* c) { c->config.disparity_max = 501; }},
+    {kBoth, STARFOCUS_ERROR_RANGE, [](Call* c) { c->config.max_workers = 0; }},
+    {kBoth, STARFOCUS_ERROR_RANGE, [](Call* c) { c->config.max_workers = 65; }},
+};
+
+// Runs each row of a table for each of its functions.
+template <size_t kCount, class Run>
+void CheckTable(const Refusal (&table)[kCount], const Run& run) {
+  for (const int function : {kEstimate, kRepair}) {
+    for (const Refusal& row : table) {
+      if ((row.functions & function) == 0) continue;
+      CAPTURE(function);
+      CAPTURE(&row - table);
+      Call call(function);
+      row.spoil(&call);
+      CHECK(run(&call) == row.status);
+      CHECK(call.Untouched());
+    }
+  }
+}
+
+TEST_CASE("maps: bad arguments have their errors, and nothing is written") {
+  CheckTable(kArguments, [](Call* call) { return call->Run(); });
+}
+
+TEST_CASE("maps: bad configurations have their errors") {
+  const auto size_of = [](Call* call) {
+    size_t needed = 0;
+    return call->SizeOf(&call->config, &needed);
+  };
+  CheckTable(kConfigurations, size_of);
+  size_t needed = 0;
+  for (const int function : {kEstimate, kRepair}) {
+    Call call(function);
+    CHECK(call.SizeOf(nullptr, &needed) == STARFOCUS_ERROR_NULL);
+    CHECK(call.SizeOf(&call.config, nullptr) == STARFOCUS_ERROR_NULL);
+    call.config.runner = [](void*, starfocus_job, void*, int32_t) { return 0; };
+    CHECK(call.Run() == STARFOCUS_ERROR_RUNNER);
+  }
+}
+
+}  // namespace
+}  // namespace map_refusals_bytes_test
