@@ -12,7 +12,7 @@
 #include "platform/image_io.h"
 #include "platform/light_field.h"
 #include "tests/cli/call_program.h"
-#include "tests/cli/refusals.h"
+#include "tests/cli/session.h"
 #include "tests/support/error_line.h"
 #include "tests/support/temp_folder.h"
 
@@ -21,95 +21,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
+TEST_CASE("cli: sessions") { RunSessions("cli/slow_sessions.txt", {{"light fields", Prepare}}); }
+
 TEST_CASE("cli: bad input is refused") {
   TempFolder folder;
   Prepare(folder);
   CheckRefusals(folder, "refusals.txt");
-}
-
-TEST_CASE("cli: scene writes what its name says, again the same bytes") {
-  TempFolder folder;
-  const std::string size = "48x36";
-  const std::string arguments = " --size " + size + " --views 9 --truth 1.5,0.5 -2,1 --truth 0,1";
-  Succeed(folder, "scene a" + arguments + " --threads 1");
-  Succeed(folder, "scene b" + arguments + " --threads 3");
-  int files = 0;
-  for (const auto& entry : fs::directory_iterator(folder.file("a"))) {
-    const std::string name = entry.path().filename().string();
-    CAPTURE(name);
-    CHECK(Text(folder.file("a/" + name)) == Text(folder.file("b/" + name)));
-    ++files;
-  }
-  CHECK(files == 9 + 1 + 3 + 1);
-  CHECK(fs::exists(folder.file("a/truth_dt1.5_ut0.5.png")));
-  CHECK(fs::exists(folder.file("a/truth_dt-2_ut1.png")));
-  CHECK(fs::exists(folder.file("a/truth_dt0_ut1.png")));
-  CHECK(Contains(Text(folder.file("a/meta.txt")), "\nmiddle: "));
-  // The same set may be written over.
-  CHECK(Call(folder, "scene a --size 20x10 --views 9").code == 0);
-  LightField light_field = ValueOf(LoadLightField(folder.file("a"), {}));
-  CHECK(light_field.width() == 20);
-}
-
-TEST_CASE("cli: calibrate writes what refocus --timing takes") {
-  TempFolder folder;
-  const std::string size = "96x64";
-  Succeed(folder, "scene lf --name portrait --size " + size);
-  const Outcome outcome = Call(folder, "calibrate --light-field lf --check lf -o timing.json");
-  CAPTURE(outcome.err);
-  CHECK(outcome.code == 0);
-  CHECK(Contains(outcome.out, "per block"));
-  // The agreement is told and not judged.
-  CHECK(Contains(outcome.out, "R2 "));
-  CHECK(!Contains(outcome.out, "below"));
-  CHECK(Contains(Text(folder.file("timing.json")), "\"block\""));
-  CHECK(Call(folder, "refocus lf --focus 2 --timing timing.json -o a.png").code == 0);
-  CHECK(fs::exists(folder.file("a.png")));
-}
-
-TEST_CASE("cli: refocus, stream, report, compare, info and sheet work together") {
-  TempFolder folder;
-  Prepare(folder);
-  const std::string refocus = "refocus lf --focus 0.5 --report report.json -o ";
-  for (const char* more : {"whole.png", "whole.ppm", "stream.png --stream", "many.png --threads 3",
-                           "one.jpg --views 1", "bench.png --mode benchmark --aperture 0.5"}) {
-    CAPTURE(more);
-    const Outcome outcome = Call(folder, refocus + more);
-    CHECK(outcome.code == 0);
-    CHECK(outcome.err == "");
-  }
-  const std::string report = Text(folder.file("report.json"));
-  for (const char* field :
-       {"mode", "width", "height", "views", "focus", "aperture", "r_max", "N", "n_scale",
-        "rendered_views", "rendered_samples", "seconds_refocus", "copied_pixels", "gathered_pixels",
-        "seconds_total", "workspace_bytes", "simd_target", "threads"}) {
-    CHECK(Contains(report, "\"" + std::string(field) + "\": "));
-  }
-  CHECK(Call(folder, "compare whole.png stream.png").out == "PSNR inf, largest difference 0\n");
-  CHECK(Call(folder, "compare whole.png whole.ppm --json").out ==
-        "{\"psnr\":null,\"largest_difference\":0}\n");
-  CHECK(Call(folder, "compare whole.png many.png").out == "PSNR inf, largest difference 0\n");
-  CHECK(Call(folder, "refocus nan -o filled.png --focus-at 5,1 --fill-invalid").code == 0);
-  CHECK(Contains(Call(folder, "info nan").out, "5 views"));
-  CHECK(Contains(Call(folder, "info nan --json").out, "\"invalid\":1,"));
-  CHECK(Call(folder, "sheet -o sheet.png whole.png small.png --labels near,far --width 60").code ==
-        0);
-  Image sheet = ValueOf(ReadImage(folder.file("sheet.png")));
-  CHECK(sheet.width <= 60);
-  CHECK(Call(folder, "--help").code == 0);
-  CHECK(Call(folder, "refocus --help").code == 0);
-  CHECK(Call(folder, "analyze --help").code == 0);
-}
-
-TEST_CASE("wide pictures are refocused in larger blocks") {
-  const TempFolder folder;
-  for (const auto& [size, side] : {std::pair{"1535x16", "64"}, {"1536x16", "128"}}) {
-    CAPTURE(size);
-    Succeed(folder, std::string("scene wide --views 1 --size ") + size);
-    Succeed(folder, "refocus wide -o wide.ppm --focus 3 --report wide.json");
-    const std::string expected = std::string("\"superblock\": ") + side + ",";
-    CHECK(Contains(Text(folder.file("wide.json")), expected));
-  }
 }
 
 TEST_CASE("cli: a region is that part of the picture") {

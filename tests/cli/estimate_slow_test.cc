@@ -9,9 +9,7 @@
 
 #include "platform/image_io.h"
 #include "platform/light_field.h"
-#include "platform/runner.h"
-#include "tests/cli/call_program.h"
-#include "tests/support/closed_hair.h"
+#include "tests/cli/inputs.h"
 #include "tests/support/error_line.h"
 #include "tests/support/temp_folder.h"
 #include "tests/support/test_scene.h"
@@ -48,20 +46,6 @@ TEST_CASE("disparity: finds the range and most of the map of a traced scene") {
   const Image sure = ValueOf(ReadImage(folder.file("sure.png")));
   CHECK(picture.width == 160);
   CHECK(sure.height == 120);
-}
-
-TEST_CASE("disparity: what is written there already stays") {
-  TempFolder folder;
-  PrepareScene(folder);
-  const std::string before = Text(folder.file("lf/disparity.pfm"));
-  const Outcome refused = Call(folder, "disparity lf");
-  CHECK(refused.code == 1);
-  CHECK(Contains(refused.err, "--output"));
-  CHECK(Text(folder.file("lf/disparity.pfm")) == before);
-  CHECK(Call(folder, "disparity lf -o new.pfm --range -3:9 --threads 2").code == 0);
-  CHECK(Call(folder, "disparity lf -o again.pfm --range -3:9").code == 0);
-  CHECK(Text(folder.file("new.pfm")) == Text(folder.file("again.pfm")));
-  CHECK(Text(folder.file("new.png")) == Text(folder.file("again.png")));
 }
 
 // The map of `lf` with its near objects 3 pixels wider, in `worse`.
@@ -122,22 +106,6 @@ TEST_CASE("disparity --repair, refocus --repair: one view is repaired by its col
   CHECK(Contains(made.out, "repaired by 1 view,"));
 }
 
-// Writes the folder `truth`, a portrait with the coverage of its hair, and `closed`, the same
-// without.
-void PrepareHair(const TempFolder& folder) {
-  const test::ClosedHair portrait = test::MakeClosedHair();
-  LightField field;
-  field.views.emplace_back(test::ClosedHair::kWidth, test::ClosedHair::kHeight);
-  field.views[0].pixels = portrait.rgb;
-  field.disparity.width = test::ClosedHair::kWidth;
-  field.disparity.height = test::ClosedHair::kHeight;
-  field.disparity.values = portrait.map;
-  ThreadRunner runner(1);
-  REQUIRE(SaveLightField(folder.file("closed"), field, &runner) == "");
-  field.coverage = portrait.coverage;
-  REQUIRE(SaveLightField(folder.file("truth"), field, &runner) == "");
-}
-
 TEST_CASE("refocus --repair, import: hair with a closed outline gets its coverage") {
   TempFolder folder;
   PrepareHair(folder);
@@ -152,49 +120,6 @@ TEST_CASE("refocus --repair, import: hair with a closed outline gets its coverag
   // Coverage that was given stays.
   Succeed(folder, "refocus truth -o given.png --focus -4 --repair");
   CHECK(Psnr(folder, "truth.png given.png") > Psnr(folder, "truth.png repaired.png"));
-}
-
-TEST_CASE("disparity --repair --coverage: writes what is found, and nothing if nothing is") {
-  TempFolder folder;
-  PrepareHair(folder);
-  const Outcome made =
-      Call(folder, "disparity closed --repair -o map.pfm --coverage cover.png --confidence c.png");
-  CHECK(made.err == "");
-  REQUIRE(made.code == 0);
-  Succeed(folder, "refocus closed -o repaired.png --focus -4 --repair");
-  fs::copy_file(folder.file("cover.png"), folder.file("closed/coverage.png"));
-  fs::copy_file(folder.file("map.pfm"), folder.file("closed/disparity.pfm"),
-                fs::copy_options::overwrite_existing);
-  Succeed(folder, "refocus closed -o after.png --focus -4");
-  CHECK(Text(folder.file("after.png")) == Text(folder.file("repaired.png")));
-  PrepareScene(folder);
-  const Outcome none = Call(folder, "disparity lf --repair -o wires.pfm --coverage none.png");
-  CHECK(none.code == 0);
-  CHECK(Contains(none.err, "no coverage"));
-  CHECK_FALSE(fs::exists(folder.file("none.png")));
-}
-
-TEST_CASE("refocus, info: a map that is missing is estimated, and they say so") {
-  TempFolder folder;
-  PrepareScene(folder);
-  const Outcome direct = Call(folder, "refocus bare -o direct.png --focus 3");
-  CAPTURE(direct.err);
-  REQUIRE(direct.code == 0);
-  CHECK(Contains(direct.err, "estimated from 5 views"));
-  CHECK(!fs::exists(folder.file("bare/disparity.pfm")));
-  const Outcome info = Call(folder, "info bare");
-  CHECK(info.code == 0);
-  CHECK(Contains(info.err, "estimated"));
-  Succeed(folder, "disparity bare");
-  const Outcome after = Call(folder, "refocus bare -o after.png --focus 3");
-  REQUIRE(after.code == 0);
-  CHECK(after.err == "");
-  CHECK(Text(folder.file("direct.png")) == Text(folder.file("after.png")));
-  fs::copy(folder.file("lf"), folder.file("alone"));
-  fs::remove(folder.file("alone/disparity.pfm"));
-  const Outcome alone = Call(folder, "refocus alone -o x.png --focus 3 --views 1");
-  CHECK(alone.code == 1);
-  CHECK(Contains(alone.err, "one view alone"));
 }
 
 }  // namespace

@@ -4,12 +4,12 @@
 
 #include <cmath>
 #include <filesystem>
-#include <set>
 #include <string>
 
 #include "platform/image_io.h"
 #include "platform/light_field.h"
-#include "tests/cli/call_program.h"
+#include "tests/cli/inputs.h"
+#include "tests/cli/session.h"
 #include "tests/support/error_line.h"
 #include "tests/support/psnr.h"
 #include "tests/support/temp_folder.h"
@@ -18,6 +18,10 @@ namespace starfocus::lens_options_slow_test {
 namespace {
 
 namespace fs = std::filesystem;
+
+TEST_CASE("cli: sessions on lenses, and maps that are made") {
+  RunSessions("cli/lens_sessions.txt", {{"deep folder", MakeDeepFolder}, {"hair", PrepareHair}});
+}
 
 TEST_CASE("cli: f-stops and strengths are apertures; strength 0 is the centre view") {
   TempFolder folder;
@@ -94,95 +98,6 @@ TEST_CASE("cli: clipped lamps are nearer to the truth as highlights") {
   CAPTURE(clipped);
   CAPTURE(bright);
   CHECK(bright - clipped > 0.5);
-}
-
-TEST_CASE(
-    "cli: shapes of the aperture change the picture and its truth, and the report says which") {
-  TempFolder folder;
-  Succeed(folder, "scene lf --size 40x30 --views 5 --name wires --truth 1,1");
-  const auto picture = [&](const std::string& options) {
-    CAPTURE(options);
-    Succeed(folder, "refocus lf --focus -3 -o one.png --report one.json " + options);
-    return Text(folder.file("one.png"));
-  };
-  const std::string plain = picture("");
-  for (const char* same : {"--shape fall-off", "--theta 0.26", "--cats-eye 0"}) {
-    CHECK(picture(same) == plain);
-  }
-  const auto reported = [&](const std::string& text) {
-    return Text(folder.file("one.json")).find(text) != std::string::npos;
-  };
-  std::set<std::string> pictures = {plain};
-  CHECK(pictures.insert(picture("--shape disc")).second);
-  CHECK(reported("\"name\": \"disc\""));
-  CHECK(pictures.insert(picture("--shape ring:0.75")).second);
-  CHECK(reported("\"inner\": 0.75"));
-  CHECK(pictures.insert(picture("--shape polygon:5")).second);
-  CHECK(pictures.insert(picture("--shape polygon:5,36")).second);
-  CHECK(reported("\"rotation\": 36"));
-  CHECK(pictures.insert(picture("--shape polygon:5,36,0.5")).second);
-  CHECK(reported("\"curvature\": 0.5"));
-  CHECK(picture("--shape polygon:5,-36,0.5") == picture("--shape polygon:5,36,0.5"));
-  CHECK(pictures.insert(picture("--theta 0.4")).second);
-  CHECK(pictures.insert(picture("--cats-eye 1")).second);
-  CHECK(reported("\"cats_eye\": 1"));
-  for (const char* range : {"--theta 0.05", "--theta 0.45", "--shape ring:0.9"}) picture(range);
-  for (const char* lens : {"--shape disc", "--shape polygon:5,12.5,0.5 --cats-eye 0.5"}) {
-    const std::string call = "scene lf --size 40x30 --views 5 --name wires --truth 1,1 ";
-    Succeed(folder, call + lens);
-  }
-  const std::string truth = Text(folder.file("lf/truth_dt1_ut1.png"));
-  CHECK(Text(folder.file("lf/truth_dt1_ut1_disc.png")) != truth);
-  CHECK(Text(folder.file("lf/truth_dt1_ut1_polygon-5-12.5-0.5_cats-eye0.5.png")) != truth);
-  const std::string meta = Text(folder.file("lf/meta.txt"));
-  CHECK(Contains(meta, "aperture polygon:5,12.5,0.5, cat's eyes 0.5"));
-}
-
-// A folder `lf` with disparities of 300 on the left and 0 on the right: at focus 0 an aperture of
-// 128/300 = 0.42667, f/2.34375, blurs by 128 pixels.
-void MakeDeepFolder(const TempFolder& folder) {
-  Succeed(folder, "scene lf --size 40x30 --views 1");
-  FloatMap map = ValueOf(ReadPfm(folder.file("lf/disparity.pfm")));
-  for (size_t i = 0; i < map.values.size(); ++i) map.values[i] = i % 40 < 20 ? 300.0f : 0.0f;
-  REQUIRE(WritePfm(folder.file("lf/disparity.pfm"), map) == "");
-}
-
-TEST_CASE("cli: the default aperture is the widest that fits the limit of blur, and is named") {
-  TempFolder folder;
-  MakeDeepFolder(folder);
-  const std::string at = "refocus lf --focus 0 -o ";
-  const Outcome outcome = Call(folder, at + "default.png");
-  CHECK(outcome.code == 0);
-  CHECK(Contains(outcome.err, "lf: aperture f/2.35 (--f-stop)"));
-  const Outcome same = Call(folder, at + "same.png --f-stop 2.35");
-  CHECK(same.code == 0);
-  CHECK(same.err == "");
-  CHECK(Text(folder.file("default.png")) == Text(folder.file("same.png")));
-  for (const char* fits : {"--aperture 0.426", "--strength 42.6", "--f-stop 2 --strength 85.3",
-                           "--f-stop 4.7 --widest 2", "--strength 0"}) {
-    CAPTURE(fits);
-    CHECK(Call(folder, at + "x.png " + fits).code == 0);
-  }
-  const struct {
-    const char* option;
-    const char* fits;
-  } wide[] = {{"--f-stop 2.34", "--f-stop: expected f/2.35 or narrower"},
-              {"--f-stop 1", "f/2.35 or narrower"},
-              {"--f-stop 4.68 --widest 2", "f/4.69 or narrower"},
-              {"--f-stop 2 --strength 90", "f/2.11 or narrower"},
-              {"--aperture 0.427", "--aperture: expected at most 0.426"},
-              {"--aperture 1 --strength 50", "at most 0.853"},
-              {"--strength 42.7", "--strength: expected at most 42.6 percent"},
-              {"--strength 100", "at most 42.6 percent"}};
-  fs::remove(folder.file("x.png"));
-  for (const auto& row : wide) {
-    CAPTURE(row.option);
-    const Outcome refused = Call(folder, at + "x.png " + row.option);
-    CHECK(refused.code == 2);
-    CheckErrorLine(refused.err);
-    CHECK(Contains(refused.err, row.fits));
-    CHECK(!fs::exists(folder.file("x.png")));
-  }
 }
 
 TEST_CASE("cli: sweeps, videos, pages and batches fit the limit of blur, too") {

@@ -4,7 +4,6 @@
 #include "examples/command_line/program.h"
 
 #include <doctest/doctest.h>
-#include <signal.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -16,6 +15,7 @@
 #include "platform/temporary_file.h"
 #include "tests/cli/call_program.h"
 #include "tests/cli/refusals.h"
+#include "tests/support/child.h"
 #include "tests/support/error_line.h"
 
 namespace starfocus::program_test {
@@ -34,28 +34,15 @@ TEST_CASE("program: exit codes tell whose an error is") {
 
 TEST_CASE("program: a signal leaves no temporary file") {
   TempFolder folder;
-  int ends[2];
-  REQUIRE(pipe(ends) == 0);
-  const pid_t child = fork();
-  REQUIRE(child >= 0);
-  if (child == 0) {
+  const int status = EndBySignal(SIGTERM, [&](const auto& begun) {
     RunProgram("test", [&] {
       const TemporaryFile file(folder.path());
-      while (write(ends[1], "x", 1) == 1) pause();
+      while (folder.count() == 1 && begun()) pause();
       return Error();
     });
-    _exit(0);
-  }
-  char byte = 0;
-  REQUIRE(read(ends[0], &byte, 1) == 1);
-  CHECK(folder.count() == 1);
-  REQUIRE(kill(child, SIGTERM) == 0);
-  int status = 0;
-  REQUIRE(waitpid(child, &status, 0) == child);
+  });
   CHECK(WIFSIGNALED(status));
   CHECK(folder.count() == 0);
-  close(ends[0]);
-  close(ends[1]);
 }
 
 TEST_CASE("program: every way to ask for help tells the same") {
@@ -171,13 +158,6 @@ TEST_CASE("program: a refusal names its true cause") {
                                 "refocus lf tiny -o locked/new --focus 1"}) {
     CheckRefused(folder, arguments, "cannot create folder locked/new: permission denied");
   }
-}
-
-TEST_CASE("program: output goes into a folder within a light field that is read") {
-  TempFolder folder;
-  Prepare(folder);
-  CHECK(Call(folder, "refocus lf tiny -o lf/out --focus 1").code == 0);
-  CHECK(Call(folder, "refocus lf tiny -o . --focus 1").code == 0);
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -11,13 +10,9 @@
 #include "examples/scene/noise.h"
 #include "examples/scene/render.h"
 #include "starfocus/starfocus.h"
-#include "tests/cli/call_program.h"
-#include "tests/support/temp_folder.h"
 
 namespace starfocus::strand_scenes_slow_test {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr int kWidth = 256, kHeight = 192;
 const char* const kNames[] = {"hair", "grass"};
@@ -181,31 +176,6 @@ TEST_CASE("strand scenes: a seed gives the same scene again, another seed anothe
     CHECK(a.Coverage(nullptr) != c.Coverage(nullptr));
     CHECK(a.View(1, 0, nullptr).pixels == b.View(1, 0, nullptr).pixels);
   }
-}
-
-TEST_CASE("strand scenes: the program writes coverage beside the map, and the seed") {
-  TempFolder folder;
-  Succeed(folder, "scene lf --name hair --seed 7 --size 64x48 --views 1");
-  const std::string meta = Text(folder.file("lf/meta.txt"));
-  CHECK(Contains(meta, "seed: 7\n"));
-  CHECK(Contains(meta, "coverage.png: "));
-  const std::string png = Text(folder.file("lf/coverage.png"));
-  REQUIRE(png.size() > 26);
-  CHECK(png[24] == 8);  // bits
-  CHECK(png[25] == 0);  // grey
-  const std::string first = png;
-  Succeed(folder, "scene lf --name hair --size 64x48 --views 1");
-  CHECK(Text(folder.file("lf/coverage.png")) != first);
-  Succeed(folder, "scene plain --name ramp --size 64x48 --views 1");
-  CHECK_FALSE(fs::exists(folder.file("plain/coverage.png")));
-
-  const Outcome mixed = Call(folder, "scene lf --name ramp --size 64x48 --views 1");
-  CHECK(mixed.code == 1);
-  CHECK(Contains(mixed.err, "coverage"));
-  const Outcome seedless = Call(folder, "scene lf --name ramp --seed 3 --size 64x48 --views 1");
-  CHECK(seedless.code == 2);
-  CHECK(Contains(seedless.err, "--seed"));
-  CHECK(Call(folder, "scene lf --name hair --seed -1 --size 64x48 --views 1").code == 2);
 }
 
 }  // namespace

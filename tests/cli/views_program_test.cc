@@ -43,29 +43,6 @@ TEST_CASE("views: the more sides are captured, the nearer to the truth") {
   CHECK(five > row);
 }
 
-TEST_CASE("views: scenes at positions are refocused, streamed and told of") {
-  TempFolder folder;
-  const std::string positions = "0,0:0.7,-0.25:-0.5,0:0.125,1";
-  Succeed(folder, "scene lf --size 64x48 --views " + positions);
-  CHECK(fs::exists(folder.file("lf/view_+0.7_-0.25.png")));
-  const Outcome info = Call(folder, "info lf");
-  CHECK(Contains(info.out, "4 views"));
-  CHECK(Contains(info.out, "(0.7, -0.25)"));
-  Succeed(folder, "refocus lf -o whole.png --focus 0");
-  Succeed(folder, "refocus lf -o rows.png --focus 0 --stream --threads 2");
-  CHECK(Call(folder, "compare whole.png rows.png").out == "PSNR inf, largest difference 0\n");
-  const Outcome paper = Call(folder, "refocus lf -o x.png --focus 0 --renderer line-scan");
-  CHECK(paper.code == 2);
-  CHECK(Contains(paper.err, "star"));
-  CHECK(Call(folder, "refocus lf -o frame.png --focus 0 --mode frame").code == 0);
-  // Their map is repaired by the centre view, and none is estimated.
-  CHECK(Contains(Call(folder, "disparity lf --repair -o map.pfm").out, "1 view,"));
-  fs::remove(folder.file("lf/disparity.pfm"));
-  const Outcome none = Call(folder, "refocus lf -o x.png --focus 0");
-  CHECK(none.code == 1);
-  CHECK(Contains(none.err, "star"));
-}
-
 TEST_CASE("views: a stereo pair as Middlebury's is opened, unknown disparities filled") {
   TempFolder folder;
   Succeed(folder, "scene lf --size 64x48 --views 0,0:1,0");

@@ -10,7 +10,7 @@
 #include "platform/pfm.h"
 #include "platform/progress.h"
 #include "platform/writers/webp.h"
-#include "tests/cli/call_program.h"
+#include "tests/cli/session.h"
 #include "tests/support/error_line.h"
 
 namespace starfocus::writers_program_test {
@@ -22,49 +22,7 @@ void MakeScene(const TempFolder& folder, const std::string& name, const std::str
   Succeed(folder, "scene " + name + " --size 48x36 --views 5 --threads 1 " + more);
 }
 
-size_t Count(const std::string& text, const std::string& part) {
-  size_t count = 0;
-  for (size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
-  return count;
-}
-
-TEST_CASE("writers: - is standard output and input, in the format that is named") {
-  TempFolder folder;
-  MakeScene(folder, "lf");
-  for (const std::string format : {"png", "ppm", "jpg"}) {
-    CAPTURE(format);
-    Succeed(folder, "refocus lf --focus 1 -o a." + format);
-    const Outcome piped = Call(folder, "refocus lf --focus 1 -o " + format + ":-");
-    CHECK(piped.code == 0);
-    CHECK(piped.out == Text(folder.file("a." + format)));
-  }
-  CHECK(Call(folder, "refocus lf --focus 1 -o -").out == Text(folder.file("a.png")));
-  CHECK(Call(folder, "compare - a.ppm <a.png").out.find("PSNR inf") == 0);
-  CHECK(Call(folder, "refocus lf --focus 1 -o - --report -").code == 2);
-  CHECK(Call(folder, "refocus lf --sweep 0:1:2 -o -").code == 2);
-  const Outcome full = Call(folder, "refocus lf --focus 1 -o - >/dev/full");
-  CHECK(full.code == 1);
-  CheckErrorLine(full.err);
-}
-
-TEST_CASE("writers: quality and depth photos are asked for sensibly or not at all") {
-  TempFolder folder;
-  MakeScene(folder, "lf");
-  Succeed(folder, "refocus lf --focus 1 -o low.jpg --quality 20");
-  Succeed(folder, "refocus lf --focus 1 -o high.jpg --quality 99");
-  CHECK(fs::file_size(folder.file("low.jpg")) < fs::file_size(folder.file("high.jpg")));
-  Succeed(folder, "refocus lf --focus 1 -o deep.jpg --depth-photo");
-  CHECK(Contains(Text(folder.file("deep.jpg")), "GDepth:Data"));
-  for (const std::string wrong :
-       {"-o b.jpg --quality 0", "-o b.jpg --quality 101", "-o b.png --depth-photo",
-        "-o b.jpg --depth-photo --region 0,0,8,8", "-o b.png --all-in-focus c.png"}) {
-    CAPTURE(wrong);
-    const Outcome outcome = Call(folder, "refocus lf --focus 1 " + wrong);
-    CHECK(outcome.code == 2);
-    CheckErrorLine(outcome.err);
-  }
-  CHECK(folder.count() == 4);
-}
+TEST_CASE("programs: sessions") { RunSessions("cli/sessions.txt"); }
 
 TEST_CASE("writers: a sweep is an animation, or a sharp picture with the focus of each pixel") {
   TempFolder folder;

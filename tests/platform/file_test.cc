@@ -15,6 +15,7 @@
 
 #include "platform/folder.h"
 #include "platform/temporary_file.h"
+#include "tests/support/child.h"
 #include "tests/support/error_line.h"
 #include "tests/support/temp_folder.h"
 
@@ -181,34 +182,11 @@ TEST_CASE("file: a full device is noticed") {
   CHECK(WriteFile("/dev/full", FromText("x")) != "");
 }
 
-// Starts a process that calls `work` and says when it has begun, ends it by `signal`, and returns
-// its status.
-template <class Work>
-int EndBySignal(int signal, const Work& work) {
-  int ends[2];
-  REQUIRE(pipe(ends) == 0);
-  const pid_t child = fork();
-  REQUIRE(child >= 0);
-  if (child == 0) {
-    ::signal(signal, SIG_DFL);  // whoever started the test may ignore it, as nohup does
-    TemporaryFile::RemoveOnSignals();
-    work([&] { return write(ends[1], "x", 1) == 1; });
-    _exit(0);
-  }
-  char byte = 0;
-  REQUIRE(read(ends[0], &byte, 1) == 1);
-  REQUIRE(kill(child, signal) == 0);
-  int status = 0;
-  REQUIRE(waitpid(child, &status, 0) == child);
-  close(ends[0]);
-  close(ends[1]);
-  return status;
-}
-
 TEST_CASE("file: signals that end the program leave no temporary file") {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     TempFolder folder;
     const int status = EndBySignal(signal, [&](const auto& begun) {
+      TemporaryFile::RemoveOnSignals();
       TemporaryFile one(folder.path()), other(folder.path());
       if (folder.count() == 2 && begun()) {
         for (;;) pause();
@@ -225,6 +203,7 @@ TEST_CASE("file: a signal amid many writers leaves whole files alone") {
   for (int attempt = 0; attempt < 20; ++attempt) {
     TempFolder folder;
     const int status = EndBySignal(SIGTERM, [&](const auto& begun) {
+      TemporaryFile::RemoveOnSignals();
       std::vector<std::thread> threads;
       for (int t = 0; t < 3; ++t) {
         threads.emplace_back([&, t] {

@@ -12,6 +12,7 @@
 #include "platform/container.h"
 #include "platform/writers/webp.h"
 #include "tests/support/error_line.h"
+#include "tests/support/photo_files.h"
 #include "tests/support/temp_folder.h"
 
 namespace starfocus::image_io_test {
@@ -111,6 +112,14 @@ Bytes Written(const std::string& name) {
   return bytes;
 }
 
+// Where a marker of a JPEG file is.
+Bytes::iterator FindMarker(uint8_t marker, Bytes* jpeg) {
+  const uint8_t bytes[] = {0xff, marker};
+  const auto at = std::search(jpeg->begin(), jpeg->end(), bytes, bytes + 2);
+  REQUIRE(at != jpeg->end());
+  return at;
+}
+
 TEST_CASE("image_io: truncated PNG and JPEG are refused at every length") {
   for (const char* name : {"a.png", "a.jpg"}) {
     const Bytes bytes = Written(name);
@@ -140,17 +149,14 @@ TEST_CASE("image_io: a PNG chunk longer than its file is refused before it is re
 
 TEST_CASE("image_io: a JPEG too short for its size is refused before it is decoded") {
   Bytes bytes = Written("a.jpg");
-  const uint8_t frame[] = {0xff, 0xc0};
-  const auto at = std::search(bytes.begin(), bytes.end(), frame, frame + 2);
-  REQUIRE(at != bytes.end());
+  const auto at = FindMarker(0xc0, &bytes);
   for (int k = 5; k < 9; ++k) at[k] = 0x3f;  // height and width
   CHECK(Contains(ReadBytes(bytes), "truncated"));
 }
 
 TEST_CASE("image_io: a JPEG table of more codes than it has room for is refused") {
   Bytes bytes = Written("a.jpg");
-  const uint8_t marker[] = {0xff, 0xc4};
-  const auto table = std::search(bytes.begin(), bytes.end(), marker, marker + 2);
+  const auto table = FindMarker(0xc4, &bytes);
   REQUIRE(bytes.end() - table > 4 + 17);
   std::fill_n(table + 4 + 1, 16, uint8_t{17});
   const auto names_table = [](const Bytes& broken) {
@@ -192,49 +198,14 @@ TEST_CASE("image_io: outputs that cannot be written leave nothing") {
   CHECK(CheckImageOutput("a.PPM") == "");
 }
 
-void AppendBigEndian32(uint32_t value, Bytes* bytes) {
-  for (const int shift : {24, 16, 8, 0}) bytes->push_back(static_cast<uint8_t>(value >> shift));
-}
-
-void AppendChunk(const std::string& name, const Bytes& data, Bytes* png) {
-  AppendBigEndian32(static_cast<uint32_t>(data.size()), png);
-  const size_t begin = png->size();
-  png->insert(png->end(), name.begin(), name.end());
-  png->insert(png->end(), data.begin(), data.end());
-  uint32_t crc = ~0u;
-  for (size_t i = begin; i < png->size(); ++i) {
-    crc ^= (*png)[i];
-    for (int bit = 0; bit < 8; ++bit) crc = crc >> 1 ^ (crc % 2 == 0 ? 0 : 0xedb88320u);
-  }
-  AppendBigEndian32(~crc, png);
-}
-
-// A PNG file of one row whose packed samples are `row`, stored in its only block.
-Bytes MakePng(uint32_t width, uint32_t height, int depth, int colour, const Bytes& palette,
+// A PNG file of one row.
+Bytes MakePng(uint32_t width, uint32_t height, photos::PngKind kind, const Bytes& palette,
               const Bytes& row) {
-  Bytes png = FromText("\x89PNG\r\n\x1a\n"), header, data = {0x78, 0x01, 1};
-  AppendBigEndian32(width, &header);
-  AppendBigEndian32(height, &header);
-  for (const int value : {depth, colour, 0, 0, 0}) header.push_back(static_cast<uint8_t>(value));
-  const size_t size = row.size() + 1;  // with the row's filter
-  for (const size_t value : {size & 255, size >> 8, ~size & 255, ~size >> 8 & 255, size_t{0}}) {
-    data.push_back(static_cast<uint8_t>(value));
-  }
-  data.insert(data.end(), row.begin(), row.end());
-  uint32_t low = 1, high = 1;  // of RFC 1950's checksum, behind the filter's zero
-  for (const uint8_t sample : row) {
-    low = (low + sample) % 65521;
-    high = (high + low) % 65521;
-  }
-  AppendBigEndian32(high << 16 | low, &data);
-  AppendChunk("IHDR", header, &png);
   if (!palette.empty()) {
-    AppendChunk("PLTE", palette, &png);
-    AppendChunk("tRNS", {0, 128, 255}, &png);
+    kind.more = photos::Chunk("PLTE", {palette.begin(), palette.end()}) +
+                photos::Chunk("tRNS", std::string("\0\x80\xff", 3));
   }
-  AppendChunk("IDAT", data, &png);
-  AppendChunk("IEND", {}, &png);
-  return png;
+  return FromText(photos::Png(width, height, kind, {row.begin(), row.end()}, row.size()));
 }
 
 TEST_CASE("image_io: a PNG palette is looked up, and an index beyond it refused") {
@@ -248,7 +219,7 @@ TEST_CASE("image_io: a PNG palette is looked up, and an index beyond it refused"
         const int index = x == 7 ? last : x % colours;
         row[size_t(x / per_byte)] |= uint8_t(index << (8 - depth - x % per_byte * depth));
       }
-      const Result<Image> read = ReadBytes(MakePng(8, 1, depth, 3, palette, row));
+      const Result<Image> read = ReadBytes(MakePng(8, 1, {depth, 3}, palette, row));
       if (last >= 3) {
         CHECK(Contains(read, "3 colours, found " + std::to_string(last)));
         continue;
@@ -263,20 +234,19 @@ TEST_CASE("image_io: a PNG palette is looked up, and an index beyond it refused"
       }
     }
   }
-  CHECK(ReadBytes(MakePng(8, 1, 8, 3, {}, Bytes(8))) != "");        // no palette
-  CHECK(ReadBytes(MakePng(8, 1, 8, 3, Bytes(7), Bytes(8))) != "");  // a third of a colour
-  CHECK(ReadBytes(MakePng(4, 1, 16, 3, palette, Bytes(8))) != "");  // 16-bit indices
-  CHECK(ValueOf(ReadBytes(MakePng(8, 1, 8, 0, {}, Bytes(8, 99)))).pixels == Bytes(24, 99));
+  CHECK(ReadBytes(MakePng(8, 1, {8, 3}, {}, Bytes(8))) != "");        // no palette
+  CHECK(ReadBytes(MakePng(8, 1, {8, 3}, Bytes(7), Bytes(8))) != "");  // a third of a colour
+  CHECK(ReadBytes(MakePng(4, 1, {16, 3}, palette, Bytes(8))) != "");  // 16-bit indices
+  CHECK(ValueOf(ReadBytes(MakePng(8, 1, {8, 0}, {}, Bytes(8, 99)))).pixels == Bytes(24, 99));
 }
 
 TEST_CASE("image_io: what follows the end of a PNG file is no part of it") {
   const Bytes palette = {10, 20, 30, 40, 50, 60, 70, 80, 90};
-  Bytes png = MakePng(8, 1, 8, 3, palette, Bytes(8, 1));
-  AppendChunk("PLTE", Bytes(9, 200), &png);
-  AppendBigEndian32(1000, &png);  // the length of a chunk that isn't there
-  const Bytes name = FromText("PLTE");
-  png.insert(png.end(), name.begin(), name.end());
-  png.insert(png.end(), 4, 0);
+  Bytes png = MakePng(8, 1, {8, 3}, palette, Bytes(8, 1));
+  // Another palette, and the beginning of a chunk of 1000 bytes.
+  const std::string more = photos::Chunk("PLTE", std::string(9, '\xc8')) + photos::Big(1000, 4) +
+                           "PLTE" + std::string(4, '\0');
+  png.insert(png.end(), more.begin(), more.end());
   Image image = ValueOf(ReadBytes(png));
   CHECK(std::equal(&palette[3], &palette[6], image.row(0)));
 }
@@ -290,7 +260,7 @@ TEST_CASE("image_io: a picture too large for its format says its size") {
                {20000, 20000, "2^28 pixels, found 20000x20000"},
                {65535, 65535, "2^28 pixels, found 65535x65535"}};
   for (const auto& size : sizes) {
-    const Bytes png = MakePng(size.width, size.height, 8, 0, {}, Bytes(8));
+    const Bytes png = MakePng(size.width, size.height, {8, 0}, {}, Bytes(8));
     CHECK(Contains(ReadBytes(png), size.expected));
   }
   // The encoders count bytes in an int: more of them would be written out of bounds.
@@ -353,17 +323,13 @@ TEST_CASE("image_io: bytes between the parts of a JPEG do no harm") {
 TEST_CASE("image_io: JPEG of 12 bits a sample, and a truncated one with an end, name the cause") {
   if (!HasLibjpeg()) return;
   Bytes bytes = Seed("restart.jpg");
-  const uint8_t frame[] = {0xff, 0xc0};
-  const auto at = std::search(bytes.begin(), bytes.end(), frame, frame + 2);
-  REQUIRE(at != bytes.end());
-  at[4] = 12;
+  FindMarker(0xc0, &bytes)[4] = 12;
   CHECK(Contains(ReadBytes(bytes), "precision 12"));
-  bytes = Seed("arithmetic.jpg");
-  bytes.resize(bytes.size() * 2 / 3);
-  CHECK(Contains(ReadBytes(bytes), "truncated"));
-  bytes = Seed("progressive.jpg");
-  bytes.resize(bytes.size() * 2 / 3);
-  CHECK(Contains(ReadBytes(bytes), "truncated"));
+  for (const char* name : {"arithmetic.jpg", "progressive.jpg"}) {
+    bytes = Seed(name);
+    bytes.resize(bytes.size() * 2 / 3);
+    CHECK(Contains(ReadBytes(bytes), "truncated"));
+  }
   bytes = Seed("restart.jpg");
   bytes.resize(bytes.size() - 60);
   bytes.insert(bytes.end(), {0xff, 0xd9});

@@ -4,6 +4,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <thread>
 #include <vector>
@@ -22,6 +23,11 @@ struct Record {
   std::atomic<int> clashes{0}, outside{0};
   int workers = STARFOCUS_MAX_WORKERS;
 
+  // Whether each job was called so many times, by workers that do one job at a time.
+  bool Good(int times) const {
+    const auto called = [=](const std::atomic<int>& count) { return count == times; };
+    return std::all_of(calls.begin(), calls.end(), called) && clashes == 0 && outside == 0;
+  }
   static void Job(void* data, int32_t index, int32_t worker) {
     Record& self = *static_cast<Record*>(data);
     if (worker < 0 || worker >= self.workers) {
@@ -39,11 +45,7 @@ void CheckRuns(starfocus_pool* pool, int count) {
   Record record(count);
   record.workers = starfocus_pool_workers(pool);
   REQUIRE(starfocus_pool_run(pool, Record::Job, &record, count) == 0);
-  bool once = true;
-  for (const std::atomic<int>& calls : record.calls) once = once && calls == 1;
-  CHECK(once);
-  CHECK(record.clashes == 0);
-  CHECK(record.outside == 0);
+  CHECK(record.Good(1));
 }
 
 TEST_CASE("pool: every job once, by workers of its own, set after set") {
@@ -52,7 +54,7 @@ TEST_CASE("pool: every job once, by workers of its own, set after set") {
     REQUIRE(pool != nullptr);
     CHECK(starfocus_pool_workers(pool) == workers);
     for (int repeat = 0; repeat < 10; ++repeat) {
-      for (const int count : {0, 1, 2, 3, 200}) CheckRuns(pool, count);
+      for (const int count : {0, 1, 2, 3, 200, 1000}) CheckRuns(pool, count);
     }
     starfocus_pool_destroy(pool);
   }
@@ -88,14 +90,21 @@ TEST_CASE("pool: nonsense is refused") {
 TEST_CASE("pool: several live at once, and one serves several callers in turn") {
   starfocus_pool* const a = starfocus_pool_create(3);
   starfocus_pool* const b = starfocus_pool_create(2);
-  Record both(100);
+  Record shared(300);
   std::vector<std::thread> callers;
-  for (starfocus_pool* const pool : {a, a, b}) {
-    callers.emplace_back([pool] {
-      for (int repeat = 0; repeat < 20; ++repeat) CheckRuns(pool, 50);
+  for (starfocus_pool* const pool : {a, a, a, b}) {
+    callers.emplace_back([&shared, a, pool] {
+      for (int repeat = 0; repeat < 20; ++repeat) {
+        if (pool == a) {
+          starfocus_pool_run(pool, Record::Job, &shared, 300);
+        } else {
+          CheckRuns(pool, 50);
+        }
+      }
     });
   }
   for (std::thread& caller : callers) caller.join();
+  CHECK(shared.Good(60));
   starfocus_pool_destroy(a);
   starfocus_pool_destroy(b);
 }

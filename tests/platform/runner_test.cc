@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// How the threads of a pool sleep, wake and fail. That they do each job once, pool_test checks.
 #include "platform/runner.h"
 
 #include <doctest/doctest.h>
@@ -8,47 +9,9 @@
 #include <ctime>
 #include <new>
 #include <thread>
-#include <vector>
 
 namespace starfocus::runner_test {
 namespace {
-
-struct Record {
-  explicit Record(int count) : calls(size_t(count)) {}
-
-  std::vector<std::atomic<int>> calls;  // of each index
-  std::atomic<int> busy[STARFOCUS_MAX_WORKERS] = {};
-  std::atomic<int> clashes{0}, worst_worker{0};
-
-  static void Job(void* data, int32_t index, int32_t worker) {
-    Record* self = static_cast<Record*>(data);
-    if (self->busy[worker].fetch_add(1) != 0) ++self->clashes;
-    ++self->calls[size_t(index)];
-    int worst = self->worst_worker;
-    while (worker > worst && !self->worst_worker.compare_exchange_weak(worst, worker)) {
-    }
-    if (index % 16 == 0) std::this_thread::yield();
-    self->busy[worker].fetch_sub(1);
-  }
-};
-
-TEST_CASE("runner: every index once, workers in range and never shared") {
-  for (int workers : {1, 2, 3, 7, 64}) {
-    ThreadRunner runner(workers);
-    CHECK(runner.workers() == workers);
-    for (int count : {0, 1, 2, 5, 1000}) {
-      for (int repeat = 0; repeat < 20; ++repeat) {
-        Record record(count);
-        REQUIRE(ThreadRunner::Run(&runner, Record::Job, &record, count) == 0);
-        bool once = true;
-        for (const auto& calls : record.calls) once = once && calls == 1;
-        CHECK(once);
-        CHECK(record.clashes == 0);
-        CHECK(record.worst_worker < workers);
-      }
-    }
-  }
-}
 
 // Every worker waits for all the others, so that it hangs where one sleeps on.
 struct Meeting {
@@ -115,24 +78,6 @@ TEST_CASE("runner: idle threads sleep") {
   CHECK(double(std::clock() - start) / CLOCKS_PER_SEC < 0.05);
 }
 
-TEST_CASE("runner: calls from several threads take turns") {
-  ThreadRunner runner(4);
-  Record record(300);
-  std::vector<std::thread> callers;
-  for (int i = 0; i < 4; ++i) {
-    callers.emplace_back([&] {
-      for (int repeat = 0; repeat < 10; ++repeat) {
-        ThreadRunner::Run(&runner, Record::Job, &record, 300);
-      }
-    });
-  }
-  for (std::thread& caller : callers) caller.join();
-  bool all = true;
-  for (const auto& calls : record.calls) all = all && calls == 40;
-  CHECK(all);
-  CHECK(record.clashes == 0);
-}
-
 TEST_CASE("runner: the first exception of a batch reaches the caller when no job runs any more") {
   struct Batch {
     std::atomic<int> running{0}, calls{0};
@@ -154,9 +99,9 @@ TEST_CASE("runner: the first exception of a batch reaches the caller when no job
       CHECK(batch.calls >= 4);
       CHECK(batch.calls < 100);
       // The pool serves the next batch as if nothing had been.
-      Record record(50);
-      REQUIRE(ThreadRunner::Run(&runner, Record::Job, &record, 50) == 0);
-      for (const std::atomic<int>& calls : record.calls) CHECK(calls == 1);
+      Meeting meeting{workers};
+      REQUIRE(ThreadRunner::Run(&runner, Meeting::Job, &meeting, workers) == 0);
+      CHECK(meeting.met == workers);
     }
   }
 }
@@ -164,11 +109,11 @@ TEST_CASE("runner: the first exception of a batch reaches the caller when no job
 TEST_CASE("runner: nonsense is refused or clamped") {
   ThreadRunner runner(-5);
   CHECK(runner.workers() == 1);
-  Record record(1);
-  CHECK(ThreadRunner::Run(nullptr, Record::Job, &record, 1) != 0);
-  CHECK(ThreadRunner::Run(&runner, nullptr, &record, 1) != 0);
-  CHECK(ThreadRunner::Run(&runner, Record::Job, &record, -1) != 0);
-  CHECK(record.calls[0] == 0);
+  Meeting meeting{1};
+  CHECK(ThreadRunner::Run(nullptr, Meeting::Job, &meeting, 1) != 0);
+  CHECK(ThreadRunner::Run(&runner, nullptr, &meeting, 1) != 0);
+  CHECK(ThreadRunner::Run(&runner, Meeting::Job, &meeting, -1) != 0);
+  CHECK(meeting.met == 0);
 }
 
 }  // namespace

@@ -85,19 +85,7 @@ Bytes CameraExif(bool little) {
   return tiff.bytes;
 }
 
-// The least that is a profile, and padding.
-Bytes Profile(size_t size) {
-  Bytes icc(size, 0);
-  const auto put = [&](size_t at, const std::string& text) {
-    std::copy(text.begin(), text.end(), icc.begin() + static_cast<ptrdiff_t>(at));
-  };
-  for (size_t i = 0; i < 4; ++i) icc[i] = static_cast<uint8_t>(size >> (24 - 8 * i));
-  icc[8] = 4;
-  put(12, "mntrRGB XYZ ");
-  put(36, "acsp");
-  put(68, std::string("\0\0\xf6\xd6\0\1\0\0\0\0\xd3\x2d", 12));
-  return icc;
-}
+Bytes Profile(size_t size) { return FromText(photos::Profile(size)); }
 
 TEST_CASE("profiles: whole ones of RGB alone are passed on") {
   const auto changed = [](size_t at, uint8_t value) {
@@ -107,10 +95,8 @@ TEST_CASE("profiles: whole ones of RGB alone are passed on") {
   };
   CHECK(IsRgbProfile(Profile(132)));
   CHECK(IsRgbProfile(Profile(150000)));
-  for (const std::string space : {"GRAY", "CMYK", "Lab ", "XYZ "}) {
-    Bytes icc = Profile(200);
-    std::copy(space.begin(), space.end(), icc.begin() + 16);
-    CHECK_FALSE(IsRgbProfile(icc));
+  for (const char* space : {"GRAY", "CMYK", "Lab ", "XYZ "}) {
+    CHECK_FALSE(IsRgbProfile(FromText(photos::Profile(200, space))));
   }
   for (const size_t size : {size_t{0}, size_t{3}, size_t{131}, size_t{199}, size_t{201}}) {
     Bytes icc = Profile(200);
@@ -120,6 +106,7 @@ TEST_CASE("profiles: whole ones of RGB alone are passed on") {
   CHECK_FALSE(IsRgbProfile(changed(36, 'x')));
   CHECK_FALSE(IsRgbProfile(changed(131, 6)));  // tags: 132 + 6 * 12 bytes are more than there are
   Bytes tagged = changed(131, 1);
+  std::fill(tagged.begin() + 132, tagged.end(), uint8_t{0});
   tagged[132 + 7] = 190, tagged[132 + 11] = 10;  // from 190 on, 10 bytes
   CHECK(IsRgbProfile(tagged));
   ++tagged[132 + 11];
@@ -243,8 +230,7 @@ TEST_CASE("writers: a small PNG is smaller, with the same pixels") {
 // A PNG of one pixel with a chunk before its pixels.
 Bytes PngWithChunk(const std::string& name, const std::string& content) {
   Bytes png = ValueOf(EncodePng("a.png", Ramp(1, 1), {}, PngSize::kQuick));
-  std::string chunk = photos::Big(static_cast<uint32_t>(content.size()), 4) + name + content +
-                      photos::Big(photos::Crc(name + content), 4);
+  const std::string chunk = photos::Chunk(name, content);
   png.insert(png.begin() + 33, chunk.begin(), chunk.end());
   return png;
 }
@@ -338,18 +324,8 @@ TEST_CASE("writers: an animation shows its pictures in their order") {
   }
   const std::string said = Ask(folder, "webpinfo '" + path + "'");
   CHECK(Contains(said, "No error detected"));
-  size_t frames = 0;
-  for (size_t at = said.find("Chunk ANMF"); at < said.size();
-       at = said.find("Chunk ANMF", at + 1)) {
-    ++frames;
-  }
-  CHECK(frames == 3);
-  frames = 0;
-  for (size_t at = said.find("Duration: 100\n"); at < said.size();
-       at = said.find("Duration: 100\n", at + 1)) {
-    ++frames;
-  }
-  CHECK(frames == 3);
+  CHECK(Count(said, "Chunk ANMF") == 3);
+  CHECK(Count(said, "Duration: 100\n") == 3);
 }
 
 TEST_CASE("writers: a depth photo holds the map and the picture before, for exiftool too") {

@@ -42,12 +42,11 @@ TEST_CASE("GDepth: inverse and linear ranges in metres, by the focal length of E
   const double middle = double(capture.light_field.disparity.at(kWidth / 2, 0));
   const double level = std::floor(kWidth / 2 * 255.0 / (kWidth - 1)) / 255;
   CHECK(middle == doctest::Approx(per_diopter * ((1 - level) / 0.5 + level / 4)).epsilon(1e-4));
-  REQUIRE(Open(Gdepth(Photo(),
-                      "GDepth:Format=\"RangeLinear\" GDepth:Near=\"0.5\" GDepth:Far=\"4\" "
-                      "GDepth:Units=\"m\"",
-                      Data(RampPng())),
-               &capture) == "");
-  CheckRamp(capture, PerDiopter(50) / 0.5, PerDiopter(50) / 4);
+  capture = OpenRamp(Gdepth(Photo(),
+                            "GDepth:Format=\"RangeLinear\" GDepth:Near=\"0.5\" GDepth:Far=\"4\" "
+                            "GDepth:Units=\"m\"",
+                            Data(RampPng())),
+                     PerDiopter(50) / 0.5, PerDiopter(50) / 4);
   CHECK(double(capture.light_field.disparity.at(kWidth / 2, 0)) ==
         doctest::Approx(PerDiopter(50) / (0.5 + 3.5 * level)).epsilon(1e-4));
 }
@@ -58,20 +57,17 @@ TEST_CASE("GDepth: millimetres, and a distance in focus") {
   const std::string range =
       "GDepth:Format=\"RangeInverse\" GDepth:Near=\"500\" GDepth:Far=\"4000\" ";
   const std::string focus = "GFocus:FocalDistance=\"2000\" ";
-  REQUIRE(Open(Gdepth(Photo(), range + focus + "GDepth:Units=\"mm\"", Data(RampPng())), &capture) ==
-          "");
-  CheckRamp(capture, PerDiopter(50) / 0.5, PerDiopter(50) / 4);
+  capture = OpenRamp(Gdepth(Photo(), range + focus + "GDepth:Units=\"mm\"", Data(RampPng())),
+                     PerDiopter(50) / 0.5, PerDiopter(50) / 4);
   CHECK(!capture.has_focus);
   CHECK(capture.focus == doctest::Approx(PerDiopter(50) / 2));
   REQUIRE(Open(Gdepth(Photo(), range + focus, Data(RampPng())), &capture) == "");
-  CHECK(capture.focus == doctest::Approx(PerDiopter(50) / 1.5 / 4));
+  CHECK(capture.focus == doctest::Approx(kPortrait / 4));
 }
 
 TEST_CASE("GDepth: without units the nearest is taken to be 1.5 m before a 50 mm lens") {
   if (!CanReadXmp()) return;
-  Capture capture;
-  REQUIRE(Open(Gdepth(Photo(), kInverse, Data(RampPng())), &capture) == "");
-  CheckRamp(capture, PerDiopter(50) / 1.5, PerDiopter(50) / 1.5 / 8);
+  Capture capture = OpenRamp(Gdepth(Photo(), kInverse, Data(RampPng())), kPortrait, kPortrait / 8);
   CHECK(FactOf(capture, "scale").find("unknown") == 0);
 }
 
@@ -90,13 +86,12 @@ TEST_CASE("GDepth: extended XMP in many segments in any order, maps of 8 and 16 
     std::swap(segments[1], segments[4]);
     const std::string main =
         Packet(kGoogle, std::string("xmpNote:HasExtendedXMP=\"") + kGuid + "\" " + kInverse);
-    Capture capture;
-    REQUIRE(Open(Insert(Photo(), XmpSegment(main) + Joined(segments)), &capture) == "");
-    CheckRamp(capture, PerDiopter(50) / 1.5, PerDiopter(50) / 1.5 / 8);
+    Capture capture =
+        OpenRamp(Insert(Photo(), XmpSegment(main) + Joined(segments)), kPortrait, kPortrait / 8);
     if (map == maps[1]) {
       const double level = levels[1] / 65535.0;
       CHECK(double(capture.light_field.disparity.at(1, 0)) ==
-            doctest::Approx(PerDiopter(50) / 1.5 * (1 - level * 7 / 8)).epsilon(1e-5));
+            doctest::Approx(kPortrait * (1 - level * 7 / 8)).epsilon(1e-5));
     }
     segments.pop_back();
     CHECK(Contains(Open(Insert(Photo(), XmpSegment(main) + Joined(segments)), &capture),
@@ -104,8 +99,7 @@ TEST_CASE("GDepth: extended XMP in many segments in any order, maps of 8 and 16 
   }
   Capture capture;
   const std::string jpeg = Encode(Plain(kWidth / 2, kHeight / 2, 0), ".jpg");
-  REQUIRE(Open(Gdepth(Photo(), kInverse + Data(jpeg), ""), &capture) == "");
-  CheckRamp(capture, PerDiopter(50) / 1.5, PerDiopter(50) / 1.5);
+  capture = OpenRamp(Gdepth(Photo(), kInverse + Data(jpeg), ""), kPortrait, kPortrait);
 }
 
 TEST_CASE("GDepth: the sharp picture inside and the focus are used, turned as EXIF says") {
@@ -169,23 +163,20 @@ TEST_CASE("Dynamic Depth: the item that the container names") {
           "");
   CHECK(capture.format == "Dynamic Depth photo (JPEG)");
   CheckRamp(capture, PerDiopter(50) / 0.5, PerDiopter(50) / 4);
-  REQUIRE(Open(DynamicDepth(Photo(), RampPng(), range + "DepthMap:Units=\"None\""), &capture) ==
-          "");
-  CheckRamp(capture, PerDiopter(50) / 1.5, PerDiopter(50) / 1.5 / 8);
+  capture = OpenRamp(DynamicDepth(Photo(), RampPng(), range + "DepthMap:Units=\"None\""), kPortrait,
+                     kPortrait / 8);
   // As cameras write it: near and far are distances up to a factor.
-  REQUIRE(Open(DynamicDepth(Photo(), RampPng(), range + "DepthMap:Units=\"Diopters\""), &capture) ==
-          "");
-  CheckRamp(capture, PerDiopter(50) / 1.5, PerDiopter(50) / 1.5 / 8);
+  capture = OpenRamp(DynamicDepth(Photo(), RampPng(), range + "DepthMap:Units=\"Diopters\""),
+                     kPortrait, kPortrait / 8);
   CHECK(HasNote(capture, "diopters"));
-  REQUIRE(Open(DynamicDepth(Photo(), RampPng(),
-                            "DepthMap:Format=\"RangeLinear\" DepthMap:Units=\"Meters\" "
-                            "DepthMap:Near=\"0\" DepthMap:Far=\"4\""),
-               &capture) == "");
-  CheckRamp(capture, PerDiopter(50) / 1.5, 0);
+  capture = OpenRamp(DynamicDepth(Photo(), RampPng(),
+                                  "DepthMap:Format=\"RangeLinear\" DepthMap:Units=\"Meters\" "
+                                  "DepthMap:Near=\"0\" DepthMap:Far=\"4\""),
+                     kPortrait, 0);
   CHECK(HasNote(capture, "the range of the depth map is ignored"));
   // Lengths that are wrong: the map is found by its beginning, PNG or JPEG.
-  REQUIRE(Open(DynamicDepth(Photo(), RampPng(), range, 7) + "behind", &capture) == "");
-  CheckRamp(capture, PerDiopter(50) / 1.5, PerDiopter(50) / 1.5 / 8);
+  capture =
+      OpenRamp(DynamicDepth(Photo(), RampPng(), range, 7) + "behind", kPortrait, kPortrait / 8);
   CHECK(HasNote(capture, "the lengths of its container are wrong"));
   const std::string whole = DynamicDepth(Photo(), RampPng(), range);
   CHECK(Open(whole.substr(0, whole.size() - 1), &capture) != "");
@@ -200,8 +191,7 @@ TEST_CASE("Dynamic Depth: the item that the container names") {
           std::to_string(RampPng().size()) + "\"/></rdf:li></rdf:Seq></Container:Directory>");
   CaptureOptions white;
   white.map.near = Near::kWhite;
-  REQUIRE(Open(Insert(Photo(), XmpSegment(packet)) + RampPng(), &capture, white) == "");
-  CheckRamp(capture, 0, PerDiopter(50) / 1.5);
+  capture = OpenRamp(Insert(Photo(), XmpSegment(packet)) + RampPng(), 0, kPortrait, white);
 }
 
 TEST_CASE("Apple's JPEG: disparities in an auxiliary picture") {
@@ -216,8 +206,8 @@ TEST_CASE("Apple's JPEG: disparities in an auxiliary picture") {
   REQUIRE(Open(file(type + range), &capture) == "");
   CHECK(capture.format == "Apple depth photo (JPEG)");
   const FloatMap& map = capture.light_field.disparity;
-  CHECK(double(map.at(kWidth - 1, 5)) == doctest::Approx(PerDiopter(50) / 1.5).epsilon(0.01));
-  CHECK(double(map.at(0, 5)) == doctest::Approx(PerDiopter(50) / 1.5 / 4).epsilon(0.05));
+  CHECK(double(map.at(kWidth - 1, 5)) == doctest::Approx(kPortrait).epsilon(0.01));
+  CHECK(double(map.at(0, 5)) == doctest::Approx(kPortrait / 4).epsilon(0.05));
   REQUIRE(Open(file(type + range + "<depthData:Accuracy>absolute</depthData:Accuracy>"),
                &capture) == "");
   CHECK(double(map.at(kWidth - 1, 5)) == doctest::Approx(PerDiopter(50) * 2).epsilon(0.01));
@@ -357,10 +347,7 @@ TEST_CASE("photos: EXIF of PNG and WebP turns the picture as that of JPEG does")
 }
 
 TEST_CASE("photos: profiles of grey, or with parts missing, are left out with a note") {
-  std::string profile(200, '\0');
-  profile[3] = static_cast<char>(200);
-  profile.replace(12, 12, "mntrRGB XYZ ");
-  profile.replace(36, 4, "acsp");
+  const std::string profile = Profile(200);
   const auto read = [](const std::string& icc) {
     const std::string file =
         Insert(Photo(), Segment(0xe2, std::string("ICC_PROFILE\0\1\1", 14) + icc));
@@ -368,8 +355,7 @@ TEST_CASE("photos: profiles of grey, or with parts missing, are left out with a 
   };
   CHECK(read(profile).metadata.icc.size() == 200);
   CHECK(read(profile.substr(0, 199)).metadata.icc.empty());
-  profile.replace(16, 4, "GRAY");
-  const DepthPhoto photo = read(profile);
+  const DepthPhoto photo = read(Profile(200, "GRAY"));
   CHECK(photo.metadata.icc.empty());
   REQUIRE(photo.notes.size() == 1);
   CHECK(Contains(photo.notes[0], "profile"));

@@ -13,7 +13,7 @@
 #include "platform/readers/orientation.h"
 #include "platform/readers/unknown_depth.h"
 #include "tests/support/error_line.h"
-#include "tests/support/photo_files.h"
+#include "tests/support/opened_photo.h"
 
 namespace starfocus::depth_picture_test {
 namespace {
@@ -51,7 +51,7 @@ std::vector<uint16_t> LevelsOf(const Scene& scene) {
 
 size_t Index(int x, int y) { return size_t(y) * kWidth + size_t(x); }
 
-std::string Png(const std::vector<uint16_t>& levels) { return Png16(kWidth, kHeight, levels); }
+std::string GreyPng(const std::vector<uint16_t>& levels) { return Png16(kWidth, kHeight, levels); }
 
 // Opens a grey photo with a depth picture of that name and content.
 struct Opened {
@@ -68,12 +68,7 @@ struct Opened {
   }
 
   double At(int x, int y) const { return double(capture.light_field.disparity.at(x, y)); }
-  bool HasNote(const std::string& part) const {
-    for (const std::string& note : capture.notes) {
-      if (Contains(note, part)) return true;
-    }
-    return false;
-  }
+  bool HasNote(const std::string& part) const { return photos::HasNote(capture, part); }
 };
 
 std::string PfmOf(const FloatMap& map, ByteOrder order = ByteOrder::kLittle) {
@@ -110,7 +105,7 @@ TEST_CASE("unknown depth: 0 and 65535 of 16 bits, filled with what is behind") {
       for (int x = 0; x < 5; ++x) levels[Index(x, y)] = unknown;    // a border
       for (int x = 28; x < 31; ++x) levels[Index(x, y)] = unknown;  // beside the box
     }
-    const Opened opened("map.png", Png(levels), NearIs(Near::kBlack));
+    const Opened opened("map.png", GreyPng(levels), NearIs(Near::kBlack));
     CheckScene(opened);
     CHECK(opened.At(0, 4) == doctest::Approx(0));
     CHECK(opened.At(28, 15) == doctest::Approx(0));  // the wall, not the box
@@ -120,7 +115,7 @@ TEST_CASE("unknown depth: 0 and 65535 of 16 bits, filled with what is behind") {
     DepthOptions none = NearIs(Near::kBlack);
     none.has_unknown = true;
     none.use_alpha = false;
-    const Opened known("map.png", Png(levels), none);
+    const Opened known("map.png", GreyPng(levels), none);
     REQUIRE(known.error == "");
     CHECK(known.capture.notes.empty());
     CHECK(known.At(0, 4) == doctest::Approx(unknown == 0 ? kNearest : 0));
@@ -131,7 +126,7 @@ TEST_CASE("unknown depth: 0 and 65535 are depths of a map that uses the whole ra
   for (const bool inverted : {false, true}) {
     CAPTURE(inverted);
     const Scene scene = inverted ? Scene{65535, 18725, 0} : Scene{0, 46811, 65535};
-    const Opened opened("map.png", Png(LevelsOf(scene)),
+    const Opened opened("map.png", GreyPng(LevelsOf(scene)),
                         NearIs(inverted ? Near::kBlack : Near::kWhite));
     CheckScene(opened);
     CHECK(opened.HasNote("as a depth"));
@@ -140,7 +135,7 @@ TEST_CASE("unknown depth: 0 and 65535 are depths of a map that uses the whole ra
   std::vector<uint16_t> both = LevelsOf(kMillimetres);  // of a sensor, both are unknown
   both[Index(40, 2)] = 65535;
   both[Index(41, 2)] = 0;
-  const Opened sensor("map.png", Png(both), NearIs(Near::kBlack));
+  const Opened sensor("map.png", GreyPng(both), NearIs(Near::kBlack));
   CheckScene(sensor);
   CHECK(sensor.HasNote("0 and 65535 of the depth picture stand"));
 }
@@ -163,39 +158,6 @@ TEST_CASE(
   CHECK(named.At(3, 5) == doctest::Approx(0));
 }
 
-// A PNG file whose samples are stored as they are: other colour types than Png16.
-std::string PngOf(int depth, int colour, const std::string& samples, size_t row,
-                  const std::string& more) {
-  std::string png = Png16(kWidth, kHeight, std::vector<uint16_t>(size_t(kWidth) * kHeight, 0));
-  std::string data;
-  for (size_t at = 0; at < samples.size(); at += row) data += '\0' + samples.substr(at, row);
-  uint32_t low = 1, high = 0;
-  for (const char byte : data) {
-    low = (low + static_cast<uint8_t>(byte)) % 65521;
-    high = (high + low) % 65521;
-  }
-  std::string packed = "\x78\x01\x01";
-  const auto size = static_cast<uint32_t>(data.size());
-  for (const uint32_t length : {size, ~size}) {
-    packed += static_cast<char>(length);
-    packed += static_cast<char>(length >> 8);
-  }
-  packed += data + Big(high << 16 | low, 4);
-  const auto chunk = [](const std::string& type, const std::string& content) {
-    return Big(static_cast<uint32_t>(content.size()), 4) + type + content +
-           Big(Crc(type + content), 4);
-  };
-  const std::string header = Big(kWidth, 4) + Big(kHeight, 4) + static_cast<char>(depth) +
-                             static_cast<char>(colour) + std::string(3, '\0');
-  return png.substr(0, 8) + chunk("IHDR", header) + more + chunk("IDAT", packed) +
-         chunk("IEND", "");
-}
-
-std::string Chunk(const std::string& type, const std::string& content) {
-  return Big(static_cast<uint32_t>(content.size()), 4) + type + content +
-         Big(Crc(type + content), 4);
-}
-
 TEST_CASE("unknown depth: transparent pixels, by an alpha channel, a colour or a palette") {
   const Scene scene = {50, 160, 204};
   const auto make = [&](int depth, int colour) {
@@ -216,13 +178,14 @@ TEST_CASE("unknown depth: transparent pixels, by an alpha channel, a colour or a
   for (int level = 0; level < 256; ++level) palette += std::string(3, static_cast<char>(level));
   opacities[7] = 0;
   const std::string files[] = {
-      PngOf(8, 4, make(8, 4), 2 * kWidth, ""),
-      PngOf(16, 4, make(16, 4), 4 * kWidth, ""),
-      PngOf(8, 6, make(8, 6), 4 * kWidth, ""),
-      PngOf(16, 6, make(16, 6), 8 * kWidth, ""),
-      PngOf(8, 0, make(8, 0), kWidth, Chunk("tRNS", Big(7, 2))),
-      PngOf(16, 0, make(16, 0), 2 * kWidth, Chunk("tRNS", Big(7 * 257, 2))),
-      PngOf(8, 3, make(8, 3), kWidth, Chunk("PLTE", palette) + Chunk("tRNS", opacities))};
+      Png(kWidth, kHeight, {8, 4}, make(8, 4), 2 * kWidth),
+      Png(kWidth, kHeight, {16, 4}, make(16, 4), 4 * kWidth),
+      Png(kWidth, kHeight, {8, 6}, make(8, 6), 4 * kWidth),
+      Png(kWidth, kHeight, {16, 6}, make(16, 6), 8 * kWidth),
+      Png(kWidth, kHeight, {8, 0, Chunk("tRNS", Big(7, 2))}, make(8, 0), kWidth),
+      Png(kWidth, kHeight, {16, 0, Chunk("tRNS", Big(7 * 257, 2))}, make(16, 0), 2 * kWidth),
+      Png(kWidth, kHeight, {8, 3, Chunk("PLTE", palette) + Chunk("tRNS", opacities)}, make(8, 3),
+          kWidth)};
   for (size_t k = 0; k < std::size(files); ++k) {
     CAPTURE(k);
     const Opened opened("map.png", files[k], NearIs(Near::kWhite));
@@ -291,7 +254,7 @@ TEST_CASE("depth pictures: PFM by --near, and units that keep values as they are
   options.unit = DepthUnit::kMillimetres;
   std::vector<uint16_t> levels = LevelsOf(kMillimetres);
   levels[0] = 0;
-  const Opened by_millimetre("map.png", Png(levels), options);
+  const Opened by_millimetre("map.png", GreyPng(levels), options);
   REQUIRE(by_millimetre.error == "");
   CHECK(by_millimetre.At(0, 0) == doctest::Approx(kNearest * 1.5 / 3));
   CHECK(by_millimetre.At(kBox[0], kBox[1]) == doctest::Approx(kNearest * 1.5 / 0.9));

@@ -17,7 +17,7 @@
 #include "platform/readers/heic.h"
 #include "platform/readers/xmp.h"
 #include "platform/runner.h"
-#include "tests/cli/call_program.h"
+#include "tests/cli/session.h"
 #include "tests/support/photo_files.h"
 
 namespace starfocus::import_program_test {
@@ -41,48 +41,54 @@ std::string GdepthPhoto() {
                 "GDepth:Data=\"" + Base64(Encode(map, ".png")) + "\"");
 }
 
-TEST_CASE("photos: a GDepth photo is refocused at a pixel, at its own focus, and told of") {
+// A photo whose left half is near, 96 x 64, with a depth picture beside it.
+void MakePhoto(const TempFolder& folder, const std::string& exif) {
+  Image map(96, 64);
+  for (int y = 0; y < map.height; ++y) std::fill_n(map.row(y), 3 * 48, uint8_t{255});
+  Write(folder.file("a.jpg"), Insert(Encode(Ramp(96, 64), ".jpg"), exif));
+  Write(folder.file("a-depth.png"), Encode(map, ".png"));
+}
+
+// A gray photo and pictures of depth: the left half near, and all but the top.
+void MakePhotoAndMap(const TempFolder& folder) {
+  MakePhoto(folder, "");
+  Write(folder.file("a.png"), Encode(Ramp(96, 64), ".png"));
+  Image map = Plain(96, 64, 255);
+  for (int y = 0; y < 20; ++y) std::fill_n(map.row(y), map.stride(), uint8_t{0});
+  Write(folder.file("map.png"), Encode(map, ".png"));
+}
+
+TEST_CASE("photos: sessions") {
+  const auto write_pair = [](const TempFolder& folder) {
+    const std::string left = Encode(Plain(40, 24, 90), ".jpg");
+    Write(folder.file("pair.mpo"), MultiPicture(left, Encode(Ramp(40, 24), ".jpg")));
+  };
+  const auto write_photo = [](const TempFolder& folder) {
+    Write(folder.file("photo.jpg"), GdepthPhoto());
+  };
+  RunSessions("readers/plain_sessions.txt",
+              {{"MPO", write_pair}, {"photo and map", MakePhotoAndMap}});
+  if (CanReadXmp()) RunSessions("readers/sessions.txt", {{"GDepth photo", write_photo}});
+}
+
+TEST_CASE("photos: import without repair has the map as it is") {
   if (!CanReadXmp()) return;
   TempFolder folder;
   Write(folder.file("photo.jpg"), GdepthPhoto());
-  Succeed(folder, "refocus photo.jpg -o near.png --focus-at 24,32 --f-stop 1.8");
-  const Outcome own = Call(folder, "refocus photo.jpg -o own.png");
-  REQUIRE(own.code == 0);
-  CHECK(own.err ==
-        "photo.jpg: focused at 24,32, the focus in the file (--focus-at or --focus sets "
-        "another)\n");
-  Succeed(folder, "refocus photo.jpg -o far.png --focus-at 80,32 --f-stop 1.8");
-  CHECK(Call(folder, "compare near.png own.png").out == "PSNR inf, largest difference 0\n");
-  CHECK(!Contains(Call(folder, "compare near.png far.png").out, "difference 0\n"));
-  const Outcome info = Call(folder, "info photo.jpg");
-  CHECK(Contains(info.out, "photo.jpg\n  format     GDepth photo (JPEG)\n"));
-  CHECK(Contains(info.out, "  map        48x32, RangeInverse from 0.5 to 4 m\n"));
-  const Outcome json = Call(folder, "info photo.jpg --json");
-  CHECK(Contains(json.out, "\"format\":\"GDepth photo (JPEG)\""));
-  CHECK(Contains(json.out, "\"widest_f_stop\":1.0"));
-  const Outcome over = Call(folder, "refocus photo.jpg -o photo.jpg --focus 1");
-  CHECK(over.code == 2);
-  CHECK(Contains(over.err, "which is read"));
-  const Outcome wide = Call(folder, "refocus photo.jpg -o x.png --focus 1 --f-stop 0.9");
-  CHECK(wide.code == 2);
-  CHECK(Contains(wide.err, "from the widest on, 1"));
-  CHECK(folder.count() == 4);
+  Succeed(folder, "import photo.jpg raw --no-repair");
+  const LightField field = ValueOf(LoadLightField(folder.file("raw"), {}));
+  const float edge = field.disparity.at(48, 8);
+  CHECK((edge < field.disparity.at(0, 8) && edge > field.disparity.at(95, 8)));  // between both
 }
 
-TEST_CASE("photos: a stereo pair in one file is told of, and has no map to refocus by") {
+#ifdef STARFOCUS_HAS_HEIF
+TEST_CASE("photos: HEIC on standard input") {
   TempFolder folder;
-  const std::string left = Encode(Plain(40, 24, 90), ".jpg"), right = Encode(Ramp(40, 24), ".jpg");
-  Write(folder.file("pair.mpo"), MultiPicture(left, right));
-  const Outcome info = Call(folder, "info pair.mpo");
-  CHECK(info.code == 0);
-  CHECK(Contains(info.out, "  format     stereo pair (MPO)\n"));
-  CHECK(Contains(info.out, "  size       40x24 pixels\n"));
-  CHECK(Contains(info.out, "  views      2 views at (0, 0) (1, 0)\n"));
-  CHECK(Contains(Call(folder, "info pair.mpo --json").out, "\"positions\":[[0.0,0.0],[1.0,0.0]]"));
-  const Outcome refocus = Call(folder, "refocus pair.mpo -o x.png --focus 1");
-  CHECK(refocus.code == 1);
-  CHECK(Contains(refocus.err, "starfocus: pair.mpo: expected a disparity map"));
+  Succeed(folder,
+          "refocus - -o a.png <'" STARFOCUS_SOURCE_DIR "/tests/fuzz/corpus/heif/depth.heic'");
+  CHECK(fs::exists(folder.file("a.png")));
 }
+#endif
 
 TEST_CASE("photos: captions reach every output, and no depth map is claimed there") {
   if (!CanReadXmp()) return;
@@ -142,27 +148,6 @@ TEST_CASE("photos: captions of PNG and WebP photos stay, too") {
       CHECK(Contains(Text(folder.file(out)), "<xmp:Rating>4</xmp:Rating>"));
     }
   }
-}
-
-// A photo whose left half is near, 96 x 64, with a depth picture beside it.
-void MakePhoto(const TempFolder& folder, const std::string& exif) {
-  Image map(96, 64);
-  for (int y = 0; y < map.height; ++y) std::fill_n(map.row(y), 3 * 48, uint8_t{255});
-  Write(folder.file("a.jpg"), Insert(Encode(Ramp(96, 64), ".jpg"), exif));
-  Write(folder.file("a-depth.png"), Encode(map, ".png"));
-}
-
-TEST_CASE("photos: a folder stands for its PNG photos, too, and makes a folder") {
-  TempFolder folder;
-  MakePhoto(folder, "");
-  REQUIRE(std::system(
-              ("cd '" + folder.file(".") + "' && mkdir in && mv a.jpg a-depth.png in").c_str()) ==
-          0);
-  Write(folder.file("in/b.png"), Encode(Ramp(96, 64), ".png"));
-  Write(folder.file("in/b-depth.png"), Text(folder.file("in/a-depth.png")));
-  Succeed(folder, "refocus in -o out --near white");
-  CHECK(fs::exists(folder.file("out/a.jpg")));
-  CHECK(fs::exists(folder.file("out/b.png")));
 }
 
 #ifdef STARFOCUS_HAS_EXIF
@@ -232,110 +217,14 @@ TEST_CASE("photos: the subject stays in EXIF where its pixels are those of the p
 
 #endif
 
-TEST_CASE("photos: - is a photo on standard input") {
-  TempFolder folder;
-  Write(folder.file("a.jpg"), Encode(Ramp(96, 64), ".jpg"));
-  Write(folder.file("a.png"), Encode(Ramp(96, 64), ".png"));
-  Image map = Plain(96, 64, 255);
-  for (int y = 0; y < 20; ++y) std::fill_n(map.row(y), map.stride(), uint8_t{0});
-  Write(folder.file("map.png"), Encode(map, ".png"));
-  const std::string options = " --depth map.png --near white --focus-at 48,40 -o ";
-  for (const std::string name : {"a.jpg", "a.png"}) {
-    CAPTURE(name);
-    Succeed(folder, "refocus - <" + name + options + "stream.png");
-    Succeed(folder, "refocus " + name + options + "file.png");
-    CHECK(Text(folder.file("stream.png")) == Text(folder.file("file.png")));
-    CHECK(Call(folder, "refocus -" + options + "pipe.png", "cat " + name + " |").code == 0);
-    CHECK(Text(folder.file("pipe.png")) == Text(folder.file("file.png")));
-  }
-  CHECK(Contains(Call(folder, "info - --depth map.png --near white <a.jpg").out, "96x64 pixels"));
-  Succeed(folder, "import - lf --depth map.png --near white <a.jpg");
-  CHECK(fs::exists(folder.file("lf/disparity.pfm")));
-  CHECK(Call(folder, "view - --depth map.png --near white -o page.html <a.jpg").code == 0);
-#ifdef STARFOCUS_HAS_HEIF
-  const std::string heic = STARFOCUS_SOURCE_DIR "/tests/fuzz/corpus/heif/depth.heic";
-  CHECK(Call(folder, "refocus - -o heic.png <'" + heic + "'").code == 0);
-  CHECK(fs::exists(folder.file("heic.png")));
-#endif
-  const int files = folder.count();
-  const struct {
-    const char* arguments;
-    const char* mention;
-  } bad[] = {{"refocus - -o x.png </dev/null", "standard input: "},
-             {"refocus - -o x.png <a.jpg", "standard input: "},
-             {"refocus - --depth map.png --near white -o x.png </dev/null", "found nothing"},
-             {"refocus - --depth - -o x.png <a.jpg", "--depth: "},
-             {"refocus - -o x.png </dev/zero", "a file of zeros"},
-             {"refocus - a.jpg -o out/ <a.jpg", "standard input"},
-             {"refocus - -o out/ <a.jpg", "standard input"}};
-  for (const auto& row : bad) {
-    CAPTURE(row.arguments);
-    const Outcome outcome = Call(folder, row.arguments);
-    CHECK((outcome.code == 1 || outcome.code == 2));
-    CheckErrorLine(outcome.err);
-    CHECK(Contains(outcome.err, row.mention));
-  }
-  CHECK(folder.count() == files);
-}
-
-TEST_CASE("photos: import writes a folder that gives the same picture") {
-  if (!CanReadXmp()) return;
-  TempFolder folder;
-  Write(folder.file("photo.jpg"), GdepthPhoto());
-  const Outcome import = Call(folder, "import photo.jpg lf");
-  REQUIRE(import.code == 0);
-  CHECK(Contains(import.out, "lf: 1 view of 96x64, with a map\n"));
-  CHECK(Contains(import.out, "--widest 1\n"));
-  Succeed(folder, "refocus lf -o a.png --focus-at 24,32 --f-stop 1.8");
-  Succeed(folder, "refocus photo.jpg -o b.png --focus-at 24,32 --f-stop 1.8");
-  CHECK(Call(folder, "compare a.png b.png").out == "PSNR inf, largest difference 0\n");
-  const Outcome again = Call(folder, "import photo.jpg lf");
-  CHECK(again.code == 1);
-  CheckErrorLine(again.err);
-  LightField field;
-  CHECK(Call(folder, "import photo.jpg raw --repair --no-repair").code == 2);
-  Succeed(folder, "import photo.jpg raw --no-repair");
-  field = ValueOf(LoadLightField(folder.file("raw"), {}));
-  const float edge = field.disparity.at(48, 8);
-  CHECK((edge < field.disparity.at(0, 8) && edge > field.disparity.at(95, 8)));  // between both
-}
-
-TEST_CASE("folders: a grid without a map is estimated, and imported without one") {
-  TempFolder folder;
-  Succeed(folder, "scene lf --size 96x64 --views 9");
-  fs::create_directory(folder.file("grid"));
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) {
-      const starfocus_position at = {column - 1.0, row - 1.0};
-      fs::copy_file(
-          folder.file("lf/" + ViewName(at) + ".png"),
-          folder.file("grid/v_" + std::to_string(row) + "_" + std::to_string(column) + ".png"));
-    }
-  }
-  const Outcome info = Call(folder, "info grid");
-  CHECK(info.code == 0);
-  CHECK(Contains(info.out, "rows and columns of views\n  views      9 of 3 rows of 3"));
-  CHECK(Contains(info.err, "are estimated from 9 views"));
-  Succeed(folder, "import grid copy");
-  CHECK(fs::exists(folder.file("copy/view_-1.0_+1.0.png")));
-  CHECK(!fs::exists(folder.file("copy/disparity.pfm")));
-  CHECK(Call(folder, "refocus grid -o grid/v_1_1.png --focus 0").code == 2);
-  CHECK(Call(folder, "compare copy/view_+0.0_+0.0.png lf/view_+0.0_+0.0.png").out ==
-        "PSNR inf, largest difference 0\n");
-}
-
 // A folder of one view, a random picture whose disparities fall from `high` to `low` in steps.
 void MakeSteps(const TempFolder& folder, const std::string& name, float low, float high) {
   constexpr int kSteps = 8;
   LightField field;
   field.positions = {{0, 0}};
-  field.views = {Image(128, 96)};
+  field.views = {Noise(128, 96)};
+  for (uint8_t& value : field.views[0].pixels) value = static_cast<uint8_t>(64 + value / 2);
   field.disparity = {128, 96, {}};
-  uint32_t seed = 1;
-  for (uint8_t& value : field.views[0].pixels) {
-    seed = seed * 1664525 + 1013904223;
-    value = static_cast<uint8_t>(64 + (seed >> 25));
-  }
   for (int k = 0; k < 128 * 96; ++k) {
     const int step = k % 128 / (128 / kSteps);
     field.disparity.values.push_back(high - (high - low) * static_cast<float>(step) / (kSteps - 1));

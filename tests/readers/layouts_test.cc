@@ -14,7 +14,7 @@
 #include "platform/readers/photo_scale.h"
 #include "starfocus/starfocus.h"
 #include "tests/support/error_line.h"
-#include "tests/support/photo_files.h"
+#include "tests/support/opened_photo.h"
 
 namespace starfocus::layouts_test {
 namespace {
@@ -45,13 +45,6 @@ Error OpenAndLoad(const TempFolder& folder, Capture* capture) {
   if (!opened) return opened.error();
   *capture = std::move(*opened);
   return LoadCapture({}, capture);
-}
-
-std::string FactOf(const Capture& capture, const std::string& name) {
-  for (const auto& fact : capture.facts) {
-    if (fact.first == name) return fact.second;
-  }
-  return "";
 }
 
 TEST_CASE("HCI: 17 of 81 views, disparities times four, f-stops by the baseline") {
@@ -198,12 +191,7 @@ TEST_CASE("stereo pairs: disp0GT.pfm, as ETH3D names it, is the map") {
 void WriteGreyMapPair(const TempFolder& folder, const std::vector<std::string>& names, int height,
                       int multiple) {
   constexpr int kWidth = 160, kDisparity = 9;
-  Image left(kWidth, height), right(kWidth, height), map = Plain(kWidth, height, 0);
-  uint32_t seed = 1;
-  for (uint8_t& value : left.pixels) {
-    seed = seed * 1664525 + 1013904223;
-    value = static_cast<uint8_t>(seed >> 24);
-  }
+  Image left = Noise(kWidth, height), right(kWidth, height), map = Plain(kWidth, height, 0);
   for (int y = 0; y < height; ++y) {
     for (int k = 0; k < 3 * kWidth; ++k) {
       const int from = k + 3 * kDisparity;

@@ -24,13 +24,11 @@ void CheckOrder(const std::string& attributes) {
   CAPTURE(attributes);
   Capture capture;
   const std::string file = Gdepth(Photo(), attributes, Data(RampPng()));
-  REQUIRE(Open(file, &capture) == "");
-  CheckRamp(capture, PerDiopter(50) / 1.5, 0);
+  capture = OpenRamp(file, kPortrait, 0);
   CHECK(HasNote(capture, "the range of the depth map is ignored"));
   CaptureOptions white;
   white.map.near = Near::kWhite;
-  REQUIRE(Open(file, &capture, white) == "");
-  CheckRamp(capture, 0, PerDiopter(50) / 1.5);
+  capture = OpenRamp(file, 0, kPortrait, white);
 }
 
 TEST_CASE("GDepth: a range that is none is ignored, and levels are an order") {
@@ -50,11 +48,10 @@ TEST_CASE("GDepth: a range that is none is ignored, and levels are an order") {
   CheckOrder("GDepth:Format=\"other\" GDepth:Near=\"0.5\" GDepth:Far=\"4\"");
   // Levels that are linear in 1 / distance may end at infinity.
   for (const char* far : {"INF", "inf", "Infinity", "+inf"}) {
-    Capture capture;
-    REQUIRE(Open(Gdepth(Photo(), inverse + "GDepth:Near=\"0.5\" GDepth:Far=\"" + far + "\"",
+    Capture capture =
+        OpenRamp(Gdepth(Photo(), inverse + "GDepth:Near=\"0.5\" GDepth:Far=\"" + far + "\"",
                         Data(RampPng())),
-                 &capture) == "");
-    CheckRamp(capture, PerDiopter(50) / 0.5, 0);
+                 PerDiopter(50) / 0.5, 0);
     CHECK(HasNote(capture, "infinite"));
   }
 }
@@ -94,7 +91,7 @@ TEST_CASE("XMP that is lost or malformed is ignored, and the depth picture besid
     const std::string file = Insert(Photo(), one.segments);
     REQUIRE(OpenBeside(file, &capture) == "");
     CHECK(capture.format == "photo and depth picture");
-    CheckRamp(capture, 0, PerDiopter(50) / 1.5);
+    CheckRamp(capture, 0, kPortrait);
     CHECK(HasNote(capture, one.note));
     // Without a picture beside it the same is the cause of the error.
     const std::string error = Open(file, &capture).line();
@@ -110,12 +107,10 @@ TEST_CASE("extended XMP that no packet names is used if there is no other map") 
   for (size_t at = 0; (at = other.find(kGuid, at)) != std::string::npos;) other[at] = 'F';
   for (const std::string& packet : {Packet(kGoogle, names + kInverse), Packet(kGoogle, kInverse)}) {
     const std::string file = Insert(Photo(), XmpSegment(packet) + other);
-    Capture capture;
-    REQUIRE(Open(file, &capture) == "");
-    CheckRamp(capture, PerDiopter(50) / 1.5, PerDiopter(50) / 1.5 / 8);
+    Capture capture = OpenRamp(file, kPortrait, kPortrait / 8);
     CHECK(HasNote(capture, "no packet names"));
     REQUIRE(OpenBeside(file, &capture) == "");
-    CheckRamp(capture, 0, PerDiopter(50) / 1.5);
+    CheckRamp(capture, 0, kPortrait);
     CHECK(!capture.notes.empty());
   }
 }
@@ -126,9 +121,7 @@ TEST_CASE("XMP: a second packet counts, beside one that is malformed, too") {
   const std::string depth = XmpSegment(Packet(kGoogle, kInverse + Data(RampPng())));
   for (const std::string& first : {Packet(rights, ""), std::string("<a")}) {
     for (const std::string& segments : {XmpSegment(first) + depth, depth + XmpSegment(first)}) {
-      Capture capture;
-      REQUIRE(Open(Insert(Photo(), segments), &capture) == "");
-      CheckRamp(capture, PerDiopter(50) / 1.5, PerDiopter(50) / 1.5 / 8);
+      Capture capture = OpenRamp(Insert(Photo(), segments), kPortrait, kPortrait / 8);
       CHECK(HasNote(capture, "XMP is ignored") == (first == "<a"));
     }
   }
@@ -144,8 +137,7 @@ TEST_CASE("Apple's JPEG: the map is found where its index is wrong, moved or los
   const auto check = [&](const std::string& file, const std::string& note) {
     REQUIRE(Open(file, &capture) == "");
     const FloatMap& disparity = capture.light_field.disparity;
-    CHECK(double(disparity.at(kWidth - 1, 5)) ==
-          doctest::Approx(PerDiopter(50) / 1.5).epsilon(0.02));
+    CHECK(double(disparity.at(kWidth - 1, 5)) == doctest::Approx(kPortrait).epsilon(0.02));
     CHECK(double(disparity.at(0, 5)) == doctest::Approx(PerDiopter(50) / 3).epsilon(0.02));
     CHECK(capture.notes.empty() == note.empty());
     if (!note.empty()) CHECK(HasNote(capture, note));

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Comparing an error with its line, "" where there is none, and looking for a part of it, as tests
-// do.
+// Comparing an error with its line, "" where there is none, and looking for parts of texts.
 #ifndef STARFOCUS_TESTS_SUPPORT_ERROR_LINE_H_
 #define STARFOCUS_TESTS_SUPPORT_ERROR_LINE_H_
 
@@ -18,6 +17,11 @@ inline bool operator!=(const Error& error, const std::string& line) { return err
 
 inline bool Contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
+}
+inline size_t Count(const std::string& text, const std::string& part) {
+  size_t count = 0;
+  for (size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+  return count;
 }
 inline bool Contains(const Error& error, const std::string& part) {
   return Contains(error.line(), part);

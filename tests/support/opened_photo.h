@@ -34,12 +34,24 @@ inline double PerDiopter(double focal) {
   return focal * focal / 1000 / 2 / 43.2666 * std::hypot(kWidth, kHeight);
 }
 
+// The nearest of a map without units: 1.5 m before a 50 mm lens.
+inline const double kPortrait = PerDiopter(50) / 1.5;
+
 inline void CheckRamp(const Capture& capture, double at_black, double at_white) {
   const FloatMap& map = capture.light_field.disparity;
   REQUIRE(map.width == kWidth);
   REQUIRE(map.height == kHeight);
   CHECK(double(map.at(0, 3)) == doctest::Approx(at_black).epsilon(1e-4));
   CHECK(double(map.at(kWidth - 1, 3)) == doctest::Approx(at_white).epsilon(1e-4));
+}
+
+// The photo, opened, whose map is a ramp between those disparities.
+inline Capture OpenRamp(const std::string& bytes, double at_black, double at_white,
+                        const CaptureOptions& options = {}) {
+  Capture capture;
+  REQUIRE(Open(bytes, &capture, options) == "");
+  CheckRamp(capture, at_black, at_white);
+  return capture;
 }
 
 inline std::string FactOf(const Capture& capture, const std::string& name) {

@@ -46,6 +46,17 @@ inline Image Ramp(int width, int height) {
   return image;
 }
 
+// Random pixels.
+inline Image Noise(int width, int height) {
+  Image image(width, height);
+  uint32_t seed = 1;
+  for (uint8_t& value : image.pixels) {
+    seed = seed * 1664525 + 1013904223;
+    value = static_cast<uint8_t>(seed >> 24);
+  }
+  return image;
+}
+
 inline std::string Big(uint32_t value, int bytes) {
   std::string text;
   for (int k = bytes - 1; k >= 0; --k) text += static_cast<char>(value >> 8 * k);
@@ -61,13 +72,23 @@ inline uint32_t Crc(const std::string& bytes) {
   return ~crc;
 }
 
-// A gray PNG file of 16 bits, its data stored as they are (PNG specification; RFC 1950 and 1951).
-inline std::string Png16(int width, int height, const std::vector<uint16_t>& levels) {
+// A chunk of a PNG file.
+inline std::string Chunk(const std::string& type, const std::string& content) {
+  return Big(static_cast<uint32_t>(content.size()), 4) + type + content +
+         Big(Crc(type + content), 4);
+}
+
+// What a PNG file says of its samples, and its chunks before them.
+struct PngKind {
+  int depth = 8, colour = 0;
+  std::string more = {};
+};
+
+// A PNG file of rows of samples, stored as they are (PNG specification; RFC 1950 and 1951).
+inline std::string Png(uint32_t width, uint32_t height, const PngKind& kind,
+                       const std::string& samples, size_t row) {
   std::string data;
-  for (int y = 0; y < height; ++y) {
-    data += '\0';
-    for (int x = 0; x < width; ++x) data += Big(levels[size_t(y) * size_t(width) + size_t(x)], 2);
-  }
+  for (size_t at = 0; at < samples.size(); at += row) data += '\0' + samples.substr(at, row);
   uint32_t low = 1, high = 0;
   for (const char byte : data) {
     low = (low + static_cast<uint8_t>(byte)) % 65521;
@@ -80,13 +101,17 @@ inline std::string Png16(int width, int height, const std::vector<uint16_t>& lev
     packed += static_cast<char>(length >> 8);
   }
   packed += data + Big(high << 16 | low, 4);
-  const auto chunk = [](const std::string& type, const std::string& content) {
-    return Big(static_cast<uint32_t>(content.size()), 4) + type + content +
-           Big(Crc(type + content), 4);
-  };
-  const std::string header = Big(static_cast<uint32_t>(width), 4) +
-                             Big(static_cast<uint32_t>(height), 4) + std::string("\x10\0\0\0\0", 5);
-  return "\x89PNG\r\n\x1a\n" + chunk("IHDR", header) + chunk("IDAT", packed) + chunk("IEND", "");
+  const std::string header = Big(width, 4) + Big(height, 4) + static_cast<char>(kind.depth) +
+                             static_cast<char>(kind.colour) + std::string(3, '\0');
+  return "\x89PNG\r\n\x1a\n" + Chunk("IHDR", header) + kind.more + Chunk("IDAT", packed) +
+         Chunk("IEND", "");
+}
+
+// A gray PNG file of 16 bits.
+inline std::string Png16(int width, int height, const std::vector<uint16_t>& levels) {
+  std::string samples;
+  for (const uint16_t level : levels) samples += Big(level, 2);
+  return Png(uint32_t(width), uint32_t(height), {16}, samples, 2 * size_t(width));
 }
 
 inline std::string Base64(const std::string& bytes) {
@@ -239,8 +264,10 @@ inline std::vector<std::string> ProfileSegments(const std::string& icc, size_t p
 inline std::string Profile(size_t size, const std::string& space = "RGB ") {
   std::string icc(size, '\0');
   icc.replace(0, 4, Big(static_cast<uint32_t>(size), 4));
-  icc.replace(16, 4, space);
+  icc[8] = 4;
+  icc.replace(12, 12, "mntr" + space + "XYZ ");
   icc.replace(36, 4, "acsp");
+  icc.replace(68, 12, std::string("\0\0\xf6\xd6\0\1\0\0\0\0\xd3\x2d", 12));
   for (size_t k = 132; k < size; ++k) icc[k] = static_cast<char>(k % 251);
   return icc;
 }

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// Inputs of several tests of the programs.
+#ifndef STARFOCUS_TESTS_CLI_INPUTS_H_
+#define STARFOCUS_TESTS_CLI_INPUTS_H_
+
+#include "platform/light_field.h"
+#include "platform/runner.h"
+#include "tests/cli/call_program.h"
+#include "tests/support/closed_hair.h"
+
+namespace starfocus {
+
+// Writes the folder `truth`, a portrait with the coverage of its hair, and `closed`, the same
+// without.
+inline void PrepareHair(const TempFolder& folder) {
+  const test::ClosedHair portrait = test::MakeClosedHair();
+  LightField field;
+  field.views.emplace_back(test::ClosedHair::kWidth, test::ClosedHair::kHeight);
+  field.views[0].pixels = portrait.rgb;
+  field.disparity.width = test::ClosedHair::kWidth;
+  field.disparity.height = test::ClosedHair::kHeight;
+  field.disparity.values = portrait.map;
+  ThreadRunner runner(1);
+  REQUIRE(SaveLightField(folder.file("closed"), field, &runner) == "");
+  field.coverage = portrait.coverage;
+  REQUIRE(SaveLightField(folder.file("truth"), field, &runner) == "");
+}
+
+// A folder `lf` with disparities of 300 on the left and 0 on the right: at focus 0 an aperture of
+// 128/300 = 0.42667, f/2.34375, blurs by 128 pixels.
+inline void MakeDeepFolder(const TempFolder& folder) {
+  Succeed(folder, "scene lf --size 40x30 --views 1");
+  FloatMap map = ValueOf(ReadPfm(folder.file("lf/disparity.pfm")));
+  for (size_t i = 0; i < map.values.size(); ++i) map.values[i] = i % 40 < 20 ? 300.0f : 0.0f;
+  REQUIRE(WritePfm(folder.file("lf/disparity.pfm"), map) == "");
+}
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_TESTS_CLI_INPUTS_H_

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sessions with the programs, from tables. A session begins with "== NAME", in an empty folder. Its
+// lines:
+//   $ ARGUMENTS          calls the program, which succeeds
+//   ! ARGUMENTS -> TEXT  calls the program, which refuses that with the text (CheckRefused)
+//   out TEXT, err TEXT   the last call printed the text; with "no " before that, it did not, and
+//   with
+//                        "only " it printed nothing else
+//   % COMMAND            runs a command of the shell, which succeeds
+//   @ NAME               makes inputs, by one of the preparations
+#ifndef STARFOCUS_TESTS_CLI_SESSION_H_
+#define STARFOCUS_TESTS_CLI_SESSION_H_
+
+#include <functional>
+#include <map>
+#include <memory>
+
+#include "tests/cli/refusals.h"
+
+namespace starfocus {
+
+using Preparations = std::map<std::string, std::function<void(const TempFolder&)>>;
+
+// Checks what a line says of the last call.
+inline void CheckOutcome(std::string line, const Outcome& last) {
+  const bool has = line.rfind("no ", 0) != 0, only = line.rfind("only ", 0) == 0;
+  if (!has || only) line.erase(0, only ? 5 : 3);
+  const bool is_known = line.rfind("out", 0) == 0 || line.rfind("err", 0) == 0;
+  REQUIRE_MESSAGE(is_known, line);
+  const std::string& printed = line[0] == 'o' ? last.out : last.err;
+  CAPTURE(printed);
+  if (only) CHECK(printed == line.substr(4) + "\n");
+  CHECK((line.size() < 5 ? !printed.empty() : Contains(printed, line.substr(4))) == has);
+}
+
+// Runs the sessions of the table tests/NAME.
+inline void RunSessions(const std::string& name, const Preparations& preparations = {}) {
+  std::ifstream table(STARFOCUS_SOURCE_DIR "/tests/" + name);
+  std::string session;
+  std::unique_ptr<TempFolder> folder;
+  Outcome last;
+  for (std::string line; std::getline(table, line);) {
+    CAPTURE(session);
+    CAPTURE(line);
+    const std::string rest = line.substr(std::min<size_t>(2, line.size()));
+    if (line.empty() || line[0] == '#') continue;
+    if (line[0] == '=') {
+      session = line;
+      folder = std::make_unique<TempFolder>();
+    } else if (line[0] == '$') {
+      last = Call(*folder, rest);
+      CAPTURE(last.err);
+      CHECK(last.code == 0);
+    } else if (line[0] == '!') {
+      const size_t arrow = rest.find(" -> ");
+      CheckRefused(*folder, rest.substr(0, arrow), rest.substr(arrow + 4));
+    } else if (line[0] == '%') {
+      CHECK(std::system(("cd '" + folder->path() + "' && { " + rest + "; } >/dev/null").c_str()) ==
+            0);
+    } else if (line[0] == '@') {
+      preparations.at(rest)(*folder);
+    } else {
+      CheckOutcome(line, last);
+    }
+  }
+  CHECK(!session.empty());
+}
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_TESTS_CLI_SESSION_H_

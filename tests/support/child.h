@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Processes that signals end.
+#ifndef STARFOCUS_TESTS_SUPPORT_CHILD_H_
+#define STARFOCUS_TESTS_SUPPORT_CHILD_H_
+
+#include <doctest/doctest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace starfocus {
+
+// Starts a process that calls `work` and says when it has begun, ends it by `signal`, and returns
+// its status.
+template <class Work>
+int EndBySignal(int signal, const Work& work) {
+  int ends[2];
+  REQUIRE(pipe(ends) == 0);
+  const pid_t child = fork();
+  REQUIRE(child >= 0);
+  if (child == 0) {
+    ::signal(signal, SIG_DFL);  // whoever started the test may ignore it, as nohup does
+    work([&] { return write(ends[1], "x", 1) == 1; });
+    _exit(0);
+  }
+  char byte = 0;
+  REQUIRE(read(ends[0], &byte, 1) == 1);
+  REQUIRE(kill(child, signal) == 0);
+  int status = 0;
+  REQUIRE(waitpid(child, &status, 0) == child);
+  close(ends[0]);
+  close(ends[1]);
+  return status;
+}
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_TESTS_SUPPORT_CHILD_H_
