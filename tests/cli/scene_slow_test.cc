@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+// The ray-traced scenes, and strands and coverage of two of them.
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "examples/scene/builders.h"
@@ -17,11 +19,38 @@ namespace {
 // An emulator needs twenty times as long.
 constexpr int kWidth = 256, kHeight = kWidth * 3 / 4;
 const char* const kNames[] = {"portrait", "wires", "ramp", "hair", "grass"};
+const char* const kStrandNames[] = {"hair", "grass"};
+
+Scene Made(const std::string& name, uint32_t seed = kSceneSeed) {
+  return MakeScene(name, seed).value();
+}
 
 SceneOpening DefaultOpening() {
   starfocus_params params;
   starfocus_params_init(&params);
   return SceneOpening(params.lens);
+}
+
+// Returns 1 or 0 if the map has one side of the step alone within a pixel of (x, y), else -1.
+int SideAround(const FloatMap& map, int x, int y) {
+  int near = 0;
+  for (int dy = -1; dy <= 1; ++dy) {
+    for (int dx = -1; dx <= 1; ++dx) near += map.at(x + dx, y + dy) > 0 ? 1 : 0;
+  }
+  return near == 9 ? 1 : near == 0 ? 0 : -1;
+}
+
+// Returns 1 or 0 if all or nothing is covered within a pixel of (x, y), else -1.
+int CoverAround(const std::vector<uint8_t>& coverage, int x, int y) {
+  int whole = 0, none = 0;
+  for (int dy = -1; dy <= 1; ++dy) {
+    for (int dx = -1; dx <= 1; ++dx) {
+      const int level = coverage[size_t((y + dy) * kWidth + x + dx)];
+      whole += level == 255 ? 1 : 0;
+      none += level == 0 ? 1 : 0;
+    }
+  }
+  return whole == 9 ? 1 : none == 9 ? 0 : -1;
 }
 
 // Sample of view (u, v) where centre pixel (x, y) of disparity d appears, bilinear; -1 outside.
@@ -64,7 +93,7 @@ double WarpAgreement(const Image& centre, const Image& view, const FloatMap& map
 TEST_CASE("scene: views warped by the exact disparity give the centre view back") {
   ThreadRunner runner(2);
   for (const char* name : kNames) {
-    const Scene scene = MakeScene(name).value();
+    const Scene scene = Made(name);
     const RayTracer renderer(scene, kWidth, kHeight, STARFOCUS_TRANSFER_NONE, &runner);
     const Image centre = renderer.View(0, 0, nullptr);
     const FloatMap map = renderer.Disparity();
@@ -84,17 +113,23 @@ TEST_CASE("scene: views warped by the exact disparity give the centre view back"
 
 TEST_CASE("scene: a lens stopped down to a pinhole takes the centre view") {
   ThreadRunner runner(2);
-  const Scene scene = MakeScene("portrait").value();
-  const RayTracer renderer(scene, kWidth / 2, kHeight / 2, STARFOCUS_TRANSFER_NONE, &runner);
-  const Image centre = renderer.View(0, 0, nullptr);
-  CHECK(test::Psnr(centre.pixels, renderer.Truth(0.5, 1e-6, DefaultOpening(), nullptr).pixels) >
-        38);
-  CHECK(test::Psnr(centre.pixels, renderer.Truth(0.5, 1, DefaultOpening(), nullptr).pixels) < 32);
+  const std::pair<const char*, double> foci[] = {{"portrait", 0.5}, {"hair", 9}, {"grass", 9}};
+  for (const auto& [name, focus] : foci) {
+    CAPTURE(std::string(name));
+    const Scene scene = Made(name);
+    const RayTracer renderer(scene, kWidth / 2, kHeight / 2, STARFOCUS_TRANSFER_NONE, &runner);
+    const std::vector<uint8_t> centre = renderer.View(0, 0, nullptr).pixels;
+    const auto truth = [&, at = focus](double aperture) {
+      return renderer.Truth(at, aperture, DefaultOpening(), nullptr).pixels;
+    };
+    CHECK(test::Psnr(centre, truth(1e-6)) > 38);
+    CHECK(test::Psnr(centre, truth(1)) < 32);
+  }
 }
 
 TEST_CASE("scene: what the lens focuses on is sharp, the rest is not") {
   ThreadRunner runner(2);
-  const Scene scene = MakeScene("ramp").value();
+  const Scene scene = Made("ramp");
   const RayTracer renderer(scene, kWidth, kHeight, STARFOCUS_TRANSFER_NONE, &runner);
   const FloatMap map = renderer.Disparity();
   const Image centre = renderer.View(0, 0, nullptr);
@@ -108,24 +143,31 @@ TEST_CASE("scene: what the lens focuses on is sharp, the rest is not") {
   CHECK(test::Psnr(band(centre, 2).pixels, band(truth, 2).pixels) < 28);
 }
 
-TEST_CASE("scene: the same pictures for any number of threads") {
+TEST_CASE("scene: the same pictures for any number of threads, others for another seed") {
   ThreadRunner one(1), three(3);
   constexpr int kOdd = 61;
   for (const char* name : kNames) {
-    const Scene scene = MakeScene(name).value();
+    CAPTURE(std::string(name));
+    const Scene scene = Made(name), again = Made(name), other = Made(name, 2);
     const RayTracer a(scene, kOdd, 47, STARFOCUS_TRANSFER_NONE, &one),
-        b(scene, kOdd, 47, STARFOCUS_TRANSFER_NONE, &three);
+        b(again, kOdd, 47, STARFOCUS_TRANSFER_NONE, &three),
+        c(other, kOdd, 47, STARFOCUS_TRANSFER_NONE, &three);
     CHECK(a.View(-0.5, 1, nullptr).pixels == b.View(-0.5, 1, nullptr).pixels);
     CHECK(a.Truth(1, 0.8, DefaultOpening(), nullptr).pixels ==
           b.Truth(1, 0.8, DefaultOpening(), nullptr).pixels);
     CHECK(a.Disparity().values == b.Disparity().values);
+    const bool strands = scene.seeded;
+    CHECK(strands == (std::string(name) == "hair" || std::string(name) == "grass"));
+    if (!strands) continue;
+    CHECK(a.Coverage(nullptr) == b.Coverage(nullptr));
+    CHECK(a.Coverage(nullptr) != c.Coverage(nullptr));
   }
 }
 
 TEST_CASE("scene: near, middle and far points lie in that order, at any size") {
   ThreadRunner runner(1);
   for (const char* name : kNames) {
-    const Scene scene = MakeScene(name).value();
+    const Scene scene = Made(name);
     REQUIRE(scene.points.size() == 3);
     for (const int width : {1024, 96, 40}) {
       const int height = width == 40 ? 90 : width * 3 / 4;
@@ -150,7 +192,7 @@ TEST_CASE("scene: near, middle and far points lie in that order, at any size") {
 TEST_CASE("scene: tiny pictures and every pixel finite") {
   ThreadRunner runner(1);
   for (const char* name : kNames) {
-    const Scene scene = MakeScene(name).value();
+    const Scene scene = Made(name);
     for (const int width : {1, 2, 300}) {
       const RayTracer renderer(scene, width, 3, STARFOCUS_TRANSFER_NONE, &runner);
       CHECK(renderer.View(1, -1, nullptr).pixels.size() == size_t(9 * width));
@@ -185,7 +227,7 @@ TEST_CASE("scene: rays meet planes and ellipsoids where algebra says") {
 
 TEST_CASE("scene: bounds hold every hit") {
   for (const char* name : kNames) {
-    const Scene scene = MakeScene(name).value();
+    const Scene scene = Made(name);
     int outside = 0;
     for (const Surface& surface : scene.surfaces) {
       const Bounds box = SurfaceBounds(surface, 1200);
@@ -219,6 +261,107 @@ TEST_CASE("noise: in range, continuous and not constant") {
   CHECK(high - low > 0.4);
   CHECK(Wrap(-0.25, 1) == doctest::Approx(0.75));
   CHECK(Triangle(0.5, 1) == doctest::Approx(1));
+}
+
+TEST_CASE("strands: rays meet the nearest strand where algebra says") {
+  // A strand along x, 2 units thick, and one along y before it.
+  const Strands strands(
+      {{{-50, 0}, {0, 0}, {50, 0}, 1, 1, 3}, {{0, -50}, {0, 0}, {0, 50}, 0.5, 0.5, 5}});
+  StrandHit hit;
+  REQUIRE(strands.Find({-20, 0.5}, 0, 0, &hit));
+  CHECK(hit.strand == 1);
+  CHECK(hit.d == 3);
+  CHECK(hit.along == doctest::Approx(30));
+  CHECK(hit.across == doctest::Approx(0.5));
+  CHECK_FALSE(strands.Find({-20, 1.01}, 0, 0, &hit));
+  CHECK_FALSE(strands.Find({-51.01, 0}, 0, 0, &hit));
+  REQUIRE(strands.Find({0, 0.25}, 0, 0, &hit));
+  CHECK(hit.strand == 0);
+  // Through (1, 0) of the lens the front strand lies 5 units to the left, the other one as before.
+  CHECK(strands.Find({0, 0.25}, 1, 0, &hit));
+  CHECK(hit.d == 3);
+  REQUIRE(strands.Find({-5, 0.25}, 1, 0, &hit));
+  CHECK(hit.d == 5);
+  CHECK_FALSE(strands.Find({-20, 0}, 0, 1, &hit));
+  CHECK(strands.Find({-20, -3}, 0, 1, &hit));
+}
+
+TEST_CASE("strands: the grid hides no strand") {
+  std::vector<Strand> many;
+  for (int i = 0; i < 200; ++i) {
+    const auto at = [i](int k, double size) { return size * (HashUnit(i, k, 4) - 0.5); };
+    many.push_back({{at(0, 300), at(1, 200)},
+                    {at(2, 300), at(3, 200)},
+                    {at(4, 300), at(5, 200)},
+                    0.2 + HashUnit(i, 6, 4),
+                    0.3,
+                    8 + at(7, 4)});
+  }
+  const Strands all(many);
+  std::vector<Strands> single;
+  for (const Strand& strand : many) single.emplace_back(std::vector<Strand>{strand});
+  int met = 0, wrong = 0;
+  for (int k = 0; k < 4000; ++k) {
+    const Point at = {300 * (HashUnit(k, 0, 6) - 0.5), 200 * (HashUnit(k, 1, 6) - 0.5)};
+    const double u = 2 * HashUnit(k, 2, 6) - 1, v = 2 * HashUnit(k, 3, 6) - 1;
+    double nearest = -1;
+    StrandHit hit;
+    for (const Strands& strand : single) {
+      if (strand.Find(at, u, v, &hit)) nearest = std::fmax(nearest, hit.d);
+    }
+    const double found = all.Find(at, u, v, &hit) ? hit.d : -1;
+    met += nearest >= 0 ? 1 : 0;
+    wrong += found != nearest ? 1 : 0;
+  }
+  CHECK(met > 400);
+  CHECK(wrong == 0);
+}
+
+TEST_CASE("strand scenes: coverage agrees with the map") {
+  ThreadRunner runner(2);
+  for (const char* name : kStrandNames) {
+    CAPTURE(std::string(name));
+    const Scene scene = Made(name);
+    const RayTracer tracer(scene, kWidth, kHeight, STARFOCUS_TRANSFER_NONE, &runner);
+    const FloatMap map = tracer.Disparity();
+    const std::vector<uint8_t> coverage = tracer.Coverage(nullptr);
+    int clear = 0, against = 0, fractions = 0, lost = 0;
+    double covered = 0, near = 0;
+    for (int y = 1; y + 1 < kHeight; ++y) {
+      for (int x = 1; x + 1 < kWidth; ++x) {
+        const int level = coverage[size_t(y * kWidth + x)];
+        const int cover = CoverAround(coverage, x, y);
+        covered += level / 255.0;
+        near += map.at(x, y) > 0 ? 1 : 0;
+        clear += cover >= 0 ? 1 : 0;
+        against += cover >= 0 && SideAround(map, x, y) != cover ? 1 : 0;
+        fractions += level > 0 && level < 255 ? 1 : 0;
+        // Strands that the map does not have.
+        lost += level > 0 && SideAround(map, x, y) == 0 ? 1 : 0;
+      }
+    }
+    CHECK(clear > kWidth * kHeight / 3);
+    CHECK(against == 0);
+    CHECK(fractions > kWidth * kHeight / 20);
+    CHECK(lost > 100);
+    // Pixel centres sample the area.
+    CHECK(covered == doctest::Approx(near).epsilon(0.02));
+  }
+}
+
+TEST_CASE("strand scenes: coverage is the area of a half plane") {
+  Scene scene;
+  // A bar with its left rim at x = 0.3 canvas units: here pixels.
+  scene.surfaces.push_back(Piece(Outline::kBox, {100.3, 0, 5}, {100, 1000}, {}));
+  scene.surfaces.back().foreground = true;
+  ThreadRunner runner(1);
+  const RayTracer tracer(scene, 1024, 768, STARFOCUS_TRANSFER_NONE, &runner);
+  const std::vector<uint8_t> coverage = tracer.Coverage(nullptr);
+  // Pixel 512 spans 0 to 1.
+  const auto level = [&](int x) { return coverage[size_t(400 * 1024 + x)]; };
+  CHECK(level(511) == 0);
+  CHECK(std::abs(level(512) - 0.7 * 255) <= 1);
+  CHECK(level(513) == 255);
 }
 
 }  // namespace
