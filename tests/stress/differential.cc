@@ -248,21 +248,19 @@ std::string Verdict(const Rig& rig, starfocus_status status, const std::vector<u
 
 Outcome Differential(test::Random* random) {
   Asked asked = {RandomCase(random), {}};
-  std::string failure;
-  asked.picture = Refocused(asked.setup, Variant(), &failure);
+  asked.picture = Refocused(asked.setup, Variant());
   const test::Scene before = asked.setup.scene;
-  for (int k = 0; k < 3 && failure.empty(); ++k) {
+  for (int k = 0; k < 3; ++k) {
     const Way& way = RandomWay(random);
-    failure = way.run(asked, random);
-    if (!failure.empty()) failure = std::string(way.name) + ": " + failure;
+    const std::string failure = way.run(asked, random);
+    if (!failure.empty()) return Fail(asked.setup, std::string(way.name) + ": " + failure);
   }
-  if (failure.empty() && (before.pictures != asked.setup.scene.pictures ||
-                          before.coverage != asked.setup.scene.coverage ||
-                          before.disparity != asked.setup.scene.disparity)) {
-    failure = "the light field was written to";
+  const test::Scene& after = asked.setup.scene;
+  if (before.pictures != after.pictures || before.coverage != after.coverage ||
+      before.disparity != after.disparity) {
+    return Fail(asked.setup, "the light field was written to");
   }
-  if (failure.empty()) return {0, ""};
-  return {0, failure + ": " + asked.setup.Text()};
+  return {};
 }
 
 }  // namespace starfocus::stress

@@ -85,9 +85,7 @@ std::string After(const Asked& asked, test::Random* random) {
   for (int frame = random->Int(1, 3); frame > 0; --frame) {
     Changer changer = {&now.setup.scene, random};
     changer.Apply(static_cast<Change>(random->Int(0, 6)));
-    std::string failure;
-    now.picture = Refocused(now.setup, Variant(), &failure);
-    if (!failure.empty()) return failure;
+    now.picture = Refocused(now.setup, Variant());
     starfocus_params params = now.setup.params;
     if (part) params.region = region;
     const starfocus_light_field field = now.setup.scene.Field();
@@ -99,7 +97,7 @@ std::string After(const Asked& asked, test::Random* random) {
       return test::RefocusAfterRgb(rig.get(), &params, &field, &previous, out.bytes.data(),
                                    out.stride, nullptr);
     });
-    failure = Verdict(rig, status, Crop(now, region), out);
+    const std::string failure = Verdict(rig, status, Crop(now, region), out);
     if (!failure.empty()) return failure;
     last = out.Tight();
     before = now.setup.scene;

@@ -3,9 +3,15 @@
 #ifndef STARFOCUS_TESTS_STRESS_FAMILIES_H_
 #define STARFOCUS_TESTS_STRESS_FAMILIES_H_
 
+#include "tests/stress/setup.h"
 #include "tests/stress/stress.h"
 
 namespace starfocus::stress {
+
+// A case that failed, and how.
+inline Outcome Fail(const Setup& setup, const std::string& what) {
+  return {0, what + ": " + setup.Text()};
+}
 
 // Pictures whose result is known or bounded.
 Outcome Constant(test::Random* random);

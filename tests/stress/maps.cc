@@ -3,12 +3,12 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <utility>
 #include <vector>
 
 #include "starfocus/depth.h"
 #include "tests/stress/families.h"
 #include "tests/stress/rig.h"
+#include "tests/support/symmetry.h"
 
 namespace starfocus::stress {
 namespace {
@@ -113,29 +113,6 @@ Outcome CheckPlane(Question* question, test::Random* random) {
   return {};
 }
 
-// Mirrored left and right: views at +u and -u change places.
-test::Scene Mirrored(const test::Scene& scene) {
-  test::Scene mirrored = scene;
-  for (int y = 0; y < scene.height; ++y) {
-    for (int x = 0; x < scene.width; ++x) {
-      mirrored.Disparity(scene.width - 1 - x, y) = scene.Disparity(x, y);
-      for (int view = 0; view < scene.views(); ++view) {
-        std::memcpy(mirrored.Pixel(view, scene.width - 1 - x, y), scene.Pixel(view, x, y), 3);
-      }
-    }
-  }
-  for (int a = 1; a < scene.views(); ++a) {
-    double u = 0, v = 0, other_u = 0, other_v = 0;
-    starfocus_view_position(a, &u, &v);
-    for (int b = a + 1; b < scene.views(); ++b) {
-      starfocus_view_position(b, &other_u, &other_v);
-      if (other_u == -u && other_v == v)
-        std::swap(mirrored.pictures[size_t(a)], mirrored.pictures[size_t(b)]);
-    }
-  }
-  return mirrored;
-}
-
 // Any picture, any map: the mirrored light field has the mirrored map, and neither workers nor what
 // the memory holds matter.
 Outcome CheckAgreement(Question* question, test::Random* random) {
@@ -156,7 +133,7 @@ Outcome CheckAgreement(Question* question, test::Random* random) {
   if (!(Make(*question, RunBackwards, random) == map)) {
     return {0, question->Text("workers change the map")};
   }
-  const Question mirrored = {Mirrored(scene), question->repairs};
+  const Question mirrored = {test::Move({false, true, false}, scene), question->repairs};
   const Map other = Make(mirrored, nullptr, random);
   if (other.status != STARFOCUS_OK)
     return {0, mirrored.Text(starfocus_status_string(other.status))};

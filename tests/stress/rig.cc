@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstring>
 #include <new>
+#include <stdexcept>
 #include <utility>
 
 #include "tests/support/inside.h"
@@ -110,7 +111,7 @@ int Rig::Run(void* self, starfocus_job job, void* data, int32_t count) {
   return 0;
 }
 
-std::vector<uint8_t> Refocused(const Setup& setup, const Variant& variant, std::string* failure,
+std::vector<uint8_t> Refocused(const Setup& setup, const Variant& variant,
                                starfocus_report* report) {
   Rig rig(setup.config, variant);
   starfocus_status status = rig.status();
@@ -121,13 +122,11 @@ std::vector<uint8_t> Refocused(const Setup& setup, const Variant& variant, std::
                                 variant.pull_rows, rig.callbacks(), report)
                  : test::Refocus(&rig, setup.params, setup.scene, &out, rig.callbacks(), report);
   }
-  if (status != STARFOCUS_OK) {
-    *failure = std::string(starfocus_status_string(status)) + " (" + variant.Text() + ")";
-    return {};
-  }
-  if (!out.PaddingUntouched()) {
-    *failure = "row padding overwritten (" + variant.Text() + ")";
-    return {};
+  std::string failure;
+  if (!out.PaddingUntouched()) failure = "row padding overwritten";
+  if (status != STARFOCUS_OK) failure = starfocus_status_string(status);
+  if (!failure.empty()) {
+    throw std::runtime_error(failure + " (" + variant.Text() + "): " + setup.Text());
   }
   return out.Tight();
 }

@@ -95,9 +95,9 @@ class Rig {
   bool failed_ = false;
 };
 
-// Bytes of the picture without row padding; empty, with a line in *failure, when the engine failed
-// or wrote where it must not.
-std::vector<uint8_t> Refocused(const Setup& setup, const Variant& variant, std::string* failure,
+// Bytes of the picture without row padding. Throws a line when the engine failed or wrote where it
+// must not.
+std::vector<uint8_t> Refocused(const Setup& setup, const Variant& variant,
                                starfocus_report* report = nullptr);
 
 }  // namespace starfocus::stress

@@ -2,6 +2,7 @@
 #include "tests/stress/stress.h"
 
 #include <chrono>
+#include <stdexcept>
 
 #include "tests/stress/families.h"
 #include "tests/stress/ranges.h"
@@ -32,7 +33,12 @@ Outcome RunCase(const Family& family, uint64_t number) {
   test::Random random(number);
   for (int k = 0; k < 8; ++k) random.Next();  // neighbouring seeds start alike
   ForgetRangeFailure();
-  Outcome outcome = family.run(&random);
+  Outcome outcome;
+  try {
+    outcome = family.run(&random);
+  } catch (const std::runtime_error& error) {
+    outcome.failure = error.what();
+  }
   if (outcome.failure.empty()) outcome.failure = RangeFailure();
   return outcome;
 }
