@@ -25,9 +25,6 @@ namespace {
 
 using namespace conformance;
 
-constexpr double kTheta = 0.26 * 3.14159265358979323846;
-constexpr int kStars[] = {1, 5, 9, 17};
-constexpr Depth kDepths[] = {Depth::kConstant, Depth::kPiecewise, Depth::kSlanted, Depth::kNoisy};
 constexpr starfocus_renderer kRules[] = {STARFOCUS_RENDERER_LINE_SCAN, STARFOCUS_RENDERER_SLICES};
 
 // Pixels that blocks of each layer cover, those gathered, and the longest side that views render.
@@ -62,15 +59,7 @@ Distance Check(const test::Scene& scene, const starfocus_params& params,
     const bool same = RunEngine(scene, params, *kernels, &engine).bytes == result.bytes;
     CHECK_MESSAGE(same, kernels->name);
   }
-  CAPTURE(scene.width);
-  CAPTURE(scene.height);
-  CAPTURE(scene.views());
-  CAPTURE(params.lens.focus);
-  CAPTURE(params.lens.aperture);
-  CAPTURE(params.renderer);
-  CAPTURE(config.tuning.max_layer);
-  CAPTURE(config.transfer);
-  CAPTURE(config.superblock);
+  CAPTURE(TextOf(scene, params, config));
   CHECK(distance.largest <= 1);
   if (distance.samples >= kEnoughSamples) CHECK(distance.mean() < kMeanLimit);
   return distance;
@@ -83,6 +72,12 @@ starfocus_config Config(const test::Scene& scene, int max_layer, double max_blur
   config.superblock = 32;
   while (config.superblock < scene.height) config.superblock *= 2;
   return config;
+}
+
+starfocus_params SlicesOf(double focus, starfocus_mode mode) {
+  starfocus_params params = test::Params(focus, 1, mode);
+  params.renderer = STARFOCUS_RENDERER_SLICES;
+  return params;
 }
 
 // Both rules and all layers.
@@ -127,10 +122,8 @@ TEST_CASE("block conformance: random scenes, every star set, both rules, all lay
       for (const Depth depth : kDepths) {
         const int width = random.Int(1, 96), height = random.Int(1, 64);
         const float low = float(random.Real(-6, 2));
-        test::Scene scene =
-            test::EmptyScene(width, height, views, low, low + float(random.Real(0.5, 6)));
-        SetDepth(depth, &scene, &random);
-        SetColours(Colours(random.Int(0, 2)), &scene, &random);
+        const Range range = {low, low + float(random.Real(0.5, 6))};
+        const test::Scene scene = MakeScene(width, height, views, range, depth, &random);
         const double aperture = random.Int(0, 1) == 0 ? 1 : random.Real(0.3, 1);
         all.Add(CheckAll(scene, low - random.Real(0, 9), aperture, &covered));
       }
@@ -146,12 +139,10 @@ TEST_CASE("block conformance: the benchmark's slices") {
   for (const int views : kStars) {
     for (const Depth depth : kDepths) {
       const float low = float(random.Real(-3, 2));
-      test::Scene scene = test::EmptyScene(random.Int(40, 64), random.Int(33, 48), views, low,
-                                           low + float(random.Real(0.5, 4)));
-      SetDepth(depth, &scene, &random);
-      SetColours(Colours(random.Int(0, 2)), &scene, &random);
-      starfocus_params params = test::Params(low - random.Real(-1, 2), 1, STARFOCUS_MODE_BENCHMARK);
-      params.renderer = STARFOCUS_RENDERER_SLICES;
+      const Range range = {low, low + float(random.Real(0.5, 4))};
+      const test::Scene scene =
+          MakeScene(random.Int(40, 64), random.Int(33, 48), views, range, depth, &random);
+      const starfocus_params params = SlicesOf(low - random.Real(-1, 2), STARFOCUS_MODE_BENCHMARK);
       all.Add(Check(scene, params, Config(scene, 2), &covered));
     }
   }
@@ -166,13 +157,10 @@ TEST_CASE("block conformance: largest subapertures, smallest and single blocks")
   Covered covered;
   for (const uint32_t block_cost : {0u, 1000u, STARFOCUS_MAX_TIMING}) {
     for (const Depth depth : {Depth::kConstant, Depth::kSlanted}) {
-      test::Scene scene = test::EmptyScene(64, 48, 5, 0, 4);
-      SetDepth(depth, &scene, &random);
-      SetColours(Colours::kRandom, &scene, &random);
+      const test::Scene scene = MakeScene(64, 48, 5, {0, 4}, depth, &random, Colours::kRandom);
       for (const double focus : {-25.0, -7.0, -2.0}) {
         for (int max_layer = 0; max_layer < STARFOCUS_LAYERS; ++max_layer) {
-          starfocus_params params = test::Params(focus, 1, STARFOCUS_MODE_BLOCK);
-          params.renderer = STARFOCUS_RENDERER_SLICES;
+          const starfocus_params params = SlicesOf(focus, STARFOCUS_MODE_BLOCK);
           starfocus_config config = Config(scene, max_layer, 32);
           config.tuning.timing.block = block_cost;
           all.Add(Check(scene, params, config, &covered));
@@ -197,12 +185,10 @@ TEST_CASE("block conformance: more slices than fit, widest subapertures") {
   for (const Lens& lens : kLenses) {
     for (const Depth depth : {Depth::kPiecewise, Depth::kNoisy}) {
       for (const int views : {1, 17}) {
-        test::Scene scene = test::EmptyScene(64, 48, views, lens.low, lens.high);
-        SetDepth(depth, &scene, &random);
-        SetColours(Colours::kRandom, &scene, &random);
+        const test::Scene scene =
+            MakeScene(64, 48, views, {lens.low, lens.high}, depth, &random, Colours::kRandom);
         for (int max_layer = 0; max_layer < STARFOCUS_LAYERS; ++max_layer) {
-          starfocus_params params = test::Params(lens.focus, 1, STARFOCUS_MODE_BLOCK);
-          params.renderer = STARFOCUS_RENDERER_SLICES;
+          const starfocus_params params = SlicesOf(lens.focus, STARFOCUS_MODE_BLOCK);
           all.Add(Check(scene, params, Config(scene, max_layer, lens.max_blur), &covered));
         }
       }
@@ -217,11 +203,9 @@ TEST_CASE("block conformance: tiles of large blocks have slices of their own") {
   Distance all;
   for (const float range : {4.0F, 24.0F}) {
     for (const Depth depth : {Depth::kSlanted, Depth::kNoisy}) {
-      test::Scene scene = test::EmptyScene(200, 90, 5, -range / 2, range / 2);
-      SetDepth(depth, &scene, &random);
-      SetColours(Colours::kRandom, &scene, &random);
-      starfocus_params params = test::Params(random.Real(-1, 1), 1, STARFOCUS_MODE_FRAME);
-      params.renderer = STARFOCUS_RENDERER_SLICES;
+      const test::Scene scene =
+          MakeScene(200, 90, 5, {-range / 2, range / 2}, depth, &random, Colours::kRandom);
+      const starfocus_params params = SlicesOf(random.Real(-1, 1), STARFOCUS_MODE_FRAME);
       starfocus_config config = Config(scene, 0);
       config.superblock = 256;
       Covered covered;

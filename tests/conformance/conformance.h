@@ -10,8 +10,10 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <string>
 #include <vector>
 
+#include "tests/support/shapes.h"
 #include "tests/support/test_scene.h"
 #ifdef STARFOCUS_PROGRAM
 #include "platform/light_field.h"
@@ -61,7 +63,7 @@ inline Distance Compare(const std::vector<uint8_t>& bytes, const std::vector<dou
 }
 
 enum class Depth { kConstant, kPiecewise, kSlanted, kNoisy };
-enum class Colours { kRandom, kExtreme, kSmooth };
+enum class Colours { kRandom, kExtreme, kSmooth, kAny };
 
 inline void SetDepth(Depth depth, test::Scene* scene, test::Random* random) {
   const double low = scene->disparity_min, high = scene->disparity_max;
@@ -79,6 +81,7 @@ inline void SetDepth(Depth depth, test::Scene* scene, test::Random* random) {
 }
 
 inline void SetColours(Colours colours, test::Scene* scene, test::Random* random) {
+  if (colours == Colours::kAny) colours = Colours(random->Int(0, 2));
   for (auto& picture : scene->pictures) {
     int level = random->Int(0, 255);
     for (uint8_t& sample : picture) {
@@ -93,6 +96,34 @@ inline void SetColours(Colours colours, test::Scene* scene, test::Random* random
 struct Range {
   float low, high;
 };
+
+inline constexpr int kStars[] = {1, 5, 9, 17};
+inline constexpr Depth kDepths[] = {Depth::kConstant, Depth::kPiecewise, Depth::kSlanted,
+                                    Depth::kNoisy};
+
+inline test::Scene MakeScene(int width, int height, int views, const Range& range, Depth depth,
+                             test::Random* random, Colours colours = Colours::kAny) {
+  test::Scene scene = test::EmptyScene(width, height, views, range.low, range.high);
+  SetDepth(depth, &scene, random);
+  SetColours(colours, &scene, random);
+  return scene;
+}
+
+// What tells one picture from others.
+inline std::string TextOf(const test::Scene& scene, const starfocus_params& params,
+                          const starfocus_config& config) {
+  char text[600];
+  std::snprintf(text, sizeof(text),
+                "%dx%d, %d views, mode %d, rule %d, disparity [%.9g, %.9g], focus %.9g, aperture "
+                "%.9g, block %d, layers %d, theta %.9g, n_scale %.9g, gather %d, block cost %u, "
+                "transfer %d, highlights %.9g, %s",
+                scene.width, scene.height, scene.views(), params.mode, params.renderer,
+                double{scene.disparity_min}, double{scene.disparity_max}, params.lens.focus,
+                params.lens.aperture, config.superblock, config.tuning.max_layer, params.lens.theta,
+                config.tuning.n_scale, config.tuning.gather, config.tuning.timing.block,
+                config.transfer, double{config.highlights}, test::ShapeText(params.lens).c_str());
+  return text;
+}
 
 #ifdef STARFOCUS_PROGRAM
 // The rectangle at (x0, y0) of a data set.

@@ -31,16 +31,7 @@ Distance Check(const test::Scene& scene, const starfocus_params& params,
   starfocus_report report;
   REQUIRE(test::Refocus(&engine, params, scene, &out, nullptr, nullptr, &report) == STARFOCUS_OK);
   const reference::Result expected = reference::Refocus(scene, params, config, block);
-  CAPTURE(scene.width);
-  CAPTURE(scene.height);
-  CAPTURE(scene.views());
-  CAPTURE(scene.disparity_min);
-  CAPTURE(scene.disparity_max);
-  CAPTURE(params.mode);
-  CAPTURE(params.lens.focus);
-  CAPTURE(params.lens.aperture);
-  CAPTURE(block);
-  CAPTURE(config.transfer);
+  CAPTURE(TextOf(scene, params, config));
   CHECK(report.n == expected.n);
   CHECK(report.rendered_views == expected.views);
   const Distance distance = Compare(out.Tight(), expected.rgb);
@@ -69,17 +60,6 @@ Distance Check(const test::Scene& scene, const starfocus_params& params, int blo
 
 // The reference is slow, and an emulator needs twenty times as long.
 constexpr int kSizes[][2] = {{1, 1}, {7, 5}, {40, 33}, {96, 64}};
-constexpr int kStars[] = {1, 5, 9, 17};
-constexpr Depth kDepths[] = {Depth::kConstant, Depth::kPiecewise, Depth::kSlanted, Depth::kNoisy};
-
-test::Scene MakeScene(int width, int height, int views, Depth depth, Range range,
-                      test::Random* random) {
-  test::Scene scene = test::EmptyScene(width, height, views, range.low, range.high);
-  SetDepth(depth, &scene, random);
-  SetColours(Colours(random->Int(0, 2)), &scene, random);
-  return scene;
-}
-
 // A focus for which the blur radius reaches 2 to 9 pixels.
 starfocus_params RandomLens(const test::Scene& scene, starfocus_mode mode, double r_max,
                             test::Random* random) {
@@ -100,7 +80,7 @@ TEST_CASE("conformance: random scenes, every star set, both modes") {
         for (const Depth depth : kDepths) {
           const double low = random.Real(-4, 3);
           const Range range = {float(low), float(low + random.Real(0.5, 5))};
-          const test::Scene scene = MakeScene(size[0], size[1], views, depth, range, &random);
+          const test::Scene scene = MakeScene(size[0], size[1], views, range, depth, &random);
           const double r_max = mode == STARFOCUS_MODE_FRAME ? random.Real(2, 9) : random.Real(1, 5);
           all[mode].Add(Check(scene, RandomLens(scene, mode, r_max, &random)));
         }
@@ -121,8 +101,8 @@ TEST_CASE("conformance: many small scenes") {
     const double low = random.Real(-6, 5);
     const Range range = {float(low), float(low + random.Real(0, 7))};
     const test::Scene scene =
-        MakeScene(random.Int(1, kSmall), random.Int(1, kSmall), kStars[random.Int(0, 3)],
-                  kDepths[random.Int(0, 3)], range, &random);
+        MakeScene(random.Int(1, kSmall), random.Int(1, kSmall), kStars[random.Int(0, 3)], range,
+                  kDepths[random.Int(0, 3)], &random);
     const starfocus_mode mode =
         random.Int(0, 3) == 0 ? STARFOCUS_MODE_BENCHMARK : STARFOCUS_MODE_FRAME;
     const double r_max = mode == STARFOCUS_MODE_FRAME ? random.Real(0.1, 9) : random.Real(0.1, 4);
@@ -138,7 +118,7 @@ TEST_CASE("conformance: blocks of 64, widest and narrowest aperture") {
   for (const double theta : {STARFOCUS_MIN_THETA, STARFOCUS_MAX_THETA}) {
     for (const int views : kStars) {
       test::Random random(77 + uint64_t(views));
-      const test::Scene scene = MakeScene(96, 64, views, Depth::kPiecewise, Range{-2, 3}, &random);
+      const test::Scene scene = MakeScene(96, 64, views, {-2, 3}, Depth::kPiecewise, &random);
       all.Add(Check(scene, test::Params(0.7), 64, theta));
       all.Add(Check(scene, test::Params(-1.9, 0.8), 64, theta));
     }

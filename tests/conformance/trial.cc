@@ -12,9 +12,6 @@
 namespace conformance {
 namespace {
 
-constexpr int kViews[] = {1, 5, 9, 17};
-constexpr const char* kModes[] = {"frame", "benchmark", "block"};
-
 double OneOf(std::initializer_list<double> values, test::Random* random) {
   return values.begin()[random->Int(0, int(values.size()) - 1)];
 }
@@ -57,12 +54,12 @@ void RepeatCentre(test::Scene* scene) {
   for (auto& picture : scene->pictures) picture = scene->pictures[0];
 }
 
-test::Scene MakeScene(test::Random* random) {
+test::Scene AnyScene(test::Random* random) {
   const double depth =
       OneOf({0, random->Real(0, 3), random->Real(0, 12), random->Real(0, 60)}, random);
   const double low = random->Int(0, 9) == 0 ? random->Real(-400, 400) : random->Real(-9, 9);
   test::Scene scene = test::EmptyScene(random->Int(1, 40), random->Int(1, 32),
-                                       kViews[random->Int(0, 3)], float(low), float(low + depth));
+                                       kStars[random->Int(0, 3)], float(low), float(low + depth));
   const int kind = random->Int(0, 4);
   if (kind == 4) {
     Alternate(&scene, random);
@@ -136,18 +133,9 @@ void SetConfig(Trial* trial, test::Random* random) {
 }  // namespace
 
 std::string Trial::Text() const {
-  char text[600];
-  std::snprintf(text, sizeof(text),
-                "%dx%d, %d views, %s, rule %d, disparity [%.9g, %.9g], focus %.9g, aperture %.9g, "
-                "block %d, layers %d, theta %.9g, n_scale %.9g, gather %d, block cost %u, transfer "
-                "%d, highlights %.9g, %s",
-                scene.width, scene.height, scene.views(), kModes[params.mode], params.renderer,
-                double{scene.disparity_min}, double{scene.disparity_max}, params.lens.focus,
-                params.lens.aperture, config.superblock, config.tuning.max_layer, params.lens.theta,
-                config.tuning.n_scale, config.tuning.gather, config.tuning.timing.block,
-                config.transfer, double{config.highlights}, test::ShapeText(params.lens).c_str());
-  std::string all = text;
+  std::string all = TextOf(scene, params, config);
   for (const starfocus_position& at : scene.positions) {
+    char text[80];
     std::snprintf(text, sizeof(text), ", view (%.9g, %.9g)", at.u, at.v);
     all += text;
   }
@@ -157,7 +145,7 @@ std::string Trial::Text() const {
 Trial MakeTrial(uint64_t seed, bool anywhere) {
   test::Random random(seed);
   Trial trial;
-  trial.scene = MakeScene(&random);
+  trial.scene = AnyScene(&random);
   SetLens(&trial, &random);
   SetConfig(&trial, &random);
   if (anywhere && trial.params.renderer != STARFOCUS_RENDERER_LINE_SCAN) {
