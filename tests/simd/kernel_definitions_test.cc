@@ -102,8 +102,8 @@ TEST_CASE("kernel definitions: ranges, by hand") {
 TEST_CASE("kernel definitions: runs and cells, by hand") {
   // Two lines of five, read backwards, with limits that 10 reaches and 11 exceeds.
   const int16_t lines[5][2] = {{40, -32000}, {11, 32000}, {0, 31995}, {5, 31990}, {-5, 31989}};
-  uint16_t starts[kRunLanes], edges[kRunLanes];
-  int16_t middles[5 * kRunLanes];
+  uint16_t starts[2 * kRunLanes], edges[2 * kRunLanes];
+  int16_t middles[17 * kRunLanes];
   ReferenceKernels().FindRuns(lines[4], -2, 5, 2, {10, 10},
                               RunMarks{starts, edges, middles, kRunLanes});
   CheckValues("starts", starts, {0b11000, 0b11000});
@@ -111,6 +111,15 @@ TEST_CASE("kernel definitions: runs and cells, by hand") {
   const int expected[5][2] = {{-5, 31989}, {0, 31989}, {0, 31992}, {11, 32000}, {40, -32000}};
   for (size_t q = 0; q < 5; ++q) {
     CheckValues("middles", middles + q * kRunLanes, {expected[q][0], expected[q][1]});
+  }
+
+  int16_t line[17] = {};
+  line[15] = 20, line[16] = 40;
+  ReferenceKernels().FindRuns(line, 1, 17, 1, {10, 10},
+                              RunMarks{starts, edges, middles, kRunLanes});
+  for (const uint16_t* words : {starts, edges}) {
+    CHECK(words[0] == 1 << 15);
+    CHECK(words[kRunLanes] == 1);
   }
 
   // A flat cell but for one pixel inside, one in the corner, and another beyond the left side.
@@ -134,10 +143,22 @@ TEST_CASE("kernel definitions: runs and cells, by hand") {
   CheckValues("slopes", measure.slopes, {15, 15});
   values[1 + 5][0] = 0;
   values[1 + 3][1 + 4] = 96;
+  values[1 + 6][1 + 0] = 4;
+  values[1 + 7][1 + 3] = 5;
   ReferenceKernels().MeasureCell(rows, {100, 96, 15, 90}, &measure);
-  CHECK(measure.edge_low > measure.edge_high);
+  CheckValues("rows, high", measure.row_high, {0, 0, 0, 96, 0, 0, 4, 5});
+  CHECK(measure.edge_low == INT16_MAX);
+  CHECK(measure.edge_high == INT16_MIN);
   CheckValues("edges", measure.edges, {0, 0});
-  CheckValues("slopes", measure.slopes, {3 * 15, 3 * 15});
+  CheckValues("slopes", measure.slopes, {3 * 15 + 4 + 2 * 5, 3 * 15 + 2 * 4 + 5});
+
+  // Edges beyond the right and the lower side are not the cell's own.
+  values[1 + 2][1 + 8] = 300;
+  values[1 + 8][1 + 0] = 200;
+  ReferenceKernels().MeasureCell(rows, {100, 96, 15, 90}, &measure);
+  CHECK(measure.edge_low == 200);
+  CHECK(measure.edge_high == 300);
+  CheckValues("edges", measure.edges, {0, 0});
 }
 
 // What is kept of a line filtered as a whole.
