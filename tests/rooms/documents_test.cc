@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the documents name exists: files that they link to or cite, and names of the code.
+// Checks that everything that the documents mention exists: linked and cited files, names of the
+// code, commands and options.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -29,12 +30,12 @@ std::vector<fs::path> Documents() {
   return found;
 }
 
-// Without blocks of code, which show commands and programs.
+// Returns the text of a document without its code blocks.
 std::string Prose(const fs::path& path) {
   return std::regex_replace(Read(path), std::regex("```[^`]*```"), "");
 }
 
-// The blocks of code alone.
+// Returns only the code blocks of a document.
 std::string Code(const fs::path& path) {
   const std::string text = Read(path);
   const std::regex block("```[^`]*```");
@@ -45,7 +46,7 @@ std::string Code(const fs::path& path) {
   return code;
 }
 
-// All matches of the pattern's first group.
+// Returns all texts that the first group of the pattern matches.
 std::set<std::string> Find(const std::string& text, const std::string& pattern) {
   std::set<std::string> found;
   const std::regex expression(pattern);
@@ -55,7 +56,7 @@ std::set<std::string> Find(const std::string& text, const std::string& pattern) 
   return found;
 }
 
-// The words of the project's sources.
+// Returns all identifiers in the sources of the project.
 std::set<std::string> WordsOfCode() {
   std::set<std::string> words;
   const std::regex word("[A-Za-z_][A-Za-z_0-9]*");
@@ -98,7 +99,7 @@ TEST_CASE("documents: what they link to is there") {
 }
 
 TEST_CASE("documents: the files that they cite are there") {
-  // `lib/base/fixed.h`; what stands in the place of a name (DIR, *, <name>) is no file.
+  // Matches names such as `lib/base/fixed.h`, but not patterns with * or <name>.
   size_t files = 0;
   for (const fs::path& document : Documents()) {
     const std::string pattern =
@@ -118,7 +119,7 @@ TEST_CASE("documents: the names that they cite are names of the code") {
     const std::string pattern =
         "`((?:starfocus_|STARFOCUS_|k[A-Z]|[A-Z][a-z]+[A-Z])[A-Za-z_0-9]*)[^`]*`";
     for (const std::string& name : Find(Prose(document), pattern)) {
-      if (name.back() == '_') continue;  // starfocus_stream_*
+      if (name.back() == '_') continue;  // a group of names, for example starfocus_stream_*
       CHECK_MESSAGE(words.count(name) == 1, document.filename().string() << " cites " << name);
       ++names;
     }
@@ -126,7 +127,8 @@ TEST_CASE("documents: the names that they cite are names of the code") {
   CHECK(names > 40);
 }
 
-// The text of all files of these kinds below the folders.
+// Returns the text of all files in the folders and their subfolders that have one of the
+// extensions.
 std::string ReadAll(const std::vector<std::string>& folders,
                     const std::set<std::string>& extensions) {
   std::string text;

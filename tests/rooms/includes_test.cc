@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rooms of the house, from the includes themselves: data flows one way through lib/, and no two
-// modules know each other.
+// Checks the dependencies between the folders of the project, which it reads from #include lines.
+// Data flows in one direction through lib/, and no two modules include each other.
+// docs/architecture.md describes the folders.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -19,21 +20,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A folder may include itself and those before it in this list. lib/analysis measures the engine,
-// so that it may include all of lib.
+// A folder may include its own headers and those of earlier folders in this list. lib/analysis is
+// the last one, because it measures the engine.
 const std::vector<std::string> kRooms = {
     "simd",       "lib/base",   "lib/convert", "lib/input",     "lib/coverage",
     "lib/plan",   "lib/filter", "lib/slices",  "lib/line_scan", "lib/engine",
     "lib/source", "lib/depth",  "lib/api",     "lib/analysis"};
 
-// What else there is, and the rooms it may include. The programs of platform/ and examples/ see the
-// engine from outside; `calibrate` and `analyze` measure its parts.
+// Other folders, and the folders whose headers they may include. They use the engine only through
+// its public headers.
 const std::map<std::string, std::set<std::string>> kOutside = {
     {"platform", {"platform"}},
 };
 
 struct Include {
-  std::string from, to;  // files, from the root of the project on
+  std::string from, to;  // paths relative to the root of the project
 };
 
 std::string RoomOf(const std::string& file) {
@@ -41,8 +42,8 @@ std::string RoomOf(const std::string& file) {
   return folder.rfind("lib/", 0) == 0 ? folder : folder.substr(0, folder.find('/'));
 }
 
-// A module is a header and the unit of the same name. In simd/ a unit puts together what its header
-// declares from files that include that header, so that each file there is a module.
+// Returns the module of a file. A module is a header and the source file with the same name. In
+// simd/ each file is a module, since source files there include files that include their header.
 std::string ModuleOf(const std::string& file) {
   if (RoomOf(file) == "simd") return file;
   return fs::path(file).replace_extension().generic_string();
@@ -66,7 +67,7 @@ int PlaceOf(const std::string& room) {
   return found == kRooms.end() ? -1 : int(found - kRooms.begin());
 }
 
-// What breaks the order of rooms, one line each.
+// Returns the includes that violate the order of kRooms, one line each.
 std::vector<std::string> FindBackward(const std::vector<Include>& includes) {
   std::vector<std::string> found;
   for (const Include& include : includes) {
@@ -78,7 +79,7 @@ std::vector<std::string> FindBackward(const std::vector<Include>& includes) {
 
 using Needs = std::map<std::string, std::set<std::string>>;  // modules that a module includes
 
-// Takes away modules that include none of the others. Returns whether there were any.
+// Removes modules that include no remaining module. Returns true if it removed any.
 bool DropLeaves(Needs* needs) {
   bool changed = false;
   for (auto module = needs->begin(); module != needs->end();) {
@@ -92,7 +93,7 @@ bool DropLeaves(Needs* needs) {
   return changed;
 }
 
-// The same for those that none of the others includes.
+// Removes modules that no remaining module includes. Returns true if it removed any.
 bool DropRoots(Needs* needs) {
   std::set<std::string> needed;
   for (const auto& [module, to] : *needs) needed.insert(to.begin(), to.end());
@@ -105,7 +106,8 @@ bool DropRoots(Needs* needs) {
   return changed;
 }
 
-// Modules that include each other, directly or by others, and those between such.
+// Returns the modules that include each other, directly or indirectly, and the modules on paths
+// between such modules.
 std::set<std::string> FindCircles(const std::vector<Include>& includes) {
   Needs needs;
   for (const Include& include : includes) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files and functions are as short as CONTRIBUTING.md asks.
+// Checks that files and functions are no longer than CONTRIBUTING.md allows.
 #include <doctest/doctest.h>
 
 #include <filesystem>
@@ -19,9 +19,9 @@ constexpr size_t kFileLines = 500, kFunctionLines = 60;
 
 const std::set<std::string> kSources = {".h", ".hpp", ".c", ".cc", ".py", ".java"};
 
-// First lines of functions longer than `limit`. As clang-format lays them out, a function or member
-// ends in a line that is a brace alone, and begins at the last line before it that is indented as
-// little. Lines that only name a case are a list, and don't count.
+// Returns the first lines of functions with more than `limit` lines. In the layout of clang-format,
+// a function ends with a line that contains only a brace, and starts at the last earlier line with
+// the same indentation. Lines that contain only a case label do not count.
 std::vector<std::string> FindLong(const std::vector<std::string>& lines, size_t limit) {
   const std::regex type(
       "\\s*(?:public |static |final )*(typedef|template|struct|class|enum|union|namespace)\\b.*");

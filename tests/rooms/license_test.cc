@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every source file names its licence in its first line, or in the second of scripts.
+// Checks that every source file names its licence in its first line, or in its second line if the
+// first one starts with #!.
 #include <doctest/doctest.h>
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A name means one thing in lib.
+// Checks that no two structures or classes in lib have the same name.
 #include <doctest/doctest.h>
 
 #include <map>
@@ -11,7 +11,7 @@
 namespace names_test {
 namespace {
 
-// Definitions of structures and classes outside of others, by name.
+// Counts the definitions of structures and classes by name. Nested ones are ignored.
 void CountStructures(const std::vector<std::string>& lines, std::map<std::string, int>* counts) {
   static const std::regex kDefinition("(?:struct|class) ([A-Za-z0-9]+)(?: final)?(?: :.*)? \\{.*");
   std::smatch match;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Functions have at most six parameters: more of them are a structure that has no name yet.
+// Checks that functions have at most six parameters. Longer lists should become a structure.
 #include <doctest/doctest.h>
 
 #include <cctype>
@@ -29,8 +29,8 @@ bool IsIdentifier(const Token& token) {
   return (std::isalpha(first) != 0 || first == '_') && kOperators.count(token.text) == 0;
 }
 
-// Returns the tokens of C, C++ or Java: words and single characters, without comments, text and
-// lines of the preprocessor.
+// Splits C, C++ or Java code into tokens, which are words and single characters. Omits comments,
+// string literals and preprocessor lines.
 std::vector<Token> Tokens(std::string code) {
   static const std::regex kComment("//[^\n]*|/\\*[^*]*\\*+([^/*][^*]*\\*+)*/");
   static const std::regex kMacro("(^|\n)[ \t]*#([^\n]*\\\\\n)*[^\n]*");
@@ -58,8 +58,8 @@ std::vector<Token> Tokens(std::string code) {
   return tokens;
 }
 
-// True if the tokens declare a parameter: a type, and most often a name. As clang-format lays them
-// out, `*` and `&` of a type follow it without a space, and operators do not.
+// Returns true if the tokens declare a parameter: a type and, in most cases, a name. In the layout
+// of clang-format, `*` and `&` follow a type without a space, and operators follow with a space.
 bool IsDeclaration(const std::vector<Token>& tokens) {
   static const std::regex kPlain("int|float|double|bool|char|.*_t");
   if (tokens.size() == 1) return std::regex_match(tokens[0].text, kPlain);
@@ -74,7 +74,8 @@ bool IsDeclaration(const std::vector<Token>& tokens) {
   return false;
 }
 
-// Parameters or arguments of the list that opens at token `open`, without what is inside brackets.
+// Returns the parameters or arguments of the list that opens at token `open`, without the contents
+// of brackets.
 std::vector<std::vector<Token>> ListAt(const std::vector<Token>& tokens, size_t open) {
   std::vector<std::vector<Token>> list(1);
   int brackets = 0, angles = 0;
@@ -94,7 +95,7 @@ std::vector<std::vector<Token>> ListAt(const std::vector<Token>& tokens, size_t 
   return list;
 }
 
-// Names of functions with more than `limit` parameters, where they are declared or defined.
+// Returns the names of functions that are declared or defined with more than `limit` parameters.
 std::vector<std::string> FindWide(const std::string& code, size_t limit) {
   const std::vector<Token> tokens = Tokens(code);
   std::vector<std::string> found;
@@ -108,7 +109,7 @@ std::vector<std::string> FindWide(const std::string& code, size_t limit) {
   return found;
 }
 
-// Functions of the public API that still have more parameters.
+// Functions of the public API that have more than six parameters.
 const std::set<std::string> kWide = {"starfocus_focus_at"};
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The files of the project, for tests that read them.
+// Lists and reads the files of the project. Used by the tests of this folder.
 #ifndef STARFOCUS_TESTS_ROOMS_TREE_H_
 #define STARFOCUS_TESTS_ROOMS_TREE_H_
 
@@ -26,7 +26,7 @@ inline std::vector<std::string> Lines(const std::filesystem::path& path) {
   return lines;
 }
 
-// Files below the folders whose extension, or else whose name, is one of those.
+// Returns the files in the folders and their subfolders whose extension or name is in `endings`.
 inline std::vector<std::filesystem::path> Files(const std::vector<std::string>& folders,
                                                 const std::set<std::string>& endings) {
   std::vector<std::filesystem::path> found;
