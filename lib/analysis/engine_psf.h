@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measures the PSF of the running engine: its response to one white pixel on a flat surface.
-#ifndef STARFOCUS_LIB_ANALYSIS_ENGINE_KERNEL_H_
-#define STARFOCUS_LIB_ANALYSIS_ENGINE_KERNEL_H_
+#ifndef STARFOCUS_LIB_ANALYSIS_ENGINE_PSF_H_
+#define STARFOCUS_LIB_ANALYSIS_ENGINE_PSF_H_
 
 #include "lib/analysis/sampled_psf.h"
 #include "starfocus/starfocus.h"
@@ -36,4 +36,4 @@ starfocus_status MeasureEnginePsf(const EngineProbe& probe, EnginePsf* result);
 
 }  // namespace starfocus::analysis
 
-#endif  // STARFOCUS_LIB_ANALYSIS_ENGINE_KERNEL_H_
+#endif  // STARFOCUS_LIB_ANALYSIS_ENGINE_PSF_H_

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The PSF that the engine should have according to its description: subapertures as line scans and
 // slices render them.
-#ifndef STARFOCUS_LIB_ANALYSIS_STAR_KERNEL_H_
-#define STARFOCUS_LIB_ANALYSIS_STAR_KERNEL_H_
+#ifndef STARFOCUS_LIB_ANALYSIS_STAR_PSF_H_
+#define STARFOCUS_LIB_ANALYSIS_STAR_PSF_H_
 
 #include "lib/analysis/sampled_psf.h"
 
@@ -21,4 +21,4 @@ SampledPsf StarPsf(double r, int n, double theta, Subapertures subapertures);
 
 }  // namespace starfocus::analysis
 
-#endif  // STARFOCUS_LIB_ANALYSIS_STAR_KERNEL_H_
+#endif  // STARFOCUS_LIB_ANALYSIS_STAR_PSF_H_

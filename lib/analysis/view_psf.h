@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The PSFs of refocusing by rendered views (5)-(7): the paper's with the triangular h, and that of
 // subapertures.
-#ifndef STARFOCUS_LIB_ANALYSIS_VIEW_KERNEL_H_
-#define STARFOCUS_LIB_ANALYSIS_VIEW_KERNEL_H_
+#ifndef STARFOCUS_LIB_ANALYSIS_VIEW_PSF_H_
+#define STARFOCUS_LIB_ANALYSIS_VIEW_PSF_H_
 
 #include <vector>
 
@@ -56,4 +56,4 @@ Taps SampledAperture1(int n, double theta);
 
 }  // namespace starfocus::analysis
 
-#endif  // STARFOCUS_LIB_ANALYSIS_VIEW_KERNEL_H_
+#endif  // STARFOCUS_LIB_ANALYSIS_VIEW_PSF_H_

@@ -32,7 +32,7 @@ int32_t LargestMove(const starfocus_config& config) {
 // Returns the border of a block at `layer`. Rendering reads whole cells with a pixel that reaches
 // the block, plus the border of upsampling. Gathering reads the blur radius and the upsampling
 // margin.
-int32_t BorderOfLevel(int32_t blur, int layer) {
+int32_t BorderOfLayer(int32_t blur, int layer) {
   const int32_t reach = ReachOf(blur << kDisparityBits);
   const int32_t rendered = (ToWholeCells(reach + kLayerMargin[layer]) >> layer) + kRenderBorder;
   const int32_t gathered = Min((blur + (1 << layer) - 1) >> layer, kMaxGather);
@@ -58,12 +58,12 @@ Borders AddBorders(const starfocus_config& config, double max_blur, bool joins) 
   borders.centre = Max(borders.cells * kCellSize, ToWholeCells(reach) + kCellBorder);
   if (!one_view) borders.centre = Max(borders.centre, kLookBack - 1);
   for (int layer = 0; layer <= config.tuning.max_layer; ++layer) {
-    int32_t& level = borders.level[layer] = BorderOfLevel(blur, layer);
-    borders.centre = Max(borders.centre, DownToPicture(level, layer));
-    const int32_t moved = (level << layer) + LargestMove(config) + CapturedBorder(layer);
+    int32_t& border = borders.layer[layer] = BorderOfLayer(blur, layer);
+    borders.centre = Max(borders.centre, DownToPicture(border, layer));
+    const int32_t moved = (border << layer) + LargestMove(config) + CapturedBorder(layer);
     if (!one_view) borders.views = Max(borders.views, moved);
   }
-  borders.centre = Max(borders.centre, borders.level[0] + kMixedPixelBorder);
+  borders.centre = Max(borders.centre, borders.layer[0] + kMixedPixelBorder);
   borders.parted = borders.centre;
   borders.centre = borders.parted + CoverageBorder(config);
   const int32_t read =

@@ -15,8 +15,8 @@ namespace starfocus {
 // includes everything that later steps need.
 struct Borders {
   int32_t joined = 0;                    // finished picture around a region, for deblocking
-  int32_t whole_block = 0;               // block at level 0 that is planned without cells
-  int32_t level[STARFOCUS_LAYERS] = {};  // pixels of the level, for blocks of any plan
+  int32_t whole_block = 0;               // block at layer 0 that is planned without cells
+  int32_t layer[STARFOCUS_LAYERS] = {};  // pixels of the level, for blocks of any plan
   int32_t cells = 0;                     // cells
   int32_t parted = 0;                    // coverage map
   int32_t centre = 0;                    // centre view and disparity map
@@ -40,7 +40,7 @@ inline int32_t Columns(const starfocus_config& config) {
 
 // Largest number of rows of a layer that a stripe reads.
 inline int32_t LayerRows(const starfocus_config& config, int layer) {
-  return (config.superblock >> layer) + 2 * LargestBorders(config).level[layer];
+  return (config.superblock >> layer) + 2 * LargestBorders(config).layer[layer];
 }
 
 }  // namespace starfocus

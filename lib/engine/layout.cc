@@ -28,7 +28,7 @@ Scratch TakeScratch(const starfocus_config& config, Arena* arena) {
   const auto side = static_cast<size_t>(config.superblock);
   const Borders borders = LargestBorders(config);
   Scratch scratch = {};
-  const size_t extended = side + 2 * static_cast<size_t>(borders.level[0]);
+  const size_t extended = side + 2 * static_cast<size_t>(borders.layer[0]);
   const int32_t renderers = RendererCount(config);
   int32_t max_n[kMaxRenderers] = {}, most = 0;
   for (int32_t k = 0; k < renderers; ++k) {

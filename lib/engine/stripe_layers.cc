@@ -78,7 +78,7 @@ void MarkLayerColumns(const starfocus_config& config, const Block& block, RowSto
 void PlaceLayers(const RowRange& of_picture, const Borders& borders, RowStore* row_store) {
   for (int layer = 1; layer < STARFOCUS_LAYERS; ++layer) {
     LayerPlane& plane = row_store->layers[layer];
-    const int32_t beyond = borders.level[layer];
+    const int32_t beyond = borders.layer[layer];
     const int32_t last = (of_picture.last + (1 << layer) - 1) >> layer;
     const RowRange inside = {Max(0, (of_picture.first >> layer) - beyond),
                              Min(plane.height, last + beyond)};

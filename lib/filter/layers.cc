@@ -134,7 +134,7 @@ void Interleave(const int16_t* even, const int16_t* odd, int32_t width, int16_t*
 }  // namespace
 
 void DownsamplePicture(const Kernels& kernels, const Window& picture,
-                       const ResampleScratch& scratch, const LevelTarget& to) {
+                       const ResampleScratch& scratch, const LayerTarget& to) {
   const LayerPart part = {to.begin, to.end, to.plane->rows, to.plane->samples};
   if (to.layer == 1) {
     DownsampleOnce(kernels, picture, scratch, part);

@@ -49,7 +49,7 @@ struct ResampleScratch {
 };
 
 // Columns [begin, end) of layer 1 or 2, in the rows of its plane.
-struct LevelTarget {
+struct LayerTarget {
   int32_t layer, begin, end;
   const LayerPlane* plane;
 };
@@ -57,7 +57,7 @@ struct LevelTarget {
 // Subsamples the pixels of `to` from the centre view. Layer 2 is subsampled from TapsOfLayer
 // columns and rows of layer 1.
 void DownsamplePicture(const simd::Kernels& kernels, const Window& picture,
-                       const ResampleScratch& scratch, const LevelTarget& to);
+                       const ResampleScratch& scratch, const LayerTarget& to);
 
 // Samples of a rectangle of a layer.
 struct LayerRect {

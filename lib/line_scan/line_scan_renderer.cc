@@ -5,7 +5,7 @@
 namespace starfocus {
 namespace {
 
-int32_t LevelOf(const BlockStats& stats, Demand demand) {
+int32_t LayerOf(const BlockStats& stats, Demand demand) {
   return LayerByPaper(static_cast<double>(stats.r_min) / (1 << kDisparityBits), demand);
 }
 
@@ -93,7 +93,7 @@ const Renderer kLineScanRenderer = {
     false,
     256,  // largest side of a superblock
     [](double r_max, Demand) { return ViewsByPaper(r_max); },
-    LevelOf,
+    LayerOf,
     MakeViewWeights,
     MeasureWork,
     sizeof(LineScanScratch),

@@ -200,7 +200,7 @@ class Partition {
 
   void ChooseParameters(const BlockStats& stats, int32_t side, Block* block) const {
     const Rect& rect = block->rect;
-    const int32_t layer = Min(rules_.renderer->level(stats, rules_.demand), rules_.max_layer);
+    const int32_t layer = Min(rules_.renderer->layer(stats, rules_.demand), rules_.max_layer);
     block->gathers = false;
     block->has_highlights = rules_.has_highlights;
     block->layer = layer;

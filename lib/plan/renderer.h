@@ -44,7 +44,7 @@ struct Renderer {
   // Returns N for a blur radius in pixels.
   int32_t (*view_count)(double r_max, Demand demand);
   // Returns the layer for a block.
-  int32_t (*level)(const BlockStats& stats, Demand demand);
+  int32_t (*layer)(const BlockStats& stats, Demand demand);
   // Computes the aperture of N. Fills weights[ViewWeightsSize(opening, n)].
   ViewWeights (*make_aperture)(int32_t n, const ApertureShape& opening, uint16_t* weights);
   // Returns the work for `rect` with `border`, both in pixels of the layer, without upsampling.

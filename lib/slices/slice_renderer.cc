@@ -5,7 +5,7 @@
 namespace starfocus {
 namespace {
 
-int32_t LevelOf(const BlockStats& stats, Demand demand) {
+int32_t LayerOf(const BlockStats& stats, Demand demand) {
   const double radius = static_cast<double>(stats.r_shown) / (1 << kDisparityBits);
   return LayerBySubaperture(radius, stats.has_edge, demand);
 }
@@ -95,7 +95,7 @@ const Renderer kSliceRenderer = {
     0, true,
     // Side of the benchmark's superblocks: small blocks have fewer fine slices, which fit into the
     // memory of the coarse slices.
-    32, ViewsBySubaperture, LevelOf, MakeSubapertures, MeasureWork, sizeof(CompositorScratch),
+    32, ViewsBySubaperture, LayerOf, MakeSubapertures, MeasureWork, sizeof(CompositorScratch),
     TakeScratch,
     [](const RenderJob&) { return false; },  // false: the ends of slices always move a little
     CompositeRectangle, [](const ViewWeights&) { return kCompositeBits; }};

@@ -188,7 +188,7 @@ TEST_CASE("borders: nothing beyond those of a superblock is read") {
     const bool changes = superblock.FrameDiff({centre, borders.centre, borders.views}, &random);
     CHECK(!changes);
   }
-  for (const uint64_t of_level : pixels) CHECK(of_level > 0);
+  for (const uint64_t of_layer : pixels) CHECK(of_layer > 0);
   CHECK(gathered > 0);
 }
 
@@ -219,21 +219,21 @@ struct Sum {
   }
 };
 
-// Why pixels are unused. Of levels: blocks begin and end with whole cells, which decides their
+// Why pixels are unused. Of layers: blocks begin and end with whole cells, which decides their
 // bytes, and what the outermost taps of two filters, one behind the other, leave of a pixel is
 // rounded away. Of side views: hidden pixels at the rim of a block's border hardly show, those of
-// levels less, and disparities there are seldom the largest that the configuration has room for.
+// layers less, and disparities there are seldom the largest that the configuration has room for.
 const Sum kSums[] = {
     {"boundary pixels", 1, STARFOCUS_RENDERER_SLICES, 0, 7, 1, 1, &Borders::centre, &Kept::map, 0},
     {"edges", 5, STARFOCUS_RENDERER_SLICES, 0, 1, 1.0 / 24, 1, &Borders::centre, &Kept::map, 0, 1,
      161},
-    {"level 1", 1, STARFOCUS_RENDERER_SLICES, 1, 11, 1, 1, &Borders::centre, &Kept::centre, 0},
-    {"level 2", 1, STARFOCUS_RENDERER_LINE_SCAN, 2, 11, 1, 0.25, &Borders::centre, &Kept::centre,
+    {"layer 1", 1, STARFOCUS_RENDERER_SLICES, 1, 11, 1, 1, &Borders::centre, &Kept::centre, 0},
+    {"layer 2", 1, STARFOCUS_RENDERER_LINE_SCAN, 2, 11, 1, 0.25, &Borders::centre, &Kept::centre,
      10},
     {"views", 5, STARFOCUS_RENDERER_SLICES, 0, 7, 7.0 / 24, 1, &Borders::views, &Kept::sides, 4},
-    {"views, level 1", 5, STARFOCUS_RENDERER_SLICES, 1, 11, 0.5, 0.75, &Borders::views,
+    {"views, layer 1", 5, STARFOCUS_RENDERER_SLICES, 1, 11, 0.5, 0.75, &Borders::views,
      &Kept::sides, 8},
-    {"views, level 2", 5, STARFOCUS_RENDERER_SLICES, 2, 11, 0.25, 0.5, &Borders::views,
+    {"views, layer 2", 5, STARFOCUS_RENDERER_SLICES, 2, 11, 0.25, 0.5, &Borders::views,
      &Kept::sides, 20},
     {"highlights", 1, STARFOCUS_RENDERER_SLICES, 2, 4, 1, 1, &Borders::views, &Kept::centre, 0, 8},
     {"highlights of views", 5, STARFOCUS_RENDERER_LINE_SCAN, 2, 4, 1, 1, &Borders::views,
@@ -294,7 +294,7 @@ std::vector<uint8_t> NoiseAround(int side, const Rect& rect, int border, uint64_
   return picture;
 }
 
-TEST_CASE("borders: the filter of levels reads what it declares, and no less") {
+TEST_CASE("borders: the filter of layers reads what it declares, and no less") {
   constexpr int kSide = 40, kRows = 22, kAt = 9;
   Dependence dependence;
   for (uint64_t seed = 1; seed <= 20; ++seed) {

@@ -184,7 +184,7 @@ TEST_CASE("gather: the rows that kernels read of a layer are kept") {
     for (int layer = 1; layer < STARFOCUS_LAYERS; ++layer) {
       const double gathered = starfocus::LargestGather(max_blur / (1 << layer));
       const int32_t read = kernels[size_t(starfocus::BlurStepCount(gathered) - 1)].size;
-      CHECK(starfocus::LayerMargin(layer) + read <= borders.level[layer]);
+      CHECK(starfocus::LayerMargin(layer) + read <= borders.layer[layer]);
     }
   }
 }

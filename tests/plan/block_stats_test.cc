@@ -458,7 +458,7 @@ TEST_CASE("cells: the engine's borders cover what the analysis asks for, and no 
       const Border& border = stats.border[0];
       // One pixel more is rendered for the neighbour of a subaperture.
       for (const int side : {border.left, border.right, border.top, border.bottom}) {
-        CHECK(side + 1 <= borders.level[0]);
+        CHECK(side + 1 <= borders.layer[0]);
       }
     }
   }

@@ -247,7 +247,7 @@ TEST_CASE("partition: blocks read as many rows around a stripe as its reach says
       AddRowsBeyond(plan, 64, plan.Partition(64, 64), &most);
     }
     for (int layer = 0; layer < 3; ++layer) {
-      const int rows = borders.level[layer];
+      const int rows = borders.layer[layer];
       CAPTURE(r);
       CAPTURE(layer);
       CHECK(most[layer] <= rows);
@@ -267,7 +267,7 @@ TEST_CASE("partition: nor do blocks of any map") {
       int most[3] = {};
       AddRowsBeyond(plan, y, plan.Partition(64, y), &most);
       CAPTURE(round);
-      for (int layer = 0; layer < 3; ++layer) CHECK(most[layer] <= borders.level[layer]);
+      for (int layer = 0; layer < 3; ++layer) CHECK(most[layer] <= borders.layer[layer]);
     }
   }
 }

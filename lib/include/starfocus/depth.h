@@ -17,7 +17,7 @@
  *   starfocus_status status = starfocus_estimate_workspace_size(&config, &bytes);
  *   if (status != STARFOCUS_OK) return status;
  *   void* workspace = aligned_alloc(STARFOCUS_ALIGNMENT,
- *                                   (bytes + STARFOCUS_ALIGNMENT - 1) & ~(size_t)63);
+ *                                   (bytes + 63) / 64 * 64);
  *   if (workspace == NULL) return STARFOCUS_ERROR_MEMORY;
  *   starfocus_disparity_output map = {0};
  *   map.disparity = disparity;
