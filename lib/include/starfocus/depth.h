@@ -101,9 +101,9 @@ starfocus_estimate_workspace_size(const starfocus_depth_config* config, size_t* 
  *  the views that see the pixel agree best, smoothed between neighbours, and lies in the configured
  *  range.
  *
- *  The confidence is the cost of the best disparity that differs by one step or more, minus the
- * cost of the result, in quarters of a code, summed over R, G and B. It is 0 if another disparity
- * fits as well, for example on a wall of one colour, and at most 255.
+ *  The confidence is the cost of the best disparity that differs by two steps or more, minus
+ *  the cost of the result, in quarters of a code, summed over R, G and B. It is 0 if another
+ * disparity fits as well, for example on a wall of one colour, and at most 255.
  *  @param config configuration
  *  @param light_field views; `depth` is ignored
  *  @param map output planes
