@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// starfocus-bench: run time against error. See studies.h for what it measures.
+// starfocus-bench measures the run time and the error of the engine. studies.h lists the
+// measurements.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bench's own figures on pictures and numbers whose answers are known.
+// Tests the metrics of the bench with pictures and numbers whose results are known.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -9,7 +9,7 @@
 namespace bench_test {
 namespace {
 
-using namespace starfocus::bench;  // every name below is of the bench
+using namespace starfocus::bench;
 using starfocus::FloatMap;
 using starfocus::Image;
 
@@ -52,7 +52,7 @@ TEST_CASE("SSIM of equal, shifted and inverted pictures") {
   Image inverted = a;
   for (uint8_t& sample : inverted.pixels) sample = uint8_t(255 - sample);
   CHECK(Ssim(a, inverted) < 0);
-  // Constant pictures differ in luminance alone.
+  // Constant pictures differ only in luminance.
   const double c1 = 6.5025, expected = (2 * 100 * 120 + c1) / (100 * 100 + 120 * 120 + c1);
   CHECK(Ssim(Gray(16, 16, 100), Gray(16, 16, 120)) == doctest::Approx(expected).epsilon(1e-3));
   CHECK(Ssim(Gray(5, 5, 1), Gray(5, 5, 200)) == 1);

@@ -1,11 +1,11 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# Prints a row of docs/lab-notebook.md: PSNR in dB of the pictures of a program against ray-traced truth
-# (wires, leaves) and against the benchmark mode (stilllife), and millions of samples rendered at the
-# last focus of each scene. Change a constant, build, and compare with the row of the program before, whose
-# benchmark mode is the yardstick of both.
-# Beside PROGRAM is starfocus-lab.
 # usage: constants.sh PROGRAM PROGRAM-BEFORE [REFOCUS-OPTION...]
+# Measures the effect of a changed constant, as a row of docs/lab-notebook.md. The row has the PSNR in dB
+# of the pictures of PROGRAM against ray-traced truth (wires, leaves) and against the benchmark mode of
+# PROGRAM-BEFORE (stilllife). It also has the millions of samples that are rendered at the last focus of
+# each scene. Compare the row with that of the program before the change. starfocus-lab must be in the
+# folder of PROGRAM.
 set -eu
 program=$1 before=$2
 shift 2

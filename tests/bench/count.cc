@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// starfocus-bench-count MODE [FOLDER VIEWS]: refocuses one light field, once, so that callgrind can
-// count the instructions of starfocus_refocus. The light field is a small one made in memory, or
-// the first views of a folder's, focused at its farthest disparity. Prints the pixels and the SIMD
-// target.
+// usage: starfocus-bench-count MODE [FOLDER VIEWS]
+// Refocuses one light field once, so that callgrind can count the instructions of
+// starfocus_refocus. The light field is a small synthetic one, or the first VIEWS views of FOLDER,
+// focused at the smallest disparity. Prints the number of pixels and the SIMD target.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -21,13 +21,14 @@ using starfocus::bench::Field;
 
 constexpr int kWidth = 256, kHeight = 192, kViews = 5;
 
-// Texture in integers, the same on every machine.
+// Returns a sample of the texture, computed with integers, so that it is the same on every machine.
 uint8_t Texture(int x, int y, int channel) {
   const uint32_t mixed = uint32_t(x / 3 * 73 + y / 2 * 151 + channel * 57) * 2654435761u;
   return uint8_t(96 + (mixed >> 26) + ((x + 2 * y) & 63));
 }
 
-// A slanted wall with a disc before it and a bar behind the focus.
+// Returns the disparity in 1/64 pixel: a slanted wall, a disc in front of it, and a bar behind the
+// focus.
 int Disparity64(int x, int y) {
   const int dx = x - 90, dy = y - 100;
   if (dx * dx + dy * dy < 50 * 50) return 64 * 6;

@@ -1,7 +1,9 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# Instructions per pixel of starfocus_refocus, counted by callgrind: the same on every run, so that a
-# slowdown shows without a clock. usage: count.sh BUILD-FOLDER check|record
+# usage: count.sh BUILD-FOLDER check|record
+# Counts the instructions per pixel of starfocus_refocus with callgrind, and compares them with
+# baseline.txt or writes that file. The counts are the same on every run, so they show slowdowns that are
+# too small for a clock.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 baseline=$here/baseline.txt
@@ -19,7 +21,8 @@ command -v valgrind >/dev/null || { echo "install the package valgrind first" >&
 compiler=$(sed -n 's/^CMAKE_CXX_COMPILER:[A-Z]*=//p' "$build/CMakeCache.txt")
 compiler=$("$compiler" --version | sed -n '1s/^[^ ]* //p') # without the program's own name
 
-# count NAME ARGUMENT...: "NAME instructions-per-pixel" of starfocus-bench-count with these arguments
+# count NAME ARGUMENT...: runs starfocus-bench-count with these arguments, and prints
+# "NAME instructions-per-pixel".
 count() {
   local name=$1 out=$build/callgrind.$1 log=$build/callgrind.$1.log pixels instructions found
   shift
@@ -31,8 +34,8 @@ count() {
   awk -v m="$name" -v i="$instructions" -v p="$pixels" 'BEGIN { printf "%s %.1f\n", m, i / p }'
 }
 
-# count_case NAME PIXELS KERNELS: "NAME KERNELS instructions-per-pixel" of a case of
-# instruction_bench, which `./do count` counts on AArch64.
+# count_case NAME PIXELS KERNELS: runs a case of instruction_bench, and prints
+# "NAME KERNELS instructions-per-pixel". `./do count` counts the same cases on AArch64.
 count_case() {
   local out=$build/callgrind.$1.$3 instructions
   "$here/../support/valgrind.sh" "$build" --tool=callgrind --callgrind-out-file="$out" --toggle-collect=starfocus_refocus \
@@ -41,7 +44,8 @@ count_case() {
   awk -v n="$1 $3" -v i="$instructions" -v p="$2" 'BEGIN { printf "%s %.1f\n", n, i / p }'
 }
 
-# begin COMMAND...: adds a line to the counts, in the background, as many at a time as there are cores.
+# begin COMMAND...: runs a command in the background that prints a line of the counts. At most one command
+# per core runs at a time.
 lines=$(mktemp -d)
 trap 'rm -rf "$lines"' EXIT
 begun=0 running=0
@@ -55,7 +59,7 @@ begin() {
 }
 
 for mode in block frame; do begin count $mode $mode; done
-# Hair, with 5 views and with 1: fine structure before a far wall.
+# Hair is fine structure in front of a distant wall. It is counted with 5 views and with 1 view.
 hair=$build/count-hair
 "$build/starfocus-lab" scene "$hair" --name hair --size 512x384 --views 5 >/dev/null
 for views in 5 1; do begin count hair-$views block "$hair" $views; done
@@ -83,7 +87,7 @@ fi
 
 recorded=$(sed -n 's/^compiler //p' "$baseline")
 worse=0
-# What is counted is named by all words of a line but the last.
+# The last word of a line is the count. The words before it are the name of the case.
 while read -r line; do
   mode=${line% *} now=${line##* }
   before=$(sed -n "s/^$mode \([0-9.]*\)\$/\1/p" "$baseline")

@@ -44,7 +44,8 @@ Error LoadTruths(const std::string& folder, Field* field) {
   return {};
 }
 
-// Of a position along a row of mirrored copies.
+// Returns the source position of position x in a row of alternately mirrored copies of `size`
+// pixels.
 int Mirror(int x, int size) {
   const int place = x % (2 * size);
   return place < size ? place : 2 * size - 1 - place;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The light fields of the bench: folders with what is known of their truth, and in-memory changes
-// of them for the sweeps.
+// Light fields of the bench: reads folders with their ray-traced pictures (truths), and creates
+// changed copies for sweeps of the size and the blur radius. Used by bench.cc, count.cc and
+// studies.cc.
 #ifndef STARFOCUS_TESTS_BENCH_FIELD_H_
 #define STARFOCUS_TESTS_BENCH_FIELD_H_
 
@@ -14,6 +15,7 @@
 
 namespace starfocus::bench {
 
+// A ray-traced picture of the light field for one focus and aperture.
 struct Truth {
   double focus, aperture;
   Image picture;
@@ -22,28 +24,34 @@ struct Truth {
 struct Field {
   std::string name;
   LightField data;
-  float low = 0, high = 0;  // of the disparity map
+  float low = 0, high = 0;  // range of the disparity map
   std::vector<Truth> truths;
-  starfocus_transfer transfer = STARFOCUS_TRANSFER_SRGB;  // that the truths were traced by
+  starfocus_transfer transfer = STARFOCUS_TRANSFER_SRGB;  // transfer of the truths
 
   int views() const { return int(data.views.size()); }
   double pixels() const { return double(data.width()) * data.height(); }
+  // Returns a quantile of the disparity map; `quantile` is in [0, 1].
   double FocusAt(double quantile) const;
+  // Returns the largest blur radius in pixels.
   double LargestBlur(double focus, double aperture) const;
-  const Image* FindTruth(double focus, double aperture) const;  // null: there is none
+  // Returns the truth for this focus and aperture, or null if the folder has no such truth.
+  const Image* FindTruth(double focus, double aperture) const;
 };
 
-// Loads all views, fills invalid disparities, and reads truth_dt<D>_ut<U>.png.
+// Reads all views of a folder, fills invalid disparities, and reads the truths, which are named
+// truth_dt<D>_ut<U>.png.
 Error LoadField(const std::string& folder, Field* field);
 
-// The light field repeated to width x height with `views` views, as far as needed mirrored so that
-// no new depth edges appear.
+// Returns a light field of `width` x `height` pixels with `views` views. It consists of copies of
+// the given one. Every second copy is mirrored, so that no new depth edges appear.
 Field Tile(const Field& field, int width, int height, int views);
 
-// The same pictures with the disparities multiplied: right for times, wrong for holes.
+// Returns a light field with the same views and disparities multiplied by `factor`. It is valid for
+// measuring times, but its holes are filled from wrong places.
 Field Stretch(const Field& field, double factor, int views);
 
-// The first `views` views as the engine takes them.
+// Returns the first `views` views and the disparity map as a starfocus_light_field. It points into
+// `data`.
 starfocus_light_field Rows(const LightField& data, int views);
 
 }  // namespace starfocus::bench

@@ -9,7 +9,7 @@
 namespace starfocus::bench {
 namespace {
 
-// The kernel's name of the processor; "unknown" where it gives none.
+// Returns the name of the processor from /proc/cpuinfo, or "unknown".
 std::string CpuName() {
   std::ifstream file("/proc/cpuinfo");
   for (std::string line; std::getline(file, line);) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where and with what the bench ran.
+// Describes the machine, compiler and version for the output of the bench.
 #ifndef STARFOCUS_TESTS_BENCH_MACHINE_H_
 #define STARFOCUS_TESTS_BENCH_MACHINE_H_
 
@@ -11,6 +11,8 @@ struct Machine {
   std::string cpu, target, compiler, version;
 };
 
+// Returns the description of this machine. `revision` is appended to the version, unless it is
+// empty.
 Machine ThisMachine(const std::string& revision);
 
 }  // namespace starfocus::bench

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures several ways to make one picture against each other.
+// Measures several ways to compute the same picture. Used by studies.cc.
 #ifndef STARFOCUS_TESTS_BENCH_MEASURE_H_
 #define STARFOCUS_TESTS_BENCH_MEASURE_H_
 
@@ -14,9 +14,9 @@ namespace starfocus::bench {
 
 struct Settings {
   int repetitions = 5;
-  double patience = 3;  // seconds per task beyond which repetitions are dropped
-  std::string folder;   // for the files of other programs
-  bool rivals = true;
+  double patience = 3;  // seconds per task; repetitions that would exceed it are omitted
+  std::string folder;   // folder for the files of other programs
+  bool rivals = true;   // whether rivals are measured
 };
 
 struct Entry {
@@ -24,14 +24,16 @@ struct Entry {
   Task task;
 };
 
-// One picture: the tasks take turns, so that a slow moment of the machine hits all of them.
+// The tasks that compute one picture. They run in turn, so that a temporary slowdown of the machine
+// affects all of them.
 struct Group {
   const Field* field = nullptr;
   double aperture = 1, focus = 0, quantile = kNone;
   std::vector<Entry> entries;
-  bool tools = false;  // also other programs, where there is a truth to compare with
+  bool tools = false;  // also measures other programs, if there is a truth
 };
 
+// Measures all tasks of a group, and appends one row per task to `rows`.
 Error MeasureGroup(const Group& group, const Settings& settings, std::vector<Row>* rows);
 
 }  // namespace starfocus::bench

@@ -46,7 +46,7 @@ std::array<float, kTaps> Window() {
   return taps;
 }
 
-// Weighted means of the windows that fit.
+// Returns the weighted mean of each window that lies completely inside the plane.
 Plane Means(const Plane& in, int width, int height) {
   static const std::array<float, kTaps> taps = Window();
   const int w = width - kTaps + 1, h = height - kTaps + 1;
@@ -74,7 +74,8 @@ Plane Product(const Plane& a, const Plane& b) {
   return product;
 }
 
-// Marks every pixel within `radius` of a marked one along lines that are `step` apart.
+// Marks every pixel of a line at most `radius` pixels from a marked one. The line has `count`
+// pixels that are `step` bytes apart.
 void Spread(int count, size_t step, int radius, const uint8_t* in, uint8_t* out) {
   int last = -radius - 1;
   for (int i = 0; i < count; ++i) {

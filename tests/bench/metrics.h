@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the bench makes of pictures and times.
+// Metrics of pictures and statistics of times. Used by the bench and tested by bench_test.cc.
 #ifndef STARFOCUS_TESTS_BENCH_METRICS_H_
 #define STARFOCUS_TESTS_BENCH_METRICS_H_
 
@@ -11,29 +11,32 @@
 
 namespace starfocus::bench {
 
-// Equal pictures have this PSNR, so that means and plots stay finite.
+// PSNR of equal pictures in dB. It is finite, so that means and plots are finite.
 inline constexpr double kBestPsnr = 99.0;
-inline constexpr int kBlock = 16;
+inline constexpr int kBlock = 16;  // side of the blocks of WorstBlockPsnr, pixels
 
 using Mask = std::vector<uint8_t>;  // one byte per pixel, 0 or 1
 
-// Over all R, G, B samples, in dB.
+// Returns the PSNR of all R, G, B samples in dB.
 double Psnr(const Image& a, const Image& b);
-// Over the pixels of a mask; kBestPsnr when there are none.
+// Returns the PSNR of the pixels of a mask in dB, or kBestPsnr if the mask is empty.
 double MaskedPsnr(const Image& a, const Image& b, const Mask& mask);
-// The lowest PSNR of any 16x16 block (smaller at the right and lower edge).
+// Returns the lowest PSNR of all 16x16 blocks in dB. Blocks at the right and bottom edges are
+// smaller.
 double WorstBlockPsnr(const Image& a, const Image& b);
-// Mean structural similarity of the luma: Gaussian window of 11x11, sigma 1.5, over the places
-// where it fits; 1 for pictures smaller than the window.
+// Returns the mean structural similarity of the luma. The window is an 11x11 Gaussian with
+// sigma 1.5, at all positions inside the picture. Returns 1 for pictures smaller than the window.
 double Ssim(const Image& a, const Image& b);
 
-// Pixels at most `radius` rows and columns from a step of more than 1 between neighbours.
+// Returns the pixels at most `radius` rows and columns from a depth edge, which is a step of more
+// than 1 between neighbours.
 Mask EdgeBand(const FloatMap& disparity, int radius);
 
-double Median(std::vector<double> values);  // 0 of none
-// Median distance from the median, as a share of the median.
+// Returns the median, or 0 without values.
+double Median(std::vector<double> values);
+// Returns the median absolute deviation from the median, divided by the median.
 double Spread(const std::vector<double>& values);
-// Linear interpolation between the sorted values, q in [0, 1].
+// Returns a quantile with linear interpolation between the sorted values; q is in [0, 1].
 double Quantile(std::vector<float> values, double q);
 
 }  // namespace starfocus::bench

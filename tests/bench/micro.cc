@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// starfocus-bench-micro: every kernel on every SIMD target beside its reference, and what surrounds
-// them, beside a memcpy of the same size, in bytes read and written per second. The calls of
-// kernels are those that kernels_bytes_test checks.
+// starfocus-bench-micro measures the speed of every kernel on every SIMD target and of its
+// reference. It also measures parts of the engine that call kernels, and memcpy of similar sizes.
+// Speeds are in bytes read and written per second. The calls of kernels are those that
+// kernels_bytes_test checks.
 #include "tests/bench/micro.h"
 
 #include <benchmark/benchmark.h>
@@ -26,13 +27,13 @@ void Register(const Case& one, const Table* kernels) {
     test::Draw draw = test::Draw::ForBench();
     test::CallOf<Table> call(&draw);
     one.make(&draw, &call);
-    // Sums grow with every pass; their overflow changes no time.
+    // Sums grow with every pass and may overflow, which does not affect the time.
     for (auto _ : state) benchmark::DoNotOptimize(call.run(*kernels));
     state.SetBytesProcessed(int64_t(state.iterations()) * int64_t(call.Bytes()));
   });
 }
 
-// Reads and writes half of the bytes each.
+// Registers memcpy. Half of the bytes are read and half are written.
 void RegisterCopies() {
   for (const size_t kib : {6, 9, 12, 18, 27}) {
     const std::string name = "memcpy/" + std::to_string(kib) + "_KiB";

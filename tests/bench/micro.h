@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What starfocus-bench-micro times beside the kernels themselves.
+// Benchmarks of starfocus-bench-micro that measure more than one kernel.
 #ifndef STARFOCUS_TESTS_BENCH_MICRO_H_
 #define STARFOCUS_TESTS_BENCH_MICRO_H_
 
@@ -9,16 +9,16 @@
 
 namespace starfocus::bench {
 
-// What has no kernels.
+// Registers the deblocking filter.
 void RegisterDeblocking();
 
-// The line scan with the search for runs before it.
+// Registers the line scan, including the search for runs.
 void RegisterLineScan(const simd::Kernels* kernels);
 
-// Small pictures through the whole engine, by mode: "blur" is the ideal blur of one view.
+// Registers the refocusing of small pictures with one view in the modes blur, frame and block.
 void RegisterWholePictures(const std::string& target);
 
-// The time per pixel of the most expensive legal pictures, beside an ordinary one.
+// Registers the time per pixel of an ordinary picture and of the most expensive valid pictures.
 void RegisterBounds();
 
 }  // namespace starfocus::bench

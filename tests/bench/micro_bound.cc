@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The time per pixel of the most expensive legal pictures beside that of an ordinary one.
+// Measures the time per pixel of the most expensive valid pictures, and of an ordinary one.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -14,13 +14,13 @@ namespace starfocus::bench {
 namespace {
 
 constexpr int kWidth = 384, kHeight = 256, kViews = 5;
-constexpr int kBlur = 16;           // pixels
-constexpr double kHighlights = 16;  // times white
+constexpr int kBlur = 16;           // largest blur radius, pixels
+constexpr double kHighlights = 16;  // starfocus_config.highlights
 
 struct Picture {
   const char* name;
-  bool noisy_depth;  // the disparity of each pixel is drawn from -kBlur to kBlur
-  int white;         // per mille of the 4x4 squares that are white; -1: a room
+  bool noisy_depth;  // whether the disparity of each pixel is random, from -kBlur to kBlur
+  int white;         // number of white squares of 4x4 pixels per 1000; -1: the ordinary picture
   double highlights;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parts of the engine between its kernels: line scan, deblocking and blur.
+// Measures parts of the engine that call kernels: the line scan, deblocking and whole pictures.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -18,11 +18,11 @@
 namespace starfocus::bench {
 namespace {
 
-constexpr int kPixels = 1024, kSurface = 32;  // of a line, of a surface in it
-constexpr int kSide = 256;                    // of the pictures
+constexpr int kPixels = 1024, kSurface = 32;  // pixels per line, pixels per surface of a line
+constexpr int kSide = 256;                    // width and height of the pictures, pixels
 constexpr int kViewNumber = 4;                // N
 
-// Takes what the scan finds, and keeps nothing but its number.
+// Receives the results of the line scan, and only counts pixels.
 struct Ignore {
   int64_t pixels = 0;
   template <class... More>
@@ -39,11 +39,11 @@ struct Ignore {
   }
 };
 
-// Slanted surfaces with depth edges between them, +-4 pixels of blur.
+// Returns the disparity of slanted surfaces with depth edges between them, with +-4 pixels of blur.
 int16_t DisparityAt(int x) { return int16_t((x / kSurface * 5 % 9 - 4) * 64 + x % kSurface * 2); }
 
-// All views of one line, runs included, as type A lines are scanned. Bytes: disparities read once
-// a view, as the scan itself moves no pixels.
+// Scans one line for all views as a line of type A, including the search for runs. Counts the bytes
+// of disparities that are read, once per view. The scan itself moves no pixels.
 void ScanLines(const simd::Kernels& kernels, benchmark::State& state) {
   std::vector<int16_t> rgb(3 * kPixels, 128);
   std::vector<int16_t> disparity(kPixels + simd::kPadding);
@@ -69,8 +69,8 @@ void ScanLines(const simd::Kernels& kernels, benchmark::State& state) {
   state.SetBytesProcessed(int64_t(state.iterations()) * 2 * kViewNumber * kPixels * 2);
 }
 
-// A chequerboard of layers, so that every boundary is worked on. Bytes: the picture read and
-// written twice.
+// Deblocks a chequerboard of layers, in which every boundary is filtered. Counts the bytes of the
+// picture, which is read and written twice.
 void Deblock(benchmark::State& state) {
   constexpr int kSmallestBlocks = kSide / 16;
   std::vector<uint8_t> layers(size_t(kSmallestBlocks * (kSmallestBlocks + 1))),
@@ -116,7 +116,8 @@ Field MakeField() {
   return field;
 }
 
-// A whole picture through the engine. Bytes: view and map read, picture written.
+// Refocuses a picture. Counts the bytes of the view and the map, which are read, and of the
+// picture, which is written.
 void WholePicture(const std::string& mode, const std::string& target, benchmark::State& state) {
   static const Field field = MakeField();
   Task task;

@@ -21,7 +21,7 @@ void AddQuality(const char* against, const Quality& quality, Json* json) {
   (*json)["edge_band_psnr" + suffix] = Number(quality.band);
 }
 
-// What a row says, in the order of the columns.
+// Returns the values of a row in the order of the columns.
 Json Describe(const Machine& machine, const Row& row) {
   Json json;
   json["study"] = row.study;
@@ -77,7 +77,7 @@ std::string ToCsv(const Machine& machine, const std::vector<Row>& rows) {
     std::string head, line;
     for (const auto& item : json.items()) {
       head += (head.empty() ? "" : ",") + item.key();
-      // Texts never hold quotes but may hold commas.
+      // Strings may contain commas, but no quotation marks.
       line += (line.empty() ? "" : ",") + (item.value().is_null() ? "" : item.value().dump());
     }
     if (text.empty()) text = head + "\n";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rows as CSV and JSON.
+// Writes rows as CSV and JSON.
 #ifndef STARFOCUS_TESTS_BENCH_OUTPUT_H_
 #define STARFOCUS_TESTS_BENCH_OUTPUT_H_
 

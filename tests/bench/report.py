@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The rows of starfocus-bench as one HTML page: report.py RESULTS.json X86-COUNTS ARM-COUNTS > report.html.
+"""Converts the rows of starfocus-bench to an HTML page.
 
-X86-COUNTS and ARM-COUNTS are the baselines of `./do bench --check` and `./do count`. Drawings need gnuplot;
-without one, the page says so in their place.
+usage: report.py RESULTS.json X86-COUNTS ARM-COUNTS > report.html
+
+X86-COUNTS and ARM-COUNTS are the baselines of `./do bench --check` and `./do count`. The plots need gnuplot. Without
+gnuplot the page has messages instead of plots.
 """
 import html
 import itertools
@@ -30,7 +32,7 @@ svg{max-width:100%;height:auto}
 </style></head><body>
 <h1>starfocus: time and error</h1>
 """
-# The paper's Table IV, its averages and three of its light fields.
+# Rows of the paper's Table IV: three of its light fields, and its averages.
 PAPER_FOUR = """
 Tsukuba|58.0|33.6|47.7|-1.0|-1.3|1.7|0.2|1.1|92 %|5 %|3 %|1.5|0.2|1.0×|1.4×|1.0×
 StillLife|57.6|41.3|46.1|0.0|0.0|9.4|1.5|1.3|76 %|17 %|7 %|7.1|1.2|1.7×|3.5×|1.2×
@@ -41,25 +43,25 @@ average of 14, u<sub>t</sub> 0.25|56.6|45.5|51.9|-0.3|-0.3|7.3|0.8|0.9|84 %|14 %
 """.strip().splitlines()
 PAPER_TWO = (("Tsukuba", "210.3", "5.4"), ("Lego Knights", "202.5", "6.5"), ("Kid and Cat", "205.0", "6.6"),
              ("Kid and Ball", "201.9", "6.6"))
-# Line types that can be told apart on white, which gnuplot's yellow cannot.
+# Format of a curve. draw() sets line type 5 to a dark yellow, since gnuplot's own is hard to see on white.
 CURVE = "'-' using 1:2 with {} lw 2 pt {} lc {} ps {:.1f} title \"{}\""
-numbers = itertools.count()  # names of drawings must differ within a page
+numbers = itertools.count()  # for the names of plots, which must be unique in the page
 
 
 def fixed(value, digits):
-    """A dash for what was not measured."""
+    """Formats a value. Values that were not measured become a dash."""
     return f"{value:.{digits}f}" if math.isfinite(value) else "–"
 
 
 def mean(rows, value):
-    """The mean of the finite values, a key or a function of the row."""
+    """Returns the mean of the finite values of the rows. `value` is a key or a function of a row."""
     values = [value(row) if callable(value) else row[value] for row in rows]
     values = [one for one in values if math.isfinite(one)]
     return sum(values) / len(values) if values else math.nan
 
 
 def in_order(names):
-    """Each name once, in the first order."""
+    """Removes duplicates and keeps the order of the first occurrences."""
     return list(dict.fromkeys(names))
 
 
@@ -68,14 +70,14 @@ def fields_of(rows):
 
 
 def at_quantiles(rows, field, mode, aperture=1, views=0):
-    """Rows at quantiles of the disparity map, of the whole star set or of one of `views`."""
+    """Returns the rows whose focus is a quantile of the disparity map, for all views, or for `views` views."""
     return [row for row in rows if row["study"] == ("views" if views else "main") and row["field"] == field
             and row["mode"] == mode and row["aperture"] == aperture and row["views"] in (views or row["views"],)
             and math.isfinite(row["quantile"])]
 
 
 def method(row):
-    """The way to make the picture, as "block, 9 views"."""
+    """Returns the name of the method of a row, for example "block, 9 views"."""
     name, options = row["mode"], row["study"] == "options"
     if row["study"] == "views" or row["mode"] == "shift-and-add":
         name += f", {row['views']} views"
@@ -89,7 +91,7 @@ def method(row):
 
 
 def table(about, head, lines):
-    """Lines of cells; those whose first cell begins with "paper" are grey."""
+    """Returns an HTML table. Lines whose first cell starts with "paper" are grey."""
     def line(cells, tag="td"):
         kind = ' class="paper"' if cells[0].startswith("paper") else ""
         return f"<tr{kind}>" + "".join(f"<{tag}>{cell}</{tag}>" for cell in cells) + "</tr>\n"
@@ -100,7 +102,7 @@ def table(about, head, lines):
 
 
 def table_four(rows):
-    """The paper's Table IV."""
+    """Returns our Table IV together with rows of the paper's Table IV."""
     def cells(field, aperture):
         def of(mode, views=0):
             return at_quantiles(rows, field, mode, aperture, views)
@@ -135,7 +137,7 @@ def table_four(rows):
 
 
 def scale_table(rows):
-    # The plain mode's row is that of scale 1, and the measure of the others.
+    # The row of scale 1 is that of the mode without options. The other rows are compared with it.
     scales = sorted({1, *(row["n_scale"] for row in rows)})
     lines = []
     for field, mode, scale in itertools.product(fields_of(rows), ("block", "frame"), scales):
@@ -155,7 +157,7 @@ def scale_table(rows):
 
 
 def table_two(rows):
-    """The paper's Table II."""
+    """Returns our Table II together with rows of the paper's Table II."""
     lines = []
     for field in fields_of(rows):
         def of(mode, value):
@@ -172,7 +174,7 @@ def table_two(rows):
 
 
 def truth_table(rows):
-    lines = {}  # a truth's focus may be a quantile too, a scale of N be 1
+    lines = {}  # by picture and method, since a truth may be measured several times
     for row in rows:
         if not math.isfinite(row["psnr_truth"]) or row["study"] == "targets":
             continue
@@ -201,7 +203,7 @@ def target_table(rows):
 def worker_table(rows):
     lines = []
     for row in (row for row in rows if row["study"] == "workers"):
-        one = row if row["workers"] == 1 else one  # the row of one worker comes first
+        one = row if row["workers"] == 1 else one  # the row of one worker precedes the others
         lines.append([f"{html.escape(row['field'], False)}, {row['mode']}", str(row["workers"])])
         for key in ("wall_ms", "least_wall_ms"):
             lines[-1] += [fixed(row[key], 1), fixed(one[key] / row[key], 2)]
@@ -211,7 +213,11 @@ def worker_table(rows):
 
 
 def count_table(x86, arm):
-    """Lines "CASE simd|reference INSTRUCTIONS-PER-PIXEL", and "CASE simd|reference PIXELS INSTRUCTIONS" of AArch64."""
+    """Reads two files of counts and returns their table.
+
+    Lines of the file for x86-64 are "CASE simd|reference INSTRUCTIONS-PER-PIXEL". Lines of the file for AArch64 are
+    "CASE simd|reference PIXELS INSTRUCTIONS". Other lines are ignored.
+    """
     counts = {}
     for machine, path in (("x86", x86), ("arm", arm)):
         with open(path, encoding="utf-8") as file:
@@ -233,7 +239,7 @@ def count_table(x86, arm):
 
 
 def figure(script, caption):
-    """What gnuplot draws."""
+    """Runs a gnuplot script. Returns an HTML figure with the plot, or with a message if gnuplot fails."""
     try:
         made = subprocess.run(["gnuplot"], input=script, capture_output=True, text=True, check=True).stdout
         drawing = made[made.find("<svg"):]
@@ -243,7 +249,7 @@ def figure(script, caption):
 
 
 def draw(title, axes, curves, settings="", caption="", height=430, style="linespoints", size=0.7, front=()):
-    """Curves are pairs of a name and points; `front` is a line behind them."""
+    """Plots curves, which are pairs of a name and a list of points. `front` is drawn as a line behind them."""
     curves = [curve for curve in curves if curve[1]]
     if not curves:
         return ""
@@ -260,13 +266,14 @@ def draw(title, axes, curves, settings="", caption="", height=430, style="linesp
 
 
 def points_of(rows, x, y):
-    """Those that were measured, by x."""
+    """Returns the points (x, y) of the rows where both were measured, sorted by x."""
     points = [(x(row) if callable(x) else row[x], row[y]) for row in rows]
     return sorted(point for point in points if all(map(math.isfinite, point)))
 
 
 def pareto_front(points):
-    """Indices of the points (time, quality) that no other beats in both, by rising time."""
+    """Returns the Pareto front of points (time, quality): indices of points that no other point beats in both, sorted by
+    time."""
     front = []
     for k in sorted(range(len(points)), key=lambda k: (points[k][0], -points[k][1])):
         if not front or points[k][1] > points[front[-1]][1]:
@@ -275,7 +282,7 @@ def pareto_front(points):
 
 
 def log_slope(points):
-    """Of the least-squares line of log y over log x; not a number with fewer than two points."""
+    """Returns the slope of the least-squares line of log y over log x, or NaN for fewer than two points."""
     u, v = [[math.log(point[k]) for point in points] for k in (0, 1)]
     spread = len(u) * sum(x * x for x in u) - sum(u) ** 2
     return (len(u) * sum(x * y for x, y in zip(u, v)) - sum(u) * sum(v)) / spread if spread > 0 else math.nan
@@ -286,14 +293,14 @@ assert abs(log_slope([(1, 3), (2, 12), (4, 48)]) - 2) < 1e-9
 
 
 def plane(rows, field, against, quality):
-    """The mean of each method over the pictures that have the quality."""
+    """Plots the mean time and quality of each method over the pictures for which the quality was measured."""
     kept = [row for row in rows if row["field"] == field and row["aperture"] == 1 and math.isfinite(quality(row))
             and row["study"] in ("main", "views", "options", "rivals")]
     curves = [(name, [(mean(same, "ms"), mean(same, quality))]) for name in in_order(map(method, kept))
               for same in [[row for row in kept if method(row) == name]]]
     points = [curve[1][0] for curve in curves]
     front = pareto_front(points)
-    # Below the axis the names, two in a line, and that of the front.
+    # The key below the axis has two names per line, and one more for the front.
     lines = len(curves) // 2 + 1
     caption = "; ".join(f"<b>{html.escape(curves[k][0], False)}</b> ({points[k][0]:.1f} ms, {points[k][1]:.1f} dB)" for k in front)
     return draw(f"{field}: mean time and PSNR against {against}", ("ms per picture", "PSNR, dB"), curves,
@@ -303,7 +310,8 @@ def plane(rows, field, against, quality):
 
 
 def plane_plots(rows):
-    # Rivals are measured at the truths' focus values alone: means over other pictures than the modes' would mislead.
+    # Rivals are measured only at the foci of the truths. In the plot against the benchmark, their means would cover
+    # other pictures than those of the modes, so they are omitted.
     return "".join(plane(rows, field, "truth", lambda row: row["psnr_truth"])
                    + plane(rows, field, "the benchmark",
                            lambda row: row["psnr_benchmark"] if math.isfinite(row["quantile"]) else math.nan)
@@ -324,7 +332,7 @@ def focus_plots(rows):
 
 def growth_plots(rows):
     text = ""
-    # A blur radius of 0 stands at 0.5 on the logarithmic axis.
+    # A blur radius of 0 is drawn at 0.5, because the axis is logarithmic.
     for study, title, label, start, value in (
             ("radius", "Time against the largest blur radius (0 drawn at 0.5)", "r_max, pixels", 4,
              lambda row: max(0.5, row["r_max"])),

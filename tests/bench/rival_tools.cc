@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Programs that blur one picture by a map, run without a shell and on one core.
+// Runs other programs that blur one picture by a map of blur radii. They run without a shell and
+// use one core.
 #include <fcntl.h>
 #include <spawn.h>
 #include <sys/resource.h>
@@ -45,10 +46,11 @@ Error Execute(const Words& words) {
   return good ? Error() : Expected(words[0], "a run without an error", "one");
 }
 
-// The half-width of the box of the same variance as a disc of radius 1.
+// Half the width of a box with the same variance as a disc of radius 1.
 constexpr double kBoxOfDisc = 0.866;
 
-// varblur's boxes have the half-width 1 + 4 max_r m / 255 for a map of m.
+// Returns the command line of ffmpeg. The boxes of varblur have half the width 1 + 4 max_r m / 255,
+// where m is the value of the map.
 Words Ffmpeg(const Files& files, double largest, int pictures, Image* map, double scale) {
   const double reach = std::max(1.0, kBoxOfDisc * scale * largest);
   const int max_r = std::max(1, int(std::ceil((reach - 1) / 4)));
@@ -108,7 +110,7 @@ using MakeWords = Words (*)(const Files&, double, int, Image*, double);
 struct Known {
   Tool tool;
   MakeWords words;
-  int more;  // pictures whose cost is measured
+  int more;  // number of additional pictures of the second run: see ToolResult::seconds
 };
 
 const Known kKnown[] = {
@@ -117,7 +119,7 @@ const Known kKnown[] = {
     {{"imagemagick-blur", "convert-im6.q16"}, Magick, 1},
 };
 
-// Blur radius of every pixel, white where it is the largest.
+// Returns a picture with the blur radius of every pixel. The largest radius is white.
 Image BlurMap(const Field& field, double focus, double largest) {
   Image map(field.data.width(), field.data.height());
   const std::vector<float>& values = field.data.disparity.values;
@@ -129,7 +131,7 @@ Image BlurMap(const Field& field, double focus, double largest) {
   return map;
 }
 
-// Processor time of all programs run so far.
+// Returns the processor time of all child processes that have ended, in seconds.
 double ChildSeconds() {
   rusage usage = {};
   getrusage(RUSAGE_CHILDREN, &usage);
@@ -158,7 +160,8 @@ struct Job {
   }
 };
 
-// Tries several ratios of the tool's unit to the blur radius and keeps the best picture.
+// Tries several ratios of the tool's unit to the blur radius, and keeps the ratio and the picture
+// with the highest PSNR.
 Error Tune(const Job& job, const Image& truth, double* scale, ToolResult* result) {
   double best = -1;
   for (const double tried : {0.35, 0.5, 0.7, 1.0}) {

@@ -8,10 +8,10 @@
 namespace starfocus::bench {
 namespace {
 
-constexpr int kOne = 64;  // of the interpolation
+constexpr int kOne = 64;  // weight 1 of the interpolation
 
 struct Shift {
-  int whole, part;  // floor, and 1 / kOne
+  int whole, part;  // the shift is whole + part / kOne, 0 <= part < kOne
 };
 
 Shift Split(double shift) {
@@ -20,7 +20,7 @@ Shift Split(double shift) {
   return {whole, value - whole * kOne};
 }
 
-// Plain loops, which compilers vectorise.
+// Interpolates between the rows a and b. Compilers vectorize this loop.
 void Mix(const uint8_t* a, const uint8_t* b, int part, size_t count, uint8_t* out) {
   const auto second = uint16_t(part), first = uint16_t(kOne - part);
   for (size_t i = 0; i < count; ++i) {
@@ -37,8 +37,9 @@ void AddMixed(const uint8_t* a, int part, uint16_t weight, size_t count, uint16_
   }
 }
 
-// What part of the aperture disc is nearest to each view, in sums of 256, so that sums of bytes fit
-// 16 bits; the centre takes what rounding leaves.
+// Returns for each view the share of the disc of the aperture that is nearer to it than to other
+// views. The shares sum to 256, so that weighted sums of bytes fit 16 bits. The centre view gets
+// the remainder of rounding.
 std::vector<uint16_t> DiscShares(int views) {
   constexpr int kSteps = 100;
   std::vector<int> counts(size_t(views), 0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What else makes refocused pictures: plain shift-and-add of the captured views, written here, and
-// programs that blur one picture by a map, when they are installed.
+// Other ways to refocus, for comparison: shift-and-add of the captured views, which is implemented
+// here, and installed programs that blur one picture by a map. Used by bench.cc and measure.cc.
 #ifndef STARFOCUS_TESTS_BENCH_RIVALS_H_
 #define STARFOCUS_TESTS_BENCH_RIVALS_H_
 
@@ -12,8 +12,9 @@
 
 namespace starfocus::bench {
 
-// The weighted mean of `views` captured views, each shifted by its share of `focus` with bilinear
-// interpolation: the picture of a lens that consists of so many pinholes (aperture 1).
+// Computes the weighted mean of `views` captured views, each shifted with bilinear interpolation so
+// that disparity `focus` is in focus. The result is the picture of a lens that consists of that
+// number of pinholes, with aperture 1.
 class ShiftAndAdd {
  public:
   ShiftAndAdd(const LightField& data, int views, double focus);
@@ -25,28 +26,33 @@ class ShiftAndAdd {
   const LightField& data_;
   const int views_;
   const double focus_;
-  int pad_ = 0;                // samples on either side of a row
-  std::vector<uint8_t> row_;   // a row between two rows of a view, its ends repeated
-  std::vector<uint16_t> sum_;  // of a row of the picture
+  int pad_ = 0;                // samples of padding on each side of a row
+  std::vector<uint8_t> row_;   // row that is interpolated between two rows of a view, with padding
+  std::vector<uint16_t> sum_;  // weighted sums of a row of the picture
   std::vector<uint16_t> weights_;
 };
 
 // A program that blurs the centre view by a map of blur radii.
 struct Tool {
-  const char* name;     // as in the tables
-  const char* program;  // looked up in PATH
+  const char* name;     // name in tables
+  const char* program;  // name of the program, which must be in PATH
 };
+// Returns all known tools.
 const std::vector<Tool>& Tools();
+// Returns true if the program of the tool is in PATH.
 bool IsInstalled(const Tool& tool);
 
 struct ToolResult {
   Image picture;
-  double seconds = 0;  // for one more picture: of k + m pictures less that of k, over m
-  std::vector<double> each;
+  // Median processor time of one picture: the time of 1 + m pictures minus the time of one, divided
+  // by m.
+  double seconds = 0;
+  std::vector<double> each;  // the time of each repetition
 };
 
-// Blurs `field` focused at `focus` with aperture 1. The ratio of the tool's unit to the blur radius
-// is chosen among several for the best PSNR against `truth`. `folder` is for its files.
+// Blurs the centre view of `field`, focused at `focus` with aperture 1. The ratio of the tool's
+// unit to the blur radius is the one of several with the highest PSNR against `truth`. Temporary
+// files are written to `folder`.
 Error RunTool(const Tool& tool, const Field& field, double focus, const Image& truth,
               const std::string& folder, int repetitions, ToolResult* result);
 

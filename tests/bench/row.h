@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One measurement: what was run and what came out.
+// A measurement: the task and its results. One row of the output of the bench.
 #ifndef STARFOCUS_TESTS_BENCH_ROW_H_
 #define STARFOCUS_TESTS_BENCH_ROW_H_
 
@@ -11,48 +11,49 @@
 
 namespace starfocus::bench {
 
-// How a picture is made.
+// A way to compute a picture.
 struct Task {
-  std::string mode = "block";  // block, frame, benchmark, blur or a rival's name
+  std::string mode = "block";  // block, frame, benchmark, blur, or the name of a rival
   int views = 0;
   int max_layer = STARFOCUS_LAYERS - 1;
-  int superblock = 0;                      // 0: the library chooses
+  int superblock = 0;                      // 0: default of the library
   int renderer = STARFOCUS_RENDERER_AUTO;  // starfocus_renderer
-  double n_scale = 1;                      // of the rule's N
+  double n_scale = 1;                      // starfocus_tuning.n_scale
   std::string target;                      // SIMD target; empty: the best one
   int workers = 1;
-  bool timed = true;  // blocks, with a clock, which costs instructions
+  bool timed = true;  // whether the times of blocks are measured, which costs instructions
 };
 
 inline constexpr double kNone = NAN;  // not measured
 
 struct Quality {
   double psnr = kNone;   // dB
-  double ssim = kNone;   // 0 .. 1
+  double ssim = kNone;   // at most 1
   double worst = kNone;  // PSNR of the worst 16x16 block, dB
   double band = kNone;   // PSNR within r_max of depth edges, dB
 };
 
 struct Row {
-  std::string study;  // what it was measured for: main, options, targets, workers, ...
+  std::string study;  // purpose of the measurement: main, options, targets, workers, ...
   std::string field;
   int width = 0, height = 0;
   Task task;
   double aperture = 1, focus = 0;
-  double quantile = kNone;  // of the disparity map, where the focus was chosen by one
-  double r_max = kNone;
-  int n = 0;
-  int superblock = 0;  // that the engine used
+  double quantile = kNone;  // quantile of the disparity map that is the focus; kNone: a given focus
+  double r_max = kNone;     // largest blur radius, pixels
+  int n = 0;                // N, the largest of all blocks
+  int superblock = 0;       // side of the superblocks that the engine used, pixels
   double rendered_views = 0, rendered_samples = 0;
-  Quality benchmark, truth;  // against the benchmark mode and ray tracing
-  double wall_ms = kNone;    // median by the wall clock
-  double least_wall_ms = kNone;
-  double ms = 0, spread = 0;  // of processor time: median and relative median deviation
-  int runs = 0;
-  double ratio_frame = kNone, ratio_blur = kNone;  // time of those in the same run / this time
-  size_t workspace = 0;
-  double layer_time[STARFOCUS_LAYERS] = {0, 0, 0};  // shares of block mode
-  double layer_pixels[STARFOCUS_LAYERS] = {0, 0, 0};
+  Quality benchmark, truth;      // against the benchmark mode, and against ray tracing
+  double wall_ms = kNone;        // median elapsed time
+  double least_wall_ms = kNone;  // smallest elapsed time
+  double ms = 0, spread = 0;     // processor time: median, and Spread of metrics.h
+  int runs = 0;                  // number of measured runs
+  // Processor time of frame and blur mode for the same picture, divided by that of this task.
+  double ratio_frame = kNone, ratio_blur = kNone;
+  size_t workspace = 0;                               // bytes
+  double layer_time[STARFOCUS_LAYERS] = {0, 0, 0};    // shares of the time of all blocks
+  double layer_pixels[STARFOCUS_LAYERS] = {0, 0, 0};  // shares of the pixels of all blocks
 
   double pixels() const { return double(width) * height; }
   double ns_per_pixel() const { return ms * 1e6 / pixels(); }

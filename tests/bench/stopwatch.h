@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The processor's time of this process and the wall's.
+// Measures the processor time of this process and the elapsed time.
 #ifndef STARFOCUS_TESTS_BENCH_STOPWATCH_H_
 #define STARFOCUS_TESTS_BENCH_STOPWATCH_H_
 
@@ -9,13 +9,15 @@
 
 namespace starfocus::bench {
 
-// Seconds of processor time: what the machine does for others meanwhile does not count.
+// Returns the processor time of this process in seconds. Other processes do not affect it, except
+// through shared caches and memory.
 inline double CpuSeconds() {
   timespec now = {};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
   return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
 }
 
+// Seconds of processor time and elapsed time.
 struct Elapsed {
   double cpu = 0, wall = 0;
 };

@@ -10,8 +10,8 @@
 namespace starfocus::bench {
 namespace {
 
-constexpr int kSweepViews = 5;      // enough for times, and a large picture's views fit the memory
-constexpr double kSweepRadius = 8;  // of the sweep of sizes
+constexpr int kSweepViews = 5;      // few views, so that those of large pictures fit into memory
+constexpr double kSweepRadius = 8;  // largest blur radius of the sweep of sizes, pixels
 
 Entry MakeEntry(const char* study, const std::string& mode, int views) {
   Entry entry;
@@ -63,7 +63,7 @@ void AddTargets(const Field& field, const Choice& choice, Group* group) {
     for (size_t i = 0; (kernels = simd::KernelsOfTarget(i)) != nullptr; ++i) {
       names.push_back(kernels->name);
     }
-    names.push_back(simd::ReferenceKernels().name);  // the scalar code that defines them
+    names.push_back(simd::ReferenceKernels().name);
   }
   for (const std::string& name : names) {
     for (const char* mode : {"block", "frame", "benchmark", "blur"}) {
@@ -73,7 +73,7 @@ void AddTargets(const Field& field, const Choice& choice, Group* group) {
   }
 }
 
-// One worker is the measure of the others.
+// Adds one worker as well, as the reference for the other numbers of workers.
 void AddWorkers(const Field& field, const Choice& choice, Group* group) {
   if (choice.workers.empty()) return;
   std::vector<int> numbers = choice.workers;
@@ -110,7 +110,7 @@ Error MeasureField(const Field& field, const Choice& choice, const Settings& set
   for (const double aperture : choice.apertures) {
     for (const double quantile : choice.quantiles) {
       Group group = {&field, aperture, field.FocusAt(quantile), quantile, {}};
-      // A picture keeps its focus whatever the aperture; sweeps of options are for the whole one.
+      // The focus does not depend on the aperture. Options are measured only with aperture 1.
       AddModes(field, choice, &group);
       if (aperture == 1) AddOptions(field, choice, &group);
       const bool middle = quantile == choice.quantiles[choice.quantiles.size() / 2];
@@ -144,7 +144,8 @@ Error MeasureSweep(const Field& field, const char* study, double focus, const Se
   return MeasureGroup(group, settings, rows);
 }
 
-// The field with disparities multiplied so that focusing at the median gives this largest blur.
+// Returns the field with scaled disparities, so that the largest blur radius is `radius` if the
+// median disparity is in focus.
 Field WithRadius(const Field& field, double radius) {
   const double now = field.LargestBlur(field.FocusAt(0.5), 1);
   return Stretch(field, now > 0 ? radius / now : 0, std::min(kSweepViews, field.views()));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which pictures are measured, and how.
+// Chooses the pictures and tasks that are measured. Called by bench.cc.
 #ifndef STARFOCUS_TESTS_BENCH_STUDIES_H_
 #define STARFOCUS_TESTS_BENCH_STUDIES_H_
 
@@ -16,22 +16,23 @@ struct Choice {
   std::vector<std::string> modes = {"block", "frame", "benchmark", "blur"};
   std::vector<double> apertures = {1};
   std::vector<double> quantiles = {0.1, 0.3, 0.5, 0.7, 0.9};
-  std::vector<int> views;       // star sets below the whole one, in block mode
-  std::vector<int> max_layers;  // sweeps at every picture, in block mode
-  std::vector<int> superblocks;
-  std::vector<double> n_scales;      // of N, in block and frame mode
-  bool rules = false;                // both rules for N, in block and frame mode
-  std::vector<std::string> targets;  // at the middle quantile; "all": every one
-  std::vector<int> workers;          // beside one, at the middle quantile
-  double largest_radius = 0;         // of the sweep of blur radii; 0: none
-  double largest_megapixels = 0;     // of the sweep of sizes; 0: none
+  std::vector<int> views;            // smaller star sets, in block mode
+  std::vector<int> max_layers;       // starfocus_tuning.max_layer, in block mode
+  std::vector<int> superblocks;      // starfocus_config.superblock, in block mode
+  std::vector<double> n_scales;      // starfocus_tuning.n_scale, in block and frame mode
+  bool rules = false;                // both renderers, in block and frame mode
+  std::vector<std::string> targets;  // SIMD targets, at the middle quantile; "all": all targets
+  std::vector<int> workers;          // numbers of workers in addition to 1, at the middle quantile
+  double largest_radius = 0;         // end of the sweep of blur radii, pixels; 0: no sweep
+  double largest_megapixels = 0;     // end of the sweep of sizes; 0: no sweep
 };
 
-// Every mode, option, aperture and focus of a light field, and its truths with the rivals.
+// Measures all chosen modes, options, apertures and foci of a light field, and the foci of its
+// truths, there also with rivals. Appends the measurements to `rows`.
 Error MeasureField(const Field& field, const Choice& choice, const Settings& settings,
                    std::vector<Row>* rows);
 
-// Time against the blur radius and against the number of pixels.
+// Measure the time as a function of the blur radius and of the number of pixels.
 Error MeasureRadii(const Field& field, const Choice& choice, const Settings& settings,
                    std::vector<Row>* rows);
 Error MeasureSizes(const Field& field, const Choice& choice, const Settings& settings,

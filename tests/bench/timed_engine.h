@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An engine with its memory, ready to refocus one picture again and again.
+// An engine with its memory that refocuses the same picture repeatedly. Used by the bench programs.
 #ifndef STARFOCUS_TESTS_BENCH_TIMED_ENGINE_H_
 #define STARFOCUS_TESTS_BENCH_TIMED_ENGINE_H_
 
@@ -31,14 +31,14 @@ struct TimedEngine {
   Image picture;
 };
 
-// The starfocus_mode of a name; -1 when it is none.
+// Returns the starfocus_mode with this name, or -1.
 int ModeOf(const std::string& name);
 
-// Makes an engine for task, focus and aperture. Errors are lines.
+// Creates an engine for a task, focus and aperture. The message of an error is one line.
 Error Prepare(const Field& field, const Task& task, double focus, double aperture,
               TimedEngine* timed);
 
-// Refocuses once; *elapsed is the time inside starfocus_refocus.
+// Refocuses once. `elapsed` receives the time of the call of starfocus_refocus.
 Error RunOnce(const Field& field, const Task& task, TimedEngine* timed, Elapsed* elapsed);
 
 }  // namespace starfocus::bench

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What other sets of views are worth against five of the star, as rows of docs/lab-notebook.md: PSNR in dB.
+"""Compares sets of views with the star of five views: PSNR in dB, as rows of docs/lab-notebook.md.
 
-views.py PROGRAM FOLDER...: folders of 17 views with truths, as `starfocus-lab scene DIR --truth=D,1 --transfer none`
-makes them. For each truth a row of whole pictures, and for either pair a row of the pixels that change when the
-star loses the pair's view, which are those where that view looks behind something.
+usage: views.py PROGRAM FOLDER...
+
+The folders have 17 views and truths; `starfocus-lab scene DIR --truth=D,1 --transfer none` creates them. For each
+truth the script prints a row for whole pictures, and a row for each pair of views. The row of a pair covers the pixels
+that change if the star lacks the side view of the pair. Those are the pixels where that view looks behind an edge.
 """
 import math
 import re
@@ -18,20 +20,20 @@ SETS = {"one": "1", "pair": "0,0:1,0", "other pair": "0,0:-1,0", "three in a row
 
 
 def read(path):
-    """Width and samples of a binary PPM without comments."""
+    """Reads a binary PPM without comments. Returns its width and its samples."""
     data = path.read_bytes()
     width, height = (int(word) for word in data.split(None, 3)[1:3])
     return width, data[len(data) - 3 * width * height:]
 
 
 def decibels(picture, truth, pixels):
-    """PSNR over some pixels."""
+    """Returns the PSNR in dB over the given pixels."""
     error = sum((picture[i] - truth[i]) ** 2 for pixel in pixels for i in range(3 * pixel, 3 * pixel + 3))
     return 10 * math.log10(255 ** 2 * 3 * len(pixels) / error)
 
 
 class Scene:
-    """A folder and one of its truths."""
+    """A light-field folder and one of its truths."""
 
     def __init__(self, program, truth, work):
         self.program, self.folder, self.out = program, truth.parent, work / "out.ppm"
@@ -39,23 +41,23 @@ class Scene:
         self.width, _ = read(self.refocused("1"))
         self.call("-lab", "sheet", truth, "-o", self.out)
         wide, samples = read(self.out)
-        margin = (wide - self.width) // 2  # of the sheet of one picture, on all sides
+        margin = (wide - self.width) // 2  # margin of the sheet on all sides of the picture
         rows = len(samples) // (3 * wide)
         self.truth = b"".join(samples[3 * (wide * y + margin):3 * (wide * y + margin + self.width)]
                               for y in range(margin, rows - margin))
 
     def call(self, suffix, *arguments):
-        """Runs the program, or with the suffix -lab the one beside it."""
+        """Runs the program whose name has this suffix: "" for starfocus, or "-lab" for starfocus-lab."""
         subprocess.run([self.program + suffix, *arguments], check=True, stdout=subprocess.DEVNULL)
 
     def refocused(self, views):
-        """The file of the picture that these views give."""
+        """Refocuses with these views. Returns the path of the picture, which the next call overwrites."""
         self.call("", "refocus", self.folder, "-o", self.out, f"--focus={self.focus}", "--transfer", "none",
                   "--views", views)
         return self.out
 
     def print_rows(self):
-        """One of whole pictures, one of each pair's pixels."""
+        """Prints the row for whole pictures, and the row for each pair."""
         pictures = {name: read(self.refocused(views))[1] for name, views in SETS.items()}
         every = range(len(self.truth) // 3)
         whole = [f"{decibels(picture, self.truth, every):.2f}" for picture in pictures.values()]
@@ -71,7 +73,7 @@ class Scene:
 
 
 def main():
-    """The rows of all folders."""
+    """Prints the rows of all folders."""
     print("| |", " | ".join(SETS), "|")
     with tempfile.TemporaryDirectory() as work:
         for folder in sys.argv[2:]:
