@@ -68,8 +68,8 @@ export class Session {
     return this.#refocuser.focusAt(Math.floor(x * depth.width / width), Math.floor(y * depth.height / height));
   }
 
-  /** Requests a picture with the lens {focus, stops, highlights, shape, blocks}, where `stops` is the number of f-stops
-   *  that the lens is stopped down from its widest aperture. Resolves when all requests are finished. */
+  /** Requests a picture with the lens {focus, stops, highlights, shape, blocks}. `stops` is the number of f-stops below
+   *  the widest aperture. Resolves when all requests are finished. */
   refocus(lens) {
     this.#highlightsChanged ||= lens.highlights !== this.#lens.highlights;
     this.#lens = lens;

@@ -5,7 +5,7 @@ usage: views.py PROGRAM FOLDER...
 
 The folders have 17 views and truths; `starfocus-lab scene DIR --truth=D,1 --transfer none` creates them. For each
 truth the script prints a row for whole pictures, and a row for each pair of views. The row of a pair covers the pixels
-that change if the star lacks the side view of the pair. Those are the pixels where that view looks behind an edge.
+that change if the star lacks the side view of the pair. In these pixels that view looks behind an edge.
 """
 import math
 import re

@@ -141,9 +141,8 @@ static int MakeRoomForCoverage(void) {
   return field.coverage != NULL;
 }
 
-/* Allocates memory for a light field whose views have `pixel_bytes` (3 or 4) bytes per pixel, for
- * its depth map and, if `covers` is 1, for coverage. Frees the previous light field and the engine.
- */
+/* Allocates memory for a light field: views with `pixel_bytes` (3 or 4) bytes per pixel, a depth
+ * map and, if `covers` is 1, coverage. Frees the previous light field and the engine. */
 EXPORT(room)
 starfocus_status Room(int32_t pixel_bytes, int32_t depth_width, int32_t depth_height,
                       int32_t covers) {
