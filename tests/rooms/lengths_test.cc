@@ -20,7 +20,7 @@ constexpr size_t kFileLines = 500, kFunctionLines = 60;
 const std::set<std::string> kSources = {".h", ".hpp", ".c", ".cc", ".py", ".java"};
 
 // Returns the first lines of functions with more than `limit` lines. In the layout of clang-format,
-// a function ends with a line that contains only a brace, and starts at the last earlier line with
+// the last line of a function contains only a brace. The first line is the last one before it with
 // the same indentation. Lines that contain only a case label do not count.
 std::vector<std::string> FindLong(const std::vector<std::string>& lines, size_t limit) {
   const std::regex type(

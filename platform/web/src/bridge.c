@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Functions that worker.js calls. A module has one engine and one light field. The memory behind
- * the data of the module contains the stacks of the helpers, then the light field and the prepared
- * light field, then the workspace of the engine. The engine can be replaced without changing the
- * light field. */
+/* Functions that worker.js calls. A module has one engine and one light field. They lie in the
+ * memory behind the data of the module, in this order: stacks of the helpers, light field, prepared
+ * light field, workspace of the engine. The engine can be replaced without changing the light
+ * field. */
 #include <string.h>
 
 #include "platform/web/src/fields.h"
