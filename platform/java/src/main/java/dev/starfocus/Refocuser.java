@@ -104,8 +104,9 @@ public final class Refocuser implements AutoCloseable {
   }
 
   /**
-   * Returns the number of rows that the running call has finished, or that the last call finished.
-   * Returns 0 after {@link #close}.
+   * Returns the progress of the running call, or of the last call if none is running.
+   *
+   * @return number of finished rows; 0 after {@link #close}
    */
   public int rowsDone() {
     synchronized (life) {
@@ -160,8 +161,9 @@ public final class Refocuser implements AutoCloseable {
   }
 
   /**
-   * Returns the version of the library and the SIMD target that it uses on this machine, for
-   * example "0.1.0, NEON".
+   * Returns the version of the library and the SIMD target that it uses on this machine.
+   *
+   * @return a text, for example "0.1.0, NEON"
    */
   public static String version() {
     return Native.version();

@@ -15,14 +15,19 @@ public class StarfocusException extends RuntimeException {
     this.status = status;
   }
 
-  /** Returns the starfocus_status of the C call; starfocus/status.h lists the values. */
+  /**
+   * Returns the status of the C call.
+   *
+   * @return a starfocus_status; starfocus/status.h lists the values
+   */
   public int status() {
     return status;
   }
 
   /**
-   * Returns true if {@link Refocuser#cancel} cancelled the call. The contents of its output are
-   * then unspecified.
+   * Returns whether the call was cancelled. The contents of its output are then unspecified.
+   *
+   * @return true if {@link Refocuser#cancel} cancelled the call
    */
   public boolean isCancelled() {
     return status == ERROR_CANCELLED;
