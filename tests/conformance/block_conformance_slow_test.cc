@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Block mode against the double-precision reference given the engine's own partition: at most one
-// gray level apart anywhere, on every SIMD target.
+// Compares block mode with the double-precision reference, which gets the engine's own partition.
+// On every SIMD target, samples differ by at most one gray level.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -27,7 +27,8 @@ using namespace conformance;
 
 constexpr starfocus_renderer kRules[] = {STARFOCUS_RENDERER_LINE_SCAN, STARFOCUS_RENDERER_SLICES};
 
-// Pixels that blocks of each layer cover, those gathered, and the longest side that views render.
+// Number of pixels covered by blocks of each layer, number of gathered pixels, and the longest side
+// of a rectangle that views render.
 struct Covered {
   int64_t pixels[STARFOCUS_LAYERS] = {};
   int64_t gathered = 0;
@@ -68,7 +69,7 @@ Distance Check(const test::Scene& scene, const starfocus_params& params,
 starfocus_config Config(const test::Scene& scene, int max_layer, double max_blur = 24) {
   starfocus_config config = test::ConfigFor(scene, max_blur);
   config.tuning.max_layer = max_layer;
-  config.tuning.deblocking = 0;  // a decision by thresholds; deblock_test has it
+  config.tuning.deblocking = 0;  // makes decisions by thresholds; deblock_test tests it
   config.superblock = 32;
   while (config.superblock < scene.height) config.superblock *= 2;
   return config;
@@ -80,7 +81,7 @@ starfocus_params SlicesOf(double focus, starfocus_mode mode) {
   return params;
 }
 
-// Both rules and all layers.
+// Checks both rules and all layers.
 Distance CheckAll(const test::Scene& scene, double focus, double aperture, Covered* covered) {
   Distance all;
   for (const starfocus_renderer renderer : kRules) {
@@ -88,7 +89,7 @@ Distance CheckAll(const test::Scene& scene, double focus, double aperture, Cover
       starfocus_params params = test::Params(focus, aperture, STARFOCUS_MODE_BLOCK);
       params.renderer = renderer;
       Covered here;
-      // Values at every layer, light without layers and at the smallest one.
+      // Averages codes at every layer, and light only without layers and at the smallest layer.
       for (const starfocus_transfer transfer : {STARFOCUS_TRANSFER_NONE, STARFOCUS_TRANSFER_SRGB}) {
         if (transfer == STARFOCUS_TRANSFER_SRGB && max_layer == 1) continue;
         starfocus_config config = Config(scene, max_layer);
@@ -113,7 +114,7 @@ void Tell(const char* name, const Distance& all, const Covered& covered) {
   std::printf("  gathered: %lld\n", static_cast<long long>(covered.gathered));
 }
 
-TEST_CASE("block conformance: random scenes, every star set, both rules, all layers") {
+TEST_CASE("block conformance: random scenes match the reference by both rules at all layers") {
   test::Random random(51);
   Distance all;
   Covered covered;
@@ -132,7 +133,7 @@ TEST_CASE("block conformance: random scenes, every star set, both rules, all lay
   Tell("random scenes in blocks", all, covered);
 }
 
-TEST_CASE("block conformance: the benchmark's slices") {
+TEST_CASE("block conformance: the benchmark's slices match the reference") {
   test::Random random(54);
   Distance all;
   Covered covered;
@@ -151,7 +152,7 @@ TEST_CASE("block conformance: the benchmark's slices") {
   CHECK(covered.pixels[1] + covered.pixels[2] + covered.gathered == 0);
 }
 
-TEST_CASE("block conformance: largest subapertures, smallest and single blocks") {
+TEST_CASE("block conformance: the largest subapertures and the smallest blocks match") {
   test::Random random(52);
   Distance all;
   Covered covered;
@@ -171,13 +172,14 @@ TEST_CASE("block conformance: largest subapertures, smallest and single blocks")
   Tell("subapertures and partitions", all, covered);
 }
 
-TEST_CASE("block conformance: more slices than fit, widest subapertures") {
+TEST_CASE("block conformance: too many slices and the widest subapertures match the reference") {
   struct Lens {
     float low, high;
     double focus, max_blur;
   };
-  // Surfaces blurred on both sides of the focus, in more slices than there are and in more than
-  // memory has room for; and an aperture whose subapertures are almost as wide as they are spread.
+  // The first two lenses blur surfaces on both sides of the focus: in more slices than are allowed,
+  // and in more than the memory has room for. The third lens has subapertures that are almost as
+  // wide as the widest spread.
   constexpr Lens kLenses[] = {{-10, 10, 0, 24}, {-23, 23, 0, 24}, {0, 4, -104, 109}};
   test::Random random(53);
   Distance all;
@@ -197,8 +199,9 @@ TEST_CASE("block conformance: more slices than fit, widest subapertures") {
   all.Print("many slices and wide subapertures");
 }
 
-// Three tiles across, the last of them 72 pixels wide, and two down, which see few slices and many.
-TEST_CASE("block conformance: tiles of large blocks have slices of their own") {
+// The block has three tiles across, the last of them 72 pixels wide, and two tiles down. The two
+// ranges of disparity give few and many slices.
+TEST_CASE("block conformance: each tile of a large block has its own slices") {
   test::Random random(55);
   Distance all;
   for (const float range : {4.0F, 24.0F}) {
@@ -218,7 +221,7 @@ TEST_CASE("block conformance: tiles of large blocks have slices of their own") {
 }
 
 #ifdef STARFOCUS_PROGRAM
-TEST_CASE("block conformance: parts of the demo's scenes") {
+TEST_CASE("block conformance: parts of the demo's scenes match the reference") {
   constexpr int kWidth = 192, kHeight = kWidth * 3 / 4;
   starfocus::ThreadRunner runner(1);
   Distance all;
@@ -233,7 +236,7 @@ TEST_CASE("block conformance: parts of the demo's scenes") {
       field.views.push_back(renderer.View(u, v, nullptr));
     }
     field.disparity = renderer.Disparity();
-    // The disparities of a picture of this size are a few pixels: seen from far out of focus.
+    // A picture of this size has disparities of only a few pixels, so the second focus is far away.
     const test::Scene scene = Crop(field, kWidth / 3, kHeight / 3, 64, 48);
     for (const double focus : {double(scene.disparity_max), scene.disparity_min - 6.5}) {
       all.Add(CheckAll(scene, focus, 1, &covered));
@@ -242,7 +245,8 @@ TEST_CASE("block conformance: parts of the demo's scenes") {
   Tell("demo scenes", all, covered);
 }
 
-TEST_CASE("block conformance: parts of the data sets" * doctest::test_suite("data_sets")) {
+TEST_CASE("block conformance: parts of the data sets match the reference" *
+          doctest::test_suite("data_sets")) {
   Distance all;
   Covered covered;
   bool any = false;

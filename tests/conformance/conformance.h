@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the conformance tests share: the distance of bytes from the reference, and random scenes.
+// Shared code of the conformance tests: the distance of the engine's bytes from the reference, and
+// random scenes.
 #ifndef STARFOCUS_TESTS_CONFORMANCE_CONFORMANCE_H_
 #define STARFOCUS_TESTS_CONFORMANCE_CONFORMANCE_H_
 
@@ -22,16 +23,16 @@
 namespace conformance {
 
 inline constexpr double kMeanLimit = 0.3;
-// Smaller pictures are judged by the mean over all of them: one level in one sample of a single
-// pixel is a third on average.
+// Smallest number of samples of a picture that is judged alone. Smaller pictures are judged by the
+// mean over all of them, since one level in one sample of a pixel is already a mean of 1/3.
 inline constexpr size_t kEnoughSamples = 300;
 
 struct Distance {
-  int largest = 0;       // of bytes
-  double unrounded = 0;  // largest, engine's byte to the reference's value
-  double sum = 0;        // of bytes
+  int largest = 0;       // largest difference of bytes
+  double unrounded = 0;  // largest difference of an engine's byte from the unrounded reference
+  double sum = 0;        // sum of the differences of bytes
   double samples = 0;
-  double worst_mean = 0;  // of a picture with enough samples
+  double worst_mean = 0;  // largest mean of a picture with enough samples
 
   double mean() const { return samples == 0 ? 0 : sum / samples; }
 
@@ -109,7 +110,7 @@ inline test::Scene MakeScene(int width, int height, int views, const Range& rang
   return scene;
 }
 
-// What tells one picture from others.
+// Describes a scene, its parameters and its configuration in one line.
 inline std::string TextOf(const test::Scene& scene, const starfocus_params& params,
                           const starfocus_config& config) {
   char text[600];
@@ -126,7 +127,7 @@ inline std::string TextOf(const test::Scene& scene, const starfocus_params& para
 }
 
 #ifdef STARFOCUS_PROGRAM
-// The rectangle at (x0, y0) of a data set.
+// Returns the rectangle at (x0, y0) of a data set.
 inline test::Scene Crop(const starfocus::LightField& field, int x0, int y0, int width, int height) {
   float low = field.disparity.at(x0, y0), high = low;
   test::Scene scene = test::EmptyScene(width, height, int(field.views.size()), low, high);

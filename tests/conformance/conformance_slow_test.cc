@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The engine against the double-precision reference: at most one gray level apart anywhere.
+// Compares the engine with the double-precision reference: samples differ by at most one gray
+// level.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -22,7 +23,7 @@ namespace {
 
 using namespace conformance;
 
-// Refocuses with both and checks their distance.
+// Refocuses with the engine and the reference, and checks their distance.
 Distance Check(const test::Scene& scene, const starfocus_params& params,
                const starfocus_config& config) {
   const int block = config.superblock;
@@ -40,7 +41,7 @@ Distance Check(const test::Scene& scene, const starfocus_params& params,
   return distance;
 }
 
-// Line scans, by either transfer: block_conformance_slow_test has slices.
+// Checks line scans with either transfer; block_conformance_slow_test checks slices.
 Distance Check(const test::Scene& scene, starfocus_params params, int block, double theta) {
   params.renderer = STARFOCUS_RENDERER_LINE_SCAN;
   starfocus_config config = test::ConfigFor(scene, 16);
@@ -58,9 +59,9 @@ Distance Check(const test::Scene& scene, const starfocus_params& params, int blo
   return Check(scene, params, block, 0.26 * 3.14159265358979323846);
 }
 
-// The reference is slow, and an emulator needs twenty times as long.
+// Sizes of the scenes. The reference is slow, and an emulator takes twenty times as long.
 constexpr int kSizes[][2] = {{1, 1}, {7, 5}, {40, 33}, {96, 64}};
-// A focus for which the blur radius reaches 2 to 9 pixels.
+// Returns a lens whose largest blur radius is r_max.
 starfocus_params RandomLens(const test::Scene& scene, starfocus_mode mode, double r_max,
                             test::Random* random) {
   const double aperture = random->Int(0, 2) == 0 ? 1 : random->Real(0.3, 1);
@@ -71,7 +72,7 @@ starfocus_params RandomLens(const test::Scene& scene, starfocus_mode mode, doubl
   return test::Params(centre + (random->Int(0, 1) == 0 ? offset : -offset), aperture, mode);
 }
 
-TEST_CASE("conformance: random scenes, every star set, both modes") {
+TEST_CASE("conformance: random scenes with every star set and both modes match the reference") {
   Distance all[2];
   for (const starfocus_mode mode : {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BENCHMARK}) {
     test::Random random(41 + uint64_t(mode));
@@ -93,7 +94,7 @@ TEST_CASE("conformance: random scenes, every star set, both modes") {
   CHECK(all[STARFOCUS_MODE_BENCHMARK].mean() < kMeanLimit);
 }
 
-TEST_CASE("conformance: many small scenes") {
+TEST_CASE("conformance: many small scenes match the reference") {
   constexpr int kSmall = 36;
   Distance all;
   for (uint64_t seed = 0; seed < (test::kSlow ? 100 : 300); ++seed) {
@@ -113,7 +114,7 @@ TEST_CASE("conformance: many small scenes") {
   CHECK(all.mean() < kMeanLimit);
 }
 
-TEST_CASE("conformance: blocks of 64, widest and narrowest aperture") {
+TEST_CASE("conformance: blocks of 64 match the reference at the widest and narrowest aperture") {
   Distance all;
   for (const double theta : {STARFOCUS_MIN_THETA, STARFOCUS_MAX_THETA}) {
     for (const int views : kStars) {
@@ -127,7 +128,8 @@ TEST_CASE("conformance: blocks of 64, widest and narrowest aperture") {
 }
 
 #ifdef STARFOCUS_PROGRAM
-TEST_CASE("conformance: parts of the data sets: wires" * doctest::test_suite("data_sets")) {
+TEST_CASE("conformance: parts of the data set wires match the reference" *
+          doctest::test_suite("data_sets")) {
   const std::string folder = test::DataSet("wires");
   if (folder.empty()) return;
   starfocus::LightField field = starfocus::ValueOf(starfocus::LoadLightField(folder, {}));

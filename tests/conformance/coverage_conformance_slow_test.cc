@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the engine's passes leave of thin structure, found and given, against the double-precision
-// reference.
+// Compares the coverage map of the engine with the double-precision reference, for coverage that
+// the engine finds and for coverage that is given.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -20,10 +20,11 @@ namespace {
 constexpr int kWidth = 96, kHeight = 64;
 constexpr double kNear = 6, kFar = -6;
 
-// Which map a scene has: what covers pixels' centres, or that with outlines that are ramps.
+// Map of a scene: the surface at the centre of each pixel, or the same map with outlines turned
+// into ramps.
 enum class Map { kCentres, kRamps };
 
-// Strands that lean, before a wall.
+// Returns the coverage of slanted strands in front of a wall.
 double CoverageAt(double x, double y) {
   if (x < 6 || x > 52 || std::fabs(y - kHeight / 2.0) > 22) return 0;
   double left = 1;
@@ -44,7 +45,7 @@ double LightAt(double x, double y, int c, double u, double v) {
 }
 
 float DisparityAt(int x, int y, Map map) {
-  // Surfaces are not flat.
+  // Neither surface is flat.
   const double far = kFar + 0.4 * std::sin(x / 15.0), near = kNear - 0.01 * y;
   const auto is_near = [&](int column) { return CoverageAt(column, y) > 0.5 ? 1.0 : 0.0; };
   const double share =
@@ -69,7 +70,7 @@ test::Scene Strands(int views, Map map, bool given) {
   return scene;
 }
 
-// Strands of any kind before a surface, with noise; the views need not agree.
+// Makes random noisy strands in front of a surface; the views need not agree.
 test::Scene RandomStrands(bool given, uint64_t seed) {
   test::Random random(seed);
   constexpr int kViews[] = {1, 5, 9, 17};
@@ -98,7 +99,7 @@ test::Scene RandomStrands(bool given, uint64_t seed) {
   return scene;
 }
 
-// The engine's coverage map of the whole picture, which one stripe holds.
+// Returns the engine's coverage map of the whole picture, which fits into one stripe.
 std::vector<reference::PartedPixel> EnginesPixels(const test::Scene& scene) {
   starfocus_config config = test::ConfigFor(scene);
   config.transfer = STARFOCUS_TRANSFER_NONE;
@@ -133,11 +134,12 @@ std::vector<reference::PartedPixel> EnginesPixels(const test::Scene& scene) {
 }
 
 struct Distance {
-  int parted = 0, otherwise = 0;    // pixels parted by both, by one only
-  int disparities = 0;              // of those parted by both: with other disparities,
-  int alphas = 0, lights = 0;       // or farther apart than kCoverageLimit and kLightLimit
-  double alpha = 0, alpha_sum = 0;  // largest distance, and all
-  double light = 0, light_sum = 0;  // the same in codes
+  int parted = 0, otherwise = 0;  // pixels split by both, and by only one
+  int disparities = 0;            // pixels split by both with different disparities
+  // pixels split by both that differ by more than kCoverageLimit or kLightLimit
+  int alphas = 0, lights = 0;
+  double alpha = 0, alpha_sum = 0;  // largest difference, and the sum of all
+  double light = 0, light_sum = 0;  // largest difference and sum in codes
 
   void Add(const Distance& other) {
     parted += other.parted;
@@ -152,11 +154,11 @@ struct Distance {
   }
 };
 
-// The engine's coverage has steps of 1/128, which are 1/256 off at most and 1/512 on the average,
-// and colours that it compares steps of 1/8 code. What it knows of light has steps of 1/256, of
-// which the eighth power of coverage loses up to two: that counts where little else is known, as
-// between strands that a view sees through. Where a decision is close (whether two colours tell a
-// mixture, or a strand covers a place) that decides some pixels otherwise.
+// The engine stores coverage in steps of 1/128, which causes an error of at most 1/256, and of
+// 1/512 on average. It compares colours in steps of 1/8 code. The certainty of light has steps of
+// 1/256, and the eighth power of coverage loses up to two steps. This loss matters where little is
+// known, for example where a view sees between strands. Close decisions may differ at some pixels:
+// whether a pixel mixes two colours, and whether a strand covers a place.
 constexpr double kCoverageLimit = 2.0 / 128, kCoverageMean = 1.0 / 256;
 constexpr double kLightLimit = 1, kLightMean = 0.25;
 
@@ -201,7 +203,7 @@ void Print(const char* name, const Distance& distance) {
 
 constexpr int kViews[] = {1, 5, 17};
 
-TEST_CASE("coverage: given") {
+TEST_CASE("coverage: given coverage splits pixels as in the reference") {
   for (const Map map : {Map::kCentres, Map::kRamps}) {
     Distance all;
     for (const int views : kViews) {
@@ -215,7 +217,7 @@ TEST_CASE("coverage: given") {
   }
 }
 
-TEST_CASE("coverage: found") {
+TEST_CASE("coverage: found coverage splits pixels as in the reference") {
   Distance all;
   for (const int views : kViews) {
     CAPTURE(views);
@@ -226,7 +228,7 @@ TEST_CASE("coverage: found") {
   Print("found", all);
 }
 
-TEST_CASE("coverage: random strands") {
+TEST_CASE("coverage: random strands are split as in the reference") {
   for (const bool given : {true, false}) {
     Distance all;
     for (uint64_t seed = 1; seed <= 12; ++seed) {

@@ -8,7 +8,8 @@
 namespace conformance {
 namespace {
 
-// Finds what shows a cell at the layer: at the block's sides with the margin beyond them.
+// Computes the rectangle of the layer that shows a cell. At the sides of the block it includes the
+// margin.
 void AtLayer(const starfocus::Block& block, reference::GatheredCell* cell) {
   const int scale = 1 << block.layer, margin = block.layer == 0 ? 0 : block.layer + 1;
   const starfocus::Rect& rect = block.rect;
@@ -39,7 +40,7 @@ std::vector<reference::GatheredCell> GatheredCells(const starfocus::GatherMap& m
   return cells;
 }
 
-// The engine tells of each block while the plan of its stripe is the one in memory.
+// Collects the blocks. The engine reports each block while the plan of its stripe is in memory.
 struct Visit {
   starfocus_engine* engine;
   std::vector<reference::Block>* blocks;

@@ -9,7 +9,7 @@
 namespace reference {
 namespace {
 
-// As LightField has it.
+// Returns the position of a view as the key of LightField.
 std::pair<int, int> PositionOf(const test::Scene& scene, int view) {
   const starfocus_position at = scene.PositionOf(view);
   return {int(std::lround(kViewUnit * at.u)), int(std::lround(kViewUnit * at.v))};
@@ -19,8 +19,8 @@ bool IsHighlight(const uint8_t* codes) {
   return std::count_if(codes, codes + 3, [](uint8_t code) { return code >= 251; }) >= 2;
 }
 
-// How many highlights of the view follow each other along (dx, dy) through (x, y): any number where
-// they reach the picture's edge.
+// Returns the number of consecutive highlights of the view along (dx, dy) through (x, y), or a very
+// large number if they reach the edge of the picture.
 int RunThrough(const test::Scene& scene, int view, int x, int y, int dx, int dy) {
   int run = 1;
   for (const int side : {1, -1}) {
@@ -45,7 +45,7 @@ bool HasHighlights(const test::Scene& scene) {
   return false;
 }
 
-// What highlights have beyond white, of a clipped sample that is one white more.
+// Loads the light of highlights beyond white. A clipped sample has an excess of one white.
 LightField LoadExcess(const test::Scene& scene, int transfer) {
   LightField field = Load(scene, transfer);
   const int lamp = std::clamp(scene.width / 32, 16, 128);
@@ -81,7 +81,7 @@ Lens MakeLens(const starfocus_params& params, const ApertureShape& opening, int 
   lens.focus = RoundedTo64(params.lens.focus);
   double extent = 1;
   if (wide) {
-    // Views up to 5/32 of a subaperture beyond the rim.
+    // The outermost views are up to 5/32 of a subaperture beyond the rim.
     lens.subapertures = n == 1 ? 1 : n == 3 ? 3 - 2 / 32.0 : n == 4 ? 4 - 5 / 32.0 : n - 11 / 32.0;
     const double farthest = lens.subapertures + 5 / 32.0;
     lens.n = int(farthest);
@@ -96,7 +96,7 @@ Lens MakeLens(const starfocus_params& params, const ApertureShape& opening, int 
 
 // --- Layers ---
 
-// Taps at 0, +-1 and +-3 of sinc(n / 2) under a Kaiser window.
+// Taps at 0, +-1 and +-3 of sinc(n / 2) with a Kaiser window.
 struct Taps {
   double centre, near, far;
 
@@ -121,7 +121,8 @@ Colour Sum(const Colour& a, double wa, const Colour& b, double wb) {
   return {wa * a[0] + wb * b[0], wa * a[1] + wb * b[1], wa * a[2] + wb * b[2]};
 }
 
-// One more pixel than inside, edges repeated; disparities are those of every second pixel.
+// Subsamples a picture by two. The result has one more pixel than half the size, with edges
+// repeated. Disparities are taken from every second pixel.
 Picture Down(const Picture& from) {
   const Taps taps(1.28);
   const double unit = 1 / (taps.centre + 2 * (taps.near + taps.far));
@@ -151,7 +152,7 @@ Picture Down(const Picture& from) {
   return to;
 }
 
-// The centre view at layers 0, 1, 2, with the picture's disparities.
+// Returns the centre view at layers 0, 1 and 2, with disparities in pixels of the picture.
 std::vector<Picture> MakeLayers(const Picture& picture) {
   std::vector<Picture> layers = {picture};
   for (int layer = 1; layer <= 2; ++layer) {
@@ -167,13 +168,13 @@ std::vector<Picture> MakeLayers(const Picture& picture) {
   return layers;
 }
 
-// Part of a layer, its pixel (0, 0) at (x, y) there.
+// Part of a layer. Pixel (0, 0) of `picture` is at (x, y) of the layer.
 struct Part {
   int x, y;
   Picture picture;
 };
 
-// The part of twice the size at (x, y), width x height pixels, that `from` covers with a margin.
+// Upsamples `from` by two and returns width x height pixels at (x, y). `from` includes a margin.
 Part Up(const Part& from, int x, int y, int width, int height) {
   const Taps taps(2.17);
   const double near = 0.5 * taps.near / (taps.near + taps.far), far = 0.5 - near;
@@ -200,7 +201,8 @@ Part Up(const Part& from, int x, int y, int width, int height) {
   return to;
 }
 
-// A block's rectangle of the picture from what was rendered at its layer.
+// Upsamples the rendered pixels of a block's layer and returns the block's rectangle of the
+// picture.
 Picture Finished(const Block& block, const Picture& rendered) {
   Part part = {block.rendered_x, block.rendered_y, rendered};
   if (block.layer == 2) {
@@ -220,7 +222,8 @@ void Put(const Picture& from, int x0, int y0, int width, Result* result) {
   }
 }
 
-// Light becomes codes, with what highlights add to it (nothing: empty).
+// Converts light to codes and adds the excess of highlights. `excess` is empty if there are no
+// highlights.
 void Encode(const starfocus_config& config, const std::vector<double>& excess, Result* result) {
   for (size_t i = 0; i < result->rgb.size(); ++i) {
     double& value = result->rgb[i];
@@ -256,7 +259,7 @@ int ViewsAlongRadius(double r_max, int mode) {
 
 namespace {
 
-// All blocks of one size by the paper's rule.
+// Refocuses blocks of one size by the paper's rule.
 void RefocusFrame(const LightField& field, const Lens& lens, int border, int block,
                   Result* result) {
   const Picture& centre = field.at({0, 0});
@@ -301,7 +304,7 @@ Result Refocus(const test::Scene& scene, const starfocus_params& params,
 
 namespace {
 
-// Copies `from` to (x0, y0).
+// Copies `from` to the place (x0, y0) of `to`.
 void Paste(const Picture& from, int x0, int y0, Picture* to) {
   for (int y = 0; y < from.height; ++y) {
     for (int x = 0; x < from.width; ++x) {
@@ -310,8 +313,8 @@ void Paste(const Picture& from, int x0, int y0, Picture* to) {
   }
 }
 
-// Views, and cells that are gathered, of the blocks; with `excess` of those alone that may show
-// highlights, which are at layer 0 and gather nothing.
+// Adds the views and the gathered cells of the blocks. With `excess`, only blocks that may show
+// highlights count: they are at layer 0 and gather no cells.
 void RefocusAll(const LightField& field, const starfocus_params& params,
                 const starfocus_config& config, const std::vector<Block>& blocks, bool excess,
                 Result* result) {
@@ -320,7 +323,7 @@ void RefocusAll(const LightField& field, const starfocus_params& params,
   const bool benchmark = params.mode == STARFOCUS_MODE_BENCHMARK;
   const double r_max = params.lens.aperture * std::max(config.disparity_max - params.lens.focus,
                                                        params.lens.focus - config.disparity_min);
-  const int widest = std::max(int(r_max), 32) + 3;  // reach of the most blurred slice
+  const int widest = std::max(int(r_max), 32) + 3;  // reach of the slice with the largest blur
   const Slicing slicing = {size_t(benchmark ? 32 : 16), 5 * (widest + 16) * (widest + 16),
                            benchmark ? 0.125 : 0.375};
   for (const Block& block : blocks) {
@@ -333,7 +336,7 @@ void RefocusAll(const LightField& field, const starfocus_params& params,
     const Rectangle rectangle = {
         block.rendered_x, block.rendered_y, block.rendered_width, block.rendered_height, block.left,
         block.right,      block.top,        block.bottom};
-    // What upsampling reads: the block at its layer, and as much around it as `Up` takes.
+    // Upsampling reads the block at its layer, with a margin as wide as the filter of `Up`.
     const int scale = 1 << block.layer, margin = block.layer == 0 ? 0 : block.layer + 1;
     Block framed = block;
     framed.rendered_x = block.x / scale - margin;

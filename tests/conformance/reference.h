@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The method once more, whole pictures in double precision, written to be read: what the engine is
-// held to. Which pixel is visible where is decided on the engine's grid (disparity and focus to
-// 1/64, shifts to 1/256 of a pixel), everything about colours in double and unrounded.
+// Reference implementation of the method: whole pictures in double precision, written for
+// readability. The conformance tests compare the engine with it. Visibility is decided on the
+// engine's grid: disparity and focus in 1/64, shifts in 1/256 of a pixel. Colours are unrounded
+// doubles.
 #ifndef STARFOCUS_TESTS_CONFORMANCE_REFERENCE_H_
 #define STARFOCUS_TESTS_CONFORMANCE_REFERENCE_H_
 
@@ -14,39 +15,38 @@
 
 namespace reference {
 
-// Views along the aperture radius: (9), or 2 * ceil(r_max) for the benchmark.
+// Returns the number of views along the aperture radius: (9), or 2 * ceil(r_max) for the benchmark.
 int ViewsAlongRadius(double r_max, int mode);
 
 struct Result {
   int n = 0;                // views along the aperture radius
-  int views = 0;            // rendered
+  int views = 0;            // number of rendered views
   std::vector<double> rgb;  // codes, unrounded, 3 * width * height
 };
 
-// Refocuses the scene by the transfer of `config`. `block` is the side of the
-// blocks: runs of one shift start at the edge of a block's extended rectangle, so that results
-// depend on it.
+// Refocuses the scene with the transfer of `config`. `block` is the side of the blocks. The result
+// depends on it, since runs of one shift start at the edge of a block's extended rectangle.
 Result Refocus(const test::Scene& scene, const starfocus_params& params,
                const starfocus_config& config, int block);
 
 // A cell of the picture that is gathered (reference_gather.h).
 struct GatheredCell {
   int x, y, width, height;              // in the picture
-  bool on_slope;                        // blurred by the radius of each pixel
-  int at_x, at_y, at_width, at_height;  // what shows it at the block's layer
+  bool on_slope;                        // true if each pixel is blurred by its own radius
+  int at_x, at_y, at_width, at_height;  // the cell in the block's layer
 };
 
-// A block of the block mode and what it is rendered from.
+// A block of the block mode, and the rectangle that it is rendered from.
 struct Block {
-  int x, y, width, height;  // of the picture
+  int x, y, width, height;  // in the picture
   int layer, n;
-  int rendered_x, rendered_y, rendered_width, rendered_height;  // at the layer, margins included
+  int rendered_x, rendered_y, rendered_width, rendered_height;  // at the layer, with margins
   int left, right, top, bottom;                                 // border at the layer
-  std::vector<GatheredCell> gathered;                           // after the views, at the layer
+  std::vector<GatheredCell> gathered;  // cells that replace views, at the layer
 };
 
-// Block mode, or the benchmark's blocks, with a given partition of the picture and without
-// deblocking; unrounded, 3 * width * height.
+// Refocuses in block mode or with the benchmark's blocks. The partition of the picture is given,
+// and there is no deblocking. Returns 3 * width * height unrounded values.
 std::vector<double> RefocusBlocks(const test::Scene& scene, const starfocus_params& params,
                                   const starfocus_config& config, const std::vector<Block>& blocks);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reference's ideal kernel (4) over pixels, for the blur mode and for what block mode gathers.
+// Ideal PSF (4) of the reference, integrated over pixels. Used for the blur mode and for cells that
+// block mode gathers.
 #ifndef STARFOCUS_TESTS_CONFORMANCE_REFERENCE_BLUR_H_
 #define STARFOCUS_TESTS_CONFORMANCE_REFERENCE_BLUR_H_
 
@@ -14,29 +15,29 @@
 
 namespace reference {
 
-inline constexpr int kOne = 64;  // of disparities and radii
+inline constexpr int kOne = 64;  // unit of disparities and radii
 
-// A step, at a radius in 1 / kOne pixels, of the ladder that blur.h describes: 1/8 pixel up to 4
-// pixels, 1/32 of each octave's beginning beyond.
+// Returns the step of the ladder of blur.h at a radius in 1/kOne pixels: 1/8 pixel up to 4 pixels,
+// and 1/32 of the start of each octave beyond.
 inline double LadderUnit(int radius) {
   double unit = kOne / 8.0;
   for (double octave = 4 * kOne; radius >= octave; octave *= 2) unit = octave / 32;
   return unit;
 }
 
-// Its nearest radius to one in 1 / kOne pixels, in pixels.
+// Returns the radius of the ladder that is nearest to `radius` (in 1/kOne pixels), in pixels.
 inline double NearestRadius(int radius) {
   const double unit = LadderUnit(radius);
   return std::floor(radius / unit + 0.5) * unit / kOne;
 }
 
-// Lines, or points along an axis, of a part of the unit disc: so many that the dark beside white is
-// right to a code of sRGB.
+// Returns the number of lines, or of points along an axis, for a part of the unit disc. It is large
+// enough that darkness next to white is exact to one code of sRGB.
 inline int FinenessOf(double side) { return std::clamp(int(600 * side), 40, 600); }
 
-// Integral of (3) over [x0, x1] x [y0, y1] of the unit disc's plane, by lines of y and the midpoint
-// rule along them, which ends on the disc's rim exactly.
-// `cot_square` 0: of a disc as bright everywhere.
+// Integrates (3) over [x0, x1] x [y0, y1] in the plane of the unit disc. The sum over lines of y
+// uses the midpoint rule along each line and ends exactly on the rim of the disc. A `cot_square` of
+// 0 selects a disc of constant brightness.
 inline double Integral(double x0, double x1, double y0, double y1, double cot_square) {
   constexpr int kPoints = 24;
   y0 = std::max(y0, -1.0);
@@ -57,7 +58,7 @@ inline double Integral(double x0, double x1, double y0, double y1, double cot_sq
   return sum * (y1 - y0) / lines;
 }
 
-// (4), summing to 1.
+// PSF (4) with a sum of 1.
 struct Psf {
   int size = 0;
   std::vector<double> weights;  // (2 size + 1)^2
@@ -66,7 +67,8 @@ struct Psf {
   }
 };
 
-// The light of the opening's square [x0, x1] x [y0, y1]; a polygon's by points.
+// Returns the light of the square [x0, x1] x [y0, y1] of the opening. Polygons are sampled at
+// points.
 inline double LightOf(const ApertureShape& opening, double x0, double x1, double y0, double y1) {
   if (opening.shape == STARFOCUS_SHAPE_FALL_OFF) return Integral(x0, x1, y0, y1, opening.cot2);
   if (opening.shape == STARFOCUS_SHAPE_POLYGON) {
@@ -106,7 +108,7 @@ inline Psf MakePsf(double r, const ApertureShape& opening) {
   return kernel;
 }
 
-// The kernel of MakePsf, made once for all calls that ask for it; good until the next call.
+// Returns the PSF of MakePsf from a cache. The reference is valid until the next call.
 inline const Psf& PsfOf(double r, const ApertureShape& opening) {
   static std::map<std::array<double, 7>, Psf> kernels;
   constexpr size_t kMost = 1000;

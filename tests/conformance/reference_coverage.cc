@@ -11,10 +11,10 @@
 namespace reference {
 namespace {
 
-// Pixels beside nearer ones in a tile of thin structure.
+// Smallest number of pixels with a nearer neighbour in a tile of thin structure.
 constexpr int kLeastRagged = 36;
 
-// As the engine keeps them between passes: coverage, and what is known of light.
+// Rounds coverage, and the certainty of light, as the engine stores them between passes.
 double RoundedCoverage(double alpha) { return std::floor(alpha * 128 + 0.5) / 128; }
 double Kept(double known) { return std::floor(known * 256) / 256; }
 double EighthPower(double value) { return Kept(std::pow(value, 8)); }
@@ -22,11 +22,11 @@ double EighthPower(double value) { return Kept(std::pow(value, 8)); }
 double Dot(const Colour& a, const Colour& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 Colour Less(const Colour& a, const Colour& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
-// What is found of a pixel, pass by pass.
+// Values of a pixel, filled in pass by pass.
 struct Pixel {
-  bool two = false;             // near an edge: it has two surfaces
+  bool two = false;             // true if the pixel is near an edge and therefore has two surfaces
   double near = 0, far = 0;     // disparities
-  double guess = 1, first = 1;  // coverage by the map, and after the first pass
+  double guess = 1, first = 1;  // coverage by the map; coverage after the first pass
 };
 
 class Parter {
@@ -103,7 +103,8 @@ class Parter {
     }
   }
 
-  // Given coverage says something else than the map of some pixel; found one is a mixture.
+  // Marks tiles with mixed pixels. With given coverage, these are tiles in which the coverage of a
+  // pixel differs from that of the map. Otherwise they are tiles with a large mean of mixtures.
   void MarkMixed() {
     std::map<std::pair<int, int>, double> mixture;
     ForEach([&](int x, int y) {
@@ -138,7 +139,7 @@ class Parter {
         pixel.first = RoundedCoverage(given_[Index(x, y)] / 255.0);
         known = EighthPower(1 - pixel.first);
       } else {
-        // Beside a strand of the map there may be one that it lacks.
+        // Next to a strand of the map there may be a strand that the map lacks.
         known = here == high ? 0 : square <= 2 ? 1 / 16.0 : square <= 5 ? 1 / 4.0 : 1;
       }
     }
@@ -147,7 +148,8 @@ class Parter {
 
   // --- Coverage by colours ---
 
-  // The near light around a pixel by the part of it that each pixel shows; false: too little shows.
+  // Computes the near light around a pixel, weighted by the part of it that each pixel shows.
+  // Returns false if too little of it is visible.
   bool NearLight(int x, int y, const std::function<double(int x, int y)>& shown,
                  Colour* light) const {
     constexpr double kTaps[3][3] = {{10, 8, 4}, {8, 7, 3}, {4, 3, 2}};
@@ -166,7 +168,7 @@ class Parter {
     return weights >= 1 / 8.0;
   }
 
-  // Coverage of a mixture; where it is none, or cannot be told, `guess`.
+  // Returns the coverage of a mixed pixel, or `guess` if the colours do not determine it.
   static double AlphaOf(const Colour& near, const Colour& far, const Colour& mixed, double guess) {
     const Colour whole = Less(near, far), part = Less(mixed, far);
     const double contrast = Dot(whole, whole), along = Dot(whole, part);
@@ -178,7 +180,8 @@ class Parter {
   }
 
   void FirstPass() {
-    // The near side of an edge, by how many of the pixels around are of it.
+    // The weight of a pixel near an edge grows with the number of pixels around it that are on the
+    // near side.
     const auto shown = [&](int x, int y) {
       double count = 0;
       for (int dy = -1; dy <= 1; ++dy) {
@@ -200,10 +203,10 @@ class Parter {
     });
   }
 
-  // --- The far light as all views show it ---
+  // --- The far light in all views ---
 
-  // How much of the place of a pixel's far surface nearer surfaces cover at most in a view: those
-  // that move to within a pixel and a half of it.
+  // Returns the largest coverage by nearer surfaces in a view, at the place of a pixel's far
+  // surface. Nearer pixels count if they move to within a pixel and a half of this place.
   double CoveredIn(const Position& view, int x, int y) const {
     const bool down = std::abs(view.second) > std::abs(view.first);
     const int along = down ? view.second : view.first, across = down ? view.first : view.second;
@@ -216,7 +219,7 @@ class Parter {
         if (!centre_.Inside(column, row)) continue;
         const Pixel& pixel = At(column, row);
         const double nearer = pixel.near - At(x, y).far;
-        // On the engine's grid of 1/32.
+        // The engine rounds to a grid of 1/32.
         const double moved = 2 * std::floor(nearer * along / kViewUnit / 2 + 0.5);
         if (nearer <= 64 || std::fabs(moved - sign * 64 * m) > 96) continue;
         covered = std::max(covered, pixel.first);
@@ -231,7 +234,7 @@ class Parter {
       for (const Position& view : LooksOn(field_, side)) views.insert(view);
     }
     const Pixel& pixel = At(x, y);
-    // The centre view counts less: it is there that all is mixed.
+    // The centre view has a smaller weight, since its pixels are mixtures here.
     double known = Kept(EighthPower(1 - pixel.first) / 8);
     Colour sum = Light(x, y);
     for (double& light : sum) light *= known;

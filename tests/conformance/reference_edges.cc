@@ -17,8 +17,8 @@ bool ThinMap::IsBesideNearer(int x, int y) const {
   return false;
 }
 
-// The nearest of the pixels within `reach` for which `is` holds; none: (0, 0). Of those equally
-// near it is the one in the smallest square around the pixel, and then the first by rows.
+// Returns the offset of the nearest pixel within `reach` for which `is` holds, or (0, 0) if there
+// is none. Ties are resolved by the smallest square around the pixel, then by the order of rows.
 std::pair<int, int> ThinMap::Nearest(int x, int y, int reach, const Is& is) const {
   std::pair<int, int> nearest = {0, 0};
   std::pair<int, int> least = {INT32_MAX, 0};
@@ -33,8 +33,8 @@ std::pair<int, int> ThinMap::Nearest(int x, int y, int reach, const Is& is) cons
   return nearest;
 }
 
-// Between two opposite neighbours, with steps of half a pixel and more, at most 4 times the
-// other.
+// Returns true if the disparity lies between those of two opposite neighbours. Both steps must be
+// at least half a pixel, and the larger step at most 4 times the smaller one.
 bool ThinMap::IsRamp(int x, int y) const {
   constexpr Direction kOpposite[] = {{1, 0}, {0, 1}, {1, 1}, {-1, 1}};
   for (const Direction& to : kOpposite) {

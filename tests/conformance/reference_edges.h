@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The disparities of thin structure: large edges of a map, and the two surfaces that meet there.
+// Disparities of thin structures: large edges of a map, and the two surfaces that meet there.
 #ifndef STARFOCUS_TESTS_CONFORMANCE_REFERENCE_EDGES_H_
 #define STARFOCUS_TESTS_CONFORMANCE_REFERENCE_EDGES_H_
 
@@ -10,22 +10,22 @@
 
 namespace reference {
 
-// A larger step (1/64) is an edge of thin structure.
+// Smallest step, exclusive, of an edge of a thin structure, in 1/64.
 inline constexpr int kThinEdge = 5 * 64;
 
 class ThinMap {
  public:
   explicit ThinMap(const Picture& picture) : picture_(picture) {}
 
-  // The picture's outermost pixels go on beyond it.
+  // Returns the disparity of a pixel. Beyond the picture its outermost pixels are repeated.
   int Disparity(int x, int y) const;
   bool IsBesideNearer(int x, int y) const;
-  // Find the two surfaces of a pixel; false: it has one. Where coverage is given these are the
-  // nearest within 32 pixels, ramps left out, else those of the nearest edge within 3. `square` is
-  // that of the distance to the pixel beyond the edge.
+  // Find the two surfaces of a pixel; return false if it has only one. FindGiven, for given
+  // coverage, uses the nearest surfaces within 32 pixels, without ramps. FindEdge uses the nearest
+  // edge within 3 pixels. `square` receives the squared distance to the pixel beyond the edge.
   bool FindGiven(int x, int y, int* low, int* high) const;
   bool FindEdge(int x, int y, int* low, int* high, int* square) const;
-  // The mean of disparities around within 2 pixels of the near one.
+  // Returns the mean of the disparities close to the near one, within 2 pixels.
   double SmoothNear(int x, int y, int near) const;
 
  private:

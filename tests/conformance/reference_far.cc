@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kLastLevel = 4;
 
-// The disparity of the farthest surface that any of the cells knows; infinity: none does.
+// Returns the disparity of the farthest surface with known light in any of the cells, or infinity.
 double Farthest(const std::vector<FarLight>& cells) {
   double farthest = std::numeric_limits<double>::infinity();
   for (const FarLight& cell : cells) {
@@ -19,7 +19,8 @@ double Farthest(const std::vector<FarLight>& cells) {
   return farthest;
 }
 
-// The mean of those cells that have the surface at `disparity`; `known` is the sum of the parts.
+// Returns the mean of the cells that have the surface at `disparity`. Its `known` is the sum of the
+// parts.
 FarLight MeanOf(const std::vector<FarLight>& cells, const std::vector<double>& parts,
                 double disparity) {
   FarLight mean;
@@ -57,7 +58,7 @@ FarLight FarPyramid::Get(const std::vector<Level>& levels, int level, int x, int
   return plane.cells[size_t(row) * size_t(plane.width) + size_t(column)];
 }
 
-// The cells of the next level around a cell, as filled: the one that holds it first.
+// Returns the filled cells of the next level around a cell. The first one contains the cell.
 std::vector<FarLight> FarPyramid::Above(int level, int x, int y) const {
   const int column = int(std::floor(x / 2.0)), row = int(std::floor(y / 2.0));
   const int beside = x == 2 * column ? column - 1 : column + 1;

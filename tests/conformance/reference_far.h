@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The far surface's light where few pixels show it: means of what is known of it over growing
-// cells, each of the farthest surface in it, continued to where nothing is known.
+// Light of the far surface at places where few pixels show it. It is averaged over growing cells,
+// for the farthest surface in each cell, and continued into cells without known light.
 #ifndef STARFOCUS_TESTS_CONFORMANCE_REFERENCE_FAR_H_
 #define STARFOCUS_TESTS_CONFORMANCE_REFERENCE_FAR_H_
 
@@ -10,24 +10,24 @@
 
 namespace reference {
 
-// Tiles by which thin structure is told, in pixels.
+// Side of the tiles that are tested for thin structure, in pixels.
 inline constexpr int kTile = 16;
 
 struct FarLight {
   Colour light = {0, 0, 0};
-  double known = 0;      // how much of it, up to 1
-  double disparity = 0;  // 1/64
+  double known = 0;      // certainty of the light, at most 1
+  double disparity = 0;  // in 1/64
 };
 
-// Planes of cells of 1, 2, 4, 8 and 16 pixels a side, with a tile around the picture.
+// Planes of cells with sides of 1, 2, 4, 8 and 16 pixels, with one tile around the picture.
 class FarPyramid {
  public:
-  FarPyramid(int columns, int rows);  // of tiles
+  FarPyramid(int columns, int rows);  // numbers of tiles
 
   FarLight& Pixel(int x, int y) { return At(0, x, y); }
-  // Makes cells of those of half their side, and fills what they don't know.
+  // Averages cells into cells of twice their side, and fills cells without known light.
   void Fill();
-  // What is known of a pixel with what goes on from the cells around.
+  // Returns the known light of a pixel, completed by that of the cells around it.
   FarLight Filled(int x, int y) const;
 
  private:

@@ -8,7 +8,8 @@
 namespace reference {
 namespace {
 
-// Interpolated linearly; beyond the picture its edge goes on.
+// Reads the picture with linear interpolation. Beyond the picture its outermost pixels are
+// repeated.
 Colour ReadPicture(const LightField& field, const Position& view, double x, double y,
                    std::vector<Colour> Picture::*colours = &Picture::colours) {
   const Picture& picture = field.at(view);
@@ -25,11 +26,12 @@ Colour ReadPicture(const LightField& field, const Position& view, double x, doub
   return colour;
 }
 
-// Decisions are made on the engine's grid of light, 1/128, of which 1/16 are compared.
+// Rounds light for comparisons. The engine stores light in steps of 1/128 and compares it in steps
+// of 1/16.
 double Compared(double light) { return std::floor(std::floor(light * 128 + 0.5) / 8 + 0.5) / 16; }
 
-// Where `mixed` lies from `far` to `near`; 0 when they are too similar, it is too far away from the
-// line between them, or beyond 4/5 of the way.
+// Returns the position of `mixed` on the line from `far` to `near`. Returns 0 if the two colours
+// are too similar, if `mixed` is too far from the line, or if the position is beyond 4/5.
 double ShareOf(const Colour& near, const Colour& far, const Colour& mixed) {
   double along = 0, contrast = 0, distance = 0;
   for (size_t c = 0; c < 3; ++c) {
@@ -44,8 +46,8 @@ double ShareOf(const Colour& near, const Colour& far, const Colour& mixed) {
   return 16 * beside > contrast * (432 + contrast) ? 0 : along / contrast;
 }
 
-// From 0 to 1 as the near surface's blur exceeds the far one's by a pixel, and back to 0 as the
-// latter goes from 2 to 3.
+// Returns the excess of the near surface's blur over the far surface's, in pixels and at most 1. It
+// falls to 0 as the blur of the far surface grows from 2 to 3 pixels.
 double Strength(const Lens& lens, int near, int far) {
   const double r_near = std::abs(lens.Shift(lens.n, near)) / 256.0;
   const double r_far = std::abs(lens.Shift(lens.n, far)) / 256.0;
@@ -112,7 +114,7 @@ Mixed MixtureAt(const LightField& field, int x, int y, const Direction& side, in
       const Position& view = occlusion_views.back();
       result.far = ReadPicture(field, view, x - Moved(view.first, disparity, 0),
                                y - Moved(view.second, disparity, 0), colours);
-      // On the engine's grid of light; halves towards the pixel.
+      // Rounds to the engine's grid of light, with halves towards the pixel.
       for (size_t c = 0; c < 3; ++c) {
         double& far = result.far[c];
         far = (mixed[c] > far ? std::floor(128 * far + 0.5) : std::ceil(128 * far - 0.5)) / 128;
@@ -157,8 +159,8 @@ void Unmix(const LightField& field, const Lens& lens, const Rectangle& rect, Pic
   }
 }
 
-// Interpolated at layer 0; at others the picture's pixel nearest to (x, y), weighed with those
-// around it by 1 2 1 or 1 2 3 4 3 2 1 along either axis.
+// Reads with linear interpolation at layer 0. At other layers, filters around the picture's pixel
+// nearest to (x, y), with weights 1 2 1 or 1 2 3 4 3 2 1 along either axis.
 Colour Read(const LightField& field, int layer, const Position& view, double x, double y) {
   if (layer == 0) return ReadPicture(field, view, x, y);
   const auto nearest = [&](double at) { return int(Rounded(std::lround(at * 256), 8 - layer)); };
@@ -190,9 +192,9 @@ Picture ExtendedRectangle(const Picture& layer, const Rectangle& rect) {
 
 namespace {
 
-// How many pixels beyond the edge at (x, y) of the layer a captured view shows that lies `distance`
-// out (of kViewUnit), `disparity` being the edge's: whole ones, none from the first on that lies
-// under something nearer.
+// Returns the number of pixels beyond the edge at (x, y) of the layer that a captured view shows.
+// The view lies `distance` outwards, in units of 1/kViewUnit, and `disparity` is that of the edge.
+// The count ends before the first pixel that a nearer surface covers.
 int SeenBeyond(const Picture& picture, int layer, int x, int y, const Direction& out, int distance,
                int disparity) {
   const double unit = 64 << layer;

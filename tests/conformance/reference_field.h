@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reference's extended rectangle, and colours of captured views.
+// The extended rectangle of the reference, and the colours of captured views.
 #ifndef STARFOCUS_TESTS_CONFORMANCE_REFERENCE_FIELD_H_
 #define STARFOCUS_TESTS_CONFORMANCE_REFERENCE_FIELD_H_
 
@@ -7,10 +7,10 @@
 
 namespace reference {
 
-// The light of a scene's views, and its disparities.
+// Returns the light of a scene's views, and its disparities.
 LightField Load(const test::Scene& scene, int transfer);
 
-// A rectangle of a layer and the border it is rendered from, in the layer's pixels.
+// A rectangle of a layer and the border that it is rendered from, in pixels of the layer.
 struct Rectangle {
   int x, y, width, height;
   int left, right, top, bottom;
@@ -21,47 +21,49 @@ struct Direction {
 };
 constexpr Direction kDirections[] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
 
-// A rectangle with its border, from the centre view at some layer, whose edge goes on beyond it.
+// Returns a rectangle with its border, from a layer of the centre view. The edges of the layer are
+// repeated beyond it.
 Picture ExtendedRectangle(const Picture& layer, const Rectangle& rect);
 
-// Where the layer's edge goes on beyond the picture: the surface at the edge of `picture` (at layer
-// 0) goes on, and the captured view that looks out there shows as much of it as the
-// surface moves from unit to unit, up to what a nearer pixel of the 32 inside covers.
+// Continues the surface at the edge of `picture` (at layer 0) beyond the picture. Its colours come
+// from the captured view on that side. They reach as far as the surface moves per unit of u, and
+// end at a nearer pixel among the 32 inside that covers the surface.
 void ExtendEdges(const LightField& field, const Picture& picture, int layer, const Rectangle& rect,
                  Picture* extended);
 
-// What a pixel (x, y) of the centre view is a mixture of that lies beside a depth edge, a step of
-// more than `step` (1/64) up to the side: how much of it shows the near surface (0: it is no
-// mixture), and the colours of both. The far one is what the captured view that looks
-// behind the near surface shows of the pixel; without such a view it is the pixel on the other
-// side, if it is of the same surface.
+// Mixture of a pixel (x, y) of the centre view next to a depth edge. The edge is a step of more
+// than `step` (1/64) up to the side. `share` is the part of the pixel that shows the near surface,
+// or 0 if the pixel is not a mixture. The far colour comes from the captured view that sees behind
+// the near surface. Without such a view, it is the colour of the pixel on the other side, if this
+// belongs to the same surface.
 struct Mixed {
   double share;
   Colour near, far;
 };
 Mixed MixtureAt(const LightField& field, int x, int y, const Direction& side, int step);
 
-// The share of `near` in a subsampled pixel, which fades to 0 towards the limits of a mixture.
+// Returns the share of `near` in a subsampled pixel. The share fades to 0 towards the limits of a
+// mixture.
 double FadedShareOf(const Colour& near, const Colour& far, const Colour& mixed);
 
-// At layer 0: in the rectangle's sharp pixels beside a more defocused surface that surface's part
-// gives way to the far colour. The outermost pixels reach nothing.
+// Unmixes the rectangle's sharp pixels next to a more defocused surface, at layer 0: the far colour
+// replaces the part of that surface. The outermost pixels are not changed.
 void Unmix(const LightField& field, const Lens& lens, const Rectangle& rect, Picture* centre);
 
-// A captured view's position, as LightField has it.
+// Position of a captured view, as the key of LightField.
 using Position = std::pair<int, int>;
 
-// The colour at (x, y) of the layer in the captured view at that position.
+// Returns the colour at (x, y) of the layer in the captured view at that position.
 Colour Read(const LightField& field, int layer, const Position& view, double x, double y);
 
-// The captured views that look behind depth edges on a side, two at most. They lie within 45
-// degrees of its direction; where none does, within the angle of tangent 8. The best is farthest
-// out by twice its way towards the side less its way beside it; of equal ones, that with the least
-// way beside it, the least u, the least v.
+// Returns the captured views that see behind depth edges on a side, at most two. They lie within 45
+// degrees of its direction. If there are none, views within the angle of tangent 8 are used. The
+// best view has the largest value of twice its distance towards the side minus its distance across.
+// Ties are resolved by the smallest distance across, then the smallest u, then the smallest v.
 std::vector<Position> LooksOn(const LightField& field, const Direction& side);
 
-// How far a disparity moves along one axis in a view at `position` of that axis: pixels of the
-// layer, on the engine's grid of 1/256.
+// Returns the shift of a disparity along one axis, in a view at `position` on that axis. The shift
+// is in pixels of the layer, on the engine's grid of 1/256.
 double Moved(int position, int disparity, int layer);
 
 }  // namespace reference

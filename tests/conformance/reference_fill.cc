@@ -26,7 +26,7 @@ class Filler {
     }
   }
 
-  // All pixels at once: each from what the others were before.
+  // Updates all pixels at once, from the colours before the step.
   void Smooth(int step) {
     std::vector<Colour> before;
     for (const Surface* far : far_) before.push_back(far->colour);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reference's fill of what no captured view shows.
+// Fills surfaces that no captured view shows, in the reference.
 #ifndef STARFOCUS_TESTS_CONFORMANCE_REFERENCE_FILL_H_
 #define STARFOCUS_TESTS_CONFORMANCE_REFERENCE_FILL_H_
 
@@ -7,9 +7,9 @@
 
 namespace reference {
 
-// Gives pixels whose farthest surface repeats another pixel that one's far colour, and then smooths
-// them among each other and with what is known: see lib/slices/hidden_fill.h. `unit` is a pixel of
-// disparity.
+// Replaces the colour of each farthest surface that repeats another pixel by the far colour of that
+// pixel. Then smooths these pixels with each other and with known ones: see
+// lib/slices/hidden_fill.h. `unit` is a pixel of disparity.
 void InpaintHidden(int unit, SurfaceMap* map);
 
 }  // namespace reference

@@ -16,8 +16,8 @@ struct Interval {
   double low, high;
 };
 
-// The largest radius of the ladder that is not larger than one in 1 / kOne pixels, and the smallest
-// that is not smaller, in pixels.
+// Return the largest radius of the ladder that is at most `radius`, and the smallest one that is at
+// least `radius`. `radius` is in 1/kOne pixels, the results are in pixels.
 double LadderBelow(int radius) {
   return std::floor(radius / LadderUnit(radius)) * LadderUnit(radius) / kOne;
 }
@@ -25,7 +25,8 @@ double LadderAbove(int radius) {
   return std::ceil(radius / LadderUnit(radius)) * LadderUnit(radius) / kOne;
 }
 
-// Mean square of a coordinate of the opening's light, of the lens's radius.
+// Returns the mean square of a coordinate of the opening's light, relative to the radius of the
+// lens.
 double MeanSquare(const ApertureShape& opening) {
   if (opening.shape == STARFOCUS_SHAPE_RING) return (1 + opening.inner * opening.inner) / 4;
   if (opening.shape != STARFOCUS_SHAPE_FALL_OFF) return 1.0 / 4;
@@ -55,8 +56,8 @@ class Gather {
  private:
   double Scale() const { return 1 << block_.layer; }
 
-  // The lowest and the highest disparity of a cell, whose last pixels are repeated beyond the
-  // picture, as is the last cell.
+  // Computes the lowest and the highest disparity of a cell. Beyond the picture the last pixels and
+  // the last cell are repeated.
   void DisparitiesOf(int column, int row, int* low, int* high) const {
     column = std::clamp(column, 0, (picture_.width - 1) / kCell);
     row = std::clamp(row, 0, (picture_.height - 1) / kCell);
@@ -73,7 +74,7 @@ class Gather {
     }
   }
 
-  // The signed radius at the upper left corner of a cell, in 1/1024 pixels of the picture.
+  // Returns the signed radius at the upper left corner of a cell, in 1/1024 pixels of the picture.
   double Corner(int column, int row) const {
     int64_t distance = -8 * int64_t{lens_.focus};
     for (int k = 0; k < 4; ++k) {
@@ -93,7 +94,7 @@ class Gather {
              Corner(column + 1, row + 1)}};
   }
 
-  // The signed radius of a pixel of the layer, in pixels of the layer.
+  // Returns the signed radius of a pixel of the layer, in pixels of the layer.
   double RadiusAt(const GatheredCell& cell, const Corners& corners, int x, int y) const {
     const double across = ((x + 0.5) * Scale() - cell.x) / kCell;
     const double down = ((y + 0.5) * Scale() - cell.y) / kCell;
@@ -103,7 +104,7 @@ class Gather {
            Scale() / 1024;
   }
 
-  // The radii of the cell's pixels of the layer: unsigned, on the engine's grid.
+  // Returns the range of unsigned radii of the cell's pixels, on the engine's grid.
   Interval IntervalOf(const GatheredCell& cell) const {
     const Corners corners = CornersOf(cell);
     double low = 1e9, high = -1e9;
@@ -118,7 +119,8 @@ class Gather {
     return {nearest, std::max(std::fabs(low), std::fabs(high))};
   }
 
-  // A part of the layer, filtered by a kernel from what lies `border` around it.
+  // Returns a part of the layer filtered by a PSF. `extended` has `border` more pixels on each
+  // side.
   Picture Filtered(const Picture& extended, int border, int width, int height,
                    const Psf& kernel) const {
     Picture to(width, height);
@@ -136,7 +138,7 @@ class Gather {
     return to;
   }
 
-  // A cell with `border` pixels of the layer around it.
+  // Returns a cell with `border` pixels of the layer around it.
   Picture Around(const GatheredCell& cell, int border) const {
     const Rectangle rectangle = {cell.at_x, cell.at_y, cell.at_width, cell.at_height,
                                  border,    border,    border,        border};
@@ -163,15 +165,15 @@ class Gather {
     }
   }
 
-  // What a pixel lies between two kernels by, the square of its radius between theirs.
+  // Returns the position of the square of a radius between the squares of two other radii.
   static double ShareOf(double radius, const Interval& between) {
     const double range = between.high * between.high - between.low * between.low;
     if (range == 0) return 0;
     return std::clamp((radius * radius - between.low * between.low) / range, 0.0, 1.0);
   }
 
-  // Mixed of two kernels by the radius of each pixel, and moved along the gradient of what that
-  // gives.
+  // Mixes the results of two PSFs by the radius of each pixel, and moves the mixture along its
+  // gradient.
   void OnSlope(const GatheredCell& cell) {
     const Interval range = IntervalOf(cell);
     const Interval between = {std::min(LadderBelow(int(std::floor(range.low * kOne))), largest_),
@@ -196,7 +198,8 @@ class Gather {
     Move(cell, corners, mixed);
   }
 
-  // The difference of the colours beside a pixel; at the rim twice that to the one inside.
+  // Returns the colour difference between both neighbours of a pixel. At the rim, it is twice the
+  // difference to the inner neighbour.
   static double Difference(const Picture& of, int x, int y, int dx, int dy, size_t c) {
     const auto at = [&](int side) {
       const int px = x + side * dx, py = y + side * dy;
@@ -233,7 +236,7 @@ class Gather {
   const Block& block_;
   const Lens& lens_;
   const int64_t step_;
-  const double largest_;  // radius of a kernel
+  const double largest_;  // largest radius of a PSF
   const int frame_x_, frame_y_;
   Picture& frame_;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the reference gathers: cells of one surface, blurred from the centre view by the ideal
-// kernel (4), and cells on a slope by that of each pixel.
+// Gathering in the reference: flat cells of one surface are blurred from the centre view by the
+// ideal PSF (4). Cells on a slope are blurred by the PSF of each pixel.
 #ifndef STARFOCUS_TESTS_CONFORMANCE_REFERENCE_GATHER_H_
 #define STARFOCUS_TESTS_CONFORMANCE_REFERENCE_GATHER_H_
 
@@ -9,9 +9,9 @@
 
 namespace reference {
 
-// Gathers the cells of a block from the centre view at its layer into `frame`, whose first pixel is
-// (frame_x, frame_y) of the layer. `r_max` is the largest blur of the lens, for which there are
-// kernels.
+// Gathers the cells of a block from the centre view at its layer. Writes them to `frame`, whose
+// first pixel is (frame_x, frame_y) of the layer. `r_max` is the largest blur radius for which
+// there are PSFs.
 void GatherCells(const LightField& field, const Picture& of_layer, const Block& block,
                  const Lens& lens, double r_max, int frame_x, int frame_y, Picture* frame);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reference's parts that know one line: the lens, and which pixel a view shows where.
+// Line scan of the reference: the lens, and the source of each pixel of a rendered line.
 #ifndef STARFOCUS_TESTS_CONFORMANCE_REFERENCE_LINE_H_
 #define STARFOCUS_TESTS_CONFORMANCE_REFERENCE_LINE_H_
 
@@ -18,12 +18,12 @@ namespace reference {
 
 using Colour = std::array<double, 3>;
 
-// Two neighbours belong to one surface when their disparities (1/64) differ by at most this.
+// Largest difference of disparities (1/64) between two neighbours on one surface.
 inline constexpr int kSurfaceStep = 96;
-// A wider gap is no stretched surface, in pixels.
+// Widest gap of a stretched surface, in pixels.
 inline constexpr int kWidestStretch = 4;
 
-// Floor of value / 2^bits, plus a half: rounding half up.
+// Returns value / 2^bits, rounded half up.
 inline int64_t Rounded(int64_t value, int bits) {
   const int64_t unit = int64_t{1} << bits, sum = value + unit / 2;
   return sum >= 0 ? sum / unit : -((-sum + unit - 1) / unit);
@@ -31,11 +31,12 @@ inline int64_t Rounded(int64_t value, int bits) {
 
 inline int RoundedTo64(double value) { return static_cast<int>(std::floor(value * 64 + 0.5)); }
 
-// A view, rendered or captured, with its disparity (1/64) where it has one.
+// A rendered or captured view, with disparities (1/64) if it has any.
 struct Picture {
   int width = 0, height = 0;
-  std::vector<Colour> colours;  // light, or what highlights have of it beyond white
-  std::vector<Colour> light;  // by which mixtures are told where colours are not light; else empty
+  std::vector<Colour> colours;  // light, or the light of highlights beyond white
+  // light that mixtures are found by, if `colours` is not light; otherwise empty
+  std::vector<Colour> light;
   std::vector<int> disparities;
 
   Picture(int w, int h)
@@ -45,53 +46,55 @@ struct Picture {
   bool Inside(int x, int y) const { return x >= 0 && x < width && y >= 0 && y < height; }
 };
 
-// A unit of u in positions of captured views.
+// One unit of u in positions of captured views.
 inline constexpr int kViewUnit = 16384;
 
-// The captured views by position, in parts of kViewUnit.
+// Captured views by their position, in 1/kViewUnit.
 using LightField = std::map<std::pair<int, int>, Picture>;
 
-// The lens: N views along its radius, and how far pixels move in them.
+// The lens: N views along its radius, and the shifts of pixels in the views.
 struct Lens {
-  int n = 0;                // outermost view
-  int most = 0;             // i^2 + j^2 of the views
-  double subapertures = 0;  // radius in those that views stand for; 0: they stand for points
+  int n = 0;                // index of the outermost view
+  int most = 0;             // largest i^2 + j^2 of a view
+  double subapertures = 0;  // radius in subapertures; 0: views stand for points
   double radius = 0;        // u_t
   ApertureShape opening = 0.0;
   int focus = 0;     // d_t, 1/64
   int64_t step = 0;  // u_t / 2^layer, 2^-24
   int layer = 0;     // L
 
-  // u of view k, 2^-24.
+  // Returns u of view k, in 2^-24.
   int64_t Move(int k) const { return (2 * k * step + n) / (2 * n); }
-  // Pixels that a disparity (1/64) moves by in view k, 1/256.
+  // Returns the shift of a disparity (1/64) in view k, in 1/256 pixels.
   int Shift(int k, int disparity) const {
     return int(Rounded(Move(k) * (disparity - focus), 24 + 6 - 8));
   }
-  // Width of the subaperture on the picture, r / N, at most a pixel: as far as it moves from view
-  // to view.
+  // Returns the width of the subaperture in the picture: r / N, the shift from view to view, at
+  // most a pixel.
   double Subaperture(int disparity) const {
     return std::min(1.0, std::abs(Shift(1, disparity)) / 256.0);
   }
-  // Within a run, disparities (1/64) range over a quarter pixel of displacement at the aperture's
-  // rim, and never across the edge of a surface.
+  // Returns the largest range of disparities (1/64) in a run: a quarter pixel of displacement at
+  // the rim of the aperture. It never exceeds the step at the edge of a surface.
   int Spread() const { return int(std::min<int64_t>(kSurfaceStep, (int64_t{16} << 24) / step)); }
-  // Views at most half a unit from the centre have a captured view at that distance.
+  // Returns true if view k is at most half a unit from the centre, where a captured view may exist.
   bool Half(int k) const { return 2 * k * radius <= n; }
   bool Contains(int i, int j) const { return i * i + j * j <= most; }
   double Density(int i, int j) const {
     if (n == 0) return 1;
     const double passing = opening.cats_eye > 0 ? opening.Passing(i, j, Radius()) : 1;
-    // Openings that end sharply are sampled as the engine has them.
+    // Openings with sharp edges are sampled as in the engine.
     if (opening.shape != STARFOCUS_SHAPE_FALL_OFF)
       return passing * opening.Mean(i, j, Radius(), 16);
-    // By as many points as other shapes. The integral is 5.5 % more for the four views on the rim
-    // of N = 4, 0.02 % of all light each: of lamps ten times white that is three codes of the dark.
+    // Uses as many points as for other shapes. The exact integral is 5.5 % larger for the four
+    // views on the rim of N = 4, which is 0.02 % of all light each. For lamps ten times as bright
+    // as white, that makes three codes in dark parts.
     if (subapertures > 0) return passing * opening.Mean(i, j, subapertures, 16);
     return passing * ApertureDensity(double(i) / n, double(j) / n, opening.cot2);
   }
   double Radius() const { return subapertures > 0 ? subapertures : n; }
-  // Largest j of the views (i, j) rendered from type A view i: below the diagonal.
+  // Returns the largest j of the views (i, j) below the diagonal that are rendered from type A view
+  // i.
   int LastAcross(int i) const {
     int j = std::max(0, i - 1);
     while (j > 0 && !Contains(i, j)) --j;
@@ -99,28 +102,28 @@ struct Lens {
   }
 };
 
-// --- One line: the pixels that a view of direction +1 along it shows. ---
+// --- One line: the pixels that a view in direction +1 along it shows ---
 
-// Where a rendered pixel comes from: line pixel `source`, or in a hole what goes on of its surface
-// behind what hides it. `share` of the pixel shows line pixel `other` instead: a neighbour on the
-// same surface, or the surface on the other side of a depth edge.
+// Source of a rendered pixel: line pixel `source`. In a hole it is the continuation of that pixel's
+// surface behind the surface that hides it. A share of the pixel shows line pixel `other`: a
+// neighbour on the same surface, or the surface on the other side of a depth edge.
 struct Owner {
   bool hole = true;
   int source = 0;
   int other = 0;
   double share = 0;
 
-  // The line pixel whose disparity the rendered pixel has.
+  // Returns the line pixel whose disparity the rendered pixel has.
   int Main() const { return share > 0.5 ? other : source; }
 };
 
 struct LineRun {
   int begin, end;
-  int disparity;  // the middle of its range
+  int disparity;  // middle of the range
 };
 
-// From the end of the line that near surfaces move away from; a run is as long as its disparities
-// allow.
+// Returns the runs, from the end of the line that near surfaces move away from. Each run is as long
+// as its range of disparities allows.
 inline std::vector<LineRun> Runs(const std::vector<int>& disparity, int spread) {
   std::vector<LineRun> runs;
   int end = int(disparity.size());
@@ -148,7 +151,7 @@ class LineScan {
     const int length = int(disparity_.size());
     const std::vector<LineRun> runs = Runs(disparity_, lens_.Spread());
     filled_ = std::max(length, length - Whole(runs[0]));
-    const LineRun* nearer = nullptr;  // what is visible at `filled_`
+    const LineRun* nearer = nullptr;  // the run that is visible at `filled_`
     for (const LineRun& run : runs) {
       const int whole = Whole(run);
       if (run.begin - whole >= filled_) continue;  // hidden
@@ -166,7 +169,7 @@ class LineScan {
  private:
   int Shift(const LineRun& run) const { return lens_.Shift(k_, run.disparity); }
   int Whole(const LineRun& run) const { return int(Rounded(Shift(run), 8)); }
-  // What rounding to whole pixels leaves out: so much farther down, in pixels, does the run lie.
+  // Returns the remainder of rounding to whole pixels: the run lies this many pixels farther down.
   double Offset(const LineRun& run) const { return Shift(run) / 256.0 - Whole(run); }
   bool Inside(int p) const { return p >= 0 && p < int(owners_.size()); }
   int Disparity(int q) const { return disparity_[size_t(q)]; }
@@ -174,8 +177,9 @@ class LineScan {
     return std::abs(Disparity(q) - Disparity(other)) <= kSurfaceStep;
   }
 
-  // The pixels between the run's upper end and what is filled: the run's surface, stretched, unless
-  // that ends there or is the nearer one: then what is behind the nearer of the two goes on.
+  // Closes the gap between the run's upper end and the filled pixels. The run's surface is
+  // stretched, unless it ends there or is the nearer one. In these cases the surface behind the
+  // nearer of the two continues.
   void CloseGap(const LineRun& run, const LineRun* above) {
     const int q = run.end - 1, visible = above == nullptr ? q : above->begin;
     const int begin = run.end - Whole(run), gap = filled_ - begin;
@@ -183,16 +187,16 @@ class LineScan {
     const bool inside = filled_ + Whole(run) <= int(disparity_.size());
     if (step <= kSurfaceStep && gap <= kWidestStretch && inside) return;
     if (step <= kSurfaceStep) return SetHole(begin, step < 0 ? q : visible);
-    // The nearer surface ends between rendered pixels, inside one of the hole's.
+    // The nearer surface ends between rendered pixels, inside a pixel of the hole.
     const double offset = Offset(run);
     const int rim = offset > 0 ? begin - 1 : begin;
     SetHole(rim, visible);
     if (offset != 0) SetOther(rim, q, offset > 0 ? 1 - offset : -offset);
   }
 
-  // The lower end of a surface, whose last pixel is `end`, and a farther one that goes on there.
-  // Between rendered pixels the nearer one covers only a part of its last pixel, or some of the
-  // pixel below as well.
+  // Softens the lower end of a surface, whose last pixel is `end`, where a farther surface
+  // continues. If the end lies between rendered pixels, the nearer surface covers only a part of
+  // its last pixel, or also a part of the pixel below.
   void SoftenEnd(const LineRun& nearer, const LineRun& farther, int end) {
     const int q = nearer.begin;
     if (q == 0 || OneSurface(q - 1, q)) return;
@@ -205,7 +209,8 @@ class LineScan {
     }
   }
 
-  // Not yet divided between two surfaces: a run of one pixel has both its ends there.
+  // Returns true if the pixel is not yet divided between two surfaces. Both ends of a run of one
+  // pixel lie in it.
   bool IsWhole(int p) const {
     return Inside(p) && !owners_[size_t(p)].hole && owners_[size_t(p)].share == 0;
   }
@@ -216,7 +221,7 @@ class LineScan {
     owners_[size_t(p)].share = share;
   }
 
-  // Rendered pixels from `begin` to what is filled.
+  // Marks the rendered pixels from `begin` to the filled ones as a hole.
   void SetHole(int begin, int source) {
     for (int p = begin; p < filled_; ++p) {
       if (Inside(p)) owners_[size_t(p)] = {true, source, source, 0};
@@ -224,8 +229,10 @@ class LineScan {
     filled_ = std::min(filled_, begin);
   }
 
-  // The source lies t away from the rendered pixel's centre; its subaperture of width L gives the
-  // neighbour on that side clamp((|t| - 1/2) / L + 1/2, 0, 1). None across the edge of a surface.
+  // Sets a rendered pixel whose source is t pixels away from its centre. With a subaperture of
+  // width L, the neighbour on that side gets clamp((
+  // t
+  //  - 1/2) / L + 1/2, 0, 1), unless it is on another surface.
   void SetSurface(int p, const LineRun& run) {
     if (!Inside(p)) return;
     Owner owner = {false, p + Whole(run), p + Whole(run), 0};
@@ -242,13 +249,13 @@ class LineScan {
   const Lens& lens_;
   int k_;
   std::vector<Owner> owners_;
-  int filled_ = 0;  // lowest rendered pixel shown so far
+  int filled_ = 0;  // lowest rendered pixel that is filled
 };
 
-// --- One view from another, along the lines of direction (u, v). ---
+// --- One view from another, along the lines of direction (u, v) ---
 
-// `hole(x, y, disparity, colour)` gives the colour of pixel (x, y), behind which a surface of
-// `disparity` and `colour` goes on.
+// `hole(x, y, disparity, colour)` returns the colour of pixel (x, y) in a hole. A surface of
+// `disparity` and `colour` continues there.
 template <class Hole>
 Picture RenderAlong(const Picture& from, int u, int v, const Lens& lens, int k, const Hole& hole) {
   Picture to(from.width, from.height);

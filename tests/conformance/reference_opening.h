@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reference's opening of the lens: (3), and the shapes of starfocus_lens, in double precision.
+// Opening of the lens in the reference: (3), and the shapes of starfocus_lens, in double precision.
 #ifndef STARFOCUS_TESTS_CONFORMANCE_REFERENCE_OPENING_H_
 #define STARFOCUS_TESTS_CONFORMANCE_REFERENCE_OPENING_H_
 
@@ -10,7 +10,7 @@
 
 namespace reference {
 
-// (3) without its constant factor; `cot2` is the squared cotangent of theta.
+// Returns (3) without its constant factor. `cot2` is the squared cotangent of theta.
 inline double ApertureDensity(double u, double v, double cot2) {
   const double denominator = u * u + v * v + cot2;
   return cot2 * cot2 / (denominator * denominator);
@@ -21,14 +21,15 @@ struct ApertureShape {
   int shape = STARFOCUS_SHAPE_FALL_OFF;
   int blades = 0;
   double rotation = 0, curvature = 0, inner = 0, cats_eye = 0;
-  double rim_x = 0, rim_y = 0;  // where the rim behind the lens is seen
+  double rim_x = 0, rim_y = 0;  // apparent position of the rim behind the lens
 
-  // An edge of the polygon: the normal's direction, and the centre of its circle along it.
+  // Edge of the polygon: the direction of its normal, and the centre of its circle along the
+  // normal.
   struct Edge {
     double x, y, centre;
   };
   std::array<Edge, STARFOCUS_MAX_BLADES> edges = {};
-  double cot2;  // of theta
+  double cot2;  // squared cotangent of theta
 
   ApertureShape(double angle)  // NOLINT: the plain lens is its theta
       : theta(angle), cot2(1 / (std::tan(theta) * std::tan(theta))) {}
@@ -50,10 +51,11 @@ struct ApertureShape {
   }
 
   static constexpr double kPi = 3.14159265358979323846;
-  // Half of the angle between two corners.
+  // Returns half of the angle between two corners.
   double Half() const { return kPi / blades; }
 
-  // The same with the rim that the middle of a block sees.
+  // Returns the opening with the position of the rim behind the lens as seen from the middle of a
+  // block.
   ApertureShape At(double x, double y, double block_width, double block_height, double width,
                    double height) const {
     ApertureShape here = *this;
@@ -63,7 +65,7 @@ struct ApertureShape {
     return here;
   }
 
-  // Inside of the circles through two corners each, or of the lines.
+  // Returns true inside the circles through two corners each, or inside the straight edges.
   bool InPolygon(double u, double v) const {
     const double straight = curvature == 0 ? std::cos(Half()) : 0;
     for (int k = 0; k < blades; ++k) {
@@ -86,15 +88,15 @@ struct ApertureShape {
     return shape == STARFOCUS_SHAPE_DISC || InPolygon(u, v) ? 1 : 0;
   }
 
-  // The mean density over the subaperture around (i, j) of a lens that is `width` of them wide, by
-  // `points` squared.
+  // Returns the mean density over the subaperture around (i, j), at `points` squared points. The
+  // lens is `width` subapertures wide.
   double Mean(int i, int j, double width, int points) const {
     double sum = 0;
     ForEachPoint(i, j, width, points, [&](double u, double v) { sum += Density(u, v); });
     return sum / (points * points);
   }
 
-  // The part of the subaperture's open points that the rim behind lets through.
+  // Returns the share of the subaperture's open points that the rim behind the lens lets through.
   double Passing(int i, int j, double width) const {
     int open = 0, both = 0;
     ForEachPoint(i, j, width, 16, [&](double u, double v) {

@@ -10,7 +10,7 @@ double Difference(const Colour& a, const Colour& b) {
 
 int Sign(int value) { return (value > 0) - (value < 0); }
 
-// What is left of a picture's extended rectangle after cutting lines off.
+// Lines to cut off from a picture's extended rectangle.
 struct Cut {
   int left, right, top, bottom;
 };
@@ -55,7 +55,7 @@ class Views {
                        });
   }
 
-  // Type A: view `i` along rows (columns), once.
+  // Type A: renders view `i` along rows or columns, once.
   const Picture& Along(bool rows, int i) {
     const auto known = along_.find({rows, i});
     if (known != along_.end()) return known->second;
@@ -70,8 +70,8 @@ class Views {
     return along_.emplace(std::make_pair(rows, i), std::move(view)).first->second;
   }
 
-  // Type C: across the lines of a type A view, of which only those count that its outermost view
-  // can reach from: runs of one shift start there.
+  // Type C: renders across the lines of a type A view. Only lines that the outermost view can reach
+  // count, since runs of one shift start there.
   void AddAcross(bool rows, int i, int j, double weight, Picture* sum) {
     const int along = rows ? i : j, across = rows ? j : i;
     const int last = lens_.LastAcross(std::abs(along));
@@ -104,8 +104,8 @@ class Views {
     }
   }
 
-  // What the captured view in the direction of view (i, j) sees of a surface that this view shows
-  // at picture position (x, y).
+  // Returns the colour of a surface in the captured view in the direction of view (i, j). View (i,
+  // j) shows this surface at picture position (x, y).
   Colour FromCaptured(int i, int j, int x, int y, int disparity, const Colour& behind) const {
     if (field_.size() == 1) return behind;
     const int u = Sign(i), v = Sign(j);
@@ -121,7 +121,8 @@ class Views {
       return Read(field_, lens_.layer, {u * distance * kViewUnit / 2, v * distance * kViewUnit / 2},
                   x_far, y_far);
     }
-    // The diagonal view was not captured: the side views, by agreement with the background.
+    // The diagonal view was not captured, so the side views are mixed by their agreement with the
+    // background.
     const Colour a = Read(field_, lens_.layer, {u * kViewUnit, 0}, x_far, y + moved(j, false));
     const Colour b = Read(field_, lens_.layer, {0, v * kViewUnit}, x + moved(i, false), y_far);
     const double weight_a = std::pow(Difference(b, behind), 2) + 1;
@@ -136,7 +137,7 @@ class Views {
   const LightField& field_;
   const Lens& lens_;
   const Rectangle& rect_;
-  int x_, y_;  // of the extended rectangle in the layer
+  int x_, y_;  // position of the extended rectangle in the layer
   Picture centre_;
   std::map<std::pair<bool, int>, Picture> along_;
 };

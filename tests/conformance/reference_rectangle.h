@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reference's rectangle by the paper's rule: one block's views rendered and summed.
+// Refocuses one rectangle in the reference by the paper's rule: renders and sums the views of a
+// block.
 #ifndef STARFOCUS_TESTS_CONFORMANCE_REFERENCE_RECTANGLE_H_
 #define STARFOCUS_TESTS_CONFORMANCE_REFERENCE_RECTANGLE_H_
 
@@ -7,8 +8,8 @@
 
 namespace reference {
 
-// The weighted sum of all views over the rectangle, from the centre view at the lens's layer, whose
-// edge goes on beyond it, and the captured views of the picture.
+// Returns the weighted sum of all views over the rectangle. The inputs are the centre view at the
+// layer of the lens, with repeated edges, and the captured views of the picture.
 Picture RefocusRectangle(const LightField& field, const Picture& centre, const Lens& lens,
                          const Rectangle& rectangle);
 

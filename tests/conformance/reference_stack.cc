@@ -10,13 +10,14 @@
 namespace reference {
 namespace {
 
-// --- Slices: ranges of disparity. ---
+// --- Slices: ranges of disparity ---
 
 struct Range {
   int low, high;
-  int overlap;  // a little nearer than high: a part of the next slice too
+  // disparity a little nearer than `high`; surfaces up to it belong to this slice as well
+  int overlap;
 
-  int Disparity() const { return low + (high - low) / 2; }  // as which the slice moves
+  int Disparity() const { return low + (high - low) / 2; }  // disparity by which the slice moves
 };
 
 class RangeFinder {
@@ -42,7 +43,7 @@ class RangeFinder {
     }
   }
 
-  // From near to far, the finest that are few and small enough.
+  // Returns the finest ranges that are few and small enough, from near to far.
   std::vector<Range> Find() const {
     for (int64_t coarser = 1;; coarser *= 2) {
       const std::vector<Range> ranges = Part(coarser);
@@ -51,10 +52,10 @@ class RangeFinder {
   }
 
  private:
-  static constexpr int64_t kMost = 1 << 20;  // no disparity is larger
-  static constexpr int kUnitBits = 24 + 6;   // of a disparity times a step
+  static constexpr int64_t kMost = 1 << 20;  // upper bound of disparities
+  static constexpr int kUnitBits = 24 + 6;   // fractional bits of a disparity times a step
 
-  // Whether a pixel of the extended rectangle is blurred into the rectangle.
+  // Returns true if a pixel of the extended rectangle is blurred into the rectangle.
   bool Reaches(int disparity, int x, int y) const {
     const int right = rect_.left + rect_.width - 1, bottom = rect_.top + rect_.height - 1;
     const int away = std::max({rect_.left - x, x - right, rect_.top - y, y - bottom, 1}) - 1;
@@ -62,7 +63,7 @@ class RangeFinder {
     return std::abs(disparity - lens_.focus) >= std::min(kMost, least);
   }
 
-  // How many bins a slice may span whose nearest one is `bin`.
+  // Returns the number of bins that a slice may span if its nearest bin is `bin`.
   int64_t Span(int bin, int64_t coarser) const {
     constexpr int64_t kSharp = 4 * 256;  // a blur of 4 pixels
     const auto range = int64_t(256 * slicing_.range);
@@ -102,18 +103,19 @@ class RangeFinder {
   const Rectangle& rect_;
   const Slicing slicing_;
   int low_ = 0;  // disparity of bin 0
-  int bin_ = 1;  // disparities of a bin
+  int bin_ = 1;  // number of disparities in a bin
   std::set<int> occupied_;
 };
 
-// --- A slice: its pixels, and where views show it. ---
+// --- A slice: its pixels, and their positions in views ---
 
-// Three colours times coverage, and the coverage.
+// Three colours multiplied by coverage, and the coverage.
 using Light = std::array<double, 4>;
 
-// Of a rectangle whose pixel (0, 0) is the refocused one's, reaching beyond it.
+// Pixels of a rectangle and its surroundings. Pixel (0, 0) is the first pixel of the refocused
+// rectangle.
 struct Plane {
-  int left, top, width, height;  // left, top: pixels beyond the rectangle
+  int left, top, width, height;  // left, top: number of pixels before the rectangle
   std::vector<Light> pixels;
 
   Plane(int l, int t, int w, int h)
@@ -128,10 +130,12 @@ struct Plane {
   }
 };
 
-// A wider subaperture, in pixels, is spread before its slice is moved.
+// Widest subaperture, in pixels, that is applied by moving the slice. Wider ones are spread
+// beforehand.
 constexpr double kWidestBox = 3;
 
-// Spread by a box along x or y. What lies beyond the plane is empty: no view shows what it changes.
+// Spreads a plane by a box along x or y. Pixels beyond the plane count as empty: no view shows the
+// pixels that they would change.
 Plane Spread(const Plane& from, double box, int dx, int dy) {
   Plane to = from;
   const int reach = int(std::ceil((box - 1) / 2));
@@ -152,13 +156,13 @@ Plane Spread(const Plane& from, double box, int dx, int dy) {
 
 Plane MakePlane(const SurfaceMap& map, const Range& range, const Lens& lens,
                 const Rectangle& rect) {
-  // More than any view shows.
+  // No view moves a slice farther.
   const int reach = std::abs(lens.Shift(lens.n, range.Disparity())) / 256 + 6;
   Plane plane(reach, reach, rect.width + 2 * reach, rect.height + 2 * reach);
   for (int y = -reach; y < rect.height + reach; ++y) {
     for (int x = -reach; x < rect.width + reach; ++x) {
       for (const Surface& surface : map.At(x + rect.left, y + rect.top)) {
-        // In two slices the end of a surface would cover twice as much.
+        // If the end of a surface were in two slices, it would cover twice as much.
         const int high = surface.share < 1 || surface.ends ? range.high : range.overlap;
         if (surface.disparity < range.low || surface.disparity > high) continue;
         Light& light = plane.At(x, y);
@@ -173,11 +177,11 @@ Plane MakePlane(const SurfaceMap& map, const Range& range, const Lens& lens,
   return box > kWidestBox ? Spread(Spread(plane, box, 1, 0), box, 0, 1) : plane;
 }
 
-// What a view sees of pixels one after the other, from `first` on.
+// Filter of a view: weights of consecutive pixels, starting at `first`.
 struct Offset {
   int first;
   std::vector<double> parts;
-  double inside;  // of the second of two pixels that are covered alike, instead of parts[1]
+  double inside;  // weight of the second of two pixels with equal coverage, in place of parts[1]
 
   template <class At>
   Light See(const At& at) const {
@@ -194,8 +198,9 @@ struct Offset {
   }
 };
 
-// Of view k along an axis. A subaperture of one to three pixels covers what it does of pixels;
-// a narrower one less of the pixels on either side of it than interpolation.
+// Returns the filter of view k along an axis. A subaperture of one to three pixels weights pixels
+// by their overlap with it. A narrower one uses linear interpolation, and less of it between pixels
+// with equal coverage.
 Offset OffsetOf(const Lens& lens, int k, int disparity) {
   const int shift = (k < 0 ? -1 : 1) * (k == 0 ? 0 : lens.Shift(std::abs(k), disparity));
   const double moved = shift / 256.0;
@@ -215,7 +220,8 @@ Offset OffsetOf(const Lens& lens, int k, int disparity) {
   return {int(whole), {1 - edge, edge}, inside};
 }
 
-// As views of one column show a plane: moved along x, over the rectangle's columns.
+// Moves a plane along x, as the views of one column show it, and crops it to the rectangle's
+// columns.
 Plane MovedAlongX(const Plane& from, const Offset& offset, int width) {
   Plane to(0, from.top, width, from.height);
   for (int y = -from.top; y < from.height - from.top; ++y) {
@@ -226,10 +232,10 @@ Plane MovedAlongX(const Plane& from, const Offset& offset, int width) {
   return to;
 }
 
-// --- Views: slices in front of each other. ---
+// --- Views: composited slices ---
 
-// What a slice that covers more than what is left of the light gives of itself: the part that is
-// left, light / covered, as the first terms of a series in what the slice leaves open.
+// Returns the factor for a slice that covers more than the light that is left. It approximates
+// light / covered by the first terms of a series in 1 - covered.
 double ShareOf(double covered, double light) {
   const double open = 1 - covered;
   return std::min(4 * light, 1 - (covered - light) * (1 + open + open * open));
@@ -243,7 +249,7 @@ class Stack {
     for (const Range& range : ranges) planes_.push_back(MakePlane(map, range, lens, rect));
   }
 
-  // The weighted sum of all views.
+  // Returns the weighted sum of all views.
   const Plane& AddViews() {
     for (int i = -lens_.n; i <= lens_.n; ++i) {
       std::vector<Plane> column;
@@ -261,7 +267,7 @@ class Stack {
     return sum_;
   }
 
-  // What their weights sum to.
+  // Returns the sum of the views' weights.
   double total() const { return total_; }
 
  private:
@@ -279,7 +285,8 @@ class Stack {
     }
   }
 
-  // A slice takes of the light what it covers, the last one what is left.
+  // Adds a slice, which takes its coverage from the light. The last slice takes the light that is
+  // left.
   static void Take(const Light& slice, double weight, double* light, Light* sum) {
     const double covered = slice[3];
     if (covered > *light) weight *= ShareOf(covered, *light);
@@ -295,8 +302,8 @@ class Stack {
   double total_ = 0;
 };
 
-// The part of a rectangle that slices are cut for from a pixel on: 64 pixels, or what is left of
-// the rectangle up to 80, of which the rest lies in its border.
+// Returns the tile that starts at (x, y) of a rectangle. Its sides are 64 pixels, or the rest of
+// the rectangle if at most 80 pixels are left. The rest of the rectangle becomes its border.
 Rectangle TileAt(const Rectangle& rectangle, int x, int y) {
   const auto side = [](int rest) { return rest <= 80 ? rest : 64; };
   Rectangle tile = rectangle;
@@ -311,7 +318,7 @@ Rectangle TileAt(const Rectangle& rectangle, int x, int y) {
   return tile;
 }
 
-// Composites a tile at (left, top) of the picture, by slices of its own.
+// Composites a tile at (left, top) of the picture from the tile's own slices.
 void CompositeTile(const SurfaceMap& map, const Picture& extended, const Lens& lens,
                    const Rectangle& tile, const Slicing& slicing, int left, int top,
                    Picture* picture) {
@@ -320,7 +327,7 @@ void CompositeTile(const SurfaceMap& map, const Picture& extended, const Lens& l
   const Plane& sum = stack.AddViews();
   for (int y = 0; y < tile.height; ++y) {
     for (int x = 0; x < tile.width; ++x) {
-      // Where slices cover less than a quarter of all light, the pixel is that of the centre view.
+      // If the slices cover less than a quarter of all light, the pixel is that of the centre view.
       const Light& light = sum.At(x, y);
       Colour& colour = picture->colours[picture->At(left + x, top + y)];
       colour = extended.colours[extended.At(x + tile.left, y + tile.top)];

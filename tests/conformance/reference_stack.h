@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reference's rectangle by the rule of subapertures: one block, tile by tile, as a stack of
-// slices, which each view shows moved against each other.
+// Refocuses one rectangle in the reference by the rule of subapertures. Each tile is a stack of
+// slices, which each view moves against each other.
 #ifndef STARFOCUS_TESTS_CONFORMANCE_REFERENCE_STACK_H_
 #define STARFOCUS_TESTS_CONFORMANCE_REFERENCE_STACK_H_
 
@@ -10,15 +10,15 @@
 
 namespace reference {
 
-// What slices are cut by: their number and area, beyond which they get coarser, and the pixels that
-// they may lie apart at the rim where they are sharp.
+// Limits of slices: if their number or area is larger, they become coarser. `range` is the largest
+// distance between pixels of a sharp slice at the rim, in pixels.
 struct Slicing {
   size_t most;
   int area;
   double range;
 };
 
-// As RefocusRectangle.
+// Same as RefocusRectangle, by slices.
 Picture CompositeRectangle(const LightField& field, const Picture& centre, const Lens& lens,
                            const Rectangle& rectangle, const Slicing& slicing);
 

@@ -11,14 +11,14 @@
 namespace reference {
 namespace {
 
-// What the far side of the depth edge in one direction shows behind a pixel.
+// Far side of the depth edge in one direction from a pixel.
 struct Background {
   Direction towards;
   int distance;  // in pixels
   int disparity;
-  std::optional<Position> captured;  // the view that sees it, if one does
+  std::optional<Position> captured;  // the view that sees the far side, if any
 
-  // Those that a captured view sees come first, and of them those nearest to the pixel.
+  // Surfaces that a captured view sees come first, then those nearest to the pixel.
   bool SameRank(const Background& other) const {
     return captured.has_value() == other.captured.has_value() && distance == other.distance;
   }
@@ -31,7 +31,7 @@ struct Background {
 
 class SurfaceFinder {
  public:
-  // (x0, y0): of the extended rectangle in the layer.
+  // (x0, y0) is the position of the extended rectangle in the layer.
   SurfaceFinder(const LightField& field, const Picture& extended, const Lens& lens, int x0, int y0)
       : field_(field),
         extended_(extended),
@@ -51,7 +51,7 @@ class SurfaceFinder {
  private:
   int Disparity(int x, int y) const { return extended_.disparities[extended_.At(x, y)]; }
 
-  // A step down by more than 3/4 of a pixel of the layer per pixel is a depth edge.
+  // Returns true if the step down exceeds 3/4 of a pixel of the layer: this is a depth edge.
   bool IsEdge(int near, int far) const { return near - far > unit_ * 3 / 4; }
 
   std::vector<Surface> SurfacesOf(int x, int y) const {
@@ -66,8 +66,8 @@ class SurfaceFinder {
     return surfaces;
   }
 
-  // On the far side of a depth edge the pixel is parted into the near surface and the far one, by
-  // the mean over the edges beside it, where some view shows them moved against each other.
+  // Splits a pixel on the far side of a depth edge into the near and the far surface, if some view
+  // moves them against each other. The result is the mean over the adjacent edges.
   void Part(int x, int y, std::vector<Surface>* surfaces) const {
     const bool outermost =
         x == 0 || y == 0 || x == extended_.width - 1 || y == extended_.height - 1;
@@ -91,13 +91,13 @@ class SurfaceFinder {
       near.disparity = std::max(near.disparity, disparity);
       shares += mixed.share;
     }
-    near.share = std::floor(near.share * 128 + 0.5) / 128;  // as the engine keeps it
+    near.share = std::floor(near.share * 128 + 0.5) / 128;  // rounded as in the engine
     if (near.share == 0) return;
     for (size_t c = 0; c < 3; ++c) {
       near.colour[c] /= shares;
       far.colour[c] /= shares;
     }
-    // A copy of the pixel has the colour of the mixture, and gives way.
+    // A copy of the pixel has the colour of the mixture and is therefore removed.
     if (surfaces->size() > 1 && !IsEdge(far.disparity, (*surfaces)[1].disparity)) {
       surfaces->erase(surfaces->begin() + 1);
     }
@@ -106,7 +106,8 @@ class SurfaceFinder {
     if (surfaces->size() > starfocus::simd::kSurfaces) surfaces->pop_back();
   }
 
-  // Whether the layer has that pixel: one more than the picture before it has, halved.
+  // Returns true if the layer has the pixel. A layer has half the size of the previous one, plus
+  // one pixel.
   bool InPicture(int x, int y) const {
     int width = field_.at({0, 0}).width, height = field_.at({0, 0}).height;
     for (int layer = 0; layer < lens_.layer; ++layer) {
@@ -116,8 +117,9 @@ class SurfaceFinder {
     return x >= 0 && y >= 0 && x < width && y < height;
   }
 
-  // The mixture of a subsampled pixel: the share of the near surface is estimated from what its
-  // neighbours, or a captured view, show of both surfaces, and what is left is the far one's.
+  // Returns the mixture of a subsampled pixel. The share of the near surface is estimated from the
+  // colours of both surfaces in the neighbours or in a captured view. The rest of the pixel is the
+  // far surface.
   Mixed MixtureOfLevel(int x, int y, const Direction& side) const {
     const auto at = [&](int k) {
       return extended_.At(std::clamp(x + k * side.x, 0, extended_.width - 1),
@@ -146,7 +148,7 @@ class SurfaceFinder {
     return result;
   }
 
-  // Behind the visible surface.
+  // Adds the surfaces behind the visible one.
   void AddHidden(int x, int y, std::vector<Surface>* hidden) const {
     std::vector<Surface>& surfaces = *hidden;
     std::vector<Background> backgrounds;
@@ -163,7 +165,7 @@ class SurfaceFinder {
           if (ties) surfaces.back().towards.push_back(other.towards);
         }
       }
-      // Within a pixel of disparity it is the same surface.
+      // Surfaces that differ by at most a pixel of disparity are the same.
       const auto same = [&](const Background& other) {
         return std::abs(other.disparity - best.disparity) <= unit_;
       };
@@ -172,8 +174,8 @@ class SurfaceFinder {
     }
   }
 
-  // Behind itself a pixel goes on at the disparity of its farthest neighbour within the surface,
-  // from 2/64 to half a pixel farther: so no slice opens a crack in it.
+  // Adds a copy of the pixel behind it, so that no slice opens a gap in the surface. The copy has
+  // the disparity of the farthest neighbour on the surface, which is 2/64 to half a pixel farther.
   void AddCopy(int x, int y, std::vector<Surface>* surfaces) const {
     if (x == 0 || y == 0 || x == extended_.width - 1 || y == extended_.height - 1) return;
     const int here = Disparity(x, y);
@@ -188,19 +190,21 @@ class SurfaceFinder {
     if (surfaces->size() > starfocus::simd::kSurfaces) surfaces->pop_back();
   }
 
-  // Whether a pixel hides from the centre view what lies `distance` pixels away beyond an edge, and
-  // a view at distance 1 can look that far behind it.
+  // Returns true if a pixel hides the point beyond an edge, `distance` pixels away, from the centre
+  // view, and a view at distance 1 can see this point.
   bool Hides(int here, int far, int distance) const {
     return IsEdge(here, far) && (distance - 1) * unit_ <= here - far;
   }
 
-  // The distance of the far side of the nearest depth edge in that direction, if the pixel hides
-  // it; else 0. Seen from that edge on, a step of up to an eighth of how far the pixel beyond it
-  // lies before the far side is none, as long as that pixel hides the far side.
+  // Returns the distance to the far side of the nearest depth edge in that direction, or 0 if the
+  // pixel does not hide it. A step does not count as an edge if two conditions hold: it is at most
+  // an eighth of the depth that the previous edge hides, and its near side hides the far side of
+  // that edge.
   int NextEdge(int x, int y, const Direction& towards) const {
     int k = 0;
     while (extended_.Inside(x + (k + 1) * towards.x, y + (k + 1) * towards.y)) ++k;
-    int far = 0, distance = 0;  // of the last edge on the way to the pixel; 0: there is none yet
+    // of the last edge on the way to the pixel; distance 0: no edge so far
+    int far = 0, distance = 0;
     for (; k > 0; --k) {
       const int beyond = Disparity(x + k * towards.x, y + k * towards.y);
       const int here = Disparity(x + (k - 1) * towards.x, y + (k - 1) * towards.y);
@@ -214,8 +218,8 @@ class SurfaceFinder {
     return distance > 0 && Hides(Disparity(x, y), far, distance) ? distance : 0;
   }
 
-  // Behind a pixel lies what its edge in that direction hides, and what the far side of that edge
-  // hides in turn, if a view can look that far behind the pixel.
+  // Finds the surfaces behind a pixel: the one beyond the edge in that direction, and the one
+  // beyond the next edge, if a view can see that far behind the pixel.
   void LookBehind(int x, int y, const Direction& towards, std::vector<Background>* found) const {
     const int next = NextEdge(x, y, towards);
     if (next == 0) return;
@@ -238,17 +242,18 @@ class SurfaceFinder {
     found->push_back(background);
   }
 
-  // Whether a nearer pixel, by more than half a pixel, comes to lie within 3/4 of a pixel of the
-  // pixel's background, of disparity `far`, in a captured view. Pixels that can lie in a line from
-  // the pixel in the view's direction, the nearest ones to it. Views near the centre one see as
-  // little as it.
+  // Returns true if a nearer pixel covers the pixel's background in a captured view. Such a pixel
+  // is nearer than `far`, the disparity of the background, by more than half a pixel. It lies
+  // within 3/4 of a pixel of the background in that view. The candidates lie on a line that starts
+  // at the pixel and points towards the view. Views close to the centre view see no more than the
+  // centre view.
   bool IsCovered(int x, int y, int far, const Position& view) const {
     const auto [u, v] = view;
     const int size = std::max(std::abs(u), std::abs(v));
     const int unit = (unit_ * kViewUnit + size / 2) / size;
     if (unit > starfocus::simd::kMostUnit) return true;
     const auto along = [&](int m, int axis) {
-      const int steps = std::abs(axis) * kViewUnit;  // of m / size, rounded to parts of kViewUnit
+      const int steps = std::abs(axis) * kViewUnit;  // slope of the line, in 1/kViewUnit
       const int slant =
           std::abs(axis) == size ? kViewUnit : int((int64_t{steps} + size / 2) / size);
       return int(std::floor(double(m) * (axis < 0 ? -slant : slant) / kViewUnit + 0.5));
@@ -261,7 +266,7 @@ class SurfaceFinder {
     }
   }
 
-  // The background's colour: the mean over all directions that tie.
+  // Returns the background's colour: the mean over all directions of equal rank.
   Colour MeanColour(int x, int y, const Background& best,
                     const std::vector<Background>& backgrounds) const {
     Colour sum = {0, 0, 0};
@@ -278,7 +283,7 @@ class SurfaceFinder {
 
   Colour ColourOf(int x, int y, const Background& background) const {
     const auto& [dx, dy] = background.towards;
-    if (!background.captured) {  // the far side goes on
+    if (!background.captured) {  // the far side continues
       return extended_
           .colours[extended_.At(x + dx * background.distance, y + dy * background.distance)];
     }
@@ -292,7 +297,7 @@ class SurfaceFinder {
   const Picture& extended_;
   const Lens& lens_;
   const int x0_, y0_;
-  const int unit_;  // disparity by which pixels move by one from unit to unit
+  const int unit_;  // disparity that moves a pixel by one pixel per unit of u
 };
 
 }  // namespace

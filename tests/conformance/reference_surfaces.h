@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reference's surfaces: what the pixels of an extended rectangle show, and what lies behind.
+// Finds the visible and the hidden surfaces of an extended rectangle, in the reference.
 #ifndef STARFOCUS_TESTS_CONFORMANCE_REFERENCE_SURFACES_H_
 #define STARFOCUS_TESTS_CONFORMANCE_REFERENCE_SURFACES_H_
 
@@ -12,29 +12,29 @@
 namespace reference {
 
 struct Surface {
-  int disparity;  // 1/64
+  int disparity;  // in 1/64
   Colour colour;
-  double share = 1;   // of the pixel; what is behind it has the rest
-  bool ends = false;  // beside a depth edge
-  // Behind an edge that no captured view looks behind: the pixels that it repeats lie so
-  // far away in these directions.
+  double share = 1;   // share of the pixel; surfaces behind it get the rest
+  bool ends = false;  // true beside a depth edge
+  // Distance and directions of the pixels that are repeated here, if no captured view sees behind
+  // the edge.
   int repeated = 0;
   std::vector<Direction> towards = {};
 };
 
-// The surfaces at each pixel, the nearest first.
+// Surfaces of each pixel, the nearest first.
 struct SurfaceMap {
   int width, height;
   std::vector<std::vector<Surface>> pixels;
 
-  // Beyond the map its outermost pixels go on.
+  // Returns the surfaces of a pixel. Beyond the map its outermost pixels are repeated.
   const std::vector<Surface>& At(int x, int y) const {
     return pixels[size_t(std::clamp(y, 0, height - 1)) * size_t(width) +
                   size_t(std::clamp(x, 0, width - 1))];
   }
 };
 
-// Those of an extended rectangle at (x0, y0) of the layer.
+// Finds the surfaces of an extended rectangle at (x0, y0) of the layer.
 SurfaceMap FindLayeredDepth(const LightField& field, const Picture& extended, const Lens& lens,
                             int x0, int y0);
 

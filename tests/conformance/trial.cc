@@ -16,7 +16,7 @@ double OneOf(std::initializer_list<double> values, test::Random* random) {
   return values.begin()[random->Int(0, int(values.size()) - 1)];
 }
 
-// Every other pixel, or rectangle of pixels, is near.
+// Makes pixels, or rectangles of pixels, alternately near and far.
 void Alternate(test::Scene* scene, test::Random* random) {
   const int step_x = random->Int(1, 5), step_y = random->Int(1, 5);
   for (int y = 0; y < scene->height; ++y) {
@@ -27,8 +27,8 @@ void Alternate(test::Scene* scene, test::Random* random) {
   }
 }
 
-// What is near has one colour, what is far another, in all views and but for a little noise: edges
-// whose pixels may be any mixture of both.
+// Gives near pixels one colour and far pixels another, in all views, with a little noise. Pixels at
+// edges may then be any mixture of both.
 void TwoColours(test::Scene* scene, test::Random* random) {
   const int noise = 1 << random->Int(0, 6);
   const float middle = 0.5F * (scene->disparity_min + scene->disparity_max);
@@ -49,7 +49,7 @@ void TwoColours(test::Scene* scene, test::Random* random) {
   }
 }
 
-// All views show the same picture.
+// Copies the centre view to all views.
 void RepeatCentre(test::Scene* scene) {
   for (auto& picture : scene->pictures) picture = scene->pictures[0];
 }
@@ -76,7 +76,7 @@ test::Scene AnyScene(test::Random* random) {
   return scene;
 }
 
-// A radius of few pixels as often as of many.
+// Returns a random radius. Small radii are more frequent than large ones.
 double LargestRadius(bool wide, test::Random* random) {
   const double part = random->Unit();
   return (wide ? 40 : 6) * part * part;
@@ -112,9 +112,9 @@ void SetConfig(Trial* trial, test::Random* random) {
   config = test::ConfigFor(trial->scene, std::max(0.5, radius));
   config.superblock = random->Int(0, 3) == 0 ? 64 : 32;
   config.tuning.max_layer = random->Int(0, STARFOCUS_LAYERS - 1);
-  config.tuning.deblocking = 0;  // a decision by thresholds; deblock_test has it
+  config.tuning.deblocking = 0;  // makes decisions by thresholds; deblock_test tests it
   config.tuning.gather = random->Int(0, 3) == 0 ? 0 : 1;
-  // A cheap or a dear block makes the partition fine or coarse.
+  // A cheap block makes the partition fine, an expensive block makes it coarse.
   if (random->Int(0, 1) == 0) config.tuning.timing.block = 1u << random->Int(0, 26);
   if (random->Int(0, 1) == 0) {
     trial->params.lens.theta = OneOf({STARFOCUS_MIN_THETA, STARFOCUS_MAX_THETA,

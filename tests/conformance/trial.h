@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random light fields and lenses of all kinds, each known by its seed, on which the engine is held
-// to the double-precision reference.
+// Random light fields and lenses of all kinds, each identified by its seed. The tests compare the
+// engine with the double-precision reference on them.
 #ifndef STARFOCUS_TESTS_CONFORMANCE_TRIAL_H_
 #define STARFOCUS_TESTS_CONFORMANCE_TRIAL_H_
 
@@ -21,14 +21,15 @@ struct Trial {
   std::string Text() const;
 };
 
-// `anywhere`: its views, by the rule of subapertures, are any number at any positions, else a star.
+// Makes the trial of a seed. With `anywhere`, a trial by the rule of subapertures has any number of
+// views at any positions instead of a star.
 Trial MakeTrial(uint64_t seed, bool anywhere);
 
-// Gray levels that the engine may be from the reference: highlights are added to codes, which are
-// rounded before and after it.
+// Returns the largest allowed difference in gray levels. Highlights are added to codes, which are
+// rounded before and after the addition.
 int MostLevels(const Trial& trial);
 
-// How far the engine is from the reference, which is given the engine's partition.
+// Returns the distance of the engine from the reference, which gets the engine's partition.
 Distance Measure(const Trial& trial);
 
 }  // namespace conformance

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The engine against the double-precision reference on random trials: at most one gray level apart.
+// Compares the engine with the double-precision reference on random trials: samples differ by at
+// most one gray level.
 #include <doctest/doctest.h>
 
 #include <cstdint>
@@ -19,7 +20,7 @@ struct Pinned {
   const char* what;
 };
 
-// Seeds that were once more than a level apart, and why.
+// Seeds that once differed by more than a level, and the reasons.
 constexpr Pinned kPinned[] = {
     {1503, "a share of a mixture rounded twice parts a pixel that is whole: 11 levels"},
     {1606, "the same where two surfaces are in front: 4 levels"},
@@ -32,7 +33,7 @@ constexpr Pinned kPinned[] = {
     {7700777, "lamps through subapertures on the rim, by other points than the engine's: 3 levels"},
 };
 
-TEST_CASE("trials: what once differed from the reference") {
+TEST_CASE("trials: seeds that once failed match the reference") {
   for (const Pinned& pinned : kPinned) {
     const Trial trial = MakeTrial(pinned.seed, false);
     CAPTURE(pinned.what);
@@ -41,9 +42,9 @@ TEST_CASE("trials: what once differed from the reference") {
   }
 }
 
-// With STARFOCUS_TRIALS=FIRST:COUNT it tries those seeds, as many as one has time for.
-TEST_CASE("trials: random light fields and lenses") {
-  // What sanitizers see of the engine they see in a few of the trials.
+// STARFOCUS_TRIALS=FIRST:COUNT selects other seeds, for longer runs.
+TEST_CASE("trials: random light fields and lenses match the reference") {
+  // A few trials suffice for sanitizers.
 #if defined(__SANITIZE_ADDRESS__)
   unsigned first = 1, count = 60;
 #else
