@@ -20,7 +20,7 @@ std::string TypeOf(const XmpNode& xmp) {
 
 bool IsMap(const std::string& type) { return type == "disparity" || type == "depth"; }
 
-// The XMP of an auxiliary picture; one that is not well-formed is none.
+// Parses the XMP of an auxiliary picture. Packets that are not well-formed are skipped.
 XmpNode ReadPackets(const JpegParts& parts) {
   XmpNode root;
   for (const Span& packet : parts.xmp) {

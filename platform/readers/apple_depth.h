@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Apple's auxiliary pictures: what their XMP says of a depth map, in HEIC and in JPEG files, and
-// where they lie in a JPEG file.
+// Reads depth maps that are stored as Apple's auxiliary pictures: interprets their XMP, in HEIC and
+// in JPEG files, and finds them in JPEG files.
 #ifndef STARFOCUS_PLATFORM_READERS_APPLE_DEPTH_H_
 #define STARFOCUS_PLATFORM_READERS_APPLE_DEPTH_H_
 
@@ -11,12 +11,12 @@
 
 namespace starfocus {
 
-// From levels to inverse distances, by the XMP of the auxiliary picture. Where it has no range, or
-// one that is no range, the map becomes an order.
+// Converts the levels of the map to inverse distances, by the XMP of the auxiliary picture. If the
+// XMP has no valid range, the map becomes an order (MapMeaning::kOrder).
 void UnderstandApple(const XmpNode& xmp, DepthPhoto* photo);
 
-// Reads the map of disparities or depths among the pictures behind the first one, if there is one,
-// into a photo whose picture is there. A gain map is told as a fact.
+// Reads the first map of disparities or depths among the pictures after the primary one, if any.
+// `photo` already has its picture. Adds a fact about a gain map.
 Error ReadAppleJpeg(Span file, const JpegParts& parts, DepthPhoto* photo);
 
 }  // namespace starfocus

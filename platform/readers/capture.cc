@@ -46,7 +46,7 @@ Result<Capture> OpenOwn(const std::string& folder, const Names& names) {
   if (Error error = FindViewFiles(folder).MoveTo(&capture.files)) return error;
   if (HasDisparity(folder)) capture.map_path = DisparityPath(folder);
   capture.coverage_path = CoveragePath(folder);
-  // Unknown disparities of a pair are infinite.
+  // In stereo pairs, infinite disparities are unknown.
   if (Has(names, "im0.png")) capture.care = MapCare::kFill;
   if (!Has(names, "im0.png") || !Has(names, "calib.txt")) return capture;
   if (Error error = ReadMiddlebury(folder, &capture)) return error;
@@ -86,14 +86,14 @@ Result<Capture> OpenFolder(const std::string& folder) {
   return IsHci(*names) ? OpenHci(folder, *names) : OpenArray(folder, pictures);
 }
 
-// Takes the two views of a stereo pair, which have no map.
+// Moves the two views of a stereo pair to the capture. A pair has no map.
 void TakePair(const std::string& path, DepthPhoto* photo, Capture* capture) {
   capture->files = {{{0, 0}, path}, {{1, 0}, path}};
   capture->light_field.positions = {{0, 0}, {1, 0}};
   capture->light_field.views = {std::move(photo->picture), std::move(photo->right)};
 }
 
-// The pixel at a share of the width or height, from 0 to 1.
+// Returns the pixel at a fraction of the width or height, in [0, 1].
 int PixelAt(double share, int pixels) {
   return std::min(static_cast<int>(share * pixels), pixels - 1);
 }
@@ -134,7 +134,7 @@ Result<Capture> OpenPhoto(const std::string& path, const CaptureOptions& options
   return capture;
 }
 
-// Leaves the chosen ones of views that are loaded.
+// Keeps only the chosen views of a light field.
 void SelectViews(const std::vector<ViewFile>& chosen, LightField* light_field) {
   LightField result;
   for (const ViewFile& file : chosen) {
@@ -147,7 +147,7 @@ void SelectViews(const std::vector<ViewFile>& chosen, LightField* light_field) {
   *light_field = std::move(result);
 }
 
-// Loads the map of views that are there.
+// Loads the map for views that are already loaded.
 Error LoadMapOf(Capture* capture) {
   if (LowerExtension(capture->map_path) != ".pfm") return LoadGreyMap(capture);
   Error error = LoadMap(capture->map_path, &capture->light_field);

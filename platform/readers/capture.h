@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whatever people have that can be refocused: a folder of views in one of several layouts, or a
-// photograph with a depth map. Which it is, is told by what is there.
+// Opens any input that can be refocused: a folder of views in one of several layouts, or a
+// photograph with a depth map. The content decides which of them it is.
 #ifndef STARFOCUS_PLATFORM_READERS_CAPTURE_H_
 #define STARFOCUS_PLATFORM_READERS_CAPTURE_H_
 
@@ -13,46 +13,47 @@
 
 namespace starfocus {
 
-// What a map of this format wants before it is used.
+// Processing that a map of this format needs before use.
 enum class MapCare { kNone, kFill, kRepair };
 
 struct CaptureOptions {
-  std::string depth;       // a depth picture for a photograph; empty: what is in or beside it
-  DepthOptions map;        // how that picture is read
-  bool small_map = false;  // the map of a photo keeps its own size until LoadCapture
+  std::string depth;  // depth picture of a photograph; empty: the one in the file or next to it
+  DepthOptions map;   // how to read that picture
+  bool small_map = false;  // keep the map of a photo at its own size until LoadCapture
 };
 
 struct Capture {
   std::string path, format;
-  bool photo = false;           // one file and one view
-  std::vector<ViewFile> files;  // of the views, the centre first
-  std::string map_path;         // where the map is, for errors too; empty: there is none
-  std::string coverage_path;    // where the coverage is; empty: there is none
-  double map_scale = 1;         // what the numbers of the map's file are multiplied by
+  bool photo = false;           // one file with one view
+  std::vector<ViewFile> files;  // files of the views, the centre first
+  std::string map_path;         // file of the map, also for errors; empty: none
+  std::string coverage_path;    // file of the coverage; empty: none
+  double map_scale = 1;         // factor of the values in the map's file
   MapCare care = MapCare::kNone;
-  double widest = 0;  // f-stop of an aperture of radius 1; 0: nobody knows
-  double f_stop = 0;  // to be used where no other is asked for; 0: the widest
+  double widest = 0;  // f-stop of an aperture of radius 1; 0: unknown
+  double f_stop = 0;  // default f-stop; 0: the widest
   bool has_focus = false;
-  int focus_x = 0, focus_y = 0;  // the pixel that the format says is in focus
+  int focus_x = 0, focus_y = 0;  // pixel in focus by the format
   bool has_subject = false;
-  int subject_x = 0, subject_y = 0;  // the pixel of the subject that EXIF names
-  double focus = NAN;                // or the disparity
+  int subject_x = 0, subject_y = 0;  // pixel of the subject by EXIF
+  double focus = NAN;                // disparity in focus; NaN: unknown
   Metadata metadata;
   Facts facts;
   std::vector<std::string> notes;
-  LightField light_field;  // of a photo or a pair in one file from the beginning
+  LightField light_field;  // set by OpenCapture for a photo or a pair in one file
 };
 
-// Finds out what `path` is; "-" is a photograph on standard input. Of a photograph everything is
-// read, of a folder its list of files and what lies beside the pictures. The error says what was
-// found and what is missing.
+// Opens `path`; "-" is a photograph on standard input. A photograph is read completely. Of a
+// folder, only the list of files and the files next to the pictures are read. The error states what
+// was found and what is missing.
 Result<Capture> OpenCapture(const std::string& path, const CaptureOptions& options);
 
-// Reads the views at the positions wanted, or all if none are, and the map and the coverage if
-// there are any. Views are decoded several at a time on `runner`; null: one after the other.
+// Reads the views at the positions `wanted`, or all views if it is empty, and the map and the
+// coverage if they exist. `runner` decodes several views at a time; if it is null, the calling
+// thread decodes them all.
 Error LoadCapture(const Positions& wanted, Capture* capture, ThreadRunner* runner = nullptr);
 
-// Every file that is read for it, as far as it is open.
+// Returns the paths of all input files that are known so far.
 std::vector<std::string> CaptureFiles(const Capture& capture);
 
 }  // namespace starfocus

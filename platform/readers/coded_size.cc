@@ -8,7 +8,7 @@
 namespace starfocus {
 namespace {
 
-// Numbers of bits; zeros follow the last one, and `good` is false then.
+// Reads numbers of a given count of bits. After the end it returns zeros, and `good` is false.
 class Bits {
  public:
   explicit Bits(Span bytes) : bytes_(bytes) {}
@@ -23,7 +23,7 @@ class Bits {
     return value;
   }
   void Skip(size_t count) { at_ += count; }
-  // Exponential Golomb code (23008-2, 9.2), as AV1's uvlc().
+  // Reads an exponential Golomb code (23008-2, 9.2), which equals AV1's uvlc().
   uint32_t ReadGolomb() {
     int zeros = 0;
     while (good() && zeros < 32 && Read(1) == 0) ++zeros;
@@ -40,7 +40,7 @@ void Widen(int64_t width, int64_t height, CodedSize* most) {
   most->height = std::max(most->height, height);
 }
 
-// A NAL unit without the bytes that keep start codes out of it.
+// Returns a NAL unit without its emulation prevention bytes.
 Bytes Unescape(Span unit) {
   Bytes bytes;
   size_t zeros = 0;
@@ -55,7 +55,7 @@ Bytes Unescape(Span unit) {
   return bytes;
 }
 
-// 23008-2, 7.3.2.2, up to the size.
+// Reads a sequence parameter set (23008-2, 7.3.2.2) up to the size.
 void ReadParameterSet(Span unit, CodedSize* most) {
   constexpr int kSequenceSet = 33;
   if (unit.size < 2 || (unit.data[0] >> 1 & 63) != kSequenceSet) return;
@@ -63,7 +63,7 @@ void ReadParameterSet(Span unit, CodedSize* most) {
   const Bytes bytes = Unescape(unit);
   Bits bits({bytes.data(), bytes.size()});
   bits.Skip(16 + 4);
-  const uint32_t layers = bits.Read(3);  // beside the first
+  const uint32_t layers = bits.Read(3);  // number of sub-layers minus 1
   bits.Skip(1 + 88 + 8);                 // profile and level
   size_t more = 0;
   for (uint32_t k = 0; k < layers; ++k) {
@@ -72,18 +72,18 @@ void ReadParameterSet(Span unit, CodedSize* most) {
   }
   if (layers > 0) bits.Skip(2 * (8 - layers));
   bits.Skip(more);
-  bits.ReadGolomb();                         // number of the set
-  if (bits.ReadGolomb() == 3) bits.Skip(1);  // colour planes apart
+  bits.ReadGolomb();                         // identifier of the set
+  if (bits.ReadGolomb() == 3) bits.Skip(1);  // separate colour planes
   const uint32_t own_width = bits.ReadGolomb(), own_height = bits.ReadGolomb();
   if (bits.good()) Widen(own_width, own_height, most);
 }
 
-// AV1 specification, 5.5.1, up to the size.
+// Reads a sequence header (AV1 specification, 5.5.1) up to the size.
 void ReadSequenceHeader(Span header, CodedSize* most) {
   Bits bits(header);
   bits.Skip(3 + 1);
   if (bits.Read(1) != 0) {
-    bits.Skip(5);  // of a still picture: its level
+    bits.Skip(5);  // level of a still picture
   } else {
     bool model = false;
     uint32_t delay_bits = 0;
@@ -112,7 +112,8 @@ void ReadSequenceHeader(Span header, CodedSize* most) {
   if (bits.good()) Widen(own_width, own_height, most);
 }
 
-// AV1 specification, 5.3: a header, its size in groups of seven bits, and what it is of.
+// Reads OBUs (AV1 specification, 5.3). Each has a header, an optional size in LEB128, and a
+// payload.
 void ReadUnits(Span units, CodedSize* most) {
   constexpr int kSequenceHeader = 1;
   while (units.size >= 2) {
@@ -128,7 +129,7 @@ void ReadUnits(Span units, CodedSize* most) {
       }
     }
     if (at > units.size) return;
-    const size_t held = std::min(size, units.size - at);  // the head of an item may cut it
+    const size_t held = std::min(size, units.size - at);  // `head` may cut the last unit
     if ((first >> 3 & 15) == kSequenceHeader) {
       ReadSequenceHeader({units.data + at, held}, most);
     }
@@ -138,7 +139,7 @@ void ReadUnits(Span units, CodedSize* most) {
 
 }  // namespace
 
-// 14496-15, 8.3.3.1: 22 bytes, then arrays of units.
+// Format of hvcC: 22 bytes, then arrays of NAL units (14496-15, 8.3.3.1).
 CodedSize HevcSize(Span configuration, const Bytes& head) {
   CodedSize most;
   constexpr size_t kArrays = 22;
@@ -156,7 +157,7 @@ CodedSize HevcSize(Span configuration, const Bytes& head) {
       at += size;
     }
   }
-  for (size_t from = 0; from + 4 < head.size();) {  // units with their size in four bytes
+  for (size_t from = 0; from + 4 < head.size();) {  // units with a size of four bytes
     const size_t size = ReadBigEndian32(&head[from]);
     from += 4;
     const size_t held = std::min(size, head.size() - from);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sizes of pictures in the headers of HEVC and AV1.
+// Reads picture sizes from the headers of HEVC and AV1 data, without decoding it.
 #ifndef STARFOCUS_PLATFORM_READERS_CODED_SIZE_H_
 #define STARFOCUS_PLATFORM_READERS_CODED_SIZE_H_
 
@@ -10,14 +10,15 @@
 namespace starfocus {
 
 struct CodedSize {
-  int64_t width = 0, height = 0;  // 0: none that can be read
+  int64_t width = 0, height = 0;  // 0: not found
 };
 
-// The largest size of the sequence parameter sets in a decoder configuration record (hvcC) and at
-// the beginning of a picture's data.
+// Returns the largest size of all sequence parameter sets in a decoder configuration record (hvcC)
+// and at the start of a picture's data.
 CodedSize HevcSize(Span configuration, const Bytes& head);
 
-// The largest size of the sequence headers of AV1 (av1C).
+// Returns the largest size of all AV1 sequence headers, in the configuration (av1C) and at the
+// start of a picture's data.
 CodedSize Av1Size(Span configuration, const Bytes& head);
 
 }  // namespace starfocus

@@ -14,7 +14,7 @@ namespace {
 
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
-// The mean of a third of the map.
+// Returns the mean of the known values in rows from `from` to `to` - 1.
 double MeanOfRows(const FloatMap& map, int from, int to) {
   double sum = 0, count = 0;
   for (int y = from; y < to; ++y) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the levels of a depth picture, 0 to 1, to what they stand for.
+// Converts the levels of a depth picture, 0 to 1, to inverse distances or an order.
 #ifndef STARFOCUS_PLATFORM_READERS_DEPTH_LEVELS_H_
 #define STARFOCUS_PLATFORM_READERS_DEPTH_LEVELS_H_
 
@@ -11,29 +11,31 @@
 
 namespace starfocus {
 
-// A distance range, 0 < near < far; far may be infinite if `inverse`.
+// A distance range with 0 < near < far. `far` may be infinite if `inverse` is true.
 struct DepthRange {
-  bool inverse = true;  // levels are linear in 1 / distance, or in the distance
+  bool inverse = true;  // levels are linear in 1 / distance; otherwise in the distance
   double near = 0, far = 0;
 };
 
-// Level 0 is `near` away, level 1 `far`: distances become their inverse.
+// Converts levels to inverse distances. Level 0 has the distance `near`, level 1 the distance
+// `far`.
 void ToInverse(const DepthRange& range, FloatMap* map);
 
-// Level 0 becomes `low`, level 1 `high`.
+// Maps level 0 to `low` and level 1 to `high`, linearly.
 void ToRange(double low, double high, FloatMap* map);
 
-// Distances become their inverse; what is not in front of the camera is unknown.
+// Replaces distances by their inverse. Distances that are not positive become unknown.
 void Invert(FloatMap* map);
 
-// Makes larger nearer in a map that tells only an order. Where nobody says which end is near it is
-// guessed, which is noted: what is low in a photograph is nearer than what is high.
+// Inverts a map that has only an order if necessary, so that larger values are nearer. If `near` is
+// kUnknown, the near end is guessed and noted: the bottom of a photograph is usually nearer than
+// its top.
 void ToOrder(Near near, DepthPhoto* photo);
 
-// A fact about the map as the file has it.
+// Adds a fact about the map as the file stores it.
 void TellMap(const std::string& text, DepthPhoto* photo);
 
-// The picture, EXIF and ICC of a JPEG file and its parts.
+// Decodes the picture of a JPEG file and takes EXIF and the ICC profile from `parts`.
 Result<DepthPhoto> ReadJpegPicture(const std::string& where, Span file, const JpegParts& parts);
 
 }  // namespace starfocus

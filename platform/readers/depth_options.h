@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a user says about a depth picture that the picture does not say itself.
+// Options of the user about a depth picture, for properties that its file does not state.
 #ifndef STARFOCUS_PLATFORM_READERS_DEPTH_OPTIONS_H_
 #define STARFOCUS_PLATFORM_READERS_DEPTH_OPTIONS_H_
 
@@ -7,32 +7,33 @@
 
 namespace starfocus {
 
-// Which end of a depth picture is near.
+// End of the range of a depth picture that is near.
 enum class Near { kUnknown, kWhite, kBlack };
 
-// What the numbers of a depth picture are.
+// Unit of the values of a depth picture.
 enum class DepthUnit {
-  kNone,    // an order
-  kMetres,  // distances
-  kMillimetres,
-  kDisparity,  // pixels of the photo, at an aperture of radius 1
+  kNone,         // only an order
+  kMetres,       // distances in metres
+  kMillimetres,  // distances in millimetres
+  kDisparity,    // disparities: pixels of the photo for an aperture of radius 1
 };
 
-// How a depth picture stands in its file.
+// Orientation of a depth picture in its file.
 enum class DepthOrientation {
-  kUnknown,  // decided by the edges of photo and map
-  kPhoto,    // as the pixels in the photo's file: EXIF's orientation turns both
-  kUpright,  // as the photo after it is turned
+  kUnknown,  // decided by comparing the edges of photo and map
+  kPhoto,    // same as the photo's file: EXIF's orientation applies to both
+  kUpright,  // same as the photo after EXIF's orientation is applied
 };
 
 struct DepthOptions {
   Near near = Near::kUnknown;
   DepthUnit unit = DepthUnit::kNone;
   DepthOrientation orientation = DepthOrientation::kUnknown;
-  // Values that stand for an unknown depth. Without them, 0 and 65535 of 16 bits are judged.
+  // Values that mean an unknown depth. If there are none, MarkUnknown decides about 0 and 65535 in
+  // 16-bit maps.
   bool has_unknown = false;
   std::vector<double> unknown;
-  bool use_alpha = true;  // transparent pixels are unknown
+  bool use_alpha = true;  // treat transparent pixels as unknown
 };
 
 }  // namespace starfocus

@@ -32,7 +32,7 @@ void IgnoreXmp(const Error& error, DepthPhoto* photo) {
   if (photo->map_problem.empty()) photo->map_problem = error.line();
 }
 
-// Adds a packet to those under `root`. A packet that cannot be read is ignored, which a note says.
+// Adds a packet to the children of `root`. An unreadable packet is ignored with a note.
 void AddPacket(const std::string& name, const char* text, size_t size, XmpNode* root,
                DepthPhoto* photo) {
   Result<XmpNode> packet = ParseXmp(name + " is ignored", text, size);
@@ -40,8 +40,8 @@ void AddPacket(const std::string& name, const char* text, size_t size, XmpNode* 
   root->children.push_back(std::move(*packet));
 }
 
-// Reads the packets of a JPEG file: those of its segments, and then the extended ones that they
-// name, or all of them.
+// Parses the XMP of a JPEG file: the packets of its segments, then the extended XMP. If `all` is
+// false, only the extended XMP that a packet refers to is read.
 XmpNode ReadXmp(const JpegParts& parts, bool all, DepthPhoto* photo) {
   XmpNode root;
   if (!CanReadXmp()) return root;
@@ -65,7 +65,7 @@ XmpNode ReadXmp(const JpegParts& parts, bool all, DepthPhoto* photo) {
   return root;
 }
 
-// Reads the map by the first of the formats whose map can be read.
+// Reads the map by the first format that succeeds.
 void ReadMap(Span file, const JpegParts& parts, const XmpNode& xmp, Near near, DepthPhoto* photo) {
   const auto read = [photo](const Error& error) {
     if (error) photo->map = {};
@@ -89,7 +89,7 @@ Result<DepthPhoto> DecodeJpegPhoto(const std::string& where, Span file, bool wit
   return photo;
 }
 
-// What a map within the photo says about itself, no option overrides.
+// Returns an error if an option would override a property that the map in the photo states.
 Error CheckOptions(const std::string& path, const DepthOptions& options) {
   const char* option = options.unit != DepthUnit::kNone                    ? "--depth-unit"
                        : options.has_unknown                               ? "--unknown"
@@ -100,8 +100,8 @@ Error CheckOptions(const std::string& path, const DepthOptions& options) {
                   "a map in the photo");
 }
 
-// Reads the map from extended XMP that no packet names, as an editor leaves it that writes the
-// packet anew. By the specification it does not count, so that every other map comes first.
+// Reads the map from extended XMP that no packet refers to. Editors that rewrite the packet leave
+// such XMP. The specification says to ignore it, so all other maps take precedence.
 bool ReadStrayMap(Span file, Near near, DepthPhoto* photo) {
   if (!IsJpeg(file)) return false;
   const Result<JpegParts> parts = ReadJpegParts("", file);
@@ -124,7 +124,7 @@ Error NoMap(const std::string& path, const std::string& problem) {
       path, "a depth map in the file, beside it as NAME-depth.png or .jpg, or by --depth", found);
 }
 
-// Leaves of the packet of a PNG or WebP file what describes the photograph.
+// Reduces the XMP packet of a PNG or WebP file to the properties that describe the photograph.
 void KeepCaptions(DepthPhoto* photo) {
   const std::string packet = std::move(photo->metadata.xmp);
   photo->metadata.xmp.clear();
@@ -134,7 +134,7 @@ void KeepCaptions(DepthPhoto* photo) {
   photo->metadata.xmp = KeptXmp(*root);
 }
 
-// Notes why the map in the file is not used, unless a note says so already.
+// Notes why the map in the file is not used, unless there is already such a note.
 void NoteProblem(DepthPhoto* photo) {
   const std::string& problem = photo->map_problem;
   const std::vector<std::string>& notes = photo->notes;
@@ -160,7 +160,7 @@ Result<DepthPhoto> DecodeDepthPhoto(const std::string& where, Span file, bool wi
 
 Result<DepthPhoto> ReadDepthPhotoFile(const std::string& path, const DepthOptions& options,
                                       const std::string& depth) {
-  const bool stream = path == "-";  // no depth picture lies beside it
+  const bool stream = path == "-";  // a stream has no neighbouring depth picture
   const std::string where = InputName(path);
   const Result<Bytes> bytes = ReadFileIf(path, MayBePicture);
   if (!bytes) return bytes.error();

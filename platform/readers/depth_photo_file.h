@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A photograph's file of any format, and which of the formats its depth map is in.
+// Reads a photograph with a depth map from a file of any supported format.
 #ifndef STARFOCUS_PLATFORM_READERS_DEPTH_PHOTO_FILE_H_
 #define STARFOCUS_PLATFORM_READERS_DEPTH_PHOTO_FILE_H_
 
@@ -11,16 +11,16 @@
 
 namespace starfocus {
 
-// Reads a photograph and its map: from the depth picture `depth` if that is named, else from within
-// the file, else from a depth picture beside it. Where there is no map, the file may be a stereo
-// pair: `right` of the photo is its other picture then. What cannot be read but is not needed is
-// ignored, which the notes of the photo say. `options` are about the depth picture: an option
-// beyond the near end is an error for a map within the file.
+// Reads a photograph and its map. The map comes from the depth picture `depth` if that is not
+// empty, otherwise from the file, otherwise from a depth picture next to it. If there is no map,
+// the file may be a stereo pair; then photo.right is the right picture. Damaged optional data is
+// ignored with a note. `options` apply to a depth picture: with a map in the file, any option
+// except `near` is an error.
 Result<DepthPhoto> ReadDepthPhotoFile(const std::string& path, const DepthOptions& options,
                                       const std::string& depth);
 
-// The same of bytes in memory, without what lies beside: the map is empty if they have none that
-// can be read.
+// Decodes a photograph in memory, and its map if `with_map` is true. The map is empty if the file
+// has none that can be read.
 Result<DepthPhoto> DecodeDepthPhoto(const std::string& where, Span file, bool with_map, Near near);
 
 }  // namespace starfocus

@@ -10,19 +10,21 @@
 namespace starfocus {
 namespace {
 
-std::string Lower(const std::string* text) { return text == nullptr ? "" : starfocus::Lower(*text); }
+std::string Lower(const std::string* text) {
+  return text == nullptr ? "" : starfocus::Lower(*text);
+}
 
 std::string Quoted(const std::string* text) {
   return text == nullptr ? "absent" : "'" + text->substr(0, 40) + "'";
 }
 
-// How many metres a unit of distance is; 0 for an unknown one.
+// Returns the number of metres per unit of distance, or 0 if the unit is unknown.
 double MetresOf(const std::string& units) {
   if (units == "m" || units == "meters") return 1;
   return units == "mm" || units == "millimeters" ? 0.001 : 0;
 }
 
-// A number, which may be infinite; NaN for anything else.
+// Parses a number, which may be infinite. Returns NaN for any other text.
 double NumberOf(const std::string* text) {
   if (text == nullptr || text->empty()) return NAN;
   char* end = nullptr;
@@ -59,7 +61,8 @@ double ApplyRange(const RangeProperties& properties, Near near, DepthPhoto* phot
   if (std::isinf(range.far)) {
     photo->notes.push_back("the depth map's far end is infinite: its white is infinitely far away");
   }
-  // Cameras write it with distances that decrease towards the lens; diopters would increase.
+  // Some cameras write "diopters" but store values that decrease towards the lens, as distances do.
+  // Real diopters would increase.
   if (units == "diopters") {
     photo->notes.push_back(
         "the depth map's unit, diopters, is ignored: near and far are distances up to a factor");

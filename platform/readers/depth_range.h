@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Depth ranges of Google's formats: what the levels of a map stand for.
+// Depth ranges of Google's formats: the distances that the levels of a map represent.
 #ifndef STARFOCUS_PLATFORM_READERS_DEPTH_RANGE_H_
 #define STARFOCUS_PLATFORM_READERS_DEPTH_RANGE_H_
 
@@ -9,17 +9,17 @@
 
 namespace starfocus {
 
-// The properties of a range as the XMP has them; null where a property is absent.
+// Properties of a range as the XMP states them. A property is null if it is absent.
 struct RangeProperties {
   const std::string *format, *near, *far, *units;
 };
 
-// Replaces the levels of photo->map, 0 to 1, by inverse distances. The format is RangeInverse or
-// RangeLinear, and 0 < near < far; far may be infinite where levels are inverse. Level 0 is near.
-// Any other range is ignored: the map becomes an order, in which black is near unless `near` says
-// otherwise. A note says what was ignored.
+// Replaces the levels of photo->map, 0 to 1, by inverse distances. A valid range has the format
+// RangeInverse or RangeLinear, and 0 < near < far. `far` may be infinite if the format is
+// RangeInverse. Level 0 is near. An invalid range is ignored with a note: the map becomes an order,
+// in which black is near unless `near` is kWhite.
 //
-// @return how many metres a unit of distance is; 1 for unknown units, 0 if the map is an order.
+// @return metres per unit of distance; 1 if the unit is unknown, 0 if the map is an order
 double ApplyRange(const RangeProperties& range, Near near, DepthPhoto* photo);
 
 }  // namespace starfocus

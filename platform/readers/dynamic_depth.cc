@@ -17,11 +17,11 @@ namespace {
 constexpr size_t kMostItems = 64;
 constexpr uint8_t kPng[] = {0x89, 'P', 'N', 'G'};
 const std::string kMap = "http://ns.google.com/photos/dd/1.0/depthmap/|";
-// Items by the specification, and as later files of the same maker have them.
+// Namespaces of items: that of the specification, and that of later files by the same vendor.
 const std::string kItems[] = {"http://ns.google.com/photos/dd/1.0/item/|",
                               "http://ns.google.com/photos/1.0/container/item/|"};
 
-// A file behind the first picture, in the order of the directory.
+// An item of the directory: a picture in the file, in directory order.
 struct Item {
   std::string mime, uri, semantic;
   size_t length = 0, padding = 0;
@@ -32,7 +32,7 @@ std::string TextOf(const XmpNode& node, const std::string& name) {
   return text == nullptr ? "" : *text;
 }
 
-// A whole number of bytes that a file can have; 0 if it is not there or not such a number.
+// Returns a size in bytes, or 0 if the property is missing or is not a whole number up to `file`.
 size_t LengthOf(const XmpNode& node, const std::string& name, size_t file) {
   const double value = XmpNumber(OwnProperty(node, name)).value_or(0);
   const bool fits = value >= 0 && value <= static_cast<double>(file) && value == std::floor(value);
@@ -67,9 +67,10 @@ Span From(Span file, size_t at) {
   return at < file.size ? Span{file.data + at, file.size - at} : Span{};
 }
 
-// Where item `index` begins by the lengths of the directory: behind the first picture, or, where
-// something else was put between, as far from the end of the file as what follows it. Decoders skip
-// what lies behind the item. Empty if no picture begins there.
+// Finds item `index` by the lengths in the directory. The item starts where the lengths of the
+// items before it end. If other data was inserted, the lengths are counted from the end of the
+// file. Decoders ignore data after the item. Returns an empty span if no picture starts at either
+// position.
 Span FindByLengths(Span file, const JpegParts& parts, const std::vector<Item>& items,
                    size_t index) {
   size_t begin = parts.end + items[0].padding, behind = 0;
@@ -85,8 +86,9 @@ Span FindByLengths(Span file, const JpegParts& parts, const std::vector<Item>& i
   return {};
 }
 
-// Where the lengths are wrong: the first PNG file behind the picture, or the JPEG file that comes
-// as many pictures behind it as in the directory. Empty if there is none.
+// Finds item `index` if the lengths are wrong: the first PNG file after the primary picture, or the
+// JPEG file with the same position among JPEG files as in the directory. Returns an empty span if
+// none is found.
 Span FindByBeginning(Span file, const JpegParts& parts, const std::vector<Item>& items,
                      size_t index) {
   if (items[index].mime == "image/png") {
@@ -100,8 +102,8 @@ Span FindByBeginning(Span file, const JpegParts& parts, const std::vector<Item>&
   return jpeg < pictures.size() ? pictures[jpeg].file : Span{};
 }
 
-// The item that is the depth map, by its name or else by what it is; 0, the picture itself, if
-// there is none.
+// Returns the index of the depth map, by its name or otherwise by its semantic. Returns 0, the
+// index of the primary picture, if none is found.
 size_t FindDepth(const std::vector<Item>& items, const std::string* uri) {
   for (size_t k = 1; k < items.size() && uri != nullptr; ++k) {
     if (items[k].uri == *uri) return k;
@@ -112,7 +114,7 @@ size_t FindDepth(const std::vector<Item>& items, const std::string* uri) {
   return 0;
 }
 
-// The description of the map of depths; others are of segments.
+// Returns the description of the depth map. Other descriptions belong to segmentation maps.
 const XmpNode* FindMap(const XmpNode& xmp) {
   std::vector<const XmpNode*> nodes;
   for (const char* name : {"DepthURI", "Format", "Near"}) FindOwners(xmp, kMap + name, &nodes);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Dynamic Depth 1.0, Google's format since 2018: XMP in a JPEG file names pictures behind it and
-// says what they are.
+// Dynamic Depth 1.0, Google's format since 2018: XMP in a JPEG file lists the pictures that follow
+// the primary one, and their purpose.
 #ifndef STARFOCUS_PLATFORM_READERS_DYNAMIC_DEPTH_H_
 #define STARFOCUS_PLATFORM_READERS_DYNAMIC_DEPTH_H_
 
@@ -13,8 +13,8 @@ namespace starfocus {
 
 bool HasDynamicDepth(const XmpNode& xmp);
 
-// `near` counts only where the file does not say which end of the map is near.
-// Reads the map into a photo whose picture is there.
+// Reads the map. `photo` already has its picture. `near` applies only if the file does not state
+// which end of the map is near.
 Error ReadDynamicDepth(Span file, const JpegParts& parts, const XmpNode& xmp, Near near,
                        DepthPhoto* photo);
 

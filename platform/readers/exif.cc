@@ -12,9 +12,10 @@ namespace {
 
 #ifdef STARFOCUS_HAS_EXIF
 
-constexpr size_t kMostBytes = 65535;  // of a JPEG segment
+constexpr size_t kMostBytes = 65535;  // limit of a JPEG segment
 
-// Whole numbers of 16 or 32 bits, at most four; none when the tag is not there or another type.
+// Returns the 16-bit or 32-bit integers of a tag, at most four. Empty if the tag is missing or has
+// another type.
 std::vector<double> NumbersOf(ExifData* data, ExifIfd directory, ExifTag tag) {
   std::vector<double> numbers;
   ExifEntry* entry = exif_content_get_entry(data->ifd[directory], tag);
@@ -30,7 +31,7 @@ std::vector<double> NumbersOf(ExifData* data, ExifIfd directory, ExifTag tag) {
   return numbers;
 }
 
-// A whole number of 16 bits; 0 when the tag is not there or another type.
+// Returns a 16-bit integer, or 0 if the tag is missing or has another type.
 int ShortOf(ExifData* data, ExifIfd directory, ExifTag tag) {
   const ExifEntry* entry = exif_content_get_entry(data->ifd[directory], tag);
   const std::vector<double> numbers = NumbersOf(data, directory, tag);
@@ -38,8 +39,8 @@ int ShortOf(ExifData* data, ExifIfd directory, ExifTag tag) {
   return static_cast<int>(numbers[0]);
 }
 
-// A subject begins with the pixel of its centre; a circle's diameter or a rectangle's sides follow
-// (EXIF 2.32, 4.6.6.5).
+// Reads the subject. Its first two numbers are its centre; the diameter of a circle or the sides of
+// a rectangle may follow (EXIF 2.32, 4.6.6.5).
 void ReadSubject(ExifData* data, double width, double height, DepthPhoto* photo) {
   std::vector<double> subject = NumbersOf(data, EXIF_IFD_EXIF, EXIF_TAG_SUBJECT_AREA);
   if (subject.size() < 2) subject = NumbersOf(data, EXIF_IFD_EXIF, EXIF_TAG_SUBJECT_LOCATION);
@@ -47,7 +48,7 @@ void ReadSubject(ExifData* data, double width, double height, DepthPhoto* photo)
   const std::vector<double> y = NumbersOf(data, EXIF_IFD_EXIF, EXIF_TAG_PIXEL_Y_DIMENSION);
   if (subject.size() < 2 || !(width > 0 && height > 0)) return;
   if (x.size() == 1 && y.size() == 1 && x[0] > 0 && y[0] > 0) {
-    // A picture of another shape is a part, and EXIF does not say which.
+    // If the picture has other proportions, it was cropped, and EXIF does not state where.
     constexpr double kSameShape = 0.01;
     if (std::fabs(x[0] * height / (y[0] * width) - 1) > kSameShape) return;
     width = x[0];
@@ -72,7 +73,7 @@ void ReadExif(int width, int height, DepthPhoto* photo) {
   segment.insert(segment.end(), exif.begin(), exif.end());
   ExifData* data = exif_data_new();
   if (data == nullptr) return;
-  // As it stands: nothing is added or mended.
+  // Keep the data unchanged: do not add or correct entries.
   exif_data_unset_option(data, EXIF_DATA_OPTION_FOLLOW_SPECIFICATION);
   exif_data_load_data(data, segment.data(), static_cast<unsigned>(segment.size()));
   const int orientation = ShortOf(data, EXIF_IFD_0, EXIF_TAG_ORIENTATION);

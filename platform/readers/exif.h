@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What EXIF says of a photograph that matters to refocusing it.
+// Reads the EXIF properties of a photograph that refocusing needs.
 #ifndef STARFOCUS_PLATFORM_READERS_EXIF_H_
 #define STARFOCUS_PLATFORM_READERS_EXIF_H_
 
@@ -7,13 +7,13 @@
 
 namespace starfocus {
 
-// Reads photo->metadata.exif, if there is any, into `orientation`, `focal_35mm`, the subject
-// (SubjectArea, else SubjectLocation), and a fact. Damaged EXIF is none: people's photos have it,
-// and the picture is there. `width` and `height` are the picture's before its orientation is
-// applied: where EXIF has no size of its own, it counts the subject's pixels in these.
+// Reads photo->metadata.exif, if any, into `orientation`, `focal_35mm` and the subject
+// (SubjectArea, otherwise SubjectLocation), and adds a fact. Damaged EXIF is ignored, since the
+// picture is usable without it. `width` and `height` are those of the picture before its
+// orientation is applied. The subject's coordinates refer to them if EXIF states no size.
 void ReadExif(int width, int height, DepthPhoto* photo);
 
-// The same for a picture that is not turned yet.
+// Same, with the size of photo->picture, whose orientation is not applied yet.
 void ReadExif(DepthPhoto* photo);
 
 }  // namespace starfocus

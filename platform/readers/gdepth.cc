@@ -45,8 +45,8 @@ Error ReadMap(const XmpNode& xmp, Near near, DepthPhoto* photo) {
   return {};
 }
 
-// Turns inverse distances of a file that this program wrote into its disparities, for pixels of
-// photo->picture.
+// Converts the inverse distances of a file that this program wrote back to the original
+// disparities, in pixels of photo->picture.
 void ReadOwnDisparities(const XmpNode& xmp, DepthPhoto* photo) {
   const std::string own = std::string(kOwnNamespace) + "|";
   const auto low = XmpNumber(FindProperty(xmp, own + kFarDisparity));
@@ -64,8 +64,8 @@ void ReadOwnDisparities(const XmpNode& xmp, DepthPhoto* photo) {
   photo->is_ready = true;
 }
 
-// Replaces the picture, which is blurred already, by the sharp one inside. A sharp one that cannot
-// be read is ignored, which a note says.
+// Replaces the primary picture, which is already blurred, by the sharp one in the XMP. An
+// unreadable sharp picture is ignored with a note.
 void ReadSharp(const XmpNode& xmp, DepthPhoto* photo) {
   const std::string* data = FindProperty(xmp, kImage + "Data");
   if (data == nullptr) return;

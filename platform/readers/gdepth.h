@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// GDepth, Google's depth photographs since 2014: XMP in a JPEG file, in which the map lies as a PNG
-// or JPEG picture in base64, mostly in extended XMP. The picture of the file is often blurred
-// already; the sharp one then lies beside the map.
+// GDepth, Google's format of depth photographs since 2014. XMP in a JPEG file, mostly extended XMP,
+// contains the map as a PNG or JPEG picture in base64. The primary picture is often blurred
+// already; then the XMP also contains the sharp one.
 #ifndef STARFOCUS_PLATFORM_READERS_GDEPTH_H_
 #define STARFOCUS_PLATFORM_READERS_GDEPTH_H_
 
@@ -13,8 +13,8 @@ namespace starfocus {
 
 bool HasGdepth(const XmpNode& xmp);
 
-// Reads the map, and the sharp picture and the focus if there are any, into a photo whose picture
-// is there. `xmp` has all packets of the file, the extended ones too.
+// Reads the map and, if present, the sharp picture and the focus. `photo` already has its picture.
+// `xmp` contains all packets of the file, including extended XMP.
 Error ReadGdepth(const XmpNode& xmp, Near near, DepthPhoto* photo);
 
 }  // namespace starfocus

@@ -25,15 +25,15 @@ bool Has(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-// The f-stop of the lens whose rim the outermost views lie on: focal length over twice their
-// distance from the centre.
+// Sets the widest f-stop: that of a lens whose rim passes through the outermost views. It is the
+// focal length divided by twice their distance from the centre.
 Error ReadParameters(const std::string& path, int reach, Capture* capture) {
   Result<KeyValues> read = ReadKeyValues(path);
   if (!read) return read.error();
   KeyValues& values = *read;
   const auto baseline = NumberOf(values, "baseline_mm");
   const auto focal = NumberOf(values, "focal_length_mm");
-  if (!(baseline > 0.0 && focal > 0.0)) return {};  // none compares less than any number
+  if (!(baseline > 0.0 && focal > 0.0)) return {};  // a missing value compares less than any number
   capture->widest = *focal / (2 * reach * *baseline);
   char f_stop[32];
   std::snprintf(f_stop, sizeof(f_stop), "%.3g", capture->widest);
@@ -67,7 +67,7 @@ Result<Capture> OpenHci(const std::string& folder, const std::vector<std::string
   capture.files = std::move(star->views);
   if (Has(names, kMap)) {
     capture.map_path = (std::filesystem::path(folder) / kMap).string();
-    capture.map_scale = star->reach;  // the file's disparities are those of neighbours
+    capture.map_scale = star->reach;  // the file's disparities are between neighbouring views
   }
   if (!Has(names, kParameters)) return capture;
   const std::string parameters = (std::filesystem::path(folder) / kParameters).string();

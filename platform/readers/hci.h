@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The HCI 4D light-field benchmark: input_Cam000.png ... in rows of a square, gt_disp_lowres.pfm of
-// the centre view, and parameters.cfg.
+// Reads the HCI 4D light-field benchmark: a square array of views input_Cam000.png ..., the
+// disparity map of the centre view in gt_disp_lowres.pfm, and parameters.cfg.
 #ifndef STARFOCUS_PLATFORM_READERS_HCI_H_
 #define STARFOCUS_PLATFORM_READERS_HCI_H_
 

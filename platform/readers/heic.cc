@@ -92,13 +92,14 @@ Result<Image> DecodePicture(const std::string& where, const heif_image_handle* h
   return image;
 }
 
-// The levels, 0 to 1, of 8 bits or of up to 16 in the machine's order.
+// Returns the levels of a depth map, 0 to 1. libheif stores samples of 8 bits as bytes, and samples
+// of up to 16 bits in the byte order of the machine.
 Result<FloatMap> DecodePlane(const std::string& where, const heif_image_handle* handle) {
   const Result<Decoded> decoded =
       Decode(where, handle, heif_colorspace_undefined, heif_chroma_undefined);
   if (!decoded) return decoded.error();
   const heif_image* raw = decoded->get();
-  // libheif 1.15 ends the program when it is asked for a channel that is not there.
+  // libheif 1.15 aborts the program if a missing channel is requested.
   const heif_channel channel =
       heif_image_has_channel(raw, heif_channel_Y) ? heif_channel_Y : heif_channel_G;
   if (!heif_image_has_channel(raw, channel)) {
@@ -126,7 +127,7 @@ Result<FloatMap> DecodePlane(const std::string& where, const heif_image_handle* 
   return map;
 }
 
-// The first block of metadata of a type; empty if there is none.
+// Returns the first metadata block of a type, or no bytes if none is found.
 Bytes ReadMetadata(const heif_image_handle* handle, const char* type, const char* content) {
   heif_item_id ids[16];
   const int count = heif_image_handle_get_list_of_metadata_block_IDs(handle, type, ids, 16);
@@ -145,15 +146,16 @@ Bytes ReadMetadata(const heif_image_handle* handle, const char* type, const char
 
 void ReadProfiles(const heif_image_handle* handle, DepthPhoto* photo) {
   Bytes exif = ReadMetadata(handle, "Exif", nullptr);
-  // Four bytes say how far behind them the TIFF header is.
+  // The first four bytes are the distance from their end to the TIFF header.
   if (exif.size() > 4) {
     const size_t skip = ReadBigEndian32(exif.data());
     if (skip < exif.size() - 4) {
       photo->metadata.exif.assign(exif.begin() + 4 + static_cast<ptrdiff_t>(skip), exif.end());
     }
   }
-  // libheif has turned the pictures as the file's own boxes say. EXIF's orientation says the same
-  // in most files: it turns the subject, unless the sizes show that the boxes are others.
+  // libheif has already rotated the pictures by the transformations of the file. In most files,
+  // EXIF's orientation is the same transformation and therefore applies to the subject. The sizes
+  // show if it is not the same.
   const int stored_width = heif_image_handle_get_ispe_width(handle);
   const int stored_height = heif_image_handle_get_ispe_height(handle);
   ReadExif(stored_width, stored_height, photo);
@@ -169,7 +171,7 @@ void ReadProfiles(const heif_image_handle* handle, DepthPhoto* photo) {
   CheckProfile(photo);
 }
 
-// Captions of the picture. XMP that is not well-formed has none.
+// Reads the properties that describe the photograph. XMP that is not well-formed is ignored.
 void ReadCaptions(const heif_image_handle* handle, DepthPhoto* photo) {
   const Bytes xmp = ReadMetadata(handle, "mime", "application/rdf+xml");
   if (xmp.empty() || !CanReadXmp()) return;
@@ -177,7 +179,7 @@ void ReadCaptions(const heif_image_handle* handle, DepthPhoto* photo) {
   if (root) photo->metadata.xmp = KeptXmp(*root);
 }
 
-// Whether an auxiliary picture is something that refocusing has no use for.
+// Adds a fact if an auxiliary picture is a gain map, which refocusing does not use.
 void TellGainMap(const heif_image_handle* handle, DepthPhoto* photo) {
   heif_item_id ids[16];
   const int count = heif_image_handle_get_list_of_auxiliary_image_IDs(handle, 0, ids, 16);
@@ -196,7 +198,7 @@ void TellGainMap(const heif_image_handle* handle, DepthPhoto* photo) {
 
 using Information = heif_depth_representation_info;
 
-// HEVC's depth representation information (ISO/IEC 23008-2, F.14.2.3).
+// Interprets HEVC's depth representation information (ISO/IEC 23008-2, F.14.2.3).
 Error UnderstandInformation(const std::string& where, const Information& information, Near near,
                             DepthPhoto* photo) {
   const auto type = information.depth_representation_type;
@@ -216,7 +218,7 @@ Error UnderstandInformation(const std::string& where, const Information& informa
                             information.z_near, information.z_far};
   if (type != heif_depth_representation_type_uniform_disparity && information.has_z_near &&
       information.has_z_far && range.near > 0 && range.far > range.near) {
-    if (range.inverse) ToRange(1, 0, &photo->map);  // of inverse distances the most is nearest
+    if (range.inverse) ToRange(1, 0, &photo->map);  // the largest inverse distance is nearest
     ToInverse(range, &photo->map);
     TellMap("distances from " + std::to_string(range.near) + " to " + std::to_string(range.far) +
                 ", right up to a factor",
@@ -266,9 +268,9 @@ Error ReadMap(const std::string& where, const heif_image_handle* primary, size_t
   return Understand(where, primary, raw, id, near, photo);
 }
 
-// Whether a box at the top (ISO/IEC 14496-12, 4.2) is longer than what is left of the file.
+// Returns true if a top-level box (ISO/IEC 14496-12, 4.2) is longer than the rest of the file.
 bool EndsWithinBox(Span file) {
-  constexpr uint64_t kToTheEnd = 0, kLong = 1;  // instead of a size
+  constexpr uint64_t kToTheEnd = 0, kLong = 1;  // special values of the size field
   uint64_t at = 0;
   while (at + 16 <= file.size) {
     const uint8_t* box = file.data + at;
@@ -315,7 +317,7 @@ Result<DepthPhoto> ReadHeif(const std::string& where, Span file, Near near) {
     return photo;
   } catch (const std::bad_alloc&) {
     throw;
-  } catch (const std::exception& failure) {  // libheif's, which its C functions let through
+  } catch (const std::exception& failure) {  // libheif's C functions let C++ exceptions through
     return Expected(where, "a HEIF file that libheif reads", failure.what());
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// HEIF files (HEIC, AVIF) with a depth map as an auxiliary picture (ISO/IEC 23008-12), through
+// Reads HEIF files (HEIC, AVIF) with a depth map as an auxiliary picture (ISO/IEC 23008-12), with
 // libheif.
 #ifndef STARFOCUS_PLATFORM_READERS_HEIC_H_
 #define STARFOCUS_PLATFORM_READERS_HEIC_H_
@@ -12,11 +12,11 @@
 
 namespace starfocus {
 
-// Whether the bytes begin as a file of that family does.
+// Returns true if the bytes start like a HEIF file.
 bool IsHeif(Span file);
 
-// Reads the primary picture, and its map unless it has none: photo->map is empty then. Turned as
-// the file says; `near` counts only where it does not say which end of the map is near.
+// Reads the primary picture and its map, with the file's rotation applied. photo->map is empty if
+// there is no map. `near` applies only if the file does not state which end of the map is near.
 Result<DepthPhoto> ReadHeif(const std::string& where, Span file, Near near);
 
 }  // namespace starfocus

@@ -8,14 +8,14 @@ namespace starfocus {
 namespace {
 
 constexpr size_t kMostItems = 4096, kMostReferences = 65536;
-constexpr size_t kHead = 256;  // bytes of an item's data that are kept
+constexpr size_t kHead = 256;  // number of bytes kept of an item's data
 
 struct Box {
   std::string type;
   Span body;
 };
 
-// Whole numbers, the highest byte first; 0, and `good` false, beyond the end.
+// Reads big-endian integers. After the end it returns 0, and `good` is false.
 class Cursor {
  public:
   explicit Cursor(Span bytes) : rest_(bytes) {}
@@ -43,7 +43,7 @@ class Cursor {
     rest_ = {rest_.data + size, rest_.size - size};
     return taken;
   }
-  // The next box; none at the end, or if it is malformed.
+  // Returns the next box, or nullopt at the end or if the box is malformed.
   std::optional<Box> Next() {
     if (rest_.size < 8) return {};
     size_t size = Whole32(4), header = 8;
@@ -73,7 +73,7 @@ FullBox ReadFullBox(Cursor* cursor) {
   return {word >> 24, word & 0xffffff};
 }
 
-// The first box of a type; empty if there is none.
+// Returns the first box of a type, or an empty span if none is found.
 Span FindBox(Span boxes, const std::string& wanted) {
   Cursor cursor(boxes);
   while (const std::optional<Box> box = cursor.Next()) {
@@ -85,14 +85,14 @@ Span FindBox(Span boxes, const std::string& wanted) {
 bool ReadTypes(Span iinf, HeifItems* items) {
   Cursor cursor(iinf);
   const FullBox box = ReadFullBox(&cursor);
-  cursor.Whole(box.version == 0 ? 2 : 4);  // how many
+  cursor.Whole(box.version == 0 ? 2 : 4);  // number of entries
   while (const std::optional<Box> infe = cursor.Next()) {
     if (infe->type != "infe") continue;
     Cursor entry(infe->body);
     const FullBox own = ReadFullBox(&entry);
-    if (own.version < 2) continue;  // of another kind of file
+    if (own.version < 2) continue;  // versions 0 and 1 describe other kinds of files
     const uint32_t id = entry.Whole32(own.version == 2 ? 2 : 4);
-    entry.Whole(2);  // protection
+    entry.Whole(2);  // protection index
     (*items)[id].type = entry.Text(4);
     if (!entry.good() || items->size() > kMostItems) return false;
   }
@@ -166,7 +166,7 @@ void AppendHead(Span source, uint64_t offset, uint64_t length, Bytes* head) {
   head->insert(head->end(), source.data + offset, source.data + offset + size);
 }
 
-// The beginning of each item's data, where its extents say (14496-12, 8.11.3).
+// Copies the first bytes of each item's data, which its extents locate (14496-12, 8.11.3).
 bool ReadHeads(Span file, Span idat, Span iloc, HeifItems* items) {
   Cursor cursor(iloc);
   const FullBox box = ReadFullBox(&cursor);
@@ -177,7 +177,7 @@ bool ReadHeads(Span file, Span idat, Span iloc, HeifItems* items) {
   for (uint32_t k = 0; k < count && cursor.good(); ++k) {
     const auto item = items->find(cursor.Whole32(box.version < 2 ? 2 : 4));
     const uint32_t method = box.version > 0 ? cursor.Whole32(2) & 15 : 0;
-    cursor.Whole(2);  // where the data lies: in this file
+    cursor.Whole(2);  // data reference: this file
     const uint64_t base = cursor.Whole(base_size);
     const uint32_t extents = cursor.Whole32(2);
     for (uint32_t i = 0; i < extents && cursor.good(); ++i) {
@@ -209,7 +209,7 @@ std::vector<std::string> HeifBrands(Span file) {
   if (!first || first->type != "ftyp") return {};
   Cursor brands(first->body);
   std::vector<std::string> result = {brands.Text(4)};
-  brands.Whole(4);  // the version of the major one
+  brands.Whole(4);  // version of the major brand
   while (brands.good() && brands.rest().size >= 4) result.push_back(brands.Text(4));
   return result;
 }

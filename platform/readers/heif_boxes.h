@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Boxes of HEIF files (ISO/IEC 14496-12 and 23008-12) that declare sizes of pictures and of what
-// they are made of, read before libheif allocates memory for them.
+// Parses the boxes of HEIF files (ISO/IEC 14496-12 and 23008-12) that declare the sizes and
+// components of pictures. heif_limits.h checks them before libheif allocates memory for them.
 #ifndef STARFOCUS_PLATFORM_READERS_HEIF_BOXES_H_
 #define STARFOCUS_PLATFORM_READERS_HEIF_BOXES_H_
 
@@ -14,21 +14,23 @@
 
 namespace starfocus {
 
-// A picture or other item of a file.
+// A picture or another item of a file.
 struct HeifItem {
-  std::string type;                // of four letters
-  uint32_t width = 0, height = 0;  // of its property ispe; 0: it has none
-  std::vector<uint32_t> inputs;    // items that a derived picture is made of
-  Span configuration;              // of its property hvcC or av1C
-  Bytes head;                      // the first bytes of its data
+  std::string type;                // four-character code
+  uint32_t width = 0, height = 0;  // from its property ispe; 0: none
+  std::vector<uint32_t> inputs;    // identifiers of the items that a derived picture consists of
+  Span configuration;              // content of its property hvcC or av1C
+  Bytes head;                      // first bytes of its data
 };
 
-using HeifItems = std::map<uint32_t, HeifItem>;  // by their numbers
+using HeifItems = std::map<uint32_t, HeifItem>;  // by item identifier
 
-// Reads the items of a file; none if a box is malformed, or there are more than 4096 items.
+// Reads the items of a file. Returns nullopt if a box is malformed or there are more than 4096
+// items.
 std::optional<HeifItems> ReadHeifItems(Span file);
 
-// The brands of the file, the major one first; none if it does not begin with a box of them.
+// Returns the brands of the file, the major brand first. Empty if the file does not start with a
+// file type box.
 std::vector<std::string> HeifBrands(Span file);
 
 }  // namespace starfocus

@@ -8,12 +8,12 @@
 namespace starfocus {
 namespace {
 
-// Sides of pictures: libheif makes room for what a file says within them, which is 2^28 pixels.
+// Largest width and height. Within this limit, 2^28 pixels, libheif allocates what a file declares.
 constexpr int64_t kMostSide = 16384;
-// And how many pixels a file can have by its size: a picture of one colour has 31 000 for each byte
-// as AVIF.
+// Limit of pixels per byte of the file. An AVIF picture of one colour has 31 000 pixels per byte.
 constexpr int64_t kMostPixelsPerByte = 32768, kAnyFilesPixels = int64_t{1} << 20;
-// Pixels of all tiles, for each pixel of the picture that they make, beside kAnyFilesPixels.
+// Limit of the total area of all tiles, per pixel of the picture that they form, in addition to
+// kAnyFilesPixels.
 constexpr int64_t kMostOverlap = 4;
 
 int64_t AreaOf(const HeifItem& item) { return int64_t{item.width} * int64_t{item.height}; }
@@ -22,7 +22,8 @@ bool IsMadeOfOthers(const HeifItem& item) {
   return item.type == "grid" || item.type == "iovl" || item.type == "iden";
 }
 
-// Whether libheif decodes it. Version 1.15 ends the program when a picture is made of another kind.
+// Returns true if libheif decodes the item. libheif 1.15 aborts the program if a derived picture
+// contains any other kind of item.
 bool IsCoded(const HeifItem& item) { return item.type == "hvc1" || item.type == "av01"; }
 
 uint32_t WholeOf(const Bytes& bytes, size_t at, size_t size) {
@@ -31,11 +32,13 @@ uint32_t WholeOf(const Bytes& bytes, size_t at, size_t size) {
   return value;
 }
 
-// Whether a grid or overlay has as many inputs and the size that it says (23008-12, 6.6.2).
+// Returns true if a grid or overlay has the number of inputs and the size that its data declares
+// (23008-12, 6.6.2).
 bool FitsItsData(const HeifItem& item) {
   const bool grid = item.type == "grid";
   const size_t number = item.head.size() > 1 && (item.head[1] & 1) != 0 ? 4 : 2;
-  const size_t sizes = grid ? 4 : 10;  // behind version, flags, and tiles or a colour
+  const size_t sizes =
+      grid ? 4 : 10;  // offset: after version, flags, and tile counts or canvas colour
   if (item.head.size() < sizes + 2 * number) return false;
   const size_t tiles = (size_t{item.head[2]} + 1) * (size_t{item.head[3]} + 1);
   if (grid && tiles != item.inputs.size()) return false;
@@ -66,11 +69,11 @@ Error CheckInputs(const std::string& where, const HeifItems& items, const HeifIt
 }
 
 Error CheckCoded(const std::string& where, const HeifItem& item) {
-  constexpr int64_t kPadding = 128;  // to whole blocks of either coder
+  constexpr int64_t kPadding = 128;  // both codecs pad to whole blocks
   if (!IsCoded(item)) return {};
   const CodedSize size = item.type == "hvc1" ? HevcSize(item.configuration, item.head)
                                              : Av1Size(item.configuration, item.head);
-  // Where the header has no size that can be read, libheif finds none either.
+  // If the header has no readable size, libheif cannot read one either.
   if (size.width <= item.width + kPadding && size.height <= item.height + kPadding) return {};
   return Expected(
       where, "a coded picture of " + SizeText(item.width, item.height) + ", as its item declares",
@@ -94,7 +97,7 @@ Error CheckHeif(const std::string& where, Span file) {
   if (!items) {
     return Expected(where, "a HEIF file of at most 4096 items in whole boxes", "another");
   }
-  for (const auto& [id, item] : *items) {  // before CheckInputs multiplies any
+  for (const auto& [id, item] : *items) {  // before CheckInputs multiplies sizes
     if (item.width == 0 || item.height == 0) continue;
     if (Error error = CheckHeifSize(where, item.width, item.height, file.size)) return error;
   }

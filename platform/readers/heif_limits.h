@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Limits of HEIF files, checked before libheif decodes them: it follows a picture that is made of
-// itself until threads or memory run out, and allocates whatever size any part declares.
+// Checks the limits of HEIF files before libheif decodes them. libheif follows a picture that
+// contains itself until threads or memory run out, and allocates any size that a file declares.
 #ifndef STARFOCUS_PLATFORM_READERS_HEIF_LIMITS_H_
 #define STARFOCUS_PLATFORM_READERS_HEIF_LIMITS_H_
 
@@ -11,12 +11,12 @@
 
 namespace starfocus {
 
-// The error of a picture of this size in a file of so many bytes, if it is too large.
+// Returns an error if a picture of this size is too large for a file of `file` bytes.
 Error CheckHeifSize(const std::string& where, int64_t width, int64_t height, size_t file);
 
-// The error of a file whose items are malformed, too large, or do not fit together: a picture made
-// of others has coded ones alone, as many as it says and not much larger in all, and a coded
-// picture has the size that its item declares.
+// Returns an error if the items of a file are malformed, too large or inconsistent. A derived
+// picture may contain only coded pictures, in the declared number, and their total area may not be
+// much larger than its own. A coded picture must have the size that its item declares.
 Error CheckHeif(const std::string& where, Span file);
 
 }  // namespace starfocus

@@ -12,12 +12,13 @@
 namespace starfocus {
 namespace {
 
-constexpr size_t kMostSegments = 4096;  // 256 MiB of them
+constexpr size_t kMostSegments = 4096;  // 256 MiB of segments
 constexpr size_t kGuidSize = 32;
 
 constexpr uint8_t kApp1 = 0xe1, kApp2 = 0xe2, kApp13 = 0xed;
 
-// The rest of a segment that begins with `name` and its zero byte.
+// Removes `name` and its zero byte from the start of a segment. Returns false if the segment does
+// not start with them.
 template <size_t kSize>
 bool Strip(const char (&name)[kSize], Span* segment) {
   if (segment->size < kSize || std::memcmp(segment->data, name, kSize) != 0) return false;
@@ -28,7 +29,7 @@ bool Strip(const char (&name)[kSize], Span* segment) {
 
 void TakeExif(Span segment, Bytes* exif) {
   if (!exif->empty() || segment.empty()) return;
-  exif->assign(segment.data + 1, segment.data + segment.size);  // a second zero byte stands first
+  exif->assign(segment.data + 1, segment.data + segment.size);  // skips a second zero byte
 }
 
 void TakeExtension(Span segment, std::vector<XmpExtension>* extensions) {
@@ -55,8 +56,8 @@ void TakeApp2(Span segment, std::vector<Span>* profile, JpegParts* parts) {
   if (Strip("ICC_PROFILE", &segment) && segment.size >= 2) profile->push_back(segment);
 }
 
-// Joins the parts of a profile (ICC.1 annex B.4): each begins with its number, from 1 on, and how
-// many there are.
+// Joins the parts of a profile (ICC.1 annex B.4). Each part starts with its number, from 1, and the
+// number of parts.
 void JoinProfile(std::vector<Span> profile, JpegParts* result) {
   if (profile.empty()) return;
   std::stable_sort(profile.begin(), profile.end(),
@@ -77,8 +78,9 @@ void JoinProfile(std::vector<Span> profile, JpegParts* result) {
                            : "not all of its " + std::to_string(count) + " parts are there");
 }
 
-// Image resources of Photoshop, which may go on in the next segment: "8BIM", a number, a name of
-// even length with its length first, and data of even length with its length first.
+// Finds IPTC among Photoshop's image resources, which may continue in the next segment. A resource
+// consists of "8BIM", a number, a name and data. The name and the data start with their length and
+// are padded to an even size.
 Bytes FindIptc(const std::vector<Span>& segments) {
   constexpr size_t kHeader = 6;
   constexpr uint8_t kIptc[] = {'8', 'B', 'I', 'M', 0x04, 0x04};
@@ -100,7 +102,8 @@ Bytes FindIptc(const std::vector<Span>& segments) {
   return {};
 }
 
-// Names of extended XMP are in hexadecimal digits, in capitals by the specification.
+// Compares GUIDs of extended XMP in hexadecimal. The specification requires capitals, but files may
+// have small letters.
 bool SameHex(const std::string& a, const std::string& b) {
   const auto same = [](char x, char y) { return std::toupper(x) == std::toupper(y); };
   return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), same);
@@ -151,7 +154,7 @@ Result<std::string> JoinExtensions(const std::string& where, const JpegParts& pa
   });
   std::string joined;
   for (const XmpExtension* extension : chosen) {
-    if (extension->offset < joined.size()) continue;  // a part that is there twice
+    if (extension->offset < joined.size()) continue;  // a repeated part
     if (extension->offset > joined.size()) break;
     joined.append(reinterpret_cast<const char*>(extension->text.data), extension->text.size);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The segments of a JPEG file that tell of its picture, without decoding it.
+// Reads the segments of a JPEG file that describe its picture, without decoding the picture.
 #ifndef STARFOCUS_PLATFORM_READERS_JPEG_PARTS_H_
 #define STARFOCUS_PLATFORM_READERS_JPEG_PARTS_H_
 
@@ -13,7 +13,7 @@
 
 namespace starfocus {
 
-// Bytes of a file that somebody else keeps.
+// Bytes of a file; does not own them.
 struct Span {
   const uint8_t* data = nullptr;
   size_t size = 0;
@@ -21,30 +21,30 @@ struct Span {
   bool empty() const { return size == 0; }
 };
 
-// One segment of extended XMP (XMP specification part 3, 1.1.3.1).
+// A segment of extended XMP (XMP specification part 3, 1.1.3.1).
 struct XmpExtension {
   std::string guid;
-  uint32_t total = 0, offset = 0;  // of the whole text, and where this part of it lies
+  uint32_t total = 0, offset = 0;  // length of the whole text, and offset of this part
   Span text;
 };
 
 struct JpegParts {
-  Metadata metadata;      // EXIF, the profile and IPTC
-  std::string ignored;    // why a profile was left out; empty if none was
-  std::vector<Span> xmp;  // packets; a second one is against the specification, but is found
+  Metadata metadata;      // EXIF, ICC profile and IPTC
+  std::string ignored;    // why a profile was ignored; empty: none was
+  std::vector<Span> xmp;  // packets; a second one violates the specification, but occurs
   std::vector<XmpExtension> extensions;
   Span multi_picture;  // from the TIFF header of CIPA DC-007 to the end of the segment
-  size_t end = 0;      // of the first picture: what follows belongs to others
+  size_t end = 0;      // end of the first picture; the rest belongs to other pictures
 };
 
-// Whether the bytes begin as a JPEG file does.
+// Returns true if the bytes start like a JPEG file.
 bool IsJpeg(Span file);
 
-// Reads the segments of the first picture. The parts of an ICC profile are joined by their numbers,
-// in any order; a profile that is not whole or not of RGB colours is left out.
+// Reads the segments of the first picture. The parts of an ICC profile may be in any order. A
+// profile that is incomplete or not for RGB colours is ignored.
 Result<JpegParts> ReadJpegParts(const std::string& where, Span file);
 
-// The extended XMP of that GUID, put together.
+// Joins the parts of the extended XMP with this GUID.
 Result<std::string> JoinExtensions(const std::string& where, const JpegParts& parts,
                                    const std::string& guid);
 

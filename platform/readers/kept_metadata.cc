@@ -54,8 +54,8 @@ std::string KeptName(const std::string& full) {
   return "";
 }
 
-// The name as it is written within a kept property: with a prefix of kKept, rdf or xml. Empty for
-// other names.
+// Returns the name inside a kept property, with a prefix of kKept, rdf or xml. Empty for other
+// names.
 std::string InnerName(const std::string& full) {
   for (const Namespace& one : {kRdf, kXml}) {
     const std::string uri = std::string(one.uri) + "|";
@@ -81,8 +81,8 @@ std::string Write(const XmpNode& node) {
   return text + "</" + name + ">";
 }
 
-// Appends the properties of all descriptions, of a property the first only: a file may have several
-// packets.
+// Appends the properties of all descriptions. A file may have several packets, so only the first
+// occurrence of each property is written.
 void WriteProperties(const XmpNode& node, std::set<std::string>* written, std::string* text) {
   if (node.name != std::string(kRdf.uri) + "|Description") {
     for (const XmpNode& child : node.children) WriteProperties(child, written, text);

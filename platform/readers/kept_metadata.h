@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What of a photograph's XMP stays true of a picture that is made from it.
+// Filters a photograph's XMP: keeps what remains true of a picture that is made from it.
 #ifndef STARFOCUS_PLATFORM_READERS_KEPT_METADATA_H_
 #define STARFOCUS_PLATFORM_READERS_KEPT_METADATA_H_
 
@@ -10,9 +10,9 @@
 namespace starfocus {
 
 // Writes the properties that describe the photograph as one rdf:Description: title, caption,
-// keywords, rating, author, copyright, place and the like. Leaves out what describes the file:
-// depth maps and other pictures in it, orientation, sizes, edits and thumbnails. Empty if nothing
-// is left.
+// keywords, rating, author, copyright, place and similar ones. Omits properties of the file: depth
+// maps and other embedded pictures, orientation, sizes, edits and thumbnails. Returns an empty
+// string if no property remains.
 std::string KeptXmp(const XmpNode& root);
 
 }  // namespace starfocus

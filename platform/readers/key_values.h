@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Text files of lines "key = value", as calibrations of data sets are.
+// Parses text files with lines "key = value", such as the calibration files of data sets.
 #ifndef STARFOCUS_PLATFORM_READERS_KEY_VALUES_H_
 #define STARFOCUS_PLATFORM_READERS_KEY_VALUES_H_
 
@@ -13,14 +13,14 @@ namespace starfocus {
 
 using KeyValues = std::map<std::string, std::string>;
 
-// Parses a text. Lines without "=" are skipped, of one key the first counts, and characters that do
-// not print are left out.
+// Parses a text. Lines without "=" are skipped, the first value of a repeated key is kept, and
+// non-printable characters are removed.
 KeyValues ParseKeyValues(const std::string& text);
 
 // Parses a file of at most 1 MiB (ReadSmallFile).
 Result<KeyValues> ReadKeyValues(const std::string& path);
 
-// The value of a key; none if the key is absent or its value is not a finite number.
+// Returns the value of a key, or nullopt if the key is absent or its value is not a finite number.
 std::optional<double> NumberOf(const KeyValues& values, const std::string& key);
 
 }  // namespace starfocus

@@ -12,11 +12,11 @@
 namespace starfocus {
 namespace {
 
-// Largest longer side of the pictures whose edges are compared. They are smaller by whole factors:
-// cells of different sizes have edges of their own.
+// Limit of the longer side for comparing edges. Pictures are reduced by a whole factor, because
+// cells of different sizes would produce artificial edges.
 constexpr int kSmall = 512;
 
-// The mean brightness of each cell of the picture.
+// Returns the mean brightness of each cell of the picture.
 FloatMap ShrinkPicture(const Image& picture, int width, int height) {
   FloatMap small = {width, height, {}};
   small.values.reserve(size_t(width) * size_t(height));
@@ -46,7 +46,8 @@ Slope SlopeAt(const FloatMap& map, int x, int y) {
           double(map.at(x, y + 1)) - double(map.at(x, y - 1))};
 }
 
-// How well the edges of two maps of one size agree in place and direction: 0, not at all, to 1.
+// Returns how well the edges of two maps of equal size agree in position and direction, from 0 (not
+// at all) to 1.
 double Agreement(const FloatMap& picture, const FloatMap& map) {
   double both = 0, first = 0, second = 0;
   for (int y = 1; y + 1 < map.height; ++y) {
@@ -61,7 +62,7 @@ double Agreement(const FloatMap& picture, const FloatMap& map) {
   return first > 0 && second > 0 ? both / std::sqrt(first * second) : 0;
 }
 
-// What the edges say of a map: whether it is upright already, and whether they show it clearly.
+// Result of comparing edges: `sure` is true if they agree clearly better one way.
 struct Uprightness {
   bool upright, sure;
 };
@@ -85,7 +86,7 @@ Uprightness JudgeByEdges(const DepthPhoto& photo) {
   return {sure && upright > turned, sure};
 }
 
-// Whether the map is upright, where proportions leave the choice; a note reports it.
+// Decides by edges whether the map is upright, if the proportions fit both ways. Adds a note.
 bool ChooseByEdges(DepthPhoto* photo) {
   const auto [upright, sure] = JudgeByEdges(*photo);
   photo->notes.push_back(
@@ -102,7 +103,7 @@ bool ChooseByEdges(DepthPhoto* photo) {
 bool HasSameProportions(const FloatMap& map, int width, int height) {
   constexpr double kTolerance = 0.03;
   const double a = double(map.width) * height, b = double(map.height) * width;
-  // The size of the map that is less by rounding may be off by a pixel.
+  // Allow an error of one pixel in the smaller size, which is rounded.
   return std::fabs(a - b) <= std::max({kTolerance * std::min(a, b), double(width), double(height)});
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether a depth picture is turned with its photo or stands upright already, and whether its
-// proportions are those of the photo.
+// Decides whether EXIF's orientation applies to a depth picture as it does to its photo, and
+// whether both have the same proportions.
 #ifndef STARFOCUS_PLATFORM_READERS_MAP_ORIENTATION_H_
 #define STARFOCUS_PLATFORM_READERS_MAP_ORIENTATION_H_
 
@@ -8,13 +8,13 @@
 
 namespace starfocus {
 
-// Whether a map of that size can be one of a picture of that size: they differ by rounding, or by
-// 3 %, as much as networks round to whole blocks.
+// Returns true if a map of this size can belong to a picture of the given size. Their proportions
+// may differ by rounding, or by 3 % because networks round sizes to whole blocks.
 bool HasSameProportions(const FloatMap& map, int width, int height);
 
-// Applies EXIF's orientation to the picture alone if the map of a depth picture, photo->map, stands
-// upright already. Without a choice the proportions decide, or else the edges of both, which a note
-// reports.
+// If photo->map, from a depth picture, is already upright, applies EXIF's orientation to the
+// picture only. Without a choice, the proportions decide. If they do not, the edges of picture and
+// map decide, and a note reports the result.
 void StandWithPhoto(DepthOrientation choice, DepthPhoto* photo);
 
 }  // namespace starfocus

@@ -14,21 +14,21 @@
 namespace starfocus {
 namespace {
 
-// Sizes at which a scene is published: the multiple of the disparity that its levels are. The
-// largest pictures come first.
+// A published size of a scene, and the multiple of the disparity that its levels represent. Sizes
+// are sorted from large to small.
 struct Size {
   int least_height, multiple;
 };
 
-// A pair whose map is a grey picture, and its sizes.
+// A pair whose map is a grey picture, and its published sizes.
 struct GreyMapPair {
   const char *format, *left, *right, *map;
   Size sizes[4];
 };
 
 constexpr const char* kViewExtensions[] = {".png", ".ppm", ".pgm"};
-// Pictures of 2003 are 375, 750 or 1500 high, those of 2005 and 2006 370, 555 or 1110. Levels of
-// 2001, which has the names of 2003, are 8 times the disparity.
+// Pictures of 2003 are 375, 750 or 1500 pixels high, those of 2005 and 2006 370, 555 or 1110. Data
+// sets of 2001 have the file names of 2003, and their levels are 8 times the disparity.
 constexpr GreyMapPair kPairs[] = {{"Middlebury stereo pair of 2003",
                                    "im2",
                                    "im6",
@@ -40,7 +40,7 @@ constexpr GreyMapPair kPairs[] = {{"Middlebury stereo pair of 2003",
                                    "disp1",
                                    {{830, 1}, {460, 2}, {0, 3}, {0, 3}}}};
 
-// The file of that name with one of the extensions; empty if there is none.
+// Returns the file with this name and a known extension, or an empty string if none is found.
 std::string Find(const std::vector<std::string>& names, const std::string& name) {
   for (const char* extension : kViewExtensions) {
     if (std::binary_search(names.begin(), names.end(), name + extension)) return name + extension;
@@ -48,10 +48,10 @@ std::string Find(const std::vector<std::string>& names, const std::string& name)
   return "";
 }
 
-// The mean difference of the two pictures where the map says that they show the same, if its levels
-// are that multiple of the disparity. The least multiple decides which pixels count.
+// Returns the mean difference of the two pictures at corresponding pixels, if the levels are
+// `multiple` times the disparity. The smallest multiple decides which pixels are compared.
 double Difference(const LightField& field, const FloatMap& levels, int multiple) {
-  constexpr int kCutOff = 90, kStep = 2;  // of what only one picture shows; every other row
+  constexpr int kCutOff = 90, kStep = 2;  // limits occluded pixels; compares every other row
   const Image &left = field.views[0], &right = field.views[1];
   double sum = 0, count = 0;
   for (int y = 0; y < levels.height; y += kStep) {
@@ -70,7 +70,7 @@ double Difference(const LightField& field, const FloatMap& levels, int multiple)
 }
 
 int ChooseMultiple(const GreyMapPair& pair, const LightField& field, const FloatMap& levels) {
-  constexpr double kClearly = 0.7, kLevel = 1;  // and more than rounding
+  constexpr double kClearly = 0.7, kLevel = 1;  // and more than rounding errors
   const Size* own =
       std::find_if(std::begin(pair.sizes), std::end(pair.sizes),
                    [&](const Size& size) { return levels.height >= size.least_height; });

@@ -9,12 +9,13 @@
 namespace starfocus {
 namespace {
 
-// Attempts count, too: a beginning that no picture follows costs a look at the rest of the file.
+// Limits the number of attempts: a start code without a picture costs a scan of the rest of the
+// file.
 constexpr size_t kMostPictures = 64;
 constexpr size_t kEntrySize = 16;
 constexpr uint32_t kEntryTag = 0xb002, kTypeBits = 0xffffff;
 
-// Whole numbers of a TIFF header in either byte order; 0 beyond its end.
+// Reads integers of a TIFF header in either byte order. Returns 0 after its end.
 struct Tiff {
   Span bytes;
   bool little = false;
@@ -29,14 +30,14 @@ struct Tiff {
   }
 };
 
-// An entry of the index: where its picture begins, and what it is.
+// An entry of the index: the position and the type of a picture.
 struct Entry {
   size_t begin = 0;
   uint32_t type = 0;
 };
 
-// The entries behind the first picture's, and how many of them the index counts: a wrong count
-// leaves out entries that are there.
+// Entries of the index without the first picture, and their number by the index. Editors may leave
+// a number that is too small.
 struct Index {
   std::vector<Entry> entries;
   size_t counted = 0;
@@ -62,7 +63,8 @@ Index ReadIndex(Span file, Span index, size_t pictures) {
   return result;
 }
 
-// The next place from `at` on where a JPEG file may begin; the file's size if there is none.
+// Returns the next position from `at` where a JPEG file may start, or the file's size if there is
+// none.
 size_t FindBeginning(Span file, size_t at) {
   while (at + 2 < file.size) {
     const void* found = std::memchr(file.data + at, 0xff, file.size - at);
@@ -74,14 +76,15 @@ size_t FindBeginning(Span file, size_t at) {
   return file.size;
 }
 
-// Whether CIPA DC-007 knows the type; bytes of something else seldom have one.
+// Returns true if CIPA DC-007 defines the type. Unrelated bytes rarely match.
 bool IsType(uint32_t type) {
   constexpr uint32_t kTypes[] = {0x000000, 0x010001, 0x010002, 0x020001,
                                  0x020002, 0x020003, 0x030000};
   return std::find(std::begin(kTypes), std::end(kTypes), type) != std::end(kTypes);
 }
 
-// Types by place; where the index has none of the places, they were moved, and types go by order.
+// Assigns types by position. If no position of the index matches, pictures have been moved, and
+// types are assigned in order.
 void TakeIndex(Span file, const Index& index, std::vector<MultiPicture>* pictures) {
   const std::vector<Entry>& entries = index.entries;
   bool any = false;

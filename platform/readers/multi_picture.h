@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pictures behind the first one of a JPEG file, and what the Multi-Picture Format's index (CIPA
-// DC-007) says of them. Editors move or drop the index, so that the pictures themselves are looked
-// for.
+// Lists the pictures after the first one of a JPEG file, with their types from the index of the
+// Multi-Picture Format (CIPA DC-007). Editors move or remove the index, so the function searches
+// for the pictures.
 #ifndef STARFOCUS_PLATFORM_READERS_MULTI_PICTURE_H_
 #define STARFOCUS_PLATFORM_READERS_MULTI_PICTURE_H_
 
@@ -13,18 +13,18 @@
 namespace starfocus {
 
 struct MultiPicture {
-  Span file;             // the JPEG file of this picture
+  Span file;             // JPEG file of this picture
   JpegParts parts;       // its segments
-  bool indexed = false;  // the index has its place
-  uint32_t type = 0;     // by the index: 0x020002 is one of a stereo pair, 0 unknown
+  bool indexed = false;  // the index has the position of this picture
+  uint32_t type = 0;     // type from the index: 0x020002 is a view of a stereo pair, 0 is unknown
 };
 
 struct MultiPictures {
   std::vector<MultiPicture> pictures;
-  bool missing = false;  // the index names a picture that is cut off or not there
+  bool missing = false;  // a picture in the index is truncated or missing
 };
 
-// Lists the whole JPEG files behind the first picture, 64 at most.
+// Lists the complete JPEG files after the first picture, at most 64.
 MultiPictures ListMultiPictures(Span file, const JpegParts& parts);
 
 }  // namespace starfocus

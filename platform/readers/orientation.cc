@@ -4,16 +4,17 @@
 namespace starfocus {
 namespace {
 
-// EXIF 2.32, tag 274: what row 0 and column 0 of the file are in the scene.
+// Decompose the orientation, which states the scene sides of row 0 and column 0 (EXIF 2.32, tag
+// 274).
 bool SwapsSides(int orientation) { return orientation >= 5; }
-bool FromRight(int orientation) {  // the file's x, before sides are swapped, runs to the left
+bool FromRight(int orientation) {  // x runs to the left, before sides are swapped
   return orientation == 2 || orientation == 3 || orientation == 7 || orientation == 8;
 }
 bool FromBelow(int orientation) {
   return orientation == 3 || orientation == 4 || orientation == 6 || orientation == 7;
 }
 
-// The file's place of what is seen at (x, y) in a picture that is width x height when upright.
+// Maps pixels of the upright picture, width x height, to pixels of the file.
 struct Turn {
   int orientation, width, height;
 

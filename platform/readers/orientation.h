@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The eight orientations of EXIF, applied to pixels.
+// Applies the eight orientations of EXIF to pixels.
 #ifndef STARFOCUS_PLATFORM_READERS_ORIENTATION_H_
 #define STARFOCUS_PLATFORM_READERS_ORIENTATION_H_
 
@@ -7,14 +7,14 @@
 
 namespace starfocus {
 
-// Turns and mirrors a map.
+// Rotates and mirrors a map.
 void TurnMap(int orientation, FloatMap* map);
 
-// Turns and mirrors a point, in parts of width and height from 0 to 1.
+// Rotates and mirrors a point, given as fractions of width and height.
 void TurnPoint(int orientation, double* x, double* y);
 
-// Turns and mirrors picture, map, focus and subject as `orientation` says, makes it 1, and adds a
-// fact.
+// Rotates and mirrors picture, map, focus and subject by photo->orientation, sets it to 1, and adds
+// a fact.
 void ApplyOrientation(DepthPhoto* photo);
 
 }  // namespace starfocus

@@ -27,7 +27,7 @@ bool EndsIn(const std::string& text, const std::string& end) {
   return text.size() > end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
-// What a depth picture's name has before "-depth"; empty if it is another file.
+// Returns the part of a depth picture's name before "-depth", or an empty string for other files.
 std::string NameBefore(const std::string& stem) {
   const std::string lower = Lower(stem);
   if (!EndsIn(lower, kDepth)) return "";
@@ -35,7 +35,7 @@ std::string NameBefore(const std::string& stem) {
   return std::string(kSeparators).find(lower[at]) == std::string::npos ? "" : stem.substr(0, at);
 }
 
-// A file beside the photo, and how well its name fits: the least comes first.
+// A depth picture next to the photo, ordered by how well its name matches: the best is smallest.
 struct Candidate {
   bool other_case;
   size_t separator, extension;
@@ -47,7 +47,7 @@ struct Candidate {
   }
 };
 
-// The file as a depth picture of the photo of that name; none if it is another one.
+// Returns the file as a depth picture of `photo`, or nullopt if it is not one.
 std::optional<Candidate> Fit(const std::string& photo, const std::string& file) {
   const fs::path path(file);
   const std::string stem = path.stem().string(), name = NameBefore(stem);
@@ -70,7 +70,7 @@ Result<Samples> ReadSamples(const std::string& path, bool use_alpha) {
   return bytes ? DecodeSamples(path, use_alpha, *bytes) : bytes.error();
 }
 
-// Gives the numbers of the map the meaning that the options say.
+// Sets the meaning of the map's values by the options.
 void Understand(const DepthOptions& options, bool is_pfm, DepthPhoto* photo) {
   if (options.unit == DepthUnit::kDisparity) {
     TellMap("disparities in pixels", photo);

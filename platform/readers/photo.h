@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A photograph with a depth map, as the reader of a format hands it on: a picture, a map of any
-// size and what its numbers stand for.
+// A photograph with a depth map, as the readers of all formats return it: a picture, a map of any
+// size, and the meaning of its values.
 #ifndef STARFOCUS_PLATFORM_READERS_PHOTO_H_
 #define STARFOCUS_PLATFORM_READERS_PHOTO_H_
 
@@ -17,35 +17,35 @@
 
 namespace starfocus {
 
-// What was understood of an input, in words for people: a name, and a value.
+// Properties of an input for display, each with a name and a value.
 using Facts = std::vector<std::pair<std::string, std::string>>;
 
 enum class MapMeaning {
   kInverseMetres,  // 1 / distance in metres
-  kInverse,        // 1 / distance, up to a factor that nobody knows
-  kOrder,          // larger is nearer, and that is all
+  kInverse,        // 1 / distance, up to an unknown factor
+  kOrder,          // only an order: larger is nearer
   kDisparity       // disparities of the upright photo, in pixels
 };
 
 struct DepthPhoto {
   std::string format;
   Image picture;
-  FloatMap map;             // NaN: unknown; empty: none that can be read
+  FloatMap map;             // NaN: unknown depth; empty: no readable map
   std::string map_problem;  // why a map in the file cannot be read
-  std::string depth_path;   // the depth picture that the map is of; empty: it is in the file
-  Image right;              // of a stereo pair, whose left picture is `picture`; empty: none
+  std::string depth_path;   // depth picture of the map; empty: the map is in the file
+  Image right;              // right picture of a stereo pair; empty: no pair
   MapMeaning meaning = MapMeaning::kOrder;
-  int orientation = 1;    // of EXIF: what is still to be done to picture and map
-  double focal_35mm = 0;  // equivalent focal length in millimetres; 0: nobody knows
+  int orientation = 1;    // orientation of EXIF that is yet to be applied
+  double focal_35mm = 0;  // equivalent focal length in millimetres; 0: unknown
   bool has_focus = false;
-  double focus_x = 0, focus_y = 0;  // in parts of width and height, before `orientation`
+  double focus_x = 0, focus_y = 0;  // fractions of width and height, before `orientation`
   bool has_subject = false;
-  double subject_x = 0, subject_y = 0;  // of EXIF, likewise
-  bool is_ready = false;                // the map has made pictures: nothing is to be repaired
-  double focus_value = NAN;             // of the map, where a distance in focus is told
+  double subject_x = 0, subject_y = 0;  // from EXIF, as focus_x and focus_y
+  bool is_ready = false;                // the map needs no repair: pictures were made from it
+  double focus_value = NAN;             // map value in focus; NaN: unknown
   Metadata metadata;
   Facts facts;
-  std::vector<std::string> notes;  // what was guessed, for whoever may know better
+  std::vector<std::string> notes;  // assumptions that the user may correct
 };
 
 }  // namespace starfocus

@@ -17,14 +17,14 @@
 namespace starfocus {
 namespace {
 
-// Full frame, 36 x 24 mm, which "35 mm equivalent" means; and whom nobody tells about takes a
-// portrait: 50 mm, 1.5 m away.
+// Full frame is 36 x 24 mm, the reference of "35 mm equivalent" focal lengths. If nothing is known,
+// a portrait is assumed: a 50 mm lens at a distance of 1.5 m.
 constexpr double kDiagonal = 43.2666, kPortraitLens = 50, kPortraitDistance = 1.5;
 
-// Where a pixel of the larger size lies between two of the smaller one.
+// Position of a pixel of the larger size between two pixels of the smaller size.
 struct Between {
   int first, second;
-  float weight;  // of the second
+  float weight;  // weight of `second`
 };
 
 std::vector<Between> Places(int from, int to) {
@@ -43,13 +43,13 @@ std::string Rounded(double value) {
   return text;
 }
 
-// The disparity of an inverse distance of 1 / m: the radius in pixels of what is infinitely far,
-// seen by a lens of f/1 of that focal length focused 1 m away.
+// Returns the disparity of an inverse distance of 1 / m: the blur radius of an infinitely distant
+// point, in pixels, for a lens of f/1 with that focal length focused at 1 m.
 double DisparityPerDiopter(double focal_35mm, double diagonal_pixels) {
   return focal_35mm / kDiagonal * diagonal_pixels * focal_35mm / 1000 / 2;
 }
 
-// disparity = factor * (value - zero), at most `most`
+// Sets disparity = factor * (value - zero), at most `most`.
 void Scale(double factor, double zero, double most, DepthPhoto* photo) {
   photo->focus_value = factor * (photo->focus_value - zero);
   for (float& value : photo->map.values) {
@@ -79,7 +79,7 @@ void ToDisparity(const RobustRange& range, double diagonal, DepthPhoto* photo) {
                                          "before a 50 mm lens on full frame");
 }
 
-// Disparities stay as they are.
+// Checks that the map's disparities are in range; they are not changed.
 Error CheckDisparities(const std::string& where, DepthPhoto* photo) {
   const auto [low, high] = std::minmax_element(photo->map.values.begin(), photo->map.values.end());
   if (double(*low) >= -STARFOCUS_MAX_DISPARITY && double(*high) <= STARFOCUS_MAX_DISPARITY) {
@@ -91,7 +91,7 @@ Error CheckDisparities(const std::string& where, DepthPhoto* photo) {
                   Rounded(double(*low)) + " to " + Rounded(double(*high)));
 }
 
-// Fills what the map does not know, which a note reports.
+// Fills unknown values of the map and adds a note.
 void FillUnknown(DepthPhoto* photo) {
   const size_t filled = FillBehind(&photo->map), all = photo->map.values.size();
   if (filled == 0) return;
@@ -123,7 +123,7 @@ FloatMap Resize(const FloatMap& map, int width, int height) {
       add(column.second, row.first, column.weight * (1 - row.weight));
       add(column.first, row.second, (1 - column.weight) * row.weight);
       add(column.second, row.second, column.weight * row.weight);
-      // Rounding may take a mean beyond its values.
+      // Rounding errors may move a mean outside the range of its values.
       result.values.push_back(weights > 0 ? std::clamp(sum / weights, low, high)
                                           : std::numeric_limits<float>::quiet_NaN());
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a photograph and a map of any size and meaning to a light field of one view.
+// Converts a photograph and a map of any size and meaning to a light field of one view.
 #ifndef STARFOCUS_PLATFORM_READERS_PHOTO_SCALE_H_
 #define STARFOCUS_PLATFORM_READERS_PHOTO_SCALE_H_
 
@@ -9,16 +9,16 @@
 
 namespace starfocus {
 
-// The map at another size: the mean of the four values around each pixel's middle, weighted by how
-// near they are; unknown ones count nothing.
+// Resizes a map by bilinear interpolation. Unknown values have no weight.
 FloatMap Resize(const FloatMap& map, int width, int height);
 
-// Turns the photo upright and makes the map's values disparities of the picture such that an
-// aperture of radius 1 is a lens of f/1 on full frame (docs/formats.md). The light field takes over
-// picture and map, which keeps its own size; photo->focus_value becomes a disparity, too.
+// Applies the orientation of the photo, and converts the map to disparities of the picture such
+// that an aperture of radius 1 is a lens of f/1 on full frame (docs/formats.md). The light field
+// takes over the picture and the map, which keeps its size. photo->focus_value becomes a disparity,
+// too.
 Result<LightField> MakePhotoField(const std::string& where, DepthPhoto* photo);
 
-// Brings the map of a photo to the picture's size.
+// Resizes the map of a photo to the size of the picture.
 void FitMap(LightField* light_field);
 
 }  // namespace starfocus

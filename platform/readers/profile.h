@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The colour profile of a photograph, as readers of every format pass it on.
+// Checks the colour profile of a photograph, for the readers of all formats.
 #ifndef STARFOCUS_PLATFORM_READERS_PROFILE_H_
 #define STARFOCUS_PLATFORM_READERS_PROFILE_H_
 
@@ -7,8 +7,8 @@
 
 namespace starfocus {
 
-// Adds a fact about photo->metadata.icc, if there is any, and empties it unless it is a whole
-// profile of RGB (icc_profile.h).
+// Adds a fact about photo->metadata.icc, if any. Clears the profile if it is incomplete or not for
+// RGB (icc_profile.h).
 void CheckProfile(DepthPhoto* photo);
 
 }  // namespace starfocus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The range of a map without the few values beyond it that sensors and matchers get wrong.
+// Computes the range of a map without the few outliers of sensors and matching algorithms.
 #ifndef STARFOCUS_PLATFORM_READERS_ROBUST_RANGE_H_
 #define STARFOCUS_PLATFORM_READERS_ROBUST_RANGE_H_
 
@@ -8,11 +8,12 @@
 namespace starfocus {
 
 struct RobustRange {
-  bool known = false;  // false: no value is finite
+  bool known = false;  // false: the map has no finite value
   float low = 0, high = 0;
 };
 
-// The quantiles of 0.1 % and 99.9 % of the finite values; of less than 1000 values both ends.
+// Returns the quantiles of 0.1 % and 99.9 % of the finite values. If there are fewer than 1000
+// values, returns their minimum and maximum.
 RobustRange RobustRangeOf(const std::vector<float>& values);
 
 }  // namespace starfocus

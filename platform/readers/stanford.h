@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The Stanford light field archive: out_RR_CC_Y_X_.png, by row, column, and where the gantry stood.
+// Reads the Stanford light field archive: out_RR_CC_Y_X_.png with row, column and position of the
+// gantry.
 #ifndef STARFOCUS_PLATFORM_READERS_STANFORD_H_
 #define STARFOCUS_PLATFORM_READERS_STANFORD_H_
 
@@ -9,11 +10,11 @@
 
 namespace starfocus {
 
-// Whether a picture's name is one of the archive's.
+// Returns true if a picture's name is one of the archive's.
 bool IsStanford(const std::string& name);
 
-// Turns rows and columns such that Y grows downwards and X to the right; without places in the
-// names rows are counted from below.
+// Reverses rows and columns if necessary, so that Y grows downwards and X to the right. If the
+// names contain no positions, row 0 is taken to be the bottom row.
 void OrderStanford(ViewArray* array);
 
 }  // namespace starfocus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stereo pairs of 3D cameras in one file (.mpo): the left and the right picture by the
+// Reads stereo pairs of 3D cameras from one file (.mpo): the left and the right picture in the
 // Multi-Picture Format (CIPA DC-007).
 #ifndef STARFOCUS_PLATFORM_READERS_STEREO_PAIR_H_
 #define STARFOCUS_PLATFORM_READERS_STEREO_PAIR_H_
@@ -11,9 +11,9 @@
 
 namespace starfocus {
 
-// Reads the other picture of a pair, photo->right, into a photo whose picture is there. The file
-// has a multi-picture index or the extension .mpo, and the picture behind the first one has its
-// size. False where the file is no such pair.
+// Reads the right picture of a pair into photo->right. `photo` already has its left picture. The
+// file must have a multi-picture index or the extension .mpo, and the picture after the first one
+// must have the same size. Returns false if the file is not such a pair.
 bool ReadStereoPair(const std::string& path, Span file, DepthPhoto* photo);
 
 }  // namespace starfocus

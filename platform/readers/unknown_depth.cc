@@ -12,19 +12,20 @@ namespace starfocus {
 namespace {
 
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
-constexpr float kTop = 65535;  // of 16 bits
-// A value that is as near to the others as this part of their range belongs to them. Sensors see
-// nothing so near to 0: the nearest distance is 5 % of the range and more.
+constexpr float kTop = 65535;  // largest value of 16 bits
+// If an end of the range is closer to the other values than this fraction of their range, it is a
+// depth. Sensors leave a larger gap at 0: the nearest distance they measure is 5 % of the range or
+// more.
 constexpr float kBesidePart = 0.02F;
 
-// What the values of a map of 16 bits say about its ends.
+// Occurrence of 0 and 65535 in a 16-bit map, and whether they are depths.
 struct Ends {
   size_t zeros = 0, tops = 0;
   bool are_depths = false;
 };
 
-// Maps whose values run up to an end, and maps whose values lie between two ends that both occur,
-// were stretched to the whole range: 0 and 65535 are the farthest and the nearest depth.
+// Some maps are stretched to the whole range, so 0 and 65535 are the farthest and the nearest
+// depth. Their other values reach an end of the range, or lie between two ends that both occur.
 Ends JudgeEnds(const FloatMap& map) {
   Ends ends;
   std::vector<float> others;
@@ -41,7 +42,7 @@ Ends JudgeEnds(const FloatMap& map) {
   if (ends.zeros > 0 && ends.tops > 0) {
     ends.are_depths = !range.known || range.high >= kTop / 2;
   } else if (!range.known) {
-    ends.are_depths = true;  // a map of one value
+    ends.are_depths = true;  // all values are equal
   }
   const float beside = kBesidePart * (range.high - range.low);
   if (range.known && range.high > range.low) {
@@ -55,16 +56,16 @@ void Forget(float unknown, FloatMap* map) {
   std::replace(map->values.begin(), map->values.end(), unknown, kUnknown);
 }
 
-// What an unknown pixel takes along one direction of a map.
+// Value that an unknown pixel would get along one direction of a map.
 struct Gap {
   float value = kUnknown;
-  int length = std::numeric_limits<int>::max();  // of the gap that the pixel is in
+  int length = std::numeric_limits<int>::max();  // length of the gap around the pixel
 };
 
-// Tells `visit` the gap of each unknown pixel of a line of `count` values, `step` apart. Ends that
-// differ by at most `alike` are one surface, between whose values the pixel lies. Of others the
-// smaller one is behind. A gap that ends at the border counts twice: nothing confirms the value of
-// its only end.
+// Calls `visit` with the gap of each unknown pixel of a line of `count` values at distance `step`.
+// If the values at the ends of a gap differ by at most `alike`, they belong to one surface, and the
+// pixel's value is interpolated. Otherwise, the smaller value is the background. A gap at the
+// border has only one end, which nothing confirms, so its length counts twice.
 template <class Visit>
 void FindGaps(const float* line, size_t step, int count, float alike, const Visit& visit) {
   const auto at = [&](int k) { return line[size_t(k) * step]; };
@@ -89,7 +90,7 @@ void FindGaps(const float* line, size_t step, int count, float alike, const Visi
   }
 }
 
-// Fills every pixel that has a known one in its row or column.
+// Fills every unknown pixel that has a known pixel in its row or column. Returns their number.
 size_t FillOnce(float alike, FloatMap* map) {
   const size_t width = size_t(map->width);
   std::vector<Gap> gaps(map->values.size());
@@ -125,7 +126,7 @@ void MarkUnknown(const DepthOptions& options, int largest, DepthPhoto* photo) {
   for (const double value : options.unknown) Forget(static_cast<float>(value), map);
   const bool distances =
       options.unit == DepthUnit::kMetres || options.unit == DepthUnit::kMillimetres;
-  if (distances) Forget(0, map);  // nothing is there
+  if (distances) Forget(0, map);  // distance 0 means no measurement
   if (options.has_unknown || largest <= 255) return;
   const Ends ends = JudgeEnds(*map);
   if (ends.zeros + ends.tops == 0) return;
@@ -147,10 +148,11 @@ size_t FillBehind(FloatMap* map) {
   const auto unknown = std::count_if(map->values.begin(), map->values.end(),
                                      [](float value) { return std::isnan(value); });
   if (unknown == 0) return 0;
-  constexpr float kAlikePart = 0.05F;  // of the range
+  constexpr float kAlikePart = 0.05F;  // fraction of the range
   const RobustRange range = RobustRangeOf(map->values);
   const float alike = kAlikePart * (range.high - range.low);
-  // After the first time every row that has a known pixel is full, and so is some column.
+  // The first pass completes every row and column that contains a known pixel, so the second pass
+  // fills the rest.
   for (auto left = static_cast<size_t>(unknown); left > 0;) left -= FillOnce(alike, map);
   return static_cast<size_t>(unknown);
 }

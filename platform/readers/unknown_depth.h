@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Depths that a depth picture does not know: finds them, and fills them with what is behind.
+// Finds unknown values of a depth picture, and fills them with the background.
 #ifndef STARFOCUS_PLATFORM_READERS_UNKNOWN_DEPTH_H_
 #define STARFOCUS_PLATFORM_READERS_UNKNOWN_DEPTH_H_
 
@@ -8,16 +8,16 @@
 
 namespace starfocus {
 
-// Sets unknown values of photo->map, which is as the file has it, to NaN. Values that are not
-// finite are always unknown, and so are the values of options.unknown. Without these, 0 and 65535
-// of a map of more than 8 bits (`largest`, the sample of white; 0 for PFM) are unknown, unless the
-// other values show that they are depths. A note says what was decided.
+// Sets unknown values of photo->map, as read from the file, to NaN. Values that are not finite and
+// values in options.unknown are always unknown. If options.unknown is empty, 0 and 65535 are also
+// unknown in maps of more than 8 bits, unless the other values show that they are depths. `largest`
+// is the sample of white, and 0 for PFM. A note reports the decision.
 void MarkUnknown(const DepthOptions& options, int largest, DepthPhoto* photo);
 
-// Replaces NaN in a map in which larger is nearer by what is behind: along the row or the column,
-// whichever has the shorter gap, the smaller of the two values at its ends, or a value between them
-// if they differ by at most 5 % of the range. At least one value has to be known. Returns the
-// number of pixels that were filled.
+// Replaces NaN in a map in which larger is nearer by the background. The gap along the row or the
+// column is used, whichever is shorter. The new value is the smaller of the two at the ends of the
+// gap, or interpolated if they differ by at most 5 % of the range. At least one value must be
+// known. Returns the number of filled pixels.
 size_t FillBehind(FloatMap* map);
 
 }  // namespace starfocus

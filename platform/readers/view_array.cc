@@ -13,15 +13,15 @@ namespace {
 
 constexpr size_t kMostViews = 4096, kMostDigits = 6;
 
-// A name in parts: its numbers, and what stands between them.
+// A file name split into its numbers and the text between them.
 struct Parts {
-  std::string between;  // a zero byte for each number
+  std::string between;  // contains a zero byte for each number
   std::vector<int> numbers;
 };
 
 bool IsDigit(char c) { return c >= '0' && c <= '9'; }
 
-// Digits behind a point belong to a camera's place and are no number of their own.
+// Splits a name. Each run of digits is a number.
 Parts Split(const std::string& stem) {
   Parts parts;
   for (size_t at = 0; at < stem.size();) {
@@ -38,7 +38,7 @@ Parts Split(const std::string& stem) {
   return parts;
 }
 
-// The places of the numbers that differ from name to name.
+// Returns the indices of the numbers that differ between names.
 std::vector<size_t> FindVarying(const std::vector<Parts>& names) {
   std::vector<size_t> varying;
   for (size_t k = 0; k < names[0].numbers.size(); ++k) {
@@ -54,10 +54,11 @@ std::string Count(int rows, int columns) {
   return std::to_string(rows) + " rows of " + std::to_string(columns);
 }
 
-// Half the length of the longest odd row within one of `count`.
+// Returns half the length of the longest odd row within `count` views.
 int HalfOf(int count) { return (count - 1) / 2; }
 
-// How far the views of a star are from its centre: even if that costs less than a quarter.
+// Returns the distance of the outermost views from the centre. An odd distance is reduced to an
+// even one if that costs less than a quarter.
 int ReachOf(int half) { return half % 2 == 1 && half > 4 ? half - 1 : half; }
 
 struct Chooser {
@@ -80,7 +81,7 @@ void ChooseSquare(const Chooser& chooser) {
   }
 }
 
-// Of a single row or column every view, or of many every second and so on.
+// Chooses the views of a single row or column: all of them, or every second, third and so on.
 void ChooseLine(const Chooser& chooser, bool is_row) {
   const int reach = chooser.star->reach, step = (2 * reach) / (STARFOCUS_MAX_VIEWS - 1) + 1;
   for (int k = 0; k <= reach; k += step) {

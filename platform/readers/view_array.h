@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Views in rows and columns, as most light fields are published, and the star among them.
+// Finds arrays of views in rows and columns, as most light fields are published, and chooses a star
+// of views from them.
 #ifndef STARFOCUS_PLATFORM_READERS_VIEW_ARRAY_H_
 #define STARFOCUS_PLATFORM_READERS_VIEW_ARRAY_H_
 
@@ -12,27 +13,27 @@
 
 namespace starfocus {
 
-// rows * columns paths, row after row from the top, each from the left.
+// Paths of rows * columns pictures, row by row from the top, each from left to right.
 struct ViewArray {
   int rows = 0, columns = 0;
   std::vector<std::string> paths;
 };
 
-// What is chosen of an array: its files by their positions, and how many columns away the view at
-// u = 1 is.
+// Views chosen from an array, with their positions. `reach` is the number of columns from the
+// centre to the view at u = 1.
 struct Star {
   std::vector<ViewFile> views;
   int reach = 0;
 };
 
-// The widest star within an array of at least 3 x 3, 17 views where halves of its reach are whole
-// and 9 elsewhere; of a single row or column up to 17 views. An even row or column more is left
-// out. A fact tells what was chosen.
+// Chooses the largest star in an array of at least 3 x 3 views: 17 views if half its reach is a
+// whole number, otherwise 9. From a single row or column, it chooses up to 17 views. If the number
+// of rows or columns is even, the last one is ignored. Adds a fact.
 Result<Star> ChooseStar(const std::string& where, const ViewArray& array, Facts* facts);
 
-// Pictures whose names differ in two numbers, row and column, or in one: NAME_00_01.png and so on.
-// The first two that differ count, so that the camera's place in Stanford's names does not.
-// The array is empty when the names are none of that kind.
+// Finds pictures whose names differ in two numbers, row and column, or in one, for example
+// NAME_00_01.png. Only the first two differing numbers count, which excludes the camera positions
+// in Stanford's names. The array is empty if the names do not have this form.
 Result<ViewArray> FindArray(const std::string& folder, const std::vector<std::string>& names);
 
 }  // namespace starfocus

@@ -21,12 +21,12 @@ namespace {
 constexpr size_t kMostBytes = size_t{1} << 26, kMostDepth = 32, kMostParts = 20000;
 constexpr char kBetween = '|';  // a namespace and a name
 
-// What expat's calls build. They must not be left by an exception.
+// State of expat's callbacks. Exceptions must not leave them.
 struct Builder {
   XML_Parser parser = nullptr;
-  std::vector<XmpNode> open;    // from the root, which has no name, down to the innermost
-  size_t parts = 0;             // elements and attributes
-  std::string expected, found;  // why it stopped
+  std::vector<XmpNode> open;    // from the unnamed root to the innermost element
+  size_t parts = 0;             // number of elements and attributes
+  std::string expected, found;  // reason for stopping
   bool out_of_memory = false;
 
   void Stop(const std::string& what_expected, const std::string& what_found) {
@@ -79,7 +79,8 @@ struct Builder {
     });
   }
 
-  // Entities, by which a few bytes become millions, can only be declared in one.
+  // Rejects document types, because only they can declare entities, which expand a few bytes to
+  // millions.
   static void Doctype(void* data, const char*, const char*, const char*, int) {
     Builder* self = static_cast<Builder*>(data);
     self->Guard([&] { self->Stop("XMP without a document type", "one"); });
@@ -111,7 +112,7 @@ Result<XmpNode> ParseXmp(const std::string& where, const char* text, size_t size
     return Expected(where, "XMP of at most " + std::to_string(kMostBytes) + " bytes",
                     std::to_string(size));
   }
-  while (size > 0 && text[size - 1] == '\0') --size;  // some writers pad with them
+  while (size > 0 && text[size - 1] == '\0') --size;  // some writers pad with zero bytes
   Builder builder;
   builder.open.emplace_back();
   builder.parser = XML_ParserCreateNS(nullptr, kBetween);

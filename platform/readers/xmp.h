@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// XMP packets as trees of elements, whatever prefixes they give to names.
+// Parses XMP packets to trees of elements. Names contain namespaces instead of prefixes.
 #ifndef STARFOCUS_PLATFORM_READERS_XMP_H_
 #define STARFOCUS_PLATFORM_READERS_XMP_H_
 
@@ -19,23 +19,24 @@ struct XmpNode {
   std::vector<XmpNode> children;
 };
 
-// Whether this build reads XMP at all.
+// Returns true if this build can read XMP.
 bool CanReadXmp();
 
-// Parses a packet with no document type, at most 64 MiB, nested at most 32 deep and of at most
+// Parses a packet. It must not have a document type, and may have up to 64 MiB, a depth of 32, and
 // 20000 elements and attributes.
 Result<XmpNode> ParseXmp(const std::string& where, const char* text, size_t size);
 
-// The value of the node's own property without white space around it; null if it has none.
+// Returns the value of a property of the node, without surrounding white space, or null if the node
+// does not have it.
 const std::string* OwnProperty(const XmpNode& node, const std::string& name);
 
-// The same of the first node at or below this one that has it.
+// Returns the value of a property of the first node in this subtree that has it, or null.
 const std::string* FindProperty(const XmpNode& node, const std::string& name);
 
-// Every node at or below this one that has the property itself, in order.
+// Appends all nodes of this subtree that have the property, in document order.
 void FindOwners(const XmpNode& node, const std::string& name, std::vector<const XmpNode*>* owners);
 
-// The finite number that is all of `text`; none for null.
+// Parses a finite number, which must be the whole text. Returns nullopt for null.
 std::optional<double> XmpNumber(const std::string* text);
 
 }  // namespace starfocus
