@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// EXIF as files of several formats hold it.
+// Normalizes EXIF that files of several formats contain.
 #ifndef STARFOCUS_PLATFORM_DECODERS_EXIF_BYTES_H_
 #define STARFOCUS_PLATFORM_DECODERS_EXIF_BYTES_H_
 
@@ -7,8 +7,8 @@
 
 namespace starfocus {
 
-// Removes the header "Exif\0\0" of JPEG files, which some programs leave in PNG and WebP files;
-// empties `exif` if what is left is no TIFF structure.
+// Removes the header "Exif\0\0" of JPEG files, which some programs also write to PNG and WebP
+// files. Clears `exif` if the rest is not a TIFF structure.
 void TrimExif(Bytes* exif);
 
 }  // namespace starfocus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pixels of JPEG files.
+// Decodes the pixels of JPEG files.
 #ifndef STARFOCUS_PLATFORM_DECODERS_JPEG_H_
 #define STARFOCUS_PLATFORM_DECODERS_JPEG_H_
 
@@ -11,9 +11,9 @@
 
 namespace starfocus {
 
-// Decodes to RGB: grey and CMYK become RGB, without a colour profile. By libjpeg-turbo where the
-// build has it, else by stb_image, which reads no arithmetic coding. A truncated file is an error.
-// `where` only names the file in errors.
+// Decodes to RGB. Grey and CMYK are converted without a colour profile. Uses libjpeg-turbo if
+// available, otherwise stb_image, which does not support arithmetic coding. A truncated file is an
+// error. `where` is used only in errors.
 Result<Image> DecodeJpeg(const std::string& where, const Bytes& jpeg);
 
 }  // namespace starfocus

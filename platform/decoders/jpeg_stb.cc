@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// JPEG by stb_image, where libjpeg-turbo is absent.
+// Decodes JPEG with stb_image in builds without libjpeg-turbo.
 #include <stb/stb_image.h>
 
 #include "platform/container.h"
@@ -21,7 +21,8 @@ Result<Image> DecodeJpeg(const std::string& where, const Bytes& jpeg) {
     }
   }
   if (Error error = CheckPictureSize(where, width, height)) return error;
-  // stb_image would fill hundreds of megabytes for a file of a few bytes first.
+  // Check this first: stb_image would allocate and fill hundreds of megabytes for a file of a few
+  // bytes.
   return JpegCanHold(jpeg.size(), false, width, height) ? DecodeStb(where, jpeg)
                                                         : Truncated(where, "JPEG");
 }

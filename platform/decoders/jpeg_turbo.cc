@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// JPEG by libjpeg-turbo.
+// Decodes JPEG with libjpeg-turbo.
 #include <csetjmp>
 #include <cstdio>
 #include <memory>
 
-// After <cstdio>, whose FILE it names.
+// Must follow <cstdio>, since it uses FILE.
 #include <jpeglib.h>
 
-// After <jpeglib.h>, which says whether there are codes of arithmetic coding.
+// Must follow <jpeglib.h>, which defines whether arithmetic coding has error codes.
 #include <jerror.h>
 
 #include "platform/container.h"
@@ -17,21 +17,22 @@
 namespace starfocus {
 namespace {
 
-// A progressive file may repeat scans of a few bytes, each of which visits all of the picture.
+// Limits repeated scans of a few bytes in progressive files, each of which traverses the whole
+// picture.
 constexpr int kMostScans = 500;
 
-// What the library is given back with. It frees its memory when this is destroyed.
+// State of libjpeg and the cause of an error. The destructor frees libjpeg's memory.
 struct Decoder {
-  jpeg_error_mgr manager;  // first: the library knows this part alone
+  jpeg_error_mgr manager;  // first: libjpeg only knows this member
   std::jmp_buf back;
   jpeg_decompress_struct info;
   jpeg_progress_mgr progress;
   bool truncated = false, many_scans = false;
-  char reason[JMSG_LENGTH_MAX] = "";  // why the picture is damaged
+  char reason[JMSG_LENGTH_MAX] = "";  // cause of damage to the picture
 
   Decoder() {
     info.err = jpeg_std_error(&manager);
-    info.mem = nullptr;  // where nothing has been created
+    info.mem = nullptr;  // nothing has been allocated yet
   }
   ~Decoder() { jpeg_destroy_decompress(&info); }
   Decoder(const Decoder&) = delete;
@@ -46,8 +47,8 @@ void Fail(j_common_ptr info) {
 
 void KeepSilent(j_common_ptr) {}
 
-// Returns true if pixels are missing or wrong after this warning. Others are about bytes between
-// the parts of a file, or about numbers that nobody uses.
+// Returns true if this warning means that pixels are missing or wrong. Other warnings concern bytes
+// between the parts of a file, or unused numbers.
 bool LosesPixels(int code) {
   return code == JWRN_JPEG_EOF || code == JWRN_HIT_MARKER || code == JWRN_HUFF_BAD_CODE ||
          code == JWRN_ARITH_BAD_CODE || code == JWRN_MUST_RESYNC || code == JWRN_NOT_SEQUENTIAL;
@@ -70,8 +71,8 @@ void CountScans(j_common_ptr info) {
 
 bool IsCmyk(const jpeg_decompress_struct& info) { return info.out_color_space == JCS_CMYK; }
 
-// Functions that call setjmp are false with the reason in the decoder. Nothing in them has
-// a destructor: an error of the library jumps over them.
+// Functions that call setjmp return false and set the reason in the decoder on failure. Their local
+// objects must not have destructors, since libjpeg's errors jump over them.
 bool ReadHeader(const Bytes& jpeg, Decoder* decoder) {
   jpeg_decompress_struct& info = decoder->info;
   decoder->manager.error_exit = Fail;
@@ -88,15 +89,15 @@ bool ReadHeader(const Bytes& jpeg, Decoder* decoder) {
   return true;
 }
 
-// Files hold 255 minus the ink, as Adobe's programs store it. Those without Adobe's marker are
-// taken for the same, as by libjpeg-turbo's own program.
+// Converts a row of CMYK. Adobe's programs store 255 minus the ink. Files without Adobe's marker
+// are assumed to be the same, as in libjpeg-turbo's own program.
 void ToRgb(const uint8_t* cmyk, int width, uint8_t* rgb) {
   for (int x = 0; x < width; ++x, cmyk += 4, rgb += 3) {
     for (int c = 0; c < 3; ++c) rgb[c] = static_cast<uint8_t>((cmyk[c] * cmyk[3] + 127) / 255);
   }
 }
 
-// `cmyk` has room for a row, or is null for RGB.
+// Reads all rows. `cmyk` is a buffer for one row, or null for RGB.
 bool ReadRows(Decoder* decoder, uint8_t* cmyk, Image* image) {
   jpeg_decompress_struct& info = decoder->info;
   if (setjmp(decoder->back) != 0) return false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sizes of pictures that decoders refuse before they allocate anything.
+// Limits on picture sizes, which decoders check before they allocate memory.
 #ifndef STARFOCUS_PLATFORM_DECODERS_LIMITS_H_
 #define STARFOCUS_PLATFORM_DECODERS_LIMITS_H_
 
@@ -11,12 +11,13 @@
 
 namespace starfocus {
 
-// The error of a size outside of 1 to kMaxPictureSize, or of more than 2^28 pixels.
+// Returns an error unless width and height are in [1, kMaxPictureSize] and the area is at most 2^28
+// pixels.
 Error CheckPictureSize(const std::string& where, int64_t width, int64_t height);
 
-// Returns true if a JPEG file of so many bytes can hold a picture of this size: with Huffman codes
-// a block of data takes a bit at least, and where each component is subsampled another way there is
-// one for every 8 by 32 pixels. Arithmetic coding is taken to need a sixteenth of it.
+// Returns true if a JPEG file of `bytes` bytes can contain a picture of this size. Each
+// Huffman-coded block takes at least one bit. With the strongest subsampling, there is one block
+// per 8 by 32 pixels. Arithmetic coding is assumed to need a sixteenth of that.
 bool JpegCanHold(size_t bytes, bool arithmetic, int64_t width, int64_t height);
 
 }  // namespace starfocus

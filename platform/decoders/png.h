@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pixels and metadata of PNG files. image_io.cc calls it for files whose header it has checked.
+// Decodes the pixels and metadata of PNG files. image_io.cc calls it after checking the header.
 #ifndef STARFOCUS_PLATFORM_DECODERS_PNG_H_
 #define STARFOCUS_PLATFORM_DECODERS_PNG_H_
 
@@ -11,9 +11,9 @@
 
 namespace starfocus {
 
-// Decodes to 8 bits of R, G, B: grey becomes RGB, 16 bits are rounded to 8, transparency is
-// dropped. By libpng where the build has it, with the ICC profile and EXIF; else by stb_image,
-// without any. `where` only names the file in errors.
+// Decodes to 8-bit RGB. Grey is converted to RGB, 16 bits are rounded to 8, and transparency is
+// ignored. Uses libpng if available, which also returns the ICC profile and EXIF; otherwise
+// stb_image, which returns no metadata. `where` is used only in errors.
 Result<DecodedPicture> DecodePngPixels(const std::string& where, const Bytes& png);
 
 }  // namespace starfocus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// PNG by libpng.
+// Decodes PNG with libpng.
 #include "platform/decoders/png.h"
 
 #include <png.h>
@@ -17,12 +17,12 @@
 namespace starfocus {
 namespace {
 
-// Where the library reads, and what went wrong.
+// Input position of libpng, and the cause of an error.
 struct Call : PngCall {
   const Bytes& png;
   size_t at = 0;
   bool truncated = false;
-  Bytes exif = {};  // of a text chunk
+  Bytes exif = {};  // from a text chunk
   std::string xmp = {};
 };
 
@@ -36,8 +36,7 @@ void Take(png_structp png, png_bytep data, png_size_t size) {
   call->at += size;
 }
 
-// Chunks that libpng would store and, where they are compressed, inflate. They are read here, and
-// nothing of them is kept but EXIF and XMP.
+// Handles chunks that libpng would store and, if compressed, inflate. Only EXIF and XMP are kept.
 int TakeChunk(png_structp png, png_unknown_chunkp chunk) {
   Call* call = static_cast<Call*>(png_get_user_chunk_ptr(png));
   const bool packed = std::memcmp(chunk->name, "zTXt", 4) == 0;
@@ -53,10 +52,10 @@ int TakeChunk(png_structp png, png_unknown_chunkp chunk) {
   } catch (const std::bad_alloc&) {
     call->no_memory = true;
   }
-  return -1;  // the library calls Fail, outside of the handler, which a jump must not leave
+  return -1;  // libpng then calls Fail outside of the handler, which a jump must not leave
 }
 
-// The library's structures, freed with this object.
+// Owns libpng's structures.
 struct Reader {
   png_structp png = nullptr;
   png_infop info = nullptr;
@@ -66,8 +65,8 @@ struct Reader {
   Reader& operator=(const Reader&) = delete;
 };
 
-// Functions that call setjmp are false with the reason in the call. Nothing in them has
-// a destructor: an error of the library jumps over them.
+// Functions that call setjmp return false and set the reason in the call on failure. Their local
+// objects must not have destructors, since libpng's errors jump over them.
 bool ReadHeader(Call* call, Reader* reader) {
   PngCall* const base = call;
   constexpr char kOwn[] = "tEXt\0zTXt\0iTXt\0sPLT";
@@ -115,7 +114,8 @@ Error Failed(const std::string& where, const Call& call) {
   return Expected(where, "an undamaged picture", "a broken one (" + std::string(call.reason) + ")");
 }
 
-// libpng takes an index beyond the palette for black.
+// Replaces indices by colours. An index outside the palette is an error, whereas libpng would
+// return black.
 Error LookUp(const std::string& where, const Reader& reader, const Bytes& indices, Image* image) {
   png_colorp palette = nullptr;
   int colours = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// PNG by stb_image, where libpng is absent.
+// Decodes PNG with stb_image in builds without libpng.
 #include "platform/decoders/png.h"
 #include "platform/decoders/stb_pixels.h"
 #include "platform/png.h"

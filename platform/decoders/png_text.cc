@@ -12,7 +12,7 @@
 namespace starfocus {
 namespace {
 
-// EXIF fits a JPEG segment of 64 KiB; its text has two digits a byte, and line breaks.
+// EXIF fits a JPEG segment of 64 KiB. Its text has two digits per byte, and line breaks.
 constexpr size_t kMostText = size_t{1} << 18;
 
 struct FreeDecompressor {
@@ -21,7 +21,7 @@ struct FreeDecompressor {
   }
 };
 
-// Returns the text; empty if it is malformed or too long.
+// Returns the decompressed text, or an empty string if it is malformed or too long.
 std::string Inflate(const uint8_t* data, size_t size) {
   const std::unique_ptr<libdeflate_decompressor, FreeDecompressor> decompressor(
       libdeflate_alloc_decompressor());
@@ -36,14 +36,15 @@ std::string Inflate(const uint8_t* data, size_t size) {
   return text;
 }
 
-// The value of a hexadecimal digit; -1 if it is none.
+// Returns the value of a hexadecimal digit, or -1 for other characters.
 int DigitOf(char text) {
   if (text >= '0' && text <= '9') return text - '0';
   if (text >= 'a' && text <= 'f') return text - 'a' + 10;
   return text >= 'A' && text <= 'F' ? text - 'A' + 10 : -1;
 }
 
-// "\nexif\n      124\n45786966...": a name, the number of bytes, and their digits in lines.
+// Parses a text such as "\nexif\n      124\n45786966...": a name, the number of bytes, and their
+// digits in lines.
 Bytes ParseDigits(const std::string& text) {
   size_t at = text.find('\n', 1);
   if (at == std::string::npos) return {};
@@ -63,10 +64,10 @@ Bytes ParseDigits(const std::string& text) {
 
 void ReadRawProfile(bool compressed, const uint8_t* data, size_t size, Bytes* exif) {
   const uint8_t* const last = data + size;
-  const uint8_t* end = std::find(data, last, uint8_t{0});  // of the keyword
+  const uint8_t* end = std::find(data, last, uint8_t{0});  // end of the keyword
   const std::string keyword(data, end);
   if (keyword != "Raw profile type exif" && keyword != "Raw profile type APP1") return;
-  const size_t skip = compressed ? 2 : 1;  // the zero, and the method of compression
+  const size_t skip = compressed ? 2 : 1;  // the zero byte, and the compression method
   if (size_t(last - end) < skip || !exif->empty()) return;
   end += skip;
   *exif = ParseDigits(compressed ? Inflate(end, size_t(last - end)) : std::string(end, last));
@@ -74,8 +75,8 @@ void ReadRawProfile(bool compressed, const uint8_t* data, size_t size, Bytes* ex
 }
 
 void ReadXmpText(const uint8_t* data, size_t size, std::string* xmp) {
-  constexpr char kKeyword[] = "XML:com.adobe.xmp";  // its zero ends it
-  constexpr size_t kFlags = 2;                      // whether it is compressed, and how
+  constexpr char kKeyword[] = "XML:com.adobe.xmp";  // including its zero byte
+  constexpr size_t kFlags = 2;                      // compression flag and method
   const uint8_t* const last = data + size;
   if (!xmp->empty() || size < sizeof(kKeyword) + kFlags ||
       !std::equal(kKeyword, kKeyword + sizeof(kKeyword), data)) {
@@ -83,7 +84,7 @@ void ReadXmpText(const uint8_t* data, size_t size, std::string* xmp) {
   }
   const bool compressed = data[sizeof(kKeyword)] != 0;
   const uint8_t* text = data + sizeof(kKeyword) + kFlags;
-  for (int part = 0; part < 2; ++part) {  // the language, and the keyword in it
+  for (int part = 0; part < 2; ++part) {  // language and translated keyword
     text = std::find(text, last, uint8_t{0});
     if (text == last) return;
     ++text;

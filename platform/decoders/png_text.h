@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Metadata in text chunks of PNG files: XMP, and EXIF as ImageMagick and others wrote it before the
-// format had a chunk for it.
+// Reads metadata in text chunks of PNG files: XMP, and EXIF in the form that ImageMagick and other
+// programs wrote before the format had an EXIF chunk.
 #ifndef STARFOCUS_PLATFORM_DECODERS_PNG_TEXT_H_
 #define STARFOCUS_PLATFORM_DECODERS_PNG_TEXT_H_
 
@@ -12,12 +12,12 @@
 
 namespace starfocus {
 
-// Sets `exif` to the TIFF structure in a tEXt or zTXt chunk of the keyword "Raw profile type exif"
-// or "Raw profile type APP1"; leaves it as it is for any other chunk, or one that is malformed.
+// Sets `exif` to the TIFF structure in a tEXt or zTXt chunk with the keyword "Raw profile type
+// exif" or "Raw profile type APP1". Does not change it if the chunk is different or malformed.
 void ReadRawProfile(bool compressed, const uint8_t* data, size_t size, Bytes* exif);
 
-// Sets `xmp` to the packet in an iTXt chunk of the keyword "XML:com.adobe.xmp"; leaves it as it is
-// for any other chunk, or one that is malformed or holds more than 256 KiB compressed.
+// Sets `xmp` to the packet in an iTXt chunk with the keyword "XML:com.adobe.xmp". Does not change
+// it if the chunk is different, malformed, or expands to more than 256 KiB.
 void ReadXmpText(const uint8_t* data, size_t size, std::string* xmp);
 
 }  // namespace starfocus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the decoders by stb_image share.
+// Functions that the decoders based on stb_image share.
 #ifndef STARFOCUS_PLATFORM_DECODERS_STB_PIXELS_H_
 #define STARFOCUS_PLATFORM_DECODERS_STB_PIXELS_H_
 
@@ -11,14 +11,14 @@
 
 namespace starfocus {
 
-// The error of a file whose parts are not all there or do not fit together (container.h).
+// Returns an error if the parts of a file are incomplete or inconsistent (container.h).
 Error CheckStbContainer(const std::string& where, const Bytes& bytes);
 
-// Samples of the picture, `channels` a pixel, in memory of the StbMemory that lives; null if
-// stb_image fails. `image` gets the size alone.
+// Decodes a picture with `channels` samples per pixel. The current StbMemory owns the result, which
+// is null if stb_image fails. Sets only the size of `image`.
 const uint8_t* LoadStb(const Bytes& bytes, int channels, Image* image);
 
-// The error after a null LoadStb.
+// Returns the error after LoadStb has returned null.
 Error StbFailed(const std::string& where);
 
 // Decodes a PNG without a palette, or a JPEG.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pixels and metadata of WebP files.
+// Decodes the pixels and metadata of WebP files.
 #ifndef STARFOCUS_PLATFORM_DECODERS_WEBP_H_
 #define STARFOCUS_PLATFORM_DECODERS_WEBP_H_
 
@@ -11,11 +11,10 @@
 
 namespace starfocus {
 
-// Returns true if the file begins as a WebP file does.
+// Returns true if the file starts like a WebP file.
 bool IsWebp(const Bytes& bytes);
 
-// Decodes a still picture to RGB, without its alpha, by libwebp where the build has it. `where`
-// only names the file in errors.
+// Decodes a still picture to RGB without alpha. Needs libwebp. `where` is used only in errors.
 Result<DecodedPicture> DecodeWebp(const std::string& where, const Bytes& webp);
 
 }  // namespace starfocus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The error where libwebp is absent.
+// Reports that WebP is not supported in builds without libwebp.
 #include "platform/decoders/webp.h"
 
 namespace starfocus {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// WebP by libwebp.
+// Decodes WebP with libwebp.
 #include "platform/decoders/webp.h"
 
 #include <webp/decode.h>
@@ -15,8 +15,8 @@
 namespace starfocus {
 namespace {
 
-// The format itself has no limit: 38 bytes hold 8000x8000 pixels of one colour, for which the
-// decoder needs 7 bytes each. Photographs have a few pixels for each byte.
+// The format has no such limit: 38 bytes can encode 8000x8000 pixels of one colour, for which the
+// decoder needs 7 bytes per pixel. Photographs have a few pixels per byte.
 constexpr int64_t kMostPixelsPerByte = 65536, kAnyFilesPixels = int64_t{1} << 24;
 
 Error Failed(const std::string& where, VP8StatusCode status) {
@@ -25,7 +25,7 @@ Error Failed(const std::string& where, VP8StatusCode status) {
   return Expected(where, "an undamaged picture", "a broken one (libwebp)");
 }
 
-// The size of the file as its header has it, in bytes from the second four on.
+// Returns the size of the file by its header, which counts the bytes after the first eight.
 uint64_t SizeOf(const Bytes& webp) {
   return 8 + (uint64_t(webp[4]) | uint64_t(webp[5]) << 8 | uint64_t(webp[6]) << 16 |
               uint64_t(webp[7]) << 24);
@@ -45,7 +45,7 @@ Metadata ReadMetadata(const Bytes& webp) {
   Metadata metadata;
   const WebPData file = {webp.data(), webp.size()};
   const std::unique_ptr<WebPMux, FreeMux> mux(WebPMuxCreate(&file, 0));
-  if (mux == nullptr) return metadata;  // a picture alone
+  if (mux == nullptr) return metadata;  // a picture without metadata
   metadata.icc = ChunkOf(mux.get(), "ICCP");
   metadata.exif = ChunkOf(mux.get(), "EXIF");
   TrimExif(&metadata.exif);

@@ -40,7 +40,8 @@ constexpr const char* kLeftOut[] = {"xmp:ModifyDate",       "xmp:MetadataDate",
                                     "photoshop:ICCProfile", "photoshop:DocumentAncestors",
                                     "photoshop:History",    "photoshop:TextLayers"};
 
-// "<namespace>|<name>" as "prefix:name"; empty if the property is not kept.
+// Converts "<namespace>|<name>" to "prefix:name". Returns an empty string if the property is not
+// kept.
 std::string KeptName(const std::string& full) {
   const size_t bar = full.rfind('|');
   if (bar == std::string::npos) return "";
@@ -66,7 +67,7 @@ std::string InnerName(const std::string& full) {
   return KeptName(full);
 }
 
-// An element with all that is within it but for names of other namespaces.
+// Writes an element with its content. Names of other namespaces are omitted.
 std::string Write(const XmpNode& node) {
   const std::string name = InnerName(node.name);
   if (name.empty()) return "";

@@ -19,7 +19,7 @@ namespace {
 #ifdef STARFOCUS_HAS_EXPAT
 
 constexpr size_t kMostBytes = size_t{1} << 26, kMostDepth = 32, kMostParts = 20000;
-constexpr char kBetween = '|';  // a namespace and a name
+constexpr char kBetween = '|';  // separates a namespace from a name
 
 // State of expat's callbacks. Exceptions must not leave them.
 struct Builder {

@@ -12,7 +12,8 @@
 
 namespace starfocus {
 
-// Names are "<namespace>|<name>". A property is an attribute, or an element with text in it.
+// An element of XMP. Names are "<namespace>|<name>". A property is an attribute, or an element with
+// text in it.
 struct XmpNode {
   std::string name, text;
   std::map<std::string, std::string> attributes;

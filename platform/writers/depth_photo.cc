@@ -31,7 +31,8 @@ std::string Attribute(const std::string& name, double value) {
   return Attribute(name, std::string(text));
 }
 
-// Disparities of a map. A flat map has a range, too: readers want near < far.
+// Range of the disparities of a map. The range of a flat map is not empty either, because readers
+// require near < far.
 struct Range {
   double low, high;
 
@@ -42,7 +43,7 @@ struct Range {
   }
 };
 
-// 0 where it is nearest, 255 where it is farthest.
+// Returns levels from 0, the nearest, to 255, the farthest.
 GreyImage Levels(const FloatMap& map, const Range& range) {
   GreyImage grey = {map.width, map.height, {}};
   grey.levels.reserve(map.values.size());
@@ -53,7 +54,8 @@ GreyImage Levels(const FloatMap& map, const Range& range) {
   return grey;
 }
 
-// Our own properties. Disparities at f/1 beyond the limit are moved to it, which changes no blur.
+// Returns the own properties. Disparities at f/1 that exceed the limit are shifted into it, which
+// changes no blur.
 Result<std::string> OwnAttributes(const std::string& path, const SharpOriginal& photo,
                                   const Range& range) {
   double near = photo.widest * range.high, far = photo.widest * range.low;
@@ -73,7 +75,7 @@ Result<std::string> OwnAttributes(const std::string& path, const SharpOriginal& 
 
 std::string FocusAttributes(const SharpOriginal& photo, double low) {
   const auto longer = double(std::max(photo.before->width, photo.before->height));
-  const double nearness = photo.focus - low + 1;  // one over its distance; infinity is at 0
+  const double nearness = photo.focus - low + 1;  // 1 / distance; infinity is at 0
   return Attribute("GFocus:BlurAtInfinity", photo.aperture * std::fabs(nearness) / longer) +
          Attribute("GFocus:FocalDistance", 1 / std::max(nearness, 1e-3));
 }
@@ -97,13 +99,13 @@ Result<Bytes> EncodeDepthPhoto(const std::string& path, const Image& picture,
   const std::string extended = Attribute("GDepth:Data", EncodeBase64(*map)) +
                                Attribute("GImage:Data", EncodeBase64(*before));
   Bytes segments;
-  // Descriptions that have no room beside those of the map are left out.
+  // Descriptions are omitted if they do not fit into the packet of the map.
   if (!AppendExtendedXmp(kNamespaces, attributes, extended, metadata.xmp, &segments) &&
       !AppendExtendedXmp(kNamespaces, attributes, extended, "", &segments)) {
     return Expected(path, "less than 4 GiB beside the picture", "more");
   }
   Metadata others = metadata;
-  others.xmp.clear();  // a file has one packet
+  others.xmp.clear();  // a file has only one packet
   return EncodeJpeg(path, picture, quality, others, segments);
 }
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// JPEG files that others can refocus again: Google's GDepth, GImage and GFocus in extended XMP.
+// Writes JPEG files that other programs can refocus: the map, the sharp picture and the focus are
+// stored as Google's GDepth, GImage and GFocus in extended XMP.
 //
-// A camera's distances are not known here, so that they are told in a unit of their own: the
-// disparity D has the distance 1 / (D - least disparity + 1), from the nearest, near, to 1, far. A
-// reader gets all disparities back up to a constant, which only says what "in focus" is called, and
-// a factor. Both are in properties of our own, so that f-stops stay what they are:
-// NearDisparity and FarDisparity, of the levels 0 and 255, for a lens of f/1, in parts of the
+// The camera's distances are unknown, so the file uses an arbitrary unit: disparity D has the
+// distance 1 / (D - smallest disparity + 1), from the nearest, `near`, to 1, `far`. A reader
+// therefore recovers the disparities up to an offset, which only shifts the focus, and a factor.
+// Two own properties preserve both, so that f-stops keep their meaning. NearDisparity and
+// FarDisparity are the disparities of levels 0 and 255 for a lens of f/1, as fractions of the
 // picture's diagonal.
 #ifndef STARFOCUS_PLATFORM_WRITERS_DEPTH_PHOTO_H_
 #define STARFOCUS_PLATFORM_WRITERS_DEPTH_PHOTO_H_
@@ -19,22 +20,22 @@
 
 namespace starfocus {
 
-// The namespace of our own properties, and their names.
+// Namespace and names of the own properties.
 constexpr char kOwnNamespace[] = "urn:starfocus:1.0/";
 constexpr char kNearDisparity[] = "NearDisparity", kFarDisparity[] = "FarDisparity";
 
-// What a depth photo has besides its picture, and what that was made of.
+// Contents of a depth photo apart from its picture: the sharp original, its map, and the lens.
 struct SharpOriginal {
-  const Image* before;        // sharp everywhere; of the picture's size
-  const FloatMap* disparity;  // of it; finite
-  double focus = 0;           // disparity that the picture is focused at
-  double aperture = 1;        // its radius: blur has |D - focus| * aperture pixels
-  double widest = 1;          // f-stop of radius 1
+  const Image* before;        // sharp everywhere; same size as the picture
+  const FloatMap* disparity;  // map of `before`; finite values
+  double focus = 0;           // disparity in focus
+  double aperture = 1;  // radius of the aperture: the blur radius is |D - focus| * aperture pixels
+  double widest = 1;    // f-stop of an aperture of radius 1
 };
 
-// The picture as JPEG of that quality with the one before and its map, a PNG of 8 bits whose levels
-// are linear in disparity (RangeInverse). GFocus:BlurAtInfinity is the radius of blur over the
-// longer side. `path` only names the file in errors.
+// Encodes the picture as JPEG, with the original and its map. The map is a PNG with 8 bits whose
+// levels are linear in disparity (RangeInverse). GFocus:BlurAtInfinity is the blur radius divided
+// by the longer side. `path` is used only in errors.
 Result<Bytes> EncodeDepthPhoto(const std::string& path, const Image& picture,
                                const SharpOriginal& photo, int quality, const Metadata& metadata);
 

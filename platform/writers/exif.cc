@@ -17,9 +17,9 @@ constexpr uint32_t kOrientation = 0x0112, kSoftware = 0x0131, kExifFolder = 0x87
 constexpr uint32_t kPixelWidth = 0xa002, kPixelHeight = 0xa003;
 constexpr uint32_t kSubjectArea = 0x9214, kSubjectLocation = 0xa214;
 constexpr uint32_t kAscii = 2, kShort = 3, kLong = 4;
-constexpr size_t kEntry = 12;  // bytes: tag, type, count, value or where it is
+constexpr size_t kEntry = 12;  // bytes: tag, type, count, and value or its position
 
-// Numbers of a TIFF structure in its byte order.
+// Reads and writes numbers of a TIFF structure in its byte order.
 class Tiff {
  public:
   explicit Tiff(Bytes* bytes) : bytes_(*bytes), little_(!bytes->empty() && bytes->front() == 'I') {}
@@ -39,7 +39,7 @@ class Tiff {
       bytes_[at + (little_ ? i : size - 1 - i)] = static_cast<uint8_t>(value >> (8 * i));
     }
   }
-  // Removes an entry of a folder's list of `count`; what follows in the list moves up.
+  // Removes an entry from a folder with `count` entries. The rest of the list moves up.
   void Remove(size_t folder, size_t entry, size_t count) {
     const size_t end = folder + 2 + count * kEntry + 4;
     std::copy(bytes_.begin() + static_cast<ptrdiff_t>(entry + kEntry),
@@ -47,7 +47,7 @@ class Tiff {
               bytes_.begin() + static_cast<ptrdiff_t>(entry));
     Set(folder, 2, static_cast<uint32_t>(count - 1));
   }
-  // Where the entries of a folder's list are; none where they are not all there.
+  // Returns the positions of the entries of a folder, or nullopt if the list is truncated.
   std::optional<std::vector<size_t>> Entries(size_t folder) const {
     const size_t count = Has(folder, 2) ? Get(folder, 2) : 0;
     if (!Has(folder, 2 + count * kEntry + 4)) return {};
@@ -66,8 +66,8 @@ bool IsTiff(const Bytes& bytes, const Tiff& tiff) {
   return (bytes[0] == 'I' || bytes[0] == 'M') && tiff.Get(2, 2) == 42;
 }
 
-// Removes the subject, whose pixels are those of the picture as it was, unless the folder says that
-// it had this size.
+// Removes the subject unless the folder states that the original picture had this size and was not
+// turned. The subject's coordinates are pixels of the original picture.
 void RemoveSubject(size_t folder, int width, int height, bool turned, Tiff* tiff) {
   const auto entries = tiff->Entries(folder);
   if (!entries) return;
@@ -89,7 +89,7 @@ void RemoveSubject(size_t folder, int width, int height, bool turned, Tiff* tiff
   }
 }
 
-// A width or height, where the folder has it.
+// Sets the width and the height if the folder has them.
 void SetSizes(size_t folder, int width, int height, Tiff* tiff) {
   const auto entries = tiff->Entries(folder);
   if (!entries) return;
@@ -110,11 +110,11 @@ Bytes EditedExif(const Bytes& exif, int width, int height) {
   if (!IsTiff(bytes, tiff)) return {};
   const auto old_entries = tiff.Entries(tiff.Get(4, 4));
   if (!old_entries) return {};
-  std::vector<std::pair<uint32_t, size_t>> entries;  // tag, and where it is; tags are in order
+  std::vector<std::pair<uint32_t, size_t>> entries;  // tag and position; tags are sorted
   bool turned = false;
   for (const size_t at : *old_entries) {
     const uint32_t tag = tiff.Get(at, 2);
-    if (tag == kOrientation) turned = tiff.Get(at + 8, 2) != 1;  // before the next folder's tag
+    if (tag == kOrientation) turned = tiff.Get(at + 8, 2) != 1;  // EXIF folder follows
     if (tag == kExifFolder) {
       RemoveSubject(tiff.Get(at + 8, 4), width, height, turned, &tiff);
       SetSizes(tiff.Get(at + 8, 4), width, height, &tiff);
@@ -125,7 +125,8 @@ Bytes EditedExif(const Bytes& exif, int width, int height) {
   entries.emplace_back(kSoftware, 0);
   std::sort(entries.begin(), entries.end());
 
-  // The new list stands at the end, so that nothing else moves: values are named by their places.
+  // The new list is appended at the end. Nothing else may move, since the structure refers to
+  // values by their positions.
   bytes.resize((bytes.size() + 1) & ~size_t{1});
   const size_t folder = bytes.size(), text = folder + 2 + entries.size() * kEntry + 4;
   bytes.resize(text);
@@ -147,7 +148,7 @@ Bytes EditedExif(const Bytes& exif, int width, int height) {
     }
     at += kEntry;
   }
-  return bytes;  // the place of the next list, the thumbnail's, is 0: none
+  return bytes;  // the position of the next list, for the thumbnail, is 0: none
 }
 
 }  // namespace starfocus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// EXIF of a photograph, changed to what is true of a picture that was made from it.
+// Edits the EXIF of a photograph to match a picture that was made from it.
 #ifndef STARFOCUS_PLATFORM_WRITERS_EXIF_H_
 #define STARFOCUS_PLATFORM_WRITERS_EXIF_H_
 
@@ -7,10 +7,10 @@
 
 namespace starfocus {
 
-// Returns EXIF, a TIFF structure, with the Software tag, orientation 1 and the size set. The
-// thumbnail is left out, which shows the picture as it was, and the subject unless the picture has
-// its size and orientation still. Everything else stays, at its place. Empty if `exif` is no TIFF
-// structure that can be followed.
+// Returns EXIF, a TIFF structure, with the Software tag, orientation 1 and the new size. Removes
+// the thumbnail, which shows the original picture. Removes the subject unless the picture still has
+// its original size and orientation. All other data keeps its position. Returns an empty result if
+// `exif` is not a valid TIFF structure.
 Bytes EditedExif(const Bytes& exif, int width, int height);
 
 }  // namespace starfocus

@@ -9,10 +9,10 @@
 namespace starfocus {
 namespace {
 
-constexpr size_t kMostPayload = 65533;  // the length of a segment counts its own two bytes
+constexpr size_t kMostPayload = 65533;  // a segment's length includes its own two bytes
 constexpr uint8_t kApp0 = 0xe0, kApp1 = 0xe1, kApp2 = 0xe2, kApp13 = 0xed;
 
-// Headers of segments end in a zero, as the formats have it.
+// Headers of segments end with a zero byte, as the formats require.
 const std::string kExifHeader("Exif\0\0", 6);
 const std::string kProfileHeader("ICC_PROFILE\0", 12);
 const std::string kResourcesHeader("Photoshop 3.0\0", 14);
@@ -25,7 +25,7 @@ std::string BigEndian32(size_t value) {
   return text;
 }
 
-// A header and the bytes from `first` to `last`.
+// Appends a segment with a header and the bytes from `first` to `last`.
 template <typename Iterator>
 void Append(uint8_t marker, const std::string& header, Iterator first, Iterator last,
             Bytes* segments) {
@@ -47,7 +47,7 @@ std::string Description(const std::string& namespaces, const std::string& attrib
   return "<rdf:Description rdf:about=\"\"" + namespaces + attributes + "/>";
 }
 
-// What programs that look for the packet anywhere in a file find it by.
+// Adds the marks by which programs find the packet anywhere in a file.
 std::string Wrapped(const std::string& packet) {
   return "<?xpacket begin=\"\xef\xbb\xbf\" id=\"W5M0MpCehiHzreSzNTczkc9d\"?>" + packet +
          "<?xpacket end=\"r\"?>";
@@ -74,7 +74,7 @@ bool AppendProfile(const Bytes& icc, Bytes* segments) {
   return true;
 }
 
-// An image resource of Photoshop without a name, of even length.
+// The format is an unnamed Photoshop image resource, padded to an even size.
 bool AppendIptc(const Bytes& iptc, Bytes* segments) {
   if (iptc.empty()) return true;
   const std::string header = kResourcesHeader + "8BIM" + std::string("\x04\x04\0\0", 4);
@@ -118,7 +118,7 @@ bool AppendExtendedXmp(const std::string& namespaces, const std::string& attribu
 }
 
 void InsertSegments(const Bytes& segments, Bytes* jpeg) {
-  size_t at = 2;  // after the marker that begins the file
+  size_t at = 2;  // after the start marker
   if (jpeg->size() > 6 && (*jpeg)[2] == 0xff && (*jpeg)[3] == kApp0) {
     at = std::min(jpeg->size(), 4 + size_t{(*jpeg)[4]} * 256 + (*jpeg)[5]);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The segments of a JPEG file that hold no pixels: EXIF, the colour profile, XMP, IPTC.
+// Writes the segments of a JPEG file other than its pixels: EXIF, the colour profile, XMP and IPTC.
 #ifndef STARFOCUS_PLATFORM_WRITERS_JPEG_SEGMENTS_H_
 #define STARFOCUS_PLATFORM_WRITERS_JPEG_SEGMENTS_H_
 
@@ -9,29 +9,31 @@
 
 namespace starfocus {
 
-// Each appends segments to others, nothing for empty metadata. False where the format has no room
-// for so much: EXIF has one segment, a profile 255 of them.
+// Each function appends segments, or nothing if the metadata is empty. It returns false if the
+// metadata exceeds the limits of the format: one segment for EXIF, 255 segments for a profile.
 bool AppendExif(const Bytes& tiff, Bytes* segments);
 bool AppendProfile(const Bytes& icc, Bytes* segments);
 
-// The records of IPTC-IIM.
+// Appends the records of IPTC-IIM.
 bool AppendIptc(const Bytes& iptc, Bytes* segments);
 
-// A packet of XMP with these descriptions (Metadata::xmp).
+// Appends an XMP packet with these descriptions (Metadata::xmp).
 bool AppendXmp(const std::string& descriptions, Bytes* segments);
 
-// The same as a whole packet, for the files of other formats. Empty for no descriptions.
+// Returns a complete XMP packet for files of other formats, or an empty string if there are no
+// descriptions.
 std::string XmpPacket(const std::string& descriptions);
 
-// A packet of XMP: `descriptions`, the attributes of one more, and an extended packet of `extended`
-// ones, which may be of any length below 4 GiB, named by the first. An attribute is '
-// prefix:Name="value"', escaped as XML; `namespaces` declares the prefixes, ' xmlns:prefix="..."'
-// each.
+// Appends an XMP packet and an extended packet of up to 4 GiB, to which the first packet refers.
+// The first packet contains `descriptions` and a further description with `attributes`. The
+// extended packet contains the attributes `extended`. The form of an attribute is '
+// prefix:Name="value"', escaped as XML. `namespaces` declares the prefixes, each as '
+// xmlns:prefix="..."'.
 bool AppendExtendedXmp(const std::string& namespaces, const std::string& attributes,
                        const std::string& extended, const std::string& descriptions,
                        Bytes* segments);
 
-// Puts the segments into a whole JPEG file, before all but its JFIF header.
+// Inserts the segments into a complete JPEG file, after its JFIF header if it has one.
 void InsertSegments(const Bytes& segments, Bytes* jpeg);
 
 }  // namespace starfocus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// JPEG pixels by stb_image_write, where libjpeg-turbo is absent.
+// Encodes JPEG pixels with stb_image_write in builds without libjpeg-turbo.
 #include <stb/stb_image_write.h>
 
 #include "platform/stb_memory.h"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// JPEG pixels by libjpeg-turbo.
+// Encodes JPEG pixels with libjpeg-turbo.
 #include <csetjmp>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
 
-// After <cstdio>, whose FILE it names.
+// Must follow <cstdio>, since it uses FILE.
 #include <jerror.h>
 #include <jpeglib.h>
 
@@ -15,7 +15,7 @@ namespace starfocus {
 namespace {
 
 struct Failure {
-  jpeg_error_mgr manager;  // first: the library knows this part alone
+  jpeg_error_mgr manager;  // first: libjpeg only knows this member
   std::jmp_buf back;
   char reason[JMSG_LENGTH_MAX];
 };
@@ -34,7 +34,8 @@ struct Memory {
   ~Memory() { std::free(data); }
 };
 
-// False with the reason. Nothing here has a destructor: an error of the library jumps over them.
+// Returns false and sets the reason on failure. Local objects must not have destructors, since
+// libjpeg's errors jump over them.
 bool Compress(const Image& image, int quality, Memory* memory, Failure* failure) {
   jpeg_compress_struct info;
   info.err = jpeg_std_error(&failure->manager);

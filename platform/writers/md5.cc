@@ -14,7 +14,7 @@ using State = std::array<uint32_t, 4>;
 
 uint32_t RotateLeft(uint32_t value, int bits) { return value << bits | value >> (32 - bits); }
 
-// The 64 constants of the RFC are the sines of 1 to 64 radians.
+// Returns the 64 constants of the RFC, which are the sines of 1 to 64 radians.
 std::array<uint32_t, kBlock> Sines() {
   std::array<uint32_t, kBlock> sines;
   for (size_t i = 0; i < kBlock; ++i) {
@@ -48,7 +48,7 @@ void Digest(const uint8_t* block, State* state) {
 }  // namespace
 
 std::string Md5(const std::string& text) {
-  // A one, zeros, and the length in bits make whole blocks.
+  // Pad to whole blocks with a one, zeros, and the length in bits.
   std::string padded = text + '\x80';
   while (padded.size() % kBlock != kBlock - 8) padded += '\0';
   for (int i = 0; i < 8; ++i) {
@@ -59,7 +59,7 @@ std::string Md5(const std::string& text) {
     Digest(reinterpret_cast<const uint8_t*>(padded.data()) + at, &state);
   }
   std::string digits;
-  for (int i = 0; i < 32; ++i) {  // the low byte of a word first, its high digit first
+  for (int i = 0; i < 32; ++i) {  // low byte of each word first, high digit of each byte first
     digits += "0123456789ABCDEF"[state[size_t(i / 8)] >> (4 * ((i % 8) ^ 1)) & 15];
   }
   return digits;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The digest by which extended XMP is named: RFC 1321. It keeps no secrets.
+// The MD5 digest (RFC 1321), which names extended XMP. It does not serve security.
 #ifndef STARFOCUS_PLATFORM_WRITERS_MD5_H_
 #define STARFOCUS_PLATFORM_WRITERS_MD5_H_
 
@@ -7,7 +7,7 @@
 
 namespace starfocus {
 
-// 32 hexadecimal digits in capitals.
+// Returns 32 hexadecimal digits in capitals.
 std::string Md5(const std::string& text);
 
 }  // namespace starfocus

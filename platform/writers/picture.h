@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures as files of the format that their names tell.
+// Encodes pictures in the format that the extension of their file name selects.
 #ifndef STARFOCUS_PLATFORM_WRITERS_PICTURE_H_
 #define STARFOCUS_PLATFORM_WRITERS_PICTURE_H_
 
@@ -13,19 +13,20 @@
 namespace starfocus {
 
 struct PictureOptions {
-  int quality = 95;  // 1 to 100, of JPEG and WebP
+  int quality = 95;  // of JPEG and WebP, 1 to 100
   Metadata metadata;
   PngSize png_size = PngSize::kQuick;
 };
 
-// The names that EncodePicture knows, for a sentence.
+// Extensions that EncodePicture supports, for use in a sentence.
 inline constexpr char kPictureExtensions[] = ".png, .ppm, .jpg or .webp";
 
-// Whether `extension`, in lower case with its dot, is one of them, or .jpeg.
+// Returns true if EncodePicture supports `extension`, in lower case with its dot, for example
+// ".jpeg".
 bool IsPictureExtension(const std::string& extension);
 
-// Encodes by the extension of `path` (standard_stream.h), which else names the file in errors. PPM
-// has no place for metadata.
+// Encodes a picture by the extension of `path` (standard_stream.h), which is otherwise used only in
+// errors. PPM files contain no metadata.
 Result<Bytes> EncodePicture(const std::string& path, const Image& image,
                             const PictureOptions& options);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// PNG files.
+// Writes PNG files.
 #ifndef STARFOCUS_PLATFORM_WRITERS_PNG_H_
 #define STARFOCUS_PLATFORM_WRITERS_PNG_H_
 
@@ -13,22 +13,23 @@
 
 namespace starfocus {
 
-// Grey levels, rows without padding.
+// Grey levels in rows without padding.
 struct GreyImage {
   int width = 0, height = 0;
   std::vector<uint16_t> levels;
 };
 
-// How much time goes into a small file: kSmall takes about 17 times as long for 5 to 7 % less.
+// Trade-off between time and file size: kSmall takes about 17 times as long and saves 5 to 7 %.
 enum class PngSize { kQuick, kSmall };
 
-// 8 bits of R, G, B, as all pictures of the engine have. By libpng and libdeflate where the build
-// has them, with metadata changed to what is true of the picture (exif.h); else by stb_image_write,
-// without any and of one size. `path` only names the file in errors, here and below.
+// Encodes a picture with 8 bits per sample. With libpng and libdeflate, metadata is edited to match
+// the picture (exif.h). Builds without them use stb_image_write, which writes no metadata and
+// ignores `size`. `path` is used only in errors, here and below.
 Result<Bytes> EncodePng(const std::string& path, const Image& image, const Metadata& metadata,
                         PngSize size);
 
-// Levels as they are, in 8 bits where all have room there, else in 16, which only libpng writes.
+// Encodes grey levels without scaling: with 8 bits if all levels fit, otherwise with 16 bits, which
+// needs libpng.
 Result<Bytes> EncodeGreyPng(const std::string& path, const GreyImage& image);
 
 }  // namespace starfocus

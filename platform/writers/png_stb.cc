@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// PNG by stb_image_write, where libpng is absent.
+// Encodes PNG with stb_image_write in builds without libpng.
 #include <stb/stb_image_write.h>
 
 #include <algorithm>

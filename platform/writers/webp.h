@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// WebP files: a picture, or several one after the other.
+// Writes WebP files: a picture, or an animation of several pictures.
 #ifndef STARFOCUS_PLATFORM_WRITERS_WEBP_H_
 #define STARFOCUS_PLATFORM_WRITERS_WEBP_H_
 
@@ -12,23 +12,23 @@
 
 namespace starfocus {
 
-// Encodes pictures of one size as they come; more than one are shown for a tenth of a second each,
-// for ever again. Nothing but the coded pictures is kept.
+// Encodes pictures of equal size as they are added. Several pictures form an endless animation with
+// a tenth of a second per picture. Only the encoded pictures are kept in memory.
 class WebpWriter {
  public:
-  // `path` only names the file in errors; quality is 1 to 100.
+  // `path` is used only in errors; `quality` is 1 to 100.
   WebpWriter(std::string path, int quality);
   ~WebpWriter();
   WebpWriter(const WebpWriter&) = delete;
   WebpWriter& operator=(const WebpWriter&) = delete;
 
-  // Whether pictures of this size can be written: the format has 16383 pixels a side, and
-  // a program built without libwebp writes none.
+  // Checks that pictures of this size can be written. The format is limited to 16383 pixels per
+  // side, and builds without libwebp cannot write WebP.
   static Error Check(const std::string& path, int width, int height);
 
   Error Add(const Image& picture);
 
-  // The whole file, with metadata changed to what is true of the pictures (exif.h).
+  // Returns the complete file, with metadata edited to match the pictures (exif.h).
   Result<Bytes> Finish(const Metadata& metadata);
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What says so where libwebp is absent.
+// Reports that WebP is not supported in builds without libwebp.
 #include "platform/writers/webp.h"
 
 namespace starfocus {

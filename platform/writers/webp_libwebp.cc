@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// WebP by libwebp and its encoder of animations.
+// Encodes WebP with libwebp and its animation encoder.
 #include "platform/writers/webp.h"
 
 #include <webp/encode.h>
@@ -14,13 +14,13 @@
 namespace starfocus {
 namespace {
 
-constexpr int kMilliseconds = 100;  // of a picture
+constexpr int kMilliseconds = 100;  // duration of a picture
 
 Error Failed(const std::string& path, const std::string& reason) {
   return Expected(path, "pictures that libwebp can write", reason);
 }
 
-// Bytes of the library's.
+// Owns memory that libwebp allocates.
 struct Data {
   WebPData data;
   Data() { WebPDataInit(&data); }
