@@ -13,27 +13,29 @@
 namespace starfocus::stress {
 namespace {
 
-// 255ths of white by which any pixel of a flat scene may jump when the lens changes by a step of
-// its scale, by what changes with it. Nothing but the radius, or N by the rule for subapertures:
-// each view's weights slide.
+// Largest jump of a pixel of a flat scene, in 255ths of white, when a lens parameter changes by one
+// step of its scale. The limit depends on what else changes. This one applies if only the radius
+// changes, or N by the rule for subapertures: the weights of the views then change gradually.
 constexpr int kSmoothJump = 12;
-// N by (9), or by the benchmark: at r = 1 five views become thirteen, of kernels 1e-2 apart (Fig. 6
-// below N = 4); more where theta puts all weight in the middle or on the rim.
+// N by (9), or of the benchmark. At r = 1 five views become thirteen, and their PSFs differ by 1e-2
+// (Fig. 6 below N = 4). The difference is larger if theta puts all weight in the middle or on the
+// rim.
 constexpr int kViewsJump = 64;
-// L: a subsampled blur differs from the ideal one by Table I's 6.7e-4, which its optimum of theta
-// keeps so small ...
+// L. With the theta for which Table I is optimised, a subsampled blur differs from the ideal one by
+// 6.7e-4.
 constexpr int kLayerJump = 24;
-// ... and other apertures do not, least those with a bright rim.
+// L with another theta. The difference is larger, most of all for apertures with a bright rim.
 constexpr int kLayerJumpOfTheta = 48;
-// Blur mode: its kernels are those of a ladder of radii, 1/8 pixel apart.
+// Blur mode. Its PSFs belong to a ladder of radii, which are 1/8 pixel apart.
 constexpr int kLadderJump = 48;
 
-// The layer of a flat scene, all of whose blocks share it.
+// Returns the layer of a flat scene, in which all blocks have the same layer.
 int LayerOf(const starfocus_report& report) {
   return report.layers[2].pixels > 0 ? 2 : report.layers[1].pixels > 0 ? 1 : 0;
 }
 
-// Whether views stand for wide subapertures; not told of blur mode, whose kernels are others.
+// Returns true if views stand for wide subapertures. Not valid for the blur mode, which has no
+// views.
 bool UsesSubapertures(const Setup& setup) {
   const starfocus_params& params = setup.params;
   if (params.mode != STARFOCUS_MODE_FRAME || setup.config.views == 1)
@@ -51,7 +53,7 @@ int MostJump(const Setup& setup, const starfocus_report& a, const starfocus_repo
   return a.n != b.n && !UsesSubapertures(setup) ? std::max(most, kViewsJump) : most;
 }
 
-// Of light, in 255ths of white.
+// Returns the largest difference of light, in 255ths of white.
 double LargestDifference(const std::vector<uint8_t>& a, const std::vector<uint8_t>& b,
                          int transfer) {
   double largest = 0;
@@ -64,8 +66,9 @@ double LargestDifference(const std::vector<uint8_t>& a, const std::vector<uint8_
 
 }  // namespace
 
-// Mirroring, turning and transposing a light field of whole blocks does the same to the result;
-// wide subapertures, whose views are rendered along rows first, are only mirrored.
+// Mirroring, rotating and transposing a light field of whole blocks must do the same to the result.
+// Light fields with wide subapertures are not transposed, since their views are rendered along rows
+// first.
 Outcome Mirrors(test::Random* random) {
   Setup setup = RandomSetup({20, 6, 4, 6}, random);
   const float low = setup.scene.disparity_min, high = setup.scene.disparity_max;
@@ -76,11 +79,12 @@ Outcome Mirrors(test::Random* random) {
   setup.config.width = setup.scene.width;
   setup.config.height = setup.scene.height;
   setup.config.superblock = 32;
-  setup.config.tuning.max_layer = 0;  // layers keep every second pixel, from the left and the top
-  // Coverage takes the first by rows of equally near pixels, of which a range as wide as that of
-  // strands makes many.
+  // layers keep every second pixel, starting at the left and the top
+  setup.config.tuning.max_layer = 0;
+  // Among equally near pixels, coverage takes the first one by rows. With the disparity range of
+  // strands there are many such pixels.
   if (setup.strands) setup.config.features &= ~STARFOCUS_FEATURE_COVERAGE;
-  // Polygons, and what cat's eyes leave, are not their own mirror images.
+  // Polygons and cat's eyes are not symmetric.
   starfocus_lens& lens = setup.params.lens;
   if (lens.shape == STARFOCUS_SHAPE_POLYGON) lens.shape = STARFOCUS_SHAPE_DISC;
   lens.cats_eye = 0;
@@ -107,7 +111,7 @@ Outcome Mirrors(test::Random* random) {
   return outcome;
 }
 
-// Without a depth edge there is no hole, and nothing depends on the side views.
+// A scene without depth edges has no holes, so that the side views must not matter.
 Outcome SideViews(test::Random* random) {
   Setup setup = FlatSetup(random->Int(1, 40), random->Int(1, 30), RandomRadius(8, random), random);
   SetColours(static_cast<Colours>(random->Int(0, 2)), &setup.scene, random);
@@ -120,7 +124,7 @@ Outcome SideViews(test::Random* random) {
   return {0, ""};
 }
 
-// A small step of the focus or the aperture; the error is the largest change of a pixel.
+// Changes the focus or the aperture by a small step. The error is the largest change of a pixel.
 Outcome Continuity(test::Random* random) {
   Setup setup = FlatSetup(random->Int(8, 40), random->Int(8, 30), RandomRadius(8, random), random);
   SetColours(random->Int(0, 1) == 0 ? Colours::kSmooth : Colours::kNoise, &setup.scene, random);

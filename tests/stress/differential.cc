@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The family of what may be asked for in several ways: whole, streamed, as a region, prepared, as
-// the frame after another; by used engines, and by ones whose runner failed before.
+// Family of calls that must return the same picture: whole, streamed, as a region, prepared, and as
+// the next frame of a video. The engines may have been used before, and their runners may have
+// failed before.
 #include "tests/stress/differential.h"
 
 #include <cmath>
@@ -13,9 +14,10 @@
 namespace starfocus::stress {
 namespace {
 
-// Rendered views times pixels, of those modes whose views grow with the radius.
+// Largest number of rendered views times pixels, for modes whose number of views grows with the
+// radius.
 constexpr double kMostWork = 300000;
-// The wider the blur, the smaller the picture and the fewer the cases.
+// With wider blur, pictures are smaller and cases are fewer.
 constexpr Bounds kRegimes[] = {
     {160, 3, 4, 8}, {160, 6, 4, 500}, {100, 16, 4, 40}, {64, 50, 4, 500}, {40, 128, 4, 500}};
 
@@ -27,7 +29,7 @@ bool IsLineByLine(const Setup& setup) {
           setup.config.views > 1);
 }
 
-// Line by line the views are as many as the square of the radius.
+// Limits the work of the line scan, whose number of views grows with the square of the radius.
 void LimitWork(Setup* setup) {
   const double n = 1 + setup->Radius() * std::max(1.0, setup->config.tuning.n_scale);
   const double views = 3.2 * n * n * (setup->params.mode == STARFOCUS_MODE_BENCHMARK ? 4 : 1);
@@ -61,7 +63,7 @@ Setup RandomCase(test::Random* random) {
   return setup;
 }
 
-// Uses the engine for something else.
+// Uses the engine for something else first.
 void Distract(const Asked& asked, Rig* rig, test::Random* random) {
   const Setup& setup = asked.setup;
   starfocus_params params = setup.params;
@@ -108,7 +110,8 @@ std::string Region(const Asked& asked, test::Random* random) {
   return Verdict(rig, status, Crop(asked, params.region), out);
 }
 
-// A map with a bad value is refused before anything is written, unless the region cannot read it.
+// Checks that a map with a bad value is rejected before any output is written, unless the value is
+// outside the part that the region reads.
 std::string Refused(const Asked& asked, test::Random* random) {
   Rig rig(asked.setup.config, RandomVariant(random));
   Setup setup = asked.setup;
@@ -130,7 +133,7 @@ std::string Refused(const Asked& asked, test::Random* random) {
   return out.Untouched() ? "" : "bad value is refused after a part of the picture was written";
 }
 
-// Another engine prepares than the one that refocuses.
+// Checks a prepared light field that another engine made.
 std::string Prepared(const Asked& asked, test::Random* random) {
   starfocus_config config = asked.setup.config;
   if (random->Int(0, 1) == 0) config.superblock = 32 << random->Int(0, 3);
@@ -157,7 +160,7 @@ std::string Prepared(const Asked& asked, test::Random* random) {
   test::Output out(region.width, region.height, random->Int(0, 5));
   Distract(asked, &rig, random);
   if (config.previews > 0) {
-    // After a preview the engine is what it was.
+    // A preview must not change later results of the engine.
     test::Output preview(region.width, region.height);
     status = Retried(&rig, random, [&] {
       rig.SetCallbacks();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the ways of asking for a picture share.
+// Declarations shared by the calls of the differential family.
 #ifndef STARFOCUS_TESTS_STRESS_DIFFERENTIAL_H_
 #define STARFOCUS_TESTS_STRESS_DIFFERENTIAL_H_
 
@@ -12,7 +12,7 @@
 
 namespace starfocus::stress {
 
-// What one case asks for, and the whole picture that a new engine gives without a runner.
+// Input of one case, and the whole picture from a new engine without a runner.
 struct Asked {
   Setup setup;
   std::vector<uint8_t> picture;
@@ -20,19 +20,19 @@ struct Asked {
 
 starfocus_region RandomRegion(const test::Scene& scene, test::Random* random);
 
-// The region of the picture.
+// Returns a region of the picture.
 std::vector<uint8_t> Crop(const Asked& asked, const starfocus_region& region);
 
-// The call's status; now and then its runner has failed once before. A failure that the call does
-// not tell is STARFOCUS_ERROR_RUNNER here.
+// Returns the status of a call. In some cases the runner fails in a call before that. If that call
+// does not report the failure, the result is STARFOCUS_ERROR_RUNNER.
 starfocus_status Retried(Rig* rig, test::Random* random,
                          const std::function<starfocus_status()>& call);
 
-// Empty when the call succeeded and `out` holds the expected bytes.
+// Returns an empty string if the call succeeded and `out` holds the expected bytes.
 std::string Verdict(const Rig& rig, starfocus_status status, const std::vector<uint8_t>& expected,
                     const test::Output& out);
 
-// Ways with files of their own. Each gives what went wrong, or nothing.
+// Calls that have their own files. Each returns a description of the failure, or an empty string.
 std::string Streamed(const Asked& asked, test::Random* random);
 std::string After(const Asked& asked, test::Random* random);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Frames after frames, each against refocusing it alone.
+// Sequences of frames: each frame must be equal to the frame refocused alone.
 #include <algorithm>
 
 #include "tests/stress/differential.h"
@@ -7,7 +7,7 @@
 namespace starfocus::stress {
 namespace {
 
-// What changes from a frame to the next.
+// Part of the input that changes from one frame to the next.
 enum class Change { kDepths, kCentre, kSides, kRectangle, kEdges, kCoverage, kNothing };
 
 struct Changer {
@@ -41,7 +41,7 @@ struct Changer {
     if (scene->coverage.empty()) return;
     scene->coverage[size_t(Y()) * size_t(scene->width) + size_t(X())] = random->Byte();
   }
-  // Of the map or of a view.
+  // Changes a rectangle of the map or of a view.
   void Rectangle() {
     const int x0 = X(), y0 = Y();
     const int x1 = random->Int(x0, scene->width - 1), y1 = random->Int(y0, scene->height - 1);
@@ -57,7 +57,7 @@ struct Changer {
       }
     }
   }
-  // A pixel of the first or last row or column.
+  // Changes a pixel of the first or last row or column.
   void Edge() {
     const bool upright = random->Int(0, 1) == 0, last = random->Int(0, 1) == 0;
     const int x = upright ? (last ? scene->width - 1 : 0) : X();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rows pushed and pulled in portions of any size, with bad rows, failing runners and new beginnings
+// Pushes and pulls rows in portions of random size, with invalid rows, failing runners and restarts
 // in between.
 #include <limits>
 
@@ -12,9 +12,9 @@ struct Streaming {
   Rig* rig;
   const Asked& asked;
   test::Random* random;
-  test::Scene scene;  // of which rows are spoiled for a while
+  test::Scene scene;  // some of its rows are invalid for a while
   test::Output out;
-  int most;  // rows at a time
+  int most;  // largest number of rows per call
   int pushed = 0, pulled = 0;
   std::string failure = {};
 
@@ -26,7 +26,7 @@ struct Streaming {
     if (status != STARFOCUS_OK) failure = std::string("begin: ") + starfocus_status_string(status);
   }
 
-  // One of the next rows may be bad: no row from there on is consumed.
+  // Pushes rows, one of which may be invalid. The engine must not consume that row or later ones.
   void Push() {
     const int rows = random->Int(0, std::min(most, height() - pushed));
     const int bad = rows > 0 && random->Int(0, 11) == 0 ? random->Int(0, rows - 1) : rows;
@@ -51,7 +51,7 @@ struct Streaming {
     pushed += consumed;
   }
 
-  // After a failure the next pull goes on behind the rows that were written.
+  // Pulls rows. After a failure the next pull must resume after the rows that were written.
   void Pull() {
     const int rows = random->Int(0, std::min(most, height() - pulled));
     const bool fails = random->Int(0, 15) == 0;

@@ -8,7 +8,7 @@
 
 namespace starfocus::stress {
 
-// A case that failed, and how.
+// Describes a failed case.
 inline Outcome Fail(const Setup& setup, const std::string& what) {
   return {0, what + ": " + setup.Text()};
 }
@@ -30,7 +30,7 @@ Outcome SideViews(test::Random* random);
 Outcome Continuity(test::Random* random);
 Outcome Differential(test::Random* random);
 
-// Disparity maps: planes that must stay, and ways to ask for a map that must agree.
+// Disparity maps: planes that a repair must keep, and calls that must agree.
 Outcome Maps(test::Random* random);
 
 }  // namespace starfocus::stress

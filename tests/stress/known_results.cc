@@ -12,15 +12,15 @@
 namespace starfocus::stress {
 namespace {
 
-// Mean brightness may change by this, in gray levels.
+// Largest change of the mean brightness, in gray levels.
 constexpr double kMostEnergy = 0.05;
-// Inverting a picture inverts the result up to the rounding of halves: once per pixel at layer 0,
-// a few times on the way to a layer and back.
+// Inverting a picture inverts the result, except for the rounding of halves. That happens once per
+// pixel at layer 0, and a few times more at other layers.
 constexpr int kMostInversion = 2;
-// The resampling filters have negative lobes: overshoot as a part of the step. Down and up again by
-// two layers without any blur between it would be 0.144; the blur averages most of it away, more of
-// it from radius 4 on than from 3, but not that of apertures steeper than the default, which are
-// nearly a pinhole.
+// Returns the largest overshoot as a share of the step. Overshoot exists because the resampling
+// filters have negative lobes. Two layers down and up again without blur overshoot by 0.144. Blur
+// removes most of this, and more from radius 4 on than from 3. Apertures steeper than the default
+// are nearly pinholes, so their blur does not remove it.
 double MostOvershoot(const Setup& setup, double radius) {
   const bool steep = setup.params.lens.theta > test::Params(0).lens.theta;
   if (setup.params.renderer != STARFOCUS_RENDERER_LINE_SCAN && radius >= 4)
@@ -54,8 +54,8 @@ Levels LevelsOf(const Setup& setup) {
   return levels;
 }
 
-// The inverted light field must give the inverted picture, and no level may lie outside those of
-// the views where all weights are positive. The error is the largest difference.
+// The inverted light field must give the inverted picture. If all weights are positive, no sample
+// may lie outside the levels of the views. The error is the largest difference.
 Outcome CheckInversion(Setup setup, test::Random* random) {
   const std::vector<uint8_t> plain = Refocused(setup, RandomVariant(random));
   if (!MayResample(setup)) {
@@ -66,7 +66,8 @@ Outcome CheckInversion(Setup setup, test::Random* random) {
       }
     }
   }
-  // Light is coded by a curve: the inverse of a picture is no inverse of its light.
+  // Codes are not proportional to light, so the inverse of a picture is not the inverse of its
+  // light.
   if (setup.config.transfer != STARFOCUS_TRANSFER_NONE) return {0, ""};
   Setup inverted = setup;
   Invert(&inverted);
@@ -75,7 +76,7 @@ Outcome CheckInversion(Setup setup, test::Random* random) {
   for (size_t i = 0; i < plain.size(); ++i) {
     outcome.error = std::max<double>(outcome.error, std::abs(plain[i] + other[i] - 255));
   }
-  // Deblocking compares rounded differences with a threshold, and may decide differently.
+  // Deblocking compares rounded differences with a threshold, so its decisions may differ.
   const bool deblocked = MayResample(setup) && setup.config.tuning.deblocking > 0;
   const double most = deblocked ? setup.config.tuning.deblocking + kMostInversion : kMostInversion;
   if (outcome.error > most)
@@ -92,7 +93,7 @@ void Fill(test::Scene* scene, uint8_t red, uint8_t green, uint8_t blue) {
   }
 }
 
-// Refocuses a picture of one colour; the error is the largest change.
+// Refocuses a picture of one colour. The error is the largest change.
 Outcome CheckConstant(Setup setup, test::Random* random) {
   const uint8_t colour[3] = {random->Byte(), random->Byte(),
                              static_cast<uint8_t>(255 * random->Int(0, 1))};
@@ -106,7 +107,8 @@ Outcome CheckConstant(Setup setup, test::Random* random) {
   return outcome;
 }
 
-// The whole range of d as an aperture so narrow that the blur stays small.
+// Makes a setup with the whole range of disparities and an aperture so narrow that the blur stays
+// small.
 Setup RangeSetup(float low, float high, double radius, test::Random* random) {
   constexpr int kViews[] = {1, 5, 9, 17};
   Setup setup;
@@ -142,7 +144,7 @@ Outcome Squares(test::Random* random) {
 }
 
 Outcome Limits(test::Random* random) {
-  // The largest benchmark has 205,000 views: rarely, and of a pixel or two.
+  // The largest benchmark has 205,000 views. It is tried rarely, and with one or two pixels.
   const int kind = random->Int(0, 63);
   Setup setup;
   constexpr int kViews[] = {1, 5, 9, 17};
@@ -194,14 +196,15 @@ Outcome Extremes(test::Random* random) {
 
 Outcome Noise(test::Random* random) {
   Setup setup = RandomSetup({32, 8, 4, 16}, random);
-  setup.scene.coverage.clear();  // against it, near light would be darker or lighter than any view
+  // wrong coverage would make near light darker or lighter than any view
+  setup.scene.coverage.clear();
   SetDepth(Depth::kNoisy, &setup.scene, random);
   SetColours(Colours::kNoise, &setup.scene, random);
   return CheckInversion(setup, random);
 }
 
-// Content whose second half period is the first one's inverse around a whole level: what rounding
-// does to one half, it undoes in the other, so that the mean must stay.
+// The second half of each period of the content is the inverse of the first half around an integer
+// level. Rounding errors of both halves cancel, so the mean must not change.
 Outcome Energy(test::Random* random) {
   constexpr int kPeriod = 16;
   const double radius = RandomRadius(random->Int(0, 3) == 0 ? 7 : 4, random);
@@ -210,7 +213,7 @@ Outcome Energy(test::Random* random) {
   Setup setup = FlatSetup(side, side, radius, random);
   setup.config.transfer = STARFOCUS_TRANSFER_NONE;  // a mean of codes
   const int mean = random->Int(20, 235);
-  // Room for what the layers' filters may overshoot: nothing is clipped.
+  // Leaves room for the overshoot of the layers' filters, so that nothing is clipped.
   const int amplitude = std::max(1, static_cast<int>(std::min(mean, 255 - mean) / 1.8));
   int pattern[kPeriod][kPeriod];
   for (auto& row : pattern) {
@@ -237,7 +240,7 @@ Outcome Energy(test::Random* random) {
   return {std::fabs(got - mean), ""};
 }
 
-// The error is the overshoot beyond a level as a part of the step.
+// The error is the overshoot beyond a level, as a share of the step.
 Outcome Steps(test::Random* random) {
   const int length = random->Int(8, 72), across = random->Int(1, 20);
   const bool upright = random->Int(0, 1) == 1;
@@ -254,7 +257,7 @@ Outcome Steps(test::Random* random) {
   const std::vector<uint8_t> out = Refocused(setup, RandomVariant(random));
   const bool positive = !MayResample(setup);
   const auto light = [&](int code) { return test::LightOf(code, setup.config.transfer); };
-  double over = 0;  // of light, but for what one code may be by rounding
+  double over = 0;  // light, minus the rounding error of one code
   for (int k = 0; k < length; ++k) {
     const auto at = [&](int along) {
       return int{out[3 * size_t(upright ? along * across : along)]};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The family of disparity maps: estimates and repairs of pictures for which something is known.
+// Family of disparity maps: estimates and repairs with a known result or known symmetries.
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -14,8 +14,8 @@ namespace starfocus::stress {
 namespace {
 
 constexpr int kViewCounts[] = {1, 5, 9, 17};
-constexpr float kMost = 6;     // disparities lie within it
-constexpr int kPlaneMost = 4;  // and of planes within this
+constexpr float kMost = 6;     // largest absolute disparity
+constexpr int kPlaneMost = 4;  // largest absolute disparity of planes
 
 struct Map {
   starfocus_status status = STARFOCUS_OK;
@@ -29,7 +29,7 @@ struct Map {
   }
 };
 
-// What is asked for: a light field whose map is to be repaired, or estimated.
+// A light field whose map is repaired or estimated.
 struct Question {
   test::Scene scene;
   bool repairs = true;
@@ -75,7 +75,7 @@ Map Make(const Question& question, starfocus_runner runner, test::Random* random
   return map;
 }
 
-// A picture of noise in one plane, which every view shows moved by whole pixels.
+// Draws noise in one plane, which every view shows moved by whole pixels.
 void DrawPlane(int disparity, test::Random* random, test::Scene* scene) {
   const int margin = std::abs(disparity), stride = scene->width + 2 * margin;
   const std::vector<uint8_t> noise =
@@ -92,8 +92,8 @@ void DrawPlane(int disparity, test::Random* random, test::Scene* scene) {
   }
 }
 
-// What is in one plane stays there to the bit, and so does the map of a picture of one colour, of
-// which views tell nothing.
+// A repair must keep every bit of the map of one plane. It must also keep the map of a picture of
+// one colour, in which views give no information.
 Outcome CheckPlane(Question* question, test::Random* random) {
   test::Scene& scene = question->scene;
   const bool blank = random->Int(0, 1) == 0;
@@ -113,8 +113,8 @@ Outcome CheckPlane(Question* question, test::Random* random) {
   return {};
 }
 
-// Any picture, any map: the mirrored light field has the mirrored map, and neither workers nor what
-// the memory holds matter.
+// For any picture and any map, the mirrored light field must have the mirrored map. Workers and the
+// previous content of the memory must not matter.
 Outcome CheckAgreement(Question* question, test::Random* random) {
   test::Scene& scene = question->scene;
   scene =
@@ -154,7 +154,7 @@ Outcome Maps(test::Random* random) {
   const int views = kViewCounts[random->Int(0, 3)];
   question.repairs = views == 1 || random->Int(0, 2) > 0;
   const bool plane = question.repairs && random->Int(0, 2) == 0;
-  // Of a picture that is no larger than its disparity, views above and below show nothing.
+  // If a picture is not larger than its disparity, the views above and below show nothing of it.
   const int least = plane ? 2 * kPlaneMost + 1 : 1;
   question.scene =
       test::EmptyScene(random->Int(least, 90), random->Int(least, 60), views, -kMost, kMost);

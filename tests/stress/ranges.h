@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Listens to the engine's range checks, in builds that have them.
+// Collects failures of the engine's range checks, in builds that have these checks.
 #ifndef STARFOCUS_TESTS_STRESS_RANGES_H_
 #define STARFOCUS_TESTS_STRESS_RANGES_H_
 
@@ -7,7 +7,8 @@
 
 namespace starfocus::stress {
 
-// The first value outside its range since ForgetRangeFailure, in a line; empty for none.
+// Returns a line about the first value outside its range since ForgetRangeFailure, or an empty
+// string.
 std::string RangeFailure();
 void ForgetRangeFailure();
 

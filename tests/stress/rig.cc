@@ -51,7 +51,8 @@ Memory::Memory(size_t bytes, int poison, test::Random* random)
   auto* to = static_cast<uint8_t*>(memory_.get());
   if (poison >= 0 && poison <= 255) std::memset(to, poison, bytes);
   if (poison <= 255) return;
-  const size_t drawn = std::min<size_t>(bytes, 1021);  // no multiple of what tables are made of
+  // not a multiple of the element sizes of tables
+  const size_t drawn = std::min<size_t>(bytes, 1021);
   for (size_t i = 0; i < drawn; ++i) to[i] = random->Byte();
   for (size_t i = drawn; i < bytes; i += drawn) std::memcpy(to + i, to, std::min(drawn, bytes - i));
 }
@@ -94,15 +95,15 @@ int Rig::Run(void* self, starfocus_job job, void* data, int32_t count) {
     rig->failed_ = true;
     switch (rig->random_.Int(0, 4)) {
       case 0:
-        return 1;  // says that it failed
+        return 1;  // reports the failure
       case 1:
-        break;  // leaves the job out
+        break;  // omits the job
       case 2:
         job(data, index, rig->variant_.workers);
-        break;  // a worker that there is not
+        break;  // uses an invalid worker
       case 3:
         job(data, count, worker);
-        break;  // another job that there is not
+        break;  // runs an invalid job
       default:
         job(data, index, worker);
         job(data, index, worker);

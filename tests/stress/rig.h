@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ways of running an engine. The bytes of a picture must not depend on any of them.
+// Variants of running an engine. The bytes of a picture must not depend on them.
 #ifndef STARFOCUS_TESTS_STRESS_RIG_H_
 #define STARFOCUS_TESTS_STRESS_RIG_H_
 
@@ -16,24 +16,24 @@
 namespace starfocus::stress {
 
 struct Variant {
-  const simd::Kernels* kernels = nullptr;  // null: the best of this machine
+  const simd::Kernels* kernels = nullptr;  // null: the best kernels of this machine
   int workers = 1;
   bool stream = false;
   int push_rows = 1, pull_rows = 1;
-  uint64_t order = 0;  // of the jobs; 0: no runner
+  uint64_t order = 0;  // seed of the order of jobs; 0: no runner
   double room = 1;     // factor of starfocus_config.max_blur
-  int poison = -1;     // of the workspace, as Memory's
+  int poison = -1;     // initial bytes of the workspace, see Memory
 
   std::string Text() const;
 };
 
-// Tables of kernels of every SIMD target of this machine, and the plain reference.
+// Returns the kernels of every SIMD target of this machine, and the reference.
 const std::vector<const simd::Kernels*>& AllKernels();
 
 Variant RandomVariant(test::Random* random);
 
-// Aligned memory of exactly so many bytes, each of the value `poison`; of noise if that is above
-// 255, as the heap gave them if it is negative.
+// Aligned memory of exactly the given size. All bytes have the value `poison`. If `poison` is above
+// 255, they are random; if it is negative, they are not initialised.
 class Memory {
  public:
   Memory(size_t bytes, int poison, test::Random* random);
@@ -46,12 +46,12 @@ class Memory {
   std::unique_ptr<void, Free> memory_;
 };
 
-// The engine of a variant, in memory of exactly the size it asked for, and the runner of its jobs.
+// An engine in a workspace of exactly the required size, and the runner of its jobs.
 class Rig {
  public:
   Rig(const starfocus_config& config, const Variant& variant);
 
-  // Makes the engine anew in the memory that it used.
+  // Creates the engine again in the same memory.
   void Restart();
 
   starfocus_status status() const { return status_; }
@@ -59,29 +59,30 @@ class Rig {
   const starfocus_config& config() const { return config_; }
   const Variant& variant() const { return variant_; }
 
-  // Without a runner when the engine is to run the jobs by itself.
+  // Returns no runner if the engine runs the jobs itself.
   starfocus_callbacks callbacks() {
     return test::RunBy(variant_.order == 0 && jobs_left_ < 0 ? nullptr : Run, this);
   }
-  // Sets these for the next call.
+  // Sets the callbacks for the next call.
   void SetCallbacks() {
     const starfocus_callbacks set = callbacks();
     starfocus_set_callbacks(engine_, &set);
   }
 
-  // The runner does so many jobs well, then one of them wrong in some way or not at all.
+  // Makes the runner execute `jobs` jobs correctly, and then one job incorrectly or not at all.
   void FailAfter(int32_t jobs) {
     jobs_left_ = jobs;
     failed_ = false;
   }
-  // The runner does all jobs well. Whether it failed since the last FailAfter.
+  // Makes the runner execute all jobs correctly. Returns true if it failed since the last
+  // FailAfter.
   bool Mend() {
     jobs_left_ = -1;
     return failed_;
   }
 
  private:
-  // Runs jobs one after the other in a shuffled order as any of the workers.
+  // Runs the jobs sequentially in a shuffled order, each with a random worker.
   static int Run(void* self, starfocus_job job, void* data, int32_t count);
 
   starfocus_config config_;
@@ -95,8 +96,8 @@ class Rig {
   bool failed_ = false;
 };
 
-// Bytes of the picture without row padding. Throws a line when the engine failed or wrote where it
-// must not.
+// Returns the bytes of the picture without row padding. Throws a std::runtime_error if the engine
+// fails or writes outside the picture.
 std::vector<uint8_t> Refocused(const Setup& setup, const Variant& variant,
                                starfocus_report* report = nullptr);
 

@@ -12,7 +12,7 @@ namespace {
 constexpr int kViews[] = {1, 5, 9, 17};
 constexpr int kBlocks[] = {32, 64, 128, 256};
 constexpr const char* kModes[] = {"frame", "benchmark", "block", "blur"};
-// N or L changes at these radii: (9), (12).
+// Radii at which N or L changes: (9), (12).
 constexpr double kThresholds[] = {0.5, 1, 2, 3, 4, 4 / 0.787, 6, 8, 12};
 
 std::string Number(double value) {
@@ -21,7 +21,7 @@ std::string Number(double value) {
   return text;
 }
 
-// In [low, high], an end of it as often as not.
+// Returns a value in [low, high], which is one of the ends in half of all calls.
 double OftenAnEnd(double low, double high, test::Random* random) {
   const int end = random->Int(0, 3);
   return end == 0 ? low : end == 1 ? high : random->Real(low, high);
@@ -132,7 +132,7 @@ void FitBlur(Setup* setup) {
 void RandomMode(int modes, Setup* setup, test::Random* random) {
   setup->params.mode = random->Int(0, modes - 1);
   setup->params.renderer = random->Int(STARFOCUS_RENDERER_AUTO, STARFOCUS_RENDERER_SLICES);
-  // The benchmark's number of views grows with the square of twice the radius.
+  // In benchmark mode the number of views grows with the square of twice the radius.
   if (setup->params.mode == STARFOCUS_MODE_BENCHMARK && setup->Radius() > 4) {
     setup->params.mode = STARFOCUS_MODE_BLOCK;
   }
@@ -154,7 +154,7 @@ void RandomLens(double radius, int modes, Setup* setup, test::Random* random) {
   if (random->Int(0, 3) == 0) {
     setup->params.lens.theta = OftenAnEnd(STARFOCUS_MIN_THETA, STARFOCUS_MAX_THETA, random);
   }
-  // A cheap or a dear block makes the partition coarse or fine.
+  // A cheap block makes the partition fine, an expensive block makes it coarse.
   if (random->Int(0, 1) == 0) setup->config.tuning.timing.block = 1u << random->Int(0, 26);
   FitBlur(setup);
   RandomMode(modes, setup, random);
@@ -177,13 +177,14 @@ Setup RandomSetup(const Bounds& bounds, test::Random* random) {
   const int low = std::min(bounds.size, random->Int(0, 3) == 0 ? bounds.size : 20);
   Setup setup;
   const double a = random->Real(-bounds.disparity, bounds.disparity);
-  // Surfaces far apart, strands, or surfaces close together.
+  // The surfaces are far apart, or strands, or close together.
   const int kind = random->Int(0, 3);
   const bool strands = kind == 1;
   const double b = kind == 0 ? random->Real(-bounds.disparity, bounds.disparity)
                    : strands ? a + (a < 0 ? 1 : -1) * random->Real(5, 12)
                              : a + random->Real(-3, 3);
-  // Given coverage is looked for far around each pixel, which takes long under sanitizers.
+  // The search with given coverage covers a wide area around each pixel, which is slow under
+  // sanitizers.
   const int least = strands ? std::min(16, low) : 1, most = strands ? std::min(80, low) : low;
   setup.scene = test::EmptyScene(
       random->Int(least, most), random->Int(least, most), kViews[random->Int(0, 3)],
@@ -193,7 +194,7 @@ Setup RandomSetup(const Bounds& bounds, test::Random* random) {
   if (random->Int(0, 3) == 0) setup.config.tuning.gather = 0;
   if (random->Int(0, 3) == 0)
     setup.config.tuning.n_scale = OftenAnEnd(STARFOCUS_MIN_N_SCALE, STARFOCUS_MAX_N_SCALE, random);
-  // Pictures draw numbers of their own: a fuzzer's bytes would not last for them.
+  // Pictures use their own random numbers, since a fuzzer does not supply enough bytes for them.
   test::Random fill(random->Next());
   setup.strands = strands;
   if (strands) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A random refocusing: what the stress families are made of.
+// Random refocusings for the stress families.
 #ifndef STARFOCUS_TESTS_STRESS_SETUP_H_
 #define STARFOCUS_TESTS_STRESS_SETUP_H_
 
@@ -19,40 +19,42 @@ struct Setup {
   test::Scene scene;
   starfocus_config config;
   starfocus_params params;
-  bool strands = false;  // SetStrands made it
+  bool strands = false;  // true if SetStrands made the scene
 
-  double Radius() const;     // largest blur radius of the configured disparities
-  std::string Text() const;  // one line for a person
+  double Radius() const;     // returns the largest blur radius of the configured disparities
+  std::string Text() const;  // returns one line for a person
 };
 
-// The bounds of a random setup.
+// Bounds of a random setup.
 struct Bounds {
-  int size = 40;        // width and height in [1, size]
-  double radius = 6;    // of the blur, mostly much less
-  int modes = 4;        // starfocus_mode below this
-  float disparity = 8;  // |d|
+  int size = 40;        // width and height are in [1, size]
+  double radius = 6;    // largest blur radius; most radii are much smaller
+  int modes = 4;        // modes are smaller than this starfocus_mode
+  float disparity = 8;  // largest |d|
 };
 
-// Radii below, at and above the thresholds of the rules, and at random.
+// Returns a radius below, at or above a threshold of the rules, or a random one.
 double RandomRadius(double largest, test::Random* random);
 
 void SetDepth(Depth depth, test::Scene* scene, test::Random* random);
-// Strands before a farther surface, as each view sees them, with coverage now and then.
+// Makes strands in front of a farther surface, as each view sees them. Some scenes include
+// coverage.
 void SetStrands(test::Scene* scene, test::Random* random);
 void SetColours(Colours colours, test::Scene* scene, test::Random* random);
 
-// A scene of flat disparity 0 seen with blur radius `radius` exactly, in any mode; colours are left
-// to the caller.
+// Makes a scene of flat disparity 0 in any mode, with a blur radius of exactly `radius`. The caller
+// sets the colours.
 Setup FlatSetup(int width, int height, double radius, test::Random* random);
 
-// Anything within bounds.
+// Makes any setup within the bounds.
 Setup RandomSetup(const Bounds& bounds, test::Random* random);
 
-// Random configuration for setup->scene and a lens whose largest blur radius is about `radius`.
+// Sets a random configuration for setup->scene, and a lens whose largest blur radius is about
+// `radius`.
 void RandomLens(double radius, int modes, Setup* setup, test::Random* random);
 void RandomMode(int modes, Setup* setup, test::Random* random);
 
-// Configures the smallest max_blur that the lens fits.
+// Configures the smallest max_blur that the lens needs.
 void FitBlur(Setup* setup);
 
 }  // namespace starfocus::stress

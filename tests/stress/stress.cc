@@ -31,7 +31,7 @@ const std::vector<Family>& Families() {
 
 Outcome RunCase(const Family& family, uint64_t number) {
   test::Random random(number);
-  for (int k = 0; k < 8; ++k) random.Next();  // neighbouring seeds start alike
+  for (int k = 0; k < 8; ++k) random.Next();  // neighbouring seeds start with similar numbers
   ForgetRangeFailure();
   Outcome outcome;
   try {

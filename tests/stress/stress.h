@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tries to break the engine: families of random refocusings, each with a property that must hold.
-// A case is its family and a number, nothing else, so that every failure can be repeated.
+// Stress test: families of random refocusings, each with a property that must hold. A case consists
+// of its family and a number only, so that every failure can be repeated.
 #ifndef STARFOCUS_TESTS_STRESS_STRESS_H_
 #define STARFOCUS_TESTS_STRESS_STRESS_H_
 
@@ -14,14 +14,14 @@
 namespace starfocus::stress {
 
 struct Outcome {
-  double error = 0;     // what Family::measures, of this case
-  std::string failure;  // one line; empty when all is well
+  double error = 0;     // value that Family::measures names
+  std::string failure;  // one line; empty without a failure
 };
 
 struct Family {
   const char* name;
-  const char* measures;  // what `error` is
-  int share;             // cases per round
+  const char* measures;  // name of `error`
+  int share;             // number of cases per round
   Outcome (*run)(test::Random* random);
 };
 
@@ -30,8 +30,8 @@ const std::vector<Family>& Families();
 struct FamilyReport {
   const Family* family = nullptr;
   uint64_t cases = 0, failures = 0;
-  double largest = 0;         // error
-  uint64_t largest_case = 0;  // the case that had it
+  double largest = 0;         // largest error
+  uint64_t largest_case = 0;  // case with the largest error
 };
 
 struct Report {
@@ -43,14 +43,15 @@ struct Report {
 struct Options {
   double seconds = 10;
   uint64_t seed = 1;
-  std::string family;                        // empty: all
-  std::function<void(double seconds)> done;  // told of the time that has gone, if there
+  std::string family;                        // empty: all families
+  std::function<void(double seconds)> done;  // receives the elapsed time; may be empty
 };
 
-// One case; `text` gets what it was when it fails.
+// Runs one case. `text` receives its description if it fails.
 Outcome RunCase(const Family& family, uint64_t number);
 
-// Runs cases of all families in turn until the time is up; told of each failure in a line.
+// Runs cases of all families in turn until the time is up. Passes each failure to `failed` as a
+// line.
 Report RunStress(const Options& options, const std::function<void(const std::string&)>& failed);
 
 }  // namespace starfocus::stress
