@@ -19,7 +19,7 @@ Image Gray(int width, int height, int value) {
   return image;
 }
 
-TEST_CASE("PSNR of a known difference") {
+TEST_CASE("The PSNR of a known difference is exact") {
   const Image a = Gray(40, 20, 100), b = Gray(40, 20, 105);
   CHECK(Psnr(a, a) == kBestPsnr);
   CHECK(Psnr(a, b) == doctest::Approx(20 * std::log10(255.0 / 5)));
@@ -45,7 +45,7 @@ TEST_CASE("A mask limits the PSNR to its pixels") {
   CHECK(MaskedPsnr(a, b, {0, 0, 0, 0}) == kBestPsnr);
 }
 
-TEST_CASE("SSIM of equal, shifted and inverted pictures") {
+TEST_CASE("SSIM is 1 for equal pictures, exact for gray ones and negative for inverted ones") {
   Image a(32, 24);
   for (size_t i = 0; i < a.pixels.size(); ++i) a.pixels[i] = uint8_t(i / 3 * 37 % 251);
   CHECK(Ssim(a, a) == doctest::Approx(1));
@@ -58,7 +58,7 @@ TEST_CASE("SSIM of equal, shifted and inverted pictures") {
   CHECK(Ssim(Gray(5, 5, 1), Gray(5, 5, 200)) == 1);
 }
 
-TEST_CASE("The edge band reaches so many rows and columns from a step") {
+TEST_CASE("The edge band reaches the given number of rows and columns from a step") {
   FloatMap map;
   map.width = 12;
   map.height = 5;
@@ -77,7 +77,7 @@ TEST_CASE("The edge band reaches so many rows and columns from a step") {
   CHECK(int{corner[13]} == 0);
 }
 
-TEST_CASE("Median, spread and quantiles") {
+TEST_CASE("Median, spread and quantiles of known numbers are exact") {
   CHECK(Median({}) == 0);
   CHECK(Median({3, 1, 2}) == 2);
   CHECK(Median({4, 1, 2, 3}) == 2.5);

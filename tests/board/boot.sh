@@ -1,16 +1,16 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# boot.sh STARFOCUS BOARD_REFOCUS FOLDER: boots Debian's arm64 kernel on QEMU's "virt" board
-# with the statically linked BOARD_REFOCUS of an aarch64 build and a small light field made by the
-# STARFOCUS of this machine. QEMU's power button presses the shutter on line 3 of the board's PL061
-# GPIO chip; the picture must be the one STARFOCUS computes here, in a file and on the screen, and
-# the busy line on line 5 must read back as set. FOLDER keeps the kernel for the next time.
+# boot.sh STARFOCUS BOARD_REFOCUS FOLDER: boots Debian's arm64 kernel on QEMU's "virt" board. The
+# board has the statically linked BOARD_REFOCUS of an aarch64 build, and a small light field that
+# STARFOCUS of this machine makes. QEMU's power button presses the shutter on line 3 of the board's
+# PL061 GPIO chip. The picture, in a file and on the screen, must be the one that STARFOCUS computes
+# here, and the busy line on line 5 must read back as set. FOLDER keeps the kernel for later runs.
 set -u
 [ $# = 3 ] || { echo "usage: $0 STARFOCUS BOARD_REFOCUS FOLDER" >&2; exit 2; }
 starfocus=$(realpath "$1") program=$(realpath "$2") folder=$(realpath -m "$3")
 here=$(realpath "$(dirname "$0")")
 fetch=$here/../../toolchains/fetch.sh
-width=160 height=120 # of the light field
+width=160 height=120 # size of the light field
 seconds=${STARFOCUS_BOOT_SECONDS:-120}
 emulator=
 
@@ -33,7 +33,8 @@ trap finish EXIT
   fail "Debian's kernel could not be fetched: see $folder/fetch.log"
 kernel=$(ls "$folder"/kernel/boot/vmlinuz-* | head -n 1)
 
-# needed_modules NAME: the files of a kernel module and of all it depends on, those first.
+# needed_modules NAME: prints the files of a kernel module and of its dependencies, which come
+# first.
 needed_modules() {
   local file dependency
   file=$(find "$folder/kernel/lib/modules" -name "$1.ko" -o -name "${1//_/-}.ko" | head -n 1)
@@ -44,7 +45,8 @@ needed_modules() {
   echo "$file"
 }
 
-# The screen needs modules that a later kernel may pack differently: then it is not tested.
+# The screen needs modules that a later kernel may package differently. In that case it is not
+# tested.
 make_initramfs() {
   local root=$run/root module
   mkdir -p "$root/bin" "$root/dev" "$root/proc" "$root/sys" "$root/tmp" "$root/etc" "$root/modules"
@@ -67,7 +69,7 @@ make_initramfs() {
   (cd "$root" && find . | cpio -o -H newc --quiet | gzip -1) >"$run/initramfs"
 }
 
-# await TEXT: waits until the board has said it.
+# await TEXT: waits until the board has printed TEXT.
 await() {
   while ! grep -q "^board: $1" "$run/serial.log"; do
     kill -0 "$emulator" 2>/dev/null || fail "the board stopped before saying '$1'"
@@ -80,7 +82,7 @@ say() {
   echo "$1" >"$run/monitor.in"
 }
 
-# expect WHAT PATTERN: the board must have said a line like that.
+# expect WHAT PATTERN: fails unless the board has printed a line that matches PATTERN.
 expect() {
   tr -d '\r' <"$run/serial.log" | grep -Eq "^board: $2\$" || fail "expected $1: 'board: $2'"
 }
@@ -125,7 +127,7 @@ expect "the program's good end" 'ended-file 0'
 expect "the busy line's levels" 'log picture 1: .*, busy line read back 1, then 0'
 expect "the checksum of this machine's picture" "sum $sum  /tmp/picture-1.ppm"
 
-# The middle of the screen is the picture.
+# The middle of the screen must be the picture.
 if [ -s "$run/screen.ppm" ]; then
   expect "the program's good end" 'ended-screen 0'
   read -r across down < <(sed -n 2p "$run/screen.ppm")

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A plugin of QEMU's user emulators: counts the executed instructions, of all functions or only of
- * those whose symbol contains one of the given texts. The count repeats exactly, whatever the
- * machine is doing.
+/* A plugin of QEMU's user emulators. It counts the executed instructions of all functions, or only
+ * of those whose symbol contains one of the given texts. The count does not depend on the
+ * load of the machine.
  *
  *   qemu-aarch64 -plugin count_instructions.so,sym=TEXT,sym=TEXT -d plugin PROGRAM
  *
- * prints "instructions: N" on stderr when PROGRAM ends. Debian has no header of the interface (its
- * version 1): the few functions used are declared here. */
+ * prints "instructions: N" on stderr when PROGRAM ends. Debian has no header of the interface
+ * (version 1), so the few functions that are used are declared here. */
 #include <inttypes.h>
 #include <stdint.h>
 #include <stdio.h>

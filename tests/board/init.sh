@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# The first process of the board that boot.sh emulates: runs board_refocus there and tells its
-# findings on the serial line, one "board: NAME VALUE" each.
+# First process of the board that boot.sh emulates. It runs board_refocus and prints each finding on
+# the serial line as "board: NAME VALUE".
 PATH=/bin
 mount -t devtmpfs none /dev
 mount -t proc none /proc
@@ -14,7 +14,7 @@ tell() {
   echo "board: $*"
 }
 
-# refused NAME COMMAND...: must end with 1 and a single line of explanation.
+# refused NAME COMMAND...: the command must exit with 1 and print one line of explanation.
 refused() {
   local name=$1
   shift
@@ -27,7 +27,7 @@ camera() {
     --pictures 1 "$@"
 }
 
-# pressed NAME OPTIONS...: starts the camera, asks for the button and shows what it says.
+# pressed NAME OPTIONS...: starts the camera, requests the button and prints the camera's output.
 pressed() {
   local name=$1
   shift

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// instruction_bench CASE simd|reference RUNS: refocuses RUNS times. What one refocusing costs is
-// the difference between the instructions of two runs and of one, as counted by
-// count_instructions.c: all that happens before the first is the same. `instruction_bench list`
-// prints the cases.
+// usage: instruction_bench CASE simd|reference RUNS
+// Refocuses RUNS times. count_instructions.c counts the instructions of two runs and of one run.
+// The difference is the cost of one refocusing, since the setup is the same. `instruction_bench
+// list` prints the cases.
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -24,8 +24,8 @@ struct Case {
   starfocus_renderer renderer = STARFOCUS_RENDERER_AUTO;
 };
 
-// Of 192 x 128 pixels if not told otherwise; the name tells views, scene, mode and the largest blur
-// radius in pixels.
+// The cases have 192 x 128 pixels unless a size is given. A name consists of the number of views,
+// the scene, the mode and the largest blur radius in pixels.
 constexpr Case kCases[] = {
     {"17-layers-frame-8", 17, test::Depth::kLayers, STARFOCUS_MODE_FRAME, -4, 1},
     {"17-slanted-frame-8", 17, test::Depth::kSlanted, STARFOCUS_MODE_FRAME, 4, 1},
@@ -34,7 +34,7 @@ constexpr Case kCases[] = {
      STARFOCUS_RENDERER_LINE_SCAN},
     {"17-layers-block-8", 17, test::Depth::kLayers, STARFOCUS_MODE_BLOCK, -4, 1},
     {"5-slanted-block-4", 5, test::Depth::kSlanted, STARFOCUS_MODE_BLOCK, 0, 1},
-    // Large enough for partitions to differ.
+    // These pictures are large enough for different partitions.
     {"9-room-block-7", 9, test::Depth::kRoom, STARFOCUS_MODE_BLOCK, 3.5, 1, 384, 256},
     {"5-room-block-4", 5, test::Depth::kRoom, STARFOCUS_MODE_BLOCK, -1, 1, 384, 256},
     {"9-room-block-paper-7", 9, test::Depth::kRoom, STARFOCUS_MODE_BLOCK, 3.5, 1, 384, 256,
@@ -50,7 +50,7 @@ const Case* Find(const char* name) {
   return nullptr;
 }
 
-// Of no architecture in particular: the counts then don't change when coefficients do.
+// Fixed coefficients, so that the counts do not depend on those of an architecture.
 constexpr starfocus_timing kTiming = {4000000, 12000, 1500, 1700, 2500, 9000, 0, 0};
 
 int Run(const Case& one, bool reference, int runs) {

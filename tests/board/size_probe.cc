@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prints what the engine needs of a board's memory: `size_probe stack` the bytes of stack its calls
-// use, `size_probe workspace` a table of workspaces, `size_probe parts` one of what they are for.
-// For ./do size.
+// Prints the memory that the engine needs on a board; used by ./do size. `size_probe stack` prints
+// the bytes of stack that its calls use. `size_probe workspace` prints a table of workspaces, and
+// `size_probe parts` a table of their parts.
 #include <pthread.h>
 
 #include <cstdio>
@@ -24,7 +24,7 @@ void Check(bool good, const char* what) {
   std::exit(1);
 }
 
-// The engine's calls, made on a stack of their own.
+// Calls of the engine, which run on a separate stack.
 struct Calls {
   starfocus_config config;
   starfocus_params params;
@@ -34,7 +34,7 @@ struct Calls {
   uint8_t* out;
   size_t out_stride;
   starfocus_status status;
-  uintptr_t top;  // of what the calls use
+  uintptr_t top;  // highest address of the stack that the calls use
 };
 
 uintptr_t FrameAddress() { return reinterpret_cast<uintptr_t>(__builtin_frame_address(0)); }
@@ -71,7 +71,7 @@ void* RunCalls(void* data) {
   return nullptr;
 }
 
-// Bytes below the thread's first frame that `run` has written to.
+// Returns the number of bytes below the thread's first frame that `run` has written.
 size_t StackUsed(void* (*run)(void*), Calls* calls) {
   void* stack = nullptr;
   Check(posix_memalign(&stack, 65536, kStackBytes) == 0, "allocating a stack");
@@ -89,7 +89,8 @@ size_t StackUsed(void* (*run)(void*), Calls* calls) {
   return used;
 }
 
-// The deepest of every star set, mode and entry path, without what a thread's end costs itself.
+// Prints the largest stack use over every star set, mode and entry path, without the cost of ending
+// the thread.
 void PrintStack() {
   size_t most = 0;
   for (const int views : {1, 5, 9, 17}) {
@@ -126,7 +127,8 @@ size_t WorkspaceKilobytes(const starfocus_config& config) {
   return (bytes + 1023) / 1024;
 }
 
-// A row for each picture, star set and feature, a column for each block and blur radius.
+// Prints a row for each picture, star set and feature, and a column for each block size and blur
+// radius.
 void PrintWorkspace() {
   constexpr struct {
     const char* name;
@@ -164,7 +166,7 @@ void PrintWorkspace() {
   }
 }
 
-// A row for each part, a column for each of a few configurations.
+// Prints a row for each part, and a column for each of a few configurations.
 class PartsTable {
  public:
   PartsTable() {

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# do_test.sh SOURCES: what ./do build says and does on machines that lack something. Their tools only
-# pretend, and neither has dpkg or apt-get.
+# do_test.sh SOURCES: checks the messages and exit codes of ./do build on machines without some
+# tools. The tools of these machines are fakes, and none has dpkg or apt-get.
 set -eu
 sources=$(cd "$1" && pwd)
 work=$(mktemp -d)
@@ -12,7 +12,7 @@ for name in cat cut dirname env grep id mkdir nproc rm sed sleep tail tr; do
   ln -s "$(command -v $name)" "$work/bin"
 done
 
-# build: its exit code in $result, what it says in the file said.
+# build: runs ./do build; its exit code is in $result, its output in the file `said`.
 build() {
   result=0
   PATH="$work/bin" CXX= CMAKE_PREFIX_PATH= "$work/tree/do" build >"$work/said" 2>&1 || result=$?
@@ -33,7 +33,7 @@ done
 for name in cmake ninja pkg-config; do
   printf '#!/bin/sh\n' >"$work/bin/$name"
 done
-# A compiler that finds every header but one.
+# This compiler finds all headers except one.
 printf '#!/bin/sh\n! grep -q CLI/CLI.hpp\n' >"$work/bin/c++"
 chmod +x "$work"/bin/*
 build
