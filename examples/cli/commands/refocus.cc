@@ -95,14 +95,14 @@ Error PlanSweep(const RefocusOptions& options, LensPlan* plan) {
 // Everything that can be refused before a file is read.
 Result<LensPlan> MakePlan(const RefocusOptions& options) {
   const bool region = options.region.width > 0, sweep = !options.sweep.empty();
-  Result<LensPlan> plan = PlanLens(options.lens);
-  if (!plan) return plan;
-  if (Error error = sweep ? PlanSweep(options, &*plan) : Error()) return error;
   if (Error error = PlanOutput(options.output, sweep, region)) return error;
   if (Error error = CheckOutputs(options)) return error;
   if (region && options.stream) {
     return Error::Usage("--region", "whole pictures in memory", "--stream");
   }
+  Result<LensPlan> plan = PlanLens(options.lens);
+  if (!plan) return plan;
+  if (Error error = sweep ? PlanSweep(options, &*plan) : Error()) return error;
   plan->region = options.region;
   return plan;
 }
