@@ -12,7 +12,7 @@ Error Run(int argc, char** argv) {
   Program program;
   program.main = {
       "starfocus",
-      "Refocuses a photograph after it was taken: from a light field and its disparity map.",
+      "Refocus photographs after they were taken, from a light field and its disparity map.",
       {},
       nullptr};
   program.commands = {RefocusCommand(), DisparityCommand(), VideoCommand(),       ViewCommand(),

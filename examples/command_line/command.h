@@ -51,15 +51,16 @@ struct Option {
   const char* default_text = nullptr;  // what the help shows as the default of kOptional
 };
 
-inline const Option kHelpOption = {"-h,--help", nullptr, "Print this help message and exit", {}};
-inline const Option kVersionOption = {"--version", nullptr, "Print the version and end", {}};
+inline const Option kHelpOption = {"-h,--help", nullptr, "Print this help and exit", {}};
+inline const Option kVersionOption = {"--version", nullptr, "Print the version and exit", {}};
 
 struct Command {
   const char* name;
   const char* help;
   std::vector<Option> options;
   std::function<Error()> run;
-  const char* footer = "";
+  std::vector<std::string> examples = {};  // complete command lines, shown at the end of the help
+  const char* footer = "";                 // notes between the options and the examples
 };
 
 struct Program {

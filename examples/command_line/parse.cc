@@ -46,6 +46,15 @@ void AddCommandOptions(const Command& command, Error* wrong, CLI::App* app) {
   for (const Option& option : command.options) AddOption(option, wrong, app);
 }
 
+// Returns the text below the options: notes, then examples.
+std::string FooterOf(const Command& command) {
+  std::string text = command.footer;
+  if (command.examples.empty()) return text;
+  text += text.empty() ? "Examples:" : "\n\nExamples:";
+  for (const std::string& example : command.examples) text += "\n  " + example;
+  return text;
+}
+
 // CLI11's form of a program. `wrong` is the error of a value that an option does not take.
 void Translate(const Program& program, Error* wrong, CLI::App* app) {
   app->name(program.main.name);
@@ -57,9 +66,10 @@ void Translate(const Program& program, Error* wrong, CLI::App* app) {
   for (const Command& command : program.commands) {
     CLI::App* added = app->add_subcommand(command.name, command.help);
     AddCommandOptions(command, wrong, added);
-    added->footer(command.footer);
+    added->footer(FooterOf(command));
   }
-  app->footer(kExitCodes);
+  const std::string footer = FooterOf(program.main);
+  app->footer(footer + (footer.empty() ? "" : "\n\n") + kExitCodes);
 }
 
 // CLI11 takes an empty value for none at all where the default is empty too.

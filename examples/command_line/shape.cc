@@ -57,16 +57,17 @@ void AddShapeOptions(Command* command, ShapeOptions* options) {
   AddOptions(
       {
           {"--shape", "fall-off|disc|polygon:N[,ROTATION[,CURVATURE]]|ring:INNER",
-           "The opening of the lens: darker towards its rim by --theta, a disc as bright "
-           "everywhere, blades with a corner on top that ROTATION degrees turn clockwise "
-           "and of edges that CURVATURE bends, 0 to 1, or a disc with a hole of INNER, 0 "
-           "to 0.9 of its radius",
+           "Opening of the lens: fall-off darkens towards the rim (see --theta); disc is "
+           "equally bright everywhere; polygon has N blades, 3 to 12, with a corner at "
+           "the top, turned clockwise by ROTATION degrees, -360 to 360, and with edges "
+           "rounded by CURVATURE, 0 to 1; ring is a disc with a hole of INNER times its "
+           "radius, 0 to 0.9",
            &options->shape, Use::kDefault},
-          {"--theta", "T", "0.05 to 0.45: the angle of the fall-off, as a part of pi",
+          {"--theta", "T", "Angle of the fall-off as a fraction of pi, 0.05 to 0.45",
            Number(0.05, 0.45, "a part of pi from 0.05 to 0.45", &options->theta), Use::kDefault},
           {"--cats-eye", "X",
-           "0 to 1: how far a second rim moves into the opening towards the corners, in "
-           "radii",
+           "Strength of cat's-eye vignetting: how far a second rim moves into the opening "
+           "towards the corners, 0 to 1 radii",
            Number(0, 1, "a number from 0 to 1", &options->cats_eye), Use::kDefault},
       },
       command);

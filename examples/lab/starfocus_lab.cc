@@ -11,11 +11,10 @@ using namespace starfocus;
 
 Error Run(int argc, char** argv) {
   Program program;
-  program.main = {
-      "starfocus-lab",
-      "Makes scenes, compares pictures, and measures and tries the engine of starfocus.",
-      {},
-      nullptr};
+  program.main = {"starfocus-lab",
+                  "Render scenes, compare pictures, and measure and test the engine of starfocus.",
+                  {},
+                  nullptr};
   program.commands = {SceneCommand(),     CompareCommand(), SheetCommand(),       AnalyzeCommand(),
                       CalibrateCommand(), StressCommand(),  HelpCommand(&program)};
   return RunCommandLine(program, argc, argv);

@@ -222,21 +222,34 @@ Error Main(int argc, char** argv) {
   Options options;
   const Program program = {
       {"tap",
-       "Tap to focus: previews, a focus pull and full pictures, with their times.",
+       "Simulate tap to focus: time previews, a focus pull and full pictures.",
        {
-           {"DIR", "DIR", "Light-field folder; default: a traced portrait", &options.folder},
-           {"--size", "WxH", "Of the portrait, WxH", Pair('x', &options.size), Use::kDefault},
-           {"--first", "X,Y", "Pixel X,Y that is tapped first", Pair(',', &options.first)},
-           {"--second", "X,Y", "Pixel X,Y that the focus is then pulled to",
+           {"DIR", "DIR", "Light-field folder; default: a ray-traced portrait", &options.folder},
+           {"--size", "WxH", "Width and height of the ray-traced portrait in pixels",
+            Pair('x', &options.size), Use::kDefault},
+           {"--first", "X,Y",
+            "Pixel of the first tap, counted from 0,0; default: the centre, or the nearest "
+            "point of the portrait",
+            Pair(',', &options.first)},
+           {"--second", "X,Y",
+            "Pixel of the second tap, to which the focus is pulled; default: a pixel near "
+            "the top left, or the farthest point of the portrait",
             Pair(',', &options.second)},
-           {"--preview", "1|2|3", "1, 2 or 3: previews are 1/2, 1/4 or 1/8 of the size",
+           {"--preview", "1|2|3",
+            "Size of the previews: 1, 2 or 3 for 1/2, 1/4 or 1/8 of the picture's width "
+            "and height",
             Whole(1, STARFOCUS_MAX_PREVIEW, &options.shift), Use::kDefault},
-           {"--frames", "N", "Previews of the focus pull", Whole(1, 1000, &options.frames),
-            Use::kDefault},
-           {"--threads", "N", "1 to 64; default: all of the machine", Threads(&options.threads)},
-           {"--out", "DIR", "Folder for all pictures, as frame_0000.png and so on", &options.out},
+           {"--frames", "N", "Number of previews of the focus pull, 1 to 1000",
+            Whole(1, 1000, &options.frames), Use::kDefault},
+           {"--threads", "N", "Number of threads, 1 to 64; default: one for each fast core",
+            Threads(&options.threads)},
+           {"--out", "DIR",
+            "Folder for all pictures, frame_0000.png, frame_0001.png, ...; default: none "
+            "are written",
+            &options.out},
        },
-       [&options] { return Tap(options); }},
+       [&options] { return Tap(options); },
+       {"tap --size 1000x750", "tap lf --first 320,240 --second 40,40 --out frames"}},
       {}};
   return RunCommandLine(program, argc, argv);
 }

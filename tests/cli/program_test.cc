@@ -8,8 +8,11 @@
 
 #include <filesystem>
 #include <new>
+#include <set>
+#include <sstream>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "platform/light_field.h"
 #include "platform/temporary_file.h"
@@ -72,6 +75,57 @@ TEST_CASE("program: every way to ask for help tells the same") {
     CHECK(Contains(one.out, "starfocus-lab " + command + " [OPTIONS]"));
     CHECK(!Contains(one.out, " TEXT"));
   }
+}
+
+// Returns the lines of a help text below "Examples:", without their indentation.
+std::vector<std::string> ExamplesIn(const std::string& help) {
+  std::vector<std::string> examples;
+  const size_t begin = help.find("\nExamples:\n");
+  if (begin == std::string::npos) return examples;
+  std::istringstream lines(help.substr(begin + 11));
+  for (std::string line; std::getline(lines, line) && line.rfind("  ", 0) == 0;) {
+    examples.push_back(line.substr(2));
+  }
+  return examples;
+}
+
+// Returns the names of all options that a help text lists: "-o" and "--output" for the line
+// "  -o,--output FILE".
+std::set<std::string> OptionsIn(const std::string& help) {
+  std::set<std::string> options;
+  std::istringstream lines(help);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.rfind("  -", 0) != 0) continue;
+    std::istringstream names(line.substr(2, line.find(' ', 2) - 2));
+    for (std::string name; std::getline(names, name, ',');) options.insert(name);
+  }
+  return options;
+}
+
+TEST_CASE("program: the help of each command ends with two examples") {
+  TempFolder folder;
+  const Outcome manual = Call(folder, "help --man");
+  for (const std::string command :
+       {"refocus", "disparity", "video", "view", "info", "import", "help", "scene", "compare",
+        "sheet", "analyze", "calibrate", "stress"}) {
+    CAPTURE(command);
+    const std::string path = ProgramFor(command);
+    const std::string name = path.substr(path.rfind('/') + 1);
+    const std::string help = Call(folder, command + " --help").out;
+    const std::set<std::string> options = OptionsIn(help);
+    const std::vector<std::string> examples = ExamplesIn(help);
+    CHECK(examples.size() == 2);
+    for (const std::string& example : examples) {
+      CAPTURE(example);
+      CHECK((example + " ").rfind(name + " " + command + " ", 0) == 0);
+      std::istringstream words(example);
+      for (std::string word; words >> word;) {
+        const bool number = word.size() > 1 && word[1] >= '0' && word[1] <= '9';
+        if (word[0] == '-' && !number) CHECK(options.count(word) == 1);
+      }
+    }
+  }
+  CHECK(Contains(manual.out, "starfocus refocus photo.jpg \\-o near.jpg"));
 }
 
 TEST_CASE("program: --version names the library's version and the SIMD target") {

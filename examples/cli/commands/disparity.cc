@@ -145,35 +145,41 @@ Command DisparityCommand() {
   const auto options = std::make_shared<DisparityOptions>();
   return {
       "disparity",
-      "Estimate the disparity map of a light field from its views, or repair its map",
+      "Estimate the disparity map of a light field from its views, or repair an existing map",
       {
           {"DIR", "DIR", "Light-field folder", &options->folder, Use::kRequired},
           {"-o,--output", "FILE",
-           "Map to write (.pfm). A picture of the map (.png, near is bright) is written beside "
-           "it; default: disparity.pfm in DIR, if there is none",
+           "Map to write (.pfm), with a picture of the map (.png, bright is near) beside "
+           "it; default: disparity.pfm in DIR, if DIR has none",
            &options->out},
           {"--confidence", "FILE",
-           "Picture to write: how sure each pixel is, black where not at all",
+           "Picture to write of the confidence of each pixel: black for unknown, brighter "
+           "for more certain; default: none",
            &options->confidence},
           {"--coverage", "FILE",
-           "With --repair and one view: picture to write of the coverage of hair whose outline the "
-           "map has closed. Put it beside the written map as coverage.png",
+           "With --repair and one view, picture to write of the coverage of hair whose "
+           "outline the map has closed; store it as coverage.png beside the written map; "
+           "default: none",
            &options->coverage},
           {"--repair", nullptr,
-           "Repair the folder's map by the views instead: displaced and blurred edges, and "
-           "noise; needs --output",
+           "Repair the map of the folder by the views instead of estimating a new one: "
+           "displaced and blurred edges, and noise; needs --output",
            &options->repair},
           {"--range", "MIN:MAX",
-           "MIN:MAX, the disparities to look for; default: those found in small "
-           "pictures, up to an eighth of the width",
+           "Disparities to search, in pixels per unit of u, from -500 to 500; default: "
+           "the range found in reduced views, at most an eighth of the width",
            Target([range = &options->range](const std::string& text) {
              return ReadRange(text, range);
            })},
           {"--views", "17|9|5|1|U,V:U,V",
-           "17, 9 or 5, 1 as well of a repair; default: all of the folder", Views(&options->views)},
-          {"--threads", "N", "1 to 64", Threads(&options->threads), Use::kDefault},
+           "Views to use: the star of 17, 9 or 5 views; with --repair also 1 or positions "
+           "U,V:U,V; default: all views of the folder",
+           Views(&options->views)},
+          {"--threads", "N", "Number of threads, 1 to 64", Threads(&options->threads),
+           Use::kDefault},
       },
-      [options] { return Run(*options); }};
+      [options] { return Run(*options); },
+      {"starfocus disparity lf", "starfocus disparity lf -o repaired.pfm --repair --threads 4"}};
 }
 
 }  // namespace starfocus

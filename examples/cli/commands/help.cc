@@ -46,15 +46,19 @@ Error Run(const Program& program, const HelpOptions& options) {
 
 Command HelpCommand(const Program* program) {
   const auto options = std::make_shared<HelpOptions>();
-  return {"help",
-          "Print the options of the program or of a subcommand",
-          {
-              {"COMMAND", "NAME", "Subcommand to tell of", &options->command},
-              {"--man", nullptr, "Print the manual page instead, for man", &options->manual},
-              {"--bash", nullptr, "Print the completion script for bash instead",
-               &options->completion, Use::kOptional, "--man"},
-          },
-          [program, options] { return Run(*program, *options); }};
+  const std::string name = program->main.name;
+  return {
+      "help",
+      "Print the help of the program or of a command",
+      {
+          {"COMMAND", "NAME", "Command to describe; default: the whole program", &options->command},
+          {"--man", nullptr, "Print the manual page of all commands, in the format of man",
+           &options->manual},
+          {"--bash", nullptr, "Print the completion script for bash", &options->completion,
+           Use::kOptional, "--man"},
+      },
+      [program, options] { return Run(*program, *options); },
+      {name + " help --man > " + name + ".1", name + " help --bash > " + name + ".bash"}};
 }
 
 }  // namespace starfocus

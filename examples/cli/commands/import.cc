@@ -63,23 +63,29 @@ Error Run(const ImportOptions& options) {
 
 Command ImportCommand() {
   const auto options = std::make_shared<ImportOptions>();
-  Command command = {"import",
-                     "Write a light-field folder from a depth photo or a folder as others have it",
-                     {},
-                     [options] { return Run(*options); }};
+  Command command = {
+      "import",
+      "Write a light-field folder from a depth photo or from a folder of views with another layout",
+      {},
+      [options] { return Run(*options); },
+      {"starfocus import photo.jpg lf",
+       "starfocus import photo.png lf --depth depth.png --near white"}};
   AddInputOptions(&command, &options->input);
   AddOptions(
       {
-          {"DIR", "DIR", "Folder to write", &options->folder, Use::kRequired},
+          {"DIR", "DIR", "Light-field folder to write; it must not contain a light field",
+           &options->folder, Use::kRequired},
       },
       &command);
   AddMapOptions(&command, &options->map);
   AddOptions(
       {
           {"--views", "17|9|5|1|U,V:U,V",
-           "17, 9, 5 or 1, or positions U,V:U,V, the first one 0,0; default: all",
+           "Views to write: the star of 17, 9, 5 or 1 views, or positions U,V:U,V from -1 "
+           "to 1 that begin with 0,0; default: all views of the input",
            Views(&options->views)},
-          {"--threads", "N", "1 to 64", Threads(&options->threads), Use::kDefault},
+          {"--threads", "N", "Number of threads, 1 to 64", Threads(&options->threads),
+           Use::kDefault},
       },
       &command);
   return command;

@@ -119,14 +119,19 @@ Error Run(const InfoOptions& options) {
 
 Command InfoCommand() {
   const auto options = std::make_shared<InfoOptions>();
-  Command command = {"info",
-                     "Describe a light field or depth photo: format, size, views, disparity range",
-                     {},
-                     [options] { return Run(*options); }};
+  Command command = {
+      "info",
+      "Describe a light field or depth photo: format, size, views and disparity range",
+      {},
+      [options] { return Run(*options); },
+      {"starfocus info photo.jpg", "starfocus info lf --json"}};
   AddInputOptions(&command, &options->input);
   AddOptions(
       {
-          {"--json", nullptr, "Print JSON; histogram bins go from min to max", &options->json},
+          {"--json", nullptr,
+           "Print JSON instead of text; the bins of the histogram run from the smallest "
+           "to the largest disparity",
+           &options->json},
       },
       &command);
   return command;

@@ -242,15 +242,19 @@ Error Run(const RefocusOptions& options) {
 
 Command RefocusCommand() {
   const auto options = std::make_shared<RefocusOptions>();
-  Command command = {
-      "refocus", "The picture a lens focused at a disparity would have taken", {}, [options] {
-        return Run(*options);
-      }};
+  Command command = {"refocus",
+                     "Compute the picture that a lens focused at a disparity would have taken",
+                     {},
+                     [options] { return Run(*options); },
+                     {"starfocus refocus photo.jpg -o near.jpg --focus-at 800,600 --f-stop 2.8",
+                      "starfocus refocus lf -o stack.webp --sweep -2:8:20 --strength 50"}};
   AddInputOptions(&command, &options->input, &options->inputs);
   AddOutputOptions(&command, &options->output);
   AddOptions(
       {
-          {"--jobs", "N", "1 to 64: how many of several inputs at a time, each on --threads",
+          {"--jobs", "N",
+           "Number of inputs that are processed at the same time, 1 to 64; each uses "
+           "--threads threads",
            Threads(&options->jobs), Use::kDefault},
       },
       &command);
@@ -258,23 +262,30 @@ Command RefocusCommand() {
   AddOptions(
       {
           {"--sweep", "D0:D1:N",
-           "D0:D1:N: N pictures focused from D0 to D1, of -o out.png out_000.png, "
-           "out_001.png, ..., or of -o out.webp one animation",
+           "Write N pictures, 2 to 1000, focused from disparity D0 to D1: -o out.png "
+           "writes out_000.png, out_001.png, ..., and -o out.webp writes one animation; "
+           "default: one picture",
            Target([foci = &options->sweep](const std::string& text) {
              return ReadSweep(text, foci);
            })},
           {"--region", "X,Y,W,H",
-           "X,Y,W,H: only that part of the picture, at its share of the time",
+           "Part of the picture to compute, in a proportional share of the time: left "
+           "column, top row, width and height in pixels; default: the whole picture",
            Region(&options->region)},
-          {"--stream", nullptr, "Row by row instead of whole pictures", &options->stream},
+          {"--stream", nullptr,
+           "Pass the pictures through the engine row by row instead of as whole pictures",
+           &options->stream},
       },
       &command);
   AddMapOptions(&command, &options->disparities);
   AddOptions(
       {
-          {"--map", "FILE", "Picture to write: the blocks, red for L = 0, green for 1, blue for 2",
+          {"--map", "FILE",
+           "Picture to write of the blocks: red for layer 0, green for 1, blue for 2; "
+           "default: none",
            &options->map},
-          {"--report", "FILE", "JSON file for figures of the run", &options->report},
+          {"--report", "FILE", "JSON file to write with the measurements of the run; default: none",
+           &options->report},
       },
       &command);
   return command;

@@ -199,26 +199,32 @@ Command VideoCommand() {
   const auto options = std::make_shared<VideoOptions>();
   Command command = {
       "video",
-      "Refocuses frame after frame; blocks that depend on nothing that changed are copied",
+      "Refocus one light field after another, and copy the blocks that did not change",
       {},
       [options] { return Run(*options); },
-      "The first frame decides what --focus-at means, and the focus where no option sets it. The "
-      "frame modes choose N for the disparities of all frames."};
+      {"starfocus video frames -o out --focus 2",
+       "starfocus video lf0 lf1 lf2 -o out --focus-at 320,240 --report report.json"},
+      "The first frame sets the focus of all frames: at the pixel of --focus-at, or by default if "
+      "no\n"
+      "option sets it. Modes frame and benchmark choose one number of views for all frames."};
   AddOptions(
       {
-          {"DIR", "DIR", "Light-field folders of one size, or the folder of such folders by name",
+          {"DIR", "DIR",
+           "Light-field folders of the same size, in order, or one folder that contains "
+           "such folders, sorted by name",
            &options->folders, Use::kRequired},
-          {"-o,--output", "DIR", "Folder for frame_0000.png, frame_0001.png, ...", &options->out,
-           Use::kRequired},
+          {"-o,--output", "DIR", "Folder to write frame_0000.png, frame_0001.png, ... into",
+           &options->out, Use::kRequired},
       },
       &command);
   AddLensOptions(&command, &options->lens);
   AddOptions(
       {
           {"--fill-invalid", nullptr,
-           "Replace non-finite disparities by their nearest valid neighbour",
-           &options->fill_invalid},
-          {"--report", "FILE", "JSON file for figures of every frame, reused blocks among them",
+           "Replace non-finite disparities by the nearest valid disparity", &options->fill_invalid},
+          {"--report", "FILE",
+           "JSON file to write with the measurements of each frame, such as the number of "
+           "reused blocks; default: none",
            &options->report},
       },
       &command);

@@ -198,22 +198,25 @@ Error Run(const ViewOptions& options) {
 
 Command ViewCommand() {
   const auto options = std::make_shared<ViewOptions>();
-  Command command = {"view",
-                     "A web page of a light field or depth photo: photo, map, "
-                     "foci, blocks, errors where truth is there",
-                     {},
-                     [options] { return Run(*options); }};
+  Command command = {
+      "view",
+      "Write a web page about a light field or depth photo: photo, map, refocused "
+      "pictures, blocks, and errors if a ground truth exists",
+      {},
+      [options] { return Run(*options); },
+      {"starfocus view lf -o page.html", "starfocus view photo.jpg -o page.html --f-stop 2.8"}};
   AddInputOptions(&command, &options->input);
   AddOptions(
       {
-          {"-o,--output", "FILE", "HTML file to write; -: standard output", &options->out,
+          {"-o,--output", "FILE", "HTML file to write; - writes to standard output", &options->out,
            Use::kRequired},
       },
       &command);
   AddApertureOptions(&command, &options->aperture);
   AddOptions(
       {
-          {"--threads", "N", "1 to 64; default: all of the machine", Threads(&options->threads)},
+          {"--threads", "N", "Number of threads, 1 to 64; default: one for each fast core",
+           Threads(&options->threads)},
       },
       &command);
   return command;

@@ -49,7 +49,11 @@ std::string Section(const Program& program, const Command& command) {
   text += "\n" + Roff(command.help) + "\n";
   const std::string footer = command.footer;
   if (!footer.empty()) text += ".PP\n" + Roff(footer) + "\n";
-  return text + Entries(program, command);
+  text += Entries(program, command);
+  if (command.examples.empty()) return text;
+  text += ".PP\nExamples:\n.RS\n.nf\n";
+  for (const std::string& example : command.examples) text += Roff(example) + "\n";
+  return text + ".fi\n.RE\n";
 }
 
 }  // namespace

@@ -73,43 +73,44 @@ void AddInputOptions(Command* command, InputOptions* options, std::vector<std::s
       {
           several == nullptr
               ? Option{"SRC", "DIR|PHOTO",
-                       "Light-field folder, folder of views as others have it, or depth photo; "
-                       "-: a photo on standard input",
+                       "Light-field folder, folder of views with another layout, or depth photo; "
+                       "- reads a photo from standard input",
                        &options->path, Use::kRequired}
               : Option{"SRC", "DIR|PHOTO",
-                       "Light-field folder, folder of views as others have it, or depth photo; "
-                       "-: a photo on standard input; or several",
+                       "One or more light-field folders, folders of views with another layout, or "
+                       "depth photos; - reads a photo from standard input",
                        several, Use::kRequired},
           {"--depth", "FILE",
-           "Depth picture of a photo: .png, .pgm, .jpg or .pfm; default: the map in the "
-           "photo, or NAME-depth.png, _depth or .depth beside it",
+           "Depth picture of the photo (.png, .pgm, .jpg or .pfm); default: the map in "
+           "the photo, or the file NAME-depth, NAME_depth or NAME.depth beside the photo",
            &options->depth},
           {"--coverage", "FILE",
-           "How much of each pixel the nearer surface covers, as a matting network finds it: a "
-           "picture's alpha channel, or grey levels with white for all; default: coverage.png of "
-           "a light-field folder, else none",
+           "Picture of how much of each pixel the nearer surface covers, such as a "
+           "matting network computes: its alpha channel, or grey levels with white for "
+           "full coverage; default: coverage.png of a light-field folder, otherwise none",
            &options->coverage},
           {"--near", "white|black",
-           "What is near in a depth picture; default: guessed from what is low in it, "
-           "white in a .pfm file",
+           "Which values of a depth picture are near; default: white in a .pfm file, "
+           "otherwise guessed from the lower part of the picture",
            Choice<Near>({{"white", Near::kWhite}, {"black", Near::kBlack}}, &options->map.near)},
           {"--depth-unit", "m|mm|disparity",
-           "What the values of a depth picture are: distances, or disparities in pixels of "
-           "the photo; default: an order without a unit",
+           "Unit of the values of a depth picture: distances in metres (m) or millimetres "
+           "(mm), or disparities in pixels of the photo; default: no unit, only their "
+           "order counts",
            Choice<DepthUnit>({{"m", DepthUnit::kMetres},
                               {"mm", DepthUnit::kMillimetres},
                               {"disparity", DepthUnit::kDisparity}},
                              &options->map.unit)},
           {"--depth-orientation", "photo|upright",
-           "Whether a depth picture is turned by the photo's EXIF or stands upright "
-           "already; default: by proportions and edges",
+           "Orientation of a depth picture: photo applies the rotation in the photo's "
+           "EXIF to it, upright does not; default: guessed from proportions and edges",
            Choice<DepthOrientation>(
                {{"photo", DepthOrientation::kPhoto}, {"upright", DepthOrientation::kUpright}},
                &options->map.orientation)},
           {"--unknown", "none|V,V,...",
-           "Values of a depth picture that stand for an unknown depth; none: transparent "
-           "pixels are known, too; default: 0 and 65535 of 16 bits, unless other values "
-           "show that they are depths",
+           "Values of a depth picture that mean an unknown depth; none means that all "
+           "pixels are known, also transparent ones; default: 0 and 65535 in 16-bit "
+           "pictures, unless other values show that these are depths",
            Target(
                [map = &options->map](const std::string& text) { return ReadUnknown(text, map); })},
       },
@@ -120,14 +121,14 @@ void AddMapOptions(Command* command, MapOptions* options) {
   AddOptions(
       {
           {"--fill-invalid", nullptr,
-           "Replace non-finite disparities by their nearest valid neighbour", &options->fill},
+           "Replace non-finite disparities by the nearest valid disparity", &options->fill},
           {"--repair", nullptr,
-           "Repair the disparity map first, by the side views or, of one view, its colours: wrong "
-           "or "
-           "blurred edges, noise, unknown values; depth photos have it done",
+           "Repair the disparity map first, by the side views or, for a single view, by "
+           "its colours: wrong and blurred edges, noise and unknown values; this is the "
+           "default for depth photos",
            &options->repair},
-          {"--no-repair", nullptr, "Leave the map of a depth photo as it is", &options->no_repair,
-           Use::kOptional, "--repair"},
+          {"--no-repair", nullptr, "Use the map of a depth photo without repair",
+           &options->no_repair, Use::kOptional, "--repair"},
       },
       command);
 }

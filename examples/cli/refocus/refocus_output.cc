@@ -49,23 +49,25 @@ void AddOutputOptions(Command* command, OutputOptions* options) {
   AddOptions(
       {
           {"-o,--output", "FILE",
-           "Picture to write: .png, .ppm, .jpg or .webp; - or jpg:-, ...: standard output; "
-           "a folder for the pictures of several inputs",
+           "Picture to write (.png, .ppm, .jpg or .webp), or the folder for the pictures "
+           "of several inputs; - or FORMAT:-, such as jpg:-, writes to standard output",
            &options->out, Use::kRequired},
-          {"--quality", "N", "1 to 100, of JPEG and WebP", Whole(1, 100, &options->quality),
-           Use::kDefault},
+          {"--quality", "N", "Quality of JPEG and WebP pictures, 1 to 100",
+           Whole(1, 100, &options->quality), Use::kDefault},
           {"--small-png", nullptr,
-           "PNG files about 7 % smaller, which take about 17 times as long to compress",
+           "Write PNG files that are about 7 % smaller and take about 17 times as long to "
+           "compress",
            &options->small_png},
           {"--depth-photo", nullptr,
-           "Put the sharp picture and the disparity map into the JPEG file, as GDepth, so "
-           "that others can refocus it again",
+           "Store the sharp picture and the disparity map in the JPEG file, as GDepth, so "
+           "that other programs can refocus the picture again",
            &options->depth_photo},
-          {"--all-in-focus", "FILE", "Picture to write beside a sweep: sharp everywhere",
+          {"--all-in-focus", "FILE",
+           "With --sweep, picture to write that is sharp everywhere; default: none",
            &options->all_in_focus},
           {"--focus-index", "FILE",
-           "PNG file to write beside a sweep: the number of the picture, from 0 on, in "
-           "which a pixel is in focus",
+           "With --sweep, PNG file to write that stores for each pixel which picture "
+           "shows it in focus, counted from 0; default: none",
            &options->focus_index},
       },
       command);

@@ -30,12 +30,13 @@ void AddOpticsOptions(Command* command, LensOptions* options) {
   AddOptions(
       {
           {"--focus", "D",
-           "Disparity in focus; default: the subject in EXIF, the focus in the file, or the "
-           "nearest large surface near the centre",
+           "Disparity in focus, in pixels per unit of u, from -1000000 to 1000000; "
+           "default: the subject in the photo's EXIF, the focus stored in the file, or "
+           "the nearest large surface near the centre",
            Number(&options->focus)},
           {"--focus-at", "X,Y",
-           "X,Y: the disparity of what is at that pixel, the median of its surface "
-           "there",
+           "Pixel whose surface is in focus, counted from 0,0 at the top left; the focus "
+           "is the median disparity of this surface; default: see --focus",
            Pair(',', &options->focus_at)},
       },
       command);
@@ -80,20 +81,22 @@ void AddApertureOptions(Command* command, ApertureOptions* options) {
   AddOptions(
       {
           {"--aperture", "U",
-           "Radius, above 0 up to 1; default: 1, of a photo that of f/1.8, and less where that "
-           "blurs by more than 128 pixels",
+           "Radius of the aperture, above 0 and at most 1; radius 1 reaches view (1, 0); "
+           "default: 1, or f/1.8 for a photo, and less if the blur exceeds 128 pixels",
            Number(std::numeric_limits<double>::min(), 1, "an aperture above 0 and at most 1",
                   &options->aperture)},
-          {"--f-stop", "N", "The same as an f-stop, from the widest on: radius --widest / N",
+          {"--f-stop", "N",
+           "F-stop of the lens, at least --widest; the radius of the aperture is --widest "
+           "/ N; default: see --aperture",
            Number(&options->f_stop)},
           {"--widest", "W",
-           "F-stop of radius 1: focal length over twice the distance of view (1, 0) from "
-           "the centre; default: what the input knows of itself, else 1, for f-stops "
-           "relative to that "
-           "radius",
+           "F-stop of an aperture of radius 1, above 0: the focal length divided by twice "
+           "the distance from the centre to view (1, 0); default: the value stored in the "
+           "input, otherwise 1",
            Number(std::numeric_limits<double>::min(), std::numeric_limits<double>::max(),
                   "an f-stop above 0", &options->widest)},
-          {"--strength", "S", "0 to 100 percent of that radius; 0: the centre view to the byte",
+          {"--strength", "S",
+           "Percentage of the aperture, 0 to 100; 0 keeps the centre view unchanged",
            Number(0, 100, "a percentage from 0 to 100", &options->strength), Use::kOptional,
            nullptr, "100"},
       },
@@ -105,10 +108,10 @@ void AddLensOptions(Command* command, LensOptions* options) {
   AddOptions(
       {
           {"--mode", "block|frame|benchmark|blur",
-           "In blocks of their own number of views, with one number for the whole frame, "
-           "as a benchmark of twice the views that blur can show, or by blurring the "
-           "centre view alone: this looks like a quick preview of the others but takes "
-           "about ten times as long as block",
+           "block gives each block its own number of views; frame uses one number for the "
+           "whole picture; benchmark is the reference with twice as many views as the "
+           "blur can show; blur blurs the centre view alone, looks like a quick preview "
+           "and takes about ten times as long as block",
            Choice<starfocus_mode>({{"block", STARFOCUS_MODE_BLOCK},
                                    {"frame", STARFOCUS_MODE_FRAME},
                                    {"benchmark", STARFOCUS_MODE_BENCHMARK},
@@ -120,42 +123,48 @@ void AddLensOptions(Command* command, LensOptions* options) {
   AddOptions(
       {
           {"--transfer", "srgb|none",
-           "What codes of the pictures stand for: light coded as sRGB, which a lens adds, "
-           "or values to be averaged as they are",
+           "Meaning of the pixel values: srgb is light coded as sRGB, which a lens adds "
+           "up; none averages the values themselves",
            Transfer(&options->transfer), Use::kDefault},
-          {"--highlights", "X",
-           "1 to 64: how many times white the lamps are that the pictures clip",
+          {"--highlights", "X", "Brightness of clipped lamps as a multiple of white, 1 to 64",
            Number(1, STARFOCUS_MAX_HIGHLIGHTS,
                   "a factor from 1 to " + Short(STARFOCUS_MAX_HIGHLIGHTS), &options->highlights),
            Use::kDefault},
           {"--views", "17|9|5|1|U,V:U,V",
-           "17, 9, 5 or 1, or positions U,V:U,V, the first one 0,0; default: all of the folder",
+           "Views to use: the star of 17, 9, 5 or 1 views, or positions U,V:U,V from -1 "
+           "to 1 that begin with 0,0; default: all views of the input",
            Views(&options->views)},
-          {"--threads", "N", "1 to 64", Threads(&options->threads), Use::kDefault},
+          {"--threads", "N", "Number of threads, 1 to 64", Threads(&options->threads),
+           Use::kDefault},
           {"--superblock", "32|64|128|256",
-           "32, 64, 128 or 256; default: 64, for pictures from 1536 pixels wide on 128",
+           "Side of a superblock in pixels; default: 128 if the picture is at least 1536 "
+           "pixels wide, otherwise 64",
            Choice<int>({{"32", 32}, {"64", 64}, {"128", 128}, {"256", 256}}, &options->superblock)},
           {"--renderer", "slices|line-scan",
-           "slices: few views that show slices of the scene; line-scan: the paper's views, line by "
-           "line; "
-           "default: slices, but line-scan in frame mode with 5 or more views",
+           "slices renders a few views from slices of the scene; line-scan renders the "
+           "paper's views line by line and needs a star of views; default: slices, but "
+           "line-scan in mode frame with 5 or more views",
            Choice<starfocus_renderer>(
                {{"slices", STARFOCUS_RENDERER_SLICES}, {"line-scan", STARFOCUS_RENDERER_LINE_SCAN}},
                &options->renderer)},
           {"--n-scale", "X",
-           "0.5 to 2: multiplies the views along the radius; fewer are faster, more "
-           "closer to the benchmark",
+           "Factor for the number of views along the radius, 0.5 to 2; smaller is faster, "
+           "larger is closer to the benchmark",
            Number(STARFOCUS_MIN_N_SCALE, STARFOCUS_MAX_N_SCALE,
                   "a factor from " + Short(STARFOCUS_MIN_N_SCALE) + " to " +
                       Short(STARFOCUS_MAX_N_SCALE),
                   &options->n_scale),
            Use::kDefault},
-          {"--max-layer", "0|1|2", "0, 1 or 2: may subsample by 2^L",
+          {"--max-layer", "0|1|2",
+           "Largest layer of a block, 0 to 2; layer L is computed at 1/2^L of the size",
            Whole(0, STARFOCUS_LAYERS - 1, &options->max_layer), Use::kDefault},
           {"--deblocking", "N",
-           "0 to 255 grey levels: the largest step smoothed between layers; 0: off",
+           "Largest step between layers that is smoothed, in grey levels, 0 to 255; 0 "
+           "turns deblocking off",
            Whole(0, 255, &options->deblocking), Use::kDefault},
-          {"--timing", "FILE", "JSON file that starfocus-lab calibrate wrote; default: built in",
+          {"--timing", "FILE",
+           "JSON file of timing coefficients, as written by starfocus-lab calibrate; "
+           "default: built-in coefficients",
            &options->timing},
       },
       command);

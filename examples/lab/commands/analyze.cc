@@ -60,18 +60,20 @@ Command AnalyzeCommand() {
   const auto options = std::make_shared<AnalyzeOptions>();
   return {
       "analyze",
-      "The paper's filter analysis (section III) from its definitions: Table I, Fig. 6, the rules "
-      "(9) and (12), the rule for subapertures, and the kernels of the running engine",
+      "Compute the paper's filter analysis (section III) from its definitions: Table I, Fig. 6, "
+      "rules (9) and (12), the rule for subapertures, and the PSFs of the running engine",
       {
           {"-o,--output", "DIR",
-           "Folder for CSV files and, with gnuplot, SVG drawings of Figs. 4, 5, 6, 8",
+           "Folder for CSV files and, if gnuplot is installed, SVG drawings of Figs. 4, "
+           "5, 6 and 8; default: print figures only",
            &options->folder},
           {"--max-blur", "N",
-           "Largest blur radius of the rule for subapertures, 1 to 128 (default 40; 128 takes "
-           "minutes), and of the engine's kernels, which end at 40",
-           Whole(1, 128, &options->max_blur)},
+           "Largest blur radius in pixels, 1 to 128, of the rule for subapertures and, up "
+           "to 40, of the engine's PSFs; 128 takes minutes",
+           Whole(1, 128, &options->max_blur), Use::kDefault},
       },
-      [options] { return Run(*options); }};
+      [options] { return Run(*options); },
+      {"starfocus-lab analyze", "starfocus-lab analyze -o analysis --max-blur 20"}};
 }
 
 }  // namespace starfocus

@@ -141,19 +141,24 @@ Error Calibrate(const CalibrateOptions& options) {
 
 Command CalibrateCommand() {
   const auto options = std::make_shared<CalibrateOptions>();
-  return {
-      "calibrate",
-      "Measure this machine, while it has nothing else to do, for the timing model behind block "
-      "mode's partition. Pictures made with its coefficients differ from those of machines with "
-      "others",
-      {
-          {"-o,--output", "FILE", "JSON file to write, for refocus --timing", &options->out},
-          {"--light-field", "DIR", "Folder to fit the model to; default: the scene portrait",
-           &options->folder},
-          {"--check", "DIR", "Folder to check the model on; default: the scenes wires and ramp",
-           &options->check},
-      },
-      [options] { return Calibrate(*options); }};
+  return {"calibrate",
+          "Measure the coefficients of the timing model, by which mode block chooses its blocks",
+          {
+              {"-o,--output", "FILE",
+               "JSON file to write, for refocus --timing; default: print the coefficients only",
+               &options->out},
+              {"--light-field", "DIR",
+               "Light-field folder that the model is fitted to; default: the scene portrait",
+               &options->folder},
+              {"--check", "DIR",
+               "Light-field folder that the model is checked with; default: the scenes wires "
+               "and ramp",
+               &options->check},
+          },
+          [options] { return Calibrate(*options); },
+          {"starfocus-lab calibrate -o timing.json",
+           "starfocus-lab calibrate -o timing.json --light-field lf --check other"},
+          "The machine should be idle. Pictures that are computed with other coefficients differ."};
 }
 
 }  // namespace starfocus

@@ -64,17 +64,20 @@ Error Run(const CompareOptions& options) {
 Command CompareCommand() {
   const auto options = std::make_shared<CompareOptions>();
   return {"compare",
-          "PSNR over all RGB samples and largest difference of two pictures",
+          "Print the PSNR over all RGB samples and the largest difference of two pictures",
           {
-              {"A", "FILE", "Picture", &options->first, Use::kRequired},
-              {"B", "FILE", "Picture of the same size", &options->second, Use::kRequired},
+              {"A", "FILE", "First picture", &options->first, Use::kRequired},
+              {"B", "FILE", "Second picture, of the same size", &options->second, Use::kRequired},
               {"--map", "FILE",
-               "Picture to write of where they differ: black where they agree, over red to "
-               "white at the largest difference",
+               "Picture to write of the differences: black for none, over red to white for "
+               "the largest; default: none",
                &options->map},
-              {"--json", nullptr, "Print JSON; an infinite PSNR is null", &options->json},
+              {"--json", nullptr, "Print JSON instead of text; the PSNR of equal pictures is null",
+               &options->json},
           },
-          [options] { return Run(*options); }};
+          [options] { return Run(*options); },
+          {"starfocus-lab compare a.png b.png",
+           "starfocus-lab compare a.png b.png --map difference.png --json"}};
 }
 
 }  // namespace starfocus

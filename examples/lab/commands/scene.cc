@@ -192,32 +192,42 @@ Error Run(const SceneOptions& options) {
 
 Command SceneCommand() {
   const auto options = std::make_shared<SceneOptions>();
-  Command command = {
-      "scene", "Ray-trace a light field with exact disparity into a folder", {}, [options] {
-        return Run(*options);
-      }};
+  Command command = {"scene",
+                     "Ray-trace a light field with exact disparities into a folder",
+                     {},
+                     [options] { return Run(*options); },
+                     {"starfocus-lab scene lf --name portrait --size 640x480",
+                      "starfocus-lab scene lf --views 5 --truth 4,1 --shape disc"}};
   AddOptions(
       {
-          {"DIR", "DIR", "Folder to write", &options->folder, Use::kRequired},
-          {"--name", "portrait|wires|ramp|lamps|hair|grass", kSceneNames, &options->name,
+          {"DIR", "DIR", "Light-field folder to write", &options->folder, Use::kRequired},
+          {"--name", "portrait|wires|ramp|lamps|hair|grass", "Scene to render", &options->name,
            Use::kDefault},
-          {"--seed", "N", "Where the strands of hair and grass lie, 0 to 1000000; default: 1",
+          {"--seed", "N",
+           "Seed for the positions of the strands of hair and grass, 0 to 1000000; "
+           "default: 1",
            Whole(0, kMostSeed, &options->seed)},
-          {"--size", "WxH", "Width and height, WxH", Pair('x', &options->size), Use::kDefault},
-          {"--views", "17|9|5|1|U,V:U,V", "17, 9, 5 or 1, or positions U,V:U,V, the first one 0,0",
+          {"--size", "WxH",
+           "Width and height of each view in pixels, at most 33554432 pixels in total",
+           Pair('x', &options->size), Use::kDefault},
+          {"--views", "17|9|5|1|U,V:U,V",
+           "Views to render: the star of 17, 9, 5 or 1 views, or positions U,V:U,V from "
+           "-1 to 1 that begin with 0,0",
            Views(&options->views), Use::kDefault},
           {"--truth", "D,U ...",
-           "D,U: also the picture of a lens of aperture U focused at disparity D; "
-           "may be repeated",
+           "Render also the true picture of a lens focused at disparity D, -500 to 500, "
+           "with aperture U, above 0 and at most 1; may be repeated; default: none",
            &options->truths},
-          {"--transfer", "srgb|none", "Average light, coded as sRGB, or the values as they are",
+          {"--transfer", "srgb|none",
+           "srgb averages light and codes it as sRGB; none averages the values themselves",
            Transfer(&options->transfer), Use::kDefault},
       },
       &command);
   AddShapeOptions(&command, &options->shape);
   AddOptions(
       {
-          {"--threads", "N", "1 to 64; default: all of the machine", Threads(&options->threads)},
+          {"--threads", "N", "Number of threads, 1 to 64; default: one for each fast core",
+           Threads(&options->threads)},
       },
       &command);
   return command;

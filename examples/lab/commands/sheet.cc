@@ -69,17 +69,19 @@ Error Run(const SheetOptions& options) {
 Command SheetCommand() {
   const auto options = std::make_shared<SheetOptions>();
   return {"sheet",
-          "A contact sheet of pictures side by side",
+          "Arrange pictures side by side on a sheet",
           {
-              {"-o,--output", "FILE", "Picture to write: .png, .ppm, .jpg or .webp", &options->out,
+              {"-o,--output", "FILE", "Sheet to write: .png, .ppm, .jpg or .webp", &options->out,
                Use::kRequired},
               {"IMG", "FILE", "Pictures, from left to right", &options->pictures, Use::kRequired},
-              {"--labels", "A,B,...", "A,B,...: text below each picture", &options->labels,
-               Use::kCommaSeparated},
-              {"--width", "N", "Largest width of the sheet", Whole(16, 16384, &options->width),
-               Use::kDefault},
+              {"--labels", "A,B,...", "Text below each picture, separated by commas; default: none",
+               &options->labels, Use::kCommaSeparated},
+              {"--width", "N", "Largest width of the sheet in pixels, 16 to 16384",
+               Whole(16, 16384, &options->width), Use::kDefault},
           },
-          [options] { return Run(*options); }};
+          [options] { return Run(*options); },
+          {"starfocus-lab sheet a.png b.png -o sheet.png",
+           "starfocus-lab sheet a.png b.png -o sheet.jpg --labels before,after --width 1200"}};
 }
 
 }  // namespace starfocus

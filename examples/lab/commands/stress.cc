@@ -107,18 +107,22 @@ Error Run(const StressOptions& options) {
 }  // namespace
 
 Command StressCommand() {
-  static const std::string family_help = "Only this family: " + Names();
+  static const std::string family_help = "Family of cases to test: " + Names() + "; default: all";
   const auto options = std::make_shared<StressOptions>();
   return {"stress",
-          "Try to break the engine with random refocusings whose result is known or bounded",
+          "Test the engine with random refocusings whose result is known or bounded",
           {
-              {"--seconds", "S", "How long to try", Number(&options->seconds), Use::kDefault},
-              {"--seed", "N", "Which cases to try: others with every seed",
+              {"--seconds", "S", "Duration of the test in seconds", Number(&options->seconds),
+               Use::kDefault},
+              {"--seed", "N", "Seed of the cases, a whole number of at most 19 digits",
                Count(&options->seed, std::to_string(options->seed)), Use::kDefault},
               {"--family", "FAMILY", family_help.c_str(), &options->family},
-              {"--case", "N", "Repeat one case of --family", Count(&options->number, "")},
+              {"--case", "N", "Number of one case of --family to repeat; default: new cases",
+               Count(&options->number, "")},
           },
-          [options] { return Run(*options); }};
+          [options] { return Run(*options); },
+          {"starfocus-lab stress --seconds 60 --seed 7",
+           "starfocus-lab stress --family differential --case 12"}};
 }
 
 }  // namespace starfocus
