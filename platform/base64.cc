@@ -6,7 +6,7 @@
 namespace starfocus {
 namespace {
 
-// The six bits of a character; -1 for none.
+// Returns the six bits of a character, or -1 for other characters.
 int BitsOf(char c) {
   if (c >= 'A' && c <= 'Z') return c - 'A';
   if (c >= 'a' && c <= 'z') return c - 'a' + 26;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bytes as text: RFC 4648, section 4.
+// Converts bytes to text by RFC 4648, section 4, and back.
 #ifndef STARFOCUS_PLATFORM_BASE64_H_
 #define STARFOCUS_PLATFORM_BASE64_H_
 
@@ -10,11 +10,11 @@
 
 namespace starfocus {
 
-// With padding, without line breaks.
+// Encodes with padding and without line breaks.
 std::string EncodeBase64(const Bytes& bytes);
 
-// Skips white space between characters. Padding at the end may be missing. None if the text has any
-// other character.
+// Decodes a text. Skips white space, and accepts missing padding at the end. Returns nullopt if the
+// text contains any other character.
 std::optional<Bytes> DecodeBase64(const std::string& text);
 
 }  // namespace starfocus

@@ -10,13 +10,13 @@
 
 namespace starfocus {
 
-// Seconds since an arbitrary moment; never goes back.
+// Returns seconds since an arbitrary start; never decreases.
 inline double Seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-// Nanoseconds that the calling thread has run on a processor, from some start: what other programs
-// take is not counted. A starfocus_clock.
+// Returns the CPU time of the calling thread in nanoseconds, from an arbitrary start. Other
+// programs do not influence it. May serve as a starfocus_clock.
 inline uint64_t ThreadNanoseconds() {
   timespec time = {};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);

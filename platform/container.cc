@@ -17,7 +17,7 @@ bool StartsWith(const Bytes& bytes, const uint8_t (&signature)[kSize]) {
   return bytes.size() >= kSize && std::equal(signature, signature + kSize, bytes.begin());
 }
 
-// The CRC of a PNG chunk (PNG specification, annex D): x^32 + x^26 + ... + 1, reflected.
+// Table for the CRC of PNG chunks (PNG specification, annex D): x^32 + x^26 + ... + 1, reflected.
 struct CrcTable {
   uint32_t of[256] = {};
   constexpr CrcTable() {
@@ -35,8 +35,8 @@ uint32_t Crc(const uint8_t* bytes, size_t size) {
   return ~crc;
 }
 
-// stb_image allocates what a chunk says it holds before it looks for it, and never looks at its
-// checksum.
+// stb_image allocates the size that a chunk declares before it checks that the data exists, and
+// never checks its checksum.
 Container CheckPng(const Bytes& bytes, bool checksums) {
   for (size_t at = sizeof(kPngSignature); at + 12 <= bytes.size();) {
     const uint8_t* chunk = &bytes[at];
@@ -51,8 +51,8 @@ Container CheckPng(const Bytes& bytes, bool checksums) {
   return Container::kTruncated;
 }
 
-// The Huffman tables in [at, end): each has a byte of its class, 16 numbers of codes and the codes'
-// values. stb_image 2.27 writes beyond its table when there are more than 256.
+// Checks the Huffman tables in [at, end). Each has a byte for its class, 16 counts of codes, and
+// the values of the codes. stb_image 2.27 writes out of bounds if there are more than 256 codes.
 Container CheckHuffmanTables(const Bytes& bytes, size_t at, size_t end) {
   while (at < end) {
     if (at + 17 > bytes.size()) return Container::kTruncated;
@@ -77,7 +77,7 @@ Container CheckJpeg(const Bytes& bytes) {
   return Container::kTruncated;
 }
 
-// Beginnings of files that are taken for pictures, at byte `at`.
+// Signature of a file type at byte `at`.
 struct Beginning {
   size_t at;
   const char* bytes;
@@ -98,7 +98,7 @@ constexpr Beginning kBeginnings[] = {
     {4, "ftyp", "a HEIF, AVIF or MP4 file"},
 };
 
-// Whether the first bytes are those of a text: no control characters other than white space.
+// Returns true if the first bytes are text: they contain no control characters except white space.
 bool IsText(const Bytes& bytes) {
   const auto end = bytes.begin() + static_cast<ptrdiff_t>(std::min(bytes.size(), size_t{512}));
   return std::all_of(bytes.begin(), end, [](uint8_t c) {
@@ -151,7 +151,7 @@ uint32_t ReadBigEndian32(const uint8_t* bytes) {
 }
 
 bool MayBePicture(const Bytes& beginning) {
-  if (beginning.size() < 12) return true;  // a short file costs nothing
+  if (beginning.size() < 12) return true;  // a short file is cheap to read
   const bool netpbm = beginning[0] == 'P' && beginning[1] >= '1' && beginning[1] <= '6';
   return netpbm || IsPng(beginning) || StartsWith(beginning, kJpegSignature) ||
          std::memcmp(&beginning[0], "RIFF", 4) == 0 || std::memcmp(&beginning[4], "ftyp", 4) == 0;

@@ -4,7 +4,7 @@
 namespace starfocus {
 namespace {
 
-// Place of the levels in the clockwise cycle: A falls, B falls, A rises, B rises.
+// Returns the place of the levels in the clockwise cycle: A falls, B falls, A rises, B rises.
 int Place(bool a, bool b) { return a ? (b ? 0 : 3) : (b ? 1 : 2); }
 
 }  // namespace
@@ -13,7 +13,7 @@ QuadratureDecoder::QuadratureDecoder(bool a, bool b)
     : a_(a), b_(b), rest_(Place(a, b)), quarters_(0) {}
 
 int QuadratureDecoder::Edge(bool a, bool b) {
-  const int moved = (Place(a, b) - Place(a_, b_) + 4) % 4;  // 0, 1 or 3: one line at a time
+  const int moved = (Place(a, b) - Place(a_, b_) + 4) % 4;  // 0, 1 or 3: only one line changes
   a_ = a;
   b_ = b;
   quarters_ += moved == 3 ? -1 : moved;

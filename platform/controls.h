@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Knobs and buttons from the edges of their lines: no I/O and no clock, so that every sequence of
-// edges can be tested.
+// Interprets the edges of the lines of knobs and buttons. Uses no I/O and no clock, so that tests
+// can replay any sequence of edges.
 #ifndef STARFOCUS_PLATFORM_CONTROLS_H_
 #define STARFOCUS_PLATFORM_CONTROLS_H_
 
@@ -8,20 +8,20 @@
 
 namespace starfocus {
 
-// A rotary encoder of two lines, A leading B clockwise, with four edges from detent to detent.
+// A rotary encoder with two lines and four edges between detents. A leads B clockwise.
 //
-// Every edge moves a position by a quarter of a step, and a step counts when the lines are back in
-// the levels of a detent; so contacts that bounce move back and forth and come to nothing. An edge
-// to the level a line already has tells that one was lost: it moves nothing, but from then on the
-// levels are right again. A lost edge may cost its step; it never makes one in the wrong direction
-// nor spoils the following ones.
+// Every edge moves the position by a quarter of a step. A step counts when both lines are back at
+// the levels of a detent, so bouncing contacts cancel out. An edge to the current level of a line
+// means that an edge was lost: the position does not change, but the levels are correct afterwards.
+// A lost edge may lose its step. It never causes a step in the wrong direction, nor affects later
+// steps.
 class QuadratureDecoder {
  public:
-  // The levels of both lines at rest.
+  // @param a, b levels of the lines at rest
   explicit QuadratureDecoder(bool a = true, bool b = true);
 
-  // An edge of line A or B to `high`. Returns the steps made: 1 clockwise, -1 counter-clockwise,
-  // 0 otherwise.
+  // Processes an edge of line A or B to level `high`. Returns 1 for a clockwise step, -1 for a
+  // counter-clockwise step, otherwise 0.
   int EdgeOfA(bool high) { return Edge(high, b_); }
   int EdgeOfB(bool high) { return Edge(a_, high); }
 
@@ -29,32 +29,33 @@ class QuadratureDecoder {
   int Edge(bool a, bool b);
 
   bool a_, b_;
-  int rest_;      // place in the cycle of a detent
-  int quarters_;  // since the last detent
+  int rest_;      // place in the cycle at a detent
+  int quarters_;  // quarters since the last detent
 };
 
-// A push button. The first edge of a press counts at once; what follows within `quiet` of a change
-// is bouncing. When the release was lost, the next press still counts.
+// A push button. The first edge of a press counts immediately; edges within `quiet` after a change
+// are bouncing. If a release was lost, the next press still counts.
 class Debouncer {
  public:
-  // Times are in nanoseconds of any clock that never goes back.
+  // @param quiet duration of bouncing in nanoseconds, the unit of all times, from any monotonic
+  // clock
   explicit Debouncer(int64_t quiet) : quiet_(quiet) {}
 
-  // An edge of the line to `pressed` or released. Whether there was a press, then or when the
-  // bouncing before it settled.
+  // Processes an edge of the line. Returns true for a press, either by this edge or by bouncing
+  // that has settled before it.
   bool Edge(bool pressed, int64_t time);
 
-  // To be called when no edge has come until Due(): the level the bouncing ended in counts.
-  // Whether that is a press.
+  // Accepts the level at the end of bouncing. Call it if no edge has arrived until Due(). Returns
+  // true for a press.
   bool Settle(int64_t time);
-  // Whether Settle has anything to do, and when.
+  // unsettled() is true if Settle must be called, at the time Due().
   bool unsettled() const { return last_ != pressed_; }
   int64_t Due() const { return changed_ + quiet_; }
 
  private:
   int64_t quiet_;
-  int64_t changed_ = INT64_MIN / 2;  // time of the last change that counted
-  bool pressed_ = false;             // as far as that goes
+  int64_t changed_ = INT64_MIN / 2;  // time of the last accepted change
+  bool pressed_ = false;             // accepted level
   bool last_ = false;                // level after the last edge
 };
 

@@ -37,7 +37,7 @@ fs::path FolderOf(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-// Renaming onto a link would replace the link instead of what it points to.
+// Resolves links, because renaming onto a link would replace the link instead of its target.
 fs::path FollowLink(const fs::path& path) {
   std::error_code error;
   if (!fs::is_symlink(path, error)) return path;
@@ -45,7 +45,7 @@ fs::path FollowLink(const fs::path& path) {
   return error ? path : real;
 }
 
-// Root may write to every file, but a file that nobody may write to is meant to stay.
+// Root may write to every file, but files without any write permission remain protected.
 bool IsProtected(const fs::path& target) {
   struct stat status;
   if (stat(target.c_str(), &status) != 0) return false;
@@ -54,8 +54,8 @@ bool IsProtected(const fs::path& target) {
 
 Error ReadOnly(const std::string& path) { return Cannot("write", path, "the file is read-only"); }
 
-// Gives the new file the owner and permissions of the one that it will replace. False with errno
-// where that fails.
+// Gives the new file the owner and permissions of the file that it will replace. Returns false and
+// sets errno on failure.
 bool TakeStatus(const fs::path& target, std::FILE* file) {
   struct stat old, own;
   if (stat(target.c_str(), &old) != 0) return true;
@@ -70,7 +70,7 @@ bool WriteAll(const Bytes& bytes, std::FILE* file) {
   return bytes.empty() || std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
 }
 
-// A device or pipe has no other file to be replaced by.
+// Writes to a device or pipe, which cannot be replaced by renaming.
 Error WriteInPlace(const std::string& path, const Bytes& bytes) {
   File file(std::fopen(path.c_str(), "wb"));
   const bool whole = file && WriteAll(bytes, file.get()) && std::fclose(file.release()) == 0;
@@ -85,8 +85,8 @@ Error Replace(const std::string& path, const fs::path& target, const Bytes& byte
   return whole ? Error() : Cannot("write", path, Reason(errno));
 }
 
-// A picture of 2^28 pixels, the most that is read, has less as a PPM of 16 bits. A pipe has no size
-// to ask for, and may never end.
+// The largest supported picture, 2^28 pixels, is smaller as a PPM with 16 bits. The size of a pipe
+// is unknown, and a pipe may be endless.
 constexpr uint64_t kMostBytes = uint64_t{1} << 31;
 
 Error TooLarge(const std::string& path, uint64_t most, const std::string& found) {
@@ -96,12 +96,12 @@ Error TooLarge(const std::string& path, uint64_t most, const std::string& found)
 
 struct OpenedFile {
   File file;
-  size_t size = 0;  // 0: a pipe
+  size_t size = 0;  // 0 for a pipe
 };
 
 // Opens a regular file of at most `most` bytes, or a pipe.
 Result<OpenedFile> OpenFile(const std::string& path, uint64_t most) {
-  // Standard input is read by a handle of its own, which may be closed.
+  // Standard input is read through a duplicated descriptor, which may be closed.
   const bool standard = path == "-";
   File file(standard ? fdopen(dup(STDIN_FILENO), "rb") : std::fopen(path.c_str(), "rb"));
   struct stat status;
@@ -120,7 +120,8 @@ Result<OpenedFile> OpenFile(const std::string& path, uint64_t most) {
 
 using IsWanted = bool (*)(const Bytes& beginning);
 
-// Stops after the first part if `is_wanted`, unless it is null, is false of it.
+// Reads a file of at most `most` bytes. If `is_wanted` is not null and returns false for the first
+// part, returns only that part.
 Result<Bytes> ReadAtMost(const std::string& path, uint64_t most, IsWanted is_wanted) {
   const Result<OpenedFile> opened = OpenFile(path, most);
   if (!opened) return opened.error();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whole files in and out of memory.
+// Reads and writes whole files.
 #ifndef STARFOCUS_PLATFORM_FILE_H_
 #define STARFOCUS_PLATFORM_FILE_H_
 
@@ -14,37 +14,36 @@ namespace starfocus {
 
 using Bytes = std::vector<uint8_t>;
 
-// Reads a regular file or a pipe of at most 2 GiB. Rejects folders and devices: a device such as
-// /dev/zero never ends. "-" is standard input, here and below.
+// Reads a regular file or a pipe of at most 2 GiB. Rejects folders and devices, since a device such
+// as /dev/zero never ends. "-" is standard input, here and below.
 Result<Bytes> ReadFile(const std::string& path);
 
-// The same of a file that is wanted only if its first 64 KiB say so: of any other file it returns
-// these alone, so that a file of another kind costs no memory and a stream of it ends.
+// Reads a file, or only its first 64 KiB if `is_wanted` returns false for them. Unwanted files cost
+// little memory, and reading an endless stream stops.
 Result<Bytes> ReadFileIf(const std::string& path, bool (*is_wanted)(const Bytes& beginning));
 
-// Reads a file of at most kMostSmallBytes: timings, calibrations and other texts.
+// Reads a file of at most kMostSmallBytes, for timings, calibrations and other texts.
 constexpr size_t kMostSmallBytes = size_t{1} << 20;
 Result<Bytes> ReadSmallFile(const std::string& path);
 
-// Writes to a temporary file in the same folder and renames it, so that `path` holds either what
-// it held before or all of `bytes`. A file that is there keeps its owner and permissions, and a
-// read-only one is refused. A device or pipe is written in place, and standard output
-// (standard_stream.h).
+// Writes a temporary file in the same folder and renames it, so that `path` contains either its old
+// content or all of `bytes`. Keeps the owner and permissions of an existing file, and rejects a
+// read-only file. Devices, pipes and standard output (standard_stream.h) are written directly.
 Error WriteFile(const std::string& path, const Bytes& bytes);
 
-// Writes what an encoder made, or returns its error.
+// Writes the output of an encoder, or returns its error.
 Error WriteFile(const std::string& path, const Result<Bytes>& encoded);
 
 Error WriteText(const std::string& path, const std::string& text);
 
-// Whether a later WriteFile can be expected to work: the folder exists and may be written into, its
-// file system takes the name, and `path` is neither a folder nor read-only.
+// Returns an error if a later WriteFile would probably fail. The folder must exist and be writable,
+// its file system must accept the name, and `path` must not be a folder or read-only.
 Error CheckOutputPath(const std::string& path);
 
-// Whether `path` is no device or pipe, which could keep its reader waiting for ever.
+// Returns an error if `path` is a device or pipe, on which a reader could wait forever.
 Error CheckPlainFile(const std::string& path);
 
-// The extension in lower case with its dot; empty when there is none.
+// Returns the extension in lower case with its dot, or an empty string if none exists.
 std::string LowerExtension(const std::string& path);
 
 }  // namespace starfocus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lists and makes folders.
+// Lists and creates folders.
 #ifndef STARFOCUS_PLATFORM_FOLDER_H_
 #define STARFOCUS_PLATFORM_FOLDER_H_
 
@@ -10,10 +10,10 @@
 
 namespace starfocus {
 
-// The names of everything in a folder of at most 100 000, sorted.
+// Returns the sorted names of all entries of a folder. At most 100 000 entries are allowed.
 Result<std::vector<std::string>> ListFolder(const std::string& folder);
 
-// Makes the folder and those above it, unless it is there.
+// Creates a folder and its parents unless they exist.
 Error MakeFolder(const std::string& folder);
 
 }  // namespace starfocus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A Linux framebuffer (/dev/fb0) as a place for pictures.
+// Draws pictures on a Linux framebuffer (/dev/fb0).
 #ifndef STARFOCUS_PLATFORM_FRAMEBUFFER_H_
 #define STARFOCUS_PLATFORM_FRAMEBUFFER_H_
 
@@ -12,21 +12,22 @@
 
 namespace starfocus {
 
-// Where a colour sits in a pixel: `length` bits from bit `offset` up.
+// Bits of a colour in a pixel: `length` bits from bit `offset`.
 struct PixelField {
   int offset, length;
 };
 
-// The memory of a screen.
+// The mapped memory of a screen.
 struct Screen {
   uint8_t* memory = nullptr;
-  int width = 0, height = 0;  // pixels
+  int width = 0, height = 0;  // in pixels
   size_t stride = 0;          // bytes from row to row
   int bytes_per_pixel = 0;    // 2, 3 or 4, little-endian
   PixelField red = {0, 0}, green = {0, 0}, blue = {0, 0};
 };
 
-// Draws the picture in the middle of the screen, cropped to it; the rest is black.
+// Draws the picture at the centre of the screen, cropped to the screen, and fills the rest with
+// black.
 void Draw(const Image& picture, const Screen& screen);
 
 // Draws the picture on the framebuffer device `path`.

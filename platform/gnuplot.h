@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Drawings through the program gnuplot.
+// Draws graphs with the program gnuplot.
 #ifndef STARFOCUS_PLATFORM_GNUPLOT_H_
 #define STARFOCUS_PLATFORM_GNUPLOT_H_
 
@@ -10,11 +10,11 @@
 
 namespace starfocus {
 
-// Whether a gnuplot that draws SVG can be run.
+// Returns true if a gnuplot that can write SVG is installed.
 bool HasGnuplot();
 
-// Runs gnuplot on `script`, whose data are inline and whose output goes to stdout, into *picture.
-// No shell and no file name is involved. Errors name `what`.
+// Runs gnuplot on `script`, which contains its data and writes to stdout, and returns the output.
+// Uses no shell and no file names. Errors start with `what`.
 Result<Bytes> RunGnuplot(const std::string& what, const std::string& script);
 
 }  // namespace starfocus

@@ -14,7 +14,7 @@ namespace starfocus {
 namespace {
 
 constexpr char kConsumer[] = "starfocus";
-constexpr int kEdgesAtOnce = 16;  // the kernel keeps that many for each line
+constexpr int kEdgesAtOnce = 16;  // capacity of the kernel's buffer for each line
 
 bool IsNumber(const std::string& text) {
   return !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
@@ -27,7 +27,7 @@ std::string ChipPath(const std::string& chip) {
 
 std::string Number(int64_t value) { return std::to_string(value); }
 
-// What went wrong with `where`, from errno.
+// Returns an error for `where` by errno.
 Error Failure(const std::string& where, const std::string& expected) {
   const int code = errno;
   if (code == EBUSY) return Expected(where, expected, "a line that another program holds");
@@ -107,7 +107,7 @@ gpiod_line_bias BiasOf(GpioBias bias) {
   return GPIOD_LINE_BIAS_AS_IS;
 }
 
-// Requests `lines` with `settings`, which it frees. Null on failure.
+// Requests `lines` with `settings`, which it frees. Returns null on failure.
 gpiod_line_request* Request(gpiod_chip* chip, const std::vector<int>& lines,
                             gpiod_line_settings* settings) {
   const std::vector<unsigned> offsets(lines.begin(), lines.end());
@@ -167,7 +167,7 @@ GpioOutput::~GpioOutput() = default;
 
 #ifndef STARFOCUS_GPIOD_2
 
-// Closing a chip releases its lines.
+// Closing the chip releases its lines.
 struct GpioInputs::Lines {
   Chip chip;
   std::string name;
@@ -188,7 +188,7 @@ Error GpioInputs::Open(const std::string& chip, const std::vector<int>& lines, G
   for (const int line : lines) {
     if (Error error = CheckLine(chip, opened->chip.get(), line)) return error;
     gpiod_line* found = gpiod_chip_get_line(opened->chip.get(), static_cast<unsigned>(line));
-    // One by one, so that the message can tell which line is taken.
+    // Request lines individually, so that the error can name the line that is in use.
     if (found == nullptr ||
         gpiod_line_request_both_edges_events_flags(found, kConsumer, BiasFlags(bias)) != 0) {
       return Failure(LineName(chip, line), "a free input with interrupts");
@@ -212,7 +212,7 @@ Result<std::vector<GpioEdge>> GpioInputs::Wait(int timeout) {
   gpiod_line_bulk ready;
   int result = 0;
   do {
-    // libgpiod 1 has no wait without a limit.
+    // libgpiod 1 cannot wait without a limit.
     const timespec hour = {3600, 0};
     result = gpiod_line_event_wait_bulk(&lines_->bulk, timeout < 0 ? &hour : &limit, &ready);
   } while (result == 0 && timeout < 0);

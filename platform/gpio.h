@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// GPIO lines of Linux boards through libgpiod, which nothing else knows. Built only where libgpiod
-// (1.5 or newer, or 2.x) is found. A chip is named "gpiochip0", "/dev/gpiochip0" or "0"; lines are
-// offsets on their chip.
+// Accesses GPIO lines of Linux boards through libgpiod (1.5 or newer, or 2.x). Only built if
+// libgpiod is available. A chip is named "gpiochip0", "/dev/gpiochip0" or "0"; lines are offsets on
+// their chip.
 #ifndef STARFOCUS_PLATFORM_GPIO_H_
 #define STARFOCUS_PLATFORM_GPIO_H_
 
@@ -19,19 +19,19 @@ struct GpioChip {
   int lines;
 };
 
-// Every chip this user may open; an error when there is none.
+// Lists the chips that the user may open. Returns an error if none is found.
 Result<std::vector<GpioChip>> ListGpioChips();
 
 enum class GpioBias { kAsIs, kPullUp, kPullDown };
 
-// An edge of a line; `high` is the level it went to.
+// An edge of a line; `high` is the level after the edge.
 struct GpioEdge {
   int line;
   bool high;
-  int64_t nanoseconds;  // of the monotonic clock
+  int64_t nanoseconds;  // monotonic time
 };
 
-// Lines watched for edges of both directions. They are this program's until destruction.
+// Input lines with detection of both edges. The program owns the lines until the destructor runs.
 class GpioInputs {
  public:
   GpioInputs();
@@ -39,8 +39,8 @@ class GpioInputs {
   Error Open(const std::string& chip, const std::vector<int>& lines, GpioBias bias);
   // Returns true if the line is high now.
   Result<bool> Read(int line);
-  // Waits for edges and returns them in the order of their times; none after `timeout` milliseconds
-  // without one (-1: no limit). The kernel drops edges when more than 16 per line wait.
+  // Waits for edges and returns them sorted by time, or none after `timeout` milliseconds (-1: no
+  // limit). The kernel drops edges if more than 16 per line are pending.
   Result<std::vector<GpioEdge>> Wait(int timeout);
 
  private:
@@ -48,14 +48,14 @@ class GpioInputs {
   std::unique_ptr<Lines> lines_;
 };
 
-// A line driven by this program, low at first.
+// An output line, initially low.
 class GpioOutput {
  public:
   GpioOutput();
   ~GpioOutput();
   Error Open(const std::string& chip, int line);
   Error Set(bool high);
-  // Returns true if the line itself is high, where the chip can read its outputs.
+  // Returns true if the line is high, on chips that can read their outputs.
   Result<bool> Read();
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Test of ICC profiles that readers of picture files apply before a profile is passed on: pixels of
-// this program are RGB, so that a profile of grey or CMYK would make a viewer show other colours.
+// Checks ICC profiles before readers of picture files pass them on. Pixels of this program are RGB,
+// so a viewer would show wrong colours with a profile for grey or CMYK.
 #ifndef STARFOCUS_PLATFORM_ICC_PROFILE_H_
 #define STARFOCUS_PLATFORM_ICC_PROFILE_H_
 
@@ -8,8 +8,8 @@
 
 namespace starfocus {
 
-// Returns true if `icc` is a whole profile of RGB colours (ICC.1:2022, 7.2 and 7.3): its size is
-// the one in its header, its data colour space is RGB, and all tagged elements lie within it.
+// Returns true if `icc` is a complete profile for RGB (ICC.1:2022, 7.2 and 7.3): its size matches
+// its header, its data colour space is RGB, and it contains all tagged elements.
 bool IsRgbProfile(const Bytes& icc);
 
 }  // namespace starfocus

@@ -9,10 +9,11 @@
 
 namespace starfocus {
 
-// Largest width and height of any file read or written: STARFOCUS_MAX_SIZE of starfocus.h.
+// Largest width and height of pictures in files. Equal to STARFOCUS_MAX_SIZE of starfocus.h.
 inline constexpr int kMaxPictureSize = 65535;
 
-// Whether so many pixels can have room at all: on 32 bits the largest pictures cannot.
+// Returns true if a picture of this size is addressable. On 32-bit systems the largest ones are
+// not.
 constexpr bool FitsMemory(int width, int height, size_t bytes_per_pixel) {
   return uint64_t(width) * uint64_t(height) <= uint64_t{PTRDIFF_MAX} / bytes_per_pixel;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Picture files: PNG, PPM, JPEG and WebP to and from 8-bit RGB.
+// Converts picture files (PNG, PPM, JPEG and WebP) to and from 8-bit RGB.
 #ifndef STARFOCUS_PLATFORM_IMAGE_IO_H_
 #define STARFOCUS_PLATFORM_IMAGE_IO_H_
 
@@ -13,20 +13,20 @@
 
 namespace starfocus {
 
-// Reads a picture, whatever its name says, by its content. Grey and CMYK become RGB, alpha is
-// dropped. Pictures may have 2^28 pixels, here and below.
+// Reads a picture. The content decides the format, not the name. Grey and CMYK are converted to
+// RGB, and alpha is ignored. Here and below, pictures may have up to 2^28 pixels.
 Result<Image> ReadImage(const std::string& path);
 
-// The same of bytes in memory; `where` only names them in the error. The metadata are the profile,
-// EXIF and whole XMP packet of PNG and WebP files; those of JPEG files are read with the other
-// segments (readers/jpeg_parts.h).
+// Decodes a picture in memory; `where` is used only in errors. For PNG and WebP, the metadata
+// contains the profile, EXIF and the complete XMP packet. readers/jpeg_parts.h reads the metadata
+// of JPEG files.
 Result<DecodedPicture> DecodeImage(const std::string& where, const Bytes& bytes);
 
-// Writes by extension (writers/picture.h).
+// Writes a picture in the format of the extension (writers/picture.h).
 Error WriteImage(const std::string& path, const Image& image, const PictureOptions& options = {});
 
-// Whether WriteImage knows the extension of `path`, this program was built with what writes it, and
-// its folder exists; to be asked before long work.
+// Returns an error if WriteImage does not support the extension of `path`, this build lacks the
+// encoder, or the folder does not exist. Call it before long computations.
 Error CheckImageOutput(const std::string& path);
 
 }  // namespace starfocus

@@ -15,20 +15,20 @@
 namespace starfocus {
 namespace {
 
-// Pixels whose channels differ by more than a tenth of white are coloured: JPEG changes grey by
-// less. From one pixel in a hundred on the picture is one in colours.
+// A pixel is coloured if its channels differ by more than a tenth of white; JPEG changes grey by
+// less. A picture is in colour if at least one pixel in a hundred is coloured.
 constexpr int kColourPart = 10;
 constexpr size_t kColouredPart = 100;
 
-// What becomes of an alpha channel.
+// Use of an alpha channel.
 enum class Alpha {
   kIgnored,
-  kTransparent,  // pixels less than half opaque are NaN
-  kTaken         // instead of the levels
+  kTransparent,  // pixels that are less than half opaque become NaN
+  kTaken         // replaces the levels
 };
 
-// Grey levels of interleaved samples of 1 (grey) to 4 (RGB and alpha) channels. `result` has the
-// size and the sample of white.
+// Converts interleaved samples of 1 (grey) to 4 (RGB and alpha) channels to grey levels. `result`
+// already has the size and the sample of white.
 template <class Sample>
 Result<Samples> TakeGrey(const std::string& where, const Sample* pixel, int channels, Alpha alpha,
                          Samples result) {
@@ -58,9 +58,9 @@ Result<Samples> TakeGrey(const std::string& where, const Sample* pixel, int chan
 // Decodes a PNG file that DecodeImage has read without an error.
 Result<Samples> DecodePngSamples(const std::string& where, const Bytes& bytes, Alpha alpha) {
   const PngHeader header = *ReadPngHeader(bytes);
-  constexpr int kHasAlpha = 4;  // this bit of the colour type
+  constexpr int kHasAlpha = 4;  // bit of the colour type
   if (alpha == Alpha::kTaken && (header.colour & kHasAlpha) == 0) alpha = Alpha::kIgnored;
-  constexpr int kColour = 2;  // this bit of the colour type: RGB or a palette of RGB
+  constexpr int kColour = 2;  // bit of the colour type: RGB or a palette of RGB
   const int channels = (header.colour & kColour) != 0 ? 4 : 2;
   const auto size = static_cast<int>(bytes.size());
   const StbMemory memory;
@@ -95,7 +95,7 @@ Result<Samples> Decode(const std::string& where, Alpha alpha, const Bytes& bytes
   if (!IsPng(bytes)) {
     return TakeGrey(where, image.pixels.data(), 3, alpha, {{image.width, image.height, {}}, 255});
   }
-  image = {};  // makes room
+  image = {};  // frees memory
   return DecodePngSamples(where, bytes, alpha);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Grey levels of depth pictures: PNG, PGM, PPM and JPEG, with all bits that the file has. The
-// readers of depth photos call it. A picture in colours is an error, since colours have no order.
+// Decodes grey levels of depth pictures (PNG, PGM, PPM and JPEG) with their full precision, for the
+// readers of depth photos. A colour picture is an error, because colours have no order.
 #ifndef STARFOCUS_PLATFORM_LEVELS_H_
 #define STARFOCUS_PLATFORM_LEVELS_H_
 
@@ -13,18 +13,18 @@
 namespace starfocus {
 
 struct Samples {
-  FloatMap map;  // samples as the file has them, 0 to `largest`; NaN where alpha says transparent
-  int largest = 0;  // the sample of white
+  FloatMap map;     // samples, 0 to `largest`; NaN if transparent
+  int largest = 0;  // sample of white
 };
 
-// Decodes the samples. `where` only names the file in errors. With `use_alpha`, pixels less than
-// half opaque (alpha channel or tRNS) are NaN.
+// Decodes the samples. `where` is used only in errors. If `use_alpha` is true, pixels that are less
+// than half opaque (alpha channel or tRNS) are NaN.
 Result<Samples> DecodeSamples(const std::string& where, bool use_alpha, const Bytes& bytes);
 
-// Decodes coverage as samples of a PNG file's alpha channel, or of another picture's grey levels.
+// Decodes coverage: the alpha channel of a PNG file, or the grey levels of a picture without alpha.
 Result<Samples> DecodeCoverage(const std::string& where, const Bytes& bytes);
 
-// Decodes the levels, 0 to 1; NaN where the picture is transparent.
+// Decodes the levels, 0 to 1; transparent pixels are NaN.
 Result<FloatMap> DecodeLevels(const std::string& where, const Bytes& bytes);
 
 }  // namespace starfocus

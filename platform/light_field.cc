@@ -25,7 +25,7 @@ std::string Join(const std::string& folder, const std::string& name) {
 
 constexpr char kDisparityName[] = "disparity.pfm";
 constexpr char kCoverageName[] = "coverage.png";
-// Maps of stereo pairs: Middlebury's and ETH3D's.
+// Maps of stereo pairs of Middlebury and ETH3D.
 constexpr const char* kPairDisparityNames[] = {"disp0.pfm", "disp0GT.pfm"};
 
 Error CheckSize(const std::string& path, int width, int height, const Image& centre) {
@@ -38,7 +38,7 @@ struct SaveJob {
   const std::string& folder;
   const LightField& light_field;
   const Positions positions;
-  std::vector<Error> errors;  // of each view
+  std::vector<Error> errors;  // one per view
   Progress progress;
 
   static void Run(void* data, int32_t index, int32_t) {

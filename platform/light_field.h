@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A light-field folder: captured views (view_files.h), disparity.pfm, or disp0.pfm or disp0GT.pfm
-// of a stereo pair, with the disparity of the centre view, and perhaps its coverage, coverage.png.
+// Reads and writes light-field folders. A folder contains captured views (view_files.h), the
+// disparity map of the centre view (disparity.pfm, or disp0.pfm or disp0GT.pfm of a stereo pair),
+// and optionally its coverage (coverage.png).
 #ifndef STARFOCUS_PLATFORM_LIGHT_FIELD_H_
 #define STARFOCUS_PLATFORM_LIGHT_FIELD_H_
 
@@ -17,7 +18,7 @@ namespace starfocus {
 
 struct LightField {
   std::vector<Image> views;
-  Positions positions;  // of the views; empty: those of starfocus_view_position
+  Positions positions;  // positions of the views; empty: those of starfocus_view_position
   FloatMap disparity;
   std::vector<uint8_t> coverage;  // as starfocus_light_field.coverage, packed rows; empty: none
 
@@ -25,32 +26,32 @@ struct LightField {
   int height() const { return disparity.height; }
 };
 
-// Tells a configuration the views of a light field and where they lie.
+// Sets the number and the positions of views in a configuration.
 void ConfigureViews(const LightField& light_field, starfocus_config* config);
 
-// Measures a map; all is 0 of an empty one.
+// Measures a map. All fields are 0 if the map is empty.
 starfocus_disparity_stats MeasureDisparity(const FloatMap& map);
 
-// The light field as the engine takes it, from row `first` on.
+// Returns the light field for a call of the engine, starting at row `first`.
 starfocus_light_field EngineRows(const LightField& light_field, int first = 0);
 
-// The file of its map, there or not.
+// Returns the path of the folder's map, whether or not the file exists.
 std::string DisparityPath(const std::string& folder);
 
-// Every file that `folder` holds of a light field.
+// Returns the paths of all light-field files in the folder.
 std::vector<std::string> LightFieldFiles(const std::string& folder);
 
-// Whether the file of that name, in a folder, is taken for a part of its light field.
+// Returns true if the file name is that of a light-field file.
 bool IsLightFieldFile(const std::string& name);
 
 Result<FloatMap> ReadDisparity(const std::string& folder);
 
-// Whether the folder has a disparity map; it may be a bad one.
+// Returns true if the folder has a disparity map, which may be invalid.
 bool HasDisparity(const std::string& folder);
 
-// Loads the views at these positions, or all of the folder's if there are none, without the map.
-// All sizes must agree. Here and below views are decoded several at a time on `runner`; null: one
-// after the other.
+// Loads the views at these positions without the map, or all views of the folder if `wanted` is
+// empty. All sizes must agree. Here and below, `runner` decodes several views at a time; if it is
+// null, the calling thread decodes all views.
 Result<LightField> LoadCaptured(const std::string& folder, const Positions& wanted,
                                 ThreadRunner* runner = nullptr);
 
@@ -58,25 +59,25 @@ Result<LightField> LoadCaptured(const std::string& folder, const Positions& want
 Result<LightField> LoadViewFiles(const std::vector<ViewFile>& files,
                                  ThreadRunner* runner = nullptr);
 
-// Loads the map of views that are there, of the same size.
+// Loads the map of views that are already loaded. Its size must be that of the views.
 Error LoadMap(const std::string& path, LightField* light_field);
 
-// Takes a map that was read from `path` for views that are there, of the same size.
+// Sets a map that was read from `path`. Its size must be that of the loaded views.
 Error TakeMap(const std::string& path, FloatMap map, LightField* light_field);
 
-// The file of its coverage; empty if there is none.
+// Returns the path of the folder's coverage, or an empty string if none exists.
 std::string CoveragePath(const std::string& folder);
 
-// Loads the coverage of views that are there, of the same size: the alpha channel of a picture, or
-// the grey levels of one without.
+// Loads the coverage of views that are already loaded, with the same size. It is the alpha channel
+// of a picture, or the grey levels if the picture has no alpha channel.
 Error LoadCoverage(const std::string& path, LightField* light_field);
 
-// Loads these views, the disparity map and the coverage, if there is some, of the same size.
+// Loads these views, the disparity map, and the coverage if it exists. All sizes must agree.
 Result<LightField> LoadLightField(const std::string& folder, const Positions& wanted,
                                   ThreadRunner* runner = nullptr);
 
-// Makes the folder if needed and writes PNG views, several at a time on `runner`, and the coverage
-// and the disparity map if there are any.
+// Creates the folder if necessary. Writes the views as PNG, several at a time on `runner`, and the
+// coverage and the disparity map if they are not empty.
 Error SaveLightField(const std::string& folder, const LightField& light_field,
                      ThreadRunner* runner);
 

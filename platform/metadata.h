@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a photograph's file says of it beside the pixels.
+// Metadata of a photograph's file.
 #ifndef STARFOCUS_PLATFORM_METADATA_H_
 #define STARFOCUS_PLATFORM_METADATA_H_
 
@@ -13,11 +13,11 @@
 namespace starfocus {
 
 struct Metadata {
-  Bytes exif;       // the TIFF structure, from its byte order "II" or "MM" on; empty: none
-  Bytes icc;        // the whole profile; empty: none, which is sRGB
-  Bytes iptc = {};  // the records of IPTC-IIM: title, caption, copyright and so on; empty: none
-  // The descriptions of an XMP packet, without what surrounds them; empty: none. They hold title,
-  // caption, rating, copyright and so on, but nothing on the file's parts (kept_metadata.h).
+  Bytes exif;       // the TIFF structure, starting with its byte order "II" or "MM"; empty: none
+  Bytes icc;        // the whole profile; empty: none, which means sRGB
+  Bytes iptc = {};  // records of IPTC-IIM: title, caption, copyright and so on; empty: none
+  // Descriptions of an XMP packet without the surrounding elements; empty: none. They contain
+  // title, caption, rating, copyright and so on, but no properties of the file (kept_metadata.h).
   std::string xmp = {};
 };
 

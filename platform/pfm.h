@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One-channel PFM files ("Pf"): 32-bit floats, rows from the bottom up, byte order by the sign of
-// the scale (negative: little endian).
+// Reads and writes one-channel PFM files ("Pf"): 32-bit floats, rows from bottom to top. The sign
+// of the scale is the byte order (negative: little endian).
 #ifndef STARFOCUS_PLATFORM_PFM_H_
 #define STARFOCUS_PLATFORM_PFM_H_
 
@@ -15,7 +15,7 @@ namespace starfocus {
 struct FloatMap {
   int width = 0;
   int height = 0;
-  std::vector<float> values;  // rows from the top down, without padding
+  std::vector<float> values;  // rows from top to bottom, without padding
 
   size_t stride() const { return sizeof(float) * size_t(width); }  // bytes from row to row
   float at(int x, int y) const { return values[size_t(y) * size_t(width) + size_t(x)]; }
@@ -23,8 +23,8 @@ struct FloatMap {
 
 enum class ByteOrder { kLittle, kBig };
 
-// Values may be NaN or infinite. The magnitude of the scale, a unit without meaning for
-// disparities, is ignored.
+// Reads a map. Values may be NaN or infinite. The magnitude of the scale is ignored, because it is
+// a unit that disparities do not have.
 Result<FloatMap> ReadPfm(const std::string& path);
 Error WritePfm(const std::string& path, const FloatMap& map, ByteOrder order = ByteOrder::kLittle);
 

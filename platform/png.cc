@@ -9,7 +9,7 @@
 namespace starfocus {
 namespace {
 
-constexpr size_t kFirstChunk = 8;  // behind the signature
+constexpr size_t kFirstChunk = 8;  // after the signature
 constexpr int kGrey = 0, kPalette = 3;
 
 bool IsChunk(const uint8_t* chunk, const char* name) {
@@ -26,7 +26,7 @@ std::optional<PngHeader> ReadPngHeader(const Bytes& png) {
   return PngHeader{ReadBigEndian32(chunk + 8), ReadBigEndian32(chunk + 12), chunk[16], chunk[17]};
 }
 
-// stb_image refuses palettes of 16-bit indices, as the format does.
+// stb_image rejects palettes with 16-bit indices, as the format requires.
 bool HasPalette(const PngHeader& header) { return header.colour == kPalette && header.depth <= 8; }
 
 Bytes TakePalette(Bytes* png) {
@@ -34,11 +34,11 @@ Bytes TakePalette(Bytes* png) {
   (*png)[kFirstChunk + 17] = kGrey;
   for (size_t at = kFirstChunk; at + 12 <= png->size();) {
     uint8_t* chunk = &(*png)[at];
-    if (IsChunk(chunk, "IEND")) break;  // what follows need not be chunks
+    if (IsChunk(chunk, "IEND")) break;  // the rest of the file need not be chunks
     const size_t length = ReadBigEndian32(chunk);
     if (IsChunk(chunk, "PLTE")) palette.assign(chunk + 8, chunk + 8 + length);
-    // The opacities of a palette mean nothing to grey levels: as a chunk of a name of its own they
-    // are skipped.
+    // Opacities of a palette do not apply to grey levels. Renaming the chunk makes decoders skip
+    // it.
     if (IsChunk(chunk, "tRNS")) chunk[4] = 'x';
     at += 12 + length;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the reader of pictures has to know of a PNG file beyond stb_image.
+// Reads properties of PNG files that stb_image does not report.
 #ifndef STARFOCUS_PLATFORM_PNG_H_
 #define STARFOCUS_PLATFORM_PNG_H_
 
@@ -13,19 +13,20 @@ namespace starfocus {
 // The header chunk of a PNG file.
 struct PngHeader {
   uint32_t width, height;
-  int depth;   // bits of a sample
-  int colour;  // the format's colour type
+  int depth;   // bits per sample
+  int colour;  // colour type of the format
 };
 
-// Reads the header of a file whose container is whole; none when it does not begin with one.
+// Reads the header of a complete file. Returns nullopt if the file does not start with a header.
 std::optional<PngHeader> ReadPngHeader(const Bytes& png);
 
-// Whether the pixels are indices into a palette.
+// Returns true if the pixels are indices into a palette.
 bool HasPalette(const PngHeader& header);
 
-// stb_image shows memory nobody has written for an index beyond the palette. So the file, whose
-// header says that it has one, becomes a picture of grey levels, in which index i is the level
-// i * GreyStep, and the palette, R, G, B for each index, is returned; empty when there is none.
+// Converts a file with a palette to a grey picture, in which index i has the level i * GreyStep,
+// and returns the palette as R, G, B for each index. The result is empty if the palette is missing.
+// This is necessary because stb_image returns uninitialized memory for an index outside the
+// palette.
 Bytes TakePalette(Bytes* png);
 int GreyStep(const PngHeader& header);
 

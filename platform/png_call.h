@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the reader and the writer of PNG files hand to libpng: memory, and what went wrong.
+// Callbacks for libpng that the reader and the writer of PNG files share: memory and errors.
 #ifndef STARFOCUS_PLATFORM_PNG_CALL_H_
 #define STARFOCUS_PLATFORM_PNG_CALL_H_
 
@@ -14,7 +14,7 @@ struct PngCall {
   bool no_memory = false;
   char reason[100] = "";
 
-  // libpng and zlib have no common error for too little memory.
+  // Records a failure, because libpng and zlib report insufficient memory in different ways.
   static png_voidp Allocate(png_structp png, png_alloc_size_t size) {
     void* memory = std::malloc(size);
     if (memory == nullptr) static_cast<PngCall*>(png_get_mem_ptr(png))->no_memory = true;

@@ -12,7 +12,7 @@ struct PnmHeader {
   size_t samples() const { return size_t(width) * size_t(height) * size_t(channels); }
 };
 
-// Reads the header, and checks that all samples follow it.
+// Reads the header, and checks that the file contains all samples.
 Result<PnmHeader> ReadHeader(const std::string& path, TextHeader* text) {
   const std::string magic = text->Token();
   if (magic != "P6" && magic != "P5") return Expected(path, "a P6 or P5 picture", magic);
@@ -36,7 +36,7 @@ Result<PnmHeader> ReadHeader(const std::string& path, TextHeader* text) {
                   std::to_string(text->remaining()));
 }
 
-// The sample at `index`, at most the largest one.
+// Returns the sample at `index`, limited to the maximum value.
 int SampleAt(const PnmHeader& header, const uint8_t* data, size_t index) {
   const uint8_t* at = data + index * size_t(header.sample_bytes);
   const int value = header.sample_bytes == 2 ? at[0] * 256 + at[1] : at[0];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Binary PPM and PGM pictures. stb_image reads them too, but takes a truncated file for a whole
-// one and ignores the largest value, so this format has a reader of its own.
+// Reads and writes binary PPM and PGM pictures. stb_image can read them, but accepts truncated
+// files and ignores the maximum value.
 #ifndef STARFOCUS_PLATFORM_PPM_H_
 #define STARFOCUS_PLATFORM_PPM_H_
 
@@ -14,11 +14,11 @@
 
 namespace starfocus {
 
-// Decodes P6 or P5 (grey becomes RGB) with any largest value up to 65535, scaled to 8 bits.
-// `path` only names the file in the error.
+// Decodes P6, or P5 as grey RGB, with any maximum value up to 65535, scaled to 8 bits. `path` is
+// used only in errors.
 Result<Image> DecodePpm(const std::string& path, const Bytes& bytes);
 
-// Samples as a P6 or P5 file has them, 0 to `largest`.
+// Samples of a P6 or P5 file, 0 to `largest`.
 struct PnmSamples {
   int width = 0, height = 0, channels = 0, largest = 0;
   std::vector<uint16_t> samples;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The line that tells people what the library refused.
+// Formats the library's errors as one line for users.
 #ifndef STARFOCUS_PLATFORM_PROBLEM_H_
 #define STARFOCUS_PLATFORM_PROBLEM_H_
 
@@ -13,8 +13,9 @@ struct ProblemText {
   char text[256];
 };
 
-// "<field>: <sentence of the status> (expected <range>, found <value>)" of a call that returned
-// `status`; the sentence alone if `problem` is null, of another call, or names no field.
+// Returns "<field>: <sentence of the status> (expected <range>, found <value>)" for a call that
+// returned `status`. Returns only the sentence if `problem` is null, belongs to another call, or
+// names no field.
 ProblemText Describe(starfocus_status status, const starfocus_problem* problem);
 
 }  // namespace starfocus

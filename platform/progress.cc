@@ -13,7 +13,7 @@ namespace starfocus {
 namespace {
 
 constexpr double kInterval = 0.1;  // seconds between updates, and before the first one
-constexpr double kLeastTime = 1;   // before the time that is left is guessed
+constexpr double kLeastTime = 1;   // seconds before the remaining time is estimated
 
 std::atomic<bool> line_taken{false};
 
@@ -68,7 +68,7 @@ int PictureProgress::Tell(void* data, int32_t rows_done, int32_t rows) {
   PictureProgress& self = *static_cast<PictureProgress*>(data);
   const auto steps = static_cast<int32_t>(int64_t{kSteps} * rows_done / rows);
   self.progress_.Step(steps - self.steps_);
-  self.steps_ = rows_done < rows ? steps : 0;  // the next picture begins
+  self.steps_ = rows_done < rows ? steps : 0;  // the next picture starts
   return 0;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A progress line on stderr with the time that is left, shown only when stderr is a terminal. There
-// is one line: while a Progress has it, later ones show nothing, as they are parts of its work.
+// Shows a progress line with the remaining time on stderr, if stderr is a terminal. Only one
+// Progress at a time shows a line. Objects created during its lifetime are part of its work and show
+// nothing.
 #ifndef STARFOCUS_PLATFORM_PROGRESS_H_
 #define STARFOCUS_PLATFORM_PROGRESS_H_
 
@@ -13,20 +14,20 @@ namespace starfocus {
 
 class Progress {
  public:
-  // `total` steps make 100 %.
+  // @param total number of steps that make 100 %
   Progress(std::string what, int64_t total);
-  ~Progress();  // wipes the line
+  ~Progress();  // erases the line
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  void Step(int64_t steps = 1);  // from any thread
+  void Step(int64_t steps = 1);  // may be called by any thread
 
-  // Prints a line that stays on stderr, terminal or not, above the one of the progress. From any
-  // thread.
+  // Prints a permanent line on stderr above the progress line, even if stderr is not a terminal.
+  // May be called by any thread.
   void Tell(const std::string& line);
 
-  // "what: 43 %, 12 s left" after that many seconds; the time only when there is something to tell
-  // it from.
+  // Returns "what: 43 %, 12 s left" after `seconds`. The remaining time is omitted if it cannot be
+  // estimated yet.
   static std::string Text(const std::string& what, int64_t done, int64_t total, double seconds);
 
  private:
@@ -34,27 +35,27 @@ class Progress {
 
   const std::string what_;
   const int64_t total_;
-  const bool shown_here_;  // on a terminal, whose line is this one's
+  const bool shown_here_;  // stderr is a terminal, and this object owns its line
   const double start_;
   std::mutex mutex_;
   int64_t done_ = 0;
   double shown_ = 0;  // time of the last update; 0 before the first
 };
 
-// The line of pictures, or maps, that the library makes one after the other.
+// Progress of pictures or maps that the library computes in sequence.
 class PictureProgress {
  public:
   PictureProgress(std::string what, int pictures)
       : progress_(std::move(what), int64_t{kSteps} * pictures) {}
 
-  // The starfocus_progress, whose data is the PictureProgress; never cancels.
+  // A starfocus_progress whose data is the PictureProgress. Never cancels.
   static int Tell(void* data, int32_t rows_done, int32_t rows);
 
  private:
-  static constexpr int32_t kSteps = 1000;  // of a picture
+  static constexpr int32_t kSteps = 1000;  // steps per picture
 
   Progress progress_;
-  int32_t steps_ = 0;  // that were told of this picture
+  int32_t steps_ = 0;  // steps of this picture that have been reported
 };
 
 }  // namespace starfocus

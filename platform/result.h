@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a function that can fail returns: an error, or a value or else an error.
+// Return types of functions that can fail: Error, and Result, which holds a value or an error.
 #ifndef STARFOCUS_PLATFORM_RESULT_H_
 #define STARFOCUS_PLATFORM_RESULT_H_
 
@@ -11,24 +11,24 @@ namespace starfocus {
 
 enum class ErrorKind {
   kNone,
-  kInput,     // a file, a device or the memory is not as needed
-  kUsage,     // the command line is wrong
-  kInternal,  // starfocus itself is wrong
+  kInput,     // unsuitable file or device, or insufficient memory
+  kUsage,     // wrong command line
+  kInternal,  // defect of starfocus
 };
 
-// One line that names the file or option and the cause; true where there is an error:
+// One line with the file or option and the cause. It converts to true if it is an error:
 //   if (Error error = WriteFile(path, bytes)) return error;
 class [[nodiscard]] Error {
  public:
   Error() = default;  // success
-  // Line breaks and other control characters of `line`, which names and contents of files may have,
-  // become spaces.
+  // Replaces line breaks and other control characters in `line` by spaces. Names and contents of
+  // files may contain them.
   Error(ErrorKind kind, std::string line);
 
-  // The command line asks for what cannot be: "<option>: expected <expected>, found <found>".
+  // Error of the command line: "<option>: expected <expected>, found <found>".
   static Error Usage(const std::string& option, const std::string& expected,
                      const std::string& found);
-  // starfocus itself is wrong.
+  // Defect of starfocus.
   static Error Internal(const std::string& where, const std::string& expected,
                         const std::string& found);
 
@@ -44,20 +44,20 @@ class [[nodiscard]] Error {
 // "<where>: expected <expected>, found <found>".
 Error Expected(const std::string& where, const std::string& expected, const std::string& found);
 
-// "cannot <action> <path>: <reason>". A system's reason begins in lower case: "cannot read
-// photo.jpg: permission denied".
+// Returns "cannot <action> <path>: <reason>". The system's reason starts in lower case: "cannot
+// read photo.jpg: permission denied".
 Error Cannot(const std::string& action, const std::string& path, const std::string& reason);
 Error Cannot(const std::string& action, const std::string& path, std::error_code reason);
 
-// The error of whoever caught std::bad_alloc: "<where>: expected enough memory to <purpose>, ...".
+// Error for a handler of std::bad_alloc: "<where>: expected enough memory to <purpose>, ...".
 Error OutOfMemory(const std::string& where, const std::string& purpose);
 
-// A value, or the error why there is none; true where there is a value.
+// A value or an error. It converts to true if it is a value.
 template <class T>
 class [[nodiscard]] Result {
  public:
-  Result(T value) : value_(std::move(value)) {}      // NOLINT: so that functions return values
-  Result(Error error) : error_(std::move(error)) {}  // NOLINT: so that functions return errors
+  Result(T value) : value_(std::move(value)) {}      // NOLINT: implicit for return
+  Result(Error error) : error_(std::move(error)) {}  // NOLINT: implicit for return
 
   explicit operator bool() const { return !error_; }
   const Error& error() const { return error_; }
@@ -66,7 +66,8 @@ class [[nodiscard]] Result {
   T* operator->() { return &value_; }
   const T* operator->() const { return &value_; }
 
-  // Moves the value to `target`, which stays as it is where there is none. Returns the error:
+  // Moves the value to `target` and returns no error, or returns the error and leaves `target`
+  // unchanged:
   //   if (Error error = ReadImage(path).MoveTo(&image)) return error;
   Error MoveTo(T* target) {
     if (!error_) *target = std::move(value_);

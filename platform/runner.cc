@@ -10,12 +10,12 @@
 namespace starfocus {
 namespace {
 
-// Jobs of one set, and what they have thrown: an exception must not leave a thread of the pool.
+// A set of jobs and their first exception. Exceptions must not leave a thread of the pool.
 struct Guarded {
   starfocus_job job;
   void* data;
   std::atomic<bool> failed{false};
-  std::mutex mutex{};  // of the failure
+  std::mutex mutex{};  // protects `failure`
   std::exception_ptr failure{};
 
   static void Run(void* guarded, int32_t index, int32_t worker) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pool of starfocus/pool.h for jobs that may throw, as those of the programs do.
+// The pool of starfocus/pool.h for jobs that may throw exceptions, as jobs of the programs do.
 #ifndef STARFOCUS_PLATFORM_RUNNER_H_
 #define STARFOCUS_PLATFORM_RUNNER_H_
 
@@ -13,15 +13,15 @@ namespace starfocus {
 
 class ThreadRunner {
  public:
-  // `workers` in [1, STARFOCUS_MAX_WORKERS], fewer where the system refuses threads. Throws
-  // std::bad_alloc where there is no memory.
+  // @param workers number of workers in [1, STARFOCUS_MAX_WORKERS]; there are fewer if the system
+  // cannot start the threads. Throws std::bad_alloc if memory is insufficient.
   explicit ThreadRunner(int workers);
 
   int workers() const { return starfocus_pool_workers(pool_.get()); }
 
-  // The starfocus_runner; runner_data is the ThreadRunner. As starfocus_pool_run, but when a job
-  // throws, those not yet begun are left out and the first exception is thrown here once no job
-  // runs any more; jobs of an engine do not throw.
+  // A starfocus_runner whose runner_data is the ThreadRunner. If a job throws, jobs that have not
+  // started are skipped. When no job is running, the first exception is rethrown here. Jobs of an
+  // engine do not throw.
   static int Run(void* runner_data, starfocus_job job, void* job_data, int32_t count);
 
  private:

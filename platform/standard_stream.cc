@@ -8,7 +8,7 @@
 namespace starfocus {
 namespace {
 
-// What stands before ":-"; empty where that is no name of a format.
+// Returns the part before ":-", or an empty string if that part cannot be a format name.
 std::string Prefix(const std::string& path) {
   if (path.size() < 3 || path.compare(path.size() - 2, 2, ":-") != 0) return "";
   const std::string prefix = path.substr(0, path.size() - 2);

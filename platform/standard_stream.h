@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// "-" in place of a file's name: standard input of what is read, standard output of what is
-// written. "jpg:-" names the format of a picture, too, which is PNG where nothing does.
+// Handles "-" instead of a file name: standard input for reading, standard output for writing. A
+// prefix such as in "jpg:-" selects the format of a picture; the default is PNG.
 #ifndef STARFOCUS_PLATFORM_STANDARD_STREAM_H_
 #define STARFOCUS_PLATFORM_STANDARD_STREAM_H_
 
@@ -8,13 +8,13 @@
 
 namespace starfocus {
 
-// "-", or a format and ":-".
+// Returns true for "-", and for a format followed by ":-".
 bool IsStandardStream(const std::string& path);
 
-// What errors call a file that is read: "standard input" for "-".
+// Returns the name of an input for errors: "standard input" for "-".
 std::string InputName(const std::string& path);
 
-// The extension that tells the format of a picture to be written, in lower case with its dot.
+// Returns the extension that selects the format of an output picture, in lower case with its dot.
 std::string FormatExtension(const std::string& path);
 
 }  // namespace starfocus

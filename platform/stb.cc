@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The implementation of stb_image and stb_image_write, apart from our own code because its JPEG
-// encoder shifts negative numbers, which the sanitizer build would stop at.
+// The implementation of stb_image and stb_image_write. It has its own file because its JPEG encoder
+// shifts negative numbers, at which the sanitizer build would stop.
 #include "platform/stb_memory.h"
 
 #define STB_IMAGE_IMPLEMENTATION

@@ -9,7 +9,7 @@
 namespace starfocus {
 namespace {
 
-// What stands in front of every piece of memory: its neighbours in the list of this thread.
+// Header of every allocation: its neighbours in the list of this thread.
 struct alignas(std::max_align_t) Piece {
   Piece *next, *previous;
 };
@@ -27,7 +27,7 @@ void Leave(const Piece* piece) {
   if (piece->next != nullptr) piece->next->previous = piece->previous;
 }
 
-// `old` grown or, if it is null, a new piece, in no list; null where there is no memory.
+// Resizes `old`, or allocates if it is null. The result is in no list. Returns null on failure.
 Piece* Resize(Piece* old, size_t size) {
   if (size > SIZE_MAX - sizeof(Piece)) return nullptr;
   return static_cast<Piece*>(std::realloc(old, sizeof(Piece) + size));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The memory of stb_image and stb_image_write.
+// Manages the memory of stb_image and stb_image_write.
 #ifndef STARFOCUS_PLATFORM_STB_MEMORY_H_
 #define STARFOCUS_PLATFORM_STB_MEMORY_H_
 
@@ -7,9 +7,9 @@
 
 namespace starfocus {
 
-// While one lives, stb's functions may be called on its thread. They go on where some of their
-// buffers could not be had, so when memory runs out they are left by std::bad_alloc instead. What
-// they have not freed then is freed with this object; pictures that they return are, too.
+// stb's functions may be called on a thread while an object of this class exists there. Some of
+// them continue after a failed allocation, so allocation throws std::bad_alloc instead of returning
+// null. The destructor frees all memory that stb has not freed, including returned pictures.
 class StbMemory {
  public:
   StbMemory() = default;
@@ -17,7 +17,7 @@ class StbMemory {
   StbMemory(const StbMemory&) = delete;
   StbMemory& operator=(const StbMemory&) = delete;
 
-  // What stb calls instead of malloc, realloc and free.
+  // Replacements of malloc, realloc and free for stb.
   static void* Allocate(size_t size);
   static void* Reallocate(void* memory, size_t size);
   static void Free(void* memory);

@@ -13,8 +13,8 @@ namespace {
 
 constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
 
-std::atomic<bool> taken{false};  // by whoever reads or changes the list
-TemporaryFile* first = nullptr;  // of the list
+std::atomic<bool> taken{false};  // locks the list
+TemporaryFile* first = nullptr;  // head of the list
 
 void Take() {
   while (taken.exchange(true)) sched_yield();
@@ -22,8 +22,8 @@ void Take() {
 
 }  // namespace
 
-// A turn at the list. No signal interrupts the thread that has it, so that a handler may wait for
-// its own turn.
+// Locks the list. Signals are blocked in the thread that holds the lock, so a signal handler may
+// wait for the lock.
 class TemporaryFile::Turn {
  public:
   Turn() {
@@ -79,7 +79,8 @@ void TemporaryFile::Leave() {
 bool TemporaryFile::MoveTo(const std::string& target) {
   std::FILE* file = file_;
   file_ = nullptr;
-  // On the disk before it has the name: a power cut must not leave that with nothing in it.
+  // Flush to disk before renaming: after a power failure, the final name must not refer to an empty
+  // file.
   const bool whole = std::fflush(file) == 0 && fsync(fileno(file)) == 0;
   if (std::fclose(file) != 0 || !whole) return false;
   const Turn turn;
@@ -88,7 +89,7 @@ bool TemporaryFile::MoveTo(const std::string& target) {
   return true;
 }
 
-// The turn is never given back: a thread that wants it waits until the signal ends the program.
+// Never unlocks the list: threads that wait for it stay blocked until the signal ends the program.
 void TemporaryFile::RemoveAllAndEnd(int number) {
   Take();
   for (const TemporaryFile* file = first; file != nullptr; file = file->next_) {
@@ -108,7 +109,7 @@ void TemporaryFile::RemoveOnSignals() {
     if (sigaction(number, nullptr, &action) != 0 || action.sa_handler == SIG_IGN) continue;
     action = {};
     action.sa_handler = RemoveAllAndEnd;
-    // One signal at a time: a second one would wait for the turn of the first for ever.
+    // Block other signals: a second handler would wait forever for the lock of the first.
     sigfillset(&action.sa_mask);
     sigaction(number, &action, nullptr);
   }

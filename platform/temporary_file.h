@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files that are written under another name until they are whole.
+// Files that are written under a temporary name until they are complete.
 #ifndef STARFOCUS_PLATFORM_TEMPORARY_FILE_H_
 #define STARFOCUS_PLATFORM_TEMPORARY_FILE_H_
 
@@ -8,11 +8,11 @@
 
 namespace starfocus {
 
-// A new file that is removed again unless it is moved to its place.
+// A new file that is removed unless MoveTo succeeds.
 class TemporaryFile {
  public:
-  // Makes the file in `folder`; file() is null and errno says why where that fails. The name is
-  // short, so that a folder that can hold the final name can hold this one.
+  // Creates the file in `folder`. On failure, file() is null and errno is set. The name is short,
+  // so that it fits any folder into which the final name fits.
   explicit TemporaryFile(const std::string& folder);
   ~TemporaryFile();
   TemporaryFile(const TemporaryFile&) = delete;
@@ -20,11 +20,11 @@ class TemporaryFile {
 
   std::FILE* file() const { return file_; }
 
-  // Closes the file and renames it to `target`. False with errno where that fails.
+  // Closes the file and renames it to `target`. Returns false and sets errno on failure.
   bool MoveTo(const std::string& target);
 
-  // From now on SIGINT, SIGTERM and SIGHUP remove the temporary files of all threads before they
-  // end the program. A signal that is ignored stays so.
+  // From now on, SIGINT, SIGTERM and SIGHUP remove the temporary files of all threads before they
+  // end the program. Ignored signals remain ignored.
   static void RemoveOnSignals();
 
  private:
@@ -35,7 +35,7 @@ class TemporaryFile {
   std::string name_;
   std::FILE* file_ = nullptr;
   bool listed_ = false;
-  TemporaryFile *next_ = nullptr, *previous_ = nullptr;  // in the list of all
+  TemporaryFile *next_ = nullptr, *previous_ = nullptr;  // neighbours in the list of all files
 };
 
 }  // namespace starfocus

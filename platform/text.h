@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Texts of files and messages: numbers, sizes, letters.
+// Converts numbers, sizes and letters for files and messages.
 #ifndef STARFOCUS_PLATFORM_TEXT_H_
 #define STARFOCUS_PLATFORM_TEXT_H_
 
@@ -9,16 +9,16 @@
 
 namespace starfocus {
 
-// The finite number that is all of `text`; none if the text is anything else.
+// Parses a finite number, which must be the whole text.
 std::optional<double> ParseNumber(const std::string& text);
 
-// "640x480".
+// Formats a size as "640x480".
 std::string SizeText(int64_t width, int64_t height);
 
-// The text with the letters A to Z in lower case.
+// Converts the letters A to Z to lower case.
 std::string Lower(std::string text);
 
-// The text for XML and HTML: markup and line breaks become references.
+// Escapes a text for XML and HTML: markup characters and line breaks become references.
 std::string EscapeXml(const std::string& text);
 
 }  // namespace starfocus

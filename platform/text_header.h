@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The text header that PPM and PFM files share: tokens between white space, a single white-space
-// character before the data, comments from # to the end of the line.
+// Parses the text header of PPM and PFM files: tokens separated by white space, comments from # to
+// the end of the line, and a single white-space character before the data.
 #ifndef STARFOCUS_PLATFORM_TEXT_HEADER_H_
 #define STARFOCUS_PLATFORM_TEXT_HEADER_H_
 
@@ -14,8 +14,8 @@ class TextHeader {
  public:
   explicit TextHeader(const Bytes& bytes) : bytes_(bytes) {}
 
-  // The next token and the one white-space character behind it; at most 32 characters, empty at
-  // the end of the file. Characters that do not print become '?'.
+  // Returns the next token and skips the white-space character after it. The token has at most 32
+  // characters, and is empty at the end of the file. Non-printable characters become '?'.
   std::string Token();
 
   const uint8_t* data() const { return bytes_.data() + position_; }
@@ -28,7 +28,7 @@ class TextHeader {
   size_t position_ = 0;
 };
 
-// A whole number from 1 to kMaxPictureSize in decimal digits; 0 for anything else.
+// Parses a decimal integer from 1 to kMaxPictureSize. Returns 0 for any other text.
 int ParseSize(const std::string& token);
 
 }  // namespace starfocus

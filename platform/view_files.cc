@@ -21,10 +21,10 @@ namespace fs = std::filesystem;
 constexpr int kStarSets[] = {1, 5, 9, 17};
 constexpr const char* kExtensions[] = {".png", ".ppm", ".jpg"};
 constexpr const char* kPair[] = {"im0.png", "im1.png"};  // at (0, 0) and (1, 0)
-constexpr double kDecimals = 1e4;                        // of a name's numbers
+constexpr double kDecimals = 1e4;                        // precision of the numbers in names
 constexpr double kAlike = 0.5 / kDecimals;
 
-// "+0.5" and so on; of whole numbers one decimal stays.
+// Formats a coordinate, for example "+0.5". Whole numbers have one decimal.
 std::string CoordinateText(double value) {
   char text[32];
   std::snprintf(text, sizeof(text), "%+.4f", std::fabs(value) < kAlike ? 0 : value);
@@ -33,7 +33,7 @@ std::string CoordinateText(double value) {
   return name;
 }
 
-// Reads a sign, digits and decimals from `at` on, up to `end`.
+// Parses a sign, digits and decimals in [at, end).
 std::optional<double> ReadCoordinate(const std::string& text, size_t at, size_t end) {
   if (end > text.size() || at + 2 > end || (text[at] != '+' && text[at] != '-')) return {};
   const std::string number = text.substr(at, end - at);
@@ -41,13 +41,13 @@ std::optional<double> ReadCoordinate(const std::string& text, size_t at, size_t 
   return ParseNumber(number);
 }
 
-// What a view's name says.
+// Parts of a view's file name.
 struct NameParts {
   starfocus_position position;
-  size_t extension;  // which of kExtensions it has
+  size_t extension;  // index into kExtensions
 };
 
-// None if the name is not a view's.
+// Returns nullopt if the name is not that of a view.
 std::optional<NameParts> ReadName(const std::string& name) {
   constexpr char kPrefix[] = "view_";
   constexpr size_t kBegin = sizeof(kPrefix) - 1, kExtension = 4;
@@ -68,7 +68,8 @@ Error CheckFolder(const std::string& folder) {
   return Expected(folder, "a light-field folder", fs::exists(status) ? "a file" : "nothing");
 }
 
-// Where a view comes in the star, behind it if it is none of its.
+// Returns the index of a position in the star, or the size of the star if it is not part of the
+// star.
 size_t StarIndex(const starfocus_position& position) {
   const Positions star = StarPositions(STARFOCUS_MAX_VIEWS);
   size_t index = 0;
@@ -83,7 +84,8 @@ bool ComesBefore(const ViewFile& a, const ViewFile& b) {
   return a.position.v < b.position.v;
 }
 
-// Names of views in a folder, each with the first extension that it has.
+// Returns the files of views in a folder, each with its first extension in the order of
+// kExtensions.
 Result<std::vector<ViewFile>> ListNames(const std::string& folder) {
   const Result<std::vector<std::string>> names = ListFolder(folder);
   if (!names) return names.error();
@@ -102,7 +104,7 @@ Result<std::vector<ViewFile>> ListNames(const std::string& folder) {
   return files;
 }
 
-// The pair that a folder has if it has no views by name.
+// Returns the stereo pair of a folder that has no files named as views.
 std::vector<ViewFile> ListPair(const std::string& folder) {
   std::vector<ViewFile> files;
   for (size_t k = 0; k < std::size(kPair); ++k) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The files of captured views in a folder: view_<u>_<v>.png (or .ppm, .jpg) with u and v as decimal
-// numbers with a sign; or im0.png and im1.png of a stereo pair, as the Middlebury data sets have
-// it.
+// Finds the files of captured views in a folder: view_<u>_<v>.png (or .ppm, .jpg) with u and v as
+// signed decimal numbers, or im0.png and im1.png of a stereo pair as in the Middlebury data sets.
 #ifndef STARFOCUS_PLATFORM_VIEW_FILES_H_
 #define STARFOCUS_PLATFORM_VIEW_FILES_H_
 
@@ -21,40 +20,40 @@ struct ViewFile {
   std::string path;
 };
 
-// The first `views` of starfocus_view_position.
+// Returns the first `views` positions of starfocus_view_position.
 Positions StarPositions(int views);
 
-// Whether the star has that many views: 1, 5, 9 or 17.
+// Returns true if a star can have this number of views: 1, 5, 9 or 17.
 bool IsStarSet(int views);
 
-// Whether these are the first ones of starfocus_view_position, in their order.
+// Returns true if the positions are the first ones of starfocus_view_position, in order.
 bool AreStar(const Positions& positions);
 
-// A position as names of files tell it: of four decimals.
+// Rounds a position to the four decimals that file names have.
 starfocus_position RoundedPosition(double u, double v);
 
-// Whether the two are one view's, up to what names of files tell.
+// Returns true if the positions are equal with the precision of file names.
 bool SamePosition(const starfocus_position& a, const starfocus_position& b);
 
-// "view_-0.5_+1.0": one to four decimals.
+// Returns, for example, "view_-0.5_+1.0", with one to four decimals.
 std::string ViewName(const starfocus_position& position);
 
-// Whether a file of that name, in a folder, is taken for a captured view.
+// Returns true if the file name is that of a captured view.
 bool IsViewFile(const std::string& name);
 
-// All files of captured views in a folder, the centre first, then those of starfocus_view_position
-// in their order, then the others by u and v. Of one name the first of .png, .ppm and .jpg counts.
-// Errors: no folder, no centre view, more than STARFOCUS_MAX_VIEWS, a position beyond 1, two files
-// of one.
+// Finds all files of captured views in a folder. They are sorted: the centre, then the positions of
+// starfocus_view_position in order, then others by u and v. If files differ only in the extension,
+// the first of .png, .ppm and .jpg is used. Errors: missing folder, missing centre view, more than
+// STARFOCUS_MAX_VIEWS views, a coordinate beyond 1, two files for one position.
 Result<std::vector<ViewFile>> FindViewFiles(const std::string& folder);
 
-// Those of `files` at the positions wanted, in their order, or all of them if none are. Errors are
-// about `where`.
+// Returns the `files` at the positions `wanted` in that order, or all files if `wanted` is empty.
+// Errors start with `where`.
 Result<std::vector<ViewFile>> SelectViewFiles(const std::string& where,
                                               const std::vector<ViewFile>& files,
                                               const Positions& wanted);
 
-// The same of all files of a folder.
+// Same, for all files of a folder.
 Result<std::vector<ViewFile>> ChooseViewFiles(const std::string& folder, const Positions& wanted);
 
 }  // namespace starfocus
