@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shows a progress line with the remaining time on stderr, if stderr is a terminal. Only one
-// Progress at a time shows a line. Objects created during its lifetime are part of its work and show
-// nothing.
+// Progress at a time shows a line. Objects created during its lifetime are part of its work and
+// show nothing.
 #ifndef STARFOCUS_PLATFORM_PROGRESS_H_
 #define STARFOCUS_PLATFORM_PROGRESS_H_
 

@@ -13,7 +13,7 @@ Command VideoCommand();
 Command ViewCommand();
 Command ImportCommand();
 Command InfoCommand();
-// Prints the help, the manual page or the completions of `program`.
+// Prints the help, the manual page or the completion script of `program`.
 Command HelpCommand(const Program* program);
 
 }  // namespace starfocus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// starfocus disparity: a disparity map from captured views.
+// starfocus disparity: estimates or repairs a disparity map.
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -27,12 +27,12 @@ struct DisparityOptions {
   bool repair = false;
 };
 
-// The files to write.
+// Output files.
 struct Plan {
   std::string map, picture;
 };
 
-// MIN:MAX.
+// Parses MIN:MAX.
 std::string ReadRange(const std::string& text, std::optional<DisparityRange>* range) {
   const std::vector<double> ends = ReadNumbers(text, ':');
   if (ends.size() != 2 || ends[0] < -STARFOCUS_MAX_DISPARITY || ends[0] > ends[1] ||
@@ -43,7 +43,7 @@ std::string ReadRange(const std::string& text, std::optional<DisparityRange>* ra
   return "";
 }
 
-// Everything that can be refused before a file is read.
+// Checks everything that can be checked before a file is read.
 Result<Plan> MakePlan(const DisparityOptions& options) {
   if (!options.views.empty() && StarWithin(options.views) == 1 && !options.repair) {
     return Error::Usage("--views", "17, 9 or 5: other views show no disparity here",
@@ -79,7 +79,7 @@ Result<Plan> MakePlan(const DisparityOptions& options) {
   return plan;
 }
 
-// Estimates the map of a folder; finds out what to look for unless that was typed.
+// Estimates the map of a folder. Searches the typed range, or finds a range first.
 Result<DisparityEstimate> EstimateFolder(const DisparityOptions& options,
                                          const LightField& light_field) {
   if (Error error = CheckStar(options.folder, light_field)) return error;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// help: what the command line takes, for people, the manual and the shell.
+// starfocus help: prints help, the manual page or the completion script.
 #include <cstdio>
 #include <memory>
 #include <string>

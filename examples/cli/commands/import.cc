@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// starfocus import: a folder of our own from what others have.
+// starfocus import: converts an input of any supported format to a light-field folder.
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -22,7 +22,7 @@ struct ImportOptions {
   int threads = 1;
 };
 
-// A folder that has a light field, or a part of one, would become a mixture.
+// Rejects folders that already contain light-field files, because old and new files would mix.
 Error CheckFolder(const std::string& folder) {
   const std::vector<std::string> files = LightFieldFiles(folder);
   return files.empty() ? Error() : Expected(folder, "a folder without a light field", files[0]);

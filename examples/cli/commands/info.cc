@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// starfocus info: what a light field or depth photo holds, and what was understood of it.
+// starfocus info: prints the contents of a light field or depth photo, and how they were
+// interpreted.
 #include <cstdio>
 #include <memory>
 #include <utility>
@@ -91,7 +92,8 @@ void PrintJson(const Capture& capture, const starfocus_disparity_stats& stats,
   std::printf("%s\n", json.Text().c_str());
 }
 
-// Whether there is a map, or enough views to estimate one: not of a stereo pair or a row.
+// Returns true if there is a map, or a star of views to estimate one. Stereo pairs and single rows
+// of views are not stars.
 bool HasMap(const Capture& capture) {
   Positions positions;
   for (const ViewFile& file : capture.files) positions.push_back(file.position);

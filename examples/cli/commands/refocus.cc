@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// starfocus refocus: the picture of a lens focused elsewhere, or a row of them.
+// starfocus refocus: computes a refocused picture, or a sweep of several.
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -27,10 +27,10 @@ constexpr int kMostPictures = 1000;  // of a sweep: three digits
 
 struct RefocusOptions {
   std::vector<std::string> inputs;
-  InputOptions input;  // the one of them that is refocused
+  InputOptions input;  // the input that is being refocused
   std::string report, map;
   starfocus_region region = {};  // all 0: the whole picture
-  std::vector<double> sweep;     // foci; none: no sweep
+  std::vector<double> sweep;     // foci; empty: no sweep
   int jobs = 1;
   OutputOptions output;
   LensOptions lens;
@@ -64,7 +64,7 @@ Error CheckOutputs(const RefocusOptions& options) {
                                options.lens.timing}});
 }
 
-// D0:D1:N.
+// Parses D0:D1:N.
 std::string ReadSweep(const std::string& text, std::vector<double>* foci) {
   const std::vector<double> numbers = ReadNumbers(text, ':');
   const double count = numbers.size() == 3 ? numbers[2] : 0;
@@ -92,7 +92,7 @@ Error PlanSweep(const RefocusOptions& options, LensPlan* plan) {
   return {};
 }
 
-// Everything that can be refused before a file is read.
+// Checks everything that can be checked before a file is read.
 Result<LensPlan> MakePlan(const RefocusOptions& options) {
   const bool region = options.region.width > 0, sweep = !options.sweep.empty();
   if (Error error = PlanOutput(options.output, sweep, region)) return error;
@@ -127,7 +127,8 @@ Result<Capture> Open(const RefocusOptions& options, LensPlan* plan) {
   return capture;
 }
 
-// Checks everything that does not need the map in the picture's size or repaired, which takes long.
+// Checks everything that does not need the final map, because resizing or repairing the map takes
+// long.
 Error Foresee(const RefocusOptions& options, const Capture& capture, LensPlan* plan) {
   const LightField& light_field = capture.light_field;
   if (Error error = CheckRenderer(capture.path, *plan, light_field.positions)) return error;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// starfocus video: light field after light field, refocusing what changed.
+// starfocus video: refocuses a sequence of light fields, and computes only blocks that changed.
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -32,12 +32,12 @@ struct VideoOptions {
   bool fill_invalid = false;
 };
 
-// The frames and what is the same for all of them.
+// Frames and their common properties.
 struct Video {
   std::vector<std::string> folders;
   int width = 0, height = 0;
   Positions views;
-  starfocus_disparity_stats stats = {};  // of all frames
+  starfocus_disparity_stats stats = {};  // over all frames
   double max_blur = 0;
 };
 
@@ -47,8 +47,8 @@ std::string FramePath(const std::string& folder, size_t index) {
   return (fs::path(folder) / name).string();
 }
 
-// The folders given, or those in the only one when it is no light field itself, but for hidden ones
-// and that of the output.
+// Returns the given folders. If a single folder is not a light field, returns the folders in it,
+// except for hidden ones and the output folder.
 Result<std::vector<std::string>> FindFrames(const VideoOptions& options) {
   std::vector<std::string> folders = options.folders;
   std::error_code error;
@@ -58,7 +58,7 @@ Result<std::vector<std::string>> FindFrames(const VideoOptions& options) {
     folders.clear();
     for (const auto& entry : fs::directory_iterator(only, error)) {
       const bool hidden = entry.path().filename().string()[0] == '.';
-      const bool own = fs::equivalent(entry.path(), options.out, error);  // of an earlier run
+      const bool own = fs::equivalent(entry.path(), options.out, error);  // earlier output
       if (entry.is_directory(error) && !hidden && !own) folders.push_back(entry.path().string());
     }
     std::sort(folders.begin(), folders.end());
@@ -100,7 +100,7 @@ Error CheckSize(const std::string& folder, const FloatMap& map, const Video& vid
                   SizeText(map.width, map.height));
 }
 
-// Measures the map of a folder, its holes filled if asked to.
+// Measures the map of a folder, after filling its holes if requested.
 Result<starfocus_disparity_stats> Prepare(const VideoOptions& options, const std::string& folder,
                                           FloatMap* map) {
   const std::string path = DisparityPath(folder);
@@ -110,7 +110,7 @@ Result<starfocus_disparity_stats> Prepare(const VideoOptions& options, const std
   return PrepareDisparity(path, *map);
 }
 
-// The focus of all frames: that of the first one.
+// Sets the focus of all frames to that of the first one.
 Error FocusFirst(const std::string& folder, const FloatMap& map, LensPlan* plan) {
   if (plan->focus_option.empty()) {
     const DefaultFocus focus = FindSurface(map);
@@ -120,7 +120,7 @@ Error FocusFirst(const std::string& folder, const FloatMap& map, LensPlan* plan)
   return ChooseFocus(map, plan);
 }
 
-// Looks at all frames: their views and disparities.
+// Reads the views and disparities of all frames.
 Error Scan(const VideoOptions& options, LensPlan* plan, Video* video) {
   const auto chosen = ChooseViewFiles(video->folders[0], plan->options.views);
   if (!chosen) return chosen.error();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// starfocus view: a page that shows a light field and what becomes of it.
+// starfocus view: writes a page that shows a light field and its refocused pictures.
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -24,8 +24,8 @@ namespace starfocus {
 namespace {
 
 constexpr int kFoci = 6, kBins = 32;
-constexpr int kLarge = 1200, kSmall = 380;  // widths of pictures
-constexpr int kWhite = 32;                  // difference that is white in an error map
+constexpr int kLarge = 1200, kSmall = 380;  // widths of pictures in pixels
+constexpr int kWhite = 32;                  // difference that an error map shows as white
 
 struct ViewOptions {
   InputOptions input;
@@ -34,9 +34,9 @@ struct ViewOptions {
   int threads = starfocus_pool_cores();
 };
 
-// What is shown, in the order in which it is made.
+// Contents of the page, in the order of their computation.
 struct Contents {
-  std::vector<LensAt> lenses;  // of the strip, then of the truths
+  std::vector<LensAt> lenses;  // of the strip, then of the ground truths
   std::vector<TruthFile> truths;
   std::vector<PageFigure> strip, blocks, errors;
 };
@@ -51,7 +51,7 @@ Error ShowTruth(const TruthFile& truth, const Image& picture, Contents* contents
   const Result<Image> read = ReadImage(truth.path);
   if (!read) return read.error();
   const Image& real = *read;
-  if (real.width != picture.width || real.height != picture.height) return {};  // of another one
+  if (real.width != picture.width || real.height != picture.height) return {};  // other input
   const Difference difference = MeasureDifference(picture, real);
   const std::string lens =
       "focus " + Short(truth.lens.focus) + ", aperture " + Short(truth.lens.aperture);
@@ -76,7 +76,7 @@ Error ShowPicture(size_t index, const Image& picture, const std::vector<starfocu
                              "Focus " + focus + (index == 0 ? ", far" : "") +
                                  (index > 0 && index + 1 == foci ? ", near" : ""),
                              Shrink(picture, kSmall)});
-  if (index + 1 != foci) return {};  // where blur is largest
+  if (index + 1 != foci) return {};  // the blur is largest in the last picture
   contents->blocks.push_back(
       {"The blocks of the picture focused at disparity " + focus + ", coloured by resolution",
        "Blocks at focus " + focus + ": red at full resolution, green at half, blue at a quarter",
@@ -114,7 +114,7 @@ Error WritePage(const ViewOptions& options, const Capture& capture,
   return error ? error : WriteText(out, page.Html());
 }
 
-// The lenses of the strip, and of the truths that are within the limit of blur.
+// Chooses the lenses of the strip, and of the ground truths within the blur limit.
 Error ChooseLenses(const Capture& capture, const starfocus_disparity_stats& stats,
                    ApertureChoice* aperture, Contents* contents) {
   const std::vector<double> foci = StripFoci(capture.light_field.disparity, kFoci);
@@ -134,8 +134,7 @@ Error ChooseLenses(const Capture& capture, const starfocus_disparity_stats& stat
   return {};
 }
 
-// Refuses an aperture that is too wide before the map is brought to the picture's size and cared
-// for, which takes long.
+// Checks the aperture before the map is resized and processed, which takes long.
 Error ForeseeAperture(const Capture& capture, ApertureChoice* aperture) {
   LensPlan plan;
   plan.foci = StripFoci(capture.light_field.disparity, kFoci);
@@ -145,7 +144,7 @@ Error ForeseeAperture(const Capture& capture, ApertureChoice* aperture) {
   return error;
 }
 
-// The light field or photo, and its aperture.
+// The opened light field or photo, and its aperture.
 struct Opened {
   Capture capture;
   ApertureChoice aperture;
@@ -185,7 +184,7 @@ Error Run(const ViewOptions& options) {
   }
   if (!error) error = ChooseLenses(capture, stats, &opened->aperture, &contents);
   if (error) return error;
-  stats.invalid = invalid;  // of the map as it is; its holes are filled
+  stats.invalid = invalid;  // of the original map; its holes are filled
   error =
       RefocusEach(options.input.path, light_field, stats, options.threads, contents.lenses,
                   [&](size_t i, const Image& picture, const std::vector<starfocus_block>& blocks) {

@@ -16,18 +16,18 @@
 namespace starfocus {
 namespace {
 
-constexpr int kSmallWidth = 256;      // of the pictures that a range is found in
-constexpr int kLeastConfidence = 48;  // what less is sure of strays at edges and on flat walls
-constexpr double kStrays = 0.0005;    // the share of pixels at either end that may be wrong
+constexpr int kSmallWidth = 256;      // of reduced pictures for finding the range
+constexpr int kLeastConfidence = 48;  // excludes outliers at edges and on flat walls
+constexpr double kStrays = 0.0005;    // fraction of outliers at each end
 
 using Images = std::vector<Image>;
 
-// The views that maps are made of.
+// Returns the views from which maps are computed.
 Images StarOf(const LightField& light_field) {
   return {light_field.views.begin(), light_field.views.begin() + StarWithin(light_field.positions)};
 }
 
-// Who makes a map, with a progress line.
+// Resources for computing a map, with a progress line.
 struct Maker {
   Maker(int threads, const char* what) : pool(threads), progress(what, 1) {}
 
@@ -43,17 +43,17 @@ struct FreeAligned {
   }
 };
 
-// What a map is made of, and what is made beside it.
+// Inputs and requested outputs of a map.
 struct MapTask {
   const Images& views;
-  const FloatMap* given;  // is repaired; null: the map is estimated
+  const FloatMap* given;  // map to repair; null: estimate the map
   DisparityRange range;
   bool confidence, coverage;
 };
 
 struct MadeMap {
   FloatMap map;
-  Bytes confidence, coverage;  // empty: not asked for; there may be no coverage
+  Bytes confidence, coverage;  // empty: not requested; coverage may be missing
 };
 
 Result<MadeMap> MakeMap(const std::string& where, const MapTask& task, Maker* maker) {
@@ -111,7 +111,7 @@ Result<MadeMap> MakeMap(const std::string& where, const MapTask& task, Maker* ma
                          Describe(status, &problem).text);
 }
 
-// The picture at 1 / factor of its size, each pixel the mean of factor * factor ones.
+// Reduces a picture by a whole factor. Each pixel is the mean of factor * factor pixels.
 Image Shrink(const Image& picture, int factor) {
   Image small(std::max(1, picture.width / factor), std::max(1, picture.height / factor));
   for (int y = 0; y < small.height; ++y) {
@@ -171,10 +171,11 @@ Result<DisparityRange> FindRange(const std::string& where, const LightField& lig
   for (size_t i = 0; i < made->confidence.size(); ++i) {
     if (made->confidence[i] >= kLeastConfidence) sure.push_back(made->map.values[i]);
   }
-  if (sure.empty()) sure.push_back(0);  // one colour: whatever its disparity
+  if (sure.empty()) sure.push_back(0);  // a uniform picture has no certain disparity
   std::sort(sure.begin(), sure.end());
   const auto strays = static_cast<size_t>(kStrays * static_cast<double>(sure.size()));
-  // A pixel more at either end, of the small pictures: what strays may be has its neighbours there.
+  // Extend the range by one pixel of the reduced pictures at each end, to include surfaces close to
+  // discarded outliers.
   const float low = std::max(sure[strays] - 1, -most);
   const float high = std::min(sure[sure.size() - 1 - strays] + 1, most);
   return DisparityRange{low * static_cast<float>(factor), high * static_cast<float>(factor)};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Disparity maps from captured views, through the C ABI: the range of disparities where nobody says
-// it, workspace, progress.
+// Computes disparity maps from captured views through the C API: default range, workspace and
+// progress.
 #ifndef STARFOCUS_EXAMPLES_CLI_DISPARITY_ESTIMATE_RUN_H_
 #define STARFOCUS_EXAMPLES_CLI_DISPARITY_ESTIMATE_RUN_H_
 
@@ -13,8 +13,8 @@
 
 namespace starfocus {
 
-// A repair finds disparities up to this many pixels beyond those of the map: what blurs a map takes
-// its peaks off.
+// A repair searches up to this number of pixels beyond the disparities of the map, because blur in
+// a map reduces its extremes.
 constexpr float kRepairReach = 1;
 
 struct DisparityRange {
@@ -23,36 +23,38 @@ struct DisparityRange {
 
 struct DisparityEstimate {
   FloatMap map;
-  DisparityRange range;           // that was looked for; of a repair, that of the map
-  Image confidence;               // gray: 0 unknown, 255 sure (starfocus_estimate_disparity)
-  std::vector<uint8_t> coverage;  // of a repair; empty: none was asked for, or found
+  DisparityRange range;           // searched range; after a repair, the range of the map
+  Image confidence;               // grey: 0 unknown, 255 certain (starfocus_estimate_disparity)
+  std::vector<uint8_t> coverage;  // from a repair; empty: not requested or not found
 };
 
 struct RepairOptions {
   int threads = 1;
-  bool coverage = false, confidence = false;  // what is made beside the map
+  bool coverage = false, confidence = false;  // additional outputs
 };
 
-// A gray picture of the size of `centre`, of a level for each pixel: confidence or coverage.
+// Converts one level per pixel to a grey picture of the size of `centre`. Used for confidence and
+// coverage.
 Image DrawLevels(const std::vector<uint8_t>& levels, const Image& centre);
 
-// The number of views of the largest star that the first ones are: maps are made of these alone.
+// Returns the number of views of the largest star that the first positions form. Maps are computed
+// from these views only.
 int StarWithin(const Positions& positions);
 
-// Whether these views show disparities: an error about `where` unless 5 or more are a star.
+// Returns an error unless the first 5 or more views form a star. Errors start with `where`.
 Error CheckStar(const std::string& where, const LightField& light_field);
 
-// Finds the range of disparities of 5, 9 or 17 views, as far as an eighth of the picture's width:
-// that of an estimate of small pictures, and a little more.
+// Finds the range of disparities of 5, 9 or 17 views, up to an eighth of the picture's width. The
+// range is estimated from reduced pictures and extended by a margin.
 Result<DisparityRange> FindRange(const std::string& where, const LightField& light_field,
                                  int threads);
 
-// Estimates the map, with a progress line. Errors are about `where`.
+// Estimates the map and shows progress. Errors start with `where`.
 Result<DisparityEstimate> EstimateDisparity(const std::string& where, const LightField& light_field,
                                             const DisparityRange& range, int threads);
 
-// Repairs the map of a light field by the star among its views, which may be the centre alone, with
-// a progress line. Errors are about `where`.
+// Repairs the map of a light field with the star among its views, which may be only the centre
+// view. Shows progress. Errors start with `where`.
 Result<DisparityEstimate> RepairDisparity(const std::string& where, const LightField& light_field,
                                           const RepairOptions& options);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Disparity maps for people to look at.
+// Visualizes disparity maps.
 #ifndef STARFOCUS_EXAMPLES_CLI_DISPARITY_MAP_FIGURES_H_
 #define STARFOCUS_EXAMPLES_CLI_DISPARITY_MAP_FIGURES_H_
 
@@ -12,11 +12,11 @@
 
 namespace starfocus {
 
-// How many finite disparities lie in each of so many equal parts of the measured range.
+// Counts the finite disparities in each of `bins` equal parts of the measured range.
 std::vector<int64_t> Histogram(const FloatMap& map, const starfocus_disparity_stats& stats,
                                int bins);
 
-// A finite map as a picture: the nearest is white.
+// Draws a finite map as a picture in which the nearest disparity is white.
 Image DrawDisparity(const FloatMap& map);
 
 }  // namespace starfocus

@@ -15,12 +15,13 @@ std::string AllNames(const Program& program, const Command& command) {
   return names;
 }
 
-// "polygon:N" stands for several words: parts of a type in capitals are to be replaced.
+// Returns true for a pattern such as "polygon:N", in which capitals are placeholders.
 bool IsPattern(const std::string& word) {
   return std::any_of(word.begin(), word.end(), [](char c) { return c >= 'A' && c <= 'Z'; });
 }
 
-// The shell command that sets COMPREPLY to the values of a type; empty where nobody knows them.
+// Returns the shell command that sets COMPREPLY to the values of a type. Empty if the values are
+// unknown.
 std::string Values(const std::string& type) {
   if (type == "FILE") return "COMPREPLY=($(compgen -f -- \"$word\"))";
   if (type == "DIR") return "COMPREPLY=($(compgen -d -- \"$word\"))";
@@ -35,7 +36,7 @@ std::string Values(const std::string& type) {
   return "COMPREPLY=($(compgen -W '" + words + "' -- \"$word\"))";
 }
 
-// A branch for each option of the command that takes a value.
+// Returns a branch for each option of the command that takes a value.
 std::string ValueBranches(const Command& command) {
   std::string text;
   for (const Option& option : command.options) {
@@ -61,7 +62,7 @@ std::string CompletionText(const Program& program) {
     values += ValueBranches(command);
   }
   commands = commands.substr(1);
-  // "help" is completed by the names of the others.
+  // "help" is followed by the name of another command.
   return "# bash completion for " + name + ", written by `" + name + " help --bash`\n_" + name +
          "() {\n"
          "  local word=${COMP_WORDS[COMP_CWORD]} command=${COMP_WORDS[1]} names\n"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is written about a command line from its own options, so that it cannot tell of others.
+// Generates documentation of a command line from its tables of options, so that both always agree.
 #ifndef STARFOCUS_EXAMPLES_CLI_DOCUMENTATION_DOCUMENTATION_H_
 #define STARFOCUS_EXAMPLES_CLI_DOCUMENTATION_DOCUMENTATION_H_
 
@@ -9,11 +9,11 @@
 
 namespace starfocus {
 
-// The manual page in roff.
+// Returns the manual page in roff.
 std::string ManualText(const Program& program);
 
-// The completion script for bash. An option whose type name lists words, "near|far", is completed
-// by those without capitals, one of DIR or FILE by names of files.
+// Returns the completion script for bash. If the type of an option lists words, as "near|far" does,
+// the script completes the words without capitals. For DIR and FILE it completes file names.
 std::string CompletionText(const Program& program);
 
 }  // namespace starfocus

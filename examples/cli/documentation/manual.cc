@@ -5,8 +5,8 @@
 namespace starfocus {
 namespace {
 
-// Text as roff shows it: a hyphen would become another character, and a dot or an apostrophe at
-// the beginning of a line would be a request.
+// Escapes a text for roff, in which hyphens, and dots and apostrophes at the start of a line, have
+// special meanings.
 std::string Roff(const std::string& text) {
   std::string roff;
   for (const char c : text) {
@@ -20,7 +20,7 @@ std::string Roff(const std::string& text) {
 std::string Bold(const std::string& text) { return "\\fB" + Roff(text) + "\\fR"; }
 std::string Italic(const std::string& text) { return "\\fI" + Roff(text) + "\\fR"; }
 
-// "-o, --output FILE"
+// Formats the names and the type of an option: "-o, --output FILE".
 std::string Head(const Option& option) {
   if (IsPositional(option)) return Italic(option.names);
   std::string head;

@@ -12,8 +12,8 @@ namespace {
 
 constexpr int kStreamRows = 8;  // pushed and pulled at a time
 
-// What the engine could refuse, the program has looked at before; the address space alone limits
-// sizes beyond that.
+// Converts a status to an error. The program has already checked all arguments, so only the address
+// space and the memory can be insufficient.
 Error Outcome(const std::string& where, starfocus_status status, const starfocus_problem* problem,
               size_t bytes = 0) {
   if (status == STARFOCUS_OK) return {};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Refocusing through the C ABI: workspace, entry path, time.
+// Runs refocusing through the C API: allocates the engine, selects the functions to call, and
+// measures time.
 #ifndef STARFOCUS_EXAMPLES_CLI_ENGINE_ENGINE_RUN_H_
 #define STARFOCUS_EXAMPLES_CLI_ENGINE_ENGINE_RUN_H_
 
@@ -18,44 +19,44 @@ namespace starfocus {
 
 struct EngineTask {
   const LightField* light_field = nullptr;
-  starfocus_config config;  // version, sizes, views, disparity range and max_blur filled in
+  starfocus_config config;  // complete, including sizes, views, disparity range and max_blur
   Params params;
-  starfocus_callbacks callbacks = {};  // clock and on_block; EngineRun sets the others
+  starfocus_callbacks callbacks = {};  // EngineRun sets all except clock and on_block
   int threads = 1;
-  bool stream = false;  // rows in, rows out instead of whole pictures
+  bool stream = false;  // push and pull rows instead of whole pictures
 };
 
 struct EngineResult {
   Image picture;
   starfocus_report report = {};
-  double seconds = 0;  // inside the engine
+  double seconds = 0;  // time inside the engine
   size_t workspace_bytes = 0;
   size_t prepared_bytes = 0;
 };
 
-// Refocuses one picture or several of one configuration, with a progress line. Errors are about the
-// `where` of the call.
+// Refocuses one or several pictures with one configuration, and shows progress. Errors start with
+// the `where` of the call.
 class EngineRun {
  public:
   EngineRun(int threads, int pictures);
 
-  // Makes the engine; the task's config is that of all pictures.
+  // Creates the engine with the configuration of the task, which applies to all pictures.
   Error Start(const std::string& where, const EngineTask& task);
 
-  // Prepares the task's light field for all further calls of Refocus.
+  // Prepares the task's light field for all later calls of Refocus.
   Error Prepare(const std::string& where, const EngineTask& task);
 
   Result<EngineResult> Refocus(const std::string& where, const EngineTask& task);
 
-  // As Refocus, after `before`, of which `picture` was made with the same params.
+  // Refocuses a frame after `before`, from which `picture` was computed with the same params.
   Result<EngineResult> RefocusAfter(const std::string& where, const EngineTask& task,
                                     const LightField& before, const Image& picture);
 
-  // The threads of the engine, for other work between its pictures.
+  // Returns the engine's threads, for other work between its pictures.
   ThreadRunner* runner() { return &runner_; }
 
  private:
-  // The task's callbacks, with the threads and, for a picture, the progress line.
+  // Sets the callbacks of the task, the threads and, for a picture, the progress line.
   starfocus_status SetCallbacks(const EngineTask& task, bool is_picture);
   starfocus_status RunStream(const EngineTask& task, EngineResult* result);
   Result<EngineResult> Run(const std::string& where, const EngineTask& task,

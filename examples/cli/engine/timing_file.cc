@@ -7,7 +7,7 @@
 namespace starfocus {
 namespace {
 
-// Coefficient `name` of the object, in picoseconds.
+// Reads coefficient `name` of the object, in picoseconds.
 Result<uint32_t> ReadCoefficient(const std::string& path, const JsonObject& object,
                                  const std::string& name) {
   const auto expected = [&](const std::string& found) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Timing coefficients in JSON files: what `starfocus-lab calibrate` writes and `refocus --timing`
-// reads.
+// Reads and writes timing coefficients in JSON files, for `starfocus-lab calibrate` and `refocus
+// --timing`.
 #ifndef STARFOCUS_EXAMPLES_CLI_ENGINE_TIMING_FILE_H_
 #define STARFOCUS_EXAMPLES_CLI_ENGINE_TIMING_FILE_H_
 
@@ -12,11 +12,11 @@
 
 namespace starfocus {
 
-// The member "timing" of such a file.
+// Returns the member "timing" of a timing file.
 Json TimingJson(const starfocus_timing& timing);
 
-// Reads the member "timing"; it must hold every coefficient and nothing else. Other members of the
-// file are remarks.
+// Reads the member "timing", which must contain exactly all coefficients. Other members of the file
+// are comments.
 Result<starfocus_timing> ReadTiming(const std::string& path);
 
 }  // namespace starfocus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The terms of the timing model, for whoever goes through them by name.
+// Table of the terms of the timing model, for loops over all terms.
 #ifndef STARFOCUS_EXAMPLES_CLI_ENGINE_TIMING_TERMS_H_
 #define STARFOCUS_EXAMPLES_CLI_ENGINE_TIMING_TERMS_H_
 
@@ -13,8 +13,8 @@ namespace starfocus {
 struct TimingTerm {
   const char* name;
   uint32_t starfocus_timing::*coefficient;
-  uint64_t BlockWork::*work;  // null: one for each block
-  const char* unit;           // what the coefficient is a time of
+  uint64_t BlockWork::*work;  // null: one per block
+  const char* unit;           // unit of work to which the coefficient refers
 };
 
 inline constexpr TimingTerm kTimingTerms[] = {

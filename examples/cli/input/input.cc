@@ -14,7 +14,7 @@
 namespace starfocus {
 namespace {
 
-// none, or numbers with commas between them.
+// Parses "none" or a list of numbers separated by commas.
 std::string ReadUnknown(const std::string& text, DepthOptions* options) {
   options->has_unknown = true;
   options->use_alpha = text != "none";
@@ -35,7 +35,7 @@ Error CheckNear(const DepthOptions& options) {
                       disparity ? "black" : "white");
 }
 
-// The option about a depth picture that is typed first in the help; null if there is none.
+// Returns the first option about a depth picture that is set, in the order of the help, or null.
 const char* DepthOption(const InputOptions& options) {
   if (!options.depth.empty()) return "--depth";
   if (options.map.near != Near::kUnknown) return "--near";
@@ -44,7 +44,7 @@ const char* DepthOption(const InputOptions& options) {
   return options.map.has_unknown ? "--unknown" : nullptr;
 }
 
-// A map from the views that are loaded.
+// Estimates a map from the loaded views.
 Error Estimate(int threads, Capture* capture) {
   LightField* light_field = &capture->light_field;
   const int star = StarWithin(light_field->positions);
@@ -164,7 +164,7 @@ Result<Capture> OpenInput(const InputOptions& options) {
 
 Error LoadInput(const Positions& views, int threads, Capture* capture) {
   for (const starfocus_position& view : views) {
-    // A view that is not there is the option's fault.
+    // If a view is missing, the error is about the option.
     if (SelectViewFiles(capture->path, capture->files, {view})) continue;
     return Error::Usage(
         "--views", "some of the " + std::to_string(capture->files.size()) + " in " + capture->path,
@@ -183,7 +183,7 @@ bool WillRepair(const MapOptions& options, const Capture& capture) {
 Error CareForMap(const MapOptions& options, int threads, Capture* capture) {
   if (capture->map_path.empty()) return {};
   if (WillRepair(options, *capture)) {
-    // Coverage that was given stays.
+    // Keep coverage that the input provides.
     LightField& light_field = capture->light_field;
     const bool covers = light_field.coverage.empty();
     Result<DisparityEstimate> repaired =

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What commands refocus or look at: a folder of views or a depth photo, with its map as good as it
-// can be had.
+// Opens the input of a command, a folder of views or a depth photo, and obtains the best possible
+// map.
 #ifndef STARFOCUS_EXAMPLES_CLI_INPUT_INPUT_H_
 #define STARFOCUS_EXAMPLES_CLI_INPUT_INPUT_H_
 
@@ -18,39 +18,40 @@ struct InputOptions {
   DepthOptions map = {};
 };
 
-// What is typed of a map's care: nothing is what the format needs.
+// Options for processing the map. By default, the format of the input decides.
 struct MapOptions {
   bool repair = false, no_repair = false, fill = false;
 };
 
-// `several`: paths of which each is an input, in place of the one of `options`; or null.
+// Adds the options. If `several` is not null, the command takes several paths and stores them there
+// instead of in `options`.
 void AddInputOptions(Command* command, InputOptions* options,
                      std::vector<std::string>* several = nullptr);
 void AddMapOptions(Command* command, MapOptions* options);
 
-// Finds out what it is (OpenCapture); what was guessed goes to stderr. The map of a photo keeps its
-// own size until LoadInput.
+// Opens the input (OpenCapture) and prints its notes to stderr. The map of a photo keeps its own
+// size until LoadInput.
 Result<Capture> OpenInput(const InputOptions& options);
 
-// Reads the views wanted, or all if none are, and the map; one that is not there is estimated from
-// these views, and a line on stderr says so.
+// Reads the views at the positions `views`, or all views if it is empty, and the map. A missing map
+// is estimated from these views, with a message on stderr.
 Error LoadInput(const Positions& views, int threads, Capture* capture);
 
-// Whether CareForMap repairs the map, which takes seconds for each megapixel.
+// Returns true if CareForMap will repair the map, which takes seconds per megapixel.
 bool WillRepair(const MapOptions& options, const Capture& capture);
 
-// Repairs the map or fills its holes, as asked for or as its format needs; one that was estimated
-// stays.
+// Repairs the map or fills its holes, by the options or as its format needs. Does not change an
+// estimated map.
 Error CareForMap(const MapOptions& options, int threads, Capture* capture);
 
-// Replaces what a map does not know by its nearest neighbour. Errors are about `where`.
+// Replaces unknown values of a map by the nearest known ones. Errors start with `where`.
 Error FillHoles(const std::string& where, FloatMap* map);
 
-// The folder of the input where its views have other names than ours: every picture in it is taken
-// for a view.
+// Returns the folder of the input if its views do not have starfocus names. In such a folder, every
+// picture is treated as a view.
 std::vector<std::string> GridsOf(const InputOptions& options, const Capture& capture);
 
-// What errors about the map name.
+// Returns the name of the map for errors.
 std::string MapName(const Capture& capture);
 
 }  // namespace starfocus

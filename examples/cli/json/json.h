@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// JSON values to write, and objects of numbers to read. Only the source file includes
-// nlohmann-json, which takes seconds to compile.
+// Writes JSON values, and reads objects of numbers. Only the source file includes nlohmann-json,
+// which takes seconds to compile.
 #ifndef STARFOCUS_EXAMPLES_CLI_JSON_JSON_H_
 #define STARFOCUS_EXAMPLES_CLI_JSON_JSON_H_
 
@@ -15,7 +15,7 @@ namespace starfocus {
 
 class Json {
  public:
-  Json();  // null; Set makes an object of it, and Add an array
+  Json();  // null; Set makes it an object, Add an array
   // NOLINTBEGIN: members and elements are written as plain values
   Json(std::nullptr_t);
   Json(double value);
@@ -34,12 +34,13 @@ class Json {
 
   static Json Array(std::initializer_list<Json> elements = {});
 
-  // Adds a member to an object, behind those that are there.
+  // Adds a member to an object after the existing members.
   void Set(const std::string& name, Json value);
   // Adds an element to an array.
   void Add(Json value);
 
-  // In one line, or indented by `indent` spaces. Bytes that are not UTF-8 are replaced.
+  // Formats the value on one line, or indented by `indent` spaces. Bytes that are not UTF-8 are
+  // replaced.
   std::string Text(int indent = -1) const;
 
  private:
@@ -50,18 +51,18 @@ class Json {
 // A member of an object that was read.
 struct JsonMember {
   std::string name;
-  std::string text;       // the value in JSON, of ASCII characters
-  bool is_whole = false;  // the value is a whole number, not negative
+  std::string text;       // the value as JSON in ASCII
+  bool is_whole = false;  // the value is an integer >= 0
   uint64_t whole = 0;
 };
 
 struct JsonObject {
-  bool is_json = false;   // the text is
-  bool is_there = false;  // the object is in it
+  bool is_json = false;   // the text is valid JSON
+  bool is_there = false;  // the text contains the object
   std::vector<JsonMember> members;
 };
 
-// Reads the object that is the member `name` of the object in a JSON text.
+// Reads the member `name`, an object, of the object in a JSON text.
 JsonObject ReadJsonObject(const std::vector<uint8_t>& text, const std::string& name);
 
 }  // namespace starfocus

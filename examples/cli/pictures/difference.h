@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much two pictures differ, and where.
+// Measures and draws the difference between two pictures.
 #ifndef STARFOCUS_EXAMPLES_CLI_PICTURES_DIFFERENCE_H_
 #define STARFOCUS_EXAMPLES_CLI_PICTURES_DIFFERENCE_H_
 
@@ -8,15 +8,15 @@
 namespace starfocus {
 
 struct Difference {
-  double psnr = 0;  // dB over all samples; infinite where they are equal
-  int largest = 0;  // of all samples
+  double psnr = 0;  // dB over all samples; infinite if the pictures are equal
+  int largest = 0;  // largest difference of any sample
 };
 
-// Of two pictures of one size, here and below.
+// Compares two pictures of equal size, here and below.
 Difference MeasureDifference(const Image& a, const Image& b);
 
-// Black where they agree, and by the largest difference of a pixel's samples over red and yellow to
-// white, which is a difference of `white` or more; above 0.
+// Draws the largest difference of each pixel's samples. Colours run from black (no difference) over
+// red and yellow to white (`white` or more). `white` must be above 0.
 Image DrawDifference(const Image& a, const Image& b, int white);
 
 }  // namespace starfocus

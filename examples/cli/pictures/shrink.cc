@@ -7,14 +7,14 @@
 namespace starfocus {
 namespace {
 
-// How much of source sample `source` lies in target sample `target`, in units of 1/targets.
+// Returns the overlap of source sample `source` and target sample `target`, in units of 1/targets.
 int64_t Overlap(int64_t source, int64_t target, int64_t sources, int64_t targets) {
   const int64_t low = std::max(source * targets, target * sources);
   const int64_t high = std::min((source + 1) * targets, (target + 1) * sources);
   return std::max<int64_t>(0, high - low);
 }
 
-// Averages the box of the source that (x, y) of the target covers.
+// Averages the part of the source that pixel (x, y) of the target covers.
 void BoxPixel(const Image& source, int x, int y, Image* target) {
   const int64_t sw = source.width, sh = source.height, tw = target->width, th = target->height;
   int64_t sum[3] = {0, 0, 0};

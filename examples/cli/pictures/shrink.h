@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Smaller pictures.
+// Reduces pictures.
 #ifndef STARFOCUS_EXAMPLES_CLI_PICTURES_SHRINK_H_
 #define STARFOCUS_EXAMPLES_CLI_PICTURES_SHRINK_H_
 
@@ -7,8 +7,8 @@
 
 namespace starfocus {
 
-// Scales a picture that is wider than `width` down to it: every pixel is the mean of those that it
-// covers.
+// Reduces a picture that is wider than `width` to that width. Every pixel is the mean of the area
+// it covers.
 Image Shrink(const Image& source, int width);
 
 }  // namespace starfocus

@@ -12,7 +12,7 @@
 namespace starfocus {
 namespace {
 
-// Names the option that the user chose the radius by. A strength alone chooses it, too.
+// Stores the option that set the radius. --strength counts if it is the only one.
 void NameOption(const ApertureOptions& options, ApertureChoice* aperture) {
   for (const auto& [name, value] : {std::pair{"--f-stop", options.f_stop},
                                     {"--aperture", options.aperture},
@@ -30,8 +30,9 @@ std::string ThreeDigits(double value) {
   return text;
 }
 
-// The first number of three digits that fits, from `value` on, up or down by a unit of its third
-// digit at a time. Numbers are those that are printed, so that a user who types one gets the same.
+// Returns the first number of three digits that fits, starting at `value` and changing the third
+// digit up or down. The function tests the number as printed, so that it also fits if a user types
+// it.
 template <class Fits>
 double FirstThatFits(double value, int direction, const Fits& fits) {
   const double unit = std::pow(10, std::floor(std::log10(value)) - 2);
@@ -41,8 +42,8 @@ double FirstThatFits(double value, int direction, const Fits& fits) {
   }
 }
 
-// The widest f-stop, of three digits, within the limit of blur; below the same for --aperture and
-// --strength.
+// Returns the widest f-stop of three digits within the blur limit. The next functions do so for
+// --aperture and --strength.
 double WidestFStop(double range, const ApertureChoice& aperture) {
   const double factor = aperture.widest * aperture.strength;
   return FirstThatFits(factor * range / STARFOCUS_MAX_BLUR, 1, [&](double f_stop) {
@@ -63,7 +64,7 @@ double LargestPercentage(double range, const ApertureChoice& aperture) {
   });
 }
 
-// Returns the largest value that a user may type in place of the one that is too wide.
+// Describes the largest value that the user may type instead.
 std::string WhatFits(double range, const ApertureChoice& aperture) {
   if (aperture.option == "--f-stop") {
     return "f/" + ThreeDigits(WidestFStop(range, aperture)) + " or narrower";

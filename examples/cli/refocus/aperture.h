@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The aperture of a refocusing, from the options and what the input knows of its lens, and the
-// limit that STARFOCUS_MAX_BLUR pixels of blur set to it. Used by refocus, video and view.
+// Chooses the aperture from the options and from the lens of the input, within the limit of
+// STARFOCUS_MAX_BLUR pixels of blur. Used by refocus, video and view.
 #ifndef STARFOCUS_EXAMPLES_CLI_REFOCUS_APERTURE_H_
 #define STARFOCUS_EXAMPLES_CLI_REFOCUS_APERTURE_H_
 
@@ -14,31 +14,31 @@
 
 namespace starfocus {
 
-// What is typed.
+// Options as typed.
 struct ApertureOptions {
   std::optional<double> aperture, f_stop, widest, strength;
 };
 
 struct ApertureChoice {
-  double radius = 1;      // at the strength asked for
+  double radius = 1;      // radius at the requested strength
   double widest = 1;      // f-stop of radius 1
-  double strength = 1;    // 0 to 1, a part of `radius` already
-  std::string option;     // that the user chose the radius by; empty: the default
-  std::string value;      // of that option, as typed
-  bool narrowed = false;  // the default was too wide for the limit of blur
+  double strength = 1;    // 0 to 1; already a factor of `radius`
+  std::string option;     // option that set the radius; empty: the default
+  std::string value;      // value of that option as typed
+  bool narrowed = false;  // the default exceeded the blur limit and was reduced
 };
 
-// Reads the options, whose default is the f-stop of the input, if it has one, else radius 1.
+// Evaluates the options. The default is the f-stop of the input if it is known, otherwise radius 1.
 Result<ApertureChoice> PlanAperture(const ApertureOptions& options, const Capture& capture);
 
-// Largest difference between a disparity of the map and one of the foci.
+// Returns the largest difference between a disparity of the map and any of the foci.
 double FarthestFromFocus(const starfocus_disparity_stats& stats, const std::vector<double>& foci);
 
-// Fits the aperture to the limit of blur where disparities are up to `range` pixels out of focus:
-// narrows the default, and refuses an aperture that the user chose.
+// Fits the aperture to the blur limit, if disparities are up to `range` pixels out of focus.
+// Reduces a default aperture; returns an error if the user chose the aperture.
 Error FitAperture(double range, ApertureChoice* aperture);
 
-// Prints to stderr which f-stop replaces the default, if one does.
+// Prints the f-stop that replaces the default to stderr, if the default was reduced.
 void TellAperture(const std::string& path, const ApertureChoice& aperture);
 
 }  // namespace starfocus

@@ -31,8 +31,8 @@ bool HasDepthPicture(const fs::path& path) {
   return !FindDepthPicture(path.string(), &unused)->empty();
 }
 
-// A depth picture stands beside the photograph that it is of. PNG and WebP pictures without one are
-// no photographs.
+// Returns true for a photograph. Depth pictures are not photographs, and PNG and WebP pictures are
+// photographs only if they have a depth picture next to them.
 bool IsPhoto(const fs::path& path) {
   const std::string extension = LowerExtension(path.string());
   if (IsDepthPictureName(path.filename().string())) return false;
@@ -41,7 +41,7 @@ bool IsPhoto(const fs::path& path) {
          extension == ".heif" || extension == ".avif";
 }
 
-// What stands in place of an input; nothing of a folder that has neither.
+// Returns the inputs in a folder that is not a light field, or the input itself.
 std::vector<std::string> Expand(const std::string& input) {
   std::error_code ignored;
   if (!fs::is_directory(input, ignored) || IsLightField(input)) return {input};
@@ -68,13 +68,13 @@ std::string OutputOf(const std::string& input, const std::string& folder) {
       .string();
 }
 
-// What the threads of a batch share.
+// State that the threads of a batch share.
 struct Work {
   const std::vector<BatchItem>& items;
   const std::function<Error(const BatchItem&)>& run;
   Progress progress;
   std::atomic<size_t> next;
-  std::mutex mutex;  // of what follows, and of stderr
+  std::mutex mutex;  // protects `failed` and stderr
   std::vector<std::string> failed;
 
   Error RunOne(const BatchItem& item) const {
@@ -92,7 +92,7 @@ struct Work {
       const Error error = RunOne(items[i]);
       progress.Step();
       if (!error) continue;
-      // An error about an option does not say which input it is of.
+      // Errors about an option do not contain the name of the input.
       const bool named = error.line().find(items[i].input) != std::string::npos;
       const std::lock_guard<std::mutex> lock(mutex);
       progress.Tell("starfocus: " + (named ? "" : items[i].input + ": ") + error.line());
@@ -107,7 +107,7 @@ bool IsBatch(const std::vector<std::string>& inputs, const std::string& out) {
   std::error_code ignored;
   if (inputs.size() > 1 || fs::is_directory(out, ignored)) return true;
   if (out.empty() || out.back() == '/') return !out.empty();
-  // A folder of photographs makes several pictures, too.
+  // A folder of photographs also has several pictures.
   return inputs.size() == 1 && fs::is_directory(inputs[0], ignored) &&
          FormatExtension(out).empty() && !IsLightField(inputs[0]);
 }
@@ -154,7 +154,7 @@ Error RunBatch(const std::vector<BatchItem>& items, int jobs,
   try {
     for (int i = 1; i < jobs; ++i) threads.emplace_back([&work] { work.Go(); });
   } catch (const std::system_error&) {
-    // Those that there are do all of it.
+    // The threads that were created process all items.
   }
   work.Go();
   for (std::thread& thread : threads) thread.join();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One command on many inputs, of which bad ones do not stop the others.
+// Runs a command on many inputs, and continues after errors.
 #ifndef STARFOCUS_EXAMPLES_CLI_REFOCUS_BATCH_H_
 #define STARFOCUS_EXAMPLES_CLI_REFOCUS_BATCH_H_
 
@@ -15,19 +15,19 @@ struct BatchItem {
   std::string input, output;
 };
 
-// Whether these inputs and this output mean a picture each in a folder: there are several inputs,
-// or the output is a folder, there already or by its last "/".
+// Returns true if the inputs and the output describe several pictures in a folder: there are
+// several inputs, or the output exists as a folder or ends with "/".
 bool IsBatch(const std::vector<std::string>& inputs, const std::string& out);
 
-// Names the output of each input, which keeps its name: in its own format where that is .jpg, .png,
-// .ppm or .webp; .jpg of other files and .png of light fields. In place of a folder that is no
-// light field stand the photographs and light fields in it. Refuses outputs of one name and those
-// that are inputs, then makes the folder.
+// Chooses the output of each input. It has the name of its input. Its format is that of the input
+// for .jpg, .png, .ppm and .webp files, .jpg for other files, and .png for light fields. A folder
+// that is not a light field is replaced by the photographs and light fields in it. Returns an error
+// if outputs coincide with each other or with inputs, and then creates the folder.
 Result<std::vector<BatchItem>> PlanBatch(const std::vector<std::string>& inputs,
                                          const std::string& folder);
 
-// Runs all of them, `jobs` at a time, with a progress line. The error of each is told on stderr
-// where it happens; the one that is returned names the inputs that failed.
+// Runs all items, `jobs` at a time, and shows progress. Each error is printed to stderr
+// immediately. The returned error lists the inputs that failed.
 Error RunBatch(const std::vector<BatchItem>& items, int jobs,
                const std::function<Error(const BatchItem&)>& run);
 

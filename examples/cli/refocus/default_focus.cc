@@ -10,9 +10,9 @@
 namespace starfocus {
 namespace {
 
-constexpr int kSamples = 64;                   // each way, over the middle half of the picture
-constexpr double kShare = 0.1, kAlike = 0.06;  // of the samples; of the range of disparities
-constexpr double kLeastAlike = 0.75;  // pixels, within which starfocus_focus_at sees one surface
+constexpr int kSamples = 64;                   // per axis, over the middle half of the picture
+constexpr double kShare = 0.1, kAlike = 0.06;  // fractions of the samples and of the range
+constexpr double kLeastAlike = 0.75;           // pixels; one surface to starfocus_focus_at
 
 struct Sample {
   int x, y;
@@ -32,15 +32,15 @@ struct Grid {
   }
 };
 
-// Disparities from `low` to `high` are alike.
+// A surface: disparities from `low` to `high`.
 struct Surface {
   float low, high;
 
   bool Has(float disparity) const { return disparity >= low && disparity <= high; }
 };
 
-// The nearest disparities that `count` samples, sorted from near to far, have alike. The median
-// where no such surface is there, as on a slope.
+// Returns the nearest surface that contains `count` samples, sorted from near to far. If there is
+// no such surface, as on a slope, returns one around the median.
 Surface FindNearest(const std::vector<float>& sorted, size_t count) {
   const float alike = std::max(static_cast<float>(kLeastAlike),
                                static_cast<float>(kAlike) * (sorted.front() - sorted.back()));
@@ -52,7 +52,7 @@ Surface FindNearest(const std::vector<float>& sorted, size_t count) {
   return {median - alike / 2, median + alike / 2};
 }
 
-// How many of the sample and its neighbours in the grid belong to the surface.
+// Counts the pixels of the surface among the sample and its neighbours in the grid.
 int CountAround(const Grid& grid, const Surface& surface, int column, int row) {
   int count = 0;
   for (int r = std::max(0, row - 1); r <= std::min(kSamples - 1, row + 1); ++r) {
@@ -63,7 +63,8 @@ int CountAround(const Grid& grid, const Surface& surface, int column, int row) {
   return count;
 }
 
-// The sample of the surface with most of it around, and of these the one nearest to the centre.
+// Returns the sample with the most neighbours on the surface. Among equals, the one nearest to the
+// centre is chosen.
 Sample ChooseSample(const Grid& grid, const Surface& surface) {
   Sample best = {grid.map.width / 2, grid.map.height / 2, 0};
   int most = 0, least_distance = 0;
@@ -85,7 +86,7 @@ Sample ChooseSample(const Grid& grid, const Surface& surface) {
 
 DefaultFocus AtPixel(int x, int y, const std::string& source) { return {true, x, y, 0, source}; }
 
-// The pixel of another size at the middle of this one.
+// Converts a coordinate to another size. The result contains the centre of the original pixel.
 int Scaled(int at, int from, int to) {
   return static_cast<int>((2 * int64_t{at} + 1) * to / (2 * int64_t{from}));
 }

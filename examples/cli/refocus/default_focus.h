@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a picture is focused when the command line does not say.
+// Chooses the focus if the command line does not.
 #ifndef STARFOCUS_EXAMPLES_CLI_REFOCUS_DEFAULT_FOCUS_H_
 #define STARFOCUS_EXAMPLES_CLI_REFOCUS_DEFAULT_FOCUS_H_
 
@@ -11,21 +11,22 @@ namespace starfocus {
 
 struct DefaultFocus {
   bool at_pixel = true;
-  int x = 0, y = 0;      // that pixel
-  double disparity = 0;  // without a pixel
-  std::string source;    // where the focus comes from, for people
+  int x = 0, y = 0;      // pixel in focus
+  double disparity = 0;  // focus if at_pixel is false
+  std::string source;    // description of the origin, for users
 };
 
-// The subject that EXIF names, else the focus of the file, else FindSurface, in pixels of the
-// picture. The map is read already; it may have unknown values and another size than the picture.
+// Returns the subject in EXIF, otherwise the focus of the file, otherwise the result of
+// FindSurface, in pixels of the picture. The map must be loaded. It may contain unknown values and
+// may have another size than the picture.
 DefaultFocus FindDefaultFocus(const Capture& capture);
 
-// A pixel of the nearest large surface near the centre: disparities alike on a tenth, at least, of
-// the middle half of width and height. The centre where no disparity is known there. In pixels of
-// the map.
+// Returns a pixel of the nearest large surface near the centre: similar disparities that cover at
+// least a tenth of the middle half of width and height. Returns the centre if no disparity is known
+// there. Coordinates are pixels of the map.
 DefaultFocus FindSurface(const FloatMap& map);
 
-// Prints the focus and its source to stderr.
+// Prints the focus and its origin to stderr.
 void TellFocus(const std::string& path, const DefaultFocus& focus);
 
 }  // namespace starfocus

@@ -6,15 +6,15 @@
 namespace starfocus {
 namespace {
 
-// The paper's Fig. 14 has red for L = 0 and blue for L = 2.
+// Colours follow the paper's Fig. 14: red for L = 0, blue for L = 2.
 constexpr uint8_t kLayerColors[STARFOCUS_LAYERS][3] = {
     {230, 60, 50}, {60, 180, 75}, {50, 110, 235}};
 constexpr int kTintPercent = 40;
 
 int Grey(const uint8_t* rgb) { return (77 * rgb[0] + 150 * rgb[1] + 29 * rgb[2] + 128) >> 8; }
 
-// The first row and column of a block are its outline: its neighbours draw the other two sides. The
-// map's first pixel is the picture's (left, top).
+// Outlines the first row and column of a block; its neighbours draw the other two sides. The map's
+// first pixel is (left, top) of the picture.
 void DrawBlock(const starfocus_block& block, int left, int top, Image* map) {
   const uint8_t* color = kLayerColors[block.layer];
   const int begin = std::max(block.x, left);

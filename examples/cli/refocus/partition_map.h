@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The partition of a refocusing, drawn over a picture.
+// Draws the blocks of a refocusing over a picture.
 #ifndef STARFOCUS_EXAMPLES_CLI_REFOCUS_PARTITION_MAP_H_
 #define STARFOCUS_EXAMPLES_CLI_REFOCUS_PARTITION_MAP_H_
 
@@ -10,11 +10,11 @@
 
 namespace starfocus {
 
-// A starfocus_block_visitor; `data` is a std::vector<starfocus_block> that the block is added to.
+// A starfocus_block_visitor that appends the block to `data`, a std::vector<starfocus_block>.
 void CollectBlock(void* data, const starfocus_block* block);
 
-// The picture in grey, or the region of it whose first pixel is (left, top), every block tinted by
-// its layer (L = 0 red, 1 green, 2 blue) and outlined.
+// Draws the picture in grey, with every block tinted by its layer (L = 0 red, 1 green, 2 blue) and
+// outlined. `picture` may be a region whose first pixel is (left, top).
 Image DrawPartition(const Image& picture, int left, int top,
                     const std::vector<starfocus_block>& blocks);
 

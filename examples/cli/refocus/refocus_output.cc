@@ -17,10 +17,10 @@ namespace starfocus {
 namespace {
 
 constexpr char kAnimation[] = ".webp";
-// Bytes of pictures that wait to be encoded beside others.
+// Limits the memory in bytes of pictures that wait for parallel encoding.
 constexpr size_t kMostWaiting = size_t{1} << 28;
 
-// The picture of a sweep: "out.png" becomes "out_007.png".
+// Returns the name of a picture of a sweep: "out_007.png" for "out.png".
 std::string NumberedName(const std::string& path, size_t index) {
   const std::filesystem::path name(path);
   char number[16];
@@ -34,7 +34,7 @@ bool IsJpeg(const std::string& path) {
   return extension == ".jpg" || extension == ".jpeg";
 }
 
-// The number of the focus that is nearest to a disparity.
+// Returns the index of the focus that is nearest to a disparity.
 uint16_t Nearest(const std::vector<double>& foci, float disparity) {
   const auto farther = [disparity](double a, double b) {
     return std::fabs(a - double(disparity)) < std::fabs(b - double(disparity));

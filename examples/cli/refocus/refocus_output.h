@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `refocus` writes: a picture, one that others can refocus again, or the stack of a sweep.
+// Writes the output of `refocus`: a picture, a depth photo, or the pictures of a sweep.
 #ifndef STARFOCUS_EXAMPLES_CLI_REFOCUS_REFOCUS_OUTPUT_H_
 #define STARFOCUS_EXAMPLES_CLI_REFOCUS_REFOCUS_OUTPUT_H_
 
@@ -17,7 +17,7 @@
 
 namespace starfocus {
 
-// As typed.
+// Options as typed.
 struct OutputOptions {
   std::string out, all_in_focus, focus_index;
   int quality = 95;
@@ -26,29 +26,29 @@ struct OutputOptions {
 
 void AddOutputOptions(Command* command, OutputOptions* options);
 
-// The picture files of a refocusing, or of a sweep of `pictures` ones (0: no sweep).
+// Lists the output files of a refocusing, or of a sweep of `pictures` pictures (0: no sweep).
 std::vector<Output> ListPictures(const OutputOptions& options, size_t pictures);
 
-// What can be refused before a file is read, but for the files themselves. `region`: whether only a
-// part of the picture is made.
+// Checks the options before any file is read, except for the files themselves. `region` is true if
+// only part of the picture is computed.
 Error PlanOutput(const OutputOptions& options, bool sweep, bool region);
 
-// Writes the picture of a task as its options have it. `widest`: the f-stop of aperture radius 1.
+// Writes the picture of a task by the options. `widest` is the f-stop of aperture radius 1.
 Error WriteRefocused(const OutputOptions& options, const PictureOptions& how, double widest,
                      const EngineTask& task, const Image& picture);
 
-// Writes the pair that stands for a sweep, where asked for: the centre view, which is sharp
-// everywhere, and for each of its pixels the number, from 0 on, of the focus nearest to it.
+// Writes the requested files of a pair that replaces a sweep: the centre view, which is sharp
+// everywhere, and the index of the nearest focus for each of its pixels.
 Error WritePair(const OutputOptions& options, const PictureOptions& how,
                 const LightField& light_field, const std::vector<double>& foci);
 
-// The pictures of a sweep as they come: numbered files, or one that shows them. Numbered files are
-// encoded as many at a time as `runner` has workers.
+// Writes the pictures of a sweep to numbered files or to one animation. The workers of `runner`
+// encode numbered files in parallel.
 class StackWriter {
  public:
   StackWriter(const OutputOptions& options, const PictureOptions& how, ThreadRunner* runner);
 
-  // Takes the picture. Returns the name of its file, which may be written by a later call.
+  // Adds a picture. Returns the name of its file, which a later call may write.
   Result<std::string> Add(Image picture);
   Error Finish();
 
@@ -67,7 +67,7 @@ class StackWriter {
   ThreadRunner* const runner_;
   size_t pictures_ = 0;
   std::vector<Numbered> waiting_;
-  std::unique_ptr<WebpWriter> animation_;  // none: numbered files
+  std::unique_ptr<WebpWriter> animation_;  // null: numbered files
 };
 
 }  // namespace starfocus

@@ -25,7 +25,7 @@ std::string FirstInvalid(const FloatMap& map, int64_t count) {
   return "";
 }
 
-// The lens: where it is focused, and its opening.
+// Adds the options of the lens: its focus and the shape of its aperture.
 void AddOpticsOptions(Command* command, LensOptions* options) {
   AddOptions(
       {
@@ -44,10 +44,10 @@ void AddOpticsOptions(Command* command, LensOptions* options) {
   AddShapeOptions(command, &options->shape);
 }
 
-// The disparity at a pixel of the picture, whose unknown neighbours are filled. None where nothing
-// around is known.
+// Returns the disparity at a pixel of the picture after filling unknown values around it. Returns
+// nullopt if no value around it is known.
 std::optional<double> FocusAround(const FloatMap& map, int x, int y) {
-  constexpr int kAround = 16;  // pixels: more than starfocus_focus_at looks at
+  constexpr int kAround = 16;  // larger than the neighbourhood of starfocus_focus_at
   const int left = std::max(0, x - kAround), top = std::max(0, y - kAround);
   FloatMap part;
   part.width = std::min(map.width, x + kAround + 1) - left;
@@ -221,7 +221,7 @@ Error ChooseFocus(const FloatMap& map, LensPlan* plan) {
   if (!plan->foci.empty()) return {};
   double focus = 0;
   if (Error error = CheckPixel(map.width, map.height, *plan)) return error;
-  // The map is a good one (PrepareDisparity).
+  // Cannot fail, because PrepareDisparity has checked the map.
   starfocus_focus_at(map.values.data(), map.stride(), map.width, map.height, plan->x, plan->y,
                      &focus);
   plan->foci = {focus};
@@ -241,7 +241,7 @@ Error ForeseeBlur(const LightField& light_field, bool repaired, LensPlan* plan) 
     foci = {*focus};
   }
   starfocus_disparity_stats stats = MeasureDisparity(map);
-  // Where nothing is known, the care of the map reports it.
+  // If no value is known, the later processing of the map reports it.
   if (stats.invalid == int64_t{map.width} * map.height) return {};
   if (repaired) {
     stats.min -= kRepairReach;

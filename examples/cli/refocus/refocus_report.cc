@@ -10,8 +10,8 @@ double Share(uint64_t part, uint64_t whole) {
   return whole == 0 ? 0 : static_cast<double>(part) / static_cast<double>(whole);
 }
 
-// Shares are of all layers together; seconds are those of the processor, summed over the threads.
-// The timing model is one of blocks that are refocused by views after an analysis of their content.
+// Shares are relative to all layers. Seconds are CPU time, summed over the threads. The timing
+// model applies only to blocks that are refocused by views after an analysis of their content.
 Json LayersJson(const starfocus_report& report, bool predicted) {
   uint64_t pixels = 0, time = 0;
   for (const starfocus_layer_report& layer : report.layers) {
@@ -36,7 +36,7 @@ Json LayersJson(const starfocus_report& report, bool predicted) {
   return layers;
 }
 
-// Superblocks of the picture or region.
+// Returns the number of superblocks of the picture or region.
 uint64_t Superblocks(const EngineTask& task, int side) {
   const starfocus_config& config = task.config;
   const starfocus_region& region = task.params.region;

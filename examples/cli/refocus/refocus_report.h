@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The figures of refocusings, as JSON for --report.
+// Formats the measurements of refocusing as JSON for --report.
 #ifndef STARFOCUS_EXAMPLES_CLI_REFOCUS_REFOCUS_REPORT_H_
 #define STARFOCUS_EXAMPLES_CLI_REFOCUS_REFOCUS_REPORT_H_
 
@@ -11,13 +11,13 @@
 
 namespace starfocus {
 
-// The modes by name, in the order of starfocus_mode.
+// Names of the modes, in the order of starfocus_mode.
 inline constexpr const char* kModeNames[] = {"frame", "benchmark", "block", "blur"};
 
-// The task must have been run with ThreadNanoseconds for a clock.
+// Returns the report. The task must have run with ThreadNanoseconds as its clock.
 std::string ReportText(const EngineTask& task, const EngineResult& result, double seconds_total);
 
-// Of several pictures, each with its name.
+// Report on several pictures, each with its name.
 class SeriesReport {
  public:
   void Add(const std::string& output, const EngineTask& task, const EngineResult& result);

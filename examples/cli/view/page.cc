@@ -14,10 +14,10 @@ namespace starfocus {
 namespace {
 
 constexpr int kQuality = 88;
-constexpr int kBarWidth = 20, kBarsHeight = 200;  // of the histogram, in units of its own
+constexpr int kBarWidth = 20, kBarsHeight = 200;  // of the histogram, in its own units
 
-// Nothing may be loaded, whatever a name smuggles in; pictures and the style are in the page. The
-// colours have a contrast of 7 or more, by light and by dark.
+// The policy blocks all loading, even if a file name contains HTML; pictures and style are part of
+// the page. Colours have a contrast of 7 or more, on light and on dark backgrounds.
 constexpr char kHead[] =
     "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; "
     "style-src 'unsafe-inline'\">\n"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A page of HTML with everything in it: pictures are data URIs, and nothing is asked from anywhere.
+// Generates an HTML page that contains everything: pictures are data URIs, and the page loads
+// nothing.
 #ifndef STARFOCUS_EXAMPLES_CLI_VIEW_PAGE_H_
 #define STARFOCUS_EXAMPLES_CLI_VIEW_PAGE_H_
 
@@ -16,29 +17,29 @@
 namespace starfocus {
 
 struct PageFigure {
-  std::string says;     // what is to be seen, for who does not see it
-  std::string caption;  // what is to be known of it
+  std::string says;     // alternative text of the picture
+  std::string caption;  // caption
   Image picture;
 };
 
-// Texts are plain: what HTML takes for its own is escaped.
+// Builds the page. Texts are plain; HTML characters are escaped.
 class Page {
  public:
-  // `icc` is the colour profile of the pictures that follow, empty for sRGB.
+  // `icc` is the colour profile of all pictures; empty for sRGB.
   Page(const std::string& title, const Bytes& icc);
 
   void AddTable(const std::vector<std::pair<std::string, std::string>>& rows);
 
-  // Figures under a heading, the pictures of at most `width` pixels, side by side where there is
-  // room. The error is about `path`, the page's own.
+  // Adds figures under a heading, side by side if they fit. Pictures are reduced to at most `width`
+  // pixels. Errors start with `path`, the file of the page.
   Error AddFigures(const std::string& path, const std::string& heading,
                    const std::vector<PageFigure>& figures, int width);
 
-  // Bars, and the numbers as a table to unfold.
+  // Adds a histogram of bars, and its numbers in a collapsible table.
   void AddHistogram(const std::string& heading, const std::vector<int64_t>& counts,
                     const starfocus_disparity_stats& stats);
 
-  // The whole file.
+  // Returns the complete file.
   std::string Html() const;
 
  private:

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// truth_dt<D>_ut<U>.png and nothing else: other shapes of the opening are named behind it.
+// Parses truth_dt<D>_ut<U>.png. Names for other aperture shapes have a suffix and do not match.
 std::optional<LensAt> ParseTruthName(const fs::path& name) {
   const std::string stem = name.stem().string();
   LensAt lens;
@@ -29,7 +29,8 @@ std::optional<LensAt> ParseTruthName(const fs::path& name) {
   return lens.aperture > 0 && lens.aperture <= 1 ? std::optional(lens) : std::nullopt;
 }
 
-// Whether the folder's meta.txt says that pictures average codes.
+// Returns the transfer of pictures by the folder's meta.txt, which may state that codes are
+// averaged.
 starfocus_transfer TransferOf(const std::string& folder) {
   const Result<Bytes> bytes = ReadSmallFile((fs::path(folder) / "meta.txt").string());
   const std::string text(bytes->begin(), bytes->end());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pictures of a page: one light field refocused several times, and truths to hold against them.
+// Computes the pictures of a page: a light field refocused several times. Finds ground-truth
+// pictures to compare them with.
 #ifndef STARFOCUS_EXAMPLES_CLI_VIEW_STRIP_H_
 #define STARFOCUS_EXAMPLES_CLI_VIEW_STRIP_H_
 
@@ -18,25 +19,25 @@ struct LensAt {
   double focus = 0, aperture = 1;
 };
 
-// The largest blur radius of a picture by this lens.
+// Returns the largest blur radius of a picture with this lens.
 double BlurOf(const LensAt& lens, const starfocus_disparity_stats& stats);
 
-// So many foci at equal steps of disparity, from far to near, between all but the outermost
-// hundredths of the map's known values. One where all values are alike.
+// Returns `count` foci at equal steps of disparity, from far to near. They cover the known values
+// of the map without the outermost hundredths. Returns one focus if all values are equal.
 std::vector<double> StripFoci(const FloatMap& map, int count);
 
-// A picture that a real lens took of what a folder holds: truth_dt<D>_ut<U>.png, as
+// A ground-truth picture of the folder's scene through a real lens: truth_dt<D>_ut<U>.png, as
 // `starfocus-lab scene` writes it.
 struct TruthFile {
   std::string path;
   LensAt lens;
 };
 
-// In the order of their names.
+// Returns the ground-truth files of a folder, sorted by name.
 std::vector<TruthFile> FindTruths(const std::string& folder);
 
-// Refocuses the light field of a folder or photo by each of the lenses, whose blur is at most
-// STARFOCUS_MAX_BLUR, and shows the result with its blocks.
+// Refocuses the light field of a folder or photo for each of the lenses and calls `show` with the
+// result and its blocks. The blur must not exceed STARFOCUS_MAX_BLUR.
 Error RefocusEach(
     const std::string& where, const LightField& light_field, const starfocus_disparity_stats& stats,
     int threads, const std::vector<LensAt>& lenses,
