@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A whole file of a depth photo, and the light field made of it.
+// Reads a whole file of a depth photo and makes its light field. Used by the fuzz targets of
+// photos.
 #ifndef STARFOCUS_TESTS_FUZZ_CHECK_PHOTO_H_
 #define STARFOCUS_TESTS_FUZZ_CHECK_PHOTO_H_
 
@@ -17,7 +18,8 @@
 
 namespace starfocus::fuzz {
 
-// What is written of the XMP is well-formed; it may be nested deeper than what was read.
+// Checks that the XMP which is written is well-formed. It may be nested deeper than the XMP that
+// was read.
 inline void CheckCaptions(const Metadata& metadata) {
   const std::string packet = XmpPacket(metadata.xmp);
   if (packet.empty() || !CanReadXmp()) return;
@@ -44,7 +46,7 @@ inline void CheckPhoto(const uint8_t* data, size_t size) {
     return;
   }
   if (photo.map.values.size() != size_t(photo.map.width) * size_t(photo.map.height)) std::abort();
-  // Small ones: the engine's own fuzz target is for what follows.
+  // Only small photos are processed further, since the engine has its own fuzz target.
   if (photo.picture.pixels.size() > 1 << 20) return;
   Result<LightField> made = MakePhotoField("photo", &photo);
   if (!made) return;

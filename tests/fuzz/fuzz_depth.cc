@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Estimating and repairing maps with any configuration, sizes, strides and contents. Every buffer
-// has exactly the bytes the interface asks for, on the heap, so that AddressSanitizer sees what is
-// read or written beside it.
+// Fuzz target: estimates and repairs maps with any configuration, size, stride and content. Every
+// buffer is on the heap and has exactly the required size, so that AddressSanitizer reports all
+// accesses outside it.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -18,7 +18,7 @@ using starfocus::fuzz::Input;
 
 constexpr int kViews[] = {1, 5, 9, 17};
 
-// Mostly valid; now and then any bytes at all in one field.
+// Makes a configuration. Most are valid; a few have arbitrary bytes in one field.
 starfocus_depth_config MakeConfig(Input* input) {
   starfocus_depth_config config;
   starfocus_depth_config_init(&config);
@@ -35,9 +35,9 @@ starfocus_depth_config MakeConfig(Input* input) {
     uint8_t* bytes = reinterpret_cast<uint8_t*>(&config);
     input->Bytes(bytes + input->Int(0, static_cast<int>(sizeof(config) / 4) - 1) * 4, 4);
   }
-  static int32_t left;  // calls of progress before the one that cancels
+  static int32_t left;  // number of calls of progress before the one that cancels
   left = input->Int(0, 20);
-  config.problem = nullptr;  // these pointers are the only bytes that must be right
+  config.problem = nullptr;  // the target keeps these pointers valid
   config.runner = nullptr;
   config.progress = nullptr;
   config.progress_data = &left;
@@ -49,7 +49,7 @@ starfocus_depth_config MakeConfig(Input* input) {
   return config;
 }
 
-// Rows of any stride with nothing behind the last one.
+// Rows of any stride, without memory after the last row.
 template <class T>
 struct Rows {
   Rows(size_t width, int32_t height, Input* input)
@@ -84,7 +84,7 @@ void FillMap(const starfocus_depth_config& config, Input* input, Rows<float>* ma
   }
 }
 
-// A picture of strands above a body, and a map that has closed their outline.
+// Makes a picture of strands above a body, and a map in which their outline is closed.
 void FillHair(const starfocus_depth_config& config, Input* input, Rows<uint8_t>* picture,
               Rows<float>* map) {
   const test::Strands strands = test::DrawStrands(input);
@@ -105,7 +105,7 @@ void FillHair(const starfocus_depth_config& config, Input* input, Rows<uint8_t>*
   }
 }
 
-// Every value that is written lies in the range, but for what a repair keeps.
+// Checks that all values are in the range, except for those that a repair keeps.
 void CheckMap(const starfocus_depth_config& config, const Rows<float>& map) {
   for (int32_t y = 0; y < config.height; ++y) {
     for (int32_t x = 0; x < config.width; ++x) {
@@ -161,7 +161,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (status == STARFOCUS_OK && out.has_coverage != 0 && (out.has_coverage != 1 || !may_cover)) {
     std::abort();
   }
-  // Only a map may still be wrong.
+  // Only the map may be invalid.
   const bool cancelled = config.progress != nullptr && status == STARFOCUS_ERROR_CANCELLED;
   if (status != STARFOCUS_OK && !cancelled &&
       !(repairs &&

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What may be asked for in several ways, each of which must give the same bytes: the input draws
-// the configuration, the lens and the ways; pictures follow from a number of it.
+// Fuzz target: calls that must return the same bytes. The input selects the configuration, the lens
+// and the calls. The pictures are derived from a number of the input.
 #include <cstdio>
 #include <cstdlib>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The C ABI with any configuration, parameters, sizes, strides and contents, whole and streamed.
-// Every buffer has exactly the bytes the interface asks for, on the heap, so that
-// AddressSanitizer sees what is read or written beside it.
+// Fuzz target: the C ABI with any configuration, parameters, sizes, strides and contents, for whole
+// pictures and streams. Every buffer is on the heap and has exactly the required size, so that
+// AddressSanitizer reports all accesses outside it.
 #include <algorithm>
 #include <cstdlib>
 #include <memory>
@@ -21,10 +21,10 @@ using test::Strands;
 
 constexpr int kViews[] = {1, 5, 9, 17};
 constexpr int kBlocks[] = {32, 64, 128, 256};
-// Rendered views times pixels that one input may ask for, so that inputs stay fast.
+// Largest number of rendered views times pixels of one input, so that inputs stay fast.
 constexpr double kMostWork = 300000;
 
-// Shapes from what another field drew: recorded inputs keep their meaning.
+// Derives the shape from the value of another field, so that recorded inputs keep their meaning.
 void SetShape(int drawn, starfocus_lens* lens) {
   lens->shape = drawn % 4;
   lens->blades = 3 + drawn % 10;
@@ -34,7 +34,7 @@ void SetShape(int drawn, starfocus_lens* lens) {
   lens->cats_eye = drawn % 3 == 0 ? drawn % 9 / 8.0 : 0;
 }
 
-// The same for 2 to 17 views off the star.
+// Derives 2 to 17 views at positions off the star from the value of another field.
 void SetPositions(int drawn, starfocus_config* config) {
   config->views = 2 + drawn % 16;
   for (int k = 1; k < config->views; ++k) {
@@ -42,14 +42,14 @@ void SetPositions(int drawn, starfocus_config* config) {
   }
 }
 
-// Disparities of strands and of what is behind them.
+// Sets the range of disparities of strands and the background.
 void SetDepths(Input* input, starfocus_config* config) {
   config->disparity_min = static_cast<float>(input->Real(-12, 3));
   config->disparity_max = config->disparity_min + static_cast<float>(input->Real(5, 12));
 }
 
-// Mostly valid; now and then any bytes at all in one field. With room for strands, or any size.
-// Sets the shape of the lens, too.
+// Makes a configuration with room for strands or of any size, and the shape of the lens. Most
+// configurations are valid; a few have arbitrary bytes in one field.
 starfocus_config MakeConfig(bool strands, Input* input, starfocus_lens* lens) {
   starfocus_config config;
   starfocus_config_init(&config);
@@ -71,7 +71,7 @@ starfocus_config MakeConfig(bool strands, Input* input, starfocus_lens* lens) {
   config.tuning.deblocking = input->Int(0, 255);
   config.tuning.timing.block = 1u << input->Int(0, 26);
   config.tuning.timing.c = static_cast<uint32_t>(input->Int(0, 100000));
-  // From what another field drew: recorded inputs keep their meaning.
+  // These derive from the value of another field, so that recorded inputs keep their meaning.
   config.tuning.gather = config.tuning.deblocking % 3 != 0;
   config.previews = config.tuning.deblocking / 4 % 4;
   config.tuning.n_scale = 0.5 + 0.25 * (config.tuning.deblocking % 7);
@@ -88,12 +88,12 @@ starfocus_config MakeConfig(bool strands, Input* input, starfocus_lens* lens) {
   if (input->Rarely()) {
     uint8_t* bytes = reinterpret_cast<uint8_t*>(&config);
     input->Bytes(bytes + input->Int(0, static_cast<int>(sizeof(config) / 4) - 1) * 4, 4);
-    config.problem = nullptr;  // a pointer is the caller's promise
+    config.problem = nullptr;  // pointers of the caller are always valid
   }
   return config;
 }
 
-// `params` have the shape of the lens.
+// Sets parameters. `params` have the shape of the lens already.
 void SetParams(const starfocus_config& config, Input* input, starfocus_params* given) {
   starfocus_params& params = *given;
   params.mode = input->Rarely() ? input->Value<int32_t>() : input->Int(0, 3);
@@ -101,7 +101,7 @@ void SetParams(const starfocus_config& config, Input* input, starfocus_params* g
   params.lens.focus = input->Real(config.disparity_min, config.disparity_max);
   if (input->Rarely()) params.lens.focus = input->Value<double>();
   params.lens.aperture = input->Real(0, 1);
-  // An aperture that the configuration allows, most of the time.
+  // In most cases, reduces the aperture to the largest one that the configuration allows.
   const double radius = params.lens.aperture * std::max(params.lens.focus - config.disparity_min,
                                                         config.disparity_max - params.lens.focus);
   if (radius > config.max_blur && !input->Rarely()) {
@@ -114,15 +114,15 @@ void SetParams(const starfocus_config& config, Input* input, starfocus_params* g
   if (input->Rarely()) {
     uint8_t* bytes = reinterpret_cast<uint8_t*>(&params);
     input->Bytes(bytes + input->Int(0, static_cast<int>(sizeof(params) / 4) - 1) * 4, 4);
-    params.previous = nullptr;  // a pointer is the caller's promise
+    params.previous = nullptr;  // pointers of the caller are always valid
   }
 }
 
-// Sets a progress function that cancels, or none.
+// Sets a progress function that cancels, or no function.
 void SetProgress(starfocus_engine* engine, Input* input) {
   starfocus_callbacks callbacks = {};
   if (input->Rarely()) {
-    static int32_t left;  // calls of progress before the one that cancels
+    static int32_t left;  // number of calls of progress before the one that cancels
     left = input->Int(0, 100);
     callbacks.progress = [](void* data, int32_t, int32_t) -> int {
       return (*static_cast<int32_t*>(data))-- == 0;
@@ -139,7 +139,7 @@ struct Pictures {
   starfocus_light_field field = {};
 };
 
-// Bytes of a picture with nothing behind the last pixel.
+// Returns the size in bytes of a picture without memory after the last pixel.
 size_t Needed(size_t stride, int rows, size_t row) {
   return stride * static_cast<size_t>(rows - 1) + row;
 }
@@ -150,7 +150,7 @@ struct Levels {
   std::unique_ptr<uint8_t[]> samples;
 };
 
-// Runs of any levels, or those that the strands have.
+// Makes runs of any levels, or the levels of the strands.
 Levels MakeLevels(const starfocus_config& config, const Strands& strands,
                   int (Strands::*level_at)(int x, int y) const, Input* input) {
   const auto width = static_cast<size_t>(config.width);
@@ -195,7 +195,7 @@ void MakeCoverage(const starfocus_config& config, const Strands& strands, Input*
   pictures->field.coverage_stride = levels.stride;
 }
 
-// Bytes of any kind, or strands of one colour before another one.
+// Makes a view with any bytes, or with strands of one colour in front of another colour.
 void MakeView(const Strands& strands, size_t stride, size_t bytes, Input* input, uint8_t* picture) {
   uint8_t step[16];
   input->Bytes(step, sizeof(step));
@@ -240,7 +240,7 @@ int RowCount(int left, Input* input) {
   return std::min(input->Int(0, 40) + (input->empty() ? 9 : 0), left);
 }
 
-// Pushes rows and pulls finished ones into `out`, in any order; begins anew now and then.
+// Pushes rows and pulls finished ones into `out`, in any order. Restarts the stream in some cases.
 void Stream(starfocus_engine* engine, const starfocus_config& config,
             const starfocus_params& params, const Pictures& pictures, uint8_t* out, size_t stride,
             Input* input) {
@@ -258,14 +258,14 @@ void Stream(starfocus_engine* engine, const starfocus_config& config,
     const int count = RowCount(config.height - pulled, input);
     const starfocus_status status = test::PullRgb(engine, rest, stride, count, &moved, nullptr);
     if (status != STARFOCUS_OK && status != STARFOCUS_ERROR_CANCELLED) return;
-    pulled += moved;  // a stream that was cancelled goes on
+    pulled += moved;  // a cancelled stream continues
     if (!input->Rarely()) continue;
     if (starfocus_stream_begin(engine, &params) != STARFOCUS_OK) return;
     pushed = pulled = 0;
   }
 }
 
-// Refocuses whole pictures in one of the ways, the last frame being another or the same.
+// Refocuses whole pictures by one of several calls. The previous frame may be equal or different.
 void Refocus(starfocus_engine* engine, const starfocus_config& config,
              const starfocus_params& params, const Pictures& pictures, uint8_t* out, size_t stride,
              Input* input) {
@@ -292,7 +292,7 @@ void Refocus(starfocus_engine* engine, const starfocus_config& config,
   const starfocus_status status =
       starfocus_prepare(engine, &pictures.field, memory, bytes, &prepared);
   if (status != STARFOCUS_OK) return;
-  // A preview is no larger than the picture, and leaves the engine as it was.
+  // A preview is not larger than the picture and does not change the engine.
   test::PreviewRgb(engine, &params, prepared, config.previews, out, stride, &report);
   test::RefocusPreparedRgb(engine, &params, prepared, out, stride, &report);
 }
@@ -327,7 +327,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     const bool by_default = params.mode == STARFOCUS_MODE_BLOCK || (frame && config.views == 1);
     const bool subapertures = by_default ? params.renderer != STARFOCUS_RENDERER_LINE_SCAN
                                          : frame && params.renderer == STARFOCUS_RENDERER_SLICES;
-    // At most 13 views along the radius stand for subapertures, however wide the blur is.
+    // Views that stand for subapertures are at most 13 along the radius, however wide the blur is.
     const double n = scale * (subapertures ? std::min(config.max_blur, 13.0) : config.max_blur);
     if (3.2 * n * n * config.width * config.height > kMostWork) continue;
     if (test::Has(config.features, STARFOCUS_FEATURE_STREAMING) && input.Int(0, 1) == 1) {

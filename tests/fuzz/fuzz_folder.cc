@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reader of light-field folders: which files are there, and what they hold.
+// Fuzz target: the reader of light-field folders. The input selects the files and their contents.
 #include <unistd.h>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ void Write(const std::string& path, std::string bytes, Input* input) {
   Write(path, bytes.data(), bytes.size());
 }
 
-// A valid picture of one colour, unless the input brings its own bytes.
+// Writes a valid picture of one colour, or bytes of the input.
 void WriteView(const std::string& path, int side, Input* input) {
   if (input->Rarely()) {
     const size_t wanted = input->Value<uint8_t>(), size = std::min(wanted, input->size());
@@ -48,8 +48,8 @@ void WriteMap(const std::string& path, int side, Input* input) {
   Write(path, header + std::string(static_cast<size_t>(8 * side), '\0'), input);
 }
 
-// Of a view of the star, of one anywhere, which may be too far out or another's, or what only
-// begins as a view's.
+// Returns a file name: that of a view of the star, that of a view at any position, or one that only
+// starts like the name of a view. The position may be out of range or occur twice.
 std::string NameOf(int view, Input* input) {
   if (!input->Rarely()) {
     return starfocus::ViewName(

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Images and depth maps of any format, size, stride and contents. Every plane has exactly the bytes
-// that the interface asks for, on the heap, so that AddressSanitizer sees what is read or written
-// beside it.
+// Fuzz target: images and depth maps of any format, size, stride and content. Every plane is on the
+// heap and has exactly the required size, so that AddressSanitizer reports all accesses outside it.
 #include <algorithm>
 #include <cstdlib>
 #include <memory>
@@ -61,7 +60,7 @@ starfocus_image MakeImage(const Size& size, Input* input, Planes* planes) {
   return image;
 }
 
-// Values of any bytes: most maps have unknown ones, and ones outside of the range.
+// Makes a map of arbitrary bytes. Most maps have unknown values and values outside the range.
 starfocus_depth_map MakeDepth(const Size& size, Input* input, Planes* planes) {
   constexpr size_t kBytes[] = {4, 2, 1, 2};
   starfocus_depth_map map = {};
@@ -95,7 +94,7 @@ starfocus_status StreamAll(starfocus_engine* engine, const starfocus_params& par
   return starfocus_stream_pull(engine, &out, size.height, &written, nullptr);
 }
 
-// What well-formed images may still be refused for.
+// Returns true for a status that well-formed images may have.
 bool MayBe(starfocus_status status) {
   return status == STARFOCUS_OK || status == STARFOCUS_ERROR_DISPARITY ||
          status == STARFOCUS_ERROR_NOT_FINITE || status == STARFOCUS_ERROR_RANGE ||

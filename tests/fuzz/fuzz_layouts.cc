@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Folders of views: names of pictures by lines of the input, and the texts beside them.
+// Fuzz target: folders of views. Lines of the input are names of pictures and the text files next
+// to them.
 #include <unistd.h>
 
 #include <cstdlib>
@@ -38,7 +39,7 @@ void CheckArray(const std::string& text) {
   }
 }
 
-// Segments and indices of JPEG files, without decoding any picture.
+// Reads segments and indices of a JPEG file without decoding a picture.
 void CheckParts(const uint8_t* data, size_t size) {
   const auto read = starfocus::ReadJpegParts("photo", {data, size});
   if (!read) return;

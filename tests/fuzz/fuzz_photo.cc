@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The readers of depth photos but for HEIF, which has a target of its own: it takes ten times as
-// long.
+// Fuzz target: readers of depth photos except HEIF, which is ten times as slow and has its own
+// target.
 #include "platform/readers/heic.h"
 #include "tests/fuzz/check_photo.h"
 #include "tests/fuzz/input.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the XMP of a photo can say: the input is the packet, the pictures around it are good ones,
-// so that nearly every input gets as far as the map.
+// Fuzz target: the XMP of a photo. The input is the packet. The pictures around it are valid, so
+// that nearly all inputs reach the map.
 #include <cstdlib>
 #include <string>
 
@@ -31,9 +31,9 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   static const Pictures pictures;
   if (size < 1 || size > 60000) return 0;
   const std::string packet(reinterpret_cast<const char*>(data) + 1, size - 1);
-  if (data[0] % 4 == 0) {  // Apple's lies in the second picture
+  if (data[0] % 4 == 0) {  // Apple's packet is in the second picture
     Decode(MultiPicture(pictures.jpeg, Insert(pictures.jpeg, XmpSegment(packet))));
-  } else if (data[0] % 4 == 1) {  // extended: of the main packet all but its map
+  } else if (data[0] % 4 == 1) {  // extended XMP: the main packet has everything except the map
     Decode(Gdepth(pictures.jpeg,
                   "GDepth:Format=\"RangeInverse\" GDepth:Near=\"1\" GDepth:Far=\"2\"",
                   "/>" + packet, 1 + size / 3));

@@ -11,7 +11,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size);
 
 namespace starfocus::fuzz {
 
-// Zeros follow the last byte.
+// The bytes of an input, followed by zeros.
 class Input {
  public:
   Input(const uint8_t* data, size_t size) : data_(data), size_(size) {}
@@ -37,11 +37,11 @@ class Input {
     Bytes(&value, sizeof(value));
     return value;
   }
-  // Integer in [low, high].
+  // Returns an integer in [low, high].
   int Int(int low, int high) {
     return low + static_cast<int>(Value<uint32_t>() % static_cast<uint32_t>(high - low + 1));
   }
-  // Real in [low, high].
+  // Returns a real number in [low, high].
   double Real(double low, double high) {
     return low + (high - low) * (Value<uint16_t>() / 65535.0);
   }

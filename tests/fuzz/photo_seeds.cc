@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes the seeds of the fuzz targets for photos, made as the formats' specifications say:
-// photo_seeds tests/fuzz/corpus
+// usage: photo_seeds tests/fuzz/corpus
+// Writes the seeds of the fuzz targets for photos, as the specifications of the formats define
+// them.
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -35,8 +36,8 @@ void WritePhotos(const std::string& folder) {
         Gdepth(jpeg, kRange, "GDepth:Data=\"" + Base64(Png16(2, 2, {0, 9, 99, 65535})) + "\""));
   Write(folder + "/dynamic.jpg", DynamicDepth(jpeg, png, kMap));
   Write(folder + "/apple.jpg", MultiPicture(jpeg, AppleMap(jpeg, kDisparities)));
-  // Odd ones: no index, a wrong one, a pair, diopters with wrong lengths, two packets, and a
-  // profile in parts out of order.
+  // Unusual photos: without an index, with a wrong index, a pair, diopters with wrong lengths, two
+  // packets, and a profile with unordered parts.
   Write(folder + "/no_index.jpg", jpeg + AppleMap(jpeg, kDisparities));
   Write(folder + "/wrong_index.jpg",
         MultiPicture(jpeg, AppleMap(jpeg, kDisparities), {true, 2, 9}));
