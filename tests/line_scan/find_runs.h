@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The runs of lines, as the engine finds them, into memory of exactly the size they need.
+// Finds the runs of lines by the engine, in memory of exactly the required size.
 #ifndef STARFOCUS_TESTS_LINE_SCAN_FIND_RUNS_H_
 #define STARFOCUS_TESTS_LINE_SCAN_FIND_RUNS_H_
 
@@ -15,7 +15,7 @@ namespace test {
 
 using Depths = std::vector<int16_t>;
 
-// Of lines of one length, side by side; `step` >= their number.
+// Returns the runs of adjacent lines of equal length. `step` is at least the number of lines.
 inline std::vector<std::vector<starfocus::Run>> FindRuns(const starfocus::simd::Kernels& kernels,
                                                          const std::vector<Depths>& lines,
                                                          const starfocus::ViewGrid& grid,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A sink that writes down what a line scan finds, and lines to scan.
+// A sink that records the results of a line scan, and lines to scan.
 #ifndef STARFOCUS_TESTS_LINE_SCAN_LINE_SCAN_RECORDER_H_
 #define STARFOCUS_TESTS_LINE_SCAN_LINE_SCAN_RECORDER_H_
 
@@ -20,13 +20,13 @@ using starfocus::ViewGrid;
 
 enum class Kind { kSurface, kMix, kHole };
 
-// What a rendered pixel shows.
+// Content of a rendered pixel.
 struct Shown {
   int times = 0;
   Kind kind = Kind::kSurface;
-  int source = -1;  // in a hole the visible pixel whose surface goes on
-  int other = -1;   // a neighbour, another surface, or the one whose end covers a part of a hole
-  int weight = 0;   // of the other
+  int source = -1;  // in a hole, the visible pixel whose surface continues
+  int other = -1;  // a neighbour, another surface, or the surface whose end covers a part of a hole
+  int weight = 0;  // weight of `other`
 };
 
 inline bool operator==(const Shown& a, const Shown& b) {
@@ -36,11 +36,11 @@ inline bool operator==(const Shown& a, const Shown& b) {
 
 using Picture = std::vector<Shown>;
 
-// A sink that writes down what it is given.
+// A sink that records all calls.
 struct Recorder {
   Direction direction;
   Picture pixels;
-  std::vector<int> begins;  // of every call
+  std::vector<int> begins;  // argument `begin` of every call
 
   void Surface(int begin, int end, int source, int neighbour, int weight) {
     REQUIRE(begin < end);
@@ -61,7 +61,8 @@ struct Recorder {
     begins.push_back(begin);
     for (int p = begin; p < end; ++p) Show(p, Kind::kHole, pixel, -1, 0);
     if (rim.pixel < 0) return;
-    // The scan goes on from right to left at the hole's left end; a sink may tell it by this.
+    // From right to left, the scan continues at the left end of a hole. A sink may derive the
+    // direction from this.
     CHECK((rim.pixel < pixel) == (direction == Direction::kRightToLeft));
     Shown& shown = pixels[size_t(direction == Direction::kRightToLeft ? begin : end - 1)];
     shown.other = rim.pixel;
@@ -84,7 +85,7 @@ inline ViewGrid MakeGrid(int n, double focus, double aperture) {
 inline Recorder Record(const Depths& line, const ViewGrid& grid, int view, Direction direction,
                        int begin, int end) {
   const std::vector<starfocus::Run> runs = test::FindRuns(line, grid, direction);
-  // Disparities with a step between them, as a column of a picture has them.
+  // Spaces the disparities by a step, as in a column of a picture.
   const int step = 1 + int(line.size()) % 3, length = int(line.size());
   Depths spaced(line.size() * size_t(step));
   for (size_t q = 0; q < line.size(); ++q) spaced[q * size_t(step)] = line[q];
@@ -100,14 +101,15 @@ inline Recorder Record(const Depths& line, const ViewGrid& grid, int view, Direc
   return recorder;
 }
 
-// The rightmost view of a lens of radius 1 focused at 0: pixels move left by their disparity.
+// Scans for the rightmost view of a lens of radius 1 focused at 0: pixels move left by their
+// disparity.
 inline Picture Scan(const Depths& line, int begin, int end) {
   const ViewGrid grid = MakeGrid(1, 0, 1);
   return Record(line, grid, 1, Direction::kRightToLeft, begin, end).pixels;
 }
 inline Picture Scan(const Depths& line) { return Scan(line, 0, int(line.size())); }
 
-// The same line and its view seen in a mirror.
+// Return the mirrored line and its mirrored view.
 inline Depths Mirrored(const Depths& line) { return {line.rbegin(), line.rend()}; }
 inline Picture Mirrored(const Picture& picture) {
   Picture mirrored(picture.rbegin(), picture.rend());

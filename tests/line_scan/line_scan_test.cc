@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The line scan on hand-made lines, and what holds for every line on random ones.
+// Tests the line scan on hand-made lines, and its properties on random lines.
 #include "lib/line_scan/line_scan.h"
 
 #include <doctest/doctest.h>
@@ -20,11 +20,11 @@ namespace {
 using namespace starfocus;
 using namespace test;
 
-TEST_CASE("line scan: a surface in focus stays") {
+TEST_CASE("line scan: a surface in focus does not move") {
   CheckSurface(Scan(MakeLine({{9, 0}})), 0, 9, 0);
 }
 
-TEST_CASE("line scan: a flat surface moves; its end goes on beyond the line") {
+TEST_CASE("line scan: a flat surface moves, and its end continues beyond the line") {
   const Picture nearer = Scan(MakeLine({{9, 2}}));
   CheckSurface(nearer, 0, 7, 2);
   CheckHole(nearer, 7, 9, 8);
@@ -33,23 +33,23 @@ TEST_CASE("line scan: a flat surface moves; its end goes on beyond the line") {
   CheckHole(farther, 0, 2, 0);
 }
 
-TEST_CASE("line scan: one pixel") {
+TEST_CASE("line scan: a line may have only one pixel") {
   CheckSurface(Scan(MakeLine({{1, 0}})), 0, 1, 0);
   CheckHole(Scan(MakeLine({{1, 3}})), 0, 1, 0);
   CheckHole(Scan(MakeLine({{1, -3}})), 0, 1, 0);
 }
 
-TEST_CASE("line scan: a near object hides what lies left of it and uncovers what lies right") {
+TEST_CASE("line scan: a near object hides pixels on its left and uncovers pixels on its right") {
   const Picture picture = Scan(MakeLine({{10, 0}, {5, 4}, {9, 0}}));
   CheckSurface(picture, 0, 6, 0);
   CheckSurface(picture, 6, 11, 4);
-  // The side view shows there what goes on behind pixel 15, the first one visible to the right.
+  // The side view shows the surface behind pixel 15 there, the first visible pixel to the right.
   CheckHole(picture, 11, 15, 15);
   CheckSurface(picture, 15, 24, 0);
 }
 
-TEST_CASE("line scan: a hole borders on what is visible, not on what the near object hides") {
-  // The middle surface lies wholly behind the near one.
+TEST_CASE("line scan: a hole borders on visible pixels, not on those that the near object hides") {
+  // The middle surface is completely behind the near one.
   const Picture picture = Scan(MakeLine({{10, 5}, {2, -6}, {9, 9}, {9, 0}}));
   CheckSurface(picture, 0, 3, 5);
   CheckSurface(picture, 3, 12, 9);
@@ -59,21 +59,21 @@ TEST_CASE("line scan: a hole borders on what is visible, not on what the near ob
 
 TEST_CASE("line scan: small steps stretch a surface or cover a part of it") {
   const Picture stretched = Scan(MakeLine({{10, 2}, {10, 1}}));
-  CheckSurface(stretched, 0, 9, 2);  // pixel 8 repeats the pixel beside the step
+  CheckSurface(stretched, 0, 9, 2);  // pixel 8 repeats the pixel next to the step
   CheckSurface(stretched, 9, 19, 1);
   const Picture covered = Scan(MakeLine({{10, 1}, {10, 2}}));
   CheckSurface(covered, 0, 8, 1);
   CheckSurface(covered, 8, 18, 2);
 }
 
-TEST_CASE("line scan: the limit between a stretched surface and a hole") {
+TEST_CASE("line scan: a gap of more than the limit is a hole, a smaller one a stretched surface") {
   const double step = kSurfaceStep / 64.0;
   CheckSurface(Scan(MakeLine({{10, 2}, {10, 2 - step}})), 0, 8, 2);
   CHECK(Scan(MakeLine({{10, 2}, {10, 2 - step}}))[8].kind == Kind::kSurface);
   CheckHole(Scan(MakeLine({{10, 2}, {10, 2 - step - 1.0 / 64}})), 8, 9, 10);
 }
 
-TEST_CASE("line scan: only the wanted part comes out") {
+TEST_CASE("line scan: only the requested part is reported") {
   const Depths line = MakeLine({{10, 0}, {5, 4}, {9, 0}});
   const Picture whole = Scan(line);
   for (int begin = 0; begin < 24; ++begin) {
@@ -87,16 +87,17 @@ TEST_CASE("line scan: only the wanted part comes out") {
   }
 }
 
-// The surface right of a gap may lie beyond the wanted part, with other ones right of it.
-TEST_CASE("line scan: a hole at the end of the wanted part") {
+// The surface to the right of a gap may lie beyond the requested part, with other surfaces to its
+// right.
+TEST_CASE("line scan: a hole may end the requested part") {
   const Picture picture = Scan(MakeLine({{10, 0}, {5, 4}, {7, 0}, {6, 6}}), 0, 13);
   CheckSurface(picture, 6, 11, 4);
   CheckHole(picture, 11, 13, 15);
 }
 
-// A gap of one pixel between two surfaces, where a third one is hidden: the stretch copies from
-// the third one, but nothing is blended across the edges.
-TEST_CASE("line scan: no neighbour across an edge inside a stretch") {
+// A gap of one pixel between two surfaces hides a third one. The stretched pixel is a copy of the
+// third surface, but is not blended with its neighbours across the edges.
+TEST_CASE("line scan: a stretched pixel is not blended across an edge") {
   const Picture picture = Scan(MakeLine({{10, 3.375}, {2, 0}, {12, 4}}));
   CheckSurface(picture, 0, 8, 3);
   CheckSurface(picture, 8, 20, 4);
@@ -107,7 +108,7 @@ TEST_CASE("line scan: no neighbour across an edge inside a stretch") {
   CHECK(picture[7].other == 11);
 }
 
-TEST_CASE("line scan: weights of the subaperture") {
+TEST_CASE("line scan: weights follow the width of the subaperture") {
   for (int width = 0; width <= 256; ++width) {
     for (int offset = -128; offset <= 128; ++offset) {
       const double t = std::abs(offset) / 256.0, L = width / 256.0;
@@ -123,7 +124,7 @@ TEST_CASE("line scan: weights of the subaperture") {
   }
 }
 
-TEST_CASE("line scan: the neighbour lies on the side the surface comes from") {
+TEST_CASE("line scan: the neighbour lies on the side that the surface comes from") {
   const ViewGrid grid = MakeGrid(4, 0, 1);
   for (const int view : {1, 2, 3, 4}) {
     for (const double disparity : {0.9, 1.3, 2.1, -0.7, -1.9}) {
@@ -176,12 +177,13 @@ bool IsSound(const Shown& shown, const RandomView& r) {
   REQUIRE(shown.source < length);
   if (shown.other < 0) return shown.kind != Kind::kMix && shown.weight == 0;
   REQUIRE(shown.other < length);
-  // By how much the other surface is nearer.
+  // Depth by which the other surface is nearer.
   const int step = r.line[size_t(shown.other)] - r.line[size_t(shown.source)];
   switch (shown.kind) {
     case Kind::kSurface:
       return std::abs(step) <= kSurfaceStep && shown.weight > 0 && shown.weight <= 128;
-    case Kind::kMix:  // between runs, whose pixels differ from their middles by half the spread
+    // between runs; their pixels differ from their middles by up to half the spread
+    case Kind::kMix:
       return std::abs(step) > kSurfaceStep - r.grid.spread && shown.weight > 0 &&
              shown.weight <= 128;
     case Kind::kHole:
@@ -190,7 +192,7 @@ bool IsSound(const Shown& shown, const RandomView& r) {
   return false;
 }
 
-TEST_CASE("line scan: every wanted pixel exactly once, in scan order, from inside the line") {
+TEST_CASE("line scan: every requested pixel is reported once and in scan order") {
   test::Random random(8);
   for (int round = 0; round < 4000; ++round) {
     const RandomView r(&random);
@@ -212,7 +214,7 @@ TEST_CASE("line scan: every wanted pixel exactly once, in scan order, from insid
   }
 }
 
-TEST_CASE("line scan: a part comes out as it does with the whole line") {
+TEST_CASE("line scan: a part is equal to the same part of the whole line") {
   test::Random random(9);
   for (int round = 0; round < 4000; ++round) {
     const RandomView r(&random);
@@ -238,7 +240,7 @@ TEST_CASE("line scan: the mirrored line gives the mirrored view") {
   }
 }
 
-// The lens that the reference knows by other numbers.
+// Returns the reference's lens for a grid.
 reference::Lens LensOf(const ViewGrid& grid, double aperture) {
   reference::Lens lens;
   lens.n = grid.n();
@@ -248,7 +250,7 @@ reference::Lens LensOf(const ViewGrid& grid, double aperture) {
   return lens;
 }
 
-TEST_CASE("line scan: every pixel as the reference has it") {
+TEST_CASE("line scan: every pixel is equal to that of the reference") {
   test::Random random(11);
   int mixed = 0, rims = 0;
   for (int round = 0; round < 6000; ++round) {
@@ -264,7 +266,8 @@ TEST_CASE("line scan: every pixel as the reference has it") {
       const reference::Owner& owner = expected[p];
       bad += (shown.kind == Kind::kHole) != owner.hole || shown.source != owner.source;
       if (shown.other >= 0) bad += shown.other != owner.other;
-      // Offsets are exact; a subaperture's width is rounded, the more it matters the narrower.
+      // Offsets are exact. The width of a subaperture is rounded, which matters most if it is
+      // narrow.
       const bool blended = shown.kind == Kind::kSurface;
       bad += std::fabs(shown.weight - 256 * owner.share) > (blended ? 4 : 0);
       mixed += shown.kind == Kind::kMix;

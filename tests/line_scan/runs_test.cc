@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs of one disparity along hand-made and random lines.
+// Tests the runs of constant disparity in hand-made and random lines.
 #include "lib/line_scan/runs.h"
 
 #include <doctest/doctest.h>
@@ -29,7 +29,7 @@ bool operator==(const Found& a, const Found& b) {
 
 using Runs = std::vector<Found>;
 
-// A lens with n views, in focus at `focus`.
+// Makes a lens with n views and the given focus.
 ViewGrid MakeGrid(int n, double focus, int spread, double aperture = 1) {
   starfocus::ViewWeights views;
   views.n = views.last = n;
@@ -46,7 +46,7 @@ Runs Find(const Depths& line, Direction direction, int spread) {
   return found;
 }
 
-TEST_CASE("runs: one pixel, one surface, two surfaces") {
+TEST_CASE("runs: a line may have one pixel, one surface or two surfaces") {
   CHECK(Find({7}, Direction::kRightToLeft, 16) == Runs{{0, 1, 7}});
   CHECK(Find({7}, Direction::kLeftToRight, 16) == Runs{{0, 1, 7}});
   CHECK(Find({5, 5, 5, 5}, Direction::kRightToLeft, 0) == Runs{{0, 4, 5}});
@@ -54,20 +54,20 @@ TEST_CASE("runs: one pixel, one surface, two surfaces") {
   CHECK(Find({1, 1, 1, 200, 200}, Direction::kLeftToRight, 16) == Runs{{2, 5, 1}, {0, 2, 200}});
 }
 
-TEST_CASE("runs: the spread may be reached, not exceeded; the middle is rounded down") {
+TEST_CASE("runs: a run may reach the spread but not exceed it, and its middle is rounded down") {
   CHECK(Find({16, 0}, Direction::kRightToLeft, 16) == Runs{{0, 2, 8}});
   CHECK(Find({17, 0}, Direction::kRightToLeft, 16) == Runs{{1, 2, 0}, {0, 2, 17}});
   CHECK(Find({0, 3}, Direction::kRightToLeft, 16) == Runs{{0, 2, 1}});
   CHECK(Find({0, -3}, Direction::kRightToLeft, 16) == Runs{{0, 2, -2}});
 }
 
-TEST_CASE("runs: greedy from the end where the scan starts") {
+TEST_CASE("runs: each run is as long as possible, from the end where the scan starts") {
   const Depths ramp = {0, 2, 4, 6, 8, 10, 12};
   CHECK(Find(ramp, Direction::kRightToLeft, 4) == Runs{{4, 7, 10}, {1, 7, 4}, {0, 7, 0}});
   CHECK(Find(ramp, Direction::kLeftToRight, 4) == Runs{{4, 7, 2}, {1, 7, 8}, {0, 7, 12}});
 }
 
-TEST_CASE("runs: a surface ends where a step exceeds the limit, not where a run ends") {
+TEST_CASE("runs: a surface ends at a step above the limit, not at the end of a run") {
   const int16_t near = kSurfaceStep, nearer = kSurfaceStep + 1;
   CHECK(Find({0, 0, near, near}, Direction::kRightToLeft, 96) == Runs{{0, 4, near / 2}});
   CHECK(Find({0, 0, near, near}, Direction::kRightToLeft, 16) == Runs{{2, 4, near}, {0, 4, 0}});
@@ -77,7 +77,7 @@ TEST_CASE("runs: a surface ends where a step exceeds the limit, not where a run 
         Runs{{4, 5, nearer + 20}, {3, 5, nearer + 40}, {2, 3, 40}, {1, 3, 20}, {0, 3, 0}});
 }
 
-TEST_CASE("runs: alternating extremes") {
+TEST_CASE("runs: alternating extremes give runs of one pixel") {
   Depths line;
   for (int x = 0; x < 100; ++x) line.push_back(x % 2 == 0 ? 32000 : -32000);
   for (const int spread : {0, 96}) {
@@ -89,8 +89,8 @@ TEST_CASE("runs: alternating extremes") {
   }
 }
 
-TEST_CASE("runs: the subaperture is what a view's step moves the run by") {
-  // Disparities from the focus, by 1/4 as there are four views: 0.5 and 0.75 pixels.
+TEST_CASE("runs: the subaperture is the distance that the run moves from view to view") {
+  // Distances to the focus, divided by four views: 0.5 and 0.75 pixels.
   const ViewGrid grid = MakeGrid(4, 1, 16);
   const std::vector<Run> runs =
       test::FindRuns({-128, -128, 192, 192}, grid, Direction::kRightToLeft);
@@ -99,7 +99,7 @@ TEST_CASE("runs: the subaperture is what a view's step moves the run by") {
   CHECK(runs[1].subaperture == 192);
 }
 
-// Line pixels in scan order for kRightToLeft; `runs` of it.
+// Checks the runs of a line whose pixels are in scan order for kRightToLeft.
 void CheckLine(const Depths& line, const ViewGrid& grid, const std::vector<Run>& runs) {
   int end = int(line.size()), surface_end = end;
   for (const Run& run : runs) {
@@ -114,7 +114,7 @@ void CheckLine(const Depths& line, const ViewGrid& grid, const std::vector<Run>&
     }
     CHECK(run.surface_end == surface_end);
     CHECK(run.subaperture == std::abs(grid.Shift(grid.Move(1), run.disparity)));
-    if (run.begin > 0) {  // one pixel more would be too many
+    if (run.begin > 0) {  // one more pixel would exceed the spread
       const int next = line[size_t(run.begin - 1)];
       CHECK(std::max(high, next) - std::min(low, next) > grid.spread);
     }
@@ -134,7 +134,7 @@ Depths RandomLine(int length, test::Random* random) {
   return line;
 }
 
-TEST_CASE("runs: random lines side by side, each covered by the longest runs the spread allows") {
+TEST_CASE("runs: the longest runs that the spread allows cover each of several random lines") {
   test::Random random(3);
   for (int round = 0; round < 150; ++round) {
     const int length = random.Int(1, 70), count = random.Int(1, 40);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the span sink makes of surfaces, mixed pixels and holes with a rim.
+// Tests the span sink on surfaces, mixed pixels and holes with a rim.
 #include "lib/line_scan/span_sink.h"
 
 #include <doctest/doctest.h>
@@ -23,11 +23,11 @@ constexpr uint32_t kBlendOne = 1 << starfocus::simd::kBlendBits;
 constexpr double kRounding = 0.5 / 128;  // of light
 constexpr int16_t kUntouched = 0x5A5A;
 
-// Fills a hole with one gray level, and remembers what it is behind.
+// Fills a hole with one gray level, and records the surface behind it.
 struct GrayHoles {
   int level;
   mutable int disparity = 0;
-  mutable int red = 0;  // of 255
+  mutable int red = 0;  // from 0 to 255
 
   void Fill(int32_t begin, int32_t end, int32_t behind, const int16_t* colour, int16_t* out) const {
     std::fill_n(out, 3 * (end - begin), int16_t(level << kLightBits));
@@ -47,7 +47,7 @@ struct Drawing {
     }
   }
 
-  // Blends with the disparity, or accumulates with `weight` without it.
+  // Blends with the disparity, or accumulates with `weight` and without the disparity.
   template <class Draw>
   void Run(uint32_t weight, const Draw& draw) {
     const starfocus::Line line = {rgb.data(), depths.data(), 1, kLength};
@@ -77,8 +77,8 @@ struct Drawing {
   std::vector<uint32_t> sums = std::vector<uint32_t>(3 * kLength + kPadding);
 };
 
-TEST_CASE("span sink: a mixed pixel has parts of both, and the disparity of the first") {
-  for (const int other : {1, 6, 9}) {  // to either side, however far
+TEST_CASE("span sink: a mixed pixel has parts of both colours and the disparity of the first") {
+  for (const int other : {1, 6, 9}) {  // on either side, at any distance
     for (const int weight : {1, 64, 128}) {
       const auto draw = [&](auto* sink) { sink->Mix(5, 4, other, weight); };
       const double exact = 80 + (20.0 * other - 80) * weight / 256;
@@ -99,9 +99,9 @@ TEST_CASE("span sink: a mixed pixel has parts of both, and the disparity of the 
   }
 }
 
-TEST_CASE("span sink: a hole's rim lies where the scan goes on, and is the run's from half on") {
+TEST_CASE("span sink: a hole's rim lies where the scan continues, and is the run's from half on") {
   struct Case {
-    int pixel, rim, at;  // of the line; rendered
+    int pixel, rim, at;  // pixel and rim in the line, rendered position
   };
   for (const Case& c : {Case{8, 2, 4}, Case{2, 8, 7}}) {
     for (const int covered : {1, 127, 128, 129, 255}) {
@@ -127,7 +127,7 @@ TEST_CASE("span sink: a hole's rim lies where the scan goes on, and is the run's
   }
 }
 
-TEST_CASE("span sink: a hole without a rim, and a surface with its neighbours") {
+TEST_CASE("span sink: holes without a rim, and surfaces with their neighbours, are drawn") {
   Drawing drawing(200);
   drawing.Run(kBlendOne, [](auto* sink) {
     sink->Surface(3, 6, 4, -1, int(kBlendOne) / 4);

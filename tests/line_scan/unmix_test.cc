@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Boundary pixels in a field of one row of depth edges.
+// Tests the separation of boundary pixels in a light field with one depth edge per row.
 #include "lib/line_scan/unmix.h"
 
 #include <doctest/doctest.h>
@@ -17,13 +17,13 @@ using namespace starfocus;
 constexpr int kSize = 24;
 constexpr int kEdge = 12;  // the first near column
 
-// Grey levels of the far surface, the near one and the mixed pixel between them.
+// Gray levels of the far surface, the near surface and the mixed pixel between them.
 struct Greys {
   int far, near, mixed;
 };
 
-// A far surface at the left, a near one at the right, and captured views in which nothing but the
-// far surface is seen.
+// A far surface on the left and a near one on the right. The captured views show only the far
+// surface.
 struct Scene {
   std::vector<uint8_t> centre, side;
   std::vector<int16_t> disparity;
@@ -56,7 +56,7 @@ struct Scene {
     field.disparity = disparity.data();
   }
 
-  // The grey levels of the middle row.
+  // Returns the gray levels of the middle row.
   std::vector<int> Unmixed(int layer = 0) {
     std::vector<int16_t> copy(disparity.size() + starfocus::simd::kPadding);
     field.disparity = copy.data();
@@ -73,7 +73,7 @@ struct Scene {
     return greys;
   }
 
-  // Of the mixed pixel; the others stay as they are.
+  // Returns the level of the mixed pixel, and checks that all other pixels are unchanged.
   int Mixed(int layer = 0) {
     const std::vector<int> greys = Unmixed(layer);
     for (int x = 0; x < kSize; ++x) {
@@ -83,10 +83,11 @@ struct Scene {
   }
 };
 
-TEST_CASE("unmix: the near part of a sharp pixel beside a defocused surface is taken out") {
-  CHECK(Scene(0, 4, {40, 240, 140}).Mixed() == 40);  // half
+TEST_CASE("unmix: the near part of a sharp pixel next to a defocused surface is removed") {
+  CHECK(Scene(0, 4, {40, 240, 140}).Mixed() == 40);  // half of the near surface
   CHECK(Scene(0, 4, {40, 240, 180}).Mixed() == 40);
-  CHECK(Scene(0, 4, {40, 240, 90}).Mixed() == 65);  // of a quarter, half
+  // a quarter of the near surface; half of this is left
+  CHECK(Scene(0, 4, {40, 240, 90}).Mixed() == 65);
   CHECK(Scene(0, 4, {240, 40, 190}).Mixed() == 215);
   CHECK(Scene(0, 4, {40, 240, 40}).Mixed() == 40);
   CHECK(Scene(-1, 4, {40, 240, 90}).Mixed() == 65);
@@ -95,15 +96,15 @@ TEST_CASE("unmix: the near part of a sharp pixel beside a defocused surface is t
 TEST_CASE("unmix: the captured view is read where the near surface has moved away") {
   for (const int views : {5, 9, 17}) {
     for (const bool mirrored : {false, true}) {
-      // The view that looks behind the edge is grey, the others would say that nothing is
-      // mixed.
+      // Only the view that sees behind the edge is gray. According to the other views, the pixel
+      // would not be mixed.
       Scene scene(2, 6, {40, 240, 140}, views, mirrored);
       std::vector<uint8_t> other(scene.side.size(), 240);
       const int right = views == 17 ? 9 : 1, left = right + 1, behind = mirrored ? right : left;
       for (int view = 1; view < views; ++view) {
         if (view != behind) scene.planes.view[view].data = other.data();
       }
-      // Of that view the pixel alone; it moves by -u d.
+      // Only this pixel of that view is gray; it moves by -u d.
       const int x = mirrored ? kSize - kEdge : kEdge - 1;
       const int moved = x + (mirrored ? -1 : 1) * (views == 17 ? 1 : 2);
       std::vector<uint8_t> one(scene.side.size(), 240);
@@ -116,16 +117,16 @@ TEST_CASE("unmix: the captured view is read where the near surface has moved awa
   }
 }
 
-TEST_CASE("unmix: what is sharp in the nearer surface, blurred, or no mixture stays") {
+TEST_CASE("unmix: pixels that are blurred, not mixed, or sharp in the near surface do not change") {
   CHECK(Scene(-4, 0, {40, 240, 140}).Mixed() == 140);    // the near surface is in focus
   CHECK(Scene(0, 1, {40, 240, 140}).Mixed() == 140);     // no edge
   CHECK(Scene(-3, 8, {40, 240, 140}).Mixed() == 140);    // blurred by three pixels
-  CHECK(Scene(-2.5, 8, {40, 240, 140}).Mixed() == 90);   // the way there
+  CHECK(Scene(-2.5, 8, {40, 240, 140}).Mixed() == 90);   // between sharp and blurred
   CHECK(Scene(-1.5, 2, {40, 240, 140}).Mixed() == 90);   // hardly more defocused
   CHECK(Scene(0, 4, {40, 240, 210}).Mixed() == 210);     // more near than far
   CHECK(Scene(0, 4, {40, 240, 20}).Mixed() == 20);       // beyond the far colour
   CHECK(Scene(0, 4, {40, 44, 42}).Mixed() == 42);        // hardly a contrast
-  CHECK(Scene(0, 4, {40, 240, 140}, 1).Mixed() == 140);  // nothing looks behind
+  CHECK(Scene(0, 4, {40, 240, 140}, 1).Mixed() == 140);  // no view sees behind the edge
   CHECK(Scene(0, 4, {40, 240, 140}).Mixed(1) == 140);    // subsampled
   Scene colourful(0, 4, {40, 240, 140});
   for (int y = 0; y < kSize; ++y) colourful.centre[size_t(3 * (y * kSize + kEdge - 1))] = 255;
