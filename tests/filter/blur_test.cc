@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The blur mode against an adaptive convolution in double precision with the ideal kernel (4).
+// Compares the blur mode with an adaptive convolution by the ideal PSF (4) in double precision.
 #include "lib/filter/blur.h"
 
 #include <doctest/doctest.h>
@@ -24,7 +24,8 @@ namespace {
 using reference::kOne;
 static_assert(kOne == 1 << starfocus::kDisparityBits, "the same scale");
 
-// The blurred picture, unrounded. What is farther than the focus sees kernels turned.
+// Returns the unrounded blurred picture. PSFs of pixels behind the focus are rotated by 180
+// degrees.
 std::vector<double> Reference(const test::Scene& scene, const starfocus_params& params,
                               const reference::ApertureShape& opening, int transfer) {
   double light[256];
@@ -70,7 +71,7 @@ std::vector<uint8_t> Blurred(const test::Scene& scene, double focus, double aper
 
 constexpr double kTheta = 0.26 * 3.14159265358979323846;
 
-// Largest difference from the rounded reference, by either transfer.
+// Returns the largest difference from the rounded reference for either transfer.
 double Difference(const test::Scene& scene, double focus, double aperture, int block,
                   double theta = kTheta) {
   double largest = 0;
@@ -85,8 +86,8 @@ double Difference(const test::Scene& scene, double focus, double aperture, int b
   return largest;
 }
 
-// Flat disparities of many radii: random pictures, black-and-white ones, and a step between black
-// and white, which is the worst that a kernel's shape can meet.
+// Checks flat disparities with many radii, on random pictures and black-and-white ones. A step
+// between black and white is the hardest test of the shape of a PSF.
 void CheckRadii(double theta) {
   for (const double r :
        {0.0, 0.05, 0.125, 0.4, 0.5, 0.5625, 0.625, 0.75, 0.875, 1.0,  1.3,  1.5, 1.75,
@@ -110,13 +111,13 @@ void CheckRadii(double theta) {
   }
 }
 
-TEST_CASE("blur: flat disparity of many radii") { CheckRadii(kTheta); }
-TEST_CASE("blur: the same by apertures without fall-off and with the most") {
+TEST_CASE("blur: flat disparities of many radii match the reference") { CheckRadii(kTheta); }
+TEST_CASE("blur: the least and the steepest fall-off match the reference") {
   CheckRadii(STARFOCUS_MIN_THETA);
   CheckRadii(STARFOCUS_MAX_THETA);
 }
 
-TEST_CASE("blur: random disparity, focus, aperture, fall-off and block") {
+TEST_CASE("blur: random disparities, foci, apertures, fall-offs and blocks match the reference") {
   test::Random random(18);
   for (int round = 0; round < 24; ++round) {
     test::Scene scene = test::RandomScene(random.Int(1, 70), random.Int(1, 50), 1, -6, 6,
@@ -130,7 +131,7 @@ TEST_CASE("blur: random disparity, focus, aperture, fall-off and block") {
   }
 }
 
-TEST_CASE("blur: through openings of other shapes, in front of the focus and behind it") {
+TEST_CASE("blur: openings of other shapes match, in front of the focus and behind it") {
   for (const test::NamedShape& shape : test::kShapes) {
     starfocus_lens lens = test::Params(0).lens;
     shape.Set(&lens);
@@ -155,7 +156,7 @@ TEST_CASE("blur: through openings of other shapes, in front of the focus and beh
   }
 }
 
-TEST_CASE("blur: in focus it copies, and a constant stays") {
+TEST_CASE("blur: pixels in focus are copied, and a constant does not change") {
   const test::Scene sharp = test::RandomScene(41, 33, 1, 2.5f, 2.5f, 7);
   CHECK(Blurred(sharp, 2.5, 1, 32, kTheta, STARFOCUS_TRANSFER_SRGB) == sharp.pictures[0]);
   for (int level = 0; level < 256; level += 5) {
@@ -165,7 +166,7 @@ TEST_CASE("blur: in focus it copies, and a constant stays") {
   }
 }
 
-TEST_CASE("blur: it looks at the centre view alone") {
+TEST_CASE("blur: only the centre view is read") {
   test::Scene scene = test::RandomScene(50, 40, 17, -4, 4, 19);
   const std::vector<uint8_t> before = Blurred(scene, 1, 1, 32, kTheta, STARFOCUS_TRANSFER_SRGB);
   for (size_t view = 1; view < scene.pictures.size(); ++view) {
@@ -181,12 +182,12 @@ TEST_CASE("blur: the size of blocks does not matter") {
     CHECK(Blurred(scene, 2, 1, block, kTheta, STARFOCUS_TRANSFER_SRGB) == expected);
 }
 
-TEST_CASE("blur: kernels sum to exactly one, fit their types and fall off from the centre") {
+TEST_CASE("blur: PSFs sum to exactly one, fit their types and decrease from the centre") {
   const double most = STARFOCUS_MAX_BLUR;
   const int steps = starfocus::BlurStepCount(most);
   std::vector<uint16_t> weights(starfocus::BlurWeightCount(false, most));
   std::vector<starfocus::Psf> kernels(static_cast<size_t>(steps));
-  // In two parts, as an engine makes them when it is asked for more.
+  // The PSFs are made in two calls, as an engine does when it needs more of them.
   const uint32_t fall_off = starfocus::ApertureFallOff(kTheta);
   starfocus::MakePsfs(0, steps / 3, fall_off, nullptr, weights.data(), kernels.data());
   starfocus::MakePsfs(steps / 3, steps, fall_off, nullptr, weights.data(), kernels.data());
@@ -208,11 +209,11 @@ TEST_CASE("blur: kernels sum to exactly one, fit their types and fall off from t
     CHECK(kernel.sum_bits >= 1);
     CHECK(kernel.sum_bits <= 24);
     CHECK(largest <= 32767);
-    CHECK(kernel.Weight(0, 0) + 8 >= largest);  // the centre takes up the rounding
+    CHECK(kernel.Weight(0, 0) + 8 >= largest);  // the centre takes the remainder of rounding
   }
 }
 
-TEST_CASE("blur: the ladder of radii") {
+TEST_CASE("blur: steps of the ladder of radii never decrease, and radii are rounded to steps") {
   int last = -1;
   for (int radius = 0; radius <= int(STARFOCUS_MAX_BLUR) * kOne; ++radius) {
     const int step = starfocus::BlurStep(radius);

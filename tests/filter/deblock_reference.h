@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Deblocking by the paper's words (V-C), a whole picture at once.
+// Reference of deblocking, as in the paper (V-C), for a whole picture at once.
 #ifndef STARFOCUS_TESTS_FILTER_DEBLOCK_REFERENCE_H_
 #define STARFOCUS_TESTS_FILTER_DEBLOCK_REFERENCE_H_
 
@@ -35,15 +35,16 @@ struct LayeredPicture {
   std::vector<uint8_t> layers;
 };
 
-// (16), (17).
+// Returns true if the condition of (16) and (17) holds.
 inline bool Artificial(const uint8_t* a, const uint8_t* b, int beta) {
   bool all = true;
   for (int c = 0; c < 3; ++c) all = all && std::abs(int(a[c]) - int(b[c])) < beta;
   return all;
 }
 
-// The line p0 | q0 q1 q2 q3 from (x, y) = p0 on in direction (dx, dy), as far as the picture goes.
-// Linear interpolation between p0 and q3 where p is of layer 2, else between p0 and q1.
+// Filters the line p0
+//  q0 q1 q2 q3 that starts at (x, y) = p0 in direction (dx, dy), within the picture. Interpolates
+//  linearly between p0 and q3 if p is at layer 2, otherwise between p0 and q1.
 inline void FilterLine(LayeredPicture* picture, int x, int y, int dx, int dy, int beta,
                        int transfer) {
   const auto inside = [&](int k) {
@@ -53,14 +54,15 @@ inline void FilterLine(LayeredPicture* picture, int x, int y, int dx, int dy, in
   const auto q = [&](int k) { return picture->Pixel(x + dx * (k + 1), y + dy * (k + 1)); };
   const uint8_t* p0 = picture->Pixel(x, y);
   const bool strong = picture->LayerOf(x, y) == 2;
-  int last = 0;  // q[last] stays
+  int last = 0;  // q[last] does not change
   if (strong && inside(3) && Artificial(p0, q(3), beta)) {
     last = 3;
   } else if (inside(1) && Artificial(p0, q(1), beta)) {
     last = 1;
   }
   for (int c = 0; c < 3; ++c) {
-    // On the engine's grid of light, since the next line decides by what becomes of this one.
+    // Rounds to the engine's grid of light, since decisions about the next line depend on the
+    // result.
     const auto light = [&](int code) { return std::floor(128 * LightOf(code, transfer) + 0.5); };
     const double from = light(p0[c]), to = last > 0 ? light(q(last)[c]) : 0;
     for (int k = 0; k < last; ++k) {
@@ -70,7 +72,7 @@ inline void FilterLine(LayeredPicture* picture, int x, int y, int dx, int dy, in
   }
 }
 
-// Two pixels on either side of a boundary: filters the side of the lower layer.
+// Filters the side of the lower layer at two adjacent pixels of a boundary.
 inline void FilterPair(LayeredPicture* picture, int x0, int y0, int x1, int y1, int beta,
                        int transfer) {
   const int before = picture->LayerOf(x0, y0), after = picture->LayerOf(x1, y1);
@@ -78,7 +80,7 @@ inline void FilterPair(LayeredPicture* picture, int x0, int y0, int x1, int y1, 
   if (before < after) FilterLine(picture, x1, y1, x0 - x1, y0 - y1, beta, transfer);
 }
 
-// All horizontal boundaries of the picture, then all vertical ones.
+// Filters all horizontal boundaries of the picture, then all vertical ones.
 inline void DeblockPicture(LayeredPicture* picture, int beta, int transfer) {
   for (int y = kUnit; y < picture->height; y += kUnit) {
     for (int x = 0; x < picture->width; ++x) {

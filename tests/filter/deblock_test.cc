@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Deblocking: boundaries made by hand, and stripes against the whole picture done at once by the
-// paper's words (V-C).
+// Tests deblocking on hand-made boundaries, and compares stripes with the reference, which filters
+// the whole picture at once as in the paper (V-C).
 #include "lib/filter/deblock.h"
 
 #include <doctest/doctest.h>
@@ -21,8 +21,8 @@ using namespace starfocus;
 using test::DeblockPicture;
 using Picture = test::LayeredPicture;
 
-// As the engine does it: stripe by stripe, the columns of smallest blocks in `parts` jobs from the
-// right.
+// Deblocks as the engine does: stripe by stripe, with the columns of smallest blocks in `parts`
+// jobs from right to left.
 void DeblockStripes(Picture* picture, int stripe_height, int parts, int beta, int transfer) {
   const int most_rows = stripe_height / kSmallestBlock;
   std::vector<uint8_t> layers(size_t(picture->columns) * size_t(most_rows + 1), 0xEE);
@@ -65,7 +65,7 @@ Picture RandomPicture(int width, int height, test::Random* random) {
   return picture;
 }
 
-TEST_CASE("deblock: stripes give what the whole picture gives") {
+TEST_CASE("deblock: stripes give the same result as the whole picture") {
   test::Random random(5);
   constexpr int kEdges[] = {1, 2, 3, 4, 5, 15, 16, 17, 18, 19, 20, 21, 32, 33, 35, 36, 48, 50, 63};
   constexpr int kStripes[] = {16, 32, 64, 128, 256};
@@ -94,7 +94,8 @@ TEST_CASE("deblock: stripes give what the whole picture gives") {
   CHECK(changed > 500);
 }
 
-// A row of pixels of levels, all rows alike, with two blocks of the layers given.
+// Returns the deblocked row of a picture whose rows are all equal to `levels`. Its two blocks have
+// the given layers.
 std::vector<int> DeblockedRow(const std::vector<int>& levels, int before, int after, int beta,
                               bool vertical) {
   const int length = int(levels.size());
@@ -120,14 +121,14 @@ std::vector<int> DeblockedRow(const std::vector<int>& levels, int before, int af
   return out;
 }
 
-// 16 pixels of 100 and `count` of the levels after it.
+// Returns 16 pixels of 100, followed by the levels of `after`.
 std::vector<int> Step(const std::vector<int>& after) {
   std::vector<int> levels(16, 100);
   levels.insert(levels.end(), after.begin(), after.end());
   return levels;
 }
 
-TEST_CASE("deblock: layers by hand") {
+TEST_CASE("deblock: boundaries between all pairs of layers have the expected levels") {
   const std::vector<int> before = Step({120, 120, 120, 120, 120, 120});
   for (const bool vertical : {false, true}) {
     CAPTURE(vertical);
@@ -135,12 +136,12 @@ TEST_CASE("deblock: layers by hand") {
     CHECK(deblocked(0, 0) == before);
     CHECK(deblocked(1, 1) == before);
     CHECK(deblocked(2, 2) == before);
-    // Weak: q0 = (p0 + q1) / 2, on the lower layer's side.
+    // Weak filter: q0 = (p0 + q1) / 2, on the side of the lower layer.
     CHECK(deblocked(1, 0) == Step({110, 120, 120, 120, 120, 120}));
     std::vector<int> mirrored = before;
     mirrored[15] = 110;
     CHECK(deblocked(0, 1) == mirrored);
-    // Strong: a line from p0 to q3.
+    // Strong filter: a line from p0 to q3.
     CHECK(deblocked(2, 0) == Step({105, 110, 115, 120, 120, 120}));
     CHECK(deblocked(2, 1) == Step({105, 110, 115, 120, 120, 120}));
     std::vector<int> strong = before;
@@ -152,7 +153,7 @@ TEST_CASE("deblock: layers by hand") {
   }
 }
 
-TEST_CASE("deblock: conditions below, at and above beta") {
+TEST_CASE("deblock: the filter applies only if the difference is below beta") {
   for (const bool vertical : {false, true}) {
     for (const int sign : {1, -1}) {
       const auto step = [&](std::vector<int> after) {
@@ -162,17 +163,21 @@ TEST_CASE("deblock: conditions below, at and above beta") {
       const auto row = [&](const std::vector<int>& levels, int p, int beta) {
         return DeblockedRow(levels, p, 0, beta, vertical);
       };
-      // Weak: |p0 - q1| < beta.
+      // Weak filter:
+      // p0 - q1
+      //  < beta.
       CHECK(row(step({40, 20, 40, 40}), 1, 20) == step({40, 20, 40, 40}));
       CHECK(row(step({40, 20, 40, 40}), 1, 19) == step({40, 20, 40, 40}));
       CHECK(row(step({40, 20, 40, 40}), 1, 21) == step({10, 20, 40, 40}));
-      // Strong: |p0 - q3| < beta, whatever lies between.
+      // Strong filter:
+      // p0 - q3
+      //  < beta, with any pixels in between.
       CHECK(row(step({40, 90, 40, 20}), 2, 21) == step({5, 10, 15, 20}));
       CHECK(row(step({40, 90, 40, 20}), 2, 20) == step({40, 90, 40, 20}));
-      // Where the strong condition fails, the weak one may hold.
+      // If the strong condition fails, the weak one may still hold.
       CHECK(row(step({40, 10, 40, 20}), 2, 20) == step({5, 10, 40, 20}));
       CHECK(row(step({40, 20, 40, 20}), 2, 20) == step({40, 20, 40, 20}));
-      // Nothing is below 0.
+      // With a beta of 0 no filter applies.
       CHECK(row(step({0, 0, 0, 0}), 2, 0) == step({0, 0, 0, 0}));
     }
   }
@@ -195,7 +200,7 @@ TEST_CASE("deblock: every colour must meet the condition") {
   }
 }
 
-TEST_CASE("deblock: last rows and columns narrower than the filter") {
+TEST_CASE("deblock: last rows and columns may be narrower than the filter") {
   for (const bool vertical : {false, true}) {
     const auto row = [&](const std::vector<int>& after, int p) {
       return DeblockedRow(Step(after), p, 0, 35, vertical);
@@ -215,7 +220,7 @@ TEST_CASE("deblock: last rows and columns narrower than the filter") {
   }
 }
 
-TEST_CASE("deblock: constant pictures and pictures of one block stay") {
+TEST_CASE("deblock: constant pictures and pictures of one block do not change") {
   test::Random random(6);
   for (int round = 0; round < 50; ++round) {
     Picture picture = RandomPicture(random.Int(1, 80), random.Int(1, 80), &random);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What block mode gathers: cells that are smooth by the definition, blurred as the blur mode blurs
-// them, and nothing else.
+// Tests the gathering of the block mode. Exactly the smooth cells must be gathered, and they must
+// be blurred as in the blur mode.
 #include "lib/filter/gather.h"
 
 #include <doctest/doctest.h>
@@ -27,7 +27,7 @@ using namespace test;
 
 constexpr int kOne = 1 << kDisparityBits;
 
-// Cells of a random map: pieces, slopes, noise.
+// Cells of a random map with pieces, slopes and noise.
 struct Cells {
   Cells(int width, int height, test::Random* random)
       : disparity(size_t(width) * size_t(height)),
@@ -50,19 +50,19 @@ struct Cells {
   }
   Cells(const Cells&) = delete;
 
-  // Pixels that blur reaches, with half a pixel of rounding.
+  // Returns the number of pixels that blur reaches, rounded up by half a pixel.
   static int Reach(const Cell& cell) {
     return int(std::ceil((cell.r_max + kOne / 2) / double(kOne)));
   }
 
-  // The same of its nearest pixels.
+  // Returns the number of pixels that the blur of the cell's nearest pixels reaches.
   int NearReach(const Cell& cell) const {
     const double radius = std::ceil(double(scale.step) * std::abs(cell.high - scale.focus) /
                                     double(int64_t{1} << starfocus::kStepBits));
     return int(std::ceil((radius + kOne / 2) / double(kOne)));
   }
 
-  // Over all cells of the picture.
+  // Returns the kind of a cell by its definition, from all cells of the picture.
   CellKind KindOf(int column, int row) const {
     const Cell& own = *grid.At(column, row);
     int low = INT32_MAX, high = INT32_MIN, widest = 0;
@@ -98,7 +98,7 @@ struct Cells {
   starfocus::BlurScale scale;
 };
 
-TEST_CASE("gather: smooth cells are those of the definition") {
+TEST_CASE("gather: the smooth cells match their definition") {
   test::Random random(61);
   int found[3] = {0, 0, 0};
   for (int round = 0; round < 60; ++round) {
@@ -138,7 +138,7 @@ TEST_CASE("gather: a flat surface gets the bytes of the blur mode") {
           RefocusScene(scene, config, test::Params(radius, 1, STARFOCUS_MODE_BLUR));
       CAPTURE(radius);
       CHECK(gathered.rgb == blurred.rgb);
-      // Light of sRGB is no whole code: means of mirrored pixels are rounded.
+      // Light of sRGB is not an integer code, so means of mirrored pixels are rounded.
       starfocus_config light = config;
       light.transfer = STARFOCUS_TRANSFER_SRGB;
       CHECK(LargestDifference(
@@ -156,8 +156,7 @@ TEST_CASE("gather: a flat surface gets the bytes of the blur mode") {
   }
 }
 
-TEST_CASE(
-    "gather: not beyond the largest radius, in focus, in frame modes or by the paper's rule") {
+TEST_CASE("gather: cells in focus or with large blur are not gathered, nor in other modes") {
   const test::Scene scene = test::RandomScene(70, 45, 5, 0, 0, 63);
   const starfocus_config config = test::ConfigFor(scene, 49);
   const auto gathered = [&](double focus, starfocus_mode mode, starfocus_renderer renderer) {
@@ -173,7 +172,7 @@ TEST_CASE(
   CHECK(gathered(3, STARFOCUS_MODE_BENCHMARK, STARFOCUS_RENDERER_SLICES) == 0);
 }
 
-TEST_CASE("gather: the rows that kernels read of a layer are kept") {
+TEST_CASE("gather: the rows of a layer that the PSFs read are kept") {
   std::vector<uint16_t> weights(starfocus::BlurWeightCount(false, starfocus::kMaxGather));
   std::vector<starfocus::Psf> kernels(size_t(starfocus::BlurStepCount(starfocus::kMaxGather)));
   starfocus::MakePsfs(0, int32_t(kernels.size()), {}, nullptr, weights.data(), kernels.data());
@@ -189,7 +188,7 @@ TEST_CASE("gather: the rows that kernels read of a layer are kept") {
   }
 }
 
-TEST_CASE("gather: beside depth edges views go on, and nothing gets worse against the benchmark") {
+TEST_CASE("gather: cells at depth edges use views, and gathering does not reduce the PSNR") {
   for (const uint64_t seed : {64, 65, 66}) {
     const test::Scene scene = test::LayeredScene(180, 130, 9, 6, seed);
     starfocus_config config = test::ConfigFor(scene, 16);
@@ -205,7 +204,7 @@ TEST_CASE("gather: beside depth edges views go on, and nothing gets worse agains
     CAPTURE(seed);
     MESSAGE("dB with and without: ", test::Psnr(gathered.rgb, benchmark.rgb), " ",
             test::Psnr(views.rgb, benchmark.rgb), ", gathered ", gathered.report.gathered_pixels);
-    // At 52 dB half of the difference is the rounding of both pictures to bytes.
+    // At 52 dB half of the difference comes from rounding both pictures to bytes.
     CHECK(test::Psnr(gathered.rgb, benchmark.rgb) >
           std::min(test::Psnr(views.rgb, benchmark.rgb) - 0.2, 52.0));
   }

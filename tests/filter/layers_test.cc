@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Subsampling and upsampling against the same separable filters in double precision.
+// Compares subsampling and upsampling with the same separable filters in double precision.
 #include "lib/filter/layers.h"
 
 #include <doctest/doctest.h>
@@ -23,7 +23,7 @@ using namespace starfocus::simd;
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kBetaDown = 1.28, kBetaUp = 2.17;
 
-// Modified Bessel function of the first kind, order 0.
+// Returns the modified Bessel function of the first kind, order 0.
 double Bessel(double x) {
   double sum = 1, term = 1;
   for (int k = 1; k < 60; ++k) {
@@ -33,7 +33,7 @@ double Bessel(double x) {
   return sum;
 }
 
-// Tap n in [-3, 3]: sinc(n / 2) under a 7-tap Kaiser window, all taps summing to `gain`.
+// Returns tap n in [-3, 3]: sinc(n / 2) with a 7-tap Kaiser window. All taps sum to `gain`.
 double Tap(int n, double beta, double gain) {
   const auto windowed = [&](int k) {
     const double x = kPi * k / 2, sinc = k == 0 ? 1 : k % 2 == 0 ? 0 : std::sin(x) / x;
@@ -44,7 +44,7 @@ double Tap(int n, double beta, double gain) {
   return windowed(n) / sum * gain;
 }
 
-// Pixels of three samples in double; the edge repeats outside.
+// Pixels of three samples in double precision. Outside the image its edges are repeated.
 struct Image {
   Image(int w, int h) : width(w), height(h), samples(3 * size_t(w) * size_t(h)) {}
   double& At(int x, int y, int c) {
@@ -66,7 +66,7 @@ double UpTap(int k) {
   return taps[std::abs(k)];
 }
 
-// Colours a picture can show.
+// Limits a value to the range of a picture.
 double Clamped(double value) { return std::clamp(value, 0.0, 255.0); }
 
 Image Down(Image from) {
@@ -87,7 +87,7 @@ Image Down(Image from) {
   return to;
 }
 
-// Zeros between the samples, then the filter.
+// Inserts zeros between the samples and filters the result.
 Image Up(Image from, int width, int height) {
   Image to(width, height);
   for (int y = 0; y < height; ++y) {
@@ -107,7 +107,7 @@ Image Up(Image from, int width, int height) {
   return to;
 }
 
-// A layer in memory of just its size.
+// A layer in memory of exactly its size.
 struct Layer {
   Layer(int picture_width, int picture_height, int layer) {
     plane.width = LayerSize(picture_width, layer);
@@ -123,7 +123,7 @@ struct Layer {
   std::vector<int16_t> samples;
 };
 
-// The centre view alone, whose light is its codes.
+// Returns a window with only the centre view, in which light is equal to the codes.
 starfocus::Window WindowOf(const std::vector<uint8_t>& picture, int width, int height) {
   starfocus::Window window;
   window.width = window.picture_width = width;
@@ -147,7 +147,7 @@ struct Scratch {
   const starfocus::ResampleScratch memory;
 };
 
-// Layers 1 and 2 of a picture as a stripe of superblocks makes them.
+// Layers 1 and 2 of a picture, made as for a stripe of superblocks.
 struct Layers {
   Layers(const std::vector<uint8_t>& picture, int width, int height, int superblock,
          const starfocus::simd::Kernels& kernels)
@@ -167,8 +167,8 @@ struct Layers {
   Layer one, two;
 };
 
-// Samples of a layer with `margin` repeated pixels around them, as far as upsampling to width x
-// height reads.
+// Samples of a layer with a margin of repeated pixels, as far as upsampling to width x height
+// reads.
 struct Padded {
   template <class Load>
   Padded(int layer_width, int layer_height, int width, int height, int margin, const Load& load) {
@@ -190,7 +190,7 @@ struct Padded {
   std::vector<int16_t> samples;
 };
 
-// Samples of width x height, doubled from a padded layer.
+// Returns width x height samples that are upsampled from a padded layer.
 std::vector<int16_t> UpByTwo(const Padded& in, int margin, int width, int height,
                              const starfocus::simd::Kernels& kernels) {
   std::vector<int16_t> line(3 * size_t(in.rect.width) + kPadding), between = line, even = line;
@@ -200,7 +200,7 @@ std::vector<int16_t> UpByTwo(const Padded& in, int margin, int width, int height
   return out;
 }
 
-// One or two layers down and up again, as samples.
+// Subsamples by one or two layers, upsamples again and returns the samples.
 std::vector<int16_t> DownAndUp(const std::vector<uint8_t>& picture, int width, int height,
                                int layer, int superblock, const starfocus::simd::Kernels& kernels) {
   const Layers layers(picture, width, height, superblock, kernels);
@@ -256,7 +256,7 @@ struct Errors {
   double samples[3] = {}, levels[3] = {};  // by layer: before and after rounding to gray levels
 };
 
-// Largest differences of down and up from double precision.
+// Returns the largest differences between the engine and double precision, down and up.
 Errors Compare() {
   test::Random random(13);
   Errors errors;
@@ -289,9 +289,9 @@ Errors Compare() {
   return errors;
 }
 
-TEST_CASE("layers: taps are those of the definition") {
+TEST_CASE("layers: taps match their definition") {
   const double one = 1 << kTapBits;
-  // Within rounding; one tap of each sum takes up what rounding left of unit gain.
+  // Equal up to rounding. One tap of each sum takes the remainder, so that the gain is exactly 1.
   const auto check = [&](const HalfBand& taps, double beta, double gain) {
     CHECK(std::abs(taps.near - one * Tap(1, beta, gain)) < 1);
     CHECK(std::abs(taps.far - one * Tap(3, beta, gain)) < 1);
@@ -299,7 +299,7 @@ TEST_CASE("layers: taps are those of the definition") {
   check(starfocus::kDownFilter, kBetaDown, 1);
   CHECK(std::abs(starfocus::kDownFilter.centre - one * Tap(0, kBetaDown, 1)) < 1);
   check(starfocus::kUpFilter, kBetaUp, 2);
-  // beta_U makes G_U(-1) nearly 0; unit gain of both phases makes it 0 exactly.
+  // With beta_U, G_U(-1) is nearly 0; unit gain of both phases makes it exactly 0.
   const double response = Tap(0, kBetaUp, 2) - 2 * Tap(1, kBetaUp, 2) - 2 * Tap(3, kBetaUp, 2);
   CHECK(std::abs(response) < 3e-4);
   CHECK(std::abs(starfocus::kUpFilter.centre - one * Tap(0, kBetaUp, 2)) <
@@ -307,7 +307,7 @@ TEST_CASE("layers: taps are those of the definition") {
   CHECK(starfocus::kUpFilter.centre == 1 << kTapBits);
 }
 
-TEST_CASE("layers: rounding of one and two layers down and up") {
+TEST_CASE("layers: rounding errors of one and two layers down and up are bounded") {
   const Errors errors = Compare();
   CHECK(errors.samples[1] <= 0.25);
   CHECK(errors.samples[2] <= 0.5);
@@ -315,7 +315,7 @@ TEST_CASE("layers: rounding of one and two layers down and up") {
   CHECK(errors.levels[2] <= 1);
 }
 
-TEST_CASE("layers: the columns may be made in any number of parts, on any target") {
+TEST_CASE("layers: columns may be made in any number of parts and on any target") {
   test::Random random(15);
   for (int round = 0; round < 30; ++round) {
     const int width = random.Int(1, 270), height = random.Int(1, 40);
@@ -333,7 +333,7 @@ TEST_CASE("layers: the columns may be made in any number of parts, on any target
   }
 }
 
-TEST_CASE("layers: rows made alone are those of the whole layer") {
+TEST_CASE("layers: rows that are made alone are equal to those of the whole layer") {
   test::Random random(16);
   const int width = 37, height = 90;
   const std::vector<uint8_t> picture = RandomPicture(width, height, kRandom, &random);
@@ -357,7 +357,7 @@ TEST_CASE("layers: rows made alone are those of the whole layer") {
   }
 }
 
-TEST_CASE("layers: constant pictures of every level stay, at every small size") {
+TEST_CASE("layers: constant pictures of every level and every small size do not change") {
   const starfocus::simd::Kernels& kernels = starfocus::simd::BestKernels();
   for (int level = 0; level < 256; ++level) {
     const int width = 1 + level % 13, height = 1 + level % 11;
@@ -373,9 +373,9 @@ TEST_CASE("layers: constant pictures of every level stay, at every small size") 
   }
 }
 
-TEST_CASE("layers: sizes") {
+TEST_CASE("layers: each layer has half the size of the one before, rounded up, plus one") {
   for (int size = 1; size < 300; ++size) {
-    // Inside the picture there are (size + 1) / 2 pixels of layer 1, and one more.
+    // Layer 1 has (size + 1) / 2 pixels inside the picture, and one more.
     CHECK(LayerSize(size, 0) == size);
     CHECK(LayerSize(size, 1) == (size + 1) / 2 + 1);
     CHECK(LayerSize(size, 2) == ((size + 1) / 2 + 2) / 2 + 1);

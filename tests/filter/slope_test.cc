@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The radii of a cell on a slope, and how far what it blurs is moved.
+// Tests the radii of a cell on a slope, and the distance by which its blurred pixels are moved.
 #include "lib/filter/slope.h"
 
 #include <doctest/doctest.h>
@@ -18,8 +18,8 @@ using namespace starfocus;
 constexpr double kOne = 1 << kSlopeBits;
 constexpr int kSide = 40;
 
-// Cells of a plane through disparity `middle` (pixels) between pixels 19 and 20, with that much
-// more from pixel to pixel, and the lens focused at 0.
+// Cells of a plane with disparity `middle` (pixels) between pixels 19 and 20. The disparity changes
+// by `across` and `down` from pixel to pixel, and the lens is focused at 0.
 struct Plane {
   Plane(double middle, double across, double down, double aperture = 1)
       : disparity(size_t(kSide * kSide)),
@@ -34,7 +34,7 @@ struct Plane {
   }
   Plane(const Plane&) = delete;
 
-  // Of the cell that has pixels 16 to 23 of the picture.
+  // Returns the slope of the cell that has pixels 16 to 23 of the picture.
   Slope Middle(int layer) const { return Slope(grid, scale, 2, 2, layer); }
 
   std::vector<int16_t> disparity;
@@ -53,20 +53,20 @@ TEST_CASE("slope: radii of a plane's pixels are those of their disparities") {
     CHECK(pixel.low == pixel.high);
     CHECK(pixel.low / kOne ==
           doctest::Approx(std::fabs(middle + 3.5 * 0.1 - 3.5 * 0.05)).epsilon(0.01));
-    // Pixels of layers are as much larger, and their radii smaller.
+    // Pixels of layers are larger, so their radii are smaller.
     const RadiusRange layer = plane.Middle(1).RangeOf({11, 8, 1, 1});
     CHECK(layer.low / kOne ==
           doctest::Approx(std::fabs(middle + 3 * 0.1 - 3 * 0.05) / 2).epsilon(0.01));
   }
 }
 
-TEST_CASE("slope: the focus within a cell is its least radius") {
+TEST_CASE("slope: the smallest radius is 0 if the focus is within the cell") {
   const RadiusRange range = Plane(0, 0.1, 0).Middle(0).RangeOf({16, 16, 8, 8});
   CHECK(range.low == 0);
   CHECK(range.high / kOne == doctest::Approx(0.35).epsilon(0.05));
 }
 
-TEST_CASE("slope: shares are where the square of the radius lies between two") {
+TEST_CASE("slope: shares are positions of the squared radius between two squared radii") {
   const Plane plane(5, 0.1, 0);
   constexpr size_t kStride = 26;
   int16_t share[2 * kStride];
@@ -88,8 +88,8 @@ TEST_CASE("slope: shares are where the square of the radius lies between two") {
   CHECK(share[0] == 0);
 }
 
-// The centre of all views' light, by views on a grid of the disc: at s they show the point p with
-// p = -s (r + g p).
+// Returns the centre of the light of all views, on a grid of the disc. The view at s shows the
+// point p = -s (r + g p).
 double CentreOfViews(double radius, double gradient) {
   double sum = 0, views = 0;
   for (int v = -50; v <= 50; ++v) {
@@ -103,7 +103,7 @@ double CentreOfViews(double radius, double gradient) {
   return sum / views;
 }
 
-TEST_CASE("slope: a picture is moved to the centre of what all views show") {
+TEST_CASE("slope: a picture is moved to the centre of the light of all views") {
   starfocus::ApertureShape disc;
   disc.shape = STARFOCUS_SHAPE_DISC;
   const int32_t spread = starfocus::MeanSquare(disc);
@@ -120,7 +120,7 @@ TEST_CASE("slope: a picture is moved to the centre of what all views show") {
   }
 }
 
-TEST_CASE("slope: the mean square of openings") {
+TEST_CASE("slope: openings have the expected mean square") {
   starfocus::ApertureShape opening;
   const auto mean_square = [&] { return starfocus::MeanSquare(opening) / 16384.0; };
   opening.fall_off = starfocus::ApertureFallOff(0.26 * 3.14159265358979);
