@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Openings of lenses against the same shapes in double, and the weights and kernels of all of them.
+// Compares openings of lenses with the same shapes in double precision, and checks the weights and
+// PSFs of all of them.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -52,7 +53,7 @@ TEST_CASE("opening: light passes where the shape is open") {
     for (int k = 0; k < 2000; ++k) {
       const int x = random.Int(-1050, 1050), y = random.Int(-1050, 1050);
       const bool open = starfocus::LetsThrough(opening, x, y, kRadius);
-      // Points close to an edge may fall on either side of it.
+      // Points close to an edge may be on either side of it.
       bool near_edge = false, inside = exact.Density(x / 1000.0, y / 1000.0) > 0;
       for (const double turn : {0.0, 1.6, 3.1, 4.7}) {
         const double u = x / 1000.0 + 5e-4 * std::cos(turn), v = y / 1000.0 + 5e-4 * std::sin(turn);
@@ -64,7 +65,7 @@ TEST_CASE("opening: light passes where the shape is open") {
   }
 }
 
-TEST_CASE("opening: all weights sum to a power of two, and none is beyond its type") {
+TEST_CASE("opening: all weights sum to a power of two, and none exceeds its type") {
   test::Random random(6);
   for (int trial = 0; trial < 150; ++trial) {
     const starfocus_lens lens = RandomLens(&random);
@@ -85,7 +86,7 @@ TEST_CASE("opening: all weights sum to a power of two, and none is beyond its ty
         CHECK(too_large == 0);
       };
       check(whole);
-      // The rim at its farthest in every direction, and between.
+      // Rims at the largest distance in any direction, and at smaller ones.
       for (int k = 0; k < 4; ++k) {
         const double angle = random.Real(0, 6.3), far = k < 2 ? 1 : random.Unit();
         const int one = starfocus::kOpeningOne;
@@ -97,7 +98,7 @@ TEST_CASE("opening: all weights sum to a power of two, and none is beyond its ty
   }
 }
 
-TEST_CASE("opening: a rim that does not move takes nothing away") {
+TEST_CASE("opening: a rim that does not move removes no light") {
   for (const test::NamedShape& shape : test::kShapes) {
     const ApertureShape opening = starfocus::ShapeOf(LensOf(shape));
     for (const int n : {4, 6, 11}) {
@@ -115,7 +116,7 @@ TEST_CASE("opening: a rim that does not move takes nothing away") {
   }
 }
 
-TEST_CASE("opening: rims of mirrored places are mirrored, farthest in the corners") {
+TEST_CASE("opening: rims of mirrored places are mirrored, and farthest away in the corners") {
   ApertureShape opening;
   opening.cats_eye = starfocus::kOpeningOne;
   const auto shift = [&](int x, int y) {
@@ -130,7 +131,7 @@ TEST_CASE("opening: rims of mirrored places are mirrored, farthest in the corner
   CHECK(far == doctest::Approx(std::hypot(304, 224) / 400).epsilon(1e-3));
 }
 
-TEST_CASE("opening: kernels that blur sum to exactly one through any shape") {
+TEST_CASE("opening: PSFs of the blur mode sum to exactly one for any shape") {
   test::Random random(8);
   constexpr double kMost = 13;
   const int steps = starfocus::BlurStepCount(kMost);

@@ -9,7 +9,7 @@
 namespace starfocus::call_progress_test {
 namespace {
 
-// What is asked, and the answer.
+// Records the calls of the progress function and returns a fixed answer.
 struct Caller {
   std::vector<int32_t> done;
   int answer = 0;
@@ -21,7 +21,7 @@ struct Caller {
   }
 };
 
-TEST_CASE("cancel: work is counted, however it is cut up, and asked after half a million samples") {
+TEST_CASE("cancel: work of any granularity is counted, and reported after half a million samples") {
   for (const int64_t at_once : {1, 1000, 1 << 19, 1 << 25}) {
     CAPTURE(at_once);
     Caller caller;
@@ -41,7 +41,7 @@ TEST_CASE("cancel: work is counted, however it is cut up, and asked after half a
   }
 }
 
-TEST_CASE("cancel: no is no for all of a call, and forgotten in the next") {
+TEST_CASE("cancel: cancellation applies to the whole call and not to the next one") {
   Caller caller;
   caller.answer = 1;
   CallProgress watch;
@@ -63,7 +63,7 @@ TEST_CASE("cancel: no is no for all of a call, and forgotten in the next") {
   CHECK(other.Spend(1 << 20));
 }
 
-TEST_CASE("cancel: without anybody to ask work goes on") {
+TEST_CASE("cancel: work continues without a progress function") {
   CallProgress watch;
   CancelToken nobody, watched(&watch);
   for (int i = 0; i < 3; ++i) {
@@ -73,11 +73,11 @@ TEST_CASE("cancel: without anybody to ask work goes on") {
   }
 }
 
-// Asks from another thread while it is asked.
+// Reports work from another thread during a call of the progress function.
 struct Nested {
   CallProgress* watch;
   int calls = 0;
-  bool other = false;  // what the other thread was told
+  bool other = false;  // result in the other thread
 
   static int Progress(void* data, int32_t, int32_t) {
     Nested& self = *static_cast<Nested*>(data);
@@ -87,7 +87,7 @@ struct Nested {
   }
 };
 
-TEST_CASE("watch: while a thread asks, others go on without asking") {
+TEST_CASE("watch: while one thread reports, other threads continue without reporting") {
   CallProgress watch;
   Nested nested{&watch};
   watch.SetProgress(Nested::Progress, &nested);
@@ -99,7 +99,7 @@ TEST_CASE("watch: while a thread asks, others go on without asking") {
   CHECK(nested.calls == 2);
 }
 
-TEST_CASE("watch: rows of parts are made as the jobs of their set are") {
+TEST_CASE("watch: rows of parts are finished in proportion to the jobs of their set") {
   Caller caller;
   CallProgress watch;
   watch.SetProgress(Caller::Progress, &caller);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The run-time checks of fixed.h's table.
+// Tests the run-time checks of the table in fixed.h.
 #include <doctest/doctest.h>
 
 #include "lib/base/fixed.h"
@@ -19,7 +19,7 @@ void Remember(const starfocus::FixedRange& range, int64_t value) {
   last = value;
 }
 
-TEST_CASE("ranges: a value outside is told, one inside is not") {
+TEST_CASE("ranges: only a value outside its range is reported") {
   starfocus::on_range_failure = Remember;
   const int16_t values[] = {-2, 3, 4, 0};
   starfocus::CheckAll(kRange, values, 4);
@@ -30,7 +30,7 @@ TEST_CASE("ranges: a value outside is told, one inside is not") {
   starfocus::on_range_failure = nullptr;
 }
 #else
-TEST_CASE("ranges: nothing is checked in an ordinary build") {
+TEST_CASE("ranges: an ordinary build checks nothing") {
   static_assert(starfocus::Checked(kRange, 4) == 4);
   const int16_t values[] = {-3, 4};
   starfocus::CheckAll(kRange, values, 2);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The selection rules for N and the layer at, just below and just above every step.
+// Tests the rules for N and the layer at, just below and just above every step.
 #include "lib/base/rules.h"
 
 #include <doctest/doctest.h>
@@ -45,7 +45,7 @@ TEST_CASE("rules: (9) is 4 from 4 to 4 / 0.787") {
 }
 
 TEST_CASE("rules: (9) above is the ceiling of 0.787 times the radius") {
-  // Radius r in thousandths: the ceiling of 787 r / 10^6, in integers.
+  // With r in thousandths, the expected value is the ceiling of 787 r / 10^6, in integers.
   for (int r = 5083; r <= 128000; ++r) {
     const int expected = int((int64_t{787} * r + 999999) / 1000000);
     if (ViewsByPaper(r / 1000.0) != expected) {
@@ -61,7 +61,7 @@ TEST_CASE("rules: (9) above is the ceiling of 0.787 times the radius") {
   }
 }
 
-TEST_CASE("rules: (9) on the table of the design") {
+TEST_CASE("rules: (9) matches the table of the design") {
   constexpr int kTable[][2] = {{2, 2},   {4, 4},   {5, 4},   {6, 5},   {8, 7},  {10, 8},
                                {12, 10}, {16, 13}, {20, 16}, {24, 19}, {32, 26}};
   for (const auto& row : kTable) CHECK(ViewsByPaper(row[0]) == row[1]);
@@ -86,13 +86,13 @@ TEST_CASE("rules: the benchmark renders twice the ceiling of the radius") {
   }
 }
 
-TEST_CASE("rules: a scale multiplies N and rounds it up, and leaves 0 alone") {
+TEST_CASE("rules: a scale multiplies N and rounds it up, and does not change 0") {
   for (int n = 0; n <= 102; ++n) {
     CAPTURE(n);
     CHECK(ScaleViews(n, 1) == n);
     CHECK(ScaleViews(n, 0.5) == (n + 1) / 2);
     CHECK(ScaleViews(n, 2) == 2 * n);
-    // In tenths, which no double is exactly.
+    // Tenths are not exact as doubles.
     for (int tenths = 5; tenths <= 20; ++tenths) {
       CAPTURE(tenths);
       CHECK(ScaleViews(n, tenths / 10.0) == (n * tenths + 9) / 10);
@@ -100,7 +100,7 @@ TEST_CASE("rules: a scale multiplies N and rounds it up, and leaves 0 alone") {
   }
 }
 
-TEST_CASE("rules: the table of views that stand for their subapertures") {
+TEST_CASE("rules: views that stand for their subapertures match the table") {
   constexpr struct {
     double r_max;
     int n;
@@ -116,7 +116,7 @@ TEST_CASE("rules: the table of views that stand for their subapertures") {
   }
 }
 
-TEST_CASE("rules: layers from radius 3 and 6 on by (12)") {
+TEST_CASE("rules: layers by (12) begin at radius 3 and 6") {
   CHECK(LayerByPaper(0) == 0);
   CHECK(LayerByPaper(Below(3)) == 0);
   CHECK(LayerByPaper(3) == 1);
@@ -125,7 +125,7 @@ TEST_CASE("rules: layers from radius 3 and 6 on by (12)") {
   CHECK(LayerByPaper(STARFOCUS_MAX_BLUR) == 2);
 }
 
-TEST_CASE("rules: layers from radius 7 and 24 on by subapertures, no layer 2 beside depth edges") {
+TEST_CASE("rules: layers by subapertures begin at radius 7 and 24; depth edges exclude layer 2") {
   CHECK(LayerBySubaperture(0, false) == 0);
   CHECK(LayerBySubaperture(Below(7), false) == 0);
   CHECK(LayerBySubaperture(7, false) == 1);
@@ -138,7 +138,7 @@ TEST_CASE("rules: layers from radius 7 and 24 on by subapertures, no layer 2 bes
   CHECK(LayerBySubaperture(STARFOCUS_MAX_BLUR, true) == 1);
 }
 
-TEST_CASE("rules: what openings demand, and that layers and more views follow") {
+TEST_CASE("rules: openings with larger demands have more views and later layers") {
   using starfocus::ApertureShape;
   using starfocus::Demand;
   ApertureShape opening;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far pixels move from view to view, against u * (d - d_t) in double.
+// Compares the shifts of pixels from view to view with u * (d - d_t) in double precision.
 #include "lib/base/view_grid.h"
 
 #include <doctest/doctest.h>
@@ -66,7 +66,7 @@ TEST_CASE("view grid: shifts are u (d - d_t), to 1/256 of a pixel, within the bl
     const ViewGrid grid = MakeGrid(n, focus, aperture);
     const int shift = grid.Shift(grid.Move(i), int(disparity * 64));
     const double exact = aperture * i / n * (disparity - focus) * 256;
-    // Half a unit of its own, and 1.5 units of the view's place (2^-24) over the whole distance.
+    // Half a unit of the shift, and 1.5 units of the view's position (2^-24) times the distance.
     const double bound = 0.5 + 1.5 * 256 / (1 << 24) * std::fabs(disparity - focus) + 1e-9;
     if (std::fabs(shift - exact) > bound) {
       CAPTURE(aperture);
@@ -79,7 +79,7 @@ TEST_CASE("view grid: shifts are u (d - d_t), to 1/256 of a pixel, within the bl
   }
 }
 
-TEST_CASE("view grid: shifts round half up, in focus nothing moves") {
+TEST_CASE("view grid: shifts are rounded half up, and pixels in focus do not move") {
   const ViewGrid grid = MakeGrid(4, 2, 1);
   CHECK(grid.Shift(grid.Move(4), 128) == 0);
   CHECK(grid.Shift(grid.Move(4), 129) == 4);
@@ -103,8 +103,8 @@ TEST_CASE("view grid: views up to half a unit away use the views at half distanc
   CHECK(MakeGrid(0, 0, 1, 0, true).half_views == 0);
 }
 
-// Whatever a run's disparity range, no pixel is drawn further than 1/8 of a pixel from its place.
-TEST_CASE("view grid: the spread of a run displaces by at most an eighth of a pixel") {
+// For any range of disparities in a run, pixels are drawn at most 1/8 of a pixel from their place.
+TEST_CASE("view grid: the spread of a run displaces pixels by at most an eighth of a pixel") {
   for (const double aperture : {1.0, 0.9, 0.5, 0.3, 0.2, 0.01, 1e-7}) {
     for (const int layer : {0, 1, 2}) {
       const ViewGrid grid = MakeGrid(9, 0, aperture, layer);
@@ -114,7 +114,7 @@ TEST_CASE("view grid: the spread of a run displaces by at most an eighth of a pi
       CHECK(grid.spread >= 1);
       CHECK(grid.spread <= starfocus::kSurfaceStep);
       CHECK(spread / 2 * u <= 0.125 + 1e-6);
-      // As large as that allows.
+      // The spread is as large as this bound allows.
       const bool largest =
           grid.spread == starfocus::kSurfaceStep || (spread + 1.0 / 64) / 2 * u > 0.125 - 1e-6;
       CHECK(largest);

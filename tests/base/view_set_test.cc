@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Positions of captured views, and which of them look behind edges on each side.
+// Tests the positions of captured views, and the choice of views that see behind edges on each
+// side.
 #include "lib/base/view_set.h"
 
 #include <doctest/doctest.h>
@@ -31,7 +32,7 @@ starfocus_status Check(const starfocus_config& config) {
   return starfocus::FindViews(config, &set);
 }
 
-// The indices of the views that look behind edges to the right, left, bottom and top.
+// Returns the indices of the views that see behind edges to the right, left, bottom and top.
 using Sides = std::vector<std::vector<int>>;
 Sides LooksOf(const starfocus_config& config) {
   ViewSet set;
@@ -51,13 +52,13 @@ Sides LooksOf(const starfocus_config& config) {
   return sides;
 }
 
-TEST_CASE("views: the star's look along its axes, the farther ones first") {
+TEST_CASE("views: looks of the star are on its axes, the farther ones first") {
   CHECK(LooksOf(Star(1)) == Sides{{}, {}, {}, {}});
   for (const int views : {5, 9}) CHECK(LooksOf(Star(views)) == Sides{{1}, {2}, {3}, {4}});
   CHECK(LooksOf(Star(17)) == Sides{{1, 9}, {2, 10}, {3, 11}, {4, 12}});
 }
 
-TEST_CASE("views: a pair looks to one side, an L to two, a row twice to either") {
+TEST_CASE("views: a pair sees one side, an L two sides, and a row has two views for either side") {
   CHECK(LooksOf(Config({{0, 0}, {1, 0}})) == Sides{{1}, {}, {}, {}});
   CHECK(LooksOf(Config({{0, 0}, {0, -0.3}})) == Sides{{}, {}, {}, {1}});
   CHECK(LooksOf(Config({{0, 0}, {0, 1}, {-1, 0}})) == Sides{{}, {2}, {1}, {}});
@@ -65,18 +66,18 @@ TEST_CASE("views: a pair looks to one side, an L to two, a row twice to either")
         Sides{{4, 3}, {1, 2}, {}, {}});
 }
 
-TEST_CASE("views: others stand in where none is nearer to the side") {
+TEST_CASE("views: other views are used if none is nearer to the side") {
   CHECK(LooksOf(Config({{0, 0}, {1, 1}})) == Sides{{1}, {}, {1}, {}});
   CHECK(LooksOf(Config({{0, 0}, {1, 1}, {0.5, 0}})) == Sides{{2}, {}, {1}, {}});
-  // Up to eight times as far beside the axis as along it.
+  // The distance across the axis may be up to eight times the distance along it.
   CHECK(LooksOf(Config({{0, 0}, {0.13, 1}})) == Sides{{1}, {}, {1}, {}});
   CHECK(LooksOf(Config({{0, 0}, {0.125, 1}})) == Sides{{}, {}, {1}, {}});
-  // Of several the two that lie farthest out along the axis.
+  // If there are several, the two views that lie farthest along the axis are chosen.
   CHECK(LooksOf(Config({{0, 0}, {0.4, 0}, {1, 0.1}, {0.9, -0.8}, {0.8, 0}}))[0] ==
         std::vector<int>{2, 4});
 }
 
-TEST_CASE("views: the order in which they are given decides nothing") {
+TEST_CASE("views: the order of the views does not matter") {
   std::vector<starfocus_position> positions = {{0, 0}, {1, 0.5}, {1, -0.5}, {0.75, 0}, {-0.2, 0.6}};
   const auto chosen = [&] {
     const Sides sides = LooksOf(Config(positions));
@@ -97,7 +98,7 @@ TEST_CASE("views: the order in which they are given decides nothing") {
   }
 }
 
-TEST_CASE("views: the star is known by its positions, in their order") {
+TEST_CASE("views: the star is recognised by its positions, in their order") {
   for (const int views : {1, 5, 9, 17}) {
     CHECK(starfocus::HasStar(Star(views)));
     starfocus_config config = Star(views);
@@ -113,7 +114,7 @@ TEST_CASE("views: the star is known by its positions, in their order") {
   CHECK_FALSE(starfocus::HasStar(Config({{0, 0}, {1, 0}})));
 }
 
-TEST_CASE("views: what is no set of views is refused") {
+TEST_CASE("views: invalid sets of views are rejected") {
   for (const int views : {-1, 0, 2, 3, 4, 16, 18})
     CHECK(Check(Star(views)) == STARFOCUS_ERROR_RANGE);
   CHECK(Check(Config({{0, 0}, {1, -1}})) == STARFOCUS_OK);
@@ -126,13 +127,13 @@ TEST_CASE("views: what is no set of views is refused") {
   CHECK(Check(Config({{0, 0}, {0.5, 0}, {0.5, 0}})) == STARFOCUS_ERROR_RANGE);
   CHECK(Check(Config({{0, 0}, {1, 0}, {0, 0}})) == STARFOCUS_ERROR_RANGE);
   CHECK(Check(Config({{0, 0}, {0.5, 0}, {0.5 + 1.0 / 16384, 0}})) == STARFOCUS_OK);
-  // Beyond the views anything may be left.
+  // Entries beyond the number of views are ignored.
   starfocus_config config = Config({{0, 0}, {1, 0}});
   config.positions[2] = {nan, 7};
   CHECK(Check(config) == STARFOCUS_OK);
 }
 
-TEST_CASE("views: a disparity moves by its product with the position, alike on both sides") {
+TEST_CASE("views: a disparity moves by its product with the position, equally on both sides") {
   CHECK(starfocus::ScaledByView(starfocus::kViewOne, 320, 12) == 1280);
   CHECK(starfocus::ScaledByView(-starfocus::kViewOne, 320, 12) == -1280);
   CHECK(starfocus::ScaledByView(starfocus::kViewOne / 2, -321, 12) == -642);

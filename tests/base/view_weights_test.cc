@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The integer weights against the aperture (3) in double.
+// Compares the integer weights with the aperture (3) in double precision.
 #include "lib/base/view_weights.h"
 
 #include <doctest/doctest.h>
@@ -19,7 +19,7 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr double kThetas[] = {STARFOCUS_MIN_THETA, 0.1 * kPi, 0.26 * kPi, 0.4 * kPi,
                               STARFOCUS_MAX_THETA};
 
-// (3): a(u, v) = cot^4 / (pi cos^2 (u^2 + v^2 + cot^2)^2) inside the unit disc.
+// Returns (3): a(u, v) = cot^4 / (pi cos^2 (u^2 + v^2 + cot^2)^2) inside the unit disc.
 double Density(double u, double v, double theta) {
   const double cot2 = std::pow(std::cos(theta) / std::sin(theta), 2);
   return cot2 * cot2 / (kPi * std::pow(std::cos(theta), 2) * std::pow(u * u + v * v + cot2, 2));
@@ -42,7 +42,7 @@ void ForEachView(int n, const Visit& visit) {
   }
 }
 
-TEST_CASE("aperture: the density (3) falls off to cos^4 theta at the rim and holds all light") {
+TEST_CASE("aperture: the density (3) falls to cos^4 theta at the rim and integrates to 1") {
   for (const double theta : kThetas) {
     CAPTURE(theta);
     CHECK(Density(0.6, 0.8, theta) / Density(0, 0, theta) ==
@@ -57,14 +57,14 @@ TEST_CASE("aperture: the density (3) falls off to cos^4 theta at the rim and hol
   }
 }
 
-TEST_CASE("aperture: cot^2 theta with 16 fractional bits") {
+TEST_CASE("aperture: cot^2 theta has 16 fractional bits") {
   for (const double theta : kThetas) {
     const double cot2 = std::pow(std::cos(theta) / std::sin(theta), 2);
     CHECK(std::fabs(starfocus::ApertureFallOff(theta) / 65536.0 - cot2) <= 0.5001 / 65536);
   }
 }
 
-TEST_CASE("aperture: number of views in the disc") {
+TEST_CASE("aperture: the number of views in the disc matches the table") {
   constexpr int kViews[][2] = {{0, 1},    {1, 5},    {2, 13},    {3, 29},    {4, 49},
                                {5, 81},   {7, 149},  {8, 197},   {10, 317},  {13, 529},
                                {16, 797}, {17, 901}, {19, 1129}, {22, 1517}, {26, 2121}};
@@ -107,20 +107,20 @@ TEST_CASE("aperture: weights follow (3), sum to a power of two and fit signed 16
       CHECK(sum == int64_t{1} << aperture.sum_bits);
       CHECK(outside == 0);
       CHECK(too_large == 0);
-      // Half the weights' range is used, so that their rounding is as small as it can be.
+      // At least half of the range of weights is used, so that their rounding errors are small.
       if (aperture.sum_bits < starfocus::kMaxLightBits) CHECK(aperture.Weight(0, 0) > 16000);
     }
   }
   MESSAGE("furthest from (3): " << furthest << ", the centre " << furthest_centre);
-  // A weight takes up the rounding of the orbit before it: up to 4 units over 4 views, and the
-  // centre alone up to 4 units; plus half a unit of its own and the 20 bits of the densities.
-  // Half a unit of rounding, one of the orbits' carry, and another half on the diagonals, whose
-  // weights are even.
+  // A weight takes the remainder of rounding of the orbit before it: up to 4 units, which are one
+  // unit for each of 4 views. The centre takes up to 4 units alone. To this, its own rounding adds
+  // half a unit, and another half on the diagonals, where weights are even. The densities have 20
+  // bits.
   CHECK(furthest < 2);
   CHECK(furthest_centre < 4.6);
 }
 
-TEST_CASE("aperture: the same weight for mirrored and transposed views") {
+TEST_CASE("aperture: mirrored and transposed views have the same weight") {
   for (const int n : {1, 2, 7, 18}) {
     const Sampled sampled(n, 0.26 * kPi);
     int different = 0;
@@ -134,14 +134,14 @@ TEST_CASE("aperture: the same weight for mirrored and transposed views") {
   }
 }
 
-TEST_CASE("aperture: the centre view alone has all the weight") {
+TEST_CASE("aperture: a single centre view has all the weight") {
   const Sampled sampled(0, 0.26 * kPi);
   CHECK(sampled.aperture.views == 1);
   CHECK(sampled.aperture.Weight(0, 0) == 1u << sampled.aperture.sum_bits);
   CHECK(sampled.aperture.Weight(0, 0) <= 32767);
 }
 
-TEST_CASE("aperture: the largest N of the configuration") {
+TEST_CASE("aperture: the largest N of the configuration is valid") {
   for (const double theta : kThetas) {
     const Sampled sampled(256, theta);
     int64_t sum = 0, largest = 0;
@@ -177,7 +177,7 @@ TEST_CASE("aperture: subapertures have the light of their part of the lens") {
           squares += weight * (i * i + j * j + 1.0 / 6) / (lens * lens);
         }
       }
-      // Rings of the lens, and what lies out there.
+      // Integrates over rings of the lens; `exact` is the mean square of their radius.
       for (double rho = 0.5e-3; rho < 1; rho += 1e-3) {
         const double ring = rho * std::pow(c / (rho * rho + c), 2);
         light += ring;
@@ -186,7 +186,7 @@ TEST_CASE("aperture: subapertures have the light of their part of the lens") {
       CHECK(subapertures.last > 0);
       CHECK(views == subapertures.views);
       CHECK(sum == std::ldexp(1.0, subapertures.sum_bits));
-      // A box blurs a rim subaperture's light over more than the part within.
+      // A box spreads the light of a subaperture at the rim beyond the part inside the lens.
       CHECK(squares / sum == doctest::Approx(exact / light)
                                  .epsilon(n < 4    ? 0.25
                                           : n < 13 ? 0.06
@@ -195,7 +195,7 @@ TEST_CASE("aperture: subapertures have the light of their part of the lens") {
   }
 }
 
-TEST_CASE("aperture: no views but the centre's") {
+TEST_CASE("aperture: an aperture without other views has the centre view alone") {
   uint16_t weight = 0;
   const starfocus::ViewWeights subapertures = starfocus::MakeSubapertures(0, 65536, &weight);
   CHECK(subapertures.views == 1);
