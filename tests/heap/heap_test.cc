@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The engine never allocates: malloc and its relatives are interposed for this whole program and
-// counted while the engine works.
+// Checks that the engine allocates nothing on the heap. This program replaces malloc and its
+// relatives and counts their calls while the engine works.
 #include <doctest/doctest.h>
 
 #include <atomic>
@@ -25,7 +25,7 @@ void Count() {
   if (armed.load(std::memory_order_relaxed)) calls.fetch_add(1, std::memory_order_relaxed);
 }
 
-// Counts heap calls while it lives.
+// Counts heap calls during its lifetime.
 class HeapWatch {
  public:
   HeapWatch() {
@@ -81,7 +81,7 @@ void free(void* memory) noexcept {
 
 }  // extern "C"
 
-// The other forms of new and delete end in these (C++17 [new.delete]).
+// The other forms of new and delete call these (C++17 [new.delete]).
 void* operator new(size_t size) {
   Count();
   if (void* memory = __libc_malloc(size ? size : 1)) return memory;
@@ -111,7 +111,7 @@ void operator delete(void* memory, size_t, std::align_val_t) noexcept {
 
 namespace {
 
-TEST_CASE("the watch sees every kind of heap call") {
+TEST_CASE("the watch counts every kind of heap call") {
   HeapWatch watch;
   void* volatile memory = std::malloc(10);
   memory = std::realloc(memory, 1000);
@@ -125,12 +125,12 @@ TEST_CASE("the watch sees every kind of heap call") {
   CHECK(watch.Stop() >= 9);
 }
 
-int wrong = 0;  // calls that did not return what was expected
+int wrong = 0;  // number of calls with an unexpected result
 
-// As CHECK, which may take memory.
+// Same as CHECK, which may allocate memory.
 void Expect(starfocus_status expected, starfocus_status status) { wrong += status != expected; }
 
-TEST_CASE("no heap call in size query, init, refocusing and streaming") {
+TEST_CASE("size queries, initialisation, refocusing and streaming make no heap call") {
   for (int views : {17, 9, 5, 1}) {
     for (starfocus_mode mode : {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BENCHMARK,
                                 STARFOCUS_MODE_BLOCK, STARFOCUS_MODE_BLUR}) {
@@ -170,7 +170,7 @@ TEST_CASE("no heap call in size query, init, refocusing and streaming") {
   }
 }
 
-TEST_CASE("no heap call of images") {
+TEST_CASE("images make no heap call") {
   test::Random random(3);
   const test::Scene scene = test::RandomScene(70, 50, 5, -3, 3, 5);
   test::ImageKind nv12;
@@ -197,8 +197,8 @@ TEST_CASE("no heap call of images") {
   CHECK(counted == 0);
 }
 
-TEST_CASE("no heap call in block mode with all layers, deblocking, visitor and clock") {
-  // In focus on the left, far out of focus on the right.
+TEST_CASE("block mode with all layers, deblocking, visitor and clock makes no heap call") {
+  // In focus on the left, strongly blurred on the right.
   test::Scene scene = test::RandomScene(160, 96, 5, -1, 26, 8);
   for (int y = 0; y < scene.height; ++y) {
     for (int x = 0; x < scene.width; ++x) {
@@ -208,7 +208,7 @@ TEST_CASE("no heap call in block mode with all layers, deblocking, visitor and c
   starfocus_config config = test::ConfigFor(scene, 28);
   config.superblock = 32;
   config.features |= STARFOCUS_FEATURE_STREAMING;
-  config.tuning.gather = 0;     // all three layers
+  config.tuning.gather = 0;     // uses all three layers
   test::Engine holder(config);  // only its memory is used
   REQUIRE(holder.status() == STARFOCUS_OK);
   const starfocus_params params = test::Params(0, 1, STARFOCUS_MODE_BLOCK);
@@ -235,8 +235,7 @@ TEST_CASE("no heap call in block mode with all layers, deblocking, visitor and c
   for (const starfocus_layer_report& layer : report.layers) CHECK(layer.blocks > 0);
 }
 
-TEST_CASE(
-    "no heap call in creating an engine in an allocator's memory, nor where it is cancelled") {
+TEST_CASE("creating an engine with an allocator makes no heap call, nor does cancelling") {
   const test::Scene scene = test::RandomScene(160, 96, 5, -3, 5, 8);
   const starfocus_config config = test::ConfigFor(scene, 16);
   test::Engine holder(config);  // only its memory is used
@@ -265,13 +264,13 @@ TEST_CASE(
   CHECK(counted == 0);
 }
 
-TEST_CASE("no heap call in preparing, regions and refocusing what is prepared") {
+TEST_CASE("preparing, regions and refocusing prepared light fields make no heap call") {
   const test::Scene scene = test::RandomScene(160, 96, 5, -3, 5, 8);
   const starfocus_config config = test::ConfigFor(scene, 16);
   test::Engine holder(config), memory(config);
   size_t bytes = 0;
   REQUIRE(starfocus_prepared_size(&config, &bytes) == STARFOCUS_OK);
-  REQUIRE(bytes <= memory.bytes());  // memory's is as good as any
+  REQUIRE(bytes <= memory.bytes());  // the memory of an engine is used for the prepared light field
   starfocus_params params = test::Params(0, 1, STARFOCUS_MODE_BLOCK);
   params.region = {30, 20, 50, 50};
   const starfocus_light_field field = scene.Field();
@@ -291,7 +290,7 @@ TEST_CASE("no heap call in preparing, regions and refocusing what is prepared") 
   CHECK(counted == 0);
 }
 
-TEST_CASE("no heap call in measuring, filling and tapping disparity maps") {
+TEST_CASE("measuring, filling and tapping disparity maps make no heap call") {
   test::Scene scene = test::RandomScene(40, 30, 1, -3, 3, 6);
   const float nan = std::numeric_limits<float>::quiet_NaN();
   for (int x = 0; x < 40; ++x) scene.Disparity(x, 11) = nan;

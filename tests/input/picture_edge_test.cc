@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What lies beyond the picture: a smaller picture of the same scene, refocused, is part of the
-// larger one where its side views saw enough, and what something nearer covers is not taken.
+// Tests the continuation of surfaces beyond the picture. If the side views show enough, a refocused
+// picture must be equal to the same part of a larger picture of the scene. Surfaces that a nearer
+// one covers must not be used.
 #include "lib/input/picture_edge.h"
 
 #include <doctest/doctest.h>
@@ -21,7 +22,7 @@ namespace {
 
 constexpr int kSide = 96;
 
-// A pattern at one disparity, of which the picture starts at (x0, y0).
+// Makes a pattern at one disparity. The picture starts at (x0, y0) of the pattern.
 test::Scene FlatScene(int x0, int y0, int side, int views, float disparity) {
   test::Scene scene = test::EmptyScene(side, side, views, disparity - 1, disparity + 1);
   for (int view = 0; view < views; ++view) {
@@ -29,7 +30,7 @@ test::Scene FlatScene(int x0, int y0, int side, int views, float disparity) {
     starfocus_view_position(view, &u, &v);
     for (int y = 0; y < side; ++y) {
       for (int x = 0; x < side; ++x) {
-        // Pixel (x, y) of the centre is at (x - u d, y - v d).
+        // Pixel (x, y) of the centre view is at (x - u d, y - v d).
         const double px = x0 + x + u * double(disparity), py = y0 + y + v * double(disparity);
         for (int c = 0; c < 3; ++c) {
           const double wave = std::sin(0.23 * px + c) * std::cos(0.19 * py - c) + 0.004 * (px + py);
@@ -47,8 +48,7 @@ struct Difference {
   double mean;
 };
 
-// Of the picture and the same part of a larger one, near the edges but for the
-// corners.
+// Compares the picture with the same part of a larger one, near the edges but not near the corners.
 Difference AtEdges(const test::Refocused& picture, const test::Refocused& larger, int margin) {
   constexpr int kFrame = 6, kCorner = 16;
   Difference difference = {0, 0};
@@ -106,7 +106,7 @@ TEST_CASE("beyond: edges look as in a larger picture of the same scene") {
   }
 }
 
-TEST_CASE("beyond: a view alone repeats its edge") {
+TEST_CASE("beyond: a single view repeats its edge") {
   constexpr int kMargin = 32;
   const test::Scene scene = FlatScene(0, 0, kSide, 1, 9);
   const test::Scene larger = FlatScene(-kMargin, -kMargin, kSide + 2 * kMargin, 1, 9);
@@ -119,12 +119,12 @@ TEST_CASE("beyond: a view alone repeats its edge") {
   CHECK(AtEdges(refocused(scene), refocused(larger), kMargin).mean > 3);
 }
 
-// --- One row of a field. ---
+// --- One row of a light field ---
 
 constexpr int kWidth = 64, kHeight = 8, kBorder = 12;
 
 struct Row {
-  // The centre view is 10 x, side view v is 100 + v, at pixel x.
+  // The centre view is 10 x at pixel x; side view v is 100 + v everywhere.
   explicit Row(int views) : side(size_t(views)) {
     for (size_t view = 0; view < side.size(); ++view) {
       side[view].assign(3 * kWidth * kHeight, uint8_t(100 + view));
@@ -149,7 +149,7 @@ struct Row {
     }
   }
 
-  // Red of the pixels from kBorder left of the picture to kBorder right of it.
+  // Returns the red samples from kBorder pixels left of the picture to kBorder pixels right of it.
   std::vector<int> Load() {
     const int width = kWidth + 2 * kBorder;
     std::vector<int16_t> rgb(starfocus::RgbStride(width) * kHeight);
@@ -169,12 +169,12 @@ struct Row {
   starfocus::Window window;
 };
 
-TEST_CASE("beyond: the view that looks out over an edge, as far as it does") {
+TEST_CASE("beyond: the view on the outer side is used as far as it sees beyond the edge") {
   for (const int views : {5, 9, 17}) {
     for (const int unit : {-5, 5}) {
       Row scene(views);
       scene.Fill(0, kWidth, unit);
-      // View 1 is (1, 0), view 2 (-1, 0); pixel k beyond the left edge lies at -k - u d.
+      // View 1 is at (1, 0), view 2 at (-1, 0). Pixel k beyond the left edge lies at -k - u d.
       const int left = unit < 0 ? 1 : 2, right = 3 - left;
       for (int y = 0; y < kHeight; ++y) {
         for (int x = 0; x < 5; ++x) {
@@ -197,7 +197,7 @@ TEST_CASE("beyond: the view that looks out over an edge, as far as it does") {
   }
 }
 
-TEST_CASE("beyond: a pair looks out over one edge, as far as its second view moves") {
+TEST_CASE("beyond: a pair sees beyond one edge, as far as its second view moves") {
   for (const int unit : {-10, 10}) {
     Row scene(17);
     test::SetPositions({{0.5, 0}}, &scene.window);
@@ -212,19 +212,19 @@ TEST_CASE("beyond: a pair looks out over one edge, as far as its second view mov
   }
 }
 
-TEST_CASE("beyond: nothing is taken from under a nearer surface, nor behind it") {
+TEST_CASE("beyond: pixels under or behind a nearer surface are not used") {
   Row scene(5);
   scene.Fill(0, kWidth, -6);
-  scene.Fill(4, 7, 1);  // 7 nearer: in the view at (1, 0) over the pixels 1 to 3 beyond the edge
+  scene.Fill(4, 7, 1);  // 7 nearer: in view (1, 0) it covers pixels 1 to 3 beyond the edge
   std::vector<int> row = scene.Load();
   for (int k = 0; k <= kBorder; ++k) CHECK(row[size_t(kBorder - k)] == 0);
   scene.Fill(3, 7, -6);
-  scene.Fill(2, 4, 1);  // over pixels 4 and 5
+  scene.Fill(2, 4, 1);  // covers pixels 4 and 5
   row = scene.Load();
   CHECK(row[kBorder] == 0);
   for (int k = 1; k <= kBorder; ++k) CHECK(row[size_t(kBorder - k)] == 101);
   for (int y = 0; y < kHeight; ++y) {
-    // Pixel 4 beyond the edge is at 2 there, 3 at 3.
+    // In this view pixel 4 beyond the edge is at 2, and pixel 3 is at 3.
     scene.side[1][size_t(3 * (y * kWidth + 2))] = 7;
     scene.side[1][size_t(3 * (y * kWidth + 3))] = 9;
   }
@@ -233,7 +233,7 @@ TEST_CASE("beyond: nothing is taken from under a nearer surface, nor behind it")
   for (int k = 3; k <= kBorder; ++k) CHECK(row[size_t(kBorder - k)] == 9);
 }
 
-TEST_CASE("beyond: near surfaces look out on the side that others leave free") {
+TEST_CASE("beyond: near surfaces continue on the side that farther ones leave free") {
   Row scene(5);
   scene.Fill(0, kWidth, 3);
   scene.Fill(1, 20, 9);
