@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The case of the kernel of simd/cells.h.
+// Test and benchmark calls of the kernel in simd/cells.h.
 #include "tests/simd/kernel_cases.h"
 
 namespace test::kernel_cases {
@@ -14,7 +14,7 @@ CellLimits DrawCellLimits(Draw* draw) {
   return limits;
 }
 
-// Disparities of all sizes; in the bench a surface without edges, as most cells are.
+// Disparities of all sizes. The benchmark uses a surface without edges, which is the common case.
 std::vector<int16_t> CellDisparities(size_t count, Draw* draw) {
   const int kind = draw->timed() ? 5 : draw->Int(0, 5);
   const int most = kind == 0 ? 32000 : kind == 1 ? 7000 : kind == 2 ? 200 : kind == 5 ? 0 : 60;
@@ -24,7 +24,7 @@ std::vector<int16_t> CellDisparities(size_t count, Draw* draw) {
   });
 }
 
-// All that is measured, as what lies between the fields is nothing.
+// Passes each field of a measure to `take`. Padding between the fields is not compared.
 template <class Take>
 void ForFields(const CellMeasure& m, const Take& take) {
   for (const auto* ends : {m.column_low, m.column_high, m.row_low, m.row_high}) take(ends, 8);
@@ -37,7 +37,7 @@ void ForFields(const CellMeasure& m, const Take& take) {
 }  // namespace
 
 void MeasureCell(Draw* draw, KernelCall* call) {
-  const size_t cells = draw->Size(1, 3, kTimedSamples / 64);  // beside each other
+  const size_t cells = draw->Size(1, 3, kTimedSamples / 64);  // in one row
   const size_t width = 8 * cells + 2, stride = width + draw->Size(0, 9, 0);
   const int16_t* in = call->Input("disparity", CellDisparities(9 * stride + width, draw), kPadding);
   call->IgnoreRows(in + width, 9, stride, stride - width);

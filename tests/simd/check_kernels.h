@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the kernels of every table are checked for, and values by hand.
+// Checks that apply to the kernels of every table, and comparison with values computed by hand.
 #ifndef STARFOCUS_TESTS_SIMD_CHECK_KERNELS_H_
 #define STARFOCUS_TESTS_SIMD_CHECK_KERNELS_H_
 
@@ -13,8 +13,8 @@
 
 namespace test {
 
-// Calls each kernel of a table with random arguments, on every target: all give the bits of the
-// reference and write nothing else. Call is what a case makes.
+// Calls each kernel of a table with random arguments on every target. All targets must return the
+// bits of the reference and write nothing else. Call is the type of call that a case fills.
 template <class Call, class Cases, class Table>
 void CheckKernels(const Cases& cases, const Table& reference,
                   const std::vector<const Table*>& targets) {
@@ -33,7 +33,7 @@ void CheckKernels(const Cases& cases, const Table& reference,
       CAPTURE(round);
       REQUIRE_MESSAGE(wrong.empty(), wrong);
     }
-    // What the calls must meet, they met often enough.
+    // Each situation that the cases must produce has to occur in more than 1/50 of the rounds.
     for (const auto& what : met) {
       CAPTURE(what.first);
       CHECK(what.second > kRounds / 50);
@@ -41,7 +41,7 @@ void CheckKernels(const Cases& cases, const Table& reference,
   }
 }
 
-// Checks values one by one.
+// Compares an array with the expected values, element by element.
 template <class T>
 void CheckValues(const char* what, const T* found, const std::vector<int64_t>& expected) {
   CAPTURE(what);

@@ -5,12 +5,12 @@
 namespace test::depth_cases {
 namespace {
 
-constexpr int kMostCost = 80;  // of a pixel without its colour
+constexpr int kMostCost = 80;  // cost of a pixel without the cost of its colour
 
-// Few colours are alike otherwise.
+// Limits the number of different colours, since random colours are seldom similar.
 int Primary(int range, Draw* draw) { return draw->Int(0, range) * 255 / range; }
 
-// One of `rarity` samples is compared.
+// Returns a random sample. One of `rarity` samples takes part in the comparison.
 ColourSample AnySample(int groups, int colours, int rarity, Draw* draw) {
   const int red = Primary(colours, draw), green = Primary(colours, draw);
   const int blue = Primary(colours, draw);
@@ -35,7 +35,8 @@ void CompareColours(Draw* draw, DepthCall* call) {
   auto* least = call->Results<uint16_t>("least", groups * kSliceLanes);
   std::fill_n(least, groups * kSliceLanes, kNoColourKey);
   call->Runs([=](const DepthKernels& kernels) { kernels.CompareColours(window, stride, least); });
-  // No key is less than that of a pixel of the group, which has the pixel's colour.
+  // A group contains pixels of exactly its colours, so no key may be below the lowest key of the
+  // group.
   call->is_right = [=](uint64_t, Met* met) {
     std::vector<uint16_t> lowest(groups, kNoColourKey);
     for (const ColourSample& sample : samples) {

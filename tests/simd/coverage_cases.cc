@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The cases of the kernels of simd/coverage.h.
+// Test and benchmark calls of the kernels in simd/coverage.h.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -11,7 +11,7 @@ namespace {
 
 int Saturated(int value) { return std::clamp(value, -32768, 32767); }
 
-// a * b of 15 fractional bits, rounded halves up, by real numbers.
+// Returns a * b with 15 fractional bits, rounded half up, computed with real numbers.
 int Product(int a, int b) { return int(std::floor(double(a) * b / 32768 + 0.5)); }
 
 CoverView DrawView(Draw* draw) {
@@ -27,7 +27,7 @@ std::vector<int16_t> Weights(size_t count, Draw* draw) {
   });
 }
 
-// Disparities of two surfaces, seldom any.
+// Disparities of two surfaces, with a few arbitrary values.
 std::vector<int16_t> TwoSurfaces(size_t count, Draw* draw) {
   return Filled<int16_t>(count, [&] {
     if (draw->Rarely(20)) return draw->Int(-32768, 32767);

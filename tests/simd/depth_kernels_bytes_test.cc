@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every depth kernel on every SIMD target of this machine against its reference, and what the
-// references compute, by hand.
+// Compares every depth kernel with its reference on every SIMD target of this machine. Compares the
+// references with values computed by hand.
 #include <doctest/doctest.h>
 
 #include <cstdint>
@@ -18,29 +18,31 @@ namespace {
 using namespace starfocus::simd;
 using test::CheckValues;
 
-TEST_CASE("depth kernels: every target gives the bits of the reference and writes nothing else") {
+TEST_CASE("depth kernels: every target returns the bits of the reference and writes nothing else") {
   CHECK(test::DepthTargets()[0] == &BestDepthKernels());
   test::CheckKernels<test::DepthCall>(test::depth_cases::kAll, ReferenceDepthKernels(),
                                       test::DepthTargets());
 }
 
-TEST_CASE("depth kernels: samples between pixels, and how much pixels differ, by hand") {
+TEST_CASE(
+    "depth kernels: interpolated samples and pixel differences have values computed by hand") {
   const uint8_t row[] = {10, 20, 99}, next[] = {30, 50, 99};
   uint8_t sample[16];
-  // Down a quarter: 15, 27.5 (28) and 99; across a half: 21.5 (22) and 63.5 (64).
+  // A quarter of the way down: 15, 27.5 (28) and 99. Half of the way across: 21.5 (22) and 63.5
+  // (64).
   ReferenceDepthKernels().InterpolateRow(row, next, 64, 32, 2, sample);
   CheckValues("samples", sample, {22, 64});
-  // Two pixels, in planes.
+  // Two pixels, stored as planes.
   const uint8_t view[] = {22, 64, 5, 0, 0, 0}, centre[] = {25, 0, 3, 0, 1, 0};
   uint8_t difference[2];
   reference::MatchView(centre, view, 2, 2, difference);
   CheckValues("differences", difference, {3 + 2 + 1, 60});
 }
 
-TEST_CASE("depth kernels: what labels cost, by hand") {
+TEST_CASE("depth kernels: costs of labels have values computed by hand") {
   // One pixel at 100, four views, two labels.
   const uint8_t planes[3 * 3] = {100, 107, 160, 100, 100, 100, 100, 100, 100};
-  // The second label of the views on one side, 0 and 1, is seen at 107; others at 160.
+  // At the second label, views 0 and 1 on one side show 107; the other views show 160.
   const ViewMove moves[] = {{0, 0}, {2, 0}, {2, 0}, {2, 0}, {1, 1}, {1, 0}, {2, 0}, {2, 0}};
   uint8_t cost[16];
   LabelRow costs = {};
@@ -56,18 +58,18 @@ TEST_CASE("depth kernels: what labels cost, by hand") {
   costs.one_side = false;
   ReferenceDepthKernels().CostLabels(costs, 1, 16, cost);
   CHECK(int(cost[1]) == 7 + 7 + 60 + 60);
-  // The first view does not see the second label: the one opposite stands in for it.
+  // The first view does not see the second label, so the opposite view replaces it.
   uint8_t hidden[] = {1, 2};
   costs.hidden = hidden;
   ReferenceDepthKernels().CostLabels(costs, 1, 16, cost);
   CHECK(int(cost[1]) == 60 + 7 + 60 + 60);
-  // Not when only the first one is hidden there.
+  // The opposite view does not replace the first view if both are hidden at that label.
   hidden[1] = 1;
   ReferenceDepthKernels().CostLabels(costs, 1, 16, cost);
   CHECK(int(cost[1]) == 7 + 7 + 60 + 60);
 }
 
-TEST_CASE("depth kernels: who sees a pixel stands in for who doesn't, by hand") {
+TEST_CASE("depth kernels: a view that sees a pixel replaces the opposite view that does not") {
   const uint8_t hidden_a[] = {5, 6, 5, 6}, hidden_b[] = {5, 5, 6, 6};
   uint8_t a[16] = {1, 2, 3, 4}, b[16] = {11, 12, 13, 14};
   reference::StandIn(hidden_a, hidden_b, 5, 4, a, b);
@@ -75,8 +77,7 @@ TEST_CASE("depth kernels: who sees a pixel stands in for who doesn't, by hand") 
   CheckValues("b", b, {11, 12, 3, 48});
 }
 
-TEST_CASE(
-    "depth kernels: a hidden view counts little, and more where none sees the pixel, by hand") {
+TEST_CASE("depth kernels: hidden views count little, and more if no view sees the pixel") {
   const uint8_t rows[4][4] = {{5, 6, 6, 6}, {5, 6, 6, 5}, {5, 5, 6, 5}, {5, 6, 6, 5}};
   uint8_t values[4][16] = {{60, 60, 60, 3}, {50, 50, 50, 50}, {40, 40, 40, 40}, {2, 2, 2, 2}};
   const uint8_t* hidden[] = {rows[0], rows[1], rows[2], rows[3]};
@@ -88,10 +89,10 @@ TEST_CASE(
   CheckValues("fourth", values[3], {2, 2, 2, 2});
 }
 
-TEST_CASE("depth kernels: what a map says spreads to neighbours, by hand") {
+TEST_CASE("depth kernels: the prior of a map spreads to neighbours at the expected cost") {
   uint8_t row[2][3][16];
   std::fill_n(row[0][0], sizeof(row), uint8_t{kMostPrior});
-  row[0][1][7] = 0;  // the middle pixel of the row before
+  row[0][1][7] = 0;  // the middle pixel of the previous row
   ReferenceDepthKernels().SpreadPrior({row[1][2], row[0][2], 16, -1, 3});
   CHECK(int(row[1][2][7]) == 4);
   CHECK(int(row[1][1][7]) == 3);
@@ -99,7 +100,7 @@ TEST_CASE("depth kernels: what a map says spreads to neighbours, by hand") {
   CHECK(int(row[1][1][6]) == 24);
 }
 
-TEST_CASE("depth kernels: costs of views on one side, and of all, by hand") {
+TEST_CASE("depth kernels: costs of one side and of all views have values computed by hand") {
   const uint8_t values[16] = {60, 60, 60, 60, 6, 9, 15, 60, 60, 60, 60, 60, 0, 3, 9, 60};
   const uint8_t* rows[16];
   for (int k = 0; k < 16; ++k) rows[k] = values + k;
@@ -114,17 +115,19 @@ TEST_CASE("depth kernels: costs of views on one side, and of all, by hand") {
   CHECK(int(cost[0]) == 72);
 }
 
-TEST_CASE("depth kernels: the best of each group around a pixel, by hand") {
+TEST_CASE("depth kernels: the best sample of each group around a pixel is found") {
   std::vector<ColourSample> samples(kColourWindow * kColourWindow, {90, 0, 0, kNoColourKey, 0});
   const auto set = [&](int row, int column, const ColourSample& sample) {
     samples[size_t(row * kColourWindow + column)] = sample;
   };
-  // Of the first group within reach of the first pixel: one of a grey brighter by 31, and one that
-  // differs by more than counts. Beyond its reach: one of the same colour.
+  // The first group has two samples within reach of the first pixel: a grey brighter by 31, and a
+  // colour that differs by more than the limit. The third sample has the same colour but is out of
+  // reach.
   set(0, 16, {121, 0, 0, 5 * 64 + 3, 0});
   set(16, 0, {90, 60, -30, 1 * 64, 0});
   set(8, 17, {90, 0, 0, 2, 0});
-  // Of the second group, within reach of the last pixel alone: 3 + 10 + 4 + 14 away.
+  // The second group has a sample that only the last pixel reaches, at a difference of 3 + 10 + 4 +
+  // 14.
   set(19, 19, {105, 10, 4, 63, kSliceLanes});
   std::vector<uint16_t> least(2 * kSliceLanes, kNoColourKey);
   ReferenceDepthKernels().CompareColours(samples.data(), kColourWindow, least.data());
@@ -135,8 +138,8 @@ TEST_CASE("depth kernels: the best of each group around a pixel, by hand") {
   CHECK(least[2 * kSliceLanes - 1] == 31 * 64 + 63);
 }
 
-TEST_CASE("depth kernels: noise is averaged within a surface, by hand") {
-  // Two rows of four pixels; the second one is averaged over itself and the first one.
+TEST_CASE("depth kernels: noise is averaged within a surface") {
+  // Two rows of four pixels. The second row is averaged over both rows.
   constexpr size_t kPlane = 4;
   const int32_t first[4 * kPlane] = {-104, -100, 900, -90, 90, 90, 90, 690};
   const int32_t second[4 * kPlane] = {-100, -101, -100, -100, 90, 90, 130, 90};
@@ -150,13 +153,14 @@ TEST_CASE("depth kernels: noise is averaged within a surface, by hand") {
   rows.tolerance = 10;
   int16_t smooth[2];
   ReferenceDepthKernels().SmoothDisparity(rows, 2, smooth);
-  // 64 times -104, -100, -100 and -101, and 54 times -100.
+  // Weight 64 for -104, -100, -100 and -101, and weight 54 for -100.
   CHECK(smooth[0] == -101);
-  // One beyond the tolerance does not count. 54 times -100 and -101, 64 times -100, 54 times -100.
+  // The value beyond the tolerance has no weight. The others: 54 for -100 and -101, 64 for -100, 54
+  // for -100.
   rows.tolerance = 9;
   ReferenceDepthKernels().SmoothDisparity(rows, 2, smooth);
   CHECK(smooth[1] == -100);
-  // Of another colour: it counts 1.
+  // Pixels of another colour have weight 1.
   const int32_t bright[4 * kPlane] = {-96, -96, -96, -96, 690, 690, 690, 690};
   rows.rows[0] = bright + 1;
   rows.rows[1] = second + 2;
@@ -166,7 +170,7 @@ TEST_CASE("depth kernels: noise is averaged within a surface, by hand") {
   CHECK(smooth[0] == -100);
 }
 
-TEST_CASE("depth kernels: a path goes on from the one before, by hand") {
+TEST_CASE("depth kernels: a path continues from the previous pixel at the expected costs") {
   constexpr size_t kLabels = 4, kPlaces = PathLabels(kLabels);
   uint8_t cost[kPlaces] = {1, 2, 3, 4};
   int16_t before[1 + kPlaces] = {0, 7, 90, 500, 33};
@@ -175,13 +179,13 @@ TEST_CASE("depth kernels: a path goes on from the one before, by hand") {
   int16_t path[kPlaces], least = 0, sum[kPlaces] = {10, 20, 30, 40};
   const PathRow row = {cost, before + 1, &before_least, &jump, path, &least, sum, true};
   ReferenceDepthKernels().AddPaths(row, kLabels, 1, 1);
-  // From label 0 at no cost; to label 1 by a slope of 24; from 3 at 26; to 2 by 26 + 24.
+  // Label 0 continues at cost 0, label 1 at a slope of 24, label 3 at 26, and label 2 at 26 + 24.
   CheckValues("path", path, {1, 2 + 24, 3 + 50, 4 + 26, kNoLabel});
   CHECK(sum[3] == 70);
   CHECK(least == 1);
 }
 
-TEST_CASE("depth kernels: the label of the least sum, by hand") {
+TEST_CASE("depth kernels: the label of the smallest sum and its margin are found") {
   constexpr size_t kLabels = 5, kPlaces = PathLabels(kLabels);
   const int16_t sum[3][kPlaces] = {{80, 60, 20, 40, 420}, {3, 9, 9, 3, 3}, {50, 40, 30, 20, 10}};
   int16_t choice[3];

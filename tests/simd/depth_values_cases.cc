@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cases of the kernels of simd/depth_values.h.
+// Test and benchmark calls of the kernels in simd/depth_values.h.
 #include <cmath>
 #include <limits>
 
@@ -17,7 +17,7 @@ std::vector<uint16_t> Words(size_t count, Draw* draw) {
   return Filled<uint16_t>(count, [&] { return draw->Next(); });
 }
 
-// Disparities of 6 fractional bits near each other, far from each other, and unknown ones.
+// Disparities with 6 fractional bits. Neighbours are similar, far apart, or unknown.
 std::vector<int16_t> Row(size_t count, Draw* draw) {
   int value = draw->Int(-2000, 2000);
   return Filled<int16_t>(count, [&] {
@@ -38,7 +38,7 @@ DepthRule AnyRule(Draw* draw) {
   return rule;
 }
 
-// Values whose disparity is allowed, but for some in calls that have any.
+// Values whose disparity is within the limits. Some calls also get values outside them.
 std::vector<float> Values(size_t count, const DepthRule& rule, Draw* draw) {
   const float bad[] = {kNan, kInfinity, -kInfinity, 0.0f, -0.0f, 1e-42f, 3e38f, 1e6f};
   const bool spoilt = draw->Rarely(3), invalid = draw->Rarely(2);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cases of the kernels of simd/disc.h.
+// Test and benchmark calls of the kernels in simd/disc.h.
 #include <algorithm>
 #include <cstdlib>
 
@@ -13,7 +13,7 @@ size_t OctantIndex(int x, int y) {
   return size_t(high * (high + 1) / 2 + low);
 }
 
-// The least bits that all weights together need.
+// Returns the smallest number of bits that the sum of all weights needs.
 int BitsOf(int size, const std::vector<uint16_t>& weights) {
   int64_t sum = 0;
   for (int y = -size; y <= size; ++y) {
@@ -24,8 +24,8 @@ int BitsOf(int size, const std::vector<uint16_t>& weights) {
   return bits;
 }
 
-// Any filter: weights of all sizes, rings of zeros outside, and as large a sum as may be. Four
-// pixels that are weighed together sum to 15 bits at most.
+// Returns a random filter: weights of all sizes, rings of zeros outside, and sums up to the
+// maximum. Each four pixels that a kernel weights together sum to at most 15 bits.
 Disc MakeDisc(Draw* draw, KernelCall* call) {
   const int size = int(draw->Size(0, kMaxDisc, 4));
   const int pixels = (2 * size + 1) * (2 * size + 1);
@@ -42,7 +42,7 @@ Disc MakeDisc(Draw* draw, KernelCall* call) {
   return {size, BitsOf(size, weights), call->Input("weights", weights)};
 }
 
-// Rows of a picture that a disc is applied to, with what lies around them.
+// Rows of a picture that a disc is applied to, and the pixels around them.
 struct Filtered {
   Disc disc;
   size_t out_stride;
@@ -87,7 +87,7 @@ void FilterDiscLayer(Draw* draw, KernelCall* call) {
   });
 }
 
-// The first disc has weights of the second one, and some where that has none.
+// The first disc has some weights of the second disc, and a few weights where the second has zeros.
 void FilterTwoDiscs(Draw* draw, KernelCall* call) {
   const Filtered filtered(draw, call);
   const Disc& more = filtered.disc;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cases of the kernels of simd/disparities.h.
+// Test and benchmark calls of the kernels in simd/disparities.h.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,7 +9,7 @@
 namespace test::kernel_cases {
 namespace {
 
-// The ends of the range, halves of a step, and anything between.
+// Returns the ends of the range, multiples of half a step, and arbitrary values between the ends.
 std::vector<float> DisparitiesWithin(size_t count, float low, float high, Draw* draw) {
   return Filled<float>(count, [&] {
     const int kind = draw->Int(0, 4);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The case of the kernel of simd/finish_composite.h.
+// Test and benchmark calls of the kernel in simd/finish_composite.h.
 #include "tests/simd/kernel_cases.h"
 
 namespace test::kernel_cases {
 
-// Coverage mostly stays what it was beside it: all, none, anything, or about what suffices. In the
-// bench it seldom changes, as in pictures.
+// Coverage is full, zero, arbitrary, or near the limit, and mostly equals that of the previous
+// pixel. In the benchmark it changes as seldom as in pictures.
 void FinishComposite(Draw* draw, KernelCall* call) {
   const size_t count = draw->Length(1, 70, kTimedSamples / 3), whole = SliceSamples(count);
   const size_t plane = whole + draw->Size(0, 5, 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cases of the kernels of simd/hidden_fill.h.
+// Test and benchmark calls of the kernels in simd/hidden_fill.h.
 #include <algorithm>
 
 #include "tests/simd/kernel_cases.h"
@@ -9,7 +9,8 @@ namespace {
 
 constexpr size_t kTimedWidth = 192;
 
-// Where hidden surfaces were found: by views, or repeated from any distance, a short one as a rule.
+// Returns random sources of hidden surfaces: views, or repeated pixels at any distance, mostly
+// short.
 std::vector<uint16_t> AnySources(size_t count, Draw* draw) {
   return Filled<uint16_t>(count, [&] {
     const int distance = draw->Int(0, 2) == 0 ? 0 : draw->Int(1, draw->Rarely(5) ? 255 : 20);
@@ -17,7 +18,7 @@ std::vector<uint16_t> AnySources(size_t count, Draw* draw) {
   });
 }
 
-// Surfaces behind those of `before`, some of which are not there; rarely in another order.
+// Returns surfaces behind those of `before`. Some are missing, and a few are in front instead.
 std::vector<int16_t> Behind(const std::vector<int16_t>& before, Draw* draw) {
   std::vector<int16_t> behind(before.size(), kNoSurface);
   for (size_t n = 0; n < before.size(); ++n) {
@@ -35,7 +36,7 @@ std::vector<uint8_t> Shares(size_t count, Draw* draw) {
   });
 }
 
-// A row of farthest surfaces that is written.
+// Returns an output row of farthest surfaces.
 FarRow OutputOf(size_t whole, Draw* draw, KernelCall* call) {
   const size_t plane = whole + draw->Size(0, 9, 0);
   const FarRow far = {call->Results<int16_t>("far disparity", whole),
@@ -79,7 +80,7 @@ void TakeFarthest(Draw* draw, KernelCall* call) {
   };
 }
 
-// Three rows that a step keeps apart, each between pixels that may be read.
+// Smooths three rows `step` apart. Readable pixels surround each row.
 void SmoothFar(Draw* draw, KernelCall* call) {
   const size_t count = draw->Length(1, 70, kTimedWidth), whole = SliceSamples(count);
   const size_t row = whole + 2 * kSliceLanes;

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# cmake -DSOURCE=… -DBUILD=… -DGENERATOR=… -DCXX=… -DCC=… -DMAKE=… -P highway_version_test.cmake
-# The build rejects a Highway older than 1.0.3, by its package and by its headers, and the documents
+# Usage: cmake -DSOURCE=… -DBUILD=… -DGENERATOR=… -DCXX=… -DCC=… -DMAKE=… -P highway_version_test.cmake
+# Checks that the build rejects a Highway older than 1.0.3, by its package and by its headers, and that the documents
 # state the same version.
 cmake_minimum_required(VERSION 3.20)
 set(oldest 1.0.3)
@@ -28,7 +28,7 @@ if(result EQUAL 0 OR NOT error MATCHES "Highway ${oldest} or newer")
   message(SEND_ERROR "package of Highway ${older}: wrong result (expected an error, found '${error}')")
 endif()
 
-# compiles(VERSION RESULT): compiles simd/targets.h with headers of that version.
+# compiles(VERSION RESULT) compiles simd/targets.h with headers of this version.
 function(compiles version found)
   string(REPLACE "." ";" numbers ${version})
   list(POP_FRONT numbers major minor patch)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every kernel of pictures and depth maps on every SIMD target of this machine against its
-// reference, and what the references compute, by hand.
+// Compares every kernel of pictures and depth maps with its reference on every SIMD target of this
+// machine. Compares the references with values computed by hand.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -19,13 +19,13 @@ namespace {
 using namespace starfocus::simd;
 using test::CheckValues;
 
-TEST_CASE("image kernels: every target gives the bits of the reference and writes nothing else") {
+TEST_CASE("image kernels: every target returns the bits of the reference and writes nothing else") {
   CHECK(test::ImageTargets()[0] == &BestImageKernels());
   test::CheckKernels<test::ImageCall>(test::image_cases::kAll, ReferenceImageKernels(),
                                       test::ImageTargets());
 }
 
-TEST_CASE("image kernels: half floats, all of them, on every target") {
+TEST_CASE("image kernels: every target converts all half floats correctly") {
   std::vector<uint16_t> halves(65536);
   for (size_t k = 0; k < halves.size(); ++k) halves[k] = uint16_t(k);
   for (const ImageKernels* kernels : test::ImageTargets()) {
@@ -46,13 +46,13 @@ TEST_CASE("image kernels: half floats, all of them, on every target") {
   }
 }
 
-TEST_CASE("image kernels: depths, by hand") {
+TEST_CASE("image kernels: depths become the disparities computed by hand") {
   const ImageKernels& kernels = ReferenceImageKernels();
   const DepthRule metres = {4000, -1, 65535, true, -10, 10};
   const float z[] = {1000, 4000, 0, 65535, 500};
   int16_t out[5];
   CHECK(kernels.DepthToDisparity(z, 5, metres, out) == kUnknownDepth);
-  // The third one is infinitely near.
+  // The third value is infinitely near.
   CheckValues("metres", out, {3 * 64, 0, kNoSurface, kNoSurface, 7 * 64});
   const DepthRule linear = {0.5f, 2, NAN, false, -10, 10};
   const float steps[] = {0, 1, 16, 17};
@@ -61,7 +61,8 @@ TEST_CASE("image kernels: depths, by hand") {
   CHECK(kernels.DepthToDisparity(steps, 4, linear, out) == kDepthOutside);
 }
 
-TEST_CASE("image kernels: between rows and columns of a map, by hand") {
+TEST_CASE(
+    "image kernels: interpolation between rows and columns of a map has the expected values") {
   const ImageKernels& kernels = ReferenceImageKernels();
   const int16_t a[] = {0, 0, 0, kNoSurface}, b[] = {96, 97, -96, 5};
   int16_t out[4];

@@ -40,8 +40,8 @@ size_t CallMemory::Bytes() const {
   return bytes;
 }
 
-// The first byte that is not as it must be: what the reference left of results, and what was there
-// before the call of all else.
+// Returns the first wrong byte, or an empty string. Results must equal those of the reference. All
+// other bytes must have their value from before the call.
 std::string CallMemory::Compare(const std::string& who) const {
   for (const Region& region : regions_) {
     for (size_t i = 0; i < region.size; ++i) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One call of a kernel, as kernels_bytes_test checks it and starfocus-bench-micro times it: the
-// memory that the kernel works on, what it may do there, and how it is called.
+// One call of a kernel: its memory, the accesses that it may make, and the call itself.
+// kernels_bytes_test checks the call, and starfocus-bench-micro times it.
 #ifndef STARFOCUS_TESTS_SIMD_KERNEL_CALL_H_
 #define STARFOCUS_TESTS_SIMD_KERNEL_CALL_H_
 
@@ -21,8 +21,8 @@
 
 namespace test {
 
-// Random numbers for a call. A call that is timed has one size and ordinary contents; one that is
-// checked has any.
+// Random numbers for a call. A timed call has one size and typical contents. A checked call has any
+// size and contents.
 class Draw : public Random {
  public:
   static Draw ForTest(uint64_t seed, int round) { return {seed * 100003 + uint64_t(round), round}; }
@@ -30,15 +30,15 @@ class Draw : public Random {
 
   bool timed() const { return round_ == kTimed; }
 
-  // A size in [low, high]. The rounds of a test go through all of them, so that none is missed.
+  // Returns a size in [low, high]. The rounds of a test use all sizes in turn.
   size_t Length(int low, int high, int timed_size) const {
     return size_t(timed() ? timed_size : low + round_ % (high - low + 1));
   }
-  // Any size in [low, high].
+  // Returns a random size in [low, high].
   size_t Size(int low, int high, int timed_size) {
     return size_t(timed() ? timed_size : Int(low, high));
   }
-  // True once in `of` times; never when timed.
+  // Returns true once in `of` calls on average, and never when timed.
   bool Rarely(int of) { return !timed() && Int(1, of) == 1; }
 
  private:
@@ -48,7 +48,7 @@ class Draw : public Random {
   int round_;
 };
 
-// Values that `make` returns one by one.
+// Returns a vector filled by calling `make` for each value.
 template <class T, class Make>
 std::vector<T> Filled(size_t count, const Make& make) {
   std::vector<T> values(count);
@@ -56,7 +56,7 @@ std::vector<T> Filled(size_t count, const Make& make) {
   return values;
 }
 
-// Returns whether all of `count` results are right.
+// Returns true if all `count` results are right.
 template <class IsRight>
 bool AllRight(size_t count, const IsRight& is_right) {
   for (size_t n = 0; n < count; ++n) {
@@ -65,18 +65,18 @@ bool AllRight(size_t count, const IsRight& is_right) {
   return true;
 }
 
-// How often the calls of a kernel met something that they must meet.
+// Counts the situations that the calls of a kernel must produce.
 using Met = std::map<std::string, int64_t>;
 
-// The memory of a call.
+// The memory of a kernel call.
 class CallMemory {
  public:
   explicit CallMemory(Draw* draw) : random_(draw->Next()) {}
   CallMemory(const CallMemory&) = delete;
   CallMemory& operator=(const CallMemory&) = delete;
 
-  // The values in memory of their own, in which no kernel may write. `padding` bytes follow, which
-  // may hold anything; memory ends behind them, so that the sanitizers notice who reads on.
+  // Copies the values to separate memory, which kernels must not change. `padding` arbitrary bytes
+  // follow. The memory ends after them, so that sanitizers detect reads past the end.
   template <class T>
   T* Input(const char* name, const std::vector<T>& values, size_t padding = 0) {
     T* first = Add<T>(name, values.size(), 0, padding, Role::kIgnored);
@@ -84,7 +84,7 @@ class CallMemory {
     Mark(first, values.size(), Role::kInput);
     return first;
   }
-  // Says that no result depends on these values of an input.
+  // Marks input values that no result depends on.
   template <class T>
   void Ignore(const T* first, size_t count) {
     Mark(first, count, Role::kIgnored);
@@ -94,25 +94,25 @@ class CallMemory {
     for (size_t y = 0; y < rows; ++y) Ignore(first + y * stride, count);
   }
 
-  // Room for `count` values, which hold anything, between wide margins. Kernels must leave all of
-  // it as it is but for what Result and Free allow.
+  // Allocates `count` arbitrary values between wide margins. Kernels must not change them, except
+  // those marked by Result and Free.
   template <class T>
   T* Output(const char* name, size_t count) {
     return Add<T>(name, count, kMargin, kMargin, Role::kUntouched);
   }
-  // Says that the kernel determines these values of an output.
+  // Marks output values that the kernel determines.
   template <class T>
   void Result(const T* first, size_t count) {
     Mark(first, count, Role::kResult);
   }
-  // Room for values all of which the kernel determines, but for `free` more behind them.
+  // Allocates values that the kernel determines, followed by `free` values that it may change.
   template <class T>
   T* Results(const char* name, size_t count, size_t free = 0) {
     T* first = Output<T>(name, count + free);
     ResultRows(first, 1, 0, count, free);
     return first;
   }
-  // Marks rows of `count` results that lie `stride` apart, and of `free` values behind each row.
+  // Marks rows of `count` results, `stride` apart, and `free` changeable values after each row.
   template <class T>
   void ResultRows(const T* first, size_t rows, size_t stride, size_t count, size_t free = 0) {
     for (size_t y = 0; y < rows; ++y) {
@@ -120,28 +120,28 @@ class CallMemory {
       Free(first + y * stride + count, free);
     }
   }
-  // Says that the kernel may leave anything there.
+  // Marks output values that the kernel may set to anything.
   template <class T>
   void Free(const T* first, size_t count) {
     Mark(first, count, Role::kFree);
   }
 
-  // Optional: looks at the results of the reference, which returned that, and tells
-  // whether they are right by the kernel's contract; may free what the contract leaves open then.
+  // Optional. Returns true if the results of the reference, which returned `returned`, follow the
+  // contract of the kernel. May call Free for values that the contract leaves open.
   std::function<bool(uint64_t returned, Met*)> is_right;
 
-  // Bytes that a call reads and writes, each counted once.
+  // Returns the number of bytes that a call reads and writes, each counted once.
   size_t Bytes() const;
 
  protected:
-  // A table's name, and the call of its kernel.
+  // The name of a table and the call of its kernel.
   struct NamedRun {
     const char* name;
     std::function<uint64_t()> run;
   };
 
-  // Runs the reference, and then the others on the same memory. Returns the first thing that is
-  // wrong, or nothing. To be called once.
+  // Runs the reference, and then the others on the same memory. Returns the first error, or an
+  // empty string. May be called only once.
   std::string CheckRuns(const NamedRun& reference, const std::vector<NamedRun>& others, Met* met);
 
  private:
@@ -149,19 +149,20 @@ class CallMemory {
 
   struct Region {
     const char* name;
-    size_t value_size, first, size;  // bytes; `first` is that of the first value
+    size_t value_size, first, size;  // in bytes; `first` is the offset of the first value
     std::unique_ptr<uint8_t[]> bytes;
-    std::vector<Role> roles;  // of the bytes
+    std::vector<Role> roles;  // one role per byte
     std::vector<uint8_t> before, expected;
   };
 
-  static constexpr size_t kMargin = 256;  // bytes: more than the widest vector that padding allows
+  static constexpr size_t kMargin =
+      256;  // in bytes: more than the widest vector that padding allows
 
   template <class T>
   T* Add(const char* name, size_t count, size_t before, size_t behind, Role role) {
     static_assert(std::is_trivially_copyable<T>::value && kMargin % alignof(T) == 0,
                   "plain values");
-    // Kernels may not rely on more alignment than that of the type.
+    // Kernels may rely only on the alignment of the type.
     before += alignof(T) * size_t(random_.Int(0, 7));
     const size_t size = before + count * sizeof(T) + behind;
     return reinterpret_cast<T*>(AddRegion(name, sizeof(T), before, size, role) + before);
@@ -179,16 +180,16 @@ class CallMemory {
   std::vector<Region> regions_;
 };
 
-// A call of a kernel of some kind of table.
+// A call of a kernel of one kind of table.
 template <class Table>
 class CallOf : public CallMemory {
  public:
   using CallMemory::CallMemory;
 
-  // Calls the kernel of that table and returns what it returns.
+  // Calls the kernel of the given table and returns its result.
   std::function<uint64_t(const Table&)> run;
 
-  // Sets `run` to what calls a kernel that returns nothing.
+  // Sets `run` to a call of a kernel that returns nothing.
   template <class Call>
   void Runs(const Call& call) {
     run = [=](const Table& table) {
@@ -197,7 +198,7 @@ class CallOf : public CallMemory {
     };
   }
 
-  // Checks the kernels of each table against those of the reference.
+  // Compares the kernel of each table with that of the reference.
   std::string Check(const Table& reference, const std::vector<const Table*>& tables, Met* met) {
     const auto of = [this](const Table& table) {
       return NamedRun{table.name, [this, &table] { return run(table); }};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A case for each kernel: it makes calls of any size and contents for the test, and one call of
-// ordinary size for the bench.
+// One case per kernel. A case makes calls of any size and contents for the test, and one call of
+// typical size for the benchmark.
 #ifndef STARFOCUS_TESTS_SIMD_KERNEL_CASES_H_
 #define STARFOCUS_TESTS_SIMD_KERNEL_CASES_H_
 
@@ -8,15 +8,15 @@
 
 namespace test {
 
-// A case of a kernel of some table.
+// A case for a kernel of some table.
 template <class Call>
 struct CaseOf {
   const char* kernel;
   void (*make)(Draw* draw, Call* call);
 };
 
-// Each case is defined beside those of its family, in spans_cases.cc and so on. A kernel of a
-// table without a case is an error of the linker.
+// Each case is defined in the file of its family, such as spans_cases.cc. A kernel without a case
+// causes a linker error.
 #define STARFOCUS_DECLARE_CASE(Kernel) void Kernel(Draw* draw, Call* call);
 #define STARFOCUS_LIST_CASE(Kernel) {#Kernel, Kernel},
 namespace kernel_cases {
@@ -40,13 +40,13 @@ inline constexpr CaseOf<Call> kAll[] = {STARFOCUS_IMAGE_KERNELS(STARFOCUS_LIST_C
 #undef STARFOCUS_DECLARE_CASE
 #undef STARFOCUS_LIST_CASE
 
-// Samples that a call of the bench works on, if its kernel does not say otherwise.
+// Number of samples in a benchmark call, unless the case overrides it.
 inline constexpr int kTimedSamples = 3 * 1024;
 
-// Lengths that reach past two of the widest vectors, with all tails.
+// Lengths of more than two of the widest vectors, with all remainders.
 inline constexpr int kLongestBytes = 2 * 64 + 3, kLongestSamples = 2 * 32 + 3;
 
-// Any light, or black and white.
+// Returns light that is black, white, or arbitrary.
 inline std::vector<int16_t> Light(size_t count, Draw* draw) {
   constexpr int kWhite = starfocus::simd::kLightWhite;
   return Filled<int16_t>(count, [&] {
@@ -55,8 +55,8 @@ inline std::vector<int16_t> Light(size_t count, Draw* draw) {
   });
 }
 
-// Light that is the code itself, or any table of it: codes follow each other at random, one at most
-// begins in each step.
+// Returns no tables, so that light equals the code, or random tables. At most one code begins in
+// each step of a table.
 inline starfocus::simd::Encoding AnyEncoding(Draw* draw, KernelCall* call) {
   using starfocus::simd::kEncodeBits, starfocus::simd::kEncodeStep;
   if (draw->Int(0, 1) == 0) return {nullptr, nullptr};
@@ -73,7 +73,7 @@ inline starfocus::simd::Encoding AnyEncoding(Draw* draw, KernelCall* call) {
   return {call->Input("light of codes", Light(256, draw)), call->Input("entries", entries)};
 }
 
-// Disparities with runs and edges, also at the ends of the range.
+// Returns disparities with runs and edges, some at the ends of the range.
 inline std::vector<int16_t> Disparities(size_t count, Draw* draw) {
   int value = draw->Int(-2000, 2000);
   return Filled<int16_t>(count, [&] {

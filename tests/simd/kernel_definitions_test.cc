@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the references of the kernels compute, worked out by hand. kernels_bytes_test.cc compares
-// all targets with them.
+// Compares the reference kernels with values computed by hand. kernels_bytes_test.cc compares all
+// SIMD targets with the references.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -18,12 +18,14 @@ namespace {
 using namespace starfocus::simd;
 using test::CheckValues;
 
-TEST_CASE("kernel definitions: spans, composites, discs and disparities, by hand") {
+TEST_CASE(
+    "kernel definitions: spans, composites, discs and disparities have values computed by hand") {
   const int16_t source[] = {10, 20, 30, 40, 50, 60, 70, 80, 32640};
   const Span blend = {source + 3, 1, 3, 12288, 4096, 3};
   int16_t line[5] = {1, 1, 1, 1, 1};
   ReferenceKernels().Blend(&blend, 1, line);
-  // (3 * 40 + 70) / 4 = 47.5: halves up
+  // (3 * 40 + 70)
+  // 4 = 47.5, rounded half up.
   CheckValues("blend", line, {1, 48, 58, 8205, 1});
   const Span span = {source + 3, 1, 3, 192, 64, 3};
   uint32_t sums[5] = {5, 5, 5, 5, 5};
@@ -35,7 +37,7 @@ TEST_CASE("kernel definitions: spans, composites, discs and disparities, by hand
   uint8_t out[3];
   ReferenceKernels().Finish(wide, 3, 24, {nullptr, nullptr}, out);
   CheckValues("finish", out, {255, 8, 7});
-  const uint32_t stack[4 * 16] = {3 << 16, 3 << 16};  // red of two pixels, planes of 16
+  const uint32_t stack[4 * 16] = {3 << 16, 3 << 16};  // red of two pixels, in planes of 16
   std::vector<uint32_t> covered(stack, stack + 4 * 16);
   covered[3 * 16] = 12 << 16;
   covered[3 * 16 + 1] = 99;
@@ -49,7 +51,7 @@ TEST_CASE("kernel definitions: spans, composites, discs and disparities, by hand
   const int16_t rows[3][9] = {{128, 0, 0, 256, 0, 0, 384, 0, 0},
                               {512, 0, 0, 6400, 0, 0, 768, 0, 0},
                               {896, 0, 0, 1024, 0, 0, 1152, 0, 0}};
-  const uint16_t ring[3] = {4, 2, 1};  // the centre, beside it, at the corners: 16 in all
+  const uint16_t ring[3] = {4, 2, 1};  // centre, sides and corners; the sum is 16
   uint8_t disc[2] = {0, 77};
   ReferenceKernels().FilterDisc({&rows[1][3], 9, 1, 1}, {1, 4, ring}, {nullptr, nullptr}, disc, 9);
   CheckValues("disc", disc, {(4 * 50 + 2 * (2 + 4 + 6 + 8) + 1 + 3 + 7 + 9 + 8) / 16, 77});
@@ -63,11 +65,11 @@ TEST_CASE("kernel definitions: spans, composites, discs and disparities, by hand
   CheckValues("disparities", converted, {1, 0, -32000, 32000});
 }
 
-TEST_CASE("kernel definitions: light and codes, by hand") {
+TEST_CASE("kernel definitions: conversions between light and codes have values computed by hand") {
   int16_t table[256] = {};
   for (int code = 0; code < 256; ++code) table[code] = int16_t(code * code / 2);
   std::vector<uint16_t> entries(kEncodeEntries, 3 << 4);
-  entries[0] = (2 << 4) + 16 - 5;  // code 2 below 5, 3 from there on
+  entries[0] = (2 << 4) + 16 - 5;  // code 2 below 5, code 3 from 5
   const Encoding encoding = {table, entries.data()};
   const uint8_t codes[3] = {0, 10, 255};
   int16_t light[3];
@@ -85,7 +87,7 @@ TEST_CASE("kernel definitions: light and codes, by hand") {
   CheckValues("halves", out, {7, 8});
 }
 
-TEST_CASE("kernel definitions: ranges, by hand") {
+TEST_CASE("kernel definitions: ranges of disparities have values computed by hand") {
   int16_t in[2 * 20] = {};
   for (int16_t& d : in) d = INT16_MIN;
   DisparityRange ranges[2];
@@ -99,8 +101,8 @@ TEST_CASE("kernel definitions: ranges, by hand") {
   CHECK(ranges[1].high == 32767);
 }
 
-TEST_CASE("kernel definitions: runs and cells, by hand") {
-  // Two lines of five, read backwards, with limits that 10 reaches and 11 exceeds.
+TEST_CASE("kernel definitions: runs and measures of cells have values computed by hand") {
+  // Two lines of five pixels, read backwards. 10 is within the limits and 11 is not.
   const int16_t lines[5][2] = {{40, -32000}, {11, 32000}, {0, 31995}, {5, 31990}, {-5, 31989}};
   uint16_t starts[2 * kRunLanes], edges[2 * kRunLanes];
   int16_t middles[17 * kRunLanes];
@@ -122,7 +124,7 @@ TEST_CASE("kernel definitions: runs and cells, by hand") {
     CHECK(words[kRunLanes] == 1);
   }
 
-  // A flat cell but for one pixel inside, one in the corner, and another beyond the left side.
+  // A flat cell, except for one pixel inside, one in a corner, and one beyond the left side.
   int16_t values[10][10] = {};
   const int16_t* rows[10];
   for (int k = 0; k < 10; ++k) rows[k] = values[k] + 1;
@@ -152,7 +154,7 @@ TEST_CASE("kernel definitions: runs and cells, by hand") {
   CheckValues("edges", measure.edges, {0, 0});
   CheckValues("slopes", measure.slopes, {3 * 15 + 4 + 2 * 5, 3 * 15 + 2 * 4 + 5});
 
-  // Edges beyond the right and the lower side are not the cell's own.
+  // Edges beyond the right and the lower side do not belong to the cell.
   values[1 + 2][1 + 8] = 300;
   values[1 + 8][1 + 0] = 200;
   ReferenceKernels().MeasureCell(rows, {100, 96, 15, 90}, &measure);
@@ -161,8 +163,8 @@ TEST_CASE("kernel definitions: runs and cells, by hand") {
   CheckValues("edges", measure.edges, {0, 0});
 }
 
-// What is kept of a line filtered as a whole.
-TEST_CASE("kernel definitions: halving is the half-band filter at every even pixel") {
+// Halve must return the even pixels of the line that FilterHalfBand returns.
+TEST_CASE("kernel definitions: halving applies the half-band filter at every even pixel") {
   test::Random random(7);
   const Kernels& kernels = ReferenceKernels();
   constexpr size_t kPairs = 20, kKept = kPairs - 3;
@@ -176,7 +178,7 @@ TEST_CASE("kernel definitions: halving is the half-band filter at every even pix
   for (size_t n = 0; n < 3 * kKept; ++n) CHECK(halved[n] == whole[n / 3 * 6 + n % 3]);
 }
 
-TEST_CASE("kernel definitions: layers, by hand") {
+TEST_CASE("kernel definitions: layers have values computed by hand") {
   const uint8_t bytes[12] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 255};
   int16_t even[6], odd[6];
   ReferenceKernels().WidenPhases(bytes, 2, {nullptr, nullptr}, even, odd);
@@ -186,7 +188,7 @@ TEST_CASE("kernel definitions: layers, by hand") {
   const int16_t centre = 101;
   int16_t out = 0;
   ReferenceKernels().Halve(&centre, beside + 6, {8192, 4096, 2048}, 1, &out);
-  CHECK(out == 64);  // 101 / 2 + (10 + 30) / 4 + (8 + 16) / 8 = 63.5, halves up
+  CHECK(out == 64);  // 101 / 2 + (10 + 30) / 4 + (8 + 16) / 8 = 63.5, rounded half up
 }
 
 }  // namespace

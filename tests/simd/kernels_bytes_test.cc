@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every kernel on every SIMD target of this machine against its reference, and the engine on every
-// target.
+// Compares every kernel with its reference on every SIMD target of this machine, and the engine on
+// every target.
 #include <doctest/doctest.h>
 #include <hwy/highway.h>
 
@@ -21,7 +21,7 @@ namespace {
 
 using namespace starfocus::simd;
 
-TEST_CASE("kernels: several SIMD targets run here") {
+TEST_CASE("kernels: several SIMD targets run on this machine") {
   const std::vector<const Kernels*> all = test::SimdTargets();
   std::printf("SIMD targets:");
   for (const Kernels* kernels : all) std::printf(" %s", kernels->name);
@@ -32,16 +32,16 @@ TEST_CASE("kernels: several SIMD targets run here") {
   CHECK(std::string(starfocus_simd_target()) == BestKernels().name);
 }
 
-TEST_CASE("kernels: a test that would run on no SIMD target fails") {
+TEST_CASE("kernels: a test fails if it would run on no SIMD target") {
   CHECK_THROWS(test::ListTargets(+[](size_t) -> const Kernels* { return nullptr; }));
 }
 
-TEST_CASE("kernels: every target gives the bits of the reference and writes nothing else") {
+TEST_CASE("kernels: every target returns the bits of the reference and writes nothing else") {
   test::CheckKernels<test::KernelCall>(test::kernel_cases::kAll, ReferenceKernels(),
                                        test::SimdTargets());
 }
 
-TEST_CASE("kernels: the bench's calls are right, too") {
+TEST_CASE("kernels: the calls of the benchmark return correct results") {
   for (const auto& one : test::kernel_cases::kAll) {
     test::Draw draw = test::Draw::ForBench();
     test::KernelCall call(&draw);
@@ -52,7 +52,7 @@ TEST_CASE("kernels: the bench's calls are right, too") {
   }
 }
 
-// Puts a function that counts in the place of one kernel of a table.
+// Replaces one kernel of a table by a function that counts calls.
 template <auto kKernel>
 struct Counted;
 template <class Result, class... Args, Result (*Kernels::*kKernel)(Args...)>
@@ -70,7 +70,7 @@ struct Counted<kKernel> {
   }
 };
 
-TEST_CASE("kernels: a case calls the kernel whose name it has") {
+TEST_CASE("kernels: each case calls the kernel that it is named after") {
   const auto check = [](const auto& one, const Kernels& table, const int* calls) {
     test::Draw draw = test::Draw::ForBench();
     test::KernelCall call(&draw);
@@ -85,14 +85,14 @@ TEST_CASE("kernels: a case calls the kernel whose name it has") {
 #undef STARFOCUS_COUNT_CALLS
 }
 
-// Things that Narrow may not do, after the reference, to its `count` samples.
+// An error added to Narrow after the reference has run, on its `count` samples.
 struct Spoilt {
   const char* complaint;
   void (*spoil)(const int16_t* in, size_t count, uint8_t* out);
 };
 constexpr Spoilt kSpoilt[] = {
     {"spoilt differs in out[0]", [](const int16_t*, size_t, uint8_t* out) { out[0] ^= 1; }},
-    // The sample behind the last one may hold anything.
+    // The sample after the last one may have any value.
     {"spoilt differs in out[0]",
      [](const int16_t* in, size_t count, uint8_t* out) { out[0] = uint8_t(out[0] + in[count]); }},
     {"spoilt writes where it may not: out[",
@@ -104,7 +104,7 @@ constexpr Spoilt kSpoilt[] = {
 };
 const Spoilt* spoilt_now = nullptr;
 
-// What a call of Narrow finds wrong with a kernel, or of Split with one that writes between planes.
+// Returns the complaint about a kernel: Narrow with an error, or Split that writes between planes.
 std::string Complaint(const Kernels& spoilt, void (*make)(test::Draw*, test::KernelCall*)) {
   std::string wrong;
   for (int round = 0; round < 20 && wrong.empty(); ++round) {
@@ -117,7 +117,7 @@ std::string Complaint(const Kernels& spoilt, void (*make)(test::Draw*, test::Ker
   return wrong;
 }
 
-TEST_CASE("kernels: what a kernel may not do is noticed") {
+TEST_CASE("kernels: the checks detect every kind of forbidden access") {
   Kernels spoilt = ReferenceKernels();
   spoilt.name = "spoilt";
   spoilt.Narrow = [](const int16_t* in, size_t count, const Encoding& encoding, uint8_t* out) {

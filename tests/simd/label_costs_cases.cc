@@ -8,7 +8,7 @@ namespace test::depth_cases {
 namespace {
 
 constexpr int kMostLabels = 40, kTimedLabels = 44, kLongest = 70, kTimed = 320;
-// Pixels that labels move views by at most.
+// Largest number of pixels that labels move views by.
 constexpr int kReach = 5;
 
 }  // namespace
@@ -24,13 +24,14 @@ void CostLabels(Draw* draw, DepthCall* call) {
   row.limits = draw->timed() || draw->Int(0, 1) == 0;
   row.ends = !draw->timed() && draw->Int(0, 1) == 0;
   const size_t views = row.arms * row.rings;
-  // Alike pictures as well: differences are cut off where others are.
+  // Half of the calls use similar pictures, because differences are cut off in dissimilar ones.
   const int least = draw->Int(0, 1) == 0 ? 0 : 225;
   row.plane = count + 2 * kReach;
   const auto planes =
       Filled<uint8_t>(3 * (views + 1) * row.plane, [&] { return draw->Int(least, 255); });
   row.pixels = call->Input("planes", planes, kPadding) + kReach;
-  // What is hidden, and now and then in all views, which by chance is rare with many of them.
+  // Labels at which pixels are hidden. With many views, chance seldom hides a pixel in all of them,
+  // so a third of the calls hide more.
   const int least_hidden = draw->Rarely(3) ? int(row.labels) / 2 : 0;
   const auto hidden = Filled<uint8_t>(views * row.plane, [&] {
     return draw->Int(0, 5) == 0 && row.ends ? kViewEnds : draw->Int(least_hidden, int(row.labels));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cases of the kernels of simd/layered_depth.h.
+// Test and benchmark calls of the kernels in simd/layered_depth.h.
 #include <algorithm>
 
 #include "tests/simd/kernel_cases.h"
@@ -10,8 +10,8 @@ namespace {
 constexpr int16_t kStep = 48;
 constexpr int kTimedFieldWidth = 192;
 
-// Rows of disparities, each one the row before with some pixels moved: anyhow, or by steps of just
-// `step`.
+// Returns rows of disparities. Each row is the previous row with some pixels moved, either by any
+// amount or by multiples of `step`.
 std::vector<int16_t> MovedRows(size_t rows, size_t whole, int step, Draw* draw) {
   std::vector<int16_t> all = Disparities(whole, draw);
   for (size_t n = 0; n < (rows - 1) * whole; ++n) {
@@ -36,7 +36,7 @@ void Split(Draw* draw, KernelCall* call) {
   };
 }
 
-// Row by row, the second one from the first, and so on.
+// Finds the edges of each row from those of the previous row.
 void FindEdges(Draw* draw, KernelCall* call) {
   const size_t count = draw->Length(1, 50, kTimedFieldWidth), whole = SliceSamples(count);
   const size_t rows = draw->Size(2, 20, kTimedSamples / kTimedFieldWidth + 1);
@@ -139,11 +139,11 @@ void BesideSteps(Draw* draw, KernelCall* call) {
 
 namespace {
 
-// A field of disparities, some edges of which are as far away as any.
+// A field of disparities. Some of its edges are at the largest possible distance.
 struct DepthField {
   int width, height;
   size_t stride;
-  DepthRow row;  // what its rows have in common
+  DepthRow row;  // the fields that all rows share
   const int16_t* samples;
   const uint8_t* edges[4];
 
@@ -161,7 +161,7 @@ struct Patch {
   int x, y, right, bottom;
 };
 
-// Rectangles of one disparity each, the first of which is the background.
+// Returns rectangles of one disparity each. The first is the background.
 std::vector<int16_t> FieldSamples(DepthField* field, Draw* draw) {
   const int width = field->width, height = field->height;
   const int limit = draw->Rarely(4) ? 32000 : 12 << field->row.unit_bits;
@@ -183,7 +183,8 @@ std::vector<int16_t> FieldSamples(DepthField* field, Draw* draw) {
   return samples;
 }
 
-// Distances that stay inside the field, not those of edges alone; 0 for most pixels of the bench.
+// Returns random distances that stay inside the field, whether or not there is an edge. In the
+// benchmark most are 0.
 std::vector<uint8_t> FieldEdges(const DepthField& field, int side, Draw* draw) {
   std::vector<uint8_t> distances(field.stride * size_t(field.height));
   for (int y = 0; y < field.height; ++y) {
@@ -197,7 +198,7 @@ std::vector<uint8_t> FieldEdges(const DepthField& field, int side, Draw* draw) {
   return distances;
 }
 
-// No views, those of a star with or without the ones at half distance, or views anywhere.
+// Sets no views, the views of a star with or without those at half distance, or views anywhere.
 void SetLooks(Draw* draw, DepthRow* row) {
   const bool none = draw->Rarely(5), second = draw->Int(0, 1) == 0;
   const bool anywhere = !draw->timed() && draw->Int(0, 2) == 0;
@@ -232,13 +233,13 @@ DepthField MakeField(Draw* draw, KernelCall* call) {
   return field;
 }
 
-// What LookBehind writes of all rows of a field.
+// The output of LookBehind for all rows of a field.
 struct HiddenField {
   int16_t* disparity[kSurfaces - 1];
   uint16_t* source[kSurfaces - 1];
   uint16_t* found[kSurfaces - 1];
   uint8_t* share;
-  uint64_t* strips;  // what it returns of each row
+  uint64_t* strips;  // the return value for each row
 
   HiddenField(const DepthField& field, KernelCall* call) {
     const auto rows = size_t(field.height), samples = field.stride * rows;
@@ -262,8 +263,8 @@ struct HiddenField {
     return row;
   }
 
-  // Group n of the field, `hidden` if it was returned: bits of `found` are those of sources; what
-  // is there of others is open.
+  // Returns true if group n of the field is right. In a returned group (`hidden`), the bits of
+  // `found` must match the sources. Other groups may hold anything.
   bool IsRight(size_t n, bool hidden, KernelCall* call, Met* met) const {
     bool right = true;
     for (int k = 0; k < kSurfaces - 1; ++k) {

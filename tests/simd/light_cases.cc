@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cases of the kernels of simd/light.h.
+// Test and benchmark calls of the kernels in simd/light.h.
 #include "tests/simd/kernel_cases.h"
 
 namespace test::kernel_cases {

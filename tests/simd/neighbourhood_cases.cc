@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cases of the kernels of simd/neighbourhood.h.
+// Test and benchmark calls of the kernels in simd/neighbourhood.h.
 #include "tests/simd/kernel_cases.h"
 
 namespace test::kernel_cases {
 namespace {
 
-// What blurs of cells reach. In the bench most blurs are small.
+// Returns the reach of the blur of a cell. In the benchmark most blurs are small.
 int Reach(int around, Draw* draw) {
   const int far = draw->Rarely(3) ? kCellPixels * around : 20;
   return draw->Int(0, 3) == 0 && !draw->timed() ? draw->Int(1, far) : draw->Int(1, 9);
 }
 
-// `columns` x `rows` cells, and `around` cells around them; .cells is the first of the former.
+// Makes `columns` x `rows` cells and a border of `around` cells. `cells` points to the first cell
+// inside the border.
 CellPlanes MakeCells(size_t columns, size_t rows, size_t around, Draw* draw, KernelCall* call) {
   const size_t stride = columns + 2 * around, plane = stride * (rows + 2 * around);
   const int most = draw->Rarely(4) ? 32000 : 300;
@@ -36,7 +37,7 @@ CellPlanes MakeCells(size_t columns, size_t rows, size_t around, Draw* draw, Ker
 }  // namespace
 
 void ReachBlock(Draw* draw, KernelCall* call) {
-  const size_t blocks = draw->Size(1, 3, 48);  // beside each other
+  const size_t blocks = draw->Size(1, 3, 48);  // in one row
   const auto around = int32_t(draw->Length(1, 12, 2));
   const CellPlanes cells = MakeCells(2 * blocks, 2, size_t(around), draw, call);
   auto* reaches = call->Results<BlockReach>("reach", blocks);

@@ -7,7 +7,7 @@ namespace {
 
 constexpr int kMostPathLabels = 70, kTimedPathLabels = 55, kMostCost = 240, kMostJump = 1000;
 
-// A path as the kernel writes it, with its least.
+// Fills a path as the kernel does, and returns its smallest cost.
 int16_t FillPath(size_t labels, Draw* draw, int16_t* path) {
   const int least = draw->Int(0, 240);
   for (size_t l = 0; l < PathLabels(labels); ++l) {
@@ -23,8 +23,8 @@ void AddPaths(Draw* draw, DepthCall* call) {
   const size_t labels = draw->Length(1, kMostPathLabels, kTimedPathLabels);
   const size_t count = draw->Size(1, 9, 64), places = PathLabels(labels);
   const ptrdiff_t step = draw->Int(0, 1) == 0 ? 1 : -1;
-  const size_t first = step > 0 ? 0 : count - 1;  // the first pixel on the path
-  // The path goes on from the row before, or from the pixel before.
+  const size_t first = step > 0 ? 0 : count - 1;  // first pixel on the path
+  // The path continues from the previous row or from the previous pixel.
   const bool from_row = draw->timed() || draw->Int(0, 1) == 0;
   const auto costs = Filled<uint8_t>(count * places, [&] { return draw->Int(0, kMostCost); });
   const auto jumps = Filled<int16_t>(count, [&] { return draw->Int(kSlopeCost, kMostJump); });
@@ -35,7 +35,7 @@ void AddPaths(Draw* draw, DepthCall* call) {
   PathRow row = {};
   row.cost = call->Input("cost", costs, kPadding) + first * places;
   row.jump = call->Input("jump", jumps) + first;
-  // One pixel more on both sides, of which the paths of this row may go on.
+  // One pixel more on each side, since paths of this row may continue from there.
   int16_t* path = call->Output<int16_t>("path", 1 + (count + 2) * places) + 1 + places;
   int16_t* least = call->Output<int16_t>("least", count + 2) + 1;
   auto* sum = call->Results<int16_t>("sum", count * places);

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cases of the kernels of simd/resample.h.
+// Test and benchmark calls of the kernels in simd/resample.h.
 #include "lib/filter/layers.h"
 #include "tests/simd/kernel_cases.h"
 
 namespace test::kernel_cases {
 namespace {
 
-// Black, white and anything between, or samples as far out of range as filters leave them.
+// Returns black, white and arbitrary samples. If not `in_range`, samples exceed the range as much
+// as filters allow.
 std::vector<int16_t> Samples(size_t count, bool in_range, Draw* draw) {
   const int below = in_range ? 0 : -43 * 64, most = in_range ? kLayerWhite : 298 * 64;
   return Filled<int16_t>(count, [&] {
@@ -20,7 +21,7 @@ HalfBand Taps(Draw* draw) {
   return {draw->Int(-16384, 16384), draw->Int(-16384, 16384), draw->Int(-8192, 8192)};
 }
 
-// Both phases of a line, where the kernel may leave anything in `more` samples past the end.
+// Both phases of a line. The kernel may change `more` samples past the end.
 struct Phases {
   Phases(size_t pairs, size_t more, KernelCall* call)
       : even(call->Results<int16_t>("even", 3 * pairs, more)),
@@ -29,7 +30,7 @@ struct Phases {
   int16_t *even, *odd;
 };
 
-// Calls a filter of lines, whose samples lie three or a whole line apart.
+// Calls a filter of lines. Consecutive samples are 3 or `count` + 1 apart.
 template <class Filter>
 void FilterLine(Filter filter, Draw* draw, KernelCall* call) {
   const size_t count = draw->Length(1, kLongestSamples, kTimedSamples);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The case of the kernel of simd/runs.h.
+// Test and benchmark calls of the kernel in simd/runs.h.
 #include "tests/simd/kernel_cases.h"
 
 namespace test::kernel_cases {

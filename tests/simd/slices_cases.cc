@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cases of the kernels of simd/slices.h.
+// Test and benchmark calls of the kernels in simd/slices.h.
 #include <algorithm>
 
 #include "tests/simd/kernel_cases.h"
@@ -14,8 +14,8 @@ std::vector<uint8_t> MostlyWholeShares(size_t count, Draw* draw) {
   });
 }
 
-// `count` pixels, of which the surfaces behind the first one are often missing. What is not looked
-// at may hold anything.
+// Makes `count` pixels, whose hidden surfaces are often missing. Values that the kernel does not
+// read are arbitrary.
 SurfaceRow MakeSurfaces(size_t count, Draw* draw, KernelCall* call) {
   const size_t whole = SliceSamples(count);
   SurfaceRow row = {};
@@ -74,7 +74,7 @@ void SelectSlice(Draw* draw, KernelCall* call) {
   };
 }
 
-// Samples that lie `step` apart, as a row or as a column of planes.
+// Spreads samples that are `step` apart, in a row or in a column of planes.
 void SpreadSlice(Draw* draw, KernelCall* call) {
   const size_t count = draw->Length(1, 160, kTimedSamples), whole = SliceSamples(count);
   SliceTaps taps = {int32_t(draw->Size(1, kMaxSpread, 2)), 0, 0, 0};

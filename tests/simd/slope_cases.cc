@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cases of the kernels of simd/slope.h.
+// Test and benchmark calls of the kernels in simd/slope.h.
 #include "tests/simd/kernel_cases.h"
 
 namespace test::kernel_cases {
 namespace {
 
-// Samples of a layer, often black or white.
+// Returns samples of a layer, often black or white.
 std::vector<int16_t> Samples(size_t count, Draw* draw) {
   std::vector<int16_t> samples = Light(count, draw);
   for (int16_t& sample : samples) sample = int16_t(sample / 2);
@@ -34,7 +34,7 @@ void MoveSamples(Draw* draw, KernelCall* call) {
   const size_t stride = whole + 6 + size_t(draw->Int(0, 5));
   const size_t out_stride = whole + size_t(draw->Int(0, 5));
   const HalfMove move = {Between(draw, -32767, 32767), Between(draw, -32767, 32767)};
-  // Rims that go on beyond what is in range.
+  // Some samples are out of range.
   std::vector<int16_t> values = Samples((rows + 2) * stride, draw);
   for (int16_t& value : values) {
     if (draw->Rarely(8)) value = Between(draw, -kLayerWhite, 2 * kLayerWhite);

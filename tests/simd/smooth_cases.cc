@@ -8,9 +8,9 @@ namespace test::depth_cases {
 namespace {
 
 constexpr int kTimedRow = 512, kLongestRow = 2 * 16 + 3;
-constexpr int kFarthest = 500 * 64;  // disparity
+constexpr int kFarthest = 500 * 64;  // largest disparity
 
-// The four planes of a row, whose disparities lie around `disparity` or anywhere.
+// Returns the four planes of a row. Disparities are near `disparity`, or arbitrary.
 std::vector<int32_t> AnyRow(size_t plane, int disparity, int colours, Draw* draw) {
   std::vector<int32_t> row(4 * plane);
   for (size_t n = 0; n < plane; ++n) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cases of the kernels of simd/spans.h.
+// Test and benchmark calls of the kernels in simd/spans.h.
 #include "tests/simd/kernel_cases.h"
 
 namespace test::kernel_cases {
@@ -10,10 +10,11 @@ struct Spans {
   size_t count, end;
 };
 
-// Spans that lie side by side in the target, with gaps of up to two samples, and their sources.
-// With `blend` their weights sum to 2^kBlendBits, and the neighbour has half of that at most.
+// Makes adjacent spans of the target, with gaps of up to two samples, and their sources. With
+// `blend`, the weights of a span sum to 2^kBlendBits, and the neighbour has at most half of this
+// sum.
 Spans MakeSpans(bool blend, Draw* draw, KernelCall* call) {
-  constexpr size_t kMargin = 8;  // neighbours, and odd places to start
+  constexpr size_t kMargin = 8;  // room for neighbours and unaligned starts
   const size_t samples = draw->Length(1, kLongestBytes, 96);
   const size_t count = draw->Size(1, 5, kTimedSamples / 96);
   const std::vector<int16_t> light = Light(kMargin + samples + kMargin, draw);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cases of the kernels of simd/strips.h.
+// Test and benchmark calls of the kernels in simd/strips.h.
 #include <algorithm>
 
 #include "tests/simd/kernel_cases.h"
@@ -7,8 +7,8 @@
 namespace test::kernel_cases {
 namespace {
 
-// Where views lie: on whole samples, between two that weigh the same at edges and inside or not, or
-// on three or four of them.
+// Returns a position of a view: on whole samples, between two samples with equal or different
+// weights at edges and inside, or across three or four samples.
 SliceFraction Fraction(Draw* draw) {
   const int taps = draw->timed() ? 2 : draw->Int(1, 5), first = draw->Int(0, 32767);
   if (taps == 1) return {INT16_MIN, INT16_MIN, 0, 0};
@@ -19,8 +19,9 @@ SliceFraction Fraction(Draw* draw) {
   return {edge, edge, int16_t(-third), int16_t(taps == 4 ? 0 : -draw->Int(0, third))};
 }
 
-// Rows of four planes side by side: colours at most as large as the coverage. `share` is how many
-// of 100 stretches of rows are covered, all over or not; kFull: all of them, all over.
+// Returns rows of four adjacent planes. No colour exceeds its coverage. `share` is the percentage
+// of stretches of a row that are covered, partly or fully. With kFull all samples are fully
+// covered.
 constexpr int kFull = 101;
 std::vector<int16_t> Planes(size_t rows, size_t plane, int share, Draw* draw) {
   std::vector<int16_t> samples(4 * rows * plane);
@@ -50,7 +51,8 @@ void ShiftSlice(Draw* draw, KernelCall* call) {
   const size_t empty = size_t(draw->Int(0, int(rows) - 1));
   std::fill_n(samples.begin() + ptrdiff_t(4 * empty * in_plane), 4 * in_plane, int16_t{0});
   const size_t first = size_t(draw->Int(0, int(more)));
-  samples.resize(samples.size() - (more - first));  // memory ends with the last sample that is seen
+  samples.resize(samples.size() -
+                 (more - first));  // the memory ends with the last sample that the kernel reads
   const SlicePlanes in = {call->Input("in", samples) + first, in_plane};
   const SliceFraction fraction = Fraction(draw);
   auto* out = call->Output<int16_t>("out", 3 * plane + rows * kSliceLanes);
@@ -71,8 +73,8 @@ void ShiftSlice(Draw* draw, KernelCall* call) {
 
 namespace {
 
-// The marks of a strip's rows, given how many samples of each are covered. A row that is covered
-// all over may be marked as one that shows something.
+// Returns the marks of the rows of a strip. `covered` has the number of covered samples per row. A
+// fully covered row may also be marked as a row that shows something.
 std::vector<int8_t> NearOf(const std::vector<int>& covered, bool full) {
   std::vector<int8_t> near(covered.size() - kRowsAhead);
   for (size_t row = 0; row < near.size(); ++row) {
@@ -83,14 +85,14 @@ std::vector<int8_t> NearOf(const std::vector<int>& covered, bool full) {
   return near;
 }
 
-// A slice in a strip, of which some rows are empty. StripSlice is that `before` rows from its
-// first.
+// Makes a slice in a strip, with some empty rows. The result starts `before` rows after the first
+// row.
 StripSlice MakeTile(size_t rows, size_t before, Draw* draw, KernelCall* call, Met* met) {
   const bool full = draw->Int(0, 1) == 0;
   const auto in = Planes(rows, kSliceLanes, full ? kFull : draw->Int(5, 100), draw);
   const size_t plane = kSliceLanes * rows;
   std::vector<int16_t> samples(4 * plane);
-  std::vector<int> covered(rows + kRowsAhead);  // samples of each row
+  std::vector<int> covered(rows + kRowsAhead);  // covered samples of each row
   for (size_t row = 0; row < rows; ++row) {
     if (draw->Rarely(full ? 12 : 4)) continue;
     for (size_t n = 0; n < 4 * kSliceLanes; ++n) {
@@ -105,7 +107,7 @@ StripSlice MakeTile(size_t rows, size_t before, Draw* draw, KernelCall* call, Me
           plane};
 }
 
-// A row before the first one that is composited, and rows that views move by.
+// Rows before the first composited row, and the largest number of rows that views move by.
 constexpr size_t kSkipped = 1, kMost = 4;
 
 SliceViews MakeViews(size_t rows, Draw* draw, KernelCall* call, Met* met) {

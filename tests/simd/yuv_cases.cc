@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cases of the kernels of simd/yuv.h.
+// Test and benchmark calls of the kernels in simd/yuv.h.
 #include "simd/yuv.h"
 #include "tests/simd/kernel_cases.h"
 
 namespace test::image_cases {
 namespace {
 
-constexpr int kLongestRow = 2 * 64 + 67;  // pixels: two of the widest vectors, with all tails
+constexpr int kLongestRow = 2 * 64 + 67;  // pixels: two of the widest vectors, with all remainders
 
-// Coefficients as large as any that are used, and larger.
+// Returns coefficients up to somewhat more than the largest that are used.
 YuvMatrix AnyMatrix(Draw* draw) {
   YuvMatrix m = {};
   m.black = int16_t(16 * draw->Int(0, 1));
@@ -17,7 +17,7 @@ YuvMatrix AnyMatrix(Draw* draw) {
   m.gu = int16_t(draw->Int(-4000, 0));
   m.gv = int16_t(draw->Int(-7000, 0));
   m.bu = int16_t(draw->Int(14000, 17400));
-  const int most = m.black == 0 ? 32768 : 30000;  // white is 255 at most
+  const int most = m.black == 0 ? 32768 : 30000;  // white is at most 255
   m.yr = int16_t(draw->Int(6000, 9798));
   m.yb = int16_t(draw->Int(2000, 3735));
   m.yg = int16_t(draw->Int(0, 1) == 0 ? most - m.yr - m.yb : draw->Int(12000, 16000));
