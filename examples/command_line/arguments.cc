@@ -7,8 +7,8 @@
 namespace starfocus {
 namespace {
 
-// Letters to insert, remove, replace or swap with the next one to get from `a` to `b` (optimal
-// string alignment).
+// Returns the number of letters to insert, remove, replace or swap with the next letter to convert
+// `a` to `b` (optimal string alignment).
 size_t Distance(const std::string& a, const std::string& b) {
   std::vector<std::vector<size_t>> least(a.size() + 1, std::vector<size_t>(b.size() + 1));
   for (size_t i = 0; i <= a.size(); ++i) {
@@ -32,8 +32,8 @@ std::string WithoutDashes(const std::string& name) {
   return name.substr(std::min(name.find_first_not_of('-'), name.size()));
 }
 
-// The separator between the parts of values of this type, and how many parts there are: "X,Y" has
-// two, "D0:D1:N" three. A separator of 0: values have no parts.
+// Separator and number of the parts of a type: "X,Y" has two parts, "D0:D1:N" three. The separator
+// is 0 if values have no parts.
 struct Parts {
   char separator = 0;
   size_t count = 1;
@@ -55,7 +55,8 @@ Parts PartsOf(const std::string& type) {
   return parts;
 }
 
-// Adds the numbers of a text with separators or spaces between them; false where it has others.
+// Appends the numbers of a text, which are separated by separators or spaces. Returns false if the
+// text contains anything else.
 bool AddNumbers(const std::string& text, char separator, std::vector<std::string>* numbers) {
   const std::string between = std::string(" ") + separator;
   for (size_t begin = text.find_first_not_of(between); begin < text.size();) {
@@ -71,8 +72,9 @@ bool AddNumbers(const std::string& text, char separator, std::vector<std::string
   return true;
 }
 
-// The value that begins with `first` and goes on in the arguments from `next` on; empty where it is
-// whole, or cannot be made whole by separators.
+// Returns the complete value that starts with `first` and continues in the arguments from index
+// `next`. Returns an empty string if `first` is already complete, or if separators cannot complete
+// it.
 std::string Joined(const std::string& first, const std::vector<std::string>& arguments, size_t next,
                    const Parts& parts, std::string* found) {
   std::vector<std::string> numbers;
@@ -110,7 +112,7 @@ std::string NearestName(const std::string& typed, const std::vector<std::string>
   std::string nearest;
   for (const std::string& name : names) {
     const std::string its = WithoutDashes(name);
-    // What was typed may be its beginning.
+    // The user may have typed only the start of the name.
     const bool beginning = wanted.size() >= 3 && its.compare(0, wanted.size(), wanted) == 0;
     const size_t distance = beginning ? 1 : Distance(wanted, its);
     if (distance >= least || distance >= its.size()) continue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a command line that is wrong was meant to be: the nearest name, and values that lack the
+// Finds likely intentions behind a wrong command line: the nearest name, and values that lack the
 // separator between their parts.
 #ifndef STARFOCUS_EXAMPLES_COMMAND_LINE_ARGUMENTS_H_
 #define STARFOCUS_EXAMPLES_COMMAND_LINE_ARGUMENTS_H_
@@ -12,11 +12,11 @@
 
 namespace starfocus {
 
-// The name that is nearest to what was typed; empty where none is near.
+// Returns the name most similar to the typed one, or an empty string if no name is similar.
 std::string NearestName(const std::string& typed, const std::vector<std::string>& names);
 
-// Refuses "--focus-at 160 120" where the option's type is X,Y: the values of an option whose parts
-// have the separators ',', ':' or 'x' between them are one argument.
+// Rejects "--focus-at 160 120" if the option's type is X,Y. Values whose parts are separated by
+// ',', ':' or 'x' must be one argument.
 Error CheckSeparators(const std::vector<std::string>& arguments,
                       const std::vector<Option>& options);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tables of what a program takes: its subcommands and their options. The parser, the manual page
-// and the completion script read these tables. Strings in a table outlive it.
+// Tables of a program's subcommands and their options, for the parser, the manual page and the
+// completion script. Strings must outlive the table that contains them.
 #ifndef STARFOCUS_EXAMPLES_COMMAND_LINE_COMMAND_H_
 #define STARFOCUS_EXAMPLES_COMMAND_LINE_COMMAND_H_
 
@@ -14,16 +14,17 @@
 
 namespace starfocus {
 
-// Reads a text into a variable, and returns what was expected: empty where the text is that.
+// Parses a text into a variable. Returns an empty string on success, otherwise a description of the
+// expected value.
 using Reader = std::function<std::string(const std::string& text)>;
 
-// The variable that an option sets: of a flag, of one text, of several texts, or of a value that is
-// read (options.h). None for --help and --version.
+// The variable that an option sets: a flag, one text, several texts, or a parsed value (options.h).
+// --help and --version set none.
 struct Target {
   Target() = default;
-  Target(bool* target) : flag(target) {}                       // NOLINT: for tables
-  Target(std::string* target) : text(target) {}                // NOLINT: for tables
-  Target(std::vector<std::string>* target) : texts(target) {}  // NOLINT: for tables
+  Target(bool* target) : flag(target) {}                       // NOLINT: implicit for tables
+  Target(std::string* target) : text(target) {}                // NOLINT: implicit for tables
+  Target(std::vector<std::string>* target) : texts(target) {}  // NOLINT: implicit for tables
   explicit Target(Reader reader, std::string shown_default = "")
       : read(std::move(reader)), shown(std::move(shown_default)) {}
 
@@ -31,24 +32,24 @@ struct Target {
   std::string* text = nullptr;
   std::vector<std::string>* texts = nullptr;
   Reader read = nullptr;
-  std::string shown = "";  // the default, if `read` has one
+  std::string shown = "";  // default of `read`; empty: none
 };
 
 enum class Use {
   kOptional,
-  kDefault,  // optional, and the help shows the value that the variable has
+  kDefault,  // optional; the help shows the initial value of the variable
   kRequired,
-  kCommaSeparated,  // optional, and one argument has all values
+  kCommaSeparated,  // optional; one argument contains all values
 };
 
 struct Option {
-  const char* names;  // "-o,--output"; a name without dashes: a positional argument
-  const char* type;   // of the value, as the help shows it: "FILE"; null for a flag
+  const char* names;  // "-o,--output"; a name without dashes is a positional argument
+  const char* type;   // type of the value in the help: "FILE"; null for a flag
   const char* help;
   Target target;
   Use use = Use::kOptional;
-  const char* excludes = nullptr;      // an earlier option that cannot stand beside this one
-  const char* default_text = nullptr;  // what the help shows as the default of kOptional
+  const char* excludes = nullptr;      // an earlier option that this one excludes
+  const char* default_text = nullptr;  // default in the help for kOptional
 };
 
 inline const Option kHelpOption = {"-h,--help", nullptr, "Print this help and exit", {}};
@@ -65,28 +66,28 @@ struct Command {
 
 struct Program {
   Command main;                                // options without a subcommand
-  std::vector<Command> commands;               // one of them must be chosen, if there are any
+  std::vector<Command> commands;               // if not empty, the user must choose one of them
   std::vector<std::string> lab_commands = {};  // names of subcommands of starfocus-lab
 };
 
-// The last lines of a program's help.
+// Last lines of a program's help.
 inline constexpr char kExitCodes[] =
     "Exit codes: 0 for success, 1 when a file or the work failed, 2 when the command line is\n"
     "wrong, 70 for an error in the program itself.\n";
 
-// Appends to a command's options.
+// Appends options to a command.
 void AddOptions(std::initializer_list<Option> options, Command* command);
 
-// All options of a command, --help and, of the program itself, --version among them, in the order
-// of the help.
+// Returns all options of a command in the order of the help. Includes --help and, for the program
+// itself, --version.
 std::vector<Option> AllOptions(const Program& program, const Command& command);
 
-// The names of an option, each with its dashes.
+// Returns the names of an option, including their dashes.
 std::vector<std::string> NamesOf(const Option& option);
 
 bool IsPositional(const Option& option);
 
-// What the help shows as the default of an option; empty for none.
+// Returns the default of an option in the help, or an empty string if it has none.
 std::string DefaultOf(const Option& option);
 
 }  // namespace starfocus

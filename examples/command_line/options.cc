@@ -29,13 +29,13 @@ std::optional<int> ReadWhole(const std::string& text) {
   return std::atoi(text.c_str());
 }
 
-// A decimal number.
+// Parses a decimal number.
 std::optional<double> ReadNumber(const std::string& text) {
   if (text.find_first_not_of("0123456789+-.eE") != std::string::npos) return {};
   return ParseNumber(text);
 }
 
-// Whole numbers up to the largest size of pictures; none where one is none.
+// Parses integers up to the largest picture size. Returns no numbers if any part is invalid.
 std::vector<int> ReadSizes(const std::string& text, char separator) {
   std::vector<int> sizes;
   for (const std::string& part : Split(text, separator)) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What options take, for their tables: numbers, choices and others, each read into a variable whose
-// value is the default.
+// Targets for tables of options: numbers, choices and other types. Each parses a text into a
+// variable, whose initial value is the default.
 #ifndef STARFOCUS_EXAMPLES_COMMAND_LINE_OPTIONS_H_
 #define STARFOCUS_EXAMPLES_COMMAND_LINE_OPTIONS_H_
 
@@ -15,12 +15,12 @@
 
 namespace starfocus {
 
-// A whole number in [low, high].
+// An integer in [low, high].
 Target Whole(int low, int high, int* value);
 Target Whole(int low, int high, std::optional<int>* value);
 Target Threads(int* value);  // 1 to 64
 
-// A finite number; those in [low, high] are what is `expected`.
+// A finite number. `expected` describes the range [low, high].
 Target Number(double* value);
 Target Number(std::optional<double>* value);
 Target Number(double low, double high, const std::string& expected, double* value);
@@ -33,27 +33,28 @@ template <class T>
 Target Choice(const Words<T>& words, T* value);
 Target Transfer(starfocus_transfer* value);
 
-// Two whole numbers from 0 to 65535.
+// Two integers from 0 to 65535.
 struct Pixel {
   int x = 0, y = 0;
 };
 Target Pair(char separator, Pixel* value);
 Target Pair(char separator, std::optional<Pixel>* value);
 
-// X,Y,W,H: a rectangle of whole numbers, neither side 0.
+// X,Y,W,H: a rectangle of integers with W and H above 0.
 Target Region(starfocus_region* value);
 
-// 17, 9, 5 or 1: those of the star, or U,V:U,V and so on: views at those positions, the first one
-// at 0,0, all within +-1, rounded to four decimals as names of files are.
+// 17, 9, 5 or 1 views of the star, or U,V:U,V... for views at these positions. The first position
+// must be 0,0, and coordinates must be within +-1. They are rounded to four decimals, like those in
+// file names.
 Target Views(Positions* positions);
 
-// Finite numbers with `separator` between them; none where one is none.
+// Parses finite numbers separated by `separator`. Returns no numbers if any part is invalid.
 std::vector<double> ReadNumbers(const std::string& text, char separator);
 
-// `value` with %g.
+// Formats `value` with %g.
 std::string Short(double value);
 
-// "a, b or c".
+// Formats words as "a, b or c".
 std::string OneOf(const std::vector<std::string>& words);
 
 template <class T>

@@ -19,20 +19,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The same for every way to name a file, there or not.
+// Returns a unique name for a file, whether or not it exists.
 fs::path NameOf(const fs::path& path) {
   std::error_code ignored;
   const fs::path name = fs::weakly_canonical(fs::absolute(path), ignored);
   return name.has_filename() ? name : name.parent_path();  // "folder/"
 }
 
-// Whether both are one file, also by a hard link.
+// Returns true if both names refer to the same file, also through a hard link.
 bool AreOneFile(const std::string& a, const std::string& b) {
   std::error_code ignored;
   return fs::equivalent(a, b, ignored);
 }
 
-// Files of a light field that stand elsewhere.
+// Returns the files of a light field that are links to files elsewhere.
 std::vector<std::string> FindLinks(const std::string& folder) {
   std::vector<std::string> links;
   std::error_code ignored;
@@ -55,7 +55,7 @@ Error CheckApart(const std::vector<Output>& outputs, const Inputs& inputs) {
     if (!path.empty()) files.insert(NameOf(path));
   }
   for (const Output& output : outputs) {
-    // There is one standard output, under whatever name; standard input is another file.
+    // All names of standard output refer to the same stream. Standard input is a different stream.
     const bool stream = IsStandardStream(output.path);
     const fs::path name = stream ? "-" : NameOf(output.path);
     if (!names.insert(name).second) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The files that a command is about to write, looked at together before any work.
+// Checks all output files of a command before it starts to work.
 #ifndef STARFOCUS_EXAMPLES_COMMAND_LINE_OUTPUTS_H_
 #define STARFOCUS_EXAMPLES_COMMAND_LINE_OUTPUTS_H_
 
@@ -14,21 +14,22 @@ struct Output {
   std::string option, path;
 };
 
-// What the same command reads.
+// Inputs of the same command.
 struct Inputs {
-  std::vector<std::string> folders = {};  // of light fields
-  std::vector<std::string> files = {};    // others; an empty name is none
-  std::vector<std::string> grids = {};    // folders in which every picture is taken for a view
+  std::vector<std::string> folders = {};  // light-field folders
+  std::vector<std::string> files = {};    // other files; an empty name is ignored
+  std::vector<std::string> grids = {};    // folders in which every picture is treated as a view
 };
 
-// Whether each is a file of its own, and none of the inputs by any name or link.
+// Returns an error if two outputs are the same file, or an output is an input, under any name or
+// link.
 Error CheckApart(const std::vector<Output>& outputs, const Inputs& inputs);
 
-// Whether a folder of outputs is none of these folders of inputs, by any name or link: its files
-// would mix with the views.
+// Returns an error if an output folder is one of the input folders, under any name or link: its
+// files would mix with the views.
 Error CheckFolderApart(const Output& output, const std::vector<std::string>& folders);
 
-// Whether the folder is there and can be written into, or can be made.
+// Returns an error unless the folder can be created, or exists and is writable.
 Error CheckFolderOutput(const std::string& folder);
 
 }  // namespace starfocus

@@ -15,7 +15,7 @@
 namespace starfocus {
 namespace {
 
-// Reads the value of an option, of which `wrong` tells where it is none.
+// Returns a callback that parses the value of an option and sets `wrong` if it is invalid.
 CLI::callback_t ReaderOf(const Option& option, Error* wrong) {
   return [read = option.target.read, name = NamesOf(option).back(),
           wrong](const CLI::results_t& texts) {
@@ -55,13 +55,13 @@ std::string FooterOf(const Command& command) {
   return text;
 }
 
-// CLI11's form of a program. `wrong` is the error of a value that an option does not take.
+// Converts a program to CLI11's representation. `wrong` receives the error of an invalid value.
 void Translate(const Program& program, Error* wrong, CLI::App* app) {
   app->name(program.main.name);
   app->description(program.main.help);
   AddCommandOptions(program.main, wrong, app);
   app->set_version_flag(kVersionOption.names, VersionText(program.main.name), kVersionOption.help);
-  // With at least one, CLI11 would report a missing subcommand in place of a wrong argument.
+  // If a subcommand were required, CLI11 would report its absence instead of a wrong argument.
   if (!program.commands.empty()) app->require_subcommand(0, 1);
   for (const Command& command : program.commands) {
     CLI::App* added = app->add_subcommand(command.name, command.help);
@@ -72,7 +72,7 @@ void Translate(const Program& program, Error* wrong, CLI::App* app) {
   app->footer(footer + (footer.empty() ? "" : "\n\n") + kExitCodes);
 }
 
-// CLI11 takes an empty value for none at all where the default is empty too.
+// Rejects empty values, which CLI11 treats as missing if the default is empty too.
 Error CheckValues(const CLI::App& app) {
   for (const CLI::Option* option : app.get_options()) {
     for (const std::string& value : option->results()) {
@@ -89,7 +89,7 @@ std::string ValueType(const CLI::Option& option) {
   return option.get_expected_max() == 0 ? "" : option.get_type_name();
 }
 
-// The subcommand that the command line names, else the program itself.
+// Returns the chosen subcommand, or the program itself.
 CLI::App* Chosen(CLI::App* app) {
   const std::vector<CLI::App*> chosen = app->get_subcommands();
   return chosen.empty() ? app : chosen[0];
@@ -104,7 +104,7 @@ std::vector<std::string> OptionNames(const CLI::App& command) {
   return names;
 }
 
-// "an option of refocus (the nearest is --focus)"
+// Formats, for example, "an option of refocus (the nearest is --focus)".
 std::string WithNearest(const std::string& kind, const std::string& typed,
                         const std::vector<std::string>& names, const std::string& list) {
   const std::string nearest = NearestName(typed, names);
@@ -112,7 +112,7 @@ std::string WithNearest(const std::string& kind, const std::string& typed,
          (nearest.empty() ? " (`" + list + "` lists them)" : " (the nearest is " + nearest + ")");
 }
 
-// An argument that neither an option nor a positional one takes.
+// Returns the error for an argument that matches no option and no positional argument.
 Error Unexpected(CLI::App* app, const std::string& argument) {
   CLI::App* command = Chosen(app);
   const bool all = command == app;
@@ -134,7 +134,8 @@ Error Unexpected(CLI::App* app, const std::string& argument) {
   return Error::Usage("command line", "no other argument of " + name, "'" + argument + "'");
 }
 
-// Names the argument that is unknown, missing or in excess, or the wrong `value`.
+// Returns the error for an unknown, missing or extra argument, or the error `value` of an invalid
+// value.
 Error WrongLine(CLI::App* app, const CLI::ParseError& wrong, const Error& value) {
   const std::vector<std::string> others = app->remaining(true);
   const auto is_option = [](const std::string& text) { return text.size() > 1 && text[0] == '-'; };
@@ -162,7 +163,7 @@ Error WrongLine(CLI::App* app, const CLI::ParseError& wrong, const Error& value)
   return Error::Usage("command line", "what `" + app->get_name() + " --help` lists", text);
 }
 
-// The subcommand of that name, else the program's own.
+// Returns the subcommand with that name, or the program's own command.
 const Command& CommandOf(const Program& program, const std::string& name) {
   for (const Command& command : program.commands) {
     if (command.name == name) return command;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads a command line by a program's tables of options. Only the source file includes CLI11, which
+// Parses a command line by the tables of a program. Only the source file includes CLI11, which
 // takes seconds to compile.
 #ifndef STARFOCUS_EXAMPLES_COMMAND_LINE_PARSE_H_
 #define STARFOCUS_EXAMPLES_COMMAND_LINE_PARSE_H_
@@ -11,11 +11,11 @@
 
 namespace starfocus {
 
-// Sets the variables of the options that the command line has and runs the command that it names:
-// a subcommand, or the program's own. Prints help or the version where it asks for them.
+// Sets the variables of the given options and runs the chosen command, a subcommand or that of the
+// program. Prints help or the version if requested.
 Error RunCommandLine(const Program& program, int argc, char** argv);
 
-// The help of a program, or of one of its subcommands.
+// Returns the help of a program, or of one of its subcommands.
 std::string HelpText(const Program& program, const Command& command);
 
 }  // namespace starfocus

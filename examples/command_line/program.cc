@@ -17,7 +17,7 @@
 namespace starfocus {
 namespace {
 
-// What was printed reaches its file or pipe, or the reason why not is told.
+// Flushes stdout. Returns an error if printed text could not be written.
 Error CheckPrinted() {
   const bool failed = std::ferror(stdout) != 0;
   errno = 0;
@@ -27,7 +27,7 @@ Error CheckPrinted() {
                   std::generic_category().message(reason));
 }
 
-// Exit codes; that of an internal error is that of sysexits.h.
+// Exit codes. The code of an internal error is that of sysexits.h.
 constexpr int kFailed = 1, kUsage = 2, kInternal = 70;
 
 int Report(const char* name, const Error& error) {
@@ -52,7 +52,7 @@ int RunProgram(const char* name, const std::function<Error()>& run) {
     if (!error) error = CheckPrinted();
     return Report(name, error);
   } catch (const std::bad_alloc&) {
-    // Nothing here needs memory.
+    // Do not allocate memory here.
     std::fprintf(stderr,
                  "%s: memory: expected enough to finish, found too little (out of memory)\n", name);
     return kFailed;

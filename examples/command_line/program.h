@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The main function of a program.
+// Shared part of the main functions of all programs.
 #ifndef STARFOCUS_EXAMPLES_COMMAND_LINE_PROGRAM_H_
 #define STARFOCUS_EXAMPLES_COMMAND_LINE_PROGRAM_H_
 
@@ -10,12 +10,12 @@
 
 namespace starfocus {
 
-// The line of --version: name, version of the library and its SIMD target.
+// Returns the line of --version: name, version of the library, and SIMD target.
 std::string VersionText(const std::string& name);
 
-// Runs a program and returns its exit code. An error is printed as one line on stderr, "<name>:
-// <line>". What could not be written to stdout is an error, and so is an exception. A closed pipe
-// ends no program, and a signal that does leaves no temporary file.
+// Runs a program and returns its exit code. Prints an error as one line to stderr, "<name>:
+// <line>". Exceptions and failures to write to stdout are errors. A closed pipe does not end the
+// program, and signals that end it leave no temporary files.
 int RunProgram(const char* name, const std::function<Error()>& run);
 
 }  // namespace starfocus

@@ -81,7 +81,7 @@ Result<starfocus_lens> ParseShape(const ShapeOptions& options) {
   if (lens.shape != STARFOCUS_SHAPE_FALL_OFF && options.theta != ShapeOptions().theta) {
     return Error::Usage("--theta", "--shape fall-off beside it", "'" + options.shape + "'");
   }
-  // The ends of the range and the default are the library's to the last digit.
+  // The library defines the exact values of the range and the default.
   lens.theta = std::clamp(options.theta * kPi, STARFOCUS_MIN_THETA, STARFOCUS_MAX_THETA);
   lens.cats_eye = options.cats_eye;
   return lens;

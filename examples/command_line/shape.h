@@ -18,10 +18,10 @@ struct ShapeOptions {
 
 void AddShapeOptions(Command* command, ShapeOptions* options);
 
-// The lens of the shape that the options ask for, and defaults.
+// Returns a lens with the shape of the options; other fields have their defaults.
 Result<starfocus_lens> ParseShape(const ShapeOptions& options);
 
-// What tells the shape from the default one in a file's name, "" for that.
+// Returns a suffix for file names that identifies the shape, or "" for the default shape.
 std::string ShapeSuffix(const ShapeOptions& options);
 
 }  // namespace starfocus

@@ -39,8 +39,8 @@ struct Surface {
   bool Has(float disparity) const { return disparity >= low && disparity <= high; }
 };
 
-// Returns the nearest surface that contains `count` samples, sorted from near to far. If there is
-// no such surface, as on a slope, returns one around the median.
+// Returns the nearest surface that contains `count` of the samples, which are sorted from near to
+// far. On a slope there may be none; then returns a surface around the median.
 Surface FindNearest(const std::vector<float>& sorted, size_t count) {
   const float alike = std::max(static_cast<float>(kLeastAlike),
                                static_cast<float>(kAlike) * (sorted.front() - sorted.back()));

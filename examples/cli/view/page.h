@@ -17,8 +17,8 @@
 namespace starfocus {
 
 struct PageFigure {
-  std::string says;     // alternative text of the picture
-  std::string caption;  // caption
+  std::string says;  // alternative text of the picture
+  std::string caption;
   Image picture;
 };
 
