@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The subcommands of `starfocus-lab`, but `help`.
+// The subcommands of `starfocus-lab`, except `help`.
 #ifndef STARFOCUS_EXAMPLES_LAB_COMMANDS_H_
 #define STARFOCUS_EXAMPLES_LAB_COMMANDS_H_
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// starfocus-lab: makes scenes, compares pictures, and measures and tries the engine.
+// starfocus-lab: a program for developers that ray-traces scenes, compares pictures, and measures
+// and tests the engine.
 #include "examples/cli/commands.h"
 #include "examples/command_line/parse.h"
 #include "examples/command_line/program.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The running engine's PSFs beside the theory.
+// Compares the engine's point-spread functions (PSFs) with the theory.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -16,14 +16,14 @@ namespace {
 
 using namespace analysis;
 
-// What one series of steps measures.
+// A series of measurements at increasing r.
 struct Series {
   starfocus_mode mode;
   starfocus_renderer renderer;
   int layer;
   double r_max;      // 0: r itself
-  double increment;  // of r
-  int largest;       // r
+  double increment;  // step of r
+  int largest;       // largest r
 };
 
 const char* NameOf(starfocus_renderer renderer) {
@@ -48,7 +48,8 @@ void Extend(const EngineStep& step, const std::string& reason, bool joined,
   }
 }
 
-// The least r, of halves, that a layer is used at: (12), or LayerBySubaperture without depth edges.
+// Returns the smallest multiple of 0.5 for r at which a layer is used, by (12) or by
+// LayerBySubaperture without depth edges.
 double LeastRadius(starfocus_renderer renderer, int layer) {
   const auto layer_at = [&](double r) {
     return renderer == STARFOCUS_RENDERER_LINE_SCAN ? LayerByPaper(r)
@@ -59,7 +60,7 @@ double LeastRadius(starfocus_renderer renderer, int layer) {
   return least;
 }
 
-// Measures one series in the direction of `sign`, from the least r that its layer is used at.
+// Measures one series with r of the given sign, starting at the smallest r of its layer.
 Error Measure(const Series& series, int sign, Table* table, Table* layers) {
   const double least = LeastRadius(series.renderer, series.layer);
   if (least > series.largest) return {};
@@ -109,7 +110,7 @@ Error Measure(const Series& series, int sign, Table* table, Table* layers) {
   return {};
 }
 
-// Draws one table of PSFs at layer 0.
+// Returns the plot of one table of PSFs at layer 0.
 std::string Panel(const std::string& title, const std::string& table, const std::string& range) {
   return "set title '" + title + "'\nset xrange [" + range + "]\nplot $" + table +
          " using 1:8 with lines lt 6 lw 1 title 'paper', "
@@ -118,7 +119,7 @@ std::string Panel(const std::string& title, const std::string& table, const std:
          "'' using 1:5 with points pt 7 ps 0.2 lt 2 title 'measured'\n";
 }
 
-// The tables of one renderer.
+// Tables of one renderer.
 struct RuleTables {
   Table engine, r_max, engine_layers, layers;
 };

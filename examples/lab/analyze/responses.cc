@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Figs. 4, 5 and 8: 1D PSFs and their frequency responses.
+// Computes Figs. 4, 5 and 8: 1D PSFs and their frequency responses.
 #include <cmath>
 
 #include "examples/lab/analyze/figures.h"
@@ -17,7 +17,7 @@ using namespace analysis;
 
 constexpr double kRadius = 4;  // r of Figs. 4 and 5
 
-// b_vi,c(x) of (6).
+// Returns b_vi,c(x) of (6).
 double Continuous(const Taps& samples, double x) {
   double sum = 0;
   for (int i = -samples.radius(); i <= samples.radius(); ++i) {
@@ -26,7 +26,7 @@ double Continuous(const Taps& samples, double x) {
   return sum;
 }
 
-// A_vi(f): the views' spectrum, repeated every N / r.
+// Returns A_vi(f), the spectrum of the views, which repeats every N / r.
 double ViewResponse(const Taps& samples, double f) {
   return Response(samples, 2 * kPi * f * kRadius / samples.radius());
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rule (9) redone for subapertures.
+// Derives the equivalent of rule (9) for subapertures.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -35,7 +35,7 @@ Table SameRadius() {
   return table;
 }
 
-// Prints the stretches of r_max that share an N.
+// Prints the ranges of r_max with the same N.
 void PrintRule(const std::vector<int>& fewest, double limit) {
   std::printf("  Rule for a block: r_max and N, which holds for every r <= r_max\n   ");
   for (size_t k = 0; k < fewest.size(); ++k) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tables of numbers as CSV files and as gnuplot drawings.
+// Tables of numbers that are written as CSV files and gnuplot drawings.
 #ifndef STARFOCUS_EXAMPLES_LAB_ANALYZE_TABLE_H_
 #define STARFOCUS_EXAMPLES_LAB_ANALYZE_TABLE_H_
 
@@ -8,13 +8,13 @@
 
 namespace starfocus {
 
-// Column headings, then rows of as many cells.
+// A table with column headings. Each row has one cell per column.
 class Table {
  public:
   Table(std::string name, std::vector<std::string> columns)
       : name_(std::move(name)), columns_(std::move(columns)) {}
 
-  // Cells of the next row. Text must hold neither quotes nor line breaks.
+  // Starts a row; the Add functions append its cells. Text must not contain quotes or line breaks.
   Table& Row() {
     rows_.emplace_back();
     return *this;
@@ -25,7 +25,7 @@ class Table {
   const std::string& name() const { return name_; }
   std::string Csv() const;
 
-  // The same as the gnuplot data block $name.
+  // Returns the table as the gnuplot data block $name.
   std::string DataBlock() const;
 
  private:
@@ -36,9 +36,9 @@ class Table {
   std::vector<std::vector<std::string>> rows_;
 };
 
-// One figure: its tables and the gnuplot commands that draw it from their data blocks.
+// A figure: its tables, and the gnuplot commands that draw it from their data blocks.
 struct Figure {
-  std::string name;  // of the SVG file; empty for tables alone
+  std::string name;  // of the SVG file; empty: tables only
   int width = 0, height = 0;
   std::vector<Table> tables;
   std::string commands;

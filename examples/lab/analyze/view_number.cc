@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fig. 6: SSE against N / r, and the thresholds of (9).
+// Computes Fig. 6, SSE as a function of N / r, and the thresholds of (9).
 #include <cstdio>
 
 #include "examples/lab/analyze/figures.h"
@@ -17,7 +17,7 @@ Table Curves() {
   std::vector<std::string> columns = {"ratio"};
   for (int n = kLeast; n <= kMost; ++n) columns.push_back("N" + std::to_string(n));
   Table table("fig6", columns);
-  for (int k = 120; k <= 500; ++k) {  // 0.6 to 2.5
+  for (int k = 120; k <= 500; ++k) {  // ratio from 0.6 to 2.5
     const double ratio = k / 200.0;
     table.Row().Add(ratio);
     for (int n = kLeast; n <= kMost; ++n) table.Add(PaperError(n / ratio, n, kDefaultTheta));
@@ -39,7 +39,7 @@ Table Points() {
   return table;
 }
 
-// The paper's 0.787 against the exact point.
+// Compares the paper's threshold 0.787 with the exact one.
 void PrintThreshold() {
   constexpr double kPaperRatio = 0.787, kBeside = 1.51;
   const RatioPoint over = WorstOverSampling(4, kDefaultTheta);

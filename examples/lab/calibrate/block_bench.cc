@@ -20,9 +20,8 @@ starfocus_config MakeConfig(const LightField& light_field, const starfocus_dispa
   config.disparity_min = stats.min;
   config.disparity_max = stats.max;
   config.max_blur = STARFOCUS_MAX_BLUR;
-  config.superblock = 256;  // the scratch then serves every smaller block
-  config.tuning.n_scale =
-      STARFOCUS_MAX_N_SCALE;  // and there are apertures of every N that is sampled
+  config.superblock = 256;                        // scratch memory for blocks of any size
+  config.tuning.n_scale = STARFOCUS_MAX_N_SCALE;  // and apertures for every sampled N
   return config;
 }
 
@@ -36,7 +35,7 @@ Error BlockBench::Open(const std::string& where, const LightField& light_field) 
   if (status == STARFOCUS_OK) status = owner_.Init(MakeConfig(light_field, stats));
   if (status == STARFOCUS_OK) {
     engine_ = reinterpret_cast<EngineState*>(owner_.get());
-    // Blocks of any N are timed, through the default shape as in Focus.
+    // Create apertures for blocks of any N, with the default shape, which Focus also uses.
     starfocus_params params;
     starfocus_params_init(&params);
     SetOpening(ShapeOf(params.lens), &engine_->tables);
@@ -61,7 +60,7 @@ void BlockBench::HoldDisparity() {
       starfocus_depth_float(map.values.data(), map.stride(), map.width, map.height);
   const DepthSource source = MakeDepthSource(engine_->config, given, nullptr);
   for (int y = 0; y < map.height; ++y) {
-    // The range is the map's own, so that no value can be outside.
+    // Values cannot be out of range, because the range is that of the map.
     ReadDepthRow(simd::BestImageKernels(), source, y, engine_->row_store.disparity.Row(y));
   }
   views_.kernels = engine_->kernels;
@@ -79,7 +78,7 @@ void BlockBench::HoldLayer(int layer) {
   layer_samples_[layer].resize(stride * rows + simd::kPadding);
   plane.rows = {0, plane.height};
   plane.samples = {layer_samples_[layer].data(), stride, 0, 0};
-  // All rows at once: more than a worker has memory for.
+  // Computes all rows at once, which needs more memory than a worker of the engine has.
   const int32_t step = engine_->config.superblock / 2;
   const auto columns = size_t(TapsOfLayer(step));
   const auto above = size_t(TapsOfLayer(plane.height));
@@ -124,7 +123,7 @@ BlockWork BlockBench::Work(const BlockTask& task) {
 
 uint64_t BlockBench::Time(const BlockTask& task) {
   Focus(task);
-  // The model is one of rendering: no block is copied.
+  // Disable copying of blocks, since the model describes rendering.
   static const Renderer kAlways = [] {
     Renderer renderer = kSliceRenderer;
     renderer.nothing_moves = [](const RenderJob&) { return false; };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Times single blocks of a light field, at any place, size, N and layer, through the engine's own
-// RefocusBlock.
+// Measures the time of single blocks of a light field, with any position, size, N and layer, by
+// calling the engine's RefocusBlock.
 #ifndef STARFOCUS_EXAMPLES_LAB_CALIBRATE_BLOCK_BENCH_H_
 #define STARFOCUS_EXAMPLES_LAB_CALIBRATE_BLOCK_BENCH_H_
 
@@ -15,7 +15,7 @@
 
 namespace starfocus {
 
-// A lens and a block seen through it.
+// A block and the lens to refocus it with.
 struct BlockTask {
   double focus = 0, aperture = 1;
   Block block = {};
@@ -23,17 +23,19 @@ struct BlockTask {
 
 class BlockBench {
  public:
-  // The light field must outlive the bench.
+  // The light field must outlive this object.
   Error Open(const std::string& where, const LightField& light_field);
 
-  // What the timing model knows of the task's block; its place must be a multiple of kCellSize.
+  // Returns the inputs of the timing model for a block. Its position must be a multiple of
+  // kCellSize.
   BlockWork Work(const BlockTask& task);
 
-  // Picoseconds to refocus the task's block once. Blur radii must not exceed STARFOCUS_MAX_BLUR.
+  // Returns the time of refocusing the block once, in picoseconds. Blur radii must not exceed
+  // STARFOCUS_MAX_BLUR.
   uint64_t Time(const BlockTask& task);
 
  private:
-  // The engine's rings and layers hold a stripe; here they hold whole pictures, so that blocks may
+  // Fill the engine's rings and layers with whole pictures instead of stripes, so that blocks may
   // be refocused in any order.
   void HoldDisparity();
   void HoldLayer(int layer);

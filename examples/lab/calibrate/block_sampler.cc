@@ -10,13 +10,13 @@
 namespace starfocus {
 namespace {
 
-// The paper's range of sizes; those from 16 on that are powers of two are also timed at layers.
+// The paper's range of block sizes. Powers of two from 16 are also measured at layers 1 and 2.
 constexpr int kBlockSides[] = {8, 16, 24, 32, 48, 64, 96, 128, 160, 184};
 constexpr int kLayerSides[] = {16, 32, 64, 128, 256};
 constexpr int kViewNumbers[] = {1, 2, 3, 4, 5, 6, 7, 8, 10, 12, 14, 16};
 constexpr int kMostViews = 16;
 
-// Draws per pass, and what each pass allows beyond the one before it.
+// Number of draws per pass. Each pass permits more than the previous one.
 constexpr int kDraws = 60000;
 enum Pass { kUsualLens, kAnyAperture, kAnyLayer, kPasses };
 
@@ -56,7 +56,7 @@ double BlockSampler::SmallestRadius(const Lens& lens, const Cell& cell) const {
   return std::min(Radius(lens, cell.low), Radius(lens, cell.high));
 }
 
-// Beyond the picture the nearest cell goes on.
+// Outside the picture, returns the nearest cell.
 const BlockSampler::Cell& BlockSampler::At(int column, int row) const {
   column = std::clamp(column, 0, columns_ - 1);
   row = std::clamp(row, 0, rows_ - 1);
@@ -73,7 +73,7 @@ double BlockSampler::SmallestRadius(const Lens& lens, const Rect& rect) const {
   return smallest;
 }
 
-// The largest radius of what splats into the rectangle.
+// Returns the largest blur radius of the cells that splat into the rectangle.
 double BlockSampler::SplattingRadius(const Lens& lens, const Rect& rect) const {
   const int reach = static_cast<int>(LargestRadius(lens, range_)) / kCellSize + 2;
   const int left = rect.x / kCellSize, top = rect.y / kCellSize;
@@ -92,7 +92,8 @@ double BlockSampler::SplattingRadius(const Lens& lens, const Rect& rect) const {
 }
 
 BlockSampler::Lens BlockSampler::RandomLens(int pass) {
-  // Focus on something in the scene or a little beyond it; without regard to layers, farther off.
+  // The focus lies within the disparities of the scene or slightly outside; farther outside if the
+  // layer is ignored.
   const double beyond = pass == kAnyLayer ? 24 : 8;
   Lens lens;
   lens.focus = range_.low - beyond + Random() * (range_.high - range_.low + 2 * beyond);
@@ -100,7 +101,7 @@ BlockSampler::Lens BlockSampler::RandomLens(int pass) {
   return lens;
 }
 
-// The border of a rectangle of the picture by the pixels that splat into it.
+// Returns the border of a rectangle of the picture: the pixels that splat into it.
 Border BlockSampler::FindBorder(const Lens& lens, const Rect& rect, int r_max) const {
   Border border = {0, 0, 0, 0};
   const int right = rect.x + rect.width, bottom = rect.y + rect.height;

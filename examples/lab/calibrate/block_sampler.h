@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Chooses the blocks that are timed: as they occur when a scene is refocused, over all sizes and N.
+// Selects the blocks to measure: blocks that occur when the scene is refocused, for all sizes and
+// N.
 #ifndef STARFOCUS_EXAMPLES_LAB_CALIBRATE_BLOCK_SAMPLER_H_
 #define STARFOCUS_EXAMPLES_LAB_CALIBRATE_BLOCK_SAMPLER_H_
 
@@ -13,10 +14,10 @@
 
 namespace starfocus {
 
-// What the blocks of one group share.
+// Common properties of the blocks in a group.
 struct BlockKind {
-  int side;   // of the block in the picture, pixels
-  int layer;  // L
+  int side;   // size of the block in the picture, in pixels
+  int layer;  // layer L
   int n;      // N; 0 at layers 1 and 2: any
 };
 
@@ -29,7 +30,8 @@ class BlockSampler {
  public:
   explicit BlockSampler(const FloatMap& disparity);
 
-  // Groups of up to `count` blocks for each kind; kinds that the scene has none of are left out.
+  // Returns groups of up to `count` blocks for each kind. Kinds that do not occur in the scene are
+  // omitted.
   std::vector<BlockGroup> Sample(int count);
 
  private:

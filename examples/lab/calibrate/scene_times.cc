@@ -38,7 +38,7 @@ Error SceneTimes::Open(const std::string& name, LightField light_field) {
 void SceneTimes::Measure(Progress* progress) {
   for (std::vector<Timed>& group : groups_) {
     for (Timed& timed : group) {
-      // Never zero, which no weight could be made of.
+      // Avoid zero, by which the fit would divide.
       const double picoseconds = std::max(1.0, double(bench_.Time(timed.task)));
       timed.measurement.picoseconds = std::min(timed.measurement.picoseconds, picoseconds);
       progress->Step();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The measured times of one scene's blocks.
+// Measures the times of one scene's blocks.
 #ifndef STARFOCUS_EXAMPLES_LAB_CALIBRATE_SCENE_TIMES_H_
 #define STARFOCUS_EXAMPLES_LAB_CALIBRATE_SCENE_TIMES_H_
 
@@ -17,16 +17,18 @@ namespace starfocus {
 
 class SceneTimes {
  public:
-  // Chooses the blocks.
+  // Selects the blocks.
   Error Open(const std::string& name, LightField light_field);
 
   const std::string& name() const { return name_; }
   int64_t blocks() const { return blocks_; }
 
-  // Times every block once more; the shortest time counts, because all that disturbs lengthens.
+  // Measures every block once. The shortest time of all calls counts, because disturbances only
+  // lengthen times.
   void Measure(Progress* progress);
 
-  // Every block by itself, and the mean of every configuration: blocks of one size and N.
+  // Return the measurements of all blocks, and their means for every configuration, which is a
+  // group of blocks with the same size and N.
   std::vector<Measurement> Blocks() const;
   std::vector<Measurement> Configurations() const;
 

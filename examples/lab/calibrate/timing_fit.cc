@@ -19,7 +19,7 @@ Vector Terms(const BlockWork& work) {
   return terms;
 }
 
-// The normal equations, every term scaled to unit length.
+// The normal equations, with every term scaled to unit length.
 struct Equations {
   std::array<Vector, kTimingTermCount> matrix = {};
   Vector right = {}, length = {};
@@ -41,7 +41,7 @@ Equations MakeEquations(const std::vector<Measurement>& measurements) {
     equations.length[i] = std::sqrt(equations.matrix[i][i]);
   }
   for (size_t i = 0; i < equations.length.size(); ++i) {
-    if (equations.length[i] == 0) continue;  // a term that no block has
+    if (equations.length[i] == 0) continue;  // no block has this term
     equations.right[i] /= equations.length[i];
     for (size_t k = 0; k < equations.length.size(); ++k) {
       if (equations.length[k] == 0) continue;
@@ -51,7 +51,8 @@ Equations MakeEquations(const std::vector<Measurement>& measurements) {
   return equations;
 }
 
-// Coordinate descent: one unknown after the other takes its best value that is not negative.
+// Solves the equations by coordinate descent. Each step sets one unknown to its best non-negative
+// value.
 Vector Solve(const Equations& equations) {
   constexpr int kMostSweeps = 200000;
   Vector solution = {};

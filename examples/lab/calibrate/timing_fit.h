@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Least squares for the timing model (14).
+// Fits the timing model (14) by least squares.
 #ifndef STARFOCUS_EXAMPLES_LAB_CALIBRATE_TIMING_FIT_H_
 #define STARFOCUS_EXAMPLES_LAB_CALIBRATE_TIMING_FIT_H_
 
@@ -14,11 +14,12 @@ struct Measurement {
   double picoseconds;
 };
 
-// The coefficients, none negative, of the least sum of squared errors, each divided by its measured
-// time: an error then weighs between an absolute and a relative one, so that small blocks count.
+// Returns the non-negative coefficients with the smallest sum of squared errors, each divided by
+// its measured time. This weight lies between absolute and relative errors, so that small blocks
+// count.
 starfocus_timing FitTiming(const std::vector<Measurement>& measurements);
 
-// Coefficient of determination R^2, and the one with the weights of the fit.
+// Coefficients of determination R^2: without weights, and with the weights of the fit.
 struct Agreement {
   double plain, weighted;
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// starfocus-lab analyze: the paper's filter analysis, and the engine's kernels beside it.
+// starfocus-lab analyze: repeats the paper's filter analysis, and compares the engine's PSFs with
+// it.
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// starfocus-lab calibrate: the timing model's coefficients on this machine.
+// starfocus-lab calibrate: measures the coefficients of the timing model on this machine.
 #include <cstdio>
 #include <memory>
 #include <utility>
@@ -18,7 +18,7 @@
 namespace starfocus {
 namespace {
 
-constexpr int kWidth = 1024, kHeight = 768, kViews = 9;  // of the scenes made here
+constexpr int kWidth = 1024, kHeight = 768, kViews = 9;  // of the ray-traced scenes
 constexpr int kRepetitions = 5;
 
 struct CalibrateOptions {
@@ -53,7 +53,7 @@ Result<LightField> Load(const std::string& folder) {
 
 using Scenes = std::vector<std::unique_ptr<SceneTimes>>;
 
-// The scene to fit first, then those to check.
+// Opens the scene to fit, followed by the scenes to check.
 Result<Scenes> OpenScenes(const CalibrateOptions& options) {
   Scenes scenes;
   const auto add = [&](const std::string& folder, const std::string& name) -> Error {
@@ -73,7 +73,8 @@ Result<Scenes> OpenScenes(const CalibrateOptions& options) {
   return scenes;
 }
 
-// In turns, so that a slow spell of the machine meets all scenes and sizes alike.
+// Measures the scenes alternately, so that slow phases of the machine affect all scenes and sizes
+// equally.
 void Measure(const Scenes& scenes) {
   int64_t blocks = 0;
   for (const auto& scene : scenes) blocks += scene->blocks();
@@ -90,8 +91,8 @@ void PrintCoefficients(const starfocus_timing& timing) {
   }
 }
 
-// Prints how well the model predicts the scene, and returns the same as JSON. No limit is drawn:
-// what the model leaves out lowers the agreement of a good machine, too.
+// Prints how well the model predicts the scene, and returns the result as JSON. There is no limit,
+// because effects outside the model reduce the agreement on a good machine, too.
 Json Judge(const char* role, const SceneTimes& scene, const starfocus_timing& timing) {
   const Agreement configurations = Compare(timing, scene.Configurations());
   const Agreement blocks = Compare(timing, scene.Blocks());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// starfocus-lab compare: how much two pictures differ.
+// starfocus-lab compare: measures the difference between two pictures.
 #include <algorithm>
 #include <cstdio>
 #include <memory>

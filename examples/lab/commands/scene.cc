@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// starfocus-lab scene: a ray-traced light field with exact disparity and ground truth.
+// starfocus-lab scene: ray-traces a light field with exact disparity and ground truth.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int64_t kMostPixels = int64_t{1} << 25;  // all views are held in memory
+constexpr int64_t kMostPixels = int64_t{1} << 25;  // all views are in memory
 constexpr int kMostSeed = 1000000;
 constexpr char kSceneNames[] = "portrait, wires, ramp, lamps, hair or grass";
 constexpr char kCoverageFile[] = "coverage.png";
@@ -47,7 +47,7 @@ struct SceneOptions {
 struct Plan {
   Scene scene;
   std::vector<Truth> truths;
-  starfocus_lens lens = {};  // of the truths, but for focus and aperture
+  starfocus_lens lens = {};  // of the truths, except focus and aperture
 };
 
 Result<Truth> ParseTruth(const std::string& text) {
@@ -88,8 +88,8 @@ Result<Plan> MakePlan(const SceneOptions& options) {
   return plan;
 }
 
-// Views of an earlier, larger set or in another format would mix with the new ones, and so would
-// the coverage of another scene.
+// Rejects folders with old views that would mix with the new ones, or with the coverage of another
+// scene.
 Error CheckFolder(const SceneOptions& options, const Plan& plan) {
   const std::string& folder = options.folder;
   const Positions& views = options.views;

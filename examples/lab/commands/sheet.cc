@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// starfocus-lab sheet: pictures side by side.
+// starfocus-lab sheet: arranges pictures side by side.
 #include <algorithm>
 #include <memory>
 #include <vector>

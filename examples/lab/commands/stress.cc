@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// starfocus-lab stress: tries to break the engine.
+// starfocus-lab stress: tests the engine with random cases for a given time.
 #include "tests/stress/stress.h"
 
 #include <algorithm>
@@ -74,7 +74,7 @@ void Print(const stress::Report& report) {
 }
 
 stress::Report Try(stress::Options* wanted) {
-  int64_t told = 0;  // milliseconds
+  int64_t told = 0;  // milliseconds that the progress line shows
   Progress progress("trying", std::max<int64_t>(1, int64_t(1000 * wanted->seconds)));
   wanted->done = [&](double seconds) {
     const auto now = static_cast<int64_t>(1000 * std::min(seconds, wanted->seconds));

@@ -9,11 +9,11 @@
 namespace starfocus {
 namespace {
 
-constexpr int kScale = 2;  // of the font, whose letters are about 7 pixels high
+constexpr int kScale = 2;  // scale of the font, whose letters are about 7 pixels high
 constexpr int kMargin = 5;
 constexpr uint8_t kGrey = 225;
 
-struct Vertex {  // as stb_easy_font lays it out
+struct Vertex {  // format of stb_easy_font
   float x, y, z;
   unsigned char color[4];
 };

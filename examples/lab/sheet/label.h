@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Text on pictures.
+// Draws text on pictures.
 #ifndef STARFOCUS_EXAMPLES_LAB_SHEET_LABEL_H_
 #define STARFOCUS_EXAMPLES_LAB_SHEET_LABEL_H_
 
@@ -9,10 +9,11 @@
 
 namespace starfocus {
 
-// Height of a line of text in pixels, with its margins.
+// Height of a line of text in pixels, including its margins.
 inline constexpr int kLabelHeight = 28;
 
-// Writes `text` (ASCII) in light grey, its margin starting at (x, y); clipped to the picture.
+// Draws `text` (ASCII) in light grey. Its margin starts at (x, y), and it is clipped to the
+// picture.
 void DrawLabel(const std::string& text, int x, int y, Image* image);
 
 }  // namespace starfocus
