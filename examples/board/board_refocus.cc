@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// board_refocus: a refocusing camera on a board. A rotary encoder moves the focus plane, one button
-// changes the aperture, another takes the picture; an output line is high exactly while the engine
-// runs, for a scope or a power meter.
+// board_refocus: a refocusing camera on a board. A rotary encoder moves the plane of focus, one
+// button changes the aperture, and another takes the picture. An output line is high while the
+// engine runs, for an oscilloscope or a power meter.
 #include <algorithm>
 #include <cstdio>
 #include <optional>
@@ -38,7 +38,7 @@ struct Options {
 
 constexpr int kLastLine = 100000;
 
-// Everything that can be refused before the light field is read.
+// Checks everything that can be checked before the light field is read.
 Result<PanelLines> PlanLines(const Options& options) {
   PanelLines lines;
   if (options.encoder) {
@@ -63,7 +63,7 @@ Result<PanelLines> PlanLines(const Options& options) {
 
 int64_t Nanoseconds() { return static_cast<int64_t>(Seconds() * 1e9); }
 
-// "picture.png" and 3 make "picture-3.png".
+// Returns a numbered file name: "picture-3.png" for "picture.png" and 3.
 std::string Numbered(const std::string& path, int number) {
   const size_t dot = path.rfind('.');
   return path.substr(0, dot) + "-" + std::to_string(number) + path.substr(dot);
@@ -74,7 +74,7 @@ class Board {
   Board(const Options& options, const PanelLines& lines)
       : options_(options), lines_(lines), camera_(options.threads) {}
 
-  // The lines are taken before the light field is read: their absence is known sooner.
+  // Requests the lines before it reads the light field, so that a missing line is reported early.
   Error Open() {
     Error error = inputs_.Open(options_.chip, lines_.All(), options_.bias);
     if (!error && options_.busy) error = busy_.Open(options_.chip, *options_.busy);
@@ -97,7 +97,7 @@ class Board {
     return {};
   }
 
-  // Serves the controls until the wanted number of pictures is taken.
+  // Handles the controls until the requested number of pictures has been taken.
   Error Run() {
     bool a = true, b = true;
     if (lines_.encoder_a >= 0) {
@@ -133,7 +133,8 @@ class Board {
     return {};
   }
 
-  // Returns the level that is read back; false without a busy line.
+  // Sets the busy line and returns the level that is read back. Returns false if there is no busy
+  // line.
   Result<bool> SetBusy(bool high) {
     if (!options_.busy) return false;
     if (Error error = busy_.Set(high)) return error;
@@ -160,7 +161,8 @@ class Board {
     return {};
   }
 
-  // A full disk must not end the camera.
+  // Shows and writes the picture. Prints errors and continues, because a full disk must not end the
+  // camera.
   void Keep() {
     Error error;
     if (!options_.framebuffer.empty()) {

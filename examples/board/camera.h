@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A light field in memory, ready to be refocused again and again without another allocation.
+// A light field in memory that can be refocused repeatedly without allocating memory.
 #ifndef STARFOCUS_EXAMPLES_BOARD_CAMERA_H_
 #define STARFOCUS_EXAMPLES_BOARD_CAMERA_H_
 
@@ -18,16 +18,16 @@ class Camera {
  public:
   explicit Camera(int threads) : runner_(threads) {}
 
-  // Loads the light field and makes an engine for every focus within its disparities.
+  // Loads the light field and creates an engine that supports every focus within its disparities.
   Error Load(const std::string& folder, starfocus_mode mode);
 
   double nearest() const { return stats_.max; }
   double farthest() const { return stats_.min; }
-  // Apertures that the engine's largest blur allows, the widest first.
+  // Returns the apertures that the engine's largest blur permits, the widest first.
   const std::vector<double>& apertures() const { return apertures_; }
   size_t workspace_bytes() const { return engine_.workspace_bytes(); }
 
-  // Refocuses; the result is picture().
+  // Refocuses into picture().
   starfocus_status Take(double focus, double aperture);
   const Image& picture() const { return picture_; }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The camera's controls: a rotary encoder for the focus, a button for the aperture and one for the
-// shutter, from the edges of their lines. No I/O.
+// Interprets the camera's controls: a rotary encoder for the focus, a button for the aperture, and
+// a button for the shutter. Its input is the edges of their lines; it performs no I/O.
 #ifndef STARFOCUS_EXAMPLES_BOARD_PANEL_H_
 #define STARFOCUS_EXAMPLES_BOARD_PANEL_H_
 
@@ -11,13 +11,13 @@
 
 namespace starfocus {
 
-// Offsets of the lines; -1 for a control there is not.
+// Offsets of the lines; -1 if a control is missing.
 struct PanelLines {
   int encoder_a = -1, encoder_b = -1;
   int aperture = -1;
   int shutter = -1;
 
-  // Those there are.
+  // Returns the lines of all existing controls.
   std::vector<int> All() const;
 };
 
@@ -31,15 +31,16 @@ struct PanelActions {
 
 class Panel {
  public:
-  // Buttons connect to ground when `active_low`. `quiet` nanoseconds after a change of a button
-  // are bouncing. The levels are those of the encoder's lines at rest.
+  // @param active_low true if buttons connect to ground
+  // @param quiet duration of bouncing after a change of a button, in nanoseconds
+  // @param level_a, level_b levels of the encoder's lines at rest
   Panel(const PanelLines& lines, bool active_low, int64_t quiet, bool level_a, bool level_b);
 
-  // An edge of `line` to `high` at `time`.
+  // Processes an edge of `line` to level `high` at `time`.
   PanelActions Edge(int line, bool high, int64_t time);
-  // To be called when no edge came for Wait() nanoseconds.
+  // Call it if no edge arrives for Wait() nanoseconds.
   PanelActions Settle(int64_t time);
-  // Nanoseconds until Settle has something to do; -1 for never.
+  // Returns the nanoseconds until Settle must be called; -1: never.
   int64_t Wait(int64_t time) const;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Short ways to describe surfaces.
+// Functions that create the surfaces of scenes.
 #ifndef STARFOCUS_EXAMPLES_SCENE_BUILDERS_H_
 #define STARFOCUS_EXAMPLES_SCENE_BUILDERS_H_
 
@@ -26,21 +26,23 @@ struct Radii {
 
 Surface Ellipsoid(const Position& centre, const Radii& radii, const Material& material);
 
-// A plane piece; for Outline::kNone the radii do not matter.
+// Creates a planar surface. Outline::kNone ignores the radii.
 Surface Piece(Outline outline, const Position& centre, const Radii& radii,
               const Material& material);
 
-// Turns the local x axis towards (dx, dy), which need not be a unit vector.
+// Rotates a surface so that its local x axis points towards (dx, dy), which need not be a unit
+// vector.
 Surface Turned(Surface surface, double dx, double dy);
 
-// A flat wire of half width `radius` from one position to another.
+// Creates a flat wire with half width `radius` between two positions.
 Surface Wire(const Position& from, const Position& to, double radius, const Material& material);
 
-// A leaf with its tip in `direction` from its middle; d grows by `rise` to the tip.
+// Creates a leaf whose tip lies in `direction` from its centre. Disparity grows by `rise` towards
+// the tip.
 Surface Leaf(const Position& centre, const Point& direction, double length, double width,
              double rise, const Material& material);
 
-// Strands as one surface.
+// Combines strands into one surface.
 Surface Tuft(std::vector<Strand> strands, const Material& material);
 
 }  // namespace starfocus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scene `lamps`: a street at night, with lamps up to four times as bright as white.
+// The scene `lamps`: a street at night with lamps that are up to four times as bright as white.
 #include "examples/scene/builders.h"
 #include "examples/scene/textures.h"
 
@@ -7,7 +7,7 @@ namespace starfocus {
 namespace {
 
 constexpr double kDarkWall = -8;
-// Codes of lamps: as bright as white, and four times as bright.
+// Codes of lamps: as bright as white. kGlare makes their light four times as bright.
 constexpr Color kWarm = {255, 214, 150}, kCold = {190, 220, 255}, kRed = {255, 60, 40};
 constexpr double kGlare = 1.825;
 

@@ -7,7 +7,8 @@
 namespace starfocus {
 namespace {
 
-// Returns value^2.4. A square root is IEEE's; std::pow is each library's own.
+// Returns value^2.4. Uses only arithmetic that IEEE 754 defines exactly, because std::pow differs
+// between libraries.
 double Power(double value) {
   const double square = value * value;
   double root = std::max(1.0, square);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Codes and the light that they stand for, far beyond white as lamps are.
+// Converts codes to light and back, up to far above white, for lamps.
 #ifndef STARFOCUS_EXAMPLES_SCENE_LIGHT_CURVE_H_
 #define STARFOCUS_EXAMPLES_SCENE_LIGHT_CURVE_H_
 
@@ -10,9 +10,9 @@
 
 namespace starfocus {
 
-// Rays bring light: it is what pictures of a scene average. Codes up to kMostCode, where 255 is
-// white, become light of as many units of a 255th of white; tables of IEEE arithmetic alone make it
-// the same on every machine.
+// Pictures of a scene are averages of light. Codes up to kMostCode, where 255 is white, are
+// converted to light in units of 1/255 of white. The tables use only IEEE 754 arithmetic, so that
+// they are equal on all machines.
 class LightCurve {
  public:
   explicit LightCurve(starfocus_transfer transfer);
@@ -21,12 +21,12 @@ class LightCurve {
   Color Encode(const Color& light) const;
 
  private:
-  static constexpr int kMostCode = 2048, kSteps = 4;  // of a code
+  static constexpr int kMostCode = 2048, kSteps = 4;  // kSteps per code
 
   double LightOf(double code) const;
   double CodeOf(double light) const;
 
-  std::vector<double> light_;  // of every step; empty: light is the code
+  std::vector<double> light_;  // light of every step; empty: light is the code
 };
 
 }  // namespace starfocus

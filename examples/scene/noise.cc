@@ -4,7 +4,8 @@
 namespace starfocus {
 namespace {
 
-// std::floor of numbers below 2^63, as instructions of every x86-64 instead of a call.
+// std::floor for numbers below 2^63. Compiles to instructions of every x86-64 processor instead of
+// a call.
 double Floor(double x) {
   const double whole = static_cast<double>(static_cast<int64_t>(x));
   return whole - (whole > x ? 1 : 0);
@@ -42,7 +43,7 @@ double Fractal(double x, double y, int octaves, uint32_t seed) {
     sum += weight * Noise(x, y, seed + static_cast<uint32_t>(i) * 101u);
     total += weight;
     weight *= 0.5;
-    // Half the size, turned by a Pythagorean angle (3-4-5) so that the lattices do not line up.
+    // Halve the size and rotate by a Pythagorean angle (3-4-5), so that the lattices do not align.
     const double turned = 2 * (0.8 * x - 0.6 * y);
     y = 2 * (0.6 * x + 0.8 * y);
     x = turned;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Procedural patterns: deterministic noise from integer hashes. Only + - * /, floor and sqrt are
-// used, so that every IEEE machine makes the same pictures.
+// Procedural patterns: deterministic noise from integer hashes. Uses only + - * /, floor and sqrt,
+// so that pictures are equal on all IEEE 754 machines.
 #ifndef STARFOCUS_EXAMPLES_SCENE_NOISE_H_
 #define STARFOCUS_EXAMPLES_SCENE_NOISE_H_
 
@@ -8,25 +8,26 @@
 
 namespace starfocus {
 
-// Well-mixed 32 bits from two lattice coordinates and a seed.
+// Returns 32 well-mixed bits from two lattice coordinates and a seed.
 uint32_t Hash(int32_t x, int32_t y, uint32_t seed);
 
-// The same as a number in [0, 1).
+// Returns the hash as a number in [0, 1).
 double HashUnit(int32_t x, int32_t y, uint32_t seed);
 
-// Smooth noise in [0, 1] with features about one unit across.
+// Returns smooth noise in [0, 1] with features of about one unit.
 double Noise(double x, double y, uint32_t seed);
 
-// `octaves` octaves of Noise, each half as large and half as strong, in [0, 1].
+// Returns the sum of `octaves` octaves of Noise in [0, 1]. Each has half the size and half the
+// strength of the previous one.
 double Fractal(double x, double y, int octaves, uint32_t seed);
 
-// x modulo period, in [0, period).
+// Returns x modulo period, in [0, period).
 double Wrap(double x, double period);
 
-// Triangle wave of the given period, in [0, 1], 0 at multiples of the period.
+// Returns a triangle wave in [0, 1], which is 0 at multiples of the period.
 double Triangle(double x, double period);
 
-// 0 below `low`, 1 above `high`, smooth between.
+// Returns 0 below `low`, 1 above `high`, and a smooth transition between them.
 double Smooth(double low, double high, double x);
 
 inline double Clamp01(double x) { return x < 0 ? 0 : x > 1 ? 1 : x; }

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kTheta = 0.26 * kPi;
-constexpr double kCotSquared = 0.8818383898322281;  // of it, the same on every machine
+constexpr double kCotSquared = 0.8818383898322281;  // cot^2 of kTheta, equal on all machines
 
 double Square(double x) { return x * x; }
 
@@ -30,7 +30,7 @@ SceneOpening::SceneOpening(const starfocus_lens& lens)
 }
 
 double SceneOpening::LeastShare() const {
-  // Two discs that lie s apart have 1 - 2 s / pi of each in common, or more.
+  // Two unit discs at distance s overlap in at least 1 - 2 s / pi of their area.
   const double both = 1 - 2 / kPi * cats_eye_;
   if (shape_ == STARFOCUS_SHAPE_RING) return both * (1 - inner_ * inner_);
   return shape_ == STARFOCUS_SHAPE_POLYGON ? both * std::sin(2 * half_) / (2 * half_) : both;

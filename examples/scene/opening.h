@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The opening that a thin lens's rays pass, in double precision and by nothing of the engine's.
+// The opening of a thin lens, in double precision. Shares no code with the engine.
 #ifndef STARFOCUS_EXAMPLES_SCENE_OPENING_H_
 #define STARFOCUS_EXAMPLES_SCENE_OPENING_H_
 
@@ -11,27 +11,28 @@ namespace starfocus {
 
 class SceneOpening {
  public:
-  // The opening of a valid lens.
+  // @param lens a valid lens
   explicit SceneOpening(const starfocus_lens& lens);
 
-  // cot^2(theta) of the density (3), or 0: as bright everywhere.
+  // Returns cot^2(theta) of the density (3), or 0 if the opening is equally bright everywhere.
   double fall_off() const { return fall_off_; }
 
-  // The part of the disc that lets light through to a corner of the picture, roughly.
+  // Returns approximately the fraction of the disc through which light reaches a corner of the
+  // picture.
   double LeastShare() const;
 
-  // Whether the ray through (u, v) of the unit disc passes, for a pixel at (x, y) in half diagonals
-  // of the picture from its middle.
+  // Returns true if the ray through (u, v) of the unit disc passes the opening. (x, y) is the
+  // position of the pixel relative to the centre of the picture, in half diagonals.
   bool Passes(double u, double v, double x, double y) const;
 
  private:
   struct Edge {
-    double x, y;  // its normal
+    double x, y;  // normal of the edge
   };
 
   starfocus_shape shape_;
   double fall_off_ = 0, inner_, cats_eye_;
-  double curvature_, half_;  // of a polygon: half of the angle between two corners
+  double curvature_, half_;  // of a polygon; `half_` is half the angle between two corners
   std::vector<Edge> edges_;
 };
 

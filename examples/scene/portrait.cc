@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A person with a woollen hat in front of a room: near subject, objects in the middle, far wall.
+// The scene `portrait`: a person with a woollen hat in a room. The subject is near, objects are at
+// a medium distance, and the wall is far.
 #include "examples/scene/builders.h"
 #include "examples/scene/textures.h"
 
@@ -8,7 +9,7 @@ namespace {
 
 using LayeredDepth = std::vector<Surface>;
 
-constexpr double kX = -110;  // of the subject
+constexpr double kX = -110;  // x of the subject
 constexpr double kWall = -9;
 
 void AddHead(LayeredDepth* out) {
@@ -137,7 +138,8 @@ void AddWall(LayeredDepth* out) {
   out->push_back(Piece(Outline::kBox, {-420, -60, kWall + 0.3}, {66, 84}, second));
 }
 
-// Fairy lights on a sagging cord; out of focus they become discs of the aperture's shape.
+// Adds fairy lights on a sagging cord. Out of focus they become discs with the shape of the
+// aperture.
 void AddLights(LayeredDepth* out) {
   const Material cord = {PaintTwist, {28, 34, 30}, {62, 74, 60}, 0.8, 100};
   const Color colors[] = {{255, 190, 90}, {255, 140, 70}, {255, 214, 130}, {250, 168, 110}};

@@ -8,7 +8,7 @@
 #include "examples/scene/noise.h"
 
 namespace starfocus {
-// A point of the lens, and a turn by the angle of one.
+// A point of the lens, or a rotation by the angle of that point.
 struct LensPoint {
   double x, y;
 };
@@ -16,12 +16,12 @@ struct LensPoint {
 namespace {
 
 constexpr int kTile = 16;
-constexpr int kViewGrid = 4;       // samples of a pixel of a view, squared
-constexpr int kFineGrid = 8;       // the same where strands may be
-constexpr int kCoverageGrid = 16;  // the same of coverage
-constexpr int kLensSamples = 256;  // of a pixel of the ground truth, about
-// cos and sin of the golden angle, and of 1/256 of a turn: sequences of directions come from
-// multiplying by them, which needs no library function.
+constexpr int kViewGrid = 4;       // square root of the number of samples per pixel of a view
+constexpr int kFineGrid = 8;       // same, near strands
+constexpr int kCoverageGrid = 16;  // same, for coverage
+constexpr int kLensSamples = 256;  // approximate number of samples per pixel of the ground truth
+// cos and sin of the golden angle and of 1/256 of a turn. Multiplying by them generates sequences
+// of directions without library functions.
 constexpr double kGoldenCos = -0.7373688780783197, kGoldenSin = 0.6754902942615238;
 constexpr double kStepCos = 0.9996988186962042, kStepSin = 0.024541228522912288;
 // Steps of the R2 low-discrepancy sequence.
@@ -31,9 +31,9 @@ LensPoint Turn(LensPoint p, LensPoint by) {
   return {p.x * by.x - p.y * by.y, p.x * by.y + p.y * by.x};
 }
 
-// Points on the unit disc: sunflower directions, radii by the inverse of the distribution of the
-// squared radius, whose density is proportional to 1 / (s + cot^2)^2 with a fall-off (3). As many
-// more as are needed for kLensSamples of them to pass.
+// Returns points on the unit disc in a sunflower pattern, of which about kLensSamples pass the
+// opening. Their radii follow the inverse of the distribution of the squared radius s. With the
+// fall-off (3), the density of s is proportional to 1 / (s + cot^2)^2.
 std::vector<LensPoint> LensPoints(const SceneOpening& opening) {
   std::vector<LensPoint> points;
   LensPoint direction = {1, 0};
@@ -61,14 +61,14 @@ std::vector<LensPoint> Turns() {
 
 uint8_t ToByte(double value) { return static_cast<uint8_t>(Clamp01(value / 255) * 255 + 0.5); }
 
-// Sample k of a sheared grid over a pixel: n * n different positions along either axis, each within
-// half a pixel of 0.
+// Returns sample k of a sheared grid over a pixel. Samples have n * n different coordinates along
+// each axis, within half a pixel of 0.
 Point BoxSample(int k, int grid) {
   const double i = k % grid, j = k / grid, n = grid;
   return {(i + (j + 0.5) / n) / n - 0.5, (j + (n - i - 0.5) / n) / n - 0.5};
 }
 
-// Smallest and largest product of a value of [a, b] and one of [c, d].
+// Computes the smallest and the largest product of a value in [a, b] and a value in [c, d].
 void ProductRange(double a, double b, double c, double d, double* low, double* high) {
   *low = std::min({a * c, a * d, b * c, b * d});
   *high = std::max({a * c, a * d, b * c, b * d});
@@ -78,9 +78,9 @@ void ProductRange(double a, double b, double c, double d, double* low, double* h
 
 struct RayTracer::Lens {
   double u = 0, v = 0;                   // centre of the lens
-  double aperture = 0;                   // its radius; 0: a pinhole
-  double focus = 0;                      // canvas units
-  std::vector<LensPoint> points, turns;  // of a lens that is no pinhole
+  double aperture = 0;                   // radius of the lens; 0: a pinhole
+  double focus = 0;                      // in canvas units
+  std::vector<LensPoint> points, turns;  // empty for a pinhole
   const SceneOpening* opening = nullptr;
 };
 

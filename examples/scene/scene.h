@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Analytic scenes in disparity space.
 //
-// A scene is a set of surfaces in (x, y, d): centre-view position and disparity. It is laid out on
-// a canvas of 1024x768 units with the origin in the middle (y downwards) and d in canvas units per
-// unit u; a picture of another size scales all three alike. A ray is the line of points that one
+// A scene is a set of surfaces in (x, y, d): position in the centre view and disparity. The canvas
+// has 1024x768 units, its origin is the centre, y points downwards, and d is in canvas units per
+// unit of u. A picture of another size scales all three equally. A ray consists of the points that
 // picture position p sees through lens position q when the lens is focused at disparity D:
-// (x, y) = p + q * (d - D). The surface of the largest d wins. D = 0 gives the captured views.
+// (x, y) = p + q * (d - D). The surface with the largest d is visible. D = 0 gives the captured
+// views.
 #ifndef STARFOCUS_EXAMPLES_SCENE_SCENE_H_
 #define STARFOCUS_EXAMPLES_SCENE_SCENE_H_
 
@@ -22,7 +23,7 @@ namespace starfocus {
 inline constexpr double kCanvasWidth = 1024, kCanvasHeight = 768;
 
 struct Color {
-  double r = 0, g = 0, b = 0;  // codes, 255 is white, more are clipped; or their light
+  double r = 0, g = 0, b = 0;  // codes, of which 255 is white and larger ones are clipped; or light
 };
 inline Color operator+(Color p, Color q) { return {p.r + q.r, p.g + q.g, p.b + q.b}; }
 inline Color operator*(Color p, double k) { return {p.r * k, p.g * k, p.b * k}; }
@@ -33,10 +34,10 @@ struct Ray {
   double ox, oy, u, v;
 };
 
-// Where a ray meets a surface.
+// Intersection of a ray and a surface.
 struct Hit {
   double x, y, d;     // in the scene
-  double lx, ly;      // from the surface's centre, along its axes; strands: along and across
+  double lx, ly;      // relative to the surface's centre, along its axes; strands: along and across
   double nx, ny, nz;  // normal: right, down, towards the camera
   size_t strand = 0;  // index in the surface's strands
 };
@@ -45,8 +46,8 @@ struct Surface;
 using Paint = Color (*)(const Surface&, const Hit&);
 
 enum class Shape { kPlane, kEllipsoid, kStrands };
-// What part of a plane there is: all, |lx| <= rx and |ly| <= ry, the ellipse of these radii, its
-// outer ring of width `thickness`, or a leaf between two arcs.
+// Part of a plane that exists: all of it, |lx| <= rx and |ly| <= ry, the ellipse with these radii,
+// its outer ring of width `thickness`, or a leaf between two arcs.
 enum class Outline { kNone, kBox, kEllipse, kRing, kLeaf };
 
 struct Surface {
@@ -55,23 +56,24 @@ struct Surface {
   double cx = 0, cy = 0, cd = 0;    // centre
   double ax = 1, ay = 0;            // unit vector of the local x axis
   double rx = 0, ry = 0, rd = 0;    // radii along the local axes (rd: ellipsoids)
-  double slope_x = 0, slope_y = 0;  // planes: d grows by so much per unit of scene x, y
+  double slope_x = 0, slope_y = 0;  // planes: change of d per unit of scene x, y
   double thickness = 0;             // rings
   std::shared_ptr<const Strands> strands;
-  bool foreground = false;  // counts as covered in the coverage of the centre view
+  bool foreground = false;  // counts in the coverage of the centre view
   Paint paint = nullptr;
   Color color, second;
-  double scale = 1;  // of the texture
+  double scale = 1;  // scale of the texture
   uint32_t seed = 0;
 };
 
-// Whether the ray meets the surface; fills in *hit if so.
+// Returns true if the ray intersects the surface, and sets *hit in that case.
 bool Intersect(const Surface& surface, const Ray& ray, Hit* hit);
 
-// `reach` bounds |x| and |y| of what is ever seen of an endless plane.
+// Returns the bounds of a surface. `reach` limits |x| and |y| of the visible part of an infinite
+// plane.
 Bounds SurfaceBounds(const Surface& surface, double reach);
 
-// A place to focus at, on the canvas.
+// A point of the canvas to focus on.
 struct NamedPoint {
   const char* name;
   double x, y;
@@ -82,16 +84,16 @@ struct Scene {
   std::string description;
   std::vector<Surface> surfaces;
   std::vector<NamedPoint> points;  // near, middle, far
-  bool seeded = false;             // another seed gives another scene
+  bool seeded = false;             // the scene depends on the seed
 
-  // True if the scene has a foreground, and so a coverage map.
+  // Returns true if the scene has a foreground, and therefore a coverage map.
   bool HasForeground() const;
 };
 
-inline constexpr uint32_t kSceneSeed = 1;  // the default
+inline constexpr uint32_t kSceneSeed = 1;  // default seed
 
-// "portrait", "wires", "ramp", "lamps", "hair" or "grass"; none for any other name. The seed
-// places the strands of hair and grass.
+// Creates the scene "portrait", "wires", "ramp", "lamps", "hair" or "grass". Returns nullopt for
+// any other name. The seed determines the strands of hair and grass.
 std::optional<Scene> MakeScene(const std::string& name, uint32_t seed = kSceneSeed);
 
 Scene MakePortrait();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scenes `hair` and `grass`: strands thinner and thicker than a pixel before a far wall. All
-// near disparities lie within a few pixels, so that coverage parts two surfaces.
+// The scenes `hair` and `grass`: strands thinner and thicker than a pixel in front of a far wall.
+// All near disparities lie within a few pixels, so that coverage separates two surfaces.
 #include <cmath>
 
 #include "examples/scene/builders.h"
@@ -10,7 +10,7 @@
 namespace starfocus {
 namespace {
 
-// Random numbers of one strand, each with a name of its own.
+// A sequence of random numbers for one strand.
 class Dice {
  public:
   Dice(int strand, uint32_t seed) : strand_(strand), seed_(seed) {}
@@ -28,7 +28,7 @@ class Dice {
 constexpr Point kHead = {-10, 30};
 constexpr double kHeadRadius = 155;
 
-// A direction from the head, but for the third of a turn to the right.
+// Returns a direction from the head, except for the third of a turn to the right.
 Point HairDirection(Dice* dice) {
   for (;;) {
     const double x = dice->Between(-1, 1), y = dice->Between(-1, 1);
@@ -44,7 +44,7 @@ Strand Hair(Dice dice) {
   const double radius = dice.Between(0.25, 0.75), start = 0.96 * kHeadRadius;
   const Point root = {kHead.x + start * out.x, kHead.y + start * out.y};
   const double half = 0.5 * length;
-  // Most strands lie near the middle of 8 to 12.
+  // Concentrates strands near the middle of the range from 8 to 12.
   const double d = 8 + 4.0 / 3 * (dice.Between(0, 1) + dice.Between(0, 1) + dice.Between(0, 1));
   return {
       root,
@@ -57,7 +57,7 @@ Strand Hair(Dice dice) {
 
 constexpr double kGround = 384;
 
-// Nine blades of ten grow in the left half of the picture.
+// Creates a blade of grass. Nine of ten blades grow in the left half of the picture.
 Strand Blade(int index, Dice dice) {
   const double left = index % 10 == 9 ? 0 : -580;
   const Point root = {dice.Between(left, left + 580), kGround + dice.Between(20, 70)};

@@ -7,7 +7,7 @@
 namespace starfocus {
 namespace {
 
-constexpr int kParts = 12;   // segments of a strand
+constexpr int kParts = 12;   // segments per strand
 constexpr double kCell = 4;  // canvas units: half a segment of hair
 
 Point PointAt(const Strand& s, double t) {
@@ -84,7 +84,7 @@ int Strands::CellAt(double from, int count) {
 
 void Strands::AddToCells(uint32_t index, std::vector<std::vector<uint32_t>>* cells) const {
   const Segment& s = segments_[index];
-  // Cells whose centre lies farther away hold no point that a ray through the segment passes.
+  // A cell whose centre is farther away cannot contain a point of a ray that meets the segment.
   const double far = s.LargestRadius() + reach_ * std::sqrt(2.0) + kCell * std::sqrt(0.5);
   const double x = s.start.x - origin_.x, y = s.start.y - origin_.y;
   const double dx = s.length * s.direction.x, dy = s.length * s.direction.y;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hair, needles and blades: curves with a thickness, each at a disparity of its own. A grid of
-// cells over the canvas lets a ray test only the few strands near it.
+// Hair, needles and blades: curves with a thickness and a constant disparity. With a grid of cells
+// over the canvas, a ray tests only the strands near it.
 #ifndef STARFOCUS_EXAMPLES_SCENE_STRANDS_H_
 #define STARFOCUS_EXAMPLES_SCENE_STRANDS_H_
 
@@ -14,48 +14,48 @@ struct Point {
   double x, y;
 };
 
-// A quadratic Bezier curve, in canvas units. Its half width changes evenly from root to tip.
+// A quadratic Bezier curve, in canvas units. Its half width changes linearly from root to tip.
 struct Strand {
   Point root, middle, tip;
   double root_radius, tip_radius;
   double d;  // disparity
 };
 
-// Where a ray meets a strand.
+// Intersection of a ray and a strand.
 struct StrandHit {
   double x, y, d;
-  double along, across;  // canvas units from the root; -1 to 1 from one rim to the other
+  double along, across;  // distance from the root in canvas units; -1 to 1 from side to side
   size_t strand;         // index, counted from the nearest strand
 };
 
-// A box that holds a whole surface.
+// A box that contains a whole surface.
 struct Bounds {
   double x0, x1, y0, y1, d0, d1;
 };
 
 class Strands {
  public:
-  // At least one strand, each longer than 0.
+  // @param strands at least one strand; lengths must be above 0
   explicit Strands(std::vector<Strand> strands);
 
   const Bounds& bounds() const { return bounds_; }
 
-  // Returns true if the points (x, y) + (u, v) * d meet a strand, and fills in *hit with the
-  // nearest one. u and v are within +-1.
+  // Returns true if the points (x, y) + (u, v) * d meet a strand, and sets *hit to the nearest
+  // intersection. u and v must be within +-1.
   bool Find(Point at, double u, double v, StrandHit* hit) const;
 
  private:
   // A straight part of a strand, with round ends.
   struct Segment {
-    Point start, direction;  // direction: a unit vector
+    Point start, direction;  // direction is a unit vector
     double length, along;    // along: distance of the start from the root
     double radius, growth;   // half width at the start, and its change per canvas unit
     double d;
     size_t strand;
 
-    // Point of the segment nearest to p: distance from the start.
+    // Returns the distance from the start of the segment to the point of the segment nearest to p.
     double Nearest(Point p) const;
-    // Vector from the point at distance t from the start to p.
+    // Returns the vector to p from the point at distance t from the start.
     Point From(double t, Point p) const;
     double LargestRadius() const;
   };
@@ -64,13 +64,13 @@ class Strands {
   void FitBounds();
   void AddToCells(uint32_t index, std::vector<std::vector<uint32_t>>* cells) const;
   void FillGrid();
-  // Column or row of a place that lies `from` the grid's left or upper side.
+  // Returns the column or row at distance `from` from the grid's left or upper side.
   static int CellAt(double from, int count);
 
   std::vector<Segment> segments_;  // from the nearest strand to the farthest
   Bounds bounds_ = {};
-  // The grid lies in the plane of disparity d_. A ray meets the strands at most reach_ beside the
-  // point where it meets the plane.
+  // The grid lies in the plane of disparity d_. A ray meets strands at most at distance reach_ from
+  // its intersection with that plane.
   double d_ = 0, reach_ = 0;
   Point origin_ = {0, 0};
   int columns_ = 0, rows_ = 0;

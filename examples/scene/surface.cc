@@ -45,7 +45,7 @@ bool IntersectPlane(const Surface& s, const Ray& ray, Hit* hit) {
 }
 
 bool IntersectEllipsoid(const Surface& s, const Ray& ray, Hit* hit) {
-  // Local coordinates over the radii are linear in t = d - cd: (p + q * t, t / rd).
+  // Local coordinates divided by the radii are linear in t = d - cd: (p + q * t, t / rd).
   double px, py, qx, qy;
   ToLocal(s, ray.ox + ray.u * s.cd - s.cx, ray.oy + ray.v * s.cd - s.cy, &px, &py);
   ToLocal(s, ray.u, ray.v, &qx, &qy);
@@ -83,7 +83,7 @@ bool Intersect(const Surface& surface, const Ray& ray, Hit* hit) {
 Bounds SurfaceBounds(const Surface& s, double reach) {
   if (s.shape == Shape::kStrands) return s.strands->bounds();
   const bool endless = s.shape == Shape::kPlane && s.outline == Outline::kNone;
-  // A leaf bulges up to 1.14 of its radius.
+  // The outline of a leaf reaches up to 1.14 times its radius.
   const double ry = s.outline == Outline::kLeaf ? 1.2 * s.ry : s.ry;
   const double wide = std::fabs(s.ax) * s.rx + std::fabs(s.ay) * ry;
   const double high = std::fabs(s.ay) * s.rx + std::fabs(s.ax) * ry;

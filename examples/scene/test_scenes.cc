@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scenes `wires` and `ramp`: hard cases for line scans, plain to look at.
+// The scenes `wires` and `ramp`, which are difficult for line scans.
 #include "examples/scene/builders.h"
 #include "examples/scene/textures.h"
 

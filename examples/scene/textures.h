@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The materials of the scenes. Every one is fine enough everywhere to show displaced pixels.
+// Materials of the scenes. All of them have fine detail everywhere, so that displaced pixels are
+// visible.
 #ifndef STARFOCUS_EXAMPLES_SCENE_TEXTURES_H_
 #define STARFOCUS_EXAMPLES_SCENE_TEXTURES_H_
 
@@ -16,16 +17,16 @@ Color PaintHair(const Surface& s, const Hit& hit);   // strands along y
 Color PaintFur(const Surface& s, const Hit& hit);    // a pompom
 Color PaintEye(const Surface& s, const Hit& hit);
 
-// Things.
+// Objects.
 Color PaintWallpaper(const Surface& s, const Hit& hit);
 Color PaintWood(const Surface& s, const Hit& hit);   // grain along local x
 Color PaintGlaze(const Surface& s, const Hit& hit);  // pottery with painted bands
 Color PaintLeaf(const Surface& s, const Hit& hit);   // veins from the midrib
 Color PaintBook(const Surface& s, const Hit& hit);   // spine with lettering
 Color PaintLandscape(const Surface& s, const Hit& hit);
-Color PaintBulb(const Surface& s, const Hit& hit);    // glows
+Color PaintBulb(const Surface& s, const Hit& hit);    // a glowing bulb
 Color PaintMatter(const Surface& s, const Hit& hit);  // `color` with grain
-Color PaintLamp(const Surface& s, const Hit& hit);    // `color`, unlit, `second` at the rim
+Color PaintLamp(const Surface& s, const Hit& hit);    // unshaded `color`, `second` at the rim
 
 // Test patterns.
 Color PaintChecker(const Surface& s, const Hit& hit);
@@ -35,7 +36,7 @@ Color PaintBark(const Surface& s, const Hit& hit);    // vertical cracks over cl
 Color PaintFloor(const Surface& s, const Hit& hit);   // tiles
 Color PaintStrand(const Surface& s, const Hit& hit);  // each strand a mixture of both colours
 
-// Lambert's law with light from the upper left and front.
+// Shades a colour by Lambert's law, with light from the upper left and front.
 Color Lit(Color color, const Hit& hit);
 
 }  // namespace starfocus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fabrics, skin and hair.
+// Paints fabrics, skin and hair.
 #include <cmath>
 
 #include "examples/scene/noise.h"
@@ -12,7 +12,8 @@ double Grain(const Hit& hit, double size, uint32_t seed) {
   return Fractal(hit.lx / size, hit.ly / size, 3, seed);
 }
 
-// How close (x, y) is to a dark dot: 1 in its middle. One dot in some of the cells of a grid.
+// Returns how close (x, y) is to a dark dot, with 1 at its centre. Dots are in some cells of a
+// grid.
 double Dots(double x, double y, double cell, double radius, double share, uint32_t seed) {
   const double cx = std::floor(x / cell), cy = std::floor(y / cell);
   const int32_t ix = static_cast<int32_t>(cx), iy = static_cast<int32_t>(cy);
@@ -42,7 +43,7 @@ Color Lit(Color color, const Hit& hit) {
 Color PaintKnit(const Surface& s, const Hit& hit) {
   const double stitch = 8 * s.scale;
   const double column = Wrap(hit.lx, stitch) / stitch - 0.5;
-  const double row = hit.ly + 6 * s.scale * std::fabs(column);  // the V of a stitch
+  const double row = hit.ly + 6 * s.scale * std::fabs(column);  // V shape of a stitch
   const double yarn = Triangle(row, stitch);
   const double rib = 1 - 2.2 * column * column;
   const double band = Wrap(hit.ly + 4 * std::fabs(column), 7 * stitch) / stitch;
@@ -100,7 +101,7 @@ Color PaintFur(const Surface& s, const Hit& hit) {
 }
 
 Color PaintEye(const Surface& s, const Hit& hit) {
-  // The glint sits at the upper left, as the light does.
+  // The highlight is at the upper left, where the light comes from.
   const double radius = std::sqrt(hit.lx * hit.lx + hit.ly * hit.ly);
   const double gx = hit.lx + 3.5, gy = hit.ly + 4;
   if (gx * gx + gy * gy < 5) return {255, 255, 255};

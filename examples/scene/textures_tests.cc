@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Test patterns of the scenes `wires`, `ramp`, `hair` and `grass`.
+// Paints the test patterns of the scenes `wires`, `ramp`, `hair` and `grass`.
 #include <cmath>
 
 #include "examples/scene/noise.h"

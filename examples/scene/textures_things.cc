@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Walls, furniture, plants and lights.
+// Paints walls, furniture, plants and lights.
 #include <cmath>
 
 #include "examples/scene/noise.h"
@@ -12,7 +12,7 @@ double Weave(const Hit& hit, double size, uint32_t seed) {
   return Fractal(hit.lx / size, hit.ly / size, 4, seed);
 }
 
-// A flower of a damask: petals of a rosette and the tendrils between rosettes, in [0, 1].
+// Returns a damask pattern in [0, 1]: petals of rosettes, and tendrils between them.
 double Damask(double x, double y) {
   const double cell = 64;
   const double row = std::floor(y / cell);
@@ -41,7 +41,7 @@ Color PaintWallpaper(const Surface& s, const Hit& hit) {
 }
 
 Color PaintWood(const Surface& s, const Hit& hit) {
-  // Planks in perspective-free strips with their own grain.
+  // Planks, each with its own grain, drawn as strips without perspective.
   const double plank = std::floor(hit.ly / (34 * s.scale));
   const uint32_t seed = s.seed + Hash(static_cast<int32_t>(plank), 0, s.seed) % 1000u;
   const double bend = 10 * Noise(hit.lx / 120, hit.ly / 20, seed);
@@ -55,7 +55,7 @@ Color PaintWood(const Surface& s, const Hit& hit) {
 }
 
 Color PaintGlaze(const Surface& s, const Hit& hit) {
-  // Bands of zigzags and dots around the pot; towards the rim the glaze darkens.
+  // Bands of zigzags and dots around the pot. The glaze darkens towards the rim.
   const double y = hit.ly / s.ry * 100;
   const double curve = hit.lx / (0.35 + 0.65 * hit.nz);
   Color color = s.color;
@@ -82,7 +82,7 @@ Color PaintLeaf(const Surface& s, const Hit& hit) {
   const double grain = Weave(hit, 5, s.seed);
   Color color = Mix(s.color, s.second, Smooth(0.72, 1, vein)) * (0.62 + 0.75 * grain);
   if (rib < 1.6) color = s.second;
-  const double fold = hit.ly > 0 ? 0.82 : 1.08;  // the halves face different ways
+  const double fold = hit.ly > 0 ? 0.82 : 1.08;  // the halves face different directions
   return color * fold;
 }
 
@@ -93,7 +93,7 @@ Color PaintBook(const Surface& s, const Hit& hit) {
   const bool line = std::fabs(hit.ly) < 0.42 * s.ry;
   if (edge > 0.8 * s.rx && edge < 0.86 * s.rx) return s.second * round;
   if (line && edge < 0.62 * s.rx) {
-    // Letters: strokes of hashed height in cells of 7 units, with gaps between words.
+    // Letters: strokes of random height in cells of 8 units, with gaps between words.
     const int32_t cell = static_cast<int32_t>(std::floor(hit.lx / 8));
     const double px = Wrap(hit.lx, 8);
     const uint32_t form = Hash(cell, 5, s.seed);
