@@ -10,6 +10,7 @@
 #include "starfocus/starfocus.h"
 #include "tests/api/illegal_values.h"
 #include "tests/api/refusals.h"
+#include "tests/support/refocused.h"
 #include "tests/support/test_scene.h"
 
 namespace abi_bytes_test {
@@ -115,11 +116,10 @@ TEST_CASE("configuration: a superblock of 0 is 128 from a width of 1536 on, else
     config.superblock = width < 1536 ? 64 : 128;
     test::Engine told(config);
     CHECK(chosen.bytes() == told.bytes());
-    test::Output a(width, 3), b(width, 3);
     starfocus_report report = {};
     const starfocus_params params = test::Params(1, 1, STARFOCUS_MODE_BLOCK);
-    REQUIRE(test::Refocus(&chosen, params, scene, &a, nullptr, nullptr, &report) == STARFOCUS_OK);
-    REQUIRE(test::Refocus(&told, params, scene, &b) == STARFOCUS_OK);
+    const test::Output a = test::OutputOf(&chosen, params, scene, &report);
+    const test::Output b = test::OutputOf(&told, params, scene);
     CHECK(report.superblock == config.superblock);
     CHECK(a.bytes == b.bytes);
   }

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "starfocus/starfocus.h"
+#include "tests/support/stream_steps.h"
 #include "tests/support/test_scene.h"
 
 namespace abi_stream_test {
@@ -90,19 +91,8 @@ TEST_CASE("stream: a row with a bad disparity is refused, the rows before it are
       // The caller may mend the row and go on.
       f.scene = good;
       test::Output out(kWidth, kHeight, 4);
-      int pushed = consumed, pulled = 0;
-      while (pulled < kHeight) {
-        int32_t took = 0, gave = 0;
-        if (pushed < kHeight) {
-          REQUIRE(f.Push(engine.get(), f.scene.Field(pushed), kHeight - pushed, &took) ==
-                  STARFOCUS_OK);
-        }
-        REQUIRE(test::PullRgb(engine.get(), out.bytes.data() + out.stride * size_t(pulled),
-                              out.stride, kHeight - pulled, &gave, nullptr) == STARFOCUS_OK);
-        REQUIRE(took + gave > 0);
-        pushed += took;
-        pulled += gave;
-      }
+      test::StreamSteps steps = {&engine, f.scene, &out, consumed};
+      while (!steps.Ended()) REQUIRE(steps.Step() == STARFOCUS_OK);
       CHECK(out.bytes == expected.bytes);
     }
   }

@@ -11,13 +11,12 @@
 
 #include "starfocus/starfocus.h"
 #include "tests/support/layered_scene.h"
+#include "tests/support/refocused.h"
 #include "tests/support/rounds.h"
 #include "tests/support/test_scene.h"
 
 namespace after_test {
 namespace {
-
-constexpr int kViews[] = {1, 5, 9, 17};
 
 starfocus_status After(test::Engine* engine, const starfocus_params& params,
                        const test::Scene& scene, const test::Scene& before,
@@ -73,8 +72,7 @@ void CheckFrames(test::Scene scene, const starfocus_config& config, const starfo
     REQUIRE(After(&engine, params, scene, before, before_out, &out, &report) == STARFOCUS_OK);
     REQUIRE(test::Refocus(&alone, params, scene, &expected, nullptr, nullptr, &whole) ==
             STARFOCUS_OK);
-    const bool same = out.bytes == expected.bytes;
-    CHECK(same);
+    CHECK((out.bytes == expected.bytes));
     CHECK(whole.reused_blocks == 0);
     if (r.width == 0) {
       const int blocks = Superblocks(scene, config.superblock);
@@ -92,7 +90,7 @@ TEST_CASE("after: the bytes of the frame alone, in every mode, as frames change 
     CAPTURE(round);
     const int width = random.Int(1, 300), height = random.Int(1, 260);
     const test::Scene scene =
-        test::LayeredScene(width, height, kViews[round % 4], 5, uint64_t(round) + 900);
+        test::LayeredScene(width, height, test::kStars[round % 4], 5, uint64_t(round) + 900);
     starfocus_config config = test::ConfigFor(scene, 12);
     config.superblock = 32 << random.Int(0, 1);
     config.tuning.max_layer = random.Int(0, 3) == 0 ? random.Int(0, 1) : 2;
@@ -137,21 +135,19 @@ TEST_CASE("after: blocks read side views as far away as the largest disparity") 
   test::Engine engine(config);
   for (const starfocus_mode mode : {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BLOCK}) {
     const starfocus_params params = test::Params(test::kNearFocus, 0.2, mode);
-    test::Output first(70, 900);
-    REQUIRE(test::Refocus(&engine, params, before, &first) == STARFOCUS_OK);
+    const test::Output first = test::OutputOf(&engine, params, before);
     for (int view = 1; view < 5; ++view) {
       CAPTURE(view);
       test::Scene scene = before;
       for (int x = 0; x < 70; ++x) {
         for (int y = 445; y < 455; ++y) scene.Pixel(view, x, y)[1] ^= 0xFF;
       }
-      test::Output second(70, 900), expected(70, 900);
+      test::Output second(70, 900);
       starfocus_report report = {};
       REQUIRE(After(&engine, params, scene, before, first, &second, &report) == STARFOCUS_OK);
-      REQUIRE(test::Refocus(&engine, params, scene, &expected) == STARFOCUS_OK);
-      const bool same = second.bytes == expected.bytes, changed = expected.bytes != first.bytes;
-      CHECK(same);
-      CHECK(changed);
+      const test::Output expected = test::OutputOf(&engine, params, scene);
+      CHECK((second.bytes == expected.bytes));
+      CHECK((expected.bytes != first.bytes));
       CHECK(report.reused_blocks > 0);
     }
   }
@@ -160,17 +156,14 @@ TEST_CASE("after: blocks read side views as far away as the largest disparity") 
 TEST_CASE("after: joins between blocks of different layers, beside a change") {
   test::Random random(92);
   test::Scene scene = test::LayeredScene(320, 320, 1, 6, 5);
-  for (int y = 0; y < 320; ++y) {
-    for (int x = 0; x < 320; ++x) {
-      scene.Disparity(x, y) = (x / 32 + y / 32) % 2 == 0 ? 0.0f : 6.0f;
-    }
-  }
+  test::SetDisparity(&scene,
+                     [&](int x, int y) { return (x / 32 + y / 32) % 2 == 0 ? 0.0f : 6.0f; });
   starfocus_config config = test::ConfigFor(scene, 9);
   config.superblock = 32;
   config.tuning.deblocking = 255;
   for (const double focus : {-1.0, 0.0, 3.0}) {
-    starfocus_params params = test::Params(focus, 1, STARFOCUS_MODE_BLOCK);
-    params.renderer = STARFOCUS_RENDERER_LINE_SCAN;
+    starfocus_params params =
+        test::Params(focus, 1, STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_LINE_SCAN);
     CheckFrames(scene, config, params, 12, &random);
   }
 }
@@ -185,18 +178,16 @@ TEST_CASE("after: a block that changes its layer changes its neighbours' joins")
   config.tuning.deblocking = 255;
   config.tuning.timing = {};
   config.tuning.timing.block = STARFOCUS_MAX_TIMING;
-  starfocus_params params = test::Params(0, 1, STARFOCUS_MODE_BLOCK);
-  params.renderer = STARFOCUS_RENDERER_LINE_SCAN;
+  starfocus_params params = test::Params(0, 1, STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_LINE_SCAN);
   test::Engine engine(config);
-  test::Output first(600, 600), second(600, 600), expected(600, 600);
+  test::Output second(600, 600);
   starfocus_report report = {};
-  REQUIRE(test::Refocus(&engine, params, scene, &first) == STARFOCUS_OK);
+  const test::Output first = test::OutputOf(&engine, params, scene);
   const test::Scene before = scene;
   scene.Disparity(5, 5) = 0;
   REQUIRE(After(&engine, params, scene, before, first, &second, &report) == STARFOCUS_OK);
-  REQUIRE(test::Refocus(&engine, params, scene, &expected) == STARFOCUS_OK);
-  const bool same = second.bytes == expected.bytes;
-  CHECK(same);
+  const test::Output expected = test::OutputOf(&engine, params, scene);
+  CHECK((second.bytes == expected.bytes));
   CHECK(report.reused_blocks == 5);  // all but the corner's four
   // The join is on the neighbours' side.
   bool right = false, below = false;
@@ -215,9 +206,9 @@ TEST_CASE("after: what is far from a change is reused") {
   config.features &= ~STARFOCUS_FEATURE_COVERAGE;  // which comes from farther away
   test::Engine engine(config);
   const starfocus_params params = test::Params(0, 1, STARFOCUS_MODE_BLOCK);
-  test::Output first(640, 512), second(640, 512);
+  test::Output second(640, 512);
   starfocus_report whole = {}, report = {};
-  REQUIRE(test::Refocus(&engine, params, before, &first, nullptr, nullptr, &whole) == STARFOCUS_OK);
+  const test::Output first = test::OutputOf(&engine, params, before, &whole);
   test::Scene now = before;
   now.Pixel(3, 40, 30)[1] ^= 1;
   REQUIRE(After(&engine, params, now, before, first, &second, &report) == STARFOCUS_OK);
@@ -231,8 +222,8 @@ TEST_CASE("after: depth-dependent blur does not look at side views") {
   const test::Scene before = test::LayeredScene(100, 100, 5, 2, 6);
   test::Engine engine(test::ConfigFor(before, 4));
   const starfocus_params params = test::Params(0, 1, STARFOCUS_MODE_BLUR);
-  test::Output first(100, 100), second(100, 100);
-  REQUIRE(test::Refocus(&engine, params, before, &first) == STARFOCUS_OK);
+  test::Output second(100, 100);
+  const test::Output first = test::OutputOf(&engine, params, before);
   test::Scene now = before;
   now.Pixel(3, 50, 50)[1] ^= 1;
   starfocus_report report = {};

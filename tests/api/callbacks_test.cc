@@ -6,6 +6,8 @@
 
 #include "starfocus/starfocus.h"
 #include "tests/support/prepared_memory.h"
+#include "tests/support/refocused.h"
+#include "tests/support/stream_steps.h"
 #include "tests/support/test_scene.h"
 
 namespace callbacks_test {
@@ -98,26 +100,16 @@ TEST_CASE("callbacks: null pointers are refused, and the functions set before st
 
 TEST_CASE("callbacks: those of a stream may change between two pulls") {
   Fixture f;
-  test::Output expected(kWidth, kHeight);
   test::Engine engine(f.Config());
-  REQUIRE(test::Refocus(&engine, f.params, f.scene, &expected) == STARFOCUS_OK);
+  const test::Output expected = test::OutputOf(&engine, f.params, f.scene);
   REQUIRE(starfocus_stream_begin(engine.get(), &f.params) == STARFOCUS_OK);
-  int pushed = 0, pulled = 0;
-  for (int round = 0; pulled < kHeight; ++round) {
+  test::StreamSteps steps = {&engine, f.scene, &f.out};
+  for (int round = 0; !steps.Ended(); ++round) {
     const starfocus_callbacks callbacks = round % 2 == 0 ? f.calls.All() : starfocus_callbacks();
     REQUIRE(starfocus_set_callbacks(engine.get(), &callbacks) == STARFOCUS_OK);
-    const starfocus_light_field rows = f.scene.Field(pushed);
-    int32_t consumed = 0, written = 0;
-    if (pushed < kHeight) {
-      REQUIRE(starfocus_stream_push(engine.get(), &rows, kHeight - pushed, &consumed) ==
-              STARFOCUS_OK);
-    }
-    REQUIRE(test::PullRgb(engine.get(), f.out.bytes.data() + size_t(pulled) * f.out.stride,
-                          f.out.stride, kHeight, &written, nullptr) == STARFOCUS_OK);
+    REQUIRE(steps.Step() == STARFOCUS_OK);
     CHECK(f.calls.None() == (round % 2 != 0));
     f.calls = Calls();
-    pushed += consumed;
-    pulled += written;
   }
   CHECK(f.out.bytes == expected.bytes);
 }

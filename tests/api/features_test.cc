@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "starfocus/starfocus.h"
+#include "tests/support/refocused.h"
 #include "tests/support/test_scene.h"
 
 namespace features_test {
@@ -16,29 +17,20 @@ starfocus_config WithoutLineScan(starfocus_config config) {
   return config;
 }
 
-constexpr starfocus_mode kModes[] = {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BENCHMARK,
-                                     STARFOCUS_MODE_BLOCK, STARFOCUS_MODE_BLUR};
-
 TEST_CASE("features: without the line scan the default and slices give the bytes of slices") {
   for (const int views : {1, 5, 17}) {
     const test::Scene scene = test::RandomScene(150, 90, views, -6, 6, uint64_t(views));
     const starfocus_config config = test::ConfigFor(scene, 16);
     test::Engine with(config), without(WithoutLineScan(config));
-    for (const starfocus_mode mode : kModes) {
+    for (const starfocus_mode mode : test::kModes) {
       for (const starfocus_renderer renderer :
            {STARFOCUS_RENDERER_AUTO, STARFOCUS_RENDERER_SLICES}) {
-        CAPTURE(views);
-        CAPTURE(mode);
-        CAPTURE(renderer);
-        starfocus_params params = test::Params(2, 1, mode);
-        params.renderer = renderer;
-        test::Output out(150, 90), expected(150, 90);
+        CAPTURES(views, mode, renderer);
+        starfocus_params params = test::Params(2, 1, mode, renderer);
         starfocus_report report, expected_report;
-        REQUIRE(test::Refocus(&without, params, scene, &out, nullptr, nullptr, &report) ==
-                STARFOCUS_OK);
+        const test::Output out = test::OutputOf(&without, params, scene, &report);
         params.renderer = STARFOCUS_RENDERER_SLICES;
-        REQUIRE(test::Refocus(&with, params, scene, &expected, nullptr, nullptr,
-                              &expected_report) == STARFOCUS_OK);
+        const test::Output expected = test::OutputOf(&with, params, scene, &expected_report);
         CHECK(out.bytes == expected.bytes);
         CHECK(report.n == expected_report.n);
         CHECK(report.rendered_samples == expected_report.rendered_samples);
@@ -53,10 +45,9 @@ TEST_CASE("features: without the line scan the paper's rule is rejected in modes
   config.features |= STARFOCUS_FEATURE_STREAMING;
   test::Engine engine(config);
   REQUIRE(engine.status() == STARFOCUS_OK);
-  for (const starfocus_mode mode : kModes) {
+  for (const starfocus_mode mode : test::kModes) {
     CAPTURE(mode);
-    starfocus_params params = test::Params(1, 1, mode);
-    params.renderer = STARFOCUS_RENDERER_LINE_SCAN;
+    starfocus_params params = test::Params(1, 1, mode, STARFOCUS_RENDERER_LINE_SCAN);
     const starfocus_status expected =
         mode == STARFOCUS_MODE_BLUR ? STARFOCUS_OK : STARFOCUS_ERROR_FEATURE;
     test::Output out(70, 50);
@@ -80,8 +71,7 @@ TEST_CASE("features: a workspace without the line scan is smaller") {
         size_t with = 0, without = 0;
         REQUIRE(starfocus_workspace_size(&config, &with) == STARFOCUS_OK);
         REQUIRE(starfocus_workspace_size(&less, &without) == STARFOCUS_OK);
-        CAPTURE(block);
-        CAPTURE(blur);
+        CAPTURES(block, blur);
         CHECK(without < with);
       }
     }

@@ -30,7 +30,8 @@ ImageField AnyField(const test::Scene& scene, int format, int round, test::Rando
       random);
 }
 
-// Refocuses the images whole, streamed and prepared, and what they are converted to, and compares.
+// Refocuses the images whole, prepared, reduced and streamed, and what they are converted to, and
+// compares.
 void CheckSame(const ImageField& field, starfocus_config config, const starfocus_params& params,
                const ImageKind& kind, test::Random* random, starfocus_runner runner = nullptr) {
   config.features |= STARFOCUS_FEATURE_STREAMING;
@@ -48,11 +49,10 @@ void CheckSame(const ImageField& field, starfocus_config config, const starfocus
   test::Output expected(width, height);
   REQUIRE(test::Refocus(&engine, params, field.converted, &expected, callbacks, &expected_report) ==
           STARFOCUS_OK);
-  const bool same = got == field.Converted(expected, kind, r.x, r.y);
-  CHECK(same);
+  CHECK((got == field.Converted(expected, kind, r.x, r.y)));
   CHECK(report.unknown_pixels == expected_report.unknown_pixels);
   CHECK(report.n == expected_report.n);
-  test::PreparedMemory memory(config);
+  test::PreparedMemory memory(config), other(config);
   const starfocus_prepared* prepared = memory.Prepare(engine.get(), images);
   ImageMemory again(width, height, kind);
   const starfocus_image to = again.Out();
@@ -60,6 +60,18 @@ void CheckSame(const ImageField& field, starfocus_config config, const starfocus
           STARFOCUS_OK);
   CHECK((again == got));
   if (r.width > 0) return;
+  const starfocus_prepared* plain = other.Prepare(engine.get(), field.converted.Field());
+  for (int shift = 1; shift <= config.previews; ++shift) {
+    test::Output reduced((width + (1 << shift) - 1) >> shift, (height + (1 << shift) - 1) >> shift);
+    REQUIRE(test::PreviewRgb(engine.get(), &params, plain, shift, reduced.bytes.data(),
+                             reduced.stride, nullptr) == STARFOCUS_OK);
+    ImageMemory wanted(reduced.width, reduced.height, kind), preview = wanted;
+    test::PutPicture(
+        reduced.bytes.data(), reduced.stride, [](int, int) { return uint8_t{255}; }, &wanted);
+    const starfocus_image image = preview.Out();
+    REQUIRE(test::Preview(engine.get(), &params, prepared, shift, &image, nullptr) == STARFOCUS_OK);
+    CHECK((preview == wanted));
+  }
   ImageMemory streamed(width, height, kind);
   REQUIRE(test::Stream(&engine, field, params, 2 * random->Int(1, 30), 2 * random->Int(1, 50),
                        &streamed, &report) == STARFOCUS_OK);
@@ -80,6 +92,7 @@ TEST_CASE("images: every format in and out gives the bytes of converting first, 
     starfocus_config config = test::ImageConfig(field);
     config.superblock = 32 << random.Int(0, 3);
     config.max_workers = 2;
+    config.previews = 2;
     config.transfer = round % 7 == 6 ? STARFOCUS_TRANSFER_NONE : STARFOCUS_TRANSFER_SRGB;
     const starfocus_mode mode = round % 6 == 4   ? STARFOCUS_MODE_FRAME
                                 : round % 6 == 5 ? STARFOCUS_MODE_BLUR
@@ -117,8 +130,7 @@ TEST_CASE("images: what near surfaces hide, and what lies beyond the edges, far 
       const test::Scene scene = test::NearScene(173, 122, views, 3);
       const ImageField field = AnyField(scene, STARFOCUS_FORMAT_NV12, 0, &random);
       starfocus_config config = test::ImageConfig(field, 8);
-      starfocus_params params = test::Params(test::kNearFocus, 0.2, STARFOCUS_MODE_BLOCK);
-      params.renderer = renderer;
+      starfocus_params params = test::Params(test::kNearFocus, 0.2, STARFOCUS_MODE_BLOCK, renderer);
       CheckSame(field, config, params, test::AnyKind(STARFOCUS_FORMAT_I420, &random), &random);
     }
   }

@@ -9,15 +9,15 @@
 
 #include "starfocus/starfocus.h"
 #include "tests/support/layered_scene.h"
+#include "tests/support/refocused.h"
 #include "tests/support/shapes.h"
+#include "tests/support/stream_steps.h"
 #include "tests/support/test_scene.h"
 
 namespace lens_test {
 namespace {
 
 constexpr int kWidth = 97, kHeight = 70;
-constexpr starfocus_mode kModes[] = {STARFOCUS_MODE_BLOCK, STARFOCUS_MODE_FRAME,
-                                     STARFOCUS_MODE_BENCHMARK, STARFOCUS_MODE_BLUR};
 constexpr test::NamedShape kPlain = {"fall-off", STARFOCUS_SHAPE_FALL_OFF, 5, 0, 0, 0.5F, 0};
 
 starfocus_lens LensOf(const test::NamedShape& shape, double theta = 0.8) {
@@ -58,8 +58,7 @@ starfocus_config Config(const test::Scene& scene) {
 
 starfocus_params ParamsOf(const starfocus_lens& lens, starfocus_mode mode,
                           starfocus_renderer renderer) {
-  starfocus_params params = test::Params(0, 1, mode);
-  params.renderer = renderer;
+  starfocus_params params = test::Params(0, 1, mode, renderer);
   params.lens = lens;
   return params;
 }
@@ -68,9 +67,7 @@ starfocus_params ParamsOf(const starfocus_lens& lens, starfocus_mode mode,
 std::vector<uint8_t> Expected(const test::Scene& scene, const starfocus_params& params) {
   starfocus_config config = Config(scene);
   test::ReserveFor(params.lens, &config);
-  test::Engine engine(config);
-  test::Output out(kWidth, kHeight);
-  REQUIRE(test::Refocus(&engine, params, scene, &out) == STARFOCUS_OK);
+  const test::Output out = test::OutputOf(config, params, scene);
   return out.bytes;
 }
 
@@ -83,17 +80,13 @@ TEST_CASE("lens: a shape that changes between calls gives the bytes of an engine
     ++index;
     // The second round finds the tables of the first, and no other table in their place.
     for (const int round : {0, 1}) {
-      for (const starfocus_mode mode : kModes) {
-        for (const starfocus_renderer renderer :
-             {STARFOCUS_RENDERER_LINE_SCAN, STARFOCUS_RENDERER_SLICES}) {
+      for (const starfocus_mode mode : test::kModes) {
+        for (const starfocus_renderer renderer : test::kRenderers) {
           if (mode == STARFOCUS_MODE_BLUR && renderer == STARFOCUS_RENDERER_LINE_SCAN)
             continue;  // it ignores the rule
-          CAPTURE(round);
-          CAPTURE(mode);
-          CAPTURE(renderer);
+          CAPTURES(round, mode, renderer);
           const starfocus_params params = ParamsOf(lens, mode, renderer);
-          test::Output out(kWidth, kHeight);
-          REQUIRE(test::Refocus(&engine, params, scene, &out) == STARFOCUS_OK);
+          const test::Output out = test::OutputOf(&engine, params, scene);
           CHECK((out.bytes == Expected(scene, params)));
         }
       }
@@ -107,13 +100,12 @@ int CancelAfter(void* left, int32_t, int32_t) { return (*static_cast<int*>(left)
 TEST_CASE("lens: a cancelled call leaves no table of its shape to calls with another") {
   const test::Scene scene = MakeScene();
   const starfocus_lens pentagon = LensOf(test::kShapes[1]), plain = LensOf(kPlain);
-  for (const starfocus_mode mode : kModes) {
+  for (const starfocus_mode mode : test::kModes) {
     CAPTURE(mode);
     test::Engine engine(Config(scene));
     const auto check = [&](const starfocus_lens& lens) {
       const starfocus_params params = ParamsOf(lens, mode, STARFOCUS_RENDERER_AUTO);
-      test::Output out(kWidth, kHeight);
-      REQUIRE(test::Refocus(&engine, params, scene, &out) == STARFOCUS_OK);
+      const test::Output out = test::OutputOf(&engine, params, scene);
       CHECK((out.bytes == Expected(scene, params)));
     };
     int cancelled = 0;
@@ -168,18 +160,8 @@ TEST_CASE("lens: a stream keeps the lens that it was begun with") {
     params.lens.blades = 99;
     CHECK(starfocus_stream_begin(engine.get(), &params) == STARFOCUS_ERROR_RANGE);
     test::Output out(kWidth, kHeight);
-    int pushed = 0, pulled = 0;
-    while (pulled < kHeight) {
-      const starfocus_light_field field = scene.Field(pushed);
-      int32_t consumed = 0, written = 0;
-      REQUIRE(starfocus_stream_push(engine.get(), &field, kHeight - pushed, &consumed) ==
-              STARFOCUS_OK);
-      REQUIRE(test::PullRgb(engine.get(), out.bytes.data() + size_t(pulled) * out.stride,
-                            out.stride, kHeight - pulled, &written, nullptr) == STARFOCUS_OK);
-      pushed += consumed;
-      pulled += written;
-      REQUIRE(consumed + written > 0);
-    }
+    test::StreamSteps steps = {&engine, scene, &out};
+    while (!steps.Ended()) REQUIRE(steps.Step() == STARFOCUS_OK);
     CHECK((out.bytes == Expected(scene, expected)));
   }
 }
@@ -194,8 +176,8 @@ TEST_CASE("lens: shorter params get the defaults of the fields they lack") {
   CHECK(params->size == kShort);
   params->lens.focus = expected.lens.focus;
   test::Engine engine(Config(scene));
-  test::Output out(kWidth, kHeight), streamed(kWidth, kHeight);
-  REQUIRE(test::Refocus(&engine, *params, scene, &out) == STARFOCUS_OK);
+  test::Output streamed(kWidth, kHeight);
+  const test::Output out = test::OutputOf(&engine, *params, scene);
   CHECK((out.bytes == Expected(scene, expected)));
   REQUIRE(test::Stream(&engine, *params, scene, &streamed, kHeight, kHeight) == STARFOCUS_OK);
   CHECK((streamed.bytes == out.bytes));
@@ -228,8 +210,7 @@ TEST_CASE("lens: the memory for polygons and cat's eyes is reserved on demand") 
       REQUIRE(starfocus_workspace_size(&config, &without) == STARFOCUS_OK);
       config.features |= STARFOCUS_FEATURE_SHAPES;
       REQUIRE(starfocus_workspace_size(&config, &with) == STARFOCUS_OK);
-      CAPTURE(block);
-      CAPTURE(blur);
+      CAPTURES(block, blur);
       CHECK(with > without);
     }
   }

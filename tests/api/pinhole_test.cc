@@ -7,19 +7,16 @@
 
 #include "starfocus/starfocus.h"
 #include "tests/support/layered_scene.h"
+#include "tests/support/refocused.h"
 #include "tests/support/test_scene.h"
 #include "tests/support/ways.h"
 
 namespace pinhole_test {
 namespace {
 
-constexpr int kViews[] = {1, 5, 9, 17};
-constexpr starfocus_mode kModes[] = {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BENCHMARK,
-                                     STARFOCUS_MODE_BLOCK, STARFOCUS_MODE_BLUR};
-
 // Random pictures over a map of flat areas and edges, or of noise.
 test::Scene AnyScene(int width, int height, uint64_t seed) {
-  const int views = kViews[seed % 4];
+  const int views = test::kStars[seed % 4];
   if (seed % 3 == 0) return test::LayeredScene(width, height, views, 7, seed);
   test::Random random(seed);
   test::Scene scene = test::RandomScene(width, height, views, -7, 7, seed, int(seed % 5));
@@ -42,7 +39,7 @@ TEST_CASE("pinhole: the centre view to the byte, by every mode, rule and way in"
   test::Random random(51);
   uint64_t seed = 0;
   for (const auto& size : kSizes) {
-    for (const starfocus_mode mode : kModes) {
+    for (const starfocus_mode mode : test::kModes) {
       const test::Scene scene = AnyScene(size[0], size[1], ++seed);
       const starfocus_config config = AnyConfig(scene, &random);
       starfocus_params params = test::Params(random.Real(-9, 9), 0, mode);
@@ -62,13 +59,11 @@ TEST_CASE("pinhole: the centre view to the byte, by every mode, rule and way in"
 
 TEST_CASE("pinhole: the report tells of one copied view, and maps are checked all the same") {
   test::Scene scene = test::LayeredScene(130, 67, 9, 7, 4);
-  for (const starfocus_mode mode : kModes) {
-    test::Engine engine(test::ConfigFor(scene, 20));
-    test::Output out(130, 67);
+  for (const starfocus_mode mode : test::kModes) {
     starfocus_report report = {};
-    starfocus_params params = test::Params(-STARFOCUS_MAX_FOCUS, 0, mode);
-    params.renderer = STARFOCUS_RENDERER_LINE_SCAN;
-    REQUIRE(test::Refocus(&engine, params, scene, &out, nullptr, nullptr, &report) == STARFOCUS_OK);
+    const starfocus_params params =
+        test::Params(-STARFOCUS_MAX_FOCUS, 0, mode, STARFOCUS_RENDERER_LINE_SCAN);
+    const test::Output out = test::OutputOf(test::ConfigFor(scene, 20), params, scene, &report);
     CHECK(report.r_max == 0);
     CHECK(report.n == 0);
     CHECK(report.rendered_views == 1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prepared light fields: the bytes of starfocus_refocus for every lens, and bad input.
+// Prepared light fields: who may use them, and their memory (ways_test.cc has the bytes).
 #include <doctest/doctest.h>
 
 #include <cstdint>
@@ -10,61 +10,11 @@
 #include "starfocus/starfocus.h"
 #include "tests/support/layered_scene.h"
 #include "tests/support/prepared_memory.h"
+#include "tests/support/refocused.h"
 #include "tests/support/test_scene.h"
 
 namespace prepared_test {
 namespace {
-
-constexpr int kViews[] = {1, 5, 9, 17};
-
-// Refocuses with both and compares bytes and counts.
-void CheckSame(test::Engine* engine, const starfocus_prepared* prepared, const test::Scene& scene,
-               const starfocus_params& params) {
-  const starfocus_region& r = params.region;
-  const int width = r.width > 0 ? r.width : scene.width;
-  const int height = r.height > 0 ? r.height : scene.height;
-  test::Output expected(width, height, 3), got(width, height, 3);
-  starfocus_report report = {}, prepared_report = {};
-  REQUIRE(test::RefocusPreparedRgb(engine->get(), &params, prepared, got.bytes.data(), got.stride,
-                                   &prepared_report) == STARFOCUS_OK);
-  REQUIRE(test::Refocus(engine, params, scene, &expected, nullptr, nullptr, &report) ==
-          STARFOCUS_OK);
-  const bool same = got.bytes == expected.bytes;
-  CHECK(same);
-  CHECK(std::memcmp(&report, &prepared_report, sizeof(report)) == 0);
-}
-
-TEST_CASE("prepared: the bytes of starfocus_refocus, in every mode, for many lenses and regions") {
-  test::Random random(81);
-  constexpr int kSizes[][2] = {{1, 1},    {1, 130},  {130, 1},  {31, 33},   {64, 64},  {65, 63},
-                               {100, 37}, {67, 260}, {200, 90}, {129, 128}, {97, 131}, {150, 66}};
-  int round = 0;
-  for (const auto& size : kSizes) {
-    const test::Scene scene =
-        test::LayeredScene(size[0], size[1], kViews[round % 4], 7, uint64_t(round) + 800);
-    starfocus_config config = test::ConfigFor(scene, 20);
-    config.superblock = 32 << random.Int(0, 3);
-    config.tuning.max_layer = round % 4 == 0 ? random.Int(0, 1) : 2;
-    CAPTURE(round);
-    ++round;
-    test::Engine engine(config);
-    REQUIRE(engine.status() == STARFOCUS_OK);
-    test::PreparedMemory memory(config);
-    const starfocus_prepared* prepared = memory.Prepare(engine.get(), scene.Field());
-    for (int lens = 0; lens < 6; ++lens) {
-      starfocus_params params =
-          test::Params(random.Real(-12, 12), random.Real(0.3, 1), STARFOCUS_MODE_BLOCK);
-      params.renderer = random.Int(0, 2);
-      if (lens == 4) params.mode = round % 2 == 0 ? STARFOCUS_MODE_FRAME : STARFOCUS_MODE_BLUR;
-      if (lens == 5) {
-        params.region = {random.Int(0, size[0] - 1), random.Int(0, size[1] - 1), 1, 1};
-        params.region.width = random.Int(1, size[0] - params.region.x);
-        params.region.height = random.Int(1, size[1] - params.region.y);
-      }
-      CheckSame(&engine, prepared, scene, params);
-    }
-  }
-}
 
 TEST_CASE("prepared: by one engine for another, which streams in between") {
   const test::Scene scene = test::LayeredScene(140, 100, 5, 7, 11);
@@ -77,14 +27,20 @@ TEST_CASE("prepared: by one engine for another, which streams in between") {
   config.superblock = 32;
   config.max_blur = 16;
   test::Engine user(config);
-  CheckSame(&user, prepared, scene, test::Params(2, 1, STARFOCUS_MODE_BLOCK));
-  test::Output whole(140, 100), streamed(140, 100);
-  REQUIRE(test::Refocus(&user, test::Params(-3, 1, STARFOCUS_MODE_BLOCK), scene, &whole) ==
-          STARFOCUS_OK);
-  CheckSame(&user, prepared, scene, test::Params(8, 1, STARFOCUS_MODE_BLOCK));
-  REQUIRE(test::Stream(&user, test::Params(-3, 1, STARFOCUS_MODE_BLOCK), scene, &streamed, 9, 9) ==
-          STARFOCUS_OK);
-  CHECK(streamed.bytes == whole.bytes);
+  const auto params = [](double focus) { return test::Params(focus, 1, STARFOCUS_MODE_BLOCK); };
+  const auto check = [&](double focus) {
+    const starfocus_params asked = params(focus);
+    test::Output got(140, 100);
+    REQUIRE(test::RefocusPreparedRgb(user.get(), &asked, prepared, got.bytes.data(), got.stride,
+                                     nullptr) == STARFOCUS_OK);
+    CHECK((got.bytes == test::OutputOf(&user, asked, scene).bytes));
+  };
+  check(2);
+  test::Output streamed(140, 100);
+  const test::Output whole = test::OutputOf(&user, params(-3), scene);
+  check(8);
+  REQUIRE(test::Stream(&user, params(-3), scene, &streamed, 9, 9) == STARFOCUS_OK);
+  CHECK((streamed.bytes == whole.bytes));
 }
 
 TEST_CASE("prepared: what the documentation says of the memory") {

@@ -9,14 +9,13 @@
 #include <vector>
 
 #include "lib/base/transfer.h"
-#include "tests/support/image_field.h"
+#include "tests/support/layered_scene.h"
 #include "tests/support/prepared_memory.h"
+#include "tests/support/refocused.h"
 #include "tests/support/rounds.h"
 
 namespace preview_test {
 namespace {
-
-constexpr int kViews[] = {1, 5, 9, 17};
 
 int Ceil(int size, int shift) { return (size + (1 << shift) - 1) >> shift; }
 
@@ -172,7 +171,7 @@ TEST_CASE("preview: the bytes of the light field that the definition reduces") {
   int round = 0;
   for (const auto& size : kSizes) {
     const test::Scene scene =
-        test::LayeredScene(size[0], size[1], kViews[round % 4], 7, uint64_t(round) + 90);
+        test::LayeredScene(size[0], size[1], test::kStars[round % 4], 7, uint64_t(round) + 90);
     starfocus_config config = test::ConfigFor(scene, 20);
     config.superblock = 32 << random.Int(0, 2);
     config.tuning.max_layer = round % 4 == 0 ? random.Int(0, 1) : 2;
@@ -232,36 +231,6 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("preview: of images, into images") {
-  test::Random random(6);
-  for (int format = 0; format < 8; ++format) {
-    CAPTURE(format);
-    const test::Scene scene = test::LayeredScene(90 + format, 71, 5, 7, uint64_t(format));
-    const test::ImageField field = test::MakeImageField(
-        scene, {test::AnyKind(format, &random), test::AnyKind(7 - format, &random)},
-        test::MakeDepth(scene, 60, 71, STARFOCUS_DEPTH_U16, STARFOCUS_DEPTH_LINEAR, 0), &random);
-    starfocus_config config = test::ImageConfig(field);
-    config.previews = 2;
-    Prepared expected(field.converted, config);
-    test::Engine engine(config);
-    test::PreparedMemory memory(config);
-    const starfocus_prepared* prepared = memory.Prepare(engine.get(), field.Field());
-    const starfocus_params params = test::Params(2, 1, STARFOCUS_MODE_BLOCK);
-    for (int shift = 1; shift <= 2; ++shift) {
-      const test::Output wanted = expected.Preview(params, shift);
-      const test::ImageKind kind = test::AnyKind(format, &random);
-      test::ImageMemory got(wanted.width, wanted.height, kind);
-      test::ImageMemory image(wanted.width, wanted.height, kind);
-      test::PutPicture(
-          wanted.bytes.data(), wanted.stride, [](int, int) { return uint8_t{255}; }, &image);
-      const starfocus_image out = got.Out();
-      REQUIRE(test::Preview(engine.get(), &params, prepared, shift, &out, nullptr) == STARFOCUS_OK);
-      const bool same = got == image;
-      CHECK(same);
-    }
-  }
-}
-
 TEST_CASE("preview: the engine is what it was, and the workspace no larger") {
   const test::Scene scene = test::LayeredScene(170, 130, 5, 7, 3);
   starfocus_config config = test::ConfigFor(scene, 20);
@@ -273,10 +242,10 @@ TEST_CASE("preview: the engine is what it was, and the workspace no larger") {
   CHECK(with == without);
   Prepared prepared(scene, config);
   const starfocus_params params = test::Params(-3, 1, STARFOCUS_MODE_BLOCK);
-  test::Output before(170, 130), after(170, 130), streamed(170, 130);
-  REQUIRE(test::Refocus(&prepared.engine, params, scene, &before) == STARFOCUS_OK);
+  test::Output streamed(170, 130);
+  const test::Output before = test::OutputOf(&prepared.engine, params, scene);
   const test::Output first = prepared.Preview(test::Params(5, 1, STARFOCUS_MODE_BLOCK), 2);
-  REQUIRE(test::Refocus(&prepared.engine, params, scene, &after) == STARFOCUS_OK);
+  const test::Output after = test::OutputOf(&prepared.engine, params, scene);
   CHECK(after.bytes == before.bytes);
   // A stream that a preview breaks off is begun anew.
   REQUIRE(starfocus_stream_begin(prepared.engine.get(), &params) == STARFOCUS_OK);
@@ -330,11 +299,9 @@ TEST_CASE("preview: near the full picture reduced") {
   constexpr double kLeast[] = {0, 53.5, 51.5, 43};  // of waves of 9 pixels an eighth shows little
   for (const double focus : {9.0, 0.0, -9.0}) {
     const starfocus_params params = test::Params(focus, 1, STARFOCUS_MODE_BLOCK);
-    test::Output full(512, 384);
-    REQUIRE(test::Refocus(&prepared.engine, params, scene, &full) == STARFOCUS_OK);
+    const test::Output full = test::OutputOf(&prepared.engine, params, scene);
     for (int shift = 1; shift <= 3; ++shift) {
-      CAPTURE(focus);
-      CAPTURE(shift);
+      CAPTURES(focus, shift);
       CHECK(Psnr(prepared.Preview(params, shift), full, shift, config.transfer) >= kLeast[shift]);
     }
   }

@@ -142,8 +142,7 @@ void Check(Fixture* f, unsigned functions, const Spoil& spoil, starfocus_status 
            const std::string& field) {
   for (unsigned function = 1; function < kAll; function *= 2) {
     if ((functions & function) == 0) continue;
-    CAPTURE(function);
-    CAPTURE(field);
+    CAPTURES(function, field);
     Call call(f, function);
     const test::Scene scene = f->scene;
     spoil(&call);

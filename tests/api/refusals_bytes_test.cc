@@ -164,6 +164,11 @@ const Row kImages[] = {
        c->field.views[0].format = STARFOCUS_FORMAT_RGBX;
        c->field.views[0].pixel_stride = 3;
      }},
+    {kViews, "views[].strides", kStride,
+     [](Call* c) {
+       c->field.views[0].format = STARFOCUS_FORMAT_RGBX;
+       c->field.views[0].strides[0] = 4 * 21 - 1;
+     }},
     {kViews, "depth.data", kNull, [](Call* c) { c->field.depth.data = nullptr; }},
     {kViews, "depth.type", kRange, [](Call* c) { c->field.depth.type = 4; }},
     {kViews, "depth.type", kRange, [](Call* c) { c->field.depth.type = -1; }},
@@ -182,6 +187,8 @@ const Row kImages[] = {
     {kViews, "depth.stride", kStride,  // an odd address
      [](Call* c) { c->field.depth.data = static_cast<const char*>(c->field.depth.data) + 1; }},
     {kOuts | kPreview, "out", kOverlap, [](Call* c) { PutOut(c, c->f.engine.workspace()); }},
+    {kPrepare, "bytes", kWorkspace, [](Call* c) { --c->bytes; }},
+    {kPrepare, "memory", kOverlap, [](Call* c) { c->field.depth.data = c->memory; }},
     {kRefocus, "out", kOverlap, [](Call* c) { PutOut(c, c->field.views[0].planes[0]); }},
     {kRefocus, "out", kOverlap,
      [](Call* c) { c->out.planes[2] = static_cast<uint8_t*>(c->field.views[1].planes[1]) + 30; }},

@@ -11,16 +11,12 @@
 
 #include "starfocus/starfocus.h"
 #include "tests/support/layered_scene.h"
+#include "tests/support/refocused.h"
 #include "tests/support/test_scene.h"
+#include "tests/support/ways.h"
 
 namespace region_test {
 namespace {
-
-constexpr int kViews[] = {1, 5, 9, 17};
-
-uint64_t BlocksOf(const starfocus_report& report) {
-  return report.layers[0].blocks + report.layers[1].blocks + report.layers[2].blocks;
-}
 
 std::string Text(const starfocus_region& r) {
   char text[80];
@@ -28,106 +24,18 @@ std::string Text(const starfocus_region& r) {
   return text;
 }
 
-std::vector<uint8_t> Crop(const test::Output& picture, const starfocus_region& r) {
-  std::vector<uint8_t> crop;
-  for (int y = r.y; y < r.y + r.height; ++y) {
-    crop.insert(crop.end(), picture.Pixel(r.x, y), picture.Pixel(r.x, y) + 3 * r.width);
-  }
-  return crop;
-}
-
-starfocus_region RandomRegion(int width, int height, test::Random* random) {
-  starfocus_region r = {random->Int(0, width - 1), random->Int(0, height - 1), 1, 1};
-  if (random->Int(0, 3) == 0) return r;
-  r.width = random->Int(1, width - r.x);
-  r.height = random->Int(1, height - r.y);
-  if (random->Int(0, 1) == 0) {
-    r.width = std::min(r.width, 20);
-    r.height = std::min(r.height, 20);
-  }
-  return r;
-}
-
-// Checks a region against the whole picture, which the same engine refocuses in between, so that
-// nothing of another call may be left in what the region reads.
-void CheckRegion(test::Engine* engine, const test::Scene& scene, starfocus_params params,
-                 const test::Output& whole, const starfocus_report& whole_report,
-                 const starfocus_region& region) {
-  CAPTURE(Text(region));
-  params.region = region;
-  test::Output out(region.width, region.height, 5);
-  starfocus_report report = {};
-  REQUIRE(test::Refocus(engine, params, scene, &out, nullptr, nullptr, &report) == STARFOCUS_OK);
-  const bool same = out.Tight() == Crop(whole, region);
-  CHECK(same);
-  CHECK(out.PaddingUntouched());
-  CHECK(report.r_max == whole_report.r_max);
-  CHECK(report.rendered_samples <= whole_report.rendered_samples);
-  CHECK(BlocksOf(report) <= BlocksOf(whole_report));
-  CHECK(BlocksOf(report) > 0);
-}
-
-void CheckRegions(const test::Scene& scene, const starfocus_config& config,
-                  const starfocus_params& params, test::Random* random) {
-  const int w = scene.width, h = scene.height;
-  std::vector<starfocus_region> regions = {{0, 0, w, h},         {0, 0, 1, 1},
-                                           {w - 1, h - 1, 1, 1}, {0, h - 1, w, 1},
-                                           {w - 1, 0, 1, h},     {w / 2, h / 2, 1, 1}};
-  for (int at : {32, 64, 80}) {  // on both sides of a boundary
-    if (at < w && at < h) {
-      regions.push_back({at, at, 1, 1});
-      regions.push_back({at - 1, at - 3, 1, 1});
-      regions.push_back({0, at - 8, w, 5});  // its last row is finished by the next stripe
-      regions.push_back({at + 2, at - 1, w - at - 2 > 0 ? w - at - 2 : 1, 1});
-      if (at + 2 >= w) regions.pop_back();
-    }
-  }
-  for (int k = 0; k < 6; ++k) regions.push_back(RandomRegion(w, h, random));
-  test::Engine engine(config);
-  test::Output whole(w, h);
-  starfocus_report report = {};
-  REQUIRE(test::Refocus(&engine, params, scene, &whole, nullptr, nullptr, &report) == STARFOCUS_OK);
-  for (const starfocus_region& region : regions) {
-    CheckRegion(&engine, scene, params, whole, report, region);
-  }
-}
-
-TEST_CASE("region: the bytes of the whole picture, in every mode") {
-  test::Random random(71);
-  for (int round = 0; round < 40; ++round) {
-    const int width = random.Int(1, 180), height = random.Int(1, 150);
-    const test::Scene scene =
-        test::LayeredScene(width, height, kViews[round % 4], 7, uint64_t(round) + 700);
-    starfocus_config config = test::ConfigFor(scene, 20);
-    config.superblock = 32 << random.Int(0, 2);
-    config.tuning.max_layer = random.Int(0, 3) == 0 ? random.Int(0, 1) : 2;
-    config.tuning.deblocking = random.Int(0, 2) == 0 ? random.Int(0, 255) : 255;
-    starfocus_params params =
-        test::Params(random.Real(-9, 9), random.Real(0.3, 1), STARFOCUS_MODE_BLOCK);
-    params.renderer = random.Int(0, 2);
-    if (round % 4 == 3) params.mode = round % 8 == 3 ? STARFOCUS_MODE_FRAME : STARFOCUS_MODE_BLUR;
-    if (round == 11) params.mode = STARFOCUS_MODE_BENCHMARK;
-    CAPTURE(round);
-    CheckRegions(scene, config, params, &random);
-  }
-}
-
 TEST_CASE("region: joins between blocks of different layers reach into it") {
   // Layers 0 and 2 side by side, whatever the pixels.
-  test::Random random(72);
   for (const int side : {32, 64}) {
     test::Scene scene = test::LayeredScene(160, 160, 5, 12, 5);
-    for (int y = 0; y < 160; ++y) {
-      for (int x = 0; x < 160; ++x) {
-        scene.Disparity(x, y) = (x / side + y / side) % 2 == 0 ? 0.0f : 11.0f;
-      }
-    }
+    test::SetDisparity(&scene,
+                       [&](int x, int y) { return (x / side + y / side) % 2 == 0 ? 0.0f : 11.0f; });
     starfocus_config config = test::ConfigFor(scene, 13);
     config.superblock = side;
     config.tuning.deblocking = 255;
-    starfocus_params params = test::Params(-1, 1, STARFOCUS_MODE_BLOCK);
-    params.renderer = STARFOCUS_RENDERER_LINE_SCAN;
-    CheckRegions(scene, config, params, &random);
+    starfocus_params params =
+        test::Params(-1, 1, STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_LINE_SCAN);
+    test::CheckWays(scene, config, params, true);
   }
 }
 
@@ -138,21 +46,20 @@ TEST_CASE("region: costs its share of the picture and its surroundings") {
   test::Engine engine(config);
   for (const starfocus_mode mode : {STARFOCUS_MODE_BLOCK, STARFOCUS_MODE_FRAME}) {
     starfocus_params params = test::Params(1, 1, mode);
-    test::Output whole(640, 640), out(20, 20);
+    test::Output out(20, 20);
     starfocus_report report = {}, part = {};
-    REQUIRE(test::Refocus(&engine, params, scene, &whole, nullptr, nullptr, &report) ==
-            STARFOCUS_OK);
+    const test::Output whole = test::OutputOf(&engine, params, scene, &report);
     int told = 0;
     const starfocus_callbacks counts = test::VisitedBy(
         [](void* data, const starfocus_block*) { ++*static_cast<int*>(data); }, &told);
     params.region = {326, 326, 20, 20};  // inside one superblock
     REQUIRE(test::Refocus(&engine, params, scene, &out, counts, &part) == STARFOCUS_OK);
-    CHECK(BlocksOf(part) == uint64_t(told));
-    CHECK(BlocksOf(part) <= 4);
+    CHECK(test::BlocksOf(part) == uint64_t(told));
+    CHECK(test::BlocksOf(part) <= 4);
     CHECK(part.rendered_samples * 100 < report.rendered_samples);
     params.region = {319, 319, 2, 2};  // where four meet
     REQUIRE(test::Refocus(&engine, params, scene, &out, nullptr, nullptr, &part) == STARFOCUS_OK);
-    CHECK(BlocksOf(part) == 4);
+    CHECK(test::BlocksOf(part) == 4);
   }
 }
 
@@ -191,8 +98,7 @@ TEST_CASE("region: a bad row is refused before a pixel is written, or is not rea
   for (const starfocus_mode mode :
        {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BLOCK, STARFOCUS_MODE_BLUR}) {
     for (const starfocus_region& region : kRegions) {
-      CAPTURE(mode);
-      CAPTURE(Text(region));
+      CAPTURES(mode, Text(region));
       starfocus_params params = test::Params(0, 1, mode);
       params.region = region;
       const test::Output blank(region.width > 0 ? region.width : 40,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
+#include "tests/support/refocused.h"
 #include "tests/support/test_scene.h"
 #include "tests/support/ways.h"
 
@@ -24,9 +25,7 @@ TEST_CASE("stream: same bytes for every size, star set and chunk") {
                                {33, 65}, {64, 64}, {65, 32}, {40, 130}, {130, 97}};
   for (const auto& size : kSizes) {
     for (int views : {1, 5, 9, 17}) {
-      CAPTURE(size[0]);
-      CAPTURE(size[1]);
-      CAPTURE(views);
+      CAPTURES(size[0], size[1], views);
       const uint64_t seed = static_cast<uint64_t>(size[0] * 1000 + size[1]);
       const test::Scene scene = test::RandomScene(size[0], size[1], views, -3, 4, seed, 5);
       CheckSame(scene, test::Params(0.75), 32);
@@ -64,8 +63,8 @@ TEST_CASE("stream: strides of pictures do not matter") {
   starfocus_config config = test::ConfigFor(tight);
   config.features |= STARFOCUS_FEATURE_STREAMING;
   test::Engine engine(config);
-  test::Output a(50, 70), b(50, 70, 1), c(50, 70, 40);
-  REQUIRE(test::Refocus(&engine, test::Params(1), tight, &a) == STARFOCUS_OK);
+  test::Output b(50, 70, 1), c(50, 70, 40);
+  const test::Output a = test::OutputOf(&engine, test::Params(1), tight);
   REQUIRE(test::Refocus(&engine, test::Params(1), padded, &b) == STARFOCUS_OK);
   REQUIRE(test::Stream(&engine, test::Params(1), padded, &c, 11, 5) == STARFOCUS_OK);
   CHECK(a.bytes == b.Tight());
@@ -99,11 +98,10 @@ TEST_CASE("stream: a picture of 20,000 rows goes through the workspace of one of
   CHECK(consumed > 0);
   CHECK(consumed < 2000);
 
-  test::Output streamed(kWidth, kTall), whole(kWidth, kTall);
+  test::Output streamed(kWidth, kTall);
   REQUIRE(test::Stream(&engine, params, scene, &streamed, 100, 100) == STARFOCUS_OK);
   config.features &= ~STARFOCUS_FEATURE_STREAMING;
-  test::Engine whole_engine(config);
-  REQUIRE(test::Refocus(&whole_engine, params, scene, &whole) == STARFOCUS_OK);
+  const test::Output whole = test::OutputOf(config, params, scene);
   CHECK(streamed.bytes == whole.bytes);
 }
 
@@ -114,13 +112,11 @@ TEST_CASE("stream: rings hold all that layers are made of, up to the largest blu
     for (float& disparity : scene.disparity) disparity = float(radius);
     starfocus_config config = test::ConfigFor(scene, radius);
     config.superblock = 32;
-    starfocus_params params = test::Params(0, 1, STARFOCUS_MODE_BLOCK);
-    params.renderer = STARFOCUS_RENDERER_LINE_SCAN;
-    test::Output whole(48, 200), streamed(48, 200);
-    test::Engine whole_engine(config);
+    starfocus_params params =
+        test::Params(0, 1, STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_LINE_SCAN);
+    test::Output streamed(48, 200);
     starfocus_report report = {};
-    REQUIRE(test::Refocus(&whole_engine, params, scene, &whole, nullptr, nullptr, &report) ==
-            STARFOCUS_OK);
+    const test::Output whole = test::OutputOf(config, params, scene, &report);
     CHECK(report.layers[radius < 3 ? 0 : radius < 6 ? 1 : 2].pixels == 48 * 200);
     config.features |= STARFOCUS_FEATURE_STREAMING;
     test::Engine engine(config);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
+#include "tests/support/stream_steps.h"
 #include "tests/support/test_scene.h"
 
 namespace stream_retry_test {
@@ -43,26 +44,11 @@ Streamed Stream(const starfocus_config& config, const starfocus_params& params,
   const starfocus_callbacks callbacks = test::RunBy(Failing::Run, failing);
   REQUIRE(starfocus_set_callbacks(engine.get(), &callbacks) == STARFOCUS_OK);
   REQUIRE(starfocus_stream_begin(engine.get(), &params) == STARFOCUS_OK);
-  int pushed = 0, pulled = 0;
-  while (pulled < kHeight) {
-    int32_t consumed = 0, written = 0;
-    if (pushed < kHeight) {
-      const starfocus_light_field field = scene.Field(pushed);
-      REQUIRE(starfocus_stream_push(engine.get(), &field, kHeight - pushed, &consumed) ==
-              STARFOCUS_OK);
-    }
-    uint8_t* const rows = result.out.bytes.data() + size_t(pulled) * result.out.stride;
-    const starfocus_status status =
-        test::PullRgb(engine.get(), rows, result.out.stride, std::min(chunk, kHeight - pulled),
-                      &written, &result.report);
-    pushed += consumed;
-    pulled += written;
-    if (status == STARFOCUS_ERROR_RUNNER) {
-      ++result.failures;
-      continue;
-    }
-    REQUIRE(status == STARFOCUS_OK);
-    REQUIRE(consumed + written > 0);
+  test::StreamSteps steps = {&engine, scene, &result.out};
+  while (!steps.Ended()) {
+    const starfocus_status status = steps.Step(chunk, &result.report);
+    REQUIRE((status == STARFOCUS_OK || status == STARFOCUS_ERROR_RUNNER));
+    result.failures += status != STARFOCUS_OK;
   }
   return result;
 }
@@ -119,16 +105,12 @@ TEST_CASE("stream: a pull after one whose runner failed repeats its rows, with t
   const test::Scene scene = MixedScene();
   for (const starfocus_mode mode :
        {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BLOCK, STARFOCUS_MODE_BLUR}) {
-    for (const starfocus_renderer renderer :
-         {STARFOCUS_RENDERER_LINE_SCAN, STARFOCUS_RENDERER_SLICES}) {
+    for (const starfocus_renderer renderer : test::kRenderers) {
       for (const int gather : {0, 1}) {
         const bool plain = renderer == STARFOCUS_RENDERER_SLICES && gather == 0;
         if (mode != STARFOCUS_MODE_BLOCK && !plain) continue;
-        CAPTURE(mode);
-        CAPTURE(renderer);
-        CAPTURE(gather);
-        starfocus_params params = test::Params(0, 1, mode);
-        params.renderer = renderer;
+        CAPTURES(mode, renderer, gather);
+        starfocus_params params = test::Params(0, 1, mode, renderer);
         CheckRetries(scene, params, gather);
       }
     }

@@ -25,8 +25,7 @@ test::Scene Scene(const std::vector<starfocus_position>& positions) {
 
 std::vector<uint8_t> Picture(const test::Scene& scene, starfocus_mode mode = STARFOCUS_MODE_BLOCK,
                              starfocus_renderer renderer = STARFOCUS_RENDERER_SLICES) {
-  starfocus_params params = test::Params(kFocus, 1, mode);
-  params.renderer = renderer;
+  starfocus_params params = test::Params(kFocus, 1, mode, renderer);
   return test::RefocusScene(scene, test::ConfigFor(scene), params).rgb;
 }
 
@@ -112,8 +111,7 @@ TEST_CASE("views: the paper's rule needs the star, others do without") {
   test::Output out(scene.width, scene.height);
   for (const starfocus_mode mode :
        {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BENCHMARK, STARFOCUS_MODE_BLOCK}) {
-    starfocus_params params = test::Params(kFocus, 0.5, mode);
-    params.renderer = STARFOCUS_RENDERER_LINE_SCAN;
+    starfocus_params params = test::Params(kFocus, 0.5, mode, STARFOCUS_RENDERER_LINE_SCAN);
     CHECK(test::Refocus(&engine, params, scene, &out) == STARFOCUS_ERROR_FEATURE);
     CHECK(starfocus_stream_begin(engine.get(), &params) == STARFOCUS_ERROR_FEATURE);
     params.renderer = STARFOCUS_RENDERER_AUTO;

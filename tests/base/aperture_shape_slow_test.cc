@@ -73,8 +73,7 @@ TEST_CASE("opening: all weights sum to a power of two, and none exceeds its type
     const int n = random.Int(0, 9) == 0 ? random.Int(60, 130) : random.Int(1, 30);
     std::vector<uint16_t> weights(starfocus::ViewWeightsSize(opening, n));
     std::vector<uint16_t> rest(starfocus::FullApertureSize(n));
-    CAPTURE(test::ShapeText(lens));
-    CAPTURE(n);
+    CAPTURES(test::ShapeText(lens), n);
     for (const bool wide : {false, true}) {
       const ViewWeights whole = wide ? starfocus::MakeSubapertures(n, opening, weights.data())
                                      : starfocus::MakeViewWeights(n, opening, weights.data());

@@ -42,9 +42,7 @@ TEST_CASE("view grid: view i lies at i u_t / N") {
         for (int i = 0; i <= n; ++i) {
           furthest = std::max(furthest, std::fabs(double(grid.Move(i)) - rim * i / n * (1 << 24)));
         }
-        CAPTURE(aperture);
-        CAPTURE(n);
-        CAPTURE(layer);
+        CAPTURES(aperture, n, layer);
         CHECK(grid.Move(0) == 0);
         CHECK(grid.Move(n) == grid.step);
         CHECK(furthest <= 1.5);
@@ -69,9 +67,7 @@ TEST_CASE("view grid: shifts are u (d - d_t), to 1/256 of a pixel, within the bl
     // Half a unit of the shift, and 1.5 units of the view's position (2^-24) times the distance.
     const double bound = 0.5 + 1.5 * 256 / (1 << 24) * std::fabs(disparity - focus) + 1e-9;
     if (std::fabs(shift - exact) > bound) {
-      CAPTURE(aperture);
-      CAPTURE(focus);
-      CAPTURE(disparity);
+      CAPTURES(aperture, focus, disparity);
       CHECK(std::fabs(shift - exact) <= bound);
     }
     const double blur = aperture * std::fabs(disparity - focus);
@@ -108,8 +104,7 @@ TEST_CASE("view grid: the spread of a run displaces pixels by at most an eighth 
   for (const double aperture : {1.0, 0.9, 0.5, 0.3, 0.2, 0.01, 1e-7}) {
     for (const int layer : {0, 1, 2}) {
       const ViewGrid grid = MakeGrid(9, 0, aperture, layer);
-      CAPTURE(aperture);
-      CAPTURE(layer);
+      CAPTURES(aperture, layer);
       const double spread = grid.spread / 64.0, u = aperture / (1 << layer);
       CHECK(grid.spread >= 1);
       CHECK(grid.spread <= starfocus::kSurfaceStep);

@@ -23,7 +23,6 @@
 namespace block_mode_slow_test {
 namespace {
 
-constexpr int kViews[] = {1, 5, 9, 17};
 constexpr int kBlocks[] = {32, 64, 128, 256};
 
 // Everything a picture depends on but its content.
@@ -35,8 +34,7 @@ struct Setup {
   starfocus_renderer renderer = STARFOCUS_RENDERER_AUTO;
 
   starfocus_params Params() const {
-    starfocus_params params = test::Params(focus, aperture, mode);
-    params.renderer = renderer;
+    starfocus_params params = test::Params(focus, aperture, mode, renderer);
     return params;
   }
 };
@@ -96,7 +94,7 @@ TEST_CASE("block: rows give the bytes of whole pictures, at every kind of size")
                                {64, 64}, {65, 63}, {100, 37}, {30, 131}, {130, 97}, {67, 260}};
   uint64_t seed = 1;
   for (const auto& size : kSizes) {
-    for (const int views : kViews) {
+    for (const int views : test::kStars) {
       if (size[0] * size[1] > 8000 && views != 17 && views != 1) continue;
       const test::Scene scene = test::LayeredScene(size[0], size[1], views, 7, ++seed);
       Setup s = RandomSetup(&random, 7);
@@ -109,8 +107,9 @@ TEST_CASE("block: rows give the bytes of whole pictures, at every kind of size")
 TEST_CASE("block: rows give the bytes of whole pictures in blur mode and on noise") {
   test::Random random(32);
   for (int round = 0; round < 12; ++round) {
-    test::Scene scene = test::RandomScene(random.Int(1, 90), random.Int(30, 120),
-                                          kViews[random.Int(0, 3)], -4, 4, uint64_t(round) + 60);
+    test::Scene scene =
+        test::RandomScene(random.Int(1, 90), random.Int(30, 120), test::kStars[random.Int(0, 3)],
+                          -4, 4, uint64_t(round) + 60);
     if (round % 2 == 0) test::NoisyDisparity(&scene, &random);
     Setup s = RandomSetup(&random, 4);
     s.mode = round % 3 == 0 ? STARFOCUS_MODE_BLUR : STARFOCUS_MODE_BLOCK;
@@ -123,8 +122,8 @@ TEST_CASE("block: constant pictures stay, bit for bit") {
   test::Random random(35);
   for (int round = 0; round < 256; ++round) {
     const float limit = random.Int(0, 2) == 0 ? 16.0f : 6.0f;
-    test::Scene scene = test::LayeredScene(random.Int(1, 100), random.Int(1, 80), kViews[round % 4],
-                                           limit, uint64_t(round) + 300);
+    test::Scene scene = test::LayeredScene(random.Int(1, 100), random.Int(1, 80),
+                                           test::kStars[round % 4], limit, uint64_t(round) + 300);
     if (round % 5 == 0) test::NoisyDisparity(&scene, &random);
     for (auto& picture : scene.pictures) {
       std::fill(picture.begin(), picture.end(), uint8_t(round));
@@ -231,8 +230,7 @@ TEST_CASE("block: the blocks told of tile the picture once and are those of the 
     CHECK(report.layers[0].pixels + report.layers[1].pixels + report.layers[2].pixels ==
           uint64_t(scene.width) * uint64_t(scene.height));
     // Telling changes nothing.
-    const bool same = Whole(scene, s) == out.Tight();
-    CHECK(same);
+    CHECK((Whole(scene, s) == out.Tight()));
   }
 }
 
@@ -241,11 +239,8 @@ TEST_CASE("block: the blocks told of tile the picture once and are those of the 
 test::Scene SmoothScene(int width, int height, int views) {
   test::Scene scene = test::EmptyScene(width, height, views, -6, 6);
   const auto disparity = [&](double x) { return 12 * x / (width - 1) - 6; };
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      scene.Disparity(x, y) = float(std::clamp(disparity(x), -6.0, 6.0));
-    }
-  }
+  test::SetDisparity(&scene,
+                     [&](int x, int) { return float(std::clamp(disparity(x), -6.0, 6.0)); });
   for (int view = 0; view < views; ++view) {
     double u = 0, v = 0;
     starfocus_view_position(view, &u, &v);
@@ -277,8 +272,7 @@ TEST_CASE("block: agrees with the benchmark on a slanted plane") {
       s.max_layer = max_layer;
       const double psnr = test::Psnr(Whole(scene, s), benchmark);
       line += " L<=" + std::to_string(max_layer) + " " + std::to_string(psnr) + " dB";
-      CAPTURE(focus);
-      CAPTURE(max_layer);
+      CAPTURES(focus, max_layer);
       CHECK(psnr > 45);
     }
     MESSAGE(line);
@@ -290,7 +284,7 @@ TEST_CASE("block: deblocking does to the picture at once what it does to stripes
   int changed = 0;
   for (int round = 0; round < 40; ++round) {
     const test::Scene scene = test::LayeredScene(random.Int(20, 200), random.Int(40, 200),
-                                                 kViews[round % 4], 8, uint64_t(round) + 600);
+                                                 test::kStars[round % 4], 8, uint64_t(round) + 600);
     Setup s = RandomSetup(&random, 8);
     s.block = 32 << random.Int(0, 1);
     s.max_layer = random.Int(0, 4) == 0 ? 1 : 2;
@@ -316,8 +310,7 @@ TEST_CASE("block: deblocking does to the picture at once what it does to stripes
       changed += picture.rgb != out.bytes;
       s.deblocking = beta;
       CAPTURE(Text(s, scene));
-      const bool same = Whole(scene, s) == picture.rgb;
-      CHECK(same);
+      CHECK((Whole(scene, s) == picture.rgb));
     }
   }
   CHECK(changed > 20);
@@ -330,8 +323,8 @@ TEST_CASE("block: mirrored light fields of whole blocks give mirrored pictures a
     const int width = block * random.Int(1, 3), height = block * random.Int(1, 2);
     test::Scene scene =
         round % 2 == 0
-            ? test::LayeredScene(width, height, kViews[round % 4], 6, uint64_t(round) + 500)
-            : test::RandomScene(width, height, kViews[round % 4], -3, 3, uint64_t(round));
+            ? test::LayeredScene(width, height, test::kStars[round % 4], 6, uint64_t(round) + 500)
+            : test::RandomScene(width, height, test::kStars[round % 4], -3, 3, uint64_t(round));
     Setup s = RandomSetup(&random, scene.disparity_max);
     s.block = block;
     s.max_layer = 0;

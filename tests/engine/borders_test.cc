@@ -131,8 +131,8 @@ class Superblock {
 
  private:
   std::vector<uint8_t> Refocus(const test::Scene& scene, starfocus_report* report) {
-    starfocus_params params = test::Params(way_.focus, way_.aperture, starfocus_mode(way_.mode));
-    params.renderer = way_.renderer;
+    starfocus_params params =
+        test::Params(way_.focus, way_.aperture, starfocus_mode(way_.mode), way_.renderer);
     params.region = {rect_.x, rect_.y, rect_.width, rect_.height};
     test::Output out(rect_.width, rect_.height);
     REQUIRE(test::Refocus(&engine_, params, scene, &out, nullptr, nullptr, report) == STARFOCUS_OK);
@@ -178,12 +178,7 @@ TEST_CASE("borders: nothing beyond those of a superblock is read") {
       pixels[level] += superblock.report().layers[level].pixels;
     }
     gathered += superblock.report().gathered_pixels;
-    CAPTURE(round);
-    CAPTURE(way.mode);
-    CAPTURE(way.renderer);
-    CAPTURE(way.views);
-    CAPTURE(way.max_layer);
-    CAPTURE(way.limit);
+    CAPTURES(round, way.mode, way.renderer, way.views, way.max_layer, way.limit);
     const int centre = way.highlights > 1 ? borders.views : borders.centre;
     const bool changes = superblock.FrameDiff({centre, borders.centre, borders.views}, &random);
     CHECK(!changes);

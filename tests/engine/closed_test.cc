@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "starfocus/starfocus.h"
+#include "tests/support/refocused.h"
 #include "tests/support/test_scene.h"
 
 namespace closed_test {
@@ -53,15 +54,9 @@ TEST_CASE("closed: a surface whose disparities jitter or slope lets no light thr
         test::Engine engine(config);
         for (const double focus : {-6.0, -2.0, 5.0, 9.0}) {
           for (const starfocus_mode mode : {STARFOCUS_MODE_BLOCK, STARFOCUS_MODE_FRAME}) {
-            CAPTURE(jitter);
-            CAPTURE(slope);
-            CAPTURE(views);
-            CAPTURE(focus);
-            CAPTURE(mode);
-            starfocus_params params = test::Params(focus, 1, mode);
-            params.renderer = STARFOCUS_RENDERER_SLICES;
-            test::Output out(kSide, kSide);
-            REQUIRE(test::Refocus(&engine, params, scene, &out) == STARFOCUS_OK);
+            CAPTURES(jitter, slope, views, focus, mode);
+            starfocus_params params = test::Params(focus, 1, mode, STARFOCUS_RENDERER_SLICES);
+            const test::Output out = test::OutputOf(&engine, params, scene);
             CHECK(MostLeaked(out, 16) <= 1);
           }
         }

@@ -3,10 +3,12 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <string>
 #include <vector>
 
 #include "starfocus/starfocus.h"
+#include "tests/support/refocused.h"
 #include "tests/support/shapes.h"
 #include "tests/support/test_scene.h"
 
@@ -25,7 +27,7 @@ struct Trial {
   starfocus_renderer renderer = STARFOCUS_RENDERER_AUTO;
   int transfer = STARFOCUS_TRANSFER_SRGB;
   uint64_t shape = 0;  // the seed of a random one, unless 0
-  uint8_t color[3] = {0, 0, 0};
+  std::array<uint8_t, 3> color = {0, 0, 0};
   uint64_t seed = 1;
 };
 
@@ -39,7 +41,7 @@ std::string Text(const Trial& t) {
          std::to_string(t.shape) + " seed " + std::to_string(t.seed);
 }
 
-// Refocuses a picture of one colour; the number of samples that changed, -1 on error.
+// Refocuses a picture of one colour; the number of samples that changed.
 int Changed(const Trial& t) {
   test::Random random(t.seed);
   test::Scene scene = test::EmptyScene(t.width, t.height, t.views, t.low, t.high);
@@ -60,35 +62,22 @@ int Changed(const Trial& t) {
   config.tuning.n_scale = t.n_scale;
   config.transfer = t.transfer;
   test::Random shapes(t.shape);
-  starfocus_params params = test::Params(t.focus, t.aperture, t.mode);
-  params.renderer = t.renderer;
+  starfocus_params params = test::Params(t.focus, t.aperture, t.mode, t.renderer);
   if (t.theta > 0) params.lens.theta = t.theta;
   if (t.shape != 0) test::RandomShape(&params.lens, &shapes);
   test::ReserveFor(params.lens, &config);
-  test::Engine engine(config);
-  test::Output out(t.width, t.height);
-  const starfocus_status status = engine.status() != STARFOCUS_OK
-                                      ? engine.status()
-                                      : test::Refocus(&engine, params, scene, &out);
-  if (status != STARFOCUS_OK) {
-    MESSAGE(starfocus_status_string(status));
-    return -1;
-  }
+  const test::Output out = test::OutputOf(config, params, scene);
   int changed = 0;
   for (size_t i = 0; i < out.bytes.size(); ++i) changed += out.bytes[i] != t.color[i % 3];
   return changed;
 }
 
 TEST_CASE("constant: every level") {
-  Trial t;
-  t.width = 19;
-  t.height = 11;
-  t.low = -2;
-  t.high = 3;
-  for (int views : {1, 5, 9, 17}) {
+  Trial t = {19, 11, 17, -2, 3};
+  for (int views : test::kStars) {
     t.views = views;
     for (int level = 0; level < 256; level += (views == 17 ? 1 : 15)) {
-      std::fill(t.color, t.color + 3, static_cast<uint8_t>(level));
+      t.color.fill(static_cast<uint8_t>(level));
       t.seed = static_cast<uint64_t>(level) + 1;
       for (const int transfer : {STARFOCUS_TRANSFER_NONE, STARFOCUS_TRANSFER_SRGB}) {
         t.transfer = transfer;
@@ -99,13 +88,9 @@ TEST_CASE("constant: every level") {
 }
 
 TEST_CASE("constant: every N") {
-  Trial t;
-  t.width = 21;
-  t.height = 18;
-  t.color[0] = 255;
-  t.color[1] = 128;
-  t.color[2] = 1;
-  for (int views : {1, 5, 9, 17}) {
+  Trial t = {21, 18};
+  t.color = {255, 128, 1};
+  for (int views : test::kStars) {
     t.views = views;
     for (int radius = 0; radius <= 24; ++radius) {
       for (starfocus_mode mode : {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BENCHMARK}) {
@@ -122,12 +107,8 @@ TEST_CASE("constant: every N") {
 }
 
 TEST_CASE("constant: through every shape of opening") {
-  Trial t;
-  t.width = 70;
-  t.height = 41;
-  t.color[0] = 255;
-  t.color[1] = 127;
-  t.color[2] = 1;
+  Trial t = {70, 41};
+  t.color = {255, 127, 1};
   // Sanitizers look at what a shape makes the engine do, which a quarter of them do too.
 #if defined(__SANITIZE_ADDRESS__)
   constexpr uint64_t kShapes = 60;
@@ -151,18 +132,12 @@ TEST_CASE("constant: through every shape of opening") {
 }
 
 TEST_CASE("constant: every small size") {
-  Trial t;
-  t.low = -3;
-  t.high = 4;
-  t.focus = 0.25;
   for (int height : {1, 2, 3, 5, 8, 17}) {
     for (int width : {1, 2, 3, 4, 7, 16, 31, 33}) {
-      for (int views : {1, 5, 9, 17}) {
-        t.width = width;
-        t.height = height;
-        t.views = views;
+      for (int views : test::kStars) {
+        Trial t = {width, height, views, -3, 4, 0.25};
         t.seed = static_cast<uint64_t>(width * 100 + height);
-        for (int c = 0; c < 3; ++c) t.color[c] = static_cast<uint8_t>(t.seed * (c + 7));
+        for (size_t c = 0; c < 3; ++c) t.color[c] = static_cast<uint8_t>(t.seed * (c + 7));
         CHECK_MESSAGE(Changed(t) == 0, Text(t));
       }
     }
@@ -172,12 +147,10 @@ TEST_CASE("constant: every small size") {
 // Few views of a wide lens: slices of subapertures wider than three pixels are spread in memory of
 // their own, and those of N = 4 reach beyond the blur radius.
 TEST_CASE("constant: wide subapertures") {
-  Trial t;
-  t.width = t.height = 64;
-  t.views = 1;
+  Trial t = {64, 64, 1};
   t.levels = 6;
   t.renderer = STARFOCUS_RENDERER_SLICES;
-  std::fill(t.color, t.color + 3, static_cast<uint8_t>(204));
+  t.color.fill(204);
   for (const starfocus_mode mode : {STARFOCUS_MODE_BLOCK, STARFOCUS_MODE_FRAME}) {
     for (const double n_scale : {0.5, 0.66, 0.8, 2.0}) {
       for (int radius = 10; radius <= 50; radius += mode == STARFOCUS_MODE_FRAME ? 3 : 10) {
@@ -198,9 +171,7 @@ TEST_CASE("constant: wide subapertures") {
 // are few levels of light: products of both are summed in shares of larger weights. What is left is
 // the rounding of slices that cover parts of a pixel: up to three pixels of a few pictures.
 TEST_CASE("constant: dark codes through steep openings") {
-  Trial t;
-  t.width = t.height = 64;
-  t.views = 5;
+  Trial t = {64, 64, 5};
   t.levels = 5;
   t.renderer = STARFOCUS_RENDERER_SLICES;
   int pictures = 0;  // with a pixel of another code
@@ -213,9 +184,8 @@ TEST_CASE("constant: dark codes through steep openings") {
         t.high = static_cast<float>(radius);
         t.mode = code % 2 == 0 ? STARFOCUS_MODE_BLOCK : STARFOCUS_MODE_FRAME;
         t.seed = static_cast<uint64_t>(code);
-        std::fill(t.color, t.color + 3, static_cast<uint8_t>(code));
+        t.color.fill(static_cast<uint8_t>(code));
         const int changed = Changed(t);
-        CHECK_MESSAGE(changed >= 0, Text(t) << " code " << code);
         CHECK_MESSAGE(changed <= 9, Text(t) << " code " << code);
         pictures += changed > 0;
       }
@@ -226,13 +196,13 @@ TEST_CASE("constant: dark codes through steep openings") {
 
 TEST_CASE("constant: random sizes, ranges, focuses, apertures and blocks") {
   test::Random random(2024);
-  constexpr int kViews[] = {1, 5, 9, 17}, kBlocks[] = {32, 64, 128, 256};
+  constexpr int kBlocks[] = {32, 64, 128, 256};
   int pictures = 0;  // with a pixel of another code: parts of slices are rounded in 15 bits
   for (int round = 0; round < 250; ++round) {
     Trial t;
     t.width = random.Int(1, 90);
     t.height = random.Int(1, 70);
-    t.views = kViews[random.Int(0, 3)];
+    t.views = test::kStars[random.Int(0, 3)];
     t.block = kBlocks[random.Int(0, 3)];
     const double middle = random.Real(-20, 20), spread = random.Real(0, 6);
     t.low = static_cast<float>(middle - spread);

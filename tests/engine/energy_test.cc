@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "starfocus/starfocus.h"
+#include "tests/support/refocused.h"
 #include "tests/support/test_scene.h"
 
 namespace energy_test {
@@ -33,8 +34,7 @@ test::Scene PeriodicScene(int mean, uint64_t seed) {
 }
 
 TEST_CASE("energy: blending halves does not brighten") {
-  for (const starfocus_mode mode : {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BENCHMARK,
-                                    STARFOCUS_MODE_BLOCK, STARFOCUS_MODE_BLUR}) {
+  for (const starfocus_mode mode : test::kModes) {
     for (const double radius : {0.5, 1.0, 1.5, 3.03125, 4.5, 6.25}) {
       double sum = 0;
       constexpr int kRounds = 40;
@@ -43,15 +43,12 @@ TEST_CASE("energy: blending halves does not brighten") {
         const test::Scene scene = PeriodicScene(mean, uint64_t(round) + 1);
         starfocus_config config = test::ConfigFor(scene, 7);
         config.transfer = STARFOCUS_TRANSFER_NONE;
-        test::Engine engine(config);
-        test::Output out(kSide, kSide);
-        REQUIRE(test::Refocus(&engine, test::Params(radius, 1, mode), scene, &out) == STARFOCUS_OK);
+        const test::Output out = test::OutputOf(config, test::Params(radius, 1, mode), scene);
         for (int y = kMargin; y < kMargin + kPeriod; ++y) {
           for (int x = kMargin; x < kMargin + kPeriod; ++x) sum += *out.Pixel(x, y) - mean;
         }
       }
-      CAPTURE(mode);
-      CAPTURE(radius);
+      CAPTURES(mode, radius);
       CHECK(std::abs(sum / (kRounds * kPeriod * kPeriod)) < 0.02);
     }
   }

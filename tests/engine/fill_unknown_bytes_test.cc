@@ -57,15 +57,13 @@ starfocus_config FillingConfig(const test::Scene& scene) {
 TEST_CASE("fill unknown: the farther known value of the row goes on, in every mode") {
   for (const int views : {1, 5}) {
     const Scenes scenes = WithGaps(views);
-    for (const starfocus_mode mode : {STARFOCUS_MODE_BLOCK, STARFOCUS_MODE_FRAME,
-                                      STARFOCUS_MODE_BENCHMARK, STARFOCUS_MODE_BLUR}) {
+    for (const starfocus_mode mode : test::kModes) {
       const starfocus_params params = test::Params(0.5, 0.5, mode);
       const test::Refocused filled =
           test::RefocusScene(scenes.unknown, FillingConfig(scenes.unknown), params);
       const test::Refocused by_hand =
           test::RefocusScene(scenes.filled, test::ConfigFor(scenes.filled, 32), params);
-      CAPTURE(views);
-      CAPTURE(mode);
+      CAPTURES(views, mode);
       CHECK(filled.rgb == by_hand.rgb);
       CHECK(filled.report.unknown_pixels == uint64_t(scenes.count));
       CHECK(by_hand.report.unknown_pixels == 0);

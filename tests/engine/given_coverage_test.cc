@@ -10,6 +10,7 @@
 #include "starfocus/starfocus.h"
 #include "tests/support/image_field.h"
 #include "tests/support/prepared_memory.h"
+#include "tests/support/refocused.h"
 #include "tests/support/test_scene.h"
 #include "tests/support/ways.h"
 
@@ -63,14 +64,6 @@ starfocus_params ThroughDisc(double focus) {
   return params;
 }
 
-test::Output Refocused(const test::Scene& scene, const starfocus_config& config,
-                       const starfocus_params& params) {
-  test::Engine engine(config);
-  test::Output out(kWidth, kHeight);
-  REQUIRE(test::Refocus(&engine, params, scene, &out) == STARFOCUS_OK);
-  return out;
-}
-
 // PSNR in dB of a picture that is focused on the wall: the comb is blurred before it.
 double PsnrOf(const test::Output& out) {
   constexpr int kBlur = int(kNear - kFar);
@@ -103,8 +96,8 @@ test::Scene Without(test::Scene scene) {
 TEST_CASE("given coverage: it decides over a map without gaps") {
   const test::Scene scene = Comb();
   const starfocus_params params = ThroughDisc(kFar);
-  const double with = PsnrOf(Refocused(scene, CombConfig(scene), params));
-  const double without = PsnrOf(Refocused(Without(scene), CombConfig(scene), params));
+  const double with = PsnrOf(test::OutputOf(CombConfig(scene), params, scene));
+  const double without = PsnrOf(test::OutputOf(CombConfig(scene), params, Without(scene)));
   MESSAGE(without, " -> ", with, " dB");
   CHECK(with > without + 6);
 }
@@ -123,9 +116,7 @@ TEST_CASE("given coverage: deep inside a silhouette, too, the wall ends where co
   }
   starfocus_config config = CombConfig(scene);
   config.max_blur = kRadius;
-  test::Engine engine(config);
-  test::Output out(scene.width, scene.height);
-  REQUIRE(test::Refocus(&engine, ThroughDisc(0), scene, &out) == STARFOCUS_OK);
+  const test::Output out = test::OutputOf(config, ThroughDisc(0), scene);
   double most = 0;
   for (int x = kEdge - kRadius; x < kEdge; ++x) {
     const double to_edge = kEdge - 0.5 - x, angle = std::acos(to_edge / kRadius);
@@ -142,8 +133,8 @@ TEST_CASE("given coverage: every way in gives the same bytes") {
   for (const double focus : {kFar, 1.0, kNear}) {
     CAPTURE(focus);
     starfocus_params params = ThroughDisc(focus);
-    CHECK((Refocused(Without(scene), config, params).bytes !=
-           Refocused(scene, config, params).bytes));
+    CHECK((test::OutputOf(config, params, Without(scene)).bytes !=
+           test::OutputOf(config, params, scene).bytes));
     test::CheckWays(scene, config, params);
   }
 }
@@ -177,15 +168,15 @@ TEST_CASE("given coverage: previews have its means") {
   REQUIRE(test::PreviewRgb(engine.get(), &params, prepared, 1, preview.bytes.data(), preview.stride,
                            nullptr) == STARFOCUS_OK);
   params.lens.focus = kFar;
-  CHECK((preview.bytes == Refocused(scene, CombConfig(scene), params).bytes));
-  CHECK((preview.bytes != Refocused(Without(scene), CombConfig(scene), params).bytes));
+  CHECK((preview.bytes == test::OutputOf(CombConfig(scene), params, scene).bytes));
+  CHECK((preview.bytes != test::OutputOf(CombConfig(scene), params, Without(scene)).bytes));
 }
 
 TEST_CASE("given coverage: a frame after another one sees what changed of it") {
   const test::Scene before = Comb();
   const starfocus_config config = CombConfig(before);
   const starfocus_params params = ThroughDisc(kFar);
-  const test::Output first = Refocused(before, config, params);
+  const test::Output first = test::OutputOf(config, params, before);
   test::Scene changed = before;
   changed.coverage[size_t(90 * kWidth + 100)] ^= 255;
   for (const test::Scene& now : {changed, Without(before), before}) {
@@ -196,7 +187,7 @@ TEST_CASE("given coverage: a frame after another one sees what changed of it") {
                                          starfocus_image_rgb(first.bytes.data(), first.stride)};
     REQUIRE(test::RefocusAfterRgb(engine.get(), &params, &field, &previous, out.bytes.data(),
                                   out.stride, nullptr) == STARFOCUS_OK);
-    CHECK((out.bytes == Refocused(now, config, params).bytes));
+    CHECK((out.bytes == test::OutputOf(config, params, now).bytes));
   }
 }
 
@@ -207,7 +198,7 @@ TEST_CASE("given coverage: where nothing moves, colours that contradict it stay"
   starfocus_config config = CombConfig(scene);
   starfocus_params params = ThroughDisc(0);
   params.lens.aperture = 0.001;
-  const test::Output out = Refocused(scene, config, params);
+  const test::Output out = test::OutputOf(config, params, scene);
   CHECK((out.bytes == scene.pictures[0]));
 }
 
@@ -217,9 +208,9 @@ TEST_CASE("given coverage: highlights brighten nothing but their surroundings") 
   for (int y = 2; y < 6; ++y) std::fill_n(scene.Pixel(0, 2, y), 12, uint8_t{255});
   starfocus_config config = CombConfig(scene);
   const starfocus_params params = ThroughDisc(kNear);
-  const test::Output plain = Refocused(scene, config, params);
+  const test::Output plain = test::OutputOf(config, params, scene);
   config.highlights = 16;
-  const test::Output lit = Refocused(scene, config, params);
+  const test::Output lit = test::OutputOf(config, params, scene);
   CHECK((lit.bytes != plain.bytes));
   // Blocks with highlights are not gathered, which rounds otherwise.
   int largest = 0;
@@ -253,8 +244,8 @@ TEST_CASE("given coverage: without the feature it is not looked at, and bad inpu
   CHECK(test::RefocusRgb(engine.get(), &params, &field, out.bytes.data(), out.stride, nullptr) ==
         STARFOCUS_ERROR_OVERLAP);
   config.features &= ~STARFOCUS_FEATURE_COVERAGE;
-  CHECK(
-      (Refocused(scene, config, params).bytes == Refocused(Without(scene), config, params).bytes));
+  CHECK((test::OutputOf(config, params, scene).bytes ==
+         test::OutputOf(config, params, Without(scene)).bytes));
 }
 
 }  // namespace

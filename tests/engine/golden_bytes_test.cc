@@ -14,6 +14,7 @@
 #include "starfocus/starfocus.h"
 #include "tests/support/inside.h"
 #include "tests/support/integer_scene.h"
+#include "tests/support/refocused.h"
 #include "tests/support/shapes.h"
 #include "tests/support/simd_targets.h"
 #include "tests/support/test_scene.h"
@@ -128,13 +129,12 @@ std::string Refocus(const Case& one, const test::Scene& scene,
   test::ReserveFor(params.lens, &config);
   test::Engine engine(config);
   test::UseKernels(kernels, engine.get());
-  test::Output out(scene.width, scene.height);
   // The rule of subapertures keeps layer 2 away from depth edges: either rule has its share of the
   // cases.
   if (one.block == 32) params.renderer = STARFOCUS_RENDERER_LINE_SCAN;
   if (one.levels > 0) params.renderer = STARFOCUS_RENDERER_SLICES;
   starfocus_report report = {};
-  REQUIRE(test::Refocus(&engine, params, scene, &out, nullptr, nullptr, &report) == STARFOCUS_OK);
+  const test::Output out = test::OutputOf(&engine, params, scene, &report);
   for (int layer = 0; layer < STARFOCUS_LAYERS; ++layer) {
     covered->layers[layer] += report.layers[layer].pixels;
   }
@@ -182,8 +182,7 @@ TEST_CASE("golden: the same pictures on every machine and SIMD target") {
     // What is recorded is the reference's: the last table.
     if (record) golden[one.name] = Refocus(one, scene, tables.back(), &covered);
     for (const starfocus::simd::Kernels* kernels : tables) {
-      CAPTURE(one.name);
-      CAPTURE(kernels->name);
+      CAPTURES(one.name, kernels->name);
       const std::string hash = Refocus(one, scene, kernels, &covered);
       CHECK(hash == golden[one.name]);
       wrong[kernels->name] += hash != golden[one.name];

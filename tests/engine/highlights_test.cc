@@ -16,8 +16,6 @@ namespace highlights_test {
 namespace {
 
 constexpr int kSide = 120;
-constexpr starfocus_mode kModes[] = {STARFOCUS_MODE_BLOCK, STARFOCUS_MODE_FRAME,
-                                     STARFOCUS_MODE_BENCHMARK, STARFOCUS_MODE_BLUR};
 
 // A dark flat picture with a white rectangle.
 test::Scene WhiteRect(int x0, int y0, int width, int height, int code = 255, int views = 1) {
@@ -42,8 +40,7 @@ std::vector<uint8_t> Picture(const test::Scene& scene, double blur, double highl
   config.tuning.max_layer = config.tuning.gather = 0;  // where highlights are there is neither
   config.highlights = float(highlights);
   config.transfer = transfer;
-  starfocus_params params = test::Params(blur, 1, mode);
-  params.renderer = renderer;
+  starfocus_params params = test::Params(blur, 1, mode, renderer);
   return test::RefocusScene(scene, config, params).rgb;
 }
 
@@ -56,15 +53,12 @@ double LightIn(const std::vector<uint8_t>& picture, starfocus_transfer transfer)
 TEST_CASE("highlights: a lamp becomes a disc with all of its light") {
   const test::Scene lamp = WhiteRect(58, 59, 3, 3);
   for (const starfocus_transfer transfer : {STARFOCUS_TRANSFER_SRGB, STARFOCUS_TRANSFER_NONE}) {
-    for (const starfocus_mode mode : kModes) {
-      for (const starfocus_renderer renderer :
-           {STARFOCUS_RENDERER_LINE_SCAN, STARFOCUS_RENDERER_SLICES}) {
+    for (const starfocus_mode mode : test::kModes) {
+      for (const starfocus_renderer renderer : test::kRenderers) {
         const auto light = [&](double highlights) {
           return LightIn(Picture(lamp, 11, highlights, mode, renderer, transfer), transfer);
         };
-        CAPTURE(transfer);
-        CAPTURE(mode);
-        CAPTURE(renderer);
+        CAPTURES(transfer, mode, renderer);
         const double clipped = light(1);
         CHECK(light(4) - clipped == doctest::Approx(9 * 3 * 255).epsilon(0.04));
         CHECK(light(8) - clipped == doctest::Approx(9 * 7 * 255).epsilon(0.04));
@@ -93,8 +87,7 @@ TEST_CASE("highlights: the more, the nearer a code is to clipped; none below 251
   for (int y = 58; y < 62; ++y) {
     for (int x = 58; x < 62; ++x) red.Pixel(0, x, y)[1] = red.Pixel(0, x, y)[2] = 200;
   }
-  const bool same = Picture(red, 10, 8) == Picture(red, 10, 1);
-  CHECK(same);
+  CHECK((Picture(red, 10, 8) == Picture(red, 10, 1)));
 }
 
 TEST_CASE("highlights: walls do not glow") {
@@ -105,8 +98,7 @@ TEST_CASE("highlights: walls do not glow") {
   for (const Wall& wall : {Wall{30, 40, 34, 33}, Wall{0, 0, 50, kSide}, Wall{0, 100, kSide, 20}}) {
     const test::Scene scene = WhiteRect(wall.x, wall.y, wall.width, wall.height);
     for (const double blur : {0.0, 3.0, 11.0}) {
-      CAPTURE(wall.x);
-      CAPTURE(blur);
+      CAPTURES(wall.x, blur);
       const std::vector<uint8_t> plain = Picture(scene, blur, 1), bright = Picture(scene, blur, 16);
       int most = 0;
       for (size_t i = 0; i < plain.size(); ++i) {
@@ -144,11 +136,9 @@ TEST_CASE("highlights: a picture without any stays the same to the byte") {
     for (auto& picture : scene.pictures) {
       for (uint8_t& sample : picture) sample = std::min(sample, uint8_t(250));
     }
-    for (const starfocus_mode mode : kModes) {
-      CAPTURE(views);
-      CAPTURE(mode);
-      const bool same = Picture(scene, 3, 64, mode) == Picture(scene, 3, 1, mode);
-      CHECK(same);
+    for (const starfocus_mode mode : test::kModes) {
+      CAPTURES(views, mode);
+      CHECK((Picture(scene, 3, 64, mode) == Picture(scene, 3, 1, mode)));
     }
   }
 }
@@ -163,13 +153,12 @@ TEST_CASE("highlights: every way in gives the same bytes") {
         }
       }
     }
-    for (const starfocus_mode mode : kModes) {
+    for (const starfocus_mode mode : test::kModes) {
       starfocus_config config = test::ConfigFor(scene, 9);
       config.superblock = 32;
       config.highlights = 6;
       const starfocus_params params = test::Params(-4, 1, mode);
-      CAPTURE(views);
-      CAPTURE(mode);
+      CAPTURES(views, mode);
       test::CheckWays(scene, config, params);
     }
   }

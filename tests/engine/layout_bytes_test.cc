@@ -148,8 +148,7 @@ TEST_CASE("layout: what grows with the picture comes last, and less of it fits i
     if (bytes == kTooLarge) continue;
     for (int shift = 1; shift <= STARFOCUS_MAX_PREVIEW; ++shift) {
       const starfocus_config reduced = starfocus::ReducedConfig(config, shift);
-      CAPTURE(round);
-      CAPTURE(shift);
+      CAPTURES(round, shift);
       CHECK(test::WorkspaceBytes(reduced) <= bytes);
     }
   }
@@ -203,8 +202,7 @@ TEST_CASE("layout: sizes never wrap, and too large ones are an error of every ca
       size_t bytes = 77;
       const starfocus_status status = prepared ? starfocus_prepared_size(&config, &bytes)
                                                : starfocus_workspace_size(&config, &bytes);
-      CAPTURE(width);
-      CAPTURE(prepared);
+      CAPTURES(width, prepared);
       if (status == STARFOCUS_OK) {
         CHECK(bytes > (prepared ? disparities : rings));
         CHECK(bytes < (prepared ? 2 : 4) * (prepared ? disparities : rings) + (1 << 26));

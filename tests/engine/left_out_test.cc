@@ -16,7 +16,6 @@
 namespace left_out_test {
 namespace {
 
-constexpr int kViews[] = {1, 5, 9, 17};
 constexpr int kBlocks[] = {32, 64, 128, 256};
 constexpr starfocus_mode kModes[] = {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BENCHMARK,
                                      STARFOCUS_MODE_BLOCK};
@@ -76,7 +75,7 @@ TEST_CASE("left out: a copied block has the bytes of a rendered one, in every mo
   for (int round = 0; round < test::Rounds(400); ++round) {
     const float limit = float(random.Int(1, 6));
     const int width = random.Int(1, 200), height = random.Int(1, 120);
-    const int views = kViews[random.Int(0, 3)];
+    const int views = test::kStars[random.Int(0, 3)];
     const test::Scene scene = VariedScene(width, height, views, limit, &random);
     starfocus_config config = test::ConfigFor(scene, 20);
     config.superblock = kBlocks[random.Int(0, 3)];
@@ -89,8 +88,7 @@ TEST_CASE("left out: a copied block has the bytes of a rendered one, in every mo
     if (mode == STARFOCUS_MODE_BENCHMARK) aperture /= limit;
     starfocus_params params = test::Params(focus, aperture, mode);
     params.renderer = random.Int(0, 2);
-    CAPTURE(round);
-    CAPTURE(mode);
+    CAPTURES(round, mode);
     copied += CheckRendered(scene, config, params);
   }
   constexpr uint64_t kSome = STARFOCUS_EMULATED ? 20 : 100;
@@ -126,8 +124,8 @@ TEST_CASE("left out: in frame modes a block in focus is copied, but for what spl
 TEST_CASE("left out: with N by (9) shifts of up to a third of a pixel move nothing") {
   for (const double radius : {0.1, 0.32, 0.36, 0.4}) {
     const test::Scene scene = test::RandomScene(64, 64, 5, 1, 1, 3);
-    starfocus_params params = test::Params(1 - radius, 1, STARFOCUS_MODE_BLOCK);
-    params.renderer = STARFOCUS_RENDERER_LINE_SCAN;
+    const starfocus_params params =
+        test::Params(1 - radius, 1, STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_LINE_SCAN);
     CAPTURE(radius);
     CHECK(CheckRendered(scene, test::ConfigFor(scene, 8), params) ==
           (radius < 1.0 / 3 ? 64u * 64u : 0u));

@@ -36,26 +36,19 @@ TEST_CASE("n_scale: multiplies the N of either rule in frame and block mode") {
   const test::Scene scene = FlatScene(1);
   for (const double radius : {0.0, 0.25, 0.9, 3.5, 9.0, 17.0, 25.0}) {
     for (const double scale : kScales) {
-      for (const starfocus_renderer renderer :
-           {STARFOCUS_RENDERER_LINE_SCAN, STARFOCUS_RENDERER_SLICES}) {
+      for (const starfocus_renderer renderer : test::kRenderers) {
         for (const starfocus_mode mode : {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BLOCK}) {
-          starfocus_params params = test::Params(radius, 1, mode);
-          params.renderer = renderer;
+          starfocus_params params = test::Params(radius, 1, mode, renderer);
           starfocus_config config = test::ConfigFor(scene);
           config.tuning.n_scale = scale;
           config.tuning.max_layer = 0;
           config.tuning.gather = 0;  // which takes no views at all
-          test::Engine engine(config);
-          test::Output out(scene.width, scene.height);
           starfocus_report report = {};
-          REQUIRE(test::Refocus(&engine, params, scene, &out, nullptr, nullptr, &report) ==
-                  STARFOCUS_OK);
+          const test::Output out = test::OutputOf(config, params, scene, &report);
           const int n = renderer == STARFOCUS_RENDERER_LINE_SCAN
                             ? starfocus::ViewsByPaper(radius)
                             : starfocus::ViewsBySubaperture(radius);
-          CAPTURE(radius);
-          CAPTURE(scale);
-          CAPTURE(mode);
+          CAPTURES(radius, scale, mode);
           CHECK(report.n == int(std::ceil(n * scale - 1e-9)));
         }
       }
@@ -70,8 +63,7 @@ TEST_CASE("n_scale: benchmark and blur mode do not change") {
     const Refocused plain = Refocus(scene, params, 1);
     for (const double scale : kScales) {
       const Refocused scaled = Refocus(scene, params, scale);
-      const bool same = scaled.rgb == plain.rgb;
-      CHECK(same);
+      CHECK((scaled.rgb == plain.rgb));
       if (mode == STARFOCUS_MODE_BENCHMARK) CHECK(scaled.report.n == plain.report.n);
     }
   }
@@ -80,15 +72,11 @@ TEST_CASE("n_scale: benchmark and blur mode do not change") {
 TEST_CASE("n_scale: the smallest workspace gives what a large one does") {
   for (const double radius : {0.3, 0.51, 1.0, 2.5}) {
     const test::Scene scene = FlatScene(2);
-    for (const starfocus_renderer renderer :
-         {STARFOCUS_RENDERER_LINE_SCAN, STARFOCUS_RENDERER_SLICES}) {
+    for (const starfocus_renderer renderer : test::kRenderers) {
       for (const starfocus_mode mode : {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BLOCK}) {
-        starfocus_params params = test::Params(radius, 1, mode);
-        params.renderer = renderer;
+        starfocus_params params = test::Params(radius, 1, mode, renderer);
         CAPTURE(radius);
-        const bool same =
-            Refocus(scene, params, 2, radius).rgb == Refocus(scene, params, 2, 64).rgb;
-        CHECK(same);
+        CHECK((Refocus(scene, params, 2, radius).rgb == Refocus(scene, params, 2, 64).rgb));
       }
     }
   }
@@ -106,8 +94,7 @@ TEST_CASE("n_scale: more views, and nearer to the benchmark") {
     std::vector<double> psnr;
     for (const double scale : kScales) {
       const Refocused picture = Refocus(scene, params, scale);
-      CAPTURE(mode);
-      CAPTURE(scale);
+      CAPTURES(mode, scale);
       CHECK(picture.report.rendered_samples > samples);
       samples = picture.report.rendered_samples;
       psnr.push_back(test::Psnr(picture.rgb, benchmark));

@@ -14,14 +14,13 @@
 #include "lib/plan/partition.h"
 #include "starfocus/starfocus.h"
 #include "tests/support/inside.h"
+#include "tests/support/refocused.h"
 #include "tests/support/test_scene.h"
 
 namespace refocus_block_test {
 namespace {
 
 using starfocus::Block;
-
-constexpr int kViews[] = {1, 5, 9, 17};
 
 test::Scene NoiseScene(int width, int height, int views, float limit, test::Random* random) {
   test::Scene scene = test::EmptyScene(width, height, views, -limit, limit);
@@ -112,8 +111,7 @@ void CheckPicture(const test::Scene& scene, const starfocus_params& params, int 
   config.superblock = 128;   // the whole picture, so that all of every layer is there
   config.tuning.n_scale = more % 2 == 0 ? 1 : STARFOCUS_MIN_N_SCALE;
   test::Engine engine(config);
-  test::Output out(scene.width, scene.height);
-  REQUIRE(test::Refocus(&engine, params, scene, &out) == STARFOCUS_OK);
+  const test::Output out = test::OutputOf(&engine, params, scene);
   for (Block block : test::PlanOf(engine.get()).blocks) {
     // Not from `out`, which has been deblocked.
     const std::vector<uint8_t> given = test::RenderOne(block, engine.get());
@@ -134,7 +132,8 @@ FrameDiff CheckPictures(int rounds, double least_aperture, const MakeScene& make
     const int width = random.Int(0, 9) == 0 ? random.Int(1, 20) : random.Int(17, 128);
     const int height = random.Int(0, 9) == 0 ? random.Int(1, 20) : random.Int(17, 128);
     const float limit = static_cast<float>(2 * random.Int(1, 6));
-    const test::Scene scene = make_scene(width, height, kViews[random.Int(0, 3)], limit, &random);
+    const test::Scene scene =
+        make_scene(width, height, test::kStars[random.Int(0, 3)], limit, &random);
     const double aperture = random.Int(0, 1) == 0 ? 1 : random.Real(least_aperture, 1);
     starfocus_params params =
         test::Params(kFocus[random.Int(0, 7)], aperture, STARFOCUS_MODE_BLOCK);

@@ -59,10 +59,8 @@ TEST_CASE("room: larger blurs, rows and workers that are reserved change no pict
       other.max_blur = max_blur;
       test::SetFeature(STARFOCUS_FEATURE_STREAMING, random.Int(0, 1), &other.features);
       other.max_workers = random.Int(1, 3);
-      CAPTURE(round);
-      CAPTURE(max_blur);
-      const bool same = Picture(other, params, scene) == expected;
-      CHECK(same);
+      CAPTURES(round, max_blur);
+      CHECK((Picture(other, params, scene) == expected));
     }
   }
 }

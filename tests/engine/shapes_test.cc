@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
+#include "tests/support/refocused.h"
 #include "tests/support/test_scene.h"
 
 namespace shapes_test {
@@ -39,13 +40,10 @@ struct Patch {
     config.superblock = 32;
     config.tuning.max_layer = 0;                // layers smooth what is looked at here
     config.transfer = STARFOCUS_TRANSFER_NONE;  // levels that add up
-    starfocus_params params = test::Params(focus, 1, mode);
-    params.renderer = renderer;
+    starfocus_params params = test::Params(focus, 1, mode, renderer);
     shape.Set(&params.lens);
     test::ReserveFor(params.lens, &config);
-    test::Engine engine(config);
-    test::Output out(kSide, kSide);
-    REQUIRE(test::Refocus(&engine, params, scene, &out) == STARFOCUS_OK);
+    const test::Output out = test::OutputOf(config, params, scene);
     for (int y = 0; y < kSide; ++y) {
       for (int x = 0; x < kSide; ++x) levels.push_back(*out.Pixel(x, y));
     }
@@ -82,14 +80,11 @@ struct Patch {
 const test::NamedShape kRing = {"ring", STARFOCUS_SHAPE_RING, 5, 0, 0, 0.6F, 0};
 const test::NamedShape kPentagon = {"pentagon", STARFOCUS_SHAPE_POLYGON, 5, 0, 0, 0.5F, 0};
 const test::NamedShape kCatsEye = {"cat's eye", STARFOCUS_SHAPE_DISC, 5, 0, 0, 0.5F, 1};
-constexpr starfocus_mode kModes[] = {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BENCHMARK,
-                                     STARFOCUS_MODE_BLOCK, STARFOCUS_MODE_BLUR};
 
 TEST_CASE("shapes: the light of a patch stays, whatever the opening") {
   for (const test::NamedShape& shape : test::kShapes) {
-    for (const starfocus_mode mode : kModes) {
-      CAPTURE(shape.name);
-      CAPTURE(mode);
+    for (const starfocus_mode mode : test::kModes) {
+      CAPTURES(shape.name, mode);
       const starfocus_renderer renderer =
           mode == STARFOCUS_MODE_FRAME ? STARFOCUS_RENDERER_LINE_SCAN : STARFOCUS_RENDERER_AUTO;
       const Patch patch(shape, 9, mode, renderer, {});
@@ -102,26 +97,23 @@ TEST_CASE("shapes: dark codes stay through openings whose views weigh much more 
   constexpr int kWidth = 40, kHeight = 12, kEdge = 28;
   test::Scene scene = test::EmptyScene(kWidth, kHeight, 1, 0, 0);
   const starfocus_config config = test::ConfigFor(scene, 4);
-  for (const starfocus_mode mode : kModes) {
+  for (const starfocus_mode mode : test::kModes) {
     for (int code = 1; code < 40; ++code) {
       for (int y = 0; y < kHeight; ++y) {
         for (int x = 0; x < kWidth; ++x)
           std::fill_n(scene.Pixel(0, x, y), 3, x < kEdge ? code : 249);
       }
-      test::Engine engine(config);
-      test::Output out(kWidth, kHeight);
       starfocus_params params = test::Params(2.4, 1, mode);
       params.lens.theta = 1.41;
-      REQUIRE(test::Refocus(&engine, params, scene, &out) == STARFOCUS_OK);
-      CAPTURE(mode);
-      CAPTURE(code);
+      const test::Output out = test::OutputOf(config, params, scene);
+      CAPTURES(mode, code);
       CHECK(int{*out.Pixel(10, 6)} == code);
     }
   }
 }
 
 TEST_CASE("shapes: a ring's middle is dark") {
-  for (const starfocus_mode mode : kModes) {
+  for (const starfocus_mode mode : test::kModes) {
     CAPTURE(mode);
     const Patch patch(kRing, -10, mode, STARFOCUS_RENDERER_AUTO, {});
     for (int y = -2; y <= 2; ++y) {
@@ -134,11 +126,9 @@ TEST_CASE("shapes: a ring's middle is dark") {
 }
 
 TEST_CASE("shapes: a pentagon is mirrored about its axis alone, and stands on its head when near") {
-  for (const starfocus_mode mode : kModes) {
-    for (const starfocus_renderer renderer :
-         {STARFOCUS_RENDERER_LINE_SCAN, STARFOCUS_RENDERER_SLICES}) {
-      CAPTURE(mode);
-      CAPTURE(renderer);
+  for (const starfocus_mode mode : test::kModes) {
+    for (const starfocus_renderer renderer : test::kRenderers) {
+      CAPTURES(mode, renderer);
       const Patch far(kPentagon, 10, mode, renderer, {}), near(kPentagon, -10, mode, renderer, {});
       CHECK(far.Unlike([&](int x, int y) { return far.At(-x, y); }) < 0.03);
       CHECK(far.Unlike([&](int x, int y) { return far.At(x, -y); }) > 0.1);
@@ -159,12 +149,8 @@ TEST_CASE("shapes: all modes see the same opening") {
       const Patch ideal(shape, focus, STARFOCUS_MODE_BLUR, STARFOCUS_RENDERER_AUTO, {});
       for (const starfocus_mode mode :
            {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BENCHMARK, STARFOCUS_MODE_BLOCK}) {
-        for (const starfocus_renderer renderer :
-             {STARFOCUS_RENDERER_LINE_SCAN, STARFOCUS_RENDERER_SLICES}) {
-          CAPTURE(shape.name);
-          CAPTURE(focus);
-          CAPTURE(mode);
-          CAPTURE(renderer);
+        for (const starfocus_renderer renderer : test::kRenderers) {
+          CAPTURES(shape.name, focus, mode, renderer);
           const Patch patch(shape, focus, mode, renderer, {});
           CHECK(patch.Unlike([&](int x, int y) { return ideal.At(x, y); }) < 0.12);
         }
@@ -176,10 +162,8 @@ TEST_CASE("shapes: all modes see the same opening") {
 TEST_CASE("shapes: cat's eyes are cut on the side away from the picture's middle") {
   for (const starfocus_mode mode :
        {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BENCHMARK, STARFOCUS_MODE_BLOCK}) {
-    for (const starfocus_renderer renderer :
-         {STARFOCUS_RENDERER_LINE_SCAN, STARFOCUS_RENDERER_SLICES}) {
-      CAPTURE(mode);
-      CAPTURE(renderer);
+    for (const starfocus_renderer renderer : test::kRenderers) {
+      CAPTURES(mode, renderer);
       for (const int side : {-1, 1}) {
         const Place corner = {kSide / 2 + 32 * side, kSide / 2 - 32 * side};
         const Patch far(kCatsEye, 10, mode, renderer, corner),

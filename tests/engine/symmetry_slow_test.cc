@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
+#include "tests/support/refocused.h"
 #include "tests/support/symmetry.h"
 #include "tests/support/test_scene.h"
 
@@ -46,9 +47,7 @@ test::Output Refocused(const test::Scene& scene, const starfocus_params& params)
   starfocus_config config = test::ConfigFor(scene);
   config.superblock = 32;
   config.tuning.max_layer = 0;  // layers keep every second pixel, from the left and the top
-  test::Engine engine(config);
-  test::Output out(scene.width, scene.height);
-  REQUIRE(test::Refocus(&engine, params, scene, &out) == STARFOCUS_OK);
+  const test::Output out = test::OutputOf(config, params, scene);
   return out;
 }
 
@@ -60,11 +59,7 @@ Distance Measure(const Symmetry& s, const test::Scene& scene, const starfocus_pa
 }
 
 void Check(const Symmetry& s, const test::Scene& scene, const starfocus_params& params) {
-  CAPTURE(s.name);
-  CAPTURE(scene.width);
-  CAPTURE(scene.height);
-  CAPTURE(scene.views());
-  CAPTURE(params.lens.focus);
+  CAPTURES(s.name, scene.width, scene.height, scene.views(), params.lens.focus);
   CHECK(Measure(s, scene, params).samples == 0);
 }
 
@@ -102,8 +97,8 @@ TEST_CASE("symmetry: also in benchmark mode and on noisy disparity") {
   test::NoisyDisparity(&scene, &random);
   for (const Symmetry& s : kMirrors)
     Check(s, scene, test::Params(0.4, 1, STARFOCUS_MODE_BENCHMARK));
-  starfocus_params lines = test::Params(0.4, 1, STARFOCUS_MODE_BENCHMARK);
-  lines.renderer = STARFOCUS_RENDERER_LINE_SCAN;
+  starfocus_params lines =
+      test::Params(0.4, 1, STARFOCUS_MODE_BENCHMARK, STARFOCUS_RENDERER_LINE_SCAN);
   for (const Symmetry& s : kMirrors) Check(s, scene, lines);
   for (const Symmetry& s : kTurns) Check(s, scene, lines);
 }
@@ -116,8 +111,7 @@ TEST_CASE("symmetry: mirrors with wide subapertures") {
     for (const bool noisy : {false, true}) {
       if (noisy) test::NoisyDisparity(&scene, &random);
       for (const starfocus_mode mode : {STARFOCUS_MODE_BLOCK, STARFOCUS_MODE_FRAME}) {
-        starfocus_params params = test::Params(-12.6, 1, mode);
-        params.renderer = STARFOCUS_RENDERER_SLICES;
+        starfocus_params params = test::Params(-12.6, 1, mode, STARFOCUS_RENDERER_SLICES);
         for (const Symmetry& s : kMirrors) Check(s, scene, params);
       }
     }
@@ -130,13 +124,9 @@ TEST_CASE("symmetry: turns with wide subapertures, up to the order of rows and c
   for (const int views : {17, 5, 1}) {
     for (const starfocus_mode mode : {STARFOCUS_MODE_BLOCK, STARFOCUS_MODE_FRAME}) {
       for (const double focus : {-12.6, 1.3}) {
-        starfocus_params params = test::Params(focus, 1, mode);
-        params.renderer = STARFOCUS_RENDERER_SLICES;
+        starfocus_params params = test::Params(focus, 1, mode, STARFOCUS_RENDERER_SLICES);
         for (const Symmetry& s : kTurns) {
-          CAPTURE(s.name);
-          CAPTURE(views);
-          CAPTURE(mode);
-          CAPTURE(focus);
+          CAPTURES(s.name, views, mode, focus);
           test::Scene flat = test::RandomScene(64, 32, views, 3, 3, 37);
           const Distance one = Measure(s, flat, params);
           CHECK(one.largest <= 1);

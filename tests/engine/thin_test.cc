@@ -9,6 +9,7 @@
 
 #include "starfocus/starfocus.h"
 #include "tests/support/inside.h"
+#include "tests/support/refocused.h"
 #include "tests/support/test_scene.h"
 #include "tests/support/ways.h"
 
@@ -110,14 +111,6 @@ double PsnrOf(const test::Output& out, const std::vector<double>& truth) {
   return 10 * std::log10(255 * 255 * count / sum);
 }
 
-test::Output Refocused(const test::Scene& scene, const starfocus_config& config,
-                       const starfocus_params& params) {
-  test::Engine engine(config);
-  test::Output out(kWidth, kHeight);
-  REQUIRE(test::Refocus(&engine, params, scene, &out) == STARFOCUS_OK);
-  return out;
-}
-
 }  // namespace
 
 TEST_CASE("thin: strands are parted from a wall that is in focus, and from one that is not") {
@@ -126,8 +119,8 @@ TEST_CASE("thin: strands are parted from a wall that is in focus, and from one t
     for (const int views : {1, 5}) {
       const test::Scene scene = Strands(views);
       const starfocus_params params = ThroughDisc(focus);
-      const double with = PsnrOf(Refocused(scene, ConfigFor(scene, true), params), truth);
-      const double without = PsnrOf(Refocused(scene, ConfigFor(scene, false), params), truth);
+      const double with = PsnrOf(test::OutputOf(ConfigFor(scene, true), params, scene), truth);
+      const double without = PsnrOf(test::OutputOf(ConfigFor(scene, false), params, scene), truth);
       MESSAGE("views ", views, ", focus ", focus, ": ", without, " -> ", with, " dB");
       CHECK(with > without + 2);
     }
@@ -142,7 +135,7 @@ TEST_CASE("thin: every way in gives the same bytes") {
     starfocus_params params = ThroughDisc(focus);
     const test::Output whole = test::CheckWays(scene, config, params);
     config.features ^= STARFOCUS_FEATURE_LINE_SCAN;
-    CHECK((Refocused(scene, config, params).bytes == whole.Tight()));
+    CHECK((test::OutputOf(config, params, scene).bytes == whole.Tight()));
   }
 }
 

@@ -17,8 +17,6 @@ namespace transfer_test {
 namespace {
 
 constexpr starfocus_transfer kTransfers[] = {STARFOCUS_TRANSFER_SRGB, STARFOCUS_TRANSFER_NONE};
-constexpr starfocus_mode kModes[] = {STARFOCUS_MODE_BLOCK, STARFOCUS_MODE_FRAME,
-                                     STARFOCUS_MODE_BENCHMARK, STARFOCUS_MODE_BLUR};
 
 uint8_t CodeOf(int light, starfocus_transfer transfer) {
   const auto level = int16_t(light);
@@ -69,8 +67,7 @@ test::Refocused RefocusFlat(const test::Scene& scene, double blur, starfocus_mod
                             starfocus_renderer renderer = STARFOCUS_RENDERER_AUTO) {
   starfocus_config config = test::ConfigFor(scene, 32);
   config.transfer = transfer;
-  starfocus_params params = test::Params(double(scene.disparity_min) - blur, 1, mode);
-  params.renderer = renderer;
+  starfocus_params params = test::Params(double(scene.disparity_min) - blur, 1, mode, renderer);
   return test::RefocusScene(scene, config, params);
 }
 
@@ -78,15 +75,12 @@ test::Refocused RefocusFlat(const test::Scene& scene, double blur, starfocus_mod
 TEST_CASE("transfer: a ramp of dark codes stays monotone, wherever it is focused") {
   constexpr int kCodes = 41, kStep = 3, kWidth = kCodes * kStep;
   const test::Scene ramp = FlatScene(kWidth, 24, 0, [](int x, int) { return x / kStep; });
-  for (const starfocus_mode mode : kModes) {
-    for (const starfocus_renderer renderer :
-         {STARFOCUS_RENDERER_LINE_SCAN, STARFOCUS_RENDERER_SLICES}) {
+  for (const starfocus_mode mode : test::kModes) {
+    for (const starfocus_renderer renderer : test::kRenderers) {
       for (const double blur : {0.0, 0.3, 1.0, 2.5, 5.0, 9.0, 14.0}) {
         const test::Refocused out =
             RefocusFlat(ramp, blur, mode, STARFOCUS_TRANSFER_SRGB, renderer);
-        CAPTURE(mode);
-        CAPTURE(renderer);
-        CAPTURE(blur);
+        CAPTURES(mode, renderer, blur);
         bool monotone = true, survives = true;
         for (int y = 0; y < 24; ++y) {
           const auto at = [&](int x) { return int(out.rgb[size_t(3 * (y * kWidth + x))]); };
@@ -108,15 +102,14 @@ TEST_CASE("transfer: a ramp of dark codes stays monotone, wherever it is focused
 TEST_CASE("transfer: half of the light of white is code 188, half of the code 128") {
   const test::Scene board =
       FlatScene(96, 96, 0, [](int x, int y) { return (x + y) % 2 == 0 ? 255 : 0; });
-  for (const starfocus_mode mode : kModes) {
+  for (const starfocus_mode mode : test::kModes) {
     for (const double blur : {6.0, 11.0, 20.0}) {
       // Not by the paper's rule: views about a pixel apart show the board again.
       const auto middle = [&](starfocus_transfer transfer) {
         const auto out = RefocusFlat(board, blur, mode, transfer, STARFOCUS_RENDERER_SLICES);
         return int(out.rgb[3 * (48 * 96 + 48)]);
       };
-      CAPTURE(mode);
-      CAPTURE(blur);
+      CAPTURES(mode, blur);
       CHECK(std::abs(middle(STARFOCUS_TRANSFER_SRGB) - 188) <= 2);
       CHECK(std::abs(middle(STARFOCUS_TRANSFER_NONE) - 128) <= 2);
     }

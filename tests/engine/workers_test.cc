@@ -45,8 +45,7 @@ TEST_CASE("workers: each block is a job, those of the most predicted time come f
     }
     return all;
   };
-  test::Output out(scene.width, scene.height);
-  REQUIRE(test::Refocus(&engine, params, scene, &out) == STARFOCUS_OK);
+  test::Output out = test::OutputOf(&engine, params, scene);
   const std::vector<uint64_t> planned = costs();
   REQUIRE(planned.size() > size_t(kColumns));
   CHECK(std::is_sorted(planned.rbegin(), planned.rend()));

@@ -125,8 +125,7 @@ TEST_CASE("blur: random disparities, foci, apertures, fall-offs and blocks match
     if (round % 3 == 0) test::NoisyDisparity(&scene, &random);
     const double theta = round % 4 == 0 ? random.Real(0.1, 0.4) * 3.14159 : kTheta;
     const double focus = random.Real(-8, 8), aperture = random.Int(0, 1) ? 1 : random.Real(0.1, 1);
-    CAPTURE(round);
-    CAPTURE(theta);
+    CAPTURES(round, theta);
     CHECK(Difference(scene, focus, aperture, 32 << random.Int(0, 3), theta) <= 1);
   }
 }
@@ -136,8 +135,7 @@ TEST_CASE("blur: openings of other shapes match, in front of the focus and behin
     starfocus_lens lens = test::Params(0).lens;
     shape.Set(&lens);
     for (const double r : {0.5, 0.75, 1.0, 1.75, 3.0, 4.5, 8.0, 13.0}) {
-      CAPTURE(shape.name);
-      CAPTURE(r);
+      CAPTURES(shape.name, r);
       test::Random random(19);
       test::Scene scene = test::EmptyScene(34, 26, 1, -2, 2);
       for (uint8_t& sample : scene.pictures[0]) sample = uint8_t(random.Int(0, 1) * 255);

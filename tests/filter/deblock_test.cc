@@ -82,11 +82,7 @@ TEST_CASE("deblock: stripes give the same result as the whole picture") {
     for (const int stripe : kStripes) {
       Picture got = before;
       DeblockStripes(&got, stripe, random.Int(1, 3), beta, transfer);
-      CAPTURE(width);
-      CAPTURE(height);
-      CAPTURE(stripe);
-      CAPTURE(beta);
-      CAPTURE(transfer);
+      CAPTURES(width, height, stripe, beta, transfer);
       const bool same = got.rgb == expected.rgb;
       REQUIRE(same);
     }

@@ -107,8 +107,7 @@ TEST_CASE("gather: the smooth cells match their definition") {
     for (int row = 0; row < cells.grid.rows; ++row) {
       for (int column = 0; column < cells.grid.columns; ++column) {
         const CellKind expected = cells.KindOf(column, row);
-        const bool same = test::KindOf(cells.grid, cells.scale, column, row, around) == expected;
-        CHECK(same);
+        CHECK((test::KindOf(cells.grid, cells.scale, column, row, around) == expected));
         ++found[int(expected)];
       }
     }
@@ -160,8 +159,7 @@ TEST_CASE("gather: cells in focus or with large blur are not gathered, nor in ot
   const test::Scene scene = test::RandomScene(70, 45, 5, 0, 0, 63);
   const starfocus_config config = test::ConfigFor(scene, 49);
   const auto gathered = [&](double focus, starfocus_mode mode, starfocus_renderer renderer) {
-    starfocus_params params = test::Params(focus, 1, mode);
-    params.renderer = renderer;
+    starfocus_params params = test::Params(focus, 1, mode, renderer);
     return RefocusScene(scene, config, params).report.gathered_pixels;
   };
   CHECK(gathered(48.1, STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_SLICES) == 0);

@@ -326,8 +326,7 @@ TEST_CASE("layers: columns may be made in any number of parts and on any target"
       const Layers parts(picture, width, height, block, starfocus::simd::BestKernels());
       const bool same =
           parts.one.samples == whole.one.samples && parts.two.samples == whole.two.samples;
-      CAPTURE(width);
-      CAPTURE(block);
+      CAPTURES(width, block);
       CHECK(same);
     }
   }
@@ -366,8 +365,7 @@ TEST_CASE("layers: constant pictures of every level and every small size do not 
       const std::vector<int16_t> got = DownAndUp(picture, width, height, layer, 32, kernels);
       const bool same = std::all_of(got.begin(), got.begin() + long(picture.size()),
                                     [&](int16_t sample) { return sample == level << kLayerBits; });
-      CAPTURE(level);
-      CAPTURE(layer);
+      CAPTURES(level, layer);
       CHECK(same);
     }
   }

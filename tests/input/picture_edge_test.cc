@@ -94,10 +94,7 @@ TEST_CASE("beyond: edges look as in a larger picture of the same scene") {
           const Difference difference =
               AtEdges(test::RefocusScene(scene, config, params),
                       test::RefocusScene(larger, larger_config, params), kMargin);
-          CAPTURE(views);
-          CAPTURE(disparity);
-          CAPTURE(mode);
-          CAPTURE(gather);
+          CAPTURES(views, disparity, mode, gather);
           CHECK(difference.largest <= 4);
           CHECK(difference.mean < 0.75);
         }
@@ -184,9 +181,7 @@ TEST_CASE("beyond: the view on the outer side is used as far as it sees beyond t
       }
       const std::vector<int> row = scene.Load();
       for (int k = 1; k <= kBorder; ++k) {
-        CAPTURE(views);
-        CAPTURE(unit);
-        CAPTURE(k);
+        CAPTURES(views, unit, k);
         const int seen = 200 + std::max(5 - k, 0);
         CHECK(row[size_t(kBorder - k)] == seen);
         CHECK(row[size_t(kBorder + kWidth - 1 + k)] == seen);
@@ -204,8 +199,7 @@ TEST_CASE("beyond: a pair sees beyond one edge, as far as its second view moves"
     scene.Fill(0, kWidth, unit);
     const std::vector<int> row = scene.Load();
     for (int k = 1; k <= kBorder; ++k) {
-      CAPTURE(unit);
-      CAPTURE(k);
+      CAPTURES(unit, k);
       CHECK(row[size_t(kBorder - k)] == (unit < 0 ? 101 : 0));
       CHECK(row[size_t(kBorder + kWidth - 1 + k)] == (unit > 0 ? 101 : kWidth - 1));
     }

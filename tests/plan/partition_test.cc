@@ -57,10 +57,7 @@ void CheckBlocks(const Plan& plan, int x, int y, const std::vector<Block>& block
       }
     }
     const int candidate = SideOf(plan, block, x, y);
-    CAPTURE(rect.x);
-    CAPTURE(rect.y);
-    CAPTURE(rect.width);
-    CAPTURE(rect.height);
+    CAPTURES(rect.x, rect.y, rect.width, rect.height);
     REQUIRE(candidate > 0);
     const Block planned = Planned(plan, rect.x, rect.y, candidate);
     CHECK(Same(rect, planned.rect));
@@ -98,11 +95,7 @@ size_t CheckPicture(const Plan& plan) {
   const int side = plan.config.superblock;
   for (int y = 0; y < plan.config.height; y += side) {
     for (int x = 0; x < plan.config.width; x += side) {
-      CAPTURE(plan.config.width);
-      CAPTURE(plan.config.height);
-      CAPTURE(side);
-      CAPTURE(x);
-      CAPTURE(y);
+      CAPTURES(plan.config.width, plan.config.height, side, x, y);
       const std::vector<Block> blocks = plan.Partition(x, y);
       CHECK(Sum(blocks) == LeastCost(plan, x, y, side));
       CheckBlocks(plan, x, y, blocks);
@@ -192,8 +185,7 @@ TEST_CASE("partition: the rules on flat pictures, at and beside their thresholds
       plan.config.tuning.n_scale = 1;
       plan.rules.demand = static_cast<starfocus::Demand>(random.Int(0, 3));
       const double exact = std::floor(r * 64) / 64;
-      CAPTURE(exact);
-      CAPTURE(max_layer);
+      CAPTURES(exact, max_layer);
       for (const bool subapertures : {false, true}) {
         CAPTURE(subapertures);
         plan.Use(subapertures ? starfocus::kSliceRenderer : starfocus::kLineScanRenderer);
@@ -248,8 +240,7 @@ TEST_CASE("partition: blocks read as many rows around a stripe as its reach says
     }
     for (int layer = 0; layer < 3; ++layer) {
       const int rows = borders.layer[layer];
-      CAPTURE(r);
-      CAPTURE(layer);
+      CAPTURES(r, layer);
       CHECK(most[layer] <= rows);
       slack[layer] = std::min(slack[layer], rows - most[layer]);
     }

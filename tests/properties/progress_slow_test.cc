@@ -5,6 +5,8 @@
 
 #include "starfocus/starfocus.h"
 #include "tests/properties/picture_operations.h"
+#include "tests/support/refocused.h"
+#include "tests/support/stream_steps.h"
 #include "tests/support/test_scene.h"
 #include "tests/support/watch.h"
 
@@ -26,25 +28,15 @@ int PullOn(const Picture& f, int every, starfocus_report* report, test::Output* 
   Watch watch;
   SetCallbacks(&engine, Watched(&watch));
   REQUIRE(starfocus_stream_begin(engine.get(), &f.params) == STARFOCUS_OK);
-  int pushed = 0, pulled = 0, cancelled = 0;
-  while (pulled < kHeight) {
-    const starfocus_light_field field = f.scene.Field(pushed);
-    int32_t consumed = 0, written = 0;
-    if (pushed < kHeight) {
-      REQUIRE(starfocus_stream_push(engine.get(), &field, kHeight - pushed, &consumed) ==
-              STARFOCUS_OK);
-    }
+  test::StreamSteps steps = {&engine, f.scene, out};
+  int cancelled = 0;
+  while (!steps.Ended()) {
     watch.stop = cancelled % 2 == 0 ? watch.calls + every : Watch::kNever;
-    const starfocus_status status =
-        test::PullRgb(engine.get(), out->bytes.data() + size_t(pulled) * out->stride, out->stride,
-                      kHeight - pulled, &written, report);
-    pushed += consumed;
-    pulled += written;
+    const starfocus_status status = steps.Step(kHeight, report);
     if (status == STARFOCUS_ERROR_CANCELLED) {
       ++cancelled;
     } else {
       REQUIRE(status == STARFOCUS_OK);
-      REQUIRE(consumed + written > 0);
       if (cancelled % 2 != 0) ++cancelled;
     }
     CHECK(watch.Good());
@@ -100,12 +92,10 @@ TEST_CASE("progress: whatever a block takes, a million samples are too many to w
     config.tuning.max_layer = 0;
     // Every second pixel counts in what is gathered.
     const int radius = gathered ? 12 : 32, size = (gathered ? 1 : 2) * radius + 1;
-    starfocus_params params = test::Params(9 - radius, 1, of.mode);
-    params.renderer = of.renderer;
+    starfocus_params params = test::Params(9 - radius, 1, of.mode, of.renderer);
     test::Engine engine(config);
-    test::Output out(side, side);
     // The kernels, that its first picture makes, are asked between, too.
-    REQUIRE(test::Refocus(&engine, params, scene, &out) == STARFOCUS_OK);
+    test::Output out = test::OutputOf(&engine, params, scene);
     Watch watch;
     starfocus_report report = {};
     REQUIRE(test::Refocus(&engine, params, scene, &out, Watched(&watch), &report) == STARFOCUS_OK);

@@ -38,8 +38,7 @@ std::vector<int> MiddleRow(const test::Scene& scene, double focus, starfocus_mod
   config.tuning.gather = 0;
   config.transfer = STARFOCUS_TRANSFER_NONE;
   config.tuning.max_layer = layers;
-  starfocus_params params = test::Params(focus, 1, mode);
-  params.renderer = STARFOCUS_RENDERER_SLICES;
+  starfocus_params params = test::Params(focus, 1, mode, STARFOCUS_RENDERER_SLICES);
   const test::Refocused picture = test::RefocusScene(scene, config, params);
   std::vector<int> row;
   for (int x = 0; x < kWidth; ++x) {
@@ -102,8 +101,7 @@ TEST_CASE("stack: adjacent slices of one slope neither leak nor cover each other
   for (const double focus : {-3.0, 0.0, 8.0}) {
     const std::vector<int> row = MiddleRow(scene, focus, STARFOCUS_MODE_BLOCK);
     for (int x = 16; x < kWidth - 16; ++x) {
-      CAPTURE(focus);
-      CAPTURE(x);
+      CAPTURES(focus, x);
       CHECK(std::abs(row[size_t(x)] - 2 * x) <= 1);
     }
   }
@@ -111,9 +109,9 @@ TEST_CASE("stack: adjacent slices of one slope neither leak nor cover each other
 
 TEST_CASE("stack: where slices of a slope overlap, its end covers no more than elsewhere") {
   test::Scene scene = HalfPlanes(7, 0, 5);
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kEdge; ++x) scene.Disparity(x, y) = 3 + float(y) / kHeight;
-  }
+  test::SetDisparity(&scene, [&](int x, int y) {
+    return x < kEdge ? 3 + float(y) / kHeight : scene.Disparity(x, y);
+  });
   starfocus_config config = test::ConfigFor(scene, 32);
   config.tuning.gather = 0;
   config.transfer = STARFOCUS_TRANSFER_NONE;
@@ -127,8 +125,7 @@ TEST_CASE("stack: where slices of a slope overlap, its end covers no more than e
     least = std::min(least, light);
     most = std::max(most, light);
   }
-  CAPTURE(least);
-  CAPTURE(most);
+  CAPTURES(least, most);
   CHECK(std::abs(least - kEdge) < 0.06);
   CHECK(std::abs(most - kEdge) < 0.06);
 }
@@ -147,14 +144,13 @@ TEST_CASE("stack: slices made part by part give the same picture") {
   REQUIRE(pool > 2 * whole);
   for (const double focus : {0.0, 6.0}) {
     const starfocus_params params = test::Params(focus, 1, STARFOCUS_MODE_BENCHMARK);
-    test::Output expected(kWidth, kHeight), out(kWidth, kHeight);
-    REQUIRE(test::Refocus(&engine, params, scene, &expected) == STARFOCUS_OK);
+    test::Output out(kWidth, kHeight);
+    const test::Output expected = test::OutputOf(&engine, params, scene);
     const size_t ample = pool;
     for (const size_t bytes : {whole, (whole + least) / 2, 2 * least}) {
       pool = bytes;
       REQUIRE(test::Refocus(&engine, params, scene, &out) == STARFOCUS_OK);
-      CAPTURE(focus);
-      CAPTURE(bytes);
+      CAPTURES(focus, bytes);
       CHECK(out.bytes == expected.bytes);
     }
     pool = ample;
@@ -177,10 +173,8 @@ TEST_CASE("stack: once the caller says no, no other tile is made") {
     starfocus::simd::BestKernels().FindRanges(arguments...);
   };
   test::UseKernels(&counting, engine.get());
-  test::Output out(256, 256);
-  starfocus_params params = test::Params(0, 1, STARFOCUS_MODE_FRAME);
-  params.renderer = STARFOCUS_RENDERER_SLICES;
-  REQUIRE(test::Refocus(&engine, params, scene, &out) == STARFOCUS_OK);
+  starfocus_params params = test::Params(0, 1, STARFOCUS_MODE_FRAME, STARFOCUS_RENDERER_SLICES);
+  test::Output out = test::OutputOf(&engine, params, scene);
   const int all = ranges_found;
   ranges_found = 0;
   CHECK(test::Refocus(&engine, params, scene, &out, test::ToldTo(SayNo)) ==

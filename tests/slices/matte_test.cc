@@ -193,11 +193,7 @@ TEST_CASE("matte: no light leaves a subject for the wall behind, at any level an
             config.transfer = STARFOCUS_TRANSFER_NONE;
             config.tuning.max_layer = max_layer;
             config.superblock = block;
-            CAPTURE(views);
-            CAPTURE(dark_subject);
-            CAPTURE(focus);
-            CAPTURE(max_layer);
-            CAPTURE(block);
+            CAPTURES(views, dark_subject, focus, max_layer, block);
             // With one view what is behind mixed pixels is told by their neighbours.
             CHECK(GlowOf(scene, config, focus, kSubject, wall) <= (views == 1 ? 3 : 1));
           }

@@ -51,9 +51,7 @@ TEST_CASE("slice planes: no slice of any N reaches farther than the memory laid 
       const Views& views = all[size_t(n - 1)];
       const int reach = ReachOf(views, focus, aperture, disparity);
       const int most = starfocus::LargestSliceReach(aperture * away);
-      CAPTURE(n);
-      CAPTURE(blur);
-      CAPTURE(aperture);
+      CAPTURES(n, blur, aperture);
       CHECK(reach <= most);
       nearest = std::min(nearest, double(most - reach));
     }
@@ -96,8 +94,7 @@ TEST_CASE("slice planes: a pixel behind another is shown wherever groups of pixe
     starfocus::Slice slice;
     slice.disparity = slice.low = slice.high = slice.overlap = -640;
     for (int x = 0; x + kShown <= kWidth; ++x) {
-      CAPTURE(behind);
-      CAPTURE(x);
+      CAPTURES(behind, x);
       starfocus::FillSlice({starfocus::simd::BestKernels(), surfaces, bands}, slice,
                            {x, 0, kShown, 1}, nullptr, placed);
       const bool shown = behind >= x && behind < x + kShown;

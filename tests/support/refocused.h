@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scene refocused by an engine of its own: the picture and the report.
+// Refocused scenes: pictures and reports.
 #ifndef STARFOCUS_TESTS_SUPPORT_REFOCUSED_H_
 #define STARFOCUS_TESTS_SUPPORT_REFOCUSED_H_
 
@@ -13,6 +13,24 @@
 
 namespace test {
 
+// The picture that an engine makes of a scene, as large as the region of params.
+inline Output OutputOf(Engine* engine, const starfocus_params& params, const Scene& scene,
+                       starfocus_report* report = nullptr,
+                       const starfocus_callbacks& callbacks = {}) {
+  const starfocus_region& region = params.region;
+  Output out(region.width > 0 ? region.width : scene.width,
+             region.width > 0 ? region.height : scene.height);
+  REQUIRE(Refocus(engine, params, scene, &out, callbacks, report) == STARFOCUS_OK);
+  return out;
+}
+
+// The picture of an engine of its own.
+inline Output OutputOf(const starfocus_config& config, const starfocus_params& params,
+                       const Scene& scene, starfocus_report* report = nullptr) {
+  Engine engine(config);
+  return OutputOf(&engine, params, scene, report);
+}
+
 struct Refocused {
   std::vector<uint8_t> rgb;  // rows packed
   starfocus_report report = {};
@@ -20,12 +38,8 @@ struct Refocused {
 
 inline Refocused RefocusScene(const Scene& scene, const starfocus_config& config,
                               const starfocus_params& params) {
-  Engine engine(config);
-  Output out(scene.width, scene.height);
   Refocused refocused;
-  REQUIRE(Refocus(&engine, params, scene, &out, nullptr, nullptr, &refocused.report) ==
-          STARFOCUS_OK);
-  refocused.rgb = out.Tight();
+  refocused.rgb = OutputOf(config, params, scene, &refocused.report).bytes;
   return refocused;
 }
 

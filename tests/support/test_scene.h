@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -18,7 +19,23 @@
 
 namespace test {
 
+// CAPTURE for several values.
+#define CAPTURES(...) INFO(#__VA_ARGS__ " := ", test::Listed(__VA_ARGS__))
+
+template <class... Values>
+std::string Listed(const Values&... values) {
+  std::ostringstream text;
+  ((text << values << ", "), ...);
+  return text.str();
+}
+
 constexpr uint8_t kPoison = 0xCD;
+
+constexpr int kStars[] = {1, 5, 9, 17};  // numbers of views
+constexpr starfocus_mode kModes[] = {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BENCHMARK,
+                                     STARFOCUS_MODE_BLOCK, STARFOCUS_MODE_BLUR};
+constexpr starfocus_renderer kRenderers[] = {STARFOCUS_RENDERER_LINE_SCAN,
+                                             STARFOCUS_RENDERER_SLICES};
 
 // Small generator with the same sequence on every machine (xorshift64*). A fuzzer's bytes, if there
 // are any, come before the sequence.
@@ -159,6 +176,14 @@ inline void RandomDisparity(Scene* scene, Random* random) {
   }
 }
 
+// Gives each pixel (x, y) the disparity at(x, y).
+template <class At>
+void SetDisparity(Scene* scene, const At& at) {
+  for (int y = 0; y < scene->height; ++y) {
+    for (int x = 0; x < scene->width; ++x) scene->Disparity(x, y) = at(x, y);
+  }
+}
+
 // Every pixel its own disparity: the worst case for runs of one shift.
 inline void NoisyDisparity(Scene* scene, Random* random) {
   for (int y = 0; y < scene->height; ++y) {
@@ -232,9 +257,11 @@ inline void RandomViews(Scene* scene, starfocus_config* config, Random* random) 
 }
 
 inline starfocus_params Params(double focus, double aperture = 1,
-                               starfocus_mode mode = STARFOCUS_MODE_FRAME) {
+                               starfocus_mode mode = STARFOCUS_MODE_FRAME,
+                               int32_t renderer = STARFOCUS_RENDERER_AUTO) {
   starfocus_params params;
   starfocus_params_init(&params);
+  params.renderer = renderer;
   params.lens.focus = focus;
   params.lens.aperture = aperture;
   params.mode = mode;

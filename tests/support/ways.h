@@ -16,9 +16,47 @@
 
 namespace test {
 
+inline uint64_t BlocksOf(const starfocus_report& report) {
+  return report.layers[0].blocks + report.layers[1].blocks + report.layers[2].blocks;
+}
+
+inline starfocus_region RandomRegion(int width, int height, Random* random) {
+  starfocus_region region = {random->Int(0, width - 1), random->Int(0, height - 1), 1, 1};
+  region.width = random->Int(1, width - region.x);
+  region.height = random->Int(1, height - region.y);
+  return region;
+}
+
+// The whole picture, its corners, edges and middle, both sides of the boundaries of blocks, and
+// any.
+inline std::vector<starfocus_region> RegionsOf(int width, int height) {
+  std::vector<starfocus_region> regions = {
+      {0, 0, width, height},         {0, 0, 1, 1},
+      {width - 1, height - 1, 1, 1}, {0, height - 1, width, 1},
+      {width - 1, 0, 1, height},     {width / 2, height / 2, 1, 1}};
+  for (const int at : {32, 64, 80}) {
+    if (at + 2 >= width || at >= height) continue;
+    regions.push_back({at, at, 1, 1});
+    regions.push_back({at - 1, at - 3, 1, 1});
+    regions.push_back({0, at - 8, width, 5});  // its last row is finished by the next stripe
+    regions.push_back({at + 2, at - 1, width - at - 2, 1});
+  }
+  Random random(uint64_t(width) * 977 + uint64_t(height));
+  for (int k = 0; k < 6; ++k) {
+    starfocus_region region = RandomRegion(width, height, &random);
+    if (k % 2 == 0) {
+      region.width = std::min(region.width, 20);
+      region.height = std::min(region.height, 20);
+    }
+    regions.push_back(region);
+  }
+  return regions;
+}
+
 // Streams, prepared light fields, frames after others, views with gaps between pixels and regions
 // give the bytes of the whole picture, which is returned.
-inline Output CheckWays(const Scene& scene, starfocus_config config, starfocus_params params) {
+inline Output CheckWays(const Scene& scene, starfocus_config config, starfocus_params params,
+                        bool many_regions = false) {
   config.features |= STARFOCUS_FEATURE_STREAMING | STARFOCUS_FEATURE_IMAGES;
   Engine engine(config);
   const int width = scene.width, height = scene.height;
@@ -36,7 +74,9 @@ inline Output CheckWays(const Scene& scene, starfocus_config config, starfocus_p
   REQUIRE(RefocusPreparedRgb(engine.get(), &params, prepared, again.bytes.data(), again.stride,
                              &other_report) == STARFOCUS_OK);
   CHECK((again.bytes == whole.bytes));
-  CHECK(other_report.unknown_pixels == 0);
+  CHECK(other_report.unknown_pixels == 0);  // disparities were filled when it was prepared
+  other_report.unknown_pixels = report.unknown_pixels;
+  CHECK(std::memcmp(&report, &other_report, sizeof report) == 0);
 
   Scene before = scene;
   for (int view = 0; view < scene.views(); ++view) before.Pixel(view, width / 2, 0)[1] ^= 9;
@@ -60,15 +100,26 @@ inline Output CheckWays(const Scene& scene, starfocus_config config, starfocus_p
   CHECK((converted.bytes == whole.bytes));
 
   const int x = std::min(3, width - 1), y = height * 7 / 16;
-  for (const starfocus_region& region :
-       {starfocus_region{width / 3, height / 4, width - width / 3, (height + 3) / 4},
-        starfocus_region{0, height - 1, width, 1}, starfocus_region{width / 2, 0, 1, height},
-        starfocus_region{x, y, std::max(1, std::min(width / 2, width - x)),
-                         std::min(3, height - y)}}) {
+  const std::vector<starfocus_region> few = {
+      {width / 3, height / 4, width - width / 3, (height + 3) / 4},
+      {0, height - 1, width, 1},
+      {width / 2, 0, 1, height},
+      {x, y, std::max(1, std::min(width / 2, width - x)), std::min(3, height - y)}};
+  for (const starfocus_region& region : many_regions ? RegionsOf(width, height) : few) {
+    CAPTURE(region.x);
+    CAPTURE(region.y);
+    CAPTURE(region.width);
+    CAPTURE(region.height);
     params.region = region;
-    Output part(region.width, region.height);
-    REQUIRE(Refocus(&engine, params, scene, &part) == STARFOCUS_OK);
+    Output part(region.width, region.height, 5);
+    starfocus_report part_report = {};
+    REQUIRE(Refocus(&engine, params, scene, &part, nullptr, nullptr, &part_report) == STARFOCUS_OK);
     CHECK(IsPartOf(part, whole, region));
+    CHECK(part.PaddingUntouched());
+    CHECK(part_report.r_max == report.r_max);
+    CHECK(part_report.rendered_samples <= report.rendered_samples);
+    CHECK(BlocksOf(part_report) <= BlocksOf(report));
+    CHECK(BlocksOf(part_report) > 0);
   }
   return whole;
 }

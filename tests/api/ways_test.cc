@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every way to ask for a picture gives the bytes of the whole picture.
+#include "tests/support/ways.h"
+
+#include <doctest/doctest.h>
+
+#include "starfocus/starfocus.h"
+#include "tests/support/layered_scene.h"
+#include "tests/support/rounds.h"
+#include "tests/support/test_scene.h"
+
+namespace ways_test {
+namespace {
+
+TEST_CASE("ways: the bytes of the whole picture, in every mode, for many lenses") {
+  constexpr int kViews[] = {1, 5, 9, 17};
+  constexpr int kSizes[][2] = {{1, 1},    {1, 130},  {130, 1},  {31, 33},   {64, 64},  {65, 63},
+                               {100, 37}, {67, 260}, {200, 90}, {129, 128}, {97, 131}, {150, 66}};
+  test::Random random(71);
+  for (int round = 0; round < test::Rounds(60); ++round) {
+    CAPTURE(round);
+    const auto& size = kSizes[random.Int(0, 11)];
+    const bool any = random.Int(0, 1) == 0;
+    const int width = any ? random.Int(1, 180) : size[0],
+              height = any ? random.Int(1, 150) : size[1];
+    const test::Scene scene =
+        test::LayeredScene(width, height, kViews[random.Int(0, 3)], 7, uint64_t(round) + 700);
+    starfocus_config config = test::ConfigFor(scene, 20);
+    config.superblock = 32 << random.Int(0, 3);
+    config.tuning.max_layer = random.Int(0, 3) == 0 ? random.Int(0, 1) : 2;
+    config.tuning.deblocking = random.Int(0, 2) == 0 ? random.Int(0, 255) : 255;
+    starfocus_params params =
+        test::Params(random.Real(-12, 12), random.Real(0.3, 1), STARFOCUS_MODE_BLOCK);
+    params.renderer = random.Int(0, 2);
+    if (round % 4 == 3) params.mode = round % 8 == 3 ? STARFOCUS_MODE_FRAME : STARFOCUS_MODE_BLUR;
+    if (round == 11) params.mode = STARFOCUS_MODE_BENCHMARK;
+    test::CheckWays(scene, config, params, true);
+  }
+}
+
+}  // namespace
+}  // namespace ways_test
