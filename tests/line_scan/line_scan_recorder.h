@@ -133,24 +133,6 @@ inline Depths MakeLine(const std::vector<Stretch>& stretches) {
   return line;
 }
 
-inline void CheckSurface(const Picture& picture, int begin, int end, int moved) {
-  for (int p = begin; p < end; ++p) {
-    CAPTURE(p);
-    CHECK(picture[size_t(p)].times == 1);
-    CHECK(picture[size_t(p)].kind == Kind::kSurface);
-    CHECK(picture[size_t(p)].source == p + moved);
-  }
-}
-
-inline void CheckHole(const Picture& picture, int begin, int end, int pixel) {
-  for (int p = begin; p < end; ++p) {
-    CAPTURE(p);
-    CHECK(picture[size_t(p)].times == 1);
-    CHECK(picture[size_t(p)].kind == Kind::kHole);
-    CHECK(picture[size_t(p)].source == pixel);
-  }
-}
-
 }  // namespace test
 
 #endif  // STARFOCUS_TESTS_LINE_SCAN_LINE_SCAN_RECORDER_H_

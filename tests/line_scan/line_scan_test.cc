@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the line scan on hand-made lines, and its properties on random lines.
+// Tests the properties of the line scan on random lines.
 #include "lib/line_scan/line_scan.h"
 
 #include <doctest/doctest.h>
@@ -20,94 +20,6 @@ namespace {
 using namespace starfocus;
 using namespace test;
 
-TEST_CASE("line scan: a surface in focus does not move") {
-  CheckSurface(Scan(MakeLine({{9, 0}})), 0, 9, 0);
-}
-
-TEST_CASE("line scan: a flat surface moves, and its end continues beyond the line") {
-  const Picture nearer = Scan(MakeLine({{9, 2}}));
-  CheckSurface(nearer, 0, 7, 2);
-  CheckHole(nearer, 7, 9, 8);
-  const Picture farther = Scan(MakeLine({{9, -2}}));
-  CheckSurface(farther, 2, 9, -2);
-  CheckHole(farther, 0, 2, 0);
-}
-
-TEST_CASE("line scan: a line may have only one pixel") {
-  CheckSurface(Scan(MakeLine({{1, 0}})), 0, 1, 0);
-  CheckHole(Scan(MakeLine({{1, 3}})), 0, 1, 0);
-  CheckHole(Scan(MakeLine({{1, -3}})), 0, 1, 0);
-}
-
-TEST_CASE("line scan: a near object hides pixels on its left and uncovers pixels on its right") {
-  const Picture picture = Scan(MakeLine({{10, 0}, {5, 4}, {9, 0}}));
-  CheckSurface(picture, 0, 6, 0);
-  CheckSurface(picture, 6, 11, 4);
-  // The side view shows the surface behind pixel 15 there, the first visible pixel to the right.
-  CheckHole(picture, 11, 15, 15);
-  CheckSurface(picture, 15, 24, 0);
-}
-
-TEST_CASE("line scan: a hole borders on visible pixels, not on those that the near object hides") {
-  // The middle surface is completely behind the near one.
-  const Picture picture = Scan(MakeLine({{10, 5}, {2, -6}, {9, 9}, {9, 0}}));
-  CheckSurface(picture, 0, 3, 5);
-  CheckSurface(picture, 3, 12, 9);
-  CheckHole(picture, 12, 21, 21);
-  CheckSurface(picture, 21, 30, 0);
-}
-
-TEST_CASE("line scan: small steps stretch a surface or cover a part of it") {
-  const Picture stretched = Scan(MakeLine({{10, 2}, {10, 1}}));
-  CheckSurface(stretched, 0, 9, 2);  // pixel 8 repeats the pixel next to the step
-  CheckSurface(stretched, 9, 19, 1);
-  const Picture covered = Scan(MakeLine({{10, 1}, {10, 2}}));
-  CheckSurface(covered, 0, 8, 1);
-  CheckSurface(covered, 8, 18, 2);
-}
-
-TEST_CASE("line scan: a gap of more than the limit is a hole, a smaller one a stretched surface") {
-  const double step = kSurfaceStep / 64.0;
-  CheckSurface(Scan(MakeLine({{10, 2}, {10, 2 - step}})), 0, 8, 2);
-  CHECK(Scan(MakeLine({{10, 2}, {10, 2 - step}}))[8].kind == Kind::kSurface);
-  CheckHole(Scan(MakeLine({{10, 2}, {10, 2 - step - 1.0 / 64}})), 8, 9, 10);
-}
-
-TEST_CASE("line scan: only the requested part is reported") {
-  const Depths line = MakeLine({{10, 0}, {5, 4}, {9, 0}});
-  const Picture whole = Scan(line);
-  for (int begin = 0; begin < 24; ++begin) {
-    for (int end = begin + 1; end <= 24; ++end) {
-      const Picture part = Scan(line, begin, end);
-      for (int p = 0; p < 24; ++p) {
-        const bool wanted = p >= begin && p < end;
-        CHECK(part[size_t(p)] == (wanted ? whole[size_t(p)] : Shown()));
-      }
-    }
-  }
-}
-
-// The surface to the right of a gap may lie beyond the requested part, with other surfaces to its
-// right.
-TEST_CASE("line scan: a hole may end the requested part") {
-  const Picture picture = Scan(MakeLine({{10, 0}, {5, 4}, {7, 0}, {6, 6}}), 0, 13);
-  CheckSurface(picture, 6, 11, 4);
-  CheckHole(picture, 11, 13, 15);
-}
-
-// A gap of one pixel between two surfaces hides a third one. The stretched pixel is a copy of the
-// third surface, but is not blended with its neighbours across the edges.
-TEST_CASE("line scan: a stretched pixel is not blended across an edge") {
-  const Picture picture = Scan(MakeLine({{10, 3.375}, {2, 0}, {12, 4}}));
-  CheckSurface(picture, 0, 8, 3);
-  CheckSurface(picture, 8, 20, 4);
-  CHECK(picture[5].weight == 96);
-  CHECK(picture[5].other == 9);
-  CHECK(picture[6].weight == 0);
-  CHECK(picture[7].weight == 96);
-  CHECK(picture[7].other == 11);
-}
-
 TEST_CASE("line scan: weights follow the width of the subaperture") {
   for (int width = 0; width <= 256; ++width) {
     for (int offset = -128; offset <= 128; ++offset) {
@@ -116,8 +28,7 @@ TEST_CASE("line scan: weights follow the width of the subaperture") {
       constexpr double kOne = 1 << starfocus::simd::kBlendBits;
       const double weight = starfocus::SubapertureWeight(offset, width) / kOne;
       if (std::fabs(weight - exact) > 1 / kOne) {
-        CAPTURE(width);
-        CAPTURE(offset);
+        CAPTURES(width, offset);
         CHECK(weight == doctest::Approx(exact));
       }
     }
@@ -133,8 +44,7 @@ TEST_CASE("line scan: the neighbour lies on the side that the surface comes from
       const double shift = disparity * view / 4;
       const double t = shift - std::floor(shift + 0.5),
                    width = std::min(1.0, std::fabs(disparity) / 4);
-      CAPTURE(view);
-      CAPTURE(disparity);
+      CAPTURES(view, disparity);
       CHECK(shown.source == 6 + int(std::floor(shift + 0.5)));
       CHECK(shown.weight / 256.0 ==
             doctest::Approx(std::clamp((std::fabs(t) - 0.5) / width + 0.5, 0.0, 1.0)).epsilon(0.1));

@@ -84,8 +84,7 @@ TEST_CASE("span sink: a mixed pixel has parts of both colours and the disparity 
       const double exact = 80 + (20.0 * other - 80) * weight / 256;
       Drawing blended(0);
       blended.Run(kBlendOne, draw);
-      CAPTURE(other);
-      CAPTURE(weight);
+      CAPTURES(other, weight);
       CHECK(std::fabs(blended.Level(5) - exact) <= kRounding);
       CHECK(blended.Disparity(5) == 104);
       CHECK(blended.Disparity(4) == 0x5A5A);
@@ -108,8 +107,7 @@ TEST_CASE("span sink: a hole's rim lies where the scan continues, and is the run
       Drawing drawing(200);
       const auto draw = [&](auto* sink) { sink->Hole(4, 8, c.pixel, Rim{c.rim, covered}); };
       drawing.Run(kBlendOne, draw);
-      CAPTURE(c.rim);
-      CAPTURE(covered);
+      CAPTURES(c.rim, covered);
       CHECK(drawing.holes.disparity == 100 + c.pixel);
       CHECK(drawing.holes.red == 20 * c.pixel);
       for (int p = 4; p < 8; ++p) {
