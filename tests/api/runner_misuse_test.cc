@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
-#include "tests/support/prepared_memory.h"
 #include "tests/support/test_scene.h"
 
 namespace runner_misuse_test {
@@ -16,84 +15,62 @@ namespace {
 
 constexpr int kWidth = 130, kHeight = 70, kWorkers = 2;
 
-// A runner's way to run one set of jobs; it always says success.
-using RunSet = void (*)(starfocus_job job, void* data, int32_t count);
+// One set of jobs, as a runner gets it.
+struct Set {
+  void Some(int32_t first, int32_t end) const {
+    for (int32_t i = first; i < end; ++i) job(data, i, i % kWorkers);
+  }
+  void All() const { Some(0, count); }
+  void AllAnd(int32_t index, int32_t worker) const {
+    All();
+    job(data, index, worker);
+  }
+  void AllBy(int32_t worker) const {
+    for (int32_t i = 0; i < count; ++i) job(data, i, worker);
+  }
 
-void RunAll(starfocus_job job, void* data, int32_t count) {
-  for (int32_t i = 0; i < count; ++i) job(data, i, i % kWorkers);
-}
+  starfocus_job job;
+  void* data;
+  int32_t count;
+};
 
 struct Misuse {
   std::string what;
-  RunSet run;
+  void (*run)(const Set&);
 };
 
+// They all report success.
 const Misuse kMisuses[] = {
-    {"runs nothing", [](starfocus_job, void*, int32_t) {}},
-    {"skips the first job",
-     [](starfocus_job job, void* data, int32_t count) {
-       for (int32_t i = 1; i < count; ++i) job(data, i, 0);
-     }},
-    {"skips the last job",
-     [](starfocus_job job, void* data, int32_t count) {
-       for (int32_t i = 0; i < count - 1; ++i) job(data, i, 0);
-     }},
-    {"runs a job twice",
-     [](starfocus_job job, void* data, int32_t count) {
-       RunAll(job, data, count);
-       job(data, count - 1, 1);
-     }},
+    {"runs nothing", [](const Set&) {}},
+    {"skips the first job", [](const Set& s) { s.Some(1, s.count); }},
+    {"skips the last job", [](const Set& s) { s.Some(0, s.count - 1); }},
+    {"runs a job twice", [](const Set& s) { s.AllAnd(s.count - 1, 1); }},
     {"runs one job as often as there are jobs",
-     [](starfocus_job job, void* data, int32_t count) {
-       for (int32_t i = 0; i <= count; ++i) job(data, 0, 0);
+     [](const Set& s) {
+       for (int32_t i = 0; i <= s.count; ++i) s.job(s.data, 0, 0);
      }},
-    {"index -1",
-     [](starfocus_job job, void* data, int32_t count) {
-       job(data, -1, 0);
-       RunAll(job, data, count);
-     }},
-    {"index count",
-     [](starfocus_job job, void* data, int32_t count) {
-       RunAll(job, data, count);
-       job(data, count, 0);
-     }},
-    {"least index",
-     [](starfocus_job job, void* data, int32_t count) {
-       RunAll(job, data, count);
-       job(data, INT32_MIN, 0);
-     }},
-    {"largest index",
-     [](starfocus_job job, void* data, int32_t count) {
-       RunAll(job, data, count);
-       job(data, INT32_MAX, 0);
-     }},
-    {"worker -1",
-     [](starfocus_job job, void* data, int32_t count) {
-       for (int32_t i = 0; i < count; ++i) job(data, i, -1);
-     }},
-    {"worker max_workers",
-     [](starfocus_job job, void* data, int32_t count) {
-       for (int32_t i = 0; i < count; ++i) job(data, i, i % (kWorkers + 1));
-       job(data, 0, kWorkers);
-     }},
+    {"index -1", [](const Set& s) { s.AllAnd(-1, 0); }},
+    {"index count", [](const Set& s) { s.AllAnd(s.count, 0); }},
+    {"least index", [](const Set& s) { s.AllAnd(INT32_MIN, 0); }},
+    {"largest index", [](const Set& s) { s.AllAnd(INT32_MAX, 0); }},
+    {"worker -1", [](const Set& s) { s.AllBy(-1); }},
+    {"worker max_workers", [](const Set& s) { s.AllBy(kWorkers); }},
     {"a wrong worker although all is done",
-     [](starfocus_job job, void* data, int32_t count) {
-       RunAll(job, data, count);
-       job(data, 0, STARFOCUS_MAX_WORKERS);
-     }},
-    {"least worker", [](starfocus_job job, void* data, int32_t) { job(data, 0, INT32_MIN); }},
-    {"largest worker", [](starfocus_job job, void* data, int32_t) { job(data, 0, INT32_MAX); }},
+     [](const Set& s) { s.AllAnd(0, STARFOCUS_MAX_WORKERS); }},
+    {"least worker", [](const Set& s) { s.job(s.data, 0, INT32_MIN); }},
+    {"largest worker", [](const Set& s) { s.job(s.data, 0, INT32_MAX); }},
 };
 
 // Misuses chosen sets.
 struct Runner {
-  RunSet misuse;
+  void (*misuse)(const Set&);
   int misused_set;
   int sets = 0;
 
   static int Run(void* self, starfocus_job job, void* data, int32_t count) {
     Runner& runner = *static_cast<Runner*>(self);
-    (runner.sets++ == runner.misused_set ? runner.misuse : RunAll)(job, data, count);
+    const Set set = {job, data, count};
+    runner.sets++ == runner.misused_set ? runner.misuse(set) : set.All();
     return 0;
   }
 };
@@ -116,7 +93,7 @@ struct Fixture {
 TEST_CASE("runner: every misuse of every set is an error, and harms no later call") {
   Fixture f;
   test::Engine engine(f.config);
-  Runner good = {RunAll, -1};
+  Runner good = {nullptr, -1};
   test::Output out(kWidth, kHeight);
   REQUIRE(test::Refocus(&engine, f.params, f.scene, &out, Runner::Run, &good) == STARFOCUS_OK);
   CHECK(out.bytes == f.expected.bytes);
@@ -137,21 +114,6 @@ TEST_CASE("runner: every misuse of every set is an error, and harms no later cal
     CHECK(test::Refocus(&engine, f.params, f.scene, &out) == STARFOCUS_OK);
     CHECK(out.bytes == f.expected.bytes);
   }
-}
-
-TEST_CASE("runner: starfocus_prepare refuses a runner that skips a job") {
-  Fixture f;
-  test::Engine engine(f.config);
-  test::PreparedMemory memory(f.config);
-  const starfocus_light_field field = f.scene.Field();
-  Runner bad = {kMisuses[2].run, 1};
-  starfocus_prepared* prepared = reinterpret_cast<starfocus_prepared*>(memory.get());
-  const starfocus_callbacks callbacks = test::RunBy(Runner::Run, &bad);
-  REQUIRE(starfocus_set_callbacks(engine.get(), &callbacks) == STARFOCUS_OK);
-  CHECK(starfocus_prepare(engine.get(), &field, memory.get(), memory.bytes, &prepared) ==
-        STARFOCUS_ERROR_RUNNER);
-  CHECK(prepared == nullptr);
-  CHECK(std::string(starfocus_engine_problem(engine.get())->field) == "runner");
 }
 
 // The set that is running, for a clock that is asked within its jobs.
@@ -190,7 +152,7 @@ TEST_CASE("runner: a job called after its runner has returned does nothing") {
   const starfocus_runner keeps = [](void*, starfocus_job job, void* data, int32_t count) {
     running.job = job;
     running.data = data;
-    RunAll(job, data, count);
+    Set{job, data, count}.All();
     return 0;
   };
   REQUIRE(test::Refocus(&engine, f.params, f.scene, &out, keeps) == STARFOCUS_OK);
