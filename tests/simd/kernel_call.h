@@ -155,8 +155,8 @@ class CallMemory {
     std::vector<uint8_t> before, expected;
   };
 
-  static constexpr size_t kMargin =
-      256;  // in bytes: more than the widest vector that padding allows
+  // In bytes: more than the widest vector that padding allows.
+  static constexpr size_t kMargin = 256;
 
   template <class T>
   T* Add(const char* name, size_t count, size_t before, size_t behind, Role role) {

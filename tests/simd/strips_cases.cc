@@ -51,8 +51,8 @@ void ShiftSlice(Draw* draw, KernelCall* call) {
   const size_t empty = size_t(draw->Int(0, int(rows) - 1));
   std::fill_n(samples.begin() + ptrdiff_t(4 * empty * in_plane), 4 * in_plane, int16_t{0});
   const size_t first = size_t(draw->Int(0, int(more)));
-  samples.resize(samples.size() -
-                 (more - first));  // the memory ends with the last sample that the kernel reads
+  // The memory ends with the last sample that the kernel reads.
+  samples.resize(samples.size() - (more - first));
   const SlicePlanes in = {call->Input("in", samples) + first, in_plane};
   const SliceFraction fraction = Fraction(draw);
   auto* out = call->Output<int16_t>("out", 3 * plane + rows * kSliceLanes);
