@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Maps of one view repaired by its colours: what is right stays, and what is displaced comes back.
+// Repairs maps of one view by the colours of the view: correct disparities are kept, and displaced
+// edges are moved back.
 #include "lib/depth/colour_repair.h"
 
 #include <doctest/doctest.h>
@@ -68,14 +69,16 @@ bool SameBits(const std::vector<float>& a, const std::vector<float>& b) {
   return std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
 }
 
-// Counts what is of another surface: up to a pixel is the same one.
+// Counts the pixels of the wrong surface. Disparities of one surface differ by at most about a
+// pixel.
 int CountWrong(const std::vector<float>& map, const Photo& truth) {
   int wrong = 0;
   for (size_t k = 0; k < map.size(); ++k) wrong += std::abs(map[k] - truth.map[k]) > 1.02F;
   return wrong;
 }
 
-TEST_CASE("colour repair: an edge displaced by three pixels comes back to the colours' edge") {
+TEST_CASE(
+    "colour repair: an edge displaced by three pixels moves back to the edge of the colours") {
   const Photo truth = MakeDisc(0);
   for (const int grown : {3, -3}) {
     const Photo photo = MakeDisc(grown);
@@ -98,7 +101,7 @@ TEST_CASE("colour repair: a ramp between two surfaces becomes a step") {
   CHECK(CountWrong(Repair(photo).map, truth) < 20);
 }
 
-TEST_CASE("colour repair: a near surface takes in the pixels that a soft edge mixes") {
+TEST_CASE("colour repair: the near surface gets the pixels that a soft edge mixes") {
   Photo photo = MakeDisc(-3);
   const Photo wall = MakeDisc(-50), sharp = MakeDisc(0);
   const auto distance = [](int x, int y) { return std::hypot(x - 151.3, y - 66.2); };
@@ -118,7 +121,8 @@ TEST_CASE("colour repair: a near surface takes in the pixels that a soft edge mi
   int mixed = 0, taken = 0, sure = 0;
   for (int y = 0; y < photo.height; ++y) {
     for (int x = 0; x < photo.width; ++x) {
-      if (distance(x, y) < 41.5 || distance(x, y) > 42.5) continue;  // 5/12 to 1/4 of it
+      // The near surface covers 5/12 to 1/4 of these pixels.
+      if (distance(x, y) < 41.5 || distance(x, y) > 42.5) continue;
       ++mixed;
       taken += repaired.map[photo.At(x, y)] > 0;
       sure += repaired.confidence[photo.At(x, y)] > 0;
@@ -128,7 +132,7 @@ TEST_CASE("colour repair: a near surface takes in the pixels that a soft edge mi
   CHECK(sure <= mixed - taken);
 }
 
-TEST_CASE("colour repair: outlines are even where colours are noisy") {
+TEST_CASE("colour repair: outlines stay even if the colours are noisy") {
   const Photo truth = MakeDisc(0);
   Photo photo = truth;
   test::Random random(9);
@@ -141,12 +145,13 @@ TEST_CASE("colour repair: outlines are even where colours are noisy") {
       photo.Paint(x, y, (near ? 150 : 100) + noise, 100 + random.Int(-25, 25), near ? 90 : 130);
     }
   }
-  // Pixel by pixel, colours would make it worse than it was.
+  // A repair of single pixels by colour would increase the error.
   CHECK(CountWrong(photo.map, truth) > 150);
   CHECK(CountWrong(Repair(photo).map, truth) < CountWrong(photo.map, truth));
 }
 
-TEST_CASE("colour repair: a right map stays to the bit, with steps, planes and fractions") {
+TEST_CASE(
+    "colour repair: a correct map with steps, planes and fractions stays the same to the bit") {
   const Photo disc = MakeDisc(0, 6.0123F, -3.987F);
   CHECK(SameBits(Repair(disc).map, disc.map));
   Photo plane = MakeDisc(0);
@@ -156,8 +161,7 @@ TEST_CASE("colour repair: a right map stays to the bit, with steps, planes and f
   CHECK(SameBits(Repair(plane).map, plane.map));
 }
 
-TEST_CASE(
-    "colour repair: a picture of one colour gainsays no map, and nobody is sure at its steps") {
+TEST_CASE("colour repair: a picture of one colour changes no map, and steps get low confidence") {
   Photo photo = MakeDisc(0);
   std::fill(photo.rgb.begin(), photo.rgb.end(), uint8_t{77});
   const Repaired repaired = Repair(photo);
@@ -179,7 +183,7 @@ TEST_CASE("colour repair: noise is averaged within surfaces") {
   CHECK(after < before / 20);
 }
 
-TEST_CASE("colour repair: unknown pixels get the disparity of their colour's surface") {
+TEST_CASE("colour repair: unknown pixels get the disparity of the surface with their colour") {
   const Photo truth = MakeDisc(0);
   Photo photo = truth;
   for (int y = 20; y < 40; ++y) {
@@ -192,7 +196,7 @@ TEST_CASE("colour repair: unknown pixels get the disparity of their colour's sur
   for (const float d : repaired.map) CHECK(std::isfinite(d));
 }
 
-TEST_CASE("colour repair: one known pixel is enough, wherever it is") {
+TEST_CASE("colour repair: one known pixel at any place is enough") {
   for (const int at : {0, 17, 34}) {
     Photo photo(7, 5);
     std::fill(photo.map.begin(), photo.map.end(), kNan);
@@ -201,19 +205,19 @@ TEST_CASE("colour repair: one known pixel is enough, wherever it is") {
   }
 }
 
-TEST_CASE("colour repair: rows without a known value are those of the nearest known row") {
+TEST_CASE("colour repair: a row without known values is a copy of the nearest known row") {
   Photo photo(2, 8);
   std::fill(photo.map.begin(), photo.map.end(), kNan);
   photo.Map(0, 2) = 1, photo.Map(1, 2) = 4;
   photo.Map(0, 6) = 3, photo.Map(1, 6) = 2;
   std::vector<int16_t> filled(photo.map.size());
   starfocus::ReadMap(PlanOf(photo), FieldOf(photo), filled.data());
-  // In the middle, as far from both, the farther surface counts.
+  // A row that is equally near to two known rows gets the farther surface.
   const int expected[] = {1, 4, 1, 4, 1, 4, 1, 4, 1, 2, 3, 2, 3, 2, 3, 2};
   for (size_t k = 0; k < filled.size(); ++k) CHECK(filled[k] == expected[k] << kDisparityBits);
 }
 
-TEST_CASE("colour repair: pixels beside steps are doubted, but not those of thin surfaces") {
+TEST_CASE("colour repair: pixels next to steps get low confidence, except those of thin surfaces") {
   Photo photo(60, 40);
   for (int y = 0; y < 40; ++y) {
     for (int x = 0; x < 60; ++x) photo.Map(x, y) = (x >= 15 && x < 20) || x >= 40 ? 9.0F : 0.0F;
@@ -233,7 +237,7 @@ TEST_CASE("colour repair: pixels beside steps are doubted, but not those of thin
   for (int x = 15; x < 20; ++x) CHECK(doubt[photo.At(x, 20)] == starfocus::kThinDoubt);
 }
 
-TEST_CASE("colour repair: pictures of few pixels") {
+TEST_CASE("colour repair: pictures of a few pixels are repaired") {
   for (const int width : {1, 2, 3, 5, 16, 33}) {
     for (const int height : {1, 2, 4, 17}) {
       Photo photo(width, height);

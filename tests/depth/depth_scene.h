@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light fields of planes whose disparities are known, for tests of maps.
+// Light fields of planes with known disparities, for tests of maps.
 #ifndef STARFOCUS_TESTS_DEPTH_DEPTH_SCENE_H_
 #define STARFOCUS_TESTS_DEPTH_DEPTH_SCENE_H_
 
@@ -18,12 +18,14 @@
 
 namespace test {
 
-// Views of planes that face the camera, or lean: each pixel is that of the highest disparity there.
+// Views of planes that face the camera or lean. Each pixel shows the plane with the highest
+// disparity.
 struct PlaneScene {
   int width = 96, height = 64, views = 17;
-  double near_left = 30, near_right = 62, near = 5, far = -3, lean = 0;  // of the far one by x
+  // `lean` is the change of the disparity of the far plane per pixel of x.
+  double near_left = 30, near_right = 62, near = 5, far = -3, lean = 0;
 
-  // Any texture without period, 0 to 255.
+  // Returns an aperiodic texture, 0 to 255.
   static double Texture(double x, double y, int surface, int c) {
     const double a = std::sin(0.9 * x + 0.31 * y + surface + c) + std::sin(0.37 * x - 0.83 * y + c);
     const double b = std::sin(0.171 * x * (1 + 0.01 * y) + 1.3 * y) * std::cos(0.53 * y - c);
@@ -53,7 +55,7 @@ struct PlaneField {
   }
 };
 
-// Views whose samples are pixel(u, v, x, y, c).
+// Renders views whose samples are pixel(u, v, x, y, c).
 template <class Pixel>
 PlaneField RenderViews(int width, int height, int views, const Pixel& pixel) {
   PlaneField field = {width, height, {}};
@@ -74,7 +76,7 @@ inline PlaneField RenderPlanes(const PlaneScene& scene) {
       [&](double u, double v, int x, int y, int c) { return scene.Pixel(u, v, x, y, c); });
 }
 
-// The scene's map, its near plane wider by `grown` pixels on both sides.
+// Returns the map of the scene. Its near plane is wider by `grown` pixels on both sides.
 inline std::vector<float> MapOf(PlaneScene scene, int grown = 0) {
   scene.near_left -= grown;
   scene.near_right += grown;
@@ -104,7 +106,7 @@ inline starfocus_depth_config ConfigOf(const PlaneField& field, float low, float
   return config;
 }
 
-// Memory that holds anything.
+// Memory with arbitrary contents.
 struct Memory {
   explicit Memory(size_t size)
       : bytes(size), data(::operator new (size, std::align_val_t{STARFOCUS_ALIGNMENT})) {
@@ -123,7 +125,7 @@ struct MadeMap {
   std::vector<uint8_t> confidence;
 };
 
-// The map that is estimated, or that `given` is repaired to.
+// Returns the estimated map, or the repaired map if `given` is not empty.
 inline MadeMap MakeMap(const PlaneField& field, const starfocus_depth_config& config,
                        const std::vector<float>& given = {}) {
   size_t bytes = 0;
@@ -157,7 +159,7 @@ inline double ShareOff(const PlaneScene& scene, const std::vector<float>& dispar
   return double(off) / (scene.width * scene.height);
 }
 
-// The light field mirrored.
+// Returns the mirrored light field.
 inline PlaneField MirroredField(const PlaneField& field, const Symmetry& mirror) {
   PlaneField mirrored = field;
   for (int k = 0; k < int(field.views.size()); ++k) {

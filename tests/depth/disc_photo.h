@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures of one view with their maps, for tests of repairs by colours.
+// Pictures of one view and their maps, for tests of repairs by colours.
 #ifndef STARFOCUS_TESTS_DEPTH_DISC_PHOTO_H_
 #define STARFOCUS_TESTS_DEPTH_DISC_PHOTO_H_
 
@@ -26,7 +26,8 @@ struct Photo {
   }
 };
 
-// A disc of one colour before a wall of another, both speckled; the map's disc is `grown` wider.
+// Returns a disc of one colour in front of a wall of another, both speckled. In the map the disc is
+// wider by `grown` pixels.
 inline Photo MakeDisc(int grown, float near = 6, float far = -4) {
   Photo photo(300, 130);
   for (int y = 0; y < photo.height; ++y) {
@@ -44,11 +45,11 @@ inline Photo MakeDisc(int grown, float near = 6, float far = -4) {
   return photo;
 }
 
-// Adds normal noise of a pixel to the map.
+// Adds normally distributed noise to the map, with a standard deviation of one pixel.
 inline void AddNoise(Photo* photo) {
   uint32_t state = 7;
   for (float& d : photo->map) {
-    float sum = -6;  // twelve uniform numbers make a normal one
+    float sum = -6;  // The sum of twelve uniform numbers is nearly normal.
     for (int k = 0; k < 12; ++k) {
       state = state * 1664525 + 1013904223;
       sum += float(state >> 8) / float(1 << 24);

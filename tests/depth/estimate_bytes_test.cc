@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Estimated disparities of scenes that are known, and what starfocus_estimate_disparity refuses.
+// Estimates the disparities of known scenes, and checks which arguments
+// starfocus_estimate_disparity rejects.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -13,20 +14,21 @@ namespace {
 
 using namespace test;
 
-TEST_CASE("estimate: a near plane before a far one, to a pixel of its edges") {
+TEST_CASE("estimate: the edges of a near plane in front of a far one are found to a pixel") {
   for (const int views : {5, 9, 17}) {
     PlaneScene scene;
     scene.views = views;
     const PlaneField field = RenderPlanes(scene);
     const MadeMap found = MakeMap(field, ConfigOf(field, -6, 8));
     CAPTURE(views);
-    // Two edges of a pixel each are 2 / 96.
+    // Two edges with an error of one pixel each are 2
+    // 96 of the picture.
     CHECK(ShareOff(scene, found.disparity, 0.28) < 0.022);
     CHECK(ShareOff(scene, found.disparity, 1) < 0.022);
   }
 }
 
-TEST_CASE("estimate: a leaning plane stays one, between the steps that are tried") {
+TEST_CASE("estimate: a leaning plane stays a plane between the disparities that are tried") {
   PlaneScene scene;
   scene.near_left = scene.near_right = 0;
   scene.lean = 0.04;
@@ -36,7 +38,7 @@ TEST_CASE("estimate: a leaning plane stays one, between the steps that are tried
   CHECK(ShareOff(scene, found.disparity, 0.1) < 0.1);
 }
 
-TEST_CASE("estimate: a plane that faces the camera is one disparity to the bit") {
+TEST_CASE("estimate: a plane that faces the camera has one disparity to the bit") {
   PlaneScene scene;
   scene.near_left = scene.near_right = 0;
   const PlaneField field = RenderPlanes(scene);
@@ -45,7 +47,7 @@ TEST_CASE("estimate: a plane that faces the camera is one disparity to the bit")
   }
 }
 
-TEST_CASE("estimate: nobody is sure of the disparities of pictures of one colour") {
+TEST_CASE("estimate: pictures of one colour have confidence 0") {
   PlaneField field = RenderPlanes(PlaneScene());
   for (auto& view : field.views) std::fill(view.begin(), view.end(), uint8_t{90});
   const MadeMap found = MakeMap(field, ConfigOf(field, -6, 8));
@@ -53,14 +55,14 @@ TEST_CASE("estimate: nobody is sure of the disparities of pictures of one colour
   for (const uint8_t value : found.confidence) CHECK(int(value) == 0);
 }
 
-TEST_CASE("estimate: confidence is high where one disparity alone fits") {
+TEST_CASE("estimate: confidence is high where only one disparity fits") {
   const PlaneField field = RenderPlanes(PlaneScene());
   std::vector<uint8_t> confidence = MakeMap(field, ConfigOf(field, -6, 8)).confidence;
   std::sort(confidence.begin(), confidence.end());
   CHECK(confidence[confidence.size() / 2] > 48);
 }
 
-TEST_CASE("estimate: pictures of any size, with any range, within it") {
+TEST_CASE("estimate: disparities of pictures of any size stay within any range") {
   for (const PlaneScene& scene : ScenesOfAnySize()) {
     const PlaneField field = RenderPlanes(scene);
     for (const auto& [low, high] : {std::pair<float, float>{0, 0}, {-3.3F, 4.7F}, {-500, 500}}) {

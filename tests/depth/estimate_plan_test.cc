@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The labels, views and tiles of an estimate.
+// Tests the labels, views and tiles of an estimate.
 #include "lib/depth/estimate_plan.h"
 
 #include <doctest/doctest.h>
@@ -25,7 +25,8 @@ EstimatePlan PlanOf(int width, int height, int views, float low, float high) {
   return MakePlan(config);
 }
 
-TEST_CASE("estimate plan: tiles are the picture, mirrored as it is, and neither small nor large") {
+TEST_CASE(
+    "estimate plan: tiles cover the picture, are symmetric, and are neither small nor large") {
   for (int length = 1; length < 3000; length += length < 40 ? 1 : 37) {
     const EstimatePlan plan = PlanOf(length, 7, 5, 0, 1);
     CAPTURE(length);
@@ -43,7 +44,8 @@ TEST_CASE("estimate plan: tiles are the picture, mirrored as it is, and neither 
   }
 }
 
-TEST_CASE("estimate plan: views are where they are, and lie opposite each other in each ring") {
+TEST_CASE(
+    "estimate plan: side views have their positions and lie opposite each other in each ring") {
   for (const int views : {5, 9, 17}) {
     const EstimatePlan plan = PlanOf(10, 10, views, 0, 1);
     CHECK(plan.side_views() == views - 1);
@@ -60,7 +62,8 @@ TEST_CASE("estimate plan: views are where they are, and lie opposite each other 
   }
 }
 
-TEST_CASE("estimate plan: labels reach from end to end in steps of half a pixel, or 127 of them") {
+TEST_CASE(
+    "estimate plan: labels span the range in steps of half a pixel, or there are 127 labels") {
   const EstimatePlan fine = PlanOf(10, 10, 5, -3, 4.25F);
   CHECK(fine.low == -3 * 64);
   CHECK(fine.step == 32);
@@ -74,7 +77,7 @@ TEST_CASE("estimate plan: labels reach from end to end in steps of half a pixel,
   CHECK(wide.Disparity(wide.labels - 1) + 64 <= INT16_MAX);
 }
 
-TEST_CASE("estimate plan: moves in whole pixels are the nearest, halves towards the centre") {
+TEST_CASE("estimate plan: moves are rounded to whole pixels, and halves towards the centre") {
   using starfocus::WholeMove;
   CHECK(WholeMove(64) == 0);
   CHECK(WholeMove(65) == 1);
@@ -83,7 +86,7 @@ TEST_CASE("estimate plan: moves in whole pixels are the nearest, halves towards 
   CHECK(WholeMove(-300) == -2);
 }
 
-TEST_CASE("estimate plan: every other label lies within the reach of all of them") {
+TEST_CASE("estimate plan: every other label lies within the reach of all labels") {
   starfocus_depth_config config;
   starfocus_depth_config_init(&config);
   config.width = config.height = 10;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Coverage that a repair of one view finds where the map has closed the outline of hair.
+// Tests the coverage that a repair of one view finds if the map has closed the outline of hair.
 #include "lib/depth/hair_coverage.h"
 
 #include <doctest/doctest.h>
@@ -61,16 +61,16 @@ double Difference(const Area& area, const std::vector<uint8_t>& a, const std::ve
   return double(sum) / double(count);
 }
 
-TEST_CASE("hair coverage: found where the map has closed the outline of hair") {
+TEST_CASE("hair coverage: coverage is found where the map has closed the outline of hair") {
   const Portrait portrait = MakeClosedHair();
   const Found found = Repair(portrait);
   REQUIRE(found.status == STARFOCUS_OK);
   REQUIRE(found.has_coverage == 1);
-  // The map alone, 255 everywhere in the hair, has a mean error of 182.
+  // The map alone implies a coverage of 255 everywhere in the hair, with a mean error of 182.
   CHECK(Difference({44, 64, 176, 108}, found.coverage, portrait.coverage) < 24);
   CHECK(Difference({60, 124, 232, 178}, found.coverage, portrait.coverage) < 0.5);
   CHECK(Difference({60, 30, 160, 56}, found.coverage, portrait.coverage) < 4);
-  // Disparities of hair keep their bits.
+  // The disparities of the hair stay the same to the bit.
   for (int y = 64; y < 106; ++y) {
     for (int x = 44; x < 176; ++x) REQUIRE(found.map[portrait.At(x, y)] == kNear);
   }
@@ -88,9 +88,9 @@ TEST_CASE("hair coverage: confidence is high where map and coverage agree") {
   }
 }
 
-TEST_CASE("hair coverage: bare outlines beside hair are repaired, and their surfaces stay opaque") {
+TEST_CASE("hair coverage: bare outlines near hair are repaired, and their surfaces stay opaque") {
   Portrait portrait = MakeClosedHair();
-  // In the map the body's top edge right of the hair is 2 pixels too low.
+  // In the map, the top edge of the body to the right of the hair is 2 pixels too low.
   for (int y = 110; y < 112; ++y) {
     for (int x = 182; x < 240; ++x) portrait.map[portrait.At(x, y)] = kFar;
   }
@@ -105,8 +105,7 @@ TEST_CASE("hair coverage: bare outlines beside hair are repaired, and their surf
   CHECK(found.coverage[portrait.At(234, 108)] == 0);
 }
 
-TEST_CASE(
-    "hair coverage: an opaque surface has none, and its map is the same without the request") {
+TEST_CASE("hair coverage: opaque surfaces have none, and the request does not change the map") {
   Portrait portrait;
   portrait.Draw();
   for (size_t k = 0; k < portrait.map.size(); k += 7) portrait.map[k] += 0.01F;
@@ -118,7 +117,7 @@ TEST_CASE(
   for (const uint8_t value : unasked.coverage) REQUIRE(value == 77);
 }
 
-TEST_CASE("hair coverage: hair at a small part of the outlines is not found") {
+TEST_CASE("hair coverage: hair is not found if it covers only a small part of the outlines") {
   Portrait portrait = MakeClosedHair();
   portrait.hair = {40, 60, 60, 110};
   portrait.body = {0, 110, 240, 181};
@@ -126,7 +125,7 @@ TEST_CASE("hair coverage: hair at a small part of the outlines is not found") {
   CHECK(Repair(portrait).has_coverage == 0);
 }
 
-TEST_CASE("hair coverage: texture of the wall is not hair") {
+TEST_CASE("hair coverage: the texture of the wall is not taken as hair") {
   Portrait portrait = MakeClosedHair();
   portrait.spots = true;
   portrait.Draw();
@@ -135,13 +134,13 @@ TEST_CASE("hair coverage: texture of the wall is not hair") {
   CHECK(Difference({60, 40, 160, 56}, found.coverage, portrait.coverage) < 0.5);
 }
 
-TEST_CASE("hair coverage: a map without edges has none") {
+TEST_CASE("hair coverage: a map without edges has no coverage") {
   Portrait portrait = MakeClosedHair();
   portrait.map.assign(portrait.map.size(), kNear);
   CHECK(Repair(portrait).has_coverage == 0);
 }
 
-TEST_CASE("hair coverage: hair across the whole picture, and no edge 40 pixels below it") {
+TEST_CASE("hair coverage: hair across the whole picture is found, and no edge 40 pixels below it") {
   Portrait portrait = MakeClosedHair();
   portrait.hair = {0, 60, 240, 110};
   portrait.body = {0, 110, 240, 181};
@@ -155,7 +154,7 @@ TEST_CASE("hair coverage: hair across the whole picture, and no edge 40 pixels b
   }
 }
 
-// A pyramid in which no colour is known.
+// A pyramid without known colours.
 struct PyramidOf {
   PyramidOf(int width, int height) : memory(SizeOf(width, height)) {
     starfocus::Arena arena(memory.data);
@@ -174,7 +173,7 @@ struct PyramidOf {
   starfocus::ColourPyramid pyramid;
 };
 
-TEST_CASE("colour pyramid: known colours stay, unknown ones are interpolated") {
+TEST_CASE("colour pyramid: known colours stay, and unknown colours are interpolated") {
   PyramidOf made(101, 37);
   const starfocus::ColourPyramid& pyramid = made.pyramid;
   CHECK_FALSE(starfocus::CarryOnColours(pyramid));

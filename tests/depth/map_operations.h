@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Estimates and repairs of disparity maps, by star sets of every size and by colours alone.
+// Estimates and repairs of disparity maps, with star sets of every size and with colours alone.
 #ifndef STARFOCUS_TESTS_DEPTH_MAP_OPERATIONS_H_
 #define STARFOCUS_TESTS_DEPTH_MAP_OPERATIONS_H_
 
@@ -27,12 +27,12 @@ namespace properties {
 
 struct MapInput {
   test::PlaneField field;
-  std::vector<float> given;  // empty: the map is estimated
+  std::vector<float> given;  // if empty, the map is estimated
   float low, high;
-  bool covers = false;  // the repair has to find coverage
+  bool covers = false;  // true if the repair must find coverage
 };
 
-// Two planes of some tiles; for a repair a noisy map, whose near plane is too wide.
+// Two planes in several tiles. The input of a repair is a noisy map whose near plane is too wide.
 inline MapInput Planes(int width, int height, int views, bool repairs) {
   test::PlaneScene scene;
   scene.width = width;
@@ -46,7 +46,7 @@ inline MapInput Planes(int width, int height, int views, bool repairs) {
   return input;
 }
 
-// A disc whose map is too wide, with unknown values and others.
+// A disc whose map is too wide and has unknown and wrong values.
 inline MapInput Disc(bool noisy) {
   test::Photo photo = test::MakeDisc(3);
   for (int x = 40; x < 90; ++x) photo.Map(x, 60 + x % 3) = std::numeric_limits<float>::quiet_NaN();
@@ -55,7 +55,8 @@ inline MapInput Disc(bool noisy) {
   return {{photo.width, photo.height, {photo.rgb}}, photo.map, -500, 500};
 }
 
-// A portrait whose hair gets coverage: whole cells of pixels, which mirrored are cells again.
+// A portrait whose hair gets coverage. Its size is a multiple of the cells, so that the mirrored
+// picture has the same cells.
 inline MapInput Hair() {
   constexpr int kWidth = test::ClosedHair::kWidth, kHeight = test::ClosedHair::kHeight / 4 * 4;
   test::ClosedHair portrait = test::MakeClosedHair();
@@ -65,7 +66,7 @@ inline MapInput Hair() {
   return {{kWidth, kHeight, {portrait.rgb}}, portrait.map, -12, 12, true};
 }
 
-// A map in the making.
+// Makes a map of an input with a setup.
 struct Maps {
   Maps(MapInput of, const Setup& how) : input(std::move(of)), setup(how) {
     const test::Symmetry& mirror = setup.mirror;
@@ -124,7 +125,7 @@ struct Maps {
       status = make(&config, &field, &map, memory->data, memory->bytes);
       CHECK(map.has_coverage == int(status == STARFOCUS_OK && input.covers));
     }
-    // The bytes of both.
+    // Combines confidence and coverage, so that the result depends on both.
     for (size_t n = 0; n < pixels; ++n) confidence[n] = uint8_t(confidence[n] ^ coverage[n]);
     disparity = Mirrored(disparity);
     *out = Mirrored(confidence);
@@ -133,7 +134,7 @@ struct Maps {
     return status;
   }
 
-  // The same inside the library, by those kernels.
+  // Makes the same map inside the library with the given kernels.
   starfocus_status MakeBy(const starfocus::simd::DepthKernels& kernels,
                           const starfocus_light_field& field, const starfocus::MapOutput& output) {
     starfocus::EstimatePlan plan = starfocus::MakePlan(config);

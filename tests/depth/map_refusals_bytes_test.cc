@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What starfocus_estimate_disparity and starfocus_repair_disparity refuse, by tables: each row
-// spoils one argument of a legal call, which then returns the row's status and writes nothing.
+// Tests with tables which arguments starfocus_estimate_disparity and starfocus_repair_disparity
+// reject. Each row changes one argument of a valid call. The call must return the status of the row
+// and write nothing.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -15,7 +16,7 @@ namespace {
 
 enum : int { kEstimate = 1, kRepair = 2, kBoth = 3 };
 
-// The arguments of a call: an estimate by 17 views, or a repair of one view, with coverage.
+// The arguments of a call: an estimate from 17 views, or a repair of one view with coverage.
 struct Call {
   explicit Call(int to) : function(to) {
     field.depth = starfocus_depth_float(given.data(), row, planes.width, planes.height);
@@ -39,7 +40,7 @@ struct Call {
     return (function == kEstimate ? starfocus_estimate_disparity : starfocus_repair_disparity)(
         &config, &field, out_at, at, bytes);
   }
-  // Whether nothing was written.
+  // Returns true if nothing was written.
   bool Untouched() const {
     const auto poisoned = [](const auto& plane) {
       return std::all_of(plane.begin(), plane.end(), [](auto value) { return value == 42; });
@@ -117,7 +118,7 @@ const Refusal kConfigurations[] = {
     {kBoth, STARFOCUS_ERROR_RANGE, [](Call* c) { c->config.max_workers = 65; }},
 };
 
-// Runs each row of a table for each of its functions.
+// Runs each row of a table for each function that the row names.
 template <size_t kCount, class Run>
 void CheckTable(const Refusal (&table)[kCount], const Run& run) {
   for (const int function : {kEstimate, kRepair}) {
@@ -133,11 +134,11 @@ void CheckTable(const Refusal (&table)[kCount], const Run& run) {
   }
 }
 
-TEST_CASE("maps: bad arguments have their errors, and nothing is written") {
+TEST_CASE("maps: bad arguments return their errors, and nothing is written") {
   CheckTable(kArguments, [](Call* call) { return call->Run(); });
 }
 
-TEST_CASE("maps: bad configurations have their errors") {
+TEST_CASE("maps: bad configurations return their errors") {
   const auto size_of = [](Call* call) {
     size_t needed = 0;
     return call->SizeOf(&call->config, &needed);

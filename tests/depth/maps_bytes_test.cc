@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every way to make a map gives the same bytes on every SIMD target, of mirrored input and in used
-// memory.
+// Checks that every operation that makes a map returns the same bytes on every SIMD target, from
+// mirrored input, and in used memory.
 #include <doctest/doctest.h>
 
 #include <vector>
@@ -13,7 +13,7 @@ namespace {
 
 using namespace properties;
 
-TEST_CASE("maps: the same bytes on every SIMD target, of mirrored input and in used memory") {
+TEST_CASE("maps: bytes do not depend on the SIMD target, mirrored input or used memory") {
   std::vector<Setup> setups(4);
   setups[1].used = true;
   setups[2].mirror.mirror_x = setups[3].mirror.mirror_y = true;

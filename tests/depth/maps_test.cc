@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What holds of every way to make a map (tests/properties/operations.h).
+// Checks the properties of tests/properties/operations.h for every operation that makes a map.
 #include <doctest/doctest.h>
 
 #include "tests/depth/map_operations.h"
@@ -9,15 +9,15 @@ namespace {
 
 using namespace properties;
 
-TEST_CASE("maps: any number of workers, of those that there may be, in any order") {
+TEST_CASE("maps: the result does not depend on the number of workers or the order of jobs") {
   for (const Operation& operation : MapOperations()) CheckWorkers(operation);
 }
 
-TEST_CASE("maps: a runner may fail at any set of jobs, and the next call makes all") {
+TEST_CASE("maps: after a runner has failed at any jobs, the next call makes the whole map") {
   for (const Operation& operation : MapOperations()) CheckFailingRunner(operation);
 }
 
-TEST_CASE("maps: progress is told tile by tile, and cancels at any of them") {
+TEST_CASE("maps: progress is reported per tile, and any report can cancel") {
   for (const Operation& operation : MapOperations()) CheckCancelling(operation);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Repaired maps of scenes that are known, and what starfocus_repair_disparity refuses.
+// Repairs maps of known scenes, and checks which arguments starfocus_repair_disparity rejects.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -16,7 +16,7 @@ using namespace test;
 
 constexpr float kLow = -6, kHigh = 8;
 
-TEST_CASE("repair: edges that lie beside those of the picture go there") {
+TEST_CASE("repair: displaced edges move to the edges of the picture") {
   for (const int views : {5, 9, 17}) {
     PlaneScene scene;
     scene.views = views;
@@ -26,14 +26,15 @@ TEST_CASE("repair: edges that lie beside those of the picture go there") {
       CAPTURE(views);
       CAPTURE(grown);
       CHECK(ShareOff(scene, given, 0.5) > 0.06);
-      // Two edges of a pixel each are 2 / 96.
+      // Two edges with an error of one pixel each are 2
+      // 96 of the picture.
       const MadeMap repaired = MakeMap(field, ConfigOf(field, kLow, kHigh), given);
       CHECK(ShareOff(scene, repaired.disparity, 0.1) < 0.012);
     }
   }
 }
 
-TEST_CASE("repair: a blurred edge becomes one again") {
+TEST_CASE("repair: a blurred edge becomes a sharp edge") {
   PlaneScene scene;
   const PlaneField field = RenderPlanes(scene);
   const std::vector<float> exact = MapOf(scene, 0);
@@ -50,7 +51,7 @@ TEST_CASE("repair: a blurred edge becomes one again") {
   CHECK(ShareOff(scene, repaired.disparity, 0.28) < 0.03);
 }
 
-TEST_CASE("repair: noise goes") {
+TEST_CASE("repair: noise is removed") {
   PlaneScene scene;
   const PlaneField field = RenderPlanes(scene);
   std::vector<float> given = MapOf(scene, 0);
@@ -61,7 +62,7 @@ TEST_CASE("repair: noise goes") {
   CHECK(ShareOff(scene, repaired.disparity, 0.28) < 0.03);
 }
 
-TEST_CASE("repair: a map that is right stays as it is to the bit") {
+TEST_CASE("repair: a correct map stays the same to the bit") {
   PlaneScene scene;
   scene.near = 5.013;
   scene.far = -3.27;
@@ -72,13 +73,13 @@ TEST_CASE("repair: a map that is right stays as it is to the bit") {
   int changed = 0;
   for (size_t i = 0; i < given.size(); ++i) changed += repaired.disparity[i] != given[i];
   CHECK(changed < int(given.size()) / 200);
-  // A plane alone: all of it.
+  // In a map of one plane, no value changes.
   scene.near_left = scene.near_right = 0;
   const std::vector<float> plane = MapOf(scene, 0);
   CHECK(MakeMap(RenderPlanes(scene), ConfigOf(field, kLow, kHigh), plane).disparity == plane);
 }
 
-// Strands of a pixel and a quarter, three pixels apart and crossing, before a wall.
+// Strands in front of a wall, 1.25 pixels wide and three pixels apart. They cross each other.
 struct StrandScene {
   static constexpr int kWidth = 96, kHeight = 80;
   static constexpr double kNear = 7, kFar = -5;
@@ -89,7 +90,7 @@ struct StrandScene {
     };
     return x > 16 && x < 80 && (within(x + 0.4 * y, 4.3) || within(x - 0.3 * y, 7.1));
   }
-  // 16 samples a pixel.
+  // Averages 16 samples per pixel.
   static uint8_t Pixel(double u, double v, int x, int y, int c) {
     double sum = 0;
     for (int k = 0; k < 16; ++k) {
@@ -125,7 +126,7 @@ TEST_CASE("repair: strands of an exact map stay") {
   }
 }
 
-TEST_CASE("repair: strands stay whose map is one closed outline, and gaps open") {
+TEST_CASE("repair: if the map has one closed outline, the strands stay and gaps open") {
   const std::vector<float> exact = StrandScene::Map();
   std::vector<float> given = exact;
   for (size_t i = 0; i < given.size(); ++i) {
@@ -144,7 +145,7 @@ TEST_CASE("repair: strands stay whose map is one closed outline, and gaps open")
   CHECK(opened > 100);
 }
 
-TEST_CASE("repair: pictures of one colour gainsay nothing") {
+TEST_CASE("repair: pictures of one colour change no map") {
   const PlaneScene scene;
   PlaneField field = RenderPlanes(scene);
   for (auto& view : field.views) std::fill(view.begin(), view.end(), uint8_t{90});
@@ -152,10 +153,10 @@ TEST_CASE("repair: pictures of one colour gainsay nothing") {
   CHECK(MakeMap(field, ConfigOf(field, kLow, kHigh), given).disparity == given);
 }
 
-TEST_CASE("repair: what nothing gainsays is as sure as the picture is different a pixel away") {
+TEST_CASE("repair: without conflicts, confidence is the difference of colours one pixel away") {
   const PlaneScene scene;
   PlaneField field = RenderPlanes(scene);
-  // 7 gray levels across in each colour, and 4 down.
+  // Each colour changes by 7 levels per pixel in a row and by 4 in a column.
   for (auto& view : field.views) {
     for (int at = 0; at < int(view.size()); ++at) {
       const int x = at / 3 % field.width, y = at / 3 / field.width;
@@ -168,7 +169,7 @@ TEST_CASE("repair: what nothing gainsays is as sure as the picture is different 
   for (const uint8_t sure : repaired.confidence) REQUIRE(int(sure) == 4 * (3 * 7 + 3 * 4) / 2);
 }
 
-TEST_CASE("repair: what is unknown gets the disparity that the views show") {
+TEST_CASE("repair: unknown values get the disparity that the views show") {
   PlaneScene scene;
   const PlaneField field = RenderPlanes(scene);
   std::vector<float> given = MapOf(scene, 0);
@@ -182,7 +183,7 @@ TEST_CASE("repair: what is unknown gets the disparity that the views show") {
   CHECK(ShareOff(scene, repaired.disparity, 0.28) < 0.022);
 }
 
-TEST_CASE("repair: pictures of any size, within the range") {
+TEST_CASE("repair: disparities of pictures of any size stay within the range") {
   for (const PlaneScene& scene : ScenesOfAnySize()) {
     const PlaneField field = RenderPlanes(scene);
     CheckWithin(MakeMap(field, ConfigOf(field, -500, 500), MapOf(scene, 1)).disparity, -500, 500);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Outlines of repaired maps: as wide as those of the picture are soft, and no more ragged.
+// Tests the outlines of repaired maps: they are as wide as the picture is soft, and not more ragged
+// than the picture.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -16,7 +17,7 @@ namespace {
 constexpr int kWidth = 96, kHeight = 64;
 constexpr int16_t kNear = 12 << starfocus::kDisparityBits, kFar = 0;
 
-// A dark near half before a bright far one, by an edge at column `edge` of each row.
+// A dark near half and a bright far half. The edge of each row is at a column of its own.
 struct Scene {
   std::vector<uint8_t> rgb = std::vector<uint8_t>(3 * kWidth * kHeight);
   std::vector<int16_t> map = std::vector<int16_t>(kWidth * kHeight);
@@ -29,7 +30,8 @@ struct Scene {
     field.views[0] = starfocus_image_rgb(rgb.data(), 3 * kWidth);
   }
   starfocus::ColourMap Map() const { return {plan, field, map.data()}; }
-  // Fills both; the picture's edge is a ramp of so many pixels that begins at its column.
+  // Fills picture and map. The edge in the picture is a ramp of `ramp` pixels that begins at the
+  // given column.
   template <class Column>
   void Fill(double ramp, const Column& edge_of_map, int edge_of_picture) {
     for (int y = 0; y < kHeight; ++y) {
@@ -51,7 +53,7 @@ int Softness(const Scene& scene) {
   return starfocus::SoftnessOf(counts, 2);
 }
 
-TEST_CASE("repaired edges: a picture is soft by the pixels that its edges take") {
+TEST_CASE("repaired edges: the softness of a picture is the width of its edges in pixels") {
   Scene scene;
   const auto straight = [](int) { return 48; };
   scene.Fill(1, straight, 48);
@@ -60,7 +62,7 @@ TEST_CASE("repaired edges: a picture is soft by the pixels that its edges take")
   CHECK(Softness(scene) == 2);
   scene.Fill(4, straight, 48);
   CHECK(Softness(scene) == starfocus::kMostSoft);
-  // Nothing can be said of a map without edges, or of a picture without contrast.
+  // A map without edges and a picture without contrast have no softness.
   const starfocus::SoftCount none = {};
   CHECK(starfocus::SoftnessOf(&none, 1) == 0);
   std::fill(scene.rgb.begin(), scene.rgb.end(), uint8_t{90});
@@ -69,7 +71,7 @@ TEST_CASE("repaired edges: a picture is soft by the pixels that its edges take")
   CHECK(flat.edges == 0);
 }
 
-TEST_CASE("repaired edges: what shows some of the nearer surface becomes near") {
+TEST_CASE("repaired edges: a pixel that shows a part of the nearer surface becomes near") {
   Scene scene;
   scene.Fill(
       3, [](int) { return 48; }, 48);
@@ -78,9 +80,9 @@ TEST_CASE("repaired edges: what shows some of the nearer surface becomes near") 
   };
   for (const int y : {8, 31, 50}) {
     CHECK(widened(47, y) == kNear);
-    CHECK(widened(48, y) == kNear);  // 5/6 of it
-    CHECK(widened(49, y) == kNear);  // half of it
-    CHECK(widened(50, y) == kNear);  // 1/6 of it
+    CHECK(widened(48, y) == kNear);  // the near surface covers 5/6
+    CHECK(widened(49, y) == kNear);  // half
+    CHECK(widened(50, y) == kNear);  // 1/6
     CHECK(widened(51, y) == kFar);
   }
   CHECK(starfocus::WidenedAt(scene.Map(), 1, 49, 31) == kFar);
@@ -89,7 +91,7 @@ TEST_CASE("repaired edges: what shows some of the nearer surface becomes near") 
   CHECK(widened(49, 31) == kFar);
 }
 
-TEST_CASE("repaired edges: rows that are moved go back to the picture's edge") {
+TEST_CASE("repaired edges: displaced rows move back to the edge of the picture") {
   Scene scene;
   scene.Fill(
       1, [](int y) { return 48 + (y * 7 + y / 3) % 5 - 2; }, 48);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which pixels of a given map the sweeps look at.
+// Tests which pixels of a given map are swept.
 #include "lib/depth/swept.h"
 
 #include <doctest/doctest.h>
@@ -16,7 +16,7 @@ namespace {
 using namespace starfocus;
 using test::PlaneScene;
 
-// Whether each pixel of a scene is swept when its map is `given`.
+// Returns a mask of the pixels of a scene that are swept if its map is `given`.
 std::vector<uint8_t> SweptOf(const PlaneScene& scene, const std::vector<float>& given) {
   const test::PlaneField field = RenderPlanes(scene);
   EstimatePlan plan = starfocus::MakePlan(ConfigOf(field, -6, 8));
@@ -37,7 +37,7 @@ std::vector<uint8_t> SweptOf(const PlaneScene& scene, const std::vector<float>& 
   return {memory->swept, memory->swept + given.size()};
 }
 
-TEST_CASE("swept: around the steps of a map that is right, and nowhere else, across tiles") {
+TEST_CASE("swept: in a correct map, only pixels around steps are swept, also across tiles") {
   PlaneScene scene;
   scene.width = 400;
   scene.near_left = 130;
@@ -46,7 +46,7 @@ TEST_CASE("swept: around the steps of a map that is right, and nowhere else, acr
     scene.views = views;
     const std::vector<uint8_t> swept = SweptOf(scene, MapOf(scene));
     for (int x = 0; x < scene.width; ++x) {
-      // The pixels on both sides of a step aren't trusted.
+      // The pixels on both sides of a step are not trusted.
       const bool near = (x >= 129 - kSweptRadius && x <= 130 + kSweptRadius) ||
                         (x >= 261 - kSweptRadius && x <= 262 + kSweptRadius);
       CAPTURE(x);
@@ -57,7 +57,7 @@ TEST_CASE("swept: around the steps of a map that is right, and nowhere else, acr
   }
 }
 
-TEST_CASE("swept: what the views gainsay, however smooth it is") {
+TEST_CASE("swept: disparities that contradict the views are swept, even if they are smooth") {
   PlaneScene scene;
   scene.near_left = scene.near_right = 0;
   std::vector<float> given = MapOf(scene);
@@ -74,7 +74,7 @@ TEST_CASE("swept: what the views gainsay, however smooth it is") {
   CHECK(outside == 0);
 }
 
-TEST_CASE("swept: runs are those of the mask, as far as the row is looked at") {
+TEST_CASE("swept: runs equal the mask within the given part of a row") {
   EstimatePlan plan = {};
   plan.width = 8;
   const uint8_t swept[] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 0, 0, 1, 0, 1, 1};
