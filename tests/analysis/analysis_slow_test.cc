@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The filter analysis against the paper's printed numbers.
+// Compares the filter analysis with the numbers printed in the paper.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -29,7 +29,7 @@ std::string TwoDigits(double value) {
   return text;
 }
 
-// (4) at one pixel by plain sampling.
+// Returns one pixel of (4), computed by regular sampling.
 double SampledPixel(int n, int m, double r, double theta) {
   constexpr int kSide = 400;
   double sum = 0;
@@ -42,7 +42,7 @@ double SampledPixel(int n, int m, double r, double theta) {
   return sum / (kSide * kSide * r * r);
 }
 
-TEST_CASE("analysis: aperture (3)") {
+TEST_CASE("analysis: the aperture follows (3)") {
   for (const double pi_part : {0.05, 0.19, 0.26, 0.45}) {
     const double theta = pi_part * kPi, rim = Aperture(1, theta) / Aperture(0, theta);
     CHECK(rim == doctest::Approx(std::pow(std::cos(theta), 4)).epsilon(1e-9));
@@ -55,7 +55,7 @@ TEST_CASE("analysis: aperture (3)") {
   }
 }
 
-TEST_CASE("analysis: ideal PSF (4)") {
+TEST_CASE("analysis: the ideal PSF follows (4)") {
   for (const double r : {0.1, 0.5, 0.7, 1.0, 1.5, 3.0, 7.3, 40.0}) {
     CAPTURE(r);
     CHECK(IdealPsf(r, kTheta).Sum() == doctest::Approx(1).epsilon(1e-11));
@@ -70,15 +70,15 @@ TEST_CASE("analysis: ideal PSF (4)") {
   }
 }
 
-TEST_CASE("analysis: view-interpolation PSFs tend to their limits") {
-  // Many subapertures tile the aperture; many views give the ideal PSF blurred by h.
+TEST_CASE("analysis: the PSFs of view interpolation approach their limits") {
+  // Many subapertures tile the aperture. Many views approach the ideal PSF blurred by h.
   CHECK(SubapertureError(6, 40, kTheta) < 2e-6);
   CHECK(SubapertureError(6, 80, kTheta) < SubapertureError(6, 40, kTheta));
   CHECK(SquaredError(StarPsf(4, 4, kTheta, Subapertures::kNarrow), PaperPsf(4, 4, kTheta)) < 1e-12);
   for (const Subapertures subapertures : {Subapertures::kNarrow, Subapertures::kWide}) {
     CHECK(StarPsf(11, 4, kTheta, subapertures).Sum() == doctest::Approx(1));
   }
-  // Where views lie whole pixels apart boxes on whole pixels are exact.
+  // If views are whole pixels apart, boxes on whole pixels are exact.
   for (const int n : {4, 5, 6}) {
     for (const int width : {1, 2, 3, 5}) {
       const double r = width * double(LensInSubapertures(n)) / kSubapertureUnits;
@@ -94,7 +94,7 @@ TEST_CASE("analysis: view-interpolation PSFs tend to their limits") {
   }
 }
 
-TEST_CASE("analysis: half-band filters") {
+TEST_CASE("analysis: half-band filters have the expected gains and taps") {
   const Taps up = HalfBand(kBetaUp);
   CHECK(up.Sum() == doctest::Approx(1));
   CHECK(up(2) == 0);
@@ -102,7 +102,7 @@ TEST_CASE("analysis: half-band filters") {
   CHECK(BetaWithoutPi() == doctest::Approx(kBetaUp).epsilon(0.005 / kBetaUp));
 }
 
-TEST_CASE("analysis: Table I to every printed digit, optimiser included") {
+TEST_CASE("analysis: every digit of Table I is reproduced, including the optimum") {
   struct Row {
     double r, beta, theta;
     const char *error, *aliasing;
@@ -119,7 +119,7 @@ TEST_CASE("analysis: Table I to every printed digit, optimiser included") {
     CHECK(found.filters.theta == doctest::Approx(row.theta * kPi).epsilon(1e-9));
     CHECK(TwoDigits(found.error) == row.error);
     CHECK(TwoDigits(found.aliasing) == row.aliasing);
-    // Without steps the optimum is a little lower, and close by.
+    // Without a grid of parameters, the optimum is close to that of the grid and slightly better.
     const Optimum free = Optimise(row.r);
     CHECK(free.error <= found.error);
     CHECK(free.error > 0.99 * found.error);
@@ -127,13 +127,13 @@ TEST_CASE("analysis: Table I to every printed digit, optimiser included") {
   }
 }
 
-TEST_CASE("analysis: thresholds of (12)") {
+TEST_CASE("analysis: the thresholds of (12) are reproduced") {
   CHECK(Optimise(2.5).error > kThreshold);
   CHECK(Optimise(3).error < kThreshold);
   CHECK(SmallestSubsampledRadius(kThreshold) == doctest::Approx(2.80).epsilon(0.002));
 }
 
-TEST_CASE("analysis: Fig. 6 and the thresholds of (9)") {
+TEST_CASE("analysis: Fig. 6 and the thresholds of (9) are reproduced") {
   for (int n = 3; n <= 16; ++n) {
     CAPTURE(n);
     CHECK(WorstOverSampling(n, kTheta).ratio == 1.5);
@@ -143,8 +143,8 @@ TEST_CASE("analysis: Fig. 6 and the thresholds of (9)") {
   CHECK(TwoDigits(WorstOverSampling(4, kTheta).error) == "1.1e-03");
   const double exact = UnderSamplingRatio(4, kTheta, WorstOverSampling(4, kTheta).error);
   CHECK(exact == doctest::Approx(0.7700).epsilon(1e-4));
-  // A variant that gives the paper's 0.787, found by trial: no views on the rim, and the curve
-  // read beside its cusp. The paper does not say how it got the number.
+  // This variant yields the 0.787 of the paper: it has no views on the rim, and reads the curve
+  // next to its cusp. The variant was found by trial, since the paper does not explain the number.
   CHECK(WorstOverSampling(4, kTheta, Rim::kExcluded).ratio == 1.5);
   const double beside = PaperError(4 / 1.51, 4, kTheta, Rim::kExcluded);
   CHECK(beside < kThreshold);
@@ -152,7 +152,7 @@ TEST_CASE("analysis: Fig. 6 and the thresholds of (9)") {
   CHECK(std::fabs(UnderSamplingRatio(4, kTheta, beside, Rim::kExcluded) - 0.787) < 5e-4);
 }
 
-TEST_CASE("analysis: fewest subapertures at one radius") {
+TEST_CASE("analysis: the smallest number of subapertures at one radius is reproduced") {
   constexpr int kTable[][2] = {{2, 2},  {4, 3},  {5, 3},  {6, 3},  {8, 4}, {10, 3},
                                {12, 4}, {16, 5}, {20, 4}, {24, 5}, {32, 5}};
   for (const auto& row : kTable) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The engine's constants against the analysis they come from. A failure names the figure of the
-// paper that moves: then the analysis, the figure and the documents change together, or the
+// Compares the constants of the engine with the analysis. A failure names the affected figure of
+// the paper. Then either the analysis, the figure and the documents must change together, or the
 // constant is wrong.
 #include <doctest/doctest.h>
 
@@ -34,7 +34,7 @@ namespace {
 
 using namespace analysis;
 
-TEST_CASE("constants: theta is Table I's at r = 3") {
+TEST_CASE("constants: theta is that of Table I at r = 3") {
   starfocus_params params;
   starfocus_params_init(&params);
   const double theta = params.lens.theta, table = OptimiseOnGrid(3).filters.theta;
@@ -46,8 +46,8 @@ TEST_CASE("constants: theta is Table I's at r = 3") {
                 "lib/analysis draws its figures with another theta than the engine's default");
 }
 
-TEST_CASE("constants: the views of (9)") {
-  // Largest r that gets N = 4, and the slope beyond.
+TEST_CASE("constants: the numbers of views follow (9)") {
+  // The largest r with N = 4, and the slope beyond it.
   const auto jump = [](int n) {
     return Cross(0.1, 128, 1e-9, [&](double r) { return ViewsByPaper(r) - n - 0.5; });
   };
@@ -111,13 +111,14 @@ TEST_CASE("constants: the footprint of a view is its subaperture") {
   }
 }
 
-TEST_CASE("constants: the layers' filters are Table I's at r = 3, and beta_U's") {
+TEST_CASE("constants: the filters of layers are those of Table I at r = 3 and of beta_U") {
   const auto check = [](const simd::HalfBand& taps, double beta, double gain, const char* moves) {
     const Taps exact = HalfBand(beta);
     const double one = gain * (1 << simd::kTapBits);
     CHECK_MESSAGE(std::fabs(taps.near - one * exact(1)) < 1, "tap 1 of " << moves);
     CHECK_MESSAGE(std::fabs(taps.far - one * exact(3)) < 1, "tap 3 of " << moves);
-    // Unit gain of both phases costs the middle tap what G(-1) is short of 0.
+    // The gain of both phases must be 1. The middle tap therefore differs by G(-1), which is not
+    // exactly 0.
     CHECK_MESSAGE(std::fabs(taps.centre - one * exact(0)) < 1 + one * std::fabs(GainAtPi(exact)),
                   "tap 0 of " << moves);
   };
@@ -129,7 +130,7 @@ TEST_CASE("constants: the layers' filters are Table I's at r = 3, and beta_U's")
                 "lib/analysis draws Fig. 8 with another beta_D than Table I's");
 }
 
-TEST_CASE("constants: the layers of (12)") {
+TEST_CASE("constants: layers begin where (12) lets them begin") {
   CHECK_MESSAGE(OptimiseOnGrid(2.5).error > kThreshold, "Table I: (12) could begin at r = 2.5");
   CHECK_MESSAGE(OptimiseOnGrid(3).error < kThreshold, "Table I: (12) must begin above r = 3");
   const double below = std::nextafter(3.0, 0.0);
@@ -139,7 +140,7 @@ TEST_CASE("constants: the layers of (12)") {
   CHECK_MESSAGE(LayerByPaper(6) == 2, "(12) moves: layer 2 begins above r = 6");
 }
 
-TEST_CASE("constants: the layers beside the rule for subapertures") {
+TEST_CASE("constants: layers of the rule for subapertures begin at their radii") {
   const double below = std::nextafter(7.0, 0.0);
   CHECK_MESSAGE(LayerBySubaperture(below, false) == 0,
                 "LayerBySubaperture: layer 1 begins below r = 7");
@@ -152,7 +153,7 @@ TEST_CASE("constants: the layers beside the rule for subapertures") {
                 "LayerBySubaperture: layer 2 begins above r = 24");
 }
 
-TEST_CASE("constants: the filters go down and up as (10) and (11) have it") {
+TEST_CASE("constants: the filters subsample as in (10) and upsample as in (11)") {
   for (const double r : {3.0, 4.5, 7.0}) {
     const SampledPsf half = IdealPsf(r / 2, kDefaultTheta);
     const Filters filters = {kBetaDown, kDefaultTheta};
@@ -165,7 +166,7 @@ TEST_CASE("constants: the filters go down and up as (10) and (11) have it") {
   CHECK(std::fabs(LayerAliasing(IdealPsf(2, kDefaultTheta), 0, kBetaDown)) < 1e-15);
 }
 
-// Radii in both directions; `least` is where the rule's layer begins.
+// Checks radii in both directions. At the radius `least`, the rule first selects the layer.
 void CheckEngine(starfocus_renderer renderer, int layer, int least, int most) {
   for (int k = 8 * least; k <= 8 * most; k = k < 64 ? k + 1 : k + 13) {
     for (const int sign : {1, -1}) {
@@ -183,21 +184,22 @@ void CheckEngine(starfocus_renderer renderer, int layer, int least, int most) {
       CHECK(Explain(step).find("unexplained") == std::string::npos);
       if (layer > 0) {
         const LayerTheory theory = MakeLayerTheory(r < 0 ? -r : r, layer);
-        // N by (9) is 2 and 3 at first: what aliases is not quite the ideal PSF.
+        // For small radii, (9) selects an N of 2 and 3, so that the PSF that aliases differs from
+        // the ideal PSF.
         CHECK(std::fabs(step.aliasing - theory.aliasing) <
               (renderer == STARFOCUS_RENDERER_LINE_SCAN ? 2e-4 : 1e-4));
       }
       if (renderer == STARFOCUS_RENDERER_SLICES) {
         CHECK_MESSAGE(step.engine <= kThreshold, "the selection threshold: " << Explain(step));
       } else {
-        // With N from (9) the worst is the half-covered neighbour at r = 1/2.
+        // With N by (9), the largest error is that of the half-covered neighbour at r = 1/2.
         CHECK(step.engine < (k <= 8 ? 8e-2 : k <= 24 ? 6e-3 : k <= 64 ? 2e-3 : 1e-3));
       }
     }
   }
 }
 
-TEST_CASE("constants: the running engine has the PSF it is described by") {
+TEST_CASE("constants: the PSF of the running engine is the one that the analysis predicts") {
   constexpr int kMost = 40;
   for (const starfocus_renderer renderer :
        {STARFOCUS_RENDERER_LINE_SCAN, STARFOCUS_RENDERER_SLICES}) {
@@ -207,7 +209,7 @@ TEST_CASE("constants: the running engine has the PSF it is described by") {
   }
 }
 
-TEST_CASE("constants: the engine's subapertures keep the threshold at every radius that N serves") {
+TEST_CASE("constants: subapertures of the engine meet the threshold at every radius of their N") {
   for (const double r_max : {5.5, 11.0, 25.0, 34.0, 40.0}) {
     const int n = ViewsBySubaperture(r_max);
     double worst = 0, worst_r = 0;
@@ -222,8 +224,8 @@ TEST_CASE("constants: the engine's subapertures keep the threshold at every radi
   }
 }
 
-// The largest error of a lens of that width, over radii of N = 3 close to each other from `first`
-// on.
+// Returns the largest error of a lens of the given width for N = 3, over closely spaced radii from
+// `first`.
 double WorstOfThree(int lens, double first) {
   const SubapertureLights lights = SubapertureLights::OfLens(lens, kDefaultTheta);
   double worst = 0;
@@ -233,8 +235,8 @@ double WorstOfThree(int lens, double first) {
   return worst;
 }
 
-TEST_CASE("constants: the width of the lens in three subapertures") {
-  // From half a pixel on, where the centre view alone ends, and from where PSFs are wider.
+TEST_CASE("constants: the width of the lens with N = 3 is the best one") {
+  // kFirst is half a pixel, where the centre view alone ends. From kWider, the PSFs are wider.
   constexpr double kFirst = 0.5 + 1.0 / 64, kWider = 0.625;
   const int own = LensInSubapertures(3);
   CHECK(WorstOfThree(own, kFirst) < kThreshold);
@@ -247,26 +249,26 @@ TEST_CASE("constants: the width of the lens in three subapertures") {
   }
 }
 
-TEST_CASE("constants: the width of the lens in subapertures") {
+TEST_CASE("constants: the widths of the lens in subapertures meet their criteria") {
   const auto worst = [](int lens, double r_max) { return WorstOfLens(lens, r_max, kDefaultTheta); };
   const auto views = [](int lens) {
     return SubapertureLights::OfLens(lens, kDefaultTheta).views();
   };
-  // N = 5: the least worst error of all lenses with 69 views.
+  // N = 5: the smallest maximal error of all lenses with 69 views.
   const double chosen = worst(LensInSubapertures(5), 25);
   CHECK(views(LensInSubapertures(5)) == 69);
   for (int lens = 5 * kSubapertureUnits - 24; lens <= 5 * kSubapertureUnits; ++lens) {
     if (views(lens) != 69) continue;
     CHECK_MESSAGE(worst(lens, 25) >= chosen, "32 n - 11: a lens of " << lens << " / 32 is better");
   }
-  // N = 4: of lenses with as few views none has less than half of its worst error.
+  // N = 4: no lens with at most as many views has less than half of the maximal error.
   CHECK(views(LensInSubapertures(4)) == 49);
   for (int lens = 4 * kSubapertureUnits - 24; lens <= 4 * kSubapertureUnits; ++lens) {
     if (views(lens) > 49) continue;
     CHECK_MESSAGE(worst(lens, 11) > worst(LensInSubapertures(4), 11) / 2,
                   "123: a lens of " << lens << " / 32 has half its error");
   }
-  // What the others are chosen by one formula for: far below the threshold of the rule.
+  // One formula covers the other N. Their errors are far below the threshold of the rule.
   for (const double r_max : {11.0, 25.0, 34.0, 49.0}) {
     const int n = ViewsBySubaperture(r_max);
     CAPTURE(n);
@@ -275,7 +277,7 @@ TEST_CASE("constants: the width of the lens in subapertures") {
   }
 }
 
-// The PSFs (4) that gather, and those of the blur mode up to as far.
+// The PSFs (4) for gathering. The blur mode uses the same PSFs up to the same radius.
 struct GatherPsfs {
   std::vector<uint16_t> weights = std::vector<uint16_t>(BlurWeightCount(false, kMaxGather));
   std::vector<Psf> psfs = std::vector<Psf>(static_cast<size_t>(BlurStepCount(kMaxGather)));
@@ -284,11 +286,11 @@ struct GatherPsfs {
     MakePsfs(0, BlurStepCount(kMaxGather), ApertureFallOff(kDefaultTheta), nullptr, weights.data(),
              psfs.data());
   }
-  // Of a radius with kDisparityBits.
+  // Returns the PSF of a radius with kDisparityBits fractional bits.
   const Psf& Of(int32_t r) const { return psfs[static_cast<size_t>(BlurStep(r))]; }
 };
 
-TEST_CASE("constants: steps between the radii of PSFs that gather") {
+TEST_CASE("constants: the steps between the radii of gathering PSFs are small enough") {
   const GatherPsfs made;
   double near_focus = 0, fine = 0, coarse = 0;
   for (int32_t r = 1; r <= kMaxGather << kDisparityBits; ++r) {
@@ -309,10 +311,11 @@ TEST_CASE("constants: steps between the radii of PSFs that gather") {
   CHECK_MESSAGE(coarse < 1.6e-5, "kCoarseSteps: the PSF moves by " << coarse);
 }
 
-TEST_CASE("constants: taps of a PSF that gathers") {
+TEST_CASE("constants: the model of gathering counts the taps of a PSF") {
   constexpr int32_t kOne = 1 << kDisparityBits;
-  // The model counts no fewer taps than PSFs have, and not half as many again but for the
-  // smallest. It adds the time of 16 taps and takes a tap for a 64th of an upsampled pixel.
+  // The model counts at least as many taps as a PSF has, and at most half as many again except for
+  // the smallest PSFs. It adds the time of 16 taps. With this timing, a tap costs 1/64 of an
+  // upsampled pixel.
   starfocus_timing timing = {};
   timing.upsample = 64;
   const GatherPsfs made;
@@ -329,7 +332,7 @@ TEST_CASE("constants: taps of a PSF that gathers") {
   }
 }
 
-TEST_CASE("constants: one N for a picture has the PSF it is described by") {
+TEST_CASE("constants: with one N per picture, the PSF is the one that the analysis predicts") {
   for (const double r : {0.0, 0.5, 3.25, 11.0, 24.5}) {
     EngineStep step;
     REQUIRE(MeasureStep({r, 40, STARFOCUS_MODE_FRAME, STARFOCUS_RENDERER_LINE_SCAN, 0}, &step) ==

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What openings that don't fall off ask of views and layers, computed anew: the rules of Demand.
+// Recomputes the views and layers that openings without fall-off need: the rules of Demand.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ const Asked kAsked[] = {{"disc", {0, 0}, Demand::kDisc},
                         {"pentagon", {0, 5}, Demand::kPolygon},
                         {"ring", {0.5, 0}, Demand::kRing}};
 
-// The first radius, of whole pixels, at which `layer` is 1.
+// Returns the first radius, in whole pixels, at which `layer` is 1.
 template <class Layer>
 int FirstRadius(const Layer& layer) {
   int r = 0;
@@ -33,7 +33,7 @@ int FirstRadius(const Layer& layer) {
 }
 
 TEST_CASE(
-    "openings: layers begin where the error (10) is that of the fall-off at its first radius") {
+    "openings: layers begin where the error (10) equals that of the fall-off at its first radius") {
   const double fall_off = SubsampledError(7, {1.28, kDefaultTheta});
   for (const Asked& asked : kAsked) {
     CAPTURE(asked.name);
@@ -41,14 +41,14 @@ TEST_CASE(
         FirstRadius([&](double r) { return LayerBySubaperture(r, true, asked.demand); });
     CHECK(LayerError(first, asked.opening) <= fall_off);
     CHECK(LayerError(first - 2, asked.opening) > fall_off);
-    // By (12) where it falls below the threshold.
+    // By (12), the layer begins where the error falls below the threshold.
     const int paper = FirstRadius([&](double r) { return LayerByPaper(r, asked.demand); });
     CHECK(LayerError(paper, asked.opening) <= kThreshold);
     CHECK(LayerError(paper - 1, asked.opening) > kThreshold);
   }
 }
 
-TEST_CASE("openings: subapertures keep the threshold, and a quarter of it where more are taken") {
+TEST_CASE("openings: subapertures meet the threshold, and a quarter of it where N is increased") {
   for (const Asked& asked : kAsked) {
     CAPTURE(asked.name);
     double worst = 0, beyond = 0;
@@ -64,12 +64,12 @@ TEST_CASE("openings: subapertures keep the threshold, and a quarter of it where 
     CHECK(worst <= kThreshold);
     if (asked.demand == Demand::kDisc) continue;
     CHECK(beyond <= kThreshold / 4);
-    // Four along the radius would not keep that.
+    // An N of 4 would exceed a quarter of the threshold.
     CHECK(WorstOfSubapertures(4, 5.5, 11, asked.opening) > kThreshold / 4);
   }
 }
 
-TEST_CASE("openings: a disc without blades, a ring without a hole and many blades are alike") {
+TEST_CASE("openings: a disc, a ring without a hole and a polygon of many blades are equal") {
   const double r = 6.25;
   const SampledPsf disc = IdealPsf(r, BrightOpening{0, 0});
   CHECK(SquaredError(disc, IdealPsf(r, BrightOpening{1e-9, 0})) < 1e-9);

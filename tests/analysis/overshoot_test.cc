@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far block mode leaves the range of its views, which starfocus.h tells: half-band filters of
-// layers 1 and 2 have negative taps, and a picture that is bright just there darkens a pixel most.
+// Measures by how much block mode leaves the range of the views, which starfocus.h states. The
+// half-band filters of layers 1 and 2 have negative taps. A picture that is bright exactly at these
+// taps darkens a pixel most.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -27,7 +28,7 @@ EnginePsf Measure(double r, starfocus_renderer renderer, int layer) {
   return measured;
 }
 
-// The sum of a PSF's negative taps: what the worst picture of contrast 1 overshoots by.
+// Returns the sum of the negative taps of a PSF: the overshoot of the worst picture of contrast 1.
 double NegativeSum(SampledPsf psf) {
   double sum = 0;
   for (int m = -psf.radius(); m <= psf.radius(); ++m) {
@@ -36,8 +37,8 @@ double NegativeSum(SampledPsf psf) {
   return sum;
 }
 
-// Refocuses the picture that is bright where the PSF around (x, y) is negative. Returns how far
-// the pixel there falls below the darker level, in parts of the contrast of light.
+// Refocuses a picture that is bright where the PSF around (x, y) is negative. Returns how far the
+// pixel falls below the darker level, as a part of the contrast of light.
 double Undershoot(double r, starfocus_renderer renderer, int layer, starfocus_transfer transfer,
                   SampledPsf psf, int x, int y) {
   test::Scene scene = test::EmptyScene(kSide, kSide, 1, float(r), float(r));
@@ -65,8 +66,8 @@ double Undershoot(double r, starfocus_renderer renderer, int layer, starfocus_tr
   return (light(kLow) - light(darkest)) / (light(kHigh) - light(kLow));
 }
 
-// The most that the PSFs of these radii overshoot by, near where each layer begins, and that
-// pictures made for them do at all places on a layer's grid.
+// Returns the largest overshoot at the given radii, which are near those where layers begin. It
+// covers the negative taps of the PSFs, and pictures made for all places on the grid of a layer.
 double Worst(starfocus_renderer renderer, const std::vector<double>& radii) {
   double worst = 0;
   for (const double r : radii) {
@@ -88,12 +89,12 @@ double Worst(starfocus_renderer renderer, const std::vector<double>& radii) {
 
 }  // namespace
 
-TEST_CASE("overshoot: no picture leaves the range of its views by more than the header says") {
+TEST_CASE("overshoot: no picture leaves the range of its views by more than the header states") {
   const double subapertures = Worst(STARFOCUS_RENDERER_SLICES, {7, 7.5, 8, 10, 24, 26, 30});
   const double paper = Worst(STARFOCUS_RENDERER_LINE_SCAN, {3, 3.25, 3.5, 4, 6, 6.5, 7, 8, 12, 13});
   CHECK(subapertures <= 0.04);
   CHECK(paper <= 0.13);
-  // Without layers no tap is negative but by rounding.
+  // Without layers, taps are negative only because of rounding.
   CHECK(NegativeSum(Measure(7.5, STARFOCUS_RENDERER_SLICES, 0).psf) < 1e-3);
 }
 
