@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Depth photos of every kind in JPEG files, made as the specifications say: the disparities that
-// come out are those that the formulas of the formats give.
+// Reads depth photos of every kind in JPEG files that follow the specifications of the formats. The
+// disparities must be those of the formulas in the specifications.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -23,7 +23,8 @@ namespace {
 
 using namespace photos;
 
-TEST_CASE("GDepth: inverse and linear ranges in metres, by the focal length of EXIF") {
+TEST_CASE(
+    "GDepth: inverse and linear ranges in metres become disparities by the focal length in EXIF") {
   if (!CanReadXmp()) return;
   Capture capture;
   REQUIRE(Open(Gdepth(Insert(Photo(), ExifSegment(1, 26)), kInverse + "GDepth:Units=\"m\"",
@@ -51,7 +52,7 @@ TEST_CASE("GDepth: inverse and linear ranges in metres, by the focal length of E
         doctest::Approx(PerDiopter(50) / (0.5 + 3.5 * level)).epsilon(1e-4));
 }
 
-TEST_CASE("GDepth: millimetres, and a distance in focus") {
+TEST_CASE("GDepth: ranges in millimetres and the distance in focus are read") {
   if (!CanReadXmp()) return;
   Capture capture;
   const std::string range =
@@ -65,13 +66,14 @@ TEST_CASE("GDepth: millimetres, and a distance in focus") {
   CHECK(capture.focus == doctest::Approx(kPortrait / 4));
 }
 
-TEST_CASE("GDepth: without units the nearest is taken to be 1.5 m before a 50 mm lens") {
+TEST_CASE("GDepth: without units, the nearest point is assumed to be 1.5 m from a 50 mm lens") {
   if (!CanReadXmp()) return;
   Capture capture = OpenRamp(Gdepth(Photo(), kInverse, Data(RampPng())), kPortrait, kPortrait / 8);
   CHECK(FactOf(capture, "scale").find("unknown") == 0);
 }
 
-TEST_CASE("GDepth: extended XMP in many segments in any order, maps of 8 and 16 bits and JPEG") {
+TEST_CASE(
+    "GDepth: extended XMP in many segments in any order may hold maps of 8 and 16 bits and JPEG") {
   if (!CanReadXmp()) return;
   std::vector<uint16_t> levels;
   for (int k = 0; k < kWidth * kHeight; ++k) {
@@ -102,10 +104,11 @@ TEST_CASE("GDepth: extended XMP in many segments in any order, maps of 8 and 16 
   capture = OpenRamp(Gdepth(Photo(), kInverse + Data(jpeg), ""), kPortrait, kPortrait);
 }
 
-TEST_CASE("GDepth: the sharp picture inside and the focus are used, turned as EXIF says") {
+TEST_CASE(
+    "GDepth: the embedded sharp picture and the focus are used and follow the EXIF orientation") {
   if (!CanReadXmp()) return;
   Image sharp = Plain(kWidth, kHeight, 0);
-  std::fill_n(sharp.row(0), 12, uint8_t{255});  // the first pixels of the file's first row
+  std::fill_n(sharp.row(0), 12, uint8_t{255});  // the first pixels of the first row in the file
   const std::string photo = Insert(Photo(), ExifSegment(6, 0));
   Capture capture;
   REQUIRE(Open(Gdepth(photo,
@@ -116,7 +119,7 @@ TEST_CASE("GDepth: the sharp picture inside and the focus are used, turned as EX
                       Data(RampPng())),
                &capture) == "");
 #ifdef STARFOCUS_HAS_EXIF
-  // Orientation 6: the file's first row is the right side, its first column the top.
+  // Orientation 6: the first row of the file is the right side, and its first column is the top.
   const Image& upright = capture.light_field.views[0];
   REQUIRE(upright.width == kHeight);
   REQUIRE(upright.height == kWidth);
@@ -133,7 +136,7 @@ TEST_CASE("GDepth: the sharp picture inside and the focus are used, turned as EX
 #endif
 }
 
-TEST_CASE("GDepth: what is wrong is said in one line") {
+TEST_CASE("GDepth: each malformed attribute or map is reported in one line") {
   if (!CanReadXmp()) return;
   Capture capture;
   const auto error = [&](const std::string& attributes, const std::string& extended) {
@@ -154,7 +157,7 @@ TEST_CASE("GDepth: what is wrong is said in one line") {
   }
 }
 
-TEST_CASE("Dynamic Depth: the item that the container names") {
+TEST_CASE("Dynamic Depth: the map is the item that the container names") {
   if (!CanReadXmp()) return;
   Capture capture;
   const std::string range =
@@ -165,7 +168,7 @@ TEST_CASE("Dynamic Depth: the item that the container names") {
   CheckRamp(capture, PerDiopter(50) / 0.5, PerDiopter(50) / 4);
   capture = OpenRamp(DynamicDepth(Photo(), RampPng(), range + "DepthMap:Units=\"None\""), kPortrait,
                      kPortrait / 8);
-  // As cameras write it: near and far are distances up to a factor.
+  // Cameras write near and far in diopters as distances up to a factor.
   capture = OpenRamp(DynamicDepth(Photo(), RampPng(), range + "DepthMap:Units=\"Diopters\""),
                      kPortrait, kPortrait / 8);
   CHECK(HasNote(capture, "diopters"));
@@ -174,7 +177,7 @@ TEST_CASE("Dynamic Depth: the item that the container names") {
                                   "DepthMap:Near=\"0\" DepthMap:Far=\"4\""),
                      kPortrait, 0);
   CHECK(HasNote(capture, "the range of the depth map is ignored"));
-  // Lengths that are wrong: the map is found by its beginning, PNG or JPEG.
+  // If the lengths are wrong, the map is found by the first bytes of a PNG or JPEG file.
   capture =
       OpenRamp(DynamicDepth(Photo(), RampPng(), range, 7) + "behind", kPortrait, kPortrait / 8);
   CHECK(HasNote(capture, "the lengths of its container are wrong"));
@@ -194,7 +197,7 @@ TEST_CASE("Dynamic Depth: the item that the container names") {
   capture = OpenRamp(Insert(Photo(), XmpSegment(packet)) + RampPng(), 0, kPortrait, white);
 }
 
-TEST_CASE("Apple's JPEG: disparities in an auxiliary picture") {
+TEST_CASE("Apple's JPEG: disparities are read from an auxiliary picture") {
   if (!CanReadXmp()) return;
   const std::string type = "<apdi:AuxiliaryImageType>disparity</apdi:AuxiliaryImageType>";
   const std::string range =
@@ -218,9 +221,10 @@ TEST_CASE("Apple's JPEG: disparities in an auxiliary picture") {
   CHECK(Contains(Open(file(gain), &capture), "a picture without one"));
 }
 
-TEST_CASE("a photo and a depth picture: beside it or named, near guessed or told") {
+TEST_CASE(
+    "a photo and a depth picture: found by name or option, and the near end is guessed or given") {
   TempFolder folder;
-  Image depth = Plain(kWidth, kHeight, 200);  // dark below: near is black
+  Image depth = Plain(kWidth, kHeight, 200);  // The lower half is darker: black is near.
   for (int y = kHeight / 2; y < kHeight; ++y) {
     std::fill_n(depth.row(y), depth.stride(), uint8_t{50});
   }
@@ -241,7 +245,8 @@ TEST_CASE("a photo and a depth picture: beside it or named, near guessed or told
   CHECK(Contains(OpenCapture(folder.file("b.jpg"), {}), "--depth"));
   options.depth = folder.file("a-depth.png");
   capture = ValueOf(OpenCapture(folder.file("b.jpg"), options));
-  // Turned with its photo, unless it stands already as that will.
+  // The picture is rotated with its photo, unless its orientation already matches the rotated
+  // photo.
   Write(folder.file("c.jpg"), Insert(Photo(), ExifSegment(8, 0)));
 #ifdef STARFOCUS_HAS_EXIF
   capture = ValueOf(OpenCapture(folder.file("c.jpg"), options));
@@ -262,12 +267,12 @@ TEST_CASE("a photo and a depth picture: beside it or named, near guessed or told
   CHECK(map.at(kWidth - 1, 0) > map.at(0, 0));
 }
 
-TEST_CASE("photos: limits of segments, items, pictures and pixels are named") {
+TEST_CASE("photos: errors name the limits of segments, items, pictures and pixels") {
   Capture capture;
   std::string many;
   for (int k = 0; k < 4097; ++k) many += Segment(0xef, "");
   CHECK(Contains(Open(Insert(Photo(), many), &capture), "at most 4096 segments"));
-  // A header of 16000 x 16000 pixels of 16 bits on a file of one.
+  // A header of 16000 x 16000 pixels with 16 bits in a file of one pixel.
   std::string png = Png16(1, 1, {7});
   const std::string header = "IHDR" + Big(16000, 4) + Big(16000, 4) + png.substr(24, 5);
   png = png.substr(0, 12) + header + Big(Crc(header), 4) + png.substr(33);
@@ -281,7 +286,7 @@ TEST_CASE("photos: limits of segments, items, pictures and pixels are named") {
   CHECK(Contains(Open(Insert(Photo(), XmpSegment(packet)), &capture), "at most 64 items"));
 }
 
-TEST_CASE("XMP: limits are named, and nothing else than elements is read") {
+TEST_CASE("XMP: errors name the limits, and document types are rejected") {
   if (!CanReadXmp()) return;
   const auto parse = [](const std::string& text) {
     return ParseXmp("x", text.data(), text.size());
@@ -312,7 +317,7 @@ Span SpanOf(const std::string& bytes) {
   return {reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()};
 }
 
-// The file with orientation 6 in its EXIF, where writers put 1.
+// Returns the file with orientation 6 in its EXIF instead of 1.
 std::string Turned(std::string file) {
   const size_t at = file.rfind(std::string("\1\x12\0\3\0\0\0\1\0\1", 10));
   REQUIRE(at != std::string::npos);
@@ -320,12 +325,13 @@ std::string Turned(std::string file) {
   const size_t chunk = file.find("eXIf");
   if (chunk == std::string::npos) return file;
   const size_t size = static_cast<uint8_t>(file[chunk - 2]) * 256u +
-                      static_cast<uint8_t>(file[chunk - 1]) + 4;  // with the chunk's name
+                      static_cast<uint8_t>(file[chunk - 1]) + 4;  // includes the name of the chunk
   return file.replace(chunk + size, 4, Big(Crc(file.substr(chunk, size)), 4));
 }
 
-TEST_CASE("photos: EXIF of PNG and WebP turns the picture as that of JPEG does") {
-  const std::string segment = ExifSegment(1, 26);  // marker, length and "Exif" stand first
+TEST_CASE("photos: EXIF of PNG and WebP rotates the picture like EXIF of JPEG") {
+  // The first 10 bytes are the marker, the length and "Exif".
+  const std::string segment = ExifSegment(1, 26);
   PictureOptions how;
   how.metadata.exif.assign(segment.begin() + 10, segment.end());
   for (const std::string name : {"photo.png", "photo.webp"}) {
@@ -346,7 +352,7 @@ TEST_CASE("photos: EXIF of PNG and WebP turns the picture as that of JPEG does")
   }
 }
 
-TEST_CASE("photos: profiles of grey, or with parts missing, are left out with a note") {
+TEST_CASE("photos: profiles of grey pictures and incomplete profiles are omitted with a note") {
   const std::string profile = Profile(200);
   const auto read = [](const std::string& icc) {
     const std::string file =
@@ -361,7 +367,7 @@ TEST_CASE("photos: profiles of grey, or with parts missing, are left out with a 
   CHECK(Contains(photo.notes[0], "profile"));
 }
 
-TEST_CASE("coverage: the alpha channel of a picture of 16 bits, or the levels of one without") {
+TEST_CASE("coverage: it is the alpha channel of a 16-bit picture, or else the grey levels") {
   const std::string file = Seed("files/rgba16.png"), grey = Seed("files/gray.png");
   Bytes bytes(file.begin(), file.end());
   Samples samples = ValueOf(DecodeCoverage("rgba16.png", bytes));
@@ -373,12 +379,12 @@ TEST_CASE("coverage: the alpha channel of a picture of 16 bits, or the levels of
   CHECK(samples.map.values == ValueOf(DecodeSamples("gray.png", false, bytes)).map.values);
 }
 
-TEST_CASE("HEIF: the brands of still pictures and of sequences, anywhere in their list") {
+TEST_CASE("HEIF: the brands of still pictures and sequences are found anywhere in the list") {
   std::string file = Seed("heif/plain.avif");
   for (const std::string brand : {"avif", "avis", "miaf", "mif1"}) {
     CHECK(IsHeif(SpanOf(file.replace(8, 4, brand))));
   }
-  CHECK(IsHeif(SpanOf(file.replace(8, 4, "abcd"))));  // others follow
+  CHECK(IsHeif(SpanOf(file.replace(8, 4, "abcd"))));  // the list has other brands of pictures
   CHECK(
       !IsHeif(SpanOf(std::string("\0\0\0\x10"
                                  "ftypisom\0\0\0\0",
@@ -386,7 +392,7 @@ TEST_CASE("HEIF: the brands of still pictures and of sequences, anywhere in thei
   CHECK(!IsHeif(SpanOf(file.substr(0, 7))));
 }
 
-TEST_CASE("HEIF: sizes in the headers of the coders") {
+TEST_CASE("HEIF: sizes are read from the headers of the codecs") {
   const std::string heic = Seed("heif/depth.heic"), avif = Seed("heif/plain.avif");
   const HeifItems items = ReadHeifItems(SpanOf(heic)).value();
   REQUIRE(items.size() == 4);
@@ -402,7 +408,7 @@ TEST_CASE("HEIF: sizes in the headers of the coders") {
   CHECK(av1.height == 16);
 }
 
-// The seed with the bytes behind a text changed.
+// Returns the seed file with the bytes at `behind` bytes after a text replaced.
 std::string Changed(const std::string& name, const std::string& text, size_t behind,
                     const std::string& bytes) {
   std::string file = Seed(name);
@@ -411,7 +417,7 @@ std::string Changed(const std::string& name, const std::string& text, size_t beh
   return file.replace(at + text.size() + behind, bytes.size(), bytes);
 }
 
-TEST_CASE("HEIF: a picture made of itself, or declared larger than it is, is refused at once") {
+TEST_CASE("HEIF: a picture that refers to itself or declares a wrong size is rejected at once") {
   const auto error = [](const std::string& file) { return CheckHeif("a.heic", SpanOf(file)); };
   CHECK(error(Seed("heif/depth.heic")) == "");
   CHECK(error(Seed("heif/plain.avif")) == "");
@@ -419,14 +425,14 @@ TEST_CASE("HEIF: a picture made of itself, or declared larger than it is, is ref
   CHECK(Contains(error(Seed("heif/malformed_references.heic")), "boxes"));
   CHECK(Contains(error(Seed("heif/input_of_unknown_type.heic")), "'hvc2' picture in it"));
   const std::string depth = "heif/depth.heic", size("\0\0\0\0", 4);
-  // idat: two columns of one tile; another width than ispe's.
+  // In idat: two columns with one tile, and a width that differs from that in ispe.
   CHECK(Contains(error(Changed(depth, "idat", 3, "\1")), "grid"));
   CHECK(Contains(error(Changed(depth, "idat", 4, std::string("\x40\0", 2))), "grid"));
   CHECK(Contains(error(Changed(depth, "ispe", 4, std::string("\0\0\x40\0\0\0\x40\0", 8))),
                  "32768 pixels for each byte"));
   CHECK(Contains(error(Changed(depth, "ispe", 4, std::string("\0\0\x10\0\0\0\x10\0", 8))),
                  "not much larger"));
-  // A product beyond 64 bits, which sanitizers would see.
+  // The product exceeds 64 bits. Sanitizers would detect an overflow.
   CHECK(Contains(error(Changed(depth, "ispe", 4, std::string("\xff\xff\xff\xff\xff\0\0\0", 8))),
                  "16384 pixels each way"));
   CHECK(Contains(error(Changed(depth, "dimg", 4, std::string("\0\x09", 2))), "not there"));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Depth pictures as files of their own: which values are unknown, what fills them, units, which end
-// is near, how the picture stands, and by which names it is found.
+// Reads depth pictures in separate files. Tests unknown values and how they are filled, units,
+// which end is near, orientation, and the names by which a picture is found.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -23,7 +23,8 @@ using namespace photos;
 constexpr int kWidth = 48, kHeight = 36;
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
-// What a map says of a scene: a wall, a floor below that comes nearer, and a box before them.
+// The values of a map at a wall, at the bottom of a floor that comes nearer, and at a box in front
+// of them.
 struct Scene {
   double wall, floor, box;
 
@@ -53,7 +54,7 @@ size_t Index(int x, int y) { return size_t(y) * kWidth + size_t(x); }
 
 std::string GreyPng(const std::vector<uint16_t>& levels) { return Png16(kWidth, kHeight, levels); }
 
-// Opens a grey photo with a depth picture of that name and content.
+// Opens a grey photo with a depth picture of the given name and content.
 struct Opened {
   std::string error;
   Capture capture;
@@ -87,7 +88,7 @@ DepthOptions NearIs(Near near) {
 const Scene kMillimetres = {3000, 1500, 900};
 constexpr int kWall[] = {40, 4}, kFloor[] = {40, 35}, kBox[] = {20, 15};
 
-// The nearest of an order: a portrait of 1.5 m before a 50 mm lens.
+// The largest disparity of a map without units: a portrait at 1.5 m from a 50 mm lens.
 const double kNearest = 50.0 * 50 / 1000 / 2 / 43.2666 * std::hypot(kWidth, kHeight) / 1.5;
 
 void CheckScene(const Opened& opened) {
@@ -97,13 +98,14 @@ void CheckScene(const Opened& opened) {
   CHECK(opened.At(kFloor[0], kFloor[1]) == doctest::Approx(kNearest * 1500 / 2100).epsilon(0.001));
 }
 
-TEST_CASE("unknown depth: 0 and 65535 of 16 bits, filled with what is behind") {
+TEST_CASE(
+    "unknown depth: 0 and 65535 in 16 bits are unknown, and are filled with the surface behind") {
   for (const uint16_t unknown : {uint16_t{0}, uint16_t{65535}}) {
     CAPTURE(unknown);
     std::vector<uint16_t> levels = LevelsOf(kMillimetres);
     for (int y = 0; y < kHeight; ++y) {
       for (int x = 0; x < 5; ++x) levels[Index(x, y)] = unknown;    // a border
-      for (int x = 28; x < 31; ++x) levels[Index(x, y)] = unknown;  // beside the box
+      for (int x = 28; x < 31; ++x) levels[Index(x, y)] = unknown;  // next to the box
     }
     const Opened opened("map.png", GreyPng(levels), NearIs(Near::kBlack));
     CheckScene(opened);
@@ -122,7 +124,7 @@ TEST_CASE("unknown depth: 0 and 65535 of 16 bits, filled with what is behind") {
   }
 }
 
-TEST_CASE("unknown depth: 0 and 65535 are depths of a map that uses the whole range") {
+TEST_CASE("unknown depth: 0 and 65535 are depths in a map that uses the whole range") {
   for (const bool inverted : {false, true}) {
     CAPTURE(inverted);
     const Scene scene = inverted ? Scene{65535, 18725, 0} : Scene{0, 46811, 65535};
@@ -132,7 +134,7 @@ TEST_CASE("unknown depth: 0 and 65535 are depths of a map that uses the whole ra
     CHECK(opened.HasNote("as a depth"));
     CHECK(opened.HasNote("--unknown"));
   }
-  std::vector<uint16_t> both = LevelsOf(kMillimetres);  // of a sensor, both are unknown
+  std::vector<uint16_t> both = LevelsOf(kMillimetres);  // map of a sensor: both values are unknown
   both[Index(40, 2)] = 65535;
   both[Index(41, 2)] = 0;
   const Opened sensor("map.png", GreyPng(both), NearIs(Near::kBlack));
@@ -141,7 +143,7 @@ TEST_CASE("unknown depth: 0 and 65535 are depths of a map that uses the whole ra
 }
 
 TEST_CASE(
-    "unknown depth: values that are named, of 8 bits too, and 8 bits have none of their own") {
+    "unknown depth: options name unknown values, also of 8 bits, which have none by default") {
   Image map = Plain(kWidth, kHeight, 100);
   std::fill_n(map.row(0), map.stride(), uint8_t{0});
   std::fill_n(map.row(35), map.stride(), uint8_t{200});
@@ -158,7 +160,7 @@ TEST_CASE(
   CHECK(named.At(3, 5) == doctest::Approx(0));
 }
 
-TEST_CASE("unknown depth: transparent pixels, by an alpha channel, a colour or a palette") {
+TEST_CASE("unknown depth: transparent pixels are unknown, by alpha channel, colour or palette") {
   const Scene scene = {50, 160, 204};
   const auto make = [&](int depth, int colour) {
     std::string samples;
@@ -202,8 +204,7 @@ TEST_CASE("unknown depth: transparent pixels, by an alpha channel, a colour or a
   }
 }
 
-TEST_CASE(
-    "unknown depth: what is not finite in PFM of either byte order, and single wrong values") {
+TEST_CASE("unknown depth: values of PFM that are not finite or single outliers are unknown") {
   for (const ByteOrder order : {ByteOrder::kLittle, ByteOrder::kBig}) {
     FloatMap map = MapOf({5, 5 + 25.0F * 1500 / 2100, 30});
     for (int y = 0; y < kHeight; ++y) {
@@ -211,7 +212,7 @@ TEST_CASE(
       map.values[Index(1, y)] = -HUGE_VALF;
       map.values[Index(47, y)] = kNan;
     }
-    map.values[Index(30, 1)] = 1e6F;  // one in 1728
+    map.values[Index(30, 1)] = 1e6F;  // one pixel of 1728
     const Opened opened("map.pfm", PfmOf(map, order), {});
     CheckScene(opened);
     CHECK(opened.At(0, 4) == doctest::Approx(0));
@@ -242,7 +243,7 @@ TEST_CASE("unknown depth: gaps take the farther end of the shorter direction") {
   CHECK(one.values == std::vector<float>(9, 3));
 }
 
-TEST_CASE("depth pictures: PFM by --near, and units that keep values as they are") {
+TEST_CASE("depth pictures: PFM follows --near, and units keep the values unchanged") {
   const Scene metres = {3, 1.5, 0.9};
   CheckScene(Opened("map.pfm", PfmOf(MapOf(metres)), NearIs(Near::kBlack)));
   DepthOptions options;
@@ -267,7 +268,7 @@ TEST_CASE("depth pictures: PFM by --near, and units that keep values as they are
                  "disparities within +-500"));
 }
 
-TEST_CASE("depth pictures: PGM keeps its 16 bits, and colours are refused") {
+TEST_CASE("depth pictures: PGM keeps 16 bits, and colour pictures are rejected") {
   std::string pgm = "P5\n48 36\n4095\n";
   for (const uint16_t level : LevelsOf(kMillimetres)) pgm += Big(level, 2);
   CheckScene(Opened("map.pgm", pgm, NearIs(Near::kBlack)));
@@ -285,7 +286,7 @@ TEST_CASE("depth pictures: PGM keeps its 16 bits, and colours are refused") {
     CHECK(Contains(Opened("map" + extension, Encode(colours, extension), {}).error,
                    "one in colours"));
   }
-  // What JPEG makes of grey stays grey.
+  // Grey pictures stay grey after JPEG compression.
   CHECK(Opened("map.jpg", Encode(Ramp(kWidth, kHeight), ".jpg"), {}).error == "");
 }
 
@@ -297,7 +298,7 @@ Image GreyOf(const FloatMap& map) {
   return picture;
 }
 
-// A photo whose edges are those of the scene.
+// Returns a photo with the same edges as the scene.
 Image PictureOf(const FloatMap& map) {
   Image picture(map.width, map.height);
   for (size_t k = 0; k < map.values.size(); ++k) {
@@ -310,7 +311,9 @@ Image PictureOf(const FloatMap& map) {
 }
 
 #ifdef STARFOCUS_HAS_EXIF
-TEST_CASE("depth pictures: upright already or turned with the photo, by proportions and edges") {
+TEST_CASE(
+    "depth pictures: proportions and edges show if a picture is upright or rotates with the "
+    "photo") {
   for (int orientation = 1; orientation <= 8; ++orientation) {
     for (const bool square : {false, true}) {
       CAPTURE(orientation);
@@ -356,7 +359,8 @@ TEST_CASE("depth pictures: upright already or turned with the photo, by proporti
 }
 #endif
 
-TEST_CASE("depth pictures: other proportions than the photo's are refused, rounding is not") {
+TEST_CASE(
+    "depth pictures: proportions that differ from the photo by more than rounding are rejected") {
   const auto open = [](int width, int height) {
     return Opened("map.png", Encode(Ramp(width, height), ".png"), NearIs(Near::kWhite)).error;
   };
@@ -369,7 +373,7 @@ TEST_CASE("depth pictures: other proportions than the photo's are refused, round
   }
 }
 
-TEST_CASE("depth pictures: names beside the photo") {
+TEST_CASE("depth pictures: a picture is found by its name next to the photo") {
   for (const char* name : {"photo-depth.png", "photo_depth.png", "photo.depth.png",
                            "photo-depth.PNG", "PHOTO_Depth.Png", "Photo-DEPTH.png"}) {
     CAPTURE(name);

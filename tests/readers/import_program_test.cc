@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The program with what people have: photos are refocused, told of and imported, and nothing that
-// was read is written over. exiftool judges what the tests make of GDepth; real photographs are
-// parts of the data sets.
+// Runs the program on typical inputs: photos are refocused, described and imported, and no input
+// file is overwritten. exiftool checks the GDepth files that the tests write. Real photographs
+// belong to the data sets.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -30,7 +30,7 @@ const std::string kRange =
     "GDepth:Format=\"RangeInverse\" GDepth:Near=\"0.5\" GDepth:Far=\"4\" GDepth:Units=\"m\" "
     "GDepth:Mime=\"image/png\" ";
 
-// A photo of 96 x 64 whose left half is near, with a map of half that size.
+// Returns a photo of 96 x 64 pixels whose left half is near, with a map of half the size.
 std::string GdepthPhoto() {
   Image map = Plain(48, 32, 255), picture = Ramp(96, 64);
   for (int y = 0; y < map.height; ++y) std::fill_n(map.row(y), 3 * 24, uint8_t{0});
@@ -41,7 +41,7 @@ std::string GdepthPhoto() {
                 "GDepth:Data=\"" + Base64(Encode(map, ".png")) + "\"");
 }
 
-// A photo whose left half is near, 96 x 64, with a depth picture beside it.
+// Writes a photo of 96 x 64 pixels whose left half is near, and a depth picture next to it.
 void MakePhoto(const TempFolder& folder, const std::string& exif) {
   Image map(96, 64);
   for (int y = 0; y < map.height; ++y) std::fill_n(map.row(y), 3 * 48, uint8_t{255});
@@ -49,7 +49,8 @@ void MakePhoto(const TempFolder& folder, const std::string& exif) {
   Write(folder.file("a-depth.png"), Encode(map, ".png"));
 }
 
-// A gray photo and pictures of depth: the left half near, and all but the top.
+// Writes a grey photo and depth pictures. In one, the left half is near; in another, all rows
+// except the top.
 void MakePhotoAndMap(const TempFolder& folder) {
   MakePhoto(folder, "");
   Write(folder.file("a.png"), Encode(Ramp(96, 64), ".png"));
@@ -58,7 +59,7 @@ void MakePhotoAndMap(const TempFolder& folder) {
   Write(folder.file("map.png"), Encode(map, ".png"));
 }
 
-TEST_CASE("photos: sessions") {
+TEST_CASE("photos: the sessions of the tables succeed") {
   const auto write_pair = [](const TempFolder& folder) {
     const std::string left = Encode(Plain(40, 24, 90), ".jpg");
     Write(folder.file("pair.mpo"), MultiPicture(left, Encode(Ramp(40, 24), ".jpg")));
@@ -71,7 +72,7 @@ TEST_CASE("photos: sessions") {
   if (CanReadXmp()) RunSessions("readers/sessions.txt", {{"GDepth photo", write_photo}});
 }
 
-TEST_CASE("photos: import without repair has the map as it is") {
+TEST_CASE("photos: import without repair keeps the map unchanged") {
   if (!CanReadXmp()) return;
   TempFolder folder;
   Write(folder.file("photo.jpg"), GdepthPhoto());
@@ -82,7 +83,7 @@ TEST_CASE("photos: import without repair has the map as it is") {
 }
 
 #ifdef STARFOCUS_HAS_HEIF
-TEST_CASE("photos: HEIC on standard input") {
+TEST_CASE("photos: HEIC is read from standard input") {
   TempFolder folder;
   Succeed(folder,
           "refocus - -o a.png <'" STARFOCUS_SOURCE_DIR "/tests/fuzz/corpus/heif/depth.heic'");
@@ -90,7 +91,7 @@ TEST_CASE("photos: HEIC on standard input") {
 }
 #endif
 
-TEST_CASE("photos: captions reach every output, and no depth map is claimed there") {
+TEST_CASE("photos: captions are copied to every output, which claims no depth map") {
   if (!CanReadXmp()) return;
   TempFolder folder;
   const std::string names =
@@ -131,7 +132,7 @@ TEST_CASE("photos: captions reach every output, and no depth map is claimed ther
   }
 }
 
-TEST_CASE("photos: captions of PNG and WebP photos stay, too") {
+TEST_CASE("photos: captions of PNG and WebP photos are kept") {
   if (!CanReadXmp()) return;
   TempFolder folder;
   Write(folder.file("map.png"), Encode(Plain(96, 64, 255), ".png"));
@@ -151,7 +152,7 @@ TEST_CASE("photos: captions of PNG and WebP photos stay, too") {
 }
 
 #ifdef STARFOCUS_HAS_EXIF
-TEST_CASE("photos: the default focus is the subject of EXIF, turned and scaled as the photo is") {
+TEST_CASE("photos: the default focus is the EXIF subject, rotated and scaled like the photo") {
   constexpr int kArea = 0x9214, kLocation = 0xa214;
   const struct {
     std::string exif;
@@ -165,7 +166,7 @@ TEST_CASE("photos: the default focus is the subject of EXIF, turned and scaled a
                {SubjectSegment(8, kArea, {72, 20}), "20,23, the subject"},
                {SubjectSegment(1, kArea, {144, 40}, 192, 128), "72,20, the subject"},
                {SubjectSegment(6, kLocation, {144, 40}, 192, 128), "43,72, the subject"},
-               // Of a part of a picture, and beyond the picture.
+               // The subject of a cropped picture, and a subject outside the picture.
                {SubjectSegment(1, kArea, {72, 20}, 128, 128), "the nearest large surface"},
                {SubjectSegment(1, kArea, {96, 20}), "the nearest large surface"},
                {SubjectSegment(1, kArea, {72}), "the nearest large surface"},
@@ -186,7 +187,7 @@ TEST_CASE("photos: the default focus is the subject of EXIF, turned and scaled a
     CHECK(Text(folder.file("default.png")) == Text(folder.file("at.png")));
   }
 }
-TEST_CASE("photos: the subject stays in EXIF where its pixels are those of the picture") {
+TEST_CASE("photos: the EXIF subject is kept if its pixels are those of the picture") {
   constexpr int kArea = 0x9214, kLocation = 0xa214;
   const struct {
     std::string exif;
@@ -217,7 +218,8 @@ TEST_CASE("photos: the subject stays in EXIF where its pixels are those of the p
 
 #endif
 
-// A folder of one view, a random picture whose disparities fall from `high` to `low` in steps.
+// Writes a folder of one view: a random picture whose disparities decrease from `high` to `low` in
+// steps.
 void MakeSteps(const TempFolder& folder, const std::string& name, float low, float high) {
   constexpr int kSteps = 8;
   LightField field;
@@ -233,12 +235,12 @@ void MakeSteps(const TempFolder& folder, const std::string& name, float low, flo
   REQUIRE(SaveLightField(folder.file(name), field, &runner) == "");
 }
 
-TEST_CASE("photos: a saved depth photo has the disparities and the blur of what it was made of") {
+TEST_CASE("photos: a saved depth photo keeps the disparities and the blur of its source") {
   if (!CanReadXmp()) return;
   const struct {
     float low, high;
     const char* widest;
-    double factor, moved;  // of its disparities
+    double factor, moved;  // offset of its disparities
   } kinds[] = {{33, 97, "", 1, 0},
                {-40, -3, "", 1, 0},
                {0, 1.5F, "", 1, 0},
@@ -261,7 +263,7 @@ TEST_CASE("photos: a saved depth photo has the disparities and the blur of what 
           0.51 * step + 1e-3);
     CHECK(capture.care == MapCare::kNone);
     CHECK(capture.focus == doctest::Approx(map.at(40, 40)).epsilon(0.01));
-    // The same blur: that of a quarter more would differ by several levels.
+    // The blur is the same: a blur larger by a quarter would change several levels.
     Succeed(folder, "refocus lf" + std::string(kind.widest) + lens + "first.png");
     Succeed(folder, "refocus saved.jpg" + lens + "again.png");
     const Image first = ValueOf(ReadImage(folder.file("first.png")));
@@ -282,14 +284,15 @@ TEST_CASE("photos: a saved depth photo has the disparities and the blur of what 
   CHECK(!fs::exists(folder.file("a.jpg")));
 }
 
-TEST_CASE("photos: HEIC with an auxiliary depth picture") {
+TEST_CASE("photos: an auxiliary depth picture of HEIC is read") {
   const Bytes bytes = ValueOf(ReadFile(STARFOCUS_SOURCE_DIR "/tests/fuzz/corpus/heif/depth.heic"));
   const auto read = ReadHeif("x", {bytes.data(), bytes.size()}, Near::kUnknown);
 #ifdef STARFOCUS_HAS_HEIF
   const DepthPhoto photo = ValueOf(read);
   CHECK(photo.picture.width == 16);
   REQUIRE(photo.map.values.size() == 16 * 16);
-  CHECK(std::fabs(photo.map.at(0, 8) - photo.map.at(15, 8)) > 0.8F);  // it runs from side to side
+  // Depth changes from side to side.
+  CHECK(std::fabs(photo.map.at(0, 8) - photo.map.at(15, 8)) > 0.8F);
   for (const size_t size : {size_t{30}, bytes.size() / 2, bytes.size() - 1}) {
     CHECK(Contains(ReadHeif("x", {bytes.data(), size}, Near::kUnknown),
                    "the HEIF file is truncated"));
@@ -299,7 +302,7 @@ TEST_CASE("photos: HEIC with an auxiliary depth picture") {
 #endif
 }
 
-TEST_CASE("photos: what exiftool wrote is read, and what the tests write exiftool reads" *
+TEST_CASE("photos: files of exiftool are read here, and files of these tests are read by exiftool" *
           doctest::test_suite("exiftool")) {
   if (!CanReadXmp() || std::system("command -v exiftool >/dev/null 2>&1") != 0) {
     std::printf("SKIPPED: exiftool is not there\n");
@@ -315,7 +318,7 @@ TEST_CASE("photos: what exiftool wrote is read, and what the tests write exiftoo
   Image map = ValueOf(ReadImage(folder.file("map.png")));
   CHECK(map.width == 48);
   Write(folder.file("theirs.jpg"), Encode(Ramp(96, 64), ".jpg"));
-  // EXIF by exiftool, too: standing on its right side, a lens of 26 mm.
+  // exiftool also writes the EXIF: the orientation is 8, and the focal length is 26 mm.
   REQUIRE(
       std::system((here + "exiftool -q -XMP-GDepth:Format=RangeLinear -XMP-GDepth:Near=1 "
                           "-XMP-GDepth:Far=3 -XMP-GDepth:Units=m '-XMP-GDepth:DepthImage<=map.png' "
@@ -347,7 +350,7 @@ TEST_CASE("parts of the data sets: photographs of phones are refocused near and 
   Succeed(folder, "refocus " + shelf + " -o far.png --focus 0");
   CHECK(std::atof(Call(folder, "compare near.png far.png").out.c_str() + 5) < 40);
 #ifdef STARFOCUS_HAS_HEIF
-  // As another reader takes the map out of the same file.
+  // The expected values are those of another reader of the same file.
   Capture capture = ValueOf(OpenCapture(photos + "pug.heic", {}));
   CHECK(capture.light_field.width() == 4032);
   CHECK(!capture.metadata.exif.empty());

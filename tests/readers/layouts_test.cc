@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Folders of views as data sets are published: which views are taken, where they lie, and what
-// becomes of the map.
+// Reads folders of views in the layouts of published data sets. Tests which views are selected,
+// their positions, and the disparity map.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ std::string Number(int value, int digits) {
   return text;
 }
 
-// A picture whose level tells its place.
+// Writes a picture whose level identifies its place.
 void WriteView(const TempFolder& folder, const std::string& name, int level) {
   Require(WriteImage(folder.file(name), Plain(4, 3, level)));
 }
@@ -47,7 +47,8 @@ Error OpenAndLoad(const TempFolder& folder, Capture* capture) {
   return LoadCapture({}, capture);
 }
 
-TEST_CASE("HCI: 17 of 81 views, disparities times four, f-stops by the baseline") {
+TEST_CASE(
+    "HCI: 17 of 81 views are taken, disparities are scaled by 4, and f-stops follow the baseline") {
   TempFolder folder;
   for (int k = 0; k < 81; ++k) WriteView(folder, "input_Cam" + Number(k, 3) + ".png", k);
   Require(WritePfm(folder.file("gt_disp_lowres.pfm"), {4, 3, std::vector<float>(12, 0.75F)}));
@@ -74,7 +75,7 @@ TEST_CASE("HCI: 17 of 81 views, disparities times four, f-stops by the baseline"
   CHECK(Contains(OpenAndLoad(folder, &capture), "a square of views"));
 }
 
-// 5 rows of 7; `place` gives the rest of a name.
+// Writes 5 rows of 7 views. `place` returns the rest of a name.
 template <class Place>
 void WriteStanford(const TempFolder& folder, const Place& place) {
   for (int row = 0; row < 5; ++row) {
@@ -86,7 +87,7 @@ void WriteStanford(const TempFolder& folder, const Place& place) {
   }
 }
 
-TEST_CASE("Stanford: the star of a grid, in the order of the places in the names") {
+TEST_CASE("Stanford: the star of the grid is taken, in the order of the positions in the names") {
   TempFolder placed, turned, plain;
   WriteStanford(placed, [](int row, int column) {
     return "_-" + std::to_string(381 + row) + ".909271_" + std::to_string(1103 + 7 * column) +
@@ -98,7 +99,7 @@ TEST_CASE("Stanford: the star of a grid, in the order of the places in the names
   CHECK(capture.light_field.views.size() == 17);
   CHECK(LevelAt(capture, 0, 0) == 23);
   CHECK(LevelAt(capture, 1, 0) == 25);
-  CHECK(LevelAt(capture, 0, 1) == 3);  // the largest Y is that of row 0
+  CHECK(LevelAt(capture, 0, 1) == 3);  // row 0 has the largest Y
   CHECK(LevelAt(capture, 0.5, -0.5) == 34);
   CHECK(capture.widest == 0);
   WriteStanford(turned, [](int row, int column) {
@@ -113,7 +114,8 @@ TEST_CASE("Stanford: the star of a grid, in the order of the places in the names
   CHECK(LevelAt(capture, 0, 1) == 3);
 }
 
-TEST_CASE("rows and columns by name: squares, a row, what is missing") {
+TEST_CASE(
+    "rows and columns by name: squares and single rows are read, and missing views are reported") {
   const auto grid = [](const TempFolder& folder, int rows, int columns) {
     for (int k = 0; k < rows * columns; ++k) {
       WriteView(
@@ -130,7 +132,8 @@ TEST_CASE("rows and columns by name: squares, a row, what is missing") {
   CHECK(LevelAt(capture, 1, 1) == 8);
   std::filesystem::remove(three.file("scene r2c2 8bit.png"));
   CHECK(Contains(OpenAndLoad(three, &capture), "a picture for each of 3 rows of 3, found 8"));
-  grid(sixteen, 8, 8);  // 7 x 7 have a middle; of 3 from there no half is whole
+  // 7 x 7 views have a middle. 3 views from there to the edge have no whole half.
+  grid(sixteen, 8, 8);
   REQUIRE(OpenAndLoad(sixteen, &capture) == "");
   CHECK(capture.light_field.views.size() == 9);
   CHECK(LevelAt(capture, 0, 0) == 27);
@@ -153,7 +156,7 @@ TEST_CASE("rows and columns by name: squares, a row, what is missing") {
   CHECK(Contains(OpenAndLoad(none, &capture), "2 pictures, the first holiday.png"));
 }
 
-TEST_CASE("Middlebury: a pair whose unknown disparities are filled") {
+TEST_CASE("Middlebury: the unknown disparities of a pair are filled") {
   TempFolder folder;
   WriteView(folder, "im0.png", 1);
   WriteView(folder, "im1.png", 2);
@@ -168,7 +171,7 @@ TEST_CASE("Middlebury: a pair whose unknown disparities are filled") {
   CHECK(FactOf(capture, "infinity") == "at disparity -124.3");
 }
 
-TEST_CASE("stereo pairs: disp0GT.pfm, as ETH3D names it, is the map") {
+TEST_CASE("stereo pairs: disp0GT.pfm, the name in ETH3D, is the map") {
   TempFolder folder;
   WriteView(folder, "im0.png", 1);
   WriteView(folder, "im1.png", 2);
@@ -179,15 +182,15 @@ TEST_CASE("stereo pairs: disp0GT.pfm, as ETH3D names it, is the map") {
   CHECK(capture.light_field.disparity.values[5] == 7);
   CHECK(capture.map_path == folder.file("disp0GT.pfm"));
   CHECK(IsLightFieldFile("disp0GT.pfm"));
-  // Without a calibration, too, the map may have infinite values, which are filled.
+  // Without a calibration, the map may also have infinite values, which are filled.
   std::filesystem::remove(folder.file("calib.txt"));
   Capture plain = ValueOf(OpenCapture(folder.file("."), {}));
   CHECK(plain.map_path == folder.file("./disp0GT.pfm"));
   CHECK(plain.care == MapCare::kFill);
 }
 
-// A pair of random pictures of a wall at the disparity 9, whose map has levels `multiple` times
-// that, and 0 in its first row.
+// Writes a pair of random pictures of a wall at disparity 9. The levels of the map are `multiple`
+// times the disparity, and 0 in the first row.
 void WriteGreyMapPair(const TempFolder& folder, const std::vector<std::string>& names, int height,
                       int multiple) {
   constexpr int kWidth = 160, kDisparity = 9;
@@ -210,7 +213,8 @@ void WriteGreyMapPair(const TempFolder& folder, const std::vector<std::string>& 
   }
 }
 
-TEST_CASE("Middlebury of 2003 to 2006: grey maps of the multiple that their size says") {
+TEST_CASE(
+    "Middlebury of 2003 to 2006: the size of the picture determines the multiple in the grey map") {
   const std::vector<std::string> ppm = {"im2.ppm", "im6.ppm", "disp2.pgm"},
                                  png = {"im2.png", "im6.png", "disp2.png"},
                                  views = {"view1.png", "view5.png", "disp1.png"};
@@ -218,7 +222,7 @@ TEST_CASE("Middlebury of 2003 to 2006: grey maps of the multiple that their size
     const std::vector<std::string>& names;
     int height, multiple;
   };
-  // The last three have sizes that are not published: their pictures show the multiple.
+  // The last three sizes are not published, so the multiple is found from the pictures.
   for (const Case& one :
        {Case{ppm, 375, 4}, Case{png, 375, 4}, Case{png, 750, 2}, Case{png, 1500, 1},
         Case{views, 370, 3}, Case{views, 555, 2}, Case{views, 1110, 1}, Case{views, 60, 1},
@@ -239,7 +243,7 @@ TEST_CASE("Middlebury of 2003 to 2006: grey maps of the multiple that their size
     CHECK(std::isnan(capture.light_field.disparity.at(20, 0)));
     CHECK(capture.care == MapCare::kFill);
   }
-  TempFolder folder;  // without a picture beside it the size decides
+  TempFolder folder;  // without a second picture, the size decides
   WriteGreyMapPair(folder, ppm, 375, 4);
   Capture capture = ValueOf(OpenCapture(folder.path(), {}));
   REQUIRE(LoadCapture(StarPositions(1), &capture) == "");
@@ -249,8 +253,8 @@ TEST_CASE("Middlebury of 2003 to 2006: grey maps of the multiple that their size
   CHECK(Contains(LoadCapture({}, &capture), "as the centre view"));
 }
 
-TEST_CASE("orientation: the corners stand where EXIF says") {
-  // EXIF 2.32, tag 274: what the file's row 0 and column 0 are.
+TEST_CASE("orientation: the corners are at the places that EXIF defines") {
+  // EXIF 2.32, tag 274: the sides that row 0 and column 0 of the file are.
   constexpr const char* kRows[] = {"top",  "top",   "bottom", "bottom",
                                    "left", "right", "right",  "left"};
   constexpr const char* kColumns[] = {"left", "right", "right",  "left",
@@ -276,7 +280,7 @@ TEST_CASE("orientation: the corners stand where EXIF says") {
   }
 }
 
-TEST_CASE("maps are brought to the picture's size between their values, unknown ones left out") {
+TEST_CASE("maps are interpolated to the size of the picture, and unknown values are left out") {
   const FloatMap map = {2, 2, {0, 4, NAN, 8}};
   const FloatMap large = Resize(map, 4, 2);
   CHECK(large.at(0, 0) == 0);

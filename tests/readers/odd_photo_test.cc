@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Photos that are sound but odd, as editors and some cameras leave them: less is read of them
-// rather than nothing, with a note; and what is kept of their metadata.
+// Reads valid but unusual photos of editors and some cameras. The readers use what is valid and add
+// a note. Also tests which metadata are kept.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -19,7 +19,8 @@ namespace {
 
 using namespace photos;
 
-// A GDepth photo with those attributes opens with a note: an order, in which black is near.
+// Checks that a GDepth photo with these attributes opens with a note, and that its levels only
+// define an order in which black is near.
 void CheckOrder(const std::string& attributes) {
   CAPTURE(attributes);
   Capture capture;
@@ -31,7 +32,7 @@ void CheckOrder(const std::string& attributes) {
   capture = OpenRamp(file, 0, kPortrait, white);
 }
 
-TEST_CASE("GDepth: a range that is none is ignored, and levels are an order") {
+TEST_CASE("GDepth: an invalid range is ignored, and levels define only an order") {
   if (!CanReadXmp()) return;
   const std::string inverse = "GDepth:Format=\"RangeInverse\" GDepth:Units=\"m\" ";
   const std::string linear = "GDepth:Format=\"RangeLinear\" GDepth:Mime=\"image/png\" ";
@@ -46,7 +47,8 @@ TEST_CASE("GDepth: a range that is none is ignored, and levels are an order") {
   CheckOrder(linear + "GDepth:Near=\"0.5\" GDepth:Far=\"INF\"");
   CheckOrder("GDepth:Near=\"0.5\" GDepth:Far=\"4\"");
   CheckOrder("GDepth:Format=\"other\" GDepth:Near=\"0.5\" GDepth:Far=\"4\"");
-  // Levels that are linear in 1 / distance may end at infinity.
+  // Levels that are linear in 1
+  // distance may end at infinity.
   for (const char* far : {"INF", "inf", "Infinity", "+inf"}) {
     Capture capture =
         OpenRamp(Gdepth(Photo(), inverse + "GDepth:Near=\"0.5\" GDepth:Far=\"" + far + "\"",
@@ -56,7 +58,7 @@ TEST_CASE("GDepth: a range that is none is ignored, and levels are an order") {
   }
 }
 
-// The photo with a depth picture beside it, whose right end is near.
+// Opens a photo with a depth picture next to it, whose right end is near.
 Error OpenBeside(const std::string& photo, Capture* capture) {
   TempFolder folder;
   Write(folder.file("photo.jpg"), photo);
@@ -68,7 +70,8 @@ Error OpenBeside(const std::string& photo, Capture* capture) {
   return opened.error();
 }
 
-TEST_CASE("XMP that is lost or malformed is ignored, and the depth picture beside it is used") {
+TEST_CASE(
+    "XMP that is lost or malformed is ignored, and the depth picture next to the photo is used") {
   if (!CanReadXmp()) return;
   const std::string lost =
       Packet(kGoogle, std::string("xmpNote:HasExtendedXMP=\"") + kGuid + "\" " + kInverse);
@@ -93,7 +96,7 @@ TEST_CASE("XMP that is lost or malformed is ignored, and the depth picture besid
     CHECK(capture.format == "photo and depth picture");
     CheckRamp(capture, 0, kPortrait);
     CHECK(HasNote(capture, one.note));
-    // Without a picture beside it the same is the cause of the error.
+    // Without a depth picture, the error names the same cause.
     const std::string error = Open(file, &capture).line();
     CHECK(Contains(error, ": expected a depth map"));
     if (one.note.find("the depth map") != 0) CHECK(Contains(error, one.note));
@@ -115,7 +118,7 @@ TEST_CASE("extended XMP that no packet names is used if there is no other map") 
   }
 }
 
-TEST_CASE("XMP: a second packet counts, beside one that is malformed, too") {
+TEST_CASE("XMP: a second packet is read, even if the other packet is malformed") {
   if (!CanReadXmp()) return;
   const std::string rights = "xmlns:dc=\"http://purl.org/dc/elements/1.1/\" dc:format=\"x\"";
   const std::string depth = XmpSegment(Packet(kGoogle, kInverse + Data(RampPng())));
@@ -127,7 +130,7 @@ TEST_CASE("XMP: a second packet counts, beside one that is malformed, too") {
   }
 }
 
-TEST_CASE("Apple's JPEG: the map is found where its index is wrong, moved or lost") {
+TEST_CASE("Apple's JPEG: the map is found if its index is wrong, moved or lost") {
   if (!CanReadXmp()) return;
   const std::string map = AppleMap(Encode(Ramp(kWidth, kHeight), ".jpg"),
                                    "<apdi:AuxiliaryImageType>disparity</apdi:AuxiliaryImageType>"
@@ -149,7 +152,7 @@ TEST_CASE("Apple's JPEG: the map is found where its index is wrong, moved or los
     check(MultiPicture(Photo(), map, {little, 0xffffffff}), "");
     check(MultiPicture(Photo(), map, {little, 32, 1000}), wrong);
     check(MultiPicture(Photo(), map, {little, 32, 0x80000000}), wrong);
-    // An editor puts a segment before the index: the places count from the index, and stay right.
+    // An editor inserts a segment before the index. Offsets count from the index and stay valid.
     check(Insert(MultiPicture(Photo(), map, {little}), ExifSegment(1, 50)), "");
   }
   check(Photo() + map, "the file has no multi-picture index");
@@ -192,10 +195,10 @@ TEST_CASE("a stereo pair in one file has two views and no map") {
     }
   }
   CHECK(open("a.mpo", Photo() + second));
-  // Entries that are read from a wrong place have a type that none has.
+  // Entries that are read at a wrong offset have a type that does not exist.
   CHECK(open("a.mpo", MultiPicture(Photo(), second, {false, 32, 5, 0x123456})));
   CHECK(open("a.jpg", MultiPicture(Photo(), second)));
-  // No pair: nothing says so, another size, a large preview, a gain map.
+  // These files are no pairs: no sign of a pair, different sizes, a large preview, and a gain map.
   CHECK(!open("a.jpg", Photo() + second));
   CHECK(!open("a.mpo", MultiPicture(Photo(), Encode(Ramp(kWidth / 2, kHeight / 2), ".jpg"))));
   CHECK(!open("a.mpo", MultiPicture(Photo(), second, {false, 32, 0, 0x010002})));
@@ -203,7 +206,7 @@ TEST_CASE("a stereo pair in one file has two views and no map") {
   CHECK(!open("a.jpg", MultiPicture(Photo(), Insert(second, XmpSegment(Packet(gain, ""))))));
 }
 
-TEST_CASE("profiles: parts are joined by number, and what is not whole or RGB is left out") {
+TEST_CASE("profiles: parts are joined by number, and incomplete or non-RGB profiles are omitted") {
   TempFolder folder;
   Write(folder.file("photo-depth.png"), RampPng());
   Capture capture;
@@ -233,7 +236,7 @@ TEST_CASE("profiles: parts are joined by number, and what is not whole or RGB is
   CHECK(left_out(Joined(ProfileSegments(Profile(300, "CMYK"), 2))));
 }
 
-TEST_CASE("captions: XMP and IPTC of a photo are kept, but nothing on its depth map") {
+TEST_CASE("captions: XMP and IPTC of a photo are kept, except properties of its depth map") {
   if (!CanReadXmp()) return;
   const std::string names =
       std::string(kGoogle) +
@@ -255,14 +258,14 @@ TEST_CASE("captions: XMP and IPTC of a photo are kept, but nothing on its depth 
         "<rdf:li xml:lang=\"x-default\">Cats &amp; dogs</rdf:li></rdf:Alt></dc:title>"
         "</rdf:Description>");
   CHECK(std::string(capture.metadata.iptc.begin(), capture.metadata.iptc.end()) == records);
-  // What is written is read again, and no depth map is claimed.
+  // Written captions can be read again, and the file claims no depth map.
   Bytes jpeg = ValueOf(EncodeJpeg("x", Plain(kWidth, kHeight, 9), 90, capture.metadata, {}));
   Capture again;
   CHECK(Contains(Open({jpeg.begin(), jpeg.end()}, &again), "a picture without one"));
   REQUIRE(OpenBeside({jpeg.begin(), jpeg.end()}, &again) == "");
   CHECK(again.metadata.xmp == capture.metadata.xmp);
   CHECK(again.metadata.iptc == capture.metadata.iptc);
-  // A photo without captions has none, and IPTC that is cut off is none.
+  // A photo without captions returns none, and truncated IPTC is ignored.
   REQUIRE(OpenBeside(Insert(Photo(), XmpSegment(Packet(kGoogle, kInverse)) +
                                          Segment(0xed, std::string("Photoshop 3.0\0", 14) +
                                                            "8BIM\4\4" + std::string(3, '\0'))),
@@ -271,7 +274,7 @@ TEST_CASE("captions: XMP and IPTC of a photo are kept, but nothing on its depth 
   CHECK(again.metadata.iptc.empty());
 }
 
-TEST_CASE("photos: an error names what the file is") {
+TEST_CASE("photos: an error names the type of the file") {
   Capture capture;
   const std::string photo = Photo(), png = RampPng();
   const auto error = [&](const std::string& bytes) { return Open(bytes, &capture); };
