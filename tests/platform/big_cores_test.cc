@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which cores are big, by files as Linux has them of phones, laptops and virtual machines.
+// Tests which cores count as big, with files as Linux provides them on phones, laptops and virtual
+// machines.
 #include "platform/pool/big_cores.h"
 
 #include <doctest/doctest.h>
@@ -16,7 +17,7 @@ namespace {
 
 using starfocus::CoreSet;
 
-using Numbers = std::vector<int>;  // of each core
+using Numbers = std::vector<int>;  // one per core
 
 void Write(const std::string& folder, const std::string& file, const Numbers& numbers) {
   for (size_t core = 0; core < numbers.size(); ++core) {
@@ -42,12 +43,12 @@ Numbers Found(const std::string& folder, const CoreSet& allowed) {
   return cores;
 }
 
-TEST_CASE("big cores: by capacity, before clocks") {
+TEST_CASE("big cores: capacity takes precedence over clock frequency") {
   const starfocus::TempFolder folder;
   Write(folder.path(), "cpu_capacity", {160, 160, 160, 160, 512, 700, 1024, 1024});
   Write(folder.path(), "cpufreq/cpuinfo_max_freq", Numbers(8, 1800000));
   CHECK(Found(folder.path(), First(8)) == Numbers{4, 5, 6, 7});
-  // The strongest that may be used counts.
+  // The reference is the strongest core that may be used.
   CHECK(Found(folder.path(), First(4)) == Numbers{0, 1, 2, 3});
   CHECK(Found(folder.path(), First(5)) == Numbers{4});
   CoreSet some;
@@ -55,14 +56,14 @@ TEST_CASE("big cores: by capacity, before clocks") {
   CHECK(Found(folder.path(), some) == Numbers{7});
 }
 
-TEST_CASE("big cores: by clocks where a core has no capacity") {
+TEST_CASE("big cores: clock frequencies decide if a core has no capacity") {
   const starfocus::TempFolder folder;
   Write(folder.path(), "cpu_capacity", {1024, 300});
   Write(folder.path(), "cpufreq/cpuinfo_max_freq", {5100000, 5000000, 3800000, 3900000, 2100000});
   CHECK(Found(folder.path(), First(5)) == Numbers{0, 1, 3});
 }
 
-TEST_CASE("big cores: all that may be used where nothing, or nonsense, is told") {
+TEST_CASE("big cores: all allowed cores count if the files are absent or invalid") {
   const starfocus::TempFolder folder;
   CHECK(Found(folder.path(), First(3)) == Numbers{0, 1, 2});
   CHECK(Found(folder.path() + "/none", First(2)) == Numbers{0, 1});
@@ -78,7 +79,7 @@ TEST_CASE("big cores: all that may be used where nothing, or nonsense, is told")
 }
 
 #ifdef __linux__
-TEST_CASE("big cores: those of this machine are some, and a thread may run on them") {
+TEST_CASE("big cores: this machine has some, and a thread can run on them") {
   const CoreSet big = starfocus::BigCores();
   CHECK(big.Count() >= 1);
   starfocus::RunOn(big);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Knob and buttons on sequences of edges: clean, bouncing and with edges lost.
+// Tests knob and buttons with sequences of edges: clean, bouncing, and with lost edges.
 #include "platform/controls.h"
 
 #include <doctest/doctest.h>
@@ -18,7 +18,7 @@ struct EncoderEdge {
   bool of_a, high;
 };
 
-// One detent clockwise; counter-clockwise the lines change their parts.
+// The edges of one detent clockwise. Counter-clockwise, the two lines are swapped.
 constexpr EncoderEdge kStep[] = {{true, false}, {false, false}, {true, true}, {false, true}};
 
 void AddStep(bool clockwise, std::vector<EncoderEdge>* edges) {
@@ -33,7 +33,7 @@ int Decode(const std::vector<EncoderEdge>& edges, QuadratureDecoder* decoder) {
   return steps;
 }
 
-TEST_CASE("encoder: steps of both directions, from any level at rest") {
+TEST_CASE("encoder: steps of both directions are counted from any level at rest") {
   for (const bool rest : {true, false}) {
     QuadratureDecoder decoder(rest, rest);
     const auto turn = [&](bool clockwise) {
@@ -50,7 +50,7 @@ TEST_CASE("encoder: steps of both directions, from any level at rest") {
   }
 }
 
-TEST_CASE("encoder: a step comes with the last of its four edges") {
+TEST_CASE("encoder: a step is counted at the last of its four edges") {
   QuadratureDecoder decoder;
   CHECK(decoder.EdgeOfA(false) == 0);
   CHECK(decoder.EdgeOfB(false) == 0);
@@ -58,7 +58,7 @@ TEST_CASE("encoder: a step comes with the last of its four edges") {
   CHECK(decoder.EdgeOfB(true) == 1);
 }
 
-TEST_CASE("encoder: half a step and back is none") {
+TEST_CASE("encoder: half a step and back is not counted") {
   QuadratureDecoder decoder;
   const std::vector<EncoderEdge> edges = {
       {true, false}, {false, false}, {false, true}, {true, true}};
@@ -66,7 +66,7 @@ TEST_CASE("encoder: half a step and back is none") {
   CHECK(Decode({kStep, kStep + 4}, &decoder) == 1);
 }
 
-TEST_CASE("encoder: bouncing contacts make no steps of their own") {
+TEST_CASE("encoder: bouncing contacts add no steps") {
   test::Random random(5);
   QuadratureDecoder decoder;
   int wanted = 0, got = 0;
@@ -87,7 +87,7 @@ TEST_CASE("encoder: bouncing contacts make no steps of their own") {
   }
 }
 
-TEST_CASE("encoder: a lost edge costs at most its step, never makes a wrong one") {
+TEST_CASE("encoder: a lost edge loses at most its step and never adds a wrong one") {
   for (const bool clockwise : {true, false}) {
     for (size_t lost = 0; lost < 4; ++lost) {
       CAPTURE(clockwise);
@@ -100,7 +100,7 @@ TEST_CASE("encoder: a lost edge costs at most its step, never makes a wrong one"
       int total = direction * Decode(edges, &decoder);
       CHECK(total >= 0);
       CHECK(total <= 1);
-      // The second step may give the first one's missing edge back; from then on all is exact.
+      // The second step may restore the missing edge of the first. After that, the count is exact.
       std::vector<EncoderEdge> next;
       AddStep(clockwise, &next);
       total += direction * Decode(next, &decoder);
@@ -111,7 +111,7 @@ TEST_CASE("encoder: a lost edge costs at most its step, never makes a wrong one"
   }
 }
 
-TEST_CASE("encoder: with edges lost at random it stays close and gets back in step") {
+TEST_CASE("encoder: with randomly lost edges, the count stays close and becomes exact again") {
   test::Random random(9);
   QuadratureDecoder decoder;
   int got = 0, lost = 0;
@@ -132,13 +132,14 @@ TEST_CASE("encoder: with edges lost at random it stays close and gets back in st
 
 constexpr int64_t kMs = 1000000;
 
-// Edges of a button, whether it is pressed then, and whether that is a press.
+// An edge of a button: its time, whether the button is pressed, and whether the edge counts as a
+// press.
 struct ButtonEdge {
   int ms;
   bool pressed, counts;
 };
 
-TEST_CASE("button: presses among edges") {
+TEST_CASE("button: the right edges count as presses") {
   const struct {
     const char* what;
     std::vector<ButtonEdge> edges;
@@ -173,7 +174,7 @@ TEST_CASE("button: bouncing of press and release makes one press") {
   CHECK_FALSE(button.unsettled());
 }
 
-TEST_CASE("button: a tap shorter than the bouncing time still ends") {
+TEST_CASE("button: a tap shorter than the bouncing time ends") {
   Debouncer button(10 * kMs);
   CHECK(button.Edge(true, 0));
   CHECK_FALSE(button.Edge(false, 3 * kMs));
@@ -186,7 +187,7 @@ TEST_CASE("button: a tap shorter than the bouncing time still ends") {
   CHECK(button.Edge(true, 11 * kMs));
 }
 
-TEST_CASE("button: pressed again while the release bounced") {
+TEST_CASE("button: a press while the release bounces is handled") {
   Debouncer button(10 * kMs);
   CHECK(button.Edge(true, 0));
   CHECK_FALSE(button.Edge(false, 100 * kMs));
@@ -195,7 +196,7 @@ TEST_CASE("button: pressed again while the release bounced") {
   CHECK_FALSE(button.Edge(false, 300 * kMs));
 }
 
-TEST_CASE("panel: edges go to their controls, buttons to ground") {
+TEST_CASE("panel: edges reach their controls, and buttons may connect to ground") {
   PanelLines lines;
   lines.encoder_a = 4;
   lines.encoder_b = 5;
@@ -219,7 +220,7 @@ TEST_CASE("panel: edges go to their controls, buttons to ground") {
   CHECK_FALSE(panel.Edge(99, false, 60 * kMs).any());
 }
 
-TEST_CASE("panel: buttons to the supply, controls that are not there") {
+TEST_CASE("panel: buttons may connect to the supply, and controls may be absent") {
   PanelLines lines;
   lines.shutter = 3;
   CHECK(lines.All() == std::vector<int>{3});
@@ -228,7 +229,8 @@ TEST_CASE("panel: buttons to the supply, controls that are not there") {
   CHECK_FALSE(panel.Edge(3, false, 120 * kMs).any());
 }
 
-TEST_CASE("framebuffer: centred, cropped, in the screen's own pixels") {
+TEST_CASE(
+    "framebuffer: the picture is centred, cropped, and converted to the pixels of the screen") {
   Image picture(2, 1);
   picture.pixels = {255, 128, 8, 1, 2, 3};
   std::vector<uint8_t> memory(3 * 20, 0xCD);
@@ -255,14 +257,15 @@ TEST_CASE("framebuffer: centred, cropped, in the screen's own pixels") {
   screen.red = {11, 5};
   screen.green = {5, 6};
   screen.blue = {0, 5};
-  Draw(picture, screen);  // the left pixel: 2 - 1 pixels are cropped, half a pixel to the left
+  // One of two pixels must be cropped. Half a pixel on the left rounds to 0, so the left pixel is visible.
+  Draw(picture, screen);
   const uint32_t pixel = (255u >> 3 << 11) | (128u >> 2 << 5) | (8u >> 3);
   CHECK(memory[0] == (pixel & 255));
   CHECK(memory[1] == pixel >> 8);
   CHECK(memory[2] == 0);
 }
 
-TEST_CASE("framebuffer: what is none is refused") {
+TEST_CASE("framebuffer: files that are not framebuffers are rejected") {
   CHECK(ShowOnFramebuffer("/nowhere/fb0", Image(1, 1)).line().rfind("/nowhere/fb0: expected", 0) ==
         0);
   CHECK(ShowOnFramebuffer("/dev/null", Image(1, 1)).line().rfind("/dev/null: expected", 0) == 0);

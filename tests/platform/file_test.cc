@@ -37,7 +37,7 @@ mode_t Mode(const std::string& path) {
   return status.st_mode & 07777;
 }
 
-TEST_CASE("file: a link stays a link") {
+TEST_CASE("file: writing through a link keeps the link") {
   TempFolder folder;
   REQUIRE(WriteFile(folder.file("real"), FromText("old")) == "");
   fs::create_symlink("real", folder.file("link"));
@@ -66,7 +66,7 @@ TEST_CASE("file: an error names its true cause") {
         "cannot create folder " + folder.file("a") + ": not a directory");
   CHECK(MakeFolder(folder.file("b/c")) == "");
   CHECK(fs::is_directory(folder.file("b/c")));
-  if (geteuid() == 0) return;  // root may do everything
+  if (geteuid() == 0) return;  // root may write everywhere
   REQUIRE(chmod(folder.file("a").c_str(), 0) == 0);
   REQUIRE(chmod(folder.file("b").c_str(), 0500) == 0);
   CHECK(ReadFile(folder.file("a")) == "cannot read " + folder.file("a") + ": permission denied");
@@ -94,12 +94,12 @@ TEST_CASE("file: devices and endless pipes are not read, and small files have a 
         folder.file("more") +
             ": the file is too large (expected at most 1048576 bytes, found 1048577)");
   CHECK(ReadFile(folder.file("more")) == "");
-  // A file with a hole of its size, so that the disk has room.
+  // A sparse file, so that the disk has room.
   REQUIRE(truncate(folder.file("more").c_str(), (off_t{1} << 31) + 1) == 0);
   CHECK(ReadFile(folder.file("more")) ==
         folder.file("more") +
             ": the file is too large (expected at most 2147483648 bytes, found 2147483649)");
-  // A pipe that ends is read; one that does not is read up to the limit.
+  // A pipe that ends is read. An endless pipe is read up to the limit.
   for (const bool endless : {false, true}) {
     const std::string path = folder.file(endless ? "endless" : "pipe");
     REQUIRE(mkfifo(path.c_str(), 0600) == 0);
@@ -125,7 +125,7 @@ TEST_CASE("file: devices and endless pipes are not read, and small files have a 
   }
 }
 
-TEST_CASE("file: what is replaced keeps its permissions") {
+TEST_CASE("file: a replaced file keeps its permissions") {
   TempFolder folder;
   const std::string path = folder.file("a");
   for (const mode_t mode : {0600, 0640, 0666, 0755}) {
@@ -138,7 +138,7 @@ TEST_CASE("file: what is replaced keeps its permissions") {
   CHECK(folder.count() == 1);
 }
 
-TEST_CASE("file: a read-only file is refused, before the work and when it is written") {
+TEST_CASE("file: a read-only file is rejected, both before the work and at the write") {
   TempFolder folder;
   const std::string path = folder.file("a");
   REQUIRE(WriteFile(path, FromText("old")) == "");
@@ -152,7 +152,8 @@ TEST_CASE("file: a read-only file is refused, before the work and when it is wri
   CHECK(folder.count() == 2);
 }
 
-TEST_CASE("file: every name that a folder can hold can be written, others are refused at once") {
+TEST_CASE(
+    "file: every name that a folder can hold can be written, and others are rejected at once") {
   TempFolder folder;
   const long longest = pathconf(folder.path().c_str(), _PC_NAME_MAX);
   REQUIRE(longest > 200);
@@ -167,17 +168,17 @@ TEST_CASE("file: every name that a folder can hold can be written, others are re
   CHECK(folder.count() == 3);
 }
 
-TEST_CASE("file: a pipe is no plain file") {
+TEST_CASE("file: a pipe is not a plain file") {
   TempFolder folder;
   REQUIRE(mkfifo(folder.file("pipe").c_str(), 0600) == 0);
   REQUIRE(WriteFile(folder.file("file"), {}) == "");
   CHECK(CheckPlainFile(folder.file("pipe")) != "");
   CHECK(CheckPlainFile("/dev/null") != "");
   CHECK(CheckPlainFile(folder.file("file")) == "");
-  CHECK(CheckPlainFile(folder.file("none")) == "");  // its reader tells
+  CHECK(CheckPlainFile(folder.file("none")) == "");  // the reader reports the error
 }
 
-TEST_CASE("file: a full device is noticed") {
+TEST_CASE("file: a full device is reported") {
   if (!fs::exists("/dev/full")) return;
   CHECK(WriteFile("/dev/full", FromText("x")) != "");
 }
@@ -198,7 +199,7 @@ TEST_CASE("file: signals that end the program leave no temporary file") {
   }
 }
 
-TEST_CASE("file: a signal amid many writers leaves whole files alone") {
+TEST_CASE("file: a signal during concurrent writes leaves only complete files") {
   const Bytes bytes(300000, 7);
   for (int attempt = 0; attempt < 20; ++attempt) {
     TempFolder folder;

@@ -36,7 +36,7 @@ Result<Image> ReadBytes(const Bytes& bytes) {
   return ReadImage(path);
 }
 
-TEST_CASE("image_io: PNG and PPM come back exactly, at any size") {
+TEST_CASE("image_io: PNG and PPM are read back exactly at any size") {
   TempFolder folder;
   for (const char* extension : {".png", ".ppm", ".PNG"}) {
     for (int width : {1, 2, 3, 17, 64}) {
@@ -52,10 +52,10 @@ TEST_CASE("image_io: PNG and PPM come back exactly, at any size") {
       }
     }
   }
-  CHECK(folder.count() == 3);  // no temporary file stays
+  CHECK(folder.count() == 3);  // no temporary file is left
 }
 
-TEST_CASE("image_io: JPEG comes back nearly") {
+TEST_CASE("image_io: JPEG is read back with small differences") {
   TempFolder folder;
   Image image(40, 24);
   for (int y = 0; y < 24; ++y) {
@@ -69,7 +69,7 @@ TEST_CASE("image_io: JPEG comes back nearly") {
   }
 }
 
-TEST_CASE("image_io: PPM header variants") {
+TEST_CASE("image_io: all variants of PPM headers are read") {
   Image image = ValueOf(ReadBytes(FromText("P6 # comment\n1\t1\n255\nabc")));
   CHECK(image.pixels == FromText("abc"));
   image = ValueOf(ReadBytes(FromText("P5 2 1 100 \x32\x64")));
@@ -80,7 +80,7 @@ TEST_CASE("image_io: PPM header variants") {
   CHECK(image.pixels == Bytes{255, 128, 0});
 }
 
-TEST_CASE("image_io: broken files are one-line errors") {
+TEST_CASE("image_io: malformed files cause one-line errors") {
   const std::string bad[] = {"",
                              "P",
                              "P6",
@@ -103,7 +103,7 @@ TEST_CASE("image_io: broken files are one-line errors") {
   }
 }
 
-// A picture of 24x18, written as the name's extension says.
+// Returns a picture of 24x18 pixels, written in the format of the extension.
 Bytes Written(const std::string& name) {
   TempFolder folder;
   REQUIRE(WriteImage(folder.file(name), Pattern(24, 18)) == "");
@@ -112,7 +112,7 @@ Bytes Written(const std::string& name) {
   return bytes;
 }
 
-// Where a marker of a JPEG file is.
+// Returns the position of a marker in a JPEG file.
 Bytes::iterator FindMarker(uint8_t marker, Bytes* jpeg) {
   const uint8_t bytes[] = {0xff, marker};
   const auto at = std::search(jpeg->begin(), jpeg->end(), bytes, bytes + 2);
@@ -120,7 +120,7 @@ Bytes::iterator FindMarker(uint8_t marker, Bytes* jpeg) {
   return at;
 }
 
-TEST_CASE("image_io: truncated PNG and JPEG are refused at every length") {
+TEST_CASE("image_io: PNG and JPEG that are truncated at any length are rejected") {
   for (const char* name : {"a.png", "a.jpg"}) {
     const Bytes bytes = Written(name);
     for (size_t size = 0; size + 20 < bytes.size(); size += 13) {
@@ -131,7 +131,7 @@ TEST_CASE("image_io: truncated PNG and JPEG are refused at every length") {
   }
 }
 
-TEST_CASE("image_io: a PNG with any byte changed is refused") {
+TEST_CASE("image_io: a PNG with any byte changed is rejected") {
   const Bytes bytes = Written("a.png");
   for (size_t at = 0; at < bytes.size(); ++at) {
     CAPTURE(at);
@@ -141,35 +141,35 @@ TEST_CASE("image_io: a PNG with any byte changed is refused") {
   }
 }
 
-TEST_CASE("image_io: a PNG chunk longer than its file is refused before it is read") {
+TEST_CASE("image_io: a PNG chunk longer than its file is rejected before it is read") {
   Bytes bytes = Written("a.png");
-  bytes[33] = 0x67;  // the length of the chunk behind the header: 1.7 GB
+  bytes[33] = 0x67;  // length of the chunk after the header: 1.7 GB
   CHECK(Contains(ReadBytes(bytes), "truncated"));
 }
 
-TEST_CASE("image_io: a JPEG too short for its size is refused before it is decoded") {
+TEST_CASE("image_io: a JPEG too short for its size is rejected before it is decoded") {
   Bytes bytes = Written("a.jpg");
   const auto at = FindMarker(0xc0, &bytes);
   for (int k = 5; k < 9; ++k) at[k] = 0x3f;  // height and width
   CHECK(Contains(ReadBytes(bytes), "truncated"));
 }
 
-TEST_CASE("image_io: a JPEG table of more codes than it has room for is refused") {
+TEST_CASE("image_io: a JPEG table with more codes than it has room for is rejected") {
   Bytes bytes = Written("a.jpg");
   const auto table = FindMarker(0xc4, &bytes);
   REQUIRE(bytes.end() - table > 4 + 17);
   std::fill_n(table + 4 + 1, 16, uint8_t{17});
   const auto names_table = [](const Bytes& broken) {
-    const Result<Image> read = ReadBytes(broken);  // by libjpeg-turbo, or by stb_image
+    const Result<Image> read = ReadBytes(broken);  // message of libjpeg-turbo or of stb_image
     return Contains(read, "Huffman table") || Contains(read, "code table");
   };
   CHECK(names_table(bytes));
-  // stb_image takes several 0xff for one.
+  // stb_image skips repeated 0xff bytes.
   bytes.insert(table, 3, 0xff);
   CHECK(names_table(bytes));
 }
 
-TEST_CASE("image_io: a JPEG table has 256 codes at most") {
+TEST_CASE("image_io: a JPEG table has at most 256 codes") {
   for (const int codes : {255, 256, 257}) {
     CAPTURE(codes);
     const int length = 2 + 17 + codes;
@@ -182,7 +182,7 @@ TEST_CASE("image_io: a JPEG table has 256 codes at most") {
   }
 }
 
-TEST_CASE("image_io: outputs that cannot be written leave nothing") {
+TEST_CASE("image_io: outputs that cannot be written leave no file") {
   TempFolder folder;
   const Image image = Pattern(3, 3);
   CHECK(Contains(WriteImage(folder.file("a.bmp"), image), ".bmp"));
@@ -198,7 +198,7 @@ TEST_CASE("image_io: outputs that cannot be written leave nothing") {
   CHECK(CheckImageOutput("a.PPM") == "");
 }
 
-// A PNG file of one row.
+// Returns a PNG file of one row.
 Bytes MakePng(uint32_t width, uint32_t height, photos::PngKind kind, const Bytes& palette,
               const Bytes& row) {
   if (!palette.empty()) {
@@ -208,7 +208,7 @@ Bytes MakePng(uint32_t width, uint32_t height, photos::PngKind kind, const Bytes
   return FromText(photos::Png(width, height, kind, {row.begin(), row.end()}, row.size()));
 }
 
-TEST_CASE("image_io: a PNG palette is looked up, and an index beyond it refused") {
+TEST_CASE("image_io: colours of a PNG palette are looked up, and indices beyond it are rejected") {
   const Bytes palette = {10, 20, 30, 40, 50, 60, 70, 80, 90};
   for (const int depth : {1, 2, 4, 8}) {
     CAPTURE(depth);
@@ -240,10 +240,10 @@ TEST_CASE("image_io: a PNG palette is looked up, and an index beyond it refused"
   CHECK(ValueOf(ReadBytes(MakePng(8, 1, {8, 0}, {}, Bytes(8, 99)))).pixels == Bytes(24, 99));
 }
 
-TEST_CASE("image_io: what follows the end of a PNG file is no part of it") {
+TEST_CASE("image_io: bytes after the end of a PNG file are ignored") {
   const Bytes palette = {10, 20, 30, 40, 50, 60, 70, 80, 90};
   Bytes png = MakePng(8, 1, {8, 3}, palette, Bytes(8, 1));
-  // Another palette, and the beginning of a chunk of 1000 bytes.
+  // Another palette, and the start of a chunk of 1000 bytes.
   const std::string more = photos::Chunk("PLTE", std::string(9, '\xc8')) + photos::Big(1000, 4) +
                            "PLTE" + std::string(4, '\0');
   png.insert(png.end(), more.begin(), more.end());
@@ -251,7 +251,7 @@ TEST_CASE("image_io: what follows the end of a PNG file is no part of it") {
   CHECK(std::equal(&palette[3], &palette[6], image.row(0)));
 }
 
-TEST_CASE("image_io: a picture too large for its format says its size") {
+TEST_CASE("image_io: the error for a picture too large for its format has its size") {
   const struct {
     uint32_t width, height;
     const char* expected;
@@ -263,7 +263,7 @@ TEST_CASE("image_io: a picture too large for its format says its size") {
     const Bytes png = MakePng(size.width, size.height, {8, 0}, {}, Bytes(8));
     CHECK(Contains(ReadBytes(png), size.expected));
   }
-  // The encoders count bytes in an int: more of them would be written out of bounds.
+  // The encoders count bytes in an int, so a larger picture would be written out of bounds.
   TempFolder folder;
   Image large;
   large.width = large.height = 40000;
@@ -273,12 +273,12 @@ TEST_CASE("image_io: a picture too large for its format says its size") {
   CHECK(folder.count() == 0);
 }
 
-// A file among the seeds of the fuzz targets: 24x16 pixels, red 40 + 7 x, green 60 + 8 y, blue 128.
+// Returns a seed file of the fuzz targets: 24x16 pixels, red 40 + 7 x, green 60 + 8 y, blue 128.
 Bytes Seed(const std::string& name) {
   return ValueOf(ReadFile(STARFOCUS_SOURCE_DIR "/tests/fuzz/corpus/photo/" + name));
 }
 
-// The largest difference from that picture, its light scaled by `share`.
+// Returns the largest difference from the seed picture with its light scaled by `share`.
 int DifferenceFromSeed(const Image& image, double share) {
   REQUIRE(image.width == 24);
   REQUIRE(image.height == 16);
@@ -295,32 +295,32 @@ int DifferenceFromSeed(const Image& image, double share) {
   return most;
 }
 
-// Whether the build has libjpeg-turbo: stb_image reads no arithmetic coding.
+// Returns true if the build has libjpeg-turbo. stb_image does not read arithmetic coding.
 bool HasLibjpeg() { return bool(DecodeImage("arithmetic.jpg", Seed("arithmetic.jpg"))); }
 
-TEST_CASE("image_io: JPEG of every kind that libjpeg-turbo reads has its colours") {
+TEST_CASE("image_io: JPEG of every kind that libjpeg-turbo reads has the right colours") {
   if (!HasLibjpeg()) return;
   for (const char* name : {"arithmetic.jpg", "progressive.jpg", "restart.jpg", "cmyk.jpg",
                            "cmyk_adobe.jpg", "ycck.jpg"}) {
     CAPTURE(name);
     Image image = ValueOf(ReadBytes(Seed(name)));
-    // Black is 200 everywhere where there is any, as Adobe stores it: of 255 no ink.
+    // The black channel, if present, is 200 everywhere. Adobe stores it inverted: 255 is no ink.
     const bool black = name[0] == 'c' || name[0] == 'y';
     CHECK(DifferenceFromSeed(image, black ? 200 / 255.0 : 1) <= 6);
   }
 }
 
-TEST_CASE("image_io: bytes between the parts of a JPEG do no harm") {
+TEST_CASE("image_io: bytes between the parts of a JPEG are ignored") {
   if (!HasLibjpeg()) return;
   Bytes bytes = Seed("restart.jpg");
   const Bytes junk = {0xff, 0xd1, 0x55, 0x55, 0x55};
   bytes.insert(bytes.end() - 2, junk.begin(), junk.end());
   CHECK(DifferenceFromSeed(ValueOf(ReadBytes(bytes)), 1) <= 6);
-  bytes.insert(bytes.end(), 100, 0xff);  // behind its end
+  bytes.insert(bytes.end(), 100, 0xff);  // after its end
   CHECK(ReadBytes(bytes) == "");
 }
 
-TEST_CASE("image_io: JPEG of 12 bits a sample, and a truncated one with an end, name the cause") {
+TEST_CASE("image_io: the errors for 12-bit JPEG and truncated JPEG name the cause") {
   if (!HasLibjpeg()) return;
   Bytes bytes = Seed("restart.jpg");
   FindMarker(0xc0, &bytes)[4] = 12;
@@ -336,12 +336,12 @@ TEST_CASE("image_io: JPEG of 12 bits a sample, and a truncated one with an end, 
   CHECK(Contains(ReadBytes(bytes), "truncated"));
 }
 
-TEST_CASE("image_io: an interlaced PNG of 16 bits with alpha is a picture of 8") {
+TEST_CASE("image_io: an interlaced 16-bit PNG with alpha is read as an 8-bit picture") {
   Image image = ValueOf(ReadBytes(Seed("interlaced16.png")));
   CHECK(DifferenceFromSeed(image, 1) == 0);
 }
 
-TEST_CASE("image_io: WebP, lossy and lossless, whole or truncated") {
+TEST_CASE("image_io: lossy and lossless WebP is read, and truncated WebP is rejected") {
   if (WebpWriter::Check("", 1, 1)) {
     CHECK(Contains(ReadBytes(Seed("lossless.webp")), "libwebp"));
     return;
@@ -356,7 +356,7 @@ TEST_CASE("image_io: WebP, lossy and lossless, whole or truncated") {
   }
 }
 
-TEST_CASE("image_io: an animation is no picture, and the error says so") {
+TEST_CASE("image_io: an animation is rejected, and the error says that it is one") {
   if (WebpWriter::Check("", 1, 1)) return;
   WebpWriter writer("a.webp", 90);
   Image image(32, 20);

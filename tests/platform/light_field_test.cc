@@ -43,7 +43,7 @@ void Remove(const TempFolder& folder, int view) {
   REQUIRE(fs::remove(folder.file(StarName(view) + ".png")));
 }
 
-TEST_CASE("light_field: names follow starfocus_view_position, and have up to four decimals") {
+TEST_CASE("light_field: names follow starfocus_view_position and have up to four decimals") {
   CHECK(StarName(0) == "view_+0.0_+0.0");
   CHECK(StarName(1) == "view_+1.0_+0.0");
   CHECK(StarName(4) == "view_+0.0_-1.0");
@@ -53,7 +53,7 @@ TEST_CASE("light_field: names follow starfocus_view_position, and have up to fou
   CHECK(ViewName({-0.00001, 0.125}) == "view_+0.0_+0.125");
 }
 
-TEST_CASE("light_field: every star set comes back in order, whole or in part") {
+TEST_CASE("light_field: every star set is read back in order, as a whole or in part") {
   for (int saved : {1, 5, 9, 17}) {
     TempFolder folder;
     REQUIRE(Save(folder, Make(saved, 7, 5)) == "");
@@ -74,7 +74,7 @@ TEST_CASE("light_field: every star set comes back in order, whole or in part") {
   }
 }
 
-TEST_CASE("light_field: formats mix") {
+TEST_CASE("light_field: views may have different formats") {
   TempFolder folder;
   const LightField light_field = Make(5, 8, 8);
   REQUIRE(Save(folder, light_field) == "");
@@ -86,7 +86,7 @@ TEST_CASE("light_field: formats mix") {
   CHECK(back.views.size() == 5);
 }
 
-TEST_CASE("light_field: views at any positions come back, the centre first") {
+TEST_CASE("light_field: views at any positions are read back, with the centre first") {
   LightField light_field = Make(4, 7, 5);
   light_field.positions = {{0, 0}, {0.7, -0.25}, {-1, 0.3333}, {0, 1}};
   TempFolder folder;
@@ -95,7 +95,7 @@ TEST_CASE("light_field: views at any positions come back, the centre first") {
   LightField back = ValueOf(LoadLightField(folder.path(), {}));
   REQUIRE(back.views.size() == 4);
   CHECK_FALSE(AreStar(back.positions));
-  // Those of the star, then by u.
+  // Views of the star come first. The others follow by u.
   const int order[] = {0, 3, 2, 1};
   for (size_t i = 0; i < 4; ++i) {
     CHECK(back.views[i].pixels[0] == 10 * order[i] + 3);
@@ -111,7 +111,8 @@ TEST_CASE("light_field: views at any positions come back, the centre first") {
   CHECK(Contains(LoadLightField(folder.path(), {{0, 0}, {0.7, 0.25}}), "+0.7_+0.25"));
 }
 
-TEST_CASE("light_field: coverage is grey levels or alpha, of the size of the centre view") {
+TEST_CASE(
+    "light_field: coverage is read from grey levels or alpha and has the size of the centre view") {
   LightField light_field = Make(1, 3, 2);
   TempFolder folder;
   REQUIRE(Save(folder, light_field) == "");
@@ -139,7 +140,7 @@ TEST_CASE("light_field: coverage is grey levels or alpha, of the size of the cen
   CHECK(Contains(LoadLightField(folder.path(), {}), "expected 3x2 as the centre view"));
 }
 
-TEST_CASE("light_field: what is left of a star is a set of views, but not without its centre") {
+TEST_CASE("light_field: an incomplete star is a set of views, but it needs its centre") {
   TempFolder folder;
   REQUIRE(Save(folder, Make(9, 4, 4)) == "");
   Remove(folder, 6);
@@ -154,7 +155,7 @@ TEST_CASE("light_field: what is left of a star is a set of views, but not withou
   CHECK(Contains(LoadLightField(folder.path(), StarPositions(5)), StarName(0)));
 }
 
-TEST_CASE("light_field: views too far out, twice at one position, or too many are refused") {
+TEST_CASE("light_field: views too far out, twice at one position, or too many are rejected") {
   TempFolder folder;
   REQUIRE(Save(folder, Make(17, 4, 4)) == "");
   const std::string far = folder.file("view_+1.1_+0.0.png");
@@ -165,7 +166,7 @@ TEST_CASE("light_field: views too far out, twice at one position, or too many ar
   REQUIRE(WriteImage(twice, Image(4, 4)) == "");
   CHECK(Contains(LoadLightField(folder.path(), {}), "view_+1.00_+0.0"));
   fs::remove(twice);
-  // Alike to four decimals, though not next to each other by u and v.
+  // These positions are equal to four decimals, but not neighbours when sorted by u and v.
   const std::string close[] = {"view_+0.30001_+0.4.png", "view_+0.30002_+0.1.png",
                                "view_+0.30003_+0.4.png"};
   for (const std::string& name : close) {
@@ -178,7 +179,7 @@ TEST_CASE("light_field: views too far out, twice at one position, or too many ar
   CHECK(LoadLightField(folder.path(), StarPositions(17)) != "");
 }
 
-TEST_CASE("light_field: files that only look like views are none") {
+TEST_CASE("light_field: files whose names only resemble views are ignored") {
   TempFolder folder;
   REQUIRE(Save(folder, Make(1, 4, 4)) == "");
   for (const char* name : {"view_1.0_+0.0.png", "view_+1.0.png", "view_+_+0.0.png", "view_.png",
@@ -191,11 +192,11 @@ TEST_CASE("light_field: files that only look like views are none") {
   CHECK(back.views.size() == 1);
 }
 
-TEST_CASE("light_field: a stereo pair as Middlebury's has the second view at (1, 0)") {
+TEST_CASE("light_field: a stereo pair in the Middlebury layout has its second view at (1, 0)") {
   TempFolder folder;
   const LightField light_field = Make(2, 6, 4);
   REQUIRE(WriteImage(folder.file("im0.png"), light_field.views[0]) == "");
-  CHECK(Contains(LoadLightField(folder.path(), {}), StarName(0)));  // one is no pair
+  CHECK(Contains(LoadLightField(folder.path(), {}), StarName(0)));  // one picture is not a pair
   REQUIRE(WriteImage(folder.file("im1.png"), light_field.views[1]) == "");
   REQUIRE(WritePfm(folder.file("disp0.pfm"), light_field.disparity) == "");
   LightField back = ValueOf(LoadLightField(folder.path(), {}));
@@ -205,7 +206,7 @@ TEST_CASE("light_field: a stereo pair as Middlebury's has the second view at (1,
   CHECK(back.disparity.at(5, 3) == 1.5f);
   for (const char* name : {"im0.png", "im1.png", "disp0.pfm"}) CHECK(IsLightFieldFile(name));
   CHECK(LightFieldFiles(folder.path()).size() == 3);
-  // A map of our own comes first.
+  // disparity.pfm takes precedence.
   FloatMap map = light_field.disparity;
   map.values[0] = 2;
   REQUIRE(WritePfm(folder.file("disparity.pfm"), map) == "");
@@ -213,7 +214,7 @@ TEST_CASE("light_field: a stereo pair as Middlebury's has the second view at (1,
   CHECK(back.disparity.at(0, 0) == 2);
 }
 
-TEST_CASE("light_field: sizes must agree") {
+TEST_CASE("light_field: pictures and maps of different sizes are rejected") {
   TempFolder folder;
   REQUIRE(Save(folder, Make(5, 6, 4)) == "");
   REQUIRE(WriteImage(folder.file(StarName(3) + ".png"), Image(6, 5)) == "");
@@ -228,7 +229,7 @@ TEST_CASE("light_field: sizes must agree") {
   CHECK(Contains(LoadLightField(folder.path(), {}), "disparity.pfm"));
 }
 
-TEST_CASE("light_field: a pipe in place of a view or the map keeps nobody waiting") {
+TEST_CASE("light_field: a pipe instead of a view or a map is rejected without waiting") {
   for (const std::string& name : {StarName(2) + ".png", std::string("disparity.pfm")}) {
     TempFolder folder;
     REQUIRE(Save(folder, Make(5, 4, 4)) == "");
@@ -240,7 +241,7 @@ TEST_CASE("light_field: a pipe in place of a view or the map keeps nobody waitin
   }
 }
 
-TEST_CASE("light_field: no folder, a file, an empty folder") {
+TEST_CASE("light_field: a missing folder, a file and an empty folder are rejected") {
   TempFolder folder;
   CHECK(Contains(LoadLightField(folder.file("none"), {}), "found nothing"));
   REQUIRE(WriteFile(folder.file("file"), {}) == "");

@@ -21,7 +21,7 @@ Result<FloatMap> ReadText(const std::string& text) {
   return ReadPfm(path);
 }
 
-TEST_CASE("pfm: either byte order comes back exactly") {
+TEST_CASE("pfm: maps of either byte order are read back exactly") {
   TempFolder folder;
   FloatMap map;
   map.width = 3;
@@ -38,7 +38,7 @@ TEST_CASE("pfm: either byte order comes back exactly") {
   CHECK(folder.count() == 1);
 }
 
-TEST_CASE("pfm: rows come from the bottom up, the sign of the scale is the byte order") {
+TEST_CASE("pfm: rows are stored from bottom to top, and the sign of the scale is the byte order") {
   // 1.0f is 3f800000, 2.0f is 40000000.
   const std::string one("\0\0\x80\x3f", 4), two("\0\0\0\x40", 4);
   const std::string big_one("\x3f\x80\0\0", 4), big_two("\x40\0\0\0", 4);
@@ -57,7 +57,7 @@ TEST_CASE("pfm: data that begins with white space or # belongs to the data") {
   CHECK(ReadText("Pf\n1 1\n-1\n####") == "");
 }
 
-TEST_CASE("pfm: malformed files are one-line errors") {
+TEST_CASE("pfm: malformed files cause one-line errors") {
   const std::string bad[] = {"",
                              "Pf",
                              "PF\n1 1\n-1\n0123456789ab",

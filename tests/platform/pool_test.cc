@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pool of starfocus/pool.h as programs see it. How its threads sleep and wake, runner_test has.
+// Tests the pool of starfocus/pool.h through its public interface. runner_test tests how its
+// threads sleep and wake.
 #include "starfocus/pool.h"
 
 #include <doctest/doctest.h>
@@ -18,12 +19,12 @@ namespace {
 struct Record {
   explicit Record(int count) : calls(size_t(count)) {}
 
-  std::vector<std::atomic<int>> calls;  // of each index
+  std::vector<std::atomic<int>> calls;  // one per index
   std::atomic<int> busy[STARFOCUS_MAX_WORKERS] = {};
   std::atomic<int> clashes{0}, outside{0};
   int workers = STARFOCUS_MAX_WORKERS;
 
-  // Whether each job was called so many times, by workers that do one job at a time.
+  // Returns true if each job was called `times` times, and each worker ran one job at a time.
   bool Good(int times) const {
     const auto called = [=](const std::atomic<int>& count) { return count == times; };
     return std::all_of(calls.begin(), calls.end(), called) && clashes == 0 && outside == 0;
@@ -48,7 +49,7 @@ void CheckRuns(starfocus_pool* pool, int count) {
   CHECK(record.Good(1));
 }
 
-TEST_CASE("pool: every job once, by workers of its own, set after set") {
+TEST_CASE("pool: each job runs once, by the workers of the pool, in every batch") {
   for (const int workers : {1, 2, 5, STARFOCUS_MAX_WORKERS}) {
     starfocus_pool* const pool = starfocus_pool_create(workers);
     REQUIRE(pool != nullptr);
@@ -60,8 +61,7 @@ TEST_CASE("pool: every job once, by workers of its own, set after set") {
   }
 }
 
-TEST_CASE(
-    "pool: 0 workers are as many as there are cores for it, more than the most are the most") {
+TEST_CASE("pool: 0 workers select one per usable core, and too many are reduced to the maximum") {
   CHECK(starfocus_pool_cores() >= 1);
   CHECK(starfocus_pool_cores() <= STARFOCUS_MAX_WORKERS);
   for (const int workers : {0, -1, INT32_MIN}) {
@@ -75,7 +75,7 @@ TEST_CASE(
   starfocus_pool_destroy(pool);
 }
 
-TEST_CASE("pool: nonsense is refused") {
+TEST_CASE("pool: invalid arguments are rejected") {
   starfocus_pool* const pool = starfocus_pool_create(2);
   Record record(1);
   CHECK(starfocus_pool_run(nullptr, Record::Job, &record, 1) != 0);
@@ -87,7 +87,7 @@ TEST_CASE("pool: nonsense is refused") {
   starfocus_pool_destroy(nullptr);
 }
 
-TEST_CASE("pool: several live at once, and one serves several callers in turn") {
+TEST_CASE("pool: several pools can exist at once, and one pool can serve several callers in turn") {
   starfocus_pool* const a = starfocus_pool_create(3);
   starfocus_pool* const b = starfocus_pool_create(2);
   Record shared(300);
@@ -109,7 +109,7 @@ TEST_CASE("pool: several live at once, and one serves several callers in turn") 
   starfocus_pool_destroy(b);
 }
 
-TEST_CASE("pool: an engine's runner, whose progress is told by one thread at a time") {
+TEST_CASE("pool: it works as the runner of an engine, and one thread at a time reports progress") {
   const test::Scene scene = test::RandomScene(300, 120, 5, -3, 6, 4);
   starfocus_config config = test::ConfigFor(scene, 12);
   config.superblock = 32;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The line that people read of a refused call.
+// Tests the error line that users see if a call is rejected.
 #include "platform/problem.h"
 
 #include <doctest/doctest.h>
@@ -16,7 +16,7 @@ std::string Text(starfocus_status status, const starfocus_problem* problem) {
   return starfocus::Describe(status, problem).text;
 }
 
-TEST_CASE("problem: a field with its range and value") {
+TEST_CASE("problem: the line names a field with its range and value") {
   starfocus_problem problem = {};
   starfocus_config config;
   starfocus_config_init(&config);
@@ -34,7 +34,7 @@ TEST_CASE("problem: a field with its range and value") {
         "bytes: a required pointer is null (expected not null)");
 }
 
-TEST_CASE("problem: the sentence alone where no field is at fault or the problem is another's") {
+TEST_CASE("problem: without a field or for another call, the line has only the sentence") {
   starfocus_problem problem = {STARFOCUS_ERROR_RANGE, 0, "width", "1", std::nan(""), 0, 0};
   CHECK(Text(STARFOCUS_ERROR_RANGE, &problem) ==
         "width: a field or an argument is outside its range (expected 1)");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the threads of a pool sleep, wake and fail. That they do each job once, pool_test checks.
+// Tests how the threads of a pool sleep, wake and fail. pool_test checks that each job runs once.
 #include "platform/runner.h"
 
 #include <doctest/doctest.h>
@@ -13,7 +13,7 @@
 namespace starfocus::runner_test {
 namespace {
 
-// Every worker waits for all the others, so that it hangs where one sleeps on.
+// Each worker waits for all others, so that the test hangs if one of them keeps sleeping.
 struct Meeting {
   int workers;
   std::atomic<int> met{0};
@@ -25,7 +25,7 @@ struct Meeting {
   }
 };
 
-TEST_CASE("runner: jobs of one batch do run at the same time") {
+TEST_CASE("runner: jobs of one batch run at the same time") {
   for (int workers : {2, 3, 64}) {
     ThreadRunner runner(workers);
     Meeting meeting{workers};
@@ -34,9 +34,9 @@ TEST_CASE("runner: jobs of one batch do run at the same time") {
   }
 }
 
-TEST_CASE("runner: threads wake for a batch whenever it comes") {
+TEST_CASE("runner: threads wake for a batch at any time") {
   ThreadRunner runner(3);
-  // Before, while and after they fall asleep.
+  // Batches begin before, while and after the threads fall asleep.
   for (int pause : {0, 50, 90, 100, 110, 150, 1000}) {
     for (int repeat = 0; repeat < 100; ++repeat) {
       Meeting meeting{3};
@@ -74,11 +74,11 @@ TEST_CASE("runner: idle threads sleep") {
   REQUIRE(ThreadRunner::Run(&runner, Meeting::Job, &meeting, 4) == 0);
   const std::clock_t start = std::clock();
   std::this_thread::sleep_for(std::chrono::milliseconds(200));
-  // Of the whole process; awake they would take that time of every core.
+  // Processor time of the whole process. Waking threads would use this time on every core.
   CHECK(double(std::clock() - start) / CLOCKS_PER_SEC < 0.05);
 }
 
-TEST_CASE("runner: the first exception of a batch reaches the caller when no job runs any more") {
+TEST_CASE("runner: the caller gets the first exception of a batch after all jobs have ended") {
   struct Batch {
     std::atomic<int> running{0}, calls{0};
     static void Job(void* data, int32_t index, int32_t) {
@@ -98,7 +98,7 @@ TEST_CASE("runner: the first exception of a batch reaches the caller when no job
       CHECK(batch.running == 0);
       CHECK(batch.calls >= 4);
       CHECK(batch.calls < 100);
-      // The pool serves the next batch as if nothing had been.
+      // The pool serves the next batch normally.
       Meeting meeting{workers};
       REQUIRE(ThreadRunner::Run(&runner, Meeting::Job, &meeting, workers) == 0);
       CHECK(meeting.met == workers);
@@ -106,7 +106,7 @@ TEST_CASE("runner: the first exception of a batch reaches the caller when no job
   }
 }
 
-TEST_CASE("runner: nonsense is refused or clamped") {
+TEST_CASE("runner: invalid arguments are rejected or clamped") {
   ThreadRunner runner(-5);
   CHECK(runner.workers() == 1);
   Meeting meeting{1};

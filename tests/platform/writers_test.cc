@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the writers of platform/writers/ put into files, as others read it: exiftool and webpinfo
-// where they are installed.
+// Tests what the writers of platform/writers/ store in files. The files are read by exiftool and
+// webpinfo, if they are installed.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -65,17 +65,18 @@ class TiffBuilder {
   const bool little_;
 };
 
-// As of a camera held upright: the make, orientation 6, sizes in a folder of its own, a thumbnail.
+// Returns the EXIF of a camera held upright: the make, orientation 6, sizes in a separate
+// directory, and a thumbnail.
 Bytes CameraExif(bool little) {
   TiffBuilder tiff(little);
-  tiff.Put(3, 2);                            // at 8: three entries
+  tiff.Put(3, 2);                            // at offset 8: three entries
   tiff.Entry(0x010f, 2, 8, 8 + 2 + 36 + 4);  // Make
   tiff.Entry(0x0112, 3, 1, 6);               // Orientation
-  tiff.Entry(0x8769, 4, 1, 58);              // the folder of sizes
-  tiff.Put(58 + 2 + 24 + 4, 4);              // the thumbnail's folder
+  tiff.Entry(0x8769, 4, 1, 58);              // directory of sizes
+  tiff.Put(58 + 2 + 24 + 4, 4);              // directory of the thumbnail
   for (const char c : std::string("Holgaro")) tiff.bytes.push_back(static_cast<uint8_t>(c));
   tiff.bytes.push_back(0);
-  tiff.Put(2, 2);  // at 58
+  tiff.Put(2, 2);  // at offset 58
   tiff.Entry(0xa002, 4, 1, 4000);
   tiff.Entry(0xa003, 3, 1, 3000);
   tiff.Put(0, 4);
@@ -87,7 +88,7 @@ Bytes CameraExif(bool little) {
 
 Bytes Profile(size_t size) { return FromText(photos::Profile(size)); }
 
-TEST_CASE("profiles: whole ones of RGB alone are passed on") {
+TEST_CASE("profiles: only complete RGB profiles are passed on") {
   const auto changed = [](size_t at, uint8_t value) {
     Bytes icc = Profile(200);
     icc[at] = value;
@@ -104,10 +105,11 @@ TEST_CASE("profiles: whole ones of RGB alone are passed on") {
     CHECK_FALSE(IsRgbProfile(icc));
   }
   CHECK_FALSE(IsRgbProfile(changed(36, 'x')));
-  CHECK_FALSE(IsRgbProfile(changed(131, 6)));  // tags: 132 + 6 * 12 bytes are more than there are
+  // The 6 tags need 132 + 6 * 12 bytes, more than the profile has.
+  CHECK_FALSE(IsRgbProfile(changed(131, 6)));
   Bytes tagged = changed(131, 1);
   std::fill(tagged.begin() + 132, tagged.end(), uint8_t{0});
-  tagged[132 + 7] = 190, tagged[132 + 11] = 10;  // from 190 on, 10 bytes
+  tagged[132 + 7] = 190, tagged[132 + 11] = 10;  // 10 bytes from offset 190
   CHECK(IsRgbProfile(tagged));
   ++tagged[132 + 11];
   CHECK_FALSE(IsRgbProfile(tagged));
@@ -119,10 +121,11 @@ bool Has(const std::string& program) {
   return std::system(("command -v " + program + " >/dev/null 2>&1").c_str()) == 0;
 }
 
-// Whether the build has libpng: without it PNG files have neither 16 bits nor metadata.
+// Returns true if the build has libpng. Without libpng, PNG files have neither 16 bits nor
+// metadata.
 bool HasLibpng() { return bool(EncodeGreyPng("", {1, 1, {256}})); }
 
-// What the program prints.
+// Returns the output of a command.
 std::string Ask(const TempFolder& folder, const std::string& command) {
   const std::string out = folder.file("said");
   CHECK(std::system((command + " >'" + out + "' 2>/dev/null").c_str()) == 0);
@@ -130,7 +133,7 @@ std::string Ask(const TempFolder& folder, const std::string& command) {
   return std::string(bytes.begin(), bytes.end());
 }
 
-TEST_CASE("writers: base64 and MD5 are those of their RFCs") {
+TEST_CASE("writers: base64 and MD5 follow their RFCs") {
   CHECK(EncodeBase64({}) == "");
   CHECK(EncodeBase64(FromText("f")) == "Zg==");
   CHECK(EncodeBase64(FromText("fo")) == "Zm8=");
@@ -143,7 +146,7 @@ TEST_CASE("writers: base64 and MD5 are those of their RFCs") {
   CHECK(Md5(digits) == "57EDF4A22BE3C955AC49DA2E2107B67A");
 }
 
-TEST_CASE("writers: EXIF that is cut or changed anywhere is edited within its memory") {
+TEST_CASE("writers: EXIF that is truncated or changed anywhere is edited within its memory") {
   const Bytes whole = CameraExif(true);
   for (size_t size = 0; size < whole.size(); ++size) {
     const Bytes cut(whole.begin(), whole.begin() + static_cast<ptrdiff_t>(size));
@@ -153,13 +156,13 @@ TEST_CASE("writers: EXIF that is cut or changed anywhere is edited within its me
   for (size_t at = 0; at < whole.size(); ++at) {
     Bytes changed = whole;
     changed[at] = 0xff;
-    EditedExif(changed, 1, 1);  // whatever comes of it, within its memory
+    EditedExif(changed, 1, 1);  // Any result is right, if memory accesses are within bounds.
   }
   const Bytes none = FromText("IM*\0\0\0\0\0");
   CHECK(EditedExif(none, 1, 1).empty());
 }
 
-TEST_CASE("writers: a better quality makes a larger and truer JPEG") {
+TEST_CASE("writers: a higher quality makes a larger JPEG") {
   const Image image = Ramp(64, 48);
   size_t last = 0;
   for (const int quality : {10, 50, 89, 90, 100}) {
@@ -170,7 +173,7 @@ TEST_CASE("writers: a better quality makes a larger and truer JPEG") {
   }
 }
 
-TEST_CASE("writers: EXIF and the profile stay, edited where the picture is") {
+TEST_CASE("writers: EXIF and the profile are kept, with the changed fields of the picture") {
   if (!Has("exiftool")) {
     MESSAGE("SKIPPED: exiftool is absent");
     return;
@@ -191,16 +194,16 @@ TEST_CASE("writers: EXIF and the profile stay, edited where the picture is") {
       CHECK(Contains(tags, "Orientation: 1\n"));
       CHECK(Contains(tags, "ExifImageWidth: 40\n"));
       CHECK(Contains(tags, "ExifImageHeight: 30\n"));
-      CHECK(!Contains(tags, "Compression: 6"));  // the thumbnail's
+      CHECK(!Contains(tags, "Compression: 6"));  // compression of the thumbnail
       CHECK(Ask(folder, "exiftool -b -icc_profile '" + path + "'").size() == 150000);
     }
   }
 }
 
-TEST_CASE("writers: what PNG and WebP files say of a picture is read again") {
+TEST_CASE("writers: metadata of PNG and WebP files can be read again") {
   TempFolder folder;
   PictureOptions how = {95, {CameraExif(true), Profile(588)}, PngSize::kQuick};
-  // libpng reads no profile that is compressed to fewer bytes than its keyword may have.
+  // libpng reads no profile that compresses to fewer bytes than its keyword may have.
   for (size_t k = 132; k < 588; ++k) how.metadata.icc[k] = static_cast<uint8_t>(k * k >> 3);
   for (const std::string name : {"a.png", "a.webp"}) {
     if (name == "a.webp" && WebpWriter::Check(name, 1, 1)) continue;
@@ -216,7 +219,7 @@ TEST_CASE("writers: what PNG and WebP files say of a picture is read again") {
   }
 }
 
-TEST_CASE("writers: a small PNG is smaller, with the same pixels") {
+TEST_CASE("writers: a small PNG is smaller and has the same pixels") {
   if (!HasLibpng()) return;
   const Image image = Ramp(200, 150);
   const Bytes quick = ValueOf(EncodePng("a.png", image, {}, PngSize::kQuick));
@@ -227,7 +230,7 @@ TEST_CASE("writers: a small PNG is smaller, with the same pixels") {
   }
 }
 
-// A PNG of one pixel with a chunk before its pixels.
+// Returns a PNG of one pixel with an additional chunk before its pixels.
 Bytes PngWithChunk(const std::string& name, const std::string& content) {
   Bytes png = ValueOf(EncodePng("a.png", Ramp(1, 1), {}, PngSize::kQuick));
   const std::string chunk = photos::Chunk(name, content);
@@ -235,7 +238,7 @@ Bytes PngWithChunk(const std::string& name, const std::string& content) {
   return png;
 }
 
-TEST_CASE("writers: EXIF in a text chunk of a PNG, as ImageMagick has it, is read") {
+TEST_CASE("writers: EXIF in a text chunk of a PNG, as ImageMagick writes it, is read") {
   if (!HasLibpng()) return;
   const Bytes exif = CameraExif(false);
   std::string digits, text = "Exif";
@@ -260,7 +263,7 @@ TEST_CASE("writers: EXIF in a text chunk of a PNG, as ImageMagick has it, is rea
   }
 }
 
-TEST_CASE("writers: a long profile is in segments numbered from 1") {
+TEST_CASE("writers: a long profile is stored in segments numbered from 1") {
   Bytes jpeg = ValueOf(EncodeJpeg("a.jpg", Ramp(8, 8), 95, {{}, Profile(150000)}, {}));
   const std::string text(jpeg.begin(), jpeg.end());
   size_t last = 0;
@@ -273,14 +276,14 @@ TEST_CASE("writers: a long profile is in segments numbered from 1") {
   }
 }
 
-TEST_CASE("writers: EXIF too long for its segment is left out, the picture is not") {
+TEST_CASE("writers: EXIF too long for its segment is omitted, and the picture is written") {
   Metadata metadata = {CameraExif(true), {}};
   metadata.exif.resize(70000);
   Bytes jpeg = ValueOf(EncodeJpeg("a.jpg", Ramp(8, 8), 95, metadata, {}));
   CHECK(jpeg.size() < 5000);
 }
 
-TEST_CASE("writers: grey levels above 255 take 16 bits") {
+TEST_CASE("writers: grey levels above 255 are written with 16 bits") {
   TempFolder folder;
   GreyImage grey = {300, 2, std::vector<uint16_t>(600)};
   std::iota(grey.levels.begin(), grey.levels.end(), uint16_t{0});
@@ -328,7 +331,8 @@ TEST_CASE("writers: an animation shows its pictures in their order") {
   CHECK(Count(said, "Duration: 100\n") == 3);
 }
 
-TEST_CASE("writers: a depth photo holds the map and the picture before, for exiftool too") {
+TEST_CASE(
+    "writers: a depth photo holds the map and the sharp original, and exiftool can read them") {
   TempFolder folder;
   const Image picture = Ramp(400, 300), before = Ramp(400, 300);
   FloatMap map = {400, 300, std::vector<float>(120000)};
