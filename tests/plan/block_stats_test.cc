@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Block analysis against brute force: on random disparity maps, no pixel beyond a block's border
-// may have a blur that reaches the block or what a layer renders around it. The picture's edge
-// pixels repeat outside it.
+// Compares the block analysis with a brute-force search on random disparity maps. No pixel beyond a
+// block's border may have a blur that reaches the block or the margin that its layer renders.
+// Outside the picture its edge pixels are repeated.
 #include "lib/plan/block_stats.h"
 
 #include <doctest/doctest.h>
@@ -31,7 +31,7 @@ struct Map {
   BlurScale scale = {0, int64_t{1} << starfocus::kStepBits};
 
   int16_t& At(int x, int y) { return disparity[size_t(y) * size_t(width) + size_t(x)]; }
-  // Fills the tables below once the disparities are there.
+  // Computes the tables of radii from the disparities.
   void Measure() {
     radius.resize(disparity.size());
     right_edge.assign(disparity.size(), -1);
@@ -52,15 +52,15 @@ struct Map {
       }
     }
   }
-  // The edge of the picture repeats outside.
+  // Returns the index of a pixel. Outside the picture its edges are repeated.
   size_t Index(int x, int y) const {
     const int cx = std::clamp(x, 0, width - 1), cy = std::clamp(y, 0, height - 1);
     return size_t(cy) * size_t(width) + size_t(cx);
   }
-  // Blur radius (2) in pixels.
+  // Returns the blur radius (2) in pixels.
   double Radius(int x, int y) const { return radius[Index(x, y)]; }
-  // Radius of the nearer of a pixel and the one below (right of) it if a depth edge lies between;
-  // -1: none.
+  // Returns the radius of the nearer of two neighbours if there is a depth edge between them, or
+  // -1. The second pixel is below the first, or to its right.
   double EdgeRadius(int x, int y, bool below) const {
     if (below) return y < 0 || y >= height ? -1 : lower_edge[Index(x, y)];
     return x < 0 || x >= width ? -1 : right_edge[Index(x, y)];
@@ -88,7 +88,7 @@ int16_t Fixed(double disparity) {
   return int16_t(std::clamp(std::floor(disparity * kDisparityOne + 0.5), -32000.0, 32000.0));
 }
 
-// `amplitude`: of what the content adds to the disparity 0.
+// Contents of a map. All have disparities within `amplitude` of disparity 0.
 enum Content { kPieces, kNoise, kSparks, kSlant, kContents };
 
 Map RandomMap(int width, int height, Content content, double amplitude, test::Random* random) {
@@ -113,7 +113,7 @@ Map RandomMap(int width, int height, Content content, double amplitude, test::Ra
     for (int x = 0; x < width; ++x) {
       double d = 0;
       if (content == kNoise) d = random->Real(-amplitude, amplitude);
-      // Single pixels out of focus, rare enough that each decides a border.
+      // Rare single pixels out of focus, so that each of them determines a border.
       if (content == kSparks) {
         d = focus + (random->Int(0, 299) == 0 ? random->Real(-amplitude, amplitude) : 0);
       }
@@ -126,8 +126,8 @@ Map RandomMap(int width, int height, Content content, double amplitude, test::Ra
   return map;
 }
 
-// The cells of the stripe at row y, with the rows around it that the engine keeps: memory beyond
-// them is the sanitizer's.
+// Cells of the stripe at row y and of the rows around it that the engine keeps. Sanitizers report
+// accesses beyond them.
 struct Cells {
   Cells(const Map& map, int y, int side, int around) {
     Window window;
@@ -150,24 +150,25 @@ struct Cells {
   std::vector<Cell> cells;
 };
 
-// Whether a pixel that moves by up to its radius in any direction, rounded to a whole pixel, may
-// land in columns [x0, x1] and rows [y0, y1].
+// Returns true if a pixel may reach columns [x0, x1] and rows [y0, y1]. It moves by up to its
+// radius in any direction, rounded to a whole pixel.
 bool Reaches(int x, int y, double radius, int x0, int y0, int x1, int y1) {
   const double dx = std::max({0.0, x0 - 0.5 - x, x - (x1 + 0.5)});
   const double dy = std::max({0.0, y0 - 0.5 - y, y - (y1 + 0.5)});
   return dx * dx + dy * dy <= radius * radius;
 }
 
-// What the analysis may know of the block [x0, x0 + side) x [y0, y0 + side).
+// Exact statistics of the block [x0, x0 + side) x [y0, y0 + side), which bound the results of the
+// analysis.
 struct Exact {
   Border border[3] = {};
   double inside_min = 1e9, inside_max = 0;  // radii of the block's pixels in the picture
-  double reaching_max = 0;                  // of those and all that reach them
-  double around_max = 0;                    // of all within the analysis' sight
-  bool has_edge = false;                    // whether a depth edge concerns it
-  bool has_edge_around = false;             // whether any is in sight
-  double shown_min = 1e9;  // of pixels up to kLayerMargin[1] around, and of edges there
-  double ring_min = 1e9;   // of pixels up to 8 around
+  double reaching_max = 0;                  // of the block's pixels and all pixels that reach them
+  double around_max = 0;                    // of all pixels that the analysis may consider
+  bool has_edge = false;                    // true if a depth edge concerns the block
+  bool has_edge_around = false;             // true if the analysis may consider any depth edge
+  double shown_min = 1e9;  // of pixels up to kLayerMargin[1] around the block, and of edges there
+  double ring_min = 1e9;   // of pixels up to 8 around the block
 };
 
 Exact Measure(const Map& map, int x0, int y0, int side, double largest) {
@@ -211,7 +212,7 @@ Exact Measure(const Map& map, int x0, int y0, int side, double largest) {
         if (is_around(x, y, kLayerMargin[1]) || is_around(other_x, other_y, kLayerMargin[1])) {
           exact.shown_min = std::min(exact.shown_min, radius);
         }
-        // An edge concerns the block when a pixel on either side is or lands in it.
+        // An edge concerns the block if a pixel on either side of it is in the block or reaches it.
         if (Reaches(x, y, map.Radius(x, y), x0, y0, x1, y1) ||
             Reaches(other_x, other_y, map.Radius(other_x, other_y), x0, y0, x1, y1)) {
           exact.has_edge = true;
@@ -222,7 +223,7 @@ Exact Measure(const Map& map, int x0, int y0, int side, double largest) {
   return exact;
 }
 
-// Pixels on the four sides of borders beyond what is needed, by size of block and layer.
+// Number of blocks, and excess pixels on the four sides of their borders, for a size and a layer.
 struct Tally {
   int64_t blocks = 0, excess = 0;
 };
@@ -244,7 +245,7 @@ void CheckBlock(const Map& map, int x0, int y0, int level, double largest, const
     tally.excess += Sum(g) - Sum(e);
     REQUIRE((g.left >= e.left && g.right >= e.right && g.top >= e.top && g.bottom >= e.bottom));
   }
-  // Rounded down and up by at most a unit each.
+  // Both limits are rounded, r_min down and r_max up, by at most a unit each.
   const double r_min = double(stats.r_min) / kDisparityOne, unit = 2.0 / kDisparityOne;
   const double r_max = double(stats.r_max) / kDisparityOne;
   CHECK(r_min <= exact.inside_min);
@@ -258,14 +259,14 @@ void CheckBlock(const Map& map, int x0, int y0, int level, double largest, const
   if (!exact.has_edge_around) CHECK(r_shown > exact.ring_min - unit);
 }
 
-// Checks all blocks of a picture, as the engine's quadtree makes them.
+// Checks all blocks of a picture in the order of the engine's quadtree.
 void CheckMap(Map map, int superblock, Tallies* tallies) {
   map.Measure();
   const double largest = map.LargestRadius();
   const int around = test::BordersOf(largest).cells;
   for (int y = 0; y < map.height; y += superblock) {
     const Cells cells(map, y, superblock, around);
-    // stats[level]: the blocks of one size in the stripe, row by row; null beyond the picture.
+    // stats[level]: blocks of one size in the stripe, row by row; null beyond the picture.
     std::vector<std::vector<BlockStats>> stats;
     for (int level = 0; (kSmallestBlock << level) <= superblock; ++level) {
       const int side = kSmallestBlock << level;
@@ -324,7 +325,7 @@ TEST_CASE("cells: no pixel beyond a border reaches its block, on random disparit
   }
 }
 
-TEST_CASE("cells: borders of one blur are that blur, within a pixel for rounding and a cell") {
+TEST_CASE("cells: borders of a constant blur are equal to it, within a pixel and a cell") {
   Map map = EmptyMap(64, 64, 0, 1);
   for (const double r : {0.0, 0.25, 1.0, 2.5, 7.0, 11.5, 30.0}) {
     std::fill(map.disparity.begin(), map.disparity.end(), Fixed(r));
@@ -345,7 +346,7 @@ TEST_CASE("cells: borders of one blur are that blur, within a pixel for rounding
   }
 }
 
-TEST_CASE("cells: a pixel that reaches farther counts from where it lies") {
+TEST_CASE("cells: a pixel with a larger reach counts from its own position") {
   Map map = EmptyMap(24, 24, 0, 1);
   const auto reach = [&](int side) {
     return Cells(map, 0, 24, 1).grid.At(1, 1)->Reach(size_t(side));
@@ -355,7 +356,7 @@ TEST_CASE("cells: a pixel that reaches farther counts from where it lies") {
   std::fill(map.disparity.begin(), map.disparity.end(), Fixed(2));
   const int all = reach(starfocus::kLeft);
   CHECK(farther == all + 1);
-  // One that lies at least a pixel inside reaches no farther than those at the side.
+  // A pixel at least one pixel inside the cell does not reach farther than the pixels at its side.
   map.At(8 + 5, 8 + 6) = Fixed(3);
   for (int side = 0; side < 4; ++side) CHECK(reach(side) == all);
   map.At(8, 8 + 4) = Fixed(3);
@@ -363,8 +364,8 @@ TEST_CASE("cells: a pixel that reaches farther counts from where it lies") {
   CHECK(reach(starfocus::kRight) == all);
 }
 
-TEST_CASE("cells: one pixel out of focus widens the borders of the blocks it reaches, no other") {
-  // Pixel (24 + k, 40) of radius 5 beside the block of 16 at (32, 32).
+TEST_CASE("cells: one pixel out of focus widens only the borders of the blocks that it reaches") {
+  // Pixel (24 + k, 40) has radius 5 and is next to the block of 16 at (32, 32).
   for (int k = 0; k < 8; ++k) {
     Map map = EmptyMap(96, 96, 0, 1);
     map.At(24 + k, 40) = Fixed(5);
@@ -380,7 +381,7 @@ TEST_CASE("cells: one pixel out of focus widens the borders of the blocks it rea
     CHECK(stats.border[0].bottom <= 1);
     if (needed > 0) CHECK(stats.r_max >= 5 * kDisparityOne);
     CHECK(stats.r_min == 0);
-    // Farther blocks neither see it nor count its radius.
+    // More distant blocks have no border for it and do not count its radius.
     for (const int column : {7, 8}) {
       const BlockStats far = test::MeasureBlock(cells.grid, map.scale, column, 4, 3);
       CHECK(far.border[0].left <= 1);
@@ -389,8 +390,8 @@ TEST_CASE("cells: one pixel out of focus widens the borders of the blocks it rea
   }
 }
 
-TEST_CASE("cells: a silhouette counts for the cell behind it too") {
-  // A surface begins abruptly with radius 9 at column (row) 40 and slopes down to the right.
+TEST_CASE("cells: a silhouette also counts for the cell behind it") {
+  // A surface starts abruptly with radius 9 at column (or row) 40 and slopes down to the right.
   for (const bool transposed : {false, true}) {
     Map map = EmptyMap(96, 96, 0, 1);
     for (int along = 0; along < 96; ++along) {
@@ -401,7 +402,8 @@ TEST_CASE("cells: a silhouette counts for the cell behind it too") {
     }
     map.Measure();
     const Cells cells(map, 0, 96, 4);
-    // Blocks at 48, 32 and 16: reached from 8 pixels away, inside, and from 9.
+    // Blocks at 48, 32 and 16: reached from 8 pixels away, containing the edge, and reached from 9
+    // pixels away.
     for (const int column : {6, 4, 2}) {
       const BlockStats stats = transposed ? test::MeasureBlock(cells.grid, map.scale, 4, column, 4)
                                           : test::MeasureBlock(cells.grid, map.scale, column, 4, 4);
@@ -411,9 +413,9 @@ TEST_CASE("cells: a silhouette counts for the cell behind it too") {
   }
 }
 
-TEST_CASE("cells: the engine's borders cover what the analysis asks for, and no cell more") {
+TEST_CASE("cells: the engine's borders are as wide as the analysis needs, and no cell wider") {
   test::Random random(12);
-  int short_sighted = 0;  // blocks that a cell less is not enough for
+  int short_sighted = 0;  // number of blocks for which one cell less is not enough
   for (const double r : {0.1, 1.0, 4.9, 13.3, 32.0, 60.0}) {
     const starfocus::Borders borders = test::BordersOf(r);
     Map map = EmptyMap(280, 280, 0, 1);
@@ -438,7 +440,7 @@ TEST_CASE("cells: the engine's borders cover what the analysis asks for, and no 
           test::MeasureBlock(cells.grid, map.scale, column, 16, borders.cells - 1);
       short_sighted += shorter.border[2].left != stats.border[2].left;
       const Border& border = stats.border[0];
-      // One pixel more is rendered for the neighbour of a subaperture.
+      // One more pixel is rendered for the neighbour of a subaperture.
       for (const int side : {border.left, border.right, border.top, border.bottom}) {
         CHECK(side + 1 <= borders.layer[0]);
       }

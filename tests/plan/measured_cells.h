@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The cells of a whole disparity map in memory, measured as the engine measures them.
+// Measures the cells of a whole disparity map in the same way as the engine.
 #ifndef STARFOCUS_TESTS_PLAN_MEASURED_CELLS_H_
 #define STARFOCUS_TESTS_PLAN_MEASURED_CELLS_H_
 
@@ -13,7 +13,8 @@
 
 namespace test {
 
-// `disparity`: width x height, kDisparityBits, rows packed. The grid's cells lie in `cells`.
+// Measures the cells of `disparity`, which has width x height values of kDisparityBits in packed
+// rows. The returned grid points into `cells`.
 inline starfocus::CellGrid MeasureCells(const std::vector<int16_t>& disparity, int width,
                                         int height, const starfocus::BlurScale& scale,
                                         std::vector<starfocus::Cell>* cells) {
@@ -33,7 +34,7 @@ inline starfocus::CellGrid MeasureCells(const std::vector<int16_t>& disparity, i
   return grid;
 }
 
-// The surroundings of a block of 2 x 2 cells, in memory of their own.
+// Owns the surroundings of a block of 2 x 2 cells.
 class BlockSurroundings {
  public:
   BlockSurroundings(const starfocus::CellGrid& grid, const starfocus::BlurScale& scale, int column,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The quadtree against all partitions there are, with the rules for layers and views and the timing
-// model applied anew.
+// Compares the quadtree with all possible partitions. The tests apply the rules for layers and
+// views and the timing model independently of the engine.
 #include "lib/plan/partition.h"
 
 #include <doctest/doctest.h>
@@ -28,11 +28,12 @@ bool Same(const Border& a, const Border& b) {
   return a.left == b.left && a.right == b.right && a.top == b.top && a.bottom == b.bottom;
 }
 
-// Side of the quadtree's candidate that a block is: of the least that hold it.
+// Returns the side of the quadtree's candidate that became this block: the smallest one that
+// contains it.
 int SideOf(const Plan& plan, const Block& block, int x, int y) {
   int side = kSmallestBlock;
   while (side < block.rect.width || side < block.rect.height) side *= 2;
-  // At the picture's edge a clipped block may be that of a larger candidate.
+  // At the edge of the picture, a clipped block may come from a larger candidate.
   for (; side <= plan.config.superblock; side *= 2) {
     if ((block.rect.x - x) % side == 0 && (block.rect.y - y) % side == 0 &&
         Planned(plan, block.rect.x, block.rect.y, side).cost == block.cost) {
@@ -89,7 +90,7 @@ uint64_t Sum(const std::vector<Block>& blocks) {
   return sum;
 }
 
-// Checks every superblock of a picture; the number of blocks.
+// Checks every superblock of a picture and returns the number of blocks.
 size_t CheckPicture(const Plan& plan) {
   size_t count = 0;
   const int side = plan.config.superblock;
@@ -108,7 +109,7 @@ size_t CheckPicture(const Plan& plan) {
   return count;
 }
 
-TEST_CASE("partition: the least of all partitions, tiled once, by the rules") {
+TEST_CASE("partition: it is the cheapest one, covers each pixel once and follows the rules") {
   test::Random random(7);
   size_t blocks = 0, superblocks = 0;
   for (int round = 0; round < 60; ++round) {
@@ -116,14 +117,14 @@ TEST_CASE("partition: the least of all partitions, tiled once, by the rules") {
     const int width = random.Int(1, side + 40), height = random.Int(1, side + 40);
     Plan plan(width, height, side, random.Real(0.5, 14), &random);
     if (round % 2 == 1)
-      plan.config.tuning.timing.block = 0;  // whatever a block costs here, splits more
+      plan.config.tuning.timing.block = 0;  // blocks without a fixed cost are split more often
     blocks += CheckPicture(plan);
     superblocks += size_t(((width - 1) / side + 1) * ((height - 1) / side + 1));
   }
-  CHECK(blocks > 2 * superblocks);  // there was something to decide
+  CHECK(blocks > 2 * superblocks);  // most superblocks were split
 }
 
-TEST_CASE("partition: literally every partition of 128") {
+TEST_CASE("partition: it is the cheapest of all 83522 partitions of a block of 128") {
   test::Random random(8);
   for (int round = 0; round < 3; ++round) {
     const Plan plan(128 - 30 * round, 128, 128, 8, &random);
@@ -133,7 +134,7 @@ TEST_CASE("partition: literally every partition of 128") {
   }
 }
 
-TEST_CASE("partition: random and degenerate coefficients") {
+TEST_CASE("partition: it is the cheapest one for random and degenerate coefficients") {
   test::Random random(9);
   for (int round = 0; round < 60; ++round) {
     const int side = 32 << random.Int(0, 1);
@@ -150,13 +151,13 @@ TEST_CASE("partition: random and degenerate coefficients") {
   }
 }
 
-TEST_CASE("partition: where nothing or only blocks cost, nothing is split") {
+TEST_CASE("partition: nothing is split if nothing has a cost, or only blocks") {
   test::Random random(10);
   for (const uint32_t block : {0u, 1u, STARFOCUS_MAX_TIMING}) {
     for (const int side : {32, 64, 128, 256}) {
       Plan plan(side - 5, side, side, 10, &random);
       plan.config.tuning.timing = {};
-      plan.rules.gathers = false;  // what is gathered is not the block's
+      plan.rules.gathers = false;  // gathered cells are not part of the block's cost
       plan.config.tuning.timing.block = block;
       const std::vector<Block> blocks = plan.Partition(0, 0);
       REQUIRE(blocks.size() == 1);
@@ -167,7 +168,7 @@ TEST_CASE("partition: where nothing or only blocks cost, nothing is split") {
   }
 }
 
-TEST_CASE("partition: the rules on flat pictures, at and beside their thresholds") {
+TEST_CASE("partition: flat pictures follow the rules at their thresholds and close to them") {
   const int kMiddle = 128;
   for (const double r :
        {0.0,   1 / 64.0, 0.5,       1.0,     2.0,      2.984375, 3.0,      3.015625,  3.5, 3.984375,
@@ -208,8 +209,8 @@ TEST_CASE("partition: the rules on flat pictures, at and beside their thresholds
   }
 }
 
-// Rows of a layer that the blocks of the superblock at row y read beyond it, or of the picture
-// at layer 0: 0 where none does. Rows outside the picture are not read.
+// Updates the largest number of rows that the blocks of the superblock at row y read beyond it, for
+// each layer. It is 0 if no block reads any. Rows outside the picture are not read.
 void AddRowsBeyond(const Plan& plan, int y, const std::vector<Block>& blocks, int (*most)[3]) {
   for (const Block& block : blocks) {
     if (block.rendered.width == 0) continue;
@@ -222,7 +223,7 @@ void AddRowsBeyond(const Plan& plan, int y, const std::vector<Block>& blocks, in
   }
 }
 
-TEST_CASE("partition: blocks read as many rows around a stripe as its reach says, and no more") {
+TEST_CASE("partition: blocks read exactly as many rows around a stripe as its borders have") {
   int slack[3] = {100, 100, 100};
   for (int r = 1; r <= 40; ++r) {
     test::Random random(1);
@@ -248,7 +249,7 @@ TEST_CASE("partition: blocks read as many rows around a stripe as its reach says
   for (const int rows : slack) CHECK(rows == 0);
 }
 
-TEST_CASE("partition: nor do blocks of any map") {
+TEST_CASE("partition: blocks of any map read at most the rows of the borders") {
   test::Random random(13);
   for (int round = 0; round < 60; ++round) {
     const double limit = random.Real(0.5, 30);
@@ -263,7 +264,7 @@ TEST_CASE("partition: nor do blocks of any map") {
   }
 }
 
-TEST_CASE("partition: no block is larger than the largest that is made") {
+TEST_CASE("partition: no block is larger than the largest allowed side") {
   test::Random random(12);
   Plan flat(256, 256, 128, 0.001, &random);
   for (const int side : {16, 32, 64}) {
@@ -274,7 +275,7 @@ TEST_CASE("partition: no block is larger than the largest that is made") {
   }
 }
 
-TEST_CASE("partition: a picture in focus stays whole") {
+TEST_CASE("partition: a picture in focus is not split") {
   test::Random random(11);
   Plan flat(256, 256, 128, 0.001, &random);
   CHECK(flat.Partition(128, 0).size() == 1);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The timing model: views counted one by one, and a time that is linear in work and coefficients.
+// Tests the timing model: views are counted one by one, and the time is linear in work and
+// coefficients.
 #include "lib/plan/timing.h"
 
 #include <doctest/doctest.h>
@@ -16,7 +17,7 @@ namespace {
 
 using namespace starfocus;
 
-// The discs i^2 + j^2 <= N^2, whatever their weights.
+// Returns the disc i^2 + j^2 <= N^2, without weights.
 starfocus::ViewWeights DiscOf(int n) {
   starfocus::ViewWeights aperture;
   aperture.n = aperture.last = n;
@@ -27,9 +28,9 @@ starfocus::ViewWeights DiscOf(int n) {
   return aperture;
 }
 
-// Summed view by view, as (13) has it: types A on the axes, B on the diagonals, C between them
-// (Fig. 11). With subapertures the centre is of type A too, and all views
-// away from the rows' axis are scanned along columns.
+// Sums the work view by view as in (13): type A on the axes, type B on the diagonals, type C
+// between them (Fig. 11). With subapertures the centre is also of type A, and all views off the
+// axis of rows are scanned along columns.
 BlockWork MeasureViewByView(const Rect& rect, const Border& border, int n, bool subapertures,
                             uint64_t upsampled, const Content (&content)[2], int layer) {
   const auto width = uint64_t(rect.width), height = uint64_t(rect.height);
@@ -59,9 +60,9 @@ BlockWork MeasureViewByView(const Rect& rect, const Border& border, int n, bool 
       }
     }
   }
-  // Of every two views one is scanned along rows, the other along columns; with subapertures those
-  // on the rows' axis along rows, all others along columns. A layer has 1 / 2^L of the lines; a
-  // slope makes 1 / 2^L of the runs along each, a gap is 1 / 2^L as wide.
+  // Half of the views are scanned along rows, the other half along columns. With subapertures,
+  // views on the axis of rows are scanned along rows and all others along columns. A layer has 1 /
+  // 2^L of the lines. On each line a slope makes 1 / 2^L of the runs, and a gap is 1 / 2^L as wide.
   const int scale = 1 << layer;
   const uint64_t on_axis = n == 0 ? 0 : 2 * uint64_t(n) + 1;
   const uint64_t scans[2] = {subapertures ? on_axis : views / 2,
@@ -76,7 +77,7 @@ BlockWork MeasureViewByView(const Rect& rect, const Border& border, int n, bool 
   return work;
 }
 
-TEST_CASE("timing: the work of a block, view by view") {
+TEST_CASE("timing: the work of a block is the sum over its views") {
   test::Random random(3);
   for (int round = 0; round < 411; ++round) {
     const Rect rect = {random.Int(-9, 99), random.Int(-9, 99), random.Int(1, 256),
@@ -121,7 +122,7 @@ starfocus_timing EqualTiming(uint32_t value) {
   return timing;
 }
 
-TEST_CASE("timing: each coefficient counts its own work") {
+TEST_CASE("timing: each coefficient multiplies its own work") {
   BlockWork work = {};
   uint64_t amount = 1;
   for (const auto which : kAmounts) work.*which = ++amount;
@@ -133,7 +134,7 @@ TEST_CASE("timing: each coefficient counts its own work") {
   }
 }
 
-TEST_CASE("timing: linear in work and in coefficients") {
+TEST_CASE("timing: the time is linear in work and in coefficients") {
   test::Random random(4);
   for (int round = 0; round < 200; ++round) {
     starfocus_timing s = {}, t = {}, sum = {};
@@ -155,7 +156,7 @@ TEST_CASE("timing: linear in work and in coefficients") {
   }
 }
 
-TEST_CASE("timing: a superblock with the largest coefficients, and all it splits into") {
+TEST_CASE("timing: the largest coefficients overflow for no superblock and none of its parts") {
   const starfocus_timing most = EqualTiming(STARFOCUS_MAX_TIMING);
   const auto exact = [&](const BlockWork& work) {
     long double sum = 1;
@@ -163,7 +164,7 @@ TEST_CASE("timing: a superblock with the largest coefficients, and all it splits
     return sum * STARFOCUS_MAX_TIMING;
   };
   for (const int side : {16, 32, 64, 128, 256}) {
-    // Of content, more than there are pixels.
+    // More content than there are pixels.
     const auto pixels = uint32_t(side * side);
     const Content along = {64 * pixels, 64 * pixels, 256 * pixels};
     const Content content[2] = {along, along};
@@ -176,7 +177,7 @@ TEST_CASE("timing: a superblock with the largest coefficients, and all it splits
   }
 }
 
-TEST_CASE("timing: the default coefficients are these on every machine") {
+TEST_CASE("timing: the default coefficients are the same on every machine") {
   starfocus_config config;
   starfocus_config_init(&config);
   constexpr starfocus_timing kDefault = {5659266, 0, 2354, 0, 106, 3266, 720, 507};
