@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The picture of a stack of slices, where what it must be is known.
+// Tests the composited picture of a stack of slices in cases with a known result.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -16,8 +16,8 @@ namespace {
 
 constexpr int kWidth = 96, kHeight = 64, kEdge = 48;
 
-// White and near on the left, black and far on the right; all captured views black but where they
-// look beyond the left edge.
+// Makes a scene that is white and near on the left, black and far on the right. All captured views
+// are black, except where they see beyond the left edge.
 test::Scene HalfPlanes(double near, double far, int views) {
   test::Scene scene = test::EmptyScene(kWidth, kHeight, views, float(far), float(near));
   for (auto& picture : scene.pictures) std::fill(picture.begin(), picture.end(), uint8_t{0});
@@ -60,42 +60,43 @@ TEST_CASE("stack: a surface in focus has a sharp end in front of a blurred one")
   }
 }
 
-TEST_CASE("stack: a blurred surface falls off evenly in front of one in focus") {
+TEST_CASE("stack: a blurred surface fades evenly in front of a surface in focus") {
   for (const double radius : {2.0, 6.0, 13.0, 20.0}) {
     const std::vector<int> row = MiddleRow(HalfPlanes(radius - 3, -3, 5), -3, STARFOCUS_MODE_BLOCK);
     CAPTURE(radius);
     for (int x = 1; x < kWidth; ++x) {
       CAPTURE(x);
       CHECK(row[size_t(x)] <= row[size_t(x - 1)]);
-      // No band: a subaperture is at most a sixth of the blur wide, but for the sharpest.
+      // There are no bands: except for sharp surfaces, a subaperture is at most a sixth of the blur
+      // wide.
       if (radius > 3) CHECK(row[size_t(x - 1)] - row[size_t(x)] <= 300 / radius);
       if (x < kEdge - radius - 2) CHECK(row[size_t(x)] == 255);
       if (x > kEdge + radius + 2) CHECK(row[size_t(x)] == 0);
     }
-    // Half of the light at the edge.
+    // Half of the light reaches the edge.
     CHECK(std::abs(row[kEdge - 1] + row[kEdge] - 255) <= 6);
   }
 }
 
-TEST_CASE("stack: the far surface behind a blurred one is what captured views see") {
+TEST_CASE("stack: captured views show the far surface behind a blurred one") {
   test::Scene scene = HalfPlanes(4, 0, 5);
   for (int view = 1; view < 5; ++view) {
     std::fill(scene.pictures[size_t(view)].begin(), scene.pictures[size_t(view)].end(),
               uint8_t(100));
   }
   const std::vector<int> row = MiddleRow(scene, 0, STARFOCUS_MODE_BLOCK);
-  // Where the near surface covers some of the lens the hidden grey shows, beside it the black.
+  // Gray is visible where the near surface covers a part of the lens, and black next to it.
   CHECK(row[kEdge - 1] > 150);
   CHECK(row[kEdge - 4] > row[kEdge - 1]);
   CHECK(row[kEdge + 6] == 0);
 }
 
-TEST_CASE("stack: adjacent slices of one slope neither leak nor cover each other") {
+TEST_CASE("stack: adjacent slices of one slope leave no gaps and do not cover each other") {
   test::Scene scene = test::EmptyScene(kWidth, kHeight, 5, -3, 8);
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
       scene.Disparity(x, y) = -3 + 11.0f * float(x) / kWidth;
-      std::fill_n(scene.Pixel(0, x, y), 3, uint8_t(2 * x));  // a ramp: blur leaves it
+      std::fill_n(scene.Pixel(0, x, y), 3, uint8_t(2 * x));  // a ramp, which blur does not change
     }
   }
   for (const double focus : {-3.0, 0.0, 8.0}) {
@@ -107,7 +108,7 @@ TEST_CASE("stack: adjacent slices of one slope neither leak nor cover each other
   }
 }
 
-TEST_CASE("stack: where slices of a slope overlap, its end covers no more than elsewhere") {
+TEST_CASE("stack: the end of a slope covers the same share where slices overlap as elsewhere") {
   test::Scene scene = HalfPlanes(7, 0, 5);
   test::SetDisparity(&scene, [&](int x, int y) {
     return x < kEdge ? 3 + float(y) / kHeight : scene.Disparity(x, y);
@@ -130,7 +131,7 @@ TEST_CASE("stack: where slices of a slope overlap, its end covers no more than e
   CHECK(std::abs(most - kEdge) < 0.06);
 }
 
-TEST_CASE("stack: slices made part by part give the same picture") {
+TEST_CASE("stack: slices that are made in several parts give the same picture") {
   test::Random random(4);
   test::Scene scene = HalfPlanes(9, -9, 5);
   for (auto& picture : scene.pictures) {
@@ -159,10 +160,10 @@ TEST_CASE("stack: slices made part by part give the same picture") {
 
 int ranges_found = 0;
 
-// Says no once slices are looked for.
+// Cancels as soon as the first slices have been found.
 int SayNo(void*, int32_t, int32_t) { return ranges_found > 0 ? 1 : 0; }
 
-TEST_CASE("stack: once the caller says no, no other tile is made") {
+TEST_CASE("stack: no more tiles are made after cancellation") {
   const test::Scene scene = test::RandomScene(256, 256, 5, -3, 9, 8);
   starfocus_config config = test::ConfigFor(scene, 32);
   config.superblock = 256;
@@ -183,7 +184,7 @@ TEST_CASE("stack: once the caller says no, no other tile is made") {
   CHECK(ranges_found < all / 8);  // of sixteen tiles
 }
 
-// But for red zones, between which nothing is shared.
+// Red zones would add memory between parts that otherwise share it.
 TEST_CASE("stack: a worker takes 1.15 mebibytes at blocks of 64 and blurs of 32" *
           doctest::skip(starfocus::kRedZone > 0)) {
   size_t bytes[2];

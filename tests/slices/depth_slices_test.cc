@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the surfaces of a rectangle are cut into slices.
+// Tests the division of the surfaces of a rectangle into slices.
 #include "lib/slices/depth_slices.h"
 
 #include <doctest/doctest.h>
@@ -18,13 +18,13 @@ using namespace starfocus;
 
 constexpr int kSize = 64;
 
-// A rule with as much area as all slices need.
+// Returns the rule without a limit of area.
 SliceRule Ample(SliceRule rule) {
   rule.area = INT32_MAX;
   return rule;
 }
 
-// Maps of one surface, or of one behind another, as FindLayeredDepth leaves them.
+// A map with one surface, or with surfaces behind it, as FindLayeredDepth returns it.
 struct Scene {
   std::vector<int16_t> planes[3];
   std::vector<uint64_t> hiding = std::vector<uint64_t>(kSize);
@@ -48,7 +48,7 @@ struct Scene {
     return planes[surface][size_t(y * kSize + x)];
   }
 
-  // Of the middle 16 x 16 pixels.
+  // Returns the slices of the middle 16 x 16 pixels.
   std::vector<Slice> Cut(double focus, double aperture = 1,
                          const SliceRule& rule = Ample(starfocus::kSlices)) {
     starfocus::ViewWeights views;
@@ -89,12 +89,12 @@ TEST_CASE("slices: one surface is one slice, moved by its own disparity") {
   }
 }
 
-TEST_CASE("slices: bands of rows have the disparities of all surfaces that a slice is made of") {
+TEST_CASE("slices: bands of rows have the disparities of all surfaces of the slices") {
   Scene scene;
   scene.At(15, 15) = 20;
   scene.At(51, 17) = -40;
   scene.At(63, 18) = -50;   // too far away
-  scene.At(20, 51) = -300;  // what lies behind another surface is of the range of the first
+  scene.At(20, 51) = -300;  // hidden surfaces belong to the range of the first one
   for (int y = 30; y < 35; ++y) scene.At(40, y, 1) = int16_t(-100 - y);
   scene.At(0, 31, 2) = -200;
   scene.Cut(2.25);
@@ -108,12 +108,12 @@ TEST_CASE("slices: bands of rows have the disparities of all surfaces that a sli
   }
 }
 
-TEST_CASE("slices: the nearest first, also what lies behind") {
+TEST_CASE("slices: the nearest slice is first, and hidden surfaces have slices, too") {
   Scene scene;
   for (int y = 0; y < kSize; ++y) {
     for (int x = 30; x < kSize; ++x) scene.At(x, y) = 400;
   }
-  scene.At(0, 0) = -300;  // too far away to be seen; nothing is hidden that is nowhere visible
+  scene.At(0, 0) = -300;  // too far away to be visible; no hidden surface has this disparity alone
   scene.At(35, 32, 1) = -200;
   scene.At(35, 32, 2) = -300;
   const std::vector<Slice> slices = scene.Cut(0);
@@ -124,16 +124,16 @@ TEST_CASE("slices: the nearest first, also what lies behind") {
   CHECK(slices[3].disparity == -300);
 }
 
-TEST_CASE("slices: what cannot splat into the rectangle is left out") {
+TEST_CASE("slices: pixels that cannot splat into the rectangle are omitted") {
   Scene scene;
-  scene.At(10, 30) = 64 * 12;  // 14 pixels away, and one for interpolation
+  scene.At(10, 30) = 64 * 12;  // 14 pixels away, plus one for interpolation
   CHECK(scene.Cut(0).size() == 1);
   scene.At(10, 30) = 64 * 13;
   CHECK(scene.Cut(0).size() == 2);
   CHECK(scene.Cut(0, 0.5).size() == 1);
 }
 
-TEST_CASE("slices: three eighths of a pixel at the rim, more of a wide blur, and all disparities") {
+TEST_CASE("slices: ranges are 3/8 pixel at the rim, wider with large blur, and cover all pixels") {
   Scene scene;
   for (int y = 0; y < kSize; ++y) {
     for (int x = 0; x < kSize; ++x) scene.At(x, y) = int16_t(4 * (x - 32));  // -2 to 2 pixels
@@ -152,7 +152,7 @@ TEST_CASE("slices: three eighths of a pixel at the rim, more of a wide blur, and
   }
 }
 
-TEST_CASE("slices: their area follows from the blur of the lens alone") {
+TEST_CASE("slices: their area depends only on the blur of the lens") {
   CHECK(starfocus::SliceArea(4) == 400);
   for (const double blur : {0.5, 8.0, 32.9}) {
     CAPTURE(blur);
@@ -162,7 +162,7 @@ TEST_CASE("slices: their area follows from the blur of the lens alone") {
   CHECK(starfocus::MostSliceArea(STARFOCUS_MAX_BLUR) == 5 * 147 * 147);
 }
 
-TEST_CASE("slices: a slice takes no more memory than its area says") {
+TEST_CASE("slices: a slice takes at most the memory of its area") {
   for (int reach = 0; reach <= starfocus::LargestSliceReach(STARFOCUS_MAX_BLUR); ++reach) {
     CAPTURE(reach);
     CHECK(starfocus::SliceBytes(starfocus::kLeastColumns, starfocus::kLeastRows, size_t(reach)) +
@@ -171,7 +171,7 @@ TEST_CASE("slices: a slice takes no more memory than its area says") {
   }
 }
 
-TEST_CASE("slices: coarser where there are too many, or too large ones") {
+TEST_CASE("slices: ranges become wider if slices are too many or too large") {
   test::Random random(5);
   Scene scene;
   for (int16_t& disparity : scene.planes[0]) disparity = int16_t(random.Int(-2000, 2000));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What no captured view shows behind depth edges.
+// Tests the fill of hidden surfaces that no captured view shows.
 #include "lib/slices/hidden_fill.h"
 
 #include <doctest/doctest.h>
@@ -15,7 +15,7 @@ namespace {
 
 using test::kSize;
 
-// Memory that holds anything.
+// Memory with arbitrary content.
 struct Memory {
   static constexpr size_t kStride = starfocus::FillStride(kSize), kGap = starfocus::kFillStep;
   std::vector<int16_t> disparity = std::vector<int16_t>(kSize * kStride + kGap, 99);
@@ -37,7 +37,8 @@ struct Scene : test::LayeredScene {
   }
 };
 
-// A near square before a wall whose rows are black and of light 200 by turns, three of each.
+// Makes a near square in front of a wall with stripes: three rows of black and three rows of light
+// 200 in turn.
 Scene BeforeStripes(int views) {
   Scene scene(views);
   for (int y = 0; y < kSize; ++y) scene.Fill(0, kSize, y, y + 1, 0, y % 6 < 3 ? 0 : 200);
@@ -45,7 +46,7 @@ Scene BeforeStripes(int views) {
   return scene;
 }
 
-TEST_CASE("hidden fill: a wall of one colour goes on to the bit") {
+TEST_CASE("hidden fill: a wall of one colour continues exactly") {
   Scene scene(1);
   scene.Fill(0, kSize, 0, kSize, -2, 137);
   scene.Fill(11, 31, 9, 29, 6, 20);
@@ -57,7 +58,7 @@ TEST_CASE("hidden fill: a wall of one colour goes on to the bit") {
   CHECK(scene.Colour(13, 20, 0) == 137);
 }
 
-TEST_CASE("hidden fill: beside the edge a pixel is what it repeats, farther in the wall's mean") {
+TEST_CASE("hidden fill: pixels repeat the wall at the edge and its mean farther away") {
   Scene scene = BeforeStripes(1);
   scene.Find();
   CHECK(scene.Colour(14, 19, 0) == 0);
@@ -66,13 +67,13 @@ TEST_CASE("hidden fill: beside the edge a pixel is what it repeats, farther in t
   const std::vector<int16_t> seen = scene.colours[0];
   scene.InpaintHidden();
   CHECK(scene.colours[0] == seen);
-  // In the middle of a stripe, beside the edge and seven pixels farther in.
+  // In the middle of a stripe: next to the edge, and seven pixels farther away.
   CHECK(scene.Colour(14, 19, 0) <= 50);
   CHECK(scene.Colour(14, 22, 0) >= 150);
   for (int y = 18; y < 24; ++y) CHECK(std::abs(scene.Colour(21, y, 0) - 100) <= 40);
 }
 
-TEST_CASE("hidden fill: what captured views show stays") {
+TEST_CASE("hidden fill: pixels that captured views show do not change") {
   Scene scene = BeforeStripes(5);
   scene.Find();
   const std::vector<int16_t> colours = scene.colours[1];
@@ -85,7 +86,7 @@ TEST_CASE("hidden fill: what captured views show stays") {
   CHECK(same == 16);
 }
 
-TEST_CASE("hidden fill: surfaces of other disparities do not mix") {
+TEST_CASE("hidden fill: surfaces of different disparities do not mix") {
   Scene scene(1);
   scene.Fill(0, 20, 0, kSize, -4, 30);
   scene.Fill(20, kSize, 0, kSize, -9, 220);
@@ -98,7 +99,7 @@ TEST_CASE("hidden fill: surfaces of other disparities do not mix") {
   CHECK(scene.Colour(23, 20, 0) == 220);
 }
 
-TEST_CASE("hidden fill: of a parted boundary pixel the far colour goes on") {
+TEST_CASE("hidden fill: the far colour of a split boundary pixel continues") {
   Scene scene(1);
   scene.Fill(0, kSize, 0, kSize, 0, 50);
   scene.Fill(20, kSize, 0, kSize, 12, 250);
@@ -120,7 +121,7 @@ TEST_CASE("hidden fill: of a parted boundary pixel the far colour goes on") {
   CHECK(scene.Colour(19, 20, 0) == 50);
 }
 
-TEST_CASE("hidden fill: a mirrored scene is filled alike") {
+TEST_CASE("hidden fill: the fill of a mirrored scene is mirrored") {
   test::Random random(7);
   Scene scene(1), mirrored(1), turned(1);
   for (int y = 0; y < kSize; ++y) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What lies behind the visible surface of a field, and where it is read.
+// Tests the hidden surfaces of a light field and the places where their colours are read.
 #include "lib/slices/layered_depth.h"
 
 #include <doctest/doctest.h>
@@ -19,19 +19,19 @@ using starfocus::LayeredDepth;
 using test::kArea;
 using test::kSize;
 
-TEST_CASE("surfaces: behind a near square lies what captured views see beside its edges") {
+TEST_CASE("surfaces: captured views show the background behind a near square") {
   for (const int views : {5, 9, 17}) {
     Scene scene(views);
     scene.Fill(0, kSize, 0, kSize, 1, 10);
     scene.Fill(12, 28, 12, 28, 5, 90);
     scene.Find();
     CAPTURE(views);
-    // Up to the four pixels and one that a view at distance 1 looks behind.
+    // A view at distance 1 sees four pixels and one more behind the edge.
     for (int x = 12; x < 28; ++x) {
       const int distance = std::min(x - 11, 28 - x);
       CHECK(scene.Behind(x, 20) == (distance <= 5 ? 1 : -1000));
     }
-    // The view to the left sees the far point one pixel further right.
+    // The left view shows the far point one pixel farther to the right.
     CHECK(scene.Colour(13, 20, 2) == 2);
     CHECK(scene.Colour(13, 20, 0) == 14);
     CHECK(scene.Colour(13, 20, 1) == 20);
@@ -49,9 +49,7 @@ TEST_CASE("surfaces: behind a near square lies what captured views see beside it
   }
 }
 
-TEST_CASE(
-    "surfaces: a pair looks behind the edges on one side, on the others the background "
-    "goes on") {
+TEST_CASE("surfaces: a pair sees behind edges on one side; elsewhere the background continues") {
   Scene scene(17);
   test::SetPositions({{1, 0}}, &scene.window);
   scene.Fill(0, kSize, 0, kSize, 1, 10);
@@ -64,12 +62,11 @@ TEST_CASE(
     CHECK(scene.Behind(x, y) == 1);
     CHECK(scene.Colour(x, y, 2) == 10);
   }
-  // In a corner what a view sees comes before what is nearer.
+  // In a corner, a pixel that a view sees has priority over a nearer one.
   CHECK(scene.Colour(26, 27, 2) == 1);
 }
 
-TEST_CASE(
-    "surfaces: views between the axes and at any distance are read where they show the place") {
+TEST_CASE("surfaces: views at any position are read where they show the place") {
   for (const starfocus_position& at :
        {starfocus_position{0.5, 0.25}, starfocus_position{0.75, -0.5}}) {
     Scene scene(17);
@@ -78,7 +75,7 @@ TEST_CASE(
     scene.Fill(12, 28, 12, 28, 12, 90);
     scene.Find();
     CAPTURE(at.u);
-    // A near pixel moves by 8 u against the far surface.
+    // A near pixel moves by 8 u relative to the far surface.
     const int seen = int(8 * at.u);
     for (int x = 20; x < 28; ++x) {
       CAPTURE(x);
@@ -93,19 +90,19 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("surfaces: of two views on a side the nearer one shows what is covered in the farther") {
+TEST_CASE("surfaces: of two views on a side, the nearer one shows what the farther one does not") {
   Scene scene(17);
   test::SetPositions({{1, 0}, {0.25, 0}}, &scene.window);
   scene.Fill(0, kSize, 0, kSize, 0, 10);
   scene.Fill(10, 14, 0, kSize, 4, 90);
-  scene.Fill(15, 25, 0, kSize, 4, 90);  // through the gap looks the nearer one only
+  scene.Fill(15, 25, 0, kSize, 4, 90);  // only the nearer view sees through the gap
   scene.Find();
   CHECK(scene.Colour(13, 20, 2) == 2);
   CHECK(scene.Colour(12, 20, 2) != 2);
   CHECK(scene.Colour(24, 20, 2) == 1);
 }
 
-TEST_CASE("surfaces: without a captured view the background goes on") {
+TEST_CASE("surfaces: without a captured view the background continues") {
   Scene scene(1);
   scene.Fill(0, kSize, 0, kSize, 1, 10);
   scene.Fill(20, kSize, 0, kSize, 4, 90);
@@ -114,31 +111,31 @@ TEST_CASE("surfaces: without a captured view the background goes on") {
   CHECK(scene.Colour(20, 20, 1) == 10);
 }
 
-TEST_CASE("surfaces: what another surface covers in the captured view is not read there") {
-  // A slit of two pixels between near surfaces, which show in front of it from either side.
+TEST_CASE("surfaces: places that another surface covers in the captured view are not read there") {
+  // A slit of two pixels between near surfaces, which cover it as seen from either side.
   Scene scene(5);
   scene.Fill(0, kSize, 0, kSize, 5, 90);
   scene.Fill(20, 22, 0, kSize, 0, 10);
   scene.Find();
   CHECK(scene.Behind(19, 20) == 0);
   CHECK(scene.Colour(19, 20, 1) == 10);
-  // A pixel further in shows through the slit.
+  // A pixel farther from the slit is visible through it.
   CHECK(scene.Behind(16, 20) == 0);
   CHECK(scene.Colour(16, 20, 0) == 16);
   CHECK(scene.Colour(16, 20, 2) == 1);
 }
 
-TEST_CASE("surfaces: tied sides give the mean") {
+TEST_CASE("surfaces: sides at the same distance give the mean") {
   Scene scene(5);
   scene.Fill(0, kSize, 0, kSize, 0, 10);
   scene.Fill(20, 21, 0, kSize, 4, 90);
   scene.Find();
   CHECK(scene.Behind(20, 20) == 0);
   CHECK(scene.Colour(20, 20, 0) == 20);
-  CHECK(scene.Colour(20, 20, 2) == 2);  // of views 1 and 2, halves up
+  CHECK(scene.Colour(20, 20, 2) == 2);  // mean of views 1 and 2, halves rounded up
 }
 
-TEST_CASE("surfaces: two of them behind a third") {
+TEST_CASE("surfaces: there may be two surfaces behind a third one") {
   Scene scene(5);
   scene.Fill(0, kSize, 0, 20, 0, 10);
   scene.Fill(0, kSize, 20, kSize, 3, 40);
@@ -149,7 +146,7 @@ TEST_CASE("surfaces: two of them behind a third") {
 }
 
 TEST_CASE("surfaces: an edge behind an edge is followed") {
-  // A strip before a wall, 6 pixels behind it, and before the strip what is 3 pixels nearer.
+  // A strip is 6 pixels in front of a wall, and another surface is 3 pixels in front of the strip.
   for (const int start : {16, 13, 12}) {
     Scene scene(5);
     scene.Fill(0, kSize, 0, kSize, -5, 10);
@@ -160,18 +157,18 @@ TEST_CASE("surfaces: an edge behind an edge is followed") {
     for (int x = 20; x < 28; ++x) {
       CAPTURE(x);
       CHECK(scene.Behind(x, 20) == (x < 24 ? 1 : -1000));
-      // The strip's last pixel hides the wall up to 6 pixels away, and this pixel up to 9.
+      // The last pixel of the strip hides the wall up to 6 pixels away, and this pixel up to 9.
       const bool shown = x < 24 && start >= 13 && x - start <= 9;
       CHECK(scene.Behind(x, 20, 2) == (shown ? -5 : -1000));
     }
     if (start < 16) continue;
-    // The view to the left sees the wall five pixels further left, beside the strip.
+    // The left view shows the wall five pixels farther to the left, next to the strip.
     CHECK(scene.Colour(20, 20, 2, 2) == 2);
     CHECK(scene.Colour(20, 20, 0, 2) == 15);
   }
 }
 
-TEST_CASE("surfaces: steps from 2/64 to half a pixel hide the near pixel at the far disparity") {
+TEST_CASE("surfaces: at steps from 2/64 to half a pixel, a pixel hides a farther copy of itself") {
   Scene scene(5);
   for (int y = 0; y < kSize; ++y) {
     for (int x = 0; x < kSize; ++x) scene.Set(x, y, 0.25 * (x % 8), x);
@@ -184,7 +181,7 @@ TEST_CASE("surfaces: steps from 2/64 to half a pixel hide the near pixel at the 
   }
 }
 
-TEST_CASE("surfaces: smaller and larger steps of up to three quarters of a pixel hide nothing") {
+TEST_CASE("surfaces: smaller steps and larger ones up to 3/4 of a pixel hide nothing") {
   for (const double slope : {0.0, 0.016, 0.6, 0.75, -0.75}) {
     Scene scene(5);
     for (int y = 0; y < kSize; ++y) {
@@ -201,8 +198,8 @@ TEST_CASE("surfaces: smaller and larger steps of up to three quarters of a pixel
   CHECK(steep.hiding[20] != 0);
 }
 
-// Pixels from (x, y) to the far side of the next edge, 0 where that is not behind it. Steps of up
-// to an eighth of what is hidden by then are no edges.
+// Returns the distance from (x, y) to the far side of the next edge, or 0 if the pixel does not
+// hide it. Steps of up to an eighth of the depth that is hidden already do not count as edges.
 int Distance(const Scene& scene, int x, int y, int dx, int dy) {
   const auto at = [&](int t) {
     return int(scene.disparity[size_t((y + dy * t) * kSize + x + dx * t)]);
@@ -224,7 +221,7 @@ int Distance(const Scene& scene, int x, int y, int dx, int dy) {
   return edge != 0 && hides(0, edge) ? edge : 0;
 }
 
-TEST_CASE("surfaces: the edges of random maps, by looking for each") {
+TEST_CASE("surfaces: the edges of random maps match a search for each pixel") {
   test::Random random(3);
   for (int round = 0; round < 20; ++round) {
     Scene scene(5);
@@ -232,7 +229,7 @@ TEST_CASE("surfaces: the edges of random maps, by looking for each") {
       const int x = random.Int(0, kSize - 1), y = random.Int(0, kSize - 1);
       const int right = std::min(kSize, x + random.Int(1, 12));
       const int bottom = std::min(kSize, y + random.Int(1, 12));
-      // Quarters of a pixel make steps that are just no edge.
+      // Quarters of a pixel include steps that are barely too small for an edge.
       const double pixels = round % 2 == 0 ? random.Real(-6, 6) : random.Int(-24, 24) / 4.0;
       scene.Fill(x, right, y, bottom, pixels, patch);
     }

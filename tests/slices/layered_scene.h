@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A small light field whose layered depth tests look at.
+// A small light field for the tests of layered depth.
 #ifndef STARFOCUS_TESTS_SLICES_LAYERED_SCENE_H_
 #define STARFOCUS_TESTS_SLICES_LAYERED_SCENE_H_
 
@@ -21,8 +21,9 @@ inline constexpr int kStride = 48;  // SliceSamples
 inline constexpr int kStripColumns = int(starfocus::simd::kSliceLanes);
 inline constexpr int kArea = kStride * kSize + 16;
 
-// A disparity map in pixels per unit, the centre view in one grey level, captured views that say
-// where they are read: R holds x, G holds y and B the view.
+// A light field of a disparity map in pixels per unit, a centre view of one gray level, and
+// captured views. The samples of a captured view are their own coordinates: R is x, G is y and B is
+// the index of the view.
 struct LayeredScene {
   std::vector<int16_t> disparity = std::vector<int16_t>(kSize * kSize);
   std::vector<uint8_t> centre = std::vector<uint8_t>(3 * kSize * kSize);
@@ -100,7 +101,7 @@ struct LayeredScene {
     starfocus::FindLayeredDepth(starfocus::simd::BestKernels(), window, field, &surfaces);
   }
 
-  // In pixels per unit; -1000: no surface.
+  // Returns a disparity in pixels per unit, or -1000 without a surface.
   double Behind(int x, int y, int surface = 1) const {
     const int16_t found = surfaces.disparity[surface][surfaces.At(x, y)];
     return found == kNoSurface ? -1000 : found / 64.0;

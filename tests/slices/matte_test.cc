@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Boundary pixels of slices, in a picture of one depth edge.
+// Tests the boundary pixels of slices in a picture with one depth edge.
 #include "lib/slices/matte.h"
 
 #include <doctest/doctest.h>
@@ -19,8 +19,8 @@ namespace {
 constexpr int kWidth = 64, kHeight = 48, kEdge = 32;
 constexpr int kNear = 240, kFar = 40;
 
-// Near on the right and far on the left; the far column beside the edge shows a quarter of the near
-// surface. Captured views show the far surface everywhere.
+// Makes a scene that is near on the right and far on the left. The far column next to the edge
+// shows a quarter of the near surface. Captured views show the far surface everywhere.
 test::Scene Mixed(double near, double far, int views, bool transposed = false, int mixed = 90) {
   test::Scene scene = test::EmptyScene(kWidth, kHeight, views, float(std::min(near, far)),
                                        float(std::max(near, far)));
@@ -52,7 +52,7 @@ std::vector<int> MiddleRow(const test::Scene& scene, double focus, bool transpos
   return row;
 }
 
-TEST_CASE("matte: a mixed pixel stays what it is while both surfaces are sharp") {
+TEST_CASE("matte: a mixed pixel does not change while both surfaces are sharp") {
   for (const int views : {5, 9, 17}) {
     const std::vector<int> row = MiddleRow(Mixed(1, 0, views), 0.5);
     CAPTURE(views);
@@ -62,7 +62,7 @@ TEST_CASE("matte: a mixed pixel stays what it is while both surfaces are sharp")
   }
 }
 
-TEST_CASE("matte: a defocused surface ends a quarter of a pixel further out, without an outline") {
+TEST_CASE("matte: a defocused surface ends a quarter of a pixel farther out, without an outline") {
   for (const bool transposed : {false, true}) {
     const int edge = transposed ? kEdge - 8 : kEdge;
     const std::vector<int> mixed = MiddleRow(Mixed(6, 0, 5, transposed), 0, transposed);
@@ -70,7 +70,7 @@ TEST_CASE("matte: a defocused surface ends a quarter of a pixel further out, wit
     int light = 0;
     for (size_t k = 0; k < mixed.size(); ++k) light += mixed[k] - pure[k];
     CAPTURE(transposed);
-    // A quarter of a pixel more of it, spread over its blur.
+    // The surface has a quarter of a pixel more, spread over its blur.
     CHECK(std::abs(light - (kNear - kFar) / 4) <= 12);
     for (int k = edge - 5; k < edge + 5; ++k) {
       CHECK(mixed[size_t(k)] - pure[size_t(k)] >= 0);
@@ -79,8 +79,8 @@ TEST_CASE("matte: a defocused surface ends a quarter of a pixel further out, wit
   }
 }
 
-TEST_CASE("matte: a defocused background is free of a sharp surface's part") {
-  for (const int views : {1, 5}) {  // with one view the pixel beside it tells the far colour
+TEST_CASE("matte: a defocused background contains no light of a sharp surface") {
+  for (const int views : {1, 5}) {  // with one view the neighbour gives the far colour
     const std::vector<int> row = MiddleRow(Mixed(0, -6, views), 0);
     CAPTURE(views);
     CHECK(std::abs(row[kEdge - 1] - 90) <= 1);  // the sharp end keeps its quarter
@@ -90,7 +90,8 @@ TEST_CASE("matte: a defocused background is free of a sharp surface's part") {
 }
 
 TEST_CASE("matte: surfaces must move against each other by more than a pixel") {
-  // Of three views along the radius the outermost lies at 96/94 of it: here at 1.
+  // With three views along the radius, the outermost view is at 96/94 of the radius. Here this is
+  // 1.
   constexpr double kAperture = 94.0 / 96, kLeast = 1.0 / 64;
   const std::vector<int> whole = MiddleRow(Mixed(0, -1, 5), 0, false, kAperture);
   CHECK(whole[kEdge - 2] > kFar);
@@ -98,15 +99,15 @@ TEST_CASE("matte: surfaces must move against each other by more than a pixel") {
   CHECK(parted[kEdge - 2] == kFar);
 }
 
-TEST_CASE("matte: what is no mixture is blurred as it is") {
-  for (const int views : {1, 5}) {  // brighter than the near surface: not between both
+TEST_CASE("matte: a pixel that is not a mixture is blurred without a change") {
+  for (const int views : {1, 5}) {  // brighter than the near surface, so not between both
     const std::vector<int> odd = MiddleRow(Mixed(0, -6, views, false, 255), 0);
     CAPTURE(views);
     CHECK(odd[kEdge - 4] > kFar);
   }
 }
 
-TEST_CASE("matte: with one view a pixel beside another surface is blurred as it is") {
+TEST_CASE("matte: with one view a pixel next to another surface is blurred without a change") {
   test::Scene scene = Mixed(0, -6, 1);
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kEdge - 1; ++x) scene.Disparity(x, y) = -3;
@@ -114,7 +115,7 @@ TEST_CASE("matte: with one view a pixel beside another surface is blurred as it 
   CHECK(MiddleRow(scene, 0)[kEdge - 1] < 80);
 }
 
-TEST_CASE("matte: where slices of a slope overlap, its end still covers a quarter") {
+TEST_CASE("matte: the end of a slope covers a quarter where its slices overlap, too") {
   test::Scene scene = Mixed(0, -8, 5);
   scene.disparity_min = -8;
   scene.disparity_max = 1;
@@ -133,7 +134,8 @@ TEST_CASE("matte: where slices of a slope overlap, its end still covers a quarte
   }
 }
 
-// A disc of one colour before a wall of another, with mixed pixels around it in every view.
+// Makes a disc of one colour in front of a wall of another one, with mixed pixels around it in
+// every view.
 test::Scene Disc(int views, double near, double far, int bright, int dark) {
   constexpr int kSide = 160, kParts = 4;
   test::Scene scene = test::EmptyScene(kSide, kSide, views, float(far), float(near));
@@ -160,8 +162,8 @@ test::Scene Disc(int views, double near, double far, int bright, int dark) {
   return scene;
 }
 
-// The largest difference from the wall's colour where no light of the disc may be: farther outside
-// than its blur and its mixed pixels reach.
+// Returns the largest difference from the wall's colour at places without light of the disc. These
+// are farther away than its blur and its mixed pixels reach.
 int GlowOf(const test::Scene& scene, const starfocus_config& config, double focus, double near,
            int wall) {
   const test::Refocused picture =
@@ -180,7 +182,7 @@ int GlowOf(const test::Scene& scene, const starfocus_config& config, double focu
   return most;
 }
 
-TEST_CASE("matte: no light leaves a subject for the wall behind, at any level and size of block") {
+TEST_CASE("matte: no light of a subject reaches the wall, at any level and size of block") {
   constexpr double kSubject = 4, kWall = -32;
   for (const int views : {1, 5, 9, 17}) {
     for (const bool dark_subject : {false, true}) {
@@ -194,7 +196,7 @@ TEST_CASE("matte: no light leaves a subject for the wall behind, at any level an
             config.tuning.max_layer = max_layer;
             config.superblock = block;
             CAPTURES(views, dark_subject, focus, max_layer, block);
-            // With one view what is behind mixed pixels is told by their neighbours.
+            // With one view, the colours behind mixed pixels come from their neighbours.
             CHECK(GlowOf(scene, config, focus, kSubject, wall) <= (views == 1 ? 3 : 1));
           }
         }

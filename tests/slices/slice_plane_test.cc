@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far slices reach: memory is laid out for the most that any lens may ask for.
+// Tests the reach of slices: the memory must suffice for any lens.
 #include "lib/slices/slice_plane.h"
 
 #include <doctest/doctest.h>
@@ -24,7 +24,7 @@ struct Views {
   starfocus::ViewWeights aperture;
 };
 
-// Pixels that the slice of `disparity` reaches beyond a rectangle.
+// Returns the number of pixels by which the slice of `disparity` exceeds a rectangle.
 int ReachOf(const Views& views, double focus, double aperture, int disparity) {
   const starfocus::ViewGrid grid =
       starfocus::MakeViewGrid(views.aperture, focus, aperture * views.aperture.extent, 0, false);
@@ -33,16 +33,16 @@ int ReachOf(const Views& views, double focus, double aperture, int disparity) {
   return placed.reach;
 }
 
-TEST_CASE("slice planes: no slice of any N reaches farther than the memory laid out for it") {
+TEST_CASE("slice planes: no slice of any N reaches farther than its memory allows") {
   test::Random random(7);
   std::vector<Views> all;
   for (int n = 1; n <= 26; ++n) all.emplace_back(n);
-  double nearest = 9;  // to the most, in pixels
+  double nearest = 9;  // distance to the limit, in pixels
   for (int round = 0; round < 40000; ++round) {
     const double blur =
         random.Int(0, 3) == 0 ? random.Int(1, 128) : random.Real(0.5, STARFOCUS_MAX_BLUR);
     const double aperture = random.Int(0, 1) == 0 ? 1 : random.Real(0.3, 1);
-    // A focus that is rounded away from the disparity, which is rounded as well.
+    // A focus whose rounding increases the distance to the disparity, which is rounded as well.
     const double away = std::min(blur / aperture, 500.0);
     const double focus = std::floor(random.Real(-10, 10) * 64) / 64 + 0.5 / 64;
     const int disparity = int(std::floor((focus - away) * 64 + 0.5)) - random.Int(0, 2);
@@ -59,9 +59,9 @@ TEST_CASE("slice planes: no slice of any N reaches farther than the memory laid 
   CHECK(nearest == 0);
 }
 
-// Surfaces tell in which groups of pixels one lies behind another; a slice may begin within a
+// Layered depth has a flag for groups of pixels with hidden surfaces. A slice may start within a
 // group.
-TEST_CASE("slice planes: a pixel behind another is shown wherever groups of pixels begin") {
+TEST_CASE("slice planes: a hidden pixel is found wherever groups of pixels start") {
   constexpr int kWidth = 64, kShown = 24;
   constexpr size_t kRoom = kWidth + 2 * starfocus::simd::kSliceLanes;
   for (int behind = 0; behind < kWidth; ++behind) {
