@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Processes that signals end.
+// Runs child processes that are ended by a signal.
 #ifndef STARFOCUS_TESTS_SUPPORT_CHILD_H_
 #define STARFOCUS_TESTS_SUPPORT_CHILD_H_
 
@@ -10,8 +10,8 @@
 
 namespace starfocus {
 
-// Starts a process that calls `work` and says when it has begun, ends it by `signal`, and returns
-// its status.
+// Starts a process that calls `work`. Sends `signal` as soon as `work` has reported its start, and
+// returns the status of the process.
 template <class Work>
 int EndBySignal(int signal, const Work& work) {
   int ends[2];
@@ -19,7 +19,7 @@ int EndBySignal(int signal, const Work& work) {
   const pid_t child = fork();
   REQUIRE(child >= 0);
   if (child == 0) {
-    ::signal(signal, SIG_DFL);  // whoever started the test may ignore it, as nohup does
+    ::signal(signal, SIG_DFL);  // a parent such as nohup may ignore the signal
     work([&] { return write(ends[1], "x", 1) == 1; });
     _exit(0);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Comparing an error with its line, "" where there is none, and looking for parts of texts.
+// Compares errors with their lines ("" for no error), and searches for parts of texts.
 #ifndef STARFOCUS_TESTS_SUPPORT_ERROR_LINE_H_
 #define STARFOCUS_TESTS_SUPPORT_ERROR_LINE_H_
 
@@ -40,14 +40,14 @@ bool Contains(const Result<T>& result, const std::string& part) {
   return Contains(result.error(), part);
 }
 
-// The value of a result that must have one.
+// Returns the value of a result, or throws its error.
 template <class T>
 T ValueOf(Result<T> result) {
   if (!result) throw std::runtime_error(result.error().line());
   return std::move(*result);
 }
 
-// What doctest shows.
+// Print values for doctest.
 inline std::ostream& operator<<(std::ostream& out, const Error& error) {
   return out << error.line();
 }

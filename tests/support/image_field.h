@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light fields of images, and the same converted first.
+// Light fields of images, and the same light fields converted by the definitions of image.h.
 #ifndef STARFOCUS_TESTS_SUPPORT_IMAGE_FIELD_H_
 #define STARFOCUS_TESTS_SUPPORT_IMAGE_FIELD_H_
 
@@ -16,9 +16,10 @@ namespace test {
 struct ImageField {
   std::vector<ImageMemory> views;
   DepthMemory depth;
-  Scene converted;  // by the definitions; what the engine is to see
+  Scene converted;  // converted by the definitions; input of the engine
 
-  // The rows from `row` on; a smaller map comes whole.
+  // Returns the light field from `row` on. A map that is smaller than the picture is always
+  // complete.
   starfocus_light_field Field(int row = 0) const {
     starfocus_light_field field = {};
     for (size_t k = 0; k < views.size(); ++k) field.views[k] = views[k].In(row);
@@ -32,7 +33,7 @@ struct ImageField {
     ImageMemory& centre = const_cast<ImageMemory&>(views[0]);
     return centre.kind().HasAlpha() ? *centre.Colour(x, y, 3) : 255;
   }
-  // `out` converted to an image of the same size, whose pixel (0, 0) is (x, y) of the picture.
+  // Converts `out` to an image of the same size. Its pixel (0, 0) is (x, y) of the picture.
   ImageMemory Converted(const Output& out, const ImageKind& kind, int x = 0, int y = 0) const {
     ImageMemory image(out.width, out.height, kind);
     PutPicture(
@@ -42,7 +43,8 @@ struct ImageField {
   }
 };
 
-// The range of disparities is a little wider than the scene's, for maps of few bits.
+// Makes a light field of images. Its range of disparities is a little wider than the scene's, for
+// maps of few bits.
 inline ImageField MakeImageField(const Scene& scene, const std::vector<ImageKind>& kinds,
                                  DepthMemory depth, Random* random) {
   ImageField field;
@@ -70,7 +72,7 @@ inline starfocus_config ImageConfig(const ImageField& field, double max_blur = 2
   return config;
 }
 
-// Pushes and pulls at most so many rows at a time.
+// Streams with at most `push_rows` and `pull_rows` rows per call.
 inline starfocus_status Stream(Engine* engine, const ImageField& field,
                                const starfocus_params& params, int push_rows, int pull_rows,
                                ImageMemory* image, starfocus_report* report) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Images and depth maps of every format in memory, and their conversion as starfocus/image.h
-// defines it, number by number.
+// Images and depth maps of every format in memory, and their conversion as defined in
+// starfocus/image.h.
 #ifndef STARFOCUS_TESTS_SUPPORT_IMAGE_SCENE_H_
 #define STARFOCUS_TESTS_SUPPORT_IMAGE_SCENE_H_
 
@@ -15,8 +15,8 @@
 
 namespace test {
 
-// What an image is, but for its size. Layouts of YUV_420_888 with chroma 2 bytes apart: U first, V
-// first, or each in memory of its own.
+// Properties of an image except its size. The layouts of YUV_420_888 with chroma samples 2 bytes
+// apart are: U first, V first, or separate memory for each.
 struct ImageKind {
   int format = STARFOCUS_FORMAT_RGB, matrix = 0, range = 0, pixel_stride = 0, padding = 0,
       layout = 0;
@@ -46,8 +46,8 @@ inline ImageKind AnyKind(int format, Random* random) {
   return kind;
 }
 
-// An image in memory that ends with the last byte of its last row. Bytes that belong to no pixel
-// are poison.
+// An image in memory that ends with the last byte of its last row. Bytes that do not belong to a
+// pixel are poisoned.
 class ImageMemory {
  public:
   ImageMemory(int width, int height, const ImageKind& kind)
@@ -71,7 +71,7 @@ class ImageMemory {
   int height() const { return height_; }
   const ImageKind& kind() const { return kind_; }
 
-  // The image from an even row on.
+  // Returns the image from an even row on.
   starfocus_image Out(int row = 0) {
     starfocus_image out = {kind_.format, kind_.matrix, kind_.range, kind_.pixel_stride, {}, {}};
     for (int plane = 0; plane < 3; ++plane) {
@@ -89,7 +89,7 @@ class ImageMemory {
   }
   starfocus_image In(int row = 0) const { return const_cast<ImageMemory*>(this)->Out(row); }
 
-  // Colours 0, 1, 2: R, G, B; 3: alpha.
+  // Returns a sample. `colour` is 0, 1, 2 for R, G, B, or 3 for alpha.
   uint8_t* Colour(int x, int y, int colour) {
     const bool swaps =
         kind_.format == STARFOCUS_FORMAT_BGR || kind_.format == STARFOCUS_FORMAT_BGRX;
@@ -97,7 +97,7 @@ class ImageMemory {
     return &bytes_[0][size_t(y) * strides_[0] + size_t(x * kind_.Step() + place)];
   }
   uint8_t* Luma(int x, int y) { return &bytes_[0][size_t(y) * strides_[0] + size_t(x)]; }
-  // 1: U; 2: V.
+  // Returns a chroma sample. `which` is 1 for U, 2 for V.
   uint8_t* Chroma(int which, int x, int y) {
     const size_t row = size_t(y / 2), column = size_t(x / 2 * kind_.Step());
     if (!bytes_[2].empty()) return &bytes_[which][row * strides_[which] + column];
@@ -106,7 +106,7 @@ class ImageMemory {
     return &bytes_[1][row * strides_[1] + column + ((which == 1) == v_first ? 1 : 0)];
   }
 
-  // All planes, one after the other.
+  // Returns the bytes of all planes.
   std::vector<uint8_t> Bytes() const {
     std::vector<uint8_t> all;
     for (const auto& plane : bytes_) all.insert(all.end(), plane.begin(), plane.end());
@@ -129,7 +129,7 @@ class ImageMemory {
   size_t strides_[3] = {};
 };
 
-// P(a, c) and the other parts of the definitions.
+// P(a, c) and other functions of the definitions.
 inline int Product(int a, int c) { return (a * c + (1 << 14)) >> 15; }
 inline int Rounded(double value) { return int(std::lround(value)); }
 inline uint8_t Code(int value) { return uint8_t(std::clamp(value, 0, 255)); }
@@ -145,7 +145,7 @@ struct Matrix {
   int y0;
 };
 
-// The codes R, G, B of a pixel.
+// Reads the codes R, G, B of a pixel.
 inline void GetPixel(ImageMemory* image, int x, int y, uint8_t* rgb) {
   if (!image->kind().IsYuv()) {
     for (int c = 0; c < 3; ++c) rgb[c] = *image->Colour(x, y, c);
@@ -162,7 +162,7 @@ inline void GetPixel(ImageMemory* image, int x, int y, uint8_t* rgb) {
   rgb[2] = Code((luma + Product(u, Rounded(one * m.q * blue)) + 32) >> 6);
 }
 
-// Writes a whole image; alpha(x, y) is that of a pixel.
+// Writes a whole image. alpha(x, y) returns the alpha of a pixel.
 template <class Alpha>
 void PutPicture(const uint8_t* rgb, size_t stride, const Alpha& alpha, ImageMemory* image) {
   const auto code = [&](int x, int y, int c) -> int {
@@ -247,14 +247,16 @@ struct DepthMemory {
   }
 };
 
-// A map of a scene's disparities, taken in the middle of what each value stands for.
+// Makes a map of a scene's disparities. Each value is taken at the middle of the pixels that it
+// stands for.
 inline DepthMemory MakeDepth(const Scene& scene, int width, int height, starfocus_depth_type type,
                              starfocus_depth_meaning meaning, int padding) {
   DepthMemory depth;
   starfocus_depth_map& map = depth.map;
   map.width = width, map.height = height, map.type = type, map.meaning = meaning;
   const double span = double(scene.disparity_max) - double(scene.disparity_min);
-  // Distances of near surfaces are small; disparities are offset so that all of them are positive.
+  // Distances of near surfaces are small. Disparities get an offset so that all of them are
+  // positive.
   map.offset =
       float(double(scene.disparity_min) - (meaning == STARFOCUS_DEPTH_LINEAR ? 0 : 0.2 * span));
   const double steps = type == STARFOCUS_DEPTH_U8    ? 250
@@ -276,7 +278,7 @@ inline DepthMemory MakeDepth(const Scene& scene, int width, int height, starfocu
   return depth;
 }
 
-// The disparity of a value in 64ths; kUnknown where there is none.
+// Returns the disparity of a value in 1/64 pixel, or kUnknown.
 constexpr int kUnknown = -32768;
 inline int DepthAt(DepthMemory* depth, int x, int y) {
   const starfocus_depth_map& map = depth->map;
@@ -292,13 +294,13 @@ inline int Between(int d0, int d1, int share) {
   return d0 + ((share * (d1 - d0) + 128) >> 8);
 }
 
-// Where column x of `width` lies in a map of `small`, in 256ths.
+// Returns the position of column x of `width` in a map of `small` columns, in 1/256.
 inline int PlaceInMap(int x, int width, int small) {
   const int64_t p = int64_t{128} * (2 * x + 1) * small / width - 128;
   return int(std::clamp<int64_t>(p, 0, int64_t{256} * (small - 1)));
 }
 
-// The float map that the depth map stands for; unknown disparities are NaN.
+// Converts a depth map to a float map. Unknown disparities become NaN.
 inline std::vector<float> ConvertDepth(DepthMemory* depth, int width, int height) {
   const starfocus_depth_map& map = depth->map;
   std::vector<float> disparity;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The only header of the tests that includes lib/engine. Tests that look inside an engine call
-// these functions, so that a change of lib/engine needs a change of one test file.
+// Access to the internals of an engine. This is the only header of the tests that includes
+// lib/engine, so that a change of lib/engine affects one test file.
 #ifndef STARFOCUS_TESTS_SUPPORT_INSIDE_H_
 #define STARFOCUS_TESTS_SUPPORT_INSIDE_H_
 
@@ -20,14 +20,15 @@ inline starfocus::EngineState& StateOf(starfocus_engine* engine) {
   return *reinterpret_cast<starfocus::EngineState*>(engine);
 }
 
-// Makes an engine use other kernels than the machine's best. Undone by starfocus_init.
+// Makes an engine use other kernels than the best ones of the machine. starfocus_init resets this.
 inline void UseKernels(const starfocus::simd::Kernels* kernels, starfocus_engine* engine) {
   StateOf(engine).kernels = kernels;
 }
 
 using starfocus::Borders;
 
-// The borders of a configuration for blur radii up to `max_blur` pixels, or the configuration's.
+// Return the borders of a configuration, for blur radii up to `max_blur` pixels or the configured
+// ones.
 inline starfocus::Borders BordersOf(const starfocus_config& config, double max_blur) {
   return starfocus::AddBorders(config, max_blur, true);
 }
@@ -40,7 +41,7 @@ inline starfocus::Borders BordersOf(double max_blur) {
   return BordersOf(config, max_blur);
 }
 
-// The plan of the stripe that was refocused last.
+// Plan of the stripe that was refocused last.
 struct StripeBlocks {
   std::vector<starfocus::Block> blocks;
   starfocus::GatherMap gathered;
@@ -50,7 +51,8 @@ inline StripeBlocks PlanOf(starfocus_engine* engine) {
   return {{plan.blocks, plan.blocks + plan.used}, plan.gathered};
 }
 
-// A picture of poison with one block of the stripe that was refocused last, without deblocking.
+// Returns a poisoned picture with one block of the stripe that was refocused last, without
+// deblocking.
 inline std::vector<uint8_t> RenderOne(const starfocus::Block& block, starfocus_engine* engine) {
   const starfocus::EngineState& state = StateOf(engine);
   const size_t stride = 3 * static_cast<size_t>(state.config.width);
@@ -60,7 +62,7 @@ inline std::vector<uint8_t> RenderOne(const starfocus::Block& block, starfocus_e
   return out;
 }
 
-// The same of a renderer that copies no block, whatever moves in it.
+// Same as RenderOne, with a renderer that never copies blocks.
 inline std::vector<uint8_t> RenderUncopied(const starfocus::Block& block,
                                            starfocus_engine* engine) {
   starfocus::Lens& lens = StateOf(engine).lens;
@@ -73,7 +75,8 @@ inline std::vector<uint8_t> RenderUncopied(const starfocus::Block& block,
   return out;
 }
 
-// Number of columns of superblocks, of all layers, that the stripe refocused last has subsampled.
+// Returns the number of columns of superblocks, over all layers, that the stripe refocused last has
+// subsampled.
 inline int LayerColumns(starfocus_engine* engine) {
   const starfocus::EngineState& state = StateOf(engine);
   int columns = 0;
@@ -85,13 +88,13 @@ inline int LayerColumns(starfocus_engine* engine) {
   return columns;
 }
 
-// Bytes of the first worker's pool of slices, which may be made less.
+// Returns the size in bytes of the first worker's pool of slices. It may be reduced.
 inline size_t& PoolBytes(starfocus_engine* engine) {
   void* scratch = StateOf(engine).workers.scratch[0].renderers[starfocus::kSliceRenderer.index];
   return static_cast<starfocus::CompositorScratch*>(scratch)->pool_bytes;
 }
 
-// Bytes of a workspace, or kTooLarge.
+// Returns the size in bytes of a workspace, or kTooLarge.
 inline size_t WorkspaceBytes(const starfocus_config& config) {
   starfocus::EngineState* counted = nullptr;
   return starfocus::LayOut(config, nullptr, &counted);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light fields made with integers alone, the same on every machine and compiler: no rounding and no
-// order of evaluation enters. For checksums and instruction counts.
+// Light fields that are computed with integers. They are equal on every machine and with every
+// compiler, since no rounding and no order of evaluation matters. Used for checksums and
+// instruction counts.
 #ifndef STARFOCUS_TESTS_SUPPORT_INTEGER_SCENE_H_
 #define STARFOCUS_TESTS_SUPPORT_INTEGER_SCENE_H_
 
@@ -10,7 +11,8 @@ namespace test {
 
 enum class Depth { kLayers, kSlanted, kNoise, kRoom };
 
-// A disparity every machine computes alike: multiples of 1/64, 1/160 and 1/7, one division each.
+// Returns a disparity that is equal on every machine: a multiple of 1/64, 1/160 or 1/7, by one
+// division.
 inline float DisparityAt(Depth depth, int x, int y, Random* random) {
   switch (depth) {
     case Depth::kLayers: {
@@ -21,7 +23,8 @@ inline float DisparityAt(Depth depth, int x, int y, Random* random) {
       return static_cast<float>(3 * x - 2 * y) / 160.0f;
     case Depth::kNoise:
       return static_cast<float>(random->Int(-21, 21)) / 7.0f;
-    case Depth::kRoom: {  // a wall, a floor that comes nearer, a disc and a pole before both
+    // a wall, a floor that comes nearer, and a disc and a pole in front of both
+    case Depth::kRoom: {
       const int dx = x - 120, dy = y - 90;
       if (dx * dx + dy * dy < 56 * 56) return 3.5f;
       if (x >= 290 && x < 302) return 1.25f;
@@ -31,8 +34,8 @@ inline float DisparityAt(Depth depth, int x, int y, Random* random) {
   return 0;
 }
 
-// Smooth shading with noise and hard edges; views shifted and shaded apart, so that nothing can be
-// taken from the wrong one unnoticed.
+// Makes smooth shading with noise and hard edges. Views have different shifts and shading, so that
+// samples of a wrong view are detected.
 inline Scene IntegerScene(int width, int height, int views, Depth depth) {
   Scene scene = EmptyScene(width, height, views, -4, 4);
   Random random(static_cast<uint64_t>(views) * 10 + static_cast<uint64_t>(depth));
@@ -54,8 +57,8 @@ inline Scene IntegerScene(int width, int height, int views, Depth depth) {
   return scene;
 }
 
-// Noise over `levels` disparities within +-range, pixel by pixel at random: as many slices as there
-// are levels, or fewer coarser ones where a block may not have that many.
+// Makes noise: each pixel has one of `levels` random disparities within +-range. Each level needs a
+// slice, or there are fewer and wider slices if the limit of a block is lower.
 inline Scene LevelScene(int side, int levels, int range) {
   Scene scene = EmptyScene(side, side, 1, static_cast<float>(-range), static_cast<float>(range));
   Random random(static_cast<uint64_t>(1000 * range + levels));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light fields for block mode: areas for every layer.
+// Light fields for block mode, with areas for every layer.
 #ifndef STARFOCUS_TESTS_SUPPORT_LAYERED_SCENE_H_
 #define STARFOCUS_TESTS_SUPPORT_LAYERED_SCENE_H_
 
@@ -12,11 +12,11 @@
 
 namespace test {
 
-// Flat areas large enough for layers 1 and 2, and edges: a slanted background and rectangles.
+// Makes a slanted background and rectangles: flat areas large enough for layers 1 and 2, and edges.
 inline Scene LayeredScene(int width, int height, int views, float limit, uint64_t seed) {
   Random random(seed);
   Scene scene = EmptyScene(width, height, views, -limit, limit, int(seed % 4));
-  // Pictures whose views agree roughly: a texture that moves with the view.
+  // The views agree approximately: their texture moves with the view.
   for (int view = 0; view < views; ++view) {
     double u = 0, v = 0;
     starfocus_view_position(view, &u, &v);

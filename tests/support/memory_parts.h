@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What each byte of a workspace is for, as the engine itself lays it out.
+// Measures the purpose of each byte of a workspace, from the engine's own layout.
 #ifndef STARFOCUS_TESTS_SUPPORT_MEMORY_PARTS_H_
 #define STARFOCUS_TESTS_SUPPORT_MEMORY_PARTS_H_
 
@@ -15,14 +15,15 @@ namespace test {
 
 struct MemoryPart {
   const char* name;
-  bool shared;        // by what a worker does one after the other
-  const void* first;  // where it begins, with the padding of each piece; null: there is none
+  bool shared;  // true if other tasks of the worker use the same memory at other times
+  // start of the part, with the padding of each piece; null: the part does not exist
+  const void* first;
   size_t begin = 0, end = 0;
 
   size_t bytes() const { return end - begin; }
 };
 
-// The parts of an engine of one worker, in the order they are taken.
+// Returns the parts of an engine with one worker, in the order of allocation.
 inline std::vector<MemoryPart> PartsOf(const starfocus::EngineState& e) {
   const starfocus::Scratch& scratch = e.workers.scratch[0];
   const auto& slices = *static_cast<starfocus::CompositorScratch*>(
@@ -61,8 +62,8 @@ inline std::vector<MemoryPart> PartsOf(const starfocus::EngineState& e) {
   };
 }
 
-// Measures the parts of an engine for `config`, of one worker. Empty if a part begins elsewhere
-// than PartsOf says, in memory or in order.
+// Measures the parts of an engine with one worker for `config`. Returns no parts if the start or
+// the order of a part differs from PartsOf.
 inline std::vector<MemoryPart> MeasureParts(const starfocus_config& config) {
   Engine memory(config);
   if (memory.status() != STARFOCUS_OK) return {};
@@ -89,7 +90,7 @@ inline std::vector<MemoryPart> MeasureParts(const starfocus_config& config) {
   return walk.next == walk.parts.size() ? walk.parts : std::vector<MemoryPart>();
 }
 
-// Bytes of the parts, those that share memory counted once.
+// Sizes of all parts in bytes. Shared memory is counted once.
 struct MemorySum {
   size_t all = 0, shared = 0;
 };
@@ -106,7 +107,7 @@ inline MemorySum SumOf(const std::vector<MemoryPart>& parts) {
   return sum;
 }
 
-// A configuration of docs/boards.md, without memory for thin structures.
+// Returns a configuration of docs/boards.md, without memory for thin structures.
 inline starfocus_config BoardConfig(int width, int height, int views, int block, double blur,
                                     int streaming) {
   starfocus_config config;

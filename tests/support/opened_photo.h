@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A small depth photo, and what comes out when it is opened: for the tests of its readers.
+// A small depth photo and its contents after opening, for the tests of photo readers.
 #ifndef STARFOCUS_TESTS_SUPPORT_OPENED_PHOTO_H_
 #define STARFOCUS_TESTS_SUPPORT_OPENED_PHOTO_H_
 
@@ -29,12 +29,12 @@ inline Error Open(const std::string& bytes, Capture* capture, const CaptureOptio
   return opened.error();
 }
 
-// docs/formats.md: a lens of f/1 on full frame.
+// Returns the blur scale per dioptre (docs/formats.md), for a lens of f/1 on full frame.
 inline double PerDiopter(double focal) {
   return focal * focal / 1000 / 2 / 43.2666 * std::hypot(kWidth, kHeight);
 }
 
-// The nearest of a map without units: 1.5 m before a 50 mm lens.
+// Nearest disparity of a map without units: 1.5 m from a 50 mm lens.
 inline const double kPortrait = PerDiopter(50) / 1.5;
 
 inline void CheckRamp(const Capture& capture, double at_black, double at_white) {
@@ -45,7 +45,7 @@ inline void CheckRamp(const Capture& capture, double at_black, double at_white) 
   CHECK(double(map.at(kWidth - 1, 3)) == doctest::Approx(at_white).epsilon(1e-4));
 }
 
-// The photo, opened, whose map is a ramp between those disparities.
+// Opens a photo whose map must be a ramp between these disparities.
 inline Capture OpenRamp(const std::string& bytes, double at_black, double at_white,
                         const CaptureOptions& options = {}) {
   Capture capture;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A random disparity map measured, and its partition planned anew: what the rules for layers and
-// views, gathering and the timing model give each block, and the costs of all partitions there are.
+// Plans the partition of a random disparity map independently of the engine. Computes the
+// parameters of each block by the rules for layers and views, gathering and the timing model, and
+// the costs of all possible partitions.
 #ifndef STARFOCUS_TESTS_SUPPORT_PARTITION_PLAN_H_
 #define STARFOCUS_TESTS_SUPPORT_PARTITION_PLAN_H_
 
@@ -37,13 +38,13 @@ using starfocus::Renderer;
 
 constexpr double kRadiusOne = 1 << starfocus::kDisparityBits;
 
-// The apertures of a renderer: of every N for blur radii up to 128 pixels, and up to twice that.
+// Apertures of a renderer, with every N that plans for blur radii up to 128 pixels need.
 struct Apertures {
   explicit Apertures(const Renderer& renderer) : all(&renderer == &kSliceRenderer ? 30 : 110) {
     for (size_t n = 0; n < all.size(); ++n) {
       std::vector<uint16_t> weights(starfocus::ViewWeightsSize(int(n)));
       all[n] = renderer.make_aperture(int(n), starfocus::ApertureFallOff(0.8), weights.data());
-      all[n].weights = nullptr;  // a plan reads none
+      all[n].weights = nullptr;  // a plan reads no weights
     }
   }
   std::vector<starfocus::ViewWeights> all;
@@ -53,7 +54,7 @@ inline const std::vector<starfocus::ViewWeights>& AperturesOf(const Renderer& re
   return (&renderer == &kSliceRenderer ? slices : line_scan).all;
 }
 
-// A disparity map measured, and the rules of a partition.
+// The measured cells of a disparity map, and the rules of a partition.
 struct Plan {
   Plan(int width, int height, int superblock, double limit, Random* random)
       : disparity(size_t(width) * size_t(height)) {
@@ -116,7 +117,8 @@ struct Plan {
     return blocks;
   }
 
-  // Whether the cell at pixel (x, y) is one that blocks of the layer need not refocus by views.
+  // Returns true if blocks of the layer may gather the cell at pixel (x, y) instead of rendering
+  // views.
   bool MayGather(int x, int y, int layer) const {
     const int column = x / kCellSize, row = y / kCellSize;
     return rules.gathers &&
@@ -126,7 +128,7 @@ struct Plan {
 
   bool Inside(int x, int y) const { return x < config.width && y < config.height; }
 
-  // The statistics of any block, from its blocks of 16.
+  // Returns the statistics of any block, merged from those of its blocks of 16.
   BlockStats Stats(int x, int y, int side) const {
     if (side == kSmallestBlock) {
       return test::MeasureBlock(grid, rules.scale, x / kCellSize, y / kCellSize, around);
@@ -145,7 +147,7 @@ struct Plan {
 
   std::vector<int16_t> disparity;
   std::vector<Cell> cells;
-  std::vector<uint8_t> flags;  // of gathered
+  std::vector<uint8_t> flags;  // true for gathered cells
   starfocus::GatherMap gathered;
   CellGrid grid;
   int around = 0;
@@ -153,13 +155,14 @@ struct Plan {
   PartitionRules rules = {};
 };
 
-// Layers from `radius` and twice that on.
+// Returns the layer if layer 1 starts at `radius` and layer 2 at twice that.
 inline int LayerFrom(double r_min, double radius) {
   return r_min >= 2 * radius ? 2 : r_min >= radius ? 1 : 0;
 }
 
-// (12), or with wide subapertures only where less can go wrong: both layers later, and
-// silhouettes never rounded to four pixels. Openings that end sharply have both later still.
+// Returns the layer by (12), or by the rule for wide subapertures. The latter uses both layers only
+// for larger radii, and never layer 2 for silhouettes. Openings with sharp edges need even larger
+// radii.
 inline int LayerOf(bool subapertures, double r_min, bool silhouette, starfocus::Demand demand) {
   constexpr double kPaper[] = {3, 4, 5, 6}, kCells[] = {7, 12, 14, 16};
   const auto index = static_cast<size_t>(demand);
@@ -168,7 +171,8 @@ inline int LayerOf(bool subapertures, double r_min, bool silhouette, starfocus::
   return r_min < first ? 0 : r_min < 24 * first / 7 || silhouette ? 1 : 2;
 }
 
-// (9), or what wide subapertures need, those of openings that don't fall off more.
+// Returns N by (9), or by the rule for wide subapertures, which is larger for openings without
+// fall-off.
 inline int ViewsOf(bool subapertures, double r_max, starfocus::Demand demand) {
   if (subapertures && demand >= starfocus::Demand::kPolygon && r_max > 5 && r_max <= 34) return 6;
   if (subapertures && demand != starfocus::Demand::kFallOff && r_max > 0.5 && r_max <= 11) return 4;
@@ -189,9 +193,9 @@ inline int ViewsOf(bool subapertures, double r_max, starfocus::Demand demand) {
 
 inline int CeilQuotient(int value, int by) { return (value + by - 1) / by; }
 
-// Leaves to views what holds the cells that may not be gathered: their rectangle at the layer, with
-// the margin around the block where they lie at its sides, and N and border of the units of 16 that
-// they lie in.
+// Plans the rest of a block, which views must render: the rectangle of the cells that may not be
+// gathered, at the layer. At the sides of the block it includes the margin. N and the border are
+// those of the units of 16 pixels that contain these cells.
 inline void PlanRest(const Plan& plan, Block* block) {
   const Rect rect = block->rect;
   const int scale = 1 << block->layer, margin = kLayerMargin[block->layer];
@@ -204,7 +208,7 @@ inline void PlanRest(const Plan& plan, Block* block) {
       }
     }
   };
-  // Sides in pixels of the picture, all of them multiples of the layer's.
+  // Sides in pixels of the picture, rounded to multiples of the layer's pixels.
   const auto up = [&](int pixels) { return CeilQuotient(pixels, scale) * scale; };
   for_each([&](int x, int y) {
     left = std::min(left, x - (x == rect.x ? margin : 0));
@@ -238,7 +242,8 @@ inline void PlanRest(const Plan& plan, Block* block) {
                    beyond(border.bottom)};
 }
 
-// The predicted time of gathering what of the block may be at a layer, and how many cells that is.
+// The predicted time of gathering all possible cells of a block at a layer, and the number of these
+// cells.
 struct GatherPlan {
   uint64_t cells = 0, gathered = 0, cost = 0;
 
@@ -257,8 +262,8 @@ struct GatherPlan {
   }
 };
 
-// Gathers what may be at the block's layer, or the whole block at layer 0 if that may be.
-// `upsampling`: predicted time of it, which is part of the block's.
+// Gathers all possible cells at the block's layer, or the whole block at layer 0 if that is
+// possible. `upsampling` is the predicted time of upsampling, which is part of the block's cost.
 inline void PlanGathering(const Plan& plan, uint64_t upsampling, Block* block) {
   const GatherPlan here(plan, block->rect, block->layer), below(plan, block->rect, 0);
   if (here.gathered > 0) {
@@ -274,7 +279,7 @@ inline void PlanGathering(const Plan& plan, uint64_t upsampling, Block* block) {
   if (block->gathers) PlanRest(plan, block);
 }
 
-// A block with the parameters that the rules give it.
+// Returns a block with the parameters from the rules.
 inline Block Planned(const Plan& plan, int x, int y, int side) {
   const BlockStats stats = plan.Stats(x, y, side);
   Block block = {};
@@ -308,7 +313,7 @@ inline Block Planned(const Plan& plan, int x, int y, int side) {
   return block;
 }
 
-// The cost of every partition of a block, by brute force.
+// Returns the cost of every partition of a block, by brute force.
 inline std::vector<uint64_t> AllCosts(const Plan& plan, int x, int y, int side) {
   std::vector<uint64_t> costs = {Planned(plan, x, y, side).cost};
   if (side == kSmallestBlock) return costs;
@@ -326,7 +331,7 @@ inline std::vector<uint64_t> AllCosts(const Plan& plan, int x, int y, int side) 
   return costs;
 }
 
-// The least cost, where all partitions are too many to list.
+// Returns the smallest cost, also if there are too many partitions to list.
 inline uint64_t LeastCost(const Plan& plan, int x, int y, int side) {
   if (side <= 64) {
     const std::vector<uint64_t> all = AllCosts(plan, x, y, side);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Depth photos as their public specifications describe them, byte by byte: for tests, and for the
-// seeds of fuzz targets.
+// Writes depth photos byte by byte as their public specifications define them. Used by tests and
+// for the seeds of fuzz targets.
 #ifndef STARFOCUS_TESTS_SUPPORT_PHOTO_FILES_H_
 #define STARFOCUS_TESTS_SUPPORT_PHOTO_FILES_H_
 
@@ -21,7 +21,7 @@ inline void Require(const Error& error) {
   if (error) throw std::runtime_error(error.line());
 }
 
-// The bytes of a picture as a file of that extension.
+// Returns the bytes of a picture as a file with this extension.
 inline std::string Encode(const Image& image, const std::string& extension) {
   TempFolder folder;
   Require(WriteImage(folder.file("picture" + extension), image));
@@ -35,7 +35,7 @@ inline Image Plain(int width, int height, int level) {
   return image;
 }
 
-// A gray picture whose levels run from 0 on the left to 255 on the right.
+// Returns a gray picture with levels from 0 on the left to 255 on the right.
 inline Image Ramp(int width, int height) {
   Image image(width, height);
   for (int y = 0; y < height; ++y) {
@@ -46,7 +46,7 @@ inline Image Ramp(int width, int height) {
   return image;
 }
 
-// Random pixels.
+// Returns random pixels.
 inline Image Noise(int width, int height) {
   Image image(width, height);
   uint32_t seed = 1;
@@ -72,19 +72,19 @@ inline uint32_t Crc(const std::string& bytes) {
   return ~crc;
 }
 
-// A chunk of a PNG file.
+// Returns a chunk of a PNG file.
 inline std::string Chunk(const std::string& type, const std::string& content) {
   return Big(static_cast<uint32_t>(content.size()), 4) + type + content +
          Big(Crc(type + content), 4);
 }
 
-// What a PNG file says of its samples, and its chunks before them.
+// Sample format of a PNG file, and its chunks before the samples.
 struct PngKind {
   int depth = 8, colour = 0;
   std::string more = {};
 };
 
-// A PNG file of rows of samples, stored as they are (PNG specification; RFC 1950 and 1951).
+// Returns a PNG file with uncompressed rows of samples (PNG specification; RFC 1950 and 1951).
 inline std::string Png(uint32_t width, uint32_t height, const PngKind& kind,
                        const std::string& samples, size_t row) {
   std::string data;
@@ -107,7 +107,7 @@ inline std::string Png(uint32_t width, uint32_t height, const PngKind& kind,
          Chunk("IEND", "");
 }
 
-// A gray PNG file of 16 bits.
+// Returns a gray PNG file of 16 bits.
 inline std::string Png16(int width, int height, const std::vector<uint16_t>& levels) {
   std::string samples;
   for (const uint16_t level : levels) samples += Big(level, 2);
@@ -118,13 +118,13 @@ inline std::string Base64(const std::string& bytes) {
   return EncodeBase64({bytes.begin(), bytes.end()});
 }
 
-// A segment of a JPEG file.
+// Returns a segment of a JPEG file.
 inline std::string Segment(int marker, const std::string& content) {
   return std::string("\xff") + static_cast<char>(marker) +
          Big(static_cast<uint32_t>(content.size() + 2), 2) + content;
 }
 
-// The file with segments behind its first two bytes.
+// Inserts segments after the first two bytes of a JPEG file.
 inline std::string Insert(const std::string& jpeg, const std::string& segments) {
   return jpeg.substr(0, 2) + segments + jpeg.substr(2);
 }
@@ -142,7 +142,7 @@ inline std::string XmpSegment(const std::string& packet) {
 
 constexpr char kGuid[] = "0123456789ABCDEF0123456789ABCDEF";
 
-// Extended XMP in segments of `part` bytes of text.
+// Returns extended XMP in segments of `part` bytes of text.
 inline std::vector<std::string> ExtensionSegments(const std::string& text, size_t part) {
   std::vector<std::string> segments;
   for (size_t at = 0; at < text.size(); at += part) {
@@ -166,8 +166,8 @@ constexpr char kGoogle[] =
     "xmlns:GImage=\"http://ns.google.com/photos/1.0/image/\" "
     "xmlns:xmpNote=\"http://ns.adobe.com/xmp/note/\"";
 
-// GDepth as Google's depth map metadata describes it: `attributes` in the packet, data in the
-// extended one.
+// Returns a photo with GDepth as defined in Google's depth map metadata: `attributes` are in the
+// packet, the data in extended XMP.
 inline std::string Gdepth(const std::string& jpeg, const std::string& attributes,
                           const std::string& extended, size_t part = 60000) {
   const std::string main =
@@ -176,7 +176,7 @@ inline std::string Gdepth(const std::string& jpeg, const std::string& attributes
   return Insert(jpeg, XmpSegment(main) + Joined(ExtensionSegments(text, part)));
 }
 
-// EXIF with an orientation and a focal length, big endian (EXIF 2.32, 4.6).
+// Returns EXIF with an orientation and a focal length, big endian (EXIF 2.32, 4.6).
 inline std::string ExifSegment(int orientation, int focal_35mm) {
   const auto entry = [](int tag, int type, uint32_t value) {
     return Big(static_cast<uint32_t>(tag), 2) + Big(static_cast<uint32_t>(type), 2) + Big(1, 4) +
@@ -189,8 +189,8 @@ inline std::string ExifSegment(int orientation, int focal_35mm) {
   return Segment(0xe1, std::string("Exif\0\0MM\0\x2a\0\0\0\x08", 14) + first + second);
 }
 
-// EXIF with an orientation and a subject of two to four numbers, little endian, and the size that
-// they count in, unless that is 0 (EXIF 2.32, 4.6).
+// Returns EXIF with an orientation and a subject of two to four numbers, little endian (EXIF 2.32,
+// 4.6). It also has the size of the picture that the subject refers to, unless this is 0.
 inline std::string SubjectSegment(int orientation, int tag, const std::vector<int>& subject,
                                   int width = 0, int height = 0) {
   const auto little = [](int value, int bytes) {
@@ -209,7 +209,7 @@ inline std::string SubjectSegment(int orientation, int tag, const std::vector<in
       entry(tag, 3, static_cast<int>(subject.size()), inside ? numbers : little(behind, 4));
   const std::string sizes =
       sized ? entry(0xa002, 4, 1, little(width, 4)) + entry(0xa003, 4, 1, little(height, 4)) : "";
-  // Tags are in order: SubjectArea is before the sizes, SubjectLocation behind them.
+  // Tags must be in order: SubjectArea precedes the sizes, SubjectLocation follows them.
   std::string text = std::string("Exif\0\0II\x2a\0\x08\0\0\0", 14) + little(2, 2) +
                      entry(0x0112, 3, 1, little(orientation, 4)) +
                      entry(0x8769, 4, 1, little(exif, 4)) + little(0, 4);
@@ -217,15 +217,15 @@ inline std::string SubjectSegment(int orientation, int tag, const std::vector<in
   return Segment(0xe1, inside ? text : text + numbers);
 }
 
-// How the index of a multi-picture file is written, rightly or wrongly.
+// Options of the index of a multi-picture file, which may be valid or invalid.
 struct IndexOptions {
   bool little = false;        // byte order
-  uint32_t entry_bytes = 32;  // what the index counts
-  uint32_t moved = 0;         // by how much the second picture's place is wrong
-  uint32_t type = 0;          // of the second picture
+  uint32_t entry_bytes = 32;  // size of the entries that the index declares
+  uint32_t moved = 0;         // error of the second picture's position
+  uint32_t type = 0;          // type of the second picture
 };
 
-// A file of two pictures: the index in the first one's APP2 (CIPA DC-007, 5.2).
+// Returns a file of two pictures. The index is in the first one's APP2 segment (CIPA DC-007, 5.2).
 inline std::string MultiPicture(const std::string& first, const std::string& second,
                                 const IndexOptions& options = {}) {
   const auto number = [&](uint32_t value, int bytes) {
@@ -244,12 +244,13 @@ inline std::string MultiPicture(const std::string& first, const std::string& sec
     return Segment(0xe2, std::string("MPF\0", 4) + (options.little ? "II" : "MM") + number(42, 2) +
                              number(8, 4) + directory + entries);
   };
-  // The TIFF header is 4 + 4 bytes into the segment, that 2 into the file.
+  // The TIFF header is 4 + 4 bytes after the start of the segment, which is 2 bytes after the start
+  // of the file.
   const auto size = static_cast<uint32_t>(Insert(first, index(0, 0)).size());
   return Insert(first, index(size, size - 10 + options.moved)) + second;
 }
 
-// The segments of an ICC profile in parts, in their order (ICC.1, annex B.4).
+// Returns the segments of an ICC profile in several parts, in order (ICC.1, annex B.4).
 inline std::vector<std::string> ProfileSegments(const std::string& icc, size_t parts) {
   std::vector<std::string> segments;
   const size_t size = (icc.size() + parts - 1) / parts;
@@ -260,7 +261,7 @@ inline std::vector<std::string> ProfileSegments(const std::string& icc, size_t p
   return segments;
 }
 
-// A profile without tags, of RGB or other colours (ICC.1, 7.2).
+// Returns a profile without tags for RGB or other colours (ICC.1, 7.2).
 inline std::string Profile(size_t size, const std::string& space = "RGB ") {
   std::string icc(size, '\0');
   icc.replace(0, 4, Big(static_cast<uint32_t>(size), 4));
@@ -272,7 +273,7 @@ inline std::string Profile(size_t size, const std::string& space = "RGB ") {
   return icc;
 }
 
-// A Photoshop segment with a resource to skip, and IPTC records.
+// Returns a Photoshop segment with a resource to skip, and IPTC records.
 inline std::string IptcSegment(const std::string& records) {
   const std::string even = records.size() % 2 == 0 ? records : records + '\0';
   return Segment(0xed, std::string("Photoshop 3.0\0", 14) + "8BIM" + Big(0x03ed, 2) +
@@ -288,15 +289,15 @@ constexpr char kDynamic[] =
     "xmlns:Container=\"http://ns.google.com/photos/dd/1.0/container/\" "
     "xmlns:Item=\"http://ns.google.com/photos/dd/1.0/item/\"";
 
-// One item of a Dynamic Depth container.
+// Returns one item of a Dynamic Depth container.
 inline std::string ContainerItem(const std::string& mime, size_t length, const std::string& uri) {
   return "<rdf:li rdf:parseType=\"Resource\"><Container:Item Item:Mime=\"" + mime +
          "\" Item:Length=\"" + std::to_string(length) + "\" Item:DataURI=\"" + uri +
          "\"/></rdf:li>";
 }
 
-// Dynamic Depth 1.0: a picture, something else and the map, in one file.
-// `wrong` is by how much the other item's length is wrong.
+// Returns Dynamic Depth 1.0: a picture, another item and the map in one file. `wrong` is the error
+// of the other item's length.
 inline std::string DynamicDepth(const std::string& jpeg, const std::string& map,
                                 const std::string& attributes, size_t wrong = 0) {
   const std::string other = "a confidence map would stand here";
@@ -317,7 +318,7 @@ constexpr char kApple[] =
     "xmlns:apdi=\"http://ns.apple.com/pixeldatainfo/1.0/\" "
     "xmlns:depthData=\"http://ns.apple.com/depthData/1.0/\"";
 
-// An auxiliary picture of disparities as Apple's cameras write it, with the elements given.
+// Returns an auxiliary picture of disparities as Apple's cameras write it, with the given elements.
 inline std::string AppleMap(const std::string& jpeg, const std::string& elements) {
   return Insert(jpeg, XmpSegment(Packet(kApple, "", elements)));
 }

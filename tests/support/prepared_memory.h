@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Memory for a prepared light field of a configuration: of exactly the size asked for, poisoned.
+// Poisoned memory of exactly the size of a prepared light field.
 #ifndef STARFOCUS_TESTS_SUPPORT_PREPARED_MEMORY_H_
 #define STARFOCUS_TESTS_SUPPORT_PREPARED_MEMORY_H_
 
@@ -25,7 +25,7 @@ class PreparedMemory {
     return memory_.data() +
            (STARFOCUS_ALIGNMENT - address % STARFOCUS_ALIGNMENT) % STARFOCUS_ALIGNMENT;
   }
-  // What starfocus_prepare makes of a light field there.
+  // Prepares a light field in this memory.
   starfocus_prepared* Prepare(starfocus_engine* engine, const starfocus_light_field& field) {
     starfocus_prepared* prepared = nullptr;
     REQUIRE(starfocus_prepare(engine, &field, get(), bytes, &prepared) == STARFOCUS_OK);

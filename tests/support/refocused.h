@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Refocused scenes: pictures and reports.
+// Refocuses scenes, and returns the pictures and reports.
 #ifndef STARFOCUS_TESTS_SUPPORT_REFOCUSED_H_
 #define STARFOCUS_TESTS_SUPPORT_REFOCUSED_H_
 
@@ -13,7 +13,7 @@
 
 namespace test {
 
-// The picture that an engine makes of a scene, as large as the region of params.
+// Refocuses a scene and returns the picture, which is as large as the region of `params`.
 inline Output OutputOf(Engine* engine, const starfocus_params& params, const Scene& scene,
                        starfocus_report* report = nullptr,
                        const starfocus_callbacks& callbacks = {}) {
@@ -24,7 +24,7 @@ inline Output OutputOf(Engine* engine, const starfocus_params& params, const Sce
   return out;
 }
 
-// The picture of an engine of its own.
+// Refocuses a scene with a new engine and returns the picture.
 inline Output OutputOf(const starfocus_config& config, const starfocus_params& params,
                        const Scene& scene, starfocus_report* report = nullptr) {
   Engine engine(config);
@@ -32,7 +32,7 @@ inline Output OutputOf(const starfocus_config& config, const starfocus_params& p
 }
 
 struct Refocused {
-  std::vector<uint8_t> rgb;  // rows packed
+  std::vector<uint8_t> rgb;  // packed rows
   starfocus_report report = {};
 };
 

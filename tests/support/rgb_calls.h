@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The calls of the C ABI with rows of R, G, B as outputs.
+// Calls of the C ABI with rows of R, G, B as outputs.
 #ifndef STARFOCUS_TESTS_SUPPORT_RGB_CALLS_H_
 #define STARFOCUS_TESTS_SUPPORT_RGB_CALLS_H_
 

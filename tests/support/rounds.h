@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// How often tests draw anew.
+// Number of rounds of tests with random cases.
 #ifndef STARFOCUS_TESTS_SUPPORT_ROUNDS_H_
 #define STARFOCUS_TESTS_SUPPORT_ROUNDS_H_
 
 namespace test {
 
-// Rounds of a test with random cases: an emulator, which needs twenty times as long, does a quarter
-// of them. The bytes are those of this machine, where all are done, natively and under sanitizers.
+// Returns the number of rounds of a test. Emulators, which take twenty times as long, execute a
+// quarter of the rounds. Their bytes must be those of this machine, which executes all rounds
+// natively and with sanitizers.
 constexpr int Rounds(int all) { return STARFOCUS_EMULATED ? (all + 3) / 4 : all; }
 
-// Whether this build takes much longer than a native one: emulated, or checking every range.
+// True if this build is much slower than a native one: it is emulated, or checks every range.
 #ifdef STARFOCUS_CHECK_RANGES
 inline constexpr bool kSlow = true;
 #else

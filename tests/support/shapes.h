@@ -11,7 +11,8 @@
 
 namespace test {
 
-// Any shape, with and without cat's eyes; ends of ranges as often as not.
+// Sets a random shape, with or without a cat's eye. In half of all cases a parameter is at an end
+// of its range.
 inline void RandomShape(starfocus_lens* lens, Random* random) {
   const auto often_an_end = [&](double low, double high) {
     const int end = random->Int(0, 3);
@@ -40,7 +41,7 @@ inline std::string ShapeText(const starfocus_lens& lens) {
   return text;
 }
 
-// A lens of each kind that is not the default one.
+// A lens of each kind except the default one.
 struct NamedShape {
   const char* name;
   int shape, blades;

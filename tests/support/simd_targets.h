@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The kernels of every SIMD target this program was built with and this machine runs.
+// Kernels of every SIMD target that this program includes and this machine supports.
 #ifndef STARFOCUS_TESTS_SUPPORT_SIMD_TARGETS_H_
 #define STARFOCUS_TESTS_SUPPORT_SIMD_TARGETS_H_
 
@@ -12,7 +12,8 @@
 
 namespace test {
 
-// Targets 0, 1, ... of `target`, at least one: a test that would run on none must not pass.
+// Returns targets 0, 1, ... of `target`. Throws without targets, since a test without targets must
+// not pass.
 template <class Table>
 std::vector<const Table*> ListTargets(const Table* (*target)(size_t index)) {
   std::vector<const Table*> all;
@@ -21,7 +22,7 @@ std::vector<const Table*> ListTargets(const Table* (*target)(size_t index)) {
   return all;
 }
 
-// Best first.
+// Returns the kernels of all targets, the best one first.
 inline std::vector<const starfocus::simd::Kernels*> SimdTargets() {
   return ListTargets(starfocus::simd::KernelsOfTarget);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sets of captured views for windows that a test makes itself.
+// Sets of captured views for windows that a test makes.
 #ifndef STARFOCUS_TESTS_SUPPORT_STAR_VIEWS_H_
 #define STARFOCUS_TESTS_SUPPORT_STAR_VIEWS_H_
 
@@ -17,7 +17,7 @@ inline void SetViews(const starfocus_config& config, starfocus::Window* window) 
   window->occlusion_views = starfocus::ChooseOcclusionViews(views);
 }
 
-// Lets a window read planes of codes, which must outlive it.
+// Makes a window read planes of codes. `planes` must outlive the window.
 inline void ReadPlanes(starfocus::PlaneViews* planes, starfocus::Window* window) {
   planes->kernels = &starfocus::simd::BestKernels();
   planes->transfer = window->transfer;
@@ -25,14 +25,14 @@ inline void ReadPlanes(starfocus::PlaneViews* planes, starfocus::Window* window)
   window->centre = planes->view[0];
 }
 
-// The star of 1, 5, 9 or 17 views.
+// Sets the star of 1, 5, 9 or 17 views.
 inline void SetStar(int views, starfocus::Window* window) {
   starfocus_config config = {};
   config.views = views;
   SetViews(config, window);
 }
 
-// The centre view and those at these positions.
+// Sets the centre view and views at these positions.
 inline void SetPositions(const std::vector<starfocus_position>& sides, starfocus::Window* window) {
   starfocus_config config = {};
   config.views = 1;

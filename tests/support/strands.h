@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Strands of one to a few pixels before a farther surface, for scenes of thin structure.
+// Strands of one to a few pixels in front of a farther surface, for scenes of thin structure.
 #ifndef STARFOCUS_TESTS_SUPPORT_STRANDS_H_
 #define STARFOCUS_TESTS_SUPPORT_STRANDS_H_
 
@@ -7,14 +7,14 @@
 
 namespace test {
 
-// A profile across strands that repeats. Coverage and depth go from 0, the far surface, to 255.
+// A periodic profile across strands. Coverage and depth range from 0, the far surface, to 255.
 struct Strands {
   static constexpr int kMostPeriod = 12;
 
   uint8_t profile[kMostPeriod] = {};  // coverage
-  int period = 0;                     // samples of the profile; 0: there are no strands
+  int period = 0;                     // samples of the profile; 0: no strands
   int right = 1, down = 0;            // samples from a pixel to the next one
-  bool ramps = false;                 // the map's outlines are ramps, as those of networks
+  bool ramps = false;  // true if outlines of the map are ramps, as in maps of networks
 
   bool any() const { return period > 0; }
   int CoverageAt(int x, int y) const {
@@ -41,7 +41,7 @@ Strands DrawStrands(Random* random) {
   return strands;
 }
 
-// The light of a pixel of which a nearer surface covers so much.
+// Returns the light of a pixel, `coverage` of which a nearer surface covers.
 inline uint8_t Mixture(int coverage, int near, int far) {
   return static_cast<uint8_t>((coverage * near + (255 - coverage) * far) / 255);
 }

@@ -12,12 +12,12 @@
 
 namespace test {
 
-// Transposes first, then mirrors.
+// A symmetry: transposes first, then mirrors.
 struct Symmetry {
   bool transpose, mirror_x, mirror_y;
 };
 
-// Where pixel (x, y) of a width x height picture goes.
+// Returns the new position of pixel (x, y) of a width x height picture.
 inline std::pair<int, int> Move(const Symmetry& s, int width, int height, int x, int y) {
   if (s.transpose) {
     std::swap(x, y);
@@ -26,7 +26,7 @@ inline std::pair<int, int> Move(const Symmetry& s, int width, int height, int x,
   return {s.mirror_x ? width - 1 - x : x, s.mirror_y ? height - 1 - y : y};
 }
 
-// Index of the view that captured view `index` becomes.
+// Returns the index of the view that captured view `index` becomes.
 inline int MoveView(const Symmetry& s, int index) {
   double u = 0, v = 0;
   starfocus_view_position(index, &u, &v);
@@ -58,9 +58,9 @@ inline Scene Move(const Symmetry& s, const Scene& scene) {
   return moved;
 }
 
-// Between a picture, moved, and another, both packed RGB; the first is width x height.
+// Distance between a moved picture of width x height and another one, both packed RGB.
 struct Distance {
-  int samples = 0;  // that differ
+  int samples = 0;  // number of samples that differ
   int largest = 0;
   double mean = 0;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the tests of the public interface share: deterministic random light fields, an engine with
-// its memory, whole-picture and streamed refocusing into a padded, poisoned picture.
+// Shared code of the tests of the public interface: random light fields from seeds, an engine with
+// its memory, and refocusing of whole pictures and streams into a padded, poisoned picture.
 #ifndef STARFOCUS_TESTS_SUPPORT_TEST_SCENE_H_
 #define STARFOCUS_TESTS_SUPPORT_TEST_SCENE_H_
 
@@ -19,7 +19,7 @@
 
 namespace test {
 
-// CAPTURE for several values.
+// Captures several values, as CAPTURE does for one.
 #define CAPTURES(...) INFO(#__VA_ARGS__ " := ", test::Listed(__VA_ARGS__))
 
 template <class... Values>
@@ -37,8 +37,8 @@ constexpr starfocus_mode kModes[] = {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BENCHM
 constexpr starfocus_renderer kRenderers[] = {STARFOCUS_RENDERER_LINE_SCAN,
                                              STARFOCUS_RENDERER_SLICES};
 
-// Small generator with the same sequence on every machine (xorshift64*). A fuzzer's bytes, if there
-// are any, come before the sequence.
+// Random number generator with the same sequence on every machine (xorshift64*). The bytes of a
+// fuzzer, if any, precede the sequence.
 class Random {
  public:
   explicit Random(uint64_t seed) : state_(seed * 0x9E3779B97F4A7C15u + 0x1234567u) {}
@@ -54,7 +54,7 @@ class Random {
     state_ ^= state_ >> 27;
     return static_cast<uint32_t>((state_ * 0x2545F4914F6CDD1Du) >> 32);
   }
-  // Integer in [low, high].
+  // Returns an integer in [low, high].
   int Int(int low, int high) {
     return low + static_cast<int>(Next() % static_cast<uint32_t>(high - low + 1));
   }
@@ -63,7 +63,7 @@ class Random {
   uint8_t Byte() { return static_cast<uint8_t>(Next() >> 24); }
 
  private:
-  // Two bytes choose among as many values as the draws of a test have.
+  // Returns a number from two bytes, which suffice for the ranges of the tests.
   uint32_t NextGiven() {
     uint32_t value = *bytes_++;
     if (--left_ > 0) {
@@ -78,7 +78,7 @@ class Random {
   size_t left_ = 0;
 };
 
-// Any bytes, or black and white ones.
+// Returns arbitrary bytes, or only the values 0 and 255.
 inline std::vector<uint8_t> RandomBytes(size_t size, Random* random) {
   std::vector<uint8_t> bytes(size);
   const bool extreme = random->Int(0, 1) == 0;
@@ -96,9 +96,9 @@ struct Scene {
   size_t disparity_width = 0;  // floats
   std::vector<std::vector<uint8_t>> pictures;
   std::vector<float> disparity;
-  std::vector<uint8_t> coverage;  // packed rows; empty: there is none
+  std::vector<uint8_t> coverage;  // packed rows; empty: no coverage
   std::vector<starfocus_position>
-      positions;  // of the views; empty: those of starfocus_view_position
+      positions;  // positions of the views; empty: those of starfocus_view_position
 
   starfocus_position PositionOf(int view) const {
     if (!positions.empty()) return positions[static_cast<size_t>(view)];
@@ -120,7 +120,7 @@ struct Scene {
   }
   float Disparity(int x, int y) const { return const_cast<Scene*>(this)->Disparity(x, y); }
 
-  // The rows from `row` on, as the engine takes them.
+  // Returns the light field from `row` on.
   starfocus_light_field Field(int row = 0) const {
     starfocus_light_field field = {};
     for (size_t i = 0; i < pictures.size(); ++i) {
@@ -137,7 +137,8 @@ struct Scene {
   }
 };
 
-// Sizes a scene; `padding` bytes per picture row and floats per disparity row are added.
+// Makes a scene of this size. Adds `padding` bytes to each picture row and `padding` floats to each
+// disparity row.
 inline Scene EmptyScene(int width, int height, int views, float low, float high, int padding = 0) {
   Scene scene;
   scene.width = width;
@@ -152,7 +153,7 @@ inline Scene EmptyScene(int width, int height, int views, float low, float high,
   return scene;
 }
 
-// Piecewise disparity: a slanted background and random rectangles, all within the scene's range.
+// Sets piecewise disparities within the scene's range: a slanted background and random rectangles.
 inline void RandomDisparity(Scene* scene, Random* random) {
   const double low = scene->disparity_min, high = scene->disparity_max;
   const auto put = [&](int x0, int y0, int x1, int y1) {
@@ -176,7 +177,7 @@ inline void RandomDisparity(Scene* scene, Random* random) {
   }
 }
 
-// Gives each pixel (x, y) the disparity at(x, y).
+// Sets the disparity of each pixel (x, y) to at(x, y).
 template <class At>
 void SetDisparity(Scene* scene, const At& at) {
   for (int y = 0; y < scene->height; ++y) {
@@ -184,7 +185,7 @@ void SetDisparity(Scene* scene, const At& at) {
   }
 }
 
-// Every pixel its own disparity: the worst case for runs of one shift.
+// Sets a random disparity at each pixel: the worst case for runs of one shift.
 inline void NoisyDisparity(Scene* scene, Random* random) {
   for (int y = 0; y < scene->height; ++y) {
     for (int x = 0; x < scene->width; ++x) {
@@ -195,7 +196,7 @@ inline void NoisyDisparity(Scene* scene, Random* random) {
   }
 }
 
-// Random pictures (the views need not agree) over a random piecewise disparity.
+// Makes random pictures with a random piecewise disparity map. The views need not agree.
 inline Scene RandomScene(int width, int height, int views, float low, float high, uint64_t seed,
                          int padding = 0) {
   Random random(seed);
@@ -207,8 +208,8 @@ inline Scene RandomScene(int width, int height, int views, float low, float high
   return scene;
 }
 
-// A comb of surfaces so near that what they hide is read from side views some hundred pixels away.
-// To be focused at kNearFocus, with an aperture of 0.2.
+// Makes a comb of surfaces so near that hidden parts are read from side views about a hundred
+// pixels away. Tests focus it at kNearFocus with an aperture of 0.2.
 constexpr double kNearFocus = 100;
 inline Scene NearScene(int width, int height, int views, uint64_t seed) {
   Scene scene = RandomScene(width, height, views, 85, 115, seed);
@@ -233,7 +234,8 @@ inline starfocus_config ConfigFor(const Scene& scene, double max_blur = 32) {
   return config;
 }
 
-// Leaves some of a scene's views, at positions of any kind: along an axis, in an L or anywhere.
+// Keeps some of a scene's views and moves them to random positions: along an axis, in an L or
+// anywhere.
 inline void RandomViews(Scene* scene, starfocus_config* config, Random* random) {
   if (scene->views() > 1 && random->Int(0, 1) == 0) {
     scene->pictures.resize(static_cast<size_t>(random->Int(2, 4)));
@@ -268,7 +270,7 @@ inline starfocus_params Params(double focus, double aperture = 1,
   return params;
 }
 
-// An engine in poisoned memory of exactly the size asked for.
+// An engine in poisoned memory of exactly the required size.
 class Engine {
  public:
   explicit Engine(const starfocus_config& config) {
@@ -315,7 +317,7 @@ struct Output {
   const uint8_t* Pixel(int x, int y) const {
     return bytes.data() + static_cast<size_t>(y) * stride + 3 * static_cast<size_t>(x);
   }
-  // The pixels without row padding.
+  // Returns the pixels without row padding.
   std::vector<uint8_t> Tight() const {
     std::vector<uint8_t> tight;
     for (int y = 0; y < height; ++y) {
@@ -330,7 +332,7 @@ struct Output {
   std::vector<uint8_t> bytes;
 };
 
-// Whether `part` has the bytes of the picture `whole` in that region.
+// Returns true if `part` is equal to that region of the picture `whole`.
 inline bool IsPartOf(const Output& part, const Output& whole, const starfocus_region& region) {
   for (int y = 0; y < region.height; ++y) {
     if (!std::equal(part.Pixel(0, y), part.Pixel(0, y) + 3 * region.width,
@@ -341,7 +343,7 @@ inline bool IsPartOf(const Output& part, const Output& whole, const starfocus_re
   return true;
 }
 
-// Runs jobs in turn by two threads.
+// Runs jobs on two threads.
 inline int RunOnTwo(void*, starfocus_job job, void* data, int32_t count) {
   std::thread other([=] {
     for (int32_t i = 1; i < count; i += 2) job(data, i, 1);
@@ -351,7 +353,7 @@ inline int RunOnTwo(void*, starfocus_job job, void* data, int32_t count) {
   return 0;
 }
 
-// Callbacks with a runner alone, and with a progress function alone.
+// Return callbacks with only a runner, or only a progress function.
 inline starfocus_callbacks RunBy(starfocus_runner runner, void* data = nullptr) {
   starfocus_callbacks callbacks = {};
   callbacks.runner = runner;
@@ -364,7 +366,7 @@ inline starfocus_callbacks ToldTo(starfocus_progress progress, void* data = null
   callbacks.progress_data = data;
   return callbacks;
 }
-// Callbacks with a block visitor alone.
+// Returns callbacks with only a block visitor.
 inline starfocus_callbacks VisitedBy(starfocus_block_visitor visitor, void* data = nullptr) {
   starfocus_callbacks callbacks = {};
   callbacks.on_block = visitor;
@@ -372,7 +374,7 @@ inline starfocus_callbacks VisitedBy(starfocus_block_visitor visitor, void* data
   return callbacks;
 }
 
-// AnyEngine has get(), as Engine.
+// Refocuses a scene. AnyEngine has get(), as Engine has.
 template <class AnyEngine>
 starfocus_status Refocus(AnyEngine* engine, const starfocus_params& params, const Scene& scene,
                          Output* out, const starfocus_callbacks& callbacks,
@@ -390,8 +392,8 @@ starfocus_status Refocus(AnyEngine* engine, const starfocus_params& params, cons
   return Refocus(engine, params, scene, out, RunBy(runner, runner_data), report);
 }
 
-// Pushes and pulls at most `push_rows` and `pull_rows` rows at a time until all rows are out.
-// STARFOCUS_ERROR_STATE when neither side moves.
+// Streams a scene with at most `push_rows` and `pull_rows` rows per call. Returns
+// STARFOCUS_ERROR_STATE if neither side makes progress.
 template <class AnyEngine>
 starfocus_status Stream(AnyEngine* engine, const starfocus_params& params, const Scene& scene,
                         Output* out, int push_rows, int pull_rows,
@@ -428,7 +430,8 @@ starfocus_status Stream(AnyEngine* engine, const starfocus_params& params, const
 }
 
 #ifdef STARFOCUS_DATA_DIR
-// Folder of the data set `name`; empty, with a message, when this machine does not have it.
+// Returns the folder of the data set `name`. If this machine does not have it, prints a message and
+// returns an empty string.
 inline std::string DataSet(const std::string& name) {
   const std::string folder = std::string(STARFOCUS_DATA_DIR) + "/" + name;
   if (std::FILE* file = std::fopen((folder + "/disparity.pfm").c_str(), "rb")) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The curves of starfocus_transfer in double precision, light in 255ths of white.
+// Curves of starfocus_transfer in double precision, with light in 255ths of white.
 #ifndef STARFOCUS_TESTS_SUPPORT_TRANSFER_CURVE_H_
 #define STARFOCUS_TESTS_SUPPORT_TRANSFER_CURVE_H_
 

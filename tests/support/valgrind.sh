@@ -1,6 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# Runs a program of a build folder under valgrind. usage: valgrind.sh BUILD-FOLDER ARGUMENT...
+# usage: valgrind.sh BUILD-FOLDER ARGUMENT...
+# Runs a program of a build folder under valgrind.
 set -eu
 preloaded=$1/tests/libstarfocus_valgrind.so
 shift

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A progress function that checks how it is called, and cancels when a test wants it to.
+// A progress function that checks its calls, and cancels at a given call.
 #ifndef STARFOCUS_TESTS_SUPPORT_WATCH_H_
 #define STARFOCUS_TESTS_SUPPORT_WATCH_H_
 
@@ -14,10 +14,10 @@ struct Watch {
   explicit Watch(int cancel_at = kNever) : stop(cancel_at) {}
 
   int stop;       // the call that cancels
-  int calls = 0;  // so far; written by one thread at a time, or `clashes` tells
+  int calls = 0;  // number of calls so far; simultaneous calls are counted in `clashes`
   int32_t done = 0, rows = 0;
   int full = 0;      // calls with all rows
-  int back = 0;      // calls with fewer rows than before, or more than there are
+  int back = 0;      // calls with fewer rows than before, or with more rows than the total
   int too_late = 0;  // calls after the one that cancelled
   std::atomic<int> inside{0}, clashes{0};
 
@@ -35,7 +35,7 @@ struct Watch {
     return cancels ? 1 : 0;
   }
 
-  // Whether all calls so far were as promised.
+  // Returns true if all calls so far were valid.
   bool Good() const { return back == 0 && too_late == 0 && clashes == 0; }
   bool Ended() const { return Good() && done == rows && full == 1; }
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ways to ask for a picture against each other.
+// Compares different calls that must return the same picture.
 #ifndef STARFOCUS_TESTS_SUPPORT_WAYS_H_
 #define STARFOCUS_TESTS_SUPPORT_WAYS_H_
 
@@ -27,8 +27,8 @@ inline starfocus_region RandomRegion(int width, int height, Random* random) {
   return region;
 }
 
-// The whole picture, its corners, edges and middle, both sides of the boundaries of blocks, and
-// any.
+// Returns regions: the whole picture, its corners, edges and middle, both sides of the boundaries
+// of blocks, and random regions.
 inline std::vector<starfocus_region> RegionsOf(int width, int height) {
   std::vector<starfocus_region> regions = {
       {0, 0, width, height},         {0, 0, 1, 1},
@@ -38,7 +38,7 @@ inline std::vector<starfocus_region> RegionsOf(int width, int height) {
     if (at + 2 >= width || at >= height) continue;
     regions.push_back({at, at, 1, 1});
     regions.push_back({at - 1, at - 3, 1, 1});
-    regions.push_back({0, at - 8, width, 5});  // its last row is finished by the next stripe
+    regions.push_back({0, at - 8, width, 5});  // the next stripe finishes its last row
     regions.push_back({at + 2, at - 1, width - at - 2, 1});
   }
   Random random(uint64_t(width) * 977 + uint64_t(height));
@@ -53,8 +53,8 @@ inline std::vector<starfocus_region> RegionsOf(int width, int height) {
   return regions;
 }
 
-// Streams, prepared light fields, frames after others, views with gaps between pixels and regions
-// give the bytes of the whole picture, which is returned.
+// Checks that streams, prepared light fields, the next frame of a video, views with gaps between
+// pixels, and regions give the bytes of the whole picture. Returns this picture.
 inline Output CheckWays(const Scene& scene, starfocus_config config, starfocus_params params,
                         bool many_regions = false) {
   config.features |= STARFOCUS_FEATURE_STREAMING | STARFOCUS_FEATURE_IMAGES;
@@ -124,7 +124,7 @@ inline Output CheckWays(const Scene& scene, starfocus_config config, starfocus_p
   return whole;
 }
 
-// Rows that come and go in chunks of any sizes give the bytes and the report of the whole picture.
+// Checks that streams with portions of any size give the bytes and the report of the whole picture.
 inline void CheckStreamed(const Scene& scene, starfocus_config config,
                           const starfocus_params& params) {
   Engine whole_engine(config);
