@@ -12,9 +12,9 @@ namespace starfocus {
 //
 // Every edge moves the position by a quarter of a step. A step counts when both lines are back at
 // the levels of a detent, so bouncing contacts cancel out. An edge to the current level of a line
-// means that an edge was lost: the position does not change, but the levels are correct afterwards.
-// A lost edge may lose its step. It never causes a step in the wrong direction, nor affects later
-// steps.
+// means that an edge was lost. The position does not change then, but the levels are correct
+// afterwards. A lost edge may lose its step. It never causes a step in the wrong direction, nor
+// affects later steps.
 class QuadratureDecoder {
  public:
   // @param a, b levels of the lines at rest

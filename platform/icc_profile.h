@@ -8,8 +8,8 @@
 
 namespace starfocus {
 
-// Returns true if `icc` is a complete profile for RGB (ICC.1:2022, 7.2 and 7.3): its size matches
-// its header, its data colour space is RGB, and it contains all tagged elements.
+// Returns true if `icc` is a complete profile for RGB (ICC.1:2022, 7.2 and 7.3). Its size must
+// match its header, its data colour space must be RGB, and it must contain all tagged elements.
 bool IsRgbProfile(const Bytes& icc);
 
 }  // namespace starfocus

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads and writes light-field folders. A folder contains captured views (view_files.h), the
-// disparity map of the centre view (disparity.pfm, or disp0.pfm or disp0GT.pfm of a stereo pair),
-// and optionally its coverage (coverage.png).
+// Reads and writes light-field folders. A folder contains captured views (view_files.h) and the
+// disparity map of the centre view. The map is disparity.pfm, or disp0.pfm or disp0GT.pfm of a
+// stereo pair. A folder may also contain the coverage of the map, coverage.png.
 #ifndef STARFOCUS_PLATFORM_LIGHT_FIELD_H_
 #define STARFOCUS_PLATFORM_LIGHT_FIELD_H_
 

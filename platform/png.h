@@ -23,10 +23,9 @@ std::optional<PngHeader> ReadPngHeader(const Bytes& png);
 // Returns true if the pixels are indices into a palette.
 bool HasPalette(const PngHeader& header);
 
-// Converts a file with a palette to a grey picture, in which index i has the level i * GreyStep,
-// and returns the palette as R, G, B for each index. The result is empty if the palette is missing.
-// This is necessary because stb_image returns uninitialized memory for an index outside the
-// palette.
+// Converts a file with a palette to a grey picture, in which index i has the level i * GreyStep.
+// Returns the palette as R, G, B for each index, or an empty result if the palette is missing. This
+// is necessary because stb_image returns uninitialized memory for an index outside the palette.
 Bytes TakePalette(Bytes* png);
 int GreyStep(const PngHeader& header);
 

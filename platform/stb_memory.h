@@ -7,9 +7,9 @@
 
 namespace starfocus {
 
-// stb's functions may be called on a thread while an object of this class exists there. Some of
-// them continue after a failed allocation, so allocation throws std::bad_alloc instead of returning
-// null. The destructor frees all memory that stb has not freed, including returned pictures.
+// stb's functions may be called on a thread while an object of this class exists there. Since stb
+// may continue after a failed allocation, Allocate throws std::bad_alloc instead of returning null.
+// The destructor frees all memory that stb has not freed, including returned pictures.
 class StbMemory {
  public:
   StbMemory() = default;

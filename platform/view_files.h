@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the files of captured views in a folder: view_<u>_<v>.png (or .ppm, .jpg) with u and v as
-// signed decimal numbers, or im0.png and im1.png of a stereo pair as in the Middlebury data sets.
+// Finds the files of captured views in a folder. They are view_<u>_<v>.png (or .ppm, .jpg), with u
+// and v as signed decimal numbers. A stereo pair may be im0.png and im1.png instead, as in the
+// Middlebury data sets.
 #ifndef STARFOCUS_PLATFORM_VIEW_FILES_H_
 #define STARFOCUS_PLATFORM_VIEW_FILES_H_
 

@@ -11,7 +11,7 @@
 
 namespace starfocus {
 
-// Offsets of the lines; -1 if a control is missing.
+// Line offsets; -1 if a control is missing.
 struct PanelLines {
   int encoder_a = -1, encoder_b = -1;
   int aperture = -1;

@@ -46,8 +46,9 @@ struct Surface;
 using Paint = Color (*)(const Surface&, const Hit&);
 
 enum class Shape { kPlane, kEllipsoid, kStrands };
-// Part of a plane that exists: all of it, |lx| <= rx and |ly| <= ry, the ellipse with these radii,
-// its outer ring of width `thickness`, or a leaf between two arcs.
+// Outline of a planar surface. kNone is an infinite plane, kBox is |lx| <= rx and |ly| <= ry, and
+// kEllipse has these radii. kRing is the outer ring of the ellipse with width `thickness`. kLeaf
+// lies between two arcs.
 enum class Outline { kNone, kBox, kEllipse, kRing, kLeaf };
 
 struct Surface {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads metadata in text chunks of PNG files: XMP, and EXIF in the form that ImageMagick and other
-// programs wrote before the format had an EXIF chunk.
+// Reads metadata in text chunks of PNG files: XMP and EXIF. ImageMagick and other programs wrote
+// EXIF as text before the format had an EXIF chunk.
 #ifndef STARFOCUS_PLATFORM_DECODERS_PNG_TEXT_H_
 #define STARFOCUS_PLATFORM_DECODERS_PNG_TEXT_H_
 

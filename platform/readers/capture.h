@@ -43,9 +43,9 @@ struct Capture {
   LightField light_field;  // set by OpenCapture for a photo or a pair in one file
 };
 
-// Opens `path`; "-" is a photograph on standard input. A photograph is read completely. Of a
-// folder, only the list of files and the files next to the pictures are read. The error states what
-// was found and what is missing.
+// Opens `path`; "-" is a photograph on standard input. Reads a photograph completely. For a folder,
+// reads its list of files and its calibration, but no pictures. An error describes the content that
+// was found and the content that is missing.
 Result<Capture> OpenCapture(const std::string& path, const CaptureOptions& options);
 
 // Reads the views at the positions `wanted`, or all views if it is empty, and the map and the

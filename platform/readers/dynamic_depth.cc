@@ -86,9 +86,9 @@ Span FindByLengths(Span file, const JpegParts& parts, const std::vector<Item>& i
   return {};
 }
 
-// Finds item `index` if the lengths are wrong: the first PNG file after the primary picture, or the
-// JPEG file with the same position among JPEG files as in the directory. Returns an empty span if
-// none is found.
+// Finds item `index` if the lengths are wrong. A PNG item is the first PNG file after the primary
+// picture. A JPEG item is found by its position among the JPEG items of the directory. Returns an
+// empty span if none is found.
 Span FindByBeginning(Span file, const JpegParts& parts, const std::vector<Item>& items,
                      size_t index) {
   if (items[index].mime == "image/png") {

@@ -63,8 +63,8 @@ Index ReadIndex(Span file, Span index, size_t pictures) {
   return result;
 }
 
-// Returns the next position from `at` where a JPEG file may start, or the file's size if there is
-// none.
+// Returns the next position from `at` where a JPEG file may start, or the file's size if no start
+// is found.
 size_t FindBeginning(Span file, size_t at) {
   while (at + 2 < file.size) {
     const void* found = std::memchr(file.data + at, 0xff, file.size - at);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A photograph with a depth map, as the readers of all formats return it: a picture, a map of any
-// size, and the meaning of its values.
+// A photograph with a depth map, which the readers of all formats return. It consists of a picture,
+// a map of any size, and the meaning of the map's values.
 #ifndef STARFOCUS_PLATFORM_READERS_PHOTO_H_
 #define STARFOCUS_PLATFORM_READERS_PHOTO_H_
 

@@ -43,8 +43,8 @@ std::string Rounded(double value) {
   return text;
 }
 
-// Returns the disparity of an inverse distance of 1 / m: the blur radius of an infinitely distant
-// point, in pixels, for a lens of f/1 with that focal length focused at 1 m.
+// Returns the disparity of an inverse distance of 1 / m. It is the blur radius of an infinitely
+// distant point, in pixels, for a lens of f/1 with that focal length, focused at 1 m.
 double DisparityPerDiopter(double focal_35mm, double diagonal_pixels) {
   return focal_35mm / kDiagonal * diagonal_pixels * focal_35mm / 1000 / 2;
 }

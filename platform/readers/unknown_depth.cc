@@ -24,8 +24,8 @@ struct Ends {
   bool are_depths = false;
 };
 
-// Some maps are stretched to the whole range, so 0 and 65535 are the farthest and the nearest
-// depth. Their other values reach an end of the range, or lie between two ends that both occur.
+// Judges 0 and 65535 in a 16-bit map. They are depths if the map was stretched to the whole range:
+// the other values reach an end of the range, or lie between two ends that both occur.
 Ends JudgeEnds(const FloatMap& map) {
   Ends ends;
   std::vector<float> others;

@@ -9,15 +9,15 @@
 namespace starfocus {
 
 // Sets unknown values of photo->map, as read from the file, to NaN. Values that are not finite and
-// values in options.unknown are always unknown. If options.unknown is empty, 0 and 65535 are also
-// unknown in maps of more than 8 bits, unless the other values show that they are depths. `largest`
-// is the sample of white, and 0 for PFM. A note reports the decision.
+// values in options.unknown are always unknown. If options.unknown is empty, 0 and 65535 may be
+// unknown in maps of more than 8 bits; the other values decide, and a note reports the decision.
+// `largest` is the sample of white, and 0 for PFM.
 void MarkUnknown(const DepthOptions& options, int largest, DepthPhoto* photo);
 
-// Replaces NaN in a map in which larger is nearer by the background. The gap along the row or the
-// column is used, whichever is shorter. The new value is the smaller of the two at the ends of the
-// gap, or interpolated if they differ by at most 5 % of the range. At least one value must be
-// known. Returns the number of filled pixels.
+// Replaces NaN by the background in a map in which larger is nearer. Uses the gap along the row or
+// the column, whichever is shorter. The new value is the smaller of the two at the ends of the gap.
+// If they differ by at most 5 % of the range, it is interpolated. At least one value must be known.
+// Returns the number of filled pixels.
 size_t FillBehind(FloatMap* map);
 
 }  // namespace starfocus

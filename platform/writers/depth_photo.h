@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes JPEG files that other programs can refocus: the map, the sharp picture and the focus are
+// Writes JPEG files that other programs can refocus. The map, the sharp picture and the focus are
 // stored as Google's GDepth, GImage and GFocus in extended XMP.
 //
-// The camera's distances are unknown, so the file uses an arbitrary unit: disparity D has the
-// distance 1 / (D - smallest disparity + 1), from the nearest, `near`, to 1, `far`. A reader
-// therefore recovers the disparities up to an offset, which only shifts the focus, and a factor.
-// Two own properties preserve both, so that f-stops keep their meaning. NearDisparity and
-// FarDisparity are the disparities of levels 0 and 255 for a lens of f/1, as fractions of the
-// picture's diagonal.
+// The camera's distances are unknown, so the file uses an arbitrary unit. Disparity D has the
+// distance 1 / (D - smallest disparity + 1); the farthest distance, `far`, is 1. A reader therefore
+// recovers the disparities up to an offset, which only shifts the focus, and a factor. Two own
+// properties preserve both, so that f-stops keep their meaning. NearDisparity and FarDisparity are
+// the disparities of levels 0 and 255 for a lens of f/1, as fractions of the picture's diagonal.
 #ifndef STARFOCUS_PLATFORM_WRITERS_DEPTH_PHOTO_H_
 #define STARFOCUS_PLATFORM_WRITERS_DEPTH_PHOTO_H_
 

@@ -79,7 +79,7 @@ struct Pixels {
 
 // Applies the filter "Up" (PNG specification, 9.2) to every row: each byte is replaced by its
 // difference from the byte above. For photographs, files are 1 to 3 % smaller than with filters
-// chosen by their sums of differences, and filtering takes a tenth of the time.
+// chosen by their sums of differences. Filtering takes a tenth of the time.
 void FilterRows(const Rows& rows, size_t row_bytes, uint8_t* filtered) {
   constexpr uint8_t kNone = 0, kUp = 2;
   for (int y = 0; y < rows.height; ++y) {

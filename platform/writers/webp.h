@@ -12,8 +12,8 @@
 
 namespace starfocus {
 
-// Encodes pictures of equal size as they are added. Several pictures form an endless animation with
-// a tenth of a second per picture. Only the encoded pictures are kept in memory.
+// Encodes pictures of equal size in sequence. Several pictures form an endless animation with a
+// tenth of a second per picture. Only the encoded pictures are kept in memory.
 class WebpWriter {
  public:
   // `path` is used only in errors; `quality` is 1 to 100.

@@ -15,8 +15,8 @@ struct BatchItem {
   std::string input, output;
 };
 
-// Returns true if the inputs and the output describe several pictures in a folder: there are
-// several inputs, or the output exists as a folder or ends with "/".
+// Returns true if the command writes several pictures to a folder. This is the case if there are
+// several inputs, or if the output exists as a folder or ends with "/".
 bool IsBatch(const std::vector<std::string>& inputs, const std::string& out);
 
 // Chooses the output of each input. It has the name of its input. Its format is that of the input

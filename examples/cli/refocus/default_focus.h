@@ -21,9 +21,9 @@ struct DefaultFocus {
 // may have another size than the picture.
 DefaultFocus FindDefaultFocus(const Capture& capture);
 
-// Returns a pixel of the nearest large surface near the centre: similar disparities that cover at
-// least a tenth of the middle half of width and height. Returns the centre if no disparity is known
-// there. Coordinates are pixels of the map.
+// Returns a pixel of the nearest large surface near the centre. A large surface has similar
+// disparities on at least a tenth of the middle half of width and height. Returns the centre if no
+// disparity is known there. Coordinates are pixels of the map.
 DefaultFocus FindSurface(const FloatMap& map);
 
 // Prints the focus and its origin to stderr.

@@ -37,8 +37,8 @@ Error PlanOutput(const OutputOptions& options, bool sweep, bool region);
 Error WriteRefocused(const OutputOptions& options, const PictureOptions& how, double widest,
                      const EngineTask& task, const Image& picture);
 
-// Writes the requested files of a pair that replaces a sweep: the centre view, which is sharp
-// everywhere, and the index of the nearest focus for each of its pixels.
+// Writes the requested files of a pair that replaces a sweep. The first is the centre view, which
+// is sharp everywhere. The second contains the index of the nearest focus for each of its pixels.
 Error WritePair(const OutputOptions& options, const PictureOptions& how,
                 const LightField& light_field, const std::vector<double>& foci);
 
