@@ -32,7 +32,7 @@ class SceneOpening {
 
   starfocus_shape shape_;
   double fall_off_ = 0, inner_, cats_eye_;
-  double curvature_, half_;  // of a polygon; `half_` is half the angle between two corners
+  double curvature_, half_;  // polygon: curvature, half the angle between corners
   std::vector<Edge> edges_;
 };
 

@@ -70,7 +70,7 @@ double Difference(const LightField& field, const FloatMap& levels, int multiple)
 }
 
 int ChooseMultiple(const GreyMapPair& pair, const LightField& field, const FloatMap& levels) {
-  constexpr double kClearly = 0.7, kLevel = 1;  // and more than rounding errors
+  constexpr double kClearly = 0.7, kLevel = 1;  // kLevel exceeds rounding errors
   const Size* own =
       std::find_if(std::begin(pair.sizes), std::end(pair.sizes),
                    [&](const Size& size) { return levels.height >= size.least_height; });

@@ -14,7 +14,7 @@ namespace starfocus {
 
 struct MultiPicture {
   Span file;             // JPEG file of this picture
-  JpegParts parts;       // its segments
+  JpegParts parts;       // segments of the file
   bool indexed = false;  // the index has the position of this picture
   uint32_t type = 0;     // type from the index: 0x020002 is a view of a stereo pair, 0 is unknown
 };

@@ -63,7 +63,7 @@ int ReachOf(int half) { return half % 2 == 1 && half > 4 ? half - 1 : half; }
 
 struct Chooser {
   const ViewArray& array;
-  int row, column;  // of the centre
+  int row, column;  // place of the centre
   Star* star;
 
   void Add(int down, int across) const {

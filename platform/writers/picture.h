@@ -13,7 +13,7 @@
 namespace starfocus {
 
 struct PictureOptions {
-  int quality = 95;  // of JPEG and WebP, 1 to 100
+  int quality = 95;  // quality of JPEG and WebP, 1 to 100
   Metadata metadata;
   PngSize png_size = PngSize::kQuick;
 };

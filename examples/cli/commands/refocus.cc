@@ -23,7 +23,7 @@
 namespace starfocus {
 namespace {
 
-constexpr int kMostPictures = 1000;  // of a sweep: three digits
+constexpr int kMostPictures = 1000;  // limit of a sweep: three digits
 
 struct RefocusOptions {
   std::vector<std::string> inputs;

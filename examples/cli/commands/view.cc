@@ -36,7 +36,7 @@ struct ViewOptions {
 
 // Contents of the page, in the order of their computation.
 struct Contents {
-  std::vector<LensAt> lenses;  // of the strip, then of the ground truths
+  std::vector<LensAt> lenses;  // lenses of the strip, then of the ground truths
   std::vector<TruthFile> truths;
   std::vector<PageFigure> strip, blocks, errors;
 };
@@ -184,7 +184,7 @@ Error Run(const ViewOptions& options) {
   }
   if (!error) error = ChooseLenses(capture, stats, &opened->aperture, &contents);
   if (error) return error;
-  stats.invalid = invalid;  // of the original map; its holes are filled
+  stats.invalid = invalid;  // count before the holes were filled
   error =
       RefocusEach(options.input.path, light_field, stats, options.threads, contents.lenses,
                   [&](size_t i, const Image& picture, const std::vector<starfocus_block>& blocks) {

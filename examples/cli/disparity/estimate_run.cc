@@ -16,7 +16,7 @@
 namespace starfocus {
 namespace {
 
-constexpr int kSmallWidth = 256;      // of reduced pictures for finding the range
+constexpr int kSmallWidth = 256;      // width limit of pictures for finding the range
 constexpr int kLeastConfidence = 48;  // excludes outliers at edges and on flat walls
 constexpr double kStrays = 0.0005;    // fraction of outliers at each end
 

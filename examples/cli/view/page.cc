@@ -14,7 +14,7 @@ namespace starfocus {
 namespace {
 
 constexpr int kQuality = 88;
-constexpr int kBarWidth = 20, kBarsHeight = 200;  // of the histogram, in its own units
+constexpr int kBarWidth = 20, kBarsHeight = 200;  // histogram, in its own units
 
 // The policy blocks all loading, even if a file name contains HTML; pictures and style are part of
 // the page. Colours have a contrast of 7 or more, on light and on dark backgrounds.

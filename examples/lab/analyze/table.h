@@ -38,7 +38,7 @@ class Table {
 
 // A figure: its tables, and the gnuplot commands that draw it from their data blocks.
 struct Figure {
-  std::string name;  // of the SVG file; empty: tables only
+  std::string name;  // name of the SVG file; empty: tables only
   int width = 0, height = 0;
   std::vector<Table> tables;
   std::string commands;

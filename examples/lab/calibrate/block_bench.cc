@@ -21,7 +21,7 @@ starfocus_config MakeConfig(const LightField& light_field, const starfocus_dispa
   config.disparity_max = stats.max;
   config.max_blur = STARFOCUS_MAX_BLUR;
   config.superblock = 256;                        // scratch memory for blocks of any size
-  config.tuning.n_scale = STARFOCUS_MAX_N_SCALE;  // and apertures for every sampled N
+  config.tuning.n_scale = STARFOCUS_MAX_N_SCALE;  // apertures for every sampled N
   return config;
 }
 

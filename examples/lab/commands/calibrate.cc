@@ -18,7 +18,7 @@
 namespace starfocus {
 namespace {
 
-constexpr int kWidth = 1024, kHeight = 768, kViews = 9;  // of the ray-traced scenes
+constexpr int kWidth = 1024, kHeight = 768, kViews = 9;  // size of ray-traced scenes
 constexpr int kRepetitions = 5;
 
 struct CalibrateOptions {

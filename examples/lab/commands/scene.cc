@@ -47,7 +47,7 @@ struct SceneOptions {
 struct Plan {
   Scene scene;
   std::vector<Truth> truths;
-  starfocus_lens lens = {};  // of the truths, except focus and aperture
+  starfocus_lens lens = {};  // lens of the truths, except focus and aperture
 };
 
 Result<Truth> ParseTruth(const std::string& text) {
