@@ -10,8 +10,8 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-// Machines may disagree about the last digit of a tangent, as in ApertureFallOff. The result
-// differs only if the value is within that error of a half.
+// The last digit of a tangent may differ between machines, here and in ApertureFallOff. The rounded
+// result differs only if the exact value lies within this error of a boundary between two integers.
 int32_t Round(double value) { return static_cast<int32_t>(std::floor(value * kOpeningOne + 0.5)); }
 
 struct UnitVector {
@@ -24,10 +24,10 @@ UnitVector DirectionOf(double angle) {
   return {2 * tangent / (1 + square), (1 - square) / (1 + square)};
 }
 
-// Each edge is an arc through two corners of the unit circle with radius 1 / `curvature`. `half` is
-// half the angle between the corners. The centre of the arc lies on the edge's normal, at
-// cos(half) - sqrt(1 / curvature^2 - sin(half)^2). Multiplied by the curvature, this has a limit
-// for straight edges.
+// Each edge is an arc of radius 1 / `curvature` through two corners on the unit circle. `half` is
+// half the angle between the two corners. The centre of the arc lies on the edge's normal, at
+// cos(half) - sqrt(1 / curvature^2 - sin(half)^2). The product of this position and the curvature
+// has a limit for straight edges.
 void SetPolygon(const starfocus_lens& lens, ApertureShape* opening) {
   opening->blades = lens.blades;
   const double half = kPi / lens.blades;
@@ -81,8 +81,8 @@ int32_t MeanSquare(const ApertureShape& opening) {
     const double inner = static_cast<double>(opening.inner) / kOpeningOne;
     return Round((1 + inner * inner) / 4);
   }
-  // Rings of equal area at the square distances `square`, by the midpoint rule. One coordinate has
-  // half of the mean square distance.
+  // Rings of equal area at the square distances `square`, by the midpoint rule. The mean square of
+  // one coordinate is half the mean square distance.
   constexpr int kRings = 256;
   const double fall_off = opening.fall_off / 65536.0;
   double light = 0, sum = 0;
@@ -129,7 +129,8 @@ bool IsDark(const ApertureShape& opening, int64_t x, int64_t y, int64_t half, in
 RimShift ShiftOfRim(const ApertureShape& opening, const Rect& rect, int32_t width, int32_t height) {
   const double diagonal =
       std::sqrt(static_cast<double>(width) * width + static_cast<double>(height) * height);
-  // Both functions are odd about the middle of the picture, so mirrored places get mirrored rims.
+  // Both functions are odd about the middle of the picture, so mirrored rectangles get mirrored
+  // rims.
   const auto shift = [&](int32_t doubled) {
     return static_cast<int32_t>(-opening.cats_eye * (doubled / diagonal));
   };

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Opening of a lens: the part of the lens disc that lets light through. The lens setup makes it
-// from a starfocus_lens, and lib/base/view_weights.h derives the weights of the views from it.
-// After one rounding all arithmetic uses integers, so every machine computes the same weights.
+// Opening of a lens: the part of the lens disc that lets light through. The lens setup derives the
+// opening from a starfocus_lens, and lib/base/view_weights.h derives the weights of the views from
+// the opening. The parameters are rounded once; the weights are then computed in integers, so that
+// every machine gets the same weights.
 #ifndef STARFOCUS_LIB_BASE_APERTURE_SHAPE_H_
 #define STARFOCUS_LIB_BASE_APERTURE_SHAPE_H_
 
@@ -16,7 +17,8 @@ namespace starfocus {
 inline constexpr int kOpeningBits = 14;
 inline constexpr int32_t kOpeningOne = 1 << kOpeningBits;
 
-// cot^2(theta) with 16 fractional bits; theta in [0.05 pi, 0.45 pi] gives [0.025, 40].
+// Returns cot^2(theta) with 16 fractional bits. The result is in [0.025, 40] for theta in [0.05 pi,
+// 0.45 pi].
 uint32_t ApertureFallOff(double theta);
 
 struct ApertureShape {
@@ -36,7 +38,7 @@ struct ApertureShape {
   int32_t inscribed = 0;  // radius of an inscribed disc of the polygon: kOpeningBits, rounded down
 
   // True if the opening is symmetric about both axes and both diagonals, so that one octant
-  // describes it. The part that cat's eyes leave open is not symmetric.
+  // describes it. Cat's eyes, which are not symmetric, are not considered.
   bool IsSymmetric() const { return shape != STARFOCUS_SHAPE_POLYGON; }
   // True if the centre of the lens may be dark.
   bool IsRing() const { return shape == STARFOCUS_SHAPE_RING; }
@@ -56,11 +58,12 @@ int32_t MeanSquare(const ApertureShape& opening);
 // most 2^14.
 bool LetsThrough(const ApertureShape& opening, int64_t x, int64_t y, int64_t radius);
 
-// Returns true only if a polygon lets no light through the square with centre (x, y) and side
-// 2 * half. May return false for a dark square.
+// Returns true only if a polygon lets no light through the square with centre (x, y) and side 2 *
+// half. The test is conservative: a dark square may also give false.
 bool IsDark(const ApertureShape& opening, int64_t x, int64_t y, int64_t half, int64_t radius);
 
-// Centre of the rim behind the lens as seen from a part of the picture: kOpeningBits.
+// Centre of the rim behind the lens as seen from a part of the picture, in radii of the lens
+// (kOpeningBits).
 struct RimShift {
   int32_t x = 0, y = 0;
 };
@@ -77,7 +80,7 @@ constexpr bool PassesRim(const RimShift& shift, int64_t x, int64_t y, int64_t ra
 }
 
 // Calls visit(i, j) for 0 <= j <= i <= last, with the centre last. With `by_size`, points that
-// represent eight points of the plane come before those that represent four.
+// represent eight points of the plane come before points that represent four.
 template <class Visit>
 void ForEachOfOctant(int32_t last, bool by_size, const Visit& visit) {
   for (int32_t i = by_size ? last : 0; i > 1; --i) {
@@ -99,9 +102,9 @@ constexpr int32_t PointsOfOctant(int32_t i, int32_t j) {
   return j == 0 || i == j ? 4 : 8;
 }
 
-// Returns the share of each of the `points` points that (i, j) represents. `left` is the share of
-// all of them, plus the rounding error of earlier points. With `by_size` the share is rounded down:
-// if the centre may be dark, it cannot compensate for earlier shares that were too large.
+// Returns the share of one of the `points` points that a point of the octant represents. `left` is
+// the share of all these points, plus the rounding error of earlier points. With `by_size` the
+// share is rounded down: a dark centre cannot compensate for earlier shares that were too large.
 constexpr int64_t ShareOfPoints(int64_t left, int64_t points, bool by_size) {
   const int64_t share = (left + (by_size ? 0 : points / 2)) / points;
   return share < 0 ? 0 : share;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bump allocator over memory of the caller. Without a base address it only counts bytes, so the
-// same code computes the size of a workspace and divides it into pieces.
+// Bump allocator over memory of the caller. Without a base address the allocator only counts bytes,
+// so the same code computes the size of a workspace and divides it into pieces.
 #ifndef STARFOCUS_LIB_BASE_ARENA_H_
 #define STARFOCUS_LIB_BASE_ARENA_H_
 
@@ -12,12 +12,12 @@
 
 namespace starfocus {
 
-// Size of objects that exceed the address space.
+// Reported size of objects that exceed the address space.
 inline constexpr size_t kTooLarge = SIZE_MAX;
 
-// In builds with AddressSanitizer, each piece and its padding are followed by a red zone of this
-// many bytes, a multiple of STARFOCUS_ALIGNMENT. Accesses to it while jobs run are reported. Pieces
-// share no memory in these builds.
+// In builds with AddressSanitizer, each piece and its padding are followed by a red zone of
+// kRedZone bytes, a multiple of STARFOCUS_ALIGNMENT. AddressSanitizer reports accesses to red zones
+// while jobs run. Pieces share no memory in these builds.
 #if defined(__has_feature)
 #if __has_feature(address_sanitizer)
 #define STARFOCUS_RED_ZONES
@@ -31,19 +31,21 @@ inline constexpr size_t kRedZone = 1024;
 inline constexpr size_t kRedZone = 0;
 #endif
 
-// Receives each piece in the order of allocation. `begin` is the number of bytes before the piece;
-// `end` also counts the piece, its padding and its red zone.
+// Receives each piece in the order of allocation. `begin` is the number of bytes before the piece.
+// `end` is `begin` plus the size of the piece, its padding and its red zone.
 struct PieceVisitor {
   void (*visit)(void* data, size_t begin, size_t end);
   void* data;
 };
 
-// Poisons or unpoisons the red zone that ends `end` bytes after `base`. No-op in other builds.
+// Poisons or unpoisons the red zone that ends `end` bytes after `base`. No-op in builds without red
+// zones.
 void PoisonZone(void* base, size_t begin, size_t end);
 void UnpoisonZone(void* base, size_t begin, size_t end);
 
 // Allocates aligned pieces of a block of memory, each followed by simd::kPadding bytes. All pieces
-// together take at most `most` bytes; by default no object is larger than half the address space.
+// together take at most `most` bytes. The default is half the address space, the largest possible
+// size of an object.
 class Arena {
  public:
   explicit Arena(void* base, size_t most = PTRDIFF_MAX, const PieceVisitor* pieces = nullptr)
@@ -57,17 +59,19 @@ class Arena {
     return piece;
   }
 
-  // Returns the size of all pieces, or kTooLarge. In that case earlier pieces may lie anywhere.
+  // Returns the size of all pieces, or kTooLarge. After kTooLarge the addresses of the pieces are
+  // meaningless.
   size_t Bytes() const { return too_large_ ? kTooLarge : used_ > largest_ ? used_ : largest_; }
 
-  // Reuse() lets later pieces share the memory of those allocated since Mark() returned `mark`.
+  // Reuse() lets later pieces share the memory of the pieces that were allocated after Mark()
+  // returned `mark`.
   size_t Mark() const { return used_; }
   void Reuse(size_t mark) {
     if (kRedZone > 0) return;
     largest_ = used_ > largest_ ? used_ : largest_;
     used_ = mark;
   }
-  // Returns the number of bytes that a piece may take here without enlarging the shared memory.
+  // Returns the largest size of the next piece for which the shared memory does not grow.
   size_t Shared() const { return largest_ < used_ + kExtra ? 0 : largest_ - used_ - kExtra; }
   // Ends sharing: later pieces lie after all earlier ones.
   void GoOn() { used_ = used_ > largest_ ? used_ : largest_; }
@@ -89,7 +93,7 @@ class Arena {
     }
   }
 
-  // Padding, a red zone, and the most that rounding up to STARFOCUS_ALIGNMENT adds.
+  // Largest overhead of a piece: padding, red zone, and rounding up to STARFOCUS_ALIGNMENT.
   static constexpr size_t kExtra = simd::kPadding + kRedZone + STARFOCUS_ALIGNMENT - 1;
 
   uint8_t* base_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Progress and cancellation of a call: calls the caller's progress function.
+// Progress and cancellation of a call, reported to the caller's progress function.
 #ifndef STARFOCUS_LIB_BASE_CALL_PROGRESS_H_
 #define STARFOCUS_LIB_BASE_CALL_PROGRESS_H_
 
@@ -10,11 +10,11 @@
 
 namespace starfocus {
 
-// Calls the progress function from any thread that runs jobs, but from only one at a time. The
-// object lies in the workspace and is used again for each call.
+// Calls the caller's progress function. Any thread that runs jobs may do so, but only one thread at
+// a time. The object lies in the workspace and is reused for each call of the engine.
 class CallProgress {
  public:
-  // Sets the progress function for later calls; null: no function is called.
+  // Sets the progress function for later calls of the engine; `progress` may be null.
   void SetProgress(starfocus_progress progress, void* data) {
     progress_ = progress;
     data_ = data;
@@ -26,8 +26,8 @@ class CallProgress {
 
   // Reports that the rows before `done` are finished.
   void SetRows(int32_t done);
-  // Declares the next set of jobs as part `part` of `parts` equal parts of the call. The reported
-  // rows of this part are proportional to its finished jobs.
+  // Declares the next set of jobs as part `part` of `parts` equal parts of the call. The number of
+  // rows reported for a part is proportional to the number of its finished jobs.
   void SetPart(int32_t part, int32_t parts);
 
   // BeginJobs starts a set of `jobs` jobs. CountJob counts a finished job of the set.
@@ -35,7 +35,7 @@ class CallProgress {
   void CountJob() { jobs_done_.fetch_add(1, std::memory_order_relaxed); }
 
   // Calls the progress function unless another thread is calling it. Returns false after
-  // cancellation; the function is not called again then.
+  // cancellation. The progress function is not called again after cancellation.
   bool Ask();
 
   bool IsCancelled() const { return cancelled_.load(std::memory_order_relaxed) != 0; }
@@ -56,7 +56,8 @@ class CancelToken {
   explicit CancelToken(CallProgress* call_progress) : call_progress_(call_progress) {}
 
   // Counts approximately `samples` samples that were read, filtered or accumulated. Returns true to
-  // continue. After it returned false, it returns false until the next call of the engine.
+  // continue, or false after cancellation. Once false, the result stays false until the next call
+  // of the engine.
   bool Spend(int64_t samples) {
     left_ -= samples;
     return left_ > 0 || Ask();
@@ -69,14 +70,15 @@ class CancelToken {
     return goes_on;
   }
 
-  // A fraction of a millisecond on a desktop, about one millisecond on a single-board computer.
+  // Number of samples between two calls of the progress function. Processing them takes a fraction
+  // of a millisecond on a desktop and about one millisecond on a single-board computer.
   static constexpr int64_t kSamples = 1 << 19;
 
   CallProgress* call_progress_ = nullptr;  // null: never cancelled
   int64_t left_ = kSamples;
 };
 
-// Returns true to continue, also without a cancel token.
+// Returns true to continue. If `cancel` is null, the result is always true.
 inline bool GoesOn(CancelToken* cancel, int64_t samples) {
   return cancel == nullptr || cancel->Spend(samples);
 }

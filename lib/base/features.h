@@ -12,7 +12,7 @@ namespace starfocus {
 // Returns true if `features` contains the STARFOCUS_FEATURE_ bit `feature`.
 constexpr bool Has(uint32_t features, uint32_t feature) { return (features & feature) != 0; }
 
-// Returns true if lenses may be polygons and have cat's eyes.
+// Returns true if the engine supports polygons and cat's eyes.
 inline bool HasShapes(const starfocus_config& config) {
   return Has(config.features, STARFOCUS_FEATURE_SHAPES);
 }

@@ -68,7 +68,8 @@ inline constexpr int kMaxWeightBits = 24;
 inline constexpr int kMaxLightBits = 17;
 inline constexpr int32_t kMaxWeight = 32767;
 
-// Two neighbouring pixels belong to one surface if their disparities differ by at most this value.
+// Largest difference between the disparities of two neighbouring pixels of one surface,
+// kDisparityBits.
 inline constexpr int32_t kSurfaceStep = (3 << kDisparityBits) / 2;
 
 // A range of the table above, for values that several functions compute.
@@ -82,7 +83,8 @@ inline constexpr int64_t kPixel = 1 << kShiftBits;
 inline constexpr int64_t kBlurEnd = 129;
 inline constexpr FixedRange kDisparity = {"disparity", -500 * 64, 500 * 64};
 inline constexpr FixedRange kFocus = {"focus", -1000000 * 64, 1000000 * 64};
-// The outermost views of N = 4 lie at 128/123 of the radius (LensInSubapertures).
+// Limit of shifts in pixels. It exceeds the largest blur radius because the outermost views of N =
+// 4 lie at 128/123 of the lens radius (LensInSubapertures).
 inline constexpr int64_t kShiftEnd = 134;
 inline constexpr FixedRange kShift = {"shift", -kShiftEnd* kPixel, kShiftEnd* kPixel};
 inline constexpr FixedRange kRadius = {"blur radius of a cell", 0, kBlurEnd << kDisparityBits};
@@ -99,9 +101,9 @@ inline constexpr FixedRange kUnmixed = {"unmixed pixel", 0, 255 << 7};
 inline constexpr FixedRange kRemainder = {"weight left after all orbits", 0, 0};
 }  // namespace ranges
 
-// Returns `value`. With STARFOCUS_CHECK_RANGES, which only one debug build defines, values outside
-// their range are passed to on_range_failure, or abort the program if that is null. Other builds do
-// not check.
+// Returns `value`. With STARFOCUS_CHECK_RANGES, which only one debug build defines, a value outside
+// its range is passed to on_range_failure. If on_range_failure is null, the program aborts. Other
+// builds do not check.
 #ifdef STARFOCUS_CHECK_RANGES
 inline constexpr bool kCheckRanges = true;
 extern void (*on_range_failure)(const FixedRange& range, int64_t value);

@@ -32,7 +32,7 @@ struct RowRange {
 template <class T>
 struct Plane {
   T* data = nullptr;
-  size_t stride = 0;  // in elements of T
+  size_t stride = 0;  // distance between rows, in elements of T
   int32_t rows = 0;
   int32_t first = 0;
 
@@ -47,7 +47,7 @@ struct Extent {
   uintptr_t begin, end;
 };
 
-// Returns the address range from the first byte of the first row to the last byte of the last one.
+// Returns the address range from the first byte of the first row to the last byte of the last row.
 inline Extent ExtentOf(const void* data, size_t stride, int32_t rows, size_t row_bytes) {
   const auto begin = reinterpret_cast<uintptr_t>(data);
   const uintptr_t bytes = rows == 0 ? 0 : static_cast<uintptr_t>(rows - 1) * stride + row_bytes;

@@ -4,7 +4,7 @@
 namespace starfocus {
 namespace {
 
-// The word and the bits of a job.
+// Word that records the progress of a job, and the two bits of the job in that word.
 struct Progress {
   std::atomic<uint32_t>& word;
   uint32_t taken, done;
@@ -32,8 +32,8 @@ bool TakeJob(JobSet* set, int32_t index, int32_t worker) {
   return true;
 }
 
-// The starfocus_job. A thread reads the set only while it holds a worker, and the set changes only
-// while no worker is held.
+// Implements starfocus_job. A thread reads the set only while it holds a worker, and the set
+// changes only while no worker is held.
 void CallJob(void* data, int32_t index, int32_t worker) {
   JobSet& set = *static_cast<JobSet*>(data);
   if (worker < 0 || worker >= set.max_workers || set.busy[worker].exchange(1) != 0) {
@@ -78,7 +78,7 @@ starfocus_status RunJobSet(JobFunction function, const void* data, int32_t count
   set->open.store(1);
   const int result = set->runner.run(set->runner.data, CallJob, set, count);
   const bool all = Close(set);
-  // A runner may have skipped jobs because it was cancelled.
+  // Cancellation has precedence: after cancellation a runner may have skipped jobs.
   if (set->call_progress.IsCancelled()) return STARFOCUS_ERROR_CANCELLED;
   return result == 0 && all ? STARFOCUS_OK : STARFOCUS_ERROR_RUNNER;
 }

@@ -13,7 +13,7 @@
 
 namespace starfocus {
 
-// Function that runs jobs; null: the calling thread runs them.
+// The caller's function that runs jobs. If `run` is null, the calling thread runs the jobs.
 struct Runner {
   starfocus_runner run;
   void* data;
@@ -27,7 +27,7 @@ using JobFunction = void (*)(const void* data, int32_t index, int32_t worker);
 constexpr size_t ProgressWords(size_t jobs) { return (jobs + 15) / 16; }
 
 // Current set of jobs, the runner, and the progress of the call. The object lies in the workspace
-// and outlives the call, so a job that starts too late finds the set closed.
+// and outlives the call, so a job that starts after the call finds the set closed.
 struct JobSet {
   JobFunction function = nullptr;
   const void* data = nullptr;
@@ -37,13 +37,13 @@ struct JobSet {
   // 1: a job uses the memory of this worker.
   std::atomic<uint32_t> busy[STARFOCUS_MAX_WORKERS] = {};
   std::atomic<uint32_t> open{0};     // 1: the runner has not returned yet
-  std::atomic<uint32_t> misused{0};  // 1: an invalid call of a job was rejected
+  std::atomic<uint32_t> misused{0};  // 1: the runner made an invalid call, which was rejected
   Runner runner = {};
   CallProgress call_progress;
 };
 
-// Runs function(data, index, worker) for all indices in [0, count), count > 0. It calls the
-// progress function before each job. No job runs after the return, even if the runner misbehaves.
+// Runs function(data, index, worker) for all indices in [0, count), count > 0. Calls the progress
+// function before each job. No job runs after the return, even if the runner misbehaves.
 //
 // Returns STARFOCUS_OK or an error:
 // STARFOCUS_ERROR_CANCELLED: the progress function cancelled the call, and jobs were skipped.

@@ -42,8 +42,8 @@ struct FieldValue {
 starfocus_status Refuse(starfocus_status status, const FieldValue& field, const Allowed& allowed,
                         starfocus_problem* problem);
 
-// Fills *problem if no check has filled it: for errors of the runner, the progress function or
-// memory. Returns `status`.
+// Fills *problem if no check has filled it before. Used for errors of the runner, the progress
+// function or memory. Returns `status`.
 starfocus_status TellStatus(starfocus_status status, starfocus_problem* problem);
 
 // Checks a sequence of values. The first rejected value becomes the problem.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Run-time checks of the ranges in fixed.h; empty without STARFOCUS_CHECK_RANGES.
+// Run-time checks of the ranges in fixed.h; this file is empty without STARFOCUS_CHECK_RANGES.
 #include "lib/base/fixed.h"
 
 #ifdef STARFOCUS_CHECK_RANGES

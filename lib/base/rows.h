@@ -23,12 +23,12 @@ inline bool IsInPlace(const starfocus_depth_map& map, int32_t width, int32_t hei
          map.height == height;
 }
 
-// Returns the rows of an image in such a format; its first row is row `first` of the picture.
+// Returns the rows of a packed RGB image. The first row of the image is row `first` of the picture.
 inline Plane<const uint8_t> RowsOf(const starfocus_image& image, int32_t first = 0) {
   return {static_cast<const uint8_t*>(image.planes[0]), image.strides[0], 0, first};
 }
 
-// Returns the rows of a depth map in such a format.
+// Returns the rows of a map of float disparities.
 inline Plane<const float> RowsOf(const starfocus_depth_map& map) {
   return {static_cast<const float*>(map.data), map.stride / sizeof(float), 0, 0};
 }

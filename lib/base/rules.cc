@@ -6,7 +6,7 @@
 namespace starfocus {
 namespace {
 
-// Smallest N / r_max whose aliasing does not exceed that of over-sampling (Fig. 6).
+// Smallest N / r_max whose aliasing does not exceed the aliasing of over-sampling (Fig. 6).
 constexpr double kUnderSampling = 0.787;
 
 // Smallest blur radius that survives subsampling by two (Table I).
@@ -21,30 +21,31 @@ struct SubapertureStep {
   double r_max;
   int32_t n;
 };
-// The criterion would allow N = 3 up to 7 pixels. That saves 1 to 3 % of the instructions. It is
-// 0.2 dB farther from ground truth on wires and 0.1 dB farther from benchmark mode on real maps.
-// N = 4 up to 18 pixels would save 4 % and cost 0.1 to 0.4 dB.
+// The criterion would allow N = 3 up to 7 pixels, which saves 1 to 3 % of the instructions. The
+// error grows by 0.2 dB against ground truth on wires, and by 0.1 dB against benchmark mode on real
+// maps. N = 4 up to 18 pixels would save 4 % and cost 0.1 to 0.4 dB.
 constexpr SubapertureStep kSubapertureSteps[] = {{0.5, 0},  {5.5, 3}, {11, 4}, {25, 5},
                                                  {34, 6},   {49, 7},  {68, 9}, {83, 11},
                                                  {119, 12}, {128, 13}};
 
-// Smallest N of openings without fall-off: with N = 3 their error exceeds the threshold.
+// Smallest N of openings without fall-off. With N = 3 the error of such openings exceeds the
+// threshold.
 constexpr int32_t kEvenViews = 4;
 
-// Smallest N above kMoreFrom pixels for openings with corners or narrow parts, by the error of
-// their subapertures. With this N at smaller radii, too, the portrait is up to 0.3 dB farther from
-// truth.
+// Smallest N above a blur radius of kMoreFrom pixels for openings with corners or narrow parts. The
+// error of their subapertures requires this N. Using the same N at smaller radii as well moves the
+// portrait up to 0.3 dB away from ground truth.
 constexpr int32_t kMoreViews = 6;
 constexpr double kMoreFrom = 5.0;
 
-// Subapertures leave a smaller error, so that of the layers must be smaller, too. On the portrait,
-// layer 2 from 8 or 16 pixels on loses 0.2 to 0.35 dB and saves 4 % of the instructions. Layer 1
-// from 5 pixels on loses 0.1 to 0.2 dB and saves up to 19 %. Layer 2 rounds silhouettes to four
-// pixels.
+// Smallest blur radii of layers 1 and 2. Subapertures have a smaller error than the paper's views,
+// so the error of the layers must be smaller as well. On the portrait, using layer 2 from 8 or 16
+// pixels on loses 0.2 to 0.35 dB and saves 4 % of the instructions. Using layer 1 from 5 pixels on
+// loses 0.1 to 0.2 dB and saves up to 19 %. Layer 2 resolves silhouettes only to four pixels.
 constexpr double kSubapertureLayerRadius = 7.0;
 constexpr double kSubapertureCoarseRadius = 24.0;
 
-// Smallest blur radii of layer 1 for each Demand, by the rule of the paper and by that of
+// Smallest blur radii of layer 1 for each Demand, by the paper's rule and by the rule for
 // subapertures. The radii of layer 2 grow in proportion.
 struct LayerRadii {
   double paper, subaperture;
@@ -78,7 +79,8 @@ int32_t ViewsBySubaperture(double r_max, Demand demand) {
 }
 
 int32_t ScaleViews(int32_t n, double scale) {
-  // 1.1 has no exact double: 10 views should become 11, not 12.
+  // Doubles cannot represent scales such as 1.1 exactly. The slack ensures that 10 views times 1.1
+  // are 11, not 12.
   constexpr double kSlack = 1e-6;
   return n == 0 ? 0 : Ceil(n * scale - kSlack);
 }

@@ -9,28 +9,31 @@
 
 namespace starfocus {
 
-// Class of an opening by the views and layers that it needs: sharper and narrower bright parts need
-// more views and finer layers. Cat's eyes create corners and count as polygons.
+// Class of an opening, which decides the number of views and the layers. Openings with sharper or
+// narrower bright parts require more views and finer layers. Cat's eyes create corners and count as
+// polygons.
 enum class Demand { kFallOff, kDisc, kPolygon, kRing };
 Demand DemandOf(const ApertureShape& opening);
 
-// Returns the number of views along the aperture radius by (9). r_max >= 0 is in pixels; 0 needs
-// only the centre view.
+// Returns the number of views along the aperture radius by (9). r_max >= 0 is in pixels. At r_max =
+// 0 the result is 0, which stands for the centre view alone.
 int32_t ViewsByPaper(double r_max);
 
 // Returns N for views that each represent a subaperture: the radius of the lens in subapertures
-// (LensInSubapertures of lib/base/view_weights.h), rounded up. The error is at most that of (9),
-// also for every smaller radius. lib/analysis/subaperture_rule.h states the criterion. r_max is in
-// [0, 128] pixels:
+// (LensInSubapertures of lib/base/view_weights.h), rounded up. The error is at most the error of
+// (9), at r_max and at every smaller radius. lib/analysis/subaperture_rule.h states the criterion.
+// r_max is in [0, 128] pixels:
 //
 //   r_max <=  1/2  5.5   11   25   34   49   68   83  119  128
 //   N           0    3    4    5    6    7    9   11   12   13
 //
-// Openings without fall-off have at least 4. Polygons and rings have corners and narrow parts;
-// above 5 pixels their N is at least 6 (docs/constants.md, Openings).
+// N is at least 4 for openings without fall-off that need more than the centre view. Polygons and
+// rings have corners and narrow parts; above 5 pixels their N is at least 6 (docs/constants.md,
+// Openings).
 int32_t ViewsBySubaperture(double r_max, Demand demand = Demand::kFallOff);
 
-// Returns n * scale, rounded up, for the N of either rule. `scale` is in [0.5, 2]; 0 views stay 0.
+// Returns n * scale, rounded up, for the N of either rule. `scale` is in [0.5, 2]; the result for n
+// = 0 is 0.
 int32_t ScaleViews(int32_t n, double scale);
 
 // Returns the number of views along the aperture radius in benchmark mode: 2 * ceil(r_max).
@@ -38,14 +41,15 @@ int32_t ViewsOfBenchmark(double r_max);
 
 // Return the layer, 0 to 2, for the smallest blur radius of a block in pixels. LayerByPaper
 // implements (12). LayerBySubaperture is the more careful rule that complements ViewsBySubaperture;
-// `depth_edges` is true if depth edges may splat into the block. Layers lose more of openings
-// without fall-off. For these, layers begin at the radii where the error (10) is as small as at the
-// first radius of the fall-off.
+// `depth_edges` is true if depth edges may splat into the block. For openings without fall-off,
+// subsampling has a larger error. Their layers begin at the radii where the error (10) is as small
+// as at the first radius of openings with fall-off.
 int32_t LayerByPaper(double r_min, Demand demand = Demand::kFallOff);
 int32_t LayerBySubaperture(double r_min, bool depth_edges, Demand demand = Demand::kFallOff);
 
 // Largest blur radius in pixels that is gathered instead of rendered from views. The number of
-// filter taps grows with its square. Smaller values are slower and less exact (docs/constants.md).
+// filter taps grows with the square of the radius. Smaller limits are slower and less exact
+// (docs/constants.md).
 inline constexpr int32_t kMaxGather = 12;
 
 // Returns the largest gathered radius if no blur radius exceeds r_max.

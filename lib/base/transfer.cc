@@ -15,8 +15,8 @@ constexpr double FifthRoot(double value) {
   return root;
 }
 
-// Returns the light of a code; white is 1. It is evaluated at compile time in IEEE arithmetic, so
-// all machines have the same tables.
+// Returns the light of a code; white is 1. The compiler evaluates this function in IEEE arithmetic,
+// so all machines have the same tables.
 constexpr double LinearOf(double code) {
   const double value = code / 255;
   if (value <= 0.04045) return value / 12.92;
@@ -43,8 +43,8 @@ struct CodeTables {
     }
   }
 
-  // Returns the smallest light level that is nearer to `code` than to code - 1, on the scale of
-  // codes.
+  // Returns the smallest light level whose nearest code, on the scale of codes, is `code` rather
+  // than code - 1.
   static constexpr int32_t FirstOf(int32_t code) {
     const double light = LinearOf(code - 0.5) * kLightWhite;
     const auto whole = static_cast<int32_t>(light);

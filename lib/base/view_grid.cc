@@ -7,8 +7,8 @@ namespace starfocus {
 
 namespace {
 
-// Spread of a run in pixels, kShiftBits. In any view a run displaces its pixels by at most half of
-// it. Half the spread improves nothing (docs/constants.md).
+// Spread of a run in pixels, kShiftBits. In any view a run displaces its pixels by at most half the
+// spread. Halving the spread brings no improvement (docs/constants.md).
 constexpr int32_t kRunSpread = kShiftOne / 4;
 
 }  // namespace
@@ -28,8 +28,8 @@ ViewGrid MakeViewGrid(const ViewWeights& aperture, double focus, double aperture
       ++grid.half_views;
     }
   }
-  // A run covers a disparity range of at most spread / (u_t / 2^layer), and a depth edge always
-  // ends it.
+  // A run covers a disparity range of at most spread / (u_t / 2^layer), and ends at every depth
+  // edge.
   const int64_t spread =
       (int64_t{kRunSpread} << (kStepBits + kDisparityBits - kShiftBits)) / grid.step;
   grid.spread = static_cast<int32_t>(spread < kSurfaceStep ? spread : kSurfaceStep);

@@ -28,7 +28,7 @@ struct ViewGrid {
   int64_t Move(int32_t i) const { return (i * step + n() / 2) / n(); }
 
   // Returns the displacement in pixels (kShiftBits) of disparity `disparity` in a view at `move`.
-  // Its absolute value is at most the blur radius.
+  // The absolute value of the displacement is at most the blur radius.
   int32_t Shift(int64_t move, int32_t disparity) const {
     return static_cast<int32_t>(
         Checked(ranges::kShift,

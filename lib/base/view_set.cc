@@ -24,7 +24,8 @@ int16_t Converted(double coordinate) {
   return static_cast<int16_t>(scaled < 0 ? scaled - 0.5 : scaled + 0.5);
 }
 
-// Views are ignored if they lie at least this many times as far from the side's axis as along it.
+// Views are ignored if their distance from the axis of the side is at least kTooFarBeside times
+// their distance along the axis.
 constexpr int32_t kTooFarBeside = 8;
 
 // Rates how well a view sees behind edges on a side.
@@ -35,10 +36,11 @@ struct Rating {
   bool Helps() const { return across < kTooFarBeside * along; }
   // True if the view lies closer to the direction of this side than to any other.
   bool Own() const { return across < along; }
-  // Distance along the axis, reduced for the distance from it.
+  // Twice the distance along the axis, minus the distance from the axis.
   int32_t Merit() const { return 2 * along - across; }
 
-  // True if this view is better. The order does not depend on the order of the captured views.
+  // True if this view is better than `other`. The order does not depend on the order of the
+  // captured views.
   bool Before(const Rating& other) const {
     if (Own() != other.Own()) return Own();
     if (Merit() != other.Merit()) return Merit() > other.Merit();

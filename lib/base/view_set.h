@@ -27,15 +27,15 @@ struct OcclusionView {
   ViewPosition at;
 };
 
-// Largest number of views that are read behind an edge.
+// Largest number of views that the engine reads for each direction.
 inline constexpr int kOcclusionViews = 2;
 
 // Views that see behind depth edges in each direction, in the order of kSides, best view first.
 struct OcclusionViews {
   OcclusionView on[kSideCount][kOcclusionViews] = {};
 
-  // Returns the last view of a side. If the views lie on the axis of the side, it is the nearest
-  // one.
+  // Returns the last view of a side. Among views on the axis of the side, the last view is the
+  // nearest one.
   const OcclusionView& Last(int side) const {
     return on[side][on[side][kOcclusionViews - 1].view != 0 ? kOcclusionViews - 1 : 0];
   }
@@ -66,13 +66,14 @@ bool HasStar(const starfocus_config& config);
 bool SameViews(const starfocus_config& a, const starfocus_config& b);
 
 // Chooses the views that see behind edges on each side: the views whose direction is closer to that
-// side than to any other. The farthest views near the axis of the side come first, because they see
-// the most. A side without such a view uses others up to 83 degrees from its axis. They see behind
-// thin or slanted edges; views at larger angles would see next to nothing (docs/constants.md).
+// side than to any other. The farthest views near the axis of the side come first, because the area
+// that they see behind an edge is the largest. A side without such a view uses other views, up to
+// 83 degrees from its axis, which see behind thin or slanted edges. Views at larger angles would
+// see next to nothing (docs/constants.md).
 OcclusionViews ChooseOcclusionViews(const ViewSet& views);
 
 // Returns a distance between pixels of the centre view, scaled to a view at `position` (kViewBits)
-// on an axis. Rounds halves away from 0.
+// on an axis. The result is rounded half away from 0.
 constexpr int32_t ScaledByView(int32_t position, int32_t distance, int bits) {
   const int64_t product = int64_t{position < 0 ? -position : position} * distance;
   const auto scaled = static_cast<int32_t>(RoundShift(product, bits));

@@ -8,8 +8,9 @@
 namespace starfocus {
 namespace {
 
-// Returns (3) relative to its centre, (c / (rho^2 + c))^2 with rho^2 = square / n^2, with 20
-// fractional bits. It uses only integers, so every machine computes the same weights.
+// Returns the value of (3) relative to its value at the centre, (c / (rho^2 + c))^2 with rho^2 =
+// square / n^2, with 20 fractional bits. The computation uses only integers, so every machine gets
+// the same weights.
 uint64_t Relative(uint64_t square, uint64_t n_square, uint64_t fall_off) {
   const uint64_t denominator = (square << 16) + fall_off * n_square;   // < 2^40
   const uint64_t ratio = ((fall_off * n_square) << 24) / denominator;  // 2^24 at the centre
@@ -59,12 +60,12 @@ void Weigh(bool by_size, const Light& light, uint16_t* weights, ViewWeights* ape
     aperture->views += views;
   });
   // The largest sum for which the largest weight fits 15 bits, with a margin for the rounding of
-  // the others.
+  // the other weights.
   int bits = aperture->most_bits;
   while (bits > 1 && (largest << bits) / total > static_cast<uint64_t>(kMaxWeight - 8)) --bits;
   aperture->sum_bits = bits;
-  // Each orbit absorbs the rounding error of the orbits before it. The centre is alone in its orbit
-  // and leaves no error, nor does any view that shares its weight with no other.
+  // The views that share a weight form an orbit. Each orbit absorbs the rounding error of the
+  // orbits before it. An orbit of a single view, such as the centre, leaves no error.
   uint64_t wanted = 0;
   int64_t given = 0;
   ForEachWeight(*aperture, by_size, [&](int32_t i, int32_t j, int32_t views) {
@@ -92,8 +93,8 @@ void ForEachPoint(int32_t i, int32_t j, const Visit& visit) {
   }
 }
 
-// Returns the light, 20 bits, that passes through the subaperture around (i, j): the mean over its
-// points. `radius` is the radius of the lens in kSubapertureUnits.
+// Returns the light, 20 bits, that passes through the subaperture around (i, j): the mean over the
+// sampling points. `radius` is the radius of the lens in kSubapertureUnits.
 uint64_t LightOfSubaperture(int32_t i, int32_t j, int32_t radius, uint32_t fall_off) {
   const auto lens = static_cast<uint64_t>(radius) * static_cast<uint64_t>(radius);
   int bits = 0;  // bits that are dropped so that Relative does not overflow
@@ -115,8 +116,8 @@ uint32_t OpenPoints(int32_t i, int32_t j, int32_t radius, const ApertureShape& o
   return open;
 }
 
-// Same as OpenPoints for polygons. A polygon is convex: if the corners of a subaperture are inside,
-// the whole subaperture is.
+// Faster version of OpenPoints for polygons. A polygon is convex: if the corners of a subaperture
+// are inside, the whole subaperture is inside.
 uint32_t OpenPointsOfPolygon(int32_t i, int32_t j, int32_t radius, const ApertureShape& opening) {
   constexpr int32_t kHalf = kSubapertureUnits / 2;
   const int64_t x = kSubapertureUnits * (i < 0 ? -i : i) + kHalf;
@@ -157,8 +158,8 @@ void WeighSubapertures(const ApertureShape& opening, uint16_t* weights, ViewWeig
       aperture);
 }
 
-// Upper bound of the distance of sampling points from the middle of a subaperture: half its
-// diagonal.
+// Upper bound of the distance of sampling points from the middle of a subaperture: half the
+// diagonal of the subaperture.
 constexpr int64_t kNear = 23;
 static_assert(2 * kNear * kNear >= kSubapertureUnits * kSubapertureUnits / 2, "half a diagonal");
 

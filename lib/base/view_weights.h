@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Integer weights of the rendered views: the aperture (3), or another opening, sampled on their
-// grid.
+// Integer weights of the rendered views: the aperture (3) or another opening, sampled on the grid
+// of the views.
 #ifndef STARFOCUS_LIB_BASE_VIEW_WEIGHTS_H_
 #define STARFOCUS_LIB_BASE_VIEW_WEIGHTS_H_
 
@@ -12,10 +12,10 @@
 
 namespace starfocus {
 
-// Weights of the views (i, j) with i^2 + j^2 <= most. They sum to exactly 2^sum_bits, so that a
-// picture of one colour remains unchanged.
+// Weights of the views (i, j) with i^2 + j^2 <= most. The weights sum to exactly 2^sum_bits, so
+// that a picture of one colour remains unchanged.
 struct ViewWeights {
-  int32_t n = 0;     // N
+  int32_t n = 0;     // N, the number of views along the radius
   int32_t last = 0;  // i of the outermost view (i, 0)
   int32_t most = 0;
   int sum_bits = 1;
@@ -24,8 +24,8 @@ struct ViewWeights {
   double extent = 1;  // distance of the outermost subapertures, in radii of the lens
   // Radius of the lens, in 1 / kSubapertureUnits of the distance between views.
   int32_t radius = 0;
-  // If `full` is false, the weight of view 0 <= j <= i <= n is at index i (i + 1) / 2 + j. If it is
-  // true, the weights of all i, j in [-n, n] are stored, column by column.
+  // If `full` is false, the weight of view 0 <= j <= i <= n is at index i (i + 1) / 2 + j. If
+  // `full` is true, the weights of all i, j in [-n, n] are stored, column by column.
   bool full = false;
   const uint16_t* weights = nullptr;
 
@@ -40,21 +40,23 @@ struct ViewWeights {
 };
 
 // Radius of the lens in subapertures, times kSubapertureUnits, for the N of ViewsBySubaperture. The
-// values are computed, not tuned. At N = 4, over all radii that N serves, no lens with as many
-// views has less than half of the worst error of 123. At N = 5 none has a smaller error than
-// 32 * 5 - 11. At N = 3 none has a smaller error than 94, among those within the threshold at every
-// radius. See WorstOfLens in lib/analysis/subaperture_rule.h, and the tables in docs/constants.md.
+// values are computed, not tuned. At N = 4 the radius 123 has at most twice the worst error of any
+// other radius with as many views, over the blur radii that use this N. At N = 5 no radius has a
+// smaller error than 32 * 5 - 11. At N = 3 no radius that meets the threshold at every blur radius
+// has a smaller error than 94. See WorstOfLens in lib/analysis/subaperture_rule.h, and the tables
+// in docs/constants.md.
 inline constexpr int32_t kSubapertureUnits = 32;
 constexpr int32_t LensInSubapertures(int32_t n) {
   return n == 1 ? kSubapertureUnits : n == 3 ? 94 : n == 4 ? 123 : kSubapertureUnits * n - 11;
 }
 
-// Subapertures whose centres lie up to this far outside the rim are rendered, too. At N = 4 this
-// halves the worst error with the four views on the axes.
+// Largest distance by which the centre of a rendered subaperture may lie outside the rim, in 1 /
+// kSubapertureUnits. At N = 4 this adds the four outermost views on the axes, which halves the
+// worst error.
 inline constexpr int32_t kBeyondRim = 5;
 
-// Largest distance of the centre of a subaperture from the axis of the lens, kSubapertureUnits, and
-// the corresponding `last` and `most` of ViewWeights.
+// Largest distance of the centre of a subaperture from the axis of the lens, in 1 /
+// kSubapertureUnits, and the corresponding `last` and `most` of ViewWeights.
 constexpr int32_t FarthestOfLens(int32_t lens) { return lens + kBeyondRim; }
 constexpr int32_t LastOfLens(int32_t lens) { return FarthestOfLens(lens) / kSubapertureUnits; }
 constexpr int32_t MostOfLens(int32_t lens) {
@@ -66,7 +68,7 @@ constexpr int32_t LastSubaperture(int32_t n) {
 constexpr int32_t MostOfSubapertures(int32_t n) {
   return n == 0 ? 0 : MostOfLens(LensInSubapertures(n));
 }
-// Distance of the last subaperture, in radii of the lens.
+// Distance of the outermost subaperture from the axis of the lens, in radii of the lens.
 constexpr double SubapertureExtent(int32_t n) {
   return n == 0
              ? 1
@@ -75,7 +77,8 @@ constexpr double SubapertureExtent(int32_t n) {
 
 inline constexpr int32_t kMaxViewsAlongRadius = 256;
 
-// Largest SubapertureExtent of any N. It exceeds 1 because the views of N = 4 reach beyond the rim.
+// Largest SubapertureExtent of any N. The extent exceeds 1 at N = 4, whose views reach beyond the
+// rim.
 constexpr double LargestSubapertureExtent() {
   double largest = 1;
   for (int32_t n = 1; n <= kMaxViewsAlongRadius; ++n) {
@@ -101,12 +104,12 @@ inline size_t ViewWeightsSize(const ApertureShape& opening, int32_t n) {
 ViewWeights MakeViewWeights(int32_t n, const ApertureShape& opening, uint16_t* weights);
 
 // Computes the weights of views that represent subapertures of a lens of radius
-// LensInSubapertures(n). A subaperture that straddles the rim counts only with the part inside. n
-// is in [0, kMaxViewsAlongRadius]; 0 is the centre view alone.
+// LensInSubapertures(n). Only the part inside the rim counts for a subaperture that straddles the
+// rim. `n` is in [0, kMaxViewsAlongRadius]; n = 0 is the centre view alone.
 ViewWeights MakeSubapertures(int32_t n, const ApertureShape& opening, uint16_t* weights);
 
-// Applies a rim behind the opening to the weights `whole` of N >= 1. The sum of all weights stays
-// the same. Fills weights[FullApertureSize(n)].
+// Applies a rim behind the opening to the weights `whole` of N >= 1. The sum of all weights does
+// not change. Fills weights[FullApertureSize(n)].
 ViewWeights MakeCatsEye(const ViewWeights& whole, const ApertureShape& opening,
                         const RimShift& shift, uint16_t* weights);
 
