@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The subcommand analyze by its results. It takes longer than all others together, and so has a
-// program of its own.
+// Tests the results of the subcommand analyze. It is in a separate file, because it takes longer
+// than all other subcommands together.
 #include <doctest/doctest.h>
 
 #include <filesystem>
@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Sanitizers look at the same code for blurs that just reach every layer by every rule, in a
+// With sanitizers, blurs only just reach every layer by every rule. This runs the same code in a
 // fraction of the time.
 #if defined(__SANITIZE_ADDRESS__)
 constexpr const char* kMaxBlur = "25";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs the program STARFOCUS_PROGRAM, or starfocus-lab beside it.
+// Runs the program STARFOCUS_PROGRAM, or starfocus-lab in the same folder.
 #ifndef STARFOCUS_TESTS_CLI_CALL_PROGRAM_H_
 #define STARFOCUS_TESTS_CLI_CALL_PROGRAM_H_
 
@@ -16,7 +16,7 @@
 
 namespace starfocus {
 
-// The program that has the subcommand at the beginning of `arguments`.
+// Returns the program that has the subcommand at the start of `arguments`.
 inline std::string ProgramFor(const std::string& arguments) {
   const std::string command = arguments.substr(0, arguments.find(' '));
   for (const char* one : {"analyze", "calibrate", "compare", "scene", "sheet", "stress"}) {
@@ -26,7 +26,7 @@ inline std::string ProgramFor(const std::string& arguments) {
 }
 
 struct Outcome {
-  int code = -1;  // exit code; -1 when a signal ended the program
+  int code = -1;  // exit code, or -1 if a signal ended the program
   std::string out, err;
 };
 
@@ -35,7 +35,7 @@ inline std::string Text(const std::string& path) {
   return std::string(bytes.begin(), bytes.end());
 }
 
-// Runs a program in `folder` with shell-quoted arguments, after the shell's `before`.
+// Runs a program in `folder` with shell-quoted arguments. The shell runs `before` first.
 inline Outcome Call(const TempFolder& folder, const std::string& arguments,
                     const std::string& before = "") {
   TempFolder logs;
@@ -51,21 +51,21 @@ inline Outcome Call(const TempFolder& folder, const std::string& arguments,
   return outcome;
 }
 
-// Calls what has to succeed.
+// Runs a call that must succeed.
 inline void Succeed(const TempFolder& folder, const std::string& arguments) {
   CAPTURE(arguments);
   REQUIRE(Call(folder, arguments).code == 0);
 }
 
-// What stands in an error line behind the name of the program.
+// Returns the text of an error line after the name of the program.
 inline std::string ErrorOf(const std::string& err) {
   const size_t begin = err.rfind("starfocus-lab: ", 0) == 0 ? 15 : 11;
   CHECK((begin == 15 || err.rfind("starfocus: ", 0) == 0));
   return err.substr(std::min(begin, err.size()));
 }
 
-// One line on stderr that begins with the program and says what was expected and found, or what the
-// program cannot do to which file, and why.
+// Checks that stderr is one line that begins with the name of the program. It must state either
+// what was expected and found, or what the program cannot do with which file, and why.
 inline void CheckErrorLine(const std::string& err) {
   CHECK(err.find('\n') == err.size() - 1);
   const bool cannot = ErrorOf(err).rfind("cannot ", 0) == 0;

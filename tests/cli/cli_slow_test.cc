@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The subcommands by their results and what they refuse.
+// Tests the results of the subcommands, and the arguments that they reject.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -21,15 +21,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TEST_CASE("cli: sessions") { RunSessions("cli/slow_sessions.txt", {{"light fields", Prepare}}); }
+TEST_CASE("cli: the sessions of the table succeed") {
+  RunSessions("cli/slow_sessions.txt", {{"light fields", Prepare}});
+}
 
-TEST_CASE("cli: bad input is refused") {
+TEST_CASE("cli: bad input is rejected") {
   TempFolder folder;
   Prepare(folder);
   CheckRefusals(folder, "refusals.txt");
 }
 
-TEST_CASE("cli: a region is that part of the picture") {
+TEST_CASE("cli: a region equals this part of the whole picture") {
   TempFolder folder;
   Prepare(folder);
   Succeed(folder, "refocus lf -o whole.png --focus 0.5 --map map.png");
@@ -48,14 +50,14 @@ TEST_CASE("cli: a region is that part of the picture") {
   CHECK(Contains(Text(folder.file("part.json")), "\"region\": ["));
 }
 
-TEST_CASE("cli: a video is its frames one by one, but for the work") {
+TEST_CASE("cli: the frames of a video equal single pictures, but reuse blocks") {
   TempFolder folder;
   Succeed(folder, "scene lf --size 200x100 --views 5 --name wires");
   REQUIRE(fs::create_directory(folder.file("in")));
   for (const char* name : {"in/1", "in/2", "in/3", "in/4"}) {
     fs::copy(folder.file("lf"), folder.file(name));
   }
-  // The third and fourth frame differ from the others in a corner.
+  // The third and the fourth frame differ from the others in a corner.
   Image view;
   const std::string centre = folder.file("in/3/view_+0.0_+0.0.png");
   view = ValueOf(ReadImage(centre));
@@ -65,7 +67,7 @@ TEST_CASE("cli: a video is its frames one by one, but for the work") {
   const std::string lens = " --focus 3 --aperture 0.2 --superblock 32";
   Succeed(folder, "video in -o out --report v.json" + lens);
   Succeed(folder, "video in/1 in/3 -o two" + lens);
-  // Neither a hidden folder nor its own output is a frame.
+  // Hidden folders and the output folder are not frames.
   REQUIRE(fs::create_directory(folder.file("in/.cache")));
   REQUIRE(fs::create_directory(folder.file("in/out")));
   Succeed(folder, "video in -o in/out" + lens);
@@ -78,7 +80,7 @@ TEST_CASE("cli: a video is its frames one by one, but for the work") {
   }
   CHECK(Text(folder.file("two/frame_0001.png")) == Text(folder.file("out/frame_0002.png")));
   CHECK(Text(folder.file("two/frame_0000.png")) != Text(folder.file("two/frame_0001.png")));
-  // Blocks of the frames: none of the first, all, most, all.
+  // Reused blocks per frame: none of the first, then all, most, and all.
   const std::string report = Text(folder.file("v.json"));
   std::vector<int> reused;
   for (size_t at = report.find("\"reused_blocks\": "); at != std::string::npos;
@@ -94,7 +96,7 @@ TEST_CASE("cli: a video is its frames one by one, but for the work") {
   CHECK(reused[4] == reused[1] + reused[2] + reused[3]);
 }
 
-TEST_CASE("cli: a sweep is its pictures one by one") {
+TEST_CASE("cli: the pictures of a sweep equal single pictures") {
   TempFolder folder;
   Prepare(folder);
   for (const std::string more : {"", " --mode frame --aperture 0.5", " --region 3,4,20,21"}) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light fields without a disparity map: `starfocus disparity`, and what else estimates one.
+// Tests light fields without a disparity map: `starfocus disparity`, and other commands that
+// estimate maps.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -19,14 +20,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A light field `lf` with its map, and `bare` without.
+// Writes the light field `lf` with its map, and `bare` without the map.
 void PrepareScene(const TempFolder& folder, const std::string& name = "wires --size 160x120") {
   Succeed(folder, "scene lf --views 5 --name " + name);
   fs::copy(folder.file("lf"), folder.file("bare"));
   fs::remove(folder.file("bare/disparity.pfm"));
 }
 
-TEST_CASE("disparity: finds the range and most of the map of a traced scene") {
+TEST_CASE("disparity: the range and most of the map of a traced scene are found") {
   TempFolder folder;
   PrepareScene(folder);
   const Outcome made = Call(folder, "disparity bare --confidence sure.png");
@@ -48,7 +49,7 @@ TEST_CASE("disparity: finds the range and most of the map of a traced scene") {
   CHECK(sure.height == 120);
 }
 
-// The map of `lf` with its near objects 3 pixels wider, in `worse`.
+// Writes `worse`: the light field `lf` with a map whose near objects are 3 pixels wider.
 void MakeWorse(const TempFolder& folder) {
   fs::copy(folder.file("lf"), folder.file("worse"));
   FloatMap exact = ValueOf(ReadPfm(folder.file("lf/disparity.pfm")));
@@ -68,13 +69,14 @@ double Psnr(const TempFolder& folder, const std::string& names) {
   return std::stod(out.substr(out.find(' ')));
 }
 
-TEST_CASE("disparity --repair, refocus --repair: nearer to the exact map's picture") {
+TEST_CASE(
+    "disparity --repair, refocus --repair: the picture comes closer to that of the exact map") {
   TempFolder folder;
   PrepareScene(folder, "portrait --size 256x192");
   MakeWorse(folder);
   Succeed(folder, "refocus lf -o exact.png --focus 0");
   Succeed(folder, "refocus worse -o worse.png --focus 0 --fill-invalid");
-  CHECK(Call(folder, "refocus worse -o x.png --focus 0").code == 1);  // NaN
+  CHECK(Call(folder, "refocus worse -o x.png --focus 0").code == 1);  // the map has NaN
   const Outcome direct = Call(folder, "refocus worse -o direct.png --focus 0 --repair");
   CAPTURE(direct.err);
   REQUIRE(direct.code == 0);
@@ -89,7 +91,7 @@ TEST_CASE("disparity --repair, refocus --repair: nearer to the exact map's pictu
   CHECK(Text(folder.file("direct.png")) == Text(folder.file("after.png")));
 }
 
-TEST_CASE("disparity --repair, refocus --repair: one view is repaired by its colours") {
+TEST_CASE("disparity --repair, refocus --repair: the map of one view is repaired by colours") {
   TempFolder folder;
   PrepareScene(folder, "portrait --size 256x192");
   fs::copy(folder.file("lf"), folder.file("noisy"));
@@ -117,7 +119,7 @@ TEST_CASE("refocus --repair, import: hair with a closed outline gets its coverag
   REQUIRE(fs::exists(folder.file("imported/coverage.png")));
   Succeed(folder, "refocus imported -o imported.png --focus -4");
   CHECK(Text(folder.file("imported.png")) == Text(folder.file("repaired.png")));
-  // Coverage that was given stays.
+  // Given coverage is kept.
   Succeed(folder, "refocus truth -o given.png --focus -4 --repair");
   CHECK(Psnr(folder, "truth.png given.png") > Psnr(folder, "truth.png repaired.png"));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Inputs of several tests of the programs.
+// Inputs that several tests of the programs use.
 #ifndef STARFOCUS_TESTS_CLI_INPUTS_H_
 #define STARFOCUS_TESTS_CLI_INPUTS_H_
 
@@ -10,8 +10,8 @@
 
 namespace starfocus {
 
-// Writes the folder `truth`, a portrait with the coverage of its hair, and `closed`, the same
-// without.
+// Writes the folders `truth`, a portrait with the coverage of its hair, and `closed`, the same
+// portrait without coverage.
 inline void PrepareHair(const TempFolder& folder) {
   const test::ClosedHair portrait = test::MakeClosedHair();
   LightField field;
@@ -26,8 +26,8 @@ inline void PrepareHair(const TempFolder& folder) {
   REQUIRE(SaveLightField(folder.file("truth"), field, &runner) == "");
 }
 
-// A folder `lf` with disparities of 300 on the left and 0 on the right: at focus 0 an aperture of
-// 128/300 = 0.42667, f/2.34375, blurs by 128 pixels.
+// Writes a folder `lf` with disparities of 300 on the left and 0 on the right. At focus 0, an
+// aperture of 128/300 = 0.42667 or f/2.34375 blurs by 128 pixels.
 inline void MakeDeepFolder(const TempFolder& folder) {
   Succeed(folder, "scene lf --size 40x30 --views 1");
   FloatMap map = ValueOf(ReadPfm(folder.file("lf/disparity.pfm")));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Options in a photographer's words, by the pictures that they give.
+// Tests the options for photographers by the resulting pictures.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -19,11 +19,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TEST_CASE("cli: sessions on lenses, and maps that are made") {
+TEST_CASE("cli: the sessions on lenses and prepared maps succeed") {
   RunSessions("cli/lens_sessions.txt", {{"deep folder", MakeDeepFolder}, {"hair", PrepareHair}});
 }
 
-TEST_CASE("cli: f-stops and strengths are apertures; strength 0 is the centre view") {
+TEST_CASE("cli: f-stops and strengths select apertures, and strength 0 is the centre view") {
   TempFolder folder;
   Succeed(folder, "scene lf --size 40x30 --views 5 --name wires");
   const auto picture = [&](const std::string& options) {
@@ -44,12 +44,12 @@ TEST_CASE("cli: f-stops and strengths are apertures; strength 0 is the centre vi
     picture("--strength 0 " + std::string(more));
     CHECK(ValueOf(ReadImage(folder.file("one.png"))).pixels == centre.pixels);
   }
-  // No blur is too large for it.
+  // With strength 0, no blur exceeds the limit.
   Succeed(folder, "refocus lf -o s.png --sweep -900:900:2 --strength 0");
   CHECK(ValueOf(ReadImage(folder.file("s_001.png"))).pixels == centre.pixels);
 }
 
-TEST_CASE("cli: --focus-at takes the surface around the pixel, not the pixel") {
+TEST_CASE("cli: --focus-at selects the surface around the pixel, not the pixel") {
   TempFolder folder;
   Succeed(folder, "scene lf --size 40x30 --views 5 --name wires");
   FloatMap map = ValueOf(ReadPfm(folder.file("lf/disparity.pfm")));
@@ -62,7 +62,8 @@ TEST_CASE("cli: --focus-at takes the surface around the pixel, not the pixel") {
   CHECK(Text(folder.file("at.png")) == Text(folder.file("d.png")));
 }
 
-TEST_CASE("cli: lamps are nearer to the truth as light, values to that of values") {
+TEST_CASE(
+    "cli: lamps match the truth of light if averaged as light, and that of values as values") {
   TempFolder folder;
   for (const char* traced : {"srgb", "none"}) {
     Succeed(folder, "scene lf --size 120x90 --views 5 --name lamps --truth 4,1 --transfer " +
@@ -85,7 +86,7 @@ TEST_CASE("cli: lamps are nearer to the truth as light, values to that of values
   }
 }
 
-TEST_CASE("cli: clipped lamps are nearer to the truth as highlights") {
+TEST_CASE("cli: clipped lamps are closer to the truth with highlights") {
   TempFolder folder;
   Succeed(folder, "scene lf --size 160x120 --views 5 --name lamps --truth 4,1");
   Image truth = ValueOf(ReadImage(folder.file("lf/truth_dt4_ut1.png")));
@@ -100,7 +101,7 @@ TEST_CASE("cli: clipped lamps are nearer to the truth as highlights") {
   CHECK(bright - clipped > 0.5);
 }
 
-TEST_CASE("cli: sweeps, videos, pages and batches fit the limit of blur, too") {
+TEST_CASE("cli: apertures of sweeps, videos, pages and batches are reduced to the limit of blur") {
   TempFolder folder;
   MakeDeepFolder(folder);
   fs::copy(folder.file("lf"), folder.file("second"));
@@ -125,7 +126,7 @@ TEST_CASE("cli: sweeps, videos, pages and batches fit the limit of blur, too") {
     CHECK(!Contains(named.err, "aperture"));
   }
   CHECK(Contains(Call(folder, "refocus lf second --focus 0 -o batch/").err, "second: aperture f/"));
-  // What fits a video fits all of its frames.
+  // The aperture of a video is reduced for all of its frames.
   FloatMap map = ValueOf(ReadPfm(folder.file("second/disparity.pfm")));
   for (float& value : map.values) value *= 4.0f / 3;
   REQUIRE(WritePfm(folder.file("second/disparity.pfm"), map) == "");
@@ -134,11 +135,12 @@ TEST_CASE("cli: sweeps, videos, pages and batches fit the limit of blur, too") {
   CHECK(Contains(frames.err, "f/3.13 or narrower"));
 }
 
-TEST_CASE("cli: without a hint the nearest large surface near the centre is in focus") {
+TEST_CASE("cli: by default, the nearest large surface near the centre is in focus") {
   TempFolder folder;
   Succeed(folder, "scene lf --size 160x120 --views 1");
   FloatMap map = ValueOf(ReadPfm(folder.file("lf/disparity.pfm")));
-  // A wall at 1, a subject at 6 right of the centre, a wire at 9, and something at 20 in a corner.
+  // A wall at 1, a subject at 6 to the right of the centre, a wire at 9, and an object at 20 in a
+  // corner.
   for (int y = 0; y < map.height; ++y) {
     for (int x = 0; x < map.width; ++x) {
       float& value = map.values[size_t(y) * size_t(map.width) + size_t(x)];
@@ -157,7 +159,7 @@ TEST_CASE("cli: without a hint the nearest large surface near the centre is in f
   const Outcome video = Call(folder, "video lf -o out --report v.json");
   CHECK(video.code == 0);
   CHECK(Contains(Text(folder.file("v.json")), "\"focus\": 6.0"));
-  // Each input of a batch has its own.
+  // Each input of a batch has its own default focus.
   fs::copy(folder.file("lf"), folder.file("other"));
   for (float& value : map.values) value = -2;
   REQUIRE(WritePfm(folder.file("other/disparity.pfm"), map) == "");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The program with too little memory, by limits in small steps: it succeeds, or it says that it is
-// out of memory and leaves nothing behind.
+// Runs the programs with too little memory, with limits in small steps. A program must either
+// succeed, or report that it is out of memory and leave no files.
 #include <doctest/doctest.h>
 
 #include <filesystem>
@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Sanitizers take addresses of their own, which the limit would refuse.
+// Sanitizers reserve large address ranges, which the limit would not allow.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr bool kLimitless = true;
 #elif defined(__has_feature)
@@ -30,7 +30,8 @@ Outcome CallWithin(const TempFolder& folder, int limit, const std::string& argum
   return Call(folder, arguments, "ulimit -v " + std::to_string(limit) + " &&");
 }
 
-// The lowest limit in KiB, nearly, within which a program starts at all and does so little.
+// Returns nearly the lowest limit in KiB at which a program starts and runs the trivial command
+// `little`.
 int FindStart(const TempFolder& folder, const std::string& little) {
   int low = 1000, high = 100000;
   REQUIRE(CallWithin(folder, high, little).code == 0);
@@ -41,8 +42,8 @@ int FindStart(const TempFolder& folder, const std::string& little) {
   return high;
 }
 
-// Tries limits from `start` to `range` KiB above it. `output` is what the command writes, a file or
-// folder; `right` says whether it is as it is with enough memory.
+// Tries limits from `start` to `range` KiB above it. `output` is the file or folder that the
+// command writes. `right` returns true if the output equals that with enough memory.
 template <class Right>
 void CheckLimits(const TempFolder& folder, int start, const std::string& arguments, int range,
                  const std::string& output, const Right& right) {
@@ -71,7 +72,8 @@ void CheckLimits(const TempFolder& folder, int start, const std::string& argumen
   CHECK(failures < kSteps);
 }
 
-TEST_CASE("memory limits: one clear error each, or the right result" * doctest::skip(kLimitless)) {
+TEST_CASE("memory limits: each limit gives one clear error or the right result" *
+          doctest::skip(kLimitless)) {
   TempFolder folder;
   Succeed(folder, "scene lf --size 240x180 --views 5");
   Succeed(folder, "refocus lf --focus 2 -o right.png");

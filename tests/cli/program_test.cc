@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every subcommand has in common: exit codes, help, the version, refusals, and output that is
-// lost.
+// Tests the features that all subcommands share: exit codes, help, the version, rejected arguments,
+// and lost output.
 #include "examples/command_line/program.h"
 
 #include <doctest/doctest.h>
@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TEST_CASE("program: exit codes tell whose an error is") {
+TEST_CASE("program: exit codes distinguish errors of the user, the input and the program") {
   CHECK(RunProgram("test", [] { return Error(); }) == 0);
   CHECK(RunProgram("test", [] { return Expected("file", "a", "b"); }) == 1);
   CHECK(RunProgram("test", [] { return Error::Usage("--option", "a", "b"); }) == 2);
@@ -48,7 +48,7 @@ TEST_CASE("program: a signal leaves no temporary file") {
   CHECK(folder.count() == 0);
 }
 
-TEST_CASE("program: every way to ask for help tells the same") {
+TEST_CASE("program: every way to request help prints the same text") {
   TempFolder folder;
   const Outcome all = Call(folder, "help");
   CHECK(all.code == 0);
@@ -63,7 +63,7 @@ TEST_CASE("program: every way to ask for help tells the same") {
     CHECK(one.code == 0);
     CHECK(Contains(one.out, "starfocus " + command + " [OPTIONS]"));
     for (const char* way : {" --help", " -h"}) CHECK(Call(folder, command + way).out == one.out);
-    // Each option says what it takes.
+    // Each option names the kind of its value.
     CHECK(!Contains(one.out, " TEXT"));
   }
   for (const std::string command :
@@ -165,7 +165,7 @@ TEST_CASE("program: the manual and the completion have every option") {
   CHECK(complete("help vid") == "video\n");
 }
 
-TEST_CASE("program: output that does not arrive is an error") {
+TEST_CASE("program: output that cannot be written is an error") {
   TempFolder folder;
   Succeed(folder, "scene lf --size 20x15 --views 1");
   const std::string view = "lf/view_+0.0_+0.0.png ";
@@ -186,18 +186,18 @@ TEST_CASE("program: output that does not arrive is an error") {
   CHECK(Call(folder, "refocus lf --focus 1 -o a.png --report /dev/full").code == 1);
 }
 
-TEST_CASE("program: a subcommand of starfocus-lab names that program") {
+TEST_CASE("program: the error for a subcommand of starfocus-lab names that program") {
   TempFolder folder;
   for (const std::string name : {"analyze", "calibrate", "compare", "scene", "sheet", "stress"}) {
     CAPTURE(name);
     CHECK(Call(folder, name + " --help").code == 0);  // by starfocus-lab
-    // The quotes make it a call of starfocus.
+    // The quotes make this a call of starfocus.
     CheckRefused(folder, "'" + name + "' lf",
                  "command line: expected `starfocus-lab " + name + "`, found '" + name + "'");
   }
 }
 
-TEST_CASE("program: a refusal names its true cause") {
+TEST_CASE("program: an error names its true cause") {
   TempFolder folder;
   Prepare(folder);
   const size_t before = LightFieldFiles(folder.file("lf")).size();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Calls of the program that are refused, and broken inputs for them.
+// Calls that the program rejects, and malformed inputs for them.
 #ifndef STARFOCUS_TESTS_CLI_REFUSALS_H_
 #define STARFOCUS_TESTS_CLI_REFUSALS_H_
 
@@ -19,8 +19,8 @@
 
 namespace starfocus {
 
-// Nothing on stdout, no new file, and exit code 2 where the error line is about the command line, 1
-// where it is about a file.
+// Checks that a call prints nothing to stdout and writes no file. The exit code must be 2 for an
+// error in the command line, and 1 for an error in a file.
 inline void CheckRefused(const TempFolder& folder, const std::string& arguments,
                          const std::string& mention) {
   CAPTURE(arguments);
@@ -52,8 +52,8 @@ inline void CheckRefusals(const TempFolder& folder, const std::string& name) {
   CHECK(rows > 50);
 }
 
-// A folder with a 40x30 light field `lf` of 5 views, `bare` without its map, `link` to it, `grid`
-// of views of other names, and some broken things around them.
+// Writes several inputs: the 40x30 light field `lf` with 5 views, `bare` without its map, `link` to
+// `lf`, and `grid` with other names of views. Also writes malformed files.
 inline void Prepare(const TempFolder& folder) {
   namespace fs = std::filesystem;
   Succeed(folder, "scene lf --size 40x30 --views 5 --name wires");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ray-traced scenes, and strands and coverage of two of them.
+// Tests the ray-traced scenes, and the strands and coverage of two of them.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -16,7 +16,7 @@
 namespace starfocus::scene_slow_test {
 namespace {
 
-// An emulator needs twenty times as long.
+// An emulator would need twenty times as long.
 constexpr int kWidth = 256, kHeight = kWidth * 3 / 4;
 const char* const kNames[] = {"portrait", "wires", "ramp", "hair", "grass"};
 const char* const kStrandNames[] = {"hair", "grass"};
@@ -31,7 +31,8 @@ SceneOpening DefaultOpening() {
   return SceneOpening(params.lens);
 }
 
-// Returns 1 or 0 if the map has one side of the step alone within a pixel of (x, y), else -1.
+// Returns 1 or 0 if all pixels within a pixel of (x, y) are on the near or far side of the step,
+// else -1.
 int SideAround(const FloatMap& map, int x, int y) {
   int near = 0;
   for (int dy = -1; dy <= 1; ++dy) {
@@ -40,7 +41,7 @@ int SideAround(const FloatMap& map, int x, int y) {
   return near == 9 ? 1 : near == 0 ? 0 : -1;
 }
 
-// Returns 1 or 0 if all or nothing is covered within a pixel of (x, y), else -1.
+// Returns 1 or 0 if everything or nothing within a pixel of (x, y) is covered, else -1.
 int CoverAround(const std::vector<uint8_t>& coverage, int x, int y) {
   int whole = 0, none = 0;
   for (int dy = -1; dy <= 1; ++dy) {
@@ -53,7 +54,7 @@ int CoverAround(const std::vector<uint8_t>& coverage, int x, int y) {
   return whole == 9 ? 1 : none == 9 ? 0 : -1;
 }
 
-// Sample of view (u, v) where centre pixel (x, y) of disparity d appears, bilinear; -1 outside.
+// Returns the bilinear sample of a view at (x, y), or -1 outside.
 double WarpedSample(const Image& view, double x, double y, int channel) {
   const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
   if (x0 < 0 || y0 < 0 || x0 + 1 >= view.width || y0 + 1 >= view.height) return -1;
@@ -63,7 +64,8 @@ double WarpedSample(const Image& view, double x, double y, int channel) {
          fy * ((1 - fx) * at(x0, y0 + 1) + fx * at(x0 + 1, y0 + 1));
 }
 
-// Share of centre pixels that the view, warped by `sign` times the disparity, gives back.
+// Returns the share of pixels of the centre view that match the view warped by `sign` times the
+// disparity.
 double WarpAgreement(const Image& centre, const Image& view, const FloatMap& map, double u,
                      double v, double sign) {
   int good = 0, all = 0;
@@ -73,7 +75,8 @@ double WarpAgreement(const Image& centre, const Image& view, const FloatMap& map
       const double sample = WarpedSample(view, x - u * d, y - v * d, 1);
       if (sample < 0) continue;
       ++all;
-      // Sub-pixel shifts of fine texture cost contrast: allow what the neighbourhood spans.
+      // Interpolation reduces the contrast of fine textures, so any value in the range of the
+      // neighbours is allowed.
       double low = 255, high = 0;
       for (int j = -1; j <= 1; ++j) {
         for (int i = -1; i <= 1; ++i) {
@@ -90,14 +93,14 @@ double WarpAgreement(const Image& centre, const Image& view, const FloatMap& map
   return double(good) / all;
 }
 
-TEST_CASE("scene: views warped by the exact disparity give the centre view back") {
+TEST_CASE("scene: views warped by the exact disparity equal the centre view") {
   ThreadRunner runner(2);
   for (const char* name : kNames) {
     const Scene scene = Made(name);
     const RayTracer renderer(scene, kWidth, kHeight, STARFOCUS_TRANSFER_NONE, &runner);
     const Image centre = renderer.View(0, 0, nullptr);
     const FloatMap map = renderer.Disparity();
-    // A third of the grass are pixels that show two surfaces.
+    // A third of the grass pixels show two surfaces.
     const double least = std::string(name) == "grass" ? 0.75 : 0.88;
     for (int index : {1, 4, 6, 16}) {
       double u = 0, v = 0;
@@ -127,7 +130,7 @@ TEST_CASE("scene: a lens stopped down to a pinhole takes the centre view") {
   }
 }
 
-TEST_CASE("scene: what the lens focuses on is sharp, the rest is not") {
+TEST_CASE("scene: the surface in focus is sharp, and the rest is not") {
   ThreadRunner runner(2);
   const Scene scene = Made("ramp");
   const RayTracer renderer(scene, kWidth, kHeight, STARFOCUS_TRANSFER_NONE, &runner);
@@ -143,7 +146,7 @@ TEST_CASE("scene: what the lens focuses on is sharp, the rest is not") {
   CHECK(test::Psnr(band(centre, 2).pixels, band(truth, 2).pixels) < 28);
 }
 
-TEST_CASE("scene: the same pictures for any number of threads, others for another seed") {
+TEST_CASE("scene: pictures do not depend on the number of threads, but on the seed") {
   ThreadRunner one(1), three(3);
   constexpr int kOdd = 61;
   for (const char* name : kNames) {
@@ -164,7 +167,7 @@ TEST_CASE("scene: the same pictures for any number of threads, others for anothe
   }
 }
 
-TEST_CASE("scene: near, middle and far points lie in that order, at any size") {
+TEST_CASE("scene: near, middle and far points are in this order at any size") {
   ThreadRunner runner(1);
   for (const char* name : kNames) {
     const Scene scene = Made(name);
@@ -189,7 +192,7 @@ TEST_CASE("scene: near, middle and far points lie in that order, at any size") {
   }
 }
 
-TEST_CASE("scene: tiny pictures and every pixel finite") {
+TEST_CASE("scene: tiny pictures can be rendered, and every disparity is finite") {
   ThreadRunner runner(1);
   for (const char* name : kNames) {
     const Scene scene = Made(name);
@@ -202,7 +205,7 @@ TEST_CASE("scene: tiny pictures and every pixel finite") {
   CHECK_FALSE(MakeScene("other"));
 }
 
-TEST_CASE("scene: rays meet planes and ellipsoids where algebra says") {
+TEST_CASE("scene: rays meet planes and ellipsoids at the places given by algebra") {
   Surface plane = Piece(Outline::kNone, {10, 20, 3}, {0, 0}, {});
   plane.slope_x = 0.1;
   plane.slope_y = -0.2;
@@ -225,7 +228,7 @@ TEST_CASE("scene: rays meet planes and ellipsoids where algebra says") {
   CHECK_FALSE(Intersect(ball, {200, 2, 0, 0}, &hit));
 }
 
-TEST_CASE("scene: bounds hold every hit") {
+TEST_CASE("scene: the bounds contain every hit") {
   for (const char* name : kNames) {
     const Scene scene = Made(name);
     int outside = 0;
@@ -247,7 +250,7 @@ TEST_CASE("scene: bounds hold every hit") {
   }
 }
 
-TEST_CASE("noise: in range, continuous and not constant") {
+TEST_CASE("noise: values are in range, continuous and not constant") {
   double low = 1, high = 0;
   for (int i = 0; i < 4000; ++i) {
     const double x = i * 0.37 - 500, y = i * 0.11 - 200;
@@ -263,8 +266,8 @@ TEST_CASE("noise: in range, continuous and not constant") {
   CHECK(Triangle(0.5, 1) == doctest::Approx(1));
 }
 
-TEST_CASE("strands: rays meet the nearest strand where algebra says") {
-  // A strand along x, 2 units thick, and one along y before it.
+TEST_CASE("strands: rays meet the nearest strand at the place given by algebra") {
+  // A strand along x, 2 units thick, and a strand along y in front of it.
   const Strands strands(
       {{{-50, 0}, {0, 0}, {50, 0}, 1, 1, 3}, {{0, -50}, {0, 0}, {0, 50}, 0.5, 0.5, 5}});
   StrandHit hit;
@@ -277,7 +280,8 @@ TEST_CASE("strands: rays meet the nearest strand where algebra says") {
   CHECK_FALSE(strands.Find({-51.01, 0}, 0, 0, &hit));
   REQUIRE(strands.Find({0, 0.25}, 0, 0, &hit));
   CHECK(hit.strand == 0);
-  // Through (1, 0) of the lens the front strand lies 5 units to the left, the other one as before.
+  // Seen through (1, 0) of the lens, the front strand is 5 units to the left and the other strand
+  // is unchanged.
   CHECK(strands.Find({0, 0.25}, 1, 0, &hit));
   CHECK(hit.d == 3);
   REQUIRE(strands.Find({-5, 0.25}, 1, 0, &hit));
@@ -336,7 +340,7 @@ TEST_CASE("strand scenes: coverage agrees with the map") {
         clear += cover >= 0 ? 1 : 0;
         against += cover >= 0 && SideAround(map, x, y) != cover ? 1 : 0;
         fractions += level > 0 && level < 255 ? 1 : 0;
-        // Strands that the map does not have.
+        // Strands that are missing in the map.
         lost += level > 0 && SideAround(map, x, y) == 0 ? 1 : 0;
       }
     }
@@ -349,9 +353,9 @@ TEST_CASE("strand scenes: coverage agrees with the map") {
   }
 }
 
-TEST_CASE("strand scenes: coverage is the area of a half plane") {
+TEST_CASE("strand scenes: the coverage of a half plane is its area") {
   Scene scene;
-  // A bar with its left rim at x = 0.3 canvas units: here pixels.
+  // A bar with its left edge at x = 0.3 canvas units, which are pixels here.
   scene.surfaces.push_back(Piece(Outline::kBox, {100.3, 0, 5}, {100, 1000}, {}));
   scene.surfaces.back().foreground = true;
   ThreadRunner runner(1);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sessions with the programs, from tables. A session begins with "== NAME", in an empty folder. Its
-// lines:
-//   $ ARGUMENTS          calls the program, which succeeds
-//   ! ARGUMENTS -> TEXT  calls the program, which refuses that with the text (CheckRefused)
-//   out TEXT, err TEXT   the last call printed the text; with "no " before that, it did not, and
-//   with
-//                        "only " it printed nothing else
-//   % COMMAND            runs a command of the shell, which succeeds
-//   @ NAME               makes inputs, by one of the preparations
+// Runs sessions with the programs from tables. A session begins with "== NAME" in an empty folder,
+// followed by these lines:
+//   $ ARGUMENTS          calls the program, which must succeed
+//   ! ARGUMENTS -> TEXT  calls the program, which must fail with this text (CheckRefused)
+//   out TEXT, err TEXT   the last call must have printed the text
+//   no out TEXT          the last call must not have printed the text; also with err
+//   only out TEXT        the last call must have printed only the text; also with err
+//   % COMMAND            runs a shell command, which must succeed
+//   @ NAME               makes inputs with one of the preparations
 #ifndef STARFOCUS_TESTS_CLI_SESSION_H_
 #define STARFOCUS_TESTS_CLI_SESSION_H_
 
@@ -21,7 +21,7 @@ namespace starfocus {
 
 using Preparations = std::map<std::string, std::function<void(const TempFolder&)>>;
 
-// Checks what a line says of the last call.
+// Checks the output of the last call as a line states it.
 inline void CheckOutcome(std::string line, const Outcome& last) {
   const bool has = line.rfind("no ", 0) != 0, only = line.rfind("only ", 0) == 0;
   if (!has || only) line.erase(0, only ? 5 : 3);

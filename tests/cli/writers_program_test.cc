@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the program writes where, as its user sees it: formats, standard streams, stacks, batches,
-// the page of `view`; and what views at any positions are worth against the ray tracer's truth.
+// Tests the outputs of the program: formats, standard streams, stacks, batches, and the page of
+// `view`. Also compares views at any positions with the truth of the ray tracer.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -25,7 +25,7 @@ void MakeScene(const TempFolder& folder, const std::string& name, const std::str
   Succeed(folder, "scene " + name + " --size 48x36 --views 5 --threads 1 " + more);
 }
 
-TEST_CASE("programs: sessions") { RunSessions("cli/sessions.txt"); }
+TEST_CASE("programs: the sessions of the table succeed") { RunSessions("cli/sessions.txt"); }
 
 TEST_CASE("writers: a sweep is an animation, or a sharp picture with the focus of each pixel") {
   TempFolder folder;
@@ -54,7 +54,7 @@ TEST_CASE("writers: a sweep is an animation, or a sharp picture with the focus o
   CheckErrorLine(wrong.err);
 }
 
-TEST_CASE("writers: a batch goes on after a bad input and says which failed") {
+TEST_CASE("writers: a batch continues after a bad input and names the inputs that failed") {
   TempFolder folder;
   MakeScene(folder, "lf");
   MakeScene(folder, "more/one");
@@ -86,7 +86,7 @@ TEST_CASE("writers: a batch goes on after a bad input and says which failed") {
   }
 }
 
-TEST_CASE("writers: compare draws where pictures differ, and over neither of them") {
+TEST_CASE("writers: compare draws the differences and does not overwrite its inputs") {
   TempFolder folder;
   Image a(4, 3), b(4, 3);
   b.pixels[3 * 5 + 1] = 40;
@@ -103,7 +103,7 @@ TEST_CASE("writers: compare draws where pictures differ, and over neither of the
   CHECK(Call(folder, "compare a.png b.png --map -").code == 2);
 }
 
-TEST_CASE("writers: the page of view has everything in it and says what is to be seen") {
+TEST_CASE("writers: the page of view is self-contained and describes what it shows") {
   TempFolder folder;
   MakeScene(folder, "'a<b&\"c'", "--truth 4,1 --truth 2,0.5");
   Succeed(folder, "view 'a<b&\"c' -o page.html");
@@ -130,7 +130,7 @@ TEST_CASE("writers: the page of view has everything in it and says what is to be
   CheckErrorLine(over.err);
 }
 
-TEST_CASE("progress: tells the share and, after a second, the time that is left") {
+TEST_CASE("progress: it shows the share and, after a second, the remaining time") {
   CHECK(Progress::Text("working", 43, 100, 0.5) == "working: 43 %");
   CHECK(Progress::Text("working", 0, 100, 5) == "working: 0 %");
   CHECK(Progress::Text("working", 25, 100, 4) == "working: 25 %, 12 s left");
@@ -144,7 +144,7 @@ double Psnr(const TempFolder& folder, const std::string& names) {
   return std::atof(outcome.out.c_str() + 5);
 }
 
-TEST_CASE("views: the more sides are captured, the nearer to the truth") {
+TEST_CASE("views: each additional captured side brings the picture closer to the truth") {
   TempFolder folder;
   Succeed(folder, "scene lf --size 256x192 --views 5 --transfer none --truth=-2.4,1");
   const auto error = [&](const std::string& views) {
@@ -155,7 +155,7 @@ TEST_CASE("views: the more sides are captured, the nearer to the truth") {
   const double pair = error("0,0:1,0"), other = error("0,0:-1,0");
   const double corner = error("0,0:1,0:0,1"), row = error("0,0:-1,0:1,0");
   CHECK(five > one + 2);
-  // One of four sides.
+  // One of four sides is captured.
   CHECK(pair > one + 0.15 * (five - one));
   CHECK(other > one + 0.15 * (five - one));
   CHECK(corner > pair);
@@ -164,7 +164,8 @@ TEST_CASE("views: the more sides are captured, the nearer to the truth") {
   CHECK(five > row);
 }
 
-TEST_CASE("views: a stereo pair as Middlebury's is opened, unknown disparities filled") {
+TEST_CASE(
+    "views: a stereo pair in the Middlebury layout is read, and unknown disparities are filled") {
   TempFolder folder;
   Succeed(folder, "scene lf --size 64x48 --views 0,0:1,0");
   LightField field = ValueOf(LoadLightField(folder.file("lf"), {}));
@@ -179,7 +180,7 @@ TEST_CASE("views: a stereo pair as Middlebury's is opened, unknown disparities f
   REQUIRE(WritePfm(folder.file("pair/disp0.pfm"), field.disparity) == "");
   CHECK(Contains(Call(folder, "info pair").out, "1 invalid"));
   REQUIRE(WritePfm(folder.file("lf/disparity.pfm"), field.disparity) == "");
-  // A pair's map has infinite values by its format, a light field's by mistake.
+  // The format of a pair allows infinite values in the map. In a light field they are errors.
   CHECK(Contains(Call(folder, "refocus lf -o c.png --focus 0").err, "--fill-invalid"));
   Succeed(folder, "refocus lf -o c.png --focus 0 --fill-invalid");
   Succeed(folder, "refocus pair -o b.png --focus 0");
