@@ -13,9 +13,8 @@ import java.nio.ByteBuffer;
 import java.nio.ByteOrder;
 
 /**
- * AndroidTest DOUBLE: the routes of Bitmap and HardwareBuffer over doubles of Android's classes and
- * of the NDK's functions, which are in the library DOUBLE. At aperture 0 the picture is the centre
- * view.
+ * AndroidTest DOUBLE: tests the routes of Bitmap and HardwareBuffer. The library DOUBLE replaces
+ * Android's classes and the functions of the NDK. At aperture 0 the picture is the centre view.
  */
 public final class AndroidTest {
   private static final int WIDTH = 50, HEIGHT = 31;
@@ -75,7 +74,7 @@ public final class AndroidTest {
       refocus(view.image, out.image);
     }
     check(camera.locks == 0 && screen.locks == 0, "the buffers are given back");
-    // Gray: R, G and B are the luma.
+    // The picture is grey, so that R, G and B equal the luma.
     for (int i = 0; i < 4 * WIDTH; ++i) {
       final byte expected = i % 4 == 3 ? (byte) 255 : (byte) (i / 4 * 5);
       check(screen.memory.get(256 * (HEIGHT - 1) + i) == expected, "byte " + i + " of the screen");

@@ -5,8 +5,8 @@ import java.nio.ByteBuffer;
 import java.nio.ByteOrder;
 
 /**
- * What the Java API does beside the bytes of the demo: buffers, errors, other threads. It prints
- * what failed and exits with 1.
+ * Tests the parts of the Java API that the demo does not cover: buffers, errors, and threads.
+ * Prints the checks that failed and exits with 1.
  */
 public final class RefocuserTest {
   private static final int WIDTH = 160, HEIGHT = 120;
@@ -24,7 +24,7 @@ public final class RefocuserTest {
     System.err.println("failed: " + what);
   }
 
-  /** Whether the call throws this, with a message that has this part. */
+  /** Checks that the call throws this exception, with a message that contains `part`. */
   private static void checkThrows(Class<?> kind, String part, Call call) {
     try {
       call.run();
@@ -40,14 +40,14 @@ public final class RefocuserTest {
     return ByteBuffer.allocateDirect(count).order(ByteOrder.nativeOrder());
   }
 
-  /** A picture of noise, the same whenever it is made. */
+  /** Returns a picture of noise, the same in each call. */
   private static ByteBuffer picture() {
     final ByteBuffer pixels = bytes(3 * WIDTH * HEIGHT);
     for (int i = 0; i < pixels.capacity(); ++i) pixels.put(i, (byte) (i * i / 7 + i / 480 * 31));
     return pixels;
   }
 
-  /** Disparities from -4 on the left to 4 on the right. */
+  /** Returns disparities from -4 on the left to 4 on the right. */
   private static ByteBuffer ramp() {
     final ByteBuffer map = bytes(4 * WIDTH * HEIGHT);
     for (int i = 0; i < WIDTH * HEIGHT; ++i) map.putFloat(4 * i, i % WIDTH * 8F / WIDTH - 4);
@@ -128,7 +128,7 @@ public final class RefocuserTest {
     final ByteBuffer whole = refocused(1);
     final Parameters parameters = new Parameters();
     parameters.focus = 1;
-    // The buffers' positions are where planes begin.
+    // Planes begin at the positions of the buffers.
     final ByteBuffer far = bytes(3 * WIDTH * HEIGHT + 40);
     far.position(33);
     far.put(picture().duplicate()).position(33);
@@ -161,7 +161,7 @@ public final class RefocuserTest {
     }
   }
 
-  /** Of views that each have other bytes, given in this order, at these positions. */
+  /** Refocuses views with different bytes, given in this order and at these positions. */
   private static ByteBuffer refocusedFrom(int[] order, double[] positions) {
     final Image[] views = new Image[order.length];
     for (int k = 0; k < order.length; ++k) {
@@ -195,7 +195,7 @@ public final class RefocuserTest {
     checkThrows(StarfocusException.class, "views: ", () -> refocusedFrom(new int[] {0, 1}, null));
   }
 
-  /** What a preview computes, the tests of the C API check. */
+  /** The tests of the C API check the pixels of previews. */
   private static void aPreviewHasItsOwnSizeAndRegion() {
     final int width = WIDTH / 2, height = HEIGHT / 2;
     final Configuration configuration = configuration();
@@ -231,7 +231,8 @@ public final class RefocuserTest {
     for (int i = 0; i < chroma.capacity(); ++i) chroma.put(i, (byte) (i % 2 == 0 ? 120 : 135));
     final ByteBuffer v = chroma.duplicate();
     v.position(1);
-    // As Android has it: U and V two bytes apart, each a byte short of half the plane.
+    // Android's layout: U and V are two bytes apart, and each is a byte shorter than half of the
+    // plane.
     final Image camera = new Image(
         Image.YUV_420_888, new ByteBuffer[] {luma, chroma, v}, new int[] {WIDTH, WIDTH, WIDTH});
     camera.pixelStride = 2;
@@ -299,7 +300,7 @@ public final class RefocuserTest {
     }
   }
 
-  /** Whether all bytes of the buffer but [first, end) are still `guard`. */
+  /** Returns true if all bytes of the buffer outside [first, end) are still `guard`. */
   private static boolean isGuarded(ByteBuffer buffer, int first, int end, byte guard) {
     for (int i = 0; i < buffer.capacity(); ++i) {
       if ((i < first || i >= end) && buffer.get(i) != guard)
@@ -308,7 +309,10 @@ public final class RefocuserTest {
     return true;
   }
 
-  /** Arguments at random: what is not refused writes nothing beyond the output's buffer. */
+  /**
+   * Random arguments: calls that are accepted must write nothing outside the buffer of the
+   * output.
+   */
   private static void randomArgumentsWriteNothingBeyondTheOutput() {
     final int[] odd = {0, 0, 0, 1, -1, 2, 5, 20, 119, 120, 121, 160, 161, 1 << 16,
         Integer.MAX_VALUE, Integer.MIN_VALUE};
@@ -405,7 +409,7 @@ public final class RefocuserTest {
       });
       work.setDaemon(true);
       work.start();
-      // A call that has not begun is not called off, so that it takes more than one try.
+      // A call that has not begun cannot be cancelled, so several attempts may be needed.
       for (int tries = 0; work.isAlive() && tries < 10000; ++tries) {
         refocuser.cancel();
         work.join(1);

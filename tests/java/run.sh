@@ -1,9 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# run.sh BUILD [PRESET JRE]: the Java API with the library of BUILD. Its tests, the example that gives
-# the program's bytes, Android's routes over doubles of the NDK's functions, and an AAR. With PRESET
-# the same with the library that was built beside BUILD for aarch64, by its emulator and the Java that
-# was unpacked into JRE.
+# run.sh BUILD [PRESET JRE]: tests the Java API with the library of BUILD. Runs the tests, the example that must
+# return the bytes of the program, and Android's routes with replacements for the NDK. Also tests an AAR. With PRESET,
+# tests the library that was built next to BUILD for aarch64, with its emulator and the Java unpacked in JRE.
 set -eu
 case $# in 1 | 3) ;; *) echo "usage: $0 BUILD [aarch64 JRE]" >&2; exit 2 ;; esac
 sources=$(cd "$(dirname "$0")/../.." && pwd)
@@ -19,7 +18,7 @@ if [ -n "$preset" ]; then
   library=$(dirname "$build")/$preset/lib/libstarfocus_jni.so
   cc=aarch64-linux-gnu-gcc cxx=aarch64-linux-gnu-g++
   program=$(find "$jre/usr/lib/jvm" -path '*-17-*/bin/java')
-  # Compiling what runs often is worth it, compiling it well is not.
+  # Emulated code should be compiled, but optimizing it does not pay.
   java() {
     qemu-aarch64 -L /usr/aarch64-linux-gnu \
       -E "LD_LIBRARY_PATH=$jre/usr/lib/aarch64-linux-gnu:$jre/lib/aarch64-linux-gnu" \
@@ -36,12 +35,12 @@ fail() {
   exit 1
 }
 
-# quietly COMMAND...: shows what it printed only when it fails.
+# quietly COMMAND...: runs a command and shows its output only if it fails.
 quietly() {
   "$@" >"$work/log" 2>&1 || { cat "$work/log" >&2; fail "failed: $*"; }
 }
 
-# run CLASS ARGUMENT...: what it prints last says what was done.
+# run CLASS ARGUMENT...: runs a class. The last line of its output is a summary.
 run() {
   quietly java -Xcheck:jni -cp "$work/classes" "-Djava.library.path=$(dirname "$library")" "$@"
   ! grep -q 'WARNING\|FATAL' "$work/log" || { cat "$work/log" >&2; fail "misused JNI: $1"; }
@@ -52,13 +51,13 @@ compile() {
   quietly javac -Xlint:all -Werror --release 11 -cp "$work/classes" -d "$work/classes" "$@"
 }
 
-# Pages of 16 KiB, the first thing that Android 15 looks at.
+# Checks for pages of 16 KiB, which Android 15 requires.
 page_alignment() {
   readelf -lW "$1" | awk '$1 == "LOAD" { ++n; if ($NF != "0x4000") bad = 1 } END { exit bad || n < 2 }' ||
     fail "$1 is not aligned to pages of 16 KiB: $(readelf -lW "$1" | grep LOAD)"
 }
 
-# With Debian's android/bitmap.h; of what it has not, there are doubles.
+# Uses android/bitmap.h of Debian. This folder replaces the parts that Debian does not have.
 android_routes() {
   headers=$(find /usr/include/android -name bitmap.h 2>/dev/null | head -n 1)
   [ -n "$headers" ] || { echo "SKIPPED: Android's routes, for which there is no android/bitmap.h"; return; }
@@ -75,7 +74,7 @@ android_routes() {
   run AndroidTest "$work/libdouble.so"
 }
 
-# The parts that Gradle and prefab look for.
+# Checks the parts that Gradle and prefab need.
 archive() {
   case "$preset" in aarch64) abi=arm64-v8a ;; *) abi=x86_64 ;; esac
   quietly jar cf "$work/classes.jar" -C "$work/classes" dev/starfocus
@@ -93,7 +92,7 @@ archive() {
     quietly python3 -m json.tool "$work/aar/$part"
   done
   page_alignment "$work/aar/jni/$abi/libstarfocus_jni.so"
-  # C programs link what is in there.
+  # C programs can link the libraries in the archive.
   cat >"$work/linked.c" <<'TEXT'
 #include <starfocus/starfocus.h>
 #include <starfocus/pool.h>

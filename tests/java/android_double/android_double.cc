@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Doubles of the NDK's functions of bitmaps and hardware buffers, over the Java classes beside this
-// file. One hardware buffer is locked at a time.
+// Replaces the functions of the NDK for bitmaps and hardware buffers by functions that use the Java
+// classes in this folder. Only one hardware buffer can be locked at a time.
 #include <android/bitmap.h>
 #include <android/hardware_buffer.h>
 #include <android/hardware_buffer_jni.h>

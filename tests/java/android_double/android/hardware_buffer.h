@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What locked_hardware_buffer.cc uses of the NDK's header of this name, which no Debian package
-// has, as its documentation tells it.
+// The parts of the NDK's header of the same name that locked_hardware_buffer.cc uses, according to
+// its documentation. No Debian package has this header.
 #ifndef STARFOCUS_TESTS_JAVA_HARDWARE_BUFFER_H_
 #define STARFOCUS_TESTS_JAVA_HARDWARE_BUFFER_H_
 

@@ -3,10 +3,10 @@ package android.hardware;
 
 import java.nio.ByteBuffer;
 
-/** As much of Android's HardwareBuffer as its native functions look at in the tests. */
+/** The parts of Android's HardwareBuffer that its native functions use in the tests. */
 public final class HardwareBuffer {
   public final int width, height, format, rowStride, pixelStride;
-  /** Chroma, if there is any, follows luma: U and V two bytes apart, in rows of the same stride. */
+  /** Chroma, if present, follows luma. U and V are two bytes apart, in rows of the same stride. */
   public final ByteBuffer memory;
   public int locks;
 
