@@ -1,8 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# run.sh BUILD: makes a wheel of the Python package, installs it, and then the package from the tree, each
-# into an environment of its own, and runs the tests and the example with both. Debian's Python, no
-# network.
+# run.sh BUILD: tests the Python package as a wheel and as installed from the source tree. Each gets a separate
+# environment, in which the tests and the example run. Uses Debian's Python and no network.
 set -eu
 [ $# = 1 ] || { echo "usage: $0 BUILD" >&2; exit 2; }
 sources=$(cd "$(dirname "$0")/../.." && pwd)
@@ -16,12 +15,12 @@ MPLCONFIGDIR=$work/matplotlib
 export MPLCONFIGDIR
 cd "$work"
 
-# quietly COMMAND...: shows what it printed only when it fails.
+# quietly COMMAND...: runs a command and shows its output only if it fails.
 quietly() {
   "$@" >"$work/log" 2>&1 || { cat "$work/log" >&2; echo "python: failed: $*" >&2; exit 1; }
 }
 
-# install FROM: into a new environment, with the tests run there.
+# install FROM: installs the package into a new environment and runs the tests there.
 install() {
   rm -rf "$work/environment"
   quietly /usr/bin/python3 -m venv --system-site-packages --without-pip "$work/environment"

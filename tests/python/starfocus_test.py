@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The Python package as it was installed: starfocus_test.py PROGRAM FOLDER HEADERS.
+"""Tests the installed Python package: starfocus_test.py PROGRAM FOLDER HEADERS.
 
-PROGRAM is the program starfocus, FOLDER a light field of five views, HEADERS the folder of the public
-headers.
+PROGRAM is the program starfocus, FOLDER is a light field of five views, and HEADERS is the folder of the
+public headers.
 """
 import re
 import subprocess
@@ -23,7 +23,7 @@ HEIGHT, WIDTH = DISPARITY.shape
 
 
 def by_program(*options: str) -> np.ndarray:
-    """What the program writes of the light field."""
+    """Returns the picture that the program makes of the light field."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "out.ppm"
         subprocess.run([PROGRAM, "refocus", FOLDER, "-o", path, *options], check=True, stdout=subprocess.DEVNULL)
@@ -35,7 +35,7 @@ def refocuser(**config) -> starfocus.Refocuser:
 
 
 class Bytes(unittest.TestCase):
-    """The same bytes by every way."""
+    """All ways to refocus return the bytes of the program."""
 
     def test_block_mode_gives_the_program_s_bytes(self):
         for focus in (-2.5, 0.0, 2.0):
@@ -102,7 +102,7 @@ class Bytes(unittest.TestCase):
         np.testing.assert_array_equal(part, whole[30:50, 40:90])
 
     def test_previews_have_a_size_and_regions_of_their_own(self):
-        """What a preview computes, the tests of the C API check."""
+        """The tests of the C API check the pixels of previews."""
         prepared = refocuser(previews=1).prepare(VIEWS, DISPARITY)
         half = prepared.preview(1, focus=2, aperture=0.75)
         self.assertEqual(half.shape, ((HEIGHT + 1) // 2, (WIDTH + 1) // 2, 3))
@@ -159,7 +159,7 @@ class Bytes(unittest.TestCase):
 
 
 class Errors(unittest.TestCase):
-    """What is wrong is said."""
+    """Errors name their cause."""
 
     def test_configurations_and_arguments_out_of_range(self):
         with self.assertRaises(starfocus.ArgumentError) as raised:
@@ -197,7 +197,7 @@ class Errors(unittest.TestCase):
 
 
 class Arguments(unittest.TestCase):
-    """Values mean what they mean in C, and none makes a call write beyond what it was given."""
+    """Values have their meaning in C, and no value makes a call write outside its output."""
 
     def test_four_zeros_are_the_whole_picture(self):
         engine = refocuser(images=1, previews=2)
@@ -325,7 +325,7 @@ class Arguments(unittest.TestCase):
 
 
 class Calls(unittest.TestCase):
-    """Progress, threads, reports."""
+    """Calls report progress, allow other threads, and fill reports."""
 
     def test_progress_is_told_and_calls_off(self):
         rows = []
@@ -375,7 +375,7 @@ class Calls(unittest.TestCase):
 
 
 class Maps(unittest.TestCase):
-    """Disparity maps."""
+    """Disparity maps are measured, filled, estimated and repaired."""
 
     def test_measured_and_filled(self):
         values = np.array([[1, np.nan, 3], [np.nan, np.inf, -2]], np.float32)
@@ -409,7 +409,7 @@ class Maps(unittest.TestCase):
         made = starfocus.repair_disparity(picture, closed)
         self.assertEqual(made.coverage.dtype, np.uint8)
         hair = (y >= 64) & (y < 108)
-        self.assertLess(np.abs(made.coverage.astype(int) - covered)[hair].mean(), 48)  # 182 without
+        self.assertLess(np.abs(made.coverage.astype(int) - covered)[hair].mean(), 48)  # 182 without coverage
         np.testing.assert_array_equal(made.disparity[hair], 9)
         engine = starfocus.Refocuser.for_light_field(picture, closed)
         engine.refocus(picture, made.disparity, focus=-4, coverage=made.coverage)
@@ -421,7 +421,7 @@ class Maps(unittest.TestCase):
 
 
 class Headers(unittest.TestCase):
-    """The package repeats what the C headers say."""
+    """The package declares the same values and structures as the C headers."""
 
     text = "\n".join((HEADERS / name).read_text(encoding="utf-8")
                      for name in ("status.h", "tuning.h", "lens.h", "callbacks.h", "starfocus.h", "depth.h", "image.h"))
@@ -449,7 +449,7 @@ class Headers(unittest.TestCase):
 
 
 class Files(unittest.TestCase):
-    """Light-field folders."""
+    """Light-field folders can be read."""
 
     def test_maps_of_either_byte_order(self):
         values = np.arange(6, dtype=np.float32).reshape(2, 3)
