@@ -10,7 +10,8 @@
 namespace starfocus {
 namespace {
 
-// The rectangle under way, the slices of its current tile, and the output. Shared by all parts.
+// The rectangle that is being refocused, the slices of its current tile, and the output. All parts
+// of the tile share one Rectangle.
 struct Rectangle {
   const RenderJob* job;
   const SliceStack* stack;
@@ -19,9 +20,9 @@ struct Rectangle {
 };
 
 // Returns the centre view's light of a row of the rectangle: 3 * width samples in the second half
-// of the row's accumulators. The accumulators are written from left to right. Writing the first 3 *
-// n of them overwrites the light of pixels below 2 n - width. That is at most n, so no light is
-// lost that is still needed.
+// of the row's accumulators. The accumulators are written from left to right. The first 3 * n
+// accumulators overlap the light of the first 2 n - width pixels. Since 2 n - width <= n, only the
+// light of finished pixels is overwritten.
 int16_t* CentreRow(uint32_t* accumulators, int32_t width) {
   return reinterpret_cast<int16_t*>(accumulators) + 3 * static_cast<size_t>(width);
 }
@@ -51,8 +52,8 @@ class TilePart {
   }
 
  private:
-  // Makes the slices of the part, one after another in the pool. Returns the memory after them,
-  // which is the scratch memory for filtering a plane.
+  // Makes the slices of the part and stores them contiguously in the pool. Returns a pointer to the
+  // memory after the slices, which is scratch memory for filtering a plane.
   int16_t* PlaceSlices() {
     const Rect rect = {stack_.inner.x + rect_.x, stack_.inner.y + rect_.y, rect_.width,
                        rect_.height};
@@ -81,7 +82,8 @@ class TilePart {
                                        Min(simd::kStripColumns, rect_.width - pair.x), pair.rows});
   }
 
-  // Finds the slices that each pair of cells sees. Returns the number of their pixels.
+  // Finds the slices that each cell pair sees. Returns the number of pixels rendered in each view,
+  // summed over all slices.
   uint64_t FindPairs() {
     static_assert(kLeastRows == kCellSize && simd::kStripColumns % kCellSize == 0,
                   "pairs are whole cells");
@@ -104,8 +106,9 @@ class TilePart {
     return pixels;
   }
 
-  // Returns whether a slice covers some, and whether it covers all, of the pixels that any view may
-  // show in a pair.
+  // Considers the pixels of a slice that any view shows in a cell pair. In the result, `some`
+  // contains the strips in which the slice covers any of these pixels. `all` is 1 if the slice
+  // covers all of these pixels, and 0 otherwise.
   static simd::SliceCover CoverOf(const SlicePlane& placed, const CellPair& pair) {
     const uint64_t strips = StripsOf(placed, pair.x);
     simd::SliceCover cover = {0, strips};
@@ -126,8 +129,8 @@ class TilePart {
     ClearRows(strip.x, row, rect_.height);
   }
 
-  // Divides the sums by their coverage. Pixels that hardly any view shows get the colour of the
-  // centre view.
+  // Divides the summed colours by the summed coverage. Pixels that hardly any view shows get the
+  // colour of the centre view.
   void FinishRows(int32_t x, int32_t first, int32_t end) {
     const simd::CompositeFinish finish = {stack_.weights.least_covered, kCompositeBits};
     const size_t columns = Columns(x), left = 3 * static_cast<size_t>(rect_.x + x);
@@ -141,7 +144,7 @@ class TilePart {
     }
   }
 
-  // Clears rows that are gathered later.
+  // Clears the accumulators of rows [first, end), which are gathered later.
   void ClearRows(int32_t x, int32_t first, int32_t end) {
     for (int32_t row = first; row < end; ++row) {
       std::memset(all_.accumulators + FirstSample(x, row), 0,
@@ -149,7 +152,7 @@ class TilePart {
     }
   }
 
-  // Returns the index in the rectangle of the sample at column x of a row of the part.
+  // Returns the index in the rectangle of the first sample of pixel (x, row) of the part.
   size_t FirstSample(int32_t x, int32_t row) const {
     return 3 * static_cast<size_t>((rect_.y + row) * job_.rect.width + rect_.x + x);
   }
@@ -167,8 +170,8 @@ class TilePart {
   int32_t pairs_ = 0;
 };
 
-// Finds the surfaces of the rectangle and copies its centre view to the rows of CentreRow. Returns
-// the rectangle in pixels of the surfaces.
+// Finds the surfaces of the rectangle and copies the rectangle's centre view to the rows of
+// CentreRow. Returns the rectangle in pixels of the surfaces.
 Rect LoadSurfaces(const RenderJob& job, CompositorScratch* scratch, uint32_t* accumulators) {
   BlockPixels field;
   field.rgb = scratch->field_rgb;
@@ -207,7 +210,7 @@ void FindStack(const RenderJob& job, const Rect& tile, CompositorScratch* scratc
 
 int32_t RoundUp(int32_t size, int32_t least) { return (size + least - 1) / least * least; }
 
-// Returns the bytes of the pool that parts of this size need.
+// Returns the size in bytes of a pool for parts of `columns` x `rows` pixels.
 size_t PoolBytes(const SliceStack& stack, int32_t columns, int32_t rows) {
   const auto width = static_cast<size_t>(columns), height = static_cast<size_t>(rows);
   size_t slices = 0, strips = 0, filtered = 0;
@@ -223,8 +226,8 @@ size_t PoolBytes(const SliceStack& stack, int32_t columns, int32_t rows) {
   return slices + (filtered > strips ? filtered : strips);
 }
 
-// Returns the size of parts whose slices fit into the pool: as wide as possible, then as high as
-// possible.
+// Returns the largest size of parts whose slices fit into the pool. The width is maximised first,
+// then the height.
 Rect ChoosePart(const SliceStack& stack, const Rect& tile, size_t pool_bytes) {
   int32_t width = RoundUp(tile.width, kLeastColumns), height = RoundUp(tile.height, kLeastRows);
   while (width > kLeastColumns && PoolBytes(stack, width, kLeastRows) > pool_bytes) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The compositor of the slice renderer. It refocuses one rectangle of the picture, tile by tile.
-// Each tile is a stack of slices; every view of the aperture shows the slices shifted by their
-// disparity and composited front to back.
+// The compositor of the slice renderer. The compositor refocuses one rectangle of the picture, tile
+// by tile. Each tile is a stack of slices. To render a view of the aperture, the compositor shifts
+// each slice by an amount proportional to the slice's disparity and composites the slices front to
+// back.
 #ifndef STARFOCUS_LIB_SLICES_COMPOSITOR_H_
 #define STARFOCUS_LIB_SLICES_COMPOSITOR_H_
 
@@ -16,34 +17,35 @@
 
 namespace starfocus {
 
-// Scratch memory of one worker. E is the largest side of an extended rectangle, N the largest N,
-// and G the smaller of 2 N + 1 and kGroupViews.
+// Scratch memory of one worker. In the sizes below, E is the largest side of an extended rectangle,
+// N the largest number of views along the aperture radius, and G the smaller of 2 N + 1 and
+// kGroupViews.
 //
-// The members share memory where their lifetimes allow it. `fill` reuses the memory of the field.
-// `pool` may reuse the memory of both, and that of `bins` and `least_blur`, which each tile writes
-// before it makes slices.
+// Members with disjoint lifetimes share memory. `fill` reuses the memory of the field. `pool` may
+// reuse the memory of the field, `fill`, `bins` and `least_blur`; each tile writes `bins` and
+// `least_blur` before its slices are made.
 struct CompositorScratch {
-  int16_t* field_rgb;          // light: E rows of RgbStride(E) samples
-  int16_t* field_disparity;    // E^2
-  LayeredDepth surfaces;       // E^2 pixels each
-  FillScratch fill;            // used when the field is no longer needed
-  uint8_t* bins;               // kSliceBins
-  int32_t* least_blur;         // E
-  simd::SliceOffset* offsets;  // kMaxSlices (2 N + 1)
-  int16_t* weights;            // G
-  CellPair* pairs;             // pairs of cells of a tile
+  int16_t* field_rgb;          // colours of the field as light: E rows of RgbStride(E) samples
+  int16_t* field_disparity;    // disparities of the field: E^2
+  LayeredDepth surfaces;       // E^2 pixels per surface
+  FillScratch fill;            // used after the last read of the field
+  uint8_t* bins;               // kSliceBins elements
+  int32_t* least_blur;         // E elements
+  simd::SliceOffset* offsets;  // kMaxSlices (2 N + 1) elements
+  int16_t* weights;            // G elements
+  CellPair* pairs;             // cell pairs of a tile
   uint32_t* sums;              // kPixelSums per pixel of a strip
-  uint8_t* pool;               // slices of a part of a tile, and their strips
-  size_t pool_bytes;           // at least LeastPool; a larger pool makes larger parts
+  uint8_t* pool;               // slices of a part of a tile, and the strips of these slices
+  size_t pool_bytes;           // at least LeastPool; a larger pool allows larger parts
 };
 
-// Upper bound of the bytes that a slice of the smallest part, with its strip, needs per pixel of
+// Upper bound of the memory of a slice of the smallest part and of its strip, in bytes per pixel of
 // SliceArea.
 inline constexpr size_t kAreaBytes = 33;
 
-// Returns the smallest size of a pool in bytes. It holds the slices of the smallest part and their
-// strips, for blur radii up to `max_blur`. Filtering a plane uses the memory of the strips, and may
-// need more than the strip of one slice.
+// Returns the smallest size of a pool in bytes. Such a pool holds the slices of the smallest part
+// and their strips, for blur radii up to `max_blur` pixels. The filter of a plane uses the memory
+// of the strips, and may require more memory than the strip of one slice.
 constexpr size_t LeastPool(double max_blur) {
   const auto reach = static_cast<size_t>(LargestSliceReach(max_blur));
   const size_t filtered = FilteredBytes(kLeastColumns, kLeastRows, reach);
@@ -63,7 +65,8 @@ constexpr size_t CellPairs(int32_t side) {
 inline constexpr int kCompositeBits = kMaxLightBits + kLightBits;
 
 // Implements Renderer::render for slices. Each tile of the rectangle has its own slices. Returns
-// the number of samples summed over all slices. `scratch` is a CompositorScratch.
+// the number of samples rendered in each view (three per pixel), summed over all slices. `scratch`
+// is a CompositorScratch.
 uint64_t CompositeRectangle(const RenderJob& job, void* scratch, uint32_t* accumulators);
 
 }  // namespace starfocus

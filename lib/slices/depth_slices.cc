@@ -9,7 +9,8 @@ namespace starfocus {
 namespace {
 
 // Slices overlap by 1 / kOverlapParts of their range, so that no gap opens between two slices of
-// one slope. No overlap, and half and twice the overlap, were measured (docs/constants.md).
+// one slope. docs/constants.md compares this overlap with none, with half as much and with twice as
+// much.
 constexpr int kOverlapParts = 10;
 
 // Finds the slices of a tile from the disparities of the surfaces around it.
@@ -50,8 +51,8 @@ class SliceFinder {
     bins_ = (range >> bin_bits_) + 1;
   }
 
-  // Finds the region of the surfaces that slices of the tile may show. It starts at the first row
-  // of a band and the first column of a strip.
+  // Finds the region of the surfaces that slices of the tile may show. The region starts at the
+  // first row of a band and at the first column of a strip.
   void FindAround() {
     const int64_t move = grid_.Move(grid_.n());
     const int32_t rim =
@@ -64,8 +65,8 @@ class SliceFinder {
     around_.height = Min(tile.y + tile.height + reach, surfaces_.height) - around_.y;
   }
 
-  // Marks the bins of the pixels of a surface that may splat into the tile, at most one band at a
-  // time. Rows that hide nothing have only the first surface.
+  // Marks the bins of all pixels of a surface that may splat into the tile. One iteration processes
+  // at most one band. Rows without hidden surfaces are skipped for all surfaces but the first.
   void Mark(int surface) {
     const auto has = [&](int32_t y) { return surface == 0 || surfaces_.hiding[y] != 0; };
     const int32_t last = around_.y + around_.height;
@@ -95,15 +96,15 @@ class SliceFinder {
       const int32_t least = job_.least_blur[Beyond(pixels)];
       if (least == 0) {
         MarkPixels(surface, pixels, range.low, range.high);
-      } else {  // pixels too sharp to reach the tile are skipped
+      } else {  // skip pixels that are too sharp to reach the tile
         MarkPixels(surface, pixels, range.low, Min(range.high, grid_.focus - least));
         MarkPixels(surface, pixels, Max(range.low, grid_.focus + least), range.high);
       }
     }
   }
 
-  // Marks the bins of the pixels whose disparities lie in [low, high]. Most of these bins are
-  // marked already.
+  // Marks the bins of the pixels whose disparities lie in [low, high]. Returns early if all of
+  // these bins are marked, which is the most frequent case.
   void MarkPixels(int surface, const Rect& pixels, int32_t low, int32_t high) {
     if (low > high) return;
     const uint8_t *first = job_.bins + BinOf(low), *last = job_.bins + BinOf(high);
@@ -117,7 +118,8 @@ class SliceFinder {
     uint16_t within[kBandRows];
     job_.kernels->FindWithin(disparity, static_cast<size_t>(surfaces_.stride),
                              static_cast<size_t>(pixels.height), range, within);
-    // Local copies: otherwise the compiler must assume that a mark may change any member.
+    // These are local copies because the compiler must assume that a write to `bins` may change any
+    // member.
     uint8_t* const bins = job_.bins;
     const int32_t* const least_blur = job_.least_blur;
     const int32_t base = base_, bits = bin_bits_, focus = grid_.focus;
@@ -140,7 +142,8 @@ class SliceFinder {
 
   int32_t BinOf(int32_t disparity) const { return (disparity - base_) >> bin_bits_; }
 
-  // Returns the distance in pixels from the tile to the nearest of these pixels; 0 within the tile.
+  // Returns the distance in pixels from the tile to the nearest pixel of `pixels`; 0 if `pixels`
+  // touches the tile.
   int32_t Beyond(const Rect& pixels) const {
     const Rect& tile = job_.tile;
     const int32_t x =
@@ -150,7 +153,7 @@ class SliceFinder {
     return Max(Max(x, y), 0);
   }
 
-  // Returns the number of bins that a slice with this nearest bin may span.
+  // Returns the number of bins that a slice may span if `bin` is its nearest bin.
   int32_t Span(int32_t bin, int coarser) const {
     const int32_t blur = Abs(grid_.Shift(grid_.step, base_ + (bin << bin_bits_)));
     const int64_t wider = Max(kSliceSharp, blur - kSliceSharp);
@@ -159,7 +162,7 @@ class SliceFinder {
   }
 
   // Divides the bins into slices, each spanning 2^coarser times the range of the rule. Returns the
-  // number of slices, or 0 if they exceed a limit of the rule.
+  // number of slices, or 0 if the slices exceed a limit of the rule.
   int32_t Part(int coarser, Slice* slices) const {
     int32_t count = 0;
     int32_t area = 0;

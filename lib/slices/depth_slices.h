@@ -27,9 +27,9 @@ struct SliceJob {
   int32_t* least_blur;  // largest side of the surfaces: scratch
 };
 
-// Finds the slices of a tile, the nearest first. They hold all pixels of the surfaces that may
-// splat into the tile. Also finds the disparities of each band of the surfaces, for FillSlice.
-// Returns the number of slices, at most job.rule.most.
+// Finds the slices of a tile, ordered from the nearest to the farthest. The slices hold all pixels
+// of the surfaces that may splat into the tile. Also finds the range of disparities in each band of
+// the surfaces, for FillSlice. Returns the number of slices, at most job.rule.most.
 int32_t FindSlices(const SliceJob& job, Slice* slices, SurfaceBands* bands);
 
 }  // namespace starfocus

@@ -8,7 +8,7 @@
 namespace starfocus {
 namespace {
 
-constexpr int32_t kAtOnce = 4;  // pixels whose sources are tested together
+constexpr int32_t kAtOnce = 4;  // number of pixels whose sources are tested together
 
 class HiddenFiller {
  public:
@@ -49,7 +49,7 @@ class HiddenFiller {
 
   bool Takes(int32_t y, int32_t step) const { return step <= 2 * scratch_.farthest[y]; }
 
-  // Marks the gap before a row as having no surface.
+  // Sets the gap before a row to kNoSurface.
   void Separate(size_t at) const {
     for (size_t x = 0; x < Column(0); ++x) scratch_.disparity[at + x] = kNoSurface;
   }
@@ -79,7 +79,7 @@ class HiddenFiller {
     }
   }
 
-  // Copies the colours that the pixels of a row repeat.
+  // Copies the colours of source pixels to all repeated pixels of a row.
   void TakeSources(int32_t y) {
     if (scratch_.farthest[y] == 0) return;
     const uint16_t* const sources = scratch_.source + RowAt(y) + Column(0);
@@ -93,7 +93,7 @@ class HiddenFiller {
     }
   }
 
-  // Returns true if any of kAtOnce pixels repeats a colour. Most do not.
+  // Returns true if any of kAtOnce pixels is repeated. Few pixels are.
   static bool HasSource(const uint16_t* sources) {
     uint64_t all;
     static_assert(sizeof(all) == kAtOnce * sizeof(*sources), "looked at together");
@@ -107,8 +107,9 @@ class HiddenFiller {
     }
   }
 
-  // Copies the colour of the pixel that is repeated, or the mean over the sides. The colours are
-  // copied only if they are known and belong to the same surface on all sides.
+  // Copies the colour of the source pixel to pixel (x, y). If the pixel has sources on several
+  // sides, their mean is copied. Nothing is copied if a source is repeated itself or belongs to
+  // another surface.
   void TakeSource(int32_t x, int32_t y, uint32_t source) {
     const auto distance = static_cast<int32_t>(source >> simd::kSourceDistance);
     const int16_t disparity = scratch_.disparity[RowAt(y) + Column(x)];
@@ -127,9 +128,9 @@ class HiddenFiller {
     }
   }
 
-  // Smooths a row, reading the colours of all rows as they were before the step. The old row is
-  // saved until the row `step` below has read it. Outside the surfaces, the row replaces its
-  // missing neighbours.
+  // Smooths a row. All neighbours are read with their colours before this pass: the old colours of
+  // a row are saved until the row `step` rows below has been smoothed. A neighbouring row outside
+  // the surfaces is replaced by the row itself.
   void SmoothRow(int32_t y, int32_t step) {
     const int32_t above = y >= step ? y - step : y, below = y + step;
     const int32_t next = below < surfaces_.height ? below : y;

@@ -11,14 +11,14 @@ namespace {
 constexpr int32_t kStripColumns = static_cast<int32_t>(simd::kSliceLanes);
 static_assert(kOcclusionViews == simd::kViewLooks, "views that are looked into on a side");
 
-// Marks the pixels after the end of a row, which kernels read in whole vectors, as having no
-// surface.
+// Sets kStripColumns pixels to kNoSurface. Called for the pixels after the end of a row, because
+// SIMD kernels read whole vectors.
 void ClearStrip(int16_t* disparity) {
   for (int32_t k = 0; k < kStripColumns; ++k) disparity[k] = kNoSurface;
 }
 
-// Hidden pixels of a strip: the position of the first in the field, their disparities, and the
-// sources of their colours in the format of LookBehind.
+// Hidden pixels of a strip: the position of the first pixel in the field, the disparities of all
+// pixels, and the sources of all colours in the format of LookBehind.
 struct HiddenStrip {
   int32_t x, y;
   const int16_t* disparity;
@@ -32,8 +32,8 @@ class HiddenColours {
 
   HiddenColours(const Window& window, const BlockPixels& field) : window_(window), field_(field) {}
 
-  // Reads the colours of each pixel k whose bit k is set. Runs of pixels behind one edge are read
-  // together.
+  // Reads the colour of each pixel k for which bit k of `pixels` is set. Adjacent pixels behind one
+  // edge are read together.
   void Read(const HiddenStrip& strip, uint32_t pixels) {
     while (pixels != 0) {
       const int32_t first = LowestBit(pixels);
@@ -46,7 +46,7 @@ class HiddenColours {
 
  private:
   // Reads pixel k and the following pixels that have the same disparity and source. Returns the
-  // first pixel that was not read.
+  // index of the first pixel that was not read.
   int32_t ReadFrom(const HiddenStrip& strip, int32_t k) {
     const uint32_t source = strip.source[k], sides = source & 15;
     if ((sides & (sides - 1)) != 0) {
@@ -62,7 +62,7 @@ class HiddenColours {
     return end;
   }
 
-  // Reads pixel k from each of its sides and takes the mean.
+  // Sets the colour of pixel k to the mean of the colours read on each of its sides.
   void ReadMean(const HiddenStrip& strip, int32_t k) {
     int32_t sums[3] = {0, 0, 0}, count = 0;
     ForEachBit(strip.source[k] & 15, [&](int32_t side) {
@@ -76,7 +76,7 @@ class HiddenColours {
     }
   }
 
-  // Reads the colours of `count` pixels from k on, which have one disparity and source.
+  // Reads the colours of pixels [k, k + count), which all have the same disparity and source.
   void ReadSide(const HiddenStrip& strip, int32_t k, int32_t count, int32_t side, int16_t* to) {
     const int dx = kSides[side][0], dy = kSides[side][1];
     const uint32_t source = strip.source[k];
@@ -95,14 +95,15 @@ class HiddenColours {
     ReadCaptured(window_, look.view, line, count, to);
   }
 
-  // Returns the distance that a disparity moves along an axis between the centre view and a view at
-  // `position`, in pixels of the layer with kShiftBits.
+  // Returns the distance along one axis by which a point of `disparity` moves between the centre
+  // view and a view at `position`, in pixels of the layer with kShiftBits.
   int32_t Moved(int32_t position, int32_t disparity) const {
     return ScaledByView(position, disparity,
                         kViewBits + kDisparityBits - kShiftBits + window_.layer);
   }
 
-  // Returns the view that shows a pixel on that side. Meaningless if no view shows it.
+  // Returns the view that shows a pixel with this source on this side. The result is meaningless if
+  // no view shows the pixel.
   const OcclusionView& LookOf(int32_t side, uint32_t source) const {
     return window_.occlusion_views.on[side][source >> (simd::kSourceSecond + side) & 1];
   }
@@ -112,7 +113,7 @@ class HiddenColours {
   bool repeats_ = false;
 };
 
-// Converts a view to the form that the kernel LookBehind takes.
+// Converts a view to the input format of the SIMD kernel LookBehind.
 simd::ViewLook ViewLookOf(const OcclusionView& look, int unit_bits) {
   const bool down = Abs(look.at.v) > Abs(look.at.u);
   const int32_t along = down ? look.at.v : look.at.u, across = down ? look.at.u : look.at.v;
@@ -174,8 +175,8 @@ class SurfaceFinder {
   uint8_t* Edges(int side, int32_t y) const { return surfaces_.edges[side] + surfaces_.At(0, y); }
   const int16_t* Row(int32_t y) const { return surfaces_.disparity[0] + surfaces_.At(0, y); }
 
-  // Finds the edges along a row. The kernel FindEdges does the same along columns for every pixel;
-  // here only the pixels behind an edge are visited, since there are few edges.
+  // Finds the edges along a row, as the SIMD kernel FindEdges does along columns. The kernel visits
+  // every pixel; this function visits only the pixels at an edge, because there are few edges.
   void FindEdgesOfRow(int32_t y) {
     const auto stride = static_cast<size_t>(surfaces_.stride);
     std::memset(Edges(0, y), 0, stride);
@@ -200,9 +201,9 @@ class SurfaceFinder {
     }
   }
 
-  // Writes the distances from an edge at `near` to its far side, for up to `count` pixels away from
-  // the edge, as far as the next edge. Edges that only continue the depth of another edge are
-  // skipped (kSmallStepBits). The edges that remain are visited in order.
+  // Writes the distance to the far side of the edge at `near` for up to `count` pixels away from
+  // the edge, but not beyond the next edge. Edges that only continue the depth of another edge are
+  // skipped (kSmallStepBits). The remaining edges are visited in order.
   void FollowEdge(const int16_t* near, int direction, int32_t count, uint8_t* distance) const {
     if (*distance != 0) return;
     const int32_t far = near[-direction];
@@ -266,13 +267,14 @@ class SurfaceFinder {
     if (y > 0 && y < surfaces_.height - 1) CloseRow(y);
   }
 
-  // Hides a copy of the near side's pixels at the far side's disparity where slices may tear a
-  // surface. The surface then stays closed however far its slices move.
+  // Closes surfaces at steps where two slices may move apart. A copy of each pixel on the near side
+  // is hidden behind the pixel, at the far side's disparity. The surface then stays closed
+  // regardless of the movement of its slices.
   void CloseRow(int32_t y) {
     const simd::CopyLimits limits = {static_cast<int16_t>(kLeastCopy << window_.layer),
                                      static_cast<int16_t>(kMostCopy << window_.layer)};
     const size_t at = surfaces_.At(0, y);
-    int16_t* const copies = surfaces_.moved;  // no longer used by FindEdges
+    int16_t* const copies = surfaces_.moved;  // free, since FindEdges is done
     uint64_t strips = kernels_.FindCopies(Row(y), surfaces_.stride,
                                           static_cast<size_t>(surfaces_.width), limits, copies);
     copies[0] = copies[surfaces_.width - 1] = kNoSurface;
@@ -289,7 +291,7 @@ class SurfaceFinder {
     }
   }
 
-  // Copies a strip of pixels that hide nothing else.
+  // Inserts the copies of a strip whose pixels hide nothing else.
   void CopyStrip(size_t at, const int16_t* copies) {
     for (uint16_t* sources : surfaces_.sources) {
       std::memset(sources + at, 0, kStripColumns * sizeof(*sources));
@@ -303,8 +305,8 @@ class SurfaceFinder {
     }
   }
 
-  // Inserts a copy of the pixel in front of the other hidden surfaces, unless these are nearer.
-  // Pixels where a surface ends get no copy, since they belong to one slice only.
+  // Inserts a copy of the pixel in front of the other hidden surfaces, unless one of these surfaces
+  // is nearer. Pixels at which a surface ends get no copy, because they belong to one slice only.
   void CopyPixel(size_t at, int16_t copy) {
     if (copy <= surfaces_.disparity[1][at] || surfaces_.share[at] != simd::kSliceWhole) return;
     surfaces_.disparity[2][at] = surfaces_.disparity[1][at];
@@ -318,7 +320,7 @@ class SurfaceFinder {
     }
   }
 
-  // Sets the colours of the pixels of a strip whose bits in `found` are set.
+  // Sets the colour of each pixel k of a strip for which bit k of `found` is set.
   void SetColours(int32_t x, int32_t y, int behind, uint32_t found) {
     const size_t at = surfaces_.At(x, y);
     colours_.Read({x, y, surfaces_.disparity[behind] + at, surfaces_.sources[behind - 1] + at},
@@ -330,8 +332,9 @@ class SurfaceFinder {
   const Window& window_;
   LayeredDepth& surfaces_;
   HiddenColours colours_;
-  const int32_t unit_;  // disparity that moves a pixel of the layer by one pixel at distance 1
-  const int32_t step_;  // a larger step between pixels is a depth edge
+  // disparity of a point that moves by one pixel of the layer in a view at distance 1
+  const int32_t unit_;
+  const int32_t step_;  // largest step between pixels that is not a depth edge
   simd::ViewLook looks_[kSideCount][kOcclusionViews];
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The layered depth image of a field. Surface 0 is what the centre view sees; up to two surfaces
-// behind it at depth edges come from the captured views that see them. The compositor cuts its
-// slices from these surfaces.
+// The layered depth image of a field. Surface 0 is the surface that the centre view sees. Behind
+// depth edges there are up to two more surfaces, whose colours come from the captured views that
+// see them. The compositor divides these surfaces into slices.
 #ifndef STARFOCUS_LIB_SLICES_LAYERED_DEPTH_H_
 #define STARFOCUS_LIB_SLICES_LAYERED_DEPTH_H_
 
@@ -16,44 +16,47 @@ namespace starfocus {
 
 using simd::kNoSurface;
 
-// A larger step of disparity between neighbouring pixels at layer 0 is a depth edge,
+// Largest step of disparity between neighbouring pixels of layer 0 that is not a depth edge, in
 // kDisparityBits.
 inline constexpr int16_t kDepthEdge = (3 << kDisparityBits) / 4;
 
-// Range of the steps of disparity between neighbouring pixels of one surface, at layer 0. The
-// slices on both sides of such a step move apart. The surface is continued behind the step so that
-// no background shows in the gap (docs/constants.md).
+// Smallest and largest step of disparity between neighbouring pixels of layer 0 at which a surface
+// is closed. The slices on both sides of such a step move apart, so the farther slice is continued
+// behind the nearer one. Otherwise background would show in the gap (docs/constants.md).
 inline constexpr int16_t kLeastCopy = 2, kMostCopy = 1 << (kDisparityBits - 1);
 
 // Largest width of surfaces, in strips of kSliceLanes columns.
 inline constexpr int32_t kMaxStrips = 64;
 
-// Surface 0 is the field itself, the nearest surface. Each surface is rows of `stride` pixels,
-// followed by kSliceLanes more pixels. Colours are in three planes, `plane` samples apart.
+// The surfaces of a field. Surface 0, the nearest one, is a copy of the field. Each surface
+// consists of rows of `stride` pixels, followed by kSliceLanes more pixels. Colours are in three
+// planes, `plane` samples apart.
 struct LayeredDepth {
   int32_t width = 0, height = 0, stride = 0;
   size_t plane = 0;
   int16_t* disparity[simd::kSurfaces] = {};  // kDisparityBits
   int16_t* rgb[simd::kSurfaces] = {};        // light
-  uint8_t* share = nullptr;   // share of the pixel that surface 0 covers, kSliceBits, or kSliceEnd
+  // Part of the pixel that surface 0 covers, in kSliceBits; or kSliceEnd
+  uint8_t* share = nullptr;
   int16_t low = 0, high = 0;  // range of the disparities of the field
-  // Distance in pixels to the far side of the depth edge to the right, left, bottom and top that a
-  // pixel hides; 0: it hides none.
+  // Distances in pixels from each pixel to the far side of a depth edge to the right, left, bottom
+  // and top. The pixel hides a surface that continues behind this edge. 0: the pixel hides nothing
+  // on this side.
   uint8_t* edges[4] = {};
-  int16_t *moved = nullptr, *behind = nullptr;  // of FindEdges: one row each
-  simd::StepBits* steps = nullptr;              // of FindSteps: one row
+  int16_t *moved = nullptr, *behind = nullptr;  // scratch memory of FindEdges: one row each
+  simd::StepBits* steps = nullptr;              // scratch memory of FindSteps: one row
   // Source of the colour of each pixel of the hidden surfaces, in the format of LookBehind. Valid
   // only for groups whose bit in `hiding` is set.
   uint16_t* sources[simd::kSurfaces - 1] = {};
   bool repeats = false;        // true if the colour of any pixel is repeated
-  uint64_t* hiding = nullptr;  // of each row: bit k is set if strip k has more than surface 0
+  uint64_t* hiding = nullptr;  // one element per row: bit k is set if strip k has a hidden surface
 
   size_t At(int32_t x, int32_t y) const {
     return static_cast<size_t>(y) * static_cast<size_t>(stride) + static_cast<size_t>(x);
   }
 };
 
-// Rows in a band: SurfaceBands holds one range of disparities for each band.
+// Number of rows in a band. SurfaceBands holds one range of disparities for each band.
 inline constexpr int32_t kBandRows = 8;
 
 // Range of the disparities of all surfaces in each band around a tile.
@@ -65,17 +68,17 @@ struct SurfaceBands {
   simd::DisparityRange& At(int32_t row) { return ranges[row / kBandRows]; }
 };
 
-// Finds the surfaces of a field. Surface 0 becomes a copy of the field. The memory of `surfaces`
-// must be set.
+// Finds the surfaces of a field. The caller sets the pointers of `surfaces` to sufficient memory.
 //
-// The surfaces behind a pixel are found along its row and its column. They lie beyond the next
-// depth edge on each side and beyond the edge after that, as far as a view at distance 1 can see.
-// At most two surfaces are kept; that of the nearest edge comes first.
+// The surfaces behind a pixel are found along its row and its column. On each side, the search
+// covers the surfaces beyond the next depth edge and beyond the edge after that, as far as a view
+// at distance 1 can see. At most two surfaces are kept; the surface of the nearest edge comes
+// first.
 //
-// Their colours are read from a captured view that looks behind that edge (OcclusionViews) and in
-// which nothing covers them. Without such a view the background is repeated. Sides with the same
-// distance and disparity are averaged. Pixels within a surface hide copies of themselves
-// (kLeastCopy).
+// The colours of a hidden surface are read from a captured view that looks behind the edge
+// (OcclusionViews) and in which nothing covers the surface. If there is no such view, the
+// background is repeated. The colours from sides with the same distance and disparity are averaged.
+// At steps within a surface, pixels hide copies of themselves (kLeastCopy).
 void FindLayeredDepth(const simd::Kernels& kernels, const Window& window, const BlockPixels& field,
                       LayeredDepth* surfaces);
 

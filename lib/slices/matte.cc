@@ -7,9 +7,9 @@
 namespace starfocus {
 namespace {
 
-// Mixtures of surfaces that move less than this against each other are not split. A limit of a
-// quarter of a pixel was no closer to the truth, and one of two pixels loses 0.2 dB
-// (docs/constants.md).
+// A mixture is split only if its two surfaces move by more than kLeastMove relative to each other
+// (kShiftBits). A limit of a quarter of a pixel was no more accurate, and a limit of two pixels
+// loses 0.2 dB (docs/constants.md).
 constexpr int32_t kLeastMove = kShiftOne;
 
 class MatteFinder {
@@ -46,7 +46,7 @@ class MatteFinder {
            map->Tile(x / kCoverageTile, y / kCoverageTile).thin != 0;
   }
 
-  // Mixtures with the surfaces on all sides, each weighted by its share.
+  // Sums over the mixtures with the surfaces on all sides, each weighted by its share.
   struct Parts {
     int32_t shares = 0, most = 0, nearest = INT16_MIN;
     int32_t near[3] = {0, 0, 0}, far[3] = {0, 0, 0};
@@ -66,7 +66,7 @@ class MatteFinder {
     }
   };
 
-  // Returns the mixture of a pixel, which is in pixels of the field.
+  // Returns the mixture at a boundary pixel. Coordinates of the pixel are relative to the field.
   Mixture MixtureAt(const BoundaryPixel& pixel) const {
     if (centre_.window.layer > 0) return MixtureOfLevel(pixel);
     BoundaryPixel of_picture = pixel;
@@ -75,7 +75,8 @@ class MatteFinder {
     return FindMixture(centre_, of_picture);
   }
 
-  // Returns the colour of a pixel of the field, or of the nearest pixel inside it.
+  // Returns the colour of a pixel of the field. Pixels outside the field have the colour of the
+  // nearest pixel inside.
   Colour ColourAt(int32_t column, int32_t row) const {
     const int16_t* rgb =
         field_.Rgb(Clamp(column, 0, field_.width - 1), Clamp(row, 0, field_.height - 1));
@@ -85,8 +86,8 @@ class MatteFinder {
     return *field_.Disparity(Clamp(column, 0, field_.width - 1), Clamp(row, 0, field_.height - 1));
   }
 
-  // FindMixture for a subsampled pixel. The far colour is the remainder of the pixel without the
-  // near colour.
+  // Returns the mixture at a pixel of a subsampled layer. The far colour is the colour that remains
+  // after the near surface's share is removed from the pixel.
   Mixture MixtureOfLevel(const BoundaryPixel& pixel) const {
     const int32_t x = pixel.x, y = pixel.y;
     const int dx = kSides[pixel.side][0], dy = kSides[pixel.side][1];
@@ -105,8 +106,8 @@ class MatteFinder {
   }
 
   // Estimates the colour of the far surface of a subsampled pixel. The colour is read from the
-  // captured view away from the edge. Without such a view it is that of the next pixel away from
-  // the edge.
+  // captured view on the far side of the edge. If there is no such view, the colour of the next
+  // pixel away from the edge is returned.
   Colour FarAt(const BoundaryPixel& pixel, const Colour& mixed) const {
     const Window& window = centre_.window;
     const OcclusionView& look = window.occlusion_views.Last(pixel.side ^ 1);
@@ -131,7 +132,8 @@ class MatteFinder {
     const size_t at = surfaces_.At(column, row);
     surfaces_.hiding[row] |= uint64_t{1} << (column / static_cast<int32_t>(simd::kSliceLanes));
     surfaces_.share[at] = static_cast<uint8_t>(share);
-    // A copy of the pixel (kLeastCopy) has the colour of the mixture and is replaced.
+    // A copy of the pixel (kLeastCopy) has the colour of the mixture, so the far surface replaces
+    // the copy.
     const bool has_copy = disparity - surfaces_.disparity[1][at] <= step_;
     if (has_copy) {
       surfaces_.sources[0][at] =
@@ -153,7 +155,7 @@ class MatteFinder {
   const ViewGrid& grid_;
   const BlockPixels& field_;
   LayeredDepth& surfaces_;
-  const int16_t step_;  // a larger step between pixels is a depth edge
+  const int16_t step_;  // largest step between pixels that is not a depth edge
   const int64_t rim_;
 };
 

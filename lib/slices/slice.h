@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A slice: the part of a scene within a range of disparity so narrow that its pixels move together
-// from view to view. Also the rules for the size of tiles and the number of their slices.
+// Defines the slice: the part of a scene within a range of disparities so narrow that its pixels
+// move together from view to view. Also defines the limits on the size of tiles and on the number
+// of slices in a tile.
 #ifndef STARFOCUS_LIB_SLICES_SLICE_H_
 #define STARFOCUS_LIB_SLICES_SLICE_H_
 
@@ -11,43 +12,43 @@
 
 namespace starfocus {
 
-// Limits on the number and thickness of the slices of a tile. Slices are made coarser until both
-// limits hold.
+// Limits on the number and thickness of the slices of a tile. The compositor makes the slices
+// coarser until all limits hold.
 struct SliceRule {
   int32_t most;  // largest number of slices
-  // Range of the disparities of a slice, as the pixels of the layer that they move apart at the rim
-  // of the aperture, kShiftBits. Beyond a blur of twice kSliceSharp the range grows in proportion
-  // to the blur less kSliceSharp.
+  // Range of the disparities of a slice: the distance, in pixels of the layer with kShiftBits, by
+  // which the nearest and farthest disparity move apart at the rim of the aperture. For blur radii
+  // above twice kSliceSharp, the range is proportional to the blur radius minus kSliceSharp.
   int32_t range;
-  int32_t area = 0;  // largest sum of SliceArea over all slices: MostSliceArea of the lens
+  int32_t area = 0;  // largest sum of SliceArea over all slices: MostSliceArea for the lens
 };
 inline constexpr int32_t kSliceSharp = 4 * kShiftOne;
 inline constexpr SliceRule kSlices = {16, 3 * kShiftOne / 8};
 inline constexpr SliceRule kFineSlices = {32, kShiftOne / 8};  // for the benchmark mode
 inline constexpr int32_t kMaxSlices = simd::kMaxSeen;
 
-// A tile is a part of a rectangle with its own slices. A large block as a whole has more
-// disparities than SliceRule::most thin slices can hold. Tiles are kSliceTile wide and high. The
-// last tile takes the rest up to kMostSliceTile. A block of 68 pixels at its layer, with its
-// margin, is therefore one tile rather than two of 64 and 4 pixels.
+// A tile is a part of a rectangle with its own slices. A large block is divided into tiles because
+// it may have more disparities than SliceRule::most thin slices can hold. Tiles are kSliceTile
+// pixels wide and high, except that the last tile may have up to kMostSliceTile pixels. A block
+// that measures 68 pixels with its margin is therefore one tile, not two tiles of 64 and 4 pixels.
 inline constexpr int32_t kSliceTile = 64;
 inline constexpr int32_t kMostSliceTile = 80;
 
-// Returns the side of the next tile of a rectangle with `rest` pixels left.
+// Returns the side of the next tile of a rectangle, of which `rest` pixels are not yet in a tile.
 constexpr int32_t SideOfTile(int32_t rest) { return rest <= kMostSliceTile ? rest : kSliceTile; }
 
-// Returns the side of the largest tile of rectangles up to `side`.
+// Returns the side of the largest tile of rectangles whose sides are at most `side` pixels.
 constexpr int32_t LargestTile(int32_t side) {
   return side < kMostSliceTile ? side : kMostSliceTile;
 }
 
-// Size of the smallest part of a tile for which slices are made.
+// Size in pixels of the smallest part of a tile for which slices are made.
 inline constexpr int32_t kLeastColumns = static_cast<int32_t>(simd::kSliceLanes);
 inline constexpr int32_t kLeastRows = 8;
 
-// Disparities [low, high] (kDisparityBits), which all move like `disparity`. Slightly nearer
-// disparities, up to `overlap`, belong to this slice as well as to the nearer one, so that no gap
-// opens between the two.
+// A slice contains the disparities [low, high] (kDisparityBits); all of its pixels move like
+// `disparity`. Slightly nearer disparities, up to `overlap`, belong to two slices: to this slice
+// and to the next nearer one. The overlap prevents gaps between the two slices.
 struct Slice {
   int16_t low, high, overlap, disparity;
 };

@@ -11,8 +11,8 @@ using simd::SliceOffset;
 constexpr int32_t kFractionOne = 1 << 15;
 constexpr auto kStripColumns = static_cast<int32_t>(simd::kSliceLanes);
 
-// Returns the filter of a box of `subaperture` pixels (kShiftBits), which is more than
-// kBoxSubaperture.
+// Returns the filter taps of a box that is `subaperture` pixels wide (kShiftBits; more than
+// kBoxSubaperture).
 simd::SliceTaps TapsOf(int32_t subaperture) {
   constexpr int32_t kLargest = (2 * simd::kMaxSpread + 1) * kShiftOne;
   const int32_t length = Min(subaperture, kLargest);
@@ -29,19 +29,19 @@ simd::SliceTaps TapsOf(int32_t subaperture) {
 }
 
 // Returns the share of each of two to four pixels that a subaperture of one to three pixels covers
-// at `shift` (both kShiftBits). A spread followed by an interpolation would not do: adjacent
-// subapertures would then count some pixels too much and others too little. Lengths are in half
-// units, so that mirrored shifts give mirrored shares in spite of the truncation.
+// at `shift` (both kShiftBits). A box on whole pixels followed by interpolation is not sufficient:
+// adjacent subapertures would then weight some pixels too much and others too little. Lengths are
+// in half units, so that mirrored shifts give mirrored shares in spite of the truncation.
 SliceOffset BoxOffset(int32_t shift, int32_t subaperture) {
-  // Lengths are in half units, from the left end of the first pixel.
+  // Positions are relative to the left end of the first pixel.
   constexpr int32_t kHalves = 2 * kShiftOne;
   const int32_t start = 2 * shift - subaperture + kShiftOne, whole = start >> (kShiftBits + 1);
   const int32_t left = kHalves - (start & (kHalves - 1)), rest = 2 * subaperture - left;
   const auto part = [&](int32_t covered) {
     return static_cast<int16_t>(-(kFractionOne / 2 * covered / subaperture));
   };
-  // Returns the share of two adjacent pixels that lies in the first one, which covers `more` than
-  // the other.
+  // Returns the share of the first of two adjacent pixels. The box covers `more` half units of the
+  // first pixel than of the second.
   const auto share = [&](int32_t more) {
     return static_cast<int16_t>(-(kFractionOne / 2 + kFractionOne / 4 * more / subaperture));
   };
@@ -54,9 +54,9 @@ SliceOffset BoxOffset(int32_t shift, int32_t subaperture) {
   return SliceOffset::Of(whole, {part(left), part(left), share(right - left), part(right)});
 }
 
-// Splits `shift` (kShiftBits) into whole pixels and a fraction. Inside a slice, a subaperture
-// narrower than a pixel spreads less to the two neighbours than interpolation would. The ends of a
-// slice move by the interpolated fraction.
+// Splits `shift` (kShiftBits) into whole pixels and a fraction. A subaperture narrower than a pixel
+// spreads each pixel inside a slice less than linear interpolation does. Pixels at the end of a
+// slice are interpolated linearly.
 SliceOffset OffsetOf(int32_t shift, int32_t subaperture) {
   if (subaperture > kShiftOne && subaperture <= kBoxSubaperture)
     return BoxOffset(shift, subaperture);
@@ -71,9 +71,9 @@ SliceOffset OffsetOf(int32_t shift, int32_t subaperture) {
   return SliceOffset::Of(whole, {before(Clamp(inside, 0, kFractionOne)), edge, 0, 0});
 }
 
-// Clears the samples after the first `width` of a row; there are at least kStripColumns of them.
-// The last two groups overlap: all calls have the same constant length, so that the compiler
-// inlines them.
+// Clears the samples after the first `width` samples of each plane of a row; at least kStripColumns
+// samples follow. The last two groups overlap, so that every memset has the same constant length
+// and the compiler can inline it.
 void ClearTail(size_t width, size_t plane, int16_t* row) {
   for (size_t c = 0; c < 4; ++c, row += plane) {
     int16_t *const last = row + plane - kStripColumns, *group = row + width;
@@ -109,13 +109,13 @@ simd::SliceCover SelectRow(const SliceInput& input, const Slice& slice, const Re
     for (int32_t k = 0; k < first; ++k) row[k] = row[first];
     for (int32_t k = last; k < width; ++k) row[k] = row[last - 1];
   }
-  return {~uint64_t{0}, 0};  // a conservative cover: such rows are few
+  return {~uint64_t{0}, 0};  // a conservative cover, because few rows are padded
 }
 
 // Extends the covers of rows by the `reach` pixels that the filter spreads.
 void SpreadCover(int32_t reach, const SlicePlane& placed) {
   constexpr int32_t kMost = simd::kMaxSpread;
-  simd::SliceCover before[kMost] = {};  // rows above, before the spread
+  simd::SliceCover before[kMost] = {};  // covers of the rows above, before the spread
   for (int32_t row = 0; row < placed.rows; ++row) {
     const simd::SliceCover here = placed.cover[row];
     uint64_t some = here.some;
@@ -129,8 +129,8 @@ void SpreadCover(int32_t reach, const SlicePlane& placed) {
   }
 }
 
-// Spreads one plane at a time: filters it along rows into `filtered`, and from there along columns
-// back into the plane.
+// Spreads one plane at a time. The filter along rows writes the plane to `filtered`, and the filter
+// along columns writes the result back to the plane.
 void Spread(const simd::Kernels& kernels, int16_t* filtered, const SlicePlane& placed) {
   const simd::SliceTaps taps = TapsOf(placed.subaperture);
   const size_t plane = placed.plane;
@@ -206,8 +206,8 @@ void PlaceStrip(const SlicePlane& placed, int32_t x, const RowRange& seen, Shift
                   rows * simd::kSliceLanes * sizeof(*shifted->samples));
     }
   };
-  // No samples are moved to these rows, but Composite reads them, and kRowsAhead rows after the
-  // last.
+  // ShiftSlice does not write the empty rows, but the compositor reads them and kRowsAhead rows
+  // after the last row.
   clear(top, first);
   clear(end, last_row + static_cast<int32_t>(simd::kRowsAhead));
 }
@@ -219,7 +219,7 @@ void ShiftSlice(const simd::Kernels& kernels, const SlicePlane& placed, const Sl
   if (first >= end) return;
   const auto row = static_cast<size_t>(first), count = static_cast<size_t>(end - first);
   int8_t* near = shifted.near + row;
-  // The marks still hold the values of the previous column of views.
+  // The marks still hold the values of the previous column of views and must be reset.
   std::memset(near - simd::kRowsAhead, simd::kNothingNear, count + simd::kRowsAhead);
   const int16_t* from = placed.samples + row * 4 * placed.plane;
   kernels.ShiftSlice({from + x + placed.reach + offset.whole, placed.plane}, offset.fraction, count,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A slice of a part of a tile in memory: its pixels and the surrounding pixels that some view
-// shows. Wide subapertures are already applied as a filter. Also the position of the slice in each
-// view.
+// Stores a slice of a part of a tile: the pixels of the part and the surrounding pixels that some
+// view shows. The stored pixels already include the blur of wide subapertures. Also computes the
+// position of the slice in each view.
 #ifndef STARFOCUS_LIB_SLICES_SLICE_PLANE_H_
 #define STARFOCUS_LIB_SLICES_SLICE_PLANE_H_
 
@@ -16,86 +16,92 @@
 
 namespace starfocus {
 
-// Largest subaperture, three pixels, that is a box over up to four pixels (kShiftBits). Wider
-// subapertures are a filter before the shift; the blur that interpolation adds to these is small.
+// Width of the largest subaperture that is applied during the shift, as a box over up to four
+// pixels (kShiftBits). Wider subapertures are applied as a filter before the shift; the additional
+// blur by interpolation is then small.
 inline constexpr int32_t kBoxSubaperture = 3 * kShiftOne;
 
-// Returns the number of pixels on each side to which a wider subaperture spreads a pixel.
+// Returns the number of pixels on each side over which the filter of `subaperture` (kShiftBits)
+// spreads a pixel; 0 if no filter is applied before the shift.
 constexpr int32_t SpreadReach(int32_t subaperture) {
   static_assert(simd::kMaxSpread == 3, "wider boxes are cut off");
   return subaperture <= kBoxSubaperture ? 0 : subaperture <= 5 * kShiftOne ? 2 : simd::kMaxSpread;
 }
 
-// Returns the number of pixels beyond the rectangle that a slice of blur radius `rim` needs (both
-// kShiftBits). It is the blur radius, rounded up, plus the reach of filters, boxes and
-// interpolation.
+// Returns the number of pixels beyond the rectangle that a slice of blur radius `rim` must include
+// (`rim` and `subaperture` have kShiftBits). The result is the blur radius, rounded up, plus the
+// reach of filters, boxes and interpolation.
 constexpr int32_t SliceReach(int32_t rim, int32_t subaperture) {
   const bool is_box = subaperture > kShiftOne && subaperture <= kBoxSubaperture;
   return ((rim + kShiftOne - 1) >> kShiftBits) + (is_box ? 2 : SpreadReach(subaperture) + 1);
 }
 
-// Slices of wider subapertures reach no farther than slices of this one.
+// Subaperture for which SliceReach is largest (kShiftBits). Wider subapertures do not increase the
+// reach of a slice.
 inline constexpr int32_t kWidestSubaperture = 8 * kShiftOne;
 
 // Returns the largest SliceReach for lenses with blur radii up to `max_blur` pixels, any N and the
-// widest subapertures. The blur is increased by the rounding of the focus and of a disparity to
-// kDisparityBits. It also includes the distance from the middle of a slice to its pixels: up to two
-// steps if bins hold several disparities (kSliceBins).
+// widest subapertures. kRounding increases the blur by the error of rounding the focus and a
+// disparity to kDisparityBits. kRounding also covers the distance from the middle of a slice to its
+// pixels: up to two units of disparity if a bin holds several disparities (kSliceBins).
 constexpr int32_t LargestSliceReach(double max_blur) {
   constexpr double kRounding = 4.0 / (1 << kDisparityBits);
   const double rim = (max_blur + kRounding) * LargestSubapertureExtent() * kShiftOne;
   return SliceReach(static_cast<int32_t>(rim) + 1, kWidestSubaperture);
 }
 
-// Returns the area that a slice counts for. It is a measure of the memory and the time that the
-// slice needs. `reach` is the number of pixels that the slice extends beyond a small part of a
-// tile.
+// Returns an area in pixels that measures the memory and the time that a slice costs. `reach` is
+// the number of pixels by which the slice extends beyond a small part of a tile.
 constexpr int32_t SliceArea(int32_t reach) { return (reach + 16) * (reach + 16); }
 
 // Returns the largest sum of SliceArea over the slices of a tile, for a lens with blur radii up to
-// `blur` pixels. It allows five slices of that blur, or of 32 pixels if that is more. The sum
-// decides how finely a picture is cut, and therefore its bytes. It depends on the lens alone, not
-// on the available memory or on how slices are stored.
+// `blur` pixels. The sum allows five slices with a blur radius of `blur` or 32 pixels, whichever is
+// larger. The limit determines how finely a tile is divided into slices, and therefore the output
+// bytes. For this reason the limit depends on the lens alone, and not on the available memory or on
+// the storage format of slices.
 constexpr int32_t MostSliceArea(double blur) {
   constexpr int32_t kLeastBlur = 32, kMargin = 3;
   return 5 * SliceArea(Max(static_cast<int32_t>(blur), kLeastBlur) + kMargin);
 }
 
 struct SlicePlane {
-  int32_t reach = 0;                  // pixels beyond the rectangle
-  int32_t rows = 0;                   // rows of the rectangle, plus `reach` above and below it
-  size_t plane = 0;                   // samples from plane to plane; a row has four planes
+  int32_t reach = 0;                  // pixels beyond the rectangle on each side
+  int32_t rows = 0;                   // rows of the rectangle, plus `reach` rows above and below
+  size_t plane = 0;                   // distance between planes in samples; a row has four planes
   int32_t subaperture = 0;            // width of a view's subaperture, kShiftBits
-  int16_t* samples = nullptr;         // first row
-  simd::SliceCover* cover = nullptr;  // of each row
+  int16_t* samples = nullptr;         // samples of the first row
+  simd::SliceCover* cover = nullptr;  // cover of each row
 };
 
-// Returns the samples between the planes of a slice that extends `reach` pixels beyond a rectangle.
+// Returns the distance in samples between the planes of a slice that extends `reach` pixels beyond
+// a rectangle.
 constexpr size_t PlaneSamples(size_t width, size_t reach) {
   return simd::SliceSamples(simd::SliceSamples(width) + 2 * reach) + simd::kSliceLanes;
 }
-// Returns the samples of the slice, including those that filters read before and after it.
+// Returns the number of samples of a slice, including the samples that filters read before and
+// after the slice.
 constexpr size_t SliceSize(size_t width, size_t height, size_t reach) {
   return 4 * (height + 2 * reach) * PlaneSamples(width, reach) + 2 * simd::kSliceLanes;
 }
 
-// Returns the rows of the slice in a strip, including those that are read after the last.
+// Returns the number of rows of a slice in a strip, including the rows that are read after the last
+// row.
 constexpr size_t ShiftedRows(size_t height, size_t reach) {
   return height + 2 * reach + simd::kRowsAhead;
 }
 
-// Returns the bytes of the covers of these rows, rounded up so that the data after them is aligned
-// alike.
+// Returns the size in bytes of the covers of `rows` rows, rounded up so that the samples after the
+// covers are aligned like the covers.
 constexpr size_t CoverBytes(size_t rows) {
   constexpr size_t kAligned = 4;
   return (rows + kAligned - 1) / kAligned * kAligned * sizeof(simd::SliceCover);
 }
 
-// Returns the bytes of a slice with its covers.
+// Returns the size in bytes of a slice with its covers.
 constexpr size_t SliceBytes(size_t width, size_t height, size_t reach) {
   return SliceSize(width, height, reach) * sizeof(int16_t) + CoverBytes(height + 2 * reach);
 }
-// Returns the bytes of one plane of a slice while it is filtered.
+// Returns the size in bytes of the buffer that holds one filtered plane of a slice.
 constexpr size_t FilteredBytes(size_t width, size_t height, size_t reach) {
   return (height + 2 * reach) * PlaneSamples(width, reach) * sizeof(int16_t);
 }
@@ -111,23 +117,23 @@ void FindOffsets(const ViewGrid& grid, int16_t disparity, size_t stride,
 // Computes the geometry of the slice around `rect`.
 void PlaceSlice(const ViewGrid& grid, int16_t disparity, const Rect& rect, SlicePlane* placed);
 
-// Input from which slices are made.
+// Input of FillSlice.
 struct SliceInput {
   const simd::Kernels& kernels;
   const LayeredDepth& surfaces;
   const SurfaceBands& bands;
 };
 
-// Copies the slice's pixels around `rect`, which is in pixels of the surfaces. Beyond the surfaces
-// their outermost pixels are repeated. For wide subapertures it also spreads the pixels; `filtered`
-// has room for the rows of one plane. Bands without a disparity of the slice are skipped. The
-// memory of samples and covers must be set.
+// Copies the slice's pixels in and around `rect`, which is in pixels of the surfaces. Beyond the
+// surfaces, the outermost pixels are repeated. For wide subapertures, the function also applies the
+// subaperture as a filter. `filtered` is scratch memory of FilteredBytes. Bands without a disparity
+// of the slice are skipped. The caller sets the pointers to samples and covers.
 void FillSlice(const SliceInput& input, const Slice& slice, const Rect& rect, int16_t* filtered,
                const SlicePlane& placed);
 
-// Rows of a slice in a strip of kSliceLanes columns, as a column of views shows them. The four
-// planes are `plane` samples apart. Each row has a mark (simd::kNothingNear), and kRowsAhead marks
-// precede the first.
+// A slice in a strip of kSliceLanes columns, shifted for one column of views. The four planes are
+// `plane` samples apart. Each row has a mark (simd::kNothingNear); kRowsAhead more marks precede
+// the mark of the first row.
 struct ShiftedSlice {
   int16_t* samples = nullptr;
   int8_t* near = nullptr;
@@ -135,8 +141,8 @@ struct ShiftedSlice {
   RowRange filled = {0, 0};  // all other rows are empty in all views
 };
 
-// Returns the strips of a row, as bits of SliceCover, that some view shows in the strip at column
-// `x`.
+// Returns the strips of a slice's row that some view shows in the strip at column `x` of the
+// rectangle. Bit k of the result stands for strip k, as in SliceCover.
 constexpr uint64_t StripsOf(const SlicePlane& placed, int32_t x) {
   constexpr auto kStripColumns = static_cast<int32_t>(simd::kSliceLanes);
   const int32_t first = x / kStripColumns,
@@ -144,11 +150,12 @@ constexpr uint64_t StripsOf(const SlicePlane& placed, int32_t x) {
   return (uint64_t{2} << last) - (uint64_t{1} << first);
 }
 
-// Finds the rows of the strip at column `x` of the rectangle that views show in its rows `seen`.
-// Clears the other rows that are read with them. The memory must be set.
+// Finds the rows of the slice that are not empty in the strip at column `x` of the rectangle.
+// `seen` are the rows of the rectangle that show the slice. Clears the empty rows that the
+// compositor reads. The caller sets the pointers of `shifted`.
 void PlaceStrip(const SlicePlane& placed, int32_t x, const RowRange& seen, ShiftedSlice* shifted);
 
-// Writes those of `rows` that are filled, moved by `offset`.
+// Writes the filled rows among `rows` to the strip, shifted by `offset` along the row.
 void ShiftSlice(const simd::Kernels& kernels, const SlicePlane& placed,
                 const simd::SliceOffset& offset, int32_t x, const RowRange& rows,
                 const ShiftedSlice& shifted);

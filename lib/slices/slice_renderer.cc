@@ -10,8 +10,9 @@ int32_t LayerOf(const BlockStats& stats, Demand demand) {
   return LayerBySubaperture(radius, stats.has_edge, demand);
 }
 
-// Work of type A shifts slices along rows, once for each column of views. Work of type C composites
-// all views. Each slice is shifted as type A and composited as type C.
+// Returns the predicted work of a block in the classes of the timing model, (13) to (15). Type A
+// counts the pixels of slices that are shifted along rows, once for each column of views. Type C
+// counts the pixels of slices that are composited, once for each view.
 BlockWork MeasureWork(const Rect& rect, const Border& border, const ViewWeights& aperture,
                       const Content (&content)[2], int32_t layer) {
   const auto width = static_cast<uint64_t>(rect.width), height = static_cast<uint64_t>(rect.height);
@@ -29,8 +30,8 @@ BlockWork MeasureWork(const Rect& rect, const Border& border, const ViewWeights&
   return work;
 }
 
-// Takes the memory of everything that is computed from a field before the slices of a tile. The
-// memory for filling the surfaces overlays that of the field.
+// Allocates the memory of all data that is computed from a field before the slices of a tile are
+// made. The memory for filling the surfaces overlaps the memory of the field.
 void TakeField(size_t extended, Arena* arena, CompositorScratch* stack) {
   CompositorScratch& scratch = *stack;
   LayeredDepth& surfaces = scratch.surfaces;
@@ -57,7 +58,7 @@ void TakeField(size_t extended, Arena* arena, CompositorScratch* stack) {
   fill.farthest = arena->Take<uint8_t>(extended);
 }
 
-// Takes the scratch memory of one worker; see Renderer::take_scratch.
+// Allocates the scratch memory of one worker; see Renderer::take_scratch.
 void TakeScratch(const starfocus_config& config, size_t extended, size_t max_n, Arena* arena,
                  void* memory) {
   CompositorScratch counted;
@@ -66,8 +67,8 @@ void TakeScratch(const starfocus_config& config, size_t extended, size_t max_n, 
   LayeredDepth& surfaces = scratch.surfaces;
   const size_t area = extended * simd::SliceSamples(extended) + simd::kSliceLanes;
   for (int k = 0; k < simd::kSurfaces; ++k) {
-    // Looking behind the first pixels of a row reads kSliceLanes samples before them, and ignores
-    // their values.
+    // LookBehind reads kSliceLanes samples before the first pixel of a row and ignores their
+    // values.
     int16_t* before = arena->Take<int16_t>(simd::kSliceLanes + area);
     surfaces.disparity[k] = before == nullptr ? nullptr : before + simd::kSliceLanes;
     surfaces.rgb[k] = arena->Take<int16_t>(3 * area);
@@ -82,7 +83,8 @@ void TakeScratch(const starfocus_config& config, size_t extended, size_t max_n, 
   const size_t field = arena->Mark();
   TakeField(extended, arena, &scratch);
   arena->Reuse(field);
-  // Larger parts take less time: tiles of 64 pixels take 1.7 % fewer instructions.
+  // Larger parts take less time: with parts of 64 pixels, the engine executes 1.7 % fewer
+  // instructions.
   const auto tile = static_cast<size_t>(Min(config.superblock, kSliceTile));
   const size_t pool = Max(LeastPool(config.max_blur), 119 * tile * tile);
   scratch.pool_bytes = Max(pool, arena->Shared());
@@ -93,11 +95,12 @@ void TakeScratch(const starfocus_config& config, size_t extended, size_t max_n, 
 
 const Renderer kSliceRenderer = {
     0, true,
-    // Side of the benchmark's superblocks: small blocks have fewer fine slices, which fit into the
-    // memory of the coarse slices.
+    // Side of the superblocks of mode `benchmark`. Small blocks have fewer fine slices, so that the
+    // slices fit into the memory of the coarse slices.
     32, ViewsBySubaperture, LayerOf, MakeSubapertures, MeasureWork, sizeof(CompositorScratch),
     TakeScratch,
-    [](const RenderJob&) { return false; },  // false: the ends of slices always move a little
-    CompositeRectangle, [](const ViewWeights&) { return kCompositeBits; }};
+    // false, because the ends of slices always move a little
+    [](const RenderJob&) { return false; }, CompositeRectangle,
+    [](const ViewWeights&) { return kCompositeBits; }};
 
 }  // namespace starfocus

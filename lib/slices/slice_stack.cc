@@ -4,26 +4,25 @@
 namespace starfocus {
 namespace {
 
-// A pixel of which slices cover less than 1 / kLeastShare of the light of all views takes the
-// colour of the centre view. Scenes have hardly any such pixels, whatever the limit
+// A pixel takes the colour of the centre view if the slices cover less than 1 / kLeastShare of the
+// light of all views there. With any reasonable limit, scenes have hardly any such pixels
 // (docs/constants.md).
 constexpr uint32_t kLeastShare = 4;
 
-// Largest sum of the weights of a group of views. The sums have 16 bits. Their headroom covers a
-// ninth more, by which the share of the last light may be too large, and the rounding of each
-// slice.
+// Largest sum of the weights of a group of views. The sums have 16 bits. The headroom covers two
+// errors: the share of the last light may be too large by a ninth, and each slice is rounded.
 constexpr uint32_t kGroupSum = 58000;
 
-// Limits for steep openings: the weight of their middle view is more than kSteep times the mean
-// (theta from 0.3 pi). Their views weigh at least kLeastMean on average, but at most kMostShares
-// times the sum that a group takes at once. Each product of a weight with light is rounded, and
-// small weights would change dark codes.
+// Limits for steep openings, in which the largest weight of a view is more than kSteep times the
+// mean (theta from 0.3 pi). The weights are scaled up until their mean is at least kLeastMean, but
+// not beyond kMostShares times the limit of a group. Each product of a weight with light is
+// rounded, so small weights would change dark codes.
 constexpr uint64_t kSteep = 3;
 constexpr uint64_t kLeastMean = 2 * kGroupSum / kGroupViews;
 constexpr uint64_t kMostShares = 32;
 
-// Returns the sum of the weights of views (i, first) to (i, last), or four times the largest weight
-// if that is more.
+// Returns the sum of the weights of views (i, first) to (i, last) or four times the largest of
+// these weights, whichever is larger.
 uint32_t GroupSum(const ViewWeights& aperture, int32_t i, int32_t first, int32_t last) {
   uint32_t sum = 0, most = 0;
   for (int32_t j = first; j <= last; ++j) {
@@ -37,7 +36,8 @@ uint32_t GroupSum(const ViewWeights& aperture, int32_t i, int32_t first, int32_t
 constexpr int kMostExtraBits = 4;
 constexpr int kNoLight = 99;  // rank of weight 0
 
-// Returns how many times a weight can be multiplied by sixteen without exceeding the largest one.
+// Returns the number of times that `weight` can be multiplied by sixteen without exceeding
+// `largest`; kNoLight for weight 0.
 int RankOf(uint32_t weight, uint32_t largest) {
   int rank = 0;
   for (uint64_t times = weight; times << kMostExtraBits <= largest; ++rank) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The slices of a tile with the weights and offsets of all views of the aperture. Input of the
-// compositor's strips.
+// Defines the stack of slices of a tile, with the weights and offsets of all views of the aperture.
+// The compositor passes the stack to CompositeStrip.
 #ifndef STARFOCUS_LIB_SLICES_SLICE_STACK_H_
 #define STARFOCUS_LIB_SLICES_SLICE_STACK_H_
 
@@ -15,23 +15,24 @@
 
 namespace starfocus {
 
-// Number of views of a column that are summed in 16 bits. With more views the weights would be
-// smaller, and their products with faint light would round to zero.
+// Largest number of views of a column that are summed together in 16 bits. With more views, each
+// weight would be smaller, and the products of small weights with faint light would round to zero.
 inline constexpr int32_t kGroupViews = 16;
 
-// One of the equal shares of the weights of a group.
+// The share `index` of a weight that is divided into `count` equal shares.
 struct WeightShare {
   uint32_t index, count;
 };
 
-// Weights of views in the units of the kernels: aperture weights times scale / 2^16. A group whose
-// weights exceed the limit of the kernels is added in several shares.
+// Weights of views in the units of the SIMD kernels: aperture weights times scale / 2^16. If the
+// weights of a group exceed the limit of the SIMD kernels, the compositor adds the group in several
+// shares.
 struct ScaledWeights {
   const ViewWeights* aperture;
   uint64_t scale;    // 21 bits
   uint32_t largest;  // largest weight of the aperture
-  uint32_t
-      least_covered;  // smaller sums of coverage give no colour, since rounding errors would show
+  // Smallest sum of coverage from which a colour is computed. Below, rounding errors would show.
+  uint32_t least_covered;
 
   int16_t Weight(int32_t i, int32_t j, int extra_bits, const WeightShare& share) const {
     const uint64_t weight = (aperture->Weight(i, j) * (scale << extra_bits)) >> 16;
@@ -39,20 +40,23 @@ struct ScaledWeights {
                                 weight * share.index / share.count);
   }
 
-  // Returns the number of shares in which the weights of views (i, first) to (i, last) are added.
+  // Returns the number of equal shares into which the weights of views (i, first) to (i, last) must
+  // be divided.
   uint32_t Shares(int32_t i, int32_t first, int32_t last) const;
 
-  // Returns the last j of the views from (i, first) to at most (i, last) whose weights have the
-  // same magnitude. The magnitude is counted in powers of sixteen below the largest weight. In
-  // steep openings, outer views weigh much less than the middle one. Summed with it, their products
-  // with faint light would round to zero.
+  // Returns the largest j <= last for which all weights of views (i, first) to (i, j) have the same
+  // magnitude. The magnitude is counted in powers of sixteen below the largest weight. In steep
+  // openings, outer views weigh much less than the middle view. If the compositor summed outer
+  // views together with the middle view, the products of outer weights with faint light would round
+  // to zero.
   int32_t LastAlike(int32_t i, int32_t first, int32_t last) const;
 
-  // Returns the number of bits by which the scaled weights of views (i, first) to (i, last) can be
-  // raised. It is 0 if a column is one group, unless all weights are of a lower power of sixteen.
+  // Returns the number of bits by which the scaled weights of views (i, first) to (i, last) are
+  // shifted left. If a whole column fits in one group, the result is 0 unless the weights have a
+  // smaller magnitude than the largest weight (LastAlike).
   int ExtraBits(int32_t i, int32_t first, int32_t last) const;
 
-  // Returns the largest j of the views (i, j).
+  // Returns the largest j for which (i, j) is a view.
   int32_t LastAcross(int32_t i) const {
     int32_t j = aperture->last;
     while (i * i + j * j > aperture->most) --j;
@@ -60,21 +64,23 @@ struct ScaledWeights {
   }
 };
 
-// Scales the weights of an aperture so that the sum of a group is at most kGroupSum, and each
-// weight at most a quarter of it. For steep openings the limits are a multiple of that.
+// Scales the weights of an aperture so that the sum of a group's weights is at most kGroupSum and
+// each weight is at most kGroupSum / 4. For steep openings, both limits are multiplied by the
+// number of shares, up to kMostShares.
 ScaledWeights ScaleWeights(const ViewWeights& aperture);
 
-// A stack of slices; the nearest is the first.
+// A stack of slices, ordered from the nearest to the farthest.
 struct SliceStack {
   const ViewGrid* grid;
   ScaledWeights weights;
   Rect inner;  // rectangle that contains the tile, in pixels of its surfaces
   int32_t count;
   Slice slices[kMaxSlices];
-  SurfaceBands bands;                // bands of the surfaces of the slices
-  const simd::SliceOffset* offsets;  // of views -N to N, `count` each
+  SurfaceBands bands;                // ranges of the disparities of the surfaces
+  const simd::SliceOffset* offsets;  // offsets of `count` slices for each of the views -N to N
 
-  // Returns the position of slice k in views (i, .) or (., i).
+  // Returns the offset of slice k along x in views (i, j), which is also its offset along y in
+  // views (j, i), for all j.
   const simd::SliceOffset& Offset(int32_t k, int32_t i) const {
     return offsets[(i + grid->n()) * count + k];
   }

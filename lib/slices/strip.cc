@@ -24,7 +24,7 @@ class Strip {
   }
 
  private:
-  // Finds the slices that are seen and their rows, and clears the sums.
+  // Finds the slices that any cell pair sees and the rows of these slices. Clears the sums.
   void FindRows() {
     for (int32_t k = 0; k < stack_.count; ++k) rows_[k] = {0, 0};
     for (const CellPair* pair = pairs_.first; pair < pairs_.end; ++pair) {
@@ -42,8 +42,8 @@ class Strip {
     }
   }
 
-  // Places the seen slices in the memory of the strip. The marks of their rows follow the samples
-  // of all slices.
+  // Places the slices that are seen in the memory of the strip. The marks of all slices follow the
+  // samples of all slices.
   void PlaceSlices() {
     size_t rows = 0;
     for (int32_t n = 0; n < seen_; ++n) {
@@ -70,7 +70,7 @@ class Strip {
   void AddColumn(int32_t i) {
     const int32_t last = stack_.weights.LastAcross(Abs(i));
     for (int32_t n = 0; n < seen_; ++n) MoveSlice(seen_slices_[n], i, last);
-    // Views at either end that let no light through are skipped.
+    // Skips views without light at both ends of the column.
     const ViewWeights& aperture = *stack_.weights.aperture;
     int32_t begin = -last, end = last;
     while (begin <= end && aperture.Weight(i, begin) == 0) ++begin;
@@ -80,13 +80,14 @@ class Strip {
       for (int32_t first = Max(group, begin); first <= most;) {
         const int32_t alike = stack_.weights.LastAlike(i, first, most);
         if (aperture.Weight(i, first) != 0)
-          AddGroup(i, first, alike);  // otherwise no light comes through
+          AddGroup(i, first, alike);  // views with weight 0 add no light
         first = alike + 1;
       }
     }
   }
 
-  // Moves the rows of slice k that views (i, -last) to (i, last) show into the strip.
+  // Shifts slice k for column i of views and writes the result to the strip. Only the rows that
+  // views (i, -last) to (i, last) show are written.
   void MoveSlice(int32_t k, int32_t i, int32_t last) {
     const SlicePlane& placed = job_.planes[k];
     const RowRange& seen = rows_[k];
@@ -125,12 +126,12 @@ class Strip {
   const StripJob& job_;
   const SliceStack& stack_;
   const StripPairs& pairs_;
-  int64_t samples_ = 0;  // samples of one view, over all slices
+  int64_t samples_ = 0;  // samples composited in one view, four per pixel, summed over all slices
   int32_t seen_ = 0;
   int32_t seen_slices_[kMaxSlices];
-  RowRange rows_[kMaxSlices];           // rows of the pairs that see a slice
-  ShiftedSlice shifted_[kMaxSlices];    // as the current column of views shows them
-  simd::StripSlice shown_[kMaxSlices];  // `shifted_` in the form of the kernel
+  RowRange rows_[kMaxSlices];           // rows of the cell pairs that see each slice
+  ShiftedSlice shifted_[kMaxSlices];    // the slices shifted for the current column of views
+  simd::StripSlice shown_[kMaxSlices];  // `shifted_` in the format of the SIMD kernel
 };
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Composites a strip: kSliceLanes columns of a part of a tile. All views of a strip are composited
-// while its slices are in the L1 cache.
+// Composites a strip, which is kSliceLanes columns of a part of a tile. All views of a strip are
+// composited while the strip's slices are in the L1 cache.
 #ifndef STARFOCUS_LIB_SLICES_STRIP_H_
 #define STARFOCUS_LIB_SLICES_STRIP_H_
 
@@ -14,9 +14,9 @@
 
 namespace starfocus {
 
-// Two adjacent cells in a part of a tile, with the slices that they see.
+// Two adjacent cells in a part of a tile, with the slices that these cells see.
 struct CellPair {
-  int32_t x, y, rows;  // position and height in the part of the tile
+  int32_t x, y, rows;  // position and height in pixels of the part
   int32_t count;       // number of slices seen
   uint8_t shown[kMaxSlices];
 };
@@ -24,28 +24,28 @@ struct CellPair {
 // Sums of a pixel: R, G, B and coverage.
 inline constexpr size_t kPixelSums = 4;
 
-// Input, scratch memory and output of the strips of a part of a tile. G is the smaller of 2 N + 1
+// Input, scratch memory and output for the strips of a part of a tile. G is the smaller of 2 N + 1
 // and kGroupViews.
 struct StripJob {
   const simd::Kernels* kernels;
   const SliceStack* stack;
-  const SlicePlane* planes;  // of each slice, filled for the part
-  int16_t* weights;          // G: weights of a group of views
-  int16_t* memory;           // StripBytes of each slice
-  uint32_t* sums;            // output: kPixelSums per pixel of the strip, by rows of the part
+  const SlicePlane* planes;  // one per slice, filled for this part
+  int16_t* weights;          // weights of a group of views: G elements
+  int16_t* memory;           // StripBytes for each slice
+  uint32_t* sums;            // output: kPixelSums per pixel, in the order of rows
   CancelToken* cancel;       // null: the job is never cancelled
 };
 
-// The pairs [first, end) of a part of a tile that lie at column x; at least one.
+// The cell pairs [first, end) of a part of a tile that lie at column x. There is at least one pair.
 struct StripPairs {
   int32_t x;
   const CellPair *first, *end;
 };
 
-// Sums all views of the pairs into job.sums.
+// Writes the sums over all views of the cell pairs to job.sums.
 void CompositeStrip(const StripJob& job, const StripPairs& pairs);
 
-// Returns the sums of a row of the part.
+// Returns the sums of row `row` of the part.
 inline uint32_t* SumsOfRow(uint32_t* sums, int32_t row) {
   return sums + kPixelSums * simd::kSliceLanes * static_cast<size_t>(row);
 }

@@ -7,10 +7,11 @@
 namespace starfocus {
 namespace {
 
-// Pixels with more coverage than kMostPart belong to the near surface alone, and those with at most
-// kLeastPart to the far surface alone.
+// Pixels with a coverage above kMostPart belong to the near surface alone. Pixels with a coverage
+// of at most kLeastPart belong to the far surface alone.
 constexpr int32_t kMostPart = 115, kLeastPart = 2;
-// Hidden surfaces less than this behind the near one are other strands, which are not opaque.
+// Hidden surfaces less than kSameStructure behind the near surface are other strands, which are not
+// opaque, and are dropped (kDisparityBits).
 constexpr int32_t kSameStructure = 4 << kDisparityBits;
 
 class ThinParter {
@@ -47,14 +48,15 @@ class ThinParter {
           is_excess_ ? ExcessBehind(near, whole) : far.rgb[c];
       if (whole || is_excess_) continue;
       near = RestOf(mixed[c], beyond, kWhole - alpha);
-      // The near light may have been clipped. The far light compensates for it, so that both
-      // surfaces still add up to the pixel.
+      // RestOf may have clipped the near light. The far light compensates for the clipping, so that
+      // both surfaces still add up to the pixel.
       beyond = RestOf(mixed[c], near, alpha);
     }
   }
 
  private:
-  // Returns the excess of the far surface: that of the mixture, or 0 behind a whole pixel.
+  // Returns the excess of the far surface, which is the excess of the mixture, or 0 if the near
+  // surface covers the whole pixel.
   static int16_t ExcessBehind(int16_t excess, bool whole) { return whole ? int16_t{0} : excess; }
 
   // Returns the light of the other surface, given that `surface` covers `part` of the mixture.
@@ -79,7 +81,7 @@ class ThinParter {
   }
 
   const CoverageMap& map_;
-  const bool is_excess_;  // true: the light is that of highlights beyond white
+  const bool is_excess_;  // true if the light is the excess of highlights beyond white
   const BlockPixels& field_;
   LayeredDepth& surfaces_;
 };

@@ -10,11 +10,13 @@
 namespace starfocus {
 
 // Gives each pixel of thin tiles the disparity of the surface that covers most of it, so that
-// hidden surfaces end there. Must be called before FindLayeredDepth.
+// hidden surfaces end at the boundary of the thin structure. Must be called before
+// FindLayeredDepth.
 void TakeThinDisparities(const Window& window, BlockPixels* field);
 
-// Gives each pixel of thin tiles the two surfaces that the coverage map found there. They replace
-// those of FindLayeredDepth and FindMatte. Must be called before InpaintHidden.
+// Gives each pixel of thin tiles the two surfaces that the coverage map contains for the pixel.
+// These surfaces replace the surfaces found by FindLayeredDepth and FindMatte. Must be called
+// before InpaintHidden.
 void PartThin(const Window& window, const BlockPixels& field, LayeredDepth* surfaces);
 
 }  // namespace starfocus
