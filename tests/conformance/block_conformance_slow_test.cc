@@ -177,9 +177,9 @@ TEST_CASE("block conformance: too many slices and the widest subapertures match 
     float low, high;
     double focus, max_blur;
   };
-  // The first two lenses blur surfaces on both sides of the focus: in more slices than are allowed,
-  // and in more than the memory has room for. The third lens has subapertures that are almost as
-  // wide as the widest spread.
+  // The first two lenses blur surfaces on both sides of the focus. The first needs more slices than
+  // are allowed, the second more than fit into the memory. The third lens has subapertures that are
+  // almost as wide as the widest spread.
   constexpr Lens kLenses[] = {{-10, 10, 0, 24}, {-23, 23, 0, 24}, {0, 4, -104, 109}};
   test::Random random(53);
   Distance all;

@@ -19,8 +19,8 @@ bool IsHighlight(const uint8_t* codes) {
   return std::count_if(codes, codes + 3, [](uint8_t code) { return code >= 251; }) >= 2;
 }
 
-// Returns the number of consecutive highlights of the view along (dx, dy) through (x, y), or a very
-// large number if they reach the edge of the picture.
+// Returns the number of consecutive highlights of the view along (dx, dy) through (x, y). The
+// number is very large if they reach the edge of the picture.
 int RunThrough(const test::Scene& scene, int view, int x, int y, int dx, int dy) {
   int run = 1;
   for (const int side : {1, -1}) {

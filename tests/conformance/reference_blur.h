@@ -17,8 +17,8 @@ namespace reference {
 
 inline constexpr int kOne = 64;  // unit of disparities and radii
 
-// Returns the step of the ladder of blur.h at a radius in 1/kOne pixels: 1/8 pixel up to 4 pixels,
-// and 1/32 of the start of each octave beyond.
+// Returns the step of the ladder of blur.h at a radius in 1/kOne pixels. It is 1/8 pixel up to 4
+// pixels, and 1/32 of the start of each octave beyond.
 inline double LadderUnit(int radius) {
   double unit = kOne / 8.0;
   for (double octave = 4 * kOne; radius >= octave; octave *= 2) unit = octave / 32;

@@ -10,7 +10,7 @@
 
 namespace reference {
 
-// Smallest step, exclusive, of an edge of a thin structure, in 1/64.
+// A larger step of disparity, in 1/64, is an edge of a thin structure.
 inline constexpr int kThinEdge = 5 * 64;
 
 class ThinMap {

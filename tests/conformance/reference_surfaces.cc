@@ -190,20 +190,20 @@ class SurfaceFinder {
     if (surfaces->size() > starfocus::simd::kSurfaces) surfaces->pop_back();
   }
 
-  // Returns true if a pixel hides the point beyond an edge, `distance` pixels away, from the centre
-  // view, and a view at distance 1 can see this point.
+  // Returns true if a pixel hides the point `distance` pixels away beyond an edge. The centre view
+  // does not see this point, but a view at distance 1 does.
   bool Hides(int here, int far, int distance) const {
     return IsEdge(here, far) && (distance - 1) * unit_ <= here - far;
   }
 
   // Returns the distance to the far side of the nearest depth edge in that direction, or 0 if the
-  // pixel does not hide it. A step does not count as an edge if two conditions hold: it is at most
-  // an eighth of the depth that the previous edge hides, and its near side hides the far side of
+  // pixel does not hide it. A step does not count as an edge if two conditions hold. The step is at
+  // most an eighth of the depth that the previous edge hides. Its near side hides the far side of
   // that edge.
   int NextEdge(int x, int y, const Direction& towards) const {
     int k = 0;
     while (extended_.Inside(x + (k + 1) * towards.x, y + (k + 1) * towards.y)) ++k;
-    // of the last edge on the way to the pixel; distance 0: no edge so far
+    // disparity and distance of the last edge; distance 0: no edge so far
     int far = 0, distance = 0;
     for (; k > 0; --k) {
       const int beyond = Disparity(x + k * towards.x, y + k * towards.y);
@@ -218,8 +218,8 @@ class SurfaceFinder {
     return distance > 0 && Hides(Disparity(x, y), far, distance) ? distance : 0;
   }
 
-  // Finds the surfaces behind a pixel: the one beyond the edge in that direction, and the one
-  // beyond the next edge, if a view can see that far behind the pixel.
+  // Finds the surfaces behind a pixel: one beyond the edge in that direction, and one beyond the
+  // next edge. The latter exists only if a view can see that far behind the pixel.
   void LookBehind(int x, int y, const Direction& towards, std::vector<Background>* found) const {
     const int next = NextEdge(x, y, towards);
     if (next == 0) return;

@@ -15,7 +15,7 @@ struct Surface {
   int disparity;  // in 1/64
   Colour colour;
   double share = 1;   // share of the pixel; surfaces behind it get the rest
-  bool ends = false;  // true beside a depth edge
+  bool ends = false;  // true next to a depth edge
   // Distance and directions of the pixels that are repeated here, if no captured view sees behind
   // the edge.
   int repeated = 0;

@@ -20,7 +20,7 @@ using namespace starfocus::simd;
 
 constexpr int kLength = 12;
 constexpr uint32_t kBlendOne = 1 << starfocus::simd::kBlendBits;
-constexpr double kRounding = 0.5 / 128;  // of light
+constexpr double kRounding = 0.5 / 128;  // rounding error of light
 constexpr int16_t kUntouched = 0x5A5A;
 
 // Fills a hole with one gray level, and records the surface behind it.

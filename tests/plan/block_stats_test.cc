@@ -163,12 +163,12 @@ bool Reaches(int x, int y, double radius, int x0, int y0, int x1, int y1) {
 struct Exact {
   Border border[3] = {};
   double inside_min = 1e9, inside_max = 0;  // radii of the block's pixels in the picture
-  double reaching_max = 0;                  // of the block's pixels and all pixels that reach them
-  double around_max = 0;                    // of all pixels that the analysis may consider
-  bool has_edge = false;                    // true if a depth edge concerns the block
-  bool has_edge_around = false;             // true if the analysis may consider any depth edge
-  double shown_min = 1e9;  // of pixels up to kLayerMargin[1] around the block, and of edges there
-  double ring_min = 1e9;   // of pixels up to 8 around the block
+  double reaching_max = 0;       // largest radius of these pixels and of all that reach them
+  double around_max = 0;         // largest radius of all pixels that the analysis may consider
+  bool has_edge = false;         // true if a depth edge concerns the block
+  bool has_edge_around = false;  // true if the analysis may consider any depth edge
+  double shown_min = 1e9;  // smallest radius of pixels and edges up to kLayerMargin[1] around it
+  double ring_min = 1e9;   // smallest radius of pixels up to 8 around the block
 };
 
 Exact Measure(const Map& map, int x0, int y0, int side, double largest) {

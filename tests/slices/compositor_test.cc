@@ -181,7 +181,7 @@ TEST_CASE("stack: no more tiles are made after cancellation") {
   CHECK(test::Refocus(&engine, params, scene, &out, test::ToldTo(SayNo)) ==
         STARFOCUS_ERROR_CANCELLED);
   CHECK(ranges_found > 0);
-  CHECK(ranges_found < all / 8);  // of sixteen tiles
+  CHECK(ranges_found < all / 8);  // two of sixteen tiles
 }
 
 // Red zones would add memory between parts that otherwise share it.

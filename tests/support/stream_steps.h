@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A stream step by step: each pushes all rows that go in, and pulls some.
+// Runs a stream in steps. Each step pushes as many rows as the engine consumes, and pulls some
+// rows.
 #ifndef STARFOCUS_TESTS_SUPPORT_STREAM_STEPS_H_
 #define STARFOCUS_TESTS_SUPPORT_STREAM_STEPS_H_
 
@@ -13,7 +14,8 @@ namespace test {
 
 struct StreamSteps {
   bool Ended() const { return pulled == scene.height; }
-  // Pulls at most so many rows. Returns the status of that.
+  // Pushes all rows that the engine consumes, and pulls at most `most` rows. Returns the status of
+  // the pull.
   starfocus_status Step(int most = STARFOCUS_MAX_SIZE, starfocus_report* report = nullptr) {
     int32_t consumed = 0, written = 0;
     if (pushed < scene.height) {
@@ -30,7 +32,7 @@ struct StreamSteps {
     return status;
   }
 
-  Engine* engine;  // its stream has begun
+  Engine* engine;  // an engine whose stream has been started
   const Scene& scene;
   Output* out;
   int pushed = 0, pulled = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shared code of the tests of the public interface: random light fields from seeds, an engine with
-// its memory, and refocusing of whole pictures and streams into a padded, poisoned picture.
+// Shared code of the tests of the public interface: random light fields from seeds, and an engine
+// with its memory. Whole pictures and streams are refocused into a padded, poisoned picture.
 #ifndef STARFOCUS_TESTS_SUPPORT_TEST_SCENE_H_
 #define STARFOCUS_TESTS_SUPPORT_TEST_SCENE_H_
 
