@@ -155,7 +155,7 @@ TEST_CASE("gather: a flat surface gets the bytes of the blur mode") {
   }
 }
 
-TEST_CASE("gather: cells in focus or with large blur are not gathered, nor in other modes") {
+TEST_CASE("gather: cells in focus, cells with large blur and other modes are not gathered") {
   const test::Scene scene = test::RandomScene(70, 45, 5, 0, 0, 63);
   const starfocus_config config = test::ConfigFor(scene, 49);
   const auto gathered = [&](double focus, starfocus_mode mode, starfocus_renderer renderer) {

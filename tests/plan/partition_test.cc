@@ -109,7 +109,7 @@ size_t CheckPicture(const Plan& plan) {
   return count;
 }
 
-TEST_CASE("partition: it is the cheapest one, covers each pixel once and follows the rules") {
+TEST_CASE("partition: the cheapest one is chosen, covers each pixel once and follows the rules") {
   test::Random random(7);
   size_t blocks = 0, superblocks = 0;
   for (int round = 0; round < 60; ++round) {
@@ -124,7 +124,7 @@ TEST_CASE("partition: it is the cheapest one, covers each pixel once and follows
   CHECK(blocks > 2 * superblocks);  // most superblocks were split
 }
 
-TEST_CASE("partition: it is the cheapest of all 83522 partitions of a block of 128") {
+TEST_CASE("partition: the choice is the cheapest of all 83522 partitions of a block of 128") {
   test::Random random(8);
   for (int round = 0; round < 3; ++round) {
     const Plan plan(128 - 30 * round, 128, 128, 8, &random);
@@ -134,7 +134,7 @@ TEST_CASE("partition: it is the cheapest of all 83522 partitions of a block of 1
   }
 }
 
-TEST_CASE("partition: it is the cheapest one for random and degenerate coefficients") {
+TEST_CASE("partition: the cheapest one is chosen for random and degenerate coefficients") {
   test::Random random(9);
   for (int round = 0; round < 60; ++round) {
     const int side = 32 << random.Int(0, 1);

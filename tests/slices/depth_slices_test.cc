@@ -94,7 +94,7 @@ TEST_CASE("slices: bands of rows have the disparities of all surfaces of the sli
   scene.At(15, 15) = 20;
   scene.At(51, 17) = -40;
   scene.At(63, 18) = -50;   // too far away
-  scene.At(20, 51) = -300;  // hidden surfaces belong to the range of the first one
+  scene.At(20, 51) = -300;  // the range of disparities must include hidden surfaces
   for (int y = 30; y < 35; ++y) scene.At(40, y, 1) = int16_t(-100 - y);
   scene.At(0, 31, 2) = -200;
   scene.Cut(2.25);
@@ -113,7 +113,7 @@ TEST_CASE("slices: the nearest slice is first, and hidden surfaces have slices, 
   for (int y = 0; y < kSize; ++y) {
     for (int x = 30; x < kSize; ++x) scene.At(x, y) = 400;
   }
-  scene.At(0, 0) = -300;  // too far away to be visible; no hidden surface has this disparity alone
+  scene.At(0, 0) = -300;  // invisible; the range of disparities must include hidden surfaces
   scene.At(35, 32, 1) = -200;
   scene.At(35, 32, 2) = -300;
   const std::vector<Slice> slices = scene.Cut(0);
