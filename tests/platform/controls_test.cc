@@ -257,7 +257,8 @@ TEST_CASE(
   screen.red = {11, 5};
   screen.green = {5, 6};
   screen.blue = {0, 5};
-  // One of two pixels must be cropped. Half a pixel on the left rounds to 0, so the left pixel is visible.
+  // One of two pixels must be cropped. Half a pixel on the left rounds to 0, so the left pixel is
+  // visible.
   Draw(picture, screen);
   const uint32_t pixel = (255u >> 3 << 11) | (128u >> 2 << 5) | (8u >> 3);
   CHECK(memory[0] == (pixel & 255));

@@ -311,9 +311,7 @@ Image PictureOf(const FloatMap& map) {
 }
 
 #ifdef STARFOCUS_HAS_EXIF
-TEST_CASE(
-    "depth pictures: proportions and edges show if a picture is upright or rotates with the "
-    "photo") {
+TEST_CASE("depth pictures: proportions and edges show if a picture must rotate with the photo") {
   for (int orientation = 1; orientation <= 8; ++orientation) {
     for (const bool square : {false, true}) {
       CAPTURE(orientation);
