@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every way to make a picture may be cancelled wherever it asks, and leaves the engine as it was.
+// Checks that every operation that makes a picture can be cancelled at any call of progress, and
+// leaves the engine unchanged.
 #include <doctest/doctest.h>
 
 #include "tests/properties/operations.h"
@@ -8,7 +9,7 @@
 namespace cancelling_slow_test {
 namespace {
 
-TEST_CASE("cancelling: at any call, the engine is as before") {
+TEST_CASE("cancelling: after a cancellation at any call, the engine is unchanged") {
   for (const properties::Operation& operation : properties::PictureOperations(false)) {
     properties::CheckCancelling(operation);
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Operations that make pictures or maps, and what must hold of each of them: its bytes depend
-// neither on who works in which order, nor on what was made before, nor on a runner that failed or
-// a call that was cancelled.
+// Operations that make pictures or maps, and the properties that each of them must have. The bytes
+// of the result must not depend on workers and their order, or on earlier results. They also must
+// not depend on failures of a runner or cancelled calls.
 #ifndef STARFOCUS_TESTS_PROPERTIES_OPERATIONS_H_
 #define STARFOCUS_TESTS_PROPERTIES_OPERATIONS_H_
 
@@ -30,33 +30,34 @@ namespace properties {
 
 using Bytes = std::vector<uint8_t>;
 
-// What the bytes of a result must not depend on.
+// Conditions that must not change the bytes of a result.
 struct Setup {
   int workers = 1;
-  bool used = false;                                  // engine or memory made something before
-  const starfocus::simd::Kernels* kernels = nullptr;  // null: the best of this machine
+  bool used = false;  // true if the engine or the memory was used before
+  // Null selects the best kernels of this machine.
+  const starfocus::simd::Kernels* kernels = nullptr;
   const starfocus::simd::DepthKernels* depth_kernels = nullptr;
-  test::Symmetry mirror = {false, false, false};  // of the input, undone in the result
+  test::Symmetry mirror = {false, false, false};  // mirrors the input, and mirrors the result back
 };
 
-// Runs an operation that is set up, any number of times.
+// Runs a prepared operation. Can be called any number of times.
 using Run = std::function<starfocus_status(const starfocus_callbacks& callbacks, Bytes* out)>;
 
 struct Operation {
   std::string name;
-  int32_t rows;   // that progress is told of
-  int questions;  // progress is told at least as often
+  int32_t rows;   // rows that progress reports
+  int questions;  // smallest number of calls of progress
   std::function<Run(const Setup& setup)> set_up;
 };
 
-// The bytes of an operation that succeeds.
+// Returns the bytes of an operation that must succeed.
 inline Bytes Made(const Run& run, const starfocus_callbacks& callbacks = {}) {
   Bytes bytes;
   REQUIRE(run(callbacks, &bytes) == STARFOCUS_OK);
   return bytes;
 }
 
-// A thread per worker; the jobs are drawn in a shuffled order.
+// Starts one thread per worker. The threads take the jobs in a shuffled order.
 struct ShuffledRunner {
   int workers, sets = 0, jobs = 0;
 
@@ -94,7 +95,7 @@ inline void CheckWorkers(const Operation& operation) {
   }
 }
 
-// Each setup gives the bytes of the first.
+// Checks that each setup returns the bytes of the first.
 inline void CheckSetups(const Operation& operation, const std::vector<Setup>& setups) {
   CAPTURE(operation.name);
   const Bytes expected = Made(operation.set_up(setups[0]));
@@ -107,8 +108,8 @@ inline void CheckSetups(const Operation& operation, const std::vector<Setup>& se
   }
 }
 
-// Fails at a set of jobs, having run some of them. Reports odd failures only: that jobs are missing
-// is a failure, too.
+// Fails at a set of jobs after running some of its jobs. Only every second failure is reported,
+// since missing jobs must also be detected as a failure.
 struct FailingRunner {
   int fails_at, sets = 0;
 
@@ -120,7 +121,8 @@ struct FailingRunner {
   }
 };
 
-// A runner may fail at any set of jobs, and the next call makes all.
+// Checks that after a failure of the runner at any set of jobs, the next call returns the whole
+// result.
 inline void CheckFailingRunner(const Operation& operation) {
   CAPTURE(operation.name);
   const Run run = operation.set_up({});
@@ -142,8 +144,8 @@ inline void CheckFailingRunner(const Operation& operation) {
   }
 }
 
-// Cancels at every call there is (of slow builds at the first ones and some of the others), after
-// each of which the same engine must make what a new one makes.
+// Cancels at every call of progress. Slow builds cancel only at the first calls and at some of the
+// others. After each cancellation, the same engine must return the result of a new engine.
 inline void CheckCancelling(const Operation& operation) {
   CAPTURE(operation.name);
   const Bytes expected = Made(operation.set_up({}));
@@ -161,7 +163,7 @@ inline void CheckCancelling(const Operation& operation) {
       Bytes bytes;
       const starfocus_status status = run(callbacks, &bytes);
       CHECK(watch.Good());
-      if (watch.calls <= stop) {  // it ended before
+      if (watch.calls <= stop) {  // the operation ended before the cancellation
         CHECK(status == STARFOCUS_OK);
         CHECK(watch.Ended());
         CHECK(watch.rows == operation.rows);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ways to ask an engine for a picture, through lenses of every kind and in every format.
+// The operations that make a picture, with lenses of every kind and images of every format.
 #ifndef STARFOCUS_TESTS_PROPERTIES_PICTURE_OPERATIONS_H_
 #define STARFOCUS_TESTS_PROPERTIES_PICTURE_OPERATIONS_H_
 
@@ -20,7 +20,7 @@
 
 namespace properties {
 
-constexpr int kWidth = 70, kHeight = 75;  // three superblocks each way
+constexpr int kWidth = 70, kHeight = 75;  // three superblocks in each direction
 
 struct Lens {
   const char* name;
@@ -29,8 +29,8 @@ struct Lens {
   double aperture;
   int views;
   float highlights = 1;
-  bool flat = false;     // one surface, which is gathered,
-  bool layered = false;  // or subsampled
+  bool flat = false;     // one surface, which is gathered
+  bool layered = false;  // one surface, which is subsampled
 };
 
 constexpr Lens kBlocks = {"blocks", STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_SLICES, 1, 5};
@@ -53,7 +53,7 @@ constexpr Lens kLenses[] = {
     {"pinhole", STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_AUTO, 0, 5},
 };
 
-// A scene, the frame before it, and an engine that has prepared it.
+// A scene, the previous frame, and an engine that has prepared the scene.
 struct Picture {
   Picture(test::Scene of, const Lens& lens, const Setup& setup) : scene(std::move(of)) {
     if (lens.flat) scene.disparity.assign(scene.disparity.size(), 9);
@@ -61,7 +61,7 @@ struct Picture {
       for (int y = 40; y < 44; ++y) std::fill_n(scene.Pixel(view, 30, y), 12, uint8_t{255});
     }
     before = scene;
-    before.Pixel(0, 50, 60)[1] ^= 64;  // a corner of the last stripes differs
+    before.Pixel(0, 50, 60)[1] ^= 64;  // a corner of the last stripe differs
     config = test::ConfigFor(scene, 13);
     config.superblock = 32;
     config.features |= STARFOCUS_FEATURE_STREAMING | STARFOCUS_FEATURE_IMAGES;
@@ -111,7 +111,7 @@ inline test::Scene SceneOf(const Lens& lens) {
   return test::RandomScene(kWidth, kHeight, lens.views, -3, 9, 8);
 }
 
-// Ways to ask for a picture. The callbacks are set.
+// The operations that make a picture. The callbacks are already set.
 inline starfocus_status Whole(Picture* of, const starfocus_callbacks& callbacks, test::Output* out,
                               starfocus_report* report) {
   return test::Refocus(of->engine.get(), of->params, of->scene, out, callbacks, report);
@@ -185,8 +185,8 @@ inline Operation OperationOf(const Lens& lens, const NamedWay& way) {
           }};
 }
 
-// A picture from views of a format and a map of half the size, into that format; or one that is
-// prepared.
+// Makes a picture from views and a map of half the size, in the given format. `prepares` selects a
+// prepared light field.
 inline Run SetUpImages(int format, bool prepares, const Setup& setup) {
   test::Random random(uint64_t(format) + 1);
   const test::ImageKind kind = test::AnyKind(format, &random);
@@ -217,7 +217,7 @@ inline Run SetUpImages(int format, bool prepares, const Setup& setup) {
   };
 }
 
-// With images of all formats, or of NV12 alone.
+// Returns the operations with images of all formats, or only of NV12.
 inline std::vector<Operation> PictureOperations(bool all_formats = true) {
   std::vector<Operation> all;
   for (const Lens& lens : kLenses) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every way to make a picture gives the same bytes on every SIMD target.
+// Checks that every operation that makes a picture returns the same bytes on every SIMD target.
 #include <doctest/doctest.h>
 
 #include <vector>
@@ -13,7 +13,7 @@ namespace {
 
 using namespace properties;
 
-TEST_CASE("pictures: every SIMD target gives the bytes of the plain kernels") {
+TEST_CASE("pictures: every SIMD target returns the bytes of the reference kernels") {
   std::vector<Setup> setups(1);
   setups[0].kernels = &starfocus::simd::ReferenceKernels();
   for (const auto* kernels : test::SimdTargets()) setups.emplace_back().kernels = kernels;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What holds of every way to make a picture (operations.h).
+// Checks the properties of operations.h for every operation that makes a picture.
 #include <doctest/doctest.h>
 
 #include "tests/properties/operations.h"
@@ -10,17 +10,18 @@ namespace {
 
 using namespace properties;
 
-TEST_CASE("pictures: any number of workers, of those that there may be, in any order") {
+TEST_CASE("pictures: the result does not depend on the number of workers or the order of jobs") {
   for (const Operation& operation : PictureOperations()) CheckWorkers(operation);
 }
 
-TEST_CASE("pictures: an engine that was used gives what a new one gives") {
+TEST_CASE("pictures: a used engine returns the result of a new engine") {
   Setup used;
   used.used = true;
   for (const Operation& operation : PictureOperations()) CheckSetups(operation, {{}, used});
 }
 
-TEST_CASE("pictures: a runner may fail at any set of jobs, and the next call makes all") {
+TEST_CASE(
+    "pictures: after a runner has failed at any jobs, the next call makes the whole picture") {
   for (const Operation& operation : PictureOperations()) CheckFailingRunner(operation);
 }
 

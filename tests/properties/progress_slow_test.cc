@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// starfocus_callbacks.progress: how often it is asked, and what becomes of a stream that it
+// Tests starfocus_callbacks.progress: how often it is called, and the state of a stream that it
 // cancels.
 #include <doctest/doctest.h>
 
@@ -22,7 +22,8 @@ void SetCallbacks(test::Engine* engine, const starfocus_callbacks& callbacks) {
   REQUIRE(starfocus_set_callbacks(engine->get(), &callbacks) == STARFOCUS_OK);
 }
 
-// Pulls a stream, again whenever it is cancelled, which every pull is after `every` more calls.
+// Pulls a whole stream. Progress cancels after each `every` calls, and each cancelled pull is
+// repeated.
 int PullOn(const Picture& f, int every, starfocus_report* report, test::Output* out) {
   test::Engine engine(f.config);
   Watch watch;
@@ -46,7 +47,7 @@ int PullOn(const Picture& f, int every, starfocus_report* report, test::Output* 
   return cancelled;
 }
 
-TEST_CASE("progress: a stream that was cancelled goes on with its rows, and the same report") {
+TEST_CASE("progress: a cancelled stream continues with its rows and returns the same report") {
   const Picture f(SceneOf(kBlocks), kBlocks, {});
   starfocus_report expected = {}, report = {};
   test::Output whole(kWidth, kHeight, 5), out(kWidth, kHeight, 5);
@@ -64,9 +65,9 @@ TEST_CASE("progress: a stream that was cancelled goes on with its rows, and the 
   CHECK(cancelled > 40);
 }
 
-TEST_CASE("progress: a stream that is cancelled as it begins has not begun") {
+TEST_CASE("progress: a stream that is cancelled in begin has not begun") {
   const Picture f(SceneOf(kBlur), kBlur, {});
-  test::Engine engine(f.config);  // its kernels are made then
+  test::Engine engine(f.config);  // begin makes the PSFs
   Watch watch(0);
   SetCallbacks(&engine, Watched(&watch));
   CHECK(starfocus_stream_begin(engine.get(), &f.params) == STARFOCUS_ERROR_CANCELLED);
@@ -76,9 +77,9 @@ TEST_CASE("progress: a stream that is cancelled as it begins has not begun") {
   CHECK(starfocus_stream_push(engine.get(), &field, 1, &consumed) == STARFOCUS_ERROR_STATE);
 }
 
-// What lies between two questions is bounded by work, and not by blocks: one block of one job must
-// ask again and again.
-TEST_CASE("progress: whatever a block takes, a million samples are too many to wait for") {
+// The work between two calls of progress is limited, and not only the number of blocks. A job with
+// one block must call progress repeatedly.
+TEST_CASE("progress: no block computes a million samples between two calls") {
   constexpr double kMost = 1 << 20;
   for (const Lens& of : kLenses) {
     CAPTURE(of.name);
@@ -90,11 +91,11 @@ TEST_CASE("progress: whatever a block takes, a million samples are too many to w
     starfocus_config config = test::ConfigFor(scene, 32);
     config.superblock = side;
     config.tuning.max_layer = 0;
-    // Every second pixel counts in what is gathered.
+    // Gathering reads every second pixel.
     const int radius = gathered ? 12 : 32, size = (gathered ? 1 : 2) * radius + 1;
     starfocus_params params = test::Params(9 - radius, 1, of.mode, of.renderer);
     test::Engine engine(config);
-    // The kernels, that its first picture makes, are asked between, too.
+    // Progress is also called between the PSFs, which the first picture makes.
     test::Output out = test::OutputOf(&engine, params, scene);
     Watch watch;
     starfocus_report report = {};
@@ -103,7 +104,7 @@ TEST_CASE("progress: whatever a block takes, a million samples are too many to w
     double samples =
         double(report.rendered_samples) + 3.0 * size * size * double(report.gathered_pixels);
     if (of.mode == STARFOCUS_MODE_BLUR)
-      samples = 3.0 * 64 * 64 * 49 * 49;  // of the least blur, at least
+      samples = 3.0 * 64 * 64 * 49 * 49;  // lower bound, for the smallest blur
     CAPTURE(samples);
     CHECK(samples > 4 * kMost);
     CHECK(watch.calls >= samples / kMost);
