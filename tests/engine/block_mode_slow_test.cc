@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// STARFOCUS_MODE_BLOCK through the public ABI: the same bytes whichever way the rows come;
-// constants stay; what is in focus is copied; and it looks like the benchmark.
+// Tests STARFOCUS_MODE_BLOCK through the public ABI. Streamed rows must have the bytes of whole
+// pictures, constant pictures must not change, and blocks in focus must be copied. The result must
+// be close to that of the benchmark.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -25,7 +26,7 @@ namespace {
 
 constexpr int kBlocks[] = {32, 64, 128, 256};
 
-// Everything a picture depends on but its content.
+// Everything that a picture depends on, except its content.
 struct Setup {
   double focus = 0, aperture = 1;
   int block = 64, max_layer = 2, deblocking = 35;
@@ -87,7 +88,7 @@ void CheckStreamed(const test::Scene& scene, const Setup& s) {
   test::CheckStreamed(scene, Config(s, scene), s.Params());
 }
 
-TEST_CASE("block: rows give the bytes of whole pictures, at every kind of size") {
+TEST_CASE("block: rows have the bytes of whole pictures at sizes of every kind") {
   test::Random random(31);
   constexpr int kSizes[][2] = {{1, 1},   {1, 40},  {40, 1},   {1, 150},  {150, 1},  {2, 3},
                                {15, 17}, {16, 16}, {17, 15},  {31, 33},  {32, 32},  {33, 70},
@@ -104,7 +105,7 @@ TEST_CASE("block: rows give the bytes of whole pictures, at every kind of size")
   }
 }
 
-TEST_CASE("block: rows give the bytes of whole pictures in blur mode and on noise") {
+TEST_CASE("block: rows have the bytes of whole pictures in blur mode and on noise") {
   test::Random random(32);
   for (int round = 0; round < 12; ++round) {
     test::Scene scene =
@@ -118,7 +119,7 @@ TEST_CASE("block: rows give the bytes of whole pictures in blur mode and on nois
   }
 }
 
-TEST_CASE("block: constant pictures stay, bit for bit") {
+TEST_CASE("block: constant pictures do not change in any bit") {
   test::Random random(35);
   for (int round = 0; round < 256; ++round) {
     const float limit = random.Int(0, 2) == 0 ? 16.0f : 6.0f;
@@ -136,7 +137,7 @@ TEST_CASE("block: constant pictures stay, bit for bit") {
   }
 }
 
-TEST_CASE("block: all in focus copies the centre view, for every configuration") {
+TEST_CASE("block: a scene in focus is a copy of the centre view in every configuration") {
   for (const int block : kBlocks) {
     for (int max_layer = 0; max_layer <= 2; ++max_layer) {
       for (const auto& size :
@@ -151,21 +152,21 @@ TEST_CASE("block: all in focus copies the centre view, for every configuration")
         CHECK_MESSAGE(same, Text(s, scene));
         CHECK(report.layers[0].pixels == uint64_t(size.first) * uint64_t(size.second));
         CHECK(report.layers[1].blocks + report.layers[2].blocks == 0);
-        CHECK(report.n == 0);  // the centre view and no other
+        CHECK(report.n == 0);  // only the centre view
         CHECK(report.layers[0].views == report.layers[0].blocks);
       }
     }
   }
 }
 
-TEST_CASE("block: all far out of focus goes to layer 2, as far as allowed") {
+TEST_CASE("block: a scene far out of focus is rendered at the largest allowed layer") {
   for (const auto& size : {std::pair<int, int>{1, 1}, {90, 1}, {1, 90}, {100, 61}, {256, 128}}) {
     for (int max_layer = 0; max_layer <= 2; ++max_layer) {
       const test::Scene scene = test::LayeredScene(size.first, size.second, 5, 2, 44);
       Setup s;
       s.focus = 20;
-      s.renderer =
-          STARFOCUS_RENDERER_LINE_SCAN;  // wide subapertures keep silhouettes out of layer 2
+      // Wide subapertures keep silhouettes out of layer 2.
+      s.renderer = STARFOCUS_RENDERER_LINE_SCAN;
       s.max_layer = max_layer;
       s.block = 128;
       starfocus_report report = {};
@@ -184,10 +185,10 @@ struct Told {
   std::vector<int> covered;
   uint64_t blocks = 0, views = 0;
   int largest_n = 0;
-  bool subapertures = false;  // the rule
+  bool subapertures = false;  // true for the rule of subapertures
 };
 
-TEST_CASE("block: the blocks told of tile the picture once and are those of the report") {
+TEST_CASE("block: the visited blocks cover the picture once and agree with the report") {
   test::Random random(36);
   for (int round = 0; round < 20; ++round) {
     const test::Scene scene =
@@ -225,17 +226,17 @@ TEST_CASE("block: the blocks told of tile the picture once and are those of the 
     CHECK(told.blocks == BlocksOf(report));
     CHECK(told.largest_n == report.n);
     const uint64_t views = report.layers[0].views + report.layers[1].views + report.layers[2].views;
-    CHECK(told.views >= views);  // of blocks that are copied only one is rendered
+    CHECK(told.views >= views);  // only one of the copied blocks is rendered
     if (report.copied_pixels == 0) CHECK(told.views == views);
     CHECK(report.layers[0].pixels + report.layers[1].pixels + report.layers[2].pixels ==
           uint64_t(scene.width) * uint64_t(scene.height));
-    // Telling changes nothing.
+    // Visiting blocks does not change the picture.
     CHECK((Whole(scene, s) == out.Tight()));
   }
 }
 
-// A texture on a slanted plane, its views rendered exactly: (x, y) of view (u, v) shows the plane's
-// point (x + u d, y + v d).
+// Returns a textured slanted plane whose views are rendered exactly: (x, y) of view (u, v) shows
+// the point (x + u d, y + v d) of the plane.
 test::Scene SmoothScene(int width, int height, int views) {
   test::Scene scene = test::EmptyScene(width, height, views, -6, 6);
   const auto disparity = [&](double x) { return 12 * x / (width - 1) - 6; };
@@ -246,7 +247,7 @@ test::Scene SmoothScene(int width, int height, int views) {
     starfocus_view_position(view, &u, &v);
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x) {
-        // px - u d(px) = x, d linear.
+        // Solution of px - u d(px) = x for a linear d.
         const double px = (x - 6 * u) / (1 - 12 * u / (width - 1)), py = y + v * disparity(px);
         for (int c = 0; c < 3; ++c) {
           const double value = std::sin(0.15 * px + 0.1 * py + c) * std::cos(0.06 * px - 0.2 * py) +
@@ -259,7 +260,7 @@ test::Scene SmoothScene(int width, int height, int views) {
   return scene;
 }
 
-TEST_CASE("block: agrees with the benchmark on a slanted plane") {
+TEST_CASE("block: on a slanted plane, the picture agrees with the benchmark") {
   const test::Scene scene = SmoothScene(320, 160, 17);
   for (const double focus : {-6.0, -2.0, 0.0, 3.5, 6.0}) {
     Setup s;
@@ -279,7 +280,7 @@ TEST_CASE("block: agrees with the benchmark on a slanted plane") {
   }
 }
 
-TEST_CASE("block: deblocking does to the picture at once what it does to stripes") {
+TEST_CASE("block: deblocking of a whole picture equals deblocking of stripes") {
   test::Random random(39);
   int changed = 0;
   for (int round = 0; round < 40; ++round) {
@@ -316,7 +317,7 @@ TEST_CASE("block: deblocking does to the picture at once what it does to stripes
   CHECK(changed > 20);
 }
 
-TEST_CASE("block: mirrored light fields of whole blocks give mirrored pictures at layer 0") {
+TEST_CASE("block: at layer 0, mirrored light fields of whole blocks give mirrored pictures") {
   test::Random random(38);
   for (int round = 0; round < 24; ++round) {
     const int block = kBlocks[random.Int(0, 1)];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Declared borders: what lies beyond them is not read, and what lies within them is. Whatever may
-// not count is poisoned, and the bytes of a block must stay; with a border of one pixel less some
-// block must change.
+// Tests the declared borders: nothing beyond them is read, and everything within them is needed.
+// Values that must not count are replaced by noise, and the bytes of a block must not change. With
+// borders smaller by one pixel, some block must change.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -24,9 +24,9 @@ namespace {
 using starfocus::Rect;
 using test::Borders;
 
-constexpr int kAll = 10000;  // a border that leaves everything as it is
+constexpr int kAll = 10000;  // a border that keeps the whole picture
 
-// How far around a rectangle a light field stays as it is.
+// Distance from a rectangle within which a light field is kept.
 struct Kept {
   int centre = kAll, map = kAll, sides = kAll;
 };
@@ -36,7 +36,7 @@ bool Beyond(const Rect& rect, int border, int x, int y) {
          y >= rect.y + rect.height + border;
 }
 
-// Disparities as far apart as may be, or any.
+// Returns a disparity at the ends of the range, or any disparity.
 float AnyDisparity(const test::Scene& scene, test::Random* random) {
   const int kind = random->Int(0, 2);
   if (kind == 0) return float(random->Real(scene.disparity_min, scene.disparity_max));
@@ -58,8 +58,8 @@ test::Scene Poisoned(const test::Scene& scene, const Rect& rect, const Kept& kep
   return poisoned;
 }
 
-// Noise, on rectangles of few disparities or on the areas of LayeredScene. Where `bright`, all of
-// it is clipped.
+// Returns noise on rectangles of a few disparities, or on the areas of LayeredScene. If `bright`,
+// everything is clipped.
 test::Scene AnyScene(int side, int views, float limit, bool bright, test::Random* random) {
   test::Scene scene = test::LayeredScene(side, side, views, limit, random->Next());
   if (random->Int(0, 3) == 0 && !bright) return scene;
@@ -80,7 +80,7 @@ test::Scene AnyScene(int side, int views, float limit, bool bright, test::Random
   return scene;
 }
 
-// A way to refocus a superblock.
+// Settings for the refocusing of a superblock.
 struct Way {
   int views = 5, mode = STARFOCUS_MODE_BLOCK, renderer = STARFOCUS_RENDERER_SLICES, max_layer = 2,
       gather = 1;
@@ -99,13 +99,15 @@ struct Way {
     config.tuning.gather = int16_t(gather);
     config.highlights = highlights;
     config.tuning.n_scale = n_scale;
-    config.tuning.deblocking = 0;  // joins no other superblock to it
+    // Without deblocking, no other superblock has an effect.
+    config.tuning.deblocking = 0;
     return config;
   }
   static constexpr int kSuperblock = 32;
 };
 
-// One superblock of a light field, in the middle or at edges of the picture, refocused alone.
+// One superblock of a light field, in the middle or at the edges of the picture. It is refocused
+// alone.
 class Superblock {
  public:
   Superblock(const Way& way, test::Random* random)
@@ -167,7 +169,7 @@ Way AnyWay(test::Random* random) {
   return way;
 }
 
-TEST_CASE("borders: nothing beyond those of a superblock is read") {
+TEST_CASE("borders: nothing beyond the borders of a superblock is read") {
   test::Random random(1);
   uint64_t pixels[STARFOCUS_LAYERS] = {}, gathered = 0;
   for (int round = 0; round < test::Rounds(400); ++round) {
@@ -187,14 +189,15 @@ TEST_CASE("borders: nothing beyond those of a superblock is read") {
   CHECK(gathered > 0);
 }
 
-// A way by which a sum of borders is what it is.
+// A setting in which a certain sum of borders is needed.
 struct Sum {
   const char* name;
   int views, renderer, max_layer;
-  double blur, aperture, part;  // part: of the range of disparities that blur comes from
+  // `part` is the part of the range of disparities that blur comes from.
+  double blur, aperture, part;
   int Borders::*border;
   int Kept::*kept;
-  int unused;  // pixels more than any picture was seen to depend on
+  int unused;  // pixels of the border that no picture is known to depend on
   float highlights = 1;
   int side = 160;
 
@@ -214,10 +217,11 @@ struct Sum {
   }
 };
 
-// Why pixels are unused. Of layers: blocks begin and end with whole cells, which decides their
-// bytes, and what the outermost taps of two filters, one behind the other, leave of a pixel is
-// rounded away. Of side views: hidden pixels at the rim of a block's border hardly show, those of
-// layers less, and disparities there are seldom the largest that the configuration has room for.
+// Reasons for unused pixels:
+// - Layers: blocks begin and end with whole cells, which determine their bytes. The outermost taps
+//   of two successive filters leave a part of a pixel that is rounded to 0.
+// - Side views: hidden pixels at the edge of the border are hardly visible, and those of layers
+//   even less. Their disparities are seldom the largest of the configuration.
 const Sum kSums[] = {
     {"boundary pixels", 1, STARFOCUS_RENDERER_SLICES, 0, 7, 1, 1, &Borders::centre, &Kept::map, 0},
     {"edges", 5, STARFOCUS_RENDERER_SLICES, 0, 1, 1.0 / 24, 1, &Borders::centre, &Kept::map, 0, 1,
@@ -235,7 +239,7 @@ const Sum kSums[] = {
      &Kept::sides, 0, 8},
 };
 
-TEST_CASE("borders: with one pixel less than they add up to pictures change") {
+TEST_CASE("borders: with one pixel less than the sum, pictures change") {
   for (const Sum& sum : kSums) {
     test::Random random(5);
     bool beyond = false, within = false;
@@ -255,12 +259,12 @@ TEST_CASE("borders: with one pixel less than they add up to pictures change") {
   }
 }
 
-// Whether a step's output at a place depends on samples of its input, but not on those `less` than
-// its border away.
+// Records if the output of a step depends on samples beyond its border, and on the outermost
+// samples within it.
 struct Dependence {
   bool beyond = false, within = false;
 
-  // run(border) makes the step's output with all poisoned that lies farther away than the border.
+  // run(border) returns the output of the step. All input farther away than the border is replaced.
   template <class Run>
   void Add(int border, const Run& run) {
     const auto all = run(kAll);
@@ -273,7 +277,7 @@ struct Dependence {
   }
 };
 
-// A picture of noise around (x, y), and other noise farther away than the border.
+// Returns a picture of noise around a rectangle. The noise beyond the border is different.
 std::vector<uint8_t> NoiseAround(int side, const Rect& rect, int border, uint64_t seed) {
   test::Random inside(seed), outside(border == kAll ? seed : seed + 1);
   std::vector<uint8_t> picture(3 * size_t(side) * size_t(side));
@@ -289,7 +293,7 @@ std::vector<uint8_t> NoiseAround(int side, const Rect& rect, int border, uint64_
   return picture;
 }
 
-TEST_CASE("borders: the filter of layers reads what it declares, and no less") {
+TEST_CASE("borders: the filter of layers needs exactly its declared border") {
   constexpr int kSide = 40, kRows = 22, kAt = 9;
   Dependence dependence;
   for (uint64_t seed = 1; seed <= 20; ++seed) {
@@ -316,7 +320,7 @@ TEST_CASE("borders: the filter of layers reads what it declares, and no less") {
   dependence.Check();
 }
 
-TEST_CASE("borders: captured views are read as far around a place as declared, and no less") {
+TEST_CASE("borders: captured views are needed exactly up to the declared border") {
   constexpr int kSide = 40;
   for (int layer = 0; layer < STARFOCUS_LAYERS; ++layer) {
     CAPTURE(layer);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// An opaque surface lets no light through, whatever its disparities jitter by: its slices move
-// apart, but no crack shows what lies behind.
+// Tests that an opaque surface lets no light through if its disparities vary. Its slices move
+// apart, but no gap may show the background.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -13,9 +13,10 @@
 namespace closed_test {
 namespace {
 
-constexpr int kSide = 160, kFirst = 40, kLast = 120;  // of the surface: columns and rows
+// First and last column and row of the surface.
+constexpr int kSide = 160, kFirst = 40, kLast = 120;
 
-// A dark square of one colour before a bright wall.
+// Returns a dark square of one colour in front of a bright wall.
 test::Scene Square(int views, double jitter, double slope, uint64_t seed) {
   test::Scene scene = test::EmptyScene(kSide, kSide, views, -6, 8);
   test::Random random(seed);
@@ -32,7 +33,7 @@ test::Scene Square(int views, double jitter, double slope, uint64_t seed) {
   return scene;
 }
 
-// The largest difference from the surface's colour where blur brings nothing else.
+// Returns the largest difference from the colour of the surface, where blur adds no other colour.
 int MostLeaked(const test::Output& out, int blur) {
   int most = 0;
   for (int y = kFirst + blur; y < kLast - blur; ++y) {
@@ -45,7 +46,7 @@ int MostLeaked(const test::Output& out, int blur) {
 
 }  // namespace
 
-TEST_CASE("closed: a surface whose disparities jitter or slope lets no light through") {
+TEST_CASE("closed: a surface with noisy or sloping disparities lets no light through") {
   for (const double jitter : {0.05, 0.12, 0.24}) {
     for (const double slope : {0.0, 0.02}) {
       for (const int views : {1, 5}) {

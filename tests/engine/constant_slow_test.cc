@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A constant picture comes out unchanged, bit for bit: every filter has unit gain exactly.
+// Tests that a constant picture does not change in any bit, since every filter has a gain of
+// exactly 1.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -22,11 +23,11 @@ struct Trial {
   starfocus_mode mode = STARFOCUS_MODE_FRAME;
   int block = 64;
   bool noisy = false;
-  int levels = 0;                                // of disparity, pixel by pixel at random
-  double max_blur = 64, n_scale = 1, theta = 0;  // 0: the default
+  int levels = 0;  // number of disparities, chosen at random per pixel
+  double max_blur = 64, n_scale = 1, theta = 0;  // a theta of 0 is the default
   starfocus_renderer renderer = STARFOCUS_RENDERER_AUTO;
   int transfer = STARFOCUS_TRANSFER_SRGB;
-  uint64_t shape = 0;  // the seed of a random one, unless 0
+  uint64_t shape = 0;  // seed of a random shape; 0 is the default shape
   std::array<uint8_t, 3> color = {0, 0, 0};
   uint64_t seed = 1;
 };
@@ -41,7 +42,7 @@ std::string Text(const Trial& t) {
          std::to_string(t.shape) + " seed " + std::to_string(t.seed);
 }
 
-// Refocuses a picture of one colour; the number of samples that changed.
+// Refocuses a picture of one colour. Returns the number of samples that changed.
 int Changed(const Trial& t) {
   test::Random random(t.seed);
   test::Scene scene = test::EmptyScene(t.width, t.height, t.views, t.low, t.high);
@@ -72,7 +73,7 @@ int Changed(const Trial& t) {
   return changed;
 }
 
-TEST_CASE("constant: every level") {
+TEST_CASE("constant: every level is unchanged") {
   Trial t = {19, 11, 17, -2, 3};
   for (int views : test::kStars) {
     t.views = views;
@@ -87,7 +88,7 @@ TEST_CASE("constant: every level") {
   }
 }
 
-TEST_CASE("constant: every N") {
+TEST_CASE("constant: every N leaves the picture unchanged") {
   Trial t = {21, 18};
   t.color = {255, 128, 1};
   for (int views : test::kStars) {
@@ -106,10 +107,10 @@ TEST_CASE("constant: every N") {
   }
 }
 
-TEST_CASE("constant: through every shape of opening") {
+TEST_CASE("constant: every shape of the opening leaves the picture unchanged") {
   Trial t = {70, 41};
   t.color = {255, 127, 1};
-  // Sanitizers look at what a shape makes the engine do, which a quarter of them do too.
+  // With sanitizers, a quarter of the shapes runs the same code.
 #if defined(__SANITIZE_ADDRESS__)
   constexpr uint64_t kShapes = 60;
 #else
@@ -131,7 +132,7 @@ TEST_CASE("constant: through every shape of opening") {
   }
 }
 
-TEST_CASE("constant: every small size") {
+TEST_CASE("constant: every small size is unchanged") {
   for (int height : {1, 2, 3, 5, 8, 17}) {
     for (int width : {1, 2, 3, 4, 7, 16, 31, 33}) {
       for (int views : test::kStars) {
@@ -144,9 +145,9 @@ TEST_CASE("constant: every small size") {
   }
 }
 
-// Few views of a wide lens: slices of subapertures wider than three pixels are spread in memory of
-// their own, and those of N = 4 reach beyond the blur radius.
-TEST_CASE("constant: wide subapertures") {
+// A wide lens with few views. Slices of subapertures wider than three pixels are spread in separate
+// memory. With N = 4 they reach beyond the blur radius.
+TEST_CASE("constant: wide subapertures leave the picture unchanged") {
   Trial t = {64, 64, 1};
   t.levels = 6;
   t.renderer = STARFOCUS_RENDERER_SLICES;
@@ -167,14 +168,15 @@ TEST_CASE("constant: wide subapertures") {
   }
 }
 
-// Through openings much brighter in the middle most views have little weight, and codes of the dark
-// are few levels of light: products of both are summed in shares of larger weights. What is left is
-// the rounding of slices that cover parts of a pixel: up to three pixels of a few pictures.
-TEST_CASE("constant: dark codes through steep openings") {
+// If an opening is much brighter in the middle, most views have small weights, and dark codes are
+// few levels of light. The engine therefore sums the products of both with more precise weights.
+// The remaining error is the rounding of slices that cover parts of a pixel. It affects up to three
+// pixels of a few pictures.
+TEST_CASE("constant: dark codes are nearly unchanged by steep openings") {
   Trial t = {64, 64, 5};
   t.levels = 5;
   t.renderer = STARFOCUS_RENDERER_SLICES;
-  int pictures = 0;  // with a pixel of another code
+  int pictures = 0;  // pictures with a changed pixel
   for (const double part : {0.3, 0.35, 0.4, 0.42, 0.44, 0.45}) {
     for (const double radius : {1.5, 3.0, 4.0, 6.0, 8.0, 12.0}) {
       for (int code = 1; code < 40; ++code) {
@@ -194,10 +196,12 @@ TEST_CASE("constant: dark codes through steep openings") {
   CHECK(pictures <= 2);
 }
 
-TEST_CASE("constant: random sizes, ranges, focuses, apertures and blocks") {
+TEST_CASE(
+    "constant: random sizes, ranges, focuses, apertures and blocks leave the picture unchanged") {
   test::Random random(2024);
   constexpr int kBlocks[] = {32, 64, 128, 256};
-  int pictures = 0;  // with a pixel of another code: parts of slices are rounded in 15 bits
+  // Pictures with a changed pixel, because parts of slices are rounded to 15 bits.
+  int pictures = 0;
   for (int round = 0; round < 250; ++round) {
     Trial t;
     t.width = random.Int(1, 90);

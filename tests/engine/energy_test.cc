@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Mean brightness stays where every rendered view is shifted by half a pixel.
+// Tests that the mean brightness is unchanged if every rendered view is shifted by half a pixel.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kPeriod = 16, kMargin = 24, kSide = kPeriod + 2 * kMargin;
 
-// Noise whose second half period is the inverse of the first around `mean`.
+// Returns noise. The second half of each period is the inverse of the first half around `mean`.
 test::Scene PeriodicScene(int mean, uint64_t seed) {
   test::Random random(seed);
   test::Scene scene = test::EmptyScene(kSide, kSide, 1, 0, 0);
@@ -33,7 +33,7 @@ test::Scene PeriodicScene(int mean, uint64_t seed) {
   return scene;
 }
 
-TEST_CASE("energy: blending halves does not brighten") {
+TEST_CASE("energy: blending with half weights does not brighten the picture") {
   for (const starfocus_mode mode : test::kModes) {
     for (const double radius : {0.5, 1.0, 1.5, 3.03125, 4.5, 6.25}) {
       double sum = 0;

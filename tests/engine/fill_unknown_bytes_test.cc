@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Maps with unknown values: refused, or filled along their rows.
+// Tests that maps with unknown values are rejected, or filled along their rows.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-// A scene some of whose map is unknown, and the same with what is there filled by hand.
+// A scene with partly unknown disparities, and the same scene filled by hand.
 struct Scenes {
   test::Scene unknown, filled;
   int64_t count = 0;
@@ -25,7 +25,7 @@ struct Scenes {
   Scenes(int width, int height, int views, uint64_t seed)
       : unknown(test::RandomScene(width, height, views, -3, 3, seed)), filled(unknown) {}
 
-  // Makes [first, end) of row y unknown, which should become `value`.
+  // Makes [first, end) of row y unknown. The expected filled disparity is `value`.
   void Forget(int y, int first, int end, float value, float as = kNaN) {
     for (int x = first; x < end; ++x) {
       unknown.Disparity(x, y) = as;
@@ -35,7 +35,8 @@ struct Scenes {
   }
 };
 
-// Gaps at both ends, in the middle with the farther surface on either side, and a whole row.
+// Makes gaps at both ends, gaps in the middle with the farther surface on either side, and an
+// unknown row.
 Scenes WithGaps(int views) {
   Scenes scenes(150, 90, views, 5);
   for (int y = 3; y < 90; y += 7) {
@@ -54,7 +55,7 @@ starfocus_config FillingConfig(const test::Scene& scene) {
   return config;
 }
 
-TEST_CASE("fill unknown: the farther known value of the row goes on, in every mode") {
+TEST_CASE("fill unknown: in every mode, gaps get the farther known value of the row") {
   for (const int views : {1, 5}) {
     const Scenes scenes = WithGaps(views);
     for (const starfocus_mode mode : test::kModes) {
@@ -71,7 +72,7 @@ TEST_CASE("fill unknown: the farther known value of the row goes on, in every mo
   }
 }
 
-TEST_CASE("fill unknown: every way in fills alike") {
+TEST_CASE("fill unknown: all ways to refocus fill alike") {
   const Scenes scenes = WithGaps(5);
   const starfocus_config config = FillingConfig(scenes.unknown);
   const starfocus_params params = test::Params(0.5, 0.5, STARFOCUS_MODE_BLOCK);
@@ -80,7 +81,7 @@ TEST_CASE("fill unknown: every way in fills alike") {
   CHECK(report.unknown_pixels == uint64_t(scenes.count));
 }
 
-TEST_CASE("fill unknown: a value outside the range is refused beside unknown ones") {
+TEST_CASE("fill unknown: values outside the range are rejected, also next to unknown values") {
   Scenes scenes = WithGaps(1);
   scenes.unknown.Disparity(70, 10) = scenes.unknown.disparity_max + 1;
   const starfocus_config config = FillingConfig(scenes.unknown);
@@ -91,7 +92,7 @@ TEST_CASE("fill unknown: a value outside the range is refused beside unknown one
   CHECK(out.Untouched());
 }
 
-TEST_CASE("fill unknown: unless told to, the engine refuses them") {
+TEST_CASE("fill unknown: without the feature, the engine rejects unknown values") {
   const Scenes scenes = WithGaps(1);
   test::Engine engine(test::ConfigFor(scenes.unknown, 32));
   test::Output out(scenes.unknown.width, scenes.unknown.height);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Coverage that the caller gives decides over a map that is wrong by pixels, on every way in.
+// Tests that given coverage takes precedence over a map that is wrong by several pixels, in all
+// ways to refocus.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -20,7 +21,8 @@ namespace {
 constexpr int kWidth = 192, kHeight = 160, kTop = 40, kBottom = 120, kLeft = 50, kRight = 140;
 constexpr double kNear = 6, kFar = -6;
 
-// A comb of bars before a wall; of each bar the last column is covered by half.
+// Returns the coverage of a comb of bars in front of a wall. The last column of each bar is half
+// covered.
 double CoverageAt(int x, int y) {
   if (x < kLeft || x >= kRight || y < kTop || y >= kBottom) return 0;
   const int k = (x - kLeft) % 9;
@@ -32,7 +34,7 @@ double WallAt(int x, int y, int c) {
 }
 double BarAt(int c) { return 70 - 15 * c; }
 
-// One view, and a map in which the comb is a block without gaps, too small by 3 pixels.
+// Returns one view, and a map in which the comb is a solid block that is too small by 3 pixels.
 test::Scene Comb() {
   test::Scene scene = test::EmptyScene(kWidth, kHeight, 1, float(kFar), float(kNear));
   for (int y = 0; y < kHeight; ++y) {
@@ -57,14 +59,15 @@ starfocus_config CombConfig(const test::Scene& scene) {
   return config;
 }
 
-// Block mode through a disc.
+// Returns parameters for block mode with a disc.
 starfocus_params ThroughDisc(double focus) {
   starfocus_params params = test::Params(focus, 1, STARFOCUS_MODE_BLOCK);
   params.lens.shape = STARFOCUS_SHAPE_DISC;
   return params;
 }
 
-// PSNR in dB of a picture that is focused on the wall: the comb is blurred before it.
+// Returns the PSNR in dB of a picture that is focused on the wall. The comb in front of it is
+// blurred.
 double PsnrOf(const test::Output& out) {
   constexpr int kBlur = int(kNear - kFar);
   double sum = 0, count = 0;
@@ -93,7 +96,7 @@ test::Scene Without(test::Scene scene) {
   return scene;
 }
 
-TEST_CASE("given coverage: it decides over a map without gaps") {
+TEST_CASE("given coverage: it takes precedence over a map without gaps") {
   const test::Scene scene = Comb();
   const starfocus_params params = ThroughDisc(kFar);
   const double with = PsnrOf(test::OutputOf(CombConfig(scene), params, scene));
@@ -102,14 +105,14 @@ TEST_CASE("given coverage: it decides over a map without gaps") {
   CHECK(with > without + 6);
 }
 
-TEST_CASE("given coverage: deep inside a silhouette, too, the wall ends where coverage does") {
+TEST_CASE("given coverage: the wall ends where coverage ends, even deep inside a silhouette") {
   constexpr int kEdge = 88, kOff = 3, kRadius = 40, kDark = 30, kBright = 200;
   test::Scene scene = test::EmptyScene(192, 96, 1, 0, kRadius);
   for (int y = 0; y < scene.height; ++y) {
     for (int x = 0; x < scene.width; ++x) {
       scene.coverage.push_back(x < kEdge ? 255 : 0);
       std::fill_n(scene.Pixel(0, x, y), 3, uint8_t(x < kEdge ? kDark : kBright));
-      // A ramp as those of networks' maps, which ends in the near surface.
+      // A ramp that ends in the near surface, as in maps of neural networks.
       const double near = std::clamp((kEdge - kOff - x) / 8.0, 0.0, 1.0);
       scene.Disparity(x, y) = float(near * kRadius);
     }
@@ -127,7 +130,7 @@ TEST_CASE("given coverage: deep inside a silhouette, too, the wall ends where co
   CHECK(most < 2);
 }
 
-TEST_CASE("given coverage: every way in gives the same bytes") {
+TEST_CASE("given coverage: all ways to refocus return the same bytes") {
   const test::Scene scene = Comb();
   const starfocus_config config = CombConfig(scene);
   for (const double focus : {kFar, 1.0, kNear}) {
@@ -139,7 +142,8 @@ TEST_CASE("given coverage: every way in gives the same bytes") {
   }
 }
 
-// Twice as large, with disparities to match. Coverage differs within what a pixel has become.
+// Returns the scene at twice the size, with doubled disparities. Coverage differs within the pixels
+// that replace one pixel.
 test::Scene Doubled(const test::Scene& scene) {
   test::Scene doubled = test::EmptyScene(2 * kWidth, 2 * kHeight, 1, 2 * scene.disparity_min,
                                          2 * scene.disparity_max);
@@ -155,7 +159,7 @@ test::Scene Doubled(const test::Scene& scene) {
   return doubled;
 }
 
-TEST_CASE("given coverage: previews have its means") {
+TEST_CASE("given coverage: previews use mean values of it") {
   const test::Scene scene = Comb(), doubled = Doubled(scene);
   starfocus_config config = CombConfig(doubled);
   config.max_blur = 4 * kNear;
@@ -172,7 +176,7 @@ TEST_CASE("given coverage: previews have its means") {
   CHECK((preview.bytes != test::OutputOf(CombConfig(scene), params, Without(scene)).bytes));
 }
 
-TEST_CASE("given coverage: a frame after another one sees what changed of it") {
+TEST_CASE("given coverage: a frame after another one detects changes of it") {
   const test::Scene before = Comb();
   const starfocus_config config = CombConfig(before);
   const starfocus_params params = ThroughDisc(kFar);
@@ -191,7 +195,7 @@ TEST_CASE("given coverage: a frame after another one sees what changed of it") {
   }
 }
 
-TEST_CASE("given coverage: where nothing moves, colours that contradict it stay") {
+TEST_CASE("given coverage: without blur, colours that contradict it stay") {
   test::Scene scene = Comb();
   test::Random random(3);
   for (uint8_t& coverage : scene.coverage) coverage = random.Byte();
@@ -202,7 +206,7 @@ TEST_CASE("given coverage: where nothing moves, colours that contradict it stay"
   CHECK((out.bytes == scene.pictures[0]));
 }
 
-TEST_CASE("given coverage: highlights brighten nothing but their surroundings") {
+TEST_CASE("given coverage: highlights brighten only their surroundings") {
   test::Scene scene = Comb();
   for (auto& sample : scene.pictures[0]) sample = std::min<uint8_t>(sample, 240);
   for (int y = 2; y < 6; ++y) std::fill_n(scene.Pixel(0, 2, y), 12, uint8_t{255});
@@ -212,7 +216,7 @@ TEST_CASE("given coverage: highlights brighten nothing but their surroundings") 
   config.highlights = 16;
   const test::Output lit = test::OutputOf(config, params, scene);
   CHECK((lit.bytes != plain.bytes));
-  // Blocks with highlights are not gathered, which rounds otherwise.
+  // Blocks with highlights are not gathered, which rounds differently.
   int largest = 0;
   for (size_t n = 30 * plain.stride; n < plain.bytes.size(); ++n) {
     largest = std::max(largest, std::abs(lit.bytes[n] - plain.bytes[n]));
@@ -220,7 +224,7 @@ TEST_CASE("given coverage: highlights brighten nothing but their surroundings") 
   CHECK(largest <= 1);
 }
 
-TEST_CASE("given coverage: without the feature it is not looked at, and bad input is refused") {
+TEST_CASE("given coverage: it is ignored without the feature, and bad input is rejected") {
   const test::Scene scene = Comb();
   starfocus_config config = CombConfig(scene);
   config.features |= STARFOCUS_FEATURE_STREAMING;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checksums of refocused pictures, the same on every machine, SIMD target and compiler: the promise
-// of bit-exactness. golden.txt holds them; after an intended change of the engine's output
-//   ./do golden
-// writes it anew (STARFOCUS_RECORD_GOLDEN=1 makes this program do so).
+// Compares checksums of refocused pictures with those of golden.txt. They must be equal on every
+// machine, SIMD target and compiler. After an intended change of the output, `./do golden` updates
+// golden.txt by running this program with STARFOCUS_RECORD_GOLDEN=1.
 #include <doctest/doctest.h>
 
 #include <cstdio>
@@ -22,7 +21,7 @@
 namespace golden_bytes_test {
 namespace {
 
-// FNV-1a.
+// Returns the FNV-1a checksum.
 uint64_t Hash(const std::vector<uint8_t>& bytes) {
   uint64_t hash = 0xCBF29CE484222325u;
   for (const uint8_t byte : bytes) hash = (hash ^ byte) * 0x100000001B3u;
@@ -40,11 +39,11 @@ struct Case {
   test::Depth depth;
   Lens lens;
   int block;
-  int levels = 0, range = 0;                // of a LevelScene, if there are any
-  const test::NamedShape* shape = nullptr;  // of the lens, unless it is the default one
+  int levels = 0, range = 0;                // those of a LevelScene, or 0
+  const test::NamedShape* shape = nullptr;  // shape of the lens, or null for the default shape
 };
 
-// Many disparities, of which slices of blurs up to `range` are cut.
+// A scene with many disparities, which are cut into slices of blurs up to `range`.
 struct LevelCase {
   int block, levels, range;
 };
@@ -66,7 +65,7 @@ std::vector<Case> Cases() {
     for (const test::Depth depth :
          {test::Depth::kLayers, test::Depth::kSlanted, test::Depth::kNoise}) {
       for (const Lens& lens : kLenses) {
-        // Noise makes each view of a line its own; one lens of it is enough.
+        // In noise, the views of a line differ anyway, so two lenses suffice.
         if (depth == test::Depth::kNoise && &lens != &kLenses[1] && &lens != &kLenses[4]) continue;
         Case one = {"", 97, 70, views, depth, lens, number % 2 == 0 ? 32 : 64};
         char name[80];
@@ -79,8 +78,9 @@ std::vector<Case> Cases() {
       }
     }
   }
-  // Slices with almost MostSliceArea, or with little more: if that were 1 % more, or less, each
-  // picture would change. The last one is a block of four cuts, which has another picture uncut.
+  // Slices with almost MostSliceArea, and with slightly more. Each picture would change if the
+  // limit were 1 % larger or smaller. The last case is a block that is cut into four, whose picture
+  // differs from the uncut one.
   for (const LevelCase& level : kLevelCases) {
     Case one = {"",          level.block,         level.block,
                 1,           test::Depth::kNoise, {STARFOCUS_MODE_FRAME, 0, 1},
@@ -89,7 +89,7 @@ std::vector<Case> Cases() {
                std::to_string(level.block);
     cases.push_back(one);
   }
-  // Either rule in block mode, kernels, and wide blurs.
+  // Both rules in block mode, PSFs, and wide blurs.
   for (const test::NamedShape& shape : test::kShapes) {
     for (const Lens& lens : {kLenses[5], kLenses[6], kLenses[7]}) {
       for (const int block : {32, 64}) {
@@ -108,28 +108,29 @@ std::vector<Case> Cases() {
   return cases;
 }
 
-// What each layer covered, and what was gathered.
+// The pixels of each layer, and the gathered pixels.
 struct Covered {
   uint64_t layers[STARFOCUS_LAYERS] = {};
   uint64_t gathered = 0;
 };
 
-// Adds to `covered`.
+// Returns the checksum of a picture, and adds its pixels to `covered`.
 std::string Refocus(const Case& one, const test::Scene& scene,
                     const starfocus::simd::Kernels* kernels, Covered* covered) {
   starfocus_config config = test::ConfigFor(scene, 43);
   config.superblock = one.block;
-  // Slanted surfaces have the paper's values, the others light.
+  // Slanted surfaces use codes as in the paper, and others use light.
   config.transfer =
       one.depth == test::Depth::kSlanted ? STARFOCUS_TRANSFER_NONE : STARFOCUS_TRANSFER_SRGB;
-  config.tuning.gather = one.views != 9;  // views have their share, layers 1 and 2 with them
+  // Some cases use views instead of gathering, also at layers 1 and 2.
+  config.tuning.gather = one.views != 9;
   if (one.levels > 0) config.tuning.n_scale = 0.5;
   starfocus_params params = test::Params(one.lens.focus, one.lens.aperture, one.lens.mode);
   if (one.shape != nullptr) one.shape->Set(&params.lens);
   test::ReserveFor(params.lens, &config);
   test::Engine engine(config);
   test::UseKernels(kernels, engine.get());
-  // The rule of subapertures keeps layer 2 away from depth edges: either rule has its share of the
+  // The rule of subapertures excludes layer 2 at depth edges, so each rule is used in a part of the
   // cases.
   if (one.block == 32) params.renderer = STARFOCUS_RENDERER_LINE_SCAN;
   if (one.levels > 0) params.renderer = STARFOCUS_RENDERER_SLICES;
@@ -166,7 +167,7 @@ void WriteGolden(const std::vector<Case>& cases, Golden golden) {
   CHECK(std::fclose(file) == 0);
 }
 
-TEST_CASE("golden: the same pictures on every machine and SIMD target") {
+TEST_CASE("golden: pictures are the same on every machine and SIMD target") {
   std::vector<const starfocus::simd::Kernels*> tables = test::SimdTargets();
   tables.push_back(&starfocus::simd::ReferenceKernels());
   const std::vector<Case> cases = Cases();
@@ -179,7 +180,7 @@ TEST_CASE("golden: the same pictures on every machine and SIMD target") {
     const test::Scene scene = one.levels > 0
                                   ? test::LevelScene(one.block, one.levels, one.range)
                                   : test::IntegerScene(one.width, one.height, one.views, one.depth);
-    // What is recorded is the reference's: the last table.
+    // The recorded checksums are those of the reference, which is the last table.
     if (record) golden[one.name] = Refocus(one, scene, tables.back(), &covered);
     for (const starfocus::simd::Kernels* kernels : tables) {
       CAPTURES(one.name, kernels->name);

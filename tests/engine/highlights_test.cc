@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Highlights: lamps that pictures clip shine as bright as they were, walls stay as white as they
-// are.
+// Tests highlights: clipped lamps regain their brightness, and white walls keep theirs.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -17,7 +16,7 @@ namespace {
 
 constexpr int kSide = 120;
 
-// A dark flat picture with a white rectangle.
+// Returns a dark flat picture with a white rectangle.
 test::Scene WhiteRect(int x0, int y0, int width, int height, int code = 255, int views = 1) {
   test::Scene scene = test::EmptyScene(kSide, kSide, views, 0, 0);
   for (int view = 0; view < views; ++view) {
@@ -37,7 +36,8 @@ std::vector<uint8_t> Picture(const test::Scene& scene, double blur, double highl
                              starfocus_transfer transfer = STARFOCUS_TRANSFER_SRGB) {
   starfocus_config config = test::ConfigFor(scene, 20);
   config.superblock = 32;
-  config.tuning.max_layer = config.tuning.gather = 0;  // where highlights are there is neither
+  // Neither layers nor gathering are used near highlights.
+  config.tuning.max_layer = config.tuning.gather = 0;
   config.highlights = float(highlights);
   config.transfer = transfer;
   starfocus_params params = test::Params(blur, 1, mode, renderer);
@@ -67,7 +67,7 @@ TEST_CASE("highlights: a lamp becomes a disc with all of its light") {
   }
 }
 
-TEST_CASE("highlights: the more, the nearer a code is to clipped; none below 251") {
+TEST_CASE("highlights: codes closer to clipping are brightened more, and codes below 251 are not") {
   const auto light = [&](int code, double highlights) {
     return LightIn(Picture(WhiteRect(58, 58, 4, 4, code), 10, highlights), STARFOCUS_TRANSFER_SRGB);
   };
@@ -94,7 +94,8 @@ TEST_CASE("highlights: walls do not glow") {
   struct Wall {
     int x, y, width, height;
   };
-  // Wider and higher than twice the largest lamp, 16 pixels here, or seen in part only.
+  // The walls exceed twice the size of the largest lamp, which is 16 pixels here, or are only
+  // partly visible.
   for (const Wall& wall : {Wall{30, 40, 34, 33}, Wall{0, 0, 50, kSide}, Wall{0, 100, kSide, 20}}) {
     const test::Scene scene = WhiteRect(wall.x, wall.y, wall.width, wall.height);
     for (const double blur : {0.0, 3.0, 11.0}) {
@@ -104,16 +105,16 @@ TEST_CASE("highlights: walls do not glow") {
       for (size_t i = 0; i < plain.size(); ++i) {
         most = std::max(most, std::abs(int(plain[i]) - int(bright[i])));
       }
-      CHECK(most <= 1);  // views in place of gathered cells
+      CHECK(most <= 1);  // views instead of gathered cells
     }
   }
-  // A tube is long in one direction only.
+  // A tube is long in only one direction.
   const test::Scene tube = WhiteRect(20, 60, 80, 4);
   CHECK(LightIn(Picture(tube, 11, 4), STARFOCUS_TRANSFER_SRGB) >
         2 * LightIn(Picture(tube, 11, 1), STARFOCUS_TRANSFER_SRGB));
 }
 
-TEST_CASE("highlights: what sees nothing but one large highlight is rendered once") {
+TEST_CASE("highlights: a block that sees only one large highlight is rendered once") {
   const auto samples = [](const test::Scene& scene, double highlights) {
     starfocus_config config = test::ConfigFor(scene, 20);
     config.tuning.gather = 0;
@@ -130,7 +131,7 @@ TEST_CASE("highlights: what sees nothing but one large highlight is rendered onc
   }
 }
 
-TEST_CASE("highlights: a picture without any stays the same to the byte") {
+TEST_CASE("highlights: a picture without highlights is unchanged to the byte") {
   for (const int views : {1, 5, 17}) {
     test::Scene scene = test::RandomScene(70, 60, views, -4, 4, 77);
     for (auto& picture : scene.pictures) {
@@ -143,7 +144,7 @@ TEST_CASE("highlights: a picture without any stays the same to the byte") {
   }
 }
 
-TEST_CASE("highlights: every way in gives the same bytes") {
+TEST_CASE("highlights: all ways to refocus return the same bytes") {
   for (const int views : {1, 5}) {
     test::Scene scene = test::RandomScene(97, 150, views, -3, 5, 78);
     for (int lamp = 0; lamp < 12; ++lamp) {

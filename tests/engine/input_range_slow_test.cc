@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The range of a picture against that of its views: what starfocus.h says of STARFOCUS_MODE_BLOCK.
+// Compares the range of a picture with that of its views, as starfocus.h states it for
+// STARFOCUS_MODE_BLOCK.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -16,7 +17,7 @@
 namespace input_range_slow_test {
 namespace {
 
-// A picture of two levels, in squares or stripes of a few pixels or at random.
+// Draws two levels in squares or stripes of a few pixels, or at random.
 void DrawTwoLevels(int low, int high, test::Random* random, test::Scene* scene) {
   const int kind = random->Int(0, 3), side_x = random->Int(1, 12), side_y = random->Int(1, 12);
   const bool alike = random->Int(0, 2) > 0;
@@ -41,7 +42,7 @@ struct Trial {
   int low, high;
 };
 
-// What a trial draws beside the default fall-off.
+// Openings that a trial draws.
 enum class Openings { kDefault, kAnyTheta, kAnyShape };
 
 Trial MakeTrial(uint64_t seed, starfocus_mode mode, starfocus_renderer renderer,
@@ -71,14 +72,14 @@ Trial MakeTrial(uint64_t seed, starfocus_mode mode, starfocus_renderer renderer,
   return trial;
 }
 
-// How far a picture leaves the range of its views.
+// Amount by which a picture leaves the range of its views.
 struct Beyond {
   int levels = 0;
-  double contrast =
-      0;  // in parts of the difference of both levels' light, less a level of rounding
+  // Part of the difference between the light of both levels, minus one level of rounding.
+  double contrast = 0;
 };
 
-// Refocuses the trial and widens `worst` by it.
+// Refocuses the picture of a trial and updates `worst`.
 void Widen(const Trial& trial, Beyond* worst) {
   const test::Output out = test::OutputOf(trial.config, trial.params, trial.scene);
   int below = 0, above = 0;
@@ -124,7 +125,7 @@ TEST_CASE("input range: frame modes stay within the levels of the views") {
   }
 }
 
-TEST_CASE("input range: subsampled blocks overshoot by no more than the header says") {
+TEST_CASE("input range: subsampled blocks overshoot by no more than the header states") {
   for (const Openings openings : {Openings::kDefault, Openings::kAnyTheta, Openings::kAnyShape}) {
     const auto contrast = [&](starfocus_renderer renderer) {
       return WorstOf(STARFOCUS_MODE_BLOCK, renderer, openings).contrast;

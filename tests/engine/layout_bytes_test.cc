@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The carving of memory, and the sizes that it gives of engines and prepared light fields.
+// Tests the layout of memory, and the resulting sizes of engines and prepared light fields.
 
 #include <doctest/doctest.h>
 
@@ -17,8 +17,8 @@ namespace {
 using starfocus::Arena;
 using starfocus::kTooLarge;
 
-// With red zones between them no pieces share memory.
-TEST_CASE("layout: pieces are aligned, padded and counted as they are carved" *
+// Red zones would prevent pieces from sharing memory.
+TEST_CASE("layout: pieces are aligned, padded and counted as they are taken" *
           doctest::skip(starfocus::kRedZone > 0)) {
   alignas(STARFOCUS_ALIGNMENT) static uint8_t memory[1 << 12];
   Arena counting(nullptr), arena(memory);
@@ -50,8 +50,8 @@ TEST_CASE("layout: pieces are aligned, padded and counted as they are carved" *
   CHECK(arena.Bytes() == counting.Bytes());
 }
 
-TEST_CASE("layout: what memory cannot hold is too large, not small") {
-  // Of a piece: padding, rounding.
+TEST_CASE("layout: sizes beyond the address space are reported as too large") {
+  // Additional bytes of a piece: padding and rounding.
   constexpr size_t kMost = 1 << 16, kExtra = starfocus::kRedZone + 64 + 63;
   const auto bytes = [](size_t count, size_t times) {
     Arena arena(nullptr, kMost);
@@ -61,12 +61,12 @@ TEST_CASE("layout: what memory cannot hold is too large, not small") {
   CHECK(bytes((kMost - kExtra) / 4, 1) <= kMost);
   CHECK(bytes(1, (kMost - kExtra) / 4) <= kMost);
   CHECK(bytes((kMost - kExtra) / 4 + 1, 1) == kTooLarge);
-  // Products that wrap to little.
+  // Products that overflow to small numbers.
   CHECK(bytes(SIZE_MAX / 4 + 1, 1) == kTooLarge);
   CHECK(bytes(SIZE_MAX / 8 + 2, 2) == kTooLarge);
   CHECK(bytes(SIZE_MAX, SIZE_MAX) == kTooLarge);
   CHECK(bytes(0, SIZE_MAX) == starfocus::kRedZone + 64);
-  // A sum that wraps, and what follows it.
+  // A sum that overflows, and the sizes after it.
   Arena arena(nullptr);
   arena.Take<uint8_t>(SIZE_MAX / 2 - kExtra);
   CHECK(arena.Bytes() <= SIZE_MAX / 2);
@@ -77,9 +77,8 @@ TEST_CASE("layout: what memory cannot hold is too large, not small") {
   CHECK(arena.Bytes() == kTooLarge);
 }
 
-// What a stripe keeps on a board, in KiB of a workspace (docs/boards.md): with all modes and rules.
-TEST_CASE("layout: workspaces of boards are no larger than they were" *
-          doctest::skip(starfocus::kRedZone > 0)) {
+// The size of a workspace on a board in KiB (docs/boards.md), with all modes and rules.
+TEST_CASE("layout: workspaces of boards do not grow" * doctest::skip(starfocus::kRedZone > 0)) {
   const auto with_coverage = [](starfocus_config config) {
     config.features |= STARFOCUS_FEATURE_COVERAGE;
     return config;
@@ -113,8 +112,8 @@ TEST_CASE("layout: workspaces of boards are no larger than they were" *
   }
 }
 
-// The table of docs/boards.md is made of these parts.
-TEST_CASE("layout: all of a workspace is for some part" * doctest::skip(starfocus::kRedZone > 0)) {
+// The table of docs/boards.md consists of these parts.
+TEST_CASE("layout: the parts sum to the whole workspace" * doctest::skip(starfocus::kRedZone > 0)) {
   for (const int streaming : {0, 1}) {
     for (const int images : {0, 1}) {
       starfocus_config config = test::BoardConfig(320, 200, 5, 64, 12, streaming);
@@ -128,8 +127,8 @@ TEST_CASE("layout: all of a workspace is for some part" * doctest::skip(starfocu
   }
 }
 
-// A preview has an engine laid out anew for a smaller picture.
-TEST_CASE("layout: what grows with the picture comes last, and less of it fits into the same") {
+// For a preview, the engine is laid out again for a smaller picture.
+TEST_CASE("layout: the layout of a smaller picture fits into the same memory") {
   test::Random random(44);
   for (int round = 0; round < 300; ++round) {
     starfocus_config config;
@@ -154,7 +153,7 @@ TEST_CASE("layout: what grows with the picture comes last, and less of it fits i
   }
 }
 
-TEST_CASE("layout: laid out anew, an engine keeps its workers and tables") {
+TEST_CASE("layout: after a new layout, an engine keeps its workers and tables") {
   starfocus_config config;
   starfocus_config_init(&config);
   config.width = 300;
@@ -181,8 +180,8 @@ TEST_CASE("layout: laid out anew, an engine keeps its workers and tables") {
   CHECK(state.stripe.last_rows == last_rows);
 }
 
-// On 32 bits sizes of wide streaming configurations are beyond all addresses.
-TEST_CASE("layout: sizes never wrap, and too large ones are an error of every call") {
+// With 32 bits, wide streaming configurations exceed the address space.
+TEST_CASE("layout: sizes never overflow, and every call rejects sizes that are too large") {
   starfocus_config config;
   starfocus_config_init(&config);
   config.height = 65535;
@@ -195,7 +194,8 @@ TEST_CASE("layout: sizes never wrap, and too large ones are an error of every ca
   int refused = 0;
   for (int width = 999; width <= STARFOCUS_MAX_SIZE; width += 1000) {
     config.width = width;
-    // Views of 3 bytes a pixel in as many rows as a stripe with what disparities and blurs reach.
+    // Views with 3 bytes per pixel, in the rows of a stripe and those within reach of disparities
+    // and blurs.
     const uint64_t rings = uint64_t{3 * STARFOCUS_MAX_VIEWS * (256 + 2 * 628)} * uint64_t(width);
     const uint64_t disparities = uint64_t{2 * 65535} * uint64_t(width);
     for (const bool prepared : {false, true}) {

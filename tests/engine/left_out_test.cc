@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the engine leaves out because its result is known: blocks that no view moves are copied, and
-// layers that no block reads are not made.
+// Tests the work that the engine omits because its result is known: blocks that no view moves are
+// copied, and layers that no block reads are not made.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -20,8 +20,8 @@ constexpr int kBlocks[] = {32, 64, 128, 256};
 constexpr starfocus_mode kModes[] = {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BENCHMARK,
                                      STARFOCUS_MODE_BLOCK};
 
-// Noise in every view; the disparity map has areas in focus, flat, gently and steeply slanted ones,
-// and edges.
+// Returns noise in every view. The disparity map has areas in focus, flat areas, gentle and steep
+// slopes, and edges.
 test::Scene VariedScene(int width, int height, int views, float limit, test::Random* random) {
   test::Scene scene = test::EmptyScene(width, height, views, -limit, limit);
   for (auto& picture : scene.pictures) picture = test::RandomBytes(picture.size(), random);
@@ -53,8 +53,8 @@ test::Scene VariedScene(int width, int height, int views, float limit, test::Ran
   return scene;
 }
 
-// Refocuses, and renders each block of the last stripe anew without copying. Returns the pixels
-// that were copied.
+// Refocuses, and renders each block of the last stripe again without copying. Returns the number of
+// copied pixels.
 uint64_t CheckRendered(const test::Scene& scene, const starfocus_config& config,
                        const starfocus_params& params) {
   test::Engine engine(config);
@@ -69,7 +69,7 @@ uint64_t CheckRendered(const test::Scene& scene, const starfocus_config& config,
   return report.copied_pixels;
 }
 
-TEST_CASE("left out: a copied block has the bytes of a rendered one, in every mode") {
+TEST_CASE("left out: in every mode, a copied block has the bytes of a rendered block") {
   test::Random random(51);
   uint64_t copied = 0;
   for (int round = 0; round < test::Rounds(400); ++round) {
@@ -95,7 +95,7 @@ TEST_CASE("left out: a copied block has the bytes of a rendered one, in every mo
   CHECK(copied > kSome * 256);
 }
 
-// Noise at disparity 0 with a column of `other` at x.
+// Returns noise at disparity 0 with a column of `other` at x.
 test::Scene ColumnScene(int width, int height, int x, float other) {
   test::Random random(7);
   test::Scene scene = test::EmptyScene(width, height, 5, -8, 8);
@@ -106,7 +106,8 @@ test::Scene ColumnScene(int width, int height, int x, float other) {
   return scene;
 }
 
-TEST_CASE("left out: in frame modes a block in focus is copied, but for what splats into it") {
+TEST_CASE(
+    "left out: in frame modes, a block in focus is copied unless other pixels splat into it") {
   for (const starfocus_mode mode : {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BENCHMARK}) {
     test::Scene scene = ColumnScene(256, 64, 250, 8);
     starfocus_params params = test::Params(0, 1, mode);
@@ -115,13 +116,13 @@ TEST_CASE("left out: in frame modes a block in focus is copied, but for what spl
     const test::Refocused picture = test::RefocusScene(scene, config, params);
     CHECK(picture.report.copied_pixels == 3 * 64 * 64);
     CHECK(picture.report.layers[0].views == 3 + uint64_t(picture.report.rendered_views));
-    // 8 pixels beyond the third block's edge, and no more.
+    // The column is within 8 pixels of the edge of the third block.
     scene = ColumnScene(256, 64, 192 + 7, 8);
     CHECK(test::RefocusScene(scene, config, params).report.copied_pixels == 2 * 64 * 64);
   }
 }
 
-TEST_CASE("left out: with N by (9) shifts of up to a third of a pixel move nothing") {
+TEST_CASE("left out: with N by (9), shifts of up to a third of a pixel move nothing") {
   for (const double radius : {0.1, 0.32, 0.36, 0.4}) {
     const test::Scene scene = test::RandomScene(64, 64, 5, 1, 1, 3);
     const starfocus_params params =
@@ -132,7 +133,7 @@ TEST_CASE("left out: with N by (9) shifts of up to a third of a pixel move nothi
   }
 }
 
-// Noise at disparity 2.
+// Returns noise at disparity 2.
 test::Scene FlatScene() {
   test::Random random(8);
   test::Scene scene = test::EmptyScene(192, 64, 5, -8, 8);
@@ -141,7 +142,7 @@ test::Scene FlatScene() {
   return scene;
 }
 
-TEST_CASE("left out: layers that no block reads") {
+TEST_CASE("left out: layers that no block reads are not made") {
   const test::Scene scene = FlatScene();
   starfocus_config config = test::ConfigFor(scene, 40);
   const auto columns = [&](double focus) {
@@ -152,7 +153,8 @@ TEST_CASE("left out: layers that no block reads") {
     return test::LayerColumns(engine.get());
   };
   CHECK(columns(2.25) == 0);  // blur radius 0.25
-  CHECK(columns(27) == 3);    // 25: all at layer 2, and no block reads layer 1
+  // Blur radius 25: all blocks are at layer 2, and no block reads layer 1.
+  CHECK(columns(27) == 3);
   config.tuning.max_layer = 1;
   CHECK(columns(27) == 3);
 }

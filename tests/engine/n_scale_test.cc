@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// starfocus_tuning.n_scale through the public ABI: which N it makes, that the other modes do not
-// ask for it, and that it trades time for error.
+// Tests starfocus_tuning.n_scale through the public ABI: the resulting N, the modes that ignore it,
+// and the trade-off between time and error.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -26,13 +26,13 @@ Refocused Refocus(const test::Scene& scene, const starfocus_params& params, doub
                   double max_blur = 32) {
   starfocus_config config = test::ConfigFor(scene, max_blur);
   config.tuning.n_scale = n_scale;
-  config.tuning.gather = 0;  // N is all that differs
+  config.tuning.gather = 0;  // only N differs
   return test::RefocusScene(scene, config, params);
 }
 
 test::Scene FlatScene(uint64_t seed) { return test::RandomScene(40, 36, 5, 0, 0, seed); }
 
-TEST_CASE("n_scale: multiplies the N of either rule in frame and block mode") {
+TEST_CASE("n_scale: it multiplies the N of either rule in frame and block mode") {
   const test::Scene scene = FlatScene(1);
   for (const double radius : {0.0, 0.25, 0.9, 3.5, 9.0, 17.0, 25.0}) {
     for (const double scale : kScales) {
@@ -42,7 +42,7 @@ TEST_CASE("n_scale: multiplies the N of either rule in frame and block mode") {
           starfocus_config config = test::ConfigFor(scene);
           config.tuning.n_scale = scale;
           config.tuning.max_layer = 0;
-          config.tuning.gather = 0;  // which takes no views at all
+          config.tuning.gather = 0;  // gathering would use no views
           starfocus_report report = {};
           const test::Output out = test::OutputOf(config, params, scene, &report);
           const int n = renderer == STARFOCUS_RENDERER_LINE_SCAN
@@ -69,7 +69,7 @@ TEST_CASE("n_scale: benchmark and blur mode do not change") {
   }
 }
 
-TEST_CASE("n_scale: the smallest workspace gives what a large one does") {
+TEST_CASE("n_scale: the smallest workspace gives the same picture as a large one") {
   for (const double radius : {0.3, 0.51, 1.0, 2.5}) {
     const test::Scene scene = FlatScene(2);
     for (const starfocus_renderer renderer : test::kRenderers) {
@@ -82,8 +82,9 @@ TEST_CASE("n_scale: the smallest workspace gives what a large one does") {
   }
 }
 
-TEST_CASE("n_scale: more views, and nearer to the benchmark") {
-  // Alone, since side views of noise see noise beyond the picture, each layer another.
+TEST_CASE("n_scale: a larger scale uses more views and is closer to the benchmark") {
+  // Only one view is used, because side views of noise see noise beyond the picture, which differs
+  // per layer.
   const test::Scene scene = test::IntegerScene(160, 120, 1, test::Depth::kSlanted);
   for (const starfocus_mode mode : {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BLOCK}) {
     starfocus_params params = test::Params(-9.5, 1, STARFOCUS_MODE_BENCHMARK);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A block refocused alone with the border that the analysis gives it, and with wider ones. Of one
-// flat surface nothing changes, at any layer. A gap between surfaces is filled from what is behind
-// it, which may lie beyond the border and land outside the block: there a little may.
+// Refocuses a block alone with the border of the analysis, and with wider borders. For one flat
+// surface nothing may change at any layer. The filling of a gap between surfaces may come from
+// beyond the border, so small changes are allowed there.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -37,8 +37,8 @@ test::Scene FlatScene(int width, int height, int views, float limit, test::Rando
   return scene;
 }
 
-// Stairs or a pyramid. A step is no depth edge, and yet ends every run, so that runs do not depend
-// on where a line begins.
+// Returns stairs or a pyramid. Steps are no depth edges, but end every run, so that runs do not
+// depend on where a line begins.
 test::Scene StairScene(int width, int height, int views, float limit, test::Random* random) {
   constexpr float kStep = 1.25f;
   test::Scene scene = NoiseScene(width, height, views, limit, random);
@@ -57,7 +57,7 @@ test::Scene StairScene(int width, int height, int views, float limit, test::Rand
   return scene;
 }
 
-// Rectangles of disparities so different that every edge ends a run.
+// Returns rectangles whose disparities are so different that every edge ends a run.
 test::Scene SteppedScene(int width, int height, int views, float limit, test::Random* random) {
   test::Scene scene = NoiseScene(width, height, views, limit, random);
   const int steps = static_cast<int>(limit) / 2;
@@ -75,7 +75,7 @@ test::Scene SteppedScene(int width, int height, int views, float limit, test::Ra
   return scene;
 }
 
-// What wider borders changed, by layer.
+// The changes by wider borders, per layer.
 struct FrameDiff {
   int blocks[STARFOCUS_LAYERS] = {}, changed[STARFOCUS_LAYERS] = {}, largest[STARFOCUS_LAYERS] = {};
   int64_t samples[STARFOCUS_LAYERS] = {}, changed_samples[STARFOCUS_LAYERS] = {};
@@ -107,13 +107,13 @@ struct FrameDiff {
 void CheckPicture(const test::Scene& scene, const starfocus_params& params, int more,
                   FrameDiff* changes) {
   starfocus_config config = test::ConfigFor(scene, 40);
-  config.tuning.gather = 0;  // views everywhere
-  config.superblock = 128;   // the whole picture, so that all of every layer is there
+  config.tuning.gather = 0;  // uses views everywhere
+  config.superblock = 128;   // the whole picture, so that every layer is complete
   config.tuning.n_scale = more % 2 == 0 ? 1 : STARFOCUS_MIN_N_SCALE;
   test::Engine engine(config);
   const test::Output out = test::OutputOf(&engine, params, scene);
   for (Block block : test::PlanOf(engine.get()).blocks) {
-    // Not from `out`, which has been deblocked.
+    // `out` cannot be used, because it has been deblocked.
     const std::vector<uint8_t> given = test::RenderOne(block, engine.get());
     block.border.left += more;
     block.border.right += more;
@@ -148,11 +148,11 @@ void CheckSmall(const FrameDiff& changes) {
   for (int layer = 0; layer < STARFOCUS_LAYERS; ++layer) {
     CHECK(changes.blocks[layer] > 50);
     CHECK(changes.changed_samples[layer] * 1000 <= changes.samples[layer]);
-    CHECK(changes.largest[layer] <= 9);  // what one of 29 views shows
+    CHECK(changes.largest[layer] <= 9);  // light of one of 29 views
   }
 }
 
-TEST_CASE("refocus_block: the border is enough for a flat surface at every layer, size and place") {
+TEST_CASE("refocus_block: for a flat surface the border suffices at every layer, size and place") {
   const FrameDiff changes = CheckPictures(200, 0.3, FlatScene);
   for (int layer = 0; layer < STARFOCUS_LAYERS; ++layer) {
     CHECK(changes.blocks[layer] > 30);
@@ -160,11 +160,11 @@ TEST_CASE("refocus_block: the border is enough for a flat surface at every layer
   }
 }
 
-TEST_CASE("refocus_block: what stretched surfaces beyond the border change stays small") {
+TEST_CASE("refocus_block: stretched surfaces beyond the border cause only small changes") {
   CheckSmall(CheckPictures(250, 0.9, StairScene));
 }
 
-TEST_CASE("refocus_block: what holes beyond the border change stays small") {
+TEST_CASE("refocus_block: holes beyond the border cause only small changes") {
   CheckSmall(CheckPictures(300, 0.3, SteppedScene));
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A picture depends on its own lens: room that a configuration reserves for others changes no byte.
+// Tests that a picture depends only on its lens. Memory that a configuration reserves for other
+// lenses changes no byte.
 #include <doctest/doctest.h>
 
 #include <cstdint>
@@ -13,7 +14,8 @@
 namespace room_bytes_test {
 namespace {
 
-// Surfaces of a few disparities, pixel by pixel at random: more slices than there is memory for.
+// Returns surfaces of a few disparities, chosen at random per pixel. They need more slices than the
+// memory holds.
 test::Scene Levels(int side, int count, float range, test::Random* random) {
   test::Scene scene = test::EmptyScene(side, side, random->Int(0, 1) == 0 ? 1 : 5, -range, range);
   for (auto& picture : scene.pictures) picture = test::RandomBytes(picture.size(), random);
@@ -37,7 +39,7 @@ std::vector<uint8_t> Picture(const starfocus_config& config, const starfocus_par
   return out.Tight();
 }
 
-TEST_CASE("room: larger blurs, rows and workers that are reserved change no picture") {
+TEST_CASE("room: reserved blurs, rows and workers change no picture") {
   test::Random random(11);
   for (int round = 0; round < test::Rounds(60); ++round) {
     const float range = static_cast<float>(random.Real(2, 40));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a small white patch becomes through openings of every shape: the opening's picture, turned
-// by half a turn where the patch is nearer than the focus.
+// Tests the blur of a small white patch for openings of every shape. The blur must be the image of
+// the opening, rotated by half a turn if the patch is nearer than the focus.
 #include "tests/support/shapes.h"
 
 #include <doctest/doctest.h>
@@ -20,10 +20,10 @@ namespace {
 constexpr int kSide = 96;
 
 struct Place {
-  int x = kSide / 2, y = kSide / 2;  // of the patch's middle
+  int x = kSide / 2, y = kSide / 2;  // centre of the patch
 };
 
-// Levels of a picture on which 3x3 pixels are white, all of it at disparity 0.
+// The levels of a picture with 3x3 white pixels at disparity 0.
 struct Patch {
   std::vector<int> levels;
   Place place;
@@ -38,7 +38,7 @@ struct Patch {
     }
     starfocus_config config = test::ConfigFor(scene, std::abs(focus) + 1);
     config.superblock = 32;
-    config.tuning.max_layer = 0;                // layers smooth what is looked at here
+    config.tuning.max_layer = 0;                // layers would smooth the picture
     config.transfer = STARFOCUS_TRANSFER_NONE;  // levels that add up
     starfocus_params params = test::Params(focus, 1, mode, renderer);
     shape.Set(&params.lens);
@@ -49,7 +49,7 @@ struct Patch {
     }
   }
 
-  // At (x, y) from the patch.
+  // Returns the level at (x, y) relative to the patch.
   int At(int x, int y) const {
     x += place.x;
     y += place.y;
@@ -66,7 +66,8 @@ struct Patch {
   double Light() const {
     return Sum([](int, int) { return 1.0; });
   }
-  // How unlike the picture is its image by turn(x, y), as a part of its light.
+  // Returns the difference between the picture and its image under image(x, y), as a part of its
+  // light.
   template <class Image>
   double Unlike(const Image& image) const {
     double sum = 0;
@@ -81,7 +82,7 @@ const test::NamedShape kRing = {"ring", STARFOCUS_SHAPE_RING, 5, 0, 0, 0.6F, 0};
 const test::NamedShape kPentagon = {"pentagon", STARFOCUS_SHAPE_POLYGON, 5, 0, 0, 0.5F, 0};
 const test::NamedShape kCatsEye = {"cat's eye", STARFOCUS_SHAPE_DISC, 5, 0, 0, 0.5F, 1};
 
-TEST_CASE("shapes: the light of a patch stays, whatever the opening") {
+TEST_CASE("shapes: the light of a patch is kept for every opening") {
   for (const test::NamedShape& shape : test::kShapes) {
     for (const starfocus_mode mode : test::kModes) {
       CAPTURES(shape.name, mode);
@@ -93,7 +94,7 @@ TEST_CASE("shapes: the light of a patch stays, whatever the opening") {
   }
 }
 
-TEST_CASE("shapes: dark codes stay through openings whose views weigh much more in the middle") {
+TEST_CASE("shapes: dark codes are kept if views weigh much more in the middle of the opening") {
   constexpr int kWidth = 40, kHeight = 12, kEdge = 28;
   test::Scene scene = test::EmptyScene(kWidth, kHeight, 1, 0, 0);
   const starfocus_config config = test::ConfigFor(scene, 4);
@@ -112,7 +113,7 @@ TEST_CASE("shapes: dark codes stay through openings whose views weigh much more 
   }
 }
 
-TEST_CASE("shapes: a ring's middle is dark") {
+TEST_CASE("shapes: the middle of a ring is dark") {
   for (const starfocus_mode mode : test::kModes) {
     CAPTURE(mode);
     const Patch patch(kRing, -10, mode, STARFOCUS_RENDERER_AUTO, {});
@@ -125,7 +126,7 @@ TEST_CASE("shapes: a ring's middle is dark") {
   }
 }
 
-TEST_CASE("shapes: a pentagon is mirrored about its axis alone, and stands on its head when near") {
+TEST_CASE("shapes: a pentagon is symmetric only about its axis, and upside down if near") {
   for (const starfocus_mode mode : test::kModes) {
     for (const starfocus_renderer renderer : test::kRenderers) {
       CAPTURES(mode, renderer);
@@ -134,7 +135,7 @@ TEST_CASE("shapes: a pentagon is mirrored about its axis alone, and stands on it
       CHECK(far.Unlike([&](int x, int y) { return far.At(x, -y); }) > 0.1);
       CHECK(far.Unlike([&](int x, int y) { return far.At(y, x); }) > 0.1);
       CHECK(far.Unlike([&](int x, int y) { return near.At(-x, -y); }) < 0.03);
-      // Its corner is on top, its lowest edge at cos(36 degrees).
+      // Its corner is at the top, and its lowest edge is at cos(36 degrees).
       CHECK(far.Sum([](int, int y) { return y < -8 ? 1 : 0; }) > 10);
       CHECK(far.Sum([](int, int y) { return y > 9 ? 1 : 0; }) <= 10);
       CHECK(far.Sum([](int x, int) { return x; }) / far.Light() == doctest::Approx(0).epsilon(0.1));
@@ -142,7 +143,7 @@ TEST_CASE("shapes: a pentagon is mirrored about its axis alone, and stands on it
   }
 }
 
-TEST_CASE("shapes: all modes see the same opening") {
+TEST_CASE("shapes: all modes use the same opening") {
   for (const test::NamedShape& shape : test::kShapes) {
     if (shape.cats_eye > 0) continue;
     for (const double focus : {6.0, -11.0}) {
@@ -159,7 +160,7 @@ TEST_CASE("shapes: all modes see the same opening") {
   }
 }
 
-TEST_CASE("shapes: cat's eyes are cut on the side away from the picture's middle") {
+TEST_CASE("shapes: cat's eyes are cut on the side away from the middle of the picture") {
   for (const starfocus_mode mode :
        {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BENCHMARK, STARFOCUS_MODE_BLOCK}) {
     for (const starfocus_renderer renderer : test::kRenderers) {
@@ -168,7 +169,7 @@ TEST_CASE("shapes: cat's eyes are cut on the side away from the picture's middle
         const Place corner = {kSide / 2 + 32 * side, kSide / 2 - 32 * side};
         const Patch far(kCatsEye, 10, mode, renderer, corner),
             near(kCatsEye, -10, mode, renderer, corner);
-        // What is nearer than the focus shows the opening turned by half a turn.
+        // Surfaces nearer than the focus show the opening rotated by half a turn.
         CHECK(far.Sum([&](int x, int) { return x * side; }) / far.Light() < -1.5);
         CHECK(far.Sum([&](int, int y) { return -y * side; }) / far.Light() < -1.5);
         CHECK(near.Sum([&](int x, int) { return x * side; }) / near.Light() > 1.5);

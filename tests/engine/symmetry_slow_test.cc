@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Mirroring, transposing or turning the light field does the same to the refocused picture, when
-// the picture is whole blocks: exactly, but for turns with wide subapertures.
+// Tests that mirroring, transposing or rotating the light field does the same to the refocused
+// picture, if the picture consists of whole blocks. The result is exact, except for rotations with
+// wide subapertures.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -29,7 +30,7 @@ const Symmetry kTurns[] = {{"transpose", {true, false, false}},
                            {"turn 270", {true, false, true}},
                            {"anti-transpose", {true, true, true}}};
 
-TEST_CASE("symmetry: captured views change places") {
+TEST_CASE("symmetry: captured views exchange their positions") {
   CHECK(test::MoveView(kMirrors[0].move, 1) == 2);
   CHECK(test::MoveView(kMirrors[0].move, 3) == 3);
   CHECK(test::MoveView(kMirrors[1].move, 3) == 4);
@@ -46,7 +47,8 @@ TEST_CASE("symmetry: captured views change places") {
 test::Output Refocused(const test::Scene& scene, const starfocus_params& params) {
   starfocus_config config = test::ConfigFor(scene);
   config.superblock = 32;
-  config.tuning.max_layer = 0;  // layers keep every second pixel, from the left and the top
+  // Layers keep every second pixel, from the left and the top.
+  config.tuning.max_layer = 0;
   const test::Output out = test::OutputOf(config, params, scene);
   return out;
 }
@@ -77,13 +79,14 @@ TEST_CASE("symmetry: mirrored light fields give mirrored pictures") {
   }
 }
 
-TEST_CASE("symmetry: transposed and turned light fields give transposed and turned pictures") {
+TEST_CASE("symmetry: transposed and rotated light fields give transposed and rotated pictures") {
   for (const auto& size : kSizes) {
     for (int views : {17, 9, 5, 1}) {
       const test::Scene scene = test::RandomScene(size[0], size[1], views, -4, 4, 32);
       for (const Symmetry& s : kTurns) {
         for (starfocus_params params : {test::Params(0), test::Params(2.6, 0.9)}) {
-          params.renderer = STARFOCUS_RENDERER_LINE_SCAN;  // slices look along rows first
+          // Slices process rows first.
+          params.renderer = STARFOCUS_RENDERER_LINE_SCAN;
           Check(s, scene, params);
         }
       }
@@ -91,7 +94,7 @@ TEST_CASE("symmetry: transposed and turned light fields give transposed and turn
   }
 }
 
-TEST_CASE("symmetry: also in benchmark mode and on noisy disparity") {
+TEST_CASE("symmetry: pictures are also symmetric in benchmark mode and with noisy disparities") {
   test::Scene scene = test::RandomScene(64, 32, 17, -2, 3, 33);
   test::Random random(34);
   test::NoisyDisparity(&scene, &random);
@@ -103,8 +106,8 @@ TEST_CASE("symmetry: also in benchmark mode and on noisy disparity") {
   for (const Symmetry& s : kTurns) Check(s, scene, lines);
 }
 
-// Subapertures up to several pixels wide, over flat, slanted and noisy surfaces.
-TEST_CASE("symmetry: mirrors with wide subapertures") {
+// Subapertures are up to several pixels wide, over flat, slanted and noisy surfaces.
+TEST_CASE("symmetry: with wide subapertures, mirrored pictures are exact") {
   for (const int views : {17, 5, 1}) {
     test::Scene scene = test::RandomScene(64, 32, views, -3, 8, 35);
     test::Random random(36);
@@ -118,9 +121,9 @@ TEST_CASE("symmetry: mirrors with wide subapertures") {
   }
 }
 
-// All views of wide subapertures are rendered along rows first. Over one surface the order only
-// rounds differently; which surface shows beside a depth edge depends on it.
-TEST_CASE("symmetry: turns with wide subapertures, up to the order of rows and columns") {
+// All views of wide subapertures are rendered along rows first. On a single surface, the order
+// changes only the rounding. Next to a depth edge, the order determines which surface is visible.
+TEST_CASE("symmetry: with wide subapertures, rotated pictures are equal up to the order of rows") {
   for (const int views : {17, 5, 1}) {
     for (const starfocus_mode mode : {STARFOCUS_MODE_BLOCK, STARFOCUS_MODE_FRAME}) {
       for (const double focus : {-12.6, 1.3}) {

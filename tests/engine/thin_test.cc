@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Thin structures: strands thinner than a pixel before a wall, of which the map has what covers a
-// pixel's centre.
+// Tests thin structures: strands thinner than a pixel in front of a wall. The map has the disparity
+// of the surface at the centre of each pixel.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -18,10 +18,10 @@ namespace {
 
 constexpr int kWidth = 160, kHeight = 144;
 constexpr double kNear = 6, kFar = -6;
-constexpr double kThick = 0.9;  // of a strand, pixels
+constexpr double kThick = 0.9;  // thickness of a strand in pixels
 
-// How much of the pixel at (x, y), as the centre view has it, strands cover: they lean either way
-// in the middle of the picture.
+// Returns the part of the pixel at (x, y) of the centre view that strands cover. The strands lean
+// to both sides in the middle of the picture.
 double CoverageAt(double x, double y) {
   double left = 1;
   for (int k = 0; k < 24; ++k) {
@@ -33,13 +33,13 @@ double CoverageAt(double x, double y) {
   return 1 - left;
 }
 
-// A bright wall of large soft waves, and dark strands.
+// A bright wall with large soft waves, and dark strands.
 double WallAt(double x, double y, int c) {
   return 170 + 12 * c + 25 * std::sin(x / 19 + c) + 20 * std::cos(y / 23);
 }
 double StrandAt(int c) { return 60 - 12 * c; }
 
-// The light from position (u, v) of the lens, focused at a disparity.
+// Returns the light from position (u, v) of the lens, focused at a disparity.
 double LightAt(int x, int y, int c, double u, double v, double focus) {
   const double near_x = x + u * (kNear - focus), near_y = y + v * (kNear - focus);
   const double far_x = x + u * (kFar - focus), far_y = y + v * (kFar - focus);
@@ -71,14 +71,14 @@ starfocus_config ConfigFor(const test::Scene& scene, bool coverage) {
   return config;
 }
 
-// Block mode through a disc.
+// Returns parameters for block mode with a disc.
 starfocus_params ThroughDisc(double focus) {
   starfocus_params params = test::Params(focus, 1, STARFOCUS_MODE_BLOCK);
   params.lens.shape = STARFOCUS_SHAPE_DISC;
   return params;
 }
 
-// The mean of a disc of lens positions.
+// Returns the mean over a disc of lens positions.
 std::vector<double> TruthOf(double focus) {
   std::vector<double> truth(3 * kWidth * kHeight, 0.0);
   constexpr int kSteps = 7;
@@ -97,7 +97,7 @@ std::vector<double> TruthOf(double focus) {
   return truth;
 }
 
-// PSNR in dB, but for the picture's rim, which views do not see.
+// Returns the PSNR in dB without the rim of the picture, where views lack data.
 double PsnrOf(const test::Output& out, const std::vector<double>& truth) {
   double sum = 0, count = 0;
   for (int y = 16; y < kHeight - 16; ++y) {
@@ -113,7 +113,7 @@ double PsnrOf(const test::Output& out, const std::vector<double>& truth) {
 
 }  // namespace
 
-TEST_CASE("thin: strands are parted from a wall that is in focus, and from one that is not") {
+TEST_CASE("thin: strands are separated from a wall in focus and from a blurred wall") {
   for (const double focus : {kFar, kNear}) {
     const std::vector<double> truth = TruthOf(focus);
     for (const int views : {1, 5}) {
@@ -127,7 +127,7 @@ TEST_CASE("thin: strands are parted from a wall that is in focus, and from one t
   }
 }
 
-TEST_CASE("thin: every way in gives the same bytes") {
+TEST_CASE("thin: all ways to refocus return the same bytes") {
   const test::Scene scene = Strands(5);
   starfocus_config config = ConfigFor(scene, true);
   for (const double focus : {kFar, 0.0, kNear}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light and its codes: what STARFOCUS_TRANSFER_SRGB promises.
+// Tests light and its codes as STARFOCUS_TRANSFER_SRGB defines them.
 #include "lib/base/transfer.h"
 
 #include <doctest/doctest.h>
@@ -26,7 +26,7 @@ uint8_t CodeOf(int light, starfocus_transfer transfer) {
   return code;
 }
 
-TEST_CASE("transfer: light of every code is the curve's, and its code the same") {
+TEST_CASE("transfer: the light of every code is on the curve, and converts back to the code") {
   for (const starfocus_transfer transfer : kTransfers) {
     const starfocus::Transfer& tables = starfocus::TransferOf(transfer);
     for (int code = 0; code < 256; ++code) {
@@ -52,7 +52,7 @@ TEST_CASE("transfer: every level of light is rounded to the nearest code") {
   }
 }
 
-// A flat picture, `code_at(x, y)` in all channels.
+// Returns a flat picture with `code_at(x, y)` in all channels.
 template <class CodeAt>
 test::Scene FlatScene(int width, int height, double disparity, const CodeAt& code_at) {
   test::Scene scene = test::EmptyScene(width, height, 1, float(disparity), float(disparity));
@@ -71,8 +71,8 @@ test::Refocused RefocusFlat(const test::Scene& scene, double blur, starfocus_mod
   return test::RefocusScene(scene, config, params);
 }
 
-// The ramp rises by one code every few pixels: what is 8 bits of light only would show bands.
-TEST_CASE("transfer: a ramp of dark codes stays monotone, wherever it is focused") {
+// The ramp rises by one code every few pixels. With only 8 bits of light, it would show bands.
+TEST_CASE("transfer: a ramp of dark codes stays monotone at every focus") {
   constexpr int kCodes = 41, kStep = 3, kWidth = kCodes * kStep;
   const test::Scene ramp = FlatScene(kWidth, 24, 0, [](int x, int) { return x / kStep; });
   for (const starfocus_mode mode : test::kModes) {
@@ -87,7 +87,7 @@ TEST_CASE("transfer: a ramp of dark codes stays monotone, wherever it is focused
           for (int x = 1; x < kWidth; ++x) {
             monotone = monotone && at(x) >= at(x - 1) && at(x) - at(x - 1) <= 1;
           }
-          // Away from its ends a blurred ramp is nearly the ramp.
+          // Away from its ends, a blurred ramp is nearly unchanged.
           for (int x = 45; x < kWidth - 45; ++x) {
             survives = survives && std::abs(at(x) - x / kStep) <= 1;
           }
@@ -99,12 +99,12 @@ TEST_CASE("transfer: a ramp of dark codes stays monotone, wherever it is focused
   }
 }
 
-TEST_CASE("transfer: half of the light of white is code 188, half of the code 128") {
+TEST_CASE("transfer: half of the light of white is code 188, and half of the code is 128") {
   const test::Scene board =
       FlatScene(96, 96, 0, [](int x, int y) { return (x + y) % 2 == 0 ? 255 : 0; });
   for (const starfocus_mode mode : test::kModes) {
     for (const double blur : {6.0, 11.0, 20.0}) {
-      // Not by the paper's rule: views about a pixel apart show the board again.
+      // The rule of the paper is excluded, because views about a pixel apart show the board again.
       const auto middle = [&](starfocus_transfer transfer) {
         const auto out = RefocusFlat(board, blur, mode, transfer, STARFOCUS_RENDERER_SLICES);
         return int(out.rgb[3 * (48 * 96 + 48)]);

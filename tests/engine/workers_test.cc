@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which jobs a runner gets in which order; engines in several threads are independent.
+// Tests the order of the jobs that a runner gets, and that engines in several threads are
+// independent.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -15,7 +16,7 @@
 namespace workers_test {
 namespace {
 
-// Runs all jobs in turn, and notes how many each set has.
+// Runs all jobs in turn, and records the number of jobs in each set.
 struct NotingRunner {
   std::vector<int32_t> sets;
 
@@ -26,8 +27,8 @@ struct NotingRunner {
   }
 };
 
-TEST_CASE("workers: each block is a job, those of the most predicted time come first") {
-  // A column of superblocks is split where what is flat and blurred begins.
+TEST_CASE("workers: each block is a job, and jobs with the largest predicted time come first") {
+  // A column of superblocks is split where the flat blurred area begins.
   constexpr int kColumns = 3, kSide = 128;
   test::Scene scene = test::RandomScene(kColumns * kSide, kSide, 5, -9, 9, 31);
   for (int y = 0; y < kSide; ++y) {
