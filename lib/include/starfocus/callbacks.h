@@ -13,17 +13,19 @@
 extern "C" {
 #endif
 
-/** A set of jobs of the engine. The runner calls it once with every index in [0, count). An invalid
- *  call does nothing, and the engine's call returns STARFOCUS_ERROR_RUNNER.
+/** A set of jobs of the engine. The runner calls this function once with every index in [0, count).
+ *  An invalid call of this function has no effect except that the engine's call returns
+ *  STARFOCUS_ERROR_RUNNER.
  *  @param job_data pointer that the runner received
  *  @param index index of the job
- *  @param worker worker in [0, max_workers); jobs that run at the same time need different workers
+ *  @param worker worker in [0, max_workers). Jobs that run at the same time must use different
+ *         workers
  */
 typedef void (*starfocus_job)(void* job_data, int32_t index, int32_t worker);
 
-/** Runs a set of jobs in any order and returns when all of them are done. Jobs with a small index
- *  take longest. If the runner returns early, the engine waits for the jobs that still run, rejects
- *  jobs that start later, and its call returns STARFOCUS_ERROR_RUNNER.
+/** Runs a set of jobs in any order and returns when all jobs are done. Jobs with a small index take
+ *  longest. If the runner returns early, the engine waits for the jobs that still run and rejects
+ *  jobs that start later. The engine's call then returns STARFOCUS_ERROR_RUNNER.
  *  @param runner_data starfocus_callbacks.runner_data
  *  @param job function to call
  *  @param job_data first argument of `job`
@@ -32,21 +34,22 @@ typedef void (*starfocus_job)(void* job_data, int32_t index, int32_t worker);
 typedef int (*starfocus_runner)(void* runner_data, starfocus_job job, void* job_data,
                                 int32_t count);
 
-/** Receives the progress of a call and may cancel the call. The engine calls it at every job and
- *  about every 500,000 samples, which is a fraction of a millisecond on a desktop. Only one thread
- *  at a time calls it: that of the call or, with a runner, any that runs a job. It must not use the
- *  engine or its memory.
+/** Receives the progress of a call and may cancel the call. The engine calls this callback at every
+ *  job and about every 500,000 samples, which take a fraction of a millisecond on a desktop. With a
+ *  runner, any thread that runs a job may call it, but only one thread at a time does. The callback
+ *  must not use the engine or the engine's memory.
  *
  *  After cancellation the callback is not called again, and the engine's call returns
- *  STARFOCUS_ERROR_CANCELLED as soon as all workers have stopped. The output is unspecified then,
- * and the engine can be used again. For streams, see starfocus_stream_pull.
+ *  STARFOCUS_ERROR_CANCELLED as soon as all workers have stopped. The output is then unspecified,
+ *  and the engine can be used again. For streams, see starfocus_stream_pull.
  *  @param data starfocus_callbacks.progress_data
- *  @param rows_done number of finished rows; never decreases within a call and ends at `rows`
+ *  @param rows_done number of finished rows, which never decreases within a call and ends at `rows`
  *  @param rows number of all rows
  *  @return 0 to continue; another value cancels the call */
 typedef int (*starfocus_progress)(void* data, int32_t rows_done, int32_t rows);
 
-/** Returns a time in nanoseconds, from any start. Called by the threads of the runner. */
+/** Returns a time in nanoseconds since an arbitrary fixed moment. The threads of the runner call
+ *  this function. */
 typedef uint64_t (*starfocus_clock)(void);
 
 /** A block of a refocusing. */
@@ -59,7 +62,8 @@ typedef struct starfocus_block {
   int32_t n;      /**< N, the number of views along the radius; 0: the centre view only */
 } starfocus_block;
 
-/** Receives each block before it is refocused. Called by the thread of the call.
+/** Receives each block before the block is refocused. The engine calls this function on the thread
+ *  of the call.
  *  @param data starfocus_callbacks.on_block_data
  *  @param block the block, valid during the callback */
 typedef void (*starfocus_block_visitor)(void* data, const starfocus_block* block);
@@ -70,7 +74,7 @@ typedef struct starfocus_callbacks {
   void* runner_data;           /**< passed to `runner` */
   starfocus_progress progress; /**< receives finished rows of the picture, region or preview */
   void* progress_data;         /**< passed to `progress` */
-  starfocus_clock clock;       /**< measures the times of starfocus_report; null: they are 0 */
+  starfocus_clock clock; /**< measures the times of starfocus_report; null: these times are 0 */
   starfocus_block_visitor on_block; /**< receives the blocks of a refocusing */
   void* on_block_data;              /**< passed to `on_block` */
 } starfocus_callbacks;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /** @file
  * Disparity maps: estimates them from the views of a light field, and repairs given ones. Programs
- * that already have maps do not need this header. Conventions are those of starfocus.h. Views are
- * packed RGB.
+ * that already have maps do not need this header. The conventions of starfocus.h apply. All views
+ * are packed RGB.
  *
  * @code
  * // Estimates a map of disparities from -8 to 8 from 5 views. Returns a starfocus_status.
@@ -45,12 +45,12 @@ typedef struct starfocus_depth_config {
   uint32_t size;  /**< size of the structure in bytes; set by starfocus_depth_config_init */
   int32_t width;  /**< width of the views in pixels, [1, STARFOCUS_MAX_SIZE] */
   int32_t height; /**< height of the views in pixels, [1, STARFOCUS_MAX_SIZE] */
-  int32_t views;  /**< number of views in the order of starfocus_view_position: 5, 9 or 17, and for
-                       starfocus_repair_disparity also 1; default 5 */
+  int32_t views;  /**< number of views in the order of starfocus_view_position: 5, 9 or 17, or 1 for
+                     starfocus_repair_disparity; default 5 */
   double disparity_min; /**< smallest disparity, within +-STARFOCUS_MAX_DISPARITY; default 0 */
   /** Largest disparity, within +-STARFOCUS_MAX_DISPARITY; default 0. The range is searched in steps
-   *  of half a pixel, or of one pixel and more if it is wider than 64 pixels (at most 128 steps).
-   *  Disparities between two steps are interpolated. */
+   *  of half a pixel. If the range is wider than 64 pixels, the steps are one pixel or more, so
+   *  that there are at most 128 steps. Disparities between two steps are interpolated. */
   double disparity_max;
   int32_t max_workers;     /**< number of workers, [1, STARFOCUS_MAX_WORKERS]; default 1 */
   starfocus_runner runner; /**< runs jobs; default null: the calling thread runs them */
@@ -67,13 +67,13 @@ typedef struct starfocus_depth_config {
 typedef struct starfocus_disparity_output {
   float* disparity;         /**< disparities, aligned to 4 bytes */
   size_t disparity_stride;  /**< bytes from row to row, >= 4 * width, a multiple of 4 */
-  uint8_t* confidence;      /**< confidence of each disparity, 0: none; may be null */
+  uint8_t* confidence;      /**< confidence of each disparity; 0: no confidence; may be null */
   size_t confidence_stride; /**< bytes from row to row, >= width */
-  uint8_t* coverage;        /**< receives starfocus_light_field.coverage of hair, from
-                                 starfocus_repair_disparity of one view; may be null */
-  size_t coverage_stride;   /**< bytes from row to row, >= width */
-  int32_t has_coverage; /**< set by the call: 1 if it found coverage, which belongs to the map; 0
-                             if it did not, and `coverage` is unspecified */
+  uint8_t* coverage; /**< starfocus_repair_disparity of one view: receives the coverage of hair, for
+                        starfocus_light_field.coverage; may be null */
+  size_t coverage_stride; /**< bytes from row to row, >= width */
+  int32_t has_coverage; /**< set by the call: 1 if `coverage` contains coverage that belongs to the
+                           map; 0 if `coverage` is unspecified */
 } starfocus_disparity_output;
 
 /** Sets the first `size` bytes of a configuration to the defaults. For bindings; programs in C and
@@ -89,8 +89,8 @@ static inline void starfocus_depth_config_init(starfocus_depth_config* config) {
 }
 
 /** Computes the workspace size of starfocus_estimate_disparity: 5 bytes per pixel of the picture,
- *  and for each worker up to 1.2 MB per pixel of the disparity range and about 10, 20 or 45 MB with
- *  5, 9 or 17 views.
+ *  plus memory for each worker. Each worker takes up to 1.2 MB per pixel of the disparity range,
+ *  plus about 10, 20 or 45 MB with 5, 9 or 17 views.
  *  @param config configuration
  *  @param bytes receives the size in bytes
  *  @return STARFOCUS_OK, or an error of the configuration */
@@ -101,9 +101,9 @@ starfocus_estimate_workspace_size(const starfocus_depth_config* config, size_t* 
  *  the views that see the pixel agree best, smoothed between neighbours, and lies in the configured
  *  range.
  *
- *  The confidence is the cost of the best disparity that differs by two steps or more, minus
- *  the cost of the result, in quarters of a code, summed over R, G and B. It is 0 if another
- * disparity fits as well, for example on a wall of one colour, and at most 255.
+ *  The confidence is the cost of the best other disparity, at least two steps away, minus the cost
+ *  of the result. Costs are in quarters of a code, summed over R, G and B. The confidence is 0 if
+ *  another disparity fits equally well, for example on a wall of one colour, and at most 255.
  *  @param config configuration
  *  @param light_field views; `depth` is ignored
  *  @param map output planes
@@ -116,32 +116,34 @@ STARFOCUS_API starfocus_status starfocus_estimate_disparity(
     starfocus_disparity_output* map, void* workspace, size_t bytes);
 
 /** Computes the workspace size of starfocus_repair_disparity: 12 bytes per pixel of the picture,
- * and for each worker about as much as starfocus_estimate_workspace_size.
+ *  plus about as much for each worker as starfocus_estimate_disparity takes.
  *  @param config configuration
  *  @param bytes receives the size in bytes
  *  @return STARFOCUS_OK, or an error of the configuration */
 STARFOCUS_API starfocus_status starfocus_repair_workspace_size(const starfocus_depth_config* config,
                                                                size_t* bytes);
 
-/** Repairs the disparity map of a light field: noise, unknown values, and edges that are blurred,
- * too coarse, or not at the edges of the picture.
+/** Repairs the disparity map of a light field: removes noise, fills unknown values, and corrects
+ *  edges that are blurred, too coarse, or not at the edges of the picture.
  *
- *  With side views, it estimates disparities with a cost that grows with the distance from the
- * given ones. With one view, it compares colours: outlines become as smooth as those of the
- * picture, and foreground surfaces grow where the picture's edges are soft. Values that the
- * pictures do not contradict keep their bits, except in noisy maps of one view.
+ *  With side views, the function estimates disparities with a cost that grows with the distance
+ *  from the given disparities. With one view, the function compares colours: outlines in the map
+ *  become as smooth as outlines in the picture, and foreground surfaces grow where the picture's
+ *  edges are soft. Values that the pictures do not contradict keep their bits, except in noisy maps
+ *  of one view.
  *
- *  The confidence is that of starfocus_estimate_disparity. It is 0 where the pictures contradict a
- *  value, but too weakly to change it. Where nothing contradicts a value and no edge is near, it is
- *  the difference between the centre view and the same view moved by one pixel.
+ *  The confidence is defined as for starfocus_estimate_disparity. The confidence is 0 where the
+ *  pictures contradict a value too weakly to change the value. Where nothing contradicts a value
+ *  and no edge is near, the confidence is the difference between the centre view and the same view
+ *  moved by one pixel.
  *
  *  Maps of monocular networks show hair as one closed outline. If `map->coverage` is not null and
- *  the only view shows such hair, its coverage is found by colour. Disparities of hair then keep
- *  their bits, and their confidence is 255 minus the change of coverage. Outside hair, coverage is
- * 0 or 255, as the map alone implies.
+ *  the only view shows such hair, the coverage of the hair is found by colour. Disparities of hair
+ *  then keep their bits, and the confidence of these disparities is 255 minus the change of
+ *  coverage. Outside hair, coverage is 0 or 255, as the map alone implies.
  *  @param config configuration
- *  @param light_field views, and in `depth` the map to repair, as of starfocus_depth_float. Its
- *         finite values lie in the configured range, which may be wider
+ *  @param light_field views, and in `depth` the map to repair, as from starfocus_depth_float. The
+ *         finite values of the map must lie in the configured range, which may be wider
  *  @param map output planes
  *  @param workspace memory aligned to STARFOCUS_ALIGNMENT
  *  @param bytes size of the workspace, at least starfocus_repair_workspace_size

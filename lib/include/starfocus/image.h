@@ -2,12 +2,12 @@
 /** @file
  * Formats of pictures and depth maps. Part of starfocus.h.
  *
- * An engine reads and writes packed STARFOCUS_FORMAT_RGB, and float disparities as
- * starfocus_depth_float describes them. Everything else needs STARFOCUS_FEATURE_IMAGES.
+ * Every engine reads and writes packed STARFOCUS_FORMAT_RGB, and reads float disparities as
+ * starfocus_depth_float describes them. All other formats require STARFOCUS_FEATURE_IMAGES.
  *
- * The engine converts rows when it reads and writes them; it copies no picture. The output bytes
- * are those of three steps: convert all inputs to packed RGB and float disparities by the formulas
- * below, refocus, convert the result.
+ * The engine converts each row when it reads or writes that row, and copies no whole picture. The
+ * output bytes are the same as after three separate steps: convert all inputs to packed RGB and
+ * float disparities by the formulas below, refocus, and convert the result.
  */
 #ifndef STARFOCUS_IMAGE_H_
 #define STARFOCUS_IMAGE_H_
@@ -56,8 +56,9 @@ typedef enum starfocus_range {
  * output. A structure of zeros with planes[0] and strides[0] describes packed RGB.
  *
  *  Conversion uses integers and is the same on every machine. Let P(a, c) = (a c + 2^14) >> 15,
- *  where >> rounds down, and let [x] be x rounded to the nearest integer, halves away from 0. For
- *  limited range, y0 = 16, p = 255 / 219, q = 255 / 224; for full range, y0 = 0, p = q = 1.
+ *  where >> rounds down, and let [x] be x rounded to the nearest integer, with halves rounded away
+ *  from 0. For limited range, y0 = 16, p = 255 / 219, q = 255 / 224; for full range, y0 = 0, p = q
+ *  = 1.
  *
  *  To RGB, with the chroma sample of the pixel:
  *    L = P(128 (Y - y0), [2^14 p]), u = 256 (U - 128), v = 256 (V - 128),
@@ -77,8 +78,9 @@ typedef struct starfocus_image {
   int32_t matrix; /**< starfocus_matrix; ignored for RGB formats */
   int32_t range;  /**< starfocus_range; ignored for RGB formats */
   /** Bytes from pixel to pixel of an RGB format: at least 3, or 4 with alpha, and at most
-   *  STARFOCUS_MAX_PIXEL_STRIDE. For YUV_420_888, bytes from chroma sample to chroma sample, 1
-   * or 2. 0: the smallest value that the format allows, and the only one for other formats. */
+   *  STARFOCUS_MAX_PIXEL_STRIDE. For YUV_420_888, bytes from chroma sample to chroma sample, 1 or
+   *  2. The value 0 selects the smallest value that the format allows. Other YUV formats accept
+   *  only this value. */
   int32_t pixel_stride;
   void* planes[3];   /**< first byte of each plane; planes that the format lacks are ignored */
   size_t strides[3]; /**< bytes from row to row of each plane, at least one row */
@@ -92,7 +94,7 @@ typedef enum starfocus_depth_type {
   STARFOCUS_DEPTH_HALF = 3   /**< 16-bit IEEE float */
 } starfocus_depth_type;
 
-/** How a value z of a depth map gives a disparity. */
+/** Conversion of a value z of a depth map to a disparity. */
 typedef enum starfocus_depth_meaning {
   STARFOCUS_DEPTH_LINEAR = 0, /**< disparity = scale * z + offset */
   /** disparity = scale / z + offset, for distances z. For rectified views whose outermost ones lie
@@ -102,19 +104,19 @@ typedef enum starfocus_depth_meaning {
 
 /** Depth map of the centre view, as large as the picture or smaller in width, height or both.
  *
- *  Disparities are computed in single precision and rounded to 1/64 pixel with halves up. They must
+ *  Disparities are computed in single precision and rounded half up to 1/64 pixel. Disparities must
  *  lie in the configured range; otherwise the call returns STARFOCUS_ERROR_DISPARITY. Disparities
- *  that are not finite, and those of the invalid value, are unknown: see
- *  STARFOCUS_FEATURE_FILL_UNKNOWN. Unknown values are filled in rows of the picture, not of the
- * map.
+ *  that are not finite, and disparities of the invalid value, are unknown: see
+ *  STARFOCUS_FEATURE_FILL_UNKNOWN. Unknown values are filled along rows of the picture, not along
+ *  rows of the map.
  *
- *  The engine interpolates a smaller map within surfaces, but not across their edges. For a picture
- *  W pixels wide and a map w values wide, column x of the picture lies at
- *  p = floor(128 (2x + 1) w / W) - 128 of the map, in 1/256 and limited to [0, 256 (w - 1)]; rows
- *  likewise. Values are interpolated between two rows first and between two columns then. At a
- *  distance of s / 256 from D0 to D1, in 1/64 pixel, the result is D0 + ((s (D1 - D0) + 128) >> 8)
- *  if |D1 - D0| <= 96 (1.5 pixels). Otherwise it is D0 for s < 128 and D1 for s >= 128. An unknown
- *  value is never interpolated. */
+ *  The engine interpolates a smaller map within surfaces, but not across depth edges. For a picture
+ *  W pixels wide and a map w values wide, column x of the picture lies at p = floor(128 (2x + 1) w
+ *  / W) - 128 of the map, in 1/256 and limited to [0, 256 (w - 1)]. The same formula applies to
+ *  rows. Values are interpolated between two rows first, then between two columns. At a distance of
+ *  s / 256 from D0 to D1, in 1/64 pixel, the result is D0 + ((s (D1 - D0) + 128) >> 8) if |D1 - D0|
+ *  <= 96 (1.5 pixels). Otherwise it is D0 for s < 128 and D1 for s >= 128. An unknown value is
+ *  never interpolated. */
 typedef struct starfocus_depth_map {
   const void* data; /**< first value, aligned to its type */
   size_t stride;    /**< bytes from row to row, at least one row, a multiple of the type's size */
@@ -125,11 +127,11 @@ typedef struct starfocus_depth_map {
   double scale;     /**< finite and not 0; rounded to float; 1 for disparities */
   double offset;    /**< finite; rounded to float */
   double invalid;   /**< value z of unknown depth, rounded to float; used if has_invalid is 1 */
-  int32_t has_invalid; /**< 1: values equal to `invalid` are unknown; 0: none is */
+  int32_t has_invalid; /**< 1: values equal to `invalid` are unknown; 0: `invalid` is ignored */
 } starfocus_depth_map;
 
 /** Describes a packed RGB picture.
- *  @param data first row; calls only read it, unless the picture is an output
+ *  @param data first row; calls write to the picture only if the picture is an output
  *  @param stride bytes from row to row
  *  @return the picture */
 static inline starfocus_image starfocus_image_rgb(const void* data, size_t stride) {

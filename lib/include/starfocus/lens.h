@@ -27,34 +27,34 @@ extern "C" {
 typedef enum starfocus_shape {
   STARFOCUS_SHAPE_FALL_OFF = 0, /**< the paper's disc (3), which is darker towards its rim */
   STARFOCUS_SHAPE_DISC = 1,     /**< a disc of constant brightness */
-  STARFOCUS_SHAPE_POLYGON = 2,  /**< a polygon with corners on the rim of the disc, as of a shutter
-                                     with blades. Needs STARFOCUS_FEATURE_SHAPES */
-  STARFOCUS_SHAPE_RING = 3      /**< a disc with a hole, as of a mirror lens */
+  STARFOCUS_SHAPE_POLYGON = 2,  /**< a polygon with corners on the rim of the disc, like a diaphragm
+                                   with blades. Requires STARFOCUS_FEATURE_SHAPES */
+  STARFOCUS_SHAPE_RING = 3      /**< a disc with a hole, like the opening of a mirror lens */
 } starfocus_shape;
 
-/** A lens. It may differ from call to call. The first call after a change of shape, blades, theta,
- *  rotation, curvature or ring_inner computes tables for the new aperture. All fields are checked,
- *  also those that the shape does not use. */
+/** A lens, which may differ from call to call. The first call after a change of shape, blades,
+ *  theta, rotation, curvature or ring_inner computes tables for the new aperture. Every call checks
+ *  all fields, including the fields that the shape does not use. */
 typedef struct starfocus_lens {
   double focus;    /**< disparity in focus (d_t), |focus| <= STARFOCUS_MAX_FOCUS; default 0 */
-  double aperture; /**< radius of the aperture (u_t), [0, 1]; 0 gives the centre view, byte for
-                      byte; default 1 */
+  double aperture; /**< radius of the aperture (u_t), [0, 1]; at 0 the result is the centre view,
+                      byte for byte; default 1 */
   int32_t shape; /**< starfocus_shape; default STARFOCUS_SHAPE_FALL_OFF. Polygons and cat's eyes are
-                      slower, since they are not gathered (starfocus_tuning.gather) */
+                    slower, because their blur is not gathered (starfocus_tuning.gather) */
   int32_t blades; /**< polygon: number of corners, [STARFOCUS_MIN_BLADES, STARFOCUS_MAX_BLADES];
                        default 5 */
   double theta; /**< fall-off: angle of (3) in radians, [STARFOCUS_MIN_THETA, STARFOCUS_MAX_THETA];
                      default 0.26 pi */
   double rotation;   /**< polygon: rotation in degrees, clockwise, [-360, 360]; default 0: a corner
                           points up */
-  double curvature;  /**< polygon: radius of the disc divided by the radius of the edges, [0, 1];
-                          default 0: straight edges; 1: a disc */
-  double ring_inner; /**< ring: radius of the hole divided by that of the disc, [0,
-                          STARFOCUS_MAX_RING_INNER]; default 0.5 */
+  double curvature;  /**< polygon: radius of the disc divided by the radius of the edges, [0, 1]; 0,
+                        the default: straight edges; 1: a disc */
+  double ring_inner; /**< ring: radius of the hole divided by the radius of the disc, [0,
+                        STARFOCUS_MAX_RING_INNER]; default 0.5 */
   /** Cat's eye: distance of a second rim from the axis, in radii of the lens, as seen from a corner
-   *  of the picture, [0, 1]. Light passes both rims; towards the middle of the picture the distance
-   *  falls to 0. The picture is not darkened. Values above 0 need STARFOCUS_FEATURE_SHAPES.
-   *  STARFOCUS_MODE_BLUR ignores it. Default 0. */
+   *  of the picture, [0, 1]. Light must pass both rims. The distance falls to 0 towards the middle
+   *  of the picture. The cut does not darken the picture. Values above 0 require
+   *  STARFOCUS_FEATURE_SHAPES. STARFOCUS_MODE_BLUR ignores this field. Default 0. */
   double cats_eye;
 } starfocus_lens;
 

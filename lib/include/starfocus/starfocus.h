@@ -4,10 +4,10 @@
  *
  * The engine takes a light field: 1 to 17 rectified views with 8 bits per sample, and the disparity
  * map of the centre view. It computes the picture that a lens would have taken with another focus
- * and another aperture. The views are those of the paper's star, or lie at any positions, as those
- * of a stereo pair do. The paper is Huang et al., "Fast Physically-Correct Refocusing for Sparse
- * Light Fields Using Block-Based Multi-Rate View Interpolation"; numbers in parentheses, such as
- * (9), are its equations.
+ * and another aperture. The views are the star of the paper, or lie at any positions, for example
+ * the positions of a stereo pair. The paper is Huang et al., "Fast Physically-Correct Refocusing
+ * for Sparse Light Fields Using Block-Based Multi-Rate View Interpolation"; numbers in parentheses,
+ * such as (9), are its equations.
  *
  * A complete program that focuses a picture at disparity 3.5:
  *
@@ -49,27 +49,27 @@
  * the point to a disc of radius aperture * |d - focus| pixels. Strides are in bytes and may be
  * larger than a row.
  *
- * **Structures.** Structures with an init function have a field `size`, which that function sets
- * together with the defaults. Set all other structures to zero, for example with `= {0}`, before
- * setting fields. A structure that is shorter than the library's gets defaults for the missing
- * fields. A structure that is longer is refused with STARFOCUS_ERROR_STRUCTURE.
+ * **Structures.** Structures with an init function have a field `size`; the init function sets
+ * `size` and the defaults. Set all other structures to zero, for example with `= {0}`, before you
+ * set fields. If `size` is smaller than the library's structure, the missing fields get defaults.
+ * If `size` is larger, the call returns STARFOCUS_ERROR_STRUCTURE.
  *
- * **Memory.** The engine lives in one block of memory, its workspace. It allocates nothing else.
- * Either starfocus_create allocates the workspace and starfocus_destroy frees it, or the caller
- * allocates starfocus_workspace_size bytes and calls starfocus_init; such an engine needs no
- * destructor.
+ * **Memory.** The engine lives in one block of memory, its workspace, and allocates no other
+ * memory. Either starfocus_create allocates the workspace and starfocus_destroy frees it, or the
+ * caller allocates starfocus_workspace_size bytes and calls starfocus_init. An engine of
+ * starfocus_init requires no destructor.
  *
  * **Threads.** One call at a time may use an engine, from any thread. Different engines are
- * independent. The engine starts no threads; it gives jobs to the runner of
- * starfocus_set_callbacks. starfocus/pool.h has a runner with a pool of threads. The output bytes
- * do not depend on the runner, the number of workers, the SIMD target, or whether rows are
- * streamed.
+ * independent. The engine starts no threads; it passes jobs to the runner of
+ * starfocus_set_callbacks. starfocus/pool.h provides a runner with a pool of threads. The output
+ * bytes do not depend on the runner, the number of workers or the SIMD target. Streamed rows give
+ * the same bytes as well.
  *
  * **Errors.** Functions that can fail return a starfocus_status. A function checks all its
  * arguments before it writes any output. The status is the kind of error; a starfocus_problem names
  * the field or argument, its value, and the allowed range. After a call with an engine,
- * starfocus_engine_problem returns it. Calls that take a configuration write it to
- * starfocus_config.problem, if that is not null.
+ * starfocus_engine_problem returns the problem. Calls that take a configuration write the problem
+ * to starfocus_config.problem, if that pointer is not null.
  *
  * **Bindings.** Compare starfocus_abi_version() with STARFOCUS_ABI_VERSION, and the size of each
  * declared structure with starfocus_struct_size(). Within one ABI version, only structures with a
@@ -93,9 +93,11 @@
 extern "C" {
 #endif
 
-/** Version of the ABI. Grows when a public structure or the meaning of a function changes. */
+/** Version of the ABI. The version grows when a public structure or the meaning of a function
+ *  changes. */
 #define STARFOCUS_ABI_VERSION 1u
-/** Alignment of workspaces and prepared light fields in bytes: the widest vector (AVX-512). */
+/** Alignment of workspaces and prepared light fields in bytes: the size of the widest vector
+ *  (AVX-512). */
 #define STARFOCUS_ALIGNMENT 64
 /** Largest number of captured views. */
 #define STARFOCUS_MAX_VIEWS 17
@@ -114,24 +116,24 @@ extern "C" {
 /** Largest value of starfocus_params.preview_shift. */
 #define STARFOCUS_MAX_PREVIEW 3
 
-/** Bits of starfocus_config.features: what the workspace reserves memory for.
+/** Bits of starfocus_config.features. The workspace reserves memory for the enabled features.
  *  @{ */
 /** The paper's renderer, STARFOCUS_RENDERER_LINE_SCAN. */
 #define STARFOCUS_FEATURE_LINE_SCAN 1u
 /** Separates hair and thin structures from the background. */
 #define STARFOCUS_FEATURE_COVERAGE 2u
-/** The functions starfocus_stream_*: reserves ring buffers of rows. */
+/** Enables the functions starfocus_stream_* and reserves ring buffers of rows. */
 #define STARFOCUS_FEATURE_STREAMING 4u
 /** Image formats other than packed RGB, and depth maps of other types or sizes. */
 #define STARFOCUS_FEATURE_IMAGES 8u
 /** Fills unknown values of disparity maps (NaN, infinite, or the map's invalid value). An unknown
- *  value gets the nearest known value of its row; between two known values, the smaller one. A row
- *  without a known value gets disparity_min. Without this feature, unknown values are refused with
- *  STARFOCUS_ERROR_NOT_FINITE. Alternatives: starfocus_repair_disparity takes the values from the
- *  views, and starfocus_fill_disparity fills a whole map. */
+ *  value gets the nearest known value of its row, or between two known values the smaller value. A
+ *  row without a known value gets disparity_min. Without this feature, calls reject unknown values
+ *  with STARFOCUS_ERROR_NOT_FINITE. Alternatives are starfocus_repair_disparity, which finds the
+ *  values from the views, and starfocus_fill_disparity, which fills a whole map. */
 #define STARFOCUS_FEATURE_FILL_UNKNOWN 16u
-/** Lenses may be polygons and have cat's eyes: reserves larger tables. Without this feature, such
- *  lenses are refused with STARFOCUS_ERROR_FEATURE. */
+/** Enables polygons and cat's eyes, and reserves larger tables. Without this feature, calls reject
+ *  lenses with these shapes with STARFOCUS_ERROR_FEATURE. */
 #define STARFOCUS_FEATURE_SHAPES 32u
 /** @} */
 
@@ -140,11 +142,12 @@ extern "C" {
 STARFOCUS_API uint32_t starfocus_abi_version(void);
 
 /** Returns the version of the library.
- *  @return the STARFOCUS_VERSION_STRING that it was built with, for example "0.1.0", in static
- *          storage */
+ *  @return the STARFOCUS_VERSION_STRING that the library was built with, for example "0.1.0", in
+ *         static storage */
 STARFOCUS_API const char* starfocus_version(void);
 
-/** Returns the size of a public structure in the library, for bindings to compare with their own.
+/** Returns the size of a public structure in the library. Bindings compare this size with the size
+ *  of their declaration.
  *  @param name name of the structure, for example "starfocus_config"
  *  @return size in bytes, or 0 if the name is unknown or null */
 STARFOCUS_API size_t starfocus_struct_size(const char* name);
@@ -155,11 +158,11 @@ typedef struct starfocus_position {
   double v; /**< downwards, [-1, 1] */
 } starfocus_position;
 
-/** How the codes 0 to 255 of a picture represent light. A lens adds light, so the engine decodes
- *  codes before it averages them. A picture of one colour keeps its codes. */
+/** Relation between the codes 0 to 255 of a picture and light. A lens adds light, so the engine
+ *  decodes codes before it averages them. A picture of one colour keeps its codes. */
 typedef enum starfocus_transfer {
   /** The sRGB curve (IEC 61966-2-1), as in pictures of cameras. Light has 15 bits; docs/library.md
-   *  says when dark pixels may differ by one code. */
+   *  states when dark pixels may differ by one code. */
   STARFOCUS_TRANSFER_SRGB = 0,
   /** Light is the code itself. The paper averages codes. */
   STARFOCUS_TRANSFER_NONE = 1
@@ -174,42 +177,43 @@ typedef struct starfocus_config {
   /** Number of captured views. Without `positions`: 1, 5, 9 or 17, in the order of
    *  starfocus_view_position. With `positions`: 1 to STARFOCUS_MAX_VIEWS. Default 5. */
   int32_t views;
-  /** Smallest disparity that a map may contain; default 0. A range wider than that of the maps may
-   *  change pictures: it raises N in the frame modes, and above 32 pixels of blur it makes slices
-   *  thicker. */
+  /** Smallest disparity that a map may contain; default 0. A range wider than the range of the maps
+   *  may change pictures: a wider range raises N in the frame modes, and makes slices thicker above
+   *  32 pixels of blur. */
   double disparity_min;
   double
       disparity_max; /**< largest disparity that a map may contain, >= disparity_min; default 0 */
   /** Upper limit of the blur radius aperture * |d - focus| in pixels, (0, STARFOCUS_MAX_BLUR];
-   *  default 32. It decides the size of the workspace and changes no picture. */
+   *  default 32. The limit affects the size of the workspace but no picture. */
   double max_blur;
   /** Side of the superblocks, from which blocks are split, in pixels: 32, 64, 128, 256, or 0. The
-   *  default 0 means 128 from a width of 1536 pixels on, and 64 below. In wide pictures 128 is up
-   *  to an eighth faster. The memory of a worker grows with the area of a superblock, from 1.15 MiB
-   *  at 64. starfocus_report.superblock is the side that 0 stands for. */
+   *  default 0 selects 128 for pictures at least 1536 pixels wide, and 64 for others. In wide
+   *  pictures 128 is up to an eighth faster. The memory of a worker grows with the area of a
+   *  superblock, from 1.15 MiB at 64. starfocus_report.superblock reports the selected side. */
   int32_t superblock;
   int32_t max_workers; /**< number of workers, [1, STARFOCUS_MAX_WORKERS]; default 1 */
   /** Bits STARFOCUS_FEATURE_*; default LINE_SCAN and COVERAGE. Without LINE_SCAN,
-   *  STARFOCUS_RENDERER_AUTO always selects slices, and STARFOCUS_RENDERER_LINE_SCAN is refused
-   * with STARFOCUS_ERROR_FEATURE. */
+   *  STARFOCUS_RENDERER_AUTO always selects slices, and calls reject STARFOCUS_RENDERER_LINE_SCAN
+   *  with STARFOCUS_ERROR_FEATURE. */
   uint32_t features;
-  /** Largest starfocus_params.preview_shift, [0, STARFOCUS_MAX_PREVIEW]; default 0.
-   *  starfocus_prepare then also stores the light field at 1/2, 1/4 and 1/8 of its size, up to this
-   *  shift. It does not enlarge the workspace. */
+  /** Largest starfocus_params.preview_shift, [0, STARFOCUS_MAX_PREVIEW]; default 0. A value s > 0
+   *  makes starfocus_prepare store reduced light fields as well, down to 1 / 2^s of the size.
+   *  Previews do not enlarge the workspace. */
   int32_t previews;
   int32_t transfer; /**< starfocus_transfer; default STARFOCUS_TRANSFER_SRGB */
   /** Brightness of clipped lamps relative to white, [1, STARFOCUS_MAX_HIGHLIGHTS]; default 1. A
    *  pixel is part of a lamp if at least two of its codes are 251 or more. White areas that are
-   * wider and higher than 1/32 of the picture's width (16 to 128 pixels) are brightened less, and
-   * from twice that size on not at all, so that walls do not glow. */
+   *  wider and higher than 1/32 of the picture's width (16 to 128 pixels) are brightened less.
+   *  Areas of at least twice that size are not brightened, so that walls do not glow. */
   double highlights;
-  /** Positions of the views, rounded to 1/16384. The first one is (0, 0), and no two are equal.
-   *  Default all 0: the positions of starfocus_view_position. STARFOCUS_RENDERER_LINE_SCAN and
-   *  starfocus/depth.h need those. */
+  /** Positions of the views, rounded to 1/16384. The first position must be (0, 0), and all
+   *  positions must differ. Default all 0, which selects the positions of starfocus_view_position.
+   *  STARFOCUS_RENDERER_LINE_SCAN and starfocus/depth.h require the positions of
+   *  starfocus_view_position. */
   starfocus_position positions[STARFOCUS_MAX_VIEWS];
   starfocus_tuning tuning; /**< trade-offs between time and error */
-  /** Receives the problem of calls that take this configuration; default null. Calls with an engine
-   *  report it by starfocus_engine_problem instead. */
+  /** Receives the problem of calls that take this configuration; default null. For calls with an
+   *  engine, starfocus_engine_problem returns the problem instead. */
   starfocus_problem* problem;
 } starfocus_config;
 
@@ -225,8 +229,8 @@ static inline void starfocus_config_init(starfocus_config* config) {
   starfocus_config_init_sized(config, (uint32_t)sizeof(starfocus_config));
 }
 
-/** Returns the position of a view of the star. Sets of 1, 5 and 9 views are the first ones of the
- *  17 views: 0 is the centre; 1 to 4 are (1, 0), (-1, 0), (0, 1), (0, -1); 5 to 8 are (1, 1),
+/** Returns the position of a view of the star. Sets of 1, 5 and 9 views are the first views of the
+ *  set of 17: view 0 is the centre; 1 to 4 are (1, 0), (-1, 0), (0, 1), (0, -1); 5 to 8 are (1, 1),
  *  (-1, 1), (1, -1), (-1, -1); 9 to 16 are views 1 to 8 at half the distance.
  *  @param index index of the view, [0, STARFOCUS_MAX_VIEWS)
  *  @param u,v receive the position
@@ -243,7 +247,7 @@ STARFOCUS_API starfocus_status starfocus_workspace_size(const starfocus_config* 
 /** An engine, which lives in its workspace. */
 typedef struct starfocus_engine starfocus_engine;
 
-/** Creates an engine in memory of the caller. Such an engine needs no destructor.
+/** Creates an engine in memory of the caller. An engine in such memory requires no destructor.
  *  @param config configuration; the engine keeps a copy
  *  @param workspace memory aligned to STARFOCUS_ALIGNMENT, which must outlive the engine
  *  @param bytes size of the workspace, at least starfocus_workspace_size
@@ -252,14 +256,14 @@ typedef struct starfocus_engine starfocus_engine;
 STARFOCUS_API starfocus_status starfocus_init(const starfocus_config* config, void* workspace,
                                               size_t bytes, starfocus_engine** engine);
 
-/** Returns the problem of the engine's last call. It lies in the workspace, and the next call with
- *  the engine overwrites it.
+/** Returns the problem of the engine's last call. The problem lies in the workspace, and the next
+ *  call with the engine overwrites it.
  *  @param engine engine
  *  @return the problem, with status STARFOCUS_OK if the call succeeded; null if `engine` is null */
 STARFOCUS_API const starfocus_problem* starfocus_engine_problem(const starfocus_engine* engine);
 
-/** Sets the callbacks of all later calls with the engine. They replace those set before, also
- *  between two calls of a stream. A new engine has none.
+/** Sets the callbacks of all later calls with the engine, and replaces earlier callbacks. Callbacks
+ *  may be replaced between two calls of a stream. A new engine has no callbacks.
  *  @param engine engine
  *  @param callbacks callbacks, of which the engine keeps a copy
  *  @return STARFOCUS_OK or STARFOCUS_ERROR_NULL */
@@ -271,12 +275,12 @@ typedef struct starfocus_allocator {
   void* data; /**< passed to both functions */
   /** Returns `bytes` bytes aligned to `alignment` (STARFOCUS_ALIGNMENT), or null on failure. */
   void* (*allocate)(void* data, size_t bytes, size_t alignment);
-  /** Frees memory of `allocate`; `memory` is not null and `bytes` is the size that was asked for.
+  /** Frees memory of `allocate`. `memory` is not null, and `bytes` is the size that was requested.
    */
   void (*release)(void* data, void* memory, size_t bytes);
 } starfocus_allocator;
 
-/** Allocates a workspace and creates an engine in it. Free it with starfocus_destroy.
+/** Allocates a workspace and creates an engine in it. Free the engine with starfocus_destroy.
  *  @param config configuration; the engine keeps a copy
  *  @param allocator allocator; null: malloc and free
  *  @param engine receives the engine, or null on error
@@ -290,28 +294,29 @@ STARFOCUS_API starfocus_status starfocus_create(const starfocus_config* config,
  *  @param engine engine; no-op for a null pointer and for engines of starfocus_init */
 STARFOCUS_API void starfocus_destroy(starfocus_engine* engine);
 
-/** How the picture is divided, and how many views are rendered. */
+/** Division of the picture, and number of rendered views. */
 typedef enum starfocus_mode {
   /** One N for the whole picture, by (9). */
   STARFOCUS_MODE_FRAME = 0,
-  /** N = 2 ceil(r_max) for the whole picture: the paper's benchmark of quality. With slices it also
-   *  uses thinner slices. */
+  /** N = 2 ceil(r_max) for the whole picture: the paper's benchmark of quality. The slice renderer
+   *  also uses thinner slices in this mode. */
   STARFOCUS_MODE_BENCHMARK = 1,
   /** Blocks of different sizes, each with its own N and layer (section V). The half-band filters of
-   *  layers 1 and 2 overshoot: pictures may exceed the range of the light around them by 4 % of
-   * that range with slices, and by 13 % with line scans (with shapes other than the default, 4 %
-   * and 40 %). With STARFOCUS_TRANSFER_SRGB, 4 % of white is the code 56. */
+   *  layers 1 and 2 overshoot: a pixel may exceed the range of the light around it. The overshoot
+   *  is up to 4 % of that range with slices and 13 % with line scans, or 4 % and 40 % with shapes
+   *  other than the default. With STARFOCUS_TRANSFER_SRGB, 4 % of white is the code 56. */
   STARFOCUS_MODE_BLOCK = 2,
-  /** The centre view, blurred by (4) without other views. Takes up to ten times as long as blocks.
+  /** The centre view, blurred by (4) without other views. This mode takes up to ten times as long
+   *  as STARFOCUS_MODE_BLOCK.
    */
   STARFOCUS_MODE_BLUR = 3
 } starfocus_mode;
 
-/** How views are rendered. */
+/** Method that renders views. */
 typedef enum starfocus_renderer {
   /** Line scan for STARFOCUS_MODE_FRAME of a star of 5 or more views; slices otherwise. */
   STARFOCUS_RENDERER_AUTO = 0,
-  /** The paper's line scan (IV), with views about one pixel apart (9). Needs
+  /** The paper's line scan (section IV), with views about one pixel apart (9). Requires
    *  STARFOCUS_FEATURE_LINE_SCAN and the views of starfocus_view_position. */
   STARFOCUS_RENDERER_LINE_SCAN = 1,
   /** Slices of the scene, with fewer views: each view stands for a subaperture of the lens. */
@@ -326,7 +331,7 @@ typedef struct starfocus_region {
   int32_t height; /**< number of rows, >= 1 */
 } starfocus_region;
 
-/** A light field. All views have the configured size. Their formats may differ. */
+/** A light field. All views have the configured size, but their formats may differ. */
 typedef struct starfocus_light_field {
   /** The configured number of views, in the order of starfocus_view_position or
    *  starfocus_config.positions. */
@@ -334,18 +339,18 @@ typedef struct starfocus_light_field {
   starfocus_depth_map depth; /**< depth map of the centre view */
   /** Optional alpha of the foreground, as matting networks compute it: for each pixel of the centre
    *  view, the part that the nearer of two surfaces covers (255: all). Within 32 pixels of depth
-   *  edges of more than 5 pixels it takes precedence over the map. Null: none. Ignored without
-   *  STARFOCUS_FEATURE_COVERAGE. */
+   *  edges of more than 5 pixels, the alpha takes precedence over the map. Null: the light field
+   *  has no alpha. Engines without STARFOCUS_FEATURE_COVERAGE ignore the alpha. */
   const uint8_t* coverage;
   size_t coverage_stride; /**< bytes from row to row of `coverage`, >= width */
 } starfocus_light_field;
 
 /** The previous frame of a video: its light field and its picture. Both must belong to the same
- *  configuration and the same starfocus_params, except `previous`. This is not checked: where the
- *  light field did not change, pixels of the given picture are copied. */
+ *  configuration and the same starfocus_params, except `previous`. The engine does not check this
+ *  condition: where the light field did not change, it copies pixels of the given picture. */
 typedef struct starfocus_previous {
   starfocus_light_field light_field; /**< compared with the current light field */
-  starfocus_image out;               /**< the picture or region that starfocus_refocus wrote */
+  starfocus_image out; /**< picture or region that starfocus_refocus wrote for `light_field` */
 } starfocus_previous;
 
 /** Parameters of one refocusing. Call starfocus_params_init first. */
@@ -354,14 +359,14 @@ typedef struct starfocus_params {
   int32_t mode;            /**< starfocus_mode; default STARFOCUS_MODE_BLOCK */
   int32_t renderer;        /**< starfocus_renderer; default STARFOCUS_RENDERER_AUTO. Ignored by
                                 STARFOCUS_MODE_BLUR */
-  starfocus_region region; /**< part of the picture to compute; default all 0. Streams need all 0 */
+  starfocus_region region; /**< part to compute; default all 0, which streams require */
   starfocus_lens lens;     /**< the lens; see starfocus_lens for its defaults */
-  /** For starfocus_refocus_prepared: the picture has 1 / 2^preview_shift of the size, [0,
-   *  starfocus_config.previews]; default 0. */
+  /** For starfocus_refocus_prepared: the picture has 1 / 2^preview_shift of the full size. Range
+   *  [0, starfocus_config.previews]; default 0. */
   int32_t preview_shift;
   /** For starfocus_refocus: the previous frame, from which unchanged superblocks are copied. The
-   *  output bytes do not depend on it. Both light fields and pictures must have the formats that
-   *  need no STARFOCUS_FEATURE_IMAGES. Default null. */
+   *  output bytes do not depend on this field. Both light fields and both pictures must have the
+   *  formats that do not require STARFOCUS_FEATURE_IMAGES. Default null. */
   const starfocus_previous* previous;
 } starfocus_params;
 
@@ -381,8 +386,8 @@ static inline void starfocus_params_init(starfocus_params* params) {
 typedef struct starfocus_layer_report {
   uint64_t blocks; /**< number of blocks */
   uint64_t pixels; /**< pixels of the picture that the blocks cover */
-  uint64_t views;  /**< rendered views, summed over the blocks; 1 for a block that is copied
-                        or gathered as a whole */
+  uint64_t views;  /**< number of rendered views, summed over the blocks; a block that is copied or
+                      gathered as a whole counts as 1 */
   uint64_t rendered_samples; /**< R, G and B samples rendered in all views and slices */
   uint64_t predicted_ps;     /**< time predicted by starfocus_timing, picoseconds */
   uint64_t measured_ns; /**< time measured by starfocus_callbacks.clock, summed over the workers,
@@ -391,29 +396,30 @@ typedef struct starfocus_layer_report {
 
 /** Statistics of a refocusing. */
 typedef struct starfocus_report {
-  double r_max;              /**< largest blur radius that the disparity range allows, pixels */
-  int32_t n;                 /**< N, the number of views along the radius of the aperture: the
-                                  largest of all blocks */
-  int32_t rendered_views;    /**< number of views for that N */
+  double r_max; /**< largest blur radius that the disparity range allows, pixels */
+  int32_t n;    /**< N, the number of views along the radius of the aperture; the largest N of all
+                   blocks */
+  int32_t rendered_views;    /**< number of rendered views for `n` */
   int32_t superblock;        /**< side of the superblocks, pixels */
-  uint64_t rendered_samples; /**< samples of all views and layers */
-  starfocus_layer_report layers[STARFOCUS_LAYERS]; /**< by layer; the frame modes use layer 0 */
-  uint64_t copied_pixels;   /**< pixels that no view moves: copied from the centre view */
+  uint64_t rendered_samples; /**< R, G and B samples rendered in all views and layers */
+  starfocus_layer_report layers[STARFOCUS_LAYERS]; /**< per layer; frame modes use layer 0 only */
+  uint64_t copied_pixels;   /**< pixels copied from the centre view because no view moves them */
   uint64_t gathered_pixels; /**< pixels blurred without views (starfocus_tuning.gather) */
   uint64_t reused_blocks;   /**< superblocks copied from starfocus_params.previous */
-  uint64_t unknown_pixels;  /**< disparities filled by STARFOCUS_FEATURE_FILL_UNKNOWN in the rows
-                                 that were read; 0 for prepared light fields */
+  uint64_t unknown_pixels;  /**< number of disparities that STARFOCUS_FEATURE_FILL_UNKNOWN filled in
+                               the rows that were read; 0 for prepared light fields */
 } starfocus_report;
 
-/** Refocuses a light field. A region has the same bytes as that part of the whole picture; only the
- *  blocks that it depends on are computed, and only the disparities that these blocks read are
- *  checked.
+/** Refocuses a light field. A region has the same bytes as that part of the whole picture. The
+ *  engine computes only the blocks on which the region depends, and checks only the disparities
+ *  that these blocks read.
  *  @param engine engine
  *  @param params lens and region
- *  @param light_field light field; it is only read, during the call
- *  @param out picture of the region's size. It must not overlap the light field,
- *         `params->previous` or the workspace. Its alpha is that of the centre view, or 255. Its
- *         chroma is that of its own 2 x 2 pixels, also in a region at an odd position
+ *  @param light_field light field, which is read only during the call
+ *  @param out picture of the region's size. The picture must not overlap the light field,
+ *         `params->previous` or the workspace. Alpha is copied from the centre view, or set to 255.
+ *         Chroma samples belong to 2 x 2 pixels of the output, even if the region has an odd
+ *         position
  *  @param report receives statistics; may be null
  *  @return STARFOCUS_OK, or an error of the arguments (`out` is unchanged);
  *          STARFOCUS_ERROR_CANCELLED or STARFOCUS_ERROR_RUNNER (`out` is incomplete) */
@@ -428,7 +434,8 @@ typedef struct starfocus_prepared starfocus_prepared;
 
 /** Computes the size of a prepared light field: 2 bytes per pixel for disparities, about 1.9 bytes
  *  per pixel for layers 1 and 2 (less with a smaller starfocus_tuning.max_layer), and for each
- *  preview 3 bytes per pixel of each of its views and 3 more.
+ *  preview 3 bytes per pixel of each reduced view plus 3 bytes per pixel for disparity and
+ *  coverage.
  *  @param config configuration
  *  @param bytes receives the size in bytes
  *  @return STARFOCUS_OK, or an error of the configuration */
@@ -436,12 +443,12 @@ STARFOCUS_API starfocus_status starfocus_prepared_size(const starfocus_config* c
                                                        size_t* bytes);
 
 /** Converts and checks the disparities of a light field and subsamples its centre view, once for
- *  many refocusings. Later calls read the views again: the pixels must stay unchanged until the
- * last refocusing; the structure `light_field` need not.
+ *  many refocusings. Later calls read the views again, so their pixels must stay unchanged until
+ *  the last refocusing. The structure `light_field` may change.
  *  @param engine engine
  *  @param light_field light field
- *  @param memory memory aligned to STARFOCUS_ALIGNMENT. It must not overlap the light field or the
- *         workspace
+ *  @param memory memory aligned to STARFOCUS_ALIGNMENT, which must not overlap the light field or
+ *         the workspace
  *  @param bytes size of `memory`, at least starfocus_prepared_size
  *  @param prepared receives the prepared light field, which lies in `memory`, or null on error
  *  @return STARFOCUS_OK, or an error of the arguments; STARFOCUS_ERROR_CANCELLED or
@@ -451,19 +458,20 @@ STARFOCUS_API starfocus_status starfocus_prepare(starfocus_engine* engine,
                                                  void* memory, size_t bytes,
                                                  starfocus_prepared** prepared);
 
-/** Refocuses a prepared light field. The output bytes are those of starfocus_refocus.
+/** Refocuses a prepared light field. The output bytes are the same as with starfocus_refocus.
  *
- *  With a preview_shift s, the picture has 1 / S of the size, S = 2^s, and takes about 1 / S^2 of
- *  the time. All parameters are still in pixels of the full size. The output has the pixels from
- *  floor(x / S) to floor((x + width - 1) / S) of the region, and rows likewise; its alpha is 255.
- *  The views are not read again.
+ *  With a preview_shift s, the picture has 1 / S of the size, where S = 2^s, and takes about 1 /
+ *  S^2 of the time. All parameters are still in pixels of the full size. The output contains the
+ *  columns from floor(x / S) to floor((x + width - 1) / S) of the reduced picture, where x and
+ *  width describe the region. The same rule applies to rows. The alpha of the output is 255.
+ *  Previews do not read the views again.
  *
  *  A preview is the picture of a reduced light field, byte for byte. In the reduced light field a
  *  pixel of a view is the mean light of S x S pixels (fewer at the right and bottom edges), in
- * steps of 1/128 code. A disparity is the median of the S x S disparities (the larger of the two in
- * the middle) divided by S, rounded to 1/64 with halves up. Its engine has the reduced size, and
- * the disparity range, max_blur and focus divided by S. Callbacks and the report count pixels of
- * the preview.
+ *  steps of 1/128 code. A disparity is the median of S x S disparities (the larger of the two
+ *  middle values) divided by S, rounded half up to 1/64. The engine for this reduced light field
+ *  would have the reduced size, and the disparity range, max_blur and focus divided by S. Callbacks
+ *  and the report count pixels of the preview.
  *  @param engine engine with the size, views, positions, disparity range, max_layer and transfer of
  *         the engine that prepared the light field. Several engines may use one prepared light
  * field at the same time
@@ -471,35 +479,36 @@ STARFOCUS_API starfocus_status starfocus_prepare(starfocus_engine* engine,
  *  @param prepared prepared light field
  *  @param out picture, as for starfocus_refocus
  *  @param report receives statistics; may be null
- *  @return as starfocus_refocus; STARFOCUS_ERROR_PREPARED if the light field was prepared for
- *          another configuration or without this preview */
+ *  @return as starfocus_refocus, or STARFOCUS_ERROR_PREPARED if the light field was prepared for
+ *         another configuration or without this preview */
 STARFOCUS_API starfocus_status starfocus_refocus_prepared(starfocus_engine* engine,
                                                           const starfocus_params* params,
                                                           const starfocus_prepared* prepared,
                                                           const starfocus_image* out,
                                                           starfocus_report* report);
 
-/** Starts a streamed refocusing and ends one that is under way. Push rows of the light field and
- *  pull rows of the picture in turn, until all rows are written.
+/** Starts a streamed refocusing and ends an unfinished one. After this call, push rows of the light
+ *  field and pull rows of the picture in turn, until all rows are written.
  *  @param engine engine with STARFOCUS_FEATURE_STREAMING
  *  @param params lens; `region` must be all 0 and `previous` null
  *  @return STARFOCUS_OK, or an error of the arguments */
 STARFOCUS_API starfocus_status starfocus_stream_begin(starfocus_engine* engine,
                                                       const starfocus_params* params);
 
-/** Copies the next rows of the light field into the engine, as many as there is room for.
+/** Copies the next rows of the light field into the engine, up to the free space of its ring
+ *  buffers.
  *  @param engine engine
  *  @param light_field rows of the light field. Planes of views and coverage point to the first new
- *         row. `depth.height` is the height of the whole map: if it is the picture's height,
- *         `depth.data` points to the first new row, too; a smaller map is passed whole in every
- *         call. Either all rows of a stream have coverage or none
- *  @param rows number of rows, at most those that are left. If a view has chroma samples of 2 x 2
- *         pixels, the number is even, except at the end of the picture
- *  @param consumed receives the number of copied rows, at most `rows`. Pull rows before pushing the
- *         rest
+ *         row. `depth.height` is the height of the whole map. If the map has the picture's height,
+ *         `depth.data` points to the first new row as well. A map of smaller height is passed whole
+ *         in every call. Coverage must be present for all rows of a stream or for none
+ *  @param rows number of rows, at most the number of rows left. If a view has chroma samples of 2 x
+ *         2 pixels, the number must be even, except at the end of the picture
+ *  @param consumed receives the number of copied rows, at most `rows`. If fewer rows were copied,
+ *         pull rows before you push the rest
  *  @return STARFOCUS_OK, or an error of the arguments. After STARFOCUS_ERROR_DISPARITY and
- *          STARFOCUS_ERROR_NOT_FINITE the rows before the bad one are consumed.
- *          STARFOCUS_ERROR_STATE if no stream was begun */
+ *         STARFOCUS_ERROR_NOT_FINITE, the rows before the bad row are consumed. The result is
+ *         STARFOCUS_ERROR_STATE if no stream was begun */
 STARFOCUS_API starfocus_status starfocus_stream_push(starfocus_engine* engine,
                                                      const starfocus_light_field* light_field,
                                                      int32_t rows, int32_t* consumed);
@@ -507,16 +516,17 @@ STARFOCUS_API starfocus_status starfocus_stream_push(starfocus_engine* engine,
 /** Writes the next finished rows of the picture.
  *
  *  After STARFOCUS_ERROR_RUNNER and STARFOCUS_ERROR_CANCELLED the stream remains valid: `*written`
- *  rows are complete, and the next pull resumes after these rows. It reports half-finished blocks
- * to on_block again, but counts them once. All other calls with the engine, except
- *  starfocus_set_callbacks, end the stream. The progress callback counts rows of the whole picture.
+ *  rows are complete, and the next pull resumes after these rows. The next pull reports
+ *  half-finished blocks to on_block again, but counts each block once. All other calls with the
+ *  engine, except starfocus_set_callbacks, end the stream. The progress callback counts rows of the
+ *  whole picture.
  *  @param engine engine
- *  @param out rows to write; its planes point to the first of them. It must not overlap the
- *         workspace
- *  @param rows largest number of rows to write; may exceed the rows that are left. If the rows
- * share chroma samples, the number is even, except at the end of the picture
+ *  @param out image of the rows to write, whose planes point to the first of these rows. The image
+ *         must not overlap the workspace
+ *  @param rows largest number of rows to write; may exceed the number of rows left. If two rows
+ *         share chroma samples, the number must be even, except at the end of the picture
  *  @param written receives the number of written rows; 0 if more rows must be pushed first
- *  @param report receives statistics, which are complete after the last row; may be null
+ *  @param report receives statistics, which are complete after the last row. May be null
  *  @return STARFOCUS_OK, or an error of the arguments; STARFOCUS_ERROR_CANCELLED or
  *          STARFOCUS_ERROR_RUNNER; STARFOCUS_ERROR_STATE if no stream was begun */
 STARFOCUS_API starfocus_status starfocus_stream_pull(starfocus_engine* engine,
@@ -525,8 +535,8 @@ STARFOCUS_API starfocus_status starfocus_stream_pull(starfocus_engine* engine,
 
 /** Range of a disparity map. */
 typedef struct starfocus_disparity_stats {
-  double min;      /**< smallest finite value; 0 without one */
-  double max;      /**< largest finite value; 0 without one */
+  double min;      /**< smallest finite value; 0 if no value is finite */
+  double max;      /**< largest finite value; 0 if no value is finite */
   int64_t invalid; /**< number of values that are NaN or infinite */
 } starfocus_disparity_stats;
 
@@ -541,8 +551,9 @@ STARFOCUS_API starfocus_status starfocus_measure_disparity(const float* disparit
                                                            starfocus_disparity_stats* stats);
 
 /** Fills the values of a disparity map that are NaN or infinite, in place. A value gets the nearest
- *  finite value to the left or right; between two, the smaller one, which belongs to the farther
- *  surface. Rows without a finite value are filled from the rows above and below by the same rule.
+ *  finite value to the left or right. Between two finite values it gets the smaller value, which
+ *  belongs to the farther surface. Rows without a finite value are filled from the rows above and
+ *  below by the same rule.
  *  @param disparity map, aligned to 4 bytes
  *  @param stride bytes from row to row, a multiple of 4, >= 4 * width
  *  @param width,height size of the map in pixels, [1, STARFOCUS_MAX_SIZE]
@@ -551,10 +562,10 @@ STARFOCUS_API starfocus_status starfocus_measure_disparity(const float* disparit
 STARFOCUS_API starfocus_status starfocus_fill_disparity(float* disparity, size_t stride,
                                                         int32_t width, int32_t height);
 
-/** Finds the focus for a pixel, for example where a user tapped. It is the median of the
- * disparities up to 3 pixels away that differ from the pixel's disparity by at most 0.75. If none
- * of the 8 neighbours is that close, the pixel is an outlier, and the surface of most of the 7 x 7
- * pixels is used instead. Other pixels are not read.
+/** Finds the focus for a pixel, for example where a user tapped. The focus is the median of the
+ *  disparities up to 3 pixels away that differ from the pixel's disparity by at most 0.75. If no
+ *  disparity of the 8 neighbours is that close, the pixel is an outlier, and the surface of most of
+ *  the 7 x 7 pixels is used instead. The function reads only these 7 x 7 pixels.
  *  @param disparity map, aligned to 4 bytes
  *  @param stride bytes from row to row, a multiple of 4, >= 4 * width
  *  @param width,height size of the map in pixels, [1, STARFOCUS_MAX_SIZE]
@@ -567,16 +578,17 @@ STARFOCUS_API starfocus_status starfocus_focus_at(const float* disparity, size_t
                                                   int32_t y, double* focus);
 
 /** Computes the aperture of an f-stop: widest / f_stop.
- *  @param f_stop f-stop of the wanted lens, finite, >= widest
- *  @param widest f-stop of a lens with aperture 1, > 0: the focal length divided by the distance of
- *         views (1, 0) and (-1, 0). With 1, f-stops are relative to that lens
+ *  @param f_stop f-stop of the requested lens, finite, >= widest
+ *  @param widest f-stop of a lens with aperture 1, > 0: the focal length divided by the distance
+ *         between views (1, 0) and (-1, 0). If widest is 1, f-stops are relative to the lens with
+ *         aperture 1
  *  @param aperture receives the aperture
  *  @return STARFOCUS_OK, STARFOCUS_ERROR_NULL or STARFOCUS_ERROR_RANGE */
 STARFOCUS_API starfocus_status starfocus_aperture_of_f_stop(double f_stop, double widest,
                                                             double* aperture);
 
 /** Returns the SIMD target that the kernels use on this machine.
- *  @return its name, for example "AVX2", in static storage */
+ *  @return the name of the target, for example "AVX2", in static storage */
 STARFOCUS_API const char* starfocus_simd_target(void);
 
 #ifdef __cplusplus

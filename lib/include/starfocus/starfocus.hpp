@@ -25,12 +25,13 @@ struct Params : starfocus_params {
   Params() { starfocus_params_init(this); }
 };
 
-/** An engine and the memory it lives in. Movable. One thread at a time may use it. Before Init, and
- *  after it was moved from, all other calls return STARFOCUS_ERROR_NULL. */
+/** An engine and the memory it lives in. Engines are movable. One thread at a time may use an
+ *  engine. Before Init, and on an engine that was moved from, all calls except Init return
+ *  STARFOCUS_ERROR_NULL. */
 class Engine {
  public:
-  /** Allocates a workspace and creates an engine, which replaces an earlier one. After an error the
-   *  earlier engine remains.
+  /** Allocates a workspace and creates an engine, which replaces any earlier engine. After an error
+   *  the earlier engine remains.
    *  @param config configuration
    *  @return as starfocus_create */
   starfocus_status Init(const starfocus_config& config) {
@@ -61,12 +62,13 @@ class Engine {
     return starfocus_refocus(get(), &params, &light_field, &out, report);
   }
 
-  /** Returns the problem of the last call. Init reports its problem by config.problem instead.
+  /** Returns the problem of the last call except Init, which reports its problem in config.problem.
    *  @return the problem; null before Init */
   const starfocus_problem* problem() const { return starfocus_engine_problem(engine_.handle); }
 
-  /** Allocates memory and prepares a light field in it. An earlier prepared light field is freed
-   *  first: after an error there is none, and RefocusPrepared returns STARFOCUS_ERROR_NULL.
+  /** Allocates memory and prepares a light field in it. Frees any earlier prepared light field
+   *  first. After an error no prepared light field exists, and RefocusPrepared returns
+   *  STARFOCUS_ERROR_NULL.
    *  @param light_field light field, whose pixels must stay unchanged until the last refocusing
    *  @return as starfocus_prepare, or STARFOCUS_ERROR_MEMORY */
   starfocus_status Prepare(const starfocus_light_field& light_field) {
@@ -116,7 +118,7 @@ class Engine {
     }
   };
 
-  // A handle and the memory it lies in; empty after it was moved from.
+  // A handle and the memory that contains its object. Moving from this object leaves it empty.
   template <class Handle>
   struct Owned {
     Owned() = default;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /** @file
- * Results of calls, and the mark of exported functions. Part of starfocus.h. */
+ * Results of calls, and the macro that marks exported functions. Part of starfocus.h. */
 #ifndef STARFOCUS_STATUS_H_
 #define STARFOCUS_STATUS_H_
 
@@ -23,17 +23,17 @@ typedef enum starfocus_status {
   STARFOCUS_ERROR_NULL = 1,      /**< a required pointer is null */
   STARFOCUS_ERROR_STRUCTURE = 2, /**< a structure was not initialized by its init function */
   STARFOCUS_ERROR_RANGE = 3,     /**< a field or an argument is out of range */
-  STARFOCUS_ERROR_FEATURE = 4, /**< the engine lacks a feature, or the views, that the call needs */
-  STARFOCUS_ERROR_STATE = 5,   /**< no stream was begun, or only some rows of it have coverage */
-  STARFOCUS_ERROR_WORKSPACE = 6,   /**< the given memory is too small or not aligned */
-  STARFOCUS_ERROR_TOO_LARGE = 7,   /**< the configuration needs more memory than is addressable */
-  STARFOCUS_ERROR_MEMORY = 8,      /**< memory could not be allocated */
-  STARFOCUS_ERROR_STRIDE = 9,      /**< a stride is smaller than a row, or not aligned */
-  STARFOCUS_ERROR_OVERLAP = 10,    /**< an output overlaps an input or the workspace */
-  STARFOCUS_ERROR_BLUR = 11,       /**< aperture * |d - focus| exceeds max_blur for disparity_min or
-                                        disparity_max */
-  STARFOCUS_ERROR_DISPARITY = 12,  /**< a disparity is outside the configured range */
-  STARFOCUS_ERROR_NOT_FINITE = 13, /**< a disparity is NaN or infinite */
+  STARFOCUS_ERROR_FEATURE = 4,   /**< the engine lacks a required feature or view */
+  STARFOCUS_ERROR_STATE = 5,     /**< no stream was begun, or only some of its rows have coverage */
+  STARFOCUS_ERROR_WORKSPACE = 6, /**< the given memory is too small or not aligned */
+  STARFOCUS_ERROR_TOO_LARGE = 7, /**< the configuration requires more memory than is addressable */
+  STARFOCUS_ERROR_MEMORY = 8,    /**< memory could not be allocated */
+  STARFOCUS_ERROR_STRIDE = 9,    /**< a stride is smaller than a row, or not aligned */
+  STARFOCUS_ERROR_OVERLAP = 10,  /**< an output overlaps an input or the workspace */
+  STARFOCUS_ERROR_BLUR = 11,     /**< aperture * |d - focus| exceeds max_blur for disparity_min or
+                                      disparity_max */
+  STARFOCUS_ERROR_DISPARITY = 12,   /**< a disparity is outside the configured range */
+  STARFOCUS_ERROR_NOT_FINITE = 13,  /**< a disparity is NaN or infinite */
   STARFOCUS_ERROR_ALL_INVALID = 14, /**< the disparity map has no finite value */
   STARFOCUS_ERROR_PREPARED = 15,    /**< the prepared light field has another configuration */
   STARFOCUS_ERROR_RUNNER = 16,      /**< the runner failed or misused its jobs; the output is
@@ -44,10 +44,10 @@ typedef enum starfocus_status {
 
 /** The cause of an error. The texts are in static storage and never null. */
 typedef struct starfocus_problem {
-  int32_t status;       /**< starfocus_status that the call returned */
-  int32_t index;        /**< index of the array element, if `field` contains []; otherwise 0 */
-  const char* field;    /**< wrong field or argument, for example "width" or "views[].strides"; ""
-                             if no single one is wrong */
+  int32_t status;    /**< starfocus_status that the call returned */
+  int32_t index;     /**< index of the array element, if `field` contains []; otherwise 0 */
+  const char* field; /**< wrong field or argument, for example "width" or "views[].strides"; "" if
+                        no single field is wrong */
   const char* expected; /**< allowed values in words, for example "1 to 65535" */
   double value;         /**< value that was given; NaN if unknown */
   double low;           /**< smallest allowed value; NaN if there is no range */

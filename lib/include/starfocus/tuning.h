@@ -13,18 +13,20 @@
 /** Largest starfocus_tuning.n_scale. */
 #define STARFOCUS_MAX_N_SCALE 2.0
 
-/** Model of the time that a block takes: the paper's (14), with terms for the work around the line
- *  scan. Coefficients are in picoseconds; only their ratios matter. The model decides how
- *  STARFOCUS_MODE_BLOCK splits superblocks, and therefore its output bytes. starfocus_config_init
- *  sets the same coefficients on every machine, so that all machines compute the same picture.
- *  Coefficients measured by `starfocus-lab calibrate` saved 0.4 % of the work where that was
- *  counted. */
+/** Model of the time that a block takes: equation (14) of the paper, with additional terms for the
+ *  work around the line scan. Coefficients are in picoseconds; only their ratios matter. The model
+ *  determines how STARFOCUS_MODE_BLOCK splits superblocks, and therefore affects the output bytes.
+ *  starfocus_config_init sets the same coefficients on every machine, so that all machines compute
+ *  the same picture. Coefficients fitted to boards saved at most 0.4 % of the instructions
+ *  (docs/boards.md). */
 typedef struct starfocus_timing {
-  uint32_t block;    /**< per block */
-  uint32_t field;    /**< per pixel of the block with its border, at its layer: loading, rotating */
-  uint32_t a;        /**< k_A: per rendered pixel of type A, with the border of the other axis */
-  uint32_t b;        /**< k_B: per rendered pixel of type B */
-  uint32_t c;        /**< k_C: per rendered pixel of type C */
+  uint32_t block; /**< per block */
+  uint32_t field; /**< per pixel of the block with its border, at the layer of the block: loading
+                     and rotating */
+  uint32_t a; /**< k_A of (14): per rendered pixel of type A (views on the axes), with the border of
+                 the other axis */
+  uint32_t b; /**< k_B of (14): per rendered pixel of type B (views on the diagonals) */
+  uint32_t c; /**< k_C of (14): per rendered pixel of type C (all other views) */
   uint32_t upsample; /**< per pixel of the picture in a block at layer 1 or 2 */
   uint32_t span;     /**< per run of equal disparity in a rendered line, at least one per line */
   uint32_t hole;     /**< per pixel that a depth edge uncovers in the outermost view, at most 8 */
@@ -35,11 +37,13 @@ typedef struct starfocus_tuning {
   int32_t max_layer;  /**< largest layer L of STARFOCUS_MODE_BLOCK, [0, 2]; default 2 */
   int32_t deblocking; /**< beta of (16) and (17) in codes, [0, 255]; 0: off; default 35 */
   /** 1: STARFOCUS_MODE_BLOCK with slices gathers pixels of smooth surfaces, that is, blurs the
-   * centre view there by the point-spread function (4). 0: it renders views everywhere. Default 1.
+   *  centre view there by the point-spread function (4). 0: the mode renders views everywhere.
+   *  Default 1.
    */
   int32_t gather;
   /** Factor of N in STARFOCUS_MODE_BLOCK and STARFOCUS_MODE_FRAME; N is rounded up. The number of
-   *  views grows with its square. [STARFOCUS_MIN_N_SCALE, STARFOCUS_MAX_N_SCALE]; default 1. */
+   *  views grows with the square of the factor. Range [STARFOCUS_MIN_N_SCALE,
+   *  STARFOCUS_MAX_N_SCALE]; default 1. */
   double n_scale;
   starfocus_timing timing; /**< each coefficient <= STARFOCUS_MAX_TIMING */
 } starfocus_tuning;

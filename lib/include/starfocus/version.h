@@ -14,7 +14,7 @@
 
 #define STARFOCUS_VERSION_TEXT_(major, minor, patch) #major "." #minor "." #patch
 #define STARFOCUS_VERSION_TEXT(major, minor, patch) STARFOCUS_VERSION_TEXT_(major, minor, patch)
-/** Version as a text, for example "0.1.0". */
+/** Version as a string, for example "0.1.0". */
 #define STARFOCUS_VERSION_STRING \
   STARFOCUS_VERSION_TEXT(STARFOCUS_VERSION_MAJOR, STARFOCUS_VERSION_MINOR, STARFOCUS_VERSION_PATCH)
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /** @file
  * A pool of threads for callers that have none: the library starfocus_pool (CMake:
- * starfocus::pool). It needs POSIX threads and nothing of the engine.
+ * starfocus::pool). The library requires POSIX threads, but no part of the engine.
  *
  * @code
  * starfocus_pool* pool = starfocus_pool_create(0);
@@ -27,19 +27,20 @@ extern "C" {
 /** A pool of threads. */
 typedef struct starfocus_pool starfocus_pool;
 
-/** Counts the cores that are worth a worker: the cores that this process may use and, on Linux,
- * that have at least half the capacity of the strongest core (cpu_capacity), or 3/4 of the highest
- * clock (cpuinfo_max_freq). A stripe of a picture waits for its last job, so that a small core
- * would cost more time than it saves.
+/** Counts the cores of this process that are worth a worker. On Linux these cores have at least
+ *  half the capacity of the strongest core (cpu_capacity), or 3/4 of the highest clock
+ *  (cpuinfo_max_freq). A stripe of a picture waits for its last job, so a small core would cost
+ *  more time than it saves.
  *  @return number of cores, [1, STARFOCUS_MAX_WORKERS] */
 STARFOCUS_API int32_t starfocus_pool_cores(void);
 
-/** Creates a pool. On systems with big and small cores, and if there are enough big ones, its
- * threads run on the big ones only. Free it with starfocus_pool_destroy.
+/** Creates a pool. On systems with big and small cores, the threads run only on the big cores if
+ *  there are enough of them. Free the pool with starfocus_pool_destroy.
  *  @param workers number of workers, at most STARFOCUS_MAX_WORKERS; 0 or less:
- *         starfocus_pool_cores(). The caller of starfocus_pool_run is one of them, so that one
- *         thread fewer is started. There are fewer workers if the system refuses threads
- *  @return the pool, or null if there is no memory */
+ *         starfocus_pool_cores(). The caller of starfocus_pool_run is one of the workers, so the
+ *         pool starts one thread fewer. The pool has fewer workers if the system refuses to start
+ *         threads
+ *  @return the pool, or null if memory could not be allocated */
 STARFOCUS_API starfocus_pool* starfocus_pool_create(int32_t workers);
 
 /** Returns the number of workers, for starfocus_config.max_workers.
