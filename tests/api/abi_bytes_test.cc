@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Illegal and extreme configurations, workspaces and outputs (refusals_bytes_test.cc has the other
-// arguments): each illegal value is told by its field, and nothing is written.
+// Tests illegal and extreme configurations, workspaces and outputs. refusals_bytes_test.cc tests
+// the other arguments. Each illegal value must be reported with its field, and nothing may be
+// written.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -33,7 +34,7 @@ struct Fixture {
   }
 };
 
-TEST_CASE("configuration: illegal values") {
+TEST_CASE("configuration: illegal values are rejected and named") {
   Fixture f;
   test::Engine legal(f.config);
   REQUIRE(legal.status() == STARFOCUS_OK);
@@ -56,7 +57,7 @@ TEST_CASE("configuration: illegal values") {
   }
 }
 
-TEST_CASE("configuration: null pointers and never initialised structures") {
+TEST_CASE("configuration: null pointers and uninitialized structures are rejected") {
   Fixture f;
   size_t bytes = 0;
   starfocus_engine* engine = nullptr;
@@ -74,7 +75,7 @@ TEST_CASE("configuration: null pointers and never initialised structures") {
   starfocus_params_init(nullptr);
 }
 
-TEST_CASE("configuration: limits are legal") {
+TEST_CASE("configuration: values at their limits are legal") {
   starfocus_config config;
   starfocus_config_init(&config);
   config.width = config.height = STARFOCUS_MAX_SIZE;
@@ -87,7 +88,7 @@ TEST_CASE("configuration: limits are legal") {
   config.features |= STARFOCUS_FEATURE_STREAMING | STARFOCUS_FEATURE_SHAPES;
   config.highlights = static_cast<float>(STARFOCUS_MAX_HIGHLIGHTS);
   size_t bytes = 0;
-  // Every value is legal, but all limits together are more than 32 bits address.
+  // Every value is legal, but all limits together exceed a 32-bit address space.
   const starfocus_status legal = sizeof(size_t) == 4 ? STARFOCUS_ERROR_TOO_LARGE : STARFOCUS_OK;
   CHECK(starfocus_workspace_size(&config, &bytes) == legal);
   CHECK((bytes > 0) == (legal == STARFOCUS_OK));
@@ -107,7 +108,7 @@ TEST_CASE("configuration: limits are legal") {
   }
 }
 
-TEST_CASE("configuration: a superblock of 0 is 128 from a width of 1536 on, else 64") {
+TEST_CASE("configuration: a superblock of 0 selects 128 from a width of 1536, else 64") {
   for (const int width : {1, 1535, 1536, 1700}) {
     CAPTURE(width);
     const test::Scene scene = test::RandomScene(width, 3, 1, -2, 2, 9);
@@ -125,7 +126,7 @@ TEST_CASE("configuration: a superblock of 0 is 128 from a width of 1536 on, else
   }
 }
 
-TEST_CASE("workspace: too small or misaligned") {
+TEST_CASE("workspace: memory that is too small or misaligned is rejected") {
   Fixture f;
   size_t bytes = 0;
   REQUIRE(starfocus_workspace_size(&f.config, &bytes) == STARFOCUS_OK);
@@ -151,10 +152,10 @@ TEST_CASE("workspace: too small or misaligned") {
   CHECK(engine != nullptr);
 }
 
-TEST_CASE("refocus: the limits of parameters are legal") {
+TEST_CASE("refocus: parameters at their limits are legal") {
   Fixture f;
   test::Engine engine(f.config);
-  f.params = test::Params(6);  // r = 8: exactly the largest blur
+  f.params = test::Params(6);  // r = 8 is exactly the largest blur
   f.params.lens.curvature = 1;
   f.params.lens.ring_inner = STARFOCUS_MAX_RING_INNER;
   f.params.lens.blades = STARFOCUS_MAX_BLADES;
@@ -163,7 +164,7 @@ TEST_CASE("refocus: the limits of parameters are legal") {
   CHECK(f.report.r_max == 8);
 }
 
-TEST_CASE("refocus: output may lie beside the inputs, and overlap no byte of them") {
+TEST_CASE("refocus: output may be adjacent to the inputs, but must not overlap them") {
   Fixture f;
   test::Engine engine(f.config);
   REQUIRE(engine.status() == STARFOCUS_OK);
@@ -172,7 +173,7 @@ TEST_CASE("refocus: output may lie beside the inputs, and overlap no byte of the
     return test::RefocusRgb(engine.get(), &f.params, &f.field, static_cast<uint8_t*>(out), stride,
                             nullptr);
   };
-  // To the last byte of the map's last row.
+  // The map ends with the last byte of its last row.
   std::vector<float> map(size_t(kWidth * kHeight) + stride * kHeight);
   std::copy(f.scene.disparity.begin(), f.scene.disparity.end(), map.begin());
   f.field.depth.data = map.data();
@@ -182,7 +183,7 @@ TEST_CASE("refocus: output may lie beside the inputs, and overlap no byte of the
   }
   CHECK(run(behind) == STARFOCUS_OK);
 
-  // Neighbours in memory do not overlap.
+  // Adjacent memory does not overlap.
   std::vector<uint8_t> joined(3 * stride * kHeight, test::kPoison);
   uint8_t* view = joined.data() + stride * kHeight;
   std::memcpy(view, f.scene.pictures[0].data(), stride * kHeight);
@@ -192,7 +193,7 @@ TEST_CASE("refocus: output may lie beside the inputs, and overlap no byte of the
   CHECK(run(joined.data() + 1) == STARFOCUS_ERROR_OVERLAP);
 }
 
-TEST_CASE("refocus: the report holds what was rendered") {
+TEST_CASE("refocus: the report describes the rendered work") {
   Fixture f;
   test::Engine engine(f.config);
   f.params = test::Params(-3, 0.5);  // r_max = 0.5 * 5

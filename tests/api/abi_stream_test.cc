@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bad input and wrong order of the streaming functions.
+// Tests bad input and the wrong order of calls of the streaming functions.
 #include <doctest/doctest.h>
 
 #include <cstring>
@@ -31,7 +31,7 @@ struct Fixture {
   }
 };
 
-TEST_CASE("stream: not without streaming = 1, not without begin") {
+TEST_CASE("stream: calls fail without the streaming feature and without begin") {
   Fixture f;
   int32_t count = 0;
   {
@@ -39,7 +39,7 @@ TEST_CASE("stream: not without streaming = 1, not without begin") {
     REQUIRE(engine.status() == STARFOCUS_OK);
     CHECK(f.Push(engine.get(), f.scene.Field(), 1, &count) == STARFOCUS_ERROR_STATE);
     CHECK(f.Pull(engine.get(), 1, &count) == STARFOCUS_ERROR_STATE);
-    // A refused begin starts nothing.
+    // A rejected begin starts nothing.
     starfocus_params params = f.params;
     params.lens.aperture = 2;
     CHECK(starfocus_stream_begin(engine.get(), &params) == STARFOCUS_ERROR_RANGE);
@@ -54,13 +54,13 @@ TEST_CASE("stream: not without streaming = 1, not without begin") {
   CHECK(f.out.Untouched());
 }
 
-TEST_CASE("stream: push takes as many rows as the picture has") {
+TEST_CASE("stream: push takes at most the rows of the picture") {
   Fixture f;
   test::Engine engine(f.config);
   REQUIRE(starfocus_stream_begin(engine.get(), &f.params) == STARFOCUS_OK);
   int32_t count = -1;
   CHECK(f.Push(engine.get(), f.scene.Field(), kHeight + 1, &count) == STARFOCUS_ERROR_RANGE);
-  // That took no row: the whole picture still fits.
+  // The rejected push took no row, so the whole picture still fits.
   CHECK(f.Push(engine.get(), f.scene.Field(), 0, &count) == STARFOCUS_OK);
   CHECK(count == 0);
   CHECK(f.Push(engine.get(), f.scene.Field(), 1, &count) == STARFOCUS_OK);
@@ -68,7 +68,7 @@ TEST_CASE("stream: push takes as many rows as the picture has") {
   CHECK(f.Push(engine.get(), f.scene.Field(1), kHeight, &count) == STARFOCUS_ERROR_RANGE);
 }
 
-TEST_CASE("stream: a row with a bad disparity is refused, the rows before it are not") {
+TEST_CASE("stream: a row with a bad disparity is rejected, and the rows before it are taken") {
   Fixture f;
   test::Engine engine(f.config);
   const test::Scene good = f.scene;
@@ -88,7 +88,7 @@ TEST_CASE("stream: a row with a bad disparity is refused, the rows before it are
       int32_t consumed = -1;
       CHECK(f.Push(engine.get(), f.scene.Field(), 5, &consumed) == bad.status);
       CHECK(consumed == row);
-      // The caller may mend the row and go on.
+      // The caller may correct the row and continue.
       f.scene = good;
       test::Output out(kWidth, kHeight, 4);
       test::StreamSteps steps = {&engine, f.scene, &out, consumed};
@@ -98,7 +98,7 @@ TEST_CASE("stream: a row with a bad disparity is refused, the rows before it are
   }
 }
 
-TEST_CASE("stream: begin restarts, and whole pictures interrupt nothing but the stream") {
+TEST_CASE("stream: begin restarts, and whole pictures interrupt only the stream") {
   Fixture f;
   test::Engine engine(f.config);
   test::Output whole(kWidth, kHeight, 4);
@@ -111,7 +111,7 @@ TEST_CASE("stream: begin restarts, and whole pictures interrupt nothing but the 
   test::Output streamed(kWidth, kHeight, 4);
   REQUIRE(test::Stream(&engine, f.params, f.scene, &streamed, 7, 9) == STARFOCUS_OK);
   CHECK(streamed.bytes == whole.bytes);
-  // Every row is out: another push has no place.
+  // All rows have been pushed, so another push is rejected.
   CHECK(f.Push(engine.get(), f.scene.Field(), 1, &count) == STARFOCUS_ERROR_RANGE);
 }
 

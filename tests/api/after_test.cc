@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// starfocus_params.previous: the bytes of refocusing the frame alone, blocks reused where nothing
-// changed.
+// Tests starfocus_params.previous: the bytes must equal those of the frame alone, and unchanged
+// blocks must be reused.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -33,8 +33,7 @@ int Superblocks(const test::Scene& scene, int side) {
   return ((scene.width + side - 1) / side) * ((scene.height + side - 1) / side);
 }
 
-// Something small happens: a pixel or patch of one view, or of the disparity map, which may become
-// unknown.
+// Changes a pixel or patch of one view or of the disparity map, which may become unknown.
 void Change(test::Scene* scene, bool unknown, test::Random* random) {
   const int x0 = random->Int(0, scene->width - 1), y0 = random->Int(0, scene->height - 1);
   const int side = random->Int(0, 1) * random->Int(0, 12);
@@ -84,7 +83,7 @@ void CheckFrames(test::Scene scene, const starfocus_config& config, const starfo
   }
 }
 
-TEST_CASE("after: the bytes of the frame alone, in every mode, as frames change a little") {
+TEST_CASE("after: with small changes, frames have the bytes of the frame alone in every mode") {
   test::Random random(91);
   for (int round = 0; round < test::Rounds(32); ++round) {
     CAPTURE(round);
@@ -108,7 +107,7 @@ TEST_CASE("after: the bytes of the frame alone, in every mode, as frames change 
   }
 }
 
-TEST_CASE("after: filled pixels change with the known ones beside the gap") {
+TEST_CASE("after: filled pixels change with the known pixels next to the gap") {
   test::Random random(93);
   for (int round = 0; round < test::Rounds(16); ++round) {
     CAPTURE(round);
@@ -153,7 +152,7 @@ TEST_CASE("after: blocks read side views as far away as the largest disparity") 
   }
 }
 
-TEST_CASE("after: joins between blocks of different layers, beside a change") {
+TEST_CASE("after: boundaries between blocks of different layers are deblocked near a change") {
   test::Random random(92);
   test::Scene scene = test::LayeredScene(320, 320, 1, 6, 5);
   test::SetDisparity(&scene,
@@ -168,8 +167,8 @@ TEST_CASE("after: joins between blocks of different layers, beside a change") {
   }
 }
 
-TEST_CASE("after: a block that changes its layer changes its neighbours' joins") {
-  // Blocks that never split, of layer 0 for the sake of one pixel in focus far from the others.
+TEST_CASE("after: a block that changes its layer changes the boundaries of its neighbours") {
+  // Blocks are never split. One pixel in focus, far from the others, keeps a block at layer 0.
   test::Scene scene = test::LayeredScene(600, 600, 1, 6, 5);
   std::fill(scene.disparity.begin(), scene.disparity.end(), 6.0f);
   scene.Disparity(500, 5) = scene.Disparity(5, 500) = 0;
@@ -188,8 +187,8 @@ TEST_CASE("after: a block that changes its layer changes its neighbours' joins")
   REQUIRE(After(&engine, params, scene, before, first, &second, &report) == STARFOCUS_OK);
   const test::Output expected = test::OutputOf(&engine, params, scene);
   CHECK((second.bytes == expected.bytes));
-  CHECK(report.reused_blocks == 5);  // all but the corner's four
-  // The join is on the neighbours' side.
+  CHECK(report.reused_blocks == 5);  // all except the four in the corner
+  // The change is on the neighbours' side of the boundary.
   bool right = false, below = false;
   for (int k = 20; k < 200; ++k) {
     right = right || !std::equal(second.Pixel(256, k), second.Pixel(257, k), first.Pixel(256, k));
@@ -200,10 +199,10 @@ TEST_CASE("after: a block that changes its layer changes its neighbours' joins")
   CHECK(below);
 }
 
-TEST_CASE("after: what is far from a change is reused") {
+TEST_CASE("after: blocks far from a change are reused") {
   const test::Scene before = test::LayeredScene(640, 512, 5, 2, 6);
   starfocus_config config = test::ConfigFor(before, 4);
-  config.features &= ~STARFOCUS_FEATURE_COVERAGE;  // which comes from farther away
+  config.features &= ~STARFOCUS_FEATURE_COVERAGE;  // coverage depends on pixels farther away
   test::Engine engine(config);
   const starfocus_params params = test::Params(0, 1, STARFOCUS_MODE_BLOCK);
   test::Output second(640, 512);
@@ -218,7 +217,7 @@ TEST_CASE("after: what is far from a change is reused") {
   CHECK(report.rendered_samples > 0);
 }
 
-TEST_CASE("after: depth-dependent blur does not look at side views") {
+TEST_CASE("after: depth-dependent blur ignores side views") {
   const test::Scene before = test::LayeredScene(100, 100, 5, 2, 6);
   test::Engine engine(test::ConfigFor(before, 4));
   const starfocus_params params = test::Params(0, 1, STARFOCUS_MODE_BLUR);

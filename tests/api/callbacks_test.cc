@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// starfocus_set_callbacks: how long the functions of the caller are in force.
+// Tests how long the functions given to starfocus_set_callbacks stay in use.
 #include <doctest/doctest.h>
 
 #include <vector>
@@ -33,7 +33,7 @@ struct Calls {
   starfocus_callbacks All() {
     return {Run, this, Tell, this, [] { return uint64_t{0}; }, Visit, this};
   }
-  // Returns whether all functions were called, and forgets the calls.
+  // Returns true if all functions were called, and resets the counts.
   bool Take() {
     const bool all = runner > 0 && progress > 0 && blocks > 0;
     *this = Calls();
@@ -61,7 +61,7 @@ struct Fixture {
   }
 };
 
-TEST_CASE("callbacks: functions stay for all calls until others are set") {
+TEST_CASE("callbacks: functions are used in all calls until others are set") {
   Fixture f;
   test::Engine engine(f.Config());
   starfocus_callbacks callbacks = f.calls.All();
@@ -87,7 +87,7 @@ TEST_CASE("callbacks: functions stay for all calls until others are set") {
   CHECK(f.calls.None());
 }
 
-TEST_CASE("callbacks: null pointers are refused, and the functions set before stay") {
+TEST_CASE("callbacks: null pointers are rejected, and the previous functions stay") {
   Fixture f;
   test::Engine engine(f.Config());
   const starfocus_callbacks callbacks = f.calls.All();
@@ -98,7 +98,7 @@ TEST_CASE("callbacks: null pointers are refused, and the functions set before st
   CHECK(f.calls.Take());
 }
 
-TEST_CASE("callbacks: those of a stream may change between two pulls") {
+TEST_CASE("callbacks: the functions of a stream may change between two pulls") {
   Fixture f;
   test::Engine engine(f.Config());
   const test::Output expected = test::OutputOf(&engine, f.params, f.scene);

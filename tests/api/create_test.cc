@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Engines of starfocus_create: memory in one piece of the allocator's, which gets it back.
+// Tests engines of starfocus_create: one piece of memory comes from the allocator and is returned
+// to it.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -14,11 +15,11 @@
 namespace create_test {
 namespace {
 
-// Counts, gives memory that holds anything, and checks what it gets back.
+// Counts calls, returns memory with arbitrary contents, and checks released memory.
 struct Counter {
   int allocations = 0, releases = 0, wrong = 0;
   bool empty = false;
-  size_t offset = 0;  // from what is aligned
+  size_t offset = 0;  // from an aligned address
   std::vector<uint8_t> memory;
   void* given = nullptr;
   size_t bytes = 0;
@@ -63,7 +64,7 @@ struct Fixture {
   }
 };
 
-TEST_CASE("configuration: shorter structures get the defaults of what they lack") {
+TEST_CASE("configuration: shorter structures get the defaults of the missing fields") {
   constexpr uint32_t kShort = offsetof(starfocus_config, superblock);
   std::vector<uint8_t> memory(kShort);
   starfocus_config* const config = reinterpret_cast<starfocus_config*>(memory.data());
@@ -85,7 +86,7 @@ TEST_CASE("configuration: shorter structures get the defaults of what they lack"
   starfocus_destroy(engine);
 }
 
-TEST_CASE("configuration: longer structures are zero beyond what the library knows, and refused") {
+TEST_CASE("configuration: longer structures are zeroed beyond the known fields, and rejected") {
   std::vector<uint8_t> memory(sizeof(starfocus_config) + 24, test::kPoison);
   starfocus_config* const config = reinterpret_cast<starfocus_config*>(memory.data());
   starfocus_config_init_sized(config, uint32_t(memory.size()));
@@ -96,14 +97,14 @@ TEST_CASE("configuration: longer structures are zero beyond what the library kno
   CHECK(starfocus_workspace_size(config, &bytes) == STARFOCUS_ERROR_STRUCTURE);
 }
 
-TEST_CASE("create: one allocation of the workspace's size, given back once") {
+TEST_CASE("create: one allocation has the size of the workspace and is released once") {
   const Fixture f;
   Counter counter;
   size_t bytes = 0;
   REQUIRE(starfocus_workspace_size(&f.config, &bytes) == STARFOCUS_OK);
   starfocus_engine* engine = nullptr;
   {
-    // It is copied: the structure itself need not stay.
+    // The allocator is copied, so the structure need not stay valid.
     const starfocus_allocator allocator = counter.Allocator();
     REQUIRE(starfocus_create(&f.config, &allocator, &engine) == STARFOCUS_OK);
   }
@@ -117,7 +118,7 @@ TEST_CASE("create: one allocation of the workspace's size, given back once") {
   CHECK(counter.wrong == 0);
 }
 
-TEST_CASE("create: without an allocator the heap's memory, aligned") {
+TEST_CASE("create: without an allocator, memory comes from the heap and is aligned") {
   const Fixture f;
   std::vector<starfocus_engine*> engines(5);
   for (starfocus_engine*& engine : engines) {
@@ -128,7 +129,7 @@ TEST_CASE("create: without an allocator the heap's memory, aligned") {
   for (starfocus_engine* engine : engines) starfocus_destroy(engine);
 }
 
-TEST_CASE("create: no memory, misaligned memory and other errors leave nothing behind") {
+TEST_CASE("create: no memory, misaligned memory and other errors leave nothing allocated") {
   Fixture f;
   starfocus_problem problem = {};
   f.config.problem = &problem;
@@ -170,7 +171,7 @@ TEST_CASE("create: no memory, misaligned memory and other errors leave nothing b
   CHECK(counter.allocations == 2);
 }
 
-TEST_CASE("destroy: null and the caller's own memory are left alone") {
+TEST_CASE("destroy: null and memory of the caller are not released") {
   const Fixture f;
   starfocus_destroy(nullptr);
   test::Engine engine(f.config);

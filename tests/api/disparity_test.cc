@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measuring and filling disparity maps: bad input, then the rule against a plain search.
+// Tests the measuring and filling of disparity maps: bad input, then the rule against a simple
+// search.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -30,7 +31,8 @@ struct Map {
   std::vector<float> values;
 };
 
-// In rows with a finite value: those stay, and a hole takes the farther of its two neighbours.
+// Checks rows with a finite value: finite values stay, and a hole gets the farther of its two
+// neighbours.
 void CheckRows(Map before, Map after) {
   for (int y = 0; y < before.height; ++y) {
     for (int x = 0; x < before.width; ++x) {
@@ -51,7 +53,7 @@ void CheckRows(Map before, Map after) {
   }
 }
 
-TEST_CASE("disparity: illegal arguments") {
+TEST_CASE("disparity: illegal arguments are rejected") {
   Map map(5, 4);
   starfocus_disparity_stats stats;
   std::memset(&stats, test::kPoison, sizeof stats);
@@ -79,7 +81,7 @@ TEST_CASE("disparity: illegal arguments") {
   CHECK(std::memcmp(&stats, &poison, sizeof stats) == 0);
 }
 
-TEST_CASE("disparity: smallest, largest and non-finite values") {
+TEST_CASE("disparity: smallest, largest and non-finite values are measured") {
   Map map(5, 3, 2);
   for (float& value : map.values) value = 999;  // padding must not count
   for (int y = 0; y < 3; ++y) {
@@ -105,13 +107,13 @@ TEST_CASE("disparity: smallest, largest and non-finite values") {
   CHECK(stats.invalid == 4);
 }
 
-TEST_CASE("disparity: nothing to fill from") {
+TEST_CASE("disparity: a map without finite values cannot be filled") {
   Map map(3, 2);
   map.values = {kNan, kInf, -kInf, kNan, kNan, kNan};
   CHECK(map.Fill() == STARFOCUS_ERROR_ALL_INVALID);
 }
 
-TEST_CASE("disparity: a hole between two surfaces becomes the farther one") {
+TEST_CASE("disparity: a hole between two surfaces gets the farther surface") {
   Map map(6, 1);
   map.values = {5, kNan, kInf, kNan, kNan, 1};
   REQUIRE(map.Fill() == STARFOCUS_OK);
@@ -121,14 +123,14 @@ TEST_CASE("disparity: a hole between two surfaces becomes the farther one") {
   CHECK(map.values == std::vector<float>{3, 3, 3, 3, 7, 7});
 }
 
-TEST_CASE("disparity: empty rows come from the rows above and below") {
+TEST_CASE("disparity: empty rows are filled from the rows above and below") {
   Map map(2, 5);
   map.values = {kNan, kNan, 4, 1, kNan, kNan, kNan, kNan, 2, 3};
   REQUIRE(map.Fill() == STARFOCUS_OK);
   CHECK(map.values == std::vector<float>{4, 1, 4, 1, 2, 1, 2, 1, 2, 3});
 }
 
-TEST_CASE("disparity: random maps, padding untouched") {
+TEST_CASE("disparity: random maps are filled by the rule, and padding is untouched") {
   test::Random random(9);
   for (int round = 0; round < 200; ++round) {
     Map map(random.Int(1, 40), random.Int(1, 12), random.Int(0, 3));

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-# cmake -DNM=… -DBUILD=… -P engine_alone_test.cmake
-# A static program that only refocuses, in memory of its own, holds nothing of lib/depth and nothing of starfocus_create's;
-# one that makes maps has the first. The program for users holds nothing of lib/analysis, of the ray tracer and of
-# tests, as that for developers does.
+# Usage: cmake -DNM=… -DBUILD=… -P engine_alone_test.cmake
+# Checks which parts of the library static programs contain. A program that only refocuses in its own memory must not
+# contain lib/depth and starfocus_create. A program that makes maps contains lib/depth. The program for users must not
+# contain lib/analysis, the ray tracer and tests, but the program for developers contains them.
 cmake_minimum_required(VERSION 3.20)
 
-# expect(PROGRAM has|lacks NAME...): of symbols that match each name.
+# expect(PROGRAM has|lacks NAME...) checks if PROGRAM has or lacks symbols that match each name.
 function(expect program expected)
   execute_process(COMMAND "${NM}" -C "${BUILD}/${program}" OUTPUT_VARIABLE listing RESULT_VARIABLE result)
   if(NOT result EQUAL 0)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# cmake -DNM=… -DSHARED=… -DSOURCE=… -P exports_test.cmake
-# The shared library exports every STARFOCUS_API function of the headers and nothing else.
+# Usage: cmake -DNM=… -DSHARED=… -DSOURCE=… -P exports_test.cmake
+# Checks that the shared library exports exactly the STARFOCUS_API functions of the headers.
 cmake_minimum_required(VERSION 3.20)
 execute_process(COMMAND "${NM}" -D --defined-only "${SHARED}"
                 OUTPUT_VARIABLE listing RESULT_VARIABLE result)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the library tells of itself.
+// Tests the version, structure sizes, defaults and view positions that the library reports.
 #include <doctest/doctest.h>
 
 #include <cstdint>
@@ -20,7 +20,7 @@ TEST_CASE("the version is that of the headers") {
   CHECK(starfocus_version() == std::string(STARFOCUS_VERSION_STRING));
 }
 
-// The structures that a header defines.
+// Returns the structures that a header defines.
 std::vector<std::string> StructuresOf(const std::string& header) {
   std::ifstream file(std::string(STARFOCUS_SOURCE_DIR) + "/lib/include/starfocus/" + header);
   std::vector<std::string> names;
@@ -32,7 +32,7 @@ std::vector<std::string> StructuresOf(const std::string& header) {
   return names;
 }
 
-TEST_CASE("sizes are those of the headers, of every structure") {
+TEST_CASE("the sizes of all structures are those of the headers") {
   CHECK(starfocus_struct_size("starfocus_config") == sizeof(starfocus_config));
   CHECK(starfocus_struct_size("starfocus_params") == sizeof(starfocus_params));
   CHECK(starfocus_struct_size("starfocus_report") == sizeof(starfocus_report));
@@ -54,7 +54,7 @@ TEST_CASE("sizes are those of the headers, of every structure") {
   CHECK(starfocus_struct_size(nullptr) == 0);
 }
 
-TEST_CASE("defaults are those that the header tells") {
+TEST_CASE("the defaults are those that the headers document") {
   starfocus_config config;
   std::memset(&config, test::kPoison, sizeof config);
   starfocus_config_init(&config);
@@ -87,7 +87,7 @@ TEST_CASE("defaults are those that the header tells") {
   CHECK(params.region.width == 0);
 }
 
-TEST_CASE("view positions") {
+TEST_CASE("view positions are those of the star") {
   const double kExpected[STARFOCUS_MAX_VIEWS][2] = {
       {0, 0},    {1, 0},     {-1, 0},     {0, 1},      {0, -1},     {1, 1},
       {-1, 1},   {1, -1},    {-1, -1},    {0.5, 0},    {-0.5, 0},   {0, 0.5},

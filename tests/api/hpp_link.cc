@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// starfocus.hpp alone, without exceptions and RTTI, on the shared library.
+// A program that uses only starfocus.hpp and the shared library, without exceptions and RTTI.
 #include <cstdio>
 #include <cstdlib>
 #include <new>
@@ -9,7 +9,7 @@
 
 namespace {
 
-bool no_memory = false;  // for workspaces and prepared light fields
+bool no_memory = false;  // true if allocations of workspaces and prepared light fields fail
 
 }  // namespace
 
@@ -22,7 +22,7 @@ namespace {
 
 constexpr int kSize = 12;
 
-// A light field of one view; every picture of it is constant.
+// A light field of one view. Every refocused picture is constant.
 struct Field {
   std::vector<uint8_t> picture = std::vector<uint8_t>(3 * kSize * kSize, 50);
   std::vector<float> disparity = std::vector<float>(kSize * kSize, 0.5f);
@@ -41,7 +41,7 @@ struct Field {
     params.lens.focus = 3;
   }
 
-  // Whether these calls give the picture.
+  // Returns true if these calls return the picture.
   bool Refocuses(starfocus::Engine* engine) const {
     std::vector<uint8_t> out(picture.size());
     return engine->Refocus(params, field, starfocus_image_rgb(out.data(), 3 * kSize)) ==
@@ -83,7 +83,7 @@ struct Field {
            written == kSize && out == picture;
   }
 
-  // Whether every call says that there is no engine.
+  // Returns true if every call reports that there is no engine.
   bool IsEmpty(starfocus::Engine* engine) const {
     std::vector<uint8_t> out(picture.size());
     int32_t rows = 0;
@@ -113,8 +113,8 @@ bool EveryCall() {
          f.Streams(&engine);
 }
 
-// A second Init that fails leaves the engine, and what it has prepared; one that succeeds is a new
-// engine.
+// A second Init that fails must keep the engine and its prepared light field. If it succeeds, it
+// must make a new engine.
 bool SecondInit() {
   const Field f;
   starfocus::Engine engine;
@@ -151,12 +151,12 @@ bool Moves() {
     third = std::move(same);
     if (!f.Refocuses(&third) || !f.RefocusesPrepared(&third)) return false;
   }
-  // What it was moved to is gone.
+  // The moved-from engine is empty.
   if (!f.IsEmpty(&first)) return false;
   return first.Init(f.config) == STARFOCUS_OK && f.Refocuses(&first);
 }
 
-// A Prepare that fails leaves nothing prepared.
+// After a failed Prepare, nothing is prepared.
 bool SecondPrepare() {
   Field f;
   starfocus::Engine engine;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Illegal values of the public structures, with the field that is told.
+// Illegal values of the public structures, and the fields that errors must name.
 #ifndef STARFOCUS_TESTS_API_ILLEGAL_VALUES_H_
 #define STARFOCUS_TESTS_API_ILLEGAL_VALUES_H_
 
@@ -17,7 +17,7 @@ constexpr float kNanF = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfF = std::numeric_limits<float>::infinity();
 constexpr size_t kHuge = std::numeric_limits<size_t>::max();
 
-// What spoils a structure, with the status and the field that are told.
+// A change that makes a structure illegal, and the expected status and field.
 template <class Structure>
 struct Bad {
   const char* field;
@@ -103,7 +103,7 @@ inline const Bad<starfocus_config> kBadConfigs[] = {
     {"transfer", [](starfocus_config* c) { c->transfer = 2; }},
 };
 
-// For an engine of disparities [-2, 2] and max_blur 8.
+// For an engine with disparities in [-2, 2] and a max_blur of 8.
 inline const Bad<starfocus_params> kBadParams[] = {
     {"params.size", [](starfocus_params* p) { p->size = 0; }, STARFOCUS_ERROR_STRUCTURE},
     {"params.size", [](starfocus_params* p) { p->size = 4; }, STARFOCUS_ERROR_STRUCTURE},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Images streamed and prepared: the bytes of starfocus_refocus.
+// Streams and prepares images. The bytes must equal those of starfocus_refocus.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -40,7 +40,7 @@ ImageMemory Refocused(test::Engine* engine, const ImageField& field, const starf
   return image;
 }
 
-TEST_CASE("image streams: rows of R, G, B may be pushed, and pulled") {
+TEST_CASE("image streams: rows of R, G, B may be pushed and pulled") {
   test::Random random(42);
   const test::Scene scene = test::LayeredScene(100, 90, 5, 7, 50);
   const ImageField field = FieldOf(scene, STARFOCUS_FORMAT_RGBX, false, &random);
@@ -59,7 +59,7 @@ TEST_CASE("image streams: rows of R, G, B may be pushed, and pulled") {
   const starfocus_light_field images = field.Field();
   const starfocus_light_field converted = field.converted.Field();
   int32_t rows = 0;
-  // Alpha of a stream before is not seen.
+  // Alpha of the previous stream must not appear.
   for (int round = 0; round < 2; ++round) {
     REQUIRE(starfocus_stream_begin(engine.get(), &params) == STARFOCUS_OK);
     REQUIRE(starfocus_stream_push(engine.get(), &images, 90, &rows) == STARFOCUS_OK);
@@ -74,7 +74,7 @@ TEST_CASE("image streams: rows of R, G, B may be pushed, and pulled") {
   }
 }
 
-TEST_CASE("image streams: alpha of rows that are pulled late is still there") {
+TEST_CASE("image streams: alpha of rows that are pulled late is kept") {
   test::Random random(48);
   test::Scene scene = test::LayeredScene(20, 900, 1, 1, 50);
   const ImageField field = FieldOf(scene, STARFOCUS_FORMAT_RGBX, false, &random);
@@ -91,7 +91,7 @@ TEST_CASE("image streams: alpha of rows that are pulled late is still there") {
   CHECK((streamed == expected));
 }
 
-TEST_CASE("image streams: rings hold pairs of rows, however far away is read") {
+TEST_CASE("image streams: rings hold pairs of rows for every reach") {
   test::Random random(49);
   const ImageField field =
       FieldOf(test::LayeredScene(20, 20, 1, 1, 50), STARFOCUS_FORMAT_RGB, false, &random);
@@ -104,7 +104,7 @@ TEST_CASE("image streams: rings hold pairs of rows, however far away is read") {
   }
 }
 
-TEST_CASE("image streams: half of a pair of rows is refused, and a bad depth with both") {
+TEST_CASE("image streams: half a pair of rows is rejected, and a bad depth rejects the pair") {
   test::Random random(43);
   const test::Scene scene = test::LayeredScene(60, 51, 1, 7, 50);
   ImageField field = FieldOf(scene, STARFOCUS_FORMAT_NV12, false, &random);
@@ -129,7 +129,7 @@ TEST_CASE("image streams: half of a pair of rows is refused, and a bad depth wit
   out = image.Out(50);
   CHECK(starfocus_stream_pull(engine.get(), &out, 9, &rows, nullptr) == STARFOCUS_OK);
   CHECK(rows == 1);
-  // The map's last row: pairs before it are taken.
+  // The last row of the map is bad. Pairs of rows before it are taken.
   field.depth.Put(3, field.depth.map.height - 1, 1e-3);
   images = field.Field();
   REQUIRE(starfocus_stream_begin(engine.get(), &params) == STARFOCUS_OK);
@@ -162,7 +162,7 @@ TEST_CASE("prepared images: disparities and layers are those of the converted pi
   }
 }
 
-TEST_CASE("prepared images: pictures of any format are made of light fields of any") {
+TEST_CASE("prepared images: light fields of any format make pictures of any format") {
   test::Random random(45);
   const test::Scene scene = test::LayeredScene(60, 50, 5, 7, 50);
   const ImageField field = FieldOf(scene, STARFOCUS_FORMAT_NV12, false, &random);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Images and depth maps of every format: the bytes of converting them first.
+// Refocuses images and depth maps of every format. The bytes must equal those after a conversion.
 #include <doctest/doctest.h>
 
 #include <vector>
@@ -30,8 +30,7 @@ ImageField AnyField(const test::Scene& scene, int format, int round, test::Rando
       random);
 }
 
-// Refocuses the images whole, prepared, reduced and streamed, and what they are converted to, and
-// compares.
+// Compares the images with their conversion: whole, prepared, reduced and streamed.
 void CheckSame(const ImageField& field, starfocus_config config, const starfocus_params& params,
                const ImageKind& kind, test::Random* random, starfocus_runner runner = nullptr) {
   config.features |= STARFOCUS_FEATURE_STREAMING;
@@ -79,7 +78,8 @@ void CheckSame(const ImageField& field, starfocus_config config, const starfocus
   CHECK(report.unknown_pixels == expected_report.unknown_pixels);
 }
 
-TEST_CASE("images: every format in and out gives the bytes of converting first, in every mode") {
+TEST_CASE(
+    "images: in every mode, all formats of input and output have the bytes of converted pictures") {
   test::Random random(24);
   constexpr int kSizes[][2] = {{1, 1},   {2, 2},    {1, 77},   {131, 1}, {33, 31},
                                {64, 64}, {101, 67}, {150, 91}, {97, 130}};
@@ -104,7 +104,7 @@ TEST_CASE("images: every format in and out gives the bytes of converting first, 
   }
 }
 
-TEST_CASE("images: regions at odd places, of odd sizes") {
+TEST_CASE("images: regions may have odd positions and sizes") {
   test::Random random(25);
   const test::Scene scene = test::LayeredScene(141, 163, 5, 7, 9);
   for (int round = 0; round < 2 * kFormats; ++round) {
@@ -123,7 +123,7 @@ TEST_CASE("images: regions at odd places, of odd sizes") {
   }
 }
 
-TEST_CASE("images: what near surfaces hide, and what lies beyond the edges, far away") {
+TEST_CASE("images: hidden surfaces and pixels beyond the edges are converted far away, too") {
   test::Random random(26);
   for (const int views : {5, 17}) {
     for (const int renderer : {STARFOCUS_RENDERER_SLICES, STARFOCUS_RENDERER_LINE_SCAN}) {
@@ -136,7 +136,7 @@ TEST_CASE("images: what near surfaces hide, and what lies beyond the edges, far 
   }
 }
 
-TEST_CASE("images: lamps") {
+TEST_CASE("images: lamps have the bytes of converted pictures") {
   test::Random random(27);
   test::Scene scene = test::LayeredScene(140, 110, 5, 7, 12);
   for (int lamp = 0; lamp < 12; ++lamp) {
@@ -157,7 +157,7 @@ TEST_CASE("images: lamps") {
   }
 }
 
-TEST_CASE("images: depth of every type, meaning and size; unknown depths") {
+TEST_CASE("images: depth may have any type, meaning and size, and unknown values") {
   test::Random random(28);
   const test::Scene scene = test::LayeredScene(130, 97, 5, 7, 4);
   const int sizes[][2] = {{130, 97}, {65, 49}, {33, 97}, {130, 25}, {1, 1}, {44, 2}};
@@ -200,7 +200,7 @@ TEST_CASE("images: depth of every type, meaning and size; unknown depths") {
   }
 }
 
-TEST_CASE("images: a depth outside the configured range is refused before anything is written") {
+TEST_CASE("images: a depth outside the configured range is rejected before anything is written") {
   test::Random random(29);
   const test::Scene scene = test::LayeredScene(70, 60, 1, 7, 4);
   ImageField field = AnyField(scene, STARFOCUS_FORMAT_I420, 4, &random);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lenses whose shape changes between the calls of one engine: the bytes are those of an engine that
-// has seen no other lens.
+// Changes the shape of the lens between calls of one engine. The bytes must equal those of an
+// engine that has used no other lens.
 #include <doctest/doctest.h>
 
 #include <cstddef>
@@ -27,7 +27,7 @@ starfocus_lens LensOf(const test::NamedShape& shape, double theta = 0.8) {
   return lens;
 }
 
-// Shapes of every kind in turn, and neighbours that differ in one field.
+// Returns shapes of every kind. Some neighbours differ in one field.
 std::vector<starfocus_lens> Lenses() {
   std::vector<starfocus_lens> lenses = {LensOf(kPlain)};
   for (const test::NamedShape& shape : test::kShapes) lenses.push_back(LensOf(shape));
@@ -63,7 +63,7 @@ starfocus_params ParamsOf(const starfocus_lens& lens, starfocus_mode mode,
   return params;
 }
 
-// By an engine that has memory for that shape alone.
+// Returns the picture of an engine that has memory for only this shape.
 std::vector<uint8_t> Expected(const test::Scene& scene, const starfocus_params& params) {
   starfocus_config config = Config(scene);
   test::ReserveFor(params.lens, &config);
@@ -71,19 +71,19 @@ std::vector<uint8_t> Expected(const test::Scene& scene, const starfocus_params& 
   return out.bytes;
 }
 
-TEST_CASE("lens: a shape that changes between calls gives the bytes of an engine of its own") {
+TEST_CASE("lens: after a change of shape, an engine returns the bytes of a new engine") {
   const test::Scene scene = MakeScene();
   test::Engine engine(Config(scene));
   int index = 0;
   for (const starfocus_lens& lens : Lenses()) {
     CAPTURE(index);
     ++index;
-    // The second round finds the tables of the first, and no other table in their place.
+    // The second round must find the tables of the first, and no others in their place.
     for (const int round : {0, 1}) {
       for (const starfocus_mode mode : test::kModes) {
         for (const starfocus_renderer renderer : test::kRenderers) {
           if (mode == STARFOCUS_MODE_BLUR && renderer == STARFOCUS_RENDERER_LINE_SCAN)
-            continue;  // it ignores the rule
+            continue;  // blur mode ignores the rule
           CAPTURES(round, mode, renderer);
           const starfocus_params params = ParamsOf(lens, mode, renderer);
           const test::Output out = test::OutputOf(&engine, params, scene);
@@ -97,7 +97,7 @@ TEST_CASE("lens: a shape that changes between calls gives the bytes of an engine
 // Cancels at the call of progress after `left` others.
 int CancelAfter(void* left, int32_t, int32_t) { return (*static_cast<int*>(left))-- == 0; }
 
-TEST_CASE("lens: a cancelled call leaves no table of its shape to calls with another") {
+TEST_CASE("lens: after a cancelled call, calls with another shape do not use its tables") {
   const test::Scene scene = MakeScene();
   const starfocus_lens pentagon = LensOf(test::kShapes[1]), plain = LensOf(kPlain);
   for (const starfocus_mode mode : test::kModes) {
@@ -122,7 +122,7 @@ TEST_CASE("lens: a cancelled call leaves no table of its shape to calls with ano
   }
 }
 
-TEST_CASE("lens: engines share a prepared light field, each through lenses of its own") {
+TEST_CASE("lens: engines share a prepared light field, each with different lenses") {
   const test::Scene scene = MakeScene();
   const starfocus_config config = Config(scene);
   test::Engine first(config), second(config);
@@ -148,7 +148,7 @@ TEST_CASE("lens: engines share a prepared light field, each through lenses of it
   }
 }
 
-TEST_CASE("lens: a stream keeps the lens that it was begun with") {
+TEST_CASE("lens: a stream keeps the lens that was given to begin") {
   const test::Scene scene = MakeScene();
   test::Engine engine(Config(scene));
   for (const starfocus_lens& lens : Lenses()) {
@@ -156,7 +156,7 @@ TEST_CASE("lens: a stream keeps the lens that it was begun with") {
     starfocus_params params = expected;
     REQUIRE(starfocus_stream_begin(engine.get(), &params) == STARFOCUS_OK);
     params.lens = LensOf(test::kShapes[0]);
-    // A begin that is refused changes nothing.
+    // A rejected begin changes nothing.
     params.lens.blades = 99;
     CHECK(starfocus_stream_begin(engine.get(), &params) == STARFOCUS_ERROR_RANGE);
     test::Output out(kWidth, kHeight);
@@ -166,7 +166,7 @@ TEST_CASE("lens: a stream keeps the lens that it was begun with") {
   }
 }
 
-TEST_CASE("lens: shorter params get the defaults of the fields they lack") {
+TEST_CASE("lens: shorter params get the defaults of the missing fields") {
   constexpr uint32_t kShort = offsetof(starfocus_params, lens) + offsetof(starfocus_lens, blades);
   const test::Scene scene = MakeScene();
   const starfocus_params expected = test::Params(-3.5, 1, STARFOCUS_MODE_BLOCK);
@@ -183,7 +183,7 @@ TEST_CASE("lens: shorter params get the defaults of the fields they lack") {
   CHECK((streamed.bytes == out.bytes));
 }
 
-TEST_CASE("lens: without STARFOCUS_FEATURE_SHAPES only polygons and cat's eyes are refused") {
+TEST_CASE("lens: without STARFOCUS_FEATURE_SHAPES, only polygons and cat's eyes are rejected") {
   const test::Scene scene = MakeScene();
   starfocus_config config = Config(scene);
   config.features &= ~STARFOCUS_FEATURE_SHAPES;
@@ -198,7 +198,7 @@ TEST_CASE("lens: without STARFOCUS_FEATURE_SHAPES only polygons and cat's eyes a
   }
 }
 
-TEST_CASE("lens: the memory for polygons and cat's eyes is reserved on demand") {
+TEST_CASE("lens: memory for polygons and cat's eyes is reserved on demand") {
   for (const int block : {32, 64, 128}) {
     for (const double blur : {0.5, 8.0, 32.0, 128.0}) {
       starfocus_config config;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The focus for what is at a pixel, and apertures by their f-stop.
+// Tests the focus at a pixel, and the apertures of f-stops.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -34,7 +34,7 @@ struct Map {
   std::vector<float> values;
 };
 
-TEST_CASE("focus at: illegal arguments") {
+TEST_CASE("focus at: illegal arguments are rejected") {
   Map map(5, 4, 1, 2);
   double focus = -77;
   const auto at = [&](const float* d, size_t stride, int w, int h, int x, int y) {
@@ -56,7 +56,7 @@ TEST_CASE("focus at: illegal arguments") {
   CHECK(focus == -77);
 }
 
-TEST_CASE("focus at: a value around the pixel that is not finite, and those that are not read") {
+TEST_CASE("focus at: values that are not finite are rejected only near the pixel") {
   for (const float bad : {kNan, float(kInf), float(-kInf)}) {
     Map map(30, 20, 2, 3);
     for (int y = 0; y < 20; ++y) std::fill_n(&map.At(0, y) + 30, 3, bad);  // padding
@@ -73,7 +73,7 @@ TEST_CASE("focus at: a value around the pixel that is not finite, and those that
   }
 }
 
-TEST_CASE("focus at: the surface of the pixel, however little of it there is, up to its edge") {
+TEST_CASE("focus at: the surface of the pixel is in focus, even if it is small, up to its edge") {
   Map map(24, 24, -4);
   for (int y = 0; y < 24; ++y) {
     for (int x = 0; x < 9; ++x) map.At(x, y) = 3;  // an object
@@ -86,7 +86,7 @@ TEST_CASE("focus at: the surface of the pixel, however little of it there is, up
   CHECK(one.Focus(0, 0) == 2.5);
 }
 
-TEST_CASE("focus at: one wrong pixel is of the surface that most around it are of") {
+TEST_CASE("focus at: a single wrong pixel belongs to the surface of most pixels around it") {
   Map map(20, 20, 1);
   for (int y = 0; y < 20; ++y) {
     for (int x = 0; x < 6; ++x) map.At(x, y) = 5;
@@ -95,18 +95,18 @@ TEST_CASE("focus at: one wrong pixel is of the surface that most around it are o
     for (const int x : {2, 4, 7, 12}) {
       Map spoilt = map;
       spoilt.At(x, 10) = wrong;
-      // Of the pixels up to 3 away from x = 4 more are of the object, from 7 on more are behind it.
+      // Within 3 pixels of x = 4, most pixels belong to the object. From x = 7, most are behind it.
       CHECK(spoilt.Focus(x, 10) == (x < 6 ? 5 : 1));
-      CHECK(spoilt.Focus(x, 9) == (x < 6 ? 5 : 1));  // beside it
+      CHECK(spoilt.Focus(x, 9) == (x < 6 ? 5 : 1));  // next to it
     }
   }
-  // Of two surfaces of one size, the farther.
+  // If two surfaces are equally large, the farther one is in focus.
   Map two(2, 3, 0);
   two.values = {4, 4, 50, 100, 1, 1};
   CHECK(two.Focus(0, 1) == 1);
 }
 
-TEST_CASE("focus at: a slanted surface is focused where it was tapped") {
+TEST_CASE("focus at: a slanted surface is in focus at the given pixel") {
   for (const float slope : {0.0625f, 0.25f, 0.5f, 1.0f}) {
     Map map(40, 30, 0);
     for (int y = 0; y < 30; ++y) {
@@ -122,7 +122,7 @@ TEST_CASE("focus at: noise is averaged out") {
   test::Random random(5);
   Map map(60, 60, 0);
   for (float& value : map.values) {
-    double sum = 0;  // of twelve is normal enough, with variance 1
+    double sum = 0;  // sum of twelve random numbers, nearly normal with variance 1
     for (int k = 0; k < 12; ++k) sum += random.Unit();
     value = 2 + 0.3f * float(sum - 6);
   }
@@ -135,11 +135,11 @@ TEST_CASE("focus at: noise is averaged out") {
       worst = std::max(worst, std::fabs(error));
     }
   }
-  CHECK(std::sqrt(squares / (59 * 60)) < 0.08);  // 0.3 of a pixel by itself
+  CHECK(std::sqrt(squares / (59 * 60)) < 0.08);  // 0.3 for a single pixel
   CHECK(worst < 0.5);
 }
 
-// The definition, plainly: sorted lists of what is near.
+// Returns the focus by its definition, with sorted lists of the neighbours.
 double Expected(Map map, int x0, int y0) {
   std::vector<double> around;
   bool alone = true;
@@ -170,11 +170,12 @@ double Expected(Map map, int x0, int y0) {
   return surface;
 }
 
-TEST_CASE("focus at: random maps, as the definition says") {
+TEST_CASE("focus at: random maps follow the definition") {
   test::Random random(6);
   for (int round = 0; round < 300; ++round) {
     Map map(random.Int(1, 12), random.Int(1, 12), 0, random.Int(0, 3));
-    const int steps = random.Int(1, 40);  // of 1/8: ties, and values just near enough
+    // Steps of 1/8, so that ties and values at the limit occur.
+    const int steps = random.Int(1, 40);
     for (float& value : map.values) value = float(random.Int(0, steps)) / 8;
     for (int y = 0; y < map.height; ++y) {
       for (int x = 0; x < map.width; ++x) CHECK(map.Focus(x, y) == Expected(map, x, y));
@@ -182,7 +183,7 @@ TEST_CASE("focus at: random maps, as the definition says") {
   }
 }
 
-TEST_CASE("f-stops: the aperture is the widest over the f-stop") {
+TEST_CASE("f-stops: the aperture is the f-stop of the widest lens divided by the f-stop") {
   const auto aperture = [](double f_stop, double widest) {
     double u = -77;
     REQUIRE(starfocus_aperture_of_f_stop(f_stop, widest, &u) == STARFOCUS_OK);
@@ -195,7 +196,7 @@ TEST_CASE("f-stops: the aperture is the widest over the f-stop") {
   CHECK(aperture(1e300, 1e-300) == 0);
 }
 
-TEST_CASE("f-stops: wider than the widest, or no f-stop at all") {
+TEST_CASE("f-stops: values wider than the widest lens and illegal values are rejected") {
   double u = -77;
   const double nan = kNan;
   const double bad[][2] = {{0.99, 1}, {1.4, 1.8}, {0, 1},     {-2, 1},     {nan, 1},

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Aperture 0: the centre view, byte for byte, in every mode and every way in.
+// Tests aperture 0: the result must be the centre view, byte for byte, in every mode and with all
+// ways to refocus.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -14,7 +15,7 @@
 namespace pinhole_test {
 namespace {
 
-// Random pictures over a map of flat areas and edges, or of noise.
+// Returns random pictures with a map of flat areas and edges, or of noise.
 test::Scene AnyScene(int width, int height, uint64_t seed) {
   const int views = test::kStars[seed % 4];
   if (seed % 3 == 0) return test::LayeredScene(width, height, views, 7, seed);
@@ -34,7 +35,7 @@ starfocus_config AnyConfig(const test::Scene& scene, test::Random* random) {
   return config;
 }
 
-TEST_CASE("pinhole: the centre view to the byte, by every mode, rule and way in") {
+TEST_CASE("pinhole: every mode, rule and way to refocus returns the centre view to the byte") {
   constexpr int kSizes[][2] = {{1, 1}, {3, 70}, {41, 31}, {64, 64}, {130, 67}, {97, 140}};
   test::Random random(51);
   uint64_t seed = 0;
@@ -45,7 +46,7 @@ TEST_CASE("pinhole: the centre view to the byte, by every mode, rule and way in"
       starfocus_params params = test::Params(random.Real(-9, 9), 0, mode);
       params.renderer = random.Int(0, 2);
       params.lens.theta = random.Real(STARFOCUS_MIN_THETA, STARFOCUS_MAX_THETA);
-      // Blur may be as large as it likes where there is none.
+      // At aperture 0, any focus is legal.
       if (seed % 4 == 0) params.lens.focus = -STARFOCUS_MAX_FOCUS;
       CAPTURE(seed);
       const test::Output whole = test::CheckWays(scene, config, params);
@@ -57,7 +58,7 @@ TEST_CASE("pinhole: the centre view to the byte, by every mode, rule and way in"
   }
 }
 
-TEST_CASE("pinhole: the report tells of one copied view, and maps are checked all the same") {
+TEST_CASE("pinhole: the report has one copied view, and maps are checked") {
   test::Scene scene = test::LayeredScene(130, 67, 9, 7, 4);
   for (const starfocus_mode mode : test::kModes) {
     starfocus_report report = {};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prepared light fields: who may use them, and their memory (ways_test.cc has the bytes).
+// Tests who may use a prepared light field, and its memory. ways_test.cc tests the bytes.
 #include <doctest/doctest.h>
 
 #include <cstdint>
@@ -16,7 +16,7 @@
 namespace prepared_test {
 namespace {
 
-TEST_CASE("prepared: by one engine for another, which streams in between") {
+TEST_CASE("prepared: another engine may use the light field and stream in between") {
   const test::Scene scene = test::LayeredScene(140, 100, 5, 7, 11);
   starfocus_config config = test::ConfigFor(scene, 20);
   test::Engine maker(config);
@@ -43,7 +43,7 @@ TEST_CASE("prepared: by one engine for another, which streams in between") {
   CHECK((streamed.bytes == whole.bytes));
 }
 
-TEST_CASE("prepared: what the documentation says of the memory") {
+TEST_CASE("prepared: the memory has the documented size") {
   const test::Scene scene = test::LayeredScene(1000, 800, 5, 7, 11);
   starfocus_config config = test::ConfigFor(scene, 20);
   const double pixels = 1000.0 * 800;
@@ -52,7 +52,7 @@ TEST_CASE("prepared: what the documentation says of the memory") {
   CHECK(double(test::PreparedMemory(config).bytes) / pixels == doctest::Approx(2).epsilon(0.01));
 }
 
-TEST_CASE("prepared: no size for bad configurations") {
+TEST_CASE("prepared: bad configurations have no size") {
   starfocus_config config = test::ConfigFor(test::LayeredScene(50, 40, 5, 3, 12), 8);
   size_t bytes = 4711;
   CHECK(starfocus_prepared_size(nullptr, &bytes) == STARFOCUS_ERROR_NULL);
@@ -62,7 +62,7 @@ TEST_CASE("prepared: no size for bad configurations") {
   CHECK(bytes == 4711);
 }
 
-TEST_CASE("prepared: engines of another configuration refuse a prepared light field") {
+TEST_CASE("prepared: engines of another configuration reject a prepared light field") {
   const test::Scene scene = test::LayeredScene(50, 40, 5, 3, 12);
   const starfocus_config config = test::ConfigFor(scene, 8);
   test::Engine engine(config);
@@ -90,7 +90,7 @@ TEST_CASE("prepared: engines of another configuration refuse a prepared light fi
   CHECK(out.Untouched());
 }
 
-TEST_CASE("prepared: a bad map is refused before anything is written") {
+TEST_CASE("prepared: a bad map is rejected before anything is written") {
   test::Scene scene = test::LayeredScene(50, 90, 5, 3, 12);
   const starfocus_config config = test::ConfigFor(scene, 8);
   test::Engine engine(config);

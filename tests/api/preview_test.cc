@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Previews: the bytes of refocusing the light field that the definition reduces, near the full
-// picture reduced; and bad input.
+// Tests previews. The bytes must equal those of refocusing the reduced light field, and be close to
+// the reduced full picture. Also tests bad input.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace {
 
 int Ceil(int size, int shift) { return (size + (1 << shift) - 1) >> shift; }
 
-// The code nearest to a mean of light.
+// Returns the code nearest to a mean of light.
 uint8_t CodeOf(int64_t sum, int64_t count, int32_t transfer) {
   const auto light = static_cast<int16_t>((2 * sum + count) / (2 * count));
   uint8_t code = 0;
@@ -27,7 +27,7 @@ uint8_t CodeOf(int64_t sum, int64_t count, int32_t transfer) {
   return code;
 }
 
-// What a sample of an interleaved picture is made of.
+// Returns a sample of the reduced interleaved picture.
 uint8_t MeanSample(const uint8_t* rgb, size_t stride, int width, int height, int x, int y, int c,
                    int shift, int32_t transfer) {
   int64_t sum = 0, count = 0;
@@ -87,7 +87,8 @@ starfocus_config ReducedConfig(const starfocus_config& config, int shift, int32_
   return reduced;
 }
 
-// The pixels that have a part of a region; all 0 for the whole picture.
+// Returns the reduced pixels that contain a part of the region. All fields are 0 for the whole
+// picture.
 starfocus_region ReducedRegion(const starfocus_region& region, int shift) {
   if (region.width == 0) return region;
   const int x = region.x >> shift, y = region.y >> shift;
@@ -95,7 +96,7 @@ starfocus_region ReducedRegion(const starfocus_region& region, int shift) {
           Ceil(region.y + region.height, shift) - y};
 }
 
-// An engine with a light field that it has prepared.
+// An engine and a light field that it has prepared.
 class Prepared {
  public:
   Prepared(const test::Scene& scene, const starfocus_config& config,
@@ -114,7 +115,7 @@ class Prepared {
     return test::PreviewRgb(engine.get(), &params, field_, shift, out->bytes.data(), out->stride,
                             report);
   }
-  // The preview of the whole picture or the params' region.
+  // Returns the preview of the whole picture or of params.region.
   test::Output Preview(const starfocus_params& params, int shift,
                        const starfocus_callbacks& callbacks = {},
                        starfocus_report* report = nullptr) {
@@ -135,7 +136,7 @@ class Prepared {
   starfocus_prepared* field_ = nullptr;
 };
 
-// Pictures that agree with each other, of soft and of sharp edges.
+// Returns the PSNR between a preview and the reduced full picture.
 double Psnr(const test::Output& got, const test::Output& full, int shift, int32_t transfer) {
   double sum = 0;
   for (int y = 0; y < got.height; ++y) {
@@ -151,7 +152,7 @@ double Psnr(const test::Output& got, const test::Output& full, int shift, int32_
   return 10 * std::log10(255.0 * 255 * 3 * got.width * got.height / sum);
 }
 
-// Whether a preview has the bytes of refocusing the light field `reduced`.
+// Returns true if a preview has the bytes of refocusing the light field `reduced`.
 bool IsOfReduced(Prepared* prepared, starfocus_params params, int shift,
                  const starfocus_config& config, const test::Scene& reduced) {
   starfocus_report report = {};
@@ -164,7 +165,7 @@ bool IsOfReduced(Prepared* prepared, starfocus_params params, int shift,
   return got.bytes == expected.bytes;
 }
 
-TEST_CASE("preview: the bytes of the light field that the definition reduces") {
+TEST_CASE("preview: the bytes are those of the light field reduced by definition") {
   test::Random random(231);
   constexpr int kSizes[][2] = {{1, 1},    {1, 70},   {90, 1},    {31, 33},   {65, 63},
                                {100, 37}, {67, 190}, {129, 128}, {150, 141}, {203, 90}};
@@ -205,9 +206,9 @@ TEST_CASE("preview: the bytes of the light field that the definition reduces") {
   }
 }
 
-// Reduced by shift, a range that 0 is not in lies partly or wholly beyond the one it was made from.
-TEST_CASE(
-    "preview: the whole scene nearer or farther than the range's 0, by an engine that streams") {
+// If the range does not contain 0, the reduced range is partly or wholly outside the original
+// range.
+TEST_CASE("preview: a scene may be wholly nearer or farther than 0, in an engine that streams") {
   for (const float offset : {16.0F, -12.0F, 4.5F}) {
     CAPTURE(offset);
     test::Scene scene = test::LayeredScene(330, 270, 5, 4, 17);
@@ -231,7 +232,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("preview: the engine is what it was, and the workspace no larger") {
+TEST_CASE("preview: the engine is unchanged, and the workspace does not grow") {
   const test::Scene scene = test::LayeredScene(170, 130, 5, 7, 3);
   starfocus_config config = test::ConfigFor(scene, 20);
   config.features |= STARFOCUS_FEATURE_STREAMING;
@@ -247,7 +248,7 @@ TEST_CASE("preview: the engine is what it was, and the workspace no larger") {
   const test::Output first = prepared.Preview(test::Params(5, 1, STARFOCUS_MODE_BLOCK), 2);
   const test::Output after = test::OutputOf(&prepared.engine, params, scene);
   CHECK(after.bytes == before.bytes);
-  // A stream that a preview breaks off is begun anew.
+  // After a preview has interrupted a stream, the stream must begin again.
   REQUIRE(starfocus_stream_begin(prepared.engine.get(), &params) == STARFOCUS_OK);
   const test::Output again = prepared.Preview(test::Params(5, 1, STARFOCUS_MODE_BLOCK), 2);
   CHECK(again.bytes == first.bytes);
@@ -258,7 +259,7 @@ TEST_CASE("preview: the engine is what it was, and the workspace no larger") {
   CHECK(streamed.bytes == before.bytes);
 }
 
-TEST_CASE("preview: what the documentation says of the memory") {
+TEST_CASE("preview: the memory has the documented size") {
   const test::Scene scene = test::LayeredScene(800, 640, 5, 7, 11);
   starfocus_config config = test::ConfigFor(scene, 20);
   constexpr double kExpected[] = {3.89, 8.40, 9.52, 9.81};
@@ -269,7 +270,7 @@ TEST_CASE("preview: what the documentation says of the memory") {
   }
 }
 
-// A wall and a nearer disc, waves on both; the views agree.
+// Returns a wall and a nearer disc, both with waves. The views are consistent.
 test::Scene SmoothScene(int width, int height) {
   test::Scene scene = test::EmptyScene(width, height, 5, -12, 12);
   for (int view = 0; view < 5; ++view) {
@@ -291,12 +292,13 @@ test::Scene SmoothScene(int width, int height) {
   return scene;
 }
 
-TEST_CASE("preview: near the full picture reduced") {
+TEST_CASE("preview: it is close to the reduced full picture") {
   const test::Scene scene = SmoothScene(512, 384);
   starfocus_config config = test::ConfigFor(scene, 24);
   config.previews = 3;
   Prepared prepared(scene, config);
-  constexpr double kLeast[] = {0, 53.5, 51.5, 43};  // of waves of 9 pixels an eighth shows little
+  // The smallest preview shows little of waves of 9 pixels.
+  constexpr double kLeast[] = {0, 53.5, 51.5, 43};
   for (const double focus : {9.0, 0.0, -9.0}) {
     const starfocus_params params = test::Params(focus, 1, STARFOCUS_MODE_BLOCK);
     const test::Output full = test::OutputOf(&prepared.engine, params, scene);
@@ -307,7 +309,7 @@ TEST_CASE("preview: near the full picture reduced") {
   }
 }
 
-TEST_CASE("preview: of a light field that was prepared for one, by an engine of the same size") {
+TEST_CASE("preview: it needs a light field prepared for previews, and an engine of the same size") {
   const test::Scene scene = test::LayeredScene(50, 40, 5, 3, 12);
   starfocus_config config = test::ConfigFor(scene, 8);
   Prepared none(scene, config);
@@ -324,7 +326,7 @@ TEST_CASE("preview: of a light field that was prepared for one, by an engine of 
   };
   CHECK(run(another) == STARFOCUS_ERROR_PREPARED);
   CHECK(out.Untouched());
-  // The engine itself may be configured for none.
+  // The engine itself may be configured without previews.
   CHECK(run(none.engine) == STARFOCUS_OK);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Calls whose arguments tables of tests spoil: one of each function that takes parameters, light
-// fields or pictures. A call must return the status of the table, name its field and write nothing.
+// Calls with illegal arguments, one for each function that takes parameters, light fields or
+// pictures. A call must return the status of the table, name its field and write nothing.
 #ifndef STARFOCUS_TESTS_API_REFUSALS_H_
 #define STARFOCUS_TESTS_API_REFUSALS_H_
 
@@ -32,7 +32,7 @@ enum : unsigned {
   kTakesOut = kRefocus | kAfter | kPrepared | kPreview | kPull,
 };
 
-// A light field of R, G, B or of images of three formats, and what calls need besides.
+// A light field of R, G, B or of images in three formats, and everything else that calls need.
 struct Fixture {
   explicit Fixture(bool with_images) : images(with_images) {}
 
@@ -65,7 +65,7 @@ struct Fixture {
   test::ImageMemory blank{width, kHeight, image.views[images ? 2 : 0].kind()};
 };
 
-// The arguments of a call, all of them legal.
+// The arguments of a call. All of them are legal at first.
 struct Call {
   Call(Fixture* of, unsigned to) : f(*of), function(to) {
     std::memset(&report, test::kPoison, sizeof report);
@@ -97,7 +97,7 @@ struct Call {
         return starfocus_stream_pull(engine, out_at, rows, count_at, &report);
     }
   }
-  // Whether no output was written.
+  // Returns true if no output was written.
   bool Untouched() const {
     starfocus_report poison;
     std::memset(&poison, test::kPoison, sizeof poison);
@@ -136,7 +136,7 @@ inline void CheckProblem(const starfocus_problem* problem, starfocus_status stat
   CHECK(!(problem->value >= problem->low && problem->value <= problem->high));
 }
 
-// Checks a spoilt call of each of these functions.
+// Checks a call with an illegal argument for each of these functions.
 template <class Spoil>
 void Check(Fixture* f, unsigned functions, const Spoil& spoil, starfocus_status status,
            const std::string& field) {

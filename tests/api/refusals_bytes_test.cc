@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Illegal arguments of the functions that make, prepare and stream pictures, as a table.
+// Tests a table of illegal arguments of the functions that make, prepare and stream pictures.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -110,7 +110,7 @@ const Row kPictures[] = {
        c->out.format = STARFOCUS_FORMAT_BGR;
      }},
 
-    // Pictures as large as the region, and no larger.
+    // Pictures must be exactly as large as the region.
     {kBegin, "region", kRange,
      [](Call* c) {
        c->params.region = {0, 0, 20, kHeight};
@@ -133,7 +133,8 @@ const Row kPictures[] = {
      }},
 };
 
-// Of 21x12 pixels. View 0 is R, G, B; 1 and 4 are NV12, 2 and the output I420.
+// Images of 21x12 pixels. View 0 is R, G, B. Views 1 and 4 are NV12. View 2 and the output are
+// I420.
 constexpr unsigned kViews = kRefocus | kPrepare | kPush, kOuts = kRefocus | kPrepared | kPull;
 const Row kImages[] = {
     {kAll & ~kAfter, "", kOk, [](Call*) {}},
@@ -147,7 +148,8 @@ const Row kImages[] = {
     {kViews, "views[].planes", kNull, [](Call* c) { c->field.views[1].planes[0] = nullptr; }},
     {kViews, "views[].planes", kNull, [](Call* c) { c->field.views[1].planes[1] = nullptr; }},
     {kOuts, "out.planes", kNull, [](Call* c) { c->out.planes[2] = nullptr; }},
-    {kViews, "", kOk, [](Call* c) { c->field.views[1].planes[2] = nullptr; }},  // NV12 has two
+    // NV12 has two planes.
+    {kViews, "", kOk, [](Call* c) { c->field.views[1].planes[2] = nullptr; }},
     {kViews, "views[].strides", kStride, [](Call* c) { c->field.views[1].strides[0] = 20; }},
     {kViews, "views[].strides", kStride, [](Call* c) { c->field.views[1].strides[1] = 21; }},
     {kOuts, "out.strides", kStride, [](Call* c) { c->out.strides[2] = 10; }},
@@ -217,14 +219,14 @@ const std::pair<const char*, starfocus_region> kBadRegions[] = {
     {"region.x", {kLeast, kLeast, kMost, kMost}},
 };
 
-TEST_CASE("calls: illegal arguments") {
+TEST_CASE("calls: illegal arguments are rejected") {
   Fixture pictures(false), images(true);
   for (const Row& row : kPictures)
     Check(&pictures, row.functions, row.spoil, row.status, row.field);
   for (const Row& row : kImages) Check(&images, row.functions, row.spoil, row.status, row.field);
 }
 
-TEST_CASE("calls: illegal parameters, light fields and regions") {
+TEST_CASE("calls: illegal parameters, light fields and regions are rejected") {
   Fixture f(false);
   for (const Bad<starfocus_params>& bad : kBadParams) {
     const unsigned previews = std::string(bad.field) == "preview_shift" ? kPrepared | kPreview : 0;
@@ -240,11 +242,11 @@ TEST_CASE("calls: illegal parameters, light fields and regions") {
     const starfocus_region at = region;
     const auto spoil = [&](Call* c) { c->params.region = at; };
     Check(&f, kTakesParams & ~kBegin, spoil, kRange, field);
-    Check(&f, kBegin, spoil, kRange, "region");  // a stream has none
+    Check(&f, kBegin, spoil, kRange, "region");  // a stream has no region
   }
 }
 
-TEST_CASE("calls: illegal disparity values, wherever they are") {
+TEST_CASE("calls: illegal disparity values are rejected at any position") {
   Fixture f(false);
   for (const float bad : {kNanF, kInfF, -kInfF, 2.0001f, -2.0001f, 3e38f, -3e38f}) {
     const bool finite = std::abs(bad) < kInfF;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Regions of the picture: the bytes of the whole picture there, for their share of its work.
+// Tests regions of the picture. They must have the bytes of the whole picture and cost only a part
+// of its work.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -24,8 +25,8 @@ std::string Text(const starfocus_region& r) {
   return text;
 }
 
-TEST_CASE("region: joins between blocks of different layers reach into it") {
-  // Layers 0 and 2 side by side, whatever the pixels.
+TEST_CASE("region: boundaries between blocks of different layers are deblocked into it") {
+  // Layers 0 and 2 are adjacent for any pixels.
   for (const int side : {32, 64}) {
     test::Scene scene = test::LayeredScene(160, 160, 5, 12, 5);
     test::SetDisparity(&scene,
@@ -39,7 +40,7 @@ TEST_CASE("region: joins between blocks of different layers reach into it") {
   }
 }
 
-TEST_CASE("region: costs its share of the picture and its surroundings") {
+TEST_CASE("region: it costs only its part of the picture and its surroundings") {
   const test::Scene scene = test::LayeredScene(640, 640, 5, 4, 9);
   starfocus_config config = test::ConfigFor(scene, 8);
   config.superblock = 32;
@@ -57,13 +58,13 @@ TEST_CASE("region: costs its share of the picture and its surroundings") {
     CHECK(test::BlocksOf(part) == uint64_t(told));
     CHECK(test::BlocksOf(part) <= 4);
     CHECK(part.rendered_samples * 100 < report.rendered_samples);
-    params.region = {319, 319, 2, 2};  // where four meet
+    params.region = {319, 319, 2, 2};  // at the corner of four superblocks
     REQUIRE(test::Refocus(&engine, params, scene, &out, nullptr, nullptr, &part) == STARFOCUS_OK);
     CHECK(test::BlocksOf(part) == 4);
   }
 }
 
-TEST_CASE("region: only disparity rows that it can read are checked, before a pixel is written") {
+TEST_CASE("region: only readable disparity rows are checked, before a pixel is written") {
   test::Scene scene = test::LayeredScene(40, 600, 1, 4, 3);
   starfocus_config config = test::ConfigFor(scene, 4);
   config.superblock = 32;
@@ -86,12 +87,12 @@ TEST_CASE("region: only disparity rows that it can read are checked, before a pi
   }
 }
 
-TEST_CASE("region: a bad row is refused before a pixel is written, or is not read") {
+TEST_CASE("region: a bad row is rejected before a pixel is written, or not read") {
   constexpr int kHeight = 240;
   test::Scene scene = test::LayeredScene(40, kHeight, 5, 3, 4);
   starfocus_config config = test::ConfigFor(scene, 4);
   config.superblock = 32;
-  config.features &= ~STARFOCUS_FEATURE_COVERAGE;  // which comes from farther away
+  config.features &= ~STARFOCUS_FEATURE_COVERAGE;  // coverage depends on rows farther away
   test::Engine engine(config);
   constexpr starfocus_region kRegions[] = {
       {0, 0, 0, 0}, {3, 0, 30, 9}, {3, 70, 30, 9}, {0, 120, 40, 50}, {3, 231, 30, 9}};

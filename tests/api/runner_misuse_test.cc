@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runners that break their contract: STARFOCUS_ERROR_RUNNER, and nothing worse.
+// Tests runners that break their contract. Calls must return STARFOCUS_ERROR_RUNNER without further
+// damage.
 #include <doctest/doctest.h>
 
 #include <atomic>
@@ -15,7 +16,7 @@ namespace {
 
 constexpr int kWidth = 130, kHeight = 70, kWorkers = 2;
 
-// One set of jobs, as a runner gets it.
+// One set of jobs as a runner gets it.
 struct Set {
   void Some(int32_t first, int32_t end) const {
     for (int32_t i = first; i < end; ++i) job(data, i, i % kWorkers);
@@ -39,7 +40,7 @@ struct Misuse {
   void (*run)(const Set&);
 };
 
-// They all report success.
+// All of these runners report success.
 const Misuse kMisuses[] = {
     {"runs nothing", [](const Set&) {}},
     {"skips the first job", [](const Set& s) { s.Some(1, s.count); }},
@@ -61,7 +62,7 @@ const Misuse kMisuses[] = {
     {"largest worker", [](const Set& s) { s.job(s.data, 0, INT32_MAX); }},
 };
 
-// Misuses chosen sets.
+// Breaks the contract for one set of jobs.
 struct Runner {
   void (*misuse)(const Set&);
   int misused_set;
@@ -90,7 +91,7 @@ struct Fixture {
   }
 };
 
-TEST_CASE("runner: every misuse of every set is an error, and harms no later call") {
+TEST_CASE("runner: every misuse of every set is an error, and does not affect later calls") {
   Fixture f;
   test::Engine engine(f.config);
   Runner good = {nullptr, -1};
@@ -116,21 +117,21 @@ TEST_CASE("runner: every misuse of every set is an error, and harms no later cal
   }
 }
 
-// The set that is running, for a clock that is asked within its jobs.
+// The running set, for a clock that is called by its jobs.
 struct {
   starfocus_job job;
   void* data;
   bool nested;
 } running;
 
-TEST_CASE("runner: a worker that is busy gets no second job") {
+TEST_CASE("runner: a busy worker gets no second job") {
   Fixture f;
   test::Engine engine(f.config);
   test::Output out(kWidth, kHeight);
   running.nested = false;
   starfocus_callbacks callbacks = {};
   callbacks.clock = []() -> uint64_t {
-    // As if another thread had the same worker at the same time.
+    // Simulates another thread that uses the same worker at the same time.
     if (!running.nested) running.job(running.data, 2, 0);
     running.nested = true;
     return 0;
@@ -160,15 +161,15 @@ TEST_CASE("runner: a job called after its runner has returned does nothing") {
     for (const int index : {-1, 0, 1, 1000}) running.job(running.data, index, worker);
   }
   CHECK(out.bytes == f.expected.bytes);
-  // And spoils nothing that comes.
+  // The late call does not affect later calls.
   CHECK(test::Refocus(&engine, f.params, f.scene, &out, keeps) == STARFOCUS_OK);
   CHECK(out.bytes == f.expected.bytes);
 }
 
-TEST_CASE("runner: jobs that still run when their runner returns are waited for") {
+TEST_CASE("runner: the engine waits for jobs that still run when their runner returns") {
   Fixture f;
   test::Engine engine(f.config);
-  // Leaves the last job out, so that no set is complete, however fast the thread is.
+  // Omits the last job, so that no set is complete, however fast the thread is.
   const starfocus_runner leaves = [](void* data_of_runner, starfocus_job job, void* data,
                                      int32_t count) {
     std::thread& thread = *static_cast<std::thread*>(data_of_runner);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sentence of each status.
+// Tests the sentence of each status.
 #include <doctest/doctest.h>
 
 #include <set>
@@ -7,13 +7,14 @@
 
 #include "starfocus/starfocus.h"
 
-// A status that is forgotten below does not compile.
+// With this option, a status that is missing below does not compile.
 #pragma GCC diagnostic error "-Wswitch"
 
 namespace status_test {
 namespace {
 
-// What only the sentence of this status says; null when there is no such status.
+// Returns words that appear only in the sentence of this status, or null if there is no such
+// status.
 const char* WordsOf(starfocus_status status) {
   switch (status) {
     case STARFOCUS_OK:
@@ -56,7 +57,7 @@ const char* WordsOf(starfocus_status status) {
   return nullptr;
 }
 
-TEST_CASE("statuses: every one has a sentence of its own, and no other number has") {
+TEST_CASE("statuses: each status has a unique sentence, and other numbers have none") {
   std::set<std::string> sentences;
   int statuses = 0;
   for (int number = -1000; number <= 1000; ++number) {
@@ -71,7 +72,7 @@ TEST_CASE("statuses: every one has a sentence of its own, and no other number ha
     CAPTURE(sentence);
     CHECK(sentence != "unknown status");
     CHECK(sentences.insert(sentence).second);
-    // What it says is of this status and of no other.
+    // The words of other statuses must not appear.
     for (int other = 0; other < 100; ++other) {
       const char* const words = WordsOf(static_cast<starfocus_status>(other));
       if (words == nullptr) continue;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rows pushed and pulled give the bytes of the whole-picture call, in memory independent of the
-// picture's height.
+// Streams rows. They must have the bytes of the whole picture, in memory that does not depend on
+// the height.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ void CheckSame(const test::Scene& scene, const starfocus_params& params, int blo
   test::CheckStreamed(scene, config, params);
 }
 
-TEST_CASE("stream: same bytes for every size, star set and chunk") {
+TEST_CASE("stream: bytes are the same for every size, star set and chunk") {
   constexpr int kSizes[][2] = {{1, 1},   {1, 5},   {5, 1},   {2, 3},    {3, 31},  {31, 33},
                                {33, 65}, {64, 64}, {65, 32}, {40, 130}, {130, 97}};
   for (const auto& size : kSizes) {
@@ -33,7 +33,7 @@ TEST_CASE("stream: same bytes for every size, star set and chunk") {
   }
 }
 
-TEST_CASE("stream: same bytes for other focuses, apertures, modes and blocks") {
+TEST_CASE("stream: bytes are the same for other focuses, apertures, modes and blocks") {
   const test::Scene scene = test::RandomScene(75, 140, 17, -5, 5, 42, 3);
   CheckSame(scene, test::Params(-5.5, 0.5), 32);
   CheckSame(scene, test::Params(9, 1), 64);
@@ -41,7 +41,7 @@ TEST_CASE("stream: same bytes for other focuses, apertures, modes and blocks") {
   CheckSame(scene, test::Params(2, 1), 128);
 }
 
-TEST_CASE("stream: rows of side views as far away as the largest disparity") {
+TEST_CASE("stream: rows of side views are read as far away as the largest disparity") {
   const test::Scene scene = test::NearScene(70, 400, 5, 12);
   for (const starfocus_mode mode : {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BLOCK}) {
     CAPTURE(mode);
@@ -73,7 +73,7 @@ TEST_CASE("stream: strides of pictures do not matter") {
   CHECK(c.PaddingUntouched());
 }
 
-TEST_CASE("stream: a picture of 20,000 rows goes through the workspace of one of 200") {
+TEST_CASE("stream: a picture of 20,000 rows fits the workspace of a picture of 200 rows") {
   constexpr int kWidth = 24, kTall = 20000;
   const test::Scene scene = test::RandomScene(kWidth, kTall, 17, -2, 2, 77);
   starfocus_config config = test::ConfigFor(scene);
@@ -86,7 +86,7 @@ TEST_CASE("stream: a picture of 20,000 rows goes through the workspace of one of
     REQUIRE(starfocus_workspace_size(&config, &low_bytes) == STARFOCUS_OK);
     CHECK(tall_bytes == low_bytes);
   }
-  // 20,000 rows in one push are far more than the rings hold: some must be left to the caller.
+  // 20,000 rows in one push exceed the rings, so the engine must not take all of them.
   config.height = kTall;
   test::Engine engine(config);
   REQUIRE(engine.bytes() == low_bytes);
@@ -105,8 +105,8 @@ TEST_CASE("stream: a picture of 20,000 rows goes through the workspace of one of
   CHECK(streamed.bytes == whole.bytes);
 }
 
-// With one view rings hold just the rows that blocks at layers 1 and 2 are made of.
-TEST_CASE("stream: rings hold all that layers are made of, up to the largest blur") {
+// With one view, rings hold exactly the rows that blocks at layers 1 and 2 need.
+TEST_CASE("stream: rings hold all rows that layers need, up to the largest blur") {
   for (int radius = 1; radius <= 16; ++radius) {
     test::Scene scene = test::RandomScene(48, 200, 1, 0, float(radius), 70 + uint64_t(radius));
     for (float& disparity : scene.disparity) disparity = float(radius);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A stream goes on after a runner that failed: the same pull again gives the bytes of a stream that
-// nothing happened to.
+// Tests that a stream continues after a failed runner. A repeated pull must return the bytes of an
+// undisturbed stream.
 #include <doctest/doctest.h>
 
 #include <cstring>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kWidth = 150, kHeight = 170;
 
-// Runs half of the jobs of chosen sets and fails: `fails_at` counts sets.
+// Runs half of the jobs of chosen sets and fails. `fails_at` counts sets.
 struct Failing {
   int fails_at, times;
   int sets = 0;
@@ -35,8 +35,8 @@ struct Streamed {
   int failures = 0;
 };
 
-// Pushes all it can and pulls `chunk` rows at a time, again whenever the runner failed. An engine
-// of its own, since what another left in memory could be right.
+// Pushes as many rows as possible and pulls `chunk` rows at a time. Repeats each pull whose runner
+// failed. Uses a new engine, since memory left by another engine could be right by chance.
 Streamed Stream(const starfocus_config& config, const starfocus_params& params,
                 const test::Scene& scene, int chunk, Failing* failing) {
   Streamed result;
@@ -53,7 +53,8 @@ Streamed Stream(const starfocus_config& config, const starfocus_params& params,
   return result;
 }
 
-// Surfaces in focus beside others far out of it, so that all layers are used and joined.
+// Returns surfaces in focus next to surfaces far out of focus, so that all layers are used and
+// deblocked.
 test::Scene MixedScene() {
   test::Scene scene = test::RandomScene(kWidth, kHeight, 5, -1, 26, 8);
   for (int y = 0; y < kHeight; ++y) {
@@ -86,7 +87,7 @@ void CheckRetries(const test::Scene& scene, const starfocus_params& params, int 
       params.mode == STARFOCUS_MODE_BLOCK && params.renderer == STARFOCUS_RENDERER_SLICES;
   for (const starfocus_layer_report& layer : expected.report.layers)
     CHECK((!all_layers || layer.blocks > 0));
-  constexpr int kStep = STARFOCUS_EMULATED ? 4 : 1;  // an emulator needs twenty times as long
+  constexpr int kStep = STARFOCUS_EMULATED ? 4 : 1;  // an emulator would need twenty times as long
   int failed = 0, tried = 0;
   for (int set = 0; set < never.sets; set += kStep, ++tried) {
     CAPTURE(set);
@@ -101,7 +102,7 @@ void CheckRetries(const test::Scene& scene, const starfocus_params& params, int 
   CHECK(failed >= tried);
 }
 
-TEST_CASE("stream: a pull after one whose runner failed repeats its rows, with the same report") {
+TEST_CASE("stream: after a failed runner, a repeated pull returns the same rows and report") {
   const test::Scene scene = MixedScene();
   for (const starfocus_mode mode :
        {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BLOCK, STARFOCUS_MODE_BLUR}) {

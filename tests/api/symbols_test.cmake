@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-# cmake -DNM=… -DSTATIC=… -P symbols_test.cmake
-# What lib/ and simd/ need of the outside: memory copies, a few functions of C's <math.h>, the
-# compiler's own helpers and Highway's choice of target. Nothing of libstdc++ (exceptions, RTTI,
-# streams, operator new), no I/O, and no heap but for what starfocus_create takes where it is given no allocator,
-# in a unit of its own.
+# Usage: cmake -DNM=… -DSTATIC=… -P symbols_test.cmake
+# Checks the external symbols that lib/ and simd/ need: memory copies, a few functions of <math.h>, helpers of the
+# compiler, and Highway's choice of target. They must not need libstdc++ (exceptions, RTTI, streams, operator new) or
+# I/O. Only starfocus_create, in a separate unit, may use the heap if it gets no allocator.
 cmake_minimum_required(VERSION 3.20)
 execute_process(COMMAND "${NM}" -P "${STATIC}" OUTPUT_VARIABLE listing RESULT_VARIABLE result)
 if(NOT result EQUAL 0)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Views at any positions, through the C ABI.
+// Tests views at any positions through the C ABI.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -29,7 +29,8 @@ std::vector<uint8_t> Picture(const test::Scene& scene, starfocus_mode mode = STA
   return test::RefocusScene(scene, test::ConfigFor(scene), params).rgb;
 }
 
-TEST_CASE("views: the star by its positions is the star, in any order by subapertures") {
+TEST_CASE(
+    "views: the positions of a star give the bytes of the star, with subapertures in any order") {
   for (const int views : {5, 9, 17}) {
     test::Scene scene = test::RandomScene(70, 50, views, -4, 6, 5);
     const std::vector<uint8_t> block = Picture(scene);
@@ -49,8 +50,8 @@ TEST_CASE("views: the star by its positions is the star, in any order by subaper
   }
 }
 
-// By line scans a silhouette of one view has a halo as wide as the blur.
-TEST_CASE("views: one view takes subapertures in every mode unless the paper's rule is asked for") {
+// With the line scan, a silhouette in one view would get a halo as wide as the blur.
+TEST_CASE("views: one view uses subapertures in every mode unless the paper's rule is requested") {
   const test::Scene scene = test::RandomScene(70, 50, 1, -4, 6, 5);
   for (const starfocus_mode mode :
        {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BENCHMARK, STARFOCUS_MODE_BLOCK}) {
@@ -64,7 +65,7 @@ TEST_CASE("views: one view takes subapertures in every mode unless the paper's r
         Picture(star, STARFOCUS_MODE_FRAME, STARFOCUS_RENDERER_LINE_SCAN));
 }
 
-TEST_CASE("views: a pair reads its second view, and another position of it elsewhere") {
+TEST_CASE("views: the second view of a pair and its position affect the picture") {
   const test::Scene pair = Scene({{0, 0}, {1, 0}});
   test::Scene one = pair;
   one.pictures.resize(1);
@@ -75,7 +76,7 @@ TEST_CASE("views: a pair reads its second view, and another position of it elsew
   CHECK(Picture(pair) != Picture(other));
 }
 
-TEST_CASE("views: a mirrored scene with the pair's other side gives the mirrored picture") {
+TEST_CASE("views: a mirrored scene with the view on the other side gives the mirrored picture") {
   const test::Scene scene = Scene({{0, 0}, {0.7, 0}});
   test::Scene mirrored = scene;
   for (int y = 0; y < scene.height; ++y) {
@@ -99,11 +100,11 @@ TEST_CASE("views: a mirrored scene with the pair's other side gives the mirrored
   };
   const double other_side = mean();
   mirrored.positions[1].u = -0.7;
-  CHECK(mean() < 0.5);  // of noise, sliced anew
+  CHECK(mean() < 0.5);  // slices of noise may differ
   CHECK(other_side > 1);
 }
 
-TEST_CASE("views: the paper's rule needs the star, others do without") {
+TEST_CASE("views: the paper's rule needs the star, and other rules do not") {
   const test::Scene scene = Scene({{0, 0}, {1, 0}, {0, 1}});
   starfocus_config config = test::ConfigFor(scene);
   config.features |= STARFOCUS_FEATURE_STREAMING;
@@ -122,11 +123,11 @@ TEST_CASE("views: the paper's rule needs the star, others do without") {
     CHECK(out.Tight() == by_default);
   }
   starfocus_params blur = test::Params(kFocus, 0.5, STARFOCUS_MODE_BLUR);
-  blur.renderer = STARFOCUS_RENDERER_LINE_SCAN;  // which this mode ignores
+  blur.renderer = STARFOCUS_RENDERER_LINE_SCAN;  // blur mode ignores the rule
   CHECK(test::Refocus(&engine, blur, scene, &out) == STARFOCUS_OK);
 }
 
-TEST_CASE("views: bad positions are refused before anything is made") {
+TEST_CASE("views: bad positions are rejected before anything is made") {
   const test::Scene scene = Scene({{0, 0}, {1, 0}});
   const auto status = [&](const std::vector<starfocus_position>& positions) {
     starfocus_config config = test::ConfigFor(scene);
@@ -135,7 +136,8 @@ TEST_CASE("views: bad positions are refused before anything is made") {
     return starfocus_workspace_size(&config, &bytes);
   };
   CHECK(status({{0, 0}, {-1, 1}}) == STARFOCUS_OK);
-  CHECK(status({{0, 0}, {0, 0}}) == STARFOCUS_ERROR_RANGE);  // no positions: two are no star
+  // No positions, and two views are no star.
+  CHECK(status({{0, 0}, {0, 0}}) == STARFOCUS_ERROR_RANGE);
   CHECK(status({{0, 0}, {1.5, 0}}) == STARFOCUS_ERROR_RANGE);
   CHECK(status({{0.5, 0}, {1, 0}}) == STARFOCUS_ERROR_RANGE);
 }

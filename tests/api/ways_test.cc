@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every way to ask for a picture gives the bytes of the whole picture.
+// Checks that all ways to request a picture return the bytes of the whole picture.
 #include "tests/support/ways.h"
 
 #include <doctest/doctest.h>
@@ -12,7 +12,7 @@
 namespace ways_test {
 namespace {
 
-TEST_CASE("ways: the bytes of the whole picture, in every mode, for many lenses") {
+TEST_CASE("ways: for many lenses in every mode, bytes are those of the whole picture") {
   constexpr int kViews[] = {1, 5, 9, 17};
   constexpr int kSizes[][2] = {{1, 1},    {1, 130},  {130, 1},  {31, 33},   {64, 64},  {65, 63},
                                {100, 37}, {67, 260}, {200, 90}, {129, 128}, {97, 131}, {150, 66}};
