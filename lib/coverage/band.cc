@@ -9,14 +9,16 @@
 namespace starfocus {
 namespace {
 
-// Disparities around a tile, from which its band and its near disparities are found.
+// Disparities in and around a tile, from which the band and the near disparities of the tile are
+// found.
 using BandDisparities = DisparitiesAround<kBandReach + 2>;
 
-// Smallest number of pixels next to nearer ones in a tile of thin structure. Tiles of hair have 38
-// and more, straight edges 16 to 23, and wires of two pixels up to 40.
+// Smallest number of pixels next to nearer pixels in a tile of thin structure. Tiles of hair have
+// 38 or more such pixels, tiles with a straight edge 16 to 23, and tiles with a wire two pixels
+// wide up to 40.
 constexpr int32_t kLeastRagged = 36;
 
-// Lists the offsets of the pixels within kBandReach, the nearest first.
+// Offset to a pixel within kBandReach, as a position (x, y) and as a difference of indices.
 struct BandOffset {
   int8_t x, y;
   int16_t at;
@@ -44,7 +46,7 @@ constexpr Offsets kNearestFirst;
 struct BandPixel {
   int32_t side;      // 1: near side, -1: far side, 0: no edge is within kBandReach
   int32_t other;     // disparity of the nearest pixel beyond the edge
-  int32_t distance;  // squared distance to that pixel
+  int32_t distance;  // squared distance in pixels to the nearest pixel beyond the edge
 };
 
 BandPixel FindBandPixel(const BandDisparities& around, int32_t at) {
@@ -58,7 +60,7 @@ BandPixel FindBandPixel(const BandDisparities& around, int32_t at) {
 }
 
 // Returns the weight of a far pixel's light, given its squared distance to the edge. Pixels near an
-// edge count less, because the map may lack a strand next to one that it has.
+// edge have a small weight, because the map may lack a strand next to another strand.
 int16_t WeightByDistance(int32_t square) {
   return static_cast<int16_t>(square <= 2 ? kKnown / 16 : square <= 5 ? kKnown / 4 : kKnown);
 }
@@ -67,8 +69,8 @@ uint64_t BinsOf(const CoverageMap& map, int32_t low, int32_t high) {
   return (map.BinOf(high) << 1) - map.BinOf(low);
 }
 
-// Disparities of a row of adjacent tiles and of one pixel around them. Beyond the picture its
-// outermost pixels are repeated.
+// Disparities of a row of adjacent tiles, with a border of one pixel. Beyond the picture, the
+// outermost pixels of the picture are repeated.
 class TileRow {
  public:
   TileRow(const Window& window, int32_t left, int32_t top, int32_t columns) {
@@ -86,7 +88,7 @@ class TileRow {
 
   int16_t* At(int32_t x, int32_t y) { return samples_ + (y + 1) * kStride + x + kCoverageTile; }
 
-  // Finds the range of the disparities of a tile and of the pixels around it.
+  // Finds the range of the disparities of a tile and of the one-pixel border around the tile.
   void FindRange(int32_t x, int32_t* low, int32_t* high) {
     int16_t lows[kCoverageTile + 2], highs[kCoverageTile + 2];
     std::memcpy(lows, At(x - 1, -1), sizeof(lows));
@@ -106,7 +108,7 @@ class TileRow {
     }
   }
 
-  // Returns the number of pixels of a tile that are next to nearer ones.
+  // Returns the number of pixels of a tile that are next to nearer pixels.
   int32_t CountRagged(const simd::Kernels& kernels, int32_t x) {
     int32_t count = 0;
     for (int32_t y = 0; y < kCoverageTile; ++y) {

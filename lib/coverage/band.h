@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the pixels near large depth edges, and the disparities of the two surfaces that meet there.
-// The first passes of lib/coverage (passes.h) call these functions.
+// Finds the pixels near large depth edges, and the disparities of the two surfaces that meet at
+// each edge. The first two coverage passes (passes.h) call the functions of this header.
 #ifndef STARFOCUS_LIB_COVERAGE_BAND_H_
 #define STARFOCUS_LIB_COVERAGE_BAND_H_
 
@@ -8,15 +8,16 @@
 
 namespace starfocus {
 
-// Sets `ragged` of the tiles [first, last) of a row: true if a tile has enough edges for thin
-// structure. If coverage is given, one edge is enough.
+// Sets `ragged` of tiles [first, last) of a row: true if the tile has enough pixels next to edges
+// to be thin structure. If the light field has coverage, one such pixel is enough.
 void FindRagged(const CoverageInput& in, int32_t first, int32_t last, int32_t row);
 
-// Makes a tile a single surface with the disparities of the map.
+// Initialises a tile as a single surface with the disparities of the disparity map.
 void ClearTile(const CoverageInput& in, int32_t column, int32_t row);
 
-// Writes the tile's initial alpha (0, kWhole or kUnparted) and its near disparities, both from the
-// disparity map alone. Also writes the far light that the centre view shows, at all levels.
+// Writes the initial alpha (0, kWhole or kUnparted) and the near disparities of a tile, both from
+// the disparity map alone. Also writes the far light that the centre view shows, at all levels of
+// cells.
 void StartTile(const CoverageInput& in, int32_t column, int32_t row);
 
 }  // namespace starfocus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Input of the passes that compute a coverage map.
+// Defines the input of the passes that compute a coverage map (passes.h).
 #ifndef STARFOCUS_LIB_COVERAGE_COVERAGE_INPUT_H_
 #define STARFOCUS_LIB_COVERAGE_COVERAGE_INPUT_H_
 
@@ -9,14 +9,15 @@
 
 namespace starfocus {
 
-// Data that all passes read, and the map that they write.
+// The data that all passes read, and the coverage map that all passes write.
 struct CoverageInput {
   const simd::Kernels* kernels;
   const Window* window;  // at layer 0
   const CoverageMap* map;
 };
 
-// Returns true if the light field has coverage; otherwise the passes estimate it.
+// Returns true if the light field contains coverage. If it returns false, the passes estimate the
+// coverage.
 inline bool HasGiven(const CoverageInput& in) { return in.window->given_coverage.data != nullptr; }
 
 }  // namespace starfocus

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Coverage of the pixels near depth edges in thin structures, such as hair, twigs and grass. Each
-// of these pixels, on both sides of an edge, is split into a near and a far surface. The map is
-// computed in tiles, once for each row of the picture, before blocks are planned and rendered.
+// Coverage of the pixels near depth edges in thin structures, such as hair, twigs and grass. The
+// map splits each pixel near an edge, on either side, into a near and a far surface. The engine
+// computes the map in tiles, once for each row of the picture, before it plans and renders blocks.
 #ifndef STARFOCUS_LIB_COVERAGE_COVERAGE_MAP_H_
 #define STARFOCUS_LIB_COVERAGE_COVERAGE_MAP_H_
 
@@ -13,7 +13,8 @@
 
 namespace starfocus {
 
-// Side of a tile in pixels. A tile as a whole is thin structure or not.
+// Side of a tile in pixels. The engine decides per tile whether pixels are split
+// (CoverageTile::thin).
 inline constexpr int32_t kCoverageTile = 16;
 
 // Coverage has 7 fractional bits: 0 to kWhole. kUnparted: the pixel is not near a depth edge.
@@ -21,25 +22,25 @@ inline constexpr int kAlphaBits = 7;
 inline constexpr int32_t kWhole = 1 << kAlphaBits;
 inline constexpr uint8_t kUnparted = 255;
 
-// A larger step of disparity is an edge of thin structure, kDisparityBits. Pixels with a smaller
-// step belong to one surface.
+// Largest step of disparity within one surface, in kDisparityBits. A larger step is an edge of thin
+// structure.
 inline constexpr int32_t kThinStep = 5 << kDisparityBits;
 
 // Largest distance in pixels from an edge to a pixel that is split.
 inline constexpr int32_t kBandReach = 3;
 
-// Light of the far surface in a cell with a side of 2^level pixels, and the confidence of this
+// Light of the far surface in a cell with a side of 2^level pixels, and the confidence of the
 // light.
 struct FarCell {
   int16_t rgb[3];     // light
-  int16_t weight;     // confidence of the light: [0, kKnown]
+  int16_t weight;     // confidence of the light, [0, kKnown]
   int16_t disparity;  // kDisparityBits
 };
 inline constexpr int32_t kFarKnownBits = 8;
 inline constexpr int32_t kKnown = 1 << kFarKnownBits;
 
-// Largest distance in pixels that a nearer surface may move to one side, in a view, relative to the
-// far surface. Views in which it moves farther are not used.
+// Largest movement in pixels of a nearer surface relative to the far surface, in one direction.
+// Views in which a nearer surface moves farther are not read.
 inline constexpr int32_t kMostMove = 32;
 
 // Number of columns beyond the picture that may be read.
@@ -54,19 +55,22 @@ inline constexpr int kFarLevels = 5;
 struct CoverageTile {
   uint64_t near_bins;  // set of the disparities of near surfaces in the tile: BinOf
   int16_t low, high;   // range of the disparities of both surfaces of split pixels
-  uint8_t ragged;      // many pixels are next to edges; with given coverage: any pixel is
-  uint8_t mixed;  // it is ragged and many pixels are mixtures; with given coverage: any pixel is
-  uint8_t thin;   // its pixels are split: it or a neighbouring tile is mixed
+  // True if many pixels of the tile are next to edges. With given coverage, one pixel is enough.
+  uint8_t ragged;
+  // True if the tile is ragged and has many mixed pixels. With given coverage, one mixed pixel is
+  // enough.
+  uint8_t mixed;
+  uint8_t thin;  // true if the tile's pixels are split: the tile or a neighbouring tile is mixed
 };
 
-// A ring buffer of rows of tiles: ring row t % tile_rows holds row t. Pixels of a tile beyond the
-// picture are unused.
+// The coverage map: a ring buffer of rows of tiles. Row t is stored at ring row t % tile_rows.
+// Pixels of a tile beyond the picture are unused.
 struct CoverageMap {
   int32_t width = 0, height = 0;       // size of the picture
-  int32_t columns = 0, tile_rows = 0;  // numbers of tiles; tile_rows: rows in memory
-  int16_t disparity_min = 0;           // from the configuration
-  int bin_bits = 0;                    // log2 of the disparities in a bin of near_bins
-  int32_t around = 1;  // number of tiles around a ragged one that the passes process
+  int32_t columns = 0, tile_rows = 0;  // columns of tiles, and rows of tiles in memory
+  int16_t disparity_min = 0;           // starfocus_config.disparity_min, kDisparityBits
+  int bin_bits = 0;                    // log2 of the number of disparities in a bin of near_bins
+  int32_t around = 1;  // distance in tiles from a ragged tile within which the passes process tiles
   CoverageTile* tiles = nullptr;
   // Planes of pixels, with kAside unused pixels before and after each row.
   uint8_t* first = nullptr;  // coverage after the first pass
@@ -79,7 +83,7 @@ struct CoverageMap {
     return tiles[static_cast<size_t>(row % tile_rows) * static_cast<size_t>(columns) +
                  static_cast<size_t>(column)];
   }
-  // Samples from row to row of the planes of pixels.
+  // Returns the distance in samples between rows of the planes of pixels.
   size_t Stride() const { return static_cast<size_t>(columns * kCoverageTile + 2 * kAside); }
   // Returns the index of pixel (x, y), which may be up to kAside columns beyond the picture.
   size_t At(int32_t x, int32_t y) const {
@@ -98,7 +102,7 @@ struct CoverageMap {
   bool HasTile(int32_t column, int32_t row) const {
     return column >= 0 && column < columns && row >= 0 && row < Rows();
   }
-  // Returns true if a tile within `reach` tiles of this one has the mark.
+  // Returns true if `mark` is set in any tile within `reach` tiles of the tile at (column, row).
   bool AnyAround(int32_t column, int32_t row, int32_t reach, uint8_t CoverageTile::*mark) const {
     for (int32_t y = row - reach; y <= row + reach; ++y) {
       for (int32_t x = column - reach; x <= column + reach; ++x) {
@@ -107,7 +111,7 @@ struct CoverageMap {
     }
     return false;
   }
-  // Returns true if the passes process the tile.
+  // Returns true if the passes process the tile at (column, row).
   bool IsStarted(int32_t column, int32_t row) const {
     return AnyAround(column, row, around, &CoverageTile::ragged);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A copy of the disparities of a tile and its surroundings.
+// Copies the disparities of a tile and its surroundings, and smooths near disparities.
 #ifndef STARFOCUS_LIB_COVERAGE_DISPARITIES_AROUND_H_
 #define STARFOCUS_LIB_COVERAGE_DISPARITIES_AROUND_H_
 
@@ -9,8 +9,8 @@
 
 namespace starfocus {
 
-// Disparities of a tile and of kAround pixels around it. Beyond the picture its outermost pixels
-// are repeated.
+// Disparities of a tile and of kAround pixels on each side of the tile. Beyond the picture, the
+// outermost pixels of the picture are repeated.
 template <int32_t kAround>
 struct DisparitiesAround {
   static constexpr int32_t kSide = kCoverageTile + 2 * kAround;
@@ -32,7 +32,8 @@ struct DisparitiesAround {
   static constexpr int32_t At(int32_t x, int32_t y) { return (y + kAround) * kSide + x + kAround; }
 };
 
-// Returns the weighted mean of the surrounding disparities that are within 2 pixels of `near`.
+// Returns a weighted mean of the disparities in the 5x5 pixels around `at`. Only disparities that
+// differ from `near` by at most 2 pixels are included. If there are none, returns `near`.
 template <class Disparities>
 int16_t SmoothNear(const Disparities& around, int32_t at, int32_t near) {
   constexpr int32_t kWithin = 2 << kDisparityBits;

@@ -9,8 +9,8 @@
 namespace starfocus {
 namespace {
 
-// Largest distance in pixels to search for the far and the near surface of a pixel. Outlines in
-// maps of networks are off by up to this distance.
+// Largest distance in pixels at which the far and the near surface of a pixel are searched.
+// Outlines in disparity maps by neural networks are misplaced by up to kGivenReach pixels.
 constexpr int32_t kGivenReach = 32;
 
 // A pixel is on a ramp if its disparity lies between the disparities of two opposite neighbours.
@@ -19,7 +19,8 @@ constexpr int32_t kGivenReach = 32;
 constexpr int32_t kLeastRamp = 1 << (kDisparityBits - 1);
 constexpr int32_t kRampRatio = 4;
 
-// Returns true if `here` is on a ramp; disparities of three pixels in a line, kDisparityBits.
+// Returns true if the middle one of three adjacent pixels is on a ramp. The arguments are the
+// disparities of the pixels in kDisparityBits.
 bool IsRamp(int32_t before, int32_t here, int32_t after) {
   const int32_t sign = after < before ? -1 : 1;
   const int32_t a = sign * (here - before), b = sign * (after - here);
@@ -30,11 +31,12 @@ bool IsRamp(int32_t before, int32_t here, int32_t after) {
 constexpr int32_t kRampReach = 1;
 using GivenDisparities = DisparitiesAround<kGivenReach + kRampReach>;
 
-// A pixel is a mixture if its coverage differs by more than this from the one that the map implies,
-// kAlphaBits.
+// Largest difference, in kAlphaBits, between the given coverage of a pixel and the coverage implied
+// by the disparity map at which the pixel is not a mixture.
 constexpr int32_t kLeastMixed = kWhole / 16;
 
-// Marks the pixels around a tile that are on ramps, except within kRampReach of its rim.
+// Marks the pixels in and around a tile that are on ramps. The outermost kRampReach pixels are
+// never marked.
 struct Ramps {
   static constexpr int32_t kSide = GivenDisparities::kSide;
   bool at[kSide * kSide] = {};
@@ -58,15 +60,15 @@ struct Ramps {
   }
 };
 
-// The nearest pixel of a surface. Among equally near ones it is the one in the smallest square
-// around the pixel, and then the first by rows.
+// Result of a search for the nearest pixel of a surface. Among equally distant pixels, the search
+// prefers the smallest square around the start, and then the first pixel in row order.
 struct Found {
-  int32_t disparity;  // the pixel's own disparity if none is found
-  int32_t distance;   // squared; INT32_MAX if none is found
+  int32_t disparity;  // disparity of the pixel found, or of the start if none is found
+  int32_t distance;   // squared distance in pixels; INT32_MAX if no pixel is found
 };
 
-// Finds the nearest pixel within kGivenReach whose disparity lies in [low, high] and that is not on
-// a ramp.
+// Finds the pixel nearest to `at` within kGivenReach that is not on a ramp and has a disparity in
+// [low, high].
 Found FindNearest(const GivenDisparities& around, const Ramps& ramps, int32_t at, int32_t low,
                   int32_t high) {
   Found found = {around.disparity[at], INT32_MAX};
@@ -115,8 +117,9 @@ class GivenStarter {
   }
 
  private:
-  // Finds the two surfaces of a pixel: those at both ends of its ramp, or its own surface and the
-  // nearest other one. Returns false if there is only one surface.
+  // Finds the disparities of the two surfaces of a pixel. On a ramp, these are the surfaces at both
+  // ends of the ramp. Otherwise they are the pixel's own surface and the nearest other surface.
+  // Returns false if there is only one surface.
   bool FindSurfaces(int32_t at, int32_t* low, int32_t* high) const {
     const int32_t here = around_.disparity[at];
     if (ramps_.at[at]) {
@@ -191,7 +194,7 @@ void TakeGiven(const CoverageInput& in, int32_t column, int32_t row) {
       const size_t to = map.At(x, row * kCoverageTile + y);
       const FarCell& cell = far.cells[y * kCoverageTile + k];
       if (map.alpha[to] == kUnparted) continue;
-      // A pixel without known far light nearby cannot be split.
+      // A pixel cannot be split if no far light is known nearby.
       map.alpha[to] = cell.weight == 0 ? kUnparted : map.first[to];
       std::memcpy(map.FarAt(x, row * kCoverageTile + y).rgb, cell.rgb, sizeof(cell.rgb));
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Uses the coverage that a light field provides. It holds detail that the disparity map lacks, so
-// surfaces are searched farther from the map's edges than by band.h.
+// Uses the coverage that a light field provides. Given coverage contains detail that the disparity
+// map lacks. Both surfaces of a pixel are therefore searched farther from the map's edges than in
+// band.h.
 #ifndef STARFOCUS_LIB_COVERAGE_GIVEN_H_
 #define STARFOCUS_LIB_COVERAGE_GIVEN_H_
 
@@ -8,11 +9,13 @@
 
 namespace starfocus {
 
-// Writes both surfaces of the tile's pixels near edges, and their given coverage. Sets `mixed` if
-// any of them differs from the coverage that the map implies.
+// Writes the disparities of both surfaces and the given coverage of the tile's pixels near edges.
+// Sets `mixed` if the given coverage of any pixel differs from the coverage that the disparity map
+// implies.
 void StartGiven(const CoverageInput& in, int32_t column, int32_t row);
 
-// Writes the tile's coverage and its far light, from the far light of all views (look.h).
+// Writes the final coverage and far light of a tile. Requires the far light that LookBehindTile
+// reads from all views (look.h).
 void TakeGiven(const CoverageInput& in, int32_t column, int32_t row);
 
 }  // namespace starfocus

@@ -6,24 +6,27 @@
 namespace starfocus {
 namespace {
 
-// Smallest difference of disparity with which a nearer surface occludes another one.
+// Smallest difference of disparity at which a nearer surface occludes a farther one,
+// kDisparityBits.
 constexpr int32_t kBefore = 1 << kDisparityBits;
-// A pixel that moves to within a pixel and a half of another one may cover it. Views are
-// interpolated, and strands are wider than in the map.
+// Largest distance between a far pixel and a nearer pixel in a view at which the nearer pixel may
+// cover the far one: 1.5 pixels, kDisparityBits. The distance is large because views are
+// interpolated, and because strands are wider in views than in the map.
 constexpr int32_t kWithin = 3 << (kDisparityBits - 1);
 
-// log2 of the factor by which the centre view counts less than others: near edges all of its pixels
-// are mixtures.
+// log2 of the factor by which the weight of the centre view is reduced. Near edges, all pixels of
+// the centre view are mixtures.
 constexpr int kCentreBits = 3;
-// Readings with a total weight of 2^kEnoughBits * kKnown make a pixel fully known.
+// The light of a pixel is fully known if the weights of its readings sum to at least 2^kEnoughBits
+// * kKnown.
 constexpr int kEnoughBits = 1;
 
-// A side view.
+// A side view from which far light is read.
 struct SideLook {
   OcclusionView look;
-  bool down;      // true: occluders are searched along columns
-  int32_t along;  // distance of the view on that axis, kViewBits
-  int32_t slant;  // movement across the axis for each pixel along it, kViewBits
+  bool down;      // true if occluders are searched along columns, false if along rows
+  int32_t along;  // position of the view on the axis of the search, kViewBits
+  int32_t slant;  // movement across the axis per pixel along the axis, kViewBits
 };
 
 class TileLooker {
@@ -75,7 +78,7 @@ class TileLooker {
     views_[count_++] = {look, down, along, across * kViewOne / along};
   }
 
-  // Collects the disparities of near surfaces around the tile.
+  // Collects the disparities of near surfaces in and around the tile.
   void FindBins(int32_t column, int32_t row) {
     constexpr int32_t kAround = (kMostMove + kCoverageTile - 1) / kCoverageTile;
     for (int32_t y = row - kAround; y <= row + kAround; ++y) {
@@ -97,7 +100,8 @@ class TileLooker {
     }
   }
 
-  // Adds the light of row y in a view, one run of pixels of equal disparity at a time.
+  // Reads the far light of row y from a view and adds it to sums_. Adjacent pixels of equal
+  // disparity are read together.
   void LookInto(const SideLook& view, int32_t y) {
     int16_t covered[kCoverageTile] = {};
     if (!FindCovered(view, y, covered)) return;
@@ -121,7 +125,7 @@ class TileLooker {
   // Finds, for each pixel of a row, an upper bound of the coverage by nearer surfaces in the view.
   // Returns false if a surface may move farther than kMostMove.
   bool FindCovered(const SideLook& view, int32_t y, int16_t* covered) const {
-    bool comes[kMostMove + 1] = {};  // comes[m]: a surface may come from m pixels away
+    bool comes[kMostMove + 1] = {};  // comes[m]: a surface may move by m pixels onto the row
     if (!FindMoves(view, comes)) return false;
     const int32_t sign = view.along < 0 ? -1 : 1;
     for (int32_t m = 0; m <= kMostMove; ++m) {
@@ -152,9 +156,11 @@ class TileLooker {
     return true;
   }
 
-  // Adds the coverage by surfaces that may move to a row from `m` pixels along the view's axis.
+  // Adds the coverage of row y by surfaces that may move onto the row from a distance of `m` pixels
+  // along the view's axis.
   void CoverFrom(const SideLook& view, int32_t y, int32_t m, int16_t* covered) const {
-    // Moves are in halves of a unit of disparity, because kViewOne has 14 bits.
+    // Movements have kDisparityBits - 1 fractional bits, because the SIMD kernel interprets `along`
+    // with 15 fractional bits and kViewOne has 14.
     const simd::CoverView cover = {
         static_cast<int16_t>(view.along), static_cast<int16_t>(m * (1 << (kDisparityBits - 1))),
         static_cast<int16_t>(kWithin / 2), static_cast<int16_t>(kBefore)};

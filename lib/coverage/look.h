@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads the light of the far surface from all views.
+// Reads the light of the far surface from all views. The coverage passes (passes.h) call
+// LookBehindTile for each thin tile.
 #ifndef STARFOCUS_LIB_COVERAGE_LOOK_H_
 #define STARFOCUS_LIB_COVERAGE_LOOK_H_
 
@@ -8,8 +9,9 @@
 namespace starfocus {
 
 // Reads the far light of the tile's split pixels from the centre view and the side views, and
-// recomputes the cells of all levels. Each reading is weighted by how little nearer surfaces cover
-// the pixel in that view, after the first pass.
+// recomputes the cells of all levels. The weight of a reading decreases with the coverage of the
+// pixel by nearer surfaces in the view that is read (FarWeight). That coverage is the result of the
+// first pass.
 void LookBehindTile(const CoverageInput& in, int32_t column, int32_t row);
 
 }  // namespace starfocus

@@ -34,8 +34,8 @@ void RunPass(const CoverageInput& in, int pass, int32_t first, int32_t last, int
     FindRagged(in, first, last, row);
     return;
   }
-  // Given coverage needs no first pass. Its tiles start one pass later, when ragged tiles two rows
-  // ahead are known.
+  // Given coverage requires no first unmixing pass. Tiles with given coverage are started in that
+  // pass instead, because the start requires `ragged` two rows ahead.
   const bool given = HasGiven(in);
   const int start = given ? kUnmixFirst : kStart;
   for (int32_t column = first; column < last; ++column) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs the passes that compute a coverage map, tile by tile. Also defines how many rows of tiles
-// each pass is ahead of the next one.
+// Runs the passes that compute a coverage map, tile by tile. Also defines the number of rows of
+// tiles by which each pass is ahead of the last pass.
 #ifndef STARFOCUS_LIB_COVERAGE_PASSES_H_
 #define STARFOCUS_LIB_COVERAGE_PASSES_H_
 
@@ -13,8 +13,8 @@ namespace starfocus {
 
 enum CoveragePass { kFindRagged, kStart, kUnmixFirst, kLook, kUnmixAgain, kCoveragePasses };
 
-// Runs a pass on the tiles [first, last) of a row. The earlier passes must be as far ahead as
-// TilesAhead requires.
+// Runs a pass on the tiles [first, last) of a row. The earlier passes must be ahead by the number
+// of rows that TilesAhead returns.
 void RunPass(const CoverageInput& in, int pass, int32_t first, int32_t last, int32_t row);
 
 // Returns true if the engine has memory for coverage.
@@ -22,11 +22,12 @@ inline bool HasCoverage(const starfocus_config& config) {
   return Has(config.features, STARFOCUS_FEATURE_COVERAGE);
 }
 
-// Value of CoverageMap::around if coverage is given: edges are searched up to two tiles away.
+// Value of CoverageMap::around if the light field has coverage, because edges are then searched up
+// to two tiles away.
 inline constexpr int32_t kAroundGiven = 2;
 
-// Returns the largest distance in pixels that a nearer surface moves relative to a farther one, in
-// any view that is read.
+// Returns the largest movement in pixels of a nearer surface relative to a farther one, in any view
+// that is read.
 inline int32_t LargestMoveBefore(const starfocus_config& config) {
   if (config.views == 1) return 0;
   const DisparityRange range = RangeOf(config);
@@ -40,10 +41,10 @@ inline int32_t TilesAhead(const starfocus_config& config, int pass) {
     case kUnmixAgain:
       return 0;
     case kLook:
-      // Unknown far light is taken from the surrounding tiles.
+      // UnmixAgain takes unknown far light from the surrounding tiles.
       return 1;
     case kUnmixFirst:
-      // A tile next to a mixed one is thin.
+      // A tile next to a mixed tile is thin, so the Look pass requires `mixed` one row ahead.
       return 1 + Max(1, moved);
     case kStart:
       return TilesAhead(config, kUnmixFirst) + 1;
@@ -52,7 +53,8 @@ inline int32_t TilesAhead(const starfocus_config& config, int pass) {
   }
 }
 
-// Returns the number of pixels around the split ones that the passes read.
+// Returns the distance in pixels from a split pixel to the farthest pixels that the passes read; 0
+// if the engine has no memory for coverage.
 inline int32_t CoverageBorder(const starfocus_config& config) {
   if (!HasCoverage(config)) return 0;
   return (TilesAhead(config, kFindRagged) + 1) * kCoverageTile + kBandReach + 2;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Estimates the share of each pixel near an edge that the nearer surface covers.
+// Estimates the coverage of each pixel near an edge: the part of the pixel that the nearer surface
+// covers.
 #ifndef STARFOCUS_LIB_COVERAGE_UNMIX_H_
 #define STARFOCUS_LIB_COVERAGE_UNMIX_H_
 
@@ -7,12 +8,12 @@
 
 namespace starfocus {
 
-// Writes the tile's coverage of the first pass, starting from its initial alpha. Sets `mixed` if
-// the mean of its pixels is as mixed as in thin structures.
+// Writes the coverage of a tile after the first pass, starting from the tile's initial alpha. Sets
+// `mixed` if the pixels of the tile are, on average, as mixed as in thin structures.
 void UnmixFirst(const CoverageInput& in, int32_t column, int32_t row);
 
-// Writes the tile's coverage of the second pass and its far light, from the first pass and the far
-// light of all views (look.h).
+// Writes the coverage of a tile after the second pass, and the tile's far light. Both are computed
+// from the coverage of the first pass and from the far light of all views (look.h).
 void UnmixAgain(const CoverageInput& in, int32_t column, int32_t row);
 
 }  // namespace starfocus
