@@ -11,13 +11,14 @@
 namespace starfocus::analysis {
 namespace {
 
-// Side of the only block, so that one worker's memory holds the whole picture.
+// Side of the superblock. It is at least the picture's side, so that the picture is one block and
+// one worker's memory holds the whole picture.
 constexpr int kBlock = 256;
 constexpr uint8_t kWhite = 255;
-// Level of the dark surface. Layers use a gray, because the negative lobes of their filters would
-// be clipped at black.
+// Gray level of the dark surface, by layer. Layers 1 and 2 use a gray because the negative lobes of
+// their filters would be clipped at black.
 constexpr uint8_t kDark[STARFOCUS_LAYERS] = {0, 64, 64};
-// Number of pixels that the filters reach beyond the blur.
+// Number of pixels by which the layers' filters extend the PSF beyond the blur radius, by layer.
 constexpr int kReach[STARFOCUS_LAYERS] = {2, 10, 24};
 
 struct FreeAligned {
@@ -56,7 +57,7 @@ starfocus_config ConfigOf(int side, const EngineProbe& probe) {
   return config;
 }
 
-// Owns an engine and the memory it lives in.
+// Owns an engine and the engine's memory.
 class Engine {
  public:
   explicit Engine(const starfocus_config& config) {
@@ -106,13 +107,14 @@ std::vector<double> ReadLevels(const Engine& measured) {
   std::vector<double> levels(measured.out().size() / 3);
   for (size_t k = 0; k < levels.size(); ++k) {
     const double sample = block.layer == 0 ? scratch.sums[3 * k] : scratch.picture_samples[3 * k];
-    // Copied pixels are not rendered; their level is that of the output.
+    // If pixels are copied rather than rendered, the levels are read from the output.
     levels[k] = engine.report.copied_pixels > 0 ? measured.out()[3 * k] : sample / one;
   }
   return levels;
 }
 
-// Returns the change of a flat picture by a white pixel at (x, y), within `radius` of it.
+// Returns the difference between the picture with a white pixel at (x, y) and the flat picture,
+// within `radius` of (x, y).
 SampledPsf ReadPsf(const std::vector<double>& levels, const std::vector<double>& flat, int side,
                    int x, int y, int radius) {
   SampledPsf psf(radius);
@@ -137,14 +139,14 @@ starfocus_status MeasureEnginePsf(const EngineProbe& probe, EnginePsf* result) {
   Impulse impulse(side, probe.r, dark);
   Engine engine(ConfigOf(side, probe));
   if (engine.status() != STARFOCUS_OK) return engine.status();
-  // The flat picture is the reference: rounding in a layer adds up to one or two 64ths of a gray
-  // level.
+  // The reference is the refocused flat picture, because rounding in a layer adds up to 2/64 of a
+  // gray level.
   const starfocus_status flat_status = engine.Refocus(impulse, probe);
   if (flat_status != STARFOCUS_OK) return flat_status;
   const std::vector<double> flat = ReadLevels(engine);
   SampledPsf sum(radius);
   double squares = 0;
-  // Transposing a flat picture transposes the PSF, so that half of the positions are sufficient.
+  // Half of the positions are sufficient, because transposing the picture transposes the PSF.
   for (int a = 0; a < places; ++a) {
     for (int b = 0; b <= a; ++b) {
       impulse.Set(middle + a, middle + b, kWhite);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures the PSF of the running engine: its response to one white pixel on a flat surface.
+// Measures the PSF of the running engine, which is the engine's response to one white pixel on a
+// flat surface.
 #ifndef STARFOCUS_LIB_ANALYSIS_ENGINE_PSF_H_
 #define STARFOCUS_LIB_ANALYSIS_ENGINE_PSF_H_
 
@@ -10,9 +11,9 @@ namespace starfocus::analysis {
 
 // Parameters of a measurement, with u_t = 1.
 struct EngineProbe {
-  // d - d_t of the surface in pixels, |r| <= 60. Negative: the surface is behind the focus.
+  // d - d_t of the surface in pixels, |r| <= 60. If r is negative, the surface is behind the focus.
   double r;
-  // Largest blur radius of the disparity range, >= |r|. Frame mode computes N from it.
+  // Largest blur radius of the disparity range, >= |r|. Frame mode computes N from r_max.
   double r_max;
   starfocus_mode mode;          // STARFOCUS_MODE_FRAME or STARFOCUS_MODE_BLOCK
   starfocus_renderer renderer;  // STARFOCUS_RENDERER_LINE_SCAN or STARFOCUS_RENDERER_SLICES
@@ -20,18 +21,18 @@ struct EngineProbe {
 };
 
 struct EnginePsf {
-  // PSF for a white of 1, so that its taps sum to 1: the mean over all positions of the white
-  // pixel.
+  // Mean PSF over all positions of the white pixel, normalised so that the taps sum to 1.
   SampledPsf psf;
-  double aliasing;  // of layers: mean squared variation of the PSF with that position
+  double aliasing;  // mean squared variation of the PSF over these positions, caused by layers
   int n;            // N that the engine chose
   int layer;        // L that the engine chose
 };
 
-// Measures the PSF. At layer 0 it reads the 32-bit accumulators that starfocus_refocus leaves in
-// memory, because rounding to bytes hides all taps below 1/510. For other layers it reads the
-// unrounded samples, to 1/64 gray level. *result is valid only for STARFOCUS_OK. Returns
-// STARFOCUS_ERROR_STATE if the engine split the picture into blocks.
+// Measures the PSF. At layer 0, the function reads the 32-bit accumulators that starfocus_refocus
+// leaves in memory, because rounding to bytes hides all taps below 1/510. At other layers, it reads
+// the samples before they are rounded to bytes, with a resolution of 1/64 gray level. *result is
+// valid only if the function returns STARFOCUS_OK. Returns STARFOCUS_ERROR_STATE if the engine
+// split the picture into blocks.
 starfocus_status MeasureEnginePsf(const EngineProbe& probe, EnginePsf* result);
 
 }  // namespace starfocus::analysis

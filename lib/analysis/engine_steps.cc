@@ -64,8 +64,8 @@ std::string Explain(const EngineStep& step) {
   if (step.apart > kExplained[step.layer]) {
     return "unexplained: not the PSF the engine is meant to have";
   }
-  // Tests the causes from the most to the least fundamental one, and returns the first that
-  // suffices.
+  // Tests possible causes from the most to the least fundamental, and returns the first cause that
+  // explains the error.
   const double r = std::fabs(step.r);
   if (MakeLayerTheory(r, step.layer).error > kThreshold) {
     return "the layers' filters: the ideal PSF through them exceeds it too";

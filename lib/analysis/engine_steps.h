@@ -9,41 +9,43 @@
 
 namespace starfocus::analysis {
 
-// Theoretical values for blur radius r refocused at layer L. `error` is the SSE (10) of the ideal
-// PSF at r / 2^L through the layers, against the ideal PSF (4) at r. `aliasing` is (11). Both are 0
-// at layer 0.
+// Theoretical values for blur radius r refocused at layer L. `error` is the SSE (10) between two
+// PSFs: the ideal PSF for r / 2^L after the layers' filters, and the ideal PSF (4) for r.
+// `aliasing` is (11). Both values are 0 at layer 0.
 struct LayerTheory {
   double error;
   double aliasing;
 };
 LayerTheory MakeLayerTheory(double r, int layer);
 
-// SSE (8) of several PSFs against the ideal PSF (4) at one r. If L > 0, all of them go through the
-// layers.
+// SSE (8) of several PSFs with respect to the ideal PSF (4) for one r. If L > 0, each PSF but the
+// ideal one includes the layers' filters.
 struct EngineStep {
   double r;             // signed
   int n;                // N that the engine chose
   int layer;            // L that the engine chose
-  bool wide;            // subapertures may be wider than a pixel
-  double engine;        // of the measured PSF
-  double star;          // of StarPsf
-  double subapertures;  // of SubaperturePsf
-  double paper;         // of PaperPsf
-  // SSE of subapertures at most a pixel wide, with every view spread along both axes.
+  bool wide;            // true if subapertures may be wider than a pixel
+  double engine;        // SSE of the measured PSF
+  double star;          // SSE of StarPsf
+  double subapertures;  // SSE of SubaperturePsf
+  double paper;         // SSE of PaperPsf
+  // SSE of the PSF of subapertures that are at most a pixel wide, with every view spread along both
+  // axes.
   double both_axes;
-  double apart;     // squared difference of the measured PSF and StarPsf
+  double apart;     // sum of squared differences between the measured PSF and StarPsf
   double aliasing;  // measured aliasing
 };
 
 starfocus_status MeasureStep(const EngineProbe& probe, EngineStep* step);
 
-// Largest difference between the measured PSF and StarPsf that rounding explains. Slices have 7
-// fractional bits of a gray level, weights of views about 10, and samples of layers 6. A pixel that
-// is spread has only a few levels left.
+// Largest value of EngineStep::apart that rounding explains, by layer. Slices have 7 fractional
+// bits of a gray level, weights of views about 10 bits, and samples of layers 6 fractional bits.
+// After a pixel has been spread, its light amounts to only a few gray levels.
 inline constexpr double kExplained[] = {1.1e-5, 2e-5, 2e-5};  // by layer
 
-// Explains why step.engine exceeds kThreshold; empty if it does not. Starts with "unexplained" if
-// the measured PSF differs from the one that the engine's description gives.
+// Returns an explanation why step.engine exceeds kThreshold, or an empty string if step.engine does
+// not exceed kThreshold. The explanation starts with "unexplained" if the measured PSF differs from
+// StarPsf by more than rounding explains.
 std::string Explain(const EngineStep& step);
 
 }  // namespace starfocus::analysis

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The resampling filters of the subsampled layers: a half-band sinc with a Kaiser window.
+// Computes the resampling filters of the subsampled layers: half-band sinc filters with a Kaiser
+// window.
 #ifndef STARFOCUS_LIB_ANALYSIS_HALF_BAND_H_
 #define STARFOCUS_LIB_ANALYSIS_HALF_BAND_H_
 
@@ -9,14 +10,15 @@ namespace starfocus::analysis {
 
 inline constexpr int kHalfBandRadius = 3;  // seven taps
 
-// The paper's parameters: beta_U makes G_U(-1) = 0; beta_D is that of Table I at r = 3.
+// Parameters of the paper's filters. With beta_U, G_U(-1) = 0. beta_D is the value in Table I at r
+// = 3.
 inline constexpr double kBetaUp = 2.17;
 inline constexpr double kBetaDown = 1.28;
 
 // Returns sinc(n / 2) times the Kaiser window of `beta` >= 0, scaled to a sum of 1.
 Taps HalfBand(double beta);
 
-// Returns G(e^{j omega}) of a symmetric PSF at omega = pi: the gain of the highest frequency.
+// Returns the gain at the highest frequency, G(e^{j omega}) at omega = pi, of a symmetric filter.
 double GainAtPi(const Taps& psf);
 
 // Returns the beta for which GainAtPi(HalfBand(beta)) = 0.

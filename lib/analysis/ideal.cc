@@ -17,7 +17,7 @@ constexpr double kLongestPiece = 0.4;
 int RadiusOf(double r) { return static_cast<int>(std::ceil(r + 0.5)); }
 
 // Returns the angles in [low, high] at which the circle of radius r crosses the pixel's left or
-// right side. The integrand is smooth between them.
+// right side. The integrand is smooth between these angles.
 std::vector<double> Breaks(double low, double high, double left, double right, double r) {
   std::vector<double> breaks = {low, high};
   for (const double x : {left, right}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The discrete PSF of the ideal defocusing blur (4).
+// Computes the discrete PSF of the ideal defocus blur (4).
 #ifndef STARFOCUS_LIB_ANALYSIS_IDEAL_H_
 #define STARFOCUS_LIB_ANALYSIS_IDEAL_H_
 
@@ -7,11 +7,11 @@
 
 namespace starfocus::analysis {
 
-// Returns (4) for a blur radius r >= 0 in pixels, exact to about 1e-12. r = 0 gives the unit
-// impulse.
+// Returns (4) for a blur radius r >= 0 in pixels, with an error of about 1e-12. For r = 0, returns
+// the unit impulse.
 SampledPsf IdealPsf(double r, double theta);
 
-// Returns the ideal PSF of the 1D aperture, with the same accuracy.
+// Returns the ideal PSF of the 1D aperture, with an error of about 1e-12.
 Taps IdealPsf1(double r, double theta);
 
 }  // namespace starfocus::analysis

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The two integrals from which the continuous quantities are computed.
+// Computes the two integrals that lib/analysis uses for continuous quantities.
 #ifndef STARFOCUS_LIB_ANALYSIS_INTEGRAL_H_
 #define STARFOCUS_LIB_ANALYSIS_INTEGRAL_H_
 

@@ -14,8 +14,9 @@ namespace {
 
 constexpr double kBetaDown = 1.28;  // as in kDownFilter
 
-// Returns the share of the square of `side` around (u, v) that is open. Counts points of a grid
-// unless the corners decide.
+// Returns the share of a square that is open. The square has sides of `side` and is centred at (u,
+// v). The function counts the open points of a grid, unless the whole square is clearly open or
+// closed.
 double Share(const BrightOpening& opening, double u, double v, double side) {
   constexpr int kPoints = 64;
   int corners = 0;
@@ -60,7 +61,7 @@ SampledPsf IdealPsf(double r, const BrightOpening& opening) {
 SampledPsf SubaperturePsf(double r, int n, const BrightOpening& opening) {
   const double lens = double(LensInSubapertures(n)) / kSubapertureUnits;
   const int last = LastSubaperture(n), most = MostOfSubapertures(n);
-  const double width = r / lens;  // of a subaperture, pixels
+  const double width = r / lens;  // width of a subaperture in pixels
   SampledPsf psf(static_cast<int>(std::ceil(last * width + (width + 1) / 2)));
   for (int i = -last; i <= last; ++i) {
     for (int j = -last; j <= last; ++j) {

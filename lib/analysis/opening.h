@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Openings other than (3), in double precision: their ideal PSFs, the PSFs of their subapertures,
-// and the errors of layers. The values of N and the layers that openings need follow from these
-// (docs/constants.md, Openings).
+// Analyses openings other than (3) in double precision: the ideal PSF of an opening, the PSF of its
+// subapertures, and the error of a layer. The engine's rules for N and layers of these openings are
+// based on the results (docs/constants.md, Openings).
 #ifndef STARFOCUS_LIB_ANALYSIS_OPENING_H_
 #define STARFOCUS_LIB_ANALYSIS_OPENING_H_
 
@@ -11,8 +11,9 @@ namespace starfocus::analysis {
 
 // A part of the unit disc with uniform brightness.
 struct BrightOpening {
-  double inner = 0;  // radius of its hole
-  // Number of sides of a regular polygon with straight edges and a corner at (0, -1). 0: a disc.
+  double inner = 0;  // radius of the round hole in the middle
+  // Number of sides of a regular polygon with straight edges and a corner at (0, -1). 0 stands for
+  // a disc.
   int blades = 0;
   bool Contains(double u, double v) const;
 };
@@ -20,8 +21,8 @@ struct BrightOpening {
 // Returns the PSF (4) of the opening for r > 0.
 SampledPsf IdealPsf(double r, const BrightOpening& opening);
 
-// Returns the PSF of the views of ViewsBySubaperture's N >= 1. Each view is as wide as its
-// subaperture and has the light that passes through it.
+// Returns the PSF of refocusing with subapertures, for N = n >= 1. Each view is spread over the
+// width of its subaperture and weighted by the light that passes through the subaperture.
 SampledPsf SubaperturePsf(double r, int n, const BrightOpening& opening);
 
 // Returns the largest SSE (8) of SubaperturePsf over the radii from `r_min` to `r_max`, in steps of

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sampled PSFs and filters, and their squared differences.
+// Stores sampled PSFs and filters, and computes their squared differences.
 #ifndef STARFOCUS_LIB_ANALYSIS_SAMPLED_PSF_H_
 #define STARFOCUS_LIB_ANALYSIS_SAMPLED_PSF_H_
 
@@ -8,7 +8,7 @@
 
 namespace starfocus::analysis {
 
-// Taps b[n], |n| <= radius; zero outside.
+// Taps b[n] of a 1D filter for |n| <= radius. All other taps are zero.
 class Taps {
  public:
   explicit Taps(int radius) : radius_(radius), taps_(static_cast<size_t>(2 * radius + 1)) {}
@@ -26,7 +26,7 @@ class Taps {
   std::vector<double> taps_;
 };
 
-// Taps b[n, m], |n|, |m| <= radius; zero outside.
+// Taps b[n, m] of a 2D PSF for |n|, |m| <= radius. All other taps are zero.
 class SampledPsf {
  public:
   explicit SampledPsf(int radius)
@@ -50,11 +50,11 @@ class SampledPsf {
   std::vector<double> taps_;
 };
 
-// Returns the sum of squared errors of (8) and (10).
+// Returns the sum of squared differences between two PSFs, as in (8) and (10).
 double SquaredError(const SampledPsf& a, const SampledPsf& b);
 double SquaredError(const Taps& a, const Taps& b);
 
-// Returns the sum of squares, as in (11).
+// Returns the sum of the squared taps, as in (11).
 double Energy(const SampledPsf& psf);
 
 }  // namespace starfocus::analysis

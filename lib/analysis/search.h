@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Searches along one variable.
+// Finds minima and sign changes of functions of one variable.
 #ifndef STARFOCUS_LIB_ANALYSIS_SEARCH_H_
 #define STARFOCUS_LIB_ANALYSIS_SEARCH_H_
 
 namespace starfocus::analysis {
 
-// Returns the position of the minimum of f, which has a single one in [low, high], by
-// golden-section search to `tolerance`.
+// Returns the position of the minimum of f in [low, high], by golden-section search to `tolerance`.
+// f must have a single local minimum in this interval.
 template <class Function>
 double Minimise(double low, double high, double tolerance, const Function& f) {
   constexpr double kGolden = 0.61803398874989485;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes the number of views that a blur radius needs by the paper's criteria (III-C, Fig. 6), on
-// which (9) is based.
+// Computes the number of views that a blur radius requires according to the paper's criteria
+// (III-C, Fig. 6). The paper derives (9) from these criteria.
 #ifndef STARFOCUS_LIB_ANALYSIS_SELECTION_H_
 #define STARFOCUS_LIB_ANALYSIS_SELECTION_H_
 
@@ -8,10 +8,11 @@
 
 namespace starfocus::analysis {
 
-// The paper's epsilon: largest SSE by which a blur may differ from the ideal one.
+// The paper's epsilon: the largest permitted SSE (8) between a PSF and the ideal PSF.
 inline constexpr double kThreshold = 1e-3;
 
-// Return the SSE (8) of the paper's PSF, and of the PSF of subapertures.
+// PaperError returns the SSE (8) of the paper's PSF, and SubapertureError the SSE (8) of the PSF of
+// subapertures.
 double PaperError(double r, int n, double theta, Rim rim = Rim::kIncluded);
 double SubapertureError(double r, int n, double theta);
 
@@ -21,12 +22,12 @@ struct RatioPoint {
   double error;  // (8)
 };
 
-// Returns the over-sampling (1 <= N / r <= 2) with the largest error: the 'o' of Fig. 6. The curve
-// has a cusp at N / r = 3 / 2.
+// Returns the over-sampling ratio (1 <= N / r <= 2) with the largest error, marked by 'o' in Fig.
+// 6. The curve of Fig. 6 has a cusp at N / r = 3 / 2.
 RatioPoint WorstOverSampling(int n, double theta, Rim rim = Rim::kIncluded);
 
-// Returns the under-sampling (N / r < 1) marked by the triangle of Fig. 6: the first ratio below 1
-// whose error is `error`. Returns 0 if no ratio above 1 / 4 has that error.
+// Returns the under-sampling ratio (N / r < 1) marked by the triangle in Fig. 6, which is the
+// largest ratio below 1 with an error of `error`. Returns 0 if no ratio above 1 / 4 has this error.
 double UnderSamplingRatio(int n, double theta, double error, Rim rim = Rim::kIncluded);
 
 }  // namespace starfocus::analysis

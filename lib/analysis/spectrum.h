@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Frequency responses of 1D PSFs (Figs. 5 and 8).
+// Computes frequency responses of 1D PSFs (Figs. 5 and 8 of the paper).
 #ifndef STARFOCUS_LIB_ANALYSIS_SPECTRUM_H_
 #define STARFOCUS_LIB_ANALYSIS_SPECTRUM_H_
 

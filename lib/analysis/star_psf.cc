@@ -17,9 +17,9 @@ namespace {
 
 constexpr double kNarrowest = 1e-6, kWidest = 7;
 
-// Footprint of a view along a line: a single tap or, for subapertures wider than kBoxSubaperture,
-// the taps of a box on whole pixels. Each tap is then spread by a box of `width`, which up to one
-// pixel is the interpolation.
+// Footprint of a view along a line. The footprint is a single tap or, for subapertures wider than
+// kBoxSubaperture, the taps of a box on whole pixels. Each tap is then spread by a box of `width`;
+// a box of up to one pixel is the interpolation.
 struct Footprint {
   double width;
   Taps taps;
@@ -44,7 +44,7 @@ Footprint MakeFootprint(double subaperture, Subapertures subapertures) {
   return wide;
 }
 
-// Calls visit(p, share) for the pixels that a sample at `x` reaches.
+// Calls visit(p, share) for each pixel p over which a sample at `x` is spread.
 template <class Visit>
 void Spread(double x, const Footprint& footprint, const Visit& visit) {
   const int first = static_cast<int>(std::floor(x)), reach = footprint.taps.radius();

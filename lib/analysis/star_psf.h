@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The PSF that the engine should have according to its description: subapertures as line scans and
-// slices render them.
+// Computes the PSF that the engine is designed to have. Subapertures are modelled in the same way
+// as the line scan and the slice renderer render them.
 #ifndef STARFOCUS_LIB_ANALYSIS_STAR_PSF_H_
 #define STARFOCUS_LIB_ANALYSIS_STAR_PSF_H_
 
@@ -8,15 +8,15 @@
 
 namespace starfocus::analysis {
 
-// Shapes of subapertures. Narrow ones are at most a pixel wide, and type B views (|i| = |j|) are
-// spread along their diagonal only. Wide ones are as wide as r / N, and all views are spread along
-// both axes.
+// Shapes of subapertures. With narrow subapertures, each view is spread over at most one pixel, and
+// views of type B (|i| = |j|; IV-B of the paper) are spread along the diagonal only. With wide
+// subapertures, each view is spread over r / N pixels along both axes.
 enum class Subapertures { kNarrow, kWide };
 
 // Returns the PSF of N views at blur radius r, with positions and subapertures rounded to the
-// engine's 1/256 pixel. A subaperture of up to 3 pixels is a box of its width. A wider one, of at
-// most 7 pixels, is a box on whole pixels followed by linear interpolation. Wide subapertures have
-// the positions of MakeSubapertures.
+// engine's 1/256 pixel. A subaperture that is up to 3 pixels wide is a box. A wider subaperture, of
+// at most 7 pixels, is a box on whole pixels followed by linear interpolation. If `subapertures` is
+// kWide, views have the positions that MakeSubapertures computes.
 SampledPsf StarPsf(double r, int n, double theta, Subapertures subapertures);
 
 }  // namespace starfocus::analysis

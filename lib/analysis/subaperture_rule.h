@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rule (9) for subapertures: the number of views that a blur radius needs if each view stands
-// for its part of the lens.
+// Computes the counterpart of rule (9) for subapertures: the number of views that a blur radius
+// requires if each view stands for a part of the lens.
 #ifndef STARFOCUS_LIB_ANALYSIS_SUBAPERTURE_RULE_H_
 #define STARFOCUS_LIB_ANALYSIS_SUBAPERTURE_RULE_H_
 
@@ -10,22 +10,23 @@
 
 namespace starfocus::analysis {
 
-// The rule is ViewsBySubaperture of lib/base/rules.h. Up to half a pixel the ideal PSF (4) is the
-// unit impulse, so the centre view alone is exact. For larger radii, two limits hold for every r <=
-// r_max. The SSE (8) is below 10^-3. It is also below the larger of two errors of the paper's N by
-// (9): the SSE of its PSF at the same r, and its worst over-sampling SSE. The latter is (9)'s own
-// limit. SubapertureStudy::Margin measures both.
+// The rule is implemented by ViewsBySubaperture in lib/base/rules.h. Up to a radius of half a
+// pixel, the ideal PSF (4) is the unit impulse, so the centre view alone is exact. For larger
+// radii, the SSE (8) satisfies two limits at every r <= r_max. The first limit is 10^-3. The second
+// limit is the larger of two errors of the paper's PSF with N from (9): the SSE at the same r, and
+// the worst SSE of over-sampling. The paper derives (9) from the worst SSE of over-sampling.
+// SubapertureStudy::Margin measures how closely both limits are met.
 
-// Returns the smallest N whose subapertures are at least as good at r as the paper's PSF with N
-// from (9).
+// Returns the smallest N for which the SSE (8) of subapertures at r is at most the SSE of the
+// paper's PSF with N from (9).
 int FewestSubapertures(double r, double theta);
 
 // Returns the largest SSE (8) of the PSF of a lens that is `lens` / kSubapertureUnits subapertures
-// wide. The radii are from 5/8 of a pixel (below, only the centre view is rendered) to r_max.
-// LensInSubapertures is chosen to keep this error small.
+// wide. The maximum is taken over radii from 5/8 of a pixel to r_max; for smaller radii, only the
+// centre view is rendered. The values of LensInSubapertures keep this error small.
 double WorstOfLens(int lens, double r_max, double theta);
 
-// Errors of the PSFs at every r, used to search for rules.
+// Errors of the PSFs at every r. The lab program uses the errors to find rules for N.
 class SubapertureStudy {
  public:
   // Computes the ideal PSFs for r = k * step, 0 < r <= r_limit.
@@ -35,11 +36,11 @@ class SubapertureStudy {
   double Radius(int k) const { return (k + 1) * step_; }  // k in [0, count())
 
   // Returns the largest ratio of the subapertures' error to the limit of ViewsBySubaperture, over
-  // all r <= Radius(k_max). The rule holds if it is at most 1. `worst`, if not null, receives the r
-  // of that ratio.
+  // all r <= Radius(k_max). The rule holds if the ratio is at most 1. If `worst` is not null,
+  // *worst is set to the r of the largest ratio.
   double Margin(int k_max, int n, double* worst = nullptr);
 
-  // Returns the smallest N for which Margin is at most 1.
+  // Returns the smallest N for which Margin(k_max, N) is at most 1.
   int Fewest(int k_max);
 
  private:
@@ -48,8 +49,9 @@ class SubapertureStudy {
 
   double step_, theta_;
   std::vector<SampledPsf> ideal_;
-  std::vector<std::vector<double>> subapertures_, paper_;  // by N; empty until used
-  std::vector<double> over_sampling_;                      // of each N of paper_
+  std::vector<std::vector<double>> subapertures_, paper_;  // indexed by N; empty until first used
+  // Worst error of over-sampling, indexed by N.
+  std::vector<double> over_sampling_;
 };
 
 }  // namespace starfocus::analysis

@@ -16,7 +16,7 @@ constexpr double kHighestBeta = 8;
 constexpr double kBetaStep = 0.01, kThetaStep = 0.01 * kPi;
 constexpr double kLowestTheta = 0.05 * kPi, kHighestTheta = 0.45 * kPi;
 
-// Returns G(-z): a[n] with the signs of the odd taps inverted.
+// Returns G(-z) for a filter G(z): the signs of all odd taps are inverted.
 Taps Alternated(Taps psf) {
   for (int n = -psf.radius(); n <= psf.radius(); ++n) {
     if (n % 2) psf.at(n) = -psf(n);
@@ -32,8 +32,8 @@ Taps Convolve(const Taps& a, const Taps& b) {
   return result;
 }
 
-// Returns b[n, m] upsampled with zeros, then filtered with x along the first axis and with y along
-// the second.
+// Upsamples the PSF `half` with zeros, filters it with x along the first axis and with y along the
+// second axis, and returns the result.
 SampledPsf Spread(const SampledPsf& half, const Taps& x, const Taps& y) {
   const int inner = 2 * half.radius(), radius = inner + x.radius();
   SampledPsf rows(radius), result(radius);
@@ -58,7 +58,8 @@ Taps AxisFilter(double beta_down, bool alias) {
   Taps up = HalfBand(kBetaUp);
   up.Scale(2);
   Taps filter = Convolve(up, alias ? Alternated(down) : down);
-  filter.Scale(0.5);  // downsampling and upsampling pass half signal, half alias
+  // Downsampling followed by upsampling passes half the signal and half the alias.
+  filter.Scale(0.5);
   return filter;
 }
 
@@ -67,7 +68,8 @@ SampledPsf Subsampled(const SampledPsf& half, double beta_down, Alias alias) {
                 AxisFilter(beta_down, alias == Alias::kY || alias == Alias::kBoth));
 }
 
-// Returns an impulse at `place` filtered down to the layer. Tap n is pixel n of the layer.
+// Returns the 1D impulse at position `place`, downsampled to the layer. Tap n of the result is
+// pixel n of the layer.
 Taps LayersDown(int place, int layer, double beta_down) {
   Taps line(0);
   line.at(0) = 1;
@@ -97,8 +99,8 @@ Taps LayersUp(int layer) {
   return filter;
 }
 
-// Returns the sum over n of f(n) f(n + k step) for each k. It is the correlation of the upsampled
-// responses of two pixels of a layer that are k pixels apart.
+// Returns, for each k, the sum over n of f(n) f(n + k step), where f is `filter`. The sum is the
+// correlation of the upsampled responses of two pixels of a layer that are k pixels apart.
 Taps Correlation(const Taps& filter, int step) {
   Taps result(2 * filter.radius() / step);
   for (int k = -result.radius(); k <= result.radius(); ++k) {
@@ -125,7 +127,7 @@ SampledPsf ConvolveAxes(const SampledPsf& psf, const Taps& x, const Taps& y) {
   return result;
 }
 
-// Returns the smallest error (10) at theta, and the beta that gives it.
+// Returns the smallest error (10) at theta, and sets *beta to the value that minimises the error.
 double LeastError(double r, double theta, double* beta) {
   const SampledPsf ideal = IdealPsf(r, theta), half = IdealPsf(r / 2, theta);
   const auto error = [&](double b) {
@@ -207,7 +209,8 @@ Optimum OptimiseOnGrid(double r) {
     const double theta = k * kThetaStep;
     double beta = 0;
     LeastError(r, theta, &beta);
-    // The error has a single minimum in beta, so the best step is next to it.
+    // The error has a single minimum in beta, so the best multiple of kBetaStep is adjacent to the
+    // minimum.
     for (const double step : {std::floor(beta / kBetaStep), std::ceil(beta / kBetaStep)}) {
       const Filters filters = {step * kBetaStep, theta};
       const double error = SubsampledError(r, filters);

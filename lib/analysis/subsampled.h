@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Refocusing in the subsampled-by-two layer (paper, III-D): the equivalent blur, its error (10),
-// its aliasing (11), and the filters that minimise the error (Table I).
+// Analyses refocusing in the layer subsampled by two (III-D of the paper): the equivalent PSF, its
+// error (10), its aliasing (11), and the filters that minimise the error (Table I).
 #ifndef STARFOCUS_LIB_ANALYSIS_SUBSAMPLED_H_
 #define STARFOCUS_LIB_ANALYSIS_SUBSAMPLED_H_
 
@@ -8,8 +8,9 @@
 
 namespace starfocus::analysis {
 
-// Selects the axes that alias. kNone is B_{down 2} itself. The others are the PSFs E_i, in which
-// G_D(z) is replaced by G_D(-z) along x, along y or along both axes.
+// Selects the axes along which the PSF aliases. kNone selects the PSF B_{down 2} itself. The other
+// values select the PSFs E_i of (11), in which G_D(-z) replaces G_D(z) along x, along y or along
+// both axes.
 enum class Alias { kNone, kX, kY, kBoth };
 
 // beta of the downsampling filter and theta of the aperture.
@@ -22,15 +23,17 @@ struct Filters {
 SampledPsf SubsampledPsf(double r, const Filters& filters, Alias alias);
 Taps SubsampledPsf1(double r, const Filters& filters, bool alias);
 
-// Returns the effect on the picture of a blur `half` in the layer below: G_U(z) half(z^2) G_D(z).
+// Returns the PSF at full size that results from a blur with PSF `half` in the subsampled layer:
+// G_U(z) half(z^2) G_D(z).
 SampledPsf ThroughLayer(const SampledPsf& half, double beta_down);
 
-// Returns the aliasing of a blur `psf` of layer L in [0, 2], with L layers down and up again. It is
-// the mean squared variation of the impulse response over the 4^L positions of the impulse. For L =
-// 1 and the ideal PSF it is (11).
+// Returns the aliasing of a blur with PSF `psf` in layer L = `layer`, in [0, 2]. The picture is
+// downsampled L times before the blur and upsampled L times after the blur. The aliasing is the
+// mean squared variation of the impulse response over the 4^L positions of the impulse. For L = 1
+// and the ideal PSF, the aliasing is (11).
 double LayerAliasing(const SampledPsf& psf, int layer, double beta_down);
 
-// Return the SSE of (10) and (11).
+// SubsampledError returns the SSE (10), and AliasingError the aliasing (11).
 double SubsampledError(double r, const Filters& filters);
 double AliasingError(double r, const Filters& filters);
 
@@ -44,11 +47,12 @@ struct Optimum {
 Optimum Optimise(double r);
 
 // Returns the optimum with beta_D in steps of 0.01 and theta in steps of 0.01 pi. The paper does
-// not state its steps. These give all printed digits of Table I, which the free optimum does not.
+// not state its step sizes. With these step sizes, all printed digits of Table I are reproduced;
+// the unrestricted optimum of Optimise does not reproduce them.
 Optimum OptimiseOnGrid(double r);
 
-// Returns the r at which (10), with the best filters for it, falls to `threshold`. (12) uses the
-// next row of Table I.
+// Returns the r at which the error (10) with the best filters for r falls to `threshold`. (12) uses
+// the next larger r of Table I.
 double SmallestSubsampledRadius(double threshold);
 
 }  // namespace starfocus::analysis

@@ -12,7 +12,7 @@
 namespace starfocus::analysis {
 namespace {
 
-// Calls visit(n) for every integer n within the reach of a footprint at `x`.
+// Calls visit(n) for every pixel n that overlaps a footprint of `width` centred at `x`.
 template <class Visit>
 void ForEachTap(double x, double width, const Visit& visit) {
   const double reach = (width + 1) / 2;
@@ -22,7 +22,8 @@ void ForEachTap(double x, double width, const Visit& visit) {
 
 int RadiusOf(double r, double width) { return static_cast<int>(std::ceil(r + (width + 1) / 2)); }
 
-// Sums the PSFs of the views (i, j), |i| <= last, i^2 + j^2 <= most, which are `step` pixels apart.
+// Returns the weighted sum of the PSFs of all views (i, j) with |i| <= last and i^2 + j^2 <= most.
+// Adjacent views are `step` pixels apart.
 template <class Weight>
 SampledPsf SumViews(int last, int most, double step, double width, const Weight& weight) {
   SampledPsf psf(RadiusOf(last * step, width));

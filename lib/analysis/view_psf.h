@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The PSFs of refocusing by rendered views (5)-(7): the paper's with the triangular h, and that of
-// subapertures.
+// Computes the PSFs of refocusing by rendered views, (5) to (7): the paper's PSF, with the
+// triangular h, and the PSF of subapertures.
 #ifndef STARFOCUS_LIB_ANALYSIS_VIEW_PSF_H_
 #define STARFOCUS_LIB_ANALYSIS_VIEW_PSF_H_
 
@@ -10,11 +10,12 @@
 
 namespace starfocus::analysis {
 
-// Returns a box of `width` > 0 integrated over a pixel, at distance t from the pixel's centre. A
-// width of 1 gives the triangular h, a width near 0 the nearest pixel.
+// Returns the integral, over a pixel, of a box of `width` > 0 whose centre is at distance t from
+// the pixel's centre. With a width of 1 the result is the triangular h; with a width near 0 it is
+// nearest-pixel interpolation.
 double Trapezoid(double t, double width);
 
-// Selects whether views with u^2 + v^2 = 1 are rendered. (3) includes them.
+// Selects whether views with u^2 + v^2 = 1 are rendered. (3) includes these views.
 enum class Rim { kIncluded, kExcluded };
 
 // Returns the PSF (5)-(7) for N views along the aperture radius, N >= 1, where h(x, y) is the
@@ -24,12 +25,12 @@ SampledPsf ViewPsf(double r, int n, double theta, double width, Rim rim = Rim::k
 // Returns the PSF with the triangular h of the paper.
 SampledPsf PaperPsf(double r, int n, double theta, Rim rim = Rim::kIncluded);
 
-// Share of the light of a lens that passes through the subaperture around each of its views (i, j).
+// The share of a lens's light that passes through the subaperture around each view (i, j).
 class SubapertureLights {
  public:
-  // Makes the lens of N views along the radius, as wide as LensInSubapertures computes.
+  // Makes a lens with N views along its radius. The width of the lens is LensInSubapertures(n).
   SubapertureLights(int n, double theta);
-  // Returns a lens `lens` / kSubapertureUnits subapertures wide, > 0.
+  // Returns a lens that is `lens` / kSubapertureUnits subapertures wide; `lens` > 0.
   static SubapertureLights OfLens(int lens, double theta) { return {theta, lens}; }
 
   int lens() const { return lens_; }
@@ -40,15 +41,16 @@ class SubapertureLights {
   SubapertureLights(double theta, int lens);
 
   int lens_;
-  std::vector<double> lights_;  // of 0 <= j <= i
+  std::vector<double> lights_;  // shares of the views with 0 <= j <= i
 };
 
-// Returns the PSF of views that stand for their subapertures: h is as wide as the distance that a
-// pixel moves from view to view. N = 0 is the centre view alone, the unit impulse.
+// Returns the PSF of views that stand for their subapertures. The width of h is the distance by
+// which a pixel moves from view to view. With N = 0, only the centre view is rendered, and the PSF
+// is the unit impulse.
 SampledPsf SubaperturePsf(double r, const SubapertureLights& lights);
 SampledPsf SubaperturePsf(double r, int n, double theta);
 
-// Returns the paper's PSF with the 1D aperture, whose views are |i| <= N.
+// Returns the paper's PSF for the 1D aperture, which has the views |i| <= N.
 Taps PaperPsf1(double r, int n, double theta);
 
 // Returns a_{d,N}[i] of (5) for the 1D aperture.
