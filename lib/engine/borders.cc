@@ -29,9 +29,9 @@ int32_t LargestMove(const starfocus_config& config) {
   return CeilPixels(nearer > farther ? nearer : farther);
 }
 
-// Returns the border of a block at `layer`. Rendering reads whole cells with a pixel that reaches
-// the block, plus the border of upsampling. Gathering reads the blur radius and the upsampling
-// margin.
+// Returns the border of a block at `layer`. Rendering reads every cell that has a pixel within
+// reach of the block, plus the border of upsampling. Gathering reads the pixels within the blur
+// radius and the upsampling margin.
 int32_t BorderOfLayer(int32_t blur, int layer) {
   const int32_t reach = ReachOf(blur << kDisparityBits);
   const int32_t rendered = (ToWholeCells(reach + kLayerMargin[layer]) >> layer) + kRenderBorder;
@@ -53,8 +53,8 @@ Borders AddBorders(const starfocus_config& config, double max_blur, bool joins) 
   borders.joined = joins ? kDeblockRows : 0;
   borders.whole_block = reach + kRenderBorder;
   borders.cells = ToWholeCells(reach + kLayerMargin[config.tuning.max_layer]) / kCellSize;
-  // Depth edges of a cell matter within the blur radius; other statistics also within the border of
-  // upsampling.
+  // Depth edges of a cell are used within the blur radius. Other statistics are used within the
+  // blur radius plus the border of upsampling.
   borders.centre = Max(borders.cells * kCellSize, ToWholeCells(reach) + kCellBorder);
   if (!one_view) borders.centre = Max(borders.centre, kLookBack - 1);
   for (int layer = 0; layer <= config.tuning.max_layer; ++layer) {
@@ -70,8 +70,8 @@ Borders AddBorders(const starfocus_config& config, double max_blur, bool joins) 
       one_view || !HasCoverage(config) ? 0 : LargestMove(config) + CapturedBorder(0);
   borders.views = Max(borders.views, borders.centre + read);
   if (config.highlights > 1) {
-    // This border affects how blocks are split, and therefore the bytes of the output. It covers
-    // the distance that blur and disparity move highlights, and some more.
+    // This border affects how blocks are split, and therefore the bytes of the output. The border
+    // is slightly larger than the distance by which blur and disparity move highlights.
     borders.highlights =
         ToWholeCells(reach + kLayerMargin[2]) + 5 * kCellSize + blur + LargestMove(config);
     borders.views = Max(borders.views, borders.highlights + LampReach(LargestLamp(config.width)));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Number of pixels that the engine reads outside the pixels it produces, accumulated over its
+// Number of pixels that the engine reads around the pixels it produces, accumulated over the
 // processing steps. Each step declares its own border next to its code. borders.cc lists the steps
 // and is the only place that adds borders.
 #ifndef STARFOCUS_LIB_ENGINE_BORDERS_H_
@@ -11,24 +11,27 @@
 
 namespace starfocus {
 
-// Borders in pixels on each side of a superblock, or of its stripe. The border of a step's input
-// includes everything that later steps need.
+// Borders in pixels on each side of a superblock, or of its stripe. The border of the input of a
+// step includes the borders of all later steps.
 struct Borders {
-  int32_t joined = 0;                    // finished picture around a region, for deblocking
-  int32_t whole_block = 0;               // block at layer 0 that is planned without cells
-  int32_t layer[STARFOCUS_LAYERS] = {};  // pixels of the level, for blocks of any plan
-  int32_t cells = 0;                     // cells
-  int32_t parted = 0;                    // coverage map
-  int32_t centre = 0;                    // centre view and disparity map
-  int32_t highlights = 0;                // highlights within it count for the superblock; 0: none
-  int32_t views = 0;                     // any view
-  int32_t streamed = 0;                  // pushed rows; even if images are enabled
+  // rows and columns of the finished picture around a region, for deblocking
+  int32_t joined = 0;
+  // pixels around a block at layer 0 that is planned without cells
+  int32_t whole_block = 0;
+  int32_t layer[STARFOCUS_LAYERS] = {};  // pixels of each layer, for blocks of any plan
+  int32_t cells = 0;                     // number of cells, instead of pixels
+  int32_t parted = 0;                    // pixels of the coverage map
+  int32_t centre = 0;                    // pixels of the centre view and the disparity map
+  // distance up to which highlights affect the superblock; 0: no highlights
+  int32_t highlights = 0;
+  int32_t views = 0;     // pixels of any view
+  int32_t streamed = 0;  // pushed rows; an even number if images are enabled
 };
 
 // Adds the borders for blur radii up to `max_blur`. `joins` is true if blocks are deblocked.
 Borders AddBorders(const starfocus_config& config, double max_blur, bool joins);
 
-// Returns the borders for the largest blur of any lens.
+// Returns the borders for the largest configured blur radius.
 inline Borders LargestBorders(const starfocus_config& config) {
   return AddBorders(config, config.max_blur, true);
 }

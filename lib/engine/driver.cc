@@ -12,7 +12,8 @@
 namespace starfocus {
 namespace {
 
-// Reads rows of the map and the centre view. Job `index` of `jobs` reads PartOf the rows.
+// Reads rows of the map and the centre view. Job `index` reads part `index` of the rows, as PartOf
+// divides them.
 struct RowsJob {
   const RowSource* source;
   const EngineState* engine;
@@ -25,7 +26,8 @@ void ReadMap(const RowsJob& job, int32_t y, int16_t* row, Counts* counts) {
   counts->depth_flags |= job.source->map(job.source->self, y, row);
 }
 
-// Each job overwrites its own row of the ring.
+// Checks a part of the rows. Each job reuses one row of the ring, which is overwritten for every
+// row of the map.
 void CheckPart(const RowsJob& job, int32_t index, Scratch* scratch) {
   const RowRange rows = PartOf(job.rows, index, job.jobs);
   for (int32_t y = rows.first; y < rows.last; ++y) {
@@ -144,7 +146,8 @@ starfocus_status RefocusRows(const RowSource& source, const RowSink& sink, Engin
   const int32_t bottom = top + lens.region.height;
   const RowRange stripes = StripeRows(*engine);
   RowRange rows = {Max(0, stripes.first - reach), 0};
-  const int32_t last = (stripes.last - 1) / side * side;  // first row of the last stripe
+  // first row of the last stripe of the region
+  const int32_t last = (stripes.last - 1) / side * side;
   rows.last = Min(config.height, last + side + reach);
   starfocus_status status = CheckRows(source, rows, engine);
   for (int32_t y = stripes.first; y <= last && status == STARFOCUS_OK; y += side) {
@@ -156,8 +159,8 @@ starfocus_status RefocusRows(const RowSource& source, const RowSink& sink, Engin
     }
     if (status == STARFOCUS_OK) status = RefocusStripe(engine, y);
     if (status != STARFOCUS_OK) break;
-    // The next stripe may change the last rows of this stripe, unless it is the last one of the
-    // region.
+    // The next stripe may change the last rows of this stripe. The last stripe of the region has no
+    // next stripe.
     const int32_t end = y == last ? bottom : Min(FinishedRows(config, y), bottom);
     const RowRange finished = {Max(y - kDeblockRows, top), end};
     if (finished.first < end) {

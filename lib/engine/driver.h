@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loop over the stripes of a picture. Every entry point of the engine uses it with a source of
-// input rows and a sink of output rows. Streams refocus one stripe at a time instead.
+// Loop over the stripes of a picture. Every entry point of the engine except streams runs this loop
+// with a source of input rows and a sink of output rows. Streams refocus one stripe at a time
+// instead.
 #ifndef STARFOCUS_LIB_ENGINE_DRIVER_H_
 #define STARFOCUS_LIB_ENGINE_DRIVER_H_
 
@@ -15,21 +16,22 @@
 namespace starfocus {
 
 // Input light field in any format. Each row is loaded once, in order. A source that wraps another
-// one may change the depth map.
+// source may replace the depth map.
 struct RowSource {
   ViewReader views;              // null functions: the views are read in place
   bool converts_centre = false;  // true: rows of the centre view are copied to the engine's ring
   // Writes row y of the disparity map to `out`, in kDisparityBits; unknown disparities are
   // kNoSurface. Returns simd::DepthFlags. Null: the map is in memory.
   uint32_t (*map)(const void* self, int32_t y, int16_t* out) = nullptr;
-  // Writes row y of the coverage, for streams. Null: the light field has no coverage.
+  // Writes row y of the coverage. Used only by streams. Null: the light field has no coverage.
   void (*coverage)(const void* self, int32_t y, uint8_t* out) = nullptr;
   // Writes row y of the alpha of the centre view. Null: alpha is 255.
   void (*alpha)(const void* self, int32_t y, uint8_t* out) = nullptr;
   const void* self = nullptr;
 };
 
-// Receives finished rows of a picture or region, in order. `from` has all columns of the picture.
+// Receives finished rows of a picture or region, in order. `from` contains all columns of the
+// picture.
 struct RowSink {
   starfocus_status (*store)(const void* self, const RowRange& rows, const Plane<uint8_t>& from,
                             EngineState* engine);
@@ -37,28 +39,29 @@ struct RowSink {
 };
 
 // Checks all values of rows [rows.first, rows.last) of the map. Returns STARFOCUS_OK,
-// STARFOCUS_ERROR_NOT_FINITE or STARFOCUS_ERROR_DISPARITY. If both apply, it returns the former.
+// STARFOCUS_ERROR_NOT_FINITE or STARFOCUS_ERROR_DISPARITY. If both errors apply,
+// STARFOCUS_ERROR_NOT_FINITE is returned.
 starfocus_status CheckRows(const RowSource& source, const RowRange& rows, EngineState* engine);
 
-// Loads rows of the map into `disparity`, and rows of the centre view into its ring if the source
-// converts it. The rows must have been checked.
+// Loads rows of the map into `disparity`. If the source converts the centre view, loads rows of the
+// centre view into their ring. The rows must have been checked.
 starfocus_status LoadRows(const RowSource& source, const RowRange& rows,
                           const Plane<int16_t>& disparity, EngineState* engine);
 
-// Copies row y of the source to the rings of a streaming engine. Returns the status of the map row;
-// if it is an error, no view is copied.
+// Copies row y of the source to the rings of a streaming engine. Returns the status of the map row.
+// If this status is an error, no view is copied.
 starfocus_status CopyRow(const RowSource& source, int32_t y, EngineState* engine);
 
-// Returns the rows of the stripes that the lens's region needs. The first row is a multiple of the
-// superblock size.
+// Returns the rows of all stripes that affect the region of the lens. The first row is a multiple
+// of the superblock size.
 RowRange StripeRows(const EngineState& engine);
 
-// Returns part `index` when `rows` are divided into `parts` parts. Their sizes differ by at most
-// one.
+// Returns part `index` when `rows` are divided into `parts` parts. The sizes of the parts differ by
+// at most one row.
 RowRange PartOf(const RowRange& rows, int32_t index, int32_t parts);
 
-// Refocuses the stripes that the lens's region needs, and stores the rows of the region. Checks all
-// input rows before it stores the first output row. Returns STARFOCUS_OK,
+// Refocuses the stripes that affect the region of the lens, and stores the rows of the region.
+// Checks all input rows before it stores the first output row. Returns STARFOCUS_OK,
 // STARFOCUS_ERROR_CANCELLED, STARFOCUS_ERROR_RUNNER or an error of the map.
 starfocus_status RefocusRows(const RowSource& source, const RowSink& sink, EngineState* engine);
 

@@ -19,7 +19,7 @@ namespace starfocus {
 // Progress of a streamed refocusing, in rows.
 struct Stream {
   bool active = false;
-  bool covers = false;   // true: the pushed rows have coverage
+  bool covers = false;   // true: pushed rows include coverage
   int32_t pushed = 0;    // number of pushed input rows
   int32_t next = 0;      // first row of the next stripe
   int32_t finished = 0;  // number of output rows that no later stripe changes
@@ -28,24 +28,24 @@ struct Stream {
 
 // Memory for images, in addition to the ring for the rows of the centre view.
 struct ImageMemory {
-  uint32_t* columns = nullptr;  // for each column of the picture, its place in the depth map
+  uint32_t* columns = nullptr;  // for each column of the picture, its position in the depth map
   int32_t map_width = 0;        // width of that depth map; 0: `columns` is not set yet
-  uint8_t* odd_row = nullptr;   // output row whose chroma waits for the row below
-  Plane<uint8_t> alpha;         // with streaming: ring of the alpha of the centre view
+  uint8_t* odd_row = nullptr;   // output row whose chroma is written together with the next row
+  Plane<uint8_t> alpha;         // with streaming: ring of rows of the centre view's alpha
 };
 
 struct EngineState {
   // Valid for the life of the engine:
-  starfocus_config config;         // `problem` is the engine's own
+  starfocus_config config;         // config.problem points to the field below
   starfocus_problem problem = {};  // problem of the last call
   const simd::Kernels* kernels;
   Tables tables;
-  // Owns the memory. Null functions: the caller owns it.
+  // Frees the memory of the engine. Null functions: the caller owns the memory.
   starfocus_allocator allocator = {};
   size_t bytes = 0;                 // size of the memory from the allocator
   Workers workers;                  // memory of the workers
   Plane<uint8_t> rings[kMaxViews];  // with streaming: pushed rows
-  ImageMemory images;               // with images; they also use rings[0]
+  ImageMemory images;               // with images, which use rings[0] as well
 
   // Valid until the next starfocus_set_callbacks, like the runner and the progress function in
   // workers.jobs:
@@ -68,7 +68,7 @@ struct EngineState {
 // The other fields of `params` must have been checked.
 starfocus_status SetLens(const starfocus_params& params, EngineState* engine);
 
-// TakeCounts moves the workers' counts to the report. DropCounts discards them.
+// TakeCounts moves the workers' counts to the report. DropCounts discards these counts.
 void TakeCounts(EngineState* engine);
 void DropCounts(EngineState* engine);
 

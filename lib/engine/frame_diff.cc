@@ -13,7 +13,7 @@ namespace {
 // Number of pixels that are compared at once.
 constexpr int32_t kUnit = 16;
 
-// Stripes that depend on row y.
+// Stripes that depend on a row.
 struct StripeRange {
   int32_t first, last;
 };
@@ -22,8 +22,8 @@ StripeRange StripesOf(const FrameDiff& changes, int32_t y, int32_t reach) {
   return {Max(0, y - reach) / changes.side, Min(changes.height - 1, y + reach) / changes.side};
 }
 
-// Returns true if all blocks of the stripes are flagged already. If much changes, most rows need no
-// comparison.
+// Returns true if all blocks of the stripes are flagged already. If large parts of the picture
+// change, this test avoids the comparison of most rows.
 bool AllFlagged(const FrameDiff& changes, const StripeRange& stripes) {
   for (int32_t stripe = stripes.first; stripe <= stripes.last; ++stripe) {
     if (std::memchr(changes.Flags(stripe), 0, static_cast<size_t>(changes.columns)) != nullptr) {
@@ -47,14 +47,15 @@ struct RowPair {
   }
 };
 
-// Compares row y and flags the blocks that depend on different pixels. widen(&first, &end) may add
-// pixels that change together with [first, end).
+// Compares row y of two pictures and flags the superblocks that depend on pixels that differ.
+// widen(&first, &end) may add pixels that change together with [first, end).
 template <class Widen>
 void CompareRow(const FrameDiff& changes, const RowPair& rows, int32_t y, int32_t reach,
                 const Widen& widen) {
   const StripeRange stripes = StripesOf(changes, y, reach);
   if (AllFlagged(changes, stripes) || !rows.Differs(0, changes.width)) return;
-  int32_t flagged = -1;  // last column flagged by this row; filled pixels may change beyond it
+  // last superblock column that this row flagged; filled pixels may change beyond this column
+  int32_t flagged = -1;
   for (int32_t x = 0; x < changes.width; x += kUnit) {
     int32_t left = x, right = Min(x + kUnit, changes.width);
     const int32_t column = Min(changes.width - 1, right - 1 + reach) / changes.side;

@@ -12,15 +12,17 @@
 
 namespace starfocus {
 
-// Rows are compared in order, starting at the first row that is needed. The flags of a stripe and
-// its neighbours are complete when all rows within their reach have been compared.
+// Comparison of two light fields. Rows are compared in order, starting at the first row that
+// affects the region. The flags of a stripe and its neighbours are complete when all rows within
+// their reach have been compared.
 struct FrameDiff {
   bool active = false;  // true: `before` is valid
   const starfocus_light_field *before, *now;
   int32_t views;                // number of views to compare
   int32_t width, height, side;  // size of the picture, and side of a superblock, in pixels
   int32_t columns;              // number of columns of superblocks
-  // Pixels around a block that the block may depend on: of the centre view, of side views.
+  // Number of pixels around a block, in the centre view and in side views, on which the block may
+  // depend.
   int32_t centre_reach, side_reach;
   bool fills;     // true: unknown disparities are filled along their row
   int32_t rows;   // number of rows compared
@@ -37,8 +39,8 @@ struct FrameDiff {
 // Restarts the comparison for stripes from row y on.
 void StartFrameDiff(int32_t y, FrameDiff* changes);
 
-// Compares all rows that affect blocks of the stripe at row y, or of the stripes before and after
-// it. Returns STARFOCUS_OK or STARFOCUS_ERROR_CANCELLED.
+// Compares all rows that affect blocks of the stripe at row y, of the previous stripe, or of the
+// next stripe. Returns STARFOCUS_OK or STARFOCUS_ERROR_CANCELLED.
 starfocus_status CompareRows(int32_t y, CancelToken* cancel, FrameDiff* changes);
 
 // Returns true if a superblock that overlaps `rect` has changed. `rect` must be less than a stripe

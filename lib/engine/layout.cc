@@ -11,7 +11,7 @@ namespace {
 
 // Allocates the memory for subsampling a column of superblocks.
 void TakeResample(const starfocus_config& config, Arena* arena, ResampleScratch* resample) {
-  // The last column includes the pixels of a layer beyond the picture: one or two.
+  // The last column includes one or two pixels of a layer beyond the picture.
   const auto side = config.superblock;
   const auto columns = static_cast<size_t>(Max(side / 2 + 1, TapsOfLayer(side / 4 + 2)));
   const int32_t above_two = TapsOfLayer(LayerRows(config, 2));
@@ -22,8 +22,8 @@ void TakeResample(const starfocus_config& config, Arena* arena, ResampleScratch*
   resample->above = arena->Take<int16_t>(3 * columns, static_cast<size_t>(above_two));
 }
 
-// Rendering and partitioning use the same memory, because a worker does them in turn and keeps only
-// the sums.
+// Rendering and partitioning use the same memory, because a worker runs these steps in turn and
+// keeps only the sums.
 Scratch TakeScratch(const starfocus_config& config, Arena* arena) {
   const auto side = static_cast<size_t>(config.superblock);
   const Borders borders = LargestBorders(config);
@@ -41,13 +41,14 @@ Scratch TakeScratch(const starfocus_config& config, Arena* arena) {
   if (HasShapes(config)) scratch.aperture_weights = arena->Take<uint16_t>(FullApertureSize(most));
   if (config.highlights > 1) scratch.lamp_runs = arena->Take<LampRuns>(1);
   const size_t shared = arena->Mark();
-  // The slice renderer comes last: its pool of slices takes all memory that other users need.
+  // The slice renderer is laid out last, because its pool of slices uses all memory that it shares
+  // with other steps.
   for (int32_t k = renderers - 1; k >= 0; --k) {
     kRenderers[k]->take_scratch(config, extended, static_cast<size_t>(max_n[k]), arena,
                                 scratch.renderers[k]);
     arena->Reuse(shared);
   }
-  // Gathering reads `field` and writes to the rendered rectangle.
+  // These pieces do not overlap, because gathering reads `field` and writes to `layer_samples`.
   const size_t half = side / 2 + 2 * static_cast<size_t>(LayerMargin(1));
   scratch.layer_samples = arena->Take<int16_t>(3 * half * half);
   const size_t behind = arena->Mark();
@@ -125,8 +126,8 @@ void TakeStripe(const starfocus_config& config, Arena* arena, EngineState* engin
   }
   FrameDiff& changes = engine->stripe.changes;
   changes.columns = static_cast<int32_t>(blocks);
-  // Rows up to one border below the next stripe are compared, and flag stripes up to another border
-  // below. Flags of the previous stripe are still read.
+  // The engine compares rows up to one border below the next stripe. These rows flag stripes up to
+  // one more border below. The flags of the previous stripe are read as well.
   changes.stripes = 2 * borders.views / side + 5;
   changes.flags = arena->Take<uint8_t>(blocks * static_cast<size_t>(changes.stripes));
   engine->stripe.map.columns = (config.width + kSmallestBlock - 1) / kSmallestBlock;
@@ -140,7 +141,8 @@ void TakeImages(const starfocus_config& config, int32_t rows, Arena* arena, Imag
   images->columns = arena->Take<uint32_t>(width);
   images->odd_row = arena->Take<uint8_t>(3 * width);
   if (!Has(config.features, STARFOCUS_FEATURE_STREAMING)) return;
-  // Alpha is read when finished rows are written, which may belong to the previous stripe.
+  // The ring keeps the alpha of the previous stripe, whose last rows are written together with this
+  // stripe.
   images->alpha.rows = rows + config.superblock + kDeblockRows;
   images->alpha.stride = width;
   images->alpha.data = arena->Take<uint8_t>(width, static_cast<size_t>(images->alpha.rows));
@@ -177,7 +179,7 @@ void TakeRows(const starfocus_config& config, Arena* arena, EngineState* engine)
 
 size_t Carve(const starfocus_config& config, Arena arena, EngineState** engine) {
   *engine = arena.Take<EngineState>(1);
-  EngineState counted;  // used instead of *engine while counting
+  EngineState counted;  // replaces *engine while the layout only counts
   EngineState& e = *engine == nullptr ? counted : **engine;
   TakeTables(config, &arena, &e.tables);
   e.workers.jobs.max_workers = config.max_workers;

@@ -14,18 +14,18 @@
 namespace starfocus {
 
 // Lays out an engine for a valid configuration at `base`, aligned to STARFOCUS_ALIGNMENT. If `base`
-// is null, it only counts and sets *engine to null. Returns the number of bytes, or kTooLarge.
-// `pieces` receives each piece unless it is null.
+// is null, only counts the bytes and sets *engine to null. Returns the number of bytes, or
+// kTooLarge. `pieces` receives each piece and may be null.
 size_t LayOut(const starfocus_config& config, void* base, EngineState** engine,
               const PieceVisitor* pieces = nullptr);
 
-// Lays out an engine again for pictures that are not larger than before. `config` may differ from
-// the engine's configuration only in the size and the range of disparities, and must not stream.
-// Tables remain valid; all state of a refocusing is lost.
+// Lays out an engine again for pictures of the same or a smaller size. `config` may differ from the
+// engine's configuration only in the picture size and the range of disparities, and must not enable
+// streaming. Tables remain valid; all state of a refocusing is lost.
 void LayOutAnew(const starfocus_config& config, EngineState* engine);
 
-// Poisons the red zones of an engine's memory, if this build has them, during the lifetime of the
-// object. The memory belongs to the caller, who may use it for another purpose afterwards.
+// Poisons the red zones of an engine's memory during the lifetime of this object; no-op in builds
+// without red zones. Afterwards the caller, who owns the memory, may use it for another purpose.
 class RedZones {
  public:
   explicit RedZones(EngineState* engine);

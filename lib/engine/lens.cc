@@ -10,7 +10,8 @@
 namespace starfocus {
 namespace {
 
-// The line scan shows a halo as wide as the blur if no captured view sees behind edges.
+// Returns the renderer of a lens. By default, one view is rendered with slices, because line scans
+// of one view show a halo as wide as the blur.
 const Renderer& RendererOf(const starfocus_config& config, const starfocus_params& params) {
   const bool by_default = params.renderer == STARFOCUS_RENDERER_AUTO &&
                           params.mode == STARFOCUS_MODE_FRAME && config.views > 1 &&
@@ -19,8 +20,8 @@ const Renderer& RendererOf(const starfocus_config& config, const starfocus_param
   return is_paper && HasLineScan(config) ? kLineScanRenderer : kSliceRenderer;
 }
 
-// Returns the aperture of the frame modes, which have a single N. Benchmark mode has its own memory
-// for it. STARFOCUS_MODE_BLUR reads only the centre view.
+// Returns the aperture of a mode that has a single N. The aperture of benchmark mode has its own
+// memory. STARFOCUS_MODE_BLUR reads only the centre view and uses N = 0.
 ViewWeights FrameWeights(const starfocus_config& config, const Tables& tables, const Lens& lens) {
   const Renderer& renderer = *lens.renderer;
   if (lens.params.mode == STARFOCUS_MODE_BLUR) return lens.apertures[0];
@@ -68,7 +69,7 @@ starfocus_status MakeLens(const starfocus_config& config, const starfocus_params
   lens->renderer = &RendererOf(config, params);
   lens->r_max = r_max;
   lens->borders = AddBorders(config, r_max, IsDeblocking(config, *lens));
-  // Benchmark mode has its own aperture, and STARFOCUS_MODE_BLUR needs only that of N = 0.
+  // Benchmark mode has its own aperture, and STARFOCUS_MODE_BLUR uses only the aperture of N = 0.
   const bool has_own = IsBenchmark(*lens) || params.mode == STARFOCUS_MODE_BLUR;
   lens->largest_n =
       LargestN(config, *lens->renderer, DemandOf(tables->opening), has_own ? 0 : r_max);

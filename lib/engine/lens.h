@@ -18,17 +18,17 @@ namespace starfocus {
 
 struct Lens {
   starfocus_params params;
-  Rect region;  // region of `params`; the whole picture if they have none
+  Rect region;  // region of `params`, or the whole picture if no region is set
   const Renderer* renderer;
   double r_max;                  // largest blur radius for the configured disparities, in pixels
   const ViewWeights* apertures;  // apertures of the renderer, indexed by N
   int32_t largest_n;             // largest N of `apertures`
-  ViewWeights aperture;          // frame modes: aperture of their single N
+  ViewWeights aperture;          // frame modes: aperture of the single N
   BlurScale scale;
   Borders borders;
 };
 
-// Returns true if no region is set, which means the whole picture.
+// Returns true if `region` is all 0, which selects the whole picture.
 inline bool IsWhole(const starfocus_region& region) {
   return region.x == 0 && region.y == 0 && region.width == 0 && region.height == 0;
 }
@@ -70,7 +70,7 @@ double LargestBlur(const starfocus_config& config, const starfocus_params& param
 // Returns STARFOCUS_ERROR_BLUR if the largest blur radius exceeds max_blur, otherwise STARFOCUS_OK.
 starfocus_status CheckBlur(const starfocus_config& config, const starfocus_params& params);
 
-// Makes the lens for `params`, and the tables that it needs and that do not exist yet. Returns
+// Makes the lens for `params`, and those tables of the lens that do not exist yet. Returns
 // STARFOCUS_ERROR_BLUR, STARFOCUS_ERROR_CANCELLED or STARFOCUS_OK. The other fields of `params`
 // must have been checked.
 starfocus_status MakeLens(const starfocus_config& config, const starfocus_params& params,

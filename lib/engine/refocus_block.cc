@@ -30,7 +30,7 @@ void FinishPicture(const BlockInputs& in, const Rect& rect, int shift, const Pla
   }
 }
 
-// Converts the sums of a block to samples of its layer, at their place in LayerFrame.
+// Converts the sums of a block to samples of its layer, at their position in LayerFrame.
 void KeepLayer(const BlockInputs& in, const Block& block, int shift, const Scratch& scratch) {
   const Rect frame = LayerFrame(block.rect, block.layer), &rendered = block.rendered;
   const size_t samples = 3 * static_cast<size_t>(rendered.width);
@@ -100,7 +100,7 @@ ExcessSum ExcessOf(const BlockInputs& in) {
           ExcessFactor(static_cast<float>(in.config->highlights))};
 }
 
-// Window whose pictures contain only the light of highlights beyond white.
+// Window on pictures that contain only the excess: the light of highlights beyond white.
 class ExcessWindow {
  public:
   ExcessWindow(const BlockInputs& in, Scratch* scratch)
@@ -176,7 +176,7 @@ void GatherBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>
 // Returns the part of a block that views render. At layer 0 it may be smaller than the block.
 const Rect& ViewsRect(const Block& block) { return block.layer == 0 ? block.rendered : block.rect; }
 
-// Copies a part of the block from the centre view, which is its only view.
+// Copies `rect` from the centre view. Used where no view moves a pixel.
 Rendered CopyBlock(const BlockInputs& in, const Rect& rect, const Plane<uint8_t>& out,
                    Scratch* scratch) {
   const uint64_t samples = Samples(rect);
@@ -189,7 +189,8 @@ Rendered RefocusViews(const BlockInputs& in, const Block& block, const Plane<uin
                       Scratch* scratch) {
   const Lens& lens = *in.lens;
   const ViewWeights& aperture = WeightsOf(lens, block.n);
-  // If the centre view of N = 0 has to be rendered, the weights of N = 1 are used with a step of 0.
+  // With N = 0 a block consists of the centre view. If this view must be rendered, the weights of N
+  // = 1 are used with a step of 0.
   const bool pinhole = aperture.n == 0;
   const ViewWeights& whole = pinhole ? lens.apertures[1] : aperture;
   const ApertureShape& opening = in.tables->opening;
@@ -235,7 +236,7 @@ void RefocusBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t
                   Scratch* scratch) {
   const starfocus_clock clock = in.clock;
   const uint64_t start = clock != nullptr ? clock() : 0;
-  Rendered rendered = {1, 0};  // of a block that is gathered completely: the centre view
+  Rendered rendered = {1, 0};  // a completely gathered block counts as one view
   if (IsPinhole(*in.lens)) {
     rendered = CopyBlock(in, block.rect, out, scratch);
   } else if (in.lens->params.mode == STARFOCUS_MODE_BLUR) {
@@ -245,7 +246,7 @@ void RefocusBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t
     if (block.rendered.width > 0) {
       rendered = RefocusViews(in, block, out, scratch);
     }
-    // Gathering follows the views, which do not distinguish gathered cells.
+    // Gathering runs after rendering, because rendered rectangles may contain gathered cells.
     if (block.gathers) GatherBlock(in, block, out, scratch);
   }
   starfocus_layer_report& report = scratch->counts.layers[block.layer];

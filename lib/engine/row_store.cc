@@ -60,7 +60,8 @@ int32_t FillUnknown(const starfocus_config& config, const simd::Kernels& kernels
 
 void ForgetLayers(const starfocus_config& config, RowStore* row_store) {
   for (int layer = 1; layer < STARFOCUS_LAYERS; ++layer) {
-    // Ring with as many rows as a stripe may need, so that rows of the previous stripe are kept.
+    // The ring holds the largest number of rows that a stripe may read, so that rows of the
+    // previous stripe are kept.
     row_store->layers[layer].samples.rows = LayerRows(config, layer);
     row_store->layers[layer].rows = {0, 0};
     std::memset(row_store->needed[layer], 0, static_cast<size_t>(Columns(config)));

@@ -17,7 +17,7 @@ namespace starfocus {
 enum ColumnNeed : uint8_t { kNeeded = 1, kNeededBefore = 2 };
 
 struct RowStore {
-  PlaneViews planes;  // source of the windows if all views are rows of codes in memory
+  PlaneViews planes;  // used as the source of the windows if all views are rows of codes in memory
   Window windows[STARFOCUS_LAYERS];
   LayerPlane layers[STARFOCUS_LAYERS];  // layers 1 and 2 around a stripe
   // ColumnNeed for each column of superblocks, for layers 1 and 2.
@@ -26,12 +26,13 @@ struct RowStore {
   bool prepared;  // true: disparities and layers of the windows come from a prepared light field
 };
 
-// Makes the windows read from `reader`, which must stay valid. `centre` has the codes of the centre
-// view.
+// Sets `reader`, which must remain valid, as the source of the windows. `centre` holds the codes of
+// the centre view.
 void SetViews(const starfocus_config& config, const ViewReader& reader,
               const Plane<const uint8_t>& centre, RowStore* row_store);
 
-// Makes the windows read views in memory of the library: reduced pictures or rings of rows.
+// Sets views in memory of the library, that is, reduced pictures or rings of rows, as the source of
+// the windows.
 void SetPlanes(const starfocus_config& config, const simd::Kernels& kernels,
                const Plane<uint8_t>* views, RowStore* row_store);
 

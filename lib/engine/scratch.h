@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Data of one worker: scratch memory that its jobs use in turn, and its counts.
+// Data of one worker: scratch memory, which the jobs of the worker use in turn, and counts.
 #ifndef STARFOCUS_LIB_ENGINE_SCRATCH_H_
 #define STARFOCUS_LIB_ENGINE_SCRATCH_H_
 
@@ -24,20 +24,21 @@ struct Counts {
   uint32_t depth_flags;  // simd::DepthFlags of the rows that were read
 };
 
-// Memory for the extended rectangle of a block in the centre view. E: its largest side.
+// Memory for the extended rectangle of a block in the centre view. E is the largest side of the
+// rectangle.
 struct BlockPixelsMemory {
   int16_t* rgb;        // light: E rows of RgbStride(E) samples
   int16_t* disparity;  // E^2 samples
 };
 
-// Scratch memory of one worker. Each renderer leaves the weighted sums of a block in `sums`. All
-// memory except `sums` and the weights is shared, because a worker runs one step at a time
-// (layout.cc). R: largest side of a rectangle.
+// Scratch memory of one worker. Each renderer leaves the weighted sums of a block in `sums`. The
+// pointers except `sums` and the weights share memory, because a worker runs one step at a time
+// (layout.cc). R is the largest side of a rectangle.
 struct Scratch {
   void* renderers[kMaxRenderers];  // scratch of each renderer
   uint32_t* sums;                  // 3 R^2 samples
   uint16_t* aperture_weights;      // with cat's eyes: weights of a block, for the largest N
-  LampRuns* lamp_runs;             // with highlights
+  LampRuns* lamp_runs;             // cache of runs, with highlights
   BlockPixelsMemory field;         // for blocks that are gathered, or blurred by depth
   SpanMemory spans;                // for blocks blurred by depth
   ResampleScratch resample;

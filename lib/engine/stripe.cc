@@ -27,8 +27,8 @@ void RefocusOneBlock(const RefocusJob& job, int32_t index, Scratch* scratch) {
 }
 
 // Deblocks the boundaries between blocks of different layers. For boundaries between rows, job
-// `index` processes a column of superblocks. For boundaries between columns, it processes
-// kSmallestBlock of the finished rows.
+// `index` processes column `index` of superblocks. For boundaries between columns, job `index`
+// processes kSmallestBlock of the finished rows.
 struct JoinJob {
   DeblockJob deblock;
   int32_t smallest;  // number of smallest blocks along the side of a superblock
@@ -73,7 +73,7 @@ starfocus_status RefocusPhases(const Stripe& stripe, const Plane<uint8_t>& out,
   if (status != STARFOCUS_OK) return status;
   const StripePlan& plan = engine->stripe.plan;
   // Blocks with the largest predicted time come first, so that no worker starts a long block when
-  // the others are out of work.
+  // the other workers are already idle.
   std::sort(plan.blocks, plan.blocks + plan.used,
             [](const Block& a, const Block& b) { return a.cost > b.cost; });
   const RefocusJob job = {InputsOf(*engine), plan.blocks, out};
@@ -129,12 +129,12 @@ starfocus_status RefocusStripe(EngineState* engine, int32_t y) {
   uint8_t* const ends = rows.Row(y + config.superblock - kDeblockRows);
   uint8_t* const last_rows = engine->stripe.last_rows;
   const size_t bytes = kDeblockRows * rows.stride;
-  // The stripe may change the last rows of the previous stripe. A retry after a failure needs the
-  // original rows.
+  // This stripe may change the last rows of the previous stripe. A retry after a failure starts
+  // from the saved rows.
   std::memcpy(rows.Row(y - kDeblockRows), last_rows != nullptr ? last_rows : ends, bytes);
   const starfocus_report report = engine->report;
   if (!ChooseColumns(stripe, engine)) {
-    ForgetStripe(&engine->stripe);  // the next stripe has no neighbour to join
+    ForgetStripe(&engine->stripe);  // the next stripe has no neighbour to deblock with
     return STARFOCUS_OK;
   }
   const starfocus_status status = RefocusPhases(stripe, rows, engine);

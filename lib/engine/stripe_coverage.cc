@@ -28,7 +28,8 @@ int32_t TilesOfSuperblock(const starfocus_config& config) {
   return config.superblock / kCoverageTile;
 }
 
-// Largest number of rows of tiles that some pass may read after another pass wrote them.
+// Largest number of rows of tiles that must be in memory, because one pass wrote them and another
+// pass may still read them.
 int32_t MostTileRows(const starfocus_config& config, int32_t border) {
   const int32_t read = (config.superblock + 2 * border) / kCoverageTile + 2;
   const int32_t looked_at = TilesOfSuperblock(config) + kMostMove / kCoverageTile + 1;
@@ -45,20 +46,20 @@ void ClearAside(const CoverageMap& map) {
   }
 }
 
-// Returns true if coverage is computed for the lens. Only slices use it.
+// Returns true if coverage is computed for the lens. Only the slice renderer uses coverage.
 bool FindsCoverage(const EngineState& engine) {
   const Lens& lens = engine.lens;
   return HasCoverage(engine.config) && lens.renderer->gathers &&
          lens.params.mode != STARFOCUS_MODE_BLUR && !IsPinhole(lens);
 }
 
-// Runs all passes, so that the last one completes the rows of tiles before row `end`.
+// Runs all passes, so that the last pass completes the rows of tiles before row `end`.
 starfocus_status RunPasses(int32_t top, int32_t end, EngineState* engine) {
   CoverageState& state = engine->stripe.coverage;
   for (int pass = 0; pass < kCoveragePasses; ++pass) {
     const int32_t ahead = TilesAhead(engine->config, pass);
     int32_t& done = state.done[pass];
-    // The first stripe also needs `ahead` rows above it.
+    // For the first stripe, the pass also processes `ahead` rows of tiles above `top`.
     const RowRange rows = {done >= 0 ? done : Max(0, top - ahead),
                            Min(state.map.Rows(), end + ahead)};
     if (rows.first < rows.last) {

@@ -12,7 +12,7 @@ struct LayerJob {
   const simd::Kernels* kernels;
   const Window* picture;         // layer 0
   const uint8_t* const* needed;  // ColumnNeed of the columns of each layer
-  const LayerPlane* layers;      // output: their planes
+  const LayerPlane* layers;      // output: planes of the layers
 };
 
 void DownsampleInto(const LayerJob& job, int32_t layer, int32_t index, Scratch* scratch) {
@@ -22,7 +22,7 @@ void DownsampleInto(const LayerJob& job, int32_t layer, int32_t index, Scratch* 
   if ((need & kNeededBefore) != 0) missing.rows.first = missing.known;
   if (missing.rows.first == missing.rows.last) return;
   const int32_t side = job.config->superblock >> layer, begin = index * side;
-  // The last column includes the pixels of a layer beyond the picture.
+  // The last column of superblocks includes the pixels of a layer beyond the picture.
   const int32_t end = index + 1 == Columns(*job.config) ? missing.width : begin + side;
   DownsamplePicture(*job.kernels, *job.picture, scratch->resample, {layer, begin, end, &missing});
 }

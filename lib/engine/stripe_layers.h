@@ -12,17 +12,17 @@
 
 namespace starfocus {
 
-// Clears the marks of the columns that need layers, for a new stripe. The old marks become those of
-// the previous stripe.
+// Clears the marks of the columns to subsample, for a new stripe. The old marks are kept as the
+// marks of the previous stripe.
 void ClearLayerColumns(const starfocus_config& config, RowStore* row_store);
 
 // Marks all columns of all layers that the engine may use.
 void MarkLayerColumns(const starfocus_config& config, RowStore* row_store);
 
-// Marks the columns that `block` reads.
+// Marks the columns of superblocks that `block` reads.
 void MarkLayerColumns(const starfocus_config& config, const Block& block, RowStore* row_store);
 
-// Moves the layers and their windows to the rows `of_picture`, at their scale, extended by
+// Moves the layers and their windows to the rows `of_picture` of the picture, extended by
 // `borders`. Rows that exist already are kept.
 void PlaceLayers(const RowRange& of_picture, const Borders& borders, RowStore* row_store);
 

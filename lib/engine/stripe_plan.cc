@@ -35,8 +35,8 @@ struct PlanJob {
 // Returns true if superblocks are split according to the picture.
 bool IsPartitioned(const Lens& lens) { return IsBlockMode(lens) && !IsPinhole(lens); }
 
-// Returns the largest side of a block. A block uses the cat's eye of its middle, which changes
-// towards its corners, so blocks with cat's eyes are small.
+// Returns the largest side of a block. A block uses one cat's eye, computed for the middle of the
+// block. Blocks with cat's eyes are small, because the exact cat's eye varies within a block.
 int32_t LargestSide(const PlanJob& job) {
   constexpr int32_t kCatsEyeSide = 32;
   const int32_t largest = job.opening->cats_eye > 0 ? kCatsEyeSide : job.plan.side;
@@ -44,8 +44,8 @@ int32_t LargestSide(const PlanJob& job) {
 }
 
 // Returns true if blocks in `rect` may show light of highlights beyond white: some view has a
-// highlight within the reach of blur and disparity. Returns false if that whole area is one
-// highlight larger than a lamp.
+// highlight within the reach of blur and disparity. Returns false if the whole area within reach is
+// one highlight larger than a lamp.
 bool HasHighlights(const PlanJob& job, const Rect& rect) {
   const starfocus_config& config = *job.config;
   if (!(config.highlights > 1)) return false;
@@ -103,7 +103,8 @@ void PlanBlocks(const PlanJob& job, int32_t column, Scratch* scratch) {
   const int32_t left = column * plan.side;
   const bool has_highlights = HasHighlights(
       job, {left, job.rows.y, Min(plan.side, job.config->width - left), job.rows.height});
-  // The light of highlights beyond white exists only at layer 0, and is not gathered.
+  // Blocks with highlights use layer 0 and are not gathered, because the excess is read only at
+  // layer 0.
   const PartitionRules rules = {job.config,
                                 lens.renderer,
                                 lens.apertures,
@@ -138,8 +139,8 @@ bool IsInRegion(const EngineState& engine, const Rect& rect) {
 }
 
 // Returns true if pixels of `rect` affect pixels that are not copied from the previous picture. The
-// latter are the changed pixels and those within reach of joins around them. Joins then read as far
-// again.
+// reach counts twice: deblocking changes pixels within reach of a changed pixel, and reads pixels
+// within reach of those.
 bool IsNew(const EngineState& engine, const Rect& rect) {
   const int32_t reach = 2 * engine.lens.borders.joined;
   const FrameDiff& changes = engine.stripe.changes;
@@ -147,8 +148,8 @@ bool IsNew(const EngineState& engine, const Rect& rect) {
                                                  rect.width + 2 * reach, rect.height + 2 * reach});
 }
 
-// Moves the grid of cells to the stripe and its surroundings. Returns the first row to measure;
-// rows above it are known from the previous stripe.
+// Moves the grid of cells to the stripe and its surroundings. Returns the first row to measure; the
+// rows above this row are known from the previous stripe.
 int32_t PlaceCells(const Stripe& stripe, const Lens& lens, StripeState* state) {
   CellGrid& cells = state->cells;
   StripePlan& plan = state->plan;
@@ -178,7 +179,7 @@ void MapBlock(const Stripe& stripe, const Block& block, const LayerMap& map) {
   }
 }
 
-// Clears the map. Smallest blocks that no block covers keep kNoLayer.
+// Sets all smallest blocks of the map to kNoLayer, which remains where no block covers the map.
 void ClearMap(const Stripe& stripe, LayerMap* map) {
   map->rows = (stripe.height + kSmallestBlock - 1) / kSmallestBlock;
   std::memset(&map->At(0, 0), kNoLayer,
@@ -199,7 +200,7 @@ void ReportBlock(const Block& block, EngineState* engine) {
 }
 
 // Keeps the blocks that affect the requested pixels, and derives the inputs of the later phases
-// from them.
+// from these blocks.
 void ReadPlan(const Stripe& stripe, EngineState* engine) {
   const starfocus_config& config = engine->config;
   RowStore& row_store = engine->row_store;

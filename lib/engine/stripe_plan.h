@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Plans a stripe: selects the superblocks that are needed, measures their cells, and splits them
-// into blocks.
+// Plans a stripe: selects the superblocks to refocus, measures their cells, and splits each
+// superblock into blocks.
 #ifndef STARFOCUS_LIB_ENGINE_STRIPE_PLAN_H_
 #define STARFOCUS_LIB_ENGINE_STRIPE_PLAN_H_
 
@@ -12,8 +12,8 @@
 
 namespace starfocus {
 
-// Marks the columns of superblocks to refocus, and the columns whose cells they need. Returns false
-// if there are none.
+// Marks the columns of superblocks to refocus, and the columns whose cells must be measured for
+// them. Returns false if no column has to be refocused.
 bool ChooseColumns(const Stripe& rows, EngineState* engine);
 
 // Measures cells, splits superblocks, and drops blocks that do not affect the requested pixels.

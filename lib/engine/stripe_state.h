@@ -24,9 +24,9 @@ struct Stripe {
 struct StripePlan {
   int32_t side;        // side of a superblock in pixels
   int32_t columns;     // number of columns of superblocks
-  uint8_t* wanted;     // per superblock: 1 if some of its pixels are needed
-  uint8_t* measured;   // per superblock: 1 if its cells are needed
-  bool all_measured;   // true: the previous stripe needed the cells of every column
+  uint8_t* wanted;     // per superblock: 1 if the superblock is refocused
+  uint8_t* measured;   // per superblock: 1 if its cells are measured
+  bool all_measured;   // true: the previous stripe measured the cells of every column
   Block* blocks;       // MaxBlocks per superblock
   int32_t* counts;     // number of blocks of each superblock
   int32_t used;        // number of blocks to refocus
@@ -37,8 +37,8 @@ struct StripePlan {
   }
 };
 
-// Coverage map, and the first row of tiles that each pass has not processed yet. Negative: the pass
-// has not processed any row.
+// Coverage map, and the first row of tiles that each pass has not processed yet. This row is
+// negative if the pass has not processed any row.
 struct CoverageState {
   Plane<uint8_t> given;  // with streaming: ring of the coverage of the light field
   CoverageMap map;
@@ -52,8 +52,9 @@ struct StripeState {
   LayerMap map;       // layer of each smallest block, for deblocking
   FrameDiff changes;  // blocks that differ from the previous light field
   uint8_t* out;       // kDeblockRows rows and a stripe, packed
-  // With streaming: the last kDeblockRows rows of the previous stripe, as that stripe left them.
-  // Otherwise null: a failed call is not resumed, so these rows can stay in `out`.
+  // With streaming: the last kDeblockRows rows of the previous stripe, saved when that stripe was
+  // finished. Without streaming null, because a failed call is not resumed and these rows can stay
+  // in `out`.
   uint8_t* last_rows;
 };
 

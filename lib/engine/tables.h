@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Renderers of an engine, and the tables that it makes when a lens first needs them.
+// Renderers of an engine, and the tables that the engine makes when a lens first uses them.
 #ifndef STARFOCUS_LIB_ENGINE_TABLES_H_
 #define STARFOCUS_LIB_ENGINE_TABLES_H_
 
@@ -23,8 +23,8 @@ inline bool HasLineScan(const starfocus_config& config) {
 }
 inline int32_t RendererCount(const starfocus_config& config) { return HasLineScan(config) ? 2 : 1; }
 
-// Returns the largest N that the block and frame modes need for blur radii up to r_max pixels.
-// Radii are rounded up before N is chosen. Demand::kRing has the largest N.
+// Returns the largest N that the block and frame modes use for blur radii up to r_max pixels. The
+// modes round radii up before they choose N. Demand::kRing has the largest N.
 int32_t LargestN(const starfocus_config& config, const Renderer& renderer, Demand demand,
                  double r_max);
 
@@ -32,12 +32,13 @@ int32_t LargestN(const starfocus_config& config, const Renderer& renderer, Deman
 struct ApertureTable {
   ViewWeights* apertures;  // apertures of N up to LargestN for max_blur
   uint16_t* weights;
-  int32_t count = 0;  // number of apertures made
-  size_t used = 0;    // number of weights used by them
+  int32_t count = 0;  // number of apertures in the table
+  size_t used = 0;    // number of weights in use
 };
 
 struct Tables {
-  ApertureShape opening;  // opening of the tables below; its cat's eyes may change
+  // opening of the tables below, except for its cat's eyes, which may change
+  ApertureShape opening;
   ApertureTable apertures[kMaxRenderers];
   uint16_t* benchmark_weights;  // weights of the single aperture of benchmark mode
   Psf* psfs;
@@ -46,7 +47,7 @@ struct Tables {
   int32_t mean_square = 0;  // MeanSquare of the opening; 0: no opening is set
 };
 
-// Sets the opening. Discards all tables if they were made for another opening.
+// Sets the opening. Discards all tables that were made for another opening.
 void SetOpening(const ApertureShape& opening, Tables* tables);
 
 // Makes the missing apertures of the renderer up to N = `last`. Returns STARFOCUS_OK or

@@ -112,10 +112,10 @@ typedef enum starfocus_depth_meaning {
  *
  *  The engine interpolates a smaller map within surfaces, but not across depth edges. For a picture
  *  W pixels wide and a map w values wide, column x of the picture lies at p = floor(128 (2x + 1) w
- *  / W) - 128 of the map, in 1/256 and limited to [0, 256 (w - 1)]. The same formula applies to
- *  rows. Values are interpolated between two rows first, then between two columns. At a distance of
- *  s / 256 from D0 to D1, in 1/64 pixel, the result is D0 + ((s (D1 - D0) + 128) >> 8) if |D1 - D0|
- *  <= 96 (1.5 pixels). Otherwise it is D0 for s < 128 and D1 for s >= 128. An unknown value is
+ *  / W) - 128 of the map, in 1/256 and limited to [0, 256 (w - 1)]. Rows use this formula with the
+ *  heights. Values are interpolated between two rows first, then between two columns. At a distance
+ *  of s / 256 from D0 to D1, in 1/64 pixel, the result is D0 + ((s (D1 - D0) + 128) >> 8) if |D1 -
+ *  D0| <= 96 (1.5 pixels). Otherwise it is D0 for s < 128 and D1 for s >= 128. An unknown value is
  *  never interpolated. */
 typedef struct starfocus_depth_map {
   const void* data; /**< first value, aligned to its type */

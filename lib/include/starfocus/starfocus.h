@@ -463,7 +463,7 @@ STARFOCUS_API starfocus_status starfocus_prepare(starfocus_engine* engine,
  *  With a preview_shift s, the picture has 1 / S of the size, where S = 2^s, and takes about 1 /
  *  S^2 of the time. All parameters are still in pixels of the full size. The output contains the
  *  columns from floor(x / S) to floor((x + width - 1) / S) of the reduced picture, where x and
- *  width describe the region. The same rule applies to rows. The alpha of the output is 255.
+ *  width describe the region. Rows follow this rule as well. The alpha of the output is 255.
  *  Previews do not read the views again.
  *
  *  A preview is the picture of a reduced light field, byte for byte. In the reduced light field a
