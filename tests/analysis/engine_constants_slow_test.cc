@@ -130,7 +130,7 @@ TEST_CASE("constants: the filters of layers are those of Table I at r = 3 and of
                 "lib/analysis draws Fig. 8 with another beta_D than Table I's");
 }
 
-TEST_CASE("constants: layers begin where (12) lets them begin") {
+TEST_CASE("constants: layers begin at the radii of (12)") {
   CHECK_MESSAGE(OptimiseOnGrid(2.5).error > kThreshold, "Table I: (12) could begin at r = 2.5");
   CHECK_MESSAGE(OptimiseOnGrid(3).error < kThreshold, "Table I: (12) must begin above r = 3");
   const double below = std::nextafter(3.0, 0.0);

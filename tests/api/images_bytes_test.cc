@@ -123,7 +123,7 @@ TEST_CASE("images: regions may have odd positions and sizes") {
   }
 }
 
-TEST_CASE("images: hidden surfaces and pixels beyond the edges are converted far away, too") {
+TEST_CASE("images: distant hidden surfaces and outer pixels have the bytes of converted pictures") {
   test::Random random(26);
   for (const int views : {5, 17}) {
     for (const int renderer : {STARFOCUS_RENDERER_SLICES, STARFOCUS_RENDERER_LINE_SCAN}) {

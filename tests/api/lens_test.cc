@@ -27,7 +27,7 @@ starfocus_lens LensOf(const test::NamedShape& shape, double theta = 0.8) {
   return lens;
 }
 
-// Returns shapes of every kind. Some neighbours differ in one field.
+// Returns shapes of every kind. Some consecutive shapes differ in only one field.
 std::vector<starfocus_lens> Lenses() {
   std::vector<starfocus_lens> lenses = {LensOf(kPlain)};
   for (const test::NamedShape& shape : test::kShapes) lenses.push_back(LensOf(shape));

@@ -95,7 +95,8 @@ TEST_CASE("focus at: a single wrong pixel belongs to the surface of most pixels 
     for (const int x : {2, 4, 7, 12}) {
       Map spoilt = map;
       spoilt.At(x, 10) = wrong;
-      // Within 3 pixels of x = 4, most pixels belong to the object. From x = 7, most are behind it.
+      // Within 3 pixels of x = 4, most pixels belong to the object. At x = 7 and beyond, most
+      // pixels around the wrong pixel are behind the object.
       CHECK(spoilt.Focus(x, 10) == (x < 6 ? 5 : 1));
       CHECK(spoilt.Focus(x, 9) == (x < 6 ? 5 : 1));  // next to it
     }

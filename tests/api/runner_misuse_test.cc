@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests runners that break their contract. Calls must return STARFOCUS_ERROR_RUNNER without further
-// damage.
+// Tests runners that break their contract. Calls must return STARFOCUS_ERROR_RUNNER and cause no
+// further damage.
 #include <doctest/doctest.h>
 
 #include <atomic>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Streams rows. They must have the bytes of the whole picture, in memory that does not depend on
-// the height.
+// Streamed rows must have the bytes of the whole picture. The memory must not depend on the height.
 #include <doctest/doctest.h>
 
 #include <algorithm>

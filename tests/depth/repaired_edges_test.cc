@@ -17,7 +17,7 @@ namespace {
 constexpr int kWidth = 96, kHeight = 64;
 constexpr int16_t kNear = 12 << starfocus::kDisparityBits, kFar = 0;
 
-// A dark near half and a bright far half. The edge of each row is at a column of its own.
+// A dark near half and a bright far half. The edge of the map may be at another column in each row.
 struct Scene {
   std::vector<uint8_t> rgb = std::vector<uint8_t>(3 * kWidth * kHeight);
   std::vector<int16_t> map = std::vector<int16_t>(kWidth * kHeight);

@@ -247,7 +247,7 @@ test::Scene SmoothScene(int width, int height, int views) {
     starfocus_view_position(view, &u, &v);
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x) {
-        // Solution of px - u d(px) = x for a linear d.
+        // Solves px - u d(px) = x, where d is linear.
         const double px = (x - 6 * u) / (1 - 12 * u / (width - 1)), py = y + v * disparity(px);
         for (int c = 0; c < 3; ++c) {
           const double value = std::sin(0.15 * px + 0.1 * py + c) * std::cos(0.06 * px - 0.2 * py) +

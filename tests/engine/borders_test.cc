@@ -189,7 +189,7 @@ TEST_CASE("borders: nothing beyond the borders of a superblock is read") {
   CHECK(gathered > 0);
 }
 
-// A setting in which a certain sum of borders is needed.
+// A setting in which one of the sums of borders is needed exactly.
 struct Sum {
   const char* name;
   int views, renderer, max_layer;

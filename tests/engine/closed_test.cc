@@ -33,7 +33,8 @@ test::Scene Square(int views, double jitter, double slope, uint64_t seed) {
   return scene;
 }
 
-// Returns the largest difference from the colour of the surface, where blur adds no other colour.
+// Returns the largest difference from the colour of the surface, where the blur mixes in no other
+// colour.
 int MostLeaked(const test::Output& out, int blur) {
   int most = 0;
   for (int y = kFirst + blur; y < kLast - blur; ++y) {

@@ -169,7 +169,7 @@ TEST_CASE("constant: wide subapertures leave the picture unchanged") {
 }
 
 // If an opening is much brighter in the middle, most views have small weights, and dark codes are
-// few levels of light. The engine therefore sums the products of both with more precise weights.
+// few levels of light. The engine therefore scales the weights up and sums the products in shares.
 // The remaining error is the rounding of slices that cover parts of a pixel. It affects up to three
 // pixels of a few pictures.
 TEST_CASE("constant: dark codes are nearly unchanged by steep openings") {

@@ -65,7 +65,7 @@ std::vector<Case> Cases() {
     for (const test::Depth depth :
          {test::Depth::kLayers, test::Depth::kSlanted, test::Depth::kNoise}) {
       for (const Lens& lens : kLenses) {
-        // In noise, the views of a line differ anyway, so two lenses suffice.
+        // With noise, the views of a line already differ from each other, so two lenses suffice.
         if (depth == test::Depth::kNoise && &lens != &kLenses[1] && &lens != &kLenses[4]) continue;
         Case one = {"", 97, 70, views, depth, lens, number % 2 == 0 ? 32 : 64};
         char name[80];
@@ -122,7 +122,7 @@ std::string Refocus(const Case& one, const test::Scene& scene,
   // Slanted surfaces use codes as in the paper, and others use light.
   config.transfer =
       one.depth == test::Depth::kSlanted ? STARFOCUS_TRANSFER_NONE : STARFOCUS_TRANSFER_SRGB;
-  // Some cases use views instead of gathering, also at layers 1 and 2.
+  // A part of the cases renders views instead of gathering, at all layers.
   config.tuning.gather = one.views != 9;
   if (one.levels > 0) config.tuning.n_scale = 0.5;
   starfocus_params params = test::Params(one.lens.focus, one.lens.aperture, one.lens.mode);

@@ -36,7 +36,7 @@ std::vector<uint8_t> Picture(const test::Scene& scene, double blur, double highl
                              starfocus_transfer transfer = STARFOCUS_TRANSFER_SRGB) {
   starfocus_config config = test::ConfigFor(scene, 20);
   config.superblock = 32;
-  // Neither layers nor gathering are used near highlights.
+  // Near highlights, the engine uses neither layers nor gathering.
   config.tuning.max_layer = config.tuning.gather = 0;
   config.highlights = float(highlights);
   config.transfer = transfer;

@@ -231,8 +231,8 @@ public final class RefocuserTest {
     for (int i = 0; i < chroma.capacity(); ++i) chroma.put(i, (byte) (i % 2 == 0 ? 120 : 135));
     final ByteBuffer v = chroma.duplicate();
     v.position(1);
-    // Android's layout: U and V are two bytes apart, and each is a byte shorter than half of the
-    // plane.
+    // Android's layout: samples of U and V are two bytes apart. Each buffer is a byte shorter than
+    // half of the plane.
     final Image camera = new Image(
         Image.YUV_420_888, new ByteBuffer[] {luma, chroma, v}, new int[] {WIDTH, WIDTH, WIDTH});
     camera.pixelStride = 2;

@@ -18,7 +18,7 @@ if [ -n "$preset" ]; then
   library=$(dirname "$build")/$preset/lib/libstarfocus_jni.so
   cc=aarch64-linux-gnu-gcc cxx=aarch64-linux-gnu-g++
   program=$(find "$jre/usr/lib/jvm" -path '*-17-*/bin/java')
-  # Emulated code should be compiled, but optimizing it does not pay.
+  # Under emulation, compiling frequent code is worthwhile, but optimizing it takes too long.
   java() {
     qemu-aarch64 -L /usr/aarch64-linux-gnu \
       -E "LD_LIBRARY_PATH=$jre/usr/lib/aarch64-linux-gnu:$jre/lib/aarch64-linux-gnu" \

@@ -187,7 +187,7 @@ TEST_CASE("button: a tap shorter than the bouncing time ends") {
   CHECK(button.Edge(true, 11 * kMs));
 }
 
-TEST_CASE("button: a press while the release bounces is handled") {
+TEST_CASE("button: a press while the release bounces is counted when the button settles") {
   Debouncer button(10 * kMs);
   CHECK(button.Edge(true, 0));
   CHECK_FALSE(button.Edge(false, 100 * kMs));

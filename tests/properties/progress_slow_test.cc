@@ -22,8 +22,7 @@ void SetCallbacks(test::Engine* engine, const starfocus_callbacks& callbacks) {
   REQUIRE(starfocus_set_callbacks(engine->get(), &callbacks) == STARFOCUS_OK);
 }
 
-// Pulls a whole stream. Progress cancels after each `every` calls, and each cancelled pull is
-// repeated.
+// Pulls a whole stream. Each pull is cancelled after `every` calls of progress and then repeated.
 int PullOn(const Picture& f, int every, starfocus_report* report, test::Output* out) {
   test::Engine engine(f.config);
   Watch watch;
@@ -77,8 +76,8 @@ TEST_CASE("progress: a stream that is cancelled in begin has not begun") {
   CHECK(starfocus_stream_push(engine.get(), &field, 1, &consumed) == STARFOCUS_ERROR_STATE);
 }
 
-// The work between two calls of progress is limited, and not only the number of blocks. A job with
-// one block must call progress repeatedly.
+// The limit is the work between two calls of progress, not the number of blocks. A job with a
+// single block must therefore call progress repeatedly.
 TEST_CASE("progress: no block computes a million samples between two calls") {
   constexpr double kMost = 1 << 20;
   for (const Lens& of : kLenses) {
@@ -91,7 +90,8 @@ TEST_CASE("progress: no block computes a million samples between two calls") {
     starfocus_config config = test::ConfigFor(scene, 32);
     config.superblock = side;
     config.tuning.max_layer = 0;
-    // Gathering reads every second pixel.
+    // For gathered pixels, the test counts every second pixel of rows and columns, as a lower
+    // bound.
     const int radius = gathered ? 12 : 32, size = (gathered ? 1 : 2) * radius + 1;
     starfocus_params params = test::Params(9 - radius, 1, of.mode, of.renderer);
     test::Engine engine(config);

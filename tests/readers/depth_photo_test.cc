@@ -119,7 +119,8 @@ TEST_CASE(
                       Data(RampPng())),
                &capture) == "");
 #ifdef STARFOCUS_HAS_EXIF
-  // Orientation 6: the first row of the file is the right side, and its first column is the top.
+  // Orientation 6: row 0 of the file is at the right side of the picture, and column 0 is at the
+  // top.
   const Image& upright = capture.light_field.views[0];
   REQUIRE(upright.width == kHeight);
   REQUIRE(upright.height == kWidth);

@@ -49,8 +49,8 @@ void MakePhoto(const TempFolder& folder, const std::string& exif) {
   Write(folder.file("a-depth.png"), Encode(map, ".png"));
 }
 
-// Writes a grey photo and depth pictures. In one, the left half is near; in another, all rows
-// except the top.
+// Writes a grey photo and depth pictures. In the first picture, the left half is near. In the
+// second, all rows except the top ones are near.
 void MakePhotoAndMap(const TempFolder& folder) {
   MakePhoto(folder, "");
   Write(folder.file("a.png"), Encode(Ramp(96, 64), ".png"));

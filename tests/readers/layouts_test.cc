@@ -99,7 +99,7 @@ TEST_CASE("Stanford: the star of the grid is taken, in the order of the position
   CHECK(capture.light_field.views.size() == 17);
   CHECK(LevelAt(capture, 0, 0) == 23);
   CHECK(LevelAt(capture, 1, 0) == 25);
-  CHECK(LevelAt(capture, 0, 1) == 3);  // row 0 has the largest Y
+  CHECK(LevelAt(capture, 0, 1) == 3);  // the largest Y is in row 0
   CHECK(LevelAt(capture, 0.5, -0.5) == 34);
   CHECK(capture.widest == 0);
   WriteStanford(turned, [](int row, int column) {
@@ -132,7 +132,8 @@ TEST_CASE(
   CHECK(LevelAt(capture, 1, 1) == 8);
   std::filesystem::remove(three.file("scene r2c2 8bit.png"));
   CHECK(Contains(OpenAndLoad(three, &capture), "a picture for each of 3 rows of 3, found 8"));
-  // 7 x 7 views have a middle. 3 views from there to the edge have no whole half.
+  // The largest grid with a middle is 7 x 7. It has 3 views from the middle to the edge, so no view
+  // is at half of this distance.
   grid(sixteen, 8, 8);
   REQUIRE(OpenAndLoad(sixteen, &capture) == "");
   CHECK(capture.light_field.views.size() == 9);
@@ -254,7 +255,7 @@ TEST_CASE(
 }
 
 TEST_CASE("orientation: the corners are at the places that EXIF defines") {
-  // EXIF 2.32, tag 274: the sides that row 0 and column 0 of the file are.
+  // EXIF 2.32, tag 274: the sides of the picture at which row 0 and column 0 of the file are.
   constexpr const char* kRows[] = {"top",  "top",   "bottom", "bottom",
                                    "left", "right", "right",  "left"};
   constexpr const char* kColumns[] = {"left", "right", "right",  "left",

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads valid but unusual photos of editors and some cameras. The readers use what is valid and add
-// a note. Also tests which metadata are kept.
+// Reads valid but unusual photos of editors and some cameras. The readers must use the valid parts
+// and add a note. Also tests which metadata are kept.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -152,7 +152,8 @@ TEST_CASE("Apple's JPEG: the map is found if its index is wrong, moved or lost")
     check(MultiPicture(Photo(), map, {little, 0xffffffff}), "");
     check(MultiPicture(Photo(), map, {little, 32, 1000}), wrong);
     check(MultiPicture(Photo(), map, {little, 32, 0x80000000}), wrong);
-    // An editor inserts a segment before the index. Offsets count from the index and stay valid.
+    // An editor inserts a segment before the index. Offsets are relative to the index, so they stay
+    // valid.
     check(Insert(MultiPicture(Photo(), map, {little}), ExifSegment(1, 50)), "");
   }
   check(Photo() + map, "the file has no multi-picture index");
@@ -198,7 +199,8 @@ TEST_CASE("a stereo pair in one file has two views and no map") {
   // Entries that are read at a wrong offset have a type that does not exist.
   CHECK(open("a.mpo", MultiPicture(Photo(), second, {false, 32, 5, 0x123456})));
   CHECK(open("a.jpg", MultiPicture(Photo(), second)));
-  // These files are no pairs: no sign of a pair, different sizes, a large preview, and a gain map.
+  // These files are not pairs: a file without any sign of a pair, pictures of different sizes, a
+  // large preview, and a gain map.
   CHECK(!open("a.jpg", Photo() + second));
   CHECK(!open("a.mpo", MultiPicture(Photo(), Encode(Ramp(kWidth / 2, kHeight / 2), ".jpg"))));
   CHECK(!open("a.mpo", MultiPicture(Photo(), second, {false, 32, 0, 0x010002})));

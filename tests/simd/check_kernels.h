@@ -33,7 +33,7 @@ void CheckKernels(const Cases& cases, const Table& reference,
       CAPTURE(round);
       REQUIRE_MESSAGE(wrong.empty(), wrong);
     }
-    // Each situation that the cases must produce has to occur in more than 1/50 of the rounds.
+    // Each situation that the calls must produce has to occur more than kRounds / 50 times.
     for (const auto& what : met) {
       CAPTURE(what.first);
       CHECK(what.second > kRounds / 50);

@@ -35,8 +35,7 @@ void CompareColours(Draw* draw, DepthCall* call) {
   auto* least = call->Results<uint16_t>("least", groups * kSliceLanes);
   std::fill_n(least, groups * kSliceLanes, kNoColourKey);
   call->Runs([=](const DepthKernels& kernels) { kernels.CompareColours(window, stride, least); });
-  // A group contains pixels of exactly its colours, so no key may be below the lowest key of the
-  // group.
+  // The lowest possible key of a group is that of its best sample with an equal colour.
   call->is_right = [=](uint64_t, Met* met) {
     std::vector<uint16_t> lowest(groups, kNoColourKey);
     for (const ColourSample& sample : samples) {

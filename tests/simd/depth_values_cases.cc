@@ -38,7 +38,8 @@ DepthRule AnyRule(Draw* draw) {
   return rule;
 }
 
-// Values whose disparity is within the limits. Some calls also get values outside them.
+// Values whose disparity is within the limits. A third of the calls also contain values outside the
+// limits.
 std::vector<float> Values(size_t count, const DepthRule& rule, Draw* draw) {
   const float bad[] = {kNan, kInfinity, -kInfinity, 0.0f, -0.0f, 1e-42f, 3e38f, 1e6f};
   const bool spoilt = draw->Rarely(3), invalid = draw->Rarely(2);

@@ -18,7 +18,8 @@ std::vector<uint16_t> AnySources(size_t count, Draw* draw) {
   });
 }
 
-// Returns surfaces behind those of `before`. Some are missing, and a few are in front instead.
+// Returns surfaces behind those of `before`. Half of the surfaces are missing, and a few are in
+// front of `before` instead.
 std::vector<int16_t> Behind(const std::vector<int16_t>& before, Draw* draw) {
   std::vector<int16_t> behind(before.size(), kNoSurface);
   for (size_t n = 0; n < before.size(); ++n) {

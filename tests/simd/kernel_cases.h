@@ -55,7 +55,7 @@ inline std::vector<int16_t> Light(size_t count, Draw* draw) {
   });
 }
 
-// Returns no tables, so that light equals the code, or random tables. At most one code begins in
+// Returns random tables, or none, in which case light equals the code. At most one code begins in
 // each step of a table.
 inline starfocus::simd::Encoding AnyEncoding(Draw* draw, KernelCall* call) {
   using starfocus::simd::kEncodeBits, starfocus::simd::kEncodeStep;

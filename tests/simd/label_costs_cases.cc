@@ -30,8 +30,8 @@ void CostLabels(Draw* draw, DepthCall* call) {
   const auto planes =
       Filled<uint8_t>(3 * (views + 1) * row.plane, [&] { return draw->Int(least, 255); });
   row.pixels = call->Input("planes", planes, kPadding) + kReach;
-  // Labels at which pixels are hidden. With many views, chance seldom hides a pixel in all of them,
-  // so a third of the calls hide more.
+  // Labels at which pixels are hidden. With many views, random labels seldom hide a pixel in all of
+  // them. Therefore a third of the calls use labels that hide more pixels.
   const int least_hidden = draw->Rarely(3) ? int(row.labels) / 2 : 0;
   const auto hidden = Filled<uint8_t>(views * row.plane, [&] {
     return draw->Int(0, 5) == 0 && row.ends ? kViewEnds : draw->Int(least_hidden, int(row.labels));

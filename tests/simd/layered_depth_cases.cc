@@ -139,7 +139,7 @@ void BesideSteps(Draw* draw, KernelCall* call) {
 
 namespace {
 
-// A field of disparities. Some of its edges are at the largest possible distance.
+// A field of disparities. The distances of some edges are the largest possible ones.
 struct DepthField {
   int width, height;
   size_t stride;

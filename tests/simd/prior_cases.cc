@@ -26,8 +26,7 @@ void SpreadPrior(Draw* draw, DepthCall* call) {
   row.prior = prior + first;
   if (!draw->Rarely(4)) row.before = call->Input("before", Priors(size, draw)) + first;
   call->Runs([=](const DepthKernels& kernels) { kernels.SpreadPrior(row); });
-  // The cost of a label must not increase. It also must not exceed the cost at the previous pixel
-  // plus the cost of the step.
+  // The cost of a label must not increase.
   call->is_right = [=](uint64_t, Met* met) {
     return AllRight(size, [&](size_t k) {
       ++(*met)[prior[k] < own[k] ? "lessened" : "as it was"];
