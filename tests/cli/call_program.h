@@ -64,8 +64,8 @@ inline std::string ErrorOf(const std::string& err) {
   return err.substr(std::min(begin, err.size()));
 }
 
-// Checks that stderr is one line that begins with the name of the program. It must state either
-// what was expected and found, or what the program cannot do with which file, and why.
+// Checks that stderr is one line that begins with the name of the program. The line must state what
+// was expected and found, or what the program cannot do and why.
 inline void CheckErrorLine(const std::string& err) {
   CHECK(err.find('\n') == err.size() - 1);
   const bool cannot = ErrorOf(err).rfind("cannot ", 0) == 0;

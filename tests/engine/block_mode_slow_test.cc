@@ -235,8 +235,8 @@ TEST_CASE("block: the visited blocks cover the picture once and agree with the r
   }
 }
 
-// Returns a textured slanted plane whose views are rendered exactly: (x, y) of view (u, v) shows
-// the point (x + u d, y + v d) of the plane.
+// Returns a textured slanted plane whose views are rendered exactly. Pixel (x, y) of view (u, v)
+// shows the point (x + u d, y + v d) of the plane.
 test::Scene SmoothScene(int width, int height, int views) {
   test::Scene scene = test::EmptyScene(width, height, views, -6, 6);
   const auto disparity = [&](double x) { return 12 * x / (width - 1) - 6; };

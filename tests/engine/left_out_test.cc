@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the work that the engine omits because its result is known: blocks that no view moves are
+// Tests the work that the engine omits because its result is known. Blocks that no view moves are
 // copied, and layers that no block reads are not made.
 #include <doctest/doctest.h>
 

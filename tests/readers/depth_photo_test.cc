@@ -409,7 +409,7 @@ TEST_CASE("HEIF: sizes are read from the headers of the codecs") {
   CHECK(av1.height == 16);
 }
 
-// Returns the seed file with the bytes at `behind` bytes after a text replaced.
+// Returns a seed file in which `bytes` are written `behind` bytes after the end of a text.
 std::string Changed(const std::string& name, const std::string& text, size_t behind,
                     const std::string& bytes) {
   std::string file = Seed(name);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs the program on typical inputs: photos are refocused, described and imported, and no input
-// file is overwritten. exiftool checks the GDepth files that the tests write. Real photographs
-// belong to the data sets.
+// Runs the program on typical inputs. Photos are refocused, described and imported, and no input
+// file may be overwritten. The program exiftool checks the GDepth files that the tests write. Real
+// photographs belong to the data sets.
 #include <doctest/doctest.h>
 
 #include <cmath>

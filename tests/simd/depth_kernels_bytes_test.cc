@@ -120,9 +120,9 @@ TEST_CASE("depth kernels: the best sample of each group around a pixel is found"
   const auto set = [&](int row, int column, const ColourSample& sample) {
     samples[size_t(row * kColourWindow + column)] = sample;
   };
-  // The first group has two samples within reach of the first pixel: a grey brighter by 31, and a
-  // colour that differs by more than the limit. The third sample has the same colour but is out of
-  // reach.
+  // The first group has two samples within reach of the first pixel. One is a grey that is brighter
+  // by 31, and the other differs by more than the limit. The third sample has the same colour but
+  // is out of reach.
   set(0, 16, {121, 0, 0, 5 * 64 + 3, 0});
   set(16, 0, {90, 60, -30, 1 * 64, 0});
   set(8, 17, {90, 0, 0, 2, 0});

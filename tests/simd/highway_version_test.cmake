@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Usage: cmake -DSOURCE=… -DBUILD=… -DGENERATOR=… -DCXX=… -DCC=… -DMAKE=… -P highway_version_test.cmake
-# Checks that the build rejects a Highway older than 1.0.3, by its package and by its headers, and that the documents
-# state the same version.
+# Checks that the build rejects a Highway older than 1.0.3, by its package and by its headers. The documents must state
+# the same version.
 cmake_minimum_required(VERSION 3.20)
 set(oldest 1.0.3)
 set(older 1.0.2)

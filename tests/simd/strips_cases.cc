@@ -7,8 +7,8 @@
 namespace test::kernel_cases {
 namespace {
 
-// Returns a position of a view: on whole samples, between two samples with equal or different
-// weights at edges and inside, or across three or four samples.
+// Returns a random position of a view. It is on whole samples, between two samples, or across three
+// or four samples. Two samples have equal or different weights at edges and inside.
 SliceFraction Fraction(Draw* draw) {
   const int taps = draw->timed() ? 2 : draw->Int(1, 5), first = draw->Int(0, 32767);
   if (taps == 1) return {INT16_MIN, INT16_MIN, 0, 0};
