@@ -98,7 +98,7 @@ starfocus_status PushRows(const RowSource& source, int32_t rows, int32_t unit, E
   while (*consumed < rows && stream.pushed < NeededRows(*engine)) {
     const int32_t some = Min(unit, rows - *consumed);
     const starfocus_report report = engine->report;
-    // copies both rows of a pair or none
+    // Copies both rows of a pair or none
     for (int32_t k = 0; k < some; ++k) {
       const starfocus_status status = CopyRow(source, stream.pushed + k, engine);
       if (status == STARFOCUS_OK) continue;

@@ -146,7 +146,7 @@ starfocus_status RefocusRows(const RowSource& source, const RowSink& sink, Engin
   const int32_t bottom = top + lens.region.height;
   const RowRange stripes = StripeRows(*engine);
   RowRange rows = {Max(0, stripes.first - reach), 0};
-  // first row of the last stripe of the region
+  // First row of the last stripe of the region.
   const int32_t last = (stripes.last - 1) / side * side;
   rows.last = Min(config.height, last + side + reach);
   starfocus_status status = CheckRows(source, rows, engine);

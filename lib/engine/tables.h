@@ -37,7 +37,7 @@ struct ApertureTable {
 };
 
 struct Tables {
-  // opening of the tables below, except for its cat's eyes, which may change
+  // Opening of the tables below, except for its cat's eyes, which may change.
   ApertureShape opening;
   ApertureTable apertures[kMaxRenderers];
   uint16_t* benchmark_weights;  // weights of the single aperture of benchmark mode

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pixels that a block is refocused from, stored as lines in the three orientations of the star
 // (paper, IV-B): rows, columns (90 degrees) and diagonals (the lossless 45 degree layout). Line
-// scans and gathering read them.
+// scans and gathering read these lines.
 #ifndef STARFOCUS_LIB_INPUT_BLOCK_PIXELS_H_
 #define STARFOCUS_LIB_INPUT_BLOCK_PIXELS_H_
 
@@ -12,14 +12,14 @@
 
 namespace starfocus {
 
-// Samples from row to row of a transposed picture. The extra sample exists because a pixel is
-// copied together with the sample after it.
+// Number of samples from row to row of a picture that can be transposed. The extra sample at the
+// end of a row exists because transposing copies each pixel together with the sample after it.
 constexpr size_t RgbStride(int32_t width) { return 3 * static_cast<size_t>(width) + 1; }
 
 // Transposes pixels: pixel `column` of row `row` of `in` becomes pixel `row` of row `column` of
-// `out`. Strides are in samples. It reads one sample past the end of each row of `in` and writes
-// one past the end of each row of `out`. It reads the rows of `in` in order, so a picture can be
-// transposed in strips of rows.
+// `out`. Strides are in samples. The function reads one sample past the end of each row of `in` and
+// writes one sample past the end of each row of `out`. Rows of `in` are read in order, so a picture
+// can be transposed in strips of rows.
 void Transpose(const int16_t* in, size_t in_stride, int32_t rows, int32_t columns, int16_t* out,
                size_t out_stride);
 
@@ -31,7 +31,7 @@ struct BlockPixels {
   int32_t x = 0, y = 0;           // position of pixel (0, 0) in the picture
   Rect inner = {0, 0, 0, 0};      // the rectangle without its border, in pixels of the field
   int16_t* rgb = nullptr;         // light: rows of RgbStride(width) samples
-  int16_t* disparity = nullptr;   // rows of `width`, kDisparityBits
+  int16_t* disparity = nullptr;   // rows of `width` samples, kDisparityBits
 
   int16_t* Rgb(int32_t column, int32_t row) const {
     return rgb + static_cast<size_t>(row) * RgbStride(width) + 3 * static_cast<size_t>(column);
@@ -64,7 +64,8 @@ struct DiagonalLine {
 };
 DiagonalLine GetDiagonal(const BlockPixels& field, bool anti, int32_t index);
 
-// Copies all diagonals of a field. The arrays must be set; each has room for the whole field.
+// Copies all diagonals of a field. The arrays must be set, and each array must have room for the
+// whole field.
 void LoadDiagonals(const BlockPixels& field, bool anti, Diagonals* diagonals);
 
 }  // namespace starfocus

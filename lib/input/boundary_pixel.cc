@@ -4,14 +4,15 @@
 namespace starfocus {
 namespace {
 
-// Fractional bits of colours in comparisons, in units of white / 255. Their products fit 64 bits.
+// Fractional bits of colours in comparisons, in units of white / 255. Products of compared colours
+// fit 64 bits.
 constexpr int kColourBits = 4;
 constexpr int64_t kSquareOne = 1 << (2 * kColourBits);
-// Smallest squared distance of two colours whose mixtures can be recognised: 8/255 of white in one
-// channel. docs/constants.md describes the measurements of these three constants.
+// Smallest squared distance between two colours whose mixtures can be recognised: 8/255 of white in
+// one channel. docs/constants.md describes how this constant and the next two were measured.
 constexpr int64_t kLeastContrast = 64 * kSquareOne;
-// A pixel is a mixture up to this squared distance from the line between the two colours: noise of
-// 3/255 of white in each channel, plus 1/16 of the squared contrast.
+// Largest squared distance of a mixture from the line between the two colours: noise of 3/255 of
+// white in each channel, plus 1/16 of the squared contrast.
 constexpr int64_t kNoise = 27 * kSquareOne;
 constexpr int64_t kContrastParts = 16;
 
@@ -19,8 +20,9 @@ int32_t Compared(int32_t light) {
   return static_cast<int32_t>(RoundShift(light, kLightBits - kColourBits));
 }
 
-// Position of a colour relative to the line from `far` to `near`: the position along the line and
-// the squared distance from it. Both are multiplied by `contrast`, the squared length of the line.
+// Position of a colour relative to the line from `far` to `near`: the position along the line, and
+// the squared distance from the line. Both values are multiplied by `contrast`, the squared length
+// of the line.
 struct LinePlace {
   int64_t along = 0, contrast = 0, beside = 0;
 
@@ -36,7 +38,7 @@ struct LinePlace {
     beside = distance * contrast - along * along;
   }
 
-  // Upper bound of `kContrastParts * beside` for mixtures.
+  // Returns the largest value that `kContrastParts * beside` has for mixtures.
   int64_t Limit() const { return contrast * (kContrastParts * kNoise + contrast); }
 
   int32_t Share() const {
@@ -45,10 +47,10 @@ struct LinePlace {
   }
 };
 
-// Returns the share of `near` in `mixed`, kShareBits; the rest is `far`. It is 0 if `mixed` is not
-// a mixture. The far surface covers the centre of the pixel, so a share above 4/5 means that `far`
-// is wrong. The share is rounded down, so that rounding it again to fewer bits rounds the exact
-// value.
+// Returns the share of `near` in `mixed`, kShareBits; the rest is `far`. The share is 0 if `mixed`
+// is not a mixture. The far surface covers the centre of the pixel, so a share above 4/5 means that
+// `far` is wrong. The share is rounded down, so that later rounding to fewer bits gives the rounded
+// exact value.
 int32_t ShareOf(const Colour& near, const Colour& far, const Colour& mixed) {
   const LinePlace place(near, far, mixed);
   if (place.contrast < kLeastContrast || place.along <= 0) return 0;
@@ -56,8 +58,8 @@ int32_t ShareOf(const Colour& near, const Colour& far, const Colour& mixed) {
   return kContrastParts * place.beside > place.Limit() ? 0 : place.Share();
 }
 
-// Returns the colour of the next pixel away from the nearer surface if it is on the same surface.
-// Otherwise returns the colour of the pixel, which gives no mixture.
+// Returns the colour of the next pixel away from the nearer surface, if that pixel is on the same
+// surface. Otherwise returns `mixed`, which gives a share of 0.
 Colour ReadBeside(const CentreView& centre, const BoundaryPixel& pixel, const Colour& mixed) {
   const int8_t* const side = kSides[pixel.side];
   const int32_t x = pixel.x - side[0], y = pixel.y - side[1];
@@ -71,7 +73,7 @@ const OcclusionView& OcclusionViewAway(const Window& window, const BoundaryPixel
   return window.occlusion_views.Last(pixel.side ^ 1);
 }
 
-// Reads the point of the far surface in that view.
+// Reads the point of the far surface in the view of OcclusionViewAway.
 Colour ReadFar(const Window& window, const BoundaryPixel& pixel, const Colour& mixed) {
   const OcclusionView& look = OcclusionViewAway(window, pixel);
   constexpr int kBits = kViewBits + kDisparityBits - kShiftBits;
@@ -79,7 +81,8 @@ Colour ReadFar(const Window& window, const BoundaryPixel& pixel, const Colour& m
   const int32_t y = pixel.y * kShiftOne - ScaledByView(look.at.v, pixel.disparity, kBits);
   int32_t sums[3];
   InterpolateCaptured(window, look.view, x, y, sums);
-  // Halves are rounded towards the pixel, so that an inverted picture gives the same shares.
+  // Halves are rounded towards the colour of the pixel, so that an inverted picture gives the same
+  // shares.
   constexpr uint32_t kHalf = 1 << (2 * kShiftBits - 1);
   Colour far;
   for (int c = 0; c < 3; ++c) {

@@ -12,7 +12,7 @@
 
 namespace starfocus {
 
-// Pixels around a field that are read to separate its boundary pixels.
+// Number of pixels around a field that are read to separate the field's boundary pixels.
 inline constexpr int32_t kMixedPixelBorder = 1;
 
 // Light of R, G and B.
@@ -34,7 +34,8 @@ struct CentreView {
   Colour ColourAt(int32_t x, int32_t y) const;
 };
 
-// A pixel next to a depth edge: a step of more than `step` up to disparity `near`, kDisparityBits.
+// A pixel next to a depth edge, at which the disparity rises by more than `step` to `near`.
+// Disparities have kDisparityBits.
 struct BoundaryPixel {
   int32_t x, y;
   int side;  // index into kSides: direction of the nearer surface
@@ -42,28 +43,29 @@ struct BoundaryPixel {
 };
 
 // Result of the separation: the share of the nearer surface (kShareBits) and the colours of both
-// surfaces. Share 0: the pixel is not a mixture.
+// surfaces. A share of 0 means that the pixel is not a mixture.
 struct Mixture {
   int32_t share;
   Colour near, far;
 };
 
-// Separates a boundary pixel. The near colour is that of the next pixel behind the edge, or of the
-// one after it if that is on the same surface. The far colour comes from the captured side view in
-// which the nearer surface does not cover it. Without such a view, it is the colour of the pixel on
-// the other side. If the window contains excess, the colours are excess and the share is that of
-// light.
+// Separates a boundary pixel. The near colour is the colour of the first pixel on the other side of
+// the edge, or of the second pixel if both are on the same surface. The far colour comes from a
+// captured side view in which the nearer surface does not cover the far surface. Without such a
+// view, the far colour is the colour of the next pixel away from the edge. If the window contains
+// excess, both colours are excess, but the share is computed from light.
 Mixture FindMixture(const CentreView& centre, const BoundaryPixel& pixel);
 
 // Returns the share of `near` in a pixel of layer 1 or 2, kShareBits. Filtered pixels differ by
-// rounding, so the share fades to 0 at the limits of FindMixture instead of stopping abruptly. It
-// fades below twice the smallest contrast, and for shares from 4/5 to 1. It also fades between one
-// and two times the largest distance from the line between both colours.
+// rounding, so the share fades to 0 at the limits of FindMixture instead of stopping abruptly. The
+// share fades at contrasts below twice the smallest contrast, and for shares from 4/5 to 1. The
+// share also fades between one and two times the largest distance from the line between both
+// colours.
 int32_t FadedShareOf(const Colour& near, const Colour& far, const Colour& mixed);
 
 // Calls visit(column, row) for the pixels of a field that are farther than one of their four
-// neighbours by more than `step`. Only pixels inside the picture count, without the outermost ones
-// of the field.
+// neighbours by more than `step`. Pixels outside the picture and the outermost pixels of the field
+// are skipped.
 template <class Visit>
 void ForEachBesideEdge(const simd::Kernels& kernels, const Window& window, const BlockPixels& field,
                        int16_t step, const Visit& visit) {

@@ -29,8 +29,8 @@ struct ViewLine {
   }
 };
 
-// Counts the consecutive highlights through `at`, which must be one. The length is at most
-// LampReach. Runs that reach the edge of the picture have this length.
+// Counts the consecutive highlights around `at`, which must be a highlight. The length is at most
+// LampReach. Runs that reach the edge of the picture have the length LampReach.
 LampRun CountRun(const ViewLine& line, int32_t at) {
   const int32_t most = LampReach(line.of.lamp), size = line.Size();
   int32_t first = at, last = at;
@@ -43,7 +43,7 @@ LampRun CountRun(const ViewLine& line, int32_t at) {
           static_cast<uint16_t>(inside ? last - first + 1 : most)};
 }
 
-// Returns the length of the run through `at`.
+// Returns the length of the run of highlights that contains `at`.
 int32_t RunThrough(const ViewLine& line, int32_t at) {
   LampRun* const runs = line.is_row ? line.of.runs->along : line.of.runs->down;
   const int32_t span = at >> LampRuns::kSpanBits;

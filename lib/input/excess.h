@@ -24,15 +24,15 @@ constexpr int32_t LampReach(int32_t lamp) { return 2 * lamp; }
 inline constexpr int32_t kFirstExcess = 251;
 bool IsHighlight(const uint8_t* codes);
 
-// Run of highlights in a row or column: pixels [first, last]. All of them have the same `length`,
-// at most LampReach.
+// Run of highlights in a row or column: pixels [first, last]. `length` is at most LampReach and
+// applies to all pixels of the run.
 struct LampRun {
   int16_t view = -1;  // -1: no run
   uint16_t line = 0, first = 0, last = 0, length = 0;
 };
 
-// Cache of runs, so that neighbours do not count the same pixels again. Each worker uses one cache
-// while it renders a block.
+// Cache of runs, so that neighbouring pixels do not count the same run again. Each worker uses one
+// cache while it renders a block.
 struct LampRuns {
   static constexpr int32_t kCount = 1024;  // a power of two
   static constexpr int kSpanBits = 6;      // one entry per 64 pixels of a line
@@ -45,19 +45,20 @@ struct LampRuns {
   }
 };
 
-// Captured views at layer 0. Their highlights are lamps if they are at most `lamp` pixels large.
+// Captured views at layer 0. Highlights are lamps if they are at most `lamp` pixels across.
 struct ExcessViews {
   ViewReader views;
-  int32_t width, height, lamp;  // size of the picture; LargestLamp
+  int32_t width, height, lamp;  // size of the picture, and LargestLamp of its width
   LampRuns* runs;               // cache for views of these pictures only
 };
 
-// Returns a reader of the excess light of highlights. `views` must outlive it. The excess of a
-// clipped sample is as much as white. It rises with the square of the code, starting at
-// kFirstExcess. Other pixels have no excess.
+// Returns a reader of the excess light of highlights. `views` must outlive the reader. The excess
+// of a highlight rises with the square of the code, from kFirstExcess on, and equals white for a
+// clipped sample. Other pixels have no excess.
 //
-// The full excess counts if the highlight is at most views.lamp pixels high or wide. It decreases
-// to 0 at twice that size. Highlights that reach the edge of the picture count as large.
+// A highlight that is at most views.lamp pixels high or wide has its full excess. The excess of
+// larger highlights decreases to 0 at twice that size. Highlights that reach the edge of the
+// picture count as large.
 ViewReader ReaderOf(const ExcessViews& views);
 
 }  // namespace starfocus

@@ -8,8 +8,8 @@
 namespace starfocus {
 namespace {
 
-// Fills the pixels outside [first, last) of a row with the nearest ones inside. The range is not
-// empty.
+// Fills the pixels outside [first, last) of a row with the nearest pixel inside. The range must not
+// be empty.
 void RepeatEdges(int32_t first, int32_t last, int32_t width, int16_t* rgb, int16_t* disparity) {
   for (int32_t column = 0; column < first; ++column) {
     std::memcpy(rgb + 3 * column, rgb + 3 * first, 3 * sizeof(*rgb));

@@ -14,7 +14,7 @@ namespace starfocus {
 void LoadLight(const Window& window, int32_t x, int32_t y, int32_t count, int16_t* rgb);
 
 // Copies `rect` and its border from the window to field->rgb and field->disparity, which must be
-// set. It decodes each sample of the centre view once for all views of the aperture. Pixels outside
+// set. Each sample of the centre view is decoded once for all views of the aperture. Pixels outside
 // the picture repeat its edge, or contain the content of side views (picture_edge.h).
 void LoadBlock(const Window& window, const Rect& rect, const Border& border, BlockPixels* field);
 

@@ -19,12 +19,13 @@ struct InsidePart {
         top(Clamp(-rect.y, 0, rect.height)),
         bottom(Clamp(Inside(window.picture_height, window.layer) - rect.y, 0, rect.height)) {}
 
-  // Returns the number of pixels of the layer for `size` pixels of the picture. Layers store more.
+  // Returns the number of pixels of the layer for `size` pixels of the picture. A stored layer is
+  // larger (LayerSize).
   static int32_t Inside(int32_t size, int layer) { return (size + (1 << layer) - 1) >> layer; }
 };
 
-// A pixel at the edge of the picture, in a rectangle, and the number of pixels of the rectangle
-// beyond it.
+// A pixel at the edge of the picture, and the number of pixels between it and the border of the
+// rectangle.
 struct EdgePixel {
   int32_t column, row;
   int side;  // index into kSides
@@ -33,7 +34,7 @@ struct EdgePixel {
   const int8_t* out() const { return kSides[side]; }
 };
 
-// A place or displacement, kShiftBits.
+// A position or displacement, kShiftBits.
 struct ShiftedPlace {
   int32_t x, y;
 };
@@ -67,8 +68,8 @@ class Beyond {
   void LookOver(const EdgePixel& edge) {
     if (edge.beyond == 0) return;
     const int32_t disparity = DisparityAt(rect_.x + edge.column, rect_.y + edge.row);
-    // Surfaces nearer than disparity 0 continue in views on the side of the edge, others in views
-    // on the opposite side.
+    // Surfaces of positive disparity continue in views on the side of the edge, other surfaces in
+    // views on the opposite side.
     const OcclusionView& look =
         window_.occlusion_views.on[disparity < 0 ? edge.side ^ 1 : edge.side][0];
     if (look.view == 0) return;
@@ -88,10 +89,10 @@ class Beyond {
                         kViewBits + kDisparityBits - kShiftBits + window_.layer);
   }
 
-  // Returns the number of the `seen` pixels beyond the edge before the first covered one. A pixel
-  // is covered if, in the captured view, a nearer pixel of the picture comes within 3/4 of a pixel.
-  // Surfaces of positive disparity are never covered: they are seen from the side on which nearer
-  // surfaces move farther away.
+  // Returns how many of the `seen` pixels beyond the edge precede the first covered pixel. A pixel
+  // is covered if, in the captured view, a nearer pixel of the picture lies within 3/4 of a pixel.
+  // Surfaces of positive disparity are never covered, because the view that shows them moves nearer
+  // surfaces farther away.
   int32_t Uncovered(const EdgePixel& edge, const OcclusionView& look, int32_t disparity,
                     int32_t seen) const {
     const int layer = window_.layer;
@@ -104,7 +105,8 @@ class Beyond {
     int32_t x = rect_.x + edge.column, y = rect_.y + edge.row;
     for (int32_t m = 0; m < room; ++m, x -= out[0], y -= out[1]) {
       const int32_t nearer = ScaledByView(position, DisparityAt(x, y) - disparity, kViewBits);
-      const int32_t place = 4 * (nearer - m * unit);  // beyond the edge, quarters of a unit
+      // Distance beyond the edge, in quarters of a unit.
+      const int32_t place = 4 * (nearer - m * unit);
       if (place <= unit || 2 * nearer <= unit) continue;
       const int32_t first = place > 3 * unit ? (place - 3 * unit) / (4 * unit) + 1 : 1;
       if (4 * unit * first < place + 3 * unit) seen = Min(seen, first - 1);
@@ -126,7 +128,7 @@ class Beyond {
     }
   }
 
-  // Repeats the colour of pixel `last` beyond the edge in all pixels after it.
+  // Copies the colour of pixel `last` beyond the edge to all pixels farther outside.
   void RepeatLast(const EdgePixel& edge, int32_t last) {
     for (int32_t k = last + 1; k <= edge.beyond; ++k) {
       std::memcpy(Rgb(edge, k), Rgb(edge, last), kBytes);
@@ -138,7 +140,7 @@ class Beyond {
     return field_.Rgb(edge.column + k * edge.out()[0], edge.row + k * edge.out()[1]);
   }
 
-  static constexpr size_t kBytes = 3 * sizeof(int16_t);  // of one pixel
+  static constexpr size_t kBytes = 3 * sizeof(int16_t);  // bytes of one pixel
 
   const Window& window_;
   const BlockPixels& field_;

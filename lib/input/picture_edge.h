@@ -9,15 +9,15 @@
 namespace starfocus {
 
 // Number of pixels inside the edge that are searched for surfaces that may cover a pixel outside.
-// At most as many rows are stored around a stripe. If disparities differ by less, fewer pixels give
-// the same result (docs/constants.md).
+// The rows stored around a stripe are enough for this distance. If disparities differ by less than
+// kLookBack, fewer pixels give the same result (docs/constants.md).
 inline constexpr int32_t kLookBack = 32;
 
-// Replaces repeated edges of the picture in a field by the continued surface. Pixels get their
-// colour from the captured view that shows them. That view shows as many pixels beyond the edge as
-// the disparity of the edge moves it. The surface ends earlier where a nearer one covers it in that
-// view. Pixels farther outside repeat the last one. Without side views and beyond corners, nothing
-// changes.
+// Replaces repeated edges of the picture in a field by the continued surface. Pixels beyond the
+// edge get their colour from the captured view that shows them. The number of pixels that the view
+// shows is the displacement of the edge in that view. The surface ends earlier where a nearer
+// surface covers it in that view. Pixels farther outside repeat the last colour. Pixels beyond
+// corners, and fields of light fields without side views, are not changed.
 void ExtendEdges(const Window& window, BlockPixels* field);
 
 }  // namespace starfocus

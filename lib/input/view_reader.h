@@ -39,7 +39,7 @@ struct PlaneViews {
   Plane<const uint8_t> view[kMaxViews];
 };
 
-// Returns a reader of `views`, which must outlive it.
+// Returns a reader of `views`, which must outlive the reader.
 ViewReader ReaderOf(const PlaneViews& views);
 
 }  // namespace starfocus

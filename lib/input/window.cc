@@ -12,7 +12,7 @@ namespace {
 // Largest number of pixels that are read at once, on the stack.
 constexpr int32_t kMost = 72;
 
-// Reads up to kMost pixels of a row of a view. They may lie outside the picture.
+// Reads up to kMost pixels of a row of a view. Pixels outside the picture repeat its edge.
 void ReadRow(const Window& window, int index, int32_t x, int32_t y, int32_t count, int16_t* rgb) {
   const int32_t right = window.picture_width - 1;
   const int32_t row = Clamp(y, 0, window.picture_height - 1);
@@ -35,8 +35,8 @@ int16_t RoundPlace(int32_t sum) {
   return static_cast<int16_t>((static_cast<uint32_t>(sum) + kHalf) >> (2 * kShiftBits));
 }
 
-// Calls take(n, sum) for the samples of `count` < kMost places along a row. The first place is (x,
-// y), kShiftBits. Sums have 2 * kShiftBits more fractional bits than light.
+// Calls take(n, sum) for the samples of `count` < kMost positions along a row. The first position
+// is (x, y), kShiftBits. Sums have 2 * kShiftBits more fractional bits than light.
 template <class Take>
 void InterpolateRow(const Window& window, int index, int32_t x, int32_t y, int32_t count,
                     const Take& take) {
@@ -54,11 +54,12 @@ void InterpolateRow(const Window& window, int index, int32_t x, int32_t y, int32
   }
 }
 
-// Triangular taps 1 2 1 of layer 1 and 1 2 3 4 3 2 1 of layer 2. Their sum is 4^L.
+// Returns a triangular filter tap: 1 2 1 for layer 1, 1 2 3 4 3 2 1 for layer 2. The taps of a
+// layer sum to 4^L.
 constexpr int32_t Tap(int layer, int32_t k) { return (1 << layer) - Abs(k); }
 
-// Subsamples around `count` places along a row, 2^kLayer pixels apart. The first place is (x, y) of
-// the picture.
+// Subsamples around `count` positions along a row, 2^kLayer pixels apart. The first position is (x,
+// y) of the picture.
 template <int kLayer>
 void SubsampleRow(const Window& window, int index, int32_t x, int32_t y, int32_t count,
                   int16_t* rgb) {
@@ -82,7 +83,7 @@ void SubsampleRow(const Window& window, int index, int32_t x, int32_t y, int32_t
   }
 }
 
-// Reads `count` places along a row, like ReadCaptured.
+// Reads `count` positions along a row, like ReadCaptured.
 void ReadPlaces(const Window& window, int index, int32_t x, int32_t y, int32_t count,
                 int16_t* rgb) {
   if (window.layer == 0) {
@@ -113,8 +114,8 @@ bool HasOthers(const uint8_t* codes, int32_t pixels) {
   return false;
 }
 
-// Returns true if test(codes, pixels) is true for a piece of some row of any view in `rect`. Only
-// the part of `rect` inside the picture counts.
+// Returns true if test(codes, pixels) is true for any piece of a row of any view in `rect`. The
+// part of `rect` outside the picture is ignored.
 bool AnyPiece(const Window& window, const Rect& rect, bool (*test)(const uint8_t*, int32_t)) {
   constexpr int32_t kPiece = 1024;
   const int32_t left = Clamp(rect.x, 0, window.picture_width - 1);

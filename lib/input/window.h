@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rows of all views and of the disparity map that a stripe needs. They are in the caller's pictures
-// or in a ring buffer.
+// Rows of all views and of the disparity map that a stripe reads. The rows lie in the caller's
+// pictures or in ring buffers.
 #ifndef STARFOCUS_LIB_INPUT_WINDOW_H_
 #define STARFOCUS_LIB_INPUT_WINDOW_H_
 
@@ -18,7 +18,8 @@ namespace starfocus {
 struct CoverageMap;
 
 // A light field at one layer. Pixel (x, y) of the layer is at (x << L, y << L) in the pictures.
-// Only the centre view is subsampled completely; of side views a few pixels in holes are read.
+// Only the centre view is subsampled completely. From side views the engine reads only a few
+// pixels, for holes.
 struct Window {
   int32_t width = 0;  // size of the layer
   int32_t height = 0;
@@ -30,32 +31,33 @@ struct Window {
   Plane<const int16_t> samples;        // centre view at layers 1 and 2, simd::kLayerBits
   int32_t picture_width = 0;
   int32_t picture_height = 0;
-  ViewReader reader;                      // reads light of the views, or excess (excess.h)
-  bool is_excess = false;                 // true: `reader` reads excess, at layer 0
-  ViewReader light;                       // reads light if is_excess
-  Plane<const int16_t> disparity;         // at the size of the pictures, kDisparityBits
-  Plane<const uint8_t> given_coverage;    // coverage of the light field, 255: covered; null: none
-  const CoverageMap* coverage = nullptr;  // computed from it, or for thin structures; null: none
+  ViewReader reader;                    // reads light of the views, or excess (excess.h)
+  bool is_excess = false;               // true: `reader` reads excess, at layer 0
+  ViewReader light;                     // reads light if is_excess
+  Plane<const int16_t> disparity;       // disparities at the size of the pictures, kDisparityBits
+  Plane<const uint8_t> given_coverage;  // coverage of the light field, 255: covered; null: none
+  // Coverage computed from `given_coverage` or for thin structures; null: no coverage.
+  const CoverageMap* coverage = nullptr;
 };
 
-// Sequence of places in a captured view. The first place is (x, y) of the layer, kShiftBits. Each
-// step adds (dx, dy) pixels of the layer.
+// Sequence of positions in a captured view. The first position is (x, y) of the layer, kShiftBits.
+// Neighbouring positions are (dx, dy) pixels of the layer apart.
 struct CapturedLine {
   int32_t x, y, dx, dy;
 };
 
-// Reads the light at the first `count` places of a line in captured view `index`, in RGB order.
-// Places outside the picture use the nearest pixel inside. At L = 0 it interpolates linearly. At L
-// > 0 it subsamples with a triangular filter of 2^(L+1) - 1 taps per axis around the nearest pixel
-// of the picture. That is sufficient because a hole in a defocused block is blurred by at least 3
-// pixels of the layer afterwards.
+// Reads the light at the first `count` positions of a line in captured view `index`, in RGB order.
+// Positions outside the picture use the nearest pixel inside. At L = 0 the light is interpolated
+// linearly. At L > 0 the view is subsampled with a triangular filter of 2^(L+1) - 1 taps per axis
+// around the nearest pixel of the picture. This filter is sufficient, because refocusing later
+// blurs a hole of a defocused block by at least 3 pixels of the layer.
 void ReadCaptured(const Window& window, int index, const CapturedLine& line, int32_t count,
                   int16_t* rgb);
 
-// Returns the number of pixels of the picture that ReadCaptured reads around a place.
+// Returns the number of pixels of the picture that ReadCaptured reads around a position.
 constexpr int32_t CapturedBorder(int layer) { return layer == 0 ? 1 : (1 << layer) - 1; }
 
-// Reads one place at L = 0 without rounding, with 2 * kShiftBits more fractional bits.
+// Reads one position at L = 0 without rounding, with 2 * kShiftBits more fractional bits.
 void InterpolateCaptured(const Window& window, int index, int32_t x, int32_t y, int32_t* rgb);
 
 // Returns true if any view has a code of at least kFirstExcess in `rect`.

@@ -15,8 +15,9 @@ int32_t Farthest(int32_t low, int32_t high, int32_t focus) {
   return Max(Abs(low - focus), Abs(high - focus));
 }
 
-// By the paper's rule a run ends when its pixels drift apart by a quarter pixel (kRunSpread of
-// view_grid.cc). Slices cover a larger range. The timing coefficients account for either rule.
+// In a line scan, a run ends when its pixels drift apart by a quarter pixel (kRunSpread of
+// view_grid.cc). A slice covers a larger range of disparities. The timing coefficients account for
+// both renderers.
 constexpr int32_t kRunDrift = kRadiusOne / 4;
 constexpr int32_t kLargestGap = 8;
 
@@ -27,8 +28,8 @@ int32_t DisparityOf(int32_t distance, int64_t step) {
 }
 
 void StoreContent(const simd::CellMeasure& measure, int32_t slope_limit, int64_t step, Cell* cell) {
-  // One of eight steps along a line leads out of the cell. The seven inner steps are scaled to
-  // eight.
+  // The last of the eight steps along a line leads out of the cell. The measurement contains the
+  // seven inner steps and is scaled to eight.
   const auto scaled = [](uint32_t sum, uint32_t one) {
     return static_cast<uint16_t>(sum * kContentOne * kCellSize / (one * (kCellSize - 1)));
   };
@@ -53,8 +54,8 @@ void StoreSides(int32_t reach, Cell* cell) {
   }
 }
 
-// Measures 8 columns or rows of disparities: how far they reach beyond either end of their line,
-// and the depth of those that do.
+// Measures how far 8 columns or rows of disparities reach beyond the two opposite sides of the
+// cell, and the depth inside the cell from which they do so.
 void MeasureSides(const BlurScale& scale, const int16_t (&lows)[kCellSize],
                   const int16_t (&highs)[kCellSize], Side low, Side high, Cell* cell) {
   for (int32_t k = 0; k < kCellSize; ++k) {
@@ -97,7 +98,8 @@ class CellRow {
       cell.low = found.column_low[k] < cell.low ? found.column_low[k] : cell.low;
       cell.high = found.column_high[k] > cell.high ? found.column_high[k] : cell.high;
     }
-    // A focus outside the range of int16 lies on one side of all disparities.
+    // The kernel measures with a focus limited to int16. A focus outside this range lies on one
+    // side of all disparities, so the difference can be added.
     const int32_t nearest = found.nearest + Abs(scale_.focus - near_focus_);
     const int32_t farthest = Farthest(cell.low, cell.high, scale_.focus);
     cell.r_min = static_cast<uint16_t>(scale_.Radius(nearest));
@@ -124,7 +126,7 @@ class CellRow {
  private:
   static constexpr int32_t kRows = kCellSize + 2;
 
-  // Measures the cell at column x of the picture, whose edge is repeated.
+  // Measures the cell at column x of the picture. Pixels outside the picture repeat its edge.
   simd::CellMeasure Find(int32_t x) const {
     const int16_t* rows[kRows];
     int16_t copies[kRows][kRows];

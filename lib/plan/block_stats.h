@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Analysis of blocks of variable size (paper, V-A). It measures the blur of 8x8 cells and combines
-// cells to blocks. The partition uses the results to choose blocks.
+// Analysis of blocks of variable size (paper, V-A). This module measures the blur of 8x8 cells and
+// combines cells into blocks. The partition uses the statistics to choose blocks.
 #ifndef STARFOCUS_LIB_PLAN_BLOCK_STATS_H_
 #define STARFOCUS_LIB_PLAN_BLOCK_STATS_H_
 
@@ -15,20 +15,22 @@ namespace starfocus {
 
 inline constexpr int32_t kCellSize = 8;
 
-// Content of a cell or block at layer 0, for the timing model of line scans. It is counted along
-// rows or along columns, in units of 1 / kContentOne. Each step between neighbouring pixels counts.
+// Content of a cell or block at layer 0, for the timing model. Content is counted along rows or
+// along columns, in units of 1 / kContentOne. Each step between neighbouring pixels contributes.
 inline constexpr int32_t kContentOne = 16;
 struct Content {
-  uint32_t slopes;  // runs started by steps within a surface; a fraction if several steps start one
-  uint32_t edges;   // runs started by depth edges
-  uint32_t gaps;    // pixels that depth edges uncover in the outermost view, at most 8 each
+  // Runs started by steps within a surface; a fraction if several steps start one run.
+  uint32_t slopes;
+  uint32_t edges;  // runs started by depth edges
+  // Pixels that depth edges uncover in the outermost view, at most 8 for each edge.
+  uint32_t gaps;
 };
 
 // Statistics of a cell. Blur radii have kDisparityBits fractional bits: 128 px are 8192.
 struct Cell {
-  uint16_t r_min, r_max;  // rounded down, rounded up
-  // Smallest blur of everything that the pixels show, rounded down. Pixels next to a depth edge
-  // also show a part of the nearer surface.
+  uint16_t r_min, r_max;  // smallest radius, rounded down; largest radius, rounded up
+  // Smallest blur radius of all surfaces that the pixels show, rounded down. Pixels next to a depth
+  // edge also show a part of the nearer surface.
   uint16_t r_shown : 15;
   uint16_t has_edge : 1;  // 1: a depth edge lies inside or at a side
   int16_t low, high;      // range of disparities, kDisparityBits
@@ -38,7 +40,8 @@ struct Cell {
   uint8_t inside[4];
   uint16_t slopes[2], edges[2], gaps[2];  // Content along rows and along columns
 
-  // Number of pixels that the cell splats beyond a side; <= 0: none.
+  // Number of pixels that the cell splats beyond a side. Cells with a result <= 0 do not splat
+  // beyond the side.
   int32_t Reach(size_t side) const { return span[side] - kCellSize; }
 };
 
@@ -53,7 +56,7 @@ struct BlurScale {
   int32_t Radius(int32_t distance) const {
     return static_cast<int32_t>(Checked(ranges::kRadius, (step * distance) >> kStepBits));
   }
-  // Converts |d - d_t| to a blur radius, rounded up. Only disparities in focus give 0.
+  // Converts |d - d_t| to a blur radius, rounded up. The result is 0 only for disparities in focus.
   int32_t RadiusAbove(int32_t distance) const {
     return static_cast<int32_t>((step * distance + (int64_t{1} << kStepBits) - 1) >> kStepBits);
   }
@@ -65,16 +68,16 @@ constexpr int32_t ReachOf(int32_t r) {
   return (r + (3 << kDisparityBits) / 2 - 1) >> kDisparityBits;
 }
 
-// Number of extra pixels of the layer that are rendered around the reach of the blur. They are the
-// neighbours of a subaperture.
+// Number of pixels of the layer that rendering reads around the reach of the blur, because a
+// subaperture also weighs the neighbours of a pixel.
 inline constexpr int32_t kRenderBorder = 1;
 
-// Grid of cells over rows of the picture, all columns. Only positions outside the picture use the
+// Grid of cells over rows of the picture, all columns. Positions outside the picture use the
 // nearest cell, because the picture repeats its edge there.
 struct CellGrid {
   Cell* cells = nullptr;
-  int32_t columns = 0;    // of the whole picture
-  int32_t rows = 0;       // of the whole picture
+  int32_t columns = 0;    // number of columns of cells in the whole picture
+  int32_t rows = 0;       // number of rows of cells in the whole picture
   int32_t first_row = 0;  // rows [first_row, last_row) are stored
   int32_t last_row = 0;
 
@@ -102,13 +105,13 @@ void MeasureCells(const simd::Kernels& kernels, const Window& window, const Blur
 // Number of extra pixels of a layer that upsampling by two reads on each side.
 inline constexpr int32_t kUpBorder = 2;
 
-// Returns the number of pixels beyond its sides that a block at layer L renders. Upsampling from
-// layer to layer reads them.
+// Returns the number of pixels that a block at layer L renders beyond each side. Upsampling from
+// layer to layer reads these pixels.
 constexpr int32_t LayerMargin(int32_t layer) {
   return layer == 0 ? 0 : (LayerMargin(layer - 1) + 1) / 2 + kUpBorder;
 }
 
-// LayerMargin in pixels of the picture.
+// LayerMargin of each layer, converted to pixels of the picture.
 inline constexpr int16_t kLayerMargin[3] = {0, LayerMargin(1) << 1, LayerMargin(2) << 2};
 
 // Statistics of a block. r_max and has_edge include the pixels that splat into the block; r_min and
@@ -118,7 +121,7 @@ struct BlockStats {
   int32_t r_min, r_shown, r_max;
   bool has_edge;
   Border border[3];
-  Content content[2];  // of the pixels inside, along rows and along columns
+  Content content[2];  // content of the pixels inside, along rows and along columns
 };
 
 // Returns the statistics of a block made of four children with side `side`, in z-order. Children

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Map of the cells that are gathered (lib/filter/gather.h) instead of rendered from views, and the
-// pixels of a block that belong to them.
+// pixels of a block that belong to gathered cells.
 #ifndef STARFOCUS_LIB_PLAN_GATHERED_CELLS_H_
 #define STARFOCUS_LIB_PLAN_GATHERED_CELLS_H_
 
@@ -13,8 +13,8 @@
 namespace starfocus {
 
 // Lowest layer at which each cell of a stripe can be gathered. Blocks at that layer or above gather
-// the cell. kByViews: no block gathers it. Cells with kSlopeMark are gathered with a radius per
-// pixel (lib/filter/slope.h), others with the radius of their middle.
+// the cell. No block gathers a cell with kByViews. Cells with kSlopeMark are gathered with a radius
+// per pixel (lib/filter/slope.h), other cells with the radius of their middle.
 inline constexpr uint8_t kByViews = 3;
 inline constexpr uint8_t kSlopeMark = 4;
 struct GatherMap {

@@ -6,8 +6,8 @@
 namespace starfocus {
 namespace {
 
-// Stores a cell for the SIMD kernels. A cell outside the picture represents the repeated edge,
-// whose pixels may lie anywhere inside the cell.
+// Stores a cell for the SIMD kernels. A cell outside the picture represents the repeated edge. A
+// repeated pixel may lie at any position inside the cell.
 void StorePlanes(const Cell& cell, const BlurScale& scale, bool outside, size_t plane,
                  int16_t* out) {
   const auto reach = static_cast<int16_t>(ReachOf(cell.r_max));
@@ -25,7 +25,8 @@ void StorePlanes(const Cell& cell, const BlurScale& scale, bool outside, size_t 
   out[simd::kHighPlane * plane] = cell.high;
 }
 
-// Classifies a cell. `widest` is the largest range of any single cell.
+// Classifies a cell. [low, high] is the range of disparities within reach, and `widest` the largest
+// range within any single cell.
 CellKind KindOf(const BlurScale& scale, int32_t low, int32_t high, int32_t widest) {
   const int32_t range = high - low;
   const auto is_within = [&](int32_t disparities, int32_t limit) {
@@ -39,7 +40,8 @@ CellKind KindOf(const BlurScale& scale, int32_t low, int32_t high, int32_t wides
   if (is_within(range, kSmoothRange) && is_gradual_or_low(2 * widest > range)) {
     return CellKind::kFlat;
   }
-  // A slope and its blur may continue from cell to cell.
+  // On a slope, the blur may continue to change from cell to cell, so only the change within a cell
+  // is limited.
   const bool is_slope = is_within(widest, kSlopeRange) && is_gradual_or_low(3 * widest > 2 * range);
   return is_slope ? CellKind::kSloped : CellKind::kMixed;
 }

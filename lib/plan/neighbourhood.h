@@ -12,8 +12,8 @@
 
 namespace starfocus {
 
-// A rectangle of cells and the cells up to `around` away, as planes for the SIMD kernels. The edge
-// of the picture is repeated.
+// A rectangle of cells and the cells up to `around` cells away, as planes for the SIMD kernels.
+// Cells outside the picture repeat its edge.
 struct Surroundings {
   simd::CellPlanes planes;  // start at the first cell of the rectangle
   int32_t column, row, columns, rows;
@@ -27,29 +27,30 @@ struct Surroundings {
 };
 
 // Number of samples for a square of `side` cells, including the samples that kernels read beyond
-// it.
+// the square.
 constexpr size_t SurroundingSamples(int32_t side, int32_t around) {
   const auto all = static_cast<size_t>(side + 2 * around);
   return simd::kCellPlanes * all * all + 2 * simd::kSliceLanes;
 }
 
 // Loads the surroundings of a rectangle of cells, which may extend beyond the picture. The grid
-// must contain its rows inside the picture and those around them. `scale` is the scale of the
-// measurement. `samples` has SurroundingSamples.
+// must contain all rows of the rectangle and its surroundings that lie inside the picture. `scale`
+// must be the scale with which the grid was measured. `samples` has SurroundingSamples.
 Surroundings LoadSurroundings(const CellGrid& grid, const BlurScale& scale, const Rect& cells,
                               int32_t around, int16_t* samples);
 
-// A cell is smooth if it can be gathered (lib/filter/gather.h). All pixels within its reach, and
-// nearer pixels that reach it, must belong to one surface without depth edges. Blur radii have
-// opposite signs in front of and behind the focus. They must not vary by more than kSlopeRange
-// (kDisparityBits) within any of these cells. Farther pixels that reach the cell are ignored,
-// because no view shows them in front of the surface.
+// A cell is smooth if it can be gathered (lib/filter/gather.h). All pixels within reach of the
+// cell, and nearer pixels that reach the cell, must belong to one surface without depth edges. Blur
+// radii have opposite signs in front of and behind the focus. Within any cell of this area, signed
+// radii must not vary by more than kSlopeRange (kDisparityBits). Farther pixels that reach the cell
+// are ignored, because no view shows farther pixels in front of the surface.
 //
-// If more than two thirds of the variation lie within one cell, it is a step. A step must not
-// exceed half of the largest blur or kSharpSmoothRange, because the blur may be sharp on one side.
+// If more than two thirds of the variation lie within one cell, the variation is a step. A step
+// must not exceed the larger of half the largest blur radius and kSharpSmoothRange, because the
+// surface may be sharp on one side of the step.
 //
 // A cell is flat, and uses one PSF for all pixels, if the blur varies by at most kSmoothRange. For
-// flat cells more than half of the variation within one cell is a step.
+// flat cells, a variation of which more than half lies within one cell is a step.
 inline constexpr int32_t kSmoothRange = (5 << kDisparityBits) / 4;
 inline constexpr int32_t kSlopeRange = 2 << kDisparityBits;
 inline constexpr int32_t kSharpSmoothRange = (1 << kDisparityBits) / 2;
@@ -59,8 +60,8 @@ enum class CellKind : uint8_t { kMixed, kSloped, kFlat };
 BlockStats MeasureBlock(const simd::Kernels& kernels, const CellGrid& grid,
                         const Surroundings& surroundings, int32_t column, int32_t row);
 
-// Classifies the cells of a row of the surroundings, at most kMaxRowCells. `scale` is the scale of
-// the measurement.
+// Classifies the cells of a row of the surroundings, at most kMaxRowCells. `scale` must be the
+// scale with which the cells were measured.
 inline constexpr int32_t kMaxRowCells = 32;
 void FindSmooth(const simd::Kernels& kernels, const Surroundings& surroundings,
                 const BlurScale& scale, int32_t row, CellKind* smooth);

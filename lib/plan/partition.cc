@@ -10,9 +10,9 @@ constexpr double kRadiusOne = 1 << kDisparityBits;
 
 int32_t CeilShift(int32_t value, int32_t layer) { return (value + (1 << layer) - 1) >> layer; }
 
-// Converts a border of a block to a border of its rendered rectangle, at the layer. `beyond` is the
-// number of pixels of the nominal block outside the picture. Adds one pixel for the neighbour of a
-// subaperture.
+// Converts a border of a block to a border of its rendered rectangle, in pixels of the layer.
+// `beyond` is the number of pixels of the unclipped block outside the picture. One pixel is added,
+// because a subaperture also weighs the neighbour of a pixel.
 int32_t LayerBorder(int32_t border, int32_t beyond, int32_t layer) {
   return Max(0, CeilShift(border + beyond, layer) - LayerMargin(layer)) + 1;
 }
@@ -33,7 +33,8 @@ class Partition {
   void Measure(const CellGrid& cells, int32_t x, int32_t y, int32_t around) {
     x_ = x;
     y_ = y;
-    // The cells of whole smallest blocks, which may extend beyond the picture.
+    // The rectangle contains the cells of whole smallest blocks, which may extend beyond the
+    // picture.
     const Rect inside = {x / kCellSize, y / kCellSize, CellsWithin(config_.width - x),
                          CellsWithin(config_.height - y)};
     const Surroundings surroundings =
@@ -113,7 +114,8 @@ class Partition {
     }
   }
 
-  // Returns the GatherMap entry of a cell: the lowest layer whose PSFs are large enough for it.
+  // Returns the GatherMap entry of a cell: the lowest layer whose PSFs are large enough for the
+  // blur of the cell.
   static uint8_t MarkOf(const Cell& cell, CellKind smooth) {
     if (smooth == CellKind::kMixed) return kByViews;
     uint8_t layer = 0;
@@ -145,7 +147,8 @@ class Partition {
     return {x, y, Min(side, config_.width - x), Min(side, config_.height - y)};
   }
 
-  // Plans the candidate as one block, and stores the smaller of its time and that of its children.
+  // Plans the candidate as one block, and stores the predicted time of the block or of its
+  // children, whichever is smaller.
   void Plan(int level, int32_t column, int32_t row) {
     PartitionCandidate& candidate = Candidate(level, column, row);
     Block& block = candidate.block;
@@ -158,9 +161,9 @@ class Partition {
     candidate.best = best;
   }
 
-  // Gathers the possible cells at the layer of the block's views. A block that can be gathered
-  // completely at layer 0 is gathered there. That is closer to ground truth and takes little or no
-  // extra time (docs/constants.md).
+  // Plans to gather all smooth cells at the layer of the block's views. A block that can be
+  // gathered completely at layer 0 is gathered at layer 0. This choice is closer to ground truth
+  // and takes little or no extra time (docs/constants.md).
   void PlanGathering(const PartitionCandidate& candidate, Block* block) const {
     const auto cells = static_cast<uint64_t>(candidate.cells);
     const auto gathered = static_cast<uint64_t>(candidate.gathered[block->layer]);
@@ -239,7 +242,7 @@ class Partition {
     MeasureRendered(block);
   }
 
-  // Chooses N and the border from the smallest blocks that contain those cells.
+  // Chooses N and the border from the smallest blocks that contain cells to render.
   void MeasureRendered(Block* block) const {
     const int32_t layer = block->layer, scale = 1 << layer;
     const Rect& rect = block->rect;
@@ -286,7 +289,7 @@ class Partition {
   const PartitionScratch& scratch_;
   const GatherMap& gathered_;
   const starfocus_config& config_;
-  int32_t side_;  // in smallest blocks
+  int32_t side_;  // side of the superblock, in smallest blocks
   int levels_ = 0;
   int32_t x_ = 0, y_ = 0;
   int32_t count_ = 0;

@@ -16,11 +16,11 @@ inline constexpr int32_t kSmallestBlock = 16;
 
 // A block to refocus: a rectangle of the picture and its parameters.
 struct Block {
-  Rect rect;  // in pixels of the picture, clipped to it
-  // Rectangle that views render, at the layer: LayerFrame, or the part of it with cells that are
-  // not gathered. Empty if all cells are gathered.
+  Rect rect;  // in pixels of the picture, clipped to the picture
+  // Rectangle that is rendered from views, in pixels of the layer. The rectangle is LayerFrame, or
+  // the part of LayerFrame whose cells are not gathered. It is empty if all cells are gathered.
   Rect rendered;
-  Border border;        // of `rendered`, at the layer
+  Border border;        // border of `rendered`, in pixels of the layer
   int32_t layer;        // L
   int32_t n;            // N
   bool gathers;         // true: cells of the GatherMap are gathered
@@ -33,22 +33,23 @@ struct PartitionRules {
   const Renderer* renderer;
   const ViewWeights* apertures;  // apertures of the renderer, indexed by N up to max_n
   int32_t max_n;
-  Demand demand;  // of the opening
+  Demand demand;  // class of the opening
   BlurScale scale;
   int32_t largest_side;  // largest allowed side of a block
   int32_t max_layer;
   bool gathers;         // true: smooth cells are gathered
-  bool has_highlights;  // Block::has_highlights of all blocks
+  bool has_highlights;  // value of Block::has_highlights for all blocks
 };
 
-// Node of the quadtree. `best` is the smaller of the time of one block and of its children.
+// Node of the quadtree. `best` is the predicted time of one block or of its children, whichever is
+// smaller.
 struct PartitionCandidate {
   BlockStats stats;
   Block block;
   uint64_t best;
   int32_t cells;                       // number of cells inside the picture
   int32_t gathered[STARFOCUS_LAYERS];  // number of cells that can be gathered, for each layer
-  uint64_t gather[STARFOCUS_LAYERS];   // predicted time of gathering them
+  uint64_t gather[STARFOCUS_LAYERS];   // predicted time of gathering these cells, for each layer
 };
 
 // Returns the largest number of blocks that a superblock splits into.
@@ -63,7 +64,8 @@ constexpr int32_t PartitionCandidates(int32_t superblock) {
   return candidates;
 }
 
-// Scratch memory for one superblock: PartitionCandidates, and SurroundingSamples for its cells.
+// Scratch memory for one superblock: PartitionCandidates candidates, and SurroundingSamples samples
+// for the cells.
 struct PartitionScratch {
   PartitionCandidate* candidates;
   int16_t* cells;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Interface of the two renderers: slices, and the paper's line scan. Each lens uses one renderer.
-// All differences between them are behind this interface.
+// The engine accesses both renderers only through this interface.
 #ifndef STARFOCUS_LIB_PLAN_RENDERER_H_
 #define STARFOCUS_LIB_PLAN_RENDERER_H_
 
@@ -33,11 +33,11 @@ struct RenderJob {
   CancelToken* cancel;         // null: the job is never cancelled
   const BlockCells* gathered;  // null: no cell is gathered
   double r_max;                // largest blur radius of the lens in pixels
-  bool is_benchmark;           // true: benchmark mode, which needs more detail
+  bool is_benchmark;           // true: benchmark mode, which renders in more detail
 };
 
 struct Renderer {
-  int32_t index;           // index of its tables and scratch memory in an engine
+  int32_t index;           // index of the renderer's tables and scratch memory in an engine
   bool gathers;            // true: block mode gathers smooth cells instead of rendering them
   int32_t benchmark_side;  // side of the blocks in benchmark mode, in pixels
 
@@ -53,15 +53,16 @@ struct Renderer {
                             const Content (&content)[2], int32_t layer);
 
   size_t scratch_bytes;
-  // Allocates the scratch memory of one worker and stores it at `scratch`; null: only counts.
-  // `extended` is the largest side of a rectangle with its border, max_n the largest N.
+  // Allocates the scratch memory of one worker and stores its pointers at `scratch`. If `scratch`
+  // is null, only counts the bytes. `extended` is the largest side of a rectangle with its border,
+  // max_n the largest N.
   void (*take_scratch)(const starfocus_config& config, size_t extended, size_t max_n, Arena* arena,
                        void* scratch);
 
   // Returns true if no view moves any pixel of the rectangle. The result is then an exact copy of
   // the centre view.
   bool (*nothing_moves)(const RenderJob& job);
-  // Adds up the weighted views over job.rect into `sums`: rows of 3 * width values with
+  // Writes the weighted sums of the views over job.rect to `sums`: rows of 3 * width values with
   // sum_bits(aperture) fractional bits. Returns the number of samples rendered in each view. After
   // cancellation `sums` is unspecified.
   uint64_t (*render)(const RenderJob& job, void* scratch, uint32_t* sums);

@@ -7,7 +7,8 @@ namespace starfocus {
 namespace {
 
 // Returns the number of filter taps in a quarter plane for blur radius r (kDisparityBits). A disc
-// covers pi / 4 = 0.785 of its square, and pixels at its rim partially; 51/64 is 0.797.
+// covers pi / 4 = 0.785 of its square. The factor is 51/64 = 0.797, because pixels at the rim count
+// although the disc covers them only in part.
 uint64_t GatherTaps(int32_t radius) {
   const int32_t size = (radius + (3 << kDisparityBits) / 2) >> kDisparityBits;
   return static_cast<uint64_t>((size + 1) * (size + 1) * 51 / 64);
@@ -17,8 +18,8 @@ uint64_t GatherTaps(int32_t radius) {
 
 void AddScans(uint64_t views, uint64_t lines, const Content& content, int32_t layer,
               BlockWork* work) {
-  // A layer has 1 / 2^L of the lines. Along a line, slopes make 1 / 2^L of the runs and gaps have
-  // 1 / 2^L of the width. The number of edges along a line stays the same.
+  // A layer has 1 / 2^L of the lines. Along a line, slopes make 1 / 2^L of the runs and gaps have 1
+  // / 2^L of the width. The number of edges along a line does not change.
   const uint64_t runs = (content.slopes >> 2 * layer) + (content.edges >> layer);
   work->span += views * lines + views * runs / kContentOne;
   work->hole += views * (content.gaps >> 2 * layer) / kContentOne;
@@ -31,15 +32,15 @@ uint64_t PredictTime(const starfocus_timing& timing, const BlockWork& work) {
 }
 
 uint64_t PredictGather(const starfocus_timing& timing, uint64_t pixels, int32_t radius) {
-  // Estimate: each pixel costs 16 taps in addition to those of its radius. A tap costs 1/64 of an
-  // upsampled pixel.
+  // The estimate assumes that each pixel costs 16 taps in addition to the taps of its radius. A tap
+  // costs 1/64 of an upsampled pixel.
   return timing.upsample * pixels * (GatherTaps(radius) + 16) / 64;
 }
 
 // Coefficients block, field, a, b, c, upsample, span and hole, measured by `starfocus-lab
-// calibrate` on an x86-64 processor with AVX-512. With coefficients of boards, fitted to
-// instruction counts, block mode took between 1.7 % more and 0.4 % fewer instructions on AArch64
-// and ARMv6.
+// calibrate` on an x86-64 processor with AVX-512. Coefficients for boards were fitted to
+// instruction counts of AArch64 and ARMv6. With these coefficients, block mode took between 1.7 %
+// more and 0.4 % fewer instructions on these processors.
 starfocus_timing DefaultTiming() { return {5659266, 0, 2354, 0, 106, 3266, 720, 507}; }
 
 }  // namespace starfocus

@@ -25,17 +25,17 @@ struct BlockWork {
 void AddScans(uint64_t views, uint64_t lines, const Content& content, int32_t layer,
               BlockWork* work);
 
-// Returns the predicted time in picoseconds. It is exact in integers, so that all machines choose
-// the same partition.
+// Returns the predicted time in picoseconds. The computation uses integers, so that all machines
+// choose the same partition.
 uint64_t PredictTime(const starfocus_timing& timing, const BlockWork& work);
 
 // Returns the predicted time of gathering `pixels` pixels of a layer, in picoseconds. `radius` is
-// their largest blur radius in pixels of that layer (kDisparityBits). Gathering is a filter like
-// upsampling, so it uses the coefficient of upsampling.
+// the largest blur radius of these pixels, in pixels of the layer (kDisparityBits). Gathering is a
+// filter like upsampling, so it uses the coefficient of upsampling.
 uint64_t PredictGather(const starfocus_timing& timing, uint64_t pixels, int32_t radius);
 
-// Returns the default coefficients. They are the same on all machines, so that all split a picture
-// alike.
+// Returns the default coefficients, which are the same on all machines, so that all machines split
+// a picture in the same way.
 starfocus_timing DefaultTiming();
 
 }  // namespace starfocus
