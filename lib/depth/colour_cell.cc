@@ -7,13 +7,14 @@ namespace starfocus {
 namespace {
 
 constexpr int32_t kReach = 2 * simd::kColourReach;
-constexpr int32_t kLow = (1 << kDisparityBits) - 1;  // mask of the bits within a group
+// Mask of the bits of a disparity within its group
+constexpr int32_t kLow = (1 << kDisparityBits) - 1;
 static_assert(simd::kColourKeyBits == kDisparityBits, "keys hold a disparity within a group");
 constexpr simd::ColourSample kOutside = {0, 0, 0, simd::kNoColourKey, 0};
 
 int32_t GroupOf(int32_t disparity) { return (disparity >> kDisparityBits) + kGroups / 2; }
 
-// Assigns places to the groups of the pixels that others are compared with.
+// Assigns slots to the groups of all pixels with which doubtful pixels are compared.
 void PlaceGroups(const ColourMap& map, const uint8_t* doubt, const Rect& around, ColourCell* cell) {
   std::memset(cell->place, 0, sizeof cell->place);
   int32_t first = kGroups, last = 0;
@@ -39,7 +40,7 @@ void PlaceGroups(const ColourMap& map, const uint8_t* doubt, const Rect& around,
   cell->places = places + 1;
 }
 
-// Fills the samples of every second pixel of a row.
+// Fills one sample for every second pixel of a row.
 void FillEverySecond(const ColourMap& map, const uint8_t* doubt, const Rect& row,
                      const ColourCell& cell, simd::ColourSample* sample) {
   const uint8_t* colours = map.Pixel(0, row.y);

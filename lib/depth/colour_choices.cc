@@ -10,8 +10,8 @@ namespace starfocus {
 namespace {
 
 constexpr int32_t kPixel = 1 << kDisparityBits;
-// Cost of a step to another surface between pixels of the same colour. It halves where the colours
-// differ by kColourEdge.
+// kJump is the cost of a step to another surface between two pixels of one colour. The cost is half
+// of kJump if the colours of the pixels differ by kColourEdge.
 constexpr int32_t kJump = 120, kColourEdge = 12;
 
 // Arguments of WeighChoices.
@@ -23,7 +23,8 @@ struct ChoiceJob {
   const ChoiceMemory& memory;
 };
 
-// Inserts a choice in order of cost. Among equal costs the nearest disparity is the first.
+// Inserts a choice into `choices`, which are sorted by cost. A choice is inserted after all choices
+// of equal cost, so that the nearest disparity comes first.
 void Insert(int32_t disparity, int32_t cost, Choices* choices) {
   int32_t at = Min(choices->count, kMostChoices - 1);
   const bool full = choices->count == kMostChoices;
@@ -37,8 +38,8 @@ void Insert(int32_t disparity, int32_t cost, Choices* choices) {
   choices->count += full ? 0 : 1;
 }
 
-// Takes the groups that cost less than both adjacent groups, from the nearest to the farthest, for
-// pixel `lane` of the block.
+// Fills the choices of pixel `lane` of the block with the groups that cost less than both adjacent
+// groups. Groups are visited from the nearest to the farthest.
 void TakeBest(const ColourCell& cell, size_t lane, Choices* choices) {
   choices->count = 0;
   const uint16_t* keys = cell.least + lane;
@@ -57,7 +58,8 @@ void TakeBest(const ColourCell& cell, size_t lane, Choices* choices) {
   }
 }
 
-// Makes sure that the map's disparity, or one within a pixel of it, is among the choices.
+// Adds the map's disparity to the choices, unless a choice differs from the map's disparity by at
+// most a pixel.
 void KeepOwn(int32_t own, int32_t cost, Choices* choices) {
   for (int32_t k = 0; k < choices->count; ++k) {
     if (Abs(choices->disparity[k] - own) <= kPixel) return;
@@ -72,8 +74,8 @@ bool IsDoubtful(const ChoiceJob& job, const Rect& area, int32_t x, int32_t y) {
          job.doubt[job.map.At(area.x + x, area.y + y)] <= kDoubtReach;
 }
 
-// Fills the choices of the doubtful pixels of a block. The block consists of every second pixel
-// from (x, y) in the cell on.
+// Fills the choices of the doubtful pixels of a block. The block consists of every second pixel in
+// both directions, starting at (x, y) in the cell.
 void ChooseInBlock(const ChoiceJob& job, const Rect& area, int32_t x, int32_t y) {
   ColourCell* cell = job.memory.cell;
   std::memset(cell->least, 0xFF,
@@ -92,8 +94,8 @@ void ChooseInBlock(const ChoiceJob& job, const Rect& area, int32_t x, int32_t y)
   }
 }
 
-// Covers the doubtful pixels of a row of blocks with blocks. Each block begins at a doubtful pixel,
-// unless it would end beyond the cell.
+// Processes the doubtful pixels of a row of the cell in blocks. Each block begins at a doubtful
+// pixel, unless such a block would extend beyond the cell.
 void ChooseInRow(const ChoiceJob& job, const Rect& area, int32_t first, int32_t y) {
   const int32_t last = first + WholeBlocks(area.width) - kCellBlock;
   for (int32_t x = first; x < area.width;) {
@@ -139,8 +141,8 @@ int32_t JumpBetween(const uint8_t* a, const uint8_t* b) {
   return kJump * kColourEdge / (kColourEdge + ColourDifference(a, b));
 }
 
-// Continues a path from the choices of one pixel, with the costs up to it, to those of the next
-// pixel. A change of surface costs `jump`. Adds the costs to the sums.
+// Continues a path from the choices of one pixel to the choices of the next pixel, and updates the
+// path's costs. A change of surface costs `jump`. Adds the new costs to the sums of the next pixel.
 void ContinueAmong(const Choices& from, int32_t jump, Choices* to, ChoicePath* path) {
   int32_t least = path->cost[0];
   for (int32_t k = 1; k < from.count; ++k) least = Min(least, path->cost[k]);
@@ -158,8 +160,9 @@ void ContinueAmong(const Choices& from, int32_t jump, Choices* to, ChoicePath* p
   *path = next;
 }
 
-// Continues a path from a pixel to the next one, given their colours. Most pixels have one choice,
-// of the same surface. In that case the path adds no cost, whatever the colours.
+// Continues a path from a pixel to the next one, given their colours. In most cases, both pixels
+// have a single choice, and both choices are on one surface. The path then adds no cost, regardless
+// of the colours.
 inline void Continue(const Choices& from, const uint8_t* colour, const uint8_t* next, Choices* to,
                      ChoicePath* path) {
   if (from.count > 1 || to->count > 1 || Abs(to->disparity[0] - from.disparity[0]) > kPixel) {
@@ -209,7 +212,7 @@ void AddPathsDown(const ColourMap& map, const Rect& region, int32_t direction, C
   }
 }
 
-// Returns the side of equal cells that cover `length` pixels, in whole blocks.
+// Returns the side of cells of equal size that cover `length` pixels, rounded up to whole blocks.
 int32_t CellSide(int32_t length) {
   const int32_t cells = (length + kColourCell - 1) / kColourCell;
   return WholeBlocks((length + cells - 1) / cells);

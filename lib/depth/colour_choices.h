@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Chooses the surface of each doubtful pixel by colour. The candidates are the surrounding
-// disparities; those whose pixels have a similar colour cost least. Paths then make neighbours of
-// one colour prefer the same surface.
+// Finds and rates the candidate surfaces of each doubtful pixel by colour. The candidates are the
+// disparities of the surrounding pixels. A candidate has a low cost if its pixels have a colour
+// similar to the doubtful pixel. Sums along paths then make neighbours of one colour prefer one
+// surface.
 #ifndef STARFOCUS_LIB_DEPTH_COLOUR_CHOICES_H_
 #define STARFOCUS_LIB_DEPTH_COLOUR_CHOICES_H_
 
@@ -15,14 +16,14 @@ namespace starfocus {
 
 inline constexpr int32_t kMostChoices = 6;
 
-// Candidate disparities of a pixel, kDisparityBits. `cost` is the cost of each one alone, `sum` its
-// sum over paths, both in codes of colour difference.
+// Candidate disparities of a pixel, kDisparityBits. `cost` is the cost of each candidate without
+// its neighbours, and `sum` the sum of path costs. Both are in codes of colour difference.
 struct Choices {
   int32_t count;
   int16_t disparity[kMostChoices], cost[kMostChoices], sum[kMostChoices];
 };
 
-// Costs of a path up to a pixel.
+// Costs of a path up to a pixel, one for each choice of the pixel.
 struct ChoicePath {
   int16_t cost[kMostChoices];
 };
@@ -30,11 +31,12 @@ struct ChoicePath {
 // Scratch memory of a worker for one region.
 struct ChoiceMemory {
   Choices* choices;
-  ChoicePath* paths;  // one row
+  ChoicePath* paths;  // paths of one row
   ColourCell* cell;
 };
 
-// Fills the choices of `region`, row by row, and their sums.
+// Fills memory.choices with the choices of all pixels of `region`, row by row, and computes the
+// sums of the choices.
 void WeighChoices(const ColourMap& map, const uint8_t* doubt, const Rect& region,
                   const simd::DepthKernels& kernels, const ChoiceMemory& memory);
 

@@ -10,16 +10,17 @@ namespace {
 
 constexpr int32_t kPixel = 1 << kDisparityBits;
 constexpr int16_t kUnknown = INT16_MIN;
-// Disparities that differ by at most this are flat; blurred edges are steeper.
+// Largest difference of disparity at which a neighbour counts as flat, kDisparityBits. Blurred
+// edges are steeper.
 constexpr int32_t kFlat = kPixel / 2;
-// Smallest number of flat pixels, out of 25, around a pixel that is not on a ramp. Corners have 8
-// flat pixels, and ramps at most 5.
+// Smallest number of flat pixels among the 5x5 pixels around a pixel that is not on a ramp. At
+// corners of surfaces there are 8 flat pixels, and on ramps at most 5.
 constexpr int32_t kLeastFlat = 8;
 constexpr int32_t kFlatRadius = 2;
-// Width and height in pixels of cells that are tested for flatness as a whole. Most of them are
-// flat.
+// Width and height in pixels of the cells that are tested for flatness as a whole. Most of these
+// cells are flat.
 constexpr int32_t kFlatCell = 4;
-// Noise that is invisible in a refocused picture.
+// Largest standard deviation of noise that is invisible in a refocused picture, kDisparityBits.
 constexpr int32_t kLeastNoise = 6;
 
 // Fills the unknown pixels of a row. Returns false if no pixel is known.
@@ -39,11 +40,11 @@ bool FillRow(int32_t width, int16_t* row) {
   return true;
 }
 
-// Fills rows [first, end), which lie between two known rows, or between a known row and the edge of
-// the map.
+// Fills the unknown rows [first, end), which lie between two known rows, or between a known row and
+// the top or bottom of the map.
 void FillRows(const EstimatePlan& plan, int32_t first, int32_t end, int16_t* map) {
   const auto width = static_cast<size_t>(plan.width);
-  // At an edge the pointer stays inside the map and is not read.
+  // At the top and the bottom of the map, one pointer has no valid row and is not read.
   const int16_t* above = map + static_cast<size_t>(Max(first - 1, 0)) * width;
   const int16_t* below = map + static_cast<size_t>(Min(end, plan.height - 1)) * width;
   for (int32_t y = first; y < end; ++y) {
@@ -58,8 +59,8 @@ void FillRows(const EstimatePlan& plan, int32_t first, int32_t end, int16_t* map
   }
 }
 
-// Returns the doubt of a pixel from its surroundings alone: 0 on a ramp or unknown, 1 at a step,
-// otherwise the largest doubt.
+// Returns the doubt of a pixel from its surroundings alone: 0 if the pixel is on a ramp or unknown,
+// 1 if it is at a step, and otherwise the largest doubt.
 uint8_t DoubtAt(const ColourMap& map, int32_t x, int32_t y) {
   if (!std::isfinite(GivenAt(map.light_field, y)[x])) return 0;
   const int32_t own = map.disparity[map.At(x, y)];
@@ -74,7 +75,7 @@ uint8_t DoubtAt(const ColourMap& map, int32_t x, int32_t y) {
   return 0;
 }
 
-// Returns true if every pixel of a cell is given and the cell and its surroundings are flat.
+// Returns true if every pixel of a cell is known, and if the cell and its surroundings are flat.
 bool IsFlat(const ColourMap& map, const Rect& cell) {
   if (HasStep(map, cell, kFlatRadius, kFlat)) return false;
   for (int32_t y = cell.y; y < cell.y + cell.height; ++y) {
@@ -86,7 +87,7 @@ bool IsFlat(const ColourMap& map, const Rect& cell) {
   return true;
 }
 
-// Fills the doubt of each pixel of a region from its own surroundings.
+// Fills the doubt of each pixel of a region from the surroundings of the pixel alone.
 void FillAlone(const ColourMap& map, const Rect& region, uint8_t* doubt) {
   for (int32_t top = 0; top < region.height; top += kFlatCell) {
     for (int32_t left = 0; left < region.width; left += kFlatCell) {
@@ -103,7 +104,8 @@ void FillAlone(const ColourMap& map, const Rect& region, uint8_t* doubt) {
   }
 }
 
-// Propagates doubts to the following pixels of a scan over the region, forwards or backwards.
+// Scans the region forwards (direction 1) or backwards (-1) and limits the doubt of each pixel to
+// the doubt of previous pixels plus their distance.
 void CarryOn(const Rect& region, int32_t direction, uint8_t* doubt) {
   const int32_t width = region.width, height = region.height;
   for (int32_t k = 0; k < height; ++k) {
@@ -122,9 +124,9 @@ void CarryOn(const Rect& region, int32_t direction, uint8_t* doubt) {
   }
 }
 
-// Returns true if a pixel next to a step belongs to a surface without a core nearby. A surface that
-// was grown on all sides has a core within kDisplacement of each of its pixels, so this one was not
-// grown.
+// Returns true if a pixel next to a step belongs to a surface without a core nearby. A core
+// consists of pixels farther than kDisplacement from all steps. A surface that the map has widened
+// on all sides has a core within kDisplacement of each of its pixels.
 bool IsThin(const ColourMap& map, const Rect& region, const uint8_t* doubt, int32_t x, int32_t y) {
   const int32_t own = map.disparity[map.At(x, y)];
   const Rect around = Widened(map.plan, {x, y, 1, 1}, kDisplacement);
@@ -143,7 +145,7 @@ bool IsThin(const ColourMap& map, const Rect& region, const uint8_t* doubt, int3
 void ReadMap(const EstimatePlan& plan, const starfocus_light_field& light_field,
              int16_t* disparity) {
   const ColourMap map = {plan, light_field, disparity};
-  int32_t unknown = 0;  // unknown rows before this one, to be filled
+  int32_t unknown = 0;  // number of unknown rows directly above row y, which remain to be filled
   for (int32_t y = 0; y < plan.height; ++y) {
     int16_t* row = disparity + map.At(0, y);
     const float* given = GivenAt(light_field, y);
@@ -161,7 +163,7 @@ void ReadMap(const EstimatePlan& plan, const starfocus_light_field& light_field,
 }
 
 int32_t MeasureNoise(const EstimatePlan& plan, const int16_t* disparity) {
-  constexpr int32_t kMost = 1023;  // also counts all larger values
+  constexpr int32_t kMost = 1023;  // counts[kMost] includes all larger values
   uint32_t counts[kMost + 1] = {};
   const auto width = static_cast<size_t>(plan.width), height = static_cast<size_t>(plan.height);
   size_t total = 0;
@@ -175,7 +177,8 @@ int32_t MeasureNoise(const EstimatePlan& plan, const int16_t* disparity) {
   }
   int32_t median = 0;
   for (size_t below = counts[0]; 2 * below < total; below += counts[median]) ++median;
-  // For normally distributed noise, the median is 0.6745 * sqrt(20) standard deviations.
+  // For normally distributed noise, the median is 0.6745 * sqrt(20), or approximately 3, standard
+  // deviations.
   const int32_t noise = median / 3;
   return noise > kLeastNoise ? noise : 0;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A given disparity map, prepared for a repair by colour: converted to fixed point, with unknown
-// pixels filled and its noise measured. Each pixel also gets its distance from the places where the
-// map may be wrong.
+// Prepares a given disparity map for a repair by colour. The functions convert the map to fixed
+// point, fill unknown pixels and measure the noise. They also measure the doubt of each pixel,
+// which is the distance from the pixel to the nearest point where the map may be wrong.
 #ifndef STARFOCUS_LIB_DEPTH_COLOUR_MAP_H_
 #define STARFOCUS_LIB_DEPTH_COLOUR_MAP_H_
 
@@ -15,9 +15,10 @@
 
 namespace starfocus {
 
-// Pixels farther than this from all steps and ramps are taken as correct.
+// Largest doubt, in pixels, of a doubtful pixel. Pixels farther from all steps and ramps are
+// assumed to be correct.
 inline constexpr int32_t kDoubtReach = 5;
-// Largest displacement of a step, in pixels.
+// Largest distance in pixels by which a map may displace a step.
 inline constexpr int32_t kDisplacement = 3;
 inline constexpr int32_t kThinDoubt = kDisplacement + 1;
 inline constexpr int32_t kDoubtMargin = kDoubtReach + 1 + kDisplacement;
@@ -28,13 +29,14 @@ inline int32_t ColourDifference(const uint8_t* a, const uint8_t* b) {
   return simd::ColourDifference(red + green + blue, red - green, green - blue);
 }
 
-// Converts a disparity to kDisparityBits. Rounds halves away from zero.
+// Converts a disparity to kDisparityBits. Rounds half away from zero.
 inline int16_t ToFixed(float disparity) {
   const float scaled = disparity * (1 << kDisparityBits);
   return static_cast<int16_t>(scaled < 0 ? scaled - 0.5F : scaled + 0.5F);
 }
 
-// Input of jobs: the picture, the given map, and rows of `width` 16-bit disparities.
+// Input of the jobs of a repair: the picture, the given map, and the map in fixed point, in rows of
+// plan.width disparities.
 struct ColourMap {
   const EstimatePlan& plan;
   const starfocus_light_field& light_field;
@@ -50,28 +52,29 @@ struct ColourMap {
   }
 };
 
-// Converts light_field.depth, which has at least one finite pixel. Other pixels get the nearest
-// finite one of their row; rows without any get the nearest row that has one. Among two equally
-// near ones the farther surface is taken.
+// Converts light_field.depth, which has at least one finite pixel. Other pixels get the disparity
+// of the nearest finite pixel of their row. Rows without a finite pixel are copied from the nearest
+// row with a finite pixel. If two sources are equally near, the farther surface is copied.
 void ReadMap(const EstimatePlan& plan, const starfocus_light_field& light_field,
              int16_t* disparity);
 
-// Returns the standard deviation of the map's noise, kDisparityBits, or 0 if it is invisible. It is
-// computed from the median difference of pixels from the mean of their neighbours, which edges do
-// not affect.
+// Returns the standard deviation of the map's noise in kDisparityBits, or 0 if the noise is
+// invisible. The deviation is computed from the median difference between a pixel and the mean of
+// its neighbours. Edges do not affect the median.
 int32_t MeasureNoise(const EstimatePlan& plan, const int16_t* disparity);
 
-// Returns true if two disparities in the rectangle, extended by `margin` pixels, differ by more
-// than `step`.
+// Returns true if any two disparities in `rect`, extended by `margin` pixels, differ by more than
+// `step`.
 bool HasStep(const ColourMap& map, const Rect& rect, int32_t margin, int32_t step);
 
 // Returns true if one of the pixel's neighbours in the tile belongs to another surface.
 bool IsBesideStep(const ColourMap& map, const Rect& tile, int32_t x, int32_t y);
 
-// Fills `tile` of `doubt`. The doubt is 0 on ramps and unknown pixels and 1 at steps. It grows by
-// one for each pixel away from these, up to kDoubtReach + 1. kThinDoubt marks surfaces too thin to
-// have been grown by as much as steps are displaced. `scratch` has room for the tile and
-// kDoubtMargin pixels around it.
+// Computes the doubt of the pixels of `tile`. The doubt is 0 on ramps and at unknown pixels, and 1
+// at steps. With the distance from ramps, unknown pixels and steps, the doubt increases by 1 per
+// pixel up to kDoubtReach + 1. A map may have widened surfaces by displacing their steps. Surfaces
+// that are too thin to have been widened have doubt kThinDoubt. `scratch` has one byte per pixel of
+// the tile, extended by kDoubtMargin pixels on each side.
 void MeasureDoubt(const ColourMap& map, const Rect& tile, uint8_t* scratch, uint8_t* doubt);
 
 }  // namespace starfocus

@@ -6,7 +6,7 @@
 namespace starfocus {
 namespace {
 
-// Returns a cell of a level. Cells outside the level repeat its edge.
+// Returns a cell of a level. Outside the level, the outermost cells are repeated.
 const ColourMean& Inside(const ColourLevel& level, int32_t x, int32_t y) {
   return level.At(Clamp(x, 0, level.columns - 1), Clamp(y, 0, level.rows - 1));
 }
@@ -26,7 +26,7 @@ void PullLevel(const ColourLevel& from, const ColourLevel& to) {
   }
 }
 
-// Fills the unknown part of a cell with the bilinear interpolation of the level above.
+// Fills in the unknown part of a cell's colour by bilinear interpolation of the level above.
 void PushCell(const ColourLevel& above, int32_t x, int32_t y, ColourMean* cell) {
   const int32_t column = x >> 1, row = y >> 1;
   const int32_t beside = column + ((x & 1) != 0 ? 1 : -1), next = row + ((y & 1) != 0 ? 1 : -1);
@@ -40,7 +40,8 @@ void PushCell(const ColourLevel& above, int32_t x, int32_t y, ColourMean* cell) 
   }
 }
 
-// Bilinear weights of the previous, the own and the next cell for each pixel position, in eighths.
+// Bilinear weights of the previous cell, the pixel's own cell and the next cell, for each position
+// of a pixel in its cell; in eighths.
 constexpr int32_t kEighths[kHairCell][3] = {{3, 5, 0}, {1, 7, 0}, {0, 7, 1}, {0, 5, 3}};
 
 }  // namespace
@@ -92,7 +93,7 @@ void InterpolateCell(const ColourPyramid& pyramid, int32_t column, int32_t row,
   }
   for (int32_t y = 0; y < kHairCell; ++y) {
     for (int c = 0; c < 3; ++c) {
-      int32_t across[3];  // in eighths
+      int32_t across[3];  // weighted sums, in units of 1/8
       for (int32_t x = 0; x < 3; ++x) {
         across[x] = 0;
         for (int k = 0; k < 3; ++k) across[x] += kEighths[y][k] * around[k][x]->rgb[c];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pull-push pyramid over cells of 4 x 4 pixels. It extends the colours of a surface from pixels
-// that show it to pixels that do not.
+// Pull-push pyramid over cells of 4 x 4 pixels. The pyramid extends the colours of a surface from
+// pixels that show the surface to pixels that do not.
 #ifndef STARFOCUS_LIB_DEPTH_COLOUR_PYRAMID_H_
 #define STARFOCUS_LIB_DEPTH_COLOUR_PYRAMID_H_
 
@@ -13,9 +13,10 @@ namespace starfocus {
 
 // Side of a cell of the lowest level, in pixels.
 inline constexpr int32_t kHairCell = 4;
-// Fractional bits of mean colours. Sums of three squared differences fit 31 bits.
+// Fractional bits of mean colours, chosen so that sums of three squared differences fit in 31 bits.
 inline constexpr int kMeanBits = 6;
-// Largest weight: that of a pixel that shows only this surface, or of a cell whose colour is known.
+// Largest weight of a pixel or cell. A pixel that shows only this surface has this weight, and so
+// has a cell whose colour is fully known.
 inline constexpr int kKnownBits = 8;
 inline constexpr int32_t kFullyKnown = 1 << kKnownBits;
 
@@ -24,10 +25,10 @@ struct ColourMean {
   uint16_t weight;  // [0, kFullyKnown]
 };
 
-// Weighted sum of pixels or cells.
+// Weighted sum of the colours of pixels or cells.
 class ColourSum {
  public:
-  // `weight` is in [0, kFullyKnown]. Sums of 16 pixels have 27 bits.
+  // Adds a colour. `weight` is in [0, kFullyKnown]. Sums of 16 pixels have 27 bits.
   template <class T>
   void Add(const T* rgb, uint32_t weight) {
     for (int c = 0; c < 3; ++c) sums_[c] += weight * rgb[c];
@@ -48,7 +49,8 @@ struct ColourLevel {
   }
 };
 
-// levels[0] has the cells of the picture; levels[count - 1] is a single cell.
+// A pyramid of `count` levels. levels[0] contains the cells of the picture; levels[count - 1]
+// contains a single cell.
 struct ColourPyramid {
   static constexpr int kMostLevels = 16;
   int32_t count;
@@ -56,15 +58,15 @@ struct ColourPyramid {
 };
 ColourPyramid TakeColourPyramid(int32_t width, int32_t height, Arena* arena);
 
-// Pulls the means of the lowest level up and pushes them down again, which fills cells of low
-// weight. Returns false if all weights are 0.
+// Pulls the means of levels[0] up to the single cell and pushes the means down again, which fills
+// in cells of low weight. Returns false if all weights are 0.
 bool CarryOnColours(const ColourPyramid& pyramid);
 
-// Colours of the pixels of a cell, kMeanBits.
+// Colours of all pixels of a cell, kMeanBits.
 struct CellColours {
   int32_t rgb[kHairCell][kHairCell][3];
 };
-// Interpolates the colours of a cell's pixels bilinearly from the lowest level.
+// Interpolates the colours of a cell's pixels bilinearly from levels[0].
 void InterpolateCell(const ColourPyramid& pyramid, int32_t column, int32_t row,
                      CellColours* colours);
 

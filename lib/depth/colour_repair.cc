@@ -14,24 +14,27 @@ namespace starfocus {
 namespace {
 
 constexpr int32_t kPixel = 1 << kDisparityBits;
-// A choice within this distance of the map's disparity counts as the map's.
+// Largest difference between a choice and the map's disparity at which the choice counts as the
+// map's disparity.
 constexpr int32_t kSameSurface = kPixel;
-// Smallest total gain of the changed pixels within kGainRadius. One or two changed pixels are more
-// likely a speckle of their surface than the edge of another one. Maps that are mostly right need a
-// much larger gain: they are wrong only at objects whose colour is that of their background.
+// Smallest total gain, over the pixels within kGainRadius, that is required for a change. One or
+// two contradicted pixels are more likely a speckle on their surface than the edge of another
+// surface. In maps that are mostly right, a much larger gain is required. Such maps are wrong only
+// at objects that have the colour of the background, where colours are unreliable.
 constexpr int32_t kGainRadius = 3;
 constexpr EvidenceScale kGains = {18, 22, 1000, 60};
-// Number of paths in the sums of choices.
+// Number of path directions in the sums of choices.
 constexpr int32_t kPaths = 4;
 constexpr int32_t kColourPhases = 9;
-// Changed pixels get the mean of the surface around them; pixels next to steps count less.
+// Changed pixels get the mean disparity of the chosen surface within kMeanRadius. Pixels far from
+// steps have weight kSureWeight, and pixels next to steps weight 1.
 constexpr int32_t kMeanRadius = 5, kSureWeight = 4;
 
 struct ColourJob {
   const ColourMap& map;
   const MapOutput& output;
   const Smoothing& smoothing;
-  int16_t* to;  // output of the phase
+  int16_t* to;  // output of the phase: a map
   int16_t* chosen;
   ColourMemory* memory;
   const simd::DepthKernels& kernels;
@@ -51,7 +54,8 @@ void DoubtTile(const void* data, int32_t index, int32_t worker) {
                job.memory->doubt);
 }
 
-// Chooses the disparity of a pixel with the smallest sum.
+// Chooses the disparity with the smallest sum for a pixel, and computes the pixel's gain and
+// certainty.
 void Choose(const ColourJob& job, size_t at, const Choices& choices) {
   const int32_t given = job.map.disparity[at];
   int32_t best = 0, own = 0;
@@ -79,7 +83,7 @@ TileCount CountTile(const ColourJob& job, const Rect& tile) {
     for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
       const size_t at = job.map.At(x, y);
       const int32_t doubt = job.memory->doubt[at];
-      // Ramps are edges, too.
+      // Pixels on ramps count as edge pixels.
       if (doubt > kThinDoubt || (doubt != 0 && !IsBesideStep(job.map, tile, x, y))) continue;
       ++count.rough;
       count.differs += Differs(job, at) ? 1 : 0;
@@ -106,8 +110,8 @@ void ChooseTile(const void* data, int32_t index, int32_t worker) {
   CountBeside(grid, job.map.disparity, tile, index, job.memory->thin);
 }
 
-// Decides, from the counts of all tiles, how much gain a change needs and which cells are kept.
-// Cells with hair are kept, too.
+// Determines from the counts of all tiles the gain required for a change, and marks the cells that
+// must not change. These are the cells with thin structure and the cells with hair.
 void JudgeMap(const EstimatePlan& plan, ColourMemory* memory) {
   memory->least_gain = LeastEvidence(kGains, memory->counts, plan.columns * plan.rows);
   const ThinGrid grid = GridOf(plan);
@@ -119,7 +123,8 @@ void JudgeMap(const EstimatePlan& plan, ColourMemory* memory) {
   }
 }
 
-// Returns true if the changes around a pixel gain enough to contradict the map.
+// Returns true if the total gain of the changes around a pixel is large enough to contradict the
+// map.
 bool IsGainsaid(const ColourJob& job, int32_t x, int32_t y) {
   const Rect around = Widened(job.map.plan, {x, y, 1, 1}, kGainRadius);
   int32_t gain = 0;
@@ -131,7 +136,8 @@ bool IsGainsaid(const ColourJob& job, int32_t x, int32_t y) {
   return gain >= job.memory->least_gain;
 }
 
-// Returns the mean of the map's pixels around (x, y) that belong to the surface chosen there.
+// Returns the weighted mean of the map's disparities around pixel (x, y) that belong to the surface
+// chosen for this pixel.
 float MeanOfSurface(const ColourJob& job, int32_t x, int32_t y) {
   const int32_t own = job.chosen[job.map.At(x, y)];
   const Rect around = Widened(job.map.plan, {x, y, 1, 1}, kMeanRadius);
@@ -150,7 +156,7 @@ float MeanOfSurface(const ColourJob& job, int32_t x, int32_t y) {
   return static_cast<float>(sum) / static_cast<float>(weights * kPixel);
 }
 
-// Writes a pixel of the result. `keeps`: known disparities are not changed.
+// Writes a pixel of the result. If `keeps` is true, known disparities are not changed.
 void WritePixel(const ColourJob& job, bool keeps, int32_t x, int32_t y) {
   const size_t at = job.map.At(x, y), row = static_cast<size_t>(y), column = static_cast<size_t>(x);
   const float given = GivenAt(job.map.light_field, y)[x];
@@ -167,8 +173,9 @@ void WritePixel(const ColourJob& job, bool keeps, int32_t x, int32_t y) {
       differs && !changes ? uint8_t{0} : job.memory->certainty[at];
 }
 
-// Writes the disparity of a pixel if it differs from the one in the job's map. Its confidence
-// becomes 0, because its colour alone does not support the change.
+// Writes `disparity` to the output if it differs from the pixel's disparity in the job's map. The
+// confidence of a changed pixel is set to 0, because the colour of the pixel alone does not support
+// the change.
 void Change(const ColourJob& job, int32_t x, int32_t y, int16_t disparity) {
   if (disparity == job.map.disparity[job.map.At(x, y)]) return;
   const auto row = static_cast<size_t>(y), column = static_cast<size_t>(x);
@@ -189,8 +196,8 @@ void WriteTile(const void* data, int32_t index, int32_t) {
   });
 }
 
-// Calls act(cell) for each cell of a tile with a step larger than `step` inside it or within
-// `margin` pixels. Skips thin structure.
+// Calls act(cell) for each cell of a tile that has a step larger than `step` in the cell or within
+// `margin` pixels of the cell. Cells of thin structure are skipped.
 template <class Act>
 void ForSteps(const ColourJob& job, int32_t index, int32_t margin, int32_t step, const Act& act) {
   ForCells(GridOf(job.map.plan), index, [&](const Rect& cell, int32_t number) {
@@ -259,7 +266,8 @@ starfocus_status ChooseByColour(const ColourMap& given, const simd::DepthKernels
   const ColourMap map = {plan, light_field, maps[noise > 0 ? 2 : 0]};
   int16_t* const written = maps[noise > 0 ? 0 : 2];
   const ColourMap repaired = {plan, light_field, written}, wide = {plan, light_field, maps[1]};
-  // The first pass averages within three standard deviations; its result is a third as noisy.
+  // The first pass averages disparities within three standard deviations, which reduces the noise
+  // to a third.
   const Smoothing first = {3, 1, 3 * noise}, second = {4, 2, 3 * noise / 2};
   const struct {
     JobFunction function;
@@ -328,7 +336,7 @@ size_t LayOutColourRepair(const EstimatePlan& plan, int32_t max_workers, void* b
   auto* counts = arena.Take<TileCount>(tiles);
   auto* soft = arena.Take<SoftCount>(tiles);
   const ThinCells thin = TakeThinCells(GridOf(plan), &arena);
-  // The search for coverage is the first step, so its memory overlaps that of all others.
+  // The search for coverage runs first, so its memory may overlap the memory of all later phases.
   arena.Reuse(mark);
   const HairMemory hair = TakeHairMemory(plan, &arena);
   arena.GoOn();

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Repairs the disparity map of a single view by its colours. The paper's section VII-A uses a
-// bilateral weighted median for this purpose. Near steps and on ramps of the map, the surrounding
-// surfaces compete for each pixel by hue, saturation and brightness. Noise is averaged within
-// surfaces. Finally nearer surfaces are widened where edges of the picture are soft, and outlines
-// are smoothed.
+// Repairs the disparity map of a single view using the colours of the view. The paper uses a
+// bilateral weighted median for this purpose (VII-A). First, noise is averaged within surfaces.
+// Near steps and on ramps of the map, each pixel is then assigned to the surrounding surface that
+// matches its hue, saturation and brightness best. Finally, nearer surfaces are widened if edges of
+// the picture are soft, and outlines are smoothed.
 #ifndef STARFOCUS_LIB_DEPTH_COLOUR_REPAIR_H_
 #define STARFOCUS_LIB_DEPTH_COLOUR_REPAIR_H_
 
@@ -28,45 +28,47 @@ struct ColourTileMemory {
   SmoothMemory* smooth;
 };
 
-// Maps have the size of the picture and disparities in kDisparityBits.
+// Memory of a repair. All maps have the size of the picture, and disparities have kDisparityBits.
 struct ColourMemory {
   JobSet jobs;
-  // The given map, the map after one pass of smoothing, and the smoothed map. Maps that are no
-  // longer needed hold the results of later phases.
+  // The given map, the map after one pass of smoothing, and the smoothed map. Later phases store
+  // their results in maps that are no longer used.
   int16_t* maps[3];
-  // difference of the costs of the map's disparity and of the choice; 0 where they are equal
+  // Cost of the map's disparity minus the cost of the chosen disparity; 0 if both disparities are
+  // on one surface.
   int16_t* gain;
   uint8_t* doubt;  // result of MeasureDoubt
-  // Difference of the costs, per path, of another surface and of the chosen one.
+  // Cost of the best other surface minus the cost of the chosen surface, divided by the number of
+  // paths.
   uint8_t* certainty;
   TileCount* counts;   // of each tile
-  SoftCount* soft;     // of each tile of the repaired map
-  int32_t least_gain;  // smallest gain that a change needs
+  SoftCount* soft;     // counts of each tile of the repaired map
+  int32_t least_gain;  // smallest gain required for a change
   ThinCells thin;      // thin structure of the map
   HairCells hair_cells;
-  HairMemory hair;    // overlaps maps[1], maps[2] and the planes below
+  HairMemory hair;    // overlaps maps[1], maps[2] and all later planes
   bool has_coverage;  // output: the last call found coverage
   ColourTileMemory* workers;
 };
 
 // Lays out the memory at `base` (aligned to STARFOCUS_ALIGNMENT), or only counts it if base is
-// null. Returns the bytes used, or kTooLarge. Only the size and the tiles of the plan are read,
-// here and below.
+// null. Returns the number of bytes used, or kTooLarge. Only the size and the tiles of `plan` are
+// read, here and in RepairByColour.
 size_t LayOutColourRepair(const EstimatePlan& plan, int32_t max_workers, void* base,
                           ColourMemory** memory);
 
-// Repairs light_field.depth, which has at least one finite pixel, into `output`, using the centre
-// view alone.
+// Repairs light_field.depth using the colours of the centre view, and writes the result to
+// `output`. At least one pixel of light_field.depth must be finite.
 //
-// Pixels that the colours do not contradict keep their disparity to the bit. Exceptions are noisy
-// maps, and pixels most of whose neighbours of similar colour belong to another surface. Unknown
-// pixels (NaN, infinite) get a disparity.
+// A pixel keeps its disparity exactly if the colours do not contradict it. There are two
+// exceptions: noisy maps are smoothed, and a pixel may change if most neighbours of similar colour
+// belong to another surface. Unknown pixels (NaN or infinite) get a disparity.
 //
-// Confidence is 255 where nothing is in doubt. It is 0 where colours contradict the map too weakly,
-// or where an outline was moved afterwards.
+// The confidence is 255 at pixels without doubt. The confidence is 0 if the colours contradict the
+// map too weakly to change it, and at pixels that the widening or smoothing of outlines changed.
 //
-// If output.coverage is not null and the map has closed the outline of hair, the coverage of hair
-// is written and memory->has_coverage is set. Disparities of hair are not changed
+// If output.coverage is not null and the map shows hair as a solid shape, the function writes the
+// coverage of the hair and sets memory->has_coverage. Disparities of hair are not changed
 // (hair_coverage.h). Returns STARFOCUS_OK, STARFOCUS_ERROR_CANCELLED or STARFOCUS_ERROR_RUNNER.
 starfocus_status RepairByColour(const EstimatePlan& plan, const starfocus_light_field& light_field,
                                 const simd::DepthKernels& kernels, const MapOutput& output,

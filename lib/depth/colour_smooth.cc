@@ -4,11 +4,12 @@
 namespace starfocus {
 namespace {
 
-constexpr int32_t kOutside = INT32_MIN / 2;  // outside the tolerance of any disparity
+// Differs from every disparity by more than any tolerance
+constexpr int32_t kOutside = INT32_MIN / 2;
 constexpr uint8_t kBlack[3] = {};
 constexpr int32_t kPlane = SmoothMemory::kPlane;
 
-// Fills the planes of `count` columns from `first` on; columns may lie outside the picture.
+// Fills columns [first, first + count) of the planes of row y. Columns may lie outside the picture.
 void FillPlanes(const ColourMap& map, int32_t first, int32_t count, int32_t y, int32_t* row) {
   for (int32_t k = 0; k < count; ++k) {
     const int32_t x = first + k;

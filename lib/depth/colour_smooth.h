@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Smooths the noise of a disparity map within surfaces.
+// Reduces the noise of a disparity map by averaging disparities within surfaces.
 #ifndef STARFOCUS_LIB_DEPTH_COLOUR_SMOOTH_H_
 #define STARFOCUS_LIB_DEPTH_COLOUR_SMOOTH_H_
 
@@ -12,13 +12,15 @@ namespace starfocus {
 
 inline constexpr int32_t kMostSmoothRadius = 4;
 
-// Neighbours that a pixel is averaged with: every `step`th one within `radius` pixels whose
-// disparity differs by at most `tolerance`. Neighbours of similar colour have the largest weights.
+// Parameters of the average. A pixel is averaged with every `step`-th neighbour within `radius`
+// pixels whose disparity differs by at most `tolerance` (kDisparityBits). Neighbours of similar
+// colour have the largest weights.
 struct Smoothing {
   int32_t radius, step, tolerance;
 };
 
-// A ring buffer of the rows around the one that is smoothed, in the planes of simd::SmoothRows.
+// A ring buffer of rows around the row that is being smoothed. Each row consists of the planes of
+// simd::SmoothRows.
 struct SmoothMemory {
   static constexpr int32_t kRows = 2 * kMostSmoothRadius + 1;
   static constexpr int32_t kPlane = kMostTileSide + 2 * kMostSmoothRadius;
@@ -26,7 +28,7 @@ struct SmoothMemory {
   int32_t rows[kRows][4 * kPlane];
 };
 
-// Fills `tile` of the map `smooth`.
+// Smooths the pixels of `tile` and writes them to the map `smooth`.
 void SmoothTile(const ColourMap& map, const Smoothing& smoothing, const Rect& tile,
                 const simd::DepthKernels& kernels, SmoothMemory* memory, int16_t* smooth);
 

@@ -25,7 +25,7 @@ void SweepSecond(const void* data, int32_t index, int32_t worker) {
   SweepAllViews(&static_cast<const EstimateJob*>(data)->sweep, index, worker);
 }
 
-// Writes a tile of the result. Pixels overruled by their neighbours get confidence 0.
+// Writes a tile of the result. Pixels that WithoutStray changes get confidence 0.
 void WriteTile(const void* data, int32_t index, int32_t) {
   const EstimateJob& job = *static_cast<const EstimateJob*>(data);
   const EstimatePlan& plan = job.sweep.plan;

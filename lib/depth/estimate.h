@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Estimates the disparities of a light field's centre view with two sweeps over all labels. The
-// first sweep uses the views on one side of each pixel. Its result shows which views see a pixel,
-// and the second sweep uses only these.
+// first sweep uses the views on one side of each pixel. The result of the first sweep shows which
+// views see each pixel, and the second sweep uses only these views.
 #ifndef STARFOCUS_LIB_DEPTH_ESTIMATE_H_
 #define STARFOCUS_LIB_DEPTH_ESTIMATE_H_
 
@@ -11,7 +11,8 @@
 
 namespace starfocus {
 
-// Estimates a map. Returns STARFOCUS_OK, STARFOCUS_ERROR_CANCELLED or STARFOCUS_ERROR_RUNNER.
+// Estimates a map and writes it to `output`. Returns STARFOCUS_OK, STARFOCUS_ERROR_CANCELLED or
+// STARFOCUS_ERROR_RUNNER.
 starfocus_status Estimate(const EstimatePlan& plan, const starfocus_light_field& light_field,
                           const simd::DepthKernels& kernels, const MapOutput& output,
                           EstimateMemory* memory);

@@ -11,13 +11,14 @@ namespace {
 
 constexpr int32_t kRadius = 2;
 constexpr int32_t kMostVotes = (2 * kRadius + 1) * (2 * kRadius + 1);
-// kStray: a pixel farther than this from the median is wrong, kDisparityBits. Other pixels keep
-// their disparity, so that slopes are preserved. kVote: weight of a pixel of the same colour. It
-// halves with each kHalving gray levels of difference, summed over R, G and B.
+// A pixel is stray if its disparity differs from the median by more than kStray (kDisparityBits).
+// Other pixels keep their disparity, so that slopes are preserved. kVote is the weight of a
+// neighbour of equal colour. The weight halves with each kHalving gray levels of difference, summed
+// over R, G and B.
 constexpr int32_t kStray = 1 << (kDisparityBits - 2);
 constexpr int32_t kVote = 64, kHalving = 14;
 
-// Disparities with weights. Unused places have weight 0.
+// Disparities with weights. Unused elements have weight 0.
 struct Votes {
   static constexpr int32_t kPlaces = (kMostVotes + 7) / 8 * 8;  // whole vectors
 
@@ -31,7 +32,8 @@ struct Votes {
     weight += vote;
   }
 
-  // Returns the smallest disparity above which lies at most half of the weight.
+  // Returns the smallest disparity d in [low, high] for which disparities above d have at most half
+  // of the total weight.
   int16_t Median(int32_t low, int32_t high) const {
     while (low < high) {
       const int32_t middle = (low + high) >> 1;
@@ -58,7 +60,7 @@ struct AroundRange {
   int32_t low, high;
 };
 
-// Returns the range of the disparities around a pixel.
+// Returns the range of the disparities in the rectangle `around`.
 AroundRange RangeOf(const EstimatePlan& plan, const int16_t* map, const Rect& around) {
   AroundRange range = {INT16_MAX, INT16_MIN};
   for (int32_t row = around.y; row < around.y + around.height; ++row) {
@@ -79,7 +81,7 @@ int16_t WithoutStray(const EstimatePlan& plan, const Plane<const uint8_t>& centr
   const int16_t own =
       map[static_cast<size_t>(y) * static_cast<size_t>(plan.width) + static_cast<size_t>(x)];
   const AroundRange range = RangeOf(plan, map, around);
-  // A median of values within kStray is within kStray, too.
+  // If all values are within kStray of the pixel, the median is within kStray as well.
   if (range.low >= own - kStray && range.high <= own + kStray) return own;
   const uint8_t* here = centre.data + static_cast<size_t>(y) * centre.stride + 3 * x;
   Votes votes;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Removes single wrong pixels from an estimated map, guided by the colours of the centre view.
+// Removes stray pixels from an estimated map. The colours of the centre view guide the removal.
 #ifndef STARFOCUS_LIB_DEPTH_ESTIMATE_CLEAN_H_
 #define STARFOCUS_LIB_DEPTH_ESTIMATE_CLEAN_H_
 
@@ -10,8 +10,9 @@
 
 namespace starfocus {
 
-// Returns the disparity of pixel (x, y), or the median around it if the pixel strays from that.
-// Neighbours of similar colour have larger weights. `map` has the picture's size, kDisparityBits.
+// Returns the disparity of pixel (x, y), or the weighted median of its neighbourhood if the pixel's
+// disparity differs too much from the median. Neighbours of similar colour have larger weights.
+// `map` has the size of the picture, and disparities have kDisparityBits.
 int16_t WithoutStray(const EstimatePlan& plan, const Plane<const uint8_t>& centre,
                      const int16_t* map, int32_t x, int32_t y);
 

@@ -16,9 +16,9 @@ void MeasureCosts(const EstimatePlan& plan, const Rect& region, Seeing seeing,
   row.rings = static_cast<size_t>(plan.rings);
   row.one_side = seeing == Seeing::kOneSide;
   row.ends = views.ends;
-  // If a view does not cover a place, the opposite view replaces it. In an estimate this is also
-  // done for views in which a nearer surface hides the place. A repair only limits the cost of such
-  // views, because its map may be wrong there.
+  // If a pixel moves beyond the edge of a view, the opposite view replaces this view. In an
+  // estimate, a view is also replaced if a nearer surface hides the pixel in the view. A repair
+  // only limits the cost of views with hidden pixels, because the map of a repair may be wrong.
   row.limits = plan.repairs && seeing == Seeing::kAll;
   for (int32_t y = region.y; y < region.y + region.height; ++y) {
     uint8_t* cost =

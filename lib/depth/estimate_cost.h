@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures how well each disparity fits the views at each pixel of a region.
+// Measures how well each label fits the views at each pixel of a region.
 #ifndef STARFOCUS_LIB_DEPTH_ESTIMATE_COST_H_
 #define STARFOCUS_LIB_DEPTH_ESTIMATE_COST_H_
 
@@ -8,14 +8,14 @@
 
 namespace starfocus {
 
-// Views that are assumed to see a pixel.
+// Selects the views that are assumed to see a pixel.
 enum class Seeing {
-  kOneSide,  // the views on the side that fits best
+  kOneSide,  // the views on the side with the best fit
   kAll       // all views except those known to be hidden
 };
 
-// Fills tile->cost for the pixels of `region`, for which the views have been loaded and marked
-// (tile_views.h).
+// Fills tile->cost for the pixels of `region`. The caller must have loaded and marked the views of
+// this region (tile_views.h).
 void MeasureCosts(const EstimatePlan& plan, const Rect& region, Seeing seeing,
                   const simd::DepthKernels& kernels, TileMemory* tile);
 

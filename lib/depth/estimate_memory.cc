@@ -9,7 +9,7 @@
 namespace starfocus {
 namespace {
 
-// Returns the largest sides of a tile with its margin.
+// Returns the largest width and the largest height of all tiles with their margins.
 Rect LargestRegion(const EstimatePlan& plan) {
   Rect largest = {0, 0, 0, 0};
   for (int32_t tile = 0; tile < plan.columns * plan.rows; ++tile) {

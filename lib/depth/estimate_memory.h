@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Memory of an estimate: maps of the whole picture, and scratch memory of each worker for one tile.
-// LayOutEstimate computes its size and divides it.
+// LayOutEstimate computes the size of the memory and divides the memory into arrays.
 #ifndef STARFOCUS_LIB_DEPTH_ESTIMATE_MEMORY_H_
 #define STARFOCUS_LIB_DEPTH_ESTIMATE_MEMORY_H_
 
@@ -16,22 +16,22 @@
 
 namespace starfocus {
 
-// Rectangles of all views around a tile, one plane after another. Outside the picture the nearest
-// pixels are repeated. Pixel (x, y) of the picture is at (y - top) * stride + x - left of each
-// plane.
+// The pixels of all views around a tile, as consecutive planes. Outside the picture, the nearest
+// pixels of the picture are repeated. Pixel (x, y) of the picture has index (y - top) * stride + x
+// - left in each plane.
 struct TileViews {
   int32_t left, top, rows;
-  size_t stride, plane;  // samples
-  // Planes R, G, B of the centre view, then of each side view in the order of the plan. Side views
-  // are shifted by the fractions of a pixel that labels move them by, with one set of planes for
-  // each of EstimatePlan::Phases.
+  size_t stride, plane;  // distance in samples between rows, and between planes
+  // Planes R, G and B of the centre view, followed by the planes of each side view in the order of
+  // the plan. Labels shift side views by fractions of a pixel. Each side view has one set of planes
+  // per fraction (EstimatePlan::Phases).
   uint8_t* rgb;
-  uint8_t* split;  // two rows of R, G, B, used while planes are made
-  // For each pixel of each side view, the number of lowest labels that a nearer surface hides
-  // there; simd::kViewEnds outside the picture.
+  uint8_t* split;  // scratch memory for making planes: two rows of R, G and B
+  // Number of labels that a nearer surface hides, for each pixel of each side view. The hidden
+  // labels are the lowest ones. Pixels outside the picture have simd::kViewEnds.
   uint8_t* hidden;
-  bool ends;      // part of the rectangle lies outside the picture
-  bool all_seen;  // all of it lies inside, and nothing is known to be hidden
+  bool ends;      // true if a part of the rectangle lies outside the picture
+  bool all_seen;  // true if the rectangle lies inside the picture and no hidden labels are known
 
   size_t At(int32_t x, int32_t y) const {
     return static_cast<size_t>(y - top) * stride + static_cast<size_t>(x - left);
@@ -43,42 +43,46 @@ struct TileViews {
 // Scratch memory of a worker for one tile.
 struct TileMemory {
   TileViews views;
-  uint8_t* cost;          // of each pixel and label; pixels are PathLabels apart
-  uint8_t* prior;         // cost by the given map, laid out like `cost`; null if no map is given
-  int16_t* sum;           // sums of paths, laid out like `cost`
-  int16_t* path[2];       // of a row of pixels, and one more pixel on both sides
-  int16_t* least[2];      // smallest cost of each path, and one more on both sides
+  uint8_t* cost;  // cost of each label at each pixel; pixels are PathLabels apart
+  // Cost added by the given map, in the layout of `cost`; null if no map is given
+  uint8_t* prior;
+  int16_t* sum;           // sums of path costs, in the layout of `cost`
+  int16_t* path[2];       // path costs of a row of pixels, plus one pixel on each side
+  int16_t* least[2];      // smallest cost of each path of a row, plus one pixel on each side
   int16_t* jump;          // one row
-  simd::ViewMove* moves;  // of each side view, for each label
+  simd::ViewMove* moves;  // movement of each side view for each label
   int16_t* choice;        // one row
   const uint8_t* swept;   // EstimateMemory::swept
 };
 
 struct EstimateMemory {
   JobSet jobs;
-  // Result of the first sweep, in which no view counts as hidden; disparities of the whole picture,
-  // kDisparityBits. A repair later stores its evened map here.
+  // Disparities of the whole picture after the first sweep, which ignores occlusion;
+  // kDisparityBits. A repair later stores the result of EvenOut here.
   int16_t* first;
-  int16_t* second;     // result of the second sweep, without hidden views
+  int16_t* second;     // disparities after the second sweep, which omits hidden views
   uint8_t* certainty;  // certainty of the second sweep
-  // The members below are for repairs, and null otherwise. Unknown disparities are kNoSurface.
+  // `given` and all later arrays of this structure are for repairs, and null for estimates. Unknown
+  // disparities are kNoSurface.
   int16_t* given;    // given disparities
-  int16_t* trusted;  // given disparities where the map is smooth
-  // pixels in doubt (swept.h); shares the memory of `certainty`, which is unused then
+  int16_t* trusted;  // given disparities at pixels where the map is smooth
+  // Marks of pixels in doubt (swept.h). Shares the memory of `certainty`, which is not yet in use
+  // at that time.
   uint8_t* doubt;
-  uint8_t* swept;     // 1 where the sweeps process pixels, otherwise 0; null: everywhere
+  uint8_t* swept;     // 1 for pixels that the sweeps process, else 0; null if all pixels are swept
   TileCount* counts;  // of each tile
   int32_t least_evidence;
-  // Costs of the given map and of the second sweep's map; equal where nothing is given.
+  // Cost of each pixel in the given map and in the second sweep's map. Both are equal at pixels
+  // without a given disparity.
   uint8_t* given_cost;
   uint8_t* found_cost;
-  // thin structure of the given map, and of the result of the sweeps
+  // Thin structure of the given map and of the result of the sweeps.
   ThinCells given_cells, found_cells;
   TileMemory* workers;
 };
 
 // Lays out the memory at `base` (aligned to STARFOCUS_ALIGNMENT), or only counts it if base is
-// null. Returns the bytes used, or kTooLarge.
+// null. Returns the number of bytes used, or kTooLarge.
 size_t LayOutEstimate(const EstimatePlan& plan, int32_t max_workers, void* base,
                       EstimateMemory** memory, const PieceVisitor* pieces = nullptr);
 

@@ -9,14 +9,14 @@
 namespace starfocus {
 namespace {
 
-// Direction of a path.
+// Direction of a path, as the difference between a pixel and the previous pixel of the path.
 struct PathStep {
   int32_t x, y;
 };
 constexpr PathStep kDirections[8] = {{1, 0}, {-1, 0},  {0, 1},  {0, -1},
                                      {1, 1}, {-1, -1}, {1, -1}, {-1, 1}};
 
-// Paths of the previous row and of the current one.
+// Path costs of the previous row (index 0) and of the current row (index 1).
 struct PathRows {
   int16_t* path[2];
   int16_t* least[2];
@@ -31,7 +31,7 @@ void BeginAt(const PathRows& rows, int from, size_t labels, int32_t k) {
   rows.least[from][k] = 0;
 }
 
-// Starts paths at those of the pixels [first, last) of the previous row that are not swept.
+// Starts paths at all pixels of row y in columns [first, last) that are not swept.
 void BeginBeside(const EstimateTile& tile, int32_t y, int32_t first, int32_t last,
                  const PathRows& rows) {
   const EstimatePlan& plan = tile.plan;
@@ -47,8 +47,8 @@ void BeginBeside(const EstimateTile& tile, int32_t y, int32_t first, int32_t las
   }
 }
 
-// Adds the paths of row y of the region. They continue from the swept pixels of the previous row.
-// `adds`: the sums already hold other paths.
+// Adds the path costs of row y of the region to the sums. The paths continue from the swept pixels
+// of the previous row. If `adds` is false, the sums are overwritten.
 void AddRow(const EstimateTile& tile, int32_t y, const PathStep& direction, bool adds,
             const PathRows& rows) {
   const EstimatePlan& plan = tile.plan;
@@ -95,7 +95,7 @@ void AddAllPaths(const EstimateTile& tile) {
   const EstimatePlan& plan = tile.plan;
   const Rect& region = tile.region;
   const TileMemory& memory = tile.memory;
-  // The entry before the first label of a pixel is no label.
+  // The entry before the first label of each pixel is not a label.
   const auto places = static_cast<ptrdiff_t>(simd::PathLabels(static_cast<size_t>(plan.labels)));
   for (int16_t* path : memory.path) {
     for (ptrdiff_t k = -1; k <= region.width; ++k) path[k * places - 1] = simd::kNoLabel;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Semi-global matching. Costs are summed along paths from all directions of the plan, and each
-// pixel takes the disparity with the smallest sum.
+// Implements semi-global matching. Costs are summed along paths from all directions of the plan,
+// and each pixel gets the disparity with the smallest sum.
 #ifndef STARFOCUS_LIB_DEPTH_ESTIMATE_PATHS_H_
 #define STARFOCUS_LIB_DEPTH_ESTIMATE_PATHS_H_
 
@@ -9,7 +9,8 @@
 
 namespace starfocus {
 
-// A tile of an estimate: its pixels with their surroundings, and its memory.
+// A tile of an estimate: the region that consists of the tile and its margin, and the tile's
+// memory.
 struct EstimateTile {
   const EstimatePlan& plan;
   const Rect& region;
@@ -17,11 +18,11 @@ struct EstimateTile {
   const TileMemory& memory;
 };
 
-// Fills the sums of the memory from its costs, for the pixels of the region.
+// Computes memory.sum from memory.cost for the pixels of the region.
 void AddAllPaths(const EstimateTile& tile);
 
-// Writes the disparities of the part `tile_rect` of the region, kDisparityBits, and their
-// certainty, to maps of the whole picture. certainty may be null.
+// Writes the disparities (kDisparityBits) of the part `tile_rect` of the region, and the certainty
+// of these disparities, to maps of the whole picture. certainty may be null.
 void ChooseDisparities(const EstimateTile& tile, const Rect& tile_rect, int16_t* disparity,
                        uint8_t* certainty);
 

@@ -10,7 +10,7 @@
 namespace starfocus {
 namespace {
 
-// Directions in the order of their angles. Every second one lies along an axis.
+// Directions in the order of their angles. Every second direction lies along an axis.
 constexpr int8_t kDirections[8][2] = {{1, 0},  {1, 1},   {0, 1},  {-1, 1},
                                       {-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
 

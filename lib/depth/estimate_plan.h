@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parameters of an estimate of disparities: the labels, the views in the order of the kernels, and
-// the tiles that jobs process.
+// Parameters of an estimate of disparities: the labels, the views in the order required by the SIMD
+// kernels, and the tiles that jobs process.
 #ifndef STARFOCUS_LIB_DEPTH_ESTIMATE_PLAN_H_
 #define STARFOCUS_LIB_DEPTH_ESTIMATE_PLAN_H_
 
@@ -13,18 +13,19 @@
 
 namespace starfocus {
 
-// Tiles are half to one and a half times kTileSide wide and high. Pixels up to kTileMargin around a
-// tile influence its result; paths that begin farther away hardly matter.
+// Sides of tiles are between 0.5 and 1.5 times kTileSide. Pixels within kTileMargin of a tile
+// influence the tile's result. Paths from pixels farther away have hardly any effect.
 inline constexpr int32_t kTileSide = 256, kMostTileSide = 3 * kTileSide / 2;
 inline constexpr int32_t kTileMargin = 32;
-// Margin of a repair: the given map makes a smaller margin sufficient.
+// Margin of the tiles of a repair. Because of the given map, a smaller margin than kTileMargin is
+// sufficient.
 inline constexpr int32_t kRepairMargin = 12;
 
 inline constexpr int32_t kLabelStep = 1 << (kDisparityBits - 1);  // half a pixel
 inline constexpr int32_t kMostLabels = 129;
 inline constexpr int32_t kMostSideViews = STARFOCUS_MAX_VIEWS - 1;
 
-// A captured side view, with its position in halves of a unit.
+// A captured side view. u2 and v2 are twice the coordinates u and v of its position.
 struct SideView {
   int32_t index;
   int32_t u2, v2;
@@ -32,51 +33,56 @@ struct SideView {
 
 struct EstimatePlan {
   int32_t width, height;
-  // Disparity of label 0 and between labels, kDisparityBits. The step is a multiple of half a
-  // pixel.
+  // Disparity of label 0, and difference between adjacent labels; kDisparityBits. The difference is
+  // a multiple of half a pixel.
   int32_t low, step;
   int32_t labels;
-  int32_t reach;  // largest movement of a disparity in pixels, plus one
-  // side views: arms in the order of their angles; the outer ring is the first
+  int32_t reach;  // largest movement of a point between views in pixels, plus one
+  // Side views. Arms are in the order of their angles, and the outer ring comes first.
   int32_t arms, rings;
   SideView side[kMostSideViews];
   int32_t directions;     // number of directions of paths: 4 or 8
-  bool repairs;           // true: repairs a given map; false: estimates a new one
-  int32_t columns, rows;  // numbers of tiles, both odd: a mirrored picture has mirrored tiles
+  bool repairs;           // true to repair a given map, false to estimate a new one
+  int32_t columns, rows;  // numbers of tiles; odd, so that mirrored pictures have mirrored tiles
 
   int32_t side_views() const { return arms * rings; }
   // Returns the disparity of label l.
   int32_t Disparity(int32_t l) const { return low + l * step; }
-  // Returns the number of labels after which the moves of a view repeat the same fraction of a
-  // pixel: 1, 2 or 4.
+  // Returns the period, in labels, of the fraction of a pixel by which labels shift a view: 1, 2 or
+  // 4.
   int32_t Phases(const SideView& view) const;
-  // Returns the sum of the phases of all side views.
+  // Returns the sum of Phases over all side views.
   int32_t AllPhases() const;
 };
 
 EstimatePlan MakePlan(const starfocus_depth_config& config);
 
-// Returns a plan with every second label, none of them beyond the last one, and half of the paths.
-// The first sweep of a repair uses it, since that sweep only finds which surfaces hide others.
+// Returns a plan with every second label of `plan` and with half of the paths. The last label is
+// not beyond the last label of `plan`. The first sweep of a repair uses the coarse plan, because
+// that sweep only determines which surfaces hide others.
 EstimatePlan CoarsePlan(const EstimatePlan& plan);
 
-// Returns the number of tiles, an odd number, into which `length` pixels are divided. Tiles are
-// half to one and a half times `side` long.
+// Returns the number of tiles into which `length` pixels are divided. The number is odd, and each
+// tile is between 0.5 and 1.5 times `side` long.
 int32_t TilesAlong(int32_t length, int32_t side);
-// Returns the first pixel of tile k of `count`, which is odd.
+// Returns the first pixel of tile k if `length` pixels are divided into `count` tiles. `count` must
+// be odd.
 int32_t TileBegin(int32_t length, int32_t count, int32_t k);
 
-// Returns the rectangle of tile `index` of columns * rows.
+// Returns the rectangle of tile `index`; `index` is in [0, columns * rows).
 Rect TileOf(const EstimatePlan& plan, int32_t index);
-// Returns the region that is swept for a tile: the tile and its margin.
+// Returns the region that is swept for tile `index`, which is the tile extended by the margin of
+// the plan.
 Rect RegionOf(const EstimatePlan& plan, int32_t index);
 // Returns the rectangle enlarged by `margin` on all sides and clipped to the picture.
 Rect Widened(const EstimatePlan& plan, const Rect& rect, int32_t margin);
 
-// Returns the move of disparity d from the centre view to a side view, in 128ths of a pixel.
+// Returns the horizontal or vertical movement of a point of disparity d from the centre view to a
+// side view, in 1/128 pixel.
 inline int32_t MoveAcross(const SideView& view, int32_t d) { return -view.u2 * d; }
 inline int32_t MoveDown(const SideView& view, int32_t d) { return -view.v2 * d; }
-// Rounds a move to whole pixels. Halves round towards zero, so that mirrored moves stay mirrored.
+// Rounds a movement in 1/128 pixel to whole pixels. Rounds half towards zero, so that mirrored
+// movements stay mirrored.
 inline int32_t WholeMove(int32_t move) { return (move + 63 + (move < 0 ? 1 : 0)) >> 7; }
 
 }  // namespace starfocus

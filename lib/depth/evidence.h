@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes the evidence that a change of a map needs. The fewer of the map's edge pixels a repair
-// contradicts, the more the map is trusted.
+// Computes the evidence that is required to change a given map. If a repair contradicts only a
+// small share of the map's edge pixels, the map is trusted and the required evidence is large.
 #ifndef STARFOCUS_LIB_DEPTH_EVIDENCE_H_
 #define STARFOCUS_LIB_DEPTH_EVIDENCE_H_
 
@@ -14,15 +14,16 @@ struct TileCount {
   int32_t differs;  // pixels that the repair contradicts
 };
 
-// If at most `right_percent` of the pixels at edges differ, the map is right and a change needs
-// evidence of `right`. If `wrong_percent` or more differ, a change needs `wrong`. In between, the
-// evidence is interpolated.
+// Required evidence by the percentage of edge pixels that the repair contradicts. Up to
+// `right_percent` the map is assumed to be right, and the required evidence is `right`. From
+// `wrong_percent` on, the required evidence is `wrong`. In between, the evidence is interpolated.
 struct EvidenceScale {
   int32_t right_percent, wrong_percent;
   int32_t right, wrong;
 };
 
-// Returns the evidence that a change needs in a map of `tiles` tiles.
+// Returns the evidence required for a change. `counts` has one element for each of the `tiles`
+// tiles of the map.
 int32_t LeastEvidence(const EvidenceScale& scale, const TileCount* counts, int32_t tiles);
 
 }  // namespace starfocus

@@ -9,15 +9,17 @@
 namespace starfocus {
 namespace {
 
-// Smallest difference of disparity between two surfaces at an edge.
+// An edge is a difference of disparity of more than kEdgeStep between two surfaces
+// (kDisparityBits).
 constexpr int32_t kEdgeStep = 5 << kDisparityBits;
-// Radii in cells: kIsFar has no near pixels within kBeside; kIsInside has far pixels within
-// kMostInside but not within kBeside.
+// Radii in cells. A cell with kIsFar has no near pixels within kBeside. A cell with kIsInside has
+// far pixels within kMostInside but not within kBeside.
 constexpr int32_t kBeside = 1, kMostInside = 4;
 // A cell has hair if more than a fifth of the near pixels within 12 cells look like background.
 constexpr int32_t kHairReach = 12, kHairShare = 5;
 
-// Replaces each of `count` values, `stride` apart, by the reduction of all values within `reach`.
+// Replaces each of `count` values, which are `stride` apart, with the reduction by `join` of all
+// values within a distance of `reach`.
 template <class T, class Join>
 void JoinLine(int32_t count, ptrdiff_t stride, int32_t reach, const Join& join, T* values,
               int32_t* line) {
@@ -32,7 +34,8 @@ void JoinLine(int32_t count, ptrdiff_t stride, int32_t reach, const Join& join, 
   }
 }
 
-// Reduces each cell of a plane over the square around it.
+// Replaces the value of each cell with the reduction by `join` over a square of cells with radius
+// `reach`.
 template <class T, class Join>
 void JoinAround(const HairCells& cells, int32_t reach, const Join& join, T* values) {
   for (int32_t y = 0; y < cells.rows; ++y) {
@@ -48,7 +51,7 @@ bool HasFar(const HairCells& cells, size_t at) {
   return (cells.marks[at] & HairCells::kHasEdge) != 0 && !cells.IsNear(at, cells.farthest[at]);
 }
 
-// Returns true if `is` holds for a cell within `reach`.
+// Returns true if the predicate `is` holds for any cell within `reach` of cell (column, row).
 template <class Is>
 bool AnyWithin(const HairCells& cells, int32_t column, int32_t row, int32_t reach, const Is& is) {
   const int32_t right = Min(column + reach, cells.columns - 1);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cells of 4 x 4 pixels with the two surfaces that meet at large depth edges: foreground (near) and
-// background (far). The search for hair coverage classifies pixels by them.
+// background (far). The search for hair coverage classifies pixels as near or far with the help of
+// these cells.
 #ifndef STARFOCUS_LIB_DEPTH_HAIR_CELLS_H_
 #define STARFOCUS_LIB_DEPTH_HAIR_CELLS_H_
 
@@ -13,7 +14,7 @@
 
 namespace starfocus {
 
-// Radius of the square, in cells, in which the two surfaces of a cell are searched.
+// Radius in cells of the square in which the two surfaces of a cell are searched.
 inline constexpr int32_t kSurfaceReach = 10;
 
 struct HairCells {
@@ -23,15 +24,16 @@ struct HairCells {
   // Lowest and highest disparity of the cell.
   int16_t *farthest, *nearest;
   uint8_t* marks;
-  int32_t* line;  // scratch of a row or a column
+  int32_t* line;  // scratch memory for a row or a column
 
-  // Two surfaces lie within kSurfaceReach.
+  // Mark of a cell with two surfaces within kSurfaceReach.
   static constexpr uint8_t kHasEdge = 1;
-  // kHasEdge, and neither the cell nor its eight neighbours have near pixels.
+  // Mark of a cell with kHasEdge for which neither the cell nor its eight neighbours have near
+  // pixels.
   static constexpr uint8_t kIsFar = 2;
-  // The cell has near pixels, and the closest far pixels are 2 to 4 cells away.
+  // Mark of a cell with near pixels for which the closest far pixels are 2 to 4 cells away.
   static constexpr uint8_t kIsInside = 4;
-  // The cell shows hair whose outline the map has closed.
+  // Mark of a cell that shows hair, where the map shows a solid shape.
   static constexpr uint8_t kHasHair = 8;
 
   size_t At(int32_t x, int32_t y) const {
@@ -46,21 +48,22 @@ HairCells TakeHairCells(int32_t width, int32_t height, Arena* arena);
 // Returns true if a cell with these marks may have near pixels.
 inline bool MayHaveNear(uint8_t marks) { return marks != 0 && (marks & HairCells::kIsFar) == 0; }
 
-// Writes the four disparities of a cell.
+// Measures `low`, `high`, `farthest` and `nearest` of a cell.
 void MeasureHairCell(const ColourMap& map, int32_t column, int32_t row, const HairCells& cells);
 
-// Marks all cells after all are measured. Returns false if no cell has an edge.
+// Sets the marks of all cells. Call MarkEdges after MeasureHairCell has been called for every cell.
+// Returns false if no cell has an edge.
 bool MarkEdges(const HairCells& cells);
 
-// Sets kHasHair where many near pixels look like background. `near` is the number of near pixels of
-// each cell, `far` the number of those that look like background, times 256; both are overwritten.
-// Returns false if no cell has hair.
+// Sets kHasHair for cells around which many near pixels look like background. `near` is the number
+// of near pixels of each cell. `far` is the number of near pixels that look like background,
+// multiplied by 256. Both arrays are overwritten. Returns false if no cell has hair.
 bool MarkHair(const HairCells& cells, int32_t* near, int32_t* far);
 
-// Returns true if a cell that overlaps the rectangle has hair.
+// Returns true if any cell that overlaps the rectangle has hair.
 bool HasHair(const HairCells& cells, const Rect& rect);
 
-// Calls act(column, row) for the cells whose first pixel lies in the tile.
+// Calls act(column, row) for each cell whose first pixel lies in the tile.
 template <class Act>
 void ForHairCells(const Rect& tile, const Act& act) {
   const auto begin = [](int32_t pixel) { return (pixel + kHairCell - 1) / kHairCell; };
@@ -71,7 +74,7 @@ void ForHairCells(const Rect& tile, const Act& act) {
   }
 }
 
-// Returns the pixels of a cell.
+// Returns the rectangle of a cell in pixels of the picture.
 inline Rect HairCellAt(const EstimatePlan& plan, int32_t column, int32_t row) {
   const int32_t x = column * kHairCell, y = row * kHairCell;
   return {x, y, Min(kHairCell, plan.width - x), Min(kHairCell, plan.height - y)};

@@ -7,7 +7,8 @@
 namespace starfocus {
 namespace {
 
-// Writes the mean colour of a cell, in which a pixel has the weight weight(pixel).
+// Writes the mean colour of a cell to the lowest level of `pyramid`. The weight of a pixel is
+// weight(pixel).
 template <class Weight>
 void Pull(const HairJob& job, int32_t column, int32_t row, const Weight& weight,
           const ColourPyramid& pyramid) {
@@ -27,7 +28,7 @@ int32_t ContrastOf(const CellPixel& pixel, const CellColours& far) {
   return sum;
 }
 
-// Returns the largest contrast of a cell and its eight neighbours.
+// Returns the largest contrast in a cell and its eight neighbours.
 int32_t ContrastAround(const HairJob& job, int32_t column, int32_t row) {
   const HairCells& cells = job.cells;
   int32_t most = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Jobs that estimate the foreground and the background colour of each cell from pixels that show
-// one surface only. Each job writes the cells of one tile, in the lowest level of a pyramid of its
-// HairJob.
+// one surface only. Each job writes the cells of one tile to the lowest level of a pyramid; `data`
+// is a HairJob.
 #ifndef STARFOCUS_LIB_DEPTH_HAIR_COLOURS_H_
 #define STARFOCUS_LIB_DEPTH_HAIR_COLOURS_H_
 
@@ -9,12 +9,14 @@
 
 namespace starfocus {
 
-// First pass, background: cells without near pixels around them.
+// Computes background colours for the first pass, from cells without near pixels nearby.
 void PullFar(const void* data, int32_t index, int32_t worker);
-// First pass, foreground: near pixels, weighted by their contrast to the background.
+// Compute foreground colours for the first pass, from near pixels weighted by their contrast to the
+// background. MeasureContrast must run first, for all tiles.
 void MeasureContrast(const void* data, int32_t index, int32_t worker);
 void PullNear(const void* data, int32_t index, int32_t worker);
-// Second pass: all pixels, weighted by the coverage that the first pass found.
+// Computes both colours for the second pass, from all pixels weighted by the coverage of the first
+// pass.
 void PullBoth(const void* data, int32_t index, int32_t worker);
 
 }  // namespace starfocus

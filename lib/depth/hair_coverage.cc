@@ -10,9 +10,9 @@
 namespace starfocus {
 namespace {
 
-// Least share, in 256ths, of pixels a little inside outlines that look like background. Network
-// maps of the hair scene have 80; exact maps, maps wrong by 3 pixels and photographs at most 28
-// (docs/depth.md).
+// A map has hair with closed outlines if this share of the pixels 2 to 4 cells inside outlines
+// looks like background, in 1/256. Maps by networks of the hair scene have a share of 80. Exact
+// maps, maps that are wrong by 3 pixels and photographs have a share of at most 28 (docs/depth.md).
 constexpr int64_t kLeastFar = 48;
 
 void MeasureTile(const void* data, int32_t index, int32_t) {
@@ -60,8 +60,8 @@ starfocus_status FindHairCoverage(const ColourMap& map, const MapOutput& output,
                                   const HairCells& cells, const HairMemory& memory, Phases* phases,
                                   bool* found) {
   const HairJob job = {map, output, cells, memory};
-  // Each phase, and the step that follows it for the whole picture. A step that returns false ends
-  // the search.
+  // The phases of the search. After all tiles of a phase, `conclude` processes the whole picture;
+  // if it returns false, the search ends.
   const struct {
     JobFunction function;
     bool (*conclude)(const HairJob& job);

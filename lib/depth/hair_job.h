@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Input, output and memory of the phases of FindHairCoverage, and loops over cells and their
-// pixels.
+// Defines the input, output and memory of the phases of FindHairCoverage, and loops over cells and
+// their pixels.
 #ifndef STARFOCUS_LIB_DEPTH_HAIR_JOB_H_
 #define STARFOCUS_LIB_DEPTH_HAIR_JOB_H_
 
@@ -10,17 +10,17 @@
 
 namespace starfocus {
 
-// Number of pixels of a tile a little inside outlines, and number of those that look like
-// background, times 256.
+// Counts of the near pixels of a tile that lie 2 to 4 cells inside outlines. `inside` is their
+// number. `far` is the number of these pixels that look like background, multiplied by 256.
 struct InsideCount {
   int32_t inside, far;
 };
 
 struct HairMemory {
   ColourPyramid far, near;
-  // Each of these has one value per cell. `contrast` is the largest squared contrast of the near
-  // pixels to the background, and later the number of near pixels that look like background.
-  // `near_pixels` is the number of near pixels.
+  // Both arrays have one value per cell. `contrast` is first the largest squared contrast of a near
+  // pixel to the background. Later, `contrast` holds the number of near pixels that look like
+  // background, multiplied by 256. `near_pixels` is the number of near pixels.
   int32_t *contrast, *near_pixels;
   InsideCount* counts;  // one for each tile
 };
@@ -40,7 +40,8 @@ struct HairJob {
 
 inline const HairJob& HairJobOf(const void* data) { return *static_cast<const HairJob*>(data); }
 
-// Fractions with the scale kFullyKnown.
+// ShareOf converts a coverage of 0 to 255 to a fraction of kFullyKnown. FourthPower computes the
+// fourth power of such a fraction.
 inline uint32_t ShareOf(uint8_t coverage) { return coverage + coverage / 128U; }
 inline uint32_t FourthPower(uint32_t share) {
   const uint32_t square = share * share / kFullyKnown;
@@ -49,8 +50,8 @@ inline uint32_t FourthPower(uint32_t share) {
 
 // One pixel of a cell.
 struct CellPixel {
-  int32_t x, y;         // in the picture
-  int32_t column, row;  // in the cell
+  int32_t x, y;         // position in the picture
+  int32_t column, row;  // position in the cell
   bool is_near;
   uint16_t rgb[3];  // kMeanBits
 };

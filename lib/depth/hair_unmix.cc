@@ -8,18 +8,20 @@ namespace starfocus {
 namespace {
 
 constexpr int32_t kWhole = kFullyKnown;
-// One code squared, in the unit of squared differences.
+// The square of a difference of one code, in the unit of squared differences.
 constexpr int64_t kSquareCode = int64_t{1} << (2 * kMeanBits);
-// Least squared contrast at which coverage can be measured.
+// Smallest squared contrast at which coverage can be measured.
 constexpr int64_t kLeastContrast = 300 * kSquareCode;
-// Variance of the distance from the line between the two colours: 9 codes squared of noise, and a
-// sixteenth of the squared contrast for variation within surfaces.
+// Parameters of the variance of the distance from the line between the two colours. The variance is
+// the sum of kNoise, which is the square of 9 codes, and of 1 / kVariation of the squared contrast,
+// for variation within surfaces.
 constexpr int64_t kNoise = 81 * kSquareCode, kVariation = 16;
-// Coverage that texture of the background may seem to have.
+// Largest coverage that is attributed to the texture of the background.
 constexpr int32_t kTexture = kWhole / 8;
 
-// Coverage of a pixel by its position along the line from background to foreground colour, and
-// trust in it by its distance from that line. Both have the scale kWhole.
+// Result of the comparison of a pixel's colour with the line from the background to the foreground
+// colour. `share` is the coverage, which is the position along the line. `trust` decreases with the
+// distance of the colour from the line. Both are fractions of kWhole.
 struct Unmixed {
   int32_t share, trust;
 };
@@ -36,7 +38,7 @@ Unmixed Unmix(const int32_t* far, const int32_t* near, const uint16_t* mixed) {
   const int64_t on = along < 0 ? 0 : along > contrast ? contrast : along;
   const int64_t beside = distance - (2 * along - on) * on / contrast;
   const int64_t scale = kNoise + contrast / kVariation;
-  // (2.25 - distance^2 / variance) / 2, clamped.
+  // The trust is (2.25 - distance^2 / variance) / 2, clamped to [0, 1].
   const int64_t trust = (9 * scale - 4 * beside) * kWhole / (8 * scale);
   return {static_cast<int32_t>(kWhole * on / contrast),
           static_cast<int32_t>(trust < 0        ? 0
@@ -52,7 +54,8 @@ struct CellMixer {
     InterpolateCell(memory.far, column, row, &far);
     InterpolateCell(memory.near, column, row, &near);
   }
-  // `own` is the share of the pixel's own colour in its background colour, with the scale kWhole.
+  // Computes the coverage of a pixel. `own` is the share of the pixel's own colour in the
+  // background colour, as a fraction of kWhole.
   Unmixed Part(const CellPixel& pixel, int32_t own) const {
     int32_t behind[3];
     for (int c = 0; c < 3; ++c) {
@@ -63,13 +66,13 @@ struct CellMixer {
   }
 };
 
-// Returns by how much a near pixel looks like background, with the scale kWhole.
+// Returns the degree to which a near pixel looks like background, as a fraction of kWhole.
 int32_t LooksFar(const CellMixer& mixer, const CellPixel& pixel) {
   const Unmixed unmixed = mixer.Part(pixel, 0);
   return unmixed.share < kWhole / 4 ? unmixed.trust : 0;
 }
 
-// Removes coverage that may be texture of the background.
+// Returns `share` without the coverage that may be caused by texture of the background.
 int32_t WithoutTexture(int32_t share) {
   return Max(0, (share - kTexture) * kWhole / (kWhole - kTexture));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Jobs that compare pixels with the foreground and background colours around them. Each job is for
-// one tile of a HairJob.
+// Jobs that compare pixels with the foreground and background colours around them. Each job
+// processes one tile; `data` is a HairJob.
 #ifndef STARFOCUS_LIB_DEPTH_HAIR_UNMIX_H_
 #define STARFOCUS_LIB_DEPTH_HAIR_UNMIX_H_
 
@@ -8,13 +8,14 @@
 
 namespace starfocus {
 
-// Count near pixels that look like background: CountInside in cells inside outlines, CountCells in
-// all cells.
+// Count the near pixels that look like background. CountInside processes only the cells with
+// kIsInside, and CountCells all cells.
 void CountInside(const void* data, int32_t index, int32_t worker);
 void CountCells(const void* data, int32_t index, int32_t worker);
 
 // Write the coverage of cells with hair. In the second pass, the background colour of a pixel is
-// mixed with its own colour: the lower its coverage, the more.
+// mixed with the pixel's own colour. The share of the own colour is larger if the coverage is
+// lower.
 void UnmixFirst(const void* data, int32_t index, int32_t worker);
 void UnmixAgain(const void* data, int32_t index, int32_t worker);
 

@@ -6,14 +6,15 @@
 namespace starfocus {
 namespace {
 
-// Distance in pixels within which pixels vote.
+// Radius in pixels of the disc of pixels that are counted.
 constexpr int32_t kRadius = 5;
-// Half the width of each row of a disc of that radius, from the middle row on.
+// Largest horizontal distance from the centre in each row of the disc, starting with the middle
+// row.
 constexpr int32_t kWidths[kRadius + 1] = {5, 4, 4, 4, 3, 0};
 // The weight of a pixel decreases with its squared distance and with its difference of colour.
 constexpr int32_t kNearWeight = 36, kColourWeight = 64;
 
-// Range of the disparities around a pixel, or of a column.
+// Range of the disparities around a pixel, or of the disparities in a column.
 struct MajorityRange {
   int32_t low = INT16_MAX, high = INT16_MIN;
 
@@ -24,7 +25,8 @@ struct MajorityRange {
   bool IsOneSurface() const { return high - low <= kMajorityStep; }
 };
 
-// Ranges of the columns around a row of pixels, each kMajorityReach rows up and down.
+// Range of the disparities in each column around a row of pixels. Each column extends
+// kMajorityReach rows up and down from the row.
 struct ColumnRanges {
   Rect around;
   MajorityRange ranges[kMostMajority + 2 * kMajorityReach], all;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Smooths the outlines of a repaired map. Each pixel near an outline joins the surface to which
-// most pixels of similar colour around it belong.
+// Smooths the outlines of a repaired map. Each pixel near an outline is assigned to the surface to
+// which most surrounding pixels of similar colour belong.
 #ifndef STARFOCUS_LIB_DEPTH_MAJORITY_H_
 #define STARFOCUS_LIB_DEPTH_MAJORITY_H_
 
@@ -10,14 +10,15 @@
 
 namespace starfocus {
 
-// TakeMajority changes pixels within kMajorityReach of another surface, whose disparity differs by
-// more than kMajorityStep.
+// TakeMajority may change a pixel if there is another surface within kMajorityReach pixels. Two
+// surfaces differ by more than kMajorityStep in disparity.
 inline constexpr int32_t kMajorityReach = 2, kMajorityStep = 2 * kSurfaceStep;
-// Largest length of a row of pixels.
+// Largest length in pixels of a row for TakeMajority.
 inline constexpr int32_t kMostMajority = 32;
 
-// Writes the disparities of a row of pixels. A pixel keeps its own disparity unless more pixels of
-// its colour belong to the other surface. In that case it gets the mean of that surface around it.
+// Writes the disparities of a row of pixels. A pixel keeps its disparity unless the other surface
+// has a larger weight among the surrounding pixels of similar colour. In that case, the pixel gets
+// the weighted mean disparity of the other surface's pixels.
 void TakeMajority(const ColourMap& map, const Rect& row, int16_t* disparity);
 
 }  // namespace starfocus

@@ -11,11 +11,12 @@
 namespace starfocus {
 namespace {
 
-// Labels within this distance of a trusted disparity have no prior cost, kDisparityBits.
+// Largest distance between a label and a trusted disparity at which the label has no prior cost,
+// kDisparityBits.
 constexpr int32_t kOwnLabels = 1 << (kDisparityBits - 1);
 
-// Writes the prior of one pixel before it is spread: 0 for the labels near its disparity, and the
-// largest cost for all others.
+// Writes the initial prior of one pixel: 0 for the labels near the pixel's disparity, and the
+// largest cost for all other labels.
 void SeedPrior(const EstimatePlan& plan, int32_t d, size_t places, uint8_t* prior) {
   std::fill_n(prior, places, simd::kMostPrior);
   if (d == simd::kNoSurface) return;
@@ -38,14 +39,15 @@ void AddMapPrior(const EstimatePlan& plan, const Rect& region, const int16_t* tr
   const size_t places = simd::PathLabels(static_cast<size_t>(plan.labels));
   const auto width = static_cast<size_t>(region.width), height = static_cast<size_t>(region.height);
   const size_t row_places = width * places;
-  // Spreads the prior along a row in direction `step`.
+  // Spreads the prior along row y in direction `step`. If `goes_on` is true, the prior is also
+  // spread from row y + from.
   const auto spread = [&](size_t y, bool goes_on, ptrdiff_t step, ptrdiff_t from) {
     uint8_t* prior = tile->prior + y * row_places;
     const ptrdiff_t before = from * static_cast<ptrdiff_t>(row_places);
     const uint8_t* swept = tile->swept + (region.y + static_cast<ptrdiff_t>(y) + from) * plan.width;
     ForRuns(plan, tile->swept, region.y + static_cast<int32_t>(y), region.x,
             region.x + region.width, [&](int32_t begin, int32_t end) {
-              // Pixels that were not swept contribute nothing.
+              // Pixels that are not swept do not contribute to the prior.
               for (int32_t x = begin; goes_on && x < end; ++x) {
                 if (swept[x] != 0) continue;
                 std::fill_n(prior + before + (x - region.x) * static_cast<ptrdiff_t>(places),
@@ -68,7 +70,7 @@ void AddMapPrior(const EstimatePlan& plan, const Rect& region, const int16_t* tr
                           prior + static_cast<size_t>(x - region.x) * places);
               }
             });
-    // Forwards along this row, including the row above; then backwards along the row alone.
+    // First spreads forwards along this row and from the row above, then backwards along this row.
     spread(y, y > 0, 1, -1);
     spread(y, false, -1, 0);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Access to the given map of a repair and to the output planes of a map.
+// Accesses the given map of a repair and the output planes of a map.
 #ifndef STARFOCUS_LIB_DEPTH_MAP_ROWS_H_
 #define STARFOCUS_LIB_DEPTH_MAP_ROWS_H_
 
@@ -15,7 +15,7 @@ namespace starfocus {
 // be null.
 struct MapOutput {
   float* disparity;
-  size_t stride;  // in floats
+  size_t stride;  // distance between rows of `disparity`, in floats
   float lowest, highest;
   uint8_t* confidence;
   size_t confidence_stride;

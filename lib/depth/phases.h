@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs several sets of jobs in sequence, each with one job per tile of the picture, and reports
-// progress.
+// Runs several phases in sequence and reports progress. A phase is a set of jobs, with one job per
+// tile of the picture.
 #ifndef STARFOCUS_LIB_DEPTH_PHASES_H_
 #define STARFOCUS_LIB_DEPTH_PHASES_H_
 
@@ -11,14 +11,16 @@ namespace starfocus {
 
 class Phases {
  public:
-  // `count` is the number of phases of the whole call, for its progress function.
+  // `count` is the number of phases of the whole API call. The progress function reports progress
+  // as a share of these phases.
   Phases(const EstimatePlan& plan, int32_t count, JobSet* jobs)
       : tiles_(plan.columns * plan.rows), count_(count), jobs_(jobs) {}
 
-  // Counts the next phase as done without running it.
+  // Counts the next phase as done without running the phase.
   void Skip() { ++done_; }
 
-  // Returns STARFOCUS_OK, STARFOCUS_ERROR_CANCELLED or STARFOCUS_ERROR_RUNNER (RunJobSet).
+  // Runs the next phase. Returns STARFOCUS_OK, STARFOCUS_ERROR_CANCELLED or STARFOCUS_ERROR_RUNNER
+  // (RunJobSet).
   starfocus_status Run(JobFunction function, const void* data) {
     jobs_->call_progress.SetPart(done_++, count_);
     return RunJobSet(function, data, tiles_, jobs_);

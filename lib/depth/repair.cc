@@ -22,7 +22,7 @@ struct RepairJob {
 
 const RepairJob& JobOf(const void* data) { return *static_cast<const RepairJob*>(data); }
 
-// Converts a tile of the given map.
+// Converts a tile of the given map to fixed point.
 void ReadTile(const void* data, int32_t index, int32_t) {
   const Sweep& sweep = JobOf(data).sweep;
   ReadGiven(sweep.plan, sweep.light_field, TileOf(sweep.plan, index), sweep.memory);
@@ -49,8 +49,8 @@ void SweepSecond(const void* data, int32_t index, int32_t worker) {
   SweepAllViews(&JobOf(data).sweep, index, worker);
 }
 
-// Writes the evened result of the sweeps to the first map, which is no longer needed, and counts
-// its edges.
+// Writes the result of EvenOut to memory->first, whose previous content is no longer used, and
+// counts the edge pixels of the tile.
 void ValueTile(const void* data, int32_t index, int32_t) {
   const Sweep& sweep = JobOf(data).sweep;
   const Rect tile = TileOf(sweep.plan, index);
@@ -62,7 +62,7 @@ void ValueTile(const void* data, int32_t index, int32_t) {
   CountBeside(grid, sweep.memory->first, tile, index, sweep.memory->found_cells);
 }
 
-// Combines the counts of all tiles.
+// Determines the required evidence and the thin cells from the counts of all tiles.
 void JudgeMaps(const Sweep& sweep) {
   EstimateMemory& memory = *sweep.memory;
   const EstimatePlan& plan = sweep.plan;
@@ -82,13 +82,13 @@ void WritePixel(const RepairJob& job, int32_t x, int32_t y, int16_t disparity) {
         output.Clamped(static_cast<float>(disparity) * kPixel);
   }
   if (output.confidence != nullptr && disparity != memory.first[at] && Differs(memory, at)) {
-    // Pixels that contradict the map but keep another disparity than the sweeps found get
-    // confidence 0.
+    // The confidence is 0 if the sweeps contradict the map at a pixel, but the result of the sweeps
+    // is not used.
     output.confidence[row * output.confidence_stride + column] = 0;
   }
 }
 
-// Writes a cell of thin structure that the given map lacks.
+// Writes the disparities of a cell with thin structure that the given map lacks.
 void WriteParted(const RepairJob& job, const Rect& cell) {
   const Sweep& sweep = job.sweep;
   for (int32_t y = cell.y; y < cell.y + cell.height; ++y) {

@@ -15,25 +15,28 @@ namespace starfocus {
 namespace {
 
 constexpr int32_t kPixel = 1 << kDisparityBits;
-// Largest difference between neighbours of one surface; steeper slopes are blurred edges.
+// Largest difference of disparity between neighbours on one surface. Steeper slopes are blurred
+// edges.
 constexpr int32_t kMostSlope = kPixel / 2;
-// Disparities within this distance belong to one surface when they are averaged.
+// Largest difference between disparities that are averaged as one surface, kDisparityBits.
 constexpr int32_t kSameSurface = 38;
-// Smaller differences count as the given disparity.
+// Largest difference at which a disparity counts as equal to the given disparity.
 constexpr int32_t kSame = kPixel / 4;
 constexpr int32_t kMeanRadius = 3, kEvidenceRadius = 2;
-// Largest distance in pixels from a mixture to trusted disparities of its nearer surface: a ramp of
-// 12 pixels and the untrusted pixels at its ends.
+// Largest distance in pixels from a mixture to trusted disparities of the nearer surface. The
+// distance spans a ramp of 12 pixels and the untrusted pixels at the ends of the ramp.
 constexpr int32_t kNearReach = 16;
-// Largest cost of pixels that the views show clearly, 11 gray levels. In images of hair, half of
-// the wall and a twentieth of the mixtures are below it.
+// Largest cost of a pixel that the views show clearly. The cost corresponds to 11 gray levels. In
+// images of hair in front of a wall, half of the wall and a twentieth of the mixtures have a
+// smaller cost.
 constexpr int32_t kClearCost = 44;
 
 size_t IndexOf(const EstimatePlan& plan, int32_t x, int32_t y) {
   return static_cast<size_t>(y) * static_cast<size_t>(plan.width) + static_cast<size_t>(x);
 }
 
-// Smallest and largest disparity of each pixel of a row and the pixels above and below it.
+// Smallest and largest disparity in each column of three pixels: the pixel of a row and the pixels
+// above and below it.
 struct ColumnExtremes {
   int16_t low[kMostTileSide + 2], high[kMostTileSide + 2];
 
@@ -43,8 +46,8 @@ struct ColumnExtremes {
   }
 };
 
-// Fills columns [begin, end) from the disparities `at` of a row. The previous row lies `above`
-// samples before it, the next row `below` samples after it.
+// Fills columns [begin, end). `at` points to a row of disparities. The previous row is `above`
+// samples before this row, and the next row is `below` samples after this row.
 void FindColumns(const int16_t* at, ptrdiff_t above, ptrdiff_t below, int32_t begin, int32_t end,
                  ColumnExtremes* columns) {
   for (int32_t k = begin; k < end; ++k) {
@@ -61,11 +64,12 @@ struct Mean {
     sum += value;
     ++count;
   }
-  // Rounds halves away from 0.
+  // Returns the mean. Rounds half away from zero.
   int32_t Value() const { return (2 * sum + (sum < 0 ? -count : count)) / (2 * count); }
 };
 
-// Returns the mean around pixel (x, y) of the surface at disparity `own`.
+// Returns the mean disparity, around pixel (x, y), of the surface at disparity `own`. Trusted
+// disparities are preferred.
 int32_t MeanOfSurface(const EstimatePlan& plan, const EstimateMemory& memory, int32_t x, int32_t y,
                       int32_t own) {
   const Rect around = Widened(plan, {x, y, 1, 1}, kMeanRadius);
@@ -82,8 +86,8 @@ int32_t MeanOfSurface(const EstimatePlan& plan, const EstimateMemory& memory, in
   return trusted.count > 0 ? trusted.Value() : found.Value();
 }
 
-// Returns true if the map is smooth almost nowhere around pixel (x, y). It is then noise, or a wide
-// slope in place of an edge, and there is no reason to keep it.
+// Returns true if the map is smooth almost nowhere around pixel (x, y). Such a part of the map is
+// noise, or a wide slope in place of an edge, and is not worth keeping.
 bool IsRough(const EstimatePlan& plan, const EstimateMemory& memory, int32_t x, int32_t y) {
   const Rect around = Widened(plan, {x, y, 1, 1}, kMeanRadius);
   int32_t smooth = 0;
@@ -114,7 +118,7 @@ void ReadGiven(const EstimatePlan& plan, const starfocus_light_field& light_fiel
 void FindTrusted(const EstimatePlan& plan, const Rect& tile, const int16_t* given,
                  int16_t* trusted) {
   ColumnExtremes columns;
-  // Column 0 is the one to the left of the tile. Columns beyond the picture do not exist.
+  // Column 0 is the column to the left of the tile. The loop omits columns beyond the picture.
   const int32_t begin = tile.x > 0 ? 0 : 1,
                 end = tile.width + (tile.x + tile.width < plan.width ? 2 : 1);
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
@@ -185,7 +189,7 @@ int16_t RepairedAt(const EstimatePlan& plan, const EstimateMemory& memory, int32
 void FindNearest(const EstimatePlan& plan, const int16_t* trusted, const Rect& cell, int32_t y,
                  int16_t* nearest) {
   const Rect around = Widened(plan, {cell.x, y, cell.width, 1}, kNearReach);
-  // Columns from kNearReach before the cell on.
+  // Largest disparity in each column; columns[0] is kNearReach columns to the left of the cell.
   int16_t columns[kMostCellSide + 2 * kNearReach];
   std::fill_n(columns, cell.width + 2 * kNearReach, simd::kNoSurface);
   int16_t* to = columns + kNearReach - (cell.x - around.x);

@@ -6,19 +6,22 @@
 namespace starfocus {
 namespace {
 
-// Pixels whose disparities differ by less belong to one surface.
+// Pixels whose disparities differ by less than kSame belong to one surface.
 constexpr int32_t kSame = 2 << kDisparityBits;
-// A profile goes from the nearer surface's third pixel to the farther one's seventh.
+// A profile extends from the third pixel of the nearer surface to the seventh pixel of the farther
+// surface.
 constexpr int32_t kInside = 3, kOutside = 6;
-// Smallest squared distance between the colours of both ends, in gray levels. The first one is for
-// profiles that measure the picture's edges, the second one for those that decide about a pixel.
+// Smallest squared distance between the colours at both ends of a profile, in gray levels squared.
+// kLeastContrast is for profiles that measure the softness of the picture. kLeastPixelContrast is
+// for profiles that decide about a single pixel.
 constexpr int32_t kLeastContrast = 60 * 60, kLeastPixelContrast = 30 * 30;
-// Smallest share of the nearer surface in a pixel, as a fraction 1 / n: for measuring edges, and
-// for widening a surface. Sharp ray-traced edges have less than 0.06 at half of all places, edges
-// of photographs 0.09 to 0.34.
+// Reciprocals of the smallest share of the nearer surface in a mixed pixel: kLeastShare for
+// measuring edges, and kLeastPixelShare for widening a surface. At half of all sharp ray-traced
+// edges the share is less than 0.06, and at edges of photographs 0.09 to 0.34.
 constexpr int32_t kLeastShare = 14, kLeastPixelShare = 8;
 
-// A pixel of the farther surface, and the step away from the nearer one.
+// The first pixel (x, y) of the farther surface, and the direction (dx, dy) away from the nearer
+// surface.
 struct ProfileEdge {
   int32_t x, y, dx, dy;
 };
@@ -35,13 +38,14 @@ bool IsProfile(const ColourMap& map, const ProfileEdge& edge) {
   return true;
 }
 
-// Position of a pixel's colour on the line between those of a profile's ends. `share` of
-// `contrast`, the squared length of that line, is the part towards the nearer surface.
+// Position of a pixel's colour on the line between the colours at the ends of a profile. `contrast`
+// is the squared length of the line. share / contrast is the share of the nearer surface.
 struct ProfilePlace {
   int32_t share, contrast;
 };
 
-// Returns the position of the pixel that lies k pixels beyond the first one of the farther surface.
+// Returns the position of the colour of the pixel that lies k pixels beyond the first pixel of the
+// farther surface.
 ProfilePlace PlaceAt(const ColourMap& map, const ProfileEdge& edge, int32_t k) {
   const auto pixel = [&](int32_t at) {
     return map.Pixel(edge.x + at * edge.dx, edge.y + at * edge.dy);
@@ -68,7 +72,7 @@ bool ShowsNear(const ProfilePlace& place) {
   return place.contrast >= kLeastPixelContrast && kLeastPixelShare * place.share >= place.contrast;
 }
 
-// Returns true if the profiles at a pixel lie in the picture.
+// Returns true if profiles in all four directions at pixel (x, y) lie in the picture.
 bool IsInside(const ColourMap& map, int32_t x, int32_t y) {
   return x >= kOutside && x < map.plan.width - kOutside && y >= kOutside &&
          y < map.plan.height - kOutside;

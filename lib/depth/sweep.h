@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sweeps over all labels of a tile: costs, the prior of a given map, paths, and the choice of a
-// disparity.
+// Sweeps over all labels of a tile. A sweep computes costs, adds the prior of a given map, sums
+// costs along paths, and chooses a disparity for each pixel.
 #ifndef STARFOCUS_LIB_DEPTH_SWEEP_H_
 #define STARFOCUS_LIB_DEPTH_SWEEP_H_
 
@@ -14,14 +14,14 @@ struct Sweep {
   const starfocus_light_field& light_field;
   const simd::DepthKernels& kernels;
   EstimateMemory* memory;
-  bool rates;  // true: certainty is computed
+  bool rates;  // true if the certainty is computed
 };
 
-// Fills memory->first of tile `index` from the views on one side of each pixel. A JobFunction whose
-// data is a Sweep.
+// Fills memory->first for tile `index` from the views on one side of each pixel. This is a
+// JobFunction whose `data` is a Sweep.
 void SweepOneSide(const void* data, int32_t index, int32_t worker);
-// Fills memory->second, the certainty and, for a repair, the costs. Uses the views that see each
-// pixel according to the first map. A JobFunction whose data is a Sweep.
+// Fills memory->second, the certainty and, for a repair, the costs for tile `index`. Uses the views
+// that see each pixel according to memory->first. This is a JobFunction whose `data` is a Sweep.
 void SweepAllViews(const void* data, int32_t index, int32_t worker);
 
 }  // namespace starfocus

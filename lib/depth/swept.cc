@@ -12,18 +12,19 @@
 namespace starfocus {
 namespace {
 
-// Largest mean difference, summed over R, G and B, at which a pixel fits the views on one side.
+// Largest mean difference between a pixel and the views on one side, summed over R, G and B, at
+// which the pixel fits these views.
 constexpr int32_t kMostMisfit = 20;
-// Every second pixel of every second row is tested. At least kLeastMisfits of the 5x5 pixels around
-// one must fit badly.
+// Every second pixel of every second row is tested. A pixel is contradicted if at least
+// kLeastMisfits of the 5x5 pixels around the pixel fit badly.
 constexpr int32_t kLeastMisfits = 2, kMisfitRadius = 2;
 constexpr uint8_t kMisfit = 1, kDoubt = 2;
-// Returns true if column or row `at` of `length` is tested. A mirrored picture is tested at the
-// mirrored places.
+// Returns true if column or row `at` of `length` columns or rows is tested. In a mirrored picture,
+// the mirrored pixels are tested.
 bool IsTested(int32_t at, int32_t length) { return (std::abs(2 * at - (length - 1)) & 2) == 0; }
 
-// Returns the difference of a pixel from the view at (x, y), in 128ths of a pixel;
-// simd::kMostDifference if the view does not cover that place.
+// Returns the difference between a pixel and the view at (x, y); coordinates are in 1/128 pixel.
+// Returns simd::kMostDifference if the view does not cover (x, y).
 int32_t Misfit(const EstimatePlan& plan, const Plane<const uint8_t>& view, int32_t x, int32_t y,
                const uint8_t* pixel) {
   const int32_t column = x >> 7, row = y >> 7, across = x & 127, down = y & 127;
@@ -45,7 +46,7 @@ int32_t Misfit(const EstimatePlan& plan, const Plane<const uint8_t>& view, int32
   return Min(misfit, simd::kMostDifference);
 }
 
-// Returns true if the views on any side of pixel (x, y) show the pixel at disparity d.
+// Returns true if the views on any side fit pixel (x, y) at disparity d.
 bool Fits(const EstimatePlan& plan, const starfocus_light_field& light_field, int32_t x, int32_t y,
           int32_t d) {
   const Plane<const uint8_t> centre = RowsOf(light_field.views[0]);
@@ -66,13 +67,13 @@ bool Fits(const EstimatePlan& plan, const starfocus_light_field& light_field, in
   return false;
 }
 
-// Returns the difference of two pixels, at most simd::kMostDifference.
+// Returns the difference between the colours of two pixels, clamped to simd::kMostDifference.
 int32_t Apart(const uint8_t* a, const uint8_t* b) {
   const int32_t sum = std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2]);
   return Min(sum, simd::kMostDifference);
 }
 
-// Returns true if enough pixels around one that fits badly fit badly, too.
+// Returns true if enough of the pixels around pixel (x, y) fit the views badly.
 bool IsGainsaid(const EstimatePlan& plan, const uint8_t* doubt, int32_t x, int32_t y) {
   const Rect around = Widened(plan, {x, y, 1, 1}, kMisfitRadius);
   int32_t misfits = 0;
@@ -83,10 +84,10 @@ bool IsGainsaid(const EstimatePlan& plan, const uint8_t* doubt, int32_t x, int32
   return misfits >= kLeastMisfits;
 }
 
-// A row of a tile with its surroundings. No pixel beyond the picture is in doubt.
+// Marks of a row of a tile and of its surroundings. Pixels beyond the picture are not in doubt.
 using DoubtRow = uint8_t[kMostTileSide + 2 * kSweptRadius];
 
-// Sets row[k] to 1 where row y is in doubt. `row` starts at the first pixel of `around`.
+// Sets row[k] to 1 if pixel k of row y is in doubt. row[0] is the first pixel of `around`.
 void ReadDoubts(const EstimatePlan& plan, const uint8_t* doubt, const Rect& around, int32_t y,
                 uint8_t* row) {
   const uint8_t* from = doubt + static_cast<size_t>(y) * static_cast<size_t>(plan.width);
@@ -121,7 +122,7 @@ void FindSwept(const EstimatePlan& plan, const Rect& tile, uint8_t* scratch,
   const auto width = static_cast<size_t>(plan.width), stride = static_cast<size_t>(tile.width);
   DoubtRow row = {};
   uint8_t* inside = row + kSweptRadius - (tile.x - around.x);
-  // Pixels with any pixel in doubt around them in their row.
+  // First marks the pixels that have a pixel in doubt within reach in their row.
   for (int32_t y = 0; y < around.height; ++y) {
     ReadDoubts(plan, memory->doubt, around, around.y + y, inside);
     uint8_t* near = scratch + static_cast<size_t>(y) * stride;
@@ -148,7 +149,7 @@ void RateUnswept(const EstimatePlan& plan, const Plane<const uint8_t>& centre, c
     const size_t row = static_cast<size_t>(y) * static_cast<size_t>(plan.width);
     const uint8_t* line = centre.data + static_cast<size_t>(y) * centre.stride;
     const auto stride = static_cast<ptrdiff_t>(centre.stride);
-    // At an edge of the picture the opposite neighbour is used twice.
+    // At an edge of the picture, the opposite neighbour replaces the missing neighbour.
     const ptrdiff_t down = y + 1 < plan.height ? stride : y > 0 ? -stride : 0;
     const ptrdiff_t up = y > 0 ? -stride : down;
     for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {

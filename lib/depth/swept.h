@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decides which pixels of a given map the sweeps process: those around steps and noise of the map,
-// and around pixels that the views contradict. All other pixels keep their disparity.
+// Decides which pixels of a given map the sweeps process. These are the pixels around steps and
+// noise of the map, and around pixels that the views contradict. All other pixels keep their
+// disparity.
 #ifndef STARFOCUS_LIB_DEPTH_SWEPT_H_
 #define STARFOCUS_LIB_DEPTH_SWEPT_H_
 
@@ -13,22 +14,22 @@
 
 namespace starfocus {
 
-// Pixels within this distance of one in doubt are swept. Trusted pixels farther away hardly
-// influence a pixel's prior (simd::kMostPrior).
+// Largest distance in pixels between a pixel that is swept and a pixel in doubt. Trusted pixels
+// farther away hardly influence a pixel's prior (simd::kMostPrior).
 inline constexpr int32_t kSweptRadius = 5;
 
-// Marks the pixels of a tile that are in doubt. Needs memory->trusted of the tile.
+// Marks the pixels of a tile that are in doubt. Requires memory->trusted for the tile.
 void FindDoubts(const EstimatePlan& plan, const starfocus_light_field& light_field,
                 const Rect& tile, EstimateMemory* memory);
 
-// Marks the pixels of a tile that are swept. Needs the doubts of all tiles. `scratch` has one byte
-// for each pixel of the tile enlarged by kSweptRadius.
+// Marks the pixels of a tile that are swept. Requires the doubts of all tiles. `scratch` has one
+// byte for each pixel of the tile extended by kSweptRadius pixels.
 void FindSwept(const EstimatePlan& plan, const Rect& tile, uint8_t* scratch,
                EstimateMemory* memory);
 
-// Writes the certainty of the pixels of a tile that were not swept. It is the difference of the
-// centre view from itself one pixel away, across and along. Views fit a wrong disparity worse by
-// about that difference.
+// Writes the certainty of the pixels of a tile that were not swept. The certainty is the difference
+// between the pixel and its neighbours in the centre view, along the row and the column. With a
+// wrong disparity, views fit worse by approximately this difference.
 void RateUnswept(const EstimatePlan& plan, const Plane<const uint8_t>& centre, const Rect& tile,
                  EstimateMemory* memory);
 

@@ -10,15 +10,16 @@
 namespace starfocus {
 namespace {
 
-// Cells are half to one and a half times this wide and high.
+// Sides of cells are between 0.5 and 1.5 times kCellSide.
 constexpr int32_t kCellSide = 16;
-// A pixel that is nearer by more than this belongs to another surface. lib/coverage uses the same
-// step.
+// Largest step of disparity between pixels of one surface, kDisparityBits. The value is the same in
+// lib/coverage.
 constexpr int32_t kStep = 5 << kDisparityBits;
-// Cells within this distance of a dense one are thin, since there are fewer strands at the rim.
+// Distance in cells from a dense cell within which all cells are thin, because the rim of a
+// structure has fewer strands.
 constexpr int32_t kReach = 6;
 
-// Calls act(column, row, number) for the cells within `reach` of a cell.
+// Calls act(column, row, number) for each cell within `reach` cells of cell (column, row).
 template <class Act>
 void ForAround(const ThinGrid& grid, int32_t column, int32_t row, int32_t reach, const Act& act) {
   const int32_t right = Min(column + reach, grid.columns - 1);
@@ -28,7 +29,7 @@ void ForAround(const ThinGrid& grid, int32_t column, int32_t row, int32_t reach,
   }
 }
 
-// Marks the pixels of row y of a tile that are next to nearer ones of the tile.
+// Marks the pixels of row y of a tile that are next to much nearer pixels of the tile.
 void MarkBeside(const ThinGrid& grid, const int16_t* map, const Rect& tile, int32_t y,
                 uint8_t* beside) {
   const auto at =

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds the thin structures of a map (hair, twigs, grass) by the number of pixels that are next to
-// much nearer ones. Nearly every pixel of such structures is a mixture that no other view shows. A
-// search for the best fit therefore gives arbitrary results there.
+// much nearer pixels. Nearly every pixel of a thin structure is a mixture that no other view shows.
+// In thin structures, a search for the best fit therefore gives arbitrary results.
 #ifndef STARFOCUS_LIB_DEPTH_THIN_CELLS_H_
 #define STARFOCUS_LIB_DEPTH_THIN_CELLS_H_
 
@@ -12,15 +12,16 @@
 
 namespace starfocus {
 
-// Largest width and height of a cell.
+// Largest width and height of a cell in pixels.
 inline constexpr int32_t kMostCellSide = 25;
 
-// Each tile is divided into cells of about 16 x 16 pixels. A mirrored picture has mirrored cells.
+// The grid of cells. Each tile is divided into cells of about 16 x 16 pixels. A mirrored picture
+// has mirrored cells.
 struct ThinGrid {
   int32_t width, height;          // size of the picture
   int32_t columns, rows;          // numbers of cells
   int32_t tile_columns;           // number of tiles in a row
-  int32_t tile_width, tile_rows;  // cells of a tile, across and down
+  int32_t tile_width, tile_rows;  // size of a tile in cells
 
   int32_t Cells() const { return columns * rows; }
   Rect CellAt(int32_t column, int32_t row) const;
@@ -29,25 +30,25 @@ ThinGrid GridOf(const EstimatePlan& plan);
 
 // Properties of the cells of a map, row by row.
 struct ThinCells {
-  uint16_t* beside;  // number of pixels that are next to much nearer ones
-  // true if many pixels of the cell and its neighbours are next to much nearer ones
+  uint16_t* beside;  // number of pixels that are next to much nearer pixels
+  // True if many pixels of the cell and of its neighbours are next to much nearer pixels.
   uint8_t* dense;
   uint8_t* thin;  // true if a cell within reach is dense
 };
 ThinCells TakeThinCells(const ThinGrid& grid, Arena* arena);
 
-// Counts the pixels of the cells of tile `index`, whose rectangle is `tile`. No pixel outside it is
-// read.
+// Fills cells.beside for the cells of tile `index`. `tile` is the rectangle of the tile; no pixel
+// outside the rectangle is read.
 void CountBeside(const ThinGrid& grid, const int16_t* map, const Rect& tile, int32_t index,
                  const ThinCells& cells);
 
-// Strands are dense if this percentage of the pixels of a cell and the eight cells around it are
-// next to nearer ones. kThinGiven is for given maps. Crossing wires have 15, or 20 if the rows of
-// their map are displaced, and a head of hair up to 45. kThinFound is for maps of the sweeps, whose
-// rows are not displaced.
+// Smallest percentage, in a cell and its eight neighbours, of pixels that are next to much nearer
+// pixels, for the cell to be dense. kThinGiven is for given maps. Crossing wires have a percentage
+// of 15, or of 20 if the rows of the map are displaced, and a head of hair has up to 45. kThinFound
+// is for maps of the sweeps, whose rows are not displaced.
 inline constexpr int32_t kThinGiven = 24, kThinFound = 17;
 
-// Finds the thin cells after all tiles are counted.
+// Fills cells.dense and cells.thin. Call FindThin after CountBeside has been called for all tiles.
 void FindThin(const ThinGrid& grid, int32_t percent, const ThinCells& cells);
 
 // Calls act(rectangle, number) for each cell of tile `index`.

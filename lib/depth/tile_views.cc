@@ -11,8 +11,8 @@ namespace {
 
 int32_t Inside(int32_t at, int32_t length) { return Max(0, Min(at, length - 1)); }
 
-// Splits a row of the picture into rows of the planes. Beyond the ends of the picture its outermost
-// pixels are repeated.
+// Splits a row of the picture into rows of the planes. Beyond the left and right ends of the
+// picture, the outermost pixels are repeated.
 void SplitPictureRow(const uint8_t* row, int32_t picture_width, const TileViews& views,
                      const simd::DepthKernels& kernels, uint8_t* out) {
   const auto stride = static_cast<int32_t>(views.stride);
@@ -26,17 +26,19 @@ void SplitPictureRow(const uint8_t* row, int32_t picture_width, const TileViews&
   }
 }
 
-// A view whose planes are made, with its moves by fractions of a pixel, in 128ths.
+// A view of which planes are made, and the `moves` shifts by fractions of a pixel for which planes
+// are made. Shifts are in 1/128 pixel.
 struct MovedView {
   Plane<const uint8_t> picture;
   int32_t moves;
   int32_t across[4], down[4];
 };
 
-// Makes the planes of a view; those of each move start at `out`.
+// Makes the planes of a view for all shifts. The planes are stored consecutively from `out` on.
 void MakePlanes(const MovedView& view, const EstimatePlan& plan, const simd::DepthKernels& kernels,
                 const TileViews& views, uint8_t* out) {
-  // One more sample is read at the end of a row. No label moves a pixel that far to the right.
+  // `stride` is larger than `count`, because interpolation reads samples after the end of a row. No
+  // label moves a pixel that far to the right.
   const size_t stride = views.stride, count = stride - simd::kSliceLanes;
   for (int32_t row = 0; row <= views.rows; ++row) {
     uint8_t* next = views.split + static_cast<size_t>(row % 2) * 3 * stride;
@@ -63,25 +65,27 @@ Rect PartInside(const EstimatePlan& plan, const TileViews& views) {
   return {x, y, right - x, Min(views.top + views.rows, plan.height) - y};
 }
 
-// A surface hides a pixel of a view if it is nearer by more than this, kDisparityBits. Estimates of
-// one surface differ by less.
+// A surface hides a pixel of a view if the surface is nearer by more than kSurfaceDepth
+// (kDisparityBits). Estimates of one surface differ by less.
 constexpr int32_t kSurfaceDepth = 1 << kDisparityBits;
 
-// Returns the number of labels that a pixel at disparity d hides.
+// Returns the number of labels that a pixel at disparity d hides. The hidden labels are the lowest
+// ones.
 uint8_t HiddenBehind(const EstimatePlan& plan, int32_t d) {
   const int32_t beyond = Max(d - kSurfaceDepth - plan.low, 0) + plan.step - 1;
   const int32_t labels = plan.step == kLabelStep ? beyond / kLabelStep : beyond / plan.step;
   return static_cast<uint8_t>(Min(labels, plan.labels));
 }
 
-// Pixels [from, to) of row y of a map, which starts at `disparity`.
+// Pixels [from, to) of row y of a map. disparity[0] is column 0 of the row.
 struct MapRow {
   const int16_t* disparity;
   int32_t y, from, to;
 };
 
-// Marks the labels that the pixels of a row hide in a view within `inside`. The template parameters
-// remove the directions in which the view does not move.
+// Marks the labels that the pixels of a row hide in the part `inside` of a view. kAcross and kDown
+// are false if the view does not move along this axis, so that the compiler can remove the
+// computation.
 template <bool kAcross, bool kDown>
 void HideBehindRow(const EstimatePlan& plan, const SideView& view, const MapRow& of_map,
                    const Rect& inside, const TileViews& views, uint8_t* hidden) {
@@ -103,7 +107,8 @@ void HideBehindRow(const EstimatePlan& plan, const SideView& view, const MapRow&
   }
 }
 
-// Returns the part of a view in which the region's pixels can lie, or which can hide them.
+// Returns `rect` extended by the reach of the plan, along each axis on which the view moves. Pixels
+// of `rect` can move within the result, and pixels of the result can hide them.
 Rect WithReach(const EstimatePlan& plan, const SideView& view, const Rect& rect) {
   const Rect across = Widened(plan, rect, view.u2 != 0 ? plan.reach : 0);
   const Rect down = Widened(plan, rect, view.v2 != 0 ? plan.reach : 0);
@@ -136,7 +141,7 @@ void FindMoves(const EstimatePlan& plan, const TileViews& views, simd::ViewMove*
   const auto plane = static_cast<int32_t>(views.plane);
   for (int32_t l = 0; l < plan.labels; ++l) {
     const int32_t d = plan.Disparity(l);
-    int32_t first = 1;  // first of the view's planes
+    int32_t first = 1;  // index of the view's first set of planes
     for (int32_t k = 0; k < plan.side_views(); ++k) {
       const SideView& side = plan.side[k];
       const int32_t across = MoveAcross(side, d), down = MoveDown(side, d);

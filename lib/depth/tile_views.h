@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loads the views around a tile, and marks the disparities that are hidden in them.
+// Loads the views around a tile, and marks the labels that are hidden in each view.
 #ifndef STARFOCUS_LIB_DEPTH_TILE_VIEWS_H_
 #define STARFOCUS_LIB_DEPTH_TILE_VIEWS_H_
 
@@ -9,18 +9,20 @@
 
 namespace starfocus {
 
-// Makes the planes of all views around `region`, as far as disparities reach.
+// Makes the planes of all views. The planes cover `region` and the pixels around it to which labels
+// can move pixels of the region.
 void LoadTileViews(const EstimatePlan& plan, const starfocus_light_field& light_field,
                    const Rect& region, const simd::DepthKernels& kernels, TileViews* views);
 
-// Fills in where each side view shows each label.
+// Computes, for each label and each side view, the movement of a pixel as an offset in the planes.
 void FindMoves(const EstimatePlan& plan, const TileViews& views, simd::ViewMove* moves);
 
-// Marks only where views end; nothing else is known to be hidden. For the first sweep.
+// Sets views->hidden to simd::kViewEnds outside the picture, and to 0 (no hidden labels) inside.
+// The first sweep uses MarkOutside.
 void MarkOutside(const EstimatePlan& plan, TileViews* views);
 
-// Marks where the pixels of a map (width * height disparities) hide labels in the views, for all
-// places that pixels of the region can move to.
+// Marks the labels that the pixels of a map hide in the views, at all positions to which pixels of
+// the region can move. `map` has width * height disparities.
 void MarkHidden(const EstimatePlan& plan, const int16_t* map, const Rect& region, TileViews* views);
 
 }  // namespace starfocus
