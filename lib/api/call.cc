@@ -15,7 +15,7 @@ void CompareWith(const Call& call, EngineState* engine) {
   changes.active = true;
   changes.before = call.before;
   changes.now = call.now;
-  // Blur by depth reads only the centre view.
+  // STARFOCUS_MODE_BLUR reads only the centre view.
   changes.views = call.params.mode == STARFOCUS_MODE_BLUR ? 1 : config.views;
   changes.fills = Has(config.features, STARFOCUS_FEATURE_FILL_UNKNOWN);
   changes.width = config.width;

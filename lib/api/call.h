@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Common part of all functions of the C API that refocus, for all formats.
+// Code shared by all functions of the C API that refocus, for all formats.
 #ifndef STARFOCUS_LIB_API_CALL_H_
 #define STARFOCUS_LIB_API_CALL_H_
 
@@ -23,7 +23,8 @@ struct Call {
 starfocus_status CheckCall(const starfocus_config& config, const starfocus_params& params,
                            const Prepared* prepared);
 
-// Returns the memory of the engine and of a prepared light field. Outputs must not overlap it.
+// Returns the memory of the engine and of a prepared light field. Outputs must not overlap this
+// memory.
 Extents MemoryOf(const EngineState& engine, const Prepared* prepared);
 
 // Runs a refocusing. The views must be set, and everything except the values of the map must have

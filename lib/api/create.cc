@@ -13,8 +13,8 @@ using namespace starfocus;
 namespace starfocus {
 namespace {
 
-// Not every C library can allocate aligned memory. The block is therefore aligned by hand; the
-// pointer from malloc is stored before the result.
+// Not every C library can allocate aligned memory, so this function aligns the block itself. The
+// pointer from malloc is stored directly before the returned block.
 void* AllocateFromHeap(void*, size_t bytes, size_t alignment) {
   if (bytes > SIZE_MAX - alignment) return nullptr;
   void* const memory = std::malloc(bytes + alignment);
@@ -66,7 +66,8 @@ void starfocus_destroy(starfocus_engine* engine) {
   if (engine == nullptr) return;
   const EngineState& state = *reinterpret_cast<EngineState*>(engine);
   if (state.allocator.release == nullptr) return;
-  // The engine contains a copy of the allocator, which must outlive the engine.
+  // The allocator is copied to the stack first, because releasing the engine frees the engine's own
+  // copy.
   const starfocus_allocator allocator = state.allocator;
   allocator.release(allocator.data, engine, state.bytes);
 }

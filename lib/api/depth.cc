@@ -163,7 +163,7 @@ starfocus_status Watched(const starfocus_depth_config& config, JobSet* jobs, con
   return call_progress->Ask() ? STARFOCUS_OK : STARFOCUS_ERROR_CANCELLED;
 }
 
-// Repairs a map by colour. Sets *has_coverage to 1 if it finds coverage, otherwise to 0.
+// Repairs a map by colour. Sets *has_coverage to 1 if coverage was found, otherwise to 0.
 starfocus_status RepairOneView(const DepthCall& call, const MapOutput& output,
                                int32_t* has_coverage) {
   const EstimatePlan plan = PlanOf(*call.config, true);
@@ -176,7 +176,7 @@ starfocus_status RepairOneView(const DepthCall& call, const MapOutput& output,
   return status;
 }
 
-// Estimates a map, or repairs one with all views.
+// Estimates a map from all views, or repairs a given map with all views.
 starfocus_status SweepViews(const DepthCall& call, bool repairs, const MapOutput& output) {
   const EstimatePlan plan = PlanOf(*call.config, repairs);
   const simd::DepthKernels& kernels = simd::BestDepthKernels();

@@ -14,8 +14,9 @@ namespace starfocus {
 namespace {
 
 // Returns the configuration with a superblock size in place of 0. Superblocks of 128 pixels make
-// wide pictures up to 1/8 faster, because they share more of their surroundings. Wide pictures
-// still have enough superblocks for all workers. A worker needs four times the memory.
+// wide pictures up to 1/8 faster, because the blocks of a superblock share its surroundings. Wide
+// pictures still have enough superblocks for all workers. The memory of a worker is four times as
+// large as with superblocks of 64 pixels.
 starfocus_config Choose(const starfocus_config& config) {
   constexpr int32_t kWide = 1536;
   starfocus_config chosen = config;

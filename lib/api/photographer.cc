@@ -9,17 +9,17 @@
 namespace starfocus {
 namespace {
 
-// Number of pixels on each side of the tapped one that are read (docs/constants.md).
+// Number of pixels on each side of the tapped pixel that are read (docs/constants.md).
 constexpr int32_t kAround = 3;
 constexpr int32_t kSide = 2 * kAround + 1;
 
-// Two pixels belong to the same surface as a disparity if both differ from it by at most this
-// value. There is no depth edge between such pixels.
+// Largest difference between a pixel's disparity and the disparity of its surface. No depth edge
+// separates two pixels that are both this close.
 constexpr double kNear = kSurfaceStep / 2.0 / (1 << kDisparityBits);
 
 struct Map {
   const float* data;
-  size_t row_step;  // in floats
+  size_t row_step;  // distance between rows, in floats
   int32_t width, height;
 
   float At(int32_t x, int32_t y) const {
@@ -58,7 +58,7 @@ struct SortedPart {
   int32_t count() const { return last - first; }
 };
 
-// Returns the values near `disparity`. There must be at least one.
+// Returns the values near `disparity`. At least one value must be near.
 SortedPart PartNear(const Sorted& sorted, double disparity) {
   SortedPart part = {0, 0};
   while (part.first + 1 < sorted.count && sorted.values[part.first] < disparity - kNear) {
@@ -74,8 +74,8 @@ double Median(const Sorted& sorted, const SortedPart& part) {
   return part.count() % 2 != 0 ? double{middle[0]} : (double{middle[-1]} + middle[0]) / 2;
 }
 
-// Returns true if a neighbour of the pixel is on the same surface. This holds for a wire one pixel
-// wide, but not for a wrong value.
+// Returns true if a neighbour of the pixel is on the same surface. The result is true for a wire
+// one pixel wide, but false for a wrong value.
 bool HasNeighbour(const Map& map, int32_t x, int32_t y) {
   const double disparity = map.At(x, y);
   for (int32_t row = Max(0, y - 1); row <= Min(map.height - 1, y + 1); ++row) {
@@ -87,7 +87,8 @@ bool HasNeighbour(const Map& map, int32_t x, int32_t y) {
   return false;
 }
 
-// Returns the disparity with the most values near it; of several, the smallest.
+// Returns the disparity that has the most values near it. If several disparities qualify, returns
+// the smallest.
 double MostCommon(const Sorted& sorted) {
   int32_t most = 0, best = 0;
   for (int32_t k = 0; k < sorted.count; ++k) {
@@ -124,7 +125,7 @@ starfocus_status starfocus_focus_at(const float* disparity, size_t stride, int32
 
 starfocus_status starfocus_aperture_of_f_stop(double f_stop, double widest, double* aperture) {
   if (aperture == nullptr) return STARFOCUS_ERROR_NULL;
-  // The comparison is written so that NaN fails.
+  // The comparisons are written so that NaN fails.
   if (!(widest > 0.0 && widest <= f_stop && std::isfinite(f_stop))) return STARFOCUS_ERROR_RANGE;
   *aperture = widest / f_stop;
   return STARFOCUS_OK;

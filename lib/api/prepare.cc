@@ -10,7 +10,7 @@
 namespace starfocus {
 namespace {
 
-// Checks the memory for a prepared light field. It must not overlap the inputs in `read`.
+// Checks the memory for a prepared light field, which must not overlap the inputs in `read`.
 starfocus_status CheckPreparedMemory(const EngineState& engine, const PrepareCall& call,
                                      Extents* read) {
   Prepared* counted = nullptr;

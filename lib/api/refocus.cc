@@ -20,7 +20,8 @@ struct Request {
   const starfocus_image& out;
 };
 
-// Checks the previous frame, if there is one. Frames can be compared only if all are read in place.
+// Checks the previous frame if it exists. Frames can be compared only if both frames are read in
+// place.
 starfocus_status CheckPrevious(const starfocus_config& config, const Request& request,
                                const PictureSize& size) {
   const starfocus_previous* const previous = request.params.previous;
@@ -50,8 +51,8 @@ Extents ReadBy(const Request& request, const PictureSize& size, const EngineStat
   return read;
 }
 
-// Returns the previous frame if it is comparable: both light fields have coverage, or neither has
-// it.
+// Returns the previous frame if it is comparable, or null. Frames are comparable if both light
+// fields have coverage or neither light field has coverage.
 const starfocus_previous* ComparableOf(const Request& request) {
   const starfocus_previous* const previous = request.params.previous;
   if (previous == nullptr) return nullptr;

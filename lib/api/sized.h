@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Access to structures that start with their size. The caller's header may be older than the
-// library.
+// Access to structures whose first field is their size, because the caller's header may be older
+// than the library.
 #ifndef STARFOCUS_LIB_API_SIZED_H_
 #define STARFOCUS_LIB_API_SIZED_H_
 
@@ -9,8 +9,8 @@
 
 namespace starfocus {
 
-// Writes the defaults to the known part of the caller's structure, zeros to the rest, and sets
-// `size`.
+// Writes the defaults to the part of the caller's structure that the library knows, writes zeros to
+// the rest, and sets the field `size`.
 template <class Structure>
 void InitSized(Structure defaults, uint32_t size, Structure* given) {
   if (given == nullptr || size < sizeof size) return;

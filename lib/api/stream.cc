@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// C API: streams. Input rows go to ring buffers, and finished rows can be pulled.
+// C API: streams. Pushed input rows are stored in ring buffers, and finished rows can be pulled.
 #include "lib/api/call.h"
 #include "lib/api/validate.h"
 #include "lib/api/validate_image.h"
@@ -40,7 +40,7 @@ starfocus_status CheckCount(const EngineState& engine, int32_t rows, int32_t mos
   return check.status();
 }
 
-// Checks the number of rows from row `first` on: YUV formats need pairs of rows.
+// Checks the number of rows that start at row `first`. YUV formats require pairs of rows.
 starfocus_status CheckPairs(const starfocus_config& config, bool is_yuv, int32_t first,
                             int32_t rows) {
   Checker check(config.problem);
@@ -78,8 +78,8 @@ starfocus_status CheckPull(const EngineState& engine, const starfocus_image& out
   return CheckOutputApart(out, {config.width, rows}, MemoryOf(engine, nullptr), config.problem);
 }
 
-// Copies up to `rows` rows of the source while the next stripe needs more, `unit` (1 or 2) at a
-// time. Adds the number of copied rows to *consumed.
+// Copies up to `rows` rows of the source, `unit` (1 or 2) at a time, until the next stripe has all
+// its rows. Adds the number of copied rows to *consumed.
 starfocus_status PushRows(const RowSource& source, int32_t rows, int32_t unit, EngineState* engine,
                           int32_t* consumed) {
   Stream& stream = engine->stream;
@@ -98,7 +98,7 @@ starfocus_status PushRows(const RowSource& source, int32_t rows, int32_t unit, E
   while (*consumed < rows && stream.pushed < NeededRows(*engine)) {
     const int32_t some = Min(unit, rows - *consumed);
     const starfocus_report report = engine->report;
-    // Copies both rows of a pair or none
+    // Copies either both rows of a pair or neither row.
     for (int32_t k = 0; k < some; ++k) {
       const starfocus_status status = CopyRow(source, stream.pushed + k, engine);
       if (status == STARFOCUS_OK) continue;
@@ -111,8 +111,8 @@ starfocus_status PushRows(const RowSource& source, int32_t rows, int32_t unit, E
   return STARFOCUS_OK;
 }
 
-// Stores up to `rows` rows, and refocuses the stripes that they need if all input rows are
-// available. Adds the number of stored rows to *written.
+// Stores up to `rows` rows. Refocuses the stripes of these rows whose input rows are all available.
+// Adds the number of stored rows to *written.
 starfocus_status PullRows(const RowSink& sink, int32_t rows, EngineState* engine,
                           int32_t* written) {
   Stream& stream = engine->stream;

@@ -7,7 +7,7 @@
 namespace starfocus {
 namespace {
 
-// Checks all fields, including those that the shape does not use.
+// Checks all fields, including fields that the shape does not use.
 void CheckLens(const starfocus_config& config, const starfocus_lens& lens, Checker* check) {
   check->In({"lens.focus", lens.focus},
             STARFOCUS_FROM_TO(-STARFOCUS_MAX_FOCUS, STARFOCUS_MAX_FOCUS));

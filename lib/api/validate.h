@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks of all arguments of the C API. They run before anything is written.
+// Checks of all arguments of the C API. All checks run before a call writes any output.
 #ifndef STARFOCUS_LIB_API_VALIDATE_H_
 #define STARFOCUS_LIB_API_VALIDATE_H_
 
@@ -13,8 +13,8 @@
 
 namespace starfocus {
 
-// Starts a call with a configuration. Copies the configuration to *full, which must contain
-// defaults, clears the problem of the previous call, and checks that no pointer is null.
+// Starts a call with a configuration. Copies the configuration to *full, which must contain the
+// defaults. Clears the problem of the previous call, and checks that no pointer is null.
 template <class Config>
 starfocus_status EnterConfig(const Config* config, std::initializer_list<Pointer> pointers,
                              Config* full) {
@@ -27,10 +27,12 @@ starfocus_config DefaultConfig();
 
 starfocus_params DefaultParams();
 
-// Starts a call with an engine: clears its problem and checks that no pointer is null.
+// Starts a call with an engine: clears the problem of the engine and checks that no pointer is
+// null.
 starfocus_status EnterEngine(starfocus_engine* engine, std::initializer_list<Pointer> pointers);
 
-// Starts a call that refocuses. Also copies `params`, which must be one of the pointers, to *full.
+// Starts a call that refocuses, like EnterEngine. Also copies `params`, which must be one of the
+// pointers, to *full.
 starfocus_status EnterCall(starfocus_engine* engine, std::initializer_list<Pointer> pointers,
                            const starfocus_params* params, starfocus_params* full);
 
@@ -42,7 +44,7 @@ struct PictureRange {
 };
 void CheckPictureRange(const PictureRange& picture, Checker* check);
 
-// The checks below report a rejected field to config.problem or to `problem`, which may be null.
+// These checks report a rejected field to config.problem, which may be null.
 starfocus_status CheckConfig(const starfocus_config& config);
 starfocus_status CheckParams(const starfocus_config& config, const starfocus_params& params);
 
@@ -68,7 +70,7 @@ starfocus_status CheckMap(const MapPlane& map, int32_t width, int32_t height,
 // Returns true if a stride is at least `row_bytes` and all rows are addressable.
 bool ValidStride(size_t stride, size_t row_bytes, int32_t rows);
 
-// Checks the stride of the coverage of a light field; null: no coverage.
+// Checks the stride of the coverage of a light field. A null `coverage` is valid.
 starfocus_status CheckCoverage(const starfocus_config& config, const uint8_t* coverage,
                                size_t stride);
 

@@ -10,8 +10,8 @@
 
 namespace starfocus {
 
-// Capacity: all planes of a light field in any format, or of two in-place light fields, and four
-// more.
+// List of address ranges. The capacity suffices for all planes of one light field in any format, or
+// of two in-place light fields, plus four more ranges.
 struct Extents {
   Extent of[3 * kMaxViews + 4];
   int count = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light field of the caller during a call. Disparities are converted when they are loaded. If all
-// views are packed RGB, they are read in place. Otherwise rows of the centre view are converted to
-// the engine's ring, and pixels of side views are converted when they are read.
+// Light field of the caller during a call. Disparities are converted when they are loaded. Views
+// are read in place if all views are packed RGB. Otherwise the engine converts rows of the centre
+// view to its ring, and converts pixels of side views when it reads them.
 #ifndef STARFOCUS_LIB_SOURCE_LIGHT_FIELD_H_
 #define STARFOCUS_LIB_SOURCE_LIGHT_FIELD_H_
 
@@ -20,7 +20,8 @@ struct LightField {
   bool in_place;  // true: all views are packed RGB
   DepthSource depth;
   Plane<const uint8_t> coverage;  // null: no coverage
-  PlaneViews planes;              // in place: all views; otherwise only view 0, the engine's ring
+  // All views if in place; otherwise only view 0, in the engine's ring.
+  PlaneViews planes;
 };
 
 // Initialises *field from a valid light field whose rows start with row `first` of the picture. The
@@ -28,10 +29,11 @@ struct LightField {
 void MakeLightField(const starfocus_light_field& given, int32_t first, EngineState* engine,
                     LightField* field);
 
-// Returns a source of the field's rows. The field must outlive it.
+// Returns a source of the rows of the field, which must outlive the source.
 RowSource SourceOf(const LightField& field);
 
-// Makes the engine's windows read from the field. The field must stay valid unless it is in place.
+// Sets the field as the source of the engine's windows. The field must remain valid unless it is in
+// place.
 void UseLightField(const LightField& field, EngineState* engine);
 
 }  // namespace starfocus

@@ -9,7 +9,8 @@
 namespace starfocus {
 namespace {
 
-// Converts pairs of rows of the image. Job `index` of `jobs` converts PartOf the pairs.
+// Converts pairs of rows of the image. Job `index` converts part `index` of the pairs, as PartOf
+// divides them.
 struct PairsJob {
   const PictureOutput* out;
   Plane<uint8_t> from;
@@ -54,7 +55,7 @@ void CopyColumns(const PictureOutput& out, const Plane<uint8_t>& from, int32_t y
               from.Row(y) + 3 * static_cast<size_t>(first), 3 * static_cast<size_t>(last - first));
 }
 
-// Copies row y. If there is a previous picture, it copies the row of that picture and overwrites
+// Copies row y. If a previous picture exists, copies the row of the previous picture and overwrites
 // the changed columns.
 void StoreRow(const PictureOutput& out, const Plane<uint8_t>& from, int32_t y,
               const EngineState& engine) {

@@ -14,12 +14,12 @@ struct PictureOutput {
   ImageTarget image;
   Rect rect;
   AlphaSource alpha;  // alpha of the whole picture; null rows: alpha is 255
-  // Source of unchanged pixels, or null. If it is set, both pictures are packed RGB.
+  // Source of unchanged pixels, or null. If `previous` is not null, both pictures are packed RGB.
   const starfocus_image* previous = nullptr;
 };
 
-// Returns a sink that writes to `out`, which must outlive it. If the last row shares its chroma
-// with the row below, the chroma is written with that row.
+// Returns a sink that writes to `out`, which must outlive the sink. If the last row shares its
+// chroma with the next row, the chroma is written together with the next row.
 RowSink SinkOf(const PictureOutput& out);
 
 }  // namespace starfocus

@@ -17,8 +17,8 @@ starfocus_status MakeLayers(const Prepared& prepared, const RowSource& source,
   for (int layer = 0; layer < STARFOCUS_LAYERS; ++layer)
     own[layer] = engine->row_store.layers[layer];
   const int32_t height = engine->config.height, side = engine->config.superblock;
-  // Layers extend beyond the picture (LayerSize) by fewer than kBeyond of its pixels. PlaceLayers
-  // omits rows beyond the layers.
+  // Layers extend beyond the picture (LayerSize) by fewer than kBeyond pixels of the picture.
+  // PlaceLayers omits rows outside the layers.
   constexpr int32_t kBeyond = 16;
   RowRange read = {0, 0};
   starfocus_status status = STARFOCUS_OK;
@@ -53,7 +53,7 @@ starfocus_status MakeLayers(const Prepared& prepared, const RowSource& source,
 size_t LayOutPrepared(const starfocus_config& config, void* base, Prepared** prepared) {
   Arena arena(base);
   *prepared = arena.Take<Prepared>(1);
-  Prepared counted;  // used instead of **prepared while counting
+  Prepared counted;  // replaces **prepared while the layout only counts
   Prepared& p = *prepared == nullptr ? counted : **prepared;
   const auto width = static_cast<size_t>(config.width), height = static_cast<size_t>(config.height);
   p.disparity.stride = width;

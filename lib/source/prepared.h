@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prepared light field: data that does not depend on the lens, in its own memory. It consists of
-// checked and converted disparities, the layers of the centre view and reduced light fields.
+// Prepared light field: data that does not depend on the lens, in its own memory. The data are
+// checked and converted disparities, the layers of the centre view, and reduced light fields.
 #ifndef STARFOCUS_LIB_SOURCE_PREPARED_H_
 #define STARFOCUS_LIB_SOURCE_PREPARED_H_
 
@@ -14,7 +14,7 @@
 namespace starfocus {
 
 struct Prepared {
-  starfocus_config config;  // configuration of the engine that made it
+  starfocus_config config;  // configuration of the engine that prepared the light field
   starfocus_light_field light_field;
   bool covers = false;       // true: the light field has coverage
   Plane<int16_t> disparity;  // all rows
@@ -23,8 +23,8 @@ struct Prepared {
   ReducedField reduced[STARFOCUS_MAX_PREVIEW + 1];  // indexed by shift, from 1 to config.previews
 };
 
-// Lays out a prepared light field for a valid configuration at `base`. If `base` is null, it only
-// counts and sets *prepared to null. Returns the number of bytes, or kTooLarge.
+// Lays out a prepared light field for a valid configuration at `base`. If `base` is null, only
+// counts the bytes and sets *prepared to null. Returns the number of bytes, or kTooLarge.
 size_t LayOutPrepared(const starfocus_config& config, void* base, Prepared** prepared);
 
 // Memory for a prepared light field, from a call with any format.
@@ -33,10 +33,10 @@ struct PrepareCall {
   size_t bytes;
 };
 
-// Prepares the light field of the engine's views and of `source`. It checks and converts the map,
-// and computes the layers and reduced light fields stripe by stripe. It uses the engine's planes
-// except for the pixels. On error *prepared is null. If a row of the map is invalid, the memory is
-// not changed.
+// Prepares the light field that consists of the engine's views and the map of `source`. Checks and
+// converts the map, and computes the layers and reduced light fields stripe by stripe. Uses the
+// engine's planes except the pixels. On error *prepared is null. If a row of the map is invalid,
+// the memory is not changed.
 starfocus_status Prepare(const PrepareCall& call, const RowSource& source, EngineState* engine,
                          Prepared** prepared);
 
@@ -46,7 +46,8 @@ bool Fits(const Prepared& prepared, const starfocus_config& config);
 // Returns the address range of the prepared light field.
 Extent PreparedMemory(const Prepared& prepared);
 
-// Makes the engine read disparities and layers from `prepared`. Its views and lens must be set.
+// Sets `prepared` as the source of the engine's disparities and layers. The engine's views and lens
+// must be set before.
 void UsePrepared(const Prepared& prepared, EngineState* engine);
 
 }  // namespace starfocus

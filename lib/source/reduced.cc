@@ -7,7 +7,7 @@
 namespace starfocus {
 namespace {
 
-// Reduces the columns of one superblock.
+// Reduces rows of one column of superblocks.
 struct ReduceJob {
   const EngineState* engine;
   Plane<int16_t> disparity;
@@ -16,7 +16,7 @@ struct ReduceJob {
   const ReducedField* fields;
 };
 
-// A range of columns of the picture.
+// Range of columns of the picture.
 struct ColumnPart {
   int32_t x, width;
 };
@@ -54,7 +54,7 @@ bool ReduceView(const ReduceJob& job, int view, const ColumnPart& part, Scratch*
   return true;
 }
 
-// Converts an end of the range of disparities, which lies in the range.
+// Converts a limit of the range of disparities to kDisparityBits.
 int16_t ConvertedEnd(const EngineState& engine, float end) {
   int16_t converted = 0;
   engine.kernels->ConvertDisparity(&end, 1, end, end, &converted);
@@ -64,7 +64,7 @@ int16_t ConvertedEnd(const EngineState& engine, float end) {
 // Returns false after cancellation.
 bool ReduceMap(const ReduceJob& job, int shift, const ColumnPart& part, Scratch* scratch) {
   const starfocus_config reduced = ReducedConfig(job.engine->config, shift);
-  // The second rounding may leave the range by one step.
+  // Disparities are rounded a second time here, which may exceed the range by one step.
   const int16_t low = ConvertedEnd(*job.engine, static_cast<float>(reduced.disparity_min));
   const int16_t high = ConvertedEnd(*job.engine, static_cast<float>(reduced.disparity_max));
   const int32_t side = 1 << shift;
