@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Last step of highlights: adds their light beyond white to a picture.
+// Last step of highlights: adds their excess, the light beyond white, to a picture.
 #ifndef STARFOCUS_LIB_FILTER_ADD_EXCESS_H_
 #define STARFOCUS_LIB_FILTER_ADD_EXCESS_H_
 
@@ -11,7 +11,7 @@
 
 namespace starfocus {
 
-// Factor of the excess, kExcessBits: highlights - 1.
+// Returns the factor of the excess, highlights - 1, with kExcessBits fractional bits.
 inline constexpr int kExcessBits = 8;
 int32_t ExcessFactor(float highlights);
 

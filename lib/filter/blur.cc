@@ -10,20 +10,20 @@ namespace starfocus {
 namespace {
 
 constexpr int32_t kOne = 1 << kDisparityBits;
-constexpr int32_t kFineSteps = 8;     // per pixel
-constexpr int32_t kFineEnd = 4;       // pixels
-constexpr int32_t kCoarseSteps = 32;  // per octave of radii
+constexpr int32_t kFineSteps = 8;     // radii per pixel, up to kFineEnd
+constexpr int32_t kFineEnd = 4;       // end of the fine steps, in pixels
+constexpr int32_t kCoarseSteps = 32;  // radii per octave beyond kFineEnd
 double Smaller(double a, double b) { return a < b ? a : b; }
 double Larger(double a, double b) { return a > b ? a : b; }
 
-// Lines per pixel, and points per line, for the integral of (4). PSFs of few pixels have more
+// Number of lines per pixel, and of points per line, for the integral of (4). Small PSFs use more
 // lines.
 constexpr int32_t LinesOf(int32_t radius) { return radius <= kFineEnd * kOne ? 16 : 8; }
 constexpr int32_t kPoints = 8;
-// Cost of an integral, in samples of CancelToken::Spend.
+// Cost of the integral over one pixel, in samples of CancelToken::Spend.
 constexpr int32_t kIntegralSamples = 256;
 
-// Returns the last pixel that a disc covers in part.
+// Returns the distance of the last pixel that a disc covers at least in part.
 int32_t SizeOf(int32_t radius) { return radius == 0 ? 0 : (radius + kOne / 2 - 1) / kOne; }
 
 size_t WeightsOf(bool full, int32_t size) {
@@ -35,8 +35,9 @@ struct Interval {
   double from, to;
 };
 
-// Returns the part of `x` on the line at y where light passes through a polygon of radius r. For
-// each edge it lies between the zeros of a quadratic function, or on one side of a straight edge.
+// Returns the part of `x` on the line at y where light passes through a polygon of radius r. The
+// part lies between the zeros of a quadratic function for each curved edge, and on one side of each
+// straight edge.
 Interval WithinPolygon(const ApertureShape& opening, double y, double r, Interval x) {
   constexpr double kUnit = 1.0 / kOpeningOne;
   const double square = opening.bulge * kUnit;
@@ -64,9 +65,10 @@ Interval WithinPolygon(const ApertureShape& opening, double y, double r, Interva
 }
 
 // Returns the relative integral over pixel (n, m) of (3), or of an evenly bright opening. r is the
-// radius of the disc in pixels. It uses the midpoint rule along `lines` lines that end at the edge
-// of the opening. A square grid of points inside or outside would be wrong by up to 1.6 gray levels
-// at sharp edges. Arithmetic and square root follow IEEE, so all machines compute the same result.
+// radius of the disc in pixels. The midpoint rule is applied along `lines` lines that end at the
+// edge of the opening. Counting the points of a square grid instead would cause errors of up to 1.6
+// gray levels at sharp edges. Arithmetic and square root follow IEEE, so all machines compute the
+// same result.
 template <starfocus_shape kShape>
 double DiscIntegral(int32_t n, int32_t m, double r, int32_t lines, const ApertureShape& opening) {
   const double square = r * r, fall_off = opening.fall_off / 65536.0;
@@ -90,7 +92,7 @@ double DiscIntegral(int32_t n, int32_t m, double r, int32_t lines, const Apertur
 }
 
 // Returns the integral for a radius in 1 / kOne pixels. The edges of a polygon may be parallel to
-// the lines and end between two of them, so polygons use four times as many lines.
+// the lines and lie between two lines, so polygons use four times as many lines.
 double PixelIntegral(int32_t n, int32_t m, int32_t radius, const ApertureShape& opening) {
   const double r = static_cast<double>(radius) / kOne;
   const int32_t lines = LinesOf(radius);
@@ -141,8 +143,8 @@ void LoadPixels(const BlurJob& job, int16_t* rgb) {
   }
 }
 
-// Adds a PSF with weights `weight(n, m)` for `count` pixels of the same radius. Each span contains
-// two adjacent weights.
+// Adds the spans of a PSF with weights `weight(n, m)` for `count` pixels of the same radius. Each
+// span uses two adjacent weights.
 template <class Weight>
 void AddRun(int32_t size, const Weight& weight, const int16_t* at, size_t stride, int32_t count,
             SpanList* list) {
@@ -172,9 +174,9 @@ void AddPsf(const Psf& psf, int32_t side, const int16_t* at, size_t stride, int3
   }
 }
 
-// Computes the PSF of a radius (kDisparityBits). Returns false after cancellation. Each orbit
-// absorbs the rounding error of the orbits before it, and the last one the remainder, as in
-// MakeViewWeights.
+// Computes the PSF of a radius (kDisparityBits). Returns false after cancellation. Pixels that
+// share a weight form an orbit. Each orbit absorbs the rounding error of the orbits before it, and
+// the last orbit absorbs the remainder, as in MakeViewWeights.
 bool MakePsf(int32_t radius, const ApertureShape& opening, CancelToken* cancel, uint16_t* weights,
              Psf* psf) {
   psf->size = SizeOf(radius);
@@ -185,7 +187,8 @@ bool MakePsf(int32_t radius, const ApertureShape& opening, CancelToken* cancel, 
     weights[0] = 1 << 14;
     return true;
   }
-  double total = 0, largest = 0;  // `largest`: over the pixels that simd::Disc weighs together
+  // `largest`: maximum over sets of pixels that simd::Disc weighs together
+  double total = 0, largest = 0;
   const auto add = [&](int32_t n, int32_t m, int32_t points, double integral) {
     total += points * integral;
     const int32_t together = psf->full ? 1 : (n > 0 ? 2 : 1) * (m > 0 ? 2 : 1);
@@ -200,7 +203,8 @@ bool MakePsf(int32_t radius, const ApertureShape& opening, CancelToken* cancel, 
   int32_t given = 0;
   const auto give = [&](int32_t n, int32_t m, int32_t points, double integral) {
     wanted += points * integral;
-    // The last value of `wanted` equals `total` exactly, because both are the same sum.
+    // The last value of `wanted` equals `total` exactly, because both are sums of the same numbers
+    // in the same order.
     const auto target = wanted == total ? one : static_cast<int32_t>(wanted / total * one + 0.5);
     const auto weight =
         static_cast<int32_t>(ShareOfPoints(target - given, points, opening.IsRing()));

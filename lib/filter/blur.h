@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Depth-dependent blur of the centre view alone (the paper's [13], [14]), for comparison with
-// views. Each output pixel is the mean of its neighbours, weighted by the ideal PSF (4) of its blur
-// radius. Gathering uses the same PSFs.
+// Depth-dependent blur of the centre view alone (references [13] and [14] of the paper), for
+// comparison with rendered views. Each output pixel is the mean of its neighbours, weighted by the
+// ideal PSF (4) of its blur radius. Gathering uses the same PSFs.
 #ifndef STARFOCUS_LIB_FILTER_BLUR_H_
 #define STARFOCUS_LIB_FILTER_BLUR_H_
 
@@ -18,19 +18,20 @@
 
 namespace starfocus {
 
-// Steps of the radii for which PSFs exist: 1/8 px up to 4 px, and 1/32 of the radius beyond. Radii
-// have kDisparityBits fractional bits.
+// PSFs exist for radii in steps of 1/8 pixel up to 4 pixels, and for 32 radii per octave beyond.
+// Radii have kDisparityBits fractional bits.
 int32_t BlurStep(int32_t radius);  // radius: kDisparityBits
 int32_t BlurStepCount(double max_blur);
 int32_t RadiusOfStep(int32_t step);  // kDisparityBits
 // Return the step of the largest radius that does not exceed `radius`, and of the smallest radius
-// that is not less.
+// that is at least `radius`.
 int32_t BlurStepBelow(int32_t radius);
 int32_t BlurStepAbove(int32_t radius);
 
-// A PSF: the octant 0 <= m <= n, or all weights if `full`. The weights of the plane sum to exactly
-// 2^sum_bits. In an octant, the equal weights of four mirrored pixels, or of two on an axis, have a
-// sum of at most 15 bits. Pixels farther than the focus use the PSF rotated by half a turn.
+// A PSF: the octant 0 <= m <= n, or all weights if `full`. The weights of all pixels sum to exactly
+// 2^sum_bits. In an octant, the equal weights of four mirrored pixels, or of two mirrored pixels on
+// an axis, have a sum of at most 15 bits. Pixels farther than the focus use the PSF rotated by half
+// a turn.
 struct Psf {
   int32_t size;  // largest n with a weight
   int sum_bits;
@@ -46,12 +47,13 @@ struct Psf {
   }
 };
 
-// Returns the number of weights of all PSFs up to max_blur, of an octant or full.
+// Returns the number of weights of all PSFs up to max_blur, counting an octant of each PSF or, if
+// `full`, all weights.
 size_t BlurWeightCount(bool full, double max_blur);
 
-// Computes the PSFs of steps [first, last), first <= last. Earlier PSFs must exist. The
-// arrays have room for kernels[BlurStepCount] and weights[BlurWeightCount]. Cat's eyes are ignored.
-// Returns `last`, or the step at which the call was cancelled. A null token never cancels.
+// Computes the PSFs of steps [first, last), first <= last. Earlier PSFs must exist. The arrays must
+// have room for kernels[BlurStepCount] and weights[BlurWeightCount]. Cat's eyes are ignored.
+// Returns `last`, or the step at which the call was cancelled. `cancel` may be null.
 int32_t MakePsfs(int32_t first, int32_t last, const ApertureShape& opening, CancelToken* cancel,
                  uint16_t* weights, Psf* kernels);
 
@@ -62,7 +64,7 @@ struct BlurJob {
   const simd::Kernels* kernels;
   Rect rect;
   int32_t border;       // largest PSF size in the picture
-  ExcessSum excess;     // factor > 0: the excess of the window is added to `out`
+  ExcessSum excess;     // if factor > 0, the excess of the window is added to `out`
   CancelToken* cancel;  // after cancellation `out` is incomplete
 };
 

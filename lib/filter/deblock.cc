@@ -15,9 +15,9 @@ bool Close(const uint8_t* a, const uint8_t* b, int32_t beta) {
   return Abs(a[0] - b[0]) < beta && Abs(a[1] - b[1]) < beta && Abs(a[2] - b[2]) < beta;
 }
 
-// Filters pixels q0, q1, ... on the finer side of a boundary. `step` is the distance of pixels in
-// bytes, away from the boundary, and p0 is the pixel before q0. `available` is the number of pixels
-// on this side.
+// Filters pixels q0, q1, ... on the finer side of a boundary. `step` is the distance between pixels
+// in bytes, away from the boundary, and p0 is the pixel before q0. `available` is the number of
+// pixels on this side.
 void FilterLine(const DeblockJob& job, uint8_t* q, ptrdiff_t step, int32_t available, bool strong) {
   const uint8_t* p0 = q - step;
   const int16_t* light = job.transfer->light;
@@ -40,8 +40,8 @@ void FilterLine(const DeblockJob& job, uint8_t* q, ptrdiff_t step, int32_t avail
   }
 }
 
-// A boundary: a run of `count` pixels, `along` bytes apart, starting at `at`. Pixels across the
-// boundary are `across` bytes apart, and `room` pixels on the side of `at` are inside the picture.
+// A boundary along `count` pixels that are `along` bytes apart and start at `at`. Pixels across the
+// boundary are `across` bytes apart. On the side of `at`, `room` pixels are inside the picture.
 struct BoundaryLine {
   uint8_t* at;
   int32_t count;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Layer-dependent deblocking (paper, V-C): interpolates linearly across the boundaries between
-// blocks of different layers. The engine calls it after the blocks of a stripe are refocused.
+// blocks of different layers. The engine deblocks a stripe after all its blocks are refocused.
 #ifndef STARFOCUS_LIB_FILTER_DEBLOCK_H_
 #define STARFOCUS_LIB_FILTER_DEBLOCK_H_
 
@@ -12,11 +12,11 @@
 
 namespace starfocus {
 
-// Number of rows at the end of a stripe that wait for the next stripe, because the boundary below
-// reads them. Deblocking changes all of them except the first.
+// Number of rows at the end of a stripe that are finished with the next stripe, because deblocking
+// the boundary below reads these rows. Deblocking changes all these rows except the first.
 inline constexpr int32_t kDeblockRows = 4;
 
-// Layer of smallest blocks that are not refocused. Their boundaries are not deblocked.
+// Layer of smallest blocks that are not refocused. The boundaries of such blocks are not deblocked.
 inline constexpr uint8_t kNoLayer = 0xFF;
 
 // Layer of each smallest block (kSmallestBlock) of the stripe, and of the last row of the previous
@@ -24,7 +24,7 @@ inline constexpr uint8_t kNoLayer = 0xFF;
 struct LayerMap {
   uint8_t* layers = nullptr;
   int32_t columns = 0;  // number of smallest blocks per row
-  int32_t rows = 0;     // rows of this stripe
+  int32_t rows = 0;     // number of rows of smallest blocks in this stripe
 
   // Row -1 belongs to the previous stripe.
   uint8_t& At(int32_t column, int32_t row) const {
@@ -43,9 +43,9 @@ struct DeblockJob {
   const simd::Kernels* kernels;
 };
 
-// Deblocks the boundaries between rows of smallest blocks, in their columns [begin, end): those at
-// the top of the stripe (y > 0) and inside it. It must be finished for a whole row before
-// DeblockColumns.
+// Deblocks the boundaries between rows of smallest blocks, in columns [begin, end) of these blocks:
+// the boundary at the top of the stripe (y > 0) and the boundaries inside the stripe. All columns
+// of a row must be finished before DeblockColumns processes the row.
 void DeblockRows(const DeblockJob& job, int32_t begin, int32_t end);
 
 // Deblocks the boundaries between columns of smallest blocks, in rows [first, last) of the picture.

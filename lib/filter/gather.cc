@@ -10,12 +10,13 @@
 namespace starfocus {
 namespace {
 
-// Largest number of adjacent cells on a slope that are filtered together; they have the same PSFs.
+// Largest number of adjacent cells on a slope that are filtered together. These cells have the same
+// PSFs.
 constexpr int32_t kSlopeCells = 4;
 
-// Intermediate rows of such cells. Rows of all cells have kStride samples, and rows of a single
-// cell have kCell, with one pixel on each side. Both include the samples that kernels read beyond
-// the end.
+// Intermediate rows of adjacent cells on a slope. Rows of all cells have kStride samples. Rows of a
+// single cell have kCell samples, with one pixel on each side. Both sizes include the samples that
+// kernels read beyond the end.
 struct SlopeRows {
   static constexpr size_t kPixel = 3;
   static constexpr size_t kStride =
@@ -23,7 +24,7 @@ struct SlopeRows {
   static constexpr size_t kCell = simd::SliceSamples(3 * kCellSize) + simd::kSliceLanes;
   int16_t less[kCellSize * kStride] = {}, more[kCellSize * kStride] = {};
   int16_t share[kCellSize * kCell] = {};
-  int16_t mixed[(kCellSize + 2) * kCell] = {};  // from one row above the cell on
+  int16_t mixed[(kCellSize + 2) * kCell] = {};  // starts one row above the cell
   int16_t moved[kCellSize * kCell] = {};
 
   int16_t* Mixed(int32_t row) { return mixed + static_cast<size_t>(row + 1) * kCell + kPixel; }
@@ -38,7 +39,7 @@ class Gather {
         field_(field),
         out_(out) {}
 
-  // Chooses the PSFs of all cells, and loads the pixels that they read.
+  // Chooses the PSFs of all cells, and loads the pixels that the PSFs cover.
   void Load() {
     int32_t left = INT32_MAX, top = INT32_MAX, right = INT32_MIN, bottom = INT32_MIN;
     for (int32_t y = block_.y; y < Bottom(); y += kCellSize) {
@@ -67,8 +68,8 @@ class Gather {
   uint64_t pixels() const { return pixels_; }
 
  private:
-  // Steps of the PSFs for the smallest and largest radius of a cell. They are bytes because those
-  // of all cells of a block are on the stack.
+  // Steps of the PSFs for the smallest and largest radius of a cell. Steps are stored as bytes,
+  // because the steps of all cells of a block are on the stack.
   struct Steps {
     int8_t less, more;
   };
@@ -134,9 +135,9 @@ class Gather {
     return end;
   }
 
-  // Filters adjacent cells on a slope with the same two PSFs, starting at (x, y). It mixes the
-  // results of the smaller and the larger PSF pixel by pixel. Then it moves the mixture to its
-  // place in the mean of all views. Returns the end of the cells, or x after cancellation.
+  // Filters adjacent cells on a slope with the same two PSFs, starting at (x, y). Mixes the results
+  // of the smaller and the larger PSF pixel by pixel. Then moves the mixture to its position in the
+  // mean of all views. Returns the end of the cells, or x after cancellation.
   int32_t FilterSlopes(int32_t x, int32_t y) {
     const Steps steps = At(x, y);
     const int32_t most = Min(Right(), x + kSlopeCells * kCellSize);
@@ -157,7 +158,8 @@ class Gather {
     return end;
   }
 
-  // Mixes the pixels of a cell. `first` is its first sample in the filtered rows.
+  // Mixes the pixels of a cell. `first` is the index of the first sample of the cell in the
+  // filtered rows.
   void Mix(const Slope& slope, const Steps& steps, const Rect& pixels, size_t first) {
     constexpr int kBits = kSlopeBits - kDisparityBits;
     const RadiusRange between = {RadiusOfStep(steps.less) << kBits, RadiusOfStep(steps.more)
@@ -171,7 +173,8 @@ class Gather {
     }
   }
 
-  // Extrapolates the mixture by one pixel on each side, so that the gradient continues at its rim.
+  // Extrapolates the mixture by one pixel on each side, so that the gradient continues at the rim
+  // of the cell.
   void ContinueBeyond(int32_t height, size_t count) {
     const auto go_on = [](const int16_t* last, ptrdiff_t back) {
       return static_cast<int16_t>(2 * last[0] - last[back]);
@@ -216,7 +219,8 @@ class Gather {
     return Slope(*job_.grid, job_.scale, x / kCellSize, y / kCellSize, job_.cells.layer);
   }
 
-  // Returns the PSFs of a gathered cell: the PSF of its middle, or the two PSFs to mix on a slope.
+  // Returns the PSFs of a gathered cell: one PSF for the middle of a flat cell, or two PSFs to mix
+  // on a slope.
   Steps StepsOf(int32_t x, int32_t y) const {
     if (job_.cells.IsFlat(x, y)) {
       const Cell& cell = *job_.grid->At(x / kCellSize, y / kCellSize);
@@ -247,14 +251,14 @@ class Gather {
   static simd::Disc DiscOf(const Psf& psf) { return {psf.size, psf.sum_bits, psf.weights}; }
 
   const GatherJob& job_;
-  const Rect& block_;  // in the picture
-  const Rect frame_;   // at the layer
+  const Rect& block_;  // block in pixels of the picture
+  const Rect frame_;   // LayerFrame of the block, in pixels of the layer
   Rect loaded_ = {};   // pixels of the layer that cells are gathered from
   BlockPixels* field_;
   const Gathered& out_;
   int32_t border_ = 0;  // border of the field: the largest PSF size
   uint64_t pixels_ = 0;
-  Steps steps_[kMaxRowCells * kMaxRowCells];  // for the cells of the block
+  Steps steps_[kMaxRowCells * kMaxRowCells];  // steps of the cells of the block
   SlopeRows rows_;
 };
 

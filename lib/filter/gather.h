@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Gathers 8x8 cells of a single surface: each pixel is the mean of its neighbours in the centre
 // view, weighted by the ideal PSF (4) of its blur. If disparity varies little within reach of the
-// blur, this equals the mean of all views of the aperture.
+// blur, this mean equals the mean of all views of the aperture.
 #ifndef STARFOCUS_LIB_FILTER_GATHER_H_
 #define STARFOCUS_LIB_FILTER_GATHER_H_
 
@@ -24,13 +24,13 @@ static_assert(kMaxGather <= simd::kMaxDisc, "");
 struct GatherPsfs {
   const Psf* of_step;
   int32_t last_step;
-  int32_t mean_square;  // of the opening (MeanSquare)
+  int32_t mean_square;  // MeanSquare of the opening
 };
 
 struct GatherJob {
-  const Window* window;  // at the layer of the cells
+  const Window* window;  // window at the layer of the cells
   const CellGrid* grid;
-  BlockCells cells;  // of a block whose corner is a multiple of kCellSize
+  BlockCells cells;  // cells of a block whose corner is a multiple of kCellSize
   BlurScale scale;
   GatherPsfs blur;
   const simd::Kernels* kernels;
@@ -45,8 +45,9 @@ struct Gathered {
   size_t stride;  // samples from row to row
 };
 
-// Gathers the cells of a block that GatherMap selects. `field` has room for the LayerFrame of the
-// block and a border of kMaxGather pixels. Returns the number of gathered pixels of the picture.
+// Gathers the cells of a block that GatherMap selects. `field` must have room for the LayerFrame of
+// the block and a border of kMaxGather pixels. Returns the number of gathered pixels of the
+// picture.
 uint64_t GatherCells(const GatherJob& job, BlockPixels* field, const Gathered& out);
 
 }  // namespace starfocus

@@ -43,7 +43,8 @@ struct SampleRow {
   int16_t Sample(int32_t n) const { return samples[n]; }
 };
 
-// Splits a row of `width` pixels into even and odd pixels. Repeats its edge pixels outside the row.
+// Splits a row of `width` pixels into even and odd pixels. Positions outside the row repeat the
+// edge pixels of the row.
 template <class Row>
 void PartLine(const Kernels& kernels, const Row& row, int32_t width, const PairRange& pairs,
               const ResampleScratch& phases) {
@@ -62,17 +63,17 @@ void PartLine(const Kernels& kernels, const Row& row, int32_t width, const PairR
   repeat(width - 1, right, pairs.Count());
 }
 
-// Columns [begin, end) of rows of a layer.
+// Output columns [begin, end) in some rows of a layer.
 struct LayerPart {
   int32_t begin, end;
   RowRange rows;
-  Plane<int16_t> samples;  // of the whole layer
+  Plane<int16_t> samples;  // samples of the whole layer
 
   size_t RowSamples() const { return 3 * static_cast<size_t>(end - begin); }
 };
 
-// Filters along columns. `half` has packed rows, starting at row 2 * rows.first - 3 of the source,
-// with repeated edge rows.
+// Filters along columns. `half` contains packed rows that start at row 2 * rows.first - 3 of the
+// source. Rows outside the source repeat the edge rows.
 void HalveRows(const Kernels& kernels, const int16_t* half, const LayerPart& to) {
   const size_t count = to.RowSamples();
   half += 3 * count;
@@ -84,7 +85,7 @@ void HalveRows(const Kernels& kernels, const int16_t* half, const LayerPart& to)
   }
 }
 
-// Subsamples a plane of width x height pixels: first along rows, for all rows that `to` needs, then
+// Subsamples a plane of width x height pixels: first along all rows that `to` depends on, then
 // along columns.
 template <class RowAt>
 void Downsample(const Kernels& kernels, const RowAt& row_at, int32_t width, int32_t height,
@@ -121,8 +122,8 @@ void DownsampleTwice(const Kernels& kernels, const Window& picture, const Resamp
   Downsample(kernels, row, width, height, scratch, to);
 }
 
-// Writes `width` pixels alternately from `even` and `odd`. It copies four samples per pixel, which
-// is one move instead of two; the next pixel overwrites the fourth.
+// Writes `width` pixels alternately from `even` and `odd`. Four samples are copied per pixel, which
+// takes one move instead of two. The next pixel overwrites the fourth sample.
 void Interleave(const int16_t* even, const int16_t* odd, int32_t width, int16_t* out) {
   for (int32_t x = 0; x + 1 < width; x += 2, even += 3, odd += 3, out += 6) {
     std::memcpy(out, even, 4 * sizeof(*out));

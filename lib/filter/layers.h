@@ -12,16 +12,16 @@
 
 namespace starfocus {
 
-// Half-band filters sinc(n / 2) with a 7-tap Kaiser window and simd::kTapBits fractional bits.
-// Their gain is exactly 1: the taps of the downsampling filter, and of each upsampling phase, sum
-// to 2^14.
+// Half-band filters sinc(n / 2) with a 7-tap Kaiser window and simd::kTapBits fractional bits. The
+// gain of each filter is exactly 1: the taps of the downsampling filter, and the taps of each
+// upsampling phase, sum to 2^14.
 inline constexpr simd::HalfBand kDownFilter = {8476, 5192, -1238};  // beta_D = 1.28
 inline constexpr simd::HalfBand kUpFilter = {16384, 9544, -1352};   // beta_U = 2.17
 static_assert(kDownFilter.centre + 2 * (kDownFilter.near + kDownFilter.far) == 1 << simd::kTapBits);
 static_assert(2 * (kUpFilter.near + kUpFilter.far) == 1 << simd::kTapBits);
 
-// Returns the number of pixels of a layer along an axis of `size` pixels. There is one pixel more
-// than inside the picture, so that upsampling reads the colour of the edge beyond the edge.
+// Returns the number of pixels of a layer along an axis of `size` pixels. A layer has one pixel
+// more than the picture covers, so that upsampling reads the colour of the edge beyond the edge.
 constexpr int32_t LayerSize(int32_t size, int32_t layer) {
   return layer == 0 ? size : (LayerSize(size, layer - 1) + 1) / 2 + 1;
 }
@@ -30,12 +30,13 @@ constexpr int32_t LayerSize(int32_t size, int32_t layer) {
 struct LayerPlane {
   int32_t width = 0, height = 0;  // size of the whole layer
   RowRange rows = {0, 0};         // stored rows
-  int32_t known = 0;              // rows before it are valid in the columns of the previous stripe
-  Plane<int16_t> samples;         // simd::kLayerBits, clamped to the range of samples
+  // Rows before `known` are valid in the columns of the previous stripe.
+  int32_t known = 0;
+  Plane<int16_t> samples;  // simd::kLayerBits, clamped to the range of samples
 };
 
-// Number of pixels that the 7 filter taps read before a pair of pixels. After the pair they read
-// one less.
+// Number of pixels that the 7 filter taps read before a pair of pixels. After the pair, the taps
+// read one pixel less.
 inline constexpr int32_t kDownBorder = 3;
 
 // Returns the number of source pixels along an axis for `pixels` pixels of a layer.
@@ -54,8 +55,8 @@ struct LayerTarget {
   const LayerPlane* plane;
 };
 
-// Subsamples the pixels of `to` from the centre view. Layer 2 is subsampled from TapsOfLayer
-// columns and rows of layer 1.
+// Computes the pixels of `to` from the centre view. Layer 2 is computed from TapsOfLayer columns
+// and rows of layer 1.
 void DownsamplePicture(const simd::Kernels& kernels, const Window& picture,
                        const ResampleScratch& scratch, const LayerTarget& to);
 
@@ -74,7 +75,7 @@ struct UpsampleScratch {
 
 // Upsamples `in` to `out` and clamps the result to the range of samples. Pixel (0, 0) of `out` is
 // pixel (first, first) of `in`. `in` must contain one pixel before and two pixels after the area of
-// `out` (kUpBorder). May write one sample past the end of `out`.
+// `out` (kUpBorder). The function may write one sample past the end of `out`.
 void UpsampleByTwo(const simd::Kernels& kernels, const LayerRect& in, int32_t first,
                    const UpsampleScratch& scratch, const LayerRect& out);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reduces pictures and disparity maps to 1 / 2^shift of their size. Each pixel represents a block
-// of 2^shift by 2^shift pixels, or the part of it inside the picture.
+// of 2^shift by 2^shift pixels, or the part of the block inside the picture.
 #ifndef STARFOCUS_LIB_FILTER_REDUCE_H_
 #define STARFOCUS_LIB_FILTER_REDUCE_H_
 
@@ -21,15 +21,16 @@ constexpr int32_t ReducedSize(int32_t size, int shift) {
 // Returns the rectangle of reduced pixels that overlap `rect`.
 Rect ReducedRect(const Rect& rect, int shift);
 
-// Computes the mean light of blocks, with halves rounded up. `sums` has the sums of each column
-// over `rows` rows, for `columns` RGB pixels.
+// Computes the mean light of blocks, rounded half up. `sums` contains the sum over `rows` rows for
+// each column, for `columns` RGB pixels.
 void MeanOfBlocks(const uint32_t* sums, int32_t columns, int32_t rows, int shift, int16_t* light);
 
-// Returns the median of `count` values, at most 4^kMaxReduction. For an even count it is the larger
-// of the two middle values. The result therefore lies on a surface, not between two surfaces.
+// Returns the median of `count` values; `count` is at most 4^kMaxReduction. For an even count, the
+// median is the larger of the two middle values. The result therefore lies on a surface, not
+// between two surfaces.
 int16_t MedianOf(const int16_t* values, int32_t count);
 
-// Converts a disparity to pixels of the reduced picture, with halves rounded up.
+// Converts a disparity to pixels of the reduced picture, rounded half up.
 constexpr int16_t ReducedDisparity(int16_t disparity, int shift) {
   return static_cast<int16_t>((disparity + (1 << shift >> 1)) >> shift);
 }

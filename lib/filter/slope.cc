@@ -83,7 +83,8 @@ void Slope::FindShares(const RadiusRange& between, const Rect& pixels, size_t st
 simd::HalfMove Slope::Move(int32_t spread) const {
   constexpr int32_t kMost = INT16_MAX;
   const int64_t radii = int64_t{corners_[0]} + corners_[1] + corners_[2] + corners_[3];
-  // The mean radius at the layer is 1/4 of their sum; a gradient is 1/16 of a difference.
+  // The mean radius is 1/4 of the sum of the corners; a gradient is 1/16 of a difference of
+  // corners.
   const auto half_move = [&](int32_t difference) {
     const int bits = kOpeningBits + 2 * kSlopeBits + 2 + 4 + 1 - 15 + layer_;
     // Rounds the absolute value, so that a mirrored slope moves exactly as far in the other

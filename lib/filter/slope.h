@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Blur across a gathered cell on a slope, derived from the cells around it. It computes the radius
-// of each pixel, and how far a slanted surface moves its blurred image (docs/method.md, Gathering).
+// Blur across a gathered cell on a slope, derived from the cells around it. This module computes
+// the radius of each pixel, and the displacement of the blurred image of a slanted surface
+// (docs/method.md, Gathering).
 #ifndef STARFOCUS_LIB_FILTER_SLOPE_H_
 #define STARFOCUS_LIB_FILTER_SLOPE_H_
 
@@ -24,28 +25,29 @@ struct RadiusRange {
 class Slope {
  public:
   // Describes the cell at (column, row) of the grid, at a layer. The cells around it must be
-  // stored. The radius at a corner is the mean of the four adjacent cells, with opposite signs in
-  // front of and behind the focus. It is interpolated bilinearly in between.
+  // stored. The radius at a corner is the mean radius of the four adjacent cells, with opposite
+  // signs in front of and behind the focus. Radii between the corners are interpolated bilinearly.
   Slope(const CellGrid& grid, const BlurScale& scale, int32_t column, int32_t row, int32_t layer);
 
   // Returns the range of radii of pixels of the layer, which may lie outside the cell.
   RadiusRange RangeOf(const Rect& pixels) const;
 
-  // Writes the position of each pixel's radius between two radii, in [0, 1] with 15 fractional
-  // bits. Elements share[3 n] to share[3 n + 2] belong to pixel n of a row. Rows are `stride`
-  // samples apart. The position is measured in squared radii, so that a mixture of two PSFs has the
-  // mean square width of the intermediate PSF.
+  // Writes the share of the larger PSF for each pixel, in [0, 1] with 15 fractional bits. Elements
+  // share[3 n] to share[3 n + 2] belong to pixel n of a row. Rows are `stride` samples apart. The
+  // share is the position of the pixel's squared radius between the two squared radii. A mixture of
+  // two PSFs then has the mean square width of the intermediate PSF.
   void FindShares(const RadiusRange& between, const Rect& pixels, size_t stride,
                   int16_t* share) const;
 
-  // Returns the displacement of the cell's pixels in the mean of all views. It is `spread` times
-  // the radius times its gradient, at most two pixels. `spread` is the mean square of the lens's
-  // light along an axis (MeanSquare).
+  // Returns the displacement of the cell's pixels in the mean of all views. The displacement is
+  // `spread` times the radius times the gradient of the radius, at most two pixels. `spread` is the
+  // mean square of the lens's light along an axis (MeanSquare).
   simd::HalfMove Move(int32_t spread) const;
 
  private:
   int64_t Scaled(int32_t x, int32_t y) const;
-  // Bits of the squared number of half pixels along a cell, plus the layer.
+  // Returns the extra fractional bits of Scaled: log2 of the squared number of half pixels along a
+  // cell, plus the layer.
   int ScaledBits() const { return 8 + layer_; }
   int32_t At(int32_t x, int32_t y) const;
 

@@ -11,12 +11,12 @@
 
 namespace starfocus {
 
-// Memory of a list, and of the hole colours that its spans point to.
+// Memory of a span list, and of the hole colours that the spans point to.
 struct SpanMemory {
   simd::Span* spans;
   size_t span_capacity;
   int16_t* pixels;
-  size_t pixel_capacity;  // in samples; at least one line
+  size_t pixel_capacity;  // capacity in samples; at least one line
 };
 
 // Allocates the memory for lines of up to `side` pixels.
@@ -45,8 +45,8 @@ class SpanList {
   }
   void Add(const simd::Span& span) { *Next() = span; }
 
-  // Returns room for the colours of one span of a hole, which the caller must add next. `samples`
-  // is at most pixel_capacity.
+  // Returns memory for the colours of one span of a hole. The caller must add this span next.
+  // `samples` is at most pixel_capacity.
   int16_t* Pixels(size_t samples) {
     if (used_ + samples > pixel_capacity_ || count_ == capacity_) Flush();
     int16_t* pixels = pixels_ + used_;
