@@ -11,11 +11,12 @@ namespace {
 
 static_assert(simd::kBlendStep == kSurfaceStep, "one surface is one surface");
 
-// Number of values of a row that are converted at once, on the stack. Pixels lie between at most
-// one value more than their own number, because no map is larger than the picture.
+// Number of values and of pixels of a row that are converted at once, on the stack. No map is
+// larger than the picture, so interpolating n pixels reads at most n + 1 values.
 constexpr int32_t kPiece = 256, kPixels = kPiece - 1;
 
-// Converts `count` <= kPiece values of row y of the map, from column x on. Returns DepthFlags.
+// Converts `count` <= kPiece values of row y of the map, from column x on. Returns
+// simd::DepthFlags.
 uint32_t ConvertValues(const simd::ImageKernels& kernels, const DepthSource& depth, int32_t x,
                        int32_t y, int32_t count, int16_t* out) {
   const starfocus_depth_map& map = depth.map;
@@ -37,15 +38,16 @@ uint32_t ConvertValues(const simd::ImageKernels& kernels, const DepthSource& dep
   return kernels.DepthToDisparity(z, values, depth.rule, out);
 }
 
-// Returns the position of the middle of pixel k of `size` between the middles of `small` values.
+// Returns the position of the middle of pixel k of a line of `size` pixels, relative to the middles
+// of the `small` values of the map.
 uint32_t PlaceOf(int64_t k, int64_t size, int64_t small) {
   constexpr int64_t kOne = simd::kColumnOne, kHalf = kOne / 2;
   const int64_t place = kHalf * (2 * k + 1) * small / size - kHalf, last = kOne * (small - 1);
   return static_cast<uint32_t>(place < 0 ? 0 : place > last ? last : place);
 }
 
-// Writes `count` <= kPixels pixels of a row, from column x on. `place` is the row's position in the
-// map.
+// Writes `count` <= kPixels pixels of a row, from column x on. `place` is the position of the row
+// in the map.
 uint32_t ReadPiece(const simd::ImageKernels& kernels, const DepthSource& depth, uint32_t place,
                    int32_t x, int32_t count, int16_t* out) {
   const uint32_t* columns = depth.columns + x;

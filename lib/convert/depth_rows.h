@@ -30,11 +30,11 @@ void FillColumns(int32_t width, int32_t map_width, uint32_t* columns);
 DepthSource MakeDepthSource(const starfocus_config& config, const starfocus_depth_map& map,
                             const uint32_t* columns);
 
-// Returns the number of bytes per value.
+// Returns the number of bytes per value of a depth map of type `type`.
 size_t DepthBytes(int32_t type);
 
-// Writes the disparities of row y of the picture, kDisparityBits; unknown ones are kNoSurface.
-// Returns simd::DepthFlags of the source values.
+// Writes the disparities of row y of the picture, kDisparityBits; unknown disparities are
+// kNoSurface. Returns simd::DepthFlags of the source values.
 uint32_t ReadDepthRow(const simd::ImageKernels& kernels, const DepthSource& depth, int32_t y,
                       int16_t* out);
 

@@ -11,9 +11,9 @@
 
 namespace starfocus {
 
-// Planes of an image. Byte is const for input images. RGB formats use only planes[0]; `step` is the
-// number of bytes from pixel to pixel. YUV formats have planes for luma, U and V; `step` is the
-// distance of chroma samples in bytes.
+// Planes of an image. Byte is const for input images. RGB formats use only planes[0], and `step` is
+// the number of bytes from pixel to pixel. YUV formats have planes for luma, U and V, and `step` is
+// the number of bytes from chroma sample to chroma sample.
 template <class Byte>
 struct ImagePlanes {
   bool is_yuv, blue_first, has_alpha;
@@ -49,7 +49,7 @@ constexpr bool HasAlpha(int32_t format) {
   return format == STARFOCUS_FORMAT_RGBX || format == STARFOCUS_FORMAT_BGRX;
 }
 
-// Returns the pixel_stride that 0 stands for.
+// Returns the pixel_stride that an image with pixel_stride 0 has.
 constexpr int32_t LeastStep(int32_t format) {
   if (!IsYuv(format)) return HasAlpha(format) ? 4 : 3;
   return IsPaired(format) ? 2 : 1;

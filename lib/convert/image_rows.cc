@@ -11,7 +11,8 @@ namespace {
 // Number of chroma samples that are converted at once, on the stack.
 constexpr int32_t kPiece = 256;
 
-// Returns true if samples of U and V alternate. *first is the plane of the first sample.
+// Returns true if samples of U and V alternate in one plane. *first is set to the plane of the
+// first sample.
 template <class Byte>
 bool ArePairs(const ImagePlanes<Byte>& image, int* first) {
   if (image.step != 2 || image.strides[1] != image.strides[2]) return false;

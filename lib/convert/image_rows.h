@@ -11,7 +11,7 @@
 
 namespace starfocus {
 
-// Reads `count` pixels from (x, y) on and writes their codes to `rgb`.
+// Reads `count` pixels, starting at (x, y), and writes their codes to `rgb`.
 void ReadCodes(const simd::ImageKernels& kernels, const ImageSource& image, int32_t x, int32_t y,
                int32_t count, uint8_t* rgb);
 
@@ -19,11 +19,13 @@ void ReadCodes(const simd::ImageKernels& kernels, const ImageSource& image, int3
 void WriteCodes(const simd::ImageKernels& kernels, const uint8_t* rgb, int32_t width, int32_t y,
                 const ImageTarget& image);
 
-// Writes the chroma of rows y and y + 1; y is even. For a last row without partner, pass it twice.
+// Writes the chroma of rows y and y + 1; y is even. If the last row of the picture has no partner,
+// pass this row twice.
 void WriteChroma(const simd::ImageKernels& kernels, const uint8_t* upper, const uint8_t* lower,
                  int32_t width, int32_t y, const ImageTarget& image);
 
-// Alpha of a picture. `step` is the number of bytes from pixel to pixel. Null rows: no alpha.
+// Alpha of a picture. `step` is the number of bytes from pixel to pixel. If the data of `rows` is
+// null, the picture has no alpha.
 struct AlphaSource {
   Plane<const uint8_t> rows;
   size_t step = 0;
@@ -32,8 +34,8 @@ struct AlphaSource {
 // Returns the alpha of an image.
 AlphaSource AlphaOf(const ImageSource& image);
 
-// Copies the alpha of `count` pixels from (x, y) on to the start of row `to_y`. Both must have
-// alpha.
+// Copies the alpha of `count` pixels from (x, y) on to the start of row `to_y`. Both images must
+// have alpha.
 void CopyAlpha(const AlphaSource& from, int32_t x, int32_t y, int32_t count, int32_t to_y,
                const ImageTarget& to);
 

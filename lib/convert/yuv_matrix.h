@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Coefficients for conversion between RGB and luma and chroma, as defined in starfocus/image.h.
+// Coefficients that convert RGB to luma and chroma and back, as defined in starfocus/image.h.
 #ifndef STARFOCUS_LIB_CONVERT_YUV_MATRIX_H_
 #define STARFOCUS_LIB_CONVERT_YUV_MATRIX_H_
 
@@ -39,7 +39,7 @@ constexpr simd::YuvMatrix MakeYuvMatrix(double kr, double kb, bool full) {
   return m;
 }
 
-// Indexed by starfocus_matrix and starfocus_range.
+// Coefficients, indexed by starfocus_matrix and starfocus_range.
 inline constexpr simd::YuvMatrix kYuvMatrices[2][2] = {
     {MakeYuvMatrix(0.299, 0.114, false), MakeYuvMatrix(0.299, 0.114, true)},
     {MakeYuvMatrix(0.2126, 0.0722, false), MakeYuvMatrix(0.2126, 0.0722, true)},

@@ -12,8 +12,8 @@ int64_t CapturedShift(const ViewGrid& grid, int32_t disparity, bool half) {
   return RoundShift(full * 2, 1 + grid.layer + (half ? 1 : 0));
 }
 
-// Displacement of a surface point from its place in the rendered view, along one axis: in the
-// centre view and in the captured view, kShiftBits.
+// Displacements of a surface point along one axis, in the centre view and in the captured view,
+// relative to its position in the rendered view, kShiftBits.
 struct HoleOffset {
   int32_t centre, captured;
 };
@@ -42,10 +42,10 @@ int64_t Difference(const int16_t* a, const int16_t* b) {
 }
 
 // Replaces a missing diagonal view by its two neighbours. The neighbour that looks more like the
-// background gets the larger weight. This is almost a selection, but continuous, and transposing
-// the picture transposes the result.
+// background gets the larger weight. The weights nearly select one neighbour, but change
+// continuously. Transposing the picture transposes the result.
 void MixNeighbours(const int16_t* a, const int16_t* b, const int16_t* colour, int16_t* out) {
-  // Determines the result if both neighbours look like the background.
+  // Added to both weights, so that neighbours that both look like the background are mixed equally.
   constexpr int64_t kLeast = 1 << (2 * kLightBits);
   const int64_t weight_a = Difference(b, colour) + kLeast;
   const int64_t weight_b = Difference(a, colour) + kLeast, sum = weight_a + weight_b;

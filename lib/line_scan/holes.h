@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fills holes: reads the colours that the centre view does not show from the captured views.
+// Fills holes: reads colours that the centre view does not show from the captured side views.
 #ifndef STARFOCUS_LIB_LINE_SCAN_HOLES_H_
 #define STARFOCUS_LIB_LINE_SCAN_HOLES_H_
 
@@ -11,8 +11,9 @@
 
 namespace starfocus {
 
-// Position of a rendered view, and the captured view (u, v) that fills its holes: u and v are -1, 0
-// or 1, at full or half distance. All fields are in the orientation of the view's lines.
+// Position of a rendered view, and the captured view (u, v) that fills the holes of the rendered
+// view. u and v are -1, 0 or 1, at full or half distance. All fields are in the orientation of the
+// view's lines.
 struct HoleView {
   const Window* window;
   const ViewGrid* grid;
@@ -22,7 +23,8 @@ struct HoleView {
   bool half;
 };
 
-// A line of the rendered view: picture position of its pixel 0, and the step between pixels.
+// A line of the rendered view: position of pixel 0 of the line in the picture, and distance between
+// neighbouring pixels.
 struct HoleLine {
   int32_t x, y, dx, dy;
 };
@@ -30,8 +32,8 @@ struct HoleLine {
 // Writes the colours of rendered pixels `part` of a line, 3 samples each. The pixels show a
 // background of disparity `disparity`. The captured view is read at the index that the disparity
 // implies (IV-A). With 5 views, a diagonal view is interpolated from its horizontal and its
-// vertical neighbour, weighted by their similarity to the visible background `colour`. With only
-// the centre view, the background colour is repeated.
+// vertical neighbour. Each neighbour is weighted by its similarity to the visible background
+// `colour`. With only the centre view, the background colour is repeated.
 void FillHole(const HoleView& view, const HoleLine& line, const LinePart& part, int32_t disparity,
               const int16_t* colour, int16_t* out);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Center-based line scan (paper, IV-A). It finds the surfaces and holes of a rendered view along a
-// line in a single pass without z-buffer, and passes them to a sink.
+// Center-based line scan (paper, IV-A). A scan finds the surfaces and holes of a rendered view
+// along a line in a single pass without z-buffer, and passes them to a sink.
 #ifndef STARFOCUS_LIB_LINE_SCAN_LINE_SCAN_H_
 #define STARFOCUS_LIB_LINE_SCAN_LINE_SCAN_H_
 
@@ -36,12 +36,12 @@ struct ScanTask {
   int32_t first_view, last_view;
 };
 
-// Widest gap in pixels that may be a stretched surface, regardless of the disparities. Twice and
-// half of this value were measured (docs/constants.md).
+// Widest gap in pixels that may be a stretched surface, regardless of the disparities.
+// docs/constants.md compares this value with twice and half the value.
 inline constexpr int32_t kMaxStretch = 4;
 
-// 2^23 / subaperture, rounded, for subapertures in [0, kShiftOne]. 0 for a subaperture of 0, which
-// gives neighbours no weight.
+// Rounded values of 2^23 / subaperture, for subapertures in [0, kShiftOne]. The value for a
+// subaperture of 0 is 0, which gives neighbours no weight.
 struct SubapertureReciprocals {
   uint32_t of[kShiftOne + 1] = {};
   constexpr SubapertureReciprocals() {
@@ -51,9 +51,9 @@ struct SubapertureReciprocals {
 };
 inline constexpr SubapertureReciprocals kSubapertureReciprocals;
 
-// Returns the weight of the neighbour (simd::kBlendBits) for a sample at distance t = `offset` from
-// the centre of its pixel: clamp((|t| - 1/2) / L + 1/2, 0, 1). L = `subaperture` is the width of
-// the subaperture in kShiftBits, at most one pixel.
+// Returns the weight of the neighbouring pixel (simd::kBlendBits) for a sample whose distance from
+// the centre of its own pixel is t = `offset`. The weight is clamp((|t| - 1/2) / L + 1/2, 0, 1). L
+// = `subaperture` is the width of the subaperture in kShiftBits, at most one pixel.
 inline int32_t SubapertureWeight(int32_t offset, int32_t subaperture) {
   const int32_t twice = 2 * Abs(offset) - kShiftOne + subaperture;  // <= subaperture
   if (twice <= 0) return 0;
@@ -61,24 +61,24 @@ inline int32_t SubapertureWeight(int32_t offset, int32_t subaperture) {
   return static_cast<int32_t>(Checked(ranges::kSubapertureWeight, (scaled + (1u << 9)) >> 10));
 }
 
-// Surface whose end covers part of the outermost pixel of a hole, on the side where the scan
-// continues.
+// Surface whose end covers a part of the outermost pixel of a hole, on the side of the hole where
+// the scan continues.
 struct Rim {
-  int32_t pixel;    // pixel of the line; -1: none
-  int32_t covered;  // covered part, kShiftBits
+  int32_t pixel;    // pixel of the line that shows the surface; -1: no rim
+  int32_t covered;  // covered part of the pixel of the hole, kShiftBits
 };
 
-// Scans the line of a task for several views. It calls the following functions of the sink.
-// Positions are pixels of the line, and are never mirrored.
+// Scans the line of a task for several views. The scan calls the following functions of the sink,
+// with positions in pixels of the line that are never mirrored.
 //
-// sink.Surface(begin, end, source, neighbour, weight): rendered pixel p shows line pixel source +
-// (p - begin), and its neighbour at +-1 with `weight` (simd::kBlendBits).
+// sink.Surface(begin, end, source, neighbour, weight): rendered pixel p shows line pixel q = source
+// + (p - begin), and with `weight` (simd::kBlendBits) line pixel q + neighbour; `neighbour` is +-1.
 //
 // sink.Mix(p, source, other, weight): rendered pixel p shows line pixel `source`. The part `weight`
-// (kShiftBits) shows line pixel `other`, which covers it or shines through.
+// (kShiftBits) of p shows line pixel `other`, which covers `source` or shines through.
 //
-// sink.Hole(begin, end, pixel, rim): uncovered pixels. The surface behind them continues that of
-// the visible line pixel `pixel`.
+// sink.Hole(begin, end, pixel, rim): rendered pixels [begin, end) are uncovered. They show the
+// surface of the visible line pixel `pixel`, which continues behind the hole.
 //
 // Each required pixel is passed exactly once, in scan order.
 template <Direction kDirection, class Sink>
@@ -93,7 +93,7 @@ class LineScan {
         begin_(kMirrored ? line_.length - task.part.end : task.part.begin),
         end_(kMirrored ? line_.length - task.part.begin : task.part.end) {}
 
-  // `move` is ViewGrid::Move of the view's distance along the line.
+  // `move` is ViewGrid::Move of the distance of the view along the line.
   void Scan(int64_t move) {
     move_ = move;
     edge_ = {nullptr, 0, 0};
@@ -107,7 +107,7 @@ class LineScan {
       const int32_t low = begin - whole;
       if (low < filled_.from) {
         if (low >= end_) {
-          // The run is outside the required part, but may cover part of the last required pixel.
+          // This run is outside the required part, but may cover a part of the last required pixel.
           edge_ = {EndsAtEdge(run) ? run : nullptr, shift - whole * kShiftOne, whole};
         } else if (IsPlain(run, run_end, whole)) {
           const int32_t offset = shift - whole * kShiftOne;
@@ -127,8 +127,8 @@ class LineScan {
  private:
   static constexpr bool kMirrored = kDirection == Direction::kLeftToRight;
 
-  // Lowest position filled so far, and the line position that filled it. Later pixels at or above
-  // it are hidden.
+  // Lowest position filled so far, and the line position that filled this position. Later pixels at
+  // or above this position are hidden.
   struct Filled {
     int32_t from = 0, pixel = 0;
   };
@@ -138,13 +138,13 @@ class LineScan {
   int32_t Shift(const Run& run) const { return grid_.Shift(move_, run.disparity); }
   static int32_t Whole(int32_t shift) { return (shift + kShiftOne / 2) >> kShiftBits; }
 
-  // Lower end of the last added run, if a farther surface follows. Between rendered pixels it
+  // Lower end of the last added run, if a farther surface follows. An end between rendered pixels
   // covers only a part of a pixel.
   struct Edge {
     const Run* run;  // null: none
-    // Offset from a rendered pixel, kShiftBits. If it is negative, that part of the last pixel is
-    // missing, and the pixel waits to be mixed. If it is positive, the edge covers that part of the
-    // next pixel.
+    // Offset from a rendered pixel, kShiftBits. If the offset is negative, a part of that size is
+    // missing from the last pixel, which waits to be mixed. If the offset is positive, the edge
+    // covers a part of that size of the next pixel.
     int32_t offset;
     int32_t whole;
   };
@@ -154,7 +154,7 @@ class LineScan {
     return run + 1 != runs_end_ && run[1].surface_end == run->begin;
   }
 
-  // Returns true if the last required pixel waits for the surface behind it.
+  // Returns true if the last required pixel still waits to be mixed with the surface behind.
   bool AwaitsBehind() const {
     return filled_.from == begin_ && edge_.run != nullptr && edge_.offset < 0;
   }
@@ -168,9 +168,9 @@ class LineScan {
            end + whole < run->surface_end;
   }
 
-  // Adds a run, whose positions up to `run_end` move together. Emits the visible ones up to the
-  // filled position. Positions beyond the end of the run stretch it over the following source
-  // pixels.
+  // Adds a run, whose positions up to `run_end` move together. Emits the visible positions up to
+  // the filled position. Positions beyond the end of the run stretch the run over the following
+  // source pixels.
   [[gnu::noinline]] void AddRun(const Run* run, int32_t run_end, int32_t shift) {
     const int32_t whole = Whole(shift);
     const int32_t offset = shift - whole * kShiftOne;
@@ -204,7 +204,7 @@ class LineScan {
     }
   }
 
-  // Mixes the edge with `run` behind it, which is visible up to `end`. Returns the new end.
+  // Mixes the edge with the run behind the edge, which is visible up to `end`. Returns the new end.
   int32_t CoverEdge(const Run& run, int32_t run_end, int32_t whole, int32_t end) {
     const Edge edge = edge_;
     if (edge.run->disparity - run.disparity <= kSurfaceStep) {
@@ -223,7 +223,7 @@ class LineScan {
     return end;
   }
 
-  // Ends the edge without covering anything. Its last pixel becomes a whole pixel.
+  // Ends the edge without covering another pixel. The last pixel of the edge becomes a whole pixel.
   void FlushEdge() {
     if (edge_.run != nullptr && edge_.offset < 0) {
       const int32_t p = edge_.run->begin - edge_.whole;
@@ -232,8 +232,8 @@ class LineScan {
     edge_.run = nullptr;
   }
 
-  // Emits positions [first, end) with their neighbours. A pixel at the upper end of its surface or
-  // at the lower end of the line has no neighbour there.
+  // Emits positions [first, end) with their neighbours. A pixel at the upper end of its surface has
+  // no neighbour above, and a pixel at the lower end of the line has no neighbour below.
   void AddBlended(const Run& run, int32_t first, int32_t end, int32_t whole, int32_t offset,
                   int32_t weight) const {
     if (offset > 0) {
@@ -257,14 +257,14 @@ class LineScan {
     }
   }
 
-  bool SameSurface(int32_t q) const {  // of positions q and q + 1
+  bool SameSurface(int32_t q) const {  // true if q and q + 1 are on one surface
     return q >= 0 && q + 1 < line_.length && Abs(Disparity(q) - Disparity(q + 1)) <= kSurfaceStep;
   }
 
   // Closes the gap between the last pixel `q` of a run and the filled position. The gap is either a
   // stretched surface, which the run then covers, or a hole. Returns the end of the run. A nearer
-  // run ends between pixels; the pixel that it covers in part belongs to the hole, and the run is
-  // its rim.
+  // run may end between pixels. The pixel that the run covers in part then belongs to the hole, and
+  // the run is the rim of the hole.
   int32_t CloseGap(int32_t q, int32_t whole, int32_t offset) const {
     const int32_t gap = q + 1 - whole;
     const int32_t step = Disparity(q) - Disparity(filled_.pixel);

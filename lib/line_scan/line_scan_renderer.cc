@@ -9,8 +9,9 @@ int32_t LayerOf(const BlockStats& stats, Demand demand) {
   return LayerByPaper(static_cast<double>(stats.r_min) / (1 << kDisparityBits), demand);
 }
 
-// Half of the type A views lie on each axis. Each is rendered with the border of the other axis.
-// Half of all views are scanned along rows and half along columns; type B is scanned along both.
+// Half of the type A views lie on each axis, and each type A view is rendered with the border of
+// the other axis. The estimate counts half of all views as scanned along rows and half as scanned
+// along columns. Type B views are scanned along both axes.
 BlockWork MeasureWork(const Rect& rect, const Border& border, const ViewWeights& aperture,
                       const Content (&content)[2], int32_t layer) {
   const auto width = static_cast<uint64_t>(rect.width), height = static_cast<uint64_t>(rect.height);
@@ -58,12 +59,12 @@ void TakeScratch(const starfocus_config& config, size_t extended, size_t max_n, 
   scratch.spans = TakeSpans(extended, arena);
 }
 
-// Largest shift t that leaves a pixel unchanged: it stays in place and its neighbour has weight 0
-// if 2 |t| + L <= 1 (SubapertureWeight), and the subaperture L is at most |t|. In kShiftBits, minus
-// one for rounding.
+// Largest shift t that leaves a pixel unchanged, in kShiftBits. The pixel stays in place and its
+// neighbour has weight 0 if 2 |t| + L <= 1 (SubapertureWeight), where the subaperture L is at most
+// |t|. One unit is subtracted for rounding.
 constexpr int32_t kStill = kShiftOne / 3 - 1;
 
-// Always false at layers 1 and 2, because they are resampled.
+// Returns false at layers 1 and 2, because blocks at these layers are resampled.
 bool NothingMoves(const RenderJob& job) {
   const Window& window = *job.window;
   if (window.layer != 0) return false;

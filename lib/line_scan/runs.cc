@@ -18,7 +18,7 @@ int32_t ReadRuns(const simd::RunMarks& marks, int32_t k, int32_t length, const V
                  int64_t subaperture_move, Run* runs) {
   Run* run = runs;
   int32_t surface_end = length;
-  // The middle of a run is stored at its last position in scan order.
+  // The middle disparity of a run is stored at the last position of the run in scan order.
   const int16_t* const middles = marks.middles + static_cast<ptrdiff_t>(k);
   const auto add = [&](int32_t begin) {
     const int16_t disparity = middles[static_cast<size_t>(length - 1 - begin) * marks.stride];

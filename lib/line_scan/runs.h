@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs of equal disparity along a line. They are found once per line and shared by all its views.
+// Runs of equal disparity along a line. Runs are found once per line and shared by all views of the
+// line.
 #ifndef STARFOCUS_LIB_LINE_SCAN_RUNS_H_
 #define STARFOCUS_LIB_LINE_SCAN_RUNS_H_
 
@@ -14,13 +15,13 @@ namespace starfocus {
 // Positions [begin, end) of a line. `end` is the begin of the previous run in scan order.
 struct Run {
   uint16_t begin;
-  uint16_t surface_end;  // end of its surface: the next depth edge or the end of the line
+  uint16_t surface_end;  // end of the run's surface: the next depth edge or the end of the line
   int16_t disparity;     // middle of the run's range, kDisparityBits
-  uint16_t subaperture;  // width of its subaperture r / N, kShiftBits
+  uint16_t subaperture;  // width of the run's subaperture r / N, kShiftBits
 };
 
-// Scan order of a line. Views right of or below the centre are scanned from the right end, where
-// the nearer surfaces come from. Views on the other side are mirrored.
+// Scan order of a line. Views to the right of the centre or below the centre are scanned from the
+// right end, because nearer surfaces move in from that end. Views on the other side are mirrored.
 enum class Direction { kRightToLeft, kLeftToRight };
 
 // Adjacent lines: position q of line k is disparity[q * step + k].
@@ -48,7 +49,7 @@ void MarkRuns(const simd::Kernels& kernels, const ViewGrid& grid, const LineBund
 
 // Reads the runs of line k in scan order, from high positions to low ones. With kLeftToRight,
 // positions are mirrored: position q is pixel length - 1 - q. `subaperture_move` is
-// ViewGrid::Move(1). Writes at most `length` runs and returns their number.
+// ViewGrid::Move(1). Writes at most `length` runs and returns the number of runs.
 int32_t ReadRuns(const simd::RunMarks& marks, int32_t k, int32_t length, const ViewGrid& grid,
                  int64_t subaperture_move, Run* runs);
 

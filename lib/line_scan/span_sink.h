@@ -14,15 +14,15 @@ namespace starfocus {
 // Destination of the pixels of a rendered line.
 struct SpanTarget {
   int32_t out_begin;  // first rendered pixel
-  uint32_t pixel;     // pixel of the list's target for out_begin
+  uint32_t pixel;     // pixel of the target of the list that receives pixel out_begin
   uint32_t weight;    // weight of each pixel; 2^simd::kBlendBits if the list blends
   // Receives the disparities of the rendered view from out_begin on; may be null.
   int16_t* disparity;
 };
 
-// Sink of LineScan. It calls holes.Fill(begin, end, disparity, colour, out) to write the colours of
-// the rendered pixels [begin, end). They show a surface of `disparity`, whose visible part has
-// `colour`.
+// Sink of LineScan. The sink calls holes.Fill(begin, end, disparity, colour, out) to write the
+// colours of the rendered pixels [begin, end). These pixels show a surface of `disparity`, whose
+// visible part has `colour`.
 template <class Holes>
 class SpanSink {
  public:
@@ -77,7 +77,8 @@ class SpanSink {
   }
 
  private:
-  // Most copies are short, and a call of memcpy takes as long as several of these moves.
+  // Copies four values per move without memcpy: most copies are short, and a call of memcpy takes
+  // as long as several moves.
   static void CopyDisparities(const int16_t* from, int32_t count, int16_t* to) {
     constexpr int32_t kAtOnce = 4;
     constexpr size_t kBytes = kAtOnce * sizeof(int16_t);

@@ -42,8 +42,8 @@ struct LineHoles {
   }
 };
 
-// Renders the star for one rectangle. "Along" is the direction of the parallax of type A, "across"
-// the additional direction of type C.
+// Renders the star for one rectangle. "Along" is the direction of the parallax of type A views, and
+// "across" is the additional direction of type C views (types of section IV-B of the paper).
 class Star {
  public:
   Star(const RenderJob& job, LineScanScratch* scratch, uint32_t* sums)
@@ -68,7 +68,7 @@ class Star {
   }
 
  private:
-  // Range of rows of a field that some views read.
+  // Range of rows of a field that a set of views reads.
   struct Rows {
     int32_t begin, end;
   };
@@ -113,7 +113,7 @@ class Star {
   }
 
   // Adds the views of types A and C along the rows of `field`, in the triangles on both sides of
-  // that axis. `other` is the transposed field.
+  // the axis of type A. `other` is the transposed field.
   void AddViews(const BlockPixels& field, const BlockPixels& other, uint32_t* accumulators) {
     const int64_t samples = 3 * int64_t{field.width} * field.height;  // samples of a type A view
     for (const int sign : {1, -1}) {
@@ -148,7 +148,7 @@ class Star {
     return Max(j, 0);
   }
 
-  // Returns the rows that the type C views (i, j), j <= last, read.
+  // Returns the range of rows that the type C views (i, j) with j <= last read.
   Rows RowsFor(const BlockPixels& field, int32_t last) const {
     const Rect& inner = field.inner;
     const int32_t n = grid_.n(), above = inner.y, end = inner.y + inner.height;
@@ -159,7 +159,8 @@ class Star {
     return {inner.y - reach(above), end + reach(field.height - end)};
   }
 
-  // Renders view (sign * i, 0) and its disparity, one line per column of the rectangle.
+  // Renders view (sign * i, 0) and the disparities of this view, one line per column of the
+  // rectangle.
   void RenderTypeA(const BlockPixels& field, int sign, int32_t i, const Rows& rows) {
     const int32_t width = field.inner.width, height = rows.end - rows.begin;
     for (int32_t row = 0; row < height; row += kStripRows) {
@@ -232,7 +233,7 @@ class Star {
     list.Flush();
   }
 
-  // Adds a part of a column for the views j on one side.
+  // Adds a part of a column for the views (i, j) on one side of the axis.
   void AddColumn(const ScanTask& task, uint32_t pixel, LineHoles* view, SpanList* list) {
     LineHoles& holes = *view;
     const SpanTarget target = {task.part.begin, pixel, 0, nullptr};
@@ -308,7 +309,7 @@ class Star {
     }
   }
 
-  // Adds the sums of the pass over rows, which are stored in column order.
+  // Adds the sums of the pass over rows. These sums are stored in column order.
   void AddTransposed() {
     const int32_t width = job_.rect.width, height = job_.rect.height;
     for (int32_t y = 0; y < height; ++y) {

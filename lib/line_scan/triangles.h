@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The paper's primitive: refocuses one rectangle of the picture with a given N at one layer. It
-// renders the views of the aperture as types A, B and C of eight triangles (IV-B).
+// The paper's primitive: refocuses one rectangle of the picture with a given N at one layer. The
+// views of the aperture form eight triangles and are rendered as types A, B and C (section IV-B).
 #ifndef STARFOCUS_LIB_LINE_SCAN_TRIANGLES_H_
 #define STARFOCUS_LIB_LINE_SCAN_TRIANGLES_H_
 
@@ -17,8 +17,8 @@ namespace starfocus {
 // Number of type A lines that are rendered before they are transposed together.
 inline constexpr int32_t kStripRows = 16;
 
-// Scratch memory of one worker. E: largest side of an extended rectangle; R: of a rectangle. Each
-// buffer is followed by simd::kPadding bytes.
+// Scratch memory of one worker. E is the largest side of an extended rectangle, and R the largest
+// side of a rectangle without border. Each buffer is followed by simd::kPadding bytes.
 struct LineScanScratch {
   int16_t* field_rgb[2];        // E rows of RgbStride(E): rows and columns
   int16_t* field_disparity[2];  // E^2 each

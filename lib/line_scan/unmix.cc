@@ -8,13 +8,13 @@ namespace {
 
 constexpr int32_t kShareOne = 1 << kShareBits;
 
-// Largest blur radius of a sharp surface, kShiftBits. One pixel more, where the paper's subsampled
-// layers begin, hides outlines (docs/constants.md).
+// Largest blur radius of a sharp surface, kShiftBits. A limit of one pixel more, where the paper's
+// subsampled layers begin, hides outlines (docs/constants.md).
 constexpr int32_t kSharp = 2 * kShiftOne;
 
 // Returns the part of the near surface to remove from the pixel, kShiftBits; negative values count
-// as 0. It is 1 if the near blur radius exceeds the far one by at least one pixel, and the far one
-// is at most kSharp.
+// as 0. The part is 1 if the near blur radius exceeds the far blur radius by at least one pixel,
+// and the far blur radius is at most kSharp.
 int32_t StrengthOf(int32_t near_radius, int32_t far_radius) {
   return Min(Min(near_radius - far_radius, kSharp + kShiftOne - far_radius), kShiftOne);
 }
@@ -51,10 +51,10 @@ class Unmixer {
  private:
   int32_t Radius(int32_t disparity) const { return Abs(grid_.Shift(rim_, disparity)); }
 
-  // Returns the part of the pixel (kShareBits) to replace by the far colour. It is 1 for shares of
-  // at least one half. Smaller shares are replaced only in part: most of the light removed there is
-  // missing from the nearer surface's pixels on the other side of the edge. `strength` reduces the
-  // part where no outline would be visible.
+  // Returns the part of the pixel (kShareBits) to replace by the far colour. The part is 1 if the
+  // share of the nearer surface is at least one half. Pixels with a smaller share are replaced only
+  // in part, because the light removed from them is mostly missing from the pixels of the nearer
+  // surface beyond the edge. `strength` reduces the part where no outline would be visible.
   static int32_t AmountOf(int32_t share, int32_t strength) {
     return (Min(2 * share, kShareOne) * strength + kShiftOne / 2) >> kShiftBits;
   }

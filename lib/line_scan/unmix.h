@@ -10,15 +10,15 @@
 
 namespace starfocus {
 
-// Removes the nearer surface from adjacent pixels of a sharp farther surface, if the nearer one is
-// more defocused. Otherwise its part of these pixels would remain sharp and outline an object that
-// the blur has dissolved. The colour of the far surface comes from the captured side view in which
-// the nearer surface does not cover it. Pixels that are not mixtures of both colours are not
-// changed.
+// Removes the nearer surface from adjacent pixels of a sharp farther surface, if the nearer surface
+// is more defocused. Otherwise the nearer surface's part of these pixels would remain sharp, and
+// would outline an object that the blur has dissolved. The colour of the far surface comes from a
+// captured side view in which the nearer surface does not cover the far surface. Pixels that are
+// not mixtures of both colours are not changed.
 //
 // The field must come from LoadBlock. Pixels outside the picture and the outermost pixels, which do
-// not splat into the rectangle, are not changed. Only layer 0 needs this step, because subsampled
-// layers are sufficiently blurred.
+// not splat into the rectangle, are not changed. Only layer 0 requires this step, because
+// subsampled layers are sufficiently blurred.
 void UnmixEdges(const simd::Kernels& kernels, const Window& window, const ViewGrid& grid,
                 BlockPixels* field);
 
