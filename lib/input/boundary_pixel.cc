@@ -38,7 +38,7 @@ struct LinePlace {
     beside = distance * contrast - along * along;
   }
 
-  // Returns the largest value that `kContrastParts * beside` has for mixtures.
+  // Returns the upper bound of `kContrastParts * beside` for a mixture.
   int64_t Limit() const { return contrast * (kContrastParts * kNoise + contrast); }
 
   int32_t Share() const {
