@@ -77,7 +77,7 @@ class Arena {
   void GoOn() { used_ = used_ > largest_ ? used_ : largest_; }
 
  private:
-  // Returns the product, or SIZE_MAX if it overflows.
+  // Returns the product, or SIZE_MAX if the product overflows.
   static constexpr size_t Product(size_t a, size_t b) {
     return a != 0 && b > SIZE_MAX / a ? SIZE_MAX : a * b;
   }

@@ -83,8 +83,8 @@ inline constexpr int64_t kPixel = 1 << kShiftBits;
 inline constexpr int64_t kBlurEnd = 129;
 inline constexpr FixedRange kDisparity = {"disparity", -500 * 64, 500 * 64};
 inline constexpr FixedRange kFocus = {"focus", -1000000 * 64, 1000000 * 64};
-// Limit of shifts in pixels. It exceeds the largest blur radius because the outermost views of N =
-// 4 lie at 128/123 of the lens radius (LensInSubapertures).
+// Limit of shifts in pixels. The limit exceeds the largest blur radius because the outermost views
+// of N = 4 lie at 128/123 of the lens radius (LensInSubapertures).
 inline constexpr int64_t kShiftEnd = 134;
 inline constexpr FixedRange kShift = {"shift", -kShiftEnd* kPixel, kShiftEnd* kPixel};
 inline constexpr FixedRange kRadius = {"blur radius of a cell", 0, kBlurEnd << kDisparityBits};
@@ -102,8 +102,8 @@ inline constexpr FixedRange kRemainder = {"weight left after all orbits", 0, 0};
 }  // namespace ranges
 
 // Returns `value`. With STARFOCUS_CHECK_RANGES, which only one debug build defines, a value outside
-// its range is passed to on_range_failure. If on_range_failure is null, the program aborts. Other
-// builds do not check.
+// its range is passed to on_range_failure. If on_range_failure is null, the program aborts. Builds
+// without STARFOCUS_CHECK_RANGES do not check ranges.
 #ifdef STARFOCUS_CHECK_RANGES
 inline constexpr bool kCheckRanges = true;
 extern void (*on_range_failure)(const FixedRange& range, int64_t value);

@@ -22,7 +22,7 @@ void FillGap(const Line& line, int32_t length, int32_t left, int32_t right) {
 }
 
 // Fills all gaps of a line of `length` elements. is_known(element) returns false in gaps. Returns
-// false and leaves the line unchanged if it has no known element.
+// false and leaves the line unchanged if the line has no known element.
 template <class Line, class IsKnown>
 bool FillGaps(const Line& line, int32_t length, const IsKnown& is_known) {
   int32_t last = -1;

@@ -45,7 +45,7 @@ void CallJob(void* data, int32_t index, int32_t worker) {
 }
 
 // Returns true if each job of the set was run exactly once. Waits for jobs that still run after the
-// runner has returned, because they use memory of the call.
+// runner has returned, because these jobs use memory of the call.
 bool Close(JobSet* set) {
   set->open.store(0);
   for (int32_t worker = 0; worker < set->max_workers; ++worker) {

@@ -19,7 +19,7 @@ struct Runner {
   void* data;
 };
 
-// A job. It has exclusive use of the memory of `worker` while it runs.
+// A job, which has exclusive use of the memory of `worker` while the job runs.
 using JobFunction = void (*)(const void* data, int32_t index, int32_t worker);
 
 // Returns the number of words that record the taken and the finished jobs. Each job has two bits of

@@ -23,7 +23,7 @@ struct SubapertureStep {
 };
 // The criterion would allow N = 3 up to 7 pixels, which saves 1 to 3 % of the instructions. The
 // error grows by 0.2 dB against ground truth on wires, and by 0.1 dB against benchmark mode on real
-// maps. N = 4 up to 18 pixels would save 4 % and cost 0.1 to 0.4 dB.
+// maps. Using N = 4 up to 18 pixels would save 4 % of the instructions and cost 0.1 to 0.4 dB.
 constexpr SubapertureStep kSubapertureSteps[] = {{0.5, 0},  {5.5, 3}, {11, 4}, {25, 5},
                                                  {34, 6},   {49, 7},  {68, 9}, {83, 11},
                                                  {119, 12}, {128, 13}};

@@ -27,9 +27,8 @@ int32_t ViewsByPaper(double r_max);
 //   r_max <=  1/2  5.5   11   25   34   49   68   83  119  128
 //   N           0    3    4    5    6    7    9   11   12   13
 //
-// N is at least 4 for openings without fall-off that need more than the centre view. Polygons and
-// rings have corners and narrow parts; above 5 pixels their N is at least 6 (docs/constants.md,
-// Openings).
+// For openings without fall-off, N is 0 or at least 4. For polygons and rings, which have corners
+// and narrow parts, N is at least 6 above 5 pixels (docs/constants.md, Openings).
 int32_t ViewsBySubaperture(double r_max, Demand demand = Demand::kFallOff);
 
 // Returns n * scale, rounded up, for the N of either rule. `scale` is in [0.5, 2]; the result for n

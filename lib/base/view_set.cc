@@ -58,7 +58,8 @@ Rating Rate(const ViewPosition& at, const int8_t* side) {
 ViewPosition StarPosition(int index) { return kStar[index]; }
 
 int CapturedView(int u, int v, bool half) {
-  // Indexed by u + 1 and v + 1, at full distance. Views at half distance have the same order.
+  // Indices of the views at full distance, by u + 1 and v + 1. Views at half distance have the same
+  // order.
   constexpr int8_t kIndex[3][3] = {{8, 2, 6}, {4, 0, 3}, {7, 1, 5}};
   const int index = kIndex[u + 1][v + 1];
   return half && index != 0 ? index + 8 : index;

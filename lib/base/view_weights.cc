@@ -59,8 +59,8 @@ void Weigh(bool by_size, const Light& light, uint16_t* weights, ViewWeights* ape
     largest = one > largest ? one : largest;
     aperture->views += views;
   });
-  // The largest sum for which the largest weight fits 15 bits, with a margin for the rounding of
-  // the other weights.
+  // The weights sum to the largest power of two for which the largest weight fits 15 bits, with a
+  // margin for the rounding of the other weights.
   int bits = aperture->most_bits;
   while (bits > 1 && (largest << bits) / total > static_cast<uint64_t>(kMaxWeight - 8)) --bits;
   aperture->sum_bits = bits;

@@ -51,8 +51,8 @@ constexpr int32_t LensInSubapertures(int32_t n) {
 }
 
 // Largest distance by which the centre of a rendered subaperture may lie outside the rim, in 1 /
-// kSubapertureUnits. At N = 4 this adds the four outermost views on the axes, which halves the
-// worst error.
+// kSubapertureUnits. At N = 4 this distance adds the four outermost views on the axes, which halves
+// the worst error.
 inline constexpr int32_t kBeyondRim = 5;
 
 // Largest distance of the centre of a subaperture from the axis of the lens, in 1 /

@@ -72,7 +72,7 @@ starfocus_status SetLens(const starfocus_params& params, EngineState* engine);
 void TakeCounts(EngineState* engine);
 void DropCounts(EngineState* engine);
 
-// Discards the state of the previous stripe, so that the next stripe reuses none of it.
+// Discards the state of the previous stripe, so that the next stripe reuses no data.
 void ForgetStripe(StripeState* stripe);
 
 }  // namespace starfocus

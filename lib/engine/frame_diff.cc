@@ -84,7 +84,7 @@ void CompareMaps(const FrameDiff& changes, int32_t y) {
              });
 }
 
-// Compares row y of the coverage. Either both light fields have coverage or neither has it.
+// Compares row y of the coverage. Both light fields have coverage, or neither light field has.
 void CompareCoverage(const FrameDiff& changes, int32_t y) {
   const auto row = static_cast<size_t>(y);
   const starfocus_light_field &a = *changes.before, &b = *changes.now;

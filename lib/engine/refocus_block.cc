@@ -173,7 +173,8 @@ void GatherBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>
   if (block.layer > 0 && scratch->cancel.Spend(0)) FinishLayer(in, block, out, *scratch);
 }
 
-// Returns the part of a block that views render. At layer 0 it may be smaller than the block.
+// Returns the part of a block that views render. At layer 0 this part may be smaller than the
+// block.
 const Rect& ViewsRect(const Block& block) { return block.layer == 0 ? block.rendered : block.rect; }
 
 // Copies `rect` from the centre view. Used where no view moves a pixel.

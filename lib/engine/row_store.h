@@ -13,7 +13,8 @@
 
 namespace starfocus {
 
-// Flags of a column of a layer: the current stripe reads it, and the previous stripe read it.
+// Flags of a column of a layer: kNeeded if the current stripe reads the column, and kNeededBefore
+// if the previous stripe read the column.
 enum ColumnNeed : uint8_t { kNeeded = 1, kNeededBefore = 2 };
 
 struct RowStore {

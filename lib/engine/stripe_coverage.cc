@@ -28,8 +28,8 @@ int32_t TilesOfSuperblock(const starfocus_config& config) {
   return config.superblock / kCoverageTile;
 }
 
-// Largest number of rows of tiles that must be in memory, because one pass wrote them and another
-// pass may still read them.
+// Largest number of rows of tiles that must stay in memory, from the pass that writes a row to the
+// last pass that reads the row.
 int32_t MostTileRows(const starfocus_config& config, int32_t border) {
   const int32_t read = (config.superblock + 2 * border) / kCoverageTile + 2;
   const int32_t looked_at = TilesOfSuperblock(config) + kMostMove / kCoverageTile + 1;

@@ -138,9 +138,9 @@ bool IsInRegion(const EngineState& engine, const Rect& rect) {
          rect.y - reach < region.y + region.height && region.y < rect.y + rect.height + reach;
 }
 
-// Returns true if pixels of `rect` affect pixels that are not copied from the previous picture. The
-// reach counts twice: deblocking changes pixels within reach of a changed pixel, and reads pixels
-// within reach of those.
+// Returns true if pixels of `rect` affect pixels that are not copied from the previous picture.
+// Deblocking changes pixels within reach of a changed pixel, and reads pixels within the same reach
+// of every pixel that it changes. The reach therefore counts twice.
 bool IsNew(const EngineState& engine, const Rect& rect) {
   const int32_t reach = 2 * engine.lens.borders.joined;
   const FrameDiff& changes = engine.stripe.changes;

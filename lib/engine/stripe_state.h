@@ -46,8 +46,8 @@ struct CoverageState {
 };
 
 struct StripeState {
-  CellGrid cells;          // the stripe and its surroundings within reach of splats
-  CoverageState coverage;  // the stripe and the rows around it
+  CellGrid cells;          // cells of the stripe and of the surroundings that splat into the stripe
+  CoverageState coverage;  // coverage of the stripe and of the rows around the stripe
   StripePlan plan;
   LayerMap map;       // layer of each smallest block, for deblocking
   FrameDiff changes;  // blocks that differ from the previous light field

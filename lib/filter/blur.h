@@ -36,7 +36,8 @@ struct Psf {
   int32_t size;  // largest n with a weight
   int sum_bits;
   bool full;
-  const uint16_t* weights;  // octant: index n (n + 1) / 2 + m; full: row by row
+  // octant: weight (n, m) at index n (n + 1) / 2 + m; full: rows of weights
+  const uint16_t* weights;
 
   uint32_t Weight(int32_t n, int32_t m) const {
     return full ? weights[(m + size) * (2 * size + 1) + n + size] : OctantWeight(n, m);

@@ -196,7 +196,7 @@ class Gather {
     }
   }
 
-  // Moves the mixture of a cell and stores it.
+  // Moves the mixture of a cell, and stores the result.
   void Move(const simd::HalfMove& move, const Rect& pixels) {
     const size_t count = 3 * static_cast<size_t>(pixels.width);
     const auto rows = static_cast<size_t>(pixels.height);

@@ -42,7 +42,7 @@ struct GatherJob {
 struct Gathered {
   uint8_t* codes;
   int16_t* samples;
-  size_t stride;  // samples from row to row
+  size_t stride;  // distance between rows, in samples
 };
 
 // Gathers the cells of a block that GatherMap selects. `field` must have room for the LayerFrame of

@@ -24,7 +24,7 @@ struct RadiusRange {
 
 class Slope {
  public:
-  // Describes the cell at (column, row) of the grid, at a layer. The cells around it must be
+  // Describes the cell at (column, row) of the grid, at a layer. The cells around this cell must be
   // stored. The radius at a corner is the mean radius of the four adjacent cells, with opposite
   // signs in front of and behind the focus. Radii between the corners are interpolated bilinearly.
   Slope(const CellGrid& grid, const BlurScale& scale, int32_t column, int32_t row, int32_t layer);

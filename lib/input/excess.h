@@ -16,11 +16,11 @@ namespace starfocus {
 // highlights are bright walls or sky and keep their captured brightness.
 constexpr int32_t LargestLamp(int32_t width) { return Clamp(width / 32, 16, 128); }
 
-// Returns the number of pixels around a highlight that decide whether it is a lamp.
+// Returns the number of pixels around a highlight that decide whether the highlight is a lamp.
 constexpr int32_t LampReach(int32_t lamp) { return 2 * lamp; }
 
 // A pixel is a highlight if at least two of its codes are kFirstExcess or more. Lamps of any colour
-// satisfy this; darker saturated colours have at most one such code.
+// have at least two such codes; darker saturated colours have at most one.
 inline constexpr int32_t kFirstExcess = 251;
 bool IsHighlight(const uint8_t* codes);
 

@@ -24,8 +24,8 @@ struct InsidePart {
   static int32_t Inside(int32_t size, int layer) { return (size + (1 << layer) - 1) >> layer; }
 };
 
-// A pixel at the edge of the picture, and the number of pixels between it and the border of the
-// rectangle.
+// A pixel at the edge of the picture, in a rectangle, and the number of pixels of the rectangle
+// beyond this edge.
 struct EdgePixel {
   int32_t column, row;
   int side;  // index into kSides

@@ -311,7 +311,7 @@ class LineScan {
   const Run* const runs_end_;
   const ViewGrid& grid_;
   Sink* const sink_;
-  const int32_t begin_;  // required positions [begin_, end_)
+  const int32_t begin_;  // the required positions are [begin_, end_)
   const int32_t end_;
   int64_t move_ = 0;
   Filled filled_;

@@ -53,8 +53,8 @@ class Unmixer {
 
   // Returns the part of the pixel (kShareBits) to replace by the far colour. The part is 1 if the
   // share of the nearer surface is at least one half. Pixels with a smaller share are replaced only
-  // in part, because the light removed from them is mostly missing from the pixels of the nearer
-  // surface beyond the edge. `strength` reduces the part where no outline would be visible.
+  // in part, because most of the light removed from such pixels is missing from the nearer surface
+  // on the other side of the edge. `strength` reduces the part where no outline would be visible.
   static int32_t AmountOf(int32_t share, int32_t strength) {
     return (Min(2 * share, kShareOne) * strength + kShiftOne / 2) >> kShiftBits;
   }

@@ -54,8 +54,8 @@ void StoreSides(int32_t reach, Cell* cell) {
   }
 }
 
-// Measures how far 8 columns or rows of disparities reach beyond the two opposite sides of the
-// cell, and the depth inside the cell from which they do so.
+// Measures how far 8 columns or rows of disparities splat beyond two opposite sides of the cell,
+// and how deep inside the cell the splatting pixels lie.
 void MeasureSides(const BlurScale& scale, const int16_t (&lows)[kCellSize],
                   const int16_t (&highs)[kCellSize], Side low, Side high, Cell* cell) {
   for (int32_t k = 0; k < kCellSize; ++k) {

@@ -69,7 +69,7 @@ constexpr int32_t ReachOf(int32_t r) {
 }
 
 // Number of pixels of the layer that rendering reads around the reach of the blur, because a
-// subaperture also weighs the neighbours of a pixel.
+// subaperture also uses the neighbours of a pixel.
 inline constexpr int32_t kRenderBorder = 1;
 
 // Grid of cells over rows of the picture, all columns. Positions outside the picture use the

@@ -12,7 +12,7 @@ int32_t CeilShift(int32_t value, int32_t layer) { return (value + (1 << layer) -
 
 // Converts a border of a block to a border of its rendered rectangle, in pixels of the layer.
 // `beyond` is the number of pixels of the unclipped block outside the picture. One pixel is added,
-// because a subaperture also weighs the neighbour of a pixel.
+// because a subaperture also uses the neighbour of a pixel.
 int32_t LayerBorder(int32_t border, int32_t beyond, int32_t layer) {
   return Max(0, CeilShift(border + beyond, layer) - LayerMargin(layer)) + 1;
 }

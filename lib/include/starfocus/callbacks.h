@@ -19,8 +19,7 @@ extern "C" {
  *  @param job_data pointer that the runner received
  *  @param index index of the job
  *  @param worker worker in [0, max_workers). Jobs that run at the same time must use different
- *         workers
- */
+ *         workers */
 typedef void (*starfocus_job)(void* job_data, int32_t index, int32_t worker);
 
 /** Runs a set of jobs in any order and returns when all jobs are done. Jobs with a small index take
@@ -36,8 +35,8 @@ typedef int (*starfocus_runner)(void* runner_data, starfocus_job job, void* job_
 
 /** Receives the progress of a call and may cancel the call. The engine calls this callback at every
  *  job and about every 500,000 samples, which take a fraction of a millisecond on a desktop. With a
- *  runner, any thread that runs a job may call it, but only one thread at a time does. The callback
- *  must not use the engine or the engine's memory.
+ *  runner, any thread that runs a job may make the call, but only one thread at a time does. The
+ *  callback must not use the engine or the engine's memory.
  *
  *  After cancellation the callback is not called again, and the engine's call returns
  *  STARFOCUS_ERROR_CANCELLED as soon as all workers have stopped. The output is then unspecified,

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /** @file
- * Disparity maps: estimates them from the views of a light field, and repairs given ones. Programs
+ * Estimation of disparity maps from the views of a light field, and repair of given maps. Programs
  * that already have maps do not need this header. The conventions of starfocus.h apply. All views
  * are packed RGB.
  *

@@ -115,8 +115,8 @@ typedef enum starfocus_depth_meaning {
  *  / W) - 128 of the map, in 1/256 and limited to [0, 256 (w - 1)]. Rows use this formula with the
  *  heights. Values are interpolated between two rows first, then between two columns. At a distance
  *  of s / 256 from D0 to D1, in 1/64 pixel, the result is D0 + ((s (D1 - D0) + 128) >> 8) if |D1 -
- *  D0| <= 96 (1.5 pixels). Otherwise it is D0 for s < 128 and D1 for s >= 128. An unknown value is
- *  never interpolated. */
+ *  D0| <= 96 (1.5 pixels). Otherwise the result is D0 for s < 128 and D1 for s >= 128. An unknown
+ *  value is never interpolated. */
 typedef struct starfocus_depth_map {
   const void* data; /**< first value, aligned to its type */
   size_t stride;    /**< bytes from row to row, at least one row, a multiple of the type's size */

@@ -43,11 +43,11 @@
  * }
  * @endcode
  *
- * **Coordinates.** View (u, v) lies u units to the right of the centre view and v units below it,
- * and |u|, |v| <= 1. Disparity d is in pixels per unit; nearer points have larger disparities. A
- * point at (x, y) of the centre view appears at (x - u d, y - v d) of view (u, v). The lens blurs
- * the point to a disc of radius aperture * |d - focus| pixels. Strides are in bytes and may be
- * larger than a row.
+ * **Coordinates.** View (u, v) lies u units to the right of the centre view and v units below the
+ * centre view, and |u|, |v| <= 1. Disparity d is in pixels per unit; nearer points have larger
+ * disparities. A point at (x, y) of the centre view appears at (x - u d, y - v d) of view (u, v).
+ * The lens blurs the point to a disc of radius aperture * |d - focus| pixels. Strides are in bytes
+ * and may be larger than a row.
  *
  * **Structures.** Structures with an init function have a field `size`; the init function sets
  * `size` and the defaults. Set all other structures to zero, for example with `= {0}`, before you
@@ -307,8 +307,7 @@ typedef enum starfocus_mode {
    *  other than the default. With STARFOCUS_TRANSFER_SRGB, 4 % of white is the code 56. */
   STARFOCUS_MODE_BLOCK = 2,
   /** The centre view, blurred by (4) without other views. This mode takes up to ten times as long
-   *  as STARFOCUS_MODE_BLOCK.
-   */
+   *  as STARFOCUS_MODE_BLOCK. */
   STARFOCUS_MODE_BLUR = 3
 } starfocus_mode;
 
@@ -345,9 +344,10 @@ typedef struct starfocus_light_field {
   size_t coverage_stride; /**< bytes from row to row of `coverage`, >= width */
 } starfocus_light_field;
 
-/** The previous frame of a video: its light field and its picture. Both must belong to the same
- *  configuration and the same starfocus_params, except `previous`. The engine does not check this
- *  condition: where the light field did not change, it copies pixels of the given picture. */
+/** The previous frame of a video: its light field and its picture. The light field and the picture
+ *  must belong to the current configuration and to the current starfocus_params, except `previous`.
+ *  The engine does not check this condition: where the light field did not change, it copies pixels
+ *  of the given picture. */
 typedef struct starfocus_previous {
   starfocus_light_field light_field; /**< compared with the current light field */
   starfocus_image out; /**< picture or region that starfocus_refocus wrote for `light_field` */
@@ -443,8 +443,8 @@ STARFOCUS_API starfocus_status starfocus_prepared_size(const starfocus_config* c
                                                        size_t* bytes);
 
 /** Converts and checks the disparities of a light field and subsamples its centre view, once for
- *  many refocusings. Later calls read the views again, so their pixels must stay unchanged until
- *  the last refocusing. The structure `light_field` may change.
+ *  many refocusings. Later calls read the views again, so the pixels of the views must stay
+ *  unchanged until the last refocusing. The structure `light_field` may change.
  *  @param engine engine
  *  @param light_field light field
  *  @param memory memory aligned to STARFOCUS_ALIGNMENT, which must not overlap the light field or

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** @file
- * C++17 wrapper of starfocus.h, header-only. It owns the memory of an engine and adds nothing else.
- * It throws no exceptions: calls return a starfocus_status, as in C. */
+ * C++17 wrapper of starfocus.h, header-only. The wrapper owns the memory of an engine and adds
+ * nothing else. It throws no exceptions: calls return a starfocus_status, as in C. */
 #ifndef STARFOCUS_STARFOCUS_HPP_
 #define STARFOCUS_STARFOCUS_HPP_
 

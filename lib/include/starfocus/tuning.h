@@ -20,16 +20,18 @@
  *  the same picture. Coefficients fitted to boards saved at most 0.4 % of the instructions
  *  (docs/boards.md). */
 typedef struct starfocus_timing {
-  uint32_t block; /**< per block */
-  uint32_t field; /**< per pixel of the block with its border, at the layer of the block: loading
-                     and rotating */
-  uint32_t a; /**< k_A of (14): per rendered pixel of type A (views on the axes), with the border of
-                 the other axis */
-  uint32_t b; /**< k_B of (14): per rendered pixel of type B (views on the diagonals) */
-  uint32_t c; /**< k_C of (14): per rendered pixel of type C (all other views) */
-  uint32_t upsample; /**< per pixel of the picture in a block at layer 1 or 2 */
-  uint32_t span;     /**< per run of equal disparity in a rendered line, at least one per line */
-  uint32_t hole;     /**< per pixel that a depth edge uncovers in the outermost view, at most 8 */
+  uint32_t block; /**< picoseconds per block */
+  uint32_t field; /**< picoseconds per pixel of the block with its border, at the layer of the
+                     block, for loading and rotating */
+  uint32_t a; /**< k_A of (14), picoseconds per rendered pixel of type A (views on the axes), with
+                 the border of the other axis */
+  uint32_t b; /**< k_B of (14), picoseconds per rendered pixel of type B (views on the diagonals) */
+  uint32_t c; /**< k_C of (14), picoseconds per rendered pixel of type C (all other views) */
+  uint32_t upsample; /**< picoseconds per pixel of the picture in a block at layer 1 or 2 */
+  uint32_t span; /**< picoseconds per run of equal disparity in a rendered line; a line counts as at
+                    least one run */
+  uint32_t hole; /**< picoseconds per pixel that depth edges uncover in the outermost view, at most
+                    8 for each edge */
 } starfocus_timing;
 
 /** Trade-offs between time and error. starfocus_config_init sets the defaults. */
@@ -38,8 +40,7 @@ typedef struct starfocus_tuning {
   int32_t deblocking; /**< beta of (16) and (17) in codes, [0, 255]; 0: off; default 35 */
   /** 1: STARFOCUS_MODE_BLOCK with slices gathers pixels of smooth surfaces, that is, blurs the
    *  centre view there by the point-spread function (4). 0: the mode renders views everywhere.
-   *  Default 1.
-   */
+   *  Default 1. */
   int32_t gather;
   /** Factor of N in STARFOCUS_MODE_BLOCK and STARFOCUS_MODE_FRAME; N is rounded up. The number of
    *  views grows with the square of the factor. Range [STARFOCUS_MIN_N_SCALE,
