@@ -29,7 +29,7 @@ struct Map {
 
 // Disparities around a pixel.
 struct Sorted {
-  float values[kSide * kSide];  // ascending
+  float values[kSide * kSide];  // in ascending order
   int32_t count = 0;
 
   void Insert(float value) {

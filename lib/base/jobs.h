@@ -43,7 +43,8 @@ struct JobSet {
 };
 
 // Runs function(data, index, worker) for all indices in [0, count), count > 0. Calls the progress
-// function before each job. No job runs after the return, even if the runner misbehaves.
+// function before each job. No job runs after this function has returned, even if the runner
+// misbehaves.
 //
 // Returns STARFOCUS_OK or an error:
 // STARFOCUS_ERROR_CANCELLED: the progress function cancelled the call, and jobs were skipped.

@@ -19,7 +19,7 @@ struct RowsJob {
   const EngineState* engine;
   RowRange rows;
   int32_t jobs;
-  Plane<int16_t> disparity;  // output
+  Plane<int16_t> disparity;  // output: disparities of the rows
 };
 
 void ReadMap(const RowsJob& job, int32_t y, int16_t* row, Counts* counts) {

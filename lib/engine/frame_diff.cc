@@ -70,7 +70,7 @@ void CompareRow(const FrameDiff& changes, const RowPair& rows, int32_t y, int32_
   }
 }
 
-// Compares row y of the maps. Filled disparities change with the known values next to their gap.
+// Compares row y of the maps. A filled disparity changes if a known value next to its gap changes.
 void CompareMaps(const FrameDiff& changes, int32_t y) {
   const float* const before = RowsOf(changes.before->depth).Row(y);
   const float* const now = RowsOf(changes.now->depth).Row(y);
@@ -84,7 +84,7 @@ void CompareMaps(const FrameDiff& changes, int32_t y) {
              });
 }
 
-// Compares row y of the coverage. Both light fields have coverage, or neither light field has.
+// Compares row y of the coverage. Both light fields have coverage, or both have none.
 void CompareCoverage(const FrameDiff& changes, int32_t y) {
   const auto row = static_cast<size_t>(y);
   const starfocus_light_field &a = *changes.before, &b = *changes.now;

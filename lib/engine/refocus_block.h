@@ -21,7 +21,7 @@ struct BlockInputs {
   const simd::Kernels* kernels;
   const Tables* tables;
   const Lens* lens;
-  const Window* windows;  // one per layer
+  const Window* windows;  // one window per layer
   const CellGrid* cells;
   const GatherMap* gathered;
   starfocus_clock clock;  // null: the time of blocks is not measured

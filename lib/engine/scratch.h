@@ -43,7 +43,7 @@ struct Scratch {
   SpanMemory spans;                // for blocks blurred by depth
   ResampleScratch resample;
   UpsampleScratch upsample;
-  int16_t* layer_samples;    // rendered rectangle
+  int16_t* layer_samples;    // samples of the rendered rectangle
   int16_t* middle_samples;   // result at layer 1 while upsampling from layer 2
   int16_t* picture_samples;  // 3 R^2 samples: the block at layer 0
   PartitionScratch partition;

@@ -36,7 +36,7 @@ int32_t MostTileRows(const starfocus_config& config, int32_t border) {
   return Max(read, looked_at) + TilesAhead(config, kFindRagged) + 1;
 }
 
-// Marks the columns left and right of the picture as empty.
+// Marks the columns to the left and right of the picture as empty.
 void ClearAside(const CoverageMap& map) {
   for (int32_t y = 0; y < map.tile_rows * kCoverageTile; ++y) {
     for (const int32_t x : {-kAside, map.columns * kCoverageTile}) {

@@ -17,7 +17,7 @@ struct MeasureJob {
   int32_t per_block;  // number of columns of cells in a superblock
   int32_t first_row;  // first row of cells that no earlier stripe has measured
   const uint8_t* measured;
-  CellGrid cells;  // output
+  CellGrid cells;  // output: measured cells
 };
 
 // Splits superblocks. Job `index` processes column `index`.

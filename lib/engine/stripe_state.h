@@ -27,7 +27,7 @@ struct StripePlan {
   uint8_t* wanted;     // per superblock: 1 if the superblock is refocused
   uint8_t* measured;   // per superblock: 1 if its cells are measured
   bool all_measured;   // true: the previous stripe measured the cells of every column
-  Block* blocks;       // MaxBlocks per superblock
+  Block* blocks;       // memory for MaxBlocks blocks per superblock
   int32_t* counts;     // number of blocks of each superblock
   int32_t used;        // number of blocks to refocus
   GatherMap gathered;  // cells that are gathered, in block mode

@@ -91,8 +91,9 @@ double DiscIntegral(int32_t n, int32_t m, double r, int32_t lines, const Apertur
   return sum * (high - low) / lines;
 }
 
-// Returns the integral for a radius in 1 / kOne pixels. The edges of a polygon may be parallel to
-// the lines and lie between two lines, so polygons use four times as many lines.
+// Returns DiscIntegral for a radius in 1 / kOne pixels and the shape of the opening. The edges of a
+// polygon may be parallel to the lines and lie between two lines, so polygons use four times as
+// many lines.
 double PixelIntegral(int32_t n, int32_t m, int32_t radius, const ApertureShape& opening) {
   const double r = static_cast<double>(radius) / kOne;
   const int32_t lines = LinesOf(radius);

@@ -22,7 +22,7 @@ namespace starfocus {
 // Radii have kDisparityBits fractional bits.
 int32_t BlurStep(int32_t radius);  // radius: kDisparityBits
 int32_t BlurStepCount(double max_blur);
-int32_t RadiusOfStep(int32_t step);  // kDisparityBits
+int32_t RadiusOfStep(int32_t step);  // result: kDisparityBits
 // Return the step of the largest radius that does not exceed `radius`, and of the smallest radius
 // that is at least `radius`.
 int32_t BlurStepBelow(int32_t radius);

@@ -74,7 +74,7 @@ class Gather {
     int8_t less, more;
   };
   static_assert(kMaxGather <= 31, "step 127 is that of 31.5 pixels");
-  static constexpr Steps kNone = {-1, -1};  // for cells that are not gathered
+  static constexpr Steps kNone = {-1, -1};  // steps of cells that are not gathered
 
   // Filters the row of cells at y. Adjacent cells with the same PSFs are filtered together.
   void FilterRow(int32_t y) {

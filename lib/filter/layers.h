@@ -63,7 +63,7 @@ void DownsamplePicture(const simd::Kernels& kernels, const Window& picture,
 // Samples of a rectangle of a layer.
 struct LayerRect {
   int16_t* samples;       // rows packed, 3 * width
-  int32_t width, height;  // pixels
+  int32_t width, height;  // size in pixels
 };
 
 // Scratch memory for UpsampleByTwo.

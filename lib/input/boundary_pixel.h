@@ -56,11 +56,11 @@ struct Mixture {
 // excess, both colours are excess, but the share is computed from light.
 Mixture FindMixture(const CentreView& centre, const BoundaryPixel& pixel);
 
-// Returns the share of `near` in a pixel of layer 1 or 2, kShareBits. Filtered pixels differ by
-// rounding, so the share fades to 0 at the limits of FindMixture instead of stopping abruptly. The
-// share fades at contrasts below twice the smallest contrast, and for shares from 4/5 to 1. The
-// share also fades between one and two times the largest distance from the line between both
-// colours.
+// Returns the share of `near` in a pixel of layer 1 or 2, kShareBits. Rounding changes filtered
+// pixels slightly, so the share fades to 0 at the limits of FindMixture instead of stopping
+// abruptly. The share fades at contrasts below twice the smallest contrast, and for shares from 4/5
+// to 1. The share also fades between one and two times the largest distance from the line between
+// both colours.
 int32_t FadedShareOf(const Colour& near, const Colour& far, const Colour& mixed);
 
 // Calls visit(column, row) for the pixels of a field that are farther than one of their four

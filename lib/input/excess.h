@@ -20,7 +20,8 @@ constexpr int32_t LargestLamp(int32_t width) { return Clamp(width / 32, 16, 128)
 constexpr int32_t LampReach(int32_t lamp) { return 2 * lamp; }
 
 // A pixel is a highlight if at least two of its codes are kFirstExcess or more. Lamps of any colour
-// have at least two such codes; darker saturated colours have at most one.
+// fulfil this condition. Darker saturated colours do not, because at most one of their codes is
+// that large.
 inline constexpr int32_t kFirstExcess = 251;
 bool IsHighlight(const uint8_t* codes);
 

@@ -23,7 +23,7 @@ struct CoverageMap;
 struct Window {
   int32_t width = 0;  // size of the layer
   int32_t height = 0;
-  int layer = 0;                       // L
+  int layer = 0;                       // layer L
   int32_t views = 0;                   // number of captured views, including the centre view
   OcclusionViews occlusion_views;      // views that see behind edges
   const Transfer* transfer = nullptr;  // transfer function of the pictures

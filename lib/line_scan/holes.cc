@@ -6,7 +6,8 @@
 namespace starfocus {
 namespace {
 
-// Returns the displacement of a disparity in the captured view, in pixels of the layer, kShiftBits.
+// Returns the displacement of a surface with the given disparity in the captured view, in pixels of
+// the layer, kShiftBits.
 int64_t CapturedShift(const ViewGrid& grid, int32_t disparity, bool half) {
   const int64_t full = int64_t{disparity} * (1 << (kShiftBits - kDisparityBits));
   return RoundShift(full * 2, 1 + grid.layer + (half ? 1 : 0));

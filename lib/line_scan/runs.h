@@ -12,7 +12,7 @@
 
 namespace starfocus {
 
-// Positions [begin, end) of a line. `end` is the begin of the previous run in scan order.
+// Positions [begin, end) of a line. `end` equals `begin` of the previous run in scan order.
 struct Run {
   uint16_t begin;
   uint16_t surface_end;  // end of the run's surface: the next depth edge or the end of the line

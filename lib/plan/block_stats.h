@@ -49,7 +49,7 @@ enum Side { kLeft, kRight, kTop, kBottom };
 
 // Parameters of the lens that determine the blur radius.
 struct BlurScale {
-  int32_t focus;  // kDisparityBits
+  int32_t focus;  // d_t, kDisparityBits
   int64_t step;   // u_t, kStepBits
 
   // Converts |d - d_t| (kDisparityBits) to a blur radius, rounded down.

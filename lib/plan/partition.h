@@ -16,13 +16,14 @@ inline constexpr int32_t kSmallestBlock = 16;
 
 // A block to refocus: a rectangle of the picture and its parameters.
 struct Block {
-  Rect rect;  // in pixels of the picture, clipped to the picture
+  Rect rect;  // block in pixels of the picture, clipped to the picture
   // Rectangle that is rendered from views, in pixels of the layer. The rectangle is LayerFrame, or
-  // the part of LayerFrame whose cells are not gathered. It is empty if all cells are gathered.
+  // the part of LayerFrame whose cells are not gathered. The rectangle is empty if all cells are
+  // gathered.
   Rect rendered;
   Border border;        // border of `rendered`, in pixels of the layer
-  int32_t layer;        // L
-  int32_t n;            // N
+  int32_t layer;        // layer L
+  int32_t n;            // N, the number of views along the radius
   bool gathers;         // true: cells of the GatherMap are gathered
   bool has_highlights;  // true: views may show highlights, and the block is rendered twice
   uint64_t cost;        // predicted time in picoseconds

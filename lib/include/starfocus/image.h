@@ -57,8 +57,8 @@ typedef enum starfocus_range {
  *
  *  Conversion uses integers and is the same on every machine. Let P(a, c) = (a c + 2^14) >> 15,
  *  where >> rounds down, and let [x] be x rounded to the nearest integer, with halves rounded away
- *  from 0. For limited range, y0 = 16, p = 255 / 219, q = 255 / 224; for full range, y0 = 0, p = q
- *  = 1.
+ *  from 0. For limited range, y0 = 16, p = 255 / 219, q = 255 / 224; for full range, y0 = 0,
+ *  p = q = 1.
  *
  *  To RGB, with the chroma sample of the pixel:
  *    L = P(128 (Y - y0), [2^14 p]), u = 256 (U - 128), v = 256 (V - 128),
@@ -97,8 +97,9 @@ typedef enum starfocus_depth_type {
 /** Conversion of a value z of a depth map to a disparity. */
 typedef enum starfocus_depth_meaning {
   STARFOCUS_DEPTH_LINEAR = 0, /**< disparity = scale * z + offset */
-  /** disparity = scale / z + offset, for distances z. For rectified views whose outermost ones lie
-   * B from the centre view, and a focal length of f pixels, scale = f B in the unit of z. */
+  /** disparity = scale / z + offset, for distances z. For rectified views, a distance B between the
+   *  centre view and the outermost views, and a focal length of f pixels, scale = f B in the unit
+   *  of z. */
   STARFOCUS_DEPTH_RECIPROCAL = 1
 } starfocus_depth_meaning;
 
@@ -111,12 +112,12 @@ typedef enum starfocus_depth_meaning {
  *  rows of the map.
  *
  *  The engine interpolates a smaller map within surfaces, but not across depth edges. For a picture
- *  W pixels wide and a map w values wide, column x of the picture lies at p = floor(128 (2x + 1) w
- *  / W) - 128 of the map, in 1/256 and limited to [0, 256 (w - 1)]. Rows use this formula with the
- *  heights. Values are interpolated between two rows first, then between two columns. At a distance
- *  of s / 256 from D0 to D1, in 1/64 pixel, the result is D0 + ((s (D1 - D0) + 128) >> 8) if |D1 -
- *  D0| <= 96 (1.5 pixels). Otherwise the result is D0 for s < 128 and D1 for s >= 128. An unknown
- *  value is never interpolated. */
+ *  W pixels wide and a map w values wide, column x of the picture lies at
+ *  p = floor(128 (2x + 1) w / W) - 128 of the map, in 1/256 and limited to [0, 256 (w - 1)]. For
+ *  rows, the formula applies with heights in place of widths. Values are interpolated between two
+ *  rows first, then between two columns. At a distance of s / 256 from D0 to D1, in 1/64 pixel, the
+ *  result is D0 + ((s (D1 - D0) + 128) >> 8) if |D1 - D0| <= 96 (1.5 pixels). Otherwise the result
+ *  is D0 for s < 128 and D1 for s >= 128. An unknown value is never interpolated. */
 typedef struct starfocus_depth_map {
   const void* data; /**< first value, aligned to its type */
   size_t stride;    /**< bytes from row to row, at least one row, a multiple of the type's size */

@@ -62,8 +62,8 @@
  * **Threads.** One call at a time may use an engine, from any thread. Different engines are
  * independent. The engine starts no threads; it passes jobs to the runner of
  * starfocus_set_callbacks. starfocus/pool.h provides a runner with a pool of threads. The output
- * bytes do not depend on the runner, the number of workers or the SIMD target. Streamed rows give
- * the same bytes as well.
+ * bytes do not depend on the runner, the number of workers or the SIMD target. Streaming rows gives
+ * the same bytes as passing whole pictures.
  *
  * **Errors.** Functions that can fail return a starfocus_status. A function checks all its
  * arguments before it writes any output. The status is the kind of error; a starfocus_problem names
@@ -184,7 +184,7 @@ typedef struct starfocus_config {
   double
       disparity_max; /**< largest disparity that a map may contain, >= disparity_min; default 0 */
   /** Upper limit of the blur radius aperture * |d - focus| in pixels, (0, STARFOCUS_MAX_BLUR];
-   *  default 32. The limit affects the size of the workspace but no picture. */
+   *  default 32. The limit affects the size of the workspace, but not the pictures. */
   double max_blur;
   /** Side of the superblocks, from which blocks are split, in pixels: 32, 64, 128, 256, or 0. The
    *  default 0 selects 128 for pictures at least 1536 pixels wide, and 64 for others. In wide
@@ -345,9 +345,9 @@ typedef struct starfocus_light_field {
 } starfocus_light_field;
 
 /** The previous frame of a video: its light field and its picture. The light field and the picture
- *  must belong to the current configuration and to the current starfocus_params, except `previous`.
- *  The engine does not check this condition: where the light field did not change, it copies pixels
- *  of the given picture. */
+ *  must belong to the current configuration and to the current starfocus_params, except for the
+ *  field `previous`. The engine does not check this condition: where the light field did not
+ *  change, it copies pixels of the given picture. */
 typedef struct starfocus_previous {
   starfocus_light_field light_field; /**< compared with the current light field */
   starfocus_image out; /**< picture or region that starfocus_refocus wrote for `light_field` */
@@ -460,9 +460,9 @@ STARFOCUS_API starfocus_status starfocus_prepare(starfocus_engine* engine,
 
 /** Refocuses a prepared light field. The output bytes are the same as with starfocus_refocus.
  *
- *  With a preview_shift s, the picture has 1 / S of the size, where S = 2^s, and takes about 1 /
- *  S^2 of the time. All parameters are still in pixels of the full size. The output contains the
- *  columns from floor(x / S) to floor((x + width - 1) / S) of the reduced picture, where x and
+ *  With a preview_shift s, the picture has 1 / S of the size, where S = 2^s, and takes about
+ *  1 / S^2 of the time. All parameters are still in pixels of the full size. The output contains
+ * the columns from floor(x / S) to floor((x + width - 1) / S) of the reduced picture, where x and
  *  width describe the region. Rows follow this rule as well. The alpha of the output is 255.
  *  Previews do not read the views again.
  *
@@ -551,9 +551,9 @@ STARFOCUS_API starfocus_status starfocus_measure_disparity(const float* disparit
                                                            starfocus_disparity_stats* stats);
 
 /** Fills the values of a disparity map that are NaN or infinite, in place. A value gets the nearest
- *  finite value to the left or right. Between two finite values it gets the smaller value, which
- *  belongs to the farther surface. Rows without a finite value are filled from the rows above and
- *  below by the same rule.
+ *  finite value to the left or right. A value between two finite values gets the smaller of the
+ *  two, which belongs to the farther surface. Rows without a finite value are filled from the rows
+ *  above and below by the same rule.
  *  @param disparity map, aligned to 4 bytes
  *  @param stride bytes from row to row, a multiple of 4, >= 4 * width
  *  @param width,height size of the map in pixels, [1, STARFOCUS_MAX_SIZE]

@@ -66,8 +66,8 @@ class Engine {
    *  @return the problem; null before Init */
   const starfocus_problem* problem() const { return starfocus_engine_problem(engine_.handle); }
 
-  /** Allocates memory and prepares a light field in it. Frees any earlier prepared light field
-   *  first. After an error no prepared light field exists, and RefocusPrepared returns
+  /** Allocates memory and prepares a light field in this memory. Frees any earlier prepared light
+   *  field first. After an error no prepared light field exists, and RefocusPrepared returns
    *  STARFOCUS_ERROR_NULL.
    *  @param light_field light field, whose pixels must stay unchanged until the last refocusing
    *  @return as starfocus_prepare, or STARFOCUS_ERROR_MEMORY */
