@@ -63,8 +63,8 @@ Result<Mapping> Map(const std::string& path, int file) {
                      (bits == 16 || bits == 24 || bits == 32) && Fits(screen.red, bits) &&
                      Fits(screen.green, bits) && Fits(screen.blue, bits);
   if (!known) {
-    return Expected(path, "16, 24 or 32 bits per pixel in colour",
-                    std::to_string(bits) + " of another kind");
+    return Expected(path, "a colour format of 16, 24 or 32 bits per pixel",
+                    "another format of " + std::to_string(bits) + " bits");
   }
   const size_t bytes = fixed.smem_len;
   const size_t first =
@@ -73,7 +73,7 @@ Result<Mapping> Map(const std::string& path, int file) {
     return Expected(path, "memory for the whole screen", "less");
   }
   void* const memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
-  if (memory == MAP_FAILED) return Expected(path, "mappable memory", std::strerror(errno));
+  if (memory == MAP_FAILED) return Cannot("map", path, {errno, std::generic_category()});
   screen.memory = static_cast<uint8_t*>(memory) + first;
   return Mapping{screen, memory, bytes};
 }
@@ -97,7 +97,7 @@ void Draw(const Image& picture, const Screen& screen) {
 
 Error ShowOnFramebuffer(const std::string& path, const Image& picture) {
   const int file = open(path.c_str(), O_RDWR | O_CLOEXEC);
-  if (file < 0) return Expected(path, "a framebuffer", std::strerror(errno));
+  if (file < 0) return Cannot("open framebuffer", path, {errno, std::generic_category()});
   const Result<Mapping> mapped = Map(path, file);
   if (mapped) {
     Draw(picture, mapped->screen);

@@ -58,8 +58,8 @@ Result<Bytes> RunGnuplot(const std::string& what, const std::string& script) {
   const int code = Spawn(in.get(), out.get(), err.get());
   if (code != 0) {
     const Bytes words = ReadAll(err.get());
-    return Expected(what, "gnuplot to draw it",
-                    code < 0 ? "no gnuplot" : std::string(words.begin(), words.end()));
+    return Expected(what, "gnuplot to draw the figure",
+                    code < 0 ? "no such program" : std::string(words.begin(), words.end()));
   }
   return ReadAll(out.get());
 }

@@ -32,7 +32,7 @@ bool CanHold(const Bytes& png, const PngHeader& header) {
 Result<DecodedPicture> DecodePng(const std::string& path, const Bytes& png) {
   if (IsTruncatedPng(png)) return Truncated(path, "PNG");
   const std::optional<PngHeader> header = ReadPngHeader(png);
-  if (!header) return Expected(path, "a PNG picture that begins with its header", "none there");
+  if (!header) return Expected(path, "a PNG picture that begins with a header", "no header");
   if (Error error = CheckPictureSize(path, header->width, header->height)) return error;
   if (!CanHold(png, *header)) return Truncated(path, "PNG");
   return DecodePngPixels(path, png);

@@ -51,8 +51,8 @@ Result<Samples> TakeGrey(const std::string& where, const Sample* pixel, int chan
     }
   }
   if (coloured * kColouredPart < count) return result;
-  return Expected(where, "a picture in grey levels",
-                  "one in colours: false colours do not say what is nearer");
+  return Expected(where, "a depth picture in grey levels",
+                  "a colour picture (colours do not show what is nearer)");
 }
 
 // Decodes a PNG file that DecodeImage has read without an error.
@@ -79,7 +79,7 @@ Result<Samples> DecodePngSamples(const std::string& where, const Bytes& bytes, A
     }
   }
   return Expected(where, "an undamaged picture",
-                  "a broken one (" + std::string(stbi_failure_reason()) + ")");
+                  "a damaged one (" + std::string(stbi_failure_reason()) + ")");
 }
 
 Result<Samples> Decode(const std::string& where, Alpha alpha, const Bytes& bytes) {

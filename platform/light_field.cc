@@ -30,7 +30,8 @@ constexpr const char* kPairDisparityNames[] = {"disp0.pfm", "disp0GT.pfm"};
 
 Error CheckSize(const std::string& path, int width, int height, const Image& centre) {
   if (width == centre.width && height == centre.height) return {};
-  return Expected(path, SizeText(centre.width, centre.height) + " as the centre view",
+  return Expected(path,
+                  SizeText(centre.width, centre.height) + " pixels, the size of the centre view",
                   SizeText(width, height));
 }
 

@@ -47,7 +47,7 @@ Result<Header> ParseHeader(const std::string& path, TextHeader* header) {
   }
   const double factor = ParseNumber(scale).value_or(0);
   if (factor == 0) {
-    return Expected(path, "a scale that is a number other than 0", "'" + scale + "'");
+    return Expected(path, "a nonzero number as the scale", "'" + scale + "'");
   }
   return Header{size.width, size.height, factor < 0 ? ByteOrder::kLittle : ByteOrder::kBig};
 }

@@ -24,7 +24,7 @@ Result<PnmHeader> ReadHeader(const std::string& path, TextHeader* text) {
                     "'" + width + "' and '" + height + "'");
   }
   if (header.largest == 0) {
-    return Expected(path, "a largest value from 1 to 65535", "'" + largest + "'");
+    return Expected(path, "a maximum value from 1 to 65535", "'" + largest + "'");
   }
   if (header.largest > 255) header.sample_bytes = 2;
   if (!FitsMemory(header.width, header.height, 3 * size_t(header.sample_bytes))) {

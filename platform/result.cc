@@ -42,8 +42,13 @@ Error Cannot(const std::string& action, const std::string& path, std::error_code
   return Cannot(action, path, text);
 }
 
+Error Unsupported(const std::string& where, const std::string& format, const std::string& library) {
+  return {ErrorKind::kInput,
+          where + ": " + format + " is not supported: this program was built without " + library};
+}
+
 Error OutOfMemory(const std::string& where, const std::string& purpose) {
-  return Expected(where, "enough memory to " + purpose, "too little (out of memory)");
+  return {ErrorKind::kInput, where + ": out of memory, cannot " + purpose};
 }
 
 }  // namespace starfocus

@@ -49,7 +49,10 @@ Error Expected(const std::string& where, const std::string& expected, const std:
 Error Cannot(const std::string& action, const std::string& path, const std::string& reason);
 Error Cannot(const std::string& action, const std::string& path, std::error_code reason);
 
-// Error for a handler of std::bad_alloc: "<where>: expected enough memory to <purpose>, ...".
+// Returns "<where>: <format> is not supported: this program was built without <library>".
+Error Unsupported(const std::string& where, const std::string& format, const std::string& library);
+
+// Returns the error after std::bad_alloc: "<where>: out of memory, cannot <purpose>".
 Error OutOfMemory(const std::string& where, const std::string& purpose);
 
 // A value or an error. It converts to true if it is a value.

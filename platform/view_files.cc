@@ -161,19 +161,19 @@ Result<std::vector<ViewFile>> FindViewFiles(const std::string& folder) {
   std::vector<ViewFile> found = named->empty() ? ListPair(folder) : *named;
   for (const ViewFile& file : found) {
     if (std::fabs(file.position.u) > 1 || std::fabs(file.position.v) > 1) {
-      return Expected(file.path, "a view with u and v from -1 to 1", "one farther out");
+      return Expected(file.path, "a view with u and v from -1 to 1", "a position outside");
     }
   }
   std::sort(found.begin(), found.end(), ComesBefore);
   for (size_t k = 1; k < found.size(); ++k) {
     if (SamePosition(found[k].position, found[k - 1].position)) {
-      return Expected(found[k].path, "views of different positions",
-                      "that of " + found[k - 1].path);
+      return Expected(found[k].path, "a different position for each view",
+                      "the position of " + found[k - 1].path);
     }
   }
   if (found.empty() || !SamePosition(found[0].position, {0, 0})) {
     const std::string centre = (fs::path(folder) / (ViewName({0, 0}) + ".png")).string();
-    return Expected(centre, "a view (or .ppm, .jpg)", "no file");
+    return Expected(centre, "the centre view (.png, .ppm or .jpg)", "no file");
   }
   if (found.size() > STARFOCUS_MAX_VIEWS) {
     return Expected(folder, "at most " + std::to_string(STARFOCUS_MAX_VIEWS) + " views",

@@ -58,7 +58,8 @@ Result<PanelLines> PlanLines(const Options& options) {
   std::sort(all.begin(), all.end());
   const auto twice = std::adjacent_find(all.begin(), all.end());
   if (twice == all.end()) return lines;
-  return Error::Usage("lines", "a line for each control", std::to_string(*twice) + " twice");
+  return Error::Usage("lines", "a different line for each control",
+                      "line " + std::to_string(*twice) + " twice");
 }
 
 int64_t Nanoseconds() { return static_cast<int64_t>(Seconds() * 1e9); }
@@ -84,10 +85,10 @@ class Board {
     focus_ = 0.5 * (camera_.nearest() + camera_.farthest());
     if (options_.focus) {
       if (*options_.focus < camera_.farthest() || *options_.focus > camera_.nearest()) {
-        return Error::Usage("--focus",
-                            "a disparity of the scene, " + Short(camera_.farthest()) + " to " +
-                                Short(camera_.nearest()),
-                            Short(*options_.focus));
+        return Error::Usage(
+            "--focus",
+            "a disparity from " + Short(camera_.farthest()) + " to " + Short(camera_.nearest()),
+            Short(*options_.focus));
       }
       focus_ = *options_.focus;
     }
@@ -150,7 +151,7 @@ class Board {
     const Result<bool> after = SetBusy(false);
     if (!after) return after.error();
     if (status != STARFOCUS_OK) {
-      return Error::Internal("picture", "a refocused one", starfocus_status_string(status));
+      return Error::Internal("picture", "a refocused picture", starfocus_status_string(status));
     }
     ++taken_;
     std::printf("picture %d: focus %g, aperture %g, %.3f ms", taken_, focus_, aperture(),
@@ -196,7 +197,7 @@ Error List() {
 
 Error Run(const Options& options) {
   if (options.list) return List();
-  if (options.folder.empty()) return Error::Usage("DIR", "a light-field folder", "nothing");
+  if (options.folder.empty()) return Error::Usage("DIR", "a light-field folder", "none");
   const Result<PanelLines> lines = PlanLines(options);
   if (!lines) return lines.error();
   Board board(options, *lines);

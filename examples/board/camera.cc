@@ -16,7 +16,7 @@ Error Camera::Load(const std::string& folder, starfocus_mode mode) {
   starfocus_status status =
       starfocus_fill_disparity(map.values.data(), map.stride(), map.width, map.height);
   if (status != STARFOCUS_OK) {
-    return Expected(DisparityPath(folder), "a disparity map", starfocus_status_string(status));
+    return Expected(DisparityPath(folder), "a map with finite disparities", "none");
   }
   stats_ = MeasureDisparity(map);
   const double range = double(stats_.max) - double(stats_.min);
@@ -24,7 +24,7 @@ Error Camera::Load(const std::string& folder, starfocus_mode mode) {
     if (aperture * range <= STARFOCUS_MAX_BLUR) apertures_.push_back(aperture);
   }
   if (apertures_.empty()) {
-    return Expected(DisparityPath(folder), "disparities no further than 1000 pixels apart",
+    return Expected(DisparityPath(folder), "a disparity range of at most 1000 pixels",
                     std::to_string(range));
   }
   Config config;
@@ -45,7 +45,7 @@ Error Camera::Load(const std::string& folder, starfocus_mode mode) {
     status = engine_.SetCallbacks(callbacks);
   }
   if (status != STARFOCUS_OK) {
-    return Expected(folder, "a light field that the engine refocuses",
+    return Expected(folder, "a light field that the engine accepts",
                     Describe(status, &problem).text);
   }
   picture_ = Image(config.width, config.height);

@@ -76,7 +76,7 @@ Target ReadPairInto(char separator, T* value) {
   return Target([separator, value](const std::string& text) -> std::string {
     const std::vector<int> sizes = ReadSizes(text, separator);
     if (sizes.size() != 2) {
-      return std::string("two whole numbers with '") + separator + "' between them";
+      return std::string("two whole numbers separated by '") + separator + "'";
     }
     *value = Pixel{sizes[0], sizes[1]};
     return "";
@@ -98,13 +98,13 @@ std::string ReadViews(const std::string& text, Positions* positions) {
     const std::vector<double> numbers = ReadNumbers(part, ',');
     if (numbers.size() != 2) return "17, 9, 5 or 1, or positions U,V:U,V";
     const starfocus_position position = RoundedPosition(numbers[0], numbers[1]);
-    if (IsFar(position)) return "positions within +-1";
+    if (IsFar(position)) return "positions from -1 to 1";
     for (const starfocus_position& other : *positions) {
-      if (SamePosition(other, position)) return "positions that differ";
+      if (SamePosition(other, position)) return "different positions";
     }
     positions->push_back(position);
   }
-  if (!SamePosition(positions->front(), {0, 0})) return "the centre view, 0,0, first";
+  if (!SamePosition(positions->front(), {0, 0})) return "the centre view 0,0 first";
   if (positions->size() <= STARFOCUS_MAX_VIEWS) return "";
   return "at most " + std::to_string(STARFOCUS_MAX_VIEWS) + " views";
 }
@@ -154,7 +154,7 @@ Target Region(starfocus_region* value) {
   return Target([value](const std::string& text) -> std::string {
     const std::vector<int> sizes = ReadSizes(text, ',');
     if (sizes.size() != 4 || sizes[2] == 0 || sizes[3] == 0) {
-      return "X,Y,W,H in whole pixels, W and H not 0";
+      return "X,Y,W,H in whole pixels, with W and H above 0";
     }
     *value = {sizes[0], sizes[1], sizes[2], sizes[3]};
     return "";

@@ -59,26 +59,27 @@ Error CheckApart(const std::vector<Output>& outputs, const Inputs& inputs) {
     const bool stream = IsStandardStream(output.path);
     const fs::path name = stream ? "-" : NameOf(output.path);
     if (!names.insert(name).second) {
-      return Error::Usage(output.option, "a file of its own",
-                          output.path + ", which another one is");
+      return Error::Usage(output.option, "a separate file",
+                          output.path + ", which another output uses");
     }
     const bool is_input = std::any_of(
         inputs.files.begin(), inputs.files.end(),
         [&](const std::string& path) { return !stream && AreOneFile(path, output.path); });
     if (is_input || files.count(name) != 0) {
-      return Error::Usage(output.option, "a file of its own", output.path + ", which is read");
+      return Error::Usage(output.option, "a separate file", output.path + ", which is an input");
     }
     const bool beside_views =
         folders.count(name.parent_path()) != 0 || grids.count(name.parent_path()) != 0;
     if (beside_views && (name.filename() == "calib.txt" || name.filename() == "parameters.cfg")) {
-      return Error::Usage(output.option, "a file of its own", output.path + ", which is read");
+      return Error::Usage(output.option, "a separate file", output.path + ", which is an input");
     }
     if (folders.count(name.parent_path()) != 0 && IsLightFieldFile(name.filename().string())) {
-      return Error::Usage(output.option, "a file of its own", output.path + " of the light field");
+      return Error::Usage(output.option, "a separate file",
+                          output.path + ", a file of the light field");
     }
     if (grids.count(name.parent_path()) != 0 && IsPictureExtension(FormatExtension(output.path))) {
-      return Error::Usage(output.option, "a file outside of the folder of views",
-                          output.path + ", which would be taken for a view");
+      return Error::Usage(output.option, "a file outside the folder of views",
+                          output.path + ", which would be read as a view");
     }
   }
   return {};
@@ -87,8 +88,8 @@ Error CheckApart(const std::vector<Output>& outputs, const Inputs& inputs) {
 Error CheckFolderApart(const Output& output, const std::vector<std::string>& folders) {
   for (const std::string& folder : folders) {
     if (NameOf(folder) != NameOf(output.path)) continue;
-    return Error::Usage(output.option, "a folder of its own",
-                        output.path + ", a light field that is read");
+    return Error::Usage(output.option, "a separate folder",
+                        output.path + ", which is an input light field");
   }
   return {};
 }

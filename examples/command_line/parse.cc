@@ -104,12 +104,12 @@ std::vector<std::string> OptionNames(const CLI::App& command) {
   return names;
 }
 
-// Formats, for example, "an option of refocus (the nearest is --focus)".
+// Formats, for example, "an option of refocus (the most similar is --focus)".
 std::string WithNearest(const std::string& kind, const std::string& typed,
                         const std::vector<std::string>& names, const std::string& list) {
   const std::string nearest = NearestName(typed, names);
-  return kind +
-         (nearest.empty() ? " (`" + list + "` lists them)" : " (the nearest is " + nearest + ")");
+  return kind + (nearest.empty() ? " (`" + list + "` lists them)"
+                                 : " (the most similar is " + nearest + ")");
 }
 
 // Returns the error for an argument that matches no option and no positional argument.
@@ -122,7 +122,7 @@ Error Unexpected(CLI::App* app, const std::string& argument) {
     const std::string list = app->get_name() + (all ? "" : " " + name) + " --help";
     return Error::Usage(option,
                         WithNearest("an option of " + name, option, OptionNames(*command), list),
-                        "an unknown one");
+                        "an unknown option");
   }
   std::vector<std::string> commands;
   for (const CLI::App* one : app->get_subcommands({})) commands.push_back(one->get_name());
@@ -131,7 +131,7 @@ Error Unexpected(CLI::App* app, const std::string& argument) {
                         WithNearest("a subcommand", argument, commands, app->get_name() + " help"),
                         "'" + argument + "'");
   }
-  return Error::Usage("command line", "no other argument of " + name, "'" + argument + "'");
+  return Error::Usage("command line", "no more arguments for " + name, "'" + argument + "'");
 }
 
 // Returns the error for an unknown, missing or extra argument, or the error `value` of an invalid
@@ -149,7 +149,7 @@ Error WrongLine(CLI::App* app, const CLI::ParseError& wrong, const Error& value)
   for (const CLI::Option* its : Chosen(app)->get_options()) {
     const std::string name = its->get_name();
     const bool lacks_value = text.rfind(name + ": ", 0) == 0 && !ValueType(*its).empty();
-    if (lacks_value) return Error::Usage(name, "a value " + ValueType(*its), "none");
+    if (lacks_value) return Error::Usage(name, "a value (" + ValueType(*its) + ")", "none");
     if (!its->get_required() || its->count() > 0) continue;
     if (text.rfind(name + " is required", 0) != 0) continue;
     return Error::Usage(
@@ -157,10 +157,12 @@ Error WrongLine(CLI::App* app, const CLI::ParseError& wrong, const Error& value)
   }
   const size_t excludes = text.find(" excludes ");
   if (excludes != std::string::npos) {
-    return Error::Usage(text.substr(0, excludes), "no " + text.substr(excludes + 10) + " beside it",
+    return Error::Usage(text.substr(0, excludes),
+                        "either " + text.substr(0, excludes) + " or " + text.substr(excludes + 10),
                         "both");
   }
-  return Error::Usage("command line", "what `" + app->get_name() + " --help` lists", text);
+  return Error::Usage("command line", "arguments that `" + app->get_name() + " --help` lists",
+                      text);
 }
 
 // Returns the subcommand with that name, or the program's own command.
@@ -199,8 +201,8 @@ Error RunCommandLine(const Program& program, int argc, char** argv) {
   const Command& chosen = CommandOf(program, Chosen(&app)->get_name());
   if (Error error = CheckValues(app)) return error;
   if (!program.commands.empty() && &chosen == &program.main) {
-    return Error::Usage("command line",
-                        "a subcommand, of those `" + app.get_name() + " help` lists", "none");
+    return Error::Usage("command line", "a subcommand that `" + app.get_name() + " help` lists",
+                        "none");
   }
   try {
     return chosen.run();

@@ -23,8 +23,7 @@ Error CheckPrinted() {
   errno = 0;
   if (std::fflush(stdout) == 0 && !failed) return {};
   const int reason = errno != 0 ? errno : EIO;
-  return Expected("standard output", "room for what is printed",
-                  std::generic_category().message(reason));
+  return Cannot("write to", "standard output", {reason, std::generic_category()});
 }
 
 // Exit codes. The code of an internal error is that of sysexits.h.
@@ -53,8 +52,7 @@ int RunProgram(const char* name, const std::function<Error()>& run) {
     return Report(name, error);
   } catch (const std::bad_alloc&) {
     // Do not allocate memory here.
-    std::fprintf(stderr,
-                 "%s: memory: expected enough to finish, found too little (out of memory)\n", name);
+    std::fprintf(stderr, "%s: out of memory\n", name);
     return kFailed;
   } catch (const std::exception& exception) {
     return Report(name, Error::Internal("program", "no internal error", exception.what()));

@@ -12,10 +12,11 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 
 Error ShapeError(const std::string& text) {
-  return Error::Usage("--shape",
-                      "fall-off, disc, polygon:N[,ROTATION[,CURVATURE]] (3 to 12 blades, degrees "
-                      "within +-360, 0 to 1) or ring:INNER (0 to 0.9)",
-                      "'" + text.substr(0, 60) + "'");
+  return Error::Usage(
+      "--shape",
+      "fall-off, disc, polygon:N[,ROTATION[,CURVATURE]] (N from 3 to 12, ROTATION from -360 "
+      "to 360, CURVATURE from 0 to 1) or ring:INNER (0 to 0.9)",
+      "'" + text.substr(0, 60) + "'");
 }
 
 bool SetPolygon(const std::vector<double>& numbers, starfocus_lens* lens) {
@@ -64,7 +65,8 @@ void AddShapeOptions(Command* command, ShapeOptions* options) {
            "radius, 0 to 0.9",
            &options->shape, Use::kDefault},
           {"--theta", "T", "Angle of the fall-off as a fraction of pi, 0.05 to 0.45",
-           Number(0.05, 0.45, "a part of pi from 0.05 to 0.45", &options->theta), Use::kDefault},
+           Number(0.05, 0.45, "a fraction of pi from 0.05 to 0.45", &options->theta),
+           Use::kDefault},
           {"--cats-eye", "X",
            "Strength of cat's-eye vignetting: how far a second rim moves into the opening "
            "towards the corners, 0 to 1 radii",
@@ -79,7 +81,7 @@ Result<starfocus_lens> ParseShape(const ShapeOptions& options) {
   starfocus_lens lens = defaults.lens;
   if (!SetShape(options.shape, &lens)) return ShapeError(options.shape);
   if (lens.shape != STARFOCUS_SHAPE_FALL_OFF && options.theta != ShapeOptions().theta) {
-    return Error::Usage("--theta", "--shape fall-off beside it", "'" + options.shape + "'");
+    return Error::Usage("--theta", "--shape fall-off", "--shape " + options.shape);
   }
   // The library defines the exact values of the range and the default.
   lens.theta = std::clamp(options.theta * kPi, STARFOCUS_MIN_THETA, STARFOCUS_MAX_THETA);

@@ -67,7 +67,7 @@ Result<Subject> Open(const Options& options, ThreadRunner* runner) {
 
 Error CheckTap(const std::string& option, const Pixel& point, const LightField& field) {
   if (point.x < field.width() && point.y < field.height()) return {};
-  return Error::Usage(option, "a pixel of " + SizeText(field.width(), field.height()),
+  return Error::Usage(option, "a pixel within " + SizeText(field.width(), field.height()),
                       "'" + std::to_string(point.x) + "," + std::to_string(point.y) + "'");
 }
 
@@ -193,7 +193,9 @@ class Session {
 };
 
 Error Tap(const Options& options) {
-  if (options.size.x < 1 || options.size.y < 1) return Error::Usage("--size", "WxH", "0");
+  if (options.size.x < 1 || options.size.y < 1)
+    return Error::Usage("--size", "WxH with W and H above 0",
+                        SizeText(options.size.x, options.size.y));
   ThreadRunner runner(options.threads);
   const Result<Subject> subject = Open(options, &runner);
   if (!subject) return subject.error();

@@ -121,7 +121,7 @@ Error Failed(const std::string& where, const Decoder& decoder) {
     return Expected(where, "an undamaged picture",
                     "a truncated one (" + std::string(decoder.reason) + ")");
   }
-  return Expected(where, "a JPEG picture that libjpeg-turbo reads", decoder.reason);
+  return Expected(where, "a JPEG picture that libjpeg-turbo can read", decoder.reason);
 }
 
 }  // namespace

@@ -111,7 +111,8 @@ bool ReadRows(const Reader& reader, int height, size_t row_bytes, uint8_t* rows)
 Error Failed(const std::string& where, const Call& call) {
   if (call.no_memory) return OutOfMemory(where, "read it");
   if (call.truncated) return Expected(where, "an undamaged picture", "a truncated one");
-  return Expected(where, "an undamaged picture", "a broken one (" + std::string(call.reason) + ")");
+  return Expected(where, "an undamaged picture",
+                  "a damaged one (" + std::string(call.reason) + ")");
 }
 
 // Replaces indices by colours. An index outside the palette is an error, whereas libpng would
@@ -122,7 +123,7 @@ Error LookUp(const std::string& where, const Reader& reader, const Bytes& indice
   png_get_PLTE(reader.png, reader.info, &palette, &colours);
   for (size_t i = 0; i < indices.size(); ++i) {
     if (indices[i] >= colours) {
-      return Expected(where, "indices below the palette's " + std::to_string(colours) + " colours",
+      return Expected(where, "palette indices below " + std::to_string(colours),
                       std::to_string(indices[i]));
     }
     const png_color& colour = palette[indices[i]];
@@ -163,7 +164,7 @@ Result<DecodedPicture> DecodePngPixels(const std::string& where, const Bytes& pn
   Bytes indices(palette ? result.pixels.size() / 3 : 0);
   const size_t row_bytes = palette ? size_t(result.width) : result.stride();
   if (png_get_rowbytes(reader.png, reader.info) != row_bytes) {
-    return Expected(where, "a PNG picture that libpng makes RGB", "another");
+    return Expected(where, "a PNG picture that libpng can convert to RGB", "another format");
   }
   uint8_t* const rows = palette ? indices.data() : result.pixels.data();
   if (!ReadRows(reader, result.height, row_bytes, rows)) return Failed(where, call);

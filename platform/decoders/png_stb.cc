@@ -18,7 +18,7 @@ Result<Image> DecodeIndices(const std::string& where, const PngHeader& header, B
   for (size_t i = 0; i < result.pixels.size() / 3; ++i) {
     const int index = levels[i] / step;
     if (index >= colours) {
-      return Expected(where, "indices below the palette's " + std::to_string(colours) + " colours",
+      return Expected(where, "palette indices below " + std::to_string(colours),
                       std::to_string(index));
     }
     for (size_t c = 0; c < 3; ++c) result.pixels[3 * i + c] = palette[3 * size_t(index) + c];

@@ -13,7 +13,7 @@ Error CheckStbContainer(const std::string& where, const Bytes& bytes) {
   const Container container = CheckContainer(bytes);
   if (container == Container::kWhole) return {};
   if (container == Container::kTruncated) return Truncated(where, IsPng(bytes) ? "PNG" : "JPEG");
-  return Expected(where, "an undamaged picture", "a broken one (checksum or code table)");
+  return Expected(where, "an undamaged picture", "a damaged one (checksum or code table)");
 }
 
 const uint8_t* LoadStb(const Bytes& bytes, int channels, Image* image) {
@@ -27,7 +27,7 @@ const uint8_t* LoadStb(const Bytes& bytes, int channels, Image* image) {
 
 Error StbFailed(const std::string& where) {
   return Expected(where, "an undamaged picture",
-                  "a broken one (" + std::string(stbi_failure_reason()) + ")");
+                  "a damaged one (" + std::string(stbi_failure_reason()) + ")");
 }
 
 Result<Image> DecodeStb(const std::string& where, const Bytes& bytes) {

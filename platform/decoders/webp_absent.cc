@@ -5,7 +5,7 @@
 namespace starfocus {
 
 Result<DecodedPicture> DecodeWebp(const std::string& where, const Bytes&) {
-  return Expected(where, "a program built with libwebp to read WebP (Debian: libwebp-dev)", "none");
+  return Unsupported(where, "WebP", "libwebp (Debian: libwebp-dev)");
 }
 
 }  // namespace starfocus

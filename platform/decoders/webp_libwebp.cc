@@ -22,7 +22,7 @@ constexpr int64_t kMostPixelsPerByte = 65536, kAnyFilesPixels = int64_t{1} << 24
 Error Failed(const std::string& where, VP8StatusCode status) {
   if (status == VP8_STATUS_OUT_OF_MEMORY) return OutOfMemory(where, "read it");
   if (status == VP8_STATUS_NOT_ENOUGH_DATA) return Truncated(where, "WebP");
-  return Expected(where, "an undamaged picture", "a broken one (libwebp)");
+  return Expected(where, "an undamaged picture", "a damaged one (libwebp)");
 }
 
 // Returns the size of the file by its header, which counts the bytes after the first eight.
@@ -69,9 +69,9 @@ Result<DecodedPicture> DecodeWebp(const std::string& where, const Bytes& webp) {
   if (Error error = CheckPictureSize(where, width, height)) return error;
   if (int64_t{width} * height >
       kAnyFilesPixels + kMostPixelsPerByte * static_cast<int64_t>(webp.size())) {
-    return Expected(where,
-                    "a WebP picture of at most 2^24 pixels and 65536 for each byte of its file",
-                    SizeText(width, height));
+    return Expected(
+        where, "a WebP picture of at most 2^24 pixels and 65536 pixels for each byte of its file",
+        SizeText(width, height));
   }
   Image result(width, height);
   config.output.colorspace = MODE_RGB;

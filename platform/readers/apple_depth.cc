@@ -36,7 +36,7 @@ void NoteIndex(const JpegParts& parts, const MultiPicture& picture, DepthPhoto* 
   photo->notes.push_back(
       parts.multi_picture.empty()
           ? "the file has no multi-picture index: the depth map was found behind the picture"
-          : "the multi-picture index is wrong and ignored: the depth map was found behind the "
+          : "the wrong multi-picture index is ignored: the depth map was found behind the "
             "picture");
 }
 
@@ -50,7 +50,7 @@ void UnderstandApple(const XmpNode& xmp, DepthPhoto* photo) {
   if (!from || !to || *from < 0 || *to <= *from) {
     if (from && to) {
       photo->notes.push_back("the range of the depth map is ignored (from " + *low + " to " +
-                             *high + "): its levels are an order");
+                             *high + "): its levels only give an order");
     }
     TellMap(std::string(disparity ? "disparities" : "depths") + " without a range", photo);
     ToOrder(disparity ? Near::kWhite : Near::kBlack, photo);
@@ -84,10 +84,11 @@ Error ReadAppleJpeg(Span file, const JpegParts& parts, DepthPhoto* photo) {
     NoteIndex(parts, picture, photo);
     UnderstandApple(xmp, photo);
   }
-  if (gain_map) photo->facts.emplace_back("gain map", "left out");
+  if (gain_map) photo->facts.emplace_back("gain map", "ignored");
   if (!photo->map.values.empty()) return {};
   if (error || !listed.missing) return error;
-  return Expected("multi-picture index", "all pictures that it names", "one cut off or not there");
+  return Expected("multi-picture index", "all listed pictures in the file",
+                  "a missing or truncated picture");
 }
 
 }  // namespace starfocus

@@ -60,8 +60,8 @@ Result<Capture> OpenArray(const std::string& folder, const Names& pictures) {
   if (array.paths.empty()) {
     return Expected(
         folder,
-        "views named as view_+0.0_+0.0.png, input_Cam000.png, out_00_00.png, im0.png or "
-        "with a row and a column each",
+        "views with names like view_+0.0_+0.0.png, input_Cam000.png, out_00_00.png or im0.png, "
+        "or with a row and a column in each name",
         std::to_string(pictures.size()) + " pictures, the first " + pictures[0]);
   }
   const bool stanford = IsStanford(pictures[0]) && array.rows > 1;

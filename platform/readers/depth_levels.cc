@@ -52,10 +52,10 @@ void Invert(FloatMap* map) {
 void ToOrder(Near near, DepthPhoto* photo) {
   if (near == Near::kUnknown) {
     near = Guess(photo->map);
-    photo->notes.push_back(std::string("the depth picture's near end is taken to be ") +
-                           (near == Near::kWhite ? "white" : "black") +
-                           ", as what is low in the picture is nearer (else: --near " +
-                           (near == Near::kWhite ? "black)" : "white)"));
+    photo->notes.push_back(std::string(near == Near::kWhite ? "white" : "black") +
+                           " is taken as near in the depth picture, because the lower part of the "
+                           "picture is assumed to be nearer (--near " +
+                           (near == Near::kWhite ? "black" : "white") + " overrides this)");
   }
   if (near == Near::kBlack) ToRange(1, 0, &photo->map);
   photo->meaning = MapMeaning::kOrder;

@@ -84,7 +84,7 @@ Result<DepthPhoto> DecodeJpegPhoto(const std::string& where, Span file, bool wit
   if (!photo) return photo;
   const XmpNode xmp = ReadXmp(*parts, false, &*photo);
   photo->metadata.xmp = KeptXmp(xmp);
-  if (FindProperty(xmp, kGainMap) != nullptr) photo->facts.emplace_back("gain map", "left out");
+  if (FindProperty(xmp, kGainMap) != nullptr) photo->facts.emplace_back("gain map", "ignored");
   if (with_map) ReadMap(file, *parts, xmp, near, &*photo);
   return photo;
 }
@@ -96,8 +96,8 @@ Error CheckOptions(const std::string& path, const DepthOptions& options) {
                        : options.orientation != DepthOrientation::kUnknown ? "--depth-orientation"
                                                                            : nullptr;
   if (option == nullptr) return {};
-  return Expected(path, std::string("a depth picture for ") + option + " (--depth FILE)",
-                  "a map in the photo");
+  return Expected(path, std::string("a separate depth picture (--depth FILE) for ") + option,
+                  "a depth map in the photo");
 }
 
 // Reads the map from extended XMP that no packet refers to. Editors that rewrite the packet leave
@@ -112,7 +112,7 @@ bool ReadStrayMap(Span file, Near near, DepthPhoto* photo) {
     photo->map = {};
     return false;
   }
-  photo->notes.push_back("the depth map is that of extended XMP which no packet names");
+  photo->notes.push_back("the depth map comes from extended XMP that no XMP packet refers to");
   return true;
 }
 
@@ -121,7 +121,8 @@ Error NoMap(const std::string& path, const std::string& problem) {
   if (!CanReadXmp()) found += " that is read (this build has no expat)";
   if (!problem.empty()) found += " that can be read (" + problem + ")";
   return Expected(
-      path, "a depth map in the file, beside it as NAME-depth.png or .jpg, or by --depth", found);
+      path, "a depth map in the file, in NAME-depth.png or .jpg beside the file, or by --depth",
+      found);
 }
 
 // Reduces the XMP packet of a PNG or WebP file to the properties that describe the photograph.

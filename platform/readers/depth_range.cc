@@ -42,9 +42,9 @@ void IgnoreRange(const RangeProperties& range, Near near, DepthPhoto* photo) {
   const bool black = near != Near::kWhite;
   photo->notes.push_back("the range of the depth map is ignored (Format " + Quoted(range.format) +
                          ", Near " + Quoted(range.near) + ", Far " + Quoted(range.far) +
-                         "): its levels are an order, in which " +
-                         (black ? "black is near (else: --near white)" : "white is near"));
-  TellMap("in an order, without distances", photo);
+                         "): its levels only give an order, in which " +
+                         (black ? "black is near (--near white overrides this)" : "white is near"));
+  TellMap("relative depth without distances", photo);
   ToOrder(black ? Near::kBlack : Near::kWhite, photo);
 }
 
@@ -59,13 +59,15 @@ double ApplyRange(const RangeProperties& properties, Near near, DepthPhoto* phot
     return 0;
   }
   if (std::isinf(range.far)) {
-    photo->notes.push_back("the depth map's far end is infinite: its white is infinitely far away");
+    photo->notes.push_back(
+        "the far end of the depth map is infinite: white is infinitely far away");
   }
   // Some cameras write "diopters" but store values that decrease towards the lens, as distances do.
   // Real diopters would increase.
   if (units == "diopters") {
     photo->notes.push_back(
-        "the depth map's unit, diopters, is ignored: near and far are distances up to a factor");
+        "the unit of the depth map, diopters, is ignored: near and far are distances in an unknown "
+        "unit");
   }
   const double metres = MetresOf(units), unit = metres > 0 ? metres : 1;
   range.near *= unit;

@@ -162,14 +162,14 @@ Error ReadDynamicDepth(Span file, const JpegParts& parts, const XmpNode& xmp, Ne
   const bool by_lengths = !data.empty();
   if (!by_lengths && index > 0) data = FindByBeginning(file, parts, items, index);
   if (data.empty()) {
-    return Expected("Dynamic Depth", "the depth map that its XMP names, behind the picture",
+    return Expected("Dynamic Depth", "the depth map that the XMP lists, stored behind the picture",
                     index == 0 ? "no such item" : "no picture there");
   }
   const Bytes bytes(data.data, data.data + data.size);
   if (Error error = DecodeLevels("Dynamic Depth", bytes).MoveTo(&photo->map)) return error;
   if (!by_lengths) {
     photo->notes.push_back(
-        "the lengths of its container are wrong and ignored: the depth map was found behind the "
+        "the wrong lengths of the container are ignored: the depth map was found behind the "
         "picture");
   }
   Understand(map, near, photo);

@@ -91,7 +91,7 @@ void ReadExif(int width, int height, DepthPhoto* photo) {
 
 void ReadExif(int, int, DepthPhoto* photo) {
   if (photo->metadata.exif.empty()) return;
-  photo->facts.emplace_back("EXIF", "not read: this build has no libexif");
+  photo->facts.emplace_back("EXIF", "not read: this program was built without libexif");
 }
 
 #endif

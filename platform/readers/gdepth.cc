@@ -21,13 +21,13 @@ const std::string kImage = "http://ns.google.com/photos/1.0/image/|";
 Result<Bytes> DecodeData(const std::string& where, const std::string& text) {
   std::optional<Bytes> bytes = DecodeBase64(text);
   if (bytes && !bytes->empty()) return std::move(*bytes);
-  return Expected(where, "a picture in base64", "something else");
+  return Expected(where, "a picture in base64", "other data");
 }
 
 Error ReadMap(const XmpNode& xmp, Near near, DepthPhoto* photo) {
   const std::string* data = FindProperty(xmp, kDepth + "Data");
   if (data == nullptr) {
-    return Expected("GDepth", "GDepth:Data, the map, in its XMP or extended XMP", "none");
+    return Expected("GDepth", "the depth map GDepth:Data in XMP or extended XMP", "none");
   }
   const Result<Bytes> bytes = DecodeData("GDepth:Data", *data);
   if (!bytes) return bytes.error();
@@ -40,7 +40,7 @@ Error ReadMap(const XmpNode& xmp, Near near, DepthPhoto* photo) {
   if (unit > 0 && distance > 0.0) photo->focus_value = 1 / (*distance * unit);
   const std::string* measure = FindProperty(xmp, kDepth + "MeasureType");
   if (unit > 0 && measure != nullptr && *measure == "OpticRay") {
-    photo->facts.emplace_back("distances", "along rays, taken for those along the axis");
+    photo->facts.emplace_back("distances", "along rays, used as distances along the axis");
   }
   return {};
 }
@@ -72,11 +72,11 @@ void ReadSharp(const XmpNode& xmp, DepthPhoto* photo) {
   const Result<Bytes> bytes = DecodeData("GImage:Data", *data);
   Result<DecodedPicture> sharp = bytes ? DecodeImage("GImage:Data", *bytes) : bytes.error();
   if (!sharp) {
-    photo->notes.push_back("the sharp picture inside is ignored: " + sharp.error().line());
+    photo->notes.push_back("the sharp picture in the file is ignored: " + sharp.error().line());
     return;
   }
   photo->picture = std::move(sharp->image);
-  photo->facts.emplace_back("picture", "the sharp one inside (GImage:Data)");
+  photo->facts.emplace_back("picture", "the sharp picture in the file (GImage:Data)");
 }
 
 void ReadFocus(const XmpNode& xmp, DepthPhoto* photo) {
@@ -87,7 +87,8 @@ void ReadFocus(const XmpNode& xmp, DepthPhoto* photo) {
   if (photo->has_focus) {
     photo->focus_x = *x;
     photo->focus_y = *y;
-    photo->facts.emplace_back("focus", "at " + *x_text + "," + *y_text + " of width and height");
+    photo->facts.emplace_back(
+        "focus", "at " + *x_text + "," + *y_text + ", as fractions of width and height");
   } else if (std::isfinite(photo->focus_value)) {
     photo->facts.emplace_back("focus", *FindProperty(xmp, kFocus + "FocalDistance") + " away");
   }

@@ -58,8 +58,9 @@ Result<Capture> OpenHci(const std::string& folder, const std::vector<std::string
   }
   const auto side = static_cast<int>(std::lround(std::sqrt(double(array.paths.size()))));
   if (size_t(side) * size_t(side) != array.paths.size()) {
-    return Expected(folder, "a square of views, such as 81",
-                    std::to_string(array.paths.size()) + " named " + kPrefix + "000.png and so on");
+    return Expected(
+        folder, "a square number of views, such as 81",
+        std::to_string(array.paths.size()) + " views named " + kPrefix + "000.png and so on");
   }
   array.rows = array.columns = side;
   Result<Star> star = ChooseStar(folder, array, &capture.facts);

@@ -52,8 +52,8 @@ using Handle = std::unique_ptr<heif_image_handle, Freed<heif_image_handle, Relea
 using Decoded = std::unique_ptr<heif_image, Freed<heif_image, ReleaseImage>>;
 
 Error Broken(const std::string& where, const heif_error& error) {
-  return Expected(where, "a HEIF file that libheif reads",
-                  error.message == nullptr ? "another" : error.message);
+  return Expected(where, "a HEIF file that libheif can read",
+                  error.message == nullptr ? "an unknown error" : error.message);
 }
 
 Error CheckSize(const std::string& where, const heif_image_handle* handle, size_t file) {
@@ -76,14 +76,14 @@ Result<Image> DecodePicture(const std::string& where, const heif_image_handle* h
   if (!decoded) return decoded.error();
   const heif_image* raw = decoded->get();
   if (!heif_image_has_channel(raw, heif_channel_interleaved)) {
-    return Expected(where, "a picture of pixels", "none in it");
+    return Expected(where, "a decoded picture", "none");
   }
   int stride = 0;
   const uint8_t* rows = heif_image_get_plane_readonly(raw, heif_channel_interleaved, &stride);
   const int width = heif_image_get_width(raw, heif_channel_interleaved);
   const int height = heif_image_get_height(raw, heif_channel_interleaved);
   if (rows == nullptr || width < 1 || height < 1) {
-    return Expected(where, "a picture of pixels", "none in it");
+    return Expected(where, "a decoded picture", "none");
   }
   Image image(width, height);
   for (int y = 0; y < height; ++y) {
@@ -103,7 +103,7 @@ Result<FloatMap> DecodePlane(const std::string& where, const heif_image_handle* 
   const heif_channel channel =
       heif_image_has_channel(raw, heif_channel_Y) ? heif_channel_Y : heif_channel_G;
   if (!heif_image_has_channel(raw, channel)) {
-    return Expected(where, "a depth map of levels", "none in it");
+    return Expected(where, "a depth map with grey levels", "none");
   }
   int stride = 0;
   const uint8_t* rows = heif_image_get_plane_readonly(raw, channel, &stride);
@@ -111,7 +111,7 @@ Result<FloatMap> DecodePlane(const std::string& where, const heif_image_handle* 
   const int width = heif_image_get_width(raw, channel);
   const int height = heif_image_get_height(raw, channel);
   if (rows == nullptr || bits < 1 || bits > 16 || width < 1 || height < 1) {
-    return Expected(where, "a depth map of 8 to 16 bits", "another");
+    return Expected(where, "a depth map of 8 to 16 bits", "another bit depth");
   }
   FloatMap map = {width, height, {}};
   map.values.reserve(size_t(width) * size_t(height));
@@ -191,7 +191,7 @@ void TellGainMap(const heif_image_handle* handle, DepthPhoto* photo) {
     const Handle auxiliary(raw);
     const char* type = nullptr;
     if (heif_image_handle_get_auxiliary_type(raw, &type).code != heif_error_Ok) continue;
-    if (std::strstr(type, "gainmap") != nullptr) photo->facts.emplace_back("gain map", "left out");
+    if (std::strstr(type, "gainmap") != nullptr) photo->facts.emplace_back("gain map", "ignored");
     heif_image_handle_free_auxiliary_types(raw, &type);
   }
 }
@@ -203,7 +203,7 @@ Error UnderstandInformation(const std::string& where, const Information& informa
                             DepthPhoto* photo) {
   const auto type = information.depth_representation_type;
   if (type == heif_depth_representation_type_nonuniform_disparity) {
-    return Expected(where, "a depth map in uniform steps", "one of nonuniform disparity");
+    return Expected(where, "a depth map with uniform steps", "nonuniform disparities");
   }
   photo->meaning = MapMeaning::kInverse;
   if (type == heif_depth_representation_type_uniform_disparity && information.has_d_min &&
@@ -318,14 +318,14 @@ Result<DepthPhoto> ReadHeif(const std::string& where, Span file, Near near) {
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& failure) {  // libheif's C functions let C++ exceptions through
-    return Expected(where, "a HEIF file that libheif reads", failure.what());
+    return Expected(where, "a HEIF file that libheif can read", failure.what());
   }
 }
 
 #else
 
 Result<DepthPhoto> ReadHeif(const std::string& where, Span, Near) {
-  return Expected(where, "a build with libheif to read HEIC files", "one without");
+  return Unsupported(where, "HEIC", "libheif");
 }
 
 #endif

@@ -49,22 +49,22 @@ bool FitsItsData(const HeifItem& item) {
 Error CheckInputs(const std::string& where, const HeifItems& items, const HeifItem& item) {
   const std::string name = "'" + item.type + "'";
   if (item.type != "iden" && !FitsItsData(item)) {
-    return Expected(where, "a " + name + " picture of the size and parts that its item declares",
-                    "another");
+    return Expected(where, "a " + name + " picture with the size and parts that its item declares",
+                    "other data");
   }
   int64_t pixels = 0;
   for (const uint32_t input : item.inputs) {
     const auto found = items.find(input);
     const bool whole = found != items.end() && item.type == "iden" && found->second.type == "grid";
     if (found == items.end() || (!IsCoded(found->second) && !whole)) {
-      return Expected(where, "a " + name + " picture made of coded pictures",
-                      found == items.end() ? "one that is not there"
-                                           : "a '" + found->second.type + "' picture in it");
+      return Expected(
+          where, "a " + name + " picture made of coded pictures",
+          found == items.end() ? "a missing picture" : "a '" + found->second.type + "' picture");
     }
     pixels += AreaOf(found->second);
   }
   if (pixels <= kAnyFilesPixels + kMostOverlap * AreaOf(item)) return {};
-  return Expected(where, "parts of a " + name + " picture that are not much larger than it",
+  return Expected(where, "parts that are not much larger than the " + name + " picture",
                   std::to_string(pixels) + " pixels for " + std::to_string(AreaOf(item)));
 }
 
@@ -85,7 +85,7 @@ Error CheckCoded(const std::string& where, const HeifItem& item) {
 Error CheckHeifSize(const std::string& where, int64_t width, int64_t height, size_t file) {
   const std::string found = SizeText(width, height);
   if (width < 1 || height < 1 || width > kMostSide || height > kMostSide) {
-    return Expected(where, "a HEIF picture of at most 16384 pixels each way", found);
+    return Expected(where, "a HEIF picture at most 16384 pixels wide and high", found);
   }
   if (width * height <= kAnyFilesPixels + kMostPixelsPerByte * static_cast<int64_t>(file))
     return {};
@@ -95,7 +95,7 @@ Error CheckHeifSize(const std::string& where, int64_t width, int64_t height, siz
 Error CheckHeif(const std::string& where, Span file) {
   const std::optional<HeifItems> items = ReadHeifItems(file);
   if (!items) {
-    return Expected(where, "a HEIF file of at most 4096 items in whole boxes", "another");
+    return Expected(where, "a HEIF file with at most 4096 items in complete boxes", "other data");
   }
   for (const auto& [id, item] : *items) {  // before CheckInputs multiplies sizes
     if (item.width == 0 || item.height == 0) continue;

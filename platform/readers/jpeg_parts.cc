@@ -73,9 +73,9 @@ void JoinProfile(std::vector<Span> profile, JpegParts* result) {
     result->metadata.icc = std::move(icc);
     return;
   }
-  result->ignored = std::string("the colour profile is left out: ") +
+  result->ignored = std::string("the colour profile is ignored: ") +
                     (whole ? "it is damaged or not of RGB colours"
-                           : "not all of its " + std::to_string(count) + " parts are there");
+                           : "some of its " + std::to_string(count) + " parts are missing");
 }
 
 // Finds IPTC among Photoshop's image resources, which may continue in the next segment. A resource
@@ -160,12 +160,13 @@ Result<std::string> JoinExtensions(const std::string& where, const JpegParts& pa
   }
   const size_t total = chosen.empty() ? 0 : chosen[0]->total;
   if (chosen.empty()) {
-    return Expected(where, "the extended XMP " + guid.substr(0, kGuidSize) + " that its XMP names",
+    return Expected(where,
+                    "the extended XMP " + guid.substr(0, kGuidSize) + " that the XMP refers to",
                     parts.extensions.empty() ? "none" : "another");
   }
   if (joined.size() != total) {
     return Expected(where, std::to_string(total) + " bytes of extended XMP",
-                    std::to_string(joined.size()) + " of them in a row");
+                    std::to_string(joined.size()) + " contiguous bytes");
   }
   return joined;
 }

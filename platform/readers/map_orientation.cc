@@ -89,12 +89,12 @@ Uprightness JudgeByEdges(const DepthPhoto& photo) {
 // Decides by edges whether the map is upright, if the proportions fit both ways. Adds a note.
 bool ChooseByEdges(DepthPhoto* photo) {
   const auto [upright, sure] = JudgeByEdges(*photo);
-  photo->notes.push_back(
-      std::string("the depth picture is taken to be ") +
-      (upright ? "upright already" : "turned as the photo's file is") +
-      (sure ? ", as its edges agree better with the photo's so"
-            : ", though its edges do not show it") +
-      (upright ? " (else: --depth-orientation photo)" : " (else: --depth-orientation upright)"));
+  photo->notes.push_back(std::string("the depth picture is taken to be ") +
+                         (upright ? "upright already" : "rotated like the stored photo") +
+                         (sure ? ", because its edges then match the photo better"
+                               : ", although its edges do not confirm this") +
+                         (upright ? " (--depth-orientation photo overrides this)"
+                                  : " (--depth-orientation upright overrides this)"));
   return upright;
 }
 

@@ -138,7 +138,7 @@ Error LoadGreyMap(Capture* capture) {
   const int multiple = ChooseMultiple(*pair, *field, field->disparity);
   for (float& value : field->disparity.values) value /= static_cast<float>(multiple);
   capture->facts.emplace_back(
-      "map", "levels of " + std::to_string(multiple) + " times the disparity, 0 unknown");
+      "map", "levels are " + std::to_string(multiple) + " times the disparity, 0 is unknown");
   return {};
 }
 

@@ -76,7 +76,7 @@ void Understand(const DepthOptions& options, bool is_pfm, DepthPhoto* photo) {
     TellMap("disparities in pixels", photo);
     photo->meaning = MapMeaning::kDisparity;
   } else if (options.unit == DepthUnit::kNone) {
-    TellMap("in an order, without distances", photo);
+    TellMap("relative depth without distances", photo);
     ToOrder(is_pfm && options.near == Near::kUnknown ? Near::kWhite : options.near, photo);
   } else {
     const bool millimetres = options.unit == DepthUnit::kMillimetres;
@@ -109,12 +109,13 @@ Result<std::string> FindDepthPicture(const std::string& path, DepthPhoto* photo)
       found.push_back(*candidate);
     }
   }
-  if (error) return Expected(folder.string(), "a folder that can be read", error.message());
+  if (error) return Cannot("read folder", folder.string(), error);
   if (found.empty()) return std::string();
   std::sort(found.begin(), found.end());
   if (found.size() > 1) {
-    photo->notes.push_back(std::to_string(found.size()) + " depth pictures are beside the photo, " +
-                           found[0].name + " is used (else: --depth FILE)");
+    photo->notes.push_back("found " + std::to_string(found.size()) +
+                           " depth pictures beside the photo, using " + found[0].name +
+                           " (--depth FILE chooses another)");
   }
   return (file.parent_path() / found[0].name).string();
 }

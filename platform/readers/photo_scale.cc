@@ -74,9 +74,10 @@ void ToDisparity(const RobustRange& range, double diagonal, DepthPhoto* photo) {
     for (float& value : photo->map.values) value = std::max(value, range.low);
   }
   Scale(extent > 0 ? nearest / extent : 0, zero, std::min(nearest, STARFOCUS_MAX_DISPARITY), photo);
-  photo->facts.emplace_back("scale", std::string("unknown: what is nearest is taken to be 1.5 m ") +
-                                         (order ? "and what is farthest infinitely far " : "") +
-                                         "before a 50 mm lens on full frame");
+  photo->facts.emplace_back("scale",
+                            std::string("unknown: the nearest surface is assumed to be 1.5 m ") +
+                                (order ? "and the farthest one infinitely far " : "") +
+                                "in front of a 50 mm lens on full frame");
 }
 
 // Checks that the map's disparities are in range; they are not changed.
@@ -87,7 +88,7 @@ Error CheckDisparities(const std::string& where, DepthPhoto* photo) {
     return {};
   }
   const double limit = STARFOCUS_MAX_DISPARITY;
-  return Expected(where, "disparities within +-" + Rounded(limit),
+  return Expected(where, "disparities from -" + Rounded(limit) + " to " + Rounded(limit),
                   Rounded(double(*low)) + " to " + Rounded(double(*high)));
 }
 
@@ -95,8 +96,9 @@ Error CheckDisparities(const std::string& where, DepthPhoto* photo) {
 void FillUnknown(DepthPhoto* photo) {
   const size_t filled = FillBehind(&photo->map), all = photo->map.values.size();
   if (filled == 0) return;
-  photo->notes.push_back(std::to_string(filled) + " of " + std::to_string(all) +
-                         " pixels of the depth map are unknown and filled with what is behind");
+  photo->notes.push_back(
+      std::to_string(filled) + " of " + std::to_string(all) +
+      " pixels of the depth map are unknown and were filled from the background");
 }
 
 }  // namespace
@@ -137,11 +139,11 @@ Result<LightField> MakePhotoField(const std::string& where, DepthPhoto* photo) {
   FloatMap& map = photo->map;
   if (!HasSameProportions(map, picture.width, picture.height)) {
     return Expected(
-        where, "a map of the picture's proportions",
+        where, "a depth map with the proportions of the picture",
         SizeText(map.width, map.height) + " for " + SizeText(picture.width, picture.height));
   }
   const RobustRange range = RobustRangeOf(map.values);
-  if (!range.known) return Expected(where, "a map with a known depth", "none");
+  if (!range.known) return Expected(where, "a map with known depths", "none");
   FillUnknown(photo);
   if (photo->meaning == MapMeaning::kDisparity) {
     if (Error error = CheckDisparities(where, photo)) return error;

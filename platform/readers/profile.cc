@@ -9,10 +9,10 @@ void CheckProfile(DepthPhoto* photo) {
   Bytes* icc = &photo->metadata.icc;
   if (icc->empty()) return;
   const bool kept = IsRgbProfile(*icc);
-  photo->facts.emplace_back(
-      "colour profile",
-      "ICC, " + std::to_string(icc->size()) + " bytes; " +
-          (kept ? "pixels stay as they are" : "left out, as it is not a whole profile of RGB"));
+  photo->facts.emplace_back("colour profile",
+                            "ICC, " + std::to_string(icc->size()) + " bytes; " +
+                                (kept ? "pixels are not converted"
+                                      : "ignored, because it is not a complete RGB profile"));
   if (!kept) icc->clear();
 }
 

@@ -45,10 +45,11 @@ bool ReadStereoPair(const std::string& path, Span file, DepthPhoto* photo) {
   }
   if (!pictures[0].indexed) {
     photo->notes.push_back(
-        "the multi-picture index is wrong or absent: the right picture was found behind the left");
+        "the multi-picture index is wrong or absent: the right picture was found behind the left "
+        "one");
   }
   if (photo->orientation != 1) {
-    photo->notes.push_back("the orientation of EXIF is ignored: a stereo pair stays as it is");
+    photo->notes.push_back("the EXIF orientation is ignored: stereo pairs are not rotated");
   }
   photo->format = "stereo pair (MPO)";
   photo->right = std::move(right->image);

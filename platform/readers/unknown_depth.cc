@@ -133,13 +133,13 @@ void MarkUnknown(const DepthOptions& options, int largest, DepthPhoto* photo) {
   const bool both = ends.zeros > 0 && ends.tops > 0;
   const std::string end = ends.tops == 0 ? "0" : "65535", which = both ? "0 and 65535" : end;
   if (ends.are_depths) {
-    photo->notes.push_back(which + " of the depth picture count" + (both ? "" : "s") +
-                           " as a depth, as its other values reach there (else: --unknown " +
-                           (both ? "0,65535" : end) + ")");
+    photo->notes.push_back("in the depth picture, " + which + (both ? " are" : " is") +
+                           " taken as a known depth, because other values are close (--unknown " +
+                           (both ? "0,65535" : end) + " overrides this)");
     return;
   }
-  photo->notes.push_back(which + " of the depth picture stand" + (both ? "" : "s") +
-                         " for an unknown depth (else: --unknown none)");
+  photo->notes.push_back("in the depth picture, " + which + (both ? " are" : " is") +
+                         " taken as unknown depth (--unknown none overrides this)");
   Forget(0, map);
   Forget(kTop, map);
 }

@@ -105,8 +105,9 @@ Result<Star> ChooseStar(const std::string& where, const ViewArray& array, Facts*
   } else {
     star.reach = std::max(half_rows, half_columns);
     if (star.reach == 0 || (array.rows > 1 && array.columns > 1)) {
-      return Expected(where, "rows and columns of 3 views or more, or one row or column of them",
-                      Count(array.rows, array.columns));
+      return Expected(
+          where, "at least 3 rows and 3 columns of views, or one row or column of at least 3 views",
+          Count(array.rows, array.columns));
     }
     ChooseLine(chooser, array.rows == 1);
   }
@@ -138,7 +139,7 @@ Result<ViewArray> FindArray(const std::string& folder, const std::vector<std::st
   }
   if (rows.size() * columns.size() != names.size()) {
     return Expected(folder,
-                    "a picture for each of " +
+                    "a picture for each place in " +
                         Count(static_cast<int>(rows.size()), static_cast<int>(columns.size())),
                     std::to_string(names.size()) + " pictures, the first " + names[0]);
   }

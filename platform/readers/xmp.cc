@@ -49,7 +49,8 @@ struct Builder {
     Builder* self = static_cast<Builder*>(data);
     self->Guard([&] {
       if (self->open.size() > kMostDepth) {
-        return self->Stop("XMP nested at most " + std::to_string(kMostDepth) + " deep", "more");
+        return self->Stop("XMP nested at most " + std::to_string(kMostDepth) + " levels deep",
+                          "more levels");
       }
       self->open.emplace_back();
       XmpNode& node = self->open.back();
@@ -83,7 +84,7 @@ struct Builder {
   // millions.
   static void Doctype(void* data, const char*, const char*, const char*, int) {
     Builder* self = static_cast<Builder*>(data);
-    self->Guard([&] { self->Stop("XMP without a document type", "one"); });
+    self->Guard([&] { self->Stop("XMP without a document type", "a document type"); });
   }
 };
 
@@ -139,7 +140,7 @@ Result<XmpNode> ParseXmp(const std::string& where, const char* text, size_t size
 bool CanReadXmp() { return false; }
 
 Result<XmpNode> ParseXmp(const std::string& where, const char*, size_t) {
-  return Expected(where, "a build with expat to read its XMP", "one without");
+  return Unsupported(where, "XMP", "expat");
 }
 
 #endif

@@ -65,7 +65,7 @@ Result<std::string> OwnAttributes(const std::string& path, const SharpOriginal& 
   near += moved;
   far += moved;
   if (near > STARFOCUS_MAX_DISPARITY) {
-    return Expected(path, "at most 1000 pixels from the least to the largest disparity at f/1",
+    return Expected(path, "a disparity range of at most 1000 pixels at f/1",
                     std::to_string(near - far));
   }
   const double diagonal = std::hypot(photo.before->width, photo.before->height);
@@ -102,7 +102,7 @@ Result<Bytes> EncodeDepthPhoto(const std::string& path, const Image& picture,
   // Descriptions are omitted if they do not fit into the packet of the map.
   if (!AppendExtendedXmp(kNamespaces, attributes, extended, metadata.xmp, &segments) &&
       !AppendExtendedXmp(kNamespaces, attributes, extended, "", &segments)) {
-    return Expected(path, "less than 4 GiB beside the picture", "more");
+    return Expected(path, "less than 4 GiB of data besides the picture", "more");
   }
   Metadata others = metadata;
   others.xmp.clear();  // a file has only one packet

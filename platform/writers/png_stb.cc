@@ -32,8 +32,8 @@ Result<Bytes> EncodeGreyPng(const std::string& path, const GreyImage& image) {
   for (const uint16_t level : image.levels) {
     if (level > 255) {
       return Expected(path,
-                      "levels up to 255: only libpng, without which this program was built, "
-                      "writes 16 bits",
+                      "levels up to 255, because this program was built without libpng, "
+                      "which writes 16 bits",
                       std::to_string(level));
     }
     samples.push_back(static_cast<uint8_t>(level));

@@ -13,7 +13,7 @@ WebpWriter::WebpWriter(std::string path, int) : state_(new State) { state_->path
 WebpWriter::~WebpWriter() = default;
 
 Error WebpWriter::Check(const std::string& path, int, int) {
-  return Expected(path, "a program built with libwebp (Debian: libwebp-dev)", "none");
+  return Unsupported(path, "WebP", "libwebp (Debian: libwebp-dev)");
 }
 
 Error WebpWriter::Add(const Image& picture) {

@@ -84,7 +84,7 @@ TEST_CASE(
   const Outcome made = Call(folder, "disparity worse --repair -o map.pfm --confidence sure.png");
   CAPTURE(made.err);
   REQUIRE(made.code == 0);
-  CHECK(Contains(made.out, "repaired by 5 views"));
+  CHECK(Contains(made.out, "repaired with 5 views"));
   fs::copy_file(folder.file("map.pfm"), folder.file("worse/disparity.pfm"),
                 fs::copy_options::overwrite_existing);
   Succeed(folder, "refocus worse -o after.png --focus 0");
@@ -105,7 +105,7 @@ TEST_CASE("disparity --repair, refocus --repair: the map of one view is repaired
   CHECK(Psnr(folder, "exact.png repaired.png") > Psnr(folder, "exact.png noisy.png") + 3);
   const Outcome made = Call(folder, "disparity noisy --repair --views 1 -o map.pfm");
   CHECK(made.code == 0);
-  CHECK(Contains(made.out, "repaired by 1 view,"));
+  CHECK(Contains(made.out, "repaired with 1 view,"));
 }
 
 TEST_CASE("refocus --repair, import: hair with a closed outline gets its coverage") {

@@ -116,7 +116,7 @@ TEST_CASE("cli: apertures of sweeps, videos, pages and batches are reduced to th
     CAPTURE(call.arguments);
     const Outcome outcome = Call(folder, call.arguments);
     CHECK(outcome.code == 0);
-    CHECK(Contains(outcome.err, std::string("aperture ") + call.named));
+    CHECK(Contains(outcome.err, std::string("aperture set to ") + call.named));
     const Outcome refused = Call(folder, call.arguments + std::string(" --f-stop 2.34"));
     CHECK(refused.code != 0);
     CHECK(Contains(refused.err, std::string(call.named) + " or narrower"));
@@ -125,7 +125,8 @@ TEST_CASE("cli: apertures of sweeps, videos, pages and batches are reduced to th
     CHECK(named.code == 0);
     CHECK(!Contains(named.err, "aperture"));
   }
-  CHECK(Contains(Call(folder, "refocus lf second --focus 0 -o batch/").err, "second: aperture f/"));
+  CHECK(Contains(Call(folder, "refocus lf second --focus 0 -o batch/").err,
+                 "second: aperture set to f/"));
   // The aperture of a video is reduced for all of its frames.
   FloatMap map = ValueOf(ReadPfm(folder.file("second/disparity.pfm")));
   for (float& value : map.values) value *= 4.0f / 3;

@@ -221,7 +221,7 @@ TEST_CASE("image_io: colours of a PNG palette are looked up, and indices beyond 
       }
       const Result<Image> read = ReadBytes(MakePng(8, 1, {depth, 3}, palette, row));
       if (last >= 3) {
-        CHECK(Contains(read, "3 colours, found " + std::to_string(last)));
+        CHECK(Contains(read, "palette indices below 3, found " + std::to_string(last)));
         continue;
       }
       const Image image = ValueOf(read);

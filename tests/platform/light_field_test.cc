@@ -137,7 +137,8 @@ TEST_CASE(
   grey.height = 3;
   png = ValueOf(EncodeGreyPng("coverage.png", grey));
   REQUIRE(WriteFile(path, png) == "");
-  CHECK(Contains(LoadLightField(folder.path(), {}), "expected 3x2 as the centre view"));
+  CHECK(Contains(LoadLightField(folder.path(), {}),
+                 "expected 3x2 pixels, the size of the centre view"));
 }
 
 TEST_CASE("light_field: an incomplete star is a set of views, but it needs its centre") {
@@ -172,7 +173,7 @@ TEST_CASE("light_field: views too far out, twice at one position, or too many ar
   for (const std::string& name : close) {
     REQUIRE(WriteImage(folder.file(name), Image(4, 4)) == "");
   }
-  CHECK(Contains(LoadLightField(folder.path(), {}), "different positions"));
+  CHECK(Contains(LoadLightField(folder.path(), {}), "a different position for each view"));
   for (const std::string& name : close) fs::remove(folder.file(name));
   REQUIRE(WriteImage(folder.file("view_+0.2_+0.0.png"), Image(4, 4)) == "");
   CHECK(Contains(LoadLightField(folder.path(), {}), "at most 17 views"));

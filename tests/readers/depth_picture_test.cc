@@ -131,7 +131,7 @@ TEST_CASE("unknown depth: 0 and 65535 are depths in a map that uses the whole ra
     const Opened opened("map.png", GreyPng(LevelsOf(scene)),
                         NearIs(inverted ? Near::kBlack : Near::kWhite));
     CheckScene(opened);
-    CHECK(opened.HasNote("as a depth"));
+    CHECK(opened.HasNote("as a known depth"));
     CHECK(opened.HasNote("--unknown"));
   }
   std::vector<uint16_t> both = LevelsOf(kMillimetres);  // map of a sensor: both values are unknown
@@ -139,7 +139,7 @@ TEST_CASE("unknown depth: 0 and 65535 are depths in a map that uses the whole ra
   both[Index(41, 2)] = 0;
   const Opened sensor("map.png", GreyPng(both), NearIs(Near::kBlack));
   CheckScene(sensor);
-  CHECK(sensor.HasNote("0 and 65535 of the depth picture stand"));
+  CHECK(sensor.HasNote("0 and 65535 are taken as unknown"));
 }
 
 TEST_CASE(
@@ -220,7 +220,7 @@ TEST_CASE("unknown depth: values of PFM that are not finite or single outliers a
     CHECK(opened.HasNote("108 of 1728 pixels"));
   }
   const Opened nothing("map.pfm", PfmOf({kWidth, kHeight, std::vector<float>(1728, kNan)}), {});
-  CHECK(Contains(nothing.error, "a map with a known depth"));
+  CHECK(Contains(nothing.error, "a map with known depths"));
 }
 
 TEST_CASE("unknown depth: gaps take the farther end of the shorter direction") {
@@ -265,7 +265,7 @@ TEST_CASE("depth pictures: PFM follows --near, and units keep the values unchang
   CHECK(pixels.At(kWall[0], kWall[1]) == -2);
   CHECK(pixels.At(kBox[0], kBox[1]) == 17.5);
   CHECK(Contains(Opened("map.pfm", PfmOf(MapOf({2, 3, 501})), options).error,
-                 "disparities within +-500"));
+                 "disparities from -500 to 500"));
 }
 
 TEST_CASE("depth pictures: PGM keeps 16 bits, and colour pictures are rejected") {
@@ -284,7 +284,7 @@ TEST_CASE("depth pictures: PGM keeps 16 bits, and colour pictures are rejected")
   for (const std::string extension : {".png", ".jpg", ".ppm"}) {
     CAPTURE(extension);
     CHECK(Contains(Opened("map" + extension, Encode(colours, extension), {}).error,
-                   "one in colours"));
+                   "a colour picture"));
   }
   // Grey pictures stay grey after JPEG compression.
   CHECK(Opened("map.jpg", Encode(Ramp(kWidth, kHeight), ".jpg"), {}).error == "");
@@ -367,7 +367,7 @@ TEST_CASE(
   CHECK(open(11, 8) == "");
   CHECK(open(518, 392) == "");
   for (const auto& [width, height] : {std::pair<int, int>{48, 32}, {48, 40}, {36, 36}, {36, 48}}) {
-    CHECK(Contains(open(width, height), "a map of the picture's proportions"));
+    CHECK(Contains(open(width, height), "a depth map with the proportions of the picture"));
   }
 }
 

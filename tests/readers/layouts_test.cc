@@ -72,7 +72,7 @@ TEST_CASE(
   CHECK(capture.map_path.empty());
   CHECK(capture.light_field.disparity.values.empty());
   std::filesystem::remove(folder.file("input_Cam080.png"));
-  CHECK(Contains(OpenAndLoad(folder, &capture), "a square of views"));
+  CHECK(Contains(OpenAndLoad(folder, &capture), "a square number of views"));
 }
 
 // Writes 5 rows of 7 views. `place` returns the rest of a name.
@@ -131,7 +131,7 @@ TEST_CASE(
   CHECK(capture.light_field.views.size() == 9);
   CHECK(LevelAt(capture, 1, 1) == 8);
   std::filesystem::remove(three.file("scene r2c2 8bit.png"));
-  CHECK(Contains(OpenAndLoad(three, &capture), "a picture for each of 3 rows of 3, found 8"));
+  CHECK(Contains(OpenAndLoad(three, &capture), "a picture for each place in 3 rows of 3, found 8"));
   // The largest grid with a middle is 7 x 7. It has 3 views from the middle to the edge, so no view
   // is at half of this distance.
   grid(sixteen, 8, 8);
@@ -151,7 +151,7 @@ TEST_CASE(
   CHECK(capture.light_field.disparity.values[0] == 2);
   TempFolder two, none;
   grid(two, 2, 2);
-  CHECK(Contains(OpenAndLoad(two, &capture), "3 views or more"));
+  CHECK(Contains(OpenAndLoad(two, &capture), "at least 3 views"));
   WriteView(none, "holiday.png", 1);
   WriteView(none, "portrait.png", 1);
   CHECK(Contains(OpenAndLoad(none, &capture), "2 pictures, the first holiday.png"));
@@ -251,7 +251,7 @@ TEST_CASE(
   CHECK(capture.light_field.disparity.at(20, 20) == 9);
   Require(WriteImage(folder.file("disp2.png"), Plain(4, 3, 40)));
   capture = ValueOf(OpenCapture(folder.path(), {}));
-  CHECK(Contains(LoadCapture({}, &capture), "as the centre view"));
+  CHECK(Contains(LoadCapture({}, &capture), "the size of the centre view"));
 }
 
 TEST_CASE("orientation: the corners are at the places that EXIF defines") {

@@ -111,7 +111,7 @@ TEST_CASE("extended XMP that no packet names is used if there is no other map") 
   for (const std::string& packet : {Packet(kGoogle, names + kInverse), Packet(kGoogle, kInverse)}) {
     const std::string file = Insert(Photo(), XmpSegment(packet) + other);
     Capture capture = OpenRamp(file, kPortrait, kPortrait / 8);
-    CHECK(HasNote(capture, "no packet names"));
+    CHECK(HasNote(capture, "no XMP packet refers to"));
     REQUIRE(OpenBeside(file, &capture) == "");
     CheckRamp(capture, 0, kPortrait);
     CHECK(!capture.notes.empty());
@@ -145,7 +145,7 @@ TEST_CASE("Apple's JPEG: the map is found if its index is wrong, moved or lost")
     CHECK(capture.notes.empty() == note.empty());
     if (!note.empty()) CHECK(HasNote(capture, note));
   };
-  const std::string wrong = "the multi-picture index is wrong and ignored";
+  const std::string wrong = "the wrong multi-picture index is ignored";
   for (const bool little : {false, true}) {
     check(MultiPicture(Photo(), map, {little}), "");
     check(MultiPicture(Photo(), map, {little, 2}), wrong);
@@ -160,8 +160,8 @@ TEST_CASE("Apple's JPEG: the map is found if its index is wrong, moved or lost")
   check(Photo() + "something between\xff\xd8\xff" + map, "the file has no multi-picture index");
   const std::string whole = MultiPicture(Photo(), map);
   for (const size_t cut : {size_t{2}, map.size() / 2, map.size()}) {
-    CHECK(
-        Contains(Open(whole.substr(0, whole.size() - cut), &capture), "one cut off or not there"));
+    CHECK(Contains(Open(whole.substr(0, whole.size() - cut), &capture),
+                   "a missing or truncated picture"));
   }
 }
 
@@ -220,7 +220,7 @@ TEST_CASE("profiles: parts are joined by number, and incomplete or non-RGB profi
   };
   const std::string icc = Profile(1000);
   const auto left_out = [&](const std::string& segments) {
-    return open(segments).empty() && HasNote(capture, "the colour profile is left out");
+    return open(segments).empty() && HasNote(capture, "the colour profile is ignored");
   };
   std::vector<std::string> parts = ProfileSegments(icc, 4);
   CHECK(open(Joined(parts)) == icc);

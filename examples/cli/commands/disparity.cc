@@ -37,7 +37,8 @@ std::string ReadRange(const std::string& text, std::optional<DisparityRange>* ra
   const std::vector<double> ends = ReadNumbers(text, ':');
   if (ends.size() != 2 || ends[0] < -STARFOCUS_MAX_DISPARITY || ends[0] > ends[1] ||
       ends[1] > STARFOCUS_MAX_DISPARITY) {
-    return "MIN:MAX, disparities within +-" + Short(STARFOCUS_MAX_DISPARITY);
+    return "MIN:MAX with disparities from -" + Short(STARFOCUS_MAX_DISPARITY) + " to " +
+           Short(STARFOCUS_MAX_DISPARITY);
   }
   *range = {static_cast<float>(ends[0]), static_cast<float>(ends[1])};
   return "";
@@ -46,8 +47,9 @@ std::string ReadRange(const std::string& text, std::optional<DisparityRange>* ra
 // Checks everything that can be checked before a file is read.
 Result<Plan> MakePlan(const DisparityOptions& options) {
   if (!options.views.empty() && StarWithin(options.views) == 1 && !options.repair) {
-    return Error::Usage("--views", "17, 9 or 5: other views show no disparity here",
-                        std::to_string(options.views.size()));
+    return Error::Usage("--views", "a star of 17, 9 or 5 views",
+                        std::to_string(options.views.size()) +
+                            (options.views.size() == 1 ? " view" : " views that form no star"));
   }
   Plan plan = {options.out.empty() ? DisparityPath(options.folder) : options.out, ""};
   if (std::filesystem::path(plan.map).extension() != ".pfm") {
@@ -55,16 +57,17 @@ Result<Plan> MakePlan(const DisparityOptions& options) {
   }
   plan.picture = std::filesystem::path(plan.map).replace_extension(".png").string();
   if (options.repair && options.out.empty()) {
-    return Error::Usage("--repair", "another map to write, by --output", "none");
+    return Error::Usage("--repair", "the name of the repaired map by --output", "none");
   }
   if (options.repair && options.range) {
-    return Error::Usage("--repair", "no --range: the map has one", "both");
+    return Error::Usage("--repair", "no --range, because the map defines the range", "both");
   }
   if (!options.repair && !options.coverage.empty()) {
-    return Error::Usage("--coverage", "--repair, which finds coverage", "none");
+    return Error::Usage("--coverage", "--repair as well, because only a repair finds coverage",
+                        "no --repair");
   }
   if (options.out.empty() && HasDisparity(options.folder)) {
-    return Expected(plan.map, "no map yet, or another name by --output", "one");
+    return Expected(plan.map, "no existing map, or another name by --output", "an existing map");
   }
   std::vector<Output> outputs = {{"--output", plan.picture}};
   if (!options.confidence.empty()) outputs.push_back({"--confidence", options.confidence});
@@ -96,9 +99,10 @@ Result<DisparityEstimate> RepairFolder(const DisparityOptions& options,
       RepairDisparity(DisparityPath(options.folder), light_field,
                       {options.threads, !options.coverage.empty(), !options.confidence.empty()});
   if (estimate && !options.coverage.empty() && estimate->coverage.empty()) {
-    std::fprintf(stderr, "%s: no coverage to write: %s\n", options.folder.c_str(),
-                 light_field.views.size() > 1 ? "only a repair with one view (--views 1) finds it"
-                                              : "found no hair with a closed outline");
+    std::fprintf(stderr, "%s: no coverage is written: %s\n", options.folder.c_str(),
+                 light_field.views.size() > 1
+                     ? "only a repair with one view (--views 1) finds coverage"
+                     : "the map has no hair with a closed outline");
   }
   return estimate;
 }
@@ -132,9 +136,10 @@ Error Run(const DisparityOptions& options) {
   if (Error error = WriteMap(options, *plan, light_field.views[0], *estimate)) return error;
   const double megapixels = 1e-6 * estimate->map.width * estimate->map.height;
   const int count = StarWithin(light_field.positions);
-  std::printf("%s: %s to %s %s %d view%s, %.1f s, %.1f s per megapixel\n", plan->map.c_str(),
-              Short(estimate->range.min).c_str(), Short(estimate->range.max).c_str(),
-              options.repair ? "repaired by" : "looked for in", count, count == 1 ? "" : "s",
+  std::printf("%s: disparities from %s to %s, %s %d view%s, %.1f s, %.1f s per megapixel\n",
+              plan->map.c_str(), Short(estimate->range.min).c_str(),
+              Short(estimate->range.max).c_str(),
+              options.repair ? "repaired with" : "estimated from", count, count == 1 ? "" : "s",
               seconds, seconds / megapixels);
   return {};
 }
@@ -149,17 +154,16 @@ Command DisparityCommand() {
       {
           {"DIR", "DIR", "Light-field folder", &options->folder, Use::kRequired},
           {"-o,--output", "FILE",
-           "Map to write (.pfm), with a picture of the map (.png, bright is near) beside "
-           "it; default: disparity.pfm in DIR, if DIR has none",
+           "Map to write (.pfm); a picture of the map (.png, bright is near) gets the "
+           "same name; default: disparity.pfm in DIR, if DIR has none",
            &options->out},
           {"--confidence", "FILE",
            "Picture to write of the confidence of each pixel: black for unknown, brighter "
            "for more certain; default: none",
            &options->confidence},
           {"--coverage", "FILE",
-           "With --repair and one view, picture to write of the coverage of hair whose "
-           "outline the map has closed; store it as coverage.png beside the written map; "
-           "default: none",
+           "With --repair and one view, picture to write of the coverage of hair with a "
+           "closed outline in the map; default: none",
            &options->coverage},
           {"--repair", nullptr,
            "Repair the map of the folder by the views instead of estimating a new one: "

@@ -35,11 +35,11 @@ Error Run(const Program& program, const HelpOptions& options) {
     return {};
   }
   const std::string nearest = NearestName(options.command, names);
-  return Error::Usage(
-      "COMMAND",
-      nearest.empty() ? "a subcommand, of those `" + std::string(program.main.name) + " help` lists"
-                      : "a subcommand (the nearest is " + nearest + ")",
-      options.command);
+  return Error::Usage("COMMAND",
+                      nearest.empty()
+                          ? "a subcommand that `" + std::string(program.main.name) + " help` lists"
+                          : "a subcommand (the most similar is " + nearest + ")",
+                      options.command);
 }
 
 }  // namespace

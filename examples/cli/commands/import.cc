@@ -37,10 +37,12 @@ void Tell(const ImportOptions& options, const Capture& capture) {
   std::printf("%s: %zu view%s of %dx%d, %s\n", options.folder.c_str(), light_field.views.size(),
               light_field.views.size() == 1 ? "" : "s", light_field.views[0].width,
               light_field.views[0].height,
-              light_field.disparity.values.empty() ? "no map: starfocus disparity estimates one"
-                                                   : "with a map");
+              light_field.disparity.values.empty()
+                  ? "without a map (starfocus disparity estimates one)"
+                  : "with a map");
   if (capture.widest > 0) {
-    std::printf("f-stops: refocus it with --widest %s\n", Short(capture.widest).c_str());
+    std::printf("for f-stops, refocus this light field with --widest %s\n",
+                Short(capture.widest).c_str());
   }
 }
 

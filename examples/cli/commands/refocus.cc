@@ -69,7 +69,7 @@ std::string ReadSweep(const std::string& text, std::vector<double>* foci) {
   const std::vector<double> numbers = ReadNumbers(text, ':');
   const double count = numbers.size() == 3 ? numbers[2] : 0;
   if (count < 2 || count > kMostPictures || count != std::floor(count)) {
-    return "D0:D1:N, two disparities and 2 to " + std::to_string(kMostPictures) + " pictures";
+    return "D0:D1:N with two disparities and 2 to " + std::to_string(kMostPictures) + " pictures";
   }
   for (int i = 0; i < int(count); ++i) {
     foci->push_back(numbers[0] + (numbers[1] - numbers[0]) * i / (count - 1));
@@ -81,7 +81,7 @@ std::string ReadSweep(const std::string& text, std::vector<double>* foci) {
 Error PlanSweep(const RefocusOptions& options, LensPlan* plan) {
   const bool focus = bool(options.lens.focus), pixel = bool(options.lens.focus_at);
   if (focus || pixel || options.stream || !options.map.empty()) {
-    return Error::Usage("--sweep", "no other focus, no --stream and no --map",
+    return Error::Usage("--sweep", "no --focus, --focus-at, --stream or --map",
                         focus            ? "--focus"
                         : pixel          ? "--focus-at"
                         : options.stream ? "--stream"
@@ -98,7 +98,7 @@ Result<LensPlan> MakePlan(const RefocusOptions& options) {
   if (Error error = PlanOutput(options.output, sweep, region)) return error;
   if (Error error = CheckOutputs(options)) return error;
   if (region && options.stream) {
-    return Error::Usage("--region", "whole pictures in memory", "--stream");
+    return Error::Usage("--region", "either --region or --stream", "both");
   }
   Result<LensPlan> plan = PlanLens(options.lens);
   if (!plan) return plan;
@@ -111,7 +111,7 @@ Error CheckRegion(const Image& picture, const starfocus_region& region) {
   if (region.x + region.width <= picture.width && region.y + region.height <= picture.height)
     return {};
   return Error::Usage("--region",
-                      "pixels of the picture, " + std::to_string(picture.width) + "x" +
+                      "a region within the picture of " + std::to_string(picture.width) + "x" +
                           std::to_string(picture.height),
                       std::to_string(region.width) + "x" + std::to_string(region.height) + " at " +
                           std::to_string(region.x) + "," + std::to_string(region.y));
@@ -220,7 +220,9 @@ Error RunInputs(const RefocusOptions& options) {
                                     {"--report", !options.report.empty()},
                                     {"--coverage", !options.input.coverage.empty()},
                                     {"--sweep", !options.sweep.empty()}}) {
-    if (typed) return Error::Usage(name, "one input and a file for --output", "several");
+    if (typed)
+      return Error::Usage(name, "a single input and a file for --output",
+                          "several inputs or a folder");
   }
   const Result<std::vector<BatchItem>> items = PlanBatch(options.inputs, options.output.out);
   if (!items) return items.error();

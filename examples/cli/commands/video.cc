@@ -62,7 +62,7 @@ Result<std::vector<std::string>> FindFrames(const VideoOptions& options) {
       if (entry.is_directory(error) && !hidden && !own) folders.push_back(entry.path().string());
     }
     std::sort(folders.begin(), folders.end());
-    if (folders.empty()) return Expected(only, "light-field folders", "none");
+    if (folders.empty()) return Expected(only, "light-field folders in this folder", "none");
   }
   if (folders.size() <= kMostFrames) return folders;
   return Error::Usage("DIR", "at most " + std::to_string(kMostFrames) + " frames",
@@ -96,7 +96,8 @@ Error CheckOutputs(const VideoOptions& options, const Video& video) {
 
 Error CheckSize(const std::string& folder, const FloatMap& map, const Video& video) {
   if (map.width == video.width && map.height == video.height) return {};
-  return Expected(folder, SizeText(video.width, video.height) + " pixels as the first frame",
+  return Expected(folder,
+                  SizeText(video.width, video.height) + " pixels, the size of the first frame",
                   SizeText(map.width, map.height));
 }
 

@@ -124,8 +124,9 @@ Error ChooseLenses(const Capture& capture, const starfocus_disparity_stats& stat
   for (const TruthFile& truth : FindTruths(capture.path)) {
     const double blur = BlurOf(truth.lens, stats);
     if (blur > STARFOCUS_MAX_BLUR) {
-      std::fprintf(stderr, "%s: left out: its lens blurs by %s pixels, and the limit is %s\n",
-                   truth.path.c_str(), Short(blur).c_str(), Short(STARFOCUS_MAX_BLUR).c_str());
+      std::fprintf(
+          stderr, "%s: not shown, because its lens blurs by %s pixels and the limit is %s pixels\n",
+          truth.path.c_str(), Short(blur).c_str(), Short(STARFOCUS_MAX_BLUR).c_str());
       continue;
     }
     contents->truths.push_back(truth);

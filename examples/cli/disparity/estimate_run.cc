@@ -151,8 +151,9 @@ int StarWithin(const Positions& positions) {
 Error CheckStar(const std::string& where, const LightField& light_field) {
   if (StarWithin(light_field.positions) > 1) return {};
   const size_t views = light_field.views.size();
-  return Expected(where, "5, 9 or 17 views of a star to estimate disparities from",
-                  views == 1 ? "one, which shows none" : std::to_string(views) + " others");
+  return Expected(
+      where, "a star of 5, 9 or 17 views to estimate disparities",
+      views == 1 ? "a single view" : std::to_string(views) + " views that form no star");
 }
 
 Result<DisparityRange> FindRange(const std::string& where, const LightField& light_field,
@@ -195,11 +196,11 @@ Result<DisparityEstimate> RepairDisparity(const std::string& where, const LightF
   const FloatMap& given = light_field.disparity;
   const starfocus_disparity_stats stats = MeasureDisparity(given);
   if (stats.invalid == int64_t{given.width} * given.height) {
-    return Expected(where, "a disparity map with a value", "none");
+    return Expected(where, "a map with finite disparities", "none");
   }
   constexpr double kMost = STARFOCUS_MAX_DISPARITY;
   if (stats.min < -kMost || stats.max > kMost) {
-    return Expected(where, "disparities within +-" + Short(kMost),
+    return Expected(where, "disparities from -" + Short(kMost) + " to " + Short(kMost),
                     Short(stats.min) + " to " + Short(stats.max));
   }
   const DisparityRange range = {float(std::max(stats.min - kRepairReach, -kMost)),

@@ -19,9 +19,9 @@ Error Outcome(const std::string& where, starfocus_status status, const starfocus
   if (status == STARFOCUS_OK) return {};
   if (status == STARFOCUS_ERROR_TOO_LARGE) return OutOfMemory(where, "refocus it");
   if (status == STARFOCUS_ERROR_MEMORY) {
-    return OutOfMemory(where, "refocus it (" + std::to_string(bytes) + " bytes at once)");
+    return OutOfMemory(where, "allocate " + std::to_string(bytes) + " bytes to refocus it");
   }
-  return Error::Internal(where, "a light field that the engine refocuses",
+  return Error::Internal(where, "a light field that the engine accepts",
                          Describe(status, problem).text);
 }
 

@@ -40,7 +40,7 @@ Result<starfocus_timing> ReadTiming(const std::string& path) {
   const JsonObject object = ReadJsonObject(*bytes, "timing");
   if (!object.is_json) return Expected(path, "a JSON file", "other text");
   if (!object.is_there) {
-    return Expected(path, "an object \"timing\", as starfocus-lab calibrate writes it", "none");
+    return Expected(path, "an object \"timing\", as written by starfocus-lab calibrate", "none");
   }
   starfocus_timing timing = {};
   for (const TimingTerm& term : kTimingTerms) {
@@ -51,7 +51,7 @@ Result<starfocus_timing> ReadTiming(const std::string& path) {
     bool known = false;
     for (const TimingTerm& term : kTimingTerms) known = known || member.name == term.name;
     if (!known)
-      return Expected(path, "no other coefficients", "timing." + member.name.substr(0, 60));
+      return Expected(path, "only known coefficients", "timing." + member.name.substr(0, 60));
   }
   return timing;
 }

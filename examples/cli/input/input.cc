@@ -19,9 +19,7 @@ std::string ReadUnknown(const std::string& text, DepthOptions* options) {
   options->has_unknown = true;
   options->use_alpha = text != "none";
   if (options->use_alpha) options->unknown = ReadNumbers(text, ',');
-  return options->use_alpha && options->unknown.empty()
-             ? "none, or values V,V,... of the depth picture"
-             : "";
+  return options->use_alpha && options->unknown.empty() ? "none or a list of values V,V,..." : "";
 }
 
 Error CheckNear(const DepthOptions& options) {
@@ -49,17 +47,18 @@ Error Estimate(int threads, Capture* capture) {
   LightField* light_field = &capture->light_field;
   const int star = StarWithin(light_field->positions);
   if (star == 1) {
-    return Expected(MapName(*capture),
-                    light_field->views.size() == 1
-                        ? "a disparity map, as one view alone shows none"
-                        : "a disparity map: it is estimated from 5, 9 or 17 views of a star only",
-                    "no file");
+    return Expected(
+        MapName(*capture),
+        light_field->views.size() == 1
+            ? "a disparity map, because none can be estimated from a single view"
+            : "a disparity map, because one can only be estimated from a star of 5, 9 or 17 views",
+        "no file");
   }
   const Result<DisparityRange> range = FindRange(capture->path, *light_field, threads);
   if (!range) return range.error();
-  std::fprintf(stderr, "%s: no map: disparities from %s to %s are estimated from %d views\n",
-               MapName(*capture).c_str(), Short(range->min).c_str(), Short(range->max).c_str(),
-               star);
+  std::fprintf(
+      stderr, "%s: no map found, so disparities from %s to %s are estimated from %d views\n",
+      MapName(*capture).c_str(), Short(range->min).c_str(), Short(range->max).c_str(), star);
   Result<DisparityEstimate> estimate =
       EstimateDisparity(capture->path, *light_field, *range, threads);
   if (estimate) light_field->disparity = std::move(estimate->map);
@@ -82,7 +81,8 @@ void AddInputOptions(Command* command, InputOptions* options, std::vector<std::s
                        several, Use::kRequired},
           {"--depth", "FILE",
            "Depth picture of the photo (.png, .pgm, .jpg or .pfm); default: the map in "
-           "the photo, or the file NAME-depth, NAME_depth or NAME.depth beside the photo",
+           "the photo, or the file NAME-depth, NAME_depth or NAME.depth in the folder of "
+           "the photo",
            &options->depth},
           {"--coverage", "FILE",
            "Picture of how much of each pixel the nearer surface covers, such as a "
@@ -90,7 +90,7 @@ void AddInputOptions(Command* command, InputOptions* options, std::vector<std::s
            "full coverage; default: coverage.png of a light-field folder, otherwise none",
            &options->coverage},
           {"--near", "white|black",
-           "Which values of a depth picture are near; default: white in a .pfm file, "
+           "Shade that is near in a depth picture; default: white in a .pfm file, "
            "otherwise guessed from the lower part of the picture",
            Choice<Near>({{"white", Near::kWhite}, {"black", Near::kBlack}}, &options->map.near)},
           {"--depth-unit", "m|mm|disparity",
@@ -102,8 +102,8 @@ void AddInputOptions(Command* command, InputOptions* options, std::vector<std::s
                               {"disparity", DepthUnit::kDisparity}},
                              &options->map.unit)},
           {"--depth-orientation", "photo|upright",
-           "Orientation of a depth picture: photo applies the rotation in the photo's "
-           "EXIF to it, upright does not; default: guessed from proportions and edges",
+           "Orientation of a depth picture: photo rotates the depth picture by the "
+           "photo's EXIF, upright does not; default: guessed from proportions and edges",
            Choice<DepthOrientation>(
                {{"photo", DepthOrientation::kPhoto}, {"upright", DepthOrientation::kUpright}},
                &options->map.orientation)},
@@ -136,7 +136,7 @@ void AddMapOptions(Command* command, MapOptions* options) {
 Result<Capture> OpenInput(const InputOptions& options) {
   if (options.path == "-") {
     if (options.depth == "-") {
-      return Error::Usage("--depth", "a file, as SRC is standard input", "-");
+      return Error::Usage("--depth", "a file, because SRC is standard input", "-");
     }
     if (isatty(STDIN_FILENO) == 1) {
       return Expected(InputName(options.path), "a photo from a file or pipe", "a terminal");
@@ -151,7 +151,7 @@ Result<Capture> OpenInput(const InputOptions& options) {
   const char* option = DepthOption(options);
   if (option != nullptr && options.path != "-" &&
       std::filesystem::is_directory(options.path, ignored)) {
-    return Error::Usage(option, "a photo, not a folder", options.path);
+    return Error::Usage(option, "a photo as SRC", "the folder " + options.path);
   }
   Result<Capture> capture = OpenCapture(options.path, wanted);
   if (!capture) return capture;
@@ -167,8 +167,9 @@ Error LoadInput(const Positions& views, int threads, Capture* capture) {
     // If a view is missing, the error is about the option.
     if (SelectViewFiles(capture->path, capture->files, {view})) continue;
     return Error::Usage(
-        "--views", "some of the " + std::to_string(capture->files.size()) + " in " + capture->path,
-        std::to_string(views.size()) + " with " + ViewName(view));
+        "--views",
+        "some of the " + std::to_string(capture->files.size()) + " views in " + capture->path,
+        std::to_string(views.size()) + " views that include " + ViewName(view));
   }
   ThreadRunner runner(threads);
   const Error error = LoadCapture(views, capture, &runner);
@@ -200,9 +201,8 @@ Error CareForMap(const MapOptions& options, int threads, Capture* capture) {
 Error FillHoles(const std::string& where, FloatMap* map) {
   const starfocus_status status =
       starfocus_fill_disparity(map->values.data(), map->stride(), map->width, map->height);
-  return status == STARFOCUS_OK
-             ? Error()
-             : Expected(where, "a disparity map", starfocus_status_string(status));
+  return status == STARFOCUS_OK ? Error()
+                                : Expected(where, "a map with finite disparities", "none");
 }
 
 std::vector<std::string> GridsOf(const InputOptions& options, const Capture& capture) {

@@ -81,7 +81,7 @@ Result<ApertureChoice> PlanAperture(const ApertureOptions& options, const Captur
     return Error::Usage("--f-stop", "either --aperture U or --f-stop N", "both");
   }
   if (options.widest && !options.f_stop) {
-    return Error::Usage("--widest", "--f-stop N beside it", "none");
+    return Error::Usage("--widest", "--f-stop N as well", "no --f-stop");
   }
   ApertureChoice aperture;
   if (capture.widest > 0) aperture.widest = capture.widest;
@@ -90,7 +90,7 @@ Result<ApertureChoice> PlanAperture(const ApertureOptions& options, const Captur
   if (options.widest) aperture.widest = *options.widest;
   if (options.f_stop && starfocus_aperture_of_f_stop(*options.f_stop, aperture.widest,
                                                      &aperture.radius) != STARFOCUS_OK) {
-    return Error::Usage("--f-stop", "an f-stop from the widest on, " + Short(aperture.widest),
+    return Error::Usage("--f-stop", "an f-stop of at least the widest, " + Short(aperture.widest),
                         Short(*options.f_stop));
   }
   aperture.strength = options.strength.value_or(100) / 100;
@@ -117,14 +117,15 @@ Error FitAperture(double range, ApertureChoice* aperture) {
   }
   return Error::Usage(
       aperture->option,
-      WhatFits(range, *aperture) + " (blur of at most " + Short(STARFOCUS_MAX_BLUR) + " pixels)",
+      WhatFits(range, *aperture) + " (a blur of at most " + Short(STARFOCUS_MAX_BLUR) + " pixels)",
       aperture->value + ", which blurs by " + Short(std::ceil(10 * blur) / 10) + " pixels");
 }
 
 void TellAperture(const std::string& path, const ApertureChoice& aperture) {
   if (!aperture.narrowed) return;
   std::fprintf(stderr,
-               "%s: aperture f/%s (--f-stop): the widest whose blur is at most %s pixels here\n",
+               "%s: aperture set to f/%s, the widest with a blur of at most %s pixels (--f-stop "
+               "sets another)\n",
                path.c_str(), ThreeDigits(aperture.widest / aperture.radius).c_str(),
                Short(STARFOCUS_MAX_BLUR).c_str());
 }

@@ -122,12 +122,11 @@ Result<std::vector<BatchItem>> PlanBatch(const std::vector<std::string>& inputs,
   Inputs read;
   for (const std::string& input : inputs) {
     if (input == "-") {
-      return Error::Usage("SRC", "files for a folder of pictures, or a file for --output",
-                          "- (standard input)");
+      return Error::Usage("SRC", "files as inputs, or a file for --output", "- (standard input)");
     }
     const std::vector<std::string> parts = Expand(input);
     if (parts.empty())
-      return Expected(input, "a light field, or photographs or such in it", "none");
+      return Expected(input, "a light field, or a folder of photos or light fields", "neither");
     for (const std::string& part : parts) {
       std::error_code ignored;
       items.push_back({part, OutputOf(part, folder)});

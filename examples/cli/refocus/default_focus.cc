@@ -95,13 +95,13 @@ int Scaled(int at, int from, int to) {
 
 DefaultFocus FindDefaultFocus(const Capture& capture) {
   if (capture.has_subject) {
-    return AtPixel(capture.subject_x, capture.subject_y, "the subject in its EXIF");
+    return AtPixel(capture.subject_x, capture.subject_y, "the subject in the photo's EXIF");
   }
   if (capture.has_focus) {
-    return AtPixel(capture.focus_x, capture.focus_y, "the focus in the file");
+    return AtPixel(capture.focus_x, capture.focus_y, "the focus stored in the file");
   }
   if (std::isfinite(capture.focus)) {
-    return {false, 0, 0, capture.focus, "the focus distance in the file"};
+    return {false, 0, 0, capture.focus, "the focus distance stored in the file"};
   }
   const FloatMap& map = capture.light_field.disparity;
   const Image& picture = capture.light_field.views[0];

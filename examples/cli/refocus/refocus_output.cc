@@ -89,18 +89,19 @@ std::vector<Output> ListPictures(const OutputOptions& options, size_t pictures) 
 
 Error PlanOutput(const OutputOptions& options, bool sweep, bool region) {
   if (sweep && IsStandardStream(options.out) && FormatExtension(options.out) != kAnimation) {
-    return Error::Usage("--sweep", "a file, or webp:- for one animation on standard output",
+    return Error::Usage("--sweep",
+                        "a file for --output, or webp:- for an animation on standard output",
                         options.out);
   }
   if (!sweep && (!options.all_in_focus.empty() || !options.focus_index.empty())) {
     return Error::Usage(options.all_in_focus.empty() ? "--focus-index" : "--all-in-focus",
-                        "--sweep beside it", "none");
+                        "--sweep as well", "no --sweep");
   }
   if (!options.focus_index.empty() && FormatExtension(options.focus_index) != ".png") {
     return Error::Usage("--focus-index", "a name that ends in .png", options.focus_index);
   }
   if (!options.depth_photo || (IsJpeg(options.out) && !sweep && !region)) return {};
-  return Error::Usage("--depth-photo", "a whole picture as .jpg",
+  return Error::Usage("--depth-photo", "a whole picture in a .jpg file",
                       sweep    ? "--sweep"
                       : region ? "--region"
                                : options.out);

@@ -18,7 +18,7 @@ std::string FirstInvalid(const FloatMap& map, int64_t count) {
   for (int y = 0; y < map.height; ++y) {
     for (int x = 0; x < map.width; ++x) {
       if (std::isfinite(map.at(x, y))) continue;
-      return std::to_string(count) + " that are not, the first at " + std::to_string(x) + "," +
+      return std::to_string(count) + " other values, the first at " + std::to_string(x) + "," +
              std::to_string(y) + " (--fill-invalid replaces them)";
     }
   }
@@ -202,18 +202,20 @@ Error CheckRenderer(const std::string& where, const LensPlan& plan, const Positi
       plan.options.mode == STARFOCUS_MODE_BLUR || AreStar(views)) {
     return {};
   }
-  return Error::Usage("--renderer", "slices, as line-scan needs a star of 1, 5, 9 or 17 views",
+  return Error::Usage("--renderer", "slices, because line-scan needs a star of 1, 5, 9 or 17 views",
                       "line-scan for the " + std::to_string(views.size()) + " views of " + where);
 }
 
 Result<starfocus_disparity_stats> PrepareDisparity(const std::string& where, const FloatMap& map) {
   const starfocus_disparity_stats stats = MeasureDisparity(map);
   if (stats.invalid != 0) {
-    return Expected(where, "finite disparities", FirstInvalid(map, stats.invalid));
+    return Expected(where, "finite disparities only", FirstInvalid(map, stats.invalid));
   }
   const double largest = std::max(std::fabs(double(stats.min)), std::fabs(double(stats.max)));
   if (largest <= STARFOCUS_MAX_DISPARITY) return stats;
-  return Expected(where, "disparities within +-" + Short(STARFOCUS_MAX_DISPARITY),
+  return Expected(where,
+                  "disparities from -" + Short(STARFOCUS_MAX_DISPARITY) + " to " +
+                      Short(STARFOCUS_MAX_DISPARITY),
                   Short(stats.min) + " to " + Short(stats.max));
 }
 
@@ -253,8 +255,10 @@ Error ForeseeBlur(const LightField& light_field, bool repaired, LensPlan* plan) 
 Result<double> ChooseBlur(const starfocus_disparity_stats& stats, LensPlan* plan) {
   for (const double focus : plan->foci) {
     if (std::fabs(focus) <= STARFOCUS_MAX_FOCUS) continue;
-    return Error::Usage(plan->focus_option, "a disparity within +-" + Short(STARFOCUS_MAX_FOCUS),
-                        Short(focus));
+    return Error::Usage(
+        plan->focus_option,
+        "a disparity from -" + Short(STARFOCUS_MAX_FOCUS) + " to " + Short(STARFOCUS_MAX_FOCUS),
+        Short(focus));
   }
   const double range = FarthestFromFocus(stats, plan->foci);
   if (Error error = FitAperture(range, &plan->aperture)) return error;

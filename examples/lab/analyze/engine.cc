@@ -79,7 +79,7 @@ Error Measure(const Series& series, int sign, Table* table, Table* layers) {
     EngineStep step;
     const starfocus_status status = MeasureStep(probe, &step);
     if (status != STARFOCUS_OK || step.layer != series.layer) {
-      return Expected("engine", "a PSF at r = " + std::to_string(r),
+      return Expected("engine", "a PSF for a blur radius of " + std::to_string(r),
                       starfocus_status_string(status));
     }
     const std::string reason = Explain(step);

@@ -44,7 +44,8 @@ Error BlockBench::Open(const std::string& where, const LightField& light_field) 
     status = MakeApertures(kSliceRenderer, last, nullptr, &engine_->tables);
   }
   if (status != STARFOCUS_OK) {
-    return Expected(where, "a light field to calibrate with", starfocus_status_string(status));
+    return Expected(where, "a light field that the engine accepts",
+                    starfocus_status_string(status));
   }
   picture_ = Image(map.width, map.height);
   HoldDisparity();

@@ -29,7 +29,7 @@ Error SceneTimes::Open(const std::string& name, LightField light_field) {
     }
   }
   if (groups_.size() >= 2 * kTimingTermCount && layered) return {};
-  return Expected(name, "a light field with room for blocks of several sizes",
+  return Expected(name, "a light field large enough for blocks of several sizes",
                   std::to_string(light_field_.width()) + "x" +
                       std::to_string(light_field_.height()) + " with " +
                       std::to_string(groups_.size()) + " configurations");

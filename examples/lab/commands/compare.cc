@@ -24,7 +24,7 @@ Error CheckMap(const CompareOptions& options) {
   if (options.map.empty()) return {};
   if (Error error = CheckImageOutput(options.map)) return error;
   if (IsStandardStream(options.map)) {
-    return Error::Usage("--map", "a file: standard output has the figures", options.map);
+    return Error::Usage("--map", "a file, because the figures go to standard output", options.map);
   }
   return CheckApart({{"--map", options.map}}, {{}, {options.first, options.second}});
 }
@@ -36,7 +36,8 @@ Error Run(const CompareOptions& options) {
   if (!second) return second.error();
   const Image &a = *first, &b = *second;
   if (a.width != b.width || a.height != b.height) {
-    return Expected(options.second, SizeText(a.width, a.height) + " as " + options.first,
+    return Expected(options.second,
+                    SizeText(a.width, a.height) + " pixels, the size of " + options.first,
                     SizeText(b.width, b.height));
   }
   const Difference difference = MeasureDifference(a, b);

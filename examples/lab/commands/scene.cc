@@ -55,8 +55,9 @@ Result<Truth> ParseTruth(const std::string& text) {
   if (numbers.size() != 2 || std::fabs(numbers[0]) > STARFOCUS_MAX_DISPARITY || !(numbers[1] > 0) ||
       numbers[1] > 1) {
     return Error::Usage("--truth",
-                        "D,U: disparity in focus within +-" + Short(STARFOCUS_MAX_DISPARITY) +
-                            " and aperture above 0 and at most 1",
+                        "D,U with a disparity from -" + Short(STARFOCUS_MAX_DISPARITY) + " to " +
+                            Short(STARFOCUS_MAX_DISPARITY) +
+                            " and an aperture above 0 and at most 1",
                         "'" + text + "'");
   }
   return Truth{numbers[0], numbers[1]};
@@ -66,7 +67,7 @@ Result<Scene> ChooseScene(const SceneOptions& options) {
   std::optional<Scene> scene = MakeScene(options.name, uint32_t(options.seed.value_or(kSceneSeed)));
   if (!scene) return Error::Usage("--name", kSceneNames, "'" + options.name + "'");
   if (options.seed && !scene->seeded) {
-    return Error::Usage("--seed", "the scene hair or grass", "'" + options.name + "'");
+    return Error::Usage("--seed", "--name hair or --name grass", "--name " + options.name);
   }
   return std::move(*scene);
 }
@@ -76,8 +77,10 @@ Result<Plan> MakePlan(const SceneOptions& options) {
   if (Error error = ChooseScene(options).MoveTo(&plan.scene)) return error;
   const auto& [width, height] = options.size;
   if (width < 1 || height < 1 || int64_t(width) * height > kMostPixels) {
-    return Error::Usage("--size", "WxH from 1x1 to " + std::to_string(kMostPixels) + " pixels",
-                        "'" + SizeText(width, height) + "'");
+    return Error::Usage(
+        "--size",
+        "WxH with W and H above 0 and at most " + std::to_string(kMostPixels) + " pixels in total",
+        "'" + SizeText(width, height) + "'");
   }
   for (const std::string& text : options.truths) {
     const Result<Truth> truth = ParseTruth(text);
@@ -101,10 +104,10 @@ Error CheckFolder(const SceneOptions& options, const Plan& plan) {
         views.begin(), views.end(),
         [&](const starfocus_position& view) { return name == ViewName(view) + ".png"; });
     if (IsViewFile(name) && !replaced) {
-      return Expected(entry.path().string(), "no view left from another light field", "one");
+      return Expected(entry.path().string(), "no view of another light field", "one");
     }
     if (name == kCoverageFile && !plan.scene.HasForeground()) {
-      return Expected(entry.path().string(), "no coverage left from another scene", "one");
+      return Expected(entry.path().string(), "no coverage of another scene", "one");
     }
   }
   return {};

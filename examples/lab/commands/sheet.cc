@@ -48,7 +48,8 @@ Error Run(const SheetOptions& options) {
   const int count = static_cast<int>(options.pictures.size());
   const int cell_width = (options.width - kGap) / count - kGap;
   if (cell_width < 1) {
-    return Error::Usage("--width", "at least " + std::to_string(count * (kGap + 1) + kGap),
+    return Error::Usage("--width",
+                        "at least " + std::to_string(count * (kGap + 1) + kGap) + " pixels",
                         std::to_string(options.width));
   }
   if (!options.labels.empty() && options.labels.size() != options.pictures.size()) {

@@ -101,7 +101,7 @@ Error Run(const StressOptions& options) {
   const stress::Report report = Try(&wanted);
   Print(report);
   if (report.failures == 0) return {};
-  return Expected("stress", "no failure", std::to_string(report.failures));
+  return Expected("stress", "no failures", std::to_string(report.failures));
 }
 
 }  // namespace
