@@ -62,25 +62,26 @@ starfocus_status MeasureStep(const EngineProbe& probe, EngineStep* step) {
 std::string Explain(const EngineStep& step) {
   if (step.engine <= kThreshold) return "";
   if (step.apart > kExplained[step.layer]) {
-    return "unexplained: not the PSF the engine is meant to have";
+    return "unexplained: the PSF differs from its description";
   }
   // Tests possible causes from the most to the least fundamental, and returns the first cause that
   // explains the error.
   const double r = std::fabs(step.r);
   if (MakeLayerTheory(r, step.layer).error > kThreshold) {
-    return "the layers' filters: the ideal PSF through them exceeds it too";
+    return "the filters between layers: the ideal PSF behind them also exceeds 1e-3";
   }
   if (step.subapertures > kThreshold) {
-    return "too few views: exact subapertures exceed it with this N too";
+    return "too few views: exact subapertures with this N also exceed 1e-3";
   }
   if (step.wide)
-    return "wide subapertures are boxes, above 3 pixels on whole ones and then interpolated";
+    return "wide subapertures are boxes; boxes above 3 pixels cover whole pixels and are "
+           "interpolated";
   if (step.both_axes > kThreshold) {
-    return "subapertures one pixel wide where views lie r / N > 1 apart";
+    return "subapertures are one pixel wide, but the views are r / N > 1 pixels apart";
   }
-  return r > step.n * (1 << step.layer)
-             ? "type B views spread along their diagonal only, subapertures one pixel wide"
-             : "type B views spread along their diagonal only";
+  return r > step.n * (1 << step.layer) ? "type B views are spread along their diagonal only, and "
+                                          "subapertures are one pixel wide"
+                                        : "type B views are spread along their diagonal only";
 }
 
 }  // namespace starfocus::analysis

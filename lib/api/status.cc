@@ -12,32 +12,33 @@ const char* starfocus_status_string(starfocus_status status) {
     case STARFOCUS_ERROR_RANGE:
       return "a field or an argument is outside its range";
     case STARFOCUS_ERROR_FEATURE:
-      return "the call needs a feature or views that the engine is not made for";
+      return "the call needs a feature or views that the engine was not created with";
     case STARFOCUS_ERROR_STATE:
-      return "the stream lacks starfocus_stream_begin, or only some of its rows have coverage";
+      return "starfocus_stream_begin was not called, or only some rows of the stream have coverage";
     case STARFOCUS_ERROR_WORKSPACE:
-      return "the memory given is too small or not aligned to STARFOCUS_ALIGNMENT bytes";
+      return "the given memory is too small or not aligned to STARFOCUS_ALIGNMENT bytes";
     case STARFOCUS_ERROR_TOO_LARGE:
       return "the configuration needs more memory than this machine can address";
     case STARFOCUS_ERROR_MEMORY:
-      return "there is no memory";
+      return "out of memory";
     case STARFOCUS_ERROR_STRIDE:
-      return "a stride is smaller than a row, or misaligned";
+      return "a stride is smaller than a row or misaligned";
     case STARFOCUS_ERROR_OVERLAP:
       return "an output overlaps an input or the workspace";
     case STARFOCUS_ERROR_BLUR:
-      return "aperture times the distance of the focus from the farther end of the disparity range "
-             "exceeds max_blur";
+      return "the aperture times the distance from the focus to the farther end of the disparity "
+             "range exceeds max_blur";
     case STARFOCUS_ERROR_DISPARITY:
-      return "disparity map holds a value outside the configured disparity range";
+      return "the disparity map contains a value outside the configured disparity range";
     case STARFOCUS_ERROR_NOT_FINITE:
-      return "disparity map holds NaN or infinity";
+      return "the disparity map contains NaN or infinity";
     case STARFOCUS_ERROR_ALL_INVALID:
-      return "disparity map holds no finite value";
+      return "the disparity map contains no finite value";
     case STARFOCUS_ERROR_PREPARED:
-      return "prepared light field is of another configuration or format";
+      return "the prepared light field has another configuration or format";
     case STARFOCUS_ERROR_RUNNER:
-      return "the runner failed, or ran jobs not once each by valid workers; output is incomplete";
+      return "the runner failed, or did not run each job once on a valid worker; the output is "
+             "incomplete";
     case STARFOCUS_ERROR_CANCELLED:
       return "the progress function cancelled the call; the output is incomplete";
   }

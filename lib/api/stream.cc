@@ -35,8 +35,8 @@ starfocus_status RefocusNext(EngineState* engine) {
 starfocus_status CheckCount(const EngineState& engine, int32_t rows, int32_t most) {
   Checker check(engine.config.problem);
   check.Need(engine.stream.active, STARFOCUS_ERROR_STATE, {"stream"},
-             {"starfocus_stream_begin before"});
-  check.In({"rows", double(rows)}, {"rows that are left", 0, double(most)});
+             {"a call of starfocus_stream_begin before"});
+  check.In({"rows", double(rows)}, {"at most the remaining rows", 0, double(most)});
   return check.status();
 }
 
@@ -46,7 +46,7 @@ starfocus_status CheckPairs(const starfocus_config& config, bool is_yuv, int32_t
   Checker check(config.problem);
   check.Need(!is_yuv || (first % 2 == 0 && (rows % 2 == 0 || first + rows == config.height)),
              STARFOCUS_ERROR_RANGE, {"rows", double(rows)},
-             {"even, but at the end of the picture"});
+             {"even, except at the end of the picture"});
   return check.status();
 }
 

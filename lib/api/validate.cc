@@ -68,7 +68,7 @@ starfocus_status EnterCall(starfocus_engine* engine, std::initializer_list<Point
   *full = DefaultParams();
   Checker check(&reinterpret_cast<EngineState*>(engine)->problem);
   check.Need(ReadSized(*params, full), STARFOCUS_ERROR_STRUCTURE,
-             {"params.size", double(params->size)}, {"what starfocus_params_init sets"});
+             {"params.size", double(params->size)}, {"the value set by starfocus_params_init"});
   return check.status();
 }
 
@@ -80,7 +80,7 @@ void CheckPictureRange(const PictureRange& picture, Checker* check) {
   check->In({"disparity_min", picture.disparity_min}, disparity);
   check->In({"disparity_max", picture.disparity_max}, disparity);
   check->In({"disparity_max", picture.disparity_max},
-            {"disparity_min or more", picture.disparity_min, STARFOCUS_MAX_DISPARITY});
+            {"at least disparity_min", picture.disparity_min, STARFOCUS_MAX_DISPARITY});
   check->In({"max_workers", double(picture.max_workers)},
             STARFOCUS_FROM_TO(1, STARFOCUS_MAX_WORKERS));
 }
@@ -96,7 +96,7 @@ starfocus_status CheckConfig(const starfocus_config& config) {
   if (status != STARFOCUS_OK) return status;
   check.Need(config.max_blur > 0.0 && config.max_blur <= STARFOCUS_MAX_BLUR, STARFOCUS_ERROR_RANGE,
              {"max_blur", config.max_blur},
-             {"above 0, at most STARFOCUS_MAX_BLUR", kNoNumber, STARFOCUS_MAX_BLUR});
+             {"above 0 and at most STARFOCUS_MAX_BLUR", kNoNumber, STARFOCUS_MAX_BLUR});
   check.Need(IsBlock(config.superblock), STARFOCUS_ERROR_RANGE,
              {"superblock", double(config.superblock)}, {"0, 32, 64, 128 or 256"});
   CheckTuning(config.tuning, &check);
@@ -135,7 +135,7 @@ starfocus_status CheckMemory(const Memory& memory, size_t needed, starfocus_prob
              {memory.name, double(address % STARFOCUS_ALIGNMENT)},
              {"a multiple of STARFOCUS_ALIGNMENT"});
   check.Need(memory.bytes >= needed, STARFOCUS_ERROR_WORKSPACE, {"bytes", double(memory.bytes)},
-             {"what the size function says, or more", double(needed)});
+             {"at least the result of the size function", double(needed)});
   return check.status();
 }
 

@@ -64,7 +64,7 @@ void CheckImage(const starfocus_image& image, const PictureSize& size, const Ima
   }
   check->Need(ValidPixelStride(format, image.pixel_stride), STARFOCUS_ERROR_RANGE,
               {names.pixel_stride, double(image.pixel_stride), index},
-              {"0, or bytes that the format allows"});
+              {"0, or a number of bytes that the format allows"});
   if (check->status() != STARFOCUS_OK) return;
   for (int plane = 0; plane < PlanesOfFormat(format); ++plane) {
     check->NotNull(image.planes[plane], names.planes, index);
@@ -102,7 +102,7 @@ starfocus_status CheckDepthMap(const starfocus_depth_map& map, const PictureSize
   check.In({"depth.has_invalid", double(map.has_invalid)}, STARFOCUS_FROM_TO(0, 1));
   const auto scale = static_cast<float>(map.scale), offset = static_cast<float>(map.offset);
   check.Need(IsFinite(scale) && scale != 0, STARFOCUS_ERROR_RANGE, {"depth.scale", map.scale},
-             {"a finite float, not 0"});
+             {"a finite float other than 0"});
   check.Need(IsFinite(offset), STARFOCUS_ERROR_RANGE, {"depth.offset", map.offset},
              {"a finite float"});
   check.In({"depth.width", double(map.width)}, {"1 to width", 1, double(size.width)});
@@ -128,7 +128,7 @@ starfocus_status CheckInPlace(const starfocus_depth_map& map, const PictureSize&
                               starfocus_problem* problem) {
   Checker check(problem);
   check.Need(IsInPlace(map, size.width, size.height), STARFOCUS_ERROR_FEATURE, {"depth"},
-             {"as of starfocus_depth_float, as large as the picture, or an engine with "
+             {"a map of starfocus_depth_float in the size of the picture, or an engine with "
               "STARFOCUS_FEATURE_IMAGES"});
   return check.status();
 }

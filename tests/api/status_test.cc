@@ -34,7 +34,7 @@ const char* WordsOf(starfocus_status status) {
     case STARFOCUS_ERROR_TOO_LARGE:
       return "can address";
     case STARFOCUS_ERROR_MEMORY:
-      return "there is no memory";
+      return "out of memory";
     case STARFOCUS_ERROR_STRIDE:
       return "stride is smaller";
     case STARFOCUS_ERROR_OVERLAP:

@@ -38,7 +38,7 @@ TEST_CASE("problem: without a field or for another call, the line has only the s
   starfocus_problem problem = {STARFOCUS_ERROR_RANGE, 0, "width", "1", std::nan(""), 0, 0};
   CHECK(Text(STARFOCUS_ERROR_RANGE, &problem) ==
         "width: a field or an argument is outside its range (expected 1)");
-  CHECK(Text(STARFOCUS_ERROR_MEMORY, &problem) == "there is no memory");
+  CHECK(Text(STARFOCUS_ERROR_MEMORY, &problem) == "out of memory");
   CHECK(Text(STARFOCUS_ERROR_RANGE, nullptr) == starfocus_status_string(STARFOCUS_ERROR_RANGE));
   problem.field = "";
   CHECK(Text(STARFOCUS_ERROR_RANGE, &problem) == starfocus_status_string(STARFOCUS_ERROR_RANGE));
