@@ -53,13 +53,13 @@ export function parseGDepth(buffer, name) {
     throw new Error(`${name} has a depth map without a range: expected 0 < GDepth:Near < GDepth:Far.`);
   }
   if (format !== 'RangeInverse' && format !== 'RangeLinear') {
-    throw new Error(`${name} has a depth map of an unknown kind: expected GDepth:Format RangeInverse or RangeLinear.`);
+    throw new Error(`${name} has a depth map in an unknown format: expected GDepth:Format RangeInverse or RangeLinear.`);
   }
   let bytes;
   try {
     bytes = Uint8Array.from(atob(data.replace(/\s/g, '')), letter => letter.charCodeAt(0));
   } catch {
-    throw new Error(`${name} has a damaged depth map: its data are no base64.`);
+    throw new Error(`${name} has a damaged depth map: its data are not valid base64.`);
   }
   const type = field(xmp, 'Mime') ?? 'image/png';
   return {picture: new Blob([bytes], {type}), near, far, inverse: format === 'RangeInverse'};

@@ -33,7 +33,7 @@ function measure({data}) {
 function checkDepth(name, depth) {
   const {low, high} = measure(depth);
   if (!(low >= -LARGEST_DISPARITY && high <= LARGEST_DISPARITY)) {
-    throw new Error(`${name} holds disparities from ${low} to ${high}; expected -500 to 500 pixels.`);
+    throw new Error(`${name} contains disparities from ${low} to ${high}; expected -500 to 500 pixels.`);
   }
   return {depth, low, high};
 }
@@ -44,7 +44,7 @@ async function openFolder(files, find) {
   if (!set) throw new Error(`The folder has no centre view: expected ${viewName([0, 0])}.png.`);
   const map = files.find(file => file.name === 'disparity.pfm');
   if (!map) {
-    throw new Error('The folder has no disparity.pfm; "starfocus disparity FOLDER" makes one of its views.');
+    throw new Error('The folder has no disparity.pfm. The command "starfocus disparity FOLDER" estimates one from the views.');
   }
   const views = await Promise.all(POSITIONS.slice(0, set).map(at => decode(find(viewName(at)))));
   const [{width, height}] = views;
@@ -52,7 +52,7 @@ async function openFolder(files, find) {
   for (const [index, view] of [...views, depth].entries()) {
     if (view.width === width && view.height === height) continue;
     const wrong = index < set ? viewName(POSITIONS[index]) : map.name;
-    throw new Error(`${wrong} is ${view.width} x ${view.height}; expected ${width} x ${height}, as the centre view is.`);
+    throw new Error(`${wrong} is ${view.width} x ${view.height}; expected ${width} x ${height}, the size of the centre view.`);
   }
   const name = set > 1 ? `light field of ${set} views` : 'picture with its disparities';
   return {name, width, height, views, ...checkDepth(map.name, depth)};
@@ -60,14 +60,14 @@ async function openFolder(files, find) {
 
 function checkSize(name, image, {width, height}) {
   if (width <= image.width && height <= image.height) return;
-  throw new Error(`The depth of ${name} is ${width} x ${height}; expected at most ${image.width} x ${image.height}, as the picture is.`);
+  throw new Error(`The depth of ${name} is ${width} x ${height}; expected at most ${image.width} x ${image.height}, the size of the picture.`);
 }
 
 /** Returns the light field of a photo with a map of values in any unit, larger for nearer points. */
 function depthPhoto(name, image, {data, width, height}) {
   checkSize(name, image, {width, height});
   const {low, high} = measure({data});
-  if (!(high > low)) throw new Error(`The depth of ${name} is the same everywhere, so that there is nothing to focus.`);
+  if (!(high > low)) throw new Error(`The depth of ${name} is the same everywhere, so there is nothing to focus on.`);
   const span = Math.max(4, BLUR_OF_PHOTO * image.width);
   const disparity = Float32Array.from(data, value => (value - low) / (high - low) * span);
   return {
@@ -79,7 +79,7 @@ function depthPhoto(name, image, {data, width, height}) {
 async function openJpeg(file) {
   const found = parseGDepth(await file.arrayBuffer(), file.name);
   if (!found) {
-    throw new Error(`${file.name} has no depth in it. Drop a depth photo (a JPEG with GDepth), or a picture together with its depth picture.`);
+    throw new Error(`${file.name} contains no depth map. Drop a depth photo (a JPEG with GDepth), or a picture together with its depth picture.`);
   }
   const [image, map] = await Promise.all([decode(file), decode(found.picture, `The depth map of ${file.name}`)]);
   const data = inverseDistances(redOf(map), found);
@@ -100,7 +100,7 @@ async function openPair(files) {
   const named = files.findIndex(file => /depth|disp/i.test(file.name));
   const index = named >= 0 ? named : images.findIndex(isGray);
   if (index < 0) {
-    throw new Error(`Of ${files[0].name} and ${files[1].name} none is a depth picture: expected one in gray, or with "depth" in its name.`);
+    throw new Error(`Neither ${files[0].name} nor ${files[1].name} is a depth picture: expected a gray picture, or "depth" in a file name.`);
   }
   const {width, height} = images[index];
   return depthPhoto(`${files[1 - index].name} with ${files[index].name}`, images[1 - index],
@@ -113,17 +113,17 @@ export async function open(files) {
   const find = stem => files.find(file => /\.(png|jpe?g)$/i.test(file.name) && file.name.replace(/\.\w+$/, '') === stem);
   if (has(/^view_[+-]/) || has(/^disparity\.pfm$/) && files.length > 2) return openFolder(files, find);
   if (has(/^input_Cam\d+\.png$/i)) {
-    throw new Error('This is a light field of the HCI benchmark, which the page does not read; copy five of its views and its disparities into a folder of starfocus.');
+    throw new Error('This is a light field of the HCI benchmark, which this page cannot read. Copy five of its views and its disparities into a starfocus folder.');
   }
   if (has(/^out_\d+_\d+_.*\.png$/i)) {
-    throw new Error('This is a light field of the Stanford archive, which has no disparities; the page needs a folder of starfocus with disparity.pfm.');
+    throw new Error('This is a light field of the Stanford archive, which has no disparities. This page needs a starfocus folder with disparity.pfm.');
   }
   if (files.length === 1 && /\.pfm$/i.test(files[0].name)) {
-    throw new Error(`${files[0].name} is a map without its picture; drop both together.`);
+    throw new Error(`${files[0].name} is a depth map without its picture. Drop both together.`);
   }
   if (files.length === 1) return openJpeg(files[0]);
   if (files.length === 2) return openPair(files);
-  throw new Error(`Expected a folder of a light field, a depth photo or a picture with its depth, found ${files.length} files.`);
+  throw new Error(`Expected a light-field folder, a depth photo, or a picture with its depth picture, found ${files.length} files.`);
 }
 
 /** Loads the files of the demo from the server of the page. Returns their promises; the centre view is the first. */
@@ -131,7 +131,7 @@ export function fetchDemo() {
   const names = [...POSITIONS.slice(0, 5).map(at => `${viewName(at)}.png`), 'disparity.pfm'];
   return names.map(async name => {
     const response = await fetch(`demo/${encodeURIComponent(name)}`);
-    if (!response.ok) throw new Error(`The demo's ${name} cannot be loaded: the server says ${response.status}.`);
+    if (!response.ok) throw new Error(`Cannot load ${name} of the demo: the server returned status ${response.status}.`);
     return new File([await response.blob()], name);
   });
 }

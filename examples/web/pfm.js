@@ -6,11 +6,11 @@
 export function parsePfm(buffer, name) {
   const header = new TextDecoder('latin1').decode(buffer.slice(0, 128));
   const match = /^Pf\s+(\d+)\s+(\d+)\s+(-?[\d.]+(?:e[-+]?\d+)?)\s/i.exec(header);
-  if (!match) throw new Error(`${name} is no map of floats: it does not begin as a PFM of one channel does.`);
+  if (!match) throw new Error(`${name} is not a depth map: expected a PFM file with one channel.`);
   const [width, height, scale] = match.slice(1).map(Number);
   const expected = match[0].length + 4 * width * height;
   if (buffer.byteLength < expected || width < 1 || height < 1) {
-    throw new Error(`${name} is cut off: ${width} x ${height} values take ${expected} bytes, it has ${buffer.byteLength}.`);
+    throw new Error(`${name} is truncated: ${width} x ${height} values need ${expected} bytes, but the file has ${buffer.byteLength}.`);
   }
   const view = new DataView(buffer, match[0].length), data = new Float32Array(width * height);
   for (let y = 0; y < height; ++y) {

@@ -7,8 +7,8 @@ export async function decode(file, name = file.name) {
   try {
     bitmap = await createImageBitmap(file, {colorSpaceConversion: 'none', premultiplyAlpha: 'none'});
   } catch {
-    const kind = /\.hei[cf]$/i.test(name) ? 'HEIC, which this browser does not read' :
-                                            'no picture that this browser reads';
+    const kind = /\.hei[cf]$/i.test(name) ? 'a HEIC picture, which this browser cannot read' :
+                                            'not a picture that this browser can read';
     throw new Error(`${name} is ${kind}.`);
   }
   const canvas = new OffscreenCanvas(bitmap.width, bitmap.height);

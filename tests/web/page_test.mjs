@@ -249,17 +249,17 @@ test('refuses what it cannot read in a sentence, and keeps what was open', async
   const jpeg = Buffer.from('ffd8ffe000104a46494600010100000100010000ffd9', 'hex');
   const broken = makeGDepth(jpeg, Buffer.from('nothing'));
   const refused = [
-    [[file('photo.jpg', jpeg)], /photo\.jpg has no depth in it\. Drop a depth photo/],
-    [[file('broken.jpg', broken)], /broken\.jpg is no picture that this browser reads\./],
-    [[file('cut.png', centre.buffer.subarray(0, 500)), file('disparity.pfm')], /cut\.png is no picture that this browser reads\./],
-    [[file('a.png', centre.buffer), file('map.pfm', pfm.subarray(0, 5000))], /map\.pfm is cut off: 320 x 240 values take/],
-    [[file('a.png', centre.buffer), file('map.pfm', jpeg)], /map\.pfm is no map of floats/],
-    [[file('phone.heic', jpeg), file('depth.png', centre.buffer)], /phone\.heic is HEIC, which this browser does not read\./],
+    [[file('photo.jpg', jpeg)], /photo\.jpg contains no depth map\. Drop a depth photo/],
+    [[file('broken.jpg', broken)], /broken\.jpg is not a picture that this browser can read\./],
+    [[file('cut.png', centre.buffer.subarray(0, 500)), file('disparity.pfm')], /cut\.png is not a picture that this browser can read\./],
+    [[file('a.png', centre.buffer), file('map.pfm', pfm.subarray(0, 5000))], /map\.pfm is truncated: 320 x 240 values need/],
+    [[file('a.png', centre.buffer), file('map.pfm', jpeg)], /map\.pfm is not a depth map/],
+    [[file('phone.heic', jpeg), file('depth.png', centre.buffer)], /phone\.heic is a HEIC picture, which this browser cannot read\./],
     [[file('input_Cam000.png', jpeg), file('parameters.cfg', jpeg)], /HCI benchmark/],
     [[file('out_00_00_-1_1_.png', jpeg)], /Stanford archive/],
     [[centre, file('view_+1.0_+0.0.png'), file('view_-1.0_+0.0.png')], /no disparity\.pfm/],
     [[file('view_+1.0_+0.0.png'), file('view_-1.0_+0.0.png')], /no centre view/],
-    [[file('disparity.pfm')], /map without its picture/],
+    [[file('disparity.pfm')], /depth map without its picture/],
     [[1, 2, 3].map(i => file(`${i}.png`, jpeg)), /found 3 files/]
   ];
   for (const [files, message] of refused) {

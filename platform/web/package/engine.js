@@ -33,7 +33,7 @@ function findMemoryFlags(bytes) {
     }
     return at + 1;
   }
-  throw new Error('The module of starfocus is damaged: it imports no memory.');
+  throw new Error('starfocus.wasm is damaged: it does not import a memory.');
 }
 
 /** Compiles the engine. The module is linked for shared memory, which one flag declares. If `shared` is false, the flag

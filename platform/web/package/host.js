@@ -8,7 +8,7 @@ export async function readFile(name) {
   const url = new URL(`./${name}`, import.meta.url);
   if (inNode) return (await import('node:fs/promises')).readFile(url);
   const response = await fetch(url);
-  if (!response.ok) throw new Error(`${url} cannot be loaded: the server says ${response.status}.`);
+  if (!response.ok) throw new Error(`Cannot load ${url}: the server returned status ${response.status}.`);
   return response.arrayBuffer();
 }
 
