@@ -14,8 +14,9 @@ struct Call {
   const starfocus_params& params;
   RowSource source;
   RowSink sink;
-  const Prepared* prepared = nullptr;                             // null: not prepared
-  const starfocus_light_field *before = nullptr, *now = nullptr;  // null: no comparison
+  // Null: the light field is not prepared.
+  const Prepared* prepared = nullptr;
+  const starfocus_light_field *before = nullptr, *now = nullptr;  // null: frames are not compared
 };
 
 // Checks `params` and the prepared light field (null: none) against the configuration of the

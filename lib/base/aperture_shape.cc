@@ -11,7 +11,7 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 
 // The last digit of a tangent may differ between machines, here and in ApertureFallOff. The rounded
-// result differs only if the exact value lies within this error of a boundary between two integers.
+// result differs only if the exact value lies within this error of the middle between two integers.
 int32_t Round(double value) { return static_cast<int32_t>(std::floor(value * kOpeningOne + 0.5)); }
 
 struct UnitVector {

@@ -34,7 +34,8 @@ struct Rating {
   ViewPosition at;
 
   bool Helps() const { return across < kTooFarBeside * along; }
-  // True if the view lies closer to the direction of this side than to any other.
+  // True if the view lies closer to the direction of this side than to the direction of any other
+  // side.
   bool Own() const { return across < along; }
   // Twice the distance along the axis, minus the distance from the axis.
   int32_t Merit() const { return 2 * along - across; }

@@ -28,7 +28,7 @@ void RefocusOneBlock(const RefocusJob& job, int32_t index, Scratch* scratch) {
 
 // Deblocks the boundaries between blocks of different layers. For boundaries between rows, job
 // `index` processes column `index` of superblocks. For boundaries between columns, job `index`
-// processes kSmallestBlock of the finished rows.
+// processes kSmallestBlock finished rows.
 struct JoinJob {
   DeblockJob deblock;
   int32_t smallest;  // number of smallest blocks along the side of a superblock

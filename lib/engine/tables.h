@@ -15,7 +15,7 @@
 
 namespace starfocus {
 
-// All renderers, indexed by Renderer::index. An engine has the first RendererCount of them.
+// All renderers, indexed by Renderer::index. An engine uses the first RendererCount renderers.
 inline constexpr int32_t kMaxRenderers = 2;
 inline constexpr const Renderer* kRenderers[kMaxRenderers] = {&kSliceRenderer, &kLineScanRenderer};
 inline bool HasLineScan(const starfocus_config& config) {

@@ -38,7 +38,7 @@ struct LinePlace {
     beside = distance * contrast - along * along;
   }
 
-  // Returns the upper bound of `kContrastParts * beside` for a mixture.
+  // Returns the upper bound of `kContrastParts * beside` for mixtures; the bound is inclusive.
   int64_t Limit() const { return contrast * (kContrastParts * kNoise + contrast); }
 
   int32_t Share() const {

@@ -9,8 +9,8 @@
 
 namespace starfocus {
 
-// Writes the light of `count` pixels of the centre view, or their excess if window.is_excess. The
-// pixels start at (x, y) of the layer and must be inside the picture.
+// Writes the light of `count` pixels of the centre view, or the excess of these pixels if
+// window.is_excess. The pixels start at (x, y) of the layer and must be inside the picture.
 void LoadLight(const Window& window, int32_t x, int32_t y, int32_t count, int16_t* rgb);
 
 // Copies `rect` and its border from the window to field->rgb and field->disparity, which must be

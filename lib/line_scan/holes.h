@@ -30,7 +30,7 @@ struct HoleLine {
 };
 
 // Writes the colours of rendered pixels `part` of a line, 3 samples each. The pixels show a
-// background of disparity `disparity`. The captured view is read at the index that the disparity
+// background of disparity `disparity`. The captured view is read at the position that the disparity
 // implies (IV-A). With 5 views, a diagonal view is interpolated from its horizontal and its
 // vertical neighbour. Each neighbour is weighted by its similarity to the visible background
 // `colour`. With only the centre view, the background colour is repeated.

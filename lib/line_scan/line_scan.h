@@ -318,7 +318,8 @@ class LineScan {
   Edge edge_ = {nullptr, 0, 0};
 };
 
-// Scans a line for all views of a task. next(k) prepares the sink for view k and returns its move.
+// Scans a line for all views of a task. next(k) prepares the sink for view k and returns the move
+// of this view.
 template <class Sink, class Next>
 void ScanLine(const ScanTask& task, const ViewGrid& grid, Sink* sink, const Next& next) {
   const int32_t first = task.first_view, last = task.last_view;

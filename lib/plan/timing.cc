@@ -18,8 +18,8 @@ uint64_t GatherTaps(int32_t radius) {
 
 void AddScans(uint64_t views, uint64_t lines, const Content& content, int32_t layer,
               BlockWork* work) {
-  // A layer has 1 / 2^L of the lines. Along a line, slopes make 1 / 2^L of the runs and gaps have 1
-  // / 2^L of the width. The number of edges along a line does not change.
+  // A layer has 1 / 2^L of the lines. Along a line, slopes start 1 / 2^L as many runs, and gaps are
+  // 1 / 2^L as wide. The number of edges along a line does not change.
   const uint64_t runs = (content.slopes >> 2 * layer) + (content.edges >> layer);
   work->span += views * lines + views * runs / kContentOne;
   work->hole += views * (content.gaps >> 2 * layer) / kContentOne;
