@@ -205,41 +205,49 @@ Error Run(const Options& options) {
   return board.Run();
 }
 
+// Adds the options of the GPIO lines.
+void AddLineOptions(Options* options, Command* command) {
+  AddOptions(
+      {
+          {"--chip", "CHIP", "GPIO chip: a name such as gpiochip0, a number or a path",
+           &options->chip, Use::kDefault},
+          {"--encoder", "A,B",
+           "Lines of the rotary encoder that moves the focus, 0 to 65535; default: no "
+           "encoder",
+           Pair(',', &options->encoder)},
+          {"--aperture-button", "LINE",
+           "Line of the button that changes the aperture, 0 to 100000; default: no button",
+           Whole(0, kLastLine, &options->aperture)},
+          {"--shutter", "LINE",
+           "Line of the button that takes a picture, 0 to 100000; must be given",
+           Whole(0, kLastLine, &options->shutter)},
+          {"--busy", "LINE",
+           "Output line that is high exactly while the engine runs, 0 to 100000; default: "
+           "none",
+           Whole(0, kLastLine, &options->busy)},
+          {"--debounce", "MS", "Time in milliseconds that a button may bounce, 0 to 1000",
+           Whole(0, 1000, &options->debounce), Use::kDefault},
+          {"--active", "low|high", "Level of a pressed button",
+           Choice<bool>({{"low", false}, {"high", true}}, &options->active_high), Use::kDefault},
+          {"--bias", "pull-up|pull-down|none", "Bias of the input lines",
+           Choice<GpioBias>({{"pull-up", GpioBias::kPullUp},
+                             {"pull-down", GpioBias::kPullDown},
+                             {"none", GpioBias::kAsIs}},
+                            &options->bias),
+           Use::kDefault},
+      },
+      command);
+}
+
 Error Main(int argc, char** argv) {
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
   Options options;
-  const Program program = {
+  Program program = {
       {"board_refocus",
        "Refocus a light field with a knob and buttons on GPIO lines.",
        {
            {"DIR", "DIR", "Light-field folder", &options.folder},
            {"--list", nullptr, "List the GPIO chips and exit", &options.list},
-           {"--chip", "CHIP", "GPIO chip: a name such as gpiochip0, a number or a path",
-            &options.chip, Use::kDefault},
-           {"--encoder", "A,B",
-            "Lines of the rotary encoder that moves the focus, 0 to 65535; default: no "
-            "encoder",
-            Pair(',', &options.encoder)},
-           {"--aperture-button", "LINE",
-            "Line of the button that changes the aperture, 0 to 100000; default: no button",
-            Whole(0, kLastLine, &options.aperture)},
-           {"--shutter", "LINE",
-            "Line of the button that takes a picture, 0 to 100000; must be given",
-            Whole(0, kLastLine, &options.shutter)},
-           {"--busy", "LINE",
-            "Output line that is high exactly while the engine runs, 0 to 100000; default: "
-            "none",
-            Whole(0, kLastLine, &options.busy)},
-           {"--debounce", "MS", "Time in milliseconds that a button may bounce, 0 to 1000",
-            Whole(0, 1000, &options.debounce), Use::kDefault},
-           {"--active", "low|high", "Level of a pressed button",
-            Choice<bool>({{"low", false}, {"high", true}}, &options.active_high), Use::kDefault},
-           {"--bias", "pull-up|pull-down|none", "Bias of the input lines",
-            Choice<GpioBias>({{"pull-up", GpioBias::kPullUp},
-                              {"pull-down", GpioBias::kPullDown},
-                              {"none", GpioBias::kAsIs}},
-                             &options.bias),
-            Use::kDefault},
            {"--focus", "D",
             "Disparity in focus at the start, within the disparities of the scene; "
             "default: their middle",
@@ -270,6 +278,7 @@ Error Main(int argc, char** argv) {
        {"board_refocus --list",
         "board_refocus lf --encoder 17,27 --aperture-button 22 --shutter 23 --out picture.png"}},
       {}};
+  AddLineOptions(&options, &program.main);
   return RunCommandLine(program, argc, argv);
 }
 

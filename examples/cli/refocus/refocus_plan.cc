@@ -75,6 +75,44 @@ Error CheckPixel(int width, int height, const LensPlan& plan) {
                       std::to_string(plan.x) + "," + std::to_string(plan.y));
 }
 
+// Adds the options that decide between time and error.
+void AddTuningOptions(Command* command, LensOptions* options) {
+  AddOptions(
+      {
+          {"--superblock", "32|64|128|256",
+           "Side of a superblock in pixels; default: 128 if the picture is at least 1536 "
+           "pixels wide, otherwise 64",
+           Choice<int>({{"32", 32}, {"64", 64}, {"128", 128}, {"256", 256}}, &options->superblock)},
+          {"--renderer", "slices|line-scan",
+           "slices renders a few views from slices of the scene; line-scan renders the "
+           "paper's views line by line and needs a star of views; default: slices, but "
+           "line-scan in mode frame with 5 or more views",
+           Choice<starfocus_renderer>(
+               {{"slices", STARFOCUS_RENDERER_SLICES}, {"line-scan", STARFOCUS_RENDERER_LINE_SCAN}},
+               &options->renderer)},
+          {"--n-scale", "X",
+           "Factor for the number of views along the radius, 0.5 to 2; smaller is faster, "
+           "larger is closer to the benchmark",
+           Number(STARFOCUS_MIN_N_SCALE, STARFOCUS_MAX_N_SCALE,
+                  "a factor from " + Short(STARFOCUS_MIN_N_SCALE) + " to " +
+                      Short(STARFOCUS_MAX_N_SCALE),
+                  &options->n_scale),
+           Use::kDefault},
+          {"--max-layer", "0|1|2",
+           "Largest layer of a block, 0 to 2; layer L is computed at 1/2^L of the size",
+           Whole(0, STARFOCUS_LAYERS - 1, &options->max_layer), Use::kDefault},
+          {"--deblocking", "N",
+           "Largest step between layers that is smoothed, in grey levels, 0 to 255; 0 "
+           "turns deblocking off",
+           Whole(0, 255, &options->deblocking), Use::kDefault},
+          {"--timing", "FILE",
+           "JSON file of timing coefficients, as written by starfocus-lab calibrate; "
+           "default: built-in coefficients",
+           &options->timing},
+      },
+      command);
+}
+
 }  // namespace
 
 void AddApertureOptions(Command* command, ApertureOptions* options) {
@@ -136,38 +174,9 @@ void AddLensOptions(Command* command, LensOptions* options) {
            Views(&options->views)},
           {"--threads", "N", "Number of threads, 1 to 64", Threads(&options->threads),
            Use::kDefault},
-          {"--superblock", "32|64|128|256",
-           "Side of a superblock in pixels; default: 128 if the picture is at least 1536 "
-           "pixels wide, otherwise 64",
-           Choice<int>({{"32", 32}, {"64", 64}, {"128", 128}, {"256", 256}}, &options->superblock)},
-          {"--renderer", "slices|line-scan",
-           "slices renders a few views from slices of the scene; line-scan renders the "
-           "paper's views line by line and needs a star of views; default: slices, but "
-           "line-scan in mode frame with 5 or more views",
-           Choice<starfocus_renderer>(
-               {{"slices", STARFOCUS_RENDERER_SLICES}, {"line-scan", STARFOCUS_RENDERER_LINE_SCAN}},
-               &options->renderer)},
-          {"--n-scale", "X",
-           "Factor for the number of views along the radius, 0.5 to 2; smaller is faster, "
-           "larger is closer to the benchmark",
-           Number(STARFOCUS_MIN_N_SCALE, STARFOCUS_MAX_N_SCALE,
-                  "a factor from " + Short(STARFOCUS_MIN_N_SCALE) + " to " +
-                      Short(STARFOCUS_MAX_N_SCALE),
-                  &options->n_scale),
-           Use::kDefault},
-          {"--max-layer", "0|1|2",
-           "Largest layer of a block, 0 to 2; layer L is computed at 1/2^L of the size",
-           Whole(0, STARFOCUS_LAYERS - 1, &options->max_layer), Use::kDefault},
-          {"--deblocking", "N",
-           "Largest step between layers that is smoothed, in grey levels, 0 to 255; 0 "
-           "turns deblocking off",
-           Whole(0, 255, &options->deblocking), Use::kDefault},
-          {"--timing", "FILE",
-           "JSON file of timing coefficients, as written by starfocus-lab calibrate; "
-           "default: built-in coefficients",
-           &options->timing},
       },
       command);
+  AddTuningOptions(command, options);
 }
 
 Result<LensPlan> PlanLens(const LensOptions& options) {
