@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fixed-point arithmetic shared by the references of several kernel families.
+// Fixed-point arithmetic that the references of several kernel families share.
 #ifndef STARFOCUS_SIMD_ARITHMETIC_REF_H_
 #define STARFOCUS_SIMD_ARITHMETIC_REF_H_
 
@@ -13,10 +13,10 @@ inline int16_t Saturated(int32_t value) {
                                                   : value);
 }
 
-// Returns the mean of two numbers, rounded halves up.
+// Returns the mean of two numbers, rounded half up.
 inline int32_t Mean(int32_t a, int32_t b) { return (a + b + 1) >> 1; }
 
-// Returns the product of two numbers of 15 fractional bits, rounded halves up.
+// Returns the product of two numbers of 15 fractional bits, rounded half up.
 inline int16_t Product15(int32_t a, int32_t b) {
   return static_cast<int16_t>((a * b + (1 << 14)) >> 15);
 }

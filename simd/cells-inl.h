@@ -14,28 +14,28 @@ HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
-// Vectors of unknown size at compile time cannot be stored in arrays or structs, as the code below
-// does.
+// The vector code stores vectors in arrays and structs. This is not possible if the size of a
+// vector is unknown at compile time.
 #if HWY_TARGET == HWY_SCALAR || HWY_HAVE_SCALABLE
 
 using reference::MeasureCell;
 
 #else
 
-// A vector holds one row of a cell.
+// Each vector holds one row of a cell.
 using CellTag = hn::FixedTag<int16_t, 8>;
 using CellRow = hn::Vec<CellTag>;
 using UnsignedTag = hn::RebindToUnsigned<CellTag>;
 using UnsignedRow = hn::Vec<UnsignedTag>;
 
-// Returns |a - b|, which may need all 16 bits.
+// Returns |a - b|, which may require all 16 bits.
 HWY_INLINE UnsignedRow Distance(CellRow a, CellRow b) {
   const UnsignedTag du16;
   return hn::Sub(hn::BitCast(du16, hn::Max(a, b)), hn::BitCast(du16, hn::Min(a, b)));
 }
 
-// Reduces each of eight vectors to one lane with `take` (minimum or maximum). Lane k is the result
-// of vector k.
+// Reduces each of eight vectors to its minimum or maximum; `take` is hn::Min or hn::Max. Lane k of
+// the result is the reduction of vector k.
 template <class Take>
 HWY_INLINE CellRow ReduceRows(const CellRow (&rows)[8], const Take& take) {
   const CellTag d16;
@@ -64,14 +64,15 @@ HWY_INLINE uint32_t SumOf(UnsignedRow row) {
   return hn::GetLane(hn::SumOfLanes(d32, pairs));
 }
 
-// Sums of steps, in 32-bit lanes where 16 bits may not hold the sum.
+// Sums of steps. Sums that may exceed 16 bits have 32-bit lanes.
 struct Steps {
   explicit Steps(const CellLimits& limits)
       : edge(hn::Set(UnsignedTag(), static_cast<uint16_t>(limits.edge))),
         slope_limit(hn::Set(UnsignedTag(), static_cast<uint16_t>(limits.slope_limit))),
         gap_limit(hn::Set(UnsignedTag(), static_cast<uint16_t>(limits.gap_limit))) {}
 
-  // Adds the steps between a and b. Steps count as inside the cell where `inside` has all bits set.
+  // Adds the steps between a and b. A step counts as inside the cell if all bits of its lane of
+  // `inside` are set.
   HWY_INLINE void Add(CellRow a, CellRow b, UnsignedRow inside) {
     const CellTag d16;
     const UnsignedTag du16;
@@ -106,8 +107,8 @@ struct Steps {
       hn::Zero(hn::Repartition<uint32_t, UnsignedTag>());
 };
 
-// Measures the steps of a cell without depth edges, which most cells are. Returns false if the cell
-// has a depth edge.
+// Measures the steps of a cell without depth edges. Returns false if the cell has a depth edge.
+// Most cells have none.
 HWY_INLINE bool MeasureSlopes(const int16_t* const rows[10], const CellRow (&here)[8],
                               UnsignedRow all_but_first, const CellLimits& limits,
                               CellMeasure* measure) {
@@ -164,7 +165,8 @@ inline void MeasureCell(const int16_t* const rows[10], const CellLimits& limits,
   const UnsignedTag du16;
   const auto min = [](CellRow a, CellRow b) HWY_ATTR { return hn::Min(a, b); };
   const auto max = [](CellRow a, CellRow b) HWY_ATTR { return hn::Max(a, b); };
-  // The step from column -1 to column 0 leads into the cell, and therefore is not inside it.
+  // The step from column -1 to column 0 leads into the cell, and therefore is not a step inside the
+  // cell.
   const auto all_but_first = hn::VecFromMask(du16, hn::Gt(hn::Iota(du16, 0), hn::Zero(du16)));
   const auto focus = hn::Set(d16, limits.focus);
   CellRow here[8];

@@ -9,9 +9,10 @@ namespace starfocus::simd {
 
 struct CellLimits {
   int16_t focus;  // disparity from which `nearest` is measured
-  int16_t edge;  // a larger step is a depth edge; <= 4369, so that the sum of 15 steps fits 16 bits
-  int16_t slope_limit;  // a step within a surface counts at most this much
-  int16_t gap_limit;    // a step at a depth edge counts at most this much
+  // Largest step that is not a depth edge; <= 4369, so that the sum of 15 steps fits in 16 bits.
+  int16_t edge;
+  int16_t slope_limit;  // upper limit of a step within a surface in `slopes`
+  int16_t gap_limit;    // upper limit of a step at a depth edge in `gaps`
 };
 
 // Output of MeasureCell for 8x8 disparities and their neighbours.
@@ -19,19 +20,20 @@ struct CellMeasure {
   int16_t column_low[8], column_high[8];  // lowest and highest disparity of each column
   int16_t row_low[8], row_high[8];        // lowest and highest disparity of each row
   uint16_t nearest;                       // smallest |disparity - focus|
-  // Lowest and highest disparity of the nearer sides of depth edges, between pixels of the cell or
-  // between them and their neighbours outside. There is no edge if edge_low > edge_high.
+  // Lowest and highest disparity of the nearer sides of depth edges. The edges lie between two
+  // pixels of the cell, or between a pixel of the cell and a neighbour outside. If edge_low >
+  // edge_high, there is no edge.
   int16_t edge_low, edge_high;
-  // Steps between pixels inside the cell, along rows [0] and along columns [1]. `slopes` is the sum
-  // of steps within a surface, `edges` the number of depth edges, and `gaps` the sum of the steps
-  // at depth edges.
+  // Statistics of the steps between pixels inside the cell. Index 0 is for steps along rows, and
+  // index 1 for steps along columns. `slopes` is the sum of the steps within a surface, `edges` the
+  // number of depth edges, and `gaps` the sum of the steps at depth edges.
   uint32_t slopes[2], edges[2], gaps[2];
 };
 
 namespace reference {
 
-// Measures the cell at rows[1] .. rows[8], columns 0 .. 7. The pixels around it are read, too:
-// rows[0] is the row above, rows[9] the row below, and each row has columns -1 .. 8.
+// Measures the cell at rows[1] .. rows[8], columns 0 .. 7. The pixels around the cell are read as
+// well: rows[0] is the row above, rows[9] the row below, and each row has columns -1 .. 8.
 void MeasureCell(const int16_t* const rows[10], const CellLimits& limits, CellMeasure* measure);
 
 }  // namespace reference

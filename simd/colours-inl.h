@@ -14,8 +14,8 @@ HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
-// All ones where a column or row of the window is out of reach of a pixel of the block, otherwise
-// 0.
+// Masks of the columns and rows of the window for each pixel of the block. A mask is all ones if
+// the column or row is out of reach of the pixel, and 0 if it is within reach.
 struct OutOfReach {
   uint16_t column[kColourWindow][kSliceLanes], row[kColourWindow][kSliceLanes];
 
@@ -30,7 +30,7 @@ struct OutOfReach {
   }
 };
 
-// Colours of the pixels of a block.
+// Colours of all pixels of a block.
 struct BlockColours {
   int16_t sum[kSliceLanes], red_green[kSliceLanes], green_blue[kSliceLanes];
 };

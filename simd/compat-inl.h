@@ -16,7 +16,7 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 // 1 if a widening multiply-add of 16-bit lanes adds the products of two adjacent lanes, as on x86
-// and WebAssembly. On other targets it adds each product to a separate sum.
+// and WebAssembly. On other targets, a widening multiply-add adds each product to a separate sum.
 #undef STARFOCUS_HAVE_PAIR_MULTIPLY
 #if (HWY_ARCH_X86 || HWY_ARCH_WASM) && HWY_TARGET != HWY_SCALAR
 #define STARFOCUS_HAVE_PAIR_MULTIPLY 1
@@ -44,7 +44,7 @@ HWY_INLINE V32 WeighPair(D32 d32, V32 a, V32 b, V32 wa, V32 wb) {
 #if HWY_TARGET != HWY_SCALAR
 
 // Adds a * wa + b * wb of 16-bit lanes to 32-bit sums. The order of the lanes in the two vectors of
-// sums depends on the target; use DemoteSums to read them.
+// sums depends on the target; read the sums with DemoteSums.
 template <class V16, class V32>
 HWY_INLINE void AddWeighed(V16 a, V16 b, int32_t wa, int32_t wb, V32& low, V32& high) {
   const hn::DFromV<V16> d16;
@@ -64,10 +64,11 @@ HWY_INLINE void AddWeighed(V16 a, V16 b, int32_t wa, int32_t wb, V32& low, V32& 
 #endif
 }
 
-// Returns the sums of AddWeighed as one vector of 16-bit lanes in their original order, saturated.
+// Returns the sums of AddWeighed, saturated, as one vector of 16-bit lanes in the order of the
+// inputs.
 template <class D16, class V32>
 HWY_INLINE hn::Vec<D16> DemoteSums(D16 d16, V32 low, V32 high) {
-#if HWY_ARCH_ARM_V7  // Highway 1.0.3 puts the first vector into the upper half
+#if HWY_ARCH_ARM_V7  // Highway 1.0.3 swaps the halves
   const hn::Half<D16> half;
   return hn::Combine(d16, hn::DemoteTo(half, high), hn::DemoteTo(half, low));
 #else

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// SIMD kernels of the coverage map (lib/coverage). Each processes a row of kSliceLanes pixels.
+// SIMD kernels of the coverage map (lib/coverage). Each kernel processes a row of kSliceLanes
+// pixels.
 #ifndef STARFOCUS_SIMD_COVERAGE_H_
 #define STARFOCUS_SIMD_COVERAGE_H_
 
@@ -10,25 +11,27 @@
 
 namespace starfocus::simd {
 
-// Geometry of a view for CoverPlaces, which finds the nearer pixels that occlude a place in the
-// view. Disparities may have any scale.
+// Geometry of a view for CoverPlaces, which finds the nearer pixels that occlude far pixels in the
+// view. All disparities must have the same scale; any scale is permitted.
 struct CoverView {
-  int16_t along;   // move of a unit of disparity in the view, 15 fractional bits
-  int16_t place;   // move that leads to the place, in the scale of disparities
-  int16_t within;  // largest deviation from that move which still covers the place
-  int16_t least;   // a nearer pixel is nearer by more than this
+  int16_t along;   // movement in the view per unit of disparity, 15 fractional bits
+  int16_t place;   // movement from the near pixel to the far pixel, in the scale of disparities
+  int16_t within;  // largest deviation from `place` at which the near pixel covers the far pixel
+  int16_t least;   // the near pixel must be nearer by more than `least`
 };
 
-// Distance in pixels within which SumNear adds pixels.
+// Largest distance, in columns and rows, of the pixels that SumNear adds.
 inline constexpr int32_t kNearReach = 2;
 
-// Rows of pixels around the first of kSliceLanes pixels, `stride` samples apart.
+// The pixels around a row of kSliceLanes pixels. All pointers point to the first pixel of the row.
+// Rows are `stride` samples apart.
 struct NearRows {
   const int16_t* light[3];
   const int16_t* disparity;  // disparity of the near surface
-  const int16_t* weight;     // [0, 256]: weight of the near surface's light in the pixel
+  // Weight of the pixel as a sample of the near surface's light, [0, 256].
+  const int16_t* weight;
   ptrdiff_t stride;
-  int16_t step;  // disparities of one surface differ by at most this
+  int16_t step;  // largest difference of disparities on one surface
 };
 
 // Output of SumNear: sums of light, and sums of weights with 15 fractional bits.
@@ -39,20 +42,20 @@ struct NearSums {
 
 namespace reference {
 
-// Raises covered[n] to coverage[n] for each pixel n < kSliceLanes whose near surface, at disparity
-// near[n], occludes the place of the far surface, at disparity far[n].
+// For each n < kSliceLanes, raises covered[n] to coverage[n] if near pixel n (disparity near[n])
+// occludes far pixel n (disparity far[n]) in the view. covered[n] is never lowered.
 void CoverPlaces(const int16_t* near, const uint8_t* coverage, const int16_t* far,
                  const CoverView& view, int16_t* covered);
 
-// Sums the light of the pixels within kNearReach of each pixel n < kSliceLanes that belong to the
-// same near surface. Light is multiplied by its weight and by kNearTaps. Each product is rounded
-// halves up.
+// Sums the light around each pixel n < kSliceLanes. The sum includes the pixels within kNearReach
+// whose near surface is the near surface of pixel n. The light of each pixel is multiplied by the
+// pixel's weight and by kNearTaps. Each product is rounded half up.
 void SumNear(const NearRows& rows, NearSums* sums);
 
 }  // namespace reference
 
-// Weights of pixels by their distance in columns and rows. The weights of all pixels sum to 118, so
-// that with weights of 256 the total is less than 1.
+// Taps of SumNear by the distance in columns and rows. All taps sum to 118, so that with weights of
+// 256 the total is less than 1 (15 fractional bits).
 inline constexpr int16_t kNearTaps[kNearReach + 1][kNearReach + 1] = {
     {10, 8, 4}, {8, 7, 3}, {4, 3, 2}};
 

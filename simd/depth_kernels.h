@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Table of the SIMD kernels for disparity maps. It is separate from the engine's table, so that a
-// program that only refocuses does not link these kernels.
+// Table of the SIMD kernels for disparity maps. The table is separate from the engine's table, so
+// that a program that only refocuses does not link these kernels.
 #ifndef STARFOCUS_SIMD_DEPTH_KERNELS_H_
 #define STARFOCUS_SIMD_DEPTH_KERNELS_H_
 
@@ -12,7 +12,7 @@
 #include "simd/prior.h"
 #include "simd/smooth.h"
 
-// List of these kernels, in the format of STARFOCUS_KERNELS (simd/kernels.h).
+// List of the kernels for disparity maps, in the format of STARFOCUS_KERNELS (simd/kernels.h).
 #define STARFOCUS_DEPTH_KERNELS(KERNEL) \
   KERNEL(SplitRow)                      \
   KERNEL(InterpolateRow)                \

@@ -18,7 +18,7 @@ namespace HWY_NAMESPACE {
 using DepthTag = hn::ScalableTag<float>;
 using DepthBits = hn::RebindToSigned<DepthTag>;
 
-// Converts bytes or 16-bit numbers, all of which a float represents exactly.
+// Converts bytes or 16-bit numbers. A float represents each of these numbers exactly.
 template <class T>
 HWY_INLINE bool WidenNumbers(const T* HWY_RESTRICT values, size_t count, float* HWY_RESTRICT z) {
   const DepthTag df;
@@ -48,8 +48,8 @@ inline void HalvesToDepth(const uint16_t* HWY_RESTRICT values, size_t count,
     const auto half = hn::PromoteTo(d32, hn::LoadU(d16, values + n));
     const auto magnitude = hn::And(half, hn::Set(d32, 0x7FFF));
     const auto sign = hn::ShiftLeft<16>(hn::Sub(half, magnitude));
-    // Exponents of single precision are larger by 112. No result is a denormal, which some machines
-    // flush to 0.
+    // The biased exponent of a float is larger by 112 than that of a half-precision float. No
+    // result is a denormal; some machines would flush denormals to 0.
     const auto normal = hn::Add(hn::ShiftLeft<13>(magnitude), hn::Set(d32, 112 << 23));
     const auto small =
         hn::BitCast(d32, hn::Mul(hn::ConvertTo(df, magnitude), hn::Set(df, 1.0f / (1 << 24))));
@@ -60,7 +60,7 @@ inline void HalvesToDepth(const uint16_t* HWY_RESTRICT values, size_t count,
   if (!done) reference::HalvesToDepth(values, count, z);
 }
 
-// Converts depths to disparities. `scaled` computes scale * z or scale / z.
+// Converts depths to disparities. The function `scaled` computes scale * z or scale / z.
 template <class Scaled>
 HWY_INLINE uint32_t ConvertDepths(const float* HWY_RESTRICT z, size_t count, const DepthRule& rule,
                                   const Scaled& scaled, int16_t* HWY_RESTRICT out) {
@@ -78,7 +78,7 @@ HWY_INLINE uint32_t ConvertDepths(const float* HWY_RESTRICT z, size_t count, con
     const auto steps =
         hn::Floor(hn::Add(hn::Mul(disparity, hn::Set(df, 64.0f)), hn::Set(df, 0.5f)));
     auto result = hn::ConvertTo(d32, hn::IfThenElseZero(inside, steps));
-    // The result of `!=` with NaN differs between targets.
+    // `invalid` is compared with Eq, because the result of Ne for NaN differs between targets.
     const auto is_invalid = hn::Eq(value, invalid);
     if (!hn::AllTrue(df, hn::AndNot(is_invalid, inside))) {
       const auto finite = hn::Eq(hn::Sub(disparity, disparity), hn::Zero(df));
@@ -94,7 +94,7 @@ HWY_INLINE uint32_t ConvertDepths(const float* HWY_RESTRICT z, size_t count, con
 
 inline uint32_t DepthToDisparity(const float* HWY_RESTRICT z, size_t count, const DepthRule& rule,
                                  int16_t* HWY_RESTRICT out) {
-#if HWY_ARCH_ARM_V7  // its vectors flush denormals to 0 and approximate divisions
+#if HWY_ARCH_ARM_V7  // vectors flush denormals to 0 and approximate divisions
   return reference::DepthToDisparity(z, count, rule, out);
 #else
   const auto scale = hn::Set(DepthTag(), rule.scale);
@@ -119,7 +119,7 @@ inline void BlendRows(const int16_t* HWY_RESTRICT a, const int16_t* HWY_RESTRICT
     const auto from = hn::LoadU(d16, a + n);
     const auto difference = hn::SaturatedSub(hn::LoadU(d16, b + n), from);
     const auto apart = hn::Or(hn::Gt(difference, step), hn::Lt(difference, down));
-    // Where the difference is too large, the product is not used.
+    // The product overflows only in lanes in which it is not used.
     const auto product = hn::Mul(difference, weight);
     const auto between = hn::Add(from, hn::ShiftRight<8>(hn::Add(product, half)));
     hn::StoreU(hn::IfThenElse(apart, hn::LoadU(d16, nearer + n), between), d16, out + n);

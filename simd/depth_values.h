@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// SIMD kernels that convert values of depth maps to disparities with 6 fractional bits, and rows of
-// small maps to rows of pictures.
+// SIMD kernels that convert values of depth maps to disparities with 6 fractional bits, and that
+// scale rows of small depth maps to the size of a picture.
 #ifndef STARFOCUS_SIMD_DEPTH_VALUES_H_
 #define STARFOCUS_SIMD_DEPTH_VALUES_H_
 
@@ -14,45 +14,45 @@ namespace starfocus::simd {
 // Conversion from a value z of a depth map to a disparity, and the allowed range of disparities.
 struct DepthRule {
   float scale, offset;
-  float invalid;    // z of an unknown depth; NaN: no such value
-  bool reciprocal;  // true: disparity is scale / z + offset; false: scale * z + offset
-  float low, high;  // each in [-511, 511]
+  float invalid;    // value z of an unknown depth; NaN if there is no such value
+  bool reciprocal;  // true: the disparity is scale / z + offset; false: scale * z + offset
+  float low, high;  // allowed range of disparities, within [-511, 511]
 };
 
 // Flags returned by DepthToDisparity.
 enum DepthFlags : uint32_t { kUnknownDepth = 1, kDepthOutside = 2 };
 
-// Neighbouring disparities that differ by at most this belong to one surface, as in the engine
-// (kSurfaceStep).
+// Largest difference between neighbouring disparities on one surface. The value is equal to the
+// engine's kSurfaceStep.
 inline constexpr int16_t kBlendStep = 96;
 
-// Position of a picture column between two columns of a map: kColumnOne times the left column, plus
-// the share of the right one.
+// Fractional bits of the position of a picture column in a map. The position is kColumnOne times
+// the index of the map column on the left, plus the share of the map column on the right.
 inline constexpr int kColumnBits = 8;
 inline constexpr uint32_t kColumnOne = 1u << kColumnBits;
 
 namespace reference {
 
-// Converts bytes, 16-bit numbers or half-precision floats (IEEE 754 binary16) to z[n]. Infinity and
-// NaN become NaN.
+// Convert bytes, 16-bit numbers or half-precision floats (IEEE 754 binary16) to z[n] for n < count.
+// Infinity and NaN are converted to NaN.
 void BytesToDepth(const uint8_t* values, size_t count, float* z);
 void WordsToDepth(const uint16_t* values, size_t count, float* z);
 void HalvesToDepth(const uint16_t* values, size_t count, float* z);
 
-// Computes the disparity of each z[n] by the rule, with each operation rounded to single precision.
-// Then out[n] is disparity * 64, rounded halves up. It is kNoSurface if z is invalid or the
-// disparity is not finite, and unspecified if the disparity lies outside [low, high]. Returns
-// DepthFlags.
+// Computes the disparity of each z[n] according to the rule, with each operation rounded to single
+// precision. Sets out[n] to disparity * 64, rounded half up. If z[n] is invalid or the disparity is
+// not finite, out[n] is kNoSurface. If the disparity lies outside [low, high], out[n] is
+// unspecified. Returns DepthFlags.
 uint32_t DepthToDisparity(const float* z, size_t count, const DepthRule& rule, int16_t* out);
 
-// Interpolates between a[n] and b[n], where b has the weight `share` in [0, kColumnOne). If they
-// differ by at most kBlendStep, out[n] is a + ((share (b - a) + 128) >> 8). Otherwise it is a if
-// share < 128, else b.
+// Interpolates between a[n] and b[n], where b has the weight `share` in [0, kColumnOne). If a[n]
+// and b[n] differ by at most kBlendStep, out[n] is a + ((share (b - a) + 128) >> 8). Otherwise,
+// out[n] is a if share < 128, and b if not.
 void BlendRows(const int16_t* a, const int16_t* b, size_t count, uint32_t share, int16_t* out);
 
-// Interpolates along a row like BlendRows. columns[n] is the position of pixel n. A pair is an
-// element of the row (its low half) and the element to its right; the first pair is element
-// `first`.
+// Interpolates along a row like BlendRows. columns[n] is the position of pixel n. The low half of
+// each pair is an element of the row, and the high half is the next element to the right. The first
+// pair starts at element `first`.
 void SpreadRow(const int32_t* pairs, const uint32_t* columns, size_t count, uint32_t first,
                int16_t* out);
 

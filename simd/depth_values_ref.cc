@@ -15,7 +15,7 @@ float HalfToFloat(uint16_t half) {
   if (magnitude >= kHalfInfinity) return std::numeric_limits<float>::quiet_NaN();
   float value = static_cast<float>(magnitude) / (1 << 24);
   if (magnitude >= 1 << 10) {
-    // Exponents of single precision are larger by 112.
+    // The biased exponent of a float is larger by 112 than that of a half-precision float.
     const uint32_t bits = (magnitude << 13) + (112u << 23);
     std::memcpy(&value, &bits, sizeof(value));
   }

@@ -17,11 +17,11 @@ HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
-inline constexpr size_t kDiscChunk = 192;  // samples filtered together
+inline constexpr size_t kDiscChunk = 192;  // number of samples that are filtered together
 inline constexpr size_t kDiscMargin = 3 * kMaxDisc;
 
-// Stores the means of two rows that have the same weights in the disc. The middle row has no
-// counterpart and is copied.
+// Stores the means of two rows with equal weights in the disc. The middle row has no counterpart
+// and is copied.
 HWY_INLINE void AverageRows(const int16_t* above, const int16_t* below, size_t count,
                             uint16_t* HWY_RESTRICT means) {
   if (above == below) {
@@ -37,15 +37,16 @@ HWY_INLINE void AverageRows(const int16_t* above, const int16_t* below, size_t c
   }
 }
 
-// Means of rows with equal weights in the disc: row y has the means of the rows y above and y below
-// the middle one. One more tap on each side is read, with weight zero, if the second column of a
-// pair lies beyond the disc.
+// Means of rows with equal weights in the disc. Row y contains the means of two rows: y rows above
+// and y rows below the middle row. If the second column of a pair lies beyond the disc, one more
+// tap on each side is read, with weight zero.
 struct DiscMeans {
   static constexpr size_t kPixel = 3, kTap = 2 * kPixel, kSpare = HWY_MAX_BYTES;
   static constexpr size_t kStride = kTap + kDiscChunk + 2 * kDiscMargin + kTap + kSpare;
   uint16_t rows[(kMaxDisc + 1) * kStride];
 
-  // Fills `row_count` rows for `count` samples from `middle` on, extended by the reach of the disc.
+  // Fills `row_count` rows for `count` samples from `middle` on, plus the reach of the disc on both
+  // sides.
   void Fill(const int16_t* middle, size_t in_stride, const Disc& disc, int32_t row_count,
             size_t count) {
     const size_t margin = Margin(disc), all = count + 2 * margin;
@@ -58,27 +59,27 @@ struct DiscMeans {
     }
   }
 
-  // Returns the first of the `count` samples in row 0.
+  // Returns a pointer to the first of the `count` samples in row 0.
   const uint16_t* First(const Disc& disc) const { return rows + kTap + Margin(disc); }
 
   static size_t Margin(const Disc& disc) { return kPixel * static_cast<size_t>(disc.size); }
 };
 
-// A quarter of one or two discs, in pairs of columns that are multiplied together. A weight is the
-// sum over all pixels that mirror each other.
+// Taps of a quarter of one or two discs. Pairs of adjacent columns are multiplied together. Each
+// weight is the sum of the weights of all pixels that mirror each other.
 struct DiscTaps {
   struct Pair {
     uint16_t first, second;
   };
   struct Tap {
     Pair weights, second_weights;
-    int32_t right, left;  // offsets of the first column and of its mirror image in DiscMeans
+    int32_t right, left;  // offsets in DiscMeans of the first column and of its mirror image
   };
   Tap taps[(kMaxDisc + 1) * (kMaxDisc / 2 + 1)];
   size_t count = 0;
-  int32_t rows = 0;  // rows of the quarter, up to the last one with taps
+  int32_t rows = 0;  // number of rows of the quarter, up to the last row with taps
 
-  // Makes taps wherever either disc has weights.
+  // Makes taps at all positions at which either disc has a nonzero weight.
   DiscTaps(const Disc& disc, const Disc& second) {
     const auto pair_of = [](const Disc& of, int32_t x, int32_t y) {
       return Pair{Weight(of, x, y), Weight(of, x + 1, y)};
@@ -96,8 +97,8 @@ struct DiscTaps {
   }
 
  private:
-  // Returns the weight at column x of row y of the disc, including the weights of its mirror
-  // images.
+  // Returns the weight of the pixel in column x and row y of the disc plus the weights of the
+  // pixel's mirror images about both axes.
   static uint16_t Weight(const Disc& disc, int32_t x, int32_t y) {
     if (x > disc.size || y > disc.size) return 0;
     const int32_t high = x > y ? x : y, low = x > y ? y : x;
@@ -105,8 +106,9 @@ struct DiscTaps {
     return static_cast<uint16_t>(disc.weights[high * (high + 1) / 2 + low] << bits);
   }
 
-  // Returns the last column of a row with a nonzero weight, or -1. Weights of a row are contiguous
-  // up to the diagonal. Beyond it their distance is the length of the octant's rows.
+  // Returns the last column of row y with a nonzero weight, or -1. In Disc::weights, the weights of
+  // a row are contiguous up to the diagonal. Beyond the diagonal, adjacent weights are as far apart
+  // as the octant's rows are long.
   static int32_t LastOf(const Disc& disc, int32_t y) {
     if (y > disc.size) return -1;
     int32_t x = disc.size;
@@ -121,19 +123,20 @@ struct DiscTaps {
   }
 };
 
-// Scale of the sums of a disc: they are divided by 2^bits and multiplied by 2^whole.
+// Scale of the sums of a disc. Sums are divided by 2^bits and multiplied by 2^whole.
 struct DiscScale {
   int bits, whole;
 };
 
-// Output buffer for the light of a disc, and its scale. Vectors write past the last sample.
+// Output buffer for the light of a disc, and the scale of the light. Vectors write past the last
+// sample.
 struct DiscTarget {
   DiscScale scale;
   int16_t* light;
 };
 
-// Computes the light of `count` samples from the means, weighted by the disc and, with kTwo, also
-// by a second disc.
+// Computes the light of `count` samples as sums of the means weighted by a disc. If kTwo is true,
+// also computes sums weighted by a second disc.
 #if HWY_TARGET == HWY_SCALAR
 
 template <bool kTwo>
@@ -162,7 +165,8 @@ inline void FilterMeans(const DiscTaps& disc, const uint16_t* HWY_RESTRICT means
 
 #else
 
-// The sums of a vector of means take two vectors, which DemoteSums joins again.
+// Operations on a vector of means and on the sums of its products. The sums occupy two vectors,
+// which DemoteSums joins.
 struct DiscSums {
   static constexpr hn::ScalableTag<uint16_t> d16{};
   static constexpr hn::RebindToSigned<decltype(d16)> di16{};
@@ -171,12 +175,12 @@ struct DiscSums {
   using V16 = hn::Vec<decltype(d16)>;
   using V32 = hn::Vec<decltype(di32)>;
 
-  // Returns the means of the samples on both sides, which mirror each other.
+  // Returns the means of the samples on the right and on the left, which mirror each other.
   static HWY_INLINE V16 Mean(const uint16_t* right, const uint16_t* left) {
     return hn::AverageRound(hn::LoadU(d16, right), hn::LoadU(d16, left));
   }
 
-  // Adds two means multiplied by their weights.
+  // Multiplies two vectors of means by the weights of a pair and adds the products to the sums.
   static HWY_INLINE void Add(V16 first, V16 second, const DiscTaps::Pair& pair, V32& low,
                              V32& high) {
     AddWeighed(hn::BitCast(di16, first), hn::BitCast(di16, second), pair.first, pair.second, low,
@@ -194,11 +198,11 @@ struct DiscSums {
   }
 };
 
-// Second result that is computed together with a vector, so that loads of means or weights are
-// shared.
+// Second result that FilterMeansVector computes together with the first, so that both share loads
+// of means or weights.
 enum class Beside { kNothing, kNextVector, kSecondDisc };
 
-// Filters a vector of means. Not inlined, to keep WebAssembly modules small.
+// Filters a vector of means. The function is not inlined, to keep WebAssembly modules small.
 template <Beside kBeside>
 HWY_NOINLINE void FilterMeansVector(const DiscTaps& disc, const uint16_t* HWY_RESTRICT means,
                                     const DiscScale& scale, int16_t* HWY_RESTRICT light,
@@ -253,7 +257,7 @@ inline void FilterMeans(const DiscTaps& disc, const uint16_t* HWY_RESTRICT means
 
 #endif
 
-// Destination of the light: codes or, if `codes` is null, samples of a layer.
+// Destination of the light: codes, or samples of a layer if `codes` is null.
 struct DiscOutput {
   uint8_t* codes;
   int16_t* samples;
@@ -274,7 +278,8 @@ inline DiscOutput SamplesOf(const Disc& disc, int16_t* samples, size_t stride) {
   return {nullptr, samples, stride, {nullptr, nullptr}, {disc.bits + kLightBits - kLayerBits, 0}};
 }
 
-// Filters rows of samples in chunks; with kTwo, also by a second, smaller disc.
+// Filters rows of samples in chunks. If kTwo is true, also filters the rows with a second, smaller
+// disc.
 template <bool kTwo>
 inline void FilterRows(const SampleRows& in, const Disc& disc, const Disc& smaller,
                        const DiscOutput& out, const DiscOutput& second_out) {
@@ -297,7 +302,7 @@ inline void FilterRows(const SampleRows& in, const Disc& disc, const Disc& small
 
 inline void FilterDisc(const SampleRows& in, const Disc& disc, const Encoding& encoding,
                        uint8_t* HWY_RESTRICT out, size_t out_stride) {
-  // fractional bits of light to drop
+  // Number of fractional bits by which light is rounded before it is encoded.
   const int whole = encoding.entries == nullptr ? kLightBits : 0;
   const DiscOutput codes = {out, nullptr, out_stride, encoding, {disc.bits + whole, whole}};
   FilterRows<false>(in, disc, disc, codes, codes);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// SIMD kernels that blur by gathering: each pixel becomes the weighted mean of a disc around it.
+// SIMD kernels that blur by gathering: each output pixel is the weighted mean of a disc of input
+// pixels.
 #ifndef STARFOCUS_SIMD_DISC_H_
 #define STARFOCUS_SIMD_DISC_H_
 
@@ -11,10 +12,11 @@
 
 namespace starfocus::simd {
 
-// A filter that is symmetric about both axes and both diagonals, so that one octant defines it. The
-// weight of the pixel m columns and n rows away, 0 <= m <= n <= size, is weights[n (n + 1) / 2 +
-// m]. All weights of the disc together sum to at most 2^bits. The weights of four pixels that
-// mirror each other on both axes, or of two on an axis, sum to at most 32767.
+// A filter that is symmetric about both axes and both diagonals, so that one octant defines the
+// filter. The weight of the pixel m columns and n rows away, 0 <= m <= n <= size, is weights[n (n +
+// 1) / 2 + m]. The weights of the whole disc sum to at most 2^bits. The weights of four pixels that
+// mirror each other about both axes sum to at most 32767, and so do the weights of two pixels on an
+// axis that mirror each other.
 struct Disc {
   int32_t size;  // [0, kMaxDisc]
   int bits;      // [1, 17]
@@ -24,25 +26,24 @@ inline constexpr int32_t kMaxDisc = 12;
 
 namespace reference {
 
-// Computes out[y][n] for each sample of `in`: the code of the disc's weighted sum of light around
-// in[y][n], divided by 2^bits. R, G and B are separate. The sum is rounded halves up to light, or
-// to the code if light is the code itself.
+// Filters each sample of `in`. R, G and B are filtered separately. out[y][n] is the code of the
+// disc's weighted sum of light around in[y][n], divided by 2^bits. The quotient is rounded half up
+// to light, or to the code if light is the code itself.
 //
-// Pixels that mirror each other are averaged before they are weighted: first the two pixels above
-// each other, then two such means, each rounded halves up.
+// Pixels that mirror each other are averaged before they are weighted. First, two pixels in one
+// column are averaged, and then the means of two mirrored columns. Each mean is rounded half up.
 //
-// out_stride is in bytes. `in` is read as far around as the disc reaches: disc.size rows, and three
-// times as many samples, on each side. `in` and `out` do not overlap, and nothing between the rows
-// of `out` is written.
+// out_stride is in bytes. The filter reads disc.size rows and 3 disc.size samples beyond `in` on
+// each side. `in` and `out` must not overlap. Bytes between the rows of `out` are not written.
 void FilterDisc(const SampleRows& in, const Disc& disc, const Encoding& encoding, uint8_t* out,
                 size_t out_stride);
 
 // Filters rows of a layer like FilterDisc. out[y][n] is the sum as a sample of kLayerBits, rounded
-// halves up; out_stride is in samples. The light must be that of samples in range.
+// half up. out_stride is in samples. All input samples must be in the valid range.
 void FilterDiscLayer(const SampleRows& in, const Disc& disc, int16_t* out, size_t out_stride);
 
-// Filters rows by two discs at once. Each output equals that of FilterDiscLayer. `less` is at most
-// as large as `more`.
+// Filters rows with two discs at once. Each output is equal to the output of FilterDiscLayer.
+// `less` must not be larger than `more`.
 void FilterTwoDiscs(const SampleRows& in, const Disc& less, const Disc& more, int16_t* out_less,
                     int16_t* out_more, size_t out_stride);
 

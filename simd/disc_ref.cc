@@ -5,7 +5,7 @@
 namespace starfocus::simd::reference {
 namespace {
 
-// Returns the disc's sum around sample n of a row.
+// Returns the weighted sum of the disc around sample n of a row.
 uint32_t DiscSum(const SampleRows& in, size_t row, size_t n, const Disc& disc) {
   const auto stride = static_cast<ptrdiff_t>(in.stride);
   const int16_t* at = in.samples + row * in.stride + n;
@@ -26,7 +26,7 @@ uint32_t DiscSum(const SampleRows& in, size_t row, size_t n, const Disc& disc) {
   return sum;
 }
 
-// Returns the light of a disc's sum without its last `dropped` bits.
+// Converts a disc's sum to light, and rounds the light by `dropped` more bits.
 int32_t LightOf(uint32_t sum, const Disc& disc, int dropped) {
   const int bits = disc.bits + dropped;
   return static_cast<int32_t>((sum + (uint32_t{1} << bits >> 1)) >> bits);
@@ -36,7 +36,7 @@ int32_t LightOf(uint32_t sum, const Disc& disc, int dropped) {
 
 void FilterDisc(const SampleRows& in, const Disc& disc, const Encoding& encoding, uint8_t* out,
                 size_t out_stride) {
-  // fractional bits of light to drop
+  // Number of fractional bits by which light is rounded before it is encoded.
   const int whole = encoding.entries == nullptr ? kLightBits : 0;
   for (size_t row = 0; row < in.rows; ++row, out += out_stride) {
     for (size_t n = 0; n < in.count; ++n) {

@@ -24,9 +24,9 @@ using reference::FinishComposite;
 using CompositeTag = hn::CappedTag<uint32_t, kSliceLanes>;
 using CompositeVec = hn::Vec<CompositeTag>;
 
-// Inverses of coverages, in two halves of 32 bits. SIMD has no integer division, and most pixels
-// have the same coverage as their neighbours. An inverse is therefore only computed where the
-// coverage changes.
+// Inverses of coverages, split into a low and a high part of 32 bits. SIMD has no integer division,
+// and the coverage of most pixels is equal to the coverage of their neighbours. A new inverse is
+// therefore computed only if the coverage changes.
 class Inverses {
  public:
   explicit Inverses(uint32_t least) : least_(least) {}
@@ -58,7 +58,7 @@ class Inverses {
   uint64_t inverse_ = 0;
 };
 
-// Returns min((sum * inverse + half) >> shift, white) of the even lanes.
+// Returns min((sum * inverse + half) >> shift, white) for the even lanes.
 template <class V64, class VI64>
 HWY_INLINE V64 DivideEven(CompositeVec sum, CompositeVec low, CompositeVec high, V64 half,
                           int shift, VI64 white) {

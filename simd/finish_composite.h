@@ -11,8 +11,8 @@
 
 namespace starfocus::simd {
 
-// Pixels whose coverage is below `least` take the centre view's colour. Accumulators get `bits`
-// fractional bits.
+// Parameters of FinishComposite. Pixels with a coverage below `least` get the colour of the centre
+// view. Accumulators have `bits` fractional bits.
 struct CompositeFinish {
   uint32_t least;  // > 0
   int bits;        // [kLightBits, 24]
@@ -21,11 +21,12 @@ inline constexpr int kInverseBits = 48;
 
 namespace reference {
 
-// Divides colours by coverage. sums[c * plane + n] are the colours, covered = sums[3 * plane + n]
-// is the coverage. If covered >= least, out[3 n + c] is sums[c * plane + n] * (2^kInverseBits /
-// covered) in units of 2^-bits. The division truncates; the result is rounded halves up, and is at
-// most 255. Otherwise out[3 n + c] is the light centre[3 n + c] in the same units. Sums are read in
-// whole groups of kSliceLanes; nothing past out[3 count - 1] is written.
+// Divides colours by coverage. sums[c * plane + n] is colour c of pixel n, and covered = sums[3 *
+// plane + n] is the coverage of pixel n. If covered >= least, out[3 n + c] is sums[c * plane + n] *
+// (2^kInverseBits / covered) in units of 2^-bits. The division truncates; the product is rounded
+// half up and limited to 255. If covered < least, out[3 n + c] is the light centre[3 n + c],
+// converted to units of 2^-bits. Sums are read in whole groups of kSliceLanes; nothing past out[3
+// count - 1] is written.
 void FinishComposite(const uint32_t* sums, size_t plane, const int16_t* centre,
                      const CompositeFinish& finish, size_t count, uint32_t* out);
 

@@ -14,8 +14,8 @@ HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
-// Copies the farthest surface of a vector of pixels, of which some hide surfaces. Returns the
-// largest distance over which a colour is repeated.
+// Copies the farthest surfaces of a vector of pixels, some of which have hidden surfaces. Returns
+// the largest distance over which a colour is repeated.
 HWY_INLINE int32_t TakeHidden(const SourcedRow& row, size_t n, const FarRow& far) {
   const LanesTag d16;
   const hn::RebindToUnsigned<LanesTag> du16;
@@ -96,7 +96,8 @@ inline void SmoothFar(const FarRows& rows, int16_t unit, int32_t step, size_t co
   const LanesTag d16;
   const hn::RebindToUnsigned<LanesTag> du16;
   const auto most = hn::Set(d16, unit), least = hn::Set(d16, static_cast<int16_t>(-unit));
-  const auto short_of = hn::Set(d16, static_cast<int16_t>((step - 1) / 2));  // 2 n < step
+  // Largest distance n with 2 n < step.
+  const auto short_of = hn::Set(d16, static_cast<int16_t>((step - 1) / 2));
   const auto mean = [&](LanesVec a, LanesVec b) HWY_ATTR {
     return hn::BitCast(d16, hn::AverageRound(hn::BitCast(du16, a), hn::BitCast(du16, b)));
   };

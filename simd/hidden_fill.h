@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// SIMD kernels that fill hidden surfaces behind depth edges that no captured view shows.
+// SIMD kernels that inpaint surfaces that are hidden behind depth edges and that no captured view
+// shows.
 #ifndef STARFOCUS_SIMD_HIDDEN_FILL_H_
 #define STARFOCUS_SIMD_HIDDEN_FILL_H_
 
@@ -11,16 +12,16 @@
 
 namespace starfocus::simd {
 
-// A row of the surfaces of a field, with the sources of the hidden ones in the format of HiddenRow.
-// If the first surface covers only a part of a pixel, the sources are those of the surfaces behind
-// the second one.
+// A row of the surfaces of a field, with the sources of the hidden surfaces in the format of
+// HiddenRow. source[k] belongs to surface k + 1. If the first surface covers only a part of a
+// pixel, source[0] belongs to surface 2 instead.
 struct SourcedRow {
   SurfaceRow surfaces;
   const uint16_t* source[kSurfaces - 1];
 };
 
-// Farthest surface of each pixel of a row; R, G and B are `plane` samples apart. The source is 0 if
-// a view shows the surface.
+// Farthest surface of each pixel of a row. The planes R, G and B are `plane` samples apart. The
+// source is 0 if a view shows the surface.
 struct FarRow {
   int16_t* disparity;
   int16_t* rgb;
@@ -28,9 +29,9 @@ struct FarRow {
   size_t plane;
 };
 
-// The row `step` rows above a row, the row itself, and the row `step` rows below it, with the
-// sources of the row itself. kSliceLanes more pixels can be read on either side. Colours are light,
-// never negative.
+// A row (index 1), the row `step` rows above (index 0) and the row `step` rows below (index 2).
+// `source` belongs to row 1. kSliceLanes pixels beyond both ends of the rows must be readable.
+// Colours are light and not negative.
 struct FarRows {
   const int16_t* disparity[3];
   const int16_t* rgb[3];
@@ -41,20 +42,21 @@ struct FarRows {
 namespace reference {
 
 // Copies the farthest surfaces of a row of `count` pixels, in whole groups of kSliceLanes. Returns
-// the largest distance over which one of their colours is repeated, or 0.
+// the largest distance over which a copied colour is repeated, or 0 if no colour is repeated.
 int32_t TakeFarthest(const SourcedRow& row, size_t count, const FarRow& far);
 
-// Writes the colours of the pixels n < count of a row that are repeated over at least half of
-// `step`, in whole groups of kSliceLanes. Other pixels are not changed. The result is the mean of
-// the pixel and of the mean of its four neighbours `step` pixels to the left, right, above and
-// below. A neighbour whose disparity differs by more than `unit` is replaced by the pixel itself.
-// All means are of two values, rounded halves up: left and right, above and below, these two means,
-// and that mean and the pixel. `step` is at most kSliceLanes.
+// Smooths the colours of those pixels n < count of a row whose colours are repeated over a distance
+// of at least step / 2. Other pixels are not changed. Whole groups of kSliceLanes are processed.
+// `step` is at most kSliceLanes. The new colour of a pixel is the mean of two values: its old
+// colour, and the mean of its four neighbours `step` pixels to the left, to the right, above and
+// below. If the disparity of a neighbour differs by more than `unit`, the pixel itself replaces the
+// neighbour. The mean of the neighbours is the mean of two means: that of left and right, and that
+// of above and below. Each mean is rounded half up.
 void SmoothFar(const FarRows& rows, int16_t unit, int32_t step, size_t count, int16_t* rgb);
 
-// Copies the repeated colours of a row to the surface with these disparities, wherever that surface
-// is the farthest. Processes whole groups of kSliceLanes: group c if bit c of `hiding` is set. The
-// colours of the surface are `plane` samples apart.
+// Copies the repeated colours of a row to a surface, at all pixels at which this surface is the
+// farthest. `disparity` and `rgb` are the row of the surface; the planes of `rgb` are `plane`
+// samples apart. Processes group c of kSliceLanes pixels if bit c of `hiding` is set.
 void PutFarthest(const FarRow& far, const int16_t* disparity, uint64_t hiding, size_t plane,
                  int16_t* rgb);
 

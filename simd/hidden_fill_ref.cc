@@ -7,7 +7,7 @@ namespace {
 
 bool IsHiding(uint64_t hiding, size_t n) { return (hiding >> (n / kSliceLanes) & 1) != 0; }
 
-// Returns the index of the farthest surface of pixel n.
+// Returns the index of the farthest surface at pixel n.
 int FarthestOf(const SurfaceRow& surfaces, size_t n) {
   int farthest = 0;
   for (int k = 1; k < kSurfaces && IsHiding(surfaces.hiding, n); ++k) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Table of the SIMD kernels that convert pictures and depth maps. It is separate from the engine's
-// table, so that a program that only refocuses packed RGB does not link these kernels.
+// Table of the SIMD kernels that convert pictures and depth maps. The table is separate from the
+// engine's table, so that a program that only refocuses packed RGB does not link these kernels.
 #ifndef STARFOCUS_SIMD_IMAGE_KERNELS_H_
 #define STARFOCUS_SIMD_IMAGE_KERNELS_H_
 
@@ -9,7 +9,7 @@
 #include "simd/pixels.h"
 #include "simd/yuv.h"
 
-// List of these kernels, in the format of STARFOCUS_KERNELS (simd/kernels.h).
+// List of the conversion kernels, in the format of STARFOCUS_KERNELS (simd/kernels.h).
 #define STARFOCUS_IMAGE_KERNELS(KERNEL) \
   KERNEL(YuvToRgb)                      \
   KERNEL(RgbToLuma)                     \

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Table of the engine's SIMD kernels. Each family has three files. `x.h` holds the contracts,
-// `x_ref.cc` the plain C++ that defines every result, and `x-inl.h` the vector code, which gives
-// the same bits on each target. Pointers need only the alignment of their type. Vector types never
-// appear in a header.
+// Table of the engine's SIMD kernels. Each kernel family x has three files. `x.h` contains the
+// contracts. `x_ref.cc` contains plain C++ code that defines every result. `x-inl.h` contains the
+// vector code, which produces bit-identical results on every target. Pointers require only the
+// alignment of their type. Vector types never appear in a contract header.
 #ifndef STARFOCUS_SIMD_KERNELS_H_
 #define STARFOCUS_SIMD_KERNELS_H_
 
@@ -24,8 +24,8 @@
 #include "simd/spans.h"
 #include "simd/strips.h"
 
-// List of all kernels. A kernel has the same name in the table, its reference, its vector code and
-// its test case. Each name in this list must exist in all of them, or the build fails.
+// List of all kernels. The table, the reference, the vector code and the test case use one name for
+// a kernel. The build fails if a name of this list is missing in any of these four.
 #define STARFOCUS_KERNELS(KERNEL) \
   KERNEL(Accumulate)              \
   KERNEL(Blend)                   \
@@ -72,7 +72,8 @@ namespace starfocus::simd {
 
 STARFOCUS_DECLARE_TABLE(Kernels, STARFOCUS_KERNELS)
 
-// Returns the table of the target with this name, like KernelsOfTarget. Null if no target has it.
+// Returns the table of the target with this name, or null if there is no such target. Has the
+// restrictions of KernelsOfTarget.
 const Kernels* FindKernels(const char* name);
 
 }  // namespace starfocus::simd

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tables of the references, for tests and for machines without SIMD.
+// Defines the tables of the references, for tests and for machines without SIMD.
 #include "simd/depth_kernels.h"
 #include "simd/image_kernels.h"
 #include "simd/kernels.h"

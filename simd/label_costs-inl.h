@@ -14,13 +14,14 @@ HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
-// Differences of all views at a few pixels.
+// Differences of all views at kMatchPixels pixels.
 struct ViewDifferences {
   uint8_t values[kMostMatched][kMatchPixels];
   uint8_t* rows[kMostMatched];
 };
 
-// Replaces or limits the differences of views that do not see the pixels from n on at a label.
+// Replaces or limits the differences of views that do not see the pixels at this label. The first
+// pixel is n.
 HWY_INLINE void ChangeHidden(const LabelRow& row, const ViewMove* moves, size_t n, uint8_t label,
                              ViewDifferences* differences) {
   const size_t views = row.arms * row.rings, half = row.arms / 2;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vectors of at most kSliceLanes samples, and their masks as bits. Included once per target.
+// Defines vectors of at most kSliceLanes samples, and converts their masks to bits. Included once
+// per target.
 #if defined(STARFOCUS_SIMD_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef STARFOCUS_SIMD_LANES_INL_H_
 #undef STARFOCUS_SIMD_LANES_INL_H_
@@ -14,12 +15,12 @@ HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
-// A vector holds at most one group: rows are padded to whole groups only, and the bits of a mask
-// become those of a group.
+// A vector holds at most one group, because rows are padded to whole groups only, and because the
+// bits of a mask belong to one group.
 using LanesTag = hn::CappedTag<int16_t, kSliceLanes>;
 using LanesVec = hn::Vec<LanesTag>;
 
-// Returns the mask as bits: bit k is lane k.
+// Returns the mask as an integer. Bit k is set if lane k of the mask is true.
 template <class D>
 HWY_INLINE uint32_t BitsOf(D d, hn::Mask<D> mask) {
   uint8_t bytes[8] = {};

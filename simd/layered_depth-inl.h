@@ -61,30 +61,31 @@ inline void FindEdges(const EdgeRows& rows, const EdgeLimits& limits, size_t cou
   }
 }
 
-// Number of edges that LookBehind evaluates: the next edge on each side, and the edge behind its
-// far side.
+// Number of edges that LookBehind evaluates: on each of the four sides, the next edge and the edge
+// beyond the next edge's far side.
 inline constexpr int kEdges = 8;
 
-// Surfaces that edges show behind a group of pixels. Edge k, on side k % 4, is set if bit k of
-// `some` is set. Stored in memory, since vectors of some targets have no size at compile time.
+// Surfaces beyond the edges of a group of pixels. Edge k is on side k % 4, and is valid if bit k of
+// `some` is set. The surfaces are stored in memory, because vectors of some targets have no size at
+// compile time.
 struct StripSides {
   uint32_t some;
-  int16_t unit;  // disparity that moves a pixel by one pixel
+  int16_t unit;  // disparity that moves a pixel of the layer by one pixel
   int16_t rank[kEdges][kSliceLanes], disparity[kEdges][kSliceLanes], second[kEdges][kSliceLanes];
 };
 
-// Pixels that may cover a place behind a pixel, in a view that moves pixels by one per `unit`. The
-// pixels lie in a line towards one side, `step` samples apart.
+// A line of pixels that may cover hidden pixels in a view. The pixels of the line are `step`
+// samples apart. A disparity of `unit` moves a pixel of the view by one pixel.
 struct OcclusionQuery {
   const int16_t* at;
   ptrdiff_t step;
   int16_t unit;
-  int32_t sure;  // number of pixels that lie in the field in all lanes
-  int32_t last;  // last pixel that can reach the place
+  int32_t sure;  // number of pixels of the line that lie in the field for all lanes
+  int32_t last;  // last pixel of the line that can cover the hidden pixel
 };
 
-// Finds the lanes in which the place behind the pixel is covered. `room`: number of pixels of each
-// lane that lie in the field.
+// Returns a mask of the lanes in which the hidden pixel, at `disparity`, is covered. `room` is the
+// number of pixels of each lane's line that lie in the field.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE hn::Mask<D> FindCovered(D d16, const OcclusionQuery& query, V disparity, V room) {
   const int16_t* at = query.at;
@@ -93,8 +94,9 @@ HWY_INLINE hn::Mask<D> FindCovered(D d16, const OcclusionQuery& query, V dispari
   const int16_t unit = query.unit;
   const auto reach = static_cast<int16_t>((3 * unit - 1) / 4);
   const auto nearer = hn::SaturatedAdd(disparity, hn::Set(d16, static_cast<int16_t>(unit / 2)));
-  // One comparison of unsigned numbers tests whether the place is within `reach` of the pixel's
-  // move. The other one tests whether the pixel is nearer at all.
+  // The comparison with `end` tests whether the movement of the pixel differs by at most `reach`
+  // from the movement onto the hidden pixel. The comparison with `nearer` tests whether the pixel
+  // is sufficiently nearer than the hidden pixel.
   auto start = hn::Sub(hn::Sub(disparity, hn::Set(d16, reach)), hn::Set(d16, INT16_MIN));
   const auto end = hn::Set(d16, static_cast<int16_t>(INT16_MIN + 2 * reach + 1));
   const auto next = hn::Set(d16, unit);
@@ -116,8 +118,8 @@ HWY_INLINE hn::Mask<D> FindCovered(D d16, const OcclusionQuery& query, V dispari
   return hn::MaskFromVec(covered);
 }
 
-// FindCovered for a view whose pixels do not lie along a row or a column. The first pixel is in
-// column `column` of the row. Pixels after number `last` cannot reach the place.
+// Like FindCovered, for a view whose line of pixels is not a row or a column. Lane 0 is in column
+// `column` of the row. Pixels of the line after number `last` cannot cover the hidden pixel.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE hn::Mask<D> FindCoveredAslant(D d16, const DepthRow& row, const ViewLook& look,
                                          int32_t column, V disparity, int32_t last) {
@@ -147,14 +149,14 @@ HWY_INLINE hn::Mask<D> FindCoveredAslant(D d16, const DepthRow& row, const ViewL
   return hn::MaskFromVec(covered);
 }
 
-// Returns the number of samples from one pixel to the next towards a side.
+// Returns the distance in samples between a pixel and the next pixel towards a side.
 HWY_INLINE ptrdiff_t StepOf(const DepthRow& row, int side) {
   const ptrdiff_t along = side < 2 ? 1 : row.stride;
   return side % 2 == 0 ? along : -along;
 }
 
-// Returns the lanes of a group that have a distance: bit k is lane k. Only a few have one behind a
-// vertical edge.
+// Returns the lanes of a group that have a nonzero distance; bit k stands for lane k. Next to a
+// vertical edge, only a few lanes have one.
 HWY_INLINE uint32_t LanesOf(const uint8_t* distances) {
   const hn::CappedTag<uint8_t, kSliceLanes> d8;
   uint32_t lanes = 0;
@@ -168,9 +170,9 @@ HWY_INLINE ptrdiff_t LowestLane(uint32_t lanes) {
   return static_cast<ptrdiff_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(lanes));
 }
 
-// Finds, for the pixels of `lanes`, the distance to the surface that the far side of their edge
-// hides in turn. Other distances are not changed. Returns the lanes that have such a distance; most
-// far sides hide nothing.
+// Finds the second edge of each pixel in `lanes`, which is the edge behind which the far side of
+// the first edge hides a surface. Writes the distances to that surface; other distances are not
+// changed. Returns the lanes that have a second edge. Most pixels have none.
 HWY_INLINE uint32_t FollowEdges(const DepthRow& row, int side, size_t strip, uint32_t lanes,
                                 uint8_t* HWY_RESTRICT distances) {
   const ptrdiff_t step = StepOf(row, side);
@@ -190,7 +192,8 @@ HWY_INLINE uint32_t FollowEdges(const DepthRow& row, int side, size_t strip, uin
   return found;
 }
 
-// Finds the lanes whose place, at `disparity`, is covered in a view. No disparity is below `low`.
+// Returns a mask of the lanes in which the hidden pixel, at `disparity`, is covered in a view. No
+// lane's disparity is below `low`.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE hn::Mask<D> IsCovered(D d16, const DepthRow& row, const ViewLook& look, int32_t column,
                                  V disparity, int32_t low) {
@@ -213,8 +216,8 @@ HWY_INLINE hn::Mask<D> IsCovered(D d16, const DepthRow& row, const ViewLook& loo
   return FindCovered(d16, query, disparity, room);
 }
 
-// Looks behind an edge of each pixel of `lanes`, at the given distances, which are 0 in other
-// lanes. Writes the result as edge `index`. Sides are numbered as in DepthRow::edges.
+// Looks behind an edge of each pixel of `lanes`. The distances to the far sides are 0 in all other
+// lanes. Writes the result as edge `index`. Sides are in the order of DepthRow::edges.
 HWY_INLINE void LookBehindSide(const DepthRow& row, size_t strip, const uint8_t* distances,
                                uint32_t lanes, int index, StripSides* sides) {
   const LanesTag d16;
@@ -254,7 +257,7 @@ HWY_INLINE void LookBehindSide(const DepthRow& row, size_t strip, const uint8_t*
   }
 }
 
-// Returns the source of the colour of the surface of rank `best` (HiddenRow::source).
+// Returns the source (HiddenRow::source) of the surface with rank `best` and this disparity.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V SourceOf(D d16, const StripSides& sides, size_t k, V best, V disparity) {
   auto source = hn::Zero(d16);
@@ -274,9 +277,9 @@ HWY_INLINE V SourceOf(D d16, const StripSides& sides, size_t k, V best, V dispar
   return hn::IfThenElseZero(some, hn::Or(source, distance));
 }
 
-// Writes vector k of a hidden surface at pixel `n` and returns it. The surface has the lowest rank
-// among the edges whose disparity differs from `above` by more than a unit. For the first hidden
-// surface, `above` is ignored.
+// Writes vector k of a hidden surface, at pixel `n`, and returns the disparities of the surface.
+// The surface belongs to the edge with the lowest rank among the edges whose disparity differs from
+// `above` by more than a unit. For the first hidden surface, `above` is ignored.
 HWY_INLINE LanesVec ChooseSurface(const StripSides& sides, size_t k, int surface, LanesVec above,
                                   size_t n, const HiddenRow& hidden) {
   const LanesTag d16;
@@ -306,7 +309,7 @@ HWY_INLINE LanesVec ChooseSurface(const StripSides& sides, size_t k, int surface
   return chosen;
 }
 
-// Writes the hidden surfaces of a group of pixels. Returns true if there are any.
+// Writes the hidden surfaces of a group of pixels. Returns true if any pixel has a hidden surface.
 HWY_INLINE bool ChooseSurfaces(const StripSides& sides, size_t strip, const HiddenRow& hidden) {
   const LanesTag d16;
   const auto nothing = hn::Set(d16, kNoSurface);
@@ -321,11 +324,11 @@ HWY_INLINE bool ChooseSurfaces(const StripSides& sides, size_t strip, const Hidd
   for (int surface = 0; surface < kSurfaces - 1; ++surface) {
     hidden.found[surface][strip / kSliceLanes] = static_cast<uint16_t>(found[surface]);
   }
-  return found[0] != 0;  // a second hidden surface implies a first
+  return found[0] != 0;  // a pixel with a second hidden surface also has a first
 }
 
-// Writes the shares of a group of pixels, which mark where surfaces end. Returns the sides that
-// hide something, one bit each. Most groups hide nothing.
+// Writes the shares of a group of pixels, which mark the pixels at which surfaces end. Returns the
+// sides with edges, one bit each. Most groups have no edges.
 HWY_INLINE uint32_t MarkEnds(const DepthRow& row, size_t strip, uint8_t* HWY_RESTRICT share) {
   const hn::CappedTag<uint8_t, kSliceLanes> d8;
   const auto one = hn::Set(d8, uint8_t{1}), none = hn::Zero(d8);
@@ -380,8 +383,7 @@ inline uint64_t LookBehind(const DepthRow& row, const HiddenRow& hidden) {
   return strips;
 }
 
-// Lanes beyond `count` are masked before they are used, since their memory may never have been
-// written.
+// Lanes at or beyond `count` are masked before use, because their memory may be uninitialised.
 inline void FindSteps(const int16_t* HWY_RESTRICT row, size_t count, int16_t step,
                       StepBits* HWY_RESTRICT steps) {
   const LanesTag d16;

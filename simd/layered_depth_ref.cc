@@ -8,14 +8,14 @@
 namespace starfocus::simd::reference {
 namespace {
 
-// The surface that one side shows behind a pixel.
+// The surface beyond one edge of a pixel.
 struct HiddenSide {
-  int rank;  // see kUnseen
+  int rank;  // rank of the edge, see kUnseen
   int16_t disparity;
-  bool second;  // true: only the side's second view shows it
+  bool second;  // true if only the side's second view shows the surface
 };
 
-// Returns true if the place behind pixel x of a row is covered in a view.
+// Returns true if a view does not show the surface at `disparity` behind pixel x of a row.
 bool IsCovered(const DepthRow& row, int32_t x, int16_t disparity, const ViewLook& look) {
   for (int32_t m = 0;; ++m) {
     const int32_t along = look.side % 2 == 0 ? m : -m;
@@ -28,10 +28,11 @@ bool IsCovered(const DepthRow& row, int32_t x, int16_t disparity, const ViewLook
   }
 }
 
-// Edges that are followed on each side: the next one, and the one behind its far side.
+// Number of edges that are followed on each side: the next edge, and the edge beyond the next
+// edge's far side.
 constexpr int kEdges = 2;
 
-// Returns the distance to the far side of an edge of pixel x, or 0 if there is no edge.
+// Returns the distance from pixel x to the far side of an edge, or 0 if there is no such edge.
 int DistanceOf(const DepthRow& row, int32_t x, int side, ptrdiff_t step, int edge) {
   const uint8_t* first = row.edges[side] + x;
   if (edge == 0 || *first == 0) return *first;
@@ -55,8 +56,8 @@ HiddenSide LookBehindSide(const DepthRow& row, int32_t x, int side, int edge) {
   return {distance + kUnseen, disparity, false};
 }
 
-// Writes pixel x of hidden surface `behind`, which must differ from the surface in front of it,
-// `above`. Returns its disparity.
+// Writes pixel x of hidden surface `behind` and returns its disparity. The surface must differ from
+// `above`, which is the disparity of the hidden surface in front.
 int16_t ChooseSurface(const HiddenSide* sides, int32_t x, int behind, int32_t unit, int16_t above,
                       const HiddenRow& hidden) {
   const HiddenSide* best = nullptr;

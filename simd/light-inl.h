@@ -16,8 +16,8 @@ HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
-// Stores out[n] = table[index[n]] for n < count. Entries are loaded individually, since gather
-// instructions are no faster on most machines.
+// Stores out[n] = table[index[n]] for n < count. Entries are loaded individually, because gather
+// instructions are not faster on most machines.
 template <class T, class Index>
 HWY_INLINE void LookUp(const T* HWY_RESTRICT table, const Index* HWY_RESTRICT index, size_t count,
                        T* HWY_RESTRICT out) {
@@ -39,15 +39,16 @@ inline void Decode(const uint8_t* HWY_RESTRICT codes, size_t count, const Encodi
   if (!done) reference::Decode(codes, count, encoding, light);
 }
 
-// Samples that are encoded together, and the samples that a vector of kPadding bytes may store
-// beyond them.
+// kEncodeChunk is the number of samples that are encoded together. kEncodeSpare is the number of
+// samples that a vector of kPadding bytes may store after them.
 inline constexpr size_t kEncodeChunk = 64, kEncodeSpare = kPadding / sizeof(int16_t);
 
 // Encodes at most kEncodeChunk samples. Entries are looked up one sample at a time, long before
-// vectors read them: loads of a whole vector cannot be forwarded from several smaller stores.
+// vectors read them, because a processor cannot forward several small stores to the load of a whole
+// vector.
 inline void EncodeChunk(const int16_t* HWY_RESTRICT light, size_t count, const Encoding& encoding,
                         uint8_t* HWY_RESTRICT codes) {
-  const hn::CappedTag<int16_t, 8> d16;  // a cell of a layer is 12 samples wide
+  const hn::CappedTag<int16_t, 8> d16;  // 8 lanes, because a cell of a layer is 12 samples wide
   const hn::RebindToUnsigned<decltype(d16)> du16;
   const hn::Rebind<uint8_t, decltype(d16)> d8;
   const size_t lanes = hn::Lanes(d16);
@@ -69,8 +70,9 @@ inline void EncodeChunk(const int16_t* HWY_RESTRICT light, size_t count, const E
   });
 }
 
-// Encodes the light that load(n, light) stores: a vector of `lanes` samples from n on. The last
-// vector of a chunk may read and store up to kPadding bytes beyond the samples.
+// Encodes light that the caller's function `load` provides: load(n, light) stores a vector of
+// `lanes` samples from sample n on. The last vector of a chunk may read and store up to kPadding
+// bytes beyond the samples.
 template <class Load>
 HWY_INLINE void EncodeChunks(size_t count, size_t lanes, const Encoding& encoding,
                              uint8_t* HWY_RESTRICT codes, const Load& load) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// SIMD kernels that convert between the codes of pictures, one byte each, and light, which is
-// additive.
+// SIMD kernels that convert between the codes of pictures, which are bytes, and light. Light is
+// additive: mixtures are computed in light.
 #ifndef STARFOCUS_SIMD_LIGHT_H_
 #define STARFOCUS_SIMD_LIGHT_H_
 
@@ -9,21 +9,22 @@
 
 namespace starfocus::simd {
 
-// Light has kLightBits fractional bits of a 255th of white. White is kLightWhite, which leaves a
-// headroom of 0.4 % in signed 16 bits.
+// Scale of light: 1/255 of white, with kLightBits fractional bits. The value of white, kLightWhite,
+// leaves a headroom of 0.4 % in signed 16 bits.
 inline constexpr int kLightBits = 7;
 inline constexpr int16_t kLightWhite = 255 << kLightBits;
 
-// The table of an encoding has one entry for kEncodeStep levels of light, in which at most one code
-// ends. Light v has the code (entry[v / kEncodeStep] + v % kEncodeStep) >> kEncodeBits.
+// The table of an encoding has one entry per kEncodeStep levels of light. At most one code ends
+// within these levels. The code of light v is (entry[v / kEncodeStep] + v % kEncodeStep) >>
+// kEncodeBits.
 inline constexpr int kEncodeStep = 8;
 inline constexpr int kEncodeBits = 4;
 inline constexpr size_t kEncodeEntries = kLightWhite / kEncodeStep + 1;
 
 // Conversion between codes and light by tables, or without tables if light is the code itself.
 struct Encoding {
-  const int16_t* light;     // light of each of the 256 codes; null: code << kLightBits
-  const uint16_t* entries;  // kEncodeEntries; null: light is rounded halves up
+  const int16_t* light;     // light of each of the 256 codes; null if light is code << kLightBits
+  const uint16_t* entries;  // kEncodeEntries entries; null if the code is the light rounded half up
 };
 
 namespace reference {
@@ -31,13 +32,13 @@ namespace reference {
 // Sets light[n] to the light of codes[n], n < count.
 void Decode(const uint8_t* codes, size_t count, const Encoding& encoding, int16_t* light);
 
-// Sets codes[n] to the code of light[n], which lies in [0, kLightWhite], n < count. Nothing else is
-// written.
+// Sets codes[n] to the code of light[n] for n < count. light[n] must be in [0, kLightWhite]. No
+// other elements of `codes` are written.
 void Encode(const int16_t* light, size_t count, const Encoding& encoding, uint8_t* codes);
 
 // Encodes accumulators with `shift` fractional bits, in [8, 24]. If light is the code itself,
-// out[n] is (accumulators[n] + 2^(shift - 1)) >> shift. Otherwise the accumulators are rounded to
-// light in the same way, and encoded. Nothing past out[count - 1] is written.
+// out[n] is (accumulators[n] + 2^(shift - 1)) >> shift. Otherwise, the accumulators are rounded
+// half up to light, and the light is encoded. Nothing past out[count - 1] is written.
 void Finish(const uint32_t* accumulators, size_t count, int shift, const Encoding& encoding,
             uint8_t* out);
 

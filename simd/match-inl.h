@@ -27,8 +27,9 @@ HWY_INLINE void StoreNarrow(MatchVec values, uint8_t* at) {
   hn::StoreU(hn::DemoteTo(MatchBytes(), hn::BitCast(d16, values)), MatchBytes(), at);
 }
 
-// Number of pixels that are matched at a time. On ARM only 16-byte vectors are used: with the 32
-// bytes of SVE_256, GCC 12 and Highway 1.0.3 compute costs that differ from the reference.
+// Number of pixels that are matched at a time. On ARM, vectors are limited to 16 bytes: with the
+// 32-byte vectors of SVE_256, GCC 12 and Highway 1.0.3 compute costs that differ from the
+// reference.
 inline constexpr size_t kMatchPixels = 32;
 using ByteTag = hn::CappedTag<uint8_t, HWY_ARCH_ARM_A64 ? 16 : kMatchPixels>;
 
@@ -51,7 +52,7 @@ HWY_INLINE void MatchView(const uint8_t* centre, const uint8_t* view, size_t pla
   }
 }
 
-// Returns true in lanes whose label is hidden.
+// Returns a mask of the lanes in which the label is hidden.
 HWY_INLINE hn::Mask<ByteTag> IsHidden(hn::Vec<ByteTag> hidden, hn::Vec<ByteTag> after_label) {
   return hn::Eq(hn::Max(hidden, after_label), hidden);
 }
@@ -102,7 +103,8 @@ HWY_INLINE MatchVec ArmAt(const uint8_t* const* differences, size_t arms, size_t
   return rings == 1 ? outer : hn::Add(outer, LoadWide(differences[arms + k] + n));
 }
 
-// Four views: twice the sum of two, which equals (3 * 171 * sum) >> 8.
+// LeastSide for four views: the cost is twice the sum of two differences, which is equal to (3 *
+// 171 * sum) >> 8.
 HWY_INLINE void LeastSideOfFour(const uint8_t* const* differences, size_t count,
                                 uint8_t* HWY_RESTRICT cost) {
   const ByteTag d8;
@@ -163,8 +165,8 @@ HWY_INLINE void MeanCost(const uint8_t* const* differences, size_t views, size_t
 }
 
 #if HWY_TARGET != HWY_SCALAR
-// Interleaves rows i, i + 4, i + 8 and i + 12 of 16 into rows 4 i to 4 i + 3. Corresponding samples
-// of the four rows become adjacent. Two such passes transpose the matrix.
+// Interleaves rows i, i + 4, i + 8 and i + 12 of a matrix of 16 rows into rows 4 i to 4 i + 3, so
+// that samples of one column become adjacent. Two such passes transpose the matrix.
 HWY_INLINE void ShuffleFour(const uint8_t* HWY_RESTRICT rows, size_t stride, size_t count,
                             size_t to_stride, uint8_t* HWY_RESTRICT to) {
   const hn::CappedTag<uint8_t, kSliceLanes> d8;
@@ -179,8 +181,8 @@ HWY_INLINE void ShuffleFour(const uint8_t* HWY_RESTRICT rows, size_t stride, siz
 }
 #endif
 
-// Transposes rows of kMatchPixels costs of one label each into pixels of kSliceLanes labels each,
-// which are `places` apart.
+// Transposes costs. Each input row contains the costs of one label at kMatchPixels pixels. Each
+// output row contains the costs of kSliceLanes labels at one pixel; output rows are `places` apart.
 HWY_INLINE void GatherLabels(const uint8_t* HWY_RESTRICT rows, size_t count,
                              uint8_t* HWY_RESTRICT pixels, size_t places) {
 #if HWY_TARGET == HWY_SCALAR

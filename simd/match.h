@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Building blocks of the kernel that compares captured views with the centre view (label_costs.h).
-// Each processes one disparity of a row of pixels. The vector code reads and writes whole groups of
-// kSliceLanes samples.
+// Each function processes one label of a row of pixels. The vector code reads and writes whole
+// groups of kSliceLanes samples.
 #ifndef STARFOCUS_SIMD_MATCH_H_
 #define STARFOCUS_SIMD_MATCH_H_
 
@@ -12,50 +12,52 @@
 
 namespace starfocus::simd {
 
-// Largest difference of two pixels: the sum over R, G and B, in gray levels. Larger differences are
-// clamped, since they do not matter: the pixels do not match in any case.
+// Upper limit of the difference between two pixels, which is the sum over R, G and B in gray
+// levels. Larger differences are clamped, because such pixels do not match in any case.
 inline constexpr int kMostDifference = 60;
-// Difference that is assumed if no view shows the pixel: a poor match.
+// Difference that is assumed if no view shows the pixel. The value corresponds to a poor match.
 inline constexpr int kUnknownDifference = 48;
-// Upper limits of the difference of a view that is known not to see the pixel: if some views see
-// the pixel, and if none does.
+// Upper limits of the difference of a view that is known not to see the pixel. kHiddenDifference
+// applies if other views see the pixel, and kUnseenDifference if no view sees the pixel.
 inline constexpr int kHiddenDifference = 18, kUnseenDifference = 27;
-// The hidden labels at a place of a view are the lowest ones; they are stored as their number. This
-// value marks places outside the view.
+// Number of hidden labels outside a view. Inside a view, the hidden labels of a pixel are always
+// the lowest ones, so their number describes them.
 inline constexpr uint8_t kViewEnds = 255;
-// Costs of a disparity are differences of views times this, [0, 240].
+// Factor between differences and costs. Costs are in [0, 240].
 inline constexpr int kCostScale = 4;
 
 namespace reference {
 
-// Sets difference[n] to the difference of pixel n of the centre view from that of a side view, at
-// most kMostDifference. In both, the planes R, G and B are `plane` samples apart.
+// Sets difference[n] to the difference between pixel n of the centre view and pixel n of a side
+// view, clamped to kMostDifference. In both views, the planes R, G and B are `plane` samples apart.
 void MatchView(const uint8_t* centre, const uint8_t* view, size_t plane, size_t count,
                uint8_t* difference);
 
-// Replaces a view that does not see a pixel by the opposite one. The first view sees pixel n if
-// hidden_a[n] <= label, the opposite one if hidden_b[n] <= label. The difference of the view that
-// does not see it is set to that of the other view. If neither sees it, both are set to
-// kUnknownDifference.
+// Replaces a view that does not see a pixel with the opposite view. View a sees pixel n if
+// hidden_a[n] <= label, and the opposite view b sees pixel n if hidden_b[n] <= label. If only one
+// view sees pixel n, the difference of the other view is set to the difference of the seeing view.
+// If neither view sees pixel n, both differences are set to kUnknownDifference.
 void StandIn(const uint8_t* hidden_a, const uint8_t* hidden_b, uint8_t label, size_t count,
              uint8_t* a, uint8_t* b);
 
-// Limits the differences of views that do not see pixel n, hidden[k][n] > label, to at most
-// kHiddenDifference, or kUnseenDifference if no view sees it.
+// Limits the differences of views that do not see a pixel. View k does not see pixel n if
+// hidden[k][n] > label. The limit is kHiddenDifference if any view sees pixel n, and
+// kUnseenDifference if no view does.
 void LimitHidden(const uint8_t* const* hidden, uint8_t label, size_t views, size_t count,
                  uint8_t* const* differences);
 
-// Computes the cost from the views on the side of the pixel that fits best. A surface that hides a
-// pixel has an edge, and the views on the other side of the edge see the pixel.
+// Computes the cost from the views on the side with the smallest differences. If a surface hides a
+// pixel from some views, the views on the other side of the surface's edge see the pixel.
 //
-// `differences` holds those of rings * arms views: for each ring, arms in the order of their
-// angles. arms is 4 or 8, rings 1 or 2. A side consists of two adjacent arms of 4, or of three of
-// 8. The cost is the mean over the views of the side times kCostScale. It is rounded down, with 171
-// / 256 in place of 2 / 3.
+// `differences` contains the differences of rings * arms views: for each ring, the arms in the
+// order of their angles. There are 4 or 8 arms, and 1 or 2 rings. A side consists of two adjacent
+// arms out of 4, or of three adjacent arms out of 8. The cost is the mean over the views of the
+// side times kCostScale, rounded down. The computation uses 171 / 256 in place of 2 / 3.
 void LeastSide(const uint8_t* const* differences, size_t arms, size_t rings, size_t count,
                uint8_t* cost);
 
-// Sets cost[n] to the mean over all views times kCostScale, rounded down; views is 4, 8 or 16.
+// Sets cost[n] to the mean difference over all views times kCostScale, rounded down. `views` is 4,
+// 8 or 16.
 void MeanCost(const uint8_t* const* differences, size_t views, size_t count, uint8_t* cost);
 
 }  // namespace reference

@@ -14,7 +14,8 @@ HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
-// Vectors of unknown size at compile time cannot be stored in structs, as the code below does.
+// The vector code stores vectors in structs. This is not possible if the size of a vector is
+// unknown at compile time.
 #if HWY_TARGET == HWY_SCALAR || HWY_HAVE_SCALABLE
 
 using reference::ReachBlock;
@@ -22,8 +23,8 @@ using reference::SurroundCells;
 
 #else
 
-// Gaps in pixels between a block and columns of cells. Lane k is column first + k, where column 0
-// is `around` cells before the block. Columns after the last one reach nothing.
+// Gaps in pixels between a block and columns of cells. Lane k stands for column first + k; column 0
+// is `around` cells before the block. Lanes after the last column do not reach the block.
 struct ColumnGaps {
   ColumnGaps(int32_t around, int32_t first) {
     const LanesTag d16;
@@ -39,19 +40,20 @@ struct ColumnGaps {
     needed = hn::IfThenElse(beyond, hn::Set(d16, int16_t{INT16_MAX}), needed);
   }
 
-  LanesVec left, right;  // all bits set in columns on that side of the block
+  LanesVec left, right;  // all bits set for columns on this side of the block
   LanesVec gap;
-  LanesVec needed;  // a reach must exceed this; INT16_MIN in the columns of the block
+  LanesVec needed;  // gap that a reach must exceed; INT16_MIN in the columns of the block
 };
 
-// Collects what reaches a block from a vector of columns of cells.
+// Collects the reach of cells onto a block, for a vector of columns of cells.
 class ColumnReach {
  public:
   ColumnReach(const CellPlanes& planes, int32_t around, const int16_t* margins, int32_t first)
       : planes_(planes), around_(around), margins_(margins), first_(first), gaps_(around, first) {}
 
-  // Adds rows [row, end) of cells, which are all above, below or level with the block. Their reach
-  // towards the block is the plane `from`. `border` at `to` is the side to update, if any.
+  // Adds rows [row, end) of cells, which are all above, all below or all level with the block.
+  // `from` is the plane of the cells' reach towards the block. If `border` is not null, its side
+  // `to` is updated.
   HWY_INLINE void AddRows(int32_t row, int32_t end, CellPlane from, int16_t (*border)[4],
                           CellPlane to) {
     const LanesTag d16;
@@ -128,7 +130,7 @@ class ColumnReach {
   const int16_t* const margins_;
   const int32_t first_;
   const ColumnGaps gaps_;
-  // distance of pixels from the block, by layer
+  // Horizontal distance of pixels from the block at layers 0, 1 and 2.
   LanesVec x0_ = hn::Zero(LanesTag()), x1_ = x0_, x2_ = x0_;
   LanesVec radius_ = x0_, edge_ = x0_;
 };
@@ -146,8 +148,8 @@ inline void ReachBlock(const CellPlanes& planes, int32_t around, const int16_t m
   }
 }
 
-// Returns the largest distance, in cells, from a vector of cells to the cells that it reaches or
-// that reach it. `at` is the first of these cells in the plane of reaches.
+// Returns the largest distance, in cells, from a vector of cells to cells that they reach or that
+// reach them. `at` points to the first cell of the vector in the plane of reaches.
 HWY_INLINE int32_t FarthestCells(const int16_t* at, size_t stride, int32_t around) {
   const LanesTag d16;
   const auto lanes = static_cast<int32_t>(hn::Lanes(d16));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// SIMD kernels that examine the cells around a block or a cell: which of them its blur reaches, and
-// which of them reach it.
+// SIMD kernels that examine the cells around a block or around each cell. The kernels find the
+// cells whose blur reaches the block or cell, and the cells that its own blur reaches.
 #ifndef STARFOCUS_SIMD_NEIGHBOURHOOD_H_
 #define STARFOCUS_SIMD_NEIGHBOURHOOD_H_
 
@@ -13,64 +13,68 @@ namespace starfocus::simd {
 
 inline constexpr int16_t kCellPixels = 8;
 
-// Properties of a cell, one plane each. Reaches and insides are in pixels.
+// Properties of a cell. Each property has one plane of values. Distances are in pixels.
 enum CellPlane {
-  kReachLeft,  // distance beyond each side to which the cell's pixels are splatted
+  kReachLeft,  // largest distance beyond each side to which the cell's pixels are splatted
   kReachRight,
   kReachTop,
   kReachBottom,
-  // largest distance inside that side of the pixels that reach beyond it, [0, kCellPixels]
+  // Largest distance from each side to pixels inside the cell that reach beyond this side, [0,
+  // kCellPixels].
   kInsideLeft,
   kInsideRight,
   kInsideTop,
   kInsideBottom,
-  kReachPlane,   // largest reach of the cell's blur, to any side
-  kNearPlane,    // reach of the blur of its nearest pixels
+  kReachPlane,   // largest reach of the cell's blur to any side
+  kNearPlane,    // reach of the blur of the cell's nearest pixels
   kRadiusPlane,  // largest blur radius
-  kEdgePlane,    // largest blur radius at depth edges, 0 without edges
+  kEdgePlane,    // largest blur radius at depth edges; 0 if there are none
   kLowPlane,     // lowest and highest disparity
   kHighPlane,
   kCellPlanes
 };
 
-// Planes of a picture's cells, `plane` samples apart, with rows `stride` samples apart.
+// Planes of the cells of a picture. Planes are `plane` samples apart, and rows `stride` samples
+// apart.
 struct CellPlanes {
-  const int16_t* cells;  // a cell in plane 0
+  const int16_t* cells;  // pointer to a cell in plane 0
   size_t plane, stride;
 };
 
-// Pixels that reach a block of 2 x 2 cells.
+// Describes the pixels that reach a block of 2 x 2 cells.
 struct BlockReach {
-  int16_t radius,
-      edge;  // largest kRadiusPlane and kEdgePlane of the block's cells and of those that reach it
-  // For each layer, the distance beyond the sides kReachLeft, .. kReachBottom of the pixels that
-  // reach the block or the layer's margin around it.
+  // Largest kRadiusPlane and largest kEdgePlane of the block's cells and of all cells that reach
+  // the block.
+  int16_t radius, edge;
+  // border[layer][side] is the largest distance beyond a side of the block of pixels that reach the
+  // block or the layer's margin around the block. Sides are kReachLeft .. kReachBottom.
   int16_t border[3][4];
 };
 
-// Summary of the surroundings of each cell of a row.
+// Properties of the surroundings of each cell of a row.
 struct CellRanges {
   int16_t *low, *high;  // lowest and highest disparity
-  uint16_t* widest;     // largest range of disparities of one of the cells
+  uint16_t* widest;     // largest range of disparities within one surrounding cell
   int16_t* edge;        // largest blur radius at depth edges
 };
 
 namespace reference {
 
-// Finds the pixels that reach the block whose first cell is at planes.cells. Cells up to `around`
-// cells away are considered. margins[layer] is the margin of a layer in pixels, ascending from 0.
-// Pixels that only reach a margin count as whole cells.
+// Finds the pixels that reach the block whose first cell is planes.cells. Cells up to `around`
+// cells away are examined. margins[layer] is the margin of a layer in pixels; margins[0] is 0, and
+// margins increase with the layer. If a cell reaches only a margin, all pixels of the cell count.
 void ReachBlock(const CellPlanes& planes, int32_t around, const int16_t margins[3],
                 BlockReach* reach);
 
-// Finds the surroundings that each of `count` cells of a row, from planes.cells on, may show or be
-// hidden by.
+// Examines the surroundings of each of `count` cells of a row; planes.cells is the first cell. The
+// surroundings of a middle cell are the cells that its blur may show or that may hide the middle
+// cell.
 //
-// A cell that is d <= around cells away (the larger of columns and rows) counts if the kReachPlane
-// of the middle cell exceeds (d - 1) kCellPixels. If its kHighPlane exceeds that of the middle
-// cell, it also counts if its own kNearPlane exceeds that value. Farther surfaces stay hidden,
-// whatever their reach. kNearPlane is at most kReachPlane. Whole groups of kSliceLanes are read and
-// written.
+// Let d <= around be the distance of a cell from the middle cell, which is the larger of the
+// distances in columns and rows. The cell counts if the kReachPlane of the middle cell exceeds (d -
+// 1) kCellPixels. A cell with a larger kHighPlane than the middle cell also counts if its own
+// kNearPlane exceeds (d - 1) kCellPixels. Farther surfaces stay hidden, regardless of their reach.
+// kNearPlane is at most kReachPlane. Whole groups of kSliceLanes are read and written.
 void SurroundCells(const CellPlanes& planes, int32_t around, size_t count,
                    const CellRanges& ranges);
 

@@ -6,8 +6,8 @@
 namespace starfocus::simd::reference {
 namespace {
 
-// Returns the number of pixels between cell k and a block of cells `around` and `around` + 1. It is
-// negative if k is one of these.
+// Returns the number of pixels between cell k and a block that consists of cells `around` and
+// `around` + 1. The result is negative if cell k is in the block.
 int GapTo(int k, int around) {
   const int before = around - 1 - k, behind = k - around - 2;
   return kCellPixels * (before > behind ? before : behind);
@@ -31,7 +31,8 @@ void ReachBlock(const CellPlanes& planes, int32_t around, const int16_t margins[
         return cell[static_cast<size_t>(plane) * planes.plane];
       };
       const int gap_x = GapTo(x, around), gap_y = GapTo(y, around);
-      // A cell to the left of the block reaches the block across its own right side, and so on.
+      // A cell to the left of the block reaches the block across the right side of the cell, and so
+      // on.
       const int from_x = x < around ? kReachRight : kReachLeft;
       const int from_y = y < around ? kReachBottom : kReachTop;
       for (int layer = 0; layer < 3; ++layer) {

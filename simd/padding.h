@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Padding that every buffer of a kernel must provide beyond its own samples.
+// Defines the padding that every buffer of a SIMD kernel must have after its last sample.
 #ifndef STARFOCUS_SIMD_PADDING_H_
 #define STARFOCUS_SIMD_PADDING_H_
 
@@ -8,14 +8,14 @@
 
 namespace starfocus::simd {
 
-// Number of bytes past the end of any source that kernels may read, since they process whole
-// vectors. They may also add zero to as many bytes past the end of accumulators. The contents of
-// those bytes do not affect results.
+// Number of bytes past the end of a source that kernels may read, because they process whole
+// vectors. Kernels may also add zero to kPadding bytes past the end of accumulators. The contents
+// of the padding do not affect results.
 inline constexpr size_t kPadding = 64;
 
-// Number of samples that kernels for surfaces, slices and cells process as one group. If a contract
-// says that whole groups are read or written, a row of n samples needs SliceSamples(n) samples of
-// memory.
+// Number of samples in a group. Kernels for surfaces, slices and cells process whole groups. If a
+// contract says that whole groups are read or written, a row of n samples requires memory for
+// SliceSamples(n) samples.
 inline constexpr size_t kSliceLanes = 16;
 inline constexpr int32_t kStripColumns = static_cast<int32_t>(kSliceLanes);
 constexpr size_t SliceSamples(size_t count) {

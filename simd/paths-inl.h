@@ -23,7 +23,8 @@ template <bool kAdds>
 HWY_INLINE void AddPathsOf(const PathRow& row, size_t labels, ptrdiff_t step, size_t count) {
   const LanesTag d16;
   const size_t lanes = hn::Lanes(d16), places = PathLabels(labels);
-  // Number of labels in full vectors, and the labels of the next vector.
+  // `whole` is the number of labels in full vectors. `is_label` marks the labels in the vector
+  // after these.
   const size_t whole = labels / lanes * lanes;
   const auto is_label = hn::FirstN(d16, labels - whole);
   const auto none = hn::Set(d16, kNoLabel), slope = hn::Set(d16, kSlopeCost);
@@ -72,7 +73,7 @@ inline void AddPaths(const PathRow& row, size_t labels, ptrdiff_t step, size_t c
 
 inline void FindJumps(const uint8_t* pixels, const uint8_t* before, size_t plane, size_t count,
                       int16_t* HWY_RESTRICT jump) {
-  // All larger differences cost kLeastJump.
+  // Differences of kFar or more cost kLeastJump.
   constexpr int kFar = kLargestJump * kSimilarColours / kLeastJump - kSimilarColours + 1;
   int16_t jumps[kFar + 1];
   for (int apart = 0; apart < kFar; ++apart) {
@@ -94,7 +95,7 @@ inline void FindJumps(const uint8_t* pixels, const uint8_t* before, size_t plane
   }
 }
 
-// Returns the first of the labels with the smallest sum, and stores that sum.
+// Returns the first label with the smallest sum, and stores this sum in *least_sum.
 HWY_INLINE size_t BestLabel(const int16_t* sum, size_t labels, int16_t* least_sum) {
   const LanesTag d16;
   auto least = hn::LoadU(d16, sum);
@@ -109,7 +110,8 @@ HWY_INLINE size_t BestLabel(const int16_t* sum, size_t labels, int16_t* least_su
   }
 }
 
-// Returns the smallest sum of the labels 2 or more away from `best`, or kNoLabel.
+// Returns the smallest sum of all labels 2 or more away from `best`, or kNoLabel if there is no
+// such label.
 HWY_INLINE int16_t LeastAway(const int16_t* sum, size_t labels, size_t best) {
   const LanesTag d16;
   const auto none = hn::Set(d16, kNoLabel);

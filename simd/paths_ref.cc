@@ -6,7 +6,7 @@ namespace {
 
 int Least(int a, int b) { return a < b ? a : b; }
 
-// Returns the cost that the previous path adds to label l.
+// Returns the term that the path of the previous pixel adds to the cost of label l.
 int Onward(const int16_t* before, int least, int jump, size_t l, size_t labels) {
   int onward = Least(before[l] - least, jump);
   if (l > 0) onward = Least(onward, before[l - 1] - least + kSlopeCost);
@@ -14,7 +14,8 @@ int Onward(const int16_t* before, int least, int jump, size_t l, size_t labels) 
   return onward;
 }
 
-// Returns the position of the minimum of three sums, between labels.
+// Returns the position of the minimum relative to the middle label, from three sums; kChoiceBits
+// fractional bits.
 int Refine(int left, int middle, int right) {
   const int from_left = left - middle, from_right = right - middle;
   const int most = from_left > from_right ? from_left : from_right;

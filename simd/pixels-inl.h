@@ -19,7 +19,7 @@ inline void PixelsToRgb(const uint8_t* HWY_RESTRICT pixels, size_t count, const 
                         uint8_t* HWY_RESTRICT rgb) {
   const hn::ScalableTag<uint8_t> d8;
   if (count == 0) return;
-  // The reference converts the last pixel, since it reads no fourth byte.
+  // The reference converts the last pixel, because the reference does not read the fourth byte.
   const size_t before = count - 1;
   const bool done = ForVectors(before, hn::Lanes(d8), [&](size_t n) HWY_ATTR {
     hn::Vec<decltype(d8)> a, b, c;

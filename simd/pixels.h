@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// SIMD kernels that convert between pixels of three bytes, R, G, B, and pixels of other orders and
-// sizes.
+// SIMD kernels that convert between pixels of the three bytes R, G, B and pixels with other orders
+// and sizes.
 #ifndef STARFOCUS_SIMD_PIXELS_H_
 #define STARFOCUS_SIMD_PIXELS_H_
 
@@ -9,8 +9,8 @@
 
 namespace starfocus::simd {
 
-// Layout of pixels that are `step` bytes apart, 3 or 4, and begin with R, G, B, or with B, G, R if
-// `blue_first`.
+// Layout of pixels. Pixels are `step` bytes apart, 3 or 4, and begin with R, G, B, or with B, G, R
+// if `blue_first` is true.
 struct PixelOrder {
   size_t step;
   bool blue_first;
@@ -18,11 +18,10 @@ struct PixelOrder {
 
 namespace reference {
 
-// Converts `count` pixels to R, G, B. A fourth byte of the last pixel is not read.
+// Converts `count` pixels to R, G, B. The fourth byte of the last pixel is never read.
 void PixelsToRgb(const uint8_t* pixels, size_t count, const PixelOrder& order, uint8_t* rgb);
 
-// Converts `count` pixels from R, G, B. The fourth byte of each pixel, if it has one, is set to
-// 255.
+// Converts `count` pixels from R, G, B. If pixels have a fourth byte, this byte is set to 255.
 void RgbToPixels(const uint8_t* rgb, size_t count, const PixelOrder& order, uint8_t* pixels);
 
 }  // namespace reference

@@ -28,7 +28,7 @@ inline void SplitRow(const uint8_t* HWY_RESTRICT rgb, size_t count, size_t strid
   if (!done) reference::SplitRow(rgb, count, stride, plane);
 }
 
-// Returns the value `part` 128ths of the way from a to b.
+// Returns a + (b - a) * part / 128, rounded half up.
 HWY_INLINE MatchVec Between(MatchVec a, MatchVec b, int32_t part) {
   const MatchTag du16;
   const auto first = hn::Set(du16, static_cast<uint16_t>(128 - part));
@@ -37,7 +37,7 @@ HWY_INLINE MatchVec Between(MatchVec a, MatchVec b, int32_t part) {
   return hn::ShiftRight<7>(hn::Add(sum, hn::Set(du16, uint16_t{64})));
 }
 
-// Interpolates for moves by whole or by fractional pixels in each direction.
+// Implements InterpolateRow. kAcross and kDown are true if the shift in this direction is not 0.
 template <bool kAcross, bool kDown>
 HWY_INLINE void InterpolateMoved(const uint8_t* HWY_RESTRICT row, const uint8_t* HWY_RESTRICT next,
                                  int32_t across, int32_t down, size_t count,

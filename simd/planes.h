@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// SIMD kernels that make planes of R, G and B from rows of pixels, and planes moved by fractions of
-// a pixel.
+// SIMD kernels that split rows of pixels into planes of R, G and B, and that shift planes by
+// fractions of a pixel.
 #ifndef STARFOCUS_SIMD_PLANES_H_
 #define STARFOCUS_SIMD_PLANES_H_
 
@@ -12,12 +12,13 @@
 namespace starfocus::simd::reference {
 
 // Splits pixels into rows of R, G and B: plane[n] = rgb[3 n], plane[n + stride] = rgb[3 n + 1],
-// plane[n + 2 stride] = rgb[3 n + 2], n < count. Nothing else is written.
+// plane[n + 2 stride] = rgb[3 n + 2], for n < count. No other elements of `plane` are written.
 void SplitRow(const uint8_t* rgb, size_t count, size_t stride, uint8_t* plane);
 
-// Sets out[n] to the sample `across` to the right of n and `down` from `row` to `next`, both in [0,
-// 128) in 128ths. Interpolation is bilinear, down first, and rounds halves up after each direction.
-// The rows have count + 1 samples; `out` is written in whole groups of kSliceLanes.
+// Sets out[n] to the interpolated sample at `across` / 128 to the right of sample n and at `down` /
+// 128 of the distance from `row` to `next`. `across` and `down` are in [0, 128). Interpolation is
+// bilinear, first down and then across, and rounds half up after each direction. The rows have
+// count + 1 samples. `out` is written in whole groups of kSliceLanes.
 void InterpolateRow(const uint8_t* row, const uint8_t* next, int32_t across, int32_t down,
                     size_t count, uint8_t* out);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// SIMD kernels for the prior of a given disparity map: the cost of each label of a pixel. The cost
-// is the distance to the nearest pixel that is trusted to have that disparity. Distances spread
-// from pixel to pixel, for all labels at once.
+// SIMD kernels for the prior that a given disparity map adds to the cost of each label of a pixel.
+// The prior of a label is the distance to the nearest trusted pixel with the label's disparity.
+// Distances are propagated from pixel to pixel, for all labels at once.
 #ifndef STARFOCUS_SIMD_PRIOR_H_
 #define STARFOCUS_SIMD_PRIOR_H_
 
@@ -12,15 +12,15 @@
 
 namespace starfocus::simd {
 
-// Cost of a label that an adjacent or a diagonally adjacent pixel has, and of a label that no pixel
-// within 8 pixels has.
+// kBesideCost and kDiagonalCost are the costs of a step to an adjacent and to a diagonally adjacent
+// pixel. kMostPrior is the prior of a label that no trusted pixel within 8 pixels has.
 inline constexpr uint8_t kBesideCost = 3, kDiagonalCost = 4, kMostPrior = 24;
 
-// A row of pixels with `places` labels each, a multiple of kSliceLanes. Pixel k is k * step pixels
-// after the first one; step is 1 or -1.
+// A row of `count` pixels. Each pixel has `places` elements, one per label; `places` is a multiple
+// of kSliceLanes. Pixel k is k * step pixels after pixel 0; step is 1 or -1.
 struct PriorRow {
-  uint8_t* prior;         // in and out: [0, kMostPrior], reduced
-  const uint8_t* before;  // the same pixels of the previous row, finished; null: no previous row
+  uint8_t* prior;         // in and out: priors, [0, kMostPrior]
+  const uint8_t* before;  // finished priors of the previous row; null if there is no previous row
   size_t places;
   ptrdiff_t step;
   size_t count;
@@ -28,12 +28,13 @@ struct PriorRow {
 
 namespace reference {
 
-// Reduces the prior of each pixel, in order. The sources are the previous pixel and the three
-// adjacent pixels in the previous row. The result is at most the prior of each source plus the cost
-// of the step from there.
+// Lowers the priors of each pixel, in order. The sources are the previous pixel and the three
+// adjacent pixels in the previous row. A prior is limited to the prior of each source plus the cost
+// of the step from the source.
 void SpreadPrior(const PriorRow& row);
 
-// Sets cost[n] to cost[n] + prior[n], at most 255, for n < count, a multiple of kSliceLanes.
+// Adds prior[n] to cost[n] for n < count. Sums are limited to 255. `count` is a multiple of
+// kSliceLanes.
 void AddPrior(const uint8_t* prior, size_t count, uint8_t* cost);
 
 }  // namespace reference

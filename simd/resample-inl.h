@@ -21,9 +21,9 @@ using reference::WidenPhases;
 
 #else
 
-// Processes five pairs of pixels at once, which are 15 samples of each phase: one vector of the
-// first 8 samples and one of the last 8. Each byte becomes the high byte of its lane, which is then
-// shifted right.
+// Processes five pairs of pixels at once, which are 15 samples of each phase. Two vectors hold the
+// first 8 and the last 8 of these samples. Each byte is moved to the high byte of a lane, and the
+// lane is then shifted right.
 inline void ShiftPhases(const uint8_t* HWY_RESTRICT in, size_t pairs, int16_t* HWY_RESTRICT even,
                         int16_t* HWY_RESTRICT odd) {
   constexpr uint8_t kZero = 0x80;
@@ -70,7 +70,7 @@ inline void WidenPhases(const uint8_t* HWY_RESTRICT in, size_t pairs, const Enco
   }
 }
 
-// Copies a fourth sample with each pixel; the next pixel overwrites it.
+// Each store writes a pixel and a fourth sample. The next pixel overwrites the fourth sample.
 inline void SplitPhases(const int16_t* HWY_RESTRICT in, size_t pairs, int16_t* HWY_RESTRICT even,
                         int16_t* HWY_RESTRICT odd) {
   const hn::FixedTag<int16_t, 4> d16;
@@ -123,8 +123,8 @@ inline void FinishLayer(const uint32_t* HWY_RESTRICT accumulators, size_t count,
   if (!done) reference::FinishLayer(accumulators, count, shift, out);
 }
 
-// The functions below compute centre c + near (a + b) + far (d + e) of a vector's samples, rounded
-// and saturated.
+// The following functions compute centre c + near (a + b) + far (d + e) for vectors of samples a to
+// e, rounded and saturated.
 #if HWY_TARGET != HWY_SCALAR
 
 using FilterTag = hn::ScalableTag<int16_t>;
@@ -132,7 +132,8 @@ using WideTag = hn::Repartition<int32_t, FilterTag>;
 using FilterVec = hn::Vec<FilterTag>;
 using WideVec = hn::Vec<WideTag>;
 
-// Starts the sums with the centre, and with the half that makes dropping kTapBits round.
+// Initialises the sums to the centre sample times its tap, plus one half, so that the final shift
+// by kTapBits rounds.
 HWY_INLINE void BeginTaps(FilterVec centre, int32_t tap, WideVec& low, WideVec& high) {
 #if STARFOCUS_HAVE_PAIR_MULTIPLY
   low = high = hn::Zero(WideTag());
@@ -157,7 +158,7 @@ HWY_INLINE FilterVec HalfBandOf(const HalfBand& taps, FilterVec c, FilterVec a, 
   return EndTaps(low, high);
 }
 
-// Takes the sums a + b and d + e, which must fit 16 bits.
+// Takes the sums a + b and d + e, which must fit in 16 bits.
 HWY_INLINE FilterVec HalfBandOf(const HalfBand& taps, FilterVec c, FilterVec ab, FilterVec de) {
   WideVec low, high;
   BeginTaps(c, taps.centre, low, high);
@@ -198,7 +199,7 @@ HWY_INLINE FilterVec HalfBandOf(const HalfBand& taps, FilterVec c, FilterVec a, 
   return EndTaps(hn::Add(Weighed(taps.centre, Wide(c)), hn::Add(beside, beyond)));
 }
 
-// Takes the sums a + b and d + e, which must fit 16 bits.
+// Takes the sums a + b and d + e, which must fit in 16 bits.
 HWY_INLINE FilterVec HalfBandOf(const HalfBand& taps, FilterVec c, FilterVec ab, FilterVec de) {
   const auto beside = Weighed(taps.near, Wide(ab)), beyond = Weighed(taps.far, Wide(de));
   return EndTaps(hn::Add(Weighed(taps.centre, Wide(c)), hn::Add(beside, beyond)));
@@ -214,7 +215,8 @@ HWY_INLINE FilterVec BetweenOf(const HalfBand& taps, FilterVec a, FilterVec b, F
 
 inline void FilterHalfBand(const int16_t* in, ptrdiff_t step, const HalfBand& filter, size_t count,
                            const SampleRange& range, int16_t* out) {
-  const HalfBand taps = filter;  // a copy stays in registers, because the output cannot alias it
+  // This is a local copy because the compiler must assume that writes to `out` change `filter`.
+  const HalfBand taps = filter;
   const FilterTag d16;
   const auto low = hn::Set(d16, range.low), high = hn::Set(d16, range.high);
   const auto load = [&](const int16_t* at) HWY_ATTR { return hn::LoadU(d16, at); };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// SIMD kernels that halve pictures into layers, and that bring layers back to full size.
+// SIMD kernels that downsample pictures by two into layers, and that upsample layers to full size.
 #ifndef STARFOCUS_SIMD_RESAMPLE_H_
 #define STARFOCUS_SIMD_RESAMPLE_H_
 
@@ -11,24 +11,23 @@
 namespace starfocus::simd {
 
 // Samples of layers have kLayerBits fractional bits. The valid range is [0, kLayerWhite]. Filters
-// exceed it by less than a fifth of white on either side.
+// exceed the valid range by less than a fifth of white on either side.
 inline constexpr int kLayerBits = kLightBits - 1;
 inline constexpr int16_t kLayerWhite = 255 << kLayerBits;
 
-// Taps of a symmetric half-band filter with kTapBits fractional bits. The seven taps are `centre`
-// in the middle, `near` on both sides of it, `far` at the ends, and zeros in between. |tap| <=
-// 2^kTapBits, and no sum of products exceeds 32 bits.
+// Taps of a symmetric half-band filter with kTapBits fractional bits. The seven taps are far, 0,
+// near, centre, near, 0, far. |tap| <= 2^kTapBits, and no sum of products exceeds 32 bits.
 inline constexpr int kTapBits = 14;
 struct HalfBand {
   int32_t centre, near, far;
 };
 
-// Range to which the samples of a row are clamped.
+// Range to which output samples are clamped.
 struct SampleRange {
   int16_t low, high;
 };
 
-// `rows` rows of `count` samples; rows are `stride` samples apart.
+// A rectangle of `rows` rows of `count` samples. Rows are `stride` samples apart.
 struct SampleRows {
   const int16_t* samples;
   size_t stride, rows, count;
@@ -37,38 +36,40 @@ struct SampleRows {
 namespace reference {
 
 // Splits a line of codes into samples of even and odd pixels, for n < pairs. even[3 n + c] is the
-// light of in[6 n + c], and odd[3 n + c] that of in[6 n + 3 + c], rounded halves up. Nothing past
-// `in` is read, and nothing past the phases is written.
+// light of in[6 n + c], and odd[3 n + c] is the light of in[6 n + 3 + c], both rounded half up to
+// samples. Nothing past the end of `in` is read, and nothing past the end of `even` and `odd` is
+// written.
 void WidenPhases(const uint8_t* in, size_t pairs, const Encoding& encoding, int16_t* even,
                  int16_t* odd);
 
-// Splits a line of samples in the same way, without a conversion. One sample past the end of each
-// phase may be written.
+// Splits a line of samples into the samples of even and odd pixels, like WidenPhases without the
+// conversion. One sample past the end of `even` and of `odd` may be written.
 void SplitPhases(const int16_t* in, size_t pairs, int16_t* even, int16_t* odd);
 
-// Sets out[n] to the code of the sample in[n], which is in range. If light is the code itself,
-// halves are rounded to even.
+// Sets out[n] to the code of the sample in[n], which must be in the valid range. If light is the
+// code itself, the sample is rounded half to even.
 void Narrow(const int16_t* in, size_t count, const Encoding& encoding, uint8_t* out);
 
 // Converts accumulators to samples: out[n] = (accumulators[n] + 2^(shift - 7)) >> (shift - 6).
-// `shift` is in [7, 24], and results are in range.
+// `shift` is in [7, 24]. Results must be in the valid range.
 void FinishLayer(const uint32_t* accumulators, size_t count, int shift, int16_t* out);
 
 // Filters samples that are `step` apart. out[n] is
 //   centre in[n] + near (in[n - step] + in[n + step]) + far (in[n - 3 step] + in[n + 3 step]),
-// rounded halves up to a sample and clamped to `range`.
+// rounded half up to a sample and clamped to `range`.
 void FilterHalfBand(const int16_t* in, ptrdiff_t step, const HalfBand& taps, size_t count,
                     const SampleRange& range, int16_t* out);
 
-// Filters a line and keeps the even pixels, given both phases of the line. out[n] is
+// Filters a line and keeps the even pixels. `even` and `odd` are the output of SplitPhases. out[n]
+// is
 //   centre even[n] + near (odd[n - 3] + odd[n]) + far (odd[n - 6] + odd[n + 3]),
-// rounded as above and saturated to 16 bits. Samples are in range.
+// rounded half up to a sample and saturated to 16 bits. Input samples must be in the valid range.
 void Halve(const int16_t* even, const int16_t* odd, const HalfBand& taps, size_t count,
            int16_t* out);
 
-// Interpolates the samples half way between in[n] and in[n + step]. out[n] is
+// Interpolates the samples halfway between in[n] and in[n + step]. out[n] is
 //   near (in[n] + in[n + step]) + far (in[n - step] + in[n + 2 step]),
-// rounded as above and clamped to `range`.
+// rounded half up to a sample and clamped to `range`.
 void Between(const int16_t* in, ptrdiff_t step, const HalfBand& taps, size_t count,
              const SampleRange& range, int16_t* out);
 

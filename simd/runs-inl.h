@@ -14,7 +14,7 @@ HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
-// Splits adjacent lines, one in each lane of a vector.
+// Splits adjacent lines into runs, one line in each lane of a vector.
 template <class D16>
 HWY_INLINE void FindRunsOfVector(D16 d16, const int16_t* HWY_RESTRICT disparity, ptrdiff_t step,
                                  size_t length, const RunLimits& limits, const RunMarks& marks) {
@@ -30,7 +30,7 @@ HWY_INLINE void FindRunsOfVector(D16 d16, const int16_t* HWY_RESTRICT disparity,
   for (size_t q = 0; q < length; ++q, disparity += step, middles += stride) {
     const auto here = hn::LoadU(d16, disparity);
     const auto wide_low = hn::Min(low, here), wide_high = hn::Max(high, here);
-    // Differences saturate, so that ranges wider than 16 bits are detected, too.
+    // Differences saturate, so that ranges wider than 16 bits are also detected.
     const auto start = hn::Gt(hn::SaturatedSub(wide_high, wide_low), spread);
     low = hn::IfThenElse(start, here, wide_low);
     high = hn::IfThenElse(start, here, wide_high);

@@ -14,11 +14,12 @@ HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
-// True if a slice covers some of a group's pixels, and if it covers all of them.
+// Coverage of a group of pixels by a slice: `some` is true if the slice covers any pixel, `all` if
+// it covers all pixels completely.
 struct GroupCover {
   bool some = false, all = true;
 
-  // Adds a vector of pixels from n on; pixels at or after `count` are ignored.
+  // Adds a vector of pixels; the first pixel is n. Pixels at or after `count` are ignored.
   HWY_INLINE void Add(hn::Mask<LanesTag> covered, hn::Mask<LanesTag> whole, size_t n,
                       size_t count) {
     const LanesTag d16;
@@ -49,13 +50,13 @@ HWY_INLINE void StoreNothing(size_t plane, int16_t* HWY_RESTRICT out) {
   for (size_t c = 0; c < 4; ++c) hn::StoreU(hn::Zero(d16), d16, out + c * plane);
 }
 
-// Output of a row of a slice: `count` pixels in planes that are `plane` samples apart.
+// Destination of a row of a slice: `count` pixels in planes that are `plane` samples apart.
 struct SliceTarget {
   int16_t* out;
   size_t plane, count;
 };
 
-// Selects a vector of pixels from n on that are fully covered by their first surfaces.
+// Selects a vector of pixels that are fully covered by their first surface. The first pixel is n.
 HWY_INLINE void SelectFirst(const SurfaceRow& row, const SliceRange& range, size_t n,
                             const SliceTarget& target, GroupCover& cover) {
   const LanesTag d16;
@@ -76,7 +77,7 @@ HWY_INLINE void SelectFirst(const SurfaceRow& row, const SliceRange& range, size
   cover.Add(found, found, n, count);
 }
 
-// Selects a vector of pixels from n on, considering all of their surfaces.
+// Selects a vector of pixels, considering all surfaces. The first pixel is n.
 HWY_INLINE void SelectAny(const SurfaceRow& row, const SliceRange& range, size_t n,
                           const SliceTarget& target, GroupCover& cover) {
   const LanesTag d16;
@@ -102,12 +103,12 @@ HWY_INLINE void SelectAny(const SurfaceRow& row, const SliceRange& range, size_t
   const auto together = hn::Add(front, behind);
   cover.Add(hn::Ne(together, hn::Zero(d16)), hn::Eq(together, pixel), n, count);
   const auto whole = hn::Eq(front, pixel), shows = hn::Ne(behind, hn::Zero(d16));
-  // Signed 16 bits cannot hold the weight of a whole pixel, so whole pixels do not use the product.
+  // The weight of a whole pixel exceeds 16 bits. Products of whole pixels are therefore not used.
   const auto parts = hn::ShiftLeft<15 - kSliceBits>(hn::IfThenZeroElse(whole, front));
   for (size_t c = 0; c < 3; ++c) {
     const size_t at = c * row.plane + n;
-    // Colours of missing surfaces are uninitialized. They are masked rather than multiplied by
-    // zero, which valgrind would report.
+    // Colours of missing surfaces are uninitialised. These colours are masked rather than
+    // multiplied by zero, because valgrind would report the multiplication.
     const auto deepest = hn::IfThenElseZero(last, hn::LoadU(d16, row.rgb[2] + at));
     const auto hidden =
         hn::IfThenElseZero(shows, hn::IfThenElse(next, hn::LoadU(d16, row.rgb[1] + at), deepest));
@@ -115,7 +116,7 @@ HWY_INLINE void SelectAny(const SurfaceRow& row, const SliceRange& range, size_t
     const auto part = hn::MulFixedPoint15(hn::Sub(nearest_light, hidden), parts);
     hn::StoreU(hn::IfThenElse(whole, nearest_light, hn::Add(hidden, part)), d16, to + c * plane);
   }
-  // A whole pixel times 2^8 is one more than kSliceOne.
+  // kSliceWhole times 2^8 is kSliceOne + 1, so 1 is subtracted for whole pixels.
   const auto covered = hn::Sub(hn::ShiftLeft<8>(together), hn::ShiftRight<kSliceBits>(together));
   hn::StoreU(covered, d16, to + 3 * plane);
 }
@@ -144,7 +145,7 @@ inline SliceCover SelectSlice(const SurfaceRow& row, const SliceRange& range, si
   return cover;
 }
 
-// Implements SpreadSlice for taps with this reach.
+// Implements SpreadSlice for taps with a reach of kReach.
 template <int32_t kReach>
 HWY_INLINE void SpreadBy(const int16_t* HWY_RESTRICT in, ptrdiff_t step, const SliceTaps& taps,
                          size_t count, int16_t* HWY_RESTRICT out) {
@@ -169,7 +170,7 @@ HWY_INLINE void SpreadBy(const int16_t* HWY_RESTRICT in, ptrdiff_t step, const S
 
 inline void SpreadSlice(const int16_t* HWY_RESTRICT in, ptrdiff_t step, const SliceTaps& taps,
                         size_t count, int16_t* HWY_RESTRICT out) {
-  static_assert(kMaxSpread == 3, "the reaches that there are");
+  static_assert(kMaxSpread == 3, "SpreadSlice has a case for each reach");
   if (taps.reach == 1) return SpreadBy<1>(in, step, taps, count, out);
   if (taps.reach == 2) return SpreadBy<2>(in, step, taps, count, out);
   SpreadBy<3>(in, step, taps, count, out);

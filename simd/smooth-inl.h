@@ -17,7 +17,7 @@ namespace HWY_NAMESPACE {
 using SmoothTag = hn::CappedTag<int32_t, kSliceLanes>;
 using SmoothVec = hn::Vec<SmoothTag>;
 
-// Sums the neighbours of a vector of pixels, from pixel n on.
+// Sums the disparities and weights of the neighbours for a vector of pixels. The first pixel is n.
 HWY_INLINE void SumSmooth(const SmoothRows& rows, size_t n, SmoothVec& disparity,
                           SmoothVec& weights) {
   const SmoothTag d32;

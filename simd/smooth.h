@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// SIMD kernel that averages a noisy disparity map over neighbours of the same surface.
+// SIMD kernel that averages a noisy disparity map over neighbouring pixels on one surface.
 #ifndef STARFOCUS_SIMD_SMOOTH_H_
 #define STARFOCUS_SIMD_SMOOTH_H_
 
@@ -10,29 +10,31 @@
 
 namespace starfocus::simd {
 
-// Largest number of rows that a pixel is averaged over.
+// Largest number of rows over which a pixel is averaged.
 inline constexpr size_t kMostSmoothRows = 7;
-// Weight of a neighbour of the same colour. It decreases with the difference of the colours, to at
-// least 1.
+// Weight of a neighbour of equal colour. The weight decreases with the difference of the colours,
+// to no less than 1.
 inline constexpr int32_t kMostSmoothWeight = 64;
 
-// A row of pixels and the rows that it is averaged over. All pointers are to the row's first pixel,
-// and `radius` more pixels lie on both sides. A row has four planes, `plane` numbers apart:
-// disparity, and the members sum, red_green and green_blue of ColourSample.
+// A row of pixels (`own`) and the rows over which its pixels are averaged. Each pointer points to
+// the first pixel of a row. `radius` more pixels at both ends of a row must be readable. A row has
+// four planes, which are `plane` elements apart: disparity, and the members sum, red_green and
+// green_blue of ColourSample.
 struct SmoothRows {
   const int32_t* own;
   const int32_t* rows[kMostSmoothRows];
   size_t count;  // number of rows
   size_t plane;
-  int32_t radius, step;  // neighbours are every `step`th column within `radius`
+  int32_t radius, step;  // neighbours are in every `step`-th column within `radius`
   int32_t tolerance;     // largest difference of disparities within a surface
 };
 
-// Sums over the neighbours of a pixel.
+// Weighted sums over the neighbours of a pixel.
 struct SmoothSums {
-  int32_t disparity, weights;  // weighted disparities, below 2^27, and weights, below 2^13
+  // Sum of weighted disparities, below 2^27, and sum of weights, below 2^13.
+  int32_t disparity, weights;
 
-  // Returns the mean, with halves rounded away from zero.
+  // Returns the mean disparity. Rounds half away from zero.
   int16_t Mean() const {
     const int32_t half = disparity < 0 ? -weights : weights;
     return static_cast<int16_t>((2 * disparity + half) / (2 * weights));
@@ -41,8 +43,9 @@ struct SmoothSums {
 
 namespace reference {
 
-// Sets smooth[n] to the mean disparity of the neighbours of pixel n < count whose disparities are
-// within the tolerance of its own. Pixel n itself is one of them.
+// Sets smooth[n] to the weighted mean disparity over neighbours of pixel n, for n < count. The mean
+// includes the neighbours whose disparity differs from that of pixel n by at most `tolerance`, and
+// pixel n.
 void SmoothDisparity(const SmoothRows& rows, size_t count, int16_t* smooth);
 
 }  // namespace reference

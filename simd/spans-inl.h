@@ -17,9 +17,9 @@ HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
-// Adds value(n, keep) to the accumulators of a span, one vector at a time. In the last vector
-// `keep` zeroes the pixels beyond the span before they are weighted. These pixels may be
-// uninitialized, and valgrind treats a pair of lanes that are multiplied together as one value.
+// Adds value(n, keep) to the accumulators of a span, one vector at a time. In the last vector,
+// `keep` zeroes the samples beyond the span before they are weighted. These samples may be
+// uninitialised, and valgrind treats two lanes that are multiplied and added in pairs as one value.
 template <class D32, class Value>
 HWY_INLINE void AddSpan(D32 d32, uint32_t samples, uint32_t* HWY_RESTRICT target,
                         const Value& value) {
@@ -77,7 +77,8 @@ HWY_INLINE void BlendSpan(const Span& span, int16_t* HWY_RESTRICT line) {
   const bool done = ForVectors(span.samples, hn::Lanes(d16),
                                [&](size_t n) HWY_ATTR { hn::StoreU(blended(n), d16, target + n); });
   if (done) return;
-  // Most spans of line scans are shorter than a vector; the reference would be slower.
+  // Processes a span that is shorter than a vector, as most spans of line scans are. Here the
+  // reference would be slower.
   int16_t whole[HWY_MAX_BYTES / sizeof(int16_t)];
   hn::StoreU(blended(0), d16, whole);
   std::memcpy(target, whole, span.samples * sizeof(*target));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// SIMD kernels that move spans of samples by a fraction of a pixel. They weight two samples of the
-// source, and add or store the result.
+// SIMD kernels that move spans of samples by a fraction of a pixel. The kernels compute weighted
+// sums of two samples of the source, and add or store the results.
 #ifndef STARFOCUS_SIMD_SPANS_H_
 #define STARFOCUS_SIMD_SPANS_H_
 
@@ -9,15 +9,16 @@
 
 namespace starfocus::simd {
 
-// A span of samples (R, G, B interleaved) of one source surface for a line. The value of sample n
-// is weight * source[n] + neighbour_weight * source[n + neighbour_offset].
+// A span of samples with interleaved R, G and B, which come from one source surface and go to one
+// line. The value of sample n is weight * source[n] + neighbour_weight * source[n +
+// neighbour_offset].
 struct Span {
-  const int16_t* source;      // light (light.h)
+  const int16_t* source;      // light of the source (light.h)
   uint32_t target;            // first sample in the target line
   uint32_t samples;           // > 0
   uint16_t weight;            // [0, 32767]
-  uint16_t neighbour_weight;  // [0, 32767]; 0: the neighbour is not used
-  int32_t neighbour_offset;   // in samples: whole pixels, mostly +3 or -3
+  uint16_t neighbour_weight;  // [0, 32767]; 0 if the neighbour is not used
+  int32_t neighbour_offset;   // in samples; a multiple of 3, mostly +3 or -3
 };
 
 // Fractional bits of the weights of Blend.
@@ -25,12 +26,13 @@ inline constexpr int kBlendBits = 14;
 
 namespace reference {
 
-// Adds value n of each span to accumulators[target + n]. No sum exceeds 2^32 - 1.
+// Adds value n of each span to accumulators[target + n]. Sums must not exceed 2^32 - 1.
 void Accumulate(const Span* spans, size_t count, uint32_t* accumulators);
 
-// Stores value n of each span in line[target + n]. The weights of a span sum to 2^kBlendBits, and
-// the neighbour's is at most half of that. The difference that the neighbour makes is rounded
-// halves up. Sources do not overlap the line, and nothing outside the spans is written.
+// Stores value n of each span in line[target + n]. The two weights of a span sum to 2^kBlendBits,
+// and the neighbour's weight is at most half of this sum. The weighted difference between neighbour
+// and sample is rounded half up. Sources must not overlap the line. Samples of the line outside the
+// spans are not written.
 void Blend(const Span* spans, size_t count, int16_t* line);
 
 }  // namespace reference

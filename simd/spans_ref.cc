@@ -5,7 +5,7 @@
 namespace starfocus::simd::reference {
 namespace {
 
-// Return sample n of the source, or of the neighbour.
+// SourceOf returns sample n of the source, and NeighbourOf the neighbour of sample n.
 int32_t SourceOf(const Span& span, uint32_t n) { return span.source[n]; }
 int32_t NeighbourOf(const Span& span, uint32_t n) {
   return span.source[static_cast<ptrdiff_t>(n) + span.neighbour_offset];

@@ -17,7 +17,7 @@ HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
-// Rows of a strip are contiguous in memory, so that the widest vectors hold two of them.
+// Rows of a strip are contiguous in memory, so that the widest vectors can hold two rows.
 #undef STARFOCUS_WIDE_TILES
 #if HWY_TARGET != HWY_SCALAR && HWY_MAX_BYTES >= 64
 #define STARFOCUS_WIDE_TILES 1
@@ -27,25 +27,27 @@ using StripTag = hn::CappedTag<int16_t, 2 * kSliceLanes>;
 using StripTag = LanesTag;
 #endif
 
-// True if Composite has a separate path for fully covered rows. With narrower vectors, it takes
-// more instructions than it saves.
+// True if Composite has a separate path for fully covered rows. With vectors narrower than 32
+// bytes, the tests for this path cost more instructions than the path saves.
 constexpr bool kCoveredApart = HWY_MAX_BYTES >= 32;
 
-// True if Composite tests each vector for coverage, and for slices in front of it, to skip work.
-// The branches are unpredictable: on x86, mispredictions cost up to 12 % of the time, so Composite
-// uses only the marks of rows there. On ARM, using only the marks takes 3 to 5 % more instructions.
+// True if Composite skips work by testing each vector for coverage and for slices in front. The
+// branches of these tests are unpredictable. On x86, mispredictions cost up to 12 % of the time, so
+// Composite uses only the marks of rows. On ARM, using only the marks of rows takes 3 to 5 % more
+// instructions than testing each vector.
 constexpr bool kLooksFirst = !HWY_ARCH_X86;
 
-// Returns the number of rows of a strip in a vector; 1 also if it holds a part of a row.
+// Returns the number of rows of a strip in a vector, or 1 if a vector holds only a part of a row.
 template <class D>
 HWY_INLINE size_t RowsOf(D d) {
   return hn::Lanes(d) > kSliceLanes ? hn::Lanes(d) / kSliceLanes : 1;
 }
 
-// Writes the marks of rows in order, starting with the first.
+// Writes the marks of rows. Rows must be added in order, starting with the first row.
 class RowMarks {
  public:
-  // Adds a row, given the largest and the smallest coverage over all vectors that hold it.
+  // Adds a row. `most` and `least` are the largest and the smallest coverage over all vectors of
+  // the row.
   HWY_INLINE void Add(LanesVec most, LanesVec least, int8_t* HWY_RESTRICT near) {
     const LanesTag d16;
     const bool some = !hn::AllTrue(d16, hn::Eq(most, hn::Zero(d16)));
@@ -61,12 +63,12 @@ class RowMarks {
 
  private:
   static constexpr int kAhead = kRowsAhead;
-  bool shown_ = false;   // true: the last row shows something
-  int all_covered_ = 0;  // number of fully covered rows up to the last one
+  bool shown_ = false;   // true if the slice covers a pixel of the last row
+  int all_covered_ = 0;  // number of consecutive fully covered rows that end with the last row
 };
 
-// Moves rows one at a time, with vectors of at most one row. Wider vectors, gathered from the
-// planes of two rows, are slower.
+// Shifts rows one at a time, with vectors of at most one row. Wider vectors that combine the planes
+// of two rows are slower.
 template <int kTaps>
 HWY_INLINE void ShiftRows(const SlicePlanes& in, const SliceFraction& fraction, size_t rows,
                           size_t plane, int16_t* HWY_RESTRICT out, int8_t* HWY_RESTRICT near) {
@@ -123,7 +125,7 @@ inline void ShiftSlice(const SlicePlanes& in, const SliceFraction& fraction, siz
 
 using SliceVec = hn::Vec<StripTag>;
 
-// Returns sums of 16 bits divided by 2^bits, rounded halves up.
+// Returns 16-bit sums divided by 2^bits, rounded half up.
 HWY_INLINE SliceVec DividedSums(SliceVec value, int bits) {
   const StripTag d;
   const hn::RebindToUnsigned<StripTag> d16;
@@ -149,7 +151,8 @@ HWY_INLINE void AddSums(SliceVec value, size_t rows, uint32_t* HWY_RESTRICT sums
   }
 }
 
-// Returns light / covered where that is less than one, as the reference's SliceShare computes it.
+// Returns light / covered for lanes in which the quotient is less than one, computed like
+// SliceShare in the reference.
 HWY_INLINE SliceVec ShareOfLight(SliceVec covered, SliceVec light, SliceVec excess) {
   const StripTag d16;
   const auto one = hn::Set(d16, kSliceOne);
@@ -163,20 +166,22 @@ HWY_INLINE SliceVec ShareOfLight(SliceVec covered, SliceVec light, SliceVec exce
 
 // Prior knowledge about a view and a slice.
 enum class Known {
-  kLit,      // no slice has covered any part of the view
-  kCovered,  // as kLit, and the slice covers all rows completely, so no slice behind it is visible
+  kLit,  // no slice in front covers any pixel of these rows
+  // Like kLit, and the slice also covers all rows completely, so that no slice behind it is
+  // visible.
+  kCovered,
   kNothing,
 };
 
-// Colours and coverage of a slice, or their sums over views. The members are references, since some
-// vectors cannot be members.
+// Colours and coverage of a slice, or their sums over views. The members are references, because
+// vectors of some targets cannot be members.
 struct ViewSums {
   SliceVec &r, &g, &b, &covered;
 };
 
 // Adds a slice's colours and coverage to the sums of a view, and subtracts the coverage from the
-// remaining light. `excess` is the part of the coverage that exceeds the remaining light; that part
-// contributes nothing.
+// remaining light. `excess` is the part of the coverage that exceeds the remaining light. The
+// excess does not contribute to the sums.
 template <Known kKnown>
 HWY_INLINE void TakeLight(SliceVec weight, const ViewSums& slice, SliceVec excess, SliceVec& light,
                           const ViewSums& sums) {
@@ -201,8 +206,8 @@ HWY_INLINE void TakeLight(SliceVec weight, const ViewSums& slice, SliceVec exces
   sums.covered = hn::Add(sums.covered, hn::MulFixedPoint15(weight, slice.covered));
 }
 
-// Adds the contribution of a slice to a vector of rows of a view, where `at` is the slice's first
-// sample. Each row of the view sees kTaps rows of the slice, 2 to 4.
+// Adds the contribution of a slice to a vector of rows of a view. `at` is the first sample of the
+// slice. Each row of the view is interpolated from kTaps rows of the slice, 2 to 4.
 template <int kTaps, Known kKnown>
 HWY_INLINE void TakeRows(const SliceFraction& fraction, size_t plane,
                          const int16_t* HWY_RESTRICT at, SliceVec weight, SliceVec& light,
@@ -231,8 +236,8 @@ HWY_INLINE void TakeRows(const SliceFraction& fraction, size_t plane,
     return hn::Add(value, hn::MulFixedPoint15(last, fourth));
   };
   auto covered = kCovered ? hn::Set(d16, kSliceOne) : between(cover);
-  // Colours of such pixels are at most rounding errors; multiplied by a weight below one half they
-  // are 0, too.
+  // Colours of pixels without coverage are at most rounding errors. Products of such colours and
+  // weights below one half are 0.
   if (kLooksFirst && !kCovered && hn::AllTrue(d16, hn::Eq(covered, hn::Zero(d16)))) return;
   const auto excess =
       kKnown == Known::kNothing ? hn::Max(hn::Sub(covered, light), hn::Zero(d16)) : hn::Zero(d16);
@@ -240,7 +245,7 @@ HWY_INLINE void TakeRows(const SliceFraction& fraction, size_t plane,
   TakeLight<kKnown>(weight, {r, g, b, covered}, excess, light, sums);
 }
 
-// Adds the light of `rows` rows of a vector to their sums.
+// Adds the light in `rows` rows of a vector to the sums of these rows.
 HWY_INLINE void AddLight(const ViewSums& view, size_t rows, uint32_t* HWY_RESTRICT sums) {
   AddSums(view.r, rows, sums);
   AddSums(view.g, rows, sums + kSliceLanes);
@@ -248,13 +253,13 @@ HWY_INLINE void AddLight(const ViewSums& view, size_t rows, uint32_t* HWY_RESTRI
   AddSums(view.covered, rows, sums + 3 * kSliceLanes);
 }
 
-// A visible slice and its offset in the first view.
+// A visible slice and a pointer to its offset in the first view.
 struct SeenSlice {
   StripSlice slice;
   const SliceOffset* offsets;
 };
 
-// Calls take(taps) with `taps` as a constant.
+// Calls take(taps), with `taps` as a compile-time constant.
 template <class Take>
 HWY_INLINE void TakeByTaps(int taps, const Take& take) {
   if (taps == 2) {

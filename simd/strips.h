@@ -12,7 +12,7 @@
 
 namespace starfocus::simd {
 
-// Rows of a slice. The four planes of each row are `plane` samples apart.
+// Rows of a slice before the shift. The four planes of each row are `plane` samples apart.
 struct SlicePlanes {
   const int16_t* samples;
   size_t plane;
@@ -20,34 +20,34 @@ struct SlicePlanes {
 
 // Interpolation of a view between up to four consecutive samples p of a slice:
 //   p[1] + first (p[1] - p[0]) + third (p[1] - p[2]) + fourth (p[2] - p[3]),
-// where `first` is `inside` if p[0] and p[1] have the same coverage, otherwise `edge`. All factors
-// are in [-1, 0] with 15 fractional bits, since 16 bits hold -1 but not 1. If `third` is not 0,
-// `inside` and `edge` are equal. If `third` is 0, `fourth` is 0, too.
+// where `first` is `inside` if p[0] and p[1] have equal coverage, and `edge` if not. All factors
+// are in [-1, 0] with 15 fractional bits, because 16 bits can represent -1 but not 1. If `third` is
+// not 0, `inside` and `edge` are equal. If `third` is 0, `fourth` is also 0.
 struct SliceFraction {
   int16_t inside, edge, third, fourth;
 };
 
-// Number of rows of a strip that Composite may read beyond the last one it adds.
+// Number of rows of a strip that Composite may read after the last row that it composites.
 inline constexpr size_t kRowsAhead = 6;
 
-// Mark of a row of a strip: the number of rows, starting with this one, that show nothing of a
-// slice, at most kNothingNear. It is kCoveredNear if all pixels of the row and of the kRowsAhead
-// rows after it are fully covered.
+// Special values of the mark of a row of a strip. The mark is the number of consecutive rows, from
+// this row on, in which the slice covers no pixel, limited to kNothingNear. The mark is
+// kCoveredNear if the slice fully covers all pixels of this row and of the next kRowsAhead rows.
 inline constexpr int8_t kNothingNear = kRowsAhead + 1;
 inline constexpr int8_t kCoveredNear = -1;
 
-// A slice in a strip. The four planes are `plane` samples apart; a row is kSliceLanes samples.
+// A slice in a strip. The four planes are `plane` samples apart. A row has kSliceLanes samples.
 struct StripSlice {
-  const int16_t* samples;  // first row that an unmoved view shows
-  const int8_t* near;      // marks of the rows from there on
+  const int16_t* samples;  // first row that the centre view shows
+  const int8_t* near;      // marks of the rows, starting with the row of `samples`
   size_t plane;
 };
 
-// Position of a slice in a view: a move by whole rows, and the interpolation between a row and the
-// next ones.
+// Position of a slice in a view: a shift by whole rows, and the interpolation between a row and the
+// next rows.
 struct SliceOffset {
   int16_t whole;
-  int16_t taps;  // number of rows that are interpolated: 2, 3 or 4, depending on the fraction
+  int16_t taps;  // number of interpolated rows: 2, 3 or 4, depending on the fraction
   SliceFraction fraction;
 
   static constexpr SliceOffset Of(int32_t whole, const SliceFraction& fraction) {
@@ -59,40 +59,43 @@ struct SliceOffset {
 // Largest number of slices that a view can show.
 inline constexpr size_t kMaxSeen = 32;
 
-// Views of a strip, in which the slices are moved along the column.
+// The views that Composite adds. In each view, the slices are shifted along the columns of the
+// strip.
 struct SliceViews {
-  const int16_t* weights;      // weight of each view, in [0, 2^14); at most 58000 in total
+  const int16_t* weights;      // weight of each view, in [0, 2^14); the sum is at most 58000
   const SliceOffset* offsets;  // offsets[view * count + k]: position of slice k in a view
   size_t views;
   const StripSlice* slices;
   size_t count;          // number of slices
-  const uint8_t* shown;  // visible slices, the nearest first
+  const uint8_t* shown;  // indices of the visible slices, from the nearest to the farthest
   size_t shown_count;    // at most kMaxSeen
   size_t row;            // first row that is composited
-  int extra_bits;  // sums are divided by 2^extra_bits, by which the weights are too large; [0, 4]
+  // The weights are scaled by 2^extra_bits, and the sums are divided by 2^extra_bits; [0, 4].
+  int extra_bits;
 };
 
 namespace reference {
 
-// Moves rows of a slice along the row by a fraction of a sample, into a strip whose planes are
-// `plane` samples apart. out[n] is interpolated between in[n] and the samples after it, and each
-// product is rounded halves up.
+// Shifts rows of a slice along the row by a fraction of a sample, and stores the result in a strip
+// whose planes are `plane` samples apart. out[n] is interpolated between in[n] and the following
+// samples. Each product is rounded half up.
 //
-// near[row] is the mark of a row; kRowsAhead marks precede the first. All of them must be at least
-// kNothingNear before the call. Marks of rows that show something, or that lie up to kRowsAhead
-// before such a row, are set. Other marks are not changed.
+// near[row] is the mark of a row; kRowsAhead more marks precede near[0]. Before the call, all marks
+// must be at least kNothingNear. The kernel sets the marks of rows in which the slice covers a
+// pixel, and the marks of the kRowsAhead rows before such a row. Other marks are not changed.
 void ShiftSlice(const SlicePlanes& in, const SliceFraction& fraction, size_t rows, size_t plane,
                 int16_t* out, int8_t* near);
 
-// Adds the views of a strip to sums[(4 row + c) kSliceLanes + n], where c is the plane. A slice
-// contributes its premultiplied colours and reduces the remaining light by its coverage.
+// Composites the views of a strip and adds them to sums[(4 row + c) kSliceLanes + n], where c is
+// the plane. A slice contributes its premultiplied colours and reduces the remaining light by its
+// coverage.
 //
-// If the coverage exceeds the remaining light, the slice contributes in proportion to that light,
-// up to a ninth of the weight too much. Slices are thus treated as if they covered different parts
-// of a pixel.
+// If the coverage of a slice exceeds the remaining light, the contribution of the slice is reduced
+// in proportion. The contribution may be too large by up to a ninth of the view's weight. Slices
+// are thus treated as if they covered different parts of a pixel.
 //
-// Rows are interpolated as in ShiftSlice. Products (15 bits) are rounded halves up. The total of
-// all views is divided by 2^extra_bits and rounded halves up. No sum exceeds 2^32 - 1.
+// Rows are interpolated as in ShiftSlice. Products (15 fractional bits) are rounded half up. The
+// total of all views is divided by 2^extra_bits and rounded half up. Sums must not exceed 2^32 - 1.
 void Composite(const SliceViews& views, size_t rows, uint32_t* sums);
 
 }  // namespace reference

@@ -12,8 +12,8 @@ int16_t Between15(int16_t from, int16_t to, int16_t fraction) {
   return static_cast<int16_t>(to + Product15(to - from, fraction));
 }
 
-// Interpolates between a sample and the following ones, which are `next` apart; `covered` is their
-// coverage.
+// Interpolates between a sample and the following samples, which are `next` apart. `covered` points
+// to the coverage of the first sample.
 int16_t Between15(const int16_t* at, const int16_t* covered, size_t next,
                   const SliceFraction& fraction) {
   const bool alike = covered[0] == covered[next];
@@ -37,7 +37,7 @@ int16_t SliceShare(int16_t covered, int16_t light) {
 
 void ShiftSlice(const SlicePlanes& in, const SliceFraction& fraction, size_t rows, size_t plane,
                 int16_t* out, int8_t* near) {
-  size_t all_covered = 0;  // number of fully covered rows up to this one
+  size_t all_covered = 0;  // number of consecutive fully covered rows that end with this row
   for (size_t row = 0; row < rows; ++row) {
     const int16_t* covered = in.samples + (4 * row + 3) * in.plane;
     for (size_t c = 0; c < 4; ++c) {

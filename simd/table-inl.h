@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Defines a table of kernels for the current SIMD target. For the last target, it also defines
-// Best##Table, which returns the table of the machine's best target. The unit that includes this
-// file once per target defines STARFOCUS_TABLE (the type of the table) and STARFOCUS_LIST (the list
-// of its kernels).
+// Defines a table of kernels for the current SIMD target. For the last target, this file also
+// defines Best##Table, which returns the table of the machine's best target. The unit that includes
+// this file once per target defines STARFOCUS_TABLE (the type of the table) and STARFOCUS_LIST (the
+// list of the table's kernels).
 HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {

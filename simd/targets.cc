@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lists the kernel tables of the machine's SIMD targets. Not part of the engine's library, because
-// it changes Highway's process-wide choice of a target while it runs.
+// Lists the kernel tables of the machine's SIMD targets. This unit is not part of the engine's
+// library, because its functions temporarily change Highway's process-wide choice of a target.
 #include <hwy/highway.h>
 
 #include <cstring>
@@ -13,15 +13,16 @@ namespace starfocus::simd {
 
 namespace {
 
-// Returns table `index` of those that `best` returns for the targets of this machine.
+// Returns the table of target `index` of this machine, or null. `best` returns the table of
+// Highway's current choice.
 template <class Table>
 const Table* TableOfTarget(const Table& (*best)(), size_t index) {
 #ifdef HWY_COMPILE_ONLY_STATIC
   return index == 0 ? &best() : nullptr;
 #else
   const Table* found = nullptr;
-  // Highway assigns lower bits to better targets. A target that was not compiled falls back to a
-  // worse one, which is listed later under its own name.
+  // Highway assigns lower bits to better targets. If a target was not compiled, `best` returns the
+  // table of a worse target. The loop skips this table and lists it later, under its own name.
   for (int64_t rest = hwy::SupportedTargets(); rest != 0 && found == nullptr; rest &= rest - 1) {
     hwy::SetSupportedTargetsForTest(rest & -rest);
     const Table* kernels = &best();

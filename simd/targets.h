@@ -5,13 +5,14 @@
 #ifndef STARFOCUS_SIMD_TARGETS_H_
 #define STARFOCUS_SIMD_TARGETS_H_
 
-// Highway 1.0.3 truncates 16-bit numbers incorrectly on AVX3_DL, which -march=native may enable.
-// AVX3 is used instead.
+// Highway 1.0.3 truncates 16-bit numbers incorrectly on target AVX3_DL, which -march=native may
+// enable. Target AVX3 replaces it.
 #ifndef HWY_DISABLED_TARGETS
 #define HWY_DISABLED_TARGETS HWY_AVX3_DL
 #endif
 
-// The emulated vectors that clang uses without SIMD, instead of scalars, give different results.
+// Without SIMD, clang uses emulated vectors in place of scalars, and the emulated vectors give
+// different results.
 #ifndef HWY_BROKEN_EMU128
 #define HWY_BROKEN_EMU128 1
 #endif
@@ -19,7 +20,7 @@
 #include "hwy/foreach_target.h"  // must precede highway.h
 #include "hwy/highway.h"
 
-// Oldest supported version, as stated in cmake/highway.cmake and docs/third-party.md.
+// Oldest supported version of Highway, as stated in cmake/highway.cmake and docs/third-party.md.
 #if HWY_MAJOR * 1000000 + HWY_MINOR * 1000 + HWY_PATCH < 1000003
 #error "Highway: unsupported version (expected 1.0.3 or newer)"
 #endif

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loops over samples that do not fill a whole number of vectors. Included once per target.
+// Defines loops over samples that do not fill a whole number of vectors. Included once per target.
 //
 // - Rows that are padded to whole groups of kSliceLanes by contract have no remainder.
-// - All other kernels store with ForVectors. Its last vector overlaps the previous one and stores
-//   the same values again. If there are fewer samples than lanes, they call their reference. Only
-//   Blend stores a part of a vector, because most of its spans are short.
-// - Kernels that add to accumulators must add each sample once. They mask the last vector
+// - All other kernels store with ForVectors. The last vector overlaps the previous vector and
+// stores
+//   equal values again. If there are fewer samples than lanes, the kernel calls its reference. Only
+//   Blend stores a part of a vector, because most spans of Blend are short.
+// - Kernels that add to accumulators must add each sample once. These kernels mask the last vector
 //   (`AddSpan` in spans-inl.h).
 #if defined(STARFOCUS_SIMD_VECTORS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef STARFOCUS_SIMD_VECTORS_INL_H_
@@ -20,8 +21,9 @@ HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
-// Calls step(n) for each vector of `count` samples. The last vector ends with the samples. Returns
-// false, without a call, if there are fewer samples than lanes.
+// Calls step(n) for each vector of `count` samples. The last vector ends at the last sample and may
+// overlap the previous vector. If there are fewer samples than lanes, returns false without calling
+// step.
 template <class Step>
 HWY_INLINE bool ForVectors(size_t count, size_t lanes, const Step& step) {
   if (count < lanes) return false;

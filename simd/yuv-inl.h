@@ -15,14 +15,14 @@ HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
-#if HWY_TARGET == HWY_SCALAR  // a vector is one lane, which holds no pair
+#if HWY_TARGET == HWY_SCALAR  // a scalar vector has one lane, which cannot hold a pair
 using reference::RgbToChroma;
 using reference::RgbToLuma;
 using reference::YuvToRgb;
 #else
 
-// A vector of codes consists of pairs of neighbours. Even and odd pixels are separate vectors of
-// 16-bit lanes, in the order of the chroma that they share.
+// A vector of codes consists of pairs of neighbouring pixels. Even and odd pixels are separate
+// vectors of 16-bit lanes; lane k of both vectors shares chroma sample k.
 using YuvCodes = hn::ScalableTag<uint8_t>;
 using YuvPairs = hn::Repartition<int16_t, YuvCodes>;
 
@@ -35,7 +35,7 @@ HWY_INLINE hn::Vec<YuvPairs> OddCodes(V codes) {
   const hn::RebindToUnsigned<YuvPairs> du16;
   return hn::BitCast(YuvPairs(), hn::ShiftRight<8>(hn::BitCast(du16, codes)));
 }
-// Joins numbers in [0, 255].
+// Joins vectors of even and odd numbers in [0, 255] to a vector of codes.
 template <class V>
 HWY_INLINE hn::Vec<YuvCodes> JoinCodes(V even, V odd) {
   return hn::BitCast(YuvCodes(), hn::Or(even, hn::ShiftLeft<8>(odd)));
@@ -47,7 +47,7 @@ HWY_INLINE V ClampCodes(V value) {
 }
 
 // Calls step(n) for each vector of `count` pixels in whole pairs, so that n is even. Returns the
-// number of pixels that are done: 0, or all except the last one of an odd count.
+// number of processed pixels: 0, or `count` rounded down to an even number.
 template <class Step>
 HWY_INLINE size_t ForPairs(size_t count, const Step& step) {
   const bool done =
@@ -55,7 +55,8 @@ HWY_INLINE size_t ForPairs(size_t count, const Step& step) {
   return done ? count / 2 * 2 : 0;
 }
 
-// Sums that exceed 16 bits are above white, and so is the value to which they saturate.
+// Sums that exceed 16 bits are above white. The saturated value is also above white, so the clamped
+// result is correct.
 template <class V>
 HWY_INLINE hn::Vec<YuvCodes> AddChroma(V even, V odd, V chroma) {
   return JoinCodes(ClampCodes(hn::ShiftRight<6>(hn::SaturatedAdd(even, chroma))),
@@ -119,7 +120,7 @@ inline void RgbToLuma(const uint8_t* HWY_RESTRICT rgb, size_t count, const YuvMa
   if (!done) reference::RgbToLuma(rgb, count, m, y);
 }
 
-// Returns 32 times the sum of two adjacent pixels and the two below them.
+// Returns 32 times the sum over two adjacent pixels and the two pixels below them.
 template <class V>
 HWY_INLINE hn::Vec<YuvPairs> SumPairs(V upper, V lower) {
   const auto sum = hn::Add(hn::Add(EvenCodes(upper), OddCodes(upper)),

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// SIMD kernels that convert between R, G, B and luma with chroma of half the resolution (4:2:0),
-// one byte each. Below, P(a, c) is (a * c + 2^14) >> 15, the product of two numbers with 15
-// fractional bits, rounded halves up. clamp() clamps a number to [0, 255].
+// SIMD kernels that convert between R, G, B and luma with chroma of half the resolution (4:2:0).
+// All samples are bytes. In the formulas of this header, P(a, c) is (a * c + 2^14) >> 15, which is
+// the product of two numbers with 15 fractional bits, rounded half up. clamp() clamps a number to
+// [0, 255].
 #ifndef STARFOCUS_SIMD_YUV_H_
 #define STARFOCUS_SIMD_YUV_H_
 
@@ -10,14 +11,15 @@
 
 namespace starfocus::simd {
 
-// Coefficients of a YUV format, made by lib/convert/yuv_matrix.h.
+// Coefficients of a YUV format. lib/convert/yuv_matrix.h computes them.
 struct YuvMatrix {
   int16_t black;           // luma of black: 16 or 0
   int16_t y;               // luma to R, G and B: 14 fractional bits
   int16_t rv, gu, gv, bu;  // chroma to R, G and B: 13 fractional bits
-  int16_t yr, yg, yb;      // R, G and B to luma: 15 fractional bits; white's luma is at most 255
-  int16_t ur, ug, ub;      // R, G and B to U; the sum is 0
-  int16_t vr, vg, vb;      // R, G and B to V; the sum is 0
+  // R, G and B to luma: 15 fractional bits. The luma of white is at most 255.
+  int16_t yr, yg, yb;
+  int16_t ur, ug, ub;  // R, G and B to U; the sum is 0
+  int16_t vr, vg, vb;  // R, G and B to V; the sum is 0
 };
 
 namespace reference {
@@ -32,15 +34,16 @@ void YuvToRgb(const uint8_t* y, const uint8_t* u, const uint8_t* v, size_t count
 // Computes y[n] = black + ((P(128 R, yr) + P(128 G, yg) + P(128 B, yb) + 64) >> 7).
 void RgbToLuma(const uint8_t* rgb, size_t count, const YuvMatrix& m, uint8_t* y);
 
-// Computes the chroma of two rows of `count` pixels, (count + 1) / 2 samples each. R, G and B are
-// the sums of two pixels of `upper` and the two pixels below them in `lower`. The last pixel is
-// repeated if the count is odd. Then
+// Computes the chroma of two rows of `count` pixels: (count + 1) / 2 samples of U and of V. Let R,
+// G and B be the sums over two pixels of `upper` and the two pixels below them in `lower`. If
+// `count` is odd, the last pixel is repeated. Then
 //   u[n] = clamp(128 + ((P(32 R, ur) + P(32 G, ug) + P(32 B, ub) + 64) >> 7)),
-// and v[n] is computed in the same way.
+// and v[n] is computed like u[n], with vr, vg and vb.
 void RgbToChroma(const uint8_t* upper, const uint8_t* lower, size_t count, const YuvMatrix& m,
                  uint8_t* u, uint8_t* v);
 
-// SplitPairs computes first[n] = pairs[2 n], second[n] = pairs[2 n + 1]. JoinPairs is its inverse.
+// SplitPairs sets first[n] = pairs[2 n] and second[n] = pairs[2 n + 1] for n < count. JoinPairs is
+// the inverse of SplitPairs.
 void SplitPairs(const uint8_t* pairs, size_t count, uint8_t* first, uint8_t* second);
 void JoinPairs(const uint8_t* first, const uint8_t* second, size_t count, uint8_t* pairs);
 

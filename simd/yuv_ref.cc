@@ -9,7 +9,7 @@ uint8_t Clamped(int32_t value) {
   return static_cast<uint8_t>(value < 0 ? 0 : value > 255 ? 255 : value);
 }
 
-// Returns the sum over the pixels 2 n and 2 n + 1 of both rows.
+// Returns the sum of colour c over pixels 2 n and 2 n + 1 of both rows.
 int32_t SumOfFour(const uint8_t* upper, const uint8_t* lower, size_t count, size_t n, size_t c) {
   const size_t left = 3 * (2 * n) + c, right = 2 * n + 1 < count ? left + 3 : left;
   return upper[left] + upper[right] + lower[left] + lower[right];
