@@ -7,7 +7,7 @@ namespace starfocus {
 namespace {
 
 constexpr int32_t kReach = 2 * simd::kColourReach;
-// Mask of the bits of a disparity within its group
+// Mask of the bits of a disparity within its group.
 constexpr int32_t kLow = (1 << kDisparityBits) - 1;
 static_assert(simd::kColourKeyBits == kDisparityBits, "keys hold a disparity within a group");
 constexpr simd::ColourSample kOutside = {0, 0, 0, simd::kNoColourKey, 0};

@@ -43,7 +43,7 @@ struct ColourCell {
   // last slot are unused.
   int32_t places;
   int16_t highest[kMostPlaces];  // largest disparity of the group in each slot
-  // Slot of each group times kSliceLanes; 0 for groups that do not occur
+  // Slot of each group times kSliceLanes; 0 for groups that do not occur.
   uint16_t place[kGroups];
   uint16_t least[kMostPlaces * simd::kSliceLanes];  // result of CompareColours for a block
 

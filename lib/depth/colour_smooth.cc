@@ -4,7 +4,7 @@
 namespace starfocus {
 namespace {
 
-// Differs from every disparity by more than any tolerance
+// Differs from every disparity by more than any tolerance.
 constexpr int32_t kOutside = INT32_MIN / 2;
 constexpr uint8_t kBlack[3] = {};
 constexpr int32_t kPlane = SmoothMemory::kPlane;

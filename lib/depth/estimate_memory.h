@@ -44,7 +44,7 @@ struct TileViews {
 struct TileMemory {
   TileViews views;
   uint8_t* cost;  // cost of each label at each pixel; pixels are PathLabels apart
-  // Cost added by the given map, in the layout of `cost`; null if no map is given
+  // Cost added by the given map, in the layout of `cost`; null if no map is given.
   uint8_t* prior;
   int16_t* sum;           // sums of path costs, in the layout of `cost`
   int16_t* path[2];       // path costs of a row of pixels, plus one pixel on each side
