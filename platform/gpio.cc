@@ -32,7 +32,8 @@ Error Failure(const std::string& where, const std::string& expected) {
   const int code = errno;
   if (code == EBUSY) return Expected(where, expected, "a line that another program holds");
   if (code == EACCES || code == EPERM) {
-    return Expected(where, expected, "no permission (be root, or in the group of the device file)");
+    return Expected(where, expected,
+                    "no permission (run as root, or join the group of the device file)");
   }
   if (code == ENOENT || code == ENODEV || code == ENXIO) {
     return Expected(where, expected, "no such chip");
@@ -51,17 +52,17 @@ Result<Chip> OpenChip(const std::string& name) {
   const std::string path = ChipPath(name);
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) {
-    return Expected(path, "a GPIO chip (--list shows them)", "nothing");
+    return Expected(path, "a GPIO chip (--list shows the chips)", "no such file");
   }
   Chip chip(gpiod_chip_open(path.c_str()));
-  if (chip == nullptr) return Failure(path, "a GPIO chip (--list shows them)");
+  if (chip == nullptr) return Failure(path, "a GPIO chip (--list shows the chips)");
   return chip;
 }
 
 Error CheckLine(const std::string& chip_name, gpiod_chip* chip, int line) {
   const int count = LineCount(chip);
   if (line >= 0 && line < count) return {};
-  return Expected(ChipPath(chip_name), "lines 0 to " + Number(count - 1), Number(line));
+  return Expected(ChipPath(chip_name), "a line from 0 to " + Number(count - 1), Number(line));
 }
 
 std::string LineName(const std::string& chip, int line) {
@@ -216,12 +217,12 @@ Result<std::vector<GpioEdge>> GpioInputs::Wait(int timeout) {
     const timespec hour = {3600, 0};
     result = gpiod_line_event_wait_bulk(&lines_->bulk, timeout < 0 ? &hour : &limit, &ready);
   } while (result == 0 && timeout < 0);
-  if (result < 0) return Failure(lines_->name, "edges of its lines");
+  if (result < 0) return Failure(lines_->name, "readable events of its lines");
   for (unsigned i = 0; result > 0 && i < gpiod_line_bulk_num_lines(&ready); ++i) {
     gpiod_line* line = gpiod_line_bulk_get_line(&ready, i);
     gpiod_line_event events[kEdgesAtOnce];
     const int count = gpiod_line_event_read_multiple(line, events, kEdgesAtOnce);
-    if (count < 0) return Failure(lines_->name, "edges of its lines");
+    if (count < 0) return Failure(lines_->name, "readable events of its lines");
     for (int k = 0; k < count; ++k) {
       edges.push_back({static_cast<int>(gpiod_line_offset(line)),
                        events[k].event_type == GPIOD_LINE_EVENT_RISING_EDGE,
@@ -294,7 +295,7 @@ Error GpioInputs::Open(const std::string& chip, const std::vector<int>& lines, G
     return Failure(opened->name + names, "free inputs with interrupts");
   }
   opened->buffer.reset(gpiod_edge_event_buffer_new(lines.size() * kEdgesAtOnce));
-  if (opened->buffer == nullptr) return Failure(opened->name, "memory for edges");
+  if (opened->buffer == nullptr) return Failure(opened->name, "memory for events");
   lines_ = std::move(opened);
   return {};
 }
@@ -312,12 +313,12 @@ Result<std::vector<GpioEdge>> GpioInputs::Wait(int timeout) {
   std::vector<GpioEdge> edges;
   const int64_t limit = timeout < 0 ? -1 : int64_t{timeout} * 1000000;
   const int result = gpiod_line_request_wait_edge_events(lines_->request.get(), limit);
-  if (result < 0) return Failure(lines_->name, "edges of its lines");
+  if (result < 0) return Failure(lines_->name, "readable events of its lines");
   if (result == 0) return edges;
   const int count = gpiod_line_request_read_edge_events(
       lines_->request.get(), lines_->buffer.get(),
       gpiod_edge_event_buffer_get_capacity(lines_->buffer.get()));
-  if (count < 0) return Failure(lines_->name, "edges of its lines");
+  if (count < 0) return Failure(lines_->name, "readable events of its lines");
   for (int i = 0; i < count; ++i) {
     gpiod_edge_event* event =
         gpiod_edge_event_buffer_get_event(lines_->buffer.get(), static_cast<unsigned long>(i));

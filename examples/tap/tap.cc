@@ -52,7 +52,7 @@ Result<Subject> Open(const Options& options, ThreadRunner* runner) {
   }
   const Scene scene = MakePortrait();
   const RayTracer renderer(scene, options.size.x, options.size.y, STARFOCUS_TRANSFER_SRGB, runner);
-  Progress progress("tracing", int64_t{5} * options.size.y);
+  Progress progress("rendering", int64_t{5} * options.size.y);
   for (int view = 0; view < 5; ++view) {
     double u = 0, v = 0;
     starfocus_view_position(view, &u, &v);

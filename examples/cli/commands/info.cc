@@ -52,7 +52,7 @@ void PrintText(const Capture& capture, const starfocus_disparity_stats& stats,
   PrintRow("size", SizeText(view.width, view.height) + " pixels");
   PrintRow("views", views);
   if (light_field.disparity.values.empty()) {
-    return PrintRow("disparity", "no map, and none is estimated from these views");
+    return PrintRow("disparity", "no map, and none can be estimated from these views");
   }
   PrintRow("disparity", Short(stats.min) + " to " + Short(stats.max) + " pixels per unit u, " +
                             std::to_string(stats.invalid) + " invalid");

@@ -58,12 +58,12 @@ Error ShowTruth(const TruthFile& truth, const Image& picture, Contents* contents
   const std::string psnr =
       std::isinf(difference.psnr) ? "equal" : Number(difference.psnr, 2) + " dB";
   contents->errors.push_back(
-      {"The truth of a real lens, " + lens, "Truth, " + lens, Shrink(real, kLarge)});
-  contents->errors.push_back({"Error map: black where the refocused picture is true, " + lens,
-                              "Error, " + lens + ": " + psnr + ", largest " +
-                                  std::to_string(difference.largest) + "; white is " +
-                                  std::to_string(kWhite) + " or more of 255",
-                              Shrink(DrawDifference(picture, real, kWhite), kLarge)});
+      {"Ground truth of a thin lens, " + lens, "Ground truth, " + lens, Shrink(real, kLarge)});
+  contents->errors.push_back(
+      {"Error map: black where the refocused picture equals the ground truth, " + lens,
+       "Error, " + lens + ": " + psnr + ", largest " + std::to_string(difference.largest) +
+           "; white is " + std::to_string(kWhite) + " or more of 255",
+       Shrink(DrawDifference(picture, real, kWhite), kLarge)});
   return {};
 }
 
@@ -98,18 +98,18 @@ Error WritePage(const ViewOptions& options, const Capture& capture,
                                    " pixels; larger is nearer"},
                  {"Unknown disparities", std::to_string(stats.invalid)}});
   const std::string& out = options.out;
-  Error error = page.AddFigures(
-      out, "Photograph and disparity map",
-      {{"The photograph, sharp everywhere", "The centre view", light_field.views[0]},
-       {"The disparity map: bright is near, dark is far", "Disparity: the nearest is white",
-        DrawDisparity(light_field.disparity)}},
-      kLarge / 2);
+  Error error =
+      page.AddFigures(out, "Photograph and disparity map",
+                      {{"The photograph, sharp everywhere", "Centre view", light_field.views[0]},
+                       {"The disparity map: bright is near, dark is far",
+                        "Disparity: white is nearest", DrawDisparity(light_field.disparity)}},
+                      kLarge / 2);
   if (!error) error = page.AddFigures(out, "Refocused", contents.strip, kSmall);
   page.AddHistogram("Histogram of disparity", Histogram(light_field.disparity, stats, kBins),
                     stats);
   if (!error) error = page.AddFigures(out, "Blocks", contents.blocks, kLarge);
   if (!error && !contents.errors.empty()) {
-    error = page.AddFigures(out, "Against the truth", contents.errors, kLarge / 2);
+    error = page.AddFigures(out, "Comparison with the ground truth", contents.errors, kLarge / 2);
   }
   return error ? error : WriteText(out, page.Html());
 }

@@ -165,7 +165,7 @@ Result<DisparityRange> FindRange(const std::string& where, const LightField& lig
   const float most =
       std::min(static_cast<float>(small[0].width) / 8,
                static_cast<float>(STARFOCUS_MAX_DISPARITY) / static_cast<float>(factor));
-  Maker maker(threads, "looking for the disparities");
+  Maker maker(threads, "searching the disparity range");
   const Result<MadeMap> made = MakeMap(where, {small, nullptr, {-most, most}, true, false}, &maker);
   if (!made) return made.error();
   std::vector<float> sure;

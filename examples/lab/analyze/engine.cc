@@ -67,8 +67,8 @@ Error Measure(const Series& series, int sign, Table* table, Table* layers) {
   const int count = static_cast<int>((series.largest - least) / series.increment);
   std::printf("  layer %d, renderer %s, r = %g to %d%s\n", series.layer, NameOf(series.renderer),
               least == 0 ? 0 : sign * least, sign * series.largest,
-              series.r_max > 0 ? " in a picture whose r_max is that" : "");
-  Progress progress("the engine's PSFs", count);
+              series.r_max > 0 ? " in a picture with this r_max" : "");
+  Progress progress("measuring PSFs", count);
   std::vector<Stretch> stretches;
   double apart = 0, aliasing = 0, aliasing_r = 0;
   bool joined = false;
@@ -102,7 +102,7 @@ Error Measure(const Series& series, int sign, Table* table, Table* layers) {
                 stretch.last, stretch.worst, stretch.worst_r, stretch.reason.c_str());
   }
   std::printf("    %s above 1e-3; measured and described PSFs differ by at most %.1e\n",
-              stretches.empty() ? "no step" : "no other step", apart);
+              stretches.empty() ? "no radius" : "no other radius", apart);
   if (series.layer > 0) {
     std::printf("    aliasing up to %.2e (at %.3f; theory %.2e)\n", aliasing, aliasing_r,
                 MakeLayerTheory(aliasing_r, series.layer).aliasing);

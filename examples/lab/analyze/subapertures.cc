@@ -58,7 +58,7 @@ Figure AnalyseSubapertures(double max_blur) {
   Figure figure = {"subapertures", 860, 480, {SameRadius()}, ""};
   Table table("subapertures", {"r_max", "N_paper", "N_fewest", "N_rule", "margin", "worst_r"});
   SubapertureStudy study(max_blur, kStep, kDefaultTheta);
-  Progress progress("subapertures", study.count());
+  Progress progress("analyzing subapertures", study.count());
   std::vector<int> fewest;
   double largest = 0, largest_at = 0;
   for (int k = 0; k < study.count(); ++k) {
