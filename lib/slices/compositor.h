@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The compositor of the slice renderer. The compositor refocuses one rectangle of the picture, tile
 // by tile. Each tile is a stack of slices. To render a view of the aperture, the compositor shifts
-// each slice by an amount proportional to the slice's disparity and composites the slices front to
-// back.
+// each slice according to the slice's disparity, and composites the slices front to back.
 #ifndef STARFOCUS_LIB_SLICES_COMPOSITOR_H_
 #define STARFOCUS_LIB_SLICES_COMPOSITOR_H_
 
@@ -17,9 +16,8 @@
 
 namespace starfocus {
 
-// Scratch memory of one worker. In the sizes below, E is the largest side of an extended rectangle,
-// N the largest number of views along the aperture radius, and G the smaller of 2 N + 1 and
-// kGroupViews.
+// Scratch memory of one worker. E is the largest side of an extended rectangle, and N is the
+// largest number of views along the aperture radius. G is the smaller of 2 N + 1 and kGroupViews.
 //
 // Members with disjoint lifetimes share memory. `fill` reuses the memory of the field. `pool` may
 // reuse the memory of the field, `fill`, `bins` and `least_blur`; each tile writes `bins` and
@@ -43,9 +41,9 @@ struct CompositorScratch {
 // SliceArea.
 inline constexpr size_t kAreaBytes = 33;
 
-// Returns the smallest size of a pool in bytes. Such a pool holds the slices of the smallest part
-// and their strips, for blur radii up to `max_blur` pixels. The filter of a plane uses the memory
-// of the strips, and may require more memory than the strip of one slice.
+// Returns the smallest size of a pool in bytes. The pool must hold the slices of the smallest part
+// and the strips of these slices, for blur radii up to `max_blur` pixels. The filter of a plane
+// uses the memory of the strips, and may require more memory than the strip of one slice.
 constexpr size_t LeastPool(double max_blur) {
   const auto reach = static_cast<size_t>(LargestSliceReach(max_blur));
   const size_t filtered = FilteredBytes(kLeastColumns, kLeastRows, reach);

@@ -9,8 +9,8 @@ namespace starfocus {
 namespace {
 
 // Slices overlap by 1 / kOverlapParts of their range, so that no gap opens between two slices of
-// one slope. docs/constants.md compares this overlap with none, with half as much and with twice as
-// much.
+// one slope. The page docs/constants.md compares kOverlapParts with no overlap, half the overlap
+// and twice the overlap.
 constexpr int kOverlapParts = 10;
 
 // Finds the slices of a tile from the disparities of the surfaces around it.
@@ -96,7 +96,7 @@ class SliceFinder {
       const int32_t least = job_.least_blur[Beyond(pixels)];
       if (least == 0) {
         MarkPixels(surface, pixels, range.low, range.high);
-      } else {  // skip pixels that are too sharp to reach the tile
+      } else {  // skips pixels that are too sharp to reach the tile
         MarkPixels(surface, pixels, range.low, Min(range.high, grid_.focus - least));
         MarkPixels(surface, pixels, Max(range.low, grid_.focus + least), range.high);
       }
@@ -118,8 +118,8 @@ class SliceFinder {
     uint16_t within[kBandRows];
     job_.kernels->FindWithin(disparity, static_cast<size_t>(surfaces_.stride),
                              static_cast<size_t>(pixels.height), range, within);
-    // These are local copies because the compiler must assume that a write to `bins` may change any
-    // member.
+    // Members are copied to local variables, because the compiler must assume that a write to
+    // `bins` may change any member.
     uint8_t* const bins = job_.bins;
     const int32_t* const least_blur = job_.least_blur;
     const int32_t base = base_, bits = bin_bits_, focus = grid_.focus;

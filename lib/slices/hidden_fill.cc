@@ -128,9 +128,9 @@ class HiddenFiller {
     }
   }
 
-  // Smooths a row. All neighbours are read with their colours before this pass: the old colours of
-  // a row are saved until the row `step` rows below has been smoothed. A neighbouring row outside
-  // the surfaces is replaced by the row itself.
+  // Smooths a row. Neighbours are read with their colours before this pass. The old colours of a
+  // row are therefore saved until the row `step` rows below has been smoothed. A neighbouring row
+  // outside the surfaces is replaced by the row itself.
   void SmoothRow(int32_t y, int32_t step) {
     const int32_t above = y >= step ? y - step : y, below = y + step;
     const int32_t next = below < surfaces_.height ? below : y;
@@ -153,7 +153,7 @@ class HiddenFiller {
   const FillScratch& scratch_;
   LayeredDepth& surfaces_;
   const size_t stride_;
-  const int16_t unit_;  // disparity that moves a pixel of the layer by one pixel at distance 1
+  const int16_t unit_;  // disparity of a point that moves by one pixel in a view at distance 1
 };
 
 }  // namespace

@@ -36,16 +36,16 @@ constexpr size_t FillStride(size_t width) {
 }
 
 // Replaces the colours of the farthest surfaces that FindLayeredDepth repeated. First, each
-// repeated pixel takes the far colour of its source pixel, because FindMatte may have separated the
-// source into a near and a far colour.
+// repeated pixel takes the far colour of its source pixel. FindMatte may have separated the
+// source's colour into a near and a far colour.
 //
 // The colours are then smoothed in five passes, with steps of 16, 8, 4, 2 and 1 pixels. A pass
 // changes the pixels whose source is at least half a step away. The new colour is half of the
-// pixel's colour plus an eighth of the colour of each neighbour one step to the left, right, top
-// and bottom. If the farthest surface of a neighbour differs by more than one pixel of disparity,
-// the pixel's own colour replaces the neighbour's. As a result, pixels near the edge have colours
-// like those next to the edge, and pixels far behind the edge have the mean of these colours.
-// docs/constants.md lists the measurements.
+// pixel's colour plus an eighth of each neighbour's colour. The neighbours are one step to the
+// left, right, top and bottom. If the farthest surface of a neighbour differs by more than one
+// pixel of disparity, the pixel's own colour replaces the neighbour's. As a result, pixels near the
+// edge get the colours next to the edge, and pixels far behind the edge get the mean of these
+// colours. For measurements, see docs/constants.md.
 void InpaintHidden(const simd::Kernels& kernels, int32_t layer, const FillScratch& scratch,
                    LayeredDepth* surfaces);
 

@@ -17,8 +17,8 @@ void ClearStrip(int16_t* disparity) {
   for (int32_t k = 0; k < kStripColumns; ++k) disparity[k] = kNoSurface;
 }
 
-// Hidden pixels of a strip: the position of the first pixel in the field, the disparities of all
-// pixels, and the sources of all colours in the format of LookBehind.
+// Hidden pixels of a strip: the position of the first pixel in the field, and the disparities and
+// sources of all pixels in the format of LookBehind.
 struct HiddenStrip {
   int32_t x, y;
   const int16_t* disparity;
@@ -41,7 +41,7 @@ class HiddenColours {
     }
   }
 
-  // Returns true if the colour of a pixel was repeated because no view shows it.
+  // Returns true if the colour of any pixel was repeated because no view shows the pixel.
   bool Repeats() const { return repeats_; }
 
  private:
@@ -95,8 +95,8 @@ class HiddenColours {
     ReadCaptured(window_, look.view, line, count, to);
   }
 
-  // Returns the distance along one axis by which a point of `disparity` moves between the centre
-  // view and a view at `position`, in pixels of the layer with kShiftBits.
+  // Returns the movement along one axis of a point of `disparity` from the centre view to a view at
+  // `position`. The movement is in pixels of the layer with kShiftBits.
   int32_t Moved(int32_t position, int32_t disparity) const {
     return ScaledByView(position, disparity,
                         kViewBits + kDisparityBits - kShiftBits + window_.layer);
@@ -201,9 +201,9 @@ class SurfaceFinder {
     }
   }
 
-  // Writes the distance to the far side of the edge at `near` for up to `count` pixels away from
-  // the edge, but not beyond the next edge. Edges that only continue the depth of another edge are
-  // skipped (kSmallStepBits). The remaining edges are visited in order.
+  // Writes the distance to the far side of the edge at `near` for up to `count` pixels, but not
+  // beyond the next edge. Edges that only continue the depth of another edge are skipped
+  // (kSmallStepBits). The remaining edges are visited in order.
   void FollowEdge(const int16_t* near, int direction, int32_t count, uint8_t* distance) const {
     if (*distance != 0) return;
     const int32_t far = near[-direction];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The layered depth image of a field. Surface 0 is the surface that the centre view sees. Behind
-// depth edges there are up to two more surfaces, whose colours come from the captured views that
-// see them. The compositor divides these surfaces into slices.
+// depth edges, there are up to two hidden surfaces; captured views that see these surfaces provide
+// the colours. The compositor divides these surfaces into slices.
 #ifndef STARFOCUS_LIB_SLICES_LAYERED_DEPTH_H_
 #define STARFOCUS_LIB_SLICES_LAYERED_DEPTH_H_
 
@@ -71,12 +71,11 @@ struct SurfaceBands {
 // Finds the surfaces of a field. The caller sets the pointers of `surfaces` to sufficient memory.
 //
 // The surfaces behind a pixel are found along its row and its column. On each side, the search
-// covers the surfaces beyond the next depth edge and beyond the edge after that, as far as a view
-// at distance 1 can see. At most two surfaces are kept; the surface of the nearest edge comes
-// first.
+// covers the surfaces beyond the next two depth edges, as far as a view at distance 1 can see. At
+// most two surfaces are kept; the surface of the nearest edge comes first.
 //
 // The colours of a hidden surface are read from a captured view that looks behind the edge
-// (OcclusionViews) and in which nothing covers the surface. If there is no such view, the
+// (OcclusionViews) and in which nothing covers the surface. If no view sees the surface, the
 // background is repeated. The colours from sides with the same distance and disparity are averaged.
 // At steps within a surface, pixels hide copies of themselves (kLeastCopy).
 void FindLayeredDepth(const simd::Kernels& kernels, const Window& window, const BlockPixels& field,

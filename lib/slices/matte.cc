@@ -106,8 +106,8 @@ class MatteFinder {
   }
 
   // Estimates the colour of the far surface of a subsampled pixel. The colour is read from the
-  // captured view on the far side of the edge. If there is no such view, the colour of the next
-  // pixel away from the edge is returned.
+  // captured view on the far side of the edge. If no captured view looks behind this edge, the
+  // colour of the next pixel away from the edge is returned.
   Colour FarAt(const BoundaryPixel& pixel, const Colour& mixed) const {
     const Window& window = centre_.window;
     const OcclusionView& look = window.occlusion_views.Last(pixel.side ^ 1);
@@ -137,7 +137,7 @@ class MatteFinder {
     const bool has_copy = disparity - surfaces_.disparity[1][at] <= step_;
     if (has_copy) {
       surfaces_.sources[0][at] =
-          surfaces_.sources[1][at];  // source of the surface behind the far one
+          surfaces_.sources[1][at];  // source of the surface behind the far surface
     } else {
       surfaces_.disparity[2][at] = surfaces_.disparity[1][at];
     }

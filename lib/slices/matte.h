@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Splits the boundary pixels of a field (lib/input/boundary_pixel.h) into the two surfaces that
-// they mix. The compositor calls FindMatte after FindLayeredDepth.
+// each pixel mixes. The compositor calls FindMatte after FindLayeredDepth.
 #ifndef STARFOCUS_LIB_SLICES_MATTE_H_
 #define STARFOCUS_LIB_SLICES_MATTE_H_
 
@@ -14,9 +14,9 @@ namespace starfocus {
 // Splits the mixed pixels on the far side of depth edges. The nearer surface then covers its share
 // of a split pixel, and the far surface lies behind the nearer one with its own colour.
 //
-// A pixel is split only if it lies in the picture and if, in some view, its two surfaces move by
-// more than a pixel relative to each other. The outermost pixels of the field are not split,
-// because they do not splat into any rectangle. `surfaces` is the output of FindLayeredDepth. If a
+// A pixel is split only if it lies in the picture and if its two surfaces move by more than a pixel
+// relative to each other in some view. The outermost pixels of the field are not split, because
+// these pixels do not splat into any rectangle. `surfaces` is the output of FindLayeredDepth. If a
 // pixel would have four surfaces, the farthest one is dropped.
 void FindMatte(const simd::Kernels& kernels, const Window& window, const ViewGrid& grid,
                const BlockPixels& field, LayeredDepth* surfaces);

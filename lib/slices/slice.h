@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Defines the slice: the part of a scene within a range of disparities so narrow that its pixels
+// Defines the slice: the part of a scene within a range of disparities so narrow that all pixels
 // move together from view to view. Also defines the limits on the size of tiles and on the number
 // of slices in a tile.
 #ifndef STARFOCUS_LIB_SLICES_SLICE_H_
@@ -16,9 +16,10 @@ namespace starfocus {
 // coarser until all limits hold.
 struct SliceRule {
   int32_t most;  // largest number of slices
-  // Range of the disparities of a slice: the distance, in pixels of the layer with kShiftBits, by
-  // which the nearest and farthest disparity move apart at the rim of the aperture. For blur radii
-  // above twice kSliceSharp, the range is proportional to the blur radius minus kSliceSharp.
+  // Range of the disparities of a slice. The range is stated as the distance by which the nearest
+  // and farthest disparity move apart at the rim of the aperture, in pixels of the layer
+  // (kShiftBits). For blur radii above twice kSliceSharp, the range is proportional to the blur
+  // radius minus kSliceSharp.
   int32_t range;
   int32_t area = 0;  // largest sum of SliceArea over all slices: MostSliceArea for the lens
 };
@@ -27,10 +28,11 @@ inline constexpr SliceRule kSlices = {16, 3 * kShiftOne / 8};
 inline constexpr SliceRule kFineSlices = {32, kShiftOne / 8};  // for the benchmark mode
 inline constexpr int32_t kMaxSlices = simd::kMaxSeen;
 
-// A tile is a part of a rectangle with its own slices. A large block is divided into tiles because
-// it may have more disparities than SliceRule::most thin slices can hold. Tiles are kSliceTile
-// pixels wide and high, except that the last tile may have up to kMostSliceTile pixels. A block
-// that measures 68 pixels with its margin is therefore one tile, not two tiles of 64 and 4 pixels.
+// A tile is a part of a rectangle with its own slices. Large blocks are divided into tiles, because
+// a large block may have more disparities than SliceRule::most thin slices can hold. Tiles are
+// kSliceTile pixels wide and high, except that the last tile may have up to kMostSliceTile pixels.
+// A block that measures 68 pixels with its margin is therefore one tile, not two tiles of 64 and 4
+// pixels.
 inline constexpr int32_t kSliceTile = 64;
 inline constexpr int32_t kMostSliceTile = 80;
 

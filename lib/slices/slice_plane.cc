@@ -72,8 +72,8 @@ SliceOffset OffsetOf(int32_t shift, int32_t subaperture) {
 }
 
 // Clears the samples after the first `width` samples of each plane of a row; at least kStripColumns
-// samples follow. The last two groups overlap, so that every memset has the same constant length
-// and the compiler can inline it.
+// samples follow. The last two groups overlap, so that every call of memset has one constant length
+// and the compiler can inline the call.
 void ClearTail(size_t width, size_t plane, int16_t* row) {
   for (size_t c = 0; c < 4; ++c, row += plane) {
     int16_t *const last = row + plane - kStripColumns, *group = row + width;

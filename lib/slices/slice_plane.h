@@ -22,7 +22,7 @@ namespace starfocus {
 inline constexpr int32_t kBoxSubaperture = 3 * kShiftOne;
 
 // Returns the number of pixels on each side over which the filter of `subaperture` (kShiftBits)
-// spreads a pixel; 0 if no filter is applied before the shift.
+// spreads a pixel. Returns 0 if no filter is applied before the shift.
 constexpr int32_t SpreadReach(int32_t subaperture) {
   static_assert(simd::kMaxSpread == 3, "wider boxes are cut off");
   return subaperture <= kBoxSubaperture ? 0 : subaperture <= 5 * kShiftOne ? 2 : simd::kMaxSpread;
@@ -41,9 +41,9 @@ constexpr int32_t SliceReach(int32_t rim, int32_t subaperture) {
 inline constexpr int32_t kWidestSubaperture = 8 * kShiftOne;
 
 // Returns the largest SliceReach for lenses with blur radii up to `max_blur` pixels, any N and the
-// widest subapertures. kRounding increases the blur by the error of rounding the focus and a
-// disparity to kDisparityBits. kRounding also covers the distance from the middle of a slice to its
-// pixels: up to two units of disparity if a bin holds several disparities (kSliceBins).
+// widest subapertures. The margin kRounding covers the error of rounding the focus and a disparity
+// to kDisparityBits. The margin also covers the distance from the middle of a slice to its pixels,
+// which is up to two units of disparity if a bin holds several disparities (kSliceBins).
 constexpr int32_t LargestSliceReach(double max_blur) {
   constexpr double kRounding = 4.0 / (1 << kDisparityBits);
   const double rim = (max_blur + kRounding) * LargestSubapertureExtent() * kShiftOne;

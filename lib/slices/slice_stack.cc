@@ -4,8 +4,8 @@
 namespace starfocus {
 namespace {
 
-// A pixel takes the colour of the centre view if the slices cover less than 1 / kLeastShare of the
-// light of all views there. With any reasonable limit, scenes have hardly any such pixels
+// A pixel takes the colour of the centre view if slices cover less than 1 / kLeastShare of the
+// pixel's light in all views. With any reasonable limit, scenes have hardly any such pixels
 // (docs/constants.md).
 constexpr uint32_t kLeastShare = 4;
 

@@ -64,9 +64,9 @@ struct ScaledWeights {
   }
 };
 
-// Scales the weights of an aperture so that the sum of a group's weights is at most kGroupSum and
-// each weight is at most kGroupSum / 4. For steep openings, both limits are multiplied by the
-// number of shares, up to kMostShares.
+// Scales the weights of an aperture so that each group's weights sum to at most kGroupSum and each
+// weight is at most kGroupSum / 4. For steep openings, both limits are multiplied by the number of
+// shares, up to kMostShares.
 ScaledWeights ScaleWeights(const ViewWeights& aperture);
 
 // A stack of slices, ordered from the nearest to the farthest.
@@ -79,8 +79,8 @@ struct SliceStack {
   SurfaceBands bands;                // ranges of the disparities of the surfaces
   const simd::SliceOffset* offsets;  // offsets of `count` slices for each of the views -N to N
 
-  // Returns the offset of slice k along x in views (i, j), which is also its offset along y in
-  // views (j, i), for all j.
+  // Returns the offset of slice k along x in all views (i, j), which is also the offset along y in
+  // all views (j, i).
   const simd::SliceOffset& Offset(int32_t k, int32_t i) const {
     return offsets[(i + grid->n()) * count + k];
   }

@@ -36,7 +36,8 @@ struct StripJob {
   CancelToken* cancel;       // null: the job is never cancelled
 };
 
-// The cell pairs [first, end) of a part of a tile that lie at column x. There is at least one pair.
+// The cell pairs [first, end) of a part of a tile that lie at column x. The range contains at least
+// one pair.
 struct StripPairs {
   int32_t x;
   const CellPair *first, *end;

@@ -9,9 +9,8 @@
 
 namespace starfocus {
 
-// Gives each pixel of thin tiles the disparity of the surface that covers most of it, so that
-// hidden surfaces end at the boundary of the thin structure. Must be called before
-// FindLayeredDepth.
+// Gives each pixel of thin tiles the disparity of the surface that covers most of the pixel. Hidden
+// surfaces then end at the boundary of the thin structure. Must be called before FindLayeredDepth.
 void TakeThinDisparities(const Window& window, BlockPixels* field);
 
 // Gives each pixel of thin tiles the two surfaces that the coverage map contains for the pixel.
