@@ -14,8 +14,8 @@ namespace {
 using BandDisparities = DisparitiesAround<kBandReach + 2>;
 
 // Smallest number of pixels next to nearer pixels in a tile of thin structure. Tiles of hair have
-// 38 or more such pixels, tiles with a straight edge 16 to 23, and tiles with a wire two pixels
-// wide up to 40.
+// 38 or more such pixels. Tiles with a straight edge have 16 to 23, and tiles with a wire two
+// pixels wide up to 40.
 constexpr int32_t kLeastRagged = 36;
 
 // Offset to a pixel within kBandReach, as a position (x, y) and as a difference of indices.

@@ -16,8 +16,8 @@ struct CoverageInput {
   const CoverageMap* map;
 };
 
-// Returns true if the light field contains coverage. If it returns false, the passes estimate the
-// coverage.
+// Returns true if the light field contains coverage. If the light field contains no coverage, the
+// passes estimate the coverage.
 inline bool HasGiven(const CoverageInput& in) { return in.window->given_coverage.data != nullptr; }
 
 }  // namespace starfocus

@@ -33,7 +33,7 @@ struct DisparitiesAround {
 };
 
 // Returns a weighted mean of the disparities in the 5x5 pixels around `at`. Only disparities that
-// differ from `near` by at most 2 pixels are included. If there are none, returns `near`.
+// differ from `near` by at most 2 pixels are included. Returns `near` if no disparity is included.
 template <class Disparities>
 int16_t SmoothNear(const Disparities& around, int32_t at, int32_t near) {
   constexpr int32_t kWithin = 2 << kDisparityBits;

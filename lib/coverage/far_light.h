@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Estimates the light of the far surface where few pixels show it. Means over cells of increasing
-// size collect the known light and extend it smoothly to pixels without known light (the pull-push
-// algorithm).
+// Estimates the light of the far surface in areas in which few pixels show the far surface. Means
+// over cells of increasing size collect the known light and extend it smoothly to pixels without
+// known light (the pull-push algorithm).
 #ifndef STARFOCUS_LIB_COVERAGE_FAR_LIGHT_H_
 #define STARFOCUS_LIB_COVERAGE_FAR_LIGHT_H_
 

@@ -31,8 +31,8 @@ bool IsRamp(int32_t before, int32_t here, int32_t after) {
 constexpr int32_t kRampReach = 1;
 using GivenDisparities = DisparitiesAround<kGivenReach + kRampReach>;
 
-// Largest difference, in kAlphaBits, between the given coverage of a pixel and the coverage implied
-// by the disparity map at which the pixel is not a mixture.
+// A pixel is a mixture if its given coverage differs from the coverage implied by the disparity map
+// by more than kLeastMixed (kAlphaBits).
 constexpr int32_t kLeastMixed = kWhole / 16;
 
 // Marks the pixels in and around a tile that are on ramps. The outermost kRampReach pixels are
@@ -118,8 +118,8 @@ class GivenStarter {
 
  private:
   // Finds the disparities of the two surfaces of a pixel. On a ramp, these are the surfaces at both
-  // ends of the ramp. Otherwise they are the pixel's own surface and the nearest other surface.
-  // Returns false if there is only one surface.
+  // ends of the ramp. At other pixels, these are the pixel's own surface and the nearest other
+  // surface. Returns false if there is only one surface.
   bool FindSurfaces(int32_t at, int32_t* low, int32_t* high) const {
     const int32_t here = around_.disparity[at];
     if (ramps_.at[at]) {

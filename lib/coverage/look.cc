@@ -6,12 +6,12 @@
 namespace starfocus {
 namespace {
 
-// Smallest difference of disparity at which a nearer surface occludes a farther one,
+// Smallest difference of disparity at which a nearer surface occludes a farther surface,
 // kDisparityBits.
 constexpr int32_t kBefore = 1 << kDisparityBits;
-// Largest distance between a far pixel and a nearer pixel in a view at which the nearer pixel may
-// cover the far one: 1.5 pixels, kDisparityBits. The distance is large because views are
-// interpolated, and because strands are wider in views than in the map.
+// A nearer pixel may cover a far pixel in a view if the distance between the two pixels is at most
+// 1.5 pixels (kDisparityBits). The distance is large because views are interpolated, and because
+// strands are wider in views than in the map.
 constexpr int32_t kWithin = 3 << (kDisparityBits - 1);
 
 // log2 of the factor by which the weight of the centre view is reduced. Near edges, all pixels of
@@ -100,7 +100,7 @@ class TileLooker {
     }
   }
 
-  // Reads the far light of row y from a view and adds it to sums_. Adjacent pixels of equal
+  // Reads the far light of row y from a view and adds the light to sums_. Adjacent pixels of equal
   // disparity are read together.
   void LookInto(const SideLook& view, int32_t y) {
     int16_t covered[kCoverageTile] = {};

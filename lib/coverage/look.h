@@ -10,8 +10,8 @@ namespace starfocus {
 
 // Reads the far light of the tile's split pixels from the centre view and the side views, and
 // recomputes the cells of all levels. The weight of a reading decreases with the coverage of the
-// pixel by nearer surfaces in the view that is read (FarWeight). That coverage is the result of the
-// first pass.
+// pixel by nearer surfaces in the view that is read (FarWeight). The coverage of these surfaces is
+// the result of the first pass.
 void LookBehindTile(const CoverageInput& in, int32_t column, int32_t row);
 
 }  // namespace starfocus

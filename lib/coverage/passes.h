@@ -26,8 +26,8 @@ inline bool HasCoverage(const starfocus_config& config) {
 // to two tiles away.
 inline constexpr int32_t kAroundGiven = 2;
 
-// Returns the largest movement in pixels of a nearer surface relative to a farther one, in any view
-// that is read.
+// Returns the largest movement in pixels of a nearer surface relative to a farther surface, in any
+// view that is read.
 inline int32_t LargestMoveBefore(const starfocus_config& config) {
   if (config.views == 1) return 0;
   const DisparityRange range = RangeOf(config);
@@ -53,8 +53,8 @@ inline int32_t TilesAhead(const starfocus_config& config, int pass) {
   }
 }
 
-// Returns the distance in pixels from a split pixel to the farthest pixels that the passes read; 0
-// if the engine has no memory for coverage.
+// Returns the distance in pixels from a split pixel to the farthest pixels that the passes read.
+// Returns 0 if the engine has no memory for coverage.
 inline int32_t CoverageBorder(const starfocus_config& config) {
   if (!HasCoverage(config)) return 0;
   return (TilesAhead(config, kFindRagged) + 1) * kCoverageTile + kBandReach + 2;

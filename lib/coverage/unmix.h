@@ -12,8 +12,8 @@ namespace starfocus {
 // `mixed` if the pixels of the tile are, on average, as mixed as in thin structures.
 void UnmixFirst(const CoverageInput& in, int32_t column, int32_t row);
 
-// Writes the coverage of a tile after the second pass, and the tile's far light. Both are computed
-// from the coverage of the first pass and from the far light of all views (look.h).
+// Writes the coverage of a tile after the second pass, and the tile's far light. The inputs are the
+// coverage of the first pass and the far light of all views (look.h).
 void UnmixAgain(const CoverageInput& in, int32_t column, int32_t row);
 
 }  // namespace starfocus
