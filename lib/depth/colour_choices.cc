@@ -160,9 +160,9 @@ void ContinueAmong(const Choices& from, int32_t jump, Choices* to, ChoicePath* p
   *path = next;
 }
 
-// Continues a path from a pixel to the next one, given their colours. In most cases, both pixels
-// have a single choice, and both choices are on one surface. The path then adds no cost, regardless
-// of the colours.
+// Continues a path from a pixel to the next pixel, given the colours of both pixels. In most cases,
+// both pixels have a single choice, and both choices are on one surface. The path then adds no
+// cost, regardless of the colours.
 inline void Continue(const Choices& from, const uint8_t* colour, const uint8_t* next, Choices* to,
                      ChoicePath* path) {
   if (from.count > 1 || to->count > 1 || Abs(to->disparity[0] - from.disparity[0]) > kPixel) {

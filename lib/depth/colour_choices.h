@@ -17,7 +17,8 @@ namespace starfocus {
 inline constexpr int32_t kMostChoices = 6;
 
 // Candidate disparities of a pixel, kDisparityBits. `cost` is the cost of each candidate without
-// its neighbours, and `sum` the sum of path costs. Both are in codes of colour difference.
+// its neighbours, and `sum` the sum of path costs. Costs and sums are in codes of colour
+// difference.
 struct Choices {
   int32_t count;
   int16_t disparity[kMostChoices], cost[kMostChoices], sum[kMostChoices];

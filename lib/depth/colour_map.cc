@@ -59,8 +59,8 @@ void FillRows(const EstimatePlan& plan, int32_t first, int32_t end, int16_t* map
   }
 }
 
-// Returns the doubt of a pixel from its surroundings alone: 0 if the pixel is on a ramp or unknown,
-// 1 if it is at a step, and otherwise the largest doubt.
+// Returns the doubt of a pixel from its surroundings alone: 0 for unknown pixels and on ramps, 1 at
+// steps, and the largest doubt for all other pixels.
 uint8_t DoubtAt(const ColourMap& map, int32_t x, int32_t y) {
   if (!std::isfinite(GivenAt(map.light_field, y)[x])) return 0;
   const int32_t own = map.disparity[map.At(x, y)];

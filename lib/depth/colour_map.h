@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Prepares a given disparity map for a repair by colour. The functions convert the map to fixed
-// point, fill unknown pixels and measure the noise. They also measure the doubt of each pixel,
-// which is the distance from the pixel to the nearest point where the map may be wrong.
+// point, fill unknown pixels and measure the noise. Other functions measure the doubt of each
+// pixel, which is the distance from the pixel to the nearest pixel at which the map may be wrong.
 #ifndef STARFOCUS_LIB_DEPTH_COLOUR_MAP_H_
 #define STARFOCUS_LIB_DEPTH_COLOUR_MAP_H_
 

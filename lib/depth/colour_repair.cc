@@ -19,8 +19,9 @@ constexpr int32_t kPixel = 1 << kDisparityBits;
 constexpr int32_t kSameSurface = kPixel;
 // Smallest total gain, over the pixels within kGainRadius, that is required for a change. One or
 // two contradicted pixels are more likely a speckle on their surface than the edge of another
-// surface. In maps that are mostly right, a much larger gain is required. Such maps are wrong only
-// at objects that have the colour of the background, where colours are unreliable.
+// surface. In maps that are mostly right, a much larger gain is required. Maps that are mostly
+// right are wrong only at objects with the colour of the background, and colours are unreliable at
+// such objects.
 constexpr int32_t kGainRadius = 3;
 constexpr EvidenceScale kGains = {18, 22, 1000, 60};
 // Number of path directions in the sums of choices.
@@ -110,8 +111,8 @@ void ChooseTile(const void* data, int32_t index, int32_t worker) {
   CountBeside(grid, job.map.disparity, tile, index, job.memory->thin);
 }
 
-// Determines from the counts of all tiles the gain required for a change, and marks the cells that
-// must not change. These are the cells with thin structure and the cells with hair.
+// Determines from the counts of all tiles the gain required for a change. Marks the cells that must
+// not change, which are the cells with thin structure or hair.
 void JudgeMap(const EstimatePlan& plan, ColourMemory* memory) {
   memory->least_gain = LeastEvidence(kGains, memory->counts, plan.columns * plan.rows);
   const ThinGrid grid = GridOf(plan);

@@ -51,21 +51,22 @@ struct ColourMemory {
   ColourTileMemory* workers;
 };
 
-// Lays out the memory at `base` (aligned to STARFOCUS_ALIGNMENT), or only counts it if base is
-// null. Returns the number of bytes used, or kTooLarge. Only the size and the tiles of `plan` are
-// read, here and in RepairByColour.
+// Lays out the memory at `base`, which must be aligned to STARFOCUS_ALIGNMENT. If `base` is null,
+// only computes the size. Returns the number of bytes used, or kTooLarge. Only the size and the
+// tiles of `plan` are read, here and in RepairByColour.
 size_t LayOutColourRepair(const EstimatePlan& plan, int32_t max_workers, void* base,
                           ColourMemory** memory);
 
 // Repairs light_field.depth using the colours of the centre view, and writes the result to
 // `output`. At least one pixel of light_field.depth must be finite.
 //
-// A pixel keeps its disparity exactly if the colours do not contradict it. There are two
-// exceptions: noisy maps are smoothed, and a pixel may change if most neighbours of similar colour
-// belong to another surface. Unknown pixels (NaN or infinite) get a disparity.
+// A pixel keeps its disparity exactly if the colours do not contradict the map at the pixel. There
+// are two exceptions: noisy maps are smoothed, and a pixel may change if most neighbours of similar
+// colour belong to another surface. Unknown pixels (NaN or infinite) get a disparity.
 //
 // The confidence is 255 at pixels without doubt. The confidence is 0 if the colours contradict the
-// map too weakly to change it, and at pixels that the widening or smoothing of outlines changed.
+// map, but too weakly for a change. The confidence is also 0 at pixels changed by the widening or
+// smoothing of outlines.
 //
 // If output.coverage is not null and the map shows hair as a solid shape, the function writes the
 // coverage of the hair and sets memory->has_coverage. Disparities of hair are not changed

@@ -17,8 +17,8 @@
 namespace starfocus {
 
 // The pixels of all views around a tile, as consecutive planes. Outside the picture, the nearest
-// pixels of the picture are repeated. Pixel (x, y) of the picture has index (y - top) * stride + x
-// - left in each plane.
+// pixels of the picture are repeated. In each plane, pixel (x, y) of the picture has index (y -
+// top) * stride + (x - left).
 struct TileViews {
   int32_t left, top, rows;
   size_t stride, plane;  // distance in samples between rows, and between planes
@@ -72,8 +72,8 @@ struct EstimateMemory {
   uint8_t* swept;     // 1 for pixels that the sweeps process, else 0; null if all pixels are swept
   TileCount* counts;  // of each tile
   int32_t least_evidence;
-  // Cost of each pixel in the given map and in the second sweep's map. Both are equal at pixels
-  // without a given disparity.
+  // Cost of each pixel in the given map and in the second sweep's map. The two costs are equal at
+  // pixels without a given disparity.
   uint8_t* given_cost;
   uint8_t* found_cost;
   // Thin structure of the given map and of the result of the sweeps.
@@ -81,8 +81,8 @@ struct EstimateMemory {
   TileMemory* workers;
 };
 
-// Lays out the memory at `base` (aligned to STARFOCUS_ALIGNMENT), or only counts it if base is
-// null. Returns the number of bytes used, or kTooLarge.
+// Lays out the memory at `base`, which must be aligned to STARFOCUS_ALIGNMENT. If `base` is null,
+// only computes the size. Returns the number of bytes used, or kTooLarge.
 size_t LayOutEstimate(const EstimatePlan& plan, int32_t max_workers, void* base,
                       EstimateMemory** memory, const PieceVisitor* pieces = nullptr);
 

@@ -22,7 +22,7 @@ struct EstimateTile {
 void AddAllPaths(const EstimateTile& tile);
 
 // Writes the disparities (kDisparityBits) of the part `tile_rect` of the region, and the certainty
-// of these disparities, to maps of the whole picture. certainty may be null.
+// of these disparities, to maps of the whole picture. `certainty` may be null.
 void ChooseDisparities(const EstimateTile& tile, const Rect& tile_rect, int16_t* disparity,
                        uint8_t* certainty);
 

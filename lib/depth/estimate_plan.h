@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parameters of an estimate of disparities: the labels, the views in the order required by the SIMD
-// kernels, and the tiles that jobs process.
+// Defines the parameters of an estimate of disparities: the labels, the views in the order of the
+// SIMD kernels, and the tiles that jobs process.
 #ifndef STARFOCUS_LIB_DEPTH_ESTIMATE_PLAN_H_
 #define STARFOCUS_LIB_DEPTH_ESTIMATE_PLAN_H_
 

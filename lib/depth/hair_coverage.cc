@@ -60,8 +60,8 @@ starfocus_status FindHairCoverage(const ColourMap& map, const MapOutput& output,
                                   const HairCells& cells, const HairMemory& memory, Phases* phases,
                                   bool* found) {
   const HairJob job = {map, output, cells, memory};
-  // The phases of the search. After all tiles of a phase, `conclude` processes the whole picture;
-  // if it returns false, the search ends.
+  // The phases of the search. After all tiles of a phase, `conclude` processes the whole picture.
+  // The search ends if `conclude` returns false.
   const struct {
     JobFunction function;
     bool (*conclude)(const HairJob& job);

@@ -13,15 +13,15 @@ constexpr int64_t kSquareCode = int64_t{1} << (2 * kMeanBits);
 // Smallest squared contrast at which coverage can be measured.
 constexpr int64_t kLeastContrast = 300 * kSquareCode;
 // Parameters of the variance of the distance from the line between the two colours. The variance is
-// the sum of kNoise, which is the square of 9 codes, and of 1 / kVariation of the squared contrast,
-// for variation within surfaces.
+// kNoise, which is the square of 9 codes, plus the squared contrast divided by kVariation, for
+// variation within surfaces.
 constexpr int64_t kNoise = 81 * kSquareCode, kVariation = 16;
 // Largest coverage that is attributed to the texture of the background.
 constexpr int32_t kTexture = kWhole / 8;
 
 // Result of the comparison of a pixel's colour with the line from the background to the foreground
 // colour. `share` is the coverage, which is the position along the line. `trust` decreases with the
-// distance of the colour from the line. Both are fractions of kWhole.
+// distance of the colour from the line. `share` and `trust` are fractions of kWhole.
 struct Unmixed {
   int32_t share, trust;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Jobs that compare pixels with the foreground and background colours around them. Each job
+// Jobs that compare pixels with the surrounding foreground and background colours. Each job
 // processes one tile; `data` is a HairJob.
 #ifndef STARFOCUS_LIB_DEPTH_HAIR_UNMIX_H_
 #define STARFOCUS_LIB_DEPTH_HAIR_UNMIX_H_

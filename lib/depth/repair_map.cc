@@ -86,7 +86,7 @@ int32_t MeanOfSurface(const EstimatePlan& plan, const EstimateMemory& memory, in
   return trusted.count > 0 ? trusted.Value() : found.Value();
 }
 
-// Returns true if the map is smooth almost nowhere around pixel (x, y). Such a part of the map is
+// Returns true if the map is smooth almost nowhere around pixel (x, y). A rough part of the map is
 // noise, or a wide slope in place of an edge, and is not worth keeping.
 bool IsRough(const EstimatePlan& plan, const EstimateMemory& memory, int32_t x, int32_t y) {
   const Rect around = Widened(plan, {x, y, 1, 1}, kMeanRadius);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decides which pixels of a given map a repair trusts, and which pixels it changes.
+// Decides which pixels of a given map a repair trusts, and which pixels the repair changes.
 #ifndef STARFOCUS_LIB_DEPTH_REPAIR_MAP_H_
 #define STARFOCUS_LIB_DEPTH_REPAIR_MAP_H_
 
@@ -23,9 +23,9 @@ void FindTrusted(const EstimatePlan& plan, const Rect& tile, const int16_t* give
 
 // Writes the disparity of each pixel of a tile. If memory.second agrees with the given disparity,
 // the given disparity is written. Otherwise, the mean of the surrounding trusted pixels that are on
-// the surface of memory.second is written. If there are no such pixels, the mean of memory.second
-// over that surface is written. Stray pixels are removed with the help of the colours of the centre
-// view.
+// the surface of memory.second is written. If no trusted pixel is on this surface, the mean of
+// memory.second over the surface is written. Stray pixels are removed with the help of the colours
+// of the centre view.
 void EvenOut(const EstimatePlan& plan, const Plane<const uint8_t>& centre, const Rect& tile,
              const EstimateMemory& memory, int16_t* evened);
 
@@ -44,13 +44,13 @@ TileCount CountTile(const EstimatePlan& plan, const Rect& tile, const EstimateMe
 inline constexpr EvidenceScale kSweepEvidence = {18, 22, 1600, 240};
 
 // Returns the repaired disparity of pixel (x, y), which is the disparity in memory.first or the
-// given disparity. A pixel that is contradicted changes only if the evidence of all contradicted
-// pixels around it is large enough, because single contradicted pixels are more often right in the
-// given map. In rough parts of the map, memory.first is always returned.
+// given disparity. A contradicted pixel changes only if the total evidence of the contradicted
+// pixels around the pixel is large enough. The reason is that single contradicted pixels are more
+// often right in the given map. In rough parts of the map, memory.first is always returned.
 int16_t RepairedAt(const EstimatePlan& plan, const EstimateMemory& memory, int32_t x, int32_t y);
 
 // Fills `nearest` with the largest trusted disparity near each pixel of row y of a cell. This
-// disparity is that of the surface from which hair stands out. If no trusted pixel is near, the
+// disparity belongs to the surface from which hair stands out. If no trusted pixel is near, the
 // value is kNoSurface.
 void FindNearest(const EstimatePlan& plan, const int16_t* trusted, const Rect& cell, int32_t y,
                  int16_t* nearest);

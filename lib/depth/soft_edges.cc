@@ -12,8 +12,8 @@ constexpr int32_t kSame = 2 << kDisparityBits;
 // surface.
 constexpr int32_t kInside = 3, kOutside = 6;
 // Smallest squared distance between the colours at both ends of a profile, in gray levels squared.
-// kLeastContrast is for profiles that measure the softness of the picture. kLeastPixelContrast is
-// for profiles that decide about a single pixel.
+// For profiles that measure the softness of the picture, the limit is kLeastContrast. For profiles
+// that decide about a single pixel, the limit is kLeastPixelContrast.
 constexpr int32_t kLeastContrast = 60 * 60, kLeastPixelContrast = 30 * 30;
 // Reciprocals of the smallest share of the nearer surface in a mixed pixel: kLeastShare for
 // measuring edges, and kLeastPixelShare for widening a surface. At half of all sharp ray-traced

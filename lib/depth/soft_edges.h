@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measures how soft the edges of a picture are, and widens the nearer surfaces of the picture's
 // repaired map. Lenses and sharpening filters mix several pixels next to an outline. The mixed
-// pixels must belong to the nearer surface. If they belonged to the farther surface, they would
+// pixels must belong to the nearer surface. As part of the farther surface, the mixed pixels would
 // stay sharp inside the blur of the nearer surface.
 #ifndef STARFOCUS_LIB_DEPTH_SOFT_EDGES_H_
 #define STARFOCUS_LIB_DEPTH_SOFT_EDGES_H_
@@ -15,7 +15,7 @@ namespace starfocus {
 // Largest number of pixels by which the nearer surface is widened.
 inline constexpr int32_t kMostSoft = 3;
 
-// A step of disparity is an edge if it is larger than kSoftStep (kDisparityBits).
+// A step of disparity of more than kSoftStep is an edge (kDisparityBits).
 inline constexpr int32_t kSoftStep = 5 << kDisparityBits;
 
 // Counts over a tile. `edges` is the number of edges at which a colour profile was measured. Let

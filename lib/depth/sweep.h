@@ -17,11 +17,12 @@ struct Sweep {
   bool rates;  // true if the certainty is computed
 };
 
-// Fills memory->first for tile `index` from the views on one side of each pixel. This is a
-// JobFunction whose `data` is a Sweep.
+// Fills memory->first for tile `index` from the views on one side of each pixel. SweepOneSide is a
+// JobFunction; `data` is a Sweep.
 void SweepOneSide(const void* data, int32_t index, int32_t worker);
 // Fills memory->second, the certainty and, for a repair, the costs for tile `index`. Uses the views
-// that see each pixel according to memory->first. This is a JobFunction whose `data` is a Sweep.
+// that see each pixel according to memory->first. SweepAllViews is a JobFunction; `data` is a
+// Sweep.
 void SweepAllViews(const void* data, int32_t index, int32_t worker);
 
 }  // namespace starfocus

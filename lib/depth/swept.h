@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decides which pixels of a given map the sweeps process. These are the pixels around steps and
-// noise of the map, and around pixels that the views contradict. All other pixels keep their
-// disparity.
+// Decides which pixels of a given map the sweeps process. The sweeps process the pixels around
+// steps and noise of the map, and around pixels that the views contradict. All other pixels keep
+// their disparity.
 #ifndef STARFOCUS_LIB_DEPTH_SWEPT_H_
 #define STARFOCUS_LIB_DEPTH_SWEPT_H_
 

@@ -42,10 +42,10 @@ ThinCells TakeThinCells(const ThinGrid& grid, Arena* arena);
 void CountBeside(const ThinGrid& grid, const int16_t* map, const Rect& tile, int32_t index,
                  const ThinCells& cells);
 
-// Smallest percentage, in a cell and its eight neighbours, of pixels that are next to much nearer
-// pixels, for the cell to be dense. kThinGiven is for given maps. Crossing wires have a percentage
-// of 15, or of 20 if the rows of the map are displaced, and a head of hair has up to 45. kThinFound
-// is for maps of the sweeps, whose rows are not displaced.
+// A cell is dense if this percentage of the pixels in the cell and its eight neighbours are next to
+// much nearer pixels. For given maps, the limit is kThinGiven. Crossing wires have a percentage of
+// 15, or of 20 if the rows of the map are displaced. A head of hair has up to 45. For maps of the
+// sweeps, whose rows are not displaced, the limit is kThinFound.
 inline constexpr int32_t kThinGiven = 24, kThinFound = 17;
 
 // Fills cells.dense and cells.thin. Call FindThin after CountBeside has been called for all tiles.

@@ -83,9 +83,9 @@ struct MapRow {
   int32_t y, from, to;
 };
 
-// Marks the labels that the pixels of a row hide in the part `inside` of a view. kAcross and kDown
-// are false if the view does not move along this axis, so that the compiler can remove the
-// computation.
+// Marks the labels that the pixels of a row hide in the part `inside` of a view. If the view does
+// not move horizontally, kAcross is false, and if it does not move vertically, kDown is false. The
+// compiler can then remove the computation of the movement.
 template <bool kAcross, bool kDown>
 void HideBehindRow(const EstimatePlan& plan, const SideView& view, const MapRow& of_map,
                    const Rect& inside, const TileViews& views, uint8_t* hidden) {
