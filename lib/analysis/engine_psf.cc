@@ -11,8 +11,8 @@
 namespace starfocus::analysis {
 namespace {
 
-// Side of the superblock. It is at least the picture's side, so that the picture is one block and
-// one worker's memory holds the whole picture.
+// Side of the superblock. The picture's side is at most kBlock, so that the picture is one block
+// and one worker's memory holds the whole picture.
 constexpr int kBlock = 256;
 constexpr uint8_t kWhite = 255;
 // Gray level of the dark surface, by layer. Layers 1 and 2 use a gray because the negative lobes of
@@ -95,7 +95,7 @@ class Engine {
   starfocus_status status_ = STARFOCUS_OK;
 };
 
-// Returns the gray levels of the last refocused picture before they are rounded to bytes.
+// Returns the gray levels of the last refocused picture before the rounding to bytes.
 std::vector<double> ReadLevels(const Engine& measured) {
   const EngineState& engine = measured.state();
   const Block& block = engine.stripe.plan.blocks[0];

@@ -10,16 +10,16 @@
 namespace starfocus::analysis {
 
 // Theoretical values for blur radius r refocused at layer L. `error` is the SSE (10) between two
-// PSFs: the ideal PSF for r / 2^L after the layers' filters, and the ideal PSF (4) for r.
-// `aliasing` is (11). Both values are 0 at layer 0.
+// PSFs: the ideal PSF for r / 2^L with the layers' filters, and the ideal PSF (4). `aliasing` is
+// (11). `error` and `aliasing` are 0 at layer 0.
 struct LayerTheory {
   double error;
   double aliasing;
 };
 LayerTheory MakeLayerTheory(double r, int layer);
 
-// SSE (8) of several PSFs with respect to the ideal PSF (4) for one r. If L > 0, each PSF but the
-// ideal one includes the layers' filters.
+// SSE (8) of several PSFs with respect to the ideal PSF (4) for one r. If L > 0, each PSF except
+// the ideal PSF includes the layers' filters.
 struct EngineStep {
   double r;             // signed
   int n;                // N that the engine chose

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Analyses openings other than (3) in double precision: the ideal PSF of an opening, the PSF of its
-// subapertures, and the error of a layer. The engine's rules for N and layers of these openings are
-// based on the results (docs/constants.md, Openings).
+// Analyses openings other than (3) in double precision. Computes the ideal PSF of an opening, the
+// PSF of its subapertures, and the error of a layer. The engine's rules for N and layers of these
+// openings are based on the results (docs/constants.md, Openings).
 #ifndef STARFOCUS_LIB_ANALYSIS_OPENING_H_
 #define STARFOCUS_LIB_ANALYSIS_OPENING_H_
 
@@ -12,8 +12,8 @@ namespace starfocus::analysis {
 // A part of the unit disc with uniform brightness.
 struct BrightOpening {
   double inner = 0;  // radius of the round hole in the middle
-  // Number of sides of a regular polygon with straight edges and a corner at (0, -1). 0 stands for
-  // a disc.
+  // Number of sides of a regular polygon with straight edges and a corner at (0, -1). Zero stands
+  // for a disc.
   int blades = 0;
   bool Contains(double u, double v) const;
 };

@@ -26,8 +26,9 @@ struct RatioPoint {
 // 6. The curve of Fig. 6 has a cusp at N / r = 3 / 2.
 RatioPoint WorstOverSampling(int n, double theta, Rim rim = Rim::kIncluded);
 
-// Returns the under-sampling ratio (N / r < 1) marked by the triangle in Fig. 6, which is the
-// largest ratio below 1 with an error of `error`. Returns 0 if no ratio above 1 / 4 has this error.
+// Returns the under-sampling ratio (N / r < 1) marked by the triangle in Fig. 6: the largest ratio
+// below 1 whose error equals `error`. Returns 0 if no ratio above 1 / 4 has an error equal to
+// `error`.
 double UnderSamplingRatio(int n, double theta, double error, Rim rim = Rim::kIncluded);
 
 }  // namespace starfocus::analysis

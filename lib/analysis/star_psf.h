@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes the PSF that the engine is designed to have. Subapertures are modelled in the same way
-// as the line scan and the slice renderer render them.
+// Computes the PSF that the engine is designed to have. Subapertures are modelled as the line scan
+// and the slice renderer render subapertures.
 #ifndef STARFOCUS_LIB_ANALYSIS_STAR_PSF_H_
 #define STARFOCUS_LIB_ANALYSIS_STAR_PSF_H_
 
@@ -8,8 +8,8 @@
 
 namespace starfocus::analysis {
 
-// Shapes of subapertures. With narrow subapertures, each view is spread over at most one pixel, and
-// views of type B (|i| = |j|; IV-B of the paper) are spread along the diagonal only. With wide
+// Shapes of subapertures. With narrow subapertures, each view is spread over at most one pixel.
+// Views of type B (|i| = |j|; IV-B of the paper) are spread along the diagonal only. With wide
 // subapertures, each view is spread over r / N pixels along both axes.
 enum class Subapertures { kNarrow, kWide };
 

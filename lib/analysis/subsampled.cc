@@ -32,8 +32,8 @@ Taps Convolve(const Taps& a, const Taps& b) {
   return result;
 }
 
-// Upsamples the PSF `half` with zeros, filters it with x along the first axis and with y along the
-// second axis, and returns the result.
+// Returns the PSF `half` upsampled with zeros, and then filtered with x along the first axis and
+// with y along the second axis.
 SampledPsf Spread(const SampledPsf& half, const Taps& x, const Taps& y) {
   const int inner = 2 * half.radius(), radius = inner + x.radius();
   SampledPsf rows(radius), result(radius);
@@ -68,8 +68,8 @@ SampledPsf Subsampled(const SampledPsf& half, double beta_down, Alias alias) {
                 AxisFilter(beta_down, alias == Alias::kY || alias == Alias::kBoth));
 }
 
-// Returns the 1D impulse at position `place`, downsampled to the layer. Tap n of the result is
-// pixel n of the layer.
+// Returns the 1D impulse at position `place` after downsampling to the layer. Tap n of the result
+// is pixel n of the layer.
 Taps LayersDown(int place, int layer, double beta_down) {
   Taps line(0);
   line.at(0) = 1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Analyses refocusing in the layer subsampled by two (III-D of the paper): the equivalent PSF, its
-// error (10), its aliasing (11), and the filters that minimise the error (Table I).
+// Analyses refocusing in the layer subsampled by two (III-D of the paper). Computes the equivalent
+// PSF, its error (10) and its aliasing (11), and the filters that minimise the error (Table I).
 #ifndef STARFOCUS_LIB_ANALYSIS_SUBSAMPLED_H_
 #define STARFOCUS_LIB_ANALYSIS_SUBSAMPLED_H_
 
@@ -47,8 +47,8 @@ struct Optimum {
 Optimum Optimise(double r);
 
 // Returns the optimum with beta_D in steps of 0.01 and theta in steps of 0.01 pi. The paper does
-// not state its step sizes. With these step sizes, all printed digits of Table I are reproduced;
-// the unrestricted optimum of Optimise does not reproduce them.
+// not state its step sizes. The result reproduces all printed digits of Table I; the unrestricted
+// optimum of Optimise does not reproduce all digits.
 Optimum OptimiseOnGrid(double r);
 
 // Returns the r at which the error (10) with the best filters for r falls to `threshold`. (12) uses

@@ -11,8 +11,8 @@
 namespace starfocus::analysis {
 
 // Returns the integral, over a pixel, of a box of `width` > 0 whose centre is at distance t from
-// the pixel's centre. With a width of 1 the result is the triangular h; with a width near 0 it is
-// nearest-pixel interpolation.
+// the pixel's centre. With a width of 1, the result is the triangular h. With a width near 0, the
+// result is nearest-pixel interpolation.
 double Trapezoid(double t, double width);
 
 // Selects whether views with u^2 + v^2 = 1 are rendered. (3) includes these views.
