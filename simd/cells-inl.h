@@ -14,8 +14,8 @@ HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
-// The vector code stores vectors in arrays and structs. This is not possible if the size of a
-// vector is unknown at compile time.
+// The vector code stores vectors in arrays and structs, and therefore requires vectors whose size
+// is known at compile time.
 #if HWY_TARGET == HWY_SCALAR || HWY_HAVE_SCALABLE
 
 using reference::MeasureCell;

@@ -25,15 +25,15 @@ struct CellMeasure {
   // edge_high, there is no edge.
   int16_t edge_low, edge_high;
   // Statistics of the steps between pixels inside the cell. Index 0 is for steps along rows, and
-  // index 1 for steps along columns. `slopes` is the sum of the steps within a surface, `edges` the
-  // number of depth edges, and `gaps` the sum of the steps at depth edges.
+  // index 1 for steps along columns. `slopes` is the sum of the steps within a surface. `edges` is
+  // the number of depth edges, and `gaps` the sum of the steps at depth edges.
   uint32_t slopes[2], edges[2], gaps[2];
 };
 
 namespace reference {
 
-// Measures the cell at rows[1] .. rows[8], columns 0 .. 7. The pixels around the cell are read as
-// well: rows[0] is the row above, rows[9] the row below, and each row has columns -1 .. 8.
+// Measures the cell at rows[1] .. rows[8], columns 0 .. 7. The surrounding pixels are read as well:
+// rows[0] is the row above, rows[9] is the row below, and rows have columns -1 .. 8.
 void MeasureCell(const int16_t* const rows[10], const CellLimits& limits, CellMeasure* measure);
 
 }  // namespace reference

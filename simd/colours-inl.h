@@ -15,7 +15,7 @@ namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
 // Masks of the columns and rows of the window for each pixel of the block. A mask is all ones if
-// the column or row is out of reach of the pixel, and 0 if it is within reach.
+// the column or row is out of reach of the pixel, and 0 otherwise.
 struct OutOfReach {
   uint16_t column[kColourWindow][kSliceLanes], row[kColourWindow][kSliceLanes];
 

@@ -45,8 +45,8 @@ namespace reference {
 
 // Compares the block in the middle of a window with the samples of the window. Pixel n of the block
 // is in column n % kColourBlock and row n / kColourBlock. For each sample within reach of pixel n,
-// least[place + n] is lowered to the sample's key plus the colour difference in units of cost, if
-// this sum is smaller. `stride` is the distance in samples between rows of the window.
+// least[place + n] is limited to the sample's key plus the colour difference in units of cost.
+// `stride` is the distance in samples between rows of the window.
 void CompareColours(const ColourSample* window, size_t stride, uint16_t* least);
 
 }  // namespace reference

@@ -43,7 +43,7 @@ struct NearSums {
 namespace reference {
 
 // For each n < kSliceLanes, raises covered[n] to coverage[n] if near pixel n (disparity near[n])
-// occludes far pixel n (disparity far[n]) in the view. covered[n] is never lowered.
+// occludes far pixel n (disparity far[n]) in the view. CoverPlaces never lowers covered[n].
 void CoverPlaces(const int16_t* near, const uint8_t* coverage, const int16_t* far,
                  const CoverView& view, int16_t* covered);
 

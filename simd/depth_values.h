@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SIMD kernels that convert values of depth maps to disparities with 6 fractional bits, and that
-// scale rows of small depth maps to the size of a picture.
+// scale small depth maps to the size of a picture.
 #ifndef STARFOCUS_SIMD_DEPTH_VALUES_H_
 #define STARFOCUS_SIMD_DEPTH_VALUES_H_
 
@@ -46,8 +46,8 @@ void HalvesToDepth(const uint16_t* values, size_t count, float* z);
 uint32_t DepthToDisparity(const float* z, size_t count, const DepthRule& rule, int16_t* out);
 
 // Interpolates between a[n] and b[n], where b has the weight `share` in [0, kColumnOne). If a[n]
-// and b[n] differ by at most kBlendStep, out[n] is a + ((share (b - a) + 128) >> 8). Otherwise,
-// out[n] is a if share < 128, and b if not.
+// and b[n] differ by at most kBlendStep, out[n] is a + ((share (b - a) + 128) >> 8). If the
+// difference is larger, out[n] is a if share < 128, and b if not.
 void BlendRows(const int16_t* a, const int16_t* b, size_t count, uint32_t share, int16_t* out);
 
 // Interpolates along a row like BlendRows. columns[n] is the position of pixel n. The low half of

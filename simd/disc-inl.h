@@ -97,8 +97,8 @@ struct DiscTaps {
   }
 
  private:
-  // Returns the weight of the pixel in column x and row y of the disc plus the weights of the
-  // pixel's mirror images about both axes.
+  // Returns the weight of pixel (x, y) of the disc plus the weights of the pixel's mirror images
+  // about both axes.
   static uint16_t Weight(const Disc& disc, int32_t x, int32_t y) {
     if (x > disc.size || y > disc.size) return 0;
     const int32_t high = x > y ? x : y, low = x > y ? y : x;
@@ -302,7 +302,7 @@ inline void FilterRows(const SampleRows& in, const Disc& disc, const Disc& small
 
 inline void FilterDisc(const SampleRows& in, const Disc& disc, const Encoding& encoding,
                        uint8_t* HWY_RESTRICT out, size_t out_stride) {
-  // Number of fractional bits by which light is rounded before it is encoded.
+  // Number of fractional bits by which light is rounded before the encoding.
   const int whole = encoding.entries == nullptr ? kLightBits : 0;
   const DiscOutput codes = {out, nullptr, out_stride, encoding, {disc.bits + whole, whole}};
   FilterRows<false>(in, disc, disc, codes, codes);

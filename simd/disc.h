@@ -15,8 +15,8 @@ namespace starfocus::simd {
 // A filter that is symmetric about both axes and both diagonals, so that one octant defines the
 // filter. The weight of the pixel m columns and n rows away, 0 <= m <= n <= size, is weights[n (n +
 // 1) / 2 + m]. The weights of the whole disc sum to at most 2^bits. The weights of four pixels that
-// mirror each other about both axes sum to at most 32767, and so do the weights of two pixels on an
-// axis that mirror each other.
+// mirror each other about both axes sum to at most 32767. The weights of two mirrored pixels on an
+// axis also sum to at most 32767.
 struct Disc {
   int32_t size;  // [0, kMaxDisc]
   int bits;      // [1, 17]
@@ -30,8 +30,9 @@ namespace reference {
 // disc's weighted sum of light around in[y][n], divided by 2^bits. The quotient is rounded half up
 // to light, or to the code if light is the code itself.
 //
-// Pixels that mirror each other are averaged before they are weighted. First, two pixels in one
-// column are averaged, and then the means of two mirrored columns. Each mean is rounded half up.
+// Pixels that mirror each other are averaged before the multiplication by their weight. First, two
+// pixels in one column are averaged, and then the means of two mirrored columns. Each mean is
+// rounded half up.
 //
 // out_stride is in bytes. The filter reads disc.size rows and 3 disc.size samples beyond `in` on
 // each side. `in` and `out` must not overlap. Bytes between the rows of `out` are not written.

@@ -36,7 +36,7 @@ int32_t LightOf(uint32_t sum, const Disc& disc, int dropped) {
 
 void FilterDisc(const SampleRows& in, const Disc& disc, const Encoding& encoding, uint8_t* out,
                 size_t out_stride) {
-  // Number of fractional bits by which light is rounded before it is encoded.
+  // Number of fractional bits by which light is rounded before the encoding.
   const int whole = encoding.entries == nullptr ? kLightBits : 0;
   for (size_t row = 0; row < in.rows; ++row, out += out_stride) {
     for (size_t n = 0; n < in.count; ++n) {

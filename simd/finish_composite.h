@@ -21,8 +21,8 @@ inline constexpr int kInverseBits = 48;
 
 namespace reference {
 
-// Divides colours by coverage. sums[c * plane + n] is colour c of pixel n, and covered = sums[3 *
-// plane + n] is the coverage of pixel n. If covered >= least, out[3 n + c] is sums[c * plane + n] *
+// Divides colours by coverage. Colour c of pixel n is sums[c * plane + n], and its coverage is
+// covered = sums[3 * plane + n]. If covered >= least, out[3 n + c] is sums[c * plane + n] *
 // (2^kInverseBits / covered) in units of 2^-bits. The division truncates; the product is rounded
 // half up and limited to 255. If covered < least, out[3 n + c] is the light centre[3 n + c],
 // converted to units of 2^-bits. Sums are read in whole groups of kSliceLanes; nothing past out[3

@@ -13,8 +13,8 @@
 namespace starfocus::simd {
 
 // A row of the surfaces of a field, with the sources of the hidden surfaces in the format of
-// HiddenRow. source[k] belongs to surface k + 1. If the first surface covers only a part of a
-// pixel, source[0] belongs to surface 2 instead.
+// HiddenRow. Element source[k] belongs to surface k + 1. If the first surface covers only a part of
+// a pixel, source[0] belongs to surface 2 instead.
 struct SourcedRow {
   SurfaceRow surfaces;
   const uint16_t* source[kSurfaces - 1];
@@ -48,10 +48,10 @@ int32_t TakeFarthest(const SourcedRow& row, size_t count, const FarRow& far);
 // Smooths the colours of those pixels n < count of a row whose colours are repeated over a distance
 // of at least step / 2. Other pixels are not changed. Whole groups of kSliceLanes are processed.
 // `step` is at most kSliceLanes. The new colour of a pixel is the mean of two values: its old
-// colour, and the mean of its four neighbours `step` pixels to the left, to the right, above and
-// below. If the disparity of a neighbour differs by more than `unit`, the pixel itself replaces the
-// neighbour. The mean of the neighbours is the mean of two means: that of left and right, and that
-// of above and below. Each mean is rounded half up.
+// colour, and the mean of its four neighbours at a distance of `step` pixels. If the disparity of a
+// neighbour differs by more than `unit`, the pixel itself replaces the neighbour. The mean of the
+// neighbours is the mean of two means: the mean of left and right, and the mean of above and below.
+// Each mean is rounded half up.
 void SmoothFar(const FarRows& rows, int16_t unit, int32_t step, size_t count, int16_t* rgb);
 
 // Copies the repeated colours of a row to a surface, at all pixels at which this surface is the

@@ -156,7 +156,7 @@ HWY_INLINE ptrdiff_t StepOf(const DepthRow& row, int side) {
 }
 
 // Returns the lanes of a group that have a nonzero distance; bit k stands for lane k. Next to a
-// vertical edge, only a few lanes have one.
+// vertical edge, only a few lanes have a nonzero distance.
 HWY_INLINE uint32_t LanesOf(const uint8_t* distances) {
   const hn::CappedTag<uint8_t, kSliceLanes> d8;
   uint32_t lanes = 0;

@@ -39,9 +39,9 @@ constexpr int16_t FarthestEdge(int unit_bits) {
   return static_cast<int16_t>(units < INT16_MAX ? units : INT16_MAX - 1);
 }
 
-// A step is not an edge if it is at most 2^-kSmallStepBits of the depth that the pixel already
-// hides. Disparity maps by networks are uneven, and the background behind an outline must extend
-// behind the whole surface.
+// A step of at most 2^-kSmallStepBits of the depth that the pixel already hides is not an edge.
+// Disparity maps by networks are uneven, and the background behind an outline must extend behind
+// the whole surface.
 inline constexpr int kSmallStepBits = 3;
 
 // Rows that one call of FindEdges reads and writes.
@@ -51,8 +51,8 @@ struct EdgeRows {
   uint8_t* distance;
 };
 
-// Range of the steps of disparity within a surface that may open a gap in the surface, because the
-// slices on both sides of the step move apart.
+// Range of the steps of disparity that may open a gap within a surface. The slices on both sides of
+// such a step move apart.
 struct CopyLimits {
   int16_t least, most;  // > 0
 };
@@ -66,7 +66,8 @@ struct StepBits {
 
 // A captured view that looks behind edges. The pixels that may occlude a hidden pixel in this view
 // lie on a line that starts at the hidden pixel. Pixel m of the line is m pixels away towards
-// `side`, and m slant 2^-kSlantBits pixels, rounded half up, to the right or to the bottom.
+// `side`. Across, the pixel is m slant 2^-kSlantBits pixels, rounded half up, to the right or to
+// the bottom.
 struct ViewLook {
   int16_t unit;   // disparity that moves a pixel of the view by one pixel; 0 if there is no view
   int8_t side;    // right, left, bottom, top
@@ -96,8 +97,8 @@ struct DepthRow {
   const uint8_t* edges[4];
 };
 
-// Output of LookBehind for a row, in whole groups of kSliceLanes: the hidden surfaces, the sources
-// of their colours, and the pixels that have hidden surfaces.
+// Output of LookBehind for a row: the hidden surfaces, the sources of their colours, and the pixels
+// that have hidden surfaces. Whole groups of kSliceLanes are written.
 struct HiddenRow {
   int16_t* disparity[kSurfaces - 1];  // kNoSurface if there is no surface
   uint16_t* source[kSurfaces - 1];    // format: see kSourceSecond
@@ -108,9 +109,9 @@ struct HiddenRow {
 // Format of a source, which describes the origin of the colour of a hidden surface. A source is 0
 // if there is no surface. Bit k is set if side k (right, left, bottom, top) shows the surface; the
 // colour is the mean over these sides. Bit kSourceSecond + k is set if only the second view of side
-// k shows the surface. The bits from kSourceDistance on are 0 if a view shows the surface.
-// Otherwise, a pixel beyond the edge is repeated, and these bits are the distance to the repeated
-// pixel.
+// k shows the surface. The bits from kSourceDistance on are 0 if a view shows the surface. If no
+// view shows the surface, a pixel beyond the edge is repeated, and these bits are the distance to
+// the repeated pixel.
 inline constexpr int kSourceSecond = 4, kSourceDistance = 8;
 
 // The rank of an edge is the distance to its far side in pixels, plus kUnseen if no view shows the
@@ -132,9 +133,9 @@ void Split(const int16_t* rgb, size_t count, size_t plane, int16_t* out);
 // disparity, and behind[n] is the disparity beyond that edge. On entry, both describe row `far`; on
 // return, both describe row `near`. Before the first call, the caller sets moved[n] to INT16_MAX.
 //
-// If the near pixel hides the far side of the edge from some view, distance[n] is set to the
-// distance in pixels to the far side. Otherwise, distance[n] is set to 0. Whole groups of
-// kSliceLanes are read and written.
+// If the near pixel hides the far side of the edge from some view, distance[n] is the distance in
+// pixels to the far side. If nothing is hidden, distance[n] is 0. Whole groups of kSliceLanes are
+// read and written.
 void FindEdges(const EdgeRows& rows, const EdgeLimits& limits, size_t count);
 
 // Finds the pixels n < count of a row that differ from pixel n + 1 by more than `step`. Writes one
@@ -142,33 +143,34 @@ void FindEdges(const EdgeRows& rows, const EdgeLimits& limits, size_t count);
 // read as well.
 void FindSteps(const int16_t* row, size_t count, int16_t step, StepBits* steps);
 
-// Finds the pixels next to depth edges. Bit k of beside[c] is set if a neighbour of pixel c
-// kSliceLanes + k, to the left, right, top or bottom, is nearer than the pixel by more than `step`.
-// Bits of pixels at or beyond `count` are 0. Rows are `stride` samples apart.
+// Finds the pixels next to depth edges. Bit k of beside[c] is set if one of the four neighbours of
+// pixel c kSliceLanes + k is nearer than the pixel by more than `step`. Bits of pixels at or beyond
+// `count` are 0. Rows are `stride` samples apart.
 void BesideSteps(const int16_t* row, ptrdiff_t stride, size_t count, int16_t step,
                  uint16_t* beside);
 
 // Finds the copies of pixels that continue a surface behind the pixels. The candidates for pixel n
 // < count are the disparities of its four neighbours that are lower than the pixel's disparity by
-// `least` to `most`. copies[n] is the lowest candidate, or kNoSurface if there is no candidate.
-// Rows are `stride` samples apart. Whole groups of kSliceLanes are written. In the result, bit c is
-// set if group c has copies. There are at most 64 groups.
+// `least` to `most`. Element copies[n] is the lowest candidate, or kNoSurface if there is no
+// candidate. Rows are `stride` samples apart. Whole groups of kSliceLanes are written. In the
+// result, bit c is set if group c has copies. A row has at most 64 groups.
 uint64_t FindCopies(const int16_t* row, ptrdiff_t stride, size_t count, const CopyLimits& limits,
                     int16_t* copies);
 
-// Finds up to two surfaces behind each pixel of a row. The candidates on each side are the surface
-// beyond the next edge, and the surface that the far side of this edge hides beyond another edge.
-// The second candidate must be at most kMostDistance pixels away. A view at distance 1 must also be
-// able to see it, so its distance is limited by its depth behind the pixel.
+// Finds up to two surfaces behind each pixel of a row. On each side, the first candidate is the
+// surface beyond the next edge. The second candidate is the surface that the far side of this edge
+// hides beyond another edge. The second candidate must be at most kMostDistance pixels away. A view
+// at distance 1 must also be able to see the second candidate, so its distance is limited by its
+// depth behind the pixel.
 //
 // The first hidden surface is the candidate with the lowest rank. If two candidates have the same
 // rank, the nearer one is chosen. The second hidden surface is chosen in the same way, from the
 // candidates that differ from the first hidden surface by more than 2^unit_bits.
 //
 // A view shows a hidden surface behind a pixel if no pixel on the line of the ViewLook covers the
-// surface there. A pixel of the line covers the surface if two conditions hold. First, the pixel is
-// nearer than the surface by more than half of the view's unit. Second, in the view, the distance
-// between the pixel and the hidden pixel is less than 3/4 of a pixel.
+// hidden surface. A pixel of the line covers the surface if two conditions hold. First, the pixel
+// is nearer than the surface by more than half of the view's unit. Second, in the view, the
+// distance between the pixel and the hidden pixel is less than 3/4 of a pixel.
 //
 // In the result, bit c is set if group c of kSliceLanes pixels has hidden surfaces. In all other
 // groups, `source` and `found` are unspecified.

@@ -39,12 +39,12 @@ inline void Decode(const uint8_t* HWY_RESTRICT codes, size_t count, const Encodi
   if (!done) reference::Decode(codes, count, encoding, light);
 }
 
-// kEncodeChunk is the number of samples that are encoded together. kEncodeSpare is the number of
-// samples that a vector of kPadding bytes may store after them.
+// Up to kEncodeChunk samples are encoded together. A vector of kPadding bytes may store up to
+// kEncodeSpare samples after the last sample of a chunk.
 inline constexpr size_t kEncodeChunk = 64, kEncodeSpare = kPadding / sizeof(int16_t);
 
-// Encodes at most kEncodeChunk samples. Entries are looked up one sample at a time, long before
-// vectors read them, because a processor cannot forward several small stores to the load of a whole
+// Encodes at most kEncodeChunk samples. Entries are looked up one sample at a time, long before a
+// vector loads the entries. A processor cannot forward several small stores to the load of a whole
 // vector.
 inline void EncodeChunk(const int16_t* HWY_RESTRICT light, size_t count, const Encoding& encoding,
                         uint8_t* HWY_RESTRICT codes) {

@@ -27,7 +27,7 @@ HWY_INLINE void StoreNarrow(MatchVec values, uint8_t* at) {
   hn::StoreU(hn::DemoteTo(MatchBytes(), hn::BitCast(d16, values)), MatchBytes(), at);
 }
 
-// Number of pixels that are matched at a time. On ARM, vectors are limited to 16 bytes: with the
+// Number of pixels that are matched at a time. On ARM, vectors are limited to 16 bytes. With the
 // 32-byte vectors of SVE_256, GCC 12 and Highway 1.0.3 compute costs that differ from the
 // reference.
 inline constexpr size_t kMatchPixels = 32;
@@ -165,8 +165,8 @@ HWY_INLINE void MeanCost(const uint8_t* const* differences, size_t views, size_t
 }
 
 #if HWY_TARGET != HWY_SCALAR
-// Interleaves rows i, i + 4, i + 8 and i + 12 of a matrix of 16 rows into rows 4 i to 4 i + 3, so
-// that samples of one column become adjacent. Two such passes transpose the matrix.
+// Interleaves rows i, i + 4, i + 8 and i + 12 of a matrix of 16 rows. In the output rows 4 i to 4 i
+// + 3, samples of one column are adjacent. Two such passes transpose the matrix.
 HWY_INLINE void ShuffleFour(const uint8_t* HWY_RESTRICT rows, size_t stride, size_t count,
                             size_t to_stride, uint8_t* HWY_RESTRICT to) {
   const hn::CappedTag<uint8_t, kSliceLanes> d8;

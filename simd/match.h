@@ -17,11 +17,11 @@ namespace starfocus::simd {
 inline constexpr int kMostDifference = 60;
 // Difference that is assumed if no view shows the pixel. The value corresponds to a poor match.
 inline constexpr int kUnknownDifference = 48;
-// Upper limits of the difference of a view that is known not to see the pixel. kHiddenDifference
-// applies if other views see the pixel, and kUnseenDifference if no view sees the pixel.
+// Upper limits of the difference of a view that is known not to see the pixel. The limit is
+// kHiddenDifference if other views see the pixel, and kUnseenDifference if no view does.
 inline constexpr int kHiddenDifference = 18, kUnseenDifference = 27;
 // Number of hidden labels outside a view. Inside a view, the hidden labels of a pixel are always
-// the lowest ones, so their number describes them.
+// the lowest labels, so that only their number is stored.
 inline constexpr uint8_t kViewEnds = 255;
 // Factor between differences and costs. Costs are in [0, 240].
 inline constexpr int kCostScale = 4;

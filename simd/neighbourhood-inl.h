@@ -14,8 +14,8 @@ HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
-// The vector code stores vectors in structs. This is not possible if the size of a vector is
-// unknown at compile time.
+// The vector code stores vectors in structs, and therefore requires vectors whose size is known at
+// compile time.
 #if HWY_TARGET == HWY_SCALAR || HWY_HAVE_SCALABLE
 
 using reference::ReachBlock;
@@ -148,8 +148,8 @@ inline void ReachBlock(const CellPlanes& planes, int32_t around, const int16_t m
   }
 }
 
-// Returns the largest distance, in cells, from a vector of cells to cells that they reach or that
-// reach them. `at` points to the first cell of the vector in the plane of reaches.
+// Returns the largest distance, in cells, between a cell of a vector of cells and a cell that one
+// of both reaches. `at` points to the first cell of the vector in the plane of reaches.
 HWY_INLINE int32_t FarthestCells(const int16_t* at, size_t stride, int32_t around) {
   const LanesTag d16;
   const auto lanes = static_cast<int32_t>(hn::Lanes(d16));

@@ -61,7 +61,7 @@ struct CellRanges {
 namespace reference {
 
 // Finds the pixels that reach the block whose first cell is planes.cells. Cells up to `around`
-// cells away are examined. margins[layer] is the margin of a layer in pixels; margins[0] is 0, and
+// cells away are examined. The margin of a layer in pixels is margins[layer]; margins[0] is 0, and
 // margins increase with the layer. If a cell reaches only a margin, all pixels of the cell count.
 void ReachBlock(const CellPlanes& planes, int32_t around, const int16_t margins[3],
                 BlockReach* reach);

@@ -30,9 +30,9 @@ inline constexpr int kLargestJump = 400, kLeastJump = 128, kSimilarColours = 16;
 
 // A row of pixels through which paths go. The pointers point to pixel 0; pixel k is k * step pixels
 // after pixel 0, and step is 1 or -1. A pixel has PathLabels elements in `cost`, `before`, `path`
-// and `sum`, and one element in all other arrays. Elements of paths that are not labels are
-// kNoLabel, even before the kernel writes them. The element before the first element of a path is
-// also kNoLabel.
+// and `sum`, and one element in all other arrays. Elements of paths that are not labels must be
+// kNoLabel, even before the kernel writes the paths. The element before the first element of a path
+// is also kNoLabel.
 struct PathRow {
   const uint8_t* cost;  // costs, [0, 255]; elements that are not labels are arbitrary
   // Paths of the previous pixels, [0, 1300]. May point into `path`, one pixel earlier.
@@ -65,8 +65,8 @@ void FindJumps(const uint8_t* pixels, const uint8_t* before, size_t plane, size_
 // the label.
 //
 // margin[n] is an eighth of the difference between the chosen sum and the smallest sum of labels 2
-// or more away. The margin is limited to 255, and is 255 if there is no label 2 or more away.
-// margin may be null. `sum` has the format of PathRow::sum.
+// or more away. The margin is limited to 255, and is 255 if no label is 2 or more away. `margin`
+// may be null. `sum` has the format of PathRow::sum.
 void ChooseLabels(const int16_t* sum, size_t labels, size_t count, int16_t* choice,
                   uint8_t* margin);
 

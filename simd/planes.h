@@ -15,9 +15,9 @@ namespace starfocus::simd::reference {
 // plane[n + 2 stride] = rgb[3 n + 2], for n < count. No other elements of `plane` are written.
 void SplitRow(const uint8_t* rgb, size_t count, size_t stride, uint8_t* plane);
 
-// Sets out[n] to the interpolated sample at `across` / 128 to the right of sample n and at `down` /
-// 128 of the distance from `row` to `next`. `across` and `down` are in [0, 128). Interpolation is
-// bilinear, first down and then across, and rounds half up after each direction. The rows have
+// Sets out[n] to the interpolated sample `across` / 128 of a pixel to the right of sample n, and
+// `down` / 128 of the way from `row` to `next`. `across` and `down` are in [0, 128). Interpolation
+// is bilinear, first down and then across, and rounds half up after each direction. The rows have
 // count + 1 samples. `out` is written in whole groups of kSliceLanes.
 void InterpolateRow(const uint8_t* row, const uint8_t* next, int32_t across, int32_t down,
                     size_t count, uint8_t* out);

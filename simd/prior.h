@@ -12,8 +12,9 @@
 
 namespace starfocus::simd {
 
-// kBesideCost and kDiagonalCost are the costs of a step to an adjacent and to a diagonally adjacent
-// pixel. kMostPrior is the prior of a label that no trusted pixel within 8 pixels has.
+// Costs of the prior. A step to an adjacent pixel costs kBesideCost, and a step to a diagonally
+// adjacent pixel kDiagonalCost. If no trusted pixel within 8 pixels has a label, the prior of the
+// label is kMostPrior.
 inline constexpr uint8_t kBesideCost = 3, kDiagonalCost = 4, kMostPrior = 24;
 
 // A row of `count` pixels. Each pixel has `places` elements, one per label; `places` is a multiple

@@ -35,10 +35,10 @@ struct SampleRows {
 
 namespace reference {
 
-// Splits a line of codes into samples of even and odd pixels, for n < pairs. even[3 n + c] is the
-// light of in[6 n + c], and odd[3 n + c] is the light of in[6 n + 3 + c], both rounded half up to
-// samples. Nothing past the end of `in` is read, and nothing past the end of `even` and `odd` is
-// written.
+// Splits a line of codes into samples of even and odd pixels, for n < pairs. Sample even[3 n + c]
+// is the light of in[6 n + c], and odd[3 n + c] is the light of in[6 n + 3 + c], both rounded half
+// up to samples. Nothing past the end of `in` is read, and nothing past the end of `even` and `odd`
+// is written.
 void WidenPhases(const uint8_t* in, size_t pairs, const Encoding& encoding, int16_t* even,
                  int16_t* odd);
 

@@ -32,9 +32,9 @@ struct SurfaceRow {
 };
 
 // Range of the disparities of a slice. The slice contains the disparities in [low, high], and also
-// the disparities above `high` up to `overlap`. The first surface of a pixel is excluded from the
-// overlap if the surface ends at the pixel or covers only a part of the pixel. Otherwise, this
-// surface would be in two slices and its coverage would count twice.
+// the disparities above `high` up to `overlap`. A first surface that ends at a pixel, or that
+// covers only a part of the pixel, is excluded from the overlap. In the overlap, such a surface
+// would be in two slices, and its coverage would count twice.
 struct SliceRange {
   int16_t low, high, overlap;
 };
@@ -57,17 +57,17 @@ inline constexpr int32_t kMaxSpread = 3;
 
 namespace reference {
 
-// Selects the surfaces in the range, for each pixel n < count. If the first surface is in the
-// range, it contributes its light times its share. The next surface in the range contributes its
-// light times the rest of the pixel. The fourth plane is the coverage of both surfaces. All outputs
-// are zero if no surface is in the range. If both surfaces share a pixel, the contribution of the
-// first surface is rounded half up. Whole groups of kSliceLanes are read and written; `count` is at
-// most 64 groups. Returns the coverage of each group.
+// Selects the surfaces in the range, for each pixel n < count. A first surface in the range
+// contributes its light times its share. The next surface in the range contributes its light times
+// the rest of the pixel. The fourth plane is the coverage of both surfaces. All outputs are zero if
+// no surface is in the range. If both surfaces share a pixel, the contribution of the first surface
+// is rounded half up. Whole groups of kSliceLanes are read and written; `count` is at most 64
+// groups. Returns the coverage of each group.
 SliceCover SelectSlice(const SurfaceRow& row, const SliceRange& range, size_t count, size_t plane,
                        int16_t* out);
 
 // Filters samples that are `step` apart. out[n] is the saturated sum of the taps times in[n + k
-// step], |k| <= reach. The two samples at each distance are averaged before they are multiplied.
+// step], |k| <= reach. The two samples at each distance are averaged before the multiplication.
 // Each mean and each product is rounded half up. Whole groups of kSliceLanes are read and written.
 // Samples must not be negative.
 void SpreadSlice(const int16_t* in, ptrdiff_t step, const SliceTaps& taps, size_t count,

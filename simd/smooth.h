@@ -44,8 +44,8 @@ struct SmoothSums {
 namespace reference {
 
 // Sets smooth[n] to the weighted mean disparity over neighbours of pixel n, for n < count. The mean
-// includes the neighbours whose disparity differs from that of pixel n by at most `tolerance`, and
-// pixel n.
+// includes pixel n and all neighbours whose disparity differs from the disparity of pixel n by at
+// most `tolerance`.
 void SmoothDisparity(const SmoothRows& rows, size_t count, int16_t* smooth);
 
 }  // namespace reference

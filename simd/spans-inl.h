@@ -18,7 +18,7 @@ namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
 // Adds value(n, keep) to the accumulators of a span, one vector at a time. In the last vector,
-// `keep` zeroes the samples beyond the span before they are weighted. These samples may be
+// `keep` zeroes the samples beyond the span before the weighting. These samples may be
 // uninitialised, and valgrind treats two lanes that are multiplied and added in pairs as one value.
 template <class D32, class Value>
 HWY_INLINE void AddSpan(D32 d32, uint32_t samples, uint32_t* HWY_RESTRICT target,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// SIMD kernels that composite slices, front to back, into the views of a strip: a column of
-// kSliceLanes pixels whose rows are contiguous in memory.
+// SIMD kernels that composite slices, front to back, into the views of a strip. A strip is a column
+// of kSliceLanes pixels whose rows are contiguous in memory.
 #ifndef STARFOCUS_SIMD_STRIPS_H_
 #define STARFOCUS_SIMD_STRIPS_H_
 
@@ -76,9 +76,9 @@ struct SliceViews {
 
 namespace reference {
 
-// Shifts rows of a slice along the row by a fraction of a sample, and stores the result in a strip
-// whose planes are `plane` samples apart. out[n] is interpolated between in[n] and the following
-// samples. Each product is rounded half up.
+// Shifts rows of a slice along the row by a fraction of a sample, and stores the result in a strip.
+// The planes of the strip are `plane` samples apart. Sample out[n] is interpolated between in[n]
+// and the following samples. Each product is rounded half up.
 //
 // near[row] is the mark of a row; kRowsAhead more marks precede near[0]. Before the call, all marks
 // must be at least kNothingNear. The kernel sets the marks of rows in which the slice covers a
@@ -86,13 +86,13 @@ namespace reference {
 void ShiftSlice(const SlicePlanes& in, const SliceFraction& fraction, size_t rows, size_t plane,
                 int16_t* out, int8_t* near);
 
-// Composites the views of a strip and adds them to sums[(4 row + c) kSliceLanes + n], where c is
-// the plane. A slice contributes its premultiplied colours and reduces the remaining light by its
-// coverage.
+// Composites the views of a strip and adds the results to sums[(4 row + c) kSliceLanes + n], where
+// c is the plane. A slice contributes its premultiplied colours and reduces the remaining light by
+// its coverage.
 //
 // If the coverage of a slice exceeds the remaining light, the contribution of the slice is reduced
 // in proportion. The contribution may be too large by up to a ninth of the view's weight. Slices
-// are thus treated as if they covered different parts of a pixel.
+// are thus treated as if each slice covered a different part of a pixel.
 //
 // Rows are interpolated as in ShiftSlice. Products (15 fractional bits) are rounded half up. The
 // total of all views is divided by 2^extra_bits and rounded half up. Sums must not exceed 2^32 - 1.

@@ -6,7 +6,7 @@
 #define STARFOCUS_SIMD_TARGETS_H_
 
 // Highway 1.0.3 truncates 16-bit numbers incorrectly on target AVX3_DL, which -march=native may
-// enable. Target AVX3 replaces it.
+// enable. Target AVX3 replaces AVX3_DL.
 #ifndef HWY_DISABLED_TARGETS
 #define HWY_DISABLED_TARGETS HWY_AVX3_DL
 #endif

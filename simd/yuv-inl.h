@@ -15,7 +15,7 @@ HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
-#if HWY_TARGET == HWY_SCALAR  // a scalar vector has one lane, which cannot hold a pair
+#if HWY_TARGET == HWY_SCALAR  // scalar vectors have one lane and cannot hold a pair
 using reference::RgbToChroma;
 using reference::RgbToLuma;
 using reference::YuvToRgb;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SIMD kernels that convert between R, G, B and luma with chroma of half the resolution (4:2:0).
-// All samples are bytes. In the formulas of this header, P(a, c) is (a * c + 2^14) >> 15, which is
-// the product of two numbers with 15 fractional bits, rounded half up. clamp() clamps a number to
-// [0, 255].
+// All samples are bytes. In formulas, P(a, c) is (a * c + 2^14) >> 15, which is the product of two
+// numbers with 15 fractional bits, rounded half up. The function clamp() clamps a number to [0,
+// 255].
 #ifndef STARFOCUS_SIMD_YUV_H_
 #define STARFOCUS_SIMD_YUV_H_
 
@@ -11,7 +11,7 @@
 
 namespace starfocus::simd {
 
-// Coefficients of a YUV format. lib/convert/yuv_matrix.h computes them.
+// Coefficients of a YUV format, as computed by lib/convert/yuv_matrix.h.
 struct YuvMatrix {
   int16_t black;           // luma of black: 16 or 0
   int16_t y;               // luma to R, G and B: 14 fractional bits
