@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vector code of disc.h. Included once per target.
+// Vector code of disc.h. This file is included once per target.
 #if defined(STARFOCUS_SIMD_DISC_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef STARFOCUS_SIMD_DISC_INL_H_
 #undef STARFOCUS_SIMD_DISC_INL_H_

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vector code of layered_depth.h. Included once per target.
+// Vector code of layered_depth.h. This file is included once per target.
 #if defined(STARFOCUS_SIMD_LAYERED_DEPTH_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef STARFOCUS_SIMD_LAYERED_DEPTH_INL_H_
 #undef STARFOCUS_SIMD_LAYERED_DEPTH_INL_H_
@@ -302,7 +302,8 @@ HWY_INLINE LanesVec ChooseSurface(const StripSides& sides, size_t k, int surface
   }
   const auto some = hn::Lt(best, none);
   const auto chosen = hn::IfThenElse(some, disparity, nothing);
-  const bool any = !hn::AllFalse(d16, some);  // few pixels have a second hidden surface
+  // True in few vectors, because most pixels have no second hidden surface.
+  const bool any = !hn::AllFalse(d16, some);
   const auto source = any ? SourceOf(d16, sides, k, best, chosen) : hn::Zero(d16);
   hn::StoreU(chosen, d16, hidden.disparity[surface] + n);
   hn::StoreU(hn::BitCast(du16, source), du16, hidden.source[surface] + n);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vector code of paths.h. Included once per target.
+// Vector code of paths.h. This file is included once per target.
 #if defined(STARFOCUS_SIMD_PATHS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef STARFOCUS_SIMD_PATHS_INL_H_
 #undef STARFOCUS_SIMD_PATHS_INL_H_

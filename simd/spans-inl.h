@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vector code of spans.h. Included once per target.
+// Vector code of spans.h. This file is included once per target.
 #if defined(STARFOCUS_SIMD_SPANS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef STARFOCUS_SIMD_SPANS_INL_H_
 #undef STARFOCUS_SIMD_SPANS_INL_H_
@@ -77,8 +77,8 @@ HWY_INLINE void BlendSpan(const Span& span, int16_t* HWY_RESTRICT line) {
   const bool done = ForVectors(span.samples, hn::Lanes(d16),
                                [&](size_t n) HWY_ATTR { hn::StoreU(blended(n), d16, target + n); });
   if (done) return;
-  // Processes a span that is shorter than a vector, as most spans of line scans are. Here the
-  // reference would be slower.
+  // Processes a span that is shorter than a vector, as most spans of line scans are. For short
+  // spans, the reference would be slower.
   int16_t whole[HWY_MAX_BYTES / sizeof(int16_t)];
   hn::StoreU(blended(0), d16, whole);
   std::memcpy(target, whole, span.samples * sizeof(*target));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Defines loops over samples that do not fill a whole number of vectors. Included once per target.
+// Defines loops over samples that do not fill a whole number of vectors. This file is included once
+// per target.
 //
 // - Rows that are padded to whole groups of kSliceLanes by contract have no remainder.
 // - All other kernels store with ForVectors. The last vector overlaps the previous vector and

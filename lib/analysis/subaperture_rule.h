@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes the counterpart of rule (9) for subapertures. If each view stands for a part of the
-// lens, a blur radius requires another number of views.
+// lens, a blur radius requires a different number of views than in (9).
 #ifndef STARFOCUS_LIB_ANALYSIS_SUBAPERTURE_RULE_H_
 #define STARFOCUS_LIB_ANALYSIS_SUBAPERTURE_RULE_H_
 
@@ -10,11 +10,11 @@
 
 namespace starfocus::analysis {
 
-// The rule is implemented by ViewsBySubaperture in lib/base/rules.h. Up to a radius of half a
-// pixel, the ideal PSF (4) is the unit impulse, so the centre view alone is exact. For larger
-// radii, the SSE (8) satisfies two limits at every r <= r_max. The first limit is 10^-3. The second
-// limit is the larger of two errors of the paper's PSF with N from (9): its SSE at r, and its worst
-// SSE of over-sampling. The paper derives (9) from the worst SSE of over-sampling.
+// ViewsBySubaperture in lib/base/rules.h implements the rule. Up to a radius of half a pixel, the
+// ideal PSF (4) is the unit impulse, so the centre view alone is exact. For larger radii, the SSE
+// (8) satisfies two limits at every r <= r_max. The first limit is 10^-3. The second limit is the
+// larger of two errors of the paper's PSF with N from (9): its SSE at r, and its worst SSE of
+// over-sampling. The paper derives (9) from the worst SSE of over-sampling.
 // SubapertureStudy::Margin measures how closely both limits are met.
 
 // Returns the smallest N for which subapertures are at least as accurate at r as the paper's PSF

@@ -13,9 +13,9 @@ namespace {
 // found.
 using BandDisparities = DisparitiesAround<kBandReach + 2>;
 
-// Smallest number of pixels next to nearer pixels in a tile of thin structure. Tiles of hair have
-// 38 or more such pixels. Tiles with a straight edge have 16 to 23, and tiles with a wire two
-// pixels wide up to 40.
+// Smallest number of pixels next to nearer pixels in a tile of thin structure. In tiles of hair, 38
+// or more pixels are next to nearer pixels. In tiles with a straight edge the number is 16 to 23,
+// and in tiles with a wire two pixels wide up to 40.
 constexpr int32_t kLeastRagged = 36;
 
 // Offset to a pixel within kBandReach, as a position (x, y) and as a difference of indices.

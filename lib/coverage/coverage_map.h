@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Coverage of the pixels near depth edges in thin structures, such as hair, twigs and grass. The
-// map splits each pixel near an edge, on either side, into a near and a far surface. The engine
+// Stores the coverage of pixels near depth edges in thin structures, such as hair, twigs and grass.
+// The map splits each pixel near an edge, on either side, into a near and a far surface. The engine
 // computes the map in tiles, once for each row of the picture, before planning and rendering
 // blocks.
 #ifndef STARFOCUS_LIB_COVERAGE_COVERAGE_MAP_H_

@@ -28,7 +28,7 @@ struct TileViews {
   uint8_t* rgb;
   uint8_t* split;  // scratch memory for making planes: two rows of R, G and B
   // Number of labels that a nearer surface hides, for each pixel of each side view. The hidden
-  // labels are the lowest ones. Pixels outside the picture have simd::kViewEnds.
+  // labels are always the lowest labels. Pixels outside the picture have simd::kViewEnds.
   uint8_t* hidden;
   bool ends;      // true if a part of the rectangle lies outside the picture
   bool all_seen;  // true if the rectangle lies inside the picture and no hidden labels are known
@@ -66,8 +66,8 @@ struct EstimateMemory {
   // disparities are kNoSurface.
   int16_t* given;    // given disparities
   int16_t* trusted;  // given disparities at pixels where the map is smooth
-  // Marks of pixels in doubt (swept.h). Shares the memory of `certainty`, which is not yet in use
-  // at that time.
+  // Marks of pixels in doubt (swept.h). `doubt` shares the memory of `certainty`; at most one of
+  // the two is in use at a time.
   uint8_t* doubt;
   uint8_t* swept;     // 1 for pixels that the sweeps process, else 0; null if all pixels are swept
   TileCount* counts;  // of each tile

@@ -25,7 +25,8 @@ inline constexpr int32_t kLabelStep = 1 << (kDisparityBits - 1);  // half a pixe
 inline constexpr int32_t kMostLabels = 129;
 inline constexpr int32_t kMostSideViews = STARFOCUS_MAX_VIEWS - 1;
 
-// A captured side view. u2 and v2 are twice the coordinates u and v of its position.
+// A captured side view. The members u2 and v2 are twice the coordinates u and v of the view's
+// position.
 struct SideView {
   int32_t index;
   int32_t u2, v2;

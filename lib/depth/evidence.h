@@ -16,7 +16,8 @@ struct TileCount {
 
 // Required evidence by the percentage of edge pixels that the repair contradicts. Up to
 // `right_percent` the map is assumed to be right, and the required evidence is `right`. From
-// `wrong_percent` on, the required evidence is `wrong`. In between, the evidence is interpolated.
+// `wrong_percent` on, the required evidence is `wrong`. Between the two percentages, the required
+// evidence is interpolated.
 struct EvidenceScale {
   int32_t right_percent, wrong_percent;
   int32_t right, wrong;

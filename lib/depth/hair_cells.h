@@ -57,7 +57,7 @@ bool MarkEdges(const HairCells& cells);
 
 // Sets kHasHair for cells around which many near pixels look like background. `near` is the number
 // of near pixels of each cell. `far` is the number of near pixels that look like background,
-// multiplied by 256. Both arrays are overwritten. Returns false if no cell has hair.
+// multiplied by 256. Both `near` and `far` are overwritten. Returns false if no cell has hair.
 bool MarkHair(const HairCells& cells, int32_t* near, int32_t* far);
 
 // Returns true if any cell that overlaps the rectangle has hair.

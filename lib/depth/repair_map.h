@@ -40,7 +40,7 @@ TileCount CountTile(const EstimatePlan& plan, const Rect& tile, const EstimateMe
 // Smallest sum of evidence over the pixels around a change, in costs (simd::kCostScale per gray
 // level). In a wrong map, the required sum is 240, which corresponds to eight pixels that fit 7.5
 // gray levels worse. In a map that is right except at details of low contrast, the required sum is
-// 1600. In such maps, pixels that stay on their surface are not changed.
+// 1600. In a map with the larger limit, pixels that stay on their surface are not changed.
 inline constexpr EvidenceScale kSweepEvidence = {18, 22, 1600, 240};
 
 // Returns the repaired disparity of pixel (x, y), which is the disparity in memory.first or the

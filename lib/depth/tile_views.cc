@@ -69,8 +69,8 @@ Rect PartInside(const EstimatePlan& plan, const TileViews& views) {
 // (kDisparityBits). Estimates of one surface differ by less.
 constexpr int32_t kSurfaceDepth = 1 << kDisparityBits;
 
-// Returns the number of labels that a pixel at disparity d hides. The hidden labels are the lowest
-// ones.
+// Returns the number of labels that a pixel at disparity d hides. The hidden labels are always the
+// lowest labels.
 uint8_t HiddenBehind(const EstimatePlan& plan, int32_t d) {
   const int32_t beyond = Max(d - kSurfaceDepth - plan.low, 0) + plan.step - 1;
   const int32_t labels = plan.step == kLabelStep ? beyond / kLabelStep : beyond / plan.step;
