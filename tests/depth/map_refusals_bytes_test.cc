@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 #include "starfocus/depth.h"
@@ -136,6 +137,16 @@ void CheckTable(const Refusal (&table)[kCount], const Run& run) {
 
 TEST_CASE("maps: bad arguments return their errors, and nothing is written") {
   CheckTable(kArguments, [](Call* call) { return call->Run(); });
+}
+
+TEST_CASE("maps: shorter configurations get the defaults of the missing fields") {
+  for (const int function : {kEstimate, kRepair}) {
+    Call call(function);
+    call.config.size = offsetof(starfocus_depth_config, max_workers);
+    call.config.max_workers = -1;
+    call.config.runner = [](void*, starfocus_job, void*, int32_t) { return 1; };
+    CHECK(call.Run() == STARFOCUS_OK);
+  }
 }
 
 TEST_CASE("maps: bad configurations return their errors") {
