@@ -29,7 +29,7 @@ std::string TwoDigits(double value) {
   return text;
 }
 
-// Returns one pixel of (4), computed by regular sampling.
+// Returns one pixel of the PSF (4), computed by regular sampling.
 double SampledPixel(int n, int m, double r, double theta) {
   constexpr int kSide = 400;
   double sum = 0;
@@ -47,7 +47,7 @@ TEST_CASE("analysis: the aperture follows (3)") {
     const double theta = pi_part * kPi, rim = Aperture(1, theta) / Aperture(0, theta);
     CHECK(rim == doctest::Approx(std::pow(std::cos(theta), 4)).epsilon(1e-9));
     CHECK(Aperture(1.0001, theta) == 0);
-    double whole = 0;  // with square = u^2 + v^2, du dv is pi d(square)
+    double whole = 0;  // du dv = pi d(square) with square = u^2 + v^2
     for (int k = 0; k < 100; ++k) {
       whole += Integrate(k / 100.0, (k + 1) / 100.0, [&](double s) { return Aperture(s, theta); });
     }
@@ -71,7 +71,7 @@ TEST_CASE("analysis: the ideal PSF follows (4)") {
 }
 
 TEST_CASE("analysis: the PSFs of view interpolation approach their limits") {
-  // Many subapertures tile the aperture. Many views approach the ideal PSF blurred by h.
+  // Many subapertures tile the aperture, so the error of the PSF of N = 40 and N = 80 is small.
   CHECK(SubapertureError(6, 40, kTheta) < 2e-6);
   CHECK(SubapertureError(6, 80, kTheta) < SubapertureError(6, 40, kTheta));
   CHECK(SquaredError(StarPsf(4, 4, kTheta, Subapertures::kNarrow), PaperPsf(4, 4, kTheta)) < 1e-12);
@@ -119,7 +119,7 @@ TEST_CASE("analysis: every digit of Table I is reproduced, including the optimum
     CHECK(found.filters.theta == doctest::Approx(row.theta * kPi).epsilon(1e-9));
     CHECK(TwoDigits(found.error) == row.error);
     CHECK(TwoDigits(found.aliasing) == row.aliasing);
-    // Without a grid of parameters, the optimum is close to that of the grid and slightly better.
+    // The optimum of continuous parameters is slightly better than the optimum on the grid.
     const Optimum free = Optimise(row.r);
     CHECK(free.error <= found.error);
     CHECK(free.error > 0.99 * found.error);
@@ -138,13 +138,13 @@ TEST_CASE("analysis: Fig. 6 and the thresholds of (9) are reproduced") {
     CAPTURE(n);
     CHECK(WorstOverSampling(n, kTheta).ratio == 1.5);
   }
-  // Epsilon admits N >= 4 and rejects 3.
+  // The threshold epsilon admits N >= 4 and rejects N = 3.
   CHECK(TwoDigits(WorstOverSampling(3, kTheta).error) == "1.8e-03");
   CHECK(TwoDigits(WorstOverSampling(4, kTheta).error) == "1.1e-03");
   const double exact = UnderSamplingRatio(4, kTheta, WorstOverSampling(4, kTheta).error);
   CHECK(exact == doctest::Approx(0.7700).epsilon(1e-4));
-  // This variant yields the 0.787 of the paper: it has no views on the rim, and reads the curve
-  // next to its cusp. The variant was found by trial, since the paper does not explain the number.
+  // A variant without views on the rim, which reads the curve next to its cusp, yields the paper's
+  // 0.787. The variant was found by trial, since the paper does not explain the number.
   CHECK(WorstOverSampling(4, kTheta, Rim::kExcluded).ratio == 1.5);
   const double beside = PaperError(4 / 1.51, 4, kTheta, Rim::kExcluded);
   CHECK(beside < kThreshold);

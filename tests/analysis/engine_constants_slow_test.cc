@@ -47,7 +47,7 @@ TEST_CASE("constants: theta is that of Table I at r = 3") {
 }
 
 TEST_CASE("constants: the numbers of views follow (9)") {
-  // The largest r with N = 4, and the slope beyond it.
+  // Tests the largest r with N = 4, and the slope of N(r) beyond this radius.
   const auto jump = [](int n) {
     return Cross(0.1, 128, 1e-9, [&](double r) { return ViewsByPaper(r) - n - 0.5; });
   };
@@ -117,8 +117,8 @@ TEST_CASE("constants: the filters of layers are those of Table I at r = 3 and of
     const double one = gain * (1 << simd::kTapBits);
     CHECK_MESSAGE(std::fabs(taps.near - one * exact(1)) < 1, "tap 1 of " << moves);
     CHECK_MESSAGE(std::fabs(taps.far - one * exact(3)) < 1, "tap 3 of " << moves);
-    // The gain of both phases must be 1. The middle tap therefore differs by G(-1), which is not
-    // exactly 0.
+    // The gain of both phases must be 1. The middle tap therefore differs from the exact value by
+    // G(-1), which is not exactly 0.
     CHECK_MESSAGE(std::fabs(taps.centre - one * exact(0)) < 1 + one * std::fabs(GainAtPi(exact)),
                   "tap 0 of " << moves);
   };
@@ -166,7 +166,8 @@ TEST_CASE("constants: the filters subsample as in (10) and upsample as in (11)")
   CHECK(std::fabs(LayerAliasing(IdealPsf(2, kDefaultTheta), 0, kBetaDown)) < 1e-15);
 }
 
-// Checks radii in both directions. At the radius `least`, the rule first selects the layer.
+// Checks positive and negative radii. `least` is the smallest radius at which the rule selects the
+// layer.
 void CheckEngine(starfocus_renderer renderer, int layer, int least, int most) {
   for (int k = 8 * least; k <= 8 * most; k = k < 64 ? k + 1 : k + 13) {
     for (const int sign : {1, -1}) {
@@ -184,15 +185,16 @@ void CheckEngine(starfocus_renderer renderer, int layer, int least, int most) {
       CHECK(Explain(step).find("unexplained") == std::string::npos);
       if (layer > 0) {
         const LayerTheory theory = MakeLayerTheory(r < 0 ? -r : r, layer);
-        // For small radii, (9) selects an N of 2 and 3, so that the PSF that aliases differs from
-        // the ideal PSF.
+        // For small radii, (9) selects N = 2 or N = 3. The PSF of so few views differs from the
+        // ideal PSF, and therefore its aliasing differs as well.
         CHECK(std::fabs(step.aliasing - theory.aliasing) <
               (renderer == STARFOCUS_RENDERER_LINE_SCAN ? 2e-4 : 1e-4));
       }
       if (renderer == STARFOCUS_RENDERER_SLICES) {
         CHECK_MESSAGE(step.engine <= kThreshold, "the selection threshold: " << Explain(step));
       } else {
-        // With N by (9), the largest error is that of the half-covered neighbour at r = 1/2.
+        // With N by (9), the largest error occurs at r = 1/2, in a neighbour that the PSF half
+        // covers.
         CHECK(step.engine < (k <= 8 ? 8e-2 : k <= 24 ? 6e-3 : k <= 64 ? 2e-3 : 1e-3));
       }
     }
@@ -236,7 +238,8 @@ double WorstOfThree(int lens, double first) {
 }
 
 TEST_CASE("constants: the width of the lens with N = 3 is the best one") {
-  // kFirst is half a pixel, where the centre view alone ends. From kWider, the PSFs are wider.
+  // Up to a radius of half a pixel, the centre view alone is used. kFirst is the next radius. From
+  // kWider on, the PSFs are wider.
   constexpr double kFirst = 0.5 + 1.0 / 64, kWider = 0.625;
   const int own = LensInSubapertures(3);
   CHECK(WorstOfThree(own, kFirst) < kThreshold);
@@ -254,21 +257,22 @@ TEST_CASE("constants: the widths of the lens in subapertures meet their criteria
   const auto views = [](int lens) {
     return SubapertureLights::OfLens(lens, kDefaultTheta).views();
   };
-  // N = 5: the smallest maximal error of all lenses with 69 views.
+  // N = 5: the lens has the smallest maximal error of all lenses with 69 views.
   const double chosen = worst(LensInSubapertures(5), 25);
   CHECK(views(LensInSubapertures(5)) == 69);
   for (int lens = 5 * kSubapertureUnits - 24; lens <= 5 * kSubapertureUnits; ++lens) {
     if (views(lens) != 69) continue;
     CHECK_MESSAGE(worst(lens, 25) >= chosen, "32 n - 11: a lens of " << lens << " / 32 is better");
   }
-  // N = 4: no lens with at most as many views has less than half of the maximal error.
+  // N = 4: every lens with at most 49 views has more than half of the chosen lens's maximal error.
   CHECK(views(LensInSubapertures(4)) == 49);
   for (int lens = 4 * kSubapertureUnits - 24; lens <= 4 * kSubapertureUnits; ++lens) {
     if (views(lens) > 49) continue;
     CHECK_MESSAGE(worst(lens, 11) > worst(LensInSubapertures(4), 11) / 2,
                   "123: a lens of " << lens << " / 32 has half its error");
   }
-  // One formula covers the other N. Their errors are far below the threshold of the rule.
+  // One formula covers all other values of N. The errors of these lenses are far below the
+  // threshold of the rule.
   for (const double r_max : {11.0, 25.0, 34.0, 49.0}) {
     const int n = ViewsBySubaperture(r_max);
     CAPTURE(n);
@@ -277,7 +281,7 @@ TEST_CASE("constants: the widths of the lens in subapertures meet their criteria
   }
 }
 
-// The PSFs (4) for gathering. The blur mode uses the same PSFs up to the same radius.
+// The PSFs (4) for gathering. The blur mode uses the same PSFs up to kMaxGather.
 struct GatherPsfs {
   std::vector<uint16_t> weights = std::vector<uint16_t>(BlurWeightCount(false, kMaxGather));
   std::vector<Psf> psfs = std::vector<Psf>(static_cast<size_t>(BlurStepCount(kMaxGather)));
@@ -313,9 +317,9 @@ TEST_CASE("constants: the steps between the radii of gathering PSFs are small en
 
 TEST_CASE("constants: the model of gathering counts the taps of a PSF") {
   constexpr int32_t kOne = 1 << kDisparityBits;
-  // The model counts at least as many taps as a PSF has, and at most half as many again except for
-  // the smallest PSFs. It adds the time of 16 taps. With this timing, a tap costs 1/64 of an
-  // upsampled pixel.
+  // The model must not count fewer taps than a PSF has. Except for the smallest PSFs, the model
+  // counts at most 50 % more. The model also adds the time of 16 taps. With the timing below, a tap
+  // costs 1/64 of an upsampled pixel.
   starfocus_timing timing = {};
   timing.upsample = 64;
   const GatherPsfs made;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Recomputes the views and layers that openings without fall-off need: the rules of Demand.
+// Recomputes the rules of Demand, which are the views and layers that openings without fall-off
+// require.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -64,7 +65,7 @@ TEST_CASE("openings: subapertures meet the threshold, and a quarter of it where 
     CHECK(worst <= kThreshold);
     if (asked.demand == Demand::kDisc) continue;
     CHECK(beyond <= kThreshold / 4);
-    // An N of 4 would exceed a quarter of the threshold.
+    // With N = 4, the error would exceed a quarter of the threshold.
     CHECK(WorstOfSubapertures(4, 5.5, 11, asked.opening) > kThreshold / 4);
   }
 }

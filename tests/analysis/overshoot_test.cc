@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures by how much block mode leaves the range of the views, which starfocus.h states. The
-// half-band filters of layers 1 and 2 have negative taps. A picture that is bright exactly at these
-// taps darkens a pixel most.
+// Measures by how much block mode exceeds the range of the views; starfocus.h states the limit. The
+// half-band filters of layers 1 and 2 have negative taps. A picture that is bright exactly at the
+// negative taps darkens a pixel most.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -38,7 +38,8 @@ double NegativeSum(SampledPsf psf) {
 }
 
 // Refocuses a picture that is bright where the PSF around (x, y) is negative. Returns how far the
-// pixel falls below the darker level, as a part of the contrast of light.
+// darkest pixel falls below the darker level, as a fraction of the difference of light between both
+// levels.
 double Undershoot(double r, starfocus_renderer renderer, int layer, starfocus_transfer transfer,
                   SampledPsf psf, int x, int y) {
   test::Scene scene = test::EmptyScene(kSide, kSide, 1, float(r), float(r));
@@ -66,8 +67,8 @@ double Undershoot(double r, starfocus_renderer renderer, int layer, starfocus_tr
   return (light(kLow) - light(darkest)) / (light(kHigh) - light(kLow));
 }
 
-// Returns the largest overshoot at the given radii, which are near those where layers begin. It
-// covers the negative taps of the PSFs, and pictures made for all places on the grid of a layer.
+// Returns the largest overshoot at the given radii. Includes the sum of the negative taps of each
+// PSF, and pictures made for every position of a pixel on the grid of its layer.
 double Worst(starfocus_renderer renderer, const std::vector<double>& radii) {
   double worst = 0;
   for (const double r : radii) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests illegal and extreme configurations, workspaces and outputs. refusals_bytes_test.cc tests
-// the other arguments. Each illegal value must be reported with its field, and nothing may be
+// the other arguments. For each illegal value, the error must name the field, and nothing may be
 // written.
 #include <doctest/doctest.h>
 
@@ -155,7 +155,7 @@ TEST_CASE("workspace: memory that is too small or misaligned is rejected") {
 TEST_CASE("refocus: parameters at their limits are legal") {
   Fixture f;
   test::Engine engine(f.config);
-  f.params = test::Params(6);  // r = 8 is exactly the largest blur
+  f.params = test::Params(6);  // the blur radius is 8, the configured maximum
   f.params.lens.curvature = 1;
   f.params.lens.ring_inner = STARFOCUS_MAX_RING_INNER;
   f.params.lens.blades = STARFOCUS_MAX_BLADES;

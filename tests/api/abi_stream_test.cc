@@ -39,7 +39,7 @@ TEST_CASE("stream: calls fail without the streaming feature and without begin") 
     REQUIRE(engine.status() == STARFOCUS_OK);
     CHECK(f.Push(engine.get(), f.scene.Field(), 1, &count) == STARFOCUS_ERROR_STATE);
     CHECK(f.Pull(engine.get(), 1, &count) == STARFOCUS_ERROR_STATE);
-    // A rejected begin starts nothing.
+    // A rejected starfocus_stream_begin starts no stream.
     starfocus_params params = f.params;
     params.lens.aperture = 2;
     CHECK(starfocus_stream_begin(engine.get(), &params) == STARFOCUS_ERROR_RANGE);
@@ -60,7 +60,7 @@ TEST_CASE("stream: push takes at most the rows of the picture") {
   REQUIRE(starfocus_stream_begin(engine.get(), &f.params) == STARFOCUS_OK);
   int32_t count = -1;
   CHECK(f.Push(engine.get(), f.scene.Field(), kHeight + 1, &count) == STARFOCUS_ERROR_RANGE);
-  // The rejected push took no row, so the whole picture still fits.
+  // The rejected push has consumed no row, so the whole picture can still be pushed.
   CHECK(f.Push(engine.get(), f.scene.Field(), 0, &count) == STARFOCUS_OK);
   CHECK(count == 0);
   CHECK(f.Push(engine.get(), f.scene.Field(), 1, &count) == STARFOCUS_OK);
@@ -103,7 +103,7 @@ TEST_CASE("stream: begin restarts, and whole pictures interrupt only the stream"
   test::Engine engine(f.config);
   test::Output whole(kWidth, kHeight, 4);
   REQUIRE(test::Refocus(&engine, f.params, f.scene, &whole) == STARFOCUS_OK);
-  // Stop half way, then start again.
+  // Stops the stream halfway and starts it again.
   REQUIRE(starfocus_stream_begin(engine.get(), &f.params) == STARFOCUS_OK);
   int32_t count = 0;
   REQUIRE(f.Push(engine.get(), f.scene.Field(), 40, &count) == STARFOCUS_OK);

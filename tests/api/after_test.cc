@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests starfocus_params.previous: the bytes must equal those of the frame alone, and unchanged
-// blocks must be reused.
+// Tests starfocus_params.previous: the bytes must equal those of the frame refocused alone, and
+// unchanged blocks must be reused.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -33,7 +33,7 @@ int Superblocks(const test::Scene& scene, int side) {
   return ((scene.width + side - 1) / side) * ((scene.height + side - 1) / side);
 }
 
-// Changes a pixel or patch of one view or of the disparity map, which may become unknown.
+// Changes a pixel or patch of one view or of the disparity map. New disparities may be unknown.
 void Change(test::Scene* scene, bool unknown, test::Random* random) {
   const int x0 = random->Int(0, scene->width - 1), y0 = random->Int(0, scene->height - 1);
   const int side = random->Int(0, 1) * random->Int(0, 12);
@@ -187,8 +187,8 @@ TEST_CASE("after: a block that changes its layer changes the boundaries of its n
   REQUIRE(After(&engine, params, scene, before, first, &second, &report) == STARFOCUS_OK);
   const test::Output expected = test::OutputOf(&engine, params, scene);
   CHECK((second.bytes == expected.bytes));
-  CHECK(report.reused_blocks == 5);  // all except the four in the corner
-  // The change is on the neighbours' side of the boundary.
+  CHECK(report.reused_blocks == 5);  // all blocks except the four in the corner
+  // Deblocking must change pixels on the neighbours' side of the boundary.
   bool right = false, below = false;
   for (int k = 20; k < 200; ++k) {
     right = right || !std::equal(second.Pixel(256, k), second.Pixel(257, k), first.Pixel(256, k));

@@ -66,7 +66,7 @@ TEST_CASE("callbacks: functions are used in all calls until others are set") {
   test::Engine engine(f.Config());
   starfocus_callbacks callbacks = f.calls.All();
   REQUIRE(starfocus_set_callbacks(engine.get(), &callbacks) == STARFOCUS_OK);
-  callbacks = {};  // the engine has a copy
+  callbacks = {};  // the engine keeps a copy of the callbacks
   for (int round = 0; round < 2; ++round) {
     REQUIRE(f.Refocus(&engine) == STARFOCUS_OK);
     CHECK(f.calls.Take());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests engines of starfocus_create: one piece of memory comes from the allocator and is returned
-// to it.
+// Tests engines of starfocus_create: each engine takes one piece of memory from the allocator and
+// later returns it.
 #include <doctest/doctest.h>
 
 #include <algorithm>

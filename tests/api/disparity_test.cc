@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the measuring and filling of disparity maps: bad input, then the rule against a simple
-// search.
+// Tests the measuring and filling of disparity maps with bad input, and compares the filled values
+// with a simple search.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -31,8 +31,8 @@ struct Map {
   std::vector<float> values;
 };
 
-// Checks rows with a finite value: finite values stay, and a hole gets the farther of its two
-// neighbours.
+// Checks rows that have a finite value. Finite values must not change, and a hole must get the
+// disparity of its farther neighbour.
 void CheckRows(Map before, Map after) {
   for (int y = 0; y < before.height; ++y) {
     for (int x = 0; x < before.width; ++x) {
@@ -83,7 +83,7 @@ TEST_CASE("disparity: illegal arguments are rejected") {
 
 TEST_CASE("disparity: smallest, largest and non-finite values are measured") {
   Map map(5, 3, 2);
-  for (float& value : map.values) value = 999;  // padding must not count
+  for (float& value : map.values) value = 999;  // padding must be ignored
   for (int y = 0; y < 3; ++y) {
     for (int x = 0; x < 5; ++x) map.At(x, y) = float(x - y);
   }

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-# Usage: cmake -DNM=… -DBUILD=… -P engine_alone_test.cmake
-# Checks which parts of the library static programs contain. A program that only refocuses in its own memory must
-# contain neither lib/depth nor starfocus_create. A program that makes maps contains lib/depth. The program for users
-# must not contain lib/analysis, the ray tracer or tests, but the program for developers contains them.
+# Usage: cmake -DNM=… -DBUILD=… -P engine_alone_test.cmake Checks which parts of the library static programs contain. A
+# program that only refocuses in its own memory must contain neither lib/depth nor starfocus_create. A program that
+# makes maps contains lib/depth. The program for users must not contain lib/analysis, the ray tracer or tests. The
+# program for developers contains all three.
 cmake_minimum_required(VERSION 3.20)
 
-# expect(PROGRAM has|lacks NAME...) checks if PROGRAM has or lacks symbols that match each name.
+# expect(PROGRAM has|lacks NAME...) checks that PROGRAM has (or lacks) symbols that match each NAME.
 function(expect program expected)
   execute_process(COMMAND "${NM}" -C "${BUILD}/${program}" OUTPUT_VARIABLE listing RESULT_VARIABLE result)
   if(NOT result EQUAL 0)

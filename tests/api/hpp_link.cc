@@ -41,7 +41,7 @@ struct Field {
     params.lens.focus = 3;
   }
 
-  // Returns true if these calls return the picture.
+  // Returns true if all ways to refocus succeed and return the picture of the view.
   bool Refocuses(starfocus::Engine* engine) const {
     std::vector<uint8_t> out(picture.size());
     return engine->Refocus(params, field, starfocus_image_rgb(out.data(), 3 * kSize)) ==
@@ -113,8 +113,8 @@ bool EveryCall() {
          f.Streams(&engine);
 }
 
-// A second Init that fails must keep the engine and its prepared light field. If it succeeds, it
-// must make a new engine.
+// If a second Init fails, the engine and its prepared light field must remain. If the second Init
+// succeeds, the engine must be a new one.
 bool SecondInit() {
   const Field f;
   starfocus::Engine engine;

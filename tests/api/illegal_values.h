@@ -103,7 +103,7 @@ inline const Bad<starfocus_config> kBadConfigs[] = {
     {"transfer", [](starfocus_config* c) { c->transfer = 2; }},
 };
 
-// For an engine with disparities in [-2, 2] and a max_blur of 8.
+// Illegal parameters for an engine with disparities in [-2, 2] and a max_blur of 8.
 inline const Bad<starfocus_params> kBadParams[] = {
     {"params.size", [](starfocus_params* p) { p->size = 0; }, STARFOCUS_ERROR_STRUCTURE},
     {"params.size", [](starfocus_params* p) { p->size = 4; }, STARFOCUS_ERROR_STRUCTURE},
@@ -162,7 +162,7 @@ inline const Bad<starfocus_params> kBadParams[] = {
     {"lens.aperture", [](starfocus_params* p) { p->lens.focus = 1e6; }, STARFOCUS_ERROR_BLUR},
 };
 
-// For a width of 20.
+// Illegal light fields for a width of 20.
 inline const Bad<starfocus_light_field> kBadFields[] = {
     {"views[].planes", [](starfocus_light_field* f) { f->views[0].planes[0] = nullptr; },
      STARFOCUS_ERROR_NULL},

@@ -59,7 +59,7 @@ TEST_CASE("image streams: rows of R, G, B may be pushed and pulled") {
   const starfocus_light_field images = field.Field();
   const starfocus_light_field converted = field.converted.Field();
   int32_t rows = 0;
-  // Alpha of the previous stream must not appear.
+  // The alpha of the previous stream must not appear in the output.
   for (int round = 0; round < 2; ++round) {
     REQUIRE(starfocus_stream_begin(engine.get(), &params) == STARFOCUS_OK);
     REQUIRE(starfocus_stream_push(engine.get(), &images, 90, &rows) == STARFOCUS_OK);
@@ -129,7 +129,7 @@ TEST_CASE("image streams: half a pair of rows is rejected, and a bad depth rejec
   out = image.Out(50);
   CHECK(starfocus_stream_pull(engine.get(), &out, 9, &rows, nullptr) == STARFOCUS_OK);
   CHECK(rows == 1);
-  // The last row of the map is bad. Pairs of rows before it are taken.
+  // The last row of the map is bad. The engine consumes only the pairs of rows before the last row.
   field.depth.Put(3, field.depth.map.height - 1, 1e-3);
   images = field.Field();
   REQUIRE(starfocus_stream_begin(engine.get(), &params) == STARFOCUS_OK);

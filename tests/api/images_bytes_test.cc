@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Refocuses images and depth maps of every format. The bytes must equal those after a conversion.
+// Refocuses images and depth maps of every format. The bytes must equal those of images that are
+// converted to R, G, B before refocusing.
 #include <doctest/doctest.h>
 
 #include <vector>
@@ -30,7 +31,7 @@ ImageField AnyField(const test::Scene& scene, int format, int round, test::Rando
       random);
 }
 
-// Compares the images with their conversion: whole, prepared, reduced and streamed.
+// Compares the images with the converted images: whole, prepared, reduced and streamed.
 void CheckSame(const ImageField& field, starfocus_config config, const starfocus_params& params,
                const ImageKind& kind, test::Random* random, starfocus_runner runner = nullptr) {
   config.features |= STARFOCUS_FEATURE_STREAMING;

@@ -63,7 +63,7 @@ starfocus_params ParamsOf(const starfocus_lens& lens, starfocus_mode mode,
   return params;
 }
 
-// Returns the picture of an engine that has memory for only this shape.
+// Returns the picture of an engine that has memory for a single shape.
 std::vector<uint8_t> Expected(const test::Scene& scene, const starfocus_params& params) {
   starfocus_config config = Config(scene);
   test::ReserveFor(params.lens, &config);
@@ -78,7 +78,7 @@ TEST_CASE("lens: after a change of shape, an engine returns the bytes of a new e
   for (const starfocus_lens& lens : Lenses()) {
     CAPTURE(index);
     ++index;
-    // The second round must find the tables of the first, and no others in their place.
+    // The second round must use the tables of the first round, and not the tables of another mode.
     for (const int round : {0, 1}) {
       for (const starfocus_mode mode : test::kModes) {
         for (const starfocus_renderer renderer : test::kRenderers) {
@@ -94,7 +94,7 @@ TEST_CASE("lens: after a change of shape, an engine returns the bytes of a new e
   }
 }
 
-// Cancels at the call of progress after `left` others.
+// Progress function that cancels after `left` further calls.
 int CancelAfter(void* left, int32_t, int32_t) { return (*static_cast<int*>(left))-- == 0; }
 
 TEST_CASE("lens: after a cancelled call, calls with another shape do not use its tables") {
@@ -156,7 +156,7 @@ TEST_CASE("lens: a stream keeps the lens that was given to begin") {
     starfocus_params params = expected;
     REQUIRE(starfocus_stream_begin(engine.get(), &params) == STARFOCUS_OK);
     params.lens = LensOf(test::kShapes[0]);
-    // A rejected begin changes nothing.
+    // A rejected starfocus_stream_begin changes nothing.
     params.lens.blades = 99;
     CHECK(starfocus_stream_begin(engine.get(), &params) == STARFOCUS_ERROR_RANGE);
     test::Output out(kWidth, kHeight);

@@ -95,8 +95,8 @@ TEST_CASE("focus at: a single wrong pixel belongs to the surface of most pixels 
     for (const int x : {2, 4, 7, 12}) {
       Map spoilt = map;
       spoilt.At(x, 10) = wrong;
-      // Within 3 pixels of x = 4, most pixels belong to the object. At x = 7 and beyond, most
-      // pixels around the wrong pixel are behind the object.
+      // For x <= 4, most pixels within 3 pixels of the wrong pixel belong to the object. For x >=
+      // 7, most of them are behind the object.
       CHECK(spoilt.Focus(x, 10) == (x < 6 ? 5 : 1));
       CHECK(spoilt.Focus(x, 9) == (x < 6 ? 5 : 1));  // next to it
     }
@@ -123,7 +123,7 @@ TEST_CASE("focus at: noise is averaged out") {
   test::Random random(5);
   Map map(60, 60, 0);
   for (float& value : map.values) {
-    double sum = 0;  // sum of twelve random numbers, nearly normal with variance 1
+    double sum = 0;  // approximately normally distributed with variance 1
     for (int k = 0; k < 12; ++k) sum += random.Unit();
     value = 2 + 0.3f * float(sum - 6);
   }
@@ -136,7 +136,7 @@ TEST_CASE("focus at: noise is averaged out") {
       worst = std::max(worst, std::fabs(error));
     }
   }
-  CHECK(std::sqrt(squares / (59 * 60)) < 0.08);  // 0.3 for a single pixel
+  CHECK(std::sqrt(squares / (59 * 60)) < 0.08);  // a single pixel has an RMS error of 0.3
   CHECK(worst < 0.5);
 }
 
@@ -175,7 +175,7 @@ TEST_CASE("focus at: random maps follow the definition") {
   test::Random random(6);
   for (int round = 0; round < 300; ++round) {
     Map map(random.Int(1, 12), random.Int(1, 12), 0, random.Int(0, 3));
-    // Steps of 1/8, so that ties and values at the limit occur.
+    // Disparities in steps of 1/8, so that ties and values at the limit occur.
     const int steps = random.Int(1, 40);
     for (float& value : map.values) value = float(random.Int(0, steps)) / 8;
     for (int y = 0; y < map.height; ++y) {

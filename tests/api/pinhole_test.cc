@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests aperture 0: the result must be the centre view, byte for byte, in every mode and with all
-// ways to refocus.
+// Tests aperture 0: the result must be the centre view, byte for byte, in every mode and through
+// every way to refocus.
 #include <doctest/doctest.h>
 
 #include <algorithm>

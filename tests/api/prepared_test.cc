@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests who may use a prepared light field, and its memory. ways_test.cc tests the bytes.
+// Tests which engines may use a prepared light field, and the memory of the light field.
+// ways_test.cc tests the bytes.
 #include <doctest/doctest.h>
 
 #include <cstdint>

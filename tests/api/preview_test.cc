@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests previews. The bytes must equal those of refocusing the reduced light field, and be close to
-// the reduced full picture. Also tests bad input.
+// Tests previews. The bytes must equal those of refocusing the reduced light field. The preview
+// must also be close to the reduced full picture. Also tests bad input.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace {
 
 int Ceil(int size, int shift) { return (size + (1 << shift) - 1) >> shift; }
 
-// Returns the code nearest to a mean of light.
+// Returns the code whose light is nearest to a mean of light.
 uint8_t CodeOf(int64_t sum, int64_t count, int32_t transfer) {
   const auto light = static_cast<int16_t>((2 * sum + count) / (2 * count));
   uint8_t code = 0;
@@ -87,7 +87,7 @@ starfocus_config ReducedConfig(const starfocus_config& config, int shift, int32_
   return reduced;
 }
 
-// Returns the reduced pixels that contain a part of the region. All fields are 0 for the whole
+// Returns the rectangle of reduced pixels that overlap the region. All fields are 0 for the whole
 // picture.
 starfocus_region ReducedRegion(const starfocus_region& region, int shift) {
   if (region.width == 0) return region;
@@ -96,7 +96,7 @@ starfocus_region ReducedRegion(const starfocus_region& region, int shift) {
           Ceil(region.y + region.height, shift) - y};
 }
 
-// An engine and a light field that it has prepared.
+// An engine, and a light field that the engine has prepared.
 class Prepared {
  public:
   Prepared(const test::Scene& scene, const starfocus_config& config,
@@ -152,7 +152,7 @@ double Psnr(const test::Output& got, const test::Output& full, int shift, int32_
   return 10 * std::log10(255.0 * 255 * 3 * got.width * got.height / sum);
 }
 
-// Returns true if a preview has the bytes of refocusing the light field `reduced`.
+// Returns true if a preview has the same bytes as the refocused light field `reduced`.
 bool IsOfReduced(Prepared* prepared, starfocus_params params, int shift,
                  const starfocus_config& config, const test::Scene& reduced) {
   starfocus_report report = {};
@@ -248,7 +248,7 @@ TEST_CASE("preview: the engine is unchanged, and the workspace does not grow") {
   const test::Output first = prepared.Preview(test::Params(5, 1, STARFOCUS_MODE_BLOCK), 2);
   const test::Output after = test::OutputOf(&prepared.engine, params, scene);
   CHECK(after.bytes == before.bytes);
-  // After a preview has interrupted a stream, the stream must begin again.
+  // A preview ends a stream, which the caller must then begin again.
   REQUIRE(starfocus_stream_begin(prepared.engine.get(), &params) == STARFOCUS_OK);
   const test::Output again = prepared.Preview(test::Params(5, 1, STARFOCUS_MODE_BLOCK), 2);
   CHECK(again.bytes == first.bytes);
@@ -297,7 +297,8 @@ TEST_CASE("preview: it is close to the reduced full picture") {
   starfocus_config config = test::ConfigFor(scene, 24);
   config.previews = 3;
   Prepared prepared(scene, config);
-  // The smallest preview shows little of waves of 9 pixels.
+  // The PSNR of the smallest preview is low, since waves of 9 pixels hardly survive at 1/8 of the
+  // size.
   constexpr double kLeast[] = {0, 53.5, 51.5, 43};
   for (const double focus : {9.0, 0.0, -9.0}) {
     const starfocus_params params = test::Params(focus, 1, STARFOCUS_MODE_BLOCK);
@@ -326,7 +327,7 @@ TEST_CASE("preview: it needs a light field prepared for previews, and an engine 
   };
   CHECK(run(another) == STARFOCUS_ERROR_PREPARED);
   CHECK(out.Untouched());
-  // The engine itself may be configured without previews.
+  // Only the light field must be prepared for previews; the engine may be configured without them.
   CHECK(run(none.engine) == STARFOCUS_OK);
 }
 

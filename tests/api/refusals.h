@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Calls with illegal arguments, one for each function that takes parameters, light fields or
-// pictures. A call must return the status of the table, name its field and write nothing.
+// pictures. A call must return the status in the table, name the field in the table, and write
+// nothing.
 #ifndef STARFOCUS_TESTS_API_REFUSALS_H_
 #define STARFOCUS_TESTS_API_REFUSALS_H_
 
@@ -16,7 +17,7 @@ namespace refusals {
 
 constexpr int kHeight = 12;
 
-// Sets of functions.
+// Sets of functions, as bits.
 enum : unsigned {
   kRefocus = 1,
   kAfter = 2,  // starfocus_refocus with params.previous
@@ -32,7 +33,7 @@ enum : unsigned {
   kTakesOut = kRefocus | kAfter | kPrepared | kPreview | kPull,
 };
 
-// A light field of R, G, B or of images in three formats, and everything else that calls need.
+// A light field of R, G, B or of images in three formats, and all other arguments of the calls.
 struct Fixture {
   explicit Fixture(bool with_images) : images(with_images) {}
 
@@ -65,7 +66,7 @@ struct Fixture {
   test::ImageMemory blank{width, kHeight, image.views[images ? 2 : 0].kind()};
 };
 
-// The arguments of a call. All of them are legal at first.
+// The arguments of a call, which are legal at first.
 struct Call {
   Call(Fixture* of, unsigned to) : f(*of), function(to) {
     std::memset(&report, test::kPoison, sizeof report);

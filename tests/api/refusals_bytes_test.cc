@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests a table of illegal arguments of the functions that make, prepare and stream pictures.
+// Tests a table of illegal arguments for the functions that refocus, prepare and stream pictures.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -93,7 +93,7 @@ const Row kPictures[] = {
     {kPreview, "preview_shift", kOther, [](Call* c) { c->params.preview_shift = 3; }},
     {kPreview, "preview_shift", kOther, [](Call* c) { c->params.preview_shift = 32; }},
 
-    // Without STARFOCUS_FEATURE_IMAGES.
+    // Rejections by an engine without STARFOCUS_FEATURE_IMAGES.
     {kTakesField, "views[].format", kFeature,
      [](Call* c) {
        c->engine = c->f.plain.get();

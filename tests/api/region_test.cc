@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests regions of the picture. They must have the bytes of the whole picture and cost only a part
-// of its work.
+// Tests regions of the picture. A region must have the bytes of the whole picture, and refocusing a
+// region must cost only a part of the work.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ std::string Text(const starfocus_region& r) {
 }
 
 TEST_CASE("region: boundaries between blocks of different layers are deblocked into it") {
-  // Layers 0 and 2 are adjacent for any pixels.
+  // Blocks at layers 0 and 2 are adjacent, whatever the colours of the pixels are.
   for (const int side : {32, 64}) {
     test::Scene scene = test::LayeredScene(160, 160, 5, 12, 5);
     test::SetDisparity(&scene,

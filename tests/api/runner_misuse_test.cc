@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests runners that break their contract. Calls must return STARFOCUS_ERROR_RUNNER and cause no
-// further damage.
+// Tests runners that break their contract. Calls must return STARFOCUS_ERROR_RUNNER, and the engine
+// must remain usable.
 #include <doctest/doctest.h>
 
 #include <atomic>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kWidth = 130, kHeight = 70, kWorkers = 2;
 
-// One set of jobs as a runner gets it.
+// The arguments of a runner: one set of jobs.
 struct Set {
   void Some(int32_t first, int32_t end) const {
     for (int32_t i = first; i < end; ++i) job(data, i, i % kWorkers);
@@ -40,7 +40,7 @@ struct Misuse {
   void (*run)(const Set&);
 };
 
-// All of these runners report success.
+// Runners that break the contract. All of them return success.
 const Misuse kMisuses[] = {
     {"runs nothing", [](const Set&) {}},
     {"skips the first job", [](const Set& s) { s.Some(1, s.count); }},
@@ -117,7 +117,7 @@ TEST_CASE("runner: every misuse of every set is an error, and does not affect la
   }
 }
 
-// The running set, for a clock that is called by its jobs.
+// The set of jobs that is running. The clock, which jobs call, uses this set.
 struct {
   starfocus_job job;
   void* data;
@@ -161,7 +161,7 @@ TEST_CASE("runner: a job called after its runner has returned does nothing") {
     for (const int index : {-1, 0, 1, 1000}) running.job(running.data, index, worker);
   }
   CHECK(out.bytes == f.expected.bytes);
-  // The late call does not affect later calls.
+  // Jobs that ran too late must not affect the next call.
   CHECK(test::Refocus(&engine, f.params, f.scene, &out, keeps) == STARFOCUS_OK);
   CHECK(out.bytes == f.expected.bytes);
 }
@@ -169,7 +169,7 @@ TEST_CASE("runner: a job called after its runner has returned does nothing") {
 TEST_CASE("runner: the engine waits for jobs that still run when their runner returns") {
   Fixture f;
   test::Engine engine(f.config);
-  // Omits the last job, so that no set is complete, however fast the thread is.
+  // The runner omits the last job, so that no set is complete, however fast the thread is.
   const starfocus_runner leaves = [](void* data_of_runner, starfocus_job job, void* data,
                                      int32_t count) {
     std::thread& thread = *static_cast<std::thread*>(data_of_runner);

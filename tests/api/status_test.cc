@@ -7,7 +7,7 @@
 
 #include "starfocus/starfocus.h"
 
-// With this option, a status that is missing below does not compile.
+// With -Werror=switch, the switch below must list every status.
 #pragma GCC diagnostic error "-Wswitch"
 
 namespace status_test {
@@ -72,7 +72,7 @@ TEST_CASE("statuses: each status has a unique sentence, and other numbers have n
     CAPTURE(sentence);
     CHECK(sentence != "unknown status");
     CHECK(sentences.insert(sentence).second);
-    // The words of other statuses must not appear.
+    // The sentence must not contain the words of other statuses.
     for (int other = 0; other < 100; ++other) {
       const char* const words = WordsOf(static_cast<starfocus_status>(other));
       if (words == nullptr) continue;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Streamed rows must have the bytes of the whole picture. The memory must not depend on the height.
+// Tests that streamed rows have the bytes of the whole picture, and that the memory does not depend
+// on the height.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -85,7 +86,7 @@ TEST_CASE("stream: a picture of 20,000 rows fits the workspace of a picture of 2
     REQUIRE(starfocus_workspace_size(&config, &low_bytes) == STARFOCUS_OK);
     CHECK(tall_bytes == low_bytes);
   }
-  // 20,000 rows in one push exceed the rings, so the engine must not take all of them.
+  // The rings hold fewer than 20,000 rows, so a single push must not consume all rows.
   config.height = kTall;
   test::Engine engine(config);
   REQUIRE(engine.bytes() == low_bytes);
@@ -104,7 +105,7 @@ TEST_CASE("stream: a picture of 20,000 rows fits the workspace of a picture of 2
   CHECK(streamed.bytes == whole.bytes);
 }
 
-// With one view, rings hold exactly the rows that blocks at layers 1 and 2 need.
+// With one view, rings hold exactly the rows that blocks at layers 1 and 2 read.
 TEST_CASE("stream: rings hold all rows that layers need, up to the largest blur") {
   for (int radius = 1; radius <= 16; ++radius) {
     test::Scene scene = test::RandomScene(48, 200, 1, 0, float(radius), 70 + uint64_t(radius));

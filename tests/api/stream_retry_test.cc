@@ -15,7 +15,8 @@ namespace {
 
 constexpr int kWidth = 150, kHeight = 170;
 
-// Runs half of the jobs of chosen sets and fails. `fails_at` counts sets.
+// Runner that runs only half of the jobs and fails for `times` sets of jobs. The first failing set
+// has the index `fails_at`.
 struct Failing {
   int fails_at, times;
   int sets = 0;
@@ -36,7 +37,8 @@ struct Streamed {
 };
 
 // Pushes as many rows as possible and pulls `chunk` rows at a time. Repeats each pull whose runner
-// failed. Uses a new engine, since memory left by another engine could be right by chance.
+// failed. Uses a new engine, since memory from an earlier stream could have the right contents by
+// chance.
 Streamed Stream(const starfocus_config& config, const starfocus_params& params,
                 const test::Scene& scene, int chunk, Failing* failing) {
   Streamed result;
@@ -87,7 +89,7 @@ void CheckRetries(const test::Scene& scene, const starfocus_params& params, int 
       params.mode == STARFOCUS_MODE_BLOCK && params.renderer == STARFOCUS_RENDERER_SLICES;
   for (const starfocus_layer_report& layer : expected.report.layers)
     CHECK((!all_layers || layer.blocks > 0));
-  constexpr int kStep = STARFOCUS_EMULATED ? 4 : 1;  // an emulator would need twenty times as long
+  constexpr int kStep = STARFOCUS_EMULATED ? 4 : 1;  // an emulator takes twenty times as long
   int failed = 0, tried = 0;
   for (int set = 0; set < never.sets; set += kStep, ++tried) {
     CAPTURE(set);

@@ -50,7 +50,8 @@ TEST_CASE(
   }
 }
 
-// With the line scan, a silhouette in one view would get a halo as wide as the blur.
+// The line scan would draw a halo as wide as the blur around silhouettes in a light field of one
+// view.
 TEST_CASE("views: one view uses subapertures in every mode unless the paper's rule is requested") {
   const test::Scene scene = test::RandomScene(70, 50, 1, -4, 6, 5);
   for (const starfocus_mode mode :
@@ -136,7 +137,7 @@ TEST_CASE("views: bad positions are rejected before anything is made") {
     return starfocus_workspace_size(&config, &bytes);
   };
   CHECK(status({{0, 0}, {-1, 1}}) == STARFOCUS_OK);
-  // No positions, and two views are no star.
+  // Without positions, a light field of two views is illegal, since no star set has two views.
   CHECK(status({{0, 0}, {0, 0}}) == STARFOCUS_ERROR_RANGE);
   CHECK(status({{0, 0}, {1.5, 0}}) == STARFOCUS_ERROR_RANGE);
   CHECK(status({{0.5, 0}, {1, 0}}) == STARFOCUS_ERROR_RANGE);

@@ -53,7 +53,7 @@ TEST_CASE("opening: light passes where the shape is open") {
     for (int k = 0; k < 2000; ++k) {
       const int x = random.Int(-1050, 1050), y = random.Int(-1050, 1050);
       const bool open = starfocus::LetsThrough(opening, x, y, kRadius);
-      // Points close to an edge may be on either side of it.
+      // Points close to an edge may count as inside or outside.
       bool near_edge = false, inside = exact.Density(x / 1000.0, y / 1000.0) > 0;
       for (const double turn : {0.0, 1.6, 3.1, 4.7}) {
         const double u = x / 1000.0 + 5e-4 * std::cos(turn), v = y / 1000.0 + 5e-4 * std::sin(turn);
@@ -85,7 +85,7 @@ TEST_CASE("opening: all weights sum to a power of two, and none exceeds its type
         CHECK(too_large == 0);
       };
       check(whole);
-      // Rims at the largest distance in any direction, and at smaller ones.
+      // Rims at the largest distance in any direction, and at smaller distances.
       for (int k = 0; k < 4; ++k) {
         const double angle = random.Real(0, 6.3), far = k < 2 ? 1 : random.Unit();
         const int one = starfocus::kOpeningOne;

@@ -77,7 +77,7 @@ TEST_CASE("cancel: work continues without a progress function") {
 struct Nested {
   CallProgress* watch;
   int calls = 0;
-  bool other = false;  // result in the other thread
+  bool other = false;  // result of the report in the other thread
 
   static int Progress(void* data, int32_t, int32_t) {
     Nested& self = *static_cast<Nested*>(data);

@@ -99,7 +99,8 @@ TEST_CASE("view grid: views up to half a unit away use the views at half distanc
   CHECK(MakeGrid(0, 0, 1, 0, true).half_views == 0);
 }
 
-// For any range of disparities in a run, pixels are drawn at most 1/8 of a pixel from their place.
+// In a run of any spread of disparities, pixels are drawn at most 1/8 of a pixel from their exact
+// position.
 TEST_CASE("view grid: the spread of a run displaces pixels by at most an eighth of a pixel") {
   for (const double aperture : {1.0, 0.9, 0.5, 0.3, 0.2, 0.01, 1e-7}) {
     for (const int layer : {0, 1, 2}) {
@@ -109,7 +110,7 @@ TEST_CASE("view grid: the spread of a run displaces pixels by at most an eighth 
       CHECK(grid.spread >= 1);
       CHECK(grid.spread <= starfocus::kSurfaceStep);
       CHECK(spread / 2 * u <= 0.125 + 1e-6);
-      // The spread is as large as this bound allows.
+      // A larger spread would exceed the bound.
       const bool largest =
           grid.spread == starfocus::kSurfaceStep || (spread + 1.0 / 64) / 2 * u > 0.125 - 1e-6;
       CHECK(largest);

@@ -69,10 +69,11 @@ TEST_CASE("views: a pair sees one side, an L two sides, and a row has two views 
 TEST_CASE("views: other views are used if none is nearer to the side") {
   CHECK(LooksOf(Config({{0, 0}, {1, 1}})) == Sides{{1}, {}, {1}, {}});
   CHECK(LooksOf(Config({{0, 0}, {1, 1}, {0.5, 0}})) == Sides{{2}, {}, {1}, {}});
-  // The distance across the axis may be up to eight times the distance along it.
+  // A view may be up to eight times as far from the axis as it is along the axis.
   CHECK(LooksOf(Config({{0, 0}, {0.13, 1}})) == Sides{{1}, {}, {1}, {}});
   CHECK(LooksOf(Config({{0, 0}, {0.125, 1}})) == Sides{{}, {}, {1}, {}});
-  // If there are several, the two views that lie farthest along the axis are chosen.
+  // If several views see behind edges on one side, the two that lie farthest along the axis are
+  // chosen.
   CHECK(LooksOf(Config({{0, 0}, {0.4, 0}, {1, 0.1}, {0.9, -0.8}, {0.8, 0}}))[0] ==
         std::vector<int>{2, 4});
 }

@@ -107,15 +107,15 @@ TEST_CASE("aperture: weights follow (3), sum to a power of two and fit signed 16
       CHECK(sum == int64_t{1} << aperture.sum_bits);
       CHECK(outside == 0);
       CHECK(too_large == 0);
-      // At least half of the range of weights is used, so that their rounding errors are small.
+      // The largest weight exceeds half of the range of weights, so that rounding errors are small.
       if (aperture.sum_bits < starfocus::kMaxLightBits) CHECK(aperture.Weight(0, 0) > 16000);
     }
   }
   MESSAGE("furthest from (3): " << furthest << ", the centre " << furthest_centre);
-  // A weight takes the remainder of rounding of the orbit before it: up to 4 units, which are one
-  // unit for each of 4 views. The centre takes up to 4 units alone. To this, its own rounding adds
-  // half a unit, and another half on the diagonals, where weights are even. The densities have 20
-  // bits.
+  // Each orbit of views takes the remainder of rounding of the previous orbit. The remainder is at
+  // most 4 units: one unit for each of 4 views, or up to 4 units for the centre alone. Rounding the
+  // weight adds half a unit, and another half unit on the diagonals, where weights are even. The
+  // densities have 20 bits.
   CHECK(furthest < 2);
   CHECK(furthest_centre < 4.6);
 }
@@ -177,7 +177,7 @@ TEST_CASE("aperture: subapertures have the light of their part of the lens") {
           squares += weight * (i * i + j * j + 1.0 / 6) / (lens * lens);
         }
       }
-      // Integrates over rings of the lens; `exact` is the mean square of their radius.
+      // Integrates over rings of the lens. `exact` is the mean square of the radius.
       for (double rho = 0.5e-3; rho < 1; rho += 1e-3) {
         const double ring = rho * std::pow(c / (rho * rho + c), 2);
         light += ring;
@@ -186,7 +186,7 @@ TEST_CASE("aperture: subapertures have the light of their part of the lens") {
       CHECK(subapertures.last > 0);
       CHECK(views == subapertures.views);
       CHECK(sum == std::ldexp(1.0, subapertures.sum_bits));
-      // A box spreads the light of a subaperture at the rim beyond the part inside the lens.
+      // The box of a subaperture at the rim spreads light beyond the rim of the lens.
       CHECK(squares / sum == doctest::Approx(exact / light)
                                  .epsilon(n < 4    ? 0.25
                                           : n < 13 ? 0.06
