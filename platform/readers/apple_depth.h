@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads depth maps that are stored as Apple's auxiliary pictures: interprets their XMP, in HEIC and
-// in JPEG files, and finds them in JPEG files.
+// Reads depth maps that are stored as Apple's auxiliary pictures. Interprets the XMP of these
+// pictures in HEIC and JPEG files, and finds the pictures in JPEG files.
 #ifndef STARFOCUS_PLATFORM_READERS_APPLE_DEPTH_H_
 #define STARFOCUS_PLATFORM_READERS_APPLE_DEPTH_H_
 
@@ -11,8 +11,8 @@
 
 namespace starfocus {
 
-// Converts the levels of the map to inverse distances, by the XMP of the auxiliary picture. If the
-// XMP has no valid range, the map becomes an order (MapMeaning::kOrder).
+// Converts the levels of the map to inverse distances with the range in the XMP of the auxiliary
+// picture. If the XMP has no valid range, the map receives the meaning MapMeaning::kOrder.
 void UnderstandApple(const XmpNode& xmp, DepthPhoto* photo);
 
 // Reads the first map of disparities or depths among the pictures after the primary one, if any.

@@ -8,7 +8,8 @@
 namespace starfocus {
 namespace {
 
-// Reads numbers of a given count of bits. After the end it returns zeros, and `good` is false.
+// Reads numbers of a given number of bits. After the end of the data, returns zeros and sets `good`
+// to false.
 class Bits {
  public:
   explicit Bits(Span bytes) : bytes_(bytes) {}

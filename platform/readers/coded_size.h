@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads picture sizes from the headers of HEVC and AV1 data, without decoding it.
+// Reads picture sizes from the headers of HEVC and AV1 data, without decoding the pictures.
 #ifndef STARFOCUS_PLATFORM_READERS_CODED_SIZE_H_
 #define STARFOCUS_PLATFORM_READERS_CODED_SIZE_H_
 
@@ -13,12 +13,12 @@ struct CodedSize {
   int64_t width = 0, height = 0;  // 0: not found
 };
 
-// Returns the largest size of all sequence parameter sets in a decoder configuration record (hvcC)
-// and at the start of a picture's data.
+// Returns the largest picture size in the sequence parameter sets of a decoder configuration record
+// (hvcC) and of the start of a picture's data.
 CodedSize HevcSize(Span configuration, const Bytes& head);
 
-// Returns the largest size of all AV1 sequence headers, in the configuration (av1C) and at the
-// start of a picture's data.
+// Returns the largest picture size in the AV1 sequence headers of the configuration (av1C) and of
+// the start of a picture's data.
 CodedSize Av1Size(Span configuration, const Bytes& head);
 
 }  // namespace starfocus

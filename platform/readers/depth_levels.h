@@ -27,12 +27,12 @@ void ToRange(double low, double high, FloatMap* map);
 // Replaces distances by their inverse. Distances that are not positive become unknown.
 void Invert(FloatMap* map);
 
-// Inverts a map that has only an order if necessary, so that larger values are nearer. If `near` is
-// kUnknown, the near end is guessed and noted: the bottom of a photograph is usually nearer than
-// its top.
+// Orders the values of a map of meaning kOrder so that larger values are nearer; inverts the map if
+// necessary. If `near` is kUnknown, the function guesses which end of the range is near, and adds a
+// note. The guess assumes that the bottom of a photograph is nearer than its top.
 void ToOrder(Near near, DepthPhoto* photo);
 
-// Adds a fact about the map as the file stores it.
+// Adds a fact that describes how the file stores the map.
 void TellMap(const std::string& text, DepthPhoto* photo);
 
 // Decodes the picture of a JPEG file and takes EXIF and the ICC profile from `parts`.

@@ -7,7 +7,7 @@
 
 namespace starfocus {
 
-// End of the range of a depth picture that is near.
+// Near end of the value range of a depth picture.
 enum class Near { kUnknown, kWhite, kBlack };
 
 // Unit of the values of a depth picture.
@@ -18,19 +18,19 @@ enum class DepthUnit {
   kDisparity,    // disparities: pixels of the photo for an aperture of radius 1
 };
 
-// Orientation of a depth picture in its file.
+// How a depth picture is oriented in its file, relative to the photo.
 enum class DepthOrientation {
   kUnknown,  // decided by comparing the edges of photo and map
-  kPhoto,    // same as the photo's file: EXIF's orientation applies to both
-  kUpright,  // same as the photo after EXIF's orientation is applied
+  kPhoto,    // oriented as the photo's file: EXIF's orientation applies to both
+  kUpright,  // oriented as the photo after EXIF's orientation is applied
 };
 
 struct DepthOptions {
   Near near = Near::kUnknown;
   DepthUnit unit = DepthUnit::kNone;
   DepthOrientation orientation = DepthOrientation::kUnknown;
-  // Values that mean an unknown depth. If there are none, MarkUnknown decides about 0 and 65535 in
-  // 16-bit maps.
+  // True if `unknown` lists the values that mean an unknown depth. If false, MarkUnknown decides
+  // whether 0 and 65535 are depths in 16-bit maps.
   bool has_unknown = false;
   std::vector<double> unknown;
   bool use_alpha = true;  // treat transparent pixels as unknown

@@ -65,7 +65,7 @@ XmpNode ReadXmp(const JpegParts& parts, bool all, DepthPhoto* photo) {
   return root;
 }
 
-// Reads the map by the first format that succeeds.
+// Reads the map in the first format that succeeds.
 void ReadMap(Span file, const JpegParts& parts, const XmpNode& xmp, Near near, DepthPhoto* photo) {
   const auto read = [photo](const Error& error) {
     if (error) photo->map = {};
@@ -101,7 +101,8 @@ Error CheckOptions(const std::string& path, const DepthOptions& options) {
 }
 
 // Reads the map from extended XMP that no packet refers to. Editors that rewrite the packet leave
-// such XMP. The specification says to ignore it, so all other maps take precedence.
+// such stray XMP in the file. The specification says to ignore stray XMP, so all other maps take
+// precedence.
 bool ReadStrayMap(Span file, Near near, DepthPhoto* photo) {
   if (!IsJpeg(file)) return false;
   const Result<JpegParts> parts = ReadJpegParts("", file);
@@ -135,7 +136,8 @@ void KeepCaptions(DepthPhoto* photo) {
   photo->metadata.xmp = KeptXmp(*root);
 }
 
-// Notes why the map in the file is not used, unless there is already such a note.
+// Adds a note that explains why the map in the file is not used, unless `photo` already has this
+// note.
 void NoteProblem(DepthPhoto* photo) {
   const std::string& problem = photo->map_problem;
   const std::vector<std::string>& notes = photo->notes;

@@ -11,16 +11,16 @@
 
 namespace starfocus {
 
-// Reads a photograph and its map. The map comes from the depth picture `depth` if that is not
-// empty, otherwise from the file, otherwise from a depth picture next to it. If there is no map,
-// the file may be a stereo pair; then photo.right is the right picture. Damaged optional data is
-// ignored with a note. `options` apply to a depth picture: with a map in the file, any option
-// except `near` is an error.
+// Reads a photograph and its map. The map is read from the depth picture `depth` if the path is not
+// empty. Otherwise, the map is read from the file of the photograph or, if the file has none, from
+// a depth picture next to the file. If there is no map, the file may be a stereo pair; then
+// photo.right is the right picture. Damaged optional data is ignored with a note. `options` apply
+// to a depth picture. If the map is in the file, any option except `near` is an error.
 Result<DepthPhoto> ReadDepthPhotoFile(const std::string& path, const DepthOptions& options,
                                       const std::string& depth);
 
 // Decodes a photograph in memory, and its map if `with_map` is true. The map is empty if the file
-// has none that can be read.
+// has no readable map.
 Result<DepthPhoto> DecodeDepthPhoto(const std::string& where, Span file, bool with_map, Near near);
 
 }  // namespace starfocus

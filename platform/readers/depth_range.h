@@ -16,10 +16,11 @@ struct RangeProperties {
 
 // Replaces the levels of photo->map, 0 to 1, by inverse distances. A valid range has the format
 // RangeInverse or RangeLinear, and 0 < near < far. `far` may be infinite if the format is
-// RangeInverse. Level 0 is near. An invalid range is ignored with a note: the map becomes an order,
-// in which black is near unless `near` is kWhite.
+// RangeInverse. Level 0 is near. An invalid range is ignored with a note: the map receives the
+// meaning kOrder, and black is near unless `near` is kWhite.
 //
-// @return metres per unit of distance; 1 if the unit is unknown, 0 if the map is an order
+// @return metres per unit of distance; 1 if the unit is unknown, 0 if the meaning of the map is
+//     kOrder
 double ApplyRange(const RangeProperties& range, Near near, DepthPhoto* photo);
 
 }  // namespace starfocus

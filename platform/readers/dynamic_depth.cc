@@ -17,7 +17,8 @@ namespace {
 constexpr size_t kMostItems = 64;
 constexpr uint8_t kPng[] = {0x89, 'P', 'N', 'G'};
 const std::string kMap = "http://ns.google.com/photos/dd/1.0/depthmap/|";
-// Namespaces of items: that of the specification, and that of later files by the same vendor.
+// Namespaces of items: the namespace of the specification, and the namespace of later files by the
+// same vendor.
 const std::string kItems[] = {"http://ns.google.com/photos/dd/1.0/item/|",
                               "http://ns.google.com/photos/1.0/container/item/|"};
 
@@ -67,8 +68,8 @@ Span From(Span file, size_t at) {
   return at < file.size ? Span{file.data + at, file.size - at} : Span{};
 }
 
-// Finds item `index` by the lengths in the directory. The item starts where the lengths of the
-// items before it end. If other data was inserted, the lengths are counted from the end of the
+// Finds item `index` by the lengths in the directory. The lengths of all earlier items give the
+// position of the item. If other data was inserted, the lengths are counted from the end of the
 // file. Decoders ignore data after the item. Returns an empty span if no picture starts at either
 // position.
 Span FindByLengths(Span file, const JpegParts& parts, const std::vector<Item>& items,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Dynamic Depth 1.0, Google's format since 2018: XMP in a JPEG file lists the pictures that follow
-// the primary one, and their purpose.
+// Reads Dynamic Depth 1.0, Google's format since 2018. XMP in a JPEG file lists the pictures that
+// follow the primary picture, and the purpose of each picture.
 #ifndef STARFOCUS_PLATFORM_READERS_DYNAMIC_DEPTH_H_
 #define STARFOCUS_PLATFORM_READERS_DYNAMIC_DEPTH_H_
 

@@ -14,8 +14,8 @@ namespace {
 
 constexpr size_t kMostBytes = 65535;  // limit of a JPEG segment
 
-// Returns the 16-bit or 32-bit integers of a tag, at most four. Empty if the tag is missing or has
-// another type.
+// Returns the 16-bit or 32-bit integers of a tag, at most four. The result is empty if the tag is
+// missing or has another type.
 std::vector<double> NumbersOf(ExifData* data, ExifIfd directory, ExifTag tag) {
   std::vector<double> numbers;
   ExifEntry* entry = exif_content_get_entry(data->ifd[directory], tag);
@@ -39,8 +39,8 @@ int ShortOf(ExifData* data, ExifIfd directory, ExifTag tag) {
   return static_cast<int>(numbers[0]);
 }
 
-// Reads the subject. Its first two numbers are its centre; the diameter of a circle or the sides of
-// a rectangle may follow (EXIF 2.32, 4.6.6.5).
+// Reads the position of the subject. The first two numbers of the tag are the centre of the
+// subject. The diameter of a circle or the sides of a rectangle may follow (EXIF 2.32, 4.6.6.5).
 void ReadSubject(ExifData* data, double width, double height, DepthPhoto* photo) {
   std::vector<double> subject = NumbersOf(data, EXIF_IFD_EXIF, EXIF_TAG_SUBJECT_AREA);
   if (subject.size() < 2) subject = NumbersOf(data, EXIF_IFD_EXIF, EXIF_TAG_SUBJECT_LOCATION);
@@ -48,7 +48,8 @@ void ReadSubject(ExifData* data, double width, double height, DepthPhoto* photo)
   const std::vector<double> y = NumbersOf(data, EXIF_IFD_EXIF, EXIF_TAG_PIXEL_Y_DIMENSION);
   if (subject.size() < 2 || !(width > 0 && height > 0)) return;
   if (x.size() == 1 && y.size() == 1 && x[0] > 0 && y[0] > 0) {
-    // If the picture has other proportions, it was cropped, and EXIF does not state where.
+    // If the proportions differ from the size in EXIF, the picture was cropped, and EXIF does not
+    // state where.
     constexpr double kSameShape = 0.01;
     if (std::fabs(x[0] * height / (y[0] * width) - 1) > kSameShape) return;
     width = x[0];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads the EXIF properties of a photograph that refocusing needs.
+// Reads the EXIF properties of a photograph that refocusing uses.
 #ifndef STARFOCUS_PLATFORM_READERS_EXIF_H_
 #define STARFOCUS_PLATFORM_READERS_EXIF_H_
 
@@ -9,11 +9,12 @@ namespace starfocus {
 
 // Reads photo->metadata.exif, if any, into `orientation`, `focal_35mm` and the subject
 // (SubjectArea, otherwise SubjectLocation), and adds a fact. Damaged EXIF is ignored, since the
-// picture is usable without it. `width` and `height` are those of the picture before its
-// orientation is applied. The subject's coordinates refer to them if EXIF states no size.
+// picture is usable without it. `width` and `height` are the size of the picture before its
+// orientation is applied. The subject's coordinates refer to this size if EXIF states no size.
 void ReadExif(int width, int height, DepthPhoto* photo);
 
-// Same, with the size of photo->picture, whose orientation is not applied yet.
+// Reads EXIF as above, with the size of photo->picture. The orientation must not have been applied
+// yet.
 void ReadExif(DepthPhoto* photo);
 
 }  // namespace starfocus

@@ -64,7 +64,7 @@ void ReadOwnDisparities(const XmpNode& xmp, DepthPhoto* photo) {
   photo->is_ready = true;
 }
 
-// Replaces the primary picture, which is already blurred, by the sharp one in the XMP. An
+// Replaces the primary picture, which is already blurred, by the sharp picture in the XMP. An
 // unreadable sharp picture is ignored with a note.
 void ReadSharp(const XmpNode& xmp, DepthPhoto* photo) {
   const std::string* data = FindProperty(xmp, kImage + "Data");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// GDepth, Google's format of depth photographs since 2014. XMP in a JPEG file, mostly extended XMP,
-// contains the map as a PNG or JPEG picture in base64. The primary picture is often blurred
-// already; then the XMP also contains the sharp one.
+// Reads GDepth, Google's format of depth photographs since 2014. The XMP of a JPEG file, usually
+// extended XMP, contains the map as a PNG or JPEG picture in base64. The primary picture is often
+// already blurred; in this case the XMP also contains the sharp picture.
 #ifndef STARFOCUS_PLATFORM_READERS_GDEPTH_H_
 #define STARFOCUS_PLATFORM_READERS_GDEPTH_H_
 

@@ -25,8 +25,9 @@ bool Has(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-// Sets the widest f-stop: that of a lens whose rim passes through the outermost views. It is the
-// focal length divided by twice their distance from the centre.
+// Sets the widest f-stop, which belongs to a lens whose rim passes through the outermost views.
+// This f-stop is the focal length divided by twice the distance of the outermost views from the
+// centre.
 Error ReadParameters(const std::string& path, int reach, Capture* capture) {
   Result<KeyValues> read = ReadKeyValues(path);
   if (!read) return read.error();
@@ -68,7 +69,7 @@ Result<Capture> OpenHci(const std::string& folder, const std::vector<std::string
   capture.files = std::move(star->views);
   if (Has(names, kMap)) {
     capture.map_path = (std::filesystem::path(folder) / kMap).string();
-    capture.map_scale = star->reach;  // the file's disparities are between neighbouring views
+    capture.map_scale = star->reach;  // the file stores disparities between neighbouring views
   }
   if (!Has(names, kParameters)) return capture;
   const std::string parameters = (std::filesystem::path(folder) / kParameters).string();

@@ -146,7 +146,8 @@ Bytes ReadMetadata(const heif_image_handle* handle, const char* type, const char
 
 void ReadProfiles(const heif_image_handle* handle, DepthPhoto* photo) {
   Bytes exif = ReadMetadata(handle, "Exif", nullptr);
-  // The first four bytes are the distance from their end to the TIFF header.
+  // The first four bytes are the offset of the TIFF header, counted from the end of these four
+  // bytes.
   if (exif.size() > 4) {
     const size_t skip = ReadBigEndian32(exif.data());
     if (skip < exif.size() - 4) {
@@ -154,8 +155,8 @@ void ReadProfiles(const heif_image_handle* handle, DepthPhoto* photo) {
     }
   }
   // libheif has already rotated the pictures by the transformations of the file. In most files,
-  // EXIF's orientation is the same transformation and therefore applies to the subject. The sizes
-  // show if it is not the same.
+  // EXIF's orientation is the same transformation and therefore applies to the subject. If the two
+  // differ, the stored size shows the difference.
   const int stored_width = heif_image_handle_get_ispe_width(handle);
   const int stored_height = heif_image_handle_get_ispe_height(handle);
   ReadExif(stored_width, stored_height, photo);
@@ -179,7 +180,7 @@ void ReadCaptions(const heif_image_handle* handle, DepthPhoto* photo) {
   if (root) photo->metadata.xmp = KeptXmp(*root);
 }
 
-// Adds a fact if an auxiliary picture is a gain map, which refocusing does not use.
+// Adds a fact if an auxiliary picture is a gain map. Refocusing does not use gain maps.
 void TellGainMap(const heif_image_handle* handle, DepthPhoto* photo) {
   heif_item_id ids[16];
   const int count = heif_image_handle_get_list_of_auxiliary_image_IDs(handle, 0, ids, 16);

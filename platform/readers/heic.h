@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads HEIF files (HEIC, AVIF) with a depth map as an auxiliary picture (ISO/IEC 23008-12), with
-// libheif.
+// Reads HEIF files (HEIC, AVIF) that contain a depth map as an auxiliary picture (ISO/IEC
+// 23008-12). Uses libheif.
 #ifndef STARFOCUS_PLATFORM_READERS_HEIC_H_
 #define STARFOCUS_PLATFORM_READERS_HEIC_H_
 

@@ -15,7 +15,7 @@ struct Box {
   Span body;
 };
 
-// Reads big-endian integers. After the end it returns 0, and `good` is false.
+// Reads big-endian integers. After the end of the data, returns 0 and sets `good` to false.
 class Cursor {
  public:
   explicit Cursor(Span bytes) : rest_(bytes) {}

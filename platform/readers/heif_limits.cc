@@ -8,7 +8,8 @@
 namespace starfocus {
 namespace {
 
-// Largest width and height. Within this limit, 2^28 pixels, libheif allocates what a file declares.
+// Largest width and height. A square of this size has 2^28 pixels. Up to this limit, libheif may
+// allocate the size that a file declares.
 constexpr int64_t kMostSide = 16384;
 // Limit of pixels per byte of the file. An AVIF picture of one colour has 31 000 pixels per byte.
 constexpr int64_t kMostPixelsPerByte = 32768, kAnyFilesPixels = int64_t{1} << 20;
@@ -73,7 +74,7 @@ Error CheckCoded(const std::string& where, const HeifItem& item) {
   if (!IsCoded(item)) return {};
   const CodedSize size = item.type == "hvc1" ? HevcSize(item.configuration, item.head)
                                              : Av1Size(item.configuration, item.head);
-  // If the header has no readable size, libheif cannot read one either.
+  // If the header has no readable size, libheif cannot read a size from it either.
   if (size.width <= item.width + kPadding && size.height <= item.height + kPadding) return {};
   return Expected(
       where, "a coded picture of " + SizeText(item.width, item.height) + ", as its item declares",

@@ -15,8 +15,9 @@ namespace starfocus {
 Error CheckHeifSize(const std::string& where, int64_t width, int64_t height, size_t file);
 
 // Returns an error if the items of a file are malformed, too large or inconsistent. A derived
-// picture may contain only coded pictures, in the declared number, and their total area may not be
-// much larger than its own. A coded picture must have the size that its item declares.
+// picture may contain only coded pictures, in the declared number. The total area of these coded
+// pictures may not be much larger than the area of the derived picture. A coded picture must have
+// the size that its item declares.
 Error CheckHeif(const std::string& where, Span file);
 
 }  // namespace starfocus

@@ -17,8 +17,8 @@ constexpr size_t kGuidSize = 32;
 
 constexpr uint8_t kApp1 = 0xe1, kApp2 = 0xe2, kApp13 = 0xed;
 
-// Removes `name` and its zero byte from the start of a segment. Returns false if the segment does
-// not start with them.
+// Removes `name` and its terminating zero byte from the start of a segment. Returns false if the
+// segment does not start with these bytes.
 template <size_t kSize>
 bool Strip(const char (&name)[kSize], Span* segment) {
   if (segment->size < kSize || std::memcmp(segment->data, name, kSize) != 0) return false;
@@ -56,8 +56,8 @@ void TakeApp2(Span segment, std::vector<Span>* profile, JpegParts* parts) {
   if (Strip("ICC_PROFILE", &segment) && segment.size >= 2) profile->push_back(segment);
 }
 
-// Joins the parts of a profile (ICC.1 annex B.4). Each part starts with its number, from 1, and the
-// number of parts.
+// Joins the parts of a profile (ICC.1 annex B.4). Each part starts with its own number, counted
+// from 1, and the total number of parts.
 void JoinProfile(std::vector<Span> profile, JpegParts* result) {
   if (profile.empty()) return;
   std::stable_sort(profile.begin(), profile.end(),
@@ -78,9 +78,9 @@ void JoinProfile(std::vector<Span> profile, JpegParts* result) {
                            : "some of its " + std::to_string(count) + " parts are missing");
 }
 
-// Finds IPTC among Photoshop's image resources, which may continue in the next segment. A resource
-// consists of "8BIM", a number, a name and data. The name and the data start with their length and
-// are padded to an even size.
+// Finds IPTC records among Photoshop's image resources, which may continue in the next segment. A
+// resource consists of "8BIM", a number, a name and data. The name and the data each start with a
+// length and are padded to an even size.
 Bytes FindIptc(const std::vector<Span>& segments) {
   constexpr size_t kHeader = 6;
   constexpr uint8_t kIptc[] = {'8', 'B', 'I', 'M', 0x04, 0x04};

@@ -30,18 +30,18 @@ struct XmpExtension {
 
 struct JpegParts {
   Metadata metadata;      // EXIF, ICC profile and IPTC
-  std::string ignored;    // why a profile was ignored; empty: none was
-  std::vector<Span> xmp;  // packets; a second one violates the specification, but occurs
+  std::string ignored;    // reason for ignoring a profile; empty: no profile was ignored
+  std::vector<Span> xmp;  // packets; some files have several, against the specification
   std::vector<XmpExtension> extensions;
-  Span multi_picture;  // from the TIFF header of CIPA DC-007 to the end of the segment
+  Span multi_picture;  // index of CIPA DC-007: from the TIFF header to the end of the segment
   size_t end = 0;      // end of the first picture; the rest belongs to other pictures
 };
 
 // Returns true if the bytes start like a JPEG file.
 bool IsJpeg(Span file);
 
-// Reads the segments of the first picture. The parts of an ICC profile may be in any order. A
-// profile that is incomplete or not for RGB colours is ignored.
+// Reads the segments of the first picture. The parts of an ICC profile may be in any order. An ICC
+// profile is ignored if it is incomplete or not for RGB colours.
 Result<JpegParts> ReadJpegParts(const std::string& where, Span file);
 
 // Joins the parts of the extended XMP with this GUID.

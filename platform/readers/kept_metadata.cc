@@ -55,8 +55,8 @@ std::string KeptName(const std::string& full) {
   return "";
 }
 
-// Returns the name inside a kept property, with a prefix of kKept, rdf or xml. Empty for other
-// names.
+// Returns the name of a node inside a kept property, with the prefix of a namespace in kKept, or
+// rdf or xml. Returns an empty string for other names.
 std::string InnerName(const std::string& full) {
   for (const Namespace& one : {kRdf, kXml}) {
     const std::string uri = std::string(one.uri) + "|";
@@ -67,7 +67,7 @@ std::string InnerName(const std::string& full) {
   return KeptName(full);
 }
 
-// Writes an element with its content. Names of other namespaces are omitted.
+// Writes an element with its content. Omits names for which InnerName returns an empty string.
 std::string Write(const XmpNode& node) {
   const std::string name = InnerName(node.name);
   if (name.empty()) return "";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Filters a photograph's XMP: keeps what remains true of a picture that is made from it.
+// Filters a photograph's XMP. Keeps the properties that remain true for a picture made from the
+// photograph.
 #ifndef STARFOCUS_PLATFORM_READERS_KEPT_METADATA_H_
 #define STARFOCUS_PLATFORM_READERS_KEPT_METADATA_H_
 

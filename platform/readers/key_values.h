@@ -13,8 +13,8 @@ namespace starfocus {
 
 using KeyValues = std::map<std::string, std::string>;
 
-// Parses a text. Lines without "=" are skipped, the first value of a repeated key is kept, and
-// non-printable characters are removed.
+// Parses `text`. Skips lines without "=", keeps the first value of a repeated key, and removes
+// non-printable characters.
 KeyValues ParseKeyValues(const std::string& text);
 
 // Parses a file of at most 1 MiB (ReadSmallFile).

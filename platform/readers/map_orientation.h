@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decides whether EXIF's orientation applies to a depth picture as it does to its photo, and
-// whether both have the same proportions.
+// Decides whether the orientation in EXIF applies to a depth picture or only to its photo. Compares
+// the proportions of a depth picture with those of its photo.
 #ifndef STARFOCUS_PLATFORM_READERS_MAP_ORIENTATION_H_
 #define STARFOCUS_PLATFORM_READERS_MAP_ORIENTATION_H_
 
@@ -12,9 +12,10 @@ namespace starfocus {
 // may differ by rounding, or by 3 % because networks round sizes to whole blocks.
 bool HasSameProportions(const FloatMap& map, int width, int height);
 
-// If photo->map, from a depth picture, is already upright, applies EXIF's orientation to the
-// picture only. Without a choice, the proportions decide. If they do not, the edges of picture and
-// map decide, and a note reports the result.
+// Applies EXIF's orientation only to the picture if photo->map was read from an upright depth
+// picture. `choice` states whether the map is upright. If `choice` is kUnknown, the proportions of
+// picture and map decide. If the proportions fit both orientations, the edges of picture and map
+// decide, and a note reports the result.
 void StandWithPhoto(DepthOrientation choice, DepthPhoto* photo);
 
 }  // namespace starfocus

@@ -14,8 +14,8 @@
 namespace starfocus {
 namespace {
 
-// A published size of a scene, and the multiple of the disparity that its levels represent. Sizes
-// are sorted from large to small.
+// A published size of a scene, and the factor by which levels of this size exceed disparities.
+// Sizes are sorted from large to small.
 struct Size {
   int least_height, multiple;
 };
@@ -27,8 +27,8 @@ struct GreyMapPair {
 };
 
 constexpr const char* kViewExtensions[] = {".png", ".ppm", ".pgm"};
-// Pictures of 2003 are 375, 750 or 1500 pixels high, those of 2005 and 2006 370, 555 or 1110. Data
-// sets of 2001 have the file names of 2003, and their levels are 8 times the disparity.
+// Pictures of 2003 are 375, 750 or 1500 pixels high. Pictures of 2005 and 2006 are 370, 555 or 1110
+// pixels high. Data sets of 2001 have the file names of 2003, and levels of 8 times the disparity.
 constexpr GreyMapPair kPairs[] = {{"Middlebury stereo pair of 2003",
                                    "im2",
                                    "im6",

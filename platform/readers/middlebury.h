@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads Middlebury's stereo pairs. Data sets of 2014 and later have im0.png, im1.png, calib.txt and
-// disp0.pfm, with inf for unknown disparities. Older data sets store maps as grey pictures, whose
-// levels are a multiple of the disparity, and 0 if it is unknown. Their files are im2, im6 and
-// disp2 (2003), or view1, view5 and disp1 (2005 and 2006).
+// disp0.pfm, with inf for unknown disparities. Older data sets store maps as grey pictures. A level
+// is a multiple of the disparity, or 0 if the disparity is unknown. The files of older data sets
+// are im2, im6 and disp2 (2003), or view1, view5 and disp1 (2005 and 2006).
 #ifndef STARFOCUS_PLATFORM_READERS_MIDDLEBURY_H_
 #define STARFOCUS_PLATFORM_READERS_MIDDLEBURY_H_
 

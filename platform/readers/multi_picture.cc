@@ -15,7 +15,7 @@ constexpr size_t kMostPictures = 64;
 constexpr size_t kEntrySize = 16;
 constexpr uint32_t kEntryTag = 0xb002, kTypeBits = 0xffffff;
 
-// Reads integers of a TIFF header in either byte order. Returns 0 after its end.
+// Reads integers of a TIFF header in either byte order. Returns 0 after the end of the header.
 struct Tiff {
   Span bytes;
   bool little = false;
@@ -36,8 +36,8 @@ struct Entry {
   uint32_t type = 0;
 };
 
-// Entries of the index without the first picture, and their number by the index. Editors may leave
-// a number that is too small.
+// Entries of the index without the first picture, and the number of pictures that the index states.
+// Editors may leave a number that is too small.
 struct Index {
   std::vector<Entry> entries;
   size_t counted = 0;

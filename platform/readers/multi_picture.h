@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lists the pictures after the first one of a JPEG file, with their types from the index of the
-// Multi-Picture Format (CIPA DC-007). Editors move or remove the index, so the function searches
-// for the pictures.
+// Multi-Picture Format (CIPA DC-007). Editors move or remove the index, so the module also searches
+// the file for pictures.
 #ifndef STARFOCUS_PLATFORM_READERS_MULTI_PICTURE_H_
 #define STARFOCUS_PLATFORM_READERS_MULTI_PICTURE_H_
 
@@ -15,13 +15,13 @@ namespace starfocus {
 struct MultiPicture {
   Span file;             // JPEG file of this picture
   JpegParts parts;       // segments of the file
-  bool indexed = false;  // the index has the position of this picture
+  bool indexed = false;  // true if the index contains the position of this picture
   uint32_t type = 0;     // type from the index: 0x020002 is a view of a stereo pair, 0 is unknown
 };
 
 struct MultiPictures {
   std::vector<MultiPicture> pictures;
-  bool missing = false;  // a picture in the index is truncated or missing
+  bool missing = false;  // true if a picture of the index is truncated or missing
 };
 
 // Lists the complete JPEG files after the first picture, at most 64.

@@ -4,8 +4,8 @@
 namespace starfocus {
 namespace {
 
-// Decompose the orientation, which states the scene sides of row 0 and column 0 (EXIF 2.32, tag
-// 274).
+// The next functions decompose an orientation. An orientation states which sides of the scene row 0
+// and column 0 show (EXIF 2.32, tag 274).
 bool SwapsSides(int orientation) { return orientation >= 5; }
 bool FromRight(int orientation) {  // x runs to the left, before sides are swapped
   return orientation == 2 || orientation == 3 || orientation == 7 || orientation == 8;

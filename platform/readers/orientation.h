@@ -13,8 +13,8 @@ void TurnMap(int orientation, FloatMap* map);
 // Rotates and mirrors a point, given as fractions of width and height.
 void TurnPoint(int orientation, double* x, double* y);
 
-// Rotates and mirrors picture, map, focus and subject by photo->orientation, sets it to 1, and adds
-// a fact.
+// Rotates and mirrors picture, map, focus and subject by photo->orientation. Sets
+// photo->orientation to 1 and adds a fact.
 void ApplyOrientation(DepthPhoto* photo);
 
 }  // namespace starfocus

@@ -47,7 +47,8 @@ struct Candidate {
   }
 };
 
-// Returns the file as a depth picture of `photo`, or nullopt if it is not one.
+// Returns the file as a candidate depth picture of `photo`, or nullopt if the file is not a depth
+// picture of `photo`.
 std::optional<Candidate> Fit(const std::string& photo, const std::string& file) {
   const fs::path path(file);
   const std::string stem = path.stem().string(), name = NameBefore(stem);
@@ -70,7 +71,7 @@ Result<Samples> ReadSamples(const std::string& path, bool use_alpha) {
   return bytes ? DecodeSamples(path, use_alpha, *bytes) : bytes.error();
 }
 
-// Sets the meaning of the map's values by the options.
+// Sets the meaning of the map's values according to the options.
 void Understand(const DepthOptions& options, bool is_pfm, DepthPhoto* photo) {
   if (options.unit == DepthUnit::kDisparity) {
     TellMap("disparities in pixels", photo);

@@ -10,13 +10,13 @@
 
 namespace starfocus {
 
-// Returns true if the file name is that of a depth picture: without its extension it ends in
-// -depth, _depth or .depth, in any case.
+// Returns true if `name` is the file name of a depth picture. Without its extension, such a name
+// ends in -depth, _depth or .depth, in upper or lower case.
 bool IsDepthPictureName(const std::string& name);
 
 // Finds the depth picture next to a photograph NAME.jpg or NAME-image.jpg: NAME-depth, NAME_depth
-// or NAME.depth with .png, .pgm, .pfm, .jpg or .jpeg, in any case. Returns "" if none is found. If
-// there are several, a note states which one is used.
+// or NAME.depth with .png, .pgm, .pfm, .jpg or .jpeg, in upper or lower case. Returns "" if no
+// depth picture is found. If several are found, a note states which file is used.
 Result<std::string> FindDepthPicture(const std::string& path, DepthPhoto* photo);
 
 // Reads the depth picture (PNG, PGM, PPM, JPEG or PFM). `photo` already has its picture. By

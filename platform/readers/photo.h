@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A photograph with a depth map, which the readers of all formats return. It consists of a picture,
-// a map of any size, and the meaning of the map's values.
+// A photograph with a depth map, which the readers of all formats return: a picture, a map of any
+// size, and the meaning of the map's values.
 #ifndef STARFOCUS_PLATFORM_READERS_PHOTO_H_
 #define STARFOCUS_PLATFORM_READERS_PHOTO_H_
 
@@ -35,14 +35,15 @@ struct DepthPhoto {
   std::string depth_path;   // depth picture of the map; empty: the map is in the file
   Image right;              // right picture of a stereo pair; empty: no pair
   MapMeaning meaning = MapMeaning::kOrder;
-  int orientation = 1;    // orientation of EXIF that is yet to be applied
+  int orientation = 1;    // EXIF orientation that has not been applied yet
   double focal_35mm = 0;  // equivalent focal length in millimetres; 0: unknown
   bool has_focus = false;
   double focus_x = 0, focus_y = 0;  // fractions of width and height, before `orientation`
   bool has_subject = false;
-  double subject_x = 0, subject_y = 0;  // from EXIF, as focus_x and focus_y
-  bool is_ready = false;                // the map needs no repair: pictures were made from it
-  double focus_value = NAN;             // map value in focus; NaN: unknown
+  double subject_x = 0, subject_y = 0;  // from EXIF, in the units of focus_x and focus_y
+  // True if the map requires no repair, because pictures were made from it.
+  bool is_ready = false;
+  double focus_value = NAN;  // map value in focus; NaN: unknown
   Metadata metadata;
   Facts facts;
   std::vector<std::string> notes;  // assumptions that the user may correct

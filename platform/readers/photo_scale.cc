@@ -43,8 +43,9 @@ std::string Rounded(double value) {
   return text;
 }
 
-// Returns the disparity of an inverse distance of 1 / m. It is the blur radius of an infinitely
-// distant point, in pixels, for a lens of f/1 with that focal length, focused at 1 m.
+// Returns the disparity of an inverse distance of 1 / m. This disparity is the blur radius of an
+// infinitely distant point, in pixels, for a lens of f/1 with the focal length `focal_35mm`,
+// focused at 1 m.
 double DisparityPerDiopter(double focal_35mm, double diagonal_pixels) {
   return focal_35mm / kDiagonal * diagonal_pixels * focal_35mm / 1000 / 2;
 }
@@ -80,7 +81,7 @@ void ToDisparity(const RobustRange& range, double diagonal, DepthPhoto* photo) {
                                 "in front of a 50 mm lens on full frame");
 }
 
-// Checks that the map's disparities are in range; they are not changed.
+// Checks that the map's disparities are in range, and does not change them.
 Error CheckDisparities(const std::string& where, DepthPhoto* photo) {
   const auto [low, high] = std::minmax_element(photo->map.values.begin(), photo->map.values.end());
   if (double(*low) >= -STARFOCUS_MAX_DISPARITY && double(*high) <= STARFOCUS_MAX_DISPARITY) {

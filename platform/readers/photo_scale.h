@@ -14,7 +14,8 @@ FloatMap Resize(const FloatMap& map, int width, int height);
 
 // Applies the orientation of the photo, and converts the map to disparities of the picture. An
 // aperture of radius 1 is then a lens of f/1 on full frame (docs/formats.md). The light field takes
-// over the picture and the map, which keeps its size. photo->focus_value becomes a disparity, too.
+// over the picture and the map. The map keeps its size. photo->focus_value is also converted to a
+// disparity.
 Result<LightField> MakePhotoField(const std::string& where, DepthPhoto* photo);
 
 // Resizes the map of a photo to the size of the picture.

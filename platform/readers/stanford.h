@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads the Stanford light field archive: out_RR_CC_Y_X_.png with row, column and position of the
-// gantry.
+// Reads light fields of the Stanford archive. Files have the name out_RR_CC_Y_X_.png with the row,
+// the column and the position of the gantry.
 #ifndef STARFOCUS_PLATFORM_READERS_STANFORD_H_
 #define STARFOCUS_PLATFORM_READERS_STANFORD_H_
 
@@ -10,7 +10,7 @@
 
 namespace starfocus {
 
-// Returns true if a picture's name is one of the archive's.
+// Returns true if a picture's name has the form of the Stanford archive.
 bool IsStanford(const std::string& name);
 
 // Reverses rows and columns if necessary, so that Y grows downwards and X to the right. If the

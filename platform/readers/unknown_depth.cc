@@ -13,19 +13,20 @@ namespace {
 
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 constexpr float kTop = 65535;  // largest value of 16 bits
-// If an end of the range is closer to the other values than this fraction of their range, it is a
-// depth. Sensors leave a larger gap at 0: the nearest distance they measure is 5 % of the range or
-// more.
+// The value 0 or 65535 is a depth if its distance to the other values is less than this fraction of
+// their range. Sensors leave a larger gap at 0, because the nearest distance that a sensor measures
+// is at least 5 % of the range.
 constexpr float kBesidePart = 0.02F;
 
-// Occurrence of 0 and 65535 in a 16-bit map, and whether they are depths.
+// Occurrence of 0 and 65535 in a 16-bit map, and whether these two values are depths.
 struct Ends {
   size_t zeros = 0, tops = 0;
   bool are_depths = false;
 };
 
-// Judges 0 and 65535 in a 16-bit map. They are depths if the map was stretched to the whole range:
-// the other values reach an end of the range, or lie between two ends that both occur.
+// Decides whether 0 and 65535 are depths in a 16-bit map. Both are depths if the map was stretched
+// to the whole range: the other values reach an end of the range, or lie between two ends that both
+// occur.
 Ends JudgeEnds(const FloatMap& map) {
   Ends ends;
   std::vector<float> others;
@@ -63,9 +64,10 @@ struct Gap {
 };
 
 // Calls `visit` with the gap of each unknown pixel of a line of `count` values at distance `step`.
-// If the values at the ends of a gap differ by at most `alike`, they belong to one surface, and the
-// pixel's value is interpolated. Otherwise, the smaller value is the background. A gap at the
-// border has only one end, which nothing confirms, so its length counts twice.
+// If the values at the two ends of a gap differ by at most `alike`, both belong to one surface, and
+// the pixel's value is interpolated. Otherwise, the pixel gets the smaller value, which is the
+// background. A gap at the border has only one end, so no second value confirms the first one, and
+// the length of the gap counts twice.
 template <class Visit>
 void FindGaps(const float* line, size_t step, int count, float alike, const Visit& visit) {
   const auto at = [&](int k) { return line[size_t(k) * step]; };
@@ -90,7 +92,8 @@ void FindGaps(const float* line, size_t step, int count, float alike, const Visi
   }
 }
 
-// Fills every unknown pixel that has a known pixel in its row or column. Returns their number.
+// Fills every unknown pixel that has a known pixel in its row or column. Returns the number of
+// filled pixels.
 size_t FillOnce(float alike, FloatMap* map) {
   const size_t width = size_t(map->width);
   std::vector<Gap> gaps(map->values.size());

@@ -54,16 +54,17 @@ std::string Count(int rows, int columns) {
   return std::to_string(rows) + " rows of " + std::to_string(columns);
 }
 
-// Returns half the length of the longest odd row within `count` views.
+// Returns the number of views on each side of the centre in the longest row of odd length within
+// `count` views.
 int HalfOf(int count) { return (count - 1) / 2; }
 
-// Returns the distance of the outermost views from the centre. An odd distance is reduced to an
-// even one if that costs less than a quarter.
+// Returns the distance of the outermost views from the centre, in views. Reduces an odd distance by
+// one, to an even number, if it is more than 4.
 int ReachOf(int half) { return half % 2 == 1 && half > 4 ? half - 1 : half; }
 
 struct Chooser {
   const ViewArray& array;
-  int row, column;  // place of the centre
+  int row, column;  // row and column of the centre view
   Star* star;
 
   void Add(int down, int across) const {

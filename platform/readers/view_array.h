@@ -13,7 +13,8 @@
 
 namespace starfocus {
 
-// Paths of rows * columns pictures, row by row from the top, each from left to right.
+// Paths of rows * columns pictures. Rows are listed from top to bottom, and each row from left to
+// right.
 struct ViewArray {
   int rows = 0, columns = 0;
   std::vector<std::string> paths;
@@ -26,9 +27,9 @@ struct Star {
   int reach = 0;
 };
 
-// Chooses the largest star in an array of at least 3 x 3 views. It has 17 views if half its reach
-// is a whole number, otherwise 9. From a single row or column, it chooses up to 17 views. If the
-// number of rows or columns is even, the last one is ignored. Adds a fact.
+// Chooses the largest star in an array of at least 3 x 3 views. The star has 17 views if half its
+// reach is a whole number, otherwise 9. From a single row or column, the function chooses up to 17
+// views. If the number of rows or columns is even, the last one is ignored. Adds a fact.
 Result<Star> ChooseStar(const std::string& where, const ViewArray& array, Facts* facts);
 
 // Finds pictures whose names differ in two numbers, row and column, or in one, for example

@@ -21,7 +21,7 @@ namespace {
 constexpr size_t kMostBytes = size_t{1} << 26, kMostDepth = 32, kMostParts = 20000;
 constexpr char kBetween = '|';  // separates a namespace from a name
 
-// State of expat's callbacks. Exceptions must not leave them.
+// State of expat's callbacks. Exceptions must not leave a callback.
 struct Builder {
   XML_Parser parser = nullptr;
   std::vector<XmpNode> open;    // from the unnamed root to the innermost element
@@ -80,8 +80,8 @@ struct Builder {
     });
   }
 
-  // Rejects document types, because only they can declare entities, which expand a few bytes to
-  // millions.
+  // Rejects document type declarations, because they can declare entities, which expand a few bytes
+  // to millions.
   static void Doctype(void* data, const char*, const char*, const char*, int) {
     Builder* self = static_cast<Builder*>(data);
     self->Guard([&] { self->Stop("XMP without a document type", "a document type"); });

@@ -12,8 +12,8 @@
 
 namespace starfocus {
 
-// An element of XMP. Names are "<namespace>|<name>". A property is an attribute, or an element with
-// text in it.
+// An element of XMP. Names are "<namespace>|<name>". A property is an attribute, or an element that
+// contains text.
 struct XmpNode {
   std::string name, text;
   std::map<std::string, std::string> attributes;
@@ -23,15 +23,16 @@ struct XmpNode {
 // Returns true if this build can read XMP.
 bool CanReadXmp();
 
-// Parses a packet. It must not have a document type, and may have up to 64 MiB, a depth of 32, and
-// 20000 elements and attributes.
+// Parses a packet. The packet must not have a document type declaration. Limits are a size of 64
+// MiB, a depth of 32, and 20000 elements and attributes.
 Result<XmpNode> ParseXmp(const std::string& where, const char* text, size_t size);
 
 // Returns the value of a property of the node, without surrounding white space, or null if the node
-// does not have it.
+// does not have the property.
 const std::string* OwnProperty(const XmpNode& node, const std::string& name);
 
-// Returns the value of a property of the first node in this subtree that has it, or null.
+// Returns the value of the property in the first node of this subtree that has the property.
+// Returns null if no node has the property.
 const std::string* FindProperty(const XmpNode& node, const std::string& name);
 
 // Appends all nodes of this subtree that have the property, in document order.
