@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Builds the Python package: the Python files, and the shared library, which CMake builds from this source tree.
+"""Builds the Python package: the Python files, and a shared library that CMake builds from this source tree.
 
 Environment variables:
     STARFOCUS_BUILD: a build folder that CMake has already configured for this tree (default: build/python, which

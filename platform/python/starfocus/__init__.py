@@ -10,8 +10,8 @@ are arrays of uint8 with the shape (height, width, 3). Disparity maps are arrays
 width). Disparities are in pixels per unit of u; nearer points have larger disparities. Views lie at the
 positions that `view_positions` returns, or at positions that the caller passes to `Refocuser`.
 
-The package calls the C library through ctypes, and its pictures have the same bytes. The documentation of the C
-headers (starfocus/starfocus.h) applies to all fields that are mentioned here by their C names.
+The package calls the C library through ctypes, and returns pictures with the same bytes as the C library. The
+documentation of the C headers (starfocus/starfocus.h) applies to all fields that are mentioned here by their C names.
 """
 from ._abi import library as _library
 from .constants import (DepthMeaning, Format, Matrix, Mode, Range, Renderer, Shape, Status, Transfer)

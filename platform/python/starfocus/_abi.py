@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Declares the structures and functions of the C ABI for ctypes, and loads the shared library.
 
-The structures have the same fields as those of the C headers. When the library is loaded, their sizes are
-compared with the sizes that the library reports, so a structure that has changed raises ImportError.
+The structures have the same fields as the C structures. When this module loads the library, it compares the size of
+each structure with the size that the library reports. A mismatch raises ImportError.
 """
 from __future__ import annotations
 

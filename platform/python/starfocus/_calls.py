@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Converts arguments for calls of the library: arrays, regions and fields; also threads and progress."""
+"""Converts arrays, regions and fields for calls of the library, and wraps its thread pool and progress callback."""
 from __future__ import annotations
 
 import ctypes
@@ -87,7 +87,7 @@ def has_rows(array: np.ndarray) -> bool:
 
 
 def stride_of(array: np.ndarray) -> int:
-    """Returns the bytes from row to row. They are at least one row, also if numpy reports less for a single row."""
+    """Returns the bytes from row to row: at least the size of a row, even if numpy reports less for a single row."""
     return max(array.strides[0], array.nbytes // array.shape[0])
 
 
@@ -142,7 +142,7 @@ def light_field(views: Views, disparity: Any, count: int, height: int,
                 width: int) -> Tuple[_abi.LightField, List[Any]]:
     """Returns a starfocus_light_field, and the arrays that must stay alive while the library may read it.
 
-    The views are arrays or Images. The disparity map is an array, a DepthMap, or None: no map.
+    The views are arrays or Images. The disparity map is an array, a DepthMap, or None if there is no map.
     """
     views = as_list(views)
     if len(views) != count:
@@ -183,7 +183,8 @@ def aligned(size: int) -> np.ndarray:
 class Pool:
     """Owns a pool of threads of the library (starfocus/pool.h).
 
-    0 workers mean one for each big core. With one worker there is no pool, and the calling thread does the work.
+    If the number of workers is 0, the pool has one worker for each big core. With one worker there is no pool, and the
+    calling thread does the work.
     """
 
     def __init__(self, workers: int):

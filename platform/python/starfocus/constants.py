@@ -44,7 +44,8 @@ class Shape(IntEnum):
 class Transfer(IntEnum):
     """How the codes 0 to 255 of a picture represent light (starfocus_transfer).
 
-    A value of the configuration's field `transfer`. SRGB: the sRGB curve. NONE: light is the code itself.
+    The field `transfer` of the configuration has one of these values. SRGB: the sRGB curve. NONE: light is the code
+    itself.
     """
 
     SRGB = 0

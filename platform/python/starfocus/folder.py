@@ -18,10 +18,10 @@ def read_light_field(folder: Union[str, Path], positions: Optional[Sequence[Tupl
 
     Args:
         folder: folder with views, for example view_+0.0_+0.0.png, and optionally disparity.pfm.
-        positions: (u, v) of the views to read. None: the positions of `view_positions`, as many as the
-            largest complete star of 17, 9, 5 or 1 views has.
+        positions: (u, v) of the views to read. None: the views of the largest complete star of 17, 9, 5 or 1 views in
+            the folder, at the positions of `view_positions`.
 
-    Returns the list of views, and the disparity map, or None if the folder has none.
+    Returns the list of views and the disparity map. The map is None if the folder has no disparity.pfm.
 
     Raises FileNotFoundError if a view is missing, and ValueError for malformed files.
     """
@@ -40,7 +40,7 @@ def read_light_field(folder: Union[str, Path], positions: Optional[Sequence[Tupl
 def read_picture(path: Union[str, Path]) -> np.ndarray:
     """Reads a picture as uint8 of shape (height, width, 3).
 
-    Formats other than PPM need the package pillow. Raises ValueError for a malformed PPM.
+    Formats other than PPM require the package pillow. Raises ValueError for a malformed PPM.
     """
     path = Path(path)
     if path.suffix != ".ppm":

@@ -18,7 +18,7 @@ _DEPTH_TYPES = {np.dtype(np.float32): 0, np.dtype(np.uint16): 1, np.dtype(np.uin
 
 @dataclass(frozen=True)
 class Image:
-    """A picture in one of the formats of `Format`. It refers to the arrays of the caller and copies nothing.
+    """A picture in one of the formats of `Format`. The Image refers to the arrays of the caller and copies nothing.
 
     Attributes:
         format: layout of the picture.
@@ -76,7 +76,7 @@ class DepthMap:
             (RECIPROCAL).
         scale: finite and not 0; rounded to float32.
         offset: finite; rounded to float32.
-        invalid: value that stands for unknown depth; None: no such value. Maps with unknown values need
+        invalid: value that stands for unknown depth; None: no such value. Maps with unknown values require
             `fill_unknown=1` in the configuration.
     """
 

@@ -34,9 +34,9 @@ class DisparityMap(NamedTuple):
     Attributes:
         disparity: disparities, float32.
         confidence: confidence of each disparity, uint8; 0 means that another disparity fits as well.
-        coverage: alpha of the foreground, uint8: the part of each pixel that the nearer surface covers. It belongs to
-            the map; pass it to `Refocuser.refocus` or `Refocuser.prepare`. None, except for maps that were repaired
-            from one view that shows hair.
+        coverage: alpha of the foreground, uint8: the part of each pixel that the nearer surface covers. Pass the
+            coverage to `Refocuser.refocus` or `Refocuser.prepare` together with the map. None, except for maps that
+            were repaired from one view that shows hair.
     """
 
     disparity: np.ndarray
@@ -69,9 +69,9 @@ def measure_disparity(disparity: np.ndarray) -> DisparityStats:
 def fill_disparity(disparity: np.ndarray) -> np.ndarray:
     """Returns a copy of a disparity map in which values that are NaN or infinite are filled.
 
-    A value gets the nearest finite value to the left or right; between two, the smaller one, which belongs to the
-    farther surface. Rows without a finite value are filled from the rows above and below by the same rule. Raises
-    DisparityError if no value is finite.
+    A missing value is replaced by the nearest finite value to its left or right. If finite values exist on both sides,
+    the smaller value is used, because it belongs to the farther surface. Rows without a finite value are filled from
+    the rows above and below in the same way. Raises DisparityError if no value is finite.
     """
     filled = np.array(as_map(disparity), order="C")
     check(library.starfocus_fill_disparity(*_rows(filled)))
@@ -81,7 +81,7 @@ def fill_disparity(disparity: np.ndarray) -> np.ndarray:
 def focus_at(disparity: np.ndarray, x: int, y: int) -> float:
     """Returns the disparity to focus at for the pixel (x, y), for example where a user tapped.
 
-    It is the median of the disparities up to 3 pixels away that belong to the surface of the pixel. Raises
+    This disparity is the median of the disparities up to 3 pixels away that belong to the surface of the pixel. Raises
     ArgumentError if the pixel lies outside the map, and DisparityError if one of the 7 x 7 disparities is not finite.
     """
     focus = ctypes.c_double()
@@ -126,13 +126,14 @@ def repair_disparity(views: Views, disparity: np.ndarray, disparity_min: Optiona
 
     Args:
         views: 1, 5, 9 or 17 views at the positions of `view_positions`, each uint8 of shape (height, width, 3).
-        disparity: map to repair, of shape (height, width). It is not changed.
-        disparity_min, disparity_max: range of the result in pixels per unit of u, within +-500. It contains all finite
-            values of the map. None: the smallest and the largest finite value of the map.
+        disparity: map to repair, of shape (height, width). The function does not change this map.
+        disparity_min, disparity_max: range of the result in pixels per unit of u, within +-500. The range must contain
+            all finite values of the map. None: the smallest and the largest finite value of the map.
         workers: number of threads; 0: one for each big core of the machine.
         progress: receives the number of finished rows and the number of rows; a true result cancels the call.
 
-    With one view that shows hair, the result may have coverage, which is then needed to improve the hair.
+    With one view that shows hair, the result may have coverage. Refocusing renders the hair better only if it receives
+    this coverage with the map.
 
     Raises a subclass of StarfocusError, and TypeError or ValueError for arrays of a wrong type or shape.
     """
@@ -174,5 +175,5 @@ def _make_map(size_of: Any, make: Any, views: Views, given: Optional[np.ndarray]
 
 
 def _rows(disparity: np.ndarray) -> Tuple[Any, int, int, int]:
-    """Returns the address, stride, width and height of a map, which are arguments of many calls."""
+    """Returns the address, stride, width and height of a map, which many functions of the library take as arguments."""
     return pointer(disparity), stride_of(disparity), disparity.shape[1], disparity.shape[0]

@@ -43,7 +43,7 @@ class Refocuser:
             pass `[(0, 0), (1, 0)]`. None: the positions of `view_positions`.
         config: other fields of starfocus_config and starfocus_tuning with their C names, for example `max_blur`
             (default 32 pixels), `transfer`, `highlights`, or `previews=3` for `Prepared.preview` down to 1/8 of the
-            size. Also features with the value 0 or 1: `shapes` for lenses that are polygons or have cat's eyes,
+            size. Features are fields with the value 0 or 1: `shapes` for lenses that are polygons or have cat's eyes,
             `images` for formats other than RGB, `fill_unknown`, `line_scan` (default 1) and `coverage` (default 1).
 
     Attributes:
@@ -90,14 +90,14 @@ class Refocuser:
     @classmethod
     def for_light_field(cls, views: Views, disparity: np.ndarray, *, workers: int = 0,
                         **config: Any) -> "Refocuser":
-        """Returns a refocuser for a light field, and for others with the same size, number of views and disparity
-        range.
+        """Returns a refocuser for a light field. Other light fields may use it if they have the same size, number of
+        views and disparity range.
 
         `max_blur` is large enough for every focus in the disparity range, up to 128 pixels.
 
         Args:
             views: views, as for `refocus`.
-            disparity: disparity map of the size of the views, an array.
+            disparity: disparity map, an array of the size of the views.
             workers: number of threads; 0: one for each big core of the machine.
             config: as for `Refocuser`; takes precedence over the derived `max_blur`.
         """
@@ -130,24 +130,25 @@ class Refocuser:
         """Refocuses a light field. Returns the picture, uint8 of shape (height, width, 3).
 
         Args:
-            views: the configured number of views, each uint8 of shape (height, width, 3) or an Image. Images other
-                than RGB need `images=1` in the configuration. Arrays with contiguous rows are read in place.
+            views: the configured number of views, each uint8 of shape (height, width, 3) or an Image. Images in formats
+                other than RGB require `images=1` in the configuration. Arrays with contiguous rows are read in place.
             disparity: disparity map of the centre view, of shape (height, width). float32 is read in place; other
-                floating-point types are converted. A DepthMap needs `images=1`, unless it contains float32
+                floating-point types are converted. A DepthMap requires `images=1`, unless the map contains float32
                 disparities and has the size of the picture.
             focus: disparity in focus, in pixels per unit of u.
             aperture: radius of the aperture, from 0 (the centre view) to 1 (as far as the outermost views).
-            coverage: alpha of the foreground, uint8 of shape (height, width): the part of each pixel that the nearer
-                of two surfaces covers (255: all), as matting networks compute it. Near depth edges it takes
+            coverage: alpha of the foreground, uint8 of shape (height, width), as matting networks compute it: the part
+                of each pixel that the nearer of two surfaces covers (255: all). Near depth edges, coverage takes
                 precedence over the map. None: no coverage.
             mode: how the picture is divided.
             renderer: how views are rendered.
-            region: x, y, width and height in pixels of the part to compute. It has the same bytes as that part of the
-                whole picture. None or four zeros: the whole picture.
-            out: writable array, or with `images=1` an Image, of the size of the region. It is written and returned
-                instead of a new array. It must not overlap the light field.
-            progress: receives the number of finished rows and the number of rows. A true result cancels the call,
-                which raises Cancelled. An exception in the function cancels the call and is raised again.
+            region: x, y, width and height in pixels of the part to compute. The result has the same bytes as this part
+                of the whole picture. None or four zeros: the whole picture.
+            out: writable array, or with `images=1` an Image, of the size of the region. The picture is written to
+                `out`, and `out` is returned instead of a new array. `out` must not overlap the light field.
+            progress: receives the number of finished rows and the number of rows. If `progress` returns a true value,
+                the call is cancelled and raises Cancelled. An exception in `progress` also cancels the call and is
+                raised again.
             lens: other fields of starfocus_lens with their C names: `shape`, `blades`, `theta`, `rotation`,
                 `curvature`, `ring_inner`, `cats_eye`.
 
@@ -172,8 +173,8 @@ class Refocuser:
                  progress: Optional[ProgressFunction], function: Any, scene: Any, *, keep: List[Any]) -> Picture:
         """Calls starfocus_refocus or a similar function, and returns its picture.
 
-        `size` is the height and width of the picture. `scene` is the light field or prepared light field, and `keep`
-        are the arrays that it refers to.
+        `size` is the height and width of the picture. `scene` is the light field or prepared light field. `keep`
+        contains the arrays that `scene` refers to.
         """
         if isinstance(out, Image):
             picture, image = out, out.as_structure(size[1], size[0], "out", written=True)
@@ -217,8 +218,8 @@ class Refocuser:
 class Prepared:
     """A light field that is prepared for refocusing with any lens. Created by `Refocuser.prepare`.
 
-    It takes 3.89 bytes per pixel, and up to 5.9 more for previews of 5 views. It keeps references to the arrays of
-    the light field, which must not change.
+    A prepared light field takes 3.89 bytes per pixel, and up to 5.9 more for previews of 5 views. A Prepared object
+    keeps references to the arrays of the light field, which must not change.
     """
 
     def __init__(self, refocuser: Refocuser, views: Views, disparity: Disparity,
