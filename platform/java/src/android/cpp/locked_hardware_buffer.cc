@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Native methods of dev.starfocus.android.LockedHardwareBuffer. They need API level 29.
+// Native methods of dev.starfocus.android.LockedHardwareBuffer. Android API level 29 is required.
 #include <android/hardware_buffer.h>
 #include <android/hardware_buffer_jni.h>
 #include <jni.h>
@@ -31,7 +31,7 @@ Kind KindOf(uint32_t format) {
   }
 }
 
-// Returns a direct buffer for a plane. It ends with the last byte of the last pixel.
+// Returns a direct buffer for a plane. The buffer ends with the last byte of the last pixel.
 jobject BufferOf(JNIEnv* env, const AHardwareBuffer_Plane& plane, jlong width, jlong height,
                  jlong pixel_bytes) {
   const jlong row = (width - 1) * jlong(plane.pixelStride) + pixel_bytes;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Copies fields between Java objects and C structures. Tables list the names of the fields. Used by
+// Copies fields between Java objects and C structures, by tables of field names. Used by
 // refocuser.cc and pictures.cc.
 #ifndef STARFOCUS_PLATFORM_JAVA_FIELDS_H_
 #define STARFOCUS_PLATFORM_JAVA_FIELDS_H_

@@ -28,8 +28,8 @@ struct Session {
   std::atomic<int> cancelled{0}, rows_done{0};
 };
 
-// Frees a session. It uses free instead of delete, because the library must not need the C++ run
-// time. A session needs no destructor.
+// Frees a session. The function calls free instead of delete, because the library must not depend
+// on the C++ run time. A session has no destructor.
 void End(Session* session) {
   std::free(session->prepared_memory);
   starfocus_destroy(session->engine);
@@ -39,7 +39,7 @@ void End(Session* session) {
 
 Session* From(jlong handle) { return reinterpret_cast<Session*>(handle); }
 
-// Progress callback. It stores the progress for rowsDone() instead of calling Java, because the
+// Progress callback. Stores the progress for rowsDone() instead of calling Java, because the
 // threads of the pool are not attached to the virtual machine.
 int Tell(void* data, int32_t rows_done, int32_t) {
   auto* const session = static_cast<Session*>(data);
@@ -135,7 +135,7 @@ bool ReadTask(JNIEnv* env, Session* session, const JavaTask& task, starfocus_par
                    Reduced(region.y, height, known), image);
 }
 
-// Creates the pool and the engine of a session. Its configuration must be set.
+// Creates the pool and the engine of a session. The session's configuration must be set.
 starfocus_status Start(Session* session) {
   starfocus_config* const config = &session->config;
   config->features |= STARFOCUS_FEATURE_IMAGES;

@@ -2,9 +2,9 @@
 package dev.starfocus;
 
 /**
- * Configuration of a {@link Refocuser}: the fields of the C structure starfocus_config. A
- * Refocuser copies the values; later changes have no effect on it. Values out of range are reported
- * when the Refocuser is created.
+ * Configuration of a {@link Refocuser}: the fields of the C structure starfocus_config. A Refocuser
+ * copies the values, so later changes have no effect on the Refocuser. Values out of range are
+ * reported when the Refocuser is created.
  */
 public final class Configuration {
   /**
@@ -33,15 +33,16 @@ public final class Configuration {
   public double disparityMin, disparityMax;
   /**
    * Upper limit of the blur radius aperture * |disparity - focus| in pixels, above 0 and at most
-   * 128. Default 32. It decides how much memory the engine needs and changes no picture.
+   * 128. Default 32. The limit determines how much memory the engine requires, but does not affect
+   * the pictures.
    */
   public double maxBlur;
   /** Number of threads, at most 64. 0, the default: one for each big core of the machine. */
   public int workers;
 
   /**
-   * Side of the superblocks, from which blocks are split, in pixels: 32, 64, 128, 256, or 0. 0, the
-   * default, means 128 from a width of 1536 pixels on, and 64 below.
+   * Side of the superblocks in pixels: 32, 64, 128, 256 or 0. The engine splits superblocks into
+   * blocks. 0, the default, means 128 if the width is at least 1536 pixels, and 64 otherwise.
    */
   public int superblock;
   /**
@@ -55,12 +56,12 @@ public final class Configuration {
   public double highlights;
   /**
    * Not 0: unknown disparities (NaN, infinite, or the invalid value of the {@link DepthMap}) are
-   * filled from their neighbours. 0, the default: they are reported as an error.
+   * filled from their neighbours. 0, the default: unknown disparities are reported as an error.
    */
   public int fillUnknown;
   /**
-   * Not 0: lenses may be polygons and have cat's eyes, which needs larger tables. 0, the default:
-   * such lenses are reported as an error.
+   * Not 0: lenses may be polygons and have cat's eyes, which requires larger tables. 0, the
+   * default: polygons and cat's eyes are reported as an error.
    */
   public int shapes;
   /**

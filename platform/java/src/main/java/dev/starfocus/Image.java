@@ -6,8 +6,8 @@ import java.nio.ByteBuffer;
 /**
  * A picture with 8 bits per sample in direct buffers: the C structure starfocus_image. The engine
  * reads and writes the buffers in place. A plane starts at the position of its buffer and ends
- * before its limit; later changes of position and limit have no effect. The size of the picture is
- * that of the {@link Configuration} or of the region.
+ * before its limit; later changes of position and limit have no effect. The picture has the size of
+ * the {@link Configuration} or of the region.
  */
 public final class Image {
   /** Formats with one plane, named by the order of bytes in memory. X is alpha. */

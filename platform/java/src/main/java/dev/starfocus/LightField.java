@@ -7,10 +7,12 @@ public final class LightField {
   final DepthMap depth;
 
   /**
-   * Creates a light field. It keeps references to the images and the map, and copies no pixels.
+   * Creates a light field. The light field keeps references to the images and the map, and copies
+   * no pixels.
    *
    * @param views the configured number of views, in the order of {@link Refocuser#viewPosition} or
-   *     {@link Configuration#positions}; the centre view is the first. Formats may differ
+   *     {@link Configuration#positions}; the centre view is the first. The formats of the views may
+   *     differ
    * @param depth depth map of the centre view
    */
   public LightField(Image[] views, DepthMap depth) {

@@ -4,7 +4,7 @@ package dev.starfocus;
 /**
  * Native methods of {@link Refocuser}, which documents them. A session is the address of a native
  * structure that owns an engine, its threads and the prepared light field. {@link #create} returns
- * it, and {@link #destroy} frees it.
+ * a session, and {@link #destroy} frees the session.
  */
 final class Native {
   static {

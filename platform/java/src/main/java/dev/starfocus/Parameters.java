@@ -4,7 +4,8 @@ package dev.starfocus;
 /**
  * Parameters of one refocusing: the fields of the C structures starfocus_params and
  * starfocus_lens. The values may change from call to call. Values out of range are reported by the
- * call that uses them, also those of fields that the shape of the lens does not use.
+ * call that receives the parameters, including values of fields that the shape of the lens does not
+ * use.
  */
 public final class Parameters {
   /**
@@ -20,7 +21,7 @@ public final class Parameters {
   public static final int SHAPE_FALL_OFF = 0, SHAPE_DISC = 1, SHAPE_POLYGON = 2, SHAPE_RING = 3;
   /**
    * Values of {@link #renderer}. AUTO: line scan for MODE_FRAME of a star of 5 or more views,
-   * slices otherwise. LINE_SCAN: the paper's line scan, which needs the views of {@link
+   * slices otherwise. LINE_SCAN: the paper's line scan, which requires the views of {@link
    * Refocuser#viewPosition}. SLICES: slices of the scene, with fewer views.
    */
   public static final int RENDERER_AUTO = 0, RENDERER_LINE_SCAN = 1, RENDERER_SLICES = 2;
@@ -35,7 +36,7 @@ public final class Parameters {
   /** Radius of the aperture, 0 to 1. 0 gives the centre view. Default 1. */
   public double aperture;
   /**
-   * Shape of the aperture; default {@link #SHAPE_FALL_OFF}. Polygons need {@link
+   * Shape of the aperture; default {@link #SHAPE_FALL_OFF}. Polygons require {@link
    * Configuration#shapes}.
    */
   public int shape;
@@ -52,14 +53,14 @@ public final class Parameters {
    *   <li>ringInner: ring, radius of the hole divided by the radius of the disc, 0 to 0.9; default
    *       0.5.
    *   <li>catsEye: distance of a second rim from the axis, in radii of the lens, as seen from a
-   *       corner of the picture, 0 to 1; default 0. Values above 0 need {@link
+   *       corner of the picture, 0 to 1; default 0. Values above 0 require {@link
    *       Configuration#shapes}.
    * </ul>
    */
   public double theta, rotation, curvature, ringInner, catsEye;
   /**
-   * Part of the picture to compute, in pixels. It has the same bytes as that part of the whole
-   * picture. All 0, the default: the whole picture.
+   * Part of the picture to compute, in pixels. The output has the same bytes as this part of the
+   * whole picture. All 0, the default: the whole picture.
    */
   public int regionX, regionY, regionWidth, regionHeight;
 

@@ -4,10 +4,10 @@ package dev.starfocus;
 import java.util.Objects;
 
 /**
- * An engine for light fields of one configuration. It allocates native memory when it is created
- * and when a light field is prepared first, and frees it in {@link #close}. Several threads may use
- * a Refocuser; their calls take turns. {@link #cancel} and {@link #rowsDone} do not wait for a
- * running call, so that other threads can use them during a call.
+ * An engine for light fields of one configuration. A Refocuser allocates native memory when it is
+ * created and when the first light field is prepared. {@link #close} frees this memory. Several
+ * threads may use a Refocuser; their calls take turns. {@link #cancel} and {@link #rowsDone} do not
+ * wait for a running call, so that other threads can use them during a call.
  *
  * <p>Calls throw {@link StarfocusException} for errors that the library reports, for example
  * values out of range or disparities outside the configured range; IllegalArgumentException for
@@ -39,11 +39,11 @@ public final class Refocuser implements AutoCloseable {
   /**
    * Refocuses a light field.
    *
-   * @param field light field; it is only read, during the call
+   * @param field light field, which the engine only reads, and only during the call
    * @param parameters lens and region
-   * @param out receives the picture, in any format. It has the size of the picture, or of the
-   *     region of the parameters, and must not overlap the light field. Its alpha is that of the
-   *     centre view, or 255. After {@link #cancel} its contents are unspecified
+   * @param out receives the picture, in any format. The image has the size of the picture, or of
+   *     the region of the parameters, and must not overlap the light field. Alpha is copied from
+   *     the centre view, or is 255. After {@link #cancel} the contents are unspecified
    */
   public synchronized void refocus(LightField field, Parameters parameters, Image out) {
     Objects.requireNonNull(parameters, "parameters");
@@ -64,7 +64,8 @@ public final class Refocuser implements AutoCloseable {
   }
 
   /**
-   * Refocuses the prepared light field. The picture has the same bytes as that of {@link #refocus}.
+   * Refocuses the prepared light field. The picture has the same bytes as the picture of {@link
+   * #refocus}.
    *
    * @param parameters lens and region
    * @param out receives the picture, as for {@link #refocus}
@@ -81,8 +82,8 @@ public final class Refocuser implements AutoCloseable {
    *
    * @param shift 1 to {@link Configuration#previews}; 0 is the full size
    * @param parameters lens and region, in pixels of the full size
-   * @param out receives the picture. It has all pixels that contain a part of the region; for a
-   *     whole picture its size is ceil(width / 2^shift) times ceil(height / 2^shift). Its alpha is
+   * @param out receives the picture. The picture has all pixels that contain a part of the region;
+   *     a whole picture has a size of ceil(width / 2^shift) times ceil(height / 2^shift). Alpha is
    *     255
    * @throws IllegalStateException if no light field is prepared
    */
@@ -92,9 +93,9 @@ public final class Refocuser implements AutoCloseable {
   }
 
   /**
-   * Cancels the call that another thread has running. That call ends within milliseconds and throws
-   * a StarfocusException for which {@link StarfocusException#isCancelled} is true. No-op if no call
-   * is running.
+   * Cancels the call that is running on another thread. The cancelled call ends within milliseconds
+   * and throws a StarfocusException for which {@link StarfocusException#isCancelled} is true. No-op
+   * if no call is running.
    */
   public void cancel() {
     synchronized (life) {
@@ -161,7 +162,7 @@ public final class Refocuser implements AutoCloseable {
   }
 
   /**
-   * Returns the version of the library and the SIMD target that it uses on this machine.
+   * Returns the version of the library and the SIMD target that the library uses on this machine.
    *
    * @return a text, for example "0.1.0, NEON"
    */

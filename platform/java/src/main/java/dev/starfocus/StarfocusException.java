@@ -25,7 +25,7 @@ public class StarfocusException extends RuntimeException {
   }
 
   /**
-   * Returns whether the call was cancelled. The contents of its output are then unspecified.
+   * Returns whether the call was cancelled. The output of a cancelled call is unspecified.
    *
    * @return true if {@link Refocuser#cancel} cancelled the call
    */

@@ -8,10 +8,10 @@ import java.nio.ByteBuffer;
 import java.util.Arrays;
 
 /**
- * Locks a HardwareBuffer and provides its pixels in place as an {@link Image}, for reading or for
- * writing, until it is closed. The buffer has the format RGBA_8888, RGBX_8888, RGB_888 or
- * YCBCR_420_888, and was created with USAGE_CPU_READ_OFTEN or USAGE_CPU_WRITE_OFTEN. Images of
- * YCBCR_420_888 have full range and the matrix BT.601, as those of Android's cameras.
+ * Locks a HardwareBuffer until this object is closed, and provides the pixels in place as an {@link
+ * Image} for reading or for writing. The buffer must have the format RGBA_8888, RGBX_8888, RGB_888
+ * or YCBCR_420_888, and must have been created with USAGE_CPU_READ_OFTEN or USAGE_CPU_WRITE_OFTEN.
+ * Images of YCBCR_420_888 have full range and the matrix BT.601, as Android's cameras produce them.
  */
 public final class LockedHardwareBuffer implements AutoCloseable {
   static {
@@ -41,8 +41,8 @@ public final class LockedHardwareBuffer implements AutoCloseable {
   }
 
   /**
-   * Unlocks the buffer, and waits until the written pixels have reached it. No-op if the buffer is
-   * already unlocked.
+   * Unlocks the buffer, and waits until all written pixels have reached the buffer. No-op if the
+   * buffer is already unlocked.
    */
   @Override
   public void close() {
