@@ -16,7 +16,7 @@ inline double Seconds() {
 }
 
 // Returns the CPU time of the calling thread in nanoseconds, from an arbitrary start. Other
-// programs do not influence it. May serve as a starfocus_clock.
+// programs do not influence this time. The function can be used as a starfocus_clock.
 inline uint64_t ThreadNanoseconds() {
   timespec time = {};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);

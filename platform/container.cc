@@ -36,7 +36,7 @@ uint32_t Crc(const uint8_t* bytes, size_t size) {
 }
 
 // stb_image allocates the size that a chunk declares before it checks that the data exists, and
-// never checks its checksum.
+// never verifies the checksum of the chunk.
 Container CheckPng(const Bytes& bytes, bool checksums) {
   for (size_t at = sizeof(kPngSignature); at + 12 <= bytes.size();) {
     const uint8_t* chunk = &bytes[at];
@@ -51,8 +51,9 @@ Container CheckPng(const Bytes& bytes, bool checksums) {
   return Container::kTruncated;
 }
 
-// Checks the Huffman tables in [at, end). Each has a byte for its class, 16 counts of codes, and
-// the values of the codes. stb_image 2.27 writes out of bounds if there are more than 256 codes.
+// Checks the Huffman tables in [at, end). Each table has a byte for its class, 16 counts of codes,
+// and the values of the codes. stb_image 2.27 writes out of bounds if a table has more than 256
+// codes.
 Container CheckHuffmanTables(const Bytes& bytes, size_t at, size_t end) {
   while (at < end) {
     if (at + 17 > bytes.size()) return Container::kTruncated;

@@ -26,7 +26,7 @@ Container CheckContainer(const Bytes& bytes);
 Error Truncated(const std::string& where, const std::string& format);
 
 // Describes a file that is not a supported picture, for errors: "a text file", "a GIF file", "an
-// empty file". Returns "a file of an unknown format" if it is not recognized.
+// empty file". Returns "a file of an unknown format" if the format is not recognized.
 std::string DescribeFile(const Bytes& bytes);
 
 // Returns true if a chunk of a PNG file exceeds the file, or the last chunk is missing.
@@ -45,9 +45,9 @@ struct JpegSegment {
 };
 constexpr uint8_t kJpegEndOfImage = 0xd9;  // a marker without a length
 
-// Returns the first segment at or after byte `at`. Skips coded data between segments, in which 0xff
-// is followed by a zero byte or is part of a restart marker. Returns nullopt if the file ends
-// before the segment does.
+// Returns the first segment at or after byte `at`, or nullopt if the file ends before the segment
+// does. Skips coded data between segments. In coded data, 0xff is followed by a zero byte or is
+// part of a restart marker.
 std::optional<JpegSegment> NextJpegSegment(const uint8_t* jpeg, size_t size, size_t at);
 
 // Returns a big-endian 32-bit integer.

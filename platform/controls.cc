@@ -4,7 +4,7 @@
 namespace starfocus {
 namespace {
 
-// Returns the place of the levels in the clockwise cycle: A falls, B falls, A rises, B rises.
+// Returns the index of the state (a, b) in the clockwise cycle: A falls, B falls, A rises, B rises.
 int Place(bool a, bool b) { return a ? (b ? 0 : 3) : (b ? 1 : 2); }
 
 }  // namespace

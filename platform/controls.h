@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Interprets the edges of the lines of knobs and buttons. Uses no I/O and no clock, so that tests
-// can replay any sequence of edges.
+// Interprets signal edges on the lines of knobs and buttons. The module performs no I/O and reads
+// no clock, so that tests can replay any sequence of edges.
 #ifndef STARFOCUS_PLATFORM_CONTROLS_H_
 #define STARFOCUS_PLATFORM_CONTROLS_H_
 
@@ -10,11 +10,11 @@ namespace starfocus {
 
 // A rotary encoder with two lines and four edges between detents. A leads B clockwise.
 //
-// Every edge moves the position by a quarter of a step. A step counts when both lines are back at
-// the levels of a detent, so bouncing contacts cancel out. An edge to the current level of a line
-// means that an edge was lost. The position does not change then, but the levels are correct
-// afterwards. A lost edge may lose its step. It never causes a step in the wrong direction, nor
-// affects later steps.
+// Every edge moves the position by a quarter of a step. A step counts when both lines have returned
+// to the levels of a detent, so contact bounce cancels out. If an edge reports the current level of
+// a line, an earlier edge was lost. In this case the position does not change, but the levels are
+// correct afterwards. A lost edge may lose its step. A lost edge never causes a step in the wrong
+// direction and never affects later steps.
 class QuadratureDecoder {
  public:
   // @param a, b levels of the lines at rest
@@ -29,26 +29,26 @@ class QuadratureDecoder {
   int Edge(bool a, bool b);
 
   bool a_, b_;
-  int rest_;      // place in the cycle at a detent
+  int rest_;      // index in the cycle at a detent
   int quarters_;  // quarters since the last detent
 };
 
-// A push button. The first edge of a press counts immediately; edges within `quiet` after a change
-// are bouncing. If a release was lost, the next press still counts.
+// A push button. The first edge of a press counts immediately. Edges that arrive within `quiet`
+// after a change are treated as contact bounce. If a release was lost, the next press still counts.
 class Debouncer {
  public:
-  // @param quiet duration of bouncing in nanoseconds, the unit of all times, from any monotonic
-  // clock
+  // @param quiet duration of contact bounce in nanoseconds. All times are in nanoseconds, from any
+  //     monotonic clock
   explicit Debouncer(int64_t quiet) : quiet_(quiet) {}
 
-  // Processes an edge of the line. Returns true for a press, either by this edge or by bouncing
-  // that has settled before it.
+  // Processes an edge of the line. Returns true if this edge is a press, or if an earlier press has
+  // settled before this edge.
   bool Edge(bool pressed, int64_t time);
 
-  // Accepts the level at the end of bouncing. Call it if no edge has arrived until Due(). Returns
-  // true for a press.
+  // Accepts the level at the end of contact bounce. Call this function if no edge has arrived by
+  // the time Due(). Returns true for a press.
   bool Settle(int64_t time);
-  // unsettled() is true if Settle must be called, at the time Due().
+  // Returns true if Settle must be called at the time Due().
   bool unsettled() const { return last_ != pressed_; }
   int64_t Due() const { return changed_ + quiet_; }
 

@@ -15,11 +15,12 @@ namespace starfocus {
 using Bytes = std::vector<uint8_t>;
 
 // Reads a regular file or a pipe of at most 2 GiB. Rejects folders and devices, since a device such
-// as /dev/zero never ends. "-" is standard input, here and below.
+// as /dev/zero never ends. In all functions of this header that read, the path "-" means standard
+// input.
 Result<Bytes> ReadFile(const std::string& path);
 
-// Reads a file, or only its first 64 KiB if `is_wanted` returns false for them. Unwanted files cost
-// little memory, and reading an endless stream stops.
+// Reads a file, or only its first 64 KiB if `is_wanted` returns false for these bytes. Unwanted
+// files therefore take little memory, and reading of an endless stream stops.
 Result<Bytes> ReadFileIf(const std::string& path, bool (*is_wanted)(const Bytes& beginning));
 
 // Reads a file of at most kMostSmallBytes, for timings, calibrations and other texts.

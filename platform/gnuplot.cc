@@ -17,8 +17,8 @@ struct CloseFile {
 };
 using TempFile = std::unique_ptr<std::FILE, CloseFile>;
 
-// Runs gnuplot with these files as stdin, stdout and stderr. Returns its exit code, or -1 if it
-// cannot be run.
+// Runs gnuplot with these files as stdin, stdout and stderr. Returns the exit code, or -1 if
+// gnuplot cannot be run.
 int Spawn(std::FILE* in, std::FILE* out, std::FILE* err) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);

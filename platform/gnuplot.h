@@ -13,8 +13,8 @@ namespace starfocus {
 // Returns true if a gnuplot that can write SVG is installed.
 bool HasGnuplot();
 
-// Runs gnuplot on `script`, which contains its data and writes to stdout, and returns the output.
-// Uses no shell and no file names. Errors start with `what`.
+// Runs gnuplot on `script` and returns the output. The script contains all data and writes to
+// stdout. The function uses no shell and no file names. Errors start with `what`.
 Result<Bytes> RunGnuplot(const std::string& what, const std::string& script);
 
 }  // namespace starfocus

@@ -27,7 +27,7 @@ std::string ChipPath(const std::string& chip) {
 
 std::string Number(int64_t value) { return std::to_string(value); }
 
-// Returns an error for `where` by errno.
+// Returns an error for `where` with the reason in errno.
 Error Failure(const std::string& where, const std::string& expected) {
   const int code = errno;
   if (code == EBUSY) return Expected(where, expected, "a line that another program holds");
@@ -108,7 +108,7 @@ gpiod_line_bias BiasOf(GpioBias bias) {
   return GPIOD_LINE_BIAS_AS_IS;
 }
 
-// Requests `lines` with `settings`, which it frees. Returns null on failure.
+// Requests `lines` with `settings` and frees `settings`. Returns null on failure.
 gpiod_line_request* Request(gpiod_chip* chip, const std::vector<int>& lines,
                             gpiod_line_settings* settings) {
   const std::vector<unsigned> offsets(lines.begin(), lines.end());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Accesses GPIO lines of Linux boards through libgpiod (1.5 or newer, or 2.x). Only built if
-// libgpiod is available. A chip is named "gpiochip0", "/dev/gpiochip0" or "0"; lines are offsets on
-// their chip.
+// libgpiod is available. A chip is named "gpiochip0", "/dev/gpiochip0" or "0". A line is identified
+// by its offset on the chip.
 #ifndef STARFOCUS_PLATFORM_GPIO_H_
 #define STARFOCUS_PLATFORM_GPIO_H_
 
@@ -24,7 +24,7 @@ Result<std::vector<GpioChip>> ListGpioChips();
 
 enum class GpioBias { kAsIs, kPullUp, kPullDown };
 
-// An edge of a line; `high` is the level after the edge.
+// A signal edge of a line. `high` is the level after the edge.
 struct GpioEdge {
   int line;
   bool high;

@@ -8,8 +8,9 @@
 
 namespace starfocus {
 
-// Returns true if `icc` is a complete profile for RGB (ICC.1:2022, 7.2 and 7.3). Its size must
-// match its header, its data colour space must be RGB, and it must contain all tagged elements.
+// Returns true if `icc` is a complete profile for RGB (ICC.1:2022, 7.2 and 7.3). The profile must
+// have the size in its header, must have the data colour space RGB, and must contain all tagged
+// elements.
 bool IsRgbProfile(const Bytes& icc);
 
 }  // namespace starfocus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Converts picture files (PNG, PPM, JPEG and WebP) to and from 8-bit RGB.
+// Reads and writes picture files (PNG, PPM, JPEG and WebP) as 8-bit RGB.
 #ifndef STARFOCUS_PLATFORM_IMAGE_IO_H_
 #define STARFOCUS_PLATFORM_IMAGE_IO_H_
 
@@ -13,8 +13,9 @@
 
 namespace starfocus {
 
-// Reads a picture. The content decides the format, not the name. Grey and CMYK are converted to
-// RGB, and alpha is ignored. Here and below, pictures may have up to 2^28 pixels.
+// Reads a picture. The format is detected from the content, not from the file name. Grey and CMYK
+// are converted to RGB, and alpha is ignored. The functions of this header support pictures of up
+// to 2^28 pixels.
 Result<Image> ReadImage(const std::string& path);
 
 // Decodes a picture in memory; `where` is used only in errors. For PNG and WebP, the metadata
@@ -26,7 +27,7 @@ Result<DecodedPicture> DecodeImage(const std::string& where, const Bytes& bytes)
 Error WriteImage(const std::string& path, const Image& image, const PictureOptions& options = {});
 
 // Returns an error if WriteImage does not support the extension of `path`, this build lacks the
-// encoder, or the folder does not exist. Call it before long computations.
+// encoder, or the folder does not exist. Call this function before long computations.
 Error CheckImageOutput(const std::string& path);
 
 }  // namespace starfocus

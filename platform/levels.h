@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decodes grey levels of depth pictures (PNG, PGM, PPM and JPEG) with their full precision, for the
+// Decodes the grey levels of depth pictures (PNG, PGM, PPM and JPEG) at full precision, for the
 // readers of depth photos. A colour picture is an error, because colours have no order.
 #ifndef STARFOCUS_PLATFORM_LEVELS_H_
 #define STARFOCUS_PLATFORM_LEVELS_H_

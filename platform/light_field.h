@@ -18,7 +18,7 @@ namespace starfocus {
 
 struct LightField {
   std::vector<Image> views;
-  Positions positions;  // positions of the views; empty: those of starfocus_view_position
+  Positions positions;  // positions of the views; empty: the star of starfocus_view_position
   FloatMap disparity;
   std::vector<uint8_t> coverage;  // as starfocus_light_field.coverage, packed rows; empty: none
 
@@ -35,13 +35,13 @@ starfocus_disparity_stats MeasureDisparity(const FloatMap& map);
 // Returns the light field for a call of the engine, starting at row `first`.
 starfocus_light_field EngineRows(const LightField& light_field, int first = 0);
 
-// Returns the path of the folder's map, whether or not the file exists.
+// Returns the path of the folder's disparity map, whether or not the file exists.
 std::string DisparityPath(const std::string& folder);
 
 // Returns the paths of all light-field files in the folder.
 std::vector<std::string> LightFieldFiles(const std::string& folder);
 
-// Returns true if the file name is that of a light-field file.
+// Returns true if `name` is the name of a file of a light-field folder.
 bool IsLightFieldFile(const std::string& name);
 
 Result<FloatMap> ReadDisparity(const std::string& folder);
@@ -49,35 +49,37 @@ Result<FloatMap> ReadDisparity(const std::string& folder);
 // Returns true if the folder has a disparity map, which may be invalid.
 bool HasDisparity(const std::string& folder);
 
-// Loads the views at these positions without the map, or all views of the folder if `wanted` is
-// empty. All sizes must agree. Here and below, `runner` decodes several views at a time; if it is
-// null, the calling thread decodes all views.
+// Loads the views at the positions `wanted` without the map, or all views of the folder if `wanted`
+// is empty. All views must have the same size. In all functions of this header, `runner` decodes
+// several views at a time; if `runner` is null, the calling thread decodes all views.
 Result<LightField> LoadCaptured(const std::string& folder, const Positions& wanted,
                                 ThreadRunner* runner = nullptr);
 
-// Loads these views without a map. All sizes must agree.
+// Loads the views in `files` without a map. All views must have the same size.
 Result<LightField> LoadViewFiles(const std::vector<ViewFile>& files,
                                  ThreadRunner* runner = nullptr);
 
-// Loads the map of views that are already loaded. Its size must be that of the views.
+// Loads the map of views that are already loaded. The map must have the size of the views.
 Error LoadMap(const std::string& path, LightField* light_field);
 
-// Sets a map that was read from `path`. Its size must be that of the loaded views.
+// Sets a map that was read from `path`. The map must have the size of the loaded views.
 Error TakeMap(const std::string& path, FloatMap map, LightField* light_field);
 
 // Returns the path of the folder's coverage, or an empty string if none exists.
 std::string CoveragePath(const std::string& folder);
 
-// Loads the coverage of views that are already loaded, with the same size. It is the alpha channel
-// of a picture, or the grey levels if the picture has no alpha channel.
+// Loads the coverage of views that are already loaded. Coverage is the alpha channel of a picture,
+// or the grey levels if the picture has no alpha channel. The picture must have the size of the
+// views.
 Error LoadCoverage(const std::string& path, LightField* light_field);
 
-// Loads these views, the disparity map, and the coverage if it exists. All sizes must agree.
+// Loads the views at the positions `wanted`, the disparity map, and the coverage if it exists. The
+// views, the map and the coverage must have the same size.
 Result<LightField> LoadLightField(const std::string& folder, const Positions& wanted,
                                   ThreadRunner* runner = nullptr);
 
-// Creates the folder if necessary. Writes the views as PNG, several at a time on `runner`, and the
-// coverage and the disparity map if they are not empty.
+// Creates the folder if necessary. Writes the views as PNG, several at a time on `runner`. Also
+// writes the coverage and the disparity map, unless they are empty.
 Error SaveLightField(const std::string& folder, const LightField& light_field,
                      ThreadRunner* runner);
 

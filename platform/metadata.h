@@ -16,8 +16,9 @@ struct Metadata {
   Bytes exif;       // the TIFF structure, starting with its byte order "II" or "MM"; empty: none
   Bytes icc;        // the whole profile; empty: none, which means sRGB
   Bytes iptc = {};  // records of IPTC-IIM: title, caption, copyright and so on; empty: none
-  // Descriptions of an XMP packet without the surrounding elements; empty: none. They contain
-  // title, caption, rating, copyright and so on, but no properties of the file (kept_metadata.h).
+  // Descriptions of an XMP packet without the surrounding elements; empty: none. The descriptions
+  // contain title, caption, rating, copyright and so on, but no properties of the file
+  // (kept_metadata.h).
   std::string xmp = {};
 };
 

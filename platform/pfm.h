@@ -23,8 +23,8 @@ struct FloatMap {
 
 enum class ByteOrder { kLittle, kBig };
 
-// Reads a map. Values may be NaN or infinite. The magnitude of the scale is ignored, because it is
-// a unit that disparities do not have.
+// Reads a map. Values may be NaN or infinite. The magnitude of the scale states a unit and is
+// ignored, because disparities do not use this unit.
 Result<FloatMap> ReadPfm(const std::string& path);
 Error WritePfm(const std::string& path, const FloatMap& map, ByteOrder order = ByteOrder::kLittle);
 

@@ -26,7 +26,7 @@ std::optional<PngHeader> ReadPngHeader(const Bytes& png) {
   return PngHeader{ReadBigEndian32(chunk + 8), ReadBigEndian32(chunk + 12), chunk[16], chunk[17]};
 }
 
-// stb_image rejects palettes with 16-bit indices, as the format requires.
+// stb_image rejects palettes with 16-bit indices, as the PNG format requires.
 bool HasPalette(const PngHeader& header) { return header.colour == kPalette && header.depth <= 8; }
 
 Bytes TakePalette(Bytes* png) {
@@ -38,7 +38,7 @@ Bytes TakePalette(Bytes* png) {
     const size_t length = ReadBigEndian32(chunk);
     if (IsChunk(chunk, "PLTE")) palette.assign(chunk + 8, chunk + 8 + length);
     // Opacities of a palette do not apply to grey levels. Renaming the chunk makes decoders skip
-    // it.
+    // the chunk.
     if (IsChunk(chunk, "tRNS")) chunk[4] = 'x';
     at += 12 + length;
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads and writes binary PPM and PGM pictures. stb_image can read them, but accepts truncated
-// files and ignores the maximum value.
+// Reads and writes binary PPM and PGM pictures. This module exists because stb_image accepts
+// truncated PPM files and ignores the maximum value.
 #ifndef STARFOCUS_PLATFORM_PPM_H_
 #define STARFOCUS_PLATFORM_PPM_H_
 
@@ -14,8 +14,8 @@
 
 namespace starfocus {
 
-// Decodes P6, or P5 as grey RGB, with any maximum value up to 65535, scaled to 8 bits. `path` is
-// used only in errors.
+// Decodes a P6 file, or a P5 file as grey RGB. The maximum value may be up to 65535; samples are
+// scaled to 8 bits. `path` is used only in errors.
 Result<Image> DecodePpm(const std::string& path, const Bytes& bytes);
 
 // Samples of a P6 or P5 file, 0 to `largest`.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shows a progress line with the remaining time on stderr, if stderr is a terminal. Only one
-// Progress at a time shows a line. Objects created during its lifetime are part of its work and
-// show nothing.
+// Progress object at a time shows a line. Objects that are created while another object shows a
+// line show nothing, because they measure parts of the same work.
 #ifndef STARFOCUS_PLATFORM_PROGRESS_H_
 #define STARFOCUS_PLATFORM_PROGRESS_H_
 
@@ -14,7 +14,7 @@ namespace starfocus {
 
 class Progress {
  public:
-  // @param total number of steps that make 100 %
+  // @param total number of steps that correspond to 100 %
   Progress(std::string what, int64_t total);
   ~Progress();  // erases the line
   Progress(const Progress&) = delete;

@@ -16,19 +16,20 @@ enum class ErrorKind {
   kInternal,  // defect of starfocus
 };
 
-// One line with the file or option and the cause. It converts to true if it is an error:
+// An error message of one line with the file or option and the cause. An Error converts to true
+// unless it means success:
 //   if (Error error = WriteFile(path, bytes)) return error;
 class [[nodiscard]] Error {
  public:
   Error() = default;  // success
-  // Replaces line breaks and other control characters in `line` by spaces. Names and contents of
-  // files may contain them.
+  // Replaces control characters such as line breaks in `line` by spaces. Names and contents of
+  // files may contain control characters.
   Error(ErrorKind kind, std::string line);
 
-  // Error of the command line: "<option>: expected <expected>, found <found>".
+  // Returns an error of the command line: "<option>: expected <expected>, found <found>".
   static Error Usage(const std::string& option, const std::string& expected,
                      const std::string& found);
-  // Defect of starfocus.
+  // Returns an error for a defect of starfocus.
   static Error Internal(const std::string& where, const std::string& expected,
                         const std::string& found);
 
@@ -41,7 +42,7 @@ class [[nodiscard]] Error {
   std::string line_;
 };
 
-// "<where>: expected <expected>, found <found>".
+// Returns "<where>: expected <expected>, found <found>".
 Error Expected(const std::string& where, const std::string& expected, const std::string& found);
 
 // Returns "cannot <action> <path>: <reason>". The system's reason starts in lower case: "cannot
@@ -55,7 +56,7 @@ Error Unsupported(const std::string& where, const std::string& format, const std
 // Returns the error after std::bad_alloc: "<where>: out of memory, cannot <purpose>".
 Error OutOfMemory(const std::string& where, const std::string& purpose);
 
-// A value or an error. It converts to true if it is a value.
+// A value or an error. A Result converts to true if it contains a value.
 template <class T>
 class [[nodiscard]] Result {
  public:

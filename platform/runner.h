@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pool of starfocus/pool.h for jobs that may throw exceptions, as jobs of the programs do.
+// Wraps the pool of starfocus/pool.h for jobs that may throw exceptions. Jobs of the programs may
+// throw; jobs of the engine do not.
 #ifndef STARFOCUS_PLATFORM_RUNNER_H_
 #define STARFOCUS_PLATFORM_RUNNER_H_
 
@@ -13,8 +14,8 @@ namespace starfocus {
 
 class ThreadRunner {
  public:
-  // @param workers number of workers in [1, STARFOCUS_MAX_WORKERS]; there are fewer if the system
-  // cannot start the threads. Throws std::bad_alloc if memory is insufficient.
+  // @param workers number of workers in [1, STARFOCUS_MAX_WORKERS]; the runner has fewer workers if
+  //     the system cannot start all threads. Throws std::bad_alloc if memory is insufficient.
   explicit ThreadRunner(int workers);
 
   int workers() const { return starfocus_pool_workers(pool_.get()); }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Handles "-" instead of a file name: standard input for reading, standard output for writing. A
-// prefix such as in "jpg:-" selects the format of a picture; the default is PNG.
+// Handles the file name "-", which means standard input for reading and standard output for
+// writing. A prefix selects the format of a picture, for example "jpg:-". The default format is
+// PNG.
 #ifndef STARFOCUS_PLATFORM_STANDARD_STREAM_H_
 #define STARFOCUS_PLATFORM_STANDARD_STREAM_H_
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The implementation of stb_image and stb_image_write. It has its own file because its JPEG encoder
-// shifts negative numbers, at which the sanitizer build would stop.
+// Compiles stb_image and stb_image_write. A separate file is required because the JPEG encoder of
+// stb_image_write shifts negative numbers, which would stop the sanitizer build.
 #include "platform/stb_memory.h"
 
 #define STB_IMAGE_IMPLEMENTATION

@@ -9,7 +9,7 @@
 namespace starfocus {
 namespace {
 
-// Header of every allocation: its neighbours in the list of this thread.
+// Header of every allocation. Contains pointers to the neighbours in the list of this thread.
 struct alignas(std::max_align_t) Piece {
   Piece *next, *previous;
 };
@@ -27,7 +27,8 @@ void Leave(const Piece* piece) {
   if (piece->next != nullptr) piece->next->previous = piece->previous;
 }
 
-// Resizes `old`, or allocates if it is null. The result is in no list. Returns null on failure.
+// Resizes `old`, or allocates a new piece if `old` is null. The result is not in any list. Returns
+// null on failure.
 Piece* Resize(Piece* old, size_t size) {
   if (size > SIZE_MAX - sizeof(Piece)) return nullptr;
   return static_cast<Piece*>(std::realloc(old, sizeof(Piece) + size));

@@ -89,7 +89,8 @@ bool TemporaryFile::MoveTo(const std::string& target) {
   return true;
 }
 
-// Never unlocks the list: threads that wait for it stay blocked until the signal ends the program.
+// Never unlocks the list. Threads that wait for the lock stay blocked until the signal ends the
+// program.
 void TemporaryFile::RemoveAllAndEnd(int number) {
   Take();
   for (const TemporaryFile* file = first; file != nullptr; file = file->next_) {

@@ -11,8 +11,8 @@ namespace starfocus {
 // A new file that is removed unless MoveTo succeeds.
 class TemporaryFile {
  public:
-  // Creates the file in `folder`. On failure, file() is null and errno is set. The name is short,
-  // so that it fits any folder into which the final name fits.
+  // Creates the file in `folder`. On failure, file() is null and errno is set. The temporary name
+  // is short, so that file systems that accept the final name also accept the temporary name.
   explicit TemporaryFile(const std::string& folder);
   ~TemporaryFile();
   TemporaryFile(const TemporaryFile&) = delete;

@@ -47,7 +47,7 @@ struct NameParts {
   size_t extension;  // index into kExtensions
 };
 
-// Returns nullopt if the name is not that of a view.
+// Parses the file name of a view. Returns nullopt for other names.
 std::optional<NameParts> ReadName(const std::string& name) {
   constexpr char kPrefix[] = "view_";
   constexpr size_t kBegin = sizeof(kPrefix) - 1, kExtension = 4;
@@ -68,8 +68,8 @@ Error CheckFolder(const std::string& folder) {
   return Expected(folder, "a light-field folder", fs::exists(status) ? "a file" : "nothing");
 }
 
-// Returns the index of a position in the star, or the size of the star if it is not part of the
-// star.
+// Returns the index of a position in the star, or the size of the star if the position is not part
+// of the star.
 size_t StarIndex(const starfocus_position& position) {
   const Positions star = StarPositions(STARFOCUS_MAX_VIEWS);
   size_t index = 0;
@@ -84,8 +84,8 @@ bool ComesBefore(const ViewFile& a, const ViewFile& b) {
   return a.position.v < b.position.v;
 }
 
-// Returns the files of views in a folder, each with its first extension in the order of
-// kExtensions.
+// Returns the files of views in a folder. If a view has files with several extensions, the first
+// extension in kExtensions is used.
 Result<std::vector<ViewFile>> ListNames(const std::string& folder) {
   const Result<std::vector<std::string>> names = ListFolder(folder);
   if (!names) return names.error();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the files of captured views in a folder. They are view_<u>_<v>.png (or .ppm, .jpg), with u
-// and v as signed decimal numbers. A stereo pair may be im0.png and im1.png instead, as in the
-// Middlebury data sets.
+// Finds the files of captured views in a folder. The files are named view_<u>_<v>.png (or .ppm,
+// .jpg), with u and v as signed decimal numbers. A stereo pair may have the names im0.png and
+// im1.png instead, as in the Middlebury data sets.
 #ifndef STARFOCUS_PLATFORM_VIEW_FILES_H_
 #define STARFOCUS_PLATFORM_VIEW_FILES_H_
 
@@ -33,28 +33,30 @@ bool AreStar(const Positions& positions);
 // Rounds a position to the four decimals that file names have.
 starfocus_position RoundedPosition(double u, double v);
 
-// Returns true if the positions are equal with the precision of file names.
+// Returns true if the positions are equal after rounding to the precision of file names.
 bool SamePosition(const starfocus_position& a, const starfocus_position& b);
 
 // Returns, for example, "view_-0.5_+1.0", with one to four decimals.
 std::string ViewName(const starfocus_position& position);
 
-// Returns true if the file name is that of a captured view.
+// Returns true if `name` is the file name of a captured view.
 bool IsViewFile(const std::string& name);
 
-// Finds all files of captured views in a folder. They are sorted: the centre, then the positions of
-// starfocus_view_position in order, then others by u and v. If files differ only in the extension,
-// the first of .png, .ppm and .jpg is used. Errors: missing folder, missing centre view, more than
-// STARFOCUS_MAX_VIEWS views, a coordinate beyond 1, two files for one position.
+// Finds all files of captured views in a folder. The files are sorted: first the centre, then the
+// positions of starfocus_view_position in order, then all others by u and v. If files differ only
+// in the extension, the first of .png, .ppm and .jpg is used. Errors: missing folder, missing
+// centre view, more than STARFOCUS_MAX_VIEWS views, a coordinate beyond 1, two files for one
+// position.
 Result<std::vector<ViewFile>> FindViewFiles(const std::string& folder);
 
-// Returns the `files` at the positions `wanted` in that order, or all files if `wanted` is empty.
-// Errors start with `where`.
+// Returns the files at the positions `wanted`, in the order of `wanted`, or all files if `wanted`
+// is empty. Errors start with `where`.
 Result<std::vector<ViewFile>> SelectViewFiles(const std::string& where,
                                               const std::vector<ViewFile>& files,
                                               const Positions& wanted);
 
-// Same, for all files of a folder.
+// Finds the view files of a folder and returns the files at the positions `wanted`, as
+// SelectViewFiles does.
 Result<std::vector<ViewFile>> ChooseViewFiles(const std::string& folder, const Positions& wanted);
 
 }  // namespace starfocus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Normalizes EXIF that files of several formats contain.
+// Normalizes EXIF data from files of several formats.
 #ifndef STARFOCUS_PLATFORM_DECODERS_EXIF_BYTES_H_
 #define STARFOCUS_PLATFORM_DECODERS_EXIF_BYTES_H_
 
@@ -7,8 +7,8 @@
 
 namespace starfocus {
 
-// Removes the header "Exif\0\0" of JPEG files, which some programs also write to PNG and WebP
-// files. Clears `exif` if the rest is not a TIFF structure.
+// Removes the header "Exif\0\0" from `exif`. JPEG files require this header, and some programs also
+// write the header to PNG and WebP files. Clears `exif` if the rest is not a TIFF structure.
 void TrimExif(Bytes* exif);
 
 }  // namespace starfocus

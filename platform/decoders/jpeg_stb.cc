@@ -21,8 +21,8 @@ Result<Image> DecodeJpeg(const std::string& where, const Bytes& jpeg) {
     }
   }
   if (Error error = CheckPictureSize(where, width, height)) return error;
-  // Check this first: stb_image would allocate and fill hundreds of megabytes for a file of a few
-  // bytes.
+  // Check the size first: stb_image would allocate and fill hundreds of megabytes for a file of a
+  // few bytes.
   return JpegCanHold(jpeg.size(), false, width, height) ? DecodeStb(where, jpeg)
                                                         : Truncated(where, "JPEG");
 }

@@ -4,10 +4,10 @@
 #include <cstdio>
 #include <memory>
 
-// Must follow <cstdio>, since it uses FILE.
+// Include jpeglib.h after <cstdio>, because jpeglib.h uses FILE.
 #include <jpeglib.h>
 
-// Must follow <jpeglib.h>, which defines whether arithmetic coding has error codes.
+// Include jerror.h after <jpeglib.h>, which defines whether arithmetic coding has error codes.
 #include <jerror.h>
 
 #include "platform/container.h"
@@ -23,7 +23,7 @@ constexpr int kMostScans = 500;
 
 // State of libjpeg and the cause of an error. The destructor frees libjpeg's memory.
 struct Decoder {
-  jpeg_error_mgr manager;  // first: libjpeg only knows this member
+  jpeg_error_mgr manager;  // must be the first member: Fail casts a pointer to it
   std::jmp_buf back;
   jpeg_decompress_struct info;
   jpeg_progress_mgr progress;
@@ -47,8 +47,8 @@ void Fail(j_common_ptr info) {
 
 void KeepSilent(j_common_ptr) {}
 
-// Returns true if this warning means that pixels are missing or wrong. Other warnings concern bytes
-// between the parts of a file, or unused numbers.
+// Returns true if the warning `code` means that pixels are missing or wrong. Other warnings concern
+// bytes between the parts of a file, or unused numbers.
 bool LosesPixels(int code) {
   return code == JWRN_JPEG_EOF || code == JWRN_HIT_MARKER || code == JWRN_HUFF_BAD_CODE ||
          code == JWRN_ARITH_BAD_CODE || code == JWRN_MUST_RESYNC || code == JWRN_NOT_SEQUENTIAL;
@@ -71,8 +71,9 @@ void CountScans(j_common_ptr info) {
 
 bool IsCmyk(const jpeg_decompress_struct& info) { return info.out_color_space == JCS_CMYK; }
 
-// Functions that call setjmp return false and set the reason in the decoder on failure. Their local
-// objects must not have destructors, since libjpeg's errors jump over them.
+// Functions that call setjmp return false and set the reason in the decoder on failure. Local
+// objects of these functions must not have destructors, because longjmp on a libjpeg error skips
+// destructors.
 bool ReadHeader(const Bytes& jpeg, Decoder* decoder) {
   jpeg_decompress_struct& info = decoder->info;
   decoder->manager.error_exit = Fail;
@@ -90,7 +91,7 @@ bool ReadHeader(const Bytes& jpeg, Decoder* decoder) {
 }
 
 // Converts a row of CMYK. Adobe's programs store 255 minus the ink. Files without Adobe's marker
-// are assumed to be the same, as in libjpeg-turbo's own program.
+// are assumed to store ink in the same way, as in libjpeg-turbo's own program.
 void ToRgb(const uint8_t* cmyk, int width, uint8_t* rgb) {
   for (int x = 0; x < width; ++x, cmyk += 4, rgb += 3) {
     for (int c = 0; c < 3; ++c) rgb[c] = static_cast<uint8_t>((cmyk[c] * cmyk[3] + 127) / 255);

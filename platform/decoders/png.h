@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decodes the pixels and metadata of PNG files. image_io.cc calls it after checking the header.
+// Decodes the pixels and metadata of PNG files. image_io.cc checks the header before it calls this
+// module.
 #ifndef STARFOCUS_PLATFORM_DECODERS_PNG_H_
 #define STARFOCUS_PLATFORM_DECODERS_PNG_H_
 
@@ -12,8 +13,8 @@
 namespace starfocus {
 
 // Decodes to 8-bit RGB. Grey is converted to RGB, 16 bits are rounded to 8, and transparency is
-// ignored. Uses libpng if available, which also returns the ICC profile and EXIF; otherwise
-// stb_image, which returns no metadata. `where` is used only in errors.
+// ignored. Uses libpng if available, and otherwise stb_image. Only builds with libpng return the
+// ICC profile and EXIF. `where` is used only in errors.
 Result<DecodedPicture> DecodePngPixels(const std::string& where, const Bytes& png);
 
 }  // namespace starfocus

@@ -52,7 +52,7 @@ int TakeChunk(png_structp png, png_unknown_chunkp chunk) {
   } catch (const std::bad_alloc&) {
     call->no_memory = true;
   }
-  return -1;  // libpng then calls Fail outside of the handler, which a jump must not leave
+  return -1;  // libpng calls Fail after the handler, because longjmp must not leave the handler
 }
 
 // Owns libpng's structures.
@@ -65,8 +65,9 @@ struct Reader {
   Reader& operator=(const Reader&) = delete;
 };
 
-// Functions that call setjmp return false and set the reason in the call on failure. Their local
-// objects must not have destructors, since libpng's errors jump over them.
+// Functions that call setjmp return false and set the reason in the call on failure. Local objects
+// of these functions must not have destructors, because longjmp on a libpng error skips
+// destructors.
 bool ReadHeader(Call* call, Reader* reader) {
   PngCall* const base = call;
   constexpr char kOwn[] = "tEXt\0zTXt\0iTXt\0sPLT";
@@ -115,8 +116,8 @@ Error Failed(const std::string& where, const Call& call) {
                   "a damaged one (" + std::string(call.reason) + ")");
 }
 
-// Replaces indices by colours. An index outside the palette is an error, whereas libpng would
-// return black.
+// Replaces palette indices by colours. Returns an error for an index outside the palette, for which
+// libpng would return black.
 Error LookUp(const std::string& where, const Reader& reader, const Bytes& indices, Image* image) {
   png_colorp palette = nullptr;
   int colours = 0;

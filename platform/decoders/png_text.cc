@@ -12,7 +12,7 @@
 namespace starfocus {
 namespace {
 
-// EXIF fits a JPEG segment of 64 KiB. Its text has two digits per byte, and line breaks.
+// EXIF fits into a JPEG segment of 64 KiB. As text, EXIF has two digits per byte, and line breaks.
 constexpr size_t kMostText = size_t{1} << 18;
 
 struct FreeDecompressor {
@@ -43,8 +43,8 @@ int DigitOf(char text) {
   return text >= 'A' && text <= 'F' ? text - 'A' + 10 : -1;
 }
 
-// Parses a text such as "\nexif\n      124\n45786966...": a name, the number of bytes, and their
-// digits in lines.
+// Parses a text such as "\nexif\n      124\n45786966...": a name, the number of bytes, and lines
+// with the hexadecimal digits of the bytes.
 Bytes ParseDigits(const std::string& text) {
   size_t at = text.find('\n', 1);
   if (at == std::string::npos) return {};

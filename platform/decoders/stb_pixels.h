@@ -14,8 +14,8 @@ namespace starfocus {
 // Returns an error if the parts of a file are incomplete or inconsistent (container.h).
 Error CheckStbContainer(const std::string& where, const Bytes& bytes);
 
-// Decodes a picture with `channels` samples per pixel. The current StbMemory owns the result, which
-// is null if stb_image fails. Sets only the size of `image`.
+// Decodes a picture with `channels` samples per pixel. The current StbMemory owns the returned
+// pixels. Returns null if stb_image fails. Sets only the size of `image`.
 const uint8_t* LoadStb(const Bytes& bytes, int channels, Image* image);
 
 // Returns the error after LoadStb has returned null.

@@ -14,7 +14,7 @@ namespace starfocus {
 // Returns true if the file starts like a WebP file.
 bool IsWebp(const Bytes& bytes);
 
-// Decodes a still picture to RGB without alpha. Needs libwebp. `where` is used only in errors.
+// Decodes a still picture to RGB without alpha. Requires libwebp. `where` is used only in errors.
 Result<DecodedPicture> DecodeWebp(const std::string& where, const Bytes& webp);
 
 }  // namespace starfocus

@@ -15,8 +15,9 @@
 namespace starfocus {
 namespace {
 
-// The format has no such limit: 38 bytes can encode 8000x8000 pixels of one colour, for which the
-// decoder needs 7 bytes per pixel. Photographs have a few pixels per byte.
+// Limits of the pixels per byte of the file. The WebP format has no such limit: 38 bytes can encode
+// 8000x8000 pixels of one colour. The decoder requires 7 bytes of memory per pixel. Photographs
+// have a few pixels per byte.
 constexpr int64_t kMostPixelsPerByte = 65536, kAnyFilesPixels = int64_t{1} << 24;
 
 Error Failed(const std::string& where, VP8StatusCode status) {
@@ -25,7 +26,8 @@ Error Failed(const std::string& where, VP8StatusCode status) {
   return Expected(where, "an undamaged picture", "a damaged one (libwebp)");
 }
 
-// Returns the size of the file by its header, which counts the bytes after the first eight.
+// Returns the size of the file according to the header. The header counts the bytes after the first
+// eight.
 uint64_t SizeOf(const Bytes& webp) {
   return 8 + (uint64_t(webp[4]) | uint64_t(webp[5]) << 8 | uint64_t(webp[6]) << 16 |
               uint64_t(webp[7]) << 24);

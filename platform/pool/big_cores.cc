@@ -10,7 +10,7 @@ namespace {
 
 // A file with the performance of a core. A core is big if its number is at least numerator /
 // denominator of the largest number. Small cores have about 1/3 of the capacity of big cores, but
-// 2/3 of the clock frequency, so the two files need different limits.
+// 2/3 of the clock frequency, so the two files have different limits.
 struct Measure {
   const char* file;
   int64_t numerator, denominator;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the big cores of machines that have cores of different speeds, and restricts threads to
-// them. Used by the pool (pool.cc). On systems other than Linux, BigCores returns an empty set.
+// Finds the big cores of machines that have cores of different speeds, and restricts threads to the
+// big cores. Used by the pool (pool.cc). On systems other than Linux, BigCores returns an empty
+// set.
 #ifndef STARFOCUS_PLATFORM_POOL_BIG_CORES_H_
 #define STARFOCUS_PLATFORM_POOL_BIG_CORES_H_
 
@@ -19,16 +20,18 @@ struct CoreSet {
   int Count() const;
 };
 
-// Returns the big cores of `allowed`. Reads `folder`/cpu<N>/cpu_capacity of all cores or, if a core
-// lacks it, `folder`/cpu<N>/cpufreq/cpuinfo_max_freq; `folder` is /sys/devices/system/cpu, except
-// in tests. Returns `allowed` if neither file exists for every core.
+// Returns the big cores of `allowed`. Reads `folder`/cpu<N>/cpu_capacity of all cores. If a core
+// lacks this file, reads `folder`/cpu<N>/cpufreq/cpuinfo_max_freq of all cores instead. Returns
+// `allowed` if neither file exists for every core. `folder` is /sys/devices/system/cpu, except in
+// tests.
 CoreSet FindBigCores(const char* folder, const CoreSet& allowed);
 
 // Returns the big cores that this process may run on. The set is empty if the system does not
 // report which cores the process may run on.
 CoreSet BigCores();
 
-// Restricts the calling thread to `cores`. If the system rejects this, the thread keeps its cores.
+// Restricts the calling thread to `cores`. If the system rejects the restriction, the thread may
+// still run on any core that it could use before.
 void RunOn(const CoreSet& cores);
 
 }  // namespace starfocus

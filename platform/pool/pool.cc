@@ -16,8 +16,8 @@
 
 namespace {
 
-// Time for which a thread polls before it sleeps, in ns. It is longer than the work of the engine
-// between two batches, and short enough that polling wastes little processor time.
+// Time for which a thread polls before it sleeps, in ns. This time is longer than the pause of the
+// engine between two batches, and short enough that polling wastes little processor time.
 constexpr int64_t kPatience = 100000;
 
 int64_t Now() {
@@ -70,7 +70,7 @@ struct starfocus_pool {
   pthread_mutex_t turn = PTHREAD_MUTEX_INITIALIZER;  // held by the caller during its batch
   Batch batch = {nullptr, nullptr, 0};
   // Number of jobs of the batch that no thread has taken. A thread that took a job may read `batch`
-  // until it decrements `undone` for that job.
+  // until the thread decrements `undone` for this job.
   std::atomic<int32_t> left{0};
   std::atomic<int32_t> undone{0};  // number of jobs that are not done
   std::atomic<int32_t> stop{0};    // 1: the threads end
@@ -98,7 +98,7 @@ void Work(starfocus_pool* pool, int32_t worker) {
     pool->batch.job(pool->batch.data, pool->batch.count - left, worker);
     if (--pool->undone == 0 && pool->waiting != 0) {
       // The caller either sleeps, or holds the lock and checks `undone` before it sleeps. Locking
-      // waits for that check, so the signal is not lost.
+      // the mutex waits until the caller has made this check, so the signal is not lost.
       { const Lock lock(&pool->sleep); }
       pthread_cond_signal(&pool->finished);
     }

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <memory>
 
-// Must follow <cstdio>, since it uses FILE.
+// Include jerror.h and jpeglib.h after <cstdio>, because both headers use FILE.
 #include <jerror.h>
 #include <jpeglib.h>
 
@@ -15,7 +15,7 @@ namespace starfocus {
 namespace {
 
 struct Failure {
-  jpeg_error_mgr manager;  // first: libjpeg only knows this member
+  jpeg_error_mgr manager;  // must be the first member: Fail casts a pointer to it
   std::jmp_buf back;
   char reason[JMSG_LENGTH_MAX];
 };
@@ -34,8 +34,8 @@ struct Memory {
   ~Memory() { std::free(data); }
 };
 
-// Returns false and sets the reason on failure. Local objects must not have destructors, since
-// libjpeg's errors jump over them.
+// Returns false and sets the reason on failure. Local objects must not have destructors, because
+// longjmp on a libjpeg error skips destructors.
 bool Compress(const Image& image, int quality, Memory* memory, Failure* failure) {
   jpeg_compress_struct info;
   info.err = jpeg_std_error(&failure->manager);

@@ -18,8 +18,8 @@
 namespace starfocus {
 namespace {
 
-// Levels of libdeflate, measured on refocused pictures of 1024x768. Level 4 takes 25 ms and
-// compresses like zlib's levels 4 to 6. Level 9 takes 400 ms and saves 5 to 7 %.
+// Compression levels of libdeflate, measured on refocused pictures of 1024x768. Level 4 takes 25 ms
+// and compresses like zlib's levels 4 to 6. Level 9 takes 400 ms and saves 5 to 7 %.
 constexpr int kLevel = 4, kSmallLevel = 9;
 
 struct Rows {
@@ -31,7 +31,8 @@ struct Rows {
 // Output of libpng, and the cause of an error.
 struct Call : PngCall {
   Bytes png = {};
-  std::string xmp = {};  // a packet; must survive libpng's jumps
+  // An XMP packet; a member, because longjmp skips destructors of local objects.
+  std::string xmp = {};
 };
 
 void Append(png_structp png, png_bytep data, png_size_t size) {
@@ -42,7 +43,8 @@ void Append(png_structp png, png_bytep data, png_size_t size) {
   } catch (const std::bad_alloc&) {
     call->no_memory = true;
   }
-  png_error(png, "out of memory");  // outside of the handler, which a jump must not leave
+  // Called after the handler, because longjmp must not leave the handler.
+  png_error(png, "out of memory");
 }
 
 void Flush(png_structp) {}
@@ -101,8 +103,8 @@ struct FreeCompressor {
   }
 };
 
-// Compresses the pixels. Temporarily needs 6 bytes per pixel of 8-bit RGB. Throws std::bad_alloc if
-// memory is insufficient.
+// Compresses the pixels. Temporarily allocates 6 bytes per pixel of 8-bit RGB. Throws
+// std::bad_alloc if memory is insufficient.
 Pixels Compress(const Rows& rows, int level) {
   const size_t samples = rows.colour == PNG_COLOR_TYPE_RGB ? 3 : 1;
   const size_t row_bytes = size_t(rows.width) * samples * size_t(rows.bits / 8);
@@ -119,8 +121,8 @@ Pixels Compress(const Rows& rows, int level) {
   return pixels;
 }
 
-// Returns false and sets the reason on failure. Local objects must not have destructors, since
-// libpng's errors jump over them.
+// Returns false and sets the reason on failure. Local objects must not have destructors, because
+// longjmp on a libpng error skips destructors.
 bool Write(const Rows& rows, const Pixels& pixels, const Metadata& metadata, Bytes* exif,
            Call* call) {
   PngCall* const base = call;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /** @file
  * A pool of threads for callers that have none: the library starfocus_pool (CMake:
- * starfocus::pool). The library requires POSIX threads, but no part of the engine.
+ * starfocus::pool). The library requires POSIX threads, but does not link the engine.
  *
  * @code
  * starfocus_pool* pool = starfocus_pool_create(0);
@@ -29,13 +29,13 @@ typedef struct starfocus_pool starfocus_pool;
 
 /** Counts the cores of this process that are worth a worker. On Linux these cores have at least
  *  half the capacity of the strongest core (cpu_capacity), or 3/4 of the highest clock
- *  (cpuinfo_max_freq). A stripe of a picture waits for its last job, so a small core would cost
- *  more time than it saves.
+ *  (cpuinfo_max_freq). Rendering of a stripe ends only when the last job is done, so a small core
+ *  would cost more time than it saves.
  *  @return number of cores, [1, STARFOCUS_MAX_WORKERS] */
 STARFOCUS_API int32_t starfocus_pool_cores(void);
 
 /** Creates a pool. On systems with big and small cores, the threads run only on the big cores if
- *  there are enough of them. Free the pool with starfocus_pool_destroy.
+ *  there are enough big cores. Free the pool with starfocus_pool_destroy.
  *  @param workers number of workers, at most STARFOCUS_MAX_WORKERS; 0 or less:
  *         starfocus_pool_cores(). The caller of starfocus_pool_run is one of the workers, so the
  *         pool starts one thread fewer. The pool has fewer workers if the system refuses to start
