@@ -69,7 +69,7 @@ TEST_CASE("The edge band reaches the given number of rows and columns from a ste
   }
   const Mask band = EdgeBand(map, 2);
   for (int x = 0; x < 12; ++x) CHECK(int{band[size_t(24 + x)]} == int{x >= 3 && x <= 8});
-  for (float& value : map.values) value /= 2;  // steps of 1 are no edges
+  for (float& value : map.values) value /= 2;  // a step of 1 is not a depth edge
   CHECK(EdgeBand(map, 2) == Mask(60, 0));
   map.values[0] = 5;
   const Mask corner = EdgeBand(map, 0);

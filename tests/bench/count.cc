@@ -21,7 +21,7 @@ using starfocus::bench::Field;
 
 constexpr int kWidth = 256, kHeight = 192, kViews = 5;
 
-// Returns a sample of the texture, computed with integers, so that it is the same on every machine.
+// Returns a sample of the texture. Integer arithmetic makes the texture equal on every machine.
 uint8_t Texture(int x, int y, int channel) {
   const uint32_t mixed = uint32_t(x / 3 * 73 + y / 2 * 151 + channel * 57) * 2654435761u;
   return uint8_t(96 + (mixed >> 26) + ((x + 2 * y) & 63));

@@ -1,9 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# usage: count.sh BUILD-FOLDER check|record
-# Counts the instructions per pixel of starfocus_refocus with callgrind, and compares them with
-# baseline.txt or writes that file. The counts are the same on every run, so they show slowdowns that are
-# too small for a clock.
+# usage: count.sh BUILD-FOLDER check|record Counts the instructions per pixel of starfocus_refocus with callgrind, and
+# compares them with baseline.txt or writes that file. Every run has the same counts, so counts reveal slowdowns that
+# are too small for a clock.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 baseline=$here/baseline.txt
@@ -44,8 +43,8 @@ count_case() {
   awk -v n="$1 $3" -v i="$instructions" -v p="$2" 'BEGIN { printf "%s %.1f\n", n, i / p }'
 }
 
-# begin COMMAND...: runs a command in the background that prints a line of the counts. At most one command
-# per core runs at a time.
+# begin COMMAND...: runs a command in the background. The command prints one line of counts. At most one command per
+# core runs at a time.
 lines=$(mktemp -d)
 trap 'rm -rf "$lines"' EXIT
 begun=0 running=0
@@ -59,7 +58,7 @@ begin() {
 }
 
 for mode in block frame; do begin count $mode $mode; done
-# Hair is fine structure in front of a distant wall. It is counted with 5 views and with 1 view.
+# Hair is fine structure in front of a distant wall. The instructions for hair are counted with 5 views and with 1 view.
 hair=$build/count-hair
 "$build/starfocus-lab" scene "$hair" --name hair --size 512x384 --views 5 >/dev/null
 for views in 5 1; do begin count hair-$views block "$hair" $views; done

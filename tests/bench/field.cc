@@ -44,8 +44,8 @@ Error LoadTruths(const std::string& folder, Field* field) {
   return {};
 }
 
-// Returns the source position of position x in a row of alternately mirrored copies of `size`
-// pixels.
+// Returns the pixel of the original row that is shown at x in a row of alternately mirrored copies.
+// The original row has `size` pixels.
 int Mirror(int x, int size) {
   const int place = x % (2 * size);
   return place < size ? place : 2 * size - 1 - place;

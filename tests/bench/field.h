@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light fields of the bench: reads folders with their ray-traced pictures (truths), and creates
-// changed copies for sweeps of the size and the blur radius. Used by bench.cc, count.cc and
+// Reads the light fields of the bench with their ray-traced pictures (truths). Creates larger and
+// stretched copies for the sweeps of the size and the blur radius. Used by bench.cc, count.cc and
 // studies.cc.
 #ifndef STARFOCUS_TESTS_BENCH_FIELD_H_
 #define STARFOCUS_TESTS_BENCH_FIELD_H_
@@ -42,16 +42,16 @@ struct Field {
 // truth_dt<D>_ut<U>.png.
 Error LoadField(const std::string& folder, Field* field);
 
-// Returns a light field of `width` x `height` pixels with `views` views. It consists of copies of
-// the given one. Every second copy is mirrored, so that no new depth edges appear.
+// Returns a light field of `width` x `height` pixels with `views` views that is tiled with copies
+// of `field`. Every second copy is mirrored, so that no new depth edges appear.
 Field Tile(const Field& field, int width, int height, int views);
 
-// Returns a light field with the same views and disparities multiplied by `factor`. It is valid for
-// measuring times, but its holes are filled from wrong places.
+// Returns a light field with unchanged views, and with disparities multiplied by `factor`. The
+// result is valid for measuring times only, since its views no longer match its disparities.
 Field Stretch(const Field& field, double factor, int views);
 
-// Returns the first `views` views and the disparity map as a starfocus_light_field. It points into
-// `data`.
+// Returns the first `views` views and the disparity map as a starfocus_light_field, which points
+// into `data`.
 starfocus_light_field Rows(const LightField& data, int views);
 
 }  // namespace starfocus::bench

@@ -47,8 +47,8 @@ void Note(const Elapsed& elapsed, Run* run) {
   run->walls.push_back(elapsed.wall);
 }
 
-// Runs the task once to warm up, and derives the number of repetitions from its time. If the run
-// takes longer than `patience`, it counts as a measurement.
+// Runs the task once to warm up, and derives the number of repetitions from the elapsed time. A run
+// that takes longer than `patience` counts as a measurement.
 Error WarmUp(const Field& field, const Settings& settings, Run* run) {
   Elapsed elapsed;
   const Error error = Once(field, run, &elapsed);
@@ -58,7 +58,7 @@ Error WarmUp(const Field& field, const Settings& settings, Run* run) {
   return error;
 }
 
-// Runs all tasks in turn until each has the wanted number of measurements.
+// Runs all tasks in turn until each task has the intended number of measurements.
 Error TakeTurns(const Field& field, const Settings& settings, std::vector<Run>* runs) {
   for (int turn = 0; turn < settings.repetitions; ++turn) {
     for (Run& run : *runs) {
@@ -84,8 +84,8 @@ const Run* FindMode(const std::vector<Run>& runs, const char* mode, int views) {
   return found;
 }
 
-// Measures the quality against the benchmark picture, unless it is null, and against the truth, if
-// there is one.
+// Measures the quality against the benchmark picture (unless null), and against the truth if the
+// folder has one.
 void Judge(const Group& group, const Image& picture, const Image* benchmark, Row* row) {
   const Image* truth = group.field->FindTruth(group.focus, group.aperture);
   const auto judge = [&](const Image& reference, Quality* quality) {

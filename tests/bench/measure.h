@@ -14,9 +14,9 @@ namespace starfocus::bench {
 
 struct Settings {
   int repetitions = 5;
-  double patience = 3;  // seconds per task; repetitions that would exceed it are omitted
+  double patience = 3;  // time limit per task in seconds; repetitions beyond the limit are omitted
   std::string folder;   // folder for the files of other programs
-  bool rivals = true;   // whether rivals are measured
+  bool rivals = true;   // true if other programs are measured
 };
 
 struct Entry {
@@ -24,13 +24,13 @@ struct Entry {
   Task task;
 };
 
-// The tasks that compute one picture. They run in turn, so that a temporary slowdown of the machine
-// affects all of them.
+// The tasks that compute one picture. The tasks run in turn, so that a temporary slowdown of the
+// machine affects all of them.
 struct Group {
   const Field* field = nullptr;
   double aperture = 1, focus = 0, quantile = kNone;
   std::vector<Entry> entries;
-  bool tools = false;  // also measures other programs, if there is a truth
+  bool tools = false;  // true if other programs are measured for a picture that has a truth
 };
 
 // Measures all tasks of a group, and appends one row per task to `rows`.

@@ -74,8 +74,8 @@ Plane Product(const Plane& a, const Plane& b) {
   return product;
 }
 
-// Marks every pixel of a line at most `radius` pixels from a marked one. The line has `count`
-// pixels that are `step` bytes apart.
+// Marks every pixel of a line that is at most `radius` pixels from a marked pixel. The line has
+// `count` pixels, `step` bytes apart.
 void Spread(int count, size_t step, int radius, const uint8_t* in, uint8_t* out) {
   int last = -radius - 1;
   for (int i = 0; i < count; ++i) {

@@ -11,7 +11,7 @@
 
 namespace starfocus::bench {
 
-// PSNR of equal pictures in dB. It is finite, so that means and plots are finite.
+// PSNR of equal pictures in dB. The value is finite, so that means and plots are finite.
 inline constexpr double kBestPsnr = 99.0;
 inline constexpr int kBlock = 16;  // side of the blocks of WorstBlockPsnr, pixels
 
@@ -32,7 +32,7 @@ double Ssim(const Image& a, const Image& b);
 // than 1 between neighbours.
 Mask EdgeBand(const FloatMap& disparity, int radius);
 
-// Returns the median, or 0 without values.
+// Returns the median, or 0 if `values` is empty.
 double Median(std::vector<double> values);
 // Returns the median absolute deviation from the median, divided by the median.
 double Spread(const std::vector<double>& values);

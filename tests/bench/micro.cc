@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// starfocus-bench-micro measures the speed of every kernel on every SIMD target and of its
-// reference. It also measures parts of the engine that call kernels, and memcpy of similar sizes.
-// Speeds are in bytes read and written per second. The calls of kernels are those that
-// kernels_bytes_test checks.
+// starfocus-bench-micro measures the speed of every kernel on every SIMD target, and the speed of
+// each reference. The program also measures parts of the engine that call kernels, and memcpy of
+// similar sizes. Speeds are in bytes read and written per second. kernels_bytes_test checks the
+// same calls of kernels.
 #include "tests/bench/micro.h"
 
 #include <benchmark/benchmark.h>
@@ -27,7 +27,7 @@ void Register(const Case& one, const Table* kernels) {
     test::Draw draw = test::Draw::ForBench();
     test::CallOf<Table> call(&draw);
     one.make(&draw, &call);
-    // Sums grow with every pass and may overflow, which does not affect the time.
+    // Kernels that add to sums may overflow after many passes, which does not affect the time.
     for (auto _ : state) benchmark::DoNotOptimize(call.run(*kernels));
     state.SetBytesProcessed(int64_t(state.iterations()) * int64_t(call.Bytes()));
   });

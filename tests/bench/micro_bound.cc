@@ -19,7 +19,7 @@ constexpr double kHighlights = 16;  // starfocus_config.highlights
 
 struct Picture {
   const char* name;
-  bool noisy_depth;  // whether the disparity of each pixel is random, from -kBlur to kBlur
+  bool noisy_depth;  // true if the disparity of each pixel is random, from -kBlur to kBlur
   int white;         // number of white squares of 4x4 pixels per 1000; -1: the ordinary picture
   double highlights;
 };

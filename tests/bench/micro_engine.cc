@@ -22,7 +22,7 @@ constexpr int kPixels = 1024, kSurface = 32;  // pixels per line, pixels per sur
 constexpr int kSide = 256;                    // width and height of the pictures, pixels
 constexpr int kViewNumber = 4;                // N
 
-// Receives the results of the line scan, and only counts pixels.
+// A sink of the line scan that only counts pixels.
 struct Ignore {
   int64_t pixels = 0;
   template <class... More>
@@ -42,8 +42,8 @@ struct Ignore {
 // Returns the disparity of slanted surfaces with depth edges between them, with +-4 pixels of blur.
 int16_t DisparityAt(int x) { return int16_t((x / kSurface * 5 % 9 - 4) * 64 + x % kSurface * 2); }
 
-// Scans one line for all views as a line of type A, including the search for runs. Counts the bytes
-// of disparities that are read, once per view. The scan itself moves no pixels.
+// Scans one line for all views on the horizontal axis, including the search for runs. Counts the
+// bytes of disparities that are read, once per view. The scan does not copy any pixels.
 void ScanLines(const simd::Kernels& kernels, benchmark::State& state) {
   std::vector<int16_t> rgb(3 * kPixels, 128);
   std::vector<int16_t> disparity(kPixels + simd::kPadding);
@@ -69,8 +69,8 @@ void ScanLines(const simd::Kernels& kernels, benchmark::State& state) {
   state.SetBytesProcessed(int64_t(state.iterations()) * 2 * kViewNumber * kPixels * 2);
 }
 
-// Deblocks a chequerboard of layers, in which every boundary is filtered. Counts the bytes of the
-// picture, which is read and written twice.
+// Deblocks a chequerboard of layers, in which every boundary is filtered. Counts the bytes of two
+// reads and two writes of the picture.
 void Deblock(benchmark::State& state) {
   constexpr int kSmallestBlocks = kSide / 16;
   std::vector<uint8_t> layers(size_t(kSmallestBlocks * (kSmallestBlocks + 1))),
@@ -116,8 +116,8 @@ Field MakeField() {
   return field;
 }
 
-// Refocuses a picture. Counts the bytes of the view and the map, which are read, and of the
-// picture, which is written.
+// Refocuses a picture. Counts the bytes read from the view and the map, and the bytes written to
+// the picture.
 void WholePicture(const std::string& mode, const std::string& target, benchmark::State& state) {
   static const Field field = MakeField();
   Task task;

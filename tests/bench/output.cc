@@ -21,7 +21,7 @@ void AddQuality(const char* against, const Quality& quality, Json* json) {
   (*json)["edge_band_psnr" + suffix] = Number(quality.band);
 }
 
-// Returns the values of a row in the order of the columns.
+// Returns the values of a row as texts, in the order of the columns.
 Json Describe(const Machine& machine, const Row& row) {
   Json json;
   json["study"] = row.study;

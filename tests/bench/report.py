@@ -32,7 +32,7 @@ svg{max-width:100%;height:auto}
 </style></head><body>
 <h1>starfocus: time and error</h1>
 """
-# Rows of the paper's Table IV: three of its light fields, and its averages.
+# Rows of the paper's Table IV: three of the paper's light fields, and the averages.
 PAPER_FOUR = """
 Tsukuba|58.0|33.6|47.7|-1.0|-1.3|1.7|0.2|1.1|92 %|5 %|3 %|1.5|0.2|1.0×|1.4×|1.0×
 StillLife|57.6|41.3|46.1|0.0|0.0|9.4|1.5|1.3|76 %|17 %|7 %|7.1|1.2|1.7×|3.5×|1.2×
@@ -137,7 +137,7 @@ def table_four(rows):
 
 
 def scale_table(rows):
-    # The row of scale 1 is that of the mode without options. The other rows are compared with it.
+    # The row of scale 1 shows the mode without options. The other rows are relative to this row.
     scales = sorted({1, *(row["n_scale"] for row in rows)})
     lines = []
     for field, mode, scale in itertools.product(fields_of(rows), ("block", "frame"), scales):
@@ -300,7 +300,7 @@ def plane(rows, field, against, quality):
               for same in [[row for row in kept if method(row) == name]]]
     points = [curve[1][0] for curve in curves]
     front = pareto_front(points)
-    # The key below the axis has two names per line, and one more for the front.
+    # The key below the axis has two names per line, and an additional name for the Pareto front.
     lines = len(curves) // 2 + 1
     caption = "; ".join(f"<b>{html.escape(curves[k][0], False)}</b> ({points[k][0]:.1f} ms, {points[k][1]:.1f} dB)" for k in front)
     return draw(f"{field}: mean time and PSNR against {against}", ("ms per picture", "PSNR, dB"), curves,
@@ -310,8 +310,8 @@ def plane(rows, field, against, quality):
 
 
 def plane_plots(rows):
-    # Rivals are measured only at the foci of the truths. In the plot against the benchmark, their means would cover
-    # other pictures than those of the modes, so they are omitted.
+    # Rivals are measured only at the foci of the truths. The plot against the benchmark omits rivals, since means of
+    # rivals would cover other pictures than the means of the modes.
     return "".join(plane(rows, field, "truth", lambda row: row["psnr_truth"])
                    + plane(rows, field, "the benchmark",
                            lambda row: row["psnr_benchmark"] if math.isfinite(row["quantile"]) else math.nan)

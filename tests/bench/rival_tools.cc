@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs other programs that blur one picture by a map of blur radii. They run without a shell and
-// use one core.
+// Runs other programs that blur one picture by a map of blur radii. Each program runs without a
+// shell and uses one core.
 #include <fcntl.h>
 #include <spawn.h>
 #include <sys/resource.h>
@@ -110,7 +110,7 @@ using MakeWords = Words (*)(const Files&, double, int, Image*, double);
 struct Known {
   Tool tool;
   MakeWords words;
-  int more;  // number of additional pictures of the second run: see ToolResult::seconds
+  int more;  // number m of additional pictures in the second run, see ToolResult::seconds
 };
 
 const Known kKnown[] = {

@@ -37,9 +37,9 @@ void AddMixed(const uint8_t* a, int part, uint16_t weight, size_t count, uint16_
   }
 }
 
-// Returns for each view the share of the disc of the aperture that is nearer to it than to other
-// views. The shares sum to 256, so that weighted sums of bytes fit 16 bits. The centre view gets
-// the remainder of rounding.
+// Returns the share of each view: the part of the disc of the aperture that is nearer to this view
+// than to other views. The shares sum to 256, so that weighted sums of bytes fit into 16 bits. The
+// centre view gets the remainder of rounding.
 std::vector<uint16_t> DiscShares(int views) {
   constexpr int kSteps = 100;
   std::vector<int> counts(size_t(views), 0);

@@ -13,8 +13,8 @@
 namespace starfocus::bench {
 
 // Computes the weighted mean of `views` captured views, each shifted with bilinear interpolation so
-// that disparity `focus` is in focus. The result is the picture of a lens that consists of that
-// number of pinholes, with aperture 1.
+// that disparity `focus` is in focus. The result is the picture through a lens of aperture 1 that
+// consists of `views` pinholes.
 class ShiftAndAdd {
  public:
   ShiftAndAdd(const LightField& data, int views, double focus);
@@ -44,15 +44,15 @@ bool IsInstalled(const Tool& tool);
 
 struct ToolResult {
   Image picture;
-  // Median processor time of one picture: the time of 1 + m pictures minus the time of one, divided
-  // by m.
+  // Median processor time of one picture in seconds: the time of 1 + m pictures minus the time of
+  // one picture, divided by m.
   double seconds = 0;
-  std::vector<double> each;  // the time of each repetition
+  std::vector<double> each;  // processor time of each repetition, seconds
 };
 
-// Blurs the centre view of `field`, focused at `focus` with aperture 1. The ratio of the tool's
-// unit to the blur radius is the one of several with the highest PSNR against `truth`. Temporary
-// files are written to `folder`.
+// Blurs the centre view of `field`, focused at `focus` with aperture 1. Tries several ratios of the
+// tool's unit to the blur radius, and keeps the picture with the highest PSNR against `truth`.
+// Temporary files are written to `folder`.
 Error RunTool(const Tool& tool, const Field& field, double focus, const Image& truth,
               const std::string& folder, int repetitions, ToolResult* result);
 

@@ -21,7 +21,7 @@ struct Task {
   double n_scale = 1;                      // starfocus_tuning.n_scale
   std::string target;                      // SIMD target; empty: the best one
   int workers = 1;
-  bool timed = true;  // whether the times of blocks are measured, which costs instructions
+  bool timed = true;  // true if the time of each block is measured, which costs instructions
 };
 
 inline constexpr double kNone = NAN;  // not measured
@@ -39,7 +39,7 @@ struct Row {
   int width = 0, height = 0;
   Task task;
   double aperture = 1, focus = 0;
-  double quantile = kNone;  // quantile of the disparity map that is the focus; kNone: a given focus
+  double quantile = kNone;  // the focus is this quantile of the disparity map; kNone: given
   double r_max = kNone;     // largest blur radius, pixels
   int n = 0;                // N, the largest of all blocks
   int superblock = 0;       // side of the superblocks that the engine used, pixels
@@ -49,7 +49,8 @@ struct Row {
   double least_wall_ms = kNone;  // smallest elapsed time
   double ms = 0, spread = 0;     // processor time: median, and Spread of metrics.h
   int runs = 0;                  // number of measured runs
-  // Processor time of frame and blur mode for the same picture, divided by that of this task.
+  // Processor time of frame mode and of blur mode for the same picture, divided by the processor
+  // time of this task.
   double ratio_frame = kNone, ratio_blur = kNone;
   size_t workspace = 0;                               // bytes
   double layer_time[STARFOCUS_LAYERS] = {0, 0, 0};    // shares of the time of all blocks

@@ -10,7 +10,7 @@
 namespace starfocus::bench {
 namespace {
 
-constexpr int kSweepViews = 5;      // few views, so that those of large pictures fit into memory
+constexpr int kSweepViews = 5;      // few views, so that large light fields fit into memory
 constexpr double kSweepRadius = 8;  // largest blur radius of the sweep of sizes, pixels
 
 Entry MakeEntry(const char* study, const std::string& mode, int views) {
@@ -73,7 +73,7 @@ void AddTargets(const Field& field, const Choice& choice, Group* group) {
   }
 }
 
-// Adds one worker as well, as the reference for the other numbers of workers.
+// Also adds a task with one worker, as the reference for the other numbers of workers.
 void AddWorkers(const Field& field, const Choice& choice, Group* group) {
   if (choice.workers.empty()) return;
   std::vector<int> numbers = choice.workers;
@@ -110,7 +110,7 @@ Error MeasureField(const Field& field, const Choice& choice, const Settings& set
   for (const double aperture : choice.apertures) {
     for (const double quantile : choice.quantiles) {
       Group group = {&field, aperture, field.FocusAt(quantile), quantile, {}};
-      // The focus does not depend on the aperture. Options are measured only with aperture 1.
+      // The focus does not depend on the aperture. Options are measured with aperture 1 only.
       AddModes(field, choice, &group);
       if (aperture == 1) AddOptions(field, choice, &group);
       const bool middle = quantile == choice.quantiles[choice.quantiles.size() / 2];

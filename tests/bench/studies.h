@@ -22,17 +22,18 @@ struct Choice {
   std::vector<double> n_scales;      // starfocus_tuning.n_scale, in block and frame mode
   bool rules = false;                // both renderers, in block and frame mode
   std::vector<std::string> targets;  // SIMD targets, at the middle quantile; "all": all targets
-  std::vector<int> workers;          // numbers of workers in addition to 1, at the middle quantile
+  std::vector<int> workers;          // numbers of workers besides 1, at the middle quantile
   double largest_radius = 0;         // end of the sweep of blur radii, pixels; 0: no sweep
   double largest_megapixels = 0;     // end of the sweep of sizes; 0: no sweep
 };
 
-// Measures all chosen modes, options, apertures and foci of a light field, and the foci of its
-// truths, there also with rivals. Appends the measurements to `rows`.
+// Measures all chosen modes, options, apertures and foci of a light field. At the foci of the light
+// field's truths, rivals are measured as well. Appends the measurements to `rows`.
 Error MeasureField(const Field& field, const Choice& choice, const Settings& settings,
                    std::vector<Row>* rows);
 
-// Measure the time as a function of the blur radius and of the number of pixels.
+// MeasureRadii and MeasureSizes measure the time as a function of the blur radius and of the number
+// of pixels.
 Error MeasureRadii(const Field& field, const Choice& choice, const Settings& settings,
                    std::vector<Row>* rows);
 Error MeasureSizes(const Field& field, const Choice& choice, const Settings& settings,

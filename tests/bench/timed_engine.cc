@@ -16,7 +16,7 @@ const char* const kModes[] = {"frame", "benchmark", "block", "blur"};
 
 uint64_t Nanoseconds() { return static_cast<uint64_t>(CpuSeconds() * 1e9); }
 
-// Makes the engine use another SIMD target than the best one. No-op if `name` is empty.
+// Makes the engine use the SIMD target `name` instead of the best one. No-op if `name` is empty.
 Error UseTarget(const std::string& name, starfocus_engine* engine) {
   if (name.empty()) return {};
   const simd::Kernels& plain = simd::ReferenceKernels();

@@ -34,11 +34,11 @@ struct TimedEngine {
 // Returns the starfocus_mode with this name, or -1.
 int ModeOf(const std::string& name);
 
-// Creates an engine for a task, focus and aperture. The message of an error is one line.
+// Creates an engine for a task, focus and aperture. Returns a one-line error if this fails.
 Error Prepare(const Field& field, const Task& task, double focus, double aperture,
               TimedEngine* timed);
 
-// Refocuses once. `elapsed` receives the time of the call of starfocus_refocus.
+// Refocuses once. `elapsed` receives the time that starfocus_refocus takes.
 Error RunOnce(const Field& field, const Task& task, TimedEngine* timed, Elapsed* elapsed);
 
 }  // namespace starfocus::bench

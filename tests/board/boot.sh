@@ -1,10 +1,11 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # boot.sh STARFOCUS BOARD_REFOCUS FOLDER: boots Debian's arm64 kernel on QEMU's "virt" board. The
-# board has the statically linked BOARD_REFOCUS of an aarch64 build, and a small light field that
-# STARFOCUS of this machine makes. QEMU's power button presses the shutter on line 3 of the board's
-# PL061 GPIO chip. The picture, in a file and on the screen, must be the one that STARFOCUS computes
-# here, and the busy line on line 5 must read back as set. FOLDER keeps the kernel for later runs.
+# board runs BOARD_REFOCUS, the statically linked program of an aarch64 build. STARFOCUS is a
+# program of this machine, and makes the board's small light field. QEMU's power button presses the
+# shutter on line 3 of the board's PL061 GPIO chip. The picture, in a file and on the screen, must
+# be the one that STARFOCUS computes here, and the busy line on line 5 must read back as set. FOLDER
+# keeps the kernel for later runs.
 set -u
 [ $# = 3 ] || { echo "usage: $0 STARFOCUS BOARD_REFOCUS FOLDER" >&2; exit 2; }
 starfocus=$(realpath "$1") program=$(realpath "$2") folder=$(realpath -m "$3")
@@ -33,8 +34,7 @@ trap finish EXIT
   fail "Debian's kernel could not be fetched: see $folder/fetch.log"
 kernel=$(ls "$folder"/kernel/boot/vmlinuz-* | head -n 1)
 
-# needed_modules NAME: prints the files of a kernel module and of its dependencies, which come
-# first.
+# needed_modules NAME: prints the files of a kernel module and its dependencies, dependencies first.
 needed_modules() {
   local file dependency
   file=$(find "$folder/kernel/lib/modules" -name "$1.ko" -o -name "${1//_/-}.ko" | head -n 1)
@@ -45,8 +45,8 @@ needed_modules() {
   echo "$file"
 }
 
-# The screen needs modules that a later kernel may package differently. In that case it is not
-# tested.
+# The screen requires modules that a later kernel may package differently. If a module is missing,
+# the screen is not tested.
 make_initramfs() {
   local root=$run/root module
   mkdir -p "$root/bin" "$root/dev" "$root/proc" "$root/sys" "$root/tmp" "$root/etc" "$root/modules"
@@ -127,7 +127,7 @@ expect "the program's good end" 'ended-file 0'
 expect "the busy line's levels" 'log picture 1: .*, busy line read back 1, then 0'
 expect "the checksum of this machine's picture" "sum $sum  /tmp/picture-1.ppm"
 
-# The middle of the screen must be the picture.
+# The middle of the screen must show the picture.
 if [ -s "$run/screen.ppm" ]; then
   expect "the program's good end" 'ended-screen 0'
   read -r across down < <(sed -n 2p "$run/screen.ppm")

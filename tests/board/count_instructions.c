@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* A plugin of QEMU's user emulators. It counts the executed instructions of all functions, or only
- * of those whose symbol contains one of the given texts. The count does not depend on the
- * load of the machine.
+ * of those whose symbol contains one of the given texts. Unlike a measured time, the count does not
+ * depend on the load of the machine.
  *
  *   qemu-aarch64 -plugin count_instructions.so,sym=TEXT,sym=TEXT -d plugin PROGRAM
  *
- * prints "instructions: N" on stderr when PROGRAM ends. Debian has no header of the interface
- * (version 1), so the few functions that are used are declared here. */
+ * prints "instructions: N" on stderr when PROGRAM ends. Debian has no header for version 1 of the
+ * plugin interface, so this file declares the functions that it uses. */
 #include <inttypes.h>
 #include <stdint.h>
 #include <stdio.h>

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# First process of the board that boot.sh emulates. It runs board_refocus and prints each finding on
-# the serial line as "board: NAME VALUE".
+# First process of the board that boot.sh emulates. The script runs board_refocus and prints each
+# result on the serial line as "board: NAME VALUE".
 PATH=/bin
 mount -t devtmpfs none /dev
 mount -t proc none /proc

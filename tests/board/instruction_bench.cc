@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// usage: instruction_bench CASE simd|reference RUNS
-// Refocuses RUNS times. count_instructions.c counts the instructions of two runs and of one run.
-// The difference is the cost of one refocusing, since the setup is the same. `instruction_bench
-// list` prints the cases.
+// usage: instruction_bench CASE simd|reference RUNS Refocuses RUNS times. count_instructions.c
+// counts the instructions of two runs and of one run. Both runs have the same setup, so the
+// difference of their counts is the cost of one refocusing. `instruction_bench list` prints the
+// cases.
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -50,7 +50,8 @@ const Case* Find(const char* name) {
   return nullptr;
 }
 
-// Fixed coefficients, so that the counts do not depend on those of an architecture.
+// Fixed coefficients of the timing model, so that the partition does not depend on the
+// architecture.
 constexpr starfocus_timing kTiming = {4000000, 12000, 1500, 1700, 2500, 9000, 0, 0};
 
 int Run(const Case& one, bool reference, int runs) {

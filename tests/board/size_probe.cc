@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prints the memory that the engine needs on a board; used by ./do size. `size_probe stack` prints
-// the bytes of stack that its calls use. `size_probe workspace` prints a table of workspaces, and
-// `size_probe parts` a table of their parts.
+// Prints the memory that the engine requires on a board; used by ./do size. `size_probe stack`
+// prints the bytes of stack that calls of the engine use. `size_probe workspace` prints a table of
+// workspaces, and `size_probe parts` prints a table of the parts of workspaces.
 #include <pthread.h>
 
 #include <cstdio>
@@ -71,7 +71,8 @@ void* RunCalls(void* data) {
   return nullptr;
 }
 
-// Returns the number of bytes below the thread's first frame that `run` has written.
+// Returns the number of bytes of stack between the thread's first frame and the lowest byte that
+// `run` has written.
 size_t StackUsed(void* (*run)(void*), Calls* calls) {
   void* stack = nullptr;
   Check(posix_memalign(&stack, 65536, kStackBytes) == 0, "allocating a stack");
@@ -89,8 +90,8 @@ size_t StackUsed(void* (*run)(void*), Calls* calls) {
   return used;
 }
 
-// Prints the largest stack use over every star set, mode and entry path, without the cost of ending
-// the thread.
+// Prints the largest stack use of all star sets and modes, for whole pictures and streams. Ends
+// with an error if the engine uses no more stack than an empty thread.
 void PrintStack() {
   size_t most = 0;
   for (const int views : {1, 5, 9, 17}) {
@@ -166,7 +167,7 @@ void PrintWorkspace() {
   }
 }
 
-// Prints a row for each part, and a column for each of a few configurations.
+// Prints a table with a row for each part and a column for each configuration.
 class PartsTable {
  public:
   PartsTable() {
@@ -195,7 +196,8 @@ class PartsTable {
   }
 
   void Print() const {
-    const std::vector<test::MemoryPart>& streamed = columns_[0];  // has all parts
+    // The first configuration has all parts.
+    const std::vector<test::MemoryPart>& streamed = columns_[0];
     for (const test::MemoryPart& part : streamed) {
       if (!part.shared) PrintPart(part.name, "%.1f");
     }

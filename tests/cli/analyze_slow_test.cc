@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the results of the subcommand analyze. It is in a separate file, because it takes longer
-// than all other subcommands together.
+// Tests the results of the subcommand analyze. The test is in a separate file, because analyze
+// takes longer than all other subcommands together.
 #include <doctest/doctest.h>
 
 #include <filesystem>
@@ -14,8 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// With sanitizers, blurs only just reach every layer by every rule. This runs the same code in a
-// fraction of the time.
+// With sanitizers, the largest blur is just large enough for every layer by every rule. The test
+// then runs the same code in a fraction of the time.
 #if defined(__SANITIZE_ADDRESS__)
 constexpr const char* kMaxBlur = "25";
 #else

@@ -35,7 +35,8 @@ inline std::string Text(const std::string& path) {
   return std::string(bytes.begin(), bytes.end());
 }
 
-// Runs a program in `folder` with shell-quoted arguments. The shell runs `before` first.
+// Runs a program in `folder` with shell-quoted arguments. The shell runs the command `before`
+// first.
 inline Outcome Call(const TempFolder& folder, const std::string& arguments,
                     const std::string& before = "") {
   TempFolder logs;
@@ -57,7 +58,7 @@ inline void Succeed(const TempFolder& folder, const std::string& arguments) {
   REQUIRE(Call(folder, arguments).code == 0);
 }
 
-// Returns the text of an error line after the name of the program.
+// Returns an error line without the name of the program at its start.
 inline std::string ErrorOf(const std::string& err) {
   const size_t begin = err.rfind("starfocus-lab: ", 0) == 0 ? 15 : 11;
   CHECK((begin == 15 || err.rfind("starfocus: ", 0) == 0));

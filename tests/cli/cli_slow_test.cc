@@ -57,7 +57,7 @@ TEST_CASE("cli: the frames of a video equal single pictures, but reuse blocks") 
   for (const char* name : {"in/1", "in/2", "in/3", "in/4"}) {
     fs::copy(folder.file("lf"), folder.file(name));
   }
-  // The third and the fourth frame differ from the others in a corner.
+  // The third and the fourth frame differ from the first two frames in a corner.
   Image view;
   const std::string centre = folder.file("in/3/view_+0.0_+0.0.png");
   view = ValueOf(ReadImage(centre));
@@ -67,7 +67,7 @@ TEST_CASE("cli: the frames of a video equal single pictures, but reuse blocks") 
   const std::string lens = " --focus 3 --aperture 0.2 --superblock 32";
   Succeed(folder, "video in -o out --report v.json" + lens);
   Succeed(folder, "video in/1 in/3 -o two" + lens);
-  // Hidden folders and the output folder are not frames.
+  // The program must not treat hidden folders and the output folder as frames.
   REQUIRE(fs::create_directory(folder.file("in/.cache")));
   REQUIRE(fs::create_directory(folder.file("in/out")));
   Succeed(folder, "video in -o in/out" + lens);
@@ -80,7 +80,7 @@ TEST_CASE("cli: the frames of a video equal single pictures, but reuse blocks") 
   }
   CHECK(Text(folder.file("two/frame_0001.png")) == Text(folder.file("out/frame_0002.png")));
   CHECK(Text(folder.file("two/frame_0000.png")) != Text(folder.file("two/frame_0001.png")));
-  // Reused blocks per frame: none of the first, then all, most, and all.
+  // Blocks reused in the four frames: none, all, most, and all.
   const std::string report = Text(folder.file("v.json"));
   std::vector<int> reused;
   for (size_t at = report.find("\"reused_blocks\": "); at != std::string::npos;

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Writes the light field `lf` with its map, and `bare` without the map.
+// Writes the light field `lf` with its map, and a copy `bare` without the map.
 void PrepareScene(const TempFolder& folder, const std::string& name = "wires --size 160x120") {
   Succeed(folder, "scene lf --views 5 --name " + name);
   fs::copy(folder.file("lf"), folder.file("bare"));
@@ -49,7 +49,8 @@ TEST_CASE("disparity: the range and most of the map of a traced scene are found"
   CHECK(sure.height == 120);
 }
 
-// Writes `worse`: the light field `lf` with a map whose near objects are 3 pixels wider.
+// Writes `worse`, a copy of the light field `lf` with a map whose near objects are 3 pixels wider
+// on each side.
 void MakeWorse(const TempFolder& folder) {
   fs::copy(folder.file("lf"), folder.file("worse"));
   FloatMap exact = ValueOf(ReadPfm(folder.file("lf/disparity.pfm")));
@@ -119,7 +120,7 @@ TEST_CASE("refocus --repair, import: hair with a closed outline gets its coverag
   REQUIRE(fs::exists(folder.file("imported/coverage.png")));
   Succeed(folder, "refocus imported -o imported.png --focus -4");
   CHECK(Text(folder.file("imported.png")) == Text(folder.file("repaired.png")));
-  // Given coverage is kept.
+  // A repair must keep given coverage.
   Succeed(folder, "refocus truth -o given.png --focus -4 --repair");
   CHECK(Psnr(folder, "truth.png given.png") > Psnr(folder, "truth.png repaired.png"));
 }

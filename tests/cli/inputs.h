@@ -26,8 +26,8 @@ inline void PrepareHair(const TempFolder& folder) {
   REQUIRE(SaveLightField(folder.file("truth"), field, &runner) == "");
 }
 
-// Writes a folder `lf` with disparities of 300 on the left and 0 on the right. At focus 0, an
-// aperture of 128/300 = 0.42667 or f/2.34375 blurs by 128 pixels.
+// Writes a folder `lf` with disparities of 300 on the left and 0 on the right. At focus 0 and
+// aperture 128/300 = 0.42667 (f/2.34375), the blur radius is 128 pixels.
 inline void MakeDeepFolder(const TempFolder& folder) {
   Succeed(folder, "scene lf --size 40x30 --views 1");
   FloatMap map = ValueOf(ReadPfm(folder.file("lf/disparity.pfm")));

@@ -44,7 +44,7 @@ TEST_CASE("cli: f-stops and strengths select apertures, and strength 0 is the ce
     picture("--strength 0 " + std::string(more));
     CHECK(ValueOf(ReadImage(folder.file("one.png"))).pixels == centre.pixels);
   }
-  // With strength 0, no blur exceeds the limit.
+  // With strength 0, every focus is accepted, since no blur exceeds the limit.
   Succeed(folder, "refocus lf -o s.png --sweep -900:900:2 --strength 0");
   CHECK(ValueOf(ReadImage(folder.file("s_001.png"))).pixels == centre.pixels);
 }
@@ -127,7 +127,7 @@ TEST_CASE("cli: apertures of sweeps, videos, pages and batches are reduced to th
   }
   CHECK(Contains(Call(folder, "refocus lf second --focus 0 -o batch/").err,
                  "second: aperture set to f/"));
-  // The aperture of a video is reduced for all of its frames.
+  // The program reduces the aperture of a video to a value that suits all frames.
   FloatMap map = ValueOf(ReadPfm(folder.file("second/disparity.pfm")));
   for (float& value : map.values) value *= 4.0f / 3;
   REQUIRE(WritePfm(folder.file("second/disparity.pfm"), map) == "");
@@ -160,7 +160,7 @@ TEST_CASE("cli: by default, the nearest large surface near the centre is in focu
   const Outcome video = Call(folder, "video lf -o out --report v.json");
   CHECK(video.code == 0);
   CHECK(Contains(Text(folder.file("v.json")), "\"focus\": 6.0"));
-  // Each input of a batch has its own default focus.
+  // The program chooses the default focus separately for each input of a batch.
   fs::copy(folder.file("lf"), folder.file("other"));
   for (float& value : map.values) value = -2;
   REQUIRE(WritePfm(folder.file("other/disparity.pfm"), map) == "");

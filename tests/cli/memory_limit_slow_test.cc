@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs the programs with too little memory, with limits in small steps. A program must either
-// succeed, or report that it is out of memory and leave no files.
+// Runs the programs with too little memory, under limits that increase in small steps. A program
+// must either succeed, or report that it is out of memory and leave no files.
 #include <doctest/doctest.h>
 
 #include <filesystem>
@@ -30,7 +30,7 @@ Outcome CallWithin(const TempFolder& folder, int limit, const std::string& argum
   return Call(folder, arguments, "ulimit -v " + std::to_string(limit) + " &&");
 }
 
-// Returns nearly the lowest limit in KiB at which a program starts and runs the trivial command
+// Returns approximately the lowest limit in KiB at which a program runs the trivial command
 // `little`.
 int FindStart(const TempFolder& folder, const std::string& little) {
   int low = 1000, high = 100000;
@@ -43,7 +43,7 @@ int FindStart(const TempFolder& folder, const std::string& little) {
 }
 
 // Tries limits from `start` to `range` KiB above it. `output` is the file or folder that the
-// command writes. `right` returns true if the output equals that with enough memory.
+// command writes. `right` returns true if the output equals the output of a run with enough memory.
 template <class Right>
 void CheckLimits(const TempFolder& folder, int start, const std::string& arguments, int range,
                  const std::string& output, const Right& right) {

@@ -190,8 +190,8 @@ TEST_CASE("program: the error for a subcommand of starfocus-lab names that progr
   TempFolder folder;
   for (const std::string name : {"analyze", "calibrate", "compare", "scene", "sheet", "stress"}) {
     CAPTURE(name);
-    CHECK(Call(folder, name + " --help").code == 0);  // by starfocus-lab
-    // The quotes make this a call of starfocus.
+    CHECK(Call(folder, name + " --help").code == 0);  // runs starfocus-lab
+    // With quotes, Call runs starfocus.
     CheckRefused(folder, "'" + name + "' lf",
                  "command line: expected `starfocus-lab " + name + "`, found '" + name + "'");
   }
@@ -205,7 +205,7 @@ TEST_CASE("program: an error names its true cause") {
   CHECK(LightFieldFiles(folder.file("lf")).size() == before);
   CHECK(!fs::exists(folder.file("lf/lf.png")));
   CHECK(!fs::exists(folder.file("bare/disparity.pfm")));
-  if (geteuid() == 0) return;  // root may write everywhere
+  if (geteuid() == 0) return;  // the user root may write to any folder
   fs::create_directory(folder.file("locked"));
   fs::permissions(folder.file("locked"), fs::perms::owner_read | fs::perms::owner_exec);
   for (const char* arguments : {"import lf locked/new", "scene locked/new", "analyze -o locked/new",

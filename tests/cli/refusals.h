@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Calls that the program rejects, and malformed inputs for them.
+// Calls that the program rejects, and malformed inputs for these calls.
 #ifndef STARFOCUS_TESTS_CLI_REFUSALS_H_
 #define STARFOCUS_TESTS_CLI_REFUSALS_H_
 
@@ -52,8 +52,9 @@ inline void CheckRefusals(const TempFolder& folder, const std::string& name) {
   CHECK(rows > 50);
 }
 
-// Writes several inputs: the 40x30 light field `lf` with 5 views, `bare` without its map, `link` to
-// `lf`, and `grid` with other names of views. Also writes malformed files.
+// Writes several inputs: `lf`, a 40x30 light field with 5 views; `bare`, a copy without map;
+// `link`, a link to `lf`; and `grid`, a copy with other names of views. Also writes malformed
+// files.
 inline void Prepare(const TempFolder& folder) {
   namespace fs = std::filesystem;
   Succeed(folder, "scene lf --size 40x30 --views 5 --name wires");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the ray-traced scenes, and the strands and coverage of two of them.
+// Tests the ray-traced scenes, and the strands and coverage of the two scenes that have strands.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -31,8 +31,8 @@ SceneOpening DefaultOpening() {
   return SceneOpening(params.lens);
 }
 
-// Returns 1 or 0 if all pixels within a pixel of (x, y) are on the near or far side of the step,
-// else -1.
+// Returns 1 if all pixels in the 3x3 neighbourhood of (x, y) are near, 0 if all are far, and -1
+// otherwise.
 int SideAround(const FloatMap& map, int x, int y) {
   int near = 0;
   for (int dy = -1; dy <= 1; ++dy) {
@@ -41,7 +41,8 @@ int SideAround(const FloatMap& map, int x, int y) {
   return near == 9 ? 1 : near == 0 ? 0 : -1;
 }
 
-// Returns 1 or 0 if everything or nothing within a pixel of (x, y) is covered, else -1.
+// Returns 1 if all pixels in the 3x3 neighbourhood of (x, y) are fully covered, 0 if no pixel is
+// covered, and -1 otherwise.
 int CoverAround(const std::vector<uint8_t>& coverage, int x, int y) {
   int whole = 0, none = 0;
   for (int dy = -1; dy <= 1; ++dy) {
@@ -54,7 +55,7 @@ int CoverAround(const std::vector<uint8_t>& coverage, int x, int y) {
   return whole == 9 ? 1 : none == 9 ? 0 : -1;
 }
 
-// Returns the bilinear sample of a view at (x, y), or -1 outside.
+// Returns the bilinear sample of a view at (x, y), or -1 if (x, y) is outside the view.
 double WarpedSample(const Image& view, double x, double y, int channel) {
   const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
   if (x0 < 0 || y0 < 0 || x0 + 1 >= view.width || y0 + 1 >= view.height) return -1;
@@ -75,8 +76,8 @@ double WarpAgreement(const Image& centre, const Image& view, const FloatMap& map
       const double sample = WarpedSample(view, x - u * d, y - v * d, 1);
       if (sample < 0) continue;
       ++all;
-      // Interpolation reduces the contrast of fine textures, so any value in the range of the
-      // neighbours is allowed.
+      // Interpolation reduces the contrast of fine textures, so a pixel matches if it is in the
+      // range of its neighbours.
       double low = 255, high = 0;
       for (int j = -1; j <= 1; ++j) {
         for (int i = -1; i <= 1; ++i) {
@@ -280,8 +281,8 @@ TEST_CASE("strands: rays meet the nearest strand at the place given by algebra")
   CHECK_FALSE(strands.Find({-51.01, 0}, 0, 0, &hit));
   REQUIRE(strands.Find({0, 0.25}, 0, 0, &hit));
   CHECK(hit.strand == 0);
-  // Seen through (1, 0) of the lens, the front strand is 5 units to the left and the other strand
-  // is unchanged.
+  // Seen from position (1, 0) of the lens, the front strand is 5 units to the left, and the other
+  // strand does not hide it.
   CHECK(strands.Find({0, 0.25}, 1, 0, &hit));
   CHECK(hit.d == 3);
   REQUIRE(strands.Find({-5, 0.25}, 1, 0, &hit));
@@ -340,7 +341,7 @@ TEST_CASE("strand scenes: coverage agrees with the map") {
         clear += cover >= 0 ? 1 : 0;
         against += cover >= 0 && SideAround(map, x, y) != cover ? 1 : 0;
         fractions += level > 0 && level < 255 ? 1 : 0;
-        // Strands that are missing in the map.
+        // Counts pixels with coverage by strands that are missing from the map.
         lost += level > 0 && SideAround(map, x, y) == 0 ? 1 : 0;
       }
     }
@@ -348,20 +349,20 @@ TEST_CASE("strand scenes: coverage agrees with the map") {
     CHECK(against == 0);
     CHECK(fractions > kWidth * kHeight / 20);
     CHECK(lost > 100);
-    // Pixel centres sample the area.
+    // The mean coverage equals the share of near pixels, since pixel centres sample the same area.
     CHECK(covered == doctest::Approx(near).epsilon(0.02));
   }
 }
 
 TEST_CASE("strand scenes: the coverage of a half plane is its area") {
   Scene scene;
-  // A bar with its left edge at x = 0.3 canvas units, which are pixels here.
+  // A bar with its left edge at x = 0.3. One canvas unit is one pixel in this test.
   scene.surfaces.push_back(Piece(Outline::kBox, {100.3, 0, 5}, {100, 1000}, {}));
   scene.surfaces.back().foreground = true;
   ThreadRunner runner(1);
   const RayTracer tracer(scene, 1024, 768, STARFOCUS_TRANSFER_NONE, &runner);
   const std::vector<uint8_t> coverage = tracer.Coverage(nullptr);
-  // Pixel 512 spans 0 to 1.
+  // Pixel 512 spans the range of x from 0 to 1.
   const auto level = [&](int x) { return coverage[size_t(400 * 1024 + x)]; };
   CHECK(level(511) == 0);
   CHECK(std::abs(level(512) - 0.7 * 255) <= 1);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs sessions with the programs from tables. A session begins with "== NAME" in an empty folder,
-// followed by these lines:
+// Reads sessions from tables, and runs the programs as the sessions state. Each session starts in
+// an empty folder, and consists of the line "== NAME" followed by these lines:
 //   $ ARGUMENTS          calls the program, which must succeed
 //   ! ARGUMENTS -> TEXT  calls the program, which must fail with this text (CheckRefused)
 //   out TEXT, err TEXT   the last call must have printed the text
@@ -21,7 +21,7 @@ namespace starfocus {
 
 using Preparations = std::map<std::string, std::function<void(const TempFolder&)>>;
 
-// Checks the output of the last call as a line states it.
+// Checks the output of the last call against an out or err line of a session.
 inline void CheckOutcome(std::string line, const Outcome& last) {
   const bool has = line.rfind("no ", 0) != 0, only = line.rfind("only ", 0) == 0;
   if (!has || only) line.erase(0, only ? 5 : 3);

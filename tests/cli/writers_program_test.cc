@@ -155,7 +155,8 @@ TEST_CASE("views: each additional captured side brings the picture closer to the
   const double pair = error("0,0:1,0"), other = error("0,0:-1,0");
   const double corner = error("0,0:1,0:0,1"), row = error("0,0:-1,0:1,0");
   CHECK(five > one + 2);
-  // One of four sides is captured.
+  // A pair captures one of four sides, and must therefore gain at least 15 % of what five views
+  // gain.
   CHECK(pair > one + 0.15 * (five - one));
   CHECK(other > one + 0.15 * (five - one));
   CHECK(corner > pair);
@@ -180,7 +181,8 @@ TEST_CASE(
   REQUIRE(WritePfm(folder.file("pair/disp0.pfm"), field.disparity) == "");
   CHECK(Contains(Call(folder, "info pair").out, "1 invalid"));
   REQUIRE(WritePfm(folder.file("lf/disparity.pfm"), field.disparity) == "");
-  // The format of a pair allows infinite values in the map. In a light field they are errors.
+  // The map of a Middlebury pair may have infinite values. In the map of a light field, infinite
+  // values are errors.
   CHECK(Contains(Call(folder, "refocus lf -o c.png --focus 0").err, "--fill-invalid"));
   Succeed(folder, "refocus lf -o c.png --focus 0 --fill-invalid");
   Succeed(folder, "refocus pair -o b.png --focus 0");

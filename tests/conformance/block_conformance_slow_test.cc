@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compares block mode with the double-precision reference, which gets the engine's own partition.
-// On every SIMD target, samples differ by at most one gray level.
+// On every SIMD target, samples of the engine and of the reference must differ by at most one gray
+// level.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -81,7 +82,7 @@ starfocus_params SlicesOf(double focus, starfocus_mode mode) {
   return params;
 }
 
-// Checks both rules and all layers.
+// Checks a scene with both rules and every maximum layer.
 Distance CheckAll(const test::Scene& scene, double focus, double aperture, Covered* covered) {
   Distance all;
   for (const starfocus_renderer renderer : kRules) {
@@ -89,7 +90,8 @@ Distance CheckAll(const test::Scene& scene, double focus, double aperture, Cover
       starfocus_params params = test::Params(focus, aperture, STARFOCUS_MODE_BLOCK);
       params.renderer = renderer;
       Covered here;
-      // Averages codes at every layer, and light only without layers and at the smallest layer.
+      // Both transfers are checked, except that light (sRGB) is not checked with layer 1 as the
+      // maximum.
       for (const starfocus_transfer transfer : {STARFOCUS_TRANSFER_NONE, STARFOCUS_TRANSFER_SRGB}) {
         if (transfer == STARFOCUS_TRANSFER_SRGB && max_layer == 1) continue;
         starfocus_config config = Config(scene, max_layer);
@@ -177,9 +179,9 @@ TEST_CASE("block conformance: too many slices and the widest subapertures match 
     float low, high;
     double focus, max_blur;
   };
-  // The first two lenses blur surfaces on both sides of the focus. The first needs more slices than
-  // are allowed, the second more than fit into the memory. The third lens has subapertures that are
-  // almost as wide as the widest spread.
+  // The first two lenses blur surfaces on both sides of the focus. The first lens requires more
+  // slices than the limit, and the second requires more slices than fit into the memory. The third
+  // lens has subapertures that are almost as wide as the widest supported one.
   constexpr Lens kLenses[] = {{-10, 10, 0, 24}, {-23, 23, 0, 24}, {0, 4, -104, 109}};
   test::Random random(53);
   Distance all;
@@ -199,8 +201,8 @@ TEST_CASE("block conformance: too many slices and the widest subapertures match 
   all.Print("many slices and wide subapertures");
 }
 
-// The block has three tiles across, the last of them 72 pixels wide, and two tiles down. The two
-// ranges of disparity give few and many slices.
+// The block has three tiles across and two tiles down; the last column of tiles is 72 pixels wide.
+// The first range of disparities results in few slices, and the second in many.
 TEST_CASE("block conformance: each tile of a large block has its own slices") {
   test::Random random(55);
   Distance all;
@@ -236,7 +238,8 @@ TEST_CASE("block conformance: parts of the demo's scenes match the reference") {
       field.views.push_back(renderer.View(u, v, nullptr));
     }
     field.disparity = renderer.Disparity();
-    // A picture of this size has disparities of only a few pixels, so the second focus is far away.
+    // Disparities in a picture of this size are only a few pixels, so the second focus lies far
+    // outside their range.
     const test::Scene scene = Crop(field, kWidth / 3, kHeight / 3, 64, 48);
     for (const double focus : {double(scene.disparity_max), scene.disparity_min - 6.5}) {
       all.Add(CheckAll(scene, focus, 1, &covered));

@@ -23,8 +23,8 @@
 namespace conformance {
 
 inline constexpr double kMeanLimit = 0.3;
-// Smallest number of samples of a picture that is judged alone. Smaller pictures are judged by the
-// mean over all of them, since one level in one sample of a pixel is already a mean of 1/3.
+// Smallest number of samples of a picture whose mean difference is checked. A mean over fewer
+// samples is not meaningful: one level in one sample of a single pixel is already a mean of 1/3.
 inline constexpr size_t kEnoughSamples = 300;
 
 struct Distance {
@@ -32,7 +32,8 @@ struct Distance {
   double unrounded = 0;  // largest difference of an engine's byte from the unrounded reference
   double sum = 0;        // sum of the differences of bytes
   double samples = 0;
-  double worst_mean = 0;  // largest mean of a picture with enough samples
+  // Largest mean difference of a picture with at least kEnoughSamples samples.
+  double worst_mean = 0;
 
   double mean() const { return samples == 0 ? 0 : sum / samples; }
 

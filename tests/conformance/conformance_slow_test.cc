@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compares the engine with the double-precision reference: samples differ by at most one gray
+// Compares the engine with the double-precision reference. Samples must differ by at most one gray
 // level.
 #include <doctest/doctest.h>
 
@@ -41,7 +41,7 @@ Distance Check(const test::Scene& scene, const starfocus_params& params,
   return distance;
 }
 
-// Checks line scans with either transfer; block_conformance_slow_test checks slices.
+// Checks the line scan with either transfer. block_conformance_slow_test checks slices.
 Distance Check(const test::Scene& scene, starfocus_params params, int block, double theta) {
   params.renderer = STARFOCUS_RENDERER_LINE_SCAN;
   starfocus_config config = test::ConfigFor(scene, 16);
@@ -59,7 +59,7 @@ Distance Check(const test::Scene& scene, const starfocus_params& params, int blo
   return Check(scene, params, block, 0.26 * 3.14159265358979323846);
 }
 
-// Sizes of the scenes. The reference is slow, and an emulator takes twenty times as long.
+// Sizes of the scenes. The scenes are small, because the reference is slow.
 constexpr int kSizes[][2] = {{1, 1}, {7, 5}, {40, 33}, {96, 64}};
 // Returns a lens whose largest blur radius is r_max.
 starfocus_params RandomLens(const test::Scene& scene, starfocus_mode mode, double r_max,

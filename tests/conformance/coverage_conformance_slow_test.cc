@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compares the coverage map of the engine with the double-precision reference, for coverage that
-// the engine finds and for coverage that is given.
+// Compares the coverage map of the engine with the double-precision reference, both for coverage
+// that the engine finds and for given coverage.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -20,8 +20,8 @@ namespace {
 constexpr int kWidth = 96, kHeight = 64;
 constexpr double kNear = 6, kFar = -6;
 
-// Map of a scene: the surface at the centre of each pixel, or the same map with outlines turned
-// into ramps.
+// Kind of map: the disparity at the centre of each pixel, or the same disparities with outlines
+// turned into ramps.
 enum class Map { kCentres, kRamps };
 
 // Returns the coverage of slanted strands in front of a wall.
@@ -45,7 +45,7 @@ double LightAt(double x, double y, int c, double u, double v) {
 }
 
 float DisparityAt(int x, int y, Map map) {
-  // Neither surface is flat.
+  // Both surfaces have varying disparities.
   const double far = kFar + 0.4 * std::sin(x / 15.0), near = kNear - 0.01 * y;
   const auto is_near = [&](int column) { return CoverageAt(column, y) > 0.5 ? 1.0 : 0.0; };
   const double share =
@@ -70,7 +70,8 @@ test::Scene Strands(int views, Map map, bool given) {
   return scene;
 }
 
-// Makes random noisy strands in front of a surface; the views need not agree.
+// Makes random noisy strands in front of a surface. The views need not be consistent with each
+// other.
 test::Scene RandomStrands(bool given, uint64_t seed) {
   test::Random random(seed);
   constexpr int kViews[] = {1, 5, 9, 17};
@@ -134,12 +135,13 @@ std::vector<reference::PartedPixel> EnginesPixels(const test::Scene& scene) {
 }
 
 struct Distance {
-  int parted = 0, otherwise = 0;  // pixels split by both, and by only one
-  int disparities = 0;            // pixels split by both with different disparities
-  // pixels split by both that differ by more than kCoverageLimit or kLightLimit
+  int parted = 0, otherwise = 0;  // pixels that both split, and pixels that only one splits
+  int disparities = 0;            // pixels that both split, but with different disparities
+  // pixels that both split, but whose coverage (light) differs by more than kCoverageLimit
+  // (kLightLimit)
   int alphas = 0, lights = 0;
-  double alpha = 0, alpha_sum = 0;  // largest difference, and the sum of all
-  double light = 0, light_sum = 0;  // largest difference and sum in codes
+  double alpha = 0, alpha_sum = 0;  // largest and summed difference of coverage
+  double light = 0, light_sum = 0;  // largest and summed difference of light, codes
 
   void Add(const Distance& other) {
     parted += other.parted;
@@ -155,10 +157,11 @@ struct Distance {
 };
 
 // The engine stores coverage in steps of 1/128, which causes an error of at most 1/256, and of
-// 1/512 on average. It compares colours in steps of 1/8 code. The certainty of light has steps of
-// 1/256, and the eighth power of coverage loses up to two steps. This loss matters where little is
-// known, for example where a view sees between strands. Close decisions may differ at some pixels:
-// whether a pixel mixes two colours, and whether a strand covers a place.
+// 1/512 on average. The engine compares colours in steps of 1/8 code. The certainty of light has
+// steps of 1/256, and the eighth power of coverage loses up to two steps. This loss matters where
+// the certainty is low, for example where a view sees between strands. At some pixels, the engine
+// and the reference may decide differently whether a pixel mixes two colours, or whether a strand
+// covers a point.
 constexpr double kCoverageLimit = 2.0 / 128, kCoverageMean = 1.0 / 256;
 constexpr double kLightLimit = 1, kLightMean = 0.25;
 

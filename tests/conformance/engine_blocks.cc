@@ -8,8 +8,8 @@
 namespace conformance {
 namespace {
 
-// Computes the rectangle of the layer that shows a cell. At the sides of the block it includes the
-// margin.
+// Computes the rectangle of the layer that shows a cell. At the sides of the block, the rectangle
+// includes the margin of the layer.
 void AtLayer(const starfocus::Block& block, reference::GatheredCell* cell) {
   const int scale = 1 << block.layer, margin = block.layer == 0 ? 0 : block.layer + 1;
   const starfocus::Rect& rect = block.rect;
@@ -40,7 +40,8 @@ std::vector<reference::GatheredCell> GatheredCells(const starfocus::GatherMap& m
   return cells;
 }
 
-// Collects the blocks. The engine reports each block while the plan of its stripe is in memory.
+// Block visitor that collects the blocks. The engine calls the visitor while the plan of the
+// block's stripe is in memory.
 struct Visit {
   starfocus_engine* engine;
   std::vector<reference::Block>* blocks;

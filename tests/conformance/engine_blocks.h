@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs the engine and returns its output and the partition that it chose. The reference chooses no
-// partition and gets this one.
+// Runs the engine, and returns the output and the partition that the engine chose. The reference
+// uses this partition.
 #ifndef STARFOCUS_TESTS_CONFORMANCE_ENGINE_BLOCKS_H_
 #define STARFOCUS_TESTS_CONFORMANCE_ENGINE_BLOCKS_H_
 
@@ -21,7 +21,7 @@ struct EngineResult {
   std::vector<reference::Block> blocks;  // blocks of all stripes
 };
 
-// Refocuses the scene with an initialised engine on the given kernels.
+// Refocuses the scene with the given kernels on an initialised engine.
 EngineResult RunEngine(const test::Scene& scene, const starfocus_params& params,
                        const starfocus::simd::Kernels& kernels, test::Engine* engine);
 

@@ -19,8 +19,8 @@ bool IsHighlight(const uint8_t* codes) {
   return std::count_if(codes, codes + 3, [](uint8_t code) { return code >= 251; }) >= 2;
 }
 
-// Returns the number of consecutive highlights of the view along (dx, dy) through (x, y). The
-// number is very large if they reach the edge of the picture.
+// Returns the number of consecutive highlights of the view along (dx, dy) through (x, y). Returns a
+// very large number if the highlights reach the edge of the picture.
 int RunThrough(const test::Scene& scene, int view, int x, int y, int dx, int dy) {
   int run = 1;
   for (const int side : {1, -1}) {
@@ -81,7 +81,7 @@ Lens MakeLens(const starfocus_params& params, const ApertureShape& opening, int 
   lens.focus = RoundedTo64(params.lens.focus);
   double extent = 1;
   if (wide) {
-    // The outermost views are up to 5/32 of a subaperture beyond the rim.
+    // The outermost views lie up to 5/32 of a subaperture beyond the rim.
     lens.subapertures = n == 1 ? 1 : n == 3 ? 3 - 2 / 32.0 : n == 4 ? 4 - 5 / 32.0 : n - 11 / 32.0;
     const double farthest = lens.subapertures + 5 / 32.0;
     lens.n = int(farthest);
@@ -121,8 +121,8 @@ Colour Sum(const Colour& a, double wa, const Colour& b, double wb) {
   return {wa * a[0] + wb * b[0], wa * a[1] + wb * b[1], wa * a[2] + wb * b[2]};
 }
 
-// Subsamples a picture by two. The result has one more pixel than half the size, with edges
-// repeated. Disparities are taken from every second pixel.
+// Subsamples a picture by two. The result has half the size plus one pixel, with edges repeated.
+// Disparities are taken from every second pixel.
 Picture Down(const Picture& from) {
   const Taps taps(1.28);
   const double unit = 1 / (taps.centre + 2 * (taps.near + taps.far));
@@ -168,7 +168,7 @@ std::vector<Picture> MakeLayers(const Picture& picture) {
   return layers;
 }
 
-// Part of a layer. Pixel (0, 0) of `picture` is at (x, y) of the layer.
+// Part of a layer: pixel (0, 0) of `picture` is pixel (x, y) of the layer.
 struct Part {
   int x, y;
   Picture picture;
@@ -304,7 +304,7 @@ Result Refocus(const test::Scene& scene, const starfocus_params& params,
 
 namespace {
 
-// Copies `from` to the place (x0, y0) of `to`.
+// Copies `from` to position (x0, y0) of `to`.
 void Paste(const Picture& from, int x0, int y0, Picture* to) {
   for (int y = 0; y < from.height; ++y) {
     for (int x = 0; x < from.width; ++x) {
@@ -314,7 +314,7 @@ void Paste(const Picture& from, int x0, int y0, Picture* to) {
 }
 
 // Adds the views and the gathered cells of the blocks. With `excess`, only blocks that may show
-// highlights count: they are at layer 0 and gather no cells.
+// highlights are rendered. Such blocks are at layer 0 and gather no cells.
 void RefocusAll(const LightField& field, const starfocus_params& params,
                 const starfocus_config& config, const std::vector<Block>& blocks, bool excess,
                 Result* result) {

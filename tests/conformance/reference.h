@@ -24,8 +24,9 @@ struct Result {
   std::vector<double> rgb;  // codes, unrounded, 3 * width * height
 };
 
-// Refocuses the scene with the transfer of `config`. `block` is the side of the blocks. The result
-// depends on it, since runs of one shift start at the edge of a block's extended rectangle.
+// Refocuses the scene with the transfer of `config`. `block` is the side of the blocks in pixels.
+// The side affects the result, since runs of one shift start at the edge of a block's extended
+// rectangle.
 Result Refocus(const test::Scene& scene, const starfocus_params& params,
                const starfocus_config& config, int block);
 
@@ -36,12 +37,13 @@ struct GatheredCell {
   int at_x, at_y, at_width, at_height;  // the cell in the block's layer
 };
 
-// A block of the block mode, and the rectangle that it is rendered from.
+// A block of the block mode, and the rectangle that the views of the block are rendered from.
 struct Block {
   int x, y, width, height;  // in the picture
   int layer, n;
   int rendered_x, rendered_y, rendered_width, rendered_height;  // at the layer, with margins
-  int left, right, top, bottom;                                 // border at the layer
+  // Border around the rendered rectangle, at the layer.
+  int left, right, top, bottom;
   std::vector<GatheredCell> gathered;  // cells that replace views, at the layer
 };
 

@@ -17,8 +17,9 @@ namespace reference {
 
 inline constexpr int kOne = 64;  // unit of disparities and radii
 
-// Returns the step of the ladder of blur.h at a radius in 1/kOne pixels. It is 1/8 pixel up to 4
-// pixels, and 1/32 of the start of each octave beyond.
+// Returns the distance between radii of the ladder of blur.h, at a radius in 1/kOne pixels. The
+// distance is 1/8 pixel up to a radius of 4 pixels. Beyond 4 pixels, the distance is 1/32 of the
+// start of each octave.
 inline double LadderUnit(int radius) {
   double unit = kOne / 8.0;
   for (double octave = 4 * kOne; radius >= octave; octave *= 2) unit = octave / 32;
@@ -31,8 +32,8 @@ inline double NearestRadius(int radius) {
   return std::floor(radius / unit + 0.5) * unit / kOne;
 }
 
-// Returns the number of lines, or of points along an axis, for a part of the unit disc. It is large
-// enough that darkness next to white is exact to one code of sRGB.
+// Returns the number of lines, or of points along an axis, for a part of the unit disc. With this
+// number, dark pixels next to white are exact to one code of sRGB.
 inline int FinenessOf(double side) { return std::clamp(int(600 * side), 40, 600); }
 
 // Integrates (3) over [x0, x1] x [y0, y1] in the plane of the unit disc. The sum over lines of y
@@ -108,7 +109,7 @@ inline Psf MakePsf(double r, const ApertureShape& opening) {
   return kernel;
 }
 
-// Returns the PSF of MakePsf from a cache. The reference is valid until the next call.
+// Returns the PSF of MakePsf from a cache. The returned reference is valid until the next call.
 inline const Psf& PsfOf(double r, const ApertureShape& opening) {
   static std::map<std::array<double, 7>, Psf> kernels;
   constexpr size_t kMost = 1000;

@@ -11,7 +11,7 @@
 namespace reference {
 namespace {
 
-// Smallest number of pixels with a nearer neighbour in a tile of thin structure.
+// A tile is a tile of thin structure if at least this number of its pixels have a nearer neighbour.
 constexpr int kLeastRagged = 36;
 
 // Rounds coverage, and the certainty of light, as the engine stores them between passes.
@@ -24,7 +24,7 @@ Colour Less(const Colour& a, const Colour& b) { return {a[0] - b[0], a[1] - b[1]
 
 // Values of a pixel, filled in pass by pass.
 struct Pixel {
-  bool two = false;             // true if the pixel is near an edge and therefore has two surfaces
+  bool two = false;             // true if the pixel has two surfaces, since it is near an edge
   double near = 0, far = 0;     // disparities
   double guess = 1, first = 1;  // coverage by the map; coverage after the first pass
 };
@@ -139,7 +139,7 @@ class Parter {
         pixel.first = RoundedCoverage(given_[Index(x, y)] / 255.0);
         known = EighthPower(1 - pixel.first);
       } else {
-        // Next to a strand of the map there may be a strand that the map lacks.
+        // The map may lack strands next to a strand that the map has.
         known = here == high ? 0 : square <= 2 ? 1 / 16.0 : square <= 5 ? 1 / 4.0 : 1;
       }
     }
@@ -148,8 +148,8 @@ class Parter {
 
   // --- Coverage by colours ---
 
-  // Computes the near light around a pixel, weighted by the part of it that each pixel shows.
-  // Returns false if too little of it is visible.
+  // Computes the light of the near surface around a pixel. Each neighbour has the weight shown(x,
+  // y). Returns false if the sum of weights is too small.
   bool NearLight(int x, int y, const std::function<double(int x, int y)>& shown,
                  Colour* light) const {
     constexpr double kTaps[3][3] = {{10, 8, 4}, {8, 7, 3}, {4, 3, 2}};
@@ -180,8 +180,7 @@ class Parter {
   }
 
   void FirstPass() {
-    // The weight of a pixel near an edge grows with the number of pixels around it that are on the
-    // near side.
+    // The weight of a pixel near an edge increases with the coverage in the 3x3 pixels around it.
     const auto shown = [&](int x, int y) {
       double count = 0;
       for (int dy = -1; dy <= 1; ++dy) {
@@ -205,8 +204,9 @@ class Parter {
 
   // --- The far light in all views ---
 
-  // Returns the largest coverage by nearer surfaces in a view, at the place of a pixel's far
-  // surface. Nearer pixels count if they move to within a pixel and a half of this place.
+  // Returns the largest coverage by nearer surfaces in a view, at the point where the view shows a
+  // pixel's far surface. Nearer pixels count if the view shows them within a pixel and a half of
+  // this point.
   double CoveredIn(const Position& view, int x, int y) const {
     const bool down = std::abs(view.second) > std::abs(view.first);
     const int along = down ? view.second : view.first, across = down ? view.first : view.second;
@@ -219,7 +219,7 @@ class Parter {
         if (!centre_.Inside(column, row)) continue;
         const Pixel& pixel = At(column, row);
         const double nearer = pixel.near - At(x, y).far;
-        // The engine rounds to a grid of 1/32.
+        // The engine rounds movements to 1/32 pixel.
         const double moved = 2 * std::floor(nearer * along / kViewUnit / 2 + 0.5);
         if (nearer <= 64 || std::fabs(moved - sign * 64 * m) > 96) continue;
         covered = std::max(covered, pixel.first);
@@ -234,7 +234,8 @@ class Parter {
       for (const Position& view : LooksOn(field_, side)) views.insert(view);
     }
     const Pixel& pixel = At(x, y);
-    // The centre view has a smaller weight, since its pixels are mixtures here.
+    // The centre view has a smaller weight, since pixels of the centre view are mixtures near
+    // edges.
     double known = Kept(EighthPower(1 - pixel.first) / 8);
     Colour sum = Light(x, y);
     for (double& light : sum) light *= known;

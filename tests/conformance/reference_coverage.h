@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reference of the coverage of thin structures: which pixels near large depth edges are split into
-// a near and a far surface, and how. Disparities are decided on the engine's grid of 1/64. Between
-// passes, coverage is rounded to 1/128 and the certainty of light down to 1/256, as the engine
-// stores them. All other values are unrounded doubles.
+// Reference of the coverage of thin structures: splits pixels near large depth edges into a near
+// and a far surface. Disparities are decided on the engine's grid of 1/64. Between passes, coverage
+// is rounded to 1/128 and the certainty of light down to 1/256, as the engine stores them. All
+// other values are unrounded doubles.
 #ifndef STARFOCUS_TESTS_CONFORMANCE_REFERENCE_COVERAGE_H_
 #define STARFOCUS_TESTS_CONFORMANCE_REFERENCE_COVERAGE_H_
 
@@ -19,8 +19,8 @@ struct PartedPixel {
   Colour light = {0, 0, 0};  // light of the far surface
 };
 
-// Returns the pixels of the centre view, row by row. They are split by the scene's coverage if it
-// has any, otherwise by its map and colours.
+// Returns the pixels of the centre view, row by row. If the scene has coverage, the coverage splits
+// the pixels; otherwise the map and the colours split them.
 std::vector<PartedPixel> PartPixels(const test::Scene& scene, int transfer);
 
 }  // namespace reference

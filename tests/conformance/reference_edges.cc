@@ -18,7 +18,8 @@ bool ThinMap::IsBesideNearer(int x, int y) const {
 }
 
 // Returns the offset of the nearest pixel within `reach` for which `is` holds, or (0, 0) if there
-// is none. Ties are resolved by the smallest square around the pixel, then by the order of rows.
+// is none. Among equally near pixels, the pixel with the smaller maximum of |dx| and |dy| is
+// chosen, then the first in row order.
 std::pair<int, int> ThinMap::Nearest(int x, int y, int reach, const Is& is) const {
   std::pair<int, int> nearest = {0, 0};
   std::pair<int, int> least = {INT32_MAX, 0};
@@ -33,8 +34,9 @@ std::pair<int, int> ThinMap::Nearest(int x, int y, int reach, const Is& is) cons
   return nearest;
 }
 
-// Returns true if the disparity lies between those of two opposite neighbours. Both steps must be
-// at least half a pixel, and the larger step at most 4 times the smaller one.
+// Returns true if the disparity of the pixel lies between the disparities of two opposite
+// neighbours. The steps to both neighbours must be at least half a pixel, and the larger step at
+// most 4 times the smaller one.
 bool ThinMap::IsRamp(int x, int y) const {
   constexpr Direction kOpposite[] = {{1, 0}, {0, 1}, {1, 1}, {-1, 1}};
   for (const Direction& to : kOpposite) {

@@ -10,22 +10,23 @@
 
 namespace reference {
 
-// A larger step of disparity, in 1/64, is an edge of a thin structure.
+// Steps of disparity above this threshold, in 1/64, are edges of thin structures.
 inline constexpr int kThinEdge = 5 * 64;
 
 class ThinMap {
  public:
   explicit ThinMap(const Picture& picture) : picture_(picture) {}
 
-  // Returns the disparity of a pixel. Beyond the picture its outermost pixels are repeated.
+  // Returns the disparity of a pixel. Beyond the picture, the outermost pixels are repeated.
   int Disparity(int x, int y) const;
   bool IsBesideNearer(int x, int y) const;
-  // Find the two surfaces of a pixel; return false if it has only one. FindGiven, for given
-  // coverage, uses the nearest surfaces within 32 pixels, without ramps. FindEdge uses the nearest
-  // edge within 3 pixels. `square` receives the squared distance to the pixel beyond the edge.
+  // Find the two surfaces of a pixel; return false if the pixel has only one surface. FindGiven,
+  // for given coverage, uses the nearest surfaces within 32 pixels, without ramps. FindEdge uses
+  // the nearest edge within 3 pixels. `square` receives the squared distance to the pixel beyond
+  // the edge.
   bool FindGiven(int x, int y, int* low, int* high) const;
   bool FindEdge(int x, int y, int* low, int* high, int* square) const;
-  // Returns the mean of the disparities close to the near one, within 2 pixels.
+  // Returns the mean of the disparities within 2 pixels that are close to the disparity `near`.
   double SmoothNear(int x, int y, int near) const;
 
  private:

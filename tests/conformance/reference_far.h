@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light of the far surface at places where few pixels show it. It is averaged over growing cells,
-// for the farthest surface in each cell, and continued into cells without known light.
+// Light of the far surface where few pixels show this surface. The light is averaged over cells of
+// increasing size, for the farthest surface in each cell, and continued into cells without known
+// light.
 #ifndef STARFOCUS_TESTS_CONFORMANCE_REFERENCE_FAR_H_
 #define STARFOCUS_TESTS_CONFORMANCE_REFERENCE_FAR_H_
 
@@ -19,7 +20,8 @@ struct FarLight {
   double disparity = 0;  // in 1/64
 };
 
-// Planes of cells with sides of 1, 2, 4, 8 and 16 pixels, with one tile around the picture.
+// Planes of cells with sides of 1, 2, 4, 8 and 16 pixels. The planes extend beyond the picture by
+// one tile on each side.
 class FarPyramid {
  public:
   FarPyramid(int columns, int rows);  // numbers of tiles
@@ -27,7 +29,8 @@ class FarPyramid {
   FarLight& Pixel(int x, int y) { return At(0, x, y); }
   // Averages cells into cells of twice their side, and fills cells without known light.
   void Fill();
-  // Returns the known light of a pixel, completed by that of the cells around it.
+  // Returns the light of a pixel. The larger cells around the pixel supply the light that is not
+  // known.
   FarLight Filled(int x, int y) const;
 
  private:

@@ -8,7 +8,7 @@
 namespace reference {
 namespace {
 
-// Reads the picture with linear interpolation. Beyond the picture its outermost pixels are
+// Reads the picture with linear interpolation. Beyond the picture, the outermost pixels are
 // repeated.
 Colour ReadPicture(const LightField& field, const Position& view, double x, double y,
                    std::vector<Colour> Picture::*colours = &Picture::colours) {
@@ -46,8 +46,8 @@ double ShareOf(const Colour& near, const Colour& far, const Colour& mixed) {
   return 16 * beside > contrast * (432 + contrast) ? 0 : along / contrast;
 }
 
-// Returns the excess of the near surface's blur over the far surface's, in pixels and at most 1. It
-// falls to 0 as the blur of the far surface grows from 2 to 3 pixels.
+// Returns by how many pixels, at most 1, the blur of the near surface exceeds the blur of the far
+// surface. The result falls to 0 as the blur of the far surface grows from 2 to 3 pixels.
 double Strength(const Lens& lens, int near, int far) {
   const double r_near = std::abs(lens.Shift(lens.n, near)) / 256.0;
   const double r_far = std::abs(lens.Shift(lens.n, far)) / 256.0;
@@ -114,7 +114,7 @@ Mixed MixtureAt(const LightField& field, int x, int y, const Direction& side, in
       const Position& view = occlusion_views.back();
       result.far = ReadPicture(field, view, x - Moved(view.first, disparity, 0),
                                y - Moved(view.second, disparity, 0), colours);
-      // Rounds to the engine's grid of light, with halves towards the pixel.
+      // Rounds to the engine's grid of light; halves are rounded towards the colour of the pixel.
       for (size_t c = 0; c < 3; ++c) {
         double& far = result.far[c];
         far = (mixed[c] > far ? std::floor(128 * far + 0.5) : std::ceil(128 * far - 0.5)) / 128;
@@ -159,7 +159,7 @@ void Unmix(const LightField& field, const Lens& lens, const Rectangle& rect, Pic
   }
 }
 
-// Reads with linear interpolation at layer 0. At other layers, filters around the picture's pixel
+// Reads with linear interpolation at layer 0. At layers 1 and 2, filters around the picture's pixel
 // nearest to (x, y), with weights 1 2 1 or 1 2 3 4 3 2 1 along either axis.
 Colour Read(const LightField& field, int layer, const Position& view, double x, double y) {
   if (layer == 0) return ReadPicture(field, view, x, y);
@@ -193,8 +193,8 @@ Picture ExtendedRectangle(const Picture& layer, const Rectangle& rect) {
 namespace {
 
 // Returns the number of pixels beyond the edge at (x, y) of the layer that a captured view shows.
-// The view lies `distance` outwards, in units of 1/kViewUnit, and `disparity` is that of the edge.
-// The count ends before the first pixel that a nearer surface covers.
+// The view lies `distance` outwards, in units of 1/kViewUnit. `disparity` is the disparity of the
+// pixel at the edge. The count ends before the first pixel that a nearer surface covers.
 int SeenBeyond(const Picture& picture, int layer, int x, int y, const Direction& out, int distance,
                int disparity) {
   const double unit = 64 << layer;

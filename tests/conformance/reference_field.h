@@ -10,7 +10,8 @@ namespace reference {
 // Returns the light of a scene's views, and its disparities.
 LightField Load(const test::Scene& scene, int transfer);
 
-// A rectangle of a layer and the border that it is rendered from, in pixels of the layer.
+// A rectangle of a layer, and the border that rendering the rectangle reads, in pixels of the
+// layer.
 struct Rectangle {
   int x, y, width, height;
   int left, right, top, bottom;
@@ -21,21 +22,22 @@ struct Direction {
 };
 constexpr Direction kDirections[] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
 
-// Returns a rectangle with its border, from a layer of the centre view. The edges of the layer are
-// repeated beyond it.
+// Returns a rectangle with its border, from a layer of the centre view. Beyond the layer, the edge
+// pixels are repeated.
 Picture ExtendedRectangle(const Picture& layer, const Rectangle& rect);
 
-// Continues the surface at the edge of `picture` (at layer 0) beyond the picture. Its colours come
-// from the captured view on that side. They reach as far as the surface moves per unit of u, and
-// end at a nearer pixel among the 32 inside that covers the surface.
+// Continues the surface at the edge of `picture` (at layer 0) beyond the picture, with colours from
+// the captured view on that side. The colours extend as far as the surface moves per unit of u.
+// They end earlier if one of the 32 pixels inside the edge is nearer and covers the surface in the
+// captured view.
 void ExtendEdges(const LightField& field, const Picture& picture, int layer, const Rectangle& rect,
                  Picture* extended);
 
-// Mixture of a pixel (x, y) of the centre view next to a depth edge. The edge is a step of more
-// than `step` (1/64) up to the side. `share` is the part of the pixel that shows the near surface,
-// or 0 if the pixel is not a mixture. The far colour comes from the captured view that sees behind
-// the near surface. Without such a view, it is the colour of the pixel on the other side, if this
-// belongs to the same surface.
+// Mixture of a pixel (x, y) of the centre view next to a depth edge. The edge is an increase of
+// disparity by more than `step` (1/64) towards `side`. `share` is the part of the pixel that shows
+// the near surface, or 0 if the pixel is not a mixture. The far colour comes from the captured view
+// that sees behind the near surface. Without such a view, the far colour is the colour of the pixel
+// on the opposite side, if both pixels belong to the same surface.
 struct Mixed {
   double share;
   Colour near, far;
@@ -46,20 +48,21 @@ Mixed MixtureAt(const LightField& field, int x, int y, const Direction& side, in
 // mixture.
 double FadedShareOf(const Colour& near, const Colour& far, const Colour& mixed);
 
-// Unmixes the rectangle's sharp pixels next to a more defocused surface, at layer 0: the far colour
-// replaces the part of that surface. The outermost pixels are not changed.
+// Unmixes the rectangle's sharp pixels next to a more defocused near surface, at layer 0: the far
+// colour replaces the share of the near surface. The outermost pixels are not changed.
 void Unmix(const LightField& field, const Lens& lens, const Rectangle& rect, Picture* centre);
 
 // Position of a captured view, as the key of LightField.
 using Position = std::pair<int, int>;
 
-// Returns the colour at (x, y) of the layer in the captured view at that position.
+// Returns the colour at (x, y) of the layer in the captured view at the position `view`.
 Colour Read(const LightField& field, int layer, const Position& view, double x, double y);
 
-// Returns the captured views that see behind depth edges on a side, at most two. They lie within 45
-// degrees of its direction. If there are none, views within the angle of tangent 8 are used. The
-// best view has the largest value of twice its distance towards the side minus its distance across.
-// Ties are resolved by the smallest distance across, then the smallest u, then the smallest v.
+// Returns the captured views that see behind depth edges on a side, at most two. The views lie
+// within 45 degrees of the direction of the side. If no view does, views within the angle of
+// tangent 8 are used. The best view has the largest value of twice its distance towards the side
+// minus its distance across. Ties are resolved by the smallest distance across, then the smallest
+// u, then the smallest v.
 std::vector<Position> LooksOn(const LightField& field, const Direction& side);
 
 // Returns the shift of a disparity along one axis, in a view at `position` on that axis. The shift

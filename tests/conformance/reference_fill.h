@@ -7,9 +7,9 @@
 
 namespace reference {
 
-// Replaces the colour of each farthest surface that repeats another pixel by the far colour of that
-// pixel. Then smooths these pixels with each other and with known ones: see
-// lib/slices/hidden_fill.h. `unit` is a pixel of disparity.
+// If the farthest surface of a pixel repeats another pixel, its colour is replaced by the far
+// colour of the other pixel. Then smooths the replaced colours with each other and with known
+// colours: see lib/slices/hidden_fill.h. `unit` is a pixel of disparity in 1/64.
 void InpaintHidden(int unit, SurfaceMap* map);
 
 }  // namespace reference

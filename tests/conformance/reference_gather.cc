@@ -16,8 +16,9 @@ struct Interval {
   double low, high;
 };
 
-// Return the largest radius of the ladder that is at most `radius`, and the smallest one that is at
-// least `radius`. `radius` is in 1/kOne pixels, the results are in pixels.
+// LadderBelow returns the largest radius of the ladder that is at most `radius`, and LadderAbove
+// the smallest one that is at least `radius`. `radius` is in 1/kOne pixels; the results are in
+// pixels.
 double LadderBelow(int radius) {
   return std::floor(radius / LadderUnit(radius)) * LadderUnit(radius) / kOne;
 }
@@ -25,8 +26,8 @@ double LadderAbove(int radius) {
   return std::ceil(radius / LadderUnit(radius)) * LadderUnit(radius) / kOne;
 }
 
-// Returns the mean square of a coordinate of the opening's light, relative to the radius of the
-// lens.
+// Returns the mean square of one coordinate in the opening, weighted by light, relative to the
+// radius of the lens.
 double MeanSquare(const ApertureShape& opening) {
   if (opening.shape == STARFOCUS_SHAPE_RING) return (1 + opening.inner * opening.inner) / 4;
   if (opening.shape != STARFOCUS_SHAPE_FALL_OFF) return 1.0 / 4;
@@ -56,8 +57,8 @@ class Gather {
  private:
   double Scale() const { return 1 << block_.layer; }
 
-  // Computes the lowest and the highest disparity of a cell. Beyond the picture the last pixels and
-  // the last cell are repeated.
+  // Computes the lowest and the highest disparity of a cell. Beyond the picture, the last pixels
+  // and the last cell are repeated.
   void DisparitiesOf(int column, int row, int* low, int* high) const {
     column = std::clamp(column, 0, (picture_.width - 1) / kCell);
     row = std::clamp(row, 0, (picture_.height - 1) / kCell);
@@ -104,7 +105,7 @@ class Gather {
            Scale() / 1024;
   }
 
-  // Returns the range of unsigned radii of the cell's pixels, on the engine's grid.
+  // Returns the range of absolute radii of the cell's pixels, on the engine's grid.
   Interval IntervalOf(const GatheredCell& cell) const {
     const Corners corners = CornersOf(cell);
     double low = 1e9, high = -1e9;
@@ -165,15 +166,16 @@ class Gather {
     }
   }
 
-  // Returns the position of the square of a radius between the squares of two other radii.
+  // Returns the position of the squared radius between the squares of the two ends of `between`,
+  // from 0 to 1.
   static double ShareOf(double radius, const Interval& between) {
     const double range = between.high * between.high - between.low * between.low;
     if (range == 0) return 0;
     return std::clamp((radius * radius - between.low * between.low) / range, 0.0, 1.0);
   }
 
-  // Mixes the results of two PSFs by the radius of each pixel, and moves the mixture along its
-  // gradient.
+  // Mixes the results of two PSFs by the radius of each pixel, and moves the mixture along the
+  // gradient of the radius.
   void OnSlope(const GatheredCell& cell) {
     const Interval range = IntervalOf(cell);
     const Interval between = {std::min(LadderBelow(int(std::floor(range.low * kOne))), largest_),
@@ -198,8 +200,8 @@ class Gather {
     Move(cell, corners, mixed);
   }
 
-  // Returns the colour difference between both neighbours of a pixel. At the rim, it is twice the
-  // difference to the inner neighbour.
+  // Returns the colour difference between both neighbours of a pixel. At the rim of the cell,
+  // returns twice the difference from the inner neighbour.
   static double Difference(const Picture& of, int x, int y, int dx, int dy, size_t c) {
     const auto at = [&](int side) {
       const int px = x + side * dx, py = y + side * dy;

@@ -35,7 +35,7 @@ inline int RoundedTo64(double value) { return static_cast<int>(std::floor(value 
 struct Picture {
   int width = 0, height = 0;
   std::vector<Colour> colours;  // light, or the light of highlights beyond white
-  // light that mixtures are found by, if `colours` is not light; otherwise empty
+  // light for finding mixtures, if `colours` is not light; otherwise empty
   std::vector<Colour> light;
   std::vector<int> disparities;
 
@@ -75,7 +75,7 @@ struct Lens {
     return std::min(1.0, std::abs(Shift(1, disparity)) / 256.0);
   }
   // Returns the largest range of disparities (1/64) in a run: a quarter pixel of displacement at
-  // the rim of the aperture. It never exceeds the step at the edge of a surface.
+  // the rim of the aperture. The range never exceeds kSurfaceStep.
   int Spread() const { return int(std::min<int64_t>(kSurfaceStep, (int64_t{16} << 24) / step)); }
   // Returns true if view k is at most half a unit from the centre, where a captured view may exist.
   bool Half(int k) const { return 2 * k * radius <= n; }
@@ -86,9 +86,9 @@ struct Lens {
     // Openings with sharp edges are sampled as in the engine.
     if (opening.shape != STARFOCUS_SHAPE_FALL_OFF)
       return passing * opening.Mean(i, j, Radius(), 16);
-    // Uses as many points as for other shapes. The exact integral is 5.5 % larger for the four
-    // views on the rim of N = 4, which is 0.02 % of all light each. For lamps ten times as bright
-    // as white, that makes three codes in dark parts.
+    // Uses as many points as for other shapes. For each of the four views on the rim of N = 4, the
+    // exact integral is 5.5 % larger, which is 0.02 % of all light. For lamps ten times as bright
+    // as white, the difference is three codes in dark parts.
     if (subapertures > 0) return passing * opening.Mean(i, j, subapertures, 16);
     return passing * ApertureDensity(double(i) / n, double(j) / n, opening.cot2);
   }
@@ -104,9 +104,10 @@ struct Lens {
 
 // --- One line: the pixels that a view in direction +1 along it shows ---
 
-// Source of a rendered pixel: line pixel `source`. In a hole it is the continuation of that pixel's
-// surface behind the surface that hides it. A share of the pixel shows line pixel `other`: a
-// neighbour on the same surface, or the surface on the other side of a depth edge.
+// Source of a rendered pixel. Outside holes, the rendered pixel shows line pixel `source`. In a
+// hole, the surface of line pixel `source` continues behind a nearer surface. A share of the
+// rendered pixel shows line pixel `other`: a neighbour on the same surface, or the surface on the
+// other side of a depth edge.
 struct Owner {
   bool hole = true;
   int source = 0;
@@ -122,8 +123,8 @@ struct LineRun {
   int disparity;  // middle of the range
 };
 
-// Returns the runs, from the end of the line that near surfaces move away from. Each run is as long
-// as its range of disparities allows.
+// Returns the runs, starting at the end of the line that near surfaces move away from. Each run is
+// as long as `spread` allows.
 inline std::vector<LineRun> Runs(const std::vector<int>& disparity, int spread) {
   std::vector<LineRun> runs;
   int end = int(disparity.size());
@@ -169,7 +170,8 @@ class LineScan {
  private:
   int Shift(const LineRun& run) const { return lens_.Shift(k_, run.disparity); }
   int Whole(const LineRun& run) const { return int(Rounded(Shift(run), 8)); }
-  // Returns the remainder of rounding to whole pixels: the run lies this many pixels farther down.
+  // Returns the remainder of rounding to whole pixels: the number of pixels by which the run lies
+  // farther towards the start of the line.
   double Offset(const LineRun& run) const { return Shift(run) / 256.0 - Whole(run); }
   bool Inside(int p) const { return p >= 0 && p < int(owners_.size()); }
   int Disparity(int q) const { return disparity_[size_t(q)]; }
@@ -177,9 +179,9 @@ class LineScan {
     return std::abs(Disparity(q) - Disparity(other)) <= kSurfaceStep;
   }
 
-  // Closes the gap between the run's upper end and the filled pixels. The run's surface is
-  // stretched, unless it ends there or is the nearer one. In these cases the surface behind the
-  // nearer of the two continues.
+  // Closes the gap between the run's upper end and the filled pixels. If the run and the filled
+  // pixels belong to one surface, this surface is stretched. Otherwise the farther surface
+  // continues into the gap.
   void CloseGap(const LineRun& run, const LineRun* above) {
     const int q = run.end - 1, visible = above == nullptr ? q : above->begin;
     const int begin = run.end - Whole(run), gap = filled_ - begin;
@@ -196,7 +198,7 @@ class LineScan {
 
   // Softens the lower end of a surface, whose last pixel is `end`, where a farther surface
   // continues. If the end lies between rendered pixels, the nearer surface covers only a part of
-  // its last pixel, or also a part of the pixel below.
+  // its last pixel, or additionally covers a part of the pixel below.
   void SoftenEnd(const LineRun& nearer, const LineRun& farther, int end) {
     const int q = nearer.begin;
     if (q == 0 || OneSurface(q - 1, q)) return;
@@ -209,8 +211,8 @@ class LineScan {
     }
   }
 
-  // Returns true if the pixel is not yet divided between two surfaces. Both ends of a run of one
-  // pixel lie in it.
+  // Returns true if the pixel is not yet divided between two surfaces. The two ends of a run of one
+  // pixel may lie in the same rendered pixel.
   bool IsWhole(int p) const {
     return Inside(p) && !owners_[size_t(p)].hole && owners_[size_t(p)].share == 0;
   }
@@ -229,9 +231,8 @@ class LineScan {
     filled_ = std::min(filled_, begin);
   }
 
-  // Sets a rendered pixel whose source is t pixels away from its centre. With a subaperture of
-  // width L, the neighbour on that side gets clamp((
-  // t
+  // Sets a rendered pixel whose source is t pixels away from the centre of the rendered pixel. With
+  // a subaperture of width L, the neighbour on that side gets the share clamp(( t
   //  - 1/2) / L + 1/2, 0, 1), unless it is on another surface.
   void SetSurface(int p, const LineRun& run) {
     if (!Inside(p)) return;

@@ -31,7 +31,7 @@ struct ApertureShape {
   std::array<Edge, STARFOCUS_MAX_BLADES> edges = {};
   double cot2;  // squared cotangent of theta
 
-  ApertureShape(double angle)  // NOLINT: the plain lens is its theta
+  ApertureShape(double angle)  // NOLINT: theta alone defines a lens with fall-off
       : theta(angle), cot2(1 / (std::tan(theta) * std::tan(theta))) {}
   ApertureShape(const starfocus_lens& lens)  // NOLINT: converts
       : theta(lens.theta),
@@ -54,8 +54,8 @@ struct ApertureShape {
   // Returns half of the angle between two corners.
   double Half() const { return kPi / blades; }
 
-  // Returns the opening with the position of the rim behind the lens as seen from the middle of a
-  // block.
+  // Returns the opening as seen from the middle of a block, which determines the position of the
+  // rim behind the lens.
   ApertureShape At(double x, double y, double block_width, double block_height, double width,
                    double height) const {
     ApertureShape here = *this;
@@ -65,7 +65,7 @@ struct ApertureShape {
     return here;
   }
 
-  // Returns true inside the circles through two corners each, or inside the straight edges.
+  // Returns true if (u, v) is inside all edges, which are straight or arcs of circles.
   bool InPolygon(double u, double v) const {
     const double straight = curvature == 0 ? std::cos(Half()) : 0;
     for (int k = 0; k < blades; ++k) {
@@ -88,7 +88,7 @@ struct ApertureShape {
     return shape == STARFOCUS_SHAPE_DISC || InPolygon(u, v) ? 1 : 0;
   }
 
-  // Returns the mean density over the subaperture around (i, j), at `points` squared points. The
+  // Returns the mean density over the subaperture around (i, j), at `points` x `points` points. The
   // lens is `width` subapertures wide.
   double Mean(int i, int j, double width, int points) const {
     double sum = 0;

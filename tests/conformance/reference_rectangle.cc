@@ -10,7 +10,7 @@ double Difference(const Colour& a, const Colour& b) {
 
 int Sign(int value) { return (value > 0) - (value < 0); }
 
-// Lines to cut off from a picture's extended rectangle.
+// Number of lines to remove from each side of a picture.
 struct Cut {
   int left, right, top, bottom;
 };
@@ -55,7 +55,7 @@ class Views {
                        });
   }
 
-  // Type A: renders view `i` along rows or columns, once.
+  // Renders view `i` of type A (Fig. 11) along rows or columns, once.
   const Picture& Along(bool rows, int i) {
     const auto known = along_.find({rows, i});
     if (known != along_.end()) return known->second;
@@ -70,8 +70,8 @@ class Views {
     return along_.emplace(std::make_pair(rows, i), std::move(view)).first->second;
   }
 
-  // Type C: renders across the lines of a type A view. Only lines that the outermost view can reach
-  // count, since runs of one shift start there.
+  // Renders a view of type C (Fig. 11) across the lines of a view of type A. Lines that the
+  // outermost view cannot reach are cut off, since runs of one shift start at the first line.
   void AddAcross(bool rows, int i, int j, double weight, Picture* sum) {
     const int along = rows ? i : j, across = rows ? j : i;
     const int last = lens_.LastAcross(std::abs(along));
@@ -121,8 +121,8 @@ class Views {
       return Read(field_, lens_.layer, {u * distance * kViewUnit / 2, v * distance * kViewUnit / 2},
                   x_far, y_far);
     }
-    // The diagonal view was not captured, so the side views are mixed by their agreement with the
-    // background.
+    // The star of 5 views has no diagonal views, so two views on the axes are mixed. The weights
+    // depend on how well each view agrees with `behind`.
     const Colour a = Read(field_, lens_.layer, {u * kViewUnit, 0}, x_far, y + moved(j, false));
     const Colour b = Read(field_, lens_.layer, {0, v * kViewUnit}, x + moved(i, false), y_far);
     const double weight_a = std::pow(Difference(b, behind), 2) + 1;

@@ -14,7 +14,7 @@ namespace {
 
 struct Range {
   int low, high;
-  // disparity a little nearer than `high`; surfaces up to it belong to this slice as well
+  // nearer than `high`; the slice also includes surfaces up to this disparity
   int overlap;
 
   int Disparity() const { return low + (high - low) / 2; }  // disparity by which the slice moves
@@ -63,7 +63,7 @@ class RangeFinder {
     return std::abs(disparity - lens_.focus) >= std::min(kMost, least);
   }
 
-  // Returns the number of bins that a slice may span if its nearest bin is `bin`.
+  // Returns the number of bins that a slice may span if `bin` is the nearest bin of the slice.
   int64_t Span(int bin, int64_t coarser) const {
     constexpr int64_t kSharp = 4 * 256;  // a blur of 4 pixels
     const auto range = int64_t(256 * slicing_.range);
@@ -130,12 +130,12 @@ struct Plane {
   }
 };
 
-// Widest subaperture, in pixels, that is applied by moving the slice. Wider ones are spread
-// beforehand.
+// Widest subaperture, in pixels, that is applied by moving the slice. Slices with wider
+// subapertures are spread beforehand.
 constexpr double kWidestBox = 3;
 
-// Spreads a plane by a box along x or y. Pixels beyond the plane count as empty: no view shows the
-// pixels that they would change.
+// Spreads a plane by a box along x or y. Pixels beyond the plane count as empty, since no view
+// shows the pixels that they would affect.
 Plane Spread(const Plane& from, double box, int dx, int dy) {
   Plane to = from;
   const int reach = int(std::ceil((box - 1) / 2));
@@ -156,13 +156,14 @@ Plane Spread(const Plane& from, double box, int dx, int dy) {
 
 Plane MakePlane(const SurfaceMap& map, const Range& range, const Lens& lens,
                 const Rectangle& rect) {
-  // No view moves a slice farther.
+  // The reach is larger than the movement of the slice in any view.
   const int reach = std::abs(lens.Shift(lens.n, range.Disparity())) / 256 + 6;
   Plane plane(reach, reach, rect.width + 2 * reach, rect.height + 2 * reach);
   for (int y = -reach; y < rect.height + reach; ++y) {
     for (int x = -reach; x < rect.width + reach; ++x) {
       for (const Surface& surface : map.At(x + rect.left, y + rect.top)) {
-        // If the end of a surface were in two slices, it would cover twice as much.
+        // The end of a surface must be in a single slice, since two slices would cover twice as
+        // much.
         const int high = surface.share < 1 || surface.ends ? range.high : range.overlap;
         if (surface.disparity < range.low || surface.disparity > high) continue;
         Light& light = plane.At(x, y);
@@ -199,8 +200,8 @@ struct Offset {
 };
 
 // Returns the filter of view k along an axis. A subaperture of one to three pixels weights pixels
-// by their overlap with it. A narrower one uses linear interpolation, and less of it between pixels
-// with equal coverage.
+// by their overlap with the subaperture. A narrower subaperture uses linear interpolation between
+// pixels with different coverage, and a steeper transition between pixels with equal coverage.
 Offset OffsetOf(const Lens& lens, int k, int disparity) {
   const int shift = (k < 0 ? -1 : 1) * (k == 0 ? 0 : lens.Shift(std::abs(k), disparity));
   const double moved = shift / 256.0;
@@ -234,8 +235,8 @@ Plane MovedAlongX(const Plane& from, const Offset& offset, int width) {
 
 // --- Views: composited slices ---
 
-// Returns the factor for a slice that covers more than the light that is left. It approximates
-// light / covered by the first terms of a series in 1 - covered.
+// Returns the factor for a slice that covers more than the light that is left. The factor
+// approximates light / covered by the first terms of a series in 1 - covered.
 double ShareOf(double covered, double light) {
   const double open = 1 - covered;
   return std::min(4 * light, 1 - (covered - light) * (1 + open + open * open));
@@ -285,8 +286,8 @@ class Stack {
     }
   }
 
-  // Adds a slice, which takes its coverage from the light. The last slice takes the light that is
-  // left.
+  // Adds a slice, and subtracts the coverage of the slice from the light that is left. A slice that
+  // covers more than the light that is left takes all of it.
   static void Take(const Light& slice, double weight, double* light, Light* sum) {
     const double covered = slice[3];
     if (covered > *light) weight *= ShareOf(covered, *light);
@@ -302,8 +303,9 @@ class Stack {
   double total_ = 0;
 };
 
-// Returns the tile that starts at (x, y) of a rectangle. Its sides are 64 pixels, or the rest of
-// the rectangle if at most 80 pixels are left. The rest of the rectangle becomes its border.
+// Returns the tile that starts at (x, y) of a rectangle. The sides of a tile are 64 pixels, or the
+// rest of the rectangle if at most 80 pixels are left. The part of the rectangle outside the tile
+// belongs to the border of the tile.
 Rectangle TileAt(const Rectangle& rectangle, int x, int y) {
   const auto side = [](int rest) { return rest <= 80 ? rest : 64; };
   Rectangle tile = rectangle;
@@ -327,7 +329,7 @@ void CompositeTile(const SurfaceMap& map, const Picture& extended, const Lens& l
   const Plane& sum = stack.AddViews();
   for (int y = 0; y < tile.height; ++y) {
     for (int x = 0; x < tile.width; ++x) {
-      // If the slices cover less than a quarter of all light, the pixel is that of the centre view.
+      // If the slices cover less than a quarter of all light, the pixel of the centre view is used.
       const Light& light = sum.At(x, y);
       Colour& colour = picture->colours[picture->At(left + x, top + y)];
       colour = extended.colours[extended.At(x + tile.left, y + tile.top)];

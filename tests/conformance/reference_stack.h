@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Refocuses one rectangle in the reference by the rule of subapertures. Each tile is a stack of
-// slices, which each view moves against each other.
+// slices. Each view moves the slices of a stack by different distances.
 #ifndef STARFOCUS_TESTS_CONFORMANCE_REFERENCE_STACK_H_
 #define STARFOCUS_TESTS_CONFORMANCE_REFERENCE_STACK_H_
 
@@ -10,15 +10,15 @@
 
 namespace reference {
 
-// Limits of slices: if their number or area is larger, they become coarser. `range` is the largest
-// distance between pixels of a sharp slice at the rim, in pixels.
+// Limits of the number and of the area of slices. If a limit is exceeded, slices become coarser.
+// `range` is the largest distance between pixels of a sharp slice at the rim, in pixels.
 struct Slicing {
   size_t most;
   int area;
   double range;
 };
 
-// Same as RefocusRectangle, by slices.
+// Refocuses a rectangle as RefocusRectangle does, but composites slices instead of scanning lines.
 Picture CompositeRectangle(const LightField& field, const Picture& centre, const Lens& lens,
                            const Rectangle& rectangle, const Slicing& slicing);
 

@@ -11,14 +11,15 @@
 namespace reference {
 namespace {
 
-// Far side of the depth edge in one direction from a pixel.
+// Far side of a depth edge that lies in one direction from a pixel.
 struct Background {
   Direction towards;
   int distance;  // in pixels
   int disparity;
   std::optional<Position> captured;  // the view that sees the far side, if any
 
-  // Surfaces that a captured view sees come first, then those nearest to the pixel.
+  // Rank of backgrounds: surfaces that a captured view sees precede other surfaces, and shorter
+  // distances precede longer ones.
   bool SameRank(const Background& other) const {
     return captured.has_value() == other.captured.has_value() && distance == other.distance;
   }
@@ -51,7 +52,8 @@ class SurfaceFinder {
  private:
   int Disparity(int x, int y) const { return extended_.disparities[extended_.At(x, y)]; }
 
-  // Returns true if the step down exceeds 3/4 of a pixel of the layer: this is a depth edge.
+  // Returns true for a depth edge: the disparity decreases by more than 3/4 of a pixel of the
+  // layer.
   bool IsEdge(int near, int far) const { return near - far > unit_ * 3 / 4; }
 
   std::vector<Surface> SurfacesOf(int x, int y) const {
@@ -67,7 +69,7 @@ class SurfaceFinder {
   }
 
   // Splits a pixel on the far side of a depth edge into the near and the far surface, if some view
-  // moves them against each other. The result is the mean over the adjacent edges.
+  // moves both surfaces against each other. The result is the mean over the adjacent edges.
   void Part(int x, int y, std::vector<Surface>* surfaces) const {
     const bool outermost =
         x == 0 || y == 0 || x == extended_.width - 1 || y == extended_.height - 1;
@@ -97,7 +99,7 @@ class SurfaceFinder {
       near.colour[c] /= shares;
       far.colour[c] /= shares;
     }
-    // A copy of the pixel has the colour of the mixture and is therefore removed.
+    // The copy of the pixel is removed, because it has the colour of the mixture.
     if (surfaces->size() > 1 && !IsEdge(far.disparity, (*surfaces)[1].disparity)) {
       surfaces->erase(surfaces->begin() + 1);
     }
@@ -106,8 +108,8 @@ class SurfaceFinder {
     if (surfaces->size() > starfocus::simd::kSurfaces) surfaces->pop_back();
   }
 
-  // Returns true if the layer has the pixel. A layer has half the size of the previous one, plus
-  // one pixel.
+  // Returns true if the pixel is inside the layer. A layer has half the size of the previous layer,
+  // plus one pixel.
   bool InPicture(int x, int y) const {
     int width = field_.at({0, 0}).width, height = field_.at({0, 0}).height;
     for (int layer = 0; layer < lens_.layer; ++layer) {
@@ -148,7 +150,7 @@ class SurfaceFinder {
     return result;
   }
 
-  // Adds the surfaces behind the visible one.
+  // Adds the surfaces behind the visible surface.
   void AddHidden(int x, int y, std::vector<Surface>* hidden) const {
     std::vector<Surface>& surfaces = *hidden;
     std::vector<Background> backgrounds;
@@ -165,7 +167,7 @@ class SurfaceFinder {
           if (ties) surfaces.back().towards.push_back(other.towards);
         }
       }
-      // Surfaces that differ by at most a pixel of disparity are the same.
+      // Surfaces whose disparities differ by at most a pixel count as one surface.
       const auto same = [&](const Background& other) {
         return std::abs(other.disparity - best.disparity) <= unit_;
       };
@@ -174,8 +176,9 @@ class SurfaceFinder {
     }
   }
 
-  // Adds a copy of the pixel behind it, so that no slice opens a gap in the surface. The copy has
-  // the disparity of the farthest neighbour on the surface, which is 2/64 to half a pixel farther.
+  // Adds a copy of the pixel behind the pixel, so that slices that move apart open no gap in the
+  // surface. The copy has the disparity of the farthest neighbour on the same surface, which is
+  // 2/64 to half a pixel farther.
   void AddCopy(int x, int y, std::vector<Surface>* surfaces) const {
     if (x == 0 || y == 0 || x == extended_.width - 1 || y == extended_.height - 1) return;
     const int here = Disparity(x, y);
@@ -197,9 +200,9 @@ class SurfaceFinder {
   }
 
   // Returns the distance to the far side of the nearest depth edge in that direction, or 0 if the
-  // pixel does not hide it. A step does not count as an edge if two conditions hold. The step is at
-  // most an eighth of the depth that the previous edge hides. Its near side hides the far side of
-  // that edge.
+  // pixel does not hide this side. A step does not count as an edge under two conditions: the step
+  // is at most an eighth of the depth that the previous edge hides, and the near side of the step
+  // hides the far side of the previous edge.
   int NextEdge(int x, int y, const Direction& towards) const {
     int k = 0;
     while (extended_.Inside(x + (k + 1) * towards.x, y + (k + 1) * towards.y)) ++k;
@@ -219,7 +222,7 @@ class SurfaceFinder {
   }
 
   // Finds the surfaces behind a pixel: one beyond the edge in that direction, and one beyond the
-  // next edge. The latter exists only if a view can see that far behind the pixel.
+  // next edge. The second surface is added only if a view can see that far behind the pixel.
   void LookBehind(int x, int y, const Direction& towards, std::vector<Background>* found) const {
     const int next = NextEdge(x, y, towards);
     if (next == 0) return;
@@ -242,11 +245,11 @@ class SurfaceFinder {
     found->push_back(background);
   }
 
-  // Returns true if a nearer pixel covers the pixel's background in a captured view. Such a pixel
-  // is nearer than `far`, the disparity of the background, by more than half a pixel. It lies
-  // within 3/4 of a pixel of the background in that view. The candidates lie on a line that starts
-  // at the pixel and points towards the view. Views close to the centre view see no more than the
-  // centre view.
+  // Returns true if a nearer pixel covers the pixel's background in a captured view. The covering
+  // pixel is nearer than `far`, the disparity of the background, by more than half a pixel. In the
+  // captured view, the covering pixel lies within 3/4 of a pixel of the background. The candidates
+  // lie on a line that starts at the pixel and points towards the view. Views close to the centre
+  // view see no more than the centre view.
   bool IsCovered(int x, int y, int far, const Position& view) const {
     const auto [u, v] = view;
     const int size = std::max(std::abs(u), std::abs(v));
@@ -266,7 +269,7 @@ class SurfaceFinder {
     }
   }
 
-  // Returns the background's colour: the mean over all directions of equal rank.
+  // Returns the colour of the background, which is the mean over all directions of equal rank.
   Colour MeanColour(int x, int y, const Background& best,
                     const std::vector<Background>& backgrounds) const {
     Colour sum = {0, 0, 0};

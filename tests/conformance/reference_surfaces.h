@@ -14,10 +14,10 @@ namespace reference {
 struct Surface {
   int disparity;  // in 1/64
   Colour colour;
-  double share = 1;   // share of the pixel; surfaces behind it get the rest
-  bool ends = false;  // true next to a depth edge
-  // Distance and directions of the pixels that are repeated here, if no captured view sees behind
-  // the edge.
+  double share = 1;   // share of the pixel; surfaces behind this surface get the rest
+  bool ends = false;  // true if the surface ends at a depth edge next to the pixel
+  // If no captured view sees behind the edge: distance and directions of the pixels whose colours
+  // this surface repeats.
   int repeated = 0;
   std::vector<Direction> towards = {};
 };
@@ -27,7 +27,7 @@ struct SurfaceMap {
   int width, height;
   std::vector<std::vector<Surface>> pixels;
 
-  // Returns the surfaces of a pixel. Beyond the map its outermost pixels are repeated.
+  // Returns the surfaces of a pixel. Beyond the map, the outermost pixels are repeated.
   const std::vector<Surface>& At(int x, int y) const {
     return pixels[size_t(std::clamp(y, 0, height - 1)) * size_t(width) +
                   size_t(std::clamp(x, 0, width - 1))];

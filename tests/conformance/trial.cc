@@ -16,7 +16,7 @@ double OneOf(std::initializer_list<double> values, test::Random* random) {
   return values.begin()[random->Int(0, int(values.size()) - 1)];
 }
 
-// Makes pixels, or rectangles of pixels, alternately near and far.
+// Makes a chequerboard of near and far rectangles of one or more pixels.
 void Alternate(test::Scene* scene, test::Random* random) {
   const int step_x = random->Int(1, 5), step_y = random->Int(1, 5);
   for (int y = 0; y < scene->height; ++y) {
@@ -114,7 +114,7 @@ void SetConfig(Trial* trial, test::Random* random) {
   config.tuning.max_layer = random->Int(0, STARFOCUS_LAYERS - 1);
   config.tuning.deblocking = 0;  // makes decisions by thresholds; deblock_test tests it
   config.tuning.gather = random->Int(0, 3) == 0 ? 0 : 1;
-  // A cheap block makes the partition fine, an expensive block makes it coarse.
+  // A low cost per block makes the partition fine, and a high cost makes the partition coarse.
   if (random->Int(0, 1) == 0) config.tuning.timing.block = 1u << random->Int(0, 26);
   if (random->Int(0, 1) == 0) {
     trial->params.lens.theta = OneOf({STARFOCUS_MIN_THETA, STARFOCUS_MAX_THETA,

@@ -21,12 +21,12 @@ struct Trial {
   std::string Text() const;
 };
 
-// Makes the trial of a seed. With `anywhere`, a trial by the rule of subapertures has any number of
+// Makes the trial of a seed. With `anywhere`, trials by the rule of subapertures have any number of
 // views at any positions instead of a star.
 Trial MakeTrial(uint64_t seed, bool anywhere);
 
-// Returns the largest allowed difference in gray levels. Highlights are added to codes, which are
-// rounded before and after the addition.
+// Returns the largest allowed difference in gray levels. With highlights the limit is larger, since
+// codes are rounded before and after highlights are added.
 int MostLevels(const Trial& trial);
 
 // Returns the distance of the engine from the reference, which gets the engine's partition.

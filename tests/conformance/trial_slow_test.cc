@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compares the engine with the double-precision reference on random trials: samples differ by at
-// most one gray level.
+// Compares the engine with the double-precision reference on random trials. Samples must differ by
+// at most one gray level.
 #include <doctest/doctest.h>
 
 #include <cstdint>
@@ -20,7 +20,7 @@ struct Pinned {
   const char* what;
 };
 
-// Seeds that once differed by more than a level, and the reasons.
+// Seeds of trials that once differed by more than a level, with the reasons.
 constexpr Pinned kPinned[] = {
     {1503, "a share of a mixture rounded twice parts a pixel that is whole: 11 levels"},
     {1606, "the same where two surfaces are in front: 4 levels"},
