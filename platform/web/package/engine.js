@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loads the WebAssembly module of the engine, and creates its memory and its instances. Used by worker.js.
+// Loads the WebAssembly module of the engine, and creates the memory and the instances of the module. Used by
+// worker.js.
 
 import {readFile} from './host.js';
 
 const PAGE = 65536;
 const MEMORY_IMPORT = 2;
 
-/** Reads an unsigned LEB128 number (7 bits per byte). Returns the number and the offset behind it. */
+/** Reads an unsigned LEB128 number (7 bits per byte). Returns the number, and the offset of the byte after the
+ *  number. */
 function readNumber(bytes, at) {
   let value = 0;
   for (let shift = 0;; shift += 7) {
@@ -36,8 +38,8 @@ function findMemoryFlags(bytes) {
   throw new Error('starfocus.wasm is damaged: it does not import a memory.');
 }
 
-/** Compiles the engine. The module is linked for shared memory, which one flag declares. If `shared` is false, the flag
- *  is cleared, and the module accepts memory that is not shared. */
+/** Compiles the engine. The module is linked for shared memory, which a flag of the imported memory declares. If
+ *  `shared` is false, this function clears the flag, so that the module accepts memory that is not shared. */
 export async function compile(shared) {
   const bytes = new Uint8Array(await readFile('starfocus.wasm'));
   if (!shared) bytes[findMemoryFlags(bytes)] = 1;
@@ -48,8 +50,9 @@ export async function compile(shared) {
   return WebAssembly.compile(bytes);
 }
 
-/** Creates the memory of an engine, which can grow to 4 GiB. Browsers reserve the maximum of shared memory at once, and
- *  phones cannot reserve 4 GiB. Shared memory therefore gets the largest maximum that can be reserved. */
+/** Creates the memory of an engine. Memory that is not shared can grow to 4 GiB. Browsers immediately reserve the
+ *  maximum size of shared memory, and phones cannot reserve 4 GiB. Shared memory therefore gets the largest maximum
+ *  that can be reserved. */
 export function makeMemory(shared) {
   if (!shared) return new WebAssembly.Memory({initial: 8, maximum: 65536});
   for (let maximum = 65536;; maximum /= 2) {

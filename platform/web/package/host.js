@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hides the differences between browsers and node: files, workers and their messages.
+// Hides the differences between browsers and node: reading files, starting workers, and exchanging messages with
+// workers.
 
 const inNode = typeof process === 'object' && process.release?.name === 'node';
 

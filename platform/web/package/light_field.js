@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks the views, depth map and coverage of a caller, and converts them to the layout that the engine reads. Used by
-// starfocus.js.
+// Checks views, depth maps and coverage, and converts this input of the caller to the layout that the engine reads.
+// Used by starfocus.js.
 
 /** Throws a TypeError that names the argument, the expected value and the actual value, unless `holds` is true. */
 function expect(holds, what, expected, found) {

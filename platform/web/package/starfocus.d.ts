@@ -10,8 +10,8 @@
 //   context.putImageData(new ImageData(picture.data, picture.width, picture.height), 0, 0);
 //
 // Options, settings and parameters are the fields of starfocus_config, starfocus_params and starfocus_lens in
-// starfocus/starfocus.h, with JavaScript names: max_blur is maxBlur. Their meanings, ranges and defaults are the same,
-// and pictures have the same bytes as those of the C library. Omitted fields have their defaults.
+// starfocus/starfocus.h, with JavaScript names: max_blur is maxBlur. A field has the same meaning, range and default as
+// in C, and pictures have the same bytes as pictures of the C library. An omitted field has its default.
 
 /** How the picture is divided, and how many views are rendered (starfocus_mode). FRAME: one number of views for the
  *  whole picture. BENCHMARK: as FRAME with more views. BLOCK, the default: blocks of different sizes, each with its own
@@ -29,16 +29,16 @@ export declare const Transfer: {readonly SRGB: 0, readonly NONE: 1};
 
 /** Settings of a refocuser, which Refocuser.configure can change. */
 export interface Settings {
-  /** Upper limit of the blur radius aperture * |disparity - focus| in pixels, (0, 128]; default 32. It changes no
-   *  picture. Larger values need more memory. */
+  /** Upper limit of the blur radius aperture * |disparity - focus| in pixels, (0, 128]; default 32. The limit does not
+   *  affect the pictures. Larger values require more memory. */
   maxBlur?: number;
-  /** Side of the superblocks, from which blocks are split, in pixels. The default 0 means 128 from a width of 1536
-   *  pixels on, and 64 below. */
+  /** Side of the superblocks in pixels. The engine splits superblocks into blocks. The default 0 means 128 if the width
+   *  is at least 1536 pixels, and 64 otherwise. */
   superblock?: 0 | 32 | 64 | 128 | 256;
   /** Threshold of the deblocking filter in codes, an integer in [0, 255]; default 35; 0: off. */
   deblocking?: number;
   /** Model of the time that a block takes: coefficients of starfocus_timing in picoseconds, integers in
-   *  [0, 100000000]. It decides how superblocks are split, and therefore changes pictures. */
+   *  [0, 100000000]. The model decides how superblocks are split, and therefore affects the pictures. */
   timing?: {block?: number, field?: number, a?: number, b?: number, c?: number, upsample?: number, span?: number, hole?: number};
   /** Factor of the number of views along the radius of the aperture, for Mode.BLOCK and Mode.FRAME, [0.5, 2];
    *  default 1. */
@@ -50,7 +50,7 @@ export interface Settings {
   /** True: unknown depth values (NaN, infinite, or DepthMap.invalid) are filled from their neighbours. False, the
    *  default: prepare() rejects maps with unknown values. */
   fillUnknown?: boolean;
-  /** True: lenses may be polygons and have cat's eyes, which needs larger tables. Default false. */
+  /** True: lenses may be polygons and have cat's eyes, which requires larger tables. Default false. */
   shapes?: boolean;
 }
 
@@ -67,14 +67,14 @@ export interface Options extends Settings {
   disparityMin: number;
   /** Largest disparity that a depth map may contain, in pixels, within +-500. */
   disparityMax: number;
-  /** Largest shift of Refocuser.preview; default 0: no previews. Each preview size needs more memory. */
+  /** Largest shift of Refocuser.preview; default 0: no previews. Each preview size requires more memory. */
   previews?: 0 | 1 | 2 | 3;
   /** Largest layer L of Mode.BLOCK; default 2. */
   maxLayer?: 0 | 1 | 2;
   /** A value of Transfer; default Transfer.SRGB. */
   transfer?: 0 | 1;
-  /** Number of threads, including the one that receives the calls, an integer in [1, 64]. The default is the number of
-   *  cores. It is always 1 in pages that are not cross-origin isolated, since they cannot share memory. */
+  /** Number of threads, including the thread that receives the calls, an integer in [1, 64]. The default is the number
+   *  of cores. Pages that are not cross-origin isolated cannot share memory and always use 1 thread. */
   threads?: number;
 }
 
@@ -86,14 +86,14 @@ export type View = ImageData | Uint8Array | Uint8ClampedArray;
 export interface DepthMap {
   /** width * height values, row by row. */
   data: Float32Array | Uint16Array | Uint8Array | Uint8ClampedArray;
-  /** Width of the map, an integer in [1, width of the picture]; default: that of the picture. */
+  /** Width of the map, an integer in [1, width of the picture]; default: the width of the picture. */
   width?: number;
-  /** Height of the map, an integer in [1, height of the picture]; default: that of the picture. */
+  /** Height of the map, an integer in [1, height of the picture]; default: the height of the picture. */
   height?: number;
-  /** Disparity = scale * value + offset, or scale / value + offset if `reciprocal` is true. Finite and not 0; rounded
-   *  to single precision; default 1. */
+  /** Scale of the values: disparity = scale * value + offset, or scale / value + offset if `reciprocal` is true. Finite
+   *  and not 0; rounded to single precision; default 1. */
   scale?: number;
-  /** Finite; rounded to single precision; default 0. */
+  /** Offset of the disparities (see `scale`). Finite; rounded to single precision; default 0. */
   offset?: number;
   /** True: the values are distances. Default false. */
   reciprocal?: boolean;
@@ -115,7 +115,7 @@ export interface Params extends Call {
   focus?: number;
   /** Radius of the aperture, [0, 1]. 1, the default, reaches the outermost views; 0 gives the centre view. */
   aperture?: number;
-  /** A value of Shape; default Shape.FALL_OFF. Shape.POLYGON needs Settings.shapes. */
+  /** A value of Shape; default Shape.FALL_OFF. Shape.POLYGON requires Settings.shapes. */
   shape?: 0 | 1 | 2 | 3;
   /** Polygon: number of corners, an integer in [3, 12]; default 5. */
   blades?: number;
@@ -123,12 +123,12 @@ export interface Params extends Call {
   theta?: number;
   /** Polygon: clockwise rotation in degrees, [-360, 360]; default 0: a corner points up. */
   rotation?: number;
-  /** Polygon: curvature of its edges, from 0, the default (straight), to 1 (a disc). */
+  /** Polygon: curvature of the edges, from 0, the default (straight), to 1 (a disc). */
   curvature?: number;
   /** Ring: radius of the hole divided by the radius of the disc, [0, 0.9]; default 0.5. */
   ringInner?: number;
   /** Cat's eye: distance of a second rim from the axis, in radii of the lens, as seen from a corner of the picture,
-   *  [0, 1]; default 0. Values above 0 need Settings.shapes. */
+   *  [0, 1]; default 0. Values above 0 require Settings.shapes. */
   catsEye?: number;
   /** A value of Mode; default Mode.BLOCK. */
   mode?: 0 | 1 | 2 | 3;
@@ -140,7 +140,7 @@ export interface Params extends Call {
   blocks?: boolean;
 }
 
-/** A block of a picture, in pixels of that picture. */
+/** A block of a picture. Positions and sizes are in pixels of the picture. */
 export interface Block {
   /** Left column. */
   x: number;
@@ -156,10 +156,10 @@ export interface Block {
   n: number;
 }
 
-/** A refocused picture. It belongs to the caller; the refocuser keeps no reference to it. */
+/** A refocused picture. The caller owns the picture, and the refocuser keeps no reference to it. */
 export interface Picture {
-  /** Rows of R, G, B, A without gaps. A is the alpha of the centre view. It is 255 if the views have no alpha, and in
-   *  previews. */
+  /** Rows of R, G, B, A without gaps. A is the alpha of the centre view, or 255 if the views have no alpha. In
+   *  previews, A is 255. */
   data: Uint8ClampedArray;
   /** Width in pixels. */
   width: number;
@@ -179,22 +179,23 @@ export declare class StarfocusError extends Error {
   readonly field: string;
 }
 
-/** An engine in a worker, with at most one light field. Calls may be made at any time. They run in the order in which
- *  they were made, one at a time. Create it with createRefocuser, and free it with close(). */
+/** An engine in a worker, with at most one light field. Calls may be made at any time, and run one at a time in the
+ *  order in which they were made. Create a refocuser with createRefocuser, and free it with close(). */
 export interface Refocuser {
   /** Version of the library, for example "0.1.0". */
   readonly version: string;
   /** Number of threads. */
   readonly threads: number;
 
-  /** Prepares a light field for refocusing. It replaces the previous light field, even if the engine then rejects it.
+  /** Prepares a light field for refocusing. The new light field replaces the previous one, even if the engine rejects
+   *  the new light field.
    *  @param views views in the order of starfocus_view_position (centre, right, left, below, above, ...)
    *  @param depth depth map; a Float32Array contains disparities and has the size of the picture
    *  @param options `coverage`: optional alpha of the foreground, one byte per pixel of the centre view, as matting
-   *      networks compute it: the part of the pixel that the nearer of two surfaces covers (255: all). Near depth edges
-   *      it takes precedence over the depth map. `transfer`: if true, the buffers of all arrays are transferred to the
-   *      worker and are empty afterwards; a depth map that must be converted is copied. Default false: arrays are
-   *      copied.
+   *      networks compute it: the part of the pixel that the nearer of two surfaces covers (255: all). Near depth
+   *      edges, coverage takes precedence over the depth map. `transfer`: if true, the buffers of all arrays are
+   *      transferred to the worker and are empty afterwards; a depth map that must be converted is copied. Default
+   *      false: arrays are copied.
    *  @return elapsed time in the worker, in milliseconds
    *  @throws TypeError for arrays of the wrong type or size; StarfocusError, for example if a disparity is outside
    *      [disparityMin, disparityMax] or memory could not be allocated */
@@ -218,8 +219,8 @@ export interface Refocuser {
    *  @throws TypeError if no light field is prepared; StarfocusError for values out of range */
   refocus(params?: Params & {onProgress?: (rowsDone: number, rows: number) => void}): Promise<Picture>;
 
-  /** Returns the disparity to focus at for a pixel of the depth map, for example where a user tapped: the median of the
-   *  surface there.
+  /** Returns the disparity to focus at for a pixel of the depth map, for example where a user tapped: the median
+   *  disparity of the surface at this pixel.
    *  @param x column of the depth map, an integer in [0, its width)
    *  @param y row of the depth map, an integer in [0, its height)
    *  @throws TypeError if x or y is not an integer, or no light field is prepared; StarfocusError if the pixel is

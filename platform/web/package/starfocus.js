@@ -13,7 +13,7 @@ export const Transfer = {SRGB: 0, NONE: 1};
 const MAX_WORKERS = 64;
 const PROGRESS_INTERVAL = 50;  // ms
 
-// Options that determine the size or the contents of a prepared light field. They cannot change after creation.
+// Options that cannot change after creation, because they determine the size or the contents of a prepared light field.
 const FIXED = ['width', 'height', 'views', 'disparityMin', 'disparityMax', 'previews', 'maxLayer', 'transfer'];
 
 /** See starfocus.d.ts. */

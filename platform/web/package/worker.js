@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Worker that runs the engine for starfocus.js. It receives the messages {id, name, values} and {cancel: id}, and sends
-// {id, result}, {id, error} and {id, progress}. With several threads it starts helpers: workers with this script that
-// share its memory and run jobs of the engine.
+// {id, result}, {id, error} and {id, progress}. With several threads, this worker starts helpers, which are workers
+// that run the same script, share its memory and run jobs of the engine.
 
 import {compile, instantiate, makeMemory, readText, writeText} from './engine.js';
 import {canShare, listen, parentOfWorker, startWorker} from './host.js';
@@ -9,8 +9,8 @@ import {canShare, listen, parentOfWorker, startWorker} from './host.js';
 const OK = 0, CANCELLED = 17;
 const BLOCK_NUMBERS = 6;  // number of int32 fields of a starfocus_block
 
-// Without shared memory, the worker reads its messages each time it has computed this number of rows. docs/web.md has
-// the cost.
+// Without shared memory, the worker reads its messages each time it has computed this number of rows. docs/web.md lists
+// the cost of this interruption.
 const ROWS_AT_ONCE = 512;
 
 const parent = await parentOfWorker();
@@ -149,8 +149,8 @@ function refocusAtOnce(shift) {
   return {data: new Uint8ClampedArray(bytesAt(engine.picture(), 4 * width * height)), width, height};
 }
 
-/** Computes the picture in regions of ROWS_AT_ONCE rows. After each region, it reports progress and handles messages,
- *  so that the call can be cancelled. */
+/** Computes the picture in regions of ROWS_AT_ONCE rows. After each region, the function reports progress and handles
+ *  messages, so that the call can be cancelled. */
 async function refocusInParts() {
   const {width, height} = size;
   const data = new Uint8ClampedArray(4 * width * height);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Functions that worker.js calls. A module has one engine and one light field. They lie in the
- * memory behind the data of the module, in this order: stacks of the helpers, light field, prepared
- * light field, workspace of the engine. The engine can be replaced without changing the light
- * field. */
+/* Exports the functions that worker.js calls. A module has one engine and one light field. The
+ * memory after the data of the module contains, in this order: stacks of the helpers, light field,
+ * prepared light field, workspace of the engine. The engine can be replaced without changing the
+ * light field. */
 #include <string.h>
 
 #include "platform/web/src/fields.h"
@@ -25,7 +25,7 @@ static starfocus_params params;
 static starfocus_engine* engine;
 static int32_t workers;
 static uintptr_t top = (uintptr_t)&__heap_base; /* first unused byte */
-static uintptr_t stacks_end;                    /* end of the stacks; 0 before the first Room */
+static uintptr_t stacks_end;                    /* end of the stacks; 0 before Room is called */
 static uintptr_t field_end;                     /* end of the light field */
 static starfocus_light_field field;
 static void* prepared_memory;
@@ -74,8 +74,8 @@ static void SetCallbacks(starfocus_block_visitor on_block) {
 /* Returns the buffer for the name of a field: at most 63 bytes and a terminating 0. */
 EXPORT(text) char* Text(void) { return text; }
 
-/* Starts to change the configuration. It starts from the last accepted configuration, or from the
- * defaults if none was accepted. */
+/* Starts a change of the configuration. The initial values are those of the last accepted
+ * configuration, or the defaults if no configuration was accepted. */
 EXPORT(begin) void Begin(void) {
   if (workers == 0) {
     starfocus_config_init(&wanted);
@@ -88,8 +88,8 @@ EXPORT(begin) void Begin(void) {
 /* Sets the field of starfocus_config that `text` names. Returns 0 if there is no such field. */
 EXPORT(configure) int Configure(double value) { return SetConfigField(&wanted, text, value); }
 
-/* Checks the configuration that was set, and makes it the current one, with `count` workers. On
- * error the current configuration remains. */
+/* Checks the configuration that was set. If it is valid, makes it the current configuration, with
+ * `count` workers. On error, the current configuration remains. */
 EXPORT(accept) starfocus_status Accept(int32_t count) {
   wanted.max_workers = count;
   wanted.features |= STARFOCUS_FEATURE_IMAGES;
@@ -104,8 +104,8 @@ EXPORT(accept) starfocus_status Accept(int32_t count) {
   return status;
 }
 
-/* Allocates the stack of a helper. Must be called before the first Room. Returns the end of the
- * stack, where it starts to grow, or 0 if there is no memory. */
+/* Allocates the stack of a helper. Must be called before the first call of Room. Returns the end of
+ * the stack, from which the stack grows downwards, or 0 if there is no memory. */
 EXPORT(stack) uintptr_t Stack(void) {
   char* const memory = (char*)Allocate(STACK);
   return memory == NULL ? 0 : (uintptr_t)(memory + STACK);
@@ -173,8 +173,8 @@ EXPORT(place) const void* Place(int32_t view) {
   return view < 0 ? field.depth.data : field.views[view].planes[0];
 }
 
-/* Creates an engine with the current configuration behind the light field. Replaces the previous
- * engine. */
+/* Creates an engine with the current configuration in the memory after the light field. Replaces
+ * the previous engine. */
 EXPORT(make_engine) starfocus_status MakeEngine(void) {
   size_t bytes = 0;
   const starfocus_status status = starfocus_workspace_size(&config, &bytes);

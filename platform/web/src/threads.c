@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "platform/web/src/threads.h"
 
-/* The current set of jobs. Its first three fields change only while no helper reads them: after the
- * end of a set, and before the announcement of the next one. */
+/* The current set of jobs. The fields job, data and count change only while no helper reads these
+ * fields: after the end of a set, and before the announcement of the next set. */
 static struct {
   starfocus_job job;
   void* data;

@@ -6,8 +6,8 @@
 
 #include "starfocus/starfocus.h"
 
-/* Sets the number of helpers, before the first run. A run completes only after all helpers have
- * taken part in it. */
+/* Sets the number of helpers. Must be called before the first run. A run completes only after every
+ * helper has taken part. */
 void SetHelpers(int32_t helpers);
 
 /* Runs jobs of all runs as worker `worker`, in [1, helpers]. Called by a helper. Never returns. */
