@@ -31,8 +31,8 @@ std::string Attribute(const std::string& name, double value) {
   return Attribute(name, std::string(text));
 }
 
-// Range of the disparities of a map. The range of a flat map is not empty either, because readers
-// require near < far.
+// Range of the disparities of a map. The range of a flat map is extended, because readers require
+// near < far.
 struct Range {
   double low, high;
 
@@ -54,8 +54,8 @@ GreyImage Levels(const FloatMap& map, const Range& range) {
   return grey;
 }
 
-// Returns the own properties. Disparities at f/1 that exceed the limit are shifted into it, which
-// changes no blur.
+// Returns the attributes NearDisparity and FarDisparity. Disparities at f/1 that exceed the limit
+// are shifted into the valid range. A shift has no effect on the blur.
 Result<std::string> OwnAttributes(const std::string& path, const SharpOriginal& photo,
                                   const Range& range) {
   double near = photo.widest * range.high, far = photo.widest * range.low;

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Writes JPEG files that other programs can refocus. The map, the sharp picture and the focus are
-// stored as Google's GDepth, GImage and GFocus in extended XMP.
+// stored in XMP, as Google's properties GDepth, GImage and GFocus.
 //
 // The camera's distances are unknown, so the file uses an arbitrary unit. Disparity D has the
-// distance 1 / (D - smallest disparity + 1); the farthest distance, `far`, is 1. A reader therefore
-// recovers the disparities up to an offset, which only shifts the focus, and a factor. Two own
-// properties preserve both, so that f-stops keep their meaning. NearDisparity and FarDisparity are
-// the disparities of levels 0 and 255 for a lens of f/1, as fractions of the picture's diagonal.
+// distance 1 / (D - smallest disparity + 1); the farthest distance, `far`, is 1. From these
+// distances a reader recovers the disparities only up to an offset and a factor. Two properties of
+// starfocus preserve the offset and the factor, so that f-stops keep their meaning. NearDisparity
+// and FarDisparity are the disparities of levels 0 and 255 for a lens of f/1, as fractions of the
+// picture's diagonal.
 #ifndef STARFOCUS_PLATFORM_WRITERS_DEPTH_PHOTO_H_
 #define STARFOCUS_PLATFORM_WRITERS_DEPTH_PHOTO_H_
 
@@ -19,7 +20,7 @@
 
 namespace starfocus {
 
-// Namespace and names of the own properties.
+// Namespace and names of the properties of starfocus.
 constexpr char kOwnNamespace[] = "urn:starfocus:1.0/";
 constexpr char kNearDisparity[] = "NearDisparity", kFarDisparity[] = "FarDisparity";
 

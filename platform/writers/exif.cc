@@ -19,7 +19,7 @@ constexpr uint32_t kSubjectArea = 0x9214, kSubjectLocation = 0xa214;
 constexpr uint32_t kAscii = 2, kShort = 3, kLong = 4;
 constexpr size_t kEntry = 12;  // bytes: tag, type, count, and value or its position
 
-// Reads and writes numbers of a TIFF structure in its byte order.
+// Reads and writes numbers of a TIFF structure in the byte order of the structure.
 class Tiff {
  public:
   explicit Tiff(Bytes* bytes) : bytes_(*bytes), little_(!bytes->empty() && bytes->front() == 'I') {}
@@ -66,8 +66,8 @@ bool IsTiff(const Bytes& bytes, const Tiff& tiff) {
   return (bytes[0] == 'I' || bytes[0] == 'M') && tiff.Get(2, 2) == 42;
 }
 
-// Removes the subject unless the folder states that the original picture had this size and was not
-// turned. The subject's coordinates are pixels of the original picture.
+// Removes the subject unless the folder states the size width x height and `turned` is false. The
+// subject's coordinates are pixels of the original picture.
 void RemoveSubject(size_t folder, int width, int height, bool turned, Tiff* tiff) {
   const auto entries = tiff->Entries(folder);
   if (!entries) return;
@@ -148,7 +148,8 @@ Bytes EditedExif(const Bytes& exif, int width, int height) {
     }
     at += kEntry;
   }
-  return bytes;  // the position of the next list, for the thumbnail, is 0: none
+  // The position of the next list (the thumbnail) is 0, which means that there is none.
+  return bytes;
 }
 
 }  // namespace starfocus

@@ -11,9 +11,9 @@
 
 namespace starfocus {
 
-// Encodes the pixels without metadata. Chroma has full resolution from quality 90. `quality` is 1
-// to 100. Uses libjpeg-turbo if available, otherwise stb_image_write. `path` is used only in
-// errors, here and below.
+// Encodes the pixels without metadata. `quality` is 1 to 100. At qualities of 90 and above, chroma
+// has full resolution. Uses libjpeg-turbo if available, otherwise stb_image_write. In all functions
+// of this header, `path` is used only in errors.
 Result<Bytes> EncodeJpegPixels(const std::string& path, const Image& image, int quality);
 
 // Encodes a file with `segments` (jpeg_segments.h), and with metadata edited to match the picture

@@ -47,7 +47,8 @@ std::string Description(const std::string& namespaces, const std::string& attrib
   return "<rdf:Description rdf:about=\"\"" + namespaces + attributes + "/>";
 }
 
-// Adds the marks by which programs find the packet anywhere in a file.
+// Encloses an XMP packet in the processing instructions by which programs find the packet anywhere
+// in a file.
 std::string Wrapped(const std::string& packet) {
   return "<?xpacket begin=\"\xef\xbb\xbf\" id=\"W5M0MpCehiHzreSzNTczkc9d\"?>" + packet +
          "<?xpacket end=\"r\"?>";
@@ -74,7 +75,7 @@ bool AppendProfile(const Bytes& icc, Bytes* segments) {
   return true;
 }
 
-// The format is an unnamed Photoshop image resource, padded to an even size.
+// IPTC records are stored as an unnamed Photoshop image resource, padded to an even size.
 bool AppendIptc(const Bytes& iptc, Bytes* segments) {
   if (iptc.empty()) return true;
   const std::string header = kResourcesHeader + "8BIM" + std::string("\x04\x04\0\0", 4);

@@ -9,8 +9,8 @@
 
 namespace starfocus {
 
-// Each function appends segments, or nothing if the metadata is empty. It returns false if the
-// metadata exceeds the limits of the format: one segment for EXIF, 255 segments for a profile.
+// Each function Append... appends segments, or nothing if the metadata is empty. Returns false if
+// the metadata exceeds the limits of the format: one segment for EXIF, 255 segments for a profile.
 bool AppendExif(const Bytes& tiff, Bytes* segments);
 bool AppendProfile(const Bytes& icc, Bytes* segments);
 
@@ -33,7 +33,7 @@ bool AppendExtendedXmp(const std::string& namespaces, const std::string& attribu
                        const std::string& extended, const std::string& descriptions,
                        Bytes* segments);
 
-// Inserts the segments into a complete JPEG file, after its JFIF header if it has one.
+// Inserts the segments into a complete JPEG file, after the JFIF header if the file has one.
 void InsertSegments(const Bytes& segments, Bytes* jpeg);
 
 }  // namespace starfocus

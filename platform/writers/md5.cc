@@ -14,7 +14,8 @@ using State = std::array<uint32_t, 4>;
 
 uint32_t RotateLeft(uint32_t value, int bits) { return value << bits | value >> (32 - bits); }
 
-// Returns the 64 constants of the RFC, which are the sines of 1 to 64 radians.
+// Returns the 64 constants of the RFC: constant i is the integer part of 2^32 * |sin(i)|, i in
+// radians, from 1 to 64.
 std::array<uint32_t, kBlock> Sines() {
   std::array<uint32_t, kBlock> sines;
   for (size_t i = 0; i < kBlock; ++i) {

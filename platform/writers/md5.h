@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The MD5 digest (RFC 1321), which names extended XMP. It does not serve security.
+// Computes the MD5 digest (RFC 1321), which identifies extended XMP. The digest is not used for
+// security.
 #ifndef STARFOCUS_PLATFORM_WRITERS_MD5_H_
 #define STARFOCUS_PLATFORM_WRITERS_MD5_H_
 

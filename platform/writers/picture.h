@@ -25,8 +25,8 @@ inline constexpr char kPictureExtensions[] = ".png, .ppm, .jpg or .webp";
 // ".jpeg".
 bool IsPictureExtension(const std::string& extension);
 
-// Encodes a picture by the extension of `path` (standard_stream.h), which is otherwise used only in
-// errors. PPM files contain no metadata.
+// Encodes a picture in the format that the extension of `path` selects (standard_stream.h). `path`
+// is otherwise used only in errors. PPM files contain no metadata.
 Result<Bytes> EncodePicture(const std::string& path, const Image& image,
                             const PictureOptions& options);
 

@@ -23,13 +23,13 @@ struct GreyImage {
 enum class PngSize { kQuick, kSmall };
 
 // Encodes a picture with 8 bits per sample. With libpng and libdeflate, metadata is edited to match
-// the picture (exif.h). Builds without them use stb_image_write, which writes no metadata and
-// ignores `size`. `path` is used only in errors, here and below.
+// the picture (exif.h). Builds without these libraries use stb_image_write, which writes no
+// metadata and ignores `size`. In all functions of this header, `path` is used only in errors.
 Result<Bytes> EncodePng(const std::string& path, const Image& image, const Metadata& metadata,
                         PngSize size);
 
-// Encodes grey levels without scaling: with 8 bits if all levels fit, otherwise with 16 bits, which
-// needs libpng.
+// Encodes grey levels without scaling: with 8 bits if all levels fit, otherwise with 16 bits. 16
+// bits require libpng.
 Result<Bytes> EncodeGreyPng(const std::string& path, const GreyImage& image);
 
 }  // namespace starfocus

@@ -12,7 +12,7 @@
 
 namespace starfocus {
 
-// Encodes pictures of equal size in sequence. Several pictures form an endless animation with a
+// Encodes a sequence of pictures of equal size. Several pictures form an endless animation with a
 // tenth of a second per picture. Only the encoded pictures are kept in memory.
 class WebpWriter {
  public:
