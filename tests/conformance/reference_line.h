@@ -232,8 +232,8 @@ class LineScan {
   }
 
   // Sets a rendered pixel whose source is t pixels away from the centre of the rendered pixel. With
-  // a subaperture of width L, the neighbour on that side gets the share clamp(( t
-  //  - 1/2) / L + 1/2, 0, 1), unless it is on another surface.
+  // a subaperture of width L, the neighbour on that side gets a share. The share is
+  // (|t| - 1/2) / L + 1/2, clamped to [0, 1], or 0 if the neighbour is on another surface.
   void SetSurface(int p, const LineRun& run) {
     if (!Inside(p)) return;
     Owner owner = {false, p + Whole(run), p + Whole(run), 0};

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Refocuses the scene at a near and a far focus through the C API, and prints both checksums. With
- * WITH_POOL, the thread pool of the package runs the jobs. */
+/* Refocuses the light field of scene.h at a near and a far focus through the C API, and prints both
+ * checksums. With WITH_POOL, the thread pool of the package runs the jobs. */
 #include <stdio.h>
 #include <stdlib.h>
 

@@ -23,12 +23,12 @@ trap 'rm -rf "$work"' EXIT
 trap 'exit 1' HUP INT TERM
 cp -r "$sources/tests/consumers" "$work"
 
-# quietly COMMAND...: runs a command. Prints its output only if it fails.
+# quietly COMMAND...: runs a command. Prints the output only if the command fails.
 quietly() {
   "$@" >"$work/log" 2>&1 || { cat "$work/log" >&2; echo "consumers: failed: $*" >&2; exit 1; }
 }
 
-# same KIND: checks that the file sums contains the checksums of the first program.
+# same KIND: checks that the file `sums` contains the checksums of the first program.
 same() {
   [ -f "$work/expected" ] || cp "$work/sums" "$work/expected"
   [ "$(wc -l <"$work/sums")" = 2 ] && cmp -s "$work/sums" "$work/expected" || {
@@ -102,7 +102,7 @@ package() {
   [ -z "$left" ] || { echo "consumers: uninstall left" $left >&2; exit 1; }
 }
 
-# These projects are built without optimization. That is faster, and must not change the checksums.
+# These projects are built without optimization, since the builds are faster and the checksums must not change.
 source_tree() {
   project 'add_subdirectory, C' subproject "-DSTARFOCUS_DIR=$sources" \
     -DSTARFOCUS_STATIC_DISPATCH=ON
@@ -112,7 +112,7 @@ source_tree() {
     -DSTARFOCUS_STATIC_DISPATCH=ON
 }
 
-# Linux can be built without support for 32-bit programs. In that case QEMU runs the programs.
+# Linux can be built without support for 32-bit programs. On such a system, QEMU runs the programs.
 m32() {
   library m32 -DCMAKE_C_FLAGS=-m32 -DCMAKE_CXX_FLAGS=-m32
   emulator=

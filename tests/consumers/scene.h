@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /* Light field of five views that every consumer refocuses: a near square in front of a slope. All
- * its numbers are exact on every machine. Also has the checksum of the output. */
+ * numbers of the light field are exact on every machine. The header also defines the checksum of
+ * the output. */
 #ifndef STARFOCUS_TESTS_CONSUMERS_SCENE_H_
 #define STARFOCUS_TESTS_CONSUMERS_SCENE_H_
 

@@ -69,8 +69,8 @@ bool SameBits(const std::vector<float>& a, const std::vector<float>& b) {
   return std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
 }
 
-// Counts the pixels of the wrong surface. Disparities of one surface differ by at most about a
-// pixel.
+// Counts the pixels that have the disparity of the wrong surface. Disparities of one surface differ
+// by at most 1.02 pixels.
 int CountWrong(const std::vector<float>& map, const Photo& truth) {
   int wrong = 0;
   for (size_t k = 0; k < map.size(); ++k) wrong += std::abs(map[k] - truth.map[k]) > 1.02F;
@@ -145,7 +145,7 @@ TEST_CASE("colour repair: outlines stay even if the colours are noisy") {
       photo.Paint(x, y, (near ? 150 : 100) + noise, 100 + random.Int(-25, 25), near ? 90 : 130);
     }
   }
-  // A repair of single pixels by colour would increase the error.
+  // Colours are noisy, so a repair that decides about each pixel alone would increase the error.
   CHECK(CountWrong(photo.map, truth) > 150);
   CHECK(CountWrong(Repair(photo).map, truth) < CountWrong(photo.map, truth));
 }
@@ -165,7 +165,8 @@ TEST_CASE("colour repair: a picture of one colour changes no map, and steps get 
   Photo photo = MakeDisc(0);
   std::fill(photo.rgb.begin(), photo.rgb.end(), uint8_t{77});
   const Repaired repaired = Repair(photo);
-  CHECK(CountWrong(repaired.map, photo) < 60);  // corners of the round step
+  // Wrong pixels may occur only along the outline of the disc.
+  CHECK(CountWrong(repaired.map, photo) < 60);
   CHECK(repaired.confidence[photo.At(5, 5)] == 255);
   CHECK(repaired.confidence[photo.At(151, 26)] < 100);
 }

@@ -18,8 +18,8 @@
 
 namespace test {
 
-// Views of planes that face the camera or lean. Each pixel shows the plane with the highest
-// disparity.
+// Views of a near plane that faces the camera, and of a far plane that may be slanted. Each pixel
+// shows the plane with the highest disparity.
 struct PlaneScene {
   int width = 96, height = 64, views = 17;
   // `lean` is the change of the disparity of the far plane per pixel of x.
@@ -37,7 +37,7 @@ struct PlaneScene {
   uint8_t Pixel(double u, double v, int x, int y, int c) const {
     double at = x + u * near;
     if (IsNear(at)) return uint8_t(Texture(at, y + v * near, 1, c) + 0.5);
-    at = (x + u * far) / (1 - u * lean);  // at - u * (far + lean * at) = x
+    at = (x + u * far) / (1 - u * lean);  // solution of at - u * (far + lean * at) = x
     return uint8_t(Texture(at, y + v * (far + lean * at), 2, c) + 0.5);
   }
 };
@@ -76,7 +76,7 @@ inline PlaneField RenderPlanes(const PlaneScene& scene) {
       [&](double u, double v, int x, int y, int c) { return scene.Pixel(u, v, x, y, c); });
 }
 
-// Returns the map of the scene. Its near plane is wider by `grown` pixels on both sides.
+// Returns the map of the scene, with a near plane that is wider by `grown` pixels on both sides.
 inline std::vector<float> MapOf(PlaneScene scene, int grown = 0) {
   scene.near_left -= grown;
   scene.near_right += grown;

@@ -10,7 +10,7 @@
 
 namespace test {
 
-// A picture and its map.
+// A picture and the disparity map of the picture.
 struct Photo {
   int width, height;
   std::vector<uint8_t> rgb;
@@ -26,8 +26,8 @@ struct Photo {
   }
 };
 
-// Returns a disc of one colour in front of a wall of another, both speckled. In the map the disc is
-// wider by `grown` pixels.
+// Returns a speckled disc in front of a speckled wall of another colour. In the map, the radius of
+// the disc is larger by `grown` pixels.
 inline Photo MakeDisc(int grown, float near = 6, float far = -4) {
   Photo photo(300, 130);
   for (int y = 0; y < photo.height; ++y) {

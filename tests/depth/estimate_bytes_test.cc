@@ -21,8 +21,7 @@ TEST_CASE("estimate: the edges of a near plane in front of a far one are found t
     const PlaneField field = RenderPlanes(scene);
     const MadeMap found = MakeMap(field, ConfigOf(field, -6, 8));
     CAPTURE(views);
-    // Two edges with an error of one pixel each are 2
-    // 96 of the picture.
+    // Two edges with an error of one pixel each are 2 of 96 columns.
     CHECK(ShareOff(scene, found.disparity, 0.28) < 0.022);
     CHECK(ShareOff(scene, found.disparity, 1) < 0.022);
   }

@@ -70,7 +70,7 @@ TEST_CASE("hair coverage: coverage is found where the map has closed the outline
   CHECK(Difference({44, 64, 176, 108}, found.coverage, portrait.coverage) < 24);
   CHECK(Difference({60, 124, 232, 178}, found.coverage, portrait.coverage) < 0.5);
   CHECK(Difference({60, 30, 160, 56}, found.coverage, portrait.coverage) < 4);
-  // The disparities of the hair stay the same to the bit.
+  // The repair must not change any disparity of the hair.
   for (int y = 64; y < 106; ++y) {
     for (int x = 44; x < 176; ++x) REQUIRE(found.map[portrait.At(x, y)] == kNear);
   }
@@ -90,7 +90,7 @@ TEST_CASE("hair coverage: confidence is high where map and coverage agree") {
 
 TEST_CASE("hair coverage: bare outlines near hair are repaired, and their surfaces stay opaque") {
   Portrait portrait = MakeClosedHair();
-  // In the map, the top edge of the body to the right of the hair is 2 pixels too low.
+  // In the changed map, the top edge of the body to the right of the hair is 2 pixels too low.
   for (int y = 110; y < 112; ++y) {
     for (int x = 182; x < 240; ++x) portrait.map[portrait.At(x, y)] = kFar;
   }

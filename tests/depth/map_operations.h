@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Estimates and repairs of disparity maps, with star sets of every size and with colours alone.
+// Operations that estimate or repair disparity maps, with star sets of every size and with colours
+// alone.
 #ifndef STARFOCUS_TESTS_DEPTH_MAP_OPERATIONS_H_
 #define STARFOCUS_TESTS_DEPTH_MAP_OPERATIONS_H_
 
@@ -27,12 +28,13 @@ namespace properties {
 
 struct MapInput {
   test::PlaneField field;
-  std::vector<float> given;  // if empty, the map is estimated
+  std::vector<float> given;  // map to repair; if empty, the map is estimated
   float low, high;
   bool covers = false;  // true if the repair must find coverage
 };
 
-// Two planes in several tiles. The input of a repair is a noisy map whose near plane is too wide.
+// Two planes in several tiles. With `repairs`, the input has a noisy map whose near plane is too
+// wide.
 inline MapInput Planes(int width, int height, int views, bool repairs) {
   test::PlaneScene scene;
   scene.width = width;
@@ -55,8 +57,8 @@ inline MapInput Disc(bool noisy) {
   return {{photo.width, photo.height, {photo.rgb}}, photo.map, -500, 500};
 }
 
-// A portrait whose hair gets coverage. Its size is a multiple of the cells, so that the mirrored
-// picture has the same cells.
+// A portrait whose hair gets coverage. The height is a multiple of the cells' height, so that the
+// mirrored picture has the same cells.
 inline MapInput Hair() {
   constexpr int kWidth = test::ClosedHair::kWidth, kHeight = test::ClosedHair::kHeight / 4 * 4;
   test::ClosedHair portrait = test::MakeClosedHair();
@@ -125,7 +127,7 @@ struct Maps {
       status = make(&config, &field, &map, memory->data, memory->bytes);
       CHECK(map.has_coverage == int(status == STARFOCUS_OK && input.covers));
     }
-    // Combines confidence and coverage, so that the result depends on both.
+    // Combines confidence and coverage into one plane, so that a comparison covers both.
     for (size_t n = 0; n < pixels; ++n) confidence[n] = uint8_t(confidence[n] ^ coverage[n]);
     disparity = Mirrored(disparity);
     *out = Mirrored(confidence);

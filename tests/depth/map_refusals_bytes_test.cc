@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests with tables which arguments starfocus_estimate_disparity and starfocus_repair_disparity
+// Tests tables of arguments that starfocus_estimate_disparity and starfocus_repair_disparity must
 // reject. Each row changes one argument of a valid call. The call must return the status of the row
 // and write nothing.
 #include <doctest/doctest.h>

@@ -26,8 +26,7 @@ TEST_CASE("repair: displaced edges move to the edges of the picture") {
       CAPTURE(views);
       CAPTURE(grown);
       CHECK(ShareOff(scene, given, 0.5) > 0.06);
-      // Two edges with an error of one pixel each are 2
-      // 96 of the picture.
+      // Two edges with an error of one pixel each are 2 of 96 columns.
       const MadeMap repaired = MakeMap(field, ConfigOf(field, kLow, kHigh), given);
       CHECK(ShareOff(scene, repaired.disparity, 0.1) < 0.012);
     }
@@ -73,13 +72,14 @@ TEST_CASE("repair: a correct map stays the same to the bit") {
   int changed = 0;
   for (size_t i = 0; i < given.size(); ++i) changed += repaired.disparity[i] != given[i];
   CHECK(changed < int(given.size()) / 200);
-  // In a map of one plane, no value changes.
+  // A repair must not change any value of a map of one plane.
   scene.near_left = scene.near_right = 0;
   const std::vector<float> plane = MapOf(scene, 0);
   CHECK(MakeMap(RenderPlanes(scene), ConfigOf(field, kLow, kHigh), plane).disparity == plane);
 }
 
-// Strands in front of a wall, 1.25 pixels wide and three pixels apart. They cross each other.
+// Two sets of strands in front of a wall. Strands are approximately 1.25 pixels wide, and the sets
+// cross each other.
 struct StrandScene {
   static constexpr int kWidth = 96, kHeight = 80;
   static constexpr double kNear = 7, kFar = -5;
@@ -156,7 +156,8 @@ TEST_CASE("repair: pictures of one colour change no map") {
 TEST_CASE("repair: without conflicts, confidence is the difference of colours one pixel away") {
   const PlaneScene scene;
   PlaneField field = RenderPlanes(scene);
-  // Each colour changes by 7 levels per pixel in a row and by 4 in a column.
+  // Each colour changes by 7 levels per pixel along a row, and by 4 levels per pixel along a
+  // column.
   for (auto& view : field.views) {
     for (int at = 0; at < int(view.size()); ++at) {
       const int x = at / 3 % field.width, y = at / 3 / field.width;

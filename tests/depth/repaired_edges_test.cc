@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the outlines of repaired maps: they are as wide as the picture is soft, and not more ragged
-// than the picture.
+// Tests the outlines of repaired maps. Outlines must be moved by the softness of the picture, and
+// must not be more ragged than the picture.
 #include <doctest/doctest.h>
 
 #include <algorithm>

@@ -46,7 +46,8 @@ TEST_CASE("swept: in a correct map, only pixels around steps are swept, also acr
     scene.views = views;
     const std::vector<uint8_t> swept = SweptOf(scene, MapOf(scene));
     for (int x = 0; x < scene.width; ++x) {
-      // The pixels on both sides of a step are not trusted.
+      // The pixels on both sides of a step are not trusted, and pixels around untrusted ones are
+      // swept.
       const bool near = (x >= 129 - kSweptRadius && x <= 130 + kSweptRadius) ||
                         (x >= 261 - kSweptRadius && x <= 262 + kSweptRadius);
       CAPTURE(x);

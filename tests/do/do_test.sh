@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
 # do_test.sh SOURCES: checks the messages and exit codes of ./do build on machines without some
-# tools. The tools of these machines are fakes, and none has dpkg or apt-get.
+# tools. The test replaces the tools of these machines by fakes, without dpkg and apt-get.
 set -eu
 sources=$(cd "$1" && pwd)
 work=$(mktemp -d)
@@ -12,7 +12,7 @@ for name in cat cut dirname env grep id mkdir nproc rm sed sleep tail tr; do
   ln -s "$(command -v $name)" "$work/bin"
 done
 
-# build: runs ./do build; its exit code is in $result, its output in the file `said`.
+# build: runs ./do build. Sets $result to the exit code, and writes the output to the file `said`.
 build() {
   result=0
   PATH="$work/bin" CXX= CMAKE_PREFIX_PATH= "$work/tree/do" build >"$work/said" 2>&1 || result=$?
@@ -33,7 +33,7 @@ done
 for name in cmake ninja pkg-config; do
   printf '#!/bin/sh\n' >"$work/bin/$name"
 done
-# This compiler finds all headers except one.
+# This fake compiler finds all headers except CLI/CLI.hpp.
 printf '#!/bin/sh\n! grep -q CLI/CLI.hpp\n' >"$work/bin/c++"
 chmod +x "$work"/bin/*
 build

@@ -26,7 +26,7 @@ namespace {
 
 constexpr int kBlocks[] = {32, 64, 128, 256};
 
-// Everything that a picture depends on, except its content.
+// Everything that a refocused picture depends on, except the content of the scene.
 struct Setup {
   double focus = 0, aperture = 1;
   int block = 64, max_layer = 2, deblocking = 35;
@@ -165,7 +165,7 @@ TEST_CASE("block: a scene far out of focus is rendered at the largest allowed la
       const test::Scene scene = test::LayeredScene(size.first, size.second, 5, 2, 44);
       Setup s;
       s.focus = 20;
-      // Wide subapertures keep silhouettes out of layer 2.
+      // The rule of subapertures excludes layer 2 at silhouettes, so the line scan is used.
       s.renderer = STARFOCUS_RENDERER_LINE_SCAN;
       s.max_layer = max_layer;
       s.block = 128;
@@ -185,7 +185,7 @@ struct Told {
   std::vector<int> covered;
   uint64_t blocks = 0, views = 0;
   int largest_n = 0;
-  bool subapertures = false;  // true for the rule of subapertures
+  bool subapertures = false;  // true if blocks use the rule of subapertures
 };
 
 TEST_CASE("block: the visited blocks cover the picture once and agree with the report") {
@@ -226,11 +226,11 @@ TEST_CASE("block: the visited blocks cover the picture once and agree with the r
     CHECK(told.blocks == BlocksOf(report));
     CHECK(told.largest_n == report.n);
     const uint64_t views = report.layers[0].views + report.layers[1].views + report.layers[2].views;
-    CHECK(told.views >= views);  // only one of the copied blocks is rendered
+    CHECK(told.views >= views);  // the report does not count views of copied blocks
     if (report.copied_pixels == 0) CHECK(told.views == views);
     CHECK(report.layers[0].pixels + report.layers[1].pixels + report.layers[2].pixels ==
           uint64_t(scene.width) * uint64_t(scene.height));
-    // Visiting blocks does not change the picture.
+    // A block visitor must not change the picture.
     CHECK((Whole(scene, s) == out.Tight()));
   }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the declared borders: nothing beyond them is read, and everything within them is needed.
-// Values that must not count are replaced by noise, and the bytes of a block must not change. With
-// borders smaller by one pixel, some block must change.
+// Tests that the declared borders are sufficient and not too large. Replacing all values beyond the
+// borders by noise must not change the bytes of a block. With borders smaller by one pixel, some
+// block must change.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ using test::Borders;
 
 constexpr int kAll = 10000;  // a border that keeps the whole picture
 
-// Distance from a rectangle within which a light field is kept.
+// Distances from a rectangle, in pixels. Farther parts of the light field are replaced by noise.
 struct Kept {
   int centre = kAll, map = kAll, sides = kAll;
 };
@@ -36,7 +36,7 @@ bool Beyond(const Rect& rect, int border, int x, int y) {
          y >= rect.y + rect.height + border;
 }
 
-// Returns a disparity at the ends of the range, or any disparity.
+// Returns the smallest, the largest or a random disparity of the range.
 float AnyDisparity(const test::Scene& scene, test::Random* random) {
   const int kind = random->Int(0, 2);
   if (kind == 0) return float(random->Real(scene.disparity_min, scene.disparity_max));
@@ -99,14 +99,14 @@ struct Way {
     config.tuning.gather = int16_t(gather);
     config.highlights = highlights;
     config.tuning.n_scale = n_scale;
-    // Without deblocking, no other superblock has an effect.
+    // Deblocking is off, since it would read pixels of other superblocks.
     config.tuning.deblocking = 0;
     return config;
   }
   static constexpr int kSuperblock = 32;
 };
 
-// One superblock of a light field, in the middle or at the edges of the picture. It is refocused
+// One superblock of a light field, in the middle or at the edges of the picture, which is refocused
 // alone.
 class Superblock {
  public:
@@ -189,15 +189,16 @@ TEST_CASE("borders: nothing beyond the borders of a superblock is read") {
   CHECK(gathered > 0);
 }
 
-// A setting in which one of the sums of borders is needed exactly.
+// A setting that tests one sum of borders, of which every pixel is required.
 struct Sum {
   const char* name;
   int views, renderer, max_layer;
-  // `part` is the part of the range of disparities that blur comes from.
+  // `part` is the fraction of the blur that the range of disparities causes; the offset of the
+  // focus causes the rest.
   double blur, aperture, part;
   int Borders::*border;
   int Kept::*kept;
-  int unused;  // pixels of the border that no picture is known to depend on
+  int unused;  // pixels of the border that no known picture depends on
   float highlights = 1;
   int side = 160;
 
@@ -220,8 +221,8 @@ struct Sum {
 // Reasons for unused pixels:
 // - Layers: blocks begin and end with whole cells, which determine their bytes. The outermost taps
 //   of two successive filters leave a part of a pixel that is rounded to 0.
-// - Side views: hidden pixels at the edge of the border are hardly visible, and those of layers
-//   even less. Their disparities are seldom the largest of the configuration.
+// - Side views: hidden pixels at the edge of the border are hardly visible, especially at layers 1
+//   and 2. The disparities of hidden pixels are seldom the largest of the configuration.
 const Sum kSums[] = {
     {"boundary pixels", 1, STARFOCUS_RENDERER_SLICES, 0, 7, 1, 1, &Borders::centre, &Kept::map, 0},
     {"edges", 5, STARFOCUS_RENDERER_SLICES, 0, 1, 1.0 / 24, 1, &Borders::centre, &Kept::map, 0, 1,
@@ -259,12 +260,13 @@ TEST_CASE("borders: with one pixel less than the sum, pictures change") {
   }
 }
 
-// Records if the output of a step depends on samples beyond its border, and on the outermost
-// samples within it.
+// Records if the output of a step depends on samples beyond the border, and if the output depends
+// on the outermost samples within the border.
 struct Dependence {
   bool beyond = false, within = false;
 
-  // run(border) returns the output of the step. All input farther away than the border is replaced.
+  // run(border) returns the output of the step. `run` replaces all input farther away than the
+  // border.
   template <class Run>
   void Add(int border, const Run& run) {
     const auto all = run(kAll);
@@ -277,7 +279,8 @@ struct Dependence {
   }
 };
 
-// Returns a picture of noise around a rectangle. The noise beyond the border is different.
+// Returns a picture of noise around a rectangle. The noise beyond the border differs from the noise
+// within.
 std::vector<uint8_t> NoiseAround(int side, const Rect& rect, int border, uint64_t seed) {
   test::Random inside(seed), outside(border == kAll ? seed : seed + 1);
   std::vector<uint8_t> picture(3 * size_t(side) * size_t(side));

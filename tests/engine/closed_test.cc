@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests that an opaque surface lets no light through if its disparities vary. Its slices move
-// apart, but no gap may show the background.
+// Tests that an opaque surface with varying disparities lets no light through. The slices of the
+// surface move apart, but no gap may show the background.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace closed_test {
 namespace {
 
-// First and last column and row of the surface.
+// Side of the picture; first column and row of the surface, and the end of both.
 constexpr int kSide = 160, kFirst = 40, kLast = 120;
 
 // Returns a dark square of one colour in front of a bright wall.
@@ -33,8 +33,8 @@ test::Scene Square(int views, double jitter, double slope, uint64_t seed) {
   return scene;
 }
 
-// Returns the largest difference from the colour of the surface, where the blur mixes in no other
-// colour.
+// Returns the largest difference from the colour of the surface, in the area that the blur of other
+// colours does not reach.
 int MostLeaked(const test::Output& out, int blur) {
   int most = 0;
   for (int y = kFirst + blur; y < kLast - blur; ++y) {

@@ -110,7 +110,7 @@ TEST_CASE("constant: every N leaves the picture unchanged") {
 TEST_CASE("constant: every shape of the opening leaves the picture unchanged") {
   Trial t = {70, 41};
   t.color = {255, 127, 1};
-  // With sanitizers, a quarter of the shapes runs the same code.
+  // With sanitizers, a quarter of the shapes suffices to run the same code.
 #if defined(__SANITIZE_ADDRESS__)
   constexpr uint64_t kShapes = 60;
 #else
@@ -145,8 +145,8 @@ TEST_CASE("constant: every small size is unchanged") {
   }
 }
 
-// A wide lens with few views. Slices of subapertures wider than three pixels are spread in separate
-// memory. With N = 4 they reach beyond the blur radius.
+// Tests a wide lens with few views. If subapertures are wider than three pixels, slices are spread
+// in separate memory. With N = 4, subapertures extend beyond the blur radius.
 TEST_CASE("constant: wide subapertures leave the picture unchanged") {
   Trial t = {64, 64, 1};
   t.levels = 6;
@@ -170,8 +170,8 @@ TEST_CASE("constant: wide subapertures leave the picture unchanged") {
 
 // If an opening is much brighter in the middle, most views have small weights, and dark codes are
 // few levels of light. The engine therefore scales the weights up and sums the products in shares.
-// The remaining error is the rounding of slices that cover parts of a pixel. It affects up to three
-// pixels of a few pictures.
+// The remaining error is the rounding of slices that cover parts of a pixel. This rounding error
+// affects up to three pixels of a few pictures.
 TEST_CASE("constant: dark codes are nearly unchanged by steep openings") {
   Trial t = {64, 64, 5};
   t.levels = 5;
@@ -200,7 +200,8 @@ TEST_CASE(
     "constant: random sizes, ranges, focuses, apertures and blocks leave the picture unchanged") {
   test::Random random(2024);
   constexpr int kBlocks[] = {32, 64, 128, 256};
-  // Pictures with a changed pixel, because parts of slices are rounded to 15 bits.
+  // Number of pictures with a changed pixel. Coverage is rounded to 15 bits, which may change a
+  // pixel.
   int pictures = 0;
   for (int round = 0; round < 250; ++round) {
     Trial t;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests that maps with unknown values are rejected, or filled along their rows.
+// Tests that maps with unknown values are either rejected or filled along rows.
 #include <doctest/doctest.h>
 
 #include <algorithm>

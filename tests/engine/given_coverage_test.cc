@@ -142,8 +142,8 @@ TEST_CASE("given coverage: all ways to refocus return the same bytes") {
   }
 }
 
-// Returns the scene at twice the size, with doubled disparities. Coverage differs within the pixels
-// that replace one pixel.
+// Returns the scene at twice the size, with doubled disparities. The coverage varies within each
+// group of 2x2 pixels that replaces one pixel.
 test::Scene Doubled(const test::Scene& scene) {
   test::Scene doubled = test::EmptyScene(2 * kWidth, 2 * kHeight, 1, 2 * scene.disparity_min,
                                          2 * scene.disparity_max);
@@ -216,7 +216,7 @@ TEST_CASE("given coverage: highlights brighten only their surroundings") {
   config.highlights = 16;
   const test::Output lit = test::OutputOf(config, params, scene);
   CHECK((lit.bytes != plain.bytes));
-  // Blocks with highlights are not gathered, which rounds differently.
+  // Blocks with highlights are not gathered, so their rounding differs by at most a level.
   int largest = 0;
   for (size_t n = 30 * plain.stride; n < plain.bytes.size(); ++n) {
     largest = std::max(largest, std::abs(lit.bytes[n] - plain.bytes[n]));

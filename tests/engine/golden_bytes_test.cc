@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compares checksums of refocused pictures with those of golden.txt. They must be equal on every
-// machine, SIMD target and compiler. After an intended change of the output, `./do golden` updates
-// golden.txt by running this program with STARFOCUS_RECORD_GOLDEN=1.
+// Compares checksums of refocused pictures with the checksums in golden.txt, which every machine,
+// SIMD target and compiler must reproduce. After an intended change of the output, `./do golden`
+// updates golden.txt by running this program with STARFOCUS_RECORD_GOLDEN=1.
 #include <doctest/doctest.h>
 
 #include <cstdio>
@@ -39,11 +39,11 @@ struct Case {
   test::Depth depth;
   Lens lens;
   int block;
-  int levels = 0, range = 0;                // those of a LevelScene, or 0
+  int levels = 0, range = 0;                // levels and range of a LevelCase, or 0
   const test::NamedShape* shape = nullptr;  // shape of the lens, or null for the default shape
 };
 
-// A scene with many disparities, which are cut into slices of blurs up to `range`.
+// A scene with `levels` random disparities and blur radii up to `range`, which is cut into slices.
 struct LevelCase {
   int block, levels, range;
 };
@@ -65,7 +65,8 @@ std::vector<Case> Cases() {
     for (const test::Depth depth :
          {test::Depth::kLayers, test::Depth::kSlanted, test::Depth::kNoise}) {
       for (const Lens& lens : kLenses) {
-        // With noise, the views of a line already differ from each other, so two lenses suffice.
+        // Two lenses suffice for noise, since the views of a noisy line differ from each other with
+        // any lens.
         if (depth == test::Depth::kNoise && &lens != &kLenses[1] && &lens != &kLenses[4]) continue;
         Case one = {"", 97, 70, views, depth, lens, number % 2 == 0 ? 32 : 64};
         char name[80];
@@ -78,9 +79,9 @@ std::vector<Case> Cases() {
       }
     }
   }
-  // Slices with almost MostSliceArea, and with slightly more. Each picture would change if the
-  // limit were 1 % larger or smaller. The last case is a block that is cut into four, whose picture
-  // differs from the uncut one.
+  // Cases whose slices have almost MostSliceArea, or slightly more. Each picture would change if
+  // the limit were 1 % larger or smaller. In the last case, a block is cut into four tiles, and the
+  // picture differs from the picture of the uncut block.
   for (const LevelCase& level : kLevelCases) {
     Case one = {"",          level.block,         level.block,
                 1,           test::Depth::kNoise, {STARFOCUS_MODE_FRAME, 0, 1},
@@ -89,7 +90,7 @@ std::vector<Case> Cases() {
                std::to_string(level.block);
     cases.push_back(one);
   }
-  // Both rules in block mode, PSFs, and wide blurs.
+  // The lenses of these cases test both rules in block mode, PSFs, and wide blurs.
   for (const test::NamedShape& shape : test::kShapes) {
     for (const Lens& lens : {kLenses[5], kLenses[6], kLenses[7]}) {
       for (const int block : {32, 64}) {
@@ -108,7 +109,7 @@ std::vector<Case> Cases() {
   return cases;
 }
 
-// The pixels of each layer, and the gathered pixels.
+// Number of pixels at each layer, and number of gathered pixels.
 struct Covered {
   uint64_t layers[STARFOCUS_LAYERS] = {};
   uint64_t gathered = 0;
@@ -119,10 +120,10 @@ std::string Refocus(const Case& one, const test::Scene& scene,
                     const starfocus::simd::Kernels* kernels, Covered* covered) {
   starfocus_config config = test::ConfigFor(scene, 43);
   config.superblock = one.block;
-  // Slanted surfaces use codes as in the paper, and others use light.
+  // Cases with slanted surfaces average codes as in the paper, and other cases average light.
   config.transfer =
       one.depth == test::Depth::kSlanted ? STARFOCUS_TRANSFER_NONE : STARFOCUS_TRANSFER_SRGB;
-  // A part of the cases renders views instead of gathering, at all layers.
+  // The cases with 9 views do not gather, so that they render views at all layers.
   config.tuning.gather = one.views != 9;
   if (one.levels > 0) config.tuning.n_scale = 0.5;
   starfocus_params params = test::Params(one.lens.focus, one.lens.aperture, one.lens.mode);
@@ -130,8 +131,8 @@ std::string Refocus(const Case& one, const test::Scene& scene,
   test::ReserveFor(params.lens, &config);
   test::Engine engine(config);
   test::UseKernels(kernels, engine.get());
-  // The rule of subapertures excludes layer 2 at depth edges, so each rule is used in a part of the
-  // cases.
+  // The rule of subapertures excludes layer 2 at depth edges, so cases with blocks of 32 use the
+  // line scan.
   if (one.block == 32) params.renderer = STARFOCUS_RENDERER_LINE_SCAN;
   if (one.levels > 0) params.renderer = STARFOCUS_RENDERER_SLICES;
   starfocus_report report = {};
@@ -180,7 +181,7 @@ TEST_CASE("golden: pictures are the same on every machine and SIMD target") {
     const test::Scene scene = one.levels > 0
                                   ? test::LevelScene(one.block, one.levels, one.range)
                                   : test::IntegerScene(one.width, one.height, one.views, one.depth);
-    // The recorded checksums are those of the reference, which is the last table.
+    // The last table is the reference, whose checksums are recorded.
     if (record) golden[one.name] = Refocus(one, scene, tables.back(), &covered);
     for (const starfocus::simd::Kernels* kernels : tables) {
       CAPTURES(one.name, kernels->name);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests highlights: clipped lamps regain their brightness, and white walls keep theirs.
+// Tests highlights: clipped lamps must regain their brightness, and white walls must not become
+// brighter.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -82,7 +83,7 @@ TEST_CASE("highlights: codes closer to clipping are brightened more, and codes b
     }
     before = more;
   }
-  // One clipped channel is a colour, not a lamp.
+  // A pixel with one clipped channel is a saturated colour, not a lamp.
   test::Scene red = WhiteRect(58, 58, 4, 4, 255);
   for (int y = 58; y < 62; ++y) {
     for (int x = 58; x < 62; ++x) red.Pixel(0, x, y)[1] = red.Pixel(0, x, y)[2] = 200;
@@ -94,8 +95,8 @@ TEST_CASE("highlights: walls do not glow") {
   struct Wall {
     int x, y, width, height;
   };
-  // The walls exceed twice the size of the largest lamp, which is 16 pixels here, or are only
-  // partly visible.
+  // Each wall is either larger than twice the size of the largest lamp (16 pixels in this test), or
+  // only partly visible.
   for (const Wall& wall : {Wall{30, 40, 34, 33}, Wall{0, 0, 50, kSide}, Wall{0, 100, kSide, 20}}) {
     const test::Scene scene = WhiteRect(wall.x, wall.y, wall.width, wall.height);
     for (const double blur : {0.0, 3.0, 11.0}) {
@@ -105,10 +106,10 @@ TEST_CASE("highlights: walls do not glow") {
       for (size_t i = 0; i < plain.size(); ++i) {
         most = std::max(most, std::abs(int(plain[i]) - int(bright[i])));
       }
-      CHECK(most <= 1);  // views instead of gathered cells
+      CHECK(most <= 1);  // blocks with highlights render views instead of gathering cells
     }
   }
-  // A tube is long in only one direction.
+  // A fluorescent tube counts as a lamp, since it is long in only one direction.
   const test::Scene tube = WhiteRect(20, 60, 80, 4);
   CHECK(LightIn(Picture(tube, 11, 4), STARFOCUS_TRANSFER_SRGB) >
         2 * LightIn(Picture(tube, 11, 1), STARFOCUS_TRANSFER_SRGB));

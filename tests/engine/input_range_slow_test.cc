@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compares the range of a picture with that of its views, as starfocus.h states it for
-// STARFOCUS_MODE_BLOCK.
+// Compares the range of a refocused picture with the range of the views. starfocus.h states the
+// largest difference for STARFOCUS_MODE_BLOCK.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -42,7 +42,7 @@ struct Trial {
   int low, high;
 };
 
-// Openings that a trial draws.
+// Openings that a trial may draw.
 enum class Openings { kDefault, kAnyTheta, kAnyShape };
 
 Trial MakeTrial(uint64_t seed, starfocus_mode mode, starfocus_renderer renderer,
@@ -72,10 +72,11 @@ Trial MakeTrial(uint64_t seed, starfocus_mode mode, starfocus_renderer renderer,
   return trial;
 }
 
-// Amount by which a picture leaves the range of its views.
+// Amount by which a picture exceeds the range of its views.
 struct Beyond {
   int levels = 0;
-  // Part of the difference between the light of both levels, minus one level of rounding.
+  // Excess beyond one level of rounding, as a fraction of the difference between the light of both
+  // levels.
   double contrast = 0;
 };
 

@@ -51,7 +51,7 @@ TEST_CASE("layout: pieces are aligned, padded and counted as they are taken" *
 }
 
 TEST_CASE("layout: sizes beyond the address space are reported as too large") {
-  // Additional bytes of a piece: padding and rounding.
+  // Bytes that padding and rounding add to a piece.
   constexpr size_t kMost = 1 << 16, kExtra = starfocus::kRedZone + 64 + 63;
   const auto bytes = [](size_t count, size_t times) {
     Arena arena(nullptr, kMost);
@@ -66,7 +66,7 @@ TEST_CASE("layout: sizes beyond the address space are reported as too large") {
   CHECK(bytes(SIZE_MAX / 8 + 2, 2) == kTooLarge);
   CHECK(bytes(SIZE_MAX, SIZE_MAX) == kTooLarge);
   CHECK(bytes(0, SIZE_MAX) == starfocus::kRedZone + 64);
-  // A sum that overflows, and the sizes after it.
+  // A sum that overflows: the size must remain kTooLarge afterwards.
   Arena arena(nullptr);
   arena.Take<uint8_t>(SIZE_MAX / 2 - kExtra);
   CHECK(arena.Bytes() <= SIZE_MAX / 2);
@@ -87,7 +87,7 @@ TEST_CASE("layout: workspaces of boards do not grow" * doctest::skip(starfocus::
     starfocus_config config;
     size_t most;
   } kBoards[] = {
-      // With memory for thin structures.
+      // The first three boards have memory for thin structures.
       {with_coverage(test::BoardConfig(640, 480, 1, 32, 8, 1)), 4161},
       {with_coverage(test::BoardConfig(1920, 1080, 17, 64, 32, 0)), 14443},
       {with_coverage(test::BoardConfig(1920, 1080, 1, 64, 32, 0)), 13148},
@@ -127,7 +127,7 @@ TEST_CASE("layout: the parts sum to the whole workspace" * doctest::skip(starfoc
   }
 }
 
-// For a preview, the engine is laid out again for a smaller picture.
+// To make a preview, the engine lays out its memory again for a smaller picture.
 TEST_CASE("layout: the layout of a smaller picture fits into the same memory") {
   test::Random random(44);
   for (int round = 0; round < 300; ++round) {
@@ -173,14 +173,14 @@ TEST_CASE("layout: after a new layout, an engine keeps its workers and tables") 
   CHECK(state.workers.scratch == workers);
   CHECK(state.workers.scratch[1].sums == sums);
   CHECK(state.tables.apertures[0].weights == weights);
-  CHECK(state.stripe.last_rows == nullptr);  // it does not stream
+  CHECK(state.stripe.last_rows == nullptr);  // previews are not streamed
   starfocus::LayOutAnew(config, &state);
   CHECK(state.config.width == 300);
   CHECK(state.stripe.out == out);
   CHECK(state.stripe.last_rows == last_rows);
 }
 
-// With 32 bits, wide streaming configurations exceed the address space.
+// On 32-bit machines, wide streaming configurations exceed the address space.
 TEST_CASE("layout: sizes never overflow, and every call rejects sizes that are too large") {
   starfocus_config config;
   starfocus_config_init(&config);
@@ -194,8 +194,8 @@ TEST_CASE("layout: sizes never overflow, and every call rejects sizes that are t
   int refused = 0;
   for (int width = 999; width <= STARFOCUS_MAX_SIZE; width += 1000) {
     config.width = width;
-    // Views with 3 bytes per pixel, in the rows of a stripe and those within reach of disparities
-    // and blurs.
+    // Rings hold views with 3 bytes per pixel. Rings have the rows of a stripe, and the rows within
+    // reach of disparities and blurs.
     const uint64_t rings = uint64_t{3 * STARFOCUS_MAX_VIEWS * (256 + 2 * 628)} * uint64_t(width);
     const uint64_t disparities = uint64_t{2 * 65535} * uint64_t(width);
     for (const bool prepared : {false, true}) {

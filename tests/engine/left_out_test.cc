@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the work that the engine omits because its result is known. Blocks that no view moves are
-// copied, and layers that no block reads are not made.
+// Tests the work that the engine omits because its result is known. Blocks that look equal in all
+// views are copied, and layers that no block reads are not computed.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -53,8 +53,8 @@ test::Scene VariedScene(int width, int height, int views, float limit, test::Ran
   return scene;
 }
 
-// Refocuses, and renders each block of the last stripe again without copying. Returns the number of
-// copied pixels.
+// Refocuses a scene. Each block of the last stripe must have the same bytes if it is rendered again
+// without copying. Returns the number of copied pixels.
 uint64_t CheckRendered(const test::Scene& scene, const starfocus_config& config,
                        const starfocus_params& params) {
   test::Engine engine(config);

@@ -26,7 +26,7 @@ Refocused Refocus(const test::Scene& scene, const starfocus_params& params, doub
                   double max_blur = 32) {
   starfocus_config config = test::ConfigFor(scene, max_blur);
   config.tuning.n_scale = n_scale;
-  config.tuning.gather = 0;  // only N differs
+  config.tuning.gather = 0;  // without gathering, pictures differ only because of N
   return test::RefocusScene(scene, config, params);
 }
 
@@ -42,7 +42,7 @@ TEST_CASE("n_scale: it multiplies the N of either rule in frame and block mode")
           starfocus_config config = test::ConfigFor(scene);
           config.tuning.n_scale = scale;
           config.tuning.max_layer = 0;
-          config.tuning.gather = 0;  // gathering would use no views
+          config.tuning.gather = 0;  // gathered cells would use no views
           starfocus_report report = {};
           const test::Output out = test::OutputOf(config, params, scene, &report);
           const int n = renderer == STARFOCUS_RENDERER_LINE_SCAN
@@ -83,8 +83,8 @@ TEST_CASE("n_scale: the smallest workspace gives the same picture as a large one
 }
 
 TEST_CASE("n_scale: a larger scale uses more views and is closer to the benchmark") {
-  // Only one view is used, because side views of noise see noise beyond the picture, which differs
-  // per layer.
+  // Only one view is used, because side views of noise show noise beyond the picture, which differs
+  // between layers.
   const test::Scene scene = test::IntegerScene(160, 120, 1, test::Depth::kSlanted);
   for (const starfocus_mode mode : {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BLOCK}) {
     starfocus_params params = test::Params(-9.5, 1, STARFOCUS_MODE_BENCHMARK);

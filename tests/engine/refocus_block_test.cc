@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Refocuses a block alone with the border of the analysis, and with wider borders. For one flat
-// surface nothing may change at any layer. The filling of a gap between surfaces may come from
-// beyond the border, so small changes are allowed there.
+// surface nothing may change at any layer. Gaps between surfaces may be filled with colours from
+// beyond the border, so small changes are allowed at gaps.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -37,8 +37,8 @@ test::Scene FlatScene(int width, int height, int views, float limit, test::Rando
   return scene;
 }
 
-// Returns stairs or a pyramid. Steps are no depth edges, but end every run, so that runs do not
-// depend on where a line begins.
+// Returns stairs or a pyramid. Each step ends every run without being a depth edge, so that runs do
+// not depend on where a line begins.
 test::Scene StairScene(int width, int height, int views, float limit, test::Random* random) {
   constexpr float kStep = 1.25f;
   test::Scene scene = NoiseScene(width, height, views, limit, random);
@@ -75,7 +75,7 @@ test::Scene SteppedScene(int width, int height, int views, float limit, test::Ra
   return scene;
 }
 
-// The changes by wider borders, per layer.
+// Changes that wider borders cause, per layer.
 struct FrameDiff {
   int blocks[STARFOCUS_LAYERS] = {}, changed[STARFOCUS_LAYERS] = {}, largest[STARFOCUS_LAYERS] = {};
   int64_t samples[STARFOCUS_LAYERS] = {}, changed_samples[STARFOCUS_LAYERS] = {};
@@ -113,7 +113,7 @@ void CheckPicture(const test::Scene& scene, const starfocus_params& params, int 
   test::Engine engine(config);
   const test::Output out = test::OutputOf(&engine, params, scene);
   for (Block block : test::PlanOf(engine.get()).blocks) {
-    // `out` cannot be used, because it has been deblocked.
+    // The comparison does not use `out`, because `out` has been deblocked.
     const std::vector<uint8_t> given = test::RenderOne(block, engine.get());
     block.border.left += more;
     block.border.right += more;
@@ -148,7 +148,7 @@ void CheckSmall(const FrameDiff& changes) {
   for (int layer = 0; layer < STARFOCUS_LAYERS; ++layer) {
     CHECK(changes.blocks[layer] > 50);
     CHECK(changes.changed_samples[layer] * 1000 <= changes.samples[layer]);
-    CHECK(changes.largest[layer] <= 9);  // light of one of 29 views
+    CHECK(changes.largest[layer] <= 9);  // at most the light of one of 29 views (255 / 29)
   }
 }
 

@@ -14,8 +14,8 @@
 namespace room_bytes_test {
 namespace {
 
-// Returns surfaces of a few disparities, chosen at random per pixel. They need more slices than the
-// memory holds.
+// Returns surfaces of a few disparities, chosen at random per pixel. These surfaces require more
+// slices than the memory holds.
 test::Scene Levels(int side, int count, float range, test::Random* random) {
   test::Scene scene = test::EmptyScene(side, side, random->Int(0, 1) == 0 ? 1 : 5, -range, range);
   for (auto& picture : scene.pictures) picture = test::RandomBytes(picture.size(), random);

@@ -23,7 +23,7 @@ struct Place {
   int x = kSide / 2, y = kSide / 2;  // centre of the patch
 };
 
-// The levels of a picture with 3x3 white pixels at disparity 0.
+// Levels of the refocused picture of 3x3 white pixels at disparity 0.
 struct Patch {
   std::vector<int> levels;
   Place place;
@@ -39,7 +39,7 @@ struct Patch {
     starfocus_config config = test::ConfigFor(scene, std::abs(focus) + 1);
     config.superblock = 32;
     config.tuning.max_layer = 0;                // layers would smooth the picture
-    config.transfer = STARFOCUS_TRANSFER_NONE;  // levels that add up
+    config.transfer = STARFOCUS_TRANSFER_NONE;  // sums of levels are sums of light
     starfocus_params params = test::Params(focus, 1, mode, renderer);
     shape.Set(&params.lens);
     test::ReserveFor(params.lens, &config);
@@ -66,8 +66,8 @@ struct Patch {
   double Light() const {
     return Sum([](int, int) { return 1.0; });
   }
-  // Returns the difference between the picture and its image under image(x, y), as a part of its
-  // light.
+  // Returns the summed difference between the picture and image(x, y), as a fraction of the light
+  // of the picture.
   template <class Image>
   double Unlike(const Image& image) const {
     double sum = 0;
@@ -135,7 +135,7 @@ TEST_CASE("shapes: a pentagon is symmetric only about its axis, and upside down 
       CHECK(far.Unlike([&](int x, int y) { return far.At(x, -y); }) > 0.1);
       CHECK(far.Unlike([&](int x, int y) { return far.At(y, x); }) > 0.1);
       CHECK(far.Unlike([&](int x, int y) { return near.At(-x, -y); }) < 0.03);
-      // Its corner is at the top, and its lowest edge is at cos(36 degrees).
+      // One corner of the pentagon is at the top, and its lowest edge is at cos(36 degrees).
       CHECK(far.Sum([](int, int y) { return y < -8 ? 1 : 0; }) > 10);
       CHECK(far.Sum([](int, int y) { return y > 9 ? 1 : 0; }) <= 10);
       CHECK(far.Sum([](int x, int) { return x; }) / far.Light() == doctest::Approx(0).epsilon(0.1));

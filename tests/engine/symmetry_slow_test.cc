@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests that mirroring, transposing or rotating the light field does the same to the refocused
-// picture, if the picture consists of whole blocks. The result is exact, except for rotations with
-// wide subapertures.
+// Tests that mirroring, transposing or rotating the light field mirrors, transposes or rotates the
+// refocused picture, if the picture consists of whole blocks. The results must be exact, except for
+// rotations with wide subapertures.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -47,7 +47,7 @@ TEST_CASE("symmetry: captured views exchange their positions") {
 test::Output Refocused(const test::Scene& scene, const starfocus_params& params) {
   starfocus_config config = test::ConfigFor(scene);
   config.superblock = 32;
-  // Layers keep every second pixel, from the left and the top.
+  // Layers 1 and 2 are not symmetric, since they keep every second pixel from the left and the top.
   config.tuning.max_layer = 0;
   const test::Output out = test::OutputOf(config, params, scene);
   return out;
@@ -85,7 +85,8 @@ TEST_CASE("symmetry: transposed and rotated light fields give transposed and rot
       const test::Scene scene = test::RandomScene(size[0], size[1], views, -4, 4, 32);
       for (const Symmetry& s : kTurns) {
         for (starfocus_params params : {test::Params(0), test::Params(2.6, 0.9)}) {
-          // Slices process rows first.
+          // The line scan is used, since slices are moved along rows first and are not exactly
+          // symmetric.
           params.renderer = STARFOCUS_RENDERER_LINE_SCAN;
           Check(s, scene, params);
         }
@@ -106,7 +107,7 @@ TEST_CASE("symmetry: pictures are also symmetric in benchmark mode and with nois
   for (const Symmetry& s : kTurns) Check(s, scene, lines);
 }
 
-// Subapertures are up to several pixels wide, over flat, slanted and noisy surfaces.
+// Tests subapertures up to several pixels wide, on flat, slanted and noisy surfaces.
 TEST_CASE("symmetry: with wide subapertures, mirrored pictures are exact") {
   for (const int views : {17, 5, 1}) {
     test::Scene scene = test::RandomScene(64, 32, views, -3, 8, 35);
@@ -121,7 +122,7 @@ TEST_CASE("symmetry: with wide subapertures, mirrored pictures are exact") {
   }
 }
 
-// All views of wide subapertures are rendered along rows first. On a single surface, the order
+// With wide subapertures, all views are rendered along rows first. On a single surface, the order
 // changes only the rounding. Next to a depth edge, the order determines which surface is visible.
 TEST_CASE("symmetry: with wide subapertures, rotated pictures are nearly equal") {
   for (const int views : {17, 5, 1}) {

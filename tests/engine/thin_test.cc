@@ -33,7 +33,7 @@ double CoverageAt(double x, double y) {
   return 1 - left;
 }
 
-// A bright wall with large soft waves, and dark strands.
+// WallAt is a bright wall with large soft waves. StrandAt is the dark colour of strands.
 double WallAt(double x, double y, int c) {
   return 170 + 12 * c + 25 * std::sin(x / 19 + c) + 20 * std::cos(y / 23);
 }

@@ -71,7 +71,7 @@ test::Refocused RefocusFlat(const test::Scene& scene, double blur, starfocus_mod
   return test::RefocusScene(scene, config, params);
 }
 
-// The ramp rises by one code every few pixels. With only 8 bits of light, it would show bands.
+// A ramp that rises by one code every few pixels would show bands if light had only 8 bits.
 TEST_CASE("transfer: a ramp of dark codes stays monotone at every focus") {
   constexpr int kCodes = 41, kStep = 3, kWidth = kCodes * kStep;
   const test::Scene ramp = FlatScene(kWidth, 24, 0, [](int x, int) { return x / kStep; });
@@ -87,7 +87,7 @@ TEST_CASE("transfer: a ramp of dark codes stays monotone at every focus") {
           for (int x = 1; x < kWidth; ++x) {
             monotone = monotone && at(x) >= at(x - 1) && at(x) - at(x - 1) <= 1;
           }
-          // Away from its ends, a blurred ramp is nearly unchanged.
+          // A blurred ramp must be nearly unchanged, except near the ends of the ramp.
           for (int x = 45; x < kWidth - 45; ++x) {
             survives = survives && std::abs(at(x) - x / kStep) <= 1;
           }
@@ -104,7 +104,8 @@ TEST_CASE("transfer: half of the light of white is code 188, and half of the cod
       FlatScene(96, 96, 0, [](int x, int y) { return (x + y) % 2 == 0 ? 255 : 0; });
   for (const starfocus_mode mode : test::kModes) {
     for (const double blur : {6.0, 11.0, 20.0}) {
-      // The rule of the paper is excluded, because views about a pixel apart show the board again.
+      // The rule of the paper is excluded, because views that are approximately a pixel apart
+      // reproduce the pattern of the board.
       const auto middle = [&](starfocus_transfer transfer) {
         const auto out = RefocusFlat(board, blur, mode, transfer, STARFOCUS_RENDERER_SLICES);
         return int(out.rgb[3 * (48 * 96 + 48)]);

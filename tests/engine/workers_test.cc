@@ -28,7 +28,8 @@ struct NotingRunner {
 };
 
 TEST_CASE("workers: each block is a job, and jobs with the largest predicted time come first") {
-  // A column of superblocks is split where the flat blurred area begins.
+  // The flat, blurred area begins within the first superblock, which is therefore split into
+  // blocks.
   constexpr int kColumns = 3, kSide = 128;
   test::Scene scene = test::RandomScene(kColumns * kSide, kSide, 5, -9, 9, 31);
   for (int y = 0; y < kSide; ++y) {

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# cmake -DBUILD=… -P camera_test.cmake: 12 megapixels go through examples/camera in less
-# than 64 MiB, and come out as they always have.
+# cmake -DBUILD=… -P camera_test.cmake: checks that examples/camera processes 12 megapixels in less
+# than 64 MiB, and that the checksum of the output is unchanged.
 set(OUT "${BUILD}/tests/camera.ppm")
 execute_process(COMMAND "${BUILD}/camera" ${OUT} RESULT_VARIABLE result OUTPUT_VARIABLE said ERROR_VARIABLE said)
 if(NOT result EQUAL 0)

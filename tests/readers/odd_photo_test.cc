@@ -47,8 +47,7 @@ TEST_CASE("GDepth: an invalid range is ignored, and levels define only an order"
   CheckOrder(linear + "GDepth:Near=\"0.5\" GDepth:Far=\"INF\"");
   CheckOrder("GDepth:Near=\"0.5\" GDepth:Far=\"4\"");
   CheckOrder("GDepth:Format=\"other\" GDepth:Near=\"0.5\" GDepth:Far=\"4\"");
-  // Levels that are linear in 1
-  // distance may end at infinity.
+  // The range of levels that are linear in the inverse distance may end at infinity.
   for (const char* far : {"INF", "inf", "Infinity", "+inf"}) {
     Capture capture =
         OpenRamp(Gdepth(Photo(), inverse + "GDepth:Near=\"0.5\" GDepth:Far=\"" + far + "\"",

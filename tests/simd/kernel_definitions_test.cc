@@ -24,8 +24,7 @@ TEST_CASE(
   const Span blend = {source + 3, 1, 3, 12288, 4096, 3};
   int16_t line[5] = {1, 1, 1, 1, 1};
   ReferenceKernels().Blend(&blend, 1, line);
-  // (3 * 40 + 70)
-  // 4 = 47.5, rounded half up.
+  // (3 * 40 + 70) / 4 = 47.5, rounded half up.
   CheckValues("blend", line, {1, 48, 58, 8205, 1});
   const Span span = {source + 3, 1, 3, 192, 64, 3};
   uint32_t sums[5] = {5, 5, 5, 5, 5};
