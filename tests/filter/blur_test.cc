@@ -86,8 +86,8 @@ double Difference(const test::Scene& scene, double focus, double aperture, int b
   return largest;
 }
 
-// Checks flat disparities with many radii, on random pictures and black-and-white ones. A step
-// between black and white is the hardest test of the shape of a PSF.
+// Checks flat disparities with many radii, on random pictures and on black-and-white pictures.
+// Steps between black and white are the most sensitive test of the shape of a PSF.
 void CheckRadii(double theta) {
   for (const double r :
        {0.0, 0.05, 0.125, 0.4, 0.5, 0.5625, 0.625, 0.75, 0.875, 1.0,  1.3,  1.5, 1.75,
@@ -185,7 +185,7 @@ TEST_CASE("blur: PSFs sum to exactly one, fit their types and decrease from the 
   const int steps = starfocus::BlurStepCount(most);
   std::vector<uint16_t> weights(starfocus::BlurWeightCount(false, most));
   std::vector<starfocus::Psf> kernels(static_cast<size_t>(steps));
-  // The PSFs are made in two calls, as an engine does when it needs more of them.
+  // The PSFs are made in two calls, as in an engine that later requires PSFs for larger radii.
   const uint32_t fall_off = starfocus::ApertureFallOff(kTheta);
   starfocus::MakePsfs(0, steps / 3, fall_off, nullptr, weights.data(), kernels.data());
   starfocus::MakePsfs(steps / 3, steps, fall_off, nullptr, weights.data(), kernels.data());

@@ -61,7 +61,7 @@ inline void FilterLine(LayeredPicture* picture, int x, int y, int dx, int dy, in
     last = 1;
   }
   for (int c = 0; c < 3; ++c) {
-    // Rounds to the engine's grid of light, since decisions about the next line depend on the
+    // Rounds to the engine's grid of light, since the conditions of later lines depend on the
     // result.
     const auto light = [&](int code) { return std::floor(128 * LightOf(code, transfer) + 0.5); };
     const double from = light(p0[c]), to = last > 0 ? light(q(last)[c]) : 0;
@@ -80,7 +80,7 @@ inline void FilterPair(LayeredPicture* picture, int x0, int y0, int x1, int y1, 
   if (before < after) FilterLine(picture, x1, y1, x0 - x1, y0 - y1, beta, transfer);
 }
 
-// Filters all horizontal boundaries of the picture, then all vertical ones.
+// Filters all horizontal boundaries of the picture, then all vertical boundaries.
 inline void DeblockPicture(LayeredPicture* picture, int beta, int transfer) {
   for (int y = kUnit; y < picture->height; y += kUnit) {
     for (int x = 0; x < picture->width; ++x) {

@@ -21,8 +21,8 @@ using namespace starfocus;
 using test::DeblockPicture;
 using Picture = test::LayeredPicture;
 
-// Deblocks as the engine does: stripe by stripe, with the columns of smallest blocks in `parts`
-// jobs from right to left.
+// Deblocks as the engine does, stripe by stripe. The columns of smallest blocks are divided into
+// `parts` jobs, which run from right to left.
 void DeblockStripes(Picture* picture, int stripe_height, int parts, int beta, int transfer) {
   const int most_rows = stripe_height / kSmallestBlock;
   std::vector<uint8_t> layers(size_t(picture->columns) * size_t(most_rows + 1), 0xEE);
@@ -90,8 +90,8 @@ TEST_CASE("deblock: stripes give the same result as the whole picture") {
   CHECK(changed > 500);
 }
 
-// Returns the deblocked row of a picture whose rows are all equal to `levels`. Its two blocks have
-// the given layers.
+// Returns the deblocked row of a picture whose rows are all equal to `levels`. The two blocks of
+// the picture are at the layers `before` and `after`.
 std::vector<int> DeblockedRow(const std::vector<int>& levels, int before, int after, int beta,
                               bool vertical) {
   const int length = int(levels.size());
@@ -159,18 +159,15 @@ TEST_CASE("deblock: the filter applies only if the difference is below beta") {
       const auto row = [&](const std::vector<int>& levels, int p, int beta) {
         return DeblockedRow(levels, p, 0, beta, vertical);
       };
-      // Weak filter:
-      // p0 - q1
-      //  < beta.
+      // The weak filter applies if |p0 - q1| < beta.
       CHECK(row(step({40, 20, 40, 40}), 1, 20) == step({40, 20, 40, 40}));
       CHECK(row(step({40, 20, 40, 40}), 1, 19) == step({40, 20, 40, 40}));
       CHECK(row(step({40, 20, 40, 40}), 1, 21) == step({10, 20, 40, 40}));
-      // Strong filter:
-      // p0 - q3
-      //  < beta, with any pixels in between.
+      // The strong filter applies if |p0 - q3| < beta, with any pixels in between.
       CHECK(row(step({40, 90, 40, 20}), 2, 21) == step({5, 10, 15, 20}));
       CHECK(row(step({40, 90, 40, 20}), 2, 20) == step({40, 90, 40, 20}));
-      // If the strong condition fails, the weak one may still hold.
+      // If the condition of the strong filter fails, the condition of the weak filter may still
+      // hold.
       CHECK(row(step({40, 10, 40, 20}), 2, 20) == step({5, 10, 40, 20}));
       CHECK(row(step({40, 20, 40, 20}), 2, 20) == step({40, 20, 40, 20}));
       // With a beta of 0 no filter applies.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the gathering of the block mode. Exactly the smooth cells must be gathered, and they must
-// be blurred as in the blur mode.
+// Tests the gathering of the block mode. Smooth cells, and no other cells, must be gathered.
+// Gathered cells must be blurred as in the blur mode.
 #include "lib/filter/gather.h"
 
 #include <doctest/doctest.h>
@@ -50,12 +50,13 @@ struct Cells {
   }
   Cells(const Cells&) = delete;
 
-  // Returns the number of pixels that blur reaches, rounded up by half a pixel.
+  // Returns the largest blur radius of the cell plus half a pixel, rounded up to whole pixels.
   static int Reach(const Cell& cell) {
     return int(std::ceil((cell.r_max + kOne / 2) / double(kOne)));
   }
 
-  // Returns the number of pixels that the blur of the cell's nearest pixels reaches.
+  // Returns the blur radius of the cell's nearest pixels plus half a pixel, rounded up to whole
+  // pixels.
   int NearReach(const Cell& cell) const {
     const double radius = std::ceil(double(scale.step) * std::abs(cell.high - scale.focus) /
                                     double(int64_t{1} << starfocus::kStepBits));
@@ -137,7 +138,7 @@ TEST_CASE("gather: a flat surface gets the bytes of the blur mode") {
           RefocusScene(scene, config, test::Params(radius, 1, STARFOCUS_MODE_BLUR));
       CAPTURE(radius);
       CHECK(gathered.rgb == blurred.rgb);
-      // Light of sRGB is not an integer code, so means of mirrored pixels are rounded.
+      // With sRGB, light is not an integer code, so rounding may differ by a level.
       starfocus_config light = config;
       light.transfer = STARFOCUS_TRANSFER_SRGB;
       CHECK(LargestDifference(

@@ -44,7 +44,8 @@ double Tap(int n, double beta, double gain) {
   return windowed(n) / sum * gain;
 }
 
-// Pixels of three samples in double precision. Outside the image its edges are repeated.
+// An image of three samples per pixel in double precision. Beyond the image, the edge pixels are
+// repeated.
 struct Image {
   Image(int w, int h) : width(w), height(h), samples(3 * size_t(w) * size_t(h)) {}
   double& At(int x, int y, int c) {
@@ -133,7 +134,7 @@ starfocus::Window WindowOf(const std::vector<uint8_t>& picture, int width, int h
   return window;
 }
 
-// Memory for columns and rows of layer 1.
+// Scratch memory for the columns and rows of layer 1.
 struct Scratch {
   Scratch(int columns, int rows)
       : even(3 * (size_t(columns) + 3) + kPadding),
@@ -147,7 +148,7 @@ struct Scratch {
   const starfocus::ResampleScratch memory;
 };
 
-// Layers 1 and 2 of a picture, made as for a stripe of superblocks.
+// Layers 1 and 2 of a picture, computed in columns of superblocks as in the engine.
 struct Layers {
   Layers(const std::vector<uint8_t>& picture, int width, int height, int superblock,
          const starfocus::simd::Kernels& kernels)
@@ -167,8 +168,7 @@ struct Layers {
   Layer one, two;
 };
 
-// Samples of a layer with a margin of repeated pixels, as far as upsampling to width x height
-// reads.
+// The samples of a layer that upsampling to width x height reads, with a margin of repeated pixels.
 struct Padded {
   template <class Load>
   Padded(int layer_width, int layer_height, int width, int height, int margin, const Load& load) {
@@ -253,10 +253,12 @@ std::vector<uint8_t> RandomPicture(int width, int height, Content content, test:
 int Superblock(test::Random* random) { return 32 << random->Int(0, 3); }
 
 struct Errors {
-  double samples[3] = {}, levels[3] = {};  // by layer: before and after rounding to gray levels
+  // Largest errors per layer, before and after rounding to gray levels.
+  double samples[3] = {}, levels[3] = {};
 };
 
-// Returns the largest differences between the engine and double precision, down and up.
+// Returns the largest differences between the engine and double precision, after subsampling and
+// upsampling.
 Errors Compare() {
   test::Random random(13);
   Errors errors;
@@ -291,7 +293,8 @@ Errors Compare() {
 
 TEST_CASE("layers: taps match their definition") {
   const double one = 1 << kTapBits;
-  // Equal up to rounding. One tap of each sum takes the remainder, so that the gain is exactly 1.
+  // The taps must equal their definition up to rounding. The centre tap takes the remainder of
+  // rounding, so that the gain is exactly 1.
   const auto check = [&](const HalfBand& taps, double beta, double gain) {
     CHECK(std::abs(taps.near - one * Tap(1, beta, gain)) < 1);
     CHECK(std::abs(taps.far - one * Tap(3, beta, gain)) < 1);
@@ -299,7 +302,8 @@ TEST_CASE("layers: taps match their definition") {
   check(starfocus::kDownFilter, kBetaDown, 1);
   CHECK(std::abs(starfocus::kDownFilter.centre - one * Tap(0, kBetaDown, 1)) < 1);
   check(starfocus::kUpFilter, kBetaUp, 2);
-  // With beta_U, G_U(-1) is nearly 0; unit gain of both phases makes it exactly 0.
+  // With beta_U, G_U(-1) is nearly 0. The engine changes the centre tap so that G_U(-1) is exactly
+  // 0, which gives both phases a gain of 1.
   const double response = Tap(0, kBetaUp, 2) - 2 * Tap(1, kBetaUp, 2) - 2 * Tap(3, kBetaUp, 2);
   CHECK(std::abs(response) < 3e-4);
   CHECK(std::abs(starfocus::kUpFilter.centre - one * Tap(0, kBetaUp, 2)) <
@@ -373,7 +377,7 @@ TEST_CASE("layers: constant pictures of every level and every small size do not 
 
 TEST_CASE("layers: each layer has half the size of the one before, rounded up, plus one") {
   for (int size = 1; size < 300; ++size) {
-    // Layer 1 has (size + 1) / 2 pixels inside the picture, and one more.
+    // Layer 1 has (size + 1) / 2 pixels inside the picture, and one more pixel beyond the picture.
     CHECK(LayerSize(size, 0) == size);
     CHECK(LayerSize(size, 1) == (size + 1) / 2 + 1);
     CHECK(LayerSize(size, 2) == ((size + 1) / 2 + 2) / 2 + 1);

@@ -53,7 +53,7 @@ TEST_CASE("slope: radii of a plane's pixels are those of their disparities") {
     CHECK(pixel.low == pixel.high);
     CHECK(pixel.low / kOne ==
           doctest::Approx(std::fabs(middle + 3.5 * 0.1 - 3.5 * 0.05)).epsilon(0.01));
-    // Pixels of layers are larger, so their radii are smaller.
+    // Pixels of layer 1 are twice as large, so radii in pixels are half as large.
     const RadiusRange layer = plane.Middle(1).RangeOf({11, 8, 1, 1});
     CHECK(layer.low / kOne ==
           doctest::Approx(std::fabs(middle + 3 * 0.1 - 3 * 0.05) / 2).epsilon(0.01));

@@ -18,8 +18,8 @@
 
 namespace starfocus::fuzz {
 
-// Checks that the XMP which is written is well-formed. It may be nested deeper than the XMP that
-// was read.
+// Checks that the XMP that a writer makes is well-formed. The written XMP may be nested deeper than
+// the XMP that was read.
 inline void CheckCaptions(const Metadata& metadata) {
   const std::string packet = XmpPacket(metadata.xmp);
   if (packet.empty() || !CanReadXmp()) return;

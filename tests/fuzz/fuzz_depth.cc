@@ -18,7 +18,7 @@ using starfocus::fuzz::Input;
 
 constexpr int kViews[] = {1, 5, 9, 17};
 
-// Makes a configuration. Most are valid; a few have arbitrary bytes in one field.
+// Makes a configuration. Most configurations are valid; a few have arbitrary bytes in one field.
 starfocus_depth_config MakeConfig(Input* input) {
   starfocus_depth_config config;
   starfocus_depth_config_init(&config);
@@ -35,9 +35,9 @@ starfocus_depth_config MakeConfig(Input* input) {
     uint8_t* bytes = reinterpret_cast<uint8_t*>(&config);
     input->Bytes(bytes + input->Int(0, static_cast<int>(sizeof(config) / 4) - 1) * 4, 4);
   }
-  static int32_t left;  // number of calls of progress before the one that cancels
+  static int32_t left;  // number of calls of progress before the cancellation
   left = input->Int(0, 20);
-  config.problem = nullptr;  // the target keeps these pointers valid
+  config.problem = nullptr;  // pointers must be valid, so they are not drawn
   config.runner = nullptr;
   config.progress = nullptr;
   config.progress_data = &left;
@@ -84,7 +84,7 @@ void FillMap(const starfocus_depth_config& config, Input* input, Rows<float>* ma
   }
 }
 
-// Makes a picture of strands above a body, and a map in which their outline is closed.
+// Makes a picture of strands above a body, and a map in which the strands form a closed outline.
 void FillHair(const starfocus_depth_config& config, Input* input, Rows<uint8_t>* picture,
               Rows<float>* map) {
   const test::Strands strands = test::DrawStrands(input);
@@ -105,7 +105,7 @@ void FillHair(const starfocus_depth_config& config, Input* input, Rows<uint8_t>*
   }
 }
 
-// Checks that all values are in the range, except for those that a repair keeps.
+// Checks that all values of the map are in the range of the configuration.
 void CheckMap(const starfocus_depth_config& config, const Rows<float>& map) {
   for (int32_t y = 0; y < config.height; ++y) {
     for (int32_t x = 0; x < config.width; ++x) {
@@ -161,7 +161,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (status == STARFOCUS_OK && out.has_coverage != 0 && (out.has_coverage != 1 || !may_cover)) {
     std::abort();
   }
-  // Only the map may be invalid.
+  // All arguments except the map are valid, so only the map may cause an error.
   const bool cancelled = config.progress != nullptr && status == STARFOCUS_ERROR_CANCELLED;
   if (status != STARFOCUS_OK && !cancelled &&
       !(repairs &&

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fuzz target: calls that must return the same bytes. The input selects the configuration, the lens
-// and the calls. The pictures are derived from a number of the input.
+// and the calls. One number of the input is the seed of the pictures.
 #include <cstdio>
 #include <cstdlib>
 

@@ -21,7 +21,7 @@ using test::Strands;
 
 constexpr int kViews[] = {1, 5, 9, 17};
 constexpr int kBlocks[] = {32, 64, 128, 256};
-// Largest number of rendered views times pixels of one input, so that inputs stay fast.
+// Limits the number of rendered views times pixels, so that every input runs fast.
 constexpr double kMostWork = 300000;
 
 // Derives the shape from the value of another field, so that recorded inputs keep their meaning.
@@ -42,14 +42,15 @@ void SetPositions(int drawn, starfocus_config* config) {
   }
 }
 
-// Sets the range of disparities of strands and the background.
+// Sets a range of disparities that suits strands in front of a background.
 void SetDepths(Input* input, starfocus_config* config) {
   config->disparity_min = static_cast<float>(input->Real(-12, 3));
   config->disparity_max = config->disparity_min + static_cast<float>(input->Real(5, 12));
 }
 
-// Makes a configuration with room for strands or of any size, and the shape of the lens. Most
-// configurations are valid; a few have arbitrary bytes in one field.
+// Makes a configuration and the shape of the lens. With `strands`, the picture is large enough for
+// strands; otherwise it has any size. Most configurations are valid; a few have arbitrary bytes in
+// one field.
 starfocus_config MakeConfig(bool strands, Input* input, starfocus_lens* lens) {
   starfocus_config config;
   starfocus_config_init(&config);
@@ -71,7 +72,7 @@ starfocus_config MakeConfig(bool strands, Input* input, starfocus_lens* lens) {
   config.tuning.deblocking = input->Int(0, 255);
   config.tuning.timing.block = 1u << input->Int(0, 26);
   config.tuning.timing.c = static_cast<uint32_t>(input->Int(0, 100000));
-  // These derive from the value of another field, so that recorded inputs keep their meaning.
+  // The following fields derive from tuning.deblocking, so that recorded inputs keep their meaning.
   config.tuning.gather = config.tuning.deblocking % 3 != 0;
   config.previews = config.tuning.deblocking / 4 % 4;
   config.tuning.n_scale = 0.5 + 0.25 * (config.tuning.deblocking % 7);
@@ -93,7 +94,7 @@ starfocus_config MakeConfig(bool strands, Input* input, starfocus_lens* lens) {
   return config;
 }
 
-// Sets parameters. `params` have the shape of the lens already.
+// Sets all parameters except the shape of the lens, which the caller has set.
 void SetParams(const starfocus_config& config, Input* input, starfocus_params* given) {
   starfocus_params& params = *given;
   params.mode = input->Rarely() ? input->Value<int32_t>() : input->Int(0, 3);
@@ -118,7 +119,7 @@ void SetParams(const starfocus_config& config, Input* input, starfocus_params* g
   }
 }
 
-// Sets a progress function that cancels, or no function.
+// Sets a progress function that cancels, or leaves the progress function unset.
 void SetProgress(starfocus_engine* engine, Input* input) {
   starfocus_callbacks callbacks = {};
   if (input->Rarely()) {
@@ -139,7 +140,7 @@ struct Pictures {
   starfocus_light_field field = {};
 };
 
-// Returns the size in bytes of a picture without memory after the last pixel.
+// Returns the size in bytes of a picture that ends with its last pixel.
 size_t Needed(size_t stride, int rows, size_t row) {
   return stride * static_cast<size_t>(rows - 1) + row;
 }
@@ -150,7 +151,7 @@ struct Levels {
   std::unique_ptr<uint8_t[]> samples;
 };
 
-// Makes runs of any levels, or the levels of the strands.
+// Makes runs of random levels, or the levels of the strands.
 Levels MakeLevels(const starfocus_config& config, const Strands& strands,
                   int (Strands::*level_at)(int x, int y) const, Input* input) {
   const auto width = static_cast<size_t>(config.width);
@@ -240,7 +241,7 @@ int RowCount(int left, Input* input) {
   return std::min(input->Int(0, 40) + (input->empty() ? 9 : 0), left);
 }
 
-// Pushes rows and pulls finished ones into `out`, in any order. Restarts the stream in some cases.
+// Pushes rows, and pulls finished rows into `out`, in any order. Restarts the stream in some cases.
 void Stream(starfocus_engine* engine, const starfocus_config& config,
             const starfocus_params& params, const Pictures& pictures, uint8_t* out, size_t stride,
             Input* input) {
@@ -265,7 +266,8 @@ void Stream(starfocus_engine* engine, const starfocus_config& config,
   }
 }
 
-// Refocuses whole pictures by one of several calls. The previous frame may be equal or different.
+// Refocuses a whole picture by one of several calls. The previous frame may equal the frame or
+// differ.
 void Refocus(starfocus_engine* engine, const starfocus_config& config,
              const starfocus_params& params, const Pictures& pictures, uint8_t* out, size_t stride,
              Input* input) {
@@ -327,7 +329,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     const bool by_default = params.mode == STARFOCUS_MODE_BLOCK || (frame && config.views == 1);
     const bool subapertures = by_default ? params.renderer != STARFOCUS_RENDERER_LINE_SCAN
                                          : frame && params.renderer == STARFOCUS_RENDERER_SLICES;
-    // Views that stand for subapertures are at most 13 along the radius, however wide the blur is.
+    // The rule of subapertures uses at most 13 views along the radius, however large the blur is.
     const double n = scale * (subapertures ? std::min(config.max_blur, 13.0) : config.max_blur);
     if (3.2 * n * n * config.width * config.height > kMostWork) continue;
     if (test::Has(config.features, STARFOCUS_FEATURE_STREAMING) && input.Int(0, 1) == 1) {

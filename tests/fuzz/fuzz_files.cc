@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fuzz target: readers of single files, which are PFM maps, PNG, PPM and JPEG pictures, and small
-// texts.
+// Fuzz target: readers of single files. The files are PFM maps, pictures in PNG, PPM and JPEG, and
+// small texts.
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -15,7 +15,7 @@
 
 namespace {
 
-// A file in memory, with a path that opens it.
+// A file in memory, and a path that opens this file.
 class MemoryFile {
  public:
   MemoryFile(const uint8_t* data, size_t size) : handle_(memfd_create("fuzz", 0)) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fuzz target: depth photos as HEIF files, and therefore the calls of libheif.
+// Fuzz target: depth photos in HEIF files, which also tests the calls of libheif.
 #include "platform/readers/heic.h"
 #include "tests/fuzz/check_photo.h"
 #include "tests/fuzz/input.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fuzz target: folders of views. Lines of the input are names of pictures and the text files next
-// to them.
+// Fuzz target: folders of views. The lines of the input are the names of pictures, and the contents
+// of text files next to the pictures.
 #include <unistd.h>
 
 #include <cstdlib>
@@ -39,7 +39,7 @@ void CheckArray(const std::string& text) {
   }
 }
 
-// Reads segments and indices of a JPEG file without decoding a picture.
+// Also reads the segments and indices of a JPEG file, without decoding a picture.
 void CheckParts(const uint8_t* data, size_t size) {
   const auto read = starfocus::ReadJpegParts("photo", {data, size});
   if (!read) return;

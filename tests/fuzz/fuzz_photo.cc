@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fuzz target: readers of depth photos except HEIF, which is ten times as slow and has its own
+// Fuzz target: readers of depth photos except HEIF. HEIF is ten times as slow and has a separate
 // target.
 #include "platform/readers/heic.h"
 #include "tests/fuzz/check_photo.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks the memory that reading a picture takes: at most 64 MiB, and 16 bytes for each pixel that
-// the file declares. Aborts if it takes more. Only Linux can measure the memory of each input;
-// other systems check nothing.
+// Limits the memory that reading a picture takes to 64 MiB plus 16 bytes for each pixel that the
+// file declares. Aborts if a reader exceeds the limit. Only Linux can measure the memory of each
+// input; other systems check nothing.
 #ifndef STARFOCUS_TESTS_FUZZ_MEMORY_BUDGET_H_
 #define STARFOCUS_TESTS_FUZZ_MEMORY_BUDGET_H_
 
@@ -17,7 +17,7 @@
 
 namespace starfocus::fuzz {
 
-// No reader accepts a picture with more pixels, so larger numbers are reduced to this one.
+// Largest number of pixels that a reader accepts. Larger numbers are reduced to this limit.
 inline constexpr int64_t kMostPixels = int64_t{1} << 28;
 
 inline int64_t PixelsOf(int64_t width, int64_t height) {
@@ -30,8 +30,8 @@ inline int64_t WholeAt(const uint8_t* data, int bytes, bool big) {
   return value;
 }
 
-// Returns the number of pixels of all PNG headers and JPEG frames in the file. A photo may contain
-// several.
+// Returns the sum of the pixels that all PNG headers and JPEG frames in the file declare. A photo
+// may contain several pictures.
 inline int64_t PixelsOfHeaders(const uint8_t* data, size_t size) {
   int64_t pixels = 0;
   for (size_t at = 0; at + 12 <= size; ++at) {
@@ -45,7 +45,8 @@ inline int64_t PixelsOfHeaders(const uint8_t* data, size_t size) {
   return pixels;
 }
 
-// Returns the number of pixels of the canvas, or of the only picture (RFC 9649, 2.5 to 2.7).
+// Returns the number of pixels of the canvas of a WebP file, or of the picture if there is no
+// canvas (RFC 9649, 2.5 to 2.7).
 inline int64_t PixelsOfWebp(const uint8_t* data, size_t size) {
   if (size < 30) return 0;
   if (std::memcmp(data + 12, "VP8X", 4) == 0) {
@@ -69,7 +70,7 @@ inline int64_t DeclaredPixels(const uint8_t* data, size_t size) {
   return PixelsOfHeaders(data, size);
 }
 
-// Returns the number of KiB in a line of /proc/self/status, or -1 without such a line.
+// Returns the number of KiB in the named line of /proc/self/status, or -1 if there is no such line.
 inline int64_t StatusOf(const std::string& name) {
   std::ifstream file("/proc/self/status");
   for (std::string line; std::getline(file, line);) {
@@ -98,7 +99,7 @@ class MemoryBudget {
 
  private:
 #if defined(__SANITIZE_ADDRESS__)
-  static constexpr int64_t kShare = 4;  // freed memory remains allocated for a while
+  static constexpr int64_t kShare = 4;  // AddressSanitizer keeps freed memory for a while
 #elif defined(__has_feature)
   static constexpr int64_t kShare = __has_feature(address_sanitizer) ? 4 : 1;
 #else

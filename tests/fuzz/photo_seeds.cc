@@ -36,8 +36,8 @@ void WritePhotos(const std::string& folder) {
         Gdepth(jpeg, kRange, "GDepth:Data=\"" + Base64(Png16(2, 2, {0, 9, 99, 65535})) + "\""));
   Write(folder + "/dynamic.jpg", DynamicDepth(jpeg, png, kMap));
   Write(folder + "/apple.jpg", MultiPicture(jpeg, AppleMap(jpeg, kDisparities)));
-  // Unusual photos: without an index, with a wrong index, a pair, diopters with wrong lengths, two
-  // packets, and a profile with unordered parts.
+  // Unusual photos: no index, a wrong index, a pair, diopters with wrong lengths, two packets, and
+  // a profile with unordered parts.
   Write(folder + "/no_index.jpg", jpeg + AppleMap(jpeg, kDisparities));
   Write(folder + "/wrong_index.jpg",
         MultiPicture(jpeg, AppleMap(jpeg, kDisparities), {true, 2, 9}));

@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
     for (const auto& entry : std::filesystem::directory_iterator(argv[k])) {
       std::ifstream file(entry.path(), std::ios::binary);
       std::vector<uint8_t> bytes((std::istreambuf_iterator<char>(file)), {});
-      bytes.shrink_to_fit();  // makes sanitizers report reads after the last byte
+      bytes.shrink_to_fit();  // lets sanitizers report reads after the last byte
       LLVMFuzzerTestOneInput(bytes.data(), bytes.size());
       ++count;
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks that the engine allocates nothing on the heap. This program replaces malloc and its
-// relatives and counts their calls while the engine works.
+// Checks that the engine allocates nothing on the heap. This program replaces malloc and related
+// functions, and counts their calls while the engine works.
 #include <doctest/doctest.h>
 
 #include <atomic>
@@ -81,7 +81,7 @@ void free(void* memory) noexcept {
 
 }  // extern "C"
 
-// The other forms of new and delete call these (C++17 [new.delete]).
+// All other forms of new and delete call the following forms (C++17 [new.delete]).
 void* operator new(size_t size) {
   Count();
   if (void* memory = __libc_malloc(size ? size : 1)) return memory;
@@ -127,7 +127,7 @@ TEST_CASE("the watch counts every kind of heap call") {
 
 int wrong = 0;  // number of calls with an unexpected result
 
-// Same as CHECK, which may allocate memory.
+// Replaces CHECK, which may allocate memory.
 void Expect(starfocus_status expected, starfocus_status status) { wrong += status != expected; }
 
 TEST_CASE("size queries, initialisation, refocusing and streaming make no heap call") {
@@ -198,7 +198,7 @@ TEST_CASE("images make no heap call") {
 }
 
 TEST_CASE("block mode with all layers, deblocking, visitor and clock makes no heap call") {
-  // In focus on the left, strongly blurred on the right.
+  // The scene is in focus on the left, and strongly blurred on the right.
   test::Scene scene = test::RandomScene(160, 96, 5, -1, 26, 8);
   for (int y = 0; y < scene.height; ++y) {
     for (int x = 0; x < scene.width; ++x) {
@@ -270,7 +270,7 @@ TEST_CASE("preparing, regions and refocusing prepared light fields make no heap 
   test::Engine holder(config), memory(config);
   size_t bytes = 0;
   REQUIRE(starfocus_prepared_size(&config, &bytes) == STARFOCUS_OK);
-  REQUIRE(bytes <= memory.bytes());  // the memory of an engine is used for the prepared light field
+  REQUIRE(bytes <= memory.bytes());  // the prepared light field uses the memory of an engine
   starfocus_params params = test::Params(0, 1, STARFOCUS_MODE_BLOCK);
   params.region = {30, 20, 50, 50};
   const starfocus_light_field field = scene.Field();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the continuation of surfaces beyond the picture. If the side views show enough, a refocused
-// picture must be equal to the same part of a larger picture of the scene. Surfaces that a nearer
-// one covers must not be used.
+// Tests the continuation of surfaces beyond the picture. If side views show the scene beyond the
+// picture, a refocused picture must equal the same part of a larger picture of the scene. Surfaces
+// that a nearer surface covers must not be used.
 #include "lib/input/picture_edge.h"
 
 #include <doctest/doctest.h>
@@ -30,7 +30,7 @@ test::Scene FlatScene(int x0, int y0, int side, int views, float disparity) {
     starfocus_view_position(view, &u, &v);
     for (int y = 0; y < side; ++y) {
       for (int x = 0; x < side; ++x) {
-        // Pixel (x, y) of the centre view is at (x - u d, y - v d).
+        // View (u, v) shows pixel (x, y) of the centre view at (x - u d, y - v d).
         const double px = x0 + x + u * double(disparity), py = y0 + y + v * double(disparity);
         for (int c = 0; c < 3; ++c) {
           const double wave = std::sin(0.23 * px + c) * std::cos(0.19 * py - c) + 0.004 * (px + py);
@@ -48,7 +48,8 @@ struct Difference {
   double mean;
 };
 
-// Compares the picture with the same part of a larger one, near the edges but not near the corners.
+// Compares the picture with the same part of a larger picture, near the edges but not near the
+// corners.
 Difference AtEdges(const test::Refocused& picture, const test::Refocused& larger, int margin) {
   constexpr int kFrame = 6, kCorner = 16;
   Difference difference = {0, 0};
@@ -121,7 +122,7 @@ TEST_CASE("beyond: a single view repeats its edge") {
 constexpr int kWidth = 64, kHeight = 8, kBorder = 12;
 
 struct Row {
-  // The centre view is 10 x at pixel x; side view v is 100 + v everywhere.
+  // The centre view has level 10 x at pixel x. Side view v has level 100 + v everywhere.
   explicit Row(int views) : side(size_t(views)) {
     for (size_t view = 0; view < side.size(); ++view) {
       side[view].assign(3 * kWidth * kHeight, uint8_t(100 + view));
@@ -171,7 +172,8 @@ TEST_CASE("beyond: the view on the outer side is used as far as it sees beyond t
     for (const int unit : {-5, 5}) {
       Row scene(views);
       scene.Fill(0, kWidth, unit);
-      // View 1 is at (1, 0), view 2 at (-1, 0). Pixel k beyond the left edge lies at -k - u d.
+      // View 1 is at (1, 0), and view 2 is at (-1, 0). A view at u shows pixel k beyond the left
+      // edge at -k - u d.
       const int left = unit < 0 ? 1 : 2, right = 3 - left;
       for (int y = 0; y < kHeight; ++y) {
         for (int x = 0; x < 5; ++x) {
@@ -218,7 +220,7 @@ TEST_CASE("beyond: pixels under or behind a nearer surface are not used") {
   CHECK(row[kBorder] == 0);
   for (int k = 1; k <= kBorder; ++k) CHECK(row[size_t(kBorder - k)] == 101);
   for (int y = 0; y < kHeight; ++y) {
-    // In this view pixel 4 beyond the edge is at 2, and pixel 3 is at 3.
+    // View 1 shows pixel 4 beyond the edge at position 2, and pixel 3 at position 3.
     scene.side[1][size_t(3 * (y * kWidth + 2))] = 7;
     scene.side[1][size_t(3 * (y * kWidth + 3))] = 9;
   }

@@ -13,7 +13,7 @@ import java.nio.ByteBuffer;
 import java.nio.ByteOrder;
 
 /**
- * AndroidTest DOUBLE: tests the routes of Bitmap and HardwareBuffer. The library DOUBLE replaces
+ * AndroidTest DOUBLE: tests the paths for Bitmap and HardwareBuffer. The library DOUBLE replaces
  * Android's classes and the functions of the NDK. At aperture 0 the picture is the centre view.
  */
 public final class AndroidTest {
@@ -74,7 +74,7 @@ public final class AndroidTest {
       refocus(view.image, out.image);
     }
     check(camera.locks == 0 && screen.locks == 0, "the buffers are given back");
-    // The picture is grey, so that R, G and B equal the luma.
+    // The picture is grey, so that R, G and B are equal to the luma.
     for (int i = 0; i < 4 * WIDTH; ++i) {
       final byte expected = i % 4 == 3 ? (byte) 255 : (byte) (i / 4 * 5);
       check(screen.memory.get(256 * (HEIGHT - 1) + i) == expected, "byte " + i + " of the screen");

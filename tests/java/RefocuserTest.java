@@ -40,7 +40,7 @@ public final class RefocuserTest {
     return ByteBuffer.allocateDirect(count).order(ByteOrder.nativeOrder());
   }
 
-  /** Returns a picture of noise, the same in each call. */
+  /** Returns a picture of noise. Every call returns the same picture. */
   private static ByteBuffer picture() {
     final ByteBuffer pixels = bytes(3 * WIDTH * HEIGHT);
     for (int i = 0; i < pixels.capacity(); ++i) pixels.put(i, (byte) (i * i / 7 + i / 480 * 31));
@@ -128,7 +128,7 @@ public final class RefocuserTest {
     final ByteBuffer whole = refocused(1);
     final Parameters parameters = new Parameters();
     parameters.focus = 1;
-    // Planes begin at the positions of the buffers.
+    // Each plane begins at the position of its buffer.
     final ByteBuffer far = bytes(3 * WIDTH * HEIGHT + 40);
     far.position(33);
     far.put(picture().duplicate()).position(33);
@@ -161,7 +161,10 @@ public final class RefocuserTest {
     }
   }
 
-  /** Refocuses views with different bytes, given in this order and at these positions. */
+  /**
+     Refocuses views with different bytes. The views are passed in the given order, with the given
+     positions.
+   */
   private static ByteBuffer refocusedFrom(int[] order, double[] positions) {
     final Image[] views = new Image[order.length];
     for (int k = 0; k < order.length; ++k) {
@@ -231,8 +234,8 @@ public final class RefocuserTest {
     for (int i = 0; i < chroma.capacity(); ++i) chroma.put(i, (byte) (i % 2 == 0 ? 120 : 135));
     final ByteBuffer v = chroma.duplicate();
     v.position(1);
-    // Android's layout: samples of U and V are two bytes apart. Each buffer is a byte shorter than
-    // half of the plane.
+    // Android's layout: samples of U and V are two bytes apart. Each chroma buffer is one byte
+    // shorter than half of the plane.
     final Image camera = new Image(
         Image.YUV_420_888, new ByteBuffer[] {luma, chroma, v}, new int[] {WIDTH, WIDTH, WIDTH});
     camera.pixelStride = 2;
@@ -310,7 +313,7 @@ public final class RefocuserTest {
   }
 
   /**
-   * Random arguments: calls that are accepted must write nothing outside the buffer of the
+   * Calls with random arguments that are accepted must write nothing outside the buffer of the
    * output.
    */
   private static void randomArgumentsWriteNothingBeyondTheOutput() {
@@ -409,7 +412,7 @@ public final class RefocuserTest {
       });
       work.setDaemon(true);
       work.start();
-      // A call that has not begun cannot be cancelled, so several attempts may be needed.
+      // A call that has not begun cannot be cancelled, so the test may take several attempts.
       for (int tries = 0; work.isAlive() && tries < 10000; ++tries) {
         refocuser.cancel();
         work.join(1);

@@ -1,8 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# run.sh BUILD [PRESET JRE]: tests the Java API with the library of BUILD. Runs the tests, the example that must
-# return the bytes of the program, and Android's routes with replacements for the NDK. Also tests an AAR. With PRESET,
-# tests the library that was built next to BUILD for aarch64, with its emulator and the Java unpacked in JRE.
+# run.sh BUILD [PRESET JRE]: tests the Java API with the library of BUILD. Runs the tests, and an example whose output
+# must equal the output of the program. Tests the paths for Android with replacements for the NDK, and tests an AAR.
+# With PRESET, tests the library that was built next to BUILD for aarch64, in an emulator with the Java runtime in the
+# folder JRE.
 set -eu
 case $# in 1 | 3) ;; *) echo "usage: $0 BUILD [aarch64 JRE]" >&2; exit 2 ;; esac
 sources=$(cd "$(dirname "$0")/../.." && pwd)
@@ -18,7 +19,7 @@ if [ -n "$preset" ]; then
   library=$(dirname "$build")/$preset/lib/libstarfocus_jni.so
   cc=aarch64-linux-gnu-gcc cxx=aarch64-linux-gnu-g++
   program=$(find "$jre/usr/lib/jvm" -path '*-17-*/bin/java')
-  # Under emulation, compiling frequent code is worthwhile, but optimizing it takes too long.
+  # Under emulation, compiling frequent code saves time, but the optimizing compiler takes too long.
   java() {
     qemu-aarch64 -L /usr/aarch64-linux-gnu \
       -E "LD_LIBRARY_PATH=$jre/usr/lib/aarch64-linux-gnu:$jre/lib/aarch64-linux-gnu" \
@@ -35,12 +36,12 @@ fail() {
   exit 1
 }
 
-# quietly COMMAND...: runs a command and shows its output only if it fails.
+# quietly COMMAND...: runs a command. Prints the output only if the command fails.
 quietly() {
   "$@" >"$work/log" 2>&1 || { cat "$work/log" >&2; fail "failed: $*"; }
 }
 
-# run CLASS ARGUMENT...: runs a class. The last line of its output is a summary.
+# run CLASS ARGUMENT...: runs a class, and prints the last line of the output, which is a summary.
 run() {
   quietly java -Xcheck:jni -cp "$work/classes" "-Djava.library.path=$(dirname "$library")" "$@"
   ! grep -q 'WARNING\|FATAL' "$work/log" || { cat "$work/log" >&2; fail "misused JNI: $1"; }
@@ -57,7 +58,7 @@ page_alignment() {
     fail "$1 is not aligned to pages of 16 KiB: $(readelf -lW "$1" | grep LOAD)"
 }
 
-# Uses android/bitmap.h of Debian. This folder replaces the parts that Debian does not have.
+# Uses android/bitmap.h from Debian. The folder android_double replaces headers that Debian does not have.
 android_routes() {
   headers=$(find /usr/include/android -name bitmap.h 2>/dev/null | head -n 1)
   [ -n "$headers" ] || { echo "SKIPPED: Android's routes, for which there is no android/bitmap.h"; return; }
@@ -74,7 +75,7 @@ android_routes() {
   run AndroidTest "$work/libdouble.so"
 }
 
-# Checks the parts that Gradle and prefab need.
+# Checks the parts of the AAR that Gradle and prefab require.
 archive() {
   case "$preset" in aarch64) abi=arm64-v8a ;; *) abi=x86_64 ;; esac
   quietly jar cf "$work/classes.jar" -C "$work/classes" dev/starfocus

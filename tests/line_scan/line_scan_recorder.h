@@ -24,8 +24,9 @@ enum class Kind { kSurface, kMix, kHole };
 struct Shown {
   int times = 0;
   Kind kind = Kind::kSurface;
-  int source = -1;  // in a hole, the visible pixel whose surface continues
-  int other = -1;  // a neighbour, another surface, or the surface whose end covers a part of a hole
+  int source = -1;  // shown pixel of the line; in a hole, the pixel whose surface continues
+  // Second pixel: a neighbour, another surface, or the end that covers a part of a hole.
+  int other = -1;
   int weight = 0;  // weight of `other`
 };
 
@@ -61,8 +62,8 @@ struct Recorder {
     begins.push_back(begin);
     for (int p = begin; p < end; ++p) Show(p, Kind::kHole, pixel, -1, 0);
     if (rim.pixel < 0) return;
-    // From right to left, the scan continues at the left end of a hole. A sink may derive the
-    // direction from this.
+    // A scan from right to left continues at the left end of a hole. A sink may derive the
+    // direction from the order of the two pixels.
     CHECK((rim.pixel < pixel) == (direction == Direction::kRightToLeft));
     Shown& shown = pixels[size_t(direction == Direction::kRightToLeft ? begin : end - 1)];
     shown.other = rim.pixel;
@@ -109,7 +110,7 @@ inline Picture Scan(const Depths& line, int begin, int end) {
 }
 inline Picture Scan(const Depths& line) { return Scan(line, 0, int(line.size())); }
 
-// Return the mirrored line and its mirrored view.
+// Return the mirrored line and the mirrored view of the line.
 inline Depths Mirrored(const Depths& line) { return {line.rbegin(), line.rend()}; }
 inline Picture Mirrored(const Picture& picture) {
   Picture mirrored(picture.rbegin(), picture.rend());

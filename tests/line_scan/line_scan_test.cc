@@ -87,12 +87,12 @@ bool IsSound(const Shown& shown, const RandomView& r) {
   REQUIRE(shown.source < length);
   if (shown.other < 0) return shown.kind != Kind::kMix && shown.weight == 0;
   REQUIRE(shown.other < length);
-  // Depth by which the other surface is nearer.
+  // Disparity by which the other surface is nearer.
   const int step = r.line[size_t(shown.other)] - r.line[size_t(shown.source)];
   switch (shown.kind) {
     case Kind::kSurface:
       return std::abs(step) <= kSurfaceStep && shown.weight > 0 && shown.weight <= 128;
-    // between runs; their pixels differ from their middles by up to half the spread
+    // The disparities of pixels differ from the middle of their run by up to half the spread.
     case Kind::kMix:
       return std::abs(step) > kSurfaceStep - r.grid.spread && shown.weight > 0 &&
              shown.weight <= 128;
@@ -176,8 +176,8 @@ TEST_CASE("line scan: every pixel is equal to that of the reference") {
       const reference::Owner& owner = expected[p];
       bad += (shown.kind == Kind::kHole) != owner.hole || shown.source != owner.source;
       if (shown.other >= 0) bad += shown.other != owner.other;
-      // Offsets are exact. The width of a subaperture is rounded, which matters most if it is
-      // narrow.
+      // Offsets of the engine are exact. Widths of subapertures are rounded, which affects narrow
+      // subapertures most.
       const bool blended = shown.kind == Kind::kSurface;
       bad += std::fabs(shown.weight - 256 * owner.share) > (blended ? 4 : 0);
       mixed += shown.kind == Kind::kMix;

@@ -26,7 +26,8 @@ Picture ScanBothWays(const Depths& line) {
   return right;
 }
 
-// Expected content of the pixels [begin, end) of a view. A surface is shown from pixel `source` on.
+// Expected content of the pixels [begin, end) of a view. Pixel `begin` shows line pixel `source`,
+// and the following pixels show the following line pixels.
 constexpr int kAny = INT_MIN;
 struct Part {
   Kind kind;
@@ -72,11 +73,11 @@ const Line kLines[] = {
     {"one pixel stays", {{1, 0}}, {Moved(0, 1, 0)}},
     {"one pixel moves left", {{1, 3}}, {Hole(0, 1, 0)}},
     {"one pixel moves right", {{1, -3}}, {Hole(0, 1, 0)}},
-    // Next to the near object the view shows the surface behind pixel 15.
+    // In the hole next to the near object, the surface of pixel 15 continues.
     {"a near object hides what lies left of it and uncovers what lies right",
      {{10, 0}, {5, 4}, {9, 0}},
      {Moved(0, 6, 0), Moved(6, 11, 4), Hole(11, 15, 15), Moved(15, 24, 0)}},
-    // The middle surface is completely behind the near one.
+    // The middle surface is completely behind the near surface.
     {"a hole borders on what is visible, not on what the near object hides",
      {{10, 5}, {2, -6}, {9, 9}, {9, 0}},
      {Moved(0, 3, 5), Moved(3, 12, 9), Hole(12, 21, 21), Moved(21, 30, 0)}},
@@ -85,8 +86,8 @@ const Line kLines[] = {
     {"a small step covers a part", {{10, 1}, {10, 2}}, {Moved(0, 8, 1), Moved(8, 18, 2)}},
     {"the largest step that stretches a surface", {{10, 2}, {10, 2 - kStep}}, {Moved(0, 9, 2)}},
     {"the least step that leaves a hole", {{10, 2}, {10, 2 - kStep - 1.0 / 64}}, {Hole(8, 9, 10)}},
-    // The gap of one pixel hides a third surface. The stretched pixel is a copy of this surface,
-    // but is not blended with its neighbours across the edges.
+    // A third surface lies in the gap of one pixel. The stretched pixel is a copy of this surface,
+    // and is not blended with neighbours across the edges.
     {"no neighbour across an edge inside a stretch",
      {{10, 3.375}, {2, 0}, {12, 4}},
      {Moved(0, 8, 3),
@@ -95,12 +96,13 @@ const Line kLines[] = {
       Plain(6, 9),
       {Kind::kSurface, 7, 8, 10, 11, 96}}},
 
-    // Ends of near surfaces. Pixels 10 to 14 move by 4 3/4 pixels: from 5 1/4 to 10 1/4.
+    // Ends of near surfaces. Pixels 10 to 14 move by 4 3/4 pixels, and then cover the range from 5
+    // 1/4 to 10 1/4.
     {"what is behind shows through the last pixel of a nearer surface",
      {{10, 0}, {5, 4.75}, {9, 0}},
      {Moved(0, 5, 0), Mix(5, 10, 5, 64), Moved(6, 10, 5), Rim(10, 15, 14, 64), Hole(11, 15, 15),
       Moved(15, 24, 0)}},
-    // The near surface moves to between 5 3/4 and 10 3/4.
+    // The near surface moves to the range from 5 3/4 to 10 3/4.
     {"a nearer surface covers a part of the pixel beyond its last",
      {{10, 0}, {5, 4.25}, {9, 0}},
      {Moved(0, 5, 0), Mix(5, 5, 10, 64), Moved(6, 10, 4), Rim(10, 15, 14, 192), Hole(11, 15, 15),
@@ -118,14 +120,14 @@ const Line kLines[] = {
     {"1/64 of a pixel more",
      {{10, 0}, {5, 4 + 1.0 / 64}, {9, 0}},
      {Mix(5, 5, 10, 4), Rim(10, 15, 14, 252)}},
-    // Pixel 10 moves to between 5 1/4 and 6 1/4: the part that pixel 5 lacks is in pixel 6.
+    // Pixel 10 moves to the range from 5 1/4 to 6 1/4, and covers parts of pixels 5 and 6.
     {"a surface of one pixel ends twice",
      {{10, 0}, {1, 4.75}, {9, 0}},
      {Moved(0, 5, 0), Mix(5, 10, 5, 64), Rim(6, 11, 10, 64), Hole(7, 11, 11)}},
     {"a surface of one pixel from 5 3/4 to 6 3/4",
      {{10, 0}, {1, 4.25}, {9, 0}},
      {Moved(0, 5, 0), Mix(5, 5, 10, 64), Rim(6, 11, 10, 192), Hole(7, 11, 11)}},
-    // The surface at -3 is hidden; the surface at 0 starts where the near one ends.
+    // The surface at -3 is hidden. The surface at 0 starts where the near surface ends.
     {"at its very end the surface behind shows its last pixel",
      {{10, 0}, {5, -3}, {5, 4.75}, {9, 0}},
      {Moved(0, 10, 0), Mix(10, 15, 9, 64), Moved(11, 15, 5)}},
@@ -138,7 +140,7 @@ const Line kLines[] = {
     {"of two surfaces beside a hole the nearer ends between pixels, the farther does not",
      {{10, 2.75}, {6, -5}, {5, 0.75}, {5, -3}},
      {Rim(7, 16, 9, 64), Hole(8, 15, 16), Plain(15, 16)}},
-    // One pixel at -6 is hidden between two surfaces 3/4 apart.
+    // One pixel at -6 is hidden between two surfaces whose disparities differ by 3/4.
     {"a hardly nearer surface stays whole",
      {{10, 4}, {1, -6}, {9, 4.75}, {9, 0}},
      {Moved(0, 6, 4), Moved(6, 15, 5)}},
@@ -148,12 +150,13 @@ const Line kLines[] = {
     {"just so much farther that a surface mixes",
      {{12, 4.75 - kStep - 1.0 / 64}, {2, -6}, {9, 4.75}, {9, -8}},
      {{Kind::kMix, 9, 10, 14, kAny, kAny}}},
-    // Ten pixels at -5 between the two surfaces are hidden now, so the farther surface continues.
+    // Ten pixels at -5 between two surfaces are hidden, so the farther of the two surfaces
+    // continues.
     {"a hole below a nearer surface has whole pixels on either side",
      {{10, 0.25}, {10, -5}, {5, 4.75}, {9, 0}},
      {Moved(0, 10, 0), {Kind::kHole, 10, 15, 9, -1, 0}, Plain(15, 20)}},
     {"an end on the border of the line", {{5, 1}, {5, 4.75}, {9, 0}}, {Mix(0, 5, 1, 64)}},
-    // The near surface has left the line at the other end, except for a quarter of a pixel.
+    // The near surface has left the line at the right end, except for a quarter of a pixel.
     {"an end on the other border of the line", {{10, -8}, {3, -2.75}}, {Mix(12, 4, 10, 64)}},
 };
 
@@ -186,8 +189,8 @@ TEST_CASE("lines: only the requested part is reported, and is equal to that of t
       }
     }
   }
-  // The surface to the right of a gap may lie beyond the requested part, with other surfaces to its
-  // right.
+  // The surface to the right of a gap may lie beyond the requested part, and further surfaces may
+  // lie to the right of this surface.
   const Picture picture = Scan(MakeLine({{10, 0}, {5, 4}, {7, 0}, {6, 6}}), 0, 13);
   CheckPart(picture, Moved(6, 11, 4));
   CheckPart(picture, Hole(11, 13, 15));

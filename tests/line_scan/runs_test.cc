@@ -90,7 +90,7 @@ TEST_CASE("runs: alternating extremes give runs of one pixel") {
 }
 
 TEST_CASE("runs: the subaperture is the distance that the run moves from view to view") {
-  // Distances to the focus, divided by four views: 0.5 and 0.75 pixels.
+  // The distances to the focus, divided by four views, are 0.5 and 0.75 pixels.
   const ViewGrid grid = MakeGrid(4, 1, 16);
   const std::vector<Run> runs =
       test::FindRuns({-128, -128, 192, 192}, grid, Direction::kRightToLeft);
@@ -114,7 +114,7 @@ void CheckLine(const Depths& line, const ViewGrid& grid, const std::vector<Run>&
     }
     CHECK(run.surface_end == surface_end);
     CHECK(run.subaperture == std::abs(grid.Shift(grid.Move(1), run.disparity)));
-    if (run.begin > 0) {  // one more pixel would exceed the spread
+    if (run.begin > 0) {  // with one more pixel, the run would exceed the spread
       const int next = line[size_t(run.begin - 1)];
       CHECK(std::max(high, next) - std::min(low, next) > grid.spread);
     }

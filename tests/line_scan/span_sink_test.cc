@@ -23,7 +23,7 @@ constexpr uint32_t kBlendOne = 1 << starfocus::simd::kBlendBits;
 constexpr double kRounding = 0.5 / 128;  // rounding error of light
 constexpr int16_t kUntouched = 0x5A5A;
 
-// Fills a hole with one gray level, and records the surface behind it.
+// Fills a hole with one gray level, and records the surface behind the hole.
 struct GrayHoles {
   int level;
   mutable int disparity = 0;
@@ -36,7 +36,7 @@ struct GrayHoles {
   }
 };
 
-// A line whose pixel x has the colours 20 x + c and the disparity 100 + x.
+// A line whose pixel x has level 20 x + c in channel c, and disparity 100 + x.
 struct Drawing {
   static constexpr int kBegin = 3;  // the first rendered pixel
 
@@ -47,7 +47,8 @@ struct Drawing {
     }
   }
 
-  // Blends with the disparity, or accumulates with `weight` and without the disparity.
+  // With `weight` kBlendOne, blends colours and disparities. With any other weight, accumulates
+  // colours without disparities.
   template <class Draw>
   void Run(uint32_t weight, const Draw& draw) {
     const starfocus::Line line = {rgb.data(), depths.data(), 1, kLength};
@@ -78,7 +79,7 @@ struct Drawing {
 };
 
 TEST_CASE("span sink: a mixed pixel has parts of both colours and the disparity of the first") {
-  for (const int other : {1, 6, 9}) {  // on either side, at any distance
+  for (const int other : {1, 6, 9}) {  // pixels on either side, at any distance
     for (const int weight : {1, 64, 128}) {
       const auto draw = [&](auto* sink) { sink->Mix(5, 4, other, weight); };
       const double exact = 80 + (20.0 * other - 80) * weight / 256;
@@ -100,7 +101,7 @@ TEST_CASE("span sink: a mixed pixel has parts of both colours and the disparity 
 
 TEST_CASE("span sink: a hole's rim lies where the scan continues, and is the run's from half on") {
   struct Case {
-    int pixel, rim, at;  // pixel and rim in the line, rendered position
+    int pixel, rim, at;  // pixel and rim in the line, position in the view
   };
   for (const Case& c : {Case{8, 2, 4}, Case{2, 8, 7}}) {
     for (const int covered : {1, 127, 128, 129, 255}) {

@@ -22,7 +22,7 @@ struct Greys {
   int far, near, mixed;
 };
 
-// A far surface on the left and a near one on the right. The captured views show only the far
+// A far surface on the left and a near surface on the right. The side views show only the far
 // surface.
 struct Scene {
   std::vector<uint8_t> centre, side;
@@ -84,9 +84,9 @@ struct Scene {
 };
 
 TEST_CASE("unmix: the near part of a sharp pixel next to a defocused surface is removed") {
-  CHECK(Scene(0, 4, {40, 240, 140}).Mixed() == 40);  // half of the near surface
+  CHECK(Scene(0, 4, {40, 240, 140}).Mixed() == 40);  // the mixed pixel is half near
   CHECK(Scene(0, 4, {40, 240, 180}).Mixed() == 40);
-  // a quarter of the near surface; half of this is left
+  // The mixed pixel shows a quarter of the near surface, and unmixing removes half of this quarter.
   CHECK(Scene(0, 4, {40, 240, 90}).Mixed() == 65);
   CHECK(Scene(0, 4, {240, 40, 190}).Mixed() == 215);
   CHECK(Scene(0, 4, {40, 240, 40}).Mixed() == 40);
@@ -96,15 +96,15 @@ TEST_CASE("unmix: the near part of a sharp pixel next to a defocused surface is 
 TEST_CASE("unmix: the captured view is read where the near surface has moved away") {
   for (const int views : {5, 9, 17}) {
     for (const bool mirrored : {false, true}) {
-      // Only the view that sees behind the edge is gray. According to the other views, the pixel
-      // would not be mixed.
+      // Only the view that sees behind the edge is gray. If another view were read, the pixel would
+      // not count as mixed.
       Scene scene(2, 6, {40, 240, 140}, views, mirrored);
       std::vector<uint8_t> other(scene.side.size(), 240);
       const int right = views == 17 ? 9 : 1, left = right + 1, behind = mirrored ? right : left;
       for (int view = 1; view < views; ++view) {
         if (view != behind) scene.planes.view[view].data = other.data();
       }
-      // Only this pixel of that view is gray; it moves by -u d.
+      // In the view that sees behind the edge, only the pixel that moves by -u d is gray.
       const int x = mirrored ? kSize - kEdge : kEdge - 1;
       const int moved = x + (mirrored ? -1 : 1) * (views == 17 ? 1 : 2);
       std::vector<uint8_t> one(scene.side.size(), 240);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compares the block analysis with a brute-force search on random disparity maps. No pixel beyond a
 // block's border may have a blur that reaches the block or the margin that its layer renders.
-// Outside the picture its edge pixels are repeated.
+// Outside the picture, the edge pixels are repeated.
 #include "lib/plan/block_stats.h"
 
 #include <doctest/doctest.h>
@@ -52,7 +52,7 @@ struct Map {
       }
     }
   }
-  // Returns the index of a pixel. Outside the picture its edges are repeated.
+  // Returns the index of a pixel. Outside the picture, the edges are repeated.
   size_t Index(int x, int y) const {
     const int cx = std::clamp(x, 0, width - 1), cy = std::clamp(y, 0, height - 1);
     return size_t(cy) * size_t(width) + size_t(cx);
@@ -88,7 +88,7 @@ int16_t Fixed(double disparity) {
   return int16_t(std::clamp(std::floor(disparity * kDisparityOne + 0.5), -32000.0, 32000.0));
 }
 
-// Contents of a map. All have disparities within `amplitude` of disparity 0.
+// Contents of a map. All contents have disparities from -amplitude to amplitude.
 enum Content { kPieces, kNoise, kSparks, kSlant, kContents };
 
 Map RandomMap(int width, int height, Content content, double amplitude, test::Random* random) {
@@ -113,7 +113,7 @@ Map RandomMap(int width, int height, Content content, double amplitude, test::Ra
     for (int x = 0; x < width; ++x) {
       double d = 0;
       if (content == kNoise) d = random->Real(-amplitude, amplitude);
-      // Rare single pixels out of focus, so that each of them determines a border.
+      // Single pixels out of focus are so rare that each of them determines a border.
       if (content == kSparks) {
         d = focus + (random->Int(0, 299) == 0 ? random->Real(-amplitude, amplitude) : 0);
       }
@@ -126,8 +126,8 @@ Map RandomMap(int width, int height, Content content, double amplitude, test::Ra
   return map;
 }
 
-// Cells of the stripe at row y and of the rows around it that the engine keeps. Sanitizers report
-// accesses beyond them.
+// Cells of the stripe at row y and of the rows around the stripe that the engine keeps. Sanitizers
+// report accesses beyond the cells.
 struct Cells {
   Cells(const Map& map, int y, int side, int around) {
     Window window;
@@ -150,8 +150,8 @@ struct Cells {
   std::vector<Cell> cells;
 };
 
-// Returns true if a pixel may reach columns [x0, x1] and rows [y0, y1]. It moves by up to its
-// radius in any direction, rounded to a whole pixel.
+// Returns true if a pixel may reach columns [x0, x1] and rows [y0, y1]. The pixel moves by up to
+// `radius` in any direction, rounded to a whole pixel.
 bool Reaches(int x, int y, double radius, int x0, int y0, int x1, int y1) {
   const double dx = std::max({0.0, x0 - 0.5 - x, x - (x1 + 0.5)});
   const double dy = std::max({0.0, y0 - 0.5 - y, y - (y1 + 0.5)});
@@ -163,12 +163,13 @@ bool Reaches(int x, int y, double radius, int x0, int y0, int x1, int y1) {
 struct Exact {
   Border border[3] = {};
   double inside_min = 1e9, inside_max = 0;  // radii of the block's pixels in the picture
-  double reaching_max = 0;       // largest radius of these pixels and of all that reach them
+  double reaching_max = 0;                  // largest radius of all pixels that reach the block
   double around_max = 0;         // largest radius of all pixels that the analysis may consider
   bool has_edge = false;         // true if a depth edge concerns the block
   bool has_edge_around = false;  // true if the analysis may consider any depth edge
-  double shown_min = 1e9;  // smallest radius of pixels and edges up to kLayerMargin[1] around it
-  double ring_min = 1e9;   // smallest radius of pixels up to 8 around the block
+  // Smallest radius of pixels and edges in the block and kLayerMargin[1] around.
+  double shown_min = 1e9;
+  double ring_min = 1e9;  // smallest radius in the block and 8 pixels around
 };
 
 Exact Measure(const Map& map, int x0, int y0, int side, double largest) {
@@ -212,7 +213,8 @@ Exact Measure(const Map& map, int x0, int y0, int side, double largest) {
         if (is_around(x, y, kLayerMargin[1]) || is_around(other_x, other_y, kLayerMargin[1])) {
           exact.shown_min = std::min(exact.shown_min, radius);
         }
-        // An edge concerns the block if a pixel on either side of it is in the block or reaches it.
+        // An edge concerns the block if a pixel on either side of the edge is in the block or
+        // reaches the block.
         if (Reaches(x, y, map.Radius(x, y), x0, y0, x1, y1) ||
             Reaches(other_x, other_y, map.Radius(other_x, other_y), x0, y0, x1, y1)) {
           exact.has_edge = true;
@@ -223,7 +225,8 @@ Exact Measure(const Map& map, int x0, int y0, int side, double largest) {
   return exact;
 }
 
-// Number of blocks, and excess pixels on the four sides of their borders, for a size and a layer.
+// For one size and layer: number of blocks, and number of excess pixels on the four sides of all
+// borders.
 struct Tally {
   int64_t blocks = 0, excess = 0;
 };
@@ -245,7 +248,7 @@ void CheckBlock(const Map& map, int x0, int y0, int level, double largest, const
     tally.excess += Sum(g) - Sum(e);
     REQUIRE((g.left >= e.left && g.right >= e.right && g.top >= e.top && g.bottom >= e.bottom));
   }
-  // Both limits are rounded, r_min down and r_max up, by at most a unit each.
+  // r_min is rounded down and r_max is rounded up, by at most `unit` each.
   const double r_min = double(stats.r_min) / kDisparityOne, unit = 2.0 / kDisparityOne;
   const double r_max = double(stats.r_max) / kDisparityOne;
   CHECK(r_min <= exact.inside_min);
@@ -320,7 +323,8 @@ TEST_CASE("cells: no pixel beyond a border reaches its block, on random disparit
   for (const auto& level : tallies) {
     for (const Tally& tally : level) {
       REQUIRE(tally.blocks > 0);
-      CHECK(tally.excess < 4 * kCellSize * tally.blocks);  // less than a cell on each side
+      // On average, the excess is less than a cell on each side.
+      CHECK(tally.excess < 4 * kCellSize * tally.blocks);
     }
   }
 }
@@ -356,7 +360,8 @@ TEST_CASE("cells: a pixel with a larger reach counts from its own position") {
   std::fill(map.disparity.begin(), map.disparity.end(), Fixed(2));
   const int all = reach(starfocus::kLeft);
   CHECK(farther == all + 1);
-  // A pixel at least one pixel inside the cell does not reach farther than the pixels at its side.
+  // A pixel at least one pixel inside the cell does not reach farther than the pixels at the side
+  // of the cell.
   map.At(8 + 5, 8 + 6) = Fixed(3);
   for (int side = 0; side < 4; ++side) CHECK(reach(side) == all);
   map.At(8, 8 + 4) = Fixed(3);
@@ -381,7 +386,8 @@ TEST_CASE("cells: one pixel out of focus widens only the borders of the blocks t
     CHECK(stats.border[0].bottom <= 1);
     if (needed > 0) CHECK(stats.r_max >= 5 * kDisparityOne);
     CHECK(stats.r_min == 0);
-    // More distant blocks have no border for it and do not count its radius.
+    // Blocks that the pixel does not reach have no border for the pixel, and their r_max ignores
+    // its radius.
     for (const int column : {7, 8}) {
       const BlockStats far = test::MeasureBlock(cells.grid, map.scale, column, 4, 3);
       CHECK(far.border[0].left <= 1);
@@ -402,8 +408,8 @@ TEST_CASE("cells: a silhouette also counts for the cell behind it") {
     }
     map.Measure();
     const Cells cells(map, 0, 96, 4);
-    // Blocks at 48, 32 and 16: reached from 8 pixels away, containing the edge, and reached from 9
-    // pixels away.
+    // The block at 48 is reached from 8 pixels away, the block at 32 contains the edge, and the
+    // block at 16 is reached from 9 pixels away.
     for (const int column : {6, 4, 2}) {
       const BlockStats stats = transposed ? test::MeasureBlock(cells.grid, map.scale, 4, column, 4)
                                           : test::MeasureBlock(cells.grid, map.scale, column, 4, 4);
@@ -415,7 +421,7 @@ TEST_CASE("cells: a silhouette also counts for the cell behind it") {
 
 TEST_CASE("cells: the engine's borders are as wide as the analysis needs, and no cell wider") {
   test::Random random(12);
-  int short_sighted = 0;  // number of blocks for which one cell less is not enough
+  int short_sighted = 0;  // number of blocks that require all cells of the border
   for (const double r : {0.1, 1.0, 4.9, 13.3, 32.0, 60.0}) {
     const starfocus::Borders borders = test::BordersOf(r);
     Map map = EmptyMap(280, 280, 0, 1);
@@ -440,7 +446,7 @@ TEST_CASE("cells: the engine's borders are as wide as the analysis needs, and no
           test::MeasureBlock(cells.grid, map.scale, column, 16, borders.cells - 1);
       short_sighted += shorter.border[2].left != stats.border[2].left;
       const Border& border = stats.border[0];
-      // One more pixel is rendered for the neighbour of a subaperture.
+      // A subaperture extends over a neighbouring pixel, which requires one more pixel of border.
       for (const int side : {border.left, border.right, border.top, border.bottom}) {
         CHECK(side + 1 <= borders.layer[0]);
       }

@@ -34,7 +34,7 @@ inline starfocus::CellGrid MeasureCells(const std::vector<int16_t>& disparity, i
   return grid;
 }
 
-// Owns the surroundings of a block of 2 x 2 cells.
+// Owns the measured surroundings of a block of 2 x 2 cells.
 class BlockSurroundings {
  public:
   BlockSurroundings(const starfocus::CellGrid& grid, const starfocus::BlurScale& scale, int column,

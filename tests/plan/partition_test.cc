@@ -28,12 +28,12 @@ bool Same(const Border& a, const Border& b) {
   return a.left == b.left && a.right == b.right && a.top == b.top && a.bottom == b.bottom;
 }
 
-// Returns the side of the quadtree's candidate that became this block: the smallest one that
-// contains it.
+// Returns the side of the quadtree's candidate that this block comes from, which is the smallest
+// candidate that contains the block.
 int SideOf(const Plan& plan, const Block& block, int x, int y) {
   int side = kSmallestBlock;
   while (side < block.rect.width || side < block.rect.height) side *= 2;
-  // At the edge of the picture, a clipped block may come from a larger candidate.
+  // At the edge of the picture, a clipped block may belong to a larger candidate.
   for (; side <= plan.config.superblock; side *= 2) {
     if ((block.rect.x - x) % side == 0 && (block.rect.y - y) % side == 0 &&
         Planned(plan, block.rect.x, block.rect.y, side).cost == block.cost) {
@@ -121,7 +121,7 @@ TEST_CASE("partition: the cheapest one is chosen, covers each pixel once and fol
     blocks += CheckPicture(plan);
     superblocks += size_t(((width - 1) / side + 1) * ((height - 1) / side + 1));
   }
-  CHECK(blocks > 2 * superblocks);  // most superblocks were split
+  CHECK(blocks > 2 * superblocks);  // more than half of the superblocks are split
 }
 
 TEST_CASE("partition: the choice is the cheapest of all 83522 partitions of a block of 128") {
@@ -157,7 +157,7 @@ TEST_CASE("partition: nothing is split if nothing has a cost, or only blocks") {
     for (const int side : {32, 64, 128, 256}) {
       Plan plan(side - 5, side, side, 10, &random);
       plan.config.tuning.timing = {};
-      plan.rules.gathers = false;  // gathered cells are not part of the block's cost
+      plan.rules.gathers = false;  // the cost of gathered cells is not part of timing.block
       plan.config.tuning.timing.block = block;
       const std::vector<Block> blocks = plan.Partition(0, 0);
       REQUIRE(blocks.size() == 1);
@@ -209,8 +209,8 @@ TEST_CASE("partition: flat pictures follow the rules at their thresholds and clo
   }
 }
 
-// Updates the largest number of rows that the blocks of the superblock at row y read beyond it, for
-// each layer. It is 0 if no block reads any. Rows outside the picture are not read.
+// Updates, for each layer, the largest number of rows that blocks of the superblock at row y read
+// beyond the superblock. Rows outside the picture do not count.
 void AddRowsBeyond(const Plan& plan, int y, const std::vector<Block>& blocks, int (*most)[3]) {
   for (const Block& block : blocks) {
     if (block.rendered.width == 0) continue;

@@ -28,9 +28,9 @@ starfocus::ViewWeights DiscOf(int n) {
   return aperture;
 }
 
-// Sums the work view by view as in (13): type A on the axes, type B on the diagonals, type C
-// between them (Fig. 11). With subapertures the centre is also of type A, and all views off the
-// axis of rows are scanned along columns.
+// Sums the work view by view as in (13). Views are of type A on the axes, of type B on the
+// diagonals, and of type C elsewhere (Fig. 11). With subapertures, the centre view is of type A as
+// well, and all views with j != 0 are scanned along columns.
 BlockWork MeasureViewByView(const Rect& rect, const Border& border, int n, bool subapertures,
                             uint64_t upsampled, const Content (&content)[2], int layer) {
   const auto width = uint64_t(rect.width), height = uint64_t(rect.height);
@@ -60,9 +60,9 @@ BlockWork MeasureViewByView(const Rect& rect, const Border& border, int n, bool 
       }
     }
   }
-  // Half of the views are scanned along rows, the other half along columns. With subapertures,
-  // views on the axis of rows are scanned along rows and all others along columns. A layer has 1 /
-  // 2^L of the lines. On each line a slope makes 1 / 2^L of the runs, and a gap is 1 / 2^L as wide.
+  // Half of the views are scanned along rows, and the other half along columns. With subapertures,
+  // views with j = 0 are scanned along rows, and all other views along columns. Layer L has 1 / 2^L
+  // of the lines. On each line, a slope makes 1 / 2^L of the runs, and a gap is 1 / 2^L as wide.
   const int scale = 1 << layer;
   const uint64_t on_axis = n == 0 ? 0 : 2 * uint64_t(n) + 1;
   const uint64_t scans[2] = {subapertures ? on_axis : views / 2,
@@ -164,7 +164,7 @@ TEST_CASE("timing: the largest coefficients overflow for no superblock and none 
     return sum * STARFOCUS_MAX_TIMING;
   };
   for (const int side : {16, 32, 64, 128, 256}) {
-    // More content than there are pixels.
+    // The content is larger than the content of any picture with this number of pixels.
     const auto pixels = uint32_t(side * side);
     const Content along = {64 * pixels, 64 * pixels, 256 * pixels};
     const Content content[2] = {along, along};

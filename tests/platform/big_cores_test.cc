@@ -17,7 +17,7 @@ namespace {
 
 using starfocus::CoreSet;
 
-using Numbers = std::vector<int>;  // one per core
+using Numbers = std::vector<int>;  // one number per core
 
 void Write(const std::string& folder, const std::string& file, const Numbers& numbers) {
   for (size_t core = 0; core < numbers.size(); ++core) {
@@ -48,7 +48,7 @@ TEST_CASE("big cores: capacity takes precedence over clock frequency") {
   Write(folder.path(), "cpu_capacity", {160, 160, 160, 160, 512, 700, 1024, 1024});
   Write(folder.path(), "cpufreq/cpuinfo_max_freq", Numbers(8, 1800000));
   CHECK(Found(folder.path(), First(8)) == Numbers{4, 5, 6, 7});
-  // The reference is the strongest core that may be used.
+  // Cores count as big relative to the strongest core that the process may use.
   CHECK(Found(folder.path(), First(4)) == Numbers{0, 1, 2, 3});
   CHECK(Found(folder.path(), First(5)) == Numbers{4});
   CoreSet some;

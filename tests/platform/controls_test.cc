@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests knob and buttons with sequences of edges: clean, bouncing, and with lost edges.
+// Tests the knob and the buttons with clean and bouncing sequences of edges, and with sequences
+// that lack edges.
 #include "platform/controls.h"
 
 #include <doctest/doctest.h>
@@ -18,7 +19,8 @@ struct EncoderEdge {
   bool of_a, high;
 };
 
-// The edges of one detent clockwise. Counter-clockwise, the two lines are swapped.
+// The edges of one detent clockwise. One detent counter-clockwise has the same edges with swapped
+// lines.
 constexpr EncoderEdge kStep[] = {{true, false}, {false, false}, {true, true}, {false, true}};
 
 void AddStep(bool clockwise, std::vector<EncoderEdge>* edges) {
@@ -100,7 +102,8 @@ TEST_CASE("encoder: a lost edge loses at most its step and never adds a wrong on
       int total = direction * Decode(edges, &decoder);
       CHECK(total >= 0);
       CHECK(total <= 1);
-      // The second step may restore the missing edge of the first. After that, the count is exact.
+      // The second detent may also complete the first one, which lacks an edge. From the third
+      // detent on, the count is exact.
       std::vector<EncoderEdge> next;
       AddStep(clockwise, &next);
       total += direction * Decode(next, &decoder);
@@ -132,8 +135,8 @@ TEST_CASE("encoder: with randomly lost edges, the count stays close and becomes 
 
 constexpr int64_t kMs = 1000000;
 
-// An edge of a button: its time, whether the button is pressed, and whether the edge counts as a
-// press.
+// An edge of a button: the time in ms, the state of the button after the edge, and true if the edge
+// counts as a press.
 struct ButtonEdge {
   int ms;
   bool pressed, counts;
@@ -257,8 +260,8 @@ TEST_CASE(
   screen.red = {11, 5};
   screen.green = {5, 6};
   screen.blue = {0, 5};
-  // One of two pixels must be cropped. Half a pixel on the left rounds to 0, so the left pixel is
-  // visible.
+  // The screen has room for one of two pixels. Cropping half a pixel on the left rounds to 0, so
+  // the left pixel is visible.
   Draw(picture, screen);
   const uint32_t pixel = (255u >> 3 << 11) | (128u >> 2 << 5) | (8u >> 3);
   CHECK(memory[0] == (pixel & 255));

@@ -66,7 +66,7 @@ TEST_CASE("file: an error names its true cause") {
         "cannot create folder " + folder.file("a") + ": not a directory");
   CHECK(MakeFolder(folder.file("b/c")) == "");
   CHECK(fs::is_directory(folder.file("b/c")));
-  if (geteuid() == 0) return;  // root may write everywhere
+  if (geteuid() == 0) return;  // the user root may write to any folder
   REQUIRE(chmod(folder.file("a").c_str(), 0) == 0);
   REQUIRE(chmod(folder.file("b").c_str(), 0500) == 0);
   CHECK(ReadFile(folder.file("a")) == "cannot read " + folder.file("a") + ": permission denied");
@@ -94,12 +94,12 @@ TEST_CASE("file: devices and endless pipes are not read, and small files have a 
         folder.file("more") +
             ": the file is too large (expected at most 1048576 bytes, found 1048577)");
   CHECK(ReadFile(folder.file("more")) == "");
-  // A sparse file, so that the disk has room.
+  // The file is sparse, so that it occupies little disk space.
   REQUIRE(truncate(folder.file("more").c_str(), (off_t{1} << 31) + 1) == 0);
   CHECK(ReadFile(folder.file("more")) ==
         folder.file("more") +
             ": the file is too large (expected at most 2147483648 bytes, found 2147483649)");
-  // A pipe that ends is read. An endless pipe is read up to the limit.
+  // A pipe that ends is read completely. An endless pipe is read up to the limit.
   for (const bool endless : {false, true}) {
     const std::string path = folder.file(endless ? "endless" : "pipe");
     REQUIRE(mkfifo(path.c_str(), 0600) == 0);

@@ -243,7 +243,7 @@ TEST_CASE("image_io: colours of a PNG palette are looked up, and indices beyond 
 TEST_CASE("image_io: bytes after the end of a PNG file are ignored") {
   const Bytes palette = {10, 20, 30, 40, 50, 60, 70, 80, 90};
   Bytes png = MakePng(8, 1, {8, 3}, palette, Bytes(8, 1));
-  // Another palette, and the start of a chunk of 1000 bytes.
+  // Inserts another palette and the start of a chunk of 1000 bytes.
   const std::string more = photos::Chunk("PLTE", std::string(9, '\xc8')) + photos::Big(1000, 4) +
                            "PLTE" + std::string(4, '\0');
   png.insert(png.end(), more.begin(), more.end());
@@ -263,7 +263,8 @@ TEST_CASE("image_io: the error for a picture too large for its format has its si
     const Bytes png = MakePng(size.width, size.height, {8, 0}, {}, Bytes(8));
     CHECK(Contains(ReadBytes(png), size.expected));
   }
-  // The encoders count bytes in an int, so a larger picture would be written out of bounds.
+  // The encoders count bytes in an int. A larger picture would overflow the count, and the encoder
+  // would write out of bounds.
   TempFolder folder;
   Image large;
   large.width = large.height = 40000;
@@ -278,7 +279,7 @@ Bytes Seed(const std::string& name) {
   return ValueOf(ReadFile(STARFOCUS_SOURCE_DIR "/tests/fuzz/corpus/photo/" + name));
 }
 
-// Returns the largest difference from the seed picture with its light scaled by `share`.
+// Returns the largest difference from the seed picture, whose light is scaled by `share`.
 int DifferenceFromSeed(const Image& image, double share) {
   REQUIRE(image.width == 24);
   REQUIRE(image.height == 16);

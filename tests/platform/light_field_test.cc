@@ -167,7 +167,8 @@ TEST_CASE("light_field: views too far out, twice at one position, or too many ar
   REQUIRE(WriteImage(twice, Image(4, 4)) == "");
   CHECK(Contains(LoadLightField(folder.path(), {}), "view_+1.00_+0.0"));
   fs::remove(twice);
-  // These positions are equal to four decimals, but not neighbours when sorted by u and v.
+  // The two equal positions agree to four decimals, but are not neighbours when positions are
+  // sorted by u and v.
   const std::string close[] = {"view_+0.30001_+0.4.png", "view_+0.30002_+0.1.png",
                                "view_+0.30003_+0.4.png"};
   for (const std::string& name : close) {
@@ -197,7 +198,8 @@ TEST_CASE("light_field: a stereo pair in the Middlebury layout has its second vi
   TempFolder folder;
   const LightField light_field = Make(2, 6, 4);
   REQUIRE(WriteImage(folder.file("im0.png"), light_field.views[0]) == "");
-  CHECK(Contains(LoadLightField(folder.path(), {}), StarName(0)));  // one picture is not a pair
+  // A single picture is not a pair.
+  CHECK(Contains(LoadLightField(folder.path(), {}), StarName(0)));
   REQUIRE(WriteImage(folder.file("im1.png"), light_field.views[1]) == "");
   REQUIRE(WritePfm(folder.file("disp0.pfm"), light_field.disparity) == "");
   LightField back = ValueOf(LoadLightField(folder.path(), {}));

@@ -19,7 +19,7 @@ namespace {
 struct Record {
   explicit Record(int count) : calls(size_t(count)) {}
 
-  std::vector<std::atomic<int>> calls;  // one per index
+  std::vector<std::atomic<int>> calls;  // number of calls for each index
   std::atomic<int> busy[STARFOCUS_MAX_WORKERS] = {};
   std::atomic<int> clashes{0}, outside{0};
   int workers = STARFOCUS_MAX_WORKERS;

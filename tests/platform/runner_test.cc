@@ -13,7 +13,7 @@
 namespace starfocus::runner_test {
 namespace {
 
-// Each worker waits for all others, so that the test hangs if one of them keeps sleeping.
+// Each worker waits for all other workers, so that the test hangs if a worker does not wake.
 struct Meeting {
   int workers;
   std::atomic<int> met{0};
@@ -74,7 +74,8 @@ TEST_CASE("runner: idle threads sleep") {
   REQUIRE(ThreadRunner::Run(&runner, Meeting::Job, &meeting, 4) == 0);
   const std::clock_t start = std::clock();
   std::this_thread::sleep_for(std::chrono::milliseconds(200));
-  // Processor time of the whole process. Waking threads would use this time on every core.
+  // std::clock() is the processor time of the whole process. Busy threads would use 200 ms on every
+  // core.
   CHECK(double(std::clock() - start) / CLOCKS_PER_SEC < 0.05);
 }
 
@@ -98,7 +99,7 @@ TEST_CASE("runner: the caller gets the first exception of a batch after all jobs
       CHECK(batch.running == 0);
       CHECK(batch.calls >= 4);
       CHECK(batch.calls < 100);
-      // The pool serves the next batch normally.
+      // The pool must run the next batch normally.
       Meeting meeting{workers};
       REQUIRE(ThreadRunner::Run(&runner, Meeting::Job, &meeting, workers) == 0);
       CHECK(meeting.met == workers);

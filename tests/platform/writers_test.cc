@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests what the writers of platform/writers/ store in files. The files are read by exiftool and
-// webpinfo, if they are installed.
+// Tests the files that the writers of platform/writers/ make. exiftool and webpinfo, if installed,
+// read the files.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -65,7 +65,7 @@ class TiffBuilder {
   const bool little_;
 };
 
-// Returns the EXIF of a camera held upright: the make, orientation 6, sizes in a separate
+// Returns the EXIF of a camera that was held upright: the make, orientation 6, sizes in a separate
 // directory, and a thumbnail.
 Bytes CameraExif(bool little) {
   TiffBuilder tiff(little);
@@ -156,7 +156,8 @@ TEST_CASE("writers: EXIF that is truncated or changed anywhere is edited within 
   for (size_t at = 0; at < whole.size(); ++at) {
     Bytes changed = whole;
     changed[at] = 0xff;
-    EditedExif(changed, 1, 1);  // Any result is right, if memory accesses are within bounds.
+    // Any result is acceptable, provided that memory accesses are within bounds.
+    EditedExif(changed, 1, 1);
   }
   const Bytes none = FromText("IM*\0\0\0\0\0");
   CHECK(EditedExif(none, 1, 1).empty());
@@ -203,7 +204,7 @@ TEST_CASE("writers: EXIF and the profile are kept, with the changed fields of th
 TEST_CASE("writers: metadata of PNG and WebP files can be read again") {
   TempFolder folder;
   PictureOptions how = {95, {CameraExif(true), Profile(588)}, PngSize::kQuick};
-  // libpng reads no profile that compresses to fewer bytes than its keyword may have.
+  // libpng rejects a profile whose compressed data are shorter than the longest keyword.
   for (size_t k = 132; k < 588; ++k) how.metadata.icc[k] = static_cast<uint8_t>(k * k >> 3);
   for (const std::string name : {"a.png", "a.webp"}) {
     if (name == "a.webp" && WebpWriter::Check(name, 1, 1)) continue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Replaces the functions of the NDK for bitmaps and hardware buffers by functions that use the Java
+// Replaces the NDK's functions for bitmaps and hardware buffers by functions that use the Java
 // classes in this folder. Only one hardware buffer can be locked at a time.
 #include <android/bitmap.h>
 #include <android/hardware_buffer.h>
