@@ -7,8 +7,8 @@
 namespace starfocus {
 namespace {
 
-// Returns the number of letters to insert, remove, replace or swap with the next letter to convert
-// `a` to `b` (optimal string alignment).
+// Returns the edit distance of `a` and `b` (optimal string alignment): the number of letters to
+// insert, remove, replace, or swap with the next letter.
 size_t Distance(const std::string& a, const std::string& b) {
   std::vector<std::vector<size_t>> least(a.size() + 1, std::vector<size_t>(b.size() + 1));
   for (size_t i = 0; i <= a.size(); ++i) {
@@ -32,8 +32,8 @@ std::string WithoutDashes(const std::string& name) {
   return name.substr(std::min(name.find_first_not_of('-'), name.size()));
 }
 
-// Separator and number of the parts of a type: "X,Y" has two parts, "D0:D1:N" three. The separator
-// is 0 if values have no parts.
+// Separator and number of the parts of a type. "X,Y" has two parts, and "D0:D1:N" has three. The
+// separator is 0 if values have no parts.
 struct Parts {
   char separator = 0;
   size_t count = 1;
@@ -55,7 +55,7 @@ Parts PartsOf(const std::string& type) {
   return parts;
 }
 
-// Appends the numbers of a text, which are separated by separators or spaces. Returns false if the
+// Appends the numbers of a text. `separator` or spaces separate the numbers. Returns false if the
 // text contains anything else.
 bool AddNumbers(const std::string& text, char separator, std::vector<std::string>* numbers) {
   const std::string between = std::string(" ") + separator;
@@ -74,7 +74,7 @@ bool AddNumbers(const std::string& text, char separator, std::vector<std::string
 
 // Returns the complete value that starts with `first` and continues in the arguments from index
 // `next`. Returns an empty string if `first` is already complete, or if separators cannot complete
-// it.
+// the value.
 std::string Joined(const std::string& first, const std::vector<std::string>& arguments, size_t next,
                    const Parts& parts, std::string* found) {
   std::vector<std::string> numbers;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds likely intentions behind a wrong command line: the nearest name, and values that lack the
-// separator between their parts.
+// Suggests corrections of a wrong command line: the most similar name, and separators that are
+// missing between the parts of a value.
 #ifndef STARFOCUS_EXAMPLES_COMMAND_LINE_ARGUMENTS_H_
 #define STARFOCUS_EXAMPLES_COMMAND_LINE_ARGUMENTS_H_
 

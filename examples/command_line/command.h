@@ -19,7 +19,7 @@ namespace starfocus {
 using Reader = std::function<std::string(const std::string& text)>;
 
 // The variable that an option sets: a flag, one text, several texts, or a parsed value (options.h).
-// --help and --version set none.
+// --help and --version set no variable.
 struct Target {
   Target() = default;
   Target(bool* target) : flag(target) {}                       // NOLINT: implicit for tables
@@ -32,7 +32,7 @@ struct Target {
   std::string* text = nullptr;
   std::vector<std::string>* texts = nullptr;
   Reader read = nullptr;
-  std::string shown = "";  // default of `read`; empty: none
+  std::string shown = "";  // default value that the help shows for `read`; empty: none
 };
 
 enum class Use {
@@ -48,7 +48,7 @@ struct Option {
   const char* help;
   Target target;
   Use use = Use::kOptional;
-  const char* excludes = nullptr;      // an earlier option that this one excludes
+  const char* excludes = nullptr;      // an earlier option that cannot be combined with this option
   const char* default_text = nullptr;  // default in the help for kOptional
 };
 
@@ -75,10 +75,10 @@ inline constexpr char kExitCodes[] =
     "Exit codes: 0 for success, 1 when a file or the work failed, 2 when the command line is\n"
     "wrong, 70 for an error in the program itself.\n";
 
-// Appends options to a command.
+// Appends `options` to a command.
 void AddOptions(std::initializer_list<Option> options, Command* command);
 
-// Returns all options of a command in the order of the help. Includes --help and, for the program
+// Returns all options of a command in the order of the help, including --help and, for the program
 // itself, --version.
 std::vector<Option> AllOptions(const Program& program, const Command& command);
 
@@ -87,7 +87,7 @@ std::vector<std::string> NamesOf(const Option& option);
 
 bool IsPositional(const Option& option);
 
-// Returns the default of an option in the help, or an empty string if it has none.
+// Returns the default that the help shows for an option, or an empty string if the option has none.
 std::string DefaultOf(const Option& option);
 
 }  // namespace starfocus

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Targets for tables of options: numbers, choices and other types. Each parses a text into a
-// variable, whose initial value is the default.
+// Targets for tables of options: numbers, choices and other types. Each target parses a text into a
+// variable. The initial value of the variable is the default of the option.
 #ifndef STARFOCUS_EXAMPLES_COMMAND_LINE_OPTIONS_H_
 #define STARFOCUS_EXAMPLES_COMMAND_LINE_OPTIONS_H_
 
@@ -44,7 +44,7 @@ Target Pair(char separator, std::optional<Pixel>* value);
 Target Region(starfocus_region* value);
 
 // 17, 9, 5 or 1 views of the star, or U,V:U,V... for views at these positions. The first position
-// must be 0,0, and coordinates must be within +-1. They are rounded to four decimals, like those in
+// must be 0,0, and coordinates must be within +-1. Coordinates are rounded to four decimals, as in
 // file names.
 Target Views(Positions* positions);
 

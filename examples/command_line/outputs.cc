@@ -26,13 +26,13 @@ fs::path NameOf(const fs::path& path) {
   return name.has_filename() ? name : name.parent_path();  // "folder/"
 }
 
-// Returns true if both names refer to the same file, also through a hard link.
+// Returns true if both names refer to the same file, including through hard links.
 bool AreOneFile(const std::string& a, const std::string& b) {
   std::error_code ignored;
   return fs::equivalent(a, b, ignored);
 }
 
-// Returns the files of a light field that are links to files elsewhere.
+// Returns the files of a light-field folder that are symbolic links.
 std::vector<std::string> FindLinks(const std::string& folder) {
   std::vector<std::string> links;
   std::error_code ignored;

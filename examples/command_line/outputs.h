@@ -14,18 +14,18 @@ struct Output {
   std::string option, path;
 };
 
-// Inputs of the same command.
+// Inputs of a command, which its outputs must not overwrite.
 struct Inputs {
   std::vector<std::string> folders = {};  // light-field folders
   std::vector<std::string> files = {};    // other files; an empty name is ignored
   std::vector<std::string> grids = {};    // folders in which every picture is treated as a view
 };
 
-// Returns an error if two outputs are the same file, or an output is an input, under any name or
-// link.
+// Returns an error if two outputs are the same file, or if an output is the same file as an input.
+// Names and links do not matter.
 Error CheckApart(const std::vector<Output>& outputs, const Inputs& inputs);
 
-// Returns an error if an output folder is one of the input folders, under any name or link: its
+// Returns an error if the output folder is one of the input folders, under any name or link. Output
 // files would mix with the views.
 Error CheckFolderApart(const Output& output, const std::vector<std::string>& folders);
 

@@ -72,7 +72,7 @@ void Translate(const Program& program, Error* wrong, CLI::App* app) {
   app->footer(footer + (footer.empty() ? "" : "\n\n") + kExitCodes);
 }
 
-// Rejects empty values, which CLI11 treats as missing if the default is empty too.
+// Rejects empty values. CLI11 treats an empty value as missing if the default is also empty.
 Error CheckValues(const CLI::App& app) {
   for (const CLI::Option* option : app.get_options()) {
     for (const std::string& value : option->results()) {
@@ -134,8 +134,8 @@ Error Unexpected(CLI::App* app, const std::string& argument) {
   return Error::Usage("command line", "no more arguments for " + name, "'" + argument + "'");
 }
 
-// Returns the error for an unknown, missing or extra argument, or the error `value` of an invalid
-// value.
+// Returns the error for an unknown, missing or extra argument. Returns `value` if it is the error
+// of an invalid value.
 Error WrongLine(CLI::App* app, const CLI::ParseError& wrong, const Error& value) {
   const std::vector<std::string> others = app->remaining(true);
   const auto is_option = [](const std::string& text) { return text.size() > 1 && text[0] == '-'; };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parses a command line by the tables of a program. Only the source file includes CLI11, which
-// takes seconds to compile.
+// Parses a command line according to the tables of a program. Only the source file includes CLI11,
+// which takes seconds to compile.
 #ifndef STARFOCUS_EXAMPLES_COMMAND_LINE_PARSE_H_
 #define STARFOCUS_EXAMPLES_COMMAND_LINE_PARSE_H_
 
@@ -11,8 +11,8 @@
 
 namespace starfocus {
 
-// Sets the variables of the given options and runs the chosen command, a subcommand or that of the
-// program. Prints help or the version if requested.
+// Sets the variables of the given options and runs the chosen subcommand, or the command of the
+// program itself. Prints help or the version if requested.
 Error RunCommandLine(const Program& program, int argc, char** argv);
 
 // Returns the help of a program, or of one of its subcommands.

@@ -26,7 +26,7 @@ Error CheckPrinted() {
   return Cannot("write to", "standard output", {reason, std::generic_category()});
 }
 
-// Exit codes. The code of an internal error is that of sysexits.h.
+// Exit codes. Internal errors use the code EX_SOFTWARE of sysexits.h.
 constexpr int kFailed = 1, kUsage = 2, kInternal = 70;
 
 int Report(const char* name, const Error& error) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shared part of the main functions of all programs.
+// Code that the main functions of all programs share.
 #ifndef STARFOCUS_EXAMPLES_COMMAND_LINE_PROGRAM_H_
 #define STARFOCUS_EXAMPLES_COMMAND_LINE_PROGRAM_H_
 
@@ -14,8 +14,8 @@ namespace starfocus {
 std::string VersionText(const std::string& name);
 
 // Runs a program and returns its exit code. Prints an error as one line to stderr, "<name>:
-// <line>". Exceptions and failures to write to stdout are errors. A closed pipe does not end the
-// program, and signals that end it leave no temporary files.
+// <line>". Exceptions and failures to write to stdout are reported as errors. A closed pipe does
+// not end the program. Signals that end the program leave no temporary files.
 int RunProgram(const char* name, const std::function<Error()>& run);
 
 }  // namespace starfocus

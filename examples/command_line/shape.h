@@ -12,7 +12,7 @@
 namespace starfocus {
 
 struct ShapeOptions {
-  std::string shape = "fall-off";  // as typed
+  std::string shape = "fall-off";  // name of the shape as typed
   double theta = 0.26, cats_eye = 0;
 };
 

@@ -82,7 +82,7 @@ Result<Plan> MakePlan(const DisparityOptions& options) {
   return plan;
 }
 
-// Estimates the map of a folder. Searches the typed range, or finds a range first.
+// Estimates the map of a folder. Searches the range of the command line, or finds a range first.
 Result<DisparityEstimate> EstimateFolder(const DisparityOptions& options,
                                          const LightField& light_field) {
   if (Error error = CheckStar(options.folder, light_field)) return error;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// starfocus info: prints the contents of a light field or depth photo, and how they were
-// interpreted.
+// starfocus info: prints the contents of a light field or depth photo, and how the program
+// interprets these contents.
 #include <cstdio>
 #include <memory>
 #include <utility>
@@ -92,8 +92,8 @@ void PrintJson(const Capture& capture, const starfocus_disparity_stats& stats,
   std::printf("%s\n", json.Text().c_str());
 }
 
-// Returns true if there is a map, or a star of views to estimate one. Stereo pairs and single rows
-// of views are not stars.
+// Returns true if there is a map, or a star of views from which a map can be estimated. Stereo
+// pairs and single rows of views are not stars.
 bool HasMap(const Capture& capture) {
   Positions positions;
   for (const ViewFile& file : capture.files) positions.push_back(file.position);

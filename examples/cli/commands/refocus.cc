@@ -23,7 +23,7 @@
 namespace starfocus {
 namespace {
 
-constexpr int kMostPictures = 1000;  // limit of a sweep: three digits
+constexpr int kMostPictures = 1000;  // limit of a sweep, because file names have three digits
 
 struct RefocusOptions {
   std::vector<std::string> inputs;
@@ -127,8 +127,8 @@ Result<Capture> Open(const RefocusOptions& options, LensPlan* plan) {
   return capture;
 }
 
-// Checks everything that does not need the final map, because resizing or repairing the map takes
-// long.
+// Checks everything that does not depend on the final map. Called early, because resizing or
+// repairing the map takes long.
 Error Foresee(const RefocusOptions& options, const Capture& capture, LensPlan* plan) {
   const LightField& light_field = capture.light_field;
   if (Error error = CheckRenderer(capture.path, *plan, light_field.positions)) return error;

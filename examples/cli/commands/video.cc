@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// starfocus video: refocuses a sequence of light fields, and computes only blocks that changed.
+// starfocus video: refocuses a sequence of light fields. Of each frame, only blocks that changed
+// are computed.
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -23,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr size_t kMostFrames = 10000;  // four digits
+constexpr size_t kMostFrames = 10000;  // file names have four digits
 
 struct VideoOptions {
   std::vector<std::string> folders;
@@ -47,8 +48,9 @@ std::string FramePath(const std::string& folder, size_t index) {
   return (fs::path(folder) / name).string();
 }
 
-// Returns the given folders. If a single folder is not a light field, returns the folders in it,
-// except for hidden ones and the output folder.
+// Returns the folders of the frames, which are the given folders. If a single folder is given that
+// is not a light field, returns the folders in it instead, except for hidden folders and the output
+// folder.
 Result<std::vector<std::string>> FindFrames(const VideoOptions& options) {
   std::vector<std::string> folders = options.folders;
   std::error_code error;

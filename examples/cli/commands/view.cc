@@ -76,7 +76,7 @@ Error ShowPicture(size_t index, const Image& picture, const std::vector<starfocu
                              "Focus " + focus + (index == 0 ? ", far" : "") +
                                  (index > 0 && index + 1 == foci ? ", near" : ""),
                              Shrink(picture, kSmall)});
-  if (index + 1 != foci) return {};  // the blur is largest in the last picture
+  if (index + 1 != foci) return {};  // only the last picture, which has the largest blur
   contents->blocks.push_back(
       {"The blocks of the picture focused at disparity " + focus + ", coloured by resolution",
        "Blocks at focus " + focus + ": red at full resolution, green at half, blue at a quarter",
@@ -185,7 +185,7 @@ Error Run(const ViewOptions& options) {
   }
   if (!error) error = ChooseLenses(capture, stats, &opened->aperture, &contents);
   if (error) return error;
-  stats.invalid = invalid;  // count before the holes were filled
+  stats.invalid = invalid;  // number of unknown values before the holes were filled
   error =
       RefocusEach(options.input.path, light_field, stats, options.threads, contents.lenses,
                   [&](size_t i, const Image& picture, const std::vector<starfocus_block>& blocks) {

@@ -172,7 +172,7 @@ Result<DisparityRange> FindRange(const std::string& where, const LightField& lig
   for (size_t i = 0; i < made->confidence.size(); ++i) {
     if (made->confidence[i] >= kLeastConfidence) sure.push_back(made->map.values[i]);
   }
-  if (sure.empty()) sure.push_back(0);  // a uniform picture has no certain disparity
+  if (sure.empty()) sure.push_back(0);  // no disparity of a uniform picture is certain
   std::sort(sure.begin(), sure.end());
   const auto strays = static_cast<size_t>(kStrays * static_cast<double>(sure.size()));
   // Extend the range by one pixel of the reduced pictures at each end, to include surfaces close to

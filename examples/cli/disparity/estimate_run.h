@@ -13,8 +13,8 @@
 
 namespace starfocus {
 
-// A repair searches up to this number of pixels beyond the disparities of the map, because blur in
-// a map reduces its extremes.
+// Extension of the range that a repair searches beyond the disparities of the map, in pixels. The
+// extension is required because blur in a map reduces the extremes of its disparities.
 constexpr float kRepairReach = 1;
 
 struct DisparityRange {
@@ -38,7 +38,7 @@ struct RepairOptions {
 Image DrawLevels(const std::vector<uint8_t>& levels, const Image& centre);
 
 // Returns the number of views of the largest star that the first positions form. Maps are computed
-// from these views only.
+// from the views of this star only.
 int StarWithin(const Positions& positions);
 
 // Returns an error unless the first 5 or more views form a star. Errors start with `where`.

@@ -20,8 +20,8 @@ bool IsPattern(const std::string& word) {
   return std::any_of(word.begin(), word.end(), [](char c) { return c >= 'A' && c <= 'Z'; });
 }
 
-// Returns the shell command that sets COMPREPLY to the values of a type. Empty if the values are
-// unknown.
+// Returns the shell command that sets COMPREPLY to the values of a type, or an empty string if the
+// values are unknown.
 std::string Values(const std::string& type) {
   if (type == "FILE") return "COMPREPLY=($(compgen -f -- \"$word\"))";
   if (type == "DIR") return "COMPREPLY=($(compgen -d -- \"$word\"))";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Generates documentation of a command line from its tables of options, so that both always agree.
+// Generates the documentation of a command line from the tables of options that the parser uses, so
+// that the documentation and the parser always agree.
 #ifndef STARFOCUS_EXAMPLES_CLI_DOCUMENTATION_DOCUMENTATION_H_
 #define STARFOCUS_EXAMPLES_CLI_DOCUMENTATION_DOCUMENTATION_H_
 
@@ -12,8 +13,9 @@ namespace starfocus {
 // Returns the manual page in roff.
 std::string ManualText(const Program& program);
 
-// Returns the completion script for bash. If the type of an option lists words, as "near|far" does,
-// the script completes the words without capitals. For DIR and FILE it completes file names.
+// Returns the completion script for bash. If the type of an option lists words, such as "near|far",
+// the script completes the words without capitals. For DIR and FILE, the script completes file
+// names.
 std::string CompletionText(const Program& program);
 
 }  // namespace starfocus

@@ -10,10 +10,10 @@
 namespace starfocus {
 namespace {
 
-constexpr int kStreamRows = 8;  // pushed and pulled at a time
+constexpr int kStreamRows = 8;  // number of rows that are pushed or pulled at a time
 
-// Converts a status to an error. The program has already checked all arguments, so only the address
-// space and the memory can be insufficient.
+// Converts a status to an error. The program has already checked all arguments, so the only
+// expected cause is insufficient memory or address space.
 Error Outcome(const std::string& where, starfocus_status status, const starfocus_problem* problem,
               size_t bytes = 0) {
   if (status == STARFOCUS_OK) return {};

@@ -35,7 +35,7 @@ struct EngineResult {
 };
 
 // Refocuses one or several pictures with one configuration, and shows progress. Errors start with
-// the `where` of the call.
+// the argument `where` of the call.
 class EngineRun {
  public:
   EngineRun(int threads, int pictures);
@@ -48,7 +48,8 @@ class EngineRun {
 
   Result<EngineResult> Refocus(const std::string& where, const EngineTask& task);
 
-  // Refocuses a frame after `before`, from which `picture` was computed with the same params.
+  // Refocuses a frame that follows the frame `before`. `picture` must have been computed from
+  // `before` with the same params.
   Result<EngineResult> RefocusAfter(const std::string& where, const EngineTask& task,
                                     const LightField& before, const Image& picture);
 

@@ -164,7 +164,7 @@ Result<Capture> OpenInput(const InputOptions& options) {
 
 Error LoadInput(const Positions& views, int threads, Capture* capture) {
   for (const starfocus_position& view : views) {
-    // If a view is missing, the error is about the option.
+    // If a view is missing, report an error of the option.
     if (SelectViewFiles(capture->path, capture->files, {view})) continue;
     return Error::Usage(
         "--views",

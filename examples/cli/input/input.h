@@ -18,13 +18,13 @@ struct InputOptions {
   DepthOptions map = {};
 };
 
-// Options for processing the map. By default, the format of the input decides.
+// Options for processing the map. By default, the format of the input determines the processing.
 struct MapOptions {
   bool repair = false, no_repair = false, fill = false;
 };
 
-// Adds the options. If `several` is not null, the command takes several paths and stores them there
-// instead of in `options`.
+// Adds the options. If `several` is not null, the command takes several paths and stores the paths
+// in `several` instead of in `options`.
 void AddInputOptions(Command* command, InputOptions* options,
                      std::vector<std::string>* several = nullptr);
 void AddMapOptions(Command* command, MapOptions* options);
@@ -33,22 +33,22 @@ void AddMapOptions(Command* command, MapOptions* options);
 // size until LoadInput.
 Result<Capture> OpenInput(const InputOptions& options);
 
-// Reads the views at the positions `views`, or all views if it is empty, and the map. A missing map
-// is estimated from these views, with a message on stderr.
+// Reads the map, and the views at the positions `views`, or all views if `views` is empty. A
+// missing map is estimated from the loaded views, with a message on stderr.
 Error LoadInput(const Positions& views, int threads, Capture* capture);
 
 // Returns true if CareForMap will repair the map, which takes seconds per megapixel.
 bool WillRepair(const MapOptions& options, const Capture& capture);
 
-// Repairs the map or fills its holes, by the options or as its format needs. Does not change an
-// estimated map.
+// Repairs the map or fills its holes, as the options or the format of the map require. Does not
+// change an estimated map.
 Error CareForMap(const MapOptions& options, int threads, Capture* capture);
 
-// Replaces unknown values of a map by the nearest known ones. Errors start with `where`.
+// Replaces unknown values of a map by the nearest known values. Errors start with `where`.
 Error FillHoles(const std::string& where, FloatMap* map);
 
-// Returns the folder of the input if its views do not have starfocus names. In such a folder, every
-// picture is treated as a view.
+// Returns the folder of the input if the names of its views are not starfocus names. In such a
+// folder, every picture is treated as a view.
 std::vector<std::string> GridsOf(const InputOptions& options, const Capture& capture);
 
 // Returns the name of the map for errors.

@@ -12,7 +12,8 @@ struct Difference {
   int largest = 0;  // largest difference of any sample
 };
 
-// Compares two pictures of equal size, here and below.
+// Measures the difference between two pictures. Both functions of this header require pictures of
+// equal size.
 Difference MeasureDifference(const Image& a, const Image& b);
 
 // Draws the largest difference of each pixel's samples. Colours run from black (no difference) over

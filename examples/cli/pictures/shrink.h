@@ -8,7 +8,7 @@
 namespace starfocus {
 
 // Reduces a picture that is wider than `width` to that width. Every pixel is the mean of the area
-// it covers.
+// that the pixel covers in the source.
 Image Shrink(const Image& source, int width);
 
 }  // namespace starfocus

@@ -12,7 +12,8 @@
 namespace starfocus {
 namespace {
 
-// Stores the option that set the radius. --strength counts if it is the only one.
+// Stores the name and the value of the option that set the radius. --strength is stored only if
+// neither --f-stop nor --aperture was given.
 void NameOption(const ApertureOptions& options, ApertureChoice* aperture) {
   for (const auto& [name, value] : {std::pair{"--f-stop", options.f_stop},
                                     {"--aperture", options.aperture},
@@ -30,9 +31,9 @@ std::string ThreeDigits(double value) {
   return text;
 }
 
-// Returns the first number of three digits that fits, starting at `value` and changing the third
-// digit up or down. The function tests the number as printed, so that it also fits if a user types
-// it.
+// Returns the first number of three digits that satisfies `fits`. The search starts at `value` and
+// changes the third digit up or down. The function tests the number as printed, so that the number
+// also fits if a user types it.
 template <class Fits>
 double FirstThatFits(double value, int direction, const Fits& fits) {
   const double unit = std::pow(10, std::floor(std::log10(value)) - 2);
@@ -42,8 +43,8 @@ double FirstThatFits(double value, int direction, const Fits& fits) {
   }
 }
 
-// Returns the widest f-stop of three digits within the blur limit. The next functions do so for
-// --aperture and --strength.
+// Returns the widest f-stop of three digits within the blur limit. LargestRadius and
+// LargestPercentage return the corresponding limits of --aperture and --strength.
 double WidestFStop(double range, const ApertureChoice& aperture) {
   const double factor = aperture.widest * aperture.strength;
   return FirstThatFits(factor * range / STARFOCUS_MAX_BLUR, 1, [&](double f_stop) {

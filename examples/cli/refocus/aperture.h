@@ -14,7 +14,7 @@
 
 namespace starfocus {
 
-// Options as typed.
+// Options of the command line.
 struct ApertureOptions {
   std::optional<double> aperture, f_stop, widest, strength;
 };
@@ -22,9 +22,9 @@ struct ApertureOptions {
 struct ApertureChoice {
   double radius = 1;      // radius at the requested strength
   double widest = 1;      // f-stop of radius 1
-  double strength = 1;    // 0 to 1; already a factor of `radius`
+  double strength = 1;    // 0 to 1; `radius` already includes this factor
   std::string option;     // option that set the radius; empty: the default
-  std::string value;      // value of that option as typed
+  std::string value;      // value of `option` as typed
   bool narrowed = false;  // the default exceeded the blur limit and was reduced
 };
 
@@ -34,8 +34,9 @@ Result<ApertureChoice> PlanAperture(const ApertureOptions& options, const Captur
 // Returns the largest difference between a disparity of the map and any of the foci.
 double FarthestFromFocus(const starfocus_disparity_stats& stats, const std::vector<double>& foci);
 
-// Fits the aperture to the blur limit, if disparities are up to `range` pixels out of focus.
-// Reduces a default aperture; returns an error if the user chose the aperture.
+// Fits the aperture to the blur limit. `range` is the largest distance of a disparity from the
+// focus, in pixels. If the blur exceeds the limit, reduces a default aperture, but returns an error
+// for an aperture that the user chose.
 Error FitAperture(double range, ApertureChoice* aperture);
 
 // Prints the f-stop that replaces the default to stderr, if the default was reduced.

@@ -92,7 +92,7 @@ struct Work {
       const Error error = RunOne(items[i]);
       progress.Step();
       if (!error) continue;
-      // Errors about an option do not contain the name of the input.
+      // Errors of an option do not contain the name of the input.
       const bool named = error.line().find(items[i].input) != std::string::npos;
       const std::lock_guard<std::mutex> lock(mutex);
       progress.Tell("starfocus: " + (named ? "" : items[i].input + ": ") + error.line());

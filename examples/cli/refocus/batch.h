@@ -15,14 +15,15 @@ struct BatchItem {
   std::string input, output;
 };
 
-// Returns true if the command writes several pictures to a folder. This is the case if there are
-// several inputs, or if the output exists as a folder or ends with "/".
+// Returns true if the command writes several pictures to a folder: if there are several inputs, or
+// if the output is an existing folder or ends with "/".
 bool IsBatch(const std::vector<std::string>& inputs, const std::string& out);
 
-// Chooses the output of each input. It has the name of its input. Its format is that of the input
-// for .jpg, .png, .ppm and .webp files, .jpg for other files, and .png for light fields. A folder
-// that is not a light field is replaced by the photographs and light fields in it. Returns an error
-// if outputs coincide with each other or with inputs, and then creates the folder.
+// Chooses the output file of each input. An output has the name of the input. The format of an
+// output is the format of the input for .jpg, .png, .ppm and .webp files, .jpg for other files, and
+// .png for light fields. A folder that is not a light field is replaced by the photographs and
+// light fields in it. Returns an error if outputs coincide with each other or with inputs.
+// Otherwise, creates the output folder.
 Result<std::vector<BatchItem>> PlanBatch(const std::vector<std::string>& inputs,
                                          const std::string& folder);
 

@@ -12,7 +12,8 @@ namespace {
 
 constexpr int kSamples = 64;                   // per axis, over the middle half of the picture
 constexpr double kShare = 0.1, kAlike = 0.06;  // fractions of the samples and of the range
-constexpr double kLeastAlike = 0.75;           // pixels; one surface to starfocus_focus_at
+// Pixels; starfocus_focus_at treats smaller differences as one surface.
+constexpr double kLeastAlike = 0.75;
 
 struct Sample {
   int x, y;
@@ -40,7 +41,7 @@ struct Surface {
 };
 
 // Returns the nearest surface that contains `count` of the samples, which are sorted from near to
-// far. On a slope there may be none; then returns a surface around the median.
+// far. Returns a surface around the median if no surface contains `count` samples, as on a slope.
 Surface FindNearest(const std::vector<float>& sorted, size_t count) {
   const float alike = std::max(static_cast<float>(kLeastAlike),
                                static_cast<float>(kAlike) * (sorted.front() - sorted.back()));
@@ -63,8 +64,8 @@ int CountAround(const Grid& grid, const Surface& surface, int column, int row) {
   return count;
 }
 
-// Returns the sample with the most neighbours on the surface. Among equals, the one nearest to the
-// centre is chosen.
+// Returns the sample with the most neighbours on the surface. Among samples with equal numbers of
+// neighbours, returns the sample nearest to the centre.
 Sample ChooseSample(const Grid& grid, const Surface& surface) {
   Sample best = {grid.map.width / 2, grid.map.height / 2, 0};
   int most = 0, least_distance = 0;

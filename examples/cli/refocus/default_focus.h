@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Chooses the focus if the command line does not.
+// Chooses the focus if the command line does not specify a focus.
 #ifndef STARFOCUS_EXAMPLES_CLI_REFOCUS_DEFAULT_FOCUS_H_
 #define STARFOCUS_EXAMPLES_CLI_REFOCUS_DEFAULT_FOCUS_H_
 
@@ -17,8 +17,8 @@ struct DefaultFocus {
 };
 
 // Returns the subject in EXIF, otherwise the focus of the file, otherwise the result of
-// FindSurface, in pixels of the picture. The map must be loaded. It may contain unknown values and
-// may have another size than the picture.
+// FindSurface, in pixels of the picture. The map must be loaded. The map may contain unknown values
+// and may differ in size from the picture.
 DefaultFocus FindDefaultFocus(const Capture& capture);
 
 // Returns a pixel of the nearest large surface near the centre. A large surface has similar

@@ -13,8 +13,8 @@ constexpr int kTintPercent = 40;
 
 int Grey(const uint8_t* rgb) { return (77 * rgb[0] + 150 * rgb[1] + 29 * rgb[2] + 128) >> 8; }
 
-// Outlines the first row and column of a block; its neighbours draw the other two sides. The map's
-// first pixel is (left, top) of the picture.
+// Draws the outline along the first row and column of a block. The neighbouring blocks draw the
+// outline of the other two sides. The first pixel of the map is pixel (left, top) of the picture.
 void DrawBlock(const starfocus_block& block, int left, int top, Image* map) {
   const uint8_t* color = kLayerColors[block.layer];
   const int begin = std::max(block.x, left);

@@ -14,7 +14,7 @@ namespace starfocus {
 void CollectBlock(void* data, const starfocus_block* block);
 
 // Draws the picture in grey, with every block tinted by its layer (L = 0 red, 1 green, 2 blue) and
-// outlined. `picture` may be a region whose first pixel is (left, top).
+// outlined. `picture` may be a region whose first pixel is (left, top) of the whole picture.
 Image DrawPartition(const Image& picture, int left, int top,
                     const std::vector<starfocus_block>& blocks);
 

@@ -17,7 +17,7 @@ namespace starfocus {
 namespace {
 
 constexpr char kAnimation[] = ".webp";
-// Limits the memory in bytes of pictures that wait for parallel encoding.
+// Limit of the memory of pictures that wait for parallel encoding, in bytes.
 constexpr size_t kMostWaiting = size_t{1} << 28;
 
 // Returns the name of a picture of a sweep: "out_007.png" for "out.png".

@@ -17,7 +17,7 @@
 
 namespace starfocus {
 
-// Options as typed.
+// Options of the command line.
 struct OutputOptions {
   std::string out, all_in_focus, focus_index;
   int quality = 95;
@@ -29,16 +29,18 @@ void AddOutputOptions(Command* command, OutputOptions* options);
 // Lists the output files of a refocusing, or of a sweep of `pictures` pictures (0: no sweep).
 std::vector<Output> ListPictures(const OutputOptions& options, size_t pictures);
 
-// Checks the options before any file is read, except for the files themselves. `region` is true if
+// Checks the options before any file is read. Does not check the output files. `region` is true if
 // only part of the picture is computed.
 Error PlanOutput(const OutputOptions& options, bool sweep, bool region);
 
-// Writes the picture of a task by the options. `widest` is the f-stop of aperture radius 1.
+// Writes the picture of a task to the files that the options select. `widest` is the f-stop of
+// aperture radius 1.
 Error WriteRefocused(const OutputOptions& options, const PictureOptions& how, double widest,
                      const EngineTask& task, const Image& picture);
 
-// Writes the requested files of a pair that replaces a sweep. The first is the centre view, which
-// is sharp everywhere. The second contains the index of the nearest focus for each of its pixels.
+// Writes the requested files of a pair that replaces a sweep. The first file is the centre view,
+// which is sharp everywhere. The second file contains the index of the nearest focus for each pixel
+// of the centre view.
 Error WritePair(const OutputOptions& options, const PictureOptions& how,
                 const LightField& light_field, const std::vector<double>& foci);
 
@@ -48,7 +50,8 @@ class StackWriter {
  public:
   StackWriter(const OutputOptions& options, const PictureOptions& how, ThreadRunner* runner);
 
-  // Adds a picture. Returns the name of its file, which a later call may write.
+  // Adds a picture. Returns the name of the picture's file. The file may be written by a later
+  // call.
   Result<std::string> Add(Image picture);
   Error Finish();
 

@@ -44,8 +44,8 @@ void AddOpticsOptions(Command* command, LensOptions* options) {
   AddShapeOptions(command, &options->shape);
 }
 
-// Returns the disparity at a pixel of the picture after filling unknown values around it. Returns
-// nullopt if no value around it is known.
+// Returns the disparity at pixel (x, y) of the picture after filling unknown values around this
+// pixel. Returns nullopt if no value around this pixel is known.
 std::optional<double> FocusAround(const FloatMap& map, int x, int y) {
   constexpr int kAround = 16;  // larger than the neighbourhood of starfocus_focus_at
   const int left = std::max(0, x - kAround), top = std::max(0, y - kAround);
@@ -75,7 +75,7 @@ Error CheckPixel(int width, int height, const LensPlan& plan) {
                       std::to_string(plan.x) + "," + std::to_string(plan.y));
 }
 
-// Adds the options that decide between time and error.
+// Adds the options that trade time against error.
 void AddTuningOptions(Command* command, LensOptions* options) {
   AddOptions(
       {
@@ -252,7 +252,7 @@ Error ForeseeBlur(const LightField& light_field, bool repaired, LensPlan* plan) 
     foci = {*focus};
   }
   starfocus_disparity_stats stats = MeasureDisparity(map);
-  // If no value is known, the later processing of the map reports it.
+  // If no value is known, later processing of the map reports the error.
   if (stats.invalid == int64_t{map.width} * map.height) return {};
   if (repaired) {
     stats.min -= kRepairReach;

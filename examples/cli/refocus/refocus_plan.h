@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Options of a lens and an engine, and their application to a light field. Shared by `refocus` and
-// `video`.
+// Parses the options of a lens and an engine, and applies these options to a light field. Shared by
+// `refocus` and `video`.
 #ifndef STARFOCUS_EXAMPLES_CLI_REFOCUS_REFOCUS_PLAN_H_
 #define STARFOCUS_EXAMPLES_CLI_REFOCUS_REFOCUS_PLAN_H_
 
@@ -43,8 +43,9 @@ void AddApertureOptions(Command* command, ApertureOptions* options);
 struct LensPlan {
   LensOptions options;
   std::string focus_option;  // option that set the foci; empty: not set
-  std::vector<double> foci;  // one focus, or those of a sweep; empty while a pixel decides
-  int x = 0, y = 0;          // pixel that decides the focus
+  // One focus, or the foci of a sweep; empty until a chosen pixel sets it.
+  std::vector<double> foci;
+  int x = 0, y = 0;  // pixel that determines the focus
   ApertureChoice aperture;
   starfocus_region region = {};  // all 0: the whole picture
   Config config;                 // features for the shape, timing, and defaults
@@ -65,9 +66,9 @@ Result<starfocus_disparity_stats> PrepareDisparity(const std::string& where, con
 // Sets the focus to the disparity at the chosen pixel, if the focus depends on a pixel.
 Error ChooseFocus(const FloatMap& map, LensPlan* plan);
 
-// Fits the aperture to the expected blur before the map is processed, which may take long.
-// `repaired` is true if the map will be repaired. The map may contain unknown values and may have
-// another size than the picture.
+// Fits the aperture to the expected blur. Called before processing of the map, which may take long.
+// `repaired` is true if the map will be repaired. The map may contain unknown values and may differ
+// in size from the picture.
 Error ForeseeBlur(const LightField& light_field, bool repaired, LensPlan* plan);
 
 // Fits the aperture to the blur of the final map. Returns the largest blur radius over all foci,

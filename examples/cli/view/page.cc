@@ -14,10 +14,12 @@ namespace starfocus {
 namespace {
 
 constexpr int kQuality = 88;
-constexpr int kBarWidth = 20, kBarsHeight = 200;  // histogram, in its own units
+// Width of a bar and height of the histogram, in units of the viewBox.
+constexpr int kBarWidth = 20, kBarsHeight = 200;
 
-// The policy blocks all loading, even if a file name contains HTML; pictures and style are part of
-// the page. Colours have a contrast of 7 or more, on light and on dark backgrounds.
+// Start of the page. The content security policy blocks all loading, even if a file name contains
+// HTML. Pictures and style are part of the page. Text has a contrast of at least 7 : 1 on light and
+// on dark backgrounds.
 constexpr char kHead[] =
     "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; "
     "style-src 'unsafe-inline'\">\n"

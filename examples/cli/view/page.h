@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Generates an HTML page that contains everything: pictures are data URIs, and the page loads
-// nothing.
+// Generates a self-contained HTML page: pictures are data URIs, and the page loads nothing.
 #ifndef STARFOCUS_EXAMPLES_CLI_VIEW_PAGE_H_
 #define STARFOCUS_EXAMPLES_CLI_VIEW_PAGE_H_
 
@@ -22,7 +21,7 @@ struct PageFigure {
   Image picture;
 };
 
-// Builds the page. Texts are plain; HTML characters are escaped.
+// Builds the page. All texts are plain text, in which this class escapes HTML characters.
 class Page {
  public:
   // `icc` is the colour profile of all pictures; empty for sRGB.
@@ -35,7 +34,7 @@ class Page {
   Error AddFigures(const std::string& path, const std::string& heading,
                    const std::vector<PageFigure>& figures, int width);
 
-  // Adds a histogram of bars, and its numbers in a collapsible table.
+  // Adds a histogram of bars, and a collapsible table of the numbers.
   void AddHistogram(const std::string& heading, const std::vector<int64_t>& counts,
                     const starfocus_disparity_stats& stats);
 

@@ -29,8 +29,8 @@ std::optional<LensAt> ParseTruthName(const fs::path& name) {
   return lens.aperture > 0 && lens.aperture <= 1 ? std::optional(lens) : std::nullopt;
 }
 
-// Returns the transfer of pictures by the folder's meta.txt, which may state that codes are
-// averaged.
+// Returns the transfer of the folder's pictures. The file meta.txt may state that pictures are
+// averages of codes instead of light.
 starfocus_transfer TransferOf(const std::string& folder) {
   const Result<Bytes> bytes = ReadSmallFile((fs::path(folder) / "meta.txt").string());
   const std::string text(bytes->begin(), bytes->end());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes the pictures of a page: a light field refocused several times. Finds ground-truth
-// pictures to compare them with.
+// Computes the pictures of a page by refocusing a light field several times. Finds ground-truth
+// pictures with which the refocused pictures are compared.
 #ifndef STARFOCUS_EXAMPLES_CLI_VIEW_STRIP_H_
 #define STARFOCUS_EXAMPLES_CLI_VIEW_STRIP_H_
 
@@ -22,8 +22,8 @@ struct LensAt {
 // Returns the largest blur radius of a picture with this lens.
 double BlurOf(const LensAt& lens, const starfocus_disparity_stats& stats);
 
-// Returns `count` foci at equal steps of disparity, from far to near. They cover the known values
-// of the map without the outermost hundredths. Returns one focus if all values are equal.
+// Returns `count` foci at equal steps of disparity, from far to near. The foci cover the known
+// values of the map without the outermost hundredths. Returns one focus if all values are equal.
 std::vector<double> StripFoci(const FloatMap& map, int count);
 
 // A ground-truth picture of the folder's scene through a real lens: truth_dt<D>_ut<U>.png, as
@@ -36,8 +36,8 @@ struct TruthFile {
 // Returns the ground-truth files of a folder, sorted by name.
 std::vector<TruthFile> FindTruths(const std::string& folder);
 
-// Refocuses the light field of a folder or photo for each of the lenses and calls `show` with the
-// result and its blocks. The blur must not exceed STARFOCUS_MAX_BLUR.
+// Refocuses the light field of a folder or photo for each of the lenses, and calls `show` with each
+// picture and its blocks. Blur radii must not exceed STARFOCUS_MAX_BLUR.
 Error RefocusEach(
     const std::string& where, const LightField& light_field, const starfocus_disparity_stats& stats,
     int threads, const std::vector<LensAt>& lenses,
