@@ -37,8 +37,8 @@ Surface Turned(Surface surface, double dx, double dy);
 // Creates a flat wire with half width `radius` between two positions.
 Surface Wire(const Position& from, const Position& to, double radius, const Material& material);
 
-// Creates a leaf whose tip lies in `direction` from its centre. Disparity grows by `rise` towards
-// the tip.
+// Creates a leaf whose tip lies in `direction` from `centre`. Disparity grows by `rise` towards the
+// tip.
 Surface Leaf(const Position& centre, const Point& direction, double length, double width,
              double rise, const Material& material);
 

@@ -7,7 +7,8 @@ namespace starfocus {
 namespace {
 
 constexpr double kDarkWall = -8;
-// Codes of lamps: as bright as white. kGlare makes their light four times as bright.
+// Colours of lamps as codes, at most as bright as white. kGlare makes the light of a lamp four
+// times as bright.
 constexpr Color kWarm = {255, 214, 150}, kCold = {190, 220, 255}, kRed = {255, 60, 40};
 constexpr double kGlare = 1.825;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Converts codes to light and back, up to far above white, for lamps.
+// Converts codes to light and back. The range extends far above white, as lamps require.
 #ifndef STARFOCUS_EXAMPLES_SCENE_LIGHT_CURVE_H_
 #define STARFOCUS_EXAMPLES_SCENE_LIGHT_CURVE_H_
 
@@ -21,12 +21,12 @@ class LightCurve {
   Color Encode(const Color& light) const;
 
  private:
-  static constexpr int kMostCode = 2048, kSteps = 4;  // kSteps per code
+  static constexpr int kMostCode = 2048, kSteps = 4;  // table entries per code
 
   double LightOf(double code) const;
   double CodeOf(double light) const;
 
-  std::vector<double> light_;  // light of every step; empty: light is the code
+  std::vector<double> light_;  // light of every table entry; empty: light is the code
 };
 
 }  // namespace starfocus

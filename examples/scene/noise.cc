@@ -4,8 +4,8 @@
 namespace starfocus {
 namespace {
 
-// std::floor for numbers below 2^63. Compiles to instructions of every x86-64 processor instead of
-// a call.
+// Returns std::floor(x) for |x| below 2^63. Compiles to instructions that every x86-64 processor
+// has, instead of a function call.
 double Floor(double x) {
   const double whole = static_cast<double>(static_cast<int64_t>(x));
   return whole - (whole > x ? 1 : 0);

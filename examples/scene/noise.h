@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Procedural patterns: deterministic noise from integer hashes. Uses only + - * /, floor and sqrt,
-// so that pictures are equal on all IEEE 754 machines.
+// so that pictures are identical on all IEEE 754 machines.
 #ifndef STARFOCUS_EXAMPLES_SCENE_NOISE_H_
 #define STARFOCUS_EXAMPLES_SCENE_NOISE_H_
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The opening of a thin lens, in double precision. Shares no code with the engine.
+// The opening of a thin lens, in double precision. This class shares no code with the engine.
 #ifndef STARFOCUS_EXAMPLES_SCENE_OPENING_H_
 #define STARFOCUS_EXAMPLES_SCENE_OPENING_H_
 
@@ -21,7 +21,7 @@ class SceneOpening {
   // picture.
   double LeastShare() const;
 
-  // Returns true if the ray through (u, v) of the unit disc passes the opening. (x, y) is the
+  // Returns true if the ray through point (u, v) of the unit disc passes the opening. (x, y) is the
   // position of the pixel relative to the centre of the picture, in half diagonals.
   bool Passes(double u, double v, double x, double y) const;
 

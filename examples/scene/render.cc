@@ -16,9 +16,9 @@ struct LensPoint {
 namespace {
 
 constexpr int kTile = 16;
-constexpr int kViewGrid = 4;       // square root of the number of samples per pixel of a view
-constexpr int kFineGrid = 8;       // same, near strands
-constexpr int kCoverageGrid = 16;  // same, for coverage
+constexpr int kViewGrid = 4;       // samples along each side of a pixel of a view
+constexpr int kFineGrid = 8;       // samples along each side of a pixel near strands
+constexpr int kCoverageGrid = 16;  // samples along each side of a pixel of the coverage
 constexpr int kLensSamples = 256;  // approximate number of samples per pixel of the ground truth
 // cos and sin of the golden angle and of 1/256 of a turn. Multiplying by them generates sequences
 // of directions without library functions.
@@ -31,8 +31,8 @@ LensPoint Turn(LensPoint p, LensPoint by) {
   return {p.x * by.x - p.y * by.y, p.x * by.y + p.y * by.x};
 }
 
-// Returns points on the unit disc in a sunflower pattern, of which about kLensSamples pass the
-// opening. Their radii follow the inverse of the distribution of the squared radius s. With the
+// Returns points on the unit disc in a sunflower pattern. About kLensSamples of the points pass the
+// opening. The radii follow the inverse of the distribution of the squared radius s. With the
 // fall-off (3), the density of s is proportional to 1 / (s + cot^2)^2.
 std::vector<LensPoint> LensPoints(const SceneOpening& opening) {
   std::vector<LensPoint> points;
@@ -61,8 +61,8 @@ std::vector<LensPoint> Turns() {
 
 uint8_t ToByte(double value) { return static_cast<uint8_t>(Clamp01(value / 255) * 255 + 0.5); }
 
-// Returns sample k of a sheared grid over a pixel. Samples have n * n different coordinates along
-// each axis, within half a pixel of 0.
+// Returns sample k of a sheared grid of grid * grid samples over a pixel. All samples have
+// different coordinates along each axis, within half a pixel of 0.
 Point BoxSample(int k, int grid) {
   const double i = k % grid, j = k / grid, n = grid;
   return {(i + (j + 0.5) / n) / n - 0.5, (j + (n - i - 0.5) / n) / n - 0.5};

@@ -16,26 +16,27 @@ namespace starfocus {
 
 class RayTracer {
  public:
-  // Pixels are averages of light, as `transfer` defines it.
+  // Pixels are averages of light. `transfer` defines how codes represent light.
   RayTracer(const Scene& scene, int width, int height, starfocus_transfer transfer,
             ThreadRunner* runner);
 
-  // Progress counts rows. A row of ground truth counts kTruthCost times, a row of coverage
-  // kCoverageCost times. `progress` may be null.
+  // Weights of rows in the progress. A row of a view counts once, a row of ground truth kTruthCost
+  // times, and a row of coverage kCoverageCost times. `progress` may be null.
   static constexpr int kTruthCost = 16, kCoverageCost = 2;
 
-  // Renders the view of a pinhole at (u, v). Every pixel is the mean over its area.
+  // Renders the view of a pinhole at (u, v). Every pixel is the mean of the light over the area of
+  // the pixel.
   Image View(double u, double v, Progress* progress) const;
 
   // Returns the disparity of the centre view at pixel centres, in pixels per unit of u.
   FloatMap Disparity() const;
 
-  // Returns the fraction of each pixel of the centre view that the foreground covers; 255 is all of
-  // it. It is the mean of 256 rays, which lie in different 256ths of the pixel's width and of its
-  // height.
+  // Returns the fraction of each pixel of the centre view that the foreground covers; 255 is the
+  // whole pixel. The fraction is the mean of 256 rays. Each ray lies in a different 256th of the
+  // pixel's width and in a different 256th of the pixel's height.
   std::vector<uint8_t> Coverage(Progress* progress) const;
 
-  // Renders the picture of a lens with radius `aperture` and this opening, focused at `focus`.
+  // Renders the picture of a lens with radius `aperture` and opening `opening`, focused at `focus`.
   Image Truth(double focus, double aperture, const SceneOpening& opening, Progress* progress) const;
 
   // Converts a point of the canvas to a pixel.
@@ -50,11 +51,11 @@ class RayTracer {
   // Returns the light at pixel position (x, y) through lens position (u, v).
   Color RayColor(const Lens& lens, const std::vector<size_t>& candidates, double x, double y,
                  double u, double v) const;
-  // `grid` is the square root of the number of samples per pixel.
+  // Returns the mean light of grid * grid samples of pixel (x, y).
   Color ViewPixel(const Lens& lens, const std::vector<size_t>& candidates, int x, int y,
                   int grid) const;
   Color LensPixel(const Lens& lens, const std::vector<size_t>& candidates, int x, int y) const;
-  // Returns 0 to 255.
+  // Returns the coverage of pixel (x, y), 0 to 255.
   uint8_t CoverageOf(const std::vector<size_t>& candidates, int x, int y) const;
   // Returns true if `kind` is true for one of the candidates.
   template <class Kind>

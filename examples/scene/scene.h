@@ -3,9 +3,9 @@
 //
 // A scene is a set of surfaces in (x, y, d): position in the centre view and disparity. The canvas
 // has 1024x768 units, its origin is the centre, y points downwards, and d is in canvas units per
-// unit of u. A picture of another size scales all three equally. A ray consists of the points that
-// picture position p sees through lens position q when the lens is focused at disparity D:
-// (x, y) = p + q * (d - D). The surface with the largest d is visible. D = 0 gives the captured
+// unit of u. In a picture of another size, x, y and d are scaled equally. A ray consists of the
+// points that picture position p sees through lens position q when the lens is focused at disparity
+// D: (x, y) = p + q * (d - D). The surface with the largest d is visible. D = 0 gives the captured
 // views.
 #ifndef STARFOCUS_EXAMPLES_SCENE_SCENE_H_
 #define STARFOCUS_EXAMPLES_SCENE_SCENE_H_
@@ -23,7 +23,7 @@ namespace starfocus {
 inline constexpr double kCanvasWidth = 1024, kCanvasHeight = 768;
 
 struct Color {
-  double r = 0, g = 0, b = 0;  // codes, of which 255 is white and larger ones are clipped; or light
+  double r = 0, g = 0, b = 0;  // codes (255 is white, larger codes are clipped), or light
 };
 inline Color operator+(Color p, Color q) { return {p.r + q.r, p.g + q.g, p.b + q.b}; }
 inline Color operator*(Color p, double k) { return {p.r * k, p.g * k, p.b * k}; }
@@ -46,9 +46,9 @@ struct Surface;
 using Paint = Color (*)(const Surface&, const Hit&);
 
 enum class Shape { kPlane, kEllipsoid, kStrands };
-// Outline of a planar surface. kNone is an infinite plane, kBox is |lx| <= rx and |ly| <= ry, and
-// kEllipse has these radii. kRing is the outer ring of the ellipse with width `thickness`. kLeaf
-// lies between two arcs.
+// Outline of a planar surface. kNone is an infinite plane. kBox is |lx| <= rx and |ly| <= ry.
+// kEllipse is an ellipse with the radii rx and ry. kRing is the outer ring of this ellipse with
+// width `thickness`. kLeaf is the area between two arcs.
 enum class Outline { kNone, kBox, kEllipse, kRing, kLeaf };
 
 struct Surface {
@@ -60,7 +60,7 @@ struct Surface {
   double slope_x = 0, slope_y = 0;  // planes: change of d per unit of scene x, y
   double thickness = 0;             // rings
   std::shared_ptr<const Strands> strands;
-  bool foreground = false;  // counts in the coverage of the centre view
+  bool foreground = false;  // true if the surface counts in the coverage of the centre view
   Paint paint = nullptr;
   Color color, second;
   double scale = 1;  // scale of the texture
@@ -85,7 +85,7 @@ struct Scene {
   std::string description;
   std::vector<Surface> surfaces;
   std::vector<NamedPoint> points;  // near, middle, far
-  bool seeded = false;             // the scene depends on the seed
+  bool seeded = false;             // true if the scene depends on the seed
 
   // Returns true if the scene has a foreground, and therefore a coverage map.
   bool HasForeground() const;

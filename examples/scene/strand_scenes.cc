@@ -28,7 +28,7 @@ class Dice {
 constexpr Point kHead = {-10, 30};
 constexpr double kHeadRadius = 155;
 
-// Returns a direction from the head, except for the third of a turn to the right.
+// Returns a random direction from the head, outside of a sector of a third of a turn on the right.
 Point HairDirection(Dice* dice) {
   for (;;) {
     const double x = dice->Between(-1, 1), y = dice->Between(-1, 1);

@@ -8,7 +8,7 @@ namespace starfocus {
 namespace {
 
 constexpr int kParts = 12;   // segments per strand
-constexpr double kCell = 4;  // canvas units: half a segment of hair
+constexpr double kCell = 4;  // side of a cell in canvas units: half a segment of hair
 
 Point PointAt(const Strand& s, double t) {
   const double a = (1 - t) * (1 - t), b = 2 * t * (1 - t), c = t * t;
@@ -84,7 +84,8 @@ int Strands::CellAt(double from, int count) {
 
 void Strands::AddToCells(uint32_t index, std::vector<std::vector<uint32_t>>* cells) const {
   const Segment& s = segments_[index];
-  // A cell whose centre is farther away cannot contain a point of a ray that meets the segment.
+  // A cell whose centre is farther than `far` from the segment cannot contain a point of a ray that
+  // meets the segment.
   const double far = s.LargestRadius() + reach_ * std::sqrt(2.0) + kCell * std::sqrt(0.5);
   const double x = s.start.x - origin_.x, y = s.start.y - origin_.y;
   const double dx = s.length * s.direction.x, dy = s.length * s.direction.y;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hair, needles and blades: curves with a thickness and a constant disparity. With a grid of cells
-// over the canvas, a ray tests only the strands near it.
+// Hair, needles and blades: curves with a thickness and a constant disparity. A grid of cells over
+// the canvas limits the intersection tests of a ray to the strands near the ray.
 #ifndef STARFOCUS_EXAMPLES_SCENE_STRANDS_H_
 #define STARFOCUS_EXAMPLES_SCENE_STRANDS_H_
 
@@ -14,7 +14,7 @@ struct Point {
   double x, y;
 };
 
-// A quadratic Bezier curve, in canvas units. Its half width changes linearly from root to tip.
+// A quadratic Bezier curve, in canvas units. The half width changes linearly from root to tip.
 struct Strand {
   Point root, middle, tip;
   double root_radius, tip_radius;
@@ -24,8 +24,9 @@ struct Strand {
 // Intersection of a ray and a strand.
 struct StrandHit {
   double x, y, d;
-  double along, across;  // distance from the root in canvas units; -1 to 1 from side to side
-  size_t strand;         // index, counted from the nearest strand
+  // Along: distance from the root in canvas units; across: -1 to 1 from side to side.
+  double along, across;
+  size_t strand;  // index, counted from the nearest strand
 };
 
 // A box that contains a whole surface.
@@ -69,8 +70,8 @@ class Strands {
 
   std::vector<Segment> segments_;  // from the nearest strand to the farthest
   Bounds bounds_ = {};
-  // The grid lies in the plane of disparity d_. A ray meets strands at most at distance reach_ from
-  // its intersection with that plane.
+  // The grid lies in the plane of disparity d_. A ray meets strands only at distances of at most
+  // reach_ from the intersection of the ray with this plane.
   double d_ = 0, reach_ = 0;
   Point origin_ = {0, 0};
   int columns_ = 0, rows_ = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Materials of the scenes. All of them have fine detail everywhere, so that displaced pixels are
+// Materials of the scenes. All materials have fine detail everywhere, so that displaced pixels are
 // visible.
 #ifndef STARFOCUS_EXAMPLES_SCENE_TEXTURES_H_
 #define STARFOCUS_EXAMPLES_SCENE_TEXTURES_H_

@@ -12,8 +12,8 @@ double Grain(const Hit& hit, double size, uint32_t seed) {
   return Fractal(hit.lx / size, hit.ly / size, 3, seed);
 }
 
-// Returns how close (x, y) is to a dark dot, with 1 at its centre. Dots are in some cells of a
-// grid.
+// Returns how close (x, y) is to a dark dot; the result is 1 at the centre of a dot. Dots lie in
+// some cells of a grid.
 double Dots(double x, double y, double cell, double radius, double share, uint32_t seed) {
   const double cx = std::floor(x / cell), cy = std::floor(y / cell);
   const int32_t ix = static_cast<int32_t>(cx), iy = static_cast<int32_t>(cy);
@@ -34,7 +34,7 @@ Color Skin(const Surface& s, const Hit& hit) {
 }  // namespace
 
 Color Lit(Color color, const Hit& hit) {
-  // (-0.48, -0.6, 0.64) is a unit vector.
+  // The light comes from the direction (-0.48, -0.6, 0.64), a unit vector.
   const double direct = -0.48 * hit.nx - 0.6 * hit.ny + 0.64 * hit.nz;
   const double rim = 0.16 * (1 - hit.nz) * (hit.nx > 0 ? hit.nx : 0);
   return color * (0.42 + 0.62 * (direct > 0 ? direct : 0) + rim);
