@@ -22,7 +22,7 @@ struct Series {
   starfocus_renderer renderer;
   int layer;
   double r_max;      // 0: r itself
-  double increment;  // step of r
+  double increment;  // increment of r between measurements
   int largest;       // largest r
 };
 
@@ -30,7 +30,7 @@ const char* NameOf(starfocus_renderer renderer) {
   return renderer == STARFOCUS_RENDERER_LINE_SCAN ? "line-scan" : "slices";
 }
 
-// Consecutive steps with the same reason.
+// A range of consecutive values of r with the same reason.
 struct Stretch {
   double first, last, worst, worst_r;
   std::string reason;
@@ -48,8 +48,8 @@ void Extend(const EngineStep& step, const std::string& reason, bool joined,
   }
 }
 
-// Returns the smallest multiple of 0.5 for r at which a layer is used, by (12) or by
-// LayerBySubaperture without depth edges.
+// Returns the smallest blur radius, a multiple of 0.5, at which the renderer uses the layer. Line
+// scans follow (12). Slices follow LayerBySubaperture without depth edges.
 double LeastRadius(starfocus_renderer renderer, int layer) {
   const auto layer_at = [&](double r) {
     return renderer == STARFOCUS_RENDERER_LINE_SCAN ? LayerByPaper(r)
@@ -60,7 +60,7 @@ double LeastRadius(starfocus_renderer renderer, int layer) {
   return least;
 }
 
-// Measures one series with r of the given sign, starting at the smallest r of its layer.
+// Measures one series with r of the given sign, starting at the smallest r of the series' layer.
 Error Measure(const Series& series, int sign, Table* table, Table* layers) {
   const double least = LeastRadius(series.renderer, series.layer);
   if (least > series.largest) return {};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Recomputes the tables and figures of the paper's section III from its definitions.
+// Recomputes the tables and figures of section III of the paper from the definitions in that
+// section.
 #ifndef STARFOCUS_EXAMPLES_LAB_ANALYZE_FIGURES_H_
 #define STARFOCUS_EXAMPLES_LAB_ANALYZE_FIGURES_H_
 
@@ -14,7 +15,7 @@ namespace starfocus {
 Figure AnalyseTableOne();
 Figure AnalyseViewNumber();  // Fig. 6 and the thresholds of (9)
 
-// These functions print nothing.
+// The next functions print nothing.
 Figure DrawViewPsfs();         // Fig. 4
 Figure DrawViewResponses();    // Fig. 5
 Figure DrawSubsampledBlurs();  // Fig. 8

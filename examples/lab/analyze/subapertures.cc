@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Derives the equivalent of rule (9) for subapertures.
+// Derives the number of views N for subapertures, as rule (9) of the paper does for point samples.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -20,8 +20,8 @@ starfocus_config MakeConfig(const LightField& light_field, const starfocus_dispa
   config.disparity_min = stats.min;
   config.disparity_max = stats.max;
   config.max_blur = STARFOCUS_MAX_BLUR;
-  config.superblock = 256;                        // scratch memory for blocks of any size
-  config.tuning.n_scale = STARFOCUS_MAX_N_SCALE;  // apertures for every sampled N
+  config.superblock = 256;                        // allocates scratch memory for blocks of any size
+  config.tuning.n_scale = STARFOCUS_MAX_N_SCALE;  // allows apertures for every sampled N
   return config;
 }
 
@@ -35,7 +35,7 @@ Error BlockBench::Open(const std::string& where, const LightField& light_field) 
   if (status == STARFOCUS_OK) status = owner_.Init(MakeConfig(light_field, stats));
   if (status == STARFOCUS_OK) {
     engine_ = reinterpret_cast<EngineState*>(owner_.get());
-    // Create apertures for blocks of any N, with the default shape, which Focus also uses.
+    // Create apertures for blocks of any N. The shape is the default, which Focus also uses.
     starfocus_params params;
     starfocus_params_init(&params);
     SetOpening(ShapeOf(params.lens), &engine_->tables);
@@ -79,7 +79,7 @@ void BlockBench::HoldLayer(int layer) {
   layer_samples_[layer].resize(stride * rows + simd::kPadding);
   plane.rows = {0, plane.height};
   plane.samples = {layer_samples_[layer].data(), stride, 0, 0};
-  // Computes all rows at once, which needs more memory than a worker of the engine has.
+  // Computes all rows at once, which requires more memory than a worker of the engine has.
   const int32_t step = engine_->config.superblock / 2;
   const auto columns = size_t(TapsOfLayer(step));
   const auto above = size_t(TapsOfLayer(plane.height));

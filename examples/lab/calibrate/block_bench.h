@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures the time of single blocks of a light field, with any position, size, N and layer, by
-// calling the engine's RefocusBlock.
+// Measures the time of refocusing single blocks of a light field, with any position, size, N and
+// layer. Calls the engine's RefocusBlock directly.
 #ifndef STARFOCUS_EXAMPLES_LAB_CALIBRATE_BLOCK_BENCH_H_
 #define STARFOCUS_EXAMPLES_LAB_CALIBRATE_BLOCK_BENCH_H_
 
@@ -15,7 +15,7 @@
 
 namespace starfocus {
 
-// A block and the lens to refocus it with.
+// A block, and the lens with which the block is refocused.
 struct BlockTask {
   double focus = 0, aperture = 1;
   Block block = {};
@@ -26,8 +26,8 @@ class BlockBench {
   // The light field must outlive this object.
   Error Open(const std::string& where, const LightField& light_field);
 
-  // Returns the inputs of the timing model for a block. Its position must be a multiple of
-  // kCellSize.
+  // Returns the inputs of the timing model for a block. The position of the block must be a
+  // multiple of kCellSize.
   BlockWork Work(const BlockTask& task);
 
   // Returns the time of refocusing the block once, in picoseconds. Blur radii must not exceed

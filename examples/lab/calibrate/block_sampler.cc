@@ -16,7 +16,7 @@ constexpr int kLayerSides[] = {16, 32, 64, 128, 256};
 constexpr int kViewNumbers[] = {1, 2, 3, 4, 5, 6, 7, 8, 10, 12, 14, 16};
 constexpr int kMostViews = 16;
 
-// Number of draws per pass. Each pass permits more than the previous one.
+// Number of random draws per pass. Each pass permits more lenses and layers than the previous pass.
 constexpr int kDraws = 60000;
 enum Pass { kUsualLens, kAnyAperture, kAnyLayer, kPasses };
 
@@ -56,7 +56,7 @@ double BlockSampler::SmallestRadius(const Lens& lens, const Cell& cell) const {
   return std::min(Radius(lens, cell.low), Radius(lens, cell.high));
 }
 
-// Outside the picture, returns the nearest cell.
+// Returns a cell. For positions outside the picture, returns the nearest cell of the picture.
 const BlockSampler::Cell& BlockSampler::At(int column, int row) const {
   column = std::clamp(column, 0, columns_ - 1);
   row = std::clamp(row, 0, rows_ - 1);
@@ -92,8 +92,8 @@ double BlockSampler::SplattingRadius(const Lens& lens, const Rect& rect) const {
 }
 
 BlockSampler::Lens BlockSampler::RandomLens(int pass) {
-  // The focus lies within the disparities of the scene or slightly outside; farther outside if the
-  // layer is ignored.
+  // The focus lies within the disparity range of the scene or slightly outside. It may lie farther
+  // outside in the pass that ignores the layer.
   const double beyond = pass == kAnyLayer ? 24 : 8;
   Lens lens;
   lens.focus = range_.low - beyond + Random() * (range_.high - range_.low + 2 * beyond);

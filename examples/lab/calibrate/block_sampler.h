@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Selects the blocks to measure: blocks that occur when the scene is refocused, for all sizes and
-// N.
+// Selects the blocks to measure, for all sizes and all N. Only blocks that occur when the scene is
+// refocused are selected.
 #ifndef STARFOCUS_EXAMPLES_LAB_CALIBRATE_BLOCK_SAMPLER_H_
 #define STARFOCUS_EXAMPLES_LAB_CALIBRATE_BLOCK_SAMPLER_H_
 

@@ -38,7 +38,7 @@ Error SceneTimes::Open(const std::string& name, LightField light_field) {
 void SceneTimes::Measure(Progress* progress) {
   for (std::vector<Timed>& group : groups_) {
     for (Timed& timed : group) {
-      // Avoid zero, by which the fit would divide.
+      // Avoid zero, because the fit divides by times.
       const double picoseconds = std::max(1.0, double(bench_.Time(timed.task)));
       timed.measurement.picoseconds = std::min(timed.measurement.picoseconds, picoseconds);
       progress->Step();

@@ -23,8 +23,8 @@ class SceneTimes {
   const std::string& name() const { return name_; }
   int64_t blocks() const { return blocks_; }
 
-  // Measures every block once. The shortest time of all calls counts, because disturbances only
-  // lengthen times.
+  // Measures every block once. Repeated calls keep the shortest time of each block, because
+  // disturbances can only lengthen a measured time.
   void Measure(Progress* progress);
 
   // Return the measurements of all blocks, and their means for every configuration, which is a

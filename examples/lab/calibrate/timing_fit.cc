@@ -19,7 +19,7 @@ Vector Terms(const BlockWork& work) {
   return terms;
 }
 
-// The normal equations, with every term scaled to unit length.
+// The normal equations of the least-squares fit, with every term scaled to unit length.
 struct Equations {
   std::array<Vector, kTimingTermCount> matrix = {};
   Vector right = {}, length = {};

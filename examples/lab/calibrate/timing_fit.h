@@ -14,9 +14,9 @@ struct Measurement {
   double picoseconds;
 };
 
-// Returns the non-negative coefficients with the smallest sum of squared errors, each divided by
-// its measured time. This weight lies between absolute and relative errors, so that small blocks
-// count.
+// Returns the non-negative coefficients that minimize the weighted sum of squared errors. The
+// weight of a block is the reciprocal of its measured time. This weight is a compromise between
+// absolute and relative errors, so that small blocks have an influence.
 starfocus_timing FitTiming(const std::vector<Measurement>& measurements);
 
 // Coefficients of determination R^2: without weights, and with the weights of the fit.

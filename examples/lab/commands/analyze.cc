@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // starfocus-lab analyze: repeats the paper's filter analysis, and compares the engine's PSFs with
-// it.
+// this analysis.
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>

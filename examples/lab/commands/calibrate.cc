@@ -91,8 +91,9 @@ void PrintCoefficients(const starfocus_timing& timing) {
   }
 }
 
-// Prints how well the model predicts the scene, and returns the result as JSON. There is no limit,
-// because effects outside the model reduce the agreement on a good machine, too.
+// Prints how well the model predicts the times of the scene, and returns the result as JSON. A low
+// agreement is not an error, because effects outside the model reduce the agreement even on a good
+// machine.
 Json Judge(const char* role, const SceneTimes& scene, const starfocus_timing& timing) {
   const Agreement configurations = Compare(timing, scene.Configurations());
   const Agreement blocks = Compare(timing, scene.Blocks());

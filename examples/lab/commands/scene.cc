@@ -91,8 +91,8 @@ Result<Plan> MakePlan(const SceneOptions& options) {
   return plan;
 }
 
-// Rejects folders with old views that would mix with the new ones, or with the coverage of another
-// scene.
+// Rejects folders that contain the coverage of another scene, or old views that would mix with the
+// new views.
 Error CheckFolder(const SceneOptions& options, const Plan& plan) {
   const std::string& folder = options.folder;
   const Positions& views = options.views;

@@ -12,8 +12,8 @@ namespace starfocus {
 // Height of a line of text in pixels, including its margins.
 inline constexpr int kLabelHeight = 28;
 
-// Draws `text` (ASCII) in light grey. Its margin starts at (x, y), and it is clipped to the
-// picture.
+// Draws `text` (ASCII) in light grey, clipped to the picture. The upper left corner of the text's
+// margin is at (x, y).
 void DrawLabel(const std::string& text, int x, int y, Image* image);
 
 }  // namespace starfocus
