@@ -75,7 +75,7 @@ class Board {
   Board(const Options& options, const PanelLines& lines)
       : options_(options), lines_(lines), camera_(options.threads) {}
 
-  // Requests the lines before it reads the light field, so that a missing line is reported early.
+  // Requests the lines before reading the light field, so that a missing line is reported early.
   Error Open() {
     Error error = inputs_.Open(options_.chip, lines_.All(), options_.bias);
     if (!error && options_.busy) error = busy_.Open(options_.chip, *options_.busy);
@@ -134,8 +134,8 @@ class Board {
     return {};
   }
 
-  // Sets the busy line and returns the level that is read back. Returns false if there is no busy
-  // line.
+  // Sets the busy line and returns the level that the line then has. Returns false if there is no
+  // busy line.
   Result<bool> SetBusy(bool high) {
     if (!options_.busy) return false;
     if (Error error = busy_.Set(high)) return error;

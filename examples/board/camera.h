@@ -18,7 +18,8 @@ class Camera {
  public:
   explicit Camera(int threads) : runner_(threads) {}
 
-  // Loads the light field and creates an engine that supports every focus within its disparities.
+  // Loads the light field and creates an engine that supports every focus within the disparity
+  // range of the light field.
   Error Load(const std::string& folder, starfocus_mode mode);
 
   double nearest() const { return stats_.max; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Interprets the camera's controls: a rotary encoder for the focus, a button for the aperture, and
-// a button for the shutter. Its input is the edges of their lines; it performs no I/O.
+// a button for the shutter. The input consists of the signal edges on the lines of these controls.
+// The module performs no I/O.
 #ifndef STARFOCUS_EXAMPLES_BOARD_PANEL_H_
 #define STARFOCUS_EXAMPLES_BOARD_PANEL_H_
 
@@ -32,15 +33,15 @@ struct PanelActions {
 class Panel {
  public:
   // @param active_low true if buttons connect to ground
-  // @param quiet duration of bouncing after a change of a button, in nanoseconds
+  // @param quiet duration of contact bounce after a change of a button, in nanoseconds
   // @param level_a, level_b levels of the encoder's lines at rest
   Panel(const PanelLines& lines, bool active_low, int64_t quiet, bool level_a, bool level_b);
 
   // Processes an edge of `line` to level `high` at `time`.
   PanelActions Edge(int line, bool high, int64_t time);
-  // Call it if no edge arrives for Wait() nanoseconds.
+  // Settles the buttons. Call this function if no edge arrives for Wait() nanoseconds.
   PanelActions Settle(int64_t time);
-  // Returns the nanoseconds until Settle must be called; -1: never.
+  // Returns the time until Settle must be called, in nanoseconds, or -1 if no call is required.
   int64_t Wait(int64_t time) const;
 
  private:

@@ -2,7 +2,7 @@
 /* usage: camera OUT.ppm
  * Refocuses a light field of five views of 12 megapixels as a stream. Five simulated sensors
  * deliver NV12 rows, and the program writes RGB rows. No picture is stored as a whole, so the
- * process needs less than 64 MiB. Prints the time and the peak memory. */
+ * process uses less than 64 MiB. Prints the time and the peak memory. */
 #define _POSIX_C_SOURCE 200112L
 #include <starfocus/pool.h>
 #include <starfocus/starfocus.h>
@@ -13,9 +13,7 @@
 
 #include "sensor.h"
 
-enum {
-  kRows = 16
-}; /* number of rows that a sensor delivers at once, and that are pulled at once */
+enum { kRows = 16 }; /* number of rows that a sensor delivers at a time, and that one pull takes */
 
 static uint8_t depth[kDepthWidth * kDepthHeight];
 static uint8_t luma[kCameras][kRows * kWidth], chroma[kCameras][kRows / 2 * kWidth];
@@ -36,7 +34,7 @@ static starfocus_status MakeEngine(starfocus_pool* pool, starfocus_engine** engi
   config.width = kWidth, config.height = kHeight, config.views = kCameras;
   config.disparity_min = kWall, config.disparity_max = kBall, config.max_blur = kBall - kWall;
   config.features |= STARFOCUS_FEATURE_STREAMING, config.features |= STARFOCUS_FEATURE_IMAGES;
-  config.superblock = 64; /* the default, 128, needs four times the memory per worker */
+  config.superblock = 64; /* the default, 128, requires four times the memory per worker */
   config.max_workers = starfocus_pool_workers(pool);
   callbacks.runner = starfocus_pool_run, callbacks.runner_data = pool;
   status = starfocus_create(&config, NULL, engine);

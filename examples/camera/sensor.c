@@ -9,9 +9,9 @@ static int IsBall(int x, int y) {
   return dx * dx + dy * dy < kHeight / 3 * (kHeight / 3);
 }
 
-/* Finds the texture coordinates of the surface that the camera at (u, v) sees at pixel (x, y). They
- * are the pixel where the first camera sees the surface, plus 1024, which keeps them positive.
- * Returns 1 for the ball, 0 for the wall. */
+/* Finds the texture coordinates of the surface that the camera at (u, v) sees at pixel (x, y).
+ * Texture coordinates are the pixel at which the first camera sees the surface, plus 1024 to keep
+ * them positive. Returns 1 for the ball, 0 for the wall. */
 static int SeenByFirst(int x, int y, int u, int v, int* seen_x, int* seen_y) {
   const int is_ball = IsBall(x + u * kBall, y + v * kBall);
   const int disparity = is_ball ? kBall : kWall;

@@ -17,8 +17,8 @@ import java.util.Locale;
 import javax.imageio.ImageIO;
 
 /**
- * Refocus FOLDER FOCUS OUT.ppm: refocuses a light field of five views, such as `starfocus-lab scene
- * --views 5` makes.
+ * Usage: Refocus FOLDER FOCUS OUT.ppm. Refocuses a light field of five views, for example a folder
+ * that `starfocus-lab scene --views 5` has written.
  */
 public final class Refocus {
   private static final int VIEWS = 5;
@@ -74,8 +74,8 @@ public final class Refocus {
   }
 
   /**
-   * Its header is three lines; its rows are the lowest first, in the byte order that the scale's
-   * sign tells.
+   * Reads a PFM file. The header has three lines. The bottom row is the first. The sign of the
+   * scale in the header gives the byte order (negative: little endian).
    */
   private static ByteBuffer readPfm(Path path, int width, int height) throws IOException {
     final byte[] bytes = Files.readAllBytes(path);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Refocuses a camera frame in NV12. The depth map has a quarter of its size and contains distances
- * in millimetres. Writes the luma of the result to yuv.pgm and prints the status. */
+/* Refocuses a camera frame in NV12. The depth map has a quarter of the frame's width and height,
+ * and contains distances in millimetres. Writes the luma of the result to yuv.pgm and prints the
+ * status. */
 #include <starfocus/starfocus.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """A tour of starfocus for researchers: focal_stack.py [FOLDER] [OUTPUT].
 
-FOLDER is a light field, such as `./do demo` makes; plots go to OUTPUT. Editors that know cells (# %%) run it
-piece by piece.
+FOLDER is a light field, for example a folder that `./do demo` has written. Plots are written to OUTPUT. Editors that
+support cells (# %%) can run the script cell by cell.
 """
-# %% A light field: views of (height, width, 3) uint8, the disparity map of the first one in float32.
+# %% Read a light field: views as uint8 of shape (height, width, 3), and the disparity map of the first view as float32.
 import sys
 import time
 from pathlib import Path
@@ -22,7 +22,7 @@ height, width = disparity.shape
 print(f"{len(views)} views of {width} x {height}, disparities {disparity.min():.2f} to {disparity.max():.2f}, "
       f"starfocus {starfocus.__version__} on {starfocus.simd_target()}")
 
-# %% One engine for all pictures; preparing does once what is the same for every focus.
+# %% Create one engine for all pictures. Preparing does the work that does not depend on the focus only once.
 refocuser = starfocus.Refocuser.for_light_field(views, disparity)
 prepared = refocuser.prepare(views, disparity)
 foci = np.linspace(disparity.max(), disparity.min(), 3)
@@ -40,9 +40,9 @@ for axis in axes:
 figure.savefig(output / "focal_stack.png", dpi=100)
 
 
-# %% Time against error: the benchmark has twice the views that blur can show.
+# %% Plot time against error. The benchmark renders twice as many views as the blur can show.
 def psnr(picture: np.ndarray, truth: np.ndarray) -> float:
-    """In decibels over all samples."""
+    """Returns the PSNR in decibels over all samples."""
     return 10 * np.log10(255**2 / max(np.mean((picture.astype(float) - truth) ** 2), 1e-9))
 
 
@@ -65,6 +65,6 @@ left.legend()
 right.legend()
 figure.savefig(output / "time_and_error.png", dpi=100)
 
-# %% What the engine did for the last picture.
+# %% Print the engine's report on the last picture.
 report = refocuser.report
 print(f"N = {report['n']}, {report['rendered_samples'] / (3 * width * height):.1f} samples per pixel")

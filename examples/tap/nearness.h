@@ -8,7 +8,8 @@
 namespace starfocus {
 
 // Returns the PSNR in dB of a preview at 1 / 2^shift of the size, over all its samples. The
-// reference is the full picture, reduced by averaging light. Returns infinity if both are equal.
+// reference is the full picture, reduced by averaging light. Returns infinity if the preview equals
+// the reference.
 double PreviewPsnr(const Image& preview, const Image& full, int shift);
 
 }  // namespace starfocus

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shows how an app implements tap to focus. It prepares a light field once. The first tap computes
-// a preview and then the full picture. The second tap moves the focus there in previews (a focus
-// pull), and then computes the full picture. The program prints the time of every step, and the
-// PSNR of a preview relative to the full picture.
+// Shows how an app implements tap to focus. The program prepares a light field once. The first tap
+// computes a preview and then the full picture. The second tap moves the focus in steps to the
+// tapped point, with a preview for each step (a focus pull). Then the full picture is computed. The
+// program prints the time of every step, and the PSNR of a preview relative to the full picture.
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>

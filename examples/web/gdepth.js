@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads GDepth, the depth map that phones store in the XMP of a JPEG. Most phones store it in extended XMP, which is
-// split into segments of at most 64 KiB.
+// Reads GDepth, the depth map that phones store in the XMP of a JPEG. Most phones store the map in extended XMP, which
+// is split into segments of at most 64 KiB.
 
 const STANDARD = 'http://ns.adobe.com/xap/1.0/\0';
 const EXTENSION = 'http://ns.adobe.com/xmp/extension/\0';
@@ -42,8 +42,8 @@ function field(xmp, name) {
       RegExp(`<GDepth:${name}[^>]*>([^<]*)<`).exec(xmp)?.[1];
 }
 
-/** Returns the depth map of a JPEG as {picture: Blob, near, far, inverse}, or null if it has none. `near` and `far` are
- *  the limits of the distances. `inverse` is true if codes are linear in the inverse distance. */
+/** Returns the depth map of a JPEG as {picture: Blob, near, far, inverse}, or null if the JPEG has no depth map. `near`
+ *  and `far` are the limits of the distances. `inverse` is true if codes are linear in the inverse distance. */
 export function parseGDepth(buffer, name) {
   const xmp = readXmp(buffer), data = field(xmp, 'Data');
   if (data === undefined) return null;

@@ -15,7 +15,7 @@ let session = null, field = null, opening = 0, times = '', pulling = null;
 // ?threads=N in the address sets the number of threads, for tests and measurements.
 const engine = {threads: query.has('threads') ? Number(query.get('threads')) : undefined};
 
-/** Shows a status. If `more` is true, further changes follow soon, and screen readers wait for the last one. */
+/** Shows a status. If `more` is true, further changes follow soon, and screen readers wait for the last change. */
 function say(text, more = false) {
   get('status').setAttribute('aria-busy', more);
   get('status').textContent = text;
@@ -39,7 +39,7 @@ function lens() {
   };
 }
 
-/** Shows the values of the sliders, also for screen readers. */
+/** Shows the values of the sliders, and passes them to screen readers. */
 function label() {
   const texts = {
     'focus': `disparity ${Number(get('focus').value).toFixed(1)}`,
@@ -156,7 +156,7 @@ async function download() {
 }
 
 /** Handles keys: arrow keys move the cross, in larger steps with Shift. Enter and the space bar focus at the cross.
- *  Escape hides it. */
+ *  Escape hides the cross. */
 function onKey(event) {
   const step = event.shiftKey ? 64 : 8, {width, height} = viewer.canvas;
   const moves = {ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, -step], ArrowDown: [0, step]};

@@ -14,7 +14,8 @@ const POSITIONS = [
 ];
 const SETS = [17, 9, 5, 1];
 
-// Depth photos store no blur scale. Their range of disparities becomes this share of the width of the picture.
+// Depth photos store no blur scale. The range of disparities of a depth photo is scaled to this share of the picture's
+// width.
 const BLUR_OF_PHOTO = 0.03;
 const LARGEST_DISPARITY = 500;
 
@@ -38,7 +39,7 @@ function checkDepth(name, depth) {
   return {depth, low, high};
 }
 
-/** Opens a light-field folder. `find` returns the picture file with a name without extension. */
+/** Opens a light-field folder. `find` returns the picture file with a given name, which has no extension. */
 async function openFolder(files, find) {
   const set = SETS.find(count => POSITIONS.slice(0, count).every(at => find(viewName(at))));
   if (!set) throw new Error(`The folder has no centre view: expected ${viewName([0, 0])}.png.`);
@@ -86,7 +87,8 @@ async function openJpeg(file) {
   return depthPhoto(`depth photo ${file.name}`, image, {data, width: map.width, height: map.height});
 }
 
-/** Opens a picture and its depth, which is a PFM of disparities, or a gray picture in which near points are bright. */
+/** Opens a picture and its depth map. The map is a PFM of disparities, or a gray picture in which near points are
+ *  bright. */
 async function openPair(files) {
   const map = files.find(file => /\.pfm$/i.test(file.name));
   if (map) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads PFM files, which contain maps of floats.
 
-/** Parses a PFM file with one channel. Returns {data: Float32Array, width, height}, with the top row first; in the file
- *  the bottom row is the first. `name` is the name of the file in messages. */
+/** Parses a PFM file with one channel. Returns {data: Float32Array, width, height}, with the top row first. In a PFM
+ *  file the bottom row is first. `name` is the name of the file in messages. */
 export function parsePfm(buffer, name) {
   const header = new TextDecoder('latin1').decode(buffer.slice(0, 128));
   const match = /^Pf\s+(\d+)\s+(\d+)\s+(-?[\d.]+(?:e[-+]?\d+)?)\s/i.exec(header);

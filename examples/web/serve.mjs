@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // usage: serve.mjs FOLDER [PORT [plain]]
-// Serves static files on the loopback interface, and prints the address. It sends the headers that allow pages to share
-// memory with workers. With `plain` it omits them, as most servers do.
+// Serves static files on the loopback interface, and prints the address. The server sends the headers that allow pages
+// to share memory with workers. With `plain`, the server omits these headers, as most servers do.
 
 import {createReadStream} from 'node:fs';
 import {stat} from 'node:fs/promises';

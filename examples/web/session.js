@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A session owns the refocuser of one open light field. Only the last request counts. While requests arrive, the
-// session computes previews; after the last request it computes the full picture. A new request cancels that picture.
+// session computes previews. After the last request, the session computes the full picture, which a new request
+// cancels.
 
 import {createRefocuser, Shape} from './starfocus/starfocus.js';
 
@@ -16,8 +17,8 @@ const LARGEST_BLUR = 128;
 const LARGEST_SHIFT = 3;
 const FIRST_SHIFT = 2;
 
-// If a preview takes longer than FRAME, the next one is smaller. If it takes less than FRAME / 4, the next one is
-// larger.
+// If a preview takes longer than FRAME, the next preview is smaller. If a preview takes less than FRAME / 4, the next
+// preview is larger.
 const FRAME = 16;  // ms
 const PULL = 3000;  // duration of a focus pull, ms
 
@@ -49,7 +50,7 @@ export class Session {
     });
     try {
       await session.#refocuser.prepare(field.views, field.depth);
-      // The first preview is slower than later ones. It is computed here, so that the first tap is fast.
+      // The first preview is slower than later previews. Compute one preview here, so that the first tap is fast.
       await session.#refocuser.preview({...session.#params(lens), shift: FIRST_SHIFT});
     } catch (error) {
       session.close();

@@ -66,7 +66,7 @@ export class Viewer {
     this.#draw();
   }
 
-  /** Share of the width that shows the original picture, from the left, 0 to 1. */
+  /** Fraction of the width, from the left edge, that shows the original picture, 0 to 1. */
   set wipe(share) {
     this.#wipe = share;
     this.#draw();
