@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# Runs the tasks of a developer: ./do help lists them.
+# Runs the tasks of a developer; ./do help lists these tasks.
 set -u
 cd "$(dirname "$0")" || exit 1
 
@@ -90,14 +90,15 @@ step() {
   printf '%s (%d s)\n' "$label" $((SECONDS - start))
 }
 
-# has_header NAME: true if the compiler finds the header, also in the folders that CMake searches first.
+# has_header NAME: true if the compiler finds the header, including in the folders that CMake searches first.
 has_header() {
   local IFS=: prefix folders=()
   for prefix in ${CMAKE_PREFIX_PATH:-}; do folders+=("-I$prefix/include"); done
   echo "#include <$1>" | "${CXX:-c++}" "${folders[@]}" -E -x c++ - >/dev/null 2>&1
 }
 
-# has PACKAGE: true if the files of the package that starfocus needs exist, from whatever source.
+# has PACKAGE: true if the files that starfocus uses from the package exist, whether or not a package installed these
+# files.
 has() {
   case "$1" in
     g++) command -v "${CXX:-c++}" ;;
@@ -150,7 +151,7 @@ apt() {
   fi
 }
 
-# Updates the package lists only if installation fails without that.
+# Updates the package lists only if the installation fails without an update.
 install_packages() {
   apt install --no-install-recommends $missing && return
   apt update && apt install --no-install-recommends $missing
@@ -186,7 +187,7 @@ build() {
     cmake --build $BUILD --parallel "$(nproc)" --target "${@:-all}"
 }
 
-# lab LABEL ARGUMENT...: runs starfocus-lab, which prints its own progress on a terminal.
+# lab LABEL ARGUMENT...: runs starfocus-lab, which prints progress if stderr is a terminal.
 lab() {
   local label=$1 start=$SECONDS
   shift
@@ -216,9 +217,9 @@ demo() {
     sheet demo/near.png demo/middle.png demo/far.png --labels near,middle,far -o demo/sheet.png
 }
 
-# Runs the tests under AddressSanitizer and UBSan with range checks. Tests with data sets, of lib/analysis and of
-# the sources are skipped, since sanitizers find nothing there. AddressSanitizer keeps one stack frame per
-# allocation, because whole stacks make the conformance tests four times slower. To get whole stacks, set
+# Runs the tests under AddressSanitizer and UBSan with range checks. Tests with data sets, tests of lib/analysis and
+# tests of the source tree are skipped, since sanitizers find nothing in these tests. AddressSanitizer keeps one stack
+# frame per allocation, because whole stacks make the conformance tests four times slower. To get whole stacks, set
 # ASAN_OPTIONS=malloc_context_size=30.
 sanitize() {
   export ASAN_OPTIONS=${ASAN_OPTIONS:-malloc_context_size=1}
@@ -242,13 +243,13 @@ check() {
   install_missing
   build
   sanitize
-  # valgrind finds invalid addresses and undefined values. This family compares all output bytes, and does not
-  # initialize the workspace in some cases.
+  # valgrind finds invalid addresses and undefined values. The family `differential` compares all output bytes, and does
+  # not initialize the workspace in some cases.
   step valgrind "refocusing under valgrind" tests/support/valgrind.sh $BUILD --quiet \
     --error-exitcode=1 $LAB stress --seconds 30 --family differential
 }
 
-# Builds the library and installs a Java for the Java test on an emulated board.
+# Builds the library and downloads a Java run time for the Java test on an emulated board.
 java_aarch64() {
   prepare_board aarch64
   step java-aarch64 "fetching Java for aarch64" \
@@ -301,8 +302,8 @@ side_by_side() {
   return $result
 }
 
-# fuzz_target SECONDS NAME: fuzzes from the seeds and from inputs that earlier runs found. In a clean checkout all
-# runs are equal, so that a failure is the fault of the change.
+# fuzz_target SECONDS NAME: fuzzes, starting from the seeds and from inputs that earlier runs found. In a clean checkout
+# all runs are identical, so a failure is caused by the change under test.
 fuzz_target() {
   local work=build/fuzz/inputs/$2 length=1024
   case "$2" in heif | layouts | photo | xmp) length=4096 ;; esac

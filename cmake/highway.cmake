@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Target starfocus_highway: Highway, with the definitions that all sources with Highway code must share. The oldest
-# supported version is that of Debian 12; simd/targets.h checks the version of the headers.
+# supported version is the version in Debian 12; simd/targets.h checks the version of the headers.
 add_library(starfocus_highway INTERFACE)
 set(STARFOCUS_HIGHWAY_OLDEST 1.0.3)
 
@@ -13,8 +13,8 @@ if(NOT STARFOCUS_STATIC_DISPATCH)
   return()
 endif()
 
-# With a single target, Highway needs only headers, which are the same for all machines. The host's headers are used
-# if the target's folders have none.
+# With a single target, only Highway's headers are required, which are the same for all machines. The host's headers are
+# used if the target's folders have none.
 find_path(STARFOCUS_HIGHWAY_INCLUDE_DIR hwy/highway.h)
 find_path(STARFOCUS_HIGHWAY_INCLUDE_DIR hwy/highway.h PATHS /usr/local/include /usr/include
   NO_DEFAULT_PATH NO_CMAKE_FIND_ROOT_PATH)

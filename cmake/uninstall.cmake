@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# cmake -DMANIFEST=FILE -P uninstall.cmake: removes the files that `cmake --install` listed in FILE, and folders of
-# starfocus that are empty then.
+# cmake -DMANIFEST=FILE -P uninstall.cmake: removes the files that `cmake --install` listed in FILE, and the folders of
+# starfocus that are empty afterwards.
 cmake_minimum_required(VERSION 3.20)
 if(NOT EXISTS "${MANIFEST}")
   message(FATAL_ERROR "Nothing to uninstall: there is no ${MANIFEST}, which cmake --install writes.")

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-# Android on 64-bit Arm, with the toolchain file of the NDK in ANDROID_NDK_HOME. Not tested with an NDK. Builds only
-# the library. Highway's headers come from a sysroot: "toolchains/sysroot.sh headers build/sysroot/headers".
+# Android on 64-bit Arm, with the toolchain file of the NDK in ANDROID_NDK_HOME. This file has not been tested with an
+# NDK and builds only the library. Highway's headers come from a sysroot: "toolchains/sysroot.sh headers
+# build/sysroot/headers".
 if(NOT DEFINED ENV{ANDROID_NDK_HOME})
   message(FATAL_ERROR "Set the environment variable ANDROID_NDK_HOME to the folder of the NDK.")
 endif()

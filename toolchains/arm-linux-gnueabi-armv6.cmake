@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# ARMv6 without NEON (Raspberry Pi Zero and 1), with scalar kernels. The C library is Debian's for the soft-float ABI,
-# which the systems of such boards rarely have. Link programs statically.
+# ARMv6 without NEON (Raspberry Pi Zero and 1), with scalar kernels. The C library is Debian's library for the
+# soft-float ABI, which is rarely installed on such boards. Link programs statically.
 set(CMAKE_SYSTEM_PROCESSOR armv6l)
 set(STARFOCUS_TRIPLE arm-linux-gnueabi)
 set(STARFOCUS_ARCHITECTURE armel)

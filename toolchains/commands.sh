@@ -31,7 +31,7 @@ cross_build() {
     cmake --build --preset "$preset" --parallel "$(nproc)" ${1:+--target "$@"}
 }
 
-# sve_test BYTES:NAME: runs one test with SVE registers of that length.
+# sve_test BYTES:NAME: runs one test with SVE registers of BYTES bytes.
 sve_test() {
   local bytes=${1%:*} name=${1#*:}
   qemu-aarch64 -cpu max,sve-default-vector-length=$bytes -L /usr/aarch64-linux-gnu \
@@ -42,8 +42,8 @@ sve_test() {
   return 1
 }
 
-# Runs the kernel tests with several lengths of SVE registers. Pictures need no test, since they consist of
-# kernel results.
+# Runs the kernel tests with several lengths of SVE registers. Tests of whole pictures are not required, since pictures
+# consist of kernel results.
 by_sve_length() {
   local bytes tests=
   cross_build aarch64-max starfocus_simd_byte_tests
@@ -54,7 +54,7 @@ by_sve_length() {
   grep -h '^SIMD targets:' "$LOGS"/kernels-??.log
 }
 
-# into_boards NAME FILE: replaces the text between the marks of that name in docs/boards.md by the file.
+# into_boards NAME FILE: replaces the text between the marks NAME in docs/boards.md by the contents of FILE.
 into_boards() {
   awk -v name="$1" -v tables="$2" '
     $0 == "<!-- " name ": end -->" { skip = 0 }
@@ -88,8 +88,8 @@ count_case() {
     >"$LOGS/count-$name-$kernels"
 }
 
-# Counts instructions per pixel with NEON and with the reference kernels. Fails if a count is more than 3 % above
-# that in tests/board/instruction_counts.txt of the same compiler. `record` writes that file and docs/boards.md.
+# Counts instructions per pixel with NEON and with the reference kernels. Fails if a count is more than 3 % above the
+# count of the same compiler in tests/board/instruction_counts.txt. `record` writes this file and docs/boards.md.
 count() {
   local baseline=tests/board/instruction_counts.txt now=$LOGS/instruction_counts.txt cases item
   local compiler recorded
@@ -154,8 +154,8 @@ prepare_board() {
     toolchains/sysroot.sh $board_sysroot build/sysroot/$board_sysroot
 }
 
-# cross ARCHITECTURE [build|bytes]: builds everything for a board and runs all tests on an emulated one. With `bytes`
-# it runs only the tests with the label bytes, which compare all output bytes.
+# cross ARCHITECTURE [build|bytes]: builds everything for a board and runs all tests on an emulated board. With `bytes`,
+# cross runs only the tests with the label bytes, which compare all output bytes.
 cross() {
   local PACKAGES="g++ cmake ninja-build pkg-config" preset=${1:-} board_compiler board_sysroot
   case "${2:-}" in '' | build | bytes) ;; *) fail "usage: ./do cross ARCH [build|bytes]" ;; esac
@@ -180,7 +180,7 @@ cross() {
   fi
 }
 
-# Updates the checksums in tests/engine/golden.txt, after an intended change of the engine's output.
+# Updates the checksums in tests/engine/golden.txt after an intended change of the engine's output.
 golden() {
   install_missing
   build starfocus_engine_byte_tests

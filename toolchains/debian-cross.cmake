@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-# Common part of the toolchain files for Debian's cross compilers, which set these variables first:
+# Common part of the toolchain files for Debian's cross compilers. Set these variables before you include this file:
 #   STARFOCUS_TRIPLE       prefix of the compiler's programs
-#   STARFOCUS_ARCHITECTURE of sysroot.sh
+#   STARFOCUS_ARCHITECTURE the ARCHITECTURE argument of sysroot.sh
 #   STARFOCUS_QEMU         the user emulator that runs the tests
-#   STARFOCUS_DEFAULT_CPU  its CPU model; -DSTARFOCUS_CPU=... chooses another
+#   STARFOCUS_DEFAULT_CPU  CPU model of the emulator; -DSTARFOCUS_CPU=... selects another model
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_C_COMPILER ${STARFOCUS_TRIPLE}-gcc)
 set(CMAKE_CXX_COMPILER ${STARFOCUS_TRIPLE}-g++)

@@ -1,11 +1,11 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
 # fetch.sh ARCHITECTURE FOLDER PATTERN PACKAGE...: unpacks Debian packages of any architecture into FOLDER, together
-# with their direct dependencies whose whole names match PATTERN, an extended regular expression. Does nothing if
-# FOLDER contains them already.
+# with their direct dependencies whose whole names match PATTERN, an extended regular expression. Does nothing if FOLDER
+# already contains the packages.
 #
 # The host does not change: a private apt with its own lists, cache and package database reads copies of the host's
-# sources, keys and proxy settings. Needs apt-get and dpkg-deb, but not root.
+# sources, keys and proxy settings. Requires apt-get and dpkg-deb, but not root.
 set -eu
 
 [ $# -ge 4 ] || { echo "usage: $0 ARCHITECTURE FOLDER PATTERN PACKAGE..." >&2; exit 2; }

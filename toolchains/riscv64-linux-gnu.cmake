@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # 64-bit RISC-V with scalar kernels, since GCC 12 lacks the vector intrinsics that Highway uses. Debian 12 has a
-# compiler for RISC-V but no packages, so that the sysroot has headers only.
+# compiler for RISC-V but no packages, so the sysroot contains only headers.
 set(CMAKE_SYSTEM_PROCESSOR riscv64)
 set(STARFOCUS_TRIPLE riscv64-linux-gnu)
 set(STARFOCUS_ARCHITECTURE headers)

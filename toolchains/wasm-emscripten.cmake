@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# WebAssembly with SIMD, with the toolchain file of the emscripten in PATH. Builds only the library. To link a program,
-# Debian's emscripten needs NODE_PATH=/usr/share/nodejs.
+# WebAssembly with SIMD, with the toolchain file of the emscripten in PATH. Builds only the library. To link a program
+# with Debian's emscripten, set NODE_PATH=/usr/share/nodejs.
 find_program(STARFOCUS_EMCC emcc)
 if(NOT STARFOCUS_EMCC)
   message(FATAL_ERROR "starfocus for WebAssembly needs emcc: install the package emscripten.")

@@ -2,7 +2,7 @@
 # Commands of ./do for browsers and node; sourced by ./do.
 
 # Builds the npm package in build/web/npm, and the page with the package and a demo light field in build/web/site. The
-# demo takes longest and is made only once.
+# demo light field takes the most time and is rendered only once.
 build_web() {
   local site=build/web/site
   NODE_PATH=/usr/share/nodejs step configure-web "configuring build/web" cmake --preset web
