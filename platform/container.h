@@ -22,7 +22,7 @@ enum class Container {
 
 Container CheckContainer(const Bytes& bytes);
 
-// Returns the error for a file of this format that ends too early.
+// Returns the error for a file of the format `format` that ends too early.
 Error Truncated(const std::string& where, const std::string& format);
 
 // Describes a file that is not a supported picture, for errors: "a text file", "a GIF file", "an

@@ -56,7 +56,7 @@ Error Unsupported(const std::string& where, const std::string& format, const std
 // Returns the error after std::bad_alloc: "<where>: out of memory, cannot <purpose>".
 Error OutOfMemory(const std::string& where, const std::string& purpose);
 
-// A value or an error. A Result converts to true if it contains a value.
+// Holds a value or an error. A Result converts to true if it holds a value.
 template <class T>
 class [[nodiscard]] Result {
  public:

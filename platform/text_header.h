@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parses the text header of PPM and PFM files. It consists of tokens separated by white space, and
-// comments from # to the end of the line. A single white-space character precedes the data.
+// Parses the text header of PPM and PFM files. The header consists of tokens separated by white
+// space, and comments from # to the end of the line. A single white-space character precedes the
+// data.
 #ifndef STARFOCUS_PLATFORM_TEXT_HEADER_H_
 #define STARFOCUS_PLATFORM_TEXT_HEADER_H_
 

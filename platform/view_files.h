@@ -44,9 +44,9 @@ bool IsViewFile(const std::string& name);
 
 // Finds all files of captured views in a folder. The files are sorted: first the centre, then the
 // positions of starfocus_view_position in order, then all others by u and v. If files differ only
-// in the extension, the first of .png, .ppm and .jpg is used. Errors: missing folder, missing
-// centre view, more than STARFOCUS_MAX_VIEWS views, a coordinate beyond 1, two files for one
-// position.
+// in the extension, the first of .png, .ppm and .jpg is used. Returns an error if the folder or the
+// centre view is missing, there are more than STARFOCUS_MAX_VIEWS views, a coordinate is outside
+// [-1, 1], or two files have the same position.
 Result<std::vector<ViewFile>> FindViewFiles(const std::string& folder);
 
 // Returns the files at the positions `wanted`, in the order of `wanted`, or all files if `wanted`

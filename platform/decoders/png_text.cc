@@ -21,7 +21,8 @@ struct FreeDecompressor {
   }
 };
 
-// Returns the decompressed text, or an empty string if it is malformed or too long.
+// Returns the decompressed text, or an empty string if the data is malformed or the text is too
+// long.
 std::string Inflate(const uint8_t* data, size_t size) {
   const std::unique_ptr<libdeflate_decompressor, FreeDecompressor> decompressor(
       libdeflate_alloc_decompressor());

@@ -15,8 +15,8 @@ namespace starfocus {
 // picture. If the XMP has no valid range, the map receives the meaning MapMeaning::kOrder.
 void UnderstandApple(const XmpNode& xmp, DepthPhoto* photo);
 
-// Reads the first map of disparities or depths among the pictures after the primary one, if any.
-// `photo` already has its picture. Adds a fact about a gain map.
+// Reads the first map of disparities or depths among the pictures after the primary picture, if
+// there is such a map. `photo` already has its picture. Adds a fact about a gain map.
 Error ReadAppleJpeg(Span file, const JpegParts& parts, DepthPhoto* photo);
 
 }  // namespace starfocus

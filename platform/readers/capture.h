@@ -44,7 +44,7 @@ struct Capture {
 };
 
 // Opens `path`. The path "-" means a photograph on standard input. A photograph is read completely.
-// Of a folder, only the list of files and the calibration are read, but no pictures. An error
+// For a folder, only the list of files and the calibration are read, but no pictures. An error
 // describes the content that was found and the content that is missing.
 Result<Capture> OpenCapture(const std::string& path, const CaptureOptions& options);
 

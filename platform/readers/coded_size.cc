@@ -113,8 +113,8 @@ void ReadSequenceHeader(Span header, CodedSize* most) {
   if (bits.good()) Widen(own_width, own_height, most);
 }
 
-// Reads OBUs (AV1 specification, 5.3). Each has a header, an optional size in LEB128, and a
-// payload.
+// Reads open bitstream units (AV1 specification, 5.3). Each unit has a header, an optional size in
+// LEB128, and a payload.
 void ReadUnits(Span units, CodedSize* most) {
   constexpr int kSequenceHeader = 1;
   while (units.size >= 2) {

@@ -27,9 +27,9 @@ void ToRange(double low, double high, FloatMap* map);
 // Replaces distances by their inverse. Distances that are not positive become unknown.
 void Invert(FloatMap* map);
 
-// Orders the values of a map of meaning kOrder so that larger values are nearer; inverts the map if
-// necessary. If `near` is kUnknown, the function guesses which end of the range is near, and adds a
-// note. The guess assumes that the bottom of a photograph is nearer than its top.
+// Inverts a map of meaning kOrder if necessary, so that larger values are nearer. If `near` is
+// kUnknown, the function guesses which end of the range is near, and adds a note. The guess assumes
+// that the bottom of a photograph is nearer than its top.
 void ToOrder(Near near, DepthPhoto* photo);
 
 // Adds a fact that describes how the file stores the map.

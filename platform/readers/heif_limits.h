@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks the limits of HEIF files before libheif decodes them. libheif follows a picture that
-// contains itself until threads or memory run out, and allocates any size that a file declares.
+// Checks the limits of HEIF files before libheif decodes them. Without these checks, libheif would
+// follow a picture that contains itself until threads or memory run out. libheif also allocates any
+// size that a file declares.
 #ifndef STARFOCUS_PLATFORM_READERS_HEIF_LIMITS_H_
 #define STARFOCUS_PLATFORM_READERS_HEIF_LIMITS_H_
 

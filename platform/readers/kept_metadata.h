@@ -10,10 +10,10 @@
 
 namespace starfocus {
 
-// Writes the properties that describe the photograph as one rdf:Description: title, caption,
-// keywords, rating, author, copyright, place and similar ones. Omits properties of the file: depth
-// maps and other embedded pictures, orientation, sizes, edits and thumbnails. Returns an empty
-// string if no property remains.
+// Writes the properties that describe the photograph as a single rdf:Description: title, caption,
+// keywords, rating, author, copyright, place and similar properties. Omits properties of the file:
+// depth maps and other embedded pictures, orientation, sizes, edits and thumbnails. Returns an
+// empty string if no property remains.
 std::string KeptXmp(const XmpNode& root);
 
 }  // namespace starfocus

@@ -8,8 +8,8 @@
 
 namespace starfocus {
 
-// Returns true if a map of this size can belong to a picture of the given size. Their proportions
-// may differ by rounding, or by 3 % because networks round sizes to whole blocks.
+// Returns true if a map of this size can belong to a picture of the given size. The proportions of
+// map and picture may differ by rounding, or by 3 % because networks round sizes to whole blocks.
 bool HasSameProportions(const FloatMap& map, int width, int height);
 
 // Applies EXIF's orientation only to the picture if photo->map was read from an upright depth

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lists the pictures after the first one of a JPEG file, with their types from the index of the
-// Multi-Picture Format (CIPA DC-007). Editors move or remove the index, so the module also searches
-// the file for pictures.
+// Lists the pictures that follow the first picture of a JPEG file. The index of the Multi-Picture
+// Format (CIPA DC-007) gives the type of each picture. Editors move or remove the index, so the
+// module also searches the file for pictures.
 #ifndef STARFOCUS_PLATFORM_READERS_MULTI_PICTURE_H_
 #define STARFOCUS_PLATFORM_READERS_MULTI_PICTURE_H_
 

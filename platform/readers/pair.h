@@ -14,9 +14,10 @@ namespace starfocus {
 // ends in -depth, _depth or .depth, in upper or lower case.
 bool IsDepthPictureName(const std::string& name);
 
-// Finds the depth picture next to a photograph NAME.jpg or NAME-image.jpg: NAME-depth, NAME_depth
-// or NAME.depth with .png, .pgm, .pfm, .jpg or .jpeg, in upper or lower case. Returns "" if no
-// depth picture is found. If several are found, a note states which file is used.
+// Finds the depth picture next to a photograph NAME.jpg or NAME-image.jpg. The depth picture is
+// named NAME-depth, NAME_depth or NAME.depth, with .png, .pgm, .pfm, .jpg or .jpeg, in upper or
+// lower case. Returns "" if no depth picture is found. If several are found, a note states which
+// file is used.
 Result<std::string> FindDepthPicture(const std::string& path, DepthPhoto* photo);
 
 // Reads the depth picture (PNG, PGM, PPM, JPEG or PFM). `photo` already has its picture. By

@@ -12,8 +12,8 @@
 namespace starfocus {
 
 // Reads the right picture of a pair into photo->right. `photo` already has its left picture. The
-// file must have a multi-picture index or the extension .mpo, and the picture after the first one
-// must have the same size. Returns false if the file is not such a pair.
+// file must have a multi-picture index or the extension .mpo. The second picture must have the size
+// of the first picture. Returns false if the file is not such a pair.
 bool ReadStereoPair(const std::string& path, Span file, DepthPhoto* photo);
 
 }  // namespace starfocus

@@ -24,9 +24,10 @@ struct Ends {
   bool are_depths = false;
 };
 
-// Decides whether 0 and 65535 are depths in a 16-bit map. Both are depths if the map was stretched
-// to the whole range: the other values reach an end of the range, or lie between two ends that both
-// occur.
+// Decides whether 0 and 65535 are depths in a 16-bit map. Both values are depths if the map was
+// stretched to the whole range. A map was stretched if the other values reach an end of the range.
+// A map in which 0 and 65535 both occur was also stretched if other values lie in the upper half of
+// the range, or if there are no other values.
 Ends JudgeEnds(const FloatMap& map) {
   Ends ends;
   std::vector<float> others;
@@ -57,17 +58,17 @@ void Forget(float unknown, FloatMap* map) {
   std::replace(map->values.begin(), map->values.end(), unknown, kUnknown);
 }
 
-// Value that an unknown pixel would get along one direction of a map.
+// Value that an unknown pixel would receive along a row or a column of a map.
 struct Gap {
   float value = kUnknown;
   int length = std::numeric_limits<int>::max();  // length of the gap around the pixel
 };
 
 // Calls `visit` with the gap of each unknown pixel of a line of `count` values at distance `step`.
-// If the values at the two ends of a gap differ by at most `alike`, both belong to one surface, and
-// the pixel's value is interpolated. Otherwise, the pixel gets the smaller value, which is the
-// background. A gap at the border has only one end, so no second value confirms the first one, and
-// the length of the gap counts twice.
+// If the values at the two ends of a gap differ by at most `alike`, both values belong to one
+// surface, and the pixel's value is interpolated. Otherwise, the pixel receives the smaller value,
+// which is the background. A gap at the border has a value at one end only. The length of such a
+// gap counts twice, because no second value confirms the first.
 template <class Visit>
 void FindGaps(const float* line, size_t step, int count, float alike, const Visit& visit) {
   const auto at = [&](int k) { return line[size_t(k) * step]; };

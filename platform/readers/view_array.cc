@@ -58,8 +58,8 @@ std::string Count(int rows, int columns) {
 // `count` views.
 int HalfOf(int count) { return (count - 1) / 2; }
 
-// Returns the distance of the outermost views from the centre, in views. Reduces an odd distance by
-// one, to an even number, if it is more than 4.
+// Returns the distance of the outermost views from the centre, in views. Odd distances above 4 are
+// reduced by one to an even distance.
 int ReachOf(int half) { return half % 2 == 1 && half > 4 ? half - 1 : half; }
 
 struct Chooser {

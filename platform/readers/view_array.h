@@ -29,12 +29,12 @@ struct Star {
 
 // Chooses the largest star in an array of at least 3 x 3 views. The star has 17 views if half its
 // reach is a whole number, otherwise 9. From a single row or column, the function chooses up to 17
-// views. If the number of rows or columns is even, the last one is ignored. Adds a fact.
+// views. If the number of rows or columns is even, the last row or column is ignored. Adds a fact.
 Result<Star> ChooseStar(const std::string& where, const ViewArray& array, Facts* facts);
 
-// Finds pictures whose names differ in two numbers, row and column, or in one, for example
-// NAME_00_01.png. Only the first two differing numbers count, which excludes the camera positions
-// in Stanford's names. The array is empty if the names do not have this form.
+// Finds pictures whose names differ in two numbers (row and column) or in a single number, for
+// example NAME_00_01.png. Only the first two differing numbers count, which excludes the camera
+// positions in Stanford's names. The array is empty if the names do not have this form.
 Result<ViewArray> FindArray(const std::string& folder, const std::vector<std::string>& names);
 
 }  // namespace starfocus

@@ -148,7 +148,7 @@ Bytes EditedExif(const Bytes& exif, int width, int height) {
     }
     at += kEntry;
   }
-  // The position of the next list (the thumbnail) is 0, which means that there is none.
+  // The position of the next list (the thumbnail) stays 0: the file has no thumbnail.
   return bytes;
 }
 

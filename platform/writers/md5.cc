@@ -49,7 +49,7 @@ void Digest(const uint8_t* block, State* state) {
 }  // namespace
 
 std::string Md5(const std::string& text) {
-  // Pad to whole blocks with a one, zeros, and the length in bits.
+  // Pad to whole blocks with a 1 bit, 0 bits, and the length in bits.
   std::string padded = text + '\x80';
   while (padded.size() % kBlock != kBlock - 8) padded += '\0';
   for (int i = 0; i < 8; ++i) {

@@ -12,8 +12,8 @@
 
 namespace starfocus {
 
-// Encodes a sequence of pictures of equal size. Several pictures form an endless animation with a
-// tenth of a second per picture. Only the encoded pictures are kept in memory.
+// Encodes a sequence of pictures of equal size. Several pictures form an endless animation in which
+// each picture lasts a tenth of a second. Only the encoded pictures are kept in memory.
 class WebpWriter {
  public:
   // `path` is used only in errors; `quality` is 1 to 100.

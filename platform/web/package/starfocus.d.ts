@@ -104,8 +104,9 @@ export interface DepthMap {
 /** Options of calls that can be cancelled. */
 export interface Call {
   /** Cancels the call, which then rejects with the reason of the signal. A call that has not started yet ends at
-   *  once. A running call ends within a few milliseconds if memory is shared. Otherwise refocus() ends after at
-   *  most 512 more rows, and a running prepare(), a preview, or a refocus() with `region` or `blocks` completes. */
+   *  once. A running call ends within a few milliseconds if memory is shared. If memory is not shared, refocus() ends
+   *  after at most 512 more rows. In this case, a running prepare(), a preview, or a refocus() with `region` or
+   *  `blocks` completes. */
   signal?: AbortSignal;
 }
 

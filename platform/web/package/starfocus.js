@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Implements starfocus.d.ts for browsers and node. The engine runs in a worker (worker.js). This module checks the
-// arguments of calls, sends the calls to the worker one at a time, and settles their promises with its answers.
+// arguments of calls, sends the calls to the worker one at a time, and settles the promises of the calls with the
+// worker's answers.
 
 import {canShare, countCores, listen, startWorker} from './host.js';
 import {checkCoverage, checkViews, readDepth} from './light_field.js';
@@ -28,7 +29,7 @@ export class StarfocusError extends Error {
 
 class Refocuser {
   #worker;
-  #calls = [];  // calls without an answer; the worker runs the first one
+  #calls = [];  // calls without an answer; the worker runs the first of them
   #lastId = 0;
   #failure = null;
   #shared = null;  // memory shared with the worker: id of the call to cancel, finished rows, number of rows

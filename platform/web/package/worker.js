@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Worker that runs the engine for starfocus.js. It receives the messages {id, name, values} and {cancel: id}, and sends
-// {id, result}, {id, error} and {id, progress}. With several threads, this worker starts helpers, which are workers
-// that run the same script, share its memory and run jobs of the engine.
+// Worker that runs the engine for starfocus.js. The worker receives the messages {id, name, values} and {cancel: id},
+// and sends {id, result}, {id, error} and {id, progress}. With several threads, this worker starts helpers, which are
+// workers that run the same script, share its memory and run jobs of the engine.
 
 import {compile, instantiate, makeMemory, readText, writeText} from './engine.js';
 import {canShare, listen, parentOfWorker, startWorker} from './host.js';

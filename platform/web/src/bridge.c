@@ -74,8 +74,8 @@ static void SetCallbacks(starfocus_block_visitor on_block) {
 /* Returns the buffer for the name of a field: at most 63 bytes and a terminating 0. */
 EXPORT(text) char* Text(void) { return text; }
 
-/* Starts a change of the configuration. The initial values are those of the last accepted
- * configuration, or the defaults if no configuration was accepted. */
+/* Starts a change of the configuration. The initial values are copied from the last accepted
+ * configuration, or are the defaults if no configuration was accepted. */
 EXPORT(begin) void Begin(void) {
   if (workers == 0) {
     starfocus_config_init(&wanted);

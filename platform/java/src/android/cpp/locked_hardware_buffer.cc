@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Native methods of dev.starfocus.android.LockedHardwareBuffer. Android API level 29 is required.
+// Native methods of dev.starfocus.android.LockedHardwareBuffer. The methods require Android API
+// level 29.
 #include <android/hardware_buffer.h>
 #include <android/hardware_buffer_jni.h>
 #include <jni.h>

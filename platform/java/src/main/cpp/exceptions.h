@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Throws Java exceptions from native code. Each function makes an exception pending, which takes
-// effect when the native method returns to Java; the method must return without other JNI calls.
+// Throws Java exceptions from native code. Each function makes an exception pending. The exception
+// takes effect when the native method returns to Java. The method must return without other JNI
+// calls.
 #ifndef STARFOCUS_PLATFORM_JAVA_EXCEPTIONS_H_
 #define STARFOCUS_PLATFORM_JAVA_EXCEPTIONS_H_
 
@@ -10,7 +11,8 @@
 
 namespace starfocus {
 
-// Throws IllegalArgumentException. `format` and the arguments after it are those of printf.
+// Throws IllegalArgumentException. `format` and the arguments after `format` have the meaning of
+// printf.
 void ThrowArgument(JNIEnv* env, const char* format, ...) __attribute__((format(printf, 2, 3)));
 
 // Throws OutOfMemoryError or StarfocusException, depending on the status. No-op for STARFOCUS_OK.

@@ -105,7 +105,7 @@ bool ReadPositions(JNIEnv* env, jobject configuration, starfocus_config* config)
 }
 
 // Returns the number of pixels at 1 / 2^shift of the size that contain a part of the range [first,
-// first + count); `count` is at least 1.
+// first + count). `count` must be at least 1.
 int32_t Reduced(int32_t first, int32_t count, int32_t shift) {
   return static_cast<int32_t>(((int64_t{first} + count - 1) >> shift) - (first >> shift) + 1);
 }

@@ -24,8 +24,8 @@ public final class DepthMap {
    */
   public int meaning = LINEAR;
   /**
-   * Coefficients of {@link #meaning}; finite, and scale is not 0. They are rounded to float.
-   * Default 1 and 0.
+   * Coefficients of {@link #meaning}, rounded to float. Both must be finite, and scale must not be
+   * 0. Default 1 and 0.
    */
   public double scale = 1, offset;
   /** 1: values equal to {@link #invalid} are unknown. 0, the default: there is no such value. */

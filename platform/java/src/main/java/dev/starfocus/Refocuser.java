@@ -132,8 +132,8 @@ public final class Refocuser implements AutoCloseable {
   }
 
   /**
-   * Finds the focus for a pixel, for example where a user tapped: the median of the disparities up
-   * to 3 pixels away that belong to the surface of the pixel.
+   * Finds the focus for a pixel, for example where a user tapped. The focus is the median of the
+   * disparities up to 3 pixels away that belong to the surface of the pixel.
    *
    * @param disparity map of type FLOAT and meaning LINEAR, with scale 1, offset 0 and no invalid
    *     value

@@ -7,9 +7,9 @@ import dev.starfocus.Refocuser;
 import java.nio.ByteBuffer;
 
 /**
- * Locks the pixels of an ARGB_8888 Bitmap until this object is closed, and provides the pixels in
- * place as an {@link Image} of format RGBX for reading and writing. Colours have the values that
- * the Bitmap stores: colours of transparent pixels are multiplied by alpha.
+ * Locks the pixels of an ARGB_8888 Bitmap until this object is closed. An {@link Image} of format
+ * RGBX provides the pixels in place for reading and writing. Colours have the values that the
+ * Bitmap stores: colours of transparent pixels are multiplied by alpha.
  */
 public final class LockedBitmap implements AutoCloseable {
   static {
