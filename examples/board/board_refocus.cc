@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// board_refocus: a refocusing camera on a board. A rotary encoder moves the plane of focus, one
-// button changes the aperture, and another takes the picture. An output line is high while the
-// engine runs, for an oscilloscope or a power meter.
+// board_refocus: a refocusing camera on a board. A rotary encoder moves the plane of focus. One
+// button changes the aperture, and a second button takes the picture. An output line is high while
+// the engine runs, for an oscilloscope or a power meter.
 #include <algorithm>
 #include <cstdio>
 #include <optional>

@@ -12,7 +12,7 @@
 
 namespace starfocus {
 
-// Returns the name most similar to the typed one, or an empty string if no name is similar.
+// Returns the name that is most similar to `typed`, or an empty string if no name is similar.
 std::string NearestName(const std::string& typed, const std::vector<std::string>& names);
 
 // Rejects "--focus-at 160 120" if the option's type is X,Y. Values whose parts are separated by

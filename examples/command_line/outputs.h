@@ -22,7 +22,7 @@ struct Inputs {
 };
 
 // Returns an error if two outputs are the same file, or if an output is the same file as an input.
-// Names and links do not matter.
+// Different names and links of a file are recognized.
 Error CheckApart(const std::vector<Output>& outputs, const Inputs& inputs);
 
 // Returns an error if the output folder is one of the input folders, under any name or link. Output

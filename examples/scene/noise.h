@@ -17,8 +17,8 @@ double HashUnit(int32_t x, int32_t y, uint32_t seed);
 // Returns smooth noise in [0, 1] with features of about one unit.
 double Noise(double x, double y, uint32_t seed);
 
-// Returns the sum of `octaves` octaves of Noise in [0, 1]. Each has half the size and half the
-// strength of the previous one.
+// Returns the sum of `octaves` octaves of Noise in [0, 1]. Each octave has half the size and half
+// the strength of the previous octave.
 double Fractal(double x, double y, int octaves, uint32_t seed);
 
 // Returns x modulo period, in [0, period).

@@ -4,9 +4,9 @@
 // A scene is a set of surfaces in (x, y, d): position in the centre view and disparity. The canvas
 // has 1024x768 units, its origin is the centre, y points downwards, and d is in canvas units per
 // unit of u. In a picture of another size, x, y and d are scaled equally. A ray consists of the
-// points that picture position p sees through lens position q when the lens is focused at disparity
-// D: (x, y) = p + q * (d - D). The surface with the largest d is visible. D = 0 gives the captured
-// views.
+// points that picture position p sees through lens position q. If the lens is focused at disparity
+// D, these points are (x, y) = p + q * (d - D). The surface with the largest d is visible. D = 0
+// gives the captured views.
 #ifndef STARFOCUS_EXAMPLES_SCENE_SCENE_H_
 #define STARFOCUS_EXAMPLES_SCENE_SCENE_H_
 

@@ -142,7 +142,7 @@ class Session {
     return Keep(full_);
   }
 
-  // Compares the last preview with the last full picture. Both must have the same focus.
+  // Compares the last preview with the last full picture. Both pictures must have the same focus.
   void SayNearness() const {
     std::printf("%8.1f dB  PSNR of the preview against the full picture reduced\n",
                 PreviewPsnr(preview_, full_, options_.shift));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Opens files that the user drops or chooses: a light-field folder, a depth photo, or a picture with its depth picture.
 // Returns a light field {name, width, height, views: [ImageData], depth: {data: Float32Array, width, height}, low,
-// high}, where low and high are the smallest and largest disparity. Other files cause an Error with a message.
+// high}. The fields low and high are the smallest and largest disparity. Other files cause an Error with a message.
 
 import {inverseDistances, parseGDepth} from './gdepth.js';
 import {parsePfm} from './pfm.js';
@@ -138,7 +138,7 @@ export function fetchDemo() {
   });
 }
 
-/** Returns all dropped files, including those in dropped folders. */
+/** Returns all dropped files, including the files in dropped folders. */
 export async function filesOfDrop(transfer) {
   const entries = [...transfer.items].map(item => item.webkitGetAsEntry?.()).filter(Boolean);
   if (!entries.length) return [...transfer.files];

@@ -50,7 +50,7 @@ export class Session {
     });
     try {
       await session.#refocuser.prepare(field.views, field.depth);
-      // The first preview is slower than later previews. Compute one preview here, so that the first tap is fast.
+      // The first preview is slower than later previews. Compute a preview here, so that the first tap is fast.
       await session.#refocuser.preview({...session.#params(lens), shift: FIRST_SHIFT});
     } catch (error) {
       session.close();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// starfocus video: refocuses a sequence of light fields. Of each frame, only blocks that changed
+// starfocus video: refocuses a sequence of light fields. In each frame, only blocks that changed
 // are computed.
 #include <algorithm>
 #include <cstdio>
@@ -48,9 +48,9 @@ std::string FramePath(const std::string& folder, size_t index) {
   return (fs::path(folder) / name).string();
 }
 
-// Returns the folders of the frames, which are the given folders. If a single folder is given that
-// is not a light field, returns the folders in it instead, except for hidden folders and the output
-// folder.
+// Returns the folders of the frames, which are the given folders. If the only given folder is not a
+// light field, returns its subfolders instead. Hidden folders and the output folder are omitted
+// from the subfolders.
 Result<std::vector<std::string>> FindFrames(const VideoOptions& options) {
   std::vector<std::string> folders = options.folders;
   std::error_code error;
@@ -113,7 +113,7 @@ Result<starfocus_disparity_stats> Prepare(const VideoOptions& options, const std
   return PrepareDisparity(path, *map);
 }
 
-// Sets the focus of all frames to that of the first one.
+// Sets the focus of all frames to the focus of the first frame.
 Error FocusFirst(const std::string& folder, const FloatMap& map, LensPlan* plan) {
   if (plan->focus_option.empty()) {
     const DefaultFocus focus = FindSurface(map);

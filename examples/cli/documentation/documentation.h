@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Generates the documentation of a command line from the tables of options that the parser uses, so
-// that the documentation and the parser always agree.
+// Generates the documentation of a command line. The parser uses the same tables of options, so the
+// documentation and the parser always agree.
 #ifndef STARFOCUS_EXAMPLES_CLI_DOCUMENTATION_DOCUMENTATION_H_
 #define STARFOCUS_EXAMPLES_CLI_DOCUMENTATION_DOCUMENTATION_H_
 

@@ -34,8 +34,8 @@ struct EngineResult {
   size_t prepared_bytes = 0;
 };
 
-// Refocuses one or several pictures with one configuration, and shows progress. Errors start with
-// the argument `where` of the call.
+// Refocuses pictures with a common configuration, and shows progress. Errors start with the
+// argument `where` of the call.
 class EngineRun {
  public:
   EngineRun(int threads, int pictures);

@@ -15,13 +15,13 @@ struct BatchItem {
   std::string input, output;
 };
 
-// Returns true if the command writes several pictures to a folder: if there are several inputs, or
-// if the output is an existing folder or ends with "/".
+// Returns true if the command writes pictures to a folder. A folder is used if there are several
+// inputs, or if the output is an existing folder or ends with "/".
 bool IsBatch(const std::vector<std::string>& inputs, const std::string& out);
 
-// Chooses the output file of each input. An output has the name of the input. The format of an
-// output is the format of the input for .jpg, .png, .ppm and .webp files, .jpg for other files, and
-// .png for light fields. A folder that is not a light field is replaced by the photographs and
+// Chooses the output file of each input. An output has the name of the input. Inputs of the formats
+// .jpg, .png, .ppm and .webp keep their format. The output of other files is .jpg, and the output
+// of light fields is .png. A folder that is not a light field is replaced by the photographs and
 // light fields in it. Returns an error if outputs coincide with each other or with inputs.
 // Otherwise, creates the output folder.
 Result<std::vector<BatchItem>> PlanBatch(const std::vector<std::string>& inputs,

@@ -57,7 +57,7 @@ struct LensPlan {
 Result<LensPlan> PlanLens(const LensOptions& options);
 void UseFocus(const DefaultFocus& focus, LensPlan* plan);
 
-// Checks that the renderer supports these views. Line scans need a star.
+// Checks that the renderer supports these views. Line scans require a star.
 Error CheckRenderer(const std::string& where, const LensPlan& plan, const Positions& views);
 
 // Measures a map, which must not have unknown values. Errors start with `where`.
@@ -75,7 +75,7 @@ Error ForeseeBlur(const LightField& light_field, bool repaired, LensPlan* plan);
 // rounded up to whole pixels.
 Result<double> ChooseBlur(const starfocus_disparity_stats& stats, LensPlan* plan);
 
-// Returns the task of the first focus. It has a clock if `reported` is true.
+// Returns the task of the first focus. The task has a clock if `reported` is true.
 EngineTask MakeTask(const LensPlan& plan, const LightField& light_field,
                     const starfocus_disparity_stats& stats, double max_blur, bool reported);
 

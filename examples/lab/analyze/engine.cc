@@ -110,7 +110,7 @@ Error Measure(const Series& series, int sign, Table* table, Table* layers) {
   return {};
 }
 
-// Returns the plot of one table of PSFs at layer 0.
+// Returns the gnuplot commands that plot a table of PSFs at layer 0.
 std::string Panel(const std::string& title, const std::string& table, const std::string& range) {
   return "set title '" + title + "'\nset xrange [" + range + "]\nplot $" + table +
          " using 1:8 with lines lt 6 lw 1 title 'paper', "
@@ -119,7 +119,7 @@ std::string Panel(const std::string& title, const std::string& table, const std:
          "'' using 1:5 with points pt 7 ps 0.2 lt 2 title 'measured'\n";
 }
 
-// Tables of one renderer.
+// Tables with the measurements of one renderer.
 struct RuleTables {
   Table engine, r_max, engine_layers, layers;
 };

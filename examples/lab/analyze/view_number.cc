@@ -39,7 +39,7 @@ Table Points() {
   return table;
 }
 
-// Compares the paper's threshold 0.787 with the exact one.
+// Compares the paper's threshold 0.787 with the exact threshold.
 void PrintThreshold() {
   constexpr double kPaperRatio = 0.787, kBeside = 1.51;
   const RatioPoint over = WorstOverSampling(4, kDefaultTheta);

@@ -61,7 +61,7 @@ void BlockBench::HoldDisparity() {
       starfocus_depth_float(map.values.data(), map.stride(), map.width, map.height);
   const DepthSource source = MakeDepthSource(engine_->config, given, nullptr);
   for (int y = 0; y < map.height; ++y) {
-    // Values cannot be out of range, because the range is that of the map.
+    // Values cannot be out of range, because the configuration has the range of the map.
     ReadDepthRow(simd::BestImageKernels(), source, y, engine_->row_store.disparity.Row(y));
   }
   views_.kernels = engine_->kernels;

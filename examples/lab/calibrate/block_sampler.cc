@@ -10,7 +10,8 @@
 namespace starfocus {
 namespace {
 
-// The paper's range of block sizes. Powers of two from 16 are also measured at layers 1 and 2.
+// The paper's range of block sizes. Sizes that are powers of two from 16 on are also measured at
+// layers 1 and 2.
 constexpr int kBlockSides[] = {8, 16, 24, 32, 48, 64, 96, 128, 160, 184};
 constexpr int kLayerSides[] = {16, 32, 64, 128, 256};
 constexpr int kViewNumbers[] = {1, 2, 3, 4, 5, 6, 7, 8, 10, 12, 14, 16};
@@ -92,8 +93,8 @@ double BlockSampler::SplattingRadius(const Lens& lens, const Rect& rect) const {
 }
 
 BlockSampler::Lens BlockSampler::RandomLens(int pass) {
-  // The focus lies within the disparity range of the scene or slightly outside. It may lie farther
-  // outside in the pass that ignores the layer.
+  // The focus lies within the disparity range of the scene or slightly outside. In the pass that
+  // ignores the layer, the focus may lie farther outside.
   const double beyond = pass == kAnyLayer ? 24 : 8;
   Lens lens;
   lens.focus = range_.low - beyond + Random() * (range_.high - range_.low + 2 * beyond);

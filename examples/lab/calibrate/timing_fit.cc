@@ -51,8 +51,8 @@ Equations MakeEquations(const std::vector<Measurement>& measurements) {
   return equations;
 }
 
-// Solves the equations by coordinate descent. Each step sets one unknown to its best non-negative
-// value.
+// Solves the equations by coordinate descent. Each iteration sets a single unknown to its best
+// non-negative value.
 Vector Solve(const Equations& equations) {
   constexpr int kMostSweeps = 200000;
   Vector solution = {};
