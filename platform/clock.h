@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Monotonic time.
+// Functions that measure monotonic time and CPU time.
 #ifndef STARFOCUS_PLATFORM_CLOCK_H_
 #define STARFOCUS_PLATFORM_CLOCK_H_
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks the structure of PNG and JPEG files before stb_image relies on it, and recognizes file
-// types.
+// Checks the structure of PNG and JPEG files before stb_image relies on this structure, and
+// recognizes file types.
 #ifndef STARFOCUS_PLATFORM_CONTAINER_H_
 #define STARFOCUS_PLATFORM_CONTAINER_H_
 

@@ -66,7 +66,7 @@ struct Command {
 
 struct Program {
   Command main;                                // options without a subcommand
-  std::vector<Command> commands;               // if not empty, the user must choose one of them
+  std::vector<Command> commands;               // the user must choose one, unless the list is empty
   std::vector<std::string> lab_commands = {};  // names of subcommands of starfocus-lab
 };
 

@@ -138,7 +138,7 @@ void AddWall(LayeredDepth* out) {
   out->push_back(Piece(Outline::kBox, {-420, -60, kWall + 0.3}, {66, 84}, second));
 }
 
-// Adds fairy lights on a sagging cord. Out of focus they become discs with the shape of the
+// Adds fairy lights on a sagging cord. Out of focus, the lights become discs with the shape of the
 // aperture.
 void AddLights(LayeredDepth* out) {
   const Material cord = {PaintTwist, {28, 34, 30}, {62, 74, 60}, 0.8, 100};

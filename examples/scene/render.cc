@@ -20,8 +20,8 @@ constexpr int kViewGrid = 4;       // samples along each side of a pixel of a vi
 constexpr int kFineGrid = 8;       // samples along each side of a pixel near strands
 constexpr int kCoverageGrid = 16;  // samples along each side of a pixel of the coverage
 constexpr int kLensSamples = 256;  // approximate number of samples per pixel of the ground truth
-// cos and sin of the golden angle and of 1/256 of a turn. Multiplying by them generates sequences
-// of directions without library functions.
+// cos and sin of the golden angle and of 1/256 of a turn. Multiplying a direction by these
+// constants generates sequences of directions without library functions.
 constexpr double kGoldenCos = -0.7373688780783197, kGoldenSin = 0.6754902942615238;
 constexpr double kStepCos = 0.9996988186962042, kStepSin = 0.024541228522912288;
 // Steps of the R2 low-discrepancy sequence.

@@ -24,7 +24,8 @@
 namespace starfocus {
 namespace {
 
-// Largest blur radius in pixels. The aperture is chosen so that no focus exceeds it.
+// Largest blur radius in pixels. The aperture is chosen so that the blur of no focus exceeds this
+// radius.
 constexpr double kBlur = 32;
 
 struct Options {

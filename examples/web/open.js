@@ -128,7 +128,8 @@ export async function open(files) {
   throw new Error(`Expected a light-field folder, a depth photo, or a picture with its depth picture, found ${files.length} files.`);
 }
 
-/** Loads the files of the demo from the server of the page. Returns their promises; the centre view is the first. */
+/** Loads the files of the demo from the server of the page. Returns the promises of the files; the centre view is the
+ *  first. */
 export function fetchDemo() {
   const names = [...POSITIONS.slice(0, 5).map(at => `${viewName(at)}.png`), 'disparity.pfm'];
   return names.map(async name => {

@@ -79,7 +79,7 @@ void RunOn(const CoreSet& cores) {
   for (int core = 0; core < CPU_SETSIZE && core < kMaxCores; ++core) {
     if (cores.Has(core)) CPU_SET(core, &set);
   }
-  sched_setaffinity(0, sizeof set, &set);  // on failure the thread keeps its cores
+  sched_setaffinity(0, sizeof set, &set);  // on failure the thread may still run on any core
 }
 
 #else

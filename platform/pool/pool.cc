@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Implements starfocus/pool.h with POSIX threads. The code uses no function of the C++ run time, so
-// C programs can link it.
+// Implements starfocus/pool.h with POSIX threads. The pool uses no function of the C++ run time, so
+// C programs can link the pool.
 #include "starfocus/pool.h"
 
 #include <pthread.h>

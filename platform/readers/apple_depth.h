@@ -16,7 +16,7 @@ namespace starfocus {
 void UnderstandApple(const XmpNode& xmp, DepthPhoto* photo);
 
 // Reads the first map of disparities or depths among the pictures after the primary picture, if
-// there is such a map. `photo` already has its picture. Adds a fact about a gain map.
+// there is such a map. photo->picture must already be set. Adds a fact if the file has a gain map.
 Error ReadAppleJpeg(Span file, const JpegParts& parts, DepthPhoto* photo);
 
 }  // namespace starfocus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Options of the user about a depth picture, for properties that its file does not state.
+// User options for properties of a depth picture that the file of the picture does not state.
 #ifndef STARFOCUS_PLATFORM_READERS_DEPTH_OPTIONS_H_
 #define STARFOCUS_PLATFORM_READERS_DEPTH_OPTIONS_H_
 

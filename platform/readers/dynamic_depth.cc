@@ -103,8 +103,8 @@ Span FindByBeginning(Span file, const JpegParts& parts, const std::vector<Item>&
   return jpeg < pictures.size() ? pictures[jpeg].file : Span{};
 }
 
-// Returns the index of the depth map, by its name or otherwise by its semantic. Returns 0, the
-// index of the primary picture, if none is found.
+// Returns the index of the depth map. Searches for the name `uri` and, if no item has this name,
+// for the semantic "Depth". Returns 0, the index of the primary picture, if no depth map is found.
 size_t FindDepth(const std::vector<Item>& items, const std::string* uri) {
   for (size_t k = 1; k < items.size() && uri != nullptr; ++k) {
     if (items[k].uri == *uri) return k;

@@ -13,7 +13,7 @@ namespace starfocus {
 
 bool HasDynamicDepth(const XmpNode& xmp);
 
-// Reads the map. `photo` already has its picture. `near` applies only if the file does not state
+// Reads the map. photo->picture must already be set. `near` applies only if the file does not state
 // which end of the map is near.
 Error ReadDynamicDepth(Span file, const JpegParts& parts, const XmpNode& xmp, Near near,
                        DepthPhoto* photo);

@@ -13,8 +13,8 @@ namespace starfocus {
 
 bool HasGdepth(const XmpNode& xmp);
 
-// Reads the map and, if present, the sharp picture and the focus. `photo` already has its picture.
-// `xmp` contains all packets of the file, including extended XMP.
+// Reads the map and, if present, the sharp picture and the focus. photo->picture must already be
+// set. `xmp` contains all packets of the file, including extended XMP.
 Error ReadGdepth(const XmpNode& xmp, Near near, DepthPhoto* photo);
 
 }  // namespace starfocus

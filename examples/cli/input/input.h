@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Opens the input of a command, a folder of views or a depth photo, and obtains the best possible
-// map.
+// Opens the input of a command, which is a folder of views or a depth photo, and obtains the best
+// available map.
 #ifndef STARFOCUS_EXAMPLES_CLI_INPUT_INPUT_H_
 #define STARFOCUS_EXAMPLES_CLI_INPUT_INPUT_H_
 

@@ -116,7 +116,8 @@ struct JavaTask {
   jobject parameters, out;
 };
 
-// Converts the arguments of a task. Returns false, with an exception pending, if they are invalid.
+// Converts the arguments of a task. Returns false, with an exception pending, if the arguments are
+// invalid.
 bool ReadTask(JNIEnv* env, Session* session, const JavaTask& task, starfocus_params* params,
               starfocus_image* image) {
   const int32_t shift = task.shift;
