@@ -121,7 +121,7 @@ TEST_CASE("partition: the cheapest one is chosen, covers each pixel once and fol
     blocks += CheckPicture(plan);
     superblocks += size_t(((width - 1) / side + 1) * ((height - 1) / side + 1));
   }
-  CHECK(blocks > 2 * superblocks);  // more than half of the superblocks are split
+  CHECK(blocks > 2 * superblocks);  // on average, a superblock has more than two blocks
 }
 
 TEST_CASE("partition: the choice is the cheapest of all 83522 partitions of a block of 128") {

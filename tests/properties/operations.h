@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Operations that make pictures or maps, and the properties that each of them must have. The bytes
-// of the result must not depend on workers and their order, or on earlier results. They also must
-// not depend on failures of a runner or cancelled calls.
+// of a result must not depend on the workers, on the order of jobs, or on earlier results. Failures
+// of a runner and cancelled calls must not affect later results.
 #ifndef STARFOCUS_TESTS_PROPERTIES_OPERATIONS_H_
 #define STARFOCUS_TESTS_PROPERTIES_OPERATIONS_H_
 
@@ -34,7 +34,7 @@ using Bytes = std::vector<uint8_t>;
 struct Setup {
   int workers = 1;
   bool used = false;  // true if the engine or the memory was used before
-  // Null selects the best kernels of this machine.
+  // A null pointer selects the best kernels of this machine.
   const starfocus::simd::Kernels* kernels = nullptr;
   const starfocus::simd::DepthKernels* depth_kernels = nullptr;
   test::Symmetry mirror = {false, false, false};  // mirrors the input, and mirrors the result back
@@ -57,7 +57,7 @@ inline Bytes Made(const Run& run, const starfocus_callbacks& callbacks = {}) {
   return bytes;
 }
 
-// Starts one thread per worker. The threads take the jobs in a shuffled order.
+// Runner that starts one thread per worker. The threads run the jobs in a shuffled order.
 struct ShuffledRunner {
   int workers, sets = 0, jobs = 0;
 
@@ -95,7 +95,7 @@ inline void CheckWorkers(const Operation& operation) {
   }
 }
 
-// Checks that each setup returns the bytes of the first.
+// Checks that each setup returns the same bytes as the first setup.
 inline void CheckSetups(const Operation& operation, const std::vector<Setup>& setups) {
   CAPTURE(operation.name);
   const Bytes expected = Made(operation.set_up(setups[0]));
@@ -108,8 +108,8 @@ inline void CheckSetups(const Operation& operation, const std::vector<Setup>& se
   }
 }
 
-// Fails at a set of jobs after running some of its jobs. Only every second failure is reported,
-// since missing jobs must also be detected as a failure.
+// Runner that runs only half of the jobs of one set. It reports every second failure, since the
+// engine must also detect unreported missing jobs.
 struct FailingRunner {
   int fails_at, sets = 0;
 
@@ -144,8 +144,9 @@ inline void CheckFailingRunner(const Operation& operation) {
   }
 }
 
-// Cancels at every call of progress. Slow builds cancel only at the first calls and at some of the
-// others. After each cancellation, the same engine must return the result of a new engine.
+// Cancels at every call of progress. Slow builds cancel only at the first ten calls and at every
+// seventh call after these. After each cancellation, the same engine must return the result of a
+// new engine.
 inline void CheckCancelling(const Operation& operation) {
   CAPTURE(operation.name);
   const Bytes expected = Made(operation.set_up({}));
@@ -163,7 +164,7 @@ inline void CheckCancelling(const Operation& operation) {
       Bytes bytes;
       const starfocus_status status = run(callbacks, &bytes);
       CHECK(watch.Good());
-      if (watch.calls <= stop) {  // the operation ended before the cancellation
+      if (watch.calls <= stop) {  // the operation has ended before the cancellation
         CHECK(status == STARFOCUS_OK);
         CHECK(watch.Ended());
         CHECK(watch.rows == operation.rows);

@@ -29,8 +29,8 @@ struct Lens {
   double aperture;
   int views;
   float highlights = 1;
-  bool flat = false;     // one surface, which is gathered
-  bool layered = false;  // one surface, which is subsampled
+  bool flat = false;     // one surface; blocks are gathered unless `layered`
+  bool layered = false;  // one surface; blocks render views at layers 1 and 2
 };
 
 constexpr Lens kBlocks = {"blocks", STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_SLICES, 1, 5};
@@ -57,11 +57,11 @@ constexpr Lens kLenses[] = {
 struct Picture {
   Picture(test::Scene of, const Lens& lens, const Setup& setup) : scene(std::move(of)) {
     if (lens.flat) scene.disparity.assign(scene.disparity.size(), 9);
-    for (int view = 0; view < scene.views(); ++view) {  // bright squares are lamps
+    for (int view = 0; view < scene.views(); ++view) {  // a white square, which counts as a lamp
       for (int y = 40; y < 44; ++y) std::fill_n(scene.Pixel(view, 30, y), 12, uint8_t{255});
     }
     before = scene;
-    before.Pixel(0, 50, 60)[1] ^= 64;  // a corner of the last stripe differs
+    before.Pixel(0, 50, 60)[1] ^= 64;  // one pixel in the last stripe differs
     config = test::ConfigFor(scene, 13);
     config.superblock = 32;
     config.features |= STARFOCUS_FEATURE_STREAMING | STARFOCUS_FEATURE_IMAGES;
@@ -111,7 +111,7 @@ inline test::Scene SceneOf(const Lens& lens) {
   return test::RandomScene(kWidth, kHeight, lens.views, -3, 9, 8);
 }
 
-// The operations that make a picture. The callbacks are already set.
+// The operations that make a picture.
 inline starfocus_status Whole(Picture* of, const starfocus_callbacks& callbacks, test::Output* out,
                               starfocus_report* report) {
   return test::Refocus(of->engine.get(), of->params, of->scene, out, callbacks, report);
@@ -185,8 +185,8 @@ inline Operation OperationOf(const Lens& lens, const NamedWay& way) {
           }};
 }
 
-// Makes a picture from views and a map of half the size, in the given format. `prepares` selects a
-// prepared light field.
+// Makes a picture from views in the given format and a map of half the size. With `prepares`, the
+// light field is prepared first.
 inline Run SetUpImages(int format, bool prepares, const Setup& setup) {
   test::Random random(uint64_t(format) + 1);
   const test::ImageKind kind = test::AnyKind(format, &random);

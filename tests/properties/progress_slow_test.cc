@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests starfocus_callbacks.progress: how often it is called, and the state of a stream that it
-// cancels.
+// Tests the number of calls of starfocus_callbacks.progress, and the state of a stream after a
+// cancellation.
 #include <doctest/doctest.h>
 
 #include "starfocus/starfocus.h"
@@ -22,7 +22,8 @@ void SetCallbacks(test::Engine* engine, const starfocus_callbacks& callbacks) {
   REQUIRE(starfocus_set_callbacks(engine->get(), &callbacks) == STARFOCUS_OK);
 }
 
-// Pulls a whole stream. Each pull is cancelled after `every` calls of progress and then repeated.
+// Pulls a whole stream. Each pull is cancelled after `every` calls of progress, and is then
+// repeated. Returns the number of cancelled pulls, rounded up to an even number.
 int PullOn(const Picture& f, int every, starfocus_report* report, test::Output* out) {
   test::Engine engine(f.config);
   Watch watch;
@@ -66,7 +67,7 @@ TEST_CASE("progress: a cancelled stream continues with its rows and returns the 
 
 TEST_CASE("progress: a stream that is cancelled in begin has not begun") {
   const Picture f(SceneOf(kBlur), kBlur, {});
-  test::Engine engine(f.config);  // begin makes the PSFs
+  test::Engine engine(f.config);  // starfocus_stream_begin makes the PSFs
   Watch watch(0);
   SetCallbacks(&engine, Watched(&watch));
   CHECK(starfocus_stream_begin(engine.get(), &f.params) == STARFOCUS_ERROR_CANCELLED);
@@ -90,12 +91,12 @@ TEST_CASE("progress: no block computes a million samples between two calls") {
     starfocus_config config = test::ConfigFor(scene, 32);
     config.superblock = side;
     config.tuning.max_layer = 0;
-    // For gathered pixels, the test counts every second pixel of rows and columns, as a lower
-    // bound.
+    // For gathered pixels, the test assumes PSFs of half the width, as a lower bound.
     const int radius = gathered ? 12 : 32, size = (gathered ? 1 : 2) * radius + 1;
     starfocus_params params = test::Params(9 - radius, 1, of.mode, of.renderer);
     test::Engine engine(config);
-    // Progress is also called between the PSFs, which the first picture makes.
+    // While the first picture makes the PSFs, progress is called as well. Only the calls of the
+    // second picture are counted.
     test::Output out = test::OutputOf(&engine, params, scene);
     Watch watch;
     starfocus_report report = {};
@@ -104,7 +105,7 @@ TEST_CASE("progress: no block computes a million samples between two calls") {
     double samples =
         double(report.rendered_samples) + 3.0 * size * size * double(report.gathered_pixels);
     if (of.mode == STARFOCUS_MODE_BLUR)
-      samples = 3.0 * 64 * 64 * 49 * 49;  // lower bound, for the smallest blur
+      samples = 3.0 * 64 * 64 * 49 * 49;  // lower bound for the smallest blur radius
     CAPTURE(samples);
     CHECK(samples > 4 * kMost);
     CHECK(watch.calls >= samples / kMost);

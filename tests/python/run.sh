@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# run.sh BUILD: tests the Python package as a wheel and as installed from the source tree. Each gets a separate
-# environment, in which the tests and the example run. Uses Debian's Python and no network.
+# run.sh BUILD: tests the Python package as a wheel and as installed from the source tree. Each package gets a separate
+# environment, in which the tests run. Also runs the example. Uses Debian's Python and no network.
 set -eu
 [ $# = 1 ] || { echo "usage: $0 BUILD" >&2; exit 2; }
 sources=$(cd "$(dirname "$0")/../.." && pwd)
@@ -15,7 +15,7 @@ MPLCONFIGDIR=$work/matplotlib
 export MPLCONFIGDIR
 cd "$work"
 
-# quietly COMMAND...: runs a command and shows its output only if it fails.
+# quietly COMMAND...: runs a command. Prints the output only if the command fails.
 quietly() {
   "$@" >"$work/log" 2>&1 || { cat "$work/log" >&2; echo "python: failed: $*" >&2; exit 1; }
 }

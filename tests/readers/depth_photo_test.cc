@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads depth photos of every kind in JPEG files that follow the specifications of the formats. The
-// disparities must be those of the formulas in the specifications.
+// disparities must match the formulas in the specifications.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -119,8 +119,8 @@ TEST_CASE(
                       Data(RampPng())),
                &capture) == "");
 #ifdef STARFOCUS_HAS_EXIF
-  // Orientation 6: row 0 of the file is at the right side of the picture, and column 0 is at the
-  // top.
+  // Orientation 6: row 0 of the file is the right side of the upright picture, and column 0 of the
+  // file is the top.
   const Image& upright = capture.light_field.views[0];
   REQUIRE(upright.width == kHeight);
   REQUIRE(upright.height == kWidth);
@@ -169,7 +169,8 @@ TEST_CASE("Dynamic Depth: the map is the item that the container names") {
   CheckRamp(capture, PerDiopter(50) / 0.5, PerDiopter(50) / 4);
   capture = OpenRamp(DynamicDepth(Photo(), RampPng(), range + "DepthMap:Units=\"None\""), kPortrait,
                      kPortrait / 8);
-  // Cameras write near and far in diopters as distances up to a factor.
+  // With diopters as units, cameras store near and far as distances that are known only up to a
+  // factor.
   capture = OpenRamp(DynamicDepth(Photo(), RampPng(), range + "DepthMap:Units=\"Diopters\""),
                      kPortrait, kPortrait / 8);
   CHECK(HasNote(capture, "diopters"));
@@ -246,8 +247,8 @@ TEST_CASE(
   CHECK(Contains(OpenCapture(folder.file("b.jpg"), {}), "--depth"));
   options.depth = folder.file("a-depth.png");
   capture = ValueOf(OpenCapture(folder.file("b.jpg"), options));
-  // The picture is rotated with its photo, unless its orientation already matches the rotated
-  // photo.
+  // The depth picture is rotated with the photo, unless the depth picture already has the
+  // proportions of the rotated photo.
   Write(folder.file("c.jpg"), Insert(Photo(), ExifSegment(8, 0)));
 #ifdef STARFOCUS_HAS_EXIF
   capture = ValueOf(OpenCapture(folder.file("c.jpg"), options));
@@ -273,7 +274,7 @@ TEST_CASE("photos: errors name the limits of segments, items, pictures and pixel
   std::string many;
   for (int k = 0; k < 4097; ++k) many += Segment(0xef, "");
   CHECK(Contains(Open(Insert(Photo(), many), &capture), "at most 4096 segments"));
-  // A header of 16000 x 16000 pixels with 16 bits in a file of one pixel.
+  // The header declares 16000 x 16000 pixels with 16 bits in a file of one pixel.
   std::string png = Png16(1, 1, {7});
   const std::string header = "IHDR" + Big(16000, 4) + Big(16000, 4) + png.substr(24, 5);
   png = png.substr(0, 12) + header + Big(Crc(header), 4) + png.substr(33);
@@ -318,7 +319,7 @@ Span SpanOf(const std::string& bytes) {
   return {reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()};
 }
 
-// Returns the file with orientation 6 in its EXIF instead of 1.
+// Returns the file with orientation 6 instead of 1 in the EXIF.
 std::string Turned(std::string file) {
   const size_t at = file.rfind(std::string("\1\x12\0\3\0\0\0\1\0\1", 10));
   REQUIRE(at != std::string::npos);
@@ -326,7 +327,7 @@ std::string Turned(std::string file) {
   const size_t chunk = file.find("eXIf");
   if (chunk == std::string::npos) return file;
   const size_t size = static_cast<uint8_t>(file[chunk - 2]) * 256u +
-                      static_cast<uint8_t>(file[chunk - 1]) + 4;  // includes the name of the chunk
+                      static_cast<uint8_t>(file[chunk - 1]) + 4;  // data and name of the chunk
   return file.replace(chunk + size, 4, Big(Crc(file.substr(chunk, size)), 4));
 }
 
@@ -342,7 +343,8 @@ TEST_CASE("photos: EXIF of PNG and WebP rotates the picture like EXIF of JPEG") 
     Require(WriteImage(folder.file(name), Ramp(kWidth, kHeight), how));
     const Bytes bytes = ValueOf(ReadFile(folder.file(name)));
     const std::string written(bytes.begin(), bytes.end());
-    if (written.find("starfocus") == std::string::npos) continue;  // a build without libpng
+    // A build without libpng stores no EXIF.
+    if (written.find("starfocus") == std::string::npos) continue;
     const DepthPhoto photo =
         ValueOf(DecodeDepthPhoto(name, SpanOf(Turned(written)), true, Near::kUnknown));
     CHECK(!photo.metadata.exif.empty());
@@ -426,7 +428,8 @@ TEST_CASE("HEIF: a picture that refers to itself or declares a wrong size is rej
   CHECK(Contains(error(Seed("heif/malformed_references.heic")), "boxes"));
   CHECK(Contains(error(Seed("heif/input_of_unknown_type.heic")), "found a 'hvc2' picture"));
   const std::string depth = "heif/depth.heic", size("\0\0\0\0", 4);
-  // In idat: two columns with one tile, and a width that differs from that in ispe.
+  // The grid in idat has two columns with one tile, and a width that differs from the width in
+  // ispe.
   CHECK(Contains(error(Changed(depth, "idat", 3, "\1")), "grid"));
   CHECK(Contains(error(Changed(depth, "idat", 4, std::string("\x40\0", 2))), "grid"));
   CHECK(Contains(error(Changed(depth, "ispe", 4, std::string("\0\0\x40\0\0\0\x40\0", 8))),

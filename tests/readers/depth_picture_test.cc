@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads depth pictures in separate files. Tests unknown values and how they are filled, units,
-// which end is near, orientation, and the names by which a picture is found.
+// Reads depth pictures in separate files. Tests unknown values and their filling, units, near ends,
+// orientations, and the names of files that are found next to a photo.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -23,8 +23,7 @@ using namespace photos;
 constexpr int kWidth = 48, kHeight = 36;
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
-// The values of a map at a wall, at the bottom of a floor that comes nearer, and at a box in front
-// of them.
+// Values of a map: the wall, the bottom of a floor that comes nearer, and a box in front of both.
 struct Scene {
   double wall, floor, box;
 
@@ -134,7 +133,8 @@ TEST_CASE("unknown depth: 0 and 65535 are depths in a map that uses the whole ra
     CHECK(opened.HasNote("as a known depth"));
     CHECK(opened.HasNote("--unknown"));
   }
-  std::vector<uint16_t> both = LevelsOf(kMillimetres);  // map of a sensor: both values are unknown
+  // A map of a sensor, in which both 0 and 65535 are unknown.
+  std::vector<uint16_t> both = LevelsOf(kMillimetres);
   both[Index(40, 2)] = 65535;
   both[Index(41, 2)] = 0;
   const Opened sensor("map.png", GreyPng(both), NearIs(Near::kBlack));
@@ -298,7 +298,7 @@ Image GreyOf(const FloatMap& map) {
   return picture;
 }
 
-// Returns a photo with the same edges as the scene.
+// Returns a photo that has edges at the edges of the map.
 Image PictureOf(const FloatMap& map) {
   Image picture(map.width, map.height);
   for (size_t k = 0; k < map.values.size(); ++k) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs the program on typical inputs. Photos are refocused, described and imported, and no input
-// file may be overwritten. The program exiftool checks the GDepth files that the tests write. Real
-// photographs belong to the data sets.
+// Runs the program on typical inputs. The program refocuses, describes and imports photos, and must
+// not overwrite an input file. The program exiftool checks the GDepth files that the tests write.
+// Real photographs belong to the data sets.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -79,7 +79,8 @@ TEST_CASE("photos: import without repair keeps the map unchanged") {
   Succeed(folder, "import photo.jpg raw --no-repair");
   const LightField field = ValueOf(LoadLightField(folder.file("raw"), {}));
   const float edge = field.disparity.at(48, 8);
-  CHECK((edge < field.disparity.at(0, 8) && edge > field.disparity.at(95, 8)));  // between both
+  // The edge has a disparity between both surfaces.
+  CHECK((edge < field.disparity.at(0, 8) && edge > field.disparity.at(95, 8)));
 }
 
 #ifdef STARFOCUS_HAS_HEIF
@@ -166,7 +167,7 @@ TEST_CASE("photos: the default focus is the EXIF subject, rotated and scaled lik
                {SubjectSegment(8, kArea, {72, 20}), "20,23, the subject"},
                {SubjectSegment(1, kArea, {144, 40}, 192, 128), "72,20, the subject"},
                {SubjectSegment(6, kLocation, {144, 40}, 192, 128), "43,72, the subject"},
-               // The subject of a cropped picture, and a subject outside the picture.
+               // The subject refers to a picture that was cropped, or lies outside the picture.
                {SubjectSegment(1, kArea, {72, 20}, 128, 128), "the nearest large surface"},
                {SubjectSegment(1, kArea, {96, 20}), "the nearest large surface"},
                {SubjectSegment(1, kArea, {72}), "the nearest large surface"},
@@ -240,7 +241,7 @@ TEST_CASE("photos: a saved depth photo keeps the disparities and the blur of its
   const struct {
     float low, high;
     const char* widest;
-    double factor, moved;  // offset of its disparities
+    double factor, moved;  // factor and offset of the disparities in the saved photo
   } kinds[] = {{33, 97, "", 1, 0},
                {-40, -3, "", 1, 0},
                {0, 1.5F, "", 1, 0},
@@ -263,7 +264,8 @@ TEST_CASE("photos: a saved depth photo keeps the disparities and the blur of its
           0.51 * step + 1e-3);
     CHECK(capture.care == MapCare::kNone);
     CHECK(capture.focus == doctest::Approx(map.at(40, 40)).epsilon(0.01));
-    // The blur is the same: a blur larger by a quarter would change several levels.
+    // The saved photo must have the same blur. A blur larger by a quarter would change pixels by
+    // several levels.
     Succeed(folder, "refocus lf" + std::string(kind.widest) + lens + "first.png");
     Succeed(folder, "refocus saved.jpg" + lens + "again.png");
     const Image first = ValueOf(ReadImage(folder.file("first.png")));
@@ -291,7 +293,7 @@ TEST_CASE("photos: an auxiliary depth picture of HEIC is read") {
   const DepthPhoto photo = ValueOf(read);
   CHECK(photo.picture.width == 16);
   REQUIRE(photo.map.values.size() == 16 * 16);
-  // Depth changes from side to side.
+  // The depth differs between the left and the right side.
   CHECK(std::fabs(photo.map.at(0, 8) - photo.map.at(15, 8)) > 0.8F);
   for (const size_t size : {size_t{30}, bytes.size() / 2, bytes.size() - 1}) {
     CHECK(Contains(ReadHeif("x", {bytes.data(), size}, Near::kUnknown),
@@ -350,7 +352,7 @@ TEST_CASE("parts of the data sets: photographs of phones are refocused near and 
   Succeed(folder, "refocus " + shelf + " -o far.png --focus 0");
   CHECK(std::atof(Call(folder, "compare near.png far.png").out.c_str() + 5) < 40);
 #ifdef STARFOCUS_HAS_HEIF
-  // The expected values are those of another reader of the same file.
+  // The expected values come from another reader of the same file.
   Capture capture = ValueOf(OpenCapture(photos + "pug.heic", {}));
   CHECK(capture.light_field.width() == 4032);
   CHECK(!capture.metadata.exif.empty());

@@ -27,7 +27,7 @@ std::string Number(int value, int digits) {
   return text;
 }
 
-// Writes a picture whose level identifies its place.
+// Writes a picture of one level, which identifies the view.
 void WriteView(const TempFolder& folder, const std::string& name, int level) {
   Require(WriteImage(folder.file(name), Plain(4, 3, level)));
 }
@@ -75,7 +75,7 @@ TEST_CASE(
   CHECK(Contains(OpenAndLoad(folder, &capture), "a square number of views"));
 }
 
-// Writes 5 rows of 7 views. `place` returns the rest of a name.
+// Writes 5 rows of 7 views. `place` returns the part of a name after the row and the column.
 template <class Place>
 void WriteStanford(const TempFolder& folder, const Place& place) {
   for (int row = 0; row < 5; ++row) {
@@ -132,8 +132,8 @@ TEST_CASE(
   CHECK(LevelAt(capture, 1, 1) == 8);
   std::filesystem::remove(three.file("scene r2c2 8bit.png"));
   CHECK(Contains(OpenAndLoad(three, &capture), "a picture for each place in 3 rows of 3, found 8"));
-  // The largest grid with a middle is 7 x 7. It has 3 views from the middle to the edge, so no view
-  // is at half of this distance.
+  // The largest grid with a middle is 7 x 7. The edge is 3 views from the middle, so no view is at
+  // half of this distance.
   grid(sixteen, 8, 8);
   REQUIRE(OpenAndLoad(sixteen, &capture) == "");
   CHECK(capture.light_field.views.size() == 9);
@@ -191,7 +191,7 @@ TEST_CASE("stereo pairs: disp0GT.pfm, the name in ETH3D, is the map") {
 }
 
 // Writes a pair of random pictures of a wall at disparity 9. The levels of the map are `multiple`
-// times the disparity, and 0 in the first row.
+// times the disparity, except in the first row, where the level is 0.
 void WriteGreyMapPair(const TempFolder& folder, const std::vector<std::string>& names, int height,
                       int multiple) {
   constexpr int kWidth = 160, kDisparity = 9;
@@ -223,7 +223,8 @@ TEST_CASE(
     const std::vector<std::string>& names;
     int height, multiple;
   };
-  // The last three sizes are not published, so the multiple is found from the pictures.
+  // The last three sizes do not occur in the published data, so the reader must find the multiple
+  // from the pictures.
   for (const Case& one :
        {Case{ppm, 375, 4}, Case{png, 375, 4}, Case{png, 750, 2}, Case{png, 1500, 1},
         Case{views, 370, 3}, Case{views, 555, 2}, Case{views, 1110, 1}, Case{views, 60, 1},
@@ -244,7 +245,7 @@ TEST_CASE(
     CHECK(std::isnan(capture.light_field.disparity.at(20, 0)));
     CHECK(capture.care == MapCare::kFill);
   }
-  TempFolder folder;  // without a second picture, the size decides
+  TempFolder folder;  // without a second picture, the size determines the multiple
   WriteGreyMapPair(folder, ppm, 375, 4);
   Capture capture = ValueOf(OpenCapture(folder.path(), {}));
   REQUIRE(LoadCapture(StarPositions(1), &capture) == "");
@@ -295,7 +296,8 @@ TEST_CASE("maps are interpolated to the size of the picture, and unknown values 
 TEST_CASE("disparities of a photo stay within the limit, also between the values of its map") {
   DepthPhoto photo;
   photo.picture = Plain(97, 61, 128);
-  photo.map = {5, 3, std::vector<float>(15, 1e6F)};  // micrometres away
+  // Inverse distances of 1e6 per metre, which is one micrometre.
+  photo.map = {5, 3, std::vector<float>(15, 1e6F)};
   photo.meaning = MapMeaning::kInverseMetres;
   Result<LightField> made = MakePhotoField("photo", &photo);
   REQUIRE(made.error() == "");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads valid but unusual photos of editors and some cameras. The readers must use the valid parts
-// and add a note. Also tests which metadata are kept.
+// and add a note. Also tests which metadata the readers keep.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -19,8 +19,8 @@ namespace {
 
 using namespace photos;
 
-// Checks that a GDepth photo with these attributes opens with a note, and that its levels only
-// define an order in which black is near.
+// Checks that a GDepth photo with these attributes opens with a note. The levels of such a photo
+// define only an order, in which black is near by default.
 void CheckOrder(const std::string& attributes) {
   CAPTURE(attributes);
   Capture capture;
@@ -57,7 +57,7 @@ TEST_CASE("GDepth: an invalid range is ignored, and levels define only an order"
   }
 }
 
-// Opens a photo with a depth picture next to it, whose right end is near.
+// Opens a photo with a depth picture next to the photo. The right end of the depth picture is near.
 Error OpenBeside(const std::string& photo, Capture* capture) {
   TempFolder folder;
   Write(folder.file("photo.jpg"), photo);
@@ -95,7 +95,7 @@ TEST_CASE(
     CHECK(capture.format == "photo and depth picture");
     CheckRamp(capture, 0, kPortrait);
     CHECK(HasNote(capture, one.note));
-    // Without a depth picture, the error names the same cause.
+    // Without a depth picture, the error must name the same cause.
     const std::string error = Open(file, &capture).line();
     CHECK(Contains(error, ": expected a depth map"));
     if (one.note.find("the depth map") != 0) CHECK(Contains(error, one.note));
@@ -151,8 +151,8 @@ TEST_CASE("Apple's JPEG: the map is found if its index is wrong, moved or lost")
     check(MultiPicture(Photo(), map, {little, 0xffffffff}), "");
     check(MultiPicture(Photo(), map, {little, 32, 1000}), wrong);
     check(MultiPicture(Photo(), map, {little, 32, 0x80000000}), wrong);
-    // An editor inserts a segment before the index. Offsets are relative to the index, so they stay
-    // valid.
+    // An editor inserts a segment before the index. The offsets in the index are relative to the
+    // index, so they remain valid.
     check(Insert(MultiPicture(Photo(), map, {little}), ExifSegment(1, 50)), "");
   }
   check(Photo() + map, "the file has no multi-picture index");
@@ -195,7 +195,7 @@ TEST_CASE("a stereo pair in one file has two views and no map") {
     }
   }
   CHECK(open("a.mpo", Photo() + second));
-  // Entries that are read at a wrong offset have a type that does not exist.
+  // An entry at a wrong offset has a type that does not exist.
   CHECK(open("a.mpo", MultiPicture(Photo(), second, {false, 32, 5, 0x123456})));
   CHECK(open("a.jpg", MultiPicture(Photo(), second)));
   // These files are not pairs: a file without any sign of a pair, pictures of different sizes, a
@@ -259,14 +259,14 @@ TEST_CASE("captions: XMP and IPTC of a photo are kept, except properties of its 
         "<rdf:li xml:lang=\"x-default\">Cats &amp; dogs</rdf:li></rdf:Alt></dc:title>"
         "</rdf:Description>");
   CHECK(std::string(capture.metadata.iptc.begin(), capture.metadata.iptc.end()) == records);
-  // Written captions can be read again, and the file claims no depth map.
+  // The written captions must be readable, and the written file must not declare a depth map.
   Bytes jpeg = ValueOf(EncodeJpeg("x", Plain(kWidth, kHeight, 9), 90, capture.metadata, {}));
   Capture again;
   CHECK(Contains(Open({jpeg.begin(), jpeg.end()}, &again), "a picture without one"));
   REQUIRE(OpenBeside({jpeg.begin(), jpeg.end()}, &again) == "");
   CHECK(again.metadata.xmp == capture.metadata.xmp);
   CHECK(again.metadata.iptc == capture.metadata.iptc);
-  // A photo without captions returns none, and truncated IPTC is ignored.
+  // A photo without captions has no metadata, and truncated IPTC is ignored.
   REQUIRE(OpenBeside(Insert(Photo(), XmpSegment(Packet(kGoogle, kInverse)) +
                                          Segment(0xed, std::string("Photoshop 3.0\0", 14) +
                                                            "8BIM\4\4" + std::string(3, '\0'))),

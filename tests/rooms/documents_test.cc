@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks that everything that the documents mention exists: linked and cited files, names of the
-// code, commands and options.
+// Checks that linked files, cited files, identifiers, commands and options in the documents exist.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -46,7 +45,7 @@ std::string Code(const fs::path& path) {
   return code;
 }
 
-// Returns all texts that the first group of the pattern matches.
+// Returns all strings that the first group of the pattern matches.
 std::set<std::string> Find(const std::string& text, const std::string& pattern) {
   std::set<std::string> found;
   const std::regex expression(pattern);
@@ -127,8 +126,7 @@ TEST_CASE("documents: the names that they cite are names of the code") {
   CHECK(names > 40);
 }
 
-// Returns the text of all files in the folders and their subfolders that have one of the
-// extensions.
+// Returns the text of all files with one of the extensions, in the folders and their subfolders.
 std::string ReadAll(const std::vector<std::string>& folders,
                     const std::set<std::string>& extensions) {
   std::string text;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks the dependencies between the folders of the project, which it reads from #include lines.
+// Reads the dependencies between the folders of the project from #include lines, and checks them.
 // Data flows in one direction through lib/, and no two modules include each other.
 // docs/architecture.md describes the folders.
 #include <doctest/doctest.h>
@@ -21,14 +21,14 @@ namespace {
 namespace fs = std::filesystem;
 
 // A folder may include its own headers and those of earlier folders in this list. lib/analysis is
-// the last one, because it measures the engine.
+// the last folder, because lib/analysis measures the engine.
 const std::vector<std::string> kRooms = {
     "simd",       "lib/base",   "lib/convert", "lib/input",     "lib/coverage",
     "lib/plan",   "lib/filter", "lib/slices",  "lib/line_scan", "lib/engine",
     "lib/source", "lib/depth",  "lib/api",     "lib/analysis"};
 
-// Other folders, and the folders whose headers they may include. They use the engine only through
-// its public headers.
+// Folders outside the engine, each with the folders whose headers it may include. These folders use
+// the engine only through its public headers.
 const std::map<std::string, std::set<std::string>> kOutside = {
     {"platform", {"platform"}},
 };
@@ -43,7 +43,8 @@ std::string RoomOf(const std::string& file) {
 }
 
 // Returns the module of a file. A module is a header and the source file with the same name. In
-// simd/ each file is a module, since source files there include files that include their header.
+// simd/, each file is a separate module, because source files in simd/ include files that include
+// the source file's header.
 std::string ModuleOf(const std::string& file) {
   if (RoomOf(file) == "simd") return file;
   return fs::path(file).replace_extension().generic_string();
@@ -79,7 +80,7 @@ std::vector<std::string> FindBackward(const std::vector<Include>& includes) {
 
 using Needs = std::map<std::string, std::set<std::string>>;  // modules that a module includes
 
-// Removes modules that include no remaining module. Returns true if it removed any.
+// Removes modules that include no remaining module. Returns true if a module was removed.
 bool DropLeaves(Needs* needs) {
   bool changed = false;
   for (auto module = needs->begin(); module != needs->end();) {
@@ -93,7 +94,7 @@ bool DropLeaves(Needs* needs) {
   return changed;
 }
 
-// Removes modules that no remaining module includes. Returns true if it removed any.
+// Removes modules that no remaining module includes. Returns true if a module was removed.
 bool DropRoots(Needs* needs) {
   std::set<std::string> needed;
   for (const auto& [module, to] : *needs) needed.insert(to.begin(), to.end());

@@ -20,8 +20,9 @@ constexpr size_t kFileLines = 500, kFunctionLines = 60;
 const std::set<std::string> kSources = {".h", ".hpp", ".c", ".cc", ".py", ".java"};
 
 // Returns the first lines of functions with more than `limit` lines. In the layout of clang-format,
-// the last line of a function contains only a brace. The first line is the last one before it with
-// the same indentation. Lines that contain only a case label do not count.
+// the last line of a function contains only a brace. The first line of a function is the last
+// preceding line with the indentation of this brace. Lines that contain only a case label do not
+// count.
 std::vector<std::string> FindLong(const std::vector<std::string>& lines, size_t limit) {
   const std::regex type(
       "\\s*(?:public |static |final )*(typedef|template|struct|class|enum|union|namespace)\\b.*");

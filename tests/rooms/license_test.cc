@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks that every source file names its licence in its first line, or in its second line if the
-// first one starts with #!.
+// Checks that every source file names the licence in the first line, or in the second line if the
+// first line starts with #!.
 #include <doctest/doctest.h>
 
 #include <filesystem>

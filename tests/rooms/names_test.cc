@@ -11,7 +11,8 @@
 namespace names_test {
 namespace {
 
-// Counts the definitions of structures and classes by name. Nested ones are ignored.
+// Counts the definitions of structures and classes by name. Nested structures and classes are
+// ignored.
 void CountStructures(const std::vector<std::string>& lines, std::map<std::string, int>* counts) {
   static const std::regex kDefinition("(?:struct|class) ([A-Za-z0-9]+)(?: final)?(?: :.*)? \\{.*");
   std::smatch match;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks that functions have at most six parameters. Longer lists should become a structure.
+// Checks that functions have at most six parameters. Replace a longer list by a structure.
 #include <doctest/doctest.h>
 
 #include <cctype>
@@ -74,8 +74,8 @@ bool IsDeclaration(const std::vector<Token>& tokens) {
   return false;
 }
 
-// Returns the parameters or arguments of the list that opens at token `open`, without the contents
-// of brackets.
+// Returns the parameters or arguments of the list whose opening parenthesis is token `open`. Omits
+// the contents of brackets.
 std::vector<std::vector<Token>> ListAt(const std::vector<Token>& tokens, size_t open) {
   std::vector<std::vector<Token>> list(1);
   int brackets = 0, angles = 0;

@@ -14,7 +14,7 @@
 namespace test {
 
 // Calls each kernel of a table with random arguments on every target. All targets must return the
-// bits of the reference and write nothing else. Call is the type of call that a case fills.
+// bits of the reference and write nothing else. `Call` is the type of the calls that a case makes.
 template <class Call, class Cases, class Table>
 void CheckKernels(const Cases& cases, const Table& reference,
                   const std::vector<const Table*>& targets) {
@@ -33,7 +33,7 @@ void CheckKernels(const Cases& cases, const Table& reference,
       CAPTURE(round);
       REQUIRE_MESSAGE(wrong.empty(), wrong);
     }
-    // Each situation that the calls must produce has to occur more than kRounds / 50 times.
+    // Each required situation must occur more than kRounds / 50 times.
     for (const auto& what : met) {
       CAPTURE(what.first);
       CHECK(what.second > kRounds / 50);

@@ -5,12 +5,12 @@
 namespace test::depth_cases {
 namespace {
 
-constexpr int kMostCost = 80;  // cost of a pixel without the cost of its colour
+constexpr int kMostCost = 80;  // largest cost of a pixel, without the cost of the colour
 
 // Limits the number of different colours, since random colours are seldom similar.
 int Primary(int range, Draw* draw) { return draw->Int(0, range) * 255 / range; }
 
-// Returns a random sample. One of `rarity` samples takes part in the comparison.
+// Returns a random sample. On average, one of `rarity` samples takes part in the comparison.
 ColourSample AnySample(int groups, int colours, int rarity, Draw* draw) {
   const int red = Primary(colours, draw), green = Primary(colours, draw);
   const int blue = Primary(colours, draw);
@@ -35,7 +35,7 @@ void CompareColours(Draw* draw, DepthCall* call) {
   auto* least = call->Results<uint16_t>("least", groups * kSliceLanes);
   std::fill_n(least, groups * kSliceLanes, kNoColourKey);
   call->Runs([=](const DepthKernels& kernels) { kernels.CompareColours(window, stride, least); });
-  // The lowest possible key of a group is that of its best sample with an equal colour.
+  // The key of a group cannot be lower than the lowest key of the group's samples.
   call->is_right = [=](uint64_t, Met* met) {
     std::vector<uint16_t> lowest(groups, kNoColourKey);
     for (const ColourSample& sample : samples) {

@@ -28,8 +28,8 @@ TEST_CASE(
     "depth kernels: interpolated samples and pixel differences have values computed by hand") {
   const uint8_t row[] = {10, 20, 99}, next[] = {30, 50, 99};
   uint8_t sample[16];
-  // A quarter of the way down: 15, 27.5 (28) and 99. Half of the way across: 21.5 (22) and 63.5
-  // (64).
+  // Interpolation a quarter of the way down results in 15, 27.5 (rounded to 28) and 99.
+  // Interpolation half of the way across then results in 21.5 (22) and 63.5 (64).
   ReferenceDepthKernels().InterpolateRow(row, next, 64, 32, 2, sample);
   CheckValues("samples", sample, {22, 64});
   // Two pixels, stored as planes.
@@ -40,9 +40,10 @@ TEST_CASE(
 }
 
 TEST_CASE("depth kernels: costs of labels have values computed by hand") {
-  // One pixel at 100, four views, two labels.
+  // One pixel of level 100, four views, two labels.
   const uint8_t planes[3 * 3] = {100, 107, 160, 100, 100, 100, 100, 100, 100};
-  // At the second label, views 0 and 1 on one side show 107; the other views show 160.
+  // At the second label, views 0 and 1 on one side have level 107, and the other views have level
+  // 160.
   const ViewMove moves[] = {{0, 0}, {2, 0}, {2, 0}, {2, 0}, {1, 1}, {1, 0}, {2, 0}, {2, 0}};
   uint8_t cost[16];
   LabelRow costs = {};
@@ -63,7 +64,8 @@ TEST_CASE("depth kernels: costs of labels have values computed by hand") {
   costs.hidden = hidden;
   ReferenceDepthKernels().CostLabels(costs, 1, 16, cost);
   CHECK(int(cost[1]) == 60 + 7 + 60 + 60);
-  // The opposite view does not replace the first view if both are hidden at that label.
+  // The opposite view does not replace the first view if the pixel is hidden in both views at the
+  // second label.
   hidden[1] = 1;
   ReferenceDepthKernels().CostLabels(costs, 1, 16, cost);
   CHECK(int(cost[1]) == 7 + 7 + 60 + 60);
@@ -120,9 +122,9 @@ TEST_CASE("depth kernels: the best sample of each group around a pixel is found"
   const auto set = [&](int row, int column, const ColourSample& sample) {
     samples[size_t(row * kColourWindow + column)] = sample;
   };
-  // The first group has two samples within reach of the first pixel. One is a grey that is brighter
-  // by 31, and the other differs by more than the limit. The third sample has the same colour but
-  // is out of reach.
+  // The first group has two samples within reach of the first pixel. One sample is a grey that is
+  // brighter by 31, and the other sample differs by more than the limit. The third sample has the
+  // same colour but is out of reach.
   set(0, 16, {121, 0, 0, 5 * 64 + 3, 0});
   set(16, 0, {90, 60, -30, 1 * 64, 0});
   set(8, 17, {90, 0, 0, 2, 0});
@@ -153,10 +155,10 @@ TEST_CASE("depth kernels: noise is averaged within a surface") {
   rows.tolerance = 10;
   int16_t smooth[2];
   ReferenceDepthKernels().SmoothDisparity(rows, 2, smooth);
-  // Weight 64 for -104, -100, -100 and -101, and weight 54 for -100.
+  // The values -104, -100, -100 and -101 have weight 64, and the other -100 has weight 54.
   CHECK(smooth[0] == -101);
-  // The value beyond the tolerance has no weight. The others: 54 for -100 and -101, 64 for -100, 54
-  // for -100.
+  // The value beyond the tolerance has no weight. One -100 has weight 64; the values -100, -101 and
+  // -100 have weight 54.
   rows.tolerance = 9;
   ReferenceDepthKernels().SmoothDisparity(rows, 2, smooth);
   CHECK(smooth[1] == -100);
@@ -179,7 +181,8 @@ TEST_CASE("depth kernels: a path continues from the previous pixel at the expect
   int16_t path[kPlaces], least = 0, sum[kPlaces] = {10, 20, 30, 40};
   const PathRow row = {cost, before + 1, &before_least, &jump, path, &least, sum, true};
   ReferenceDepthKernels().AddPaths(row, kLabels, 1, 1);
-  // Label 0 continues at cost 0, label 1 at a slope of 24, label 3 at 26, and label 2 at 26 + 24.
+  // Label 0 continues at no cost, label 1 at the cost 24 of a slope, label 3 at cost 26, and label
+  // 2 at cost 26 + 24.
   CheckValues("path", path, {1, 2 + 24, 3 + 50, 4 + 26, kNoLabel});
   CHECK(sum[3] == 70);
   CHECK(least == 1);

@@ -17,7 +17,7 @@ std::vector<uint16_t> Words(size_t count, Draw* draw) {
   return Filled<uint16_t>(count, [&] { return draw->Next(); });
 }
 
-// Disparities with 6 fractional bits. Neighbours are similar, far apart, or unknown.
+// Returns disparities with 6 fractional bits. Neighbours are similar, far apart, or unknown.
 std::vector<int16_t> Row(size_t count, Draw* draw) {
   int value = draw->Int(-2000, 2000);
   return Filled<int16_t>(count, [&] {
@@ -38,7 +38,7 @@ DepthRule AnyRule(Draw* draw) {
   return rule;
 }
 
-// Values whose disparity is within the limits. A third of the calls also contain values outside the
+// Values whose disparity is within the limits. In a third of the calls, some values are outside the
 // limits.
 std::vector<float> Values(size_t count, const DepthRule& rule, Draw* draw) {
   const float bad[] = {kNan, kInfinity, -kInfinity, 0.0f, -0.0f, 1e-42f, 3e38f, 1e6f};

@@ -13,7 +13,7 @@ size_t OctantIndex(int x, int y) {
   return size_t(high * (high + 1) / 2 + low);
 }
 
-// Returns the smallest number of bits that the sum of all weights needs.
+// Returns the smallest number of bits such that 2^bits is at least the sum of all weights.
 int BitsOf(int size, const std::vector<uint16_t>& weights) {
   int64_t sum = 0;
   for (int y = -size; y <= size; ++y) {
@@ -24,8 +24,9 @@ int BitsOf(int size, const std::vector<uint16_t>& weights) {
   return bits;
 }
 
-// Returns a random filter: weights of all sizes, rings of zeros outside, and sums up to the
-// maximum. Each four pixels that a kernel weights together sum to at most 15 bits.
+// Returns a random filter with weights of all sizes, sums up to the maximum, and in some cases
+// rings of zeros outside. The weights of any four pixels sum to at most 15 bits, since kernels
+// weight four pixels together.
 Disc MakeDisc(Draw* draw, KernelCall* call) {
   const int size = int(draw->Size(0, kMaxDisc, 4));
   const int pixels = (2 * size + 1) * (2 * size + 1);
@@ -42,7 +43,7 @@ Disc MakeDisc(Draw* draw, KernelCall* call) {
   return {size, BitsOf(size, weights), call->Input("weights", weights)};
 }
 
-// Rows of a picture that a disc is applied to, and the pixels around them.
+// Rows of a picture that a disc filters, and the pixels around these rows.
 struct Filtered {
   Disc disc;
   size_t out_stride;

@@ -9,7 +9,7 @@
 namespace test::kernel_cases {
 namespace {
 
-// Returns the ends of the range, multiples of half a step, and arbitrary values between the ends.
+// Returns ends of the range, multiples of half a step, and arbitrary values within the range.
 std::vector<float> DisparitiesWithin(size_t count, float low, float high, Draw* draw) {
   return Filled<float>(count, [&] {
     const int kind = draw->Int(0, 4);

@@ -4,8 +4,8 @@
 
 namespace test::kernel_cases {
 
-// Coverage is full, zero, arbitrary, or near the limit, and mostly equals that of the previous
-// pixel. In the benchmark it changes as seldom as in pictures.
+// Coverage is full, zero, arbitrary, or near the limit, and mostly equals the coverage of the
+// previous pixel. In the benchmark, coverage changes as seldom as in pictures.
 void FinishComposite(Draw* draw, KernelCall* call) {
   const size_t count = draw->Length(1, 70, kTimedSamples / 3), whole = SliceSamples(count);
   const size_t plane = whole + draw->Size(0, 5, 0);

@@ -9,8 +9,8 @@ namespace {
 
 constexpr size_t kTimedWidth = 192;
 
-// Returns random sources of hidden surfaces: views, or repeated pixels at any distance, mostly
-// short.
+// Returns random sources of hidden surfaces, which are views or repeated pixels. Most repeated
+// pixels are near.
 std::vector<uint16_t> AnySources(size_t count, Draw* draw) {
   return Filled<uint16_t>(count, [&] {
     const int distance = draw->Int(0, 2) == 0 ? 0 : draw->Int(1, draw->Rarely(5) ? 255 : 20);
@@ -18,8 +18,8 @@ std::vector<uint16_t> AnySources(size_t count, Draw* draw) {
   });
 }
 
-// Returns surfaces behind those of `before`. Half of the surfaces are missing, and a few are in
-// front of `before` instead.
+// Returns disparities of surfaces behind the surfaces of `before`. Half of the surfaces are
+// missing, and a few are in front of `before` instead.
 std::vector<int16_t> Behind(const std::vector<int16_t>& before, Draw* draw) {
   std::vector<int16_t> behind(before.size(), kNoSurface);
   for (size_t n = 0; n < before.size(); ++n) {

@@ -52,7 +52,7 @@ TEST_CASE("image kernels: depths become the disparities computed by hand") {
   const float z[] = {1000, 4000, 0, 65535, 500};
   int16_t out[5];
   CHECK(kernels.DepthToDisparity(z, 5, metres, out) == kUnknownDepth);
-  // The third value is infinitely near.
+  // The third value is a distance of 0, which has no valid disparity.
   CheckValues("metres", out, {3 * 64, 0, kNoSurface, kNoSurface, 7 * 64});
   const DepthRule linear = {0.5f, 2, NAN, false, -10, 10};
   const float steps[] = {0, 1, 16, 17};

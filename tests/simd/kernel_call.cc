@@ -40,8 +40,8 @@ size_t CallMemory::Bytes() const {
   return bytes;
 }
 
-// Returns the first wrong byte, or an empty string. Results must equal those of the reference. All
-// other bytes must have their value from before the call.
+// Describes the first wrong byte, or returns an empty string. Results must equal the results of the
+// reference. All other bytes must have the same value as before the call.
 std::string CallMemory::Compare(const std::string& who) const {
   for (const Region& region : regions_) {
     for (size_t i = 0; i < region.size; ++i) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One call of a kernel: its memory, the accesses that it may make, and the call itself.
-// kernels_bytes_test checks the call, and starfocus-bench-micro times it.
+// One call of a kernel: the memory, the permitted accesses, and the call itself. kernels_bytes_test
+// checks the call, and starfocus-bench-micro measures the time of the call.
 #ifndef STARFOCUS_TESTS_SIMD_KERNEL_CALL_H_
 #define STARFOCUS_TESTS_SIMD_KERNEL_CALL_H_
 
@@ -30,7 +30,7 @@ class Draw : public Random {
 
   bool timed() const { return round_ == kTimed; }
 
-  // Returns a size in [low, high]. The rounds of a test use all sizes in turn.
+  // Returns a size in [low, high]. Successive rounds of a test use all sizes in turn.
   size_t Length(int low, int high, int timed_size) const {
     return size_t(timed() ? timed_size : low + round_ % (high - low + 1));
   }
@@ -38,7 +38,7 @@ class Draw : public Random {
   size_t Size(int low, int high, int timed_size) {
     return size_t(timed() ? timed_size : Int(low, high));
   }
-  // Returns true once in `of` calls on average, and never when timed.
+  // Returns true once in `of` calls on average. Always returns false in a timed call.
   bool Rarely(int of) { return !timed() && Int(1, of) == 1; }
 
  private:
@@ -56,7 +56,7 @@ std::vector<T> Filled(size_t count, const Make& make) {
   return values;
 }
 
-// Returns true if all `count` results are right.
+// Returns true if is_right(n) is true for all n below `count`.
 template <class IsRight>
 bool AllRight(size_t count, const IsRight& is_right) {
   for (size_t n = 0; n < count; ++n) {
@@ -76,7 +76,8 @@ class CallMemory {
   CallMemory& operator=(const CallMemory&) = delete;
 
   // Copies the values to separate memory, which kernels must not change. `padding` arbitrary bytes
-  // follow. The memory ends after them, so that sanitizers detect reads past the end.
+  // follow the values. The memory ends after the padding, so that sanitizers detect reads past the
+  // end.
   template <class T>
   T* Input(const char* name, const std::vector<T>& values, size_t padding = 0) {
     T* first = Add<T>(name, values.size(), 0, padding, Role::kIgnored);
@@ -94,8 +95,8 @@ class CallMemory {
     for (size_t y = 0; y < rows; ++y) Ignore(first + y * stride, count);
   }
 
-  // Allocates `count` arbitrary values between wide margins. Kernels must not change them, except
-  // those marked by Result and Free.
+  // Allocates `count` arbitrary values between wide margins. Kernels may change only the values
+  // that Result and Free mark.
   template <class T>
   T* Output(const char* name, size_t count) {
     return Add<T>(name, count, kMargin, kMargin, Role::kUntouched);
@@ -105,7 +106,8 @@ class CallMemory {
   void Result(const T* first, size_t count) {
     Mark(first, count, Role::kResult);
   }
-  // Allocates values that the kernel determines, followed by `free` values that it may change.
+  // Allocates values that the kernel determines, followed by `free` values that the kernel may
+  // change.
   template <class T>
   T* Results(const char* name, size_t count, size_t free = 0) {
     T* first = Output<T>(name, count + free);
@@ -134,14 +136,14 @@ class CallMemory {
   size_t Bytes() const;
 
  protected:
-  // The name of a table and the call of its kernel.
+  // The name of a table, and the call of the kernel of this table.
   struct NamedRun {
     const char* name;
     std::function<uint64_t()> run;
   };
 
-  // Runs the reference, and then the others on the same memory. Returns the first error, or an
-  // empty string. May be called only once.
+  // Runs the reference, and then each of `others` on the same memory. Returns the first error, or
+  // an empty string. May be called only once.
   std::string CheckRuns(const NamedRun& reference, const std::vector<NamedRun>& others, Met* met);
 
  private:
@@ -155,14 +157,14 @@ class CallMemory {
     std::vector<uint8_t> before, expected;
   };
 
-  // In bytes: more than the widest vector that padding allows.
+  // Margin in bytes, which is larger than the widest vector.
   static constexpr size_t kMargin = 256;
 
   template <class T>
   T* Add(const char* name, size_t count, size_t before, size_t behind, Role role) {
     static_assert(std::is_trivially_copyable<T>::value && kMargin % alignof(T) == 0,
                   "plain values");
-    // Kernels may rely only on the alignment of the type.
+    // A random offset, since kernels may rely only on the alignment of the type.
     before += alignof(T) * size_t(random_.Int(0, 7));
     const size_t size = before + count * sizeof(T) + behind;
     return reinterpret_cast<T*>(AddRegion(name, sizeof(T), before, size, role) + before);
@@ -186,7 +188,7 @@ class CallOf : public CallMemory {
  public:
   using CallMemory::CallMemory;
 
-  // Calls the kernel of the given table and returns its result.
+  // Calls the kernel of the given table, and returns the result of the kernel.
   std::function<uint64_t(const Table&)> run;
 
   // Sets `run` to a call of a kernel that returns nothing.
@@ -198,7 +200,7 @@ class CallOf : public CallMemory {
     };
   }
 
-  // Compares the kernel of each table with that of the reference.
+  // Compares the kernel of each table with the kernel of the reference.
   std::string Check(const Table& reference, const std::vector<const Table*>& tables, Met* met) {
     const auto of = [this](const Table& table) {
       return NamedRun{table.name, [this, &table] { return run(table); }};

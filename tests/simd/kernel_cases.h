@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One case per kernel. A case makes calls of any size and contents for the test, and one call of
-// typical size for the benchmark.
+// One case per kernel. A case makes calls with any size and contents for the test, and one call of
+// a typical size for the benchmark.
 #ifndef STARFOCUS_TESTS_SIMD_KERNEL_CASES_H_
 #define STARFOCUS_TESTS_SIMD_KERNEL_CASES_H_
 
@@ -8,7 +8,7 @@
 
 namespace test {
 
-// A case for a kernel of some table.
+// A case for one kernel of a table.
 template <class Call>
 struct CaseOf {
   const char* kernel;
@@ -43,7 +43,7 @@ inline constexpr CaseOf<Call> kAll[] = {STARFOCUS_IMAGE_KERNELS(STARFOCUS_LIST_C
 // Number of samples in a benchmark call, unless the case overrides it.
 inline constexpr int kTimedSamples = 3 * 1024;
 
-// Lengths of more than two of the widest vectors, with all remainders.
+// Upper limits of lengths: more than two of the widest vectors, so that all remainders occur.
 inline constexpr int kLongestBytes = 2 * 64 + 3, kLongestSamples = 2 * 32 + 3;
 
 // Returns light that is black, white, or arbitrary.
@@ -55,8 +55,8 @@ inline std::vector<int16_t> Light(size_t count, Draw* draw) {
   });
 }
 
-// Returns random tables, or none, in which case light equals the code. At most one code begins in
-// each step of a table.
+// Returns random tables, or null tables, with which light equals the code. At most one code begins
+// in each step of a table.
 inline starfocus::simd::Encoding AnyEncoding(Draw* draw, KernelCall* call) {
   using starfocus::simd::kEncodeBits, starfocus::simd::kEncodeStep;
   if (draw->Int(0, 1) == 0) return {nullptr, nullptr};
@@ -73,7 +73,7 @@ inline starfocus::simd::Encoding AnyEncoding(Draw* draw, KernelCall* call) {
   return {call->Input("light of codes", Light(256, draw)), call->Input("entries", entries)};
 }
 
-// Returns disparities with runs and edges, some at the ends of the range.
+// Returns disparities with runs and edges. A few disparities are anywhere in the whole range.
 inline std::vector<int16_t> Disparities(size_t count, Draw* draw) {
   int value = draw->Int(-2000, 2000);
   return Filled<int16_t>(count, [&] {

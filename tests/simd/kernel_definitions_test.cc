@@ -123,7 +123,8 @@ TEST_CASE("kernel definitions: runs and measures of cells have values computed b
     CHECK(words[kRunLanes] == 1);
   }
 
-  // A flat cell, except for one pixel inside, one in a corner, and one beyond the left side.
+  // A flat cell, except for one pixel inside the cell, one pixel in a corner, and one pixel beyond
+  // the left side.
   int16_t values[10][10] = {};
   const int16_t* rows[10];
   for (int k = 0; k < 10; ++k) rows[k] = values[k] + 1;
@@ -162,7 +163,7 @@ TEST_CASE("kernel definitions: runs and measures of cells have values computed b
   CheckValues("edges", measure.edges, {0, 0});
 }
 
-// Halve must return the even pixels of the line that FilterHalfBand returns.
+// Halve must return every second pixel of the line that FilterHalfBand returns.
 TEST_CASE("kernel definitions: halving applies the half-band filter at every even pixel") {
   test::Random random(7);
   const Kernels& kernels = ReferenceKernels();

@@ -85,14 +85,14 @@ TEST_CASE("kernels: each case calls the kernel that it is named after") {
 #undef STARFOCUS_COUNT_CALLS
 }
 
-// An error added to Narrow after the reference has run, on its `count` samples.
+// An error that `spoil` adds to the result of Narrow, and the expected complaint.
 struct Spoilt {
   const char* complaint;
   void (*spoil)(const int16_t* in, size_t count, uint8_t* out);
 };
 constexpr Spoilt kSpoilt[] = {
     {"spoilt differs in out[0]", [](const int16_t*, size_t, uint8_t* out) { out[0] ^= 1; }},
-    // The sample after the last one may have any value.
+    // The result must not depend on the sample after the last one, which is arbitrary.
     {"spoilt differs in out[0]",
      [](const int16_t* in, size_t count, uint8_t* out) { out[0] = uint8_t(out[0] + in[count]); }},
     {"spoilt writes where it may not: out[",
@@ -104,7 +104,7 @@ constexpr Spoilt kSpoilt[] = {
 };
 const Spoilt* spoilt_now = nullptr;
 
-// Returns the complaint about a kernel: Narrow with an error, or Split that writes between planes.
+// Returns the first complaint about the kernels of `spoilt` in calls of one case.
 std::string Complaint(const Kernels& spoilt, void (*make)(test::Draw*, test::KernelCall*)) {
   std::string wrong;
   for (int round = 0; round < 20 && wrong.empty(); ++round) {

@@ -8,7 +8,7 @@ namespace test::depth_cases {
 namespace {
 
 constexpr int kMostLabels = 40, kTimedLabels = 44, kLongest = 70, kTimed = 320;
-// Largest number of pixels that labels move views by.
+// Largest number of pixels by which labels move views.
 constexpr int kReach = 5;
 
 }  // namespace
@@ -24,14 +24,15 @@ void CostLabels(Draw* draw, DepthCall* call) {
   row.limits = draw->timed() || draw->Int(0, 1) == 0;
   row.ends = !draw->timed() && draw->Int(0, 1) == 0;
   const size_t views = row.arms * row.rings;
-  // Half of the calls use similar pictures, because differences are cut off in dissimilar ones.
+  // Half of the calls use similar pictures, because large differences are cut off in dissimilar
+  // pictures.
   const int least = draw->Int(0, 1) == 0 ? 0 : 225;
   row.plane = count + 2 * kReach;
   const auto planes =
       Filled<uint8_t>(3 * (views + 1) * row.plane, [&] { return draw->Int(least, 255); });
   row.pixels = call->Input("planes", planes, kPadding) + kReach;
-  // Labels at which pixels are hidden. With many views, random labels seldom hide a pixel in all of
-  // them. Therefore a third of the calls use labels that hide more pixels.
+  // `hidden` has labels at which pixels are hidden. With many views, random labels seldom hide a
+  // pixel in all views. Therefore a third of the calls use labels that hide more pixels.
   const int least_hidden = draw->Rarely(3) ? int(row.labels) / 2 : 0;
   const auto hidden = Filled<uint8_t>(views * row.plane, [&] {
     return draw->Int(0, 5) == 0 && row.ends ? kViewEnds : draw->Int(least_hidden, int(row.labels));

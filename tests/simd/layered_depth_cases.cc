@@ -36,7 +36,7 @@ void Split(Draw* draw, KernelCall* call) {
   };
 }
 
-// Finds the edges of each row from those of the previous row.
+// Finds the edges of each row from the edges of the previous row.
 void FindEdges(Draw* draw, KernelCall* call) {
   const size_t count = draw->Length(1, 50, kTimedFieldWidth), whole = SliceSamples(count);
   const size_t rows = draw->Size(2, 20, kTimedSamples / kTimedFieldWidth + 1);
@@ -139,7 +139,7 @@ void BesideSteps(Draw* draw, KernelCall* call) {
 
 namespace {
 
-// A field of disparities. The distances of some edges are the largest possible ones.
+// A field of disparities. Some edges have the largest possible distance.
 struct DepthField {
   int width, height;
   size_t stride;
@@ -161,7 +161,7 @@ struct Patch {
   int x, y, right, bottom;
 };
 
-// Returns rectangles of one disparity each. The first is the background.
+// Returns the samples of rectangles of one disparity each. The first rectangle is the background.
 std::vector<int16_t> FieldSamples(DepthField* field, Draw* draw) {
   const int width = field->width, height = field->height;
   const int limit = draw->Rarely(4) ? 32000 : 12 << field->row.unit_bits;
@@ -183,8 +183,8 @@ std::vector<int16_t> FieldSamples(DepthField* field, Draw* draw) {
   return samples;
 }
 
-// Returns random distances that stay inside the field, whether or not there is an edge. In the
-// benchmark most are 0.
+// Returns random distances to edges, which need not exist. All distances end inside the field. In
+// the benchmark, most distances are 0.
 std::vector<uint8_t> FieldEdges(const DepthField& field, int side, Draw* draw) {
   std::vector<uint8_t> distances(field.stride * size_t(field.height));
   for (int y = 0; y < field.height; ++y) {
@@ -198,7 +198,7 @@ std::vector<uint8_t> FieldEdges(const DepthField& field, int side, Draw* draw) {
   return distances;
 }
 
-// Sets no views, the views of a star with or without those at half distance, or views anywhere.
+// Sets no views, views of a star at one or two distances, or views anywhere.
 void SetLooks(Draw* draw, DepthRow* row) {
   const bool none = draw->Rarely(5), second = draw->Int(0, 1) == 0;
   const bool anywhere = !draw->timed() && draw->Int(0, 2) == 0;
@@ -263,8 +263,8 @@ struct HiddenField {
     return row;
   }
 
-  // Returns true if group n of the field is right. In a returned group (`hidden`), the bits of
-  // `found` must match the sources. Other groups may hold anything.
+  // Returns true if group n of the field is right. In a group with hidden surfaces (`hidden`), the
+  // bits of `found` must match the sources. Other groups may have any contents.
   bool IsRight(size_t n, bool hidden, KernelCall* call, Met* met) const {
     bool right = true;
     for (int k = 0; k < kSurfaces - 1; ++k) {

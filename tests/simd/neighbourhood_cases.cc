@@ -5,7 +5,7 @@
 namespace test::kernel_cases {
 namespace {
 
-// Returns the reach of the blur of a cell. In the benchmark most blurs are small.
+// Returns the reach of the blur of a cell. In the benchmark, all reaches are small.
 int Reach(int around, Draw* draw) {
   const int far = draw->Rarely(3) ? kCellPixels * around : 20;
   return draw->Int(0, 3) == 0 && !draw->timed() ? draw->Int(1, far) : draw->Int(1, 9);

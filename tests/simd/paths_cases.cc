@@ -7,7 +7,7 @@ namespace {
 
 constexpr int kMostPathLabels = 70, kTimedPathLabels = 55, kMostCost = 240, kMostJump = 1000;
 
-// Fills a path as the kernel does, and returns its smallest cost.
+// Fills a path as the kernel does, and returns the smallest cost of the path.
 int16_t FillPath(size_t labels, Draw* draw, int16_t* path) {
   const int least = draw->Int(0, 240);
   for (size_t l = 0; l < PathLabels(labels); ++l) {
@@ -35,7 +35,8 @@ void AddPaths(Draw* draw, DepthCall* call) {
   PathRow row = {};
   row.cost = call->Input("cost", costs, kPadding) + first * places;
   row.jump = call->Input("jump", jumps) + first;
-  // One pixel more on each side, since paths of this row may continue from there.
+  // Has one more pixel on each side, since paths along this row continue from the pixel before the
+  // first one.
   int16_t* path = call->Output<int16_t>("path", 1 + (count + 2) * places) + 1 + places;
   int16_t* least = call->Output<int16_t>("least", count + 2) + 1;
   auto* sum = call->Results<int16_t>("sum", count * places);

@@ -21,7 +21,7 @@ HalfBand Taps(Draw* draw) {
   return {draw->Int(-16384, 16384), draw->Int(-16384, 16384), draw->Int(-8192, 8192)};
 }
 
-// Both phases of a line. The kernel may change `more` samples past the end.
+// The two phases of a line. The kernel may change `more` samples past the end of each phase.
 struct Phases {
   Phases(size_t pairs, size_t more, KernelCall* call)
       : even(call->Results<int16_t>("even", 3 * pairs, more)),
@@ -30,7 +30,7 @@ struct Phases {
   int16_t *even, *odd;
 };
 
-// Calls a filter of lines. Consecutive samples are 3 or `count` + 1 apart.
+// Calls a filter of lines. Consecutive taps are 3 or `count` + 1 samples apart.
 template <class Filter>
 void FilterLine(Filter filter, Draw* draw, KernelCall* call) {
   const size_t count = draw->Length(1, kLongestSamples, kTimedSamples);

@@ -11,8 +11,8 @@ struct Spans {
 };
 
 // Makes adjacent spans of the target, with gaps of up to two samples, and their sources. With
-// `blend`, the weights of a span sum to 2^kBlendBits, and the neighbour has at most half of this
-// sum.
+// `blend`, both weights of a span sum to 2^kBlendBits, and the weight of the neighbour is at most
+// half of this sum.
 Spans MakeSpans(bool blend, Draw* draw, KernelCall* call) {
   constexpr size_t kMargin = 8;  // room for neighbours and unaligned starts
   const size_t samples = draw->Length(1, kLongestBytes, 96);

@@ -7,8 +7,8 @@
 namespace test::kernel_cases {
 namespace {
 
-// Returns a random position of a view. It is on whole samples, between two samples, or across three
-// or four samples. Two samples have equal or different weights at edges and inside.
+// Returns a random position of a view: on whole samples, between two samples, or across three or
+// four samples. Between two samples, the weights at edges and inside are equal or different.
 SliceFraction Fraction(Draw* draw) {
   const int taps = draw->timed() ? 2 : draw->Int(1, 5), first = draw->Int(0, 32767);
   if (taps == 1) return {INT16_MIN, INT16_MIN, 0, 0};
@@ -20,7 +20,7 @@ SliceFraction Fraction(Draw* draw) {
 }
 
 // Returns rows of four adjacent planes. No colour exceeds its coverage. `share` is the percentage
-// of stretches of a row that are covered, partly or fully. With kFull all samples are fully
+// of the stretches of a row that are partly or fully covered. With kFull, all samples are fully
 // covered.
 constexpr int kFull = 101;
 std::vector<int16_t> Planes(size_t rows, size_t plane, int share, Draw* draw) {
@@ -74,7 +74,7 @@ void ShiftSlice(Draw* draw, KernelCall* call) {
 namespace {
 
 // Returns the marks of the rows of a strip. `covered` has the number of covered samples per row. A
-// fully covered row may also be marked as a row that shows something.
+// row that is marked as fully covered may additionally be marked as visible.
 std::vector<int8_t> NearOf(const std::vector<int>& covered, bool full) {
   std::vector<int8_t> near(covered.size() - kRowsAhead);
   for (size_t row = 0; row < near.size(); ++row) {
@@ -107,7 +107,7 @@ StripSlice MakeTile(size_t rows, size_t before, Draw* draw, KernelCall* call, Me
           plane};
 }
 
-// Rows before the first composited row, and the largest number of rows that views move by.
+// kSkipped rows precede the first composited row. Views move by at most kMost rows.
 constexpr size_t kSkipped = 1, kMost = 4;
 
 SliceViews MakeViews(size_t rows, Draw* draw, KernelCall* call, Met* met) {

@@ -16,8 +16,8 @@ namespace {
 
 constexpr int kWidth = 96, kHeight = 64, kEdge = 48;
 
-// Makes a scene that is white and near on the left, black and far on the right. All captured views
-// are black, except where they see beyond the left edge.
+// Makes a scene that is white and near on the left, and black and far on the right. All side views
+// are black, except for the 20 columns at the left edge, which are white.
 test::Scene HalfPlanes(double near, double far, int views) {
   test::Scene scene = test::EmptyScene(kWidth, kHeight, views, float(far), float(near));
   for (auto& picture : scene.pictures) std::fill(picture.begin(), picture.end(), uint8_t{0});
@@ -67,13 +67,13 @@ TEST_CASE("stack: a blurred surface fades evenly in front of a surface in focus"
     for (int x = 1; x < kWidth; ++x) {
       CAPTURE(x);
       CHECK(row[size_t(x)] <= row[size_t(x - 1)]);
-      // There are no bands: except for sharp surfaces, a subaperture is at most a sixth of the blur
-      // wide.
+      // The transition has no bands, since a subaperture is at most a sixth as wide as the blur,
+      // except for sharp surfaces.
       if (radius > 3) CHECK(row[size_t(x - 1)] - row[size_t(x)] <= 300 / radius);
       if (x < kEdge - radius - 2) CHECK(row[size_t(x)] == 255);
       if (x > kEdge + radius + 2) CHECK(row[size_t(x)] == 0);
     }
-    // Half of the light reaches the edge.
+    // At the edge, half of the light is white.
     CHECK(std::abs(row[kEdge - 1] + row[kEdge] - 255) <= 6);
   }
 }
@@ -85,7 +85,8 @@ TEST_CASE("stack: captured views show the far surface behind a blurred one") {
               uint8_t(100));
   }
   const std::vector<int> row = MiddleRow(scene, 0, STARFOCUS_MODE_BLOCK);
-  // Gray is visible where the near surface covers a part of the lens, and black next to it.
+  // Gray is visible where the near surface covers a part of the lens. Farther to the right, the far
+  // surface is black.
   CHECK(row[kEdge - 1] > 150);
   CHECK(row[kEdge - 4] > row[kEdge - 1]);
   CHECK(row[kEdge + 6] == 0);
@@ -181,10 +182,10 @@ TEST_CASE("stack: no more tiles are made after cancellation") {
   CHECK(test::Refocus(&engine, params, scene, &out, test::ToldTo(SayNo)) ==
         STARFOCUS_ERROR_CANCELLED);
   CHECK(ranges_found > 0);
-  CHECK(ranges_found < all / 8);  // two of sixteen tiles
+  CHECK(ranges_found < all / 8);  // fewer than two of sixteen tiles
 }
 
-// Red zones would add memory between parts that otherwise share it.
+// Red zones are memory between parts, and would increase the size.
 TEST_CASE("stack: a worker takes 1.15 mebibytes at blocks of 64 and blurs of 32" *
           doctest::skip(starfocus::kRedZone > 0)) {
   size_t bytes[2];

@@ -24,7 +24,8 @@ SliceRule Ample(SliceRule rule) {
   return rule;
 }
 
-// A map with one surface, or with surfaces behind it, as FindLayeredDepth returns it.
+// A map with one surface, or with further surfaces behind the first, as FindLayeredDepth returns
+// maps.
 struct Scene {
   std::vector<int16_t> planes[3];
   std::vector<uint64_t> hiding = std::vector<uint64_t>(kSize);
@@ -93,8 +94,8 @@ TEST_CASE("slices: bands of rows have the disparities of all surfaces of the sli
   Scene scene;
   scene.At(15, 15) = 20;
   scene.At(51, 17) = -40;
-  scene.At(63, 18) = -50;   // too far away
-  scene.At(20, 51) = -300;  // the range of disparities must include hidden surfaces
+  scene.At(63, 18) = -50;   // too far away to reach the middle
+  scene.At(20, 51) = -300;  // makes the range include hidden surfaces
   for (int y = 30; y < 35; ++y) scene.At(40, y, 1) = int16_t(-100 - y);
   scene.At(0, 31, 2) = -200;
   scene.Cut(2.25);
@@ -113,7 +114,8 @@ TEST_CASE("slices: the nearest slice is first, and hidden surfaces have slices, 
   for (int y = 0; y < kSize; ++y) {
     for (int x = 30; x < kSize; ++x) scene.At(x, y) = 400;
   }
-  scene.At(0, 0) = -300;  // invisible; the range of disparities must include hidden surfaces
+  // Too far away to be visible, but makes the range of disparities include hidden surfaces.
+  scene.At(0, 0) = -300;
   scene.At(35, 32, 1) = -200;
   scene.At(35, 32, 2) = -300;
   const std::vector<Slice> slices = scene.Cut(0);
@@ -126,7 +128,7 @@ TEST_CASE("slices: the nearest slice is first, and hidden surfaces have slices, 
 
 TEST_CASE("slices: pixels that cannot splat into the rectangle are omitted") {
   Scene scene;
-  scene.At(10, 30) = 64 * 12;  // 14 pixels away, plus one for interpolation
+  scene.At(10, 30) = 64 * 12;  // 14 pixels away, and interpolation adds one pixel
   CHECK(scene.Cut(0).size() == 1);
   scene.At(10, 30) = 64 * 13;
   CHECK(scene.Cut(0).size() == 2);

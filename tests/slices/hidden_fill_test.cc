@@ -37,8 +37,8 @@ struct Scene : test::LayeredScene {
   }
 };
 
-// Makes a near square in front of a wall with stripes: three rows of black and three rows of light
-// 200 in turn.
+// Makes a near square in front of a striped wall, with alternately three rows of level 0 and three
+// rows of level 200.
 Scene BeforeStripes(int views) {
   Scene scene(views);
   for (int y = 0; y < kSize; ++y) scene.Fill(0, kSize, y, y + 1, 0, y % 6 < 3 ? 0 : 200);
@@ -67,7 +67,8 @@ TEST_CASE("hidden fill: pixels repeat the wall at the edge and its mean farther 
   const std::vector<int16_t> seen = scene.colours[0];
   scene.InpaintHidden();
   CHECK(scene.colours[0] == seen);
-  // In the middle of a stripe: next to the edge, and seven pixels farther away.
+  // Next to the edge, stripes continue. Seven pixels farther away, pixels have approximately the
+  // mean level of the wall.
   CHECK(scene.Colour(14, 19, 0) <= 50);
   CHECK(scene.Colour(14, 22, 0) >= 150);
   for (int y = 18; y < 24; ++y) CHECK(std::abs(scene.Colour(21, y, 0) - 100) <= 40);
@@ -103,7 +104,7 @@ TEST_CASE("hidden fill: the far colour of a split boundary pixel continues") {
   Scene scene(1);
   scene.Fill(0, kSize, 0, kSize, 0, 50);
   scene.Fill(20, kSize, 0, kSize, 12, 250);
-  scene.Fill(19, 20, 0, kSize, 0, 100);  // a quarter of the near surface
+  scene.Fill(19, 20, 0, kSize, 0, 100);  // a mixture that shows a quarter of the near surface
   scene.Find();
   CHECK(scene.Colour(24, 20, 0) == 100);
   for (int y = 0; y < kSize; ++y) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the hidden surfaces of a light field and the places where their colours are read.
+// Tests the hidden surfaces of a light field, and the positions in views at which colours of hidden
+// surfaces are read.
 #include "lib/slices/layered_depth.h"
 
 #include <doctest/doctest.h>
@@ -26,7 +27,8 @@ TEST_CASE("surfaces: captured views show the background behind a near square") {
     scene.Fill(12, 28, 12, 28, 5, 90);
     scene.Find();
     CAPTURE(views);
-    // A view at distance 1 sees four pixels and one more behind the edge.
+    // A view at distance 1 sees the far surface up to four pixels behind the edge, and one more
+    // pixel is found.
     for (int x = 12; x < 28; ++x) {
       const int distance = std::min(x - 11, 28 - x);
       CHECK(scene.Behind(x, 20) == (distance <= 5 ? 1 : -1000));
@@ -62,7 +64,8 @@ TEST_CASE("surfaces: a pair sees behind edges on one side; elsewhere the backgro
     CHECK(scene.Behind(x, y) == 1);
     CHECK(scene.Colour(x, y, 2) == 10);
   }
-  // In a corner, a pixel that a view sees has priority over a nearer one.
+  // In a corner, a background that a view sees takes precedence over a background at a shorter
+  // distance.
   CHECK(scene.Colour(26, 27, 2) == 1);
 }
 
@@ -112,14 +115,14 @@ TEST_CASE("surfaces: without a captured view the background continues") {
 }
 
 TEST_CASE("surfaces: places that another surface covers in the captured view are not read there") {
-  // A slit of two pixels between near surfaces, which cover it as seen from either side.
+  // A slit of two pixels between near surfaces, which cover the slit as seen from either side.
   Scene scene(5);
   scene.Fill(0, kSize, 0, kSize, 5, 90);
   scene.Fill(20, 22, 0, kSize, 0, 10);
   scene.Find();
   CHECK(scene.Behind(19, 20) == 0);
   CHECK(scene.Colour(19, 20, 1) == 10);
-  // A pixel farther from the slit is visible through it.
+  // A pixel farther from the slit is visible through the slit.
   CHECK(scene.Behind(16, 20) == 0);
   CHECK(scene.Colour(16, 20, 0) == 16);
   CHECK(scene.Colour(16, 20, 2) == 1);
@@ -132,7 +135,7 @@ TEST_CASE("surfaces: sides at the same distance give the mean") {
   scene.Find();
   CHECK(scene.Behind(20, 20) == 0);
   CHECK(scene.Colour(20, 20, 0) == 20);
-  CHECK(scene.Colour(20, 20, 2) == 2);  // mean of views 1 and 2, halves rounded up
+  CHECK(scene.Colour(20, 20, 2) == 2);  // mean of views 1 and 2, rounded half up
 }
 
 TEST_CASE("surfaces: there may be two surfaces behind a third one") {
@@ -157,7 +160,8 @@ TEST_CASE("surfaces: an edge behind an edge is followed") {
     for (int x = 20; x < 28; ++x) {
       CAPTURE(x);
       CHECK(scene.Behind(x, 20) == (x < 24 ? 1 : -1000));
-      // The last pixel of the strip hides the wall up to 6 pixels away, and this pixel up to 9.
+      // The last pixel of the strip hides the wall up to 6 pixels away, and pixel x hides the wall
+      // up to 9 pixels away.
       const bool shown = x < 24 && start >= 13 && x - start <= 9;
       CHECK(scene.Behind(x, 20, 2) == (shown ? -5 : -1000));
     }
@@ -199,7 +203,8 @@ TEST_CASE("surfaces: smaller steps and larger ones up to 3/4 of a pixel hide not
 }
 
 // Returns the distance from (x, y) to the far side of the next edge, or 0 if the pixel does not
-// hide it. Steps of up to an eighth of the depth that is hidden already do not count as edges.
+// hide this side. A step of up to an eighth of the depth that the previous edge hides does not
+// count as an edge.
 int Distance(const Scene& scene, int x, int y, int dx, int dy) {
   const auto at = [&](int t) {
     return int(scene.disparity[size_t((y + dy * t) * kSize + x + dx * t)]);
@@ -229,7 +234,8 @@ TEST_CASE("surfaces: the edges of random maps match a search for each pixel") {
       const int x = random.Int(0, kSize - 1), y = random.Int(0, kSize - 1);
       const int right = std::min(kSize, x + random.Int(1, 12));
       const int bottom = std::min(kSize, y + random.Int(1, 12));
-      // Quarters of a pixel include steps that are barely too small for an edge.
+      // Multiples of a quarter of a pixel include steps of 3/4 pixel, which are barely too small
+      // for an edge.
       const double pixels = round % 2 == 0 ? random.Real(-6, 6) : random.Int(-24, 24) / 4.0;
       scene.Fill(x, right, y, bottom, pixels, patch);
     }

@@ -22,8 +22,8 @@ inline constexpr int kStripColumns = int(starfocus::simd::kSliceLanes);
 inline constexpr int kArea = kStride * kSize + 16;
 
 // A light field of a disparity map in pixels per unit, a centre view of one gray level, and
-// captured views. The samples of a captured view are their own coordinates: R is x, G is y and B is
-// the index of the view.
+// captured views. Each pixel of a captured view stores its position: R is x, G is y, and B is the
+// index of the view.
 struct LayeredScene {
   std::vector<int16_t> disparity = std::vector<int16_t>(kSize * kSize);
   std::vector<uint8_t> centre = std::vector<uint8_t>(3 * kSize * kSize);
@@ -101,7 +101,7 @@ struct LayeredScene {
     starfocus::FindLayeredDepth(starfocus::simd::BestKernels(), window, field, &surfaces);
   }
 
-  // Returns a disparity in pixels per unit, or -1000 without a surface.
+  // Returns a disparity in pixels per unit, or -1000 if there is no surface.
   double Behind(int x, int y, int surface = 1) const {
     const int16_t found = surfaces.disparity[surface][surfaces.At(x, y)];
     return found == kNoSurface ? -1000 : found / 64.0;

@@ -70,7 +70,7 @@ TEST_CASE("matte: a defocused surface ends a quarter of a pixel farther out, wit
     int light = 0;
     for (size_t k = 0; k < mixed.size(); ++k) light += mixed[k] - pure[k];
     CAPTURE(transposed);
-    // The surface has a quarter of a pixel more, spread over its blur.
+    // The mixed column adds a quarter of a pixel of near light, spread over the blur.
     CHECK(std::abs(light - (kNear - kFar) / 4) <= 12);
     for (int k = edge - 5; k < edge + 5; ++k) {
       CHECK(mixed[size_t(k)] - pure[size_t(k)] >= 0);
@@ -80,18 +80,18 @@ TEST_CASE("matte: a defocused surface ends a quarter of a pixel farther out, wit
 }
 
 TEST_CASE("matte: a defocused background contains no light of a sharp surface") {
-  for (const int views : {1, 5}) {  // with one view the neighbour gives the far colour
+  for (const int views : {1, 5}) {  // with one view, the neighbour supplies the far colour
     const std::vector<int> row = MiddleRow(Mixed(0, -6, views), 0);
     CAPTURE(views);
-    CHECK(std::abs(row[kEdge - 1] - 90) <= 1);  // the sharp end keeps its quarter
+    CHECK(std::abs(row[kEdge - 1] - 90) <= 1);  // the quarter of the sharp surface remains
     for (int x = 4; x < kEdge - 1; ++x) CHECK(row[size_t(x)] == kFar);
     for (int x = kEdge; x < kWidth - 4; ++x) CHECK(row[size_t(x)] == kNear);
   }
 }
 
 TEST_CASE("matte: surfaces must move against each other by more than a pixel") {
-  // With three views along the radius, the outermost view is at 96/94 of the radius. Here this is
-  // 1.
+  // With three views along the radius, the outermost view is at 96/94 of the radius. With this
+  // aperture, the outermost view is at 1.
   constexpr double kAperture = 94.0 / 96, kLeast = 1.0 / 64;
   const std::vector<int> whole = MiddleRow(Mixed(0, -1, 5), 0, false, kAperture);
   CHECK(whole[kEdge - 2] > kFar);
@@ -100,7 +100,8 @@ TEST_CASE("matte: surfaces must move against each other by more than a pixel") {
 }
 
 TEST_CASE("matte: a pixel that is not a mixture is blurred without a change") {
-  for (const int views : {1, 5}) {  // brighter than the near surface, so not between both
+  // Level 255 is brighter than the near surface, so the pixel is not a mixture.
+  for (const int views : {1, 5}) {
     const std::vector<int> odd = MiddleRow(Mixed(0, -6, views, false, 255), 0);
     CAPTURE(views);
     CHECK(odd[kEdge - 4] > kFar);
@@ -162,8 +163,8 @@ test::Scene Disc(int views, double near, double far, int bright, int dark) {
   return scene;
 }
 
-// Returns the largest difference from the wall's colour at places without light of the disc. These
-// are farther away than its blur and its mixed pixels reach.
+// Returns the largest difference from the wall's colour among pixels that light of the disc cannot
+// reach. Such pixels are beyond the blur and the mixed pixels of the disc.
 int GlowOf(const test::Scene& scene, const starfocus_config& config, double focus, double near,
            int wall) {
   const test::Refocused picture =
@@ -196,7 +197,8 @@ TEST_CASE("matte: no light of a subject reaches the wall, at any level and size 
             config.tuning.max_layer = max_layer;
             config.superblock = block;
             CAPTURES(views, dark_subject, focus, max_layer, block);
-            // With one view, the colours behind mixed pixels come from their neighbours.
+            // With one view, the colours behind mixed pixels come from neighbouring pixels, which
+            // is less exact.
             CHECK(GlowOf(scene, config, focus, kSubject, wall) <= (views == 1 ? 3 : 1));
           }
         }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the reach of slices: the memory must suffice for any lens.
+// Tests the reach of slices. The memory of slices must suffice for any lens.
 #include "lib/slices/slice_plane.h"
 
 #include <doctest/doctest.h>
@@ -42,7 +42,8 @@ TEST_CASE("slice planes: no slice of any N reaches farther than its memory allow
     const double blur =
         random.Int(0, 3) == 0 ? random.Int(1, 128) : random.Real(0.5, STARFOCUS_MAX_BLUR);
     const double aperture = random.Int(0, 1) == 0 ? 1 : random.Real(0.3, 1);
-    // A focus whose rounding increases the distance to the disparity, which is rounded as well.
+    // Rounding of the focus increases the distance between focus and disparity, and so does
+    // rounding of the disparity.
     const double away = std::min(blur / aperture, 500.0);
     const double focus = std::floor(random.Real(-10, 10) * 64) / 64 + 0.5 / 64;
     const int disparity = int(std::floor((focus - away) * 64 + 0.5)) - random.Int(0, 2);

@@ -13,20 +13,21 @@
 namespace starfocus::stress {
 namespace {
 
-// Largest jump of a pixel of a flat scene, in 255ths of white, when a lens parameter changes by one
-// step of its scale. The limit depends on what else changes. This one applies if only the radius
-// changes, or N by the rule for subapertures: the weights of the views then change gradually.
+// The following limits are the largest changes of a pixel of a flat scene, in 255ths of white, if
+// the focus or the aperture changes by a small step. kSmoothJump applies if neither the layer nor N
+// by (9) changes. The weights of the views then change gradually.
 constexpr int kSmoothJump = 12;
-// N by (9), or of the benchmark. At r = 1 five views become thirteen, and their PSFs differ by 1e-2
-// (Fig. 6 below N = 4). The difference is larger if theta puts all weight in the middle or on the
-// rim.
+// Limit if N by (9) or N of the benchmark changes. At r = 1, five views become thirteen, and the
+// two PSFs differ by 1e-2 (Fig. 6 below N = 4). The difference is larger if theta puts all weight
+// in the middle or on the rim.
 constexpr int kViewsJump = 64;
-// L. With the theta for which Table I is optimised, a subsampled blur differs from the ideal one by
-// 6.7e-4.
+// Limit if the layer changes. With the theta that Table I is optimised for, a subsampled blur
+// differs from the ideal blur by 6.7e-4.
 constexpr int kLayerJump = 24;
-// L with another theta. The difference is larger, most of all for apertures with a bright rim.
+// Limit if the layer changes, with any other theta. The difference is larger, especially for
+// apertures with a bright rim.
 constexpr int kLayerJumpOfTheta = 48;
-// Blur mode. Its PSFs belong to a ladder of radii, which are 1/8 pixel apart.
+// Limit for the blur mode, whose PSFs exist only for radii that are at least 1/8 pixel apart.
 constexpr int kLadderJump = 48;
 
 // Returns the layer of a flat scene, in which all blocks have the same layer.
@@ -66,9 +67,9 @@ double LargestDifference(const std::vector<uint8_t>& a, const std::vector<uint8_
 
 }  // namespace
 
-// Mirroring, rotating and transposing a light field of whole blocks must do the same to the result.
-// Light fields with wide subapertures are not transposed, since their views are rendered along rows
-// first.
+// Mirroring, rotating or transposing a light field of whole blocks must mirror, rotate or transpose
+// the result. With wide subapertures, light fields are not transposed, since views are rendered
+// along rows first.
 Outcome Mirrors(test::Random* random) {
   Setup setup = RandomSetup({20, 6, 4, 6}, random);
   const float low = setup.scene.disparity_min, high = setup.scene.disparity_max;
@@ -81,8 +82,8 @@ Outcome Mirrors(test::Random* random) {
   setup.config.superblock = 32;
   // layers keep every second pixel, starting at the left and the top
   setup.config.tuning.max_layer = 0;
-  // Among equally near pixels, coverage takes the first one by rows. With the disparity range of
-  // strands there are many such pixels.
+  // Among equally near pixels, coverage uses the first one in row order, which is not symmetric.
+  // With the disparity range of strands, such pixels are frequent.
   if (setup.strands) setup.config.features &= ~STARFOCUS_FEATURE_COVERAGE;
   // Polygons and cat's eyes are not symmetric.
   starfocus_lens& lens = setup.params.lens;
@@ -111,7 +112,7 @@ Outcome Mirrors(test::Random* random) {
   return outcome;
 }
 
-// A scene without depth edges has no holes, so that the side views must not matter.
+// A scene without depth edges has no holes, so the side views must not affect the result.
 Outcome SideViews(test::Random* random) {
   Setup setup = FlatSetup(random->Int(1, 40), random->Int(1, 30), RandomRadius(8, random), random);
   SetColours(static_cast<Colours>(random->Int(0, 2)), &setup.scene, random);

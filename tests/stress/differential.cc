@@ -17,7 +17,7 @@ namespace {
 // Largest number of rendered views times pixels, for modes whose number of views grows with the
 // radius.
 constexpr double kMostWork = 300000;
-// With wider blur, pictures are smaller and cases are fewer.
+// Bounds with larger blur have smaller pictures, and are drawn less often.
 constexpr Bounds kRegimes[] = {
     {160, 3, 4, 8}, {160, 6, 4, 500}, {100, 16, 4, 40}, {64, 50, 4, 500}, {40, 128, 4, 500}};
 
@@ -43,7 +43,7 @@ void LimitWork(Setup* setup) {
 Setup RandomCase(test::Random* random) {
   Setup setup = RandomSetup(kRegimes[std::min(random->Int(0, 4), random->Int(0, 4))], random);
   LimitWork(&setup);
-  if (random->Int(0, 7) == 0) setup.config.superblock = 0;  // the library's choice
+  if (random->Int(0, 7) == 0) setup.config.superblock = 0;  // the library selects the side
   if (random->Int(0, 3) == 0)
     setup.config.highlights = float(random->Real(1, STARFOCUS_MAX_HIGHLIGHTS));
   if (random->Int(0, 3) == 0) {
@@ -63,7 +63,7 @@ Setup RandomCase(test::Random* random) {
   return setup;
 }
 
-// Uses the engine for something else first.
+// Uses the engine for another call, so that its memory is not new.
 void Distract(const Asked& asked, Rig* rig, test::Random* random) {
   const Setup& setup = asked.setup;
   starfocus_params params = setup.params;
@@ -110,8 +110,8 @@ std::string Region(const Asked& asked, test::Random* random) {
   return Verdict(rig, status, Crop(asked, params.region), out);
 }
 
-// Checks that a map with a bad value is rejected before any output is written, unless the value is
-// outside the part that the region reads.
+// Checks that a map with a bad value is rejected before any output is written. A bad value is
+// accepted only if the region does not read the value.
 std::string Refused(const Asked& asked, test::Random* random) {
   Rig rig(asked.setup.config, RandomVariant(random));
   Setup setup = asked.setup;

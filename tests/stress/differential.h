@@ -23,8 +23,8 @@ starfocus_region RandomRegion(const test::Scene& scene, test::Random* random);
 // Returns a region of the picture.
 std::vector<uint8_t> Crop(const Asked& asked, const starfocus_region& region);
 
-// Returns the status of a call. In some cases the runner fails in a call before that. If that call
-// does not report the failure, the result is STARFOCUS_ERROR_RUNNER.
+// Calls `call` and returns the status. In some cases, `call` is first called with a failing runner.
+// Returns STARFOCUS_ERROR_RUNNER if the first call does not report the failure.
 starfocus_status Retried(Rig* rig, test::Random* random,
                          const std::function<starfocus_status()>& call);
 
@@ -32,7 +32,8 @@ starfocus_status Retried(Rig* rig, test::Random* random,
 std::string Verdict(const Rig& rig, starfocus_status status, const std::vector<uint8_t>& expected,
                     const test::Output& out);
 
-// Calls that have their own files. Each returns a description of the failure, or an empty string.
+// Calls that are defined in separate files. Each function returns a description of the failure, or
+// an empty string.
 std::string Streamed(const Asked& asked, test::Random* random);
 std::string After(const Asked& asked, test::Random* random);
 

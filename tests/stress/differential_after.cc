@@ -7,7 +7,7 @@
 namespace starfocus::stress {
 namespace {
 
-// Part of the input that changes from one frame to the next.
+// Part of the input that differs between a frame and the previous frame.
 enum class Change { kDepths, kCentre, kSides, kRectangle, kEdges, kCoverage, kNothing };
 
 struct Changer {

@@ -12,7 +12,7 @@ struct Streaming {
   Rig* rig;
   const Asked& asked;
   test::Random* random;
-  test::Scene scene;  // some of its rows are invalid for a while
+  test::Scene scene;  // some rows of this copy are temporarily invalid
   test::Output out;
   int most;  // largest number of rows per call
   int pushed = 0, pulled = 0;
@@ -26,7 +26,8 @@ struct Streaming {
     if (status != STARFOCUS_OK) failure = std::string("begin: ") + starfocus_status_string(status);
   }
 
-  // Pushes rows, one of which may be invalid. The engine must not consume that row or later ones.
+  // Pushes rows, one of which may be invalid. The engine must consume neither the invalid row nor
+  // any later row.
   void Push() {
     const int rows = random->Int(0, std::min(most, height() - pushed));
     const int bad = rows > 0 && random->Int(0, 11) == 0 ? random->Int(0, rows - 1) : rows;
@@ -51,7 +52,7 @@ struct Streaming {
     pushed += consumed;
   }
 
-  // Pulls rows. After a failure the next pull must resume after the rows that were written.
+  // Pulls rows. After a failure, the next pull must resume after the last written row.
   void Pull() {
     const int rows = random->Int(0, std::min(most, height() - pulled));
     const bool fails = random->Int(0, 15) == 0;

@@ -14,13 +14,13 @@ namespace {
 
 // Largest change of the mean brightness, in gray levels.
 constexpr double kMostEnergy = 0.05;
-// Inverting a picture inverts the result, except for the rounding of halves. That happens once per
-// pixel at layer 0, and a few times more at other layers.
+// Inverting a picture inverts the result, except for the rounding of halves. Rounding occurs once
+// per pixel at layer 0, and a few times more at other layers.
 constexpr int kMostInversion = 2;
 // Returns the largest overshoot as a share of the step. Overshoot exists because the resampling
 // filters have negative lobes. Two layers down and up again without blur overshoot by 0.144. Blur
-// removes most of this, and more from radius 4 on than from 3. Apertures steeper than the default
-// are nearly pinholes, so their blur does not remove it.
+// removes most of the overshoot, and more of it from radius 4 on than from radius 3 on. Apertures
+// steeper than the default are nearly pinholes, whose blur does not remove the overshoot.
 double MostOvershoot(const Setup& setup, double radius) {
   const bool steep = setup.params.lens.theta > test::Params(0).lens.theta;
   if (setup.params.renderer != STARFOCUS_RENDERER_LINE_SCAN && radius >= 4)
@@ -144,7 +144,7 @@ Outcome Squares(test::Random* random) {
 }
 
 Outcome Limits(test::Random* random) {
-  // The largest benchmark has 205,000 views. It is tried rarely, and with one or two pixels.
+  // The largest benchmark has 205,000 views, so this case is rare and has one or two pixels.
   const int kind = random->Int(0, 63);
   Setup setup;
   constexpr int kViews[] = {1, 5, 9, 17};
@@ -196,7 +196,7 @@ Outcome Extremes(test::Random* random) {
 
 Outcome Noise(test::Random* random) {
   Setup setup = RandomSetup({32, 8, 4, 16}, random);
-  // wrong coverage would make near light darker or lighter than any view
+  // wrong coverage would make the light of near surfaces darker or lighter than in any view
   setup.scene.coverage.clear();
   SetDepth(Depth::kNoisy, &setup.scene, random);
   SetColours(Colours::kNoise, &setup.scene, random);
@@ -211,9 +211,10 @@ Outcome Energy(test::Random* random) {
   const int margin = static_cast<int>(radius) + 16;
   const int side = 2 * margin + kPeriod;
   Setup setup = FlatSetup(side, side, radius, random);
-  setup.config.transfer = STARFOCUS_TRANSFER_NONE;  // a mean of codes
+  setup.config.transfer = STARFOCUS_TRANSFER_NONE;  // without a transfer, codes are averaged
   const int mean = random->Int(20, 235);
-  // Leaves room for the overshoot of the layers' filters, so that nothing is clipped.
+  // The range of levels leaves room for the overshoot of the filters of layers, so that nothing is
+  // clipped.
   const int amplitude = std::max(1, static_cast<int>(std::min(mean, 255 - mean) / 1.8));
   int pattern[kPeriod][kPeriod];
   for (auto& row : pattern) {
@@ -240,7 +241,7 @@ Outcome Energy(test::Random* random) {
   return {std::fabs(got - mean), ""};
 }
 
-// The error is the overshoot beyond a level, as a share of the step.
+// The error is the overshoot beyond either level, as a share of the step.
 Outcome Steps(test::Random* random) {
   const int length = random->Int(8, 72), across = random->Int(1, 20);
   const bool upright = random->Int(0, 1) == 1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Family of disparity maps: estimates and repairs with a known result or known symmetries.
+// Family of disparity maps: estimates and repairs whose result or symmetry is known.
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -75,7 +75,7 @@ Map Make(const Question& question, starfocus_runner runner, test::Random* random
   return map;
 }
 
-// Draws noise in one plane, which every view shows moved by whole pixels.
+// Draws a plane of noise, which every view shows shifted by whole pixels.
 void DrawPlane(int disparity, test::Random* random, test::Scene* scene) {
   const int margin = std::abs(disparity), stride = scene->width + 2 * margin;
   const std::vector<uint8_t> noise =
@@ -92,8 +92,8 @@ void DrawPlane(int disparity, test::Random* random, test::Scene* scene) {
   }
 }
 
-// A repair must keep every bit of the map of one plane. It must also keep the map of a picture of
-// one colour, in which views give no information.
+// A repair must keep every bit of the map of one plane. A repair must also keep the map of a
+// picture of one colour, in which views give no information.
 Outcome CheckPlane(Question* question, test::Random* random) {
   test::Scene& scene = question->scene;
   const bool blank = random->Int(0, 1) == 0;
@@ -113,8 +113,8 @@ Outcome CheckPlane(Question* question, test::Random* random) {
   return {};
 }
 
-// For any picture and any map, the mirrored light field must have the mirrored map. Workers and the
-// previous content of the memory must not matter.
+// For any picture and any map, the mirrored light field must have the mirrored map. The number of
+// workers and the previous contents of the memory must not affect the map.
 Outcome CheckAgreement(Question* question, test::Random* random) {
   test::Scene& scene = question->scene;
   scene =
@@ -154,7 +154,8 @@ Outcome Maps(test::Random* random) {
   const int views = kViewCounts[random->Int(0, 3)];
   question.repairs = views == 1 || random->Int(0, 2) > 0;
   const bool plane = question.repairs && random->Int(0, 2) == 0;
-  // If a picture is not larger than its disparity, the views above and below show nothing of it.
+  // The picture is larger than the disparity of the plane. Otherwise side views would show nothing
+  // of the centre view.
   const int least = plane ? 2 * kPlaneMost + 1 : 1;
   question.scene =
       test::EmptyScene(random->Int(least, 90), random->Int(least, 60), views, -kMost, kMost);

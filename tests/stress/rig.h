@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Variants of running an engine. The bytes of a picture must not depend on them.
+// Variants of running an engine. The bytes of a picture must not depend on the variant.
 #ifndef STARFOCUS_TESTS_STRESS_RIG_H_
 #define STARFOCUS_TESTS_STRESS_RIG_H_
 
@@ -33,7 +33,7 @@ const std::vector<const simd::Kernels*>& AllKernels();
 Variant RandomVariant(test::Random* random);
 
 // Aligned memory of exactly the given size. All bytes have the value `poison`. If `poison` is above
-// 255, they are random; if it is negative, they are not initialised.
+// 255, the bytes are random. If `poison` is negative, the bytes are not initialised.
 class Memory {
  public:
   Memory(size_t bytes, int poison, test::Random* random);
@@ -74,8 +74,8 @@ class Rig {
     jobs_left_ = jobs;
     failed_ = false;
   }
-  // Makes the runner execute all jobs correctly. Returns true if it failed since the last
-  // FailAfter.
+  // Makes the runner execute all jobs correctly. Returns true if the runner has failed since the
+  // last FailAfter.
   bool Mend() {
     jobs_left_ = -1;
     return failed_;

@@ -21,7 +21,7 @@ std::string Number(double value) {
   return text;
 }
 
-// Returns a value in [low, high], which is one of the ends in half of all calls.
+// Returns a value in [low, high]. In half of all calls, the value is `low` or `high`.
 double OftenAnEnd(double low, double high, test::Random* random) {
   const int end = random->Int(0, 3);
   return end == 0 ? low : end == 1 ? high : random->Real(low, high);
@@ -132,7 +132,7 @@ void FitBlur(Setup* setup) {
 void RandomMode(int modes, Setup* setup, test::Random* random) {
   setup->params.mode = random->Int(0, modes - 1);
   setup->params.renderer = random->Int(STARFOCUS_RENDERER_AUTO, STARFOCUS_RENDERER_SLICES);
-  // In benchmark mode the number of views grows with the square of twice the radius.
+  // In benchmark mode, the number of views is proportional to the square of twice the radius.
   if (setup->params.mode == STARFOCUS_MODE_BENCHMARK && setup->Radius() > 4) {
     setup->params.mode = STARFOCUS_MODE_BLOCK;
   }
@@ -154,7 +154,7 @@ void RandomLens(double radius, int modes, Setup* setup, test::Random* random) {
   if (random->Int(0, 3) == 0) {
     setup->params.lens.theta = OftenAnEnd(STARFOCUS_MIN_THETA, STARFOCUS_MAX_THETA, random);
   }
-  // A cheap block makes the partition fine, an expensive block makes it coarse.
+  // A low cost per block makes the partition fine, and a high cost makes the partition coarse.
   if (random->Int(0, 1) == 0) setup->config.tuning.timing.block = 1u << random->Int(0, 26);
   FitBlur(setup);
   RandomMode(modes, setup, random);
@@ -177,7 +177,7 @@ Setup RandomSetup(const Bounds& bounds, test::Random* random) {
   const int low = std::min(bounds.size, random->Int(0, 3) == 0 ? bounds.size : 20);
   Setup setup;
   const double a = random->Real(-bounds.disparity, bounds.disparity);
-  // The surfaces are far apart, or strands, or close together.
+  // The scene has surfaces that are far apart, strands, or surfaces that are close together.
   const int kind = random->Int(0, 3);
   const bool strands = kind == 1;
   const double b = kind == 0 ? random->Real(-bounds.disparity, bounds.disparity)
@@ -194,7 +194,8 @@ Setup RandomSetup(const Bounds& bounds, test::Random* random) {
   if (random->Int(0, 3) == 0) setup.config.tuning.gather = 0;
   if (random->Int(0, 3) == 0)
     setup.config.tuning.n_scale = OftenAnEnd(STARFOCUS_MIN_N_SCALE, STARFOCUS_MAX_N_SCALE, random);
-  // Pictures use their own random numbers, since a fuzzer does not supply enough bytes for them.
+  // Pictures use a separate random generator, since a fuzzer does not supply enough bytes for
+  // pictures.
   test::Random fill(random->Next());
   setup.strands = strands;
   if (strands) {

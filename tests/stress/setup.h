@@ -29,11 +29,11 @@ struct Setup {
 struct Bounds {
   int size = 40;        // width and height are in [1, size]
   double radius = 6;    // largest blur radius; most radii are much smaller
-  int modes = 4;        // modes are smaller than this starfocus_mode
+  int modes = 4;        // the mode is in [0, modes - 1]
   float disparity = 8;  // largest |d|
 };
 
-// Returns a radius below, at or above a threshold of the rules, or a random one.
+// Returns a radius below, at or above a threshold of the rules, or a random radius.
 double RandomRadius(double largest, test::Random* random);
 
 void SetDepth(Depth depth, test::Scene* scene, test::Random* random);
@@ -49,12 +49,12 @@ Setup FlatSetup(int width, int height, double radius, test::Random* random);
 // Makes any setup within the bounds.
 Setup RandomSetup(const Bounds& bounds, test::Random* random);
 
-// Sets a random configuration for setup->scene, and a lens whose largest blur radius is about
-// `radius`.
+// Sets a random configuration for setup->scene, and a lens whose largest blur radius is
+// approximately `radius`.
 void RandomLens(double radius, int modes, Setup* setup, test::Random* random);
 void RandomMode(int modes, Setup* setup, test::Random* random);
 
-// Configures the smallest max_blur that the lens needs.
+// Sets max_blur to the smallest value that suits the lens.
 void FitBlur(Setup* setup);
 
 }  // namespace starfocus::stress

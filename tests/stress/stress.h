@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stress test: families of random refocusings, each with a property that must hold. A case consists
-// of its family and a number only, so that every failure can be repeated.
+// Stress test: families of random refocusings, each with a property that must hold. A family and a
+// number identify a case, so that every failure can be repeated.
 #ifndef STARFOCUS_TESTS_STRESS_STRESS_H_
 #define STARFOCUS_TESTS_STRESS_STRESS_H_
 
@@ -47,11 +47,11 @@ struct Options {
   std::function<void(double seconds)> done;  // receives the elapsed time; may be empty
 };
 
-// Runs one case. `text` receives its description if it fails.
+// Runs one case. If the case fails, Outcome::failure describes the failure.
 Outcome RunCase(const Family& family, uint64_t number);
 
-// Runs cases of all families in turn until the time is up. Passes each failure to `failed` as a
-// line.
+// Runs cases of all families in turn until the time is up. Passes a line about each failure to
+// `failed`.
 Report RunStress(const Options& options, const std::function<void(const std::string&)>& failed);
 
 }  // namespace starfocus::stress
