@@ -47,7 +47,7 @@ inline constexpr int32_t kMostMove = 32;
 // Number of columns beyond the picture that may be read.
 inline constexpr int32_t kAside = 48;
 static_assert(kAside >= kMostMove + 2 && kAside % kCoverageTile == 0,
-              "what moves over comes from there");
+              "columns beyond the edge cover the largest move");
 inline constexpr int16_t kNowhere = INT16_MIN;
 
 // Levels of cells, with sides of 1, 2, 4, 8 and 16 pixels.

@@ -96,7 +96,7 @@ class HiddenFiller {
   // Returns true if any of kAtOnce pixels is repeated. Few pixels are.
   static bool HasSource(const uint16_t* sources) {
     uint64_t all;
-    static_assert(sizeof(all) == kAtOnce * sizeof(*sources), "looked at together");
+    static_assert(sizeof(all) == kAtOnce * sizeof(*sources), "one load covers kAtOnce sources");
     std::memcpy(&all, sources, sizeof(all));
     return all != 0;
   }

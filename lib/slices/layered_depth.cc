@@ -9,7 +9,7 @@ namespace starfocus {
 namespace {
 
 constexpr int32_t kStripColumns = static_cast<int32_t>(simd::kSliceLanes);
-static_assert(kOcclusionViews == simd::kViewLooks, "views that are looked into on a side");
+static_assert(kOcclusionViews == simd::kViewLooks, "number of views per side");
 
 // Sets kStripColumns pixels to kNoSurface. Called for the pixels after the end of a row, because
 // SIMD kernels read whole vectors.

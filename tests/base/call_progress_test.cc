@@ -31,7 +31,7 @@ TEST_CASE("cancel: work of any granularity is counted, and reported after half a
     CancelToken cancel(&watch);
     constexpr int64_t kWork = 1 << 26;
     for (int64_t work = 0; work < kWork; work += at_once) {
-      if (!cancel.Spend(at_once)) FAIL("asked nobody who says no");
+      if (!cancel.Spend(at_once)) FAIL("the callback that cancels was not called");
     }
     const int64_t most = at_once > 1 << 19 ? at_once : 1 << 19;
     const auto asked = int64_t(caller.done.size());

@@ -76,13 +76,13 @@ void AddOptions(CLI::App* app, Options* options) {
   Choice& choice = options->choice;
   Settings& settings = options->settings;
   app->add_option("DIRS", options->folders, "Light-field folders")->required();
-  app->add_option("--transfer", options->transfer, "That the truths were traced by")
+  app->add_option("--transfer", options->transfer, "Transfer function of the ground truth")
       ->check(CLI::IsMember({"srgb", "none"}));
   app->add_option("--csv", options->csv, "Table to write");
-  app->add_option("--json", options->json, "The same as JSON, for report.py");
+  app->add_option("--json", options->json, "JSON file with the results, for report.py");
   app->add_option("--modes", choice.modes, "block, frame, benchmark, blur")->delimiter(',');
   app->add_option("--apertures", choice.apertures, "Radii")->delimiter(',');
-  app->add_option("--quantiles", choice.quantiles, "Of the disparity map, to focus at")
+  app->add_option("--quantiles", choice.quantiles, "Quantiles of the disparity map to focus at")
       ->delimiter(',');
   app->add_option("--views", choice.views, "Smaller star sets, in block mode")->delimiter(',');
   app->add_option("--max-layers", choice.max_layers, "0, 1, 2")->delimiter(',');
@@ -93,7 +93,7 @@ void AddOptions(CLI::App* app, Options* options) {
   app->add_option("--targets", choice.targets, "SIMD targets, reference (plain C++), or all")
       ->delimiter(',');
   app->add_option("--workers", choice.workers,
-                  "Numbers of threads beside one, at the middle quantile")
+                  "Numbers of threads to compare with one, at the middle quantile")
       ->delimiter(',')
       ->check(CLI::Range(2, STARFOCUS_MAX_WORKERS));
   app->add_option("--repetitions", settings.repetitions, "Of every task")

@@ -74,18 +74,20 @@ const Line kLines[] = {
     {"one pixel moves left", {{1, 3}}, {Hole(0, 1, 0)}},
     {"one pixel moves right", {{1, -3}}, {Hole(0, 1, 0)}},
     // In the hole next to the near object, the surface of pixel 15 continues.
-    {"a near object hides what lies left of it and uncovers what lies right",
+    {"a near object hides pixels on its left and uncovers pixels on its right",
      {{10, 0}, {5, 4}, {9, 0}},
      {Moved(0, 6, 0), Moved(6, 11, 4), Hole(11, 15, 15), Moved(15, 24, 0)}},
     // The middle surface is completely behind the near surface.
-    {"a hole borders on what is visible, not on what the near object hides",
+    {"a hole borders on visible pixels, not on pixels that the near object hides",
      {{10, 5}, {2, -6}, {9, 9}, {9, 0}},
      {Moved(0, 3, 5), Moved(3, 12, 9), Hole(12, 21, 21), Moved(21, 30, 0)}},
     // Pixel 8 repeats the pixel next to the step.
     {"a small step stretches a surface", {{10, 2}, {10, 1}}, {Moved(0, 9, 2), Moved(9, 19, 1)}},
     {"a small step covers a part", {{10, 1}, {10, 2}}, {Moved(0, 8, 1), Moved(8, 18, 2)}},
     {"the largest step that stretches a surface", {{10, 2}, {10, 2 - kStep}}, {Moved(0, 9, 2)}},
-    {"the least step that leaves a hole", {{10, 2}, {10, 2 - kStep - 1.0 / 64}}, {Hole(8, 9, 10)}},
+    {"the smallest step that leaves a hole",
+     {{10, 2}, {10, 2 - kStep - 1.0 / 64}},
+     {Hole(8, 9, 10)}},
     // A third surface lies in the gap of one pixel. The stretched pixel is a copy of this surface,
     // and is not blended with neighbours across the edges.
     {"no neighbour across an edge inside a stretch",
@@ -98,7 +100,7 @@ const Line kLines[] = {
 
     // Ends of near surfaces. Pixels 10 to 14 move by 4 3/4 pixels, and then cover the range from 5
     // 1/4 to 10 1/4.
-    {"what is behind shows through the last pixel of a nearer surface",
+    {"the background shows through the last pixel of a nearer surface",
      {{10, 0}, {5, 4.75}, {9, 0}},
      {Moved(0, 5, 0), Mix(5, 10, 5, 64), Moved(6, 10, 5), Rim(10, 15, 14, 64), Hole(11, 15, 15),
       Moved(15, 24, 0)}},
@@ -128,31 +130,31 @@ const Line kLines[] = {
      {{10, 0}, {1, 4.25}, {9, 0}},
      {Moved(0, 5, 0), Mix(5, 5, 10, 64), Rim(6, 11, 10, 192), Hole(7, 11, 11)}},
     // The surface at -3 is hidden. The surface at 0 starts where the near surface ends.
-    {"at its very end the surface behind shows its last pixel",
+    {"where the farther surface ends, its last pixel shows",
      {{10, 0}, {5, -3}, {5, 4.75}, {9, 0}},
      {Moved(0, 10, 0), Mix(10, 15, 9, 64), Moved(11, 15, 5)}},
-    {"at its very end the surface behind is covered by a part",
+    {"where the farther surface ends, a part of it is covered",
      {{10, 0}, {4, -3}, {5, 4.25}, {9, 0}},
      {Moved(0, 9, 0), Mix(9, 9, 14, 64), Moved(10, 14, 4)}},
-    {"a nearer surface stays whole beside a gap of one pixel, stretched over",
+    {"a nearer surface stays whole next to a gap of one pixel that is stretched over",
      {{10, 0}, {6, -3}, {5, 4.75}, {9, 0}},
      {Moved(0, 11, 0), Moved(11, 15, 5)}},
-    {"of two surfaces beside a hole the nearer ends between pixels, the farther does not",
+    {"next to a hole, a nearer surface ends between pixels and a farther one does not",
      {{10, 2.75}, {6, -5}, {5, 0.75}, {5, -3}},
      {Rim(7, 16, 9, 64), Hole(8, 15, 16), Plain(15, 16)}},
     // One pixel at -6 is hidden between two surfaces whose disparities differ by 3/4.
     {"a hardly nearer surface stays whole",
      {{10, 4}, {1, -6}, {9, 4.75}, {9, 0}},
      {Moved(0, 6, 4), Moved(6, 15, 5)}},
-    {"just not so much farther that a surface mixes",
+    {"a farther surface just too close to mix",
      {{12, 4.75 - kStep}, {2, -6}, {9, 4.75}, {9, -8}},
      {{Kind::kSurface, 9, 10, 14, kAny, kAny}}},
-    {"just so much farther that a surface mixes",
+    {"a farther surface just far enough to mix",
      {{12, 4.75 - kStep - 1.0 / 64}, {2, -6}, {9, 4.75}, {9, -8}},
      {{Kind::kMix, 9, 10, 14, kAny, kAny}}},
     // Ten pixels at -5 between two surfaces are hidden, so the farther of the two surfaces
     // continues.
-    {"a hole below a nearer surface has whole pixels on either side",
+    {"a hole below a nearer surface has whole pixels on both sides",
      {{10, 0.25}, {10, -5}, {5, 4.75}, {9, 0}},
      {Moved(0, 10, 0), {Kind::kHole, 10, 15, 9, -1, 0}, Plain(15, 20)}},
     {"an end on the border of the line", {{5, 1}, {5, 4.75}, {9, 0}}, {Mix(0, 5, 1, 64)}},

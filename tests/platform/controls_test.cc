@@ -148,7 +148,7 @@ TEST_CASE("button: the right edges count as presses") {
     std::vector<ButtonEdge> edges;
   } rows[] = {{"the first edge of a press counts, at once",
                {{0, true, true}, {100, false, false}, {200, true, true}}},
-              {"nobody settled in time, the next press counts all the same",
+              {"no level settled in time; the next press counts",
                {{0, true, true}, {3, false, false}, {500, true, true}}},
               {"a release was lost, and later a press",
                {{0, true, true},

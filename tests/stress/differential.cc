@@ -128,7 +128,7 @@ std::string Refused(const Asked& asked, test::Random* random) {
   if (status == STARFOCUS_OK && part) return Verdict(rig, status, Crop(asked, region), out);
   if (status != (nan ? STARFOCUS_ERROR_NOT_FINITE : STARFOCUS_ERROR_DISPARITY)) {
     return "bad value at " + std::to_string(x) + "," + std::to_string(y) +
-           " is told as: " + starfocus_status_string(status);
+           " is reported as: " + starfocus_status_string(status);
   }
   return out.Untouched() ? "" : "bad value is refused after a part of the picture was written";
 }

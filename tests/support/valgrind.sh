@@ -5,5 +5,5 @@
 set -eu
 preloaded=$1/tests/libstarfocus_valgrind.so
 shift
-[ -f "$preloaded" ] || { echo "$preloaded: expected to be built, found none" >&2; exit 1; }
+[ -f "$preloaded" ] || { echo "$preloaded: expected the library that tests/CMakeLists.txt builds, found none" >&2; exit 1; }
 LD_PRELOAD=$(realpath "$preloaded") exec valgrind "$@"
