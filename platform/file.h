@@ -19,8 +19,8 @@ using Bytes = std::vector<uint8_t>;
 // input.
 Result<Bytes> ReadFile(const std::string& path);
 
-// Reads a file, or only its first 64 KiB if `is_wanted` returns false for these bytes. Unwanted
-// files therefore take little memory, and reading of an endless stream stops.
+// Reads a file, or only its first 64 KiB if `is_wanted` returns false for these bytes. Reading an
+// unwanted file therefore takes little memory, and reading an endless stream ends.
 Result<Bytes> ReadFileIf(const std::string& path, bool (*is_wanted)(const Bytes& beginning));
 
 // Reads a file of at most kMostSmallBytes, for timings, calibrations and other texts.

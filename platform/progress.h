@@ -39,7 +39,7 @@ class Progress {
   const double start_;
   std::mutex mutex_;
   int64_t done_ = 0;
-  double shown_ = 0;  // time of the last update; 0 before the first
+  double shown_ = 0;  // time of the last update; 0 before the first update
 };
 
 // Progress of pictures or maps that the library computes in sequence.

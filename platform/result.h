@@ -12,7 +12,7 @@ namespace starfocus {
 enum class ErrorKind {
   kNone,
   kInput,     // unsuitable file or device, or insufficient memory
-  kUsage,     // wrong command line
+  kUsage,     // invalid command line
   kInternal,  // defect of starfocus
 };
 

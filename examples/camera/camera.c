@@ -59,8 +59,8 @@ static starfocus_light_field FieldFrom(int first) {
   return field;
 }
 
-/* Pushes rows as the sensors deliver them, as many as the engine has room for, and writes finished
- * rows to `file`. */
+/* Pushes the rows that the sensors deliver, up to the number of rows for which the engine has room.
+ * Writes finished rows to `file`. */
 static starfocus_status Stream(starfocus_engine* engine, FILE* file, double* sensor_seconds) {
   int delivered = 0, taken = 0, written = 0;
   starfocus_status status = STARFOCUS_OK;

@@ -112,7 +112,7 @@ std::string NearestName(const std::string& typed, const std::vector<std::string>
   std::string nearest;
   for (const std::string& name : names) {
     const std::string its = WithoutDashes(name);
-    // The user may have typed only the start of the name.
+    // Also accept a name if the user has typed only its start.
     const bool beginning = wanted.size() >= 3 && its.compare(0, wanted.size(), wanted) == 0;
     const size_t distance = beginning ? 1 : Distance(wanted, its);
     if (distance >= least || distance >= its.size()) continue;

@@ -67,7 +67,7 @@ struct starfocus_pool {
   Thread started[STARFOCUS_MAX_WORKERS - 1];
   starfocus::CoreSet cores;  // cores that the threads run on; empty: any
 
-  pthread_mutex_t turn = PTHREAD_MUTEX_INITIALIZER;  // held by the caller during its batch
+  pthread_mutex_t turn = PTHREAD_MUTEX_INITIALIZER;  // mutex that a caller holds during its batch
   Batch batch = {nullptr, nullptr, 0};
   // Number of jobs of the batch that no thread has taken. A thread that took a job may read `batch`
   // until the thread decrements `undone` for this job.

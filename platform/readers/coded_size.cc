@@ -158,7 +158,7 @@ CodedSize HevcSize(Span configuration, const Bytes& head) {
       at += size;
     }
   }
-  for (size_t from = 0; from + 4 < head.size();) {  // units with a size of four bytes
+  for (size_t from = 0; from + 4 < head.size();) {  // each unit follows its size, a 4-byte integer
     const size_t size = ReadBigEndian32(&head[from]);
     from += 4;
     const size_t held = std::min(size, head.size() - from);

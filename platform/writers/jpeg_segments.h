@@ -26,9 +26,9 @@ std::string XmpPacket(const std::string& descriptions);
 
 // Appends an XMP packet and an extended packet of up to 4 GiB, to which the first packet refers.
 // The first packet contains `descriptions` and a further description with `attributes`. The
-// extended packet contains the attributes `extended`. The form of an attribute is '
-// prefix:Name="value"', escaped as XML. `namespaces` declares the prefixes, each as '
-// xmlns:prefix="..."'.
+// extended packet contains the attributes `extended`. An attribute has the form
+// `prefix:Name="value"`, escaped as XML and preceded by a space. `namespaces` declares each prefix
+// in the form `xmlns:prefix="..."`, also preceded by a space.
 bool AppendExtendedXmp(const std::string& namespaces, const std::string& attributes,
                        const std::string& extended, const std::string& descriptions,
                        Bytes* segments);

@@ -8,7 +8,7 @@
 namespace starfocus {
 
 struct Difference {
-  double psnr = 0;  // dB over all samples; infinite if the pictures are equal
+  double psnr = 0;  // in dB, over all samples; infinite if the pictures are equal
   int largest = 0;  // largest difference of any sample
 };
 

@@ -10,7 +10,8 @@
 namespace starfocus {
 namespace {
 
-constexpr int kSamples = 64;                   // per axis, over the middle half of the picture
+// Samples per axis, over the middle half of the picture.
+constexpr int kSamples = 64;
 constexpr double kShare = 0.1, kAlike = 0.06;  // fractions of the samples and of the range
 // Pixels; starfocus_focus_at treats smaller differences as one surface.
 constexpr double kLeastAlike = 0.75;
@@ -53,7 +54,7 @@ Surface FindNearest(const std::vector<float>& sorted, size_t count) {
   return {median - alike / 2, median + alike / 2};
 }
 
-// Counts the pixels of the surface among the sample and its neighbours in the grid.
+// Returns how many of the sample and its neighbours in the grid belong to the surface.
 int CountAround(const Grid& grid, const Surface& surface, int column, int row) {
   int count = 0;
   for (int r = std::max(0, row - 1); r <= std::min(kSamples - 1, row + 1); ++r) {
