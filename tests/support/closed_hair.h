@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A portrait with hair whose outline is closed in the map, as in maps of monocular networks.
+// A portrait with hair. In the map, the outline of the hair is closed, as in maps of monocular
+// networks.
 #ifndef STARFOCUS_TESTS_SUPPORT_CLOSED_HAIR_H_
 #define STARFOCUS_TESTS_SUPPORT_CLOSED_HAIR_H_
 
@@ -17,13 +18,13 @@ struct Area {
   bool Has(int x, int y) const { return x >= left && x < right && y >= top && y < bottom; }
 };
 
-// A body in front of a wall, with hair on the left part of its top edge.
+// A body in front of a wall, with hair on the left part of the body's top edge.
 struct ClosedHair {
   static constexpr float kNear = 9, kFar = -4;
   static constexpr int kWidth = 240, kHeight = 181;
   Area body = {40, 110, 240, 181}, hair = {40, 60, 180, 110};
-  Strands strands;     // strands of the hair; without strands the hair is opaque
-  bool spots = false;  // the wall has spots, a quarter of the way to the colour of the hair
+  Strands strands;     // strands of the hair; if empty, the hair is opaque
+  bool spots = false;  // true if the wall has spots, which contain a quarter of the near colour
   std::vector<uint8_t> rgb, coverage;
   std::vector<float> map;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bits of starfocus_config.features.
+// Tests and sets bits of starfocus_config.features.
 #ifndef STARFOCUS_TESTS_SUPPORT_FEATURES_H_
 #define STARFOCUS_TESTS_SUPPORT_FEATURES_H_
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light fields of images, and the same light fields converted by the definitions of image.h.
+// Light fields of images, and conversions of these light fields by the definitions in
+// starfocus/image.h.
 #ifndef STARFOCUS_TESTS_SUPPORT_IMAGE_FIELD_H_
 #define STARFOCUS_TESTS_SUPPORT_IMAGE_FIELD_H_
 
@@ -16,10 +17,10 @@ namespace test {
 struct ImageField {
   std::vector<ImageMemory> views;
   DepthMemory depth;
-  Scene converted;  // converted by the definitions; input of the engine
+  Scene converted;  // the converted light field
 
-  // Returns the light field from `row` on. A map that is smaller than the picture is always
-  // complete.
+  // Returns the light field from `row` on. A map that is smaller than the picture is always passed
+  // completely.
   starfocus_light_field Field(int row = 0) const {
     starfocus_light_field field = {};
     for (size_t k = 0; k < views.size(); ++k) field.views[k] = views[k].In(row);
@@ -33,7 +34,8 @@ struct ImageField {
     ImageMemory& centre = const_cast<ImageMemory&>(views[0]);
     return centre.kind().HasAlpha() ? *centre.Colour(x, y, 3) : 255;
   }
-  // Converts `out` to an image of the same size. Its pixel (0, 0) is (x, y) of the picture.
+  // Converts `out` to an image of the same size. Pixel (0, 0) of `out` is pixel (x, y) of the
+  // picture.
   ImageMemory Converted(const Output& out, const ImageKind& kind, int x = 0, int y = 0) const {
     ImageMemory image(out.width, out.height, kind);
     PutPicture(
@@ -43,8 +45,8 @@ struct ImageField {
   }
 };
 
-// Makes a light field of images. Its range of disparities is a little wider than the scene's, for
-// maps of few bits.
+// Makes a light field of images. The range of disparities is wider than the range of the scene by
+// 0.5 on each side, since maps of few bits round disparities.
 inline ImageField MakeImageField(const Scene& scene, const std::vector<ImageKind>& kinds,
                                  DepthMemory depth, Random* random) {
   ImageField field;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Images and depth maps of every format in memory, and their conversion as defined in
-// starfocus/image.h.
+// Images and depth maps of every format in memory, and conversions as defined in starfocus/image.h.
 #ifndef STARFOCUS_TESTS_SUPPORT_IMAGE_SCENE_H_
 #define STARFOCUS_TESTS_SUPPORT_IMAGE_SCENE_H_
 
@@ -15,8 +14,8 @@
 
 namespace test {
 
-// Properties of an image except its size. The layouts of YUV_420_888 with chroma samples 2 bytes
-// apart are: U first, V first, or separate memory for each.
+// Properties of an image except its size. If the chroma samples of YUV_420_888 are 2 bytes apart,
+// the layout is 0 (U first), 1 (V first), or 2 (separate memory for U and V).
 struct ImageKind {
   int format = STARFOCUS_FORMAT_RGB, matrix = 0, range = 0, pixel_stride = 0, padding = 0,
       layout = 0;
@@ -129,7 +128,7 @@ class ImageMemory {
   size_t strides_[3] = {};
 };
 
-// P(a, c) and other functions of the definitions.
+// P(a, c) and other functions in the definitions of starfocus/image.h.
 inline int Product(int a, int c) { return (a * c + (1 << 14)) >> 15; }
 inline int Rounded(double value) { return int(std::lround(value)); }
 inline uint8_t Code(int value) { return uint8_t(std::clamp(value, 0, 255)); }
@@ -145,7 +144,7 @@ struct Matrix {
   int y0;
 };
 
-// Reads the codes R, G, B of a pixel.
+// Reads the R, G, B codes of a pixel.
 inline void GetPixel(ImageMemory* image, int x, int y, uint8_t* rgb) {
   if (!image->kind().IsYuv()) {
     for (int c = 0; c < 3; ++c) rgb[c] = *image->Colour(x, y, c);
@@ -247,16 +246,15 @@ struct DepthMemory {
   }
 };
 
-// Makes a map of a scene's disparities. Each value is taken at the middle of the pixels that it
-// stands for.
+// Makes a map of a scene's disparities. Each value is taken at the middle of the pixels that the
+// value represents.
 inline DepthMemory MakeDepth(const Scene& scene, int width, int height, starfocus_depth_type type,
                              starfocus_depth_meaning meaning, int padding) {
   DepthMemory depth;
   starfocus_depth_map& map = depth.map;
   map.width = width, map.height = height, map.type = type, map.meaning = meaning;
   const double span = double(scene.disparity_max) - double(scene.disparity_min);
-  // Distances of near surfaces are small. Disparities get an offset so that all of them are
-  // positive.
+  // Distances of near surfaces are small. An offset makes all disparities positive.
   map.offset =
       float(double(scene.disparity_min) - (meaning == STARFOCUS_DEPTH_LINEAR ? 0 : 0.2 * span));
   const double steps = type == STARFOCUS_DEPTH_U8    ? 250

@@ -20,15 +20,16 @@ inline starfocus::EngineState& StateOf(starfocus_engine* engine) {
   return *reinterpret_cast<starfocus::EngineState*>(engine);
 }
 
-// Makes an engine use other kernels than the best ones of the machine. starfocus_init resets this.
+// Makes an engine use the given kernels instead of the best kernels of the machine. starfocus_init
+// resets the kernels.
 inline void UseKernels(const starfocus::simd::Kernels* kernels, starfocus_engine* engine) {
   StateOf(engine).kernels = kernels;
 }
 
 using starfocus::Borders;
 
-// Return the borders of a configuration, for blur radii up to `max_blur` pixels or the configured
-// ones.
+// BordersOf returns the borders of a configuration, for blur radii up to `max_blur` pixels or up to
+// the configured maximum.
 inline starfocus::Borders BordersOf(const starfocus_config& config, double max_blur) {
   return starfocus::AddBorders(config, max_blur, true);
 }
@@ -62,7 +63,7 @@ inline std::vector<uint8_t> RenderOne(const starfocus::Block& block, starfocus_e
   return out;
 }
 
-// Same as RenderOne, with a renderer that never copies blocks.
+// Returns the picture of RenderOne, made with a renderer that never copies blocks.
 inline std::vector<uint8_t> RenderUncopied(const starfocus::Block& block,
                                            starfocus_engine* engine) {
   starfocus::Lens& lens = StateOf(engine).lens;
@@ -75,8 +76,8 @@ inline std::vector<uint8_t> RenderUncopied(const starfocus::Block& block,
   return out;
 }
 
-// Returns the number of columns of superblocks, over all layers, that the stripe refocused last has
-// subsampled.
+// Returns the number of columns of superblocks that have been subsampled for the last stripe,
+// summed over all layers.
 inline int LayerColumns(starfocus_engine* engine) {
   const starfocus::EngineState& state = StateOf(engine);
   int columns = 0;
@@ -88,13 +89,14 @@ inline int LayerColumns(starfocus_engine* engine) {
   return columns;
 }
 
-// Returns the size in bytes of the first worker's pool of slices. It may be reduced.
+// Returns a reference to the size in bytes of the first worker's pool of slices. Tests may reduce
+// the size.
 inline size_t& PoolBytes(starfocus_engine* engine) {
   void* scratch = StateOf(engine).workers.scratch[0].renderers[starfocus::kSliceRenderer.index];
   return static_cast<starfocus::CompositorScratch*>(scratch)->pool_bytes;
 }
 
-// Returns the size in bytes of a workspace, or kTooLarge.
+// Returns the size in bytes of the workspace for `config`, or kTooLarge.
 inline size_t WorkspaceBytes(const starfocus_config& config) {
   starfocus::EngineState* counted = nullptr;
   return starfocus::LayOut(config, nullptr, &counted);

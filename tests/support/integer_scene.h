@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light fields that are computed with integers. They are equal on every machine and with every
-// compiler, since no rounding and no order of evaluation matters. Used for checksums and
-// instruction counts.
+// Light fields that are computed with integers. The light fields are equal on every machine and
+// with every compiler, since neither rounding nor the order of evaluation affects them. Used for
+// checksums and instruction counts.
 #ifndef STARFOCUS_TESTS_SUPPORT_INTEGER_SCENE_H_
 #define STARFOCUS_TESTS_SUPPORT_INTEGER_SCENE_H_
 
@@ -11,8 +11,8 @@ namespace test {
 
 enum class Depth { kLayers, kSlanted, kNoise, kRoom };
 
-// Returns a disparity that is equal on every machine: a multiple of 1/64, 1/160 or 1/7, by one
-// division.
+// Returns a multiple of 1/64, 1/160, 1/20 or 1/7 as the disparity. A single division per disparity
+// makes the result equal on every machine.
 inline float DisparityAt(Depth depth, int x, int y, Random* random) {
   switch (depth) {
     case Depth::kLayers: {
@@ -57,8 +57,8 @@ inline Scene IntegerScene(int width, int height, int views, Depth depth) {
   return scene;
 }
 
-// Makes noise: each pixel has one of `levels` random disparities within +-range. Each level needs a
-// slice, or there are fewer and wider slices if the limit of a block is lower.
+// Makes noise: each pixel has one of `levels` random disparities within +-range. Each level
+// requires a slice. If the levels exceed the limit of slices in a block, slices become wider.
 inline Scene LevelScene(int side, int levels, int range) {
   Scene scene = EmptyScene(side, side, 1, static_cast<float>(-range), static_cast<float>(range));
   Random random(static_cast<uint64_t>(1000 * range + levels));

@@ -12,11 +12,12 @@
 
 namespace test {
 
-// Makes a slanted background and rectangles: flat areas large enough for layers 1 and 2, and edges.
+// Makes a slanted background and rectangles. The scene has edges, and flat areas that are large
+// enough for layers 1 and 2.
 inline Scene LayeredScene(int width, int height, int views, float limit, uint64_t seed) {
   Random random(seed);
   Scene scene = EmptyScene(width, height, views, -limit, limit, int(seed % 4));
-  // The views agree approximately: their texture moves with the view.
+  // The texture moves with the view, so the views are approximately consistent.
   for (int view = 0; view < views; ++view) {
     double u = 0, v = 0;
     starfocus_view_position(view, &u, &v);

@@ -15,8 +15,8 @@ namespace test {
 
 struct MemoryPart {
   const char* name;
-  bool shared;  // true if other tasks of the worker use the same memory at other times
-  // start of the part, with the padding of each piece; null: the part does not exist
+  bool shared;  // true if other tasks of the worker share this memory
+  // start of the part; null: the engine does not have this part
   const void* first;
   size_t begin = 0, end = 0;
 
@@ -62,8 +62,8 @@ inline std::vector<MemoryPart> PartsOf(const starfocus::EngineState& e) {
   };
 }
 
-// Measures the parts of an engine with one worker for `config`. Returns no parts if the start or
-// the order of a part differs from PartsOf.
+// Measures the parts of an engine with one worker for `config`. Returns an empty list if a part
+// starts at another address or in another order than PartsOf states.
 inline std::vector<MemoryPart> MeasureParts(const starfocus_config& config) {
   Engine memory(config);
   if (memory.status() != STARFOCUS_OK) return {};
@@ -90,7 +90,7 @@ inline std::vector<MemoryPart> MeasureParts(const starfocus_config& config) {
   return walk.next == walk.parts.size() ? walk.parts : std::vector<MemoryPart>();
 }
 
-// Sizes of all parts in bytes. Shared memory is counted once.
+// Total size and shared size in bytes. The total counts shared memory once.
 struct MemorySum {
   size_t all = 0, shared = 0;
 };

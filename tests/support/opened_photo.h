@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A small depth photo and its contents after opening, for the tests of photo readers.
+// A small depth photo, and the contents of an opened photo, for the tests of photo readers.
 #ifndef STARFOCUS_TESTS_SUPPORT_OPENED_PHOTO_H_
 #define STARFOCUS_TESTS_SUPPORT_OPENED_PHOTO_H_
 
@@ -29,7 +29,8 @@ inline Error Open(const std::string& bytes, Capture* capture, const CaptureOptio
   return opened.error();
 }
 
-// Returns the blur scale per dioptre (docs/formats.md), for a lens of f/1 on full frame.
+// Returns the blur scale per dioptre (docs/formats.md) for an f/1 lens on a full-frame camera.
+// `focal` is the focal length in mm.
 inline double PerDiopter(double focal) {
   return focal * focal / 1000 / 2 / 43.2666 * std::hypot(kWidth, kHeight);
 }
@@ -45,7 +46,8 @@ inline void CheckRamp(const Capture& capture, double at_black, double at_white) 
   CHECK(double(map.at(kWidth - 1, 3)) == doctest::Approx(at_white).epsilon(1e-4));
 }
 
-// Opens a photo whose map must be a ramp between these disparities.
+// Opens a photo, and checks that the map is a ramp from `at_black` on the left to `at_white` on the
+// right.
 inline Capture OpenRamp(const std::string& bytes, double at_black, double at_white,
                         const CaptureOptions& options = {}) {
   Capture capture;

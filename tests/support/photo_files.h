@@ -167,7 +167,7 @@ constexpr char kGoogle[] =
     "xmlns:xmpNote=\"http://ns.adobe.com/xmp/note/\"";
 
 // Returns a photo with GDepth as defined in Google's depth map metadata: `attributes` are in the
-// packet, the data in extended XMP.
+// packet, and the data are in extended XMP.
 inline std::string Gdepth(const std::string& jpeg, const std::string& attributes,
                           const std::string& extended, size_t part = 60000) {
   const std::string main =
@@ -190,7 +190,7 @@ inline std::string ExifSegment(int orientation, int focal_35mm) {
 }
 
 // Returns EXIF with an orientation and a subject of two to four numbers, little endian (EXIF 2.32,
-// 4.6). It also has the size of the picture that the subject refers to, unless this is 0.
+// 4.6). The EXIF also has the size of the picture that the subject refers to, unless the size is 0.
 inline std::string SubjectSegment(int orientation, int tag, const std::vector<int>& subject,
                                   int width = 0, int height = 0) {
   const auto little = [](int value, int bytes) {
@@ -209,7 +209,8 @@ inline std::string SubjectSegment(int orientation, int tag, const std::vector<in
       entry(tag, 3, static_cast<int>(subject.size()), inside ? numbers : little(behind, 4));
   const std::string sizes =
       sized ? entry(0xa002, 4, 1, little(width, 4)) + entry(0xa003, 4, 1, little(height, 4)) : "";
-  // Tags must be in order: SubjectArea precedes the sizes, SubjectLocation follows them.
+  // Tags must be in ascending order: SubjectArea precedes the sizes, and SubjectLocation follows
+  // the sizes.
   std::string text = std::string("Exif\0\0II\x2a\0\x08\0\0\0", 14) + little(2, 2) +
                      entry(0x0112, 3, 1, little(orientation, 4)) +
                      entry(0x8769, 4, 1, little(exif, 4)) + little(0, 4);
@@ -296,8 +297,8 @@ inline std::string ContainerItem(const std::string& mime, size_t length, const s
          "\"/></rdf:li>";
 }
 
-// Returns Dynamic Depth 1.0: a picture, another item and the map in one file. `wrong` is the error
-// of the other item's length.
+// Returns a Dynamic Depth 1.0 file: a picture, another item, and the map. `wrong` is added to the
+// length of the other item.
 inline std::string DynamicDepth(const std::string& jpeg, const std::string& map,
                                 const std::string& attributes, size_t wrong = 0) {
   const std::string other = "a confidence map would stand here";
@@ -318,7 +319,8 @@ constexpr char kApple[] =
     "xmlns:apdi=\"http://ns.apple.com/pixeldatainfo/1.0/\" "
     "xmlns:depthData=\"http://ns.apple.com/depthData/1.0/\"";
 
-// Returns an auxiliary picture of disparities as Apple's cameras write it, with the given elements.
+// Returns an auxiliary picture of disparities with the given XMP elements, as Apple's cameras write
+// such pictures.
 inline std::string AppleMap(const std::string& jpeg, const std::string& elements) {
   return Insert(jpeg, XmpSegment(Packet(kApple, "", elements)));
 }

@@ -11,7 +11,7 @@
 
 namespace test {
 
-// Sets a random shape, with or without a cat's eye. In half of all cases a parameter is at an end
+// Sets a random shape, with or without a cat's eye. In half of all cases, a parameter is at an end
 // of its range.
 inline void RandomShape(starfocus_lens* lens, Random* random) {
   const auto often_an_end = [&](double low, double high) {
@@ -26,7 +26,7 @@ inline void RandomShape(starfocus_lens* lens, Random* random) {
   if (random->Int(0, 2) == 0) lens->cats_eye = often_an_end(0, 1);
 }
 
-// Sets STARFOCUS_FEATURE_SHAPES if the lens needs it, and clears it otherwise.
+// Sets STARFOCUS_FEATURE_SHAPES if the lens requires this feature, and clears the bit otherwise.
 inline void ReserveFor(const starfocus_lens& lens, starfocus_config* config) {
   const bool needed = lens.shape == STARFOCUS_SHAPE_POLYGON || lens.cats_eye > 0;
   SetFeature(STARFOCUS_FEATURE_SHAPES, needed, &config->features);
@@ -41,7 +41,7 @@ inline std::string ShapeText(const starfocus_lens& lens) {
   return text;
 }
 
-// A lens of each kind except the default one.
+// One lens of each kind except the default lens.
 struct NamedShape {
   const char* name;
   int shape, blades;

@@ -12,8 +12,8 @@
 
 namespace test {
 
-// Returns targets 0, 1, ... of `target`. Throws without targets, since a test without targets must
-// not pass.
+// Returns target(0), target(1), ... up to the first null. Throws if there are no targets, since a
+// test without targets must not pass.
 template <class Table>
 std::vector<const Table*> ListTargets(const Table* (*target)(size_t index)) {
   std::vector<const Table*> all;
@@ -22,7 +22,7 @@ std::vector<const Table*> ListTargets(const Table* (*target)(size_t index)) {
   return all;
 }
 
-// Returns the kernels of all targets, the best one first.
+// Returns the kernels of all targets, the best target first.
 inline std::vector<const starfocus::simd::Kernels*> SimdTargets() {
   return ListTargets(starfocus::simd::KernelsOfTarget);
 }

@@ -7,14 +7,15 @@
 
 namespace test {
 
-// A periodic profile across strands. Coverage and depth range from 0, the far surface, to 255.
+// A periodic profile across strands. Coverage and depth range from 0 (the far surface) to 255.
 struct Strands {
   static constexpr int kMostPeriod = 12;
 
   uint8_t profile[kMostPeriod] = {};  // coverage
-  int period = 0;                     // samples of the profile; 0: no strands
-  int right = 1, down = 0;            // samples from a pixel to the next one
-  bool ramps = false;  // true if outlines of the map are ramps, as in maps of networks
+  int period = 0;                     // number of samples in the profile; 0: no strands
+  // Step in the profile per pixel to the right, and per pixel down.
+  int right = 1, down = 0;
+  bool ramps = false;  // true if outlines in the map are ramps, as in maps of neural networks
 
   bool any() const { return period > 0; }
   int CoverageAt(int x, int y) const {
@@ -41,7 +42,7 @@ Strands DrawStrands(Random* random) {
   return strands;
 }
 
-// Returns the light of a pixel, `coverage` of which a nearer surface covers.
+// Returns the level of a pixel that shows `coverage` / 255 of `near` and the rest of `far`.
 inline uint8_t Mixture(int coverage, int near, int far) {
   return static_cast<uint8_t>((coverage * near + (255 - coverage) * far) / 255);
 }

@@ -12,7 +12,7 @@
 
 namespace test {
 
-// A symmetry: transposes first, then mirrors.
+// A symmetry, which transposes first and then mirrors.
 struct Symmetry {
   bool transpose, mirror_x, mirror_y;
 };
@@ -26,7 +26,7 @@ inline std::pair<int, int> Move(const Symmetry& s, int width, int height, int x,
   return {s.mirror_x ? width - 1 - x : x, s.mirror_y ? height - 1 - y : y};
 }
 
-// Returns the index of the view that captured view `index` becomes.
+// Returns the index of the position that captured view `index` moves to.
 inline int MoveView(const Symmetry& s, int index) {
   double u = 0, v = 0;
   starfocus_view_position(index, &u, &v);
@@ -58,7 +58,8 @@ inline Scene Move(const Symmetry& s, const Scene& scene) {
   return moved;
 }
 
-// Distance between a moved picture of width x height and another one, both packed RGB.
+// Difference between a width x height picture and the same picture after a symmetry, both packed
+// RGB.
 struct Distance {
   int samples = 0;  // number of samples that differ
   int largest = 0;

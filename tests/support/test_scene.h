@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shared code of the tests of the public interface: random light fields from seeds, and an engine
-// with its memory. Whole pictures and streams are refocused into a padded, poisoned picture.
+// with its memory. Pictures and streams are refocused into padded, poisoned output pictures.
 #ifndef STARFOCUS_TESTS_SUPPORT_TEST_SCENE_H_
 #define STARFOCUS_TESTS_SUPPORT_TEST_SCENE_H_
 
@@ -37,8 +37,8 @@ constexpr starfocus_mode kModes[] = {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BENCHM
 constexpr starfocus_renderer kRenderers[] = {STARFOCUS_RENDERER_LINE_SCAN,
                                              STARFOCUS_RENDERER_SLICES};
 
-// Random number generator with the same sequence on every machine (xorshift64*). The bytes of a
-// fuzzer, if any, precede the sequence.
+// Random number generator with the same sequence on every machine (xorshift64*). If a fuzzer
+// supplies bytes, the sequence starts with numbers from these bytes.
 class Random {
  public:
   explicit Random(uint64_t seed) : state_(seed * 0x9E3779B97F4A7C15u + 0x1234567u) {}
@@ -86,7 +86,7 @@ inline std::vector<uint8_t> RandomBytes(size_t size, Random* random) {
   return bytes;
 }
 
-// A light field in memory. Strides may exceed the rows.
+// A light field in memory. Strides may exceed the lengths of rows.
 struct Scene {
   int width = 0;
   int height = 0;
@@ -98,7 +98,7 @@ struct Scene {
   std::vector<float> disparity;
   std::vector<uint8_t> coverage;  // packed rows; empty: no coverage
   std::vector<starfocus_position>
-      positions;  // positions of the views; empty: those of starfocus_view_position
+      positions;  // positions of the views; empty: starfocus_view_position
 
   starfocus_position PositionOf(int view) const {
     if (!positions.empty()) return positions[static_cast<size_t>(view)];
@@ -137,8 +137,8 @@ struct Scene {
   }
 };
 
-// Makes a scene of this size. Adds `padding` bytes to each picture row and `padding` floats to each
-// disparity row.
+// Makes a scene of the given size. Adds `padding` bytes to each picture row and `padding` floats to
+// each disparity row.
 inline Scene EmptyScene(int width, int height, int views, float low, float high, int padding = 0) {
   Scene scene;
   scene.width = width;
@@ -185,7 +185,7 @@ void SetDisparity(Scene* scene, const At& at) {
   }
 }
 
-// Sets a random disparity at each pixel: the worst case for runs of one shift.
+// Sets a random disparity at each pixel, which is the worst case for runs of one shift.
 inline void NoisyDisparity(Scene* scene, Random* random) {
   for (int y = 0; y < scene->height; ++y) {
     for (int x = 0; x < scene->width; ++x) {
@@ -196,7 +196,8 @@ inline void NoisyDisparity(Scene* scene, Random* random) {
   }
 }
 
-// Makes random pictures with a random piecewise disparity map. The views need not agree.
+// Makes random pictures with a random piecewise disparity map. The views are not consistent with
+// each other.
 inline Scene RandomScene(int width, int height, int views, float low, float high, uint64_t seed,
                          int padding = 0) {
   Random random(seed);
@@ -209,7 +210,7 @@ inline Scene RandomScene(int width, int height, int views, float low, float high
 }
 
 // Makes a comb of surfaces so near that hidden parts are read from side views about a hundred
-// pixels away. Tests focus it at kNearFocus with an aperture of 0.2.
+// pixels away. Tests focus this scene at kNearFocus with an aperture of 0.2.
 constexpr double kNearFocus = 100;
 inline Scene NearScene(int width, int height, int views, uint64_t seed) {
   Scene scene = RandomScene(width, height, views, 85, 115, seed);
@@ -332,7 +333,7 @@ struct Output {
   std::vector<uint8_t> bytes;
 };
 
-// Returns true if `part` is equal to that region of the picture `whole`.
+// Returns true if `part` is equal to the given region of the picture `whole`.
 inline bool IsPartOf(const Output& part, const Output& whole, const starfocus_region& region) {
   for (int y = 0; y < region.height; ++y) {
     if (!std::equal(part.Pixel(0, y), part.Pixel(0, y) + 3 * region.width,
@@ -353,7 +354,8 @@ inline int RunOnTwo(void*, starfocus_job job, void* data, int32_t count) {
   return 0;
 }
 
-// Return callbacks with only a runner, or only a progress function.
+// RunBy returns callbacks with only a runner, and ToldTo returns callbacks with only a progress
+// function.
 inline starfocus_callbacks RunBy(starfocus_runner runner, void* data = nullptr) {
   starfocus_callbacks callbacks = {};
   callbacks.runner = runner;
@@ -393,7 +395,7 @@ starfocus_status Refocus(AnyEngine* engine, const starfocus_params& params, cons
 }
 
 // Streams a scene with at most `push_rows` and `pull_rows` rows per call. Returns
-// STARFOCUS_ERROR_STATE if neither side makes progress.
+// STARFOCUS_ERROR_STATE if the engine neither consumes nor returns rows.
 template <class AnyEngine>
 starfocus_status Stream(AnyEngine* engine, const starfocus_params& params, const Scene& scene,
                         Output* out, int push_rows, int pull_rows,
@@ -430,8 +432,8 @@ starfocus_status Stream(AnyEngine* engine, const starfocus_params& params, const
 }
 
 #ifdef STARFOCUS_DATA_DIR
-// Returns the folder of the data set `name`. If this machine does not have it, prints a message and
-// returns an empty string.
+// Returns the folder of the data set `name`. If this machine does not have the data set, prints a
+// message and returns an empty string.
 inline std::string DataSet(const std::string& name) {
   const std::string folder = std::string(STARFOCUS_DATA_DIR) + "/" + name;
   if (std::FILE* file = std::fopen((folder + "/disparity.pfm").c_str(), "rb")) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Preloaded under valgrind (tests/support/valgrind.sh). It replaces a measurement of time that
-// libhwy makes when it is loaded. This measurement uses an instruction that valgrind rejects on
-// processors that do not announce it. The engine does not use the result.
+// A library that valgrind.sh preloads under valgrind. The library replaces a measurement of time
+// that libhwy makes at startup. The measurement uses an instruction that valgrind rejects on
+// processors that do not announce this instruction. The engine does not use the result.
 #include <cstdint>
 
 namespace hwy::platform {

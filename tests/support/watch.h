@@ -13,12 +13,12 @@ struct Watch {
 
   explicit Watch(int cancel_at = kNever) : stop(cancel_at) {}
 
-  int stop;       // the call that cancels
+  int stop;       // index of the call that cancels, or kNever
   int calls = 0;  // number of calls so far; simultaneous calls are counted in `clashes`
   int32_t done = 0, rows = 0;
   int full = 0;      // calls with all rows
   int back = 0;      // calls with fewer rows than before, or with more rows than the total
-  int too_late = 0;  // calls after the one that cancelled
+  int too_late = 0;  // calls after the cancellation
   std::atomic<int> inside{0}, clashes{0};
 
   static int Progress(void* data, int32_t rows_done, int32_t rows) {

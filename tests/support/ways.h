@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compares different calls that must return the same picture.
+// Compares the results of different calls that must return the same picture.
 #ifndef STARFOCUS_TESTS_SUPPORT_WAYS_H_
 #define STARFOCUS_TESTS_SUPPORT_WAYS_H_
 
@@ -27,8 +27,8 @@ inline starfocus_region RandomRegion(int width, int height, Random* random) {
   return region;
 }
 
-// Returns regions: the whole picture, its corners, edges and middle, both sides of the boundaries
-// of blocks, and random regions.
+// Returns various regions: the whole picture, corners, edges, the middle, both sides of the
+// boundaries of blocks, and random regions.
 inline std::vector<starfocus_region> RegionsOf(int width, int height) {
   std::vector<starfocus_region> regions = {
       {0, 0, width, height},         {0, 0, 1, 1},
@@ -38,7 +38,8 @@ inline std::vector<starfocus_region> RegionsOf(int width, int height) {
     if (at + 2 >= width || at >= height) continue;
     regions.push_back({at, at, 1, 1});
     regions.push_back({at - 1, at - 3, 1, 1});
-    regions.push_back({0, at - 8, width, 5});  // the next stripe finishes its last row
+    // The next stripe finishes the last row of this region.
+    regions.push_back({0, at - 8, width, 5});
     regions.push_back({at + 2, at - 1, width - at - 2, 1});
   }
   Random random(uint64_t(width) * 977 + uint64_t(height));
@@ -54,7 +55,7 @@ inline std::vector<starfocus_region> RegionsOf(int width, int height) {
 }
 
 // Checks that streams, prepared light fields, the next frame of a video, views with gaps between
-// pixels, and regions give the bytes of the whole picture. Returns this picture.
+// pixels, and regions give the bytes of the whole picture. Returns the whole picture.
 inline Output CheckWays(const Scene& scene, starfocus_config config, starfocus_params params,
                         bool many_regions = false) {
   config.features |= STARFOCUS_FEATURE_STREAMING | STARFOCUS_FEATURE_IMAGES;
@@ -74,7 +75,7 @@ inline Output CheckWays(const Scene& scene, starfocus_config config, starfocus_p
   REQUIRE(RefocusPreparedRgb(engine.get(), &params, prepared, again.bytes.data(), again.stride,
                              &other_report) == STARFOCUS_OK);
   CHECK((again.bytes == whole.bytes));
-  CHECK(other_report.unknown_pixels == 0);  // disparities were filled when it was prepared
+  CHECK(other_report.unknown_pixels == 0);  // starfocus_prepare has filled the disparities
   other_report.unknown_pixels = report.unknown_pixels;
   CHECK(std::memcmp(&report, &other_report, sizeof report) == 0);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Creates depth photos like those of phones: GDepth in the XMP of a JPEG, with the data in segments of extended XMP.
+// Creates depth photos as phones do: GDepth in the XMP of a JPEG, with the data in segments of extended XMP.
 
 const SEGMENT = 1000;  // bytes of data per segment, small enough for several segments
 

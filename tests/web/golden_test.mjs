@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks that the package computes the same bytes as the library: every checksum of tests/engine/golden.txt. The names
-// in that file encode the light field and the lens, as tests/engine/golden_bytes_test.cc defines them.
+// Checks that the package computes the same bytes as the library, by all checksums of tests/engine/golden.txt. The
+// names in that file encode the light field and the lens, as tests/engine/golden_bytes_test.cc defines them.
 
 import assert from 'node:assert/strict';
 import {readFileSync} from 'node:fs';
@@ -61,7 +61,7 @@ function readCase(name) {
   };
 }
 
-/** Refocuses cases in sequence. Consecutive cases with the same light field share a refocuser. */
+/** Refocuses cases in sequence. Consecutive cases share a refocuser if they have the same light field. */
 class Refocusings {
   #scene = null;
   #refocuser = null;
@@ -115,7 +115,7 @@ async function compare(cases, options) {
       if (hash(dropAlpha(picture.data)) !== expected) wrong.push(name);
     }
   } finally {
-    refocusings.close();  // otherwise the workers would keep node running
+    refocusings.close();  // without close(), the workers would keep node running
   }
   assert.deepEqual(wrong, []);
 }

@@ -18,7 +18,7 @@ const demo = join(site, 'demo'), scratch = mkdtempSync(join(tmpdir(), 'starfocus
 const servers = [];
 let browser, page, address;
 
-/** Starts a server for the site, and returns its address. */
+/** Starts a server for the site, and returns the address of the server. */
 async function serve(...values) {
   const server = spawn(process.execPath, [process.env.STARFOCUS_SERVER, site, '0', ...values]);
   servers.push(server);
@@ -43,7 +43,7 @@ async function waitFor(pattern) {
   }
 }
 
-/** Waits until the page shows a full picture. All earlier requests are finished then. */
+/** Waits until the page shows a full picture, which implies that all earlier requests have finished. */
 const full = () => waitFor(/Full picture: [\d.]+ ms$/);
 
 /** Performs an action that starts a refocusing, and waits for the full picture. */
@@ -91,7 +91,7 @@ const screenshot = name => page.screenshot({path: join(process.env.STARFOCUS_SCR
 const file = (name, buffer = readFileSync(join(small, name))) => ({name, mimeType: '', buffer});
 const openFiles = (...files) => page.setInputFiles('#files', files);
 
-/** Returns the pixel [x, y] of a named object of the demo, from its meta.txt. */
+/** Returns the pixel [x, y] of a named object in the demo, from the demo's meta.txt. */
 const place = name => /(\d+),(\d+)/.exec(
     readFileSync(join(demo, 'meta.txt'), 'utf8').split('\n').find(line => line.startsWith(`${name}:`))).slice(1).map(Number);
 

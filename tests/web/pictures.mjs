@@ -65,7 +65,7 @@ export function dropAlpha(data) {
   return data.filter((_, i) => i % 4 < 3);
 }
 
-/** Fails unless both arrays are equal. The message has the number of different bytes instead of all bytes. */
+/** Fails unless both arrays are equal. The message has the number of differing bytes, not the bytes. */
 export function assertSameBytes(actual, expected) {
   assert.equal(actual.length, expected.length);
   const wrong = actual.reduce((count, byte, i) => count + (byte !== expected[i]), 0);

@@ -17,10 +17,10 @@ STARFOCUS_GOLDEN_FILE=$sources/tests/engine/golden.txt STARFOCUS_SERVER=$sources
 STARFOCUS_SCREENSHOTS=$web/screenshots
 export STARFOCUS_PROGRAM STARFOCUS_FIELD STARFOCUS_SITE STARFOCUS_GOLDEN_FILE STARFOCUS_SERVER STARFOCUS_SCREENSHOTS
 
-# This version works with Debian's Chromium.
+# This version of playwright-core works with Debian's Chromium.
 PLAYWRIGHT=1.49.1
 
-# quietly COMMAND...: runs a command. Prints the end of its output only if it fails.
+# quietly COMMAND...: runs a command. Prints the end of the output only if the command fails.
 quietly() {
   "$@" >"$work/log" 2>&1 || { tail -n 60 "$work/log" >&2; echo "web: failed: $*" >&2; exit 1; }
 }
