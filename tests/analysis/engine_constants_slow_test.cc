@@ -185,8 +185,8 @@ void CheckEngine(starfocus_renderer renderer, int layer, int least, int most) {
       CHECK(Explain(step).find("unexplained") == std::string::npos);
       if (layer > 0) {
         const LayerTheory theory = MakeLayerTheory(r < 0 ? -r : r, layer);
-        // For small radii, (9) selects N = 2 or N = 3. The PSF of so few views differs from the
-        // ideal PSF, and therefore its aliasing differs as well.
+        // For small radii, (9) selects N = 2 or N = 3. The PSF of two or three views differs from
+        // the ideal PSF, and the aliasing of both PSFs therefore differs as well.
         CHECK(std::fabs(step.aliasing - theory.aliasing) <
               (renderer == STARFOCUS_RENDERER_LINE_SCAN ? 2e-4 : 1e-4));
       }
@@ -271,8 +271,8 @@ TEST_CASE("constants: the widths of the lens in subapertures meet their criteria
     CHECK_MESSAGE(worst(lens, 11) > worst(LensInSubapertures(4), 11) / 2,
                   "123: a lens of " << lens << " / 32 has half its error");
   }
-  // One formula covers all other values of N. The errors of these lenses are far below the
-  // threshold of the rule.
+  // One formula covers all other values of N. The errors of lenses with the other values of N are
+  // far below the threshold of the rule.
   for (const double r_max : {11.0, 25.0, 34.0, 49.0}) {
     const int n = ViewsBySubaperture(r_max);
     CAPTURE(n);

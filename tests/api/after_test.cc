@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests starfocus_params.previous: the bytes must equal those of the frame refocused alone, and
+// Tests starfocus_params.previous: the bytes must equal the bytes of the frame refocused alone, and
 // unchanged blocks must be reused.
 #include <doctest/doctest.h>
 
@@ -168,7 +168,7 @@ TEST_CASE("after: boundaries between blocks of different layers are deblocked ne
 }
 
 TEST_CASE("after: a block that changes its layer changes the boundaries of its neighbours") {
-  // Blocks are never split. One pixel in focus, far from the others, keeps a block at layer 0.
+  // Blocks are never split. A single pixel in focus keeps a block at layer 0.
   test::Scene scene = test::LayeredScene(600, 600, 1, 6, 5);
   std::fill(scene.disparity.begin(), scene.disparity.end(), 6.0f);
   scene.Disparity(500, 5) = scene.Disparity(5, 500) = 0;

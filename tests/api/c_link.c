@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A C99 program that uses only starfocus.h and links the shared library. It refocuses a tiny
- * constant picture, which must not change. */
+/* A C99 program that uses only starfocus.h and links the shared library. The program refocuses a
+ * tiny constant picture, which must not change. */
 #include <starfocus/starfocus.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -13,7 +13,7 @@ static int Fail(const char* what, starfocus_status status) {
   return 1;
 }
 
-/* Returns the first address at or after `memory` with the alignment that the engine needs. */
+/* Returns the first address at or after `memory` with the alignment that the engine requires. */
 static void* Align(void* memory) {
   const uintptr_t address = (uintptr_t)memory;
   const uintptr_t beyond = address % STARFOCUS_ALIGNMENT;

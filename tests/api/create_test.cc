@@ -104,7 +104,7 @@ TEST_CASE("create: one allocation has the size of the workspace and is released 
   REQUIRE(starfocus_workspace_size(&f.config, &bytes) == STARFOCUS_OK);
   starfocus_engine* engine = nullptr;
   {
-    // The allocator is copied, so the structure need not stay valid.
+    // The allocator is copied, so the structure may become invalid.
     const starfocus_allocator allocator = counter.Allocator();
     REQUIRE(starfocus_create(&f.config, &allocator, &engine) == STARFOCUS_OK);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Streams and prepares images. The bytes must equal those of starfocus_refocus.
+// Streams and prepares images. The bytes must equal the bytes from starfocus_refocus.
 #include <doctest/doctest.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Refocuses images and depth maps of every format. The bytes must equal those of images that are
-// converted to R, G, B before refocusing.
+// Refocuses images and depth maps of every format. The result must be equal to the result of images
+// that are converted to R, G, B before refocusing.
 #include <doctest/doctest.h>
 
 #include <vector>

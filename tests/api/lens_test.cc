@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Changes the shape of the lens between calls of one engine. The bytes must equal those of an
+// Changes the shape of the lens between calls of one engine. The bytes must equal the bytes from an
 // engine that has used no other lens.
 #include <doctest/doctest.h>
 

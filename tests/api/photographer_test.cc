@@ -96,7 +96,7 @@ TEST_CASE("focus at: a single wrong pixel belongs to the surface of most pixels 
       Map spoilt = map;
       spoilt.At(x, 10) = wrong;
       // For x <= 4, most pixels within 3 pixels of the wrong pixel belong to the object. For x >=
-      // 7, most of them are behind the object.
+      // 7, most of these pixels are behind the object.
       CHECK(spoilt.Focus(x, 10) == (x < 6 ? 5 : 1));
       CHECK(spoilt.Focus(x, 9) == (x < 6 ? 5 : 1));  // next to it
     }

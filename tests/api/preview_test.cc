@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests previews. The bytes must equal those of refocusing the reduced light field. The preview
+// Tests previews. A preview must have the bytes of the refocused reduced light field. The preview
 // must also be close to the reduced full picture. Also tests bad input.
 #include <doctest/doctest.h>
 
@@ -327,7 +327,8 @@ TEST_CASE("preview: it needs a light field prepared for previews, and an engine 
   };
   CHECK(run(another) == STARFOCUS_ERROR_PREPARED);
   CHECK(out.Untouched());
-  // Only the light field must be prepared for previews; the engine may be configured without them.
+  // The light field must be prepared for previews, but the engine may be configured without
+  // previews.
   CHECK(run(none.engine) == STARFOCUS_OK);
 }
 

@@ -137,7 +137,7 @@ inline void CheckProblem(const starfocus_problem* problem, starfocus_status stat
   CHECK(!(problem->value >= problem->low && problem->value <= problem->high));
 }
 
-// Checks a call with an illegal argument for each of these functions.
+// Checks a call with an illegal argument, for each function of the set `functions`.
 template <class Spoil>
 void Check(Fixture* f, unsigned functions, const Spoil& spoil, starfocus_status status,
            const std::string& field) {

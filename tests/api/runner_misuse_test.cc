@@ -40,7 +40,7 @@ struct Misuse {
   void (*run)(const Set&);
 };
 
-// Runners that break the contract. All of them return success.
+// Runners that break the contract but return success.
 const Misuse kMisuses[] = {
     {"runs nothing", [](const Set&) {}},
     {"skips the first job", [](const Set& s) { s.Some(1, s.count); }},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compares openings of lenses with the same shapes in double precision, and checks the weights and
-// PSFs of all of them.
+// PSFs of all shapes.
 #include <doctest/doctest.h>
 
 #include <algorithm>

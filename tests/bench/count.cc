@@ -27,8 +27,8 @@ uint8_t Texture(int x, int y, int channel) {
   return uint8_t(96 + (mixed >> 26) + ((x + 2 * y) & 63));
 }
 
-// Returns the disparity in 1/64 pixel: a slanted wall, a disc in front of it, and a bar behind the
-// focus.
+// Returns the disparity in 1/64 pixel: a slanted wall, a disc in front of the wall, and a bar
+// behind the focus.
 int Disparity64(int x, int y) {
   const int dx = x - 90, dy = y - 100;
   if (dx * dx + dy * dy < 50 * 50) return 64 * 6;

@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # usage: count.sh BUILD-FOLDER check|record Counts the instructions per pixel of starfocus_refocus with callgrind, and
-# compares them with baseline.txt or writes that file. Every run has the same counts, so counts reveal slowdowns that
-# are too small for a clock.
+# compares the counts with baseline.txt or writes baseline.txt. Every run has the same counts, so counts reveal
+# slowdowns that are too small for a clock.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 baseline=$here/baseline.txt
@@ -86,7 +86,7 @@ fi
 
 recorded=$(sed -n 's/^compiler //p' "$baseline")
 worse=0
-# The last word of a line is the count. The words before it are the name of the case.
+# The last word of a line is the count. The words before the count are the name of the case.
 while read -r line; do
   mode=${line% *} now=${line##* }
   before=$(sed -n "s/^$mode \([0-9.]*\)\$/\1/p" "$baseline")

@@ -39,7 +39,8 @@ struct Ignore {
   }
 };
 
-// Returns the disparity of slanted surfaces with depth edges between them, with +-4 pixels of blur.
+// Returns the disparity of slanted surfaces that are separated by depth edges. Blur is within +-4
+// pixels.
 int16_t DisparityAt(int x) { return int16_t((x / kSurface * 5 % 9 - 4) * 64 + x % kSurface * 2); }
 
 // Scans one line for all views on the horizontal axis, including the search for runs. Counts the

@@ -9,7 +9,7 @@
 
 namespace starfocus::bench {
 
-// Returns the processor time of this process in seconds. Other processes do not affect it, except
+// Returns the processor time of this process in seconds. Other processes affect this time only
 // through shared caches and memory.
 inline double CpuSeconds() {
   timespec now = {};

@@ -34,7 +34,7 @@ struct TimedEngine {
 // Returns the starfocus_mode with this name, or -1.
 int ModeOf(const std::string& name);
 
-// Creates an engine for a task, focus and aperture. Returns a one-line error if this fails.
+// Creates an engine for a task, focus and aperture. Returns a one-line error on failure.
 Error Prepare(const Field& field, const Task& task, double focus, double aperture,
               TimedEngine* timed);
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A plugin of QEMU's user emulators. It counts the executed instructions of all functions, or only
- * of those whose symbol contains one of the given texts. Unlike a measured time, the count does not
- * depend on the load of the machine.
+/* A plugin of QEMU's user emulators. The plugin counts the executed instructions of all functions,
+ * or only of functions whose symbol contains one of the given texts. Unlike a measured time, the
+ * count does not depend on the load of the machine.
  *
  *   qemu-aarch64 -plugin count_instructions.so,sym=TEXT,sym=TEXT -d plugin PROGRAM
  *

@@ -10,8 +10,8 @@
 
 namespace starfocus {
 
-// Writes the folders `truth`, a portrait with the coverage of its hair, and `closed`, the same
-// portrait without coverage.
+// Writes two folders with a portrait: `truth` has the coverage of the hair, and `closed` has no
+// coverage.
 inline void PrepareHair(const TempFolder& folder) {
   const test::ClosedHair portrait = test::MakeClosedHair();
   LightField field;

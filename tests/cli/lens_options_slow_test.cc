@@ -140,8 +140,8 @@ TEST_CASE("cli: by default, the nearest large surface near the centre is in focu
   TempFolder folder;
   Succeed(folder, "scene lf --size 160x120 --views 1");
   FloatMap map = ValueOf(ReadPfm(folder.file("lf/disparity.pfm")));
-  // Disparities: a wall at 1, a subject at 6 to the right of the centre, a wire at 9, and an object
-  // at 20 in a corner.
+  // The scene has a wall at disparity 1, a subject at 6 to the right of the centre, a wire at 9,
+  // and an object at 20 in a corner.
   for (int y = 0; y < map.height; ++y) {
     for (int x = 0; x < map.width; ++x) {
       float& value = map.values[size_t(y) * size_t(map.width) + size_t(x)];

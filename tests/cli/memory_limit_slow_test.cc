@@ -42,7 +42,7 @@ int FindStart(const TempFolder& folder, const std::string& little) {
   return high;
 }
 
-// Tries limits from `start` to `range` KiB above it. `output` is the file or folder that the
+// Tries limits from `start` to `start` + `range` KiB. `output` is the file or folder that the
 // command writes. `right` returns true if the output equals the output of a run with enough memory.
 template <class Right>
 void CheckLimits(const TempFolder& folder, int start, const std::string& arguments, int range,

@@ -52,9 +52,8 @@ inline void CheckRefusals(const TempFolder& folder, const std::string& name) {
   CHECK(rows > 50);
 }
 
-// Writes several inputs: `lf`, a 40x30 light field with 5 views; `bare`, a copy without map;
-// `link`, a link to `lf`; and `grid`, a copy with other names of views. Also writes malformed
-// files.
+// Writes `lf`, a 40x30 light field with 5 views, and `bare`, a copy without map. Also writes
+// `link`, a link to `lf`, `grid`, a copy with other names of views, and malformed files.
 inline void Prepare(const TempFolder& folder) {
   namespace fs = std::filesystem;
   Succeed(folder, "scene lf --size 40x30 --views 5 --name wires");

@@ -16,7 +16,7 @@
 namespace starfocus::scene_slow_test {
 namespace {
 
-// An emulator would need twenty times as long.
+// An emulator would take twenty times as long.
 constexpr int kWidth = 256, kHeight = kWidth * 3 / 4;
 const char* const kNames[] = {"portrait", "wires", "ramp", "hair", "grass"};
 const char* const kStrandNames[] = {"hair", "grass"};
@@ -268,7 +268,7 @@ TEST_CASE("noise: values are in range, continuous and not constant") {
 }
 
 TEST_CASE("strands: rays meet the nearest strand at the place given by algebra") {
-  // A strand along x, 2 units thick, and a strand along y in front of it.
+  // A strand along x, 2 units thick, and a nearer strand along y.
   const Strands strands(
       {{{-50, 0}, {0, 0}, {50, 0}, 1, 1, 3}, {{0, -50}, {0, 0}, {0, 50}, 0.5, 0.5, 5}});
   StrandHit hit;

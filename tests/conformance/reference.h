@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reference implementation of the method: whole pictures in double precision, written for
-// readability. The conformance tests compare the engine with it. Visibility is decided on the
-// engine's grid: disparity and focus in 1/64, shifts in 1/256 of a pixel. Colours are unrounded
-// doubles.
+// readability. The conformance tests compare the engine with this reference. Visibility is decided
+// on the engine's grid: disparity and focus in 1/64, shifts in 1/256 of a pixel. Colours are
+// unrounded doubles.
 #ifndef STARFOCUS_TESTS_CONFORMANCE_REFERENCE_H_
 #define STARFOCUS_TESTS_CONFORMANCE_REFERENCE_H_
 

@@ -103,8 +103,9 @@ class Parter {
     }
   }
 
-  // Marks tiles with mixed pixels. With given coverage, these are tiles in which the coverage of a
-  // pixel differs from that of the map. Otherwise they are tiles with a large mean of mixtures.
+  // Marks tiles with mixed pixels. With given coverage, a tile is marked if the coverage of a pixel
+  // differs from the coverage by the map. Without given coverage, a tile is marked if the mean of
+  // mixtures is large.
   void MarkMixed() {
     std::map<std::pair<int, int>, double> mixture;
     ForEach([&](int x, int y) {
@@ -168,7 +169,7 @@ class Parter {
     return weights >= 1 / 8.0;
   }
 
-  // Returns the coverage of a mixed pixel, or `guess` if the colours do not determine it.
+  // Returns the coverage of a mixed pixel, or `guess` if the colours do not determine the coverage.
   static double AlphaOf(const Colour& near, const Colour& far, const Colour& mixed, double guess) {
     const Colour whole = Less(near, far), part = Less(mixed, far);
     const double contrast = Dot(whole, whole), along = Dot(whole, part);
@@ -180,7 +181,7 @@ class Parter {
   }
 
   void FirstPass() {
-    // The weight of a pixel near an edge increases with the coverage in the 3x3 pixels around it.
+    // The weight of a pixel near an edge increases with the coverage in its 3x3 neighbourhood.
     const auto shown = [&](int x, int y) {
       double count = 0;
       for (int dy = -1; dy <= 1; ++dy) {

@@ -159,8 +159,8 @@ void Unmix(const LightField& field, const Lens& lens, const Rectangle& rect, Pic
   }
 }
 
-// Reads with linear interpolation at layer 0. At layers 1 and 2, filters around the picture's pixel
-// nearest to (x, y), with weights 1 2 1 or 1 2 3 4 3 2 1 along either axis.
+// Reads with linear interpolation at layer 0. At layers 1 and 2, filters the pixels around the
+// picture's pixel nearest to (x, y). The weights are 1 2 1 or 1 2 3 4 3 2 1 along either axis.
 Colour Read(const LightField& field, int layer, const Position& view, double x, double y) {
   if (layer == 0) return ReadPicture(field, view, x, y);
   const auto nearest = [&](double at) { return int(Rounded(std::lround(at * 256), 8 - layer)); };

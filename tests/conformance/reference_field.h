@@ -27,9 +27,9 @@ constexpr Direction kDirections[] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
 Picture ExtendedRectangle(const Picture& layer, const Rectangle& rect);
 
 // Continues the surface at the edge of `picture` (at layer 0) beyond the picture, with colours from
-// the captured view on that side. The colours extend as far as the surface moves per unit of u.
-// They end earlier if one of the 32 pixels inside the edge is nearer and covers the surface in the
-// captured view.
+// the captured view on that side. The colours extend as far as the surface moves per unit of u. The
+// colours end earlier if one of the 32 pixels inside the edge is nearer and covers the surface in
+// the captured view.
 void ExtendEdges(const LightField& field, const Picture& picture, int layer, const Rectangle& rect,
                  Picture* extended);
 

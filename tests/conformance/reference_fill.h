@@ -7,9 +7,9 @@
 
 namespace reference {
 
-// If the farthest surface of a pixel repeats another pixel, its colour is replaced by the far
-// colour of the other pixel. Then smooths the replaced colours with each other and with known
-// colours: see lib/slices/hidden_fill.h. `unit` is a pixel of disparity in 1/64.
+// If the farthest surface of a pixel repeats another pixel, the surface gets the far colour of the
+// other pixel. Then smooths the replaced colours with each other and with known colours: see
+// lib/slices/hidden_fill.h. `unit` is a pixel of disparity in 1/64.
 void InpaintHidden(int unit, SurfaceMap* map);
 
 }  // namespace reference

@@ -86,9 +86,9 @@ struct Lens {
     // Openings with sharp edges are sampled as in the engine.
     if (opening.shape != STARFOCUS_SHAPE_FALL_OFF)
       return passing * opening.Mean(i, j, Radius(), 16);
-    // Uses as many points as for other shapes. For each of the four views on the rim of N = 4, the
-    // exact integral is 5.5 % larger, which is 0.02 % of all light. For lamps ten times as bright
-    // as white, the difference is three codes in dark parts.
+    // Uses as many points as for other shapes. The exact integral is 5.5 % larger for each of the
+    // four views on the rim of N = 4. This is 0.02 % of all light. For lamps ten times as bright as
+    // white, the difference is three codes in dark parts.
     if (subapertures > 0) return passing * opening.Mean(i, j, subapertures, 16);
     return passing * ApertureDensity(double(i) / n, double(j) / n, opening.cot2);
   }
@@ -106,8 +106,8 @@ struct Lens {
 
 // Source of a rendered pixel. Outside holes, the rendered pixel shows line pixel `source`. In a
 // hole, the surface of line pixel `source` continues behind a nearer surface. A share of the
-// rendered pixel shows line pixel `other`: a neighbour on the same surface, or the surface on the
-// other side of a depth edge.
+// rendered pixel shows line pixel `other`. This pixel is a neighbour on the same surface, or is on
+// the other side of a depth edge.
 struct Owner {
   bool hole = true;
   int source = 0;
@@ -197,8 +197,8 @@ class LineScan {
   }
 
   // Softens the lower end of a surface, whose last pixel is `end`, where a farther surface
-  // continues. If the end lies between rendered pixels, the nearer surface covers only a part of
-  // its last pixel, or additionally covers a part of the pixel below.
+  // continues. If the end lies between rendered pixels, the nearer surface either covers only a
+  // part of its last pixel, or also a part of the pixel below.
   void SoftenEnd(const LineRun& nearer, const LineRun& farther, int end) {
     const int q = nearer.begin;
     if (q == 0 || OneSurface(q - 1, q)) return;

@@ -68,8 +68,9 @@ class SurfaceFinder {
     return surfaces;
   }
 
-  // Splits a pixel on the far side of a depth edge into the near and the far surface, if some view
-  // moves both surfaces against each other. The result is the mean over the adjacent edges.
+  // Splits a pixel on the far side of a depth edge into the near and the far surface. The pixel is
+  // split only if some view moves both surfaces against each other. The result is the mean over the
+  // adjacent edges.
   void Part(int x, int y, std::vector<Surface>* surfaces) const {
     const bool outermost =
         x == 0 || y == 0 || x == extended_.width - 1 || y == extended_.height - 1;
@@ -200,9 +201,9 @@ class SurfaceFinder {
   }
 
   // Returns the distance to the far side of the nearest depth edge in that direction, or 0 if the
-  // pixel does not hide this side. A step does not count as an edge under two conditions: the step
-  // is at most an eighth of the depth that the previous edge hides, and the near side of the step
-  // hides the far side of the previous edge.
+  // pixel does not hide this side. A step does not count as an edge if two conditions hold. The
+  // step must be at most an eighth of the depth that the previous edge hides. The near side of the
+  // step must hide the far side of the previous edge.
   int NextEdge(int x, int y, const Direction& towards) const {
     int k = 0;
     while (extended_.Inside(x + (k + 1) * towards.x, y + (k + 1) * towards.y)) ++k;

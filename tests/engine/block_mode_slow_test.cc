@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests STARFOCUS_MODE_BLOCK through the public ABI. Streamed rows must have the bytes of whole
-// pictures, constant pictures must not change, and blocks in focus must be copied. The result must
-// be close to that of the benchmark.
+// pictures, constant pictures must not change, and blocks in focus must be copied. Pictures of
+// block mode must be close to pictures of the benchmark mode.
 #include <doctest/doctest.h>
 
 #include <algorithm>

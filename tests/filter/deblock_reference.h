@@ -42,9 +42,9 @@ inline bool Artificial(const uint8_t* a, const uint8_t* b, int beta) {
   return all;
 }
 
-// Filters a line of pixels p0, q0, q1, q2, q3, which starts with p0 at (x, y) and runs in direction
-// (dx, dy) within the picture. Interpolates linearly between p0 and q3 if p0 is at layer 2 and the
-// strong condition holds, otherwise between p0 and q1.
+// Filters a line of pixels p0, q0, q1, q2, q3. The line starts with p0 at (x, y) and runs in
+// direction (dx, dy) within the picture. Interpolates linearly between p0 and q3 if p0 is at layer
+// 2 and the strong condition holds, otherwise between p0 and q1.
 inline void FilterLine(LayeredPicture* picture, int x, int y, int dx, int dy, int beta,
                        int transfer) {
   const auto inside = [&](int k) {

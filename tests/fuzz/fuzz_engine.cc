@@ -123,7 +123,7 @@ void SetParams(const starfocus_config& config, Input* input, starfocus_params* g
 void SetProgress(starfocus_engine* engine, Input* input) {
   starfocus_callbacks callbacks = {};
   if (input->Rarely()) {
-    static int32_t left;  // number of calls of progress before the one that cancels
+    static int32_t left;  // number of calls of progress before the cancellation
     left = input->Int(0, 100);
     callbacks.progress = [](void* data, int32_t, int32_t) -> int {
       return (*static_cast<int32_t*>(data))-- == 0;

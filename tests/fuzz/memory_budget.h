@@ -45,8 +45,8 @@ inline int64_t PixelsOfHeaders(const uint8_t* data, size_t size) {
   return pixels;
 }
 
-// Returns the number of pixels of the canvas of a WebP file, or of the picture if there is no
-// canvas (RFC 9649, 2.5 to 2.7).
+// Returns the number of pixels of a WebP file (RFC 9649, 2.5 to 2.7). If the file has a canvas,
+// these are the pixels of the canvas.
 inline int64_t PixelsOfWebp(const uint8_t* data, size_t size) {
   if (size < 30) return 0;
   if (std::memcmp(data + 12, "VP8X", 4) == 0) {

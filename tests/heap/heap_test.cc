@@ -270,7 +270,7 @@ TEST_CASE("preparing, regions and refocusing prepared light fields make no heap 
   test::Engine holder(config), memory(config);
   size_t bytes = 0;
   REQUIRE(starfocus_prepared_size(&config, &bytes) == STARFOCUS_OK);
-  REQUIRE(bytes <= memory.bytes());  // the prepared light field uses the memory of an engine
+  REQUIRE(bytes <= memory.bytes());  // the memory of this engine holds the prepared light field
   starfocus_params params = test::Params(0, 1, STARFOCUS_MODE_BLOCK);
   params.region = {30, 20, 50, 50};
   const starfocus_light_field field = scene.Field();

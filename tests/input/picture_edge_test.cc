@@ -147,7 +147,8 @@ struct Row {
     }
   }
 
-  // Returns the red samples from kBorder pixels left of the picture to kBorder pixels right of it.
+  // Returns the red samples of a row, including kBorder pixels on the left and kBorder pixels on
+  // the right of the picture.
   std::vector<int> Load() {
     const int width = kWidth + 2 * kBorder;
     std::vector<int16_t> rgb(starfocus::RgbStride(width) * kHeight);

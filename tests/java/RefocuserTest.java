@@ -24,7 +24,10 @@ public final class RefocuserTest {
     System.err.println("failed: " + what);
   }
 
-  /** Checks that the call throws this exception, with a message that contains `part`. */
+  /**
+     Checks that the call throws an exception of the given class, with a message that contains
+     `part`.
+   */
   private static void checkThrows(Class<?> kind, String part, Call call) {
     try {
       call.run();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the line scan on hand-made lines: the source of each pixel of the view, and the ends of
-// near surfaces, which lie between rendered pixels.
+// Tests the line scan on hand-made lines. Checks the source of each pixel of the view, and the ends
+// of near surfaces, which lie between rendered pixels.
 #include <doctest/doctest.h>
 
 #include <climits>

@@ -17,7 +17,7 @@ using namespace starfocus;
 constexpr int kSize = 24;
 constexpr int kEdge = 12;  // the first near column
 
-// Gray levels of the far surface, the near surface and the mixed pixel between them.
+// Gray levels of the far surface, the near surface, and the mixed pixel between both surfaces.
 struct Greys {
   int far, near, mixed;
 };

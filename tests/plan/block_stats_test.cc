@@ -59,8 +59,8 @@ struct Map {
   }
   // Returns the blur radius (2) in pixels.
   double Radius(int x, int y) const { return radius[Index(x, y)]; }
-  // Returns the radius of the nearer of two neighbours if there is a depth edge between them, or
-  // -1. The second pixel is below the first, or to its right.
+  // Returns the radius of the nearer of two neighbouring pixels, or -1 if there is no depth edge
+  // between the two. The second pixel is below or to the right of the first pixel.
   double EdgeRadius(int x, int y, bool below) const {
     if (below) return y < 0 || y >= height ? -1 : lower_edge[Index(x, y)];
     return x < 0 || x >= width ? -1 : right_edge[Index(x, y)];
@@ -408,8 +408,8 @@ TEST_CASE("cells: a silhouette also counts for the cell behind it") {
     }
     map.Measure();
     const Cells cells(map, 0, 96, 4);
-    // The block at 48 is reached from 8 pixels away, the block at 32 contains the edge, and the
-    // block at 16 is reached from 9 pixels away.
+    // The block at 32 contains the edge. The surface reaches the block at 48 from 8 pixels away,
+    // and the block at 16 from 9 pixels away.
     for (const int column : {6, 4, 2}) {
       const BlockStats stats = transposed ? test::MeasureBlock(cells.grid, map.scale, 4, column, 4)
                                           : test::MeasureBlock(cells.grid, map.scale, column, 4, 4);

@@ -135,8 +135,8 @@ TEST_CASE("encoder: with randomly lost edges, the count stays close and becomes 
 
 constexpr int64_t kMs = 1000000;
 
-// An edge of a button: the time in ms, the state of the button after the edge, and true if the edge
-// counts as a press.
+// An edge of a button: the time in ms, and the state of the button after the edge. `counts` is true
+// if the edge counts as a press.
 struct ButtonEdge {
   int ms;
   bool pressed, counts;

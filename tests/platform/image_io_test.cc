@@ -305,7 +305,8 @@ TEST_CASE("image_io: JPEG of every kind that libjpeg-turbo reads has the right c
                            "cmyk_adobe.jpg", "ycck.jpg"}) {
     CAPTURE(name);
     Image image = ValueOf(ReadBytes(Seed(name)));
-    // The black channel, if present, is 200 everywhere. Adobe stores it inverted: 255 is no ink.
+    // The black channel, if present, is 200 everywhere. Adobe stores inverted values: 255 is no
+    // ink.
     const bool black = name[0] == 'c' || name[0] == 'y';
     CHECK(DifferenceFromSeed(image, black ? 200 / 255.0 : 1) <= 6);
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the pool of starfocus/pool.h through its public interface. runner_test tests how its
-// threads sleep and wake.
+// Tests the pool of starfocus/pool.h through its public interface. runner_test tests how the
+// threads of a pool sleep and wake.
 #include "starfocus/pool.h"
 
 #include <doctest/doctest.h>

@@ -105,7 +105,7 @@ TEST_CASE("profiles: only complete RGB profiles are passed on") {
     CHECK_FALSE(IsRgbProfile(icc));
   }
   CHECK_FALSE(IsRgbProfile(changed(36, 'x')));
-  // The 6 tags need 132 + 6 * 12 bytes, more than the profile has.
+  // The 6 tags require 132 + 6 * 12 bytes, which is more than the profile has.
   CHECK_FALSE(IsRgbProfile(changed(131, 6)));
   Bytes tagged = changed(131, 1);
   std::fill(tagged.begin() + 132, tagged.end(), uint8_t{0});

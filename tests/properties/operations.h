@@ -108,8 +108,8 @@ inline void CheckSetups(const Operation& operation, const std::vector<Setup>& se
   }
 }
 
-// Runner that runs only half of the jobs of one set. It reports every second failure, since the
-// engine must also detect unreported missing jobs.
+// Runner that runs only half of the jobs of one set. The runner reports only every second failure,
+// since the engine must also detect missing jobs without a report.
 struct FailingRunner {
   int fails_at, sets = 0;
 

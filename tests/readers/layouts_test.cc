@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads folders of views in the layouts of published data sets. Tests which views are selected,
-// their positions, and the disparity map.
+// Reads folders of views in the layouts of published data sets. Tests the selection of views, the
+// positions of views, and the disparity map.
 #include <doctest/doctest.h>
 
 #include <algorithm>

@@ -20,15 +20,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A folder may include its own headers and those of earlier folders in this list. lib/analysis is
+// A folder may include its own headers and headers of earlier folders in this list. lib/analysis is
 // the last folder, because lib/analysis measures the engine.
 const std::vector<std::string> kRooms = {
     "simd",       "lib/base",   "lib/convert", "lib/input",     "lib/coverage",
     "lib/plan",   "lib/filter", "lib/slices",  "lib/line_scan", "lib/engine",
     "lib/source", "lib/depth",  "lib/api",     "lib/analysis"};
 
-// Folders outside the engine, each with the folders whose headers it may include. These folders use
-// the engine only through its public headers.
+// Folders outside the engine, each with the folders whose headers it may include. The outside
+// folders may include only public headers of the engine.
 const std::map<std::string, std::set<std::string>> kOutside = {
     {"platform", {"platform"}},
 };

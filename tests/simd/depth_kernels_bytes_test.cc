@@ -59,7 +59,7 @@ TEST_CASE("depth kernels: costs of labels have values computed by hand") {
   costs.one_side = false;
   ReferenceDepthKernels().CostLabels(costs, 1, 16, cost);
   CHECK(int(cost[1]) == 7 + 7 + 60 + 60);
-  // The first view does not see the second label, so the opposite view replaces it.
+  // The first view does not see the second label, so the opposite view replaces the first view.
   uint8_t hidden[] = {1, 2};
   costs.hidden = hidden;
   ReferenceDepthKernels().CostLabels(costs, 1, 16, cost);
@@ -181,8 +181,8 @@ TEST_CASE("depth kernels: a path continues from the previous pixel at the expect
   int16_t path[kPlaces], least = 0, sum[kPlaces] = {10, 20, 30, 40};
   const PathRow row = {cost, before + 1, &before_least, &jump, path, &least, sum, true};
   ReferenceDepthKernels().AddPaths(row, kLabels, 1, 1);
-  // Label 0 continues at no cost, label 1 at the cost 24 of a slope, label 3 at cost 26, and label
-  // 2 at cost 26 + 24.
+  // Label 0 continues at no cost, and label 1 at the cost 24 of a slope. Label 3 continues at cost
+  // 26, and label 2 at cost 26 + 24.
   CheckValues("path", path, {1, 2 + 24, 3 + 50, 4 + 26, kNoLabel});
   CHECK(sum[3] == 70);
   CHECK(least == 1);

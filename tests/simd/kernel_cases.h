@@ -40,7 +40,7 @@ inline constexpr CaseOf<Call> kAll[] = {STARFOCUS_IMAGE_KERNELS(STARFOCUS_LIST_C
 #undef STARFOCUS_DECLARE_CASE
 #undef STARFOCUS_LIST_CASE
 
-// Number of samples in a benchmark call, unless the case overrides it.
+// Number of samples in a benchmark call, unless a case uses another number.
 inline constexpr int kTimedSamples = 3 * 1024;
 
 // Upper limits of lengths: more than two of the widest vectors, so that all remainders occur.

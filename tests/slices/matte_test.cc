@@ -135,8 +135,8 @@ TEST_CASE("matte: the end of a slope covers a quarter where its slices overlap, 
   }
 }
 
-// Makes a disc of one colour in front of a wall of another one, with mixed pixels around it in
-// every view.
+// Makes a disc of one colour in front of a wall of another colour. Every view has mixed pixels
+// around the disc.
 test::Scene Disc(int views, double near, double far, int bright, int dark) {
   constexpr int kSide = 160, kParts = 4;
   test::Scene scene = test::EmptyScene(kSide, kSide, views, float(far), float(near));

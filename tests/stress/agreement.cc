@@ -13,9 +13,9 @@
 namespace starfocus::stress {
 namespace {
 
-// The following limits are the largest changes of a pixel of a flat scene, in 255ths of white, if
-// the focus or the aperture changes by a small step. kSmoothJump applies if neither the layer nor N
-// by (9) changes. The weights of the views then change gradually.
+// The following limits apply if the focus or the aperture of a flat scene changes by a small step.
+// Each limit is the largest change of a pixel, in 255ths of white. The limit kSmoothJump applies if
+// neither the layer nor N by (9) changes. The weights of the views then change gradually.
 constexpr int kSmoothJump = 12;
 // Limit if N by (9) or N of the benchmark changes. At r = 1, five views become thirteen, and the
 // two PSFs differ by 1e-2 (Fig. 6 below N = 4). The difference is larger if theta puts all weight

@@ -37,8 +37,7 @@ struct Bounds {
 double RandomRadius(double largest, test::Random* random);
 
 void SetDepth(Depth depth, test::Scene* scene, test::Random* random);
-// Makes strands in front of a farther surface, as each view sees them. Some scenes include
-// coverage.
+// Makes strands in front of a farther surface, in all views. Some scenes include coverage.
 void SetStrands(test::Scene* scene, test::Random* random);
 void SetColours(Colours colours, test::Scene* scene, test::Random* random);
 

@@ -14,8 +14,8 @@
 
 namespace test {
 
-// Properties of an image except its size. If the chroma samples of YUV_420_888 are 2 bytes apart,
-// the layout is 0 (U first), 1 (V first), or 2 (separate memory for U and V).
+// Properties of an image except its size. `layout` applies to YUV_420_888 with chroma samples 2
+// bytes apart: 0 (U first), 1 (V first), or 2 (separate memory for U and V).
 struct ImageKind {
   int format = STARFOCUS_FORMAT_RGB, matrix = 0, range = 0, pixel_stride = 0, padding = 0,
       layout = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Access to the internals of an engine. This is the only header of the tests that includes
-// lib/engine, so that a change of lib/engine affects one test file.
+// Access to the internals of an engine. No other header of the tests includes lib/engine, so a
+// change of lib/engine affects a single header.
 #ifndef STARFOCUS_TESTS_SUPPORT_INSIDE_H_
 #define STARFOCUS_TESTS_SUPPORT_INSIDE_H_
 

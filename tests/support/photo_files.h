@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes depth photos byte by byte as their public specifications define them. Used by tests and
-// for the seeds of fuzz targets.
+// Writes depth photos byte by byte, as defined in the public specifications of the formats. Used by
+// tests and for the seeds of fuzz targets.
 #ifndef STARFOCUS_TESTS_SUPPORT_PHOTO_FILES_H_
 #define STARFOCUS_TESTS_SUPPORT_PHOTO_FILES_H_
 

@@ -3,7 +3,7 @@
 
 const mask = 0xFFFFFFFFFFFFFFFFn;
 
-/** Random numbers by xorshift64*, the same as those of test::Random. */
+/** Random numbers by xorshift64*, with the same sequence as test::Random. */
 class Random {
   constructor(seed) {
     this.state = (BigInt(seed) * 0x9E3779B97F4A7C15n + 0x1234567n) & mask;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parts of the NDK's header of the same name that locked_hardware_buffer.cc uses, according to
-// its documentation. No Debian package has this header.
+// The parts of the NDK's header android/hardware_buffer.h that locked_hardware_buffer.cc uses,
+// according to the NDK's documentation. No Debian package has this header.
 #ifndef STARFOCUS_TESTS_JAVA_HARDWARE_BUFFER_H_
 #define STARFOCUS_TESTS_JAVA_HARDWARE_BUFFER_H_
 

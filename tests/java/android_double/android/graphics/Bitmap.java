@@ -3,7 +3,7 @@ package android.graphics;
 
 import java.nio.ByteBuffer;
 
-/** The parts of Android's Bitmap that its native functions use in the tests. */
+/** The parts of Android's Bitmap that the native functions for bitmaps use in the tests. */
 public final class Bitmap {
   public final int width, height, stride, format;
   public final ByteBuffer pixels;

@@ -3,7 +3,10 @@ package android.hardware;
 
 import java.nio.ByteBuffer;
 
-/** The parts of Android's HardwareBuffer that its native functions use in the tests. */
+/**
+   The parts of Android's HardwareBuffer that the native functions for hardware buffers use in the
+   tests.
+ */
 public final class HardwareBuffer {
   public final int width, height, format, rowStride, pixelStride;
   /** Chroma, if present, follows luma. U and V are two bytes apart, in rows of the same stride. */
