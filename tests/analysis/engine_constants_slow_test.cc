@@ -185,7 +185,7 @@ void CheckEngine(starfocus_renderer renderer, int layer, int least, int most) {
       CHECK(Explain(step).find("unexplained") == std::string::npos);
       if (layer > 0) {
         const LayerTheory theory = MakeLayerTheory(r < 0 ? -r : r, layer);
-        // For small radii, (9) selects N = 2 or N = 3. The PSF of two or three views differs from
+        // For small radii, (9) selects N = 2 or N = 3. With N = 2 or N = 3, the PSF differs from
         // the ideal PSF, and the aliasing of both PSFs therefore differs as well.
         CHECK(std::fabs(step.aliasing - theory.aliasing) <
               (renderer == STARFOCUS_RENDERER_LINE_SCAN ? 2e-4 : 1e-4));
@@ -238,8 +238,8 @@ double WorstOfThree(int lens, double first) {
 }
 
 TEST_CASE("constants: the width of the lens with N = 3 is the best one") {
-  // Up to a radius of half a pixel, the centre view alone is used. kFirst is the next radius. From
-  // kWider on, the PSFs are wider.
+  // Up to a radius of half a pixel, the centre view alone is used. kFirst is the next radius.
+  // Lenses are compared at radii from kWider on.
   constexpr double kFirst = 0.5 + 1.0 / 64, kWider = 0.625;
   const int own = LensInSubapertures(3);
   CHECK(WorstOfThree(own, kFirst) < kThreshold);

@@ -19,7 +19,7 @@ namespace {
 struct Counter {
   int allocations = 0, releases = 0, wrong = 0;
   bool empty = false;
-  size_t offset = 0;  // from an aligned address
+  size_t offset = 0;  // distance of the returned memory from an aligned address, bytes
   std::vector<uint8_t> memory;
   void* given = nullptr;
   size_t bytes = 0;

@@ -101,7 +101,7 @@ TEST_CASE("views: a mirrored scene with the view on the other side gives the mir
   };
   const double other_side = mean();
   mirrored.positions[1].u = -0.7;
-  CHECK(mean() < 0.5);  // slices of noise may differ
+  CHECK(mean() < 0.5);  // with noise, the slices may differ
   CHECK(other_side > 1);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Random light fields and lenses of all kinds, each identified by its seed. The tests compare the
-// engine with the double-precision reference on them.
+// engine with the double-precision reference on these trials.
 #ifndef STARFOCUS_TESTS_CONFORMANCE_TRIAL_H_
 #define STARFOCUS_TESTS_CONFORMANCE_TRIAL_H_
 

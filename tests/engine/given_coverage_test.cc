@@ -66,7 +66,7 @@ starfocus_params ThroughDisc(double focus) {
   return params;
 }
 
-// Returns the PSNR in dB of a picture that is focused on the wall. The comb in front of it is
+// Returns the PSNR in dB of a picture that is focused on the wall. The comb in front of the wall is
 // blurred.
 double PsnrOf(const test::Output& out) {
   constexpr int kBlur = int(kNear - kFar);

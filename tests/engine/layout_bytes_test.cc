@@ -61,7 +61,7 @@ TEST_CASE("layout: sizes beyond the address space are reported as too large") {
   CHECK(bytes((kMost - kExtra) / 4, 1) <= kMost);
   CHECK(bytes(1, (kMost - kExtra) / 4) <= kMost);
   CHECK(bytes((kMost - kExtra) / 4 + 1, 1) == kTooLarge);
-  // Products that overflow to small numbers.
+  // Checks products that overflow to small numbers.
   CHECK(bytes(SIZE_MAX / 4 + 1, 1) == kTooLarge);
   CHECK(bytes(SIZE_MAX / 8 + 2, 2) == kTooLarge);
   CHECK(bytes(SIZE_MAX, SIZE_MAX) == kTooLarge);
@@ -96,7 +96,7 @@ TEST_CASE("layout: workspaces of boards do not grow" * doctest::skip(starfocus::
       // Full HD, whole pictures, blocks of 64, blurs of 32.
       {test::BoardConfig(1920, 1080, 17, 64, 32, 0), 3049},
       {test::BoardConfig(1920, 1080, 1, 64, 32, 0), 3049},
-      // Without layers 1 and 2.
+      // The last board has no layers 1 and 2.
       {[] {
          starfocus_config config = test::BoardConfig(640, 480, 1, 32, 8, 1);
          config.tuning.max_layer = 0;

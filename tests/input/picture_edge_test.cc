@@ -212,11 +212,12 @@ TEST_CASE("beyond: a pair sees beyond one edge, as far as its second view moves"
 TEST_CASE("beyond: pixels under or behind a nearer surface are not used") {
   Row scene(5);
   scene.Fill(0, kWidth, -6);
-  scene.Fill(4, 7, 1);  // 7 nearer: in view (1, 0) it covers pixels 1 to 3 beyond the edge
+  // Nearer by 7: in view (1, 0), this surface covers pixels 1 to 3 beyond the edge.
+  scene.Fill(4, 7, 1);
   std::vector<int> row = scene.Load();
   for (int k = 0; k <= kBorder; ++k) CHECK(row[size_t(kBorder - k)] == 0);
   scene.Fill(3, 7, -6);
-  scene.Fill(2, 4, 1);  // covers pixels 4 and 5
+  scene.Fill(2, 4, 1);  // this surface covers pixels 4 and 5 beyond the edge
   row = scene.Load();
   CHECK(row[kBorder] == 0);
   for (int k = 1; k <= kBorder; ++k) CHECK(row[size_t(kBorder - k)] == 101);

@@ -58,7 +58,7 @@ page_alignment() {
     fail "$1 is not aligned to pages of 16 KiB: $(readelf -lW "$1" | grep LOAD)"
 }
 
-# Uses android/bitmap.h from Debian. The folder android_double replaces headers that Debian does not have.
+# The build uses android/bitmap.h from Debian. The folder android_double replaces headers that Debian does not have.
 android_routes() {
   headers=$(find /usr/include/android -name bitmap.h 2>/dev/null | head -n 1)
   [ -n "$headers" ] || { echo "SKIPPED: Android's routes, for which there is no android/bitmap.h"; return; }

@@ -27,8 +27,8 @@ TEST_CASE("surfaces: captured views show the background behind a near square") {
     scene.Fill(12, 28, 12, 28, 5, 90);
     scene.Find();
     CAPTURE(views);
-    // A view at distance 1 sees the far surface up to four pixels behind the edge, and one more
-    // pixel is found.
+    // A view at distance 1 sees the far surface up to four pixels behind the edge. The engine finds
+    // one more pixel.
     for (int x = 12; x < 28; ++x) {
       const int distance = std::min(x - 11, 28 - x);
       CHECK(scene.Behind(x, 20) == (distance <= 5 ? 1 : -1000));

@@ -18,9 +18,10 @@ constexpr double kMostEnergy = 0.05;
 // per pixel at layer 0, and a few times more at other layers.
 constexpr int kMostInversion = 2;
 // Returns the largest overshoot as a share of the step. Overshoot exists because the resampling
-// filters have negative lobes. Two layers down and up again without blur overshoot by 0.144. Blur
-// removes most of the overshoot, and more of it from radius 4 on than from radius 3 on. Apertures
-// steeper than the default are nearly pinholes, whose blur does not remove the overshoot.
+// filters have negative lobes. Without blur, subsampling by two layers and upsampling again
+// overshoots by 0.144. Blur removes most of the overshoot, and more of it from radius 4 on than
+// from radius 3 on. Apertures steeper than the default are nearly pinholes, whose blur does not
+// remove the overshoot.
 double MostOvershoot(const Setup& setup, double radius) {
   const bool steep = setup.params.lens.theta > test::Params(0).lens.theta;
   if (setup.params.renderer != STARFOCUS_RENDERER_LINE_SCAN && radius >= 4)

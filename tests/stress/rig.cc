@@ -95,15 +95,15 @@ int Rig::Run(void* self, starfocus_job job, void* data, int32_t count) {
     rig->failed_ = true;
     switch (rig->random_.Int(0, 4)) {
       case 0:
-        return 1;  // reports the failure
+        return 1;  // the runner reports the failure
       case 1:
-        break;  // omits the job
+        break;  // the runner omits the job
       case 2:
         job(data, index, rig->variant_.workers);
-        break;  // uses an invalid worker
+        break;  // the runner uses an invalid worker
       case 3:
         job(data, count, worker);
-        break;  // runs an invalid job
+        break;  // the runner runs an invalid job
       default:
         job(data, index, worker);
         job(data, index, worker);
