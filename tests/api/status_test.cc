@@ -7,7 +7,7 @@
 
 #include "starfocus/starfocus.h"
 
-// With -Werror=switch, the switch below must list every status.
+// Makes it a compilation error if the switch below omits a status.
 #pragma GCC diagnostic error "-Wswitch"
 
 namespace status_test {

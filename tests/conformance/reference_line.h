@@ -197,8 +197,8 @@ class LineScan {
   }
 
   // Softens the lower end of a surface, whose last pixel is `end`, where a farther surface
-  // continues. If the end lies between rendered pixels, the nearer surface either covers only a
-  // part of its last pixel, or also a part of the pixel below.
+  // continues. If the end lies between rendered pixels, the nearer surface covers either a part of
+  // its last pixel, or the whole last pixel and a part of the pixel below.
   void SoftenEnd(const LineRun& nearer, const LineRun& farther, int end) {
     const int q = nearer.begin;
     if (q == 0 || OneSurface(q - 1, q)) return;

@@ -144,9 +144,9 @@ inline void CheckFailingRunner(const Operation& operation) {
   }
 }
 
-// Cancels at every call of progress. Slow builds cancel only at the first ten calls and at every
-// seventh call after these. After each cancellation, the same engine must return the result of a
-// new engine.
+// Cancels at every call of progress. Slow builds cancel at the first ten calls, and then only at
+// every seventh call. After each cancellation, the same engine must return the result of a new
+// engine.
 inline void CheckCancelling(const Operation& operation) {
   CAPTURE(operation.name);
   const Bytes expected = Made(operation.set_up({}));

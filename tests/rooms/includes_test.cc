@@ -20,8 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A folder may include its own headers and headers of earlier folders in this list. lib/analysis is
-// the last folder, because lib/analysis measures the engine.
+// A folder may include its own headers and headers of earlier folders in this list. The last folder
+// is lib/analysis, because it measures the engine.
 const std::vector<std::string> kRooms = {
     "simd",       "lib/base",   "lib/convert", "lib/input",     "lib/coverage",
     "lib/plan",   "lib/filter", "lib/slices",  "lib/line_scan", "lib/engine",

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks that functions have at most six parameters. Replace a longer list by a structure.
+// Checks that functions have at most six parameters. Replace longer parameter lists with a
+// structure.
 #include <doctest/doctest.h>
 
 #include <cctype>
