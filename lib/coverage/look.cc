@@ -24,7 +24,7 @@ constexpr int kEnoughBits = 1;
 // A side view from which far light is read.
 struct SideLook {
   OcclusionView look;
-  bool down;      // true if occluders are searched along columns, false if along rows
+  bool down;      // true if the search for occluders runs along columns, false if along rows
   int32_t along;  // position of the view on the axis of the search, kViewBits
   int32_t slant;  // movement across the axis per pixel along the axis, kViewBits
 };

@@ -30,7 +30,7 @@ struct Group {
   const Field* field = nullptr;
   double aperture = 1, focus = 0, quantile = kNone;
   std::vector<Entry> entries;
-  bool tools = false;  // true if other programs are measured for a picture that has a truth
+  bool tools = false;  // true to measure other programs, on pictures with ground truth
 };
 
 // Measures all tasks of a group, and appends one row per task to `rows`.

@@ -182,7 +182,7 @@ class CallMemory {
   std::vector<Region> regions_;
 };
 
-// A call of a kernel of one kind of table.
+// A call to a kernel in a table of type `Table` (Kernels, DepthKernels or ImageKernels).
 template <class Table>
 class CallOf : public CallMemory {
  public:
