@@ -66,8 +66,9 @@ bool IsTiff(const Bytes& bytes, const Tiff& tiff) {
   return (bytes[0] == 'I' || bytes[0] == 'M') && tiff.Get(2, 2) == 42;
 }
 
-// Removes the subject unless the folder states the size width x height and `turned` is false. The
-// subject's coordinates are pixels of the original picture.
+// Removes the tags SubjectArea and SubjectLocation from the IFD at the offset `folder`. The tags
+// hold pixel coordinates of the original picture. The tags remain if `turned` is false and the size
+// tags of the IFD match `width` and `height`.
 void RemoveSubject(size_t folder, int width, int height, bool turned, Tiff* tiff) {
   const auto entries = tiff->Entries(folder);
   if (!entries) return;

@@ -42,7 +42,7 @@ double SampledPixel(int n, int m, double r, double theta) {
   return sum / (kSide * kSide * r * r);
 }
 
-TEST_CASE("analysis: the aperture follows (3)") {
+TEST_CASE("analysis: the density of the aperture follows equation (3)") {
   for (const double pi_part : {0.05, 0.19, 0.26, 0.45}) {
     const double theta = pi_part * kPi, rim = Aperture(1, theta) / Aperture(0, theta);
     CHECK(rim == doctest::Approx(std::pow(std::cos(theta), 4)).epsilon(1e-9));
@@ -55,7 +55,7 @@ TEST_CASE("analysis: the aperture follows (3)") {
   }
 }
 
-TEST_CASE("analysis: the ideal PSF follows (4)") {
+TEST_CASE("analysis: the ideal PSF follows equation (4)") {
   for (const double r : {0.1, 0.5, 0.7, 1.0, 1.5, 3.0, 7.3, 40.0}) {
     CAPTURE(r);
     CHECK(IdealPsf(r, kTheta).Sum() == doctest::Approx(1).epsilon(1e-11));
@@ -127,13 +127,13 @@ TEST_CASE("analysis: every digit of Table I is reproduced, including the optimum
   }
 }
 
-TEST_CASE("analysis: the thresholds of (12) are reproduced") {
+TEST_CASE("analysis: the thresholds of equation (12) are reproduced") {
   CHECK(Optimise(2.5).error > kThreshold);
   CHECK(Optimise(3).error < kThreshold);
   CHECK(SmallestSubsampledRadius(kThreshold) == doctest::Approx(2.80).epsilon(0.002));
 }
 
-TEST_CASE("analysis: Fig. 6 and the thresholds of (9) are reproduced") {
+TEST_CASE("analysis: Fig. 6 and the thresholds of equation (9) are reproduced") {
   for (int n = 3; n <= 16; ++n) {
     CAPTURE(n);
     CHECK(WorstOverSampling(n, kTheta).ratio == 1.5);

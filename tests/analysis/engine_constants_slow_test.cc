@@ -34,43 +34,44 @@ namespace {
 
 using namespace analysis;
 
-TEST_CASE("constants: theta is that of Table I at r = 3") {
+TEST_CASE("constants: the default theta is the theta of Table I at r = 3") {
   starfocus_params params;
   starfocus_params_init(&params);
   const double theta = params.lens.theta, table = OptimiseOnGrid(3).filters.theta;
   CHECK_MESSAGE(theta == doctest::Approx(table).epsilon(1e-12),
-                "the default of starfocus_lens.theta is " << theta / kPi << " pi, Table I has "
-                                                          << table / kPi
-                                                          << " pi: all figures and rules move");
+                "the default of starfocus_lens.theta is "
+                    << theta / kPi << " pi, but Table I has " << table / kPi
+                    << " pi: all figures and rules of the paper change");
   CHECK_MESSAGE(theta == doctest::Approx(kDefaultTheta).epsilon(1e-12),
-                "lib/analysis draws its figures with another theta than the engine's default");
+                "kDefaultTheta of lib/analysis differs from the engine's default theta");
 }
 
-TEST_CASE("constants: the numbers of views follow (9)") {
+TEST_CASE("constants: the numbers of views follow equation (9)") {
   // Tests the largest r with N = 4, and the slope of N(r) beyond this radius.
   const auto jump = [](int n) {
     return Cross(0.1, 128, 1e-9, [&](double r) { return ViewsByPaper(r) - n - 0.5; });
   };
   CHECK_MESSAGE(4 / jump(4) == doctest::Approx(0.787).epsilon(1e-6),
-                "the under-sampling ratio of Fig. 6 and (9) moves");
+                "the under-sampling ratio of Fig. 6 and (9) is not 0.787");
   CHECK_MESSAGE(80 / jump(80) == doctest::Approx(0.787).epsilon(1e-6),
-                "the under-sampling ratio of Fig. 6 and (9) moves");
+                "the under-sampling ratio of Fig. 6 and (9) is not 0.787");
   for (int n = 1; n <= 3; ++n) {
-    CHECK_MESSAGE(jump(n) == doctest::Approx(n).epsilon(1e-6), "(9) below r = 4 moves");
+    CHECK_MESSAGE(jump(n) == doctest::Approx(n).epsilon(1e-6),
+                  "below r = 4, N by (9) is not the ceiling of r");
   }
   for (int n = 4; n <= 32; ++n) {
     const double r = jump(n) - 1e-6, over = WorstOverSampling(n, kDefaultTheta).error;
     CHECK_MESSAGE(PaperError(r, n, kDefaultTheta) <= over,
-                  "Fig. 6: N = " << n << " is given out up to r = " << r
-                                 << ", where its error exceeds the worst of over-sampling");
+                  "Fig. 6: N = " << n << " is selected up to r = " << r
+                                 << ", where the error exceeds the largest error of over-sampling");
   }
   for (const double r : {0.3, 1.0, 2.5, 7.0, 40.0}) {
     CHECK_MESSAGE(ViewsOfBenchmark(r) == 2 * static_cast<int>(std::ceil(r)),
-                  "the benchmark's N moves: every PSNR of the paper's section VI");
+                  "N of the benchmark is not 2 ceil(r), which affects every PSNR of section VI");
   }
 }
 
-TEST_CASE("constants: aperture weights are a_{d,N} of (5)") {
+TEST_CASE("constants: aperture weights are a_{d,N} of equation (5)") {
   for (const int n : {1, 2, 3, 4, 7, 13, 26, 32}) {
     CAPTURE(n);
     std::vector<uint16_t> memory(ViewWeightsSize(n));
@@ -89,9 +90,9 @@ TEST_CASE("constants: aperture weights are a_{d,N} of (5)") {
         worst = std::max(worst, std::fabs(engine.Weight(i, j) - one * exact(i, j) / sum));
       }
     }
-    CHECK_MESSAGE(worst < 4, "the aperture (3) moves by " << worst << " units of 2^-"
-                                                          << engine.sum_bits
-                                                          << ": Figs. 4, 5, 6 and Table I");
+    CHECK_MESSAGE(worst < 4, "the weights differ from the aperture (3) by "
+                                 << worst << " units of 2^-" << engine.sum_bits
+                                 << ", which affects Figs. 4, 5, 6 and Table I");
   }
 }
 
@@ -105,42 +106,45 @@ TEST_CASE("constants: the footprint of a view is its subaperture") {
       worst = std::max(worst, std::fabs(weight - exact));
     }
     CHECK_MESSAGE(worst <= 1.0 / (1 << simd::kBlendBits),
-                  "h of (6) moves for subapertures " << width
-                                                     << "/256 px wide: the subapertures' table "
-                                                     << "and rule");
+                  "the footprint h differs from (6) for subapertures that are "
+                      << width << "/256 pixels wide, which affects the rule "
+                      << "for subapertures");
   }
 }
 
-TEST_CASE("constants: the filters of layers are those of Table I at r = 3 and of beta_U") {
+TEST_CASE("constants: the layer filters have beta_D of Table I at r = 3 and the optimal beta_U") {
   const auto check = [](const simd::HalfBand& taps, double beta, double gain, const char* moves) {
     const Taps exact = HalfBand(beta);
     const double one = gain * (1 << simd::kTapBits);
-    CHECK_MESSAGE(std::fabs(taps.near - one * exact(1)) < 1, "tap 1 of " << moves);
-    CHECK_MESSAGE(std::fabs(taps.far - one * exact(3)) < 1, "tap 3 of " << moves);
+    CHECK_MESSAGE(std::fabs(taps.near - one * exact(1)) < 1,
+                  "tap 1 differs from the exact value of " << moves);
+    CHECK_MESSAGE(std::fabs(taps.far - one * exact(3)) < 1,
+                  "tap 3 differs from the exact value of " << moves);
     // The gain of both phases must be 1. The middle tap therefore differs from the exact value by
     // G(-1), which is not exactly 0.
     CHECK_MESSAGE(std::fabs(taps.centre - one * exact(0)) < 1 + one * std::fabs(GainAtPi(exact)),
-                  "tap 0 of " << moves);
+                  "tap 0 differs from the exact value of " << moves);
   };
   check(kDownFilter, OptimiseOnGrid(3).filters.beta_down, 1,
-        "G_D moves: Table I, Fig. 8, (12) and the PSFs of the layers");
+        "G_D, which affects Table I, Fig. 8, (12) and the PSFs of the layers");
   check(kUpFilter, std::round(100 * BetaWithoutPi()) / 100, 2,
-        "G_U moves: Table I, Fig. 8 and the PSFs of the layers");
+        "G_U, which affects Table I, Fig. 8 and the PSFs of the layers");
   CHECK_MESSAGE(kBetaDown == doctest::Approx(OptimiseOnGrid(3).filters.beta_down).epsilon(1e-9),
-                "lib/analysis draws Fig. 8 with another beta_D than Table I's");
+                "kBetaDown of lib/analysis differs from beta_D of Table I");
 }
 
-TEST_CASE("constants: layers begin at the radii of (12)") {
-  CHECK_MESSAGE(OptimiseOnGrid(2.5).error > kThreshold, "Table I: (12) could begin at r = 2.5");
-  CHECK_MESSAGE(OptimiseOnGrid(3).error < kThreshold, "Table I: (12) must begin above r = 3");
+TEST_CASE("constants: layers begin at the radii of equation (12)") {
+  CHECK_MESSAGE(OptimiseOnGrid(2.5).error > kThreshold,
+                "by Table I, layer 1 could begin at r = 2.5");
+  CHECK_MESSAGE(OptimiseOnGrid(3).error < kThreshold, "by Table I, layer 1 must begin above r = 3");
   const double below = std::nextafter(3.0, 0.0);
-  CHECK_MESSAGE(LayerByPaper(below) == 0, "(12) moves: layer 1 begins below r = 3");
-  CHECK_MESSAGE(LayerByPaper(3) == 1, "(12) moves: layer 1 begins above r = 3");
-  CHECK_MESSAGE(LayerByPaper(2 * below) == 1, "(12) moves: layer 2 begins below r = 6");
-  CHECK_MESSAGE(LayerByPaper(6) == 2, "(12) moves: layer 2 begins above r = 6");
+  CHECK_MESSAGE(LayerByPaper(below) == 0, "LayerByPaper: layer 1 begins below r = 3");
+  CHECK_MESSAGE(LayerByPaper(3) == 1, "LayerByPaper: layer 1 begins above r = 3");
+  CHECK_MESSAGE(LayerByPaper(2 * below) == 1, "LayerByPaper: layer 2 begins below r = 6");
+  CHECK_MESSAGE(LayerByPaper(6) == 2, "LayerByPaper: layer 2 begins above r = 6");
 }
 
-TEST_CASE("constants: layers of the rule for subapertures begin at their radii") {
+TEST_CASE("constants: by the rule for subapertures, layers begin at radii 7 and 24") {
   const double below = std::nextafter(7.0, 0.0);
   CHECK_MESSAGE(LayerBySubaperture(below, false) == 0,
                 "LayerBySubaperture: layer 1 begins below r = 7");
@@ -153,7 +157,7 @@ TEST_CASE("constants: layers of the rule for subapertures begin at their radii")
                 "LayerBySubaperture: layer 2 begins above r = 24");
 }
 
-TEST_CASE("constants: the filters subsample as in (10) and upsample as in (11)") {
+TEST_CASE("constants: filters subsample as in equation (10) and upsample as in equation (11)") {
   for (const double r : {3.0, 4.5, 7.0}) {
     const SampledPsf half = IdealPsf(r / 2, kDefaultTheta);
     const Filters filters = {kBetaDown, kDefaultTheta};
@@ -180,8 +184,8 @@ void CheckEngine(starfocus_renderer renderer, int layer, int least, int most) {
               STARFOCUS_OK);
       CHECK(step.layer == layer);
       CHECK_MESSAGE(step.apart <= kExplained[layer],
-                    "N = " << step.n << ": the impulse response is not StarPsf's; `starfocus "
-                           << "analyze` shows which radii move");
+                    "N = " << step.n << ": the impulse response differs from StarPsf; `starfocus "
+                           << "analyze` shows the affected radii");
       CHECK(Explain(step).find("unexplained") == std::string::npos);
       if (layer > 0) {
         const LayerTheory theory = MakeLayerTheory(r < 0 ? -r : r, layer);
@@ -191,7 +195,8 @@ void CheckEngine(starfocus_renderer renderer, int layer, int least, int most) {
               (renderer == STARFOCUS_RENDERER_LINE_SCAN ? 2e-4 : 1e-4));
       }
       if (renderer == STARFOCUS_RENDERER_SLICES) {
-        CHECK_MESSAGE(step.engine <= kThreshold, "the selection threshold: " << Explain(step));
+        CHECK_MESSAGE(step.engine <= kThreshold,
+                      "the error exceeds the threshold: " << Explain(step));
       } else {
         // With N by (9), the largest error occurs at r = 1/2, in a neighbour that the PSF half
         // covers.
@@ -201,7 +206,7 @@ void CheckEngine(starfocus_renderer renderer, int layer, int least, int most) {
   }
 }
 
-TEST_CASE("constants: the PSF of the running engine is the one that the analysis predicts") {
+TEST_CASE("constants: the PSF of the running engine equals the prediction of the analysis") {
   constexpr int kMost = 40;
   for (const starfocus_renderer renderer :
        {STARFOCUS_RENDERER_LINE_SCAN, STARFOCUS_RENDERER_SLICES}) {
@@ -211,7 +216,8 @@ TEST_CASE("constants: the PSF of the running engine is the one that the analysis
   }
 }
 
-TEST_CASE("constants: subapertures of the engine meet the threshold at every radius of their N") {
+TEST_CASE(
+    "constants: the engine's subapertures meet the error threshold at every radius of their N") {
   for (const double r_max : {5.5, 11.0, 25.0, 34.0, 40.0}) {
     const int n = ViewsBySubaperture(r_max);
     double worst = 0, worst_r = 0;
@@ -220,9 +226,9 @@ TEST_CASE("constants: subapertures of the engine meet the threshold at every rad
                                         IdealPsf(r, kDefaultTheta));
       if (error > worst) worst = error, worst_r = r;
     }
-    CHECK_MESSAGE(worst <= kThreshold, "the rule for subapertures: N = " << n << " misses (4) by "
-                                                                         << worst
-                                                                         << " at r = " << worst_r);
+    CHECK_MESSAGE(worst <= kThreshold,
+                  "the PSF for N = " << n << " by the rule for subapertures differs from (4) by "
+                                     << worst << " at r = " << worst_r);
   }
 }
 
@@ -237,7 +243,7 @@ double WorstOfThree(int lens, double first) {
   return worst;
 }
 
-TEST_CASE("constants: the width of the lens with N = 3 is the best one") {
+TEST_CASE("constants: no other width of the lens has a smaller error for N = 3") {
   // Up to a radius of half a pixel, the centre view alone is used. kFirst is the next radius.
   // Lenses are compared at radii from kWider on.
   constexpr double kFirst = 0.5 + 1.0 / 64, kWider = 0.625;
@@ -248,11 +254,11 @@ TEST_CASE("constants: the width of the lens with N = 3 is the best one") {
     if (WorstOfThree(lens, kFirst) >= kThreshold) continue;
     CHECK(SubapertureLights::OfLens(lens, kDefaultTheta).views() == 29);
     CHECK_MESSAGE(WorstOfThree(lens, kWider) >= WorstOfThree(own, kWider),
-                  "94: this one is better");
+                  "another lens with 29 views has a smaller error than that of N = 3");
   }
 }
 
-TEST_CASE("constants: the widths of the lens in subapertures meet their criteria") {
+TEST_CASE("constants: the widths of the lens for N = 4, 5 and above meet their error criteria") {
   const auto worst = [](int lens, double r_max) { return WorstOfLens(lens, r_max, kDefaultTheta); };
   const auto views = [](int lens) {
     return SubapertureLights::OfLens(lens, kDefaultTheta).views();
@@ -262,14 +268,15 @@ TEST_CASE("constants: the widths of the lens in subapertures meet their criteria
   CHECK(views(LensInSubapertures(5)) == 69);
   for (int lens = 5 * kSubapertureUnits - 24; lens <= 5 * kSubapertureUnits; ++lens) {
     if (views(lens) != 69) continue;
-    CHECK_MESSAGE(worst(lens, 25) >= chosen, "32 n - 11: a lens of " << lens << " / 32 is better");
+    CHECK_MESSAGE(worst(lens, 25) >= chosen,
+                  "N = 5: a lens of " << lens << " / 32 subapertures has a smaller error");
   }
   // N = 4: every lens with at most 49 views has more than half of the chosen lens's maximal error.
   CHECK(views(LensInSubapertures(4)) == 49);
   for (int lens = 4 * kSubapertureUnits - 24; lens <= 4 * kSubapertureUnits; ++lens) {
     if (views(lens) > 49) continue;
     CHECK_MESSAGE(worst(lens, 11) > worst(LensInSubapertures(4), 11) / 2,
-                  "123: a lens of " << lens << " / 32 has half its error");
+                  "N = 4: a lens of " << lens << " / 32 subapertures has at most half the error");
   }
   // One formula covers all other values of N. The errors of lenses with the other values of N are
   // far below the threshold of the rule.
@@ -277,7 +284,7 @@ TEST_CASE("constants: the widths of the lens in subapertures meet their criteria
     const int n = ViewsBySubaperture(r_max);
     CAPTURE(n);
     CHECK_MESSAGE(worst(LensInSubapertures(n), r_max) < kThreshold / 4,
-                  "LensInSubapertures: the worst error of its views moves");
+                  "LensInSubapertures: the largest error exceeds a quarter of the threshold");
   }
 }
 
@@ -310,12 +317,16 @@ TEST_CASE("constants: the steps between the radii of gathering PSFs are small en
     double& worst = radius < 1 ? near_focus : radius < 4 ? fine : coarse;
     worst = std::max(worst, error);
   }
-  CHECK_MESSAGE(near_focus < 7.5e-3, "kFineSteps: below one pixel the PSF moves by " << near_focus);
-  CHECK_MESSAGE(fine < 1.6e-3, "kFineSteps: up to 4 pixels the PSF moves by " << fine);
-  CHECK_MESSAGE(coarse < 1.6e-5, "kCoarseSteps: the PSF moves by " << coarse);
+  CHECK_MESSAGE(
+      near_focus < 7.5e-3,
+      "kFineSteps: below a radius of 1 pixel, the PSF differs from (4) by " << near_focus);
+  CHECK_MESSAGE(fine < 1.6e-3,
+                "kFineSteps: at radii from 1 to 4 pixels, the PSF differs from (4) by " << fine);
+  CHECK_MESSAGE(coarse < 1.6e-5,
+                "kCoarseSteps: at radii from 4 pixels, the PSF differs from (4) by " << coarse);
 }
 
-TEST_CASE("constants: the model of gathering counts the taps of a PSF") {
+TEST_CASE("constants: the cost model of gathering never counts too few taps of a PSF") {
   constexpr int32_t kOne = 1 << kDisparityBits;
   // The model must not count fewer taps than a PSF has. Except for the smallest PSFs, the model
   // counts at most 50 % more. The model also adds the time of 16 taps. With the timing below, a tap
@@ -336,7 +347,7 @@ TEST_CASE("constants: the model of gathering counts the taps of a PSF") {
   }
 }
 
-TEST_CASE("constants: with one N per picture, the PSF is the one that the analysis predicts") {
+TEST_CASE("constants: with one N per picture, the PSF equals the prediction of the analysis") {
   for (const double r : {0.0, 0.5, 3.25, 11.0, 24.5}) {
     EngineStep step;
     REQUIRE(MeasureStep({r, 40, STARFOCUS_MODE_FRAME, STARFOCUS_RENDERER_LINE_SCAN, 0}, &step) ==

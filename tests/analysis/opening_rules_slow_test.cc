@@ -34,7 +34,7 @@ int FirstRadius(const Layer& layer) {
 }
 
 TEST_CASE(
-    "openings: layers begin where the error (10) equals that of the fall-off at its first radius") {
+    "openings: layers begin where the error reaches that of the fall-off at its first radius") {
   const double fall_off = SubsampledError(7, {1.28, kDefaultTheta});
   for (const Asked& asked : kAsked) {
     CAPTURE(asked.name);
@@ -49,7 +49,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("openings: subapertures meet the threshold, and a quarter of it where N is increased") {
+TEST_CASE("openings: subapertures meet the error threshold, or a quarter of it if N is increased") {
   for (const Asked& asked : kAsked) {
     CAPTURE(asked.name);
     double worst = 0, beyond = 0;

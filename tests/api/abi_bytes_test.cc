@@ -75,7 +75,7 @@ TEST_CASE("configuration: null pointers and uninitialized structures are rejecte
   starfocus_params_init(nullptr);
 }
 
-TEST_CASE("configuration: values at their limits are legal") {
+TEST_CASE("configuration: values at the limits of their ranges are legal") {
   starfocus_config config;
   starfocus_config_init(&config);
   config.width = config.height = STARFOCUS_MAX_SIZE;
@@ -152,7 +152,7 @@ TEST_CASE("workspace: memory that is too small or misaligned is rejected") {
   CHECK(engine != nullptr);
 }
 
-TEST_CASE("refocus: parameters at their limits are legal") {
+TEST_CASE("refocus: parameters at the limits of their ranges are legal") {
   Fixture f;
   test::Engine engine(f.config);
   f.params = test::Params(6);  // the blur radius is 8, the configured maximum

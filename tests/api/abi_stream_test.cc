@@ -54,7 +54,7 @@ TEST_CASE("stream: calls fail without the streaming feature and without begin") 
   CHECK(f.out.Untouched());
 }
 
-TEST_CASE("stream: push takes at most the rows of the picture") {
+TEST_CASE("stream: push accepts at most as many rows as the picture has") {
   Fixture f;
   test::Engine engine(f.config);
   REQUIRE(starfocus_stream_begin(engine.get(), &f.params) == STARFOCUS_OK);
@@ -68,7 +68,7 @@ TEST_CASE("stream: push takes at most the rows of the picture") {
   CHECK(f.Push(engine.get(), f.scene.Field(1), kHeight, &count) == STARFOCUS_ERROR_RANGE);
 }
 
-TEST_CASE("stream: a row with a bad disparity is rejected, and the rows before it are taken") {
+TEST_CASE("stream: a row with a bad disparity is rejected, and the preceding rows are accepted") {
   Fixture f;
   test::Engine engine(f.config);
   const test::Scene good = f.scene;
@@ -98,7 +98,7 @@ TEST_CASE("stream: a row with a bad disparity is rejected, and the rows before i
   }
 }
 
-TEST_CASE("stream: begin restarts, and whole pictures interrupt only the stream") {
+TEST_CASE("stream: begin restarts a stream that was stopped halfway") {
   Fixture f;
   test::Engine engine(f.config);
   test::Output whole(kWidth, kHeight, 4);

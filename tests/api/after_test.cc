@@ -83,7 +83,7 @@ void CheckFrames(test::Scene scene, const starfocus_config& config, const starfo
   }
 }
 
-TEST_CASE("after: with small changes, frames have the bytes of the frame alone in every mode") {
+TEST_CASE("after: reusing the previous frame does not change the bytes of a frame in any mode") {
   test::Random random(91);
   for (int round = 0; round < test::Rounds(32); ++round) {
     CAPTURE(round);
@@ -107,7 +107,7 @@ TEST_CASE("after: with small changes, frames have the bytes of the frame alone i
   }
 }
 
-TEST_CASE("after: filled pixels change with the known pixels next to the gap") {
+TEST_CASE("after: filled pixels are rendered again if the known pixels next to the gap change") {
   test::Random random(93);
   for (int round = 0; round < test::Rounds(16); ++round) {
     CAPTURE(round);
@@ -127,7 +127,7 @@ TEST_CASE("after: filled pixels change with the known pixels next to the gap") {
   }
 }
 
-TEST_CASE("after: blocks read side views as far away as the largest disparity") {
+TEST_CASE("after: a block depends on side views up to the largest disparity away") {
   const test::Scene before = test::NearScene(70, 900, 5, 13);
   starfocus_config config = test::ConfigFor(before, 8);
   config.superblock = 32;
@@ -167,7 +167,8 @@ TEST_CASE("after: boundaries between blocks of different layers are deblocked ne
   }
 }
 
-TEST_CASE("after: a block that changes its layer changes the boundaries of its neighbours") {
+TEST_CASE(
+    "after: if a block changes its layer, the boundaries of its neighbours are rendered again") {
   // Blocks are never split. A single pixel in focus keeps a block at layer 0.
   test::Scene scene = test::LayeredScene(600, 600, 1, 6, 5);
   std::fill(scene.disparity.begin(), scene.disparity.end(), 6.0f);

@@ -61,7 +61,7 @@ struct Fixture {
   }
 };
 
-TEST_CASE("callbacks: functions are used in all calls until others are set") {
+TEST_CASE("callbacks: functions remain in use until other functions are set") {
   Fixture f;
   test::Engine engine(f.Config());
   starfocus_callbacks callbacks = f.calls.All();
@@ -87,7 +87,7 @@ TEST_CASE("callbacks: functions are used in all calls until others are set") {
   CHECK(f.calls.None());
 }
 
-TEST_CASE("callbacks: null pointers are rejected, and the previous functions stay") {
+TEST_CASE("callbacks: null pointers are rejected, and the previous functions remain in use") {
   Fixture f;
   test::Engine engine(f.Config());
   const starfocus_callbacks callbacks = f.calls.All();

@@ -64,7 +64,7 @@ struct Fixture {
   }
 };
 
-TEST_CASE("configuration: shorter structures get the defaults of the missing fields") {
+TEST_CASE("configuration: the missing fields of a shorter structure get their defaults") {
   constexpr uint32_t kShort = offsetof(starfocus_config, superblock);
   std::vector<uint8_t> memory(kShort);
   starfocus_config* const config = reinterpret_cast<starfocus_config*>(memory.data());
@@ -86,7 +86,8 @@ TEST_CASE("configuration: shorter structures get the defaults of the missing fie
   starfocus_destroy(engine);
 }
 
-TEST_CASE("configuration: longer structures are zeroed beyond the known fields, and rejected") {
+TEST_CASE(
+    "configuration: init zeroes the unknown fields of a longer structure, which calls reject") {
   std::vector<uint8_t> memory(sizeof(starfocus_config) + 24, test::kPoison);
   starfocus_config* const config = reinterpret_cast<starfocus_config*>(memory.data());
   starfocus_config_init_sized(config, uint32_t(memory.size()));
@@ -97,7 +98,7 @@ TEST_CASE("configuration: longer structures are zeroed beyond the known fields, 
   CHECK(starfocus_workspace_size(config, &bytes) == STARFOCUS_ERROR_STRUCTURE);
 }
 
-TEST_CASE("create: one allocation has the size of the workspace and is released once") {
+TEST_CASE("create: the only allocation has the size of the workspace and is released once") {
   const Fixture f;
   Counter counter;
   size_t bytes = 0;
@@ -129,7 +130,8 @@ TEST_CASE("create: without an allocator, memory comes from the heap and is align
   for (starfocus_engine* engine : engines) starfocus_destroy(engine);
 }
 
-TEST_CASE("create: no memory, misaligned memory and other errors leave nothing allocated") {
+TEST_CASE(
+    "create: after a lack of memory, misaligned memory or another error, nothing stays allocated") {
   Fixture f;
   starfocus_problem problem = {};
   f.config.problem = &problem;
@@ -171,7 +173,7 @@ TEST_CASE("create: no memory, misaligned memory and other errors leave nothing a
   CHECK(counter.allocations == 2);
 }
 
-TEST_CASE("destroy: null and memory of the caller are not released") {
+TEST_CASE("destroy: null pointers and memory of the caller are not released") {
   const Fixture f;
   starfocus_destroy(nullptr);
   test::Engine engine(f.config);

@@ -16,7 +16,7 @@
 
 namespace facts_test {
 
-TEST_CASE("the version is that of the headers") {
+TEST_CASE("the version of the library is the version of the headers") {
   CHECK(starfocus_version() == std::string(STARFOCUS_VERSION_STRING));
 }
 
@@ -32,7 +32,7 @@ std::vector<std::string> StructuresOf(const std::string& header) {
   return names;
 }
 
-TEST_CASE("the sizes of all structures are those of the headers") {
+TEST_CASE("the sizes of all structures match the headers") {
   CHECK(starfocus_struct_size("starfocus_config") == sizeof(starfocus_config));
   CHECK(starfocus_struct_size("starfocus_params") == sizeof(starfocus_params));
   CHECK(starfocus_struct_size("starfocus_report") == sizeof(starfocus_report));
@@ -54,7 +54,7 @@ TEST_CASE("the sizes of all structures are those of the headers") {
   CHECK(starfocus_struct_size(nullptr) == 0);
 }
 
-TEST_CASE("the defaults are those that the headers document") {
+TEST_CASE("the defaults match the documentation in the headers") {
   starfocus_config config;
   std::memset(&config, test::kPoison, sizeof config);
   starfocus_config_init(&config);
@@ -87,7 +87,7 @@ TEST_CASE("the defaults are those that the headers document") {
   CHECK(params.region.width == 0);
 }
 
-TEST_CASE("view positions are those of the star") {
+TEST_CASE("starfocus_view_position returns the positions of the star") {
   const double kExpected[STARFOCUS_MAX_VIEWS][2] = {
       {0, 0},    {1, 0},     {-1, 0},     {0, 1},      {0, -1},     {1, 1},
       {-1, 1},   {1, -1},    {-1, -1},    {0.5, 0},    {-0.5, 0},   {0, 0.5},

@@ -17,7 +17,7 @@ starfocus_config WithoutLineScan(starfocus_config config) {
   return config;
 }
 
-TEST_CASE("features: without the line scan, the default and slices have the bytes of slices") {
+TEST_CASE("features: without the line scan, the default renderer is the renderer of slices") {
   for (const int views : {1, 5, 17}) {
     const test::Scene scene = test::RandomScene(150, 90, views, -6, 6, uint64_t(views));
     const starfocus_config config = test::ConfigFor(scene, 16);

@@ -74,7 +74,7 @@ TEST_CASE("image streams: rows of R, G, B may be pushed and pulled") {
   }
 }
 
-TEST_CASE("image streams: alpha of rows that are pulled late is kept") {
+TEST_CASE("image streams: alpha is kept even if its rows are pulled late") {
   test::Random random(48);
   test::Scene scene = test::LayeredScene(20, 900, 1, 1, 50);
   const ImageField field = FieldOf(scene, STARFOCUS_FORMAT_RGBX, false, &random);
@@ -91,7 +91,7 @@ TEST_CASE("image streams: alpha of rows that are pulled late is kept") {
   CHECK((streamed == expected));
 }
 
-TEST_CASE("image streams: rings hold pairs of rows for every reach") {
+TEST_CASE("image streams: ring buffers hold whole pairs of rows for every width of the borders") {
   test::Random random(49);
   const ImageField field =
       FieldOf(test::LayeredScene(20, 20, 1, 1, 50), STARFOCUS_FORMAT_RGB, false, &random);
@@ -139,7 +139,7 @@ TEST_CASE("image streams: half a pair of rows is rejected, and a bad depth rejec
   CHECK(rows % 2 == 0);
 }
 
-TEST_CASE("prepared images: disparities and layers are those of the converted pictures") {
+TEST_CASE("prepared images: disparities and layers equal those of the converted pictures") {
   test::Random random(47);
   for (const int side : {32, 64, 128}) {
     CAPTURE(side);

@@ -79,8 +79,7 @@ void CheckSame(const ImageField& field, starfocus_config config, const starfocus
   CHECK(report.unknown_pixels == expected_report.unknown_pixels);
 }
 
-TEST_CASE(
-    "images: in every mode, all formats of input and output have the bytes of converted pictures") {
+TEST_CASE("images: in every mode and format, the result equals that of converted pictures") {
   test::Random random(24);
   constexpr int kSizes[][2] = {{1, 1},   {2, 2},    {1, 77},   {131, 1}, {33, 31},
                                {64, 64}, {101, 67}, {150, 91}, {97, 130}};
@@ -124,7 +123,7 @@ TEST_CASE("images: regions may have odd positions and sizes") {
   }
 }
 
-TEST_CASE("images: distant hidden surfaces and outer pixels have the bytes of converted pictures") {
+TEST_CASE("images: reads far behind edges and beyond the picture match converted pictures") {
   test::Random random(26);
   for (const int views : {5, 17}) {
     for (const int renderer : {STARFOCUS_RENDERER_SLICES, STARFOCUS_RENDERER_LINE_SCAN}) {
@@ -137,7 +136,7 @@ TEST_CASE("images: distant hidden surfaces and outer pixels have the bytes of co
   }
 }
 
-TEST_CASE("images: lamps have the bytes of converted pictures") {
+TEST_CASE("images: the highlights of lamps equal those of converted pictures") {
   test::Random random(27);
   test::Scene scene = test::LayeredScene(140, 110, 5, 7, 12);
   for (int lamp = 0; lamp < 12; ++lamp) {

@@ -97,7 +97,7 @@ TEST_CASE("lens: after a change of shape, an engine returns the bytes of a new e
 // Progress function that cancels after `left` further calls.
 int CancelAfter(void* left, int32_t, int32_t) { return (*static_cast<int*>(left))-- == 0; }
 
-TEST_CASE("lens: after a cancelled call, calls with another shape do not use its tables") {
+TEST_CASE("lens: a call with another shape does not use the tables of a cancelled call") {
   const test::Scene scene = MakeScene();
   const starfocus_lens pentagon = LensOf(test::kShapes[1]), plain = LensOf(kPlain);
   for (const starfocus_mode mode : test::kModes) {
@@ -166,7 +166,7 @@ TEST_CASE("lens: a stream keeps the lens that was given to begin") {
   }
 }
 
-TEST_CASE("lens: shorter params get the defaults of the missing fields") {
+TEST_CASE("lens: the missing fields of a shorter starfocus_params get their defaults") {
   constexpr uint32_t kShort = offsetof(starfocus_params, lens) + offsetof(starfocus_lens, blades);
   const test::Scene scene = MakeScene();
   const starfocus_params expected = test::Params(-3.5, 1, STARFOCUS_MODE_BLOCK);

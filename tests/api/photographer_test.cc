@@ -73,7 +73,8 @@ TEST_CASE("focus at: values that are not finite are rejected only near the pixel
   }
 }
 
-TEST_CASE("focus at: the surface of the pixel is in focus, even if it is small, up to its edge") {
+TEST_CASE(
+    "focus at: a pixel focuses on its own surface, even if the surface is small or ends nearby") {
   Map map(24, 24, -4);
   for (int y = 0; y < 24; ++y) {
     for (int x = 0; x < 9; ++x) map.At(x, y) = 3;  // an object
@@ -171,7 +172,7 @@ double Expected(Map map, int x0, int y0) {
   return surface;
 }
 
-TEST_CASE("focus at: random maps follow the definition") {
+TEST_CASE("focus at: for random maps, the focus equals that of the definition") {
   test::Random random(6);
   for (int round = 0; round < 300; ++round) {
     Map map(random.Int(1, 12), random.Int(1, 12), 0, random.Int(0, 3));

@@ -58,7 +58,7 @@ TEST_CASE("pinhole: every mode, rule and way to refocus returns the centre view 
   }
 }
 
-TEST_CASE("pinhole: the report has one copied view, and maps are checked") {
+TEST_CASE("pinhole: the report counts one copied view, and bad maps are rejected") {
   test::Scene scene = test::LayeredScene(130, 67, 9, 7, 4);
   for (const starfocus_mode mode : test::kModes) {
     starfocus_report report = {};

@@ -17,7 +17,8 @@
 namespace prepared_test {
 namespace {
 
-TEST_CASE("prepared: another engine may use the light field and stream in between") {
+TEST_CASE(
+    "prepared: an engine may use a light field prepared by another engine, and stream in between") {
   const test::Scene scene = test::LayeredScene(140, 100, 5, 7, 11);
   starfocus_config config = test::ConfigFor(scene, 20);
   test::Engine maker(config);
@@ -53,7 +54,7 @@ TEST_CASE("prepared: the memory has the documented size") {
   CHECK(double(test::PreparedMemory(config).bytes) / pixels == doctest::Approx(2).epsilon(0.01));
 }
 
-TEST_CASE("prepared: bad configurations have no size") {
+TEST_CASE("prepared: the size query rejects bad configurations") {
   starfocus_config config = test::ConfigFor(test::LayeredScene(50, 40, 5, 3, 12), 8);
   size_t bytes = 4711;
   CHECK(starfocus_prepared_size(nullptr, &bytes) == STARFOCUS_ERROR_NULL);

@@ -165,7 +165,8 @@ bool IsOfReduced(Prepared* prepared, starfocus_params params, int shift,
   return got.bytes == expected.bytes;
 }
 
-TEST_CASE("preview: the bytes are those of the light field reduced by definition") {
+TEST_CASE(
+    "preview: the picture equals that of a light field reduced as the documentation defines") {
   test::Random random(231);
   constexpr int kSizes[][2] = {{1, 1},    {1, 70},   {90, 1},    {31, 33},   {65, 63},
                                {100, 37}, {67, 190}, {129, 128}, {150, 141}, {203, 90}};
@@ -208,7 +209,7 @@ TEST_CASE("preview: the bytes are those of the light field reduced by definition
 
 // If the range does not contain 0, the reduced range is partly or wholly outside the original
 // range.
-TEST_CASE("preview: a scene may be wholly nearer or farther than 0, in an engine that streams") {
+TEST_CASE("preview: a streaming engine accepts scenes whose disparities all have one sign") {
   for (const float offset : {16.0F, -12.0F, 4.5F}) {
     CAPTURE(offset);
     test::Scene scene = test::LayeredScene(330, 270, 5, 4, 17);
@@ -232,7 +233,7 @@ TEST_CASE("preview: a scene may be wholly nearer or farther than 0, in an engine
   }
 }
 
-TEST_CASE("preview: the engine is unchanged, and the workspace does not grow") {
+TEST_CASE("preview: previews neither change the engine nor need a larger workspace") {
   const test::Scene scene = test::LayeredScene(170, 130, 5, 7, 3);
   starfocus_config config = test::ConfigFor(scene, 20);
   config.features |= STARFOCUS_FEATURE_STREAMING;
@@ -292,7 +293,7 @@ test::Scene SmoothScene(int width, int height) {
   return scene;
 }
 
-TEST_CASE("preview: it is close to the reduced full picture") {
+TEST_CASE("preview: the preview is close to the reduced full picture") {
   const test::Scene scene = SmoothScene(512, 384);
   starfocus_config config = test::ConfigFor(scene, 24);
   config.previews = 3;
@@ -310,7 +311,7 @@ TEST_CASE("preview: it is close to the reduced full picture") {
   }
 }
 
-TEST_CASE("preview: it needs a light field prepared for previews, and an engine of the same size") {
+TEST_CASE("preview: the light field must be prepared for previews by an engine of the same size") {
   const test::Scene scene = test::LayeredScene(50, 40, 5, 3, 12);
   starfocus_config config = test::ConfigFor(scene, 8);
   Prepared none(scene, config);

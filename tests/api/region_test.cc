@@ -25,7 +25,7 @@ std::string Text(const starfocus_region& r) {
   return text;
 }
 
-TEST_CASE("region: boundaries between blocks of different layers are deblocked into it") {
+TEST_CASE("region: boundaries outside the region are deblocked if they affect pixels inside") {
   // Blocks at layers 0 and 2 are adjacent, whatever the colours of the pixels are.
   for (const int side : {32, 64}) {
     test::Scene scene = test::LayeredScene(160, 160, 5, 12, 5);
@@ -40,7 +40,7 @@ TEST_CASE("region: boundaries between blocks of different layers are deblocked i
   }
 }
 
-TEST_CASE("region: it costs only its part of the picture and its surroundings") {
+TEST_CASE("region: only the region and its surroundings are rendered") {
   const test::Scene scene = test::LayeredScene(640, 640, 5, 4, 9);
   starfocus_config config = test::ConfigFor(scene, 8);
   config.superblock = 32;
@@ -64,7 +64,7 @@ TEST_CASE("region: it costs only its part of the picture and its surroundings") 
   }
 }
 
-TEST_CASE("region: only readable disparity rows are checked, before a pixel is written") {
+TEST_CASE("region: only disparity rows within its reach are checked, before any pixel is written") {
   test::Scene scene = test::LayeredScene(40, 600, 1, 4, 3);
   starfocus_config config = test::ConfigFor(scene, 4);
   config.superblock = 32;
@@ -87,7 +87,8 @@ TEST_CASE("region: only readable disparity rows are checked, before a pixel is w
   }
 }
 
-TEST_CASE("region: a bad row is rejected before a pixel is written, or not read") {
+TEST_CASE(
+    "region: a bad disparity row is rejected before any pixel is written, unless it is not read") {
   constexpr int kHeight = 240;
   test::Scene scene = test::LayeredScene(40, kHeight, 5, 3, 4);
   starfocus_config config = test::ConfigFor(scene, 4);

@@ -46,19 +46,19 @@ const Misuse kMisuses[] = {
     {"skips the first job", [](const Set& s) { s.Some(1, s.count); }},
     {"skips the last job", [](const Set& s) { s.Some(0, s.count - 1); }},
     {"runs a job twice", [](const Set& s) { s.AllAnd(s.count - 1, 1); }},
-    {"runs one job as often as there are jobs",
+    {"runs the first job more often than there are jobs",
      [](const Set& s) {
        for (int32_t i = 0; i <= s.count; ++i) s.job(s.data, 0, 0);
      }},
     {"index -1", [](const Set& s) { s.AllAnd(-1, 0); }},
     {"index count", [](const Set& s) { s.AllAnd(s.count, 0); }},
-    {"least index", [](const Set& s) { s.AllAnd(INT32_MIN, 0); }},
+    {"smallest index", [](const Set& s) { s.AllAnd(INT32_MIN, 0); }},
     {"largest index", [](const Set& s) { s.AllAnd(INT32_MAX, 0); }},
     {"worker -1", [](const Set& s) { s.AllBy(-1); }},
     {"worker max_workers", [](const Set& s) { s.AllBy(kWorkers); }},
-    {"a wrong worker although all is done",
+    {"runs an additional job with a wrong worker",
      [](const Set& s) { s.AllAnd(0, STARFOCUS_MAX_WORKERS); }},
-    {"least worker", [](const Set& s) { s.job(s.data, 0, INT32_MIN); }},
+    {"smallest worker", [](const Set& s) { s.job(s.data, 0, INT32_MIN); }},
     {"largest worker", [](const Set& s) { s.job(s.data, 0, INT32_MAX); }},
 };
 
@@ -124,7 +124,7 @@ struct {
   bool nested;
 } running;
 
-TEST_CASE("runner: a busy worker gets no second job") {
+TEST_CASE("runner: a busy worker is not given a second job") {
   Fixture f;
   test::Engine engine(f.config);
   test::Output out(kWidth, kHeight);

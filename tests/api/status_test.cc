@@ -57,7 +57,7 @@ const char* WordsOf(starfocus_status status) {
   return nullptr;
 }
 
-TEST_CASE("statuses: each status has a unique sentence, and other numbers have none") {
+TEST_CASE("statuses: each status has a unique description, and other numbers have none") {
   std::set<std::string> sentences;
   int statuses = 0;
   for (int number = -1000; number <= 1000; ++number) {

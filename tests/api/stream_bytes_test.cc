@@ -20,7 +20,8 @@ void CheckSame(const test::Scene& scene, const starfocus_params& params, int blo
   test::CheckStreamed(scene, config, params);
 }
 
-TEST_CASE("stream: bytes are the same for every size, star set and chunk") {
+TEST_CASE(
+    "stream: the result is the same as without streaming for every size, star set and chunk") {
   constexpr int kSizes[][2] = {{1, 1},   {1, 5},   {5, 1},   {2, 3},    {3, 31},  {31, 33},
                                {33, 65}, {64, 64}, {65, 32}, {40, 130}, {130, 97}};
   for (const auto& size : kSizes) {
@@ -33,7 +34,7 @@ TEST_CASE("stream: bytes are the same for every size, star set and chunk") {
   }
 }
 
-TEST_CASE("stream: bytes are the same for other focuses, apertures, modes and blocks") {
+TEST_CASE("stream: the result is the same for other focuses, apertures, modes and blocks") {
   const test::Scene scene = test::RandomScene(75, 140, 17, -5, 5, 42, 3);
   CheckSame(scene, test::Params(-5.5, 0.5), 32);
   CheckSame(scene, test::Params(9, 1), 64);
@@ -41,7 +42,7 @@ TEST_CASE("stream: bytes are the same for other focuses, apertures, modes and bl
   CheckSame(scene, test::Params(2, 1), 128);
 }
 
-TEST_CASE("stream: rows of side views are read as far away as the largest disparity") {
+TEST_CASE("stream: side views are read up to the largest disparity away from a row") {
   const test::Scene scene = test::NearScene(70, 400, 5, 12);
   for (const starfocus_mode mode : {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BLOCK}) {
     CAPTURE(mode);
@@ -49,7 +50,7 @@ TEST_CASE("stream: rows of side views are read as far away as the largest dispar
   }
 }
 
-TEST_CASE("stream: strides of pictures do not matter") {
+TEST_CASE("stream: the strides of the input pictures do not affect the result") {
   const test::Scene tight = test::RandomScene(50, 70, 9, -2, 2, 8);
   test::Scene padded = test::EmptyScene(50, 70, 9, -2, 2, 21);
   for (int y = 0; y < 70; ++y) {
@@ -106,7 +107,7 @@ TEST_CASE("stream: a picture of 20,000 rows fits the workspace of a picture of 2
 }
 
 // With one view, rings hold exactly the rows that blocks at layers 1 and 2 read.
-TEST_CASE("stream: rings hold all rows that layers need, up to the largest blur") {
+TEST_CASE("stream: ring buffers hold all rows that layers need, up to the largest blur") {
   for (int radius = 1; radius <= 16; ++radius) {
     test::Scene scene = test::RandomScene(48, 200, 1, 0, float(radius), 70 + uint64_t(radius));
     for (float& disparity : scene.disparity) disparity = float(radius);

@@ -12,7 +12,8 @@
 namespace ways_test {
 namespace {
 
-TEST_CASE("ways: for many lenses in every mode, bytes are those of the whole picture") {
+TEST_CASE(
+    "ways: every way to refocus returns the bytes of the whole picture for many lenses and modes") {
   constexpr int kViews[] = {1, 5, 9, 17};
   constexpr int kSizes[][2] = {{1, 1},    {1, 130},  {130, 1},  {31, 33},   {64, 64},  {65, 63},
                                {100, 37}, {67, 260}, {200, 90}, {129, 128}, {97, 131}, {150, 66}};

@@ -97,7 +97,7 @@ TEST_CASE("opening: all weights sum to a power of two, and none exceeds its type
   }
 }
 
-TEST_CASE("opening: a rim that does not move removes no light") {
+TEST_CASE("opening: a second rim that is not shifted removes no light") {
   for (const test::NamedShape& shape : test::kShapes) {
     const ApertureShape opening = starfocus::ShapeOf(LensOf(shape));
     for (const int n : {4, 6, 11}) {
@@ -115,7 +115,8 @@ TEST_CASE("opening: a rim that does not move removes no light") {
   }
 }
 
-TEST_CASE("opening: rims of mirrored places are mirrored, and farthest away in the corners") {
+TEST_CASE(
+    "opening: the shift of the second rim is mirrored with the block and largest in the corners") {
   ApertureShape opening;
   opening.cats_eye = starfocus::kOpeningOne;
   const auto shift = [&](int x, int y) {

@@ -21,7 +21,7 @@ struct Caller {
   }
 };
 
-TEST_CASE("cancel: work of any granularity is counted, and reported after half a million samples") {
+TEST_CASE("cancel: the callback is called every half a million samples, however work is divided") {
   for (const int64_t at_once : {1, 1000, 1 << 19, 1 << 25}) {
     CAPTURE(at_once);
     Caller caller;
@@ -99,7 +99,7 @@ TEST_CASE("watch: while one thread reports, other threads continue without repor
   CHECK(nested.calls == 2);
 }
 
-TEST_CASE("watch: rows of parts are finished in proportion to the jobs of their set") {
+TEST_CASE("watch: the reported rows grow in proportion to the finished jobs of a part") {
   Caller caller;
   CallProgress watch;
   watch.SetProgress(Caller::Progress, &caller);

@@ -30,7 +30,7 @@ TEST_CASE("ranges: only a value outside its range is reported") {
   starfocus::on_range_failure = nullptr;
 }
 #else
-TEST_CASE("ranges: an ordinary build checks nothing") {
+TEST_CASE("ranges: a build without range checks reports nothing") {
   static_assert(starfocus::Checked(kRange, 4) == 4);
   const int16_t values[] = {-3, 4};
   starfocus::CheckAll(kRange, values, 2);

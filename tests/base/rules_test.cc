@@ -19,7 +19,7 @@ using namespace starfocus;
 double Below(double value) { return std::nextafter(value, 0.0); }
 double Above(double value) { return std::nextafter(value, 1e9); }
 
-TEST_CASE("rules: (9) below 4 is the ceiling of the radius") {
+TEST_CASE("rules: below a radius of 4, N by (9) is the ceiling of the radius") {
   CHECK(ViewsByPaper(0) == 0);
   CHECK(ViewsByPaper(std::numeric_limits<double>::denorm_min()) == 1);
   CHECK(ViewsByPaper(0.5) == 1);
@@ -31,7 +31,7 @@ TEST_CASE("rules: (9) below 4 is the ceiling of the radius") {
   }
 }
 
-TEST_CASE("rules: (9) is 4 from 4 to 4 / 0.787") {
+TEST_CASE("rules: from a radius of 4 to 4 / 0.787, N by (9) is 4") {
   CHECK(ViewsByPaper(Below(4)) == 4);
   CHECK(ViewsByPaper(4) == 4);
   CHECK(ViewsByPaper(Above(4)) == 4);
@@ -44,7 +44,7 @@ TEST_CASE("rules: (9) is 4 from 4 to 4 / 0.787") {
   CHECK(ViewsByPaper(5.09) == 5);
 }
 
-TEST_CASE("rules: (9) above is the ceiling of 0.787 times the radius") {
+TEST_CASE("rules: above a radius of 4 / 0.787, N by (9) is the ceiling of 0.787 times the radius") {
   // With r in thousandths, the expected value is the ceiling of 787 r / 10^6, in integers.
   for (int r = 5083; r <= 128000; ++r) {
     const int expected = int((int64_t{787} * r + 999999) / 1000000);
@@ -61,13 +61,13 @@ TEST_CASE("rules: (9) above is the ceiling of 0.787 times the radius") {
   }
 }
 
-TEST_CASE("rules: (9) matches the table of the design") {
+TEST_CASE("rules: N by (9) matches a table") {
   constexpr int kTable[][2] = {{2, 2},   {4, 4},   {5, 4},   {6, 5},   {8, 7},  {10, 8},
                                {12, 10}, {16, 13}, {20, 16}, {24, 19}, {32, 26}};
   for (const auto& row : kTable) CHECK(ViewsByPaper(row[0]) == row[1]);
 }
 
-TEST_CASE("rules: (9) never decreases") {
+TEST_CASE("rules: N by (9) never decreases with the radius") {
   int last = 0;
   for (double r = 0; r <= STARFOCUS_MAX_BLUR; r += 1.0 / 64) {
     REQUIRE(ViewsByPaper(r) >= last);
@@ -75,7 +75,7 @@ TEST_CASE("rules: (9) never decreases") {
   }
 }
 
-TEST_CASE("rules: the benchmark renders twice the ceiling of the radius") {
+TEST_CASE("rules: N of the benchmark is twice the ceiling of the radius") {
   CHECK(ViewsOfBenchmark(0) == 0);
   CHECK(ViewsOfBenchmark(0.01) == 2);
   for (int r = 1; r <= 128; ++r) {
@@ -86,7 +86,7 @@ TEST_CASE("rules: the benchmark renders twice the ceiling of the radius") {
   }
 }
 
-TEST_CASE("rules: a scale multiplies N and rounds it up, and does not change 0") {
+TEST_CASE("rules: a scale multiplies N and rounds the product up; N = 0 does not change") {
   for (int n = 0; n <= 102; ++n) {
     CAPTURE(n);
     CHECK(ScaleViews(n, 1) == n);
@@ -100,7 +100,7 @@ TEST_CASE("rules: a scale multiplies N and rounds it up, and does not change 0")
   }
 }
 
-TEST_CASE("rules: views that stand for their subapertures match the table") {
+TEST_CASE("rules: N by the rule for subapertures matches the table") {
   constexpr struct {
     double r_max;
     int n;
@@ -116,7 +116,7 @@ TEST_CASE("rules: views that stand for their subapertures match the table") {
   }
 }
 
-TEST_CASE("rules: layers by (12) begin at radius 3 and 6") {
+TEST_CASE("rules: layers by (12) begin at the radii 3 and 6") {
   CHECK(LayerByPaper(0) == 0);
   CHECK(LayerByPaper(Below(3)) == 0);
   CHECK(LayerByPaper(3) == 1);
@@ -125,7 +125,8 @@ TEST_CASE("rules: layers by (12) begin at radius 3 and 6") {
   CHECK(LayerByPaper(STARFOCUS_MAX_BLUR) == 2);
 }
 
-TEST_CASE("rules: layers by subapertures begin at radius 7 and 24; depth edges exclude layer 2") {
+TEST_CASE(
+    "rules: layers by subapertures begin at the radii 7 and 24, without layer 2 at depth edges") {
   CHECK(LayerBySubaperture(0, false) == 0);
   CHECK(LayerBySubaperture(Below(7), false) == 0);
   CHECK(LayerBySubaperture(7, false) == 1);
@@ -138,7 +139,8 @@ TEST_CASE("rules: layers by subapertures begin at radius 7 and 24; depth edges e
   CHECK(LayerBySubaperture(STARFOCUS_MAX_BLUR, true) == 1);
 }
 
-TEST_CASE("rules: openings with larger demands have more views and later layers") {
+TEST_CASE(
+    "rules: openings with larger demands have more views, and their layers begin at larger radii") {
   using starfocus::ApertureShape;
   using starfocus::Demand;
   ApertureShape opening;

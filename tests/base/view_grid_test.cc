@@ -88,7 +88,8 @@ TEST_CASE("view grid: shifts are rounded half up, and pixels in focus do not mov
   CHECK(fine.Shift(fine.Move(3), 127) == -1);
 }
 
-TEST_CASE("view grid: views up to half a unit away use the views at half distance") {
+TEST_CASE(
+    "view grid: rendered views up to 0.5 from the centre use captured views at half distance") {
   CHECK(MakeGrid(8, 0, 1, 0, true).half_views == 4);
   CHECK(MakeGrid(7, 0, 1, 0, true).half_views == 3);
   CHECK(MakeGrid(1, 0, 1, 0, true).half_views == 0);

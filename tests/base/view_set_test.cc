@@ -52,7 +52,7 @@ Sides LooksOf(const starfocus_config& config) {
   return sides;
 }
 
-TEST_CASE("views: looks of the star are on its axes, the farther ones first") {
+TEST_CASE("views: occlusion views of the star are on its axes, the farther views first") {
   CHECK(LooksOf(Star(1)) == Sides{{}, {}, {}, {}});
   for (const int views : {5, 9}) CHECK(LooksOf(Star(views)) == Sides{{1}, {2}, {3}, {4}});
   CHECK(LooksOf(Star(17)) == Sides{{1, 9}, {2, 10}, {3, 11}, {4, 12}});
@@ -99,7 +99,7 @@ TEST_CASE("views: the order of the views does not matter") {
   }
 }
 
-TEST_CASE("views: the star is recognised by its positions, in their order") {
+TEST_CASE("views: the star is recognised by the order and values of its positions") {
   for (const int views : {1, 5, 9, 17}) {
     CHECK(starfocus::HasStar(Star(views)));
     starfocus_config config = Star(views);
@@ -134,7 +134,7 @@ TEST_CASE("views: invalid sets of views are rejected") {
   CHECK(Check(config) == STARFOCUS_OK);
 }
 
-TEST_CASE("views: a disparity moves by its product with the position, equally on both sides") {
+TEST_CASE("views: a shift is disparity times position, and symmetric for opposite positions") {
   CHECK(starfocus::ScaledByView(starfocus::kViewOne, 320, 12) == 1280);
   CHECK(starfocus::ScaledByView(-starfocus::kViewOne, 320, 12) == -1280);
   CHECK(starfocus::ScaledByView(starfocus::kViewOne / 2, -321, 12) == -642);

@@ -42,7 +42,8 @@ void ForEachView(int n, const Visit& visit) {
   }
 }
 
-TEST_CASE("aperture: the density (3) falls to cos^4 theta at the rim and integrates to 1") {
+TEST_CASE(
+    "aperture: the density of equation (3) falls to cos^4 theta at the rim and integrates to 1") {
   for (const double theta : kThetas) {
     CAPTURE(theta);
     CHECK(Density(0.6, 0.8, theta) / Density(0, 0, theta) ==
@@ -76,7 +77,7 @@ TEST_CASE("aperture: the number of views in the disc matches the table") {
   }
 }
 
-TEST_CASE("aperture: weights follow (3), sum to a power of two and fit signed 16 bits") {
+TEST_CASE("aperture: weights follow equation (3), sum to a power of two and fit signed 16 bits") {
   double furthest = 0, furthest_centre = 0;
   for (int n = 1; n <= 40; ++n) {
     for (const double theta : kThetas) {
@@ -111,7 +112,8 @@ TEST_CASE("aperture: weights follow (3), sum to a power of two and fit signed 16
       if (aperture.sum_bits < starfocus::kMaxLightBits) CHECK(aperture.Weight(0, 0) > 16000);
     }
   }
-  MESSAGE("furthest from (3): " << furthest << ", the centre " << furthest_centre);
+  MESSAGE("largest difference from equation (3): " << furthest
+                                                   << ", at the centre: " << furthest_centre);
   // Each orbit of views takes the remainder of rounding of the previous orbit. The remainder is at
   // most 4 units: one unit for each of 4 views, or up to 4 units for the centre alone. Rounding the
   // weight adds half a unit, and another half unit on the diagonals, where weights are even. The
@@ -154,7 +156,7 @@ TEST_CASE("aperture: the largest N of the configuration is valid") {
   }
 }
 
-TEST_CASE("aperture: subapertures have the light of their part of the lens") {
+TEST_CASE("aperture: the weight of a subaperture is the light of its part of the lens") {
   for (const double theta : {0.1 * kPi, 0.26 * kPi, 0.4 * kPi}) {
     for (const int n : {1, 2, 3, 4, 5, 6, 7, 9, 13, 40, 256}) {
       std::vector<uint16_t> storage(starfocus::ViewWeightsSize(n));
@@ -195,7 +197,7 @@ TEST_CASE("aperture: subapertures have the light of their part of the lens") {
   }
 }
 
-TEST_CASE("aperture: an aperture without other views has the centre view alone") {
+TEST_CASE("aperture: with N = 0, the centre view is the only view") {
   uint16_t weight = 0;
   const starfocus::ViewWeights subapertures = starfocus::MakeSubapertures(0, 65536, &weight);
   CHECK(subapertures.views == 1);

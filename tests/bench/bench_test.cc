@@ -28,7 +28,7 @@ TEST_CASE("The PSNR of a known difference is exact") {
   CHECK(Psnr(a, c) == doctest::Approx(10 * std::log10(255.0 * 255 * 2400 / (155 * 155))));
 }
 
-TEST_CASE("The worst block is found, also when it is cut by the edge") {
+TEST_CASE("The worst block is found, even if the edge of the picture cuts it") {
   const Image a = Gray(35, 18, 50);
   Image b = a;
   CHECK(WorstBlockPsnr(a, b) == kBestPsnr);

@@ -31,7 +31,7 @@ TEST_CASE("cli: bad input is rejected") {
   CheckRefusals(folder, "refusals.txt");
 }
 
-TEST_CASE("cli: a region equals this part of the whole picture") {
+TEST_CASE("cli: a region equals the same part of the whole picture") {
   TempFolder folder;
   Prepare(folder);
   Succeed(folder, "refocus lf -o whole.png --focus 0.5 --map map.png");

@@ -27,7 +27,7 @@ void PrepareScene(const TempFolder& folder, const std::string& name = "wires --s
   fs::remove(folder.file("bare/disparity.pfm"));
 }
 
-TEST_CASE("disparity: the range and most of the map of a traced scene are found") {
+TEST_CASE("disparity: the estimate of a traced scene has its range and is mostly correct") {
   TempFolder folder;
   PrepareScene(folder);
   const Outcome made = Call(folder, "disparity bare --confidence sure.png");

@@ -62,8 +62,7 @@ TEST_CASE("cli: --focus-at selects the surface around the pixel, not the pixel")
   CHECK(Text(folder.file("at.png")) == Text(folder.file("d.png")));
 }
 
-TEST_CASE(
-    "cli: lamps match the truth of light if averaged as light, and that of values as values") {
+TEST_CASE("cli: with each --transfer, lamps match the truth that is averaged in the same way") {
   TempFolder folder;
   for (const char* traced : {"srgb", "none"}) {
     Succeed(folder, "scene lf --size 120x90 --views 5 --name lamps --truth 4,1 --transfer " +
@@ -101,7 +100,7 @@ TEST_CASE("cli: clipped lamps are closer to the truth with highlights") {
   CHECK(bright - clipped > 0.5);
 }
 
-TEST_CASE("cli: apertures of sweeps, videos, pages and batches are reduced to the limit of blur") {
+TEST_CASE("cli: sweeps, videos, pages and batches reduce the aperture to the limit of the blur") {
   TempFolder folder;
   MakeDeepFolder(folder);
   fs::copy(folder.file("lf"), folder.file("second"));

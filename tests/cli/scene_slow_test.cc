@@ -168,7 +168,7 @@ TEST_CASE("scene: pictures do not depend on the number of threads, but on the se
   }
 }
 
-TEST_CASE("scene: near, middle and far points are in this order at any size") {
+TEST_CASE("scene: the near, middle and far points have decreasing disparities at any size") {
   ThreadRunner runner(1);
   for (const char* name : kNames) {
     const Scene scene = Made(name);
@@ -229,7 +229,7 @@ TEST_CASE("scene: rays meet planes and ellipsoids at the places given by algebra
   CHECK_FALSE(Intersect(ball, {200, 2, 0, 0}, &hit));
 }
 
-TEST_CASE("scene: the bounds contain every hit") {
+TEST_CASE("scene: the bounding boxes contain every hit") {
   for (const char* name : kNames) {
     const Scene scene = Made(name);
     int outside = 0;

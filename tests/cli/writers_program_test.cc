@@ -27,7 +27,7 @@ void MakeScene(const TempFolder& folder, const std::string& name, const std::str
 
 TEST_CASE("programs: the sessions of the table succeed") { RunSessions("cli/sessions.txt"); }
 
-TEST_CASE("writers: a sweep is an animation, or a sharp picture with the focus of each pixel") {
+TEST_CASE("writers: a sweep writes an animation, or a sharp picture with the focus of each pixel") {
   TempFolder folder;
   MakeScene(folder, "lf");
   const bool webp = !WebpWriter::Check("", 1, 1);
@@ -130,7 +130,7 @@ TEST_CASE("writers: the page of view is self-contained and describes what it sho
   CheckErrorLine(over.err);
 }
 
-TEST_CASE("progress: it shows the share and, after a second, the remaining time") {
+TEST_CASE("progress: the line shows the share and, after a second, the remaining time") {
   CHECK(Progress::Text("working", 43, 100, 0.5) == "working: 43 %");
   CHECK(Progress::Text("working", 0, 100, 5) == "working: 0 %");
   CHECK(Progress::Text("working", 25, 100, 4) == "working: 25 %, 12 s left");
@@ -144,7 +144,7 @@ double Psnr(const TempFolder& folder, const std::string& names) {
   return std::atof(outcome.out.c_str() + 5);
 }
 
-TEST_CASE("views: each additional captured side brings the picture closer to the truth") {
+TEST_CASE("views: a captured view on each additional side brings the picture closer to the truth") {
   TempFolder folder;
   Succeed(folder, "scene lf --size 256x192 --views 5 --transfer none --truth=-2.4,1");
   const auto error = [&](const std::string& views) {

@@ -116,7 +116,8 @@ void Tell(const char* name, const Distance& all, const Covered& covered) {
   std::printf("  gathered: %lld\n", static_cast<long long>(covered.gathered));
 }
 
-TEST_CASE("block conformance: random scenes match the reference by both rules at all layers") {
+TEST_CASE(
+    "block conformance: random scenes match the reference with both renderers at all layers") {
   test::Random random(51);
   Distance all;
   Covered covered;
@@ -154,7 +155,8 @@ TEST_CASE("block conformance: the benchmark's slices match the reference") {
   CHECK(covered.pixels[1] + covered.pixels[2] + covered.gathered == 0);
 }
 
-TEST_CASE("block conformance: the largest subapertures and the smallest blocks match") {
+TEST_CASE(
+    "block conformance: the largest subapertures and the smallest blocks match the reference") {
   test::Random random(52);
   Distance all;
   Covered covered;

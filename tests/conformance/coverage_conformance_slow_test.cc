@@ -197,8 +197,9 @@ Distance Check(const test::Scene& scene) {
 
 void Print(const char* name, const Distance& distance) {
   std::printf(
-      "%s: %d pixels parted, %d by one only, coverage: %d beyond 2/128, largest %.4f, mean %.5f, "
-      "far light: %d beyond 1, largest %.3f, mean %.4f\n",
+      "%s: %d pixels split, %d only by the engine or only by the reference; "
+      "coverage errors: %d above 2/128, largest %.4f, mean %.5f; "
+      "errors of far light: %d above 1, largest %.3f, mean %.4f\n",
       name, distance.parted, distance.otherwise, distance.alphas, distance.alpha,
       distance.alpha_sum / distance.parted, distance.lights, distance.light,
       distance.light_sum / distance.parted);
@@ -216,7 +217,7 @@ TEST_CASE("coverage: given coverage splits pixels as in the reference") {
       CHECK(distance.parted < kWidth * kHeight - 500);
       all.Add(distance);
     }
-    Print(map == Map::kRamps ? "given, a map of ramps" : "given", all);
+    Print(map == Map::kRamps ? "given coverage, a map of ramps" : "given coverage", all);
   }
 }
 
@@ -228,7 +229,7 @@ TEST_CASE("coverage: found coverage splits pixels as in the reference") {
     CHECK(distance.parted > 2000);
     all.Add(distance);
   }
-  Print("found", all);
+  Print("found coverage", all);
 }
 
 TEST_CASE("coverage: random strands are split as in the reference") {
@@ -240,7 +241,7 @@ TEST_CASE("coverage: random strands are split as in the reference") {
       all.Add(Check(RandomStrands(given, seed)));
     }
     CHECK(all.parted > 20000);
-    Print(given ? "random, given" : "random, found", all);
+    Print(given ? "random strands, given coverage" : "random strands, found coverage", all);
   }
 }
 

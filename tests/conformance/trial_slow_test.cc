@@ -22,15 +22,16 @@ struct Pinned {
 
 // Seeds of trials that once differed by more than a level, with the reasons.
 constexpr Pinned kPinned[] = {
-    {1503, "a share of a mixture rounded twice parts a pixel that is whole: 11 levels"},
-    {1606, "the same where two surfaces are in front: 4 levels"},
-    {1454, "far colours weighed by shares of few steps: 4 levels"},
-    {1096, "the same under the steepest aperture"},
-    {1812, "the same of nine views"},
-    {1382, "slices of four views along the radius that overran their memory: 3 levels"},
-    {6087, "a gathered kernel of a disc with a hard rim, integrated over too few points"},
-    {6293, "the same of a smaller radius"},
-    {7700777, "lamps through subapertures on the rim, by other points than the engine's: 3 levels"},
+    {1503, "a twice rounded share split a pixel that is not mixed: 11 levels"},
+    {1606, "a twice rounded share split a pixel behind two surfaces: 4 levels"},
+    {1454, "far colours were weighted by coarsely rounded shares: 4 levels"},
+    {1096, "coarsely rounded shares with the steepest aperture"},
+    {1812, "coarsely rounded shares with nine views"},
+    {1382, "slices for N = 4 exceeded their memory: 3 levels"},
+    {6087, "the PSF of a disc was integrated over too few points for gathering"},
+    {6293, "the PSF of a smaller disc was integrated over too few points"},
+    {7700777,
+     "lamps: the reference sampled rim subapertures at other points than the engine: 3 levels"},
 };
 
 TEST_CASE("trials: seeds that once failed match the reference") {

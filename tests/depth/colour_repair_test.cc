@@ -132,7 +132,7 @@ TEST_CASE("colour repair: the near surface gets the pixels that a soft edge mixe
   CHECK(sure <= mixed - taken);
 }
 
-TEST_CASE("colour repair: outlines stay even if the colours are noisy") {
+TEST_CASE("colour repair: outlines do not move even if the colours are noisy") {
   const Photo truth = MakeDisc(0);
   Photo photo = truth;
   test::Random random(9);
@@ -150,8 +150,7 @@ TEST_CASE("colour repair: outlines stay even if the colours are noisy") {
   CHECK(CountWrong(Repair(photo).map, truth) < CountWrong(photo.map, truth));
 }
 
-TEST_CASE(
-    "colour repair: a correct map with steps, planes and fractions stays the same to the bit") {
+TEST_CASE("colour repair: no bit of a correct map with steps, planes and fractions changes") {
   const Photo disc = MakeDisc(0, 6.0123F, -3.987F);
   CHECK(SameBits(Repair(disc).map, disc.map));
   Photo plane = MakeDisc(0);

@@ -27,7 +27,7 @@ TEST_CASE("estimate: the edges of a near plane in front of a far one are found t
   }
 }
 
-TEST_CASE("estimate: a leaning plane stays a plane between the disparities that are tried") {
+TEST_CASE("estimate: disparities of a slanted plane are interpolated between labels") {
   PlaneScene scene;
   scene.near_left = scene.near_right = 0;
   scene.lean = 0.04;
@@ -61,7 +61,7 @@ TEST_CASE("estimate: confidence is high where only one disparity fits") {
   CHECK(confidence[confidence.size() / 2] > 48);
 }
 
-TEST_CASE("estimate: disparities of pictures of any size stay within any range") {
+TEST_CASE("estimate: disparities are within the configured range for pictures of any size") {
   for (const PlaneScene& scene : ScenesOfAnySize()) {
     const PlaneField field = RenderPlanes(scene);
     for (const auto& [low, high] : {std::pair<float, float>{0, 0}, {-3.3F, 4.7F}, {-500, 500}}) {

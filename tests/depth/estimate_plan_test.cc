@@ -77,7 +77,7 @@ TEST_CASE(
   CHECK(wide.Disparity(wide.labels - 1) + 64 <= INT16_MAX);
 }
 
-TEST_CASE("estimate plan: moves are rounded to whole pixels, and halves towards the centre") {
+TEST_CASE("estimate plan: shifts are rounded to whole pixels, and halves towards the centre") {
   using starfocus::WholeMove;
   CHECK(WholeMove(64) == 0);
   CHECK(WholeMove(65) == 1);

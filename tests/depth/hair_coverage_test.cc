@@ -88,7 +88,7 @@ TEST_CASE("hair coverage: confidence is high where map and coverage agree") {
   }
 }
 
-TEST_CASE("hair coverage: bare outlines near hair are repaired, and their surfaces stay opaque") {
+TEST_CASE("hair coverage: outlines without hair are repaired even near hair, and stay opaque") {
   Portrait portrait = MakeClosedHair();
   // In the changed map, the top edge of the body to the right of the hair is 2 pixels too low.
   for (int y = 110; y < 112; ++y) {
@@ -105,7 +105,8 @@ TEST_CASE("hair coverage: bare outlines near hair are repaired, and their surfac
   CHECK(found.coverage[portrait.At(234, 108)] == 0);
 }
 
-TEST_CASE("hair coverage: opaque surfaces have none, and the request does not change the map") {
+TEST_CASE(
+    "hair coverage: with opaque surfaces only, no coverage is found and the map does not change") {
   Portrait portrait;
   portrait.Draw();
   for (size_t k = 0; k < portrait.map.size(); k += 7) portrait.map[k] += 0.01F;

@@ -61,7 +61,7 @@ TEST_CASE("repair: noise is removed") {
   CHECK(ShareOff(scene, repaired.disparity, 0.28) < 0.03);
 }
 
-TEST_CASE("repair: a correct map stays the same to the bit") {
+TEST_CASE("repair: no bit of a correct map changes") {
   PlaneScene scene;
   scene.near = 5.013;
   scene.far = -3.27;
@@ -110,7 +110,7 @@ struct StrandScene {
   }
 };
 
-TEST_CASE("repair: strands of an exact map stay") {
+TEST_CASE("repair: the strands of an exact map do not change") {
   const std::vector<float> given = StrandScene::Map();
   for (const int views : {1, 5, 17}) {
     CAPTURE(views);
@@ -184,14 +184,15 @@ TEST_CASE("repair: unknown values get the disparity that the views show") {
   CHECK(ShareOff(scene, repaired.disparity, 0.28) < 0.022);
 }
 
-TEST_CASE("repair: disparities of pictures of any size stay within the range") {
+TEST_CASE("repair: disparities are within the configured range for pictures of any size") {
   for (const PlaneScene& scene : ScenesOfAnySize()) {
     const PlaneField field = RenderPlanes(scene);
     CheckWithin(MakeMap(field, ConfigOf(field, -500, 500), MapOf(scene, 1)).disparity, -500, 500);
   }
 }
 
-TEST_CASE("repair: a noisy map of one view stays in its range") {
+TEST_CASE(
+    "repair: with one view, the disparities of a noisy map stay within the configured range") {
   constexpr int kSide = 64;
   const PlaneField field = {kSide, kSide, {std::vector<uint8_t>(3 * kSide * kSide, 90)}};
   std::vector<float> given;

@@ -37,7 +37,8 @@ std::vector<uint8_t> SweptOf(const PlaneScene& scene, const std::vector<float>& 
   return {memory->swept, memory->swept + given.size()};
 }
 
-TEST_CASE("swept: in a correct map, only pixels around steps are swept, also across tiles") {
+TEST_CASE(
+    "swept: in a correct map, only pixels around steps are swept, even across tile boundaries") {
   PlaneScene scene;
   scene.width = 400;
   scene.near_left = 130;
@@ -75,7 +76,7 @@ TEST_CASE("swept: disparities that contradict the views are swept, even if they 
   CHECK(outside == 0);
 }
 
-TEST_CASE("swept: runs equal the mask within the given part of a row") {
+TEST_CASE("swept: the listed runs equal the mask within the given part of a row") {
   EstimatePlan plan = {};
   plan.width = 8;
   const uint8_t swept[] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 0, 0, 1, 0, 1, 1};

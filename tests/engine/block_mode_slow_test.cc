@@ -88,7 +88,7 @@ void CheckStreamed(const test::Scene& scene, const Setup& s) {
   test::CheckStreamed(scene, Config(s, scene), s.Params());
 }
 
-TEST_CASE("block: rows have the bytes of whole pictures at sizes of every kind") {
+TEST_CASE("block: streamed rows equal the rows of the whole picture at sizes of every kind") {
   test::Random random(31);
   constexpr int kSizes[][2] = {{1, 1},   {1, 40},  {40, 1},   {1, 150},  {150, 1},  {2, 3},
                                {15, 17}, {16, 16}, {17, 15},  {31, 33},  {32, 32},  {33, 70},
@@ -105,7 +105,7 @@ TEST_CASE("block: rows have the bytes of whole pictures at sizes of every kind")
   }
 }
 
-TEST_CASE("block: rows have the bytes of whole pictures in blur mode and on noise") {
+TEST_CASE("block: streamed rows equal the rows of the whole picture in blur mode and on noise") {
   test::Random random(32);
   for (int round = 0; round < 12; ++round) {
     test::Scene scene =

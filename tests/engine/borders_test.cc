@@ -240,7 +240,7 @@ const Sum kSums[] = {
      &Kept::sides, 0, 8},
 };
 
-TEST_CASE("borders: with one pixel less than the sum, pictures change") {
+TEST_CASE("borders: if a border is one pixel narrower than the sum, pictures change") {
   for (const Sum& sum : kSums) {
     test::Random random(5);
     bool beyond = false, within = false;
@@ -296,7 +296,7 @@ std::vector<uint8_t> NoiseAround(int side, const Rect& rect, int border, uint64_
   return picture;
 }
 
-TEST_CASE("borders: the filter of layers needs exactly its declared border") {
+TEST_CASE("borders: the layer filters read exactly as far as their declared border") {
   constexpr int kSide = 40, kRows = 22, kAt = 9;
   Dependence dependence;
   for (uint64_t seed = 1; seed <= 20; ++seed) {
@@ -323,7 +323,7 @@ TEST_CASE("borders: the filter of layers needs exactly its declared border") {
   dependence.Check();
 }
 
-TEST_CASE("borders: captured views are needed exactly up to the declared border") {
+TEST_CASE("borders: captured views are read exactly as far as the declared border") {
   constexpr int kSide = 40;
   for (int layer = 0; layer < STARFOCUS_LAYERS; ++layer) {
     CAPTURE(layer);

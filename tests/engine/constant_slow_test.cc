@@ -73,7 +73,7 @@ int Changed(const Trial& t) {
   return changed;
 }
 
-TEST_CASE("constant: every level is unchanged") {
+TEST_CASE("constant: a constant picture of any level is unchanged") {
   Trial t = {19, 11, 17, -2, 3};
   for (int views : test::kStars) {
     t.views = views;
@@ -132,7 +132,7 @@ TEST_CASE("constant: every shape of the opening leaves the picture unchanged") {
   }
 }
 
-TEST_CASE("constant: every small size is unchanged") {
+TEST_CASE("constant: a constant picture of any small size is unchanged") {
   for (int height : {1, 2, 3, 5, 8, 17}) {
     for (int width : {1, 2, 3, 4, 7, 16, 31, 33}) {
       for (int views : test::kStars) {
@@ -172,7 +172,8 @@ TEST_CASE("constant: wide subapertures leave the picture unchanged") {
 // few levels of light. The engine therefore scales the weights up and sums the products in shares.
 // The remaining error is the rounding of slices that cover parts of a pixel. This rounding error
 // affects up to three pixels of a few pictures.
-TEST_CASE("constant: dark codes are nearly unchanged by steep openings") {
+TEST_CASE(
+    "constant: openings with a steep fall-off hardly change constant pictures of dark codes") {
   Trial t = {64, 64, 5};
   t.levels = 5;
   t.renderer = STARFOCUS_RENDERER_SLICES;

@@ -96,12 +96,12 @@ test::Scene Without(test::Scene scene) {
   return scene;
 }
 
-TEST_CASE("given coverage: it takes precedence over a map without gaps") {
+TEST_CASE("given coverage: coverage takes precedence over a map without gaps") {
   const test::Scene scene = Comb();
   const starfocus_params params = ThroughDisc(kFar);
   const double with = PsnrOf(test::OutputOf(CombConfig(scene), params, scene));
   const double without = PsnrOf(test::OutputOf(CombConfig(scene), params, Without(scene)));
-  MESSAGE(without, " -> ", with, " dB");
+  MESSAGE("PSNR without and with coverage: ", without, " and ", with, " dB");
   CHECK(with > without + 6);
 }
 
@@ -159,7 +159,7 @@ test::Scene Doubled(const test::Scene& scene) {
   return doubled;
 }
 
-TEST_CASE("given coverage: previews use mean values of it") {
+TEST_CASE("given coverage: previews use the mean coverage of their pixels") {
   const test::Scene scene = Comb(), doubled = Doubled(scene);
   starfocus_config config = CombConfig(doubled);
   config.max_blur = 4 * kNear;
@@ -176,7 +176,7 @@ TEST_CASE("given coverage: previews use mean values of it") {
   CHECK((preview.bytes != test::OutputOf(CombConfig(scene), params, Without(scene)).bytes));
 }
 
-TEST_CASE("given coverage: a frame after another one detects changes of it") {
+TEST_CASE("given coverage: a frame after another frame detects changes of coverage") {
   const test::Scene before = Comb();
   const starfocus_config config = CombConfig(before);
   const starfocus_params params = ThroughDisc(kFar);
@@ -195,7 +195,7 @@ TEST_CASE("given coverage: a frame after another one detects changes of it") {
   }
 }
 
-TEST_CASE("given coverage: without blur, colours that contradict it stay") {
+TEST_CASE("given coverage: without blur, colours that contradict the coverage do not change") {
   test::Scene scene = Comb();
   test::Random random(3);
   for (uint8_t& coverage : scene.coverage) coverage = random.Byte();
@@ -224,7 +224,7 @@ TEST_CASE("given coverage: highlights brighten only their surroundings") {
   CHECK(largest <= 1);
 }
 
-TEST_CASE("given coverage: it is ignored without the feature, and bad input is rejected") {
+TEST_CASE("given coverage: without the feature coverage is ignored, and bad input is rejected") {
   const test::Scene scene = Comb();
   starfocus_config config = CombConfig(scene);
   config.features |= STARFOCUS_FEATURE_STREAMING;

@@ -18,7 +18,7 @@ using starfocus::Arena;
 using starfocus::kTooLarge;
 
 // Red zones would prevent pieces from sharing memory.
-TEST_CASE("layout: pieces are aligned, padded and counted as they are taken" *
+TEST_CASE("layout: each allocated piece is aligned, padded and counted" *
           doctest::skip(starfocus::kRedZone > 0)) {
   alignas(STARFOCUS_ALIGNMENT) static uint8_t memory[1 << 12];
   Arena counting(nullptr), arena(memory);
@@ -78,7 +78,8 @@ TEST_CASE("layout: sizes beyond the address space are reported as too large") {
 }
 
 // The size of a workspace on a board in KiB (docs/boards.md), with all modes and rules.
-TEST_CASE("layout: workspaces of boards do not grow" * doctest::skip(starfocus::kRedZone > 0)) {
+TEST_CASE("layout: the workspaces for boards do not exceed their recorded sizes" *
+          doctest::skip(starfocus::kRedZone > 0)) {
   const auto with_coverage = [](starfocus_config config) {
     config.features |= STARFOCUS_FEATURE_COVERAGE;
     return config;
@@ -153,7 +154,7 @@ TEST_CASE("layout: the layout of a smaller picture fits into the same memory") {
   }
 }
 
-TEST_CASE("layout: after a new layout, an engine keeps its workers and tables") {
+TEST_CASE("layout: an engine keeps its workers and tables after its memory is laid out again") {
   starfocus_config config;
   starfocus_config_init(&config);
   config.width = 300;

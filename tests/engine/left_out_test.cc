@@ -122,7 +122,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("left out: with N by (9), shifts of up to a third of a pixel move nothing") {
+TEST_CASE("left out: with N by (9), blocks with shifts of up to a third of a pixel are copied") {
   for (const double radius : {0.1, 0.32, 0.36, 0.4}) {
     const test::Scene scene = test::RandomScene(64, 64, 5, 1, 1, 3);
     const starfocus_params params =
@@ -142,7 +142,7 @@ test::Scene FlatScene() {
   return scene;
 }
 
-TEST_CASE("left out: layers that no block reads are not made") {
+TEST_CASE("left out: layers that no block reads are not computed") {
   const test::Scene scene = FlatScene();
   starfocus_config config = test::ConfigFor(scene, 40);
   const auto columns = [&](double focus) {

@@ -32,7 +32,7 @@ Refocused Refocus(const test::Scene& scene, const starfocus_params& params, doub
 
 test::Scene FlatScene(uint64_t seed) { return test::RandomScene(40, 36, 5, 0, 0, seed); }
 
-TEST_CASE("n_scale: it multiplies the N of either rule in frame and block mode") {
+TEST_CASE("n_scale: the scale multiplies N of either rule in frame and block mode") {
   const test::Scene scene = FlatScene(1);
   for (const double radius : {0.0, 0.25, 0.9, 3.5, 9.0, 17.0, 25.0}) {
     for (const double scale : kScales) {
@@ -56,7 +56,7 @@ TEST_CASE("n_scale: it multiplies the N of either rule in frame and block mode")
   }
 }
 
-TEST_CASE("n_scale: benchmark and blur mode do not change") {
+TEST_CASE("n_scale: the scale does not affect benchmark and blur mode") {
   const test::Scene scene = test::IntegerScene(70, 50, 5, test::Depth::kLayers);
   for (const starfocus_mode mode : {STARFOCUS_MODE_BENCHMARK, STARFOCUS_MODE_BLUR}) {
     const starfocus_params params = test::Params(1, 0.5, mode);

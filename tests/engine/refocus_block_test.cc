@@ -152,7 +152,8 @@ void CheckSmall(const FrameDiff& changes) {
   }
 }
 
-TEST_CASE("refocus_block: for a flat surface the border suffices at every layer, size and place") {
+TEST_CASE(
+    "refocus_block: for a flat surface, the border suffices at every layer, size and position") {
   const FrameDiff changes = CheckPictures(200, 0.3, FlatScene);
   for (int layer = 0; layer < STARFOCUS_LAYERS; ++layer) {
     CHECK(changes.blocks[layer] > 30);
@@ -160,11 +161,11 @@ TEST_CASE("refocus_block: for a flat surface the border suffices at every layer,
   }
 }
 
-TEST_CASE("refocus_block: stretched surfaces beyond the border cause only small changes") {
+TEST_CASE("refocus_block: stretched surfaces beyond the border hardly change a block") {
   CheckSmall(CheckPictures(250, 0.9, StairScene));
 }
 
-TEST_CASE("refocus_block: holes beyond the border cause only small changes") {
+TEST_CASE("refocus_block: holes beyond the border hardly change a block") {
   CheckSmall(CheckPictures(300, 0.3, SteppedScene));
 }
 

@@ -39,7 +39,8 @@ std::vector<uint8_t> Picture(const starfocus_config& config, const starfocus_par
   return out.Tight();
 }
 
-TEST_CASE("room: reserved blurs, rows and workers change no picture") {
+TEST_CASE(
+    "room: a workspace for larger blurs, more rows or more workers does not change the picture") {
   test::Random random(11);
   for (int round = 0; round < test::Rounds(60); ++round) {
     const float range = static_cast<float>(random.Real(2, 40));

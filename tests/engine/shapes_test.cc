@@ -94,7 +94,7 @@ TEST_CASE("shapes: the light of a patch is kept for every opening") {
   }
 }
 
-TEST_CASE("shapes: dark codes are kept if views weigh much more in the middle of the opening") {
+TEST_CASE("shapes: dark codes do not change even if views in the middle have much larger weights") {
   constexpr int kWidth = 40, kHeight = 12, kEdge = 28;
   test::Scene scene = test::EmptyScene(kWidth, kHeight, 1, 0, 0);
   const starfocus_config config = test::ConfigFor(scene, 4);
@@ -126,7 +126,7 @@ TEST_CASE("shapes: the middle of a ring is dark") {
   }
 }
 
-TEST_CASE("shapes: a pentagon is symmetric only about its axis, and upside down if near") {
+TEST_CASE("shapes: a pentagon has one axis of symmetry, and is upside down in front of the focus") {
   for (const starfocus_mode mode : test::kModes) {
     for (const starfocus_renderer renderer : test::kRenderers) {
       CAPTURES(mode, renderer);

@@ -30,7 +30,7 @@ const Symmetry kTurns[] = {{"transpose", {true, false, false}},
                            {"turn 270", {true, false, true}},
                            {"anti-transpose", {true, true, true}}};
 
-TEST_CASE("symmetry: captured views exchange their positions") {
+TEST_CASE("symmetry: mirroring or rotating a light field permutes the positions of its views") {
   CHECK(test::MoveView(kMirrors[0].move, 1) == 2);
   CHECK(test::MoveView(kMirrors[0].move, 3) == 3);
   CHECK(test::MoveView(kMirrors[1].move, 3) == 4);

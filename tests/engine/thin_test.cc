@@ -121,7 +121,8 @@ TEST_CASE("thin: strands are separated from a wall in focus and from a blurred w
       const starfocus_params params = ThroughDisc(focus);
       const double with = PsnrOf(test::OutputOf(ConfigFor(scene, true), params, scene), truth);
       const double without = PsnrOf(test::OutputOf(ConfigFor(scene, false), params, scene), truth);
-      MESSAGE("views ", views, ", focus ", focus, ": ", without, " -> ", with, " dB");
+      MESSAGE("views ", views, ", focus ", focus, ": PSNR without and with coverage ", without,
+              " and ", with, " dB");
       CHECK(with > without + 2);
     }
   }

@@ -26,7 +26,7 @@ uint8_t CodeOf(int light, starfocus_transfer transfer) {
   return code;
 }
 
-TEST_CASE("transfer: the light of every code is on the curve, and converts back to the code") {
+TEST_CASE("transfer: the light of every code follows the curve and converts back to the code") {
   for (const starfocus_transfer transfer : kTransfers) {
     const starfocus::Transfer& tables = starfocus::TransferOf(transfer);
     for (int code = 0; code < 256; ++code) {
@@ -99,7 +99,7 @@ TEST_CASE("transfer: a ramp of dark codes stays monotone at every focus") {
   }
 }
 
-TEST_CASE("transfer: half of the light of white is code 188, and half of the code is 128") {
+TEST_CASE("transfer: half the light of white is code 188, or code 128 without a curve") {
   const test::Scene board =
       FlatScene(96, 96, 0, [](int x, int y) { return (x + y) % 2 == 0 ? 255 : 0; });
   for (const starfocus_mode mode : test::kModes) {

@@ -27,7 +27,7 @@ struct NotingRunner {
   }
 };
 
-TEST_CASE("workers: each block is a job, and jobs with the largest predicted time come first") {
+TEST_CASE("workers: each block is a job, and jobs with the largest predicted time start first") {
   // The flat, blurred area begins within the first superblock, which is therefore split into
   // blocks.
   constexpr int kColumns = 3, kSide = 128;

@@ -130,7 +130,8 @@ TEST_CASE("blur: random disparities, foci, apertures, fall-offs and blocks match
   }
 }
 
-TEST_CASE("blur: openings of other shapes match, in front of the focus and behind it") {
+TEST_CASE(
+    "blur: openings of other shapes match the reference, in front of the focus and behind it") {
   for (const test::NamedShape& shape : test::kShapes) {
     starfocus_lens lens = test::Params(0).lens;
     shape.Set(&lens);
@@ -173,7 +174,7 @@ TEST_CASE("blur: only the centre view is read") {
   CHECK(Blurred(scene, 1, 1, 32, kTheta, STARFOCUS_TRANSFER_SRGB) == before);
 }
 
-TEST_CASE("blur: the size of blocks does not matter") {
+TEST_CASE("blur: the result does not depend on the size of blocks") {
   const test::Scene scene = test::RandomScene(150, 90, 1, -6, 6, 20);
   const std::vector<uint8_t> expected = Blurred(scene, 2, 1, 32, kTheta, STARFOCUS_TRANSFER_SRGB);
   for (const int block : {64, 128, 256})
@@ -211,7 +212,8 @@ TEST_CASE("blur: PSFs sum to exactly one, fit their types and decrease from the 
   }
 }
 
-TEST_CASE("blur: steps of the ladder of radii never decrease, and radii are rounded to steps") {
+TEST_CASE(
+    "blur: the available radii increase, and other radii are rounded to the nearest of them") {
   int last = -1;
   for (int radius = 0; radius <= int(STARFOCUS_MAX_BLUR) * kOne; ++radius) {
     const int step = starfocus::BlurStep(radius);

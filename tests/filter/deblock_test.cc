@@ -176,7 +176,7 @@ TEST_CASE("deblock: the filter applies only if the difference is below beta") {
   }
 }
 
-TEST_CASE("deblock: every colour must meet the condition") {
+TEST_CASE("deblock: all three colours must differ by less than beta") {
   for (int c = 0; c < 3; ++c) {
     Picture picture(32, 1);
     std::fill(picture.rgb.begin(), picture.rgb.end(), uint8_t{100});

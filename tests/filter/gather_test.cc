@@ -99,7 +99,7 @@ struct Cells {
   starfocus::BlurScale scale;
 };
 
-TEST_CASE("gather: the smooth cells match their definition") {
+TEST_CASE("gather: the cells that are gathered match their definition") {
   test::Random random(61);
   int found[3] = {0, 0, 0};
   for (int round = 0; round < 60; ++round) {
@@ -125,7 +125,7 @@ int LargestDifference(const Refocused& a, const Refocused& b) {
   return largest;
 }
 
-TEST_CASE("gather: a flat surface gets the bytes of the blur mode") {
+TEST_CASE("gather: for a flat surface, the result equals that of the blur mode") {
   for (const double radius : {0.6, 1.0, 2.5, 4.0, 7.3, 12.0}) {
     for (const int block : {32, 64, 256}) {
       test::Scene scene = test::RandomScene(70, 45, 5, 0, 0, 62);
@@ -171,7 +171,7 @@ TEST_CASE("gather: cells in focus, cells with large blur and other modes are not
   CHECK(gathered(3, STARFOCUS_MODE_BENCHMARK, STARFOCUS_RENDERER_SLICES) == 0);
 }
 
-TEST_CASE("gather: the rows of a layer that the PSFs read are kept") {
+TEST_CASE("gather: the borders of a layer include all rows that the PSFs read") {
   std::vector<uint16_t> weights(starfocus::BlurWeightCount(false, starfocus::kMaxGather));
   std::vector<starfocus::Psf> kernels(size_t(starfocus::BlurStepCount(starfocus::kMaxGather)));
   starfocus::MakePsfs(0, int32_t(kernels.size()), {}, nullptr, weights.data(), kernels.data());
@@ -187,7 +187,8 @@ TEST_CASE("gather: the rows of a layer that the PSFs read are kept") {
   }
 }
 
-TEST_CASE("gather: cells at depth edges use views, and gathering does not reduce the PSNR") {
+TEST_CASE(
+    "gather: cells at depth edges use rendered views, and gathering does not reduce the PSNR") {
   for (const uint64_t seed : {64, 65, 66}) {
     const test::Scene scene = test::LayeredScene(180, 130, 9, 6, seed);
     starfocus_config config = test::ConfigFor(scene, 16);
@@ -201,7 +202,7 @@ TEST_CASE("gather: cells at depth edges use views, and gathering does not reduce
     CHECK(gathered.report.gathered_pixels < 180 * 130);
     CHECK(gathered.rgb != views.rgb);
     CAPTURE(seed);
-    MESSAGE("dB with and without: ", test::Psnr(gathered.rgb, benchmark.rgb), " ",
+    MESSAGE("PSNR in dB with and without gathering: ", test::Psnr(gathered.rgb, benchmark.rgb), " ",
             test::Psnr(views.rgb, benchmark.rgb), ", gathered ", gathered.report.gathered_pixels);
     // At 52 dB half of the difference comes from rounding both pictures to bytes.
     CHECK(test::Psnr(gathered.rgb, benchmark.rgb) >

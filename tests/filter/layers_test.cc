@@ -319,7 +319,7 @@ TEST_CASE("layers: rounding errors of one and two layers down and up are bounded
   CHECK(errors.levels[2] <= 1);
 }
 
-TEST_CASE("layers: columns may be made in any number of parts and on any target") {
+TEST_CASE("layers: the result does not depend on how columns are divided or on the SIMD target") {
   test::Random random(15);
   for (int round = 0; round < 30; ++round) {
     const int width = random.Int(1, 270), height = random.Int(1, 40);
@@ -336,7 +336,7 @@ TEST_CASE("layers: columns may be made in any number of parts and on any target"
   }
 }
 
-TEST_CASE("layers: rows that are made alone are equal to those of the whole layer") {
+TEST_CASE("layers: rows that are computed alone equal the rows of the whole layer") {
   test::Random random(16);
   const int width = 37, height = 90;
   const std::vector<uint8_t> picture = RandomPicture(width, height, kRandom, &random);

@@ -43,7 +43,7 @@ struct Plane {
   starfocus::BlurScale scale;
 };
 
-TEST_CASE("slope: radii of a plane's pixels are those of their disparities") {
+TEST_CASE("slope: the radii along a plane follow from the disparities of its pixels") {
   for (const double middle : {5.0, -5.0}) {
     const Plane plane(middle, 0.1, 0.05);
     const RadiusRange range = plane.Middle(0).RangeOf({16, 16, 8, 8});
@@ -66,7 +66,7 @@ TEST_CASE("slope: the smallest radius is 0 if the focus is within the cell") {
   CHECK(range.high / kOne == doctest::Approx(0.35).epsilon(0.05));
 }
 
-TEST_CASE("slope: shares are positions of the squared radius between two squared radii") {
+TEST_CASE("slope: shares interpolate linearly between two squared radii") {
   const Plane plane(5, 0.1, 0);
   constexpr size_t kStride = 26;
   int16_t share[2 * kStride];
@@ -103,7 +103,7 @@ double CentreOfViews(double radius, double gradient) {
   return sum / views;
 }
 
-TEST_CASE("slope: a picture is moved to the centre of the light of all views") {
+TEST_CASE("slope: a gathered picture is shifted to the centroid of the light of all views") {
   starfocus::ApertureShape disc;
   disc.shape = STARFOCUS_SHAPE_DISC;
   const int32_t spread = starfocus::MeanSquare(disc);

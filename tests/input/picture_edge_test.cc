@@ -75,7 +75,7 @@ Difference AtEdges(const test::Refocused& picture, const test::Refocused& larger
   return difference;
 }
 
-TEST_CASE("beyond: edges look as in a larger picture of the same scene") {
+TEST_CASE("beyond: pixels at the edges match a larger picture of the same scene") {
   constexpr int kMargin = 32;
   for (const int views : {5, 9, 17}) {
     for (const float disparity : {-9.0f, 9.0f, 10.5f}) {
@@ -104,7 +104,7 @@ TEST_CASE("beyond: edges look as in a larger picture of the same scene") {
   }
 }
 
-TEST_CASE("beyond: a single view repeats its edge") {
+TEST_CASE("beyond: with a single view, the edge pixels are repeated") {
   constexpr int kMargin = 32;
   const test::Scene scene = FlatScene(0, 0, kSide, 1, 9);
   const test::Scene larger = FlatScene(-kMargin, -kMargin, kSide + 2 * kMargin, 1, 9);
@@ -195,7 +195,7 @@ TEST_CASE("beyond: the view on the outer side is used as far as it sees beyond t
   }
 }
 
-TEST_CASE("beyond: a pair sees beyond one edge, as far as its second view moves") {
+TEST_CASE("beyond: a pair sees beyond one edge, as far as the shift of its second view") {
   for (const int unit : {-10, 10}) {
     Row scene(17);
     test::SetPositions({{0.5, 0}}, &scene.window);
@@ -231,7 +231,7 @@ TEST_CASE("beyond: pixels under or behind a nearer surface are not used") {
   for (int k = 3; k <= kBorder; ++k) CHECK(row[size_t(kBorder - k)] == 9);
 }
 
-TEST_CASE("beyond: near surfaces continue on the side that farther ones leave free") {
+TEST_CASE("beyond: near surfaces continue on the side that no farther surface fills") {
   Row scene(5);
   scene.Fill(0, kWidth, 3);
   scene.Fill(1, 20, 9);

@@ -124,7 +124,7 @@ TEST_CASE("line scan: every requested pixel is reported once and in scan order")
   }
 }
 
-TEST_CASE("line scan: a part is equal to the same part of the whole line") {
+TEST_CASE("line scan: a part of a line is equal to the same part of the whole line") {
   test::Random random(9);
   for (int round = 0; round < 4000; ++round) {
     const RandomView r(&random);
@@ -160,7 +160,7 @@ reference::Lens LensOf(const ViewGrid& grid, double aperture) {
   return lens;
 }
 
-TEST_CASE("line scan: every pixel is equal to that of the reference") {
+TEST_CASE("line scan: every pixel matches the reference") {
   test::Random random(11);
   int mixed = 0, rims = 0;
   for (int round = 0; round < 6000; ++round) {

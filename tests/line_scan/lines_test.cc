@@ -65,12 +65,12 @@ struct Line {
 constexpr double kStep = kSurfaceStep / 64.0;
 
 const Line kLines[] = {
-    {"a surface in focus stays", {{9, 0}}, {Moved(0, 9, 0)}},
+    {"a surface in focus does not move", {{9, 0}}, {Moved(0, 9, 0)}},
     {"a flat surface moves, and its end continues beyond the line",
      {{9, 2}},
      {Moved(0, 7, 2), Hole(7, 9, 8)}},
     {"a farther surface moves to the right", {{9, -2}}, {Moved(2, 9, -2), Hole(0, 2, 0)}},
-    {"one pixel stays", {{1, 0}}, {Moved(0, 1, 0)}},
+    {"one pixel in focus does not move", {{1, 0}}, {Moved(0, 1, 0)}},
     {"one pixel moves left", {{1, 3}}, {Hole(0, 1, 0)}},
     {"one pixel moves right", {{1, -3}}, {Hole(0, 1, 0)}},
     // In the hole next to the near object, the surface of pixel 15 continues.
@@ -83,14 +83,16 @@ const Line kLines[] = {
      {Moved(0, 3, 5), Moved(3, 12, 9), Hole(12, 21, 21), Moved(21, 30, 0)}},
     // Pixel 8 repeats the pixel next to the step.
     {"a small step stretches a surface", {{10, 2}, {10, 1}}, {Moved(0, 9, 2), Moved(9, 19, 1)}},
-    {"a small step covers a part", {{10, 1}, {10, 2}}, {Moved(0, 8, 1), Moved(8, 18, 2)}},
+    {"a small step covers a part of the farther surface",
+     {{10, 1}, {10, 2}},
+     {Moved(0, 8, 1), Moved(8, 18, 2)}},
     {"the largest step that stretches a surface", {{10, 2}, {10, 2 - kStep}}, {Moved(0, 9, 2)}},
     {"the smallest step that leaves a hole",
      {{10, 2}, {10, 2 - kStep - 1.0 / 64}},
      {Hole(8, 9, 10)}},
     // A third surface lies in the gap of one pixel. The stretched pixel is a copy of this surface,
     // and is not blended with neighbours across the edges.
-    {"no neighbour across an edge inside a stretch",
+    {"a pixel inside a run has no neighbour across a depth edge",
      {{10, 3.375}, {2, 0}, {12, 4}},
      {Moved(0, 8, 3),
       Moved(8, 20, 4),
@@ -105,51 +107,51 @@ const Line kLines[] = {
      {Moved(0, 5, 0), Mix(5, 10, 5, 64), Moved(6, 10, 5), Rim(10, 15, 14, 64), Hole(11, 15, 15),
       Moved(15, 24, 0)}},
     // The near surface moves to the range from 5 3/4 to 10 3/4.
-    {"a nearer surface covers a part of the pixel beyond its last",
+    {"a nearer surface covers a part of the pixel next to its last pixel",
      {{10, 0}, {5, 4.25}, {9, 0}},
      {Moved(0, 5, 0), Mix(5, 5, 10, 64), Moved(6, 10, 4), Rim(10, 15, 14, 192), Hole(11, 15, 15),
       Moved(15, 24, 0)}},
-    {"half pixels",
+    {"a surface whose ends lie at half pixels is mixed half and half",
      {{10, 0}, {5, 4.5}, {9, 0}},
      {Moved(0, 5, 0), Mix(5, 10, 5, 128), Moved(6, 10, 5), Rim(10, 15, 14, 128)}},
-    {"whole pixels",
+    {"a surface whose ends lie at whole pixels is not mixed",
      {{10, 0}, {5, 4}, {9, 0}},
      {Moved(0, 6, 0), Plain(5, 5), Plain(6, 10), Moved(6, 11, 4), Rim(11, 15, -1, 0),
       Hole(11, 15, 15)}},
-    {"1/64 of a pixel less",
+    {"a shift 1/64 of a pixel below whole pixels",
      {{10, 0}, {5, 4 - 1.0 / 64}, {9, 0}},
      {Mix(6, 10, 6, 4), Rim(11, 15, 14, 4)}},
-    {"1/64 of a pixel more",
+    {"a shift 1/64 of a pixel above whole pixels",
      {{10, 0}, {5, 4 + 1.0 / 64}, {9, 0}},
      {Mix(5, 5, 10, 4), Rim(10, 15, 14, 252)}},
     // Pixel 10 moves to the range from 5 1/4 to 6 1/4, and covers parts of pixels 5 and 6.
-    {"a surface of one pixel ends twice",
+    {"a surface of one pixel is mixed at both ends",
      {{10, 0}, {1, 4.75}, {9, 0}},
      {Moved(0, 5, 0), Mix(5, 10, 5, 64), Rim(6, 11, 10, 64), Hole(7, 11, 11)}},
     {"a surface of one pixel from 5 3/4 to 6 3/4",
      {{10, 0}, {1, 4.25}, {9, 0}},
      {Moved(0, 5, 0), Mix(5, 5, 10, 64), Rim(6, 11, 10, 192), Hole(7, 11, 11)}},
     // The surface at -3 is hidden. The surface at 0 starts where the near surface ends.
-    {"where the farther surface ends, its last pixel shows",
+    {"the last pixel of a farther surface shows through the end of a nearer surface",
      {{10, 0}, {5, -3}, {5, 4.75}, {9, 0}},
      {Moved(0, 10, 0), Mix(10, 15, 9, 64), Moved(11, 15, 5)}},
-    {"where the farther surface ends, a part of it is covered",
+    {"a nearer surface covers a part of the last pixel of a farther surface",
      {{10, 0}, {4, -3}, {5, 4.25}, {9, 0}},
      {Moved(0, 9, 0), Mix(9, 9, 14, 64), Moved(10, 14, 4)}},
-    {"a nearer surface stays whole next to a gap of one pixel that is stretched over",
+    {"a nearer surface is not mixed next to a gap of one pixel that is stretched over",
      {{10, 0}, {6, -3}, {5, 4.75}, {9, 0}},
      {Moved(0, 11, 0), Moved(11, 15, 5)}},
-    {"next to a hole, a nearer surface ends between pixels and a farther one does not",
+    {"next to a hole, only the end of the nearer surface is mixed",
      {{10, 2.75}, {6, -5}, {5, 0.75}, {5, -3}},
      {Rim(7, 16, 9, 64), Hole(8, 15, 16), Plain(15, 16)}},
     // One pixel at -6 is hidden between two surfaces whose disparities differ by 3/4.
-    {"a hardly nearer surface stays whole",
+    {"a surface that is hardly nearer is not mixed",
      {{10, 4}, {1, -6}, {9, 4.75}, {9, 0}},
      {Moved(0, 6, 4), Moved(6, 15, 5)}},
-    {"a farther surface just too close to mix",
+    {"a farther surface that is just too close is not mixed",
      {{12, 4.75 - kStep}, {2, -6}, {9, 4.75}, {9, -8}},
      {{Kind::kSurface, 9, 10, 14, kAny, kAny}}},
-    {"a farther surface just far enough to mix",
+    {"a farther surface that is just far enough away is mixed",
      {{12, 4.75 - kStep - 1.0 / 64}, {2, -6}, {9, 4.75}, {9, -8}},
      {{Kind::kMix, 9, 10, 14, kAny, kAny}}},
     // Ten pixels at -5 between two surfaces are hidden, so the farther of the two surfaces
@@ -157,9 +159,13 @@ const Line kLines[] = {
     {"a hole below a nearer surface has whole pixels on both sides",
      {{10, 0.25}, {10, -5}, {5, 4.75}, {9, 0}},
      {Moved(0, 10, 0), {Kind::kHole, 10, 15, 9, -1, 0}, Plain(15, 20)}},
-    {"an end on the border of the line", {{5, 1}, {5, 4.75}, {9, 0}}, {Mix(0, 5, 1, 64)}},
+    {"a surface that ends at the first pixel of the line",
+     {{5, 1}, {5, 4.75}, {9, 0}},
+     {Mix(0, 5, 1, 64)}},
     // The near surface has left the line at the right end, except for a quarter of a pixel.
-    {"an end on the other border of the line", {{10, -8}, {3, -2.75}}, {Mix(12, 4, 10, 64)}},
+    {"a surface that ends at the last pixel of the line",
+     {{10, -8}, {3, -2.75}},
+     {Mix(12, 4, 10, 64)}},
 };
 
 TEST_CASE("lines: each pixel of a view has the expected source and weight") {
@@ -170,14 +176,15 @@ TEST_CASE("lines: each pixel of a view has the expected source and weight") {
   }
 }
 
-TEST_CASE("lines: nothing mixes without a depth edge") {
+TEST_CASE("lines: pixels are not mixed without a depth edge") {
   for (const Shown& shown : ScanBothWays(MakeLine({{9, 0.25}, {9, 1.5}, {9, 2.75}}))) {
     CHECK(shown.kind != Kind::kMix);
     CHECK((shown.kind == Kind::kSurface || shown.weight == 0));
   }
 }
 
-TEST_CASE("lines: only the requested part is reported, and is equal to that of the whole line") {
+TEST_CASE(
+    "lines: only the requested part is reported, and is equal to the same part of the whole line") {
   for (const double disparity : {4.0, 4.25, 4.75}) {
     const Depths line = MakeLine({{10, 0}, {5, disparity}, {9, 0}});
     const Picture whole = Scan(line);

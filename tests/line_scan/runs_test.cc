@@ -46,7 +46,7 @@ Runs Find(const Depths& line, Direction direction, int spread) {
   return found;
 }
 
-TEST_CASE("runs: a line may have one pixel, one surface or two surfaces") {
+TEST_CASE("runs: lines of one pixel, one surface or two surfaces are split into runs") {
   CHECK(Find({7}, Direction::kRightToLeft, 16) == Runs{{0, 1, 7}});
   CHECK(Find({7}, Direction::kLeftToRight, 16) == Runs{{0, 1, 7}});
   CHECK(Find({5, 5, 5, 5}, Direction::kRightToLeft, 0) == Runs{{0, 4, 5}});
@@ -89,7 +89,7 @@ TEST_CASE("runs: alternating extremes give runs of one pixel") {
   }
 }
 
-TEST_CASE("runs: the subaperture is the distance that the run moves from view to view") {
+TEST_CASE("runs: the width of a subaperture is the distance that its run moves from view to view") {
   // The distances to the focus, divided by four views, are 0.5 and 0.75 pixels.
   const ViewGrid grid = MakeGrid(4, 1, 16);
   const std::vector<Run> runs =
@@ -134,7 +134,7 @@ Depths RandomLine(int length, test::Random* random) {
   return line;
 }
 
-TEST_CASE("runs: the longest runs that the spread allows cover each of several random lines") {
+TEST_CASE("runs: random lines are covered by the longest runs that the spread allows") {
   test::Random random(3);
   for (int round = 0; round < 150; ++round) {
     const int length = random.Int(1, 70), count = random.Int(1, 40);

@@ -99,7 +99,7 @@ TEST_CASE("span sink: a mixed pixel has parts of both colours and the disparity 
   }
 }
 
-TEST_CASE("span sink: a hole's rim lies where the scan continues, and is the run's from half on") {
+TEST_CASE("span sink: the rim of a hole is mixed, with the disparity of the larger part") {
   struct Case {
     int pixel, rim, at;  // pixel and rim in the line, position in the view
   };
@@ -126,7 +126,7 @@ TEST_CASE("span sink: a hole's rim lies where the scan continues, and is the run
   }
 }
 
-TEST_CASE("span sink: holes without a rim, and surfaces with their neighbours, are drawn") {
+TEST_CASE("span sink: a hole without a rim and a surface with its neighbours are drawn") {
   Drawing drawing(200);
   drawing.Run(kBlendOne, [](auto* sink) {
     sink->Surface(3, 6, 4, -1, int(kBlendOne) / 4);

@@ -329,7 +329,7 @@ TEST_CASE("cells: no pixel beyond a border reaches its block, on random disparit
   }
 }
 
-TEST_CASE("cells: borders of a constant blur are equal to it, within a pixel and a cell") {
+TEST_CASE("cells: the borders for a constant blur equal the blur, to within a pixel and a cell") {
   Map map = EmptyMap(64, 64, 0, 1);
   for (const double r : {0.0, 0.25, 1.0, 2.5, 7.0, 11.5, 30.0}) {
     std::fill(map.disparity.begin(), map.disparity.end(), Fixed(r));
@@ -350,7 +350,7 @@ TEST_CASE("cells: borders of a constant blur are equal to it, within a pixel and
   }
 }
 
-TEST_CASE("cells: a pixel with a larger reach counts from its own position") {
+TEST_CASE("cells: the border of a pixel with a large blur is measured from the pixel's position") {
   Map map = EmptyMap(24, 24, 0, 1);
   const auto reach = [&](int side) {
     return Cells(map, 0, 24, 1).grid.At(1, 1)->Reach(size_t(side));
@@ -396,7 +396,7 @@ TEST_CASE("cells: one pixel out of focus widens only the borders of the blocks t
   }
 }
 
-TEST_CASE("cells: a silhouette also counts for the cell behind it") {
+TEST_CASE("cells: the blur of a silhouette also widens the border of the cell behind it") {
   // A surface starts abruptly with radius 9 at column (or row) 40 and slopes down to the right.
   for (const bool transposed : {false, true}) {
     Map map = EmptyMap(96, 96, 0, 1);

@@ -109,7 +109,8 @@ size_t CheckPicture(const Plan& plan) {
   return count;
 }
 
-TEST_CASE("partition: the cheapest one is chosen, covers each pixel once and follows the rules") {
+TEST_CASE(
+    "partition: the cheapest partition is chosen, covers each pixel once and follows the rules") {
   test::Random random(7);
   size_t blocks = 0, superblocks = 0;
   for (int round = 0; round < 60; ++round) {
@@ -124,7 +125,7 @@ TEST_CASE("partition: the cheapest one is chosen, covers each pixel once and fol
   CHECK(blocks > 2 * superblocks);  // on average, a superblock has more than two blocks
 }
 
-TEST_CASE("partition: the choice is the cheapest of all 83522 partitions of a block of 128") {
+TEST_CASE("partition: the choice is the cheapest of all 83522 partitions of a superblock of 128") {
   test::Random random(8);
   for (int round = 0; round < 3; ++round) {
     const Plan plan(128 - 30 * round, 128, 128, 8, &random);
@@ -134,7 +135,7 @@ TEST_CASE("partition: the choice is the cheapest of all 83522 partitions of a bl
   }
 }
 
-TEST_CASE("partition: the cheapest one is chosen for random and degenerate coefficients") {
+TEST_CASE("partition: the cheapest partition is chosen for random and degenerate coefficients") {
   test::Random random(9);
   for (int round = 0; round < 60; ++round) {
     const int side = 32 << random.Int(0, 1);
@@ -151,7 +152,8 @@ TEST_CASE("partition: the cheapest one is chosen for random and degenerate coeff
   }
 }
 
-TEST_CASE("partition: nothing is split if nothing has a cost, or only blocks") {
+TEST_CASE(
+    "partition: superblocks are not split if nothing has a cost, or if only blocks have a cost") {
   test::Random random(10);
   for (const uint32_t block : {0u, 1u, STARFOCUS_MAX_TIMING}) {
     for (const int side : {32, 64, 128, 256}) {
@@ -168,7 +170,8 @@ TEST_CASE("partition: nothing is split if nothing has a cost, or only blocks") {
   }
 }
 
-TEST_CASE("partition: flat pictures follow the rules at their thresholds and close to them") {
+TEST_CASE(
+    "partition: flat pictures follow the rules at the thresholds and close to the thresholds") {
   const int kMiddle = 128;
   for (const double r :
        {0.0,   1 / 64.0, 0.5,       1.0,     2.0,      2.984375, 3.0,      3.015625,  3.5, 3.984375,
@@ -223,7 +226,7 @@ void AddRowsBeyond(const Plan& plan, int y, const std::vector<Block>& blocks, in
   }
 }
 
-TEST_CASE("partition: blocks read exactly as many rows around a stripe as its borders have") {
+TEST_CASE("partition: blocks read exactly the rows of the borders of their stripe") {
   int slack[3] = {100, 100, 100};
   for (int r = 1; r <= 40; ++r) {
     test::Random random(1);
@@ -249,7 +252,7 @@ TEST_CASE("partition: blocks read exactly as many rows around a stripe as its bo
   for (const int rows : slack) CHECK(rows == 0);
 }
 
-TEST_CASE("partition: blocks of any map read at most the rows of the borders") {
+TEST_CASE("partition: for any map, blocks read at most the rows of the borders of their stripe") {
   test::Random random(13);
   for (int round = 0; round < 60; ++round) {
     const double limit = random.Real(0.5, 30);
@@ -282,7 +285,7 @@ TEST_CASE("partition: a picture in focus is not split") {
   CHECK(flat.Partition(0, 128).size() == 1);
 }
 
-TEST_CASE("partition: N never exceeds its table") {
+TEST_CASE("partition: N never exceeds the largest N in the tables") {
   test::Random random(12);
   for (int round = 0; round < 20; ++round) {
     Plan plan(90, 70, 64, 20, &random);

@@ -122,7 +122,7 @@ starfocus_timing EqualTiming(uint32_t value) {
   return timing;
 }
 
-TEST_CASE("timing: each coefficient multiplies its own work") {
+TEST_CASE("timing: each coefficient multiplies one amount of work") {
   BlockWork work = {};
   uint64_t amount = 1;
   for (const auto which : kAmounts) work.*which = ++amount;
@@ -134,7 +134,7 @@ TEST_CASE("timing: each coefficient multiplies its own work") {
   }
 }
 
-TEST_CASE("timing: the time is linear in work and in coefficients") {
+TEST_CASE("timing: the predicted time is linear in the work and in the coefficients") {
   test::Random random(4);
   for (int round = 0; round < 200; ++round) {
     starfocus_timing s = {}, t = {}, sum = {};
@@ -156,7 +156,8 @@ TEST_CASE("timing: the time is linear in work and in coefficients") {
   }
 }
 
-TEST_CASE("timing: the largest coefficients overflow for no superblock and none of its parts") {
+TEST_CASE(
+    "timing: the largest coefficients do not overflow the cost of a superblock or its blocks") {
   const starfocus_timing most = EqualTiming(STARFOCUS_MAX_TIMING);
   const auto exact = [&](const BlockWork& work) {
     long double sum = 1;

@@ -79,7 +79,7 @@ TEST_CASE("big cores: all allowed cores count if the files are absent or invalid
 }
 
 #ifdef __linux__
-TEST_CASE("big cores: this machine has some, and a thread can run on them") {
+TEST_CASE("big cores: this machine has big cores, and a thread can run on them") {
   const CoreSet big = starfocus::BigCores();
   CHECK(big.Count() >= 1);
   starfocus::RunOn(big);

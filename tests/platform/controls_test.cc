@@ -60,7 +60,7 @@ TEST_CASE("encoder: a step is counted at the last of its four edges") {
   CHECK(decoder.EdgeOfB(true) == 1);
 }
 
-TEST_CASE("encoder: half a step and back is not counted") {
+TEST_CASE("encoder: half a step forward and back is not counted") {
   QuadratureDecoder decoder;
   const std::vector<EncoderEdge> edges = {
       {true, false}, {false, false}, {false, true}, {true, true}};
@@ -89,7 +89,7 @@ TEST_CASE("encoder: bouncing contacts add no steps") {
   }
 }
 
-TEST_CASE("encoder: a lost edge loses at most its step and never adds a wrong one") {
+TEST_CASE("encoder: a lost edge loses at most one step and never adds a wrong step") {
   for (const bool clockwise : {true, false}) {
     for (size_t lost = 0; lost < 4; ++lost) {
       CAPTURE(clockwise);
@@ -114,7 +114,8 @@ TEST_CASE("encoder: a lost edge loses at most its step and never adds a wrong on
   }
 }
 
-TEST_CASE("encoder: with randomly lost edges, the count stays close and becomes exact again") {
+TEST_CASE(
+    "encoder: with randomly lost edges, the count stays close and later becomes exact again") {
   test::Random random(9);
   QuadratureDecoder decoder;
   int got = 0, lost = 0;
@@ -142,15 +143,15 @@ struct ButtonEdge {
   bool pressed, counts;
 };
 
-TEST_CASE("button: the right edges count as presses") {
+TEST_CASE("button: only edges that start a press count as presses") {
   const struct {
     const char* what;
     std::vector<ButtonEdge> edges;
-  } rows[] = {{"the first edge of a press counts, at once",
+  } rows[] = {{"the first edge of a press counts immediately",
                {{0, true, true}, {100, false, false}, {200, true, true}}},
-              {"no level settled in time; the next press counts",
+              {"the next press counts even if no level has settled",
                {{0, true, true}, {3, false, false}, {500, true, true}}},
-              {"a release was lost, and later a press",
+              {"presses count after a lost release and a lost press",
                {{0, true, true},
                 {500, true, true},
                 {900, false, false},
@@ -177,7 +178,7 @@ TEST_CASE("button: bouncing of press and release makes one press") {
   CHECK_FALSE(button.unsettled());
 }
 
-TEST_CASE("button: a tap shorter than the bouncing time ends") {
+TEST_CASE("button: a tap shorter than the bouncing time is recognised as released") {
   Debouncer button(10 * kMs);
   CHECK(button.Edge(true, 0));
   CHECK_FALSE(button.Edge(false, 3 * kMs));
@@ -199,7 +200,7 @@ TEST_CASE("button: a press while the release bounces is counted when the button 
   CHECK_FALSE(button.Edge(false, 300 * kMs));
 }
 
-TEST_CASE("panel: edges reach their controls, and buttons may connect to ground") {
+TEST_CASE("panel: edges are passed to their controls, and buttons may connect to ground") {
   PanelLines lines;
   lines.encoder_a = 4;
   lines.encoder_b = 5;

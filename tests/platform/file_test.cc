@@ -77,7 +77,7 @@ TEST_CASE("file: an error names its true cause") {
   REQUIRE(chmod(folder.file("b").c_str(), 0700) == 0);
 }
 
-TEST_CASE("file: devices and endless pipes are not read, and small files have a limit") {
+TEST_CASE("file: devices and endless pipes are not read, and a limit applies to small files") {
   TempFolder folder;
   const auto device = [](const char* path) {
     return std::string("cannot read ") + path + ": it is a device";

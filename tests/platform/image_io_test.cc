@@ -182,7 +182,7 @@ TEST_CASE("image_io: a JPEG table has at most 256 codes") {
   }
 }
 
-TEST_CASE("image_io: outputs that cannot be written leave no file") {
+TEST_CASE("image_io: no file remains if an output cannot be written") {
   TempFolder folder;
   const Image image = Pattern(3, 3);
   CHECK(Contains(WriteImage(folder.file("a.bmp"), image), ".bmp"));
@@ -251,7 +251,8 @@ TEST_CASE("image_io: bytes after the end of a PNG file are ignored") {
   CHECK(std::equal(&palette[3], &palette[6], image.row(0)));
 }
 
-TEST_CASE("image_io: the error for a picture too large for its format has its size") {
+TEST_CASE(
+    "image_io: the error for a picture too large for its format states the size of the picture") {
   const struct {
     uint32_t width, height;
     const char* expected;
@@ -358,7 +359,7 @@ TEST_CASE("image_io: lossy and lossless WebP is read, and truncated WebP is reje
   }
 }
 
-TEST_CASE("image_io: an animation is rejected, and the error says that it is one") {
+TEST_CASE("image_io: an animation is rejected, and the error says that the file is an animation") {
   if (WebpWriter::Check("", 1, 1)) return;
   WebpWriter writer("a.webp", 90);
   Image image(32, 20);

@@ -109,7 +109,8 @@ TEST_CASE("pool: several pools can exist at once, and one pool can serve several
   starfocus_pool_destroy(b);
 }
 
-TEST_CASE("pool: it works as the runner of an engine, and one thread at a time reports progress") {
+TEST_CASE(
+    "pool: a pool can be the runner of an engine, and one thread at a time reports progress") {
   const test::Scene scene = test::RandomScene(300, 120, 5, -3, 6, 4);
   starfocus_config config = test::ConfigFor(scene, 12);
   config.superblock = 32;

@@ -34,7 +34,7 @@ TEST_CASE("problem: the line names a field with its range and value") {
         "bytes: a required pointer is null (expected not null)");
 }
 
-TEST_CASE("problem: without a field or for another call, the line has only the sentence") {
+TEST_CASE("problem: without a field or for another call, the line has only the status's sentence") {
   starfocus_problem problem = {STARFOCUS_ERROR_RANGE, 0, "width", "1", std::nan(""), 0, 0};
   CHECK(Text(STARFOCUS_ERROR_RANGE, &problem) ==
         "width: a field or an argument is outside its range (expected 1)");

@@ -88,7 +88,7 @@ Bytes CameraExif(bool little) {
 
 Bytes Profile(size_t size) { return FromText(photos::Profile(size)); }
 
-TEST_CASE("profiles: only complete RGB profiles are passed on") {
+TEST_CASE("profiles: only complete RGB profiles are kept") {
   const auto changed = [](size_t at, uint8_t value) {
     Bytes icc = Profile(200);
     icc[at] = value;
@@ -146,7 +146,7 @@ TEST_CASE("writers: base64 and MD5 follow their RFCs") {
   CHECK(Md5(digits) == "57EDF4A22BE3C955AC49DA2E2107B67A");
 }
 
-TEST_CASE("writers: EXIF that is truncated or changed anywhere is edited within its memory") {
+TEST_CASE("writers: editing EXIF that is truncated or changed anywhere stays within its memory") {
   const Bytes whole = CameraExif(true);
   for (size_t size = 0; size < whole.size(); ++size) {
     const Bytes cut(whole.begin(), whole.begin() + static_cast<ptrdiff_t>(size));

@@ -370,7 +370,7 @@ TEST_CASE("photos: profiles of grey pictures and incomplete profiles are omitted
   CHECK(Contains(photo.notes[0], "profile"));
 }
 
-TEST_CASE("coverage: it is the alpha channel of a 16-bit picture, or else the grey levels") {
+TEST_CASE("coverage: the alpha channel of a 16-bit picture is used, or else the grey levels") {
   const std::string file = Seed("files/rgba16.png"), grey = Seed("files/gray.png");
   Bytes bytes(file.begin(), file.end());
   Samples samples = ValueOf(DecodeCoverage("rgba16.png", bytes));

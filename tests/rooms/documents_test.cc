@@ -79,13 +79,13 @@ TEST_CASE("documents: the README has 110 lines at most") {
   CHECK(text.size() > 1000);
 }
 
-TEST_CASE("documents: their version is the library's") {
+TEST_CASE("documents: they state the version of the library") {
   const std::string version = STARFOCUS_VERSION_STRING;
   CHECK(Find(Read(kRoot / "CITATION.cff"), "\nversion: (.+)\n").count(version) == 1);
   CHECK(Find(Read(kRoot / "CHANGELOG.md"), "\n## \\[([^\\]]+)\\]").count(version) == 1);
 }
 
-TEST_CASE("documents: what they link to is there") {
+TEST_CASE("documents: the targets of their links exist") {
   size_t links = 0;
   for (const fs::path& document : Documents()) {
     for (const std::string& link : Find(Read(document), "\\]\\(([^)#: ]+)[^): ]*\\)")) {
@@ -97,21 +97,22 @@ TEST_CASE("documents: what they link to is there") {
   CHECK(links > 20);
 }
 
-TEST_CASE("documents: the files that they cite are there") {
+TEST_CASE("documents: the files that they name exist") {
   // Matches names such as `lib/base/fixed.h`, but not patterns with * or <name>.
   size_t files = 0;
   for (const fs::path& document : Documents()) {
     const std::string pattern =
         "`((?:lib|simd|platform|examples|tests|toolchains|docs)/[^`*<> ]*)`";
     for (const std::string& file : Find(Prose(document), pattern)) {
-      CHECK_MESSAGE(fs::exists(kRoot / file), document.filename().string() << " cites " << file);
+      CHECK_MESSAGE(fs::exists(kRoot / file), document.filename().string()
+                                                  << " names a file that does not exist: " << file);
       ++files;
     }
   }
   CHECK(files > 20);
 }
 
-TEST_CASE("documents: the names that they cite are names of the code") {
+TEST_CASE("documents: the identifiers that they name exist in the code") {
   const std::set<std::string> words = WordsOfCode();
   size_t names = 0;
   for (const fs::path& document : Documents()) {
@@ -119,7 +120,8 @@ TEST_CASE("documents: the names that they cite are names of the code") {
         "`((?:starfocus_|STARFOCUS_|k[A-Z]|[A-Z][a-z]+[A-Z])[A-Za-z_0-9]*)[^`]*`";
     for (const std::string& name : Find(Prose(document), pattern)) {
       if (name.back() == '_') continue;  // a group of names, for example starfocus_stream_*
-      CHECK_MESSAGE(words.count(name) == 1, document.filename().string() << " cites " << name);
+      CHECK_MESSAGE(words.count(name) == 1, document.filename().string()
+                                                << " names an unknown identifier: " << name);
       ++names;
     }
   }
@@ -136,21 +138,22 @@ std::string ReadAll(const std::vector<std::string>& folders,
   return text;
 }
 
-TEST_CASE("documents: their programs call what there is") {
+TEST_CASE("documents: the functions that their example programs call exist") {
   const std::set<std::string> words = WordsOfCode();
   size_t names = 0;
   for (const fs::path& document : Documents()) {
     for (const std::string& name :
          Find(Read(document), "\\b((?:starfocus|STARFOCUS)_[A-Za-z_0-9]+)")) {
       if (name.back() == '_') continue;
-      CHECK_MESSAGE(words.count(name) == 1, document.filename().string() << " calls " << name);
+      CHECK_MESSAGE(words.count(name) == 1, document.filename().string()
+                                                << " calls an unknown function: " << name);
       ++names;
     }
   }
   CHECK(names > 40);
 }
 
-TEST_CASE("documents: commands and options of the program are its own") {
+TEST_CASE("documents: the commands and options that they name exist") {
   const std::string sources = ReadAll({"examples", "tests"}, {".cc", ".h"});
   const std::string scripts = Read(kRoot / "do") + ReadAll({"toolchains"}, {".sh", ".cmake"});
   const std::set<std::string> of_others = {"--preset", "--build", "--install", "--prefix",
@@ -165,12 +168,13 @@ TEST_CASE("documents: commands and options of the program are its own") {
       const bool known = of_others.count(option) == 1 ||
                          sources.find(option) != std::string::npos ||
                          scripts.find(option) != std::string::npos;
-      CHECK_MESSAGE(known, document.filename().string() << " has the option " << option);
+      CHECK_MESSAGE(known, document.filename().string() << " names an unknown option: " << option);
     }
     for (const std::string& command : Find(text, "\\./do ([a-z]+)")) {
       const bool known = scripts.find("\n  " + command + ")") != std::string::npos ||
                          scripts.find("\n  " + command + " |") != std::string::npos;
-      CHECK_MESSAGE(known, document.filename().string() << " calls ./do " << command);
+      CHECK_MESSAGE(known, document.filename().string()
+                               << " names an unknown command: ./do " << command);
     }
   }
 }

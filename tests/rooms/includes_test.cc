@@ -124,7 +124,7 @@ std::set<std::string> FindCircles(const std::vector<Include>& includes) {
 
 }  // namespace
 
-TEST_CASE("includes: data flows one way through the rooms of simd and lib") {
+TEST_CASE("includes: the folders of simd and lib include each other in one direction only") {
   std::vector<Include> includes = ReadIncludes("lib");
   const std::vector<Include> kernels = ReadIncludes("simd");
   includes.insert(includes.end(), kernels.begin(), kernels.end());
@@ -138,14 +138,15 @@ TEST_CASE("includes: data flows one way through the rooms of simd and lib") {
   }
 }
 
-TEST_CASE("includes: no module knows one that knows it") {
+TEST_CASE("includes: no modules include each other in a circle") {
   std::vector<Include> includes = ReadIncludes("lib");
   const std::vector<Include> kernels = ReadIncludes("simd");
   includes.insert(includes.end(), kernels.begin(), kernels.end());
-  for (const std::string& module : FindCircles(includes)) FAIL_CHECK("in a circle: " << module);
+  for (const std::string& module : FindCircles(includes))
+    FAIL_CHECK("this module is in a circle of includes: " << module);
 }
 
-TEST_CASE("includes: what touches a machine knows the engine by its C ABI only") {
+TEST_CASE("includes: platform code uses the engine only through its C ABI") {
   for (const auto& [folder, rooms] : kOutside) {
     for (const Include& include : ReadIncludes(folder)) {
       CHECK_MESSAGE(rooms.count(RoomOf(include.to)) == 1, include.from << " -> " << include.to);
@@ -153,7 +154,7 @@ TEST_CASE("includes: what touches a machine knows the engine by its C ABI only")
   }
 }
 
-TEST_CASE("includes: tests look inside the engine through one header") {
+TEST_CASE("includes: tests access the internals of the engine through one header") {
   const std::string inside = "tests/support/inside.h";
   int found = 0;
   for (const Include& include : ReadIncludes("tests")) {
@@ -164,7 +165,7 @@ TEST_CASE("includes: tests look inside the engine through one header") {
   CHECK(found > 0);
 }
 
-TEST_CASE("includes: backward ones and circles are seen") {
+TEST_CASE("includes: the checks detect backward includes and circles") {
   const std::vector<Include> backward = {{"lib/plan/timing.cc", "lib/filter/gather.h"}};
   CHECK(FindBackward(backward) ==
         std::vector<std::string>{"lib/plan/timing.cc -> lib/filter/gather.h"});

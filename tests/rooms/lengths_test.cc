@@ -45,7 +45,7 @@ std::vector<std::string> FindLong(const std::vector<std::string>& lines, size_t 
 
 }  // namespace
 
-TEST_CASE("lengths: no file but public headers has more than 500 lines") {
+TEST_CASE("lengths: no file except public headers has more than 500 lines") {
   const std::vector<fs::path> sources =
       tree::Files({"lib", "simd", "platform", "examples", "tests"}, kSources);
   REQUIRE(sources.size() > 300);
@@ -63,7 +63,7 @@ TEST_CASE("lengths: no function has more than 60 lines") {
   }
 }
 
-TEST_CASE("lengths: long functions are seen, and lists of cases are none") {
+TEST_CASE("lengths: the check detects long functions and ignores lists of cases") {
   const auto body = [](const std::string& head, const std::string& line, const std::string& close) {
     std::vector<std::string> lines = {head};
     lines.insert(lines.end(), 20, line);

@@ -27,7 +27,7 @@ bool NamesLicence(const fs::path& path) {
   return first < lines.size() && lines[first].find(kLicence) != std::string::npos;
 }
 
-TEST_CASE("licence: every source file names it") {
+TEST_CASE("licence: every source file names the licence") {
   const std::vector<fs::path> files = tree::Files(
       {"lib", "simd", "platform", "examples", "tests", "toolchains", "cmake"}, kSources);
   for (const fs::path& path : files) {

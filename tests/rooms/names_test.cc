@@ -21,7 +21,7 @@ void CountStructures(const std::vector<std::string>& lines, std::map<std::string
   }
 }
 
-TEST_CASE("names: lib has one structure of a name") {
+TEST_CASE("names: no two structures in lib have the same name") {
   std::map<std::string, int> counts;
   for (const std::filesystem::path& path : tree::Files({"lib"}, {".h", ".cc"})) {
     CountStructures(tree::Lines(path), &counts);
@@ -33,7 +33,7 @@ TEST_CASE("names: lib has one structure of a name") {
   }
 }
 
-TEST_CASE("names: a structure that is defined twice is seen") {
+TEST_CASE("names: the check detects a structure that is defined twice") {
   std::map<std::string, int> counts;
   CountStructures({"struct A {", "struct B;", "class A : public B {", "  struct C {"}, &counts);
   CHECK(counts == std::map<std::string, int>{{"A", 2}});

@@ -21,7 +21,7 @@ namespace {
 
 using namespace starfocus::simd;
 
-TEST_CASE("kernels: several SIMD targets run on this machine") {
+TEST_CASE("kernels: at least two SIMD targets run on this machine") {
   const std::vector<const Kernels*> all = test::SimdTargets();
   std::printf("SIMD targets:");
   for (const Kernels* kernels : all) std::printf(" %s", kernels->name);
@@ -32,7 +32,7 @@ TEST_CASE("kernels: several SIMD targets run on this machine") {
   CHECK(std::string(starfocus_simd_target()) == BestKernels().name);
 }
 
-TEST_CASE("kernels: a test fails if it would run on no SIMD target") {
+TEST_CASE("kernels: the list of SIMD targets throws if no target runs on this machine") {
   CHECK_THROWS(test::ListTargets(+[](size_t) -> const Kernels* { return nullptr; }));
 }
 

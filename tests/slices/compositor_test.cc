@@ -47,7 +47,7 @@ std::vector<int> MiddleRow(const test::Scene& scene, double focus, starfocus_mod
   return row;
 }
 
-TEST_CASE("stack: a surface in focus has a sharp end in front of a blurred one") {
+TEST_CASE("stack: a surface in focus has a sharp end in front of a blurred surface") {
   for (const int views : {5, 9, 17}) {
     for (const starfocus_mode mode : {STARFOCUS_MODE_BLOCK, STARFOCUS_MODE_FRAME}) {
       const std::vector<int> row = MiddleRow(HalfPlanes(2, -6, views), 2, mode);
@@ -78,7 +78,7 @@ TEST_CASE("stack: a blurred surface fades evenly in front of a surface in focus"
   }
 }
 
-TEST_CASE("stack: captured views show the far surface behind a blurred one") {
+TEST_CASE("stack: captured views show the far surface behind a blurred surface") {
   test::Scene scene = HalfPlanes(4, 0, 5);
   for (int view = 1; view < 5; ++view) {
     std::fill(scene.pictures[size_t(view)].begin(), scene.pictures[size_t(view)].end(),
@@ -132,7 +132,7 @@ TEST_CASE("stack: the end of a slope covers the same share where slices overlap 
   CHECK(std::abs(most - kEdge) < 0.06);
 }
 
-TEST_CASE("stack: slices that are made in several parts give the same picture") {
+TEST_CASE("stack: slices that are computed in several parts give the same picture") {
   test::Random random(4);
   test::Scene scene = HalfPlanes(9, -9, 5);
   for (auto& picture : scene.pictures) {
@@ -164,7 +164,7 @@ int ranges_found = 0;
 // Cancels as soon as the first slices have been found.
 int SayNo(void*, int32_t, int32_t) { return ranges_found > 0 ? 1 : 0; }
 
-TEST_CASE("stack: no more tiles are made after cancellation") {
+TEST_CASE("stack: no more tiles are computed after cancellation") {
   const test::Scene scene = test::RandomScene(256, 256, 5, -3, 9, 8);
   starfocus_config config = test::ConfigFor(scene, 32);
   config.superblock = 256;
@@ -186,7 +186,7 @@ TEST_CASE("stack: no more tiles are made after cancellation") {
 }
 
 // Red zones are memory between parts, and would increase the size.
-TEST_CASE("stack: a worker takes 1.15 mebibytes at blocks of 64 and blurs of 32" *
+TEST_CASE("stack: a worker takes 1.15 MiB with blocks of 64 and blurs of up to 32 pixels" *
           doctest::skip(starfocus::kRedZone > 0)) {
   size_t bytes[2];
   for (int workers = 1; workers <= 2; ++workers) {

@@ -90,7 +90,7 @@ TEST_CASE("slices: one surface is one slice, moved by its own disparity") {
   }
 }
 
-TEST_CASE("slices: bands of rows have the disparities of all surfaces of the slices") {
+TEST_CASE("slices: the range of a band of rows has the disparities of all its surfaces") {
   Scene scene;
   scene.At(15, 15) = 20;
   scene.At(51, 17) = -40;
@@ -109,7 +109,7 @@ TEST_CASE("slices: bands of rows have the disparities of all surfaces of the sli
   }
 }
 
-TEST_CASE("slices: the nearest slice is first, and hidden surfaces have slices, too") {
+TEST_CASE("slices: the nearest slice is first, and hidden surfaces also have slices") {
   Scene scene;
   for (int y = 0; y < kSize; ++y) {
     for (int x = 30; x < kSize; ++x) scene.At(x, y) = 400;
@@ -135,7 +135,8 @@ TEST_CASE("slices: pixels that cannot splat into the rectangle are omitted") {
   CHECK(scene.Cut(0, 0.5).size() == 1);
 }
 
-TEST_CASE("slices: ranges are 3/8 pixel at the rim, wider with large blur, and cover all pixels") {
+TEST_CASE(
+    "slices: their ranges are 3/8 pixel at the rim, wider with large blur, and have no gaps") {
   Scene scene;
   for (int y = 0; y < kSize; ++y) {
     for (int x = 0; x < kSize; ++x) scene.At(x, y) = int16_t(4 * (x - 32));  // -2 to 2 pixels
@@ -154,7 +155,7 @@ TEST_CASE("slices: ranges are 3/8 pixel at the rim, wider with large blur, and c
   }
 }
 
-TEST_CASE("slices: their area depends only on the blur of the lens") {
+TEST_CASE("slices: the largest area of a slice depends only on the blur of the lens") {
   CHECK(starfocus::SliceArea(4) == 400);
   for (const double blur : {0.5, 8.0, 32.9}) {
     CAPTURE(blur);
@@ -173,7 +174,7 @@ TEST_CASE("slices: a slice takes at most the memory of its area") {
   }
 }
 
-TEST_CASE("slices: ranges become wider if slices are too many or too large") {
+TEST_CASE("slices: the ranges of slices become wider if slices are too many or too large") {
   test::Random random(5);
   Scene scene;
   for (int16_t& disparity : scene.planes[0]) disparity = int16_t(random.Int(-2000, 2000));

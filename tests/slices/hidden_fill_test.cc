@@ -58,7 +58,8 @@ TEST_CASE("hidden fill: a wall of one colour continues exactly") {
   CHECK(scene.Colour(13, 20, 0) == 137);
 }
 
-TEST_CASE("hidden fill: pixels repeat the wall at the edge and its mean farther away") {
+TEST_CASE(
+    "hidden fill: hidden pixels copy the wall at the edge, and the wall's mean farther away") {
   Scene scene = BeforeStripes(1);
   scene.Find();
   CHECK(scene.Colour(14, 19, 0) == 0);
@@ -74,7 +75,7 @@ TEST_CASE("hidden fill: pixels repeat the wall at the edge and its mean farther 
   for (int y = 18; y < 24; ++y) CHECK(std::abs(scene.Colour(21, y, 0) - 100) <= 40);
 }
 
-TEST_CASE("hidden fill: pixels that captured views show do not change") {
+TEST_CASE("hidden fill: hidden pixels that captured views show do not change") {
   Scene scene = BeforeStripes(5);
   scene.Find();
   const std::vector<int16_t> colours = scene.colours[1];

@@ -69,7 +69,7 @@ TEST_CASE("surfaces: a pair sees behind edges on one side; elsewhere the backgro
   CHECK(scene.Colour(26, 27, 2) == 1);
 }
 
-TEST_CASE("surfaces: views at any position are read where they show the place") {
+TEST_CASE("surfaces: a view at any position supplies the hidden pixels that it shows") {
   for (const starfocus_position& at :
        {starfocus_position{0.5, 0.25}, starfocus_position{0.75, -0.5}}) {
     Scene scene(17);
@@ -93,7 +93,7 @@ TEST_CASE("surfaces: views at any position are read where they show the place") 
   }
 }
 
-TEST_CASE("surfaces: of two views on a side, the nearer one shows what the farther one does not") {
+TEST_CASE("surfaces: if the farther of two views does not show a pixel, the nearer view is used") {
   Scene scene(17);
   test::SetPositions({{1, 0}, {0.25, 0}}, &scene.window);
   scene.Fill(0, kSize, 0, kSize, 0, 10);
@@ -114,7 +114,7 @@ TEST_CASE("surfaces: without a captured view the background continues") {
   CHECK(scene.Colour(20, 20, 1) == 10);
 }
 
-TEST_CASE("surfaces: places that another surface covers in the captured view are not read there") {
+TEST_CASE("surfaces: hidden pixels are not read from views in which another surface covers them") {
   // A slit of two pixels between near surfaces, which cover the slit as seen from either side.
   Scene scene(5);
   scene.Fill(0, kSize, 0, kSize, 5, 90);
@@ -128,7 +128,8 @@ TEST_CASE("surfaces: places that another surface covers in the captured view are
   CHECK(scene.Colour(16, 20, 2) == 1);
 }
 
-TEST_CASE("surfaces: sides at the same distance give the mean") {
+TEST_CASE(
+    "surfaces: a hidden pixel at the same distance from two edges is the mean of both views") {
   Scene scene(5);
   scene.Fill(0, kSize, 0, kSize, 0, 10);
   scene.Fill(20, 21, 0, kSize, 4, 90);
@@ -138,7 +139,7 @@ TEST_CASE("surfaces: sides at the same distance give the mean") {
   CHECK(scene.Colour(20, 20, 2) == 2);  // mean of views 1 and 2, rounded half up
 }
 
-TEST_CASE("surfaces: there may be two surfaces behind a third one") {
+TEST_CASE("surfaces: two surfaces may be hidden behind a third surface") {
   Scene scene(5);
   scene.Fill(0, kSize, 0, 20, 0, 10);
   scene.Fill(0, kSize, 20, kSize, 3, 40);
@@ -148,7 +149,7 @@ TEST_CASE("surfaces: there may be two surfaces behind a third one") {
   CHECK(scene.Behind(18, 20, 2) == 0);
 }
 
-TEST_CASE("surfaces: an edge behind an edge is followed") {
+TEST_CASE("surfaces: a hidden surface may have an edge of its own") {
   // A strip is 6 pixels in front of a wall, and another surface is 3 pixels in front of the strip.
   for (const int start : {16, 13, 12}) {
     Scene scene(5);
@@ -172,7 +173,8 @@ TEST_CASE("surfaces: an edge behind an edge is followed") {
   }
 }
 
-TEST_CASE("surfaces: at steps from 2/64 to half a pixel, a pixel hides a farther copy of itself") {
+TEST_CASE(
+    "surfaces: at disparity steps of 2/64 to 1/2 pixel, a pixel hides a farther copy of itself") {
   Scene scene(5);
   for (int y = 0; y < kSize; ++y) {
     for (int x = 0; x < kSize; ++x) scene.Set(x, y, 0.25 * (x % 8), x);
@@ -185,7 +187,7 @@ TEST_CASE("surfaces: at steps from 2/64 to half a pixel, a pixel hides a farther
   }
 }
 
-TEST_CASE("surfaces: smaller steps and larger ones up to 3/4 of a pixel hide nothing") {
+TEST_CASE("surfaces: disparity steps below 2/64 pixel, or from 1/2 to 3/4 pixel, hide nothing") {
   for (const double slope : {0.0, 0.016, 0.6, 0.75, -0.75}) {
     Scene scene(5);
     for (int y = 0; y < kSize; ++y) {
@@ -226,7 +228,7 @@ int Distance(const Scene& scene, int x, int y, int dx, int dy) {
   return edge != 0 && hides(0, edge) ? edge : 0;
 }
 
-TEST_CASE("surfaces: the edges of random maps match a search for each pixel") {
+TEST_CASE("surfaces: hidden surfaces of random maps match an exhaustive search") {
   test::Random random(3);
   for (int round = 0; round < 20; ++round) {
     Scene scene(5);

@@ -89,7 +89,7 @@ TEST_CASE("matte: a defocused background contains no light of a sharp surface") 
   }
 }
 
-TEST_CASE("matte: surfaces must move against each other by more than a pixel") {
+TEST_CASE("matte: a pixel is split only if its surfaces move apart by more than a pixel") {
   // With three views along the radius, the outermost view is at 96/94 of the radius. With this
   // aperture, the outermost view is at 1.
   constexpr double kAperture = 94.0 / 96, kLeast = 1.0 / 64;
@@ -99,7 +99,7 @@ TEST_CASE("matte: surfaces must move against each other by more than a pixel") {
   CHECK(parted[kEdge - 2] == kFar);
 }
 
-TEST_CASE("matte: a pixel that is not a mixture is blurred without a change") {
+TEST_CASE("matte: a pixel that is not a mixture of both surfaces is not split before the blur") {
   // Level 255 is brighter than the near surface, so the pixel is not a mixture.
   for (const int views : {1, 5}) {
     const std::vector<int> odd = MiddleRow(Mixed(0, -6, views, false, 255), 0);
@@ -108,7 +108,7 @@ TEST_CASE("matte: a pixel that is not a mixture is blurred without a change") {
   }
 }
 
-TEST_CASE("matte: with one view a pixel next to another surface is blurred without a change") {
+TEST_CASE("matte: with one view, a pixel between two other surfaces is not split before the blur") {
   test::Scene scene = Mixed(0, -6, 1);
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kEdge - 1; ++x) scene.Disparity(x, y) = -3;
@@ -116,7 +116,7 @@ TEST_CASE("matte: with one view a pixel next to another surface is blurred witho
   CHECK(MiddleRow(scene, 0)[kEdge - 1] < 80);
 }
 
-TEST_CASE("matte: the end of a slope covers a quarter where its slices overlap, too") {
+TEST_CASE("matte: a pixel at the end of a slope covers a quarter even where slices overlap") {
   test::Scene scene = Mixed(0, -8, 5);
   scene.disparity_min = -8;
   scene.disparity_max = 1;

@@ -62,7 +62,7 @@ TEST_CASE("slice planes: no slice of any N reaches farther than its memory allow
 
 // Layered depth has a flag for groups of pixels with hidden surfaces. A slice may start within a
 // group.
-TEST_CASE("slice planes: a hidden pixel is found wherever groups of pixels start") {
+TEST_CASE("slice planes: a hidden pixel is found at any position in a group of pixels") {
   constexpr int kWidth = 64, kShown = 24;
   constexpr size_t kRoom = kWidth + 2 * starfocus::simd::kSliceLanes;
   for (int behind = 0; behind < kWidth; ++behind) {

@@ -24,8 +24,8 @@ constexpr int kViewsJump = 64;
 // Limit if the layer changes. With the theta that Table I is optimised for, a subsampled blur
 // differs from the ideal blur by 6.7e-4.
 constexpr int kLayerJump = 24;
-// Limit if the layer changes, with any other theta. The difference is larger, especially for
-// apertures with a bright rim.
+// Limit if the layer changes and theta has any other value. The filters are not optimised for this
+// theta, so the blurs differ more, especially for apertures with a bright rim.
 constexpr int kLayerJumpOfTheta = 48;
 // Limit for the blur mode, whose PSFs exist only for radii that are at least 1/8 pixel apart.
 constexpr int kLadderJump = 48;
@@ -104,9 +104,10 @@ Outcome Mirrors(test::Random* random) {
       test::Compare(symmetry, setup.scene.width, setup.scene.height, plain.data(), moved.data())
           .largest;
   if (outcome.error > 0) {
-    return Fail(setup, "not symmetric (transposed " + std::to_string(symmetry.transpose) +
-                           ", mirrored " + std::to_string(symmetry.mirror_x) + " " +
-                           std::to_string(symmetry.mirror_y) + ") by " +
+    return Fail(setup, "the picture of the moved light field (transposed " +
+                           std::to_string(symmetry.transpose) + ", mirrored " +
+                           std::to_string(symmetry.mirror_x) + " " +
+                           std::to_string(symmetry.mirror_y) + ") differs by " +
                            std::to_string(int(outcome.error)));
   }
   return outcome;
@@ -121,7 +122,7 @@ Outcome SideViews(test::Random* random) {
     for (uint8_t& sample : setup.scene.pictures[view]) sample = random->Byte();
   }
   const std::vector<uint8_t> other = Refocused(setup, RandomVariant(random));
-  if (plain != other) return Fail(setup, "a flat scene depends on side views");
+  if (plain != other) return Fail(setup, "the side views affect the picture of a flat scene");
   return {0, ""};
 }
 
@@ -145,10 +146,10 @@ Outcome Continuity(test::Random* random) {
   const double jump = LargestDifference(a, b, setup.config.transfer);
   const int most = MostJump(setup, report_a, report_b);
   if (jump > most) {
-    return Fail(setup, "jump of " + std::to_string(jump) + ", N " + std::to_string(report_a.n) +
-                           " to " + std::to_string(report_b.n) + ", L " +
-                           std::to_string(LayerOf(report_a)) + " to " +
-                           std::to_string(LayerOf(report_b)));
+    return Fail(setup, "a small step of the lens changes a pixel by " + std::to_string(jump) +
+                           ", N " + std::to_string(report_a.n) + " to " +
+                           std::to_string(report_b.n) + ", L " + std::to_string(LayerOf(report_a)) +
+                           " to " + std::to_string(LayerOf(report_b)));
   }
   return {jump, ""};
 }

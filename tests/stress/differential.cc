@@ -127,10 +127,11 @@ std::string Refused(const Asked& asked, test::Random* random) {
       test::Refocus(&rig, setup.params, setup.scene, &out, rig.callbacks());
   if (status == STARFOCUS_OK && part) return Verdict(rig, status, Crop(asked, region), out);
   if (status != (nan ? STARFOCUS_ERROR_NOT_FINITE : STARFOCUS_ERROR_DISPARITY)) {
-    return "bad value at " + std::to_string(x) + "," + std::to_string(y) +
+    return "the bad disparity at " + std::to_string(x) + "," + std::to_string(y) +
            " is reported as: " + starfocus_status_string(status);
   }
-  return out.Untouched() ? "" : "bad value is refused after a part of the picture was written";
+  return out.Untouched() ? ""
+                         : "a bad disparity is rejected after a part of the picture was written";
 }
 
 // Checks a prepared light field that another engine made.
@@ -232,7 +233,7 @@ std::string Verdict(const Rig& rig, starfocus_status status, const std::vector<u
                     const test::Output& out) {
   const std::string how = " (" + rig.variant().Text() + ")";
   if (status != STARFOCUS_OK) return starfocus_status_string(status) + how;
-  if (!out.PaddingUntouched()) return "row padding overwritten" + how;
+  if (!out.PaddingUntouched()) return "the call writes to the padding of rows" + how;
   const std::vector<uint8_t> got = out.Tight();
   size_t first = got.size(), count = 0;
   int largest = 0;
@@ -261,7 +262,7 @@ Outcome Differential(test::Random* random) {
   const test::Scene& after = asked.setup.scene;
   if (before.pictures != after.pictures || before.coverage != after.coverage ||
       before.disparity != after.disparity) {
-    return Fail(asked.setup, "the light field was written to");
+    return Fail(asked.setup, "the call writes to the light field");
   }
   return {};
 }

@@ -93,7 +93,7 @@ std::string Streamed(const Asked& asked, test::Random* random) {
     if (random->Int(0, 3) > 0) stream.Push();
     if (stream.failure.empty() && random->Int(0, 3) > 0) stream.Pull();
     idle = stream.pushed + stream.pulled == moved ? idle + 1 : 0;
-    if (idle > 1000) stream.failure = "neither rows in nor rows out";
+    if (idle > 1000) stream.failure = "1000 attempts to push and pull move no row";
   }
   if (!stream.failure.empty()) return stream.failure + " (" + variant.Text() + ")";
   return Verdict(rig, STARFOCUS_OK, asked.picture, stream.out);

@@ -63,7 +63,8 @@ Outcome CheckInversion(Setup setup, test::Random* random) {
     const Levels levels = LevelsOf(setup);
     for (const uint8_t sample : plain) {
       if (sample < levels.low || sample > levels.high) {
-        return Fail(setup, "level " + std::to_string(sample) + " outside those of the views");
+        return Fail(setup,
+                    "level " + std::to_string(sample) + " is outside the range of the views");
       }
     }
   }
@@ -81,7 +82,8 @@ Outcome CheckInversion(Setup setup, test::Random* random) {
   const bool deblocked = MayResample(setup) && setup.config.tuning.deblocking > 0;
   const double most = deblocked ? setup.config.tuning.deblocking + kMostInversion : kMostInversion;
   if (outcome.error > most)
-    return Fail(setup, "inverted picture differs by " + std::to_string(int(outcome.error)));
+    return Fail(setup, "the inverse of the result for the inverted picture differs by " +
+                           std::to_string(int(outcome.error)));
   return outcome;
 }
 
@@ -104,7 +106,7 @@ Outcome CheckConstant(Setup setup, test::Random* random) {
   for (size_t i = 0; i < out.size(); ++i) {
     outcome.error = std::max<double>(outcome.error, std::abs(out[i] - colour[i % 3]));
   }
-  if (outcome.error != 0) return Fail(setup, "constant picture changed");
+  if (outcome.error != 0) return Fail(setup, "the level of a constant picture changes");
   return outcome;
 }
 
@@ -237,7 +239,8 @@ Outcome Energy(test::Random* random) {
   }
   const double got = static_cast<double>(sum) / (kPeriod * kPeriod);
   if (std::fabs(got - mean) > kMostEnergy) {
-    return Fail(setup, "mean " + std::to_string(got) + " instead of " + std::to_string(mean));
+    return Fail(setup,
+                "the mean level is " + std::to_string(got) + " instead of " + std::to_string(mean));
   }
   return {std::fabs(got - mean), ""};
 }
@@ -264,16 +267,17 @@ Outcome Steps(test::Random* random) {
     const auto at = [&](int along) {
       return int{out[3 * size_t(upright ? along * across : along)]};
     };
-    if (positive && (at(k) < low || at(k) > high)) return Fail(setup, "a step overshoots");
+    if (positive && (at(k) < low || at(k) > high)) return Fail(setup, "a blurred step overshoots");
     over = std::max({over, light(low) - light(at(k) + 1), light(at(k) - 1) - light(high)});
-    if (positive && k > 0 && at(k) < at(k - 1)) return Fail(setup, "a step falls");
+    if (positive && k > 0 && at(k) < at(k - 1))
+      return Fail(setup, "a blurred step is not monotone");
   }
   const double radius =
       setup.params.lens.aperture * std::fabs(scene.Disparity(0, 0) - setup.params.lens.focus);
   const double step = light(high) - light(low);
   if (over > MostOvershoot(setup, radius) * step)
-    return Fail(setup,
-                "overshoot of " + std::to_string(over) + " in a step of " + std::to_string(step));
+    return Fail(setup, "a blurred step overshoots by " + std::to_string(over) + ", its height is " +
+                           std::to_string(step));
   return {over / step, ""};
 }
 

@@ -108,7 +108,8 @@ Outcome CheckPlane(Question* question, test::Random* random) {
   const Map map = Make(*question, nullptr, random);
   if (map.status != STARFOCUS_OK) return {0, question->Text(starfocus_status_string(map.status))};
   for (const float value : map.disparity) {
-    if (value != float(disparity)) return {0, question->Text("a plane did not stay one")};
+    if (value != float(disparity))
+      return {0, question->Text("the repair changes the map of one plane")};
   }
   return {};
 }
@@ -131,7 +132,7 @@ Outcome CheckAgreement(Question* question, test::Random* random) {
   if (map.status == STARFOCUS_ERROR_ALL_INVALID) return {};
   if (map.status != STARFOCUS_OK) return {0, question->Text(starfocus_status_string(map.status))};
   if (!(Make(*question, RunBackwards, random) == map)) {
-    return {0, question->Text("workers change the map")};
+    return {0, question->Text("the number of workers or the used memory changes the map")};
   }
   const Question mirrored = {test::Move({false, true, false}, scene), question->repairs};
   const Map other = Make(mirrored, nullptr, random);
@@ -143,7 +144,8 @@ Outcome CheckAgreement(Question* question, test::Random* random) {
     const size_t m = n / width * width + (width - 1 - n % width);
     largest = std::max(largest, double(std::abs(map.disparity[n] - other.disparity[m])));
   }
-  if (largest > 0) return {0, question->Text("the mirrored map differs")};
+  if (largest > 0)
+    return {0, question->Text("the map of the mirrored light field is not the mirrored map")};
   return {};
 }
 

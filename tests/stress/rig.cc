@@ -124,7 +124,7 @@ std::vector<uint8_t> Refocused(const Setup& setup, const Variant& variant,
                  : test::Refocus(&rig, setup.params, setup.scene, &out, rig.callbacks(), report);
   }
   std::string failure;
-  if (!out.PaddingUntouched()) failure = "row padding overwritten";
+  if (!out.PaddingUntouched()) failure = "the call writes to the padding of rows";
   if (status != STARFOCUS_OK) failure = starfocus_status_string(status);
   if (!failure.empty()) {
     throw std::runtime_error(failure + " (" + variant.Text() + "): " + setup.Text());
