@@ -105,8 +105,7 @@ TEST_CASE("hair coverage: outlines without hair are repaired even near hair, and
   CHECK(found.coverage[portrait.At(234, 108)] == 0);
 }
 
-TEST_CASE(
-    "hair coverage: with opaque surfaces only, no coverage is found and the map does not change") {
+TEST_CASE("hair coverage: opaque surfaces get none, and the request for coverage keeps the map") {
   Portrait portrait;
   portrait.Draw();
   for (size_t k = 0; k < portrait.map.size(); k += 7) portrait.map[k] += 0.01F;

@@ -88,7 +88,7 @@ Bytes CameraExif(bool little) {
 
 Bytes Profile(size_t size) { return FromText(photos::Profile(size)); }
 
-TEST_CASE("profiles: only complete RGB profiles are kept") {
+TEST_CASE("profiles: only complete RGB profiles are accepted") {
   const auto changed = [](size_t at, uint8_t value) {
     Bytes icc = Profile(200);
     icc[at] = value;
