@@ -105,7 +105,8 @@ TEST_CASE("hair coverage: outlines without hair are repaired even near hair, and
   CHECK(found.coverage[portrait.At(234, 108)] == 0);
 }
 
-TEST_CASE("hair coverage: opaque surfaces get none, and the request for coverage keeps the map") {
+TEST_CASE(
+    "hair coverage: opaque surfaces get no coverage, and the request does not change the map") {
   Portrait portrait;
   portrait.Draw();
   for (size_t k = 0; k < portrait.map.size(); k += 7) portrait.map[k] += 0.01F;

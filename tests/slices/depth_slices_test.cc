@@ -135,8 +135,7 @@ TEST_CASE("slices: pixels that cannot splat into the rectangle are omitted") {
   CHECK(scene.Cut(0, 0.5).size() == 1);
 }
 
-TEST_CASE(
-    "slices: their ranges are 3/8 pixel at the rim, wider with large blur, and have no gaps") {
+TEST_CASE("slices: the ranges are 3/8 pixel at the rim, wider with large blur, and have no gaps") {
   Scene scene;
   for (int y = 0; y < kSize; ++y) {
     for (int x = 0; x < kSize; ++x) scene.At(x, y) = int16_t(4 * (x - 32));  // -2 to 2 pixels
