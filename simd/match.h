@@ -12,7 +12,7 @@
 
 namespace starfocus::simd {
 
-// Upper limit of the difference between two pixels, which is the sum over R, G and B in gray
+// Upper limit of the difference between two pixels, which is the sum over R, G and B in grey
 // levels. Larger differences are clamped, because such pixels do not match in any case.
 inline constexpr int kMostDifference = 60;
 // Difference that is assumed if no view shows the pixel. The value corresponds to a poor match.

@@ -87,7 +87,7 @@ async function openJpeg(file) {
   return depthPhoto(`depth photo ${file.name}`, image, {data, width: map.width, height: map.height});
 }
 
-/** Opens a picture and its depth map. The map is a PFM of disparities, or a gray picture in which near points are
+/** Opens a picture and its depth map. The map is a PFM of disparities, or a grey picture in which near points are
  *  bright. */
 async function openPair(files) {
   const map = files.find(file => /\.pfm$/i.test(file.name));
@@ -102,7 +102,7 @@ async function openPair(files) {
   const named = files.findIndex(file => /depth|disp/i.test(file.name));
   const index = named >= 0 ? named : images.findIndex(isGray);
   if (index < 0) {
-    throw new Error(`Neither ${files[0].name} nor ${files[1].name} is a depth picture: expected a gray picture, or "depth" in a file name.`);
+    throw new Error(`Neither ${files[0].name} nor ${files[1].name} is a depth picture: expected a grey picture, or "depth" in a file name.`);
   }
   const {width, height} = images[index];
   return depthPhoto(`${files[1 - index].name} with ${files[index].name}`, images[1 - index],

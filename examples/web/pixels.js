@@ -18,7 +18,7 @@ export async function decode(file, name = file.name) {
   return context.getImageData(0, 0, canvas.width, canvas.height);
 }
 
-/** Returns the red code of each pixel, 0 to 255, which is the gray value in a gray picture. */
+/** Returns the red code of each pixel, 0 to 255, which is the grey value in a grey picture. */
 export function redOf(image) {
   return Uint8Array.from({length: image.width * image.height}, (_, i) => image.data[4 * i]);
 }

@@ -11,7 +11,7 @@ function toCanvas({data, width, height}) {
   return canvas;
 }
 
-/** Returns a canvas with the depth map in gray. Near points are bright. */
+/** Returns a canvas with the depth map in grey. Near points are bright. */
 function drawDepth({depth: {data, width, height}, low, high}) {
   const pixels = new Uint8ClampedArray(4 * width * height);
   for (let i = 0; i < data.length; ++i) {

@@ -15,7 +15,7 @@ namespace {
 // and one worker's memory holds the whole picture.
 constexpr int kBlock = 256;
 constexpr uint8_t kWhite = 255;
-// Gray level of the dark surface, by layer. Layers 1 and 2 use a gray because the negative lobes of
+// Grey level of the dark surface, by layer. Layers 1 and 2 use a grey because the negative lobes of
 // their filters would be clipped at black.
 constexpr uint8_t kDark[STARFOCUS_LAYERS] = {0, 64, 64};
 // Number of pixels by which the layers' filters extend the PSF beyond the blur radius, by layer.
@@ -95,7 +95,7 @@ class Engine {
   starfocus_status status_ = STARFOCUS_OK;
 };
 
-// Returns the gray levels of the last refocused picture before the rounding to bytes.
+// Returns the grey levels of the last refocused picture before the rounding to bytes.
 std::vector<double> ReadLevels(const Engine& measured) {
   const EngineState& engine = measured.state();
   const Block& block = engine.stripe.plan.blocks[0];
@@ -140,7 +140,7 @@ starfocus_status MeasureEnginePsf(const EngineProbe& probe, EnginePsf* result) {
   Engine engine(ConfigOf(side, probe));
   if (engine.status() != STARFOCUS_OK) return engine.status();
   // The reference is the refocused flat picture, because rounding in a layer adds up to 2/64 of a
-  // gray level.
+  // grey level.
   const starfocus_status flat_status = engine.Refocus(impulse, probe);
   if (flat_status != STARFOCUS_OK) return flat_status;
   const std::vector<double> flat = ReadLevels(engine);

@@ -30,7 +30,7 @@ struct EnginePsf {
 
 // Measures the PSF. At layer 0, the function reads the 32-bit accumulators that starfocus_refocus
 // leaves in memory, because rounding to bytes hides all taps below 1/510. At other layers, the
-// function reads the samples before the rounding to bytes, with a resolution of 1/64 gray level.
+// function reads the samples before the rounding to bytes, with a resolution of 1/64 grey level.
 // The output *result is valid only if the function returns STARFOCUS_OK. Returns
 // STARFOCUS_ERROR_STATE if the engine split the picture into blocks.
 starfocus_status MeasureEnginePsf(const EngineProbe& probe, EnginePsf* result);

@@ -13,7 +13,7 @@ constexpr int32_t kRadius = 2;
 constexpr int32_t kMostVotes = (2 * kRadius + 1) * (2 * kRadius + 1);
 // A pixel is stray if its disparity differs from the median by more than kStray (kDisparityBits).
 // Other pixels keep their disparity, so that slopes are preserved. A neighbour of equal colour has
-// the weight kVote. The weight halves with each kHalving gray levels of difference, summed over R,
+// the weight kVote. The weight halves with each kHalving grey levels of difference, summed over R,
 // G and B.
 constexpr int32_t kStray = 1 << (kDisparityBits - 2);
 constexpr int32_t kVote = 64, kHalving = 14;

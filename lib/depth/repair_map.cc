@@ -26,7 +26,7 @@ constexpr int32_t kMeanRadius = 3, kEvidenceRadius = 2;
 // Largest distance in pixels from a mixture to trusted disparities of the nearer surface. The
 // distance spans a ramp of 12 pixels and the untrusted pixels at the ends of the ramp.
 constexpr int32_t kNearReach = 16;
-// Largest cost of a pixel that the views show clearly. The cost corresponds to 11 gray levels. In
+// Largest cost of a pixel that the views show clearly. The cost corresponds to 11 grey levels. In
 // images of hair in front of a wall, half of the wall and a twentieth of the mixtures have a
 // smaller cost.
 constexpr int32_t kClearCost = 44;

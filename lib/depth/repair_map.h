@@ -37,9 +37,9 @@ bool Differs(const EstimateMemory& memory, size_t at);
 // result of EvenOut for the tile.
 TileCount CountTile(const EstimatePlan& plan, const Rect& tile, const EstimateMemory& memory);
 
-// Smallest sum of evidence over the pixels around a change, in costs (simd::kCostScale per gray
+// Smallest sum of evidence over the pixels around a change, in costs (simd::kCostScale per grey
 // level). In a wrong map, the required sum is 240, which corresponds to eight pixels that fit 7.5
-// gray levels worse. In a map that is right except at details of low contrast, the required sum is
+// grey levels worse. In a map that is right except at details of low contrast, the required sum is
 // 1600. In a map with the larger limit, pixels that stay on their surface are not changed.
 inline constexpr EvidenceScale kSweepEvidence = {18, 22, 1600, 240};
 

@@ -11,7 +11,7 @@ constexpr int32_t kSame = 2 << kDisparityBits;
 // A profile extends from the third pixel of the nearer surface to the seventh pixel of the farther
 // surface.
 constexpr int32_t kInside = 3, kOutside = 6;
-// Smallest squared distance between the colours at both ends of a profile, in gray levels squared.
+// Smallest squared distance between the colours at both ends of a profile, in grey levels squared.
 // For profiles that measure the softness of the picture, the limit is kLeastContrast. For profiles
 // that decide about a single pixel, the limit is kLeastPixelContrast.
 constexpr int32_t kLeastContrast = 60 * 60, kLeastPixelContrast = 30 * 30;

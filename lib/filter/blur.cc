@@ -67,7 +67,7 @@ Interval WithinPolygon(const ApertureShape& opening, double y, double r, Interva
 // Returns the relative integral over pixel (n, m) of (3), or of an evenly bright opening. r is the
 // radius of the disc in pixels. The midpoint rule is applied along `lines` lines that end at the
 // edge of the opening. Counting the points of a square grid instead would cause errors of up to 1.6
-// gray levels at sharp edges. Arithmetic and square root follow IEEE, so all machines compute the
+// grey levels at sharp edges. Arithmetic and square root follow IEEE, so all machines compute the
 // same result.
 template <starfocus_shape kShape>
 double DiscIntegral(int32_t n, int32_t m, double r, int32_t lines, const ApertureShape& opening) {

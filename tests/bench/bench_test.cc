@@ -45,7 +45,7 @@ TEST_CASE("A mask limits the PSNR to its pixels") {
   CHECK(MaskedPsnr(a, b, {0, 0, 0, 0}) == kBestPsnr);
 }
 
-TEST_CASE("SSIM is 1 for equal pictures, exact for gray ones and negative for inverted ones") {
+TEST_CASE("SSIM is 1 for equal pictures, exact for grey ones and negative for inverted ones") {
   Image a(32, 24);
   for (size_t i = 0; i < a.pixels.size(); ++i) a.pixels[i] = uint8_t(i / 3 * 37 % 251);
   CHECK(Ssim(a, a) == doctest::Approx(1));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compares block mode with the double-precision reference, which gets the engine's own partition.
-// On every SIMD target, samples of the engine and of the reference must differ by at most one gray
+// On every SIMD target, samples of the engine and of the reference must differ by at most one grey
 // level.
 #include <doctest/doctest.h>
 

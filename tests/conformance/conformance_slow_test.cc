@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compares the engine with the double-precision reference. Samples must differ by at most one gray
+// Compares the engine with the double-precision reference. Samples must differ by at most one grey
 // level.
 #include <doctest/doctest.h>
 

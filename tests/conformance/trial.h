@@ -25,7 +25,7 @@ struct Trial {
 // views at any positions instead of a star.
 Trial MakeTrial(uint64_t seed, bool anywhere);
 
-// Returns the largest allowed difference in gray levels. With highlights the limit is larger, since
+// Returns the largest allowed difference in grey levels. With highlights the limit is larger, since
 // codes are rounded before and after highlights are added.
 int MostLevels(const Trial& trial);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compares the engine with the double-precision reference on random trials. Samples must differ by
-// at most one gray level.
+// at most one grey level.
 #include <doctest/doctest.h>
 
 #include <cstdint>

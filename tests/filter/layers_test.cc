@@ -253,7 +253,7 @@ std::vector<uint8_t> RandomPicture(int width, int height, Content content, test:
 int Superblock(test::Random* random) { return 32 << random->Int(0, 3); }
 
 struct Errors {
-  // Largest errors per layer, before and after rounding to gray levels.
+  // Largest errors per layer, before and after rounding to grey levels.
   double samples[3] = {}, levels[3] = {};
 };
 

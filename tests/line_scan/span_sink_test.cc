@@ -23,7 +23,7 @@ constexpr uint32_t kBlendOne = 1 << starfocus::simd::kBlendBits;
 constexpr double kRounding = 0.5 / 128;  // rounding error of light
 constexpr int16_t kUntouched = 0x5A5A;
 
-// Fills a hole with one gray level, and records the surface behind the hole.
+// Fills a hole with one grey level, and records the surface behind the hole.
 struct GrayHoles {
   int level;
   mutable int disparity = 0;

@@ -17,7 +17,7 @@ using namespace starfocus;
 constexpr int kSize = 24;
 constexpr int kEdge = 12;  // the first near column
 
-// Gray levels of the far surface, the near surface, and the mixed pixel between both surfaces.
+// Grey levels of the far surface, the near surface, and the mixed pixel between both surfaces.
 struct Greys {
   int far, near, mixed;
 };
@@ -56,7 +56,7 @@ struct Scene {
     field.disparity = disparity.data();
   }
 
-  // Returns the gray levels of the middle row.
+  // Returns the grey levels of the middle row.
   std::vector<int> Unmixed(int layer = 0) {
     std::vector<int16_t> copy(disparity.size() + starfocus::simd::kPadding);
     field.disparity = copy.data();
@@ -96,7 +96,7 @@ TEST_CASE("unmix: the near part of a sharp pixel next to a defocused surface is 
 TEST_CASE("unmix: the captured view is read where the near surface has moved away") {
   for (const int views : {5, 9, 17}) {
     for (const bool mirrored : {false, true}) {
-      // Only the view that sees behind the edge is gray. If another view were read, the pixel would
+      // Only the view that sees behind the edge is grey. If another view were read, the pixel would
       // not count as mixed.
       Scene scene(2, 6, {40, 240, 140}, views, mirrored);
       std::vector<uint8_t> other(scene.side.size(), 240);
@@ -104,7 +104,7 @@ TEST_CASE("unmix: the captured view is read where the near surface has moved awa
       for (int view = 1; view < views; ++view) {
         if (view != behind) scene.planes.view[view].data = other.data();
       }
-      // In the view that sees behind the edge, only the pixel that moves by -u d is gray.
+      // In the view that sees behind the edge, only the pixel that moves by -u d is grey.
       const int x = mirrored ? kSize - kEdge : kEdge - 1;
       const int moved = x + (mirrored ? -1 : 1) * (views == 17 ? 1 : 2);
       std::vector<uint8_t> one(scene.side.size(), 240);

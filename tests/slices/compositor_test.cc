@@ -85,7 +85,7 @@ TEST_CASE("stack: captured views show the far surface behind a blurred surface")
               uint8_t(100));
   }
   const std::vector<int> row = MiddleRow(scene, 0, STARFOCUS_MODE_BLOCK);
-  // Gray is visible where the near surface covers a part of the lens. Farther to the right, the far
+  // Grey is visible where the near surface covers a part of the lens. Farther to the right, the far
   // surface is black.
   CHECK(row[kEdge - 1] > 150);
   CHECK(row[kEdge - 4] > row[kEdge - 1]);

@@ -21,7 +21,7 @@ inline constexpr int kStride = 48;  // SliceSamples
 inline constexpr int kStripColumns = int(starfocus::simd::kSliceLanes);
 inline constexpr int kArea = kStride * kSize + 16;
 
-// A light field of a disparity map in pixels per unit, a centre view of one gray level, and
+// A light field of a disparity map in pixels per unit, a centre view of one grey level, and
 // captured views. Each pixel of a captured view stores its position: R is x, G is y, and B is the
 // index of the view.
 struct LayeredScene {

@@ -12,7 +12,7 @@
 namespace starfocus::stress {
 namespace {
 
-// Largest change of the mean brightness, in gray levels.
+// Largest change of the mean brightness, in grey levels.
 constexpr double kMostEnergy = 0.05;
 // Inverting a picture inverts the result, except for the rounding of halves. Rounding occurs once
 // per pixel at layer 0, and a few times more at other layers.

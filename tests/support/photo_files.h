@@ -35,7 +35,7 @@ inline Image Plain(int width, int height, int level) {
   return image;
 }
 
-// Returns a gray picture with levels from 0 on the left to 255 on the right.
+// Returns a grey picture with levels from 0 on the left to 255 on the right.
 inline Image Ramp(int width, int height) {
   Image image(width, height);
   for (int y = 0; y < height; ++y) {
@@ -107,7 +107,7 @@ inline std::string Png(uint32_t width, uint32_t height, const PngKind& kind,
          Chunk("IEND", "");
 }
 
-// Returns a gray PNG file of 16 bits.
+// Returns a grey PNG file of 16 bits.
 inline std::string Png16(int width, int height, const std::vector<uint16_t>& levels) {
   std::string samples;
   for (const uint16_t level : levels) samples += Big(level, 2);
