@@ -102,7 +102,7 @@ package() {
   [ -z "$left" ] || { echo "consumers: uninstall left" $left >&2; exit 1; }
 }
 
-# These projects are built without optimization, since the builds are faster and the checksums must not change.
+# These projects are built without optimization: builds are faster, and the checksums must be the same.
 source_tree() {
   project 'add_subdirectory, C' subproject "-DSTARFOCUS_DIR=$sources" \
     -DSTARFOCUS_STATIC_DISPATCH=ON

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Checks that every operation that makes a map returns the same bytes on every SIMD target, from
-// mirrored input, and in used memory.
+// mirrored input, and in memory that holds data of earlier calls.
 #include <doctest/doctest.h>
 
 #include <vector>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the outlines of repaired maps. Outlines must be moved by the softness of the picture, and
-// must not be more ragged than the picture.
+// Tests the outlines of repaired maps. Where the edges of the picture are soft, outlines must move
+// outwards to include the pixels of the edge. Outlines must not be more ragged than the picture.
 #include <doctest/doctest.h>
 
 #include <algorithm>

@@ -189,7 +189,7 @@ TEST_CASE("borders: nothing beyond the borders of a superblock is read") {
   CHECK(gathered > 0);
 }
 
-// A setting that tests one sum of borders, of which every pixel is required.
+// A setting that tests one total border. The output requires every pixel of this border.
 struct Sum {
   const char* name;
   int views, renderer, max_layer;

@@ -90,7 +90,8 @@ TEST_CASE("runs: alternating extremes give runs of one pixel") {
 }
 
 TEST_CASE("runs: the width of a subaperture is the distance that its run moves from view to view") {
-  // The distances to the focus, divided by four views, are 0.5 and 0.75 pixels.
+  // The disparities differ from the focus by 2 and 3 pixels. With N = 4, neighbouring views move by
+  // 0.5 and 0.75 pixels.
   const ViewGrid grid = MakeGrid(4, 1, 16);
   const std::vector<Run> runs =
       test::FindRuns({-128, -128, 192, 192}, grid, Direction::kRightToLeft);

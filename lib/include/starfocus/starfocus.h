@@ -487,8 +487,9 @@ STARFOCUS_API starfocus_status starfocus_refocus_prepared(starfocus_engine* engi
                                                           const starfocus_image* out,
                                                           starfocus_report* report);
 
-/** Starts a streamed refocusing and ends an unfinished one. After this call, push rows of the light
- *  field and pull rows of the picture in turn, until all rows are written.
+/** Starts to refocus a picture by rows. An unfinished picture of an earlier stream is abandoned.
+ * After this call, push rows of the light field and pull rows of the picture in turn, until all
+ * rows are written.
  *  @param engine engine with STARFOCUS_FEATURE_STREAMING
  *  @param params lens; `region` must be all 0 and `previous` null
  *  @return STARFOCUS_OK, or an error of the arguments */
