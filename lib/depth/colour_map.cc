@@ -14,7 +14,7 @@ constexpr int16_t kUnknown = INT16_MIN;
 // edges are steeper.
 constexpr int32_t kFlat = kPixel / 2;
 // Smallest number of flat pixels among the 5x5 pixels around a pixel that is not on a ramp. At
-// corners of surfaces there are 8 flat pixels, and on ramps at most 5.
+// the corner of a surface, at least 8 of the 25 pixels are flat; on a ramp, at most 5 are.
 constexpr int32_t kLeastFlat = 8;
 constexpr int32_t kFlatRadius = 2;
 // Width and height in pixels of the cells that are tested for flatness as a whole. Most of these

@@ -35,8 +35,8 @@ struct LayerPlane {
   Plane<int16_t> samples;  // simd::kLayerBits, clamped to the range of samples
 };
 
-// Number of pixels that the 7 filter taps read before a pair of pixels. After the pair, the taps
-// read one pixel less.
+// Number of source pixels that the 7 filter taps read before the two source pixels of a layer's
+// pixel. After these two pixels, the taps read kDownBorder - 1 pixels.
 inline constexpr int32_t kDownBorder = 3;
 
 // Returns the number of source pixels along an axis for `pixels` pixels of a layer.

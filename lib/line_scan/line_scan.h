@@ -138,8 +138,8 @@ class LineScan {
   int32_t Shift(const Run& run) const { return grid_.Shift(move_, run.disparity); }
   static int32_t Whole(int32_t shift) { return (shift + kShiftOne / 2) >> kShiftBits; }
 
-  // Lower end of the last added run, if a farther surface follows. An end between rendered pixels
-  // covers only a part of a pixel.
+  // Lower end of the last added run, if a farther surface follows. If a run ends between two
+  // rendered pixels, the run covers only a part of its last pixel.
   struct Edge {
     const Run* run;  // null: none
     // Offset from a rendered pixel, kShiftBits. If the offset is negative, a part of that size is

@@ -171,7 +171,7 @@ class TilePart {
 };
 
 // Finds the surfaces of the rectangle and copies the rectangle's centre view to the rows of
-// CentreRow. Returns the rectangle in pixels of the surfaces.
+// CentreRow. Returns where the rectangle lies in `scratch->surfaces`, in pixels.
 Rect LoadSurfaces(const RenderJob& job, CompositorScratch* scratch, uint32_t* accumulators) {
   BlockPixels field;
   field.rgb = scratch->field_rgb;

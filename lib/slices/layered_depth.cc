@@ -291,7 +291,7 @@ class SurfaceFinder {
     }
   }
 
-  // Inserts the copies of a strip whose pixels hide nothing else.
+  // Inserts the copies of surfaces in a strip whose pixels hide no other surface.
   void CopyStrip(size_t at, const int16_t* copies) {
     for (uint16_t* sources : surfaces_.sources) {
       std::memset(sources + at, 0, kStripColumns * sizeof(*sources));

@@ -25,9 +25,9 @@ struct Ends {
 };
 
 // Decides whether 0 and 65535 are depths in a 16-bit map. Both values are depths if the map was
-// stretched to the whole range. A map was stretched if the other values reach an end of the range.
-// A map in which 0 and 65535 both occur was also stretched if other values lie in the upper half of
-// the range, or if there are no other values.
+// stretched to the whole range. A map counts as stretched if values other than 0 and 65535 come
+// close to 0 or 65535. A map with both 0 and 65535 also counts as stretched if other values lie in
+// the upper half of the range, or if there are no other values.
 Ends JudgeEnds(const FloatMap& map) {
   Ends ends;
   std::vector<float> others;

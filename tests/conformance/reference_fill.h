@@ -9,7 +9,8 @@ namespace reference {
 
 // If the farthest surface of a pixel repeats another pixel, the surface gets the far colour of the
 // other pixel. Then smooths the replaced colours with each other and with known colours: see
-// lib/slices/hidden_fill.h. `unit` is a pixel of disparity in 1/64.
+// lib/slices/hidden_fill.h. `unit` is the disparity of one pixel, in units
+// of 1/64 pixel.
 void InpaintHidden(int unit, SurfaceMap* map);
 
 }  // namespace reference

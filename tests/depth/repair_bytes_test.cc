@@ -153,7 +153,8 @@ TEST_CASE("repair: pictures of one colour change no map") {
   CHECK(MakeMap(field, ConfigOf(field, kLow, kHigh), given).disparity == given);
 }
 
-TEST_CASE("repair: without conflicts, confidence is the difference of colours one pixel away") {
+TEST_CASE(
+    "repair: without conflicts, confidence is the colour difference between adjacent pixels") {
   const PlaneScene scene;
   PlaneField field = RenderPlanes(scene);
   // Each colour changes by 7 levels per pixel along a row, and by 4 levels per pixel along a
