@@ -5,6 +5,9 @@
  * are packed RGB.
  *
  * @code
+ * #include <starfocus/depth.h>
+ * #include <stdlib.h>
+ *
  * // Estimates a map of disparities from -8 to 8 from 5 views. Returns a starfocus_status.
  * int Estimate(const starfocus_light_field* light_field, int width, int height, float* disparity) {
  *   starfocus_depth_config config;
@@ -16,8 +19,8 @@
  *   size_t bytes = 0;
  *   starfocus_status status = starfocus_estimate_workspace_size(&config, &bytes);
  *   if (status != STARFOCUS_OK) return status;
- *   void* workspace = aligned_alloc(STARFOCUS_ALIGNMENT,
- *                                   (bytes + 63) / 64 * 64);
+ *   const size_t blocks = (bytes + STARFOCUS_ALIGNMENT - 1) / STARFOCUS_ALIGNMENT;
+ *   void* workspace = aligned_alloc(STARFOCUS_ALIGNMENT, STARFOCUS_ALIGNMENT * blocks);
  *   if (workspace == NULL) return STARFOCUS_ERROR_MEMORY;
  *   starfocus_disparity_output map = {0};
  *   map.disparity = disparity;

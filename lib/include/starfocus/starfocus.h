@@ -9,11 +9,10 @@
  * for Sparse Light Fields Using Block-Based Multi-Rate View Interpolation"; numbers in parentheses,
  * such as (9), are its equations.
  *
- * A complete program that focuses a picture at disparity 3.5:
+ * A complete function that focuses a picture at disparity 3.5:
  *
  * @code
  * #include <starfocus/starfocus.h>
- * #include <stdlib.h>
  *
  * // Focuses 5 packed RGB views with float disparities from -8 to 8. Returns a starfocus_status.
  * int Refocus(const unsigned char* views[5], const float* disparity, int width, int height,
