@@ -53,7 +53,7 @@ Result<Samples> TakeGrey(const std::string& where, const Sample* pixel, int chan
   }
   if (coloured * kColouredPart < count) return result;
   return Expected(where, "a depth picture in grey levels",
-                  "a colour picture (colours do not show what is nearer)");
+                  "a colour picture (colours do not define an order of depth)");
 }
 
 // Decodes a PNG file that DecodeImage has read without an error.

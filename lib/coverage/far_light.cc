@@ -52,8 +52,8 @@ FarCell Pull(const FourCells& children) {
   return sum.Mean(Min(sum.weight, kKnown));
 }
 
-// Fills in the unknown part of a cell's light. Of the four nearest cells of the level above, the
-// fill is the mean of the cells that show the surface at `disparity`.
+// Fills in the unknown part of a cell's light. The fill is the mean of those of the four nearest
+// cells of the level above that show the surface at `disparity`.
 void PushCell(const FourCells& above, int32_t disparity, FarCell* cell) {
   if (cell->weight >= kKnown) return;
   const FarSum sum = SumOf(above, {9, 3, 3, 1}, disparity);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The layered depth image of a field. Surface 0 is the surface that the centre view sees. Behind
-// depth edges, there are up to two hidden surfaces; captured views that see these surfaces provide
-// the colours. The compositor divides these surfaces into slices.
+// The layered depth image of a field. Surface 0 is the surface that the centre view sees. Up to
+// two hidden surfaces lie behind depth edges; captured views that see these surfaces provide the
+// colours. The compositor divides these surfaces into slices.
 #ifndef STARFOCUS_LIB_SLICES_LAYERED_DEPTH_H_
 #define STARFOCUS_LIB_SLICES_LAYERED_DEPTH_H_
 

@@ -115,7 +115,7 @@ Result<std::string> FindDepthPicture(const std::string& path, DepthPhoto* photo)
   std::sort(found.begin(), found.end());
   if (found.size() > 1) {
     photo->notes.push_back("found " + std::to_string(found.size()) +
-                           " depth pictures beside the photo, using " + found[0].name +
+                           " depth pictures in the folder of the photo, using " + found[0].name +
                            " (--depth FILE chooses another)");
   }
   return (file.parent_path() / found[0].name).string();

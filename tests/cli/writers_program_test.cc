@@ -155,8 +155,8 @@ TEST_CASE("views: a captured view on each additional side brings the picture clo
   const double pair = error("0,0:1,0"), other = error("0,0:-1,0");
   const double corner = error("0,0:1,0:0,1"), row = error("0,0:-1,0:1,0");
   CHECK(five > one + 2);
-  // A pair captures one of four sides, and must therefore gain at least 15 % of what five views
-  // gain.
+  // A pair captures one of four sides, and must therefore reach at least 15 % of the gain of
+  // five views.
   CHECK(pair > one + 0.15 * (five - one));
   CHECK(other > one + 0.15 * (five - one));
   CHECK(corner > pair);

@@ -149,7 +149,7 @@ TEST_CASE("surfaces: two surfaces may be hidden behind a third surface") {
   CHECK(scene.Behind(18, 20, 2) == 0);
 }
 
-TEST_CASE("surfaces: a hidden surface may have an edge of its own") {
+TEST_CASE("surfaces: a hidden surface may itself have an edge") {
   // A strip is 6 pixels in front of a wall, and another surface is 3 pixels in front of the strip.
   for (const int start : {16, 13, 12}) {
     Scene scene(5);

@@ -15,7 +15,7 @@ std::string AllNames(const Program& program, const Command& command) {
   return names;
 }
 
-// Returns true for a pattern such as "polygon:N", in which capitals are placeholders.
+// Returns true for a pattern such as "polygon:N", in which a capital stands for a value.
 bool IsPattern(const std::string& word) {
   return std::any_of(word.begin(), word.end(), [](char c) { return c >= 'A' && c <= 'Z'; });
 }

@@ -54,7 +54,7 @@ void PrintThreshold() {
       "  a cusp at N/r = 1.5. What the paper did differently is unknown; of the variants tried, "
       "one\n"
       "  gives 0.787: without views on the rim of the aperture the point is %.3f, and %.3f with\n"
-      "  the curve read beside the cusp at 1.51 (SSE %.1e). 0.787 is on the safe side either "
+      "  the curve read next to the cusp, at 1.51 (SSE %.1e). 0.787 is on the safe side either "
       "way.\n\n",
       UnderSamplingRatio(4, kDefaultTheta, over.error),
       UnderSamplingRatio(4, kDefaultTheta, no_rim.error, Rim::kExcluded),
