@@ -6,7 +6,7 @@
 namespace starfocus {
 namespace {
 
-// Returns the six bits of a character, or -1 for other characters.
+// Returns the six bits that a base64 character encodes, or -1 for other characters.
 int BitsOf(char c) {
   if (c >= 'A' && c <= 'Z') return c - 'A';
   if (c >= 'a' && c <= 'z') return c - 'a' + 26;

@@ -10,11 +10,12 @@
 
 namespace starfocus {
 
-// Encodes with padding and without line breaks.
+// Encodes bytes as base64 with padding and without line breaks.
 std::string EncodeBase64(const Bytes& bytes);
 
-// Decodes a text. Skips white space, and accepts missing padding at the end. Returns nullopt if the
-// text contains any other character.
+// Decodes a text. Skips white space in the text, and accepts missing padding at the end of the
+// text. Returns nullopt if the text contains any character except base64 characters and white
+// space.
 std::optional<Bytes> DecodeBase64(const std::string& text);
 
 }  // namespace starfocus

@@ -15,8 +15,8 @@ inline double Seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-// Returns the CPU time of the calling thread in nanoseconds, from an arbitrary start. Other
-// programs do not influence this time. The function can be used as a starfocus_clock.
+// Returns the CPU time of the calling thread in nanoseconds, from an arbitrary start. CPU time does
+// not include the time of other programs. The function can be used as a starfocus_clock.
 inline uint64_t ThreadNanoseconds() {
   timespec time = {};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);

@@ -35,8 +35,8 @@ uint32_t Crc(const uint8_t* bytes, size_t size) {
   return ~crc;
 }
 
-// stb_image allocates the size that a chunk declares before it checks that the data exists, and
-// never verifies the checksum of the chunk.
+// Checks the lengths and checksums of PNG chunks. stb_image allocates the declared size of a chunk
+// before it checks that the data exists, and never verifies checksums.
 Container CheckPng(const Bytes& bytes, bool checksums) {
   for (size_t at = sizeof(kPngSignature); at + 12 <= bytes.size();) {
     const uint8_t* chunk = &bytes[at];
@@ -64,7 +64,7 @@ Container CheckHuffmanTables(const Bytes& bytes, size_t at, size_t end) {
   return Container::kWhole;
 }
 
-// stb_image fills the missing part of a truncated JPEG with grey.
+// Rejects truncated JPEG files, whose missing part stb_image would fill with grey.
 Container CheckJpeg(const Bytes& bytes) {
   constexpr uint8_t kHuffmanTables = 0xc4;
   size_t at = sizeof(kJpegSignature);
@@ -78,7 +78,7 @@ Container CheckJpeg(const Bytes& bytes) {
   return Container::kTruncated;
 }
 
-// Signature of a file type at byte `at`.
+// A file type and its signature, which starts at byte `at` of the file.
 struct Beginning {
   size_t at;
   const char* bytes;
@@ -152,7 +152,7 @@ uint32_t ReadBigEndian32(const uint8_t* bytes) {
 }
 
 bool MayBePicture(const Bytes& beginning) {
-  if (beginning.size() < 12) return true;  // a short file is cheap to read
+  if (beginning.size() < 12) return true;  // a file of less than 12 bytes is cheap to read
   const bool netpbm = beginning[0] == 'P' && beginning[1] >= '1' && beginning[1] <= '6';
   return netpbm || IsPng(beginning) || StartsWith(beginning, kJpegSignature) ||
          std::memcmp(&beginning[0], "RIFF", 4) == 0 || std::memcmp(&beginning[4], "ftyp", 4) == 0;

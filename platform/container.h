@@ -14,9 +14,9 @@
 namespace starfocus {
 
 enum class Container {
-  kUnknown,    // neither PNG nor JPEG
-  kWhole,      // all parts exist, including the end marker
-  kTruncated,  // a part exceeds the file, or the end marker is missing
+  kUnknown,    // file that is neither PNG nor JPEG
+  kWhole,      // complete file, including its end marker
+  kTruncated,  // file that ends before one of its parts, or without an end marker
   kBroken,     // a PNG chunk has a wrong checksum, or a JPEG table has more codes than bytes
 };
 
@@ -25,17 +25,17 @@ Container CheckContainer(const Bytes& bytes);
 // Returns the error for a file of the format `format` that ends too early.
 Error Truncated(const std::string& where, const std::string& format);
 
-// Describes a file that is not a supported picture, for errors: "a text file", "a GIF file", "an
-// empty file". Returns "a file of an unknown format" if the format is not recognized.
+// Returns a description of an unsupported file, for use in error messages: "a text file", "a GIF
+// file", "an empty file". Returns "a file of an unknown format" if the format is not recognized.
 std::string DescribeFile(const Bytes& bytes);
 
-// Returns true if a chunk of a PNG file exceeds the file, or the last chunk is missing.
+// Returns true if a PNG file ends within a chunk, or lacks its last chunk.
 bool IsTruncatedPng(const Bytes& png);
 
 // Returns true if the first bytes may belong to a picture: PNG, JPEG, WebP, HEIF, PPM or PGM.
 bool MayBePicture(const Bytes& beginning);
 
-// Returns true if the file starts like a PNG file.
+// Returns true if the bytes start with the signature of PNG files.
 bool IsPng(const Bytes& bytes);
 
 // A segment of a JPEG file: its marker, and the range of its content after the length field.
@@ -43,11 +43,11 @@ struct JpegSegment {
   uint8_t marker;
   size_t begin, end;
 };
-constexpr uint8_t kJpegEndOfImage = 0xd9;  // a marker without a length
+constexpr uint8_t kJpegEndOfImage = 0xd9;  // JPEG marker that no length field follows
 
-// Returns the first segment at or after byte `at`, or nullopt if the file ends before the segment
-// does. Skips coded data between segments. In coded data, 0xff is followed by a zero byte or is
-// part of a restart marker.
+// Returns the first segment at or after byte `at`, or nullopt if the file ends within that segment.
+// Skips coded data between segments. In coded data, 0xff is followed by a zero byte or is part of a
+// restart marker.
 std::optional<JpegSegment> NextJpegSegment(const uint8_t* jpeg, size_t size, size_t at);
 
 // Returns a big-endian 32-bit integer.

@@ -8,16 +8,17 @@
 
 namespace starfocus {
 
-// A rotary encoder with two lines and four edges between detents. A leads B clockwise.
+// A rotary encoder with two lines and four edges between detents. When the encoder turns clockwise,
+// line A changes before line B.
 //
-// Every edge moves the position by a quarter of a step. A step counts when both lines have returned
-// to the levels of a detent, so contact bounce cancels out. If an edge reports the current level of
-// a line, an earlier edge was lost. In this case the position does not change, but the levels are
-// correct afterwards. A lost edge may lose its step. A lost edge never causes a step in the wrong
-// direction and never affects later steps.
+// Every edge moves the position by a quarter of a step. The decoder counts a step when both lines
+// have returned to the levels of a detent, so contact bounce cancels out. If an edge reports the
+// current level of a line, an earlier edge was lost. If an edge was lost, the position does not
+// change, but the decoder corrects the level of the line. A lost edge may cause the decoder to miss
+// one step. A lost edge never causes a step in the wrong direction and never affects later steps.
 class QuadratureDecoder {
  public:
-  // @param a, b levels of the lines at rest
+  // @param a, b levels of lines A and B at a detent
   explicit QuadratureDecoder(bool a = true, bool b = true);
 
   // Processes an edge of line A or B to level `high`. Returns 1 for a clockwise step, -1 for a
@@ -29,24 +30,25 @@ class QuadratureDecoder {
   int Edge(bool a, bool b);
 
   bool a_, b_;
-  int rest_;      // index in the cycle at a detent
-  int quarters_;  // quarters since the last detent
+  int rest_;      // index of the levels at a detent in the cycle of four states
+  int quarters_;  // quarters of a step since the last detent
 };
 
 // A push button. The first edge of a press counts immediately. Edges that arrive within `quiet`
-// after a change are treated as contact bounce. If a release was lost, the next press still counts.
+// nanoseconds after a level change are treated as contact bounce. If the edge of a release was
+// lost, the next press still counts.
 class Debouncer {
  public:
-  // @param quiet duration of contact bounce in nanoseconds. All times are in nanoseconds, from any
-  //     monotonic clock
+  // @param quiet duration of contact bounce in nanoseconds. All times of this class are in
+  //     nanoseconds, from any monotonic clock
   explicit Debouncer(int64_t quiet) : quiet_(quiet) {}
 
-  // Processes an edge of the line. Returns true if this edge is a press, or if an earlier press has
-  // settled before this edge.
+  // Processes an edge of the line. Returns true if this edge presses the button, or if contact
+  // bounce of an earlier press ended before this edge.
   bool Edge(bool pressed, int64_t time);
 
-  // Accepts the level at the end of contact bounce. Call this function if no edge has arrived by
-  // the time Due(). Returns true for a press.
+  // Accepts the current level of the line when contact bounce has ended. Call Settle if no edge has
+  // arrived by the time Due(). Returns true if the accepted level is a press.
   bool Settle(int64_t time);
   // Returns true if Settle must be called at the time Due().
   bool unsettled() const { return last_ != pressed_; }
@@ -55,8 +57,8 @@ class Debouncer {
  private:
   int64_t quiet_;
   int64_t changed_ = INT64_MIN / 2;  // time of the last accepted change
-  bool pressed_ = false;             // accepted level
-  bool last_ = false;                // level after the last edge
+  bool pressed_ = false;             // true if the accepted level is a press
+  bool last_ = false;  // true if the line was at the level of a press after the last edge
 };
 
 }  // namespace starfocus

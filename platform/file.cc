@@ -46,8 +46,8 @@ fs::path FollowLink(const fs::path& path) {
 }
 
 // Returns true if the file has no write permission at all, or if this process may not write to the
-// file. The first condition protects read-only files even from root, for whom access() always
-// succeeds.
+// file. The check of the permission bits protects read-only files even from root, for whom access()
+// always succeeds.
 bool IsProtected(const fs::path& target) {
   struct stat status;
   if (stat(target.c_str(), &status) != 0) return false;
@@ -87,9 +87,9 @@ Error Replace(const std::string& path, const fs::path& target, const Bytes& byte
   return whole ? Error() : Cannot("write", path, Reason(errno));
 }
 
-// Limit of the input in bytes. A PPM file of the largest supported picture, 2^28 pixels with 16
-// bits per sample, is smaller. A limit is required because a pipe has no known size and may be
-// endless.
+// Limit of an input file in bytes. A PPM file of the largest supported picture, 2^28 pixels with 16
+// bits per sample, is smaller than this limit. A limit is required because a pipe has no known size
+// and may be endless.
 constexpr uint64_t kMostBytes = uint64_t{1} << 31;
 
 Error TooLarge(const std::string& path, uint64_t most, const std::string& found) {
@@ -99,12 +99,12 @@ Error TooLarge(const std::string& path, uint64_t most, const std::string& found)
 
 struct OpenedFile {
   File file;
-  size_t size = 0;  // 0 for a pipe
+  size_t size = 0;  // size in bytes; 0 for a pipe
 };
 
 // Opens a regular file of at most `most` bytes, or a pipe.
 Result<OpenedFile> OpenFile(const std::string& path, uint64_t most) {
-  // Standard input is read through a duplicated descriptor, which may be closed.
+  // Duplicate the descriptor of standard input, because File closes its descriptor.
   const bool standard = path == "-";
   File file(standard ? fdopen(dup(STDIN_FILENO), "rb") : std::fopen(path.c_str(), "rb"));
   struct stat status;
@@ -124,7 +124,7 @@ Result<OpenedFile> OpenFile(const std::string& path, uint64_t most) {
 using IsWanted = bool (*)(const Bytes& beginning);
 
 // Reads a file of at most `most` bytes. If `is_wanted` is not null and returns false for the first
-// part, returns only that part.
+// 64 KiB, returns only these bytes.
 Result<Bytes> ReadAtMost(const std::string& path, uint64_t most, IsWanted is_wanted) {
   const Result<OpenedFile> opened = OpenFile(path, most);
   if (!opened) return opened.error();

@@ -15,8 +15,8 @@ namespace starfocus {
 using Bytes = std::vector<uint8_t>;
 
 // Reads a regular file or a pipe of at most 2 GiB. Rejects folders and devices, since a device such
-// as /dev/zero never ends. In all functions of this header that read, the path "-" means standard
-// input.
+// as /dev/zero never ends. The path "-" means standard input in all functions of this header that
+// read a file.
 Result<Bytes> ReadFile(const std::string& path);
 
 // Reads a file, or only its first 64 KiB if `is_wanted` returns false for these bytes. Reading an
@@ -32,19 +32,22 @@ Result<Bytes> ReadSmallFile(const std::string& path);
 // read-only file. Devices, pipes and standard output (standard_stream.h) are written directly.
 Error WriteFile(const std::string& path, const Bytes& bytes);
 
-// Writes the output of an encoder, or returns its error.
+// Writes the output of an encoder to `path`. If the encoder failed, returns the error of the
+// encoder.
 Error WriteFile(const std::string& path, const Result<Bytes>& encoded);
 
 Error WriteText(const std::string& path, const std::string& text);
 
-// Returns an error if a later WriteFile would probably fail. The folder must exist and be writable,
-// its file system must accept the name, and `path` must not be a folder or read-only.
+// Returns an error if a later call of WriteFile with this path would probably fail. The folder must
+// exist and be writable, the file system must accept the file name, and `path` must not be a folder
+// or a read-only file.
 Error CheckOutputPath(const std::string& path);
 
 // Returns an error if `path` is a device or pipe, on which a reader could wait forever.
 Error CheckPlainFile(const std::string& path);
 
-// Returns the extension in lower case with its dot, or an empty string if none exists.
+// Returns the extension of a path in lower case with its dot, or an empty string if the path has no
+// extension.
 std::string LowerExtension(const std::string& path);
 
 }  // namespace starfocus

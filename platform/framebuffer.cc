@@ -16,7 +16,8 @@
 namespace starfocus {
 namespace {
 
-// Shifts the `length` highest bits of an 8-bit sample to their position in a pixel.
+// Shifts the `field.length` highest bits of an 8-bit sample to the position of this colour in a
+// pixel.
 uint32_t Placed(uint8_t sample, PixelField field) {
   const uint32_t bits = field.length >= 8 ? uint32_t{sample} << (field.length - 8)
                                           : uint32_t{sample} >> (8 - field.length);
@@ -41,7 +42,7 @@ bool Fits(PixelField field, int bits) {
   return field.length >= 1 && field.length <= 16 && field.offset + field.length <= bits;
 }
 
-// A screen with mapped memory.
+// A screen, and the mapping of its memory into this process.
 struct Mapping {
   Screen screen;
   void* memory = nullptr;

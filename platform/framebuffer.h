@@ -12,17 +12,17 @@
 
 namespace starfocus {
 
-// Bits of a colour in a pixel: `length` bits from bit `offset`.
+// Position of a colour within a pixel: `length` bits, starting at bit `offset`.
 struct PixelField {
   int offset, length;
 };
 
-// The mapped memory of a screen.
+// The memory of a screen, mapped into this process, and its pixel format.
 struct Screen {
   uint8_t* memory = nullptr;
-  int width = 0, height = 0;  // in pixels
-  size_t stride = 0;          // bytes from row to row
-  int bytes_per_pixel = 0;    // 2, 3 or 4, little-endian
+  int width = 0, height = 0;  // size of the screen in pixels
+  size_t stride = 0;          // bytes from one row to the next row
+  int bytes_per_pixel = 0;    // 2, 3 or 4; pixels are little-endian
   PixelField red = {0, 0}, green = {0, 0}, blue = {0, 0};
 };
 

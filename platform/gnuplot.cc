@@ -17,7 +17,7 @@ struct CloseFile {
 };
 using TempFile = std::unique_ptr<std::FILE, CloseFile>;
 
-// Runs gnuplot with these files as stdin, stdout and stderr. Returns the exit code, or -1 if
+// Runs gnuplot with the given files as stdin, stdout and stderr. Returns the exit code, or -1 if
 // gnuplot cannot be run.
 int Spawn(std::FILE* in, std::FILE* out, std::FILE* err) {
   posix_spawn_file_actions_t actions;

@@ -10,11 +10,11 @@
 
 namespace starfocus {
 
-// Returns true if a gnuplot that can write SVG is installed.
+// Returns true if gnuplot is installed and can write SVG.
 bool HasGnuplot();
 
-// Runs gnuplot on `script` and returns the output. The script contains all data and writes to
-// stdout. The function uses no shell and no file names. Errors start with `what`.
+// Runs gnuplot on `script` and returns the output. `script` must contain all data and write to
+// stdout. RunGnuplot uses no shell and no file names. Error messages start with `what`.
 Result<Bytes> RunGnuplot(const std::string& what, const std::string& script);
 
 }  // namespace starfocus

@@ -14,7 +14,7 @@ namespace starfocus {
 namespace {
 
 constexpr char kConsumer[] = "starfocus";
-constexpr int kEdgesAtOnce = 16;  // capacity of the kernel's buffer for each line
+constexpr int kEdgesAtOnce = 16;  // number of edges that the kernel buffers for each line
 
 bool IsNumber(const std::string& text) {
   return !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
@@ -27,7 +27,7 @@ std::string ChipPath(const std::string& chip) {
 
 std::string Number(int64_t value) { return std::to_string(value); }
 
-// Returns an error for `where` with the reason in errno.
+// Returns an error that starts with `where` and describes the reason in errno.
 Error Failure(const std::string& where, const std::string& expected) {
   const int code = errno;
   if (code == EBUSY) return Expected(where, expected, "a line that another program holds");
@@ -108,7 +108,7 @@ gpiod_line_bias BiasOf(GpioBias bias) {
   return GPIOD_LINE_BIAS_AS_IS;
 }
 
-// Requests `lines` with `settings` and frees `settings`. Returns null on failure.
+// Requests `lines` from the kernel with `settings`, and frees `settings`. Returns null on failure.
 gpiod_line_request* Request(gpiod_chip* chip, const std::vector<int>& lines,
                             gpiod_line_settings* settings) {
   const std::vector<unsigned> offsets(lines.begin(), lines.end());
@@ -213,7 +213,7 @@ Result<std::vector<GpioEdge>> GpioInputs::Wait(int timeout) {
   gpiod_line_bulk ready;
   int result = 0;
   do {
-    // libgpiod 1 cannot wait without a limit.
+    // Wait for an hour at a time, because libgpiod 1 cannot wait without a limit.
     const timespec hour = {3600, 0};
     result = gpiod_line_event_wait_bulk(&lines_->bulk, timeout < 0 ? &hour : &limit, &ready);
   } while (result == 0 && timeout < 0);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Accesses GPIO lines of Linux boards through libgpiod (1.5 or newer, or 2.x). Only built if
-// libgpiod is available. A chip is named "gpiochip0", "/dev/gpiochip0" or "0". A line is identified
-// by its offset on the chip.
+// Accesses GPIO lines of Linux boards through libgpiod (1.5 or newer, or 2.x). This module is built
+// only if libgpiod is available. A chip is named "gpiochip0", "/dev/gpiochip0" or "0". A line is
+// identified by its offset on the chip.
 #ifndef STARFOCUS_PLATFORM_GPIO_H_
 #define STARFOCUS_PLATFORM_GPIO_H_
 
@@ -19,28 +19,30 @@ struct GpioChip {
   int lines;
 };
 
-// Lists the chips that the user may open. Returns an error if none is found.
+// Lists the GPIO chips that the user may open. Returns an error if the user may open no GPIO chip.
 Result<std::vector<GpioChip>> ListGpioChips();
 
 enum class GpioBias { kAsIs, kPullUp, kPullDown };
 
-// A signal edge of a line. `high` is the level after the edge.
+// A signal edge of a line. `high` is true if the level of the line is high after the edge.
 struct GpioEdge {
   int line;
   bool high;
   int64_t nanoseconds;  // monotonic time
 };
 
-// Input lines with detection of both edges. The program owns the lines until the destructor runs.
+// Input lines with detection of both edges. Other programs cannot use the lines until the
+// destructor of GpioInputs runs.
 class GpioInputs {
  public:
   GpioInputs();
   ~GpioInputs();
   Error Open(const std::string& chip, const std::vector<int>& lines, GpioBias bias);
-  // Returns true if the line is high now.
+  // Returns true if the current level of the line is high.
   Result<bool> Read(int line);
-  // Waits for edges and returns them sorted by time, or none after `timeout` milliseconds (-1: no
-  // limit). The kernel drops edges if more than 16 per line are pending.
+  // Waits for edges and returns them sorted by time. Returns an empty list after `timeout`
+  // milliseconds without an edge (-1: no limit). The kernel drops edges if more than 16 per line
+  // are pending.
   Result<std::vector<GpioEdge>> Wait(int timeout);
 
  private:
@@ -55,7 +57,7 @@ class GpioOutput {
   ~GpioOutput();
   Error Open(const std::string& chip, int line);
   Error Set(bool high);
-  // Returns true if the line is high, on chips that can read their outputs.
+  // Returns true if the output line is high. Requires a chip that can read back its outputs.
   Result<bool> Read();
 
  private:

@@ -12,8 +12,8 @@ namespace starfocus {
 // Largest width and height of pictures in files. Equal to STARFOCUS_MAX_SIZE of starfocus.h.
 inline constexpr int kMaxPictureSize = 65535;
 
-// Returns true if a picture of this size is addressable. On 32-bit systems the largest pictures are
-// not addressable.
+// Returns true if the size of the picture in bytes fits the address space. On 32-bit systems, the
+// largest pictures do not fit.
 constexpr bool FitsMemory(int width, int height, size_t bytes_per_pixel) {
   return uint64_t(width) * uint64_t(height) <= uint64_t{PTRDIFF_MAX} / bytes_per_pixel;
 }

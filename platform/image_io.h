@@ -13,9 +13,9 @@
 
 namespace starfocus {
 
-// Reads a picture. The format is detected from the content, not from the file name. Grey and CMYK
-// are converted to RGB, and alpha is ignored. The functions of this header support pictures of up
-// to 2^28 pixels.
+// Reads a picture. The format of a picture file is detected from its content, not from its name.
+// Grey and CMYK pictures are converted to RGB, and an alpha channel is ignored. The functions of
+// this header support pictures of up to 2^28 pixels.
 Result<Image> ReadImage(const std::string& path);
 
 // Decodes a picture in memory; `where` is used only in errors. For PNG and WebP, the metadata
@@ -27,7 +27,7 @@ Result<DecodedPicture> DecodeImage(const std::string& where, const Bytes& bytes)
 Error WriteImage(const std::string& path, const Image& image, const PictureOptions& options = {});
 
 // Returns an error if WriteImage does not support the extension of `path`, this build lacks the
-// encoder, or the folder does not exist. Call this function before long computations.
+// encoder, or the folder does not exist. Call CheckImageOutput before long computations.
 Error CheckImageOutput(const std::string& path);
 
 }  // namespace starfocus

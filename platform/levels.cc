@@ -16,20 +16,20 @@ namespace starfocus {
 namespace {
 
 // A pixel is coloured if its channels differ by more than a tenth of white; JPEG compression
-// changes the channels of grey pixels by less than a tenth. A picture is in colour if at least one
-// pixel in a hundred is coloured.
+// changes the channels of grey pixels by less than a tenth. A picture counts as a colour picture if
+// at least one pixel in a hundred is coloured.
 constexpr int kColourPart = 10;
 constexpr size_t kColouredPart = 100;
 
-// Use of an alpha channel.
+// Treatment of the alpha channel of a depth picture.
 enum class Alpha {
   kIgnored,
   kTransparent,  // pixels that are less than half opaque become NaN
-  kTaken         // replaces the levels
+  kTaken         // the alpha channel replaces the grey levels
 };
 
-// Converts interleaved samples of 1 (grey) to 4 (RGB and alpha) channels to grey levels. `result`
-// already has the size and the sample of white.
+// Converts interleaved samples of 1 (grey) to 4 (RGB and alpha) channels to grey levels. The caller
+// has set the size of the map in `result`, and the sample value of white.
 template <class Sample>
 Result<Samples> TakeGrey(const std::string& where, const Sample* pixel, int channels, Alpha alpha,
                          Samples result) {
@@ -59,9 +59,9 @@ Result<Samples> TakeGrey(const std::string& where, const Sample* pixel, int chan
 // Decodes a PNG file that DecodeImage has read without an error.
 Result<Samples> DecodePngSamples(const std::string& where, const Bytes& bytes, Alpha alpha) {
   const PngHeader header = *ReadPngHeader(bytes);
-  constexpr int kHasAlpha = 4;  // bit of the colour type
+  constexpr int kHasAlpha = 4;  // bit of the PNG colour type: alpha channel
   if (alpha == Alpha::kTaken && (header.colour & kHasAlpha) == 0) alpha = Alpha::kIgnored;
-  constexpr int kColour = 2;  // bit of the colour type: RGB or a palette of RGB
+  constexpr int kColour = 2;  // bit of the PNG colour type: RGB or a palette of RGB
   const int channels = (header.colour & kColour) != 0 ? 4 : 2;
   const auto size = static_cast<int>(bytes.size());
   const StbMemory memory;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Decodes the grey levels of depth pictures (PNG, PGM, PPM and JPEG) at full precision, for the
-// readers of depth photos. A colour picture is an error, because colours have no order.
+// readers of depth photos. Rejects colour pictures, because colours do not define an order of
+// depth.
 #ifndef STARFOCUS_PLATFORM_LEVELS_H_
 #define STARFOCUS_PLATFORM_LEVELS_H_
 
@@ -13,8 +14,8 @@
 namespace starfocus {
 
 struct Samples {
-  FloatMap map;     // samples, 0 to `largest`; NaN if transparent
-  int largest = 0;  // sample of white
+  FloatMap map;     // sample values, 0 to `largest`; NaN for transparent pixels
+  int largest = 0;  // sample value of white
 };
 
 // Decodes the samples. `where` is used only in errors. If `use_alpha` is true, pixels that are less

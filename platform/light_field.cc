@@ -25,7 +25,7 @@ std::string Join(const std::string& folder, const std::string& name) {
 
 constexpr char kDisparityName[] = "disparity.pfm";
 constexpr char kCoverageName[] = "coverage.png";
-// Maps of stereo pairs of Middlebury and ETH3D.
+// File names of disparity maps in stereo pairs of Middlebury and ETH3D.
 constexpr const char* kPairDisparityNames[] = {"disp0.pfm", "disp0GT.pfm"};
 
 Error CheckSize(const std::string& path, int width, int height, const Image& centre) {

@@ -20,7 +20,8 @@ struct LightField {
   std::vector<Image> views;
   Positions positions;  // positions of the views; empty: the star of starfocus_view_position
   FloatMap disparity;
-  std::vector<uint8_t> coverage;  // as starfocus_light_field.coverage, packed rows; empty: none
+  // starfocus_light_field.coverage in rows without padding; empty: no coverage
+  std::vector<uint8_t> coverage;
 
   int width() const { return disparity.width; }
   int height() const { return disparity.height; }
@@ -29,10 +30,11 @@ struct LightField {
 // Sets the number and the positions of views in a configuration.
 void ConfigureViews(const LightField& light_field, starfocus_config* config);
 
-// Measures a map. All fields are 0 if the map is empty.
+// Measures a map. All fields of the result are 0 if the map is empty.
 starfocus_disparity_stats MeasureDisparity(const FloatMap& map);
 
-// Returns the light field for a call of the engine, starting at row `first`.
+// Returns a starfocus_light_field that points to the rows from `first` on, for a call of the
+// engine.
 starfocus_light_field EngineRows(const LightField& light_field, int first = 0);
 
 // Returns the path of the folder's disparity map, whether or not the file exists.
@@ -41,7 +43,8 @@ std::string DisparityPath(const std::string& folder);
 // Returns the paths of all light-field files in the folder.
 std::vector<std::string> LightFieldFiles(const std::string& folder);
 
-// Returns true if `name` is the name of a file of a light-field folder.
+// Returns true if light-field folders may contain a view, a map or coverage with the file name
+// `name`.
 bool IsLightFieldFile(const std::string& name);
 
 Result<FloatMap> ReadDisparity(const std::string& folder);
@@ -49,37 +52,40 @@ Result<FloatMap> ReadDisparity(const std::string& folder);
 // Returns true if the folder has a disparity map, which may be invalid.
 bool HasDisparity(const std::string& folder);
 
-// Loads the views at the positions `wanted` without the map, or all views of the folder if `wanted`
-// is empty. All views must have the same size. In all functions of this header, `runner` decodes
-// several views at a time; if `runner` is null, the calling thread decodes all views.
+// Loads the views at the positions `wanted`, or all views of the folder if `wanted` is empty. Does
+// not load the map. All views must have the same size. In all functions of this header, `runner`
+// decodes several views at a time; if `runner` is null, the calling thread decodes all views.
 Result<LightField> LoadCaptured(const std::string& folder, const Positions& wanted,
                                 ThreadRunner* runner = nullptr);
 
-// Loads the views in `files` without a map. All views must have the same size.
+// Loads the views in `files`, but no disparity map. All views must have the same size.
 Result<LightField> LoadViewFiles(const std::vector<ViewFile>& files,
                                  ThreadRunner* runner = nullptr);
 
-// Loads the map of views that are already loaded. The map must have the size of the views.
+// Adds the disparity map in the file `path` to a light field. The map must have the size of the
+// views, which must already be loaded.
 Error LoadMap(const std::string& path, LightField* light_field);
 
-// Sets a map that was read from `path`. The map must have the size of the loaded views.
+// Adds a disparity map to a light field whose views are loaded. The map must have the size of the
+// views. `path` is used only in errors.
 Error TakeMap(const std::string& path, FloatMap map, LightField* light_field);
 
-// Returns the path of the folder's coverage, or an empty string if none exists.
+// Returns the path of the coverage file in the folder, or an empty string if the file does not
+// exist.
 std::string CoveragePath(const std::string& folder);
 
-// Loads the coverage of views that are already loaded. Coverage is the alpha channel of a picture,
-// or the grey levels if the picture has no alpha channel. The picture must have the size of the
-// views.
+// Adds the coverage in the picture `path` to a light field whose views are loaded. Coverage is the
+// alpha channel of the picture, or its grey levels if it has no alpha channel. The picture must
+// have the size of the views.
 Error LoadCoverage(const std::string& path, LightField* light_field);
 
-// Loads the views at the positions `wanted`, the disparity map, and the coverage if it exists. The
-// views, the map and the coverage must have the same size.
+// Loads the views at the positions `wanted`, the disparity map, and the coverage if the folder
+// contains coverage. The views, the map and the coverage must have the same size.
 Result<LightField> LoadLightField(const std::string& folder, const Positions& wanted,
                                   ThreadRunner* runner = nullptr);
 
-// Creates the folder if necessary. Writes the views as PNG, several at a time on `runner`. Also
-// writes the coverage and the disparity map, unless they are empty.
+// Creates the folder if necessary. Writes the views as PNG, several at a time on `runner`. Writes
+// the coverage and the disparity map unless they are empty.
 Error SaveLightField(const std::string& folder, const LightField& light_field,
                      ThreadRunner* runner);
 

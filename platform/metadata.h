@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Metadata of a photograph's file.
+// Metadata that a file stores in addition to the pixels of a photograph.
 #ifndef STARFOCUS_PLATFORM_METADATA_H_
 #define STARFOCUS_PLATFORM_METADATA_H_
 
@@ -13,11 +13,11 @@
 namespace starfocus {
 
 struct Metadata {
-  Bytes exif;       // the TIFF structure, starting with its byte order "II" or "MM"; empty: none
-  Bytes icc;        // the whole profile; empty: none, which means sRGB
-  Bytes iptc = {};  // records of IPTC-IIM: title, caption, copyright and so on; empty: none
-  // Descriptions of an XMP packet without the surrounding elements; empty: none. The descriptions
-  // contain title, caption, rating, copyright and so on, but no properties of the file
+  Bytes exif;       // TIFF structure of EXIF, starting with "II" or "MM"; empty: no EXIF
+  Bytes icc;        // complete ICC profile; empty: no profile, which means sRGB
+  Bytes iptc = {};  // IPTC-IIM records such as title and caption; empty: no records
+  // Elements rdf:Description of an XMP packet, without the surrounding elements; empty: no XMP. The
+  // descriptions contain title, caption, rating, copyright and so on, but no properties of the file
   // (kept_metadata.h).
   std::string xmp = {};
 };

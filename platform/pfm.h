@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads and writes one-channel PFM files ("Pf"): 32-bit floats, rows from bottom to top. The sign
-// of the scale is the byte order (negative: little endian).
+// of the scale in the header gives the byte order (negative: little endian).
 #ifndef STARFOCUS_PLATFORM_PFM_H_
 #define STARFOCUS_PLATFORM_PFM_H_
 
@@ -15,16 +15,18 @@ namespace starfocus {
 struct FloatMap {
   int width = 0;
   int height = 0;
-  std::vector<float> values;  // rows from top to bottom, without padding
+  std::vector<float> values;  // values in rows from top to bottom, without padding
 
-  size_t stride() const { return sizeof(float) * size_t(width); }  // bytes from row to row
+  size_t stride() const {
+    return sizeof(float) * size_t(width);
+  }  // bytes from one row to the next row
   float at(int x, int y) const { return values[size_t(y) * size_t(width) + size_t(x)]; }
 };
 
 enum class ByteOrder { kLittle, kBig };
 
-// Reads a map. Values may be NaN or infinite. The magnitude of the scale states a unit and is
-// ignored, because disparities do not use this unit.
+// Reads a map. Values of the map may be NaN or infinite. ReadPfm ignores the magnitude of the scale
+// in the header, which states a unit that disparities do not use.
 Result<FloatMap> ReadPfm(const std::string& path);
 Error WritePfm(const std::string& path, const FloatMap& map, ByteOrder order = ByteOrder::kLittle);
 

@@ -26,7 +26,7 @@ std::optional<PngHeader> ReadPngHeader(const Bytes& png) {
   return PngHeader{ReadBigEndian32(chunk + 8), ReadBigEndian32(chunk + 12), chunk[16], chunk[17]};
 }
 
-// stb_image rejects palettes with 16-bit indices, as the PNG format requires.
+// The PNG format does not allow palettes with 16-bit indices, and stb_image rejects such files.
 bool HasPalette(const PngHeader& header) { return header.colour == kPalette && header.depth <= 8; }
 
 Bytes TakePalette(Bytes* png) {
@@ -34,11 +34,11 @@ Bytes TakePalette(Bytes* png) {
   (*png)[kFirstChunk + 17] = kGrey;
   for (size_t at = kFirstChunk; at + 12 <= png->size();) {
     uint8_t* chunk = &(*png)[at];
-    if (IsChunk(chunk, "IEND")) break;  // the rest of the file need not be chunks
+    if (IsChunk(chunk, "IEND")) break;  // bytes after the last chunk may be any data
     const size_t length = ReadBigEndian32(chunk);
     if (IsChunk(chunk, "PLTE")) palette.assign(chunk + 8, chunk + 8 + length);
-    // Opacities of a palette do not apply to grey levels. Renaming the chunk makes decoders skip
-    // the chunk.
+    // Rename the chunk tRNS so that decoders skip it: opacities of a palette do not apply to grey
+    // levels.
     if (IsChunk(chunk, "tRNS")) chunk[4] = 'x';
     at += 12 + length;
   }

@@ -14,18 +14,19 @@ namespace starfocus {
 struct PngHeader {
   uint32_t width, height;
   int depth;   // bits per sample
-  int colour;  // colour type of the format
+  int colour;  // colour type as defined by the PNG format
 };
 
-// Reads the header of a complete file. Returns nullopt if the file does not start with a header.
+// Reads the header of a complete PNG file. Returns nullopt if the first chunk is not a header.
 std::optional<PngHeader> ReadPngHeader(const Bytes& png);
 
-// Returns true if the pixels are indices into a palette.
+// Returns true if the pixels of the PNG file are indices into a palette.
 bool HasPalette(const PngHeader& header);
 
 // Converts a file with a palette to a grey picture, in which index i has the level i * GreyStep.
-// Returns the palette as R, G, B for each index, or an empty result if the palette is missing. This
-// is necessary because stb_image returns uninitialized memory for an index outside the palette.
+// Returns the palette as R, G, B for each index, or an empty result if the palette is missing. The
+// conversion is necessary because stb_image returns uninitialized memory for an index outside the
+// palette.
 Bytes TakePalette(Bytes* png);
 int GreyStep(const PngHeader& header);
 

@@ -14,7 +14,8 @@ struct PngCall {
   bool no_memory = false;
   char reason[100] = "";
 
-  // Records a failure, because libpng and zlib report insufficient memory in different ways.
+  // Allocates memory and records a failure in `no_memory`, because libpng and zlib report
+  // insufficient memory in different ways.
   static png_voidp Allocate(png_structp png, png_alloc_size_t size) {
     void* memory = std::malloc(size);
     if (memory == nullptr) static_cast<PngCall*>(png_get_mem_ptr(png))->no_memory = true;

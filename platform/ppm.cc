@@ -36,7 +36,7 @@ Result<PnmHeader> ReadHeader(const std::string& path, TextHeader* text) {
                   std::to_string(text->remaining()));
 }
 
-// Returns the sample at `index`, limited to the maximum value.
+// Returns the sample at `index`, limited to the maximum value in the header.
 int SampleAt(const PnmHeader& header, const uint8_t* data, size_t index) {
   const uint8_t* at = data + index * size_t(header.sample_bytes);
   const int value = header.sample_bytes == 2 ? at[0] * 256 + at[1] : at[0];

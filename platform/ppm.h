@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads and writes binary PPM and PGM pictures. This module exists because stb_image accepts
-// truncated PPM files and ignores the maximum value.
+// truncated PPM files and ignores the maximum value in the header.
 #ifndef STARFOCUS_PLATFORM_PPM_H_
 #define STARFOCUS_PLATFORM_PPM_H_
 
@@ -14,8 +14,8 @@
 
 namespace starfocus {
 
-// Decodes a P6 file, or a P5 file as grey RGB. The maximum value may be up to 65535; samples are
-// scaled to 8 bits. `path` is used only in errors.
+// Decodes a P6 file, or converts a P5 file from grey to RGB. The maximum value may be up to 65535,
+// and samples are scaled to 8 bits. `path` is used only in errors.
 Result<Image> DecodePpm(const std::string& path, const Bytes& bytes);
 
 // Samples of a P6 or P5 file, 0 to `largest`.

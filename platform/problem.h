@@ -14,8 +14,8 @@ struct ProblemText {
 };
 
 // Returns "<field>: <sentence of the status> (expected <range>, found <value>)" for a call that
-// returned `status`. Returns only the sentence if `problem` is null, belongs to another call, or
-// names no field.
+// returned `status`. Returns only the sentence of the status if `problem` is null, belongs to
+// another call, or names no field.
 ProblemText Describe(starfocus_status status, const starfocus_problem* problem);
 
 }  // namespace starfocus

@@ -12,8 +12,9 @@
 namespace starfocus {
 namespace {
 
-constexpr double kInterval = 0.1;  // seconds between updates, and before the first one
-constexpr double kLeastTime = 1;   // seconds before the remaining time is estimated
+constexpr double kInterval =
+    0.1;  // seconds between updates of the line, and before the first update
+constexpr double kLeastTime = 1;  // seconds before the remaining time is estimated
 
 std::atomic<bool> line_taken{false};
 
@@ -68,7 +69,7 @@ int PictureProgress::Tell(void* data, int32_t rows_done, int32_t rows) {
   PictureProgress& self = *static_cast<PictureProgress*>(data);
   const auto steps = static_cast<int32_t>(int64_t{kSteps} * rows_done / rows);
   self.progress_.Step(steps - self.steps_);
-  self.steps_ = rows_done < rows ? steps : 0;  // the next picture starts
+  self.steps_ = rows_done < rows ? steps : 0;  // rows_done == rows ends a picture
   return 0;
 }
 

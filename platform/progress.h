@@ -16,18 +16,18 @@ class Progress {
  public:
   // @param total number of steps that correspond to 100 %
   Progress(std::string what, int64_t total);
-  ~Progress();  // erases the line
+  ~Progress();  // erases the progress line
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  void Step(int64_t steps = 1);  // may be called by any thread
+  void Step(int64_t steps = 1);  // Step may be called by any thread
 
   // Prints a permanent line on stderr above the progress line, even if stderr is not a terminal.
-  // May be called by any thread.
+  // Tell may be called by any thread.
   void Tell(const std::string& line);
 
-  // Returns "what: 43 %, 12 s left" after `seconds`. The remaining time is omitted if it cannot be
-  // estimated yet.
+  // Returns a text such as "what: 43 %, 12 s left". `seconds` is the elapsed time. The text omits
+  // the remaining time if it cannot be estimated yet.
   static std::string Text(const std::string& what, int64_t done, int64_t total, double seconds);
 
  private:
@@ -35,11 +35,11 @@ class Progress {
 
   const std::string what_;
   const int64_t total_;
-  const bool shown_here_;  // stderr is a terminal, and this object owns its line
+  const bool shown_here_;  // true if stderr is a terminal and this object shows the progress line
   const double start_;
   std::mutex mutex_;
   int64_t done_ = 0;
-  double shown_ = 0;  // time of the last update; 0 before the first update
+  double shown_ = 0;  // time of the last update in seconds; 0 before the first update
 };
 
 // Progress of pictures or maps that the library computes in sequence.
@@ -48,14 +48,15 @@ class PictureProgress {
   PictureProgress(std::string what, int pictures)
       : progress_(std::move(what), int64_t{kSteps} * pictures) {}
 
-  // A starfocus_progress whose data is the PictureProgress. Never cancels.
+  // A callback of type starfocus_progress, whose `data` must point to a PictureProgress. Never
+  // cancels.
   static int Tell(void* data, int32_t rows_done, int32_t rows);
 
  private:
   static constexpr int32_t kSteps = 1000;  // steps per picture
 
   Progress progress_;
-  int32_t steps_ = 0;  // steps of this picture that have been reported
+  int32_t steps_ = 0;  // number of steps of the current picture that have been reported
 };
 
 }  // namespace starfocus

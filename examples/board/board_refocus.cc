@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// board_refocus: a refocusing camera on a board. A rotary encoder moves the plane of focus. One
-// button changes the aperture, and a second button takes the picture. An output line is high while
-// the engine runs, for an oscilloscope or a power meter.
+// board_refocus: a camera program for Linux boards that refocuses a light field. A rotary encoder
+// moves the plane of focus. One button changes the aperture, and a second button takes the picture.
+// An output line is high while the engine runs, for an oscilloscope or a power meter.
 #include <algorithm>
 #include <cstdio>
 #include <optional>
@@ -38,7 +38,7 @@ struct Options {
 
 constexpr int kLastLine = 100000;
 
-// Checks everything that can be checked before the light field is read.
+// Checks the options that do not depend on the light field, before the light field is read.
 Result<PanelLines> PlanLines(const Options& options) {
   PanelLines lines;
   if (options.encoder) {
@@ -75,7 +75,8 @@ class Board {
   Board(const Options& options, const PanelLines& lines)
       : options_(options), lines_(lines), camera_(options.threads) {}
 
-  // Requests the lines before reading the light field, so that a missing line is reported early.
+  // Requests the GPIO lines before reading the light field, so that a missing line is reported
+  // early.
   Error Open() {
     Error error = inputs_.Open(options_.chip, lines_.All(), options_.bias);
     if (!error && options_.busy) error = busy_.Open(options_.chip, *options_.busy);
@@ -134,8 +135,7 @@ class Board {
     return {};
   }
 
-  // Sets the busy line and returns the level that the line then has. Returns false if there is no
-  // busy line.
+  // Sets the busy line and reads its level back. Returns false if the options name no busy line.
   Result<bool> SetBusy(bool high) {
     if (!options_.busy) return false;
     if (Error error = busy_.Set(high)) return error;

@@ -24,7 +24,8 @@ class Camera {
 
   double nearest() const { return stats_.max; }
   double farthest() const { return stats_.min; }
-  // Returns the apertures that the engine's largest blur permits, the widest first.
+  // Returns the selectable apertures, the widest first. STARFOCUS_MAX_BLUR limits the widest
+  // aperture.
   const std::vector<double>& apertures() const { return apertures_; }
   size_t workspace_bytes() const { return engine_.workspace_bytes(); }
 

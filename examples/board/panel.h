@@ -12,7 +12,7 @@
 
 namespace starfocus {
 
-// Line offsets; -1 if a control is missing.
+// Offsets of the GPIO lines of the controls; -1 if a control is missing.
 struct PanelLines {
   int encoder_a = -1, encoder_b = -1;
   int aperture = -1;
@@ -23,9 +23,9 @@ struct PanelLines {
 };
 
 struct PanelActions {
-  int focus_steps = 0;  // clockwise is positive
-  int apertures = 0;    // presses
-  int shutters = 0;     // presses
+  int focus_steps = 0;  // number of encoder steps; positive is clockwise
+  int apertures = 0;    // number of presses of the aperture button
+  int shutters = 0;     // number of presses of the shutter button
 
   bool any() const { return focus_steps != 0 || apertures != 0 || shutters != 0; }
 };
@@ -39,7 +39,7 @@ class Panel {
 
   // Processes an edge of `line` to level `high` at `time`.
   PanelActions Edge(int line, bool high, int64_t time);
-  // Settles the buttons. Call this function if no edge arrives for Wait() nanoseconds.
+  // Settles the buttons. Call Settle if no edge arrives within Wait() nanoseconds.
   PanelActions Settle(int64_t time);
   // Returns the time until Settle must be called, in nanoseconds, or -1 if no call is required.
   int64_t Wait(int64_t time) const;

@@ -59,7 +59,7 @@ static starfocus_light_field FieldFrom(int first) {
   return field;
 }
 
-/* Pushes the rows that the sensors deliver, up to the number of rows for which the engine has room.
+/* Pushes the delivered rows of the sensors to the engine, as many as the engine accepts at a time.
  * Writes finished rows to `file`. */
 static starfocus_status Stream(starfocus_engine* engine, FILE* file, double* sensor_seconds) {
   int delivered = 0, taken = 0, written = 0;

@@ -10,8 +10,8 @@ static int IsBall(int x, int y) {
 }
 
 /* Finds the texture coordinates of the surface that the camera at (u, v) sees at pixel (x, y).
- * Texture coordinates are the pixel at which the first camera sees the surface, plus 1024 to keep
- * them positive. Returns 1 for the ball, 0 for the wall. */
+ * Texture coordinates are the coordinates at which the first camera sees the surface point, plus
+ * 1024 to keep them positive. Returns 1 for the ball, 0 for the wall. */
 static int SeenByFirst(int x, int y, int u, int v, int* seen_x, int* seen_y) {
   const int is_ball = IsBall(x + u * kBall, y + v * kBall);
   const int disparity = is_ball ? kBall : kWall;
@@ -21,7 +21,7 @@ static int SeenByFirst(int x, int y, int u, int v, int* seen_x, int* seen_y) {
 }
 
 /* Returns the luma of a pixel: chequers on the ball, stripes and white tiles on the wall, and a
- * grain that belongs to the surface. */
+ * noise texture that is fixed to each surface. */
 static uint8_t LumaAt(int x, int y, int u, int v) {
   int seen_x, seen_y, grain;
   const int is_ball = SeenByFirst(x, y, u, v, &seen_x, &seen_y);

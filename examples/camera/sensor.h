@@ -19,7 +19,8 @@ enum { kBall = 24, kWall = -6 };
  *  @param chroma receives `rows` / 2 rows of kWidth bytes */
 void SensorRows(int camera, int first, int rows, uint8_t* luma, uint8_t* chroma);
 
-/** Writes the depth map of the first camera: kDepthHeight rows of kDepthWidth disparities plus 100.
+/** Writes the depth map of the first camera: kDepthHeight rows of kDepthWidth values. Each value is
+ * a disparity plus 100.
  */
 void SensorDepth(uint8_t* map);
 

@@ -74,8 +74,8 @@ public final class Refocus {
   }
 
   /**
-   * Reads a PFM file. The header has three lines. The bottom row is the first. The sign of the
-   * scale in the header gives the byte order (negative: little endian).
+   * Reads a PFM file. A PFM header has three lines. Rows are stored from bottom to top. The sign of
+   * the scale in the header gives the byte order (negative: little endian).
    */
   private static ByteBuffer readPfm(Path path, int width, int height) throws IOException {
     final byte[] bytes = Files.readAllBytes(path);

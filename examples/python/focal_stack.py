@@ -22,7 +22,8 @@ height, width = disparity.shape
 print(f"{len(views)} views of {width} x {height}, disparities {disparity.min():.2f} to {disparity.max():.2f}, "
       f"starfocus {starfocus.__version__} on {starfocus.simd_target()}")
 
-# %% Create one engine for all pictures. Preparing does the work that does not depend on the focus only once.
+# %% Create one engine for all pictures. `prepare` computes the data that do not depend on the focus once for all
+# pictures.
 refocuser = starfocus.Refocuser.for_light_field(views, disparity)
 prepared = refocuser.prepare(views, disparity)
 foci = np.linspace(disparity.max(), disparity.min(), 3)
@@ -40,7 +41,8 @@ for axis in axes:
 figure.savefig(output / "focal_stack.png", dpi=100)
 
 
-# %% Plot time against error. The benchmark renders twice as many views as the blur can show.
+# %% Plot time against error. The mode `benchmark`, the reference for errors, renders twice as many views as the blur
+# can show.
 def psnr(picture: np.ndarray, truth: np.ndarray) -> float:
     """Returns the PSNR in decibels over all samples."""
     return 10 * np.log10(255**2 / max(np.mean((picture.astype(float) - truth) ** 2), 1e-9))
@@ -65,6 +67,6 @@ left.legend()
 right.legend()
 figure.savefig(output / "time_and_error.png", dpi=100)
 
-# %% Print the engine's report on the last picture.
+# %% Print statistics of the last refocusing from the engine's report.
 report = refocuser.report
 print(f"N = {report['n']}, {report['rendered_samples'] / (3 * width * height):.1f} samples per pixel")

@@ -7,9 +7,9 @@
 
 namespace starfocus {
 
-// Returns the PSNR in dB of a preview at 1 / 2^shift of the size, over all its samples. The
-// reference is the full picture, reduced by averaging light. Returns infinity if the preview equals
-// the reference.
+// Returns the PSNR in dB of a preview at 1 / 2^shift of the size, over all samples of the preview.
+// The reference for the PSNR is the full picture, reduced to the size of the preview by averaging
+// light. Returns infinity if the preview equals the reference.
 double PreviewPsnr(const Image& preview, const Image& full, int shift);
 
 }  // namespace starfocus

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shows how an app implements tap to focus. The program prepares a light field once. The first tap
 // computes a preview and then the full picture. The second tap moves the focus in steps to the
-// tapped point, with a preview for each step (a focus pull). Then the full picture is computed. The
-// program prints the time of every step, and the PSNR of a preview relative to the full picture.
+// tapped point, with a preview for each step (a focus pull). After the last step, the program
+// computes the full picture. The program prints the time of every step, and the PSNR of a preview
+// relative to the full picture.
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -24,24 +25,24 @@
 namespace starfocus {
 namespace {
 
-// Largest blur radius in pixels. The aperture is chosen so that the blur of no focus exceeds this
-// radius.
+// Largest blur radius in pixels. The program chooses the widest aperture whose blur is at most
+// kBlur at every focus.
 constexpr double kBlur = 32;
 
 struct Options {
   std::string folder, out;
-  Pixel size = {4000, 3000};  // size of the ray-traced scene, which is used without a folder
+  Pixel size = {4000, 3000};  // picture size of the ray-traced scene, used if `folder` is empty
   std::optional<Pixel> first, second;
   int shift = 2, frames = 12, threads = starfocus_pool_cores();
 };
 
-// A light field, and the default pixels of the two taps.
+// A light field, and the pixels of the two taps if the options do not set them.
 struct Subject {
   LightField field;
   Pixel first, second;
 };
 
-// Reads the light field of a folder. Without a folder, ray-traces the portrait.
+// Reads the light field of a folder. If the options name no folder, ray-traces the portrait scene.
 Result<Subject> Open(const Options& options, ThreadRunner* runner) {
   Subject subject;
   LightField& field = subject.field;
@@ -143,13 +144,14 @@ class Session {
     return Keep(full_);
   }
 
-  // Compares the last preview with the last full picture. Both pictures must have the same focus.
+  // Compares the last preview with the last full picture. The preview and the full picture must
+  // have the same focus.
   void SayNearness() const {
     std::printf("%8.1f dB  PSNR of the preview against the full picture reduced\n",
                 PreviewPsnr(preview_, full_, options_.shift));
   }
 
-  // Computes previews of foci after `from`, up to `to`.
+  // Computes a focus pull: previews at evenly spaced foci after `from`, up to and including `to`.
   Error Pull(double from, double to) {
     const double start = Seconds();
     for (int k = 1; k <= options_.frames; ++k) {

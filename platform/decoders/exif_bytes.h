@@ -8,7 +8,8 @@
 namespace starfocus {
 
 // Removes the header "Exif\0\0" from `exif`. JPEG files require this header, and some programs also
-// write the header to PNG and WebP files. Clears `exif` if the rest is not a TIFF structure.
+// write the header to PNG and WebP files. Clears `exif` if the bytes after the header are not a
+// TIFF structure.
 void TrimExif(Bytes* exif);
 
 }  // namespace starfocus

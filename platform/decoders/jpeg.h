@@ -11,9 +11,9 @@
 
 namespace starfocus {
 
-// Decodes to RGB. Grey and CMYK are converted without a colour profile. Uses libjpeg-turbo if
-// available, otherwise stb_image, which does not support arithmetic coding. A truncated file is an
-// error. `where` is used only in errors.
+// Decodes to RGB. Grey and CMYK pictures are converted to RGB without a colour profile. Uses
+// libjpeg-turbo if available, otherwise stb_image, which does not support arithmetic coding. A
+// truncated file is an error. `where` is used only in errors.
 Result<Image> DecodeJpeg(const std::string& where, const Bytes& jpeg);
 
 }  // namespace starfocus

@@ -17,8 +17,8 @@
 namespace starfocus {
 namespace {
 
-// Limits repeated scans of a few bytes in progressive files, each of which traverses the whole
-// picture.
+// Limit of the scans in progressive files. A scan of a few bytes takes the time of a pass over the
+// whole picture.
 constexpr int kMostScans = 500;
 
 // State of libjpeg and the cause of an error. The destructor frees libjpeg's memory.
@@ -28,11 +28,12 @@ struct Decoder {
   jpeg_decompress_struct info;
   jpeg_progress_mgr progress;
   bool truncated = false, many_scans = false;
-  char reason[JMSG_LENGTH_MAX] = "";  // cause of damage to the picture
+  char reason[JMSG_LENGTH_MAX] = "";  // message of libjpeg for an error or damaged pixels
 
   Decoder() {
     info.err = jpeg_std_error(&manager);
-    info.mem = nullptr;  // nothing has been allocated yet
+    info.mem = nullptr;  // null, so that jpeg_destroy_decompress frees nothing before libjpeg
+                         // allocates memory
   }
   ~Decoder() { jpeg_destroy_decompress(&info); }
   Decoder(const Decoder&) = delete;
@@ -47,8 +48,8 @@ void Fail(j_common_ptr info) {
 
 void KeepSilent(j_common_ptr) {}
 
-// Returns true if the warning `code` means that pixels are missing or wrong. Other warnings concern
-// bytes between the parts of a file, or unused numbers.
+// Returns true if the warning `code` means that pixels are missing or wrong. Ignores warnings about
+// bytes between the parts of a file and about unused numbers.
 bool LosesPixels(int code) {
   return code == JWRN_JPEG_EOF || code == JWRN_HIT_MARKER || code == JWRN_HUFF_BAD_CODE ||
          code == JWRN_ARITH_BAD_CODE || code == JWRN_MUST_RESYNC || code == JWRN_NOT_SEQUENTIAL;
@@ -90,8 +91,8 @@ bool ReadHeader(const Bytes& jpeg, Decoder* decoder) {
   return true;
 }
 
-// Converts a row of CMYK. Adobe's programs store 255 minus the ink. Files without Adobe's marker
-// are assumed to store ink in the same way, as in libjpeg-turbo's own program.
+// Converts a row of CMYK. In CMYK files, Adobe's programs store 255 minus the amount of ink. Like
+// libjpeg-turbo's own program, ToRgb assumes inverted ink even if a file lacks Adobe's marker.
 void ToRgb(const uint8_t* cmyk, int width, uint8_t* rgb) {
   for (int x = 0; x < width; ++x, cmyk += 4, rgb += 3) {
     for (int c = 0; c < 3; ++c) rgb[c] = static_cast<uint8_t>((cmyk[c] * cmyk[3] + 127) / 255);

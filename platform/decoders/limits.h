@@ -15,10 +15,10 @@ namespace starfocus {
 // pixels.
 Error CheckPictureSize(const std::string& where, int64_t width, int64_t height);
 
-// Returns true if a JPEG file of `bytes` bytes can contain a picture of this size. Each
-// Huffman-coded block takes at least one bit. With the strongest subsampling, there is one block
-// per 8 by 32 pixels. With arithmetic coding, a block is assumed to take at least a sixteenth of a
-// bit.
+// Returns true if a JPEG file of `bytes` bytes can contain a picture of `width` x `height` pixels.
+// Each Huffman-coded block takes at least one bit. With the strongest chroma subsampling, a JPEG
+// file has one block per 8 by 32 pixels. With arithmetic coding, a block is assumed to take at
+// least a sixteenth of a bit.
 bool JpegCanHold(size_t bytes, bool arithmetic, int64_t width, int64_t height);
 
 }  // namespace starfocus

@@ -17,12 +17,12 @@
 namespace starfocus {
 namespace {
 
-// Input position of libpng, and the cause of an error.
+// Input of libpng, metadata from text chunks, and the cause of an error.
 struct Call : PngCall {
   const Bytes& png;
   size_t at = 0;
   bool truncated = false;
-  Bytes exif = {};  // from a text chunk
+  Bytes exif = {};  // EXIF from a text chunk
   std::string xmp = {};
 };
 
@@ -36,7 +36,7 @@ void Take(png_structp png, png_bytep data, png_size_t size) {
   call->at += size;
 }
 
-// Handles chunks that libpng would store and, if compressed, inflate. Only EXIF and XMP are kept.
+// Handles text chunks, which libpng would otherwise store and inflate. Keeps only EXIF and XMP.
 int TakeChunk(png_structp png, png_unknown_chunkp chunk) {
   Call* call = static_cast<Call*>(png_get_user_chunk_ptr(png));
   const bool packed = std::memcmp(chunk->name, "zTXt", 4) == 0;

@@ -12,7 +12,8 @@
 namespace starfocus {
 namespace {
 
-// EXIF fits into a JPEG segment of 64 KiB. As text, EXIF has two digits per byte, and line breaks.
+// Limit of a text in bytes. EXIF has at most 64 KiB, and its text has two digits per byte plus line
+// breaks.
 constexpr size_t kMostText = size_t{1} << 18;
 
 struct FreeDecompressor {
@@ -65,10 +66,14 @@ Bytes ParseDigits(const std::string& text) {
 
 void ReadRawProfile(bool compressed, const uint8_t* data, size_t size, Bytes* exif) {
   const uint8_t* const last = data + size;
-  const uint8_t* end = std::find(data, last, uint8_t{0});  // end of the keyword
+  const uint8_t* end =
+      std::find(data, last, uint8_t{0});  // position after the keyword of the chunk
   const std::string keyword(data, end);
   if (keyword != "Raw profile type exif" && keyword != "Raw profile type APP1") return;
-  const size_t skip = compressed ? 2 : 1;  // the zero byte, and the compression method
+  const size_t skip =
+      compressed
+          ? 2
+          : 1;  // 1 byte for the zero byte after the keyword, and 1 for the compression method
   if (size_t(last - end) < skip || !exif->empty()) return;
   end += skip;
   *exif = ParseDigits(compressed ? Inflate(end, size_t(last - end)) : std::string(end, last));
@@ -76,8 +81,8 @@ void ReadRawProfile(bool compressed, const uint8_t* data, size_t size, Bytes* ex
 }
 
 void ReadXmpText(const uint8_t* data, size_t size, std::string* xmp) {
-  constexpr char kKeyword[] = "XML:com.adobe.xmp";  // including its zero byte
-  constexpr size_t kFlags = 2;                      // compression flag and method
+  constexpr char kKeyword[] = "XML:com.adobe.xmp";  // keyword of the chunk, including its zero byte
+  constexpr size_t kFlags = 2;  // bytes of the compression flag and the compression method
   const uint8_t* const last = data + size;
   if (!xmp->empty() || size < sizeof(kKeyword) + kFlags ||
       !std::equal(kKeyword, kKeyword + sizeof(kKeyword), data)) {
@@ -85,7 +90,7 @@ void ReadXmpText(const uint8_t* data, size_t size, std::string* xmp) {
   }
   const bool compressed = data[sizeof(kKeyword)] != 0;
   const uint8_t* text = data + sizeof(kKeyword) + kFlags;
-  for (int part = 0; part < 2; ++part) {  // language and translated keyword
+  for (int part = 0; part < 2; ++part) {  // skips the language tag and the translated keyword
     text = std::find(text, last, uint8_t{0});
     if (text == last) return;
     ++text;

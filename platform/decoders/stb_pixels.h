@@ -11,17 +11,18 @@
 
 namespace starfocus {
 
-// Returns an error if the parts of a file are incomplete or inconsistent (container.h).
+// Returns an error if a PNG or JPEG file is truncated or damaged (container.h).
 Error CheckStbContainer(const std::string& where, const Bytes& bytes);
 
 // Decodes a picture with `channels` samples per pixel. The current StbMemory owns the returned
-// pixels. Returns null if stb_image fails. Sets only the size of `image`.
+// pixels. Returns null if stb_image fails. Sets the width and height of `image`, but not its
+// pixels.
 const uint8_t* LoadStb(const Bytes& bytes, int channels, Image* image);
 
-// Returns the error after LoadStb has returned null.
+// Returns the error to report when LoadStb returns null.
 Error StbFailed(const std::string& where);
 
-// Decodes a PNG without a palette, or a JPEG.
+// Decodes a JPEG file, or a PNG file without a palette.
 Result<Image> DecodeStb(const std::string& where, const Bytes& bytes);
 
 }  // namespace starfocus

@@ -11,7 +11,7 @@
 
 namespace starfocus {
 
-// Returns true if the file starts like a WebP file.
+// Returns true if the bytes start with the signature of WebP files.
 bool IsWebp(const Bytes& bytes);
 
 // Decodes a still picture to RGB without alpha. Requires libwebp. `where` is used only in errors.

@@ -15,9 +15,9 @@
 namespace starfocus {
 namespace {
 
-// Limits of the pixels per byte of the file. The WebP format has no such limit: 38 bytes can encode
-// 8000x8000 pixels of one colour. The decoder requires 7 bytes of memory per pixel. Photographs
-// have a few pixels per byte.
+// Limits of the number of pixels: per byte of the file, and for any file. The WebP format does not
+// limit the pixels per byte: 38 bytes can encode 8000x8000 pixels of one colour. The decoder
+// requires 7 bytes of memory per pixel. Photographs have a few pixels per byte.
 constexpr int64_t kMostPixelsPerByte = 65536, kAnyFilesPixels = int64_t{1} << 24;
 
 Error Failed(const std::string& where, VP8StatusCode status) {
@@ -26,8 +26,8 @@ Error Failed(const std::string& where, VP8StatusCode status) {
   return Expected(where, "an undamaged picture", "a damaged one (libwebp)");
 }
 
-// Returns the size of the file according to the header. The header counts the bytes after the first
-// eight.
+// Returns the size of the file according to the header. The size field of the header does not
+// include the first eight bytes of the file.
 uint64_t SizeOf(const Bytes& webp) {
   return 8 + (uint64_t(webp[4]) | uint64_t(webp[5]) << 8 | uint64_t(webp[6]) << 16 |
               uint64_t(webp[7]) << 24);
@@ -47,7 +47,7 @@ Metadata ReadMetadata(const Bytes& webp) {
   Metadata metadata;
   const WebPData file = {webp.data(), webp.size()};
   const std::unique_ptr<WebPMux, FreeMux> mux(WebPMuxCreate(&file, 0));
-  if (mux == nullptr) return metadata;  // a picture without metadata
+  if (mux == nullptr) return metadata;  // libwebp cannot find the chunks of metadata
   metadata.icc = ChunkOf(mux.get(), "ICCP");
   metadata.exif = ChunkOf(mux.get(), "EXIF");
   TrimExif(&metadata.exif);
