@@ -71,14 +71,15 @@ TEST_CASE("analysis: the ideal PSF follows equation (4)") {
 }
 
 TEST_CASE("analysis: the PSFs of view interpolation approach their limits") {
-  // Many subapertures tile the aperture, so the error of the PSF of N = 40 and N = 80 is small.
+  // With N = 40 and N = 80, the subapertures fill the aperture almost exactly, so the error of the
+  // PSF is small.
   CHECK(SubapertureError(6, 40, kTheta) < 2e-6);
   CHECK(SubapertureError(6, 80, kTheta) < SubapertureError(6, 40, kTheta));
   CHECK(SquaredError(StarPsf(4, 4, kTheta, Subapertures::kNarrow), PaperPsf(4, 4, kTheta)) < 1e-12);
   for (const Subapertures subapertures : {Subapertures::kNarrow, Subapertures::kWide}) {
     CHECK(StarPsf(11, 4, kTheta, subapertures).Sum() == doctest::Approx(1));
   }
-  // If views are whole pixels apart, boxes on whole pixels are exact.
+  // If each subaperture is a whole number of pixels wide, StarPsf equals SubaperturePsf.
   for (const int n : {4, 5, 6}) {
     for (const int width : {1, 2, 3, 5}) {
       const double r = width * double(LensInSubapertures(n)) / kSubapertureUnits;
@@ -143,8 +144,8 @@ TEST_CASE("analysis: Fig. 6 and the thresholds of equation (9) are reproduced") 
   CHECK(TwoDigits(WorstOverSampling(4, kTheta).error) == "1.1e-03");
   const double exact = UnderSamplingRatio(4, kTheta, WorstOverSampling(4, kTheta).error);
   CHECK(exact == doctest::Approx(0.7700).epsilon(1e-4));
-  // A variant without views on the rim, which reads the curve next to its cusp, yields the paper's
-  // 0.787. The variant was found by trial, since the paper does not explain the number.
+  // The paper does not explain the ratio 0.787. Trials found a variant that yields 0.787. This
+  // variant has no views on the rim, and reads the error curve of Fig. 6 next to its cusp.
   CHECK(WorstOverSampling(4, kTheta, Rim::kExcluded).ratio == 1.5);
   const double beside = PaperError(4 / 1.51, 4, kTheta, Rim::kExcluded);
   CHECK(beside < kThreshold);
@@ -152,7 +153,7 @@ TEST_CASE("analysis: Fig. 6 and the thresholds of equation (9) are reproduced") 
   CHECK(std::fabs(UnderSamplingRatio(4, kTheta, beside, Rim::kExcluded) - 0.787) < 5e-4);
 }
 
-TEST_CASE("analysis: the smallest number of subapertures at one radius is reproduced") {
+TEST_CASE("analysis: FewestSubapertures equals a table of N for single radii") {
   constexpr int kTable[][2] = {{2, 2},  {4, 3},  {5, 3},  {6, 3},  {8, 4}, {10, 3},
                                {12, 4}, {16, 5}, {20, 4}, {24, 5}, {32, 5}};
   for (const auto& row : kTable) {
@@ -161,7 +162,7 @@ TEST_CASE("analysis: the smallest number of subapertures at one radius is reprod
   }
 }
 
-TEST_CASE("analysis: the rule for subapertures holds for every smaller radius") {
+TEST_CASE("analysis: N of ViewsBySubaperture is large enough for every radius up to r_max") {
   SubapertureStudy study(40, 1.0 / 8, kTheta);
   int last = 0;
   for (int k = 0; k < study.count(); ++k) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compares the constants of the engine with the analysis. A failure names the affected figure of
-// the paper. Then either the analysis, the figure and the documents must change together, or the
-// constant is wrong.
+// the paper. If a test fails, either the constant is wrong, or the analysis, the figure and the
+// documents must change together.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -41,7 +41,7 @@ TEST_CASE("constants: the default theta is the theta of Table I at r = 3") {
   CHECK_MESSAGE(theta == doctest::Approx(table).epsilon(1e-12),
                 "the default of starfocus_lens.theta is "
                     << theta / kPi << " pi, but Table I has " << table / kPi
-                    << " pi: all figures and rules of the paper change");
+                    << " pi, which affects all figures and rules of the paper");
   CHECK_MESSAGE(theta == doctest::Approx(kDefaultTheta).epsilon(1e-12),
                 "kDefaultTheta of lib/analysis differs from the engine's default theta");
 }
@@ -198,8 +198,8 @@ void CheckEngine(starfocus_renderer renderer, int layer, int least, int most) {
         CHECK_MESSAGE(step.engine <= kThreshold,
                       "the error exceeds the threshold: " << Explain(step));
       } else {
-        // With N by (9), the largest error occurs at r = 1/2, in a neighbour that the PSF half
-        // covers.
+        // With N by (9), the error is largest at r = 1/2, in the adjacent pixels that the disc of
+        // the PSF half covers.
         CHECK(step.engine < (k <= 8 ? 8e-2 : k <= 24 ? 6e-3 : k <= 64 ? 2e-3 : 1e-3));
       }
     }
@@ -244,8 +244,8 @@ double WorstOfThree(int lens, double first) {
 }
 
 TEST_CASE("constants: no other width of the lens has a smaller error for N = 3") {
-  // Up to a radius of half a pixel, the centre view alone is used. kFirst is the next radius.
-  // Lenses are compared at radii from kWider on.
+  // kFirst is the smallest tested radius above half a pixel, since smaller blurs use the centre
+  // view alone. Lenses are compared at radii of at least kWider.
   constexpr double kFirst = 0.5 + 1.0 / 64, kWider = 0.625;
   const int own = LensInSubapertures(3);
   CHECK(WorstOfThree(own, kFirst) < kThreshold);
@@ -278,8 +278,8 @@ TEST_CASE("constants: the widths of the lens for N = 4, 5 and above meet their e
     CHECK_MESSAGE(worst(lens, 11) > worst(LensInSubapertures(4), 11) / 2,
                   "N = 4: a lens of " << lens << " / 32 subapertures has at most half the error");
   }
-  // One formula covers all other values of N. The errors of lenses with the other values of N are
-  // far below the threshold of the rule.
+  // LensInSubapertures has one formula for N = 2 and N >= 5. With this formula, the largest error
+  // is below a quarter of the threshold.
   for (const double r_max : {11.0, 25.0, 34.0, 49.0}) {
     const int n = ViewsBySubaperture(r_max);
     CAPTURE(n);
@@ -288,7 +288,8 @@ TEST_CASE("constants: the widths of the lens for N = 4, 5 and above meet their e
   }
 }
 
-// The PSFs (4) for gathering. The blur mode uses the same PSFs up to kMaxGather.
+// PSFs of equation (4) that gathering uses. The blur mode uses the same PSFs up to the radius
+// kMaxGather.
 struct GatherPsfs {
   std::vector<uint16_t> weights = std::vector<uint16_t>(BlurWeightCount(false, kMaxGather));
   std::vector<Psf> psfs = std::vector<Psf>(static_cast<size_t>(BlurStepCount(kMaxGather)));
@@ -301,7 +302,7 @@ struct GatherPsfs {
   const Psf& Of(int32_t r) const { return psfs[static_cast<size_t>(BlurStep(r))]; }
 };
 
-TEST_CASE("constants: the steps between the radii of gathering PSFs are small enough") {
+TEST_CASE("constants: the gathering PSF with the nearest radius differs little from (4)") {
   const GatherPsfs made;
   double near_focus = 0, fine = 0, coarse = 0;
   for (int32_t r = 1; r <= kMaxGather << kDisparityBits; ++r) {
@@ -326,11 +327,11 @@ TEST_CASE("constants: the steps between the radii of gathering PSFs are small en
                 "kCoarseSteps: at radii from 4 pixels, the PSF differs from (4) by " << coarse);
 }
 
-TEST_CASE("constants: the cost model of gathering never counts too few taps of a PSF") {
+TEST_CASE("constants: PredictGather counts at least as many taps as the PSF has") {
   constexpr int32_t kOne = 1 << kDisparityBits;
-  // The model must not count fewer taps than a PSF has. Except for the smallest PSFs, the model
-  // counts at most 50 % more. The model also adds the time of 16 taps. With the timing below, a tap
-  // costs 1/64 of an upsampled pixel.
+  // PredictGather must not count fewer taps than a PSF has. Except for the smallest PSFs,
+  // PredictGather may count at most 50 % too many taps. PredictGather adds the time of 16 taps to
+  // each pixel. With timing.upsample = 64, the unit of its result is the time of one tap.
   starfocus_timing timing = {};
   timing.upsample = 64;
   const GatherPsfs made;

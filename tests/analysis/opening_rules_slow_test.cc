@@ -25,7 +25,8 @@ const Asked kAsked[] = {{"disc", {0, 0}, Demand::kDisc},
                         {"pentagon", {0, 5}, Demand::kPolygon},
                         {"ring", {0.5, 0}, Demand::kRing}};
 
-// Returns the first radius, in whole pixels, at which `layer` is 1.
+// Returns the smallest whole radius in pixels for which the function `layer` does not return layer
+// 0.
 template <class Layer>
 int FirstRadius(const Layer& layer) {
   int r = 0;
@@ -33,8 +34,7 @@ int FirstRadius(const Layer& layer) {
   return r;
 }
 
-TEST_CASE(
-    "openings: layers begin where the error reaches that of the fall-off at its first radius") {
+TEST_CASE("openings: with any opening, layer 1 has at most the error of a fall-off lens at r = 7") {
   const double fall_off = SubsampledError(7, {1.28, kDefaultTheta});
   for (const Asked& asked : kAsked) {
     CAPTURE(asked.name);
@@ -49,7 +49,8 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("openings: subapertures meet the error threshold, or a quarter of it if N is increased") {
+TEST_CASE(
+    "openings: errors are below the threshold, and below a quarter of it where N is increased") {
   for (const Asked& asked : kAsked) {
     CAPTURE(asked.name);
     double worst = 0, beyond = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures by how much block mode exceeds the range of the views; starfocus.h states the limit. The
-// half-band filters of layers 1 and 2 have negative taps. A picture that is bright exactly at the
-// negative taps darkens a pixel most.
+// Measures by how much pictures of block mode exceed the range of levels in the views. starfocus.h
+// states the limit. The half-band filters of layers 1 and 2 have negative taps. A picture that is
+// bright exactly at the negative taps darkens a pixel most.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -67,8 +67,9 @@ double Undershoot(double r, starfocus_renderer renderer, int layer, starfocus_tr
   return (light(kLow) - light(darkest)) / (light(kHigh) - light(kLow));
 }
 
-// Returns the largest overshoot at the given radii. Includes the sum of the negative taps of each
-// PSF, and pictures made for every position of a pixel on the grid of its layer.
+// Returns the largest overshoot at the given radii. For each radius, measures the sum of the PSF's
+// negative taps. Also measures the worst pictures for every position of a pixel on the grid of its
+// layer.
 double Worst(starfocus_renderer renderer, const std::vector<double>& radii) {
   double worst = 0;
   for (const double r : radii) {
@@ -90,12 +91,12 @@ double Worst(starfocus_renderer renderer, const std::vector<double>& radii) {
 
 }  // namespace
 
-TEST_CASE("overshoot: no picture leaves the range of its views by more than the header states") {
+TEST_CASE("overshoot: pictures exceed the range of the views by at most the limit in starfocus.h") {
   const double subapertures = Worst(STARFOCUS_RENDERER_SLICES, {7, 7.5, 8, 10, 24, 26, 30});
   const double paper = Worst(STARFOCUS_RENDERER_LINE_SCAN, {3, 3.25, 3.5, 4, 6, 6.5, 7, 8, 12, 13});
   CHECK(subapertures <= 0.04);
   CHECK(paper <= 0.13);
-  // Without layers, taps are negative only because of rounding.
+  // At layer 0, taps are negative only because of rounding.
   CHECK(NegativeSum(Measure(7.5, STARFOCUS_RENDERER_SLICES, 0).psf) < 1e-3);
 }
 

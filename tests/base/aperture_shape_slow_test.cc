@@ -85,7 +85,8 @@ TEST_CASE("opening: all weights sum to a power of two, and none exceeds its type
         CHECK(too_large == 0);
       };
       check(whole);
-      // Rims at the largest distance in any direction, and at smaller distances.
+      // Shifts the second rim of the cat's eye by the largest distance and by smaller distances, in
+      // random directions.
       for (int k = 0; k < 4; ++k) {
         const double angle = random.Real(0, 6.3), far = k < 2 ? 1 : random.Unit();
         const int one = starfocus::kOpeningOne;
@@ -115,8 +116,7 @@ TEST_CASE("opening: a second rim that is not shifted removes no light") {
   }
 }
 
-TEST_CASE(
-    "opening: the shift of the second rim is mirrored with the block and largest in the corners") {
+TEST_CASE("opening: the cat's-eye shift is mirrored with the block and is largest in the corners") {
   ApertureShape opening;
   opening.cats_eye = starfocus::kOpeningOne;
   const auto shift = [&](int x, int y) {

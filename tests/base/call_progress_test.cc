@@ -21,7 +21,7 @@ struct Caller {
   }
 };
 
-TEST_CASE("cancel: the callback is called every half a million samples, however work is divided") {
+TEST_CASE("cancel: progress is called about every half a million samples, for any size of a step") {
   for (const int64_t at_once : {1, 1000, 1 << 19, 1 << 25}) {
     CAPTURE(at_once);
     Caller caller;
@@ -31,7 +31,7 @@ TEST_CASE("cancel: the callback is called every half a million samples, however 
     CancelToken cancel(&watch);
     constexpr int64_t kWork = 1 << 26;
     for (int64_t work = 0; work < kWork; work += at_once) {
-      if (!cancel.Spend(at_once)) FAIL("the callback that cancels was not called");
+      if (!cancel.Spend(at_once)) FAIL("Spend returned false, but the callback did not cancel");
     }
     const int64_t most = at_once > 1 << 19 ? at_once : 1 << 19;
     const auto asked = int64_t(caller.done.size());
@@ -41,7 +41,7 @@ TEST_CASE("cancel: the callback is called every half a million samples, however 
   }
 }
 
-TEST_CASE("cancel: cancellation applies to the whole call and not to the next one") {
+TEST_CASE("cancel: cancellation stops every token of the current call, but not the next call") {
   Caller caller;
   caller.answer = 1;
   CallProgress watch;
@@ -77,7 +77,7 @@ TEST_CASE("cancel: work continues without a progress function") {
 struct Nested {
   CallProgress* watch;
   int calls = 0;
-  bool other = false;  // result of the report in the other thread
+  bool other = false;  // return value of CallProgress::Ask in the other thread
 
   static int Progress(void* data, int32_t, int32_t) {
     Nested& self = *static_cast<Nested*>(data);
@@ -87,7 +87,7 @@ struct Nested {
   }
 };
 
-TEST_CASE("watch: while one thread reports, other threads continue without reporting") {
+TEST_CASE("progress: while one thread runs the callback, Ask returns true in other threads") {
   CallProgress watch;
   Nested nested{&watch};
   watch.SetProgress(Nested::Progress, &nested);
@@ -99,7 +99,7 @@ TEST_CASE("watch: while one thread reports, other threads continue without repor
   CHECK(nested.calls == 2);
 }
 
-TEST_CASE("watch: the reported rows grow in proportion to the finished jobs of a part") {
+TEST_CASE("progress: the reported rows grow in proportion to the finished jobs of each part") {
   Caller caller;
   CallProgress watch;
   watch.SetProgress(Caller::Progress, &caller);

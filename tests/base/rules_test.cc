@@ -92,7 +92,7 @@ TEST_CASE("rules: a scale multiplies N and rounds the product up; N = 0 does not
     CHECK(ScaleViews(n, 1) == n);
     CHECK(ScaleViews(n, 0.5) == (n + 1) / 2);
     CHECK(ScaleViews(n, 2) == 2 * n);
-    // Tenths are not exact as doubles.
+    // ScaleViews must round correctly, although factors in tenths are not exact as doubles.
     for (int tenths = 5; tenths <= 20; ++tenths) {
       CAPTURE(tenths);
       CHECK(ScaleViews(n, tenths / 10.0) == (n * tenths + 9) / 10);
@@ -116,7 +116,7 @@ TEST_CASE("rules: N by the rule for subapertures matches the table") {
   }
 }
 
-TEST_CASE("rules: layers by (12) begin at the radii 3 and 6") {
+TEST_CASE("rules: by (12), layer 1 begins at radius 3 and layer 2 at radius 6") {
   CHECK(LayerByPaper(0) == 0);
   CHECK(LayerByPaper(Below(3)) == 0);
   CHECK(LayerByPaper(3) == 1);
@@ -125,8 +125,7 @@ TEST_CASE("rules: layers by (12) begin at the radii 3 and 6") {
   CHECK(LayerByPaper(STARFOCUS_MAX_BLUR) == 2);
 }
 
-TEST_CASE(
-    "rules: layers by subapertures begin at the radii 7 and 24, without layer 2 at depth edges") {
+TEST_CASE("rules: by subapertures, layers 1 and 2 begin at radii 7 and 24; edges have no layer 2") {
   CHECK(LayerBySubaperture(0, false) == 0);
   CHECK(LayerBySubaperture(Below(7), false) == 0);
   CHECK(LayerBySubaperture(7, false) == 1);
@@ -139,8 +138,7 @@ TEST_CASE(
   CHECK(LayerBySubaperture(STARFOCUS_MAX_BLUR, true) == 1);
 }
 
-TEST_CASE(
-    "rules: openings with larger demands have more views, and their layers begin at larger radii") {
+TEST_CASE("rules: the more an opening demands, the larger are N and the first radii of layers") {
   using starfocus::ApertureShape;
   using starfocus::Demand;
   ApertureShape opening;

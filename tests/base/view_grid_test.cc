@@ -64,7 +64,8 @@ TEST_CASE("view grid: shifts are u (d - d_t), to 1/256 of a pixel, within the bl
     const ViewGrid grid = MakeGrid(n, focus, aperture);
     const int shift = grid.Shift(grid.Move(i), int(disparity * 64));
     const double exact = aperture * i / n * (disparity - focus) * 256;
-    // Half a unit of the shift, and 1.5 units of the view's position (2^-24) times the distance.
+    // The bound is half a unit of the shift, plus 1.5 units of the view's position (2^-24) times
+    // the difference between disparity and focus.
     const double bound = 0.5 + 1.5 * 256 / (1 << 24) * std::fabs(disparity - focus) + 1e-9;
     if (std::fabs(shift - exact) > bound) {
       CAPTURES(aperture, focus, disparity);
@@ -100,8 +101,8 @@ TEST_CASE(
   CHECK(MakeGrid(0, 0, 1, 0, true).half_views == 0);
 }
 
-// In a run of any spread of disparities, pixels are drawn at most 1/8 of a pixel from their exact
-// position.
+// All pixels of a run are shifted equally. The spread of the run's disparities is limited, so that
+// each pixel is at most 1/8 of a pixel from its exact position.
 TEST_CASE("view grid: the spread of a run displaces pixels by at most an eighth of a pixel") {
   for (const double aperture : {1.0, 0.9, 0.5, 0.3, 0.2, 0.01, 1e-7}) {
     for (const int layer : {0, 1, 2}) {
@@ -111,7 +112,7 @@ TEST_CASE("view grid: the spread of a run displaces pixels by at most an eighth 
       CHECK(grid.spread >= 1);
       CHECK(grid.spread <= starfocus::kSurfaceStep);
       CHECK(spread / 2 * u <= 0.125 + 1e-6);
-      // A larger spread would exceed the bound.
+      // With a spread of one more unit, a pixel would be displaced by more than 1/8 of a pixel.
       const bool largest =
           grid.spread == starfocus::kSurfaceStep || (spread + 1.0 / 64) / 2 * u > 0.125 - 1e-6;
       CHECK(largest);

@@ -58,7 +58,8 @@ TEST_CASE("views: occlusion views of the star are on its axes, the farther views
   CHECK(LooksOf(Star(17)) == Sides{{1, 9}, {2, 10}, {3, 11}, {4, 12}});
 }
 
-TEST_CASE("views: a pair sees one side, an L two sides, and a row has two views for either side") {
+TEST_CASE(
+    "views: a pair has a view for one side, an L for two sides, and a row of 5 two per side") {
   CHECK(LooksOf(Config({{0, 0}, {1, 0}})) == Sides{{1}, {}, {}, {}});
   CHECK(LooksOf(Config({{0, 0}, {0, -0.3}})) == Sides{{}, {}, {}, {1}});
   CHECK(LooksOf(Config({{0, 0}, {0, 1}, {-1, 0}})) == Sides{{}, {2}, {1}, {}});
@@ -66,10 +67,11 @@ TEST_CASE("views: a pair sees one side, an L two sides, and a row has two views 
         Sides{{4, 3}, {1, 2}, {}, {}});
 }
 
-TEST_CASE("views: other views are used if none is nearer to the side") {
+TEST_CASE("views: a view nearer to another side is used if a side has no other view") {
   CHECK(LooksOf(Config({{0, 0}, {1, 1}})) == Sides{{1}, {}, {1}, {}});
   CHECK(LooksOf(Config({{0, 0}, {1, 1}, {0.5, 0}})) == Sides{{2}, {}, {1}, {}});
-  // A view may be up to eight times as far from the axis as it is along the axis.
+  // A view sees behind edges if its distance from the axis is less than eight times its distance
+  // along the axis.
   CHECK(LooksOf(Config({{0, 0}, {0.13, 1}})) == Sides{{1}, {}, {1}, {}});
   CHECK(LooksOf(Config({{0, 0}, {0.125, 1}})) == Sides{{}, {}, {1}, {}});
   // If several views see behind edges on one side, the two that lie farthest along the axis are
@@ -78,7 +80,7 @@ TEST_CASE("views: other views are used if none is nearer to the side") {
         std::vector<int>{2, 4});
 }
 
-TEST_CASE("views: the order of the views does not matter") {
+TEST_CASE("views: the choice of occlusion views does not depend on the order of the views") {
   std::vector<starfocus_position> positions = {{0, 0}, {1, 0.5}, {1, -0.5}, {0.75, 0}, {-0.2, 0.6}};
   const auto chosen = [&] {
     const Sides sides = LooksOf(Config(positions));
@@ -128,7 +130,7 @@ TEST_CASE("views: invalid sets of views are rejected") {
   CHECK(Check(Config({{0, 0}, {0.5, 0}, {0.5, 0}})) == STARFOCUS_ERROR_RANGE);
   CHECK(Check(Config({{0, 0}, {1, 0}, {0, 0}})) == STARFOCUS_ERROR_RANGE);
   CHECK(Check(Config({{0, 0}, {0.5, 0}, {0.5 + 1.0 / 16384, 0}})) == STARFOCUS_OK);
-  // Entries beyond the number of views are ignored.
+  // Positions beyond the number of views are ignored.
   starfocus_config config = Config({{0, 0}, {1, 0}});
   config.positions[2] = {nan, 7};
   CHECK(Check(config) == STARFOCUS_OK);

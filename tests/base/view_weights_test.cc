@@ -114,10 +114,10 @@ TEST_CASE("aperture: weights follow equation (3), sum to a power of two and fit 
   }
   MESSAGE("largest difference from equation (3): " << furthest
                                                    << ", at the centre: " << furthest_centre);
-  // Each orbit of views takes the remainder of rounding of the previous orbit. The remainder is at
-  // most 4 units: one unit for each of 4 views, or up to 4 units for the centre alone. Rounding the
-  // weight adds half a unit, and another half unit on the diagonals, where weights are even. The
-  // densities have 20 bits.
+  // Each set of mirrored and transposed views takes the rounding remainder of the previous set. The
+  // remainder is at most 4 units: one unit for each of 4 views, or up to 4 units for the centre
+  // alone. Rounding the weight adds half a unit, and another half unit on the diagonals, where
+  // weights are even. Aperture densities have 20 bits.
   CHECK(furthest < 2);
   CHECK(furthest_centre < 4.6);
 }
@@ -143,7 +143,7 @@ TEST_CASE("aperture: a single centre view has all the weight") {
   CHECK(sampled.aperture.Weight(0, 0) <= 32767);
 }
 
-TEST_CASE("aperture: the largest N of the configuration is valid") {
+TEST_CASE("aperture: with the largest N (256), weights have the exact sum and fit 16 bits") {
   for (const double theta : kThetas) {
     const Sampled sampled(256, theta);
     int64_t sum = 0, largest = 0;
@@ -179,7 +179,8 @@ TEST_CASE("aperture: the weight of a subaperture is the light of its part of the
           squares += weight * (i * i + j * j + 1.0 / 6) / (lens * lens);
         }
       }
-      // Integrates over rings of the lens. `exact` is the mean square of the radius.
+      // Integrates the light over rings of the lens. `exact` / `light` is the mean square of the
+      // radius.
       for (double rho = 0.5e-3; rho < 1; rho += 1e-3) {
         const double ring = rho * std::pow(c / (rho * rho + c), 2);
         light += ring;

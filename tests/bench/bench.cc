@@ -82,28 +82,33 @@ void AddOptions(CLI::App* app, Options* options) {
   app->add_option("--json", options->json, "JSON file with the results, for report.py");
   app->add_option("--modes", choice.modes, "block, frame, benchmark, blur")->delimiter(',');
   app->add_option("--apertures", choice.apertures, "Radii")->delimiter(',');
-  app->add_option("--quantiles", choice.quantiles, "Quantiles of the disparity map to focus at")
+  app->add_option("--quantiles", choice.quantiles, "Focus at these quantiles of the disparity map")
       ->delimiter(',');
-  app->add_option("--views", choice.views, "Smaller star sets, in block mode")->delimiter(',');
+  app->add_option("--views", choice.views, "Sizes of smaller star sets to measure in block mode")
+      ->delimiter(',');
   app->add_option("--max-layers", choice.max_layers, "0, 1, 2")->delimiter(',');
   app->add_option("--superblocks", choice.superblocks, "32, 64, 128, 256")->delimiter(',');
-  app->add_option("--n-scales", choice.n_scales, "Factors of N, in block and frame mode")
+  app->add_option("--n-scales", choice.n_scales, "Factors of N to measure in block and frame mode")
       ->delimiter(',');
-  app->add_flag("--rules", choice.rules, "Both rules for N, in block and frame mode");
+  app->add_flag("--rules", choice.rules, "Measure both rules for N in block and frame mode");
   app->add_option("--targets", choice.targets, "SIMD targets, reference (plain C++), or all")
       ->delimiter(',');
   app->add_option("--workers", choice.workers,
-                  "Numbers of threads to compare with one, at the middle quantile")
+                  "Numbers of threads to compare with one thread, at the middle quantile")
       ->delimiter(',')
       ->check(CLI::Range(2, STARFOCUS_MAX_WORKERS));
-  app->add_option("--repetitions", settings.repetitions, "Of every task")
+  app->add_option("--repetitions", settings.repetitions, "Largest number of measurements per task")
       ->check(CLI::Range(1, 1000));
-  app->add_option("--patience", settings.patience, "Seconds per task before repetitions are cut");
-  app->add_flag("!--no-rivals", settings.rivals, "Leave the rivals out");
-  app->add_option("--sweep", options->sweep, "Light field of the sweeps of radii and sizes");
-  app->add_option("--largest-radius", choice.largest_radius, "Of that sweep, pixels; 0: none");
-  app->add_option("--largest-size", choice.largest_megapixels, "Megapixels; 0: none");
-  app->add_option("--revision", options->revision, "Said beside the version");
+  app->add_option("--patience", settings.patience,
+                  "Time limit per task in seconds; later repetitions are omitted");
+  app->add_flag("!--no-rivals", settings.rivals, "Do not measure rivals");
+  app->add_option("--sweep", options->sweep,
+                  "Light field for the sweeps of blur radius and picture size");
+  app->add_option("--largest-radius", choice.largest_radius,
+                  "Largest blur radius of the sweep in pixels; 0: no sweep");
+  app->add_option("--largest-size", choice.largest_megapixels,
+                  "Largest picture of the sweep in megapixels; 0: no sweep");
+  app->add_option("--revision", options->revision, "Text to append to the version in the output");
 }
 
 }  // namespace

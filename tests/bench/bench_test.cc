@@ -24,19 +24,19 @@ TEST_CASE("The PSNR of a known difference is exact") {
   CHECK(Psnr(a, a) == kBestPsnr);
   CHECK(Psnr(a, b) == doctest::Approx(20 * std::log10(255.0 / 5)));
   Image c = a;
-  c.pixels[0] = 255;  // one sample of 2400
+  c.pixels[0] = 255;  // one of 2400 samples differs
   CHECK(Psnr(a, c) == doctest::Approx(10 * std::log10(255.0 * 255 * 2400 / (155 * 155))));
 }
 
-TEST_CASE("The worst block is found, even if the edge of the picture cuts it") {
+TEST_CASE("WorstBlockPsnr finds the worst block, even if the picture's edge cuts the block") {
   const Image a = Gray(35, 18, 50);
   Image b = a;
   CHECK(WorstBlockPsnr(a, b) == kBestPsnr);
-  b.row(17)[3 * 34] = 60;  // in the last block of 3x2 pixels
+  b.row(17)[3 * 34] = 60;  // pixel of the last block, which has 3x2 pixels
   CHECK(WorstBlockPsnr(a, b) == doctest::Approx(10 * std::log10(255.0 * 255 * 18 / 100)));
 }
 
-TEST_CASE("A mask limits the PSNR to its pixels") {
+TEST_CASE("MaskedPsnr compares only the pixels of the mask") {
   const Image a = Gray(4, 1, 10);
   Image b = a;
   b.pixels[0] = 20;
@@ -45,7 +45,7 @@ TEST_CASE("A mask limits the PSNR to its pixels") {
   CHECK(MaskedPsnr(a, b, {0, 0, 0, 0}) == kBestPsnr);
 }
 
-TEST_CASE("SSIM is 1 for equal pictures, exact for grey ones and negative for inverted ones") {
+TEST_CASE("SSIM is 1 for equal, exact for uniformly grey and negative for inverted pictures") {
   Image a(32, 24);
   for (size_t i = 0; i < a.pixels.size(); ++i) a.pixels[i] = uint8_t(i / 3 * 37 % 251);
   CHECK(Ssim(a, a) == doctest::Approx(1));
@@ -58,7 +58,7 @@ TEST_CASE("SSIM is 1 for equal pictures, exact for grey ones and negative for in
   CHECK(Ssim(Gray(5, 5, 1), Gray(5, 5, 200)) == 1);
 }
 
-TEST_CASE("The edge band reaches the given number of rows and columns from a step") {
+TEST_CASE("EdgeBand marks the given number of rows and columns on each side of a step") {
   FloatMap map;
   map.width = 12;
   map.height = 5;

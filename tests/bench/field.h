@@ -26,7 +26,8 @@ struct Field {
   LightField data;
   float low = 0, high = 0;  // range of the disparity map
   std::vector<Truth> truths;
-  starfocus_transfer transfer = STARFOCUS_TRANSFER_SRGB;  // transfer of the truths
+  // Transfer function of the ray-traced pictures.
+  starfocus_transfer transfer = STARFOCUS_TRANSFER_SRGB;
 
   int views() const { return int(data.views.size()); }
   double pixels() const { return double(data.width()) * data.height(); }
@@ -34,19 +35,20 @@ struct Field {
   double FocusAt(double quantile) const;
   // Returns the largest blur radius in pixels.
   double LargestBlur(double focus, double aperture) const;
-  // Returns the truth for this focus and aperture, or null if the folder has no such truth.
+  // Returns the ray-traced picture for this focus and aperture, or null if the folder has no such
+  // picture.
   const Image* FindTruth(double focus, double aperture) const;
 };
 
-// Reads all views of a folder, fills invalid disparities, and reads the truths, which are named
+// Reads all views of a folder, fills invalid disparities, and reads the ray-traced pictures
 // truth_dt<D>_ut<U>.png.
 Error LoadField(const std::string& folder, Field* field);
 
-// Returns a light field of `width` x `height` pixels with `views` views that is tiled with copies
-// of `field`. Every second copy is mirrored, so that no new depth edges appear.
+// Tiles `width` x `height` pixels with copies of `field`, and returns the first `views` views.
+// Every second copy is mirrored, so that no new depth edges appear.
 Field Tile(const Field& field, int width, int height, int views);
 
-// Returns a light field with unchanged views, and with disparities multiplied by `factor`. The
+// Returns the first `views` views of `field`, with the disparities multiplied by `factor`. The
 // result is valid for measuring times only, since its views no longer match its disparities.
 Field Stretch(const Field& field, double factor, int views);
 

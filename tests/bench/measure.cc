@@ -47,8 +47,8 @@ void Note(const Elapsed& elapsed, Run* run) {
   run->walls.push_back(elapsed.wall);
 }
 
-// Runs the task once to warm up, and derives the number of repetitions from the elapsed time. A run
-// that takes longer than `patience` counts as a measurement.
+// Runs the task once to warm up, and derives the number of repetitions from the elapsed time. If
+// the warm-up run takes longer than `patience`, this run counts as a measurement.
 Error WarmUp(const Field& field, const Settings& settings, Run* run) {
   Elapsed elapsed;
   const Error error = Once(field, run, &elapsed);

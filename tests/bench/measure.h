@@ -15,8 +15,8 @@ namespace starfocus::bench {
 struct Settings {
   int repetitions = 5;
   double patience = 3;  // time limit per task in seconds; repetitions beyond the limit are omitted
-  std::string folder;   // folder for the files of other programs
-  bool rivals = true;   // true if other programs are measured
+  std::string folder;   // folder for temporary files of the rivals (rivals.h)
+  bool rivals = true;   // true to measure the rivals
 };
 
 struct Entry {
@@ -30,7 +30,7 @@ struct Group {
   const Field* field = nullptr;
   double aperture = 1, focus = 0, quantile = kNone;
   std::vector<Entry> entries;
-  bool tools = false;  // true to measure other programs, on pictures with ground truth
+  bool tools = false;  // true to run Tools() of rivals.h; requires a ray-traced picture
 };
 
 // Measures all tasks of a group, and appends one row per task to `rows`.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Metrics of pictures and statistics of times. Used by the bench and tested by bench_test.cc.
+// Computes error metrics of pictures, and statistics of run times. Used by the bench and tested by
+// bench_test.cc.
 #ifndef STARFOCUS_TESTS_BENCH_METRICS_H_
 #define STARFOCUS_TESTS_BENCH_METRICS_H_
 
@@ -11,17 +12,18 @@
 
 namespace starfocus::bench {
 
-// PSNR of equal pictures in dB. The value is finite, so that means and plots are finite.
+// PSNR in dB that is returned for equal pictures. The value is finite, so that means and plots are
+// finite.
 inline constexpr double kBestPsnr = 99.0;
 inline constexpr int kBlock = 16;  // side of the blocks of WorstBlockPsnr, pixels
 
-using Mask = std::vector<uint8_t>;  // one byte per pixel, 0 or 1
+using Mask = std::vector<uint8_t>;  // selected pixels of a picture: one byte per pixel, 0 or 1
 
 // Returns the PSNR of all R, G, B samples in dB.
 double Psnr(const Image& a, const Image& b);
 // Returns the PSNR of the pixels of a mask in dB, or kBestPsnr if the mask is empty.
 double MaskedPsnr(const Image& a, const Image& b, const Mask& mask);
-// Returns the lowest PSNR of all 16x16 blocks in dB. Blocks at the right and bottom edges are
+// Returns the PSNR of the worst 16x16 block in dB. Blocks at the right and bottom edges are
 // smaller.
 double WorstBlockPsnr(const Image& a, const Image& b);
 // Returns the mean structural similarity of the luma. The window is an 11x11 Gaussian with

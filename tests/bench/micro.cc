@@ -33,7 +33,7 @@ void Register(const Case& one, const Table* kernels) {
   });
 }
 
-// Registers memcpy. Half of the bytes are read and half are written.
+// Registers a benchmark of memcpy. Half of the counted bytes are read, and half are written.
 void RegisterCopies() {
   for (const size_t kib : {6, 9, 12, 18, 27}) {
     const std::string name = "memcpy/" + std::to_string(kib) + "_KiB";

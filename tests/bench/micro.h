@@ -9,16 +9,18 @@
 
 namespace starfocus::bench {
 
-// Registers the deblocking filter.
+// Registers the benchmark of the deblocking filter.
 void RegisterDeblocking();
 
-// Registers the line scan, including the search for runs.
+// Registers the benchmark of the line scan, including the search for runs.
 void RegisterLineScan(const simd::Kernels* kernels);
 
-// Registers the refocusing of small pictures with one view in the modes blur, frame and block.
+// Registers benchmarks that refocus small pictures with one view in the modes blur, frame and
+// block.
 void RegisterWholePictures(const std::string& target);
 
-// Registers the time per pixel of an ordinary picture and of the most expensive valid pictures.
+// Registers benchmarks that measure the time per pixel of an ordinary picture and of the most
+// expensive valid pictures.
 void RegisterBounds();
 
 }  // namespace starfocus::bench

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures the time per pixel of the most expensive valid pictures, and of an ordinary one.
+// Measures the time per pixel of the most expensive valid pictures, and of an ordinary picture.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ constexpr double kHighlights = 16;  // starfocus_config.highlights
 struct Picture {
   const char* name;
   bool noisy_depth;  // true if the disparity of each pixel is random, from -kBlur to kBlur
-  int white;         // number of white squares of 4x4 pixels per 1000; -1: the ordinary picture
+  int white;         // white squares in 1000 squares of 4x4 pixels; -1: the ordinary picture
   double highlights;
 };
 

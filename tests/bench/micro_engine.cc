@@ -18,7 +18,7 @@
 namespace starfocus::bench {
 namespace {
 
-constexpr int kPixels = 1024, kSurface = 32;  // pixels per line, pixels per surface of a line
+constexpr int kPixels = 1024, kSurface = 32;  // pixels per line and per surface
 constexpr int kSide = 256;                    // width and height of the pictures, pixels
 constexpr int kViewNumber = 4;                // N
 
@@ -39,8 +39,8 @@ struct Ignore {
   }
 };
 
-// Returns the disparity of slanted surfaces that are separated by depth edges. Blur is within +-4
-// pixels.
+// Returns the disparity of slanted surfaces that are separated by depth edges. The blur radius is
+// below 5 pixels.
 int16_t DisparityAt(int x) { return int16_t((x / kSurface * 5 % 9 - 4) * 64 + x % kSurface * 2); }
 
 // Scans one line for all views on the horizontal axis, including the search for runs. Counts the

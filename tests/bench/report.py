@@ -137,7 +137,7 @@ def table_four(rows):
 
 
 def scale_table(rows):
-    # The row of scale 1 shows the mode without options. The other rows are relative to this row.
+    # The row with n_scale = 1 shows the mode without options. Rows with another n_scale are relative to this row.
     scales = sorted({1, *(row["n_scale"] for row in rows)})
     lines = []
     for field, mode, scale in itertools.product(fields_of(rows), ("block", "frame"), scales):

@@ -49,8 +49,8 @@ Error Execute(const Words& words) {
 // Half the width of a box with the same variance as a disc of radius 1.
 constexpr double kBoxOfDisc = 0.866;
 
-// Returns the command line of ffmpeg. The boxes of varblur have half the width 1 + 4 max_r m / 255,
-// where m is the value of the map.
+// Returns the command line of ffmpeg. Half the width of a varblur box is 1 + 4 max_r m / 255, where
+// m is the value of the map.
 Words Ffmpeg(const Files& files, double largest, int pictures, Image* map, double scale) {
   const double reach = std::max(1.0, kBoxOfDisc * scale * largest);
   const int max_r = std::max(1, int(std::ceil((reach - 1) / 4)));

@@ -8,7 +8,7 @@
 namespace starfocus::bench {
 namespace {
 
-constexpr int kOne = 64;  // weight 1 of the interpolation
+constexpr int kOne = 64;  // interpolation weight 1.0
 
 struct Shift {
   int whole, part;  // the shift is whole + part / kOne, 0 <= part < kOne

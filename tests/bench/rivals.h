@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Other ways to refocus, for comparison: shift-and-add of the captured views, which is implemented
-// here, and installed programs that blur one picture by a map. Used by bench.cc and measure.cc.
+// Rivals are other methods of refocusing that the bench compares with the engine. This file
+// implements shift-and-add of the captured views. The other rivals are installed programs that blur
+// the centre view by a map of blur radii. Used by bench.cc and measure.cc.
 #ifndef STARFOCUS_TESTS_BENCH_RIVALS_H_
 #define STARFOCUS_TESTS_BENCH_RIVALS_H_
 
@@ -34,7 +35,7 @@ class ShiftAndAdd {
 
 // A program that blurs the centre view by a map of blur radii.
 struct Tool {
-  const char* name;     // name in tables
+  const char* name;     // name of the program in the bench's tables
   const char* program;  // name of the program, which must be in PATH
 };
 // Returns all known tools.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A measurement: the task and its results. One row of the output of the bench.
+// Defines a row of the bench's output, which holds a measured task and its results.
 #ifndef STARFOCUS_TESTS_BENCH_ROW_H_
 #define STARFOCUS_TESTS_BENCH_ROW_H_
 
@@ -11,7 +11,7 @@
 
 namespace starfocus::bench {
 
-// A way to compute a picture.
+// Mode and options with which a picture is computed.
 struct Task {
   std::string mode = "block";  // block, frame, benchmark, blur, or the name of a rival
   int views = 0;
@@ -19,7 +19,7 @@ struct Task {
   int superblock = 0;                      // 0: default of the library
   int renderer = STARFOCUS_RENDERER_AUTO;  // starfocus_renderer
   double n_scale = 1;                      // starfocus_tuning.n_scale
-  std::string target;                      // SIMD target; empty: the best one
+  std::string target;                      // SIMD target; empty: the best target of the machine
   int workers = 1;
   bool timed = true;  // true if the time of each block is measured, which costs instructions
 };
@@ -27,8 +27,8 @@ struct Task {
 inline constexpr double kNone = NAN;  // not measured
 
 struct Quality {
-  double psnr = kNone;   // dB
-  double ssim = kNone;   // at most 1
+  double psnr = kNone;   // PSNR of the whole picture, dB
+  double ssim = kNone;   // mean structural similarity, at most 1
   double worst = kNone;  // PSNR of the worst 16x16 block, dB
   double band = kNone;   // PSNR within r_max of depth edges, dB
 };
@@ -39,22 +39,23 @@ struct Row {
   int width = 0, height = 0;
   Task task;
   double aperture = 1, focus = 0;
-  double quantile = kNone;  // the focus is this quantile of the disparity map; kNone: given
-  double r_max = kNone;     // largest blur radius, pixels
-  int n = 0;                // N, the largest of all blocks
-  int superblock = 0;       // side of the superblocks that the engine used, pixels
+  // Quantile of the disparity map that is in focus; kNone if the focus was given.
+  double quantile = kNone;
+  double r_max = kNone;  // largest blur radius, pixels
+  int n = 0;             // largest N of all blocks
+  int superblock = 0;    // side of the superblocks that the engine used, pixels
   double rendered_views = 0, rendered_samples = 0;
-  Quality benchmark, truth;      // against the benchmark mode, and against ray tracing
-  double wall_ms = kNone;        // median elapsed time
-  double least_wall_ms = kNone;  // smallest elapsed time
-  double ms = 0, spread = 0;     // processor time: median, and Spread of metrics.h
-  int runs = 0;                  // number of measured runs
+  Quality benchmark, truth;      // compared with benchmark mode and with ray tracing
+  double wall_ms = kNone;        // median elapsed time, ms
+  double least_wall_ms = kNone;  // smallest elapsed time, ms
+  double ms = 0, spread = 0;     // median processor time in ms, and Spread (metrics.h) of the times
+  int runs = 0;                  // number of measured repetitions
   // Processor time of frame mode and of blur mode for the same picture, divided by the processor
   // time of this task.
   double ratio_frame = kNone, ratio_blur = kNone;
-  size_t workspace = 0;                               // bytes
-  double layer_time[STARFOCUS_LAYERS] = {0, 0, 0};    // shares of the time of all blocks
-  double layer_pixels[STARFOCUS_LAYERS] = {0, 0, 0};  // shares of the pixels of all blocks
+  size_t workspace = 0;                               // size of the workspace, bytes
+  double layer_time[STARFOCUS_LAYERS] = {0, 0, 0};    // share of the time of all blocks, by layer
+  double layer_pixels[STARFOCUS_LAYERS] = {0, 0, 0};  // share of the pixels of all blocks, by layer
 
   double pixels() const { return double(width) * height; }
   double ns_per_pixel() const { return ms * 1e6 / pixels(); }

@@ -17,7 +17,7 @@ inline double CpuSeconds() {
   return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
 }
 
-// Seconds of processor time and elapsed time.
+// Processor time and elapsed time of a run, in seconds.
 struct Elapsed {
   double cpu = 0, wall = 0;
 };

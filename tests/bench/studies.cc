@@ -73,7 +73,7 @@ void AddTargets(const Field& field, const Choice& choice, Group* group) {
   }
 }
 
-// Also adds a task with one worker, as the reference for the other numbers of workers.
+// Adds a task for each number of workers, and a task with one worker as the reference.
 void AddWorkers(const Field& field, const Choice& choice, Group* group) {
   if (choice.workers.empty()) return;
   std::vector<int> numbers = choice.workers;

@@ -16,7 +16,7 @@ const char* const kModes[] = {"frame", "benchmark", "block", "blur"};
 
 uint64_t Nanoseconds() { return static_cast<uint64_t>(CpuSeconds() * 1e9); }
 
-// Makes the engine use the SIMD target `name` instead of the best one. No-op if `name` is empty.
+// Makes the engine use the SIMD target `name` instead of the best target. No-op if `name` is empty.
 Error UseTarget(const std::string& name, starfocus_engine* engine) {
   if (name.empty()) return {};
   const simd::Kernels& plain = simd::ReferenceKernels();
@@ -57,7 +57,7 @@ Error Prepare(const Field& field, const Task& task, double focus, double apertur
         starfocus_init(&config, timed->workspace.get(), timed->workspace_bytes, &timed->engine);
   }
   if (status != STARFOCUS_OK) {
-    return Expected(field.name, "a light field that the engine takes",
+    return Expected(field.name, "a light field that the engine accepts",
                     starfocus_status_string(status));
   }
   starfocus_params_init(&timed->params);

@@ -25,13 +25,13 @@ struct TimedEngine {
   std::unique_ptr<void, FreeAligned> workspace;
   size_t workspace_bytes = 0;
   starfocus_engine* engine = nullptr;
-  std::unique_ptr<ThreadRunner> pool;  // null for one worker
+  std::unique_ptr<ThreadRunner> pool;  // thread pool for several workers; null for one worker
   starfocus_params params;
   starfocus_report report = {};
   Image picture;
 };
 
-// Returns the starfocus_mode with this name, or -1.
+// Returns the starfocus_mode with this name, or -1 if the name is unknown.
 int ModeOf(const std::string& name);
 
 // Creates an engine for a task, focus and aperture. Returns a one-line error on failure.
