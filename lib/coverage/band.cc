@@ -9,16 +9,17 @@
 namespace starfocus {
 namespace {
 
-// Disparities in and around a tile, from which the band and the near disparities of the tile are
-// found.
+// Disparities in and around a tile: the input for finding the pixels near edges and their near
+// disparities.
 using BandDisparities = DisparitiesAround<kBandReach + 2>;
 
-// Smallest number of pixels next to nearer pixels in a tile of thin structure. In tiles of hair, 38
-// or more pixels are next to nearer pixels. In tiles with a straight edge the number is 16 to 23,
-// and in tiles with a wire two pixels wide up to 40.
+// A tile counts as thin structure if at least kLeastRagged of its pixels have a nearer neighbour.
+// In tiles of hair, 38 or more pixels have a nearer neighbour. The number of such pixels is 16 to
+// 23 in tiles with a straight edge, and up to 40 in tiles with a wire two pixels wide.
 constexpr int32_t kLeastRagged = 36;
 
-// Offset to a pixel within kBandReach, as a position (x, y) and as a difference of indices.
+// Offset to a neighbour that is at most kBandReach pixels away in x and in y: as (x, y), and as a
+// difference of array indices.
 struct BandOffset {
   int8_t x, y;
   int16_t at;
@@ -44,7 +45,7 @@ constexpr Offsets kNearestFirst;
 
 // Position of a pixel relative to the nearest edge.
 struct BandPixel {
-  int32_t side;      // 1: near side, -1: far side, 0: no edge is within kBandReach
+  int32_t side;      // 1: on the near side, -1: on the far side, 0: no edge within kBandReach
   int32_t other;     // disparity of the nearest pixel beyond the edge
   int32_t distance;  // squared distance in pixels to the nearest pixel beyond the edge
 };
@@ -60,7 +61,8 @@ BandPixel FindBandPixel(const BandDisparities& around, int32_t at) {
 }
 
 // Returns the weight of a far pixel's light, given its squared distance to the edge. Pixels near an
-// edge have a small weight, because the map may lack a strand next to another strand.
+// edge have a small weight, because the disparity map may miss a strand that lies next to another
+// strand.
 int16_t WeightByDistance(int32_t square) {
   return static_cast<int16_t>(square <= 2 ? kKnown / 16 : square <= 5 ? kKnown / 4 : kKnown);
 }
@@ -108,7 +110,7 @@ class TileRow {
     }
   }
 
-  // Returns the number of pixels of a tile that are next to nearer pixels.
+  // Returns the number of pixels of a tile that have a nearer neighbour.
   int32_t CountRagged(const simd::Kernels& kernels, int32_t x) {
     int32_t count = 0;
     for (int32_t y = 0; y < kCoverageTile; ++y) {

@@ -8,16 +8,17 @@
 
 namespace starfocus {
 
-// Sets `ragged` of tiles [first, last) of a row: true if the tile has enough pixels next to edges
-// to be thin structure. If the light field has coverage, one such pixel is enough.
+// Sets CoverageTile::ragged of the tiles [first, last) of a row: true if enough pixels of the tile
+// lie next to depth edges. If the light field provides coverage, a single pixel next to an edge
+// makes a tile ragged.
 void FindRagged(const CoverageInput& in, int32_t first, int32_t last, int32_t row);
 
 // Initialises a tile as a single surface with the disparities of the disparity map.
 void ClearTile(const CoverageInput& in, int32_t column, int32_t row);
 
 // Writes the initial alpha (0, kWhole or kUnparted) and the near disparities of a tile, both from
-// the disparity map alone. Also writes the far light that the centre view shows, at all levels of
-// cells.
+// the disparity map alone. Writes the far light that the centre view shows in the tile to the cells
+// of all levels.
 void StartTile(const CoverageInput& in, int32_t column, int32_t row);
 
 }  // namespace starfocus

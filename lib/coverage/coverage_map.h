@@ -18,13 +18,14 @@ namespace starfocus {
 // (CoverageTile::thin).
 inline constexpr int32_t kCoverageTile = 16;
 
-// Coverage has 7 fractional bits: 0 to kWhole. kUnparted: the pixel is not near a depth edge.
+// Coverage has 7 fractional bits and ranges from 0 to kWhole. The value kUnparted marks pixels that
+// are not near a depth edge.
 inline constexpr int kAlphaBits = 7;
 inline constexpr int32_t kWhole = 1 << kAlphaBits;
 inline constexpr uint8_t kUnparted = 255;
 
-// Largest step of disparity within one surface, in kDisparityBits. A larger step is an edge of thin
-// structure.
+// Largest step of disparity within one surface, in kDisparityBits. A larger step of disparity
+// counts as an edge of a thin structure.
 inline constexpr int32_t kThinStep = 5 << kDisparityBits;
 
 // Largest distance in pixels from an edge to a pixel that is split.
@@ -34,17 +35,18 @@ inline constexpr int32_t kBandReach = 3;
 // light.
 struct FarCell {
   int16_t rgb[3];     // light
-  int16_t weight;     // confidence of the light, [0, kKnown]
+  int16_t weight;     // confidence of the light in `rgb`, 0 to kKnown
   int16_t disparity;  // kDisparityBits
 };
 inline constexpr int32_t kFarKnownBits = 8;
 inline constexpr int32_t kKnown = 1 << kFarKnownBits;
 
-// Largest movement in pixels of a nearer surface relative to the far surface, in one direction.
-// Views in which a nearer surface moves farther are not read.
+// Largest displacement in pixels of a nearer surface relative to the far surface, along either
+// axis. Far light is not read from views in which a nearer surface moves by more than kMostMove
+// pixels.
 inline constexpr int32_t kMostMove = 32;
 
-// Number of columns beyond the picture that may be read.
+// Number of columns on each side of the picture that may be read.
 inline constexpr int32_t kAside = 48;
 static_assert(kAside >= kMostMove + 2 && kAside % kCoverageTile == 0,
               "columns beyond the edge cover the largest move");
@@ -54,23 +56,29 @@ inline constexpr int16_t kNowhere = INT16_MIN;
 inline constexpr int kFarLevels = 5;
 
 struct CoverageTile {
-  uint64_t near_bins;  // set of the disparities of near surfaces in the tile: BinOf
-  int16_t low, high;   // range of the disparities of both surfaces of split pixels
-  // True if many pixels of the tile are next to edges. With given coverage, one pixel is enough.
+  // Set of the disparities of near surfaces in the tile, one bit (BinOf) for each bin of
+  // disparities.
+  uint64_t near_bins;
+  int16_t low, high;  // smallest and largest disparity of both surfaces of all split pixels
+  // True if many pixels of the tile are next to depth edges. If the light field provides coverage,
+  // one pixel next to an edge is enough.
   uint8_t ragged;
-  // True if the tile is ragged and has many mixed pixels. With given coverage, one mixed pixel is
-  // enough.
+  // True if the tile is ragged and has many mixed pixels. If the light field provides coverage, one
+  // mixed pixel is enough.
   uint8_t mixed;
-  uint8_t thin;  // true if the tile's pixels are split: the tile or a neighbouring tile is mixed
+  // True if pixels near edges are split in this tile, because this tile or a neighbouring tile is
+  // mixed.
+  uint8_t thin;
 };
 
 // The coverage map: a ring buffer of rows of tiles. Row t is stored at ring row t % tile_rows.
-// Pixels of a tile beyond the picture are unused.
+// If a tile extends beyond the picture, its pixels outside the picture are unused.
 struct CoverageMap {
-  int32_t width = 0, height = 0;       // size of the picture
-  int32_t columns = 0, tile_rows = 0;  // columns of tiles, and rows of tiles in memory
-  int16_t disparity_min = 0;           // starfocus_config.disparity_min, kDisparityBits
-  int bin_bits = 0;                    // log2 of the number of disparities in a bin of near_bins
+  int32_t width = 0, height = 0;  // size of the picture
+  // Number of columns of tiles; number of rows of tiles in memory.
+  int32_t columns = 0, tile_rows = 0;
+  int16_t disparity_min = 0;  // starfocus_config.disparity_min, kDisparityBits
+  int bin_bits = 0;           // log2 of the number of disparity values in each bin of near_bins
   int32_t around = 1;  // distance in tiles from a ragged tile within which the passes process tiles
   CoverageTile* tiles = nullptr;
   // Planes of pixels, with kAside unused pixels before and after each row.
@@ -86,12 +94,13 @@ struct CoverageMap {
   }
   // Returns the distance in samples between rows of the planes of pixels.
   size_t Stride() const { return static_cast<size_t>(columns * kCoverageTile + 2 * kAside); }
-  // Returns the index of pixel (x, y), which may be up to kAside columns beyond the picture.
+  // Returns the index of pixel (x, y) in the planes of pixels; x may be up to kAside columns
+  // outside the picture.
   size_t At(int32_t x, int32_t y) const {
     return static_cast<size_t>(y % (tile_rows * kCoverageTile)) * Stride() +
            static_cast<size_t>(x + kAside);
   }
-  // Returns the index of cell (x, y) of a level.
+  // Returns the index of cell (x, y) in `far[level]`.
   size_t CellAt(int32_t x, int32_t y, int level) const {
     const int32_t rows = (tile_rows * kCoverageTile) >> level;
     const size_t stride = static_cast<size_t>((columns * kCoverageTile) >> level);

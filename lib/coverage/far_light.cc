@@ -4,7 +4,7 @@
 namespace starfocus {
 namespace {
 
-// Weighted sums of the light and the disparities of several cells of one surface.
+// Weighted sums of the light and the disparities of several cells that show one surface.
 struct FarSum {
   int64_t rgb[3] = {0, 0, 0}, disparity = 0;
   int32_t weight = 0;
@@ -36,8 +36,8 @@ int32_t FarthestOf(const FourCells& cells) {
   return farthest;
 }
 
-// Returns the sum over the cells whose disparity is within kThinStep of `disparity`. Each cell is
-// weighted by its element of `parts` and by its confidence.
+// Returns the weighted sum of the cells whose disparity differs from `disparity` by at most
+// kThinStep. Each cell is weighted by its element of `parts` and by its confidence.
 FarSum SumOf(const FourCells& cells, const int32_t (&parts)[4], int32_t disparity) {
   FarSum sum;
   for (int k = 0; k < 4; ++k) {
@@ -52,8 +52,8 @@ FarCell Pull(const FourCells& children) {
   return sum.Mean(Min(sum.weight, kKnown));
 }
 
-// Fills in the unknown part of a cell's light. The fill is the mean of those of the four nearest
-// cells of the level above that show the surface at `disparity`.
+// Fills in the unknown part of a cell's light with the mean light of cells in `above`. Only cells
+// that show the surface at `disparity` are included.
 void PushCell(const FourCells& above, int32_t disparity, FarCell* cell) {
   if (cell->weight >= kKnown) return;
   const FarSum sum = SumOf(above, {9, 3, 3, 1}, disparity);
@@ -67,7 +67,7 @@ void PushCell(const FourCells& above, int32_t disparity, FarCell* cell) {
   cell->weight = kKnown;
 }
 
-// Cells of one level in a tile, with a border of one cell.
+// Cells of one level of a tile, surrounded by a border one cell wide.
 struct LevelCells {
   static constexpr int32_t kMost = kCoverageTile + 2;
   FarCell cells[kMost * kMost];

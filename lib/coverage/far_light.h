@@ -9,11 +9,12 @@
 
 namespace starfocus {
 
-// Computes levels 1 to 4 of a tile from level 0. Each cell gets the light of the farthest surface
-// in the cell.
+// Computes the far-light cells of levels 1 to 4 of a tile from the cells of level 0. Each cell gets
+// the light of the farthest surface in the cell.
 void PullTile(int32_t column, int32_t row, const CoverageMap& map);
 
-// Far light of the pixels of a tile. The weight of a pixel is 0 if no far light is known nearby.
+// Light of the far surface at each pixel of a tile. The weight of a pixel is 0 if no far light is
+// known nearby.
 struct FarTile {
   FarCell cells[kCoverageTile * kCoverageTile];
 };
@@ -22,13 +23,14 @@ struct FarTile {
 // neighbouring tiles.
 void PushTile(int32_t column, int32_t row, const CoverageMap& map, FarTile* far);
 
-// Returns the eighth power of `a`. The argument has kAlphaBits, the result kFarKnownBits.
+// Returns the eighth power of `a`. The argument has kAlphaBits fractional bits, and the result has
+// kFarKnownBits fractional bits.
 constexpr int32_t EighthPower(int32_t a) {
   const int32_t square = a * a >> kAlphaBits, fourth = square * square >> kAlphaBits;
   return fourth * fourth >> (2 * kAlphaBits - kFarKnownBits);
 }
 
-// Returns the weight of a pixel as a sample of the far surface's light. `alpha` is the coverage of
+// Returns the weight of a pixel in a mean of the far surface's light. `alpha` is the coverage of
 // the pixel by a nearer surface.
 constexpr int32_t FarWeight(int32_t alpha) { return EighthPower(kWhole - alpha); }
 

@@ -9,17 +9,17 @@
 namespace starfocus {
 namespace {
 
-// Largest distance in pixels at which the far and the near surface of a pixel are searched.
-// Outlines in disparity maps by neural networks are misplaced by up to kGivenReach pixels.
+// Radius in pixels of the search for the far and the near surface of a pixel. In disparity maps
+// computed by neural networks, outlines are misplaced by up to kGivenReach pixels.
 constexpr int32_t kGivenReach = 32;
 
 // A pixel is on a ramp if its disparity lies between the disparities of two opposite neighbours.
-// Both steps are at least kLeastRamp, and the larger step is at most kRampRatio times the smaller
-// one.
+// On a ramp, the steps to both neighbours are at least kLeastRamp, and the larger step is at most
+// kRampRatio times the smaller step.
 constexpr int32_t kLeastRamp = 1 << (kDisparityBits - 1);
 constexpr int32_t kRampRatio = 4;
 
-// Returns true if the middle one of three adjacent pixels is on a ramp. The arguments are the
+// Returns true if the middle of three adjacent pixels is on a ramp. The arguments are the
 // disparities of the pixels in kDisparityBits.
 bool IsRamp(int32_t before, int32_t here, int32_t after) {
   const int32_t sign = after < before ? -1 : 1;
@@ -27,7 +27,7 @@ bool IsRamp(int32_t before, int32_t here, int32_t after) {
   return Min(a, b) >= kLeastRamp && Max(a, b) <= kRampRatio * Min(a, b);
 }
 
-// Width in pixels of the border that IsRamp reads.
+// Distance in pixels from a pixel to the neighbours that decide whether the pixel is on a ramp.
 constexpr int32_t kRampReach = 1;
 using GivenDisparities = DisparitiesAround<kGivenReach + kRampReach>;
 
@@ -35,8 +35,8 @@ using GivenDisparities = DisparitiesAround<kGivenReach + kRampReach>;
 // by more than kLeastMixed (kAlphaBits).
 constexpr int32_t kLeastMixed = kWhole / 16;
 
-// Marks the pixels in and around a tile that are on ramps. The outermost kRampReach pixels are
-// never marked.
+// Marks the pixels in and around a tile that are on ramps. Pixels less than kRampReach from the rim
+// of the array are never marked.
 struct Ramps {
   static constexpr int32_t kSide = GivenDisparities::kSide;
   bool at[kSide * kSide] = {};
@@ -61,13 +61,13 @@ struct Ramps {
 };
 
 // Result of a search for the nearest pixel of a surface. Among equally distant pixels, the search
-// prefers the smallest square around the start, and then the first pixel in row order.
+// prefers the pixel on the smallest square around the start, and then the first in row order.
 struct Found {
   int32_t disparity;  // disparity of the pixel found, or of the start if none is found
   int32_t distance;   // squared distance in pixels; INT32_MAX if no pixel is found
 };
 
-// Finds the pixel nearest to `at` within kGivenReach that is not on a ramp and has a disparity in
+// Within kGivenReach of `at`, finds the nearest pixel that is not on a ramp and has a disparity in
 // [low, high].
 Found FindNearest(const GivenDisparities& around, const Ramps& ramps, int32_t at, int32_t low,
                   int32_t high) {
@@ -117,9 +117,9 @@ class GivenStarter {
   }
 
  private:
-  // Finds the disparities of the two surfaces of a pixel. On a ramp, these are the surfaces at both
-  // ends of the ramp. At other pixels, these are the pixel's own surface and the nearest other
-  // surface. Returns false if there is only one surface.
+  // Finds the disparities of the two surfaces of a pixel. For a pixel on a ramp, the results are
+  // the surfaces at both ends of the ramp. For other pixels, the results are the pixel's own
+  // surface and the nearest other surface. Returns false if the search finds no second surface.
   bool FindSurfaces(int32_t at, int32_t* low, int32_t* high) const {
     const int32_t here = around_.disparity[at];
     if (ramps_.at[at]) {

@@ -9,9 +9,9 @@
 
 namespace starfocus {
 
-// Writes the disparities of both surfaces and the given coverage of the tile's pixels near edges.
-// Sets `mixed` if the given coverage of any pixel differs from the coverage that the disparity map
-// implies.
+// For each pixel of the tile near an edge, writes the disparities of both surfaces and the given
+// coverage. Sets `mixed` if the given coverage of any pixel differs from the coverage that the
+// disparity map implies.
 void StartGiven(const CoverageInput& in, int32_t column, int32_t row);
 
 // Writes the final coverage and far light of a tile. Requires the far light that LookBehindTile

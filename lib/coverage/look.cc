@@ -9,16 +9,16 @@ namespace {
 // Smallest difference of disparity at which a nearer surface occludes a farther surface,
 // kDisparityBits.
 constexpr int32_t kBefore = 1 << kDisparityBits;
-// A nearer pixel may cover a far pixel in a view if the distance between the two pixels is at most
-// 1.5 pixels (kDisparityBits). The distance is large because views are interpolated, and because
+// A nearer pixel may cover a far pixel in a view if the view shows the pixels at most 1.5 pixels
+// apart (kDisparityBits). The limit exceeds one pixel because views are interpolated, and because
 // strands are wider in views than in the map.
 constexpr int32_t kWithin = 3 << (kDisparityBits - 1);
 
 // log2 of the factor by which the weight of the centre view is reduced. Near edges, all pixels of
 // the centre view are mixtures.
 constexpr int kCentreBits = 3;
-// The light of a pixel is fully known if the weights of its readings sum to at least 2^kEnoughBits
-// * kKnown.
+// The far light of a pixel counts as fully known if the weights of all samples read for the pixel
+// sum to at least 2^kEnoughBits * kKnown.
 constexpr int kEnoughBits = 1;
 
 // A side view from which far light is read.
@@ -26,7 +26,8 @@ struct SideLook {
   OcclusionView look;
   bool down;      // true if the search for occluders runs along columns, false if along rows
   int32_t along;  // position of the view on the axis of the search, kViewBits
-  int32_t slant;  // movement across the axis per pixel along the axis, kViewBits
+  // Movement at right angles to the axis for each pixel of movement along the axis, kViewBits.
+  int32_t slant;
 };
 
 class TileLooker {
@@ -123,9 +124,10 @@ class TileLooker {
   }
 
   // Finds, for each pixel of a row, an upper bound of the coverage by nearer surfaces in the view.
-  // Returns false if a surface may move farther than kMostMove.
+  // Returns false if a nearer surface may move by more than kMostMove pixels.
   bool FindCovered(const SideLook& view, int32_t y, int16_t* covered) const {
-    bool comes[kMostMove + 1] = {};  // comes[m]: a surface may move by m pixels onto the row
+    // comes[m]: true if a nearer surface may move onto the row from m pixels away.
+    bool comes[kMostMove + 1] = {};
     if (!FindMoves(view, comes)) return false;
     const int32_t sign = view.along < 0 ? -1 : 1;
     for (int32_t m = 0; m <= kMostMove; ++m) {
@@ -181,7 +183,7 @@ class TileLooker {
   int count_ = 0;
   uint64_t bins_ = 0;
   // State of one row of the tile.
-  int16_t far_[kCoverageTile];  // disparities of the far surface
+  int16_t far_[kCoverageTile];  // disparity of the far surface at each pixel of the row
   bool parted_[kCoverageTile];
   Sum sums_[kCoverageTile];
 };

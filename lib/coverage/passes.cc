@@ -34,8 +34,9 @@ void RunPass(const CoverageInput& in, int pass, int32_t first, int32_t last, int
     FindRagged(in, first, last, row);
     return;
   }
-  // Given coverage requires no first unmixing pass. Tiles with given coverage are started in that
-  // pass instead, because the start requires `ragged` two rows ahead.
+  // If the light field provides coverage, the first unmixing pass is not needed. Given coverage is
+  // read during kUnmixFirst instead of kStart, because reading requires `ragged` of tiles up to two
+  // rows ahead.
   const bool given = HasGiven(in);
   const int start = given ? kUnmixFirst : kStart;
   for (int32_t column = first; column < last; ++column) {

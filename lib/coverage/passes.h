@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs the passes that compute a coverage map, tile by tile. Also defines the number of rows of
-// tiles by which each pass is ahead of the last pass.
+// Runs the passes that compute a coverage map, tile by tile. Defines how many rows of tiles each
+// pass must be ahead of the last pass (TilesAhead).
 #ifndef STARFOCUS_LIB_COVERAGE_PASSES_H_
 #define STARFOCUS_LIB_COVERAGE_PASSES_H_
 
@@ -13,8 +13,8 @@ namespace starfocus {
 
 enum CoveragePass { kFindRagged, kStart, kUnmixFirst, kLook, kUnmixAgain, kCoveragePasses };
 
-// Runs a pass on the tiles [first, last) of a row. The earlier passes must be ahead by the number
-// of rows that TilesAhead returns.
+// Runs a pass on the tiles [first, last) of a row. All earlier passes must already be as many rows
+// of tiles ahead as TilesAhead requires.
 void RunPass(const CoverageInput& in, int pass, int32_t first, int32_t last, int32_t row);
 
 // Returns true if the engine has memory for coverage.
@@ -41,7 +41,7 @@ inline int32_t TilesAhead(const starfocus_config& config, int pass) {
     case kUnmixAgain:
       return 0;
     case kLook:
-      // UnmixAgain takes unknown far light from the surrounding tiles.
+      // UnmixAgain fills in unknown far light from the surrounding tiles.
       return 1;
     case kUnmixFirst:
       // A tile next to a mixed tile is thin, so the Look pass requires `mixed` one row ahead.

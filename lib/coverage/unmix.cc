@@ -19,15 +19,17 @@ constexpr int kColourBits = 3;
 constexpr int32_t kSquareOne = 1 << (2 * kColourBits);
 // Smallest squared distance between near and far colours that allows alpha to be computed.
 constexpr int32_t kLeastContrast = 300 * kSquareOne;
-// Noise term of the trust in a mixed colour. Let s^2 be kNoise plus a sixteenth of the squared
-// contrast. The trust decreases with the distance of the mixed colour from the line through the
-// near and far colours. The trust is 1 up to a distance of s / 2, and 0 from 3 s / 2 on.
+// Squared noise that is tolerated in mixed colours. The trust in a mixed colour decreases with the
+// distance of the colour from the line through the near and far colours. Let s^2 be kNoise plus a
+// sixteenth of the squared contrast. The trust is 1 if this distance is at most s / 2, and 0 if
+// this distance is at least 3 s / 2.
 constexpr int32_t kNoise = 81 * kSquareOne;
-// Smallest sum of near weights around a pixel from which alpha is computed, in units of 2^-15.
+// Alpha is computed only if the weights of the near samples around a pixel sum to at least
+// kLeastNear, in units of 2^-15.
 constexpr int32_t kLeastNear = 32;
 
-// The pixels in and around a tile: light, near disparities, and the weight of each pixel as a
-// sample of the near light.
+// The pixels in and around a tile: light, near disparities, and the weight of each pixel in a mean
+// of the near light.
 struct NearTile {
   static constexpr size_t kPlane = kSide * kSide;
   int16_t light[3 * kPlane];
@@ -46,7 +48,7 @@ struct NearTile {
   }
 };
 
-// Loads a tile and its surroundings. weight_of(x, y) returns the weight of pixel (x, y) as a sample
+// Loads a tile and its surroundings. weight_of(x, y) returns the weight of pixel (x, y) in a mean
 // of the near light.
 template <class Weight>
 void LoadNearTile(const CoverageInput& in, int32_t column, int32_t row, const Weight& weight_of,
@@ -74,8 +76,9 @@ using Rgb = int32_t[3];
 
 constexpr int32_t Compared(int32_t light) { return light >> (kLightBits - kColourBits); }
 
-// Returns the coverage by the near surface in a pixel that mixes the colours `near` and `far`.
-// Returns `guess` if `mixed` is not a mixture of these colours or if the contrast is too small.
+// Returns the part of a pixel that the near surface covers, if the pixel's colour `mixed` is a
+// mixture of `near` and `far`. Returns `guess` if `mixed` is not a mixture of `near` and `far`, or
+// if the contrast between `near` and `far` is too small.
 int32_t AlphaOf(const Rgb& near, const Rgb& far, const Rgb& mixed, int32_t guess) {
   int32_t contrast = 0, along = 0, distance = 0;
   for (int c = 0; c < 3; ++c) {
@@ -87,8 +90,8 @@ int32_t AlphaOf(const Rgb& near, const Rgb& far, const Rgb& mixed, int32_t guess
   if (contrast < kLeastContrast) return guess;
   const int64_t beside = distance - int64_t{along} * along / contrast;
   const int64_t square = kNoise + contrast / 16;
-  // The trust is 1 if the squared distance is at most 1/4 of `square`, and 0 from 9/4 of `square`
-  // on.
+  // The trust is 1 if the squared distance from the line is at most 1/4 of `square`, and 0 from 9/4
+  // of `square` on.
   const int64_t doubt = (4 * beside - square) * kWhole / (8 * square);
   const int32_t trust = kWhole - Clamp(static_cast<int32_t>(doubt), 0, kWhole);
   const int32_t part = Clamp(along, 0, contrast);
@@ -134,8 +137,8 @@ void ForEachParted(const CoverageInput& in, const NearTile& tile, int32_t column
 
 void UnmixFirst(const CoverageInput& in, int32_t column, int32_t row) {
   const CoverageMap& map = *in.map;
-  // Returns the weight of a pixel on the near side of an edge. The weight increases with the number
-  // of pixels in the surrounding 3x3 pixels that are also on the near side.
+  // Returns 0 for pixels on the far side of an edge. For other pixels, the weight increases with
+  // the number of near-side pixels in the surrounding 3x3 pixels.
   const auto weight_of = [&](int32_t x, int32_t y) {
     if (map.alpha[map.At(x, y)] == 0) return 0;
     int32_t count = 0;

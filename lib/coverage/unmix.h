@@ -9,7 +9,7 @@
 namespace starfocus {
 
 // Writes the coverage of a tile after the first pass, starting from the tile's initial alpha. Sets
-// `mixed` if the pixels of the tile are, on average, as mixed as in thin structures.
+// CoverageTile::mixed if the pixels of the tile are, on average, mixed enough for a thin structure.
 void UnmixFirst(const CoverageInput& in, int32_t column, int32_t row);
 
 // Writes the coverage of a tile after the second pass, and the tile's far light. The inputs are the
