@@ -13,8 +13,8 @@ QuadratureDecoder::QuadratureDecoder(bool a, bool b)
     : a_(a), b_(b), rest_(Place(a, b)), quarters_(0) {}
 
 int QuadratureDecoder::Edge(bool a, bool b) {
-  const int moved =
-      (Place(a, b) - Place(a_, b_) + 4) % 4;  // 0, 1 or 3, because an edge changes only one line
+  // An edge changes only one line, so `moved` is 0, 1 or 3.
+  const int moved = (Place(a, b) - Place(a_, b_) + 4) % 4;
   a_ = a;
   b_ = b;
   quarters_ += moved == 3 ? -1 : moved;

@@ -17,9 +17,8 @@ struct FloatMap {
   int height = 0;
   std::vector<float> values;  // values in rows from top to bottom, without padding
 
-  size_t stride() const {
-    return sizeof(float) * size_t(width);
-  }  // bytes from one row to the next row
+  // Returns the number of bytes from one row to the next row.
+  size_t stride() const { return sizeof(float) * size_t(width); }
   float at(int x, int y) const { return values[size_t(y) * size_t(width) + size_t(x)]; }
 };
 

@@ -32,8 +32,8 @@ struct Decoder {
 
   Decoder() {
     info.err = jpeg_std_error(&manager);
-    info.mem = nullptr;  // null, so that jpeg_destroy_decompress frees nothing before libjpeg
-                         // allocates memory
+    // If `mem` is null, jpeg_destroy_decompress frees nothing.
+    info.mem = nullptr;
   }
   ~Decoder() { jpeg_destroy_decompress(&info); }
   Decoder(const Decoder&) = delete;

@@ -66,14 +66,11 @@ Bytes ParseDigits(const std::string& text) {
 
 void ReadRawProfile(bool compressed, const uint8_t* data, size_t size, Bytes* exif) {
   const uint8_t* const last = data + size;
-  const uint8_t* end =
-      std::find(data, last, uint8_t{0});  // position after the keyword of the chunk
+  const uint8_t* end = std::find(data, last, uint8_t{0});  // position after the keyword
   const std::string keyword(data, end);
   if (keyword != "Raw profile type exif" && keyword != "Raw profile type APP1") return;
-  const size_t skip =
-      compressed
-          ? 2
-          : 1;  // 1 byte for the zero byte after the keyword, and 1 for the compression method
+  // A zero byte follows the keyword, and a byte for the compression method follows in zTXt chunks.
+  const size_t skip = compressed ? 2 : 1;
   if (size_t(last - end) < skip || !exif->empty()) return;
   end += skip;
   *exif = ParseDigits(compressed ? Inflate(end, size_t(last - end)) : std::string(end, last));

@@ -1,10 +1,10 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
 # usage: aar.sh OUT.aar CLASSES.jar ABI=LIBRARY...
-# Packs an AAR without Gradle. The AAR contains the Java classes, libstarfocus_jni.so for each ABI (arm64-v8a, x86_64),
-# and a prefab package with the C headers and these libraries. C and C++ projects find the package with
-# find_package(starfocus CONFIG) and link starfocus::starfocus_jni. The script requires zip. The environment variable
-# ANDROID_NDK_MAJOR is the major version of the NDK that built the libraries; default 27.
+# Packs an Android archive (AAR) without Gradle. The AAR contains the Java classes, libstarfocus_jni.so for each ABI
+# (arm64-v8a, x86_64), and a prefab package with the C headers and the libraries. C and C++ projects find the prefab
+# package with find_package(starfocus CONFIG) and link starfocus::starfocus_jni. The script requires zip. The
+# environment variable ANDROID_NDK_MAJOR is the major version of the NDK that built the libraries; default 27.
 set -eu
 [ $# -ge 3 ] || { echo "usage: $0 OUT.aar CLASSES.jar ABI=LIBRARY..." >&2; exit 2; }
 here=$(cd "$(dirname "$0")" && pwd)

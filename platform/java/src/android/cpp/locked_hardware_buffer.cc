@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Native methods of dev.starfocus.android.LockedHardwareBuffer. The methods require Android API
-// level 29.
+// Native methods of dev.starfocus.android.LockedHardwareBuffer. These
+// native methods require Android API level 29.
 #include <android/hardware_buffer.h>
 #include <android/hardware_buffer_jni.h>
 #include <jni.h>
@@ -12,8 +12,8 @@ using namespace starfocus;
 
 namespace {
 
-// The starfocus_format of a buffer, and the bytes per pixel of its first plane. pixel_bytes is 0
-// for formats that the library does not support.
+// The starfocus_format of a hardware buffer, and the bytes per pixel of the first plane.
+// pixel_bytes is 0 for formats that the library does not support.
 struct Kind {
   jint format, pixel_bytes;
 };
@@ -32,7 +32,8 @@ Kind KindOf(uint32_t format) {
   }
 }
 
-// Returns a direct buffer for a plane. The buffer ends with the last byte of the last pixel.
+// Returns a direct ByteBuffer for a plane. The ByteBuffer ends with the last byte of the last
+// pixel.
 jobject BufferOf(JNIEnv* env, const AHardwareBuffer_Plane& plane, jlong width, jlong height,
                  jlong pixel_bytes) {
   const jlong row = (width - 1) * jlong(plane.pixelStride) + pixel_bytes;

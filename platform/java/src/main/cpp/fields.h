@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Copies fields between Java objects and C structures, by tables of field names. Used by
+// Copies fields between Java objects and C structures. Tables list the names of the fields. Used by
 // refocuser.cc and pictures.cc.
 #ifndef STARFOCUS_PLATFORM_JAVA_FIELDS_H_
 #define STARFOCUS_PLATFORM_JAVA_FIELDS_H_
@@ -17,17 +17,18 @@ enum class FieldType { kInt32, kFloat, kDouble };
 struct Field {
   const char* name;  // name in Java
   FieldType type;
-  size_t offset;  // offset in the C structure, bytes
+  size_t offset;  // offset of the field in the C structure, in bytes
 };
 
-// Copies the fields of a table with `count` entries from the object to the structure, or from the
-// structure to the object. Returns false, with an exception pending, if the object lacks a field.
+// ReadFields copies the fields of a table with `count` entries from the object to the structure.
+// WriteFields copies the fields from the structure to the object. Returns false, with an exception
+// pending, if the object lacks a field.
 bool ReadFields(JNIEnv* env, jobject object, const Field* fields, size_t count, void* structure);
 bool WriteFields(JNIEnv* env, const void* structure, const Field* fields, size_t count,
                  jobject object);
 
-// Return the value of a field of an object, or 0 or null, with an exception pending, if the object
-// lacks the field.
+// Return the value of a field of an object. If the object lacks the field, return 0 or null with an
+// exception pending.
 int32_t ReadInt(JNIEnv* env, jobject object, const char* name);
 jobject ReadObject(JNIEnv* env, jobject object, const char* name, const char* signature);
 

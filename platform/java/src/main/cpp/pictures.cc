@@ -28,8 +28,8 @@ int PlanesOf(int32_t format) {
   }
 }
 
-// Returns the number of rows of a plane, and the bytes from the first to the last byte of a row.
-// The result is safe to use for values of pixel_stride that the library will reject.
+// Returns the number of rows of a plane, and the number of bytes per row without padding. The
+// result is valid even if image.pixel_stride has a value that the library will reject.
 PlaneSize SizeOf(const starfocus_image& image, int plane, int64_t width, int64_t height) {
   const int64_t step = std::max(image.pixel_stride, 0);
   const int planes = PlanesOf(image.format);
@@ -68,7 +68,8 @@ void* AddressOf(JNIEnv* env, jobject buffer, const char* what, PlaneSize size, i
   return address;
 }
 
-// An Image, its name in messages, and its planes.
+// A Java object of class Image, the name of the image in error messages, and the planes of the
+// image.
 struct NamedImage {
   jobject object;
   const char* what;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Converts Java images, depth maps and light fields to C structures that point into the direct
-// buffers of the Java objects. The functions check that every buffer is as large as its description
-// requires. Used by refocuser.cc.
+// buffers of the Java objects. The functions of this header check that every direct buffer is as
+// large as its description requires. Used by refocuser.cc.
 #ifndef STARFOCUS_PLATFORM_JAVA_PICTURES_H_
 #define STARFOCUS_PLATFORM_JAVA_PICTURES_H_
 
@@ -11,11 +11,12 @@
 
 namespace starfocus {
 
-// Each function returns false, with an exception pending, if an object is null, or a buffer is not
-// direct or too small. The library itself checks the other values, such as formats and strides.
+// Each function returns false, with an exception pending, if an object is null, a buffer is not
+// direct, or a buffer is too small. The C library checks all other values, such as formats and
+// strides.
 
 // Converts an Image with a size of `width` x `height` pixels. `what` is the name of the image in
-// messages.
+// error messages.
 bool ReadImage(JNIEnv* env, jobject object, const char* what, int32_t width, int32_t height,
                starfocus_image* image);
 

@@ -17,8 +17,8 @@
 namespace starfocus {
 namespace {
 
-// An engine, its threads and its prepared light field. Refocuser.java ensures that one call at a
-// time uses a session, except for the atomic fields.
+// A session: an engine, its threads and its prepared light field. Refocuser.java ensures that only
+// one call at a time uses a session, except for the atomic fields.
 struct Session {
   starfocus_config config = {};
   starfocus_pool* pool = nullptr;
@@ -28,8 +28,8 @@ struct Session {
   std::atomic<int> cancelled{0}, rows_done{0};
 };
 
-// Frees a session. The function calls free instead of delete, because the library must not depend
-// on the C++ run time. A session has no destructor.
+// Frees a session. End calls free instead of delete, because libstarfocus_jni must not depend on
+// the C++ run time. A session has no destructor.
 void End(Session* session) {
   std::free(session->prepared_memory);
   starfocus_destroy(session->engine);
@@ -39,8 +39,8 @@ void End(Session* session) {
 
 Session* From(jlong handle) { return reinterpret_cast<Session*>(handle); }
 
-// Progress callback. Stores the progress for rowsDone() instead of calling Java, because the
-// threads of the pool are not attached to the virtual machine.
+// Progress callback. Stores the number of finished rows for rowsDone() and does not call Java,
+// because the threads of the pool are not attached to the Java virtual machine.
 int Tell(void* data, int32_t rows_done, int32_t) {
   auto* const session = static_cast<Session*>(data);
   session->rows_done.store(rows_done, std::memory_order_relaxed);
@@ -85,14 +85,14 @@ constexpr Field kParamsFields[] = {
     {"regionHeight", FieldType::kInt32, offsetof(starfocus_params, region.height)},
 };
 
-// Reads Configuration.positions, unless it is null. Returns false, with an exception pending, if
-// the array has the wrong length.
+// Reads Configuration.positions, unless this array is null. Returns false, with an exception
+// pending, if the array has the wrong length.
 bool ReadPositions(JNIEnv* env, jobject configuration, starfocus_config* config) {
   const auto positions =
       static_cast<jdoubleArray>(ReadObject(env, configuration, "positions", "[D"));
   if (positions == nullptr) return !env->ExceptionCheck();
   if (config->views < 1 || config->views > STARFOCUS_MAX_VIEWS)
-    return true;  // the library rejects this number of views
+    return true;  // starfocus_create rejects this number of views
   const jsize found = env->GetArrayLength(positions), expected = 2 * config->views;
   if (found != expected) {
     ThrowArgument(env, "positions: expected %d numbers, found %d", int{expected}, int{found});
@@ -104,13 +104,13 @@ bool ReadPositions(JNIEnv* env, jobject configuration, starfocus_config* config)
   return true;
 }
 
-// Returns the number of pixels at 1 / 2^shift of the size that contain a part of the range [first,
-// first + count). `count` must be at least 1.
+// Returns the number of pixels of a picture at 1 / 2^shift of the full size that contain a part of
+// the range [first, first + count) of full-size pixels. `count` must be at least 1.
 int32_t Reduced(int32_t first, int32_t count, int32_t shift) {
   return static_cast<int32_t>(((int64_t{first} + count - 1) >> shift) - (first >> shift) + 1);
 }
 
-// Arguments of a refocusing at 1 / 2^shift of the size.
+// Arguments of a refocusing at 1 / 2^shift of the full size.
 struct JavaTask {
   int32_t shift;
   jobject parameters, out;
@@ -127,8 +127,8 @@ bool ReadTask(JNIEnv* env, Session* session, const JavaTask& task, starfocus_par
   params->preview_shift = shift;
   const starfocus_region& region = params->region;
   const bool whole = region.width == 0 && region.height == 0;
-  // The library has not checked the region and the shift yet. Invalid values are replaced here, so
-  // that the size of the buffer can be checked.
+  // The engine checks the region and the shift later. Until then, valid values replace invalid
+  // values, so that the size of the buffer can be checked.
   const int32_t width = whole ? session->config.width : region.width < 1 ? 1 : region.width;
   const int32_t height = whole ? session->config.height : region.height < 1 ? 1 : region.height;
   const int32_t known = shift < 0 || shift > STARFOCUS_MAX_PREVIEW ? 0 : shift;
@@ -155,7 +155,8 @@ starfocus_status Start(Session* session) {
   return starfocus_set_callbacks(session->engine, &callbacks);
 }
 
-// Prepares a light field, in memory that the first call allocates.
+// Prepares a light field. The first call of a session allocates the memory for prepared light
+// fields.
 starfocus_status Prepare(Session* session, const starfocus_light_field& field) {
   size_t bytes = 0;
   const starfocus_status status = starfocus_prepared_size(&session->config, &bytes);

@@ -3,26 +3,26 @@ package dev.starfocus;
 
 /**
  * Configuration of a {@link Refocuser}: the fields of the C structure starfocus_config. A Refocuser
- * copies the values, so later changes have no effect on the Refocuser. Values out of range are
- * reported when the Refocuser is created.
+ * copies the values, so later changes of the Configuration have no effect on the Refocuser. The
+ * constructor of Refocuser throws an exception for values out of range.
  */
 public final class Configuration {
   /**
-   * Values of {@link #transfer}: codes represent light by the sRGB curve, or light is the code
-   * itself.
+   * Values of {@link #transfer}. SRGB: samples encode light by the sRGB curve. NONE: samples are
+   * proportional to light.
    */
   public static final int TRANSFER_SRGB = 0, TRANSFER_NONE = 1;
 
   /** Width and height of the views in pixels, 1 to 65535. Must be set. */
   public int width, height;
   /**
-   * Number of captured views. Without {@link #positions}: 1, 5, 9 or 17. With positions: 1 to 17.
+   * Number of captured views: 1, 5, 9 or 17 if {@link #positions} is null, otherwise 1 to 17.
    * Default 5.
    */
   public int views;
   /**
    * Positions of the views: u and v of each view, each from -1 to 1. The first view lies at (0, 0),
-   * and no two positions are equal. Null, the default: the positions of {@link
+   * and no two positions are equal. Null, the default, means the positions of {@link
    * Refocuser#viewPosition}.
    */
   public double[] positions;
@@ -37,7 +37,10 @@ public final class Configuration {
    * the pictures.
    */
   public double maxBlur;
-  /** Number of threads, at most 64. 0, the default: one for each big core of the machine. */
+  /**
+   * Number of threads, at most 64. 0, the default, means one thread for each big core of the
+   * machine.
+   */
   public int workers;
 
   /**
@@ -46,26 +49,30 @@ public final class Configuration {
    */
   public int superblock;
   /**
-   * Factor of the number of views along the radius of the aperture, 0.5 to 2. Default 1. Affects
-   * {@link Parameters#MODE_BLOCK} and {@link Parameters#MODE_FRAME}.
+   * Factor by which the number of views along the radius of the aperture is multiplied, 0.5 to 2.
+   * Default 1. The factor affects the modes {@link Parameters#MODE_BLOCK} and {@link
+   * Parameters#MODE_FRAME}.
    */
   public double nScale;
-  /** {@link #TRANSFER_SRGB}, the default, or {@link #TRANSFER_NONE}. */
+  /** Relation of samples to light: {@link #TRANSFER_SRGB}, the default, or TRANSFER_NONE. */
   public int transfer;
-  /** Brightness of clipped lamps relative to white, 1 to 64. Default 1. */
+  /**
+   * Brightness that the engine assumes for clipped light sources, relative to white, 1 to 64.
+   * Default 1.
+   */
   public double highlights;
   /**
-   * Not 0: unknown disparities (NaN, infinite, or the invalid value of the {@link DepthMap}) are
-   * filled from their neighbours. 0, the default: unknown disparities are reported as an error.
+   * If not 0, unknown disparities (NaN, infinite, or the invalid value of the {@link DepthMap}) are
+   * filled from their neighbours. If 0, the default, unknown disparities are an error.
    */
   public int fillUnknown;
   /**
-   * Not 0: lenses may be polygons and have cat's eyes, which requires larger tables. 0, the
-   * default: polygons and cat's eyes are reported as an error.
+   * If not 0, lenses may be polygons and have cat's eyes, which requires larger tables. If 0, the
+   * default, polygons and cat's eyes are an error.
    */
   public int shapes;
   /**
-   * Largest shift of {@link Refocuser#preview}, 0 to 3. 0, the default: there are no previews.
+   * Largest shift of {@link Refocuser#preview}, 0 to 3. 0, the default, disables previews.
    */
   public int previews;
 

@@ -4,13 +4,14 @@ package dev.starfocus;
 import java.nio.ByteBuffer;
 
 /**
- * Depth map of the centre view, as large as the picture or smaller: the C structure
- * starfocus_depth_map. The values lie in a direct buffer in the native byte order and are not
- * copied.
+ * Depth map of the centre view, which may have fewer pixels than the picture: the C structure
+ * starfocus_depth_map. The values of the map are in a direct buffer in the native byte order and
+ * are not copied.
  */
 public final class DepthMap {
   /**
-   * Types of values: 32-bit float, 16-bit unsigned integer, 8-bit unsigned integer, 16-bit float.
+   * Types of the values of a map: 32-bit float, 16-bit unsigned integer, 8-bit unsigned integer,
+   * 16-bit float.
    */
   public static final int FLOAT = 0, U16 = 1, U8 = 2, HALF = 3;
   /** Values of {@link #meaning}. */
@@ -19,16 +20,19 @@ public final class DepthMap {
   /** Type of the values, and width and height of the map in values. */
   public final int type, width, height;
   /**
-   * How a value z gives a disparity. {@link #LINEAR}, the default: scale * z + offset. {@link
-   * #RECIPROCAL}: scale / z + offset, for distances z.
+   * Conversion of a value z to a disparity. {@link #LINEAR}, the default: the disparity is scale *
+   * z + offset. {@link #RECIPROCAL}: z is a distance, and the disparity is scale / z + offset.
    */
   public int meaning = LINEAR;
   /**
-   * Coefficients of {@link #meaning}, rounded to float. Both must be finite, and scale must not be
-   * 0. Default 1 and 0.
+   * Coefficients of the conversion {@link #meaning}, rounded to float. Both coefficients must be
+   * finite, and scale must not be 0. The defaults are a scale of 1 and an offset of 0.
    */
   public double scale = 1, offset;
-  /** 1: values equal to {@link #invalid} are unknown. 0, the default: there is no such value. */
+  /**
+   * If 1, values equal to {@link #invalid} are unknown. If 0, the default, {@link #invalid} is not
+   * used.
+   */
   public int hasInvalid;
   /** Value that stands for unknown depth if {@link #hasInvalid} is 1; rounded to float. */
   public double invalid;
@@ -37,7 +41,7 @@ public final class DepthMap {
   final int stride;
 
   /**
-   * Describes a depth map. The buffer must not change while a call reads it.
+   * Describes a depth map. The values in the buffer must not change while a call reads the map.
    *
    * @param type {@link #FLOAT}, {@link #U16}, {@link #U8} or {@link #HALF}
    * @param values direct buffer; the map starts at its position

@@ -5,36 +5,38 @@ import java.nio.ByteBuffer;
 
 /**
  * A picture with 8 bits per sample in direct buffers: the C structure starfocus_image. The engine
- * reads and writes the buffers in place. A plane starts at the position of its buffer and ends
- * before its limit; later changes of position and limit have no effect. The picture has the size of
- * the {@link Configuration} or of the region.
+ * reads and writes the buffers in place. A plane extends from the position of its buffer to the
+ * limit; later changes of position and limit have no effect. The size of the picture is the size in
+ * the {@link Configuration}, or the size of the region.
  */
 public final class Image {
-  /** Formats with one plane, named by the order of bytes in memory. X is alpha. */
+  /** Formats with one plane, named by the order of bytes in memory. The byte X contains alpha. */
   public static final int RGB = 0, BGR = 1, RGBX = 2, BGRX = 3;
   /**
-   * Formats with planes of Y and chroma. Chroma planes have half the width and height of the
-   * picture, rounded up. NV12: Y; U and V interleaved. NV21: Y; V and U interleaved. I420: Y; U; V.
-   * YUV_420_888: Y; U; V, with chroma samples 1 or 2 bytes apart, as Android's cameras store them.
+   * Formats with a plane of luma (Y) and one or two planes of chroma (U, V). Chroma planes have
+   * half the width and height of the picture, rounded up. NV12 has two planes: Y, and U and V
+   * interleaved. NV21 has two planes: Y, and V and U interleaved. I420 has three planes: Y, U and
+   * V. YUV_420_888 has three planes, with chroma samples 1 or 2 bytes apart, as Android's cameras
+   * store them.
    */
   public static final int NV12 = 4, NV21 = 5, I420 = 6, YUV_420_888 = 7;
-  /** Values of {@link #matrix}: ITU-R BT.601 and BT.709. */
+  /** Values of {@link #matrix}: the YUV matrices of ITU-R BT.601 and BT.709. */
   public static final int BT601 = 0, BT709 = 1;
-  /** Values of {@link #range}: luma codes from 16 to 235, or codes from 0 to 255. */
+  /** Values of {@link #range}. LIMITED: luma codes from 16 to 235. FULL: codes from 0 to 255. */
   public static final int LIMITED = 0, FULL = 1;
 
   /** Layout of the picture: one of the constants RGB to YUV_420_888. */
   public final int format;
-  /** {@link #BT601}, the default, or {@link #BT709}. Ignored for RGB formats. */
+  /** YUV matrix: {@link #BT601}, the default, or {@link #BT709}. Ignored for RGB formats. */
   public int matrix = BT601;
   /**
-   * {@link #LIMITED}, the default, or {@link #FULL}, as in JPEG and Android's cameras. Ignored for
-   * RGB formats.
+   * Range of YUV codes: {@link #LIMITED}, the default, or {@link #FULL}, which JPEG files and
+   * Android's cameras use. Ignored for RGB formats.
    */
   public int range = LIMITED;
   /**
-   * Bytes from pixel to pixel of an RGB format, at most 256, or from chroma sample to chroma sample
-   * of YUV_420_888, 1 or 2. 0, the default: the smallest value that the format allows.
+   * Distance in bytes between pixels of an RGB format, at most 256, or between chroma samples of
+   * YUV_420_888, 1 or 2. 0, the default, means the smallest value that the format allows.
    */
   public int pixelStride;
 

@@ -11,8 +11,8 @@ public final class LightField {
    * no pixels.
    *
    * @param views the configured number of views, in the order of {@link Refocuser#viewPosition} or
-   *     {@link Configuration#positions}; the centre view is the first. The formats of the views may
-   *     differ
+   *     {@link Configuration#positions}; the centre view is the first. Views may differ in their
+   *     format
    * @param depth depth map of the centre view
    */
   public LightField(Image[] views, DepthMap depth) {

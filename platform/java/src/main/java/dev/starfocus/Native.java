@@ -2,9 +2,9 @@
 package dev.starfocus;
 
 /**
- * Native methods of {@link Refocuser}, which documents them. A session is the address of a native
- * structure that owns an engine, its threads and the prepared light field. {@link #create} returns
- * a session, and {@link #destroy} frees the session.
+ * Native methods of {@link Refocuser}. Refocuser documents the corresponding public methods. A
+ * session is the address of a native structure that owns an engine, its threads and the prepared
+ * light field. {@link #create} returns a session, and {@link #destroy} frees the session.
  */
 final class Native {
   static {

@@ -6,8 +6,8 @@ import java.util.Objects;
 /**
  * An engine for light fields of one configuration. A Refocuser allocates native memory when it is
  * created and when the first light field is prepared. {@link #close} frees this memory. Several
- * threads may use a Refocuser; their calls take turns. {@link #cancel} and {@link #rowsDone} do not
- * wait for a running call, so that other threads can use them during a call.
+ * threads may use a Refocuser, but calls run one after the other. {@link #cancel} and {@link
+ * #rowsDone} do not wait for a running call, so that other threads can use them during a call.
  *
  * <p>Calls throw {@link StarfocusException} for errors that the library reports, for example
  * values out of range or disparities outside the configured range; IllegalArgumentException for
@@ -24,13 +24,13 @@ public final class Refocuser implements AutoCloseable {
   private final Object life = new Object();
 
   private long session;
-  /** Keeps the buffers alive that {@link #refocusPrepared} reads. */
+  /** Keeps alive the buffers that {@link #refocusPrepared} reads. */
   private LightField prepared;
 
   /**
    * Creates an engine and its threads.
    *
-   * @param configuration configuration, of which the Refocuser keeps a copy
+   * @param configuration configuration, which the Refocuser copies
    */
   public Refocuser(Configuration configuration) {
     session = Native.create(Objects.requireNonNull(configuration, "configuration"));
@@ -39,11 +39,12 @@ public final class Refocuser implements AutoCloseable {
   /**
    * Refocuses a light field.
    *
-   * @param field light field, which the engine only reads, and only during the call
+   * @param field light field, which the engine reads during the call and does not change
    * @param parameters lens and region
    * @param out receives the picture, in any format. The image has the size of the picture, or of
    *     the region of the parameters, and must not overlap the light field. Alpha is copied from
-   *     the centre view, or is 255. After {@link #cancel} the contents are unspecified
+   *     the centre view, or is 255 if the centre view has no alpha. After {@link #cancel}, the
+   *     contents of the image are unspecified
    */
   public synchronized void refocus(LightField field, Parameters parameters, Image out) {
     Objects.requireNonNull(parameters, "parameters");
@@ -52,10 +53,11 @@ public final class Refocuser implements AutoCloseable {
   }
 
   /**
-   * Performs the work that does not depend on the lens, once for many refocusings. Replaces the
-   * light field that was prepared before, even if the call fails.
+   * Prepares a light field: computes the data that do not depend on the lens, once for many
+   * refocusings. Discards the previously prepared light field, even if the call fails.
    *
-   * @param field light field. The contents of its buffers must not change while it is prepared
+   * @param field light field. The contents of its buffers must not change until another light field
+   *     is prepared or the Refocuser is closed
    */
   public synchronized void prepare(LightField field) {
     prepared = null;
@@ -64,8 +66,8 @@ public final class Refocuser implements AutoCloseable {
   }
 
   /**
-   * Refocuses the prepared light field. The picture has the same bytes as the picture of {@link
-   * #refocus}.
+   * Refocuses the prepared light field. The picture has the same bytes as a picture that {@link
+   * #refocus} computes from this light field.
    *
    * @param parameters lens and region
    * @param out receives the picture, as for {@link #refocus}
@@ -77,14 +79,14 @@ public final class Refocuser implements AutoCloseable {
   }
 
   /**
-   * Refocuses the prepared light field at 1 / 2^shift of the size, in about 1 / 4^shift of the
-   * time.
+   * Refocuses the prepared light field at 1 / 2^shift of the full size, in about 1 / 4^shift of the
+   * time of a full picture.
    *
    * @param shift 1 to {@link Configuration#previews}; 0 is the full size
    * @param parameters lens and region, in pixels of the full size
-   * @param out receives the picture. The picture has all pixels that contain a part of the region;
-   *     a whole picture has a size of ceil(width / 2^shift) times ceil(height / 2^shift). Alpha is
-   *     255
+   * @param out receives the picture. The picture contains all reduced pixels that overlap the
+   *     region; a whole picture has a size of ceil(width / 2^shift) times ceil(height / 2^shift).
+   *     Alpha is 255
    * @throws IllegalStateException if no light field is prepared
    */
   public synchronized void preview(int shift, Parameters parameters, Image out) {
@@ -105,7 +107,7 @@ public final class Refocuser implements AutoCloseable {
   }
 
   /**
-   * Returns the progress of the running call, or of the last call if none is running.
+   * Returns the progress of the running call, or of the last call if no call is running.
    *
    * @return number of finished rows; 0 after {@link #close}
    */
@@ -132,8 +134,8 @@ public final class Refocuser implements AutoCloseable {
   }
 
   /**
-   * Finds the focus for a pixel, for example where a user tapped. The focus is the median of the
-   * disparities up to 3 pixels away that belong to the surface of the pixel.
+   * Returns the focus for the surface at a pixel, for example at the pixel that a user tapped. The
+   * focus is the median of the disparities of this surface, up to 3 pixels away from the pixel.
    *
    * @param disparity map of type FLOAT and meaning LINEAR, with scale 1, offset 0 and no invalid
    *     value
@@ -142,7 +144,8 @@ public final class Refocuser implements AutoCloseable {
    * @return the disparity to focus at
    * @throws StarfocusException if the pixel lies outside the map, or a disparity up to 3 pixels
    *     away is not finite
-   * @throws IllegalArgumentException for another kind of map
+   * @throws IllegalArgumentException if the map has another type, meaning, scale or offset, or an
+   *     invalid value
    */
   public static double focusAt(DepthMap disparity, int x, int y) {
     return Native.focusAt(disparity, x, y);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 package dev.starfocus;
 
-/** An error that the library reports. The message names the cause. */
+/** An error that the library reports. The message of the exception names the cause. */
 public class StarfocusException extends RuntimeException {
-  /** {@link #status} of a call that {@link Refocuser#cancel} cancelled. */
+  /** Value of {@link #status} after {@link Refocuser#cancel} has cancelled the call. */
   public static final int ERROR_CANCELLED = 17;
 
   private static final long serialVersionUID = 1;
@@ -18,7 +18,7 @@ public class StarfocusException extends RuntimeException {
   /**
    * Returns the status of the C call.
    *
-   * @return a starfocus_status; starfocus/status.h lists the values
+   * @return a value of starfocus_status, which starfocus/status.h defines
    */
   public int status() {
     return status;

@@ -7,16 +7,16 @@ import dev.starfocus.Refocuser;
 import java.nio.ByteBuffer;
 
 /**
- * Locks the pixels of an ARGB_8888 Bitmap until this object is closed. An {@link Image} of format
- * RGBX provides the pixels in place for reading and writing. Colours have the values that the
- * Bitmap stores: colours of transparent pixels are multiplied by alpha.
+ * Locks the pixels of an ARGB_8888 Bitmap until this object is closed. The field {@link #image}, of
+ * format RGBX, refers to the locked pixels and may be read and written. Like the Bitmap, the image
+ * stores colours of transparent pixels multiplied by alpha.
  */
 public final class LockedBitmap implements AutoCloseable {
   static {
     Refocuser.version(); // loads the library
   }
 
-  /** The pixels. Must not be used after {@link #close}. */
+  /** The locked pixels, which must not be used after {@link #close}. */
   public final Image image;
   private Bitmap bitmap;
 
@@ -39,7 +39,7 @@ public final class LockedBitmap implements AutoCloseable {
     bitmap = null;
   }
 
-  /** Locks the pixels. {@code stride[0]} receives the bytes from row to row. */
+  /** Locks the pixels. {@code stride[0]} receives the distance between rows in bytes. */
   private static native ByteBuffer lock(Bitmap bitmap, int[] stride);
 
   private static native void unlock(Bitmap bitmap);

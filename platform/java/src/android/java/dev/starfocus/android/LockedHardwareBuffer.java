@@ -8,8 +8,8 @@ import java.nio.ByteBuffer;
 import java.util.Arrays;
 
 /**
- * Locks a HardwareBuffer until this object is closed, and provides the pixels in place as an {@link
- * Image} for reading or for writing. The buffer must have the format RGBA_8888, RGBX_8888, RGB_888
+ * Locks a HardwareBuffer until this object is closed. The field {@link #image} refers to the locked
+ * pixels, for reading or for writing. The buffer must have the format RGBA_8888, RGBX_8888, RGB_888
  * or YCBCR_420_888, and must have been created with USAGE_CPU_READ_OFTEN or USAGE_CPU_WRITE_OFTEN.
  * Images of YCBCR_420_888 have full range and the matrix BT.601, as Android's cameras produce them.
  */
@@ -18,7 +18,7 @@ public final class LockedHardwareBuffer implements AutoCloseable {
     Refocuser.version(); // loads the library
   }
 
-  /** The pixels. Must not be used after {@link #close}. */
+  /** The locked pixels, which must not be used after {@link #close}. */
   public final Image image;
   private HardwareBuffer buffer;
 
@@ -27,8 +27,8 @@ public final class LockedHardwareBuffer implements AutoCloseable {
    *
    * @param buffer buffer with one layer
    * @param written true to write the pixels, false to read them
-   * @throws IllegalArgumentException if the buffer is null, has another format or several layers,
-   *     or cannot be locked
+   * @throws IllegalArgumentException if the buffer is null, has an unsupported format, has several
+   *     layers, or cannot be locked
    */
   public LockedHardwareBuffer(HardwareBuffer buffer, boolean written) {
     final ByteBuffer[] planes = new ByteBuffer[3];
