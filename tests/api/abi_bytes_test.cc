@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests illegal and extreme configurations, workspaces and outputs. refusals_bytes_test.cc tests
-// the other arguments. For each illegal value, the error must name the field, and nothing may be
-// written.
+// the arguments of the functions that refocus, prepare and stream. For each illegal value, the
+// error must name the field with this value, and the call must not write to the output.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -88,7 +88,7 @@ TEST_CASE("configuration: values at the limits of their ranges are legal") {
   config.features |= STARFOCUS_FEATURE_STREAMING | STARFOCUS_FEATURE_SHAPES;
   config.highlights = static_cast<float>(STARFOCUS_MAX_HIGHLIGHTS);
   size_t bytes = 0;
-  // Every value is legal, but all limits together exceed a 32-bit address space.
+  // Each value is legal, but the workspace for all limits together exceeds a 32-bit address space.
   const starfocus_status legal = sizeof(size_t) == 4 ? STARFOCUS_ERROR_TOO_LARGE : STARFOCUS_OK;
   CHECK(starfocus_workspace_size(&config, &bytes) == legal);
   CHECK((bytes > 0) == (legal == STARFOCUS_OK));
@@ -108,7 +108,9 @@ TEST_CASE("configuration: values at the limits of their ranges are legal") {
   }
 }
 
-TEST_CASE("configuration: a superblock of 0 selects 128 from a width of 1536, else 64") {
+TEST_CASE(
+    "configuration: superblock = 0 selects 128 pixels for widths >= 1536, and 64 pixels "
+    "otherwise") {
   for (const int width : {1, 1535, 1536, 1700}) {
     CAPTURE(width);
     const test::Scene scene = test::RandomScene(width, 3, 1, -2, 2, 9);
@@ -173,7 +175,8 @@ TEST_CASE("refocus: output may be adjacent to the inputs, but must not overlap t
     return test::RefocusRgb(engine.get(), &f.params, &f.field, static_cast<uint8_t*>(out), stride,
                             nullptr);
   };
-  // The map ends with the last byte of its last row.
+  // The disparity map ends with the last byte of its last row, so an output may start at the next
+  // byte.
   std::vector<float> map(size_t(kWidth * kHeight) + stride * kHeight);
   std::copy(f.scene.disparity.begin(), f.scene.disparity.end(), map.begin());
   f.field.depth.data = map.data();
@@ -183,7 +186,7 @@ TEST_CASE("refocus: output may be adjacent to the inputs, but must not overlap t
   }
   CHECK(run(behind) == STARFOCUS_OK);
 
-  // Adjacent memory does not overlap.
+  // An output that is adjacent to an input picture does not overlap the input.
   std::vector<uint8_t> joined(3 * stride * kHeight, test::kPoison);
   uint8_t* view = joined.data() + stride * kHeight;
   std::memcpy(view, f.scene.pictures[0].data(), stride * kHeight);
@@ -193,10 +196,12 @@ TEST_CASE("refocus: output may be adjacent to the inputs, but must not overlap t
   CHECK(run(joined.data() + 1) == STARFOCUS_ERROR_OVERLAP);
 }
 
-TEST_CASE("refocus: the report describes the rendered work") {
+TEST_CASE(
+    "refocus: the report contains the largest blur, N and the numbers of rendered views and "
+    "samples") {
   Fixture f;
   test::Engine engine(f.config);
-  f.params = test::Params(-3, 0.5);  // r_max = 0.5 * 5
+  f.params = test::Params(-3, 0.5);  // largest blur radius: 0.5 * 5 pixels
   REQUIRE(f.Refocus(engine.get()) == STARFOCUS_OK);
   CHECK(f.report.r_max == doctest::Approx(2.5));
   CHECK(f.report.n == 3);

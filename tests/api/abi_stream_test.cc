@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests bad input and the wrong order of calls of the streaming functions.
+// Tests the streaming functions with bad input and with calls in the wrong order.
 #include <doctest/doctest.h>
 
 #include <cstring>

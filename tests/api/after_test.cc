@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests starfocus_params.previous: the bytes must equal the bytes of the frame refocused alone, and
-// unchanged blocks must be reused.
+// Tests starfocus_params.previous: a previous frame must not change the bytes of the refocused
+// frame, and unchanged blocks must be reused.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -33,7 +33,8 @@ int Superblocks(const test::Scene& scene, int side) {
   return ((scene.width + side - 1) / side) * ((scene.height + side - 1) / side);
 }
 
-// Changes a pixel or patch of one view or of the disparity map. New disparities may be unknown.
+// Changes a random pixel or square of one view or of the disparity map. If `unknown` is true, new
+// disparities may be NaN.
 void Change(test::Scene* scene, bool unknown, test::Random* random) {
   const int x0 = random->Int(0, scene->width - 1), y0 = random->Int(0, scene->height - 1);
   const int side = random->Int(0, 1) * random->Int(0, 12);
@@ -83,7 +84,7 @@ void CheckFrames(test::Scene scene, const starfocus_config& config, const starfo
   }
 }
 
-TEST_CASE("after: reusing the previous frame does not change the bytes of a frame in any mode") {
+TEST_CASE("previous frame: reusing blocks does not change the bytes of a frame in any mode") {
   test::Random random(91);
   for (int round = 0; round < test::Rounds(32); ++round) {
     CAPTURE(round);
@@ -107,7 +108,8 @@ TEST_CASE("after: reusing the previous frame does not change the bytes of a fram
   }
 }
 
-TEST_CASE("after: filled pixels are rendered again if the known pixels next to the gap change") {
+TEST_CASE(
+    "previous frame: filled disparities are updated if known disparities next to the gap change") {
   test::Random random(93);
   for (int round = 0; round < test::Rounds(16); ++round) {
     CAPTURE(round);
@@ -127,7 +129,8 @@ TEST_CASE("after: filled pixels are rendered again if the known pixels next to t
   }
 }
 
-TEST_CASE("after: a block depends on side views up to the largest disparity away") {
+TEST_CASE(
+    "previous frame: a change of a side view reaches blocks up to the largest disparity away") {
   const test::Scene before = test::NearScene(70, 900, 5, 13);
   starfocus_config config = test::ConfigFor(before, 8);
   config.superblock = 32;
@@ -152,7 +155,8 @@ TEST_CASE("after: a block depends on side views up to the largest disparity away
   }
 }
 
-TEST_CASE("after: boundaries between blocks of different layers are deblocked near a change") {
+TEST_CASE(
+    "previous frame: boundaries between blocks of different layers are deblocked near a change") {
   test::Random random(92);
   test::Scene scene = test::LayeredScene(320, 320, 1, 6, 5);
   test::SetDisparity(&scene,
@@ -167,9 +171,9 @@ TEST_CASE("after: boundaries between blocks of different layers are deblocked ne
   }
 }
 
-TEST_CASE(
-    "after: if a block changes its layer, the boundaries of its neighbours are rendered again") {
-  // Blocks are never split. A single pixel in focus keeps a block at layer 0.
+TEST_CASE("previous frame: if the layer of a block changes, its boundaries are deblocked again") {
+  // With this timing model, the engine splits no superblock. A single pixel in focus keeps a block
+  // at layer 0.
   test::Scene scene = test::LayeredScene(600, 600, 1, 6, 5);
   std::fill(scene.disparity.begin(), scene.disparity.end(), 6.0f);
   scene.Disparity(500, 5) = scene.Disparity(5, 500) = 0;
@@ -188,8 +192,8 @@ TEST_CASE(
   REQUIRE(After(&engine, params, scene, before, first, &second, &report) == STARFOCUS_OK);
   const test::Output expected = test::OutputOf(&engine, params, scene);
   CHECK((second.bytes == expected.bytes));
-  CHECK(report.reused_blocks == 5);  // all blocks except the four in the corner
-  // Deblocking must change pixels on the neighbours' side of the boundary.
+  CHECK(report.reused_blocks == 5);  // all 9 blocks except the upper left 4
+  // Deblocking must change pixels to the right of the changed block and below it.
   bool right = false, below = false;
   for (int k = 20; k < 200; ++k) {
     right = right || !std::equal(second.Pixel(256, k), second.Pixel(257, k), first.Pixel(256, k));
@@ -200,10 +204,10 @@ TEST_CASE(
   CHECK(below);
 }
 
-TEST_CASE("after: blocks far from a change are reused") {
+TEST_CASE("previous frame: blocks far from a change are reused") {
   const test::Scene before = test::LayeredScene(640, 512, 5, 2, 6);
   starfocus_config config = test::ConfigFor(before, 4);
-  config.features &= ~STARFOCUS_FEATURE_COVERAGE;  // coverage depends on pixels farther away
+  config.features &= ~STARFOCUS_FEATURE_COVERAGE;  // finding coverage reads farther pixels
   test::Engine engine(config);
   const starfocus_params params = test::Params(0, 1, STARFOCUS_MODE_BLOCK);
   test::Output second(640, 512);
@@ -218,7 +222,7 @@ TEST_CASE("after: blocks far from a change are reused") {
   CHECK(report.rendered_samples > 0);
 }
 
-TEST_CASE("after: depth-dependent blur ignores side views") {
+TEST_CASE("previous frame: in blur mode, all blocks are reused if only a side view changes") {
   const test::Scene before = test::LayeredScene(100, 100, 5, 2, 6);
   test::Engine engine(test::ConfigFor(before, 4));
   const starfocus_params params = test::Params(0, 1, STARFOCUS_MODE_BLUR);

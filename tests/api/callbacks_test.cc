@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kWidth = 70, kHeight = 75;
 
-// Counts the calls of each function.
+// Counts the calls of each callback.
 struct Calls {
   int runner = 0, progress = 0, blocks = 0;
 

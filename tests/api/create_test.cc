@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests engines of starfocus_create: each engine takes one piece of memory from the allocator and
-// later returns it.
+// Tests starfocus_create and starfocus_destroy: each engine allocates one piece of memory and later
+// releases this memory.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -87,7 +87,7 @@ TEST_CASE("configuration: the missing fields of a shorter structure get their de
 }
 
 TEST_CASE(
-    "configuration: init zeroes the unknown fields of a longer structure, which calls reject") {
+    "configuration: init zeroes unknown fields of a longer structure, and calls reject its size") {
   std::vector<uint8_t> memory(sizeof(starfocus_config) + 24, test::kPoison);
   starfocus_config* const config = reinterpret_cast<starfocus_config*>(memory.data());
   starfocus_config_init_sized(config, uint32_t(memory.size()));
@@ -131,7 +131,7 @@ TEST_CASE("create: without an allocator, memory comes from the heap and is align
 }
 
 TEST_CASE(
-    "create: after a lack of memory, misaligned memory or another error, nothing stays allocated") {
+    "create: if the allocation fails or is misaligned, or after other errors, no memory leaks") {
   Fixture f;
   starfocus_problem problem = {};
   f.config.problem = &problem;
@@ -173,7 +173,7 @@ TEST_CASE(
   CHECK(counter.allocations == 2);
 }
 
-TEST_CASE("destroy: null pointers and memory of the caller are not released") {
+TEST_CASE("destroy: null pointers are ignored, and memory of the caller is not released") {
   const Fixture f;
   starfocus_destroy(nullptr);
   test::Engine engine(f.config);

@@ -31,8 +31,9 @@ struct Map {
   std::vector<float> values;
 };
 
-// Checks rows that have a finite value. Finite values must not change, and a hole must get the
-// disparity of its farther neighbour.
+// Checks the rows of a filled map that had at least one finite disparity before filling. Finite
+// values must not change, and a hole must get the disparity of the farther surface next to the
+// hole.
 void CheckRows(Map before, Map after) {
   for (int y = 0; y < before.height; ++y) {
     for (int x = 0; x < before.width; ++x) {
@@ -83,7 +84,7 @@ TEST_CASE("disparity: illegal arguments are rejected") {
 
 TEST_CASE("disparity: smallest, largest and non-finite values are measured") {
   Map map(5, 3, 2);
-  for (float& value : map.values) value = 999;  // padding must be ignored
+  for (float& value : map.values) value = 999;  // padding, which must be ignored
   for (int y = 0; y < 3; ++y) {
     for (int x = 0; x < 5; ++x) map.At(x, y) = float(x - y);
   }
@@ -113,7 +114,7 @@ TEST_CASE("disparity: a map without finite values cannot be filled") {
   CHECK(map.Fill() == STARFOCUS_ERROR_ALL_INVALID);
 }
 
-TEST_CASE("disparity: a hole between two surfaces gets the farther surface") {
+TEST_CASE("disparity: a hole between two surfaces gets the disparity of the farther surface") {
   Map map(6, 1);
   map.values = {5, kNan, kInf, kNan, kNan, 1};
   REQUIRE(map.Fill() == STARFOCUS_OK);
@@ -130,7 +131,7 @@ TEST_CASE("disparity: empty rows are filled from the rows above and below") {
   CHECK(map.values == std::vector<float>{4, 1, 4, 1, 2, 1, 2, 1, 2, 3});
 }
 
-TEST_CASE("disparity: random maps are filled by the rule, and padding is untouched") {
+TEST_CASE("disparity: holes in random maps get the farther disparity, and padding is untouched") {
   test::Random random(9);
   for (int round = 0; round < 200; ++round) {
     Map map(random.Int(1, 40), random.Int(1, 12), random.Int(0, 3));

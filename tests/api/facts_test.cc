@@ -109,7 +109,7 @@ TEST_CASE("starfocus_view_position returns the positions of the star") {
   }
 }
 
-TEST_CASE("the SIMD target has a name") {
+TEST_CASE("starfocus_simd_target returns a name that is not empty") {
   REQUIRE(starfocus_simd_target() != nullptr);
   CHECK(*starfocus_simd_target() != '\0');
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests starfocus_config.features. An engine without the line scan must render the same pictures
-// with slices, reject the rule of the paper, and be smaller.
+// Tests starfocus_config.features. An engine without the renderer line-scan must render unchanged
+// pictures with slices, reject requests for line-scan, and require less memory.
 #include <doctest/doctest.h>
 
 #include <cstdint>
@@ -17,7 +17,7 @@ starfocus_config WithoutLineScan(starfocus_config config) {
   return config;
 }
 
-TEST_CASE("features: without the line scan, the default renderer is the renderer of slices") {
+TEST_CASE("features: without line-scan, the default renderer is slices") {
   for (const int views : {1, 5, 17}) {
     const test::Scene scene = test::RandomScene(150, 90, views, -6, 6, uint64_t(views));
     const starfocus_config config = test::ConfigFor(scene, 16);
@@ -39,7 +39,7 @@ TEST_CASE("features: without the line scan, the default renderer is the renderer
   }
 }
 
-TEST_CASE("features: without the line scan, modes that render reject the paper's rule") {
+TEST_CASE("features: without line-scan, all modes except blur reject the renderer line-scan") {
   const test::Scene scene = test::RandomScene(70, 50, 5, -4, 4, 1);
   starfocus_config config = WithoutLineScan(test::ConfigFor(scene, 16));
   config.features |= STARFOCUS_FEATURE_STREAMING;

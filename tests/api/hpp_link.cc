@@ -83,7 +83,7 @@ struct Field {
            written == kSize && out == picture;
   }
 
-  // Returns true if every call reports that there is no engine.
+  // Returns true if `engine` is empty: all calls must return STARFOCUS_ERROR_NULL.
   bool IsEmpty(starfocus::Engine* engine) const {
     std::vector<uint8_t> out(picture.size());
     int32_t rows = 0;
@@ -113,8 +113,8 @@ bool EveryCall() {
          f.Streams(&engine);
 }
 
-// If a second Init fails, the engine and its prepared light field must remain. If the second Init
-// succeeds, the engine must be a new one.
+// If a second Init fails, the engine and its prepared light field must remain. If a second Init
+// succeeds, the new engine must have no prepared light field.
 bool SecondInit() {
   const Field f;
   starfocus::Engine engine;
@@ -151,12 +151,12 @@ bool Moves() {
     third = std::move(same);
     if (!f.Refocuses(&third) || !f.RefocusesPrepared(&third)) return false;
   }
-  // The moved-from engine is empty.
+  // An engine that was moved from is empty.
   if (!f.IsEmpty(&first)) return false;
   return first.Init(f.config) == STARFOCUS_OK && f.Refocuses(&first);
 }
 
-// After a failed Prepare, nothing is prepared.
+// After a failed Prepare, the engine has no prepared light field.
 bool SecondPrepare() {
   Field f;
   starfocus::Engine engine;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Streams and prepares images. The bytes must equal the bytes from starfocus_refocus.
+// Tests the streaming and preparing of images. The resulting bytes must equal the bytes from
+// starfocus_refocus.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -91,7 +92,7 @@ TEST_CASE("image streams: alpha is kept even if its rows are pulled late") {
   CHECK((streamed == expected));
 }
 
-TEST_CASE("image streams: ring buffers hold whole pairs of rows for every width of the borders") {
+TEST_CASE("image streams: ring buffers hold an even number of rows for every disparity range") {
   test::Random random(49);
   const ImageField field =
       FieldOf(test::LayeredScene(20, 20, 1, 1, 50), STARFOCUS_FORMAT_RGB, false, &random);
@@ -104,7 +105,9 @@ TEST_CASE("image streams: ring buffers hold whole pairs of rows for every width 
   }
 }
 
-TEST_CASE("image streams: half a pair of rows is rejected, and a bad depth rejects the pair") {
+TEST_CASE(
+    "image streams: odd numbers of rows are rejected, and a bad depth rejects both rows of a "
+    "pair") {
   test::Random random(43);
   const test::Scene scene = test::LayeredScene(60, 51, 1, 7, 50);
   ImageField field = FieldOf(scene, STARFOCUS_FORMAT_NV12, false, &random);
@@ -129,7 +132,8 @@ TEST_CASE("image streams: half a pair of rows is rejected, and a bad depth rejec
   out = image.Out(50);
   CHECK(starfocus_stream_pull(engine.get(), &out, 9, &rows, nullptr) == STARFOCUS_OK);
   CHECK(rows == 1);
-  // The last row of the map is bad. The engine consumes only the pairs of rows before the last row.
+  // The last row of the depth map holds a bad value. The engine consumes only the pairs of rows
+  // before the last row.
   field.depth.Put(3, field.depth.map.height - 1, 1e-3);
   images = field.Field();
   REQUIRE(starfocus_stream_begin(engine.get(), &params) == STARFOCUS_OK);
@@ -139,7 +143,8 @@ TEST_CASE("image streams: half a pair of rows is rejected, and a bad depth rejec
   CHECK(rows % 2 == 0);
 }
 
-TEST_CASE("prepared images: disparities and layers equal those of the converted pictures") {
+TEST_CASE(
+    "prepared images: disparities and layers equal the results for pictures converted to R, G, B") {
   test::Random random(47);
   for (const int side : {32, 64, 128}) {
     CAPTURE(side);
@@ -162,7 +167,8 @@ TEST_CASE("prepared images: disparities and layers equal those of the converted 
   }
 }
 
-TEST_CASE("prepared images: light fields of any format make pictures of any format") {
+TEST_CASE(
+    "prepared images: light fields of any format can be refocused to pictures of any format") {
   test::Random random(45);
   const test::Scene scene = test::LayeredScene(60, 50, 5, 7, 50);
   const ImageField field = FieldOf(scene, STARFOCUS_FORMAT_NV12, false, &random);

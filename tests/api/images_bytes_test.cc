@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Refocuses images and depth maps of every format. The result must be equal to the result of images
-// that are converted to R, G, B before refocusing.
+// Tests the refocusing of images and depth maps of every format. The result must be equal to the
+// result of images that are converted to R, G, B before refocusing.
 #include <doctest/doctest.h>
 
 #include <vector>
@@ -31,7 +31,8 @@ ImageField AnyField(const test::Scene& scene, int format, int round, test::Rando
       random);
 }
 
-// Compares the images with the converted images: whole, prepared, reduced and streamed.
+// Checks that images and their conversions to R, G, B are refocused to equal bytes: whole,
+// prepared, as previews and streamed.
 void CheckSame(const ImageField& field, starfocus_config config, const starfocus_params& params,
                const ImageKind& kind, test::Random* random, starfocus_runner runner = nullptr) {
   config.features |= STARFOCUS_FEATURE_STREAMING;
@@ -79,7 +80,9 @@ void CheckSame(const ImageField& field, starfocus_config config, const starfocus
   CHECK(report.unknown_pixels == expected_report.unknown_pixels);
 }
 
-TEST_CASE("images: in every mode and format, the result equals that of converted pictures") {
+TEST_CASE(
+    "images: in every mode and format, the result equals the result for pictures converted to R, "
+    "G, B") {
   test::Random random(24);
   constexpr int kSizes[][2] = {{1, 1},   {2, 2},    {1, 77},   {131, 1}, {33, 31},
                                {64, 64}, {101, 67}, {150, 91}, {97, 130}};
@@ -123,7 +126,8 @@ TEST_CASE("images: regions may have odd positions and sizes") {
   }
 }
 
-TEST_CASE("images: reads far behind edges and beyond the picture match converted pictures") {
+TEST_CASE(
+    "images: with near surfaces, the result equals the result for pictures converted to R, G, B") {
   test::Random random(26);
   for (const int views : {5, 17}) {
     for (const int renderer : {STARFOCUS_RENDERER_SLICES, STARFOCUS_RENDERER_LINE_SCAN}) {
@@ -136,7 +140,7 @@ TEST_CASE("images: reads far behind edges and beyond the picture match converted
   }
 }
 
-TEST_CASE("images: the highlights of lamps equal those of converted pictures") {
+TEST_CASE("images: highlights of lamps equal the highlights of pictures converted to R, G, B") {
   test::Random random(27);
   test::Scene scene = test::LayeredScene(140, 110, 5, 7, 12);
   for (int lamp = 0; lamp < 12; ++lamp) {
@@ -157,7 +161,7 @@ TEST_CASE("images: the highlights of lamps equal those of converted pictures") {
   }
 }
 
-TEST_CASE("images: depth may have any type, meaning and size, and unknown values") {
+TEST_CASE("images: depth maps may have any type, meaning and size, and unknown values") {
   test::Random random(28);
   const test::Scene scene = test::LayeredScene(130, 97, 5, 7, 4);
   const int sizes[][2] = {{130, 97}, {65, 49}, {33, 97}, {130, 25}, {1, 1}, {44, 2}};
@@ -200,7 +204,8 @@ TEST_CASE("images: depth may have any type, meaning and size, and unknown values
   }
 }
 
-TEST_CASE("images: a depth outside the configured range is rejected before anything is written") {
+TEST_CASE(
+    "images: a depth value outside the configured range is rejected before anything is written") {
   test::Random random(29);
   const test::Scene scene = test::LayeredScene(70, 60, 1, 7, 4);
   ImageField field = AnyField(scene, STARFOCUS_FORMAT_I420, 4, &random);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Changes the shape of the lens between calls of one engine. The bytes must equal the bytes from an
+// Tests changes of the lens between calls of one engine. The bytes must equal the bytes from an
 // engine that has used no other lens.
 #include <doctest/doctest.h>
 
@@ -78,12 +78,13 @@ TEST_CASE("lens: after a change of shape, an engine returns the bytes of a new e
   for (const starfocus_lens& lens : Lenses()) {
     CAPTURE(index);
     ++index;
-    // The second round must use the tables of the first round, and not the tables of another mode.
+    // In the second round, the engine must use the tables that it made for this lens, and not the
+    // tables of another mode.
     for (const int round : {0, 1}) {
       for (const starfocus_mode mode : test::kModes) {
         for (const starfocus_renderer renderer : test::kRenderers) {
           if (mode == STARFOCUS_MODE_BLUR && renderer == STARFOCUS_RENDERER_LINE_SCAN)
-            continue;  // blur mode ignores the rule
+            continue;  // blur mode ignores the renderer
           CAPTURES(round, mode, renderer);
           const starfocus_params params = ParamsOf(lens, mode, renderer);
           const test::Output out = test::OutputOf(&engine, params, scene);
@@ -94,7 +95,7 @@ TEST_CASE("lens: after a change of shape, an engine returns the bytes of a new e
   }
 }
 
-// Progress function that cancels after `left` further calls.
+// Progress callback that cancels the refocusing after `left` further calls.
 int CancelAfter(void* left, int32_t, int32_t) { return (*static_cast<int*>(left))-- == 0; }
 
 TEST_CASE("lens: a call with another shape does not use the tables of a cancelled call") {

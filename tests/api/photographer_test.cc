@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the focus at a pixel, and the apertures of f-stops.
+// Tests the functions that return the focus at a pixel and the aperture of an f-stop.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -74,7 +74,8 @@ TEST_CASE("focus at: values that are not finite are rejected only near the pixel
 }
 
 TEST_CASE(
-    "focus at: a pixel focuses on its own surface, even if the surface is small or ends nearby") {
+    "focus at: the focus is the surface at the pixel, even if the surface is small or ends "
+    "nearby") {
   Map map(24, 24, -4);
   for (int y = 0; y < 24; ++y) {
     for (int x = 0; x < 9; ++x) map.At(x, y) = 3;  // an object
@@ -87,7 +88,8 @@ TEST_CASE(
   CHECK(one.Focus(0, 0) == 2.5);
 }
 
-TEST_CASE("focus at: a single wrong pixel belongs to the surface of most pixels around it") {
+TEST_CASE(
+    "focus at: at a single wrong disparity, the focus is the surface of most pixels around it") {
   Map map(20, 20, 1);
   for (int y = 0; y < 20; ++y) {
     for (int x = 0; x < 6; ++x) map.At(x, y) = 5;
@@ -102,7 +104,7 @@ TEST_CASE("focus at: a single wrong pixel belongs to the surface of most pixels 
       CHECK(spoilt.Focus(x, 9) == (x < 6 ? 5 : 1));  // next to it
     }
   }
-  // If two surfaces are equally large, the farther one is in focus.
+  // If two surfaces around the wrong pixel are equally large, the farther surface is in focus.
   Map two(2, 3, 0);
   two.values = {4, 4, 50, 100, 1, 1};
   CHECK(two.Focus(0, 1) == 1);
@@ -124,7 +126,7 @@ TEST_CASE("focus at: noise is averaged out") {
   test::Random random(5);
   Map map(60, 60, 0);
   for (float& value : map.values) {
-    double sum = 0;  // approximately normally distributed with variance 1
+    double sum = 0;  // noise, approximately normally distributed with variance 1
     for (int k = 0; k < 12; ++k) sum += random.Unit();
     value = 2 + 0.3f * float(sum - 6);
   }
@@ -137,11 +139,11 @@ TEST_CASE("focus at: noise is averaged out") {
       worst = std::max(worst, std::fabs(error));
     }
   }
-  CHECK(std::sqrt(squares / (59 * 60)) < 0.08);  // a single pixel has an RMS error of 0.3
+  CHECK(std::sqrt(squares / (59 * 60)) < 0.08);  // the noise of a single pixel has an RMS of 0.3
   CHECK(worst < 0.5);
 }
 
-// Returns the focus by its definition, with sorted lists of the neighbours.
+// Returns the focus as starfocus.h defines the focus, computed from sorted lists of the neighbours.
 double Expected(Map map, int x0, int y0) {
   std::vector<double> around;
   bool alone = true;
@@ -172,7 +174,7 @@ double Expected(Map map, int x0, int y0) {
   return surface;
 }
 
-TEST_CASE("focus at: for random maps, the focus equals that of the definition") {
+TEST_CASE("focus at: for random maps, the focus equals the focus computed by the definition") {
   test::Random random(6);
   for (int round = 0; round < 300; ++round) {
     Map map(random.Int(1, 12), random.Int(1, 12), 0, random.Int(0, 3));

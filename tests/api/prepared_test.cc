@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests which engines may use a prepared light field, and the memory of the light field.
-// ways_test.cc tests the bytes.
+// Tests which engines may use a prepared light field, and the size of the memory of the light
+// field. ways_test.cc tests the bytes refocused from prepared light fields.
 #include <doctest/doctest.h>
 
 #include <cstdint>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests previews. A preview must have the bytes of the refocused reduced light field. The preview
-// must also be close to the reduced full picture. Also tests bad input.
+// Tests previews. A preview must equal the picture refocused from a reduced light field, byte for
+// byte. A preview must be close to the refocused full picture, reduced to the size of the preview.
+// Functions for previews must reject bad input.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -19,7 +20,7 @@ namespace {
 
 int Ceil(int size, int shift) { return (size + (1 << shift) - 1) >> shift; }
 
-// Returns the code whose light is nearest to a mean of light.
+// Returns the code whose light is nearest to sum / count.
 uint8_t CodeOf(int64_t sum, int64_t count, int32_t transfer) {
   const auto light = static_cast<int16_t>((2 * sum + count) / (2 * count));
   uint8_t code = 0;
@@ -27,7 +28,7 @@ uint8_t CodeOf(int64_t sum, int64_t count, int32_t transfer) {
   return code;
 }
 
-// Returns a sample of the reduced interleaved picture.
+// Returns the sample of channel c at (x, y) of the reduced picture.
 uint8_t MeanSample(const uint8_t* rgb, size_t stride, int width, int height, int x, int y, int c,
                    int shift, int32_t transfer) {
   int64_t sum = 0, count = 0;
@@ -207,8 +208,8 @@ TEST_CASE(
   }
 }
 
-// If the range does not contain 0, the reduced range is partly or wholly outside the original
-// range.
+// If the disparity range does not contain 0, the range of the preview is partly or wholly outside
+// the full picture's range.
 TEST_CASE("preview: a streaming engine accepts scenes whose disparities all have one sign") {
   for (const float offset : {16.0F, -12.0F, 4.5F}) {
     CAPTURE(offset);
@@ -271,7 +272,7 @@ TEST_CASE("preview: the memory has the documented size") {
   }
 }
 
-// Returns a wall and a nearer disc, both with waves. The views are consistent.
+// Returns a wall and a nearer disc, both with waves. All views show one consistent scene.
 test::Scene SmoothScene(int width, int height) {
   test::Scene scene = test::EmptyScene(width, height, 5, -12, 12);
   for (int view = 0; view < 5; ++view) {

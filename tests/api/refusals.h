@@ -17,7 +17,7 @@ namespace refusals {
 
 constexpr int kHeight = 12;
 
-// Sets of functions, as bits.
+// Bits for the public functions under test, and sets of these functions.
 enum : unsigned {
   kRefocus = 1,
   kAfter = 2,  // starfocus_refocus with params.previous
@@ -33,7 +33,8 @@ enum : unsigned {
   kTakesOut = kRefocus | kAfter | kPrepared | kPreview | kPull,
 };
 
-// A light field of R, G, B or of images in three formats, and all other arguments of the calls.
+// A light field, either of R, G, B or of images in three formats, and the engines and memory that
+// the calls use.
 struct Fixture {
   explicit Fixture(bool with_images) : images(with_images) {}
 
@@ -66,7 +67,7 @@ struct Fixture {
   test::ImageMemory blank{width, kHeight, image.views[images ? 2 : 0].kind()};
 };
 
-// The arguments of a call, which are legal at first.
+// A call of one of the functions; the constructor makes all arguments legal.
 struct Call {
   Call(Fixture* of, unsigned to) : f(*of), function(to) {
     std::memset(&report, test::kPoison, sizeof report);

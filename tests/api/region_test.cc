@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests regions of the picture. A region must have the bytes of the whole picture, and refocusing a
-// region must cost only a part of the work.
+// Tests regions of the picture. A region must have the bytes of the whole picture, and only pixels
+// near the region may be rendered.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -58,13 +58,15 @@ TEST_CASE("region: only the region and its surroundings are rendered") {
     CHECK(test::BlocksOf(part) == uint64_t(told));
     CHECK(test::BlocksOf(part) <= 4);
     CHECK(part.rendered_samples * 100 < report.rendered_samples);
-    params.region = {319, 319, 2, 2};  // at the corner of four superblocks
+    params.region = {319, 319, 2, 2};  // where four superblocks meet
     REQUIRE(test::Refocus(&engine, params, scene, &out, nullptr, nullptr, &part) == STARFOCUS_OK);
     CHECK(test::BlocksOf(part) == 4);
   }
 }
 
-TEST_CASE("region: only disparity rows within its reach are checked, before any pixel is written") {
+TEST_CASE(
+    "region: only disparities within the reach of the region are checked, before pixels are "
+    "written") {
   test::Scene scene = test::LayeredScene(40, 600, 1, 4, 3);
   starfocus_config config = test::ConfigFor(scene, 4);
   config.superblock = 32;
@@ -87,13 +89,12 @@ TEST_CASE("region: only disparity rows within its reach are checked, before any 
   }
 }
 
-TEST_CASE(
-    "region: a bad disparity row is rejected before any pixel is written, unless it is not read") {
+TEST_CASE("region: each row with a bad disparity is either rejected before output or never read") {
   constexpr int kHeight = 240;
   test::Scene scene = test::LayeredScene(40, kHeight, 5, 3, 4);
   starfocus_config config = test::ConfigFor(scene, 4);
   config.superblock = 32;
-  config.features &= ~STARFOCUS_FEATURE_COVERAGE;  // coverage depends on rows farther away
+  config.features &= ~STARFOCUS_FEATURE_COVERAGE;  // with coverage, rows farther away are read
   test::Engine engine(config);
   constexpr starfocus_region kRegions[] = {
       {0, 0, 0, 0}, {3, 0, 30, 9}, {3, 70, 30, 9}, {0, 120, 40, 50}, {3, 231, 30, 9}};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests runners that break their contract. Calls must return STARFOCUS_ERROR_RUNNER, and the engine
-// must remain usable.
+// Tests runners that break their contract. Calls with such a runner must return
+// STARFOCUS_ERROR_RUNNER, and the engine must remain usable.
 #include <doctest/doctest.h>
 
 #include <atomic>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kWidth = 130, kHeight = 70, kWorkers = 2;
 
-// The arguments of a runner: one set of jobs.
+// Arguments that the engine passes to a runner: one set of jobs.
 struct Set {
   void Some(int32_t first, int32_t end) const {
     for (int32_t i = first; i < end; ++i) job(data, i, i % kWorkers);
@@ -62,7 +62,7 @@ const Misuse kMisuses[] = {
     {"largest worker", [](const Set& s) { s.job(s.data, 0, INT32_MAX); }},
 };
 
-// Breaks the contract for one set of jobs.
+// Runner that breaks the contract for one of the sets of jobs.
 struct Runner {
   void (*misuse)(const Set&);
   int misused_set;
@@ -91,7 +91,7 @@ struct Fixture {
   }
 };
 
-TEST_CASE("runner: every misuse of every set is an error, and does not affect later calls") {
+TEST_CASE("runner: misuse of any set of jobs is an error and does not affect later calls") {
   Fixture f;
   test::Engine engine(f.config);
   Runner good = {nullptr, -1};
@@ -117,7 +117,8 @@ TEST_CASE("runner: every misuse of every set is an error, and does not affect la
   }
 }
 
-// The set of jobs that is running. The clock, which jobs call, uses this set.
+// The set of jobs that a runner has received. The clock callback below, which is called by jobs,
+// starts a job of this set.
 struct {
   starfocus_job job;
   void* data;

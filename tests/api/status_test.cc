@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the sentence of each status.
+// Tests the descriptions that starfocus_status_string returns.
 #include <doctest/doctest.h>
 
 #include <set>
@@ -7,14 +7,14 @@
 
 #include "starfocus/starfocus.h"
 
-// Makes it a compilation error if the switch below omits a status.
+// If the switch in WordsOf omits a status, the compilation must fail.
 #pragma GCC diagnostic error "-Wswitch"
 
 namespace status_test {
 namespace {
 
-// Returns words that appear only in the sentence of this status, or null if there is no such
-// status.
+// Returns words that appear only in the description of `status`, or null if `status` is not a
+// defined value.
 const char* WordsOf(starfocus_status status) {
   switch (status) {
     case STARFOCUS_OK:
@@ -57,7 +57,8 @@ const char* WordsOf(starfocus_status status) {
   return nullptr;
 }
 
-TEST_CASE("statuses: each status has a unique description, and other numbers have none") {
+TEST_CASE(
+    "statuses: each status has a unique description, and other numbers are unknown statuses") {
   std::set<std::string> sentences;
   int statuses = 0;
   for (int number = -1000; number <= 1000; ++number) {
@@ -72,7 +73,7 @@ TEST_CASE("statuses: each status has a unique description, and other numbers hav
     CAPTURE(sentence);
     CHECK(sentence != "unknown status");
     CHECK(sentences.insert(sentence).second);
-    // The sentence must not contain the words of other statuses.
+    // The description must not contain the words of other statuses.
     for (int other = 0; other < 100; ++other) {
       const char* const words = WordsOf(static_cast<starfocus_status>(other));
       if (words == nullptr) continue;

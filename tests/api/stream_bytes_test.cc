@@ -34,7 +34,8 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("stream: the result is the same for other focuses, apertures, modes and blocks") {
+TEST_CASE(
+    "stream: the result is the same as without streaming for other lenses, modes and blocks") {
   const test::Scene scene = test::RandomScene(75, 140, 17, -5, 5, 42, 3);
   CheckSame(scene, test::Params(-5.5, 0.5), 32);
   CheckSame(scene, test::Params(9, 1), 64);
@@ -42,7 +43,7 @@ TEST_CASE("stream: the result is the same for other focuses, apertures, modes an
   CheckSame(scene, test::Params(2, 1), 128);
 }
 
-TEST_CASE("stream: side views are read up to the largest disparity away from a row") {
+TEST_CASE("stream: rows of side views remain available up to the largest disparity away") {
   const test::Scene scene = test::NearScene(70, 400, 5, 12);
   for (const starfocus_mode mode : {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BLOCK}) {
     CAPTURE(mode);
@@ -87,7 +88,7 @@ TEST_CASE("stream: a picture of 20,000 rows fits the workspace of a picture of 2
     REQUIRE(starfocus_workspace_size(&config, &low_bytes) == STARFOCUS_OK);
     CHECK(tall_bytes == low_bytes);
   }
-  // The rings hold fewer than 20,000 rows, so a single push must not consume all rows.
+  // The ring buffers hold fewer than 20,000 rows, so a single push must not consume all rows.
   config.height = kTall;
   test::Engine engine(config);
   REQUIRE(engine.bytes() == low_bytes);
@@ -106,7 +107,7 @@ TEST_CASE("stream: a picture of 20,000 rows fits the workspace of a picture of 2
   CHECK(streamed.bytes == whole.bytes);
 }
 
-// With one view, rings hold exactly the rows that blocks at layers 1 and 2 read.
+// With one view, ring buffers hold exactly the rows that blocks at layers 1 and 2 read.
 TEST_CASE("stream: ring buffers hold all rows that layers need, up to the largest blur") {
   for (int radius = 1; radius <= 16; ++radius) {
     test::Scene scene = test::RandomScene(48, 200, 1, 0, float(radius), 70 + uint64_t(radius));

@@ -89,7 +89,7 @@ void CheckRetries(const test::Scene& scene, const starfocus_params& params, int 
       params.mode == STARFOCUS_MODE_BLOCK && params.renderer == STARFOCUS_RENDERER_SLICES;
   for (const starfocus_layer_report& layer : expected.report.layers)
     CHECK((!all_layers || layer.blocks > 0));
-  constexpr int kStep = STARFOCUS_EMULATED ? 4 : 1;  // an emulator takes twenty times as long
+  constexpr int kStep = STARFOCUS_EMULATED ? 4 : 1;  // an emulator is twenty times slower
   int failed = 0, tried = 0;
   for (int set = 0; set < never.sets; set += kStep, ++tried) {
     CAPTURE(set);

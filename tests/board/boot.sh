@@ -1,11 +1,12 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # boot.sh STARFOCUS BOARD_REFOCUS FOLDER: boots Debian's arm64 kernel on QEMU's "virt" board. The
-# board runs BOARD_REFOCUS, the statically linked program of an aarch64 build. STARFOCUS is a
-# program of this machine, and makes the board's small light field. QEMU's power button presses the
-# shutter on line 3 of the board's PL061 GPIO chip. The picture in a file and on the screen must
-# equal the picture that STARFOCUS computes on this machine. The busy line on line 5 must read back
-# as set. FOLDER keeps the kernel for later runs.
+# board runs BOARD_REFOCUS, the statically linked program of an aarch64 build. STARFOCUS is the
+# program starfocus for the host, which makes the small light field for the board. QEMU's power
+# button presses the shutter on line 3 of the board's PL061 GPIO chip. The picture that the board
+# writes to a file and to the screen must equal the picture that STARFOCUS computes on the host. The
+# busy signal, which the board sets on line 5, must read back as set. FOLDER keeps the kernel for
+# later runs.
 set -u
 [ $# = 3 ] || { echo "usage: $0 STARFOCUS BOARD_REFOCUS FOLDER" >&2; exit 2; }
 starfocus=$(realpath "$1") program=$(realpath "$2") folder=$(realpath -m "$3")

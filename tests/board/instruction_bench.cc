@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // usage: instruction_bench CASE simd|reference RUNS Refocuses RUNS times. count_instructions.c
-// counts the instructions of two runs and of one run. Both runs have the same setup, so the
-// difference of their counts is the cost of one refocusing. `instruction_bench list` prints the
-// cases.
+// counts the instructions of the program with RUNS = 2 and with RUNS = 1. The setup does not depend
+// on RUNS, so the difference of the two counts is the cost of one refocusing. `instruction_bench
+// list` prints the cases.
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -34,7 +34,8 @@ constexpr Case kCases[] = {
      STARFOCUS_RENDERER_LINE_SCAN},
     {"17-layers-block-8", 17, test::Depth::kLayers, STARFOCUS_MODE_BLOCK, -4, 1},
     {"5-slanted-block-4", 5, test::Depth::kSlanted, STARFOCUS_MODE_BLOCK, 0, 1},
-    // These pictures are large enough for different partitions.
+    // Pictures of 384 x 256 pixels are large enough that the engine may divide superblocks in
+    // different ways.
     {"9-room-block-7", 9, test::Depth::kRoom, STARFOCUS_MODE_BLOCK, 3.5, 1, 384, 256},
     {"5-room-block-4", 5, test::Depth::kRoom, STARFOCUS_MODE_BLOCK, -1, 1, 384, 256},
     {"9-room-block-paper-7", 9, test::Depth::kRoom, STARFOCUS_MODE_BLOCK, 3.5, 1, 384, 256,

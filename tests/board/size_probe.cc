@@ -196,7 +196,7 @@ class PartsTable {
   }
 
   void Print() const {
-    // The first configuration has all parts.
+    // The first configuration has all parts of a workspace.
     const std::vector<test::MemoryPart>& streamed = columns_[0];
     for (const test::MemoryPart& part : streamed) {
       if (!part.shared) PrintPart(part.name, "%.1f");

@@ -28,8 +28,8 @@ using namespace conformance;
 
 constexpr starfocus_renderer kRules[] = {STARFOCUS_RENDERER_LINE_SCAN, STARFOCUS_RENDERER_SLICES};
 
-// Number of pixels covered by blocks of each layer, number of gathered pixels, and the longest side
-// of a rectangle that views render.
+// Statistics of the blocks: pixels at each layer, gathered pixels, and the longest side of a
+// rectangle that was rendered from views.
 struct Covered {
   int64_t pixels[STARFOCUS_LAYERS] = {};
   int64_t gathered = 0;
@@ -70,7 +70,7 @@ Distance Check(const test::Scene& scene, const starfocus_params& params,
 starfocus_config Config(const test::Scene& scene, int max_layer, double max_blur = 24) {
   starfocus_config config = test::ConfigFor(scene, max_blur);
   config.tuning.max_layer = max_layer;
-  config.tuning.deblocking = 0;  // deblocking decides by thresholds; deblock_test tests deblocking
+  config.tuning.deblocking = 0;  // thresholds of deblocking magnify rounding errors
   config.superblock = 32;
   while (config.superblock < scene.height) config.superblock *= 2;
   return config;
@@ -82,7 +82,7 @@ starfocus_params SlicesOf(double focus, starfocus_mode mode) {
   return params;
 }
 
-// Checks a scene with both rules and every maximum layer.
+// Checks a scene with both renderers and every maximum layer.
 Distance CheckAll(const test::Scene& scene, double focus, double aperture, Covered* covered) {
   Distance all;
   for (const starfocus_renderer renderer : kRules) {
@@ -90,8 +90,7 @@ Distance CheckAll(const test::Scene& scene, double focus, double aperture, Cover
       starfocus_params params = test::Params(focus, aperture, STARFOCUS_MODE_BLOCK);
       params.renderer = renderer;
       Covered here;
-      // Both transfers are checked, except that light (sRGB) is not checked with layer 1 as the
-      // maximum.
+      // Both transfer functions are checked, except for sRGB with layer 1 as the maximum.
       for (const starfocus_transfer transfer : {STARFOCUS_TRANSFER_NONE, STARFOCUS_TRANSFER_SRGB}) {
         if (transfer == STARFOCUS_TRANSFER_SRGB && max_layer == 1) continue;
         starfocus_config config = Config(scene, max_layer);
@@ -136,7 +135,7 @@ TEST_CASE(
   Tell("random scenes in blocks", all, covered);
 }
 
-TEST_CASE("block conformance: the benchmark's slices match the reference") {
+TEST_CASE("block conformance: slices in benchmark mode match the reference") {
   test::Random random(54);
   Distance all;
   Covered covered;
@@ -176,7 +175,8 @@ TEST_CASE(
   Tell("subapertures and partitions", all, covered);
 }
 
-TEST_CASE("block conformance: too many slices and the widest subapertures match the reference") {
+TEST_CASE(
+    "block conformance: scenes at the limits of slices and subaperture width match the reference") {
   struct Lens {
     float low, high;
     double focus, max_blur;

@@ -41,7 +41,7 @@ Distance Check(const test::Scene& scene, const starfocus_params& params,
   return distance;
 }
 
-// Checks the line scan with either transfer. block_conformance_slow_test checks slices.
+// Checks the line scan with both transfer functions. block_conformance_slow_test checks slices.
 Distance Check(const test::Scene& scene, starfocus_params params, int block, double theta) {
   params.renderer = STARFOCUS_RENDERER_LINE_SCAN;
   starfocus_config config = test::ConfigFor(scene, 16);
@@ -72,7 +72,9 @@ starfocus_params RandomLens(const test::Scene& scene, starfocus_mode mode, doubl
   return test::Params(centre + (random->Int(0, 1) == 0 ? offset : -offset), aperture, mode);
 }
 
-TEST_CASE("conformance: random scenes with every star set and both modes match the reference") {
+TEST_CASE(
+    "conformance: random scenes with every star set match the reference in frame and benchmark "
+    "mode") {
   Distance all[2];
   for (const starfocus_mode mode : {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BENCHMARK}) {
     test::Random random(41 + uint64_t(mode));
@@ -114,7 +116,8 @@ TEST_CASE("conformance: many small scenes match the reference") {
   CHECK(all.mean() < kMeanLimit);
 }
 
-TEST_CASE("conformance: blocks of 64 match the reference at the widest and narrowest aperture") {
+TEST_CASE(
+    "conformance: blocks of 64 pixels match the reference at the widest and narrowest aperture") {
   Distance all;
   for (const double theta : {STARFOCUS_MIN_THETA, STARFOCUS_MAX_THETA}) {
     for (const int views : kStars) {

@@ -20,8 +20,8 @@ namespace {
 constexpr int kWidth = 96, kHeight = 64;
 constexpr double kNear = 6, kFar = -6;
 
-// Kind of map: the disparity at the centre of each pixel, or the same disparities with outlines
-// turned into ramps.
+// Kind of disparity map: the exact disparity at the centre of each pixel, or a map in which
+// outlines are ramps.
 enum class Map { kCentres, kRamps };
 
 // Returns the coverage of slanted strands in front of a wall.
@@ -135,13 +135,16 @@ std::vector<reference::PartedPixel> EnginesPixels(const test::Scene& scene) {
 }
 
 struct Distance {
-  int parted = 0, otherwise = 0;  // pixels that both split, and pixels that only one splits
-  int disparities = 0;            // pixels that both split, but with different disparities
-  // pixels that both split, but whose coverage (light) differs by more than kCoverageLimit
-  // (kLightLimit)
+  // Number of pixels that both the engine and the reference split, and that only one of them
+  // splits.
+  int parted = 0, otherwise = 0;
+  // Number of pixels that both split into surfaces of different disparities.
+  int disparities = 0;
+  // Numbers of split pixels whose coverage differs by more than kCoverageLimit, and whose far light
+  // differs by more than kLightLimit.
   int alphas = 0, lights = 0;
   double alpha = 0, alpha_sum = 0;  // largest and summed difference of coverage
-  double light = 0, light_sum = 0;  // largest and summed difference of light, codes
+  double light = 0, light_sum = 0;  // largest and summed difference of far light, in codes
 
   void Add(const Distance& other) {
     parted += other.parted;
@@ -157,11 +160,11 @@ struct Distance {
 };
 
 // The engine stores coverage in steps of 1/128, which causes an error of at most 1/256, and of
-// 1/512 on average. The engine compares colours in steps of 1/8 code. The certainty of light has
-// steps of 1/256, and the eighth power of coverage loses up to two steps. This loss matters where
-// the certainty is low, for example where a view sees between strands. At some pixels, the engine
-// and the reference may decide differently whether a pixel mixes two colours, or whether a strand
-// covers a point.
+// 1/512 on average. The engine compares colours in steps of 1/8 code. The certainty of the far
+// light has steps of 1/256, and computing the eighth power of coverage loses up to two steps. This
+// loss matters where the certainty is low, for example where a view sees between strands. At some
+// pixels, the engine and the reference may decide differently whether a pixel mixes two colours, or
+// whether a strand covers a point.
 constexpr double kCoverageLimit = 2.0 / 128, kCoverageMean = 1.0 / 256;
 constexpr double kLightLimit = 1, kLightMean = 0.25;
 
@@ -207,7 +210,7 @@ void Print(const char* name, const Distance& distance) {
 
 constexpr int kViews[] = {1, 5, 17};
 
-TEST_CASE("coverage: given coverage splits pixels as in the reference") {
+TEST_CASE("coverage: with given coverage, the engine splits pixels like the reference") {
   for (const Map map : {Map::kCentres, Map::kRamps}) {
     Distance all;
     for (const int views : kViews) {
@@ -221,7 +224,7 @@ TEST_CASE("coverage: given coverage splits pixels as in the reference") {
   }
 }
 
-TEST_CASE("coverage: found coverage splits pixels as in the reference") {
+TEST_CASE("coverage: without given coverage, the engine splits pixels like the reference") {
   Distance all;
   for (const int views : kViews) {
     CAPTURE(views);
@@ -232,7 +235,7 @@ TEST_CASE("coverage: found coverage splits pixels as in the reference") {
   Print("found coverage", all);
 }
 
-TEST_CASE("coverage: random strands are split as in the reference") {
+TEST_CASE("coverage: the engine splits random strands like the reference") {
   for (const bool given : {true, false}) {
     Distance all;
     for (uint64_t seed = 1; seed <= 12; ++seed) {

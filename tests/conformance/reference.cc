@@ -9,7 +9,7 @@
 namespace reference {
 namespace {
 
-// Returns the position of a view as the key of LightField.
+// Returns the position of a view in the units that LightField uses as its key.
 std::pair<int, int> PositionOf(const test::Scene& scene, int view) {
   const starfocus_position at = scene.PositionOf(view);
   return {int(std::lround(kViewUnit * at.u)), int(std::lround(kViewUnit * at.v))};
@@ -19,8 +19,8 @@ bool IsHighlight(const uint8_t* codes) {
   return std::count_if(codes, codes + 3, [](uint8_t code) { return code >= 251; }) >= 2;
 }
 
-// Returns the number of consecutive highlights of the view along (dx, dy) through (x, y). Returns a
-// very large number if the highlights reach the edge of the picture.
+// Returns the number of consecutive highlight pixels on the line through (x, y) with direction (dx,
+// dy). Returns a very large number if the highlights reach the edge of the picture.
 int RunThrough(const test::Scene& scene, int view, int x, int y, int dx, int dy) {
   int run = 1;
   for (const int side : {1, -1}) {
@@ -45,7 +45,8 @@ bool HasHighlights(const test::Scene& scene) {
   return false;
 }
 
-// Loads the light of highlights beyond white. A clipped sample has an excess of one white.
+// Loads the excess of a scene: the light of highlights beyond white. A clipped sample has an excess
+// of one white.
 LightField LoadExcess(const test::Scene& scene, int transfer) {
   LightField field = Load(scene, transfer);
   const int lamp = std::clamp(scene.width / 32, 16, 128);
@@ -313,8 +314,8 @@ void Paste(const Picture& from, int x0, int y0, Picture* to) {
   }
 }
 
-// Adds the views and the gathered cells of the blocks. With `excess`, only blocks that may show
-// highlights are rendered. Such blocks are at layer 0 and gather no cells.
+// Adds the rendered views and the gathered cells of all blocks to the result. With `excess`, only
+// blocks that may show highlights are rendered. Such blocks are at layer 0 and gather no cells.
 void RefocusAll(const LightField& field, const starfocus_params& params,
                 const starfocus_config& config, const std::vector<Block>& blocks, bool excess,
                 Result* result) {
@@ -323,7 +324,7 @@ void RefocusAll(const LightField& field, const starfocus_params& params,
   const bool benchmark = params.mode == STARFOCUS_MODE_BENCHMARK;
   const double r_max = params.lens.aperture * std::max(config.disparity_max - params.lens.focus,
                                                        params.lens.focus - config.disparity_min);
-  const int widest = std::max(int(r_max), 32) + 3;  // reach of the slice with the largest blur
+  const int widest = std::max(int(r_max), 32) + 3;  // reach of the most blurred slice
   const Slicing slicing = {size_t(benchmark ? 32 : 16), 5 * (widest + 16) * (widest + 16),
                            benchmark ? 0.125 : 0.375};
   for (const Block& block : blocks) {

@@ -19,14 +19,14 @@ namespace reference {
 int ViewsAlongRadius(double r_max, int mode);
 
 struct Result {
-  int n = 0;                // views along the aperture radius
+  int n = 0;                // N, the number of views along the aperture radius
   int views = 0;            // number of rendered views
   std::vector<double> rgb;  // codes, unrounded, 3 * width * height
 };
 
-// Refocuses the scene with the transfer of `config`. `block` is the side of the blocks in pixels.
-// The side affects the result, since runs of one shift start at the edge of a block's extended
-// rectangle.
+// Refocuses the scene with the transfer function of `config`. `block` is the side of the blocks in
+// pixels. The side affects the result, since runs of one shift start at the edge of a block's
+// extended rectangle.
 Result Refocus(const test::Scene& scene, const starfocus_params& params,
                const starfocus_config& config, int block);
 
@@ -37,18 +37,19 @@ struct GatheredCell {
   int at_x, at_y, at_width, at_height;  // the cell in the block's layer
 };
 
-// A block of the block mode, and the rectangle that the views of the block are rendered from.
+// A block of block mode, and the rectangle of the layer that the views of this block render.
 struct Block {
   int x, y, width, height;  // in the picture
   int layer, n;
-  int rendered_x, rendered_y, rendered_width, rendered_height;  // at the layer, with margins
-  // Border around the rendered rectangle, at the layer.
+  // Rendered rectangle with margins, in pixels of the layer.
+  int rendered_x, rendered_y, rendered_width, rendered_height;
+  // Border around the rendered rectangle, in pixels of the layer.
   int left, right, top, bottom;
-  std::vector<GatheredCell> gathered;  // cells that replace views, at the layer
+  std::vector<GatheredCell> gathered;  // cells gathered instead of rendered by views
 };
 
-// Refocuses in block mode or with the benchmark's blocks. The partition of the picture is given,
-// and there is no deblocking. Returns 3 * width * height unrounded values.
+// Refocuses in block mode or in benchmark mode. `blocks` is the partition of the picture;
+// boundaries are not deblocked. Returns 3 * width * height unrounded values.
 std::vector<double> RefocusBlocks(const test::Scene& scene, const starfocus_params& params,
                                   const starfocus_config& config, const std::vector<Block>& blocks);
 

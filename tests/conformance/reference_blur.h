@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ideal PSF (4) of the reference, integrated over pixels. Used for the blur mode and for cells that
-// block mode gathers.
+// Ideal PSF (4) of the reference, integrated over pixels. The reference uses this PSF for the blur
+// mode and for cells that block mode gathers.
 #ifndef STARFOCUS_TESTS_CONFORMANCE_REFERENCE_BLUR_H_
 #define STARFOCUS_TESTS_CONFORMANCE_REFERENCE_BLUR_H_
 
@@ -15,25 +15,25 @@
 
 namespace reference {
 
-inline constexpr int kOne = 64;  // unit of disparities and radii
+inline constexpr int kOne = 64;  // number of units of disparity or radius per pixel
 
-// Returns the distance between radii of the ladder of blur.h, at a radius in 1/kOne pixels. The
-// distance is 1/8 pixel up to a radius of 4 pixels. Beyond 4 pixels, the distance is 1/32 of the
-// start of each octave.
+// Returns the distance between neighbouring radii of stored PSFs (lib/filter/blur.h), at a radius
+// in 1/kOne pixels. The distance is 1/8 pixel up to a radius of 4 pixels. Beyond 4 pixels, the
+// distance is 1/32 of the start of each octave.
 inline double LadderUnit(int radius) {
   double unit = kOne / 8.0;
   for (double octave = 4 * kOne; radius >= octave; octave *= 2) unit = octave / 32;
   return unit;
 }
 
-// Returns the radius of the ladder that is nearest to `radius` (in 1/kOne pixels), in pixels.
+// Returns, in pixels, the radius of a stored PSF that is nearest to `radius` (in 1/kOne pixels).
 inline double NearestRadius(int radius) {
   const double unit = LadderUnit(radius);
   return std::floor(radius / unit + 0.5) * unit / kOne;
 }
 
-// Returns the number of lines, or of points along an axis, for a part of the unit disc. With this
-// number, dark pixels next to white are exact to one code of sRGB.
+// Returns the number of lines, or of points along an axis, for a part of the unit disc. With the
+// returned number, dark pixels next to white pixels are exact to one code of sRGB.
 inline int FinenessOf(double side) { return std::clamp(int(600 * side), 40, 600); }
 
 // Integrates (3) over [x0, x1] x [y0, y1] in the plane of the unit disc. The sum over lines of y

@@ -11,10 +11,10 @@
 namespace reference {
 namespace {
 
-// A tile is a tile of thin structure if at least this number of its pixels have a nearer neighbour.
+// Smallest number of pixels with a nearer neighbour in a tile of thin structure.
 constexpr int kLeastRagged = 36;
 
-// Rounds coverage, and the certainty of light, as the engine stores them between passes.
+// Rounds coverage and the certainty of far light as the engine rounds these values between passes.
 double RoundedCoverage(double alpha) { return std::floor(alpha * 128 + 0.5) / 128; }
 double Kept(double known) { return std::floor(known * 256) / 256; }
 double EighthPower(double value) { return Kept(std::pow(value, 8)); }
@@ -22,11 +22,11 @@ double EighthPower(double value) { return Kept(std::pow(value, 8)); }
 double Dot(const Colour& a, const Colour& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 Colour Less(const Colour& a, const Colour& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
-// Values of a pixel, filled in pass by pass.
+// Values of a pixel, computed in several passes.
 struct Pixel {
-  bool two = false;             // true if the pixel has two surfaces, since it is near an edge
-  double near = 0, far = 0;     // disparities
-  double guess = 1, first = 1;  // coverage by the map; coverage after the first pass
+  bool two = false;             // true if the pixel is near an edge and shows two surfaces
+  double near = 0, far = 0;     // disparities of the two surfaces
+  double guess = 1, first = 1;  // coverage according to the map, and after the first pass
 };
 
 class Parter {
@@ -103,9 +103,9 @@ class Parter {
     }
   }
 
-  // Marks tiles with mixed pixels. With given coverage, a tile is marked if the coverage of a pixel
-  // differs from the coverage by the map. Without given coverage, a tile is marked if the mean of
-  // mixtures is large.
+  // Marks tiles that contain mixed pixels. With given coverage, a tile is marked if the coverage of
+  // any pixel differs from the coverage according to the map. Without given coverage, a tile is
+  // marked if the mean of 4 * coverage * (1 - coverage) is above 3/16.
   void MarkMixed() {
     std::map<std::pair<int, int>, double> mixture;
     ForEach([&](int x, int y) {
@@ -140,17 +140,17 @@ class Parter {
         pixel.first = RoundedCoverage(given_[Index(x, y)] / 255.0);
         known = EighthPower(1 - pixel.first);
       } else {
-        // The map may lack strands next to a strand that the map has.
+        // Near a strand in the map, pixels may show strands that the map lacks.
         known = here == high ? 0 : square <= 2 ? 1 / 16.0 : square <= 5 ? 1 / 4.0 : 1;
       }
     }
     far_.Pixel(x, y) = {Light(x, y), known, pixel.far};
   }
 
-  // --- Coverage by colours ---
+  // --- Coverage computed from colours ---
 
-  // Computes the light of the near surface around a pixel. Each neighbour has the weight shown(x,
-  // y). Returns false if the sum of weights is too small.
+  // Computes the light of the near surface around a pixel. The weight of each neighbour (x, y)
+  // includes the factor shown(x, y). Returns false if the sum of weights is too small.
   bool NearLight(int x, int y, const std::function<double(int x, int y)>& shown,
                  Colour* light) const {
     constexpr double kTaps[3][3] = {{10, 8, 4}, {8, 7, 3}, {4, 3, 2}};
@@ -203,11 +203,11 @@ class Parter {
     });
   }
 
-  // --- The far light in all views ---
+  // --- Light of far surfaces, read from all views ---
 
   // Returns the largest coverage by nearer surfaces in a view, at the point where the view shows a
-  // pixel's far surface. Nearer pixels count if the view shows them within a pixel and a half of
-  // this point.
+  // pixel's far surface. Only nearer pixels that the view shows within 1.5 pixels of this point are
+  // counted.
   double CoveredIn(const Position& view, int x, int y) const {
     const bool down = std::abs(view.second) > std::abs(view.first);
     const int along = down ? view.second : view.first, across = down ? view.first : view.second;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reference of the coverage of thin structures: splits pixels near large depth edges into a near
-// and a far surface. Disparities are decided on the engine's grid of 1/64. Between passes, coverage
-// is rounded to 1/128 and the certainty of light down to 1/256, as the engine stores them. All
-// other values are unrounded doubles.
+// and a far surface. Disparities are multiples of 1/64 pixel, as in the engine. Between passes,
+// coverage is rounded to 1/128, and the certainty of far light is rounded down to 1/256, as in the
+// engine. All other values are unrounded doubles.
 #ifndef STARFOCUS_TESTS_CONFORMANCE_REFERENCE_COVERAGE_H_
 #define STARFOCUS_TESTS_CONFORMANCE_REFERENCE_COVERAGE_H_
 
@@ -15,12 +15,12 @@ namespace reference {
 struct PartedPixel {
   bool parted = false;
   double alpha = 0;          // share of the pixel that the near surface covers
-  double near = 0, far = 0;  // disparities in 1/64
+  double near = 0, far = 0;  // disparities of both surfaces, in 1/64 pixel
   Colour light = {0, 0, 0};  // light of the far surface
 };
 
-// Returns the pixels of the centre view, row by row. If the scene has coverage, the coverage splits
-// the pixels; otherwise the map and the colours split them.
+// Returns the pixels of the centre view, row by row. Pixels are split by the coverage of the scene
+// if the scene has coverage, and by the map and the colours otherwise.
 std::vector<PartedPixel> PartPixels(const test::Scene& scene, int transfer);
 
 }  // namespace reference

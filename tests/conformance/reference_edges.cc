@@ -17,9 +17,9 @@ bool ThinMap::IsBesideNearer(int x, int y) const {
   return false;
 }
 
-// Returns the offset of the nearest pixel within `reach` for which `is` holds, or (0, 0) if there
-// is none. Among equally near pixels, the pixel with the smaller maximum of |dx| and |dy| is
-// chosen, then the first in row order.
+// Returns the offset of the nearest pixel within `reach` for which `is` returns true, or (0, 0) if
+// no pixel is found. Among equally near pixels, the pixel with the smaller maximum of |dx| and |dy|
+// is chosen, then the first in row order.
 std::pair<int, int> ThinMap::Nearest(int x, int y, int reach, const Is& is) const {
   std::pair<int, int> nearest = {0, 0};
   std::pair<int, int> least = {INT32_MAX, 0};

@@ -10,7 +10,7 @@
 
 namespace reference {
 
-// Steps of disparity above this threshold, in 1/64, are edges of thin structures.
+// Threshold of edges of thin structures: a larger step of disparity, in 1/64 pixel, is an edge.
 inline constexpr int kThinEdge = 5 * 64;
 
 class ThinMap {
@@ -20,10 +20,10 @@ class ThinMap {
   // Returns the disparity of a pixel. Beyond the picture, the outermost pixels are repeated.
   int Disparity(int x, int y) const;
   bool IsBesideNearer(int x, int y) const;
-  // Find the two surfaces of a pixel; return false if the pixel has only one surface. FindGiven,
-  // for given coverage, uses the nearest surfaces within 32 pixels, without ramps. FindEdge uses
-  // the nearest edge within 3 pixels. `square` receives the squared distance to the pixel beyond
-  // the edge.
+  // FindGiven and FindEdge find the disparities of the two surfaces of a pixel, and return false if
+  // the pixel has only one surface. FindGiven, for given coverage, uses the nearest surfaces within
+  // 32 pixels, without ramps. FindEdge uses the nearest edge within 3 pixels. `square` receives the
+  // squared distance to the pixel beyond the edge.
   bool FindGiven(int x, int y, int* low, int* high) const;
   bool FindEdge(int x, int y, int* low, int* high, int* square) const;
   // Returns the mean of the disparities within 2 pixels that are close to the disparity `near`.

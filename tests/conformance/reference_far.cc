@@ -19,8 +19,8 @@ double Farthest(const std::vector<FarLight>& cells) {
   return farthest;
 }
 
-// Returns the weighted mean of the cells that have the surface at `disparity`. Each cell has the
-// weight part * known. The `known` of the result is the sum of the weights.
+// Returns the weighted mean of the light of the cells that show the surface at `disparity`. Each
+// cell has the weight part * known. The `known` of the result is the sum of the weights.
 FarLight MeanOf(const std::vector<FarLight>& cells, const std::vector<double>& parts,
                 double disparity) {
   FarLight mean;
@@ -58,8 +58,8 @@ FarLight FarPyramid::Get(const std::vector<Level>& levels, int level, int x, int
   return plane.cells[size_t(row) * size_t(plane.width) + size_t(column)];
 }
 
-// Returns the filled cells of the next level around a cell. The first returned cell contains the
-// given cell.
+// Returns the filled cells of the next coarser level that surround a cell. The first returned cell
+// contains the given cell.
 std::vector<FarLight> FarPyramid::Above(int level, int x, int y) const {
   const int column = int(std::floor(x / 2.0)), row = int(std::floor(y / 2.0));
   const int beside = x == 2 * column ? column - 1 : column + 1;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light of the far surface where few pixels show this surface. The light is averaged over cells of
-// increasing size, for the farthest surface in each cell, and continued into cells without known
-// light.
+// Estimates the light of the far surface where few pixels show this surface. The light is averaged
+// over cells of increasing size, for the farthest surface in each cell, and continued into cells
+// without known light.
 #ifndef STARFOCUS_TESTS_CONFORMANCE_REFERENCE_FAR_H_
 #define STARFOCUS_TESTS_CONFORMANCE_REFERENCE_FAR_H_
 
@@ -29,8 +29,8 @@ class FarPyramid {
   FarLight& Pixel(int x, int y) { return At(0, x, y); }
   // Averages cells into cells of twice their side, and fills cells without known light.
   void Fill();
-  // Returns the light of a pixel. The larger cells around the pixel supply the light that is not
-  // known.
+  // Returns the light of a pixel. Where the light of the pixel is not known, the light of the
+  // larger cells around the pixel is used.
   FarLight Filled(int x, int y) const;
 
  private:

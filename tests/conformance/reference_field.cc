@@ -8,8 +8,8 @@
 namespace reference {
 namespace {
 
-// Reads the picture with linear interpolation. Beyond the picture, the outermost pixels are
-// repeated.
+// Returns the colour of a view at (x, y), with linear interpolation. Beyond the picture, the
+// outermost pixels are repeated.
 Colour ReadPicture(const LightField& field, const Position& view, double x, double y,
                    std::vector<Colour> Picture::*colours = &Picture::colours) {
   const Picture& picture = field.at(view);
@@ -26,12 +26,13 @@ Colour ReadPicture(const LightField& field, const Position& view, double x, doub
   return colour;
 }
 
-// Rounds light for comparisons. The engine stores light in steps of 1/128 and compares it in steps
-// of 1/16.
+// Rounds light as the engine rounds light for comparisons. The engine stores light in steps of
+// 1/128 and compares light in steps of 1/16.
 double Compared(double light) { return std::floor(std::floor(light * 128 + 0.5) / 8 + 0.5) / 16; }
 
-// Returns the position of `mixed` on the line from `far` to `near`. Returns 0 if the two colours
-// are too similar, if `mixed` is too far from the line, or if the position is beyond 4/5.
+// Returns the position of the colour `mixed` on the line from the colour `far` to the colour
+// `near`, from 0 to 1. Returns 0 if `near` and `far` are too similar, if `mixed` is too far from
+// the line, or if the position is beyond 4/5.
 double ShareOf(const Colour& near, const Colour& far, const Colour& mixed) {
   double along = 0, contrast = 0, distance = 0;
   for (size_t c = 0; c < 3; ++c) {
@@ -114,7 +115,8 @@ Mixed MixtureAt(const LightField& field, int x, int y, const Direction& side, in
       const Position& view = occlusion_views.back();
       result.far = ReadPicture(field, view, x - Moved(view.first, disparity, 0),
                                y - Moved(view.second, disparity, 0), colours);
-      // Rounds to the engine's grid of light; halves are rounded towards the colour of the pixel.
+      // The far colour is rounded to 1/128, as in the engine; halves are rounded towards the colour
+      // of the pixel.
       for (size_t c = 0; c < 3; ++c) {
         double& far = result.far[c];
         far = (mixed[c] > far ? std::floor(128 * far + 0.5) : std::ceil(128 * far - 0.5)) / 128;
@@ -159,8 +161,9 @@ void Unmix(const LightField& field, const Lens& lens, const Rectangle& rect, Pic
   }
 }
 
-// Reads with linear interpolation at layer 0. At layers 1 and 2, filters the pixels around the
-// picture's pixel nearest to (x, y). The weights are 1 2 1 or 1 2 3 4 3 2 1 along either axis.
+// At layer 0, reads the captured view with linear interpolation. At layers 1 and 2, filters the
+// pixels around the picture's pixel nearest to (x, y). The weights are 1 2 1 or 1 2 3 4 3 2 1 along
+// either axis.
 Colour Read(const LightField& field, int layer, const Position& view, double x, double y) {
   if (layer == 0) return ReadPicture(field, view, x, y);
   const auto nearest = [&](double at) { return int(Rounded(std::lround(at * 256), 8 - layer)); };
@@ -193,8 +196,9 @@ Picture ExtendedRectangle(const Picture& layer, const Rectangle& rect) {
 namespace {
 
 // Returns the number of pixels beyond the edge at (x, y) of the layer that a captured view shows.
-// The view lies `distance` outwards, in units of 1/kViewUnit. `disparity` is the disparity of the
-// pixel at the edge. The count ends before the first pixel that a nearer surface covers.
+// The view is `distance` / kViewUnit away from the centre view, in the direction `out`. `disparity`
+// is the disparity of the pixel at the edge. The count ends before the first pixel that a nearer
+// surface covers.
 int SeenBeyond(const Picture& picture, int layer, int x, int y, const Direction& out, int distance,
                int disparity) {
   const double unit = 64 << layer;
@@ -223,7 +227,8 @@ void ExtendEdges(const LightField& field, const Picture& picture, int layer, con
     for (int column = 0; column < extended->width; ++column) {
       const int x = x0 + column, y = y0 + row;
       const Direction out = {(x > right) - (x < 0), (y > bottom) - (y < 0)};
-      if ((out.x == 0) == (out.y == 0)) continue;  // inside, or beyond a corner
+      // ExtendEdges changes no pixels inside the picture or beyond its corners.
+      if ((out.x == 0) == (out.y == 0)) continue;
       const int edge_x = std::clamp(x, 0, right), edge_y = std::clamp(y, 0, bottom);
       const int disparity =
           picture.disparities[picture.At(edge_x * (1 << layer), edge_y * (1 << layer))];

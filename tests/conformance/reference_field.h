@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The extended rectangle of the reference, and the colours of captured views.
+// Extended rectangles of the reference, and the colours of captured views.
 #ifndef STARFOCUS_TESTS_CONFORMANCE_REFERENCE_FIELD_H_
 #define STARFOCUS_TESTS_CONFORMANCE_REFERENCE_FIELD_H_
 
@@ -7,11 +7,11 @@
 
 namespace reference {
 
-// Returns the light of a scene's views, and its disparities.
+// Returns the light of all views of a scene, and the disparities of the centre view.
 LightField Load(const test::Scene& scene, int transfer);
 
-// A rectangle of a layer, and the border that rendering the rectangle reads, in pixels of the
-// layer.
+// A rectangle of a layer, and the widths of the border that is read to render the rectangle, in
+// pixels of the layer.
 struct Rectangle {
   int x, y, width, height;
   int left, right, top, bottom;
@@ -27,29 +27,30 @@ constexpr Direction kDirections[] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
 Picture ExtendedRectangle(const Picture& layer, const Rectangle& rect);
 
 // Continues the surface at the edge of `picture` (at layer 0) beyond the picture, with colours from
-// the captured view on that side. The colours extend as far as the surface moves per unit of u. The
-// colours end earlier if one of the 32 pixels inside the edge is nearer and covers the surface in
-// the captured view.
+// the captured view on that side. The colours from the view extend as far beyond the picture as the
+// surface moves per unit of u. The extension is shorter if one of the 32 pixels inside the edge
+// covers the surface in the captured view.
 void ExtendEdges(const LightField& field, const Picture& picture, int layer, const Rectangle& rect,
                  Picture* extended);
 
-// Mixture of a pixel (x, y) of the centre view next to a depth edge. The edge is an increase of
-// disparity by more than `step` (1/64) towards `side`. `share` is the part of the pixel that shows
-// the near surface, or 0 if the pixel is not a mixture. The far colour comes from the captured view
-// that sees behind the near surface. Without such a view, the far colour is the colour of the pixel
-// on the opposite side, if both pixels belong to the same surface.
+// Mixture of a pixel (x, y) of the centre view next to a depth edge. At the edge, the disparity
+// increases by more than `step` (in 1/64 pixel) in the direction `side`. `share` is the part of the
+// pixel that shows the near surface, or 0 if the pixel is not a mixture. The far colour comes from
+// the captured view that sees behind the near surface. If no view sees behind the near surface, the
+// far colour is the colour of the opposite neighbour on the far surface.
 struct Mixed {
   double share;
   Colour near, far;
 };
 Mixed MixtureAt(const LightField& field, int x, int y, const Direction& side, int step);
 
-// Returns the share of `near` in a subsampled pixel. The share fades to 0 towards the limits of a
-// mixture.
+// Returns the share of the colour `near` in the colour of a subsampled pixel. The share fades to 0
+// where the colour of the pixel is hardly a mixture of `near` and `far`.
 double FadedShareOf(const Colour& near, const Colour& far, const Colour& mixed);
 
 // Unmixes the rectangle's sharp pixels next to a more defocused near surface, at layer 0: the far
-// colour replaces the share of the near surface. The outermost pixels are not changed.
+// colour replaces the share of the near surface. The outermost pixels of the rectangle are not
+// changed.
 void Unmix(const LightField& field, const Lens& lens, const Rectangle& rect, Picture* centre);
 
 // Position of a captured view, as the key of LightField.
@@ -59,10 +60,10 @@ using Position = std::pair<int, int>;
 Colour Read(const LightField& field, int layer, const Position& view, double x, double y);
 
 // Returns the captured views that see behind depth edges on a side, at most two. The views lie
-// within 45 degrees of the direction of the side. If no view does, views within the angle of
-// tangent 8 are used. The best view has the largest value of twice its distance towards the side
-// minus its distance across. Ties are resolved by the smallest distance across, then the smallest
-// u, then the smallest v.
+// within 45 degrees of the direction of the side. If no view is within 45 degrees, views within 83
+// degrees (tangent 8) are used. The best view has the largest value of twice its distance towards
+// the side minus its distance across. Ties are resolved by the smallest distance across, then the
+// smallest u, then the smallest v.
 std::vector<Position> LooksOn(const LightField& field, const Direction& side);
 
 // Returns the shift of a disparity along one axis, in a view at `position` on that axis. The shift

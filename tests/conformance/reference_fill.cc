@@ -26,7 +26,7 @@ class Filler {
     }
   }
 
-  // Updates all pixels from the colours before this smoothing step.
+  // All pixels are updated from the colours that precede this smoothing step.
   void Smooth(int step) {
     std::vector<Colour> before;
     for (const Surface* far : far_) before.push_back(far->colour);

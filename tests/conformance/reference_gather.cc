@@ -10,15 +10,15 @@ namespace reference {
 namespace {
 
 constexpr int kCell = 8;
-constexpr double kLargestKernel = 12;  // pixels of the layer
+constexpr double kLargestKernel = 12;  // largest gathered radius, pixels of the layer
 
 struct Interval {
   double low, high;
 };
 
-// LadderBelow returns the largest radius of the ladder that is at most `radius`, and LadderAbove
-// the smallest one that is at least `radius`. `radius` is in 1/kOne pixels; the results are in
-// pixels.
+// LadderBelow returns the largest radius of a stored PSF that is at most `radius`, and LadderAbove
+// returns the smallest radius that is at least `radius`. `radius` is in 1/kOne pixels; the results
+// are in pixels.
 double LadderBelow(int radius) {
   return std::floor(radius / LadderUnit(radius)) * LadderUnit(radius) / kOne;
 }
@@ -57,8 +57,8 @@ class Gather {
  private:
   double Scale() const { return 1 << block_.layer; }
 
-  // Computes the lowest and the highest disparity of a cell. Beyond the picture, the last pixels
-  // and the last cell are repeated.
+  // Computes the lowest and the highest disparity of a cell. Beyond the picture, the outermost
+  // pixels and the outermost cells are repeated.
   void DisparitiesOf(int column, int row, int* low, int* high) const {
     column = std::clamp(column, 0, (picture_.width - 1) / kCell);
     row = std::clamp(row, 0, (picture_.height - 1) / kCell);
@@ -105,7 +105,8 @@ class Gather {
            Scale() / 1024;
   }
 
-  // Returns the range of absolute radii of the cell's pixels, on the engine's grid.
+  // Returns the range of the absolute blur radii of the cell's pixels, rounded to 1/1024 pixel as
+  // in the engine.
   Interval IntervalOf(const GatheredCell& cell) const {
     const Corners corners = CornersOf(cell);
     double low = 1e9, high = -1e9;
@@ -120,8 +121,7 @@ class Gather {
     return {nearest, std::max(std::fabs(low), std::fabs(high))};
   }
 
-  // Returns a part of the layer filtered by a PSF. `extended` has `border` more pixels on each
-  // side.
+  // Filters a part of the layer with a PSF. `extended` has `border` more pixels on each side.
   Picture Filtered(const Picture& extended, int border, int width, int height,
                    const Psf& kernel) const {
     Picture to(width, height);
@@ -166,8 +166,7 @@ class Gather {
     }
   }
 
-  // Returns the position of the squared radius between the squares of the two ends of `between`,
-  // from 0 to 1.
+  // Returns the position of radius^2 between low^2 and high^2 of `between`, from 0 to 1.
   static double ShareOf(double radius, const Interval& between) {
     const double range = between.high * between.high - between.low * between.low;
     if (range == 0) return 0;
@@ -200,8 +199,8 @@ class Gather {
     Move(cell, corners, mixed);
   }
 
-  // Returns the colour difference between both neighbours of a pixel. At the rim of the cell,
-  // returns twice the difference from the inner neighbour.
+  // Returns the colour difference between the two neighbours of a pixel in the direction (dx, dy).
+  // At the rim of the cell, returns twice the difference between the pixel and the inner neighbour.
   static double Difference(const Picture& of, int x, int y, int dx, int dy, size_t c) {
     const auto at = [&](int side) {
       const int px = x + side * dx, py = y + side * dy;
@@ -238,7 +237,7 @@ class Gather {
   const Block& block_;
   const Lens& lens_;
   const int64_t step_;
-  const double largest_;  // largest radius of a PSF
+  const double largest_;  // largest radius of a PSF for gathering
   const int frame_x_, frame_y_;
   Picture& frame_;
 };

@@ -18,9 +18,9 @@ namespace reference {
 
 using Colour = std::array<double, 3>;
 
-// Largest difference of disparities (1/64) between two neighbours on one surface.
+// Largest difference of disparity, in 1/64 pixel, between neighbouring pixels of one surface.
 inline constexpr int kSurfaceStep = 96;
-// Widest gap of a stretched surface, in pixels.
+// Widest gap, in pixels, that is closed by stretching a surface.
 inline constexpr int kWidestStretch = 4;
 
 // Returns value / 2^bits, rounded half up.
@@ -31,11 +31,12 @@ inline int64_t Rounded(int64_t value, int bits) {
 
 inline int RoundedTo64(double value) { return static_cast<int>(std::floor(value * 64 + 0.5)); }
 
-// A rendered or captured view, with disparities (1/64) if it has any.
+// Picture of a rendered or captured view; the disparities, in 1/64 pixel, are 0 if the view has no
+// map.
 struct Picture {
   int width = 0, height = 0;
-  std::vector<Colour> colours;  // light, or the light of highlights beyond white
-  // light for finding mixtures, if `colours` is not light; otherwise empty
+  std::vector<Colour> colours;  // light, or the excess of highlights beyond white
+  // light for finding mixtures if `colours` holds excess; otherwise empty
   std::vector<Colour> light;
   std::vector<int> disparities;
 
@@ -46,36 +47,37 @@ struct Picture {
   bool Inside(int x, int y) const { return x >= 0 && x < width && y >= 0 && y < height; }
 };
 
-// One unit of u in positions of captured views.
+// Scale of the positions of captured views: kViewUnit is 1 unit of u.
 inline constexpr int kViewUnit = 16384;
 
-// Captured views by their position, in 1/kViewUnit.
+// Map from the position of a captured view, in 1/kViewUnit, to its picture.
 using LightField = std::map<std::pair<int, int>, Picture>;
 
 // The lens: N views along its radius, and the shifts of pixels in the views.
 struct Lens {
-  int n = 0;                // index of the outermost view
-  int most = 0;             // largest i^2 + j^2 of a view
-  double subapertures = 0;  // radius in subapertures; 0: views stand for points
-  double radius = 0;        // u_t
+  int n = 0;     // index of the outermost view
+  int most = 0;  // largest i^2 + j^2 of a view (i, j)
+  double subapertures =
+      0;              // radius in subapertures; 0: the paper's rule, where views stand for points
+  double radius = 0;  // u_t
   ApertureShape opening = 0.0;
-  int focus = 0;     // d_t, 1/64
-  int64_t step = 0;  // u_t / 2^layer, 2^-24
+  int focus = 0;     // d_t in 1/64 pixel
+  int64_t step = 0;  // u_t / 2^layer, in units of 2^-24
   int layer = 0;     // L
 
-  // Returns u of view k, in 2^-24.
+  // Returns the position u of view k, in units of 2^-24.
   int64_t Move(int k) const { return (2 * k * step + n) / (2 * n); }
-  // Returns the shift of a disparity (1/64) in view k, in 1/256 pixels.
+  // Returns the shift, in 1/256 pixels, of a point of `disparity` (in 1/64 pixel) in view k.
   int Shift(int k, int disparity) const {
     return int(Rounded(Move(k) * (disparity - focus), 24 + 6 - 8));
   }
-  // Returns the width of the subaperture in the picture: r / N, the shift from view to view, at
-  // most a pixel.
+  // Returns the width of a subaperture in the picture: the shift r / N from view to view, but at
+  // most one pixel.
   double Subaperture(int disparity) const {
     return std::min(1.0, std::abs(Shift(1, disparity)) / 256.0);
   }
-  // Returns the largest range of disparities (1/64) in a run: a quarter pixel of displacement at
-  // the rim of the aperture. The range never exceeds kSurfaceStep.
+  // Returns the largest range of disparity in a run, in 1/64 pixel: a quarter pixel of displacement
+  // at the rim of the aperture. The range never exceeds kSurfaceStep.
   int Spread() const { return int(std::min<int64_t>(kSurfaceStep, (int64_t{16} << 24) / step)); }
   // Returns true if view k is at most half a unit from the centre, where a captured view may exist.
   bool Half(int k) const { return 2 * k * radius <= n; }
@@ -83,18 +85,19 @@ struct Lens {
   double Density(int i, int j) const {
     if (n == 0) return 1;
     const double passing = opening.cats_eye > 0 ? opening.Passing(i, j, Radius()) : 1;
-    // Openings with sharp edges are sampled as in the engine.
+    // Subapertures of openings with sharp edges are sampled at 16x16 points, as in the engine.
     if (opening.shape != STARFOCUS_SHAPE_FALL_OFF)
       return passing * opening.Mean(i, j, Radius(), 16);
-    // Uses as many points as for other shapes. The exact integral is 5.5 % larger for each of the
-    // four views on the rim of N = 4. This is 0.02 % of all light. For lamps ten times as bright as
-    // white, the difference is three codes in dark parts.
+    // The fall-off over a subaperture is sampled at 16x16 points, as for other shapes. The exact
+    // integral is 5.5 % larger for each of the four views on the rim of N = 4. This difference is
+    // 0.02 % of all light. Next to lamps ten times as bright as white, the difference is three
+    // codes in dark parts of the picture.
     if (subapertures > 0) return passing * opening.Mean(i, j, subapertures, 16);
     return passing * ApertureDensity(double(i) / n, double(j) / n, opening.cot2);
   }
   double Radius() const { return subapertures > 0 ? subapertures : n; }
-  // Returns the largest j of the views (i, j) below the diagonal that are rendered from type A view
-  // i.
+  // Returns the largest j of the views (i, j), j < i, that are rendered from view i of type A (Fig.
+  // 11).
   int LastAcross(int i) const {
     int j = std::max(0, i - 1);
     while (j > 0 && !Contains(i, j)) --j;
@@ -102,12 +105,12 @@ struct Lens {
   }
 };
 
-// --- One line: the pixels that a view in direction +1 along it shows ---
+// --- Scan of one line: the pixels that a view in direction +1 along the line shows ---
 
 // Source of a rendered pixel. Outside holes, the rendered pixel shows line pixel `source`. In a
 // hole, the surface of line pixel `source` continues behind a nearer surface. A share of the
-// rendered pixel shows line pixel `other`. This pixel is a neighbour on the same surface, or is on
-// the other side of a depth edge.
+// rendered pixel shows line pixel `other`. Pixel `other` is a neighbour of `source` on one surface,
+// or is on the other side of a depth edge.
 struct Owner {
   bool hole = true;
   int source = 0;
@@ -120,11 +123,11 @@ struct Owner {
 
 struct LineRun {
   int begin, end;
-  int disparity;  // middle of the range
+  int disparity;  // middle of the run's range of disparities, 1/64 pixel
 };
 
-// Returns the runs, starting at the end of the line that near surfaces move away from. Each run is
-// as long as `spread` allows.
+// Returns the runs of a line, starting at the end of the line that near surfaces move away from.
+// Each run extends as far as its disparities differ by at most `spread`.
 inline std::vector<LineRun> Runs(const std::vector<int>& disparity, int spread) {
   std::vector<LineRun> runs;
   int end = int(disparity.size());
@@ -170,8 +173,8 @@ class LineScan {
  private:
   int Shift(const LineRun& run) const { return lens_.Shift(k_, run.disparity); }
   int Whole(const LineRun& run) const { return int(Rounded(Shift(run), 8)); }
-  // Returns the remainder of rounding to whole pixels: the number of pixels by which the run lies
-  // farther towards the start of the line.
+  // Returns the remainder of rounding the run's shift to whole pixels; positive remainders point to
+  // the start of the line.
   double Offset(const LineRun& run) const { return Shift(run) / 256.0 - Whole(run); }
   bool Inside(int p) const { return p >= 0 && p < int(owners_.size()); }
   int Disparity(int q) const { return disparity_[size_t(q)]; }
@@ -197,8 +200,8 @@ class LineScan {
   }
 
   // Softens the lower end of a surface, whose last pixel is `end`, where a farther surface
-  // continues. If the end lies between rendered pixels, the nearer surface covers either a part of
-  // its last pixel, or the whole last pixel and a part of the pixel below.
+  // continues. If the end lies inside a pixel, the nearer surface covers a part of either its last
+  // pixel or the next lower pixel.
   void SoftenEnd(const LineRun& nearer, const LineRun& farther, int end) {
     const int q = nearer.begin;
     if (q == 0 || OneSurface(q - 1, q)) return;
@@ -211,8 +214,8 @@ class LineScan {
     }
   }
 
-  // Returns true if the pixel is not yet divided between two surfaces. The two ends of a run of one
-  // pixel may lie in the same rendered pixel.
+  // Returns true if rendered pixel p is not yet divided between two surfaces. The two ends of a run
+  // of one pixel may lie in the same rendered pixel.
   bool IsWhole(int p) const {
     return Inside(p) && !owners_[size_t(p)].hole && owners_[size_t(p)].share == 0;
   }
@@ -223,7 +226,7 @@ class LineScan {
     owners_[size_t(p)].share = share;
   }
 
-  // Marks the rendered pixels from `begin` to the filled ones as a hole.
+  // Marks the rendered pixels from `begin` up to the filled pixels as a hole.
   void SetHole(int begin, int source) {
     for (int p = begin; p < filled_; ++p) {
       if (Inside(p)) owners_[size_t(p)] = {true, source, source, 0};
@@ -232,8 +235,9 @@ class LineScan {
   }
 
   // Sets a rendered pixel whose source is t pixels away from the centre of the rendered pixel. With
-  // a subaperture of width L, the neighbour on that side gets a share. The share is
-  // (|t| - 1/2) / L + 1/2, clamped to [0, 1], or 0 if the neighbour is on another surface.
+  // a subaperture of width L, the next pixel of the line on the side of the source's offset gets a
+  // share. The share is (|t| - 1/2) / L + 1/2, clamped to [0, 1], or 0 if this pixel is on another
+  // surface.
   void SetSurface(int p, const LineRun& run) {
     if (!Inside(p)) return;
     Owner owner = {false, p + Whole(run), p + Whole(run), 0};
@@ -253,16 +257,16 @@ class LineScan {
   int filled_ = 0;  // lowest rendered pixel that is filled
 };
 
-// --- One view from another, along the lines of direction (u, v) ---
+// --- Rendering of one view from another view, along lines of direction (u, v) ---
 
-// `hole(x, y, disparity, colour)` returns the colour of pixel (x, y) in a hole. A surface of
-// `disparity` and `colour` continues there.
+// `hole(x, y, disparity, colour)` returns the colour of pixel (x, y) in a hole. The surface with
+// `disparity` and `colour` continues into the hole.
 template <class Hole>
 Picture RenderAlong(const Picture& from, int u, int v, const Lens& lens, int k, const Hole& hole) {
   Picture to(from.width, from.height);
   for (int y0 = 0; y0 < from.height; ++y0) {
     for (int x0 = 0; x0 < from.width; ++x0) {
-      if (from.Inside(x0 - u, y0 - v)) continue;  // not the first pixel of a line
+      if (from.Inside(x0 - u, y0 - v)) continue;  // (x0, y0) is not the first pixel of a line
       std::vector<size_t> line;
       std::vector<int> disparity;
       for (int x = x0, y = y0; from.Inside(x, y); x += u, y += v) {

@@ -21,17 +21,17 @@ struct ApertureShape {
   int shape = STARFOCUS_SHAPE_FALL_OFF;
   int blades = 0;
   double rotation = 0, curvature = 0, inner = 0, cats_eye = 0;
-  double rim_x = 0, rim_y = 0;  // apparent position of the rim behind the lens
+  double rim_x = 0, rim_y = 0;  // position of the rim behind the lens, seen from a block
 
-  // Edge of the polygon: the direction of its normal, and the centre of its circle along the
-  // normal.
+  // Edge of a polygon: the direction (x, y) of its normal, and the centre of the edge's arc as a
+  // distance along the normal.
   struct Edge {
     double x, y, centre;
   };
   std::array<Edge, STARFOCUS_MAX_BLADES> edges = {};
   double cot2;  // squared cotangent of theta
 
-  ApertureShape(double angle)  // NOLINT: theta alone defines a lens with fall-off
+  ApertureShape(double angle)  // NOLINT: theta alone defines a fall-off
       : theta(angle), cot2(1 / (std::tan(theta) * std::tan(theta))) {}
   ApertureShape(const starfocus_lens& lens)  // NOLINT: converts
       : theta(lens.theta),
@@ -51,7 +51,7 @@ struct ApertureShape {
   }
 
   static constexpr double kPi = 3.14159265358979323846;
-  // Returns half of the angle between two corners.
+  // Returns half of the angle between two adjacent corners of the polygon, in radians.
   double Half() const { return kPi / blades; }
 
   // Returns the opening as seen from the middle of a block, which determines the position of the
@@ -65,7 +65,8 @@ struct ApertureShape {
     return here;
   }
 
-  // Returns true if (u, v) is inside all edges, which are straight or arcs of circles.
+  // Returns true if (u, v) is inside all edges of the polygon; edges are straight or arcs of
+  // circles.
   bool InPolygon(double u, double v) const {
     const double straight = curvature == 0 ? std::cos(Half()) : 0;
     for (int k = 0; k < blades; ++k) {
@@ -88,8 +89,8 @@ struct ApertureShape {
     return shape == STARFOCUS_SHAPE_DISC || InPolygon(u, v) ? 1 : 0;
   }
 
-  // Returns the mean density over the subaperture around (i, j), at `points` x `points` points. The
-  // lens is `width` subapertures wide.
+  // Returns the mean density of the subaperture around (i, j), sampled at `points` x `points`
+  // points. The lens is `width` subapertures wide.
   double Mean(int i, int j, double width, int points) const {
     double sum = 0;
     ForEachPoint(i, j, width, points, [&](double u, double v) { sum += Density(u, v); });

@@ -10,7 +10,7 @@ double Difference(const Colour& a, const Colour& b) {
 
 int Sign(int value) { return (value > 0) - (value < 0); }
 
-// Number of lines to remove from each side of a picture.
+// Numbers of rows and columns to remove from the sides of a picture.
 struct Cut {
   int left, right, top, bottom;
 };
@@ -55,7 +55,8 @@ class Views {
                        });
   }
 
-  // Renders view `i` of type A (Fig. 11) along rows or columns, once.
+  // Returns view `i` of type A (Fig. 11), rendered along rows or columns; each view is rendered
+  // once.
   const Picture& Along(bool rows, int i) {
     const auto known = along_.find({rows, i});
     if (known != along_.end()) return known->second;
@@ -70,8 +71,8 @@ class Views {
     return along_.emplace(std::make_pair(rows, i), std::move(view)).first->second;
   }
 
-  // Renders a view of type C (Fig. 11) across the lines of a view of type A. Lines that the
-  // outermost view cannot reach are cut off, since runs of one shift start at the first line.
+  // Renders a view of type C (Fig. 11) across the lines of a view of type A. Lines that no view
+  // moves into the rectangle are cut off first, since the first line determines where runs start.
   void AddAcross(bool rows, int i, int j, double weight, Picture* sum) {
     const int along = rows ? i : j, across = rows ? j : i;
     const int last = lens_.LastAcross(std::abs(along));
@@ -104,13 +105,13 @@ class Views {
     }
   }
 
-  // Returns the colour of a surface in the captured view in the direction of view (i, j). View (i,
-  // j) shows this surface at picture position (x, y).
+  // Returns the colour of a surface, read from the captured view in the direction of view (i, j).
+  // View (i, j) shows this surface at picture position (x, y).
   Colour FromCaptured(int i, int j, int x, int y, int disparity, const Colour& behind) const {
     if (field_.size() == 1) return behind;
     const int u = Sign(i), v = Sign(j);
     const bool half = field_.size() == 17 && lens_.Half(std::max(std::abs(i), std::abs(j)));
-    const int distance = half ? 1 : 2;  // halves of a unit
+    const int distance = half ? 1 : 2;  // distance of the captured view, in halves of a unit of u
     const auto moved = [&](int view, bool captured) {
       const int shift = view == 0 ? 0 : lens_.Shift(std::abs(view), disparity);
       const auto far = Rounded(int64_t{4} * disparity * distance, 1 + lens_.layer);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Refocuses one rectangle in the reference by the paper's rule: renders and sums the views of a
-// block.
+// Refocuses one rectangle in the reference by line scans, as the paper does: renders and sums the
+// views of a block.
 #ifndef STARFOCUS_TESTS_CONFORMANCE_REFERENCE_RECTANGLE_H_
 #define STARFOCUS_TESTS_CONFORMANCE_REFERENCE_RECTANGLE_H_
 

@@ -14,7 +14,7 @@ namespace {
 
 struct Range {
   int low, high;
-  // nearer than `high`; the slice also includes surfaces up to this disparity
+  // The slice includes surfaces up to the disparity `overlap`, which is larger than `high`.
   int overlap;
 
   int Disparity() const { return low + (high - low) / 2; }  // disparity by which the slice moves
@@ -43,7 +43,8 @@ class RangeFinder {
     }
   }
 
-  // Returns the finest ranges that are few and small enough, from near to far.
+  // Returns the ranges of disparity of the slices, from near to far: the finest ranges within the
+  // limits of `slicing_`.
   std::vector<Range> Find() const {
     for (int64_t coarser = 1;; coarser *= 2) {
       const std::vector<Range> ranges = Part(coarser);
@@ -53,7 +54,7 @@ class RangeFinder {
 
  private:
   static constexpr int64_t kMost = 1 << 20;  // upper bound of disparities
-  static constexpr int kUnitBits = 24 + 6;   // fractional bits of a disparity times a step
+  static constexpr int kUnitBits = 24 + 6;   // fractional bits of disparity * step
 
   // Returns true if a pixel of the extended rectangle is blurred into the rectangle.
   bool Reaches(int disparity, int x, int y) const {
@@ -65,7 +66,7 @@ class RangeFinder {
 
   // Returns the number of bins that a slice may span if `bin` is the nearest bin of the slice.
   int64_t Span(int bin, int64_t coarser) const {
-    constexpr int64_t kSharp = 4 * 256;  // a blur of 4 pixels
+    constexpr int64_t kSharp = 4 * 256;  // blur of 4 px, in 1/256
     const auto range = int64_t(256 * slicing_.range);
     const int64_t whole = std::min(kMost, (range << (kUnitBits - 8)) / lens_.step);
     const auto rim = Rounded(lens_.step * (low_ + bin * bin_ - lens_.focus), kUnitBits - 8);
@@ -102,20 +103,20 @@ class RangeFinder {
   const Lens& lens_;
   const Rectangle& rect_;
   const Slicing slicing_;
-  int low_ = 0;  // disparity of bin 0
+  int low_ = 0;  // smallest disparity of bin 0, 1/64 pixel
   int bin_ = 1;  // number of disparities in a bin
   std::set<int> occupied_;
 };
 
-// --- A slice: its pixels, and their positions in views ---
+// --- Pixels of a slice, and the positions of these pixels in views ---
 
-// Three colours multiplied by coverage, and the coverage.
+// Colour of a pixel, three channels multiplied by the coverage, followed by the coverage.
 using Light = std::array<double, 4>;
 
 // Pixels of a rectangle and its surroundings. Pixel (0, 0) is the first pixel of the refocused
 // rectangle.
 struct Plane {
-  int left, top, width, height;  // left, top: number of pixels before the rectangle
+  int left, top, width, height;  // left, top: pixels outside the rectangle
   std::vector<Light> pixels;
 
   Plane(int l, int t, int w, int h)
@@ -130,8 +131,8 @@ struct Plane {
   }
 };
 
-// Widest subaperture, in pixels, that is applied by moving the slice. Slices with wider
-// subapertures are spread beforehand.
+// Widest subaperture, in pixels, that the filter of a view applies while the slice is moved. For
+// wider subapertures, the slice is spread before the slice is moved.
 constexpr double kWidestBox = 3;
 
 // Spreads a plane by a box along x or y. Pixels beyond the plane count as empty, since no view
@@ -162,8 +163,8 @@ Plane MakePlane(const SurfaceMap& map, const Range& range, const Lens& lens,
   for (int y = -reach; y < rect.height + reach; ++y) {
     for (int x = -reach; x < rect.width + reach; ++x) {
       for (const Surface& surface : map.At(x + rect.left, y + rect.top)) {
-        // The end of a surface must be in a single slice, since two slices would cover twice as
-        // much.
+        // A pixel at the end of a surface must be in a single slice, since in two slices its
+        // coverage would be doubled.
         const int high = surface.share < 1 || surface.ends ? range.high : range.overlap;
         if (surface.disparity < range.low || surface.disparity > high) continue;
         Light& light = plane.At(x, y);
@@ -182,7 +183,7 @@ Plane MakePlane(const SurfaceMap& map, const Range& range, const Lens& lens,
 struct Offset {
   int first;
   std::vector<double> parts;
-  double inside;  // weight of the second of two pixels with equal coverage, in place of parts[1]
+  double inside;  // replaces parts[1] if two pixels have equal coverage
 
   template <class At>
   Light See(const At& at) const {
@@ -221,8 +222,8 @@ Offset OffsetOf(const Lens& lens, int k, int disparity) {
   return {int(whole), {1 - edge, edge}, inside};
 }
 
-// Moves a plane along x, as the views of one column show it, and crops it to the rectangle's
-// columns.
+// Returns the columns of the rectangle from a plane that is moved along x as in one column of
+// views.
 Plane MovedAlongX(const Plane& from, const Offset& offset, int width) {
   Plane to(0, from.top, width, from.height);
   for (int y = -from.top; y < from.height - from.top; ++y) {
@@ -233,10 +234,10 @@ Plane MovedAlongX(const Plane& from, const Offset& offset, int width) {
   return to;
 }
 
-// --- Views: composited slices ---
+// --- Compositing of slices to views ---
 
-// Returns the factor for a slice that covers more than the light that is left. The factor
-// approximates light / covered by the first terms of a series in 1 - covered.
+// Returns the factor by which a slice is scaled if its coverage exceeds the light that is left. The
+// factor approximates light / covered by the first terms of a series in 1 - covered.
 double ShareOf(double covered, double light) {
   const double open = 1 - covered;
   return std::min(4 * light, 1 - (covered - light) * (1 + open + open * open));
@@ -268,7 +269,7 @@ class Stack {
     return sum_;
   }
 
-  // Returns the sum of the views' weights.
+  // Returns the sum of the weights of all added views.
   double total() const { return total_; }
 
  private:
@@ -286,8 +287,8 @@ class Stack {
     }
   }
 
-  // Adds a slice, and subtracts the coverage of the slice from the light that is left. A slice that
-  // covers more than the light that is left takes all of it.
+  // Adds a slice, and subtracts the coverage of the slice from the light that is left. A slice
+  // whose coverage exceeds the light that is left takes all of this light.
   static void Take(const Light& slice, double weight, double* light, Light* sum) {
     const double covered = slice[3];
     if (covered > *light) weight *= ShareOf(covered, *light);
@@ -304,8 +305,8 @@ class Stack {
 };
 
 // Returns the tile that starts at (x, y) of a rectangle. The sides of a tile are 64 pixels, or the
-// rest of the rectangle if at most 80 pixels are left. The part of the rectangle outside the tile
-// belongs to the border of the tile.
+// rest of the rectangle if at most 80 pixels are left. The border of the tile includes the part of
+// the rectangle outside the tile.
 Rectangle TileAt(const Rectangle& rectangle, int x, int y) {
   const auto side = [](int rest) { return rest <= 80 ? rest : 64; };
   Rectangle tile = rectangle;
@@ -329,7 +330,8 @@ void CompositeTile(const SurfaceMap& map, const Picture& extended, const Lens& l
   const Plane& sum = stack.AddViews();
   for (int y = 0; y < tile.height; ++y) {
     for (int x = 0; x < tile.width; ++x) {
-      // If the slices cover less than a quarter of all light, the pixel of the centre view is used.
+      // If the slices take less than a quarter of the light of all views, the pixel of the centre
+      // view is used.
       const Light& light = sum.At(x, y);
       Colour& colour = picture->colours[picture->At(left + x, top + y)];
       colour = extended.colours[extended.At(x + tile.left, y + tile.top)];

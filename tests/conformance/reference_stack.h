@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Refocuses one rectangle in the reference by the rule of subapertures. Each tile is a stack of
-// slices. Each view moves the slices of a stack by different distances.
+// Refocuses one rectangle in the reference with slices and subapertures. The pixels of each tile
+// are divided into a stack of slices. Each view moves the slices of a stack by different distances.
 #ifndef STARFOCUS_TESTS_CONFORMANCE_REFERENCE_STACK_H_
 #define STARFOCUS_TESTS_CONFORMANCE_REFERENCE_STACK_H_
 
@@ -10,8 +10,9 @@
 
 namespace reference {
 
-// Limits of the number and of the area of slices. If a limit is exceeded, slices become coarser.
-// `range` is the largest distance between pixels of a sharp slice at the rim, in pixels.
+// Limits of the number of slices (`most`) and of their total area in pixels (`area`). If a limit is
+// exceeded, slices become coarser. `range` is the largest difference of blur, in pixels, between
+// pixels of a slice near the focus.
 struct Slicing {
   size_t most;
   int area;

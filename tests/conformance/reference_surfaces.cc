@@ -16,10 +16,10 @@ struct Background {
   Direction towards;
   int distance;  // in pixels
   int disparity;
-  std::optional<Position> captured;  // the view that sees the far side, if any
+  std::optional<Position> captured;  // view that sees the far side, if any
 
-  // Rank of backgrounds: surfaces that a captured view sees precede other surfaces, and shorter
-  // distances precede longer ones.
+  // Order of backgrounds: backgrounds that a captured view sees precede other backgrounds, and near
+  // backgrounds precede distant backgrounds.
   bool SameRank(const Background& other) const {
     return captured.has_value() == other.captured.has_value() && distance == other.distance;
   }
@@ -69,8 +69,8 @@ class SurfaceFinder {
   }
 
   // Splits a pixel on the far side of a depth edge into the near and the far surface. The pixel is
-  // split only if some view moves both surfaces against each other. The result is the mean over the
-  // adjacent edges.
+  // split only if the two surfaces are more than one pixel apart in the outermost view. If several
+  // neighbours are nearer, both colours are means over these edges.
   void Part(int x, int y, std::vector<Surface>* surfaces) const {
     const bool outermost =
         x == 0 || y == 0 || x == extended_.width - 1 || y == extended_.height - 1;
@@ -94,7 +94,7 @@ class SurfaceFinder {
       near.disparity = std::max(near.disparity, disparity);
       shares += mixed.share;
     }
-    near.share = std::floor(near.share * 128 + 0.5) / 128;  // rounded as in the engine
+    near.share = std::floor(near.share * 128 + 0.5) / 128;  // rounded to 1/128 as in the engine
     if (near.share == 0) return;
     for (size_t c = 0; c < 3; ++c) {
       near.colour[c] /= shares;
@@ -120,9 +120,9 @@ class SurfaceFinder {
     return x >= 0 && y >= 0 && x < width && y < height;
   }
 
-  // Returns the mixture of a subsampled pixel. The share of the near surface is estimated from the
-  // colours of both surfaces in the neighbours or in a captured view. The rest of the pixel is the
-  // far surface.
+  // Returns the near share and both colours of a mixed pixel at layers 1 and 2. The share of the
+  // near surface is estimated from the colours of both surfaces in the neighbours or in a captured
+  // view. The rest of the pixel shows the far surface.
   Mixed MixtureOfLevel(int x, int y, const Direction& side) const {
     const auto at = [&](int k) {
       return extended_.At(std::clamp(x + k * side.x, 0, extended_.width - 1),
@@ -195,19 +195,20 @@ class SurfaceFinder {
   }
 
   // Returns true if a pixel hides the point `distance` pixels away beyond an edge. The centre view
-  // does not see this point, but a view at distance 1 does.
+  // does not see the hidden point, but a view at distance 1 does.
   bool Hides(int here, int far, int distance) const {
     return IsEdge(here, far) && (distance - 1) * unit_ <= here - far;
   }
 
-  // Returns the distance to the far side of the nearest depth edge in that direction, or 0 if the
-  // pixel does not hide this side. A step does not count as an edge if two conditions hold. The
-  // step must be at most an eighth of the depth that the previous edge hides. The near side of the
-  // step must hide the far side of the previous edge.
+  // Returns the distance to the far side of the nearest depth edge in the direction `towards`, or 0
+  // if the pixel does not hide this side. A step does not count as an edge if two conditions hold.
+  // The step must be at most an eighth of the depth that the previous edge hides. The near side of
+  // the step must hide the far side of the previous edge.
   int NextEdge(int x, int y, const Direction& towards) const {
     int k = 0;
     while (extended_.Inside(x + (k + 1) * towards.x, y + (k + 1) * towards.y)) ++k;
-    // disparity and distance of the last edge; distance 0: no edge so far
+    // Disparity of the last edge's far side, and the distance to this side; a distance of 0 means
+    // that no edge was found yet.
     int far = 0, distance = 0;
     for (; k > 0; --k) {
       const int beyond = Disparity(x + k * towards.x, y + k * towards.y);
@@ -222,8 +223,9 @@ class SurfaceFinder {
     return distance > 0 && Hides(Disparity(x, y), far, distance) ? distance : 0;
   }
 
-  // Finds the surfaces behind a pixel: one beyond the edge in that direction, and one beyond the
-  // next edge. The second surface is added only if a view can see that far behind the pixel.
+  // Finds up to two surfaces behind a pixel: the surfaces beyond the next two edges in the
+  // direction `towards`. The second surface is added only if a view can see that far behind the
+  // pixel.
   void LookBehind(int x, int y, const Direction& towards, std::vector<Background>* found) const {
     const int next = NextEdge(x, y, towards);
     if (next == 0) return;
@@ -248,9 +250,9 @@ class SurfaceFinder {
 
   // Returns true if a nearer pixel covers the pixel's background in a captured view. The covering
   // pixel is nearer than `far`, the disparity of the background, by more than half a pixel. In the
-  // captured view, the covering pixel lies within 3/4 of a pixel of the background. The candidates
-  // lie on a line that starts at the pixel and points towards the view. Views close to the centre
-  // view see no more than the centre view.
+  // captured view, the covering pixel lies within 3/4 of a pixel of the background. The pixels that
+  // may cover the background lie on a line from the pixel towards the view. In a view too close to
+  // the centre view, every background counts as covered.
   bool IsCovered(int x, int y, int far, const Position& view) const {
     const auto [u, v] = view;
     const int size = std::max(std::abs(u), std::abs(v));
@@ -287,7 +289,7 @@ class SurfaceFinder {
 
   Colour ColourOf(int x, int y, const Background& background) const {
     const auto& [dx, dy] = background.towards;
-    if (!background.captured) {  // the far side continues
+    if (!background.captured) {  // The surface beyond the edge is repeated.
       return extended_
           .colours[extended_.At(x + dx * background.distance, y + dy * background.distance)];
     }

@@ -27,8 +27,8 @@ void Alternate(test::Scene* scene, test::Random* random) {
   }
 }
 
-// Gives near pixels one colour and far pixels another, in all views, with a little noise. Pixels at
-// edges may then be any mixture of both.
+// In all views, gives near pixels one colour and far pixels another colour, with a little noise.
+// Pixels at edges may then be any mixture of the near and the far colour.
 void TwoColours(test::Scene* scene, test::Random* random) {
   const int noise = 1 << random->Int(0, 6);
   const float middle = 0.5F * (scene->disparity_min + scene->disparity_max);
@@ -112,7 +112,7 @@ void SetConfig(Trial* trial, test::Random* random) {
   config = test::ConfigFor(trial->scene, std::max(0.5, radius));
   config.superblock = random->Int(0, 3) == 0 ? 64 : 32;
   config.tuning.max_layer = random->Int(0, STARFOCUS_LAYERS - 1);
-  config.tuning.deblocking = 0;  // deblocking decides by thresholds; deblock_test tests deblocking
+  config.tuning.deblocking = 0;  // thresholds of deblocking magnify rounding errors
   config.tuning.gather = random->Int(0, 3) == 0 ? 0 : 1;
   // A low cost per block makes the partition fine, and a high cost makes the partition coarse.
   if (random->Int(0, 1) == 0) config.tuning.timing.block = 1u << random->Int(0, 26);

@@ -21,8 +21,8 @@ struct Trial {
   std::string Text() const;
 };
 
-// Makes the trial of a seed. With `anywhere`, trials by the rule of subapertures have any number of
-// views at any positions instead of a star.
+// Makes the random trial that `seed` identifies. If `anywhere` is true, trials of the renderer
+// slices have any number of views at any positions, instead of a star.
 Trial MakeTrial(uint64_t seed, bool anywhere);
 
 // Returns the largest allowed difference in grey levels. With highlights the limit is larger, since

@@ -20,21 +20,22 @@ struct Pinned {
   const char* what;
 };
 
-// Seeds of trials that once differed by more than a level, with the reasons.
+// Seeds of trials in which the engine once differed from the reference by more than a level, with
+// the reasons.
 constexpr Pinned kPinned[] = {
-    {1503, "a twice rounded share split a pixel that is not mixed: 11 levels"},
-    {1606, "a twice rounded share split a pixel behind two surfaces: 4 levels"},
-    {1454, "far colours were weighted by coarsely rounded shares: 4 levels"},
-    {1096, "coarsely rounded shares with the steepest aperture"},
-    {1812, "coarsely rounded shares with nine views"},
-    {1382, "slices for N = 4 exceeded their memory: 3 levels"},
+    {1503, "a share that was rounded twice split a pixel that was not mixed: error of 11 levels"},
+    {1606, "a share that was rounded twice split a pixel behind two surfaces: error of 4 levels"},
+    {1454, "far colours were weighted by coarsely rounded shares: error of 4 levels"},
+    {1096, "shares were coarsely rounded with the steepest aperture"},
+    {1812, "shares were coarsely rounded with nine views"},
+    {1382, "slices for N = 4 exceeded their memory: error of 3 levels"},
     {6087, "the PSF of a disc was integrated over too few points for gathering"},
-    {6293, "the PSF of a smaller disc was integrated over too few points"},
+    {6293, "the PSF of a smaller disc was integrated over too few points for gathering"},
     {7700777,
-     "lamps: the reference sampled rim subapertures at other points than the engine: 3 levels"},
+     "lamps: the reference and the engine sampled rim subapertures at different points: 3 levels"},
 };
 
-TEST_CASE("trials: seeds that once failed match the reference") {
+TEST_CASE("trials: seeds of earlier failures match the reference") {
   for (const Pinned& pinned : kPinned) {
     const Trial trial = MakeTrial(pinned.seed, false);
     CAPTURE(pinned.what);
@@ -45,7 +46,7 @@ TEST_CASE("trials: seeds that once failed match the reference") {
 
 // STARFOCUS_TRIALS=FIRST:COUNT selects other seeds, for longer runs.
 TEST_CASE("trials: random light fields and lenses match the reference") {
-  // A few trials suffice for sanitizers.
+  // With sanitizers, a few trials suffice.
 #if defined(__SANITIZE_ADDRESS__)
   unsigned first = 1, count = 60;
 #else
