@@ -8,7 +8,7 @@
 namespace starfocus {
 namespace {
 
-// Sets up the comparison with the previous light field.
+// Prepares the engine for comparing the current light field with the previous light field.
 void CompareWith(const Call& call, EngineState* engine) {
   const starfocus_config& config = engine->config;
   FrameDiff& changes = engine->stripe.changes;

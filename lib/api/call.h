@@ -14,22 +14,23 @@ struct Call {
   const starfocus_params& params;
   RowSource source;
   RowSink sink;
-  // Null: the light field is not prepared.
+  // Prepared light field; null if the light field is not prepared.
   const Prepared* prepared = nullptr;
-  const starfocus_light_field *before = nullptr, *now = nullptr;  // null: frames are not compared
+  // Previous and current light field of a video; null if frames are not compared.
+  const starfocus_light_field *before = nullptr, *now = nullptr;
 };
 
-// Checks `params` and the prepared light field (null: none) against the configuration of the
-// engine.
+// Checks `params` and the prepared light field, which may be null, against the configuration of
+// the engine.
 starfocus_status CheckCall(const starfocus_config& config, const starfocus_params& params,
                            const Prepared* prepared);
 
-// Returns the memory of the engine and of a prepared light field. Outputs must not overlap this
-// memory.
+// Returns the address ranges of the engine and of a prepared light field. Outputs must not overlap
+// these address ranges.
 Extents MemoryOf(const EngineState& engine, const Prepared* prepared);
 
-// Runs a refocusing. The views must be set, and everything except the values of the map must have
-// been checked.
+// Runs a refocusing. Before this call, the caller must set the engine's views and check all
+// arguments except the values of the map.
 starfocus_status RunCall(const Call& call, EngineState* engine, starfocus_report* report);
 
 }  // namespace starfocus

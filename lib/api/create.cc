@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// C API: engines in memory from an allocator. All calls of malloc and free are in this file, so
-// that static programs that provide the memory do not link the heap.
+// C API: creates and destroys engines in memory from an allocator. Only this file calls malloc and
+// free, so that static programs that provide the memory do not link the heap functions.
 #include <cstdint>
 #include <cstdlib>
 
@@ -13,7 +13,7 @@ using namespace starfocus;
 namespace starfocus {
 namespace {
 
-// Not every C library can allocate aligned memory, so this function aligns the block itself. The
+// Not every C library can allocate aligned memory, so AllocateFromHeap aligns the block. The
 // pointer from malloc is stored directly before the returned block.
 void* AllocateFromHeap(void*, size_t bytes, size_t alignment) {
   if (bytes > SIZE_MAX - alignment) return nullptr;
@@ -26,7 +26,7 @@ void* AllocateFromHeap(void*, size_t bytes, size_t alignment) {
 
 void ReleaseToHeap(void*, void* memory, size_t) { std::free(static_cast<void**>(memory)[-1]); }
 
-// Converts a function to a pointer, for null checks.
+// Converts a function pointer to a data pointer, for null checks.
 template <class Function>
 const void* Address(Function* function) {
   return reinterpret_cast<const void*>(function);

@@ -102,7 +102,7 @@ starfocus_status SizeOf(const starfocus_depth_config* config, bool repairs, size
   return STARFOCUS_OK;
 }
 
-// Arguments of a call.
+// Arguments of an API call that estimates or repairs a map.
 struct DepthCall {
   const starfocus_depth_config* config;
   const starfocus_light_field* light_field;
@@ -122,7 +122,7 @@ starfocus_status CheckStrides(const starfocus_depth_config& config,
   return check.status();
 }
 
-// Checks all arguments of a call.
+// Checks all arguments of an API call that estimates or repairs a map.
 starfocus_status CheckCall(const DepthCall& call, bool repairs,
                            const starfocus_disparity_output& map) {
   size_t needed = 0;
@@ -163,7 +163,8 @@ starfocus_status Watched(const starfocus_depth_config& config, JobSet* jobs, con
   return call_progress->Ask() ? STARFOCUS_OK : STARFOCUS_ERROR_CANCELLED;
 }
 
-// Repairs a map by colour. Sets *has_coverage to 1 if coverage was found, otherwise to 0.
+// Repairs the map of a single view by the colours of the view. Sets *has_coverage to 1 if coverage
+// of hair was found, otherwise to 0.
 starfocus_status RepairOneView(const DepthCall& call, const MapOutput& output,
                                int32_t* has_coverage) {
   const EstimatePlan plan = PlanOf(*call.config, true);
@@ -189,7 +190,7 @@ starfocus_status SweepViews(const DepthCall& call, bool repairs, const MapOutput
   });
 }
 
-// Checks and runs a call.
+// Checks the arguments, then estimates or repairs the map.
 starfocus_status RunCall(DepthCall call, bool repairs, starfocus_disparity_output* map) {
   starfocus_depth_config full = DefaultDepthConfig();
   starfocus_status status = EnterConfig(

@@ -7,7 +7,7 @@
 namespace starfocus {
 namespace {
 
-// A line of a map, whose elements are `step` floats apart.
+// A row or a column of a map. Neighbouring elements are `step` floats apart in memory.
 struct MapLine {
   float* data;
   size_t step;
@@ -60,7 +60,7 @@ starfocus_status starfocus_fill_disparity(float* disparity, size_t stride, int32
   for (int32_t y = 0; y < height; ++y) {
     FillLine({disparity + static_cast<size_t>(y) * row_step, 1, width});
   }
-  // Rows without a known value are still completely unknown, so all columns have the same gaps.
+  // Filling the rows leaves only rows without any known value, so all columns now have equal gaps.
   for (int32_t x = 0; x < width; ++x) FillLine({disparity + x, row_step, height});
   return STARFOCUS_OK;
 }

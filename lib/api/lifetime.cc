@@ -13,10 +13,11 @@ using namespace starfocus;
 namespace starfocus {
 namespace {
 
-// Returns the configuration with a superblock size in place of 0. Superblocks of 128 pixels make
-// wide pictures up to 1/8 faster, because the blocks of a superblock share its surroundings. Wide
-// pictures still have enough superblocks for all workers. The memory of a worker is four times as
-// large as with superblocks of 64 pixels.
+// Returns the configuration, with a superblock size of 0 replaced by 64 or 128. Superblocks of 128
+// pixels make wide pictures up to 1/8 faster, because the blocks of a superblock share the pixels
+// around the superblock. Even with superblocks of 128 pixels, wide pictures have enough superblocks
+// for all workers. A worker uses four times as much memory with superblocks of 128 pixels as with
+// superblocks of 64 pixels.
 starfocus_config Choose(const starfocus_config& config) {
   constexpr int32_t kWide = 1536;
   starfocus_config chosen = config;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// C API: converts a photographer's settings, a tapped pixel and an f-stop, to lens parameters.
+// C API: converts a tapped pixel to a focus, and an f-stop to an aperture.
 #include <cmath>
 
 #include "lib/api/validate.h"
@@ -9,12 +9,13 @@
 namespace starfocus {
 namespace {
 
-// Number of pixels on each side of the tapped pixel that are read (docs/constants.md).
+// Number of pixels to read on each side of the tapped pixel (docs/constants.md).
 constexpr int32_t kAround = 3;
 constexpr int32_t kSide = 2 * kAround + 1;
 
-// Largest difference between a pixel's disparity and the disparity of its surface. No depth edge
-// separates two pixels that are both this close.
+// Largest difference between a pixel's disparity and the disparity of its surface. Two pixels
+// within kNear of one surface differ by at most kSurfaceStep, so no depth edge separates the
+// pixels.
 constexpr double kNear = kSurfaceStep / 2.0 / (1 << kDisparityBits);
 
 struct Map {
@@ -27,7 +28,7 @@ struct Map {
   }
 };
 
-// Disparities around a pixel.
+// Disparities of the pixels around a pixel, in ascending order.
 struct Sorted {
   float values[kSide * kSide];  // in ascending order
   int32_t count = 0;
@@ -39,7 +40,8 @@ struct Sorted {
   }
 };
 
-// Returns false if one of the disparities is not finite.
+// Sorts the disparities of the pixels around pixel (x, y). Returns false if one of these
+// disparities is not finite.
 bool SortAround(const Map& map, int32_t x, int32_t y, Sorted* sorted) {
   for (int32_t row = Max(0, y - kAround); row <= Min(map.height - 1, y + kAround); ++row) {
     for (int32_t column = Max(0, x - kAround); column <= Min(map.width - 1, x + kAround);
@@ -58,7 +60,8 @@ struct SortedPart {
   int32_t count() const { return last - first; }
 };
 
-// Returns the values near `disparity`. At least one value must be near.
+// Returns the part of the sorted values within kNear of `disparity`. At least one value must be
+// within kNear of `disparity`.
 SortedPart PartNear(const Sorted& sorted, double disparity) {
   SortedPart part = {0, 0};
   while (part.first + 1 < sorted.count && sorted.values[part.first] < disparity - kNear) {
@@ -74,8 +77,8 @@ double Median(const Sorted& sorted, const SortedPart& part) {
   return part.count() % 2 != 0 ? double{middle[0]} : (double{middle[-1]} + middle[0]) / 2;
 }
 
-// Returns true if a neighbour of the pixel is on the same surface. The result is true for a wire
-// one pixel wide, but false for a wrong value.
+// Returns true if a neighbour of the pixel is on the same surface. The result is true for a pixel
+// of a wire one pixel wide, but false for a single wrong pixel.
 bool HasNeighbour(const Map& map, int32_t x, int32_t y) {
   const double disparity = map.At(x, y);
   for (int32_t row = Max(0, y - 1); row <= Min(map.height - 1, y + 1); ++row) {
@@ -87,8 +90,8 @@ bool HasNeighbour(const Map& map, int32_t x, int32_t y) {
   return false;
 }
 
-// Returns the disparity that has the most values near it. If several disparities qualify, returns
-// the smallest.
+// Returns the disparity that has the most other disparities within kNear. Among disparities with
+// equally many, returns the smallest.
 double MostCommon(const Sorted& sorted) {
   int32_t most = 0, best = 0;
   for (int32_t k = 0; k < sorted.count; ++k) {
@@ -115,7 +118,7 @@ starfocus_status starfocus_focus_at(const float* disparity, size_t stride, int32
   Sorted sorted;
   if (!SortAround(map, x, y, &sorted)) return STARFOCUS_ERROR_NOT_FINITE;
   double surface = HasNeighbour(map, x, y) ? double{map.At(x, y)} : MostCommon(sorted);
-  // A second iteration makes the result less dependent on the noise of the pixel itself.
+  // Taking the median twice makes the focus less dependent on the noise of the tapped pixel.
   for (int round = 0; round < 2; ++round) {
     surface = Median(sorted, PartNear(sorted, surface));
   }
@@ -125,7 +128,7 @@ starfocus_status starfocus_focus_at(const float* disparity, size_t stride, int32
 
 starfocus_status starfocus_aperture_of_f_stop(double f_stop, double widest, double* aperture) {
   if (aperture == nullptr) return STARFOCUS_ERROR_NULL;
-  // The comparisons are written so that NaN fails.
+  // If an argument is NaN, a comparison is false and the function returns an error.
   if (!(widest > 0.0 && widest <= f_stop && std::isfinite(f_stop))) return STARFOCUS_ERROR_RANGE;
   *aperture = widest / f_stop;
   return STARFOCUS_OK;

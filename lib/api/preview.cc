@@ -10,7 +10,7 @@
 namespace starfocus {
 namespace {
 
-// Changes the engine to the size of previews during the lifetime of the object.
+// Lays out the engine for the size of previews during the lifetime of this object.
 class Reduction {
  public:
   Reduction(int32_t shift, EngineState* engine) : config_(engine->config), engine_(engine) {

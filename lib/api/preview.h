@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Previews: the engine temporarily changes to the size of a reduced light field.
+// Previews: an engine is temporarily laid out for the size of a reduced light field.
 #ifndef STARFOCUS_LIB_API_PREVIEW_H_
 #define STARFOCUS_LIB_API_PREVIEW_H_
 
@@ -10,12 +10,12 @@
 namespace starfocus {
 
 struct PreviewRequest {
-  const starfocus_params& params;  // in pixels of the full size
+  const starfocus_params& params;  // lens and region, in pixels of the full size
   const Prepared& prepared;
   int32_t shift;
 };
 
-// Checks a request and refocuses it into `out`.
+// Checks a request, refocuses the reduced light field, and writes the picture to `out`.
 starfocus_status RefocusPreview(const PreviewRequest& request, const starfocus_image& out,
                                 EngineState* engine, starfocus_report* report);
 

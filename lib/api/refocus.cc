@@ -12,7 +12,7 @@
 namespace starfocus {
 namespace {
 
-// Arguments of a refocusing. `prepared` may be null.
+// Arguments of an API call that refocuses. `prepared` may be null.
 struct Request {
   const starfocus_params& params;
   const starfocus_light_field& light_field;
@@ -20,8 +20,8 @@ struct Request {
   const starfocus_image& out;
 };
 
-// Checks the previous frame if it exists. Frames can be compared only if both frames are read in
-// place.
+// Checks the previous frame unless params.previous is null. Frames can be compared only if both
+// frames are read in place.
 starfocus_status CheckPrevious(const starfocus_config& config, const Request& request,
                                const PictureSize& size) {
   const starfocus_previous* const previous = request.params.previous;
@@ -51,8 +51,8 @@ Extents ReadBy(const Request& request, const PictureSize& size, const EngineStat
   return read;
 }
 
-// Returns the previous frame if it is comparable, or null. Frames are comparable if both light
-// fields have coverage or neither light field has coverage.
+// Returns the previous frame if it can be compared with the current frame, otherwise null. Two
+// frames can be compared if both light fields have coverage, or if both lack coverage.
 const starfocus_previous* ComparableOf(const Request& request) {
   const starfocus_previous* const previous = request.params.previous;
   if (previous == nullptr) return nullptr;

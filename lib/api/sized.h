@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Access to structures whose first field is their size, because the caller's header may be older
-// than the library.
+// Reads and writes structures whose first field is their size. The size is required because the
+// caller's header may be older than the library.
 #ifndef STARFOCUS_LIB_API_SIZED_H_
 #define STARFOCUS_LIB_API_SIZED_H_
 
@@ -20,8 +20,9 @@ void InitSized(Structure defaults, uint32_t size, Structure* given) {
               size < sizeof defaults ? size : sizeof defaults);
 }
 
-// Copies the caller's structure to *full, which must contain defaults for newer fields. Returns
-// false if the structure was not initialised, or was initialised by a newer header.
+// Copies the caller's structure to *full. The caller's structure may lack newer fields, so *full
+// must contain the defaults. Returns false if the structure was not initialised, or was initialised
+// by a newer header.
 template <class Structure>
 bool ReadSized(const Structure& given, Structure* full) {
   const uint32_t size = given.size;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// C API: streams. Pushed input rows are stored in ring buffers, and finished rows can be pulled.
+// C API: streams. The caller pushes input rows, which are stored in ring buffers, and pulls
+// finished rows.
 #include "lib/api/call.h"
 #include "lib/api/validate.h"
 #include "lib/api/validate_image.h"
@@ -13,7 +14,8 @@
 namespace starfocus {
 namespace {
 
-// Returns the number of input rows that must be pushed before the next stripe.
+// Returns the total number of input rows that must be pushed before the next stripe can be
+// refocused.
 int32_t NeededRows(const EngineState& engine) {
   return Min(engine.config.height, engine.stream.next + engine.config.superblock +
                                        LargestBorders(engine.config).streamed);
@@ -40,7 +42,8 @@ starfocus_status CheckCount(const EngineState& engine, int32_t rows, int32_t mos
   return check.status();
 }
 
-// Checks the number of rows that start at row `first`. YUV formats require pairs of rows.
+// Checks the number of rows of a push or pull that starts at row `first`. YUV formats require pairs
+// of rows.
 starfocus_status CheckPairs(const starfocus_config& config, bool is_yuv, int32_t first,
                             int32_t rows) {
   Checker check(config.problem);
@@ -67,7 +70,7 @@ starfocus_status CheckPush(const EngineState& engine, const starfocus_light_fiel
   return CheckPairs(config, AnyYuv(config, light_field), pushed, rows);
 }
 
-// Checks a pull of `rows` rows, at most the number of remaining rows.
+// Checks a pull of `rows` rows. `rows` must not exceed the number of remaining rows.
 starfocus_status CheckPull(const EngineState& engine, const starfocus_image& out, int32_t rows) {
   const starfocus_config& config = engine.config;
   starfocus_status status = CheckOutput(config, out, {config.width, config.height});
@@ -78,8 +81,8 @@ starfocus_status CheckPull(const EngineState& engine, const starfocus_image& out
   return CheckOutputApart(out, {config.width, rows}, MemoryOf(engine, nullptr), config.problem);
 }
 
-// Copies up to `rows` rows of the source, `unit` (1 or 2) at a time, until the next stripe has all
-// its rows. Adds the number of copied rows to *consumed.
+// Copies up to `rows` rows of the source, `unit` (1 or 2) at a time, until all input rows of the
+// next stripe are stored. Adds the number of copied rows to *consumed.
 starfocus_status PushRows(const RowSource& source, int32_t rows, int32_t unit, EngineState* engine,
                           int32_t* consumed) {
   Stream& stream = engine->stream;
@@ -111,8 +114,8 @@ starfocus_status PushRows(const RowSource& source, int32_t rows, int32_t unit, E
   return STARFOCUS_OK;
 }
 
-// Stores up to `rows` rows. Refocuses the stripes of these rows whose input rows are all available.
-// Adds the number of stored rows to *written.
+// Writes up to `rows` finished rows to the sink. Before that, refocuses the stripes of these rows
+// if all required input rows have been pushed. Adds the number of written rows to *written.
 starfocus_status PullRows(const RowSink& sink, int32_t rows, EngineState* engine,
                           int32_t* written) {
   Stream& stream = engine->stream;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks of all arguments of the C API. All checks run before a call writes any output.
+// Checks all arguments of the C API. All checks run before a call writes any output.
 #ifndef STARFOCUS_LIB_API_VALIDATE_H_
 #define STARFOCUS_LIB_API_VALIDATE_H_
 
@@ -13,8 +13,9 @@
 
 namespace starfocus {
 
-// Starts a call with a configuration. Copies the configuration to *full, which must contain the
-// defaults. Clears the problem of the previous call, and checks that no pointer is null.
+// Starts an API call that receives a configuration. Copies the configuration to *full, which must
+// contain the defaults. Clears the problem of the previous call, and checks that no pointer is
+// null.
 template <class Config>
 starfocus_status EnterConfig(const Config* config, std::initializer_list<Pointer> pointers,
                              Config* full) {
@@ -27,16 +28,16 @@ starfocus_config DefaultConfig();
 
 starfocus_params DefaultParams();
 
-// Starts a call with an engine: clears the problem of the engine and checks that no pointer is
-// null.
+// Starts an API call that receives an engine: clears the problem of the engine and checks that no
+// pointer is null.
 starfocus_status EnterEngine(starfocus_engine* engine, std::initializer_list<Pointer> pointers);
 
-// Starts a call that refocuses, like EnterEngine. Also copies `params`, which must be one of the
-// pointers, to *full.
+// Starts an API call that refocuses: performs the checks of EnterEngine and copies `params` to
+// *full. `params` must be one of the pointers.
 starfocus_status EnterCall(starfocus_engine* engine, std::initializer_list<Pointer> pointers,
                            const starfocus_params* params, starfocus_params* full);
 
-// Fields that configurations of engines and of depth maps share.
+// Fields that starfocus_config and starfocus_depth_config have in common.
 struct PictureRange {
   int32_t width, height;
   double disparity_min, disparity_max;
@@ -44,18 +45,18 @@ struct PictureRange {
 };
 void CheckPictureRange(const PictureRange& picture, Checker* check);
 
-// These checks report a rejected field to config.problem, which may be null.
+// CheckConfig and CheckParams report a rejected field to config.problem, which may be null.
 starfocus_status CheckConfig(const starfocus_config& config);
 starfocus_status CheckParams(const starfocus_config& config, const starfocus_params& params);
 
-// Memory of the caller. `name` is the name of the argument.
+// Memory that the caller passes to an API call as the argument `name`.
 struct Memory {
   const char* name;
   const void* data;
   size_t bytes;
 };
 
-// Checks that memory is aligned and has at least `needed` bytes.
+// Checks that memory is aligned to STARFOCUS_ALIGNMENT and has at least `needed` bytes.
 starfocus_status CheckMemory(const Memory& memory, size_t needed, starfocus_problem* problem);
 
 struct MapPlane {
@@ -74,7 +75,7 @@ bool ValidStride(size_t stride, size_t row_bytes, int32_t rows);
 starfocus_status CheckCoverage(const starfocus_config& config, const uint8_t* coverage,
                                size_t stride);
 
-// Checks that a region is all 0, or inside the picture.
+// Checks that all fields of a region are 0, or that the region lies inside the picture.
 starfocus_status CheckRegion(const starfocus_config& config, const starfocus_region& region);
 
 }  // namespace starfocus

@@ -39,7 +39,7 @@ bool ValidPixelStride(int32_t format, int32_t stride) {
   return stride > LeastStep(format) && stride <= STARFOCUS_MAX_PIXEL_STRIDE;
 }
 
-// Names of the fields of an image.
+// Names of the fields of an image, for error messages.
 struct ImageNames {
   const char *format, *matrix, *range, *pixel_stride, *planes, *strides;
 };
@@ -49,7 +49,7 @@ constexpr ImageNames kViewNames = {"views[].format",       "views[].matrix", "vi
 constexpr ImageNames kOutNames = {"out.format",       "out.matrix", "out.range",
                                   "out.pixel_stride", "out.planes", "out.strides"};
 
-// Checks view `index`, or an output.
+// Checks an image, which is view `index` of a light field or an output picture.
 void CheckImage(const starfocus_image& image, const PictureSize& size, const ImageNames& names,
                 int32_t index, Checker* check) {
   const int32_t format = image.format;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks of images and depth maps, and the address ranges of their planes.
+// Checks images and depth maps, and collects the address ranges of their planes.
 #ifndef STARFOCUS_LIB_API_VALIDATE_IMAGE_H_
 #define STARFOCUS_LIB_API_VALIDATE_IMAGE_H_
 
@@ -32,14 +32,14 @@ starfocus_status CheckInPlace(const starfocus_depth_map& map, const PictureSize&
 starfocus_status CheckLightField(const starfocus_config& config,
                                  const starfocus_light_field& light_field);
 
-// Adds the address ranges of all planes of a light field.
+// Adds the address ranges of all planes of a light field to *extents.
 void AddLightField(const starfocus_config& config, const starfocus_light_field& light_field,
                    Extents* extents);
 
-// Adds the address ranges of the planes of a picture of the given size.
+// Adds the address ranges of the planes of a picture of the given size to *extents.
 void AddImage(const starfocus_image& image, const PictureSize& size, Extents* extents);
 
-// Checks an output picture of the given size, without overlaps.
+// Checks an output picture of the given size, except for overlaps with other memory.
 starfocus_status CheckOutput(const starfocus_config& config, const starfocus_image& image,
                              const PictureSize& size);
 

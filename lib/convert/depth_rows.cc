@@ -11,11 +11,11 @@ namespace {
 
 static_assert(simd::kBlendStep == kSurfaceStep, "one surface is one surface");
 
-// Number of values and of pixels of a row that are converted at once, on the stack. No map is
-// larger than the picture, so interpolating n pixels reads at most n + 1 values.
+// Largest numbers of map values and of pixels that are converted at once, in arrays on the stack.
+// No map is larger than the picture, so interpolating n pixels reads at most n + 1 values.
 constexpr int32_t kPiece = 256, kPixels = kPiece - 1;
 
-// Converts `count` <= kPiece values of row y of the map, from column x on. Returns
+// Converts `count` <= kPiece values of row y of the map, starting at column x. Returns
 // simd::DepthFlags.
 uint32_t ConvertValues(const simd::ImageKernels& kernels, const DepthSource& depth, int32_t x,
                        int32_t y, int32_t count, int16_t* out) {
@@ -38,16 +38,16 @@ uint32_t ConvertValues(const simd::ImageKernels& kernels, const DepthSource& dep
   return kernels.DepthToDisparity(z, values, depth.rule, out);
 }
 
-// Returns the position of the middle of pixel k of a line of `size` pixels, relative to the middles
-// of the `small` values of the map.
+// Converts the middle of pixel k, in a line of `size` pixels, to a position in a line of `small`
+// map values. Position 0 is the middle of the first value.
 uint32_t PlaceOf(int64_t k, int64_t size, int64_t small) {
   constexpr int64_t kOne = simd::kColumnOne, kHalf = kOne / 2;
   const int64_t place = kHalf * (2 * k + 1) * small / size - kHalf, last = kOne * (small - 1);
   return static_cast<uint32_t>(place < 0 ? 0 : place > last ? last : place);
 }
 
-// Writes `count` <= kPixels pixels of a row, from column x on. `place` is the position of the row
-// in the map.
+// Writes `count` <= kPixels pixels of a row, starting at column x. `place` is the vertical position
+// of the row in the map.
 uint32_t ReadPiece(const simd::ImageKernels& kernels, const DepthSource& depth, uint32_t place,
                    int32_t x, int32_t count, int16_t* out) {
   const uint32_t* columns = depth.columns + x;

@@ -16,25 +16,26 @@ struct DepthSource {
   starfocus_depth_map map;
   simd::DepthRule rule;
   int32_t width, height;  // size of the picture
-  // Position of each column in the map (simd::SpreadRow); null: the map has the width of the
-  // picture.
+  // Position in the map of each column of the picture (simd::SpreadRow); null if the map is as wide
+  // as the picture.
   const uint32_t* columns;
-  // Row of the picture where `map` starts, if the map has the height of the picture.
+  // First row of the picture that `map` contains; 0 if the map is lower than the picture.
   int32_t first = 0;
 };
 
 // Computes the position in the map for each column of a picture.
 void FillColumns(int32_t width, int32_t map_width, uint32_t* columns);
 
-// Returns the source for pictures of `config`. `columns` is the result of FillColumns.
+// Returns a source that converts `map` to the picture size of `config`. `columns` is the result of
+// FillColumns.
 DepthSource MakeDepthSource(const starfocus_config& config, const starfocus_depth_map& map,
                             const uint32_t* columns);
 
 // Returns the number of bytes per value of a depth map of type `type`.
 size_t DepthBytes(int32_t type);
 
-// Writes the disparities of row y of the picture, kDisparityBits; unknown disparities are
-// kNoSurface. Returns simd::DepthFlags of the source values.
+// Writes the disparities of row y of the picture in fixed point (kDisparityBits). Unknown
+// disparities are set to kNoSurface. Returns simd::DepthFlags of the source values.
 uint32_t ReadDepthRow(const simd::ImageKernels& kernels, const DepthSource& depth, int32_t y,
                       int16_t* out);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Layout of images in memory: RGB pixels, or planes of luma and chroma, for any format.
+// Describes the memory layout of images of any format: RGB pixels, or planes of luma and chroma.
 #ifndef STARFOCUS_LIB_CONVERT_IMAGE_PLANES_H_
 #define STARFOCUS_LIB_CONVERT_IMAGE_PLANES_H_
 
@@ -11,9 +11,9 @@
 
 namespace starfocus {
 
-// Planes of an image. Byte is const for input images. RGB formats use only planes[0], and `step` is
-// the number of bytes from pixel to pixel. YUV formats have planes for luma, U and V, and `step` is
-// the number of bytes from chroma sample to chroma sample.
+// Planes of an image. The type parameter Byte is const for input images. RGB formats use only
+// planes[0], and `step` is the number of bytes from pixel to pixel. YUV formats have planes for
+// luma, U and V, and `step` is the number of bytes from chroma sample to chroma sample.
 template <class Byte>
 struct ImagePlanes {
   bool is_yuv, blue_first, has_alpha;
@@ -49,13 +49,13 @@ constexpr bool HasAlpha(int32_t format) {
   return format == STARFOCUS_FORMAT_RGBX || format == STARFOCUS_FORMAT_BGRX;
 }
 
-// Returns the pixel_stride that an image with pixel_stride 0 has.
+// Returns the number of bytes that pixel_stride = 0 selects for a format.
 constexpr int32_t LeastStep(int32_t format) {
   if (!IsYuv(format)) return HasAlpha(format) ? 4 : 3;
   return IsPaired(format) ? 2 : 1;
 }
 
-// Returns the planes of a valid image. Byte is const for input images.
+// Returns the planes of a valid image. The type parameter Byte is const for input images.
 template <class Byte>
 ImagePlanes<Byte> PlanesOf(const starfocus_image& image) {
   ImagePlanes<Byte> of = {};

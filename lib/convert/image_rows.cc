@@ -8,7 +8,7 @@
 namespace starfocus {
 namespace {
 
-// Number of chroma samples that are converted at once, on the stack.
+// Largest number of chroma samples that are converted at once, in arrays on the stack.
 constexpr int32_t kPiece = 256;
 
 // Returns true if samples of U and V alternate in one plane. *first is set to the plane of the
@@ -22,7 +22,7 @@ bool ArePairs(const ImagePlanes<Byte>& image, int* first) {
   return u + 1 == v || v + 1 == u;
 }
 
-// Up to kPiece consecutive chroma samples, in place or copied.
+// Up to kPiece consecutive chroma samples, read in place if possible and copied otherwise.
 class ChromaSamples {
  public:
   ChromaSamples(const simd::ImageKernels& kernels, const ImageSource& image, int32_t x, int32_t y,

@@ -15,7 +15,8 @@ namespace starfocus {
 void ReadCodes(const simd::ImageKernels& kernels, const ImageSource& image, int32_t x, int32_t y,
                int32_t count, uint8_t* rgb);
 
-// Writes the first `width` pixels of row y, without chroma. Alpha is set to 255.
+// Writes the first `width` pixels of row y. For YUV formats, writes only the luma. Alpha is set to
+// 255.
 void WriteCodes(const simd::ImageKernels& kernels, const uint8_t* rgb, int32_t width, int32_t y,
                 const ImageTarget& image);
 
@@ -34,8 +35,8 @@ struct AlphaSource {
 // Returns the alpha of an image.
 AlphaSource AlphaOf(const ImageSource& image);
 
-// Copies the alpha of `count` pixels from (x, y) on to the start of row `to_y`. Both images must
-// have alpha.
+// Copies the alpha of `count` pixels, starting at (x, y), to the start of row `to_y`. Both images
+// must have alpha.
 void CopyAlpha(const AlphaSource& from, int32_t x, int32_t y, int32_t count, int32_t to_y,
                const ImageTarget& to);
 

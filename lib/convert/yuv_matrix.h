@@ -14,7 +14,7 @@ constexpr int16_t RoundCoefficient(double value) {
   return static_cast<int16_t>(value < 0 ? value - 0.5 : value + 0.5);
 }
 
-// Computes the coefficients. kr and kb are the shares of red and blue in luma.
+// Computes the YUV coefficients from the shares kr and kb of red and blue in luma.
 constexpr simd::YuvMatrix MakeYuvMatrix(double kr, double kb, bool full) {
   const double kg = 1 - kr - kb;
   const double p = full ? 1 : 255.0 / 219, q = full ? 1 : 255.0 / 224;
@@ -39,7 +39,7 @@ constexpr simd::YuvMatrix MakeYuvMatrix(double kr, double kb, bool full) {
   return m;
 }
 
-// Coefficients, indexed by starfocus_matrix and starfocus_range.
+// YUV coefficients, indexed by starfocus_matrix and starfocus_range.
 inline constexpr simd::YuvMatrix kYuvMatrices[2][2] = {
     {MakeYuvMatrix(0.299, 0.114, false), MakeYuvMatrix(0.299, 0.114, true)},
     {MakeYuvMatrix(0.2126, 0.0722, false), MakeYuvMatrix(0.2126, 0.0722, true)},

@@ -7,14 +7,15 @@ namespace starfocus {
 namespace {
 
 constexpr int32_t kReach = 2 * simd::kColourReach;
-// Mask of the bits of a disparity within its group.
+// Mask of the low bits of a disparity, which are the offset of the disparity within its group.
 constexpr int32_t kLow = (1 << kDisparityBits) - 1;
 static_assert(simd::kColourKeyBits == kDisparityBits, "keys hold a disparity within a group");
 constexpr simd::ColourSample kOutside = {0, 0, 0, simd::kNoColourKey, 0};
 
 int32_t GroupOf(int32_t disparity) { return (disparity >> kDisparityBits) + kGroups / 2; }
 
-// Assigns slots to the groups of all pixels with which doubtful pixels are compared.
+// Assigns a slot to each group of disparities that occurs in `around`. Pixels of doubt 0 are
+// ignored.
 void PlaceGroups(const ColourMap& map, const uint8_t* doubt, const Rect& around, ColourCell* cell) {
   std::memset(cell->place, 0, sizeof cell->place);
   int32_t first = kGroups, last = 0;

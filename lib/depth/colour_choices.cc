@@ -23,8 +23,8 @@ struct ChoiceJob {
   const ChoiceMemory& memory;
 };
 
-// Inserts a choice into `choices`, which are sorted by cost. A choice is inserted after all choices
-// of equal cost, so that the nearest disparity comes first.
+// Inserts a candidate disparity into `choices`, which are sorted by cost. Choices of equal cost
+// stay in the order of insertion, so that the nearest disparity is first.
 void Insert(int32_t disparity, int32_t cost, Choices* choices) {
   int32_t at = Min(choices->count, kMostChoices - 1);
   const bool full = choices->count == kMostChoices;
@@ -38,8 +38,8 @@ void Insert(int32_t disparity, int32_t cost, Choices* choices) {
   choices->count += full ? 0 : 1;
 }
 
-// Fills the choices of pixel `lane` of the block with the groups that cost less than both adjacent
-// groups. Groups are visited from the nearest to the farthest.
+// Fills the choices of pixel `lane` of a block with one disparity from each group of disparities
+// whose cost is a local minimum. Groups are visited from the nearest to the farthest.
 void TakeBest(const ColourCell& cell, size_t lane, Choices* choices) {
   choices->count = 0;
   const uint16_t* keys = cell.least + lane;
@@ -110,7 +110,8 @@ void ChooseInRow(const ChoiceJob& job, const Rect& area, int32_t first, int32_t 
   }
 }
 
-// Gives each pixel that is not in doubt its own disparity. Returns true if any pixel is in doubt.
+// Gives each pixel that is not doubtful its own disparity as the only choice. Returns true if any
+// pixel is doubtful.
 bool ChooseOwn(const ChoiceJob& job, const Rect& area) {
   bool doubtful = false;
   for (int32_t y = area.y; y < area.y + area.height; ++y) {
@@ -160,9 +161,9 @@ void ContinueAmong(const Choices& from, int32_t jump, Choices* to, ChoicePath* p
   *path = next;
 }
 
-// Continues a path from a pixel to the next pixel, given the colours of both pixels. In most cases,
-// both pixels have a single choice, and both choices are on one surface. The path then adds no
-// cost, regardless of the colours.
+// Continues a path from a pixel to the next pixel, given the colours of both pixels. In the most
+// frequent case, both pixels have a single choice and both choices are on one surface, so the path
+// adds no cost.
 inline void Continue(const Choices& from, const uint8_t* colour, const uint8_t* next, Choices* to,
                      ChoicePath* path) {
   if (from.count > 1 || to->count > 1 || Abs(to->disparity[0] - from.disparity[0]) > kPixel) {
@@ -179,7 +180,8 @@ void Begin(Choices* choices, ChoicePath* path) {
   }
 }
 
-// Adds the paths along rows, to the right (direction 1) or to the left (-1).
+// Adds the costs of paths along rows to the sums of the choices. Paths lead to the right (direction
+// 1) or to the left (-1).
 void AddPathsAcross(const ColourMap& map, const Rect& region, int32_t direction, Choices* choices) {
   for (int32_t y = 0; y < region.height; ++y) {
     Choices* row = choices + static_cast<size_t>(y) * static_cast<size_t>(region.width);
@@ -193,7 +195,8 @@ void AddPathsAcross(const ColourMap& map, const Rect& region, int32_t direction,
   }
 }
 
-// Adds the paths along columns, down (direction 1) or up (-1).
+// Adds the costs of paths along columns to the sums of the choices. Paths lead down (direction 1)
+// or up (-1).
 void AddPathsDown(const ColourMap& map, const Rect& region, int32_t direction, ChoicePath* paths,
                   Choices* choices) {
   const auto width = static_cast<size_t>(region.width);
@@ -212,7 +215,8 @@ void AddPathsDown(const ColourMap& map, const Rect& region, int32_t direction, C
   }
 }
 
-// Returns the side of cells of equal size that cover `length` pixels, rounded up to whole blocks.
+// Divides `length` pixels into cells of equal size, and returns the side of a cell, rounded up to
+// whole blocks.
 int32_t CellSide(int32_t length) {
   const int32_t cells = (length + kColourCell - 1) / kColourCell;
   return WholeBlocks((length + cells - 1) / cells);

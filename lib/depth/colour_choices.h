@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds and rates the candidate surfaces of each doubtful pixel by colour. The candidates are the
-// disparities of the surrounding pixels. A candidate has a low cost if its pixels have a colour
-// similar to the doubtful pixel. Sums along paths then make neighbours of one colour prefer one
-// surface.
+// disparities of the surrounding pixels. A candidate disparity has a low cost if surrounding pixels
+// with this disparity have a colour similar to the doubtful pixel. Sums of costs along paths favour
+// a common surface for neighbouring pixels of similar colour.
 #ifndef STARFOCUS_LIB_DEPTH_COLOUR_CHOICES_H_
 #define STARFOCUS_LIB_DEPTH_COLOUR_CHOICES_H_
 
@@ -16,9 +16,9 @@ namespace starfocus {
 
 inline constexpr int32_t kMostChoices = 6;
 
-// Candidate disparities of a pixel, kDisparityBits. `cost` is the cost of each candidate without
-// its neighbours, and `sum` the sum of path costs. Costs and sums are in codes of colour
-// difference.
+// Candidate disparities of a pixel, in fixed point (kDisparityBits). `cost` is the cost of each
+// candidate at this pixel alone, and `sum` is the sum of path costs. The unit of costs and sums is
+// a colour difference of one code.
 struct Choices {
   int32_t count;
   int16_t disparity[kMostChoices], cost[kMostChoices], sum[kMostChoices];
@@ -32,12 +32,12 @@ struct ChoicePath {
 // Scratch memory of a worker for one region.
 struct ChoiceMemory {
   Choices* choices;
-  ChoicePath* paths;  // paths of one row
+  ChoicePath* paths;  // path costs at each pixel of a row
   ColourCell* cell;
 };
 
-// Fills memory.choices with the choices of all pixels of `region`, row by row, and computes the
-// sums of the choices.
+// Fills memory.choices with the choices of all pixels of `region`, row by row, and computes the sum
+// of path costs of each choice.
 void WeighChoices(const ColourMap& map, const uint8_t* doubt, const Rect& region,
                   const simd::DepthKernels& kernels, const ChoiceMemory& memory);
 

@@ -10,8 +10,8 @@ namespace {
 
 constexpr int32_t kPixel = 1 << kDisparityBits;
 constexpr int16_t kUnknown = INT16_MIN;
-// Largest difference of disparity at which a neighbour counts as flat, kDisparityBits. Blurred
-// edges are steeper.
+// Largest difference of disparity between a pixel and a neighbour that counts as flat, in fixed
+// point (kDisparityBits). At blurred edges, neighbours differ more.
 constexpr int32_t kFlat = kPixel / 2;
 // Smallest number of flat pixels among the 5x5 pixels around a pixel that is not on a ramp. At
 // the corner of a surface, at least 8 of the 25 pixels are flat; on a ramp, at most 5 are.
@@ -20,10 +20,11 @@ constexpr int32_t kFlatRadius = 2;
 // Width and height in pixels of the cells that are tested for flatness as a whole. Most of these
 // cells are flat.
 constexpr int32_t kFlatCell = 4;
-// Largest standard deviation of noise that is invisible in a refocused picture, kDisparityBits.
+// Largest standard deviation of noise that is invisible in a refocused picture, in fixed point
+// (kDisparityBits).
 constexpr int32_t kLeastNoise = 6;
 
-// Fills the unknown pixels of a row. Returns false if no pixel is known.
+// Fills the unknown pixels of a row. Returns false if no pixel of the row is known.
 bool FillRow(int32_t width, int16_t* row) {
   int32_t last = -1;
   for (int32_t x = 0; x <= width; ++x) {
@@ -44,7 +45,8 @@ bool FillRow(int32_t width, int16_t* row) {
 // the top or bottom of the map.
 void FillRows(const EstimatePlan& plan, int32_t first, int32_t end, int16_t* map) {
   const auto width = static_cast<size_t>(plan.width);
-  // At the top and the bottom of the map, one pointer has no valid row and is not read.
+  // If the unknown rows touch the top or bottom of the map, the pointer on that side is invalid and
+  // is not read.
   const int16_t* above = map + static_cast<size_t>(Max(first - 1, 0)) * width;
   const int16_t* below = map + static_cast<size_t>(Min(end, plan.height - 1)) * width;
   for (int32_t y = first; y < end; ++y) {
@@ -59,8 +61,8 @@ void FillRows(const EstimatePlan& plan, int32_t first, int32_t end, int16_t* map
   }
 }
 
-// Returns the doubt of a pixel from its surroundings alone: 0 for unknown pixels and on ramps, 1 at
-// steps, and the largest doubt for all other pixels.
+// Returns the initial doubt of a pixel: 0 for unknown pixels and on ramps, 1 at steps, and
+// kDoubtReach + 1 for all other pixels.
 uint8_t DoubtAt(const ColourMap& map, int32_t x, int32_t y) {
   if (!std::isfinite(GivenAt(map.light_field, y)[x])) return 0;
   const int32_t own = map.disparity[map.At(x, y)];
@@ -87,7 +89,7 @@ bool IsFlat(const ColourMap& map, const Rect& cell) {
   return true;
 }
 
-// Fills the doubt of each pixel of a region from the surroundings of the pixel alone.
+// Fills the initial doubt (DoubtAt) of each pixel of a region.
 void FillAlone(const ColourMap& map, const Rect& region, uint8_t* doubt) {
   for (int32_t top = 0; top < region.height; top += kFlatCell) {
     for (int32_t left = 0; left < region.width; left += kFlatCell) {
@@ -104,8 +106,8 @@ void FillAlone(const ColourMap& map, const Rect& region, uint8_t* doubt) {
   }
 }
 
-// Scans the region forwards (direction 1) or backwards (-1) and limits the doubt of each pixel to
-// the doubt of previous pixels plus their distance.
+// Scans the region forwards (direction 1) or backwards (-1) and limits each pixel's doubt to the
+// doubt of a previously scanned neighbour plus 1.
 void CarryOn(const Rect& region, int32_t direction, uint8_t* doubt) {
   const int32_t width = region.width, height = region.height;
   for (int32_t k = 0; k < height; ++k) {
@@ -124,9 +126,9 @@ void CarryOn(const Rect& region, int32_t direction, uint8_t* doubt) {
   }
 }
 
-// Returns true if a pixel next to a step belongs to a surface without a core nearby. A core
-// consists of pixels farther than kDisplacement from all steps. A surface that the map has widened
-// on all sides has a core within kDisplacement of each of its pixels.
+// Returns true if pixel (x, y), which is next to a step, belongs to a surface without a core within
+// kDisplacement. A core consists of pixels farther than kDisplacement from all steps. A surface
+// that the map has widened on all sides has a core within kDisplacement of each of its pixels.
 bool IsThin(const ColourMap& map, const Rect& region, const uint8_t* doubt, int32_t x, int32_t y) {
   const int32_t own = map.disparity[map.At(x, y)];
   const Rect around = Widened(map.plan, {x, y, 1, 1}, kDisplacement);

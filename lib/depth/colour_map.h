@@ -23,20 +23,20 @@ inline constexpr int32_t kDisplacement = 3;
 inline constexpr int32_t kThinDoubt = kDisplacement + 1;
 inline constexpr int32_t kDoubtMargin = kDoubtReach + 1 + kDisplacement;
 
-// Returns the difference of two pixels' colours.
+// Returns the difference between the colours of two pixels.
 inline int32_t ColourDifference(const uint8_t* a, const uint8_t* b) {
   const int32_t red = a[0] - b[0], green = a[1] - b[1], blue = a[2] - b[2];
   return simd::ColourDifference(red + green + blue, red - green, green - blue);
 }
 
-// Converts a disparity to kDisparityBits. Rounds half away from zero.
+// Converts a disparity to fixed point (kDisparityBits). Halves are rounded away from zero.
 inline int16_t ToFixed(float disparity) {
   const float scaled = disparity * (1 << kDisparityBits);
   return static_cast<int16_t>(scaled < 0 ? scaled - 0.5F : scaled + 0.5F);
 }
 
-// Input of the jobs of a repair: the picture, the given map, and the map in fixed point, in rows of
-// plan.width disparities.
+// Input of the jobs of a repair: the picture, the given map, and the given map in fixed point. A
+// row of the fixed-point map has plan.width disparities.
 struct ColourMap {
   const EstimatePlan& plan;
   const starfocus_light_field& light_field;
@@ -52,9 +52,10 @@ struct ColourMap {
   }
 };
 
-// Converts light_field.depth, which has at least one finite pixel. Other pixels get the disparity
-// of the nearest finite pixel of their row. Rows without a finite pixel are copied from the nearest
-// row with a finite pixel. If two sources are equally near, the farther surface is copied.
+// Converts light_field.depth, which must have at least one finite pixel, to fixed point. A pixel
+// that is not finite gets the disparity of the nearest finite pixel in its row. Rows without a
+// finite pixel are copied from the nearest row with a finite pixel. If two finite pixels or rows
+// are equally near, the smaller disparity is copied.
 void ReadMap(const EstimatePlan& plan, const starfocus_light_field& light_field,
              int16_t* disparity);
 
@@ -67,14 +68,14 @@ int32_t MeasureNoise(const EstimatePlan& plan, const int16_t* disparity);
 // `step`.
 bool HasStep(const ColourMap& map, const Rect& rect, int32_t margin, int32_t step);
 
-// Returns true if one of the pixel's neighbours in the tile belongs to another surface.
+// Returns true if pixel (x, y) has a neighbour in the tile that belongs to another surface.
 bool IsBesideStep(const ColourMap& map, const Rect& tile, int32_t x, int32_t y);
 
 // Computes the doubt of the pixels of `tile`. The doubt is 0 on ramps and at unknown pixels, and 1
-// at steps. With the distance from ramps, unknown pixels and steps, the doubt increases by 1 per
-// pixel up to kDoubtReach + 1. A map may have widened surfaces by displacing their steps. Surfaces
-// that are too thin to have been widened have doubt kThinDoubt. `scratch` has one byte per pixel of
-// the tile, extended by kDoubtMargin pixels on each side.
+// at steps. The doubt increases by 1 per pixel of distance from ramps, unknown pixels and steps, up
+// to kDoubtReach + 1. A map may have widened surfaces by displacing their steps. Surfaces that are
+// too thin to have been widened have doubt kThinDoubt. `scratch` has one byte per pixel of the
+// tile, extended by kDoubtMargin pixels on each side.
 void MeasureDoubt(const ColourMap& map, const Rect& tile, uint8_t* scratch, uint8_t* doubt);
 
 }  // namespace starfocus

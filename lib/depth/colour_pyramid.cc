@@ -6,7 +6,8 @@
 namespace starfocus {
 namespace {
 
-// Returns a cell of a level. Outside the level, the outermost cells are repeated.
+// Returns cell (x, y) of a level. For coordinates outside the level, returns the nearest cell of
+// the level.
 const ColourMean& Inside(const ColourLevel& level, int32_t x, int32_t y) {
   return level.At(Clamp(x, 0, level.columns - 1), Clamp(y, 0, level.rows - 1));
 }

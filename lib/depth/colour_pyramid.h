@@ -15,8 +15,8 @@ namespace starfocus {
 inline constexpr int32_t kHairCell = 4;
 // Fractional bits of mean colours, chosen so that sums of three squared differences fit in 31 bits.
 inline constexpr int kMeanBits = 6;
-// Largest weight of a pixel or cell. A pixel that shows only this surface has this weight, and so
-// has a cell whose colour is fully known.
+// Largest weight of a pixel or cell. Pixels that show a single surface and cells of fully known
+// colour have the weight kFullyKnown.
 inline constexpr int kKnownBits = 8;
 inline constexpr int32_t kFullyKnown = 1 << kKnownBits;
 
@@ -28,7 +28,7 @@ struct ColourMean {
 // Weighted sum of the colours of pixels or cells.
 class ColourSum {
  public:
-  // Adds a colour. `weight` is in [0, kFullyKnown]. Sums of 16 pixels have 27 bits.
+  // Adds a colour. `weight` is in [0, kFullyKnown]. A weighted sum of 16 pixels fits in 27 bits.
   template <class T>
   void Add(const T* rgb, uint32_t weight) {
     for (int c = 0; c < 3; ++c) sums_[c] += weight * rgb[c];
@@ -62,7 +62,7 @@ ColourPyramid TakeColourPyramid(int32_t width, int32_t height, Arena* arena);
 // in cells of low weight. Returns false if all weights are 0.
 bool CarryOnColours(const ColourPyramid& pyramid);
 
-// Colours of all pixels of a cell, kMeanBits.
+// Colours of all pixels of a cell, in fixed point (kMeanBits).
 struct CellColours {
   int32_t rgb[kHairCell][kHairCell][3];
 };

@@ -27,15 +27,15 @@ constexpr EvidenceScale kGains = {18, 22, 1000, 60};
 // Number of path directions in the sums of choices.
 constexpr int32_t kPaths = 4;
 constexpr int32_t kColourPhases = 9;
-// Changed pixels get the mean disparity of the chosen surface within kMeanRadius. Pixels far from
-// steps have weight kSureWeight, and pixels next to steps weight 1.
+// Changed pixels get the mean disparity of the chosen surface within kMeanRadius. In this mean,
+// pixels far from steps have weight kSureWeight, and pixels near steps have weight 1.
 constexpr int32_t kMeanRadius = 5, kSureWeight = 4;
 
 struct ColourJob {
   const ColourMap& map;
   const MapOutput& output;
   const Smoothing& smoothing;
-  int16_t* to;  // output of the phase: a map
+  int16_t* to;  // map that the phase writes
   int16_t* chosen;
   ColourMemory* memory;
   const simd::DepthKernels& kernels;
@@ -216,7 +216,7 @@ void CountSoftEdges(const void* data, int32_t index, int32_t) {
   job.memory->soft[index] = count;
 }
 
-// Widens nearer surfaces by the softness of the picture's edges.
+// Widens nearer surfaces by the number of pixels over which the picture's edges are soft.
 void WidenTile(const void* data, int32_t index, int32_t) {
   const ColourJob& job = JobOf(data);
   const EstimatePlan& plan = job.map.plan;

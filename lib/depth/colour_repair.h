@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Repairs the disparity map of a single view using the colours of the view. The paper uses a
-// bilateral weighted median for this purpose (VII-A). First, noise is averaged within surfaces.
-// Near steps and on ramps of the map, each pixel is then assigned to the surrounding surface that
-// matches its hue, saturation and brightness best. Finally, nearer surfaces are widened if edges of
-// the picture are soft, and outlines are smoothed.
+// bilateral weighted median for this purpose (VII-A). First, disparities are averaged within
+// surfaces to reduce noise. Near steps and on ramps of the map, each pixel is then assigned to the
+// surrounding surface that matches its hue, saturation and brightness best. Finally, nearer
+// surfaces are widened if edges of the picture are soft, and outlines are smoothed.
 #ifndef STARFOCUS_LIB_DEPTH_COLOUR_REPAIR_H_
 #define STARFOCUS_LIB_DEPTH_COLOUR_REPAIR_H_
 
@@ -28,32 +28,33 @@ struct ColourTileMemory {
   SmoothMemory* smooth;
 };
 
-// Memory of a repair. All maps have the size of the picture, and disparities have kDisparityBits.
+// Memory of a repair by colour. All maps have the size of the picture, and disparities are in fixed
+// point (kDisparityBits).
 struct ColourMemory {
   JobSet jobs;
   // The given map, the map after one pass of smoothing, and the smoothed map. Later phases store
   // their results in maps that are no longer used.
   int16_t* maps[3];
-  // Cost of the map's disparity minus the cost of the chosen disparity; 0 if both disparities are
-  // on one surface.
+  // For each pixel, cost of the map's disparity minus the cost of the chosen disparity; 0 if both
+  // disparities are on one surface.
   int16_t* gain;
   uint8_t* doubt;  // result of MeasureDoubt
   // Cost of the best other surface minus the cost of the chosen surface, divided by the number of
   // paths.
   uint8_t* certainty;
-  TileCount* counts;   // of each tile
-  SoftCount* soft;     // counts of each tile of the repaired map
+  TileCount* counts;   // one element for each tile
+  SoftCount* soft;     // one element for each tile of the repaired map
   int32_t least_gain;  // smallest gain required for a change
   ThinCells thin;      // thin structure of the map
   HairCells hair_cells;
-  HairMemory hair;    // overlaps maps[1], maps[2] and all later planes
-  bool has_coverage;  // output: the last call found coverage
+  HairMemory hair;    // shares the memory of maps[1], maps[2] and all later planes
+  bool has_coverage;  // output: true if the last call found coverage
   ColourTileMemory* workers;
 };
 
-// Lays out the memory at `base`, which must be aligned to STARFOCUS_ALIGNMENT. If `base` is null,
-// only computes the size. Returns the number of bytes used, or kTooLarge. Only the size and the
-// tiles of `plan` are read, here and in RepairByColour.
+// Lays out the memory of a repair by colour at `base`, which must be aligned to
+// STARFOCUS_ALIGNMENT. If `base` is null, only computes the size. Returns the number of bytes used,
+// or kTooLarge. LayOutColourRepair and RepairByColour read only the size and the tiles of `plan`.
 size_t LayOutColourRepair(const EstimatePlan& plan, int32_t max_workers, void* base,
                           ColourMemory** memory);
 

@@ -4,7 +4,8 @@
 namespace starfocus {
 namespace {
 
-// Differs from every disparity by more than any tolerance.
+// Disparity of pixels outside the picture, which differs from all other disparities by more than
+// any tolerance.
 constexpr int32_t kOutside = INT32_MIN / 2;
 constexpr uint8_t kBlack[3] = {};
 constexpr int32_t kPlane = SmoothMemory::kPlane;

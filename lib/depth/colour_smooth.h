@@ -12,9 +12,9 @@ namespace starfocus {
 
 inline constexpr int32_t kMostSmoothRadius = 4;
 
-// Parameters of the average. A pixel is averaged with every `step`-th neighbour within `radius`
-// pixels whose disparity differs by at most `tolerance` (kDisparityBits). Neighbours of similar
-// colour have the largest weights.
+// Parameters for smoothing a map. A pixel is averaged with every `step`-th neighbour within
+// `radius` pixels whose disparity differs by at most `tolerance` (kDisparityBits). Neighbours of
+// similar colour have the largest weights.
 struct Smoothing {
   int32_t radius, step, tolerance;
 };

@@ -11,8 +11,8 @@
 
 namespace starfocus {
 
-// Estimates a map and writes it to `output`. Returns STARFOCUS_OK, STARFOCUS_ERROR_CANCELLED or
-// STARFOCUS_ERROR_RUNNER.
+// Estimates the disparity map of the centre view and writes the map to `output`. Returns
+// STARFOCUS_OK, STARFOCUS_ERROR_CANCELLED or STARFOCUS_ERROR_RUNNER.
 starfocus_status Estimate(const EstimatePlan& plan, const starfocus_light_field& light_field,
                           const simd::DepthKernels& kernels, const MapOutput& output,
                           EstimateMemory* memory);

@@ -11,10 +11,10 @@ namespace {
 
 constexpr int32_t kRadius = 2;
 constexpr int32_t kMostVotes = (2 * kRadius + 1) * (2 * kRadius + 1);
-// A pixel is stray if its disparity differs from the median by more than kStray (kDisparityBits).
-// Other pixels keep their disparity, so that slopes are preserved. A neighbour of equal colour has
-// the weight kVote. The weight halves with each kHalving grey levels of difference, summed over R,
-// G and B.
+// A pixel is stray if its disparity differs from the weighted median of its neighbourhood by more
+// than kStray (kDisparityBits). Pixels that are not stray keep their disparity, so that slopes are
+// preserved. A neighbour of equal colour has the weight kVote. The weight halves with each kHalving
+// grey levels of difference, summed over R, G and B.
 constexpr int32_t kStray = 1 << (kDisparityBits - 2);
 constexpr int32_t kVote = 64, kHalving = 14;
 
@@ -81,7 +81,8 @@ int16_t WithoutStray(const EstimatePlan& plan, const Plane<const uint8_t>& centr
   const int16_t own =
       map[static_cast<size_t>(y) * static_cast<size_t>(plan.width) + static_cast<size_t>(x)];
   const AroundRange range = RangeOf(plan, map, around);
-  // If all values are within kStray of the pixel, the median is within kStray as well.
+  // If all disparities in the neighbourhood are within kStray of the pixel's disparity, their
+  // median is within kStray.
   if (range.low >= own - kStray && range.high <= own + kStray) return own;
   const uint8_t* here = centre.data + static_cast<size_t>(y) * centre.stride + 3 * x;
   Votes votes;

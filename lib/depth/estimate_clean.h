@@ -12,7 +12,7 @@ namespace starfocus {
 
 // Returns the disparity of pixel (x, y), or the weighted median of its neighbourhood if the pixel's
 // disparity differs too much from the median. Neighbours of similar colour have larger weights.
-// `map` has the size of the picture, and disparities have kDisparityBits.
+// `map` has the size of the picture, and disparities are in fixed point (kDisparityBits).
 int16_t WithoutStray(const EstimatePlan& plan, const Plane<const uint8_t>& centre,
                      const int16_t* map, int32_t x, int32_t y);
 

@@ -17,8 +17,9 @@ void MeasureCosts(const EstimatePlan& plan, const Rect& region, Seeing seeing,
   row.one_side = seeing == Seeing::kOneSide;
   row.ends = views.ends;
   // If a pixel moves beyond the edge of a view, the opposite view replaces this view. In an
-  // estimate, a view is also replaced if a nearer surface hides the pixel in the view. A repair
-  // only limits the cost of views with hidden pixels, because the map of a repair may be wrong.
+  // estimate, the opposite view replaces each view in which a nearer surface hides the pixel. In a
+  // repair, the cost of such a hidden view is only limited, because the map of a repair may be
+  // wrong.
   row.limits = plan.repairs && seeing == Seeing::kAll;
   for (int32_t y = region.y; y < region.y + region.height; ++y) {
     uint8_t* cost =

@@ -10,12 +10,12 @@ namespace starfocus {
 
 // Selects the views that are assumed to see a pixel.
 enum class Seeing {
-  kOneSide,  // the views on the side with the best fit
-  kAll       // all views except those known to be hidden
+  kOneSide,  // the views on the side whose views fit the pixel best
+  kAll       // all views except views in which the pixel is known to be hidden
 };
 
-// Fills tile->cost for the pixels of `region`. The caller must have loaded and marked the views of
-// this region (tile_views.h).
+// Fills tile->cost for the pixels of `region`. The caller must have loaded the views around
+// `region` and marked their hidden labels (tile_views.h).
 void MeasureCosts(const EstimatePlan& plan, const Rect& region, Seeing seeing,
                   const simd::DepthKernels& kernels, TileMemory* tile);
 

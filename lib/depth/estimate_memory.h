@@ -28,10 +28,11 @@ struct TileViews {
   uint8_t* rgb;
   uint8_t* split;  // scratch memory for making planes: two rows of R, G and B
   // Number of labels that a nearer surface hides, for each pixel of each side view. The hidden
-  // labels are always the lowest labels. Pixels outside the picture have simd::kViewEnds.
+  // labels are always the lowest labels. For pixels outside the picture, the value is
+  // simd::kViewEnds.
   uint8_t* hidden;
-  bool ends;      // true if a part of the rectangle lies outside the picture
-  bool all_seen;  // true if the rectangle lies inside the picture and no hidden labels are known
+  bool ends;      // true if a part of the planes lies outside the picture
+  bool all_seen;  // true if the planes lie inside the picture and no hidden labels are known
 
   size_t At(int32_t x, int32_t y) const {
     return static_cast<size_t>(y - top) * stride + static_cast<size_t>(x - left);
@@ -48,32 +49,32 @@ struct TileMemory {
   uint8_t* prior;
   int16_t* sum;           // sums of path costs, in the layout of `cost`
   int16_t* path[2];       // path costs of a row of pixels, plus one pixel on each side
-  int16_t* least[2];      // smallest cost of each path of a row, plus one pixel on each side
-  int16_t* jump;          // one row
+  int16_t* least[2];      // smallest path cost at each pixel of a row, plus one pixel on each side
+  int16_t* jump;          // costs of a jump between labels at each pixel of a row (FindJumps)
   simd::ViewMove* moves;  // movement of each side view for each label
-  int16_t* choice;        // one row
-  const uint8_t* swept;   // EstimateMemory::swept
+  int16_t* choice;        // chosen label of each pixel of a row
+  const uint8_t* swept;   // equal to EstimateMemory::swept
 };
 
 struct EstimateMemory {
   JobSet jobs;
-  // Disparities of the whole picture after the first sweep, which ignores occlusion;
-  // kDisparityBits. A repair later stores the result of EvenOut here.
+  // Disparities of the whole picture after the first sweep, which ignores occlusion, in fixed point
+  // (kDisparityBits). A repair later stores the result of EvenOut here.
   int16_t* first;
   int16_t* second;     // disparities after the second sweep, which omits hidden views
   uint8_t* certainty;  // certainty of the second sweep
   // `given` and all later arrays of this structure are for repairs, and null for estimates. Unknown
   // disparities are kNoSurface.
   int16_t* given;    // given disparities
-  int16_t* trusted;  // given disparities at pixels where the map is smooth
+  int16_t* trusted;  // given disparities at trusted pixels; kNoSurface at all other pixels
   // Marks of pixels in doubt (swept.h). `doubt` shares the memory of `certainty`; at most one of
   // the two is in use at a time.
   uint8_t* doubt;
   uint8_t* swept;     // 1 for pixels that the sweeps process, else 0; null if all pixels are swept
-  TileCount* counts;  // of each tile
+  TileCount* counts;  // one element for each tile
   int32_t least_evidence;
-  // Cost of each pixel in the given map and in the second sweep's map. The two costs are equal at
-  // pixels without a given disparity.
+  // Cost of each pixel's disparity in the given map and in the map of the second sweep. The two
+  // costs are equal at pixels without a given disparity.
   uint8_t* given_cost;
   uint8_t* found_cost;
   // Thin structure of the given map and of the result of the sweeps.

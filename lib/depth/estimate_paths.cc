@@ -95,7 +95,8 @@ void AddAllPaths(const EstimateTile& tile) {
   const EstimatePlan& plan = tile.plan;
   const Rect& region = tile.region;
   const TileMemory& memory = tile.memory;
-  // The entry before the first label of each pixel is not a label.
+  // Set the element before each pixel's first label to kNoLabel, because this element belongs to no
+  // label.
   const auto places = static_cast<ptrdiff_t>(simd::PathLabels(static_cast<size_t>(plan.labels)));
   for (int16_t* path : memory.path) {
     for (ptrdiff_t k = -1; k <= region.width; ++k) path[k * places - 1] = simd::kNoLabel;

@@ -10,7 +10,8 @@
 namespace starfocus {
 namespace {
 
-// Directions in the order of their angles. Every second direction lies along an axis.
+// Directions from the centre view to side views, in the order of their angles. Every second
+// direction lies along an axis.
 constexpr int8_t kDirections[8][2] = {{1, 0},  {1, 1},   {0, 1},  {-1, 1},
                                       {-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
 

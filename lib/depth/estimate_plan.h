@@ -34,11 +34,12 @@ struct SideView {
 
 struct EstimatePlan {
   int32_t width, height;
-  // Disparity of label 0, and difference between adjacent labels; kDisparityBits. The difference is
-  // a multiple of half a pixel.
+  // Disparity of label 0, and difference between the disparities of adjacent labels, in fixed point
+  // (kDisparityBits). The difference is a multiple of half a pixel.
   int32_t low, step;
   int32_t labels;
-  int32_t reach;  // largest movement of a point between views in pixels, plus one
+  int32_t reach;  // largest movement, in pixels, of a point from the centre view to a side view,
+                  // plus one
   // Side views. Arms are in the order of their angles, and the outer ring comes first.
   int32_t arms, rings;
   SideView side[kMostSideViews];
@@ -49,8 +50,8 @@ struct EstimatePlan {
   int32_t side_views() const { return arms * rings; }
   // Returns the disparity of label l.
   int32_t Disparity(int32_t l) const { return low + l * step; }
-  // Returns the period, in labels, of the fraction of a pixel by which labels shift a view: 1, 2 or
-  // 4.
+  // Labels shift a view by fractions of a pixel that repeat periodically. Returns the period in
+  // labels: 1, 2 or 4.
   int32_t Phases(const SideView& view) const;
   // Returns the sum of Phases over all side views.
   int32_t AllPhases() const;
@@ -58,9 +59,9 @@ struct EstimatePlan {
 
 EstimatePlan MakePlan(const starfocus_depth_config& config);
 
-// Returns a plan with every second label of `plan` and with half of the paths. The last label is
-// not beyond the last label of `plan`. The first sweep of a repair uses the coarse plan, because
-// that sweep only determines which surfaces hide others.
+// Returns a plan with every second label of `plan` and with half of the paths. The last label of
+// the coarse plan does not exceed the last label of `plan`. The first sweep of a repair uses the
+// coarse plan, because the first sweep only determines which surfaces hide other surfaces.
 EstimatePlan CoarsePlan(const EstimatePlan& plan);
 
 // Returns the number of tiles into which `length` pixels are divided. The number is odd, and each
@@ -82,8 +83,8 @@ Rect Widened(const EstimatePlan& plan, const Rect& rect, int32_t margin);
 // side view, in 1/128 pixel.
 inline int32_t MoveAcross(const SideView& view, int32_t d) { return -view.u2 * d; }
 inline int32_t MoveDown(const SideView& view, int32_t d) { return -view.v2 * d; }
-// Rounds a movement in 1/128 pixel to whole pixels. Rounds half towards zero, so that mirrored
-// movements stay mirrored.
+// Rounds a movement in 1/128 pixel to whole pixels. Halves are rounded towards zero, so that
+// mirrored movements stay mirrored.
 inline int32_t WholeMove(int32_t move) { return (move + 63 + (move < 0 ? 1 : 0)) >> 7; }
 
 }  // namespace starfocus

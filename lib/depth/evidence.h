@@ -14,8 +14,8 @@ struct TileCount {
   int32_t differs;  // pixels that the repair contradicts
 };
 
-// Required evidence by the percentage of edge pixels that the repair contradicts. Up to
-// `right_percent` the map is assumed to be right, and the required evidence is `right`. From
+// Required evidence as a function of the percentage of edge pixels that the repair contradicts. Up
+// to `right_percent` the map is assumed to be right, and the required evidence is `right`. From
 // `wrong_percent` on, the required evidence is `wrong`. Between the two percentages, the required
 // evidence is interpolated.
 struct EvidenceScale {

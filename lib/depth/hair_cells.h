@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cells of 4 x 4 pixels with the two surfaces that meet at large depth edges: foreground (near) and
-// background (far). The search for hair coverage classifies pixels as near or far with the help of
-// these cells.
+// Stores, for cells of 4 x 4 pixels, the two surfaces that meet at large depth edges: foreground
+// (near) and background (far). The search for hair coverage classifies pixels as near or far with
+// the help of these cells.
 #ifndef STARFOCUS_LIB_DEPTH_HAIR_CELLS_H_
 #define STARFOCUS_LIB_DEPTH_HAIR_CELLS_H_
 
@@ -19,7 +19,7 @@ inline constexpr int32_t kSurfaceReach = 10;
 
 struct HairCells {
   int32_t columns, rows;
-  // Lowest and highest disparity within kSurfaceReach, after MarkEdges.
+  // After MarkEdges, lowest and highest disparity of the cells within kSurfaceReach.
   int16_t *low, *high;
   // Lowest and highest disparity of the cell.
   int16_t *farthest, *nearest;

@@ -28,7 +28,7 @@ int32_t ContrastOf(const CellPixel& pixel, const CellColours& far) {
   return sum;
 }
 
-// Returns the largest contrast in a cell and its eight neighbours.
+// Returns the largest squared contrast to the background in a cell and its eight neighbours.
 int32_t ContrastAround(const HairJob& job, int32_t column, int32_t row) {
   const HairCells& cells = job.cells;
   int32_t most = 0;

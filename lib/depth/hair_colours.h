@@ -15,8 +15,8 @@ void PullFar(const void* data, int32_t index, int32_t worker);
 // background. MeasureContrast must run first, for all tiles.
 void MeasureContrast(const void* data, int32_t index, int32_t worker);
 void PullNear(const void* data, int32_t index, int32_t worker);
-// Computes both colours for the second pass, from all pixels weighted by the coverage of the first
-// pass.
+// Computes foreground and background colours for the second pass, from all pixels weighted by the
+// coverage of the first pass.
 void PullBoth(const void* data, int32_t index, int32_t worker);
 
 }  // namespace starfocus

@@ -10,9 +10,10 @@
 namespace starfocus {
 namespace {
 
-// A map has hair with closed outlines if this share of the pixels 2 to 4 cells inside outlines
-// looks like background, in 1/256. Maps by networks of the hair scene have a share of 80. Exact
-// maps, maps that are wrong by 3 pixels and photographs have a share of at most 28 (docs/depth.md).
+// A map has hair with closed outlines if more than this share of the pixels 2 to 4 cells inside
+// outlines looks like background. Shares are in units of 1/256. Maps that neural networks compute
+// for the hair scene have a share of 80. Exact maps, maps that are wrong by 3 pixels and
+// photographs have a share of at most 28 (docs/depth.md).
 constexpr int64_t kLeastFar = 48;
 
 void MeasureTile(const void* data, int32_t index, int32_t) {
@@ -60,8 +61,8 @@ starfocus_status FindHairCoverage(const ColourMap& map, const MapOutput& output,
                                   const HairCells& cells, const HairMemory& memory, Phases* phases,
                                   bool* found) {
   const HairJob job = {map, output, cells, memory};
-  // The phases of the search. After all tiles of a phase, `conclude` processes the whole picture.
-  // The search ends if `conclude` returns false.
+  // The phases of the search. When all tiles of a phase are finished, `conclude` processes the
+  // results for the whole picture. The search ends if `conclude` returns false.
   const struct {
     JobFunction function;
     bool (*conclude)(const HairJob& job);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the coverage of hair that a map shows as a solid shape, as disparity maps by monocular
-// networks do. Pyramids extend the pure colours of foreground and background to each pixel near an
-// outline. The coverage of a pixel is the position of its colour between these two colours.
-// RepairByColour calls these functions.
+// Finds the coverage of hair that a map shows as a solid shape, as is usual in disparity maps of
+// monocular networks. Pyramids extend the pure colours of foreground and background to each pixel
+// near an outline. The coverage of a pixel is the position of its colour between the foreground
+// colour and the background colour. RepairByColour calls the functions of this header.
 #ifndef STARFOCUS_LIB_DEPTH_HAIR_COVERAGE_H_
 #define STARFOCUS_LIB_DEPTH_HAIR_COVERAGE_H_
 
@@ -25,8 +25,8 @@ starfocus_status FindHairCoverage(const ColourMap& map, const MapOutput& output,
                                   bool* found);
 
 // Completes the coverage of a tile whose disparities have been written. In cells without hair, the
-// coverage is 0 for far pixels and 255 for near pixels. In cells with hair, the confidence of a
-// pixel is 255 minus the difference between its coverage and this value of 0 or 255.
+// coverage is 0 for far pixels and 255 for near pixels. In cells with hair, the confidence is 255
+// minus the difference between the coverage and the coverage that the map alone implies (0 or 255).
 void CompleteCoverage(const ColourMap& map, const MapOutput& output, const HairCells& cells,
                       const Rect& tile);
 

@@ -10,19 +10,20 @@
 
 namespace starfocus {
 
-// Counts of the near pixels of a tile that lie 2 to 4 cells inside outlines. `inside` is their
-// number. `far` is the number of these pixels that look like background, multiplied by 256.
+// Counts over a tile. `inside` is the number of near pixels that lie 2 to 4 cells inside outlines.
+// `far` is the number of such inside pixels that look like background, multiplied by 256.
 struct InsideCount {
   int32_t inside, far;
 };
 
 struct HairMemory {
   ColourPyramid far, near;
-  // Both arrays have one value per cell. `contrast` is first the largest squared contrast of a near
-  // pixel to the background. Later, `contrast` holds the number of near pixels that look like
-  // background, multiplied by 256. `near_pixels` is the number of near pixels.
+  // `contrast` and `near_pixels` have one value per cell. At first, `contrast` holds the largest
+  // squared contrast between a near pixel and the background. Later, `contrast` holds the number of
+  // near pixels that look like background, multiplied by 256. `near_pixels` holds the number of
+  // near pixels of each cell.
   int32_t *contrast, *near_pixels;
-  InsideCount* counts;  // one for each tile
+  InsideCount* counts;  // one element for each tile
 };
 
 struct HairJob {
@@ -41,7 +42,7 @@ struct HairJob {
 inline const HairJob& HairJobOf(const void* data) { return *static_cast<const HairJob*>(data); }
 
 // ShareOf converts a coverage of 0 to 255 to a fraction of kFullyKnown. FourthPower computes the
-// fourth power of such a fraction.
+// fourth power of a fraction of kFullyKnown.
 inline uint32_t ShareOf(uint8_t coverage) { return coverage + coverage / 128U; }
 inline uint32_t FourthPower(uint32_t share) {
   const uint32_t square = share * share / kFullyKnown;

@@ -8,13 +8,13 @@ namespace starfocus {
 namespace {
 
 constexpr int32_t kWhole = kFullyKnown;
-// The square of a difference of one code, in the unit of squared differences.
+// Square of a colour difference of one code, for mean colours with kMeanBits fractional bits.
 constexpr int64_t kSquareCode = int64_t{1} << (2 * kMeanBits);
 // Smallest squared contrast at which coverage can be measured.
 constexpr int64_t kLeastContrast = 300 * kSquareCode;
-// Parameters of the variance of the distance from the line between the two colours. The variance is
-// kNoise, which is the square of 9 codes, plus the squared contrast divided by kVariation, for
-// variation within surfaces.
+// Parameters of the variance of a colour's distance from the line between foreground and background
+// colour. The variance is kNoise, which is the square of 9 codes, plus the squared contrast divided
+// by kVariation. The second term accounts for variation within surfaces.
 constexpr int64_t kNoise = 81 * kSquareCode, kVariation = 16;
 // Largest coverage that is attributed to the texture of the background.
 constexpr int32_t kTexture = kWhole / 8;

@@ -11,8 +11,8 @@
 namespace starfocus {
 namespace {
 
-// Largest distance between a label and a trusted disparity at which the label has no prior cost,
-// kDisparityBits.
+// Largest distance between a label and a trusted disparity at which the label has no prior cost, in
+// fixed point (kDisparityBits).
 constexpr int32_t kOwnLabels = 1 << (kDisparityBits - 1);
 
 // Writes the initial prior of one pixel: 0 for the labels near the pixel's disparity, and the
@@ -70,7 +70,8 @@ void AddMapPrior(const EstimatePlan& plan, const Rect& region, const int16_t* tr
                           prior + static_cast<size_t>(x - region.x) * places);
               }
             });
-    // First spreads forwards along this row and from the row above, then backwards along this row.
+    // First spread the prior forwards along row y and from the row above, then backwards along row
+    // y.
     spread(y, y > 0, 1, -1);
     spread(y, false, -1, 0);
   }

@@ -10,8 +10,9 @@
 namespace starfocus {
 
 // Repairs light_field.depth and writes the result to `output`. plan.repairs must be true. Pixels
-// that are not contradicted keep their disparity exactly. Unknown pixels (NaN or infinite) get a
-// disparity. Returns STARFOCUS_OK, STARFOCUS_ERROR_CANCELLED or STARFOCUS_ERROR_RUNNER.
+// whose disparity the views do not contradict keep this disparity exactly. Unknown pixels (NaN or
+// infinite) get a disparity. Returns STARFOCUS_OK, STARFOCUS_ERROR_CANCELLED or
+// STARFOCUS_ERROR_RUNNER.
 starfocus_status Repair(const EstimatePlan& plan, const starfocus_light_field& light_field,
                         const simd::DepthKernels& kernels, const MapOutput& output,
                         EstimateMemory* memory);

@@ -18,7 +18,8 @@ constexpr int32_t kPixel = 1 << kDisparityBits;
 // Largest difference of disparity between neighbours on one surface. Steeper slopes are blurred
 // edges.
 constexpr int32_t kMostSlope = kPixel / 2;
-// Largest difference between disparities that are averaged as one surface, kDisparityBits.
+// Largest difference between disparities that are averaged as one surface, in fixed point
+// (kDisparityBits).
 constexpr int32_t kSameSurface = 38;
 // Largest difference at which a disparity counts as equal to the given disparity.
 constexpr int32_t kSame = kPixel / 4;
@@ -27,8 +28,8 @@ constexpr int32_t kMeanRadius = 3, kEvidenceRadius = 2;
 // distance spans a ramp of 12 pixels and the untrusted pixels at the ends of the ramp.
 constexpr int32_t kNearReach = 16;
 // Largest cost of a pixel that the views show clearly. The cost corresponds to 11 grey levels. In
-// images of hair in front of a wall, half of the wall and a twentieth of the mixtures have a
-// smaller cost.
+// images of hair in front of a wall, half of the pixels of the wall and a twentieth of the mixed
+// pixels have a smaller cost.
 constexpr int32_t kClearCost = 44;
 
 size_t IndexOf(const EstimatePlan& plan, int32_t x, int32_t y) {
@@ -46,8 +47,8 @@ struct ColumnExtremes {
   }
 };
 
-// Fills columns [begin, end). `at` points to a row of disparities. The previous row is `above`
-// samples before this row, and the next row is `below` samples after this row.
+// Fills elements [begin, end) of `columns`. `at` points to a row of disparities. The previous row
+// is `above` samples before this row, and the next row is `below` samples after this row.
 void FindColumns(const int16_t* at, ptrdiff_t above, ptrdiff_t below, int32_t begin, int32_t end,
                  ColumnExtremes* columns) {
   for (int32_t k = begin; k < end; ++k) {
@@ -64,7 +65,7 @@ struct Mean {
     sum += value;
     ++count;
   }
-  // Returns the mean. Rounds half away from zero.
+  // Returns the mean, with halves rounded away from zero.
   int32_t Value() const { return (2 * sum + (sum < 0 ? -count : count)) / (2 * count); }
 };
 
@@ -86,8 +87,8 @@ int32_t MeanOfSurface(const EstimatePlan& plan, const EstimateMemory& memory, in
   return trusted.count > 0 ? trusted.Value() : found.Value();
 }
 
-// Returns true if the map is smooth almost nowhere around pixel (x, y). A rough part of the map is
-// noise, or a wide slope in place of an edge, and is not worth keeping.
+// Returns true if less than a quarter of the pixels around pixel (x, y) are trusted. A rough part
+// of the map is noise, or a wide slope in place of an edge, and is not worth keeping.
 bool IsRough(const EstimatePlan& plan, const EstimateMemory& memory, int32_t x, int32_t y) {
   const Rect around = Widened(plan, {x, y, 1, 1}, kMeanRadius);
   int32_t smooth = 0;
@@ -118,7 +119,8 @@ void ReadGiven(const EstimatePlan& plan, const starfocus_light_field& light_fiel
 void FindTrusted(const EstimatePlan& plan, const Rect& tile, const int16_t* given,
                  int16_t* trusted) {
   ColumnExtremes columns;
-  // Column 0 is the column to the left of the tile. The loop omits columns beyond the picture.
+  // Element 0 of `columns` is the column to the left of the tile. The range [begin, end) omits
+  // columns outside the picture.
   const int32_t begin = tile.x > 0 ? 0 : 1,
                 end = tile.width + (tile.x + tile.width < plan.width ? 2 : 1);
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {

@@ -10,8 +10,8 @@
 
 namespace starfocus {
 
-// Converts the given disparities of a tile to kDisparityBits; disparities that are not finite
-// become kNoSurface. Initialises the maps of both sweeps with the result.
+// Converts the given disparities of a tile to fixed point (kDisparityBits). Disparities that are
+// not finite become kNoSurface. Initialises the maps of both sweeps with the result.
 void ReadGiven(const EstimatePlan& plan, const starfocus_light_field& light_field, const Rect& tile,
                EstimateMemory* memory);
 
@@ -33,25 +33,27 @@ void EvenOut(const EstimatePlan& plan, const Plane<const uint8_t>& centre, const
 // given disparity of this pixel is unknown.
 bool Differs(const EstimateMemory& memory, size_t at);
 
-// Counts the pixels of a tile at edges and the pixels that the repair contradicts. Requires the
-// result of EvenOut for the tile.
+// Counts the edge pixels of a tile, and the pixels whose given disparity the repair contradicts.
+// Requires the result of EvenOut for the tile.
 TileCount CountTile(const EstimatePlan& plan, const Rect& tile, const EstimateMemory& memory);
 
 // Smallest sum of evidence over the pixels around a change, in costs (simd::kCostScale per grey
 // level). In a wrong map, the required sum is 240, which corresponds to eight pixels that fit 7.5
 // grey levels worse. In a map that is right except at details of low contrast, the required sum is
-// 1600. In a map with the larger limit, pixels that stay on their surface are not changed.
+// 1600. If the required sum is 1600, pixels whose new disparity is on the same surface as the given
+// disparity are not changed.
 inline constexpr EvidenceScale kSweepEvidence = {18, 22, 1600, 240};
 
 // Returns the repaired disparity of pixel (x, y), which is the disparity in memory.first or the
 // given disparity. A contradicted pixel changes only if the total evidence of the contradicted
-// pixels around the pixel is large enough. The reason is that single contradicted pixels are more
-// often right in the given map. In rough parts of the map, memory.first is always returned.
+// pixels around the pixel is large enough. Single contradicted pixels are more often right in the
+// given map than in memory.first. In rough parts of the map, contradicted pixels always change to
+// memory.first.
 int16_t RepairedAt(const EstimatePlan& plan, const EstimateMemory& memory, int32_t x, int32_t y);
 
-// Fills `nearest` with the largest trusted disparity near each pixel of row y of a cell. This
-// disparity belongs to the surface from which hair stands out. If no trusted pixel is near, the
-// value is kNoSurface.
+// Fills `nearest` with the largest trusted disparity near each pixel of row y of a cell. The
+// largest trusted disparity belongs to the surface from which hair stands out. If no trusted pixel
+// is near, the value is kNoSurface.
 void FindNearest(const EstimatePlan& plan, const int16_t* trusted, const Rect& cell, int32_t y,
                  int16_t* nearest);
 

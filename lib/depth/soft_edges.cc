@@ -17,7 +17,7 @@ constexpr int32_t kInside = 3, kOutside = 6;
 constexpr int32_t kLeastContrast = 60 * 60, kLeastPixelContrast = 30 * 30;
 // Reciprocals of the smallest share of the nearer surface in a mixed pixel: kLeastShare for
 // measuring edges, and kLeastPixelShare for widening a surface. At half of all sharp ray-traced
-// edges the share is less than 0.06, and at edges of photographs 0.09 to 0.34.
+// edges, this share is less than 0.06. At edges of photographs, this share is 0.09 to 0.34.
 constexpr int32_t kLeastShare = 14, kLeastPixelShare = 8;
 
 // The first pixel (x, y) of the farther surface, and the direction (dx, dy) away from the nearer

@@ -18,9 +18,10 @@ inline constexpr int32_t kMostSoft = 3;
 // A step of disparity of more than kSoftStep is an edge (kDisparityBits).
 inline constexpr int32_t kSoftStep = 5 << kDisparityBits;
 
-// Counts over a tile. `edges` is the number of edges at which a colour profile was measured. Let
-// pixel k + 1 of a profile be the pixel that lies k + 1 pixels beyond the first pixel of the
-// farther surface. In mixed[k] of the profiles, pixel k + 1 shows a part of the nearer surface.
+// Counts of the edges of a tile. `edges` is the number of edges at which a colour profile was
+// measured. Let pixel k + 1 of a profile be the pixel that lies k + 1 pixels beyond the first pixel
+// of the farther surface. mixed[k] is the number of profiles in which pixel k + 1 shows a part of
+// the nearer surface.
 struct SoftCount {
   int32_t edges;
   int32_t mixed[kMostSoft];
@@ -30,7 +31,7 @@ struct SoftCount {
 void CountSoft(const ColourMap& map, const Rect& rect, SoftCount* count);
 
 // Returns the number of pixels by which nearer surfaces should be widened, at most kMostSoft. Let n
-// be the number of pixels in sequence that show a part of the nearer surface in at least half of
+// be the number of consecutive pixels that show a part of the nearer surface in at least half of
 // the profiles. The result is n + 1, or 0 if n is 0.
 int32_t SoftnessOf(const SoftCount* counts, int32_t tiles);
 

@@ -73,7 +73,7 @@ int32_t Apart(const uint8_t* a, const uint8_t* b) {
   return Min(sum, simd::kMostDifference);
 }
 
-// Returns true if enough of the pixels around pixel (x, y) fit the views badly.
+// Returns true if at least kLeastMisfits of the pixels around pixel (x, y) fit the views badly.
 bool IsGainsaid(const EstimatePlan& plan, const uint8_t* doubt, int32_t x, int32_t y) {
   const Rect around = Widened(plan, {x, y, 1, 1}, kMisfitRadius);
   int32_t misfits = 0;
@@ -84,7 +84,8 @@ bool IsGainsaid(const EstimatePlan& plan, const uint8_t* doubt, int32_t x, int32
   return misfits >= kLeastMisfits;
 }
 
-// Marks of a row of a tile and of its surroundings. Pixels beyond the picture are not in doubt.
+// Marks of doubt for a row of a tile and kSweptRadius pixels on each side. Pixels outside the
+// picture are not in doubt.
 using DoubtRow = uint8_t[kMostTileSide + 2 * kSweptRadius];
 
 // Sets row[k] to 1 if pixel k of row y is in doubt. row[0] is the first pixel of `around`.
@@ -122,7 +123,7 @@ void FindSwept(const EstimatePlan& plan, const Rect& tile, uint8_t* scratch,
   const auto width = static_cast<size_t>(plan.width), stride = static_cast<size_t>(tile.width);
   DoubtRow row = {};
   uint8_t* inside = row + kSweptRadius - (tile.x - around.x);
-  // First marks the pixels that have a pixel in doubt within reach in their row.
+  // First mark the pixels that have a pixel in doubt within kSweptRadius pixels in their row.
   for (int32_t y = 0; y < around.height; ++y) {
     ReadDoubts(plan, memory->doubt, around, around.y + y, inside);
     uint8_t* near = scratch + static_cast<size_t>(y) * stride;

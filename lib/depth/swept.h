@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Decides which pixels of a given map the sweeps process. The sweeps process the pixels around
-// steps and noise of the map, and around pixels that the views contradict. All other pixels keep
-// their disparity.
+// steps and noise of the map, and around pixels that the views contradict. Pixels that are not
+// swept keep the disparity of the map.
 #ifndef STARFOCUS_LIB_DEPTH_SWEPT_H_
 #define STARFOCUS_LIB_DEPTH_SWEPT_H_
 
@@ -22,14 +22,15 @@ inline constexpr int32_t kSweptRadius = 5;
 void FindDoubts(const EstimatePlan& plan, const starfocus_light_field& light_field,
                 const Rect& tile, EstimateMemory* memory);
 
-// Marks the pixels of a tile that are swept. Requires the doubts of all tiles. `scratch` has one
-// byte for each pixel of the tile extended by kSweptRadius pixels.
+// Marks the pixels of a tile that are swept. Requires the marks that FindDoubts sets for all tiles.
+// `scratch` has one byte for each pixel of the tile extended by kSweptRadius pixels.
 void FindSwept(const EstimatePlan& plan, const Rect& tile, uint8_t* scratch,
                EstimateMemory* memory);
 
 // Writes the certainty of the pixels of a tile that were not swept. The certainty is the difference
 // between the pixel and its neighbours in the centre view, along the row and the column. With a
-// wrong disparity, views fit worse by approximately this difference.
+// wrong disparity, the views fit a pixel worse by approximately the difference between the pixel
+// and its neighbours.
 void RateUnswept(const EstimatePlan& plan, const Plane<const uint8_t>& centre, const Rect& tile,
                  EstimateMemory* memory);
 

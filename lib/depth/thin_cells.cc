@@ -12,8 +12,8 @@ namespace {
 
 // Sides of cells are between 0.5 and 1.5 times kCellSide.
 constexpr int32_t kCellSide = 16;
-// Largest step of disparity between pixels of one surface, kDisparityBits. The value is the same in
-// lib/coverage.
+// Largest step of disparity between pixels of one surface, in fixed point (kDisparityBits).
+// lib/coverage uses an equal value.
 constexpr int32_t kStep = 5 << kDisparityBits;
 // Distance in cells from a dense cell within which all cells are thin, because the rim of a
 // structure has fewer strands.

@@ -15,8 +15,8 @@ namespace starfocus {
 // Largest width and height of a cell in pixels.
 inline constexpr int32_t kMostCellSide = 25;
 
-// The grid of cells. Each tile is divided into cells of about 16 x 16 pixels. A mirrored picture
-// has mirrored cells.
+// Grid of cells over a map. Each tile is divided into cells of about 16 x 16 pixels. A mirrored
+// picture has mirrored cells.
 struct ThinGrid {
   int32_t width, height;          // size of the picture
   int32_t columns, rows;          // numbers of cells
@@ -42,10 +42,10 @@ ThinCells TakeThinCells(const ThinGrid& grid, Arena* arena);
 void CountBeside(const ThinGrid& grid, const int16_t* map, const Rect& tile, int32_t index,
                  const ThinCells& cells);
 
-// A cell is dense if this percentage of the pixels in the cell and its eight neighbours are next to
-// much nearer pixels. For given maps, the limit is kThinGiven. Crossing wires have a percentage of
-// 15, or of 20 if the rows of the map are displaced. A head of hair has up to 45. For maps of the
-// sweeps, whose rows are not displaced, the limit is kThinFound.
+// Percentage of pixels next to much nearer pixels, in a cell and its eight neighbours, from which
+// on the cell is dense. For given maps, the limit is kThinGiven. Crossing wires have a percentage
+// of 15, or of 20 if the rows of the map are displaced. A head of hair has a percentage of up to
+// 45. For maps of the sweeps, whose rows are not displaced, the limit is kThinFound.
 inline constexpr int32_t kThinGiven = 24, kThinFound = 17;
 
 // Fills cells.dense and cells.thin. Call FindThin after CountBeside has been called for all tiles.

@@ -26,8 +26,8 @@ void SplitPictureRow(const uint8_t* row, int32_t picture_width, const TileViews&
   }
 }
 
-// A view of which planes are made, and the `moves` shifts by fractions of a pixel for which planes
-// are made. Shifts are in 1/128 pixel.
+// A view, and the `moves` shifts by fractions of a pixel for which planes of the view are computed.
+// Shifts are in 1/128 pixel.
 struct MovedView {
   Plane<const uint8_t> picture;
   int32_t moves;
@@ -38,7 +38,7 @@ struct MovedView {
 void MakePlanes(const MovedView& view, const EstimatePlan& plan, const simd::DepthKernels& kernels,
                 const TileViews& views, uint8_t* out) {
   // `stride` is larger than `count`, because interpolation reads samples after the end of a row. No
-  // label moves a pixel that far to the right.
+  // label moves a pixel to a sample after the first `count` samples.
   const size_t stride = views.stride, count = stride - simd::kSliceLanes;
   for (int32_t row = 0; row <= views.rows; ++row) {
     uint8_t* next = views.split + static_cast<size_t>(row % 2) * 3 * stride;
@@ -83,9 +83,9 @@ struct MapRow {
   int32_t y, from, to;
 };
 
-// Marks the labels that the pixels of a row hide in the part `inside` of a view. If the view does
-// not move horizontally, kAcross is false, and if it does not move vertically, kDown is false. The
-// compiler can then remove the computation of the movement.
+// Marks the labels that the pixels of a row hide in the part `inside` of a view. kAcross is false
+// if the view does not move horizontally, and kDown is false if the view does not move vertically.
+// If kAcross or kDown is false, the compiler removes the computation of this movement.
 template <bool kAcross, bool kDown>
 void HideBehindRow(const EstimatePlan& plan, const SideView& view, const MapRow& of_map,
                    const Rect& inside, const TileViews& views, uint8_t* hidden) {
@@ -108,7 +108,8 @@ void HideBehindRow(const EstimatePlan& plan, const SideView& view, const MapRow&
 }
 
 // Returns `rect` extended by the reach of the plan, along each axis on which the view moves. Pixels
-// of `rect` can move within the result, and pixels of the result can hide them.
+// of `rect` can only move to pixels of the result, and only pixels of the result can hide pixels of
+// `rect`.
 Rect WithReach(const EstimatePlan& plan, const SideView& view, const Rect& rect) {
   const Rect across = Widened(plan, rect, view.u2 != 0 ? plan.reach : 0);
   const Rect down = Widened(plan, rect, view.v2 != 0 ? plan.reach : 0);
