@@ -11,19 +11,19 @@ namespace starfocus {
 
 enum class ErrorKind {
   kNone,
-  kInput,     // unsuitable file or device, or insufficient memory
+  kInput,     // an unsuitable file or device, or insufficient memory
   kUsage,     // invalid command line
   kInternal,  // defect of starfocus
 };
 
-// An error message of one line with the file or option and the cause. An Error converts to true
+// A one-line error message that names the file or option and the cause. An Error converts to true
 // unless it means success:
 //   if (Error error = WriteFile(path, bytes)) return error;
 class [[nodiscard]] Error {
  public:
-  Error() = default;  // success
-  // Replaces control characters such as line breaks in `line` by spaces. Names and contents of
-  // files may contain control characters.
+  Error() = default;  // means success
+  // Replaces control characters such as line breaks in `line` by spaces. Messages may contain
+  // control characters because they quote names and contents of files.
   Error(ErrorKind kind, std::string line);
 
   // Returns an error of the command line: "<option>: expected <expected>, found <found>".
@@ -45,15 +45,15 @@ class [[nodiscard]] Error {
 // Returns "<where>: expected <expected>, found <found>".
 Error Expected(const std::string& where, const std::string& expected, const std::string& found);
 
-// Returns "cannot <action> <path>: <reason>". The system's reason starts in lower case: "cannot
-// read photo.jpg: permission denied".
+// Returns "cannot <action> <path>: <reason>". A reason from the operating system is converted to
+// start in lower case: "cannot read photo.jpg: permission denied".
 Error Cannot(const std::string& action, const std::string& path, const std::string& reason);
 Error Cannot(const std::string& action, const std::string& path, std::error_code reason);
 
 // Returns "<where>: <format> is not supported: this program was built without <library>".
 Error Unsupported(const std::string& where, const std::string& format, const std::string& library);
 
-// Returns the error after std::bad_alloc: "<where>: out of memory, cannot <purpose>".
+// Returns the error for insufficient memory: "<where>: out of memory, cannot <purpose>".
 Error OutOfMemory(const std::string& where, const std::string& purpose);
 
 // Holds a value or an error. A Result converts to true if it holds a value.
@@ -70,7 +70,7 @@ class [[nodiscard]] Result {
   T* operator->() { return &value_; }
   const T* operator->() const { return &value_; }
 
-  // Moves the value to `target` and returns no error, or returns the error and leaves `target`
+  // Moves the value to `target` and returns success, or returns the error and leaves `target`
   // unchanged:
   //   if (Error error = ReadImage(path).MoveTo(&image)) return error;
   Error MoveTo(T* target) {

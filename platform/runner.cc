@@ -10,7 +10,8 @@
 namespace starfocus {
 namespace {
 
-// A set of jobs and their first exception. Exceptions must not leave a thread of the pool.
+// A set of jobs, and the first exception that a job threw. Exceptions must not leave a thread of
+// the pool.
 struct Guarded {
   starfocus_job job;
   void* data;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Wraps the pool of starfocus/pool.h for jobs that may throw exceptions. Jobs of the programs may
-// throw; jobs of the engine do not.
+// Wraps the pool of starfocus/pool.h for jobs that may throw exceptions. Jobs of command-line
+// programs may throw exceptions, but jobs of the engine do not throw.
 #ifndef STARFOCUS_PLATFORM_RUNNER_H_
 #define STARFOCUS_PLATFORM_RUNNER_H_
 
@@ -20,9 +20,9 @@ class ThreadRunner {
 
   int workers() const { return starfocus_pool_workers(pool_.get()); }
 
-  // A starfocus_runner whose runner_data is the ThreadRunner. If a job throws, jobs that have not
-  // started are skipped. When no job is running, the first exception is rethrown here. Jobs of an
-  // engine do not throw.
+  // A function of type starfocus_runner, whose `runner_data` must point to a ThreadRunner. If a job
+  // throws an exception, Run skips all jobs that have not started. When no job is running any more,
+  // Run rethrows the first exception.
   static int Run(void* runner_data, starfocus_job job, void* job_data, int32_t count);
 
  private:

@@ -8,7 +8,8 @@
 namespace starfocus {
 namespace {
 
-// Returns the part before ":-", or an empty string if that part cannot be a format name.
+// Returns the part of a path before ":-", or an empty string if this part cannot be the name of a
+// format.
 std::string Prefix(const std::string& path) {
   if (path.size() < 3 || path.compare(path.size() - 2, 2, ":-") != 0) return "";
   const std::string prefix = path.substr(0, path.size() - 2);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compiles stb_image and stb_image_write. A separate file is required because the JPEG encoder of
-// stb_image_write shifts negative numbers, which would stop the sanitizer build.
+// Compiles stb_image and stb_image_write. The stb libraries are compiled in a separate file because
+// the JPEG encoder of stb_image_write shifts negative numbers, which would stop builds with
+// sanitizers.
 #include "platform/stb_memory.h"
 
 #define STB_IMAGE_IMPLEMENTATION

@@ -9,7 +9,8 @@
 namespace starfocus {
 namespace {
 
-// Header of every allocation. Contains pointers to the neighbours in the list of this thread.
+// Header of every allocation, with pointers to the neighbours in the list of allocations of this
+// thread.
 struct alignas(std::max_align_t) Piece {
   Piece *next, *previous;
 };
@@ -27,8 +28,8 @@ void Leave(const Piece* piece) {
   if (piece->next != nullptr) piece->next->previous = piece->previous;
 }
 
-// Resizes `old`, or allocates a new piece if `old` is null. The result is not in any list. Returns
-// null on failure.
+// Resizes the allocation `old`, or creates an allocation if `old` is null. Does not add the result
+// to the list of allocations. Returns null on failure.
 Piece* Resize(Piece* old, size_t size) {
   if (size > SIZE_MAX - sizeof(Piece)) return nullptr;
   return static_cast<Piece*>(std::realloc(old, sizeof(Piece) + size));

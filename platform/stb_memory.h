@@ -7,9 +7,10 @@
 
 namespace starfocus {
 
-// stb's functions may be called on a thread while an object of this class exists there. Since stb
-// may continue after a failed allocation, Allocate throws std::bad_alloc instead of returning null.
-// The destructor frees all memory that stb has not freed, including returned pictures.
+// A thread may call functions of stb while an object of class StbMemory exists on this thread.
+// Since stb may continue after a failed allocation, Allocate throws std::bad_alloc instead of
+// returning null. The destructor frees all memory that stb has not freed, including pictures that
+// stb returned.
 class StbMemory {
  public:
   StbMemory() = default;
@@ -23,7 +24,8 @@ class StbMemory {
   static void Free(void* memory);
 };
 
-// A stbi_write_func: appends to the std::vector<uint8_t> that `bytes` points to.
+// A function of type stbi_write_func. Appends the data to the std::vector<uint8_t> that `bytes`
+// points to.
 void AppendStb(void* bytes, void* data, int size);
 
 }  // namespace starfocus

@@ -13,8 +13,8 @@ namespace {
 
 constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
 
-std::atomic<bool> taken{false};  // locks the list
-TemporaryFile* first = nullptr;  // head of the list
+std::atomic<bool> taken{false};  // spin lock of the list of temporary files
+TemporaryFile* first = nullptr;  // head of the list of temporary files
 
 void Take() {
   while (taken.exchange(true)) sched_yield();
@@ -22,8 +22,8 @@ void Take() {
 
 }  // namespace
 
-// Locks the list. Signals are blocked in the thread that holds the lock, so a signal handler may
-// wait for the lock.
+// Locks the list of temporary files. The thread that holds the lock blocks signals, so a signal
+// handler may wait for the lock.
 class TemporaryFile::Turn {
  public:
   Turn() {
@@ -89,8 +89,8 @@ bool TemporaryFile::MoveTo(const std::string& target) {
   return true;
 }
 
-// Never unlocks the list. Threads that wait for the lock stay blocked until the signal ends the
-// program.
+// Removes all temporary files and ends the program. Never unlocks the list, so that waiting threads
+// stay blocked until the program ends.
 void TemporaryFile::RemoveAllAndEnd(int number) {
   Take();
   for (const TemporaryFile* file = first; file != nullptr; file = file->next_) {
@@ -110,7 +110,8 @@ void TemporaryFile::RemoveOnSignals() {
     if (sigaction(number, nullptr, &action) != 0 || action.sa_handler == SIG_IGN) continue;
     action = {};
     action.sa_handler = RemoveAllAndEnd;
-    // Block other signals: a second handler would wait forever for the lock of the first.
+    // Block other signals during the handler, because a second handler would wait forever for the
+    // lock of the first handler.
     sigfillset(&action.sa_mask);
     sigaction(number, &action, nullptr);
   }

@@ -8,7 +8,7 @@
 
 namespace starfocus {
 
-// A new file that is removed unless MoveTo succeeds.
+// A new file, which the destructor removes unless MoveTo has succeeded.
 class TemporaryFile {
  public:
   // Creates the file in `folder`. On failure, file() is null and errno is set. The temporary name
@@ -23,8 +23,8 @@ class TemporaryFile {
   // Closes the file and renames it to `target`. Returns false and sets errno on failure.
   bool MoveTo(const std::string& target);
 
-  // From now on, SIGINT, SIGTERM and SIGHUP remove the temporary files of all threads before they
-  // end the program. Ignored signals remain ignored.
+  // Installs handlers for SIGINT, SIGTERM and SIGHUP, which remove the temporary files of all
+  // threads and end the program. Ignored signals remain ignored.
   static void RemoveOnSignals();
 
  private:
@@ -35,7 +35,8 @@ class TemporaryFile {
   std::string name_;
   std::FILE* file_ = nullptr;
   bool listed_ = false;
-  TemporaryFile *next_ = nullptr, *previous_ = nullptr;  // neighbours in the list of all files
+  // neighbours in the list of temporary files
+  TemporaryFile *next_ = nullptr, *previous_ = nullptr;
 };
 
 }  // namespace starfocus

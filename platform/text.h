@@ -9,7 +9,7 @@
 
 namespace starfocus {
 
-// Parses a finite number, which must be the whole text.
+// Parses a finite number. Returns nullopt unless the whole text is a finite number.
 std::optional<double> ParseNumber(const std::string& text);
 
 // Formats a size as "640x480".
@@ -18,7 +18,8 @@ std::string SizeText(int64_t width, int64_t height);
 // Converts the letters A to Z to lower case.
 std::string Lower(std::string text);
 
-// Escapes a text for XML and HTML: markup characters and line breaks become references.
+// Escapes a text for XML and HTML: replaces markup characters and line breaks by character
+// references.
 std::string EscapeXml(const std::string& text);
 
 }  // namespace starfocus

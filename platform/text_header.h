@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Parses the text header of PPM and PFM files. The header consists of tokens separated by white
-// space, and comments from # to the end of the line. A single white-space character precedes the
-// data.
+// space, and comments from # to the end of the line. A single white-space character separates the
+// header from the binary data.
 #ifndef STARFOCUS_PLATFORM_TEXT_HEADER_H_
 #define STARFOCUS_PLATFORM_TEXT_HEADER_H_
 
@@ -16,7 +16,8 @@ class TextHeader {
   explicit TextHeader(const Bytes& bytes) : bytes_(bytes) {}
 
   // Returns the next token and skips the white-space character after it. The token has at most 32
-  // characters, and is empty at the end of the file. Non-printable characters become '?'.
+  // characters, and is empty at the end of the file. Replaces non-printable characters of the token
+  // by '?'.
   std::string Token();
 
   const uint8_t* data() const { return bytes_.data() + position_; }
@@ -29,7 +30,8 @@ class TextHeader {
   size_t position_ = 0;
 };
 
-// Parses a decimal integer from 1 to kMaxPictureSize. Returns 0 for any other text.
+// Parses a decimal integer from 1 to kMaxPictureSize. Returns 0 if the token is not such an
+// integer.
 int ParseSize(const std::string& token);
 
 }  // namespace starfocus

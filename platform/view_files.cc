@@ -20,11 +20,11 @@ namespace fs = std::filesystem;
 
 constexpr int kStarSets[] = {1, 5, 9, 17};
 constexpr const char* kExtensions[] = {".png", ".ppm", ".jpg"};
-constexpr const char* kPair[] = {"im0.png", "im1.png"};  // at (0, 0) and (1, 0)
-constexpr double kDecimals = 1e4;                        // precision of the numbers in names
+constexpr const char* kPair[] = {"im0.png", "im1.png"};  // views at (0, 0) and (1, 0)
+constexpr double kDecimals = 1e4;                        // file names have four decimals
 constexpr double kAlike = 0.5 / kDecimals;
 
-// Formats a coordinate, for example "+0.5". Whole numbers have one decimal.
+// Formats a coordinate, for example "+0.5". Whole numbers are formatted with one decimal.
 std::string CoordinateText(double value) {
   char text[32];
   std::snprintf(text, sizeof(text), "%+.4f", std::fabs(value) < kAlike ? 0 : value);
@@ -33,7 +33,7 @@ std::string CoordinateText(double value) {
   return name;
 }
 
-// Parses a sign, digits and decimals in [at, end).
+// Parses the characters [at, end) of a text as a sign, digits and decimals.
 std::optional<double> ReadCoordinate(const std::string& text, size_t at, size_t end) {
   if (end > text.size() || at + 2 > end || (text[at] != '+' && text[at] != '-')) return {};
   const std::string number = text.substr(at, end - at);
@@ -47,7 +47,7 @@ struct NameParts {
   size_t extension;  // index into kExtensions
 };
 
-// Parses the file name of a view. Returns nullopt for other names.
+// Parses the file name of a view. Returns nullopt if `name` is not the file name of a view.
 std::optional<NameParts> ReadName(const std::string& name) {
   constexpr char kPrefix[] = "view_";
   constexpr size_t kBegin = sizeof(kPrefix) - 1, kExtension = 4;
@@ -84,8 +84,8 @@ bool ComesBefore(const ViewFile& a, const ViewFile& b) {
   return a.position.v < b.position.v;
 }
 
-// Returns the files of views in a folder. If a view has files with several extensions, the first
-// extension in kExtensions is used.
+// Returns the files of views in a folder. If a folder has several files of one view, ListNames
+// returns the file whose extension is first in kExtensions.
 Result<std::vector<ViewFile>> ListNames(const std::string& folder) {
   const Result<std::vector<std::string>> names = ListFolder(folder);
   if (!names) return names.error();
@@ -104,7 +104,7 @@ Result<std::vector<ViewFile>> ListNames(const std::string& folder) {
   return files;
 }
 
-// Returns the stereo pair of a folder that has no files named as views.
+// Returns the two views of a stereo pair, for folders without files that have the names of views.
 std::vector<ViewFile> ListPair(const std::string& folder) {
   std::vector<ViewFile> files;
   for (size_t k = 0; k < std::size(kPair); ++k) {

@@ -8,16 +8,18 @@
 namespace starfocus {
 namespace {
 
-// A file with the performance of a core. A core is big if its number is at least numerator /
-// denominator of the largest number. Small cores have about 1/3 of the capacity of big cores, but
-// 2/3 of the clock frequency, so the two files have different limits.
+// A file with a performance number of a core. A core is big if its performance number is at least
+// numerator / denominator of the largest number. Small cores have about 1/3 of the capacity of big
+// cores, but 2/3 of the clock frequency, so the files cpu_capacity and cpuinfo_max_freq have
+// different limits.
 struct Measure {
   const char* file;
   int64_t numerator, denominator;
 };
 constexpr Measure kMeasures[] = {{"cpu_capacity", 1, 2}, {"cpufreq/cpuinfo_max_freq", 3, 4}};
 
-// Returns the number in the file `name` of a core, or 0 if the file is missing or has no number.
+// Returns the number that the file `name` of a core contains, or 0 if the file is missing or
+// contains no number.
 int64_t ReadNumber(const char* folder, int core, const char* name) {
   char path[512];
   const int length = std::snprintf(path, sizeof path, "%s/cpu%d/%s", folder, core, name);
@@ -79,7 +81,7 @@ void RunOn(const CoreSet& cores) {
   for (int core = 0; core < CPU_SETSIZE && core < kMaxCores; ++core) {
     if (cores.Has(core)) CPU_SET(core, &set);
   }
-  sched_setaffinity(0, sizeof set, &set);  // on failure the thread may still run on any core
+  sched_setaffinity(0, sizeof set, &set);  // if the call fails, the thread still runs on any core
 }
 
 #else

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds the big cores of machines that have cores of different speeds, and restricts threads to the
-// big cores. Used by the pool (pool.cc). On systems other than Linux, BigCores returns an empty
-// set.
+// big cores. Used by the thread pool (pool.cc). On systems other than Linux, BigCores returns an
+// empty set.
 #ifndef STARFOCUS_PLATFORM_POOL_BIG_CORES_H_
 #define STARFOCUS_PLATFORM_POOL_BIG_CORES_H_
 
@@ -9,7 +9,7 @@
 
 namespace starfocus {
 
-inline constexpr int kMaxCores = 1024;  // cores with larger numbers are ignored
+inline constexpr int kMaxCores = 1024;  // cores with numbers of kMaxCores or more are ignored
 
 // A set of cores, identified by their numbers in the operating system.
 struct CoreSet {
@@ -20,13 +20,13 @@ struct CoreSet {
   int Count() const;
 };
 
-// Returns the big cores of `allowed`. Reads `folder`/cpu<N>/cpu_capacity of all cores. If a core
-// lacks this file, reads `folder`/cpu<N>/cpufreq/cpuinfo_max_freq of all cores instead. Returns
-// `allowed` if neither file exists for every core. `folder` is /sys/devices/system/cpu, except in
-// tests.
+// Returns the big cores among the cores `allowed`. Reads the file `folder`/cpu<N>/cpu_capacity of
+// all cores. If a core lacks the file cpu_capacity, reads `folder`/cpu<N>/cpufreq/cpuinfo_max_freq
+// of all cores instead. Returns `allowed` if some core lacks cpu_capacity and some core lacks
+// cpuinfo_max_freq. `folder` is /sys/devices/system/cpu, except in tests.
 CoreSet FindBigCores(const char* folder, const CoreSet& allowed);
 
-// Returns the big cores that this process may run on. The set is empty if the system does not
+// Returns the big cores that this process may run on. Returns an empty set if the system does not
 // report which cores the process may run on.
 CoreSet BigCores();
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Implements starfocus/pool.h with POSIX threads. The pool uses no function of the C++ run time, so
-// C programs can link the pool.
+// Implements starfocus/pool.h with POSIX threads. The pool calls no function of the C++ run time,
+// so C programs can link the library starfocus_pool.
 #include "starfocus/pool.h"
 
 #include <pthread.h>
@@ -16,8 +16,8 @@
 
 namespace {
 
-// Time for which a thread polls before it sleeps, in ns. This time is longer than the pause of the
-// engine between two batches, and short enough that polling wastes little processor time.
+// Time in ns for which a thread polls before it sleeps. The polling time is longer than the pause
+// of the engine between two batches of jobs, but short enough to waste little processor time.
 constexpr int64_t kPatience = 100000;
 
 int64_t Now() {
@@ -60,27 +60,29 @@ struct Thread {
 
 }  // namespace
 
-// Batches follow each other within microseconds, which is less than the time to wake a thread. A
-// thread without work therefore polls for kPatience and yields to other threads before it sleeps.
+// Batches of jobs follow each other within microseconds, which is less than the time to wake a
+// thread. A thread without work therefore polls for kPatience and yields to other threads before it
+// sleeps.
 struct starfocus_pool {
   int32_t threads = 0;  // number of started threads
   Thread started[STARFOCUS_MAX_WORKERS - 1];
-  starfocus::CoreSet cores;  // cores that the threads run on; empty: any
+  starfocus::CoreSet cores;  // cores that the threads run on; empty: any core
 
   pthread_mutex_t turn = PTHREAD_MUTEX_INITIALIZER;  // mutex that a caller holds during its batch
   Batch batch = {nullptr, nullptr, 0};
-  // Number of jobs of the batch that no thread has taken. A thread that took a job may read `batch`
-  // until the thread decrements `undone` for this job.
+  // Number of jobs of the batch that no thread has taken. A thread that has taken a job may read
+  // `batch` until the thread decrements `undone`.
   std::atomic<int32_t> left{0};
-  std::atomic<int32_t> undone{0};  // number of jobs that are not done
-  std::atomic<int32_t> stop{0};    // 1: the threads end
+  std::atomic<int32_t> undone{0};  // number of jobs of the batch that are not done
+  std::atomic<int32_t> stop{0};    // 1: the threads must end
 
-  // A thread that is about to sleep first sets `idle` or `waiting` and then checks the counters
-  // above again. A thread that changes a counter checks `idle` or `waiting` afterwards. This order
-  // ensures that no wake-up is lost.
+  // A thread that is about to sleep first sets `idle` or `waiting` and then checks `left`, `undone`
+  // and `stop` again. starfocus_pool_run sets `left` before it checks `idle`, and Work decrements
+  // `undone` before it checks `waiting`. This order of writes and checks ensures that no wake-up is
+  // lost.
   std::atomic<int32_t> idle{0};                       // number of threads that wait for `wake`
   std::atomic<int32_t> waiting{0};                    // 1: the caller waits for `finished`
-  pthread_mutex_t sleep = PTHREAD_MUTEX_INITIALIZER;  // mutex of both condition variables
+  pthread_mutex_t sleep = PTHREAD_MUTEX_INITIALIZER;  // mutex of `wake` and `finished`
   pthread_cond_t wake = PTHREAD_COND_INITIALIZER;
   pthread_cond_t finished = PTHREAD_COND_INITIALIZER;
 
@@ -90,15 +92,17 @@ struct starfocus_pool {
 
 namespace {
 
-// Takes and runs jobs until none are left. Wakes the caller after the last job.
+// Takes and runs jobs until no jobs are left. Wakes the caller of starfocus_pool_run after the last
+// job.
 void Work(starfocus_pool* pool, int32_t worker) {
   int32_t left = pool->left;
   while (left > 0) {
     if (!pool->left.compare_exchange_weak(left, left - 1)) continue;
     pool->batch.job(pool->batch.data, pool->batch.count - left, worker);
     if (--pool->undone == 0 && pool->waiting != 0) {
-      // The caller either sleeps, or holds the lock and checks `undone` before it sleeps. Locking
-      // the mutex waits until the caller has made this check, so the signal is not lost.
+      // The caller of starfocus_pool_run either sleeps, or holds the mutex and checks `undone`
+      // before it sleeps. Locking the mutex waits for this check, so the caller cannot miss the
+      // signal.
       { const Lock lock(&pool->sleep); }
       pthread_cond_signal(&pool->finished);
     }

@@ -66,7 +66,7 @@ class BuildWheel(bdist_wheel):
         return "py3", "none", super().get_tag()[2]
 
 
-# Intermediate files are written to this folder instead of the source folder.
+# Folder for intermediate files, so that the build does not write to the source folder.
 PARTS = ROOT / "build/python-package"
 PARTS.mkdir(parents=True, exist_ok=True)
 setup(version=version(), cmdclass={"build_py": BuildPackage, "bdist_wheel": BuildWheel},

@@ -31,8 +31,8 @@ std::string Attribute(const std::string& name, double value) {
   return Attribute(name, std::string(text));
 }
 
-// Range of the disparities of a map. The range of a flat map is extended, because readers require
-// near < far.
+// Range of the disparities of a map. Extends the range of a map with a single disparity, because
+// readers require near < far.
 struct Range {
   double low, high;
 
@@ -43,7 +43,7 @@ struct Range {
   }
 };
 
-// Returns levels from 0, the nearest, to 255, the farthest.
+// Converts disparities to grey levels, from 0 for the nearest disparity to 255 for the farthest.
 GreyImage Levels(const FloatMap& map, const Range& range) {
   GreyImage grey = {map.width, map.height, {}};
   grey.levels.reserve(map.values.size());
@@ -54,8 +54,9 @@ GreyImage Levels(const FloatMap& map, const Range& range) {
   return grey;
 }
 
-// Returns the attributes NearDisparity and FarDisparity. Disparities at f/1 that exceed the limit
-// are shifted into the valid range. A shift has no effect on the blur.
+// Returns the attributes NearDisparity and FarDisparity. Disparities for f/1 that exceed
+// STARFOCUS_MAX_DISPARITY are shifted into the valid range. A shift of all disparities has no
+// effect on the blur.
 Result<std::string> OwnAttributes(const std::string& path, const SharpOriginal& photo,
                                   const Range& range) {
   double near = photo.widest * range.high, far = photo.widest * range.low;
@@ -75,7 +76,7 @@ Result<std::string> OwnAttributes(const std::string& path, const SharpOriginal& 
 
 std::string FocusAttributes(const SharpOriginal& photo, double low) {
   const auto longer = double(std::max(photo.before->width, photo.before->height));
-  const double nearness = photo.focus - low + 1;  // 1 / distance; infinity is at 0
+  const double nearness = photo.focus - low + 1;  // 1 / distance; 0 at infinity
   return Attribute("GFocus:BlurAtInfinity", photo.aperture * std::fabs(nearness) / longer) +
          Attribute("GFocus:FocalDistance", 1 / std::max(nearness, 1e-3));
 }
@@ -99,13 +100,13 @@ Result<Bytes> EncodeDepthPhoto(const std::string& path, const Image& picture,
   const std::string extended = Attribute("GDepth:Data", EncodeBase64(*map)) +
                                Attribute("GImage:Data", EncodeBase64(*before));
   Bytes segments;
-  // Descriptions are omitted if they do not fit into the packet of the map.
+  // Omit the rdf:Descriptions of `metadata` if they do not fit into the XMP packet of the map.
   if (!AppendExtendedXmp(kNamespaces, attributes, extended, metadata.xmp, &segments) &&
       !AppendExtendedXmp(kNamespaces, attributes, extended, "", &segments)) {
     return Expected(path, "less than 4 GiB of data besides the picture", "more");
   }
   Metadata others = metadata;
-  others.xmp.clear();  // a file has only one packet
+  others.xmp.clear();  // a JPEG file may have only one XMP packet
   return EncodeJpeg(path, picture, quality, others, segments);
 }
 

@@ -17,7 +17,7 @@ constexpr uint32_t kOrientation = 0x0112, kSoftware = 0x0131, kExifFolder = 0x87
 constexpr uint32_t kPixelWidth = 0xa002, kPixelHeight = 0xa003;
 constexpr uint32_t kSubjectArea = 0x9214, kSubjectLocation = 0xa214;
 constexpr uint32_t kAscii = 2, kShort = 3, kLong = 4;
-constexpr size_t kEntry = 12;  // bytes: tag, type, count, and value or its position
+constexpr size_t kEntry = 12;  // bytes of an entry: tag, type, count, and value or its position
 
 // Reads and writes numbers of a TIFF structure in the byte order of the structure.
 class Tiff {
@@ -39,7 +39,8 @@ class Tiff {
       bytes_[at + (little_ ? i : size - 1 - i)] = static_cast<uint8_t>(value >> (8 * i));
     }
   }
-  // Removes an entry from a folder with `count` entries. The rest of the list moves up.
+  // Removes an entry from an IFD (a list of EXIF tags) with `count` entries. Moves the following
+  // entries up.
   void Remove(size_t folder, size_t entry, size_t count) {
     const size_t end = folder + 2 + count * kEntry + 4;
     std::copy(bytes_.begin() + static_cast<ptrdiff_t>(entry + kEntry),
@@ -47,7 +48,8 @@ class Tiff {
               bytes_.begin() + static_cast<ptrdiff_t>(entry));
     Set(folder, 2, static_cast<uint32_t>(count - 1));
   }
-  // Returns the positions of the entries of a folder, or nullopt if the list is truncated.
+  // Returns the positions of the entries of the IFD at the offset `folder`, or nullopt if the IFD
+  // is truncated.
   std::optional<std::vector<size_t>> Entries(size_t folder) const {
     const size_t count = Has(folder, 2) ? Get(folder, 2) : 0;
     if (!Has(folder, 2 + count * kEntry + 4)) return {};
@@ -66,9 +68,9 @@ bool IsTiff(const Bytes& bytes, const Tiff& tiff) {
   return (bytes[0] == 'I' || bytes[0] == 'M') && tiff.Get(2, 2) == 42;
 }
 
-// Removes the tags SubjectArea and SubjectLocation from the IFD at the offset `folder`. The tags
-// hold pixel coordinates of the original picture. The tags remain if `turned` is false and the size
-// tags of the IFD match `width` and `height`.
+// Removes the tags SubjectArea and SubjectLocation from the IFD at the offset `folder`. SubjectArea
+// and SubjectLocation contain pixel coordinates of the original picture. Keeps both tags if
+// `turned` is false and the size tags of the IFD match `width` and `height`.
 void RemoveSubject(size_t folder, int width, int height, bool turned, Tiff* tiff) {
   const auto entries = tiff->Entries(folder);
   if (!entries) return;
@@ -90,7 +92,7 @@ void RemoveSubject(size_t folder, int width, int height, bool turned, Tiff* tiff
   }
 }
 
-// Sets the width and the height if the folder has them.
+// Sets the tags PixelXDimension and PixelYDimension if the IFD at the offset `folder` has them.
 void SetSizes(size_t folder, int width, int height, Tiff* tiff) {
   const auto entries = tiff->Entries(folder);
   if (!entries) return;
@@ -111,7 +113,8 @@ Bytes EditedExif(const Bytes& exif, int width, int height) {
   if (!IsTiff(bytes, tiff)) return {};
   const auto old_entries = tiff.Entries(tiff.Get(4, 4));
   if (!old_entries) return {};
-  std::vector<std::pair<uint32_t, size_t>> entries;  // tag and position; tags are sorted
+  // tag and position of each entry, sorted by tag
+  std::vector<std::pair<uint32_t, size_t>> entries;
   bool turned = false;
   for (const size_t at : *old_entries) {
     const uint32_t tag = tiff.Get(at, 2);
@@ -126,8 +129,8 @@ Bytes EditedExif(const Bytes& exif, int width, int height) {
   entries.emplace_back(kSoftware, 0);
   std::sort(entries.begin(), entries.end());
 
-  // The new list is appended at the end. Nothing else may move, since the structure refers to
-  // values by their positions.
+  // Append the new list of tags at the end. Other data must not move, since a TIFF structure refers
+  // to values by their positions.
   bytes.resize((bytes.size() + 1) & ~size_t{1});
   const size_t folder = bytes.size(), text = folder + 2 + entries.size() * kEntry + 4;
   bytes.resize(text);
@@ -149,7 +152,8 @@ Bytes EditedExif(const Bytes& exif, int width, int height) {
     }
     at += kEntry;
   }
-  // The position of the next list (the thumbnail) stays 0: the file has no thumbnail.
+  // The position of the next IFD, which would contain a thumbnail, stays 0: the file has no
+  // thumbnail.
   return bytes;
 }
 

@@ -7,10 +7,10 @@
 
 namespace starfocus {
 
-// Returns EXIF, a TIFF structure, with the Software tag, orientation 1 and the new size. Removes
-// the thumbnail, which shows the original picture. Removes the subject unless the picture still has
-// its original size and orientation. All other data keeps its position. Returns an empty result if
-// `exif` is not a valid TIFF structure.
+// Returns a copy of `exif`, a TIFF structure, with a new Software tag, orientation 1 and the size
+// `width` x `height`. Removes the thumbnail, since it shows the original picture. Removes the
+// position of the subject unless the picture still has its original size and orientation. All other
+// EXIF data keeps its position. Returns an empty result if `exif` is not a valid TIFF structure.
 Bytes EditedExif(const Bytes& exif, int width, int height);
 
 }  // namespace starfocus

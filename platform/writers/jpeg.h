@@ -11,13 +11,14 @@
 
 namespace starfocus {
 
-// Encodes the pixels without metadata. `quality` is 1 to 100. At qualities of 90 and above, chroma
-// has full resolution. Uses libjpeg-turbo if available, otherwise stb_image_write. In all functions
-// of this header, `path` is used only in errors.
+// Encodes the pixels without metadata. `quality` is 1 to 100. If the quality is 90 or more, chroma
+// is stored at full resolution. Uses libjpeg-turbo if available, otherwise stb_image_write. In all
+// functions of this header, `path` is used only in errors.
 Result<Bytes> EncodeJpegPixels(const std::string& path, const Image& image, int quality);
 
-// Encodes a file with `segments` (jpeg_segments.h), and with metadata edited to match the picture
-// (exif.h). Malformed EXIF and metadata that exceeds the limits of the format are omitted.
+// Encodes a JPEG file with `segments` (jpeg_segments.h) and `metadata`, whose EXIF is edited to
+// match the picture (exif.h). Omits malformed EXIF, and metadata that exceeds the limits of the
+// format.
 Result<Bytes> EncodeJpeg(const std::string& path, const Image& image, int quality,
                          const Metadata& metadata, const Bytes& segments);
 

@@ -9,10 +9,10 @@
 namespace starfocus {
 namespace {
 
-constexpr size_t kMostPayload = 65533;  // a segment's length includes its own two bytes
+constexpr size_t kMostPayload = 65533;  // the length field of a segment includes its own two bytes
 constexpr uint8_t kApp0 = 0xe0, kApp1 = 0xe1, kApp2 = 0xe2, kApp13 = 0xed;
 
-// Headers of segments end with a zero byte, as the formats require.
+// Each header of an APP segment ends with a zero byte, as the formats require.
 const std::string kExifHeader("Exif\0\0", 6);
 const std::string kProfileHeader("ICC_PROFILE\0", 12);
 const std::string kResourcesHeader("Photoshop 3.0\0", 14);
@@ -25,7 +25,7 @@ std::string BigEndian32(size_t value) {
   return text;
 }
 
-// Appends a segment with a header and the bytes from `first` to `last`.
+// Appends a JPEG segment with a header and the bytes in [first, last).
 template <typename Iterator>
 void Append(uint8_t marker, const std::string& header, Iterator first, Iterator last,
             Bytes* segments) {
@@ -119,7 +119,7 @@ bool AppendExtendedXmp(const std::string& namespaces, const std::string& attribu
 }
 
 void InsertSegments(const Bytes& segments, Bytes* jpeg) {
-  size_t at = 2;  // after the start marker
+  size_t at = 2;  // position after the start marker of the JPEG file
   if (jpeg->size() > 6 && (*jpeg)[2] == 0xff && (*jpeg)[3] == kApp0) {
     at = std::min(jpeg->size(), 4 + size_t{(*jpeg)[4]} * 256 + (*jpeg)[5]);
   }

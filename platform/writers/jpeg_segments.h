@@ -9,26 +9,27 @@
 
 namespace starfocus {
 
-// Each function Append... appends segments, or nothing if the metadata is empty. Returns false if
-// the metadata exceeds the limits of the format: one segment for EXIF, 255 segments for a profile.
+// Each function Append... appends segments to `segments`, or nothing if the metadata is empty. Such
+// a function returns false if the metadata exceeds the limits of the format: one segment for EXIF,
+// 255 segments for a profile.
 bool AppendExif(const Bytes& tiff, Bytes* segments);
 bool AppendProfile(const Bytes& icc, Bytes* segments);
 
 // Appends the records of IPTC-IIM.
 bool AppendIptc(const Bytes& iptc, Bytes* segments);
 
-// Appends an XMP packet with these descriptions (Metadata::xmp).
+// Appends an XMP packet with the rdf:Descriptions in `descriptions` (Metadata::xmp).
 bool AppendXmp(const std::string& descriptions, Bytes* segments);
 
-// Returns a complete XMP packet for files of other formats, or an empty string if there are no
-// descriptions.
+// Returns a complete XMP packet for files that are not JPEG, or an empty string if `descriptions`
+// is empty.
 std::string XmpPacket(const std::string& descriptions);
 
 // Appends an XMP packet and an extended packet of up to 4 GiB, to which the first packet refers.
-// The first packet contains `descriptions` and a further description with `attributes`. The
-// extended packet contains the attributes `extended`. An attribute has the form
-// `prefix:Name="value"`, escaped as XML and preceded by a space. `namespaces` declares each prefix
-// in the form `xmlns:prefix="..."`, also preceded by a space.
+// The first XMP packet contains `descriptions`, and a further rdf:Description with the attributes
+// `attributes`. The extended XMP packet contains the attributes `extended`. Each attribute has the
+// form `prefix:Name="value"`, escaped as XML and preceded by a space. `namespaces` declares each
+// prefix in the form `xmlns:prefix="..."`, preceded by a space.
 bool AppendExtendedXmp(const std::string& namespaces, const std::string& attributes,
                        const std::string& extended, const std::string& descriptions,
                        Bytes* segments);

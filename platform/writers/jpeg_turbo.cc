@@ -34,8 +34,8 @@ struct Memory {
   ~Memory() { std::free(data); }
 };
 
-// Returns false and sets the reason on failure. Local objects must not have destructors, because
-// longjmp on a libjpeg error skips destructors.
+// On failure, returns false and sets failure->reason. Local objects of Compress must not have
+// destructors, because longjmp on a libjpeg error skips destructors.
 bool Compress(const Image& image, int quality, Memory* memory, Failure* failure) {
   jpeg_compress_struct info;
   info.err = jpeg_std_error(&failure->manager);

@@ -14,8 +14,8 @@ using State = std::array<uint32_t, 4>;
 
 uint32_t RotateLeft(uint32_t value, int bits) { return value << bits | value >> (32 - bits); }
 
-// Returns the 64 constants of the RFC: constant i is the integer part of 2^32 * |sin(i)|, i in
-// radians, from 1 to 64.
+// Returns the 64 constants of RFC 1321: for i from 1 to 64, the integer part of 2^32 * |sin(i)|,
+// with i in radians.
 std::array<uint32_t, kBlock> Sines() {
   std::array<uint32_t, kBlock> sines;
   for (size_t i = 0; i < kBlock; ++i) {
@@ -49,7 +49,7 @@ void Digest(const uint8_t* block, State* state) {
 }  // namespace
 
 std::string Md5(const std::string& text) {
-  // Pad to whole blocks with a 1 bit, 0 bits, and the length in bits.
+  // Pad the text to whole blocks with a 1 bit, 0 bits, and the length of the text in bits.
   std::string padded = text + '\x80';
   while (padded.size() % kBlock != kBlock - 8) padded += '\0';
   for (int i = 0; i < 8; ++i) {
@@ -60,7 +60,7 @@ std::string Md5(const std::string& text) {
     Digest(reinterpret_cast<const uint8_t*>(padded.data()) + at, &state);
   }
   std::string digits;
-  for (int i = 0; i < 32; ++i) {  // low byte of each word first, high digit of each byte first
+  for (int i = 0; i < 32; ++i) {  // low byte of a word first, high digit of a byte first
     digits += "0123456789ABCDEF"[state[size_t(i / 8)] >> (4 * ((i % 8) ^ 1)) & 15];
   }
   return digits;

@@ -11,7 +11,7 @@
 namespace starfocus {
 namespace {
 
-// Largest picture that encoders support, because encoders count bytes in an int.
+// Largest number of pixels that encoders support, because encoders count bytes in an int.
 constexpr int64_t kMostPixels = int64_t{1} << 28;
 
 Error CheckSize(const std::string& path, const Image& image) {

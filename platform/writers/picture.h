@@ -13,12 +13,12 @@
 namespace starfocus {
 
 struct PictureOptions {
-  int quality = 95;  // quality of JPEG and WebP, 1 to 100
+  int quality = 95;  // quality of JPEG and WebP pictures, 1 to 100
   Metadata metadata;
   PngSize png_size = PngSize::kQuick;
 };
 
-// Extensions that EncodePicture supports, for use in a sentence.
+// List of the extensions that EncodePicture supports, for use in error messages.
 inline constexpr char kPictureExtensions[] = ".png, .ppm, .jpg or .webp";
 
 // Returns true if EncodePicture supports `extension`, in lower case with its dot, for example
@@ -26,7 +26,8 @@ inline constexpr char kPictureExtensions[] = ".png, .ppm, .jpg or .webp";
 bool IsPictureExtension(const std::string& extension);
 
 // Encodes a picture in the format that the extension of `path` selects (standard_stream.h). `path`
-// is otherwise used only in errors. PPM files contain no metadata.
+// selects the format and appears in error messages, but EncodePicture does not write a file. PPM
+// files contain no metadata.
 Result<Bytes> EncodePicture(const std::string& path, const Image& image,
                             const PictureOptions& options);
 

@@ -13,23 +13,25 @@
 
 namespace starfocus {
 
-// Grey levels in rows without padding.
+// A grey picture whose rows have no padding.
 struct GreyImage {
   int width = 0, height = 0;
   std::vector<uint16_t> levels;
 };
 
-// Trade-off between time and file size: kSmall takes about 17 times as long and saves 5 to 7 %.
+// Trade-off between time and file size: kSmall takes about 17 times as long as kQuick and makes
+// files 5 to 7 % smaller.
 enum class PngSize { kQuick, kSmall };
 
-// Encodes a picture with 8 bits per sample. With libpng and libdeflate, metadata is edited to match
-// the picture (exif.h). Builds without these libraries use stb_image_write, which writes no
-// metadata and ignores `size`. In all functions of this header, `path` is used only in errors.
+// Encodes a picture with 8 bits per sample. In builds with libpng and libdeflate, writes metadata
+// with EXIF edited to match the picture (exif.h). Builds without libpng or libdeflate use
+// stb_image_write, which writes no metadata and ignores `size`. In all functions of this header,
+// `path` is used only in errors.
 Result<Bytes> EncodePng(const std::string& path, const Image& image, const Metadata& metadata,
                         PngSize size);
 
-// Encodes grey levels without scaling: with 8 bits if all levels fit, otherwise with 16 bits. 16
-// bits require libpng.
+// Encodes grey levels without scaling: with 8 bits if all levels are at most 255, otherwise with 16
+// bits. Levels of 16 bits require libpng.
 Result<Bytes> EncodeGreyPng(const std::string& path, const GreyImage& image);
 
 }  // namespace starfocus

@@ -22,13 +22,14 @@ class WebpWriter {
   WebpWriter(const WebpWriter&) = delete;
   WebpWriter& operator=(const WebpWriter&) = delete;
 
-  // Checks that pictures of this size can be written. The format is limited to 16383 pixels per
-  // side, and builds without libwebp cannot write WebP.
+  // Returns an error if pictures of `width` x `height` pixels cannot be written. The WebP format is
+  // limited to 16383 pixels per side, and builds without libwebp cannot write WebP files.
   static Error Check(const std::string& path, int width, int height);
 
   Error Add(const Image& picture);
 
-  // Returns the complete file, with metadata edited to match the pictures (exif.h).
+  // Returns the complete WebP file with `metadata`, whose EXIF is edited to match the pictures
+  // (exif.h).
   Result<Bytes> Finish(const Metadata& metadata);
 
  private:

@@ -14,7 +14,7 @@
 namespace starfocus {
 namespace {
 
-constexpr int kMilliseconds = 100;  // duration of a picture
+constexpr int kMilliseconds = 100;  // duration of each picture of an animation
 
 Error Failed(const std::string& path, const std::string& reason) {
   return Expected(path, "pictures that libwebp can write", reason);

@@ -14,7 +14,8 @@ from ._abi import library
 from .constants import Status
 from .errors import ArgumentError, check
 
-#: Receives the number of finished rows and the number of rows. A true result cancels the call.
+#: Progress callback: receives the number of finished rows and the number of all rows. If the callback returns a true
+#: value, the call is cancelled.
 ProgressFunction = Callable[[int, int], Any]
 #: An array of shape (views, height, width, 3), or a sequence whose items are arrays of shape (height, width, 3) or
 #: Images. A single array of shape (height, width, 3) is one view.

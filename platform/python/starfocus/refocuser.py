@@ -21,12 +21,12 @@ from .images import DepthMap, Image
 from .maps import measure_disparity
 
 
-#: A disparity map as an array of shape (height, width), or a depth map in another format.
+#: A disparity map as an array of shape (height, width), or a DepthMap for other formats.
 Disparity = Union[np.ndarray, DepthMap]
-#: A picture as an array of shape (height, width, 3), or in another format.
+#: A picture as an array of shape (height, width, 3), or an Image for other formats.
 Picture = Union[np.ndarray, Image]
 
-#: Keywords of `config` for the bits of starfocus_config.features.
+#: Keywords of `config` and the corresponding bits of starfocus_config.features.
 _FEATURES = {"line_scan": 1, "coverage": 2, "images": 8, "fill_unknown": 16, "shapes": 32}
 
 
@@ -84,7 +84,7 @@ class Refocuser:
         self._engine = engine.value
         weakref.finalize(self, library.starfocus_destroy, self._engine)
         self._lock = threading.Lock()
-        #: Fields of starfocus_report of the last refocusing.
+        #: Fields of the starfocus_report of the last refocusing, by name.
         self.report: Dict[str, Any] = {}
 
     @classmethod

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /** @file
- * A pool of threads for callers that have none: the library starfocus_pool (CMake:
- * starfocus::pool). The library requires POSIX threads, but does not link the engine.
+ * The library starfocus_pool (CMake: starfocus::pool): a thread pool for callers that have no
+ * thread pool. starfocus_pool requires POSIX threads, but does not link the engine.
  *
  * @code
  * starfocus_pool* pool = starfocus_pool_create(0);
@@ -27,10 +27,10 @@ extern "C" {
 /** A pool of threads. */
 typedef struct starfocus_pool starfocus_pool;
 
-/** Counts the cores of this process that are worth a worker. On Linux these cores have at least
- *  half the capacity of the strongest core (cpu_capacity), or 3/4 of the highest clock
- *  (cpuinfo_max_freq). Rendering of a stripe ends only when the last job is done, so a small core
- *  would cost more time than it saves.
+/** Returns the number of cores of this process that are fast enough for a worker. On Linux, such a
+ *  core has at least half the capacity of the strongest core (cpu_capacity), or at least 3/4 of the
+ *  highest clock frequency (cpuinfo_max_freq). A stripe is finished only when its last job is done,
+ *  so a slow core would cost more time than it saves.
  *  @return number of cores, [1, STARFOCUS_MAX_WORKERS] */
 STARFOCUS_API int32_t starfocus_pool_cores(void);
 
@@ -38,19 +38,20 @@ STARFOCUS_API int32_t starfocus_pool_cores(void);
  *  there are enough big cores. Free the pool with starfocus_pool_destroy.
  *  @param workers number of workers, at most STARFOCUS_MAX_WORKERS; 0 or less:
  *         starfocus_pool_cores(). The caller of starfocus_pool_run is one of the workers, so the
- *         pool starts one thread fewer. The pool has fewer workers if the system refuses to start
- *         threads
+ *         pool starts one thread less than it has workers. The pool has fewer workers if the system
+ *         cannot start all threads
  *  @return the pool, or null if memory could not be allocated */
 STARFOCUS_API starfocus_pool* starfocus_pool_create(int32_t workers);
 
 /** Returns the number of workers, for starfocus_config.max_workers.
  *  @param pool pool
- *  @return number of workers; 0 for a null pool */
+ *  @return number of workers of the pool; 0 for a null pool */
 STARFOCUS_API int32_t starfocus_pool_workers(const starfocus_pool* pool);
 
-/** Runs jobs: a starfocus_runner. The calling thread is worker 0. Calls from several threads take
- *  turns. A job must not call this function with the same pool. Idle threads wait for a tenth of a
- *  millisecond and then sleep.
+/** Runs jobs on the threads of a pool. The function is a starfocus_runner. The calling thread is
+ *  worker 0. Calls from several threads with the same pool run one after the other. A job must not
+ *  call this function with the same pool. An idle thread polls for new jobs for a tenth of a
+ *  millisecond and then sleeps.
  *  @param pool the pool, as starfocus_callbacks.runner_data
  *  @param job called with every index in [0, count)
  *  @param job_data first argument of `job`
@@ -59,7 +60,8 @@ STARFOCUS_API int32_t starfocus_pool_workers(const starfocus_pool* pool);
  */
 STARFOCUS_API int starfocus_pool_run(void* pool, starfocus_job job, void* job_data, int32_t count);
 
-/** Ends the threads and frees the pool. No call with the pool may be running.
+/** Ends the threads and frees the pool. No call of starfocus_pool_run with this pool may be
+ * running.
  *  @param pool pool; no-op if null */
 STARFOCUS_API void starfocus_pool_destroy(starfocus_pool* pool);
 

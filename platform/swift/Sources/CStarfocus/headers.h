@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Headers of the Swift module CStarfocus. The pool of threads is not included; a starfocus_runner
- * can use DispatchQueue.concurrentPerform. */
+/* Headers of the Swift module CStarfocus. The header of the thread pool is not included, because a
+ * starfocus_runner in Swift can use DispatchQueue.concurrentPerform. */
 #include <starfocus/depth.h>
 #include <starfocus/starfocus.h>
