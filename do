@@ -10,7 +10,7 @@ PROGRAM=$BUILD/starfocus
 LAB=$BUILD/starfocus-lab
 PACKAGES="g++ cmake ninja-build pkg-config libhwy-dev libstb-dev doctest-dev libcli11-dev nlohmann-json3-dev
   libjpeg62-turbo-dev libpng-dev libdeflate-dev libwebp-dev libexpat1-dev libexif-dev libheif-dev"
-# Programs that tests use to check the files of starfocus.
+# Packages with programs that the tests use to check files written by starfocus.
 JUDGES="libimage-exiftool-perl webp"
 FUZZ_PACKAGES="clang libclang-rt-14-dev"
 FUZZ_TARGETS="engine depth images files folder heif layouts photo xmp differential"
@@ -130,7 +130,7 @@ has() {
   esac >/dev/null
 }
 
-# Sets $missing to the packages of $PACKAGES that are missing. The database of Debian is queried only for
+# Sets $missing to the packages of $PACKAGES that are missing. The package database of Debian is queried only for
 # packages whose files were not found.
 find_missing() {
   local package
@@ -151,7 +151,7 @@ apt() {
   fi
 }
 
-# Updates the package lists only if the installation fails without an update.
+# Updates the package lists only if the installation fails with the current lists.
 install_packages() {
   apt install --no-install-recommends $missing && return
   apt update && apt install --no-install-recommends $missing
@@ -195,7 +195,7 @@ lab() {
   printf '%s (%d s)\n' "$label" $((SECONDS - start))
 }
 
-# refocus NAME: focuses the demo at an object whose position is in meta.txt.
+# refocus NAME: refocuses demo/portrait at the object NAME, whose position is in meta.txt.
 refocus() {
   local place seconds
   place=$(sed -n "s/^$1: *\([0-9,]*\).*/\1/p" demo/portrait/meta.txt)
@@ -243,8 +243,8 @@ check() {
   install_missing
   build
   sanitize
-  # valgrind finds invalid addresses and undefined values. The family `differential` compares all output bytes, and does
-  # not initialize the workspace in some cases.
+  # valgrind finds invalid addresses and undefined values. The stress family `differential` compares all output bytes,
+  # and leaves the workspace uninitialized in some cases.
   step valgrind "refocusing under valgrind" tests/support/valgrind.sh $BUILD --quiet \
     --error-exitcode=1 $LAB stress --seconds 30 --family differential
 }
@@ -342,13 +342,13 @@ mutate() {
   tests/mutation/mutate "$@"
 }
 
-# require PACKAGE...: installs further packages.
+# require PACKAGE...: installs the given packages, in addition to $PACKAGES, unless they are installed.
 require() {
   PACKAGES="$PACKAGES $*"
   install_missing
 }
 
-# bench_scene NAME ARGUMENT...: renders a scene for the bench unless it exists.
+# bench_scene NAME ARGUMENT...: renders a scene for the bench unless the scene already exists.
 bench_scene() {
   local folder=build/bench/$1
   shift

@@ -50,7 +50,7 @@ endif()
 
 if(TARGET starfocus)
   install(TARGETS starfocus)
-  # The program writes these files when it is built.
+  # The build runs the program to write the manual page and the completion.
   install(FILES "${PROJECT_BINARY_DIR}/starfocus.1" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" OPTIONAL)
   install(FILES "${PROJECT_BINARY_DIR}/starfocus.bash" OPTIONAL RENAME starfocus
     DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions")

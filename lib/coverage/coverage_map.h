@@ -34,9 +34,9 @@ inline constexpr int32_t kBandReach = 3;
 // Light of the far surface in a cell with a side of 2^level pixels, and the confidence of the
 // light.
 struct FarCell {
-  int16_t rgb[3];     // light
+  int16_t rgb[3];     // light of the far surface: R, G, B
   int16_t weight;     // confidence of the light in `rgb`, 0 to kKnown
-  int16_t disparity;  // kDisparityBits
+  int16_t disparity;  // disparity of the far surface, kDisparityBits
 };
 inline constexpr int32_t kFarKnownBits = 8;
 inline constexpr int32_t kKnown = 1 << kFarKnownBits;

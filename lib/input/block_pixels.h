@@ -12,8 +12,8 @@
 
 namespace starfocus {
 
-// Number of samples from row to row of a picture that can be transposed. The extra sample at the
-// end of a row exists because transposing copies each pixel together with the sample after it.
+// Stride in samples between the rows of an RGB picture that can be transposed. The extra sample at
+// the end of a row exists because transposing copies each pixel together with the sample after it.
 constexpr size_t RgbStride(int32_t width) { return 3 * static_cast<size_t>(width) + 1; }
 
 // Transposes pixels: pixel `column` of row `row` of `in` becomes pixel `row` of row `column` of
@@ -23,8 +23,8 @@ constexpr size_t RgbStride(int32_t width) { return 3 * static_cast<size_t>(width
 void Transpose(const int16_t* in, size_t in_stride, int32_t rows, int32_t columns, int16_t* out,
                size_t out_stride);
 
-// Copy of an extended rectangle. Coordinates are oriented: in a transposed field, x runs down the
-// picture and y runs across.
+// Copy of the pixels of an extended rectangle: a rectangle and its border. Coordinates are
+// oriented: in a transposed field, x runs down the picture and y runs across.
 struct BlockPixels {
   bool transposed = false;
   int32_t width = 0, height = 0;  // size of the extended rectangle
@@ -42,8 +42,8 @@ struct BlockPixels {
   }
 };
 
-// Transpose a field. The output array, to->disparity or to->rgb, must be set and differ from the
-// input. TransposeDisparity must be called first.
+// Transpose a field. The output array (to->disparity or to->rgb) must be set and must differ from
+// the input array. TransposeDisparity must be called before TransposePixels.
 void TransposeDisparity(const BlockPixels& from, BlockPixels* to);
 void TransposePixels(const BlockPixels& from, BlockPixels* to);
 
@@ -52,20 +52,20 @@ struct Diagonals {
   bool anti = false;
   int16_t* rgb = nullptr;  // all lines, packed
   int16_t* disparity = nullptr;
-  uint32_t* offsets = nullptr;  // number of pixels before each line, for Count(field) lines
+  uint32_t* offsets = nullptr;  // number of pixels stored before each of the Count(field) lines
 
   static int32_t Count(const BlockPixels& field) { return field.width + field.height - 1; }
 };
 
-// Start and length of a diagonal in pixels. The next pixel is (x + 1, y + 1), or (x + 1, y - 1) if
-// `anti`.
+// Start and length of a diagonal in pixels. From pixel to pixel of the diagonal, x increases by 1,
+// and y increases by 1, or decreases by 1 if `anti`.
 struct DiagonalLine {
   int32_t x, y, length;
 };
 DiagonalLine GetDiagonal(const BlockPixels& field, bool anti, int32_t index);
 
-// Copies all diagonals of a field. The arrays must be set, and each array must have room for the
-// whole field.
+// Copies all diagonals of a field. The arrays of `diagonals` must be set, and each array must have
+// room for the whole field.
 void LoadDiagonals(const BlockPixels& field, bool anti, Diagonals* diagonals);
 
 }  // namespace starfocus

@@ -4,12 +4,13 @@
 namespace starfocus {
 namespace {
 
-// Fractional bits of colours in comparisons, in units of white / 255. Products of compared colours
-// fit 64 bits.
+// Number of fractional bits of colours in comparisons, in units of white / 255. Products of
+// compared colours fit in 64 bits.
 constexpr int kColourBits = 4;
 constexpr int64_t kSquareOne = 1 << (2 * kColourBits);
 // Smallest squared distance between two colours whose mixtures can be recognised: 8/255 of white in
-// one channel. docs/constants.md describes how this constant and the next two were measured.
+// one channel. docs/constants.md describes how kLeastContrast, kNoise and kContrastParts were
+// measured.
 constexpr int64_t kLeastContrast = 64 * kSquareOne;
 // Largest squared distance of a mixture from the line between the two colours: noise of 3/255 of
 // white in each channel, plus 1/16 of the squared contrast.
@@ -38,7 +39,7 @@ struct LinePlace {
     beside = distance * contrast - along * along;
   }
 
-  // Returns the upper bound of `kContrastParts * beside` for mixtures; the bound is inclusive.
+  // Returns the largest value of `kContrastParts * beside` at which a colour counts as a mixture.
   int64_t Limit() const { return contrast * (kContrastParts * kNoise + contrast); }
 
   int32_t Share() const {
@@ -58,8 +59,8 @@ int32_t ShareOf(const Colour& near, const Colour& far, const Colour& mixed) {
   return kContrastParts * place.beside > place.Limit() ? 0 : place.Share();
 }
 
-// Returns the colour of the next pixel away from the nearer surface, if that pixel is on the same
-// surface. Otherwise returns `mixed`, which gives a share of 0.
+// Returns the colour of the next pixel away from the nearer surface. If that pixel is on another
+// surface than `pixel`, returns `mixed`, which gives a share of 0.
 Colour ReadBeside(const CentreView& centre, const BoundaryPixel& pixel, const Colour& mixed) {
   const int8_t* const side = kSides[pixel.side];
   const int32_t x = pixel.x - side[0], y = pixel.y - side[1];
@@ -67,13 +68,13 @@ Colour ReadBeside(const CentreView& centre, const BoundaryPixel& pixel, const Co
   return same ? centre.ColourAt(x, y) : mixed;
 }
 
-// Returns the captured view on the side away from the nearer surface. In that view the nearer
-// surface has moved away from the pixel.
+// Returns the captured view on the side away from the nearer surface. In the returned view, the
+// nearer surface is shifted away from the pixel.
 const OcclusionView& OcclusionViewAway(const Window& window, const BoundaryPixel& pixel) {
   return window.occlusion_views.Last(pixel.side ^ 1);
 }
 
-// Reads the point of the far surface in the view of OcclusionViewAway.
+// Reads the colour of the far surface from the captured view that OcclusionViewAway returns.
 Colour ReadFar(const Window& window, const BoundaryPixel& pixel, const Colour& mixed) {
   const OcclusionView& look = OcclusionViewAway(window, pixel);
   constexpr int kBits = kViewBits + kDisparityBits - kShiftBits;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Separates boundary pixels at depth edges, which are mixtures of both surfaces.
+// Separates boundary pixels at depth edges, which may be mixtures, into the colours of both
+// surfaces.
 #ifndef STARFOCUS_LIB_INPUT_BOUNDARY_PIXEL_H_
 #define STARFOCUS_LIB_INPUT_BOUNDARY_PIXEL_H_
 
@@ -12,17 +13,18 @@
 
 namespace starfocus {
 
-// Number of pixels around a field that are read to separate the field's boundary pixels.
+// Width in pixels of the border around a field that is read to separate the field's boundary
+// pixels.
 inline constexpr int32_t kMixedPixelBorder = 1;
 
-// Light of R, G and B.
+// Linear light of the samples R, G and B of a pixel.
 struct Colour {
   int16_t rgb[3];
 
   int32_t operator[](int c) const { return rgb[c]; }
 };
 
-// The centre view at layer 0, with its edges repeated.
+// Reads the centre view at layer 0. Coordinates outside the picture read the nearest pixel inside.
 struct CentreView {
   const Window& window;
 
@@ -30,12 +32,12 @@ struct CentreView {
     return window.disparity.Row(
         Clamp(y, 0, window.picture_height - 1))[Clamp(x, 0, window.picture_width - 1)];
   }
-  // Returns the light of a pixel, or its excess if window.is_excess.
+  // Returns the light of a pixel, or the light beyond white (excess) if window.is_excess.
   Colour ColourAt(int32_t x, int32_t y) const;
 };
 
-// A pixel next to a depth edge, at which the disparity rises by more than `step` to `near`.
-// Disparities have kDisparityBits.
+// A pixel next to a depth edge; the disparity beyond the edge, `near`, is larger by more than
+// `step`. Disparities have kDisparityBits.
 struct BoundaryPixel {
   int32_t x, y;
   int side;  // index into kSides: direction of the nearer surface
@@ -59,12 +61,12 @@ Mixture FindMixture(const CentreView& centre, const BoundaryPixel& pixel);
 // Returns the share of `near` in a pixel of layer 1 or 2, kShareBits. Rounding changes filtered
 // pixels slightly, so the share fades to 0 at the limits of FindMixture instead of stopping
 // abruptly. The share fades at contrasts below twice the smallest contrast, and for shares from 4/5
-// to 1. The share also fades between one and two times the largest distance from the line between
-// both colours.
+// to 1. The share fades as well between one and two times the largest distance at which FindMixture
+// accepts a colour as a mixture.
 int32_t FadedShareOf(const Colour& near, const Colour& far, const Colour& mixed);
 
-// Calls visit(column, row) for the pixels of a field that are farther than one of their four
-// neighbours by more than `step`. Pixels outside the picture and the outermost pixels of the field
+// Calls visit(column, row) for each pixel of a field that has a neighbour (of four) whose disparity
+// is larger by more than `step`. Pixels outside the picture and the outermost pixels of the field
 // are skipped.
 template <class Visit>
 void ForEachBesideEdge(const simd::Kernels& kernels, const Window& window, const BlockPixels& field,

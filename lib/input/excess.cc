@@ -15,7 +15,7 @@ int32_t ExcessOf(uint8_t code) {
   return kLightWhite * step * step / (kSteps * kSteps);
 }
 
-// A row or column of a view.
+// A row or a column of a captured view.
 struct ViewLine {
   const ExcessViews& of;
   int view;
@@ -29,8 +29,8 @@ struct ViewLine {
   }
 };
 
-// Counts the consecutive highlights around `at`, which must be a highlight. The length is at most
-// LampReach. Runs that reach the edge of the picture have the length LampReach.
+// Counts the consecutive highlights around `at`, which must be a highlight. The length of a run is
+// at most LampReach. Runs that reach the edge of the picture have the length LampReach.
 LampRun CountRun(const ViewLine& line, int32_t at) {
   const int32_t most = LampReach(line.of.lamp), size = line.Size();
   int32_t first = at, last = at;
@@ -53,7 +53,7 @@ int32_t RunThrough(const ViewLine& line, int32_t at) {
   if (!known) {
     run = CountRun(line, at);
   } else if (at < run.first) {
-    run.first = static_cast<uint16_t>(at);  // the next pixel belongs to the same run
+    run.first = static_cast<uint16_t>(at);  // pixel `at` is next to the run and extends it
   } else if (at > run.last) {
     run.last = static_cast<uint16_t>(at);
   }

@@ -20,8 +20,8 @@ constexpr int32_t LargestLamp(int32_t width) { return Clamp(width / 32, 16, 128)
 constexpr int32_t LampReach(int32_t lamp) { return 2 * lamp; }
 
 // A pixel is a highlight if at least two of its codes are kFirstExcess or more. Lamps of any colour
-// fulfil this condition. Darker saturated colours do not, because at most one of their codes is
-// that large.
+// are highlights. Darker saturated colours are not highlights, because at most one of their codes
+// reaches kFirstExcess.
 inline constexpr int32_t kFirstExcess = 251;
 bool IsHighlight(const uint8_t* codes);
 
@@ -35,8 +35,8 @@ struct LampRun {
 // Cache of runs, so that neighbouring pixels do not count the same run again. Each worker uses one
 // cache while it renders a block.
 struct LampRuns {
-  static constexpr int32_t kCount = 1024;  // a power of two
-  static constexpr int kSpanBits = 6;      // one entry per 64 pixels of a line
+  static constexpr int32_t kCount = 1024;  // number of entries, a power of two
+  static constexpr int kSpanBits = 6;      // log2 of the pixels of a line for each entry
 
   LampRun along[kCount], down[kCount];
 
@@ -50,7 +50,7 @@ struct LampRuns {
 struct ExcessViews {
   ViewReader views;
   int32_t width, height, lamp;  // size of the picture, and LargestLamp of its width
-  LampRuns* runs;               // cache for views of these pictures only
+  LampRuns* runs;  // cache of the runs in `views`; must not be shared with other pictures
 };
 
 // Returns a reader of the excess light of highlights. `views` must outlive the reader. The excess
@@ -58,8 +58,8 @@ struct ExcessViews {
 // clipped sample. Other pixels have no excess.
 //
 // A highlight that is at most views.lamp pixels high or wide has its full excess. The excess of
-// larger highlights decreases to 0 at twice that size. Highlights that reach the edge of the
-// picture count as large.
+// larger highlights decreases to 0 at a size of 2 * views.lamp. Highlights that reach the edge of
+// the picture count as large.
 ViewReader ReaderOf(const ExcessViews& views);
 
 }  // namespace starfocus

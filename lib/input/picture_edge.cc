@@ -8,8 +8,8 @@
 namespace starfocus {
 namespace {
 
-// The part of a rectangle of the layer inside the picture, in pixels of the rectangle. `right` and
-// `bottom` are exclusive.
+// Part of a rectangle that lies inside the picture, relative to the upper left corner of the
+// rectangle. `right` and `bottom` are exclusive.
 struct InsidePart {
   int32_t left, right, top, bottom;
 
@@ -19,13 +19,13 @@ struct InsidePart {
         top(Clamp(-rect.y, 0, rect.height)),
         bottom(Clamp(Inside(window.picture_height, window.layer) - rect.y, 0, rect.height)) {}
 
-  // Returns the number of pixels of the layer for `size` pixels of the picture. A stored layer is
-  // larger (LayerSize).
+  // Returns the number of pixels of the layer for `size` pixels of the picture. A layer in memory
+  // has more pixels than Inside returns (LayerSize).
   static int32_t Inside(int32_t size, int layer) { return (size + (1 << layer) - 1) >> layer; }
 };
 
-// A pixel at the edge of the picture, in a rectangle, and the number of pixels of the rectangle
-// beyond this edge.
+// A pixel of a rectangle that lies at an edge of the picture, and the number of pixels of the
+// rectangle beyond this edge.
 struct EdgePixel {
   int32_t column, row;
   int side;  // index into kSides
@@ -34,7 +34,7 @@ struct EdgePixel {
   const int8_t* out() const { return kSides[side]; }
 };
 
-// A position or displacement, kShiftBits.
+// Position or displacement in x and y, kShiftBits.
 struct ShiftedPlace {
   int32_t x, y;
 };
@@ -49,7 +49,7 @@ class Beyond {
     const int32_t width = rect_.width, height = rect_.height;
     const InsidePart part(window_, rect_);
     const bool inside = part.right - part.left == width && part.bottom - part.top == height;
-    if (inside) return;  // the most frequent case
+    if (inside) return;  // most fields lie inside the picture
     for (int32_t row = part.top; row < part.bottom; ++row) {
       LookOver({part.right - 1, row, 0, width - part.right});
       LookOver({part.left, row, 1, part.left});
@@ -90,9 +90,9 @@ class Beyond {
   }
 
   // Returns how many of the `seen` pixels beyond the edge precede the first covered pixel. A pixel
-  // is covered if, in the captured view, a nearer pixel of the picture lies within 3/4 of a pixel.
-  // Surfaces of positive disparity are never covered, because the view that shows them moves nearer
-  // surfaces farther away.
+  // is covered if the captured view shows a nearer pixel of the picture less than 3/4 of a pixel
+  // away. Surfaces of positive disparity are never covered, because the view that shows them moves
+  // nearer surfaces farther away.
   int32_t Uncovered(const EdgePixel& edge, const OcclusionView& look, int32_t disparity,
                     int32_t seen) const {
     const int layer = window_.layer;
@@ -105,7 +105,7 @@ class Beyond {
     int32_t x = rect_.x + edge.column, y = rect_.y + edge.row;
     for (int32_t m = 0; m < room; ++m, x -= out[0], y -= out[1]) {
       const int32_t nearer = ScaledByView(position, DisparityAt(x, y) - disparity, kViewBits);
-      // Distance beyond the edge, in quarters of a unit.
+      // Distance beyond the edge at which the view shows the nearer pixel, in quarters of `unit`.
       const int32_t place = 4 * (nearer - m * unit);
       if (place <= unit || 2 * nearer <= unit) continue;
       const int32_t first = place > 3 * unit ? (place - 3 * unit) / (4 * unit) + 1 : 1;
@@ -135,7 +135,7 @@ class Beyond {
     }
   }
 
-  // Returns pixel k beyond an edge.
+  // Returns a pointer to the k-th pixel beyond an edge.
   int16_t* Rgb(const EdgePixel& edge, int32_t k) const {
     return field_.Rgb(edge.column + k * edge.out()[0], edge.row + k * edge.out()[1]);
   }

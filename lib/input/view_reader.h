@@ -12,8 +12,8 @@
 
 namespace starfocus {
 
-// Both functions read `count` RGB pixels of a view, starting at (x, y) and continuing along the
-// row. All pixels must be inside the picture.
+// The functions of a reader read `count` RGB pixels of a view, starting at (x, y) and continuing
+// along the row. All pixels must be inside the picture.
 struct ViewReader {
   // Writes the light of the pixels.
   void (*light)(const void* self, int view, int32_t x, int32_t y, int32_t count,

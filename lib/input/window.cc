@@ -9,7 +9,7 @@
 namespace starfocus {
 namespace {
 
-// Largest number of pixels that are read at once, on the stack.
+// Largest number of pixels that are read at once into a buffer on the stack.
 constexpr int32_t kMost = 72;
 
 // Reads up to kMost pixels of a row of a view. Pixels outside the picture repeat its edge.
@@ -54,12 +54,12 @@ void InterpolateRow(const Window& window, int index, int32_t x, int32_t y, int32
   }
 }
 
-// Returns a triangular filter tap: 1 2 1 for layer 1, 1 2 3 4 3 2 1 for layer 2. The taps of a
-// layer sum to 4^L.
+// Returns tap k of a triangular filter. The taps are 1 2 1 for layer 1, and 1 2 3 4 3 2 1 for layer
+// 2. The taps of a layer sum to 4^L.
 constexpr int32_t Tap(int layer, int32_t k) { return (1 << layer) - Abs(k); }
 
-// Subsamples around `count` positions along a row, 2^kLayer pixels apart. The first position is (x,
-// y) of the picture.
+// Subsamples a captured view at `count` positions along a row, 2^kLayer pixels apart. The first
+// position is pixel (x, y) of the picture.
 template <int kLayer>
 void SubsampleRow(const Window& window, int index, int32_t x, int32_t y, int32_t count,
                   int16_t* rgb) {
@@ -83,7 +83,8 @@ void SubsampleRow(const Window& window, int index, int32_t x, int32_t y, int32_t
   }
 }
 
-// Reads `count` positions along a row, like ReadCaptured.
+// Reads the light at `count` positions along a row of a captured view, with the filters of
+// ReadCaptured.
 void ReadPlaces(const Window& window, int index, int32_t x, int32_t y, int32_t count,
                 int16_t* rgb) {
   if (window.layer == 0) {
@@ -103,7 +104,7 @@ bool IsBright(const uint8_t* codes, int32_t pixels) {
   return brightest >= kFirstExcess;
 }
 
-// Returns true if some pixel is not a highlight.
+// Returns true if at least one of the pixels is not a highlight.
 bool HasOthers(const uint8_t* codes, int32_t pixels) {
   uint8_t least = 255;
   for (int32_t n = 0; n < 3 * pixels; ++n) least = codes[n] < least ? codes[n] : least;

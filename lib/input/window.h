@@ -18,22 +18,22 @@ namespace starfocus {
 struct CoverageMap;
 
 // A light field at one layer. Pixel (x, y) of the layer is at (x << L, y << L) in the pictures.
-// Only the centre view is subsampled completely. From side views the engine reads only a few
-// pixels, for holes.
+// Only the centre view is subsampled completely. Side views are read only at a few pixels, to fill
+// holes.
 struct Window {
-  int32_t width = 0;  // size of the layer
+  int32_t width = 0;  // width and height of the layer in pixels
   int32_t height = 0;
   int layer = 0;                       // layer L
   int32_t views = 0;                   // number of captured views, including the centre view
-  OcclusionViews occlusion_views;      // views that see behind edges
+  OcclusionViews occlusion_views;      // captured views that see behind depth edges
   const Transfer* transfer = nullptr;  // transfer function of the pictures
-  Plane<const uint8_t> centre;         // codes at layer 0
+  Plane<const uint8_t> centre;         // codes of the centre view at layer 0
   Plane<const int16_t> samples;        // centre view at layers 1 and 2, simd::kLayerBits
   int32_t picture_width = 0;
   int32_t picture_height = 0;
   ViewReader reader;                    // reads light of the views, or excess (excess.h)
   bool is_excess = false;               // true: `reader` reads excess, at layer 0
-  ViewReader light;                     // reads light if is_excess
+  ViewReader light;                     // if is_excess, reads the light of the views
   Plane<const int16_t> disparity;       // disparities at the size of the pictures, kDisparityBits
   Plane<const uint8_t> given_coverage;  // coverage of the light field, 255: covered; null: none
   // Coverage computed from `given_coverage` or for thin structures; null: no coverage.
@@ -47,17 +47,18 @@ struct CapturedLine {
 };
 
 // Reads the light at the first `count` positions of a line in captured view `index`, in RGB order.
-// Positions outside the picture use the nearest pixel inside. At L = 0 the light is interpolated
-// linearly. At L > 0 the view is subsampled with a triangular filter of 2^(L+1) - 1 taps per axis
-// around the nearest pixel of the picture. This filter is sufficient, because refocusing later
-// blurs a hole of a defocused block by at least 3 pixels of the layer.
+// For positions outside the picture, the nearest pixel inside is read. At L = 0 the light is
+// interpolated linearly. At L > 0 the view is subsampled with a triangular filter of 2^(L+1) - 1
+// taps per axis around the nearest pixel of the picture. A triangular filter is sufficient, because
+// refocusing later blurs a hole of a defocused block by at least 3 pixels of the layer.
 void ReadCaptured(const Window& window, int index, const CapturedLine& line, int32_t count,
                   int16_t* rgb);
 
 // Returns the number of pixels of the picture that ReadCaptured reads around a position.
 constexpr int32_t CapturedBorder(int layer) { return layer == 0 ? 1 : (1 << layer) - 1; }
 
-// Reads one position at L = 0 without rounding, with 2 * kShiftBits more fractional bits.
+// Reads the light at one position of a view at L = 0 without rounding; the result has 2 *
+// kShiftBits more fractional bits than light.
 void InterpolateCaptured(const Window& window, int index, int32_t x, int32_t y, int32_t* rgb);
 
 // Returns true if any view has a code of at least kFirstExcess in `rect`.

@@ -25,7 +25,8 @@ HoleOffset OffsetOf(const HoleView& view, int sign, int64_t move, int32_t dispar
   return {static_cast<int32_t>(sign * shift), static_cast<int32_t>(sign * captured)};
 }
 
-// Reads captured view (u, v). All arguments are in the orientation of the lines.
+// Reads `count` positions of a line in the captured view at (u, v). All arguments are in the
+// orientation of the lines.
 void Read(const HoleView& view, int u, int v, const CapturedLine& line, int32_t count,
           int16_t* rgb) {
   if (view.transposed) {
@@ -36,15 +37,17 @@ void Read(const HoleView& view, int u, int v, const CapturedLine& line, int32_t 
   }
 }
 
-// Returns the square of the summed differences of R, G and B, at most (3 kLightWhite)^2.
+// Returns the square of the sum of the absolute differences of R, G and B, at most (3
+// kLightWhite)^2.
 int64_t Difference(const int16_t* a, const int16_t* b) {
   const int64_t sum = Abs(a[0] - b[0]) + Abs(a[1] - b[1]) + Abs(a[2] - b[2]);
   return sum * sum;
 }
 
-// Replaces a missing diagonal view by its two neighbours. The neighbour that looks more like the
-// background gets the larger weight. The weights nearly select one neighbour, but change
-// continuously. Transposing the picture transposes the result.
+// Replaces a pixel of a missing diagonal view by a mixture of both neighbouring views. The
+// neighbour whose colour is closer to the background gets the larger weight. The weights favour one
+// neighbour strongly, but change continuously with the colours. Transposing the picture transposes
+// the result.
 void MixNeighbours(const int16_t* a, const int16_t* b, const int16_t* colour, int16_t* out) {
   // Added to both weights, so that neighbours that both look like the background are mixed equally.
   constexpr int64_t kLeast = 1 << (2 * kLightBits);

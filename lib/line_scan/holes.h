@@ -12,14 +12,15 @@
 namespace starfocus {
 
 // Position of a rendered view, and the captured view (u, v) that fills the holes of the rendered
-// view. u and v are -1, 0 or 1, at full or half distance. All fields are in the orientation of the
-// view's lines.
+// view. u and v are -1, 0 or 1, in units of the full distance of the star, or of the half distance
+// if `half`. All fields are in the orientation of the view's lines.
 struct HoleView {
   const Window* window;
   const ViewGrid* grid;
   bool transposed;
   int u, v;
-  int64_t move_u, move_v;  // ViewGrid::Move of |u| and |v| of the rendered view; 0 if u or v is 0
+  // ViewGrid::Move of the rendered view's distance along each axis; 0 if u or v is 0.
+  int64_t move_u, move_v;
   bool half;
 };
 
@@ -29,11 +30,11 @@ struct HoleLine {
   int32_t x, y, dx, dy;
 };
 
-// Writes the colours of rendered pixels `part` of a line, 3 samples each. The pixels show a
-// background of disparity `disparity`. The captured view is read at the position that the disparity
-// implies (IV-A). With 5 views, a diagonal view is interpolated from its horizontal and its
-// vertical neighbour. Each neighbour is weighted by its similarity to the visible background
-// `colour`. With only the centre view, the background colour is repeated.
+// Writes the colours (3 samples each) of the rendered pixels [part.begin, part.end) of a line. The
+// pixels show a background of disparity `disparity`. The captured view is read at the position that
+// the disparity implies (IV-A). In a star of 5 views, a diagonal view is interpolated from its
+// horizontal and its vertical neighbour. Each neighbour is weighted by its similarity to the
+// visible background `colour`. With only the centre view, the background colour is repeated.
 void FillHole(const HoleView& view, const HoleLine& line, const LinePart& part, int32_t disparity,
               const int16_t* colour, int16_t* out);
 

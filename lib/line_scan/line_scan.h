@@ -16,7 +16,7 @@ namespace starfocus {
 struct Line {
   const int16_t* rgb;  // light
   const int16_t* disparity;
-  ptrdiff_t step;  // distance between the disparities of neighbouring pixels
+  ptrdiff_t step;  // distance in samples between the disparities of neighbouring pixels
   int32_t length;
 };
 
@@ -65,7 +65,7 @@ inline int32_t SubapertureWeight(int32_t offset, int32_t subaperture) {
 // the scan continues.
 struct Rim {
   int32_t pixel;    // pixel of the line that shows the surface; -1: no rim
-  int32_t covered;  // covered part of the pixel of the hole, kShiftBits
+  int32_t covered;  // part of the hole's outermost pixel that the surface covers, kShiftBits
 };
 
 // Scans the line of a task for several views. The scan calls the following functions of the sink,
@@ -74,11 +74,12 @@ struct Rim {
 // sink.Surface(begin, end, source, neighbour, weight): rendered pixel p shows line pixel q = source
 // + (p - begin), and with `weight` (simd::kBlendBits) line pixel q + neighbour; `neighbour` is +-1.
 //
-// sink.Mix(p, source, other, weight): rendered pixel p shows line pixel `source`. The part `weight`
-// (kShiftBits) of p shows line pixel `other`, which covers `source` or shines through.
+// sink.Mix(p, source, other, weight): rendered pixel p shows line pixel `source`. A part of p,
+// `weight` (kShiftBits), shows line pixel `other`, which lies in front of `source` or behind
+// `source`.
 //
-// sink.Hole(begin, end, pixel, rim): rendered pixels [begin, end) are uncovered. They show the
-// surface of the visible line pixel `pixel`, which continues behind the hole.
+// sink.Hole(begin, end, pixel, rim): rendered pixels [begin, end) are uncovered. Pixels of a hole
+// show the surface of the visible line pixel `pixel`, which continues into the hole.
 //
 // Each required pixel is passed exactly once, in scan order.
 template <Direction kDirection, class Sink>
@@ -107,7 +108,7 @@ class LineScan {
       const int32_t low = begin - whole;
       if (low < filled_.from) {
         if (low >= end_) {
-          // This run is outside the required part, but may cover a part of the last required pixel.
+          // A run outside the required part may still cover a part of the last required pixel.
           edge_ = {EndsAtEdge(run) ? run : nullptr, shift - whole * kShiftOne, whole};
         } else if (IsPlain(run, run_end, whole)) {
           const int32_t offset = shift - whole * kShiftOne;
@@ -127,8 +128,8 @@ class LineScan {
  private:
   static constexpr bool kMirrored = kDirection == Direction::kLeftToRight;
 
-  // Lowest position filled so far, and the line position that filled this position. Later pixels at
-  // or above this position are hidden.
+  // Lowest position of the rendered line that is filled so far, and the line position shown there.
+  // Pixels that are scanned later and move to a filled position are hidden.
   struct Filled {
     int32_t from = 0, pixel = 0;
   };
@@ -141,7 +142,7 @@ class LineScan {
   // Lower end of the last added run, if a farther surface follows. If a run ends between two
   // rendered pixels, the run covers only a part of its last pixel.
   struct Edge {
-    const Run* run;  // null: none
+    const Run* run;  // null: there is no such run
     // Offset from a rendered pixel, kShiftBits. If the offset is negative, a part of that size is
     // missing from the last pixel, which waits to be mixed. If the offset is positive, the edge
     // covers a part of that size of the next pixel.
@@ -159,8 +160,8 @@ class LineScan {
     return filled_.from == begin_ && edge_.run != nullptr && edge_.offset < 0;
   }
 
-  // Returns true if the visible part of a run is inside one surface and not next to a gap. This is
-  // the most frequent case.
+  // Returns true if the visible part of a run is inside one surface and not next to a gap. Most
+  // runs meet this condition.
   bool IsPlain(const Run* run, int32_t run_end, int32_t whole) const {
     const int32_t begin = run->begin, end = Min(filled_.from, end_);
     const bool inside = begin - whole < begin_ || (run + 1 != runs_end_ && !EndsAtEdge(run));
@@ -168,9 +169,9 @@ class LineScan {
            end + whole < run->surface_end;
   }
 
-  // Adds a run, whose positions up to `run_end` move together. Emits the visible positions up to
-  // the filled position. Positions beyond the end of the run stretch the run over the following
-  // source pixels.
+  // Adds a run, whose positions [run->begin, run_end) have one shift. Emits the positions of the
+  // run below the filled position. If a gap above the run belongs to a stretched surface, the run
+  // also fills the gap.
   [[gnu::noinline]] void AddRun(const Run* run, int32_t run_end, int32_t shift) {
     const int32_t whole = Whole(shift);
     const int32_t offset = shift - whole * kShiftOne;
@@ -204,7 +205,8 @@ class LineScan {
     }
   }
 
-  // Mixes the edge with the run behind the edge, which is visible up to `end`. Returns the new end.
+  // Mixes the edge with the run behind the edge, which is visible up to `end`. Returns the end of
+  // the visible part after mixing.
   int32_t CoverEdge(const Run& run, int32_t run_end, int32_t whole, int32_t end) {
     const Edge edge = edge_;
     if (edge.run->disparity - run.disparity <= kSurfaceStep) {
@@ -223,7 +225,8 @@ class LineScan {
     return end;
   }
 
-  // Ends the edge without covering another pixel. The last pixel of the edge becomes a whole pixel.
+  // Ends the edge without mixing it with another run. The last pixel of the edge is emitted as a
+  // whole pixel.
   void FlushEdge() {
     if (edge_.run != nullptr && edge_.offset < 0) {
       const int32_t p = edge_.run->begin - edge_.whole;
@@ -311,7 +314,7 @@ class LineScan {
   const Run* const runs_end_;
   const ViewGrid& grid_;
   Sink* const sink_;
-  const int32_t begin_;  // the required positions are [begin_, end_)
+  const int32_t begin_;  // positions [begin_, end_) of the rendered line are required
   const int32_t end_;
   int64_t move_ = 0;
   Filled filled_;

@@ -9,9 +9,9 @@ int32_t LayerOf(const BlockStats& stats, Demand demand) {
   return LayerByPaper(static_cast<double>(stats.r_min) / (1 << kDisparityBits), demand);
 }
 
-// Half of the type A views lie on each axis, and each type A view is rendered with the border of
-// the other axis. The estimate counts half of all views as scanned along rows and half as scanned
-// along columns. Type B views are scanned along both axes.
+// Half of the type A views lie on each axis, and each type A view is rendered with the border along
+// the other axis. The estimated work counts half of all views as scanned along rows and half as
+// scanned along columns. Type B views are scanned along both axes.
 BlockWork MeasureWork(const Rect& rect, const Border& border, const ViewWeights& aperture,
                       const Content (&content)[2], int32_t layer) {
   const auto width = static_cast<uint64_t>(rect.width), height = static_cast<uint64_t>(rect.height);
@@ -29,7 +29,7 @@ BlockWork MeasureWork(const Rect& rect, const Border& border, const ViewWeights&
   return work;
 }
 
-// E and R of LineScanScratch are `extended` and the side of the superblocks.
+// The sizes E and R that LineScanScratch names are `extended` and the side of a superblock.
 void TakeScratch(const starfocus_config& config, size_t extended, size_t max_n, Arena* arena,
                  void* memory) {
   LineScanScratch counted;
@@ -61,7 +61,7 @@ void TakeScratch(const starfocus_config& config, size_t extended, size_t max_n, 
 
 // Largest shift t that leaves a pixel unchanged, in kShiftBits. The pixel stays in place and its
 // neighbour has weight 0 if 2 |t| + L <= 1 (SubapertureWeight), where the subaperture L is at most
-// |t|. One unit is subtracted for rounding.
+// |t|. kStill is one unit smaller than this limit, to allow for rounding.
 constexpr int32_t kStill = kShiftOne / 3 - 1;
 
 // Returns false at layers 1 and 2, because blocks at these layers are resampled.
@@ -70,7 +70,8 @@ bool NothingMoves(const RenderJob& job) {
   if (window.layer != 0) return false;
   const int64_t still =
       (int64_t{kStill} << (kStepBits + kDisparityBits - kShiftBits)) / job.grid->step;
-  // Disparities in this range have no depth edge, so no pixel is mixed.
+  // Disparities that differ from the focus by at most `limit` form no depth edge, so no pixel is
+  // mixed.
   const auto limit = static_cast<int32_t>(still < kSurfaceStep / 2 ? still : kSurfaceStep / 2);
   // The ranges are clamped so that at least one row and one column lie inside the picture.
   const Rect rect = Extended(job.rect, job.border);
@@ -92,7 +93,7 @@ bool NothingMoves(const RenderJob& job) {
 const Renderer kLineScanRenderer = {
     1,
     false,
-    256,  // largest side of a superblock
+    256,  // benchmark mode: largest side of a superblock
     [](double r_max, Demand) { return ViewsByPaper(r_max); },
     LayerOf,
     MakeViewWeights,

@@ -30,7 +30,8 @@ int32_t ReadRuns(const simd::RunMarks& marks, int32_t k, int32_t length, const V
   };
   size_t word = static_cast<size_t>(k);
   for (int32_t begin = length; begin > 0; begin -= 16, word += marks.stride) {
-    // Each edge starts a run, because the spread of runs is at most the step of edges.
+    // Each depth edge starts a run, because disparities within a run differ by less than the step
+    // of an edge.
     for (uint32_t starts = marks.starts[word]; starts != 0; starts &= starts - 1) {
       const int32_t bit = LowestBit(starts);
       add(begin - bit);

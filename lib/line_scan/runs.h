@@ -15,8 +15,9 @@ namespace starfocus {
 // Positions [begin, end) of a line. `end` equals `begin` of the previous run in scan order.
 struct Run {
   uint16_t begin;
-  uint16_t surface_end;  // end of the run's surface: the next depth edge or the end of the line
-  int16_t disparity;     // middle of the run's range, kDisparityBits
+  // End of the surface that the run belongs to: the next depth edge or the end of the line.
+  uint16_t surface_end;
+  int16_t disparity;     // middle of the range of the run's disparities, kDisparityBits
   uint16_t subaperture;  // width of the run's subaperture r / N, kShiftBits
 };
 
@@ -32,7 +33,8 @@ struct LineBundle {
   int32_t lines;
 };
 
-// Sizes of the arrays of RunMarks: starts and edges have RunMarkWords elements, middles RunMiddles.
+// Sizes of the arrays of RunMarks: `starts` and `edges` have RunMarkWords elements, and `middles`
+// has RunMiddles elements.
 constexpr size_t RunMarkStride(size_t lines) {
   return (lines + simd::kRunLanes - 1) / simd::kRunLanes * simd::kRunLanes;
 }

@@ -107,15 +107,16 @@ class Star {
     list.Flush();
   }
 
-  // Returns the weight of view (i, j), in the orientation of a field.
+  // Returns the weight of view (i, j). The indices are in the orientation of `field`.
   uint32_t WeightOf(const BlockPixels& field, int32_t i, int32_t j) const {
     return field.transposed ? grid_.aperture.Weight(j, i) : grid_.aperture.Weight(i, j);
   }
 
-  // Adds the views of types A and C along the rows of `field`, in the triangles on both sides of
-  // the axis of type A. `other` is the transposed field.
+  // Adds the views of types A and C along the rows of `field`, in the two triangles of the aperture
+  // next to the axis of type A. `other` is the transposed field.
   void AddViews(const BlockPixels& field, const BlockPixels& other, uint32_t* accumulators) {
-    const int64_t samples = 3 * int64_t{field.width} * field.height;  // samples of a type A view
+    // Number of samples of a type A view.
+    const int64_t samples = 3 * int64_t{field.width} * field.height;
     for (const int sign : {1, -1}) {
       FindAllRuns(field, other, DirectionOf(sign));
       for (int32_t i = 1; i <= grid_.n() && GoesOn(job_.cancel, samples); ++i) {
@@ -233,7 +234,7 @@ class Star {
     list.Flush();
   }
 
-  // Adds a part of a column for the views (i, j) on one side of the axis.
+  // For one part of a column, adds the views (i, j) on one side of the axis.
   void AddColumn(const ScanTask& task, uint32_t pixel, LineHoles* view, SpanList* list) {
     LineHoles& holes = *view;
     const SpanTarget target = {task.part.begin, pixel, 0, nullptr};
@@ -309,7 +310,7 @@ class Star {
     }
   }
 
-  // Adds the sums of the pass over rows. These sums are stored in column order.
+  // Adds the sums of the pass over rows. The pass over rows stores its sums in column order.
   void AddTransposed() {
     const int32_t width = job_.rect.width, height = job_.rect.height;
     for (int32_t y = 0; y < height; ++y) {

@@ -18,23 +18,25 @@ namespace starfocus {
 inline constexpr int32_t kStripRows = 16;
 
 // Scratch memory of one worker. E is the largest side of an extended rectangle, and R the largest
-// side of a rectangle without border. Each buffer is followed by simd::kPadding bytes.
+// side of a rectangle without border. Numbers in the comments are numbers of elements. Each buffer
+// is followed by simd::kPadding bytes.
 struct LineScanScratch {
-  int16_t* field_rgb[2];        // E rows of RgbStride(E): rows and columns
-  int16_t* field_disparity[2];  // E^2 each
-  int16_t* diagonal_rgb;        // 3 E^2
-  int16_t* diagonal_disparity;  // E^2
-  uint32_t* diagonal_offsets;   // 2 E
-  int64_t* moves;               // N + 1: ViewGrid::Move of each view
-  simd::RunMarks marks;         // for E lines of E positions
-  Run* runs;                    // E^2: all lines of a field
-  int32_t* run_counts;          // E
-  Run* line_runs;               // E: one line
-  int16_t* strip_rgb;           // 3 R kStripRows: type A lines before they are transposed
-  int16_t* view_disparity;      // R E: the type A view, one line per row
-  int16_t* columns_rgb;         // R rows of RgbStride(E): the type A view, one line per column
-  uint32_t* column_sums;        // 3 R^2: sums of the pass over rows, in column order
-  uint32_t* line_accumulators;  // 3 E
+  // Light of the field and of the transposed field: E rows of RgbStride(E) each.
+  int16_t* field_rgb[2];
+  int16_t* field_disparity[2];  // disparities of both fields: E^2 each
+  int16_t* diagonal_rgb;        // light of all diagonal lines: 3 E^2
+  int16_t* diagonal_disparity;  // disparities of all diagonal lines: E^2
+  uint32_t* diagonal_offsets;   // number of pixels before each diagonal line: 2 E
+  int64_t* moves;               // ViewGrid::Move of views 0 to N along an axis: N + 1
+  simd::RunMarks marks;         // marks of the runs of E lines with E positions each
+  Run* runs;                    // runs of all lines of a field: E^2
+  int32_t* run_counts;          // number of runs of each line: E
+  Run* line_runs;               // runs of one line: E
+  int16_t* strip_rgb;           // type A lines before they are transposed: 3 R kStripRows
+  int16_t* view_disparity;      // disparities of the type A view, one line per row: R E
+  int16_t* columns_rgb;   // light of the type A view, one line per column: R rows of RgbStride(E)
+  uint32_t* column_sums;  // sums of the pass over rows, in column order: 3 R^2
+  uint32_t* line_accumulators;  // accumulators of one line: 3 E
   SpanMemory spans;
 };
 

@@ -8,8 +8,8 @@ namespace {
 
 constexpr int32_t kShareOne = 1 << kShareBits;
 
-// Largest blur radius of a sharp surface, kShiftBits. A limit of one pixel more, where the paper's
-// subsampled layers begin, hides outlines (docs/constants.md).
+// Largest blur radius of a sharp surface, kShiftBits. A limit of 3 pixels, where the paper's
+// subsampled layers begin, would hide outlines (docs/constants.md).
 constexpr int32_t kSharp = 2 * kShiftOne;
 
 // Returns the part of the near surface to remove from the pixel, kShiftBits; negative values count
@@ -51,7 +51,7 @@ class Unmixer {
  private:
   int32_t Radius(int32_t disparity) const { return Abs(grid_.Shift(rim_, disparity)); }
 
-  // Returns the part of the pixel (kShareBits) to replace by the far colour. The part is 1 if the
+  // Returns the part of a pixel (kShareBits) that the far colour replaces. The part is 1 if the
   // share of the nearer surface is at least one half. Pixels with a smaller share are replaced only
   // in part, because most of the light removed from such pixels is missing from the nearer surface
   // on the other side of the edge. `strength` reduces the part where no outline would be visible.

@@ -17,7 +17,7 @@ namespace starfocus {
 // not mixtures of both colours are not changed.
 //
 // The field must come from LoadBlock. Pixels outside the picture and the outermost pixels, which do
-// not splat into the rectangle, are not changed. Only layer 0 requires this step, because
+// not splat into the rectangle, are not changed. Only layer 0 requires UnmixEdges, because
 // subsampled layers are sufficiently blurred.
 void UnmixEdges(const simd::Kernels& kernels, const Window& window, const ViewGrid& grid,
                 BlockPixels* field);

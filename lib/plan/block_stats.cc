@@ -10,14 +10,14 @@ namespace {
 
 constexpr int32_t kRadiusOne = 1 << kDisparityBits;
 
-// Returns the largest |d - focus| of disparities in [low, high].
+// Returns the largest |d - focus| of all disparities d in [low, high].
 int32_t Farthest(int32_t low, int32_t high, int32_t focus) {
   return Max(Abs(low - focus), Abs(high - focus));
 }
 
 // In a line scan, a run ends when its pixels drift apart by a quarter pixel (kRunSpread of
-// view_grid.cc). A slice covers a larger range of disparities. The timing coefficients account for
-// both renderers.
+// view_grid.cc). A slice covers a larger range of disparities than a run. The timing coefficients
+// account for this difference.
 constexpr int32_t kRunDrift = kRadiusOne / 4;
 constexpr int32_t kLargestGap = 8;
 
@@ -28,8 +28,8 @@ int32_t DisparityOf(int32_t distance, int64_t step) {
 }
 
 void StoreContent(const simd::CellMeasure& measure, int32_t slope_limit, int64_t step, Cell* cell) {
-  // The last of the eight steps along a line leads out of the cell. The measurement contains the
-  // seven inner steps and is scaled to eight.
+  // The last of the eight steps between pixels of a line leads out of the cell. MeasureCell counts
+  // the seven steps inside the cell, so its sums are scaled from seven to eight steps.
   const auto scaled = [](uint32_t sum, uint32_t one) {
     return static_cast<uint16_t>(sum * kContentOne * kCellSize / (one * (kCellSize - 1)));
   };
@@ -98,8 +98,8 @@ class CellRow {
       cell.low = found.column_low[k] < cell.low ? found.column_low[k] : cell.low;
       cell.high = found.column_high[k] > cell.high ? found.column_high[k] : cell.high;
     }
-    // The kernel measures with a focus limited to int16. A focus outside this range lies on one
-    // side of all disparities, so the difference can be added.
+    // The SIMD kernel measures distances from a focus that is clamped to int16. A focus outside
+    // int16 lies on one side of all disparities, so the clamped part of the distance is added.
     const int32_t nearest = found.nearest + Abs(scale_.focus - near_focus_);
     const int32_t farthest = Farthest(cell.low, cell.high, scale_.focus);
     cell.r_min = static_cast<uint16_t>(scale_.Radius(nearest));
@@ -169,10 +169,11 @@ class CellRow {
   const simd::Kernels& kernels_;
   const Window& window_;
   const BlurScale& scale_;
-  const int32_t y_;  // first row of the cells
+  const int32_t y_;  // first row of pixels of the cells
   const int32_t near_focus_;
   const simd::CellLimits limits_;
-  const int16_t* rows_[kRows];  // rows of the cells, and one row above and below
+  // Rows of disparities in the cells, plus one row above and one row below.
+  const int16_t* rows_[kRows];
 };
 
 void AddContent(const Content (&part)[2], Content (*sum)[2]) {

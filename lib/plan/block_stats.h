@@ -15,8 +15,9 @@ namespace starfocus {
 
 inline constexpr int32_t kCellSize = 8;
 
-// Content of a cell or block at layer 0, for the timing model. Content is counted along rows or
-// along columns, in units of 1 / kContentOne. Each step between neighbouring pixels contributes.
+// Content of a cell or block at layer 0, from which the timing model predicts the work of
+// rendering. Content is counted along rows or along columns, in units of 1 / kContentOne. Each step
+// of disparity between neighbouring pixels contributes to the content.
 inline constexpr int32_t kContentOne = 16;
 struct Content {
   // Runs started by steps within a surface; a fraction if several steps start one run.
@@ -29,16 +30,17 @@ struct Content {
 // Statistics of a cell. Blur radii have kDisparityBits fractional bits: 128 px are 8192.
 struct Cell {
   uint16_t r_min, r_max;  // smallest radius, rounded down; largest radius, rounded up
-  // Smallest blur radius of all surfaces that the pixels show, rounded down. Pixels next to a depth
-  // edge also show a part of the nearer surface.
+  // Smallest blur radius of all surfaces that the pixels show, rounded down. The nearer surface of
+  // a depth edge is included, because the pixels next to the edge may show a part of this surface.
   uint16_t r_shown : 15;
-  uint16_t has_edge : 1;  // 1: a depth edge lies inside or at a side
+  uint16_t has_edge : 1;  // 1: a depth edge lies inside the cell or at one of its sides
   int16_t low, high;      // range of disparities, kDisparityBits
   // Number of pixels that the cell splats to the left, right, top and bottom, measured from the
   // opposite edge of the cell. `inside` is the depth of the pixels that splat beyond each side.
   uint8_t span[4];
   uint8_t inside[4];
-  uint16_t slopes[2], edges[2], gaps[2];  // Content along rows and along columns
+  // Members of Content, counted along rows and along columns.
+  uint16_t slopes[2], edges[2], gaps[2];
 
   // Number of pixels that the cell splats beyond a side. Cells with a result <= 0 do not splat
   // beyond the side.
@@ -49,14 +51,14 @@ enum Side { kLeft, kRight, kTop, kBottom };
 
 // Parameters of the lens that determine the blur radius.
 struct BlurScale {
-  int32_t focus;  // d_t, kDisparityBits
-  int64_t step;   // u_t, kStepBits
+  int32_t focus;  // d_t, the disparity in focus, kDisparityBits
+  int64_t step;   // u_t, the relative aperture, kStepBits
 
   // Converts |d - d_t| (kDisparityBits) to a blur radius, rounded down.
   int32_t Radius(int32_t distance) const {
     return static_cast<int32_t>(Checked(ranges::kRadius, (step * distance) >> kStepBits));
   }
-  // Converts |d - d_t| to a blur radius, rounded up. The result is 0 only for disparities in focus.
+  // Converts |d - d_t| to a blur radius, rounded up. The radius is 0 only if d equals d_t.
   int32_t RadiusAbove(int32_t distance) const {
     return static_cast<int32_t>((step * distance + (int64_t{1} << kStepBits) - 1) >> kStepBits);
   }
@@ -68,17 +70,17 @@ constexpr int32_t ReachOf(int32_t r) {
   return (r + (3 << kDisparityBits) / 2 - 1) >> kDisparityBits;
 }
 
-// Number of pixels of the layer that rendering reads around the reach of the blur, because a
-// subaperture also uses the neighbours of a pixel.
+// Number of pixels of the layer that rendering reads beyond the reach of the blur, because a
+// subaperture uses the neighbours of a pixel as well.
 inline constexpr int32_t kRenderBorder = 1;
 
-// Grid of cells over rows of the picture, all columns. Positions outside the picture use the
-// nearest cell, because the picture repeats its edge there.
+// Grid of the cells of some rows of the picture, over its whole width. Positions outside the
+// picture use the nearest cell, because the picture repeats its edge there.
 struct CellGrid {
   Cell* cells = nullptr;
   int32_t columns = 0;    // number of columns of cells in the whole picture
   int32_t rows = 0;       // number of rows of cells in the whole picture
-  int32_t first_row = 0;  // rows [first_row, last_row) are stored
+  int32_t first_row = 0;  // rows [first_row, last_row) of cells are in memory
   int32_t last_row = 0;
 
   Cell* At(int32_t column, int32_t row) const {
@@ -89,7 +91,7 @@ struct CellGrid {
 // Adds the content of a cell to *sum.
 void AddCell(const Cell& cell, Content (*sum)[2]);
 
-// Number of pixels around a cell that its measurement reads.
+// Width in pixels of the border around a cell that the measurement of the cell reads.
 inline constexpr int32_t kCellBorder = 1;
 
 // Cells in columns [first, last) of one row of the grid.
@@ -102,11 +104,11 @@ struct CellRange {
 void MeasureCells(const simd::Kernels& kernels, const Window& window, const BlurScale& scale,
                   const CellRange& range);
 
-// Number of extra pixels of a layer that upsampling by two reads on each side.
+// Number of pixels of a layer that upsampling by two reads beyond each side of a block.
 inline constexpr int32_t kUpBorder = 2;
 
 // Returns the number of pixels that a block at layer L renders beyond each side. Upsampling from
-// layer to layer reads these pixels.
+// layer to layer reads the pixels of this margin.
 constexpr int32_t LayerMargin(int32_t layer) {
   return layer == 0 ? 0 : (LayerMargin(layer - 1) + 1) / 2 + kUpBorder;
 }
@@ -114,9 +116,10 @@ constexpr int32_t LayerMargin(int32_t layer) {
 // LayerMargin of each layer, converted to pixels of the picture.
 inline constexpr int16_t kLayerMargin[3] = {0, LayerMargin(1) << 1, LayerMargin(2) << 2};
 
-// Statistics of a block. r_max and has_edge include the pixels that splat into the block; r_min and
-// r_shown do not. `border` contains, for each layer, the distance beyond which no pixel splats into
-// the block with its margin.
+// Statistics of a block. r_max and has_edge include all pixels that splat into the block. r_min
+// includes only the cells of the block, and r_shown includes the cells around the block as well.
+// `border` contains, for each layer, the distance beyond which no pixel splats into the block with
+// its margin.
 struct BlockStats {
   int32_t r_min, r_shown, r_max;
   bool has_edge;

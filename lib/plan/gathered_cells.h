@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Map of the cells that are gathered (lib/filter/gather.h) instead of rendered from views, and the
-// pixels of a block that belong to gathered cells.
+// Stores which cells are gathered (lib/filter/gather.h) instead of rendered from views, and finds
+// the pixels of a block that belong to gathered cells.
 #ifndef STARFOCUS_LIB_PLAN_GATHERED_CELLS_H_
 #define STARFOCUS_LIB_PLAN_GATHERED_CELLS_H_
 
@@ -12,15 +12,16 @@
 
 namespace starfocus {
 
-// Lowest layer at which each cell of a stripe can be gathered. Blocks at that layer or above gather
-// the cell. No block gathers a cell with kByViews. Cells with kSlopeMark are gathered with a radius
-// per pixel (lib/filter/slope.h), other cells with the radius of their middle.
+// For each cell of a stripe, the lowest layer at which the cell can be gathered. Blocks at this
+// layer or at a higher layer gather the cell. Cells with kByViews are never gathered. Cells with
+// kSlopeMark are gathered with a radius per pixel (lib/filter/slope.h), other cells with the radius
+// of their middle.
 inline constexpr uint8_t kByViews = 3;
 inline constexpr uint8_t kSlopeMark = 4;
 struct GatherMap {
   uint8_t* cells = nullptr;
   int32_t columns = 0;
-  int32_t first_row = 0;  // first row of cells, counted in the picture
+  int32_t first_row = 0;  // index in the picture of the first row of cells in memory
 
   // Returns the cell that contains pixel (x, y) of the picture.
   uint8_t& At(int32_t x, int32_t y) const {
@@ -30,15 +31,16 @@ struct GatherMap {
   int32_t FirstLayer(int32_t x, int32_t y) const { return At(x, y) & kByViews; }
 };
 
-// Returns the part of a layer that a block is made from, including the margin that upsampling
+// Returns the rectangle of a layer from which a block is made, including the margin that upsampling
 // reads.
 Rect LayerFrame(const Rect& block, int32_t layer);
 
-// Cells of a gathering block, at its layer. Pixels in the margin are treated like the nearest cell
-// of the block, so that a block does not depend on its neighbours.
+// Cells of a block that gathers some of its cells at the layer of the block. Pixels in the margin
+// are treated like the nearest cell of the block, so that a block does not depend on its
+// neighbours.
 struct BlockCells {
   const GatherMap* map;
-  Rect block;  // in pixels of the picture
+  Rect block;  // rectangle of the block in pixels of the picture
   int32_t layer;
 
   // Returns true if the cell that contains pixel (x, y) of the picture is gathered.
@@ -47,7 +49,7 @@ struct BlockCells {
   // kSlopeMark is larger than any layer.
   bool IsFlat(int32_t x, int32_t y) const { return map->At(x, y) <= layer; }
 
-  // Returns the pixels of the layer that belong to the block's cell at (x, y) in the picture.
+  // Returns the pixels of the layer that belong to the cell at pixel (x, y) of the picture.
   Rect PixelsOf(int32_t x, int32_t y) const;
 
   // Returns true if all pixels of `part` belong to gathered cells.

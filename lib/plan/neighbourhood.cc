@@ -6,8 +6,8 @@
 namespace starfocus {
 namespace {
 
-// Stores a cell for the SIMD kernels. A cell outside the picture represents the repeated edge. A
-// repeated pixel may lie at any position inside the cell.
+// Stores the statistics of a cell in the planes that the SIMD kernels read. A cell outside the
+// picture represents the repeated edge. A repeated pixel may lie at any position inside the cell.
 void StorePlanes(const Cell& cell, const BlurScale& scale, bool outside, size_t plane,
                  int16_t* out) {
   const auto reach = static_cast<int16_t>(ReachOf(cell.r_max));
@@ -25,8 +25,8 @@ void StorePlanes(const Cell& cell, const BlurScale& scale, bool outside, size_t 
   out[simd::kHighPlane * plane] = cell.high;
 }
 
-// Classifies a cell. [low, high] is the range of disparities within reach, and `widest` the largest
-// range within any single cell.
+// Classifies a cell. [low, high] is the range of disparities within reach of the cell. `widest` is
+// the largest range within any single cell in reach.
 CellKind KindOf(const BlurScale& scale, int32_t low, int32_t high, int32_t widest) {
   const int32_t range = high - low;
   const auto is_within = [&](int32_t disparities, int32_t limit) {
@@ -81,7 +81,7 @@ BlockStats MeasureBlock(const simd::Kernels& kernels, const CellGrid& grid,
       AddCell(cell, &stats.content);
     }
   }
-  // Upsampling from layer 1 also reads up to kLayerMargin[1] pixels around the block.
+  // Upsampling from layer 1 reads up to kLayerMargin[1] pixels around the block.
   static_assert(kLayerMargin[1] <= kCellSize, "the cells around the block hold the margin");
   const int32_t top = Max(row - 1, grid.first_row), bottom = Min(row + 3, grid.last_row);
   for (int32_t y = top; y < bottom; ++y) {

@@ -15,7 +15,7 @@ namespace starfocus {
 // A rectangle of cells and the cells up to `around` cells away, as planes for the SIMD kernels.
 // Cells outside the picture repeat its edge.
 struct Surroundings {
-  simd::CellPlanes planes;  // start at the first cell of the rectangle
+  simd::CellPlanes planes;  // the planes' pointers are at the first cell of the rectangle
   int32_t column, row, columns, rows;
   int32_t around;
 
@@ -41,13 +41,13 @@ Surroundings LoadSurroundings(const CellGrid& grid, const BlurScale& scale, cons
 
 // A cell is smooth if it can be gathered (lib/filter/gather.h). All pixels within reach of the
 // cell, and nearer pixels that reach the cell, must belong to one surface without depth edges. Blur
-// radii have opposite signs in front of and behind the focus. Within any cell of this area, signed
+// radii have opposite signs in front of and behind the focus. In each cell within reach, signed
 // radii must not vary by more than kSlopeRange (kDisparityBits). Farther pixels that reach the cell
 // are ignored, because no view shows farther pixels in front of the surface.
 //
-// If more than two thirds of the variation lie within one cell, the variation is a step. A step
-// must not exceed the larger of half the largest blur radius and kSharpSmoothRange, because the
-// surface may be sharp on one side of the step.
+// If more than two thirds of the variation of signed radii lie within one cell, the variation
+// counts as a step. A step must not exceed the larger of half the largest blur radius and
+// kSharpSmoothRange, because the surface may be sharp on one side of the step.
 //
 // A cell is flat, and uses one PSF for all pixels, if the blur varies by at most kSmoothRange. For
 // flat cells, a variation of which more than half lies within one cell is a step.
@@ -60,8 +60,8 @@ enum class CellKind : uint8_t { kMixed, kSloped, kFlat };
 BlockStats MeasureBlock(const simd::Kernels& kernels, const CellGrid& grid,
                         const Surroundings& surroundings, int32_t column, int32_t row);
 
-// Classifies the cells of a row of the surroundings, at most kMaxRowCells. `scale` must be the
-// scale with which the cells were measured.
+// Classifies the cells of one row of the rectangle in `surroundings`; the row has at most
+// kMaxRowCells cells. `scale` must be the scale with which the cells were measured.
 inline constexpr int32_t kMaxRowCells = 32;
 void FindSmooth(const simd::Kernels& kernels, const Surroundings& surroundings,
                 const BlurScale& scale, int32_t row, CellKind* smooth);

@@ -12,7 +12,7 @@ int32_t CeilShift(int32_t value, int32_t layer) { return (value + (1 << layer) -
 
 // Converts a border of a block to a border of its rendered rectangle, in pixels of the layer.
 // `beyond` is the number of pixels of the unclipped block outside the picture. One pixel is added,
-// because a subaperture also uses the neighbour of a pixel.
+// because a subaperture uses the neighbour of a pixel as well.
 int32_t LayerBorder(int32_t border, int32_t beyond, int32_t layer) {
   return Max(0, CeilShift(border + beyond, layer) - LayerMargin(layer)) + 1;
 }
@@ -161,8 +161,8 @@ class Partition {
   }
 
   // Plans to gather all smooth cells at the layer of the block's views. A block that can be
-  // gathered completely at layer 0 is gathered at layer 0. This choice is closer to ground truth
-  // and takes little or no extra time (docs/constants.md).
+  // gathered completely at layer 0 is gathered at layer 0. Gathering at layer 0 is closer to ground
+  // truth and takes little or no extra time (docs/constants.md).
   void PlanGathering(const PartitionCandidate& candidate, Block* block) const {
     const auto cells = static_cast<uint64_t>(candidate.cells);
     const auto gathered = static_cast<uint64_t>(candidate.gathered[block->layer]);
@@ -249,7 +249,7 @@ class Partition {
     const int32_t right = left + block->rendered.width * scale;
     const int32_t bottom = top + block->rendered.height * scale;
     int32_t r_max = 0;
-    Border border = {0, 0, 0, 0};  // in pixels of the picture
+    Border border = {0, 0, 0, 0};  // border of the rendered rectangle in pixels of the picture
     for (int32_t y = rect.y; y < rect.y + rect.height; y += kSmallestBlock) {
       for (int32_t x = rect.x; x < rect.x + rect.width; x += kSmallestBlock) {
         const PartitionCandidate& candidate =
@@ -288,7 +288,7 @@ class Partition {
   const PartitionScratch& scratch_;
   const GatherMap& gathered_;
   const starfocus_config& config_;
-  int32_t side_;  // side of the superblock, in smallest blocks
+  int32_t side_;  // side of a superblock, in units of the smallest blocks
   int levels_ = 0;
   int32_t x_ = 0, y_ = 0;
   int32_t count_ = 0;

@@ -21,20 +21,21 @@ struct Block {
   // the part of LayerFrame whose cells are not gathered. The rectangle is empty if all cells are
   // gathered.
   Rect rendered;
-  Border border;        // border of `rendered`, in pixels of the layer
-  int32_t layer;        // layer L
-  int32_t n;            // N, the number of views along the radius
-  bool gathers;         // true: cells of the GatherMap are gathered
-  bool has_highlights;  // true: views may show highlights, and the block is rendered twice
-  uint64_t cost;        // predicted time in picoseconds
+  Border border;  // border of `rendered`, in pixels of the layer
+  int32_t layer;  // layer L
+  int32_t n;      // N, the number of views along the radius
+  bool gathers;   // true: cells of the GatherMap are gathered
+  // true: views may show highlights, so the block is rendered for light and for excess separately.
+  bool has_highlights;
+  uint64_t cost;  // predicted time in picoseconds
 };
 
 struct PartitionRules {
   const starfocus_config* config;
   const Renderer* renderer;
-  const ViewWeights* apertures;  // apertures of the renderer, indexed by N up to max_n
+  const ViewWeights* apertures;  // weights of the views for each N, indexed by N up to max_n
   int32_t max_n;
-  Demand demand;  // class of the opening
+  Demand demand;  // class of the opening, which decides the number of views and the layers
   BlurScale scale;
   int32_t largest_side;  // largest allowed side of a block
   int32_t max_layer;
@@ -50,7 +51,8 @@ struct PartitionCandidate {
   uint64_t best;
   int32_t cells;                       // number of cells inside the picture
   int32_t gathered[STARFOCUS_LAYERS];  // number of cells that can be gathered, for each layer
-  uint64_t gather[STARFOCUS_LAYERS];   // predicted time of gathering these cells, for each layer
+  // Predicted time of gathering all `gathered` cells, for each layer.
+  uint64_t gather[STARFOCUS_LAYERS];
 };
 
 // Returns the largest number of blocks that a superblock splits into.
@@ -77,7 +79,7 @@ struct PlanInput {
   const simd::Kernels& kernels;
   const PartitionRules& rules;
   const CellGrid& cells;
-  int32_t around;  // largest distance in cells from which a pixel may splat
+  int32_t around;  // largest distance in cells over which a pixel may splat
 };
 
 // Splits the superblock at (x, y) into the blocks with the smallest predicted time. x and y are

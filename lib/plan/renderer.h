@@ -22,8 +22,8 @@
 
 namespace starfocus {
 
-// Renders all views of one rectangle of the window's layer. `border` is the distance from which
-// pixels splat into the rectangle.
+// Task of rendering all views of one rectangle at the layer of the window. `border` is the distance
+// from which pixels splat into the rectangle.
 struct RenderJob {
   const Window* window;
   const ViewGrid* grid;
@@ -33,19 +33,21 @@ struct RenderJob {
   CancelToken* cancel;         // null: the job is never cancelled
   const BlockCells* gathered;  // null: no cell is gathered
   double r_max;                // largest blur radius of the lens in pixels
-  bool is_benchmark;           // true: benchmark mode, which renders in more detail
+  bool is_benchmark;           // true: benchmark mode, which renders finer slices
 };
 
 struct Renderer {
   int32_t index;           // index of the renderer's tables and scratch memory in an engine
   bool gathers;            // true: block mode gathers smooth cells instead of rendering them
-  int32_t benchmark_side;  // side of the blocks in benchmark mode, in pixels
+  int32_t benchmark_side;  // side in pixels of the blocks that benchmark mode renders
 
-  // Returns N for a blur radius in pixels.
+  // Returns the number of views N along the radius for a block whose largest blur radius is r_max
+  // pixels.
   int32_t (*view_count)(double r_max, Demand demand);
-  // Returns the layer for a block.
+  // Returns the layer at which a block with these statistics is rendered.
   int32_t (*layer)(const BlockStats& stats, Demand demand);
-  // Computes the aperture of N. Fills weights[ViewWeightsSize(opening, n)].
+  // Computes the weights of all views of an aperture with N views along the radius. Fills
+  // weights[ViewWeightsSize(opening, n)].
   ViewWeights (*make_aperture)(int32_t n, const ApertureShape& opening, uint16_t* weights);
   // Returns the work for `rect` with `border`, both in pixels of the layer, without upsampling.
   // `content` is the content of the block at layer 0, along rows and along columns.
@@ -54,13 +56,13 @@ struct Renderer {
 
   size_t scratch_bytes;
   // Allocates the scratch memory of one worker and stores its pointers at `scratch`. If `scratch`
-  // is null, only counts the bytes. `extended` is the largest side of a rectangle with its border,
-  // max_n the largest N.
+  // is null, the function only counts the bytes. `extended` is the largest side of a rectangle with
+  // its border, max_n the largest N.
   void (*take_scratch)(const starfocus_config& config, size_t extended, size_t max_n, Arena* arena,
                        void* scratch);
 
-  // Returns true if no view moves any pixel of the rectangle. The result is then an exact copy of
-  // the centre view.
+  // Returns true if no view moves any pixel of the rectangle. If no view moves any pixel, the
+  // refocused rectangle is an exact copy of the centre view.
   bool (*nothing_moves)(const RenderJob& job);
   // Writes the weighted sums of the views over job.rect to `sums`: rows of 3 * width values with
   // sum_bits(aperture) fractional bits. Returns the number of samples rendered in each view. After

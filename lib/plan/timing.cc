@@ -6,9 +6,9 @@
 namespace starfocus {
 namespace {
 
-// Returns the number of filter taps in a quarter plane for blur radius r (kDisparityBits). A disc
-// covers pi / 4 = 0.785 of its square. The factor is 51/64 = 0.797, because pixels at the rim count
-// although the disc covers them only in part.
+// Returns the number of taps in one quarter of the gathering filter of blur radius `radius`
+// (kDisparityBits). A disc covers pi / 4 = 0.785 of its square. The factor is 51/64 = 0.797,
+// because pixels at the rim count although the disc covers them only in part.
 uint64_t GatherTaps(int32_t radius) {
   const int32_t size = (radius + (3 << kDisparityBits) / 2) >> kDisparityBits;
   return static_cast<uint64_t>((size + 1) * (size + 1) * 51 / 64);
@@ -18,8 +18,9 @@ uint64_t GatherTaps(int32_t radius) {
 
 void AddScans(uint64_t views, uint64_t lines, const Content& content, int32_t layer,
               BlockWork* work) {
-  // A layer has 1 / 2^L of the lines. Along a line, slopes start 1 / 2^L as many runs, and gaps are
-  // 1 / 2^L as wide. The number of edges along a line does not change.
+  // Layer L has 1 / 2^L as many lines as layer 0. Along a line of layer L, slopes start 1 / 2^L as
+  // many runs, and gaps are 1 / 2^L as wide. The number of depth edges along a line is equal at all
+  // layers.
   const uint64_t runs = (content.slopes >> 2 * layer) + (content.edges >> layer);
   work->span += views * lines + views * runs / kContentOne;
   work->hole += views * (content.gaps >> 2 * layer) / kContentOne;

@@ -15,9 +15,9 @@ namespace starfocus {
 struct BlockWork {
   uint64_t field;     // pixels of the extended rectangle
   uint64_t a, b, c;   // rendered pixels P_A, P_B, P_C of (13)
-  uint64_t upsample;  // picture pixels, 0 at layer 0
+  uint64_t upsample;  // pixels of the picture to upsample, 0 at layer 0
   uint64_t span;      // runs of equal disparity in all rendered lines
-  uint64_t hole;      // uncovered pixels, as if each view were an outermost one
+  uint64_t hole;      // uncovered pixels, counted as if all views were at the rim of the aperture
 };
 
 // Adds the spans and holes of `views` views that are scanned along `lines` lines of the layer in
@@ -25,8 +25,8 @@ struct BlockWork {
 void AddScans(uint64_t views, uint64_t lines, const Content& content, int32_t layer,
               BlockWork* work);
 
-// Returns the predicted time in picoseconds. The computation uses integers, so that all machines
-// choose the same partition.
+// Returns the predicted time of refocusing a block, in picoseconds. The computation uses integers,
+// so that all machines choose the same partition.
 uint64_t PredictTime(const starfocus_timing& timing, const BlockWork& work);
 
 // Returns the predicted time of gathering `pixels` pixels of a layer, in picoseconds. `radius` is
