@@ -11,8 +11,8 @@
 namespace starfocus::analysis {
 namespace {
 
-// Side of the superblock. The picture's side is at most kBlock, so that the picture is one block
-// and one worker's memory holds the whole picture.
+// Side of the engine's superblock, in pixels. The picture's side is at most kBlock, so that the
+// picture is one block and one worker's memory holds the whole picture.
 constexpr int kBlock = 256;
 constexpr uint8_t kWhite = 255;
 // Grey level of the dark surface, by layer. Layers 1 and 2 use a grey because the negative lobes of
@@ -51,7 +51,7 @@ starfocus_config ConfigOf(int side, const EngineProbe& probe) {
   config.max_blur = std::fmax(probe.r_max, 1);
   config.superblock = kBlock;
   config.transfer = STARFOCUS_TRANSFER_NONE;
-  config.tuning.gather = 0;  // the PSF of views is measured
+  config.tuning.gather = 0;  // the PSF of rendered views is measured, not the PSF of gathering
   config.tuning.max_layer = probe.layer;
   config.tuning.timing.block = STARFOCUS_MAX_TIMING;  // makes a single block the cheapest partition
   return config;
@@ -146,7 +146,8 @@ starfocus_status MeasureEnginePsf(const EngineProbe& probe, EnginePsf* result) {
   const std::vector<double> flat = ReadLevels(engine);
   SampledPsf sum(radius);
   double squares = 0;
-  // Half of the positions are sufficient, because transposing the picture transposes the PSF.
+  // Measuring half of the white pixel's positions is sufficient, because transposing the picture
+  // transposes the PSF.
   for (int a = 0; a < places; ++a) {
     for (int b = 0; b <= a; ++b) {
       impulse.Set(middle + a, middle + b, kWhite);

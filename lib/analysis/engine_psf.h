@@ -13,7 +13,8 @@ namespace starfocus::analysis {
 struct EngineProbe {
   // d - d_t of the surface in pixels, |r| <= 60. If r is negative, the surface is behind the focus.
   double r;
-  // Largest blur radius of the disparity range, >= |r|. Frame mode computes N from r_max.
+  // Largest blur radius of the disparity range in pixels, at least |r|. Frame mode computes N from
+  // r_max.
   double r_max;
   starfocus_mode mode;          // STARFOCUS_MODE_FRAME or STARFOCUS_MODE_BLOCK
   starfocus_renderer renderer;  // STARFOCUS_RENDERER_LINE_SCAN or STARFOCUS_RENDERER_SLICES
@@ -23,7 +24,8 @@ struct EngineProbe {
 struct EnginePsf {
   // Mean PSF over all positions of the white pixel, normalised so that the taps sum to 1.
   SampledPsf psf;
-  double aliasing;  // mean squared variation of the PSF over these positions, caused by layers
+  double aliasing;  // mean squared variation of the PSF over the positions of the white pixel,
+                    // caused by layers
   int n;            // N that the engine chose
   int layer;        // L that the engine chose
 };

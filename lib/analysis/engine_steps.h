@@ -9,9 +9,9 @@
 
 namespace starfocus::analysis {
 
-// Theoretical values for blur radius r refocused at layer L. `error` is the SSE (10) between two
-// PSFs: the ideal PSF for r / 2^L with the layers' filters, and the ideal PSF (4). `aliasing` is
-// (11). `error` and `aliasing` are 0 at layer 0.
+// Theoretical errors of a blur of radius r that is rendered at layer L. `error` is the SSE (10)
+// between two PSFs: the ideal PSF for r / 2^L with the layers' filters, and the ideal PSF (4).
+// `aliasing` is (11). `error` and `aliasing` are 0 at layer 0.
 struct LayerTheory {
   double error;
   double aliasing;

@@ -10,8 +10,8 @@ namespace starfocus::analysis {
 
 inline constexpr int kHalfBandRadius = 3;  // seven taps
 
-// Parameters of the paper's filters. With beta_U, G_U(-1) = 0. The value of beta_D is that of Table
-// I at r = 3.
+// Parameters of the paper's filters. The value of beta_U is chosen such that G_U(-1) = 0. The value
+// of beta_D is that of Table I at r = 3.
 inline constexpr double kBetaUp = 2.17;
 inline constexpr double kBetaDown = 1.28;
 

@@ -11,13 +11,13 @@
 namespace starfocus::analysis {
 namespace {
 
-// Longest interval, in radians, of one quadrature.
+// Longest interval, in radians, that one quadrature covers.
 constexpr double kLongestPiece = 0.4;
 
 int RadiusOf(double r) { return static_cast<int>(std::ceil(r + 0.5)); }
 
 // Returns the angles in [low, high] at which the circle of radius r crosses the pixel's left or
-// right side. The integrand is smooth between these angles.
+// right side. The integrand of Pixel is smooth between two adjacent crossings.
 std::vector<double> Breaks(double low, double high, double left, double right, double r) {
   std::vector<double> breaks = {low, high};
   for (const double x : {left, right}) {

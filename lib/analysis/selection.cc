@@ -15,7 +15,7 @@ double SubapertureError(double r, int n, double theta) {
 }
 
 RatioPoint WorstOverSampling(int n, double theta, Rim rim) {
-  constexpr int kSteps = 400;  // 400 steps, so that 3 / 2 is one of the ratios
+  constexpr int kSteps = 400;  // with 400 steps, 3 / 2 is one of the tested ratios N / r
   const auto error = [&](double ratio) { return PaperError(n / ratio, n, theta, rim); };
   RatioPoint worst = {1, error(1)};
   for (int k = 1; k <= kSteps; ++k) {

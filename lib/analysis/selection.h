@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes the number of views that a blur radius requires according to the paper's criteria
-// (III-C, Fig. 6). The paper derives (9) from these criteria.
+// (III-C, Fig. 6). The paper derives its rule (9) for the number of views from the criteria of
+// section III-C.
 #ifndef STARFOCUS_LIB_ANALYSIS_SELECTION_H_
 #define STARFOCUS_LIB_ANALYSIS_SELECTION_H_
 
@@ -16,10 +17,10 @@ inline constexpr double kThreshold = 1e-3;
 double PaperError(double r, int n, double theta, Rim rim = Rim::kIncluded);
 double SubapertureError(double r, int n, double theta);
 
-// A point of Fig. 6.
+// One point of the curve in the paper's Fig. 6.
 struct RatioPoint {
-  double ratio;  // N / r
-  double error;  // (8)
+  double ratio;  // number of views along the radius, divided by the blur radius: N / r
+  double error;  // SSE (8) between the PSF of N views and the ideal PSF
 };
 
 // Returns the over-sampling ratio (1 <= N / r <= 2) with the largest error, marked by 'o' in Fig.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes the counterpart of rule (9) for subapertures. If each view stands for a part of the
-// lens, a blur radius requires a different number of views than in (9).
+// lens, a blur radius requires a different number of views than (9) states.
 #ifndef STARFOCUS_LIB_ANALYSIS_SUBAPERTURE_RULE_H_
 #define STARFOCUS_LIB_ANALYSIS_SUBAPERTURE_RULE_H_
 
@@ -10,11 +10,11 @@
 
 namespace starfocus::analysis {
 
-// ViewsBySubaperture in lib/base/rules.h implements the rule. Up to a radius of half a pixel, the
-// ideal PSF (4) is the unit impulse, so the centre view alone is exact. For larger radii, the SSE
-// (8) satisfies two limits at every r <= r_max. The first limit is 10^-3. The second limit is the
-// larger of two errors of the paper's PSF with N from (9): its SSE at r, and its worst SSE of
-// over-sampling. The paper derives (9) from the worst SSE of over-sampling.
+// ViewsBySubaperture in lib/base/rules.h implements the rule for subapertures. Up to a radius of
+// half a pixel, the ideal PSF (4) is the unit impulse, so the centre view alone is exact. For
+// larger radii, the SSE (8) meets two limits at every r <= r_max. One limit of the SSE is 10^-3.
+// The other limit is the larger of two errors of the paper's PSF with N from (9): SSE at r, and
+// worst SSE of over-sampling. The paper derives (9) from the worst SSE of over-sampling.
 // SubapertureStudy::Margin measures how closely both limits are met.
 
 // Returns the smallest N for which subapertures are at least as accurate at r as the paper's PSF
@@ -26,7 +26,8 @@ int FewestSubapertures(double r, double theta);
 // centre view is rendered. The values of LensInSubapertures keep this error small.
 double WorstOfLens(int lens, double r_max, double theta);
 
-// Errors of the PSFs at every r. The lab program uses the errors to find rules for N.
+// Errors of the PSF of subapertures at each multiple of a step of r. The lab program uses these
+// errors to find rules for N.
 class SubapertureStudy {
  public:
   // Computes the ideal PSFs for r = k * step, 0 < r <= r_limit.
@@ -36,8 +37,8 @@ class SubapertureStudy {
   double Radius(int k) const { return (k + 1) * step_; }  // k in [0, count())
 
   // Returns the largest ratio of the subapertures' error to the limit of ViewsBySubaperture, over
-  // all r <= Radius(k_max). The rule holds if the ratio is at most 1. If `worst` is not null,
-  // *worst is set to the r of the largest ratio.
+  // all r <= Radius(k_max). ViewsBySubaperture meets its limit if the largest ratio is at most 1.
+  // If `worst` is not null, *worst is set to the r of the largest ratio.
   double Margin(int k_max, int n, double* worst = nullptr);
 
   // Returns the smallest N for which Margin(k_max, N) is at most 1.
@@ -49,7 +50,8 @@ class SubapertureStudy {
 
   double step_, theta_;
   std::vector<SampledPsf> ideal_;
-  std::vector<std::vector<double>> subapertures_, paper_;  // indexed by N; empty until first used
+  // Errors, indexed by N; each vector is empty until N is first used.
+  std::vector<std::vector<double>> subapertures_, paper_;
   // Worst error of over-sampling, indexed by N.
   std::vector<double> over_sampling_;
 };

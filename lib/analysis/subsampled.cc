@@ -154,7 +154,7 @@ SampledPsf ThroughLayer(const SampledPsf& half, double beta_down) {
 double LayerAliasing(const SampledPsf& psf, int layer, double beta_down) {
   const int places = 1 << layer;
   const Taps common = Correlation(LayersUp(layer), places);
-  double mean = 0;  // mean of the squared responses
+  double mean = 0;  // mean of the squared impulse responses
   for (int a = 0; a < places; ++a) {
     for (int b = 0; b < places; ++b) {
       const SampledPsf blurred =

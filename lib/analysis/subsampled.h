@@ -8,8 +8,8 @@
 
 namespace starfocus::analysis {
 
-// Selects the axes along which the PSF aliases. kNone selects the PSF B_{down 2} itself. The other
-// values select the PSFs E_i of (11), in which G_D(-z) replaces G_D(z) along x, along y or along
+// Selects the axes along which the PSF aliases. kNone selects the PSF B_{down 2} itself. kX, kY and
+// kBoth select the PSFs E_i of (11), in which G_D(-z) replaces G_D(z) along x, along y or along
 // both axes.
 enum class Alias { kNone, kX, kY, kBoth };
 

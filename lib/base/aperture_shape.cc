@@ -10,15 +10,15 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-// The last digit of a tangent may differ between machines, here and in ApertureFallOff. The rounded
-// result differs only if the exact value lies within this error of the middle between two integers.
+// The last digit of a computed tangent may differ between machines. The difference changes a
+// rounded result only if the exact value is almost halfway between two integers.
 int32_t Round(double value) { return static_cast<int32_t>(std::floor(value * kOpeningOne + 0.5)); }
 
 struct UnitVector {
   double sine, cosine;
 };
 
-// Returns the direction of an angle, computed from the tangent of its half.
+// Returns the direction of an angle, computed from the tangent of half the angle.
 UnitVector DirectionOf(double angle) {
   const double tangent = std::tan(angle / 2), square = tangent * tangent;
   return {2 * tangent / (1 + square), (1 - square) / (1 + square)};
@@ -42,8 +42,8 @@ void SetPolygon(const starfocus_lens& lens, ApertureShape* opening) {
     opening->normals[edge][0] = Round(normal.sine);
     opening->normals[edge][1] = Round(-normal.cosine);
   }
-  // Returns true if points at distance `radius` along a normal are inside. Rounding may make a
-  // normal longer than 1 by one unit.
+  // Returns true if points at distance `radius` along a normal are inside the polygon. Rounding may
+  // make a normal longer than 1 by one unit.
   const auto is_inside = [&](int64_t radius) {
     return opening->bulge * radius * radius + opening->slope * radius * (kOpeningOne + 1) <=
            int64_t{opening->limit} * kOpeningOne * kOpeningOne;
@@ -81,8 +81,8 @@ int32_t MeanSquare(const ApertureShape& opening) {
     const double inner = static_cast<double>(opening.inner) / kOpeningOne;
     return Round((1 + inner * inner) / 4);
   }
-  // Rings of equal area at the square distances `square`, by the midpoint rule. The mean square of
-  // one coordinate is half the mean square distance.
+  // Divides the disc into rings of equal area and evaluates the light of each ring at its middle.
+  // The mean square of one coordinate is half the mean square distance.
   constexpr int kRings = 256;
   const double fall_off = opening.fall_off / 65536.0;
   double light = 0, sum = 0;
@@ -129,8 +129,8 @@ bool IsDark(const ApertureShape& opening, int64_t x, int64_t y, int64_t half, in
 RimShift ShiftOfRim(const ApertureShape& opening, const Rect& rect, int32_t width, int32_t height) {
   const double diagonal =
       std::sqrt(static_cast<double>(width) * width + static_cast<double>(height) * height);
-  // Both functions are odd about the middle of the picture, so mirrored rectangles get mirrored
-  // rims.
+  // The shift is an odd function of the distance from the picture's middle, so mirrored rectangles
+  // get mirrored rims.
   const auto shift = [&](int32_t doubled) {
     return static_cast<int32_t>(-opening.cats_eye * (doubled / diagonal));
   };

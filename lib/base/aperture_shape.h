@@ -38,7 +38,7 @@ struct ApertureShape {
   int32_t inscribed = 0;  // radius of an inscribed disc of the polygon: kOpeningBits, rounded down
 
   // True if the opening is symmetric about both axes and both diagonals, so that one octant
-  // describes it. Cat's eyes, which are not symmetric, are not considered.
+  // describes the opening. The result ignores cat's eyes, which are not symmetric.
   bool IsSymmetric() const { return shape != STARFOCUS_SHAPE_POLYGON; }
   // True if the centre of the lens may be dark.
   bool IsRing() const { return shape == STARFOCUS_SHAPE_RING; }
@@ -71,7 +71,8 @@ struct RimShift {
 // Returns the shift of the rim for the pixels of `rect`, computed at the middle of `rect`.
 RimShift ShiftOfRim(const ApertureShape& opening, const Rect& rect, int32_t width, int32_t height);
 
-// Returns true if a point of the opening also lies inside the rim behind the lens.
+// Returns true if the point (x, y) of a lens of the given radius lies inside the rim behind the
+// lens.
 constexpr bool PassesRim(const RimShift& shift, int64_t x, int64_t y, int64_t radius) {
   const int64_t dx = x * kOpeningOne - shift.x * radius;
   const int64_t dy = y * kOpeningOne - shift.y * radius;
@@ -96,15 +97,16 @@ void ForEachOfOctant(int32_t last, bool by_size, const Visit& visit) {
   }
 }
 
-// Returns the number of different points (+-i, +-j), (+-j, +-i).
+// Returns the number of distinct points among (+-i, +-j) and (+-j, +-i).
 constexpr int32_t PointsOfOctant(int32_t i, int32_t j) {
   if (i == 0) return 1;
   return j == 0 || i == j ? 4 : 8;
 }
 
-// Returns the share of one of the `points` points that a point of the octant represents. `left` is
-// the share of all these points, plus the rounding error of earlier points. With `by_size` the
-// share is rounded down: a dark centre cannot compensate for earlier shares that were too large.
+// Returns the share of one point, if a point of the octant represents `points` points of the plane.
+// `left` is the total share of the represented points, plus the rounding error of earlier points.
+// With `by_size` the share is rounded down: a dark centre cannot compensate for earlier shares that
+// were too large.
 constexpr int64_t ShareOfPoints(int64_t left, int64_t points, bool by_size) {
   const int64_t share = (left + (by_size ? 0 : points / 2)) / points;
   return share < 0 ? 0 : share;

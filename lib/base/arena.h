@@ -17,7 +17,7 @@ inline constexpr size_t kTooLarge = SIZE_MAX;
 
 // In builds with AddressSanitizer, each piece and its padding are followed by a red zone of
 // kRedZone bytes, a multiple of STARFOCUS_ALIGNMENT. AddressSanitizer reports accesses to red zones
-// while jobs run. Pieces share no memory in these builds.
+// while jobs run. In builds with AddressSanitizer, pieces never share memory.
 #if defined(__has_feature)
 #if __has_feature(address_sanitizer)
 #define STARFOCUS_RED_ZONES
@@ -73,7 +73,7 @@ class Arena {
   }
   // Returns the largest size of the next piece for which the shared memory does not grow.
   size_t Shared() const { return largest_ < used_ + kExtra ? 0 : largest_ - used_ - kExtra; }
-  // Ends sharing: later pieces lie after all earlier ones.
+  // Ends the sharing of memory: later pieces lie after all earlier pieces.
   void GoOn() { used_ = used_ > largest_ ? used_ : largest_; }
 
  private:

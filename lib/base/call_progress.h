@@ -10,8 +10,9 @@
 
 namespace starfocus {
 
-// Calls the caller's progress function. Any thread that runs jobs may do so, but only one thread at
-// a time. The object lies in the workspace and is reused for each call of the engine.
+// Calls the caller's progress function. Any thread that runs jobs may call the progress function,
+// but only one thread at a time. The object lies in the workspace and is reused for each call of
+// the engine.
 class CallProgress {
  public:
   // Sets the progress function for later calls of the engine; `progress` may be null.
@@ -70,15 +71,15 @@ class CancelToken {
     return goes_on;
   }
 
-  // Number of samples between two calls of the progress function. Processing them takes a fraction
-  // of a millisecond on a desktop and about one millisecond on a single-board computer.
+  // Number of samples between two calls of the progress function. Processing kSamples samples takes
+  // a fraction of a millisecond on a desktop and about one millisecond on a single-board computer.
   static constexpr int64_t kSamples = 1 << 19;
 
   CallProgress* call_progress_ = nullptr;  // null: never cancelled
   int64_t left_ = kSamples;
 };
 
-// Returns true to continue. If `cancel` is null, the result is always true.
+// Returns true if the call is to continue. If `cancel` is null, the result is always true.
 inline bool GoesOn(CancelToken* cancel, int64_t samples) {
   return cancel == nullptr || cancel->Spend(samples);
 }

@@ -64,7 +64,7 @@ inline constexpr int kShiftBits = 8;
 inline constexpr int32_t kShiftOne = 1 << kShiftBits;
 inline constexpr int kShareBits = 14;
 inline constexpr int kMaxWeightBits = 24;
-// Largest sum of light weights in an accumulator, in bits.
+// Base-2 logarithm of the largest sum of light weights in an accumulator.
 inline constexpr int kMaxLightBits = 17;
 inline constexpr int32_t kMaxWeight = 32767;
 
@@ -72,7 +72,7 @@ inline constexpr int32_t kMaxWeight = 32767;
 // kDisparityBits.
 inline constexpr int32_t kSurfaceStep = (3 << kDisparityBits) / 2;
 
-// A range of the table above, for values that several functions compute.
+// Permitted range of a fixed-point value that several functions compute.
 struct FixedRange {
   const char* name;
   int64_t low, high;

@@ -17,7 +17,7 @@ struct Border {
   int32_t left, right, top, bottom;
 };
 
-// Returns the rectangle extended by its border.
+// Returns `rect` extended by `border` on each side.
 constexpr Rect Extended(const Rect& rect, const Border& border) {
   return {rect.x - border.left, rect.y - border.top, border.left + rect.width + border.right,
           border.top + rect.height + border.bottom};

@@ -46,12 +46,12 @@ starfocus_status Refuse(starfocus_status status, const FieldValue& field, const 
 // function or memory. Returns `status`.
 starfocus_status TellStatus(starfocus_status status, starfocus_problem* problem);
 
-// Checks a sequence of values. The first rejected value becomes the problem.
+// Checks a sequence of values. *problem describes the first rejected value.
 class Checker {
  public:
   explicit Checker(starfocus_problem* problem) : problem_(problem) {}
 
-  // Rejects the field unless `good`.
+  // Rejects the field if `good` is false.
   void Need(bool good, starfocus_status status, const FieldValue& field, const Allowed& allowed) {
     if (!good && status_ == STARFOCUS_OK) status_ = Refuse(status, field, allowed, problem_);
   }

@@ -21,9 +21,10 @@ struct SubapertureStep {
   double r_max;
   int32_t n;
 };
-// The criterion would allow N = 3 up to 7 pixels, which saves 1 to 3 % of the instructions. The
-// error grows by 0.2 dB against ground truth on wires, and by 0.1 dB against benchmark mode on real
-// maps. Using N = 4 up to 18 pixels would save 4 % of the instructions and cost 0.1 to 0.4 dB.
+// The criterion of ViewsBySubaperture would allow N = 3 for radii up to 7 pixels, which saves 1 to
+// 3 % of the instructions. With N = 3, the error grows by 0.2 dB against ground truth on wires, and
+// 0.1 dB against benchmark mode on real maps. Using N = 4 up to 18 pixels would save 4 % of the
+// instructions and cost 0.1 to 0.4 dB.
 constexpr SubapertureStep kSubapertureSteps[] = {{0.5, 0},  {5.5, 3}, {11, 4}, {25, 5},
                                                  {34, 6},   {49, 7},  {68, 9}, {83, 11},
                                                  {119, 12}, {128, 13}};
@@ -33,20 +34,20 @@ constexpr SubapertureStep kSubapertureSteps[] = {{0.5, 0},  {5.5, 3}, {11, 4}, {
 constexpr int32_t kEvenViews = 4;
 
 // Smallest N above a blur radius of kMoreFrom pixels for openings with corners or narrow parts. The
-// error of their subapertures requires this N. Using the same N at smaller radii as well moves the
-// portrait up to 0.3 dB away from ground truth.
+// subapertures of such openings exceed the error limit if N is smaller. Using N = 6 at smaller
+// radii as well moves the portrait up to 0.3 dB away from ground truth.
 constexpr int32_t kMoreViews = 6;
 constexpr double kMoreFrom = 5.0;
 
 // Smallest blur radii of layers 1 and 2. Subapertures have a smaller error than the paper's views,
-// so the error of the layers must be smaller as well. On the portrait, using layer 2 from 8 or 16
+// so the error that layers add must be smaller as well. On the portrait, using layer 2 from 8 or 16
 // pixels on loses 0.2 to 0.35 dB and saves 4 % of the instructions. Using layer 1 from 5 pixels on
 // loses 0.1 to 0.2 dB and saves up to 19 %. Layer 2 resolves silhouettes only to four pixels.
 constexpr double kSubapertureLayerRadius = 7.0;
 constexpr double kSubapertureCoarseRadius = 24.0;
 
 // Smallest blur radii of layer 1 for each Demand, by the paper's rule and by the rule for
-// subapertures. The radii of layer 2 grow in proportion.
+// subapertures. The smallest radii of layer 2 are proportional to the radii of layer 1.
 struct LayerRadii {
   double paper, subaperture;
 };
@@ -80,7 +81,7 @@ int32_t ViewsBySubaperture(double r_max, Demand demand) {
 
 int32_t ScaleViews(int32_t n, double scale) {
   // Doubles cannot represent scales such as 1.1 exactly. The slack ensures that 10 views times 1.1
-  // are 11, not 12.
+  // gives 11 views, not 12.
   constexpr double kSlack = 1e-6;
   return n == 0 ? 0 : Ceil(n * scale - kSlack);
 }

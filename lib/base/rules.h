@@ -20,9 +20,9 @@ Demand DemandOf(const ApertureShape& opening);
 int32_t ViewsByPaper(double r_max);
 
 // Returns N for views that each represent a subaperture: the radius of the lens in subapertures
-// (LensInSubapertures of lib/base/view_weights.h), rounded up. The error is at most the error of
-// (9), at r_max and at every smaller radius. lib/analysis/subaperture_rule.h states the criterion.
-// r_max is in [0, 128] pixels:
+// (LensInSubapertures of lib/base/view_weights.h), rounded up. At r_max and at every smaller
+// radius, the error of the PSF is at most the error with N from (9).
+// lib/analysis/subaperture_rule.h states the criterion. r_max is in [0, 128] pixels:
 //
 //   r_max <=  1/2  5.5   11   25   34   49   68   83  119  128
 //   N           0    3    4    5    6    7    9   11   12   13
@@ -51,7 +51,7 @@ int32_t LayerBySubaperture(double r_min, bool depth_edges, Demand demand = Deman
 // (docs/constants.md).
 inline constexpr int32_t kMaxGather = 12;
 
-// Returns the largest gathered radius if no blur radius exceeds r_max.
+// Returns the largest blur radius that is gathered, if all blur radii are at most r_max.
 constexpr double LargestGather(double r_max) { return r_max < kMaxGather ? r_max : kMaxGather; }
 
 }  // namespace starfocus

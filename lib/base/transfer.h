@@ -14,13 +14,15 @@ using simd::kLightBits;
 using simd::kLightWhite;
 
 struct Transfer {
-  const int16_t* light;     // light of each of the 256 codes
-  simd::Encoding encoding;  // the same mapping for SIMD kernels, which avoid tables where possible
+  const int16_t* light;  // light of each of the 256 codes
+  // Mapping from light to codes for SIMD kernels, which avoid tables where possible.
+  simd::Encoding encoding;
 };
 
 // Returns the tables of a transfer function. STARFOCUS_TRANSFER_SRGB follows IEC 61966-2-1; with
 // STARFOCUS_TRANSFER_NONE, light is proportional to the code. The light of a code is rounded to the
-// nearest level. The code of a light level is the nearest one on the scale of codes.
+// nearest level. The code of a light level is the code that is nearest to the level on the scale of
+// codes.
 const Transfer& TransferOf(int32_t transfer);
 
 }  // namespace starfocus

@@ -7,8 +7,9 @@ namespace starfocus {
 
 namespace {
 
-// Spread of a run in pixels, kShiftBits. In any view a run displaces its pixels by at most half the
-// spread. Halving the spread brings no improvement (docs/constants.md).
+// Spread of a run in pixels, kShiftBits. Rendering a run with one shift misplaces the pixels of the
+// run by at most half the spread, in any view. Halving the spread brings no improvement
+// (docs/constants.md).
 constexpr int32_t kRunSpread = kShiftOne / 4;
 
 }  // namespace

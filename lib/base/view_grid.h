@@ -14,7 +14,8 @@ namespace starfocus {
 struct ViewGrid {
   ViewWeights aperture;  // N views along the radius
   int32_t focus = 0;     // d_t, kDisparityBits
-  int64_t step = 0;      // u_t / 2^layer, kStepBits
+  int64_t step = 0;      // position of the view at the rim, in pixels of the layer per unit of
+                         // disparity: u_t / 2^layer, kStepBits
   int layer = 0;         // layer L
   // Views with |i| <= half_views fill holes from the captured views at half distance.
   int32_t half_views = 0;
@@ -27,8 +28,8 @@ struct ViewGrid {
   // [0, N], N > 0.
   int64_t Move(int32_t i) const { return (i * step + n() / 2) / n(); }
 
-  // Returns the displacement in pixels (kShiftBits) of disparity `disparity` in a view at `move`.
-  // The absolute value of the displacement is at most the blur radius.
+  // Returns the displacement, in pixels (kShiftBits), of points with disparity `disparity` in a
+  // view at position `move`. The absolute value of the displacement is at most the blur radius.
   int32_t Shift(int64_t move, int32_t disparity) const {
     return static_cast<int32_t>(
         Checked(ranges::kShift,

@@ -30,18 +30,19 @@ constexpr int32_t kTooFarBeside = 8;
 
 // Rates how well a view sees behind edges on a side.
 struct Rating {
-  int32_t along, across;  // distance along the axis of the side, and from the axis
+  int32_t along, across;  // distances of the view along the axis of the side, and from this axis
   ViewPosition at;
 
   bool Helps() const { return across < kTooFarBeside * along; }
   // True if the view lies closer to the direction of this side than to the direction of any other
   // side.
   bool Own() const { return across < along; }
-  // Twice the distance along the axis, minus the distance from the axis.
+  // Returns twice the distance of the view along the axis of the side, minus its distance from this
+  // axis.
   int32_t Merit() const { return 2 * along - across; }
 
-  // True if this view is better than `other`. The order does not depend on the order of the
-  // captured views.
+  // True if this view is better than `other`. The ranking of views does not depend on the order in
+  // which they were captured.
   bool Before(const Rating& other) const {
     if (Own() != other.Own()) return Own();
     if (Merit() != other.Merit()) return Merit() > other.Merit();
@@ -59,8 +60,8 @@ Rating Rate(const ViewPosition& at, const int8_t* side) {
 ViewPosition StarPosition(int index) { return kStar[index]; }
 
 int CapturedView(int u, int v, bool half) {
-  // Indices of the views at full distance, by u + 1 and v + 1. Views at half distance have the same
-  // order.
+  // Indices of the star's views at full distance, by u + 1 and v + 1. Views at half distance have
+  // the index of the full-distance view plus 8.
   constexpr int8_t kIndex[3][3] = {{8, 2, 6}, {4, 0, 3}, {7, 1, 5}};
   const int index = kIndex[u + 1][v + 1];
   return half && index != 0 ? index + 8 : index;

@@ -34,8 +34,8 @@ inline constexpr int kOcclusionViews = 2;
 struct OcclusionViews {
   OcclusionView on[kSideCount][kOcclusionViews] = {};
 
-  // Returns the last view of a side. Among views on the axis of the side, the last view is the
-  // nearest one.
+  // Returns the last view of `side`, in the order of OcclusionViews. Among views on the axis of the
+  // side, the last view is the view that is nearest to the centre.
   const OcclusionView& Last(int side) const {
     return on[side][on[side][kOcclusionViews - 1].view != 0 ? kOcclusionViews - 1 : 0];
   }
@@ -44,7 +44,7 @@ struct OcclusionViews {
 // Captured views of a configuration.
 struct ViewSet {
   int32_t count = 0;
-  bool star = false;  // true if the positions are those of starfocus_view_position
+  bool star = false;  // true if the views have the positions that starfocus_view_position returns
   ViewPosition at[kMaxViews] = {};
 };
 
@@ -59,16 +59,17 @@ int CapturedView(int u, int v, bool half);
 // or invalid positions.
 starfocus_status FindViews(const starfocus_config& config, ViewSet* views);
 
-// Returns true if the views of a valid configuration are those of starfocus_view_position.
+// Returns true if the views of a valid configuration have the positions that
+// starfocus_view_position returns.
 bool HasStar(const starfocus_config& config);
 
 // Returns true if two valid configurations have the same views in the same order.
 bool SameViews(const starfocus_config& a, const starfocus_config& b);
 
-// Chooses the views that see behind edges on each side: the views whose direction is closer to that
-// side than to any other. The farthest views near the axis of the side come first, because the area
-// that they see behind an edge is the largest. A side without such a view uses other views, up to
-// 83 degrees from its axis, which see behind thin or slanted edges. Views at larger angles would
+// Chooses the views that see behind edges on each side: the views whose direction is closer to this
+// side than to any other side. The farthest views near the axis of the side come first, because the
+// area that they see behind an edge is the largest. A side without such a view uses other views, up
+// to 83 degrees from its axis, which see behind thin or slanted edges. Views at larger angles would
 // see next to nothing (docs/constants.md).
 OcclusionViews ChooseOcclusionViews(const ViewSet& views);
 

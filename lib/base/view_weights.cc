@@ -47,7 +47,7 @@ void Clear(const ViewWeights& aperture, uint16_t* weights) {
 }
 
 // Computes the weights in proportion to the light `light(i, j)`, 20 bits. Weights outside the disc
-// must be clear. `light` may read the old contents of `weights`.
+// must be 0 on entry. `light` may read the old contents of `weights`.
 template <class Light>
 void Weigh(bool by_size, const Light& light, uint16_t* weights, ViewWeights* aperture) {
   aperture->weights = weights;
@@ -64,8 +64,8 @@ void Weigh(bool by_size, const Light& light, uint16_t* weights, ViewWeights* ape
   int bits = aperture->most_bits;
   while (bits > 1 && (largest << bits) / total > static_cast<uint64_t>(kMaxWeight - 8)) --bits;
   aperture->sum_bits = bits;
-  // The views that share a weight form an orbit. Each orbit absorbs the rounding error of the
-  // orbits before it. An orbit of a single view, such as the centre, leaves no error.
+  // The views that share a weight form an orbit. Each orbit absorbs the rounding error of all
+  // earlier orbits. An orbit of a single view, such as the centre view, absorbs the whole error.
   uint64_t wanted = 0;
   int64_t given = 0;
   ForEachWeight(*aperture, by_size, [&](int32_t i, int32_t j, int32_t views) {
@@ -78,7 +78,7 @@ void Weigh(bool by_size, const Light& light, uint16_t* weights, ViewWeights* ape
   Checked(ranges::kRemainder, given - (int64_t{1} << bits));
 }
 
-// Step and number of points per side of the sampling grid in each subaperture.
+// Distance between sampling points, and number of sampling points along each side of a subaperture.
 constexpr int32_t kStep = 2, kPoints = kSubapertureUnits / kStep;
 
 // Calls visit(x, y) for the sampling points of the subaperture around (i, j), in units of 1 /
@@ -97,7 +97,7 @@ void ForEachPoint(int32_t i, int32_t j, const Visit& visit) {
 // sampling points. `radius` is the radius of the lens in kSubapertureUnits.
 uint64_t LightOfSubaperture(int32_t i, int32_t j, int32_t radius, uint32_t fall_off) {
   const auto lens = static_cast<uint64_t>(radius) * static_cast<uint64_t>(radius);
-  int bits = 0;  // bits that are dropped so that Relative does not overflow
+  int bits = 0;  // number of low bits that are dropped so that Relative does not overflow
   while (lens >> bits >= uint64_t{1} << 18) ++bits;
   uint64_t light = 0;
   ForEachPoint(i, j, [&](int64_t x, int64_t y) {
@@ -116,8 +116,8 @@ uint32_t OpenPoints(int32_t i, int32_t j, int32_t radius, const ApertureShape& o
   return open;
 }
 
-// Faster version of OpenPoints for polygons. A polygon is convex: if the corners of a subaperture
-// are inside, the whole subaperture is inside.
+// Faster version of OpenPoints for polygons. A polygon is convex: if all corners of a subaperture
+// lie inside the polygon, the whole subaperture lies inside.
 uint32_t OpenPointsOfPolygon(int32_t i, int32_t j, int32_t radius, const ApertureShape& opening) {
   constexpr int32_t kHalf = kSubapertureUnits / 2;
   const int64_t x = kSubapertureUnits * (i < 0 ? -i : i) + kHalf;
@@ -174,7 +174,7 @@ uint32_t PassingPoints(int32_t i, int32_t j, int32_t lens, const ApertureShape& 
   const int64_t square = dx * dx + dy * dy;
   if (square > outer * outer) return 0;
   if (inner > 0 && square < inner * inner) return kAll;
-  // Inside the disc, all points of an opening without inner edges let light through.
+  // In openings without inner edges, light passes through every point of the disc.
   const bool plain =
       opening.shape == STARFOCUS_SHAPE_FALL_OFF || opening.shape == STARFOCUS_SHAPE_DISC;
   const bool all = plain && inner > 0 && x * x + y * y < inner * inner;
@@ -187,7 +187,7 @@ uint32_t PassingPoints(int32_t i, int32_t j, int32_t lens, const ApertureShape& 
   return inside == 0 ? 0 : kAll * both / inside;
 }
 
-// Computes the weights of N = 0: all light comes from the centre view.
+// Computes the weights for N = 0, where all light comes from the centre view.
 void WeighCentre(uint16_t* weights, ViewWeights* aperture) {
   Clear(*aperture, weights);
   Weigh(

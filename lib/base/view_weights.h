@@ -21,7 +21,8 @@ struct ViewWeights {
   int sum_bits = 1;
   int most_bits = kMaxLightBits;  // largest allowed sum_bits
   int32_t views = 1;
-  double extent = 1;  // distance of the outermost subapertures, in radii of the lens
+  // Distance of the outermost subapertures from the axis of the lens, in radii of the lens.
+  double extent = 1;
   // Radius of the lens, in 1 / kSubapertureUnits of the distance between views.
   int32_t radius = 0;
   // If `full` is false, the weight of view 0 <= j <= i <= n is at index i (i + 1) / 2 + j. If
@@ -29,7 +30,7 @@ struct ViewWeights {
   bool full = false;
   const uint16_t* weights = nullptr;
 
-  // Returns the weight of view (i, j), i, j in [-n, n]; 0 outside the disc.
+  // Returns the weight of view (i, j) for i and j in [-n, n]; the weight is 0 outside the disc.
   uint32_t Weight(int32_t i, int32_t j) const {
     if (full) return weights[(i + n) * (2 * n + 1) + j + n];
     if (i < 0) i = -i;
@@ -40,11 +41,11 @@ struct ViewWeights {
 };
 
 // Radius of the lens in subapertures, times kSubapertureUnits, for the N of ViewsBySubaperture. The
-// values are computed, not tuned. At N = 4 the radius 123 has at most twice the worst error of any
-// other radius with as many views, over the blur radii that use this N. At N = 5 no radius has a
-// smaller error than 32 * 5 - 11. At N = 3 no radius that meets the threshold at every blur radius
-// has a smaller error than 94. See WorstOfLens in lib/analysis/subaperture_rule.h, and the tables
-// in docs/constants.md.
+// values are computed, not tuned. At blur radii of N = 4, the radius 123 has at most twice the
+// worst error of any other radius with as many views. At N = 5 the smallest error is at the radius
+// 32 * 5 - 11. At N = 3 the radius 94 has the smallest error among the radii that meet the
+// threshold at every blur radius. See WorstOfLens in lib/analysis/subaperture_rule.h, and the
+// tables in docs/constants.md.
 inline constexpr int32_t kSubapertureUnits = 32;
 constexpr int32_t LensInSubapertures(int32_t n) {
   return n == 1 ? kSubapertureUnits : n == 3 ? 94 : n == 4 ? 123 : kSubapertureUnits * n - 11;
@@ -87,7 +88,7 @@ constexpr double LargestSubapertureExtent() {
   return largest;
 }
 
-// Number of weights that ViewWeights stores for n: of an octant, or of all views.
+// Number of weights that ViewWeights stores for N = n: the weights of one octant, or of all views.
 constexpr size_t ViewWeightsSize(int32_t n) {
   return (static_cast<size_t>(n) + 1) * (static_cast<size_t>(n) + 2) / 2;
 }
@@ -98,18 +99,19 @@ inline size_t ViewWeightsSize(const ApertureShape& opening, int32_t n) {
   return opening.IsSymmetric() ? ViewWeightsSize(n) : FullApertureSize(n);
 }
 
-// Computes the weights of the views i^2 + j^2 <= N^2: a_{d,N} of (5), or for openings other than
-// (3) the light that passes through the subaperture around each view. Fills
-// weights[ViewWeightsSize(opening, n)]; n in [0, kMaxViewsAlongRadius]. Cat's eyes are not applied.
+// Computes the weights of the views i^2 + j^2 <= N^2, which are a_{d,N} of (5). For openings other
+// than (3), the weight of a view is the light that passes through the subaperture around the view.
+// Fills weights[ViewWeightsSize(opening, n)]; n in [0, kMaxViewsAlongRadius]. The weights ignore
+// cat's eyes; MakeCatsEye applies them.
 ViewWeights MakeViewWeights(int32_t n, const ApertureShape& opening, uint16_t* weights);
 
 // Computes the weights of views that represent subapertures of a lens of radius
-// LensInSubapertures(n). Only the part inside the rim counts for a subaperture that straddles the
-// rim. `n` is in [0, kMaxViewsAlongRadius]; n = 0 is the centre view alone.
+// LensInSubapertures(n). A subaperture that straddles the rim is weighted by the light of its part
+// inside the rim. `n` is in [0, kMaxViewsAlongRadius]; n = 0 is the centre view alone.
 ViewWeights MakeSubapertures(int32_t n, const ApertureShape& opening, uint16_t* weights);
 
-// Applies a rim behind the opening to the weights `whole` of N >= 1. The sum of all weights does
-// not change. Fills weights[FullApertureSize(n)].
+// Applies the cat's eye of `opening` to the weights `whole`, which have N >= 1. The sum of all
+// weights does not change. Fills weights[FullApertureSize(n)].
 ViewWeights MakeCatsEye(const ViewWeights& whole, const ApertureShape& opening,
                         const RimShift& shift, uint16_t* weights);
 

@@ -22,8 +22,8 @@ int32_t CeilPixels(double value) {
 
 int32_t ToWholeCells(int32_t pixels) { return (pixels + kCellSize - 1) / kCellSize * kCellSize; }
 
-// Returns the largest absolute disparity, rounded up: the distance by which side views move a
-// point.
+// Returns the largest absolute disparity, rounded up: the largest distance by which a point moves
+// between the centre view and a side view.
 int32_t LargestMove(const starfocus_config& config) {
   const double nearer = config.disparity_max, farther = -config.disparity_min;
   return CeilPixels(nearer > farther ? nearer : farther);
@@ -53,8 +53,8 @@ Borders AddBorders(const starfocus_config& config, double max_blur, bool joins) 
   borders.joined = joins ? kDeblockRows : 0;
   borders.whole_block = reach + kRenderBorder;
   borders.cells = ToWholeCells(reach + kLayerMargin[config.tuning.max_layer]) / kCellSize;
-  // Depth edges of a cell are used within the blur radius. Other statistics are used within the
-  // blur radius plus the border of upsampling.
+  // Blocks use the depth edges of cells within the blur radius, and other statistics of cells
+  // within the blur radius plus the border of upsampling.
   borders.centre = Max(borders.cells * kCellSize, ToWholeCells(reach) + kCellBorder);
   if (!one_view) borders.centre = Max(borders.centre, kLookBack - 1);
   for (int layer = 0; layer <= config.tuning.max_layer; ++layer) {
@@ -70,8 +70,9 @@ Borders AddBorders(const starfocus_config& config, double max_blur, bool joins) 
       one_view || !HasCoverage(config) ? 0 : LargestMove(config) + CapturedBorder(0);
   borders.views = Max(borders.views, borders.centre + read);
   if (config.highlights > 1) {
-    // This border affects how blocks are split, and therefore the bytes of the output. The border
-    // is slightly larger than the distance by which blur and disparity move highlights.
+    // The border for highlights affects how superblocks are split, and therefore the bytes of the
+    // output. This border is slightly larger than the distance by which blur and disparity move
+    // highlights.
     borders.highlights =
         ToWholeCells(reach + kLayerMargin[2]) + 5 * kCellSize + blur + LargestMove(config);
     borders.views = Max(borders.views, borders.highlights + LampReach(LargestLamp(config.width)));

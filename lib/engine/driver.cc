@@ -12,8 +12,8 @@
 namespace starfocus {
 namespace {
 
-// Reads rows of the map and the centre view. Job `index` reads part `index` of the rows, as PartOf
-// divides them.
+// Reads rows of the disparity map and the centre view. Job `index` reads part `index` of the rows,
+// as PartOf divides them.
 struct RowsJob {
   const RowSource* source;
   const EngineState* engine;
@@ -26,8 +26,8 @@ void ReadMap(const RowsJob& job, int32_t y, int16_t* row, Counts* counts) {
   counts->depth_flags |= job.source->map(job.source->self, y, row);
 }
 
-// Checks a part of the rows. Each job reuses one row of the ring, which is overwritten for every
-// row of the map.
+// Checks part `index` of the rows of the disparity map. Each job reads all of its map rows into a
+// single row of the ring.
 void CheckPart(const RowsJob& job, int32_t index, Scratch* scratch) {
   const RowRange rows = PartOf(job.rows, index, job.jobs);
   for (int32_t y = rows.first; y < rows.last; ++y) {
@@ -36,7 +36,7 @@ void CheckPart(const RowsJob& job, int32_t index, Scratch* scratch) {
   }
 }
 
-// Copies the codes of a row of a view to `to`.
+// Copies the 8-bit codes of row y of a view to `to`.
 void CopyCodes(const RowSource& source, int view, int32_t y, int32_t width, uint8_t* to) {
   const uint8_t* const codes = source.views.Codes(view, 0, y, width, to);
   if (codes != to) std::memcpy(to, codes, 3 * static_cast<size_t>(width));

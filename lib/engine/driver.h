@@ -18,14 +18,17 @@ namespace starfocus {
 // Input light field in any format. Each row is loaded once, in order. A source that wraps another
 // source may replace the depth map.
 struct RowSource {
-  ViewReader views;              // null functions: the views are read in place
-  bool converts_centre = false;  // true: rows of the centre view are copied to the engine's ring
+  ViewReader views;  // if the reader's functions are null, the engine reads the views in place
+  bool converts_centre = false;  // true if the engine copies rows of the centre view to its ring
   // Writes row y of the disparity map to `out`, in kDisparityBits; unknown disparities are
-  // kNoSurface. Returns simd::DepthFlags. Null: the map is in memory.
+  // kNoSurface. Returns simd::DepthFlags. A null function means that the disparity map is in
+  // memory.
   uint32_t (*map)(const void* self, int32_t y, int16_t* out) = nullptr;
-  // Writes row y of the coverage. Used only by streams. Null: the light field has no coverage.
+  // Writes row y of the coverage to `out`. Used only by streams. A null function means that the
+  // light field has no coverage.
   void (*coverage)(const void* self, int32_t y, uint8_t* out) = nullptr;
-  // Writes row y of the alpha of the centre view. Null: alpha is 255.
+  // Writes row y of the centre view's alpha to `out`. A null function means that alpha is 255
+  // everywhere.
   void (*alpha)(const void* self, int32_t y, uint8_t* out) = nullptr;
   const void* self = nullptr;
 };
@@ -39,17 +42,17 @@ struct RowSink {
 };
 
 // Checks all values of rows [rows.first, rows.last) of the map. Returns STARFOCUS_OK,
-// STARFOCUS_ERROR_NOT_FINITE or STARFOCUS_ERROR_DISPARITY. If both errors apply,
-// STARFOCUS_ERROR_NOT_FINITE is returned.
+// STARFOCUS_ERROR_NOT_FINITE or STARFOCUS_ERROR_DISPARITY. If rows contain both errors, the
+// function returns STARFOCUS_ERROR_NOT_FINITE.
 starfocus_status CheckRows(const RowSource& source, const RowRange& rows, EngineState* engine);
 
 // Loads rows of the map into `disparity`. If the source converts the centre view, loads rows of the
-// centre view into their ring. The rows must have been checked.
+// centre view into their ring. CheckRows must have accepted the rows.
 starfocus_status LoadRows(const RowSource& source, const RowRange& rows,
                           const Plane<int16_t>& disparity, EngineState* engine);
 
-// Copies row y of the source to the rings of a streaming engine. Returns the status of the map row.
-// If this status is an error, no view is copied.
+// Copies row y of the source to the rings of a streaming engine. Returns the status of the row of
+// the disparity map. If this row is invalid, the function copies no view.
 starfocus_status CopyRow(const RowSource& source, int32_t y, EngineState* engine);
 
 // Returns the rows of all stripes that affect the region of the lens. The first row is a multiple

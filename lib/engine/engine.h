@@ -26,29 +26,33 @@ struct Stream {
   int32_t written = 0;   // number of output rows that the caller has pulled
 };
 
-// Memory for images, in addition to the ring for the rows of the centre view.
+// Memory for the input and output of images, in addition to the ring for the rows of the centre
+// view.
 struct ImageMemory {
-  uint32_t* columns = nullptr;  // for each column of the picture, its position in the depth map
-  int32_t map_width = 0;        // width of that depth map; 0: `columns` is not set yet
-  uint8_t* odd_row = nullptr;   // output row whose chroma is written together with the next row
-  Plane<uint8_t> alpha;         // with streaming: ring of rows of the centre view's alpha
+  // Horizontal position in the depth map, for each column of the picture.
+  uint32_t* columns = nullptr;
+  // Width of the depth map for which `columns` was set; 0 if `columns` is not set yet.
+  int32_t map_width = 0;
+  uint8_t* odd_row = nullptr;  // output row whose chroma is written together with the next row
+  Plane<uint8_t> alpha;        // with streaming: ring of rows of the centre view's alpha
 };
 
 struct EngineState {
   // Valid for the life of the engine:
-  starfocus_config config;         // config.problem points to the field below
+  starfocus_config config;         // config.problem points to `problem` of this struct
   starfocus_problem problem = {};  // problem of the last call
   const simd::Kernels* kernels;
   Tables tables;
-  // Frees the memory of the engine. Null functions: the caller owns the memory.
+  // Frees the memory of the engine. If the allocator's functions are null, the caller owns the
+  // memory.
   starfocus_allocator allocator = {};
   size_t bytes = 0;                 // size of the memory from the allocator
-  Workers workers;                  // memory of the workers
+  Workers workers;                  // scratch memory of the workers, and their jobs
   Plane<uint8_t> rings[kMaxViews];  // with streaming: pushed rows
-  ImageMemory images;               // with images, which use rings[0] as well
+  ImageMemory images;               // used if images are enabled, together with rings[0]
 
-  // Valid until the next starfocus_set_callbacks, like the runner and the progress function in
-  // workers.jobs:
+  // Valid until the next call of starfocus_set_callbacks, like the runner and the progress function
+  // in workers.jobs:
   starfocus_clock clock = nullptr;
   starfocus_block_visitor on_block = nullptr;
   void* on_block_data = nullptr;
@@ -63,9 +67,9 @@ struct EngineState {
   StripeState stripe;
 };
 
-// Sets up the lens for `params` and discards the state of the previous refocusing. Reports to the
-// workers' CallProgress. Returns STARFOCUS_ERROR_BLUR, STARFOCUS_ERROR_CANCELLED or STARFOCUS_OK.
-// The other fields of `params` must have been checked.
+// Sets up the lens for `params` and discards the state of the previous refocusing. Reports progress
+// through the workers' CallProgress. Returns STARFOCUS_ERROR_BLUR, STARFOCUS_ERROR_CANCELLED or
+// STARFOCUS_OK. The caller must have checked all other requirements on `params`.
 starfocus_status SetLens(const starfocus_params& params, EngineState* engine);
 
 // TakeCounts moves the workers' counts to the report. DropCounts discards these counts.

@@ -13,7 +13,7 @@ namespace {
 // Number of pixels that are compared at once.
 constexpr int32_t kUnit = 16;
 
-// Stripes that depend on a row.
+// Range of the stripes that depend on one row of the input.
 struct StripeRange {
   int32_t first, last;
 };
@@ -22,8 +22,8 @@ StripeRange StripesOf(const FrameDiff& changes, int32_t y, int32_t reach) {
   return {Max(0, y - reach) / changes.side, Min(changes.height - 1, y + reach) / changes.side};
 }
 
-// Returns true if all blocks of the stripes are flagged already. If large parts of the picture
-// change, this test avoids the comparison of most rows.
+// Returns true if all superblocks of the stripes are already flagged as changed. If large parts of
+// the picture change, this test avoids the comparison of most rows.
 bool AllFlagged(const FrameDiff& changes, const StripeRange& stripes) {
   for (int32_t stripe = stripes.first; stripe <= stripes.last; ++stripe) {
     if (std::memchr(changes.Flags(stripe), 0, static_cast<size_t>(changes.columns)) != nullptr) {
@@ -33,7 +33,7 @@ bool AllFlagged(const FrameDiff& changes, const StripeRange& stripes) {
   return true;
 }
 
-// A row of both pictures, with `pixel_bytes` bytes per pixel.
+// Two rows to compare, with `pixel_bytes` bytes per pixel.
 struct RowPair {
   const void *before, *now;
   size_t pixel_bytes;
@@ -54,7 +54,7 @@ void CompareRow(const FrameDiff& changes, const RowPair& rows, int32_t y, int32_
                 const Widen& widen) {
   const StripeRange stripes = StripesOf(changes, y, reach);
   if (AllFlagged(changes, stripes) || !rows.Differs(0, changes.width)) return;
-  // Last superblock column that this row flagged; filled pixels may change beyond this column.
+  // Last column of superblocks that row y has flagged; filled pixels may change beyond this column.
   int32_t flagged = -1;
   for (int32_t x = 0; x < changes.width; x += kUnit) {
     int32_t left = x, right = Min(x + kUnit, changes.width);
@@ -70,7 +70,8 @@ void CompareRow(const FrameDiff& changes, const RowPair& rows, int32_t y, int32_
   }
 }
 
-// Compares row y of the maps. A filled disparity changes if a known value next to its gap changes.
+// Compares row y of the two disparity maps. A filled disparity changes if a known value next to its
+// gap changes.
 void CompareMaps(const FrameDiff& changes, int32_t y) {
   const float* const before = RowsOf(changes.before->depth).Row(y);
   const float* const now = RowsOf(changes.now->depth).Row(y);
@@ -84,7 +85,8 @@ void CompareMaps(const FrameDiff& changes, int32_t y) {
              });
 }
 
-// Compares row y of the coverage. Both light fields have coverage, or both have none.
+// Compares row y of the coverage. If one light field has coverage, the other light field has
+// coverage as well.
 void CompareCoverage(const FrameDiff& changes, int32_t y) {
   const auto row = static_cast<size_t>(y);
   const starfocus_light_field &a = *changes.before, &b = *changes.now;

@@ -13,8 +13,8 @@
 namespace starfocus {
 
 // Comparison of two light fields. Rows are compared in order, starting at the first row that
-// affects the region. The flags of a stripe and its neighbours are complete when all rows within
-// their reach have been compared.
+// affects the region. The flags of a stripe and its neighbours are complete when all rows that
+// affect these stripes have been compared.
 struct FrameDiff {
   bool active = false;  // true: `before` is valid
   const starfocus_light_field *before, *now;
@@ -25,7 +25,7 @@ struct FrameDiff {
   // depend.
   int32_t centre_reach, side_reach;
   bool fills;     // true: unknown disparities are filled along their row
-  int32_t rows;   // number of rows compared
+  int32_t rows;   // number of rows compared so far
   int32_t known;  // number of stripes whose flags are initialised
   // Ring of stripes with one flag per column: 1 if the superblock changed.
   uint8_t* flags = nullptr;
@@ -36,15 +36,15 @@ struct FrameDiff {
   }
 };
 
-// Restarts the comparison for stripes from row y on.
+// Restarts the comparison at the stripe that starts at row y.
 void StartFrameDiff(int32_t y, FrameDiff* changes);
 
 // Compares all rows that affect blocks of the stripe at row y, of the previous stripe, or of the
 // next stripe. Returns STARFOCUS_OK or STARFOCUS_ERROR_CANCELLED.
 starfocus_status CompareRows(int32_t y, CancelToken* cancel, FrameDiff* changes);
 
-// Returns true if a superblock that overlaps `rect` has changed. `rect` must be less than a stripe
-// away from the stripe compared last.
+// Returns true if a superblock that overlaps `rect` has changed. The distance from `rect` to the
+// stripe that was compared last must be less than the height of a stripe.
 bool HasChanged(const FrameDiff& changes, const Rect& rect);
 
 }  // namespace starfocus

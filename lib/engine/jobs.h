@@ -20,8 +20,8 @@ struct Workers {
 // Returns the largest number of jobs in any set of an engine.
 int32_t MaxJobs(const starfocus_config& config);
 
-// Runs kJob(data, index, scratch memory of the worker) for all indices, like RunJobSet. `data`
-// holds the input of the jobs and the location of their output.
+// Runs kJob(data, index, scratch memory of the worker) for all indices in [0, count), like
+// RunJobSet. `data` holds the input of the jobs and the location of their output.
 template <class Data, void (*kJob)(const Data&, int32_t, Scratch*)>
 starfocus_status RunJobs(const Data& data, int32_t count, Workers* workers) {
   struct Set {

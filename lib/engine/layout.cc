@@ -11,7 +11,8 @@ namespace {
 
 // Allocates the memory for subsampling a column of superblocks.
 void TakeResample(const starfocus_config& config, Arena* arena, ResampleScratch* resample) {
-  // The last column includes one or two pixels of a layer beyond the picture.
+  // The last column of superblocks includes one or two pixels of a layer that lie beyond the
+  // picture.
   const auto side = config.superblock;
   const auto columns = static_cast<size_t>(Max(side / 2 + 1, TapsOfLayer(side / 4 + 2)));
   const int32_t above_two = TapsOfLayer(LayerRows(config, 2));
@@ -48,7 +49,8 @@ Scratch TakeScratch(const starfocus_config& config, Arena* arena) {
                                 scratch.renderers[k]);
     arena->Reuse(shared);
   }
-  // These pieces do not overlap, because gathering reads `field` and writes to `layer_samples`.
+  // `field` and `layer_samples` do not share memory, because gathering reads `field` and writes to
+  // `layer_samples`.
   const size_t half = side / 2 + 2 * static_cast<size_t>(LayerMargin(1));
   scratch.layer_samples = arena->Take<int16_t>(3 * half * half);
   const size_t behind = arena->Mark();
@@ -126,8 +128,9 @@ void TakeStripe(const starfocus_config& config, Arena* arena, EngineState* engin
   }
   FrameDiff& changes = engine->stripe.changes;
   changes.columns = static_cast<int32_t>(blocks);
-  // The engine compares rows up to one border below the next stripe. These rows flag stripes up to
-  // one more border below. The flags of the previous stripe are read as well.
+  // For videos, the engine compares input rows up to one border below the next stripe. The compared
+  // rows flag stripes up to one more border below. The ring of flags also keeps the previous
+  // stripe.
   changes.stripes = 2 * borders.views / side + 5;
   changes.flags = arena->Take<uint8_t>(blocks * static_cast<size_t>(changes.stripes));
   engine->stripe.map.columns = (config.width + kSmallestBlock - 1) / kSmallestBlock;
@@ -135,14 +138,14 @@ void TakeStripe(const starfocus_config& config, Arena* arena, EngineState* engin
                                                    static_cast<size_t>(side / kSmallestBlock + 1));
 }
 
-// Allocates the memory for images. `rows` is the number of rows of a ring.
+// Allocates the memory for images. `rows` is the number of rows in the ring of the centre view.
 void TakeImages(const starfocus_config& config, int32_t rows, Arena* arena, ImageMemory* images) {
   const auto width = static_cast<size_t>(config.width);
   images->columns = arena->Take<uint32_t>(width);
   images->odd_row = arena->Take<uint8_t>(3 * width);
   if (!Has(config.features, STARFOCUS_FEATURE_STREAMING)) return;
-  // The ring keeps the alpha of the previous stripe, whose last rows are written together with this
-  // stripe.
+  // The ring keeps the alpha of the previous stripe, because the last rows of the previous stripe
+  // are written together with the current stripe.
   images->alpha.rows = rows + config.superblock + kDeblockRows;
   images->alpha.stride = width;
   images->alpha.data = arena->Take<uint8_t>(width, static_cast<size_t>(images->alpha.rows));
@@ -158,7 +161,7 @@ void TakeRows(const starfocus_config& config, Arena* arena, EngineState* engine)
   engine->row_store.disparity.data = arena->Take<int16_t>(width, static_cast<size_t>(rows));
   engine->stripe.out =
       arena->Take<uint8_t>(3 * width, static_cast<size_t>(config.superblock + kDeblockRows));
-  // Set to null without streaming, because LayOutAnew may reuse a streaming engine.
+  // Sets `last_rows` to null without streaming, because LayOutAnew may reuse a streaming engine.
   engine->stripe.last_rows = streaming ? arena->Take<uint8_t>(3 * width, kDeblockRows) : nullptr;
   const int rings = streaming                                        ? config.views
                     : Has(config.features, STARFOCUS_FEATURE_IMAGES) ? 1
@@ -191,7 +194,7 @@ size_t Carve(const starfocus_config& config, Arena arena, EngineState** engine) 
     e.workers.scratch[worker].cancel = CancelToken(&e.workers.jobs.call_progress);
   }
   // Pieces that depend on the size of the picture come last, so that LayOutAnew for a smaller
-  // picture does not move the others.
+  // picture does not move the other pieces.
   TakeRows(config, &arena, &e);
   TakeLayers(config, &arena, &e);
   TakeStripe(config, &arena, &e);

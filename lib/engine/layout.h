@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Memory layout of an engine. One function computes the size of the workspace and divides it.
+// Memory layout of an engine. LayOut both computes the size of the workspace and divides the
+// workspace into pieces.
 #ifndef STARFOCUS_LIB_ENGINE_LAYOUT_H_
 #define STARFOCUS_LIB_ENGINE_LAYOUT_H_
 
@@ -25,7 +26,8 @@ size_t LayOut(const starfocus_config& config, void* base, EngineState** engine,
 void LayOutAnew(const starfocus_config& config, EngineState* engine);
 
 // Poisons the red zones of an engine's memory during the lifetime of this object; no-op in builds
-// without red zones. Afterwards the caller, who owns the memory, may use it for another purpose.
+// without red zones. After the lifetime of this object, the caller may use the memory for another
+// purpose.
 class RedZones {
  public:
   explicit RedZones(EngineState* engine);

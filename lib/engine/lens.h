@@ -23,7 +23,7 @@ struct Lens {
   double r_max;                  // largest blur radius for the configured disparities, in pixels
   const ViewWeights* apertures;  // apertures of the renderer, indexed by N
   int32_t largest_n;             // largest N of `apertures`
-  ViewWeights aperture;          // frame modes: aperture of the single N
+  ViewWeights aperture;          // in frame modes, the aperture for the only N of the picture
   BlurScale scale;
   Borders borders;
 };
@@ -43,15 +43,15 @@ inline bool IsBlockMode(const Lens& lens) { return lens.params.mode == STARFOCUS
 
 inline bool IsBenchmark(const Lens& lens) { return lens.params.mode == STARFOCUS_MODE_BENCHMARK; }
 
-// Returns true if smooth cells are gathered. The gathering kernel supports only openings that one
-// octant describes.
+// Returns true if smooth cells are gathered with this lens. The gathering kernel supports only
+// openings that one octant describes.
 inline bool Gathers(const starfocus_config& config, const Lens& lens) {
   const starfocus_lens& asked = lens.params.lens;
   const bool octant = asked.shape != STARFOCUS_SHAPE_POLYGON && asked.cats_eye == 0;
   return IsBlockMode(lens) && lens.renderer->gathers && config.tuning.gather != 0 && octant;
 }
 
-// Index of the last PSF that gathering uses.
+// Index of the largest PSF that gathering uses.
 int32_t LastGatherStep(const Lens& lens);
 
 // Returns the weights of a block with N = n.
@@ -70,9 +70,9 @@ double LargestBlur(const starfocus_config& config, const starfocus_params& param
 // Returns STARFOCUS_ERROR_BLUR if the largest blur radius exceeds max_blur, otherwise STARFOCUS_OK.
 starfocus_status CheckBlur(const starfocus_config& config, const starfocus_params& params);
 
-// Makes the lens for `params`, and those tables of the lens that do not exist yet. Returns
-// STARFOCUS_ERROR_BLUR, STARFOCUS_ERROR_CANCELLED or STARFOCUS_OK. The other fields of `params`
-// must have been checked.
+// Makes the lens for `params`, and the tables of the lens that do not exist yet. Returns
+// STARFOCUS_ERROR_BLUR, STARFOCUS_ERROR_CANCELLED or STARFOCUS_OK. The caller must have checked all
+// other requirements on `params`.
 starfocus_status MakeLens(const starfocus_config& config, const starfocus_params& params,
                           CallProgress* call_progress, Tables* tables, Lens* lens);
 

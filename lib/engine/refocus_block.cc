@@ -30,7 +30,8 @@ void FinishPicture(const BlockInputs& in, const Rect& rect, int shift, const Pla
   }
 }
 
-// Converts the sums of a block to samples of its layer, at their position in LayerFrame.
+// Converts the sums of a block to samples of the block's layer, and stores the samples at their
+// position in LayerFrame.
 void KeepLayer(const BlockInputs& in, const Block& block, int shift, const Scratch& scratch) {
   const Rect frame = LayerFrame(block.rect, block.layer), &rendered = block.rendered;
   const size_t samples = 3 * static_cast<size_t>(rendered.width);
@@ -45,7 +46,7 @@ void KeepLayer(const BlockInputs& in, const Block& block, int shift, const Scrat
 }
 
 // Upsamples a block from its layer to the picture. Layer 2 is upsampled through layer 1, including
-// the margin that the next step reads.
+// the margin that the second upsampling step reads.
 void FinishLayer(const BlockInputs& in, const Block& block, const Plane<uint8_t>& out,
                  const Scratch& scratch) {
   const simd::Kernels& kernels = *in.kernels;
@@ -79,7 +80,7 @@ void CopyCentre(const Window& window, const Rect& rect, const Plane<uint8_t>& ou
   }
 }
 
-// Amount of rendering for a block.
+// Number of views rendered for a block, and number of samples of one view.
 struct Rendered {
   uint64_t views, samples;
 };
@@ -173,11 +174,11 @@ void GatherBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>
   if (block.layer > 0 && scratch->cancel.Spend(0)) FinishLayer(in, block, out, *scratch);
 }
 
-// Returns the part of a block that views render. At layer 0 this part may be smaller than the
-// block.
+// Returns the part of a block that is rendered from views. At layer 0 this part may be smaller than
+// the block.
 const Rect& ViewsRect(const Block& block) { return block.layer == 0 ? block.rendered : block.rect; }
 
-// Copies `rect` from the centre view. Used where no view moves a pixel.
+// Copies `rect` from the centre view. RefocusViews calls this function where no view moves a pixel.
 Rendered CopyBlock(const BlockInputs& in, const Rect& rect, const Plane<uint8_t>& out,
                    Scratch* scratch) {
   const uint64_t samples = Samples(rect);
@@ -190,8 +191,8 @@ Rendered RefocusViews(const BlockInputs& in, const Block& block, const Plane<uin
                       Scratch* scratch) {
   const Lens& lens = *in.lens;
   const ViewWeights& aperture = WeightsOf(lens, block.n);
-  // With N = 0 a block consists of the centre view. If this view must be rendered, the weights of N
-  // = 1 are used with a step of 0.
+  // With N = 0 a block shows the centre view alone. If the centre view must be rendered, the
+  // weights of N = 1 are used with a step of 0.
   const bool pinhole = aperture.n == 0;
   const ViewWeights& whole = pinhole ? lens.apertures[1] : aperture;
   const ApertureShape& opening = in.tables->opening;
@@ -210,8 +211,8 @@ Rendered RefocusViews(const BlockInputs& in, const Block& block, const Plane<uin
   const RenderJob job = {
       &in.windows[block.layer], &grid,    in.kernels, block.rendered,   block.border,
       &scratch->cancel,         gathered, lens.r_max, IsBenchmark(lens)};
-  // With gathering, the rendered part of a layer is upsampled later, together with the gathered
-  // part.
+  // If a block at layer 1 or 2 is partly gathered, the rendered part is upsampled later, together
+  // with the gathered part.
   const bool in_part = block.layer > 0 && block.gathers;
   const bool copies =
       !block.has_highlights && !in_part && (pinhole || lens.renderer->nothing_moves(job));
@@ -237,7 +238,7 @@ void RefocusBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t
                   Scratch* scratch) {
   const starfocus_clock clock = in.clock;
   const uint64_t start = clock != nullptr ? clock() : 0;
-  Rendered rendered = {1, 0};  // a completely gathered block counts as one view
+  Rendered rendered = {1, 0};  // a block whose cells are all gathered counts as one view
   if (IsPinhole(*in.lens)) {
     rendered = CopyBlock(in, block.rect, out, scratch);
   } else if (in.lens->params.mode == STARFOCUS_MODE_BLUR) {

@@ -23,7 +23,7 @@ struct RowStore {
   LayerPlane layers[STARFOCUS_LAYERS];  // layers 1 and 2 around a stripe
   // ColumnNeed for each column of superblocks, for layers 1 and 2.
   uint8_t* needed[STARFOCUS_LAYERS];
-  Plane<int16_t> disparity;  // ring of converted rows
+  Plane<int16_t> disparity;  // ring of converted rows of the disparity map
   bool prepared;  // true: disparities and layers of the windows come from a prepared light field
 };
 
@@ -37,7 +37,7 @@ void SetViews(const starfocus_config& config, const ViewReader& reader,
 void SetPlanes(const starfocus_config& config, const simd::Kernels& kernels,
                const Plane<uint8_t>* views, RowStore* row_store);
 
-// Fills the unknown pixels (kNoSurface) of a converted row according to
+// Fills the unknown disparities (kNoSurface) of a converted row of the disparity map according to
 // STARFOCUS_FEATURE_FILL_UNKNOWN. Returns the number of unknown pixels.
 int32_t FillUnknown(const starfocus_config& config, const simd::Kernels& kernels, int16_t* row);
 

@@ -24,8 +24,8 @@ struct Counts {
   uint32_t depth_flags;  // simd::DepthFlags of the rows that were read
 };
 
-// Memory for the extended rectangle of a block in the centre view. E is the largest side of the
-// rectangle.
+// Memory for the extended rectangle of a block in the centre view. E is the largest side of an
+// extended rectangle, in pixels.
 struct BlockPixelsMemory {
   int16_t* rgb;        // light: E rows of RgbStride(E) samples
   int16_t* disparity;  // E^2 samples
@@ -33,14 +33,14 @@ struct BlockPixelsMemory {
 
 // Scratch memory of one worker. Each renderer leaves the weighted sums of a block in `sums`. The
 // pointers except `sums` and the weights share memory, because a worker runs one step at a time
-// (layout.cc). R is the largest side of a rectangle.
+// (layout.cc). R is the largest side of a rectangle to refocus, in pixels.
 struct Scratch {
-  void* renderers[kMaxRenderers];  // scratch of each renderer
+  void* renderers[kMaxRenderers];  // scratch memory of each renderer
   uint32_t* sums;                  // 3 R^2 samples
   uint16_t* aperture_weights;      // with cat's eyes: weights of a block, for the largest N
-  LampRuns* lamp_runs;             // cache of runs, with highlights
-  BlockPixelsMemory field;         // for blocks that are gathered, or blurred by depth
-  SpanMemory spans;                // for blocks blurred by depth
+  LampRuns* lamp_runs;             // cache of the runs of lamps, if highlights are enabled
+  BlockPixelsMemory field;         // pixels of a block that is gathered, or blurred by depth
+  SpanMemory spans;                // spans of a block that is blurred by depth
   ResampleScratch resample;
   UpsampleScratch upsample;
   int16_t* layer_samples;    // samples of the rendered rectangle

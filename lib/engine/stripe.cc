@@ -16,12 +16,13 @@ namespace {
 struct RefocusJob {
   BlockInputs in;
   const Block* blocks;
-  Plane<uint8_t> out;  // output: rows of the picture
+  Plane<uint8_t> out;  // output: rows of the refocused picture
 };
 
 void RefocusOneBlock(const RefocusJob& job, int32_t index, Scratch* scratch) {
   const Block& block = job.blocks[index];
-  // Counts the samples that every block reads and filters. Renderers count their own work.
+  // Counts the samples that every block reads and filters. Renderers count the samples of rendered
+  // views separately.
   if (!scratch->cancel.Spend(3 * int64_t{block.rect.width} * block.rect.height)) return;
   RefocusBlock(job.in, block, job.out, scratch);
 }
@@ -84,14 +85,15 @@ starfocus_status RefocusPhases(const Stripe& stripe, const Plane<uint8_t>& out,
   return Deblock(stripe, out, engine);
 }
 
-// Keeps the state that the next stripe reuses.
+// Keeps the state of a finished stripe that the next stripe reuses.
 void KeepStripe(EngineState* engine) {
   TakeCounts(engine);
   const LayerMap& map = engine->stripe.map;
   std::memcpy(map.layers, &map.At(0, map.rows - 1), static_cast<size_t>(map.columns));
 }
 
-// Restores the state before the stripe. Data shared with the previous stripe is computed again.
+// Restores the state of the engine before a failed stripe. A retry computes the data again that the
+// stripe shares with the previous stripe.
 void WithdrawStripe(const starfocus_report& report, EngineState* engine) {
   engine->report = report;
   DropCounts(engine);
@@ -129,12 +131,12 @@ starfocus_status RefocusStripe(EngineState* engine, int32_t y) {
   uint8_t* const ends = rows.Row(y + config.superblock - kDeblockRows);
   uint8_t* const last_rows = engine->stripe.last_rows;
   const size_t bytes = kDeblockRows * rows.stride;
-  // This stripe may change the last rows of the previous stripe. A retry after a failure starts
-  // from the saved rows.
+  // Deblocking may change the last rows of the previous stripe. A retry after a failure starts from
+  // the saved rows.
   std::memcpy(rows.Row(y - kDeblockRows), last_rows != nullptr ? last_rows : ends, bytes);
   const starfocus_report report = engine->report;
   if (!ChooseColumns(stripe, engine)) {
-    ForgetStripe(&engine->stripe);  // the next stripe has no neighbour to deblock with
+    ForgetStripe(&engine->stripe);  // the next stripe has no refocused stripe above to deblock with
     return STARFOCUS_OK;
   }
   const starfocus_status status = RefocusPhases(stripe, rows, engine);

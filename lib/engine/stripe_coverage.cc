@@ -8,7 +8,8 @@
 namespace starfocus {
 namespace {
 
-// A pass over rows of tiles. Job `index` processes the tiles of column `index` of superblocks.
+// One pass of the coverage computation over rows of tiles. Job `index` processes the tiles of
+// column `index` of superblocks.
 struct PassJob {
   CoverageInput in;
   int pass;
@@ -36,7 +37,7 @@ int32_t MostTileRows(const starfocus_config& config, int32_t border) {
   return Max(read, looked_at) + TilesAhead(config, kFindRagged) + 1;
 }
 
-// Marks the columns to the left and right of the picture as empty.
+// Marks the columns of the coverage map to the left and right of the picture as empty.
 void ClearAside(const CoverageMap& map) {
   for (int32_t y = 0; y < map.tile_rows * kCoverageTile; ++y) {
     for (const int32_t x : {-kAside, map.columns * kCoverageTile}) {
@@ -46,14 +47,14 @@ void ClearAside(const CoverageMap& map) {
   }
 }
 
-// Returns true if coverage is computed for the lens. Only the slice renderer uses coverage.
+// Returns true if the engine computes coverage for its lens. Only the slice renderer uses coverage.
 bool FindsCoverage(const EngineState& engine) {
   const Lens& lens = engine.lens;
   return HasCoverage(engine.config) && lens.renderer->gathers &&
          lens.params.mode != STARFOCUS_MODE_BLUR && !IsPinhole(lens);
 }
 
-// Runs all passes, so that the last pass completes the rows of tiles before row `end`.
+// Runs all coverage passes, so that the last pass completes the rows of tiles before row `end`.
 starfocus_status RunPasses(int32_t top, int32_t end, EngineState* engine) {
   CoverageState& state = engine->stripe.coverage;
   for (int pass = 0; pass < kCoveragePasses; ++pass) {
@@ -115,7 +116,8 @@ starfocus_status FindCoverage(const Stripe& stripe, EngineState* engine) {
   const int32_t end =
       Min(state.map.Rows(), (stripe.y + stripe.height + border) / kCoverageTile + 1);
   if (state.done[kFindRagged] < 0) ClearAside(state.map);
-  // Processes one superblock's height at a time, so that few rows are in memory.
+  // Processes the height of one superblock at a time, so that few rows of the coverage map are in
+  // memory.
   starfocus_status status = STARFOCUS_OK;
   while (status == STARFOCUS_OK && state.done[kUnmixAgain] < end) {
     const int32_t from = Max(top, state.done[kUnmixAgain]);

@@ -6,7 +6,7 @@
 namespace starfocus {
 namespace {
 
-// Subsamples columns of superblocks into the layers. Job `index` processes column `index`.
+// Subsamples columns of superblocks into layers 1 and 2. Job `index` processes column `index`.
 struct LayerJob {
   const starfocus_config* config;
   const simd::Kernels* kernels;
@@ -22,7 +22,7 @@ void DownsampleInto(const LayerJob& job, int32_t layer, int32_t index, Scratch* 
   if ((need & kNeededBefore) != 0) missing.rows.first = missing.known;
   if (missing.rows.first == missing.rows.last) return;
   const int32_t side = job.config->superblock >> layer, begin = index * side;
-  // The last column of superblocks includes the pixels of a layer beyond the picture.
+  // The last column of superblocks includes the pixels of a layer that lie beyond the picture.
   const int32_t end = index + 1 == Columns(*job.config) ? missing.width : begin + side;
   DownsamplePicture(*job.kernels, *job.picture, scratch->resample, {layer, begin, end, &missing});
 }

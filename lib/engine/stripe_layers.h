@@ -12,8 +12,8 @@
 
 namespace starfocus {
 
-// Clears the marks of the columns to subsample, for a new stripe. The old marks are kept as the
-// marks of the previous stripe.
+// Clears the marks of the columns to subsample, for a new stripe. Keeps the old marks as the marks
+// of the previous stripe.
 void ClearLayerColumns(const starfocus_config& config, RowStore* row_store);
 
 // Marks all columns of all layers that the engine may use.
@@ -23,7 +23,7 @@ void MarkLayerColumns(const starfocus_config& config, RowStore* row_store);
 void MarkLayerColumns(const starfocus_config& config, const Block& block, RowStore* row_store);
 
 // Moves the layers and their windows to the rows `of_picture` of the picture, extended by
-// `borders`. Rows that exist already are kept.
+// `borders`. Rows of the layers that were computed for the previous stripe are kept.
 void PlaceLayers(const RowRange& of_picture, const Borders& borders, RowStore* row_store);
 
 // Subsamples the marked columns into the layers after PlaceLayers. Returns STARFOCUS_OK,

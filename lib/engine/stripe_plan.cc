@@ -20,7 +20,7 @@ struct MeasureJob {
   CellGrid cells;  // output: measured cells
 };
 
-// Splits superblocks. Job `index` processes column `index`.
+// Splits superblocks into blocks. Job `index` processes column `index`.
 struct PlanJob {
   const starfocus_config* config;
   const simd::Kernels* kernels;
@@ -32,7 +32,7 @@ struct PlanJob {
   StripePlan plan;  // output: blocks, counts and gathered cells
 };
 
-// Returns true if superblocks are split according to the picture.
+// Returns true if the blur in the picture decides how superblocks are split into blocks.
 bool IsPartitioned(const Lens& lens) { return IsBlockMode(lens) && !IsPinhole(lens); }
 
 // Returns the largest side of a block. A block uses one cat's eye, computed for the middle of the
@@ -71,7 +71,7 @@ Block WholeBlock(const PlanJob& job, const Rect& rect) {
   return block;
 }
 
-// Plans the frame modes, blur mode and pinholes: blocks of one size at layer 0.
+// Plans blocks of one size at layer 0, for the frame modes, blur mode and pinholes.
 void PlanWhole(const PlanJob& job, int32_t column) {
   const Lens& lens = *job.lens;
   const int32_t largest = job.plan.side;
@@ -130,7 +130,7 @@ void MeasureColumn(const MeasureJob& job, int32_t index, Scratch*) {
   }
 }
 
-// Returns true if the region depends on pixels of `rect`.
+// Returns true if the region that the lens requests depends on pixels of `rect`.
 bool IsInRegion(const EngineState& engine, const Rect& rect) {
   const Rect& region = engine.lens.region;
   const int32_t reach = engine.lens.borders.joined;
@@ -140,7 +140,8 @@ bool IsInRegion(const EngineState& engine, const Rect& rect) {
 
 // Returns true if pixels of `rect` affect pixels that are not copied from the previous picture.
 // Deblocking changes pixels within reach of a changed pixel, and reads pixels within the same reach
-// of every pixel that it changes. The reach therefore counts twice.
+// of every pixel that it changes. The test therefore extends `rect` by twice the reach of
+// deblocking.
 bool IsNew(const EngineState& engine, const Rect& rect) {
   const int32_t reach = 2 * engine.lens.borders.joined;
   const FrameDiff& changes = engine.stripe.changes;
@@ -148,8 +149,8 @@ bool IsNew(const EngineState& engine, const Rect& rect) {
                                                  rect.width + 2 * reach, rect.height + 2 * reach});
 }
 
-// Moves the grid of cells to the stripe and its surroundings. Returns the first row to measure; the
-// rows above this row are known from the previous stripe.
+// Moves the grid of cells to the stripe and its surroundings. Returns the first row of cells to
+// measure; the cells above this row were measured for the previous stripe.
 int32_t PlaceCells(const Stripe& stripe, const Lens& lens, StripeState* state) {
   CellGrid& cells = state->cells;
   StripePlan& plan = state->plan;
@@ -186,7 +187,7 @@ void ClearMap(const Stripe& stripe, LayerMap* map) {
               static_cast<size_t>(map->columns) * static_cast<size_t>(map->rows));
 }
 
-// Adds a block to the report and passes it to the caller's visitor.
+// Adds a block to the report and passes the block to the caller's visitor.
 void ReportBlock(const Block& block, EngineState* engine) {
   starfocus_report& report = engine->report;
   if (block.n > report.n || report.rendered_views == 0) {

@@ -12,8 +12,8 @@
 
 namespace starfocus {
 
-// Marks the columns of superblocks to refocus, and the columns whose cells must be measured for
-// them. Returns false if no column has to be refocused.
+// Marks the columns of superblocks to refocus, and the columns whose cells must be measured to plan
+// these superblocks. Returns false if no column has to be refocused.
 bool ChooseColumns(const Stripe& rows, EngineState* engine);
 
 // Measures cells, splits superblocks, and drops blocks that do not affect the requested pixels.

@@ -19,8 +19,8 @@ struct Stripe {
   int32_t y, height;
 };
 
-// Blocks of a stripe. Each superblock is planned into its own part of `blocks`. Afterwards the
-// blocks to refocus are moved to the start of `blocks`.
+// Blocks of a stripe. Planning stores the blocks of each superblock in a separate part of `blocks`.
+// After planning, the blocks to refocus are moved to the start of `blocks`.
 struct StripePlan {
   int32_t side;        // side of a superblock in pixels
   int32_t columns;     // number of columns of superblocks
@@ -37,8 +37,8 @@ struct StripePlan {
   }
 };
 
-// Coverage map, and the first row of tiles that each pass has not processed yet. This row is
-// negative if the pass has not processed any row.
+// Coverage map, and the first row of tiles that each pass has not processed yet. The entry in
+// `done` is negative if the pass has not processed any row.
 struct CoverageState {
   Plane<uint8_t> given;  // with streaming: ring of the coverage of the light field
   CoverageMap map;
@@ -50,11 +50,12 @@ struct StripeState {
   CoverageState coverage;  // coverage of the stripe and of the rows around the stripe
   StripePlan plan;
   LayerMap map;       // layer of each smallest block, for deblocking
-  FrameDiff changes;  // blocks that differ from the previous light field
-  uint8_t* out;       // kDeblockRows rows and a stripe, packed
+  FrameDiff changes;  // superblocks that differ from the previous light field
+  // Output: the last kDeblockRows rows of the previous stripe, and the stripe, packed.
+  uint8_t* out;
   // With streaming: the last kDeblockRows rows of the previous stripe, saved when that stripe was
-  // finished. Without streaming null, because a failed call is not resumed and these rows can stay
-  // in `out`.
+  // finished. Null without streaming, because a failed call is not resumed and the last rows can
+  // stay in `out`.
   uint8_t* last_rows;
 };
 

@@ -24,7 +24,7 @@ inline bool HasLineScan(const starfocus_config& config) {
 inline int32_t RendererCount(const starfocus_config& config) { return HasLineScan(config) ? 2 : 1; }
 
 // Returns the largest N that the block and frame modes use for blur radii up to r_max pixels. The
-// modes round radii up before they choose N. Demand::kRing has the largest N.
+// modes round radii up before they choose N. Demand::kRing requires the largest N of all demands.
 int32_t LargestN(const starfocus_config& config, const Renderer& renderer, Demand demand,
                  double r_max);
 
@@ -37,13 +37,14 @@ struct ApertureTable {
 };
 
 struct Tables {
-  // Opening of the tables below, except for its cat's eyes, which may change.
+  // Opening for which the tables were made. A change of the cat's eye alone does not invalidate the
+  // tables.
   ApertureShape opening;
   ApertureTable apertures[kMaxRenderers];
   uint16_t* benchmark_weights;  // weights of the single aperture of benchmark mode
   Psf* psfs;
   uint16_t* blur_weights;
-  int32_t blur_steps = 0;   // number of PSFs made
+  int32_t blur_steps = 0;   // number of PSFs that have been made
   int32_t mean_square = 0;  // MeanSquare of the opening; 0: no opening is set
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Last step of highlights: adds their excess, the light beyond white, to a picture.
+// Last step of rendering highlights: adds the excess, which is the light beyond white, to a
+// picture.
 #ifndef STARFOCUS_LIB_FILTER_ADD_EXCESS_H_
 #define STARFOCUS_LIB_FILTER_ADD_EXCESS_H_
 
@@ -18,10 +19,10 @@ int32_t ExcessFactor(float highlights);
 struct ExcessSum {
   const simd::Kernels* kernels;
   const Transfer* transfer;
-  int32_t factor;  // 0: nothing is added
+  int32_t factor;  // factor of the excess, with kExcessBits; a factor of 0 adds nothing
 };
 
-// Adds the excess in `sums` (lib/input/excess.h) to codes, as light. The sums have `shift`
+// Adds the excess in `sums` (lib/input/excess.h) to the light of `codes`. The sums have `shift`
 // fractional bits. Results beyond white are clipped to white. Sums of 0 do not change the codes.
 void AddExcess(const ExcessSum& excess, const uint32_t* sums, size_t count, int shift,
                uint8_t* codes);

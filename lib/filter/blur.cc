@@ -10,9 +10,9 @@ namespace starfocus {
 namespace {
 
 constexpr int32_t kOne = 1 << kDisparityBits;
-constexpr int32_t kFineSteps = 8;     // radii per pixel, up to kFineEnd
+constexpr int32_t kFineSteps = 8;     // number of PSF radii per pixel, up to kFineEnd
 constexpr int32_t kFineEnd = 4;       // end of the fine steps, in pixels
-constexpr int32_t kCoarseSteps = 32;  // radii per octave beyond kFineEnd
+constexpr int32_t kCoarseSteps = 32;  // number of PSF radii per octave beyond kFineEnd
 double Smaller(double a, double b) { return a < b ? a : b; }
 double Larger(double a, double b) { return a > b ? a : b; }
 
@@ -23,7 +23,8 @@ constexpr int32_t kPoints = 8;
 // Cost of the integral over one pixel, in samples of CancelToken::Spend.
 constexpr int32_t kIntegralSamples = 256;
 
-// Returns the distance of the last pixel that a disc covers at least in part.
+// Returns the distance, in pixels along an axis, of the last pixel that a disc covers at least in
+// part.
 int32_t SizeOf(int32_t radius) { return radius == 0 ? 0 : (radius + kOne / 2 - 1) / kOne; }
 
 size_t WeightsOf(bool full, int32_t size) {
@@ -35,9 +36,9 @@ struct Interval {
   double from, to;
 };
 
-// Returns the part of `x` on the line at y where light passes through a polygon of radius r. The
-// part lies between the zeros of a quadratic function for each curved edge, and on one side of each
-// straight edge.
+// Returns the part of interval `x`, on the line at y, where light passes through a polygon of
+// radius r. The part lies between the zeros of a quadratic function for each curved edge, and on
+// one side of each straight edge.
 Interval WithinPolygon(const ApertureShape& opening, double y, double r, Interval x) {
   constexpr double kUnit = 1.0 / kOpeningOne;
   const double square = opening.bulge * kUnit;
@@ -55,7 +56,7 @@ Interval WithinPolygon(const ApertureShape& opening, double y, double r, Interva
     const double discriminant = half * half - square * rest;
     if (discriminant <= 0) return {0, 0};
     const double root = std::sqrt(discriminant);
-    // Avoids cancellation: neither zero is computed as the difference of two similar numbers.
+    // Avoids cancellation: both zeros are computed without a difference of two similar numbers.
     const double sum = half > 0 ? -half - root : -half + root;
     const double other = sum == 0 ? 0 : rest / sum, zero = sum / square;
     x.from = Larger(x.from, Smaller(zero, other));
@@ -129,7 +130,8 @@ bool ForEachWeight(int32_t radius, const ApertureShape& opening, CancelToken* ca
   return true;
 }
 
-// Copies the extended rectangle, and repeats the edge of the picture around it.
+// Copies the light of the extended rectangle, and repeats the edge pixels of the picture outside
+// the picture.
 void LoadPixels(const BlurJob& job, int16_t* rgb) {
   const int32_t width = job.rect.width + 2 * job.border;
   const Window& window = *job.window;
@@ -176,7 +178,7 @@ void AddPsf(const Psf& psf, int32_t side, const int16_t* at, size_t stride, int3
 }
 
 // Computes the PSF of a radius (kDisparityBits). Returns false after cancellation. Pixels that
-// share a weight form an orbit. Each orbit absorbs the rounding error of the orbits before it, and
+// share a weight form an orbit. Each orbit absorbs the rounding error of all earlier orbits, and
 // the last orbit absorbs the remainder, as in MakeViewWeights.
 bool MakePsf(int32_t radius, const ApertureShape& opening, CancelToken* cancel, uint16_t* weights,
              Psf* psf) {
@@ -188,7 +190,8 @@ bool MakePsf(int32_t radius, const ApertureShape& opening, CancelToken* cancel, 
     weights[0] = 1 << 14;
     return true;
   }
-  // `largest`: maximum over sets of pixels that simd::Disc weighs together
+  // `largest` is the largest integral over a set of pixels that simd::Disc multiplies by one
+  // weight.
   double total = 0, largest = 0;
   const auto add = [&](int32_t n, int32_t m, int32_t points, double integral) {
     total += points * integral;

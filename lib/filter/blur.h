@@ -28,12 +28,12 @@ int32_t RadiusOfStep(int32_t step);  // result: kDisparityBits
 int32_t BlurStepBelow(int32_t radius);
 int32_t BlurStepAbove(int32_t radius);
 
-// A PSF: the octant 0 <= m <= n, or all weights if `full`. The weights of all pixels sum to exactly
-// 2^sum_bits. In an octant, the equal weights of four mirrored pixels, or of two mirrored pixels on
-// an axis, have a sum of at most 15 bits. Pixels farther than the focus use the PSF rotated by half
-// a turn.
+// Weights of a PSF: the octant 0 <= m <= n, or all weights if `full` is true. The weights of all
+// pixels sum to exactly 2^sum_bits. In an octant, the equal weights of four mirrored pixels, or of
+// two mirrored pixels on an axis, sum to at most 15 bits. Pixels farther than the focus use the PSF
+// rotated by half a turn.
 struct Psf {
-  int32_t size;  // largest n with a weight
+  int32_t size;  // distance in pixels, along an axis, from the centre to the outermost weights
   int sum_bits;
   bool full;
   // octant: weight (n, m) at index n (n + 1) / 2 + m; full: rows of weights
@@ -52,9 +52,10 @@ struct Psf {
 // `full`, all weights.
 size_t BlurWeightCount(bool full, double max_blur);
 
-// Computes the PSFs of steps [first, last), first <= last. Earlier PSFs must exist. The arrays must
-// have room for kernels[BlurStepCount] and weights[BlurWeightCount]. Cat's eyes are ignored.
-// Returns `last`, or the step at which the call was cancelled. `cancel` may be null.
+// Computes the PSFs of steps [first, last), first <= last. The PSFs of all steps before `first`
+// must exist. The arrays must have room for kernels[BlurStepCount] and weights[BlurWeightCount].
+// The PSFs ignore cat's eyes. Returns `last`, or the step at which the call was cancelled. `cancel`
+// may be null.
 int32_t MakePsfs(int32_t first, int32_t last, const ApertureShape& opening, CancelToken* cancel,
                  uint16_t* weights, Psf* kernels);
 
@@ -64,7 +65,7 @@ struct BlurJob {
   const Psf* psfs_of_radius;
   const simd::Kernels* kernels;
   Rect rect;
-  int32_t border;       // largest PSF size in the picture
+  int32_t border;       // largest Psf::size in the picture, in pixels
   ExcessSum excess;     // if factor > 0, the excess of the window is added to `out`
   CancelToken* cancel;  // after cancellation `out` is incomplete
 };

@@ -6,7 +6,7 @@
 namespace starfocus {
 namespace {
 
-// Returns true if the boundary between blocks of these layers must be deblocked.
+// Returns true if the boundary between blocks of layers `before` and `after` must be deblocked.
 bool Meet(int32_t before, int32_t after) {
   return before != after && before != kNoLayer && after != kNoLayer;
 }
@@ -17,7 +17,7 @@ bool Close(const uint8_t* a, const uint8_t* b, int32_t beta) {
 
 // Filters pixels q0, q1, ... on the finer side of a boundary. `step` is the distance between pixels
 // in bytes, away from the boundary, and p0 is the pixel before q0. `available` is the number of
-// pixels on this side.
+// pixels on the finer side.
 void FilterLine(const DeblockJob& job, uint8_t* q, ptrdiff_t step, int32_t available, bool strong) {
   const uint8_t* p0 = q - step;
   const int16_t* light = job.transfer->light;

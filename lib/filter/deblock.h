@@ -12,8 +12,9 @@
 
 namespace starfocus {
 
-// Number of rows at the end of a stripe that are finished with the next stripe, because deblocking
-// the boundary below reads these rows. Deblocking changes all these rows except the first.
+// Number of rows at the end of a stripe that are finished only with the next stripe, because
+// deblocking the boundary below reads them. Deblocking changes all kDeblockRows rows except the
+// first.
 inline constexpr int32_t kDeblockRows = 4;
 
 // Layer of smallest blocks that are not refocused. The boundaries of such blocks are not deblocked.
@@ -26,7 +27,7 @@ struct LayerMap {
   int32_t columns = 0;  // number of smallest blocks per row
   int32_t rows = 0;     // number of rows of smallest blocks in this stripe
 
-  // Row -1 belongs to the previous stripe.
+  // Returns the layer of a smallest block; row -1 is the last row of the previous stripe.
   uint8_t& At(int32_t column, int32_t row) const {
     return layers[static_cast<size_t>(row + 1) * static_cast<size_t>(columns) +
                   static_cast<size_t>(column)];

@@ -10,13 +10,13 @@
 namespace starfocus {
 namespace {
 
-// Largest number of adjacent cells on a slope that are filtered together. These cells have the same
-// PSFs.
+// Largest number of adjacent cells on a slope that are filtered together. Cells that are filtered
+// together have the same PSFs.
 constexpr int32_t kSlopeCells = 4;
 
-// Intermediate rows of adjacent cells on a slope. Rows of all cells have kStride samples. Rows of a
-// single cell have kCell samples, with one pixel on each side. Both sizes include the samples that
-// kernels read beyond the end.
+// Intermediate rows of adjacent cells on a slope. Rows that span all of the cells have kStride
+// samples. Rows that span a single cell have kCell samples, with one extra pixel on each side. Both
+// kStride and kCell include the samples that kernels read beyond the end of a row.
 struct SlopeRows {
   static constexpr size_t kPixel = 3;
   static constexpr size_t kStride =
@@ -24,7 +24,8 @@ struct SlopeRows {
   static constexpr size_t kCell = simd::SliceSamples(3 * kCellSize) + simd::kSliceLanes;
   int16_t less[kCellSize * kStride] = {}, more[kCellSize * kStride] = {};
   int16_t share[kCellSize * kCell] = {};
-  int16_t mixed[(kCellSize + 2) * kCell] = {};  // starts one row above the cell
+  // Mixture of both PSFs, starting one row above the cell.
+  int16_t mixed[(kCellSize + 2) * kCell] = {};
   int16_t moved[kCellSize * kCell] = {};
 
   int16_t* Mixed(int32_t row) { return mixed + static_cast<size_t>(row + 1) * kCell + kPixel; }
@@ -68,8 +69,8 @@ class Gather {
   uint64_t pixels() const { return pixels_; }
 
  private:
-  // Steps of the PSFs for the smallest and largest radius of a cell. Steps are stored as bytes,
-  // because the steps of all cells of a block are on the stack.
+  // Steps (BlurStep) of the PSFs for the smallest and largest radius of a cell. Steps are stored as
+  // bytes, because the steps of all cells of a block are on the stack.
   struct Steps {
     int8_t less, more;
   };
@@ -89,7 +90,7 @@ class Gather {
     }
   }
 
-  // Returns false after cancellation.
+  // Counts the work of filtering `part` with `psf`. Returns false after cancellation.
   bool Spend(const Psf& psf, const Rect& part) const {
     const int64_t points = (2 * psf.size + 1) * (2 * psf.size + 1);
     return GoesOn(job_.cancel, 3 * points * part.width * part.height);
@@ -101,7 +102,7 @@ class Gather {
             3 * static_cast<size_t>(part.width)};
   }
 
-  // Returns the index of the first output sample of a part.
+  // Returns the index of the first output sample of `part`.
   size_t FirstOut(const Rect& part) const {
     return static_cast<size_t>(part.y - frame_.y) * out_.stride +
            3 * static_cast<size_t>(part.x - frame_.x);
@@ -158,8 +159,8 @@ class Gather {
     return end;
   }
 
-  // Mixes the pixels of a cell. `first` is the index of the first sample of the cell in the
-  // filtered rows.
+  // Mixes the results of both PSFs in the pixels of a cell. `first` is the index of the first
+  // sample of the cell in the filtered rows.
   void Mix(const Slope& slope, const Steps& steps, const Rect& pixels, size_t first) {
     constexpr int kBits = kSlopeBits - kDisparityBits;
     const RadiusRange between = {RadiusOfStep(steps.less) << kBits, RadiusOfStep(steps.more)
@@ -173,8 +174,8 @@ class Gather {
     }
   }
 
-  // Extrapolates the mixture by one pixel on each side, so that the gradient continues at the rim
-  // of the cell.
+  // Extrapolates the mixture of a cell by one pixel on each side, so that the gradient continues at
+  // the rim of the cell.
   void ContinueBeyond(int32_t height, size_t count) {
     const auto go_on = [](const int16_t* last, ptrdiff_t back) {
       return static_cast<int16_t>(2 * last[0] - last[back]);
@@ -196,7 +197,7 @@ class Gather {
     }
   }
 
-  // Moves the mixture of a cell, and stores the result.
+  // Displaces the mixture of a cell by `move`, and stores the result in the output.
   void Move(const simd::HalfMove& move, const Rect& pixels) {
     const size_t count = 3 * static_cast<size_t>(pixels.width);
     const auto rows = static_cast<size_t>(pixels.height);

@@ -20,7 +20,7 @@ namespace starfocus {
 
 static_assert(kMaxGather <= simd::kMaxDisc, "");
 
-// PSFs of a lens.
+// PSFs of a lens, indexed by BlurStep.
 struct GatherPsfs {
   const Psf* of_step;
   int32_t last_step;
@@ -30,7 +30,7 @@ struct GatherPsfs {
 struct GatherJob {
   const Window* window;  // window at the layer of the cells
   const CellGrid* grid;
-  BlockCells cells;  // cells of a block whose corner is a multiple of kCellSize
+  BlockCells cells;  // cells of a block whose coordinates are multiples of kCellSize
   BlurScale scale;
   GatherPsfs blur;
   const simd::Kernels* kernels;

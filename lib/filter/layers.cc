@@ -32,7 +32,7 @@ struct CodeRow {
   }
 };
 
-// A row of a layer.
+// A row of samples of a layer.
 struct SampleRow {
   const int16_t* samples;
 
@@ -63,7 +63,7 @@ void PartLine(const Kernels& kernels, const Row& row, int32_t width, const PairR
   repeat(width - 1, right, pairs.Count());
 }
 
-// Output columns [begin, end) in some rows of a layer.
+// Part of a layer to compute: columns [begin, end) of some rows.
 struct LayerPart {
   int32_t begin, end;
   RowRange rows;

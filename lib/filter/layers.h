@@ -30,16 +30,18 @@ constexpr int32_t LayerSize(int32_t size, int32_t layer) {
 struct LayerPlane {
   int32_t width = 0, height = 0;  // size of the whole layer
   RowRange rows = {0, 0};         // stored rows
-  // Rows before `known` are valid in the columns of the previous stripe.
+  // In the columns that the previous stripe read, the rows before `known` have already been
+  // computed.
   int32_t known = 0;
   Plane<int16_t> samples;  // simd::kLayerBits, clamped to the range of samples
 };
 
 // Number of source pixels that the 7 filter taps read before the two source pixels of a layer's
-// pixel. After these two pixels, the taps read kDownBorder - 1 pixels.
+// pixel. After the two source pixels, the taps read kDownBorder - 1 pixels.
 inline constexpr int32_t kDownBorder = 3;
 
-// Returns the number of source pixels along an axis for `pixels` pixels of a layer.
+// Returns the number of source pixels that the filter reads along an axis to compute `pixels`
+// pixels of a layer.
 constexpr int32_t TapsOfLayer(int32_t pixels) { return 2 * pixels + 2 * kDownBorder - 1; }
 
 // Scratch memory of a worker for subsampling at most C columns and R rows of layer 1 at once.
@@ -62,11 +64,11 @@ void DownsamplePicture(const simd::Kernels& kernels, const Window& picture,
 
 // Samples of a rectangle of a layer.
 struct LayerRect {
-  int16_t* samples;       // rows packed, 3 * width
+  int16_t* samples;       // packed rows of 3 * width samples
   int32_t width, height;  // size in pixels
 };
 
-// Scratch memory for UpsampleByTwo.
+// Scratch memory for UpsampleByTwo, whose input is `in`.
 struct UpsampleScratch {
   int16_t* line;     // 3 * in.width samples
   int16_t* between;  // 3 * in.width samples

@@ -59,7 +59,7 @@ int16_t MedianOf(const int16_t* values, int32_t count) {
     high = values[n] > high ? values[n] : high;
   }
   // Bisection: the median is the smallest number that is at least as large as more than half of the
-  // values. This number is always in [low, high].
+  // values. The median always stays in [low, high].
   while (low < high) {
     const auto middle = static_cast<int16_t>((low + high) >> 1);
     int32_t not_above = 0;

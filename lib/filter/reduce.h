@@ -21,13 +21,13 @@ constexpr int32_t ReducedSize(int32_t size, int shift) {
 // Returns the rectangle of reduced pixels that overlap `rect`.
 Rect ReducedRect(const Rect& rect, int shift);
 
-// Computes the mean light of blocks, rounded half up. `sums` contains the sum over `rows` rows for
-// each column, for `columns` RGB pixels.
+// Computes the mean light of blocks of pixels, rounded half up. `sums` contains the sums of `rows`
+// rows of light: one RGB sum for each of `columns` columns.
 void MeanOfBlocks(const uint32_t* sums, int32_t columns, int32_t rows, int shift, int16_t* light);
 
 // Returns the median of `count` values; `count` is at most 4^kMaxReduction. For an even count, the
-// median is the larger of the two middle values. The result therefore lies on a surface, not
-// between two surfaces.
+// median is the larger of the two middle values. The median of disparities therefore always lies on
+// a surface, not between two surfaces.
 int16_t MedianOf(const int16_t* values, int32_t count);
 
 // Converts a disparity to pixels of the reduced picture, rounded half up.

@@ -6,11 +6,12 @@
 namespace starfocus {
 namespace {
 
-constexpr int32_t kHalves = 2 * kCellSize;  // half pixels along the side of a cell
+constexpr int32_t kHalves = 2 * kCellSize;  // number of half pixels along the side of a cell
 
 // Returns the signed blur radius at the upper left corner of a cell.
 int32_t RadiusAtCorner(const CellGrid& grid, const BlurScale& scale, int32_t column, int32_t row) {
-  constexpr int kSummedBits = 3;  // four cells, two disparities each
+  constexpr int kSummedBits =
+      3;  // extra bits for a sum of eight disparities, two from each of four cells
   int64_t distance = -int64_t{scale.focus} * (1 << kSummedBits);
   for (int32_t y = row - 1; y <= row; ++y) {
     for (int32_t x = column - 1; x <= column; ++x) {
@@ -83,8 +84,8 @@ void Slope::FindShares(const RadiusRange& between, const Rect& pixels, size_t st
 simd::HalfMove Slope::Move(int32_t spread) const {
   constexpr int32_t kMost = INT16_MAX;
   const int64_t radii = int64_t{corners_[0]} + corners_[1] + corners_[2] + corners_[3];
-  // The mean radius is 1/4 of the sum of the corners; a gradient is 1/16 of a difference of
-  // corners.
+  // The mean radius is 1/4 of the sum of the radii at the corners. The gradient is 1/16 of the
+  // difference between opposite sides.
   const auto half_move = [&](int32_t difference) {
     const int bits = kOpeningBits + 2 * kSlopeBits + 2 + 4 + 1 - 15 + layer_;
     // Rounds the absolute value, so that a mirrored slope moves exactly as far in the other

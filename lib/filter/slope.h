@@ -24,9 +24,10 @@ struct RadiusRange {
 
 class Slope {
  public:
-  // Describes the cell at (column, row) of the grid, at a layer. The cells around this cell must be
-  // stored. The radius at a corner is the mean radius of the four adjacent cells, with opposite
-  // signs in front of and behind the focus. Radii between the corners are interpolated bilinearly.
+  // Describes the cell at (column, row) of the grid, at a layer. The grid must store the cells
+  // around this cell. The radius at a corner is the mean radius of the four adjacent cells, with
+  // opposite signs in front of and behind the focus. Radii between the corners are interpolated
+  // bilinearly.
   Slope(const CellGrid& grid, const BlurScale& scale, int32_t column, int32_t row, int32_t layer);
 
   // Returns the range of radii of pixels of the layer, which may lie outside the cell.
@@ -34,8 +35,9 @@ class Slope {
 
   // Writes the share of the larger PSF for each pixel, in [0, 1] with 15 fractional bits. Elements
   // share[3 n] to share[3 n + 2] belong to pixel n of a row. Rows are `stride` samples apart. The
-  // share is the position of the pixel's squared radius between the two squared radii. A mixture of
-  // two PSFs then has the mean square width of the intermediate PSF.
+  // share is the position of the pixel's squared radius between the squares of the radii in
+  // `between`. With this share, a mixture of two PSFs has the mean square width of the intermediate
+  // PSF.
   void FindShares(const RadiusRange& between, const Rect& pixels, size_t stride,
                   int16_t* share) const;
 
@@ -52,8 +54,9 @@ class Slope {
   int32_t At(int32_t x, int32_t y) const;
 
   int32_t layer_;
-  int32_t left_, top_;  // corner of the cell, in half pixels of the picture
-  int32_t corners_[4];  // signed radii in pixels of the picture, kSlopeBits, row by row
+  int32_t left_, top_;  // upper left corner of the cell, in half pixels of the picture
+  int32_t corners_[4];  // signed blur radii at the four corners, in pixels of the picture,
+                        // kSlopeBits, row by row
 };
 
 }  // namespace starfocus

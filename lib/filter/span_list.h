@@ -16,7 +16,7 @@ struct SpanMemory {
   simd::Span* spans;
   size_t span_capacity;
   int16_t* pixels;
-  size_t pixel_capacity;  // capacity in samples; at least one line
+  size_t pixel_capacity;  // capacity of `pixels` in samples, at least one line
 };
 
 // Allocates the memory for lines of up to `side` pixels.
@@ -45,8 +45,8 @@ class SpanList {
   }
   void Add(const simd::Span& span) { *Next() = span; }
 
-  // Returns memory for the colours of one span of a hole. The caller must add this span next.
-  // `samples` is at most pixel_capacity.
+  // Returns memory for the colours of one span of a hole. The next span that the caller adds must
+  // be the span of the hole. `samples` is at most pixel_capacity.
   int16_t* Pixels(size_t samples) {
     if (used_ + samples > pixel_capacity_ || count_ == capacity_) Flush();
     int16_t* pixels = pixels_ + used_;

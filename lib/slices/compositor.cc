@@ -106,9 +106,9 @@ class TilePart {
     return pixels;
   }
 
-  // Considers the pixels of a slice that any view shows in a cell pair. In the result, `some`
-  // contains the strips in which the slice covers any of these pixels. `all` is 1 if the slice
-  // covers all of these pixels, and 0 otherwise.
+  // Tests the pixels of a slice that at least one view shows in a cell pair. In the result, `some`
+  // contains the strips in which the slice covers any tested pixel. `all` is 1 if the slice covers
+  // all tested pixels, and 0 otherwise.
   static simd::SliceCover CoverOf(const SlicePlane& placed, const CellPair& pair) {
     const uint64_t strips = StripsOf(placed, pair.x);
     simd::SliceCover cover = {0, strips};
@@ -144,7 +144,7 @@ class TilePart {
     }
   }
 
-  // Clears the accumulators of rows [first, end), which are gathered later.
+  // Clears the accumulators of rows [first, end), whose cells are gathered later.
   void ClearRows(int32_t x, int32_t first, int32_t end) {
     for (int32_t row = first; row < end; ++row) {
       std::memset(all_.accumulators + FirstSample(x, row), 0,
@@ -165,13 +165,13 @@ class TilePart {
   const RenderJob& job_;
   const SliceStack& stack_;
   CompositorScratch& scratch_;
-  const Rect rect_;  // in pixels of the rectangle
+  const Rect rect_;  // part of the tile, in pixels of the rectangle to refocus
   SlicePlane planes_[kMaxSlices];
   int32_t pairs_ = 0;
 };
 
 // Finds the surfaces of the rectangle and copies the rectangle's centre view to the rows of
-// CentreRow. Returns where the rectangle lies in `scratch->surfaces`, in pixels.
+// CentreRow. Returns the position of the rectangle in `scratch->surfaces`, in pixels.
 Rect LoadSurfaces(const RenderJob& job, CompositorScratch* scratch, uint32_t* accumulators) {
   BlockPixels field;
   field.rgb = scratch->field_rgb;
@@ -191,7 +191,7 @@ Rect LoadSurfaces(const RenderJob& job, CompositorScratch* scratch, uint32_t* ac
   return inner;
 }
 
-// Finds the slices of a tile, which is in pixels of the rectangle.
+// Finds the slices of a tile. `tile` is in pixels of the rectangle to refocus.
 void FindStack(const RenderJob& job, const Rect& tile, CompositorScratch* scratch,
                SliceStack* stack) {
   SliceRule rule = job.is_benchmark ? kFineSlices : kSlices;
@@ -210,7 +210,7 @@ void FindStack(const RenderJob& job, const Rect& tile, CompositorScratch* scratc
 
 int32_t RoundUp(int32_t size, int32_t least) { return (size + least - 1) / least * least; }
 
-// Returns the size in bytes of a pool for parts of `columns` x `rows` pixels.
+// Returns the size in bytes of a pool for tile parts of `columns` x `rows` pixels.
 size_t PoolBytes(const SliceStack& stack, int32_t columns, int32_t rows) {
   const auto width = static_cast<size_t>(columns), height = static_cast<size_t>(rows);
   size_t slices = 0, strips = 0, filtered = 0;
@@ -226,8 +226,8 @@ size_t PoolBytes(const SliceStack& stack, int32_t columns, int32_t rows) {
   return slices + (filtered > strips ? filtered : strips);
 }
 
-// Returns the largest size of parts whose slices fit into the pool. The width is maximised first,
-// then the height.
+// Returns the largest size of tile parts whose slices fit into the pool. The function first
+// maximises the width of the parts, then the height.
 Rect ChoosePart(const SliceStack& stack, const Rect& tile, size_t pool_bytes) {
   int32_t width = RoundUp(tile.width, kLeastColumns), height = RoundUp(tile.height, kLeastRows);
   while (width > kLeastColumns && PoolBytes(stack, width, kLeastRows) > pool_bytes) {

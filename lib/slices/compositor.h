@@ -26,7 +26,7 @@ struct CompositorScratch {
   int16_t* field_rgb;          // colours of the field as light: E rows of RgbStride(E) samples
   int16_t* field_disparity;    // disparities of the field: E^2
   LayeredDepth surfaces;       // E^2 pixels per surface
-  FillScratch fill;            // used after the last read of the field
+  FillScratch fill;            // used only after all reads of the field
   uint8_t* bins;               // kSliceBins elements
   int32_t* least_blur;         // E elements
   simd::SliceOffset* offsets;  // kMaxSlices (2 N + 1) elements
@@ -34,16 +34,18 @@ struct CompositorScratch {
   CellPair* pairs;             // cell pairs of a tile
   uint32_t* sums;              // kPixelSums per pixel of a strip
   uint8_t* pool;               // slices of a part of a tile, and the strips of these slices
-  size_t pool_bytes;           // at least LeastPool; a larger pool allows larger parts
+  size_t pool_bytes;  // size of the pool, at least LeastPool; a larger pool allows larger parts of
+                      // a tile
 };
 
-// Upper bound of the memory of a slice of the smallest part and of its strip, in bytes per pixel of
-// SliceArea.
+// Upper bound of the memory for a slice of the smallest tile part and for the slice's strip, in
+// bytes per pixel of SliceArea.
 inline constexpr size_t kAreaBytes = 33;
 
-// Returns the smallest size of a pool in bytes. The pool must hold the slices of the smallest part
-// and the strips of these slices, for blur radii up to `max_blur` pixels. The filter of a plane
-// uses the memory of the strips, and may require more memory than the strip of one slice.
+// Returns the smallest permitted size of the pool in bytes. The pool must hold the slices of the
+// smallest tile part and the strips of these slices, for blur radii up to `max_blur` pixels. The
+// filter of a plane uses the memory of the strips, and may require more memory than the strip of
+// one slice.
 constexpr size_t LeastPool(double max_blur) {
   const auto reach = static_cast<size_t>(LargestSliceReach(max_blur));
   const size_t filtered = FilteredBytes(kLeastColumns, kLeastRows, reach);

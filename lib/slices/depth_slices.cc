@@ -9,11 +9,11 @@ namespace starfocus {
 namespace {
 
 // Slices overlap by 1 / kOverlapParts of their range, so that no gap opens between two slices of
-// one slope. The page docs/constants.md compares kOverlapParts with no overlap, half the overlap
-// and twice the overlap.
+// one slanted surface. The page docs/constants.md compares this overlap with no overlap, half the
+// overlap and twice the overlap.
 constexpr int kOverlapParts = 10;
 
-// Finds the slices of a tile from the disparities of the surfaces around it.
+// Finds the slices of a tile from the disparities of the surfaces around the tile.
 class SliceFinder {
  public:
   SliceFinder(const SliceJob& job, SurfaceBands* bands)
@@ -51,8 +51,8 @@ class SliceFinder {
     bins_ = (range >> bin_bits_) + 1;
   }
 
-  // Finds the region of the surfaces that slices of the tile may show. The region starts at the
-  // first row of a band and at the first column of a strip.
+  // Finds the region of the surfaces from which pixels may splat into the tile. The region starts
+  // at the first row of a band and at the first column of a strip.
   void FindAround() {
     const int64_t move = grid_.Move(grid_.n());
     const int32_t rim =
@@ -195,7 +195,7 @@ class SliceFinder {
   const LayeredDepth& surfaces_;
   const ViewGrid& grid_;
   SurfaceBands& bands_;
-  int32_t range_;         // range of the rule, as a disparity
+  int32_t range_;         // SliceRule::range, converted to a range of disparities
   Rect around_;           // region to search, in pixels of the surfaces
   int32_t bin_bits_ = 0;  // log2 of the number of disparities in a bin
   int32_t base_ = 0, bins_ = 0;

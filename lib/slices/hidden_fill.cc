@@ -49,7 +49,7 @@ class HiddenFiller {
 
   bool Takes(int32_t y, int32_t step) const { return step <= 2 * scratch_.farthest[y]; }
 
-  // Sets the gap before a row to kNoSurface.
+  // Sets the gap before a row of disparities to kNoSurface.
   void Separate(size_t at) const {
     for (size_t x = 0; x < Column(0); ++x) scratch_.disparity[at + x] = kNoSurface;
   }
@@ -93,7 +93,7 @@ class HiddenFiller {
     }
   }
 
-  // Returns true if any of kAtOnce pixels is repeated. Few pixels are.
+  // Returns true if any of kAtOnce pixels repeats the colour of a source pixel, which is rare.
   static bool HasSource(const uint16_t* sources) {
     uint64_t all;
     static_assert(sizeof(all) == kAtOnce * sizeof(*sources), "one load covers kAtOnce sources");
@@ -108,8 +108,8 @@ class HiddenFiller {
   }
 
   // Copies the colour of the source pixel to pixel (x, y). If the pixel has sources on several
-  // sides, their mean is copied. Nothing is copied if a source is repeated itself or belongs to
-  // another surface.
+  // sides, copies the mean of the sources. Copies nothing if a source itself repeats another pixel,
+  // or belongs to another surface.
   void TakeSource(int32_t x, int32_t y, uint32_t source) {
     const auto distance = static_cast<int32_t>(source >> simd::kSourceDistance);
     const int16_t disparity = scratch_.disparity[RowAt(y) + Column(x)];
@@ -128,9 +128,9 @@ class HiddenFiller {
     }
   }
 
-  // Smooths a row. Neighbours are read with their colours before this pass. The old colours of a
-  // row are therefore saved until the row `step` rows below has been smoothed. A neighbouring row
-  // outside the surfaces is replaced by the row itself.
+  // Smooths a row. Smoothing reads the colours that neighbours had before the current pass. The old
+  // colours of a row are therefore saved until the row `step` rows below has been smoothed. Rows at
+  // the upper or lower end of the surfaces replace the missing neighbouring row by themselves.
   void SmoothRow(int32_t y, int32_t step) {
     const int32_t above = y >= step ? y - step : y, below = y + step;
     const int32_t next = below < surfaces_.height ? below : y;

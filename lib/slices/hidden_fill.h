@@ -19,9 +19,9 @@ namespace starfocus {
 struct FillScratch {
   int16_t* disparity;  // height rows
   int16_t* rgb;        // height rows
-  int16_t* saved;      // kFillStep + 1 rows before the current step
+  int16_t* saved;      // kFillStep + 1 rows with the colours before the current smoothing pass
   uint16_t* source;    // height rows, in the format of simd::FarRow
-  // Largest distance over which each row repeats colours, in pixels; height elements
+  // largest distance in pixels over which each row repeats colours; height elements
   uint8_t* farthest;
 };
 
@@ -43,9 +43,9 @@ constexpr size_t FillStride(size_t width) {
 // changes the pixels whose source is at least half a step away. The new colour is half of the
 // pixel's colour plus an eighth of each neighbour's colour. The neighbours are one step to the
 // left, right, top and bottom. If the farthest surface of a neighbour differs by more than one
-// pixel of disparity, the pixel's own colour replaces the neighbour's. As a result, pixels near the
-// edge get the colours next to the edge, and pixels far behind the edge get the mean of these
-// colours. For measurements, see docs/constants.md.
+// pixel of disparity, the pixel's own colour replaces the neighbour's colour. After all passes,
+// pixels near the edge have the colours next to the edge, and pixels far behind have the mean of
+// these colours. The page docs/constants.md lists measurements of this continuation.
 void InpaintHidden(const simd::Kernels& kernels, int32_t layer, const FillScratch& scratch,
                    LayeredDepth* surfaces);
 

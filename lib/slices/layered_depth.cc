@@ -11,8 +11,8 @@ namespace {
 constexpr int32_t kStripColumns = static_cast<int32_t>(simd::kSliceLanes);
 static_assert(kOcclusionViews == simd::kViewLooks, "number of views per side");
 
-// Sets kStripColumns pixels to kNoSurface. Called for the pixels after the end of a row, because
-// SIMD kernels read whole vectors.
+// Sets kStripColumns pixels to kNoSurface. The pixels after the end of a row must be cleared,
+// because SIMD kernels read whole vectors.
 void ClearStrip(int16_t* disparity) {
   for (int32_t k = 0; k < kStripColumns; ++k) disparity[k] = kNoSurface;
 }
@@ -62,7 +62,8 @@ class HiddenColours {
     return end;
   }
 
-  // Sets the colour of pixel k to the mean of the colours read on each of its sides.
+  // Sets the colour of pixel k to the mean of the colours that the sources on several sides
+  // provide.
   void ReadMean(const HiddenStrip& strip, int32_t k) {
     int32_t sums[3] = {0, 0, 0}, count = 0;
     ForEachBit(strip.source[k] & 15, [&](int32_t side) {
@@ -102,8 +103,8 @@ class HiddenColours {
                         kViewBits + kDisparityBits - kShiftBits + window_.layer);
   }
 
-  // Returns the view that shows a pixel with this source on this side. The result is meaningless if
-  // no view shows the pixel.
+  // Returns the view on side `side` that shows a hidden pixel whose source is `source`. The result
+  // is meaningless if no view shows the hidden pixel.
   const OcclusionView& LookOf(int32_t side, uint32_t source) const {
     return window_.occlusion_views.on[side][source >> (simd::kSourceSecond + side) & 1];
   }
@@ -202,8 +203,8 @@ class SurfaceFinder {
   }
 
   // Writes the distance to the far side of the edge at `near` for up to `count` pixels, but not
-  // beyond the next edge. Edges that only continue the depth of another edge are skipped
-  // (kSmallStepBits). The remaining edges are visited in order.
+  // beyond the next edge. Skips edges that only continue the depth of another edge
+  // (kSmallStepBits). FindEdgesOfRow visits the remaining edges in order.
   void FollowEdge(const int16_t* near, int direction, int32_t count, uint8_t* distance) const {
     if (*distance != 0) return;
     const int32_t far = near[-direction];
@@ -267,14 +268,15 @@ class SurfaceFinder {
     if (y > 0 && y < surfaces_.height - 1) CloseRow(y);
   }
 
-  // Closes surfaces at steps where two slices may move apart. A copy of each pixel on the near side
-  // is hidden behind the pixel, at the far side's disparity. The surface then stays closed
-  // regardless of the movement of its slices.
+  // Closes surfaces at steps where two slices may move apart. Behind each pixel on the near side of
+  // the step, the function inserts a copy of the pixel with the far side's disparity. The surface
+  // then stays closed regardless of the movement of its slices.
   void CloseRow(int32_t y) {
     const simd::CopyLimits limits = {static_cast<int16_t>(kLeastCopy << window_.layer),
                                      static_cast<int16_t>(kMostCopy << window_.layer)};
     const size_t at = surfaces_.At(0, y);
-    int16_t* const copies = surfaces_.moved;  // free, since FindEdges is done
+    // `moved` is free, because FindEdges is no longer called.
+    int16_t* const copies = surfaces_.moved;
     uint64_t strips = kernels_.FindCopies(Row(y), surfaces_.stride,
                                           static_cast<size_t>(surfaces_.width), limits, copies);
     copies[0] = copies[surfaces_.width - 1] = kNoSurface;
@@ -291,7 +293,7 @@ class SurfaceFinder {
     }
   }
 
-  // Inserts the copies of surfaces in a strip whose pixels hide no other surface.
+  // Inserts copies of pixels in a strip whose pixels do not hide any other surface.
   void CopyStrip(size_t at, const int16_t* copies) {
     for (uint16_t* sources : surfaces_.sources) {
       std::memset(sources + at, 0, kStripColumns * sizeof(*sources));
@@ -350,7 +352,8 @@ void FindLayeredDepth(const simd::Kernels& kernels, const Window& window, const 
     const size_t at = surfaces->At(0, y);
     std::memcpy(surfaces->disparity[0] + at, field.Disparity(0, y),
                 static_cast<size_t>(field.width) * sizeof(int16_t));
-    ClearStrip(surfaces->disparity[0] + at + field.width);  // overwritten by the next row
+    // The next row overwrites the cleared pixels.
+    ClearStrip(surfaces->disparity[0] + at + field.width);
     kernels.Split(field.Rgb(0, y), static_cast<size_t>(field.width), surfaces->plane,
                   surfaces->rgb[0] + at);
   }

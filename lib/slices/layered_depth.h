@@ -22,13 +22,14 @@ inline constexpr int16_t kDepthEdge = (3 << kDisparityBits) / 4;
 
 // Smallest and largest step of disparity between neighbouring pixels of layer 0 at which a surface
 // is closed. The slices on both sides of such a step move apart, so the farther slice is continued
-// behind the nearer one. Otherwise background would show in the gap (docs/constants.md).
+// behind the nearer slice. Without the continuation, background would show in the gap
+// (docs/constants.md).
 inline constexpr int16_t kLeastCopy = 2, kMostCopy = 1 << (kDisparityBits - 1);
 
 // Largest width of surfaces, in strips of kSliceLanes columns.
 inline constexpr int32_t kMaxStrips = 64;
 
-// The surfaces of a field. Surface 0, the nearest one, is a copy of the field. Each surface
+// The surfaces of a field. Surface 0, the nearest surface, is a copy of the field. Each surface
 // consists of rows of `stride` pixels, followed by kSliceLanes more pixels. Colours are in three
 // planes, `plane` samples apart.
 struct LayeredDepth {
@@ -36,17 +37,17 @@ struct LayeredDepth {
   size_t plane = 0;
   int16_t* disparity[simd::kSurfaces] = {};  // kDisparityBits
   int16_t* rgb[simd::kSurfaces] = {};        // light
-  // Part of the pixel that surface 0 covers, in kSliceBits; or kSliceEnd
+  // Share of each pixel that surface 0 covers, in kSliceBits, or kSliceEnd where surface 0 ends.
   uint8_t* share = nullptr;
   int16_t low = 0, high = 0;  // range of the disparities of the field
   // Distances in pixels from each pixel to the far side of a depth edge to the right, left, bottom
-  // and top. The pixel hides a surface that continues behind this edge. 0: the pixel hides nothing
-  // on this side.
+  // and top. The pixel hides a surface that continues behind the edge. A distance of 0 means that
+  // the pixel hides no surface on that side.
   uint8_t* edges[4] = {};
   int16_t *moved = nullptr, *behind = nullptr;  // scratch memory of FindEdges: one row each
   simd::StepBits* steps = nullptr;              // scratch memory of FindSteps: one row
-  // Source of the colour of each pixel of the hidden surfaces, in the format of LookBehind. Valid
-  // only for groups whose bit in `hiding` is set.
+  // Source of the colour of each pixel of the hidden surfaces, in the format of LookBehind. The
+  // sources are valid only in strips whose bit in `hiding` is set.
   uint16_t* sources[simd::kSurfaces - 1] = {};
   bool repeats = false;        // true if the colour of any pixel is repeated
   uint64_t* hiding = nullptr;  // one element per row: bit k is set if strip k has a hidden surface
@@ -72,12 +73,14 @@ struct SurfaceBands {
 //
 // The surfaces behind a pixel are found along its row and its column. On each side, the search
 // covers the surfaces beyond the next two depth edges, as far as a view at distance 1 can see. At
-// most two surfaces are kept; the surface of the nearest edge comes first.
+// most two hidden surfaces are kept for each pixel; the surface beyond the nearest edge comes
+// first.
 //
 // The colours of a hidden surface are read from a captured view that looks behind the edge
-// (OcclusionViews) and in which nothing covers the surface. If no view sees the surface, the
-// background is repeated. The colours from sides with the same distance and disparity are averaged.
-// At steps within a surface, pixels hide copies of themselves (kLeastCopy).
+// (OcclusionViews) and in which nothing covers the surface. If no view sees the surface, the colour
+// of the background beyond the edge is repeated. If several sides provide a surface of the same
+// disparity at the same distance, their colours are averaged. At steps within a surface, pixels
+// hide copies of themselves (kLeastCopy).
 void FindLayeredDepth(const simd::Kernels& kernels, const Window& window, const BlockPixels& field,
                       LayeredDepth* surfaces);
 

@@ -8,8 +8,8 @@ namespace starfocus {
 namespace {
 
 // A mixture is split only if its two surfaces move by more than kLeastMove relative to each other
-// (kShiftBits). A limit of a quarter of a pixel was no more accurate, and a limit of two pixels
-// loses 0.2 dB (docs/constants.md).
+// (kShiftBits). In measurements, a limit of a quarter of a pixel is not more accurate, and a limit
+// of two pixels loses 0.2 dB (docs/constants.md).
 constexpr int32_t kLeastMove = kShiftOne;
 
 class MatteFinder {
@@ -46,7 +46,8 @@ class MatteFinder {
            map->Tile(x / kCoverageTile, y / kCoverageTile).thin != 0;
   }
 
-  // Sums over the mixtures with the surfaces on all sides, each weighted by its share.
+  // Sums of a boundary pixel's mixtures with the nearer surfaces on all sides, each mixture
+  // weighted by its share.
   struct Parts {
     int32_t shares = 0, most = 0, nearest = INT16_MIN;
     int32_t near[3] = {0, 0, 0}, far[3] = {0, 0, 0};
@@ -66,7 +67,7 @@ class MatteFinder {
     }
   };
 
-  // Returns the mixture at a boundary pixel. Coordinates of the pixel are relative to the field.
+  // Returns the mixture at a boundary pixel. The coordinates in `pixel` are relative to the field.
   Mixture MixtureAt(const BoundaryPixel& pixel) const {
     if (centre_.window.layer > 0) return MixtureOfLevel(pixel);
     BoundaryPixel of_picture = pixel;
@@ -106,8 +107,8 @@ class MatteFinder {
   }
 
   // Estimates the colour of the far surface of a subsampled pixel. The colour is read from the
-  // captured view on the far side of the edge. If no captured view looks behind this edge, the
-  // colour of the next pixel away from the edge is returned.
+  // captured view on the far side of the edge. If no captured view looks behind the edge, returns
+  // the colour of the next pixel away from the edge.
   Colour FarAt(const BoundaryPixel& pixel, const Colour& mixed) const {
     const Window& window = centre_.window;
     const OcclusionView& look = window.occlusion_views.Last(pixel.side ^ 1);

@@ -11,13 +11,14 @@
 
 namespace starfocus {
 
-// Splits the mixed pixels on the far side of depth edges. The nearer surface then covers its share
-// of a split pixel, and the far surface lies behind the nearer one with its own colour.
+// Splits the mixed pixels on the far side of depth edges. After the split, the nearer surface
+// covers its share of the pixel, and the far surface lies behind the nearer surface with its own
+// colour.
 //
-// A pixel is split only if it lies in the picture and if its two surfaces move by more than a pixel
-// relative to each other in some view. The outermost pixels of the field are not split, because
-// these pixels do not splat into any rectangle. `surfaces` is the output of FindLayeredDepth. If a
-// pixel would have four surfaces, the farthest one is dropped.
+// Pixels outside the picture are not split. A pixel is split only if its two surfaces move by more
+// than a pixel relative to each other in some view. The outermost pixels of the field are not
+// split, because these pixels do not splat into any rectangle. `surfaces` is the output of
+// FindLayeredDepth. If a split pixel would have four surfaces, the farthest surface is dropped.
 void FindMatte(const simd::Kernels& kernels, const Window& window, const ViewGrid& grid,
                const BlockPixels& field, LayeredDepth* surfaces);
 

@@ -25,14 +25,14 @@ struct SliceRule {
 };
 inline constexpr int32_t kSliceSharp = 4 * kShiftOne;
 inline constexpr SliceRule kSlices = {16, 3 * kShiftOne / 8};
-inline constexpr SliceRule kFineSlices = {32, kShiftOne / 8};  // for the benchmark mode
+inline constexpr SliceRule kFineSlices = {32, kShiftOne / 8};  // limits for mode `benchmark`
 inline constexpr int32_t kMaxSlices = simd::kMaxSeen;
 
-// A tile is a part of a rectangle with its own slices. Large blocks are divided into tiles, because
-// a large block may have more disparities than SliceRule::most thin slices can hold. Tiles are
-// kSliceTile pixels wide and high, except that the last tile may have up to kMostSliceTile pixels.
-// A block that measures 68 pixels with its margin is therefore one tile, not two tiles of 64 and 4
-// pixels.
+// A tile is a part of a rectangle of the picture, and has its own slices. Large blocks are divided
+// into tiles, because a large block may have more disparities than SliceRule::most thin slices can
+// hold. Tiles are kSliceTile pixels wide and high, except that the last tile may have up to
+// kMostSliceTile pixels. A block that measures 68 pixels with its margin is therefore one tile, not
+// two tiles of 64 and 4 pixels.
 inline constexpr int32_t kSliceTile = 64;
 inline constexpr int32_t kMostSliceTile = 80;
 
@@ -50,7 +50,7 @@ inline constexpr int32_t kLeastRows = 8;
 
 // A slice contains the disparities [low, high] (kDisparityBits); all of its pixels move like
 // `disparity`. Slightly nearer disparities, up to `overlap`, belong to two slices: to this slice
-// and to the next nearer one. The overlap prevents gaps between the two slices.
+// and to the next nearer slice. The overlap prevents gaps between the two slices.
 struct Slice {
   int16_t low, high, overlap, disparity;
 };

@@ -31,7 +31,7 @@ simd::SliceTaps TapsOf(int32_t subaperture) {
 // Returns the share of each of two to four pixels that a subaperture of one to three pixels covers
 // at `shift` (both kShiftBits). A box on whole pixels followed by interpolation is not sufficient:
 // adjacent subapertures would then weight some pixels too much and others too little. Lengths are
-// in half units, so that mirrored shifts give mirrored shares in spite of the truncation.
+// in half units of kShiftBits, so that mirrored shifts give mirrored shares in spite of truncation.
 SliceOffset BoxOffset(int32_t shift, int32_t subaperture) {
   // Positions are relative to the left end of the first pixel.
   constexpr int32_t kHalves = 2 * kShiftOne;
@@ -40,8 +40,8 @@ SliceOffset BoxOffset(int32_t shift, int32_t subaperture) {
   const auto part = [&](int32_t covered) {
     return static_cast<int16_t>(-(kFractionOne / 2 * covered / subaperture));
   };
-  // Returns the share of the first of two adjacent pixels. The box covers `more` half units of the
-  // first pixel than of the second.
+  // Returns the share of the first of two adjacent pixels, relative to both pixels. The box covers
+  // the first pixel by `more` half units more than the second pixel.
   const auto share = [&](int32_t more) {
     return static_cast<int16_t>(-(kFractionOne / 2 + kFractionOne / 4 * more / subaperture));
   };
@@ -55,8 +55,8 @@ SliceOffset BoxOffset(int32_t shift, int32_t subaperture) {
 }
 
 // Splits `shift` (kShiftBits) into whole pixels and a fraction. A subaperture narrower than a pixel
-// spreads each pixel inside a slice less than linear interpolation does. Pixels at the end of a
-// slice are interpolated linearly.
+// spreads each pixel inside a slice less than linear interpolation does. Pixels at the boundary of
+// a slice are interpolated linearly.
 SliceOffset OffsetOf(int32_t shift, int32_t subaperture) {
   if (subaperture > kShiftOne && subaperture <= kBoxSubaperture)
     return BoxOffset(shift, subaperture);
@@ -83,8 +83,8 @@ void ClearTail(size_t width, size_t plane, int16_t* row) {
   }
 }
 
-// Copies the slice's pixels of one row of the surfaces. Beyond the left and right ends of the
-// surfaces the outermost pixels are repeated. The samples after the row are cleared.
+// Copies the slice's pixels of one row of the surfaces. Repeats the outermost pixels beyond the
+// left and right ends of the surfaces. Clears the samples after the end of the row.
 simd::SliceCover SelectRow(const SliceInput& input, const Slice& slice, const Rect& from_row,
                            size_t plane, int16_t* row) {
   const LayeredDepth& surfaces = input.surfaces;
@@ -109,13 +109,13 @@ simd::SliceCover SelectRow(const SliceInput& input, const Slice& slice, const Re
     for (int32_t k = 0; k < first; ++k) row[k] = row[first];
     for (int32_t k = last; k < width; ++k) row[k] = row[last - 1];
   }
-  return {~uint64_t{0}, 0};  // a conservative cover, because few rows are padded
+  return {~uint64_t{0}, 0};  // a conservative cover is sufficient, because few rows are padded
 }
 
 // Extends the covers of rows by the `reach` pixels that the filter spreads.
 void SpreadCover(int32_t reach, const SlicePlane& placed) {
   constexpr int32_t kMost = simd::kMaxSpread;
-  simd::SliceCover before[kMost] = {};  // covers of the rows above, before the spread
+  simd::SliceCover before[kMost] = {};  // original covers of the rows above
   for (int32_t row = 0; row < placed.rows; ++row) {
     const simd::SliceCover here = placed.cover[row];
     uint64_t some = here.some;
@@ -129,8 +129,8 @@ void SpreadCover(int32_t reach, const SlicePlane& placed) {
   }
 }
 
-// Spreads one plane at a time. The filter along rows writes the plane to `filtered`, and the filter
-// along columns writes the result back to the plane.
+// Filters a slice for a wide subaperture, one plane at a time. The filter along rows writes the
+// plane to `filtered`, and the filter along columns writes the result back to the plane.
 void Spread(const simd::Kernels& kernels, int16_t* filtered, const SlicePlane& placed) {
   const simd::SliceTaps taps = TapsOf(placed.subaperture);
   const size_t plane = placed.plane;
@@ -219,7 +219,7 @@ void ShiftSlice(const simd::Kernels& kernels, const SlicePlane& placed, const Sl
   if (first >= end) return;
   const auto row = static_cast<size_t>(first), count = static_cast<size_t>(end - first);
   int8_t* near = shifted.near + row;
-  // The marks still hold the values of the previous column of views and must be reset.
+  // Resets the marks of rows, which still hold the values of the previous column of views.
   std::memset(near - simd::kRowsAhead, simd::kNothingNear, count + simd::kRowsAhead);
   const int16_t* from = placed.samples + row * 4 * placed.plane;
   kernels.ShiftSlice({from + x + placed.reach + offset.whole, placed.plane}, offset.fraction, count,

@@ -17,8 +17,8 @@
 namespace starfocus {
 
 // Width of the largest subaperture that is applied during the shift, as a box over up to four
-// pixels (kShiftBits). Wider subapertures are applied as a filter before the shift; the additional
-// blur by interpolation is then small.
+// pixels (kShiftBits). Wider subapertures are applied as a filter before the shift; compared with
+// such a filter, the blur that interpolation adds is small.
 inline constexpr int32_t kBoxSubaperture = 3 * kShiftOne;
 
 // Returns the number of pixels on each side over which the filter of `subaperture` (kShiftBits)
@@ -57,17 +57,17 @@ constexpr int32_t SliceArea(int32_t reach) { return (reach + 16) * (reach + 16);
 // Returns the largest sum of SliceArea over the slices of a tile, for a lens with blur radii up to
 // `blur` pixels. The sum allows five slices with a blur radius of `blur` or 32 pixels, whichever is
 // larger. The limit determines how finely a tile is divided into slices, and therefore the output
-// bytes. For this reason the limit depends on the lens alone, and not on the available memory or on
-// the storage format of slices.
+// bytes. To keep the output independent of memory, the limit depends only on the lens, not on the
+// available memory or the storage format of slices.
 constexpr int32_t MostSliceArea(double blur) {
   constexpr int32_t kLeastBlur = 32, kMargin = 3;
   return 5 * SliceArea(Max(static_cast<int32_t>(blur), kLeastBlur) + kMargin);
 }
 
 struct SlicePlane {
-  int32_t reach = 0;                  // pixels beyond the rectangle on each side
-  int32_t rows = 0;                   // rows of the rectangle, plus `reach` rows above and below
-  size_t plane = 0;                   // distance between planes in samples; a row has four planes
+  int32_t reach = 0;  // number of pixels that the slice extends beyond the rectangle on each side
+  int32_t rows = 0;   // number of rows of the rectangle, plus `reach` rows above and below
+  size_t plane = 0;   // distance between planes in samples; a row has four planes
   int32_t subaperture = 0;            // width of a view's subaperture, kShiftBits
   int16_t* samples = nullptr;         // samples of the first row
   simd::SliceCover* cover = nullptr;  // cover of each row
@@ -114,7 +114,7 @@ constexpr size_t StripBytes(size_t height, size_t reach) {
 void FindOffsets(const ViewGrid& grid, int16_t disparity, size_t stride,
                  simd::SliceOffset* offsets);
 
-// Computes the geometry of the slice around `rect`.
+// Computes the size and the reach of the slice around `rect`.
 void PlaceSlice(const ViewGrid& grid, int16_t disparity, const Rect& rect, SlicePlane* placed);
 
 // Input of FillSlice.
@@ -124,21 +124,22 @@ struct SliceInput {
   const SurfaceBands& bands;
 };
 
-// Copies the slice's pixels in and around `rect`, which is in pixels of the surfaces. Beyond the
-// surfaces, the outermost pixels are repeated. For wide subapertures, the function also applies the
-// subaperture as a filter. `filtered` is scratch memory of FilteredBytes. Bands without a disparity
-// of the slice are skipped. The caller sets the pointers to samples and covers.
+// Copies the slice's pixels in and around `rect`, which is in pixels of the surfaces. Repeats the
+// outermost pixels beyond the ends of the surfaces. For wide subapertures, the function also
+// applies the subaperture as a filter. `filtered` is scratch memory of FilteredBytes. Skips bands
+// that contain no disparity of the slice. The caller sets the pointers `samples` and `cover` of
+// `placed`.
 void FillSlice(const SliceInput& input, const Slice& slice, const Rect& rect, int16_t* filtered,
                const SlicePlane& placed);
 
 // A slice in a strip of kSliceLanes columns, shifted for one column of views. The four planes are
-// `plane` samples apart. Each row has a mark (simd::kNothingNear); kRowsAhead more marks precede
+// `plane` samples apart. Each row has a mark (simd::kNothingNear); kRowsAhead further marks precede
 // the mark of the first row.
 struct ShiftedSlice {
   int16_t* samples = nullptr;
   int8_t* near = nullptr;
   size_t plane = 0;
-  RowRange filled = {0, 0};  // all other rows are empty in all views
+  RowRange filled = {0, 0};  // range of rows outside which the slice is empty in all views
 };
 
 // Returns the strips of a slice's row that some view shows in the strip at column `x` of the
@@ -155,7 +156,7 @@ constexpr uint64_t StripsOf(const SlicePlane& placed, int32_t x) {
 // compositor reads. The caller sets the pointers of `shifted`.
 void PlaceStrip(const SlicePlane& placed, int32_t x, const RowRange& seen, ShiftedSlice* shifted);
 
-// Writes the filled rows among `rows` to the strip, shifted by `offset` along the row.
+// Writes those of `rows` that are not empty to the strip, shifted by `offset` along the row.
 void ShiftSlice(const simd::Kernels& kernels, const SlicePlane& placed,
                 const simd::SliceOffset& offset, int32_t x, const RowRange& rows,
                 const ShiftedSlice& shifted);

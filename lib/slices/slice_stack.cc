@@ -9,8 +9,8 @@ namespace {
 // (docs/constants.md).
 constexpr uint32_t kLeastShare = 4;
 
-// Largest sum of the weights of a group of views. The sums have 16 bits. The headroom covers two
-// errors: the share of the last light may be too large by a ninth, and each slice is rounded.
+// Largest sum of the weights of a group of views. The headroom in 16 bits covers two errors:
+// rounding in each slice, and a share of the last light that is a ninth too large.
 constexpr uint32_t kGroupSum = 58000;
 
 // Limits for steep openings, in which the largest weight of a view is more than kSteep times the
@@ -34,7 +34,7 @@ uint32_t GroupSum(const ViewWeights& aperture, int32_t i, int32_t first, int32_t
 }
 
 constexpr int kMostExtraBits = 4;
-constexpr int kNoLight = 99;  // rank of weight 0
+constexpr int kNoLight = 99;  // result of RankOf for a weight of 0
 
 // Returns the number of times that `weight` can be multiplied by sixteen without exceeding
 // `largest`; kNoLight for weight 0.
@@ -73,7 +73,7 @@ ScaledWeights ScaleWeights(const ViewWeights& aperture) {
   ScaledWeights weights = {&aperture, 0, 0, 0};
   uint32_t largest = 0;
   uint64_t views = 0;
-  // Columns on either side of the middle are equal, except in full apertures.
+  // The weights of columns -i and i are equal, except in full apertures.
   for (int32_t i = aperture.full ? -aperture.last : 0; i <= aperture.last; ++i) {
     const int32_t last = weights.LastAcross(Abs(i));
     for (int32_t j = -last; j <= last; ++j) {

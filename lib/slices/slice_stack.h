@@ -19,7 +19,7 @@ namespace starfocus {
 // weight would be smaller, and the products of small weights with faint light would round to zero.
 inline constexpr int32_t kGroupViews = 16;
 
-// The share `index` of a weight that is divided into `count` equal shares.
+// Selects share `index` of a weight that is divided into `count` equal shares.
 struct WeightShare {
   uint32_t index, count;
 };
@@ -29,9 +29,10 @@ struct WeightShare {
 // shares.
 struct ScaledWeights {
   const ViewWeights* aperture;
-  uint64_t scale;    // 21 bits
+  uint64_t scale;    // factor of the aperture weights, times 2^16 (21 bits)
   uint32_t largest;  // largest weight of the aperture
-  // Smallest sum of coverage from which a colour is computed. Below, rounding errors would show.
+  // Smallest sum of coverage from which a colour is computed. With a smaller sum of coverage,
+  // rounding errors of the colour would be visible.
   uint32_t least_covered;
 
   int16_t Weight(int32_t i, int32_t j, int extra_bits, const WeightShare& share) const {
@@ -56,7 +57,7 @@ struct ScaledWeights {
   // smaller magnitude than the largest weight (LastAlike).
   int ExtraBits(int32_t i, int32_t first, int32_t last) const;
 
-  // Returns the largest j for which (i, j) is a view.
+  // Returns the largest j for which the aperture has a view (i, j).
   int32_t LastAcross(int32_t i) const {
     int32_t j = aperture->last;
     while (i * i + j * j > aperture->most) --j;
@@ -73,10 +74,10 @@ ScaledWeights ScaleWeights(const ViewWeights& aperture);
 struct SliceStack {
   const ViewGrid* grid;
   ScaledWeights weights;
-  Rect inner;  // rectangle that contains the tile, in pixels of its surfaces
+  Rect inner;  // rectangle to refocus, which contains the tile, in pixels of the surfaces
   int32_t count;
   Slice slices[kMaxSlices];
-  SurfaceBands bands;                // ranges of the disparities of the surfaces
+  SurfaceBands bands;                // ranges of the surfaces' disparities in each band
   const simd::SliceOffset* offsets;  // offsets of `count` slices for each of the views -N to N
 
   // Returns the offset of slice k along x in all views (i, j), which is also the offset along y in

@@ -42,8 +42,8 @@ class Strip {
     }
   }
 
-  // Places the slices that are seen in the memory of the strip. The marks of all slices follow the
-  // samples of all slices.
+  // Allocates memory in the strip for the slices that the cell pairs see. The marks of all slices
+  // follow the samples of all slices.
   void PlaceSlices() {
     size_t rows = 0;
     for (int32_t n = 0; n < seen_; ++n) {
@@ -70,7 +70,7 @@ class Strip {
   void AddColumn(int32_t i) {
     const int32_t last = stack_.weights.LastAcross(Abs(i));
     for (int32_t n = 0; n < seen_; ++n) MoveSlice(seen_slices_[n], i, last);
-    // Skips views without light at both ends of the column.
+    // Skips views of weight 0 at both ends of the column.
     const ViewWeights& aperture = *stack_.weights.aperture;
     int32_t begin = -last, end = last;
     while (begin <= end && aperture.Weight(i, begin) == 0) ++begin;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Composites a strip, which is kSliceLanes columns of a part of a tile. All views of a strip are
-// composited while the strip's slices are in the L1 cache.
+// composited while the slices of the strip are in the L1 cache.
 #ifndef STARFOCUS_LIB_SLICES_STRIP_H_
 #define STARFOCUS_LIB_SLICES_STRIP_H_
 
@@ -17,7 +17,7 @@ namespace starfocus {
 // Two adjacent cells in a part of a tile, with the slices that these cells see.
 struct CellPair {
   int32_t x, y, rows;  // position and height in pixels of the part
-  int32_t count;       // number of slices seen
+  int32_t count;       // number of slices that the pair sees
   uint8_t shown[kMaxSlices];
 };
 
@@ -29,9 +29,9 @@ inline constexpr size_t kPixelSums = 4;
 struct StripJob {
   const simd::Kernels* kernels;
   const SliceStack* stack;
-  const SlicePlane* planes;  // one per slice, filled for this part
+  const SlicePlane* planes;  // one plane per slice, filled for the current part of the tile
   int16_t* weights;          // weights of a group of views: G elements
-  int16_t* memory;           // StripBytes for each slice
+  int16_t* memory;           // scratch memory: StripBytes for each slice
   uint32_t* sums;            // output: kPixelSums per pixel, in the order of rows
   CancelToken* cancel;       // null: the job is never cancelled
 };
@@ -46,7 +46,7 @@ struct StripPairs {
 // Writes the sums over all views of the cell pairs to job.sums.
 void CompositeStrip(const StripJob& job, const StripPairs& pairs);
 
-// Returns the sums of row `row` of the part.
+// Returns the sums of row `row` of the part of the tile.
 inline uint32_t* SumsOfRow(uint32_t* sums, int32_t row) {
   return sums + kPixelSums * simd::kSliceLanes * static_cast<size_t>(row);
 }

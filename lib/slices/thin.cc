@@ -10,8 +10,8 @@ namespace {
 // Pixels with a coverage above kMostPart belong to the near surface alone. Pixels with a coverage
 // of at most kLeastPart belong to the far surface alone.
 constexpr int32_t kMostPart = 115, kLeastPart = 2;
-// Hidden surfaces less than kSameStructure behind the near surface are other strands, which are not
-// opaque, and are dropped (kDisparityBits).
+// Hidden surfaces less than kSameStructure (kDisparityBits) behind the near surface are dropped,
+// because they are other strands and not opaque.
 constexpr int32_t kSameStructure = 4 << kDisparityBits;
 
 class ThinParter {
@@ -48,8 +48,8 @@ class ThinParter {
           is_excess_ ? ExcessBehind(near, whole) : far.rgb[c];
       if (whole || is_excess_) continue;
       near = RestOf(mixed[c], beyond, kWhole - alpha);
-      // RestOf may have clipped the near light. The far light compensates for the clipping, so that
-      // both surfaces still add up to the pixel.
+      // RestOf may have clipped the near surface's light. The far surface's light compensates for
+      // the clipping, so that both surfaces still add up to the pixel.
       beyond = RestOf(mixed[c], near, alpha);
     }
   }
@@ -59,7 +59,8 @@ class ThinParter {
   // surface covers the whole pixel.
   static int16_t ExcessBehind(int16_t excess, bool whole) { return whole ? int16_t{0} : excess; }
 
-  // Returns the light of the other surface, given that `surface` covers `part` of the mixture.
+  // Returns the light of the surface that covers the rest of a mixture, if `surface` covers `part`
+  // of the mixture.
   static int16_t RestOf(int32_t mixed, int32_t surface, int32_t part) {
     const int32_t rest = kWhole - part;
     const int32_t light = (mixed * kWhole - part * surface + rest / 2) / rest;
@@ -81,7 +82,7 @@ class ThinParter {
   }
 
   const CoverageMap& map_;
-  const bool is_excess_;  // true if the light is the excess of highlights beyond white
+  const bool is_excess_;  // true if the window's light is the excess of highlights beyond white
   const BlockPixels& field_;
   LayeredDepth& surfaces_;
 };

@@ -9,8 +9,9 @@
 
 namespace starfocus {
 
-// Gives each pixel of thin tiles the disparity of the surface that covers most of the pixel. Hidden
-// surfaces then end at the boundary of the thin structure. Must be called before FindLayeredDepth.
+// Gives each pixel of thin tiles the disparity of the surface that covers most of the pixel. With
+// these disparities, hidden surfaces end at the boundary of the thin structure. Must be called
+// before FindLayeredDepth.
 void TakeThinDisparities(const Window& window, BlockPixels* field);
 
 // Gives each pixel of thin tiles the two surfaces that the coverage map contains for the pixel.
