@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vector code of cells.h. This file is included once per target.
+// Vector code of the functions in cells.h. This file is included once per SIMD target.
 #if defined(STARFOCUS_SIMD_CELLS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef STARFOCUS_SIMD_CELLS_INL_H_
 #undef STARFOCUS_SIMD_CELLS_INL_H_
@@ -71,8 +71,8 @@ struct Steps {
         slope_limit(hn::Set(UnsignedTag(), static_cast<uint16_t>(limits.slope_limit))),
         gap_limit(hn::Set(UnsignedTag(), static_cast<uint16_t>(limits.gap_limit))) {}
 
-  // Adds the steps between a and b. A step counts as inside the cell if all bits of its lane of
-  // `inside` are set.
+  // Adds the steps of disparity between the rows of pixels a and b. A step counts as inside the
+  // cell if all bits of its lane of `inside` are set.
   HWY_INLINE void Add(CellRow a, CellRow b, UnsignedRow inside) {
     const CellTag d16;
     const UnsignedTag du16;
@@ -108,7 +108,7 @@ struct Steps {
 };
 
 // Measures the steps of a cell without depth edges. Returns false if the cell has a depth edge.
-// Most cells have none.
+// Most cells have no depth edge.
 HWY_INLINE bool MeasureSlopes(const int16_t* const rows[10], const CellRow (&here)[8],
                               UnsignedRow all_but_first, const CellLimits& limits,
                               CellMeasure* measure) {

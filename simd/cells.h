@@ -8,11 +8,11 @@
 namespace starfocus::simd {
 
 struct CellLimits {
-  int16_t focus;  // disparity from which `nearest` is measured
+  int16_t focus;  // disparity from which CellMeasure::nearest is measured
   // Largest step that is not a depth edge; <= 4369, so that the sum of 15 steps fits in 16 bits.
   int16_t edge;
-  int16_t slope_limit;  // upper limit of a step within a surface in `slopes`
-  int16_t gap_limit;    // upper limit of a step at a depth edge in `gaps`
+  int16_t slope_limit;  // larger steps within a surface add only `slope_limit` to `slopes`
+  int16_t gap_limit;    // larger steps at depth edges add only `gap_limit` to `gaps`
 };
 
 // Output of MeasureCell for 8x8 disparities and their neighbours.
@@ -22,7 +22,7 @@ struct CellMeasure {
   uint16_t nearest;                       // smallest |disparity - focus|
   // Lowest and highest disparity of the nearer sides of depth edges. The edges lie between two
   // pixels of the cell, or between a pixel of the cell and a neighbour outside. If edge_low >
-  // edge_high, there is no edge.
+  // edge_high, the cell has no depth edge.
   int16_t edge_low, edge_high;
   // Statistics of the steps between pixels inside the cell. Index 0 is for steps along rows, and
   // index 1 for steps along columns. `slopes` is the sum of the steps within a surface. `edges` is

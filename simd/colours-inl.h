@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vector code of colours.h. This file is included once per target.
+// Vector code of the functions in colours.h. This file is included once per SIMD target.
 #if defined(STARFOCUS_SIMD_COLOURS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef STARFOCUS_SIMD_COLOURS_INL_H_
 #undef STARFOCUS_SIMD_COLOURS_INL_H_
@@ -30,7 +30,7 @@ struct OutOfReach {
   }
 };
 
-// Colours of all pixels of a block.
+// Colours of the 16 pixels of a block, one array for each member of ColourSample.
 struct BlockColours {
   int16_t sum[kSliceLanes], red_green[kSliceLanes], green_blue[kSliceLanes];
 };

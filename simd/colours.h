@@ -28,9 +28,9 @@ inline constexpr uint16_t kNoColourKey = UINT16_MAX;
 struct ColourSample {
   int16_t sum;                    // red + green + blue, [0, 765]
   int16_t red_green, green_blue;  // red - green, green - blue, [-255, 255]
-  // Key without the colour difference; kNoColourKey: the sample is skipped.
+  // Key of the sample before the colour difference is added; samples with kNoColourKey are skipped.
   uint16_t key;
-  uint16_t place;  // index of the results of the sample's group
+  uint16_t place;  // index in `least` of the results for the sample's group
 };
 
 // Returns the difference of two colours from the differences of the members of ColourSample. Hue
@@ -45,8 +45,8 @@ namespace reference {
 
 // Compares the block in the middle of a window with the samples of the window. Pixel n of the block
 // is in column n % kColourBlock and row n / kColourBlock. For each sample within reach of pixel n,
-// least[place + n] is limited to the sample's key plus the colour difference in units of cost.
-// `stride` is the distance in samples between rows of the window.
+// least[place + n] is lowered to the sample's key plus the colour difference (in units of cost), if
+// this sum is smaller. `stride` is the distance in samples between rows of the window.
 void CompareColours(const ColourSample* window, size_t stride, uint16_t* least);
 
 }  // namespace reference

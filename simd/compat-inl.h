@@ -68,7 +68,7 @@ HWY_INLINE void AddWeighed(V16 a, V16 b, int32_t wa, int32_t wb, V32& low, V32& 
 // inputs.
 template <class D16, class V32>
 HWY_INLINE hn::Vec<D16> DemoteSums(D16 d16, V32 low, V32 high) {
-#if HWY_ARCH_ARM_V7  // Highway 1.0.3 swaps the halves
+#if HWY_ARCH_ARM_V7  // ReorderDemote2To of Highway 1.0.3 swaps the halves
   const hn::Half<D16> half;
   return hn::Combine(d16, hn::DemoteTo(half, high), hn::DemoteTo(half, low));
 #else

@@ -14,10 +14,11 @@ namespace starfocus::simd {
 // Geometry of a view for CoverPlaces, which finds the nearer pixels that occlude far pixels in the
 // view. All disparities must have the same scale; any scale is permitted.
 struct CoverView {
-  int16_t along;   // movement in the view per unit of disparity, 15 fractional bits
-  int16_t place;   // movement from the near pixel to the far pixel, in the scale of disparities
+  int16_t along;  // movement in the view per unit of disparity, 15 fractional bits
+  // Movement that takes the near pixel onto the far pixel, in the scale of disparities.
+  int16_t place;
   int16_t within;  // largest deviation from `place` at which the near pixel covers the far pixel
-  int16_t least;   // the near pixel must be nearer by more than `least`
+  int16_t least;   // a near pixel covers far pixels only if it is nearer by more than `least`
 };
 
 // Largest distance, in columns and rows, of the pixels that SumNear adds.
@@ -28,10 +29,10 @@ inline constexpr int32_t kNearReach = 2;
 struct NearRows {
   const int16_t* light[3];
   const int16_t* disparity;  // disparity of the near surface
-  // Weight of the pixel as a sample of the near surface's light, [0, 256].
+  // Weight of the pixel in a mean of the near surface's light, [0, 256].
   const int16_t* weight;
   ptrdiff_t stride;
-  int16_t step;  // largest difference of disparities on one surface
+  int16_t step;  // largest difference between the disparities of one surface
 };
 
 // Output of SumNear: sums of light, and sums of weights with 15 fractional bits.
@@ -49,7 +50,7 @@ void CoverPlaces(const int16_t* near, const uint8_t* coverage, const int16_t* fa
 
 // Sums the light around each pixel n < kSliceLanes. The sum includes the pixels within kNearReach
 // whose near surface is the near surface of pixel n. The light of each pixel is multiplied by the
-// pixel's weight and by kNearTaps. Each product is rounded half up.
+// pixel's weight and by the tap from kNearTaps. Each product is rounded half up.
 void SumNear(const NearRows& rows, NearSums* sums);
 
 }  // namespace reference

@@ -4,7 +4,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "simd/depth_kernels.cc"
-#include "simd/targets.h"  // compiles this file again for each other target
+#include "simd/targets.h"  // compiles this file again for each other SIMD target
 
 #define STARFOCUS_TABLE DepthKernels
 #include "simd/colours-inl.h"

@@ -39,20 +39,20 @@ void BytesToDepth(const uint8_t* values, size_t count, float* z);
 void WordsToDepth(const uint16_t* values, size_t count, float* z);
 void HalvesToDepth(const uint16_t* values, size_t count, float* z);
 
-// Computes the disparity of each z[n] according to the rule, with each operation rounded to single
+// Computes the disparity of each z[n] according to `rule`, with each operation rounded to single
 // precision. Sets out[n] to disparity * 64, rounded half up. If z[n] is invalid or the disparity is
 // not finite, out[n] is kNoSurface. If the disparity lies outside [low, high], out[n] is
 // unspecified. Returns DepthFlags.
 uint32_t DepthToDisparity(const float* z, size_t count, const DepthRule& rule, int16_t* out);
 
 // Interpolates between a[n] and b[n], where b has the weight `share` in [0, kColumnOne). If a[n]
-// and b[n] differ by at most kBlendStep, out[n] is a + ((share (b - a) + 128) >> 8). If the
-// difference is larger, out[n] is a if share < 128, and b if not.
+// and b[n] differ by at most kBlendStep, out[n] is a + ((share (b - a) + 128) >> 8). If a[n] and
+// b[n] differ by more than kBlendStep, out[n] is a[n] if share < 128, and b[n] otherwise.
 void BlendRows(const int16_t* a, const int16_t* b, size_t count, uint32_t share, int16_t* out);
 
-// Interpolates along a row like BlendRows. columns[n] is the position of pixel n. The low half of
-// each pair is an element of the row, and the high half is the next element to the right. The first
-// pair starts at element `first`.
+// Interpolates along a row like BlendRows. columns[n] is the position of output pixel n in the row.
+// Each pair contains an element of the row in its low half, and the next element to the right in
+// its high half. The first pair starts at element `first`.
 void SpreadRow(const int32_t* pairs, const uint32_t* columns, size_t count, uint32_t first,
                int16_t* out);
 

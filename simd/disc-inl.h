@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vector code of disc.h. This file is included once per target.
+// Vector code of the functions in disc.h. This file is included once per SIMD target.
 #if defined(STARFOCUS_SIMD_DISC_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef STARFOCUS_SIMD_DISC_INL_H_
 #undef STARFOCUS_SIMD_DISC_INL_H_
@@ -65,8 +65,8 @@ struct DiscMeans {
   static size_t Margin(const Disc& disc) { return kPixel * static_cast<size_t>(disc.size); }
 };
 
-// Taps of a quarter of one or two discs. Pairs of adjacent columns are multiplied together. Each
-// weight is the sum of the weights of all pixels that mirror each other.
+// Taps of a quarter of one or two discs. Each tap weights two adjacent columns. Each weight is the
+// sum of the weights of all pixels that mirror each other.
 struct DiscTaps {
   struct Pair {
     uint16_t first, second;
@@ -198,8 +198,8 @@ struct DiscSums {
   }
 };
 
-// Second result that FilterMeansVector computes together with the first, so that both share loads
-// of means or weights.
+// Second result that FilterMeansVector computes together with the first result, so that both share
+// loads of means or weights.
 enum class Beside { kNothing, kNextVector, kSecondDisc };
 
 // Filters a vector of means. The function is not inlined, to keep WebAssembly modules small.

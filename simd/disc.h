@@ -30,9 +30,9 @@ namespace reference {
 // disc's weighted sum of light around in[y][n], divided by 2^bits. The quotient is rounded half up
 // to light, or to the code if light is the code itself.
 //
-// Pixels that mirror each other are averaged before the multiplication by their weight. First, two
-// pixels in one column are averaged, and then the means of two mirrored columns. Each mean is
-// rounded half up.
+// Pixels that mirror each other are averaged before the multiplication by their weight. First, the
+// two mirrored pixels of each column are averaged. Then the means of two mirrored columns are
+// averaged. Each mean is rounded half up.
 //
 // out_stride is in bytes. The filter reads disc.size rows and 3 disc.size samples beyond `in` on
 // each side. `in` and `out` must not overlap. Bytes between the rows of `out` are not written.
@@ -44,7 +44,7 @@ void FilterDisc(const SampleRows& in, const Disc& disc, const Encoding& encoding
 void FilterDiscLayer(const SampleRows& in, const Disc& disc, int16_t* out, size_t out_stride);
 
 // Filters rows with two discs at once. Each output is equal to the output of FilterDiscLayer.
-// `less` must not be larger than `more`.
+// The disc `less` must not be larger than the disc `more`.
 void FilterTwoDiscs(const SampleRows& in, const Disc& less, const Disc& more, int16_t* out_less,
                     int16_t* out_more, size_t out_stride);
 

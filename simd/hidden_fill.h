@@ -20,8 +20,8 @@ struct SourcedRow {
   const uint16_t* source[kSurfaces - 1];
 };
 
-// Farthest surface of each pixel of a row. The planes R, G and B are `plane` samples apart. The
-// source is 0 if a view shows the surface.
+// Farthest surface of each pixel of a row. The planes R, G and B are `plane` samples apart.
+// `source` is 0 at pixels at which a captured view shows the farthest surface.
 struct FarRow {
   int16_t* disparity;
   int16_t* rgb;

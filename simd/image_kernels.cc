@@ -4,7 +4,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "simd/image_kernels.cc"
-#include "simd/targets.h"  // compiles this file again for each other target
+#include "simd/targets.h"  // compiles this file again for each other SIMD target
 
 #define STARFOCUS_TABLE ImageKernels
 #include "simd/depth_values-inl.h"

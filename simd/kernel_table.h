@@ -18,9 +18,9 @@
 //   once.
 // - Reference##Table returns the table of the references.
 // - Table##OfTarget returns the table of target `index`, or null if there are at most `index`
-//   targets. The targets are those that are compiled in and supported by this machine, in order
-//   from the best to the worst. The function is only for tests and the bench: it is slow, and while
-//   it runs, it changes Highway's choice of a target for all threads.
+//   targets. `index` counts the targets that are compiled in and supported by this machine, from
+//   the best to the worst. Table##OfTarget is only for tests and the bench: the function is slow,
+//   and temporarily changes Highway's choice of a target for all threads.
 #define STARFOCUS_DECLARE_TABLE(Table, LIST) \
   struct Table {                             \
     const char* name; /* of the target */    \

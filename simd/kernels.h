@@ -25,7 +25,8 @@
 #include "simd/strips.h"
 
 // List of all kernels. The table, the reference, the vector code and the test case use one name for
-// a kernel. The build fails if a name of this list is missing in any of these four.
+// a kernel. The build fails if the table, the references, the vector code or the test cases lack a
+// kernel of this list.
 #define STARFOCUS_KERNELS(KERNEL) \
   KERNEL(Accumulate)              \
   KERNEL(Blend)                   \
@@ -72,8 +73,8 @@ namespace starfocus::simd {
 
 STARFOCUS_DECLARE_TABLE(Kernels, STARFOCUS_KERNELS)
 
-// Returns the table of the target with this name, or null if there is no such target. Has the
-// restrictions of KernelsOfTarget.
+// Returns the table of the target with this name, or null if there is no such target. Like
+// KernelsOfTarget, FindKernels is only for tests and the bench.
 const Kernels* FindKernels(const char* name);
 
 }  // namespace starfocus::simd

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vector code of label_costs.h. This file is included once per target.
+// Vector code of the functions in label_costs.h. This file is included once per SIMD target.
 #if defined(STARFOCUS_SIMD_LABEL_COSTS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef STARFOCUS_SIMD_LABEL_COSTS_INL_H_
 #undef STARFOCUS_SIMD_LABEL_COSTS_INL_H_
@@ -20,8 +20,8 @@ struct ViewDifferences {
   uint8_t* rows[kMostMatched];
 };
 
-// Replaces or limits the differences of views that do not see the pixels at this label. The first
-// pixel is n.
+// Replaces or limits the differences of views that do not see the pixels at this label. `n` is the
+// index of the first pixel.
 HWY_INLINE void ChangeHidden(const LabelRow& row, const ViewMove* moves, size_t n, uint8_t label,
                              ViewDifferences* differences) {
   const size_t views = row.arms * row.rings, half = row.arms / 2;

@@ -15,7 +15,9 @@ inline constexpr size_t kMostMatched = 16;  // largest number of side views
 
 // Offsets in samples by which a label moves a pixel in a side view.
 struct ViewMove {
-  int32_t at;  // from the red sample in the centre view to the red sample in the side view
+  // Offset from the pixel's red sample in the centre view to the moved pixel's red sample in the
+  // side view.
+  int32_t at;
   // Offset from the pixel in the first view's plane of hidden labels to the moved pixel in this
   // view's plane of hidden labels.
   int32_t hidden;
@@ -30,7 +32,7 @@ struct LabelRow {
   // all views see all pixels.
   const uint8_t* hidden;
   size_t labels;       // [1, 254]
-  size_t arms, rings;  // as in LeastSide
+  size_t arms, rings;  // numbers of arms and rings of the views, as in LeastSide
   bool one_side;       // true to use the views on the best side of a pixel, false to use all views
   bool ends;           // true if some values of `hidden` may be kViewEnds
   bool limits;         // true to replace only views that end, and to limit the cost of hidden views

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vector code of layered_depth.h. This file is included once per target.
+// Vector code of the functions in layered_depth.h. This file is included once per SIMD target.
 #if defined(STARFOCUS_SIMD_LAYERED_DEPTH_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef STARFOCUS_SIMD_LAYERED_DEPTH_INL_H_
 #undef STARFOCUS_SIMD_LAYERED_DEPTH_INL_H_
@@ -118,8 +118,9 @@ HWY_INLINE hn::Mask<D> FindCovered(D d16, const OcclusionQuery& query, V dispari
   return hn::MaskFromVec(covered);
 }
 
-// Like FindCovered, for a view whose line of pixels is not a row or a column. Lane 0 is in column
-// `column` of the row. Pixels of the line after number `last` cannot cover the hidden pixel.
+// Does the work of FindCovered for views whose line of pixels is neither a row nor a column. Lane 0
+// is in column `column` of the row. Pixels of the line after number `last` cannot cover the hidden
+// pixel.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE hn::Mask<D> FindCoveredAslant(D d16, const DepthRow& row, const ViewLook& look,
                                          int32_t column, V disparity, int32_t last) {
@@ -172,7 +173,7 @@ HWY_INLINE ptrdiff_t LowestLane(uint32_t lanes) {
 
 // Finds the second edge of each pixel in `lanes`, which is the edge behind which the far side of
 // the first edge hides a surface. Writes the distances to that surface; other distances are not
-// changed. Returns the lanes that have a second edge. Most pixels have none.
+// changed. Returns the lanes that have a second edge. Most pixels have no second edge.
 HWY_INLINE uint32_t FollowEdges(const DepthRow& row, int side, size_t strip, uint32_t lanes,
                                 uint8_t* HWY_RESTRICT distances) {
   const ptrdiff_t step = StepOf(row, side);
@@ -192,8 +193,8 @@ HWY_INLINE uint32_t FollowEdges(const DepthRow& row, int side, size_t strip, uin
   return found;
 }
 
-// Returns a mask of the lanes in which the hidden pixel, at `disparity`, is covered in a view. No
-// lane's disparity is below `low`.
+// Returns a mask of the lanes in which the hidden pixel, at `disparity`, is covered in a view. The
+// disparities of all lanes are at least `low`.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE hn::Mask<D> IsCovered(D d16, const DepthRow& row, const ViewLook& look, int32_t column,
                                  V disparity, int32_t low) {
@@ -216,8 +217,8 @@ HWY_INLINE hn::Mask<D> IsCovered(D d16, const DepthRow& row, const ViewLook& loo
   return FindCovered(d16, query, disparity, room);
 }
 
-// Looks behind an edge of each pixel of `lanes`. The distances to the far sides are 0 in all other
-// lanes. Writes the result as edge `index`. Sides are in the order of DepthRow::edges.
+// Looks behind an edge of each pixel of `lanes`. In lanes outside `lanes`, the distances to the far
+// sides are 0. Writes the result as edge `index`. Sides are in the order of DepthRow::edges.
 HWY_INLINE void LookBehindSide(const DepthRow& row, size_t strip, const uint8_t* distances,
                                uint32_t lanes, int index, StripSides* sides) {
   const LanesTag d16;
@@ -302,7 +303,8 @@ HWY_INLINE LanesVec ChooseSurface(const StripSides& sides, size_t k, int surface
   }
   const auto some = hn::Lt(best, none);
   const auto chosen = hn::IfThenElse(some, disparity, nothing);
-  // True in few vectors, because most pixels have no second hidden surface.
+  // `any` is rarely true for the second hidden surface, because most pixels have at most one hidden
+  // surface.
   const bool any = !hn::AllFalse(d16, some);
   const auto source = any ? SourceOf(d16, sides, k, best, chosen) : hn::Zero(d16);
   hn::StoreU(chosen, d16, hidden.disparity[surface] + n);
@@ -325,7 +327,7 @@ HWY_INLINE bool ChooseSurfaces(const StripSides& sides, size_t strip, const Hidd
   for (int surface = 0; surface < kSurfaces - 1; ++surface) {
     hidden.found[surface][strip / kSliceLanes] = static_cast<uint16_t>(found[surface]);
   }
-  return found[0] != 0;  // a pixel with a second hidden surface also has a first
+  return found[0] != 0;  // a pixel with a second hidden surface always has a first one
 }
 
 // Writes the shares of a group of pixels, which mark the pixels at which surfaces end. Returns the

@@ -57,9 +57,9 @@ struct CopyLimits {
   int16_t least, most;  // > 0
 };
 
-// Depth edges after kSliceLanes pixels of a row. Bit k of `falls` is set if pixel k is nearer than
-// the next pixel by more than the step. Bit k of `rises` is set if the next pixel is nearer than
-// pixel k by more than the step.
+// Depth edges between each of kSliceLanes pixels of a row and the next pixel. Bit k of `falls` is
+// set if pixel k is nearer than the next pixel by more than the step. Bit k of `rises` is set if
+// the next pixel is nearer than pixel k by more than the step.
 struct StepBits {
   uint16_t falls, rises;
 };
@@ -77,7 +77,7 @@ inline constexpr int kSlantBits = 14;
 // Largest value of ViewLook::unit. Views with a larger unit, which are nearer to the centre view,
 // are not used.
 inline constexpr int16_t kMostUnit = 1 << 10;
-// Number of views per side. LookBehind tries the views in order.
+// Number of views per side. LookBehind tries the views of a side in order.
 inline constexpr int kViewLooks = 2;
 
 // A row of a field in which hidden surfaces are searched. The rows of the field are `stride`
@@ -88,12 +88,12 @@ struct DepthRow {
   int32_t width;         // number of pixels of the row, at most 64 kSliceLanes
   int32_t above, below;  // number of rows of the field above and below this row
   int16_t high;          // upper bound of the disparities of the field
-  int unit_bits;         // as in EdgeLimits
+  int unit_bits;         // EdgeLimits::unit_bits of the field
   // Views that look behind the edges of each side, in the order of `edges`.
   ViewLook looks[4][kViewLooks];
   // Distances from each pixel to the far sides of edges to the right, left, bottom and top, as
   // computed by FindEdges. A distance is 0 if there is no edge. All far sides lie inside the field.
-  // The rows of distances are also `stride` apart.
+  // The rows of distances are `stride` elements apart.
   const uint8_t* edges[4];
 };
 
@@ -101,7 +101,7 @@ struct DepthRow {
 // that have hidden surfaces. Whole groups of kSliceLanes are written.
 struct HiddenRow {
   int16_t* disparity[kSurfaces - 1];  // kNoSurface if there is no surface
-  uint16_t* source[kSurfaces - 1];    // format: see kSourceSecond
+  uint16_t* source[kSurfaces - 1];    // sources of the colours; kSourceSecond describes the format
   uint16_t* found[kSurfaces - 1];     // bit k of element c: pixel c kSliceLanes + k has the surface
   uint8_t* share;                     // share of the first surface: kSliceWhole or kSliceEnd
 };
@@ -110,8 +110,8 @@ struct HiddenRow {
 // if there is no surface. Bit k is set if side k (right, left, bottom, top) shows the surface; the
 // colour is the mean over these sides. Bit kSourceSecond + k is set if only the second view of side
 // k shows the surface. The bits from kSourceDistance on are 0 if a view shows the surface. If no
-// view shows the surface, a pixel beyond the edge is repeated, and these bits are the distance to
-// the repeated pixel.
+// view shows the surface, a pixel beyond the edge is repeated, and the bits from kSourceDistance on
+// are the distance to the repeated pixel.
 inline constexpr int kSourceSecond = 4, kSourceDistance = 8;
 
 // The rank of an edge is the distance to its far side in pixels, plus kUnseen if no view shows the

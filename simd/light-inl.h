@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vector code of light.h. This file is included once per target.
+// Vector code of the functions in light.h. This file is included once per SIMD target.
 #if defined(STARFOCUS_SIMD_LIGHT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef STARFOCUS_SIMD_LIGHT_INL_H_
 #undef STARFOCUS_SIMD_LIGHT_INL_H_
@@ -48,7 +48,8 @@ inline constexpr size_t kEncodeChunk = 64, kEncodeSpare = kPadding / sizeof(int1
 // vector.
 inline void EncodeChunk(const int16_t* HWY_RESTRICT light, size_t count, const Encoding& encoding,
                         uint8_t* HWY_RESTRICT codes) {
-  const hn::CappedTag<int16_t, 8> d16;  // 8 lanes, because a cell of a layer is 12 samples wide
+  // At most 8 lanes, because a cell of layer 1 is 12 samples wide.
+  const hn::CappedTag<int16_t, 8> d16;
   const hn::RebindToUnsigned<decltype(d16)> du16;
   const hn::Rebind<uint8_t, decltype(d16)> d8;
   const size_t lanes = hn::Lanes(d16);

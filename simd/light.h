@@ -15,8 +15,8 @@ inline constexpr int kLightBits = 7;
 inline constexpr int16_t kLightWhite = 255 << kLightBits;
 
 // The table of an encoding has one entry per kEncodeStep levels of light. At most one code ends
-// within these levels. The code of light v is (entry[v / kEncodeStep] + v % kEncodeStep) >>
-// kEncodeBits.
+// within the kEncodeStep levels of an entry. The code of light v is (entry[v / kEncodeStep] + v %
+// kEncodeStep) >> kEncodeBits.
 inline constexpr int kEncodeStep = 8;
 inline constexpr int kEncodeBits = 4;
 inline constexpr size_t kEncodeEntries = kLightWhite / kEncodeStep + 1;
@@ -37,8 +37,9 @@ void Decode(const uint8_t* codes, size_t count, const Encoding& encoding, int16_
 void Encode(const int16_t* light, size_t count, const Encoding& encoding, uint8_t* codes);
 
 // Encodes accumulators with `shift` fractional bits, in [8, 24]. If light is the code itself,
-// out[n] is (accumulators[n] + 2^(shift - 1)) >> shift. Otherwise, the accumulators are rounded
-// half up to light, and the light is encoded. Nothing past out[count - 1] is written.
+// out[n] is (accumulators[n] + 2^(shift - 1)) >> shift. If light is not the code itself, the
+// accumulators are rounded half up to light, and the light is encoded. Nothing past out[count - 1]
+// is written.
 void Finish(const uint32_t* accumulators, size_t count, int shift, const Encoding& encoding,
             uint8_t* out);
 

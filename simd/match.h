@@ -18,7 +18,8 @@ inline constexpr int kMostDifference = 60;
 // Difference that is assumed if no view shows the pixel. The value corresponds to a poor match.
 inline constexpr int kUnknownDifference = 48;
 // Upper limits of the difference of a view that is known not to see the pixel. The limit is
-// kHiddenDifference if other views see the pixel, and kUnseenDifference if no view does.
+// kHiddenDifference if another view sees the pixel, and kUnseenDifference if no view sees the
+// pixel.
 inline constexpr int kHiddenDifference = 18, kUnseenDifference = 27;
 // Number of hidden labels outside a view. Inside a view, the hidden labels of a pixel are always
 // the lowest labels, so that only their number is stored.
@@ -42,7 +43,7 @@ void StandIn(const uint8_t* hidden_a, const uint8_t* hidden_b, uint8_t label, si
 
 // Limits the differences of views that do not see a pixel. View k does not see pixel n if
 // hidden[k][n] > label. The limit is kHiddenDifference if any view sees pixel n, and
-// kUnseenDifference if no view does.
+// kUnseenDifference if no view sees pixel n.
 void LimitHidden(const uint8_t* const* hidden, uint8_t label, size_t views, size_t count,
                  uint8_t* const* differences);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vector code of neighbourhood.h. This file is included once per target.
+// Vector code of the functions in neighbourhood.h. This file is included once per SIMD target.
 #if defined(STARFOCUS_SIMD_NEIGHBOURHOOD_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef STARFOCUS_SIMD_NEIGHBOURHOOD_INL_H_
 #undef STARFOCUS_SIMD_NEIGHBOURHOOD_INL_H_
@@ -40,9 +40,11 @@ struct ColumnGaps {
     needed = hn::IfThenElse(beyond, hn::Set(d16, int16_t{INT16_MAX}), needed);
   }
 
-  LanesVec left, right;  // all bits set for columns on this side of the block
+  LanesVec left, right;  // masks of the columns to the left and to the right of the block
   LanesVec gap;
-  LanesVec needed;  // gap that a reach must exceed; INT16_MIN in the columns of the block
+  // Gap that the reach of a cell must exceed to reach the block; INT16_MIN in the columns of the
+  // block.
+  LanesVec needed;
 };
 
 // Collects the reach of cells onto a block, for a vector of columns of cells.
@@ -148,8 +150,9 @@ inline void ReachBlock(const CellPlanes& planes, int32_t around, const int16_t m
   }
 }
 
-// Returns the largest distance, in cells, between a cell of a vector of cells and a cell that one
-// of both reaches. `at` points to the first cell of the vector in the plane of reaches.
+// Returns the largest distance, in cells, at which a cell of a vector of cells may reach another
+// cell or be reached by another cell. `at` points to the first cell of the vector in the plane of
+// reaches.
 HWY_INLINE int32_t FarthestCells(const int16_t* at, size_t stride, int32_t around) {
   const LanesTag d16;
   const auto lanes = static_cast<int32_t>(hn::Lanes(d16));

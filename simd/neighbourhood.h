@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SIMD kernels that examine the cells around a block or around each cell. The kernels find the
-// cells whose blur reaches the block or cell, and the cells that its own blur reaches.
+// cells whose blur reaches the block or cell, and the cells that the blur of the block or cell
+// reaches.
 #ifndef STARFOCUS_SIMD_NEIGHBOURHOOD_H_
 #define STARFOCUS_SIMD_NEIGHBOURHOOD_H_
 
@@ -28,8 +29,8 @@ enum CellPlane {
   kReachPlane,   // largest reach of the cell's blur to any side
   kNearPlane,    // reach of the blur of the cell's nearest pixels
   kRadiusPlane,  // largest blur radius
-  kEdgePlane,    // largest blur radius at depth edges; 0 if there are none
-  kLowPlane,     // lowest and highest disparity
+  kEdgePlane,    // largest blur radius at depth edges; 0 if the cell has no depth edges
+  kLowPlane,     // lowest and highest disparity of the cell
   kHighPlane,
   kCellPlanes
 };
@@ -53,9 +54,9 @@ struct BlockReach {
 
 // Properties of the surroundings of each cell of a row.
 struct CellRanges {
-  int16_t *low, *high;  // lowest and highest disparity
-  uint16_t* widest;     // largest range of disparities within one surrounding cell
-  int16_t* edge;        // largest blur radius at depth edges
+  int16_t *low, *high;  // lowest and highest disparity of the surroundings
+  uint16_t* widest;     // largest range of disparities within any single surrounding cell
+  int16_t* edge;        // largest blur radius at depth edges in the surroundings
 };
 
 namespace reference {
@@ -72,7 +73,7 @@ void ReachBlock(const CellPlanes& planes, int32_t around, const int16_t margins[
 //
 // Let d <= around be the distance of a cell from the middle cell, which is the larger of the
 // distances in columns and rows. The cell counts if the kReachPlane of the middle cell exceeds (d -
-// 1) kCellPixels. A cell with a larger kHighPlane than the middle cell also counts if its own
+// 1) kCellPixels. A cell with a larger kHighPlane than the middle cell counts as well if its own
 // kNearPlane exceeds (d - 1) kCellPixels. Farther surfaces stay hidden, regardless of their reach.
 // kNearPlane is at most kReachPlane. Whole groups of kSliceLanes are read and written.
 void SurroundCells(const CellPlanes& planes, int32_t around, size_t count,

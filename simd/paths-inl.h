@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vector code of paths.h. This file is included once per target.
+// Vector code of the functions in paths.h. This file is included once per SIMD target.
 #if defined(STARFOCUS_SIMD_PATHS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef STARFOCUS_SIMD_PATHS_INL_H_
 #undef STARFOCUS_SIMD_PATHS_INL_H_
@@ -24,7 +24,7 @@ HWY_INLINE void AddPathsOf(const PathRow& row, size_t labels, ptrdiff_t step, si
   const LanesTag d16;
   const size_t lanes = hn::Lanes(d16), places = PathLabels(labels);
   // `whole` is the number of labels in full vectors. `is_label` marks the labels in the vector
-  // after these.
+  // after the full vectors.
   const size_t whole = labels / lanes * lanes;
   const auto is_label = hn::FirstN(d16, labels - whole);
   const auto none = hn::Set(d16, kNoLabel), slope = hn::Set(d16, kSlopeCost);
@@ -73,7 +73,7 @@ inline void AddPaths(const PathRow& row, size_t labels, ptrdiff_t step, size_t c
 
 inline void FindJumps(const uint8_t* pixels, const uint8_t* before, size_t plane, size_t count,
                       int16_t* HWY_RESTRICT jump) {
-  // Differences of kFar or more cost kLeastJump.
+  // A jump costs kLeastJump if the colour difference is kFar or more.
   constexpr int kFar = kLargestJump * kSimilarColours / kLeastJump - kSimilarColours + 1;
   int16_t jumps[kFar + 1];
   for (int apart = 0; apart < kFar; ++apart) {

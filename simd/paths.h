@@ -12,8 +12,8 @@
 
 namespace starfocus::simd {
 
-// Returns the number of elements of a pixel's array. The array ends with at least one element that
-// is not a label.
+// Returns the number of elements in a pixel's array of costs or paths. The array ends with at least
+// one element that is not a label.
 constexpr size_t PathLabels(size_t labels) { return SliceSamples(labels + 1); }
 
 // Cost of a step to an adjacent label within a surface.
@@ -23,23 +23,23 @@ inline constexpr int16_t kNoLabel = INT16_MAX;
 // Fractional bits of a chosen label.
 inline constexpr int kChoiceBits = 6;
 
-// Parameters of the cost of a jump to any other label. Between pixels of one colour, the cost is
+// Parameters of the cost of a jump to any other label. Between pixels of equal colour, a jump costs
 // kLargestJump. The cost decreases with the inverse of the colour difference, to no less than
 // kLeastJump.
 inline constexpr int kLargestJump = 400, kLeastJump = 128, kSimilarColours = 16;
 
-// A row of pixels through which paths go. The pointers point to pixel 0; pixel k is k * step pixels
-// after pixel 0, and step is 1 or -1. A pixel has PathLabels elements in `cost`, `before`, `path`
-// and `sum`, and one element in all other arrays. Elements of paths that are not labels must be
-// kNoLabel, even before the kernel writes the paths. The element before the first element of a path
-// is also kNoLabel.
+// A row of pixels in which AddPaths extends the paths by one pixel each. The pointers point to
+// pixel 0; pixel k is k * step pixels after pixel 0, and step is 1 or -1. A pixel has PathLabels
+// elements in `cost`, `before`, `path` and `sum`, and one element in all other arrays. Elements of
+// paths that are not labels must be kNoLabel, even before AddPaths writes the paths. The element
+// before the first element of a path must be kNoLabel as well.
 struct PathRow {
   const uint8_t* cost;  // costs, [0, 255]; elements that are not labels are arbitrary
   // Paths of the previous pixels, [0, 1300]. May point into `path`, one pixel earlier.
   const int16_t* before;
   const int16_t* before_least;  // smallest element of each path in `before`
   const int16_t* jump;          // cost of a jump to any other label, [kSlopeCost, 1000]
-  int16_t* path;                // output: paths
+  int16_t* path;                // output: costs of the paths that end at each pixel, for all labels
   int16_t* least;               // output: smallest element of each path
   int16_t* sum;                 // in and out: sums of paths, [0, 32766]; kNoLabel if not a label
   bool adds;  // true to add the paths to the sums, false to set the sums to the paths

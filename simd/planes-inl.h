@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vector code of planes.h. This file is included once per target.
+// Vector code of the functions in planes.h. This file is included once per SIMD target.
 #if defined(STARFOCUS_SIMD_PLANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef STARFOCUS_SIMD_PLANES_INL_H_
 #undef STARFOCUS_SIMD_PLANES_INL_H_

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vector code of resample.h. This file is included once per target.
+// Vector code of the functions in resample.h. This file is included once per SIMD target.
 #if defined(STARFOCUS_SIMD_RESAMPLE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef STARFOCUS_SIMD_RESAMPLE_INL_H_
 #undef STARFOCUS_SIMD_RESAMPLE_INL_H_
@@ -123,8 +123,8 @@ inline void FinishLayer(const uint32_t* HWY_RESTRICT accumulators, size_t count,
   if (!done) reference::FinishLayer(accumulators, count, shift, out);
 }
 
-// The following functions compute centre c + near (a + b) + far (d + e) for vectors of samples a to
-// e, rounded and saturated.
+// HalfBandOf computes centre c + near (a + b) + far (d + e) for vectors of samples a to e, rounded
+// and saturated.
 #if HWY_TARGET != HWY_SCALAR
 
 using FilterTag = hn::ScalableTag<int16_t>;
@@ -215,7 +215,7 @@ HWY_INLINE FilterVec BetweenOf(const HalfBand& taps, FilterVec a, FilterVec b, F
 
 inline void FilterHalfBand(const int16_t* in, ptrdiff_t step, const HalfBand& filter, size_t count,
                            const SampleRange& range, int16_t* out) {
-  // This is a local copy because the compiler must assume that writes to `out` change `filter`.
+  // `taps` is a local copy, because the compiler must assume that writes to `out` change `filter`.
   const HalfBand taps = filter;
   const FilterTag d16;
   const auto low = hn::Set(d16, range.low), high = hn::Set(d16, range.high);

@@ -31,10 +31,10 @@ struct SurfaceRow {
   uint64_t hiding;
 };
 
-// Range of the disparities of a slice. The slice contains the disparities in [low, high], and also
-// the disparities above `high` up to `overlap`. A first surface that ends at a pixel, or that
-// covers only a part of the pixel, is excluded from the overlap. In the overlap, such a surface
-// would be in two slices, and its coverage would count twice.
+// Range of the disparities of a slice. The slice contains the disparities in [low, high], and the
+// overlap, which is the disparities above `high` up to `overlap`. A first surface that ends at a
+// pixel, or that covers only a part of the pixel, is excluded from the overlap. In the overlap,
+// such a surface would be in two slices, and its coverage would count twice.
 struct SliceRange {
   int16_t low, high, overlap;
 };

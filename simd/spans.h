@@ -13,8 +13,8 @@ namespace starfocus::simd {
 // line. The value of sample n is weight * source[n] + neighbour_weight * source[n +
 // neighbour_offset].
 struct Span {
-  const int16_t* source;      // light of the source (light.h)
-  uint32_t target;            // first sample in the target line
+  const int16_t* source;      // light of the source surface (light.h)
+  uint32_t target;            // index of the first sample in the target line
   uint32_t samples;           // > 0
   uint16_t weight;            // [0, 32767]
   uint16_t neighbour_weight;  // [0, 32767]; 0 if the neighbour is not used

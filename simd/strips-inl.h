@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vector code of strips.h. This file is included once per target.
+// Vector code of the functions in strips.h. This file is included once per SIMD target.
 #if defined(STARFOCUS_SIMD_STRIPS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef STARFOCUS_SIMD_STRIPS_INL_H_
 #undef STARFOCUS_SIMD_STRIPS_INL_H_
@@ -164,11 +164,11 @@ HWY_INLINE SliceVec ShareOfLight(SliceVec covered, SliceVec light, SliceVec exce
   return hn::Min(hn::Sub(one, taken), hn::SaturatedAdd(twice, twice));
 }
 
-// Prior knowledge about a view and a slice.
+// Facts about a slice in a view that are known before compositing, from the marks of rows.
 enum class Known {
   kLit,  // no slice in front covers any pixel of these rows
-  // Like kLit, and the slice also covers all rows completely, so that no slice behind it is
-  // visible.
+  // The condition of kLit holds, and the slice covers all pixels of these rows completely, so that
+  // it hides all slices behind it.
   kCovered,
   kNothing,
 };

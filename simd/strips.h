@@ -38,7 +38,7 @@ inline constexpr int8_t kCoveredNear = -1;
 
 // A slice in a strip. The four planes are `plane` samples apart. A row has kSliceLanes samples.
 struct StripSlice {
-  const int16_t* samples;  // first row that the centre view shows
+  const int16_t* samples;  // first row of the slice that the centre view shows
   const int8_t* near;      // marks of the rows, starting with the row of `samples`
   size_t plane;
 };
@@ -68,7 +68,7 @@ struct SliceViews {
   const StripSlice* slices;
   size_t count;          // number of slices
   const uint8_t* shown;  // indices of the visible slices, from the nearest to the farthest
-  size_t shown_count;    // at most kMaxSeen
+  size_t shown_count;    // number of visible slices, at most kMaxSeen
   size_t row;            // first row that is composited
   // The weights are scaled by 2^extra_bits, and the sums are divided by 2^extra_bits; [0, 4].
   int extra_bits;

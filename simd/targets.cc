@@ -22,7 +22,8 @@ const Table* TableOfTarget(const Table& (*best)(), size_t index) {
 #else
   const Table* found = nullptr;
   // Highway assigns lower bits to better targets. If a target was not compiled, `best` returns the
-  // table of a worse target. The loop skips this table and lists it later, under its own name.
+  // table of a worse target. The loop skips the table of a worse target, and lists this table later
+  // under its own name.
   for (int64_t rest = hwy::SupportedTargets(); rest != 0 && found == nullptr; rest &= rest - 1) {
     hwy::SetSupportedTargetsForTest(rest & -rest);
     const Table* kernels = &best();

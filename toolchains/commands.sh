@@ -89,7 +89,8 @@ count_case() {
 }
 
 # Counts instructions per pixel with NEON and with the reference kernels. Fails if a count is more than 3 % above the
-# count of the same compiler in tests/board/instruction_counts.txt. `record` writes this file and docs/boards.md.
+# count of the same compiler in tests/board/instruction_counts.txt. With `record`, writes the counts to
+# tests/board/instruction_counts.txt and docs/boards.md.
 count() {
   local baseline=tests/board/instruction_counts.txt now=$LOGS/instruction_counts.txt cases item
   local compiler recorded
@@ -136,7 +137,7 @@ count() {
     echo "SKIPPED the comparison: $baseline is of $recorded, this is $compiler"
 }
 
-# count_command [record]: prepares the board and counts.
+# count_command [record]: prepares the emulated board and counts instructions.
 count_command() {
   case "${1:-}" in '' | record) ;; *) fail "usage: ./do count [record]" ;; esac
   prepare_board aarch64
@@ -197,7 +198,7 @@ code_bytes() {
     awk '/^\.text/ { code += $2 } /^\.(rodata|data)/ { data += $2 } END { printf "%d | %d", code, data }'
 }
 
-# size_rows PRESET TRIPLE EMULATOR NAME: prints the rows of the tables for a board.
+# size_rows PRESET TRIPLE EMULATOR NAME: prints a board's rows of the table of code sizes and stack.
 size_rows() {
   local type
   for type in Release MinSizeRel; do
@@ -221,7 +222,7 @@ size_tables() {
   qemu-aarch64 build/embedded-aarch64-Release/size_probe parts
 }
 
-# Prints the largest difference between the workspaces of the two architectures.
+# Prints how much smaller a workspace is, at most, on 32-bit ARM than on 64-bit ARM.
 workspace_difference() {
   qemu-aarch64 build/embedded-aarch64-Release/size_probe workspace >$LOGS/workspace-64
   qemu-arm build/embedded-armhf-Release/size_probe workspace >$LOGS/workspace-32

@@ -35,6 +35,6 @@ set(CMAKE_EXE_LINKER_FLAGS_INIT
 set(CMAKE_CROSSCOMPILING_EMULATOR "${STARFOCUS_QEMU};-cpu;${STARFOCUS_CPU};\
 -L;/usr/${STARFOCUS_TRIPLE};-E;LD_LIBRARY_PATH=${STARFOCUS_SYSROOT}/usr/lib/${STARFOCUS_TRIPLE}")
 
-# Builds one static binary per board, without detection at run time.
+# Builds one static binary per board, without detection of the SIMD target at run time.
 set(STARFOCUS_STATIC_DISPATCH ON CACHE BOOL "One SIMD target, chosen when compiling")
 set(STARFOCUS_STATIC_PROGRAMS ON CACHE BOOL "Link the programs statically")

@@ -22,7 +22,7 @@ trap 'exit 1' HUP INT TERM
 mkdir -p "$work/parts" "$work/lists/partial" "$work/archives/partial" "$work/packages"
 : >"$work/status"
 
-# Removes restrictions to the host's architectures from the copies.
+# Copies the host's package sources without their restrictions to the host's architectures.
 eval "$(apt-config shell list Dir::Etc::sourcelist/f parts Dir::Etc::sourceparts/d)"
 for source in "$list" "$parts"*.list "$parts"*.sources; do
   [ -f "$source" ] || continue
@@ -39,7 +39,7 @@ private_apt() {
     -o "Dir::Cache=$work" -o "Dir::Cache::archives=$work/archives" -o APT::Sandbox::User=root "$@"
 }
 
-# Ignores errors of sources without this architecture. Missing packages are reported below.
+# Ignores errors of package sources that do not provide this architecture. Missing packages are reported below.
 private_apt apt-get update || echo "fetch: continuing with the lists there are" >&2
 more=$(private_apt apt-cache depends --no-recommends --no-suggests "$@" |
   sed -n 's/^ *Depends: //p' | grep -Ex "$pattern" | sort -u) || more=

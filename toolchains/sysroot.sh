@@ -12,6 +12,6 @@ if [ "$1" = headers ]; then
   # Prevents CMake from finding libraries of another machine.
   rm -rf "$2"/usr/lib/*-linux-*
 else
-  # The library for a -dev package is in a package with another name.
+  # For each -dev package, the library is in a package with another name.
   "$fetch" "$1" "$2" 'lib(hwy|stb|gpiod)[0-9][a-z0-9.-]*' $packages libgpiod-dev
 fi

@@ -18,7 +18,8 @@ build_web() {
   cp examples/web/*.html examples/web/*.css examples/web/*.js $site || exit 1
 }
 
-# web [PORT]: serves the page on the loopback interface. `web build` only builds it; `web test` tests package and page.
+# web [PORT]: serves the page on the loopback interface. `web build` only builds the page; `web test` tests the package
+# and the page.
 web() {
   local port=8080
   case "${1:-}" in
