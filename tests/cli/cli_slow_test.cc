@@ -21,11 +21,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TEST_CASE("cli: the sessions of the table succeed") {
+TEST_CASE("cli: every session of slow_sessions.txt succeeds") {
   RunSessions("cli/slow_sessions.txt", {{"light fields", Prepare}});
 }
 
-TEST_CASE("cli: bad input is rejected") {
+TEST_CASE("cli: every call of refusals.txt fails with the stated error") {
   TempFolder folder;
   Prepare(folder);
   CheckRefusals(folder, "refusals.txt");
@@ -80,7 +80,7 @@ TEST_CASE("cli: the frames of a video equal single pictures, but reuse blocks") 
   }
   CHECK(Text(folder.file("two/frame_0001.png")) == Text(folder.file("out/frame_0002.png")));
   CHECK(Text(folder.file("two/frame_0000.png")) != Text(folder.file("two/frame_0001.png")));
-  // Blocks reused in the four frames: none, all, most, and all.
+  // The four frames reuse no blocks, all blocks, most blocks, and all blocks.
   const std::string report = Text(folder.file("v.json"));
   std::vector<int> reused;
   for (size_t at = report.find("\"reused_blocks\": "); at != std::string::npos;

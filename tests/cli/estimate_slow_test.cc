@@ -27,7 +27,8 @@ void PrepareScene(const TempFolder& folder, const std::string& name = "wires --s
   fs::remove(folder.file("bare/disparity.pfm"));
 }
 
-TEST_CASE("disparity: the estimate of a traced scene has its range and is mostly correct") {
+TEST_CASE(
+    "disparity: the estimate of a ray-traced scene has the scene's range and is mostly correct") {
   TempFolder folder;
   PrepareScene(folder);
   const Outcome made = Call(folder, "disparity bare --confidence sure.png");
@@ -77,7 +78,8 @@ TEST_CASE(
   MakeWorse(folder);
   Succeed(folder, "refocus lf -o exact.png --focus 0");
   Succeed(folder, "refocus worse -o worse.png --focus 0 --fill-invalid");
-  CHECK(Call(folder, "refocus worse -o x.png --focus 0").code == 1);  // the map has NaN
+  // The program rejects the map, since the map contains NaN.
+  CHECK(Call(folder, "refocus worse -o x.png --focus 0").code == 1);
   const Outcome direct = Call(folder, "refocus worse -o direct.png --focus 0 --repair");
   CAPTURE(direct.err);
   REQUIRE(direct.code == 0);

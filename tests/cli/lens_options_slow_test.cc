@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TEST_CASE("cli: the sessions on lenses and prepared maps succeed") {
+TEST_CASE("cli: every session of lens_sessions.txt succeeds") {
   RunSessions("cli/lens_sessions.txt", {{"deep folder", MakeDeepFolder}, {"hair", PrepareHair}});
 }
 
@@ -85,7 +85,7 @@ TEST_CASE("cli: with each --transfer, lamps match the truth that is averaged in 
   }
 }
 
-TEST_CASE("cli: clipped lamps are closer to the truth with highlights") {
+TEST_CASE("cli: with highlights above 1, blurred lamps are closer to the ray-traced picture") {
   TempFolder folder;
   Succeed(folder, "scene lf --size 160x120 --views 5 --name lamps --truth 4,1");
   Image truth = ValueOf(ReadImage(folder.file("lf/truth_dt4_ut1.png")));
@@ -126,7 +126,7 @@ TEST_CASE("cli: sweeps, videos, pages and batches reduce the aperture to the lim
   }
   CHECK(Contains(Call(folder, "refocus lf second --focus 0 -o batch/").err,
                  "second: aperture set to f/"));
-  // The program reduces the aperture of a video to a value that suits all frames.
+  // The error for the aperture of a video must name an aperture that suits all frames.
   FloatMap map = ValueOf(ReadPfm(folder.file("second/disparity.pfm")));
   for (float& value : map.values) value *= 4.0f / 3;
   REQUIRE(WritePfm(folder.file("second/disparity.pfm"), map) == "");

@@ -42,8 +42,9 @@ int FindStart(const TempFolder& folder, const std::string& little) {
   return high;
 }
 
-// Tries limits from `start` to `start` + `range` KiB. `output` is the file or folder that the
-// command writes. `right` returns true if the output equals the output of a run with enough memory.
+// Runs the command under memory limits from `start` to `start` + `range` KiB. `output` is the file
+// or folder that the command writes. `right` returns true if the output equals the output of a run
+// with enough memory.
 template <class Right>
 void CheckLimits(const TempFolder& folder, int start, const std::string& arguments, int range,
                  const std::string& output, const Right& right) {
@@ -72,7 +73,7 @@ void CheckLimits(const TempFolder& folder, int start, const std::string& argumen
   CHECK(failures < kSteps);
 }
 
-TEST_CASE("memory limits: each limit gives one clear error or the right result" *
+TEST_CASE("memory limits: under any limit, a program reports one error or writes the right output" *
           doctest::skip(kLimitless)) {
   TempFolder folder;
   Succeed(folder, "scene lf --size 240x180 --views 5");

@@ -63,7 +63,7 @@ TEST_CASE("program: every way to request help prints the same text") {
     CHECK(one.code == 0);
     CHECK(Contains(one.out, "starfocus " + command + " [OPTIONS]"));
     for (const char* way : {" --help", " -h"}) CHECK(Call(folder, command + way).out == one.out);
-    // Each option names the kind of its value.
+    // The help text must name the kind of each option's value.
     CHECK(!Contains(one.out, " TEXT"));
   }
   for (const std::string command :
@@ -186,18 +186,19 @@ TEST_CASE("program: output that cannot be written is an error") {
   CHECK(Call(folder, "refocus lf --focus 1 -o a.png --report /dev/full").code == 1);
 }
 
-TEST_CASE("program: the error for a subcommand of starfocus-lab names that program") {
+TEST_CASE(
+    "program: if starfocus gets a subcommand of starfocus-lab, the error names starfocus-lab") {
   TempFolder folder;
   for (const std::string name : {"analyze", "calibrate", "compare", "scene", "sheet", "stress"}) {
     CAPTURE(name);
-    CHECK(Call(folder, name + " --help").code == 0);  // runs starfocus-lab
-    // With quotes, Call runs starfocus.
+    CHECK(Call(folder, name + " --help").code == 0);  // Call selects starfocus-lab
+    // With quotes around the subcommand, Call selects starfocus.
     CheckRefused(folder, "'" + name + "' lf",
                  "command line: expected `starfocus-lab " + name + "`, found '" + name + "'");
   }
 }
 
-TEST_CASE("program: an error names its true cause") {
+TEST_CASE("program: an error line names the cause of the error") {
   TempFolder folder;
   Prepare(folder);
   const size_t before = LightFieldFiles(folder.file("lf")).size();
@@ -205,7 +206,7 @@ TEST_CASE("program: an error names its true cause") {
   CHECK(LightFieldFiles(folder.file("lf")).size() == before);
   CHECK(!fs::exists(folder.file("lf/lf.png")));
   CHECK(!fs::exists(folder.file("bare/disparity.pfm")));
-  if (geteuid() == 0) return;  // the user root may write to any folder
+  if (geteuid() == 0) return;  // root can write to any folder, so the calls would succeed
   fs::create_directory(folder.file("locked"));
   fs::permissions(folder.file("locked"), fs::perms::owner_read | fs::perms::owner_exec);
   for (const char* arguments : {"import lf locked/new", "scene locked/new", "analyze -o locked/new",

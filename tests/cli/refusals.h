@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Calls that the program rejects, and malformed inputs for these calls.
+// Checks calls that the programs must reject, and makes malformed inputs for these calls.
 #ifndef STARFOCUS_TESTS_CLI_REFUSALS_H_
 #define STARFOCUS_TESTS_CLI_REFUSALS_H_
 
@@ -19,8 +19,9 @@
 
 namespace starfocus {
 
-// Checks that a call prints nothing to stdout and writes no file. The exit code must be 2 for an
-// error in the command line, and 1 for an error in a file.
+// Checks that a call fails with an error line that contains `mention`, prints nothing to stdout and
+// writes no file. The exit code must be 2 for an error in the command line, and 1 for an error in a
+// file.
 inline void CheckRefused(const TempFolder& folder, const std::string& arguments,
                          const std::string& mention) {
   CAPTURE(arguments);
@@ -52,8 +53,9 @@ inline void CheckRefusals(const TempFolder& folder, const std::string& name) {
   CHECK(rows > 50);
 }
 
-// Writes `lf`, a 40x30 light field with 5 views, and `bare`, a copy without map. Also writes
-// `link`, a link to `lf`, `grid`, a copy with other names of views, and malformed files.
+// Writes malformed files and the light field `lf`, which has 40x30 pixels and 5 views. `bare` is a
+// copy of `lf` without map, and `grid` is a copy with other names of views. `link` is a link to
+// `lf`.
 inline void Prepare(const TempFolder& folder) {
   namespace fs = std::filesystem;
   Succeed(folder, "scene lf --size 40x30 --views 5 --name wires");

@@ -16,7 +16,7 @@
 namespace starfocus::scene_slow_test {
 namespace {
 
-// An emulator would take twenty times as long.
+// Size of most pictures. Larger pictures would take too long.
 constexpr int kWidth = 256, kHeight = kWidth * 3 / 4;
 const char* const kNames[] = {"portrait", "wires", "ramp", "hair", "grass"};
 const char* const kStrandNames[] = {"hair", "grass"};
@@ -101,7 +101,7 @@ TEST_CASE("scene: views warped by the exact disparity equal the centre view") {
     const RayTracer renderer(scene, kWidth, kHeight, STARFOCUS_TRANSFER_NONE, &runner);
     const Image centre = renderer.View(0, 0, nullptr);
     const FloatMap map = renderer.Disparity();
-    // A third of the grass pixels show two surfaces.
+    // In the scene `grass`, a third of the pixels show two surfaces, so fewer pixels match.
     const double least = std::string(name) == "grass" ? 0.75 : 0.88;
     for (int index : {1, 4, 6, 16}) {
       double u = 0, v = 0;
@@ -115,7 +115,7 @@ TEST_CASE("scene: views warped by the exact disparity equal the centre view") {
   }
 }
 
-TEST_CASE("scene: a lens stopped down to a pinhole takes the centre view") {
+TEST_CASE("scene: with a pinhole aperture, the ray-traced picture is the centre view") {
   ThreadRunner runner(2);
   const std::pair<const char*, double> foci[] = {{"portrait", 0.5}, {"hair", 9}, {"grass", 9}};
   for (const auto& [name, focus] : foci) {
@@ -131,7 +131,7 @@ TEST_CASE("scene: a lens stopped down to a pinhole takes the centre view") {
   }
 }
 
-TEST_CASE("scene: the surface in focus is sharp, and the rest is not") {
+TEST_CASE("scene: the surface in focus is sharp, and other surfaces are blurred") {
   ThreadRunner runner(2);
   const Scene scene = Made("ramp");
   const RayTracer renderer(scene, kWidth, kHeight, STARFOCUS_TRANSFER_NONE, &runner);
@@ -229,7 +229,7 @@ TEST_CASE("scene: rays meet planes and ellipsoids at the places given by algebra
   CHECK_FALSE(Intersect(ball, {200, 2, 0, 0}, &hit));
 }
 
-TEST_CASE("scene: the bounding boxes contain every hit") {
+TEST_CASE("scene: the bounding box of a surface contains every point where rays hit the surface") {
   for (const char* name : kNames) {
     const Scene scene = Made(name);
     int outside = 0;
@@ -281,8 +281,8 @@ TEST_CASE("strands: rays meet the nearest strand at the place given by algebra")
   CHECK_FALSE(strands.Find({-51.01, 0}, 0, 0, &hit));
   REQUIRE(strands.Find({0, 0.25}, 0, 0, &hit));
   CHECK(hit.strand == 0);
-  // Seen from position (1, 0) of the lens, the front strand is 5 units to the left, and the other
-  // strand does not hide it.
+  // Seen from position (1, 0) of the lens, the nearer strand is 5 units to the left, and does not
+  // hide the farther strand at x = 0.
   CHECK(strands.Find({0, 0.25}, 1, 0, &hit));
   CHECK(hit.d == 3);
   REQUIRE(strands.Find({-5, 0.25}, 1, 0, &hit));
@@ -291,7 +291,7 @@ TEST_CASE("strands: rays meet the nearest strand at the place given by algebra")
   CHECK(strands.Find({-20, -3}, 0, 1, &hit));
 }
 
-TEST_CASE("strands: the grid hides no strand") {
+TEST_CASE("strands: the search in a grid finds the nearest of 200 random strands") {
   std::vector<Strand> many;
   for (int i = 0; i < 200; ++i) {
     const auto at = [i](int k, double size) { return size * (HashUnit(i, k, 4) - 0.5); };
@@ -341,7 +341,8 @@ TEST_CASE("strand scenes: coverage agrees with the map") {
         clear += cover >= 0 ? 1 : 0;
         against += cover >= 0 && SideAround(map, x, y) != cover ? 1 : 0;
         fractions += level > 0 && level < 255 ? 1 : 0;
-        // Counts pixels with coverage by strands that are missing from the map.
+        // Counts pixels that a strand covers in part, although the map around the pixel has no
+        // strand.
         lost += level > 0 && SideAround(map, x, y) == 0 ? 1 : 0;
       }
     }
@@ -354,7 +355,7 @@ TEST_CASE("strand scenes: coverage agrees with the map") {
   }
 }
 
-TEST_CASE("strand scenes: the coverage of a half plane is its area") {
+TEST_CASE("strand scenes: the coverage of a pixel is the share that a half plane covers") {
   Scene scene;
   // A bar with its left edge at x = 0.3. One canvas unit is one pixel in this test.
   scene.surfaces.push_back(Piece(Outline::kBox, {100.3, 0, 5}, {100, 1000}, {}));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests the outputs of the program: formats, standard streams, stacks, batches, and the page of
-// `view`. Also compares views at any positions with the truth of the ray tracer.
+// `view`. Compares pictures that are refocused from views at any positions with ray-traced
+// pictures.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -103,14 +104,14 @@ TEST_CASE("writers: compare draws the differences and does not overwrite its inp
   CHECK(Call(folder, "compare a.png b.png --map -").code == 2);
 }
 
-TEST_CASE("writers: the page of view is self-contained and describes what it shows") {
+TEST_CASE("writers: the page of `starfocus view` is self-contained and describes its pictures") {
   TempFolder folder;
   MakeScene(folder, "'a<b&\"c'", "--truth 4,1 --truth 2,0.5");
   Succeed(folder, "view 'a<b&\"c' -o page.html");
   const std::string page = Text(folder.file("page.html"));
   CHECK(Contains(page, "<title>a&lt;b&amp;&quot;c</title>"));
   CHECK(!Contains(page, "a<b"));
-  CHECK(Count(page, "<img ") == 13);  // photo, map, 6 foci, blocks, 2 truths with their errors
+  CHECK(Count(page, "<img ") == 13);  // photo, map, 6 foci, blocks, 2 ray-traced pictures, 2 errors
   CHECK(Count(page, "src=\"data:image/jpeg;base64,/9j/") == 13);
   CHECK(Count(page, "src=") == 13);
   CHECK(Count(page, "http:") + Count(page, "https:") + Count(page, "<script") == 0);
@@ -155,8 +156,8 @@ TEST_CASE("views: a captured view on each additional side brings the picture clo
   const double pair = error("0,0:1,0"), other = error("0,0:-1,0");
   const double corner = error("0,0:1,0:0,1"), row = error("0,0:-1,0:1,0");
   CHECK(five > one + 2);
-  // A pair captures one of four sides, and must therefore reach at least 15 % of the gain of
-  // five views.
+  // A pair sees behind edges on one of four sides. The gain of a pair in PSNR must be at least 15 %
+  // of the gain of five views.
   CHECK(pair > one + 0.15 * (five - one));
   CHECK(other > one + 0.15 * (five - one));
   CHECK(corner > pair);

@@ -11,7 +11,7 @@
 
 #if defined(HWY_COMPILE_ONLY_STATIC) || defined(HWY_COMPILE_ALL_ATTAINABLE) || \
     defined(HWY_SHARED_DEFINE) || defined(STARFOCUS_CHECK_RANGES)
-#error "Definitions of starfocus or Highway leak to those who link the library."
+#error "Definitions of starfocus or Highway leak to programs that link the library."
 #endif
 
 static Scene scene;

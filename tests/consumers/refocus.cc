@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Refocuses the scene as refocus.c does, through the C++ wrapper. Prints the same checksums.
+// Refocuses the light field of scene.h through the C++ wrapper, and prints the same checksums as
+// refocus.c.
 #include <cstdio>
 #include <initializer_list>
 #include <starfocus/starfocus.hpp>

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Adds the program refocus to a consumer project. LANGUAGE is the only language of the project. The target `run` runs
-# the program, with the emulator of the toolchain file if there is one, and writes the output to the file sums.
+# the program, in the emulator of the toolchain file, if any, and writes the output to the file sums.
 if(LANGUAGE STREQUAL "CXX")
   set(CMAKE_CXX_STANDARD 17)
   add_executable(refocus ${CMAKE_CURRENT_LIST_DIR}/refocus.cc)

@@ -28,7 +28,7 @@ quietly() {
   "$@" >"$work/log" 2>&1 || { cat "$work/log" >&2; echo "consumers: failed: $*" >&2; exit 1; }
 }
 
-# same KIND: checks that the file `sums` contains the checksums of the first program.
+# same KIND: checks that the file `sums` has the same checksums as the first program that was run.
 same() {
   [ -f "$work/expected" ] || cp "$work/sums" "$work/expected"
   [ "$(wc -l <"$work/sums")" = 2 ] && cmp -s "$work/sums" "$work/expected" || {
@@ -83,7 +83,7 @@ package() {
   done
   project 'CMake package, C++' cmake_package -DLANGUAGE=CXX -DCMAKE_PREFIX_PATH="$prefix"
 
-  # Checks that the prefix can be moved, and that pkg-config --static works without the shared library.
+  # Checks that the installation prefix can be moved, and that pkg-config --static works without the shared library.
   mv "$prefix" "$work/moved"
   PKG_CONFIG_PATH=$(dirname "$(find "$work/moved" -name starfocus.pc)")
   export PKG_CONFIG_PATH
@@ -102,7 +102,7 @@ package() {
   [ -z "$left" ] || { echo "consumers: uninstall left" $left >&2; exit 1; }
 }
 
-# These projects are built without optimization: builds are faster, and the checksums must be the same.
+# Builds projects without optimization, since such builds are faster, and checksums must not depend on optimization.
 source_tree() {
   project 'add_subdirectory, C' subproject "-DSTARFOCUS_DIR=$sources" \
     -DSTARFOCUS_STATIC_DISPATCH=ON

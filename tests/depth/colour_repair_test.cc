@@ -77,8 +77,7 @@ int CountWrong(const std::vector<float>& map, const Photo& truth) {
   return wrong;
 }
 
-TEST_CASE(
-    "colour repair: an edge displaced by three pixels moves back to the edge of the colours") {
+TEST_CASE("colour repair: a map edge that is 3 pixels off moves back to the edge of the picture") {
   const Photo truth = MakeDisc(0);
   for (const int grown : {3, -3}) {
     const Photo photo = MakeDisc(grown);
@@ -88,7 +87,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("colour repair: a ramp between two surfaces becomes a step") {
+TEST_CASE("colour repair: a ramp of disparity between two surfaces becomes a step") {
   const Photo truth = MakeDisc(0);
   Photo photo = truth;
   for (int y = 0; y < photo.height; ++y) {
@@ -101,7 +100,7 @@ TEST_CASE("colour repair: a ramp between two surfaces becomes a step") {
   CHECK(CountWrong(Repair(photo).map, truth) < 20);
 }
 
-TEST_CASE("colour repair: the near surface gets the pixels that a soft edge mixes") {
+TEST_CASE("colour repair: mixed pixels of a soft edge become part of the near surface") {
   Photo photo = MakeDisc(-3);
   const Photo wall = MakeDisc(-50), sharp = MakeDisc(0);
   const auto distance = [](int x, int y) { return std::hypot(x - 151.3, y - 66.2); };
@@ -121,7 +120,7 @@ TEST_CASE("colour repair: the near surface gets the pixels that a soft edge mixe
   int mixed = 0, taken = 0, sure = 0;
   for (int y = 0; y < photo.height; ++y) {
     for (int x = 0; x < photo.width; ++x) {
-      // The near surface covers 5/12 to 1/4 of these pixels.
+      // Checks only pixels of which the near surface covers 1/4 to 5/12.
       if (distance(x, y) < 41.5 || distance(x, y) > 42.5) continue;
       ++mixed;
       taken += repaired.map[photo.At(x, y)] > 0;
@@ -132,7 +131,7 @@ TEST_CASE("colour repair: the near surface gets the pixels that a soft edge mixe
   CHECK(sure <= mixed - taken);
 }
 
-TEST_CASE("colour repair: outlines do not move even if the colours are noisy") {
+TEST_CASE("colour repair: a ragged outline becomes more correct even if the colours are noisy") {
   const Photo truth = MakeDisc(0);
   Photo photo = truth;
   test::Random random(9);
@@ -160,7 +159,7 @@ TEST_CASE("colour repair: no bit of a correct map with steps, planes and fractio
   CHECK(SameBits(Repair(plane).map, plane.map));
 }
 
-TEST_CASE("colour repair: a picture of one colour changes no map, and steps get low confidence") {
+TEST_CASE("colour repair: for a picture of one colour, at most the outline changes") {
   Photo photo = MakeDisc(0);
   std::fill(photo.rgb.begin(), photo.rgb.end(), uint8_t{77});
   const Repaired repaired = Repair(photo);
@@ -170,7 +169,7 @@ TEST_CASE("colour repair: a picture of one colour changes no map, and steps get 
   CHECK(repaired.confidence[photo.At(151, 26)] < 100);
 }
 
-TEST_CASE("colour repair: noise is averaged within surfaces") {
+TEST_CASE("colour repair: noise of the map is averaged within each surface") {
   const Photo truth = MakeDisc(0);
   Photo photo = truth;
   AddNoise(&photo);
@@ -196,7 +195,7 @@ TEST_CASE("colour repair: unknown pixels get the disparity of the surface with t
   for (const float d : repaired.map) CHECK(std::isfinite(d));
 }
 
-TEST_CASE("colour repair: one known pixel at any place is enough") {
+TEST_CASE("colour repair: a map with one known pixel gets the disparity of this pixel everywhere") {
   for (const int at : {0, 17, 34}) {
     Photo photo(7, 5);
     std::fill(photo.map.begin(), photo.map.end(), kNan);
@@ -217,7 +216,7 @@ TEST_CASE("colour repair: a row without known values is a copy of the nearest kn
   for (size_t k = 0; k < filled.size(); ++k) CHECK(filled[k] == expected[k] << kDisparityBits);
 }
 
-TEST_CASE("colour repair: pixels next to steps get low confidence, except those of thin surfaces") {
+TEST_CASE("MeasureDoubt: values grow with the distance from a step, except on thin surfaces") {
   Photo photo(60, 40);
   for (int y = 0; y < 40; ++y) {
     for (int x = 0; x < 60; ++x) photo.Map(x, y) = (x >= 15 && x < 20) || x >= 40 ? 9.0F : 0.0F;

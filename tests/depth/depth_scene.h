@@ -106,7 +106,7 @@ inline starfocus_depth_config ConfigOf(const PlaneField& field, float low, float
   return config;
 }
 
-// Memory with arbitrary contents.
+// Owns aligned memory that is filled with kPoison.
 struct Memory {
   explicit Memory(size_t size)
       : bytes(size), data(::operator new (size, std::align_val_t{STARFOCUS_ALIGNMENT})) {
@@ -159,7 +159,7 @@ inline double ShareOff(const PlaneScene& scene, const std::vector<float>& dispar
   return double(off) / (scene.width * scene.height);
 }
 
-// Returns the mirrored light field.
+// Returns the light field `field`, mirrored as in `mirror`.
 inline PlaneField MirroredField(const PlaneField& field, const Symmetry& mirror) {
   PlaneField mirrored = field;
   for (int k = 0; k < int(field.views.size()); ++k) {

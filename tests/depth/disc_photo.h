@@ -49,7 +49,7 @@ inline Photo MakeDisc(int grown, float near = 6, float far = -4) {
 inline void AddNoise(Photo* photo) {
   uint32_t state = 7;
   for (float& d : photo->map) {
-    float sum = -6;  // The sum of twelve uniform numbers is nearly normal.
+    float sum = -6;  // The sum of twelve uniform random numbers is nearly normally distributed.
     for (int k = 0; k < 12; ++k) {
       state = state * 1664525 + 1013904223;
       sum += float(state >> 8) / float(1 << 24);

@@ -14,7 +14,7 @@ namespace {
 
 using namespace test;
 
-TEST_CASE("estimate: the edges of a near plane in front of a far one are found to a pixel") {
+TEST_CASE("estimate: the edges of a near plane have errors of at most one pixel") {
   for (const int views : {5, 9, 17}) {
     PlaneScene scene;
     scene.views = views;
@@ -37,7 +37,7 @@ TEST_CASE("estimate: disparities of a slanted plane are interpolated between lab
   CHECK(ShareOff(scene, found.disparity, 0.1) < 0.1);
 }
 
-TEST_CASE("estimate: a plane that faces the camera has one disparity to the bit") {
+TEST_CASE("estimate: if the range is one disparity, every pixel has exactly this disparity") {
   PlaneScene scene;
   scene.near_left = scene.near_right = 0;
   const PlaneField field = RenderPlanes(scene);

@@ -62,8 +62,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE(
-    "estimate plan: labels span the range in steps of half a pixel, or there are 127 labels") {
+TEST_CASE("estimate plan: labels are half a pixel apart, or farther apart in a wide range") {
   const EstimatePlan fine = PlanOf(10, 10, 5, -3, 4.25F);
   CHECK(fine.low == -3 * 64);
   CHECK(fine.step == 32);
@@ -77,7 +76,7 @@ TEST_CASE(
   CHECK(wide.Disparity(wide.labels - 1) + 64 <= INT16_MAX);
 }
 
-TEST_CASE("estimate plan: shifts are rounded to whole pixels, and halves towards the centre") {
+TEST_CASE("estimate plan: WholeMove rounds shifts to whole pixels, and halves towards 0") {
   using starfocus::WholeMove;
   CHECK(WholeMove(64) == 0);
   CHECK(WholeMove(65) == 1);
@@ -86,7 +85,7 @@ TEST_CASE("estimate plan: shifts are rounded to whole pixels, and halves towards
   CHECK(WholeMove(-300) == -2);
 }
 
-TEST_CASE("estimate plan: every other label lies within the reach of all labels") {
+TEST_CASE("estimate plan: CoarsePlan keeps every other label and the range of the labels") {
   starfocus_depth_config config;
   starfocus_depth_config_init(&config);
   config.width = config.height = 10;

@@ -83,7 +83,8 @@ TEST_CASE("hair coverage: confidence is high where map and coverage agree") {
   for (int y = 70; y < 100; ++y) {
     for (int x = 60; x < 160; ++x) {
       const size_t at = portrait.At(x, y);
-      REQUIRE(found.confidence[at] == found.coverage[at]);  // the map has only near pixels here
+      // In this area, all pixels of the map are near.
+      REQUIRE(found.confidence[at] == found.coverage[at]);
     }
   }
 }
@@ -106,7 +107,7 @@ TEST_CASE("hair coverage: outlines without hair are repaired even near hair, and
 }
 
 TEST_CASE(
-    "hair coverage: opaque surfaces get no coverage, and the request does not change the map") {
+    "hair coverage: without hair, a request for coverage changes neither map nor confidence") {
   Portrait portrait;
   portrait.Draw();
   for (size_t k = 0; k < portrait.map.size(); k += 7) portrait.map[k] += 0.01F;
@@ -126,7 +127,7 @@ TEST_CASE("hair coverage: hair is not found if it covers only a small part of th
   CHECK(Repair(portrait).has_coverage == 0);
 }
 
-TEST_CASE("hair coverage: the texture of the wall is not taken as hair") {
+TEST_CASE("hair coverage: the texture of the wall does not get coverage") {
   Portrait portrait = MakeClosedHair();
   portrait.spots = true;
   portrait.Draw();
@@ -141,7 +142,8 @@ TEST_CASE("hair coverage: a map without edges has no coverage") {
   CHECK(Repair(portrait).has_coverage == 0);
 }
 
-TEST_CASE("hair coverage: hair across the whole picture is found, and no edge 40 pixels below it") {
+TEST_CASE(
+    "hair coverage: hair across the picture gets coverage, and rows without hair are opaque") {
   Portrait portrait = MakeClosedHair();
   portrait.hair = {0, 60, 240, 110};
   portrait.body = {0, 110, 240, 181};
@@ -155,7 +157,7 @@ TEST_CASE("hair coverage: hair across the whole picture is found, and no edge 40
   }
 }
 
-// A pyramid without known colours.
+// Owns a colour pyramid that has no known colours.
 struct PyramidOf {
   PyramidOf(int width, int height) : memory(SizeOf(width, height)) {
     starfocus::Arena arena(memory.data);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Operations that estimate or repair disparity maps, with star sets of every size and with colours
-// alone.
+// Lists operations that estimate or repair disparity maps, from star sets of every size or from one
+// view.
 #ifndef STARFOCUS_TESTS_DEPTH_MAP_OPERATIONS_H_
 #define STARFOCUS_TESTS_DEPTH_MAP_OPERATIONS_H_
 
@@ -33,8 +33,8 @@ struct MapInput {
   bool covers = false;  // true if the repair must find coverage
 };
 
-// Two planes in several tiles. With `repairs`, the input has a noisy map whose near plane is too
-// wide.
+// Returns views of two planes; the pictures are larger than one tile of an estimate. With
+// `repairs`, the input has a noisy map whose near plane is too wide.
 inline MapInput Planes(int width, int height, int views, bool repairs) {
   test::PlaneScene scene;
   scene.width = width;
@@ -48,7 +48,8 @@ inline MapInput Planes(int width, int height, int views, bool repairs) {
   return input;
 }
 
-// A disc whose map is too wide and has unknown and wrong values.
+// Returns a picture of a disc. In the map, the disc is too wide, and some values are unknown or
+// wrong.
 inline MapInput Disc(bool noisy) {
   test::Photo photo = test::MakeDisc(3);
   for (int x = 40; x < 90; ++x) photo.Map(x, 60 + x % 3) = std::numeric_limits<float>::quiet_NaN();
@@ -57,8 +58,9 @@ inline MapInput Disc(bool noisy) {
   return {{photo.width, photo.height, {photo.rgb}}, photo.map, -500, 500};
 }
 
-// A portrait whose hair gets coverage. The height is a multiple of the cells' height, so that the
-// mirrored picture has the same cells.
+// Returns a portrait with a map in which the outline of the hair is closed, so that a repair finds
+// coverage. The height is a multiple of the cells' height, so that the mirrored picture has the
+// same cells.
 inline MapInput Hair() {
   constexpr int kWidth = test::ClosedHair::kWidth, kHeight = test::ClosedHair::kHeight / 4 * 4;
   test::ClosedHair portrait = test::MakeClosedHair();
@@ -68,7 +70,7 @@ inline MapInput Hair() {
   return {{kWidth, kHeight, {portrait.rgb}}, portrait.map, -12, 12, true};
 }
 
-// Makes a map of an input with a setup.
+// Estimates or repairs the map of an input, with the kernels, memory and symmetry of a Setup.
 struct Maps {
   Maps(MapInput of, const Setup& how) : input(std::move(of)), setup(how) {
     const test::Symmetry& mirror = setup.mirror;
@@ -136,7 +138,7 @@ struct Maps {
     return status;
   }
 
-  // Makes the same map inside the library with the given kernels.
+  // Makes the map by functions inside the library, with the given SIMD kernels.
   starfocus_status MakeBy(const starfocus::simd::DepthKernels& kernels,
                           const starfocus_light_field& field, const starfocus::MapOutput& output) {
     starfocus::EstimatePlan plan = starfocus::MakePlan(config);

@@ -41,7 +41,7 @@ struct Call {
     return (function == kEstimate ? starfocus_estimate_disparity : starfocus_repair_disparity)(
         &config, &field, out_at, at, bytes);
   }
-  // Returns true if nothing was written.
+  // Returns true if the call wrote no output.
   bool Untouched() const {
     const auto poisoned = [](const auto& plane) {
       return std::all_of(plane.begin(), plane.end(), [](auto value) { return value == 42; });
@@ -135,11 +135,11 @@ void CheckTable(const Refusal (&table)[kCount], const Run& run) {
   }
 }
 
-TEST_CASE("maps: bad arguments return their errors, and nothing is written") {
+TEST_CASE("maps: calls with bad arguments return the expected status and write nothing") {
   CheckTable(kArguments, [](Call* call) { return call->Run(); });
 }
 
-TEST_CASE("maps: shorter configurations get the defaults of the missing fields") {
+TEST_CASE("maps: fields beyond the end of a shorter configuration get their defaults") {
   for (const int function : {kEstimate, kRepair}) {
     Call call(function);
     call.config.size = offsetof(starfocus_depth_config, max_workers);
@@ -149,7 +149,7 @@ TEST_CASE("maps: shorter configurations get the defaults of the missing fields")
   }
 }
 
-TEST_CASE("maps: bad configurations return their errors") {
+TEST_CASE("maps: calls with bad configurations return the expected status") {
   const auto size_of = [](Call* call) {
     size_t needed = 0;
     return call->SizeOf(&call->config, &needed);

@@ -13,7 +13,7 @@ namespace {
 
 using namespace properties;
 
-TEST_CASE("maps: bytes do not depend on the SIMD target, mirrored input or used memory") {
+TEST_CASE("maps: bytes do not depend on SIMD target, mirroring, or earlier data in the memory") {
   std::vector<Setup> setups(4);
   setups[1].used = true;
   setups[2].mirror.mirror_x = setups[3].mirror.mirror_y = true;

@@ -9,15 +9,15 @@ namespace {
 
 using namespace properties;
 
-TEST_CASE("maps: the result does not depend on the number of workers or the order of jobs") {
+TEST_CASE("maps: the map does not depend on the number of workers or the order of jobs") {
   for (const Operation& operation : MapOperations()) CheckWorkers(operation);
 }
 
-TEST_CASE("maps: after a runner has failed at any jobs, the next call makes the whole map") {
+TEST_CASE("maps: after the runner fails at any job, the next call makes the complete map") {
   for (const Operation& operation : MapOperations()) CheckFailingRunner(operation);
 }
 
-TEST_CASE("maps: progress is reported per tile, and any report can cancel") {
+TEST_CASE("maps: the progress function is called per tile, and any call can cancel") {
   for (const Operation& operation : MapOperations()) CheckCancelling(operation);
 }
 

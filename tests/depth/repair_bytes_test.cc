@@ -33,7 +33,7 @@ TEST_CASE("repair: displaced edges move to the edges of the picture") {
   }
 }
 
-TEST_CASE("repair: a blurred edge becomes a sharp edge") {
+TEST_CASE("repair: a blurred edge of the map becomes a sharp edge") {
   PlaneScene scene;
   const PlaneField field = RenderPlanes(scene);
   const std::vector<float> exact = MapOf(scene, 0);
@@ -61,7 +61,7 @@ TEST_CASE("repair: noise is removed") {
   CHECK(ShareOff(scene, repaired.disparity, 0.28) < 0.03);
 }
 
-TEST_CASE("repair: no bit of a correct map changes") {
+TEST_CASE("repair: a correct map changes in less than 0.5 % of the pixels, and a plane in no bit") {
   PlaneScene scene;
   scene.near = 5.013;
   scene.far = -3.27;
@@ -90,7 +90,7 @@ struct StrandScene {
     };
     return x > 16 && x < 80 && (within(x + 0.4 * y, 4.3) || within(x - 0.3 * y, 7.1));
   }
-  // Averages 16 samples per pixel.
+  // Returns the mean of 16 samples within the pixel.
   static uint8_t Pixel(double u, double v, int x, int y, int c) {
     double sum = 0;
     for (int k = 0; k < 16; ++k) {
@@ -110,7 +110,7 @@ struct StrandScene {
   }
 };
 
-TEST_CASE("repair: the strands of an exact map do not change") {
+TEST_CASE("repair: an exact map keeps at least 98 % of its strand pixels") {
   const std::vector<float> given = StrandScene::Map();
   for (const int views : {1, 5, 17}) {
     CAPTURE(views);
@@ -126,7 +126,8 @@ TEST_CASE("repair: the strands of an exact map do not change") {
   }
 }
 
-TEST_CASE("repair: if the map has one closed outline, the strands stay and gaps open") {
+TEST_CASE(
+    "repair: if the map closes the gaps between strands, the gaps open and the strands stay") {
   const std::vector<float> exact = StrandScene::Map();
   std::vector<float> given = exact;
   for (size_t i = 0; i < given.size(); ++i) {
@@ -145,7 +146,7 @@ TEST_CASE("repair: if the map has one closed outline, the strands stay and gaps 
   CHECK(opened > 100);
 }
 
-TEST_CASE("repair: pictures of one colour change no map") {
+TEST_CASE("repair: if all views have one colour, the map does not change") {
   const PlaneScene scene;
   PlaneField field = RenderPlanes(scene);
   for (auto& view : field.views) std::fill(view.begin(), view.end(), uint8_t{90});
@@ -153,12 +154,11 @@ TEST_CASE("repair: pictures of one colour change no map") {
   CHECK(MakeMap(field, ConfigOf(field, kLow, kHigh), given).disparity == given);
 }
 
-TEST_CASE(
-    "repair: without conflicts, confidence is the colour difference between adjacent pixels") {
+TEST_CASE("repair: if all views agree, confidence is the colour difference of adjacent pixels") {
   const PlaneScene scene;
   PlaneField field = RenderPlanes(scene);
-  // Each colour changes by 7 levels per pixel along a row, and by 4 levels per pixel along a
-  // column.
+  // Adjacent pixels of a row differ by 7 levels in each channel, and adjacent pixels of a column by
+  // 4 levels.
   for (auto& view : field.views) {
     for (int at = 0; at < int(view.size()); ++at) {
       const int x = at / 3 % field.width, y = at / 3 / field.width;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the outlines of repaired maps. Where the edges of the picture are soft, outlines must move
-// outwards to include the pixels of the edge. Outlines must not be more ragged than the picture.
+// Tests the outlines of repaired maps. Where edges of the picture are soft, the outline of the near
+// surface must move outwards to include the mixed pixels. Outlines must not be more ragged than the
+// picture.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -17,7 +18,8 @@ namespace {
 constexpr int kWidth = 96, kHeight = 64;
 constexpr int16_t kNear = 12 << starfocus::kDisparityBits, kFar = 0;
 
-// A dark near half and a bright far half. The edge of the map may be at another column in each row.
+// A picture with a dark near half and a bright far half. The edge in the map may be at another
+// column in each row.
 struct Scene {
   std::vector<uint8_t> rgb = std::vector<uint8_t>(3 * kWidth * kHeight);
   std::vector<int16_t> map = std::vector<int16_t>(kWidth * kHeight);
@@ -53,7 +55,7 @@ int Softness(const Scene& scene) {
   return starfocus::SoftnessOf(counts, 2);
 }
 
-TEST_CASE("repaired edges: the softness of a picture is the width of its edges in pixels") {
+TEST_CASE("repaired edges: SoftnessOf returns the width in pixels of the picture's soft edges") {
   Scene scene;
   const auto straight = [](int) { return 48; };
   scene.Fill(1, straight, 48);
@@ -62,7 +64,8 @@ TEST_CASE("repaired edges: the softness of a picture is the width of its edges i
   CHECK(Softness(scene) == 2);
   scene.Fill(4, straight, 48);
   CHECK(Softness(scene) == starfocus::kMostSoft);
-  // A map without edges and a picture without contrast have no softness.
+  // SoftnessOf returns 0 for a map without edges. CountSoft counts no edges in a picture without
+  // contrast.
   const starfocus::SoftCount none = {};
   CHECK(starfocus::SoftnessOf(&none, 1) == 0);
   std::fill(scene.rgb.begin(), scene.rgb.end(), uint8_t{90});
@@ -80,7 +83,7 @@ TEST_CASE("repaired edges: a pixel that shows a part of the nearer surface becom
   };
   for (const int y : {8, 31, 50}) {
     CHECK(widened(47, y) == kNear);
-    CHECK(widened(48, y) == kNear);  // the near surface covers 5/6
+    CHECK(widened(48, y) == kNear);  // the near surface covers 5/6 of the pixel
     CHECK(widened(49, y) == kNear);  // half
     CHECK(widened(50, y) == kNear);  // 1/6
     CHECK(widened(51, y) == kFar);
@@ -91,7 +94,7 @@ TEST_CASE("repaired edges: a pixel that shows a part of the nearer surface becom
   CHECK(widened(49, 31) == kFar);
 }
 
-TEST_CASE("repaired edges: displaced rows move back to the edge of the picture") {
+TEST_CASE("repaired edges: TakeMajority moves displaced rows back to the edge of the picture") {
   Scene scene;
   scene.Fill(
       1, [](int y) { return 48 + (y * 7 + y / 3) % 5 - 2; }, 48);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests which pixels of a given map are swept.
+// Tests for which pixels of a given map a repair sweeps all disparities.
 #include "lib/depth/swept.h"
 
 #include <doctest/doctest.h>
@@ -47,8 +47,8 @@ TEST_CASE(
     scene.views = views;
     const std::vector<uint8_t> swept = SweptOf(scene, MapOf(scene));
     for (int x = 0; x < scene.width; ++x) {
-      // The pixels on both sides of a step are not trusted, and pixels around untrusted ones are
-      // swept.
+      // The repair distrusts the pixels on both sides of a step, and sweeps all pixels within
+      // kSweptRadius of a distrusted pixel.
       const bool near = (x >= 129 - kSweptRadius && x <= 130 + kSweptRadius) ||
                         (x >= 261 - kSweptRadius && x <= 262 + kSweptRadius);
       CAPTURE(x);
@@ -76,7 +76,7 @@ TEST_CASE("swept: disparities that contradict the views are swept, even if they 
   CHECK(outside == 0);
 }
 
-TEST_CASE("swept: the listed runs equal the mask within the given part of a row") {
+TEST_CASE("swept: ForRuns lists the runs of swept pixels within the given part of a row") {
   EstimatePlan plan = {};
   plan.width = 8;
   const uint8_t swept[] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 0, 0, 1, 0, 1, 1};

@@ -71,7 +71,7 @@ std::vector<uint8_t> Blurred(const test::Scene& scene, double focus, double aper
 
 constexpr double kTheta = 0.26 * 3.14159265358979323846;
 
-// Returns the largest difference from the rounded reference for either transfer.
+// Returns the largest difference from the rounded reference, with either transfer function.
 double Difference(const test::Scene& scene, double focus, double aperture, int block,
                   double theta = kTheta) {
   double largest = 0;
@@ -155,7 +155,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("blur: pixels in focus are copied, and a constant does not change") {
+TEST_CASE("blur: pixels in focus are copied, and a picture of one level does not change") {
   const test::Scene sharp = test::RandomScene(41, 33, 1, 2.5f, 2.5f, 7);
   CHECK(Blurred(sharp, 2.5, 1, 32, kTheta, STARFOCUS_TRANSFER_SRGB) == sharp.pictures[0]);
   for (int level = 0; level < 256; level += 5) {
@@ -208,7 +208,7 @@ TEST_CASE("blur: PSFs sum to exactly one, fit their types and decrease from the 
     CHECK(kernel.sum_bits >= 1);
     CHECK(kernel.sum_bits <= 24);
     CHECK(largest <= 32767);
-    CHECK(kernel.Weight(0, 0) + 8 >= largest);  // the centre takes the remainder of rounding
+    CHECK(kernel.Weight(0, 0) + 8 >= largest);  // rounding may reduce the centre weight
   }
 }
 

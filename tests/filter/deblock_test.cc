@@ -117,7 +117,7 @@ std::vector<int> DeblockedRow(const std::vector<int>& levels, int before, int af
   return out;
 }
 
-// Returns 16 pixels of 100, followed by the levels of `after`.
+// Returns 16 pixels of level 100, followed by the levels of `after`.
 std::vector<int> Step(const std::vector<int>& after) {
   std::vector<int> levels(16, 100);
   levels.insert(levels.end(), after.begin(), after.end());
@@ -176,7 +176,7 @@ TEST_CASE("deblock: the filter applies only if the difference is below beta") {
   }
 }
 
-TEST_CASE("deblock: all three colours must differ by less than beta") {
+TEST_CASE("deblock: the filter applies only if all three channels differ by less than beta") {
   for (int c = 0; c < 3; ++c) {
     Picture picture(32, 1);
     std::fill(picture.rgb.begin(), picture.rgb.end(), uint8_t{100});
@@ -193,7 +193,7 @@ TEST_CASE("deblock: all three colours must differ by less than beta") {
   }
 }
 
-TEST_CASE("deblock: last rows and columns may be narrower than the filter") {
+TEST_CASE("deblock: blocks at the right and bottom edges may be narrower than the filter") {
   for (const bool vertical : {false, true}) {
     const auto row = [&](const std::vector<int>& after, int p) {
       return DeblockedRow(Step(after), p, 0, 35, vertical);
@@ -204,7 +204,8 @@ TEST_CASE("deblock: last rows and columns may be narrower than the filter") {
     CHECK(row({120, 120}, 2) == Step({110, 120}));
     CHECK(row({120, 120, 120}, 2) == Step({110, 120, 120}));
     CHECK(row({120, 120, 120, 120}, 2) == Step({105, 110, 115, 120}));
-    // A narrow block of the higher layer still smooths its neighbour.
+    // A block of the higher layer smooths its neighbour even if the block is narrower than the
+    // filter.
     std::vector<int> strong = Step({120});
     strong[15] = 115;
     strong[14] = 110;

@@ -125,7 +125,7 @@ int LargestDifference(const Refocused& a, const Refocused& b) {
   return largest;
 }
 
-TEST_CASE("gather: for a flat surface, the result equals that of the blur mode") {
+TEST_CASE("gather: for a flat surface, block mode gives the same picture as blur mode") {
   for (const double radius : {0.6, 1.0, 2.5, 4.0, 7.3, 12.0}) {
     for (const int block : {32, 64, 256}) {
       test::Scene scene = test::RandomScene(70, 45, 5, 0, 0, 62);
@@ -156,7 +156,7 @@ TEST_CASE("gather: for a flat surface, the result equals that of the blur mode")
   }
 }
 
-TEST_CASE("gather: cells in focus, cells with large blur and other modes are not gathered") {
+TEST_CASE("gather: only block mode with slices gathers, for blurs above 0.5 and up to 48 pixels") {
   const test::Scene scene = test::RandomScene(70, 45, 5, 0, 0, 63);
   const starfocus_config config = test::ConfigFor(scene, 49);
   const auto gathered = [&](double focus, starfocus_mode mode, starfocus_renderer renderer) {

@@ -124,7 +124,7 @@ struct Layer {
   std::vector<int16_t> samples;
 };
 
-// Returns a window with only the centre view, in which light is equal to the codes.
+// Returns a window that has only the centre view, without a transfer function.
 starfocus::Window WindowOf(const std::vector<uint8_t>& picture, int width, int height) {
   starfocus::Window window;
   window.width = window.picture_width = width;
@@ -311,7 +311,7 @@ TEST_CASE("layers: taps match their definition") {
   CHECK(starfocus::kUpFilter.centre == 1 << kTapBits);
 }
 
-TEST_CASE("layers: rounding errors of one and two layers down and up are bounded") {
+TEST_CASE("layers: rounding errors of subsampling and upsampling by 1 or 2 layers are bounded") {
   const Errors errors = Compare();
   CHECK(errors.samples[1] <= 0.25);
   CHECK(errors.samples[2] <= 0.5);
@@ -319,7 +319,7 @@ TEST_CASE("layers: rounding errors of one and two layers down and up are bounded
   CHECK(errors.levels[2] <= 1);
 }
 
-TEST_CASE("layers: the result does not depend on how columns are divided or on the SIMD target") {
+TEST_CASE("layers: samples do not depend on the size of superblocks or the SIMD target") {
   test::Random random(15);
   for (int round = 0; round < 30; ++round) {
     const int width = random.Int(1, 270), height = random.Int(1, 40);
@@ -375,7 +375,7 @@ TEST_CASE("layers: constant pictures of every level and every small size do not 
   }
 }
 
-TEST_CASE("layers: each layer has half the size of the one before, rounded up, plus one") {
+TEST_CASE("layers: LayerSize is half the size of the previous layer, rounded up, plus one") {
   for (int size = 1; size < 300; ++size) {
     // Layer 1 has (size + 1) / 2 pixels inside the picture, and one more pixel beyond the picture.
     CHECK(LayerSize(size, 0) == size);

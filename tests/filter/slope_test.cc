@@ -88,8 +88,8 @@ TEST_CASE("slope: shares interpolate linearly between two squared radii") {
   CHECK(share[0] == 0);
 }
 
-// Returns the centre of the light of all views, on a grid of the disc. The view at s shows the
-// point p = -s (r + g p).
+// Returns the x coordinate of the centroid of the light of all views, which lie on a grid in the
+// unit disc. The view at s shows the point p = -s (r + g p).
 double CentreOfViews(double radius, double gradient) {
   double sum = 0, views = 0;
   for (int v = -50; v <= 50; ++v) {
@@ -120,7 +120,7 @@ TEST_CASE("slope: a gathered picture is shifted to the centroid of the light of 
   }
 }
 
-TEST_CASE("slope: openings have the expected mean square") {
+TEST_CASE("slope: MeanSquare has the expected value for each opening") {
   starfocus::ApertureShape opening;
   const auto mean_square = [&] { return starfocus::MeanSquare(opening) / 16384.0; };
   opening.fall_off = starfocus::ApertureFallOff(0.26 * 3.14159265358979);

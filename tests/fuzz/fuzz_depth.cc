@@ -37,7 +37,7 @@ starfocus_depth_config MakeConfig(Input* input) {
   }
   static int32_t left;  // number of calls of progress before the cancellation
   left = input->Int(0, 20);
-  config.problem = nullptr;  // pointers must be valid, so they are not drawn
+  config.problem = nullptr;  // the fuzzer does not select pointers, which must be valid
   config.runner = nullptr;
   config.progress = nullptr;
   config.progress_data = &left;
@@ -49,7 +49,7 @@ starfocus_depth_config MakeConfig(Input* input) {
   return config;
 }
 
-// Rows of any stride, without memory after the last row.
+// Owns rows with any stride. No memory follows the last row.
 template <class T>
 struct Rows {
   Rows(size_t width, int32_t height, Input* input)

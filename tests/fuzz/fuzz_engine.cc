@@ -21,7 +21,7 @@ using test::Strands;
 
 constexpr int kViews[] = {1, 5, 9, 17};
 constexpr int kBlocks[] = {32, 64, 128, 256};
-// Limits the number of rendered views times pixels, so that every input runs fast.
+// Limits the product of rendered views and pixels, so that every input runs fast.
 constexpr double kMostWork = 300000;
 
 // Derives the shape from the value of another field, so that recorded inputs keep their meaning.
@@ -259,15 +259,15 @@ void Stream(starfocus_engine* engine, const starfocus_config& config,
     const int count = RowCount(config.height - pulled, input);
     const starfocus_status status = test::PullRgb(engine, rest, stride, count, &moved, nullptr);
     if (status != STARFOCUS_OK && status != STARFOCUS_ERROR_CANCELLED) return;
-    pulled += moved;  // a cancelled stream continues
+    pulled += moved;  // after a cancellation, the stream can continue
     if (!input->Rarely()) continue;
     if (starfocus_stream_begin(engine, &params) != STARFOCUS_OK) return;
     pushed = pulled = 0;
   }
 }
 
-// Refocuses a whole picture by one of several calls. The previous frame may equal the frame or
-// differ.
+// Refocuses a whole picture by one of several calls. The previous frame may be equal to the current
+// frame or different.
 void Refocus(starfocus_engine* engine, const starfocus_config& config,
              const starfocus_params& params, const Pictures& pictures, uint8_t* out, size_t stride,
              Input* input) {

@@ -18,7 +18,7 @@ struct Size {
   int32_t width, height;
 };
 
-// Memory of the planes.
+// Owns the memory of image planes.
 using Planes = std::vector<std::unique_ptr<uint8_t[]>>;
 
 uint8_t* TakePlane(int32_t rows, size_t row_bytes, Input* input, size_t* stride, Planes* planes) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fuzz target: the XMP of a photo. The input is the packet. The pictures around it are valid, so
-// that nearly all inputs reach the map.
+// Fuzz target: the XMP of a photo. The input is the XMP packet. The pictures of the photo are
+// valid, so that nearly all inputs reach the reader of depth maps.
 #include <cstdlib>
 #include <string>
 

@@ -45,8 +45,8 @@ inline int64_t PixelsOfHeaders(const uint8_t* data, size_t size) {
   return pixels;
 }
 
-// Returns the number of pixels of a WebP file (RFC 9649, 2.5 to 2.7). If the file has a canvas,
-// these are the pixels of the canvas.
+// Returns the number of pixels of a WebP file (RFC 9649, 2.5 to 2.7). For a file with a canvas,
+// returns the number of pixels of the canvas.
 inline int64_t PixelsOfWebp(const uint8_t* data, size_t size) {
   if (size < 30) return 0;
   if (std::memcmp(data + 12, "VP8X", 4) == 0) {
@@ -82,7 +82,7 @@ inline int64_t StatusOf(const std::string& name) {
 class MemoryBudget {
  public:
   MemoryBudget(const uint8_t* data, size_t size) : pixels_(DeclaredPixels(data, size)) {
-    std::ofstream("/proc/self/clear_refs") << 5;  // sets the peak to the current use
+    std::ofstream("/proc/self/clear_refs") << 5;  // resets the peak to the current memory use
     before_ = StatusOf("VmHWM:");
   }
   ~MemoryBudget() {
