@@ -14,7 +14,7 @@ struct Material {
   uint32_t seed = 0;
 };
 
-// A position: scene x and y, and disparity.
+// Position of a surface: x and y in the scene, and disparity d.
 struct Position {
   double x, y, d;
 };

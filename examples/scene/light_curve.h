@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Converts codes to light and back. The range extends far above white, as lamps require.
+// Converts codes to light and back. The range of codes and light extends far above white, because
+// lamps are brighter than white.
 #ifndef STARFOCUS_EXAMPLES_SCENE_LIGHT_CURVE_H_
 #define STARFOCUS_EXAMPLES_SCENE_LIGHT_CURVE_H_
 
@@ -21,12 +22,13 @@ class LightCurve {
   Color Encode(const Color& light) const;
 
  private:
-  static constexpr int kMostCode = 2048, kSteps = 4;  // table entries per code
+  // Largest code of the table, and number of table entries per code.
+  static constexpr int kMostCode = 2048, kSteps = 4;
 
   double LightOf(double code) const;
   double CodeOf(double light) const;
 
-  std::vector<double> light_;  // light of every table entry; empty: light is the code
+  std::vector<double> light_;  // light of every table entry; empty if light equals the code
 };
 
 }  // namespace starfocus

@@ -11,10 +11,10 @@ namespace starfocus {
 // Returns 32 well-mixed bits from two lattice coordinates and a seed.
 uint32_t Hash(int32_t x, int32_t y, uint32_t seed);
 
-// Returns the hash as a number in [0, 1).
+// Returns the hash of two lattice coordinates and a seed as a number in [0, 1).
 double HashUnit(int32_t x, int32_t y, uint32_t seed);
 
-// Returns smooth noise in [0, 1] with features of about one unit.
+// Returns smooth noise in [0, 1] whose features are about one unit wide.
 double Noise(double x, double y, uint32_t seed);
 
 // Returns the sum of `octaves` octaves of Noise in [0, 1]. Each octave has half the size and half

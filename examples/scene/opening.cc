@@ -45,7 +45,8 @@ bool SceneOpening::Passes(double u, double v, double x, double y) const {
       if (u * edge.x + v * edge.y > std::cos(half_)) return false;
       continue;
     }
-    // The edge is an arc of the circle through both corners.
+    // The edge is an arc of the circle with radius 1 / `curvature_` through the two corners of the
+    // edge.
     const double radius = 1 / curvature_;
     const double centre = std::cos(half_) - std::sqrt(radius * radius - Square(std::sin(half_)));
     if (Square(u - centre * edge.x) + Square(v - centre * edge.y) > radius * radius) return false;

@@ -32,7 +32,8 @@ class SceneOpening {
 
   starfocus_shape shape_;
   double fall_off_ = 0, inner_, cats_eye_;
-  double curvature_, half_;  // polygon: curvature, half the angle between corners
+  // Curvature of a polygon's edges, and half the angle between two corners.
+  double curvature_, half_;
   std::vector<Edge> edges_;
 };
 

@@ -9,7 +9,7 @@ namespace {
 
 using LayeredDepth = std::vector<Surface>;
 
-constexpr double kX = -110;  // x of the subject
+constexpr double kX = -110;  // x coordinate of the person
 constexpr double kWall = -9;
 
 void AddHead(LayeredDepth* out) {

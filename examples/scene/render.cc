@@ -78,8 +78,8 @@ void ProductRange(double a, double b, double c, double d, double* low, double* h
 
 struct RayTracer::Lens {
   double u = 0, v = 0;                   // centre of the lens
-  double aperture = 0;                   // radius of the lens; 0: a pinhole
-  double focus = 0;                      // in canvas units
+  double aperture = 0;                   // radius of the lens; 0 for a pinhole
+  double focus = 0;                      // disparity in focus, in canvas units
   std::vector<LensPoint> points, turns;  // empty for a pinhole
   const SceneOpening* opening = nullptr;
 };

@@ -39,11 +39,11 @@ class RayTracer {
   // Renders the picture of a lens with radius `aperture` and opening `opening`, focused at `focus`.
   Image Truth(double focus, double aperture, const SceneOpening& opening, Progress* progress) const;
 
-  // Converts a point of the canvas to a pixel.
+  // Converts a point of the canvas to the coordinates of the nearest pixel.
   void ToPixel(double x, double y, int* pixel_x, int* pixel_y) const;
 
  private:
-  struct Lens;  // defines the rays of a pixel
+  struct Lens;  // a lens, which defines the rays that contribute to a pixel
 
   // Returns the indices of the surfaces that may be visible in the tile at (x0, y0), nearest first.
   std::vector<size_t> Candidates(const Lens& lens, int x0, int y0) const;
@@ -57,7 +57,7 @@ class RayTracer {
   Color LensPixel(const Lens& lens, const std::vector<size_t>& candidates, int x, int y) const;
   // Returns the coverage of pixel (x, y), 0 to 255.
   uint8_t CoverageOf(const std::vector<size_t>& candidates, int x, int y) const;
-  // Returns true if `kind` is true for one of the candidates.
+  // Returns true if `kind` returns true for at least one of the candidate surfaces.
   template <class Kind>
   bool Any(const std::vector<size_t>& candidates, const Kind& kind) const;
   // Returns the ray of the centre view through pixel position (x, y).
@@ -74,7 +74,7 @@ class RayTracer {
 
   const Scene& scene_;
   const int width_, height_;
-  const double scale_;  // pixels per canvas unit
+  const double scale_;  // number of pixels per canvas unit
   const LightCurve curve_;
   std::vector<Bounds> bounds_;
   ThreadRunner* const runner_;

@@ -5,8 +5,8 @@
 // has 1024x768 units, its origin is the centre, y points downwards, and d is in canvas units per
 // unit of u. In a picture of another size, x, y and d are scaled equally. A ray consists of the
 // points that picture position p sees through lens position q. If the lens is focused at disparity
-// D, these points are (x, y) = p + q * (d - D). The surface with the largest d is visible. D = 0
-// gives the captured views.
+// D, these points are (x, y) = p + q * (d - D). The surface with the largest d is visible. The
+// captured views are the rays with D = 0.
 #ifndef STARFOCUS_EXAMPLES_SCENE_SCENE_H_
 #define STARFOCUS_EXAMPLES_SCENE_SCENE_H_
 
@@ -29,17 +29,18 @@ inline Color operator+(Color p, Color q) { return {p.r + q.r, p.g + q.g, p.b + q
 inline Color operator*(Color p, double k) { return {p.r * k, p.g * k, p.b * k}; }
 inline Color Mix(Color p, Color q, double t) { return p * (1 - t) + q * t; }
 
-// The points (x, y) = (ox, oy) + (u, v) * d.
+// A ray, which consists of the points (x, y, d) with (x, y) = (ox, oy) + (u, v) * d.
 struct Ray {
   double ox, oy, u, v;
 };
 
 // Intersection of a ray and a surface.
 struct Hit {
-  double x, y, d;     // in the scene
-  double lx, ly;      // relative to the surface's centre, along its axes; strands: along and across
+  double x, y, d;  // position in the scene
+  double lx, ly;   // position relative to the surface's centre, along its axes; for strands, along
+                   // and across the strand
   double nx, ny, nz;  // normal: right, down, towards the camera
-  size_t strand = 0;  // index in the surface's strands
+  size_t strand = 0;  // index of the strand in the surface's strands
 };
 
 struct Surface;
@@ -56,9 +57,9 @@ struct Surface {
   Outline outline = Outline::kNone;
   double cx = 0, cy = 0, cd = 0;    // centre
   double ax = 1, ay = 0;            // unit vector of the local x axis
-  double rx = 0, ry = 0, rd = 0;    // radii along the local axes (rd: ellipsoids)
-  double slope_x = 0, slope_y = 0;  // planes: change of d per unit of scene x, y
-  double thickness = 0;             // rings
+  double rx = 0, ry = 0, rd = 0;    // radii along the local axes; rd is used for ellipsoids only
+  double slope_x = 0, slope_y = 0;  // change of a plane's disparity per unit of x and of y
+  double thickness = 0;             // width of a ring
   std::shared_ptr<const Strands> strands;
   bool foreground = false;  // true if the surface counts in the coverage of the centre view
   Paint paint = nullptr;
@@ -84,7 +85,7 @@ struct Scene {
   std::string name;
   std::string description;
   std::vector<Surface> surfaces;
-  std::vector<NamedPoint> points;  // near, middle, far
+  std::vector<NamedPoint> points;  // points to focus on: near, middle, far
   bool seeded = false;             // true if the scene depends on the seed
 
   // Returns true if the scene has a foreground, and therefore a coverage map.

@@ -28,7 +28,8 @@ class Dice {
 constexpr Point kHead = {-10, 30};
 constexpr double kHeadRadius = 155;
 
-// Returns a random direction from the head, outside of a sector of a third of a turn on the right.
+// Returns a random direction from the centre of the head, except a sector of a third of a turn on
+// the right.
 Point HairDirection(Dice* dice) {
   for (;;) {
     const double x = dice->Between(-1, 1), y = dice->Between(-1, 1);

@@ -7,8 +7,9 @@
 namespace starfocus {
 namespace {
 
-constexpr int kParts = 12;   // segments per strand
-constexpr double kCell = 4;  // side of a cell in canvas units: half a segment of hair
+constexpr int kParts = 12;  // segments per strand
+// Side of a cell in canvas units: about half the length of a segment of hair.
+constexpr double kCell = 4;
 
 Point PointAt(const Strand& s, double t) {
   const double a = (1 - t) * (1 - t), b = 2 * t * (1 - t), c = t * t;

@@ -24,12 +24,13 @@ struct Strand {
 // Intersection of a ray and a strand.
 struct StrandHit {
   double x, y, d;
-  // Along: distance from the root in canvas units; across: -1 to 1 from side to side.
+  // `along` is the distance from the root in canvas units. `across` grows from -1 on one side of
+  // the strand to 1 on the other side.
   double along, across;
-  size_t strand;  // index, counted from the nearest strand
+  size_t strand;  // index of the strand, counted from the nearest strand
 };
 
-// A box that contains a whole surface.
+// Ranges of x, y and d that contain a whole surface.
 struct Bounds {
   double x0, x1, y0, y1, d0, d1;
 };
@@ -49,14 +50,14 @@ class Strands {
   // A straight part of a strand, with round ends.
   struct Segment {
     Point start, direction;  // direction is a unit vector
-    double length, along;    // along: distance of the start from the root
-    double radius, growth;   // half width at the start, and its change per canvas unit
+    double length, along;    // length of the segment, and distance of its start from the root
+    double radius, growth;  // half width at the start, and change of the half width per canvas unit
     double d;
     size_t strand;
 
     // Returns the distance from the start of the segment to the point of the segment nearest to p.
     double Nearest(Point p) const;
-    // Returns the vector to p from the point at distance t from the start.
+    // Returns the vector to p from the point of the segment at distance t from the start.
     Point From(double t, Point p) const;
     double LargestRadius() const;
   };
@@ -65,10 +66,11 @@ class Strands {
   void FitBounds();
   void AddToCells(uint32_t index, std::vector<std::vector<uint32_t>>* cells) const;
   void FillGrid();
-  // Returns the column or row at distance `from` from the grid's left or upper side.
+  // Returns the column (or row) of cells at distance `from` from the grid's left (or upper) side.
   static int CellAt(double from, int count);
 
-  std::vector<Segment> segments_;  // from the nearest strand to the farthest
+  // Segments of all strands, from the nearest strand to the farthest.
+  std::vector<Segment> segments_;
   Bounds bounds_ = {};
   // The grid lies in the plane of disparity d_. A ray meets strands only at distances of at most
   // reach_ from the intersection of the ray with this plane.

@@ -83,7 +83,7 @@ bool Intersect(const Surface& surface, const Ray& ray, Hit* hit) {
 Bounds SurfaceBounds(const Surface& s, double reach) {
   if (s.shape == Shape::kStrands) return s.strands->bounds();
   const bool endless = s.shape == Shape::kPlane && s.outline == Outline::kNone;
-  // The outline of a leaf reaches up to 1.14 times its radius.
+  // The outline of a leaf reaches up to 1.14 times the leaf's radius ry.
   const double ry = s.outline == Outline::kLeaf ? 1.2 * s.ry : s.ry;
   const double wide = std::fabs(s.ax) * s.rx + std::fabs(s.ay) * ry;
   const double high = std::fabs(s.ay) * s.rx + std::fabs(s.ax) * ry;

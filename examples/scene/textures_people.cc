@@ -43,7 +43,7 @@ Color Lit(Color color, const Hit& hit) {
 Color PaintKnit(const Surface& s, const Hit& hit) {
   const double stitch = 8 * s.scale;
   const double column = Wrap(hit.lx, stitch) / stitch - 0.5;
-  const double row = hit.ly + 6 * s.scale * std::fabs(column);  // V shape of a stitch
+  const double row = hit.ly + 6 * s.scale * std::fabs(column);  // gives stitches the shape of a V
   const double yarn = Triangle(row, stitch);
   const double rib = 1 - 2.2 * column * column;
   const double band = Wrap(hit.ly + 4 * std::fabs(column), 7 * stitch) / stitch;
@@ -101,7 +101,7 @@ Color PaintFur(const Surface& s, const Hit& hit) {
 }
 
 Color PaintEye(const Surface& s, const Hit& hit) {
-  // The highlight is at the upper left, where the light comes from.
+  // The highlight of the eye is at the upper left, because the light comes from the upper left.
   const double radius = std::sqrt(hit.lx * hit.lx + hit.ly * hit.ly);
   const double gx = hit.lx + 3.5, gy = hit.ly + 4;
   if (gx * gx + gy * gy < 5) return {255, 255, 255};

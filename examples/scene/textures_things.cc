@@ -20,7 +20,7 @@ double Damask(double x, double y) {
   const double py = Wrap(y, cell) - cell / 2;
   const double ax = std::fabs(px), ay = std::fabs(py);
   const double radius = std::sqrt(px * px + py * py);
-  // Four petals: |x y| is largest along the diagonals.
+  // The rosette has four petals, because |x y| is largest along the diagonals.
   const double petal = radius > 0 ? 2 * ax * ay / (radius * radius) : 0;
   const double bloom = Smooth(2, 0, std::fabs(radius - (10 + 13 * petal)) - 1.2);
   const double heart = Smooth(7, 5.5, radius);
@@ -41,7 +41,7 @@ Color PaintWallpaper(const Surface& s, const Hit& hit) {
 }
 
 Color PaintWood(const Surface& s, const Hit& hit) {
-  // Planks, each with its own grain, drawn as strips without perspective.
+  // Draws planks as strips without perspective, each with a different grain.
   const double plank = std::floor(hit.ly / (34 * s.scale));
   const uint32_t seed = s.seed + Hash(static_cast<int32_t>(plank), 0, s.seed) % 1000u;
   const double bend = 10 * Noise(hit.lx / 120, hit.ly / 20, seed);
@@ -55,7 +55,7 @@ Color PaintWood(const Surface& s, const Hit& hit) {
 }
 
 Color PaintGlaze(const Surface& s, const Hit& hit) {
-  // Bands of zigzags and dots around the pot. The glaze darkens towards the rim.
+  // Paints bands of zigzags and dots around the pot. The glaze darkens towards the rim.
   const double y = hit.ly / s.ry * 100;
   const double curve = hit.lx / (0.35 + 0.65 * hit.nz);
   Color color = s.color;
@@ -82,7 +82,8 @@ Color PaintLeaf(const Surface& s, const Hit& hit) {
   const double grain = Weave(hit, 5, s.seed);
   Color color = Mix(s.color, s.second, Smooth(0.72, 1, vein)) * (0.62 + 0.75 * grain);
   if (rib < 1.6) color = s.second;
-  const double fold = hit.ly > 0 ? 0.82 : 1.08;  // the halves face different directions
+  // The two halves of a leaf face different directions.
+  const double fold = hit.ly > 0 ? 0.82 : 1.08;
   return color * fold;
 }
 
@@ -93,7 +94,7 @@ Color PaintBook(const Surface& s, const Hit& hit) {
   const bool line = std::fabs(hit.ly) < 0.42 * s.ry;
   if (edge > 0.8 * s.rx && edge < 0.86 * s.rx) return s.second * round;
   if (line && edge < 0.62 * s.rx) {
-    // Letters: strokes of random height in cells of 8 units, with gaps between words.
+    // Imitates letters by strokes of random height in cells of 8 units, with gaps between words.
     const int32_t cell = static_cast<int32_t>(std::floor(hit.lx / 8));
     const double px = Wrap(hit.lx, 8);
     const uint32_t form = Hash(cell, 5, s.seed);

@@ -62,16 +62,16 @@ starfocus_status MeasureStep(const EngineProbe& probe, EngineStep* step) {
 std::string Explain(const EngineStep& step) {
   if (step.engine <= kThreshold) return "";
   if (step.apart > kExplained[step.layer]) {
-    return "unexplained: the PSF differs from its description";
+    return "unexplained: the measured PSF differs from StarPsf";
   }
   // Tests possible causes from the most to the least fundamental, and returns the first cause that
   // explains the error.
   const double r = std::fabs(step.r);
   if (MakeLayerTheory(r, step.layer).error > kThreshold) {
-    return "the filters between layers: the ideal PSF behind them also exceeds 1e-3";
+    return "the filters between layers: with them, the error of the ideal PSF exceeds 1e-3";
   }
   if (step.subapertures > kThreshold) {
-    return "too few views: exact subapertures with this N also exceed 1e-3";
+    return "too few views: with this N, the error of exact subapertures exceeds 1e-3";
   }
   if (step.wide)
     return "wide subapertures are boxes; boxes above 3 pixels cover whole pixels and are "

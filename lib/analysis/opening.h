@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Analyses openings other than (3) in double precision. Computes the ideal PSF of an opening, the
 // PSF of its subapertures, and the error of a layer. The engine's rules for N and layers of these
-// openings are based on the results (docs/constants.md, Openings).
+// openings are based on the results of this analysis (docs/constants.md, Openings).
 #ifndef STARFOCUS_LIB_ANALYSIS_OPENING_H_
 #define STARFOCUS_LIB_ANALYSIS_OPENING_H_
 

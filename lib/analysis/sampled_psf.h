@@ -8,7 +8,7 @@
 
 namespace starfocus::analysis {
 
-// Taps b[n] of a 1D filter for |n| <= radius. All other taps are zero.
+// Taps b[n] of a 1D filter for |n| <= radius. Taps with |n| > radius are zero.
 class Taps {
  public:
   explicit Taps(int radius) : radius_(radius), taps_(static_cast<size_t>(2 * radius + 1)) {}
@@ -26,7 +26,7 @@ class Taps {
   std::vector<double> taps_;
 };
 
-// Taps b[n, m] of a 2D PSF for |n|, |m| <= radius. All other taps are zero.
+// Taps b[n, m] of a 2D PSF for |n|, |m| <= radius. Taps outside this square are zero.
 class SampledPsf {
  public:
   explicit SampledPsf(int radius)

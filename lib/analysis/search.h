@@ -6,7 +6,7 @@
 namespace starfocus::analysis {
 
 // Returns the position of the minimum of f in [low, high], by golden-section search to `tolerance`.
-// The function f must have a single local minimum in this interval.
+// The function f must have a single local minimum in [low, high].
 template <class Function>
 double Minimise(double low, double high, double tolerance, const Function& f) {
   constexpr double kGolden = 0.61803398874989485;

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kNarrowest = 1e-6, kWidest = 7;
 
-// Footprint of a view along a line. The footprint is a single tap or, for subapertures wider than
+// Footprint of a view along one axis. The footprint is a single tap or, for subapertures wider than
 // kBoxSubaperture, the taps of a box on whole pixels. Each tap is then spread by a box of `width`;
 // a box of up to one pixel is the interpolation.
 struct Footprint {

@@ -51,8 +51,8 @@ Optimum Optimise(double r);
 // optimum of Optimise does not reproduce all digits.
 Optimum OptimiseOnGrid(double r);
 
-// Returns the r at which the error (10) with the best filters for r falls to `threshold`. (12) uses
-// the next larger r of Table I.
+// Returns the r at which the error (10) with the best filters for r falls to `threshold`. The
+// paper's rule (12) uses the next larger r of Table I.
 double SmallestSubsampledRadius(double threshold);
 
 }  // namespace starfocus::analysis

@@ -15,7 +15,8 @@ namespace starfocus::analysis {
 // result is nearest-pixel interpolation.
 double Trapezoid(double t, double width);
 
-// Selects whether views with u^2 + v^2 = 1 are rendered. (3) includes these views.
+// Selects whether views with u^2 + v^2 = 1 are rendered. The aperture (3) includes the views on its
+// rim.
 enum class Rim { kIncluded, kExcluded };
 
 // Returns the PSF (5)-(7) for N views along the aperture radius, N >= 1, where h(x, y) is the
@@ -41,7 +42,7 @@ class SubapertureLights {
   SubapertureLights(double theta, int lens);
 
   int lens_;
-  std::vector<double> lights_;  // shares of the views with 0 <= j <= i
+  std::vector<double> lights_;  // shares of light of the views (i, j) with 0 <= j <= i
 };
 
 // Returns the PSF of views that stand for their subapertures. The width of h is the distance by

@@ -44,8 +44,8 @@ void PoisonZone(void* base, size_t begin, size_t end);
 void UnpoisonZone(void* base, size_t begin, size_t end);
 
 // Allocates aligned pieces of a block of memory, each followed by simd::kPadding bytes. All pieces
-// together take at most `most` bytes. The default is half the address space, the largest possible
-// size of an object.
+// together take at most `most` bytes. The default of `most` is half the address space, the largest
+// possible size of an object.
 class Arena {
  public:
   explicit Arena(void* base, size_t most = PTRDIFF_MAX, const PieceVisitor* pieces = nullptr)
@@ -59,8 +59,8 @@ class Arena {
     return piece;
   }
 
-  // Returns the size of all pieces, or kTooLarge. After kTooLarge the addresses of the pieces are
-  // meaningless.
+  // Returns the size of all pieces, or kTooLarge. If the result is kTooLarge, the addresses of the
+  // pieces are meaningless.
   size_t Bytes() const { return too_large_ ? kTooLarge : used_ > largest_ ? used_ : largest_; }
 
   // Reuse() lets later pieces share the memory of the pieces that were allocated after Mark()
@@ -77,7 +77,7 @@ class Arena {
   void GoOn() { used_ = used_ > largest_ ? used_ : largest_; }
 
  private:
-  // Returns the product, or SIZE_MAX if the product overflows.
+  // Returns a * b, or SIZE_MAX if the product overflows.
   static constexpr size_t Product(size_t a, size_t b) {
     return a != 0 && b > SIZE_MAX / a ? SIZE_MAX : a * b;
   }

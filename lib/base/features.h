@@ -17,7 +17,7 @@ inline bool HasShapes(const starfocus_config& config) {
   return Has(config.features, STARFOCUS_FEATURE_SHAPES);
 }
 
-// Range of disparities in single precision, the type of depth maps.
+// Range of disparities in float, the type of the values in depth maps.
 struct DisparityRange {
   float min, max;
 };

@@ -33,11 +33,12 @@ struct JobSet {
   const void* data = nullptr;
   int32_t count = 0;
   int32_t max_workers = 1;
-  std::atomic<uint32_t>* progress = nullptr;  // ProgressWords of the largest set
-  // 1: a job uses the memory of this worker.
+  // Progress of the jobs: ProgressWords of the largest set.
+  std::atomic<uint32_t>* progress = nullptr;
+  // busy[k] is 1 while a job uses the memory of worker k.
   std::atomic<uint32_t> busy[STARFOCUS_MAX_WORKERS] = {};
-  std::atomic<uint32_t> open{0};     // 1: the runner has not returned yet
-  std::atomic<uint32_t> misused{0};  // 1: the runner made an invalid call, which was rejected
+  std::atomic<uint32_t> open{0};     // 1 from the start of a set until its runner has returned
+  std::atomic<uint32_t> misused{0};  // 1 after the runner made an invalid call, which was rejected
   Runner runner = {};
   CallProgress call_progress;
 };

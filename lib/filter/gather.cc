@@ -74,7 +74,7 @@ class Gather {
   struct Steps {
     int8_t less, more;
   };
-  static_assert(kMaxGather <= 31, "step 127 is that of 31.5 pixels");
+  static_assert(kMaxGather <= 31, "a radius of 31.5 pixels has step 127");
   static constexpr Steps kNone = {-1, -1};  // steps of cells that are not gathered
 
   // Filters the row of cells at y. Adjacent cells with the same PSFs are filtered together.

@@ -21,16 +21,16 @@ struct Series {
   starfocus_mode mode;
   starfocus_renderer renderer;
   int layer;
-  double r_max;      // 0: r itself
+  double r_max;      // r_max of the picture; 0 makes r_max equal to r
   double increment;  // increment of r between measurements
-  int largest;       // largest r
+  int largest;       // largest r that is measured
 };
 
 const char* NameOf(starfocus_renderer renderer) {
   return renderer == STARFOCUS_RENDERER_LINE_SCAN ? "line-scan" : "slices";
 }
 
-// A range of consecutive values of r with the same reason.
+// A range of consecutive values of r whose errors have the same explanation.
 struct Stretch {
   double first, last, worst, worst_r;
   std::string reason;
@@ -48,8 +48,9 @@ void Extend(const EngineStep& step, const std::string& reason, bool joined,
   }
 }
 
-// Returns the smallest blur radius, a multiple of 0.5, at which the renderer uses the layer. Line
-// scans follow (12). Slices follow LayerBySubaperture without depth edges.
+// Returns the smallest blur radius, a multiple of 0.5, at which the renderer uses the layer. The
+// line scan uses layers by (12). The slice renderer uses layers by LayerBySubaperture without depth
+// edges.
 double LeastRadius(starfocus_renderer renderer, int layer) {
   const auto layer_at = [&](double r) {
     return renderer == STARFOCUS_RENDERER_LINE_SCAN ? LayerByPaper(r)

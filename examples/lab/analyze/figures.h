@@ -11,16 +11,16 @@
 
 namespace starfocus {
 
-// Each function prints its part of the summary to stdout.
+// Functions named Analyse print a part of the summary to stdout.
 Figure AnalyseTableOne();
 Figure AnalyseViewNumber();  // Fig. 6 and the thresholds of (9)
 
-// The next functions print nothing.
+// Functions named Draw do not print to stdout.
 Figure DrawViewPsfs();         // Fig. 4
 Figure DrawViewResponses();    // Fig. 5
 Figure DrawSubsampledBlurs();  // Fig. 8
 
-// Returns the table and the rule of subapertures, for blur radii up to `max_blur`.
+// Returns the table of N for subapertures, for blur radii up to `max_blur`.
 Figure AnalyseSubapertures(double max_blur);
 
 // Measures the engine's PSFs for blur radii up to `largest`. Returns an error if the engine cannot

@@ -15,7 +15,7 @@ namespace {
 
 using namespace analysis;
 
-constexpr double kRadius = 4;  // r of Figs. 4 and 5
+constexpr double kRadius = 4;  // blur radius r of the paper's Figs. 4 and 5
 
 // Returns b_vi,c(x) of (6).
 double Continuous(const Taps& samples, double x) {

@@ -17,7 +17,7 @@ Table Curves() {
   std::vector<std::string> columns = {"ratio"};
   for (int n = kLeast; n <= kMost; ++n) columns.push_back("N" + std::to_string(n));
   Table table("fig6", columns);
-  for (int k = 120; k <= 500; ++k) {  // ratio from 0.6 to 2.5
+  for (int k = 120; k <= 500; ++k) {  // N / r from 0.6 to 2.5
     const double ratio = k / 200.0;
     table.Row().Add(ratio);
     for (int n = kLeast; n <= kMost; ++n) table.Add(PaperError(n / ratio, n, kDefaultTheta));

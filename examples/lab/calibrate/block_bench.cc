@@ -35,7 +35,8 @@ Error BlockBench::Open(const std::string& where, const LightField& light_field) 
   if (status == STARFOCUS_OK) status = owner_.Init(MakeConfig(light_field, stats));
   if (status == STARFOCUS_OK) {
     engine_ = reinterpret_cast<EngineState*>(owner_.get());
-    // Create apertures for blocks of any N. The shape is the default, which Focus also uses.
+    // Create apertures for blocks of any N. The opening has the default shape, which Focus also
+    // uses.
     starfocus_params params;
     starfocus_params_init(&params);
     SetOpening(ShapeOf(params.lens), &engine_->tables);
@@ -61,7 +62,7 @@ void BlockBench::HoldDisparity() {
       starfocus_depth_float(map.values.data(), map.stride(), map.width, map.height);
   const DepthSource source = MakeDepthSource(engine_->config, given, nullptr);
   for (int y = 0; y < map.height; ++y) {
-    // Values cannot be out of range, because the configuration has the range of the map.
+    // Disparities cannot be out of range, because the configuration has the range of the map.
     ReadDepthRow(simd::BestImageKernels(), source, y, engine_->row_store.disparity.Row(y));
   }
   views_.kernels = engine_->kernels;

@@ -102,7 +102,8 @@ BlockSampler::Lens BlockSampler::RandomLens(int pass) {
   return lens;
 }
 
-// Returns the border of a rectangle of the picture: the pixels that splat into it.
+// Returns the border around a rectangle of the picture that contains all pixels that splat into the
+// rectangle.
 Border BlockSampler::FindBorder(const Lens& lens, const Rect& rect, int r_max) const {
   Border border = {0, 0, 0, 0};
   const int right = rect.x + rect.width, bottom = rect.y + rect.height;

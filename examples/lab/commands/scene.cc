@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int64_t kMostPixels = int64_t{1} << 25;  // all views are in memory
+constexpr int64_t kMostPixels = int64_t{1} << 25;  // limits memory, which holds all views
 constexpr int kMostSeed = 1000000;
 constexpr char kSceneNames[] = "portrait, wires, ramp, lamps, hair or grass";
 constexpr char kCoverageFile[] = "coverage.png";
@@ -47,7 +47,7 @@ struct SceneOptions {
 struct Plan {
   Scene scene;
   std::vector<Truth> truths;
-  starfocus_lens lens = {};  // lens of the truths, except focus and aperture
+  starfocus_lens lens = {};  // lens of the ground-truth pictures, without focus and aperture
 };
 
 Result<Truth> ParseTruth(const std::string& text) {

@@ -74,7 +74,7 @@ void Print(const stress::Report& report) {
 }
 
 stress::Report Try(stress::Options* wanted) {
-  int64_t told = 0;  // milliseconds that the progress line shows
+  int64_t told = 0;  // number of milliseconds that the progress line already shows
   Progress progress("testing", std::max<int64_t>(1, int64_t(1000 * wanted->seconds)));
   wanted->done = [&](double seconds) {
     const auto now = static_cast<int64_t>(1000 * std::min(seconds, wanted->seconds));
