@@ -22,7 +22,8 @@ namespace {
 
 constexpr int kSide = 96;
 
-// Makes a pattern at one disparity. The picture starts at (x0, y0) of the pattern.
+// Makes a scene whose views show a pattern at one disparity. Pixel (0, 0) of the centre view shows
+// (x0, y0) of the pattern.
 test::Scene FlatScene(int x0, int y0, int side, int views, float disparity) {
   test::Scene scene = test::EmptyScene(side, side, views, disparity - 1, disparity + 1);
   for (int view = 0; view < views; ++view) {
@@ -75,7 +76,7 @@ Difference AtEdges(const test::Refocused& picture, const test::Refocused& larger
   return difference;
 }
 
-TEST_CASE("beyond: pixels at the edges match a larger picture of the same scene") {
+TEST_CASE("picture edge: refocused pixels at the edges match a larger picture of the scene") {
   constexpr int kMargin = 32;
   for (const int views : {5, 9, 17}) {
     for (const float disparity : {-9.0f, 9.0f, 10.5f}) {
@@ -104,7 +105,7 @@ TEST_CASE("beyond: pixels at the edges match a larger picture of the same scene"
   }
 }
 
-TEST_CASE("beyond: with a single view, the edge pixels are repeated") {
+TEST_CASE("picture edge: with one view, the edge pixels are repeated") {
   constexpr int kMargin = 32;
   const test::Scene scene = FlatScene(0, 0, kSide, 1, 9);
   const test::Scene larger = FlatScene(-kMargin, -kMargin, kSide + 2 * kMargin, 1, 9);
@@ -122,7 +123,7 @@ TEST_CASE("beyond: with a single view, the edge pixels are repeated") {
 constexpr int kWidth = 64, kHeight = 8, kBorder = 12;
 
 struct Row {
-  // The centre view has level 10 x at pixel x. Side view v has level 100 + v everywhere.
+  // The centre view has red level x at pixel x. Side view v has level 100 + v everywhere.
   explicit Row(int views) : side(size_t(views)) {
     for (size_t view = 0; view < side.size(); ++view) {
       side[view].assign(3 * kWidth * kHeight, uint8_t(100 + view));
@@ -168,7 +169,7 @@ struct Row {
   starfocus::Window window;
 };
 
-TEST_CASE("beyond: the view on the outer side is used as far as it sees beyond the edge") {
+TEST_CASE("picture edge: pixels beyond an edge are read from the side view that shows them") {
   for (const int views : {5, 9, 17}) {
     for (const int unit : {-5, 5}) {
       Row scene(views);
@@ -195,7 +196,7 @@ TEST_CASE("beyond: the view on the outer side is used as far as it sees beyond t
   }
 }
 
-TEST_CASE("beyond: a pair sees beyond one edge, as far as the shift of its second view") {
+TEST_CASE("picture edge: with a pair, pixels beyond one edge are read from the second view") {
   for (const int unit : {-10, 10}) {
     Row scene(17);
     test::SetPositions({{0.5, 0}}, &scene.window);
@@ -209,10 +210,10 @@ TEST_CASE("beyond: a pair sees beyond one edge, as far as the shift of its secon
   }
 }
 
-TEST_CASE("beyond: pixels under or behind a nearer surface are not used") {
+TEST_CASE("picture edge: pixels beyond an edge that a nearer surface covers are not read") {
   Row scene(5);
   scene.Fill(0, kWidth, -6);
-  // Nearer by 7: in view (1, 0), this surface covers pixels 1 to 3 beyond the edge.
+  // This surface is nearer by 7. In view (1, 0), the surface covers pixels 1 to 3 beyond the edge.
   scene.Fill(4, 7, 1);
   std::vector<int> row = scene.Load();
   for (int k = 0; k <= kBorder; ++k) CHECK(row[size_t(kBorder - k)] == 0);
@@ -231,7 +232,7 @@ TEST_CASE("beyond: pixels under or behind a nearer surface are not used") {
   for (int k = 3; k <= kBorder; ++k) CHECK(row[size_t(kBorder - k)] == 9);
 }
 
-TEST_CASE("beyond: near surfaces continue on the side that no farther surface fills") {
+TEST_CASE("picture edge: a near surface that moves inwards hides no pixels beyond the edge") {
   Row scene(5);
   scene.Fill(0, kWidth, 3);
   scene.Fill(1, 20, 9);

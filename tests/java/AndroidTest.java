@@ -44,10 +44,10 @@ public final class AndroidTest {
     final Bitmap to = new Bitmap(WIDTH, HEIGHT, 4 * WIDTH + 8, 1);
     for (int i = 0; i < from.pixels.capacity(); ++i) from.pixels.put(i, (byte) (i * i / 3));
     try (LockedBitmap view = new LockedBitmap(from); LockedBitmap out = new LockedBitmap(to)) {
-      check(from.locks == 1 && to.locks == 1, "the pixels are locked");
+      check(from.locks == 1 && to.locks == 1, "LockedBitmap locks the pixels");
       refocus(view.image, out.image);
     }
-    check(from.locks == 0 && to.locks == 0, "and given back");
+    check(from.locks == 0 && to.locks == 0, "LockedBitmap unlocks the pixels when it is closed");
     for (int y = 0; y < HEIGHT; ++y) {
       for (int i = 0; i < 4 * WIDTH + 8; ++i) {
         final int at = (4 * WIDTH + 8) * y + i;
@@ -57,7 +57,7 @@ public final class AndroidTest {
     }
     try {
       new LockedBitmap(new Bitmap(WIDTH, HEIGHT, 2 * WIDTH, 4));
-      check(false, "a bitmap of RGB_565 is taken");
+      check(false, "LockedBitmap rejects the format RGB_565");
     } catch (IllegalArgumentException error) {
       check(error.getMessage().contains("found the format 4"), error.getMessage());
     }
@@ -73,7 +73,8 @@ public final class AndroidTest {
       check(view.image.format == Image.YUV_420_888 && view.image.pixelStride == 2, "the format");
       refocus(view.image, out.image);
     }
-    check(camera.locks == 0 && screen.locks == 0, "the buffers are given back");
+    check(camera.locks == 0 && screen.locks == 0,
+        "LockedHardwareBuffer unlocks the buffers when it is closed");
     // The picture is grey, so that R, G and B are equal to the luma.
     for (int i = 0; i < 4 * WIDTH; ++i) {
       final byte expected = i % 4 == 3 ? (byte) 255 : (byte) (i / 4 * 5);
@@ -81,7 +82,7 @@ public final class AndroidTest {
     }
     try {
       new LockedHardwareBuffer(new HardwareBuffer(WIDTH, HEIGHT, 4, 128, 2), false);
-      check(false, "a buffer of RGB_565 is taken");
+      check(false, "LockedHardwareBuffer rejects the format RGB_565");
     } catch (IllegalArgumentException error) {
       check(error.getMessage().contains("of the format 4"), error.getMessage());
     }

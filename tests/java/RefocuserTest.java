@@ -113,8 +113,8 @@ public final class RefocuserTest {
       refocuser.refocus(field(picture()), parameters, out(pentagon));
       parameters.shape = Parameters.SHAPE_FALL_OFF;
       refocuser.refocus(field(picture()), parameters, out(plain));
-      check(plain.equals(refocused(1)), "the bytes after another shape");
-      check(!plain.equals(pentagon), "a shape of its own");
+      check(plain.equals(refocused(1)), "after a call with another shape, the picture is the same");
+      check(!plain.equals(pentagon), "a pentagon changes the picture");
       parameters.blades = 65536 + 5;
       checkThrows(StarfocusException.class, "lens.blades",
           () -> refocuser.refocus(field(picture()), parameters, out(plain)));
@@ -149,7 +149,7 @@ public final class RefocuserTest {
           same &= wide.get((3 * WIDTH + 10) * y + i) == 0;
         }
       }
-      check(same, "a prepared light field gives the same bytes, and those between rows stay");
+      check(same, "a prepared light field gives the same picture and keeps bytes between rows");
       parameters.regionX = 32;
       parameters.regionY = 20;
       parameters.regionWidth = 10;
@@ -160,7 +160,7 @@ public final class RefocuserTest {
       for (int i = 0; i < 150; ++i) {
         equal &= part.get(i) == whole.get(3 * (WIDTH * (20 + i / 30) + 32) + i % 30);
       }
-      check(equal, "a region is that of the picture");
+      check(equal, "a region equals the same part of the picture");
     }
   }
 
@@ -189,11 +189,11 @@ public final class RefocuserTest {
     final ByteBuffer star = refocusedFrom(new int[] {0, 1, 2, 3, 4}, null);
     check(star.equals(refocusedFrom(
               new int[] {0, 2, 1, 4, 3}, new double[] {0, 0, -1, 0, 1, 0, 0, -1, 0, 1})),
-        "the star by its positions, in another order, gives its bytes");
+        "the positions of the star in another order give the same picture");
     final ByteBuffer pair = refocusedFrom(new int[] {0, 1}, new double[] {0, 0, 1, 0});
-    check(!pair.equals(star), "a pair is no star");
+    check(!pair.equals(star), "a pair and the star give different pictures");
     check(!pair.equals(refocusedFrom(new int[] {0, 1}, new double[] {0, 0, 0.5, 0})),
-        "a pair half as far apart is another");
+        "a pair at half the distance gives another picture");
     checkThrows(IllegalArgumentException.class, "positions: expected 4 numbers, found 3",
         () -> refocusedFrom(new int[] {0, 1}, new double[] {0, 0, 1}));
     checkThrows(StarfocusException.class, "positions[",
@@ -228,7 +228,7 @@ public final class RefocuserTest {
       equal &= part.get(i) == found.get(3 * (width * (10 + i / 6) + 16) + i % 6);
       empty &= part.get(i) == 0;
     }
-    check(equal && !empty, "a region of a preview is that of the preview");
+    check(equal && !empty, "a region of a preview equals the same part of the preview");
   }
 
   private static void chromaOfACameraComesBack() {
@@ -260,7 +260,7 @@ public final class RefocuserTest {
     }
     check(Math.abs(outLuma.get(777) - 90) <= 1 && Math.abs(outChroma.get(776) - 120) <= 1
             && Math.abs((outChroma.get(777) & 255) - 135) <= 1,
-        "one colour of a camera comes back");
+        "a camera picture of one colour keeps the colour");
   }
 
   private interface Refusal {
@@ -367,7 +367,7 @@ public final class RefocuserTest {
           ++refused;
         }
         if (!isGuarded(backing, before, before + size, guard)) {
-          check(false, "bytes beyond the output in round " + round);
+          check(false, "no byte outside the output is written in round " + round);
           return;
         }
       }
@@ -386,7 +386,7 @@ public final class RefocuserTest {
     closed.close();
     closed.close();
     closed.cancel();
-    check(closed.rowsDone() == 0, "rows of one that is closed");
+    check(closed.rowsDone() == 0, "rowsDone() is 0 after close()");
     checkThrows(IllegalStateException.class, "closed",
         () -> closed.refocus(field(picture()), new Parameters(), out(bytes(3 * WIDTH * HEIGHT))));
     check(Refocuser.focusAt(depth(ramp()), WIDTH / 2, 10) < 0.5, "focus at a pixel");
@@ -422,12 +422,13 @@ public final class RefocuserTest {
       }
       check(
           thrown[0] instanceof StarfocusException && ((StarfocusException) thrown[0]).isCancelled(),
-          "a call is called off by another thread: " + thrown[0]);
+          "a call is cancelled by another thread: " + thrown[0]);
       parameters.mode = Parameters.MODE_BLOCK;
       parameters.focus = 1;
       final ByteBuffer pixels = bytes(3 * WIDTH * HEIGHT);
       refocuser.refocus(field(picture()), parameters, out(pixels));
-      check(pixels.equals(refocused(1)), "after that the bytes are the same");
+      check(pixels.equals(refocused(1)),
+          "after the cancellation, the next call gives the same picture");
     }
   }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the runs of lines by the engine, in memory of exactly the required size.
+// Finds the runs of lines with the engine's functions, in memory of exactly the required size.
 #ifndef STARFOCUS_TESTS_LINE_SCAN_FIND_RUNS_H_
 #define STARFOCUS_TESTS_LINE_SCAN_FIND_RUNS_H_
 
@@ -15,7 +15,8 @@ namespace test {
 
 using Depths = std::vector<int16_t>;
 
-// Returns the runs of adjacent lines of equal length. `step` is at least the number of lines.
+// Returns the runs of adjacent lines of equal length. The pixels of a line are stored `step`
+// elements apart; `step` is at least the number of lines.
 inline std::vector<std::vector<starfocus::Run>> FindRuns(const starfocus::simd::Kernels& kernels,
                                                          const std::vector<Depths>& lines,
                                                          const starfocus::ViewGrid& grid,

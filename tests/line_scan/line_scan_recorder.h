@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A sink that records the results of a line scan, and lines to scan.
+// Makes lines to scan, and records the results of a line scan.
 #ifndef STARFOCUS_TESTS_LINE_SCAN_LINE_SCAN_RECORDER_H_
 #define STARFOCUS_TESTS_LINE_SCAN_LINE_SCAN_RECORDER_H_
 
@@ -25,7 +25,8 @@ struct Shown {
   int times = 0;
   Kind kind = Kind::kSurface;
   int source = -1;  // shown pixel of the line; in a hole, the pixel whose surface continues
-  // Second pixel: a neighbour, another surface, or the end that covers a part of a hole.
+  // Pixel of the line that is mixed with `source`: a neighbour, a pixel of another surface, or the
+  // end of a surface that covers a part of a hole.
   int other = -1;
   int weight = 0;  // weight of `other`
 };
@@ -63,7 +64,7 @@ struct Recorder {
     for (int p = begin; p < end; ++p) Show(p, Kind::kHole, pixel, -1, 0);
     if (rim.pixel < 0) return;
     // A scan from right to left continues at the left end of a hole. A sink may derive the
-    // direction from the order of the two pixels.
+    // direction from the order of `pixel` and `rim.pixel`.
     CHECK((rim.pixel < pixel) == (direction == Direction::kRightToLeft));
     Shown& shown = pixels[size_t(direction == Direction::kRightToLeft ? begin : end - 1)];
     shown.other = rim.pixel;
@@ -86,7 +87,7 @@ inline ViewGrid MakeGrid(int n, double focus, double aperture) {
 inline Recorder Record(const Depths& line, const ViewGrid& grid, int view, Direction direction,
                        int begin, int end) {
   const std::vector<starfocus::Run> runs = test::FindRuns(line, grid, direction);
-  // Spaces the disparities by a step, as in a column of a picture.
+  // Stores the disparities `step` elements apart, as in a column of a picture.
   const int step = 1 + int(line.size()) % 3, length = int(line.size());
   Depths spaced(line.size() * size_t(step));
   for (size_t q = 0; q < line.size(); ++q) spaced[q * size_t(step)] = line[q];

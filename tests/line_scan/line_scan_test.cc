@@ -87,7 +87,7 @@ bool IsSound(const Shown& shown, const RandomView& r) {
   REQUIRE(shown.source < length);
   if (shown.other < 0) return shown.kind != Kind::kMix && shown.weight == 0;
   REQUIRE(shown.other < length);
-  // Disparity by which the other surface is nearer.
+  // Disparity by which the surface of `shown.other` is nearer than the surface of `shown.source`.
   const int step = r.line[size_t(shown.other)] - r.line[size_t(shown.source)];
   switch (shown.kind) {
     case Kind::kSurface:
@@ -124,7 +124,7 @@ TEST_CASE("line scan: every requested pixel is reported once and in scan order")
   }
 }
 
-TEST_CASE("line scan: a part of a line is equal to the same part of the whole line") {
+TEST_CASE("line scan: the view of a part of a line equals the same part of the whole view") {
   test::Random random(9);
   for (int round = 0; round < 4000; ++round) {
     const RandomView r(&random);

@@ -86,8 +86,8 @@ const Line kLines[] = {
     {"a small step covers a part of the farther surface",
      {{10, 1}, {10, 2}},
      {Moved(0, 8, 1), Moved(8, 18, 2)}},
-    {"the largest step that stretches a surface", {{10, 2}, {10, 2 - kStep}}, {Moved(0, 9, 2)}},
-    {"the smallest step that leaves a hole",
+    {"a step of kSurfaceStep stretches a surface", {{10, 2}, {10, 2 - kStep}}, {Moved(0, 9, 2)}},
+    {"a step above kSurfaceStep leaves a hole",
      {{10, 2}, {10, 2 - kStep - 1.0 / 64}},
      {Hole(8, 9, 10)}},
     // A third surface lies in the gap of one pixel. The stretched pixel is a copy of this surface,
@@ -100,8 +100,8 @@ const Line kLines[] = {
       Plain(6, 9),
       {Kind::kSurface, 7, 8, 10, 11, 96}}},
 
-    // Ends of near surfaces. Pixels 10 to 14 move by 4 3/4 pixels, and then cover the range from 5
-    // 1/4 to 10 1/4.
+    // The following cases test the ends of near surfaces. Here, pixels 10 to 14 move by 4 3/4
+    // pixels, and then cover the range from 5 1/4 to 10 1/4.
     {"the background shows through the last pixel of a nearer surface",
      {{10, 0}, {5, 4.75}, {9, 0}},
      {Moved(0, 5, 0), Mix(5, 10, 5, 64), Moved(6, 10, 5), Rim(10, 15, 14, 64), Hole(11, 15, 15),
@@ -118,20 +118,21 @@ const Line kLines[] = {
      {{10, 0}, {5, 4}, {9, 0}},
      {Moved(0, 6, 0), Plain(5, 5), Plain(6, 10), Moved(6, 11, 4), Rim(11, 15, -1, 0),
       Hole(11, 15, 15)}},
-    {"a shift 1/64 of a pixel below whole pixels",
+    {"a surface that moves by 1/64 pixel less than 4 pixels is mixed at its ends",
      {{10, 0}, {5, 4 - 1.0 / 64}, {9, 0}},
      {Mix(6, 10, 6, 4), Rim(11, 15, 14, 4)}},
-    {"a shift 1/64 of a pixel above whole pixels",
+    {"a surface that moves by 1/64 pixel more than 4 pixels is mixed at its ends",
      {{10, 0}, {5, 4 + 1.0 / 64}, {9, 0}},
      {Mix(5, 5, 10, 4), Rim(10, 15, 14, 252)}},
     // Pixel 10 moves to the range from 5 1/4 to 6 1/4, and covers parts of pixels 5 and 6.
     {"a surface of one pixel is mixed at both ends",
      {{10, 0}, {1, 4.75}, {9, 0}},
      {Moved(0, 5, 0), Mix(5, 10, 5, 64), Rim(6, 11, 10, 64), Hole(7, 11, 11)}},
-    {"a surface of one pixel from 5 3/4 to 6 3/4",
+    {"a surface of one pixel that moves to 5 3/4 to 6 3/4 is mixed at both ends",
      {{10, 0}, {1, 4.25}, {9, 0}},
      {Moved(0, 5, 0), Mix(5, 5, 10, 64), Rim(6, 11, 10, 192), Hole(7, 11, 11)}},
-    // The surface at -3 is hidden. The surface at 0 starts where the near surface ends.
+    // The surface with disparity -3 is hidden. The surface with disparity 0 starts where the near
+    // surface ends.
     {"the last pixel of a farther surface shows through the end of a nearer surface",
      {{10, 0}, {5, -3}, {5, 4.75}, {9, 0}},
      {Moved(0, 10, 0), Mix(10, 15, 9, 64), Moved(11, 15, 5)}},
@@ -144,26 +145,26 @@ const Line kLines[] = {
     {"next to a hole, only the end of the nearer surface is mixed",
      {{10, 2.75}, {6, -5}, {5, 0.75}, {5, -3}},
      {Rim(7, 16, 9, 64), Hole(8, 15, 16), Plain(15, 16)}},
-    // One pixel at -6 is hidden between two surfaces whose disparities differ by 3/4.
-    {"a surface that is hardly nearer is not mixed",
+    // One pixel with disparity -6 is hidden between two surfaces whose disparities differ by 3/4.
+    {"a surface that is nearer by only 3/4 pixel is not mixed",
      {{10, 4}, {1, -6}, {9, 4.75}, {9, 0}},
      {Moved(0, 6, 4), Moved(6, 15, 5)}},
-    {"a farther surface that is just too close is not mixed",
+    {"a surface that is farther by kSurfaceStep is not mixed",
      {{12, 4.75 - kStep}, {2, -6}, {9, 4.75}, {9, -8}},
      {{Kind::kSurface, 9, 10, 14, kAny, kAny}}},
-    {"a farther surface that is just far enough away is mixed",
+    {"a surface that is farther by more than kSurfaceStep is mixed",
      {{12, 4.75 - kStep - 1.0 / 64}, {2, -6}, {9, 4.75}, {9, -8}},
      {{Kind::kMix, 9, 10, 14, kAny, kAny}}},
-    // Ten pixels at -5 between two surfaces are hidden, so the farther of the two surfaces
-    // continues.
-    {"a hole below a nearer surface has whole pixels on both sides",
+    // Ten pixels with disparity -5 between two surfaces are hidden, so the farther of the two
+    // surfaces continues.
+    {"a hole between a farther and a nearer surface has unmixed pixels on both sides",
      {{10, 0.25}, {10, -5}, {5, 4.75}, {9, 0}},
      {Moved(0, 10, 0), {Kind::kHole, 10, 15, 9, -1, 0}, Plain(15, 20)}},
-    {"a surface that ends at the first pixel of the line",
+    {"a surface whose end covers a part of the view's first pixel is mixed",
      {{5, 1}, {5, 4.75}, {9, 0}},
      {Mix(0, 5, 1, 64)}},
     // The near surface has left the line at the right end, except for a quarter of a pixel.
-    {"a surface that ends at the last pixel of the line",
+    {"a surface that covers a quarter of the view's last pixel is mixed",
      {{10, -8}, {3, -2.75}},
      {Mix(12, 4, 10, 64)}},
 };

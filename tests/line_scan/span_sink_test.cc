@@ -20,14 +20,14 @@ using namespace starfocus::simd;
 
 constexpr int kLength = 12;
 constexpr uint32_t kBlendOne = 1 << starfocus::simd::kBlendBits;
-constexpr double kRounding = 0.5 / 128;  // rounding error of light
+constexpr double kRounding = 0.5 / 128;  // largest rounding error of light, in grey levels
 constexpr int16_t kUntouched = 0x5A5A;
 
 // Fills a hole with one grey level, and records the surface behind the hole.
 struct GrayHoles {
   int level;
   mutable int disparity = 0;
-  mutable int red = 0;  // from 0 to 255
+  mutable int red = 0;  // red level of the surface behind the hole, 0 to 255
 
   void Fill(int32_t begin, int32_t end, int32_t behind, const int16_t* colour, int16_t* out) const {
     std::fill_n(out, 3 * (end - begin), int16_t(level << kLightBits));
@@ -78,8 +78,9 @@ struct Drawing {
   std::vector<uint32_t> sums = std::vector<uint32_t>(3 * kLength + kPadding);
 };
 
-TEST_CASE("span sink: a mixed pixel has parts of both colours and the disparity of the first") {
-  for (const int other : {1, 6, 9}) {  // pixels on either side, at any distance
+TEST_CASE(
+    "span sink: a mixed pixel has parts of two colours and the disparity of the first pixel") {
+  for (const int other : {1, 6, 9}) {  // the second pixel is on either side, at any distance
     for (const int weight : {1, 64, 128}) {
       const auto draw = [&](auto* sink) { sink->Mix(5, 4, other, weight); };
       const double exact = 80 + (20.0 * other - 80) * weight / 256;

@@ -56,7 +56,7 @@ struct Scene {
     field.disparity = disparity.data();
   }
 
-  // Returns the grey levels of the middle row.
+  // Returns the grey levels of the middle row after UnmixEdges.
   std::vector<int> Unmixed(int layer = 0) {
     std::vector<int16_t> copy(disparity.size() + starfocus::simd::kPadding);
     field.disparity = copy.data();
@@ -93,7 +93,7 @@ TEST_CASE("unmix: the near part of a sharp pixel next to a defocused surface is 
   CHECK(Scene(-1, 4, {40, 240, 90}).Mixed() == 65);
 }
 
-TEST_CASE("unmix: the captured view is read where the near surface has moved away") {
+TEST_CASE("unmix: the far colour is read from the view that sees behind the edge") {
   for (const int views : {5, 9, 17}) {
     for (const bool mirrored : {false, true}) {
       // Only the view that sees behind the edge is grey. If another view were read, the pixel would
@@ -118,16 +118,16 @@ TEST_CASE("unmix: the captured view is read where the near surface has moved awa
 }
 
 TEST_CASE("unmix: pixels that are blurred, not mixed, or sharp in the near surface do not change") {
-  CHECK(Scene(-4, 0, {40, 240, 140}).Mixed() == 140);    // the near surface is in focus
-  CHECK(Scene(0, 1, {40, 240, 140}).Mixed() == 140);     // no edge
-  CHECK(Scene(-3, 8, {40, 240, 140}).Mixed() == 140);    // blurred by three pixels
-  CHECK(Scene(-2.5, 8, {40, 240, 140}).Mixed() == 90);   // between sharp and blurred
-  CHECK(Scene(-1.5, 2, {40, 240, 140}).Mixed() == 90);   // hardly more defocused
-  CHECK(Scene(0, 4, {40, 240, 210}).Mixed() == 210);     // more near than far
-  CHECK(Scene(0, 4, {40, 240, 20}).Mixed() == 20);       // beyond the far colour
-  CHECK(Scene(0, 4, {40, 44, 42}).Mixed() == 42);        // hardly a contrast
+  CHECK(Scene(-4, 0, {40, 240, 140}).Mixed() == 140);  // the near surface is in focus
+  CHECK(Scene(0, 1, {40, 240, 140}).Mixed() == 140);   // the step is too small for a depth edge
+  CHECK(Scene(-3, 8, {40, 240, 140}).Mixed() == 140);  // the mixed pixel is blurred by three pixels
+  CHECK(Scene(-2.5, 8, {40, 240, 140}).Mixed() == 90);  // a slightly blurred pixel: in part
+  CHECK(Scene(-1.5, 2, {40, 240, 140}).Mixed() == 90);  // the near surface is hardly more defocused
+  CHECK(Scene(0, 4, {40, 240, 210}).Mixed() == 210);    // the near surface covers most of the pixel
+  CHECK(Scene(0, 4, {40, 240, 20}).Mixed() == 20);  // the mixed colour lies beyond the far colour
+  CHECK(Scene(0, 4, {40, 44, 42}).Mixed() == 42);   // the surfaces differ by only 4 levels
   CHECK(Scene(0, 4, {40, 240, 140}, 1).Mixed() == 140);  // no view sees behind the edge
-  CHECK(Scene(0, 4, {40, 240, 140}).Mixed(1) == 140);    // subsampled
+  CHECK(Scene(0, 4, {40, 240, 140}).Mixed(1) == 140);    // pixels of layer 1 are not unmixed
   Scene colourful(0, 4, {40, 240, 140});
   for (int y = 0; y < kSize; ++y) colourful.centre[size_t(3 * (y * kSize + kEdge - 1))] = 255;
   CHECK(colourful.Mixed() == 255);

@@ -21,7 +21,7 @@ namespace {
 using namespace starfocus;
 
 constexpr int kDisparityOne = 1 << starfocus::kDisparityBits;
-constexpr int kSizes = 5;  // 16, 32, ... 256
+constexpr int kSizes = 5;  // number of block sizes: 16, 32, ... 256 pixels
 
 // A disparity map in the engine's units, and the lens.
 struct Map {
@@ -59,8 +59,8 @@ struct Map {
   }
   // Returns the blur radius (2) in pixels.
   double Radius(int x, int y) const { return radius[Index(x, y)]; }
-  // Returns the radius of the nearer of two neighbouring pixels, or -1 if there is no depth edge
-  // between the two. The second pixel is below or to the right of the first pixel.
+  // Returns the radius of the nearer of two neighbouring pixels, or -1 without a depth edge between
+  // these pixels. The second pixel is below or to the right of the first pixel.
   double EdgeRadius(int x, int y, bool below) const {
     if (below) return y < 0 || y >= height ? -1 : lower_edge[Index(x, y)];
     return x < 0 || x >= width ? -1 : right_edge[Index(x, y)];
@@ -88,7 +88,7 @@ int16_t Fixed(double disparity) {
   return int16_t(std::clamp(std::floor(disparity * kDisparityOne + 0.5), -32000.0, 32000.0));
 }
 
-// Contents of a map. All contents have disparities from -amplitude to amplitude.
+// Kinds of disparity maps. All maps have disparities from -amplitude to amplitude.
 enum Content { kPieces, kNoise, kSparks, kSlant, kContents };
 
 Map RandomMap(int width, int height, Content content, double amplitude, test::Random* random) {
@@ -167,9 +167,10 @@ struct Exact {
   double around_max = 0;         // largest radius of all pixels that the analysis may consider
   bool has_edge = false;         // true if a depth edge concerns the block
   bool has_edge_around = false;  // true if the analysis may consider any depth edge
-  // Smallest radius of pixels and edges in the block and kLayerMargin[1] around.
+  // Smallest radius of pixels and edges in the block and in the kLayerMargin[1] pixels around the
+  // block.
   double shown_min = 1e9;
-  double ring_min = 1e9;  // smallest radius in the block and 8 pixels around
+  double ring_min = 1e9;  // smallest radius in the block and in the 8 pixels around
 };
 
 Exact Measure(const Map& map, int x0, int y0, int side, double largest) {
@@ -323,7 +324,7 @@ TEST_CASE("cells: no pixel beyond a border reaches its block, on random disparit
   for (const auto& level : tallies) {
     for (const Tally& tally : level) {
       REQUIRE(tally.blocks > 0);
-      // On average, the excess is less than a cell on each side.
+      // On average, a border is wider than the exact border by less than a cell on each side.
       CHECK(tally.excess < 4 * kCellSize * tally.blocks);
     }
   }

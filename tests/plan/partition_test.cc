@@ -28,12 +28,12 @@ bool Same(const Border& a, const Border& b) {
   return a.left == b.left && a.right == b.right && a.top == b.top && a.bottom == b.bottom;
 }
 
-// Returns the side of the quadtree's candidate that this block comes from, which is the smallest
-// candidate that contains the block.
+// Returns the side of the smallest square of the quadtree that contains the block and has the same
+// cost.
 int SideOf(const Plan& plan, const Block& block, int x, int y) {
   int side = kSmallestBlock;
   while (side < block.rect.width || side < block.rect.height) side *= 2;
-  // At the edge of the picture, a clipped block may belong to a larger candidate.
+  // At the edge of the picture, a clipped block may belong to a larger square.
   for (; side <= plan.config.superblock; side *= 2) {
     if ((block.rect.x - x) % side == 0 && (block.rect.y - y) % side == 0 &&
         Planned(plan, block.rect.x, block.rect.y, side).cost == block.cost) {
@@ -130,7 +130,7 @@ TEST_CASE("partition: the choice is the cheapest of all 83522 partitions of a su
   for (int round = 0; round < 3; ++round) {
     const Plan plan(128 - 30 * round, 128, 128, 8, &random);
     const std::vector<uint64_t> all = AllCosts(plan, 0, 0, 128);
-    if (round == 0) CHECK(all.size() == 83522);  // 1 + (1 + 2^4)^4
+    if (round == 0) CHECK(all.size() == 83522);  // number of partitions: 1 + (1 + 2^4)^4
     CHECK(Sum(plan.Partition(0, 0)) == *std::min_element(all.begin(), all.end()));
   }
 }
@@ -226,7 +226,7 @@ void AddRowsBeyond(const Plan& plan, int y, const std::vector<Block>& blocks, in
   }
 }
 
-TEST_CASE("partition: blocks read exactly the rows of the borders of their stripe") {
+TEST_CASE("partition: for constant blur, blocks read all rows of their stripe's borders") {
   int slack[3] = {100, 100, 100};
   for (int r = 1; r <= 40; ++r) {
     test::Random random(1);
@@ -252,7 +252,7 @@ TEST_CASE("partition: blocks read exactly the rows of the borders of their strip
   for (const int rows : slack) CHECK(rows == 0);
 }
 
-TEST_CASE("partition: for any map, blocks read at most the rows of the borders of their stripe") {
+TEST_CASE("partition: for random maps, blocks read no rows beyond their stripe's borders") {
   test::Random random(13);
   for (int round = 0; round < 60; ++round) {
     const double limit = random.Real(0.5, 30);

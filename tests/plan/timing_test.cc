@@ -17,7 +17,7 @@ namespace {
 
 using namespace starfocus;
 
-// Returns the disc i^2 + j^2 <= N^2, without weights.
+// Returns the views (i, j) with i^2 + j^2 <= N^2, without weights.
 starfocus::ViewWeights DiscOf(int n) {
   starfocus::ViewWeights aperture;
   aperture.n = aperture.last = n;
@@ -165,7 +165,7 @@ TEST_CASE(
     return sum * STARFOCUS_MAX_TIMING;
   };
   for (const int side : {16, 32, 64, 128, 256}) {
-    // The content is larger than the content of any picture with this number of pixels.
+    // This content has more slopes, edges and gaps than any picture with this number of pixels.
     const auto pixels = uint32_t(side * side);
     const Content along = {64 * pixels, 64 * pixels, 256 * pixels};
     const Content content[2] = {along, along};

@@ -17,7 +17,7 @@ namespace {
 
 using starfocus::CoreSet;
 
-using Numbers = std::vector<int>;  // one number per core
+using Numbers = std::vector<int>;  // content of a file of each core
 
 void Write(const std::string& folder, const std::string& file, const Numbers& numbers) {
   for (size_t core = 0; core < numbers.size(); ++core) {
@@ -56,14 +56,14 @@ TEST_CASE("big cores: capacity takes precedence over clock frequency") {
   CHECK(Found(folder.path(), some) == Numbers{7});
 }
 
-TEST_CASE("big cores: clock frequencies decide if a core has no capacity") {
+TEST_CASE("big cores: if the capacity of any core is unknown, clock frequencies decide") {
   const starfocus::TempFolder folder;
   Write(folder.path(), "cpu_capacity", {1024, 300});
   Write(folder.path(), "cpufreq/cpuinfo_max_freq", {5100000, 5000000, 3800000, 3900000, 2100000});
   CHECK(Found(folder.path(), First(5)) == Numbers{0, 1, 3});
 }
 
-TEST_CASE("big cores: all allowed cores count if the files are absent or invalid") {
+TEST_CASE("big cores: if files are absent or invalid, all allowed cores count as big") {
   const starfocus::TempFolder folder;
   CHECK(Found(folder.path(), First(3)) == Numbers{0, 1, 2});
   CHECK(Found(folder.path() + "/none", First(2)) == Numbers{0, 1});

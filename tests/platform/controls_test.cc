@@ -102,8 +102,8 @@ TEST_CASE("encoder: a lost edge loses at most one step and never adds a wrong st
       int total = direction * Decode(edges, &decoder);
       CHECK(total >= 0);
       CHECK(total <= 1);
-      // The second detent may also complete the first one, which lacks an edge. From the third
-      // detent on, the count is exact.
+      // After the lost edge, the next detent may also complete the first detent. From the third
+      // detent on, the count must be exact.
       std::vector<EncoderEdge> next;
       AddStep(clockwise, &next);
       total += direction * Decode(next, &decoder);
@@ -114,8 +114,7 @@ TEST_CASE("encoder: a lost edge loses at most one step and never adds a wrong st
   }
 }
 
-TEST_CASE(
-    "encoder: with randomly lost edges, the count stays close and later becomes exact again") {
+TEST_CASE("encoder: each lost edge costs at most two steps, and later steps are counted exactly") {
   test::Random random(9);
   QuadratureDecoder decoder;
   int got = 0, lost = 0;

@@ -51,7 +51,7 @@ TEST_CASE("file: errors are one line") {
   CHECK(Cannot("read", "a\nb", "c") == "cannot read a b: c");
 }
 
-TEST_CASE("file: an error names its true cause") {
+TEST_CASE("file: an error line names the cause of the error") {
   TempFolder folder;
   CHECK(ReadFile(folder.path()) == "cannot read " + folder.path() + ": it is a folder");
   CHECK(ReadFile(folder.file("a")) ==
@@ -138,7 +138,7 @@ TEST_CASE("file: a replaced file keeps its permissions") {
   CHECK(folder.count() == 1);
 }
 
-TEST_CASE("file: a read-only file is rejected, both before the work and at the write") {
+TEST_CASE("file: CheckOutputPath and WriteFile reject a read-only file") {
   TempFolder folder;
   const std::string path = folder.file("a");
   REQUIRE(WriteFile(path, FromText("old")) == "");
@@ -152,8 +152,7 @@ TEST_CASE("file: a read-only file is rejected, both before the work and at the w
   CHECK(folder.count() == 2);
 }
 
-TEST_CASE(
-    "file: every name that a folder can hold can be written, and others are rejected at once") {
+TEST_CASE("file: CheckOutputPath and WriteFile accept the longest file name, and no longer name") {
   TempFolder folder;
   const long longest = pathconf(folder.path().c_str(), _PC_NAME_MAX);
   REQUIRE(longest > 200);
@@ -168,17 +167,18 @@ TEST_CASE(
   CHECK(folder.count() == 3);
 }
 
-TEST_CASE("file: a pipe is not a plain file") {
+TEST_CASE("file: CheckPlainFile rejects pipes and devices") {
   TempFolder folder;
   REQUIRE(mkfifo(folder.file("pipe").c_str(), 0600) == 0);
   REQUIRE(WriteFile(folder.file("file"), {}) == "");
   CHECK(CheckPlainFile(folder.file("pipe")) != "");
   CHECK(CheckPlainFile("/dev/null") != "");
   CHECK(CheckPlainFile(folder.file("file")) == "");
-  CHECK(CheckPlainFile(folder.file("none")) == "");  // the reader reports the error
+  // The function that opens the file reports the error.
+  CHECK(CheckPlainFile(folder.file("none")) == "");
 }
 
-TEST_CASE("file: a full device is reported") {
+TEST_CASE("file: WriteFile returns an error if the device is full") {
   if (!fs::exists("/dev/full")) return;
   CHECK(WriteFile("/dev/full", FromText("x")) != "");
 }

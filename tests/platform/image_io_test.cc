@@ -143,7 +143,7 @@ TEST_CASE("image_io: a PNG with any byte changed is rejected") {
 
 TEST_CASE("image_io: a PNG chunk longer than its file is rejected before it is read") {
   Bytes bytes = Written("a.png");
-  bytes[33] = 0x67;  // length of the chunk after the header: 1.7 GB
+  bytes[33] = 0x67;  // sets the length of the first chunk after the header to 1.7 GB
   CHECK(Contains(ReadBytes(bytes), "truncated"));
 }
 
@@ -154,13 +154,13 @@ TEST_CASE("image_io: a JPEG too short for its size is rejected before it is deco
   CHECK(Contains(ReadBytes(bytes), "truncated"));
 }
 
-TEST_CASE("image_io: a JPEG table with more codes than it has room for is rejected") {
+TEST_CASE("image_io: a JPEG table that is too short for its number of codes is rejected") {
   Bytes bytes = Written("a.jpg");
   const auto table = FindMarker(0xc4, &bytes);
   REQUIRE(bytes.end() - table > 4 + 17);
   std::fill_n(table + 4 + 1, 16, uint8_t{17});
   const auto names_table = [](const Bytes& broken) {
-    const Result<Image> read = ReadBytes(broken);  // message of libjpeg-turbo or of stb_image
+    const Result<Image> read = ReadBytes(broken);  // fails in libjpeg-turbo or stb_image
     return Contains(read, "Huffman table") || Contains(read, "code table");
   };
   CHECK(names_table(bytes));
@@ -208,7 +208,7 @@ Bytes MakePng(uint32_t width, uint32_t height, photos::PngKind kind, const Bytes
   return FromText(photos::Png(width, height, kind, {row.begin(), row.end()}, row.size()));
 }
 
-TEST_CASE("image_io: colours of a PNG palette are looked up, and indices beyond it are rejected") {
+TEST_CASE("image_io: a PNG has colours of its palette, and larger indices are rejected") {
   const Bytes palette = {10, 20, 30, 40, 50, 60, 70, 80, 90};
   for (const int depth : {1, 2, 4, 8}) {
     CAPTURE(depth);
@@ -234,16 +234,16 @@ TEST_CASE("image_io: colours of a PNG palette are looked up, and indices beyond 
       }
     }
   }
-  CHECK(ReadBytes(MakePng(8, 1, {8, 3}, {}, Bytes(8))) != "");        // no palette
-  CHECK(ReadBytes(MakePng(8, 1, {8, 3}, Bytes(7), Bytes(8))) != "");  // a third of a colour
-  CHECK(ReadBytes(MakePng(4, 1, {16, 3}, palette, Bytes(8))) != "");  // 16-bit indices
+  CHECK(ReadBytes(MakePng(8, 1, {8, 3}, {}, Bytes(8))) != "");        // the palette is missing
+  CHECK(ReadBytes(MakePng(8, 1, {8, 3}, Bytes(7), Bytes(8))) != "");  // one colour is incomplete
+  CHECK(ReadBytes(MakePng(4, 1, {16, 3}, palette, Bytes(8))) != "");  // indices have 16 bits
   CHECK(ValueOf(ReadBytes(MakePng(8, 1, {8, 0}, {}, Bytes(8, 99)))).pixels == Bytes(24, 99));
 }
 
 TEST_CASE("image_io: bytes after the end of a PNG file are ignored") {
   const Bytes palette = {10, 20, 30, 40, 50, 60, 70, 80, 90};
   Bytes png = MakePng(8, 1, {8, 3}, palette, Bytes(8, 1));
-  // Inserts another palette and the start of a chunk of 1000 bytes.
+  // Appends another palette and the start of a chunk of 1000 bytes.
   const std::string more = photos::Chunk("PLTE", std::string(9, '\xc8')) + photos::Big(1000, 4) +
                            "PLTE" + std::string(4, '\0');
   png.insert(png.end(), more.begin(), more.end());

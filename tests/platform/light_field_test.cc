@@ -43,7 +43,7 @@ void Remove(const TempFolder& folder, int view) {
   REQUIRE(fs::remove(folder.file(StarName(view) + ".png")));
 }
 
-TEST_CASE("light_field: names follow starfocus_view_position and have up to four decimals") {
+TEST_CASE("light_field: names of views state the position with up to four decimals") {
   CHECK(StarName(0) == "view_+0.0_+0.0");
   CHECK(StarName(1) == "view_+1.0_+0.0");
   CHECK(StarName(4) == "view_+0.0_-1.0");
@@ -141,7 +141,7 @@ TEST_CASE(
                  "expected 3x2 pixels, the size of the centre view"));
 }
 
-TEST_CASE("light_field: an incomplete star is a set of views, but it needs its centre") {
+TEST_CASE("light_field: an incomplete star is read, but not without its centre") {
   TempFolder folder;
   REQUIRE(Save(folder, Make(9, 4, 4)) == "");
   Remove(folder, 6);
@@ -156,7 +156,7 @@ TEST_CASE("light_field: an incomplete star is a set of views, but it needs its c
   CHECK(Contains(LoadLightField(folder.path(), StarPositions(5)), StarName(0)));
 }
 
-TEST_CASE("light_field: views too far out, twice at one position, or too many are rejected") {
+TEST_CASE("light_field: views out of range, at equal positions, or above 17 are rejected") {
   TempFolder folder;
   REQUIRE(Save(folder, Make(17, 4, 4)) == "");
   const std::string far = folder.file("view_+1.1_+0.0.png");

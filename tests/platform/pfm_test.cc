@@ -52,7 +52,7 @@ TEST_CASE("pfm: rows are stored from bottom to top, and the sign of the scale is
   CHECK(std::isnan(map.at(0, 0)));
 }
 
-TEST_CASE("pfm: data that begins with white space or # belongs to the data") {
+TEST_CASE("pfm: bytes of white space and # after the header are data") {
   CHECK(ReadText("Pf\n1 1\n-1\n\n \t#") == "");
   CHECK(ReadText("Pf\n1 1\n-1\n####") == "");
 }

@@ -19,7 +19,7 @@ namespace {
 struct Record {
   explicit Record(int count) : calls(size_t(count)) {}
 
-  std::vector<std::atomic<int>> calls;  // number of calls for each index
+  std::vector<std::atomic<int>> calls;  // number of calls of Job for each index
   std::atomic<int> busy[STARFOCUS_MAX_WORKERS] = {};
   std::atomic<int> clashes{0}, outside{0};
   int workers = STARFOCUS_MAX_WORKERS;
@@ -61,7 +61,8 @@ TEST_CASE("pool: each job runs once, by the workers of the pool, in every batch"
   }
 }
 
-TEST_CASE("pool: 0 workers select one per usable core, and too many are reduced to the maximum") {
+TEST_CASE(
+    "pool: 0 workers select one worker per usable core, and the maximum limits larger numbers") {
   CHECK(starfocus_pool_cores() >= 1);
   CHECK(starfocus_pool_cores() <= STARFOCUS_MAX_WORKERS);
   for (const int workers : {0, -1, INT32_MIN}) {

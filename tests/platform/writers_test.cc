@@ -109,7 +109,7 @@ TEST_CASE("profiles: only complete RGB profiles are accepted") {
   CHECK_FALSE(IsRgbProfile(changed(131, 6)));
   Bytes tagged = changed(131, 1);
   std::fill(tagged.begin() + 132, tagged.end(), uint8_t{0});
-  tagged[132 + 7] = 190, tagged[132 + 11] = 10;  // 10 bytes from offset 190
+  tagged[132 + 7] = 190, tagged[132 + 11] = 10;  // the data of the tag are 10 bytes from offset 190
   CHECK(IsRgbProfile(tagged));
   ++tagged[132 + 11];
   CHECK_FALSE(IsRgbProfile(tagged));
@@ -174,7 +174,7 @@ TEST_CASE("writers: a higher quality makes a larger JPEG") {
   }
 }
 
-TEST_CASE("writers: EXIF and the profile are kept, with the changed fields of the picture") {
+TEST_CASE("writers: EXIF and the profile are kept, and EXIF describes the written picture") {
   if (!Has("exiftool")) {
     MESSAGE("SKIPPED: exiftool is absent");
     return;
@@ -195,7 +195,7 @@ TEST_CASE("writers: EXIF and the profile are kept, with the changed fields of th
       CHECK(Contains(tags, "Orientation: 1\n"));
       CHECK(Contains(tags, "ExifImageWidth: 40\n"));
       CHECK(Contains(tags, "ExifImageHeight: 30\n"));
-      CHECK(!Contains(tags, "Compression: 6"));  // compression of the thumbnail
+      CHECK(!Contains(tags, "Compression: 6"));  // the thumbnail is removed
       CHECK(Ask(folder, "exiftool -b -icc_profile '" + path + "'").size() == 150000);
     }
   }
@@ -220,7 +220,7 @@ TEST_CASE("writers: metadata of PNG and WebP files can be read again") {
   }
 }
 
-TEST_CASE("writers: a small PNG is smaller and has the same pixels") {
+TEST_CASE("writers: PngSize::kSmall makes smaller PNG files than kQuick, with the same pixels") {
   if (!HasLibpng()) return;
   const Image image = Ramp(200, 150);
   const Bytes quick = ValueOf(EncodePng("a.png", image, {}, PngSize::kQuick));

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# run.sh BUILD: tests the Python package as a wheel and as installed from the source tree. Each package gets a separate
-# environment, in which the tests run. Also runs the example. Uses Debian's Python and no network.
+# run.sh BUILD: tests the Python package as a wheel and as installed from the source tree. Runs the tests and the
+# example in a separate environment for each package. Uses Debian's Python and no network.
 set -eu
 [ $# = 1 ] || { echo "usage: $0 BUILD" >&2; exit 2; }
 sources=$(cd "$(dirname "$0")/../.." && pwd)

@@ -223,10 +223,9 @@ TEST_CASE("Apple's JPEG: disparities are read from an auxiliary picture") {
   CHECK(Contains(Open(file(gain), &capture), "a picture without one"));
 }
 
-TEST_CASE(
-    "a photo and a depth picture: found by name or option, and the near end is guessed or given") {
+TEST_CASE("depth pictures: file and near end are given by options, or found by name and guessed") {
   TempFolder folder;
-  Image depth = Plain(kWidth, kHeight, 200);  // The lower half is darker: black is near.
+  Image depth = Plain(kWidth, kHeight, 200);  // the lower half is darker, so black is near
   for (int y = kHeight / 2; y < kHeight; ++y) {
     std::fill_n(depth.row(y), depth.stride(), uint8_t{50});
   }
@@ -387,7 +386,7 @@ TEST_CASE("HEIF: the brands of still pictures and sequences are found anywhere i
   for (const std::string brand : {"avif", "avis", "miaf", "mif1"}) {
     CHECK(IsHeif(SpanOf(file.replace(8, 4, brand))));
   }
-  CHECK(IsHeif(SpanOf(file.replace(8, 4, "abcd"))));  // the list has other brands of pictures
+  CHECK(IsHeif(SpanOf(file.replace(8, 4, "abcd"))));  // other brands in the list remain
   CHECK(
       !IsHeif(SpanOf(std::string("\0\0\0\x10"
                                  "ftypisom\0\0\0\0",
@@ -411,7 +410,7 @@ TEST_CASE("HEIF: sizes are read from the headers of the codecs") {
   CHECK(av1.height == 16);
 }
 
-// Returns a seed file in which `bytes` are written `behind` bytes after the end of a text.
+// Returns a seed file in which `bytes` are written `behind` bytes after the end of `text`.
 std::string Changed(const std::string& name, const std::string& text, size_t behind,
                     const std::string& bytes) {
   std::string file = Seed(name);

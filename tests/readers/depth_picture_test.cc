@@ -103,13 +103,13 @@ TEST_CASE(
     CAPTURE(unknown);
     std::vector<uint16_t> levels = LevelsOf(kMillimetres);
     for (int y = 0; y < kHeight; ++y) {
-      for (int x = 0; x < 5; ++x) levels[Index(x, y)] = unknown;    // a border
-      for (int x = 28; x < 31; ++x) levels[Index(x, y)] = unknown;  // next to the box
+      for (int x = 0; x < 5; ++x) levels[Index(x, y)] = unknown;    // the left border
+      for (int x = 28; x < 31; ++x) levels[Index(x, y)] = unknown;  // a gap next to the box
     }
     const Opened opened("map.png", GreyPng(levels), NearIs(Near::kBlack));
     CheckScene(opened);
     CHECK(opened.At(0, 4) == doctest::Approx(0));
-    CHECK(opened.At(28, 15) == doctest::Approx(0));  // the wall, not the box
+    CHECK(opened.At(28, 15) == doctest::Approx(0));  // filled with the wall, not the box
     CHECK(opened.At(0, 35) == doctest::Approx(opened.At(40, 35)));
     CHECK(opened.HasNote("288 of 1728 pixels of the depth map are unknown"));
     CHECK(opened.HasNote("--unknown none"));
@@ -133,7 +133,7 @@ TEST_CASE("unknown depth: 0 and 65535 are depths in a map that uses the whole ra
     CHECK(opened.HasNote("as a known depth"));
     CHECK(opened.HasNote("--unknown"));
   }
-  // A map of a sensor, in which both 0 and 65535 are unknown.
+  // In this map of a sensor, both 0 and 65535 are unknown.
   std::vector<uint16_t> both = LevelsOf(kMillimetres);
   both[Index(40, 2)] = 65535;
   both[Index(41, 2)] = 0;
@@ -142,8 +142,7 @@ TEST_CASE("unknown depth: 0 and 65535 are depths in a map that uses the whole ra
   CHECK(sensor.HasNote("0 and 65535 are taken as unknown"));
 }
 
-TEST_CASE(
-    "unknown depth: options name unknown values, also of 8 bits, which have none by default") {
+TEST_CASE("unknown depth: in 8 bits, only values that an option names are unknown") {
   Image map = Plain(kWidth, kHeight, 100);
   std::fill_n(map.row(0), map.stride(), uint8_t{0});
   std::fill_n(map.row(35), map.stride(), uint8_t{200});
@@ -204,7 +203,7 @@ TEST_CASE("unknown depth: transparent pixels are unknown, by alpha channel, colo
   }
 }
 
-TEST_CASE("unknown depth: values of PFM that are not finite or single outliers are unknown") {
+TEST_CASE("unknown depth: in PFM, values that are not finite and single outliers are unknown") {
   for (const ByteOrder order : {ByteOrder::kLittle, ByteOrder::kBig}) {
     FloatMap map = MapOf({5, 5 + 25.0F * 1500 / 2100, 30});
     for (int y = 0; y < kHeight; ++y) {
@@ -212,7 +211,7 @@ TEST_CASE("unknown depth: values of PFM that are not finite or single outliers a
       map.values[Index(1, y)] = -HUGE_VALF;
       map.values[Index(47, y)] = kNan;
     }
-    map.values[Index(30, 1)] = 1e6F;  // one pixel of 1728
+    map.values[Index(30, 1)] = 1e6F;  // an outlier: one pixel of 1728
     const Opened opened("map.pfm", PfmOf(map, order), {});
     CheckScene(opened);
     CHECK(opened.At(0, 4) == doctest::Approx(0));
@@ -223,7 +222,7 @@ TEST_CASE("unknown depth: values of PFM that are not finite or single outliers a
   CHECK(Contains(nothing.error, "a map with known depths"));
 }
 
-TEST_CASE("unknown depth: gaps take the farther end of the shorter direction") {
+TEST_CASE("unknown depth: a gap is filled along its shorter direction, from its farther end") {
   FloatMap map = {5, 4, {1, kNan, kNan, 7, 7,     //
                          1, kNan, 4,    7, kNan,  //
                          1, kNan, kNan, 7, kNan,  //
@@ -311,7 +310,7 @@ Image PictureOf(const FloatMap& map) {
 }
 
 #ifdef STARFOCUS_HAS_EXIF
-TEST_CASE("depth pictures: proportions and edges show if a picture must rotate with the photo") {
+TEST_CASE("depth pictures: by its proportions and edges, a picture is rotated with the photo") {
   for (int orientation = 1; orientation <= 8; ++orientation) {
     for (const bool square : {false, true}) {
       CAPTURE(orientation);

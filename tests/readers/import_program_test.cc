@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs the program on typical inputs. The program refocuses, describes and imports photos, and must
 // not overwrite an input file. The program exiftool checks the GDepth files that the tests write.
-// Real photographs belong to the data sets.
+// The suite data_sets tests real photographs.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -50,7 +50,7 @@ void MakePhoto(const TempFolder& folder, const std::string& exif) {
 }
 
 // Writes a grey photo and depth pictures. In the first picture, the left half is near. In the
-// second, all rows except the top ones are near.
+// second picture, all rows except the top rows are near.
 void MakePhotoAndMap(const TempFolder& folder) {
   MakePhoto(folder, "");
   Write(folder.file("a.png"), Encode(Ramp(96, 64), ".png"));
@@ -59,7 +59,7 @@ void MakePhotoAndMap(const TempFolder& folder) {
   Write(folder.file("map.png"), Encode(map, ".png"));
 }
 
-TEST_CASE("photos: the sessions of the tables succeed") {
+TEST_CASE("photos: every session of sessions.txt and plain_sessions.txt succeeds") {
   const auto write_pair = [](const TempFolder& folder) {
     const std::string left = Encode(Plain(40, 24, 90), ".jpg");
     Write(folder.file("pair.mpo"), MultiPicture(left, Encode(Ramp(40, 24), ".jpg")));
@@ -79,7 +79,7 @@ TEST_CASE("photos: import without repair keeps the map unchanged") {
   Succeed(folder, "import photo.jpg raw --no-repair");
   const LightField field = ValueOf(LoadLightField(folder.file("raw"), {}));
   const float edge = field.disparity.at(48, 8);
-  // The edge has a disparity between both surfaces.
+  // At the edge, the map must keep a disparity between both surfaces.
   CHECK((edge < field.disparity.at(0, 8) && edge > field.disparity.at(95, 8)));
 }
 
@@ -92,7 +92,7 @@ TEST_CASE("photos: HEIC is read from standard input") {
 }
 #endif
 
-TEST_CASE("photos: captions are copied to every output, which claims no depth map") {
+TEST_CASE("photos: captions are copied to every output, and only depth photos declare a map") {
   if (!CanReadXmp()) return;
   TempFolder folder;
   const std::string names =
@@ -167,7 +167,8 @@ TEST_CASE("photos: the default focus is the EXIF subject, rotated and scaled lik
                {SubjectSegment(8, kArea, {72, 20}), "20,23, the subject"},
                {SubjectSegment(1, kArea, {144, 40}, 192, 128), "72,20, the subject"},
                {SubjectSegment(6, kLocation, {144, 40}, 192, 128), "43,72, the subject"},
-               // The subject refers to a picture that was cropped, or lies outside the picture.
+               // The following subjects refer to a picture that was cropped, or lie outside the
+               // picture.
                {SubjectSegment(1, kArea, {72, 20}, 128, 128), "the nearest large surface"},
                {SubjectSegment(1, kArea, {96, 20}), "the nearest large surface"},
                {SubjectSegment(1, kArea, {72}), "the nearest large surface"},
@@ -188,7 +189,7 @@ TEST_CASE("photos: the default focus is the EXIF subject, rotated and scaled lik
     CHECK(Text(folder.file("default.png")) == Text(folder.file("at.png")));
   }
 }
-TEST_CASE("photos: the EXIF subject is kept if its pixels are those of the picture") {
+TEST_CASE("photos: the EXIF subject is kept only if the output has the same pixel grid") {
   constexpr int kArea = 0x9214, kLocation = 0xa214;
   const struct {
     std::string exif;
@@ -264,8 +265,8 @@ TEST_CASE("photos: a saved depth photo keeps the disparities and the blur of its
           0.51 * step + 1e-3);
     CHECK(capture.care == MapCare::kNone);
     CHECK(capture.focus == doctest::Approx(map.at(40, 40)).epsilon(0.01));
-    // The saved photo must have the same blur. A blur larger by a quarter would change pixels by
-    // several levels.
+    // The refocused saved photo must have the same blur as the refocused source. A blur larger by a
+    // quarter would change pixels by several levels.
     Succeed(folder, "refocus lf" + std::string(kind.widest) + lens + "first.png");
     Succeed(folder, "refocus saved.jpg" + lens + "again.png");
     const Image first = ValueOf(ReadImage(folder.file("first.png")));
@@ -304,7 +305,7 @@ TEST_CASE("photos: an auxiliary depth picture of HEIC is read") {
 #endif
 }
 
-TEST_CASE("photos: files of exiftool are read here, and files of these tests are read by exiftool" *
+TEST_CASE("photos: starfocus reads GDepth files of exiftool, and exiftool reads those of the test" *
           doctest::test_suite("exiftool")) {
   if (!CanReadXmp() || std::system("command -v exiftool >/dev/null 2>&1") != 0) {
     std::printf("SKIPPED: exiftool is not there\n");

@@ -48,7 +48,7 @@ Error OpenAndLoad(const TempFolder& folder, Capture* capture) {
 }
 
 TEST_CASE(
-    "HCI: 17 of 81 views are taken, disparities are scaled by 4, and f-stops follow the baseline") {
+    "HCI: 17 of 81 views are read, disparities are scaled by 4, and f-stops follow the baseline") {
   TempFolder folder;
   for (int k = 0; k < 81; ++k) WriteView(folder, "input_Cam" + Number(k, 3) + ".png", k);
   Require(WritePfm(folder.file("gt_disp_lowres.pfm"), {4, 3, std::vector<float>(12, 0.75F)}));
@@ -87,7 +87,7 @@ void WriteStanford(const TempFolder& folder, const Place& place) {
   }
 }
 
-TEST_CASE("Stanford: the star of the grid is taken, in the order of the positions in the names") {
+TEST_CASE("Stanford: the star of the grid is read, in the order of the positions in the names") {
   TempFolder placed, turned, plain;
   WriteStanford(placed, [](int row, int column) {
     return "_-" + std::to_string(381 + row) + ".909271_" + std::to_string(1103 + 7 * column) +
@@ -114,8 +114,7 @@ TEST_CASE("Stanford: the star of the grid is taken, in the order of the position
   CHECK(LevelAt(capture, 0, 1) == 3);
 }
 
-TEST_CASE(
-    "rows and columns by name: squares and single rows are read, and missing views are reported") {
+TEST_CASE("grids by name: squares and single rows are read, and missing views are reported") {
   const auto grid = [](const TempFolder& folder, int rows, int columns) {
     for (int k = 0; k < rows * columns; ++k) {
       WriteView(
@@ -132,8 +131,8 @@ TEST_CASE(
   CHECK(LevelAt(capture, 1, 1) == 8);
   std::filesystem::remove(three.file("scene r2c2 8bit.png"));
   CHECK(Contains(OpenAndLoad(three, &capture), "a picture for each place in 3 rows of 3, found 8"));
-  // The largest grid with a middle is 7 x 7. The edge is 3 views from the middle, so no view is at
-  // half of this distance.
+  // The largest part of 8 x 8 views that has a middle is 7 x 7. Its edge is 3 views from the
+  // middle, so no view is at half the distance.
   grid(sixteen, 8, 8);
   REQUIRE(OpenAndLoad(sixteen, &capture) == "");
   CHECK(capture.light_field.views.size() == 9);
@@ -233,7 +232,7 @@ TEST_CASE(
     CAPTURE(one.height);
     TempFolder folder;
     WriteGreyMapPair(folder, one.names, one.height, one.multiple);
-    WriteView(folder, "im0.png", 1);  // other views of the scene
+    WriteView(folder, "im0.png", 1);  // another view of the scene
     WriteView(folder, "im1.png", 1);
     Write(folder.file("dmin.txt"), "70\n");
     Capture capture;
@@ -255,7 +254,7 @@ TEST_CASE(
   CHECK(Contains(LoadCapture({}, &capture), "the size of the centre view"));
 }
 
-TEST_CASE("orientation: the corners are at the places that EXIF defines") {
+TEST_CASE("ApplyOrientation: each corner moves to the place that EXIF defines") {
   // EXIF 2.32, tag 274: the sides of the picture at which row 0 and column 0 of the file are.
   constexpr const char* kRows[] = {"top",  "top",   "bottom", "bottom",
                                    "left", "right", "right",  "left"};
@@ -266,7 +265,7 @@ TEST_CASE("orientation: the corners are at the places that EXIF defines") {
     photo.orientation = orientation;
     photo.picture = Plain(3, 2, 0);
     photo.map = {3, 2, {1, 2, 3, 4, 5, 6}};
-    photo.picture.row(0)[0] = 200;  // row 0 and column 0
+    photo.picture.row(0)[0] = 200;  // pixel in row 0 and column 0 of the file
     photo.focus_x = photo.focus_y = 0.1;
     ApplyOrientation(&photo);
     const std::string row = kRows[orientation - 1], column = kColumns[orientation - 1];
@@ -282,7 +281,7 @@ TEST_CASE("orientation: the corners are at the places that EXIF defines") {
   }
 }
 
-TEST_CASE("maps are interpolated to the size of the picture, and unknown values are left out") {
+TEST_CASE("Resize: maps are interpolated to the size of the picture, without unknown values") {
   const FloatMap map = {2, 2, {0, 4, NAN, 8}};
   const FloatMap large = Resize(map, 4, 2);
   CHECK(large.at(0, 0) == 0);
@@ -293,10 +292,10 @@ TEST_CASE("maps are interpolated to the size of the picture, and unknown values 
   CHECK(large.at(1, 1) == 8);
 }
 
-TEST_CASE("disparities of a photo stay within the limit, also between the values of its map") {
+TEST_CASE("MakePhotoField: interpolated disparities of a photo stay within the limit") {
   DepthPhoto photo;
   photo.picture = Plain(97, 61, 128);
-  // Inverse distances of 1e6 per metre, which is one micrometre.
+  // All inverse distances are 1e6 per metre, so all points are at a distance of one micrometre.
   photo.map = {5, 3, std::vector<float>(15, 1e6F)};
   photo.meaning = MapMeaning::kInverseMetres;
   Result<LightField> made = MakePhotoField("photo", &photo);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads valid but unusual photos of editors and some cameras. The readers must use the valid parts
-// and add a note. Also tests which metadata the readers keep.
+// of a photo and add a note. Also tests which metadata the readers keep.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -95,7 +95,7 @@ TEST_CASE(
     CHECK(capture.format == "photo and depth picture");
     CheckRamp(capture, 0, kPortrait);
     CHECK(HasNote(capture, one.note));
-    // Without a depth picture, the error must name the same cause.
+    // If the depth picture is absent, the error must name the cause that the note names.
     const std::string error = Open(file, &capture).line();
     CHECK(Contains(error, ": expected a depth map"));
     if (one.note.find("the depth map") != 0) CHECK(Contains(error, one.note));

@@ -97,7 +97,8 @@ TEST_CASE("stack: adjacent slices of one slope leave no gaps and do not cover ea
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
       scene.Disparity(x, y) = -3 + 11.0f * float(x) / kWidth;
-      std::fill_n(scene.Pixel(0, x, y), 3, uint8_t(2 * x));  // a ramp, which blur does not change
+      // Blur does not change a ramp of levels.
+      std::fill_n(scene.Pixel(0, x, y), 3, uint8_t(2 * x));
     }
   }
   for (const double focus : {-3.0, 0.0, 8.0}) {
@@ -182,11 +183,11 @@ TEST_CASE("stack: no more tiles are computed after cancellation") {
   CHECK(test::Refocus(&engine, params, scene, &out, test::ToldTo(SayNo)) ==
         STARFOCUS_ERROR_CANCELLED);
   CHECK(ranges_found > 0);
-  CHECK(ranges_found < all / 8);  // fewer than two of sixteen tiles
+  CHECK(ranges_found < all / 8);  // fewer than two of sixteen tiles were computed
 }
 
-// Red zones are memory between parts, and would increase the size.
-TEST_CASE("stack: a worker takes 1.15 MiB with blocks of 64 and blurs of up to 32 pixels" *
+// With AddressSanitizer, red zones between the parts of a workspace increase its size.
+TEST_CASE("stack: a worker requires 1.15 MiB for blocks of 64 and blurs of up to 32 pixels" *
           doctest::skip(starfocus::kRedZone > 0)) {
   size_t bytes[2];
   for (int workers = 1; workers <= 2; ++workers) {

@@ -18,7 +18,7 @@ using namespace starfocus;
 
 constexpr int kSize = 64;
 
-// Returns the rule without a limit of area.
+// Returns the rule without its limit on the area of a slice.
 SliceRule Ample(SliceRule rule) {
   rule.area = INT32_MAX;
   return rule;
@@ -90,12 +90,12 @@ TEST_CASE("slices: one surface is one slice, moved by its own disparity") {
   }
 }
 
-TEST_CASE("slices: the range of a band of rows has the disparities of all its surfaces") {
+TEST_CASE("slices: the range of a band of rows includes the disparities of all surfaces") {
   Scene scene;
   scene.At(15, 15) = 20;
   scene.At(51, 17) = -40;
-  scene.At(63, 18) = -50;   // too far away to reach the middle
-  scene.At(20, 51) = -300;  // makes the range include hidden surfaces
+  scene.At(63, 18) = -50;   // too far away to be visible in the middle
+  scene.At(20, 51) = -300;  // extends the range to hidden surfaces
   for (int y = 30; y < 35; ++y) scene.At(40, y, 1) = int16_t(-100 - y);
   scene.At(0, 31, 2) = -200;
   scene.Cut(2.25);
@@ -114,7 +114,8 @@ TEST_CASE("slices: the nearest slice is first, and hidden surfaces also have sli
   for (int y = 0; y < kSize; ++y) {
     for (int x = 30; x < kSize; ++x) scene.At(x, y) = 400;
   }
-  // Too far away to be visible, but makes the range of disparities include hidden surfaces.
+  // This pixel is too far away to be visible, but extends the range of disparities to hidden
+  // surfaces.
   scene.At(0, 0) = -300;
   scene.At(35, 32, 1) = -200;
   scene.At(35, 32, 2) = -300;
@@ -128,17 +129,18 @@ TEST_CASE("slices: the nearest slice is first, and hidden surfaces also have sli
 
 TEST_CASE("slices: pixels that cannot splat into the rectangle are omitted") {
   Scene scene;
-  scene.At(10, 30) = 64 * 12;  // 14 pixels away, and interpolation adds one pixel
+  scene.At(10, 30) = 64 * 12;  // the pixel is 14 columns away, and interpolation adds one column
   CHECK(scene.Cut(0).size() == 1);
   scene.At(10, 30) = 64 * 13;
   CHECK(scene.Cut(0).size() == 2);
   CHECK(scene.Cut(0, 0.5).size() == 1);
 }
 
-TEST_CASE("slices: the ranges are 3/8 pixel at the rim, wider with large blur, and have no gaps") {
+TEST_CASE("slices: ranges of disparity are 3/8 pixel or more for large blur, without gaps") {
   Scene scene;
   for (int y = 0; y < kSize; ++y) {
-    for (int x = 0; x < kSize; ++x) scene.At(x, y) = int16_t(4 * (x - 32));  // -2 to 2 pixels
+    // The disparities are from -2 to 2 pixels.
+    for (int x = 0; x < kSize; ++x) scene.At(x, y) = int16_t(4 * (x - 32));
   }
   std::vector<bool> held(4 * 64);
   for (const Slice& slice : scene.Cut(0)) {
@@ -164,7 +166,7 @@ TEST_CASE("slices: the largest area of a slice depends only on the blur of the l
   CHECK(starfocus::MostSliceArea(STARFOCUS_MAX_BLUR) == 5 * 147 * 147);
 }
 
-TEST_CASE("slices: a slice takes at most the memory of its area") {
+TEST_CASE("slices: the memory of a slice is at most kAreaBytes times its area") {
   for (int reach = 0; reach <= starfocus::LargestSliceReach(STARFOCUS_MAX_BLUR); ++reach) {
     CAPTURE(reach);
     CHECK(starfocus::SliceBytes(starfocus::kLeastColumns, starfocus::kLeastRows, size_t(reach)) +

@@ -15,7 +15,7 @@ namespace {
 
 using test::kSize;
 
-// Memory with arbitrary content.
+// Memory of InpaintHidden, filled with arbitrary values.
 struct Memory {
   static constexpr size_t kStride = starfocus::FillStride(kSize), kGap = starfocus::kFillStep;
   std::vector<int16_t> disparity = std::vector<int16_t>(kSize * kStride + kGap, 99);

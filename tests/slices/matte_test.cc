@@ -80,7 +80,8 @@ TEST_CASE("matte: a defocused surface ends a quarter of a pixel farther out, wit
 }
 
 TEST_CASE("matte: a defocused background contains no light of a sharp surface") {
-  for (const int views : {1, 5}) {  // with one view, the neighbour supplies the far colour
+  // With one view, the far colour is read from the neighbouring pixel.
+  for (const int views : {1, 5}) {
     const std::vector<int> row = MiddleRow(Mixed(0, -6, views), 0);
     CAPTURE(views);
     CHECK(std::abs(row[kEdge - 1] - 90) <= 1);  // the quarter of the sharp surface remains

@@ -37,7 +37,7 @@ TEST_CASE("slice planes: no slice of any N reaches farther than its memory allow
   test::Random random(7);
   std::vector<Views> all;
   for (int n = 1; n <= 26; ++n) all.emplace_back(n);
-  double nearest = 9;  // distance to the limit, in pixels
+  double nearest = 9;  // smallest distance of a slice to the limit, pixels
   for (int round = 0; round < 40000; ++round) {
     const double blur =
         random.Int(0, 3) == 0 ? random.Int(1, 128) : random.Real(0.5, STARFOCUS_MAX_BLUR);

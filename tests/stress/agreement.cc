@@ -17,15 +17,16 @@ namespace {
 // Each limit is the largest change of a pixel, in 255ths of white. The limit kSmoothJump applies if
 // neither the layer nor N by (9) changes. The weights of the views then change gradually.
 constexpr int kSmoothJump = 12;
-// Limit if N by (9) or N of the benchmark changes. At r = 1, five views become thirteen, and the
-// two PSFs differ by 1e-2 (Fig. 6 below N = 4). The difference is larger if theta puts all weight
-// in the middle or on the rim.
+// Limit for steps of the lens that change N by (9) or N of the benchmark. At r = 1, five views
+// become thirteen, and the two PSFs differ by 1e-2 (Fig. 6 below N = 4). The difference is larger
+// if theta puts all weight in the middle or on the rim.
 constexpr int kViewsJump = 64;
-// Limit if the layer changes. With the theta that Table I is optimised for, a subsampled blur
+// Limit for steps of the lens that change the layer. With the theta of Table I, a subsampled blur
 // differs from the ideal blur by 6.7e-4.
 constexpr int kLayerJump = 24;
-// Limit if the layer changes and theta has any other value. The filters are not optimised for this
-// theta, so the blurs differ more, especially for apertures with a bright rim.
+// Limit for steps of the lens that change the layer, with any theta other than that of
+// Table I. The filters are not optimised for other values, so the blurs differ more, especially for
+// apertures with a bright rim.
 constexpr int kLayerJumpOfTheta = 48;
 // Limit for the blur mode, whose PSFs exist only for radii that are at least 1/8 pixel apart.
 constexpr int kLadderJump = 48;
@@ -35,8 +36,8 @@ int LayerOf(const starfocus_report& report) {
   return report.layers[2].pixels > 0 ? 2 : report.layers[1].pixels > 0 ? 1 : 0;
 }
 
-// Returns true if views stand for wide subapertures. Not valid for the blur mode, which has no
-// views.
+// Returns true if each rendered view stands for a wide subaperture. Not valid for the blur mode,
+// which has no views.
 bool UsesSubapertures(const Setup& setup) {
   const starfocus_params& params = setup.params;
   if (params.mode != STARFOCUS_MODE_FRAME || setup.config.views == 1)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Family of calls that must return the same picture: whole, streamed, as a region, prepared, and as
-// the next frame of a video. The engines may have been used before, and their runners may have
-// failed before.
+// Family of calls that must return the same picture: whole, streamed, as regions, from a prepared
+// light field, and as a frame of a video. The engines may have been used before, and their runners
+// may have failed before.
 #include "tests/stress/differential.h"
 
 #include <cmath>
@@ -17,7 +17,7 @@ namespace {
 // Largest number of rendered views times pixels, for modes whose number of views grows with the
 // radius.
 constexpr double kMostWork = 300000;
-// Bounds with larger blur have smaller pictures, and are drawn less often.
+// Bounds of random setups. Larger blurs have smaller pictures and are selected less often.
 constexpr Bounds kRegimes[] = {
     {160, 3, 4, 8}, {160, 6, 4, 500}, {100, 16, 4, 40}, {64, 50, 4, 500}, {40, 128, 4, 500}};
 
@@ -43,7 +43,7 @@ void LimitWork(Setup* setup) {
 Setup RandomCase(test::Random* random) {
   Setup setup = RandomSetup(kRegimes[std::min(random->Int(0, 4), random->Int(0, 4))], random);
   LimitWork(&setup);
-  if (random->Int(0, 7) == 0) setup.config.superblock = 0;  // the library selects the side
+  if (random->Int(0, 7) == 0) setup.config.superblock = 0;  // selected by the library
   if (random->Int(0, 3) == 0)
     setup.config.highlights = float(random->Real(1, STARFOCUS_MAX_HIGHLIGHTS));
   if (random->Int(0, 3) == 0) {
@@ -63,7 +63,7 @@ Setup RandomCase(test::Random* random) {
   return setup;
 }
 
-// Uses the engine for another call, so that its memory is not new.
+// Uses the engine for another call, so that the workspace contains data of that call.
 void Distract(const Asked& asked, Rig* rig, test::Random* random) {
   const Setup& setup = asked.setup;
   starfocus_params params = setup.params;

@@ -13,7 +13,7 @@ inline Outcome Fail(const Setup& setup, const std::string& what) {
   return {0, what + ": " + setup.Text()};
 }
 
-// Pictures whose result is known or bounded.
+// Families of pictures whose result is known or bounded.
 Outcome Constant(test::Random* random);
 Outcome Squares(test::Random* random);
 Outcome Limits(test::Random* random);
@@ -24,13 +24,13 @@ Outcome Noise(test::Random* random);
 Outcome Energy(test::Random* random);
 Outcome Steps(test::Random* random);
 
-// Refocusings that must agree with each other.
+// Families of refocusings that must agree with each other.
 Outcome Mirrors(test::Random* random);
 Outcome SideViews(test::Random* random);
 Outcome Continuity(test::Random* random);
 Outcome Differential(test::Random* random);
 
-// Disparity maps: planes that a repair must keep, and calls that must agree.
+// Family of disparity maps: planes that a repair must keep, and calls that must agree.
 Outcome Maps(test::Random* random);
 
 }  // namespace starfocus::stress

@@ -19,9 +19,9 @@ constexpr double kMostEnergy = 0.05;
 constexpr int kMostInversion = 2;
 // Returns the largest overshoot as a share of the step. Overshoot exists because the resampling
 // filters have negative lobes. Without blur, subsampling by two layers and upsampling again
-// overshoots by 0.144. Blur removes most of the overshoot, and more of it from radius 4 on than
-// from radius 3 on. Apertures steeper than the default are nearly pinholes, whose blur does not
-// remove the overshoot.
+// overshoots by 0.144. Blur removes most of the overshoot, and removes more from radius 4 than from
+// radius 3. Apertures steeper than the default are nearly pinholes, whose blur does not remove the
+// overshoot.
 double MostOvershoot(const Setup& setup, double radius) {
   const bool steep = setup.params.lens.theta > test::Params(0).lens.theta;
   if (setup.params.renderer != STARFOCUS_RENDERER_LINE_SCAN && radius >= 4)
@@ -56,7 +56,8 @@ Levels LevelsOf(const Setup& setup) {
 }
 
 // The inverted light field must give the inverted picture. If all weights are positive, no sample
-// may lie outside the levels of the views. The error is the largest difference.
+// may lie outside the levels of the views. Outcome::error is the largest difference from the
+// inverted picture.
 Outcome CheckInversion(Setup setup, test::Random* random) {
   const std::vector<uint8_t> plain = Refocused(setup, RandomVariant(random));
   if (!MayResample(setup)) {
@@ -96,7 +97,7 @@ void Fill(test::Scene* scene, uint8_t red, uint8_t green, uint8_t blue) {
   }
 }
 
-// Refocuses a picture of one colour. The error is the largest change.
+// Refocuses a picture of one colour. Outcome::error is the largest change of a sample.
 Outcome CheckConstant(Setup setup, test::Random* random) {
   const uint8_t colour[3] = {random->Byte(), random->Byte(),
                              static_cast<uint8_t>(255 * random->Int(0, 1))};
@@ -214,7 +215,8 @@ Outcome Energy(test::Random* random) {
   const int margin = static_cast<int>(radius) + 16;
   const int side = 2 * margin + kPeriod;
   Setup setup = FlatSetup(side, side, radius, random);
-  setup.config.transfer = STARFOCUS_TRANSFER_NONE;  // without a transfer, codes are averaged
+  // Without a transfer function, codes are averaged.
+  setup.config.transfer = STARFOCUS_TRANSFER_NONE;
   const int mean = random->Int(20, 235);
   // The range of levels leaves room for the overshoot of the filters of layers, so that nothing is
   // clipped.
@@ -245,7 +247,8 @@ Outcome Energy(test::Random* random) {
   return {std::fabs(got - mean), ""};
 }
 
-// The error is the overshoot beyond either level, as a share of the step.
+// Refocuses a step between two levels. Outcome::error is the overshoot beyond either level, as a
+// share of the step.
 Outcome Steps(test::Random* random) {
   const int length = random->Int(8, 72), across = random->Int(1, 20);
   const bool upright = random->Int(0, 1) == 1;
@@ -262,7 +265,7 @@ Outcome Steps(test::Random* random) {
   const std::vector<uint8_t> out = Refocused(setup, RandomVariant(random));
   const bool positive = !MayResample(setup);
   const auto light = [&](int code) { return test::LightOf(code, setup.config.transfer); };
-  double over = 0;  // light, minus the rounding error of one code
+  double over = 0;  // overshoot in light, minus the rounding error of one code
   for (int k = 0; k < length; ++k) {
     const auto at = [&](int along) {
       return int{out[3 * size_t(upright ? along * across : along)]};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Variants of running an engine. The bytes of a picture must not depend on the variant.
+// Runs an engine in different variants, such as SIMD targets, orders of jobs, and streams. The
+// bytes of a picture must not depend on the variant.
 #ifndef STARFOCUS_TESTS_STRESS_RIG_H_
 #define STARFOCUS_TESTS_STRESS_RIG_H_
 
@@ -16,7 +17,7 @@
 namespace starfocus::stress {
 
 struct Variant {
-  const simd::Kernels* kernels = nullptr;  // null: the best kernels of this machine
+  const simd::Kernels* kernels = nullptr;  // SIMD kernels; null: the best for this machine
   int workers = 1;
   bool stream = false;
   int push_rows = 1, pull_rows = 1;
@@ -59,7 +60,7 @@ class Rig {
   const starfocus_config& config() const { return config_; }
   const Variant& variant() const { return variant_; }
 
-  // Returns no runner if the engine runs the jobs itself.
+  // Returns callbacks with a runner, or without a runner if the engine runs the jobs itself.
   starfocus_callbacks callbacks() {
     return test::RunBy(variant_.order == 0 && jobs_left_ < 0 ? nullptr : Run, this);
   }

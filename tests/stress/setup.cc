@@ -12,7 +12,7 @@ namespace {
 constexpr int kViews[] = {1, 5, 9, 17};
 constexpr int kBlocks[] = {32, 64, 128, 256};
 constexpr const char* kModes[] = {"frame", "benchmark", "block", "blur"};
-// Radii at which N or L changes: (9), (12).
+// Radii at which N changes by (9), or the layer L changes by (12).
 constexpr double kThresholds[] = {0.5, 1, 2, 3, 4, 4 / 0.787, 6, 8, 12};
 
 std::string Number(double value) {

@@ -22,7 +22,7 @@ struct Setup {
   bool strands = false;  // true if SetStrands made the scene
 
   double Radius() const;     // returns the largest blur radius of the configured disparities
-  std::string Text() const;  // returns one line for a person
+  std::string Text() const;  // returns a readable description of one line
 };
 
 // Bounds of a random setup.
@@ -30,7 +30,7 @@ struct Bounds {
   int size = 40;        // width and height are in [1, size]
   double radius = 6;    // largest blur radius; most radii are much smaller
   int modes = 4;        // the mode is in [0, modes - 1]
-  float disparity = 8;  // largest |d|
+  float disparity = 8;  // largest absolute disparity
 };
 
 // Returns a radius below, at or above a threshold of the rules, or a random radius.
